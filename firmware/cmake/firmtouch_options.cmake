@@ -1,0 +1,56 @@
+# What every translation unit of this project is compiled with. Nothing global: the flags belong to targets, so a
+# project that takes Firmtouch in keeps its own.
+
+set(FIRMTOUCH_WARNING_FLAGS
+    -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wshadow)
+if(FIRMTOUCH_WERROR)
+  list(APPEND FIRMTOUCH_WARNING_FLAGS -Werror)
+endif()
+
+# The same bits everywhere: no contraction to fused multiply-add, no fast-math (math/isa.hpp refuses it).
+set(FIRMTOUCH_ARITHMETIC_FLAGS -ffp-contract=off -fno-math-errno)
+set(FIRMTOUCH_NATIVE_FLAGS $<$<BOOL:${FIRMTOUCH_NATIVE}>:-march=native>)
+
+# Freestanding code: firmware and hal.
+set(FIRMTOUCH_FREESTANDING_FLAGS
+    -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables
+    -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections)
+
+# firmtouch_room(NAME [LINKS ROOM...]): one library a room of the firmware, libfirmtouch_NAME.a, from the *.cpp of its
+# folder. It may include only the rooms that it links (tests/check holds it to that). A room of headers alone has no
+# archive.
+function(firmtouch_room name)
+  cmake_parse_arguments(room "" "" "LINKS" ${ARGN})
+  list(TRANSFORM room_LINKS PREPEND firmtouch_)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${name}/*.cpp)
+  set(target firmtouch_${name})
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/firmware)
+    target_compile_features(${target} PUBLIC cxx_std_17)
+    target_link_libraries(${target} PUBLIC ${room_LINKS})
+    firmtouch_freestanding(${target})
+  else()
+    add_library(${target} INTERFACE)
+    target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/firmware)
+    target_compile_features(${target} INTERFACE cxx_std_17)
+    target_link_libraries(${target} INTERFACE ${room_LINKS})
+  endif()
+  add_library(firmtouch::${name} ALIAS ${target})
+endfunction()
+
+# firmtouch_freestanding(TARGET): the flags of firmware and hal.
+function(firmtouch_freestanding target)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O2> ${FIRMTOUCH_FREESTANDING_FLAGS}
+                                           ${FIRMTOUCH_ARITHMETIC_FLAGS} ${FIRMTOUCH_NATIVE_FLAGS}
+                                           ${FIRMTOUCH_WARNING_FLAGS})
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+endfunction()
+
+# firmtouch_hosted(TARGET): the flags of tools, host_sim and host tests.
+function(firmtouch_hosted target)
+  target_compile_features(${target} PRIVATE cxx_std_17)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O2> ${FIRMTOUCH_ARITHMETIC_FLAGS}
+                                           ${FIRMTOUCH_NATIVE_FLAGS} ${FIRMTOUCH_WARNING_FLAGS})
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+endfunction()

@@ -1,0 +1,104 @@
+#pragma once
+// The few places where the instruction set matters. Each has one portable definition, which says what it computes, and
+// variants that give the same bits (tests/math/isa_test.cpp). No other file of the firmware asks what the target is.
+// For the library's own translation units: a user's flags must not decide what is computed here.
+
+#include <stdint.h>
+
+#if defined(__FAST_MATH__)
+#error "Firmtouch promises the same bits everywhere: build it without -ffast-math"
+#endif
+
+#if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32)
+#include <arm_acle.h>
+#define FIRMTOUCH_ISA_DSP 1
+#else
+#define FIRMTOUCH_ISA_DSP 0
+#endif
+
+#if defined(__SSE2__) || defined(__riscv_flen) || (defined(__ARM_FP) && (__ARM_FP & 4))
+#define FIRMTOUCH_ISA_SQRT 1
+#else
+#define FIRMTOUCH_ISA_SQRT 0
+#endif
+
+namespace firmtouch::math {
+
+static inline uint32_t bits_of(float value) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+static inline float float_of(uint32_t bits) {
+  float value;
+  __builtin_memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// Correctly rounded square root in integer arithmetic: one result bit a turn. Negative or NaN: canonical NaN.
+static inline float portable_square_root(float value) {
+  uint32_t bits = bits_of(value);
+  if (bits == 0 || bits == 0x80000000u) return value;
+  if (bits >= 0x7F800000u) return bits == 0x7F800000u ? value : float_of(0x7FC00000u);
+  int32_t exponent = static_cast<int32_t>(bits >> 23);
+  uint32_t mantissa = bits & 0x7FFFFFu;
+  if (exponent == 0) {
+    const int32_t shift = __builtin_clz(mantissa) - 8;
+    mantissa <<= shift;
+    exponent = 1 - shift;
+  } else {
+    mantissa |= 0x800000u;
+  }
+  exponent -= 127;
+  uint64_t radicand = static_cast<uint64_t>(mantissa) << ((exponent & 1) ? 26 : 25);
+  const int32_t half = (exponent - (exponent & 1)) / 2;
+  uint64_t root = 0;
+  for (uint64_t bit = uint64_t{1} << 50; bit != 0; bit >>= 2) {  // digit by digit
+    if (radicand >= root + bit) {
+      radicand -= root + bit;
+      root = (root >> 1) + bit;
+    } else {
+      root >>= 1;
+    }
+  }
+  uint32_t rounded = static_cast<uint32_t>(root >> 1);           // 24 bits and the half bit below them
+  if ((root & 1) && (radicand != 0 || (rounded & 1))) ++rounded;  // a root is never half-way: sticky decides
+  return float_of((static_cast<uint32_t>(half + 127) << 23) + (rounded - 0x800000u));
+}
+
+/// Square root, correctly rounded.
+static inline float square_root(float value) {
+#if FIRMTOUCH_ISA_SQRT
+  return __builtin_sqrtf(value);
+#else
+  return portable_square_root(value);
+#endif
+}
+
+/// Squared distance, in cells, from a point to a box on a grid of 15-bit coordinates; never more than the true one.
+/// box[k] = low | (32767 - high) << 16 for axis k; point[k] = ceil(p) | (32767 - floor(p)) << 16.
+/// Each half of the saturating difference is max(low - p, 0) or max(p - high, 0), and at most one is not zero.
+static inline uint32_t portable_box_distance2(const uint32_t* box, const uint32_t* point) {
+  uint32_t sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const uint32_t low = box[k] & 0xFFFFu, p_low = point[k] & 0xFFFFu;
+    const uint32_t high = box[k] >> 16, p_high = point[k] >> 16;
+    const uint32_t below = low > p_low ? low - p_low : 0, above = high > p_high ? high - p_high : 0;
+    sum += below * below + above * above;
+  }
+  return sum;
+}
+
+static inline uint32_t box_distance2(const uint32_t* box, const uint32_t* point) {
+#if FIRMTOUCH_ISA_DSP
+  const int16x2_t x = static_cast<int16x2_t>(__uqsub16(box[0], point[0]));
+  const int16x2_t y = static_cast<int16x2_t>(__uqsub16(box[1], point[1]));
+  const int16x2_t z = static_cast<int16x2_t>(__uqsub16(box[2], point[2]));
+  return static_cast<uint32_t>(__smlad(z, z, __smlad(y, y, __smuad(x, x))));
+#else
+  return portable_box_distance2(box, point);
+#endif
+}
+
+}  // namespace firmtouch::math

@@ -1,0 +1,96 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/mesh/layout.hpp"
+
+namespace firmtouch::mesh {
+
+/// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and triangles32; the normals and
+/// folds are empty for an unsigned mesh; source is not read on a controller.
+struct Sections {
+  core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds;
+};
+
+/// A mesh that open() has proven: every index, box, depth and float. Immutable; share it between any number of tools.
+class View {
+ public:
+  View() = default;
+
+  bool is_open() const { return head_ != nullptr; }
+  bool is_signed() const { return !folds_.empty(); }
+  const Head& head() const { return *head_; }
+  core::Span<const Vertex> vertices() const { return vertices_; }
+  core::Span<const Node> nodes() const { return nodes_; }
+  core::Span<const uint32_t> parents() const { return parents_; }
+  core::Span<const uint32_t> vertex_normals() const { return vertex_normals_; }
+  core::Span<const EdgeFolds> folds() const { return folds_; }
+  core::Span<const Triangle<uint16_t>> triangles16() const { return triangles16_; }
+  core::Span<const Triangle<uint32_t>> triangles32() const { return triangles32_; }
+
+  /// Corners of a triangle, in the order of the edge folds.
+  Triangle<uint32_t> triangle(uint32_t i) const {
+    if (!triangles16_.empty()) {
+      const Triangle<uint16_t>& t = triangles16_[i];
+      return {{t.corner[0], t.corner[1], t.corner[2]}};
+    }
+    return triangles32_[i];
+  }
+  math::Vec3 vertex(uint32_t i) const { return {vertices_[i].x_m, vertices_[i].y_m, vertices_[i].z_m}; }
+
+ private:
+  friend class Opening;
+  const Head* head_ = nullptr;
+  core::Span<const Vertex> vertices_;
+  core::Span<const Triangle<uint16_t>> triangles16_;
+  core::Span<const Triangle<uint32_t>> triangles32_;
+  core::Span<const Node> nodes_;
+  core::Span<const uint32_t> parents_;
+  core::Span<const uint32_t> vertex_normals_;
+  core::Span<const EdgeFolds> folds_;
+};
+
+/// Proves a mesh in slices, so that a main loop stays alive while it opens a large one: rules R101 to R129 of
+/// tools/FORMAT.md.
+///
+///     Opening opening(sections);
+///     while (!opening.done()) opening.work(1000);
+///     if (opening.verdict().ok()) view = opening.view();
+class Opening {
+ public:
+  explicit Opening(const Sections& sections);
+
+  /// Checks up to `elements` vertices, nodes or triangles more.
+  /// Bounds: O(elements); no recursion; reads only inside the sections.
+  void work(uint32_t elements);
+  bool done() const { return stage_ == Stage::kDone; }
+  core::Verdict verdict() const { return verdict_; }
+  /// The proven mesh; one that is not open unless done() and verdict().ok().
+  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+
+ private:
+  enum class Stage : uint8_t { kVertices, kNormals, kNodes, kTriangles, kDone };
+  void fail(uint16_t rule, uint32_t element);
+  void open_head(const Sections& sections);
+  void next_stage();
+  core::Verdict check_vertex(uint32_t i);
+  core::Verdict check_normal(uint32_t i) const;
+  core::Verdict check_node(uint32_t i);
+  core::Verdict check_leaf(uint32_t node, uint32_t slot);
+  core::Verdict check_triangle(uint32_t i) const;
+
+  View view_;
+  core::Verdict verdict_;
+  Stage stage_ = Stage::kDone;
+  uint32_t next_ = 0;
+  uint32_t next_node_ = 1;      // nodes are numbered in depth-first order: the next inner child must be this one
+  uint32_t next_triangle_ = 0;  // and leaves hold the triangles in that order
+  Vertex low_{}, high_{};
+};
+
+/// All at once.
+core::Verdict open(const Sections& sections, View& view);
+
+}  // namespace firmtouch::mesh

@@ -1,0 +1,20 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/math/vec3.hpp"
+
+namespace firmtouch::query {
+
+constexpr uint32_t kNowhere = UINT32_MAX;
+
+/// What a query leaves for the next one of the same (tool, object) pair; the caller owns it and never reads it. A
+/// default hint is a cold start. It is a hint: a reset, a jump, a hint of another asset or random bits cost steps and
+/// cannot make an answer wrong as long as (position_m, lower_m, sign) are what a query of this asset wrote.
+struct Hint {
+  uint32_t place = kNowhere;  // where the last answer was found (the room's own numbering)
+  math::Vec3 position_m;      // where the last query was
+  float lower_m = 0;          // certified free radius about position_m
+  int8_t sign = 0;            // certified side of position_m
+};
+
+}  // namespace firmtouch::query

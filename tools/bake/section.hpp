@@ -1,0 +1,28 @@
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace firmtouch::tools {
+
+/// One section of an asset before it is written: its type, the asset's name, its bytes.
+struct Section {
+  uint32_t type;
+  std::string name;
+  std::vector<uint8_t> bytes;
+};
+
+template <class T>
+Section make_section(uint32_t type, const std::string& name, const T* items, size_t count) {
+  Section section{type, name, std::vector<uint8_t>(count * sizeof(T))};
+  if (count != 0) std::memcpy(section.bytes.data(), items, section.bytes.size());
+  return section;
+}
+
+template <class T>
+Section make_section(uint32_t type, const std::string& name, const std::vector<T>& items) {
+  return make_section(type, name, items.data(), items.size());
+}
+
+}  // namespace firmtouch::tools
