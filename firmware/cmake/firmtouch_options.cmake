@@ -16,6 +16,11 @@ set(FIRMTOUCH_FREESTANDING_FLAGS
     -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections)
 
+# Seen from everywhere: the functions below may be called by the project that takes Firmtouch in.
+foreach(flags WARNING ARITHMETIC NATIVE FREESTANDING)
+  set(FIRMTOUCH_${flags}_FLAGS "${FIRMTOUCH_${flags}_FLAGS}" CACHE INTERNAL "")
+endforeach()
+
 # firmtouch_room(NAME [LINKS ROOM...]): one library a room of the firmware, libfirmtouch_NAME.a, from the *.cpp of its
 # folder. It may include only the rooms that it links (tests/check holds it to that). A room of headers alone has no
 # archive.

@@ -1,11 +1,13 @@
 #pragma once
 #include <stdint.h>
 
-// A test harness without heap, exceptions or hosted headers, because the same tests run on the controller.
+// A test harness without heap, exceptions or hosted headers, because the same tests run on the
+// controller.
 //
 //     TEST(SliverTriangleAnswersItsLongestEdge) { CHECK(x); CHECK_EQ(a, b); CHECK_LE(a, b); }
 //
-// A name states a claim and is unique in its room. Files: *_test.cpp run everywhere; *_host_test.cpp on the host only.
+// A name states a claim and is unique in its room. Files: *_test.cpp run everywhere;
+// *_host_test.cpp on the host only.
 namespace firmtouch::test {
 
 struct Case {
@@ -19,36 +21,79 @@ struct Case {
 extern void (*print)(const char* text);
 
 /// Runs the cases whose name is `only` (nullptr: all) and closes with `N passed, N failed`.
-/// Result: 0 if at least one ran and none failed.
+/// Result: 0 if at least one passed and none failed; kSkipped if all that ran asked to be skipped;
+/// else 1.
 int run(const char* only);
 void list();
 
 void fail(const char* file, int line, const char* what);
-void fail_values(const char* file, int line, const char* what, double a, double b);
-/// Text that helps to rerun a random case, printed with the failures of the running test (a seed, a model's name).
+/// A compared value as failures show it: integers and enumerations in full, floats with nine
+/// digits.
+struct Value {
+  enum class Kind { kSigned, kUnsigned, kFloat } kind;
+  uint64_t bits;
+  double number;
+};
+template <class T>
+constexpr bool kIsFloat = false;
+template <>
+inline constexpr bool kIsFloat<float> = true;
+template <>
+inline constexpr bool kIsFloat<double> = true;
+template <class T>
+Value value_of(T value) {
+  if constexpr (kIsFloat<T>) {
+    return {Value::Kind::kFloat, 0, static_cast<double>(value)};
+  } else if constexpr (__is_enum(T)) {
+    return value_of(static_cast<__underlying_type(T)>(value));
+  } else {
+    constexpr bool kUnsigned = static_cast<T>(-1) > static_cast<T>(0);
+    return {kUnsigned ? Value::Kind::kUnsigned : Value::Kind::kSigned, static_cast<uint64_t>(value),
+            0};
+  }
+}
+/// Equality that NaN fails, meant where -Wfloat-equal cannot know that it is.
+template <class A, class B>
+bool equal(A a, B b) {
+  if constexpr (kIsFloat<A> || kIsFloat<B>) {
+    return a <= b && a >= b;
+  } else {
+    return a == b;
+  }
+}
+void fail_values(const char* file, int line, const char* what, Value a, Value b);
+/// Text that helps to rerun a random case, printed with the failures of the running test (a seed, a
+/// model's name).
 void note(const char* text, int64_t value);
+/// The running test cannot run here (a real model is not given): it counts as neither passed nor
+/// failed. Return after it.
+void skip(const char* reason);
+constexpr int kSkipped = 77;  // what run() returns then; CTest shows it as "Skipped"
 
 }  // namespace firmtouch::test
 
-#define TEST(name)                                                   \
-  static void test_##name();                                         \
-  static ::firmtouch::test::Case case_##name(#name, test_##name);    \
+#define TEST(name)                                                \
+  static void test_##name();                                      \
+  static ::firmtouch::test::Case case_##name(#name, test_##name); \
   static void test_##name()
 
-#define CHECK(condition) \
-  do {                   \
+#define CHECK(condition)                                                       \
+  do {                                                                         \
     if (!(condition)) ::firmtouch::test::fail(__FILE__, __LINE__, #condition); \
   } while (0)
-#define FIRMTOUCH_CHECK_COMPARE(a, op, b)                                                              \
-  do {                                                                                                 \
-    const auto left_ = (a);                                                                            \
-    const auto right_ = (b);                                                                           \
-    if (!(left_ op right_))                                                                            \
-      ::firmtouch::test::fail_values(__FILE__, __LINE__, #a " " #op " " #b, static_cast<double>(left_), \
-                                     static_cast<double>(right_));                                     \
+#define FIRMTOUCH_CHECK_COMPARE(a, op, b, holds)                           \
+  do {                                                                     \
+    const auto left_ = (a);                                                \
+    const auto right_ = (b);                                               \
+    if (!(holds)) {                                                        \
+      ::firmtouch::test::fail_values(__FILE__, __LINE__, #a " " op " " #b, \
+                                     ::firmtouch::test::value_of(left_),   \
+                                     ::firmtouch::test::value_of(right_)); \
+    }                                                                      \
   } while (0)
-#define CHECK_EQ(a, b) FIRMTOUCH_CHECK_COMPARE(a, ==, b)
-#define CHECK_NE(a, b) FIRMTOUCH_CHECK_COMPARE(a, !=, b)
-#define CHECK_LE(a, b) FIRMTOUCH_CHECK_COMPARE(a, <=, b)
-#define CHECK_LT(a, b) FIRMTOUCH_CHECK_COMPARE(a, <, b)
-#define CHECK_GE(a, b) FIRMTOUCH_CHECK_COMPARE(a, >=, b)
+#define CHECK_EQ(a, b) FIRMTOUCH_CHECK_COMPARE(a, "==", b, ::firmtouch::test::equal(left_, right_))
+#define CHECK_NE(a, b) FIRMTOUCH_CHECK_COMPARE(a, "!=", b, !::firmtouch::test::equal(left_, right_))
+#define CHECK_LE(a, b) FIRMTOUCH_CHECK_COMPARE(a, "<=", b, left_ <= right_)
+#define CHECK_LT(a, b) FIRMTOUCH_CHECK_COMPARE(a, "<", b, left_ < right_)
+#define CHECK_GE(a, b) FIRMTOUCH_CHECK_COMPARE(a, ">=", b, left_ >= right_)
+#define CHECK_GT(a, b) FIRMTOUCH_CHECK_COMPARE(a, ">", b, left_ > right_)

@@ -6,10 +6,12 @@
 
 namespace firmtouch::core {
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "an asset is used in place: little-endian targets only");
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+              "an asset is used in place: little-endian targets only");
 
-/// The one place where bytes become structs. A span of `count` T at the start of `bytes`, or an empty one where the
-/// bytes are too few or not aligned for T. T is a plain struct of the asset format, whose every bit pattern is a value.
+/// The one place where bytes become structs. A span of `count` T at the start of `bytes`, or an
+/// empty one where the bytes are too few or not aligned for T. T is a plain struct of the asset
+/// format, whose every bit pattern is a value.
 template <class T>
 Span<const T> as_array(Bytes bytes, uint32_t count) {
   static_assert(__is_trivially_copyable(T), "only plain structs live in an asset");

@@ -5,11 +5,13 @@
 
 namespace firmtouch::core {
 
-/// FNV-1a, 64 bits: one number for many answers' bits, to compare them across machines. Not for security.
+/// FNV-1a, 64 bits: one number for many answers' bits, to compare them across machines. Not for
+/// security.
 class Hash {
  public:
   void add(uint32_t word) {
-    for (uint32_t k = 0; k < 4; ++k, word >>= 8) value_ = (value_ ^ (word & 0xFFu)) * 0x100000001B3ull;
+    for (uint32_t k = 0; k < 4; ++k, word >>= 8)
+      value_ = (value_ ^ (word & 0xFFu)) * 0x100000001B3ull;
   }
   uint64_t value() const { return value_; }
 

@@ -3,7 +3,8 @@
 
 namespace firmtouch::core {
 
-/// `count` elements that somebody else owns. Indexing is not checked: indices are proven once, by open().
+/// `count` elements that somebody else owns. Indexing is not checked: indices are proven once, by
+/// open().
 template <class T>
 class Span {
  public:

@@ -1,7 +1,8 @@
 #pragma once
-// The few places where the instruction set matters. Each has one portable definition, which says what it computes, and
-// variants that give the same bits (tests/math/isa_test.cpp). No other file of the firmware asks what the target is.
-// For the library's own translation units: a user's flags must not decide what is computed here.
+// The few places where the instruction set matters. Each has one portable definition, which says
+// what it computes, and variants that give the same bits (tests/math/isa_test.cpp). No other file
+// of the firmware asks what the target is. For the library's own translation units: a user's flags
+// must not decide what is computed here.
 
 #include <stdint.h>
 
@@ -36,7 +37,8 @@ static inline float float_of(uint32_t bits) {
   return value;
 }
 
-/// Correctly rounded square root in integer arithmetic: one result bit a turn. Negative or NaN: canonical NaN.
+/// Correctly rounded square root in integer arithmetic: one result bit a turn. Negative or NaN:
+/// canonical NaN.
 static inline float portable_square_root(float value) {
   uint32_t bits = bits_of(value);
   if (bits == 0 || bits == 0x80000000u) return value;
@@ -62,8 +64,9 @@ static inline float portable_square_root(float value) {
       root >>= 1;
     }
   }
-  uint32_t rounded = static_cast<uint32_t>(root >> 1);           // 24 bits and the half bit below them
-  if ((root & 1) && (radicand != 0 || (rounded & 1))) ++rounded;  // a root is never half-way: sticky decides
+  uint32_t rounded = static_cast<uint32_t>(root >> 1);  // 24 bits and the half bit below them
+  if ((root & 1) && (radicand != 0 || (rounded & 1)))
+    ++rounded;  // a root is never half-way: sticky decides
   return float_of((static_cast<uint32_t>(half + 127) << 23) + (rounded - 0x800000u));
 }
 
@@ -76,9 +79,10 @@ static inline float square_root(float value) {
 #endif
 }
 
-/// Squared distance, in cells, from a point to a box on a grid of 15-bit coordinates; never more than the true one.
-/// box[k] = low | (32767 - high) << 16 for axis k; point[k] = ceil(p) | (32767 - floor(p)) << 16.
-/// Each half of the saturating difference is max(low - p, 0) or max(p - high, 0), and at most one is not zero.
+/// Squared distance, in cells, from a point to a box on a grid of 15-bit coordinates; never more
+/// than the true one. box[k] = low | (32767 - high) << 16 for axis k; point[k] = ceil(p) | (32767 -
+/// floor(p)) << 16. Each half of the saturating difference is max(low - p, 0) or max(p - high, 0),
+/// and at most one is not zero.
 static inline uint32_t portable_box_distance2(const uint32_t* box, const uint32_t* point) {
   uint32_t sum = 0;
   for (int k = 0; k < 3; ++k) {

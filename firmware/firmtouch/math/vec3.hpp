@@ -2,8 +2,9 @@
 
 namespace firmtouch::math {
 
-/// Three floats; what they mean (metres, newtons, which frame) is in the name of the variable. No arithmetic here: a
-/// public header that computes would do so under the user's flags (math/vec3_ops.hpp is for the library's own units).
+/// Three floats; what they mean (metres, newtons, which frame) is in the name of the variable. No
+/// arithmetic here: a public header that computes would do so under the user's flags
+/// (math/vec3_ops.hpp is for the library's own units).
 struct Vec3 {
   float x = 0;
   float y = 0;

@@ -1,6 +1,7 @@
 #pragma once
-// Arithmetic on Vec3 for the library's own translation units, with internal linkage, so that every unit computes with
-// the flags that the library was built with. The order of operations is part of the result: do not rearrange.
+// Arithmetic on Vec3 for the library's own translation units, with internal linkage, so that every
+// unit computes with the flags that the library was built with. The order of operations is part of
+// the result: do not rearrange.
 
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/vec3.hpp"
@@ -18,11 +19,15 @@ static inline Vec3 cross(Vec3 a, Vec3 b) {
 }
 static inline float length(Vec3 a) { return square_root(dot(a, a)); }
 
-static inline Vec3 operator*(const Mat3& m, Vec3 v) { return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)}; }
+static inline Vec3 operator*(const Mat3& m, Vec3 v) {
+  return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)};
+}
 static inline Vec3 transposed_times(const Mat3& m, Vec3 v) {
   return m.row[0] * v.x + m.row[1] * v.y + m.row[2] * v.z;
 }
-static inline Vec3 apply(const RigidTransform& t, Vec3 point_m) { return t.rotation * point_m + t.translation_m; }
+static inline Vec3 apply(const RigidTransform& t, Vec3 point_m) {
+  return t.rotation * point_m + t.translation_m;
+}
 static inline Vec3 apply_inverse(const RigidTransform& t, Vec3 point_m) {
   return transposed_times(t.rotation, point_m - t.translation_m);
 }

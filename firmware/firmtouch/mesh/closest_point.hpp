@@ -15,21 +15,24 @@ constexpr bool is_edge(Feature f) { return f >= Feature::kEdge0 && f <= Feature:
 constexpr bool is_vertex(Feature f) { return f >= Feature::kVertex0; }
 
 struct Closest {
-  float distance_m = 0;      // signed: negative inside; positive where the sign is unknown
-  math::Vec3 point_m;        // on the surface
-  math::Vec3 direction;      // unit pseudonormal of the feature, outward (unsigned mesh: the face's normal)
-  uint32_t triangle = 0;     // in leaf order
+  float distance_m = 0;  // signed: negative inside; positive where the sign is unknown
+  math::Vec3 point_m;    // on the surface
+  math::Vec3
+      direction;  // unit pseudonormal of the feature, outward (unsigned mesh: the face's normal)
+  uint32_t triangle = 0;  // in leaf order
   Feature feature = Feature::kFace;
   query::Certificate certificate;
 };
 
 /// Closest point of the surface to `p_m` (mesh frame), its side, and a certificate.
-/// One greedy descent to a leaf, then best box first; from the last leaf upwards where the hint is warm.
-/// Bounds: <= budget steps; 600 B of stack; re-entrant; callable from an interrupt.
-/// Result: always finite. Two triangles equally near: the one visited first. A query that is not finite: a vertex, at
+/// One greedy descent to a leaf, then best box first; from the last leaf upwards where the hint is
+/// warm. Bounds: <= budget steps; 600 B of stack; re-entrant; callable from an interrupt. Result:
+/// always finite. Two triangles equally near: the one visited first. A query that is not finite: a
+/// vertex, at
 ///         distance FLT_MAX, lower 0, not exact, sign 0.
 /// Error:  |distance| within 3.5e-7 max(diagonal, distance) (tests/mesh/closest_point_test.cpp).
-/// Source: Baerentzen & Aanaes 2005, sections 3 and 4; Morris 2006, 3.3 (ascend from the last leaf).
+/// Source: Baerentzen & Aanaes 2005, sections 3 and 4; Morris 2006, 3.3 (ascend from the last
+/// leaf).
 Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
 
 /// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.

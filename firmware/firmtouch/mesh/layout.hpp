@@ -2,44 +2,51 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// How a mesh lies in an asset, byte for byte (tools/FORMAT.md says it in words). The baker writes these structs, the
-// firmware reads them in place.
+// How a mesh lies in an asset, byte for byte (tools/FORMAT.md says it in words). The baker writes
+// these structs, the firmware reads them in place.
 
 namespace firmtouch::mesh {
 
 // Section types of one mesh; all share its name. Index width is part of the type.
 constexpr uint32_t kHeadSection = 0x1001;
-constexpr uint32_t kVerticesSection = 0x1002;       // Vertex[vertex_count]
-constexpr uint32_t kTriangles16Section = 0x1003;    // Triangle<uint16_t>[triangle_count], in leaf order
-constexpr uint32_t kTriangles32Section = 0x1004;    // Triangle<uint32_t>[triangle_count]
-constexpr uint32_t kNodesSection = 0x1005;          // Node[node_count], parents before children
-constexpr uint32_t kParentsSection = 0x1006;        // uint32_t[node_count]
-constexpr uint32_t kVertexNormalsSection = 0x1007;  // uint32_t[vertex_count]; absent from an unsigned mesh
-constexpr uint32_t kEdgeFoldsSection = 0x1008;      // EdgeFolds[triangle_count]; absent from an unsigned mesh
-constexpr uint32_t kSourceSection = 0x1009;         // uint32_t[triangle_count]: index in the imported file; for tools
-constexpr uint32_t kProbesSection = 0x100A;         // query::ProbeHead and its points
+constexpr uint32_t kVerticesSection = 0x1002;  // Vertex[vertex_count]
+constexpr uint32_t kTriangles16Section =
+    0x1003;  // Triangle<uint16_t>[triangle_count], in leaf order
+constexpr uint32_t kTriangles32Section = 0x1004;  // Triangle<uint32_t>[triangle_count]
+constexpr uint32_t kNodesSection = 0x1005;        // Node[node_count], parents before children
+constexpr uint32_t kParentsSection = 0x1006;      // uint32_t[node_count]
+constexpr uint32_t kVertexNormalsSection =
+    0x1007;  // uint32_t[vertex_count]; absent from an unsigned mesh
+constexpr uint32_t kEdgeFoldsSection =
+    0x1008;  // EdgeFolds[triangle_count]; absent from an unsigned mesh
+constexpr uint32_t kSourceSection =
+    0x1009;  // uint32_t[triangle_count]: index in the imported file; for tools
+constexpr uint32_t kProbesSection = 0x100A;  // query::ProbeHead and its points
 
-// A traversal keeps one entry a level. 2^24 triangles in pairs make 23 levels of a balanced tree; the baker's SAH trees
-// of up to 2e6 triangles were seen to need 26. The baker refuses a deeper tree, and so does open().
+// A traversal keeps one entry a level. 2^24 triangles in pairs make 23 levels of a balanced tree;
+// the baker's SAH trees of up to 2e6 triangles were seen to need 26. The baker refuses a deeper
+// tree, and so does open().
 constexpr uint32_t kMaxDepth = 40;
 constexpr uint32_t kMaxLeafTriangles = 7;
 constexpr uint32_t kMaxTriangles = 1u << 24;
 constexpr uint32_t kMaxNodes = 1u << 24;
 
-// Boxes lie on a grid of 15-bit coordinates, so that two of them fit a word and squares of differences fit 32 bits.
+// Boxes lie on a grid of 15-bit coordinates, so that two of them fit a word and squares of
+// differences fit 32 bits.
 constexpr uint32_t kGridMax = 32767;
 
 struct Head {
   uint32_t vertex_count;
   uint32_t triangle_count;
   uint32_t node_count;
-  uint32_t depth;        // levels of nodes, leaves not counted
-  uint32_t is_signed;    // 1: closed and outward, the side of a point is defined; 0: distance only
-  float low_m[3];        // bounding box of the vertices, exact
+  uint32_t depth;      // levels of nodes, leaves not counted
+  uint32_t is_signed;  // 1: closed and outward, the side of a point is defined; 0: distance only
+  float low_m[3];      // bounding box of the vertices, exact
   float high_m[3];
-  float diagonal_m;      // of that box, rounded down
-  float grid_low_m[3];   // grid coordinate 0; the grid covers twice the extent about the box's centre
-  float cell_m;          // a power of two, so that metres to cells rounds only once
+  float diagonal_m;  // of that box, rounded down
+  float
+      grid_low_m[3];  // grid coordinate 0; the grid covers twice the extent about the box's centre
+  float cell_m;       // a power of two, so that metres to cells rounds only once
   uint32_t reserved[2];  // 0
 };
 static_assert(sizeof(Head) == 72 && alignof(Head) == 4);
@@ -50,29 +57,35 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 12);
 
-/// Corners in outward order, rotated so that edge 0 (corner 0 to 1) is the longest: the solver needs that.
+/// Corners in outward order, rotated so that edge 0 (corner 0 to 1) is the longest: the solver
+/// needs that.
 template <class Index>
 struct Triangle {
   Index corner[3];
 };
 static_assert(sizeof(Triangle<uint16_t>) == 6 && sizeof(Triangle<uint32_t>) == 12);
 
-/// An inner node: the boxes of its two children and where they are. box[c][k] = low | (32767 - high) << 16.
+/// An inner node: the boxes of its two children and where they are. box[c][k] = low | (32767 -
+/// high) << 16.
 struct Node {
   uint32_t box[2][3];
   uint32_t child[2];
 };
 static_assert(sizeof(Node) == 32 && offsetof(Node, child) == 24);
 
-// child: an inner node's index, always more than its parent's; or a leaf: bit 31, count << 28 for 0 to 7 triangles, first
-// triangle in the low 28 bits. Only the root of a mesh of one triangle has a leaf of no triangles.
+// child: an inner node's index, always more than its parent's; or a leaf: bit 31, count << 28 for 0
+// to 7 triangles, first triangle in the low 28 bits. Only the root of a mesh of one triangle has a
+// leaf of no triangles.
 constexpr uint32_t kLeafBit = 0x80000000u;
 constexpr bool is_leaf(uint32_t child) { return (child & kLeafBit) != 0; }
 constexpr uint32_t leaf_count(uint32_t child) { return (child >> 28) & 7u; }
 constexpr uint32_t leaf_first(uint32_t child) { return child & 0x0FFFFFFFu; }
-constexpr uint32_t make_leaf(uint32_t first, uint32_t count) { return kLeafBit | (count << 28) | first; }
+constexpr uint32_t make_leaf(uint32_t first, uint32_t count) {
+  return kLeafBit | (count << 28) | first;
+}
 
-// parents[i]: depth of node i (root 0) << 25 | which child of its parent << 24 | the parent's index. Root: 0.
+// parents[i]: depth of node i (root 0) << 25 | which child of its parent << 24 | the parent's
+// index. Root: 0.
 constexpr uint32_t parent_of(uint32_t word) { return word & 0x00FFFFFFu; }
 constexpr uint32_t slot_of(uint32_t word) { return (word >> 24) & 1u; }
 constexpr uint32_t depth_of(uint32_t word) { return word >> 25; }
@@ -80,13 +93,15 @@ constexpr uint32_t make_parent(uint32_t parent, uint32_t slot, uint32_t depth) {
   return (depth << 25) | (slot << 24) | parent;
 }
 
-/// The pseudonormal of each edge (edge k runs from corner k to k + 1), in the triangle's own frame: with n the face's
-/// unit normal, m the unit vector in its plane, across the edge and outward, s = fold / 32767: n (1 - |s|) + m s.
+/// The pseudonormal of each edge (edge k runs from corner k to k + 1), in the triangle's own frame:
+/// with n the face's unit normal, m the unit vector in its plane, across the edge and outward, s =
+/// fold / 32767: n (1 - |s|) + m s.
 struct EdgeFolds {
   int16_t fold[3];
 };
 static_assert(sizeof(EdgeFolds) == 6);
 
-// A vertex's pseudonormal: octahedral, u in the low and v in the high 16 bits, each (value + 32767) of -32767..32767.
+// A vertex's pseudonormal: octahedral, u in the low and v in the high 16 bits, each (value + 32767)
+// of -32767..32767.
 
 }  // namespace firmtouch::mesh

@@ -8,13 +8,15 @@
 
 namespace firmtouch::mesh {
 
-/// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and triangles32; the normals and
-/// folds are empty for an unsigned mesh; source is not read on a controller.
+/// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
+/// triangles32; the normals and folds are empty for an unsigned mesh; source is not read on a
+/// controller.
 struct Sections {
   core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds;
 };
 
-/// A mesh that open() has proven: every index, box, depth and float. Immutable; share it between any number of tools.
+/// A mesh that open() has proven: every index, box, depth and float. Immutable; share it between
+/// any number of tools.
 class View {
  public:
   View() = default;
@@ -38,7 +40,9 @@ class View {
     }
     return triangles32_[i];
   }
-  math::Vec3 vertex(uint32_t i) const { return {vertices_[i].x_m, vertices_[i].y_m, vertices_[i].z_m}; }
+  math::Vec3 vertex(uint32_t i) const {
+    return {vertices_[i].x_m, vertices_[i].y_m, vertices_[i].z_m};
+  }
 
  private:
   friend class Opening;
@@ -52,8 +56,8 @@ class View {
   core::Span<const EdgeFolds> folds_;
 };
 
-/// Proves a mesh in slices, so that a main loop stays alive while it opens a large one: rules R101 to R129 of
-/// tools/FORMAT.md.
+/// Proves a mesh in slices, so that a main loop stays alive while it opens a large one: rules R101
+/// to R130 of tools/FORMAT.md.
 ///
 ///     Opening opening(sections);
 ///     while (!opening.done()) opening.work(1000);
@@ -85,8 +89,9 @@ class Opening {
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0;
-  uint32_t next_node_ = 1;      // nodes are numbered in depth-first order: the next inner child must be this one
-  uint32_t next_triangle_ = 0;  // and leaves hold the triangles in that order
+  uint32_t next_triangle_ =
+      0;  // leaves hold the triangles in the order of their nodes: none twice, none left out
+  uint32_t deepest_ = 0;
   Vertex low_{}, high_{};
 };
 

@@ -10,8 +10,9 @@ struct Budget {
 
 constexpr Budget kUnlimited{};
 
-/// How true an answer is. The distance told is an upper bound of the true one; `lower_m` is a lower bound, rounded down
-/// through all float32 error. `exact`: both are within 4e-7 of max(diagonal of the asset, distance) of the truth.
+/// How true an answer is. The distance told is an upper bound of the true one; `lower_m` is a lower
+/// bound, rounded down through all float32 error. `exact`: both are within 4e-7 of max(diagonal of
+/// the asset, distance) of the truth.
 struct Certificate {
   float lower_m = 0;   // certified: no point of the shape is nearer
   uint32_t steps = 0;  // used, at most the budget

@@ -7,10 +7,13 @@ namespace firmtouch::query {
 /// What the last certificate still says after the motion to `position_m`: distance is 1-Lipschitz.
 struct Carried {
   float lower_m = 0;
-  int8_t sign = 0;  // the last side, where the path stayed within certified free distance
+  float fence_m = 0;
+  int8_t sign = 0;     // the last side, where the path stayed within certified free distance
+  float motion_m = 0;  // rounded up
 };
 
-/// Bounds: constant, about 25 instructions. Result: nothing known (0, 0) for a cold hint or a motion that is not finite.
+/// Bounds: constant, about 25 instructions. Result: nothing known (zeros) for a cold hint or a
+/// motion that is not finite.
 Carried carry(const Hint& hint, math::Vec3 position_m);
 
 }  // namespace firmtouch::query

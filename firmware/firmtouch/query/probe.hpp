@@ -6,12 +6,13 @@
 
 namespace firmtouch::query {
 
-/// A section of probe queries: what the baker's machine answered, so that the controller can tell before it enables a
-/// motor whether it computes the same bits (floating-point mode, flags, a broken FPU, a bent asset).
+/// A section of probe queries: what the baker's machine answered, so that the controller can tell
+/// before it enables a motor whether it computes the same bits (floating-point mode, flags, a
+/// broken FPU, a bent asset).
 struct ProbeHead {
-  uint32_t count;      // points that follow
-  uint32_t reserved;   // 0
-  uint32_t hash_low;   // core::Hash over the bits of all answers
+  uint32_t count;     // points that follow
+  uint32_t reserved;  // 0
+  uint32_t hash_low;  // core::Hash over the bits of all answers
   uint32_t hash_high;
 };
 static_assert(sizeof(ProbeHead) == 16);
@@ -30,7 +31,8 @@ struct Probes {
 inline Probes read_probes(core::Bytes bytes) {
   const core::Span<const ProbeHead> head = core::as_array<ProbeHead>(bytes, 1);
   if (head.empty() || head[0].reserved != 0) return {};
-  const core::Bytes rest(bytes.data() + sizeof(ProbeHead), static_cast<uint32_t>(bytes.size() - sizeof(ProbeHead)));
+  const core::Bytes rest(bytes.data() + sizeof(ProbeHead),
+                         static_cast<uint32_t>(bytes.size() - sizeof(ProbeHead)));
   const core::Span<const ProbePoint> points = core::as_whole_array<ProbePoint>(rest);
   if (points.size() != head[0].count) return {};
   return {points, (static_cast<uint64_t>(head[0].hash_high) << 32) | head[0].hash_low};

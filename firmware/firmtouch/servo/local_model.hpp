@@ -5,7 +5,8 @@
 
 namespace firmtouch::servo {
 
-constexpr uint32_t kMaxPlanes = 3;  // a corner of three faces: more planes than that are one contact too many to feel apart
+constexpr uint32_t kMaxPlanes =
+    3;  // a corner of three faces: more planes than that are one contact too many to feel apart
 
 /// Free where dot(normal, x) >= offset_m (device frame); a spring and damper across it behind.
 struct ContactPlane {
@@ -23,15 +24,15 @@ struct GuideLine {
   float damping_N_s_per_m = 0;
 };
 
-/// What scene gives servo: not a force, but what the force is made of, so that servo can evaluate it at the fresh
-/// position, at its own rate. Device frame.
+/// What scene gives servo: not a force, but what the force is made of, so that servo can evaluate
+/// it at the fresh position, at its own rate. Device frame.
 struct LocalModel {
   ContactPlane plane[kMaxPlanes];
   uint32_t plane_count = 0;
   GuideLine guide;
   bool has_guide = false;
   math::Vec3 made_at_m;
-  float free_radius_m = 0;    // certified: no surface nearer to made_at_m than this
+  float free_radius_m = 0;  // certified: no surface nearer to made_at_m than this
   uint32_t sequence = 0;
   uint32_t made_tick = 0;
   uint32_t expires_tick = 0;  // servo lets go of a model that is older

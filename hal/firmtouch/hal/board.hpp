@@ -13,7 +13,8 @@ void board_begin();
 /// Name of the board, as its folder.
 const char* board_name();
 
-/// The baked asset, where the board keeps it (flash, memory-mapped flash): read in place, 16-byte aligned.
+/// Where the board keeps the baked asset (flash, memory-mapped flash): read in place, 16-byte aligned. Exactly the asset
+/// where it was linked into the image; else the whole slot that one may have been flashed into (asset::stated_bytes()).
 core::Bytes board_asset();
 
 /// Text for a person: debug UART or semihosting. May block; never called from an interrupt.
@@ -21,5 +22,8 @@ void board_print(const char* text);
 
 /// Stops. On an emulator the status becomes the process's exit code; on hardware the motors are off and it waits.
 [[noreturn]] void board_exit(int status);
+
+/// Most stack that was in use since start-up, interrupts included. 0 where the board does not paint its stack.
+uint32_t board_stack_high_bytes();
 
 }  // namespace firmtouch::hal

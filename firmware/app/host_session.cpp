@@ -1,0 +1,186 @@
+#include "host_session.hpp"
+
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hal/link.hpp"
+#include "firmtouch/hal/motors.hpp"
+#include "firmtouch/link/build_id.hpp"
+#include "firmtouch/link/handshake.hpp"
+#include "firmtouch/params/table.hpp"
+#include "servo.hpp"
+#include "servo_interrupt.hpp"
+
+namespace firmtouch::app {
+namespace {
+
+// A look at the painted stack reads all of it that was never used: thousands of words.
+constexpr uint32_t kTicksPerStackLook = 64;
+
+link::HelloReply describe() {
+  link::HelloReply reply;
+  reply.controller.asset_crc = controller.asset_crc();
+  reply.controller.parameter_table_hash = params::table_hash();
+  reply.controller.build_id = link::build_id();
+  reply.asset_rule = controller.verdict().rule;
+  reply.asset_element = controller.verdict().element;
+  reply.servo_period_us = servo_period_us();
+  const char* name = hal::board_name();
+  for (uint32_t i = 0; i < sizeof reply.board && name[i] != 0; ++i) reply.board[i] = name[i];
+  return reply;
+}
+
+}  // namespace
+
+void HostSession::poll() {
+  uint8_t bytes[64];
+  // Answers come before questions: a host that asks without listening waits, and nothing is lost.
+  while (outbox_.has_room_to_stream()) {
+    const uint32_t count = hal::link_read(bytes, sizeof bytes);
+    if (count == 0) break;
+    for (uint32_t i = 0; i < count; ++i) {
+      decoder_.push(bytes[i]);
+      link::Frame frame;
+      while (decoder_.next(frame)) handle(frame);
+    }
+    outbox_.flush();
+  }
+  if (is_live()) {
+    stream_records();
+  } else {
+    records.release(records.ready().size());  // nobody listens: keep the ring fresh for who comes
+  }
+  outbox_.flush();
+}
+
+void HostSession::handle(const link::Frame& frame) {
+  switch (frame.type) {
+    case link::kHello:
+      return answer_hello(frame);
+    case link::kStep:
+      return answer_step(frame);
+    case link::kSetParam:
+      return answer_set_param(frame);
+    case link::kBye:
+      return leave(frame);
+    default:
+      return complain(frame, "unknown frame type: build both sides from the same release");
+  }
+}
+
+void HostSession::answer_hello(const link::Frame& frame) {
+  link::Hello hello;
+  link::HelloReply reply = describe();
+  if (link::take(frame, hello)) {
+    reply.refused = reasons_to_refuse(hello, reply);
+  } else {
+    // Another version's Hello may be longer or shorter, but it begins with its version.
+    const bool has_version = frame.payload.size() >= sizeof hello.host.protocol;
+    if (has_version) {
+      __builtin_memcpy(&hello.host.protocol, frame.payload.data(), sizeof hello.host.protocol);
+    }
+    if (!has_version || hello.host.protocol == link::kProtocolVersion) {
+      return complain(frame, "a Hello of another length");
+    }
+    reply.refused = link::kRefusedProtocol;
+  }
+
+  phase_ = Phase::kStranger;
+  if (reply.refused != 0) {
+    char text[640];
+    link::explain(hello.host, reply, text);
+    if (reply.refused != link::kRefusedNotReady) hal::board_print(text);
+  } else if (hello.mode == link::kModeLockStep) {
+    hal::motors_off();
+    controller.reset();
+    has_stepped_ = false;
+    phase_ = Phase::kLockStep;
+  } else {
+    start_servo();
+    phase_ = Phase::kLive;
+  }
+  outbox_.send(link::kHelloReply, frame.sequence, link::bytes_of(reply));
+}
+
+uint32_t HostSession::reasons_to_refuse(const link::Hello& hello,
+                                        const link::HelloReply& reply) const {
+  uint32_t refused = link::compare(hello.host, reply.controller);
+  if (refused == link::kRefusedProtocol) return refused;
+  if (!controller.is_ready()) {
+    if (controller.verdict().ok()) return link::kRefusedNotReady;
+    // The CRC of an asset that is not open says nothing; the rule that rejected it does.
+    refused = (refused & ~link::kRefusedAsset) | link::kRefusedAssetRejected;
+  }
+  if (hello.mode != link::kModeLive && hello.mode != link::kModeLockStep)
+    refused |= link::kRefusedMode;
+  if (hello.mode == link::kModeLockStep && servo_is_running()) refused |= link::kRefusedBusy;
+  return refused;
+}
+
+void HostSession::answer_step(const link::Frame& frame) {
+  link::Step step;
+  if (!is_lock_step()) return complain(frame, "a Step before an accepted Hello in lock-step");
+  if (!link::take(frame, step)) return complain(frame, "a Step of another length");
+  // The same step again: its answer was lost on the way. The tick is not repeated.
+  if (!has_stepped_ || step.input.tick != last_reply_.tick) {
+    const uint32_t before = hal::clock_work();
+    controller.tick(step.input, last_reply_.output);
+    last_reply_.work = hal::clock_work() - before;
+    last_reply_.work_per_1000 = hal::clock_work_per_1000();
+    if (step.input.tick % kTicksPerStackLook == 0)
+      last_reply_.stack_high_bytes = hal::board_stack_high_bytes();
+    last_reply_.tick = step.input.tick;
+    has_stepped_ = true;
+  }
+  outbox_.send(link::kStepReply, frame.sequence, link::bytes_of(last_reply_));
+}
+
+void HostSession::answer_set_param(const link::Frame& frame) {
+  link::SetParam wanted;
+  if (phase_ == Phase::kStranger) return complain(frame, "a SetParam before an accepted Hello");
+  if (!link::take(frame, wanted)) return complain(frame, "a SetParam of another length");
+  link::Ack ack;
+  ack.index = wanted.index;
+  if (is_lock_step()) {
+    ack.result = link::kAckInLockStep;
+  } else if (wanted.index >= params::kCount) {
+    ack.result = link::kAckNoSuchParameter;
+  } else {
+    const params::Entry& row = params::kTable[wanted.index];
+    if (!(wanted.value >= row.low) || !(wanted.value <= row.high)) {
+      ack.result = link::kAckOutOfRange;
+    } else if (!commands.put(wanted.index, wanted.value)) {
+      ack.result = link::kAckBusy;
+    }
+  }
+  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+}
+
+void HostSession::leave(const link::Frame& frame) {
+  link::Bye bye;
+  if (!link::take(frame, bye)) return complain(frame, "a Bye of another length");
+  phase_ = Phase::kStranger;
+  if (bye.what != link::kByeExit) return;
+  hal::motors_off();
+  outbox_.flush();
+  hal::board_exit(0);
+}
+
+void HostSession::stream_records() {
+  for (;;) {
+    if (!outbox_.has_room_to_stream()) return;
+    const core::Span<const record::Numbered<record::TickRecord>> ready = records.ready();
+    if (ready.empty()) return;
+    link::Log log;
+    log.number = records.consumed();
+    log.dropped = ready[0].number - log.number;
+    log.record = ready[0].value;
+    records.release(1);
+    outbox_.send(link::kLog, log_sequence_++, link::bytes_of(log));
+  }
+}
+
+void HostSession::complain(const link::Frame& frame, const char* text) {
+  outbox_.send_text(frame.sequence, text);
+}
+
+}  // namespace firmtouch::app

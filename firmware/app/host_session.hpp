@@ -1,0 +1,42 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/link/decoder.hpp"
+#include "firmtouch/link/protocol.hpp"
+#include "outbox.hpp"
+
+namespace firmtouch::app {
+
+/// The controller's side of what link/protocol.hpp describes. Main loop only.
+class HostSession {
+ public:
+  /// Reads what has come, answers it, streams records while the session is live, hands the link
+  /// what waits.
+  void poll();
+
+  bool is_live() const { return phase_ == Phase::kLive; }
+  bool is_lock_step() const { return phase_ == Phase::kLockStep; }
+  /// Whether nothing waits for the link, so that the main loop may sleep until more comes.
+  bool is_idle() const { return outbox_.empty(); }
+
+ private:
+  enum class Phase : uint8_t { kStranger, kLive, kLockStep };
+
+  void handle(const link::Frame& frame);
+  void answer_hello(const link::Frame& frame);
+  uint32_t reasons_to_refuse(const link::Hello& hello, const link::HelloReply& reply) const;
+  void answer_step(const link::Frame& frame);
+  void answer_set_param(const link::Frame& frame);
+  void leave(const link::Frame& frame);
+  void stream_records();
+  void complain(const link::Frame& frame, const char* text);
+
+  link::Decoder decoder_;
+  Outbox outbox_;
+  Phase phase_ = Phase::kStranger;
+  uint16_t log_sequence_ = 0;
+  bool has_stepped_ = false;
+  link::StepReply last_reply_;
+};
+
+}  // namespace firmtouch::app

@@ -1,0 +1,55 @@
+#include "firmtouch/asset/container.hpp"
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/link.hpp"
+#include "firmtouch/hal/motors.hpp"
+#include "firmtouch/link/text_writer.hpp"
+#include "host_session.hpp"
+#include "servo.hpp"
+#include "servo_interrupt.hpp"
+
+// The controller program, the same source for every board: proves the asset, answers the host, runs
+// the servo.
+
+namespace firmtouch::app {
+namespace {
+
+constexpr uint32_t kSliceBytes =
+    4096;  // of opening between two looks at the link: about 1 ms on a Cortex-M7
+
+HostSession session;
+
+// Exactly the asset where the board keeps one in a larger slot; all of the slot where none begins
+// there, so that opening names the rule.
+core::Bytes asset() {
+  const core::Bytes region = hal::board_asset();
+  const uint32_t bytes = asset::stated_bytes(region);
+  return bytes == 0 ? region : core::Bytes{region.data(), bytes};
+}
+
+void say_verdict() {
+  if (controller.is_ready()) return;
+  char text[160];
+  link::TextWriter out(text);
+  out.text("asset rejected by rule R").decimal(controller.verdict().rule).text(" at element ");
+  out.decimal(controller.verdict().element);
+  out.text(" (tools/FORMAT.md): bake it again and load it anew. The motors stay off.\n");
+  hal::board_print(text);
+}
+
+[[noreturn]] void run() {
+  hal::board_begin();
+  hal::motors_off();
+  controller.begin(asset());
+  while (!controller.work(kSliceBytes)) session.poll();
+  say_verdict();
+  for (;;) {
+    session.poll();
+    if (controller.is_ready() && !session.is_lock_step()) start_servo_when_enabled();
+    if (session.is_idle()) hal::link_wait();
+  }
+}
+
+}  // namespace
+}  // namespace firmtouch::app
+
+int main() { firmtouch::app::run(); }

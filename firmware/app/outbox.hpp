@@ -1,0 +1,28 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/link/frame.hpp"
+
+namespace firmtouch::app {
+
+/// Frames on their way to the host: kept here until the link has taken every byte. Main loop only.
+class Outbox {
+ public:
+  /// Adds one frame.
+  /// Result: false, nothing added, where it does not fit before flush() made room.
+  bool send(uint8_t type, uint16_t sequence, core::Bytes payload);
+  bool send_text(uint16_t sequence, const char* text);
+  /// Hands the link as many bytes as it takes at once.
+  void flush();
+  bool empty() const { return count_ == 0; }
+  /// Whether a frame of any size fits, beside the answer to one more message.
+  bool has_room_to_stream() const { return kBytes - count_ >= 2 * link::kMaxFrameBytes; }
+
+ private:
+  static constexpr uint32_t kBytes = 4 * link::kMaxFrameBytes;
+  uint8_t bytes_[kBytes] = {};
+  uint32_t count_ = 0;
+};
+
+}  // namespace firmtouch::app

@@ -1,0 +1,31 @@
+#include "servo_interrupt.hpp"
+
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hal/encoders.hpp"
+#include "firmtouch/hal/motors.hpp"
+#include "firmtouch/hal/watchdog.hpp"
+
+namespace firmtouch::app {
+
+Controller controller;
+link::CommandMailbox commands;
+Records records;
+
+void servo_interrupt() {
+  static uint32_t next_tick = 0;
+  record::TickRecord now{};
+
+  now.input.tick = next_tick++;
+  now.input.clock_us = hal::clock_us();
+  now.input.lines = hal::motors_lines();
+  if (!hal::encoders_read(now.input.encoder_counts)) now.input.lines |= record::kLineEncoderFault;
+  commands.take(now.input);  // at most one parameter a tick
+
+  controller.tick(now.input, now.output);  // calls no hardware: replay calls it with the same input
+
+  hal::motors_write_N(now.output.motor_N);
+  hal::watchdog_feed();
+  records.push(now);  // never waits: where the ring is full the record is dropped and counted
+}
+
+}  // namespace firmtouch::app

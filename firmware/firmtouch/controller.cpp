@@ -1,0 +1,162 @@
+#include "firmtouch/controller.hpp"
+
+#include "firmtouch/servo/fault.hpp"
+
+namespace firmtouch {
+namespace {
+
+using params::Values;
+
+device::Settings device_settings(const Values& v) {
+  return {{v[params::kCountsPerMetreX], v[params::kCountsPerMetreY], v[params::kCountsPerMetreZ]},
+          {v[params::kOriginX], v[params::kOriginY], v[params::kOriginZ]},
+          {v[params::kWorkspaceHalfX], v[params::kWorkspaceHalfY], v[params::kWorkspaceHalfZ]},
+          v[params::kMaxSpeed],
+          v[params::kVelocityFilter]};
+}
+
+servo::Settings servo_settings(const Values& v) {
+  return {v[params::kForceLimit], v[params::kSlewLimit], v[params::kRampIn], v[params::kTickPeriod]};
+}
+
+servo::GuardLimits guard_limits(const Values& v) {
+  return {v[params::kForceLimit], v[params::kSlewLimit], v[params::kTickPeriod]};
+}
+
+query::Budget budget(const Values& v, params::Index row) { return {static_cast<uint32_t>(v[row])}; }
+
+math::RigidTransform scene_pose(const Values& v) {
+  return {{}, {v[params::kSceneX], v[params::kSceneY], v[params::kSceneZ]}};
+}
+
+uint32_t device_faults(uint32_t faults) {
+  return ((faults & device::kEncoderFault) != 0 ? servo::kFaultEncoder : 0u) |
+         ((faults & device::kWorkspaceFault) != 0 ? servo::kFaultWorkspace : 0u);
+}
+
+uint32_t line_faults(uint32_t lines) {
+  return ((lines & record::kLineDriveFault) != 0 ? servo::kFaultDrive : 0u) |
+         ((lines & record::kLineEmergencyStop) != 0 ? servo::kFaultEmergencyStop : 0u);
+}
+
+uint32_t asset_faults(const Opener& opener) {
+  if (!opener.is_refused()) return 0;
+  return opener.verdict().rule >= kRuleArithmetic ? servo::kFaultProbes : servo::kFaultAsset;
+}
+
+void put(float (&to)[record::kAxes], math::Vec3 from) {
+  to[0] = from.x;
+  to[1] = from.y;
+  to[2] = from.z;
+}
+
+}  // namespace
+
+void Controller::begin(core::Bytes asset, Selection selection) {
+  opener_.begin(asset, selection);
+  reset();
+}
+
+core::Verdict Controller::open(core::Bytes asset, Selection selection) {
+  begin(asset, selection);
+  while (!work(4096)) {
+  }
+  return verdict();
+}
+
+bool Controller::take_parameter(const record::TickInput& input) {
+  const uint32_t row = input.command - 1;
+  if (row >= params::kCount) return false;
+  const bool motors_off = live_.servo.mode == servo::Mode::kOff || live_.servo.mode == servo::Mode::kFault;
+  const bool enable = (input.lines & record::kLineEnable) != 0;
+  if (params::kTable[row].when == params::When::kMotorsOff && (enable || !motors_off)) return false;
+  return params::set(live_.values, row, input.command_value);
+}
+
+void Controller::feel(math::Vec3 position_m, bool ready) {
+  live_.touch.penetration_m = 0;
+  if (!ready) return;
+  const Values& v = live_.values;
+  scene::MeshObject object;
+  object.mesh = &opener_.mesh();
+  object.pose = scene_pose(v);
+  object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
+  scene::touch_mesh(object, v[params::kToolRadius], position_m, budget(v, params::kMeshSteps), live_.touch, live_.model);
+  scene::CurveGuide guide;
+  guide.curve = &opener_.curve();
+  guide.pose = object.pose;
+  guide.material = {v[params::kGuideStiffness], v[params::kGuideDamping]};
+  guide.snap_m = v[params::kGuideSnap];
+  guide.release_m = v[params::kGuideRelease];
+  scene::follow_curve(guide, position_m, budget(v, params::kCurveSteps), live_.guide, live_.model);
+}
+
+void Controller::tell_scene(record::TickOutput& output) const {
+  const mesh::Closest& surface = live_.touch.closest;
+  const curve::Closest& line = live_.guide.closest;
+  output.distance_m = surface.distance_m;
+  output.distance_lower_m = surface.certificate.lower_m;
+  output.penetration_m = live_.touch.penetration_m;
+  output.guide_deviation_m = line.distance_m;
+  output.guide_arc = line.arc;
+  output.steps = surface.certificate.steps + line.certificate.steps;
+  output.state |= static_cast<uint32_t>(surface.certificate.sign + 1) << record::kStateSignShift;
+  if (live_.touch.penetration_m > 0) output.state |= record::kStateContact;
+  if (live_.guide.is_held) output.state |= record::kStateOnGuide;
+  if (surface.certificate.exact) output.state |= record::kStateExact;
+  output.model_sequence = live_.model.sequence;
+}
+
+void Controller::tick(const record::TickInput& input, record::TickOutput& output) {
+  const bool ready = opener_.is_ready();
+  const bool enable = (input.lines & record::kLineEnable) != 0;
+  const bool clear = input.command == record::kCommandClearFaults && !enable;
+  output = {};
+  if (clear) {
+    forgive(live_.clock);
+    forgive(live_.device);
+    guard_clear(live_.guard);
+  }
+  if (input.command != record::kCommandNone) {
+    const bool taken = clear || take_parameter(input);
+    output.state |= taken ? record::kStateCommandTaken : record::kStateCommandRefused;
+  }
+  const Values& v = live_.values;
+
+  const servo::ClockReading clock =
+      watch_clock(live_.clock, input.clock_us, v[params::kTickPeriod], v[params::kLateRatio]);
+  const device::Sample sample{{input.encoder_counts[0], input.encoder_counts[1], input.encoder_counts[2]},
+                              (input.lines & record::kLineEncoderFault) == 0,
+                              clock.dt_s};
+  const device::Reading tool = read(live_.device, device_settings(v), sample);
+
+  scene::begin_model(live_.model, tool.position_m, input.tick, static_cast<uint32_t>(v[params::kModelAge]));
+  feel(tool.position_m, ready);
+
+  servo::StepInput step;
+  step.position_m = tool.position_m;
+  step.velocity_mps = tool.velocity_mps;
+  step.tick = input.tick;
+  step.enable = enable && ready;
+  step.clear_faults = clear;
+  step.reported = clock.faults | device_faults(tool.faults) | line_faults(input.lines);
+  if (enable) step.reported |= asset_faults(opener_);
+  const servo::StepOutput wanted = servo::step(live_.servo, servo_settings(v), live_.model, step);
+
+  // A Cartesian device's joints are its axes: the force of each motor is the tool's.
+  float motor_N[record::kAxes];
+  put(motor_N, wanted.force_N);
+  const bool cut = line_faults(input.lines) != 0;
+  if (!guard(live_.guard, guard_limits(v), step.enable && wanted.faults == 0, cut, motor_N)) {
+    live_.servo.faults |= servo::kFaultGuard;
+    live_.servo.mode = servo::Mode::kFault;
+  }
+  for (uint32_t k = 0; k < record::kAxes; ++k) output.motor_N[k] = output.force_N[k] = motor_N[k];
+  put(output.position_m, tool.position_m);
+  put(output.velocity_mps, tool.velocity_mps);
+  output.faults = live_.servo.faults;
+  output.state |= static_cast<uint32_t>(live_.servo.mode) | (ready ? record::kStateReady : 0u);
+  tell_scene(output);
+}
+
+}  // namespace firmtouch

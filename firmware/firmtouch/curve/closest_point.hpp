@@ -1,0 +1,35 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/curve/view.hpp"
+#include "firmtouch/query/certificate.hpp"
+#include "firmtouch/query/hint.hpp"
+#include "firmtouch/query/probe.hpp"
+
+namespace firmtouch::curve {
+
+struct Closest {
+  float distance_m = 0;
+  math::Vec3 point_m;              // on the curve
+  math::Vec3 tangent;              // unit, along the segment, the way that the samples run
+  uint32_t segment = 0;            // from sample `segment` to the next
+  float arc = 0;                   // of the point: fraction of the curve's length, 0 to 1
+  query::Certificate certificate;  // sign: always 0, a curve has no sides
+};
+
+/// Closest point of the polyline (not of its samples) to `p_m` (curve frame), with a certificate:
+/// from the segment of the hint where it is warm, then down the k-d tree, nearest cell first.
+/// Pre:    `curve` is open.
+/// Bounds: <= budget steps; 1.5 KB of stack; re-entrant; callable from an interrupt.
+/// Result: always finite. Two points equally near: the one found first. A query that is not finite:
+///         the first sample, at distance FLT_MAX, lower 0, not exact.
+/// Error:  distance and, where exact, lower bound within 4e-7 max(diagonal, distance) of the truth
+///         (tests/curve/closest_point_host_test.cpp).
+/// Source: Morris 2006, section 2.2; a tree of samples that keeps the longest half segment of each
+///         subtree instead of N nearest samples, which can miss (tests/curve/paper_test.cpp).
+Closest closest_point(const View& curve, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
+
+/// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.
+uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points);
+
+}  // namespace firmtouch::curve

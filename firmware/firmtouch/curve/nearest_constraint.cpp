@@ -1,0 +1,155 @@
+#include "firmtouch/curve/nearest_constraint.hpp"
+
+#include <float.h>
+
+#include "firmtouch/curve/answer.hpp"
+#include "firmtouch/curve/tree_search.hpp"
+
+namespace firmtouch::curve {
+namespace {
+
+using math::Vec3;
+
+/// The N nearest samples: a heap with the farthest on top, by (distance, sample).
+class NearestSamples {
+ public:
+  explicit NearestSamples(core::Span<Neighbour> memory)
+      : items_(memory.data()),
+        capacity_(memory.size() < kMaxNearest ? memory.size() : kMaxNearest) {}
+
+  uint32_t size() const { return size_; }
+  Neighbour& operator[](uint32_t i) { return items_[i]; }
+  bool is_full() const { return size_ == capacity_; }
+
+  float radius_m() const { return radius_m_; }
+  void take(uint32_t sample, Vec3, float distance2_m2) {
+    const Neighbour found{distance2_m2, sample};
+    if (size_ < capacity_) {
+      rise(size_++, found);
+    } else if (is_before(found, items_[0])) {
+      sink(0, size_, found);
+    }
+    if (is_full()) radius_m_ = math::square_root(items_[0].distance2_m2) * (1.0f + 0x1p-20f);
+  }
+
+  /// In the order of the curve, by the same heap: no recursion, no memory.
+  void sort_by_sample() {
+    for (uint32_t i = 0; i < size_; ++i) items_[i].distance2_m2 = 0.0f;  // ties: by sample
+    for (uint32_t i = size_; i-- > 0;) sink(i, size_, items_[i]);
+    for (uint32_t last = size_; last-- > 1;) {
+      const Neighbour moved = items_[last];
+      items_[last] = items_[0];
+      sink(0, last, moved);
+    }
+  }
+
+ private:
+  static bool is_before(const Neighbour& a, const Neighbour& b) {
+    if (a.distance2_m2 < b.distance2_m2) return true;
+    return !(b.distance2_m2 < a.distance2_m2) && a.sample < b.sample;
+  }
+  void rise(uint32_t i, Neighbour item) {
+    for (; i > 0 && is_before(items_[(i - 1) / 2], item); i = (i - 1) / 2)
+      items_[i] = items_[(i - 1) / 2];
+    items_[i] = item;
+  }
+  void sink(uint32_t i, uint32_t size, Neighbour item) {
+    for (;;) {
+      uint32_t child = 2 * i + 1;
+      if (child >= size) break;
+      if (child + 1 < size && is_before(items_[child], items_[child + 1])) ++child;
+      if (!is_before(item, items_[child])) break;
+      items_[i] = items_[child];
+      i = child;
+    }
+    items_[i] = item;
+  }
+
+  Neighbour* items_;
+  uint32_t capacity_;
+  uint32_t size_ = 0;
+  float radius_m_ = 0x1p62f;  // more than any distance that comes here
+};
+
+float penalty_m(const View& curve, const Foot& foot, const ArcPenalty& penalty) {
+  if (!penalty.has_previous || !(penalty.weight_m > 0.0f)) return 0.0f;
+  if (!(penalty.previous_arc >= 0.0f && penalty.previous_arc <= 1.0f)) return 0.0f;
+  const float change = arc_of(curve, foot) - penalty.previous_arc;
+  float apart = change < 0.0f ? -change : change;
+  if (curve.is_closed() && apart > 0.5f) apart = 1.0f - apart;
+  const float cost_m = apart * penalty.weight_m;
+  return cost_m < 0x1p100f ? cost_m : 0x1p100f;
+}
+
+/// The candidates in order; of equal costs the first.
+class Choice {
+ public:
+  Choice(const View& curve, Vec3 p_m, const ArcPenalty& penalty)
+      : curve_(curve), p_m_(p_m), penalty_(penalty), carefully_(needs_care(curve.head(), p_m)) {}
+
+  bool carefully() const { return carefully_; }
+
+  void look_at(uint32_t segment) {
+    const Foot foot = foot_on_segment(curve_, p_m_, segment, carefully_);
+    const float cost_m = math::square_root(foot.distance2_m2) + penalty_m(curve_, foot, penalty_);
+    if (foot.distance2_m2 < least2_m2) least2_m2 = foot.distance2_m2;
+    if (candidates++ == 0 || cost_m < best_cost_m) best = foot, best_cost_m = cost_m;
+  }
+
+  Foot best{};
+  float best_cost_m = 0;
+  float least2_m2 = FLT_MAX;  // of all candidates, whatever their penalty
+  uint32_t candidates = 0;
+
+ private:
+  const View& curve_;
+  Vec3 p_m_;
+  const ArcPenalty& penalty_;
+  bool carefully_;
+};
+
+}  // namespace
+
+Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
+                              core::Span<Neighbour> memory, query::Budget budget) {
+  query::Hint none;
+  if (!is_near(p_m) || memory.empty()) {
+    const Closest far = closest_point(curve, p_m, budget, none);
+    return {far, far.distance_m, 0};
+  }
+  NearestSamples nearest(memory);
+  TreeSearch<NearestSamples> search(curve, p_m, budget.steps, nearest);
+  const bool complete = search.run();
+  const float farthest_m = nearest.is_full() ? math::square_root(nearest[0].distance2_m2) : FLT_MAX;
+  nearest.sort_by_sample();
+
+  Choice choice(curve, p_m, penalty);
+  uint32_t next = 0;  // the first segment that was not looked at
+  for (uint32_t i = 0; i < nearest.size(); ++i) {
+    const uint32_t sample = nearest[i].sample;
+    if (sample > 0 && sample - 1 >= next) choice.look_at(sample - 1);
+    if (sample < curve.segment_count()) choice.look_at(sample);
+    next = sample + 1;
+  }
+
+  // A point of the curve that no candidate holds is within a reach of a sample that was not found.
+  Constraint found;
+  const float reach_m = curve.nodes()[0].reach_m;
+  found.closest = answer_at(curve, choice.best);
+  const float least_m = math::square_root(choice.least2_m2);
+  float lower_m = rounded_down(least_m, reach_m, choice.carefully());
+  const float pending_m = search.pending_m();
+  const bool by_budget = !complete && pending_m < farthest_m;
+  const float unseen_m = (by_budget ? pending_m : farthest_m) * (1.0f - 0x1p-20f) - reach_m;
+  if (nearest.size() < curve.samples().size() && unseen_m < lower_m) lower_m = unseen_m;
+  found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  found.closest.certificate.steps = search.steps();
+  found.closest.certificate.exact =
+      complete && !(choice.best.distance2_m2 > choice.least2_m2) &&
+      (nearest.size() == curve.samples().size() || unseen_m >= least_m);
+  found.cost_m = choice.best_cost_m;
+  found.candidates = choice.candidates;
+  return found;
+}
+
+}  // namespace firmtouch::curve

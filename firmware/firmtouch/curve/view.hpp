@@ -1,0 +1,81 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
+#include "firmtouch/curve/layout.hpp"
+#include "firmtouch/math/vec3.hpp"
+
+namespace firmtouch::curve {
+
+/// The bytes of a curve's sections, as the container hands them out.
+struct Sections {
+  core::Bytes head, samples, arcs, nodes;
+};
+
+/// A curve that open() has proven: every index, order, reach and float. Immutable; share it between
+/// any number of tools.
+class View {
+ public:
+  View() = default;
+
+  bool is_open() const { return head_ != nullptr; }
+  bool is_closed() const { return head_->is_closed != 0; }
+  const Head& head() const { return *head_; }
+  core::Span<const Sample> samples() const { return samples_; }
+  core::Span<const float> arcs() const { return arcs_; }
+  core::Span<const Node> nodes() const { return nodes_; }
+  uint32_t segment_count() const { return samples_.size() - 1; }
+
+  math::Vec3 sample(uint32_t i) const {
+    return {samples_[i].x_m, samples_[i].y_m, samples_[i].z_m};
+  }
+
+ private:
+  friend class Opening;
+  const Head* head_ = nullptr;
+  core::Span<const Sample> samples_;
+  core::Span<const float> arcs_;
+  core::Span<const Node> nodes_;
+};
+
+/// Proves a curve in slices, so that a main loop stays alive while it opens a large one: rules R201
+/// to R220 of tools/FORMAT.md.
+///
+///     Opening opening(sections);
+///     while (!opening.done()) opening.work(1000);
+///     if (opening.verdict().ok()) view = opening.view();
+class Opening {
+ public:
+  explicit Opening(const Sections& sections);
+
+  /// Checks up to `elements` samples or nodes more.
+  /// Bounds: at most kMaxLevels reads an element; no recursion; reads only inside the sections.
+  void work(uint32_t elements);
+  bool done() const { return stage_ == Stage::kDone; }
+  core::Verdict verdict() const { return verdict_; }
+  /// The proven curve; one that is not open unless done() and verdict().ok().
+  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+
+ private:
+  enum class Stage : uint8_t { kSamples, kLength, kNodes, kDone };
+  void fail(uint16_t rule, uint32_t element);
+  void open_head(const Sections& sections);
+  void next_stage();
+  core::Verdict check_sample(uint32_t i);
+  core::Verdict check_ends() const;
+  core::Verdict check_length(uint32_t i);
+  core::Verdict check_node(uint32_t i) const;
+
+  View view_;
+  core::Verdict verdict_;
+  Stage stage_ = Stage::kDone;
+  uint32_t next_ = 0;
+  uint64_t travelled_ = 0;  // along the curve, in 2^-62 of its length
+  Sample low_{}, high_{};
+};
+
+/// All at once.
+core::Verdict open(const Sections& sections, View& view);
+
+}  // namespace firmtouch::curve

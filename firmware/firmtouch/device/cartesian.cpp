@@ -1,0 +1,138 @@
+#include "firmtouch/device/cartesian.hpp"
+
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::device {
+namespace {
+
+constexpr float kTwoPi = 6.2831853f;
+// A time step outside of this is a broken clock, which servo faults; here it must only not break the arithmetic.
+constexpr float kLeastStep_s = 1e-6f;
+constexpr float kMostStep_s = 1.0f;
+
+float clamp(float value, float low, float high) {
+  if (!(value >= low)) return low;  // NaN too
+  return value > high ? high : value;
+}
+
+// Exact to 2^24, then rounded to nearest. What is beyond 32 bits is far outside every workspace.
+float to_float(int64_t counts) {
+  if (counts > INT32_MAX) return static_cast<float>(INT32_MAX);
+  if (counts < INT32_MIN) return static_cast<float>(INT32_MIN);
+  return static_cast<float>(static_cast<int32_t>(counts));
+}
+
+int32_t difference(int32_t to, int32_t from) {
+  return static_cast<int32_t>(static_cast<uint32_t>(to) - static_cast<uint32_t>(from));
+}
+
+uint32_t count_bits(uint32_t word) {
+  uint32_t count = 0;
+  for (; word != 0; word &= word - 1) ++count;
+  return count;
+}
+
+bool is_plausible(const int32_t (&step)[kAxes], const Settings& settings, float since_s) {
+  for (uint32_t k = 0; k < kAxes; ++k) {
+    // One count more than the speed allows: a standing axis may flicker between two.
+    const float most = settings.max_speed_mps * since_s * settings.counts_per_metre[k] + 1.0f;
+    const float counts = to_float(step[k]);
+    if (!(counts <= most) || !(counts >= -most)) return false;
+  }
+  return true;
+}
+
+math::Vec3 position_of(const State& state, const Settings& settings) {
+  return settings.origin_m + math::Vec3{to_float(state.total[0]) / settings.counts_per_metre[0],
+                                        to_float(state.total[1]) / settings.counts_per_metre[1],
+                                        to_float(state.total[2]) / settings.counts_per_metre[2]};
+}
+
+// a dt / (dt + tau): the backward-difference form of a first-order low-pass, stable for every dt > 0.
+void filter_velocity(State& state, const Settings& settings, const int32_t (&step)[kAxes],
+                     float since_s) {
+  const float tau_s = 1.0f / (kTwoPi * settings.velocity_filter_Hz);
+  const float share = since_s / (since_s + tau_s);
+  const math::Vec3 quotient{to_float(step[0]) / (settings.counts_per_metre[0] * since_s),
+                            to_float(step[1]) / (settings.counts_per_metre[1] * since_s),
+                            to_float(step[2]) / (settings.counts_per_metre[2] * since_s)};
+  state.velocity_mps = state.velocity_mps + (quotient - state.velocity_mps) * share;
+}
+
+bool clamp_to_workspace(math::Vec3& position_m, const Settings& settings) {
+  const math::Vec3 low = settings.origin_m - settings.workspace_half_m;
+  const math::Vec3 high = settings.origin_m + settings.workspace_half_m;
+  const math::Vec3 inside{clamp(position_m.x, low.x, high.x), clamp(position_m.y, low.y, high.y),
+                          clamp(position_m.z, low.z, high.z)};
+  const math::Vec3 off = position_m - inside;
+  const bool was_inside = math::dot(off, off) <= 0.0f;
+  position_m = inside;
+  return was_inside;
+}
+
+void believe(State& state, const Settings& settings, const Sample& sample,
+             const int32_t (&step)[kAxes]) {
+  for (uint32_t k = 0; k < kAxes; ++k) {
+    state.counts[k] = sample.counts[k];
+    state.total[k] += step[k];
+  }
+  filter_velocity(state, settings, step, state.since_believed_s);
+  state.position_m = position_of(state, settings);
+  state.since_believed_s = 0;
+  state.bad_in_a_row = 0;
+}
+
+void bridge(State& state, float dt_s) {
+  if (state.bad_in_a_row < kBadInARow) ++state.bad_in_a_row;
+  if (state.bad_in_a_row <= kBridgedSamples) {
+    state.position_m = state.position_m + state.velocity_mps * dt_s;
+  } else {
+    state.velocity_mps = {};
+  }
+  state.bad_history |= 1u;
+}
+
+void start(State& state, const Settings& settings, const Sample& sample) {
+  state = State{};
+  state.started = true;
+  for (uint32_t k = 0; k < kAxes; ++k) state.total[k] = state.counts[k] = sample.counts[k];
+  state.position_m = position_of(state, settings);
+}
+
+}  // namespace
+
+Reading read(State& state, const Settings& settings, const Sample& sample) {
+  const float dt_s = clamp(sample.dt_s, kLeastStep_s, kMostStep_s);
+  bool believed = sample.trusted;
+  if (!state.started) {
+    if (believed) start(state, settings, sample);
+  } else {
+    int32_t step[kAxes];
+    for (uint32_t k = 0; k < kAxes; ++k) step[k] = difference(sample.counts[k], state.counts[k]);
+    state.since_believed_s = clamp(state.since_believed_s + dt_s, kLeastStep_s, kMostStep_s);
+    state.bad_history <<= 1;
+    believed = believed && is_plausible(step, settings, state.since_believed_s);
+    if (believed) {
+      believe(state, settings, sample, step);
+    } else {
+      bridge(state, dt_s);
+    }
+  }
+  Reading reading;
+  reading.believed = believed;
+  if (state.bad_in_a_row >= kBadInARow || count_bits(state.bad_history) >= kBadOf32 ||
+      !state.started) {
+    reading.faults |= kEncoderFault;
+  }
+  if (!clamp_to_workspace(state.position_m, settings)) reading.faults |= kWorkspaceFault;
+  reading.position_m = state.position_m;
+  reading.velocity_mps = state.velocity_mps;
+  return reading;
+}
+
+void forgive(State& state) {
+  state.bad_in_a_row = 0;
+  state.bad_history = 0;
+}
+
+}  // namespace firmtouch::device

@@ -1,0 +1,107 @@
+#pragma once
+// Lower bounds of the distance to boxes on the mesh's 15-bit grid. For the library's own
+// translation units.
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/mesh/triangle.hpp"
+#include "firmtouch/mesh/view.hpp"
+
+namespace firmtouch::mesh {
+
+// Both kinds of bound are told as an unsigned key that orders as the squared distance, so that one
+// traversal serves both: cells squared for a query inside the grid, the bits of a float in square
+// metres for one outside.
+constexpr float kRoundDown =
+    1.0f - 0x1p-17f;  // 128 units of 2^-24: more than any bound below loses (derived there)
+constexpr uint32_t kFarthest = UINT32_MAX;
+
+/// The query is inside the grid: integers, nine instructions a box with the DSP extension.
+///
+/// (p - low) / cell has an error of at most 2^-24 * 32768 = 2^-9 cells, one rounding of the
+/// difference; the division is exact, the cell being a power of two. Boxes enclose their triangles
+/// but for the same rounding in open()'s check. The query is widened by both, 2^-8 cells, and then
+/// to whole cells. So the integer distance is never more than the true one.
+struct NearBound {
+  uint32_t point[3];
+  float cell_m;
+  float per_cell2;
+
+  /// False: the query is not inside the grid (or not a number).
+  bool begin(const Head& head, math::Vec3 p_m) {
+    cell_m = head.cell_m;
+    const float per_cell = 1.0f / cell_m;
+    per_cell2 = per_cell * per_cell;
+    const float cells[3] = {(p_m.x - head.grid_low_m[0]) * per_cell,
+                            (p_m.y - head.grid_low_m[1]) * per_cell,
+                            (p_m.z - head.grid_low_m[2]) * per_cell};
+    for (int k = 0; k < 3; ++k) {
+      if (!(cells[k] >= 1.0f && cells[k] <= static_cast<float>(kGridMax) - 2.0f)) return false;
+      const uint32_t floor_cell = static_cast<uint32_t>(static_cast<int32_t>(cells[k] - 0x1p-8f));
+      const uint32_t ceil_cell =
+          static_cast<uint32_t>(static_cast<int32_t>(cells[k] + (1.0f + 0x1p-8f)));
+      point[k] = ceil_cell | ((kGridMax - floor_cell) << 16);
+    }
+    return true;
+  }
+  uint32_t key(const uint32_t* box) const { return math::box_distance2(box, point); }
+  /// Smallest key whose boxes cannot be nearer than the square root of distance2_m2.
+  uint32_t prune_key(float distance2_m2) const {
+    const float cells2 = distance2_m2 * per_cell2 * (2.0f - kRoundDown);
+    return cells2 < 4.2e9f ? static_cast<uint32_t>(cells2) + 1 : kFarthest;
+  }
+  float distance_m(uint32_t key) const {
+    return math::square_root(static_cast<float>(key)) * cell_m * kRoundDown;
+  }
+  /// Whether the query is certainly outside, whatever is nearest.
+  constexpr bool is_outside() const { return false; }
+  math::Vec3 foot_m(const View&, math::Vec3 p_m, math::Vec3 offset_m, uint32_t) const {
+    return p_m - offset_m;
+  }
+};
+
+/// The query is outside the grid, an eighth of the extent or more from every box: floats.
+///
+/// Each axis has an error of at most 2^-24 (|x| + d) with x = p - grid_low and |x| <= d + 1.3
+/// extents <= 11.4 d, so 13 d units an axis, 23 d units in all, 46 in the square and 4 more for its
+/// sum. The boxes' slack of 2^-9 cells, less than 1.2e-6 d, is 40 more in the square: 90 of the 128
+/// units that kRoundDown takes.
+struct FarBound {
+  math::Vec3 x_m;
+  float cell_m;
+
+  void begin(const Head& head, math::Vec3 p_m) {
+    cell_m = head.cell_m;
+    x_m = p_m - math::Vec3{head.grid_low_m[0], head.grid_low_m[1], head.grid_low_m[2]};
+  }
+  float outside_m(uint32_t box, float x) const {
+    const float low_m = static_cast<float>(box & 0xFFFFu) * cell_m;
+    const float high_m = static_cast<float>(kGridMax - (box >> 16)) * cell_m;
+    const float below_m = low_m - x, above_m = x - high_m;
+    const float outside = below_m > above_m ? below_m : above_m;
+    return outside > 0.0f ? outside : 0.0f;
+  }
+  uint32_t key(const uint32_t* box) const {
+    const math::Vec3 d{outside_m(box[0], x_m.x), outside_m(box[1], x_m.y),
+                       outside_m(box[2], x_m.z)};
+    return math::bits_of(math::dot(d, d) * kRoundDown);
+  }
+  uint32_t prune_key(float distance2_m2) const {
+    return math::bits_of(distance2_m2 * (2.0f - kRoundDown));
+  }
+  float distance_m(uint32_t key) const {
+    return math::square_root(math::float_of(key)) * kRoundDown;
+  }
+  constexpr bool is_outside() const { return true; }
+  /// p - offset has lost the low bits of a far p: put back on its triangle.
+  math::Vec3 foot_m(const View& mesh, math::Vec3 p_m, math::Vec3 offset_m,
+                    uint32_t triangle) const {
+    const Triangle<uint32_t> t = mesh.triangle(triangle);
+    const math::Vec3 near_m = p_m - offset_m;
+    const Foot foot = closest_on_triangle(near_m, mesh.vertex(t.corner[0]),
+                                          mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
+    return near_m - foot.offset_m;
+  }
+};
+
+}  // namespace firmtouch::mesh

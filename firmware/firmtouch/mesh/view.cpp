@@ -1,0 +1,251 @@
+#include "firmtouch/mesh/view.hpp"
+
+#include <float.h>
+
+#include "firmtouch/core/bytes.hpp"
+#include "firmtouch/mesh/pseudonormal.hpp"
+
+namespace firmtouch::mesh {
+namespace {
+
+using core::kPassed;
+using core::reject;
+using core::Verdict;
+using math::Vec3;
+
+bool is_power_of_two(float value) {
+  const uint32_t bits = math::bits_of(value);
+  return (bits & 0x807FFFFFu) == 0 && bits >= 0x10000000u && bits <= 0x60000000u;
+}
+
+float low_of(uint32_t box) { return static_cast<float>(box & 0xFFFFu); }
+float high_of(uint32_t box) {
+  return static_cast<float>(static_cast<int32_t>(kGridMax) - static_cast<int32_t>(box >> 16));
+}
+
+bool is_box(const uint32_t* box) {
+  for (int k = 0; k < 3; ++k)
+    if ((box[k] & 0xFFFFu) > kGridMax || (box[k] >> 16) > kGridMax ||
+        low_of(box[k]) > high_of(box[k]))
+      return false;
+  return true;
+}
+
+bool holds(const uint32_t* outer, const uint32_t* inner) {
+  for (int k = 0; k < 3; ++k)
+    if (low_of(inner[k]) < low_of(outer[k]) || high_of(inner[k]) > high_of(outer[k])) return false;
+  return true;
+}
+
+Verdict check_head(const Head& head) {
+  if (head.reserved[0] != 0 || head.reserved[1] != 0) return reject(106, 0);
+  if (!is_power_of_two(head.cell_m)) return reject(106, 1);
+  const float reach_m = static_cast<float>(kGridMax) * head.cell_m;
+  float extent_m = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (!(head.low_m[k] <= head.high_m[k]) || !(head.low_m[k] >= -1e9f && head.high_m[k] <= 1e9f))
+      return reject(106, 2);
+    const float side_m = head.high_m[k] - head.low_m[k];
+    if (side_m > extent_m) extent_m = side_m;
+  }
+  for (int k = 0; k < 3; ++k) {  // an eighth of the extent free on each side: FarBound relies on it
+    const float below_m = head.low_m[k] - head.grid_low_m[k];
+    const float above_m = head.grid_low_m[k] + reach_m - head.high_m[k];
+    if (!(below_m >= 0.124f * extent_m && above_m >= 0.124f * extent_m)) return reject(106, 3);
+  }
+  if (!(extent_m >= 1e-9f && reach_m <= 2.6f * extent_m)) return reject(106, 4);
+  const Vec3 sides{head.high_m[0] - head.low_m[0], head.high_m[1] - head.low_m[1],
+                   head.high_m[2] - head.low_m[2]};
+  const float diagonal_m = math::length(sides);
+  if (!(head.diagonal_m <= diagonal_m && head.diagonal_m >= diagonal_m * (1.0f - 0x1p-20f)))
+    return reject(106, 5);
+  return kPassed;
+}
+
+}  // namespace
+
+Opening::Opening(const Sections& sections) { open_head(sections); }
+
+void Opening::fail(uint16_t rule, uint32_t element) {
+  verdict_ = reject(rule, element);
+  stage_ = Stage::kDone;
+}
+
+void Opening::open_head(const Sections& s) {
+  const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
+  if (heads.size() != 1) return fail(101, 0);
+  const Head& head = heads[0];
+  view_.vertices_ = core::as_whole_array<Vertex>(s.vertices);
+  if (head.vertex_count == 0 || view_.vertices_.size() != head.vertex_count) return fail(102, 0);
+  view_.triangles16_ = core::as_whole_array<Triangle<uint16_t>>(s.triangles16);
+  view_.triangles32_ = core::as_whole_array<Triangle<uint32_t>>(s.triangles32);
+  if (s.triangles16.empty() == s.triangles32.empty()) return fail(103, 0);
+  const uint32_t triangles =
+      s.triangles32.empty() ? view_.triangles16_.size() : view_.triangles32_.size();
+  if (head.triangle_count == 0 || head.triangle_count > kMaxTriangles ||
+      triangles != head.triangle_count)
+    return fail(103, 1);
+  view_.nodes_ = core::as_whole_array<Node>(s.nodes);
+  view_.parents_ = core::as_whole_array<uint32_t>(s.parents);
+  if (head.node_count == 0 || head.node_count > kMaxNodes ||
+      view_.nodes_.size() != head.node_count || view_.parents_.size() != head.node_count)
+    return fail(104, 0);
+  view_.vertex_normals_ = core::as_whole_array<uint32_t>(s.vertex_normals);
+  view_.folds_ = core::as_whole_array<EdgeFolds>(s.edge_folds);
+  const bool with_sign = head.is_signed == 1;
+  if (head.is_signed > 1 || view_.vertex_normals_.size() != (with_sign ? head.vertex_count : 0) ||
+      view_.folds_.size() != (with_sign ? head.triangle_count : 0) ||
+      s.vertex_normals.empty() == with_sign || s.edge_folds.empty() == with_sign)
+    return fail(105, 0);
+  verdict_ = check_head(head);
+  if (!verdict_.ok()) return;
+  if (head.depth == 0 || head.depth > kMaxDepth) return fail(107, 0);
+  view_.head_ = &head;
+  low_ = {FLT_MAX, FLT_MAX, FLT_MAX};
+  high_ = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+  stage_ = Stage::kVertices;
+}
+
+void Opening::work(uint32_t elements) {
+  for (; elements > 0 && stage_ != Stage::kDone; --elements) {
+    Verdict found = kPassed;
+    switch (stage_) {
+      case Stage::kVertices:
+        found = check_vertex(next_);
+        break;
+      case Stage::kNormals:
+        found = check_normal(next_);
+        break;
+      case Stage::kNodes:
+        found = check_node(next_);
+        break;
+      case Stage::kTriangles:
+        found = check_triangle(next_);
+        break;
+      case Stage::kDone:
+        break;
+    }
+    if (!found.ok()) return fail(found.rule, found.element);
+    ++next_;
+    next_stage();
+  }
+}
+
+void Opening::next_stage() {
+  const Head& head = *view_.head_;
+  if (stage_ == Stage::kVertices && next_ == head.vertex_count) {
+    const float bounds[6] = {low_.x_m, low_.y_m, low_.z_m, high_.x_m, high_.y_m, high_.z_m};
+    for (uint32_t k = 0; k < 6; ++k) {
+      const float told = k < 3 ? head.low_m[k] : head.high_m[k - 3];
+      if (bounds[k] < told || bounds[k] > told) return fail(111, k);
+    }
+    stage_ = view_.is_signed() ? Stage::kNormals : Stage::kNodes;
+    next_ = 0;
+  } else if (stage_ == Stage::kNormals && next_ == head.vertex_count) {
+    stage_ = Stage::kNodes;
+    next_ = 0;
+  } else if (stage_ == Stage::kNodes && next_ == head.node_count) {
+    if (next_triangle_ != head.triangle_count) return fail(125, next_triangle_);
+    if (deepest_ + 1 != head.depth) return fail(107, deepest_);
+    stage_ = Stage::kTriangles;
+    next_ = 0;
+  } else if (stage_ == Stage::kTriangles && next_ == head.triangle_count) {
+    stage_ = Stage::kDone;
+  }
+}
+
+Verdict Opening::check_vertex(uint32_t i) {
+  const Vertex& v = view_.vertices_[i];
+  const float values[3] = {v.x_m, v.y_m, v.z_m};
+  float* low = &low_.x_m;
+  float* high = &high_.x_m;
+  for (uint32_t k = 0; k < 3; ++k) {
+    if (!(values[k] >= view_.head_->low_m[k] && values[k] <= view_.head_->high_m[k]))
+      return reject(110, i);
+    if (values[k] < low[k]) low[k] = values[k];
+    if (values[k] > high[k]) high[k] = values[k];
+  }
+  return kPassed;
+}
+
+Verdict Opening::check_normal(uint32_t i) const {
+  const uint32_t code = view_.vertex_normals_[i];
+  return (code & 0xFFFFu) <= 65534u && (code >> 16) <= 65534u ? kPassed : reject(112, i);
+}
+
+Verdict Opening::check_node(uint32_t i) {
+  const Node& node = view_.nodes_[i];
+  const uint32_t word = view_.parents_[i];
+  if (i == 0 ? word != 0
+             : parent_of(word) >= i || view_.nodes_[parent_of(word)].child[slot_of(word)] != i)
+    return reject(123, i);
+  if (depth_of(word) > deepest_) deepest_ = depth_of(word);
+  if (deepest_ >= kMaxDepth) return reject(107, i);
+  for (uint32_t slot = 0; slot < 2; ++slot) {
+    const uint32_t child = node.child[slot];
+    if (is_leaf(child)) {
+      const Verdict leaf = check_leaf(i, slot);
+      if (!leaf.ok()) return leaf;
+      continue;
+    }
+    if (!is_box(node.box[slot])) return reject(120, i);
+    if (child <= i || child >= view_.nodes_.size() ||
+        view_.parents_[child] != make_parent(i, slot, depth_of(word) + 1))
+      return reject(122, i);
+    const Node& inner = view_.nodes_[child];
+    for (uint32_t grandchild = 0; grandchild < 2; ++grandchild)
+      if (!holds(node.box[slot], inner.box[grandchild])) return reject(121, child);
+  }
+  return kPassed;
+}
+
+Verdict Opening::check_leaf(uint32_t i, uint32_t slot) {
+  const Node& node = view_.nodes_[i];
+  const uint32_t first = leaf_first(node.child[slot]), count = leaf_count(node.child[slot]);
+  // Only the second child of the one node of a mesh of one leaf may be empty.
+  if (first != next_triangle_ || (count == 0 && !(slot == 1 && view_.nodes_.size() == 1)))
+    return reject(124, i);
+  if (count > view_.head_->triangle_count - first) return reject(124, i);
+  if (!is_box(node.box[slot])) return reject(120, i);
+  const float per_cell = 1.0f / view_.head_->cell_m;
+  for (uint32_t t = first; t < first + count; ++t) {
+    const Triangle<uint32_t> triangle = view_.triangle(t);
+    for (const uint32_t corner : triangle.corner) {
+      if (corner >= view_.vertices_.size()) return reject(126, t);
+      const Vertex& v = view_.vertices_[corner];
+      const float values[3] = {v.x_m, v.y_m, v.z_m};
+      for (int k = 0; k < 3; ++k) {  // with the rounding that NearBound allows for
+        const float cells = (values[k] - view_.head_->grid_low_m[k]) * per_cell;
+        if (!(low_of(node.box[slot][k]) <= cells && cells <= high_of(node.box[slot][k])))
+          return reject(127, t);
+      }
+    }
+  }
+  next_triangle_ += count;
+  return kPassed;
+}
+
+Verdict Opening::check_triangle(uint32_t i) const {
+  const Triangle<uint32_t> t = view_.triangle(i);
+  const Vec3 a = view_.vertex(t.corner[0]), b = view_.vertex(t.corner[1]),
+             c = view_.vertex(t.corner[2]);
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const float ab2 = dot(ab, ab);
+  if (!(ab2 >= 1e-30f && ab2 >= dot(bc, bc) && ab2 >= dot(ca, ca))) return reject(128, i);
+  const float per_ab = 1.0f / math::length(ab);
+  const Vec3 normal = cross(ab * per_ab, ca * per_ab);
+  if (!(dot(normal, normal) >= 1e-20f)) return reject(129, i);
+  if (view_.is_signed())
+    for (const int16_t fold : view_.folds_[i].fold)
+      if (fold < -32767) return reject(130, i);
+  return kPassed;
+}
+
+Verdict open(const Sections& sections, View& view) {
+  Opening opening(sections);
+  while (!opening.done()) opening.work(UINT32_MAX);
+  view = opening.view();
+  return opening.verdict();
+}
+
+}  // namespace firmtouch::mesh

@@ -1,0 +1,112 @@
+#include "firmtouch/servo/guard.hpp"
+
+namespace firmtouch::servo {
+namespace {
+
+constexpr uint32_t kTripped = 0;
+constexpr uint64_t kNotANumber = UINT64_MAX;
+
+uint32_t word_of(float value) {
+  uint32_t word;
+  __builtin_memcpy(&word, &value, sizeof word);
+  return word;
+}
+
+// |value| in units of 2^-fraction, digits below cut off; kNotANumber from 2^(62 - fraction) on, and for NaN.
+uint64_t fixed_point(float value, uint32_t fraction) {
+  const uint32_t word = word_of(value) & 0x7FFFFFFFu;
+  const uint32_t exponent = word >> 23;
+  if (exponent == 0) return 0;  // denormals: less than 2^-126
+  const uint64_t mantissa = (word & 0x7FFFFFu) | 0x800000u;
+  // value = mantissa * 2^(exponent - 150)
+  const int32_t shift = static_cast<int32_t>(exponent + fraction) - 150;
+  if (shift >= 39) return kNotANumber;
+  if (shift >= 0) return mantissa << shift;
+  return shift > -24 ? mantissa >> -shift : 0;
+}
+
+bool is_negative(float value) { return (word_of(value) >> 31) != 0; }
+
+// Units of 2^-16 N that a force may grow by in a tick.
+bool largest_growth(const GuardLimits& limits, uint64_t& growth) {
+  const uint64_t slew = fixed_point(limits.slew_limit_N_per_s, 16);
+  const uint64_t period = fixed_point(limits.tick_period_s, 28);
+  if (slew >= (uint64_t{1} << 37) || period >= (uint64_t{1} << 27)) return false;
+  growth = (slew * period) >> 28;  // the bounds above keep the product within 64 bits
+  growth += (growth >> 10) + 2;
+  return true;
+}
+
+bool remembers(const GuardState& state) {
+  if (state.armed != kGuardArmed) return false;
+  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
+    if (state.passed[k] != ~state.complement[k]) return false;
+  }
+  return true;
+}
+
+bool is_in_limits(const GuardState& state, const GuardLimits& limits, const int32_t (&force)[kGuardedMotors]) {
+  const uint64_t limit = fixed_point(limits.force_limit_N, 16) + 1;
+  uint64_t growth = 0;
+  if (limit == 0 || limit > (1u << 30) || is_negative(limits.force_limit_N) || !largest_growth(limits, growth)) {
+    return false;
+  }
+  uint64_t squares = 0;
+  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
+    const int64_t now = force[k];
+    const int64_t before = state.passed[k];
+    squares += static_cast<uint64_t>(now * now);
+    const uint64_t size = static_cast<uint64_t>(now < 0 ? -now : now);
+    const bool same_side = (now < 0) == (before < 0);
+    const uint64_t from = same_side ? static_cast<uint64_t>(before < 0 ? -before : before) : 0;
+    if (size > from + growth) return false;
+  }
+  return squares <= limit * limit;
+}
+
+bool is_quiet_in_time(GuardState& state, const GuardLimits& limits, bool may_push, bool cut, bool is_zero) {
+  if (may_push) {
+    state.quiet_ticks = 0;
+  } else if (state.quiet_ticks < UINT32_MAX) {
+    ++state.quiet_ticks;
+  }
+  if (is_zero) return true;
+  if (cut) return false;
+  // 10 ms in units of 2^-28 s; the first tick always may die down.
+  const uint64_t period = fixed_point(limits.tick_period_s, 28);
+  return state.quiet_ticks <= 1 || period * (state.quiet_ticks - 1u) <= 2684354u;
+}
+
+}  // namespace
+
+bool guard(GuardState& state, const GuardLimits& limits, bool may_push, bool cut, float (&motor_N)[kGuardedMotors]) {
+  int32_t force[kGuardedMotors] = {};
+  bool good = remembers(state);
+  bool is_zero = true;
+  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
+    const uint64_t size = fixed_point(motor_N[k], 16);
+    if (size >= (1u << 30)) {
+      good = false;
+    } else {
+      force[k] = static_cast<int32_t>(size);
+      if (is_negative(motor_N[k])) force[k] = -force[k];
+    }
+    is_zero = is_zero && (word_of(motor_N[k]) & 0x7FFFFFFFu) == 0;
+  }
+  good = is_quiet_in_time(state, limits, may_push, cut, is_zero) && good;
+  good = good && (is_zero || is_in_limits(state, limits, force));
+  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
+    if (!good) {
+      motor_N[k] = 0;
+      force[k] = 0;
+    }
+    state.passed[k] = force[k];
+    state.complement[k] = ~force[k];
+  }
+  if (!good) state.armed = kTripped;
+  return good;
+}
+
+void guard_clear(GuardState& state) { state = GuardState{}; }
+
+}  // namespace firmtouch::servo

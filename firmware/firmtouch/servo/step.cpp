@@ -1,0 +1,135 @@
+#include "firmtouch/servo/step.hpp"
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/servo/evaluate.hpp"
+#include "firmtouch/servo/fault.hpp"
+
+namespace firmtouch::servo {
+namespace {
+
+using math::Vec3;
+
+constexpr float kRound = 0x1p-24f;
+// Less than anybody feels or any driver sets: below it, squares would lose digits to underflow.
+constexpr float kLeastLimit_N = 1e-9f;
+
+bool is_between(float value, float low, float high) { return value >= low && value <= high; }
+
+bool is_sound(const Settings& settings) {
+  return is_between(settings.force_limit_N, 0.0f, 1e4f) && is_between(settings.slew_limit_N_per_s, 0.0f, 1e9f) &&
+         is_between(settings.ramp_in_s, 0.0f, 100.0f) && is_between(settings.tick_period_s, 1e-5f, 1.0f);
+}
+
+bool is_within(Vec3 a, float most) {
+  return is_between(a.x, -most, most) && is_between(a.y, -most, most) && is_between(a.z, -most, most);
+}
+
+// Shortens a vector to `most`, rounding included: what comes out is not longer than that in exact arithmetic.
+Vec3 shorten(Vec3 a, float most) {
+  if (!(most >= kLeastLimit_N)) return {};
+  const float kept = most * (1.0f - 8.0f * kRound);
+  const float is = math::length(a);
+  return is <= kept ? a : a * (kept / is);
+}
+
+uint32_t seen_faults(const State& state, const Settings& settings, const LocalModel& model, const StepInput& input) {
+  uint32_t faults = input.reported;
+  if (!is_sound(settings)) faults |= kFaultSettings;
+  if (!is_within(input.position_m, kMostPosition_m) || !is_within(input.velocity_mps, kMostVelocity_mps) ||
+      !math::is_finite(state.force_N)) {
+    faults |= kFaultNotFinite;
+  }
+  if (!is_sound(model)) faults |= kFaultModel;
+  // The difference modulo 2^32, so that a tick counter that wraps is no event.
+  if (static_cast<int32_t>(input.tick - model.expires_tick) > 0) faults |= kFaultStaleModel;
+  return faults;
+}
+
+bool is_on(Mode mode) { return mode == Mode::kRampIn || mode == Mode::kOn; }
+
+uint32_t ramp_out_ticks(const Settings& settings) {
+  const float ticks = kRampOut_s / settings.tick_period_s;
+  return ticks >= 1.0f && ticks <= 1000.0f ? static_cast<uint32_t>(ticks) : 1u;
+}
+
+void begin_ramp_out(State& state, const Settings& settings) {
+  state.mode = Mode::kRampOut;
+  state.ramp_from_N = state.force_N;
+  state.ramp_out_left = ramp_out_ticks(settings);
+}
+
+void change_mode(State& state, const Settings& settings, bool enable) {
+  if ((state.faults & kCutAtOnce) != 0) {
+    state.mode = Mode::kFault;
+  } else if (is_on(state.mode) && (state.faults != 0 || !enable)) {
+    begin_ramp_out(state, settings);
+  } else if (state.mode == Mode::kRampOut) {
+    if (state.ramp_out_left == 0) state.mode = state.faults != 0 ? Mode::kFault : Mode::kOff;
+  } else if (state.faults != 0) {
+    state.mode = Mode::kFault;
+  } else if (state.mode == Mode::kOff && enable) {
+    state.mode = Mode::kRampIn;
+    state.ticks_on = 0;
+  } else if (state.mode > Mode::kFault) {  // no such mode: memory was hit
+    state.mode = Mode::kFault;
+  }
+}
+
+Vec3 ramped_out(State& state, const Settings& settings) {
+  if (state.ramp_out_left > 0) --state.ramp_out_left;
+  const float share =
+      static_cast<float>(state.ramp_out_left) / static_cast<float>(ramp_out_ticks(settings));
+  return shorten(state.ramp_from_N * share, settings.force_limit_N);
+}
+
+Vec3 rendered(State& state, const Settings& settings, const LocalModel& model, const StepInput& input) {
+  if (state.ticks_on < UINT32_MAX) ++state.ticks_on;
+  const float ramp = static_cast<float>(state.ticks_on) * settings.tick_period_s / settings.ramp_in_s;
+  float share = 1.0f;
+  if (ramp < 1.0f) {
+    share = ramp;
+  } else {
+    state.mode = Mode::kOn;
+  }
+  const Vec3 wanted_N =
+      shorten(evaluate(model, input.position_m, input.velocity_mps) * share, settings.force_limit_N);
+  const Vec3 before_N = shorten(state.force_N, settings.force_limit_N);
+  // The sum below rounds by half an ulp of an axis of at most the limit: taken off the step beforehand.
+  const float step_N =
+      settings.slew_limit_N_per_s * settings.tick_period_s - settings.force_limit_N * (4.0f * kRound);
+  return shorten(before_N + shorten(wanted_N - before_N, step_N), settings.force_limit_N);
+}
+
+}  // namespace
+
+StepOutput step(State& state, const Settings& settings, const LocalModel& model, const StepInput& input) {
+  if (input.clear_faults && !input.enable) {
+    state = State{};
+  }
+  uint32_t faults = seen_faults(state, settings, model, input);
+  if (!is_on(state.mode)) faults &= ~kOnlyWhileOn;
+  state.faults |= faults;
+  change_mode(state, settings, input.enable);
+
+  Vec3 force_N;
+  if (is_on(state.mode)) {
+    force_N = rendered(state, settings, model, input);
+  } else if (state.mode == Mode::kRampOut) {
+    force_N = ramped_out(state, settings);
+  }
+  if (!math::is_finite(force_N)) {
+    state.faults |= kFaultNotFinite;
+    state.mode = Mode::kFault;
+    force_N = {};
+  }
+  state.force_N = force_N;
+
+  StepOutput output;
+  output.force_N = force_N;
+  output.mode = state.mode;
+  output.faults = state.faults;
+  output.in_free_radius = math::length(input.position_m - model.made_at_m) < model.free_radius_m;
+  return output;
+}
+
+}  // namespace firmtouch::servo

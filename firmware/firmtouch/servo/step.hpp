@@ -1,0 +1,61 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/servo/local_model.hpp"
+
+namespace firmtouch::servo {
+
+// From a fault that lets the force down to no force: 10 ms at most, without a blow. In ticks: rounded down, at least 1.
+constexpr float kRampOut_s = 0.008f;
+
+enum class Mode : uint8_t {
+  kOff,      // not enabled: no force
+  kRampIn,   // enabled a moment ago: the force grows in over ramp_in_s
+  kOn,
+  kRampOut,  // disabled, or a fault: the last force dies away
+  kFault,    // latched: no force
+};
+
+struct Settings {
+  float force_limit_N = 0;
+  float slew_limit_N_per_s = 0;
+  float ramp_in_s = 0;
+  float tick_period_s = 0;
+};
+
+struct StepInput {
+  math::Vec3 position_m;    // fresh, device frame
+  math::Vec3 velocity_mps;
+  uint32_t tick = 0;
+  bool enable = false;
+  bool clear_faults = false;  // taken only while enable is false
+  uint32_t reported = 0;      // faults that others saw in this tick
+};
+
+struct StepOutput {
+  math::Vec3 force_N;
+  Mode mode = Mode::kOff;
+  uint32_t faults = 0;           // latched
+  bool in_free_radius = false;   // no surface can be between here and where the model was made
+};
+
+struct State {
+  Mode mode = Mode::kOff;
+  uint32_t faults = 0;
+  uint32_t ticks_on = 0;
+  uint32_t ramp_out_left = 0;
+  math::Vec3 force_N;           // of the tick before
+  math::Vec3 ramp_from_N;       // where the ramp out began
+};
+
+/// The force of this tick: the local model evaluated at the fresh position, ramped in, limited in size and in its change,
+/// or none. A function of its arguments.
+/// Bounds: constant; re-entrant. Result, for every input, NaN in any field included:
+///   force finite and |force| <= force_limit_N;
+///   |change| <= slew_limit_N_per_s * tick_period_s, except towards zero: a fault or a lowered limit takes force away
+///   faster, and faults of kCutAtOnce take it away at once;
+///   a fault is latched in the tick that shows it, and no force is left 10 ms later.
+StepOutput step(State& state, const Settings& settings, const LocalModel& model, const StepInput& input);
+
+}  // namespace firmtouch::servo

@@ -1,0 +1,37 @@
+# Toolchain of every Cortex-M board, one of ours or your own:
+#
+#     cmake -DCMAKE_TOOLCHAIN_FILE=.../hal/cmake/arm-none-eabi.cmake -DFIRMTOUCH_BOARD=mps2-an500 ...
+#     cmake -DCMAKE_TOOLCHAIN_FILE=.../hal/cmake/arm-none-eabi.cmake -DFIRMTOUCH_BOARD_DIR=/your/board ...
+#
+# The board's folder holds board.cmake, which sets FIRMTOUCH_CPU_FLAGS. Or give -DFIRMTOUCH_CPU_FLAGS="-mcpu=..." alone.
+
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR arm)
+set(CMAKE_CXX_COMPILER arm-none-eabi-g++ CACHE STRING "C++ compiler of the board")
+set(CMAKE_ASM_COMPILER ${CMAKE_CXX_COMPILER})
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # without a linker script there is no program to try
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES FIRMTOUCH_BOARD FIRMTOUCH_BOARD_DIR FIRMTOUCH_CPU_FLAGS)
+
+if(FIRMTOUCH_BOARD AND NOT FIRMTOUCH_BOARD_DIR)
+  get_filename_component(FIRMTOUCH_BOARD_DIR ${CMAKE_CURRENT_LIST_DIR}/../${FIRMTOUCH_BOARD} ABSOLUTE)
+endif()
+if(FIRMTOUCH_BOARD_DIR AND NOT FIRMTOUCH_CPU_FLAGS)
+  if(NOT EXISTS ${FIRMTOUCH_BOARD_DIR}/board.cmake)
+    message(FATAL_ERROR "No board.cmake in ${FIRMTOUCH_BOARD_DIR}. Set FIRMTOUCH_BOARD to a folder of hal, or "
+                        "FIRMTOUCH_BOARD_DIR to your board's folder (hal/PORTING.md).")
+  endif()
+  include(${FIRMTOUCH_BOARD_DIR}/board.cmake)
+endif()
+if(NOT FIRMTOUCH_CPU_FLAGS)
+  message(FATAL_ERROR "Which controller? Give FIRMTOUCH_BOARD, FIRMTOUCH_BOARD_DIR or FIRMTOUCH_CPU_FLAGS.")
+endif()
+
+# Beside each object its call graph with stack sizes: tools/check/stack.cpp joins them.
+set(CMAKE_CXX_FLAGS_INIT "${FIRMTOUCH_CPU_FLAGS} -fcallgraph-info=su,da")
+set(CMAKE_ASM_FLAGS_INIT "${FIRMTOUCH_CPU_FLAGS}")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostdlib -Wl,--gc-sections")
+set(CMAKE_CXX_STANDARD_LIBRARIES "-lgcc")  # integer division and the like; last on the line
+
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)

@@ -1,0 +1,34 @@
+#pragma once
+#include <stdint.h>
+
+namespace firmtouch::hal {
+
+/// Received bytes on their way from an interrupt (push) to the main loop (pop): one writer, one reader, no lock.
+class ByteRing {
+ public:
+  static constexpr uint32_t kCapacity_bytes = 1024;  // 8 ms of 1 Mbaud, several of the largest frames
+
+  /// Result: false where it is full; the byte is lost, and the frame's CRC will say so.
+  bool push(uint8_t byte) {
+    const uint32_t in = in_;
+    if (in - out_ >= kCapacity_bytes) return false;
+    bytes_[in % kCapacity_bytes] = byte;
+    in_ = in + 1;
+    return true;
+  }
+  uint32_t pop(uint8_t* to, uint32_t capacity) {
+    uint32_t count = 0;
+    uint32_t out = out_;
+    for (; count < capacity && out != in_; ++count, ++out) to[count] = bytes_[out % kCapacity_bytes];
+    out_ = out;
+    return count;
+  }
+  bool empty() const { return in_ == out_; }
+
+ private:
+  // Volatile keeps the compiler from moving the byte behind its index; a single core sees its own writes in order.
+  volatile uint8_t bytes_[kCapacity_bytes] = {};
+  volatile uint32_t in_ = 0, out_ = 0;
+};
+
+}  // namespace firmtouch::hal

@@ -1,0 +1,48 @@
+#pragma once
+#include <stdint.h>
+
+// The registers of the core itself, the same on every Cortex-M (ARM DDI 0403, B3.2).
+namespace firmtouch::hal {
+
+/// A register at `address`.
+inline volatile uint32_t& reg(uint32_t address) {
+  return *reinterpret_cast<volatile uint32_t*>(static_cast<uintptr_t>(address));
+}
+
+constexpr uint32_t kSysTickControl = 0xE000E010;  // b0 enable, b1 interrupt, b2 processor clock
+constexpr uint32_t kSysTickReload = 0xE000E014;   // 24 bits
+constexpr uint32_t kSysTickValue = 0xE000E018;
+constexpr uint32_t kNvicEnable = 0xE000E100;      // one bit an interrupt
+constexpr uint32_t kNvicPriority = 0xE000E400;    // one byte an interrupt
+constexpr uint32_t kSystemPriority3 = 0xE000ED20; // SysTick in bits 24-31
+constexpr uint32_t kHardFaultStatus = 0xE000ED2C;
+constexpr uint32_t kFaultStatus = 0xE000ED28;
+constexpr uint32_t kMpuType = 0xE000ED90, kMpuControl = 0xE000ED94, kMpuRegion = 0xE000ED98;
+constexpr uint32_t kMpuBase = 0xE000ED9C, kMpuSize = 0xE000EDA0;
+
+// Lower is more urgent. A received byte waits in a register for one byte's time only (10 us at 1 Mbaud), so that its
+// handler, 20 instructions long, comes before the servo's.
+constexpr uint32_t kReceivePriority = 0x40;
+constexpr uint32_t kServoPriority = 0x80;
+
+inline void enable_interrupt(uint32_t number, uint32_t priority) {
+  *reinterpret_cast<volatile uint8_t*>(static_cast<uintptr_t>(kNvicPriority + number)) =
+      static_cast<uint8_t>(priority);
+  reg(kNvicEnable + 4 * (number / 32)) = 1u << (number % 32);
+}
+
+/// Interrupts off for the life of this object, as they were afterwards.
+class Uninterrupted {
+ public:
+  Uninterrupted() { asm volatile("mrs %0, primask\n cpsid i" : "=r"(before_)::"memory"); }
+  ~Uninterrupted() { asm volatile("msr primask, %0" ::"r"(before_) : "memory"); }
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+
+ private:
+  uint32_t before_;
+};
+
+using Handler = void (*)();
+
+}  // namespace firmtouch::hal

@@ -1,0 +1,62 @@
+#include <stddef.h>
+#include <stdint.h>
+
+// The four functions that a freestanding compiler may call on its own. Words where both ends are aligned, else bytes:
+// the firmware copies small structs, and an asset is used in place.
+
+namespace {
+
+using Word = uint32_t __attribute__((__may_alias__));  // copies any type
+
+bool aligned(const void* a, const void* b) {
+  return ((reinterpret_cast<uintptr_t>(a) | reinterpret_cast<uintptr_t>(b)) & 3u) == 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+void* memcpy(void* __restrict to, const void* __restrict from, size_t count) {
+  uint8_t* out = static_cast<uint8_t*>(to);
+  const uint8_t* in = static_cast<const uint8_t*>(from);
+  if (aligned(to, from)) {
+    for (; count >= 4; count -= 4, out += 4, in += 4) {
+      *reinterpret_cast<Word*>(out) = *reinterpret_cast<const Word*>(in);
+    }
+  }
+  for (; count != 0; --count) *out++ = *in++;
+  return to;
+}
+
+void* memmove(void* to, const void* from, size_t count) {
+  uint8_t* out = static_cast<uint8_t*>(to);
+  const uint8_t* in = static_cast<const uint8_t*>(from);
+  if (reinterpret_cast<uintptr_t>(out) - reinterpret_cast<uintptr_t>(in) >= count) {
+    for (; count != 0; --count) *out++ = *in++;  // does not run into what is still to be read
+  } else {
+    while (count != 0) --count, out[count] = in[count];
+  }
+  return to;
+}
+
+void* memset(void* to, int value, size_t count) {
+  uint8_t* out = static_cast<uint8_t*>(to);
+  const uint32_t byte = static_cast<uint32_t>(value) & 0xFFu;
+  if (aligned(to, nullptr)) {
+    const uint32_t word = byte * 0x01010101u;
+    for (; count >= 4; count -= 4, out += 4) *reinterpret_cast<Word*>(out) = word;
+  }
+  for (; count != 0; --count) *out++ = static_cast<uint8_t>(byte);
+  return to;
+}
+
+int memcmp(const void* left, const void* right, size_t count) {
+  const uint8_t* a = static_cast<const uint8_t*>(left);
+  const uint8_t* b = static_cast<const uint8_t*>(right);
+  for (; count != 0; --count, ++a, ++b) {
+    if (*a != *b) return *a < *b ? -1 : 1;
+  }
+  return 0;
+}
+
+}  // extern "C"

@@ -1,0 +1,65 @@
+#include "firmtouch/hal/board.hpp"
+
+#include "cortex-m/asset_place.hpp"
+#include "firmtouch/hal/motors.hpp"
+#include "firmtouch/hal/watchdog.hpp"
+#include "registers.hpp"
+#include "cortex-m/semihosting.hpp"
+#include "cortex-m/stack.hpp"
+
+extern "C" {
+void uart1_receive_handler();
+void hard_fault_handler();
+}
+
+namespace firmtouch::hal {
+namespace {
+
+constexpr uint32_t kConsoleDivider = kCore_MHz * 1000000 / 115200;
+
+// Interrupts 0 to 2. Further ones are not enabled.
+[[gnu::section(".vectors.board"), gnu::used]] const Handler kBoardVectors[] = {
+    hard_fault_handler, hard_fault_handler, uart1_receive_handler};
+
+}  // namespace
+
+void board_begin() {
+  motors_off();
+  reg(kUart0 + kUartDivider) = kConsoleDivider;
+  reg(kUart0 + kUartControl) = kTransmitOn;
+  clock_begin();
+  link_begin();
+}
+
+const char* board_name() { return "mps2-an500"; }
+
+core::Bytes board_asset() { return linked_or_loaded_asset(); }
+
+void board_print(const char* text) {
+  if ((reg(kUart0 + kUartControl) & kTransmitOn) == 0) return;  // a fault before board_begin()
+  for (; *text != 0; ++text) {
+    while ((reg(kUart0 + kUartState) & kTransmitFull) != 0) {
+    }
+    reg(kUart0 + kUartData) = static_cast<uint8_t>(*text);
+  }
+}
+
+void board_exit(int status) {
+  motors_off();
+  semihosting_exit(status);
+  for (;;) asm volatile("wfi");
+}
+
+uint32_t board_stack_high_bytes() { return stack_used_bytes(); }
+
+// The watchdog interrupts at the first time-out (as NMI: fault.cpp switches the motors off and stops) and resets the
+// chip at the second.
+void watchdog_begin(uint32_t timeout_us) {
+  const uint32_t longest_us = UINT32_MAX / kCore_MHz;
+  reg(kWatchdog + 0x0) = (timeout_us < longest_us ? timeout_us : longest_us) * kCore_MHz;
+  reg(kWatchdog + 0x8) = 3;
+}
+
+void watchdog_feed() { reg(kWatchdog + 0xC) = 1; }
+
+}  // namespace firmtouch::hal

@@ -1,0 +1,48 @@
+#include "firmtouch/hal/clock.hpp"
+
+#include "registers.hpp"
+#include "cortex-m/servo_timer.hpp"
+#include "cortex-m/work.hpp"
+
+// TIMER0 counts down at the core's clock. Under an emulator's -icount shift=N an instruction takes 2^N ns, so its ticks
+// of 40 ns count instructions: at shift=6 exactly 1.6 an instruction.
+
+namespace firmtouch::hal {
+namespace {
+
+uint32_t g_last_ticks = 0;
+uint32_t g_rest_ticks = 0;  // below one microsecond
+uint32_t g_us = 0;
+uint32_t g_work_per_1000 = 0;
+
+}  // namespace
+
+void clock_begin() {
+  reg(kTimer0 + 0x8) = UINT32_MAX;
+  reg(kTimer0 + 0x4) = UINT32_MAX;
+  reg(kTimer0 + 0x0) = 1;
+  g_last_ticks = clock_work();
+  g_work_per_1000 = measure_work_per_1000();
+}
+
+// The counter wraps every 171 s, the microseconds must not: whoever asks carries them on. The servo asks every tick.
+uint32_t clock_us() {
+  const Uninterrupted here;
+  const uint32_t now_ticks = clock_work();
+  const uint32_t passed_ticks = now_ticks - g_last_ticks;
+  g_last_ticks = now_ticks;
+  g_us += passed_ticks / kCore_MHz;
+  g_rest_ticks += passed_ticks % kCore_MHz;
+  if (g_rest_ticks >= kCore_MHz) g_rest_ticks -= kCore_MHz, ++g_us;
+  return g_us;
+}
+
+uint32_t clock_work() { return UINT32_MAX - reg(kTimer0 + 0x4); }
+
+uint32_t clock_work_per_1000() { return g_work_per_1000; }
+
+void clock_start_servo(uint32_t period_us, void (*tick)()) {
+  start_servo_timer(period_us, kCore_MHz, tick);
+}
+
+}  // namespace firmtouch::hal

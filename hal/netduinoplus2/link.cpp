@@ -1,0 +1,48 @@
+#include "firmtouch/hal/link.hpp"
+
+#include "cortex-m/byte_ring.hpp"
+#include "cortex-m/file_link.hpp"
+#include "registers.hpp"
+
+// USART2 at 1 Mbaud, or files of the emulator's machine.
+
+namespace firmtouch::hal {
+namespace {
+
+constexpr uint32_t kDivider = kUsart_MHz;  // 1 Mbaud
+
+ByteRing g_received;
+
+}  // namespace
+
+void link_begin() {
+  if (file_link_begin()) return;
+  reg(kUsart2 + kUsartDivider) = kDivider;
+  reg(kUsart2 + kUsartControl) = kUsartOn | kTransmitOn | kReceiveOn | kReceiveInterrupt;
+  enable_interrupt(kUsart2Interrupt, kReceivePriority);
+}
+
+extern "C" void usart2_handler() {
+  while ((reg(kUsart2 + kUsartState) & kReceived) != 0) {
+    g_received.push(static_cast<uint8_t>(reg(kUsart2 + kUsartData)));
+  }
+}
+
+uint32_t link_read(uint8_t* to, uint32_t capacity) { return g_received.pop(to, capacity); }
+
+uint32_t link_write(const uint8_t* from, uint32_t count) {
+  if (file_link_is_open()) return file_link_write(from, count);
+  uint32_t sent = 0;
+  while (sent < count && (reg(kUsart2 + kUsartState) & kTransmitEmpty) != 0) {
+    reg(kUsart2 + kUsartData) = from[sent++];
+  }
+  return sent;
+}
+
+void link_wait() {
+  if (file_link_is_open()) return file_link_wait(g_received);
+  const Uninterrupted here;  // a byte that comes after the check still ends the wait, because it is pending
+  if (g_received.empty()) asm volatile("wfi");
+}
+
+}  // namespace firmtouch::hal

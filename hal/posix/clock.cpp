@@ -1,0 +1,44 @@
+#include "firmtouch/hal/clock.hpp"
+
+#include <time.h>
+
+#include <thread>
+
+namespace firmtouch::hal {
+namespace {
+
+constexpr uint64_t kNs_per_s = 1000000000;
+
+uint64_t now_ns() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<uint64_t>(now.tv_sec) * kNs_per_s + static_cast<uint64_t>(now.tv_nsec);
+}
+
+}  // namespace
+
+uint32_t clock_us() { return static_cast<uint32_t>(now_ns() / 1000); }
+
+// A process has no counter that tells its own instructions: 0 ticks per 1,000 says that work()
+// means nothing here.
+uint32_t clock_work() { return 0; }
+uint32_t clock_work_per_1000() { return 0; }
+
+// A thread stands for the timer's interrupt. As with an interrupt the next tick is never early, and
+// one that came late does not move those after it.
+void clock_start_servo(uint32_t period_us, void (*tick)()) {
+  std::thread([period_us, tick] {
+    uint64_t next_ns = now_ns();
+    for (;;) {
+      next_ns += static_cast<uint64_t>(period_us) * 1000;
+      timespec until{};
+      until.tv_sec = static_cast<time_t>(next_ns / kNs_per_s);
+      until.tv_nsec = static_cast<long>(next_ns % kNs_per_s);
+      while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
+      }
+      tick();
+    }
+  }).detach();
+}
+
+}  // namespace firmtouch::hal

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace firmtouch::hal {
+
+struct Options {
+  const char* link =
+      nullptr;  // unix:PATH, tcp:HOST:PORT, listen:PATH, fd:N, pty, or a serial device
+  const char* asset = nullptr;  // file
+};
+
+/// The command line, read once. Ends the process with a message where it makes no sense (status 2)
+/// or was --help (0).
+const Options& options();
+
+}  // namespace firmtouch::hal

@@ -1,0 +1,28 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "firmtouch/core/span.hpp"
+
+namespace firmtouch::host_sim {
+
+/// An asset file in memory, 16-byte aligned as the firmware wants it.
+class AssetFile {
+ public:
+  /// Throws Refused naming the file where it cannot be read.
+  explicit AssetFile(const std::string& path);
+
+  core::Bytes bytes() const;
+  const std::string& path() const { return path_; }
+
+ private:
+  struct alignas(16) Block {
+    uint8_t bytes[16];
+  };
+  std::string path_;
+  std::vector<Block> blocks_;
+  uint32_t size_ = 0;
+};
+
+}  // namespace firmtouch::host_sim

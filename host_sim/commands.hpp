@@ -1,0 +1,37 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace firmtouch::host_sim {
+
+/// Wrong words on the command line.
+struct Usage : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// `run ...`, `replay ...`, `scenario ...`, `--help`. Result: the exit code; throws Usage or Refused.
+int run_command(const std::vector<std::string>& words);
+
+int run_scenario(const std::vector<std::string>& words);
+int replay_log(const std::vector<std::string>& words);
+int make_scenario(const std::vector<std::string>& words);
+
+/// Options after a command: takes `--name VALUE` and `--name=VALUE`, collects the rest.
+class Options {
+ public:
+  /// `with_value`: the options that exist. Throws Usage for another one, or one without its value.
+  Options(const std::vector<std::string>& words, const std::vector<std::string>& with_value);
+  /// The last value given; empty where there is none.
+  std::string value(const std::string& name) const;
+  std::vector<std::string> values(const std::string& name) const;
+  bool help() const { return help_; }
+  const std::vector<std::string>& operands() const { return operands_; }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> given_;
+  std::vector<std::string> operands_;
+  bool help_ = false;
+};
+
+}  // namespace firmtouch::host_sim

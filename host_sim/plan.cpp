@@ -1,0 +1,114 @@
+#include "host_sim/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace firmtouch::host_sim {
+namespace {
+
+// All of these are shares of the diagonal; the demo's part of 0.14 m gets its design's own 3 mm tool.
+constexpr double kToolRadius = 0.0212;
+constexpr double kHover = 0.18;         // where the hand begins, above the guide's start
+constexpr double kSnap = 0.04, kRelease = 0.12;
+constexpr double kPressDeep = 0.045;    // how far behind the surface the hand aims
+constexpr double kMaxPress_m = 0.016;   // 4 N on the default spring and grip
+constexpr double kRoundTime_s = 4.0;    // once along the guide
+constexpr double kMaxSpeed = 0.9;       // diagonals a second: beyond it a hand would not follow a guide
+constexpr double kMaxToolRadius_m = 0.1;  // as the parameter table has it
+
+class Lines {
+ public:
+  template <class... T>
+  void add(const char* format, T... values) {
+    char text[200];
+    std::snprintf(text, sizeof text, format, values...);
+    text_ += text;
+    text_ += '\n';
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+struct Box {
+  Vec low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  void take(Vec p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+Box box_of(const World& world) {
+  Box box;
+  if (world.has_surface())
+    for (const mesh::Vertex& v : world.mesh().vertices())
+      box.take(Vec{static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)} + world.origin_m());
+  for (const Vec& p : world.guide_m()) box.take(p);
+  return box;
+}
+
+// Away from the surface at the place nearest to `p`; away from the middle of all where there is none.
+Vec outward(const World& world, Vec p, const Box& box) {
+  return world.has_surface() ? world.nearest(p).normal : unit(p - (box.low + box.high) * 0.5);
+}
+
+}  // namespace
+
+double diagonal_m(const World& world) {
+  const Box box = box_of(world);
+  return norm(box.high - box.low);
+}
+
+std::string plan_scenario(const World& world, const std::string& asset) {
+  const Box box = box_of(world);
+  const double diagonal = norm(box.high - box.low);
+  const double tool = std::min(kToolRadius * diagonal, kMaxToolRadius_m);
+  const double deep = std::min(kPressDeep * diagonal, kMaxPress_m);
+  const Vec middle = (box.low + box.high) * 0.5;
+  const Vec top = {middle.x, middle.y, box.high.z + kHover * diagonal};
+  const Vec first = world.has_guide() ? world.guide_at(0) : world.has_surface() ? world.nearest(top).point_m : top;
+  const Vec away = outward(world, first, box);
+  const Vec start = first + away * (kHover * diagonal);
+  const Vec half = {std::max(0.5, (box.high.x - box.low.x) + diagonal), std::max(0.5, (box.high.y - box.low.y) + diagonal),
+                    std::max(0.5, (box.high.z - box.low.z) + diagonal)};
+  Lines out;
+  out.add("# A hand explores %s: made from its bounding box by `firmtouch-sim scenario`.", asset.c_str());
+  out.add("asset %s", asset.c_str());
+  out.add("rate 1000 Hz\n\n# the device");
+  out.add("mass 0.075 kg\nviscous_friction 0.5 N*s/m\ncoulomb_friction 0.02 N\nencoder_quantum 10 um\nmotor_limit 12 N");
+  out.add("origin_x %.5g m\norigin_y %.5g m\norigin_z %.5g m", middle.x, middle.y, middle.z);
+  out.add("workspace_half_x %.4g m\nworkspace_half_y %.4g m\nworkspace_half_z %.4g m", half.x, half.y, half.z);
+  out.add("\n# what is felt\ntool_radius %.4g mm\ncontact_stiffness 1200 N/m\nguide_stiffness 400 N/m", tool * 1e3);
+  out.add("guide_snap %.4g mm\nguide_release %.4g mm", kSnap * diagonal * 1e3, kRelease * diagonal * 1e3);
+  out.add("\n# the hand\nhand_stiffness 400 N/m\nhand_damping 4 N*s/m");
+  out.add("start %.6g %.6g %.6g m\nhold for 0.4 s", start.x, start.y, start.z);
+  if (world.has_surface()) {
+    const World::Surface under = world.nearest(start);
+    const Vec aim = under.point_m + under.normal * (tool - 1.3 * deep);
+    out.add("press %.6g %.6g %.6g m for 1.6 s", aim.x, aim.y, aim.z);
+  }
+  if (world.has_guide()) {
+    const double length = world.guide_length_m();
+    const double speed = std::min(length / kRoundTime_s, kMaxSpeed * diagonal);
+    const double time = std::min(length / speed, 3 * kRoundTime_s);
+    out.add("follow guide at %.4g mm/s for %.4g s", speed * 1e3, time);
+    if (world.has_surface()) out.add("follow guide at %.4g mm/s for %.4g s pressing %.4g mm", speed * 1e3, time, deep * 1e3);
+  }
+  if (world.has_surface()) {
+    const double length = world.has_guide() ? world.guide_length_m() : 0;
+    const double speed = std::min(length / kRoundTime_s, kMaxSpeed * diagonal);
+    const double time = length > 0 ? std::min(length / speed, 3 * kRoundTime_s) : 0;
+    const double approach = length > 0 ? norm(start - first) / speed : 0;
+    const double press_begin = 0.4 + 1.6 + approach + 2 * time;
+    const Vec here = length > 0 ? world.guide_at(2 * speed * time) : start;
+    const World::Surface under = world.nearest(here);
+    const Vec aim = under.point_m + under.normal * (tool - deep);
+    out.add("press %.6g %.6g %.6g m for 2 s", aim.x, aim.y, aim.z);
+    out.add("\n# the operator, in the middle of the last press\nat %.4g s emergency_stop", press_begin + 1.0);
+  }
+  return out.text();
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,190 @@
+#include "host_sim/report/chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace firmtouch::host_sim {
+namespace {
+
+// Text that lines may run behind.
+const std::string kOnCard = "paint-order=\"stroke\" stroke=\"var(--card)\" stroke-width=\"4\" ";
+
+class Plot {
+ public:
+  Plot(const Chart& chart, const TimeAxis& axis, const ChartSize& size) : chart_(chart), axis_(axis), size_(size) {
+    double most = chart.limit;
+    for (const Series& s : chart.series)
+      for (const double v : s.values) most = std::max(most, v);
+    if (chart.is_logarithmic) {
+      high_ = 1;
+      while (high_ < most * 1.05) high_ *= 2;
+      for (double v = 1; v * 1.5 <= high_; v *= 4) marks_.push_back(v);
+    } else {
+      marks_ = round_numbers(0, std::max(most * 1.04, 1e-9), 4);
+      high_ = std::max(most * 1.04, marks_.back());
+    }
+  }
+
+  double x(double time_s) const {
+    return size_.left + (size_.width - size_.left - size_.right) * time_s / axis_.seconds;
+  }
+  double y(double value) const {
+    const double share = chart_.is_logarithmic ? std::log(std::max(value, 1.0)) / std::log(high_) : value / high_;
+    return base() - (base() - size_.top) * std::clamp(share, 0.0, 1.0);
+  }
+  double base() const { return size_.height - size_.bottom; }
+
+  std::string frame() const;
+  std::string bands() const;
+  std::string line(const Series& series) const;
+  std::string limit() const;
+  std::string events() const;
+
+ private:
+  const Chart& chart_;
+  const TimeAxis& axis_;
+  const ChartSize& size_;
+  double high_ = 1;
+  std::vector<double> marks_;
+};
+
+std::string text_at(double x, double y, const std::string& style, const std::string& text) {
+  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" " + style + ">" + html_of(text) + "</text>";
+}
+
+std::string rule(double x1, double y1, double x2, double y2, const std::string& style) {
+  return "<line x1=\"" + fixed(x1, 1) + "\" y1=\"" + fixed(y1, 1) + "\" x2=\"" + fixed(x2, 1) + "\" y2=\"" + fixed(y2, 1) +
+         "\" " + style + "/>";
+}
+
+int decimals_of(const std::vector<double>& marks) {
+  const double step = marks.size() > 1 ? marks[1] - marks[0] : 1;
+  return step >= 1 ? 0 : std::min(4, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+}
+
+std::string Plot::frame() const {
+  std::string svg;
+  const double right = size_.width - size_.right;
+  const int decimals = chart_.is_logarithmic ? 0 : decimals_of(marks_);
+  for (const double mark : marks_) {
+    svg += rule(size_.left, y(mark), right, y(mark), "stroke=\"var(--grid)\"");
+    svg += text_at(size_.left - 8, y(mark) + 4, "text-anchor=\"end\" fill=\"var(--soft)\"", fixed(mark, decimals));
+  }
+  const std::vector<double> times = round_numbers(0, axis_.seconds, 10);
+  const int time_decimals = decimals_of(times);
+  for (const double time : times) {
+    if (time > axis_.seconds * 1.0001) continue;
+    svg += rule(x(time), base(), x(time), base() + 4, "stroke=\"var(--line)\"");
+    const bool at_end = x(time) > right - 12;
+    svg += text_at(x(time), base() + 18, std::string("text-anchor=\"") + (at_end ? "end" : "middle") + "\" fill=\"var(--soft)\"",
+                   fixed(time, time_decimals) + (time > 0 ? "" : " s"));
+  }
+  svg += rule(size_.left, base(), right, base(), "stroke=\"var(--line)\"");
+  return svg + text_at(size_.left - 8, size_.top - 5, "text-anchor=\"end\" fill=\"var(--soft)\" font-style=\"italic\"", chart_.unit);
+}
+
+std::string Plot::bands() const {
+  std::string svg;
+  const auto band = [&](const TimeAxis::Spans& spans, double top, const char* colour) {
+    for (const auto& [from, to] : spans)
+      svg += "<rect x=\"" + fixed(x(from), 1) + "\" y=\"" + fixed(top, 1) + "\" width=\"" +
+             fixed(std::max(0.6, x(to) - x(from)), 1) + "\" height=\"3\" fill=\"" + colour + "\"/>";
+  };
+  band(axis_.contact_s, size_.top - 9, "var(--second)");
+  band(axis_.guide_s, size_.top - 4, "var(--good)");
+  return svg;
+}
+
+// A column of pixels shows the least and the greatest of its ticks, so that no peak is lost.
+std::string Plot::line(const Series& series) const {
+  const size_t n = series.values.size();
+  const size_t columns = std::min<size_t>(n, static_cast<size_t>(size_.width - size_.left - size_.right));
+  std::string points;
+  const auto add = [&](size_t i) {
+    points += (points.empty() ? "" : " ") + fixed(x(axis_.seconds * static_cast<double>(i) / static_cast<double>(n)), 1) + "," +
+              fixed(y(series.values[i]), 1);
+  };
+  for (size_t c = 0; c < columns; ++c) {
+    const size_t begin = c * n / columns, end = std::max(begin + 1, (c + 1) * n / columns);
+    size_t low = begin, high = begin;
+    for (size_t i = begin; i < end; ++i) {
+      if (series.values[i] < series.values[low]) low = i;
+      if (series.values[i] > series.values[high]) high = i;
+    }
+    add(std::min(low, high));
+    if (std::fabs(y(series.values[low]) - y(series.values[high])) > 0.3) add(std::max(low, high));
+  }
+  std::string svg;
+  if (series.is_area)
+    svg += "<polygon points=\"" + fixed(x(0), 1) + "," + fixed(base(), 1) + " " + points + " " + fixed(x(axis_.seconds), 1) +
+           "," + fixed(base(), 1) + "\" fill=\"" + series.colour + "\" fill-opacity=\".14\"/>";
+  return svg + "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + series.colour + "\" stroke-width=\"" +
+         fixed(series.width, 1) + "\" stroke-linejoin=\"round\"/>";
+}
+
+std::string Plot::limit() const {
+  if (!(chart_.limit > 0)) return "";
+  const double at = y(chart_.limit), right = size_.width - size_.right;
+  return rule(size_.left, at, right, at, "stroke=\"var(--bad)\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\"") +
+         text_at(size_.left + 6, at + 14, kOnCard + "fill=\"var(--bad)\"", chart_.limit_label);
+}
+
+std::string Plot::events() const {
+  std::string svg;
+  for (const auto& [time, name] : axis_.events) {
+    if (time > axis_.seconds) continue;
+    const bool at_end = x(time) > size_.width * 0.8;
+    svg += rule(x(time), size_.top, x(time), base(), "stroke=\"var(--bad)\" stroke-dasharray=\"2 3\"");
+    svg += text_at(x(time) + (at_end ? -5 : 5), size_.top + 13, kOnCard + "text-anchor=\"" + (at_end ? "end" : "start") +
+                   "\" fill=\"var(--bad)\"", name);
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::vector<double> round_numbers(double low, double high, int count) {
+  const double raw = (high - low) / count;
+  const double ten = std::pow(10, std::floor(std::log10(raw)));
+  const double step = ten * (raw / ten > 5 ? 10 : raw / ten > 2 ? 5 : raw / ten > 1 ? 2 : 1);
+  std::vector<double> numbers;
+  for (int i = 0; low + i * step <= high * (1 + 1e-9); ++i) numbers.push_back(low + i * step);
+  return numbers;
+}
+
+std::string fixed(double value, int decimals) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string grouped(uint64_t value) {
+  std::string text = std::to_string(value);
+  for (size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, "\u202f");  // narrow no-break space
+  return text;
+}
+
+std::string html_of(const std::string& text) {
+  std::string html;
+  for (const char c : text)
+    html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return html;
+}
+
+std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& size, int index) {
+  const Plot plot(chart, axis, size);
+  std::string svg = "<svg class=\"chart\" viewBox=\"0 0 " + fixed(size.width, 0) + " " + fixed(size.height, 0) +
+                    "\" data-chart=\"" + std::to_string(index) + "\" data-left=\"" + fixed(size.left, 0) +
+                    "\" data-right=\"" + fixed(size.width - size.right, 0) +
+                    "\" font-family=\"system-ui,Segoe UI,Roboto,Helvetica,Arial,sans-serif\" font-size=\"12\" role=\"img\" "
+                    "aria-label=\"" + html_of(chart.title) + " over time\">";
+  svg += plot.frame() + plot.bands();
+  for (const Series& series : chart.series) svg += plot.line(series);
+  svg += plot.limit() + plot.events();
+  svg += "<line class=\"cursor\" y1=\"" + fixed(size.top, 0) + "\" y2=\"" + fixed(plot.base(), 0) +
+         "\" stroke=\"var(--ink)\" stroke-opacity=\".55\" style=\"display:none\"/>";
+  return svg + "</svg>";
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host_sim/report/chart.hpp"
+#include "host_sim/report/report.hpp"
+
+namespace firmtouch::host_sim {
+
+/// The charts of a run, the most telling first: force, penetration, distance and its bound, steps, guide, speed, and
+/// instructions where they were counted.
+struct RunCharts {
+  std::vector<Chart> charts;
+  std::vector<std::string> notes;  // one a chart: what to look at
+  TimeAxis axis;
+};
+
+RunCharts make_charts(const Report& report);
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,161 @@
+#include "host_sim/scenario_words.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "host_sim/units.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr double kMaxReach_m = 100;  // no coordinate of a device is farther; a slip of the unit is
+constexpr double kMaxSpeed_mps = 10;
+constexpr double kMaxTime_s = 3600;
+
+std::string short_number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+// Levenshtein distance, for "did you mean".
+size_t edits(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t swap = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({swap, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+Words::Words(const std::string& line, std::string place, const std::vector<std::string>& names, bool overrides)
+    : line_(line.substr(0, line.find('#'))), place_(std::move(place)), names_(names), overrides_(overrides) {
+  const char* blank = " \t\r";
+  for (size_t i = line_.find_first_not_of(blank); i != std::string::npos;) {
+    const size_t end = line_.find_first_of(blank, i);
+    words_.push_back(line_.substr(i, end - i));
+    offsets_.push_back(i);
+    i = end == std::string::npos ? end : line_.find_first_not_of(blank, end);
+  }
+}
+
+void Words::refuse(const std::string& what) const { throw Refused(place_ + ": " + what); }
+
+void Words::refuse_unknown(const std::string& kind, const std::string& name) const {
+  const std::string* nearest = nullptr;
+  size_t fewest = name.size() / 3 + 2;
+  for (const std::string& known : names_) {
+    const size_t count = edits(name, known);
+    if (count < fewest) fewest = count, nearest = &known;
+  }
+  for (const std::string& known : names_)  // "stiffness" means contact_stiffness more likely than nothing
+    if (nearest == nullptr && name.size() > 3 && known.find(name) != std::string::npos) nearest = &known;
+  refuse("unknown " + kind + " `" + name + "`" +
+         (nearest != nullptr ? "; did you mean `" + *nearest + "`?"
+                             : "; `firmtouch-sim run --help` lists the known ones"));
+}
+
+std::string Words::next(const std::string& wanted) {
+  if (!more()) refuse("the line ends where " + wanted + " should stand");
+  return words_[at_++];
+}
+
+bool Words::take(const std::string& word) {
+  if (!more() || words_[at_] != word) return false;
+  ++at_;
+  return true;
+}
+
+void Words::expect(const std::string& word) {
+  const std::string found = next("`" + word + "`");
+  if (found != word) refuse("`" + word + "` is expected where `" + found + "` stands");
+}
+
+std::string Words::rest(const std::string& wanted) {
+  if (!more()) refuse("the line ends where " + wanted + " should stand");
+  const size_t begin = offsets_[at_];
+  at_ = words_.size();
+  return line_.substr(begin, line_.find_last_not_of(" \t\r") + 1 - begin);
+}
+
+void Words::end() {
+  if (more()) refuse("`" + words_[at_] + "` is more than this statement takes");
+}
+
+double Words::number(const std::string& name) {
+  const std::string text = next("the value of `" + name + "`");
+  const std::optional<double> value = read_number(text);
+  if (!value) refuse("`" + text + "` is no number for `" + name + "`");
+  return *value;
+}
+
+double Words::in_si(const std::string& name, double value, const std::string& unit) {
+  if (!more() && overrides_) return value;
+  const std::string text = next("the unit of `" + name + "` (" + units_like(unit) + ")");
+  const std::optional<double> si = to_si(value, text, unit);
+  if (!si) refuse("`" + text + "` is no unit for `" + name + "`; write one of: " + units_like(unit));
+  return *si;
+}
+
+double Words::ranged(const std::string& name, double value, const std::string& unit, double low,
+                     double high) const {
+  if (!(value >= low && value <= high))
+    refuse("`" + name + "` = " + short_number(value) + " " + unit + " is outside " + short_number(low) + " to " +
+           short_number(high) + " " + unit);
+  return value;
+}
+
+double Words::quantity(const std::string& name, const std::string& unit, double low, double high) {
+  const double value = number(name);
+  return ranged(name, unit.empty() ? value : in_si(name, value, unit), unit, low, high);
+}
+
+Vec Words::point(const std::string& name) {
+  const double x = number(name), y = number(name), z = number(name);
+  const double scale = in_si(name, 1, "m");
+  const auto coordinate = [&](double value) {
+    return ranged(name, value * scale, "m", -kMaxReach_m, kMaxReach_m);
+  };
+  return {coordinate(x), coordinate(y), coordinate(z)};
+}
+
+bool is_move(const std::string& name) {
+  return name == "move" || name == "hold" || name == "press" || name == "follow";
+}
+
+Move read_move(const std::string& name, Words& words) {
+  Move move;
+  if (name == "move") {
+    move.kind = Move::Kind::kMove;
+    words.expect("to");
+    move.to_m = words.point("move");
+    words.expect("at");
+    move.speed_mps = words.quantity("move ... at", "m/s", 1e-6, kMaxSpeed_mps);
+    return move;
+  }
+  if (name == "press") {
+    move.kind = Move::Kind::kPress;
+    move.to_m = words.point("press");
+  } else if (name == "follow") {
+    move.kind = Move::Kind::kFollow;
+    words.expect("guide");
+    words.expect("at");
+    move.speed_mps = words.quantity("follow ... at", "m/s", 1e-6, kMaxSpeed_mps);
+  }
+  words.expect("for");
+  move.time_s = words.quantity(name + " ... for", "s", 0.001, kMaxTime_s);
+  if (move.kind == Move::Kind::kFollow && words.take("pressing"))
+    move.press_m = words.quantity("pressing", "m", 0, 1);
+  return move;
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,187 @@
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "app/app_process.hpp"
+#include "app/tick_source.hpp"
+#include "firmtouch/asset/container.hpp"
+#include "firmtouch/asset/opening.hpp"
+#include "firmtouch/link/handshake.hpp"
+#include "harness/test.hpp"
+
+namespace firmtouch::app_test {
+namespace {
+
+uint32_t asset_crc() {
+  static AssetFile file(FIRMTOUCH_TEST_ASSET);
+  static asset::Container container;
+  static const bool is_open = asset::open(file.bytes(), container).ok();
+  CHECK(is_open);
+  return container.crc();
+}
+
+link::HelloReply greet(AppProcess& app, uint32_t mode, uint32_t crc) {
+  link::Hello hello;
+  hello.host = identity(crc);
+  hello.mode = mode;
+  link::HelloReply reply;
+  for (;;) {
+    app.send(link::kHello, hello);
+    const Message message = app.receive(link::kHelloReply);
+    CHECK(message.take(reply));
+    if (message.type == 0 || (reply.refused & link::kRefusedNotReady) == 0) return reply;
+  }
+}
+
+// A folder of this test's own, gone with it.
+struct Folder {
+  Folder() {
+    const char* base = std::getenv("TMPDIR");
+    name = std::string(base != nullptr ? base : "/tmp") + "/firmtouch-app-XXXXXX";
+    CHECK(::mkdtemp(name.data()) != nullptr);
+  }
+  ~Folder() { ::rmdir(name.c_str()); }
+  std::string name;
+};
+
+TEST(LiveTicksComeFromTheTimerNumberedAndCounted) {
+  AppProcess app(FIRMTOUCH_TEST_ASSET);
+  CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
+  link::Log before;
+  CHECK(app.receive(link::kLog).take(before));
+  for (uint32_t i = 0; i < 200; ++i) {
+    link::Log log;
+    CHECK(app.receive(link::kLog).take(log));
+    CHECK_EQ(log.number, before.number + 1);
+    CHECK_EQ(log.record.input.tick - before.record.input.tick, 1 + log.dropped - before.dropped);
+    CHECK_EQ(log.record.input.lines, record::kLineEncoderFault);  // a process has no joints
+    for (const float force_N : log.record.output.motor_N) CHECK_EQ(force_N, 0.0f);
+    before = log;
+  }
+}
+
+TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
+  AppProcess app(FIRMTOUCH_TEST_ASSET);
+  CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
+  const auto result_of = [&](uint32_t index, float value) {
+    link::SetParam set;
+    set.index = index;
+    set.value = value;
+    app.send(link::kSetParam, set);
+    link::Ack ack;
+    CHECK(app.receive(link::kAck).take(ack));
+    CHECK_EQ(ack.index, index);
+    return ack.result;
+  };
+  CHECK_EQ(result_of(params::kCount, 1.0f), link::kAckNoSuchParameter);
+  CHECK_EQ(result_of(UINT32_MAX, 1.0f), link::kAckNoSuchParameter);
+  CHECK_EQ(result_of(params::kForceLimit, NAN), link::kAckOutOfRange);
+  CHECK_EQ(result_of(params::kForceLimit, INFINITY), link::kAckOutOfRange);
+  CHECK_EQ(result_of(params::kForceLimit, -1.0f), link::kAckOutOfRange);
+
+  link::SetParam set;
+  set.index = params::kForceLimit;
+  set.value = 3.5f;
+  app.send(link::kSetParam, set);
+  uint32_t acknowledged = 0, commands = 0;
+  for (uint32_t i = 0; i < 300; ++i) {
+    const Message message = app.receive();
+    link::Ack ack;
+    link::Log log;
+    if (message.type == link::kAck && message.take(ack) && ack.result == link::kAckTaken)
+      ++acknowledged;
+    if (message.type != link::kLog || !message.take(log) || log.record.input.command == 0) continue;
+    CHECK_EQ(log.record.input.command, 1 + params::kForceLimit);
+    CHECK_EQ(log.record.input.command_value, 3.5f);
+    ++commands;
+  }
+  CHECK_EQ(acknowledged, 1u);
+  CHECK_EQ(commands, 1u);
+}
+
+TEST(AServoThatRunsFromItsTimerIsNotTakenIntoLockStep) {
+  AppProcess app(FIRMTOUCH_TEST_ASSET);
+  CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
+  CHECK_EQ(greet(app, link::kModeLockStep, asset_crc()).refused, link::kRefusedBusy);
+}
+
+TEST(ADamagedAssetIsRefusedByItsRuleAndTheLinkStaysAlive) {
+  AssetFile file(FIRMTOUCH_TEST_ASSET);
+  file.data()[file.bytes().size() / 2] ^= 1;
+  Folder folder;
+  const std::string path = folder.name + "/damaged.fta";
+  std::FILE* out = std::fopen(path.c_str(), "wb");
+  CHECK(out != nullptr);
+  if (out == nullptr) return;
+  CHECK_EQ(std::fwrite(file.data(), 1, file.bytes().size(), out), size_t{file.bytes().size()});
+  std::fclose(out);
+  asset::Container container;
+  const core::Verdict expected = asset::open(file.bytes(), container);
+  CHECK(!expected.ok());
+  {
+    AppProcess app(path);
+    for (uint32_t i = 0; i < 3; ++i) {
+      const link::HelloReply reply = greet(app, link::kModeLockStep, asset_crc());
+      CHECK_EQ(reply.refused, link::kRefusedAssetRejected);
+      CHECK_EQ(reply.asset_rule, expected.rule);
+      CHECK_EQ(reply.asset_element, expected.element);
+    }
+    CHECK(app.first_line().find("rule R" + std::to_string(expected.rule)) != std::string::npos);
+  }
+  ::unlink(path.c_str());
+}
+
+TEST(ByeExitEndsTheProgramAndByeLeaveDoesNot) {
+  AppProcess app(FIRMTOUCH_TEST_ASSET);
+  CHECK_EQ(greet(app, link::kModeLockStep, asset_crc()).refused, 0u);
+  link::Bye bye;
+  bye.what = link::kByeLeave;
+  app.send(link::kBye, bye);
+  app.send(link::kStep, link::Step{input_of(0)});
+  CHECK_EQ(app.receive().type, link::kText);
+  bye.what = link::kByeExit;
+  app.send(link::kBye, bye);
+  CHECK_EQ(app.wait(), 0);
+}
+
+TEST(AHostThatGoesAwayEndsTheProcess) {
+  AppProcess app(FIRMTOUCH_TEST_ASSET);
+  CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
+  app.close_link();
+  CHECK_EQ(app.wait(), 0);
+}
+
+TEST(ItAnswersOnAUnixSocketOfItsOwn) {
+  Folder folder;
+  const std::string path = folder.name + "/link";
+  AppProcess app(
+      std::vector<std::string>{"--link", "listen:" + path, "--asset", FIRMTOUCH_TEST_ASSET});
+  CHECK(app.connect(path));
+  CHECK_EQ(greet(app, link::kModeLockStep, asset_crc()).refused, 0u);
+}
+
+TEST(ItAnswersOnAPseudoTerminal) {
+  AppProcess app(std::vector<std::string>{"--asset", FIRMTOUCH_TEST_ASSET, "--link", "pty"});
+  CHECK(app.open_terminal(app.first_line()));
+  CHECK_EQ(greet(app, link::kModeLockStep, asset_crc()).refused, 0u);
+}
+
+int status_of(const std::vector<std::string>& options) { return AppProcess(options).wait(); }
+
+TEST(WrongOptionsAreUsageAndMissingFilesBadInput) {
+  const std::string asset = FIRMTOUCH_TEST_ASSET;
+  using Options = std::vector<std::string>;
+  CHECK_EQ(status_of(Options{}), 2);
+  CHECK_EQ(status_of(Options{"--asset"}), 2);
+  CHECK_EQ(status_of(Options{"--what", "x"}), 2);
+  CHECK_EQ(status_of(Options{"--help"}), 0);
+  CHECK_EQ(status_of(Options{"--asset", "missing.fta", "--link", "pty"}), 3);
+  CHECK_EQ(status_of(Options{"--asset", asset, "--link", "unix:missing"}), 3);
+  CHECK_EQ(status_of(Options{"--asset", asset, "--link", "missing"}), 3);
+}
+
+}  // namespace
+}  // namespace firmtouch::app_test

@@ -1,0 +1,10 @@
+# The controller program as a process, against a controller in this one.
+if(TARGET firmtouch AND TARGET firmtouch-app-posix)
+  firmtouch_bake(TARGET app_test_asset INPUTS app/cube.obj app/guide.csv OUTPUT app_test.fta)
+  firmtouch_test_room(app LINKS firmtouch_controller firmtouch_link firmtouch_params)
+  target_sources(test_app PRIVATE app/app_process.cpp)
+  target_compile_definitions(
+    test_app PRIVATE FIRMTOUCH_APP_PROGRAM="$<TARGET_FILE:firmtouch-app-posix>"
+                     FIRMTOUCH_TEST_ASSET="$<TARGET_PROPERTY:app_test_asset,FIRMTOUCH_ASSET>")
+  add_dependencies(test_app firmtouch-app-posix app_test_asset)
+endif()

@@ -1,0 +1,251 @@
+// Each rule of the container, tripped alone: one thing is wrong, every CRC but the one under test
+// fits.
+#include "asset/small_file.hpp"
+#include "firmtouch/asset/opening.hpp"
+#include "harness/test.hpp"
+
+namespace {
+
+using firmtouch::asset::Container;
+using firmtouch::asset_test::SmallFile;
+using firmtouch::core::Bytes;
+using firmtouch::core::Verdict;
+
+constexpr uint32_t kFirst = 32, kSecond = 80, kThird = 128;  // entries
+constexpr uint32_t kOffset = 4, kBytes = 8, kCrc = 12, kName = 16;
+constexpr uint32_t kData = SmallFile::kData;
+
+Verdict verdict_of(Bytes bytes) {
+  Container container;
+  const Verdict verdict = firmtouch::asset::open(bytes, container);
+  CHECK_EQ(verdict.ok(), container.is_open());
+  return verdict;
+}
+
+void expect(const SmallFile& file, uint32_t rule, uint32_t element = 0) {
+  const Verdict verdict = verdict_of(file.all());
+  CHECK_EQ(verdict.rule, rule);
+  CHECK_EQ(verdict.element, element);
+}
+
+}  // namespace
+
+TEST(TheFileThatTheRulesAreTriedOnIsGood) { expect(SmallFile(), 0); }
+
+TEST(Rule1RefusesAMisalignedBase) {
+  static SmallFile file;
+  for (uint32_t shift = 1; shift < 16; ++shift) {
+    file = SmallFile();
+    memmove(file.bytes + shift, file.bytes, SmallFile::kTotal);
+    CHECK_EQ(verdict_of({file.bytes + shift, SmallFile::kTotal}).rule, 1);
+  }
+}
+
+TEST(Rule2RefusesLessThanAHeader) {
+  SmallFile file;
+  for (uint32_t size = 0; size < 32; ++size) CHECK_EQ(verdict_of({file.bytes, size}).rule, 2);
+  CHECK_EQ(verdict_of({}).rule, 2);
+}
+
+TEST(Rule3RefusesAnotherMagic) {
+  SmallFile file;
+  file.word(0, 0x1A415447u);
+  file.repair();
+  expect(file, 3);
+}
+
+TEST(Rule4RefusesTheOtherByteOrder) {
+  SmallFile file;
+  file.word(4, 0x04030201u);
+  file.repair();
+  expect(file, 4);
+}
+
+TEST(Rule5RefusesAnotherMajorVersion) {
+  SmallFile file;
+  static const uint32_t majors[] = {0u, 2u, 0xFFFFu};
+  for (const uint32_t major : majors) {
+    file.word(8, major);
+    file.repair();
+    expect(file, 5);
+  }
+}
+
+TEST(ALaterMinorVersionIsTaken) {
+  SmallFile file;
+  file.word(8, 1u | (9u << 16));
+  file.repair();
+  expect(file, 0);
+}
+
+TEST(Rule6RefusesAHeaderThatItsCrcDoesNotFit) {
+  SmallFile file;
+  file.word(28, file.word(28) ^ 1u);
+  expect(file, 6);
+}
+
+TEST(Rule7RefusesAReservedWordThatIsNotZero) {
+  SmallFile file;
+  file.word(24, 1);
+  file.repair();
+  expect(file, 7);
+}
+
+TEST(Rule8RefusesATruncatedFile) {
+  SmallFile file;
+  for (file.size = 32; file.size < SmallFile::kTotal; ++file.size) expect(file, 8);
+}
+
+TEST(Rule9RefusesAnExtendedFile) {
+  SmallFile file;
+  for (file.size = SmallFile::kTotal + 1; file.size <= SmallFile::kTotal + 64; ++file.size) {
+    expect(file, 9);
+  }
+}
+
+TEST(Rule10RefusesALengthThatIsNoMultipleOf16) {
+  SmallFile file;
+  file.size = SmallFile::kTotal + 8;
+  file.word(12, file.size);
+  file.repair();
+  expect(file, 10);
+}
+
+TEST(Rule11RefusesATableThatLeavesTheFile) {
+  SmallFile file;
+  static const uint32_t counts[] = {5u, 0x05555556u, 0xFFFFFFFFu};
+  for (const uint32_t count : counts) {  // 48 times the second wraps to 32
+    file.word(16, count);
+    file.repair_header();
+    expect(file, 11);
+  }
+}
+
+TEST(Rule12RefusesATableThatItsCrcDoesNotFit) {
+  SmallFile file;
+  file.word(20, file.word(20) ^ 0x80000000u);
+  file.repair_header();
+  expect(file, 12);
+}
+
+TEST(Rule13RefusesAnEmptyName) {
+  SmallFile file;
+  file.entry(0, 0x1001, "", kData, 5);
+  file.repair();
+  expect(file, 13, 0);
+}
+
+TEST(Rule14RefusesANameWithoutAnEnd) {
+  SmallFile file;
+  memset(file.bytes + kThird + kName, 'x', 32);
+  file.repair();
+  expect(file, 14, 2);
+}
+
+TEST(Rule15RefusesBytesBehindANamesEnd) {
+  SmallFile file;
+  file.bytes[kSecond + kName + 31] = 'x';
+  file.repair();
+  expect(file, 15, 1);
+}
+
+TEST(Rule16RefusesControlCharactersInANameAndTakesUtf8) {
+  SmallFile file;
+  static const uint8_t letters[] = {1, 10, 0x1F, 0x7F};
+  for (const uint8_t letter : letters) {
+    file.bytes[kThird + kName + 1] = letter;
+    file.repair();
+    expect(file, 16, 2);
+  }
+  file.bytes[kThird + kName] = 0xC3;
+  file.bytes[kThird + kName + 1] = 0xA4;
+  file.repair();
+  expect(file, 0);
+}
+
+TEST(Rule17RefusesEntriesOutOfOrder) {
+  SmallFile by_name;
+  by_name.entry(2, 0x1001, "ball", kData + 48, 16);
+  by_name.repair();
+  expect(by_name, 17, 2);
+  SmallFile by_type;
+  by_type.word(kSecond, 0x1000);
+  by_type.repair();
+  expect(by_type, 17, 1);
+}
+
+TEST(Rule18RefusesTheSameNameAndTypeTwice) {
+  SmallFile file;
+  file.word(kSecond, 0x1001);
+  file.repair();
+  expect(file, 18, 1);
+}
+
+TEST(Rule19RefusesAnEmptySection) {
+  SmallFile file;
+  file.word(kThird + kBytes, 0);
+  file.repair();
+  expect(file, 19, 2);
+}
+
+TEST(Rule20RefusesAnUnalignedSection) {
+  SmallFile file;
+  file.word(kSecond + kOffset, kData + 20);
+  file.repair();
+  expect(file, 20, 1);
+}
+
+TEST(Rule21RefusesASectionThatOverlapsAnother) {
+  SmallFile file;
+  static const uint32_t offsets[] = {0u, 32u, kData, kData + 16};
+  for (const uint32_t offset : offsets) {  // header, table, first, second section
+    file.word(kThird + kOffset, offset);
+    file.repair();
+    expect(file, 21, 2);
+  }
+}
+
+TEST(Rule22RefusesAGapBetweenSections) {
+  SmallFile file;
+  static const uint32_t offsets[] = {kData + 64, 0xFFFFFFF0u};
+  for (const uint32_t offset : offsets) {
+    file.word(kThird + kOffset, offset);
+    file.repair();
+    expect(file, 22, 2);
+  }
+}
+
+TEST(Rule23RefusesASectionThatLeavesTheFile) {
+  SmallFile file;
+  static const uint32_t counts[] = {17u, 0xFFFFFFFFu, 0xFFFFFF00u};
+  for (const uint32_t count : counts) {
+    file.word(kThird + kBytes, count);
+    file.repair();
+    expect(file, 23, 2);
+  }
+}
+
+TEST(Rule24RefusesBytesBehindTheLastSection) {
+  SmallFile file;
+  file.size = SmallFile::kTotal + 16;
+  file.word(12, file.size);
+  file.repair();
+  expect(file, 24, 3);
+}
+
+TEST(Rule25RefusesASectionThatItsCrcDoesNotFit) {
+  SmallFile file;
+  file.word(kSecond + kCrc, file.word(kSecond + kCrc) ^ 4u);
+  file.repair_table();
+  file.repair_header();
+  expect(file, 25, 1);
+}
+
+TEST(Rule26RefusesPaddingThatIsNotZero) {
+  SmallFile file;
+  for (uint32_t at = kData + 5; at < kData + 16; ++at) {
+    file.bytes[at] = 1;
+    expect(file, 26, 0);
+    file.bytes[at] = 0;
+  }
+}

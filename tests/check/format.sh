@@ -1,0 +1,36 @@
+# clang-format over every source that is there (found, not asked of git). Read by tests/check/run.
+# Version 14 (Debian 12) is the judge: others lay out a few things differently.
+
+formatter() {
+  for name in clang-format-14 clang-format; do
+    if "$name" --version 2>/dev/null | grep -q 'version 14\.'; then
+      echo "$name"
+      return
+    fi
+  done
+  return 1
+}
+
+check() {
+  judge=$(formatter) || {
+    echo 'clang-format 14 is not there: install it (on Debian 12: clang-format)'
+    return 1
+  }
+  complaints=$(find firmware hal host_sim tests tools -type f \( -name '*.cpp' -o -name '*.hpp' \) |
+    LC_ALL=C sort | tr '\n' '\0' | xargs -0 "$judge" --style=file --dry-run --Werror 2>&1 |
+    grep 'error:' | LC_ALL=C sort -u -t: -k1,1)
+  [ -z "$complaints" ] || {
+    printf '%s\n' "$complaints" |
+      sed 's/: error:.*/: not as clang-format lays it out: clang-format -i mends it/'
+    return 1
+  }
+}
+
+plant_wide_line() {
+  printf 'int   planted( int a ){return a;}\n' >>firmware/firmtouch/core/crc32.cpp
+  expect='core/crc32.cpp:[0-9]*:[0-9]*: not as clang-format'
+}
+plant_in_a_test() {
+  printf 'int  planted;\n' >tests/core/planted_test.cpp
+  expect='planted_test.cpp:1'
+}

@@ -1,0 +1,81 @@
+# Public headers compile alone, without a warning, and hold no floating-point arithmetic: there a user's flags (contraction,
+# fast-math) would change the answers' bits. Looked for in what the compiler makes of every inline function; functions
+# that are templates are seen only where a header uses them. A header for the library's own units says so in its first
+# lines ("own translation units", "for .cpp files"): no public header and no user's program may reach it.
+# Read by tests/check/run.
+
+private_headers() {
+  echo firmware/firmtouch/math/isa.hpp
+  for header in $(find firmware/firmtouch -name '*.hpp'); do
+    ! sed -n '2,8s/^\/\/ *//p' "$header" | tr '\n' ' ' |
+      grep -qiE 'own translation units|for \.cpp files' || echo "$header"
+  done
+}
+
+check() {
+  work=$(mktemp -d) || return 1
+  private_headers | LC_ALL=C sort -u >"$work/private"
+  bad=0
+  for header in $(find firmware/firmtouch hal/firmtouch -name '*.hpp' | LC_ALL=C sort); do
+    case "${only:-$header}" in "$header") ;; *) continue ;; esac
+    ! grep -qx "$header" "$work/private" || continue
+    if ! printf '#include "%s"\n' "${header#*/}" | ${CXX:-g++} -std=c++17 -O0 -ffreestanding -fno-exceptions -fno-rtti -fkeep-inline-functions -Wall -Wextra \
+      -Wconversion -Wdouble-promotion -Wfloat-equal -Wshadow -Werror -Ifirmware -Ihal \
+      -x c++ -S -MMD -MF "$work/uses" -o "$work/out.s" -; then
+      echo "$header: does not compile alone"
+      bad=1
+      continue
+    fi
+    for used in $(tr ' ' '\n' <"$work/uses" | grep '^firmware/'); do
+      if grep -qx "$used" "$work/private"; then
+        echo "$header: public, and reaches $used, which is for the library's own units"
+        bad=1
+      fi
+    done
+    arithmetic=$(awk '/^[_A-Za-z].*:$/ { name = $1 }
+      /^[ \t]+v?(add|sub|mul|div|sqrt|fmadd)[0-9]*s[sd][ \t]/ || /^[ \t]+f(add|sub|mul|div|madd|msub|sqrt)[ \t]/ { print name }
+      ' "$work/out.s" | sort -u | tr '\n' ' ')
+    if [ -n "$arithmetic" ]; then
+      echo "$header: floating-point arithmetic in a public header, in ${arithmetic}move it to a .cpp file"
+      bad=1
+    fi
+  done
+  for file in $(find tests/consumer firmware/app -name '*.?pp' 2>/dev/null); do
+    for used in $(sed -n 's/^#include "\(firmtouch\/.*\)".*/firmware\/\1/p' "$file"); do
+      if grep -qx "$used" "$work/private"; then
+        echo "$file: uses $used, which is for the library's own units"
+        bad=1
+      fi
+    done
+  done
+  rm -rf "$work"
+  return $bad
+}
+
+plant_sum() {
+  only=firmware/firmtouch/math/vec3.hpp
+  echo 'inline float planted_sum(float a, float b) { return a + b; }' >>$only
+  expect='math/vec3.hpp: floating-point arithmetic in a public header, in .*planted_sum'
+}
+plant_product_in_a_member() {
+  only=firmware/firmtouch/query/hint.hpp
+  echo 'struct Planted { float v; float twice() const { return v * 2.0f; } };' >>$only
+  expect='query/hint.hpp: floating-point arithmetic.*twice'
+}
+plant_operators_reached() {
+  only=firmware/firmtouch/mesh/planted.hpp
+  printf '#pragma once\n#include "firmtouch/mesh/planted_private.hpp"\n' >$only
+  printf '#pragma once\n// For .cpp files.\n#include "firmtouch/math/vec3_ops.hpp"\n' >firmware/firmtouch/mesh/planted_private.hpp
+  expect='mesh/planted.hpp: public, and reaches firmware/firmtouch/math/vec3_ops.hpp'
+}
+plant_header_that_leans_on_others() {
+  only=firmware/firmtouch/core/planted.hpp
+  printf '#pragma once\nuint32_t planted();\n' >$only
+  expect='core/planted.hpp: does not compile alone'
+}
+plant_private_header_in_a_program() {
+  only=none
+  mkdir -p tests/consumer
+  echo '#include "firmtouch/math/vec3_ops.hpp"' >tests/consumer/planted.cpp
+  expect='tests/consumer/planted.cpp: uses firmware/firmtouch/math/vec3_ops.hpp'
+}

@@ -1,0 +1,104 @@
+# Reads file names, and the includes of each file; prints those that run the wrong way (tests/check/includes.sh).
+BEGIN {
+  rooms = split(arrows, entry, ";") - 1
+  for (i = 1; i <= rooms; ++i) {
+    split(entry[i], part, ":")
+    room = part[1]
+    known[room] = 1
+    n = split(part[2], link, " ")
+    for (k = 1; k <= n; ++k) may[room, link[k]] = 1
+  }
+  if (rooms < 3) complain("firmware/CMakeLists.txt: no list of rooms found")
+  # A circle shows as a room that reaches itself.
+  for (a in known) for (b in known) reach[a, b] = ((a, b) in may)
+  for (k in known) for (a in known) for (b in known) if (reach[a, k] && reach[k, b]) reach[a, b] = 1
+  for (a in known) if (reach[a, a]) complain("firmware/CMakeLists.txt: " a " links itself through what it links")
+}
+
+function complain(text) {
+  print text
+  bad = 1
+}
+
+function freestanding(file, header) {
+  if (header ~ /^(stdint|stddef|float|limits)\.h$/) return 1
+  return file == "firmware/firmtouch/math/isa.hpp" && header ~ /^(arm_acle|arm_mve|immintrin)\.h$/
+}
+
+# Of the firmware and of hal: which folder of `firmtouch/...` a file may take.
+function room_may(file, room, header,    of) {
+  of = header
+  sub(/^firmtouch\//, "", of)
+  if (of !~ /\//) {  # a composition of rooms, above them all
+    sub(/\.hpp$/, "", of)
+    return room == "app" || room == "controller" ? 1 : of
+  }
+  sub(/\/.*/, "", of)
+  if (room == "app") return 1
+  if (room == "controller") return of in known ? 1 : of
+  if (room == "hal") return (of == "hal" || of == "core") ? 1 : of
+  if (of == room || (room, of) in may) return 1
+  if (room == "scene" && header == "firmtouch/servo/local_model.hpp") return 1
+  return of
+}
+
+function judge(file, line, header, quoted,    where, top, room, answer) {
+  where = file ":" line ": "
+  split(file, folder, "/")
+  top = folder[1]
+  if (header ~ /^Eigen\// || header ~ /^unsupported\/Eigen\//) {
+    if (file !~ /^tests\/.*_host_test\.cpp$/) complain(where "Eigen is for tests/*_host_test.cpp alone")
+    return
+  }
+  if (top == "firmware" || (top == "hal" && folder[2] != "posix")) {
+    if (!quoted) {
+      if (!freestanding(file, header)) complain(where "<" header "> is not freestanding: stdint.h, stddef.h, float.h and limits.h are")
+      return
+    }
+  }
+  if (!quoted) return
+  if (top == "firmware") {
+    room = folder[2] == "app" ? "app" : folder[3] ~ /\./ ? "controller" : folder[3]
+    if (header !~ /^firmtouch\// || header ~ /\.\./) {
+      # The program may take headers of its own folder, and the one that the build makes.
+      if (room == "app" && header !~ /\.\./ && header !~ /^(host_sim|tests|tools|harness|bake|surface|cli)\//) return
+      complain(where "firmware may not include \"" header "\"")
+    } else {
+      if (room != "app" && room != "controller" && !(room in known)) complain(where room " is no room of firmware/CMakeLists.txt")
+      answer = room_may(file, room, header)
+      if (answer != 1) complain(where room " may not include " answer)
+    }
+  } else if (top == "hal") {
+    if (header ~ /^firmtouch\//) {
+      answer = room_may(file, "hal", header)
+      if (answer != 1) complain(where "hal may not include " answer)
+    } else if (header ~ /\.\./ || header ~ /^(host_sim|tests|tools|harness|bake|surface|cli)\//) {
+      complain(where "hal may not include \"" header "\"")
+    }
+  } else if (top == "tools" && header ~ /^(\.\.\/.*)?(tests|harness|host_sim)\//) {
+    complain(where "tools may not include \"" header "\"")
+  } else if (top == "host_sim" && header ~ /^(\.\.\/.*)?(tests|harness)\//) {
+    complain(where "host_sim may not include \"" header "\"")
+  }
+}
+
+{
+  file = $0
+  line = 0
+  while ((getline text < file) > 0) {
+    ++line
+    if (text !~ /^[ \t]*#[ \t]*include[ \t]*[<"]/) continue
+    sub(/^[ \t]*#[ \t]*include[ \t]*/, "", text)
+    quoted = substr(text, 1, 1) == "\""
+    text = substr(text, 2)
+    sub(/[>"].*/, "", text)
+    judge(file, line, text, quoted)
+    ++seen
+  }
+  close(file)
+}
+
+END {
+  if (seen < 20) complain("only " seen + 0 " includes were found: this check looks in the wrong place")
+  exit bad
+}

@@ -1,0 +1,78 @@
+# Which way includes run. The arrows are the LINKS lists of firmware/CMakeLists.txt; scene takes one header of servo on
+# top, the input type that it fills. Read by tests/check/run.
+
+check() {
+  find firmware hal host_sim tools tests -type f \( -name '*.hpp' -o -name '*.cpp' -o -name '*.h' \) |
+    LC_ALL=C sort | awk -v arrows="$(room_arrows)" -f "$here/includes.awk"
+}
+
+# room_arrows: `room:link link ...;` for every firmtouch_room(room LINKS link ...)
+room_arrows() {
+  sed 's/#.*//' firmware/CMakeLists.txt | tr '\n' ' ' | grep -o 'firmtouch_room([^)]*)' |
+    sed 's/firmtouch_room( *\([a-z_]*\) *\(LINKS\)\{0,1\} *\(.*\))/\1:\3;/' | tr -d '\n'
+}
+
+add() {  # add FILE LINE
+  printf '%s\n' "$2" >>"$1"
+}
+plant_upward_include() {
+  add firmware/firmtouch/core/status.hpp '#include "firmtouch/mesh/view.hpp"'
+  expect='^firmware/firmtouch/core/status.hpp:[0-9]+: core may not include mesh'
+}
+plant_sideways_include() {
+  add firmware/firmtouch/curve/planted.cpp '#include "firmtouch/mesh/view.hpp"'
+  expect='planted.cpp:1: curve may not include mesh'
+}
+plant_servo_in_scene() {
+  add firmware/firmtouch/scene/planted.cpp '#include "firmtouch/servo/step.hpp"'
+  expect='planted.cpp:1: scene may not include servo'
+}
+plant_hal_in_firmware() {
+  add firmware/firmtouch/query/certificate.hpp '  #  include "firmtouch/hal/clock.hpp"'
+  expect='certificate.hpp:[0-9]+: query may not include hal'
+}
+plant_controller_in_a_room() {
+  add firmware/firmtouch/servo/planted.cpp '#include "firmtouch/controller.hpp"'
+  expect='planted.cpp:1: servo may not include controller'
+}
+plant_tools_in_firmware() {
+  add firmware/firmtouch/mesh/planted.cpp '#include "bake/section.hpp"'
+  expect='planted.cpp:1: firmware may not include "bake/section.hpp"'
+}
+plant_tests_in_firmware() {
+  add firmware/firmtouch/mesh/planted.cpp '#include "../../../tests/harness/test.hpp"'
+  expect='planted.cpp:1: firmware may not include "../../../tests/harness/test.hpp"'
+}
+plant_geometry_in_hal() {
+  add hal/firmtouch/hal/clock.hpp '#include "firmtouch/math/vec3.hpp"'
+  expect='clock.hpp:[0-9]+: hal may not include math'
+}
+plant_host_sim_in_hal() {
+  add hal/firmtouch/hal/clock.hpp '#include "host_sim/device.hpp"'
+  expect='clock.hpp:[0-9]+: hal may not include "host_sim/device.hpp"'
+}
+plant_hosted_header() {
+  add firmware/firmtouch/math/planted.cpp '#include <cmath>'
+  expect='planted.cpp:1: <cmath> is not freestanding'
+}
+plant_intrinsics_elsewhere() {
+  add firmware/firmtouch/mesh/planted.cpp '#include <arm_acle.h>'
+  expect='planted.cpp:1: <arm_acle.h> is not freestanding'
+}
+plant_hosted_header_in_hal() {
+  add hal/libc/planted.cpp '#include <string.h>'
+  expect='planted.cpp:1: <string.h> is not freestanding'
+}
+plant_eigen_in_tools() {
+  add tools/surface/planted.cpp '#include <Eigen/Dense>'
+  expect='planted.cpp:1: Eigen is for tests/\*_host_test.cpp'
+}
+plant_tests_in_tools() {
+  add tools/bake/planted.cpp '#include "harness/test.hpp"'
+  expect='planted.cpp:1: tools may not include "harness/test.hpp"'
+}
+plant_circle_of_rooms() {
+  sed 's/firmtouch_room(core)/firmtouch_room(core LINKS mesh)/' firmware/CMakeLists.txt >CMakeLists.new
+  mv CMakeLists.new firmware/CMakeLists.txt
+  expect='firmware/CMakeLists.txt: core links itself'
+}

@@ -1,0 +1,103 @@
+# The shape of the tree: the five folders, small files, POSIX scripts, nothing left for later, nothing of one machine.
+# Read by tests/check/run.
+
+sources() {
+  find firmware hal host_sim tests tools .ci -type f ! -name '*.swp' | LC_ALL=C sort
+}
+
+check() {
+  bad=0
+  complain() { echo "$1"; bad=1; }
+  for entry in *; do
+    [ -d "$entry" ] || continue
+    case $entry in
+      firmware | hal | host_sim | tests | tools | build) ;;
+      *) complain "$entry/: the top level has only firmware, hal, host_sim, tests and tools" ;;
+    esac
+  done
+  for file in CMakeLists.txt CMakePresets.json LICENSE README.md DESIGN.md tools/demo tools/test .ci/run \
+    tools/FORMAT.md hal/PORTING.md .clang-format .clang-tidy; do
+    [ -e "$file" ] || complain "$file is missing"
+  done
+  for file in tools/demo tools/test .ci/run; do
+    [ ! -e "$file" ] || [ -x "$file" ] || complain "$file is not executable: chmod +x"
+  done
+  sources | tr '\n' '\0' | xargs -0 awk '
+    function complain(text) { print FILENAME ":" FNR ": " text; bad = 1 }
+    FNR == 1 { flush() ; name = FILENAME; words = FILENAME ~ /^tests\/check\/layout\.sh$/ }
+    { lines = FNR }
+    name ~ /\.(cpp|hpp|h|c|cmake|awk|sh|txt|ld)$/ && / +$/ && name !~ /\.txt$/ { complain("ends in blanks") }
+    name ~ /\.(cpp|hpp|h|sh|cmake|md)$/ && !words && /(^|[^A-Za-z_])(TODO|FIXME|XXX|HACK)([^A-Za-z_]|$)/ {
+      complain("left for later: do it, or say in DESIGN.md what is not built")
+    }
+    !words && /(^|[^A-Za-z0-9_.\/])\/(work|home|root)\// { complain("a path of one machine") }
+    name ~ /\.hpp$/ && FNR < 12 && /^#pragma once/ { once[name] = 1 }
+    function flush() {
+      if (name == "") return
+      if (name ~ /\.(cpp|hpp|h|c|sh|awk|cmake)$/ && lines > 400) {
+        print name ": " lines " lines; 400 is the most: does it hold more than one idea?"; bad = 1
+      }
+      if (name ~ /\.hpp$/ && !(name in once)) { print name ": no #pragma once at its head"; bad = 1 }
+    }
+    END { flush(); exit bad }' || bad=1
+  # Scripts are for any POSIX shell; .ci/run and whatever says bash is read by bash.
+  for file in $(sources | grep -E '\.sh$|^tools/[a-z_]*$|^hal/[a-z_]*$|^tests/.*/[a-z_]*$|^\.ci/'); do
+    case $(head -n 1 "$file" | tr -d '\0') in
+      '#!/bin/sh'*) shell=$posix_shell ;;
+      '#!/bin/bash'*)
+        shell=bash
+        [ "$file" = .ci/run ] || complain "$file: scripts are POSIX sh"
+        ;;
+      *) case $file in *.sh) shell=$posix_shell ;; *) continue ;; esac ;;
+    esac
+    command -v "$shell" >/dev/null || continue
+    text=$("$shell" -n "$file" 2>&1) || complain "$text"
+    [ "$shell" = bash ] ||
+      text=$(grep -nE '^[^#]*(\[\[ |<<<|^function |\blocal -|declare |<\(|&>|\$RANDOM|pipefail)' "$file" |
+        grep -v "$file\|grep -nE\|plant\|printf" | head -n 3)
+    [ -z "$text" ] || complain "$file: not POSIX sh: $text"
+  done
+  return $bad
+}
+posix_shell=$(command -v dash || echo sh)
+
+plant_folder() {
+  mkdir docs
+  expect='^docs/: the top level'
+}
+plant_long_file() {
+  yes '// a line' | head -n 401 >>firmware/firmtouch/core/crc32.cpp
+  expect='core/crc32.cpp: 4[0-9]* lines'
+}
+plant_unguarded_header() {
+  echo 'int f();' >firmware/firmtouch/core/planted.hpp
+  expect='planted.hpp: no #pragma once'
+}
+plant_missing_file() {
+  rm LICENSE
+  expect='^LICENSE is missing'
+}
+plant_left_for_later() {
+  echo '// TODO: bounds' >>firmware/firmtouch/core/crc32.cpp
+  expect='crc32.cpp:[0-9]*: left for later'
+}
+plant_machine_path() {
+  echo '# see /home/me/firmtouch' >>tests/CMakeLists.txt
+  expect='tests/CMakeLists.txt:[0-9]*: a path of one machine'
+}
+plant_broken_script() {
+  printf '#!/bin/sh\nif true; then\n' >tools/planted.sh
+  expect='planted.sh'
+}
+plant_bashism() {
+  printf '#!/bin/sh\nif [[ -n $1 ]]; then echo; fi\n' >tools/planted.sh
+  expect='planted.sh: not POSIX sh'
+}
+plant_blanks() {
+  printf 'int x;  \n' >firmware/firmtouch/core/planted.cpp
+  expect='planted.cpp:1: ends in blanks'
+}
+plant_script_nobody_can_run() {
+  chmod -x tools/test
+  expect='tools/test is not executable'
+}

@@ -1,0 +1,77 @@
+# Judges the promise table of DESIGN.md (tests/check/promises.sh): `test NAME`, `word WORD` and `file PATH` say what there
+# is, `text ...` are the lines of DESIGN.md.
+function complain(what) {
+  print "DESIGN.md: " promise ": " what
+  bad = 1
+}
+
+function has_file(path,    f) {
+  if (path in file) return 1
+  sub(/\/$/, "", path)
+  return path in folder
+}
+
+function judge_name(token) {
+  if (token ~ /^[a-z_]+\.[A-Za-z0-9_.]+$/ && token !~ /\.(cpp|hpp|md|sh|cmake|awk|txt|ld)$/) {
+    if (!(token in test)) complain("there is no test " token)
+  } else if (token ~ /^[A-Za-z0-9_.\/-]+$/ && token ~ /[\/.]/) {
+    if (!has_file(token)) complain("there is no " token)
+  } else {
+    complain("`" token "` is neither a file nor a test")
+  }
+}
+
+function judge_command(token,    part) {
+  split(token, part, " ")
+  if (part[1] ~ /^build\/[a-z0-9-]+\/bin\/firmtouch(-sim)?$/) {
+    if (part[2] !~ /^--/ && !(part[2] in word)) complain("no command " part[2] " of " part[1])
+  } else if (part[1] ~ /^[A-Z_]+=/ || part[1] == "ctest" || part[1] == "sh") {
+    return
+  } else if (!has_file(part[1])) {
+    complain("there is no " part[1])
+  }
+}
+
+# Every backquoted word of a cell; returns how many.
+function judge_cell(cell, kind,    count, token) {
+  while (match(cell, /`[^`]+`/)) {
+    token = substr(cell, RSTART + 1, RLENGTH - 2)
+    cell = substr(cell, RSTART + RLENGTH)
+    ++count
+    if (kind == "command") judge_command(token)
+    else judge_name(token)
+  }
+  return count + 0
+}
+
+$1 == "test" { test[$2] = 1; next }
+$1 == "word" { word[$2] = 1; next }
+$1 == "file" {
+  path = substr($0, 6)
+  file[path] = 1
+  while (sub(/\/[^\/]*$/, "", path)) folder[path] = 1
+  next
+}
+
+{ line = substr($0, 6) }
+line !~ /^\|/ { in_table = 0; next }
+line ~ /^\| *[Pp]romise *\| *[Mm]echanism/ { in_table = 1; next }
+!in_table || line ~ /^\|[-:| ]+$/ { next }
+{
+  cells = split(line, cell, "|")
+  promise = cell[2]
+  gsub(/^ +| +$/, "", promise)
+  if (cells != 6) { complain("a row has four cells"); next }
+  ++rows
+  if (!judge_cell(cell[3], "name")) complain("names no mechanism")
+  if (!judge_cell(cell[4], "name")) complain("names no attack")
+  if (!judge_cell(cell[5], "command")) complain("names no command for its figure")
+}
+
+END {
+  if (rows < 5) {
+    print "DESIGN.md: no promise table"
+    bad = 1
+  }
+  exit bad
+}

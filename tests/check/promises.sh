@@ -1,0 +1,53 @@
+# The promise table of DESIGN.md names only what exists. Its columns: promise | mechanism (file) | attack (test) |
+# figure (command). In backquotes stand files of the tree, tests as CTest names them (room.Test, check.name, target.name)
+# and commands. Read by tests/check/run.
+
+check() {
+  names=$(
+    grep -rhoE '^TEST\([A-Za-z0-9_]+' tests --include='*.cpp' | sed 's/TEST(/any./'
+    for file in $(grep -rlE '^TEST\(' tests --include='*.cpp'); do
+      room=${file#tests/}
+      sed -n "s/^TEST(\([A-Za-z0-9_]*\).*/${room%%/*}.\1/p" "$file"
+    done
+    for file in tests/check/*.sh; do basename "$file" .sh | sed 's/^/check./'; done
+    find tests \( -name CMakeLists.txt -o -name '*.cmake' \) -exec sed -n 's/.*NAME \([a-z_]*\.[A-Za-z0-9_.]*\).*/\1/p' {} +
+  )
+  # Words that the programs know as their first argument.
+  words=$(grep -ohE '"[a-z]+"' tools/cli/*.cpp host_sim/*.cpp 2>/dev/null | tr -d '"' | sort -u)
+  files=$(find . \( -name build -o -name .git \) -prune -o -type f -print | sed 's/^\.\///')
+  { printf '%s\n' "$names" | sed 's/^/test /'
+    printf '%s\n' "$words" | sed 's/^/word /'
+    printf '%s\n' "$files" | sed 's/^/file /'
+    sed 's/^/text /' DESIGN.md
+  } | awk -f "$here/promises.awk"
+}
+
+row() {  # row CELL...: puts a row of four cells after the table's head
+  awk -v row="| $1 | $2 | $3 | $4 |" '{ print } /^\|---/ && !done { print row; done = 1 }' DESIGN.md >new.md
+  mv new.md DESIGN.md
+}
+plant_missing_file() {
+  row 'planted' '`firmware/firmtouch/mesh/nowhere.cpp`' '`check.words`' '`tools/test`'
+  expect='planted: there is no firmware/firmtouch/mesh/nowhere.cpp'
+}
+plant_missing_test() {
+  row 'planted' '`tools/test`' '`mesh.NobodyWroteThis`' '`tools/test`'
+  expect='planted: there is no test mesh.NobodyWroteThis'
+}
+plant_missing_command() {
+  row 'planted' '`tools/test`' '`check.words`' '`build/host/bin/firmtouch frobnicate x.fta`'
+  expect='planted: no command frobnicate of firmtouch'
+}
+plant_missing_script() {
+  row 'planted' '`tools/test`' '`check.words`' '`tools/nothing --long`'
+  expect='planted: there is no tools/nothing'
+}
+plant_row_without_an_attack() {
+  row 'planted' '`tools/test`' 'by hand' '`tools/test`'
+  expect='planted: names no attack'
+}
+plant_no_table() {
+  grep -v '^|' DESIGN.md >new.md
+  mv new.md DESIGN.md
+  expect='no promise table'
+}

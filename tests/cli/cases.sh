@@ -1,0 +1,373 @@
+# Cases of tests/cli/run: a function a claim.
+
+# A box of 2 x 4 x 6 about the origin; face 0 and 1 at the bottom, 2 and 3 on top.
+box() {
+  printf 'v %s\n' '-1 -2 -3' '1 -2 -3' '1 2 -3' '-1 2 -3' '-1 -2 3' '1 -2 3' '1 2 3' '-1 2 3'
+  printf 'f %s\n' '1 4 3 2' '5 6 7 8' '1 2 6 5' '2 3 7 6' '3 4 8 7' '4 1 5 8'
+}
+# Along x for 3 m, unevenly, then 1 m up.
+bend() { printf 'x,y,z\n0,0,0\n1,0,0\n3,0,0\n3,0,1\n'; }
+small_scene() {
+  box >box.obj
+  bend >bend.csv
+  bake box.obj bend.csv -o scene.fta
+}
+
+EveryCommandHelps() {
+  for command in '' make bake info query; do
+    # shellcheck disable=SC2086
+    f $command --help
+    exits 0
+    same "$err" ''
+    case $out in usage:*) ;; *) fail "$command: $out" ;; esac
+  done
+}
+
+WithoutACommandTheUsageGoesToStderr() {
+  f
+  exits 2
+  same "$out" ''
+  told 'usage: firmtouch COMMAND'
+}
+
+WhatDoesNotExistIsAUsageError() {
+  f bend; exits 2; told "'bend' is no command"
+  f bake x.obj --fats -o a.fta; exits 2; told 'unknown option --fats' 'firmtouch bake --help'
+  f make ball -o a.obj; exits 2; told "'ball' cannot be made"
+  f query a.fta a touch; exits 2; told "'touch' is no kind of query"
+  f bake x.obj -o a.fta --unit furlong; exits 2; told 'furlong' 'm, mm, cm, in'
+  f query a.fta a distance --budget 0; exits 2; told '--budget 0'
+  f query a.fta a distance --budget; exits 2; told '--budget needs a value'
+  f query a.fta a distance --cold --cold; exits 2; told '--cold is given twice'
+  f query a.fta a; exits 2; told 'missing'
+  f info a.fta b.fta; exits 2; told "one word too many: 'b.fta'"
+  f bake x.obj; exits 2; told '-o SCENE.fta'
+  f make part; exits 2; told '-o FILE'
+  f make walk -o w.csv; exits 2; told 'MODEL'
+}
+
+WhatIsPlannedIsRefusedByName() {
+  for option in --close-holes --small --no-tree '--hull-faces 1000' '--hull-grid 22' '--max-valence 9' \
+    '--compactness 1' '--max-deviation-deg 1' '--distance-map 64' '--teach a' '--max-deviation 1'; do
+    # shellcheck disable=SC2086
+    f bake x.obj -o a.fta $option
+    exits 2
+    told "${option%% *} is not in this version"
+  done
+  for option in '--band 1' --all '--base 1'; do
+    # shellcheck disable=SC2086
+    f query a.fta a distance $option
+    exits 2
+    told "${option%% *} is not in this version"
+  done
+  for command in voxelize hull bench log; do f $command x; exits 2; told "$command: is not in this version"; done
+  for kind in hull spline footpoints; do f query a.fta a $kind; exits 2; told "$kind is not in this version"; done
+  for kind in igs iges bpt ftl stl; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
+}
+
+OptionsWithoutMeaningAreRefused() {
+  small_scene
+  f query scene.fta box distance --mode exact </dev/null; exits 2; told '--mode has no meaning for distance'
+  f query scene.fta bend curve --n 3 </dev/null; exits 2; told '--n has no meaning for --mode exact'
+  f make part --points 9 -o p.obj; exits 2; told '--points has no meaning for part'
+}
+
+AMissingFileIsNamed() {
+  f bake missing.obj -o a.fta; exits 3; told missing.obj; absent a.fta
+  f bake missing.csv -o a.fta; exits 3; told missing.csv
+  f info missing.fta; exits 3; told missing.fta
+  f query missing.fta a distance; exits 3; told missing.fta
+  f make walk missing.off -o w.csv; exits 3; told missing.off; absent w.csv
+  mkdir folder.obj
+  f bake folder.obj -o a.fta; exits 3; told folder.obj
+}
+
+AFailingCommandLeavesNoFile() {
+  box | sed 1d >box.obj
+  bend >bend.csv
+  f bake bend.csv box.obj -o a.fta --cpp a.cpp
+  exits 3
+  told box.obj
+  absent a.fta
+  absent a.cpp
+  box >box.obj
+  f bake box.obj -o a.fta --cpp nowhere/a.cpp
+  exits 3
+  told nowhere/a.cpp
+  absent a.fta
+  f bake box.obj -o nowhere/a.fta
+  exits 3
+  told nowhere/a.fta
+}
+
+AnInputIsNeverOverwritten() {
+  box >box.obj
+  f bake box.obj -o box.obj; exits 2; told 'overwrite'
+  f bake box.obj -o a.fta --cpp ./box.obj; exits 2; told 'overwrite'
+  f make walk box.obj -o box.obj; exits 2; told 'overwrite'
+  same "$(box | cksum)" "$(cksum <box.obj)"
+  f bake box.obj -o a.fta --cpp a.fta; exits 2; absent a.fta
+}
+
+AnOpenSurfaceIsRefusedUnlessUnsigned() {
+  box | sed '$d' >box.obj
+  f bake box.obj -o a.fta
+  exits 3
+  told box.obj 'open edge' '--unsigned'
+  absent a.fta
+  bake box.obj -o a.fta --unsigned
+  told 'unsigned'
+  printf 'x,y,z\n0,0,5\n' >p.csv
+  f query a.fta box distance <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f1,2)" 2,0
+}
+
+TwoInputsOfOneNameAreRefused() {
+  mkdir a
+  box >box.obj
+  bend >a/box.csv
+  f bake box.obj a/box.csv -o a.fta
+  exits 3
+  told a/box.csv box.obj "'box'" rename
+}
+
+ANameTooLongIsRefused() {
+  name=a234567890123456789012345678901
+  box >$name.obj
+  bake $name.obj -o a.fta
+  box >${name}2.obj
+  f bake ${name}2.obj -o b.fta
+  exits 3
+  told ${name}2 31
+}
+
+NamesMayHoldSpacesAndUmlauts() {
+  box >'mein Körper 2.obj'
+  bake 'mein Körper 2.obj' -o 'meine Szene.fta'
+  printf 'x,y,z\n0,0,5\n' >p.csv
+  f query 'meine Szene.fta' 'mein Körper 2' distance <p.csv
+  exits 0
+}
+
+TheSameInputsGiveTheSameBytes() {
+  small_scene
+  mkdir b
+  cp box.obj bend.csv b/
+  bake b/bend.csv b/box.obj -o again.fta
+  cmp -s scene.fta again.fta || fail 'other bytes'
+  bake box.obj bend.csv -o mm.fta --unit mm
+  cmp -s scene.fta mm.fta && fail '--unit changed nothing'
+}
+
+MakingIsDeterministicToo() {
+  for kind in 'part --triangles 2000' path; do
+    # shellcheck disable=SC2086
+    f make $kind --seed 3 -o a
+    exits 0
+    # shellcheck disable=SC2086
+    f make $kind --seed 3 -o b
+    cmp -s a b || fail "$kind: other bytes"
+    # shellcheck disable=SC2086
+    f make $kind --seed 4 -o c
+    cmp -s a c && fail "$kind: --seed changed nothing"
+  done
+}
+
+DistancesOfABoxAreKnown() {
+  small_scene
+  printf 'x,y,z\n0,0,5\n0.25,0,2.5\n3,0,0\n4,6,3\n4,6,15\n' >p.csv
+  f query scene.fta box distance <p.csv
+  exits 0
+  same "$err" ''
+  same "$(printf '%s\n' "$out" | sed -n 1p)" 'distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact'
+  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f1,2,5,13)" '2,1,3,1
+-0.5,-1,3,1
+2,1,0,1
+5,1,3,1
+13,1,3,1'
+  same "$(printf '%s\n' "$out" | sed -n 6p | cut -d, -f10)" vertex
+  case $(printf '%s\n' "$out" | sed -n 2p | cut -d, -f9) in 2 | 3) ;; *) fail "triangle of the file: $out" ;; esac
+}
+
+TheUnitScalesTheModel() {
+  box >box.obj
+  bake box.obj -o a.fta --unit cm
+  printf 'x,y,z\n0.002,0.001,0.05\n' >p.csv
+  f query a.fta box distance <p.csv
+  same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f2,10)" 1,face
+  case $(printf '%s\n' "$out" | sed -n 2p) in 0.02,* | 0.0200000*,* | 0.0199999*,*) ;; *) fail "$out" ;; esac
+}
+
+SegmentsHitABoxWhereTheyShould() {
+  small_scene
+  printf 'ax,ay,az,bx,by,bz\n0.3,0.1,5,0.3,0.1,1\n5,0.2,0.3,7,0.2,0.3\n0.3,0.1,0,0.3,0.1,-6\n' >g.csv
+  f query scene.fta box segment <g.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | cut -d, -f1,2)" 'hit,t
+1,0.5
+0,1
+1,0.5'
+  same "$(printf '%s\n' "$out" | sed -n 1p)" hit,t,triangle,steps
+  same "$(printf '%s\n' "$out" | sed -n 3p | cut -d, -f3)" -1
+}
+
+APolylineIsAnsweredBetweenItsSamples() {
+  small_scene
+  printf 'x,y,z\n2,1,0\n4,0,0.5\n-1,0,0\n' >p.csv
+  f query scene.fta bend curve <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | cut -d, -f1-6,9)" 'distance,cx,cy,cz,segment,arc,exact
+1,2,0,0,1,0.5,1
+1,3,0,0.5,2,0.875,1
+1,0,0,0,0,0,1'
+  f query scene.fta bend curve --mode nearest --n 1 --arc-penalty 0.1 <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | wc -l | tr -d ' ')" 4
+}
+
+RowsOfACurveKeepTheirNumbers() {
+  printf 'x,y,z\n0,0,0\n0,0,0\n1,0,0\n2,0,0\n' >c.csv
+  bake c.csv -o a.fta
+  told mended
+  printf 'x,y,z\n1.5,1,0\n' >p.csv
+  f query a.fta c curve <p.csv
+  same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f5)" 2
+}
+
+ColumnsComeInAnyOrderWithCrlfAndBlankLines() {
+  small_scene
+  printf '\357\273\277z, note ,y,x\r\n5,a,0,0\r\n\r\n 2.5,b, 0 ,+0.25\r\n' >p.csv
+  f query scene.fta box distance <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f1)" '2
+-0.5'
+}
+
+BadRowsAreNamedByLine() {
+  small_scene
+  printf 'x,y,z\n1,2,3\n\n1,2\n' >p.csv
+  f query scene.fta box distance <p.csv; exits 3; told 'standard input:4' "column 'z'" missing; same "$out" ''
+  printf 'x,y,z\n1,two,3\n' >p.csv
+  f query scene.fta box distance <p.csv; exits 3; told 'standard input:2' "'two' is not a number"
+  printf '1,2,3\n' >p.csv
+  f query scene.fta box distance <p.csv; exits 3; told 'standard input:1' "no column 'x'" 'x,y,z'
+  f query scene.fta box segment <p.csv; exits 3; told 'ax,ay,az,bx,by,bz'
+  printf 'x,y,z,x\n' >p.csv
+  f query scene.fta box distance <p.csv; exits 3; told "'x' twice"
+  f query scene.fta box distance </dev/null; exits 3; told empty
+}
+
+APointThatIsNotANumberGetsAFiniteAnswer() {
+  small_scene
+  printf 'x,y,z\nnan,0,0\n-inf,0,1e39\n1e400,1,1\n0,0,5\n' >p.csv
+  for kind in 'box distance' 'bend curve'; do
+    # shellcheck disable=SC2086
+    f query scene.fta $kind <p.csv
+    exits 0
+    same "$(printf '%s\n' "$out" | wc -l | tr -d ' ')" 5
+    printf '%s\n' "$out" | grep -qiE '(^|,)-?(nan|inf)' && fail "$out"
+  done
+  same "$(printf '%s\n' "$out" | sed 1d | awk -F, '{ print $NF }' | tr '\n' ' ')" '0 0 0 1 '
+}
+
+ABudgetIsKeptAndTold() {
+  f make part --triangles 2000 -o part.obj
+  bake part.obj -o a.fta
+  f make walk part.obj --points 200 --seed 2 -o walk.csv
+  exits 0
+  same "$(wc -l <walk.csv | tr -d ' ')" 201
+  f query a.fta part distance --cold --budget 5 <walk.csv
+  exits 0
+  printf '%s\n' "$out" | awk -F, 'NR > 1 && !($12 <= 5 && $11 >= 0) { exit 1 }' || fail 'steps beyond the budget'
+  f query a.fta part distance <walk.csv
+  warm=$(printf '%s\n' "$out" | cut -d, -f1)
+  printf '%s\n' "$out" | awk -F, 'NR > 1 && $13 != 1 { exit 1 }' || fail 'not exact'
+  f query a.fta part distance --cold <walk.csv
+  same "$(printf '%s\n' "$out" | cut -d, -f1 | head -n 2)" "$(printf '%s\n' "$warm" | head -n 2)"
+}
+
+TimeIsOneLineWithoutCsv() {
+  small_scene
+  printf 'x,y,z\n0,0,5\n1,1,1\n' >p.csv
+  for kind in 'box distance' 'bend curve'; do
+    # shellcheck disable=SC2086
+    f query scene.fta $kind --time <p.csv
+    exits 0
+    printf '%s\n' "$out" | grep -qxE 'us_per_query [0-9]+\.[0-9]{4} queries 2' || fail "$out"
+  done
+}
+
+AnAbsentNameIsAnsweredWithTheNamesThereAre() {
+  small_scene
+  f query scene.fta ball distance </dev/null; exits 3; told scene.fta "'ball'" 'meshes: box' 'curves: bend'
+  f query scene.fta bend distance </dev/null; exits 3; told "no mesh 'bend'"
+  f query scene.fta box curve </dev/null; exits 3; told "no curve 'box'"
+}
+
+ADamagedAssetIsRefusedByRule() {
+  small_scene
+  head -c 1000 scene.fta >cut.fta
+  f info cut.fta; exits 3; told cut.fta 'rule R8' 'bake it again'
+  { head -c 1000 scene.fta; printf 'XYZ'; tail -c +1004 scene.fta; } >bent.fta
+  same "$(wc -c <bent.fta)" "$(wc -c <scene.fta)"
+  f info bent.fta; exits 3; told 'rule R'
+  f query box.obj box distance </dev/null; exits 3; told 'box.obj: not a sound asset: rule R3'
+  : >empty.fta
+  f info empty.fta; exits 3; told 'rule R2'
+}
+
+InfoTellsNamesSizesAndProvenance() {
+  small_scene
+  f info scene.fta
+  exits 0
+  for text in 'box:' 'bend:' 'source               box.obj' 'triangles            12' 'mesh nodes'; do
+    printf '%s\n' "$out" | grep -qF "$text" || fail "no '$text' in: $out"
+  done
+  f info scene.fta --json
+  exits 0
+  for text in '"name": "box"' '"name": "bend"' '"source": "box.obj"' '"crc": "'; do
+    printf '%s\n' "$out" | grep -qF "$text" || fail "no '$text' in: $out"
+  done
+  printf '%s' "$out" | tr -cd '{[' | wc -c >open
+  printf '%s' "$out" | tr -cd '}]' | wc -c >close
+  cmp -s open close || fail 'brackets of the JSON do not match'
+}
+
+TheCppSourceHoldsTheAsset() {
+  box >box.obj
+  bake box.obj -o 'a scene.fta' --cpp a.cpp
+  cat >main.cpp <<'CPP'
+#include <cstdint>
+#include <cstdio>
+extern const unsigned char a_scene_fta[];
+extern const unsigned a_scene_fta_size;
+int main() {
+  if (reinterpret_cast<uintptr_t>(a_scene_fta) % 16 != 0) return 1;
+  return std::fwrite(a_scene_fta, 1, a_scene_fta_size, stdout) == a_scene_fta_size ? 0 : 1;
+}
+CPP
+  "$compiler" -std=c++17 -Wall -Wextra -Werror main.cpp a.cpp -o main || fail 'does not compile'
+  ./main >back.fta || fail 'not aligned'
+  cmp -s 'a scene.fta' back.fta || fail 'other bytes'
+}
+
+MendedInputIsReportedAndDone() {
+  box | sed 's/^f \(.\) \(.\) \(.\) \(.\)/f \4 \3 \2 \1/' >box.obj
+  bake box.obj -o a.fta
+  told 'mended: ' 'inside out'
+  printf 'x,y,z\n0,0,5\n' >p.csv
+  f query a.fta box distance <p.csv
+  same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f1,2)" 2,1
+}
+
+AFullDiskIsNoSuccess() {
+  [ -w /dev/full ] || return 0
+  small_scene
+  printf 'x,y,z\n0,0,5\n' >p.csv
+  "$firmtouch" query scene.fta box distance <p.csv >/dev/full 2>.err
+  status=$?
+  err=$(cat .err)
+  exits 3
+  told 'standard output'
+}

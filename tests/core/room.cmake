@@ -1,0 +1,1 @@
+firmtouch_test_room(core LINKS firmtouch_core)

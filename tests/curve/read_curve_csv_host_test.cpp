@@ -1,0 +1,136 @@
+// Curves from files: what is taken, what is mended, what is refused and how that is said.
+#include "curve/read_curve_csv.hpp"
+
+#include <clocale>
+#include <string>
+
+#include "harness/test.hpp"
+
+namespace {
+
+using firmtouch::tools::CurvePoints;
+using firmtouch::tools::read_curve_csv_bytes;
+
+CurvePoints read(const std::string& text, double unit_m = 1.0) {
+  return read_curve_csv_bytes(text, "path.csv", unit_m);
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// Refused, with the file, and every part of the message.
+bool refused(const std::string& text, std::initializer_list<const char*> parts) {
+  const CurvePoints points = read(text);
+  bool good = has(points.problem, "path.csv: ");
+  for (const char* part : parts) good = good && has(points.problem, part);
+  if (!good) std::printf("      said: %s\n", points.problem.c_str());
+  return good;
+}
+
+}  // namespace
+
+TEST(RowsBecomeSamplesInOrder) {
+  const CurvePoints points = read("x,y,z\n0,0,0\n1,-2.5,3e-3\n+4,5,6\n");
+  CHECK(points.problem.empty());
+  CHECK_EQ(points.samples_m.size(), 3u);
+  CHECK_EQ(points.samples_m[1].y, -2.5f);
+  CHECK_EQ(points.samples_m[1].z, 3e-3f);
+  CHECK_EQ(points.samples_m[2].x, 4.0f);
+  CHECK_EQ(points.rows[2], 2u);
+  CHECK_EQ(points.notes.size(), 0u);
+}
+
+TEST(CrLfBlankLinesQuotesSpacesAndAMissingLastNewlineAreTaken) {
+  const CurvePoints points = read("\xEF\xBB\xBF\"x\", y ,z\r\n\r\n 0, 0 ,0\r\n1,2,3");
+  CHECK(points.problem.empty());
+  CHECK_EQ(points.samples_m.size(), 2u);
+  CHECK_EQ(points.samples_m[1].z, 3.0f);
+}
+
+TEST(ColumnsAreFoundByNameAndOthersPassedOver) {
+  const CurvePoints points = read("t,z,y,x\n0,1,2,3\n1,4,5,6\n");
+  CHECK(points.problem.empty());
+  CHECK_EQ(points.samples_m[0].x, 3.0f);
+  CHECK_EQ(points.samples_m[0].z, 1.0f);
+  CHECK_EQ(points.notes.size(), 1u);
+  CHECK(has(points.notes[0], "'t'"));
+}
+
+TEST(UnitsAreAppliedInDoubleAndRoundedOnce) {
+  const CurvePoints points = read("x,y,z\n0,0,0\n0.1,25.4,1234.567\n", 0.001);
+  CHECK_EQ(points.samples_m[1].x, static_cast<float>(0.1 * 0.001));
+  CHECK_EQ(points.samples_m[1].z, static_cast<float>(1234.567 * 0.001));
+}
+
+TEST(TheLocaleOfTheMachineChangesNothing) {
+  const char* tried[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "C"};
+  for (const char* name : tried) {
+    std::setlocale(LC_ALL, name);
+    CHECK_EQ(read("x,y,z\n0,0,0\n1.5,2,3\n").samples_m[1].x, 1.5f);
+  }
+  std::setlocale(LC_ALL, "C");
+}
+
+TEST(RepeatedSamplesAreDroppedAndReported) {
+  const CurvePoints points = read("x,y,z\n0,0,0\n0,0,0\n1,0,0\n1,0,1e-14\n1,0,0\n2,0,0\n");
+  CHECK(points.problem.empty());
+  CHECK_EQ(points.samples_m.size(), 3u);
+  CHECK_EQ(points.rows[1], 2u);
+  CHECK_EQ(points.rows[2], 5u);
+  CHECK_EQ(points.notes.size(), 1u);
+  CHECK(has(points.notes[0], "dropped 3 samples"));
+  CHECK(has(points.notes[0], "row 1"));
+}
+
+TEST(AClosedCurveKeepsItsLastSample) {
+  CHECK_EQ(read("x,y,z\n0,0,0\n1,0,0\n1,1,0\n0,0,0\n").samples_m.size(), 4u);
+}
+
+TEST(TooFewSamplesAreRefused) {
+  CHECK(refused("x,y,z\n1,2,3\n", {"only one sample", "at least two"}));
+  CHECK(refused("x,y,z\n", {"no samples", "at least two"}));
+  CHECK(refused("", {"is empty", "x,y,z"}));
+  CHECK(refused("\n\n", {"is empty", "x,y,z"}));
+}
+
+TEST(ACurveWithoutLengthIsRefused) {
+  CHECK(refused("x,y,z\n1,2,3\n1,2,3\n1,2,3\n", {"all 3 samples", "no length"}));
+  CHECK(refused("x,y,z\n0,0,0\n1e-9,0,0\n", {"smaller than a thousandth", "--unit"}));
+}
+
+TEST(WhatIsNotAFiniteNumberIsRefusedWithItsLine) {
+  CHECK(refused("x,y,z\n0,0,0\n1,nan,0\n2,0,0\n", {"line 3", "y = 'nan'", "mend or delete"}));
+  CHECK(refused("x,y,z\n0,0,0\ninf,0,0\n", {"line 3", "x = 'inf'"}));
+  CHECK(refused("x,y,z\n0,0,0\n1,0,1e39\n", {"line 3", "z = '1e39'", "too large"}));
+  CHECK(refused("x,y,z\n0,0,0\n1,0,1e999\n", {"line 3", "too large"}));
+  CHECK(refused("x,y,z\n0,0,0\n1,,0\n", {"line 3", "y = ''"}));
+  CHECK(refused("x,y,z\n0,0,0\n1,0x1p3,0\n", {"line 3", "y = '0x1p3'"}));
+  CHECK(refused("x,y,z\n0,0,0\n2e9,0,0\n", {"row 1", "1e9 m", "--unit"}));
+}
+
+TEST(AMissingHeaderIsRefused) {
+  CHECK(refused("0,0,0\n1,0,0\n", {"line 1", "no header", "x,y,z"}));
+  CHECK(refused("a,b,c\n0,0,0\n1,0,0\n", {"line 1", "'a,b,c'", "x,y,z"}));
+  CHECK(refused("x,y\n0,0\n1,0\n", {"line 1", "x,y,z"}));
+  CHECK(refused("x,y,z,x\n0,0,0,0\n1,0,0,0\n", {"line 1", "once"}));
+}
+
+TEST(OtherSeparatorsAndDecimalCommasAreRefusedByName) {
+  CHECK(refused("x;y;z\n0;0;0\n1;0;0\n", {"line 1", "semicolons", "commas"}));
+  CHECK(refused("x,y,z\n0;0;0\n", {"line 2", "semicolons"}));
+  CHECK(refused("x\ty\tz\n0\t0\t0\n", {"line 1", "tabs"}));
+  CHECK(refused("x y z\n0 0 0\n", {"line 1", "spaces"}));
+  CHECK(refused("x,y,z\n0,0,0,0,1,5\n", {"line 2", "6 fields", "point, not a comma"}));
+}
+
+TEST(RowsOfAnotherLengthAreRefusedWithTheirLine) {
+  CHECK(refused("x,y,z\n0,0,0\n1,2\n", {"line 3", "2 fields", "header names 3"}));
+  CHECK(refused("x,y,z\n0,0,0\n1,2,3,\n", {"line 3", "4 fields", "mend or delete"}));
+}
+
+TEST(AFileThatCannotBeOpenedIsNamed) {
+  const CurvePoints points = firmtouch::tools::read_curve_csv("no/such/path.csv", 1.0);
+  CHECK(has(points.problem, "no/such/path.csv"));
+  CHECK(has(points.problem, "cannot be opened"));
+}

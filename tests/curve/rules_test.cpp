@@ -1,0 +1,251 @@
+// Each rule of a curve, tripped alone: one thing is wrong, all that follows from it fits.
+#include "curve/small_curve.hpp"
+#include "harness/test.hpp"
+
+namespace {
+
+using firmtouch::core::Verdict;
+using firmtouch::curve::Sample;
+using firmtouch::curve::Sections;
+using firmtouch::curve::View;
+using firmtouch::curve_test::SmallCurve;
+
+constexpr Sample kHook[] = {{0, 0, 0},           {0.125f, 0, 0},
+                            {0.25f, 0.0625f, 0}, {0.25f, 0.25f, 0.5f},
+                            {0, 0.25f, 0.25f},   {-0.5f, 0.125f, 0}};
+constexpr Sample kRing[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}};
+
+Verdict verdict_of(const Sections& sections) {
+  View view;
+  const Verdict verdict = firmtouch::curve::open(sections, view);
+  CHECK_EQ(verdict.ok(), view.is_open());
+  return verdict;
+}
+
+void expect(const SmallCurve& c, uint32_t rule, uint32_t element) {
+  const Verdict verdict = verdict_of(c.sections());
+  CHECK_EQ(verdict.rule, rule);
+  CHECK_EQ(verdict.element, element);
+}
+
+float nan_value() { return __builtin_nanf(""); }
+
+}  // namespace
+
+TEST(TheCurvesThatTheRulesAreTriedOnAreGood) {
+  expect(SmallCurve(kHook), 0, 0);
+  expect(SmallCurve(kRing), 0, 0);
+  CHECK_EQ(SmallCurve(kRing).view().is_closed(), true);
+  CHECK_EQ(SmallCurve(kHook).view().is_closed(), false);
+}
+
+TEST(OpeningInSlicesOfAnySizeSaysTheSame) {
+  const SmallCurve c(kHook);
+  for (uint32_t slice = 1; slice < 8; ++slice) {
+    firmtouch::curve::Opening opening(c.sections());
+    uint32_t slices = 0;
+    for (; !opening.done() && slices < 100; ++slices) {
+      CHECK_EQ(opening.view().is_open(), false);
+      opening.work(slice);
+    }
+    CHECK_EQ(opening.verdict().ok(), true);
+    CHECK_EQ(opening.view().is_open(), true);
+    CHECK_EQ(slices, (18 + slice - 1) / slice);
+  }
+}
+
+TEST(Rule201RefusesAMissingHead) {
+  const SmallCurve c(kHook);
+  Sections s = c.sections();
+  s.head = {};
+  CHECK_EQ(verdict_of(s).rule, 201);
+  s.head = {c.sections().head.data(), 44};
+  CHECK_EQ(verdict_of(s).rule, 201);
+  CHECK_EQ(verdict_of({}).rule, 201);
+}
+
+TEST(Rule202RefusesFewerThanTwoSamplesAndTooMany) {
+  SmallCurve c(kHook);
+  static const uint32_t counts[] = {0u, 1u, 1u << 22, 0xFFFFFFFFu};
+  for (const uint32_t count : counts) {
+    c.head.sample_count = count;
+    Sections s = SmallCurve(kHook).sections();
+    s.head = {reinterpret_cast<const uint8_t*>(&c.head), sizeof c.head};
+    CHECK_EQ(verdict_of(s).rule, 202);
+  }
+}
+
+TEST(Rule203RefusesReservedWordsThatAreNotZero) {
+  for (uint32_t k = 0; k < 2; ++k) {
+    SmallCurve c(kHook);
+    c.head.reserved[k] = 1;
+    expect(c, 203, 0);
+  }
+}
+
+TEST(Rule204RefusesAClosednessBeyondOne) {
+  SmallCurve c(kRing);
+  c.head.is_closed = 2;
+  expect(c, 204, 0);
+}
+
+TEST(Rules205To207RefuseSectionsOfAnotherLength) {
+  const SmallCurve c(kHook);
+  for (uint32_t less = 0; less < 2; ++less) {
+    Sections s = c.sections();
+    s.samples = {s.samples.data(), less ? s.samples.size() - 12 : s.samples.size() + 12};
+    CHECK_EQ(verdict_of(s).rule, 205);
+    s = c.sections();
+    s.arcs = {s.arcs.data(), less ? s.arcs.size() - 4 : s.arcs.size() + 1};
+    CHECK_EQ(verdict_of(s).rule, 206);
+    s = c.sections();
+    s.nodes = {s.nodes.data(), less ? s.nodes.size() - 8 : s.nodes.size() + 4};
+    CHECK_EQ(verdict_of(s).rule, 207);
+  }
+}
+
+TEST(Rule208RefusesABoxThatIsNotOneOrTooFarAway) {
+  const float wrong[] = {nan_value(), __builtin_inff(), 1.1e9f};
+  for (uint32_t k = 0; k < 3; ++k) {
+    for (const float value : wrong) {
+      SmallCurve c(kHook);
+      c.head.high_m[k] = value;
+      expect(c, 208, k);
+      c.head.high_m[k] = SmallCurve(kHook).head.high_m[k];
+      c.head.low_m[k] = -value;
+      expect(c, 208, k);
+    }
+    SmallCurve c(kHook);
+    c.head.low_m[k] = c.head.high_m[k] + 1.0f;
+    expect(c, 208, k);
+  }
+}
+
+TEST(Rule209RefusesAnotherDiagonalAndACurveOfNoSize) {
+  SmallCurve c(kHook);
+  c.head.diagonal_m *= 1.0f + 0x1p-23f;
+  expect(c, 209, 0);
+  c.head.diagonal_m = nan_value();
+  expect(c, 209, 0);
+  const Sample dust[] = {{0, 0, 0}, {0x1p-22f, 0, 0}};
+  expect(SmallCurve(dust), 209, 0);
+}
+
+TEST(Rule210RefusesALengthShorterThanTheBoxAllowsOrEndless) {
+  const float wrong[] = {nan_value(), __builtin_inff(), 0.0f, -1.0f};
+  for (const float value : wrong) {
+    SmallCurve c(kHook);
+    c.head.length_m = value;
+    expect(c, 210, 0);
+  }
+}
+
+TEST(Rule211RefusesSamplesOutsideTheBoxAndNaN) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    SmallCurve c(kHook);
+    (&c.samples[2].x_m)[k] = 0.75f;
+    expect(c, 211, 2);
+    (&c.samples[2].x_m)[k] = nan_value();
+    expect(c, 211, 2);
+  }
+}
+
+TEST(Rule212RefusesABoxWiderThanTheSamples) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    SmallCurve c(kHook);
+    c.head.high_m[k] += 0.25f;
+    c.head.diagonal_m = firmtouch::curve::diagonal_m(c.head);
+    expect(c, 212, k);
+  }
+}
+
+TEST(Rule213RefusesAClosednessThatTheSamplesDeny) {
+  SmallCurve c(kHook);
+  c.head.is_closed = 1;
+  expect(c, 213, 0);
+  SmallCurve ring(kRing);
+  ring.head.is_closed = 0;
+  expect(ring, 213, 0);
+}
+
+TEST(Rule214RefusesArcPositionsOutsideZeroToOneAndLooseEnds) {
+  SmallCurve c(kHook);
+  c.arcs[2] = nan_value();
+  expect(c, 214, 2);
+  c.arcs[2] = -0x1p-30f;
+  expect(c, 214, 2);
+  c = SmallCurve(kHook);
+  c.arcs[5] = 1.0f + 0x1p-23f;
+  expect(c, 214, 5);
+  c.arcs[5] = 1.0f - 0x1p-24f;
+  expect(c, 214, 5);
+  c = SmallCurve(kHook);
+  c.arcs[0] = 0x1p-30f;
+  expect(c, 214, 0);
+}
+
+TEST(Rule215RefusesASampleThatRepeatsTheOneBefore) {
+  const Sample repeated[] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0x1p-41f}, {2, 0, 0}};
+  expect(SmallCurve(repeated), 215, 2);
+}
+
+TEST(Rule216RefusesArcPositionsThatRunBackwards) {
+  const Sample close[] = {{0, 0, 0}, {1, 0, 0}, {1, 0x1p-30f, 0}, {2, 0, 0}};
+  SmallCurve c(close);
+  c.arcs[2] = c.arcs[1] - 0x1p-24f;  // less than what rule 217 would notice
+  expect(c, 216, 2);
+}
+
+TEST(Rule217RefusesArcPositionsThatTheSamplesDeny) {
+  SmallCurve c(kHook);
+  c.arcs[3] += 0x1p-19f;
+  expect(c, 217, 3);
+  c = SmallCurve(kHook);
+  c.head.length_m *= 1.0f + 0x1p-10f;
+  expect(c, 217, 1);
+}
+
+TEST(Rule218RefusesNodesThatNameNoSampleOrNoAxis) {
+  SmallCurve c(kHook);
+  c.nodes[5].place = firmtouch::curve::make_place(6, 0);
+  expect(c, 218, 5);
+  c = SmallCurve(kHook);
+  c.nodes[5].place |= 3u << 30;
+  expect(c, 218, 5);
+}
+
+TEST(Rule219RefusesASampleOnTheWrongSideOfANodeAbove) {
+  SmallCurve c(kHook);
+  const firmtouch::curve::Node moved = c.nodes[3];
+  c.nodes[3].place = c.nodes[5].place;  // one stands below the first child, one below the second
+  c.nodes[5].place = moved.place;
+  c.derive_reaches();
+  expect(c, 219, 3);
+}
+
+TEST(Rule219RefusesASampleThatStandsInTwoNodes) {
+  for (uint32_t to = 0; to < 6; ++to) {
+    for (uint32_t from = 0; from < 6; ++from) {
+      if (to == from) continue;
+      SmallCurve c(kHook);
+      const uint32_t axis = firmtouch::curve::axis_of(c.nodes[to].place);
+      c.nodes[to].place =
+          firmtouch::curve::make_place(firmtouch::curve::sample_of(c.nodes[from].place), axis);
+      c.derive_reaches();
+      CHECK_EQ(verdict_of(c.sections()).rule, 219);
+    }
+  }
+}
+
+TEST(Rule220RefusesAnyOtherReach) {
+  const float wrong[] = {nan_value(), 0.0f, 1.0f, -1.0f};
+  for (uint32_t i = 0; i < 6; ++i) {
+    for (const float value : wrong) {
+      SmallCurve c(kHook);
+      c.nodes[i].reach_m = value;
+      const Verdict verdict = verdict_of(c.sections());
+      CHECK_EQ(verdict.rule, 220);
+      CHECK_LE(verdict.element, i);  // a parent's reach is judged with its children's
+    }
+  }
+}

@@ -1,0 +1,141 @@
+#pragma once
+// Curves of a few samples, built without the baker and without heap, so that the tests run on the
+// controller too and a rule can be broken by hand.
+#include <stdint.h>
+
+#include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/curve/derived.hpp"
+#include "firmtouch/curve/view.hpp"
+
+namespace firmtouch::curve_test {
+
+constexpr uint32_t kMost = 256;
+
+struct SmallCurve {
+  curve::Head head{};
+  curve::Sample samples[kMost];
+  float arcs[kMost];
+  curve::Node nodes[kMost];
+
+  template <uint32_t N>
+  explicit SmallCurve(const curve::Sample (&from)[N]) {
+    static_assert(N >= 2 && N <= kMost);
+    build(from, N);
+  }
+  SmallCurve(const curve::Sample* from, uint32_t count) { build(from, count); }
+
+  curve::Sections sections() const {
+    const uint32_t n = head.sample_count;
+    return {bytes(&head, sizeof head), bytes(samples, n * 12), bytes(arcs, n * 4),
+            bytes(nodes, n * 8)};
+  }
+  curve::View view() const {
+    curve::View opened;
+    const core::Verdict verdict = curve::open(sections(), opened);
+    return verdict.ok() ? opened : curve::View{};
+  }
+
+  void build(const curve::Sample* from, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) samples[i] = from[i];
+    head.sample_count = count;
+    derive();
+  }
+  // Everything that follows from the samples.
+  void derive() {
+    const uint32_t n = head.sample_count;
+    derive_head(n);
+    double travelled_m = 0;
+    for (uint32_t i = 1; i < n; ++i) travelled_m += spacing_m(i);
+    head.length_m = static_cast<float>(travelled_m);
+    double so_far_m = 0;
+    for (uint32_t i = 0; i < n; ++i) {
+      if (i > 0) so_far_m += spacing_m(i);
+      arcs[i] = i + 1 == n ? 1.0f : static_cast<float>(so_far_m / travelled_m);
+    }
+    for (uint32_t i = 0; i < n; ++i) order_[i] = i;
+    place(n);
+    derive_reaches();
+  }
+  void derive_reaches() {
+    const uint32_t n = head.sample_count;
+    for (uint32_t i = n; i-- > 0;) {
+      nodes[i].reach_m = curve::own_reach_m(samples, n, curve::sample_of(nodes[i].place));
+      for (uint32_t c = 2 * i + 1; c < 2 * i + 3 && c < n; ++c)
+        if (nodes[c].reach_m > nodes[i].reach_m) nodes[i].reach_m = nodes[c].reach_m;
+    }
+  }
+
+ private:
+  static core::Bytes bytes(const void* data, uint32_t size) {
+    return {static_cast<const uint8_t*>(data), size};
+  }
+  double spacing_m(uint32_t i) const {
+    return static_cast<double>(math::length(curve::vec(samples[i]) - curve::vec(samples[i - 1])));
+  }
+  void derive_head(uint32_t n) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      head.low_m[k] = head.high_m[k] = (&samples[0].x_m)[k];
+      for (uint32_t i = 1; i < n; ++i) {
+        const float at = (&samples[i].x_m)[k];
+        if (at < head.low_m[k]) head.low_m[k] = at;
+        if (at > head.high_m[k]) head.high_m[k] = at;
+      }
+    }
+    head.diagonal_m = curve::diagonal_m(head);
+    const curve::Sample &a = samples[0], &b = samples[n - 1];
+    head.is_closed = math::length(curve::vec(a) - curve::vec(b)) > 0.0f ? 0 : 1;
+  }
+  // Axes in turn, by insertion sort: another tree than the baker's, as good to open().
+  void place(uint32_t n) {
+    struct Range {
+      uint32_t node, begin, end;
+    };
+    Range open[32] = {{0, 0, n}};
+    for (uint32_t count = 1; count > 0;) {
+      const Range r = open[--count];
+      uint32_t level = 0;
+      for (uint32_t at = r.node; at != 0; at = curve::parent_of(at)) ++level;
+      const uint32_t axis = level % 3;
+      for (uint32_t i = r.begin + 1; i < r.end; ++i)
+        for (uint32_t j = i; j > r.begin; --j) {
+          if (!curve::comes_before(samples, axis, order_[j], order_[j - 1])) break;
+          const uint32_t moved = order_[j];
+          order_[j] = order_[j - 1];
+          order_[j - 1] = moved;
+        }
+      uint32_t first = 0;  // nodes below the first child: those whose way up passes it
+      for (uint32_t i = 0; i < n; ++i) first += is_below(i, 2 * r.node + 1) ? 1u : 0u;
+      const uint32_t middle = r.begin + first;
+      nodes[r.node].place = curve::make_place(order_[middle], axis);
+      if (middle > r.begin) open[count++] = {2 * r.node + 1, r.begin, middle};
+      if (middle + 1 < r.end) open[count++] = {2 * r.node + 2, middle + 1, r.end};
+    }
+  }
+  static bool is_below(uint32_t node, uint32_t top) {
+    while (node > top) node = curve::parent_of(node);
+    return node == top;
+  }
+
+  uint32_t order_[kMost];
+};
+
+/// Squared distance to the polyline in double, over every segment.
+inline double brute_distance2(const SmallCurve& c, math::Vec3 p) {
+  double least = 1e300;
+  for (uint32_t i = 0; i + 1 < c.head.sample_count; ++i) {
+    const curve::Sample &a = c.samples[i], &b = c.samples[i + 1];
+    const double e[3] = {double{b.x_m} - double{a.x_m}, double{b.y_m} - double{a.y_m},
+                         double{b.z_m} - double{a.z_m}};
+    const double v[3] = {double{p.x} - double{a.x_m}, double{p.y} - double{a.y_m},
+                         double{p.z} - double{a.z_m}};
+    double t =
+        (v[0] * e[0] + v[1] * e[1] + v[2] * e[2]) / (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    double d2 = 0;
+    for (int k = 0; k < 3; ++k) d2 += (v[k] - t * e[k]) * (v[k] - t * e[k]);
+    if (d2 < least) least = d2;
+  }
+  return least;
+}
+
+}  // namespace firmtouch::curve_test

@@ -1,0 +1,153 @@
+#include <float.h>
+
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "firmtouch/asset/opening.hpp"
+#include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/curve/nearest_constraint.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/mesh/segment_cast.hpp"
+#include "fuzz/victim.hpp"
+#include "harness/test.hpp"
+
+namespace firmtouch::fuzz {
+namespace {
+
+using math::Vec3;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr Vec3 kPoints[] = {
+    {0.1f, 0.2f, 0.3f}, {1.0f, 0.7f, 0.5f}, {1.02f, 0.1f, -0.01f},     {40, -3, 7}, {kNan, 0, 0},
+    {0, -kInfinite, 0}, {FLT_MAX, 1, 1},    {-1e30f, FLT_MAX, 1e-42f}, {0, 0, 0}};
+constexpr uint32_t kBudgets[] = {1, 7, UINT32_MAX};
+constexpr uint32_t kStepLimit = 4096;  // far above the nodes of the victim: an unlimited query ends
+
+// Heap copies, each as long as its section to the byte.
+class Copies {
+ public:
+  core::Bytes of(core::Bytes bytes) {
+    if (bytes.empty()) return {};
+    blocks_.push_back(std::make_unique<uint8_t[]>(bytes.size()));
+    std::memcpy(blocks_.back().get(), bytes.data(), bytes.size());
+    return {blocks_.back().get(), bytes.size()};
+  }
+
+ private:
+  std::vector<std::unique_ptr<uint8_t[]>> blocks_;
+};
+
+bool is_finite(float value) { return value >= -FLT_MAX && value <= FLT_MAX; }
+bool is_finite(Vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+
+void check_certificate(const query::Certificate& certificate, uint32_t budget, bool finite_point) {
+  CHECK(is_finite(certificate.lower_m) && certificate.lower_m >= 0);
+  CHECK_LE(certificate.steps, budget);
+  CHECK_LE(certificate.steps, kStepLimit);
+  CHECK(certificate.sign >= -1 && certificate.sign <= 1);
+  CHECK(finite_point || !certificate.exact);
+}
+
+void feel_mesh(const mesh::View& view) {
+  query::Hint warm;
+  for (const uint32_t budget : kBudgets) {
+    for (const Vec3 p : kPoints) {
+      const mesh::Closest closest = mesh::closest_point(view, p, {budget}, warm);
+      CHECK(is_finite(closest.distance_m) && is_finite(closest.point_m) &&
+            is_finite(closest.direction));
+      CHECK_LT(closest.triangle, view.head().triangle_count);
+      CHECK(closest.feature <= mesh::Feature::kVertex2);
+      check_certificate(closest.certificate, budget, is_finite(p));
+    }
+    for (uint32_t i = 0; i + 1 < sizeof(kPoints) / sizeof(kPoints[0]); ++i) {
+      const mesh::Hit hit = mesh::cast_segment(view, kPoints[i], kPoints[i + 1], {budget});
+      CHECK(hit.t >= 0 && hit.t <= 1);
+      CHECK_LT(hit.triangle, view.head().triangle_count);
+      CHECK_LE(hit.steps, budget);
+      CHECK_LE(hit.steps, kStepLimit);
+    }
+  }
+}
+
+void check_curve_answer(const curve::View& view, const curve::Closest& closest, uint32_t budget,
+                        Vec3 p) {
+  CHECK(is_finite(closest.distance_m) && is_finite(closest.point_m) && is_finite(closest.tangent));
+  CHECK_LT(closest.segment, view.segment_count());
+  CHECK(closest.arc >= 0 && closest.arc <= 1);
+  check_certificate(closest.certificate, budget, is_finite(p));
+}
+
+void feel_curve(const curve::View& view) {
+  query::Hint warm;
+  curve::Neighbour memory[3];
+  for (const uint32_t budget : kBudgets) {
+    for (const Vec3 p : kPoints) {
+      check_curve_answer(view, curve::closest_point(view, p, {budget}, warm), budget, p);
+      const curve::Constraint tied = curve::nearest_constraint(
+          view, p, {0.1f, 0.5f, true}, core::Span<curve::Neighbour>(memory), {budget});
+      check_curve_answer(view, tied.closest, budget, p);
+      CHECK(is_finite(tied.cost_m));
+    }
+  }
+}
+
+core::Verdict open_mesh(const asset::Container& container, const char* name) {
+  Copies copies;
+  mesh::Sections sections;
+  sections.head = copies.of(container.find(mesh::kHeadSection, name));
+  sections.vertices = copies.of(container.find(mesh::kVerticesSection, name));
+  sections.triangles16 = copies.of(container.find(mesh::kTriangles16Section, name));
+  sections.triangles32 = copies.of(container.find(mesh::kTriangles32Section, name));
+  sections.nodes = copies.of(container.find(mesh::kNodesSection, name));
+  sections.parents = copies.of(container.find(mesh::kParentsSection, name));
+  sections.vertex_normals = copies.of(container.find(mesh::kVertexNormalsSection, name));
+  sections.edge_folds = copies.of(container.find(mesh::kEdgeFoldsSection, name));
+  mesh::View view;
+  const core::Verdict verdict = mesh::open(sections, view);
+  CHECK_EQ(verdict.ok(), view.is_open());
+  if (!verdict.ok()) return verdict;
+  feel_mesh(view);
+  const query::Probes probes =
+      query::read_probes(copies.of(container.find(mesh::kProbesSection, name)));
+  (void)mesh::probe_hash(view, probes.points);
+  return verdict;
+}
+
+core::Verdict open_curve(const asset::Container& container, const char* name) {
+  Copies copies;
+  curve::Sections sections;
+  sections.head = copies.of(container.find(curve::kHeadSection, name));
+  sections.samples = copies.of(container.find(curve::kSamplesSection, name));
+  sections.arcs = copies.of(container.find(curve::kArcsSection, name));
+  sections.nodes = copies.of(container.find(curve::kNodesSection, name));
+  curve::View view;
+  const core::Verdict verdict = curve::open(sections, view);
+  CHECK_EQ(verdict.ok(), view.is_open());
+  if (!verdict.ok()) return verdict;
+  feel_curve(view);
+  const query::Probes probes =
+      query::read_probes(copies.of(container.find(curve::kProbesSection, name)));
+  (void)curve::probe_hash(view, probes.points);
+  return verdict;
+}
+
+}  // namespace
+
+core::Verdict feel(const std::vector<uint8_t>& file) {
+  asset::Container container;
+  const core::Verdict verdict =
+      asset::open({file.data(), static_cast<uint32_t>(file.size())}, container);
+  if (!verdict.ok()) return verdict;
+  core::Verdict first = core::kPassed;
+  for (uint32_t i = 0; i < container.section_count(); ++i) {
+    core::Verdict found = core::kPassed;
+    if (container.type(i) == mesh::kHeadSection) found = open_mesh(container, container.name(i));
+    if (container.type(i) == curve::kHeadSection) found = open_curve(container, container.name(i));
+    if (first.ok()) first = found;
+  }
+  return first;
+}
+
+}  // namespace firmtouch::fuzz

@@ -1,0 +1,1 @@
+firmtouch_test_room(hal LINKS firmtouch_core)

@@ -1,0 +1,40 @@
+#include "firmtouch/link/command_mailbox.hpp"
+
+#include "harness/test.hpp"
+
+namespace firmtouch::link {
+namespace {
+
+TEST(CommandsAreTakenOneATickInTheirOrder) {
+  CommandMailbox mailbox;
+  record::TickInput input{};
+  input.command = 99;
+  mailbox.take(input);
+  CHECK_EQ(input.command, 0u);
+  CHECK(mailbox.put(0, 1.5f));
+  CHECK(mailbox.put(4, 2.5f));
+  mailbox.take(input);
+  CHECK_EQ(input.command, 1u);
+  CHECK_EQ(input.command_value, 1.5f);
+  mailbox.take(input);
+  CHECK_EQ(input.command, 5u);
+  CHECK_EQ(input.command_value, 2.5f);
+  mailbox.take(input);
+  CHECK_EQ(input.command, 0u);
+  CHECK_EQ(input.command_value, 0.0f);
+}
+
+TEST(AFullMailboxRefusesAndKeepsWhatItHas) {
+  CommandMailbox mailbox;
+  for (uint32_t i = 0; i < CommandMailbox::kCapacity; ++i) CHECK(mailbox.put(i, 0));
+  CHECK(!mailbox.put(100, 0));
+  record::TickInput input{};
+  for (uint32_t i = 0; i < CommandMailbox::kCapacity; ++i) {
+    mailbox.take(input);
+    CHECK_EQ(input.command, i + 1);
+  }
+  CHECK(mailbox.put(100, 0));
+}
+
+}  // namespace
+}  // namespace firmtouch::link

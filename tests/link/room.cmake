@@ -1,0 +1,1 @@
+firmtouch_test_room(link LINKS firmtouch_link firmtouch_record firmtouch_core)

@@ -1,0 +1,128 @@
+// The instruction-set variants give the bits of their portable definitions, and elementary functions are total.
+#include "firmtouch/math/isa.hpp"
+
+#include <float.h>
+#include <stdint.h>
+
+#include "firmtouch/core/hash.hpp"
+#include "firmtouch/math/arithmetic_check.hpp"
+#include "firmtouch/math/elementary.hpp"
+#include "harness/test.hpp"
+
+namespace math = firmtouch::math;
+
+namespace {
+
+uint32_t g_seed = 1;
+uint32_t next_random() {
+  g_seed ^= g_seed << 13, g_seed ^= g_seed >> 17, g_seed ^= g_seed << 5;
+  return g_seed;
+}
+
+bool is_nan(float value) { return (math::bits_of(value) & 0x7FFFFFFFu) > 0x7F800000u; }
+
+// Both square roots of a value read at run time: bits equal, or both NaN (whose payload is nobody's business).
+bool roots_agree(uint32_t bits) {
+  volatile uint32_t word = bits;
+  const float value = math::float_of(word);
+  const float portable = math::portable_square_root(value), variant = math::square_root(value);
+  return math::bits_of(portable) == math::bits_of(variant) || (is_nan(portable) && is_nan(variant));
+}
+
+constexpr uint32_t kSpecials[] = {0x00000000u, 0x80000000u, 0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u,
+                                  0x807FFFFFu, 0x3F7FFFFFu, 0x3F800000u, 0x3F800001u, 0xBF800000u, 0x7F7FFFFFu,
+                                  0xFF7FFFFFu, 0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00000u, 0x7F800001u,
+                                  0x3FC90FDBu, 0x40490FDBu};
+
+}  // namespace
+
+TEST(PortableSquareRootHasTheBitsOfTheProcessors) {
+  for (const uint32_t bits : kSpecials) CHECK(roots_agree(bits));
+  uint32_t differ = 0;
+  for (uint32_t i = 0; i < 40000; ++i) differ += roots_agree(i * 107377u) ? 0u : 1u;           // all over
+  for (uint32_t i = 0; i < 4000; ++i) differ += roots_agree(next_random() & 0x7FFFFFu) ? 0u : 1u;  // denormals
+  for (uint32_t i = 0; i < 4000; ++i) differ += roots_agree(0x3F800000u + i) ? 0u : 1u;       // next to 1
+  for (uint32_t i = 1; i < 4000; ++i) {  // next to exact squares, where rounding turns
+    const float square = static_cast<float>(i) * static_cast<float>(i);
+    for (uint32_t k = 0; k < 3; ++k) differ += roots_agree(math::bits_of(square) + k - 1) ? 0u : 1u;
+  }
+  CHECK_EQ(differ, 0u);
+}
+
+TEST(PortableSquareRootIsTheNearestFloat) {
+  // r is right where (r - half ulp)^2 < x < (r + half ulp)^2, in integers: r = 2^12 scaled, x = r^2 scaled.
+  uint32_t wrong = 0;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    const uint32_t mantissa = 0x800000u | (next_random() & 0x7FFFFFu);
+    const float x = math::float_of(0x4B000000u | (mantissa & 0x7FFFFFu));  // the integer `mantissa`
+    const uint32_t root = math::bits_of(math::portable_square_root(x));
+    // 2^11.5 <= root < 2^12: exponent 138, 12 bits behind the point; doubled for the half bit.
+    const uint64_t twice = 2 * static_cast<uint64_t>((root & 0x7FFFFFu) | 0x800000u);
+    const uint64_t target = static_cast<uint64_t>(mantissa) << 26;
+    if ((root >> 23) != 138u) ++wrong;
+    if (!((twice - 1) * (twice - 1) < target && target < (twice + 1) * (twice + 1))) ++wrong;
+  }
+  CHECK_EQ(wrong, 0u);
+}
+
+TEST(BoxDistanceVariantsAgree) {
+  uint32_t differ = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    uint32_t box[3], point[3];
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t low = next_random() & 0x7FFFu, high = next_random() & 0x7FFFu;
+      const uint32_t ceil = next_random() & 0x7FFFu, floor = ceil == 0 ? 0 : ceil - (next_random() & 1u);
+      box[k] = (low < high ? low : high) | (32767u - (low < high ? high : low)) << 16;
+      point[k] = ceil | (32767u - floor) << 16;
+      if (i % 16 == 0) box[k] = (i & 16u) != 0 ? 32767u : 32767u << 16, point[k] = (i & 32u) != 0 ? 32767u : 32767u << 16;
+    }
+    if (math::box_distance2(box, point) != math::portable_box_distance2(box, point)) ++differ;
+  }
+  CHECK_EQ(differ, 0u);
+}
+
+TEST(BoxDistanceIsTheSquaredGapInCells) {
+  const uint32_t box[3] = {100u | (32767u - 200u) << 16, 100u | (32767u - 200u) << 16, 0u | 0u << 16};
+  const uint32_t inside[3] = {150u | (32767u - 150u) << 16, 100u | (32767u - 100u) << 16, 7u | (32767u - 7u) << 16};
+  const uint32_t beside[3] = {90u | (32767u - 90u) << 16, 203u | (32767u - 203u) << 16, 7u | (32767u - 7u) << 16};
+  CHECK_EQ(math::box_distance2(box, inside), 0u);
+  CHECK_EQ(math::box_distance2(box, beside), 100u + 9u);
+}
+
+TEST(ThisProcessorComputesAsTheBakersDid) { CHECK(math::arithmetic_is_sound()); }
+
+TEST(ElementaryFunctionsAreFiniteForEveryInput) {
+  const auto is_finite = [](float value) { return (math::bits_of(value) & 0x7FFFFFFFu) < 0x7F800000u; };
+  for (const uint32_t bits : kSpecials) {
+    const float x = math::float_of(bits);
+    CHECK(is_finite(math::sine(x)));
+    CHECK(is_finite(math::cosine(x)));
+    CHECK(is_finite(math::arc_cosine(x)));
+    CHECK(is_finite(math::safe_square_root(x)));
+    for (const uint32_t other : kSpecials) CHECK(is_finite(math::arc_tangent2(x, math::float_of(other))));
+  }
+  const float nan = math::float_of(0x7FC00000u), inf = math::float_of(0x7F800000u);
+  CHECK_EQ(math::sine(nan), 0.0f);
+  CHECK_EQ(math::cosine(inf), 1.0f);
+  CHECK_EQ(math::arc_tangent2(nan, 1.0f), 0.0f);
+  CHECK_EQ(math::arc_cosine(2.0f), 0.0f);
+  CHECK_EQ(math::arc_cosine(-2.0f), 3.14159274f);
+  CHECK_EQ(math::arc_cosine(nan), 1.57079637f);
+  CHECK_EQ(math::safe_square_root(-1.0f), 0.0f);
+  CHECK_EQ(math::safe_square_root(inf), FLT_MAX);
+}
+
+// The same number on every compiler, level and controller: it was computed once on x86-64, and no target may differ.
+TEST(ElementaryFunctionsHaveOneHashEverywhere) {
+  firmtouch::core::Hash hash;
+  for (uint32_t i = 0; i < 8000; ++i) {
+    const float x = math::float_of(i * 268435u), y = math::float_of(0x3F000000u + i * 4099u);
+    hash.add(math::bits_of(math::sine(x)));
+    hash.add(math::bits_of(math::cosine(-x)));
+    hash.add(math::bits_of(math::arc_tangent2(x, y)));
+    hash.add(math::bits_of(math::arc_tangent2(y, -y * 0.75f)));
+    hash.add(math::bits_of(math::arc_cosine(2.0f * y - 2.0f)));
+    hash.add(math::bits_of(math::safe_square_root(x)));
+  }
+  CHECK_EQ(static_cast<uint32_t>(hash.value()), 1842873646u);
+}

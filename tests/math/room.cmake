@@ -1,0 +1,1 @@
+firmtouch_test_room(math LINKS firmtouch_math firmtouch_core)

@@ -1,0 +1,159 @@
+// Distances, sides and certificates against brute force in double, on the demo's part and on real models.
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include "bake/bake_mesh.hpp"
+#include "brute_force.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "harness/test.hpp"
+#include "surface/crossings.hpp"
+#include "surface/make_part.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using namespace mesh_test;  // NOLINT
+using math::Vec3;
+
+struct Baked {
+  tools::Surface surface;
+  std::vector<tools::Section> sections;
+  mesh::View view;
+  double size = 0;
+
+  explicit Baked(tools::Surface from) : surface(std::move(from)) {
+    if (surface.faces.empty()) return;
+    tools::MeshReport report;
+    sections = tools::bake_mesh(surface, "part", {}, report);
+    CHECK(report.problem.empty());
+    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    size = diagonal(surface);
+  }
+};
+
+const Baked& part() {
+  static const Baked baked(tools::make_part(1, 5000));
+  return baked;
+}
+
+// On two threads: brute force is what takes the time.
+std::vector<Truth> truths(const tools::Surface& surface, const std::vector<Vec3>& queries) {
+  std::vector<Truth> result(queries.size());
+  const auto work = [&](size_t first) {
+    for (size_t i = first; i < queries.size(); i += 2)
+      result[i] = brute_force(surface, wide(queries[i]));
+  };
+  std::thread other(work, 1);
+  work(0);
+  other.join();
+  return result;
+}
+
+void check_answer(const Baked& baked, const mesh::Closest& c, const Truth& truth,
+                  bool crosses_itself) {
+  const double scale = std::max(baked.size, truth.distance), told = std::fabs(double{c.distance_m});
+  CHECK_LE(truth.distance - told, 4e-7 * scale);
+  CHECK_LE(double{c.certificate.lower_m}, truth.distance + 1e-9 * scale);
+  if (!c.certificate.exact) return;
+  CHECK_LE(told - truth.distance, 4e-7 * scale);
+  CHECK_LE(truth.distance - double{c.certificate.lower_m}, 4e-7 * scale);
+  if (truth.distance > 2e-6 * baked.size && !crosses_itself)
+    CHECK_EQ(c.certificate.sign, truth.inside ? -1 : 1);
+}
+
+// Points near a self-crossing, where either side is right.
+bool near_crossing(const tools::Surface& surface, const tools::Crossings& crossings, Vec3 p,
+                   double reach) {
+  for (const auto& pair : crossings.pairs)
+    if (length(wide(surface.vertices[surface.faces[pair.first][0]]) - wide(p)) < reach) return true;
+  return false;
+}
+
+void against_brute_force(const Baked& baked, size_t count, uint64_t seed) {
+  const std::vector<Vec3> queries = hard_queries(baked.surface, count, seed);
+  const std::vector<Truth> truth = truths(baked.surface, queries);
+  const tools::Crossings crossings = tools::find_crossings(baked.surface);
+  query::Hint warm;
+  for (size_t i = 0; i < queries.size(); ++i) {
+    test::note("query", static_cast<int64_t>(i));
+    const bool either = near_crossing(baked.surface, crossings, queries[i], 0.05 * baked.size);
+    query::Hint cold;
+    for (query::Hint* hint : {&warm, &cold}) {
+      const mesh::Closest c = mesh::closest_point(baked.view, queries[i], query::kUnlimited, *hint);
+      CHECK(c.certificate.exact);
+      check_answer(baked, c, truth[i], either);
+    }
+  }
+}
+
+void against_real_model(const char* file, size_t daily, size_t whole) {
+  const Baked baked(real_model(file));
+  if (baked.surface.faces.empty()) return;  // tools/test says which models were not there
+  against_brute_force(baked, long_run() ? whole : daily, 11);
+}
+
+}  // namespace
+
+TEST(PartAnswersLikeBruteForce) { against_brute_force(part(), 20000 / 4, 3); }
+TEST(SpotAnswersLikeBruteForce) { against_real_model("spot.obj", 20000, 20000); }
+TEST(RockerArmAnswersLikeBruteForce) { against_real_model("rocker-arm.off", 20000, 20000); }
+TEST(FandiskAnswersLikeBruteForce) { against_real_model("fandisk.obj", 20000, 20000); }
+TEST(HorseAnswersLikeBruteForce) { against_real_model("horse.ply", 2000, 20000); }
+
+TEST(EveryBudgetIsCertifiedColdAndWarm) {
+  const Baked& baked = part();
+  const std::vector<Vec3> queries = hard_queries(baked.surface, 600, 5);
+  const std::vector<Truth> truth = truths(baked.surface, queries);
+  std::map<uint32_t, query::Hint> warm;
+  for (size_t i = 0; i < queries.size(); ++i) {
+    test::note("query", static_cast<int64_t>(i));
+    float gap = 3e38f;
+    for (const uint32_t budget : {1u, 2u, 4u, 8u, 16u, 32u, 64u, 128u, 256u, 0xFFFFFFFFu}) {
+      query::Hint cold;
+      const mesh::Closest c = mesh::closest_point(baked.view, queries[i], {budget}, cold);
+      CHECK_LE(c.certificate.steps, budget);
+      check_answer(baked, c, truth[i], false);
+      const float now = std::fabs(c.distance_m) - c.certificate.lower_m;
+      CHECK_LE(now,
+               gap * (1 + 1e-6f) + 1e-9f);  // never grows, but for the rounding of the difference
+      gap = now;
+      check_answer(baked, mesh::closest_point(baked.view, queries[i], {budget}, warm[budget]),
+                   truth[i], false);
+    }
+    CHECK(gap < 3e38f);
+  }
+}
+
+TEST(SixtyFourStepsGiveAGoodLowerBound) {
+  const Baked& baked = part();
+  Random random(9);
+  std::vector<double> share;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p{static_cast<float>(random.in(-0.075, 0.075)),
+                 static_cast<float>(random.in(-0.075, 0.075)),
+                 static_cast<float>(random.in(-0.05, 0.05))};
+    query::Hint cold, whole;
+    const mesh::Closest c = mesh::closest_point(baked.view, p, {64}, cold);
+    const mesh::Closest truth = mesh::closest_point(baked.view, p, query::kUnlimited, whole);
+    share.push_back(double{c.certificate.lower_m} /
+                    std::max(1e-12, std::fabs(double{truth.distance_m})));
+  }
+  std::sort(share.begin(), share.end());
+  CHECK_GE(share[share.size() / 2], 0.85);
+}
+
+TEST(TwoToolsShareOneMesh) {
+  const Baked& baked = part();
+  const std::vector<Vec3> a = hard_queries(baked.surface, 200, 1),
+                          b = hard_queries(baked.surface, 200, 2);
+  query::Hint hint_a, hint_b, alone;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const mesh::Closest together = mesh::closest_point(baked.view, a[i], query::kUnlimited, hint_a);
+    (void)mesh::closest_point(baked.view, b[i], query::kUnlimited, hint_b);
+    const mesh::Closest apart = mesh::closest_point(baked.view, a[i], query::kUnlimited, alone);
+    CHECK(!(together.distance_m < apart.distance_m || together.distance_m > apart.distance_m));
+    CHECK_EQ(together.triangle, apart.triangle);
+    CHECK_EQ(together.certificate.steps, apart.certificate.steps);
+  }
+}

@@ -1,0 +1,1 @@
+firmtouch_test_room(params LINKS firmtouch_params firmtouch_core)

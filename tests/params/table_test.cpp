@@ -1,0 +1,99 @@
+// The table of parameters: every row sound, and no value that is not in its range ever gets in.
+#include "firmtouch/params/table.hpp"
+
+#include <float.h>
+#include <stdint.h>
+
+#include "harness/test.hpp"
+
+namespace params = firmtouch::params;
+
+namespace {
+
+float float_of(uint32_t bits) {
+  float value;
+  __builtin_memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+uint32_t bits_of(float value) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+// The next float away from zero, or towards +infinity from zero.
+float beyond(float value, bool upwards) {
+  if (!(value < 0.0f) && !(value > 0.0f)) return upwards ? FLT_TRUE_MIN : -FLT_TRUE_MIN;
+  const bool away = (value > 0.0f) == upwards;
+  return float_of(away ? bits_of(value) + 1 : bits_of(value) - 1);
+}
+
+bool same(const char* a, const char* b) {
+  while (*a != 0 && *a == *b) ++a, ++b;
+  return *a == *b;
+}
+
+}  // namespace
+
+TEST(EveryRowHasANameAUnitAndItsInitialValueInRange) {
+  for (const params::Entry& row : params::kTable) {
+    CHECK(row.name != nullptr && row.name[0] != 0);
+    CHECK(row.unit != nullptr && row.unit[0] != 0);
+    CHECK(row.what != nullptr && row.what[0] != 0);
+    CHECK_LT(row.low, row.high);
+    CHECK_LE(row.low, row.initial);
+    CHECK_LE(row.initial, row.high);
+  }
+}
+
+TEST(EveryRowIsFoundByItsNameAlone) {
+  for (uint32_t i = 0; i < params::kCount; ++i) CHECK_EQ(params::find(params::kTable[i].name), i);
+  CHECK_EQ(params::find(""), static_cast<uint32_t>(params::kCount));
+  CHECK_EQ(params::find("contact_stiffness"), static_cast<uint32_t>(params::kCount));
+  CHECK_EQ(params::find("tool_radius_m_"), static_cast<uint32_t>(params::kCount));
+}
+
+TEST(NamesSitWhereTheIndexSaysTheyDo) {
+  CHECK(same(params::kTable[params::kToolRadius].name, "tool_radius_m"));
+  CHECK(same(params::kTable[params::kSlewLimit].name, "slew_limit_N_per_s"));
+  CHECK(same(params::kTable[params::kMaxSpeed].name, "max_speed_mps"));
+  CHECK(same(params::kTable[params::kWorkspaceHalfZ].name, "workspace_half_z_m"));
+  CHECK(same(params::kTable[params::kModelAge].name, "model_age"));
+}
+
+TEST(ValuesBeginAsTheTableSays) {
+  const params::Values values;
+  for (uint32_t i = 0; i < params::kCount; ++i) CHECK_EQ(values.value[i], params::kTable[i].initial);
+}
+
+TEST(NothingOutOfRangeIsEverTaken) {
+  params::Values values;
+  for (uint32_t i = 0; i < params::kCount; ++i) {
+    const params::Entry& row = params::kTable[i];
+    const float bad[] = {float_of(0x7FC00000u), float_of(0xFFC00001u), float_of(0x7F800000u), float_of(0xFF800000u),
+                         FLT_MAX, -FLT_MAX, beyond(row.low, false), beyond(row.high, true)};
+    for (const float value : bad) {
+      CHECK(!params::set(values, i, value));
+      CHECK_EQ(values.value[i], row.initial);
+    }
+    CHECK(params::set(values, i, row.low));
+    CHECK_EQ(values.value[i], row.low);
+    CHECK(params::set(values, i, row.high));
+    CHECK_EQ(values.value[i], row.high);
+    CHECK(params::set(values, i, row.initial));
+  }
+}
+
+TEST(IndicesOutsideTheTableAreRefused) {
+  params::Values values;
+  CHECK(!params::set(values, params::kCount, 1.0f));
+  CHECK(!params::set(values, UINT32_MAX, 1.0f));
+  for (uint32_t i = 0; i < params::kCount; ++i) CHECK_EQ(values.value[i], params::kTable[i].initial);
+}
+
+// Logs and hosts tell tables apart by this. A row that is added changes it; so does a range.
+TEST(TableHashIsTheSameEachTime) {
+  CHECK(params::table_hash() == params::table_hash());
+  CHECK(params::table_hash() != 0);
+}

@@ -1,0 +1,129 @@
+// The measured time of a tick, and when the loop counts as lost.
+#include "firmtouch/servo/clock_watch.hpp"
+
+#include <stdint.h>
+
+#include "firmtouch/servo/fault.hpp"
+#include "harness/test.hpp"
+#include "servo/specials.hpp"
+
+namespace servo = firmtouch::servo;
+namespace math = firmtouch::math;
+namespace test = firmtouch::test;
+
+namespace {
+
+constexpr float kPeriod_s = 0.001f;
+
+struct Clock {
+  servo::ClockState state;
+  uint32_t now_us = 0;
+  servo::ClockReading after(uint32_t us) { return servo::watch_clock(state, now_us += us, kPeriod_s, 1.5f); }
+};
+
+bool is_near(float a, float b) { return a - b < 1e-9f && b - a < 1e-9f; }
+
+}  // namespace
+
+TEST(SteadyClockTellsItsPeriodWithinTenPercent) {
+  for (uint32_t period = 900; period <= 1100; period += 50) {
+    Clock clock;
+    (void)clock.after(0);
+    for (int i = 0; i < 100; ++i) {
+      const servo::ClockReading reading = clock.after(period);
+      CHECK(is_near(reading.dt_s, static_cast<float>(period) * 1e-6f));
+      CHECK_EQ(reading.faults, 0u);
+      CHECK(!reading.late);
+    }
+  }
+}
+
+TEST(WrapOfTheClockIsNoEventAtAnyPhase) {
+  for (uint32_t phase = 0; phase < 3000; ++phase) {
+    Clock clock;
+    clock.now_us = UINT32_MAX - phase;
+    (void)clock.after(0);
+    for (int i = 0; i < 4; ++i) {
+      const servo::ClockReading reading = clock.after(1000);
+      CHECK_EQ(reading.faults, 0u);
+      CHECK(is_near(reading.dt_s, kPeriod_s));
+    }
+  }
+}
+
+TEST(OneLateTickIsMeasuredAndForgiven) {
+  Clock clock;
+  (void)clock.after(0);
+  for (int i = 0; i < 50; ++i) {
+    const servo::ClockReading reading = clock.after(i % 10 == 0 ? 2500 : 1000);
+    CHECK_EQ(reading.faults, 0u);
+    CHECK_EQ(reading.late, i % 10 == 0);
+  }
+}
+
+TEST(ThreeLateTicksOfTenAreAMissedDeadline) {
+  for (uint32_t gap = 1; gap <= 6; ++gap) {
+    Clock clock;
+    (void)clock.after(0);
+    uint32_t late = 0, faults = 0;
+    for (uint32_t i = 0; i < 40 && faults == 0; ++i) {
+      const bool is_late = i % gap == 0;
+      late += is_late ? 1 : 0;
+      faults = clock.after(is_late ? 1501 : 1000).faults;
+    }
+    CHECK_EQ(faults, gap <= 4 ? servo::kFaultDeadline : 0u);
+    if (faults != 0) CHECK_EQ(late, 3u);
+  }
+}
+
+TEST(StallIsAMissedDeadlineAtOnce) {
+  Clock clock;
+  (void)clock.after(0);
+  CHECK_EQ(clock.after(4001).faults, servo::kFaultDeadline);
+}
+
+TEST(ClockSetBackOrFarAheadIsABrokenClockAtOnce) {
+  const uint32_t jumps[] = {UINT32_MAX, UINT32_MAX - 999u, 0x80000000u, 1000000u};
+  for (const uint32_t jump : jumps) {
+    Clock clock;
+    (void)clock.after(0);
+    const servo::ClockReading reading = clock.after(jump);
+    CHECK_EQ(reading.faults, servo::kFaultClock);
+    CHECK(is_near(reading.dt_s, kPeriod_s));
+  }
+}
+
+TEST(ClockThatStandsIsABrokenClockAtTheThirdTick) {
+  Clock clock;
+  (void)clock.after(0);
+  (void)clock.after(1000);
+  CHECK_EQ(clock.after(0).faults, 0u);
+  CHECK_EQ(clock.after(0).faults, 0u);
+  const servo::ClockReading reading = clock.after(0);
+  CHECK_EQ(reading.faults, servo::kFaultClock);
+  CHECK(is_near(reading.dt_s, 0.5f * kPeriod_s));
+}
+
+TEST(ForgivenMissesDoNotComeBack) {
+  Clock clock;
+  (void)clock.after(0);
+  for (int i = 0; i < 3; ++i) (void)clock.after(2000);
+  CHECK_NE(clock.after(1000).faults, 0u);
+  servo::forgive(clock.state);
+  CHECK_EQ(clock.after(1000).faults, 0u);
+}
+
+TEST(TimeIsFiniteForEveryClockAndSetting) {
+  const uint32_t clocks[] = {0u, 1u, 1000u, 0u, UINT32_MAX, 0x80000000u};
+  for (const uint32_t period : test::kSpecialBits) {
+    for (const uint32_t ratio : test::kSpecialBits) {
+      servo::ClockState state;
+      for (const uint32_t now : clocks) {
+        const servo::ClockReading reading =
+            servo::watch_clock(state, now, math::float_of(period), math::float_of(ratio));
+        // What is not finite in is not finite out, and only that: device and servo check their own.
+        CHECK(test::is_number(reading.dt_s) || !test::is_number(4 * math::float_of(period)));
+      }
+    }
+  }
+}

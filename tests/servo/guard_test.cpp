@@ -1,0 +1,139 @@
+// The last guard before the motors, on its own.
+#include "firmtouch/servo/guard.hpp"
+
+#include <stdint.h>
+
+#include "harness/test.hpp"
+#include "servo/specials.hpp"
+
+namespace servo = firmtouch::servo;
+namespace math = firmtouch::math;
+namespace test = firmtouch::test;
+
+namespace {
+
+const servo::GuardLimits kLimits{8.0f, 5000.0f, 0.001f};
+
+struct Rig {
+  servo::GuardState state;
+  float motor_N[3] = {};
+  bool pass(float x, float y, float z, bool may_push = true, bool cut = false) {
+    motor_N[0] = x, motor_N[1] = y, motor_N[2] = z;
+    return servo::guard(state, kLimits, may_push, cut, motor_N);
+  }
+  bool is_zero() const {
+    return math::bits_of(motor_N[0]) == 0 && math::bits_of(motor_N[1]) == 0 && math::bits_of(motor_N[2]) == 0;
+  }
+};
+
+}  // namespace
+
+TEST(GuardLetsGoodForcesPassUnchanged) {
+  Rig rig;
+  CHECK(rig.pass(1.5f, -2.25f, 0.1f));
+  CHECK_EQ(rig.motor_N[0], 1.5f);
+  CHECK_EQ(rig.motor_N[1], -2.25f);
+  CHECK_EQ(rig.motor_N[2], 0.1f);
+  CHECK(rig.pass(4.6f, -4.6f, 4.5f));
+  CHECK(rig.pass(-4.6f, 4.6f, -4.5f));  // each axis through zero: 4.6 N of growth
+  CHECK(rig.pass(0, 0, 0));
+}
+
+TEST(GuardStopsAForceAboveItsLimit) {
+  Rig rig;
+  CHECK(rig.pass(4.7f, 0, 0));
+  CHECK(rig.pass(8.0f, 0, 0));
+  CHECK(!rig.pass(8.001f, 0, 0));
+  CHECK(rig.is_zero());
+  Rig diagonal;
+  CHECK(diagonal.pass(4.61f, 4.61f, 4.61f));
+  CHECK(!diagonal.pass(4.63f, 4.63f, 4.63f));
+}
+
+TEST(GuardStopsAForceThatGrowsTooFast) {
+  Rig rig;
+  CHECK(rig.pass(5.0f, 0, 0));
+  Rig fast;
+  CHECK(!fast.pass(5.01f, 0, 0));
+  CHECK(fast.is_zero());
+  Rig turned;
+  CHECK(turned.pass(4.0f, 0, 0));
+  CHECK(!turned.pass(-5.01f, 0, 0));
+  Rig down;
+  CHECK(down.pass(5.0f, 0, 0));
+  CHECK(down.pass(0.01f, 0, 0));  // towards zero as fast as you like
+}
+
+TEST(GuardStopsEverythingThatIsNotANumber) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const uint32_t bits : test::kSpecialBits) {
+      Rig rig;
+      float motor_N[3] = {};
+      motor_N[axis] = math::float_of(bits);
+      const bool small = !(motor_N[axis] > 5.0f) && !(motor_N[axis] < -5.0f) && test::is_number(motor_N[axis]);
+      const bool passed = servo::guard(rig.state, kLimits, true, false, motor_N);
+      CHECK_EQ(passed, small);
+      CHECK(passed || math::bits_of(motor_N[axis]) == 0);
+    }
+  }
+}
+
+TEST(GuardStopsWhereItsLimitsAreNotNumbers) {
+  const uint32_t bad[] = {0x7FC00000u, 0x7F800000u, 0xFF800000u, 0xBF800000u, 0x7F7FFFFFu, 0xFFC00001u};
+  for (int field = 0; field < 3; ++field) {
+    for (const uint32_t bits : bad) {
+      if (field != 0 && bits == 0xBF800000u) continue;  // size counts there
+      servo::GuardLimits limits = kLimits;
+      (field == 0 ? limits.force_limit_N : field == 1 ? limits.slew_limit_N_per_s : limits.tick_period_s) =
+          math::float_of(bits);
+      servo::GuardState state;
+      float motor_N[3] = {1, 0, 0};
+      CHECK(!servo::guard(state, limits, true, false, motor_N));
+      CHECK_EQ(motor_N[0], 0.0f);
+    }
+  }
+}
+
+TEST(GuardStaysTrippedUntilItIsCleared) {
+  Rig rig;
+  CHECK(!rig.pass(100, 0, 0));
+  for (int i = 0; i < 5; ++i) {
+    CHECK(!rig.pass(0.1f, 0, 0));
+    CHECK(rig.is_zero());
+  }
+  servo::guard_clear(rig.state);
+  CHECK(rig.pass(0.1f, 0, 0));
+}
+
+TEST(GuardAllowsARampOutAndNoMore) {
+  Rig rig;
+  CHECK(rig.pass(4.0f, 0, 0));
+  int ticks = 0;
+  while (rig.pass(1.0f, 0, 0, false)) ++ticks;
+  CHECK_EQ(ticks, 11);  // 10 ms
+  Rig quiet;
+  CHECK(quiet.pass(4.0f, 0, 0));
+  for (int i = 0; i < 1000; ++i) CHECK(quiet.pass(0, 0, 0, false));
+  CHECK(!quiet.pass(0.001f, 0, 0, false));
+}
+
+TEST(GuardCutsAtOnceWhereItMust) {
+  Rig rig;
+  CHECK(rig.pass(1, 0, 0));
+  CHECK(rig.pass(0, 0, 0, true, true));
+  CHECK(!rig.pass(0.5f, 0, 0, true, true));
+  CHECK(rig.is_zero());
+}
+
+TEST(GuardNoticesEveryFlippedBitOfItsMemoryThatMatters) {
+  for (uint32_t bit = 0; bit < 32 + 64 * 3; ++bit) {
+    Rig rig;
+    CHECK(rig.pass(1, 1, 1));
+    uint32_t* word = bit < 32 ? &rig.state.armed
+                     : bit < 128 ? reinterpret_cast<uint32_t*>(&rig.state.passed[(bit - 32) / 32])
+                                 : reinterpret_cast<uint32_t*>(&rig.state.complement[(bit - 128) / 32]);
+    *word ^= 1u << (bit % 32);
+    CHECK(!rig.pass(1, 1, 1));
+    CHECK(rig.is_zero());
+  }
+}

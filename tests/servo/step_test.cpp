@@ -1,0 +1,193 @@
+// The servo step: what it renders, what it limits, and when it lets go.
+#include "firmtouch/servo/step.hpp"
+
+#include <stdint.h>
+
+#include "firmtouch/servo/evaluate.hpp"
+#include "firmtouch/servo/fault.hpp"
+#include "harness/test.hpp"
+
+namespace math = firmtouch::math;
+namespace servo = firmtouch::servo;
+
+namespace {
+
+const servo::Settings kSettings{8.0f, 5000.0f, 0.05f, 0.001f};
+
+servo::LocalModel floor_model() {  // free above z = 0
+  servo::LocalModel model;
+  model.plane[0].normal = {0, 0, 1};
+  model.plane[0].stiffness_N_per_m = 1000.0f;
+  model.plane[0].damping_N_s_per_m = 2.0f;
+  model.plane_count = 1;
+  model.free_radius_m = 0.01f;
+  model.expires_tick = 1000000;
+  return model;
+}
+
+servo::StepInput at(float z_m, uint32_t tick) {
+  servo::StepInput input;
+  input.position_m = {0, 0, z_m};
+  input.tick = tick;
+  input.enable = true;
+  return input;
+}
+
+// A servo that has been on for long, pressed 1 mm into the floor.
+servo::State pressed(const servo::LocalModel& model) {
+  servo::State state;
+  for (uint32_t tick = 0; tick < 100; ++tick) (void)servo::step(state, kSettings, model, at(-0.001f, tick));
+  return state;
+}
+
+}  // namespace
+
+TEST(FloorPushesByItsSpringAndNotAbove) {
+  const servo::LocalModel model = floor_model();
+  CHECK_EQ(servo::evaluate(model, {0, 0, 0.001f}, {}).z, 0.0f);
+  CHECK_EQ(servo::evaluate(model, {3, 4, -0.5f}, {}).z, 500.0f);
+  CHECK_EQ(servo::evaluate(model, {3, 4, -0.5f}, {1, 1, -1}).z, 502.0f);
+}
+
+TEST(PlaneNeverPullsHoweverFastTheToolLeaves) {
+  const servo::LocalModel model = floor_model();
+  for (int i = 0; i < 200; ++i) {
+    const float speed = static_cast<float>(i);
+    CHECK_GE(servo::evaluate(model, {0, 0, -0.001f}, {0, 0, speed}).z, 0.0f);
+    CHECK_EQ(servo::evaluate(model, {0, 0, 0.0001f}, {0, 0, -speed}).z, 0.0f);
+  }
+}
+
+TEST(GuidePullsAcrossItsLineOnly) {
+  servo::LocalModel model;
+  model.guide.point_m = {1, 2, 3};
+  model.guide.direction = {0, 1, 0};
+  model.guide.stiffness_N_per_m = 100.0f;
+  model.guide.damping_N_s_per_m = 10.0f;
+  model.has_guide = true;
+  const math::Vec3 force = servo::evaluate(model, {1.5f, 77, 2}, {0.5f, 9, 0});
+  CHECK_EQ(force.x, -55.0f);
+  CHECK_EQ(force.y, 0.0f);
+  CHECK_EQ(force.z, 100.0f);
+}
+
+TEST(ForceRampsInAfterEnable) {
+  servo::State state;
+  const servo::LocalModel model = floor_model();
+  for (uint32_t tick = 1; tick <= 60; ++tick) {
+    const servo::StepOutput output = servo::step(state, kSettings, model, at(-0.001f, tick));
+    const float share = tick < 50 ? static_cast<float>(tick) / 50.0f : 1.0f;
+    CHECK_LE(output.force_N.z, share * 1.0001f);
+    CHECK_GE(output.force_N.z, share * 0.9999f);
+    CHECK_EQ(static_cast<int>(output.mode), static_cast<int>(tick < 50 ? servo::Mode::kRampIn : servo::Mode::kOn));
+  }
+}
+
+TEST(NothingIsRenderedUnlessEnabled) {
+  servo::State state;
+  servo::StepInput input = at(-0.1f, 0);
+  input.enable = false;
+  for (int i = 0; i < 10; ++i) CHECK_EQ(servo::step(state, kSettings, floor_model(), input).force_N.z, 0.0f);
+}
+
+TEST(ForceStopsAtItsLimitAndGetsThereByItsSlew) {
+  servo::State state = pressed(floor_model());
+  float before = state.force_N.z;
+  for (uint32_t tick = 100; tick < 120; ++tick) {
+    const servo::StepOutput output = servo::step(state, kSettings, floor_model(), at(-1.0f, tick));
+    CHECK_LE(output.force_N.z, 8.0f);
+    CHECK_LE(output.force_N.z - before, 5.0f);
+    before = output.force_N.z;
+  }
+  CHECK_GE(before, 7.9999f);
+}
+
+TEST(DisableLetsTheForceDownWithinTenMilliseconds) {
+  servo::State state = pressed(floor_model());
+  servo::StepInput input = at(-0.001f, 100);
+  input.enable = false;
+  float before = state.force_N.z;
+  for (int tick = 1; tick <= 10; ++tick) {
+    const servo::StepOutput output = servo::step(state, kSettings, floor_model(), input);
+    CHECK_LE(output.force_N.z, before);
+    CHECK_GE(before - output.force_N.z, tick <= 8 ? 0.12f : 0.0f);
+    before = output.force_N.z;
+  }
+  CHECK_EQ(before, 0.0f);
+  CHECK_EQ(state.faults, 0u);
+  CHECK(state.mode == servo::Mode::kOff);
+}
+
+TEST(EachFaultIsLatchedInItsTickAndLeavesNoForceTenMillisecondsLater) {
+  for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit) {
+    servo::State state = pressed(floor_model());
+    servo::StepInput input = at(-0.001f, 100);
+    input.reported = 1u << bit;
+    servo::StepOutput output = servo::step(state, kSettings, floor_model(), input);
+    CHECK_EQ(output.faults, 1u << bit);
+    const bool at_once = ((1u << bit) & servo::kCutAtOnce) != 0;
+    CHECK_EQ(output.force_N.z > 0.0f, !at_once);
+    input.reported = 0;  // gone again: the latch stays
+    for (int tick = 0; tick < 9; ++tick) output = servo::step(state, kSettings, floor_model(), input);
+    CHECK_EQ(output.force_N.z, 0.0f);
+    CHECK_EQ(output.faults, 1u << bit);
+    CHECK(output.mode == servo::Mode::kFault);
+    CHECK(servo::fault_name(bit)[0] != 0);
+  }
+}
+
+TEST(LatchOpensOnlyByAClearWhileDisabled) {
+  servo::State state = pressed(floor_model());
+  servo::StepInput input = at(-0.001f, 100);
+  input.reported = servo::kFaultEmergencyStop;
+  (void)servo::step(state, kSettings, floor_model(), input);
+  input.reported = 0;
+  input.clear_faults = true;
+  CHECK_NE(servo::step(state, kSettings, floor_model(), input).faults, 0u);  // enable is still high
+  input.enable = false;
+  CHECK_EQ(servo::step(state, kSettings, floor_model(), input).faults, 0u);
+  input.clear_faults = false;
+  input.enable = true;
+  const servo::StepOutput output = servo::step(state, kSettings, floor_model(), input);
+  CHECK(output.mode == servo::Mode::kRampIn);
+  CHECK_GE(output.force_N.z, 0.01f);
+}
+
+TEST(TimingAndEncoderFaultsCountOnlyWhileTheMotorsAreOn) {
+  servo::State state;
+  servo::StepInput input = at(-0.001f, 0);
+  input.enable = false;
+  input.reported = servo::kOnlyWhileOn;
+  CHECK_EQ(servo::step(state, kSettings, floor_model(), input).faults, 0u);
+  input.enable = true;
+  (void)servo::step(state, kSettings, floor_model(), input);
+  CHECK_EQ(servo::step(state, kSettings, floor_model(), input).faults, servo::kOnlyWhileOn);
+}
+
+TEST(StaleModelIsLetGoOfInItsTickAndAcrossTheWrap) {
+  const uint32_t ages[] = {0, 5, 0x7FFFFFF0u, 0xFFFFFFFDu};
+  for (const uint32_t made : ages) {
+    servo::LocalModel model = floor_model();
+    model.expires_tick = made + 3;
+    servo::State state;
+    for (uint32_t k = 0; k <= 3; ++k) {
+      CHECK_EQ(servo::step(state, kSettings, model, at(-0.001f, made + k)).faults, 0u);
+    }
+    CHECK_EQ(servo::step(state, kSettings, model, at(-0.001f, made + 4)).faults, servo::kFaultStaleModel);
+  }
+}
+
+TEST(LoweredLimitTakesForceAwayAtOnce) {
+  servo::State state = pressed(floor_model());
+  servo::Settings low = kSettings;
+  low.force_limit_N = 0.25f;
+  CHECK_LE(servo::step(state, low, floor_model(), at(-0.001f, 100)).force_N.z, 0.25f);
+  low.force_limit_N = 0.0f;
+  CHECK_EQ(servo::step(state, low, floor_model(), at(-0.001f, 101)).force_N.z, 0.0f);
+}
+
+TEST(FreeRadiusIsToldOf) {
+  servo::State state;
+  CHECK(servo::step(state, kSettings, floor_model(), at(0.009f, 0)).in_free_radius);
+  CHECK(!servo::step(state, kSettings, floor_model(), at(0.011f, 1)).in_free_radius);
+}

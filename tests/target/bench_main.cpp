@@ -1,0 +1,79 @@
+// How many instructions a closest-point query takes: `bench WALK.csv` on the emulator's command line. Queries the mesh of
+// the board's asset at every row, each warm-started by the one before, and prints a row a query:
+//     BUDGET INSTRUCTIONS STEPS SIGN      (BUDGET 0: unlimited)
+// tools/bench/cortex-m7 runs it and adds up.
+#include <stdint.h>
+
+#include "cortex-m/semihosting.hpp"
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "target/csv_points.hpp"
+#include "target/scene_views.hpp"
+#include "target/text.hpp"
+
+namespace hal = firmtouch::hal;
+namespace mesh = firmtouch::mesh;
+namespace query = firmtouch::query;
+namespace target = firmtouch::target;
+
+namespace {
+
+constexpr uint32_t kBudgets[] = {1, 2, 4, 8, 16, 32, 64, 128};
+constexpr uint32_t kBudgetedRows = 1000;  // of each budget: they tell the cost of a step
+
+uint32_t instructions(uint32_t work) {
+  const uint32_t per_1000 = hal::clock_work_per_1000();
+  return static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
+}
+
+void print_row(uint32_t budget, uint32_t taken, const query::Certificate& certificate) {
+  hal::board_print(target::decimal(budget).text);
+  hal::board_print(" ");
+  hal::board_print(target::decimal(taken).text);
+  hal::board_print(" ");
+  hal::board_print(target::decimal(certificate.steps).text);
+  hal::board_print(certificate.sign == 0 ? " 0\n" : certificate.sign > 0 ? " 1\n" : " -1\n");
+}
+
+// The two reads of the clock themselves.
+uint32_t empty_work() {
+  const uint32_t before = hal::clock_work();
+  return hal::clock_work() - before;
+}
+
+bool run(const mesh::View& view, const char* path, query::Budget budget, uint32_t rows, bool warm) {
+  target::CsvPoints points(path);
+  query::Hint hint;
+  const uint32_t empty = empty_work();
+  firmtouch::math::Vec3 p_m;
+  uint32_t row = 0;
+  for (; row < rows && points.next(p_m); ++row) {
+    if (!warm) hint = {};
+    const uint32_t before = hal::clock_work();
+    const mesh::Closest closest = mesh::closest_point(view, p_m, budget, hint);
+    const uint32_t work = hal::clock_work() - before - empty;
+    print_row(budget.steps == UINT32_MAX ? 0 : budget.steps, instructions(work), closest.certificate);
+  }
+  return row > 0;
+}
+
+}  // namespace
+
+int main() {
+  hal::board_begin();
+  const target::Views views = target::open_views(hal::board_asset());
+  char line[512];
+  if (!views.verdict.ok() || !views.mesh.is_open()) {
+    hal::board_print("no mesh in the asset, or a rule rejects it\n");
+    return 1;
+  }
+  constexpr uint32_t kWord = 6;  // "bench "
+  if (!hal::semihosting_command_line(line, sizeof line)) return 2;
+  if (!run(views.mesh, line + kWord, query::kUnlimited, UINT32_MAX, true)) {
+    hal::board_print("no rows x,y,z in the walk\n");
+    return 1;
+  }
+  for (const uint32_t steps : kBudgets) run(views.mesh, line + kWord, {steps}, kBudgetedRows, false);
+  return 0;
+}

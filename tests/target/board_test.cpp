@@ -1,0 +1,72 @@
+#include <stdint.h>
+
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hal/encoders.hpp"
+#include "firmtouch/hal/motors.hpp"
+#include "harness/test.hpp"
+
+// What a board promises in firmtouch/hal, on the board itself. Runs under a virtual clock that advances by a fixed time
+// an instruction, so that counts are exact.
+
+using namespace firmtouch;
+
+namespace {
+
+volatile uint32_t ticks_seen = 0;
+
+void count_tick() { ticks_seen = ticks_seen + 1; }
+
+uint32_t instructions_of_loop(uint32_t turns) {
+  const uint32_t before = hal::clock_work();
+  asm volatile("1: subs %0, #1\n bne 1b" : "+r"(turns)::"cc");
+  const uint64_t work = hal::clock_work() - before;
+  const uint32_t per_1000 = hal::clock_work_per_1000();
+  return static_cast<uint32_t>((work * 1000 + per_1000 / 2) / per_1000);
+}
+
+[[gnu::noinline]] uint32_t deep(uint32_t bytes) {
+  volatile uint8_t room[2048];
+  for (uint32_t i = 0; i < bytes; ++i) room[i] = static_cast<uint8_t>(i);
+  return room[bytes / 2];
+}
+
+}  // namespace
+
+TEST(WorkCountsInstructionsExactly) {
+  const uint32_t short_one = instructions_of_loop(1000);
+  const uint32_t long_one = instructions_of_loop(51000);
+  CHECK_GE(short_one, 2000u);
+  CHECK_LE(short_one, 2012u);  // the two reads of the clock and what surrounds them
+  CHECK_GE(long_one - short_one, 99999u);  // one instruction of rounding
+  CHECK_LE(long_one - short_one, 100001u);
+}
+
+TEST(ServoInterruptComesOnceAPeriodAndMicrosecondsRunOn) {
+  constexpr uint32_t kPeriod_us = 100, kPeriods = 50;
+  hal::clock_start_servo(kPeriod_us, count_tick);
+  const uint32_t start_us = hal::clock_us();
+  const uint32_t start_ticks = ticks_seen;
+  while (ticks_seen - start_ticks < kPeriods) {
+  }
+  const uint32_t took_us = hal::clock_us() - start_us;
+  CHECK_GE(took_us, (kPeriods - 1) * kPeriod_us);
+  CHECK_LE(took_us, (kPeriods + 1) * kPeriod_us);
+}
+
+TEST(StackHighWaterSeesADeepCall) {
+  const uint32_t before_bytes = hal::board_stack_high_bytes();
+  CHECK_GT(before_bytes, 0u);
+  deep(2048);
+  CHECK_GE(hal::board_stack_high_bytes(), 2048u);
+}
+
+TEST(AssetPlaceIsAlignedForUseInPlace) {
+  CHECK_EQ(reinterpret_cast<uintptr_t>(hal::board_asset().data()) % 16, 0u);
+}
+
+TEST(BoardWithoutJointsNeverEnablesMotors) {
+  int32_t counts[3] = {1, 2, 3};
+  CHECK(!hal::encoders_read(counts));
+  CHECK_EQ(hal::motors_lines(), 0u);
+}

@@ -1,0 +1,81 @@
+#include "bake/asset_views.hpp"
+
+#include "bake/probes.hpp"
+#include "firmtouch/asset/opening.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+std::string prove_mesh(const asset::Container& container, const std::string& name) {
+  mesh::View view;
+  const core::Verdict verdict = mesh::open(mesh_sections_of(container, name.c_str()), view);
+  if (!verdict.ok()) return "mesh '" + name + "': " + rule_text(verdict);
+  const core::Bytes probes = container.find(mesh::kProbesSection, name.c_str());
+  if (probes.empty() || mesh_probes_agree(view, probes)) return "";
+  return "mesh '" + name +
+         "': its probe queries are answered otherwise here than where it was baked";
+}
+
+std::string prove_curve(const asset::Container& container, const std::string& name) {
+  curve::View view;
+  const core::Verdict verdict = curve::open(curve_sections_of(container, name.c_str()), view);
+  if (!verdict.ok()) return "curve '" + name + "': " + rule_text(verdict);
+  const core::Bytes probes = container.find(curve::kProbesSection, name.c_str());
+  if (probes.empty() || curve_probes_agree(view, probes)) return "";
+  return "curve '" + name +
+         "': its probe queries are answered otherwise here than where it was baked";
+}
+
+}  // namespace
+
+mesh::Sections mesh_sections_of(const asset::Container& container, const char* name) {
+  mesh::Sections sections;
+  sections.head = container.find(mesh::kHeadSection, name);
+  sections.vertices = container.find(mesh::kVerticesSection, name);
+  sections.triangles16 = container.find(mesh::kTriangles16Section, name);
+  sections.triangles32 = container.find(mesh::kTriangles32Section, name);
+  sections.nodes = container.find(mesh::kNodesSection, name);
+  sections.parents = container.find(mesh::kParentsSection, name);
+  sections.vertex_normals = container.find(mesh::kVertexNormalsSection, name);
+  sections.edge_folds = container.find(mesh::kEdgeFoldsSection, name);
+  return sections;
+}
+
+curve::Sections curve_sections_of(const asset::Container& container, const char* name) {
+  curve::Sections sections;
+  sections.head = container.find(curve::kHeadSection, name);
+  sections.samples = container.find(curve::kSamplesSection, name);
+  sections.arcs = container.find(curve::kArcsSection, name);
+  sections.nodes = container.find(curve::kNodesSection, name);
+  return sections;
+}
+
+std::vector<std::string> names_with(const asset::Container& container, uint32_t type) {
+  std::vector<std::string> names;
+  for (uint32_t i = container.next_of_type(type); i != asset::kNoSection;
+       i = container.next_of_type(type, i + 1)) {
+    names.push_back(container.name(i));
+  }
+  return names;
+}
+
+std::string rule_text(core::Verdict verdict) {
+  return "rule R" + std::to_string(verdict.rule) + " at element " + std::to_string(verdict.element);
+}
+
+std::string prove_asset(core::Bytes file) {
+  asset::Container container;
+  const core::Verdict verdict = asset::open(file, container);
+  if (!verdict.ok()) return rule_text(verdict);
+  for (const std::string& name : names_with(container, mesh::kHeadSection)) {
+    const std::string problem = prove_mesh(container, name);
+    if (!problem.empty()) return problem;
+  }
+  for (const std::string& name : names_with(container, curve::kHeadSection)) {
+    const std::string problem = prove_curve(container, name);
+    if (!problem.empty()) return problem;
+  }
+  return "";
+}
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,160 @@
+#include "bake/bake_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/mesh_tree.hpp"
+#include "bake/pseudonormals.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+// The longest edge first, by the firmware's own arithmetic, which open() repeats.
+void longest_edge_first(Surface& surface) {
+  for (Face& face : surface.faces) {
+    float longest2 = -1;
+    size_t longest = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const math::Vec3 edge = surface.vertices[face[(k + 1) % 3]] - surface.vertices[face[k]];
+      const float length2 = dot(edge, edge);
+      if (length2 > longest2) longest2 = length2, longest = k;
+    }
+    std::rotate(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(longest), face.end());
+  }
+}
+
+mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& tree, bool is_signed) {
+  mesh::Head head{};
+  head.vertex_count = static_cast<uint32_t>(surface.vertices.size());
+  head.triangle_count = static_cast<uint32_t>(surface.faces.size());
+  head.node_count = static_cast<uint32_t>(tree.nodes.size());
+  head.depth = tree.depth;
+  head.is_signed = is_signed ? 1 : 0;
+  double diagonal2 = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    float low = surface.vertices[0].x, high = low;
+    for (size_t v = 0; v < surface.vertices.size(); ++v) {
+      const float values[3] = {surface.vertices[v].x, surface.vertices[v].y, surface.vertices[v].z};
+      low = v == 0 ? values[k] : std::min(low, values[k]);
+      high = v == 0 ? values[k] : std::max(high, values[k]);
+    }
+    head.low_m[k] = low;
+    head.high_m[k] = high;
+    head.grid_low_m[k] = grid.low_m[k];
+    diagonal2 += (double{high} - double{low}) * (double{high} - double{low});
+  }
+  head.diagonal_m = static_cast<float>(std::sqrt(diagonal2) * (1 - 0x1p-21));
+  head.cell_m = grid.cell_m;
+  return head;
+}
+
+template <class Index>
+std::vector<mesh::Triangle<Index>> make_triangles(const Surface& surface) {
+  std::vector<mesh::Triangle<Index>> triangles;
+  for (const Face& f : surface.faces)
+    triangles.push_back({{static_cast<Index>(f[0]), static_cast<Index>(f[1]), static_cast<Index>(f[2])}});
+  return triangles;
+}
+
+// Faces in the order of the leaves, vertices in the order in which the faces first use them: what is near lies near.
+Surface in_leaf_order(const Surface& surface, const std::vector<uint32_t>& order) {
+  constexpr uint32_t kUnseen = UINT32_MAX;
+  Surface sorted;
+  std::vector<uint32_t> renamed(surface.vertices.size(), kUnseen);
+  for (const uint32_t f : order) {
+    Face face = surface.faces[f];
+    for (uint32_t& corner : face) {
+      if (renamed[corner] == kUnseen) {
+        renamed[corner] = static_cast<uint32_t>(sorted.vertices.size());
+        sorted.vertices.push_back(surface.vertices[corner]);
+      }
+      corner = renamed[corner];
+    }
+    sorted.faces.push_back(face);
+    sorted.source.push_back(f < surface.source.size() ? surface.source[f] : f);
+  }
+  return sorted;
+}
+
+std::string proof_failure(const core::Verdict& verdict) {
+  if (verdict.rule == 128 || verdict.rule == 129)
+    return "a triangle is too thin for float32; remove slivers with sides shorter than 1e-15 m or heights below 1e-10 of "
+           "their length (rule R" + std::to_string(verdict.rule) + ")";
+  return "the baked mesh fails its own proof, rule R" + std::to_string(verdict.rule) + " at element " +
+         std::to_string(verdict.element) + "; please report this model";
+}
+
+}  // namespace
+
+std::vector<Section> bake_mesh(const Surface& input, const std::string& name, const MeshOptions& options,
+                               MeshReport& report) {
+  if (input.faces.size() > mesh::kMaxTriangles) {
+    report.problem = std::to_string(input.faces.size()) + " triangles; at most " + std::to_string(mesh::kMaxTriangles) +
+                     " fit an asset: simplify the model";
+    return {};
+  }
+  const Grid grid = make_grid(input);
+  const MeshTree tree = build_mesh_tree(input, grid, options.leaf_triangles);
+  if (tree.depth > mesh::kMaxDepth) {
+    report.problem = "the tree is " + std::to_string(tree.depth) + " levels deep, more than the " +
+                     std::to_string(mesh::kMaxDepth) + " that a query can hold: many triangles lie on one spot";
+    return {};
+  }
+  Surface surface = in_leaf_order(input, tree.order);
+  longest_edge_first(surface);
+
+  std::vector<Section> sections;
+  const mesh::Head head = make_head(surface, grid, tree, options.is_signed);
+  std::vector<mesh::Vertex> vertices;
+  for (const math::Vec3& v : surface.vertices) vertices.push_back({v.x, v.y, v.z});
+  sections.push_back(make_section(mesh::kHeadSection, name, &head, 1));
+  sections.push_back(make_section(mesh::kVerticesSection, name, vertices));
+  if (vertices.size() <= 65536)
+    sections.push_back(make_section(mesh::kTriangles16Section, name, make_triangles<uint16_t>(surface)));
+  else
+    sections.push_back(make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
+  sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
+  sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
+  if (options.is_signed) {
+    const Pseudonormals normals = make_pseudonormals(surface);
+    report.smallest_vertex_margin_rad = normals.smallest_vertex_margin_rad;
+    report.smallest_edge_margin_rad = normals.smallest_edge_margin_rad;
+    sections.push_back(make_section(mesh::kVertexNormalsSection, name, normals.vertices));
+    sections.push_back(make_section(mesh::kEdgeFoldsSection, name, normals.edges));
+  }
+  for (const Section& s : sections) report.bytes += static_cast<uint32_t>(s.bytes.size());
+  sections.push_back(make_section(mesh::kSourceSection, name, surface.source));
+  report.triangles = head.triangle_count;
+  report.vertices = head.vertex_count;
+  report.nodes = head.node_count;
+  report.depth = head.depth;
+
+  mesh::View view;
+  const core::Verdict verdict = mesh::open(mesh_sections(sections, name), view);
+  if (!verdict.ok()) {
+    report.problem = proof_failure(verdict);
+    return {};
+  }
+  return sections;
+}
+
+mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::string& name) {
+  const auto find = [&](uint32_t type) {
+    for (const Section& s : sections)
+      if (s.type == type && s.name == name) return core::Bytes(s.bytes.data(), static_cast<uint32_t>(s.bytes.size()));
+    return core::Bytes();
+  };
+  mesh::Sections found;
+  found.head = find(mesh::kHeadSection);
+  found.vertices = find(mesh::kVerticesSection);
+  found.triangles16 = find(mesh::kTriangles16Section);
+  found.triangles32 = find(mesh::kTriangles32Section);
+  found.nodes = find(mesh::kNodesSection);
+  found.parents = find(mesh::kParentsSection);
+  found.vertex_normals = find(mesh::kVertexNormalsSection);
+  found.edge_folds = find(mesh::kEdgeFoldsSection);
+  return found;
+}
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,129 @@
+#include "cli/arguments.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "cli/failure.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+constexpr size_t kHelpColumn = 30;
+
+const Option* find(const Command& command, const std::string& name) {
+  for (const Option& option : command.options) {
+    if (name == option.name) return &option;
+  }
+  return nullptr;
+}
+
+bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "-"; }
+
+template <class Number>
+bool parse(const std::string& text, Number& value) {
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  return result.ec == std::errc() && result.ptr == text.data() + text.size();
+}
+
+}  // namespace
+
+Arguments::Arguments(const Command& command, const std::vector<std::string>& words)
+    : command_(command.name) {
+  for (const std::string& word : words) {
+    if (word == "--help" || word == "-h") wants_help_ = true;
+  }
+  if (wants_help_) return;
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (!is_option(words[i])) {
+      positionals_.push_back(words[i]);
+      continue;
+    }
+    const size_t equals = words[i].find('=');
+    const std::string name = words[i].substr(0, equals);
+    const Option* option = find(command, name);
+    if (option == nullptr) refuse("unknown option " + name);
+    if (option->help == nullptr)
+      refuse(name + " is not in this version of Firmtouch yet; leave it out");
+    if (values_.count(name) != 0) refuse(name + " is given twice; give it once");
+    std::string value;
+    if (option->value == nullptr) {
+      if (equals != std::string::npos) refuse(name + " takes no value");
+    } else if (equals != std::string::npos) {
+      value = words[i].substr(equals + 1);
+    } else if (i + 1 < words.size() && words[i + 1].compare(0, 2, "--") != 0) {
+      value = words[++i];
+    } else {
+      refuse(name + " needs a value: " + name + " " + option->value);
+    }
+    values_[name] = value;
+  }
+  if (positionals_.size() < command.least_positionals) refuse("something is missing");
+  if (positionals_.size() > command.most_positionals) {
+    refuse("one word too many: '" + positionals_[command.most_positionals] + "'");
+  }
+}
+
+void Arguments::refuse(const std::string& what) const {
+  fail_usage(command_ + ": " + what + " (see firmtouch " + command_ + " --help)");
+}
+
+std::string Arguments::text(const std::string& option, const std::string& otherwise) const {
+  const auto found = values_.find(option);
+  return found == values_.end() ? otherwise : found->second;
+}
+
+uint32_t Arguments::count(const std::string& option, uint32_t otherwise, uint32_t least,
+                          uint32_t most) const {
+  if (!has(option)) return otherwise;
+  uint32_t value = 0;
+  if (!parse(text(option, ""), value) || value < least || value > most) {
+    refuse(option + " " + text(option, "") + ": a whole number from " + std::to_string(least) +
+           " to " + std::to_string(most) + " is needed");
+  }
+  return value;
+}
+
+double Arguments::number(const std::string& option, double otherwise, double least) const {
+  if (!has(option)) return otherwise;
+  double value = 0;
+  if (!parse(text(option, ""), value) || !std::isfinite(value) || !(value >= least)) {
+    refuse(option + " " + text(option, "") + ": a number not below " + std::to_string(least) +
+           " is needed");
+  }
+  return value;
+}
+
+std::string Arguments::choice(const std::string& option, const std::string& otherwise,
+                              const std::vector<std::string>& choices) const {
+  const std::string value = text(option, otherwise);
+  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
+  std::string listed;
+  for (const std::string& choice : choices) listed += (listed.empty() ? "" : ", ") + choice;
+  refuse(option + " " + value + ": one of " + listed + " is needed");
+}
+
+std::string help_of(const Command& command) {
+  std::string text = std::string("usage: firmtouch ") + command.name + " " + command.usage + "\n" +
+                     command.summary + "\n";
+  if (command.details[0] != 0) text += std::string("\n") + command.details + "\n";
+  text += "\noptions\n";
+  std::string later;
+  for (const Option& option : command.options) {
+    if (option.help == nullptr) {
+      later += std::string(later.empty() ? "" : " ") + option.name;
+      continue;
+    }
+    std::string line = std::string("  ") + option.name;
+    if (option.value != nullptr) line += std::string(" ") + option.value;
+    line.resize(std::max(line.size() + 2, kHelpColumn), ' ');
+    text += line + option.help + "\n";
+  }
+  std::string help = "  --help";
+  help.resize(kHelpColumn, ' ');
+  text += help + "this text\n";
+  if (!later.empty()) text += "\nplanned, refused so far: " + later + "\n";
+  return text;
+}
+
+}  // namespace firmtouch::cli

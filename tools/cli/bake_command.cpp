@@ -1,0 +1,158 @@
+#include <cstdio>
+#include <map>
+
+#include "bake/asset_views.hpp"
+#include "bake/asset_writer.hpp"
+#include "cli/baked_input.hpp"
+#include "cli/commands.hpp"
+#include "cli/cpp_source.hpp"
+#include "cli/failure.hpp"
+#include "cli/files.hpp"
+#include "firmtouch/asset/opening.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+bool is_curve(const std::string& path) { return extension_of(path) == ".csv"; }
+
+void check_kind(const std::string& path) {
+  static const char* const kLater[][2] = {{".igs", "NURBS"},
+                                          {".iges", "NURBS"},
+                                          {".bpt", "Bezier patches"},
+                                          {".ftl", "a recorded run"},
+                                          {".stl", "an STL mesh"}};
+  for (const auto& later : kLater) {
+    if (extension_of(path) == later[0]) {
+      fail_input(path + ": " + later[1] + " (" + later[0] +
+                 ") cannot be baked by this version yet; give .obj, .off or .ply for a mesh, .csv "
+                 "for a curve");
+    }
+  }
+}
+
+// An asset is named after its file's stem, so two inputs of one stem would be one asset.
+void check_names(const std::vector<std::string>& inputs) {
+  std::map<std::string, std::string> seen;
+  for (const std::string& path : inputs) {
+    const std::string name = stem_of(path);
+    const std::string problem = tools::name_problem(name);
+    if (!problem.empty()) fail_input(path + ": " + problem);
+    const auto added = seen.emplace(name, path);
+    if (!added.second) {
+      fail_input(path + ": names its asset '" + name + "', as " + added.first->second +
+                 " does; rename one of the files");
+    }
+  }
+}
+
+BakeOptions options_of(const Arguments& arguments) {
+  static const std::map<std::string, double> kUnits = {
+      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
+  BakeOptions options;
+  const std::string unit = arguments.choice("--unit", "m", {"m", "mm", "cm", "in"});
+  options.unit_m = kUnits.at(unit);
+  options.is_signed = !arguments.has("--unsigned");
+  options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned");
+  return options;
+}
+
+void print_report(const std::string& name, const std::vector<std::string>& lines) {
+  for (size_t i = 0; i < lines.size(); ++i) {
+    std::fprintf(stderr, "%s%s\n", i == 0 ? (name + ": ").c_str() : "    ", lines[i].c_str());
+  }
+}
+
+std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
+                                 const BakeOptions& options) {
+  Progress progress(inputs.size() * kStagesAnInput);
+  std::vector<BakedInput> baked;
+  for (const std::string& path : inputs) {
+    baked.push_back(is_curve(path) ? bake_curve_input(path, options, progress)
+                                   : bake_mesh_input(path, options, progress));
+  }
+  return baked;
+}
+
+// Both files or none.
+void write_source(const std::string& path, const std::vector<uint8_t>& asset,
+                  const std::string& output) {
+  const std::string text = cpp_source(asset, symbol_of(file_name_of(output)));
+  try {
+    write_file(path, text.data(), text.size());
+  } catch (const Failure&) {
+    std::remove(output.c_str());
+    throw;
+  }
+}
+
+}  // namespace
+
+const Command& bake_command() {
+  static const Command command{
+      "bake",
+      "INPUT... -o SCENE.fta [options]",
+      "Bakes meshes and curves into one asset, proven with the firmware's own decoder.",
+      "INPUT by extension: .obj .off .ply a mesh; .csv a curve (header x,y,z). Each is named after "
+      "its\n"
+      "file's stem. What can be mended safely is mended and reported; the rest is refused.",
+      {{"-o", "FILE", "the asset to write"},
+       {"--unit", "m|mm|cm|in", "of the inputs' coordinates (default m)"},
+       {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
+       {"--fast", nullptr, "the fastest asset rather than the smallest (the default)"},
+       {"--cpp", "FILE", "the asset as a C++ source, too"},
+       {"--close-holes", nullptr, nullptr},
+       {"--small", nullptr, nullptr},
+       {"--no-tree", nullptr, nullptr},
+       {"--hull-faces", "N", nullptr},
+       {"--hull-grid", "22|16", nullptr},
+       {"--max-valence", "N", nullptr},
+       {"--compactness", "R", nullptr},
+       {"--max-deviation-deg", "A", nullptr},
+       {"--distance-map", "CELLS", nullptr},
+       {"--teach", "NAME", nullptr},
+       {"--max-deviation", "M", nullptr}},
+      1,
+      SIZE_MAX};
+  return command;
+}
+
+int run_bake(const Arguments& arguments) {
+  const std::vector<std::string>& inputs = arguments.positionals();
+  const std::string output = arguments.text("-o", "");
+  const std::string source = arguments.text("--cpp", "");
+  if (output.empty()) fail_usage("bake: say where to write: -o SCENE.fta");
+  if (source == output) fail_usage("bake: -o and --cpp name the same file; name two");
+  const BakeOptions options = options_of(arguments);
+  for (const std::string& input : inputs) {
+    check_kind(input);
+    forbid_overwriting(output, input);
+    forbid_overwriting(source, input);
+  }
+  check_names(inputs);
+
+  const std::vector<BakedInput> baked = bake_all(inputs, options);
+  std::vector<tools::Section> sections;
+  for (const BakedInput& input : baked) {
+    sections.insert(sections.end(), input.sections.begin(), input.sections.end());
+  }
+  const tools::AssetFile file = tools::write_asset(sections);
+  if (!file.problem.empty()) fail_input(output + ": " + file.problem);
+  const core::Bytes bytes(file.bytes.data(), static_cast<uint32_t>(file.bytes.size()));
+  const std::string unsound = tools::prove_asset(bytes);
+  if (!unsound.empty()) {
+    fail_input(output + ": the asset that was made does not pass its own proof (" + unsound +
+               "); nothing was written: a defect of the baker, please report the input");
+  }
+  write_file(output, file.bytes.data(), file.bytes.size());
+  if (!source.empty()) write_source(source, file.bytes, output);
+
+  for (size_t i = 0; i < inputs.size(); ++i) print_report(stem_of(inputs[i]), baked[i].report);
+  asset::Container container;
+  (void)asset::open(bytes, container);
+  std::fprintf(stderr, "%s: %zu bytes, %zu %s, CRC %08x, proven with the firmware's decoder\n",
+               output.c_str(), file.bytes.size(), inputs.size(),
+               inputs.size() == 1 ? "asset" : "assets", container.crc());
+  return kDone;
+}
+
+}  // namespace firmtouch::cli

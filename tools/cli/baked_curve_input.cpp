@@ -1,0 +1,96 @@
+#include <cstdio>
+
+#include "bake/bake_curve.hpp"
+#include "bake/probes.hpp"
+#include "bake/provenance.hpp"
+#include "bake/step_figures.hpp"
+#include "cli/baked_input.hpp"
+#include "cli/failure.hpp"
+#include "cli/files.hpp"
+#include "cli/version.hpp"
+#include "curve/read_curve_csv.hpp"
+#include "firmtouch/asset/layout.hpp"
+#include "firmtouch/curve/closest_point.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+tools::StepFigures steps_of(const curve::View& view, const std::vector<math::Vec3>& samples_m) {
+  query::Hint hint;
+  return tools::measure_steps(
+      view.head().low_m, view.head().high_m, tools::path_along(samples_m, view.head().diagonal_m),
+      [&](math::Vec3 p_m, bool cold) {
+        if (cold) hint = query::Hint{};
+        return curve::closest_point(view, p_m, query::kUnlimited, hint).certificate.steps;
+      });
+}
+
+tools::Facts facts_of(const curve::View& view, const tools::CurveReport& report,
+                      const tools::StepFigures& steps) {
+  return {{"kind", view.is_closed() ? "closed curve" : "open curve"},
+          {"samples", std::to_string(report.samples)},
+          {"levels", std::to_string(report.levels)},
+          {"length_m", tools::number_text(static_cast<double>(view.head().length_m))},
+          {"steps_random_mean", tools::number_text(steps.random_mean)},
+          {"steps_random_worst", std::to_string(steps.random_worst)},
+          {"steps_path_mean", tools::number_text(steps.path_mean)},
+          {"steps_path_worst", std::to_string(steps.path_worst)}};
+}
+
+std::string sentence(const char* format, double a, double b) {
+  char text[200];
+  std::snprintf(text, sizeof(text), format, a, b);
+  return text;
+}
+
+}  // namespace
+
+BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
+                            Progress& progress) {
+  const std::string name = stem_of(path);
+  BakedInput baked;
+  progress.stage("reading and checking " + file_name_of(path));
+  const std::vector<uint8_t> source = read_file(path);
+  const tools::CurvePoints points = tools::read_curve_csv_bytes(
+      {reinterpret_cast<const char*>(source.data()), source.size()}, path, options.unit_m);
+  if (!points.problem.empty()) fail_input(points.problem);
+
+  progress.stage("building the tree of " + name);
+  tools::CurveReport report;
+  baked.sections = tools::bake_curve(points, name, report);
+  if (!report.problem.empty()) fail_input(path + ": " + report.problem);
+  curve::View view;
+  const core::Verdict verdict = curve::open(tools::curve_sections(baked.sections, name), view);
+  if (!verdict.ok()) fail_input(path + ": its curve breaks rule R" + std::to_string(verdict.rule));
+
+  progress.stage("counting steps on " + name);
+  const tools::StepFigures steps = steps_of(view, points.samples_m);
+  progress.stage("asking the probes of " + name);
+  baked.sections.push_back(tools::curve_probes(view, name));
+  baked.sections.push_back(
+      tools::text_section(asset::kBoundsSection, name, facts_of(view, report, steps)));
+  baked.sections.push_back(tools::text_section(
+      asset::kProvenanceSection, name,
+      tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
+
+  const uint64_t bytes = bytes_of(baked.sections);
+  baked.report = {
+      std::string(view.is_closed() ? "closed" : "open") + " curve, " +
+          std::to_string(report.samples) +
+          sentence(" samples, %.4g m long, segments up to %.3g m", report.length_m,
+                   report.longest_segment_m),
+      std::to_string(bytes) + sentence(" bytes, %.1f a sample; tree of %.0f levels",
+                                       static_cast<double>(bytes) / report.samples,
+                                       static_cast<double>(report.levels)),
+      "RAM " + std::to_string(sizeof(query::Hint)) +
+          " bytes a tool that it guides (query::Hint), " + std::to_string(sizeof(curve::View)) +
+          " for the view here; the asset stays in flash",
+      sentence("steps at 2000 random points, each on its own: mean %.1f, worst seen %.0f",
+               steps.random_mean, steps.random_worst),
+      sentence("steps on a path of 2000 points beside it: mean %.1f, worst seen %.0f",
+               steps.path_mean, steps.path_worst)};
+  for (const std::string& note : points.notes) baked.report.push_back("mended: " + note);
+  return baked;
+}
+
+}  // namespace firmtouch::cli

@@ -1,0 +1,45 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "bake/section.hpp"
+#include "cli/progress.hpp"
+#include "surface/surface.hpp"
+
+namespace firmtouch::cli {
+
+struct BakeOptions {
+  double unit_m = 1;
+  bool is_signed = true;
+  std::string text;  // as they stand in the provenance
+};
+
+/// One input as sections of an asset, proven, with its probes and provenance, and what to tell
+/// about it.
+struct BakedInput {
+  std::vector<tools::Section> sections;
+  std::vector<std::string> report;
+};
+
+/// Stages that the progress bar shows for each input.
+constexpr size_t kStagesAnInput = 4;
+
+/// Each fails (bad input) with the file, the place, what is wrong, how often and how to mend it.
+BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options, Progress& progress);
+BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
+                            Progress& progress);
+
+/// A model read, checked and mended.
+struct SoundSurface {
+  tools::Surface surface;
+  std::vector<uint32_t> vertex_source;  // of each vertex: its index in the file
+  std::vector<std::string> told;        // a sentence for each thing mended or let through
+};
+
+/// Fails (bad input) as above.
+SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
+                           const BakeOptions& options);
+
+uint64_t bytes_of(const std::vector<tools::Section>& sections);
+
+}  // namespace firmtouch::cli

@@ -1,0 +1,145 @@
+#include <cstdio>
+#include <utility>
+
+#include "bake/bake_mesh.hpp"
+#include "bake/probes.hpp"
+#include "bake/provenance.hpp"
+#include "bake/step_figures.hpp"
+#include "cli/baked_input.hpp"
+#include "cli/failure.hpp"
+#include "cli/files.hpp"
+#include "cli/version.hpp"
+#include "firmtouch/asset/layout.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "surface/check.hpp"
+#include "surface/crossings.hpp"
+#include "surface/make_walk.hpp"
+#include "surface/read_surface.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+constexpr uint64_t kWalkSeed = 1;
+
+tools::StepFigures steps_of(const mesh::View& view, const tools::Surface& surface) {
+  query::Hint hint;
+  const auto ask = [&](math::Vec3 p_m, bool cold) {
+    if (cold) hint = query::Hint{};
+    return mesh::closest_point(view, p_m, query::kUnlimited, hint);
+  };
+  const auto walk = tools::make_walk(surface, kWalkSeed, tools::kFigureQueries,
+                                     [&](math::Vec3 p_m) { return ask(p_m, false).point_m; });
+  return tools::measure_steps(
+      view.head().low_m, view.head().high_m, walk,
+      [&](math::Vec3 p_m, bool cold) { return ask(p_m, cold).certificate.steps; });
+}
+
+tools::Facts facts_of(const mesh::View& view, const tools::StepFigures& steps) {
+  return {{"kind", view.is_signed() ? "mesh" : "mesh without inside and outside"},
+          {"triangles", std::to_string(view.head().triangle_count)},
+          {"vertices", std::to_string(view.head().vertex_count)},
+          {"nodes", std::to_string(view.head().node_count)},
+          {"depth", std::to_string(view.head().depth)},
+          {"diagonal_m", tools::number_text(static_cast<double>(view.head().diagonal_m))},
+          {"steps_random_mean", tools::number_text(steps.random_mean)},
+          {"steps_random_worst", std::to_string(steps.random_worst)},
+          {"steps_path_mean", tools::number_text(steps.path_mean)},
+          {"steps_path_worst", std::to_string(steps.path_worst)}};
+}
+
+std::string sentence(const char* format, double a, double b) {
+  char text[200];
+  std::snprintf(text, sizeof(text), format, a, b);
+  return text;
+}
+
+std::vector<std::string> report_of(const tools::MeshReport& report, const tools::StepFigures& steps,
+                                   uint64_t bytes, bool is_signed) {
+  const double triangles = report.triangles;
+  return {"mesh, " + std::to_string(report.triangles) + " triangles, " +
+              std::to_string(report.vertices) + " vertices, " +
+              (is_signed ? "closed: inside and outside are known" : "unsigned: distance only"),
+          std::to_string(bytes) + " bytes" +
+              sentence(", %.1f a triangle; tree of depth %.0f",
+                       static_cast<double>(bytes) / triangles, static_cast<double>(report.depth)) +
+              " (at most " + std::to_string(mesh::kMaxDepth) + ")",
+          "RAM " + std::to_string(sizeof(query::Hint)) +
+              " bytes a tool that touches it (query::Hint), " + std::to_string(sizeof(mesh::View)) +
+              " for the view here; the asset stays in flash",
+          sentence("steps at 2000 random points, each on its own: mean %.1f, worst seen %.0f",
+                   steps.random_mean, steps.random_worst),
+          sentence("steps on a touching path of 2000 points: mean %.1f, worst seen %.0f",
+                   steps.path_mean, steps.path_worst)};
+}
+
+// Where a surface crosses itself no side is wrong; who touches it there should know.
+void tell_crossings(const SoundSurface& sound, std::vector<std::string>& report) {
+  const tools::Crossings crossings = tools::find_crossings(sound.surface);
+  if (crossings.pairs.empty()) return;
+  for (const std::string& line : tools::describe(crossings, sound.surface, sound.vertex_source)) {
+    report.push_back(line);
+  }
+}
+
+}  // namespace
+
+SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
+                           const BakeOptions& options) {
+  tools::Imported imported =
+      tools::read_surface_bytes(std::string(bytes.begin(), bytes.end()), path, options.unit_m);
+  if (!imported.problem.empty()) fail_input(imported.problem);
+  tools::CheckOptions checks;
+  checks.allow_unsigned = !options.is_signed;
+  const tools::CheckReport report = tools::check_and_mend(imported.surface, checks);
+  if (!report.usable()) {
+    std::string all;
+    for (const std::string& line : report.refused)
+      all += (all.empty() ? "" : "\n" + std::string(11, ' ')) + path + ": " + line;
+    fail_input(all);
+  }
+  SoundSurface sound{std::move(imported.surface), report.vertex_source, {}};
+  for (const std::string& line : report.mended) sound.told.push_back("mended: " + line);
+  for (const std::string& line : report.kept) sound.told.push_back("kept: " + line);
+  return sound;
+}
+
+BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
+                           Progress& progress) {
+  const std::string name = stem_of(path);
+  BakedInput baked;
+  progress.stage("reading and checking " + file_name_of(path));
+  const std::vector<uint8_t> source = read_file(path);
+  const SoundSurface sound = sound_surface(path, source, options);
+  const tools::Surface& surface = sound.surface;
+
+  progress.stage("building the tree of " + name);
+  tools::MeshOptions mesh_options;
+  mesh_options.is_signed = options.is_signed;
+  tools::MeshReport report;
+  baked.sections = tools::bake_mesh(surface, name, mesh_options, report);
+  if (!report.problem.empty()) fail_input(path + ": " + report.problem);
+  mesh::View view;
+  const core::Verdict verdict = mesh::open(tools::mesh_sections(baked.sections, name), view);
+  if (!verdict.ok()) fail_input(path + ": its mesh breaks rule R" + std::to_string(verdict.rule));
+
+  progress.stage("counting steps on " + name);
+  const tools::StepFigures steps = steps_of(view, surface);
+  progress.stage("looking where " + name + " crosses itself");
+  baked.sections.push_back(tools::mesh_probes(view, name));
+  baked.sections.push_back(tools::text_section(asset::kBoundsSection, name, facts_of(view, steps)));
+  baked.sections.push_back(tools::text_section(
+      asset::kProvenanceSection, name,
+      tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
+  baked.report = report_of(report, steps, bytes_of(baked.sections), options.is_signed);
+  baked.report.insert(baked.report.end(), sound.told.begin(), sound.told.end());
+  if (options.is_signed) tell_crossings(sound, baked.report);
+  return baked;
+}
+
+uint64_t bytes_of(const std::vector<tools::Section>& sections) {
+  uint64_t bytes = 0;
+  for (const tools::Section& section : sections) bytes += section.bytes.size();
+  return bytes;
+}
+
+}  // namespace firmtouch::cli

@@ -1,0 +1,19 @@
+#pragma once
+#include "cli/arguments.hpp"
+
+namespace firmtouch::cli {
+
+// The commands: what each takes, and what it does (result: an exit code; a Failure ends it early).
+const Command& make_command();
+int run_make(const Arguments& arguments);
+
+const Command& bake_command();
+int run_bake(const Arguments& arguments);
+
+const Command& info_command();
+int run_info(const Arguments& arguments);
+
+const Command& query_command();
+int run_query(const Arguments& arguments);
+
+}  // namespace firmtouch::cli

@@ -1,0 +1,135 @@
+#include "cli/csv_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string_view>
+
+#include "cli/failure.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const char* const blanks = " \t\r\"";
+  const size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (size_t begin = 0; begin <= line.size();) {
+    const size_t comma = std::min(line.find(',', begin), line.size());
+    fields.push_back(trimmed(line.substr(begin, comma - begin)));
+    begin = comma + 1;
+  }
+  return fields;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
+}
+
+bool parse(std::string_view text, float& value) {
+  if (!text.empty() && text[0] == '+') text.remove_prefix(1);
+  double wide = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), wide);
+  if (result.ptr != text.data() + text.size() || text.empty()) return false;
+  if (result.ec == std::errc::result_out_of_range) {  // too large or too small for a double
+    const bool tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
+    wide = tiny ? 0 : std::numeric_limits<double>::infinity();
+    if (text[0] == '-') wide = -wide;
+  } else if (result.ec != std::errc()) {
+    return false;
+  }
+  value = static_cast<float>(wide);
+  return true;
+}
+
+struct Reader {
+  const std::string& origin;
+  const std::vector<std::string>& columns;
+  std::vector<size_t> places;  // of each column in a row
+  CsvTable table;
+
+  [[noreturn]] void fail(uint32_t line, const std::string& what) const {
+    fail_input(origin + ":" + std::to_string(line) + ": " + what);
+  }
+
+  void read_header(std::string_view line, uint32_t number) {
+    const std::vector<std::string_view> names = fields_of(line);
+    for (const std::string& column : columns) {
+      size_t found = names.size();
+      for (size_t i = 0; i < names.size(); ++i) {
+        if (names[i] != column) continue;
+        if (found != names.size()) fail(number, "the header names column '" + column + "' twice");
+        found = i;
+      }
+      if (found == names.size()) {
+        fail(number, "the header has no column '" + column + "'; the first line must be " +
+                         joined(columns));
+      }
+      places.push_back(found);
+    }
+  }
+
+  void read_row(std::string_view line, uint32_t number) {
+    const std::vector<std::string_view> fields = fields_of(line);
+    for (size_t i = 0; i < columns.size(); ++i) {
+      if (places[i] >= fields.size()) {
+        fail(number, "the row has " + std::to_string(fields.size()) + " values, column '" +
+                         columns[i] +
+                         "' is missing; give every row a value for each column of the header");
+      }
+      float value = 0;
+      if (!parse(fields[places[i]], value)) {
+        fail(number, "column '" + columns[i] + "': '" + std::string(fields[places[i]]) +
+                         "' is not a number; write it with a point, as 0.125 or 1.25e-1");
+      }
+      table.values.push_back(value);
+    }
+    table.line_of.push_back(number);
+  }
+};
+
+}  // namespace
+
+CsvTable read_csv(const std::string& text, const std::string& origin,
+                  const std::vector<std::string>& columns) {
+  Reader reader{origin, columns, {}, {}};
+  reader.table.columns = columns.size();
+  std::string_view rest = text;
+  if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
+  uint32_t number = 0;
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = trimmed(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    ++number;
+    if (line.empty()) continue;
+    if (reader.places.empty()) {
+      reader.read_header(line, number);
+    } else {
+      reader.read_row(line, number);
+    }
+  }
+  if (reader.places.empty())
+    fail_input(origin + ": is empty; the first line must be " + joined(columns));
+  return reader.table;
+}
+
+std::string read_standard_input() {
+  std::string text;
+  char block[65536];
+  size_t count = 0;
+  while ((count = std::fread(block, 1, sizeof(block), stdin)) > 0) text.append(block, count);
+  if (std::ferror(stdin) != 0) fail_input("standard input: cannot be read");
+  return text;
+}
+
+}  // namespace firmtouch::cli

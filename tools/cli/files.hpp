@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace firmtouch::cli {
+
+/// Every byte of a file. Fails (bad input) where it cannot be opened or read.
+std::vector<uint8_t> read_file(const std::string& path);
+
+/// Writes a file whole or not at all: to a temporary beside it, renamed at the end. A failing
+/// command leaves no output.
+void write_file(const std::string& path, const void* bytes, size_t count);
+
+/// "dir/spot.final.obj": stem "spot.final", extension ".obj" (lower case), file name
+/// "spot.final.obj".
+std::string stem_of(const std::string& path);
+std::string extension_of(const std::string& path);
+std::string file_name_of(const std::string& path);
+
+/// Fails (usage) where writing `output` would overwrite the input `input`.
+void forbid_overwriting(const std::string& output, const std::string& input);
+
+}  // namespace firmtouch::cli

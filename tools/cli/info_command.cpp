@@ -1,0 +1,163 @@
+#include <cstdio>
+#include <map>
+
+#include "bake/asset_views.hpp"
+#include "bake/provenance.hpp"
+#include "cli/commands.hpp"
+#include "cli/failure.hpp"
+#include "cli/loaded_asset.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+struct SectionName {
+  uint32_t type;
+  const char* text;
+};
+
+constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
+                                         {asset::kProvenanceSection, "provenance"},
+                                         {mesh::kHeadSection, "mesh head"},
+                                         {mesh::kVerticesSection, "mesh vertices"},
+                                         {mesh::kTriangles16Section, "mesh triangles, 16 bit"},
+                                         {mesh::kTriangles32Section, "mesh triangles, 32 bit"},
+                                         {mesh::kNodesSection, "mesh nodes"},
+                                         {mesh::kParentsSection, "mesh parents"},
+                                         {mesh::kVertexNormalsSection, "mesh vertex normals"},
+                                         {mesh::kEdgeFoldsSection, "mesh edge folds"},
+                                         {mesh::kSourceSection, "mesh source triangles"},
+                                         {mesh::kProbesSection, "mesh probes"},
+                                         {curve::kHeadSection, "curve head"},
+                                         {curve::kSamplesSection, "curve samples"},
+                                         {curve::kArcsSection, "curve arcs"},
+                                         {curve::kNodesSection, "curve nodes"},
+                                         {curve::kRowsSection, "curve source rows"},
+                                         {curve::kProbesSection, "curve probes"}};
+
+const char* section_text(uint32_t type) {
+  for (const SectionName& known : kSectionNames) {
+    if (known.type == type) return known.text;
+  }
+  return "unknown, skipped";
+}
+
+// One asset of the file: its sections lie beside each other in the table.
+struct NamedAsset {
+  std::string name;
+  std::vector<uint32_t> sections;
+  tools::Facts facts;
+  uint64_t bytes = 0;
+};
+
+std::vector<NamedAsset> assets_of(const asset::Container& container) {
+  std::vector<NamedAsset> assets;
+  for (uint32_t i = 0; i < container.section_count(); ++i) {
+    if (assets.empty() || assets.back().name != container.name(i))
+      assets.push_back({container.name(i), {}, {}, 0});
+    NamedAsset& last = assets.back();
+    const core::Bytes bytes = container.section(i);
+    last.sections.push_back(i);
+    last.bytes += bytes.size();
+    const uint32_t type = container.type(i);
+    if (type != asset::kBoundsSection && type != asset::kProvenanceSection) continue;
+    const tools::Facts facts = tools::read_facts(bytes.data(), bytes.size());
+    last.facts.insert(last.facts.end(), facts.begin(), facts.end());
+  }
+  return assets;
+}
+
+std::string json_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    char escaped[8];
+    if (letter == '"' || letter == '\\') {
+      quoted += '\\';
+      quoted += letter;
+    } else if (static_cast<unsigned char>(letter) < 0x20) {
+      std::snprintf(escaped, sizeof(escaped), "\\u%04x", static_cast<unsigned>(letter));
+      quoted += escaped;
+    } else {
+      quoted += letter;
+    }
+  }
+  return quoted + "\"";
+}
+
+void print_json(const LoadedAsset& loaded) {
+  const asset::Container& container = loaded.container();
+  std::printf(
+      "{\"file\": %s, \"version\": \"%u.%u\", \"bytes\": %u, \"crc\": \"%08x\", \"assets\": [",
+      json_text(loaded.path()).c_str(), asset::kMajor, asset::kMinor, container.bytes().size(),
+      container.crc());
+  const char* between = "\n";
+  for (const NamedAsset& named : assets_of(container)) {
+    std::printf("%s  {\"name\": %s, \"bytes\": %llu, \"facts\": {", between,
+                json_text(named.name).c_str(), static_cast<unsigned long long>(named.bytes));
+    between = ",\n";
+    const char* comma = "";
+    for (const auto& fact : named.facts) {
+      std::printf("%s%s: %s", comma, json_text(fact.first).c_str(), json_text(fact.second).c_str());
+      comma = ", ";
+    }
+    std::printf("}, \"sections\": [");
+    comma = "";
+    for (const uint32_t i : named.sections) {
+      std::printf("%s{\"type\": %u, \"is\": %s, \"bytes\": %u}", comma, container.type(i),
+                  json_text(section_text(container.type(i))).c_str(), container.section(i).size());
+      comma = ", ";
+    }
+    std::printf("]}");
+  }
+  std::printf("\n]}\n");
+}
+
+void print_text(const LoadedAsset& loaded) {
+  const asset::Container& container = loaded.container();
+  std::printf("%s: %u bytes, %u sections, CRC %08x\n", loaded.path().c_str(),
+              container.bytes().size(), container.section_count(), container.crc());
+  for (const NamedAsset& named : assets_of(container)) {
+    std::printf("\n%s: %llu bytes\n", named.name.c_str(),
+                static_cast<unsigned long long>(named.bytes));
+    for (const auto& fact : named.facts)
+      std::printf("  %-20s %s\n", fact.first.c_str(), fact.second.c_str());
+    for (const uint32_t i : named.sections) {
+      std::printf("  section %04x %10u bytes  %s\n", container.type(i), container.section(i).size(),
+                  section_text(container.type(i)));
+    }
+  }
+}
+
+}  // namespace
+
+const Command& info_command() {
+  static const Command command{"info",
+                               "ASSET.fta [--json]",
+                               "Proves an asset and says what is in it.",
+                               "Exit code 1 if this machine answers the asset's probe queries with "
+                               "other bits than the baker did.",
+                               {{"--json", nullptr, "for programs"}},
+                               1,
+                               1};
+  return command;
+}
+
+int run_info(const Arguments& arguments) {
+  const LoadedAsset loaded(arguments.positionals()[0]);
+  for (const std::string& name : tools::names_with(loaded.container(), mesh::kHeadSection))
+    (void)loaded.mesh(name);
+  for (const std::string& name : tools::names_with(loaded.container(), curve::kHeadSection))
+    (void)loaded.curve(name);
+  if (arguments.has("--json")) {
+    print_json(loaded);
+  } else {
+    print_text(loaded);
+  }
+  const std::string problem = tools::prove_asset(loaded.container().bytes());
+  if (problem.empty()) return kDone;
+  std::fprintf(stderr,
+               "firmtouch: %s: %s; bake it again on this machine, or find the flags that differ\n",
+               loaded.path().c_str(), problem.c_str());
+  return kAnswerIsNo;
+}
+
+}  // namespace firmtouch::cli

@@ -1,0 +1,57 @@
+#include "cli/loaded_asset.hpp"
+
+#include "bake/asset_views.hpp"
+#include "cli/failure.hpp"
+#include "cli/files.hpp"
+#include "firmtouch/asset/opening.hpp"
+#include "firmtouch/core/bytes.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+LoadedAsset::LoadedAsset(const std::string& path) : path_(path), bytes_(read_file(path)) {
+  const core::Verdict verdict =
+      asset::open({bytes_.data(), static_cast<uint32_t>(bytes_.size())}, container_);
+  if (!verdict.ok()) fail_unsound(tools::rule_text(verdict));
+}
+
+void LoadedAsset::fail_unsound(const std::string& what) const {
+  fail_input(path_ + ": not a sound asset: " + what +
+             " (tools/FORMAT.md); bake it again with firmtouch bake");
+}
+
+void LoadedAsset::fail_absent(const std::string& kind, const std::string& name) const {
+  fail_input(path_ + ": holds no " + kind + " '" + name +
+             "'; meshes: " + joined(tools::names_with(container_, mesh::kHeadSection)) +
+             "; curves: " + joined(tools::names_with(container_, curve::kHeadSection)));
+}
+
+LoadedMesh LoadedAsset::mesh(const std::string& name) const {
+  const char* key = name.c_str();
+  if (container_.find(mesh::kHeadSection, key).empty()) fail_absent("mesh", name);
+  LoadedMesh loaded;
+  const core::Verdict verdict = mesh::open(tools::mesh_sections_of(container_, key), loaded.view);
+  if (!verdict.ok()) fail_unsound("mesh '" + name + "': " + tools::rule_text(verdict));
+  loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
+  return loaded;
+}
+
+LoadedCurve LoadedAsset::curve(const std::string& name) const {
+  const char* key = name.c_str();
+  if (container_.find(curve::kHeadSection, key).empty()) fail_absent("curve", name);
+  LoadedCurve loaded;
+  const core::Verdict verdict = curve::open(tools::curve_sections_of(container_, key), loaded.view);
+  if (!verdict.ok()) fail_unsound("curve '" + name + "': " + tools::rule_text(verdict));
+  loaded.rows = core::as_whole_array<uint32_t>(container_.find(curve::kRowsSection, key));
+  return loaded;
+}
+
+}  // namespace firmtouch::cli

@@ -1,0 +1,88 @@
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/failure.hpp"
+#include "cli/version.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+struct Entry {
+  const Command& (*command)();
+  int (*run)(const Arguments&);
+};
+
+constexpr Entry kEntries[] = {{make_command, run_make},
+                              {bake_command, run_bake},
+                              {info_command, run_info},
+                              {query_command, run_query}};
+
+std::string usage() {
+  std::string text =
+      "usage: firmtouch COMMAND ...\n"
+      "Bakes surfaces and paths into assets that a controller touches in fixed memory.\n\n";
+  for (const Entry& entry : kEntries) {
+    std::string line = std::string("  ") + entry.command().name;
+    line.resize(10, ' ');
+    text += line + entry.command().summary + "\n";
+  }
+  return text +
+         "\nfirmtouch COMMAND --help says more. Exit codes: 0 done, 1 the answer is no, 2 usage, 3 "
+         "bad input.\n";
+}
+
+int run(const std::vector<std::string>& words) {
+  if (words.empty()) {
+    std::fputs(usage().c_str(), stderr);
+    return kUsage;
+  }
+  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+    std::fputs(usage().c_str(), stdout);
+    return kDone;
+  }
+  if (words[0] == "--version") {
+    std::puts(kToolVersion);
+    return kDone;
+  }
+  for (const Entry& entry : kEntries) {
+    const Command& command = entry.command();
+    if (words[0] != command.name) continue;
+    const Arguments arguments(command, {words.begin() + 1, words.end()});
+    if (!arguments.wants_help()) return entry.run(arguments);
+    std::fputs(help_of(command).c_str(), stdout);
+    return kDone;
+  }
+  for (const char* later : {"voxelize", "hull", "bench", "log"}) {
+    if (words[0] == later) fail_usage(words[0] + ": is not in this version of Firmtouch yet");
+  }
+  fail_usage("'" + words[0] + "' is no command (see firmtouch --help)");
+}
+
+}  // namespace
+}  // namespace firmtouch::cli
+
+int main(int argc, char** argv) {
+  using namespace firmtouch::cli;
+  try {
+    const int code = run({argv + 1, argv + argc});
+    // A full disk or a closed pipe must not pass for success.
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    std::fputs("firmtouch: standard output: cannot be written\n", stderr);
+    return kBadInput;
+  } catch (const Failure& failure) {
+    std::fprintf(stderr, "firmtouch: %s\n", failure.message.c_str());
+    return failure.exit_code;
+  } catch (const std::bad_alloc&) {
+    std::fputs(
+        "firmtouch: not enough memory for this input; bake fewer or smaller inputs at once\n",
+        stderr);
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "firmtouch: %s\n", error.what());
+    return kBadInput;
+  }
+}

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+
+#include "cli/arguments.hpp"
+#include "cli/csv_table.hpp"
+#include "cli/loaded_asset.hpp"
+#include "firmtouch/query/certificate.hpp"
+
+namespace firmtouch::cli {
+
+/// --budget: unlimited unless given.
+query::Budget budget_of(const Arguments& arguments);
+
+struct CurveOptions {
+  bool is_exact = true;  // else the published way: of the N nearest samples
+  uint32_t nearest = 0;
+  float arc_penalty_m = 0;
+};
+/// --mode, --n and --arc-penalty.
+CurveOptions curve_options_of(const Arguments& arguments);
+
+// One a kind of query: answers every row of `table` on standard output, or times them.
+void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
+void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
+void query_curve(const LoadedCurve& curve, const CsvTable& table, const Arguments& arguments);
+
+}  // namespace firmtouch::cli

@@ -1,0 +1,95 @@
+#include <cstdio>
+
+#include "cli/commands.hpp"
+#include "cli/failure.hpp"
+#include "cli/queries.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+const std::vector<std::string> kPoint = {"x", "y", "z"};
+const std::vector<std::string> kSegment = {"ax", "ay", "az", "bx", "by", "bz"};
+
+void forbid(const Arguments& arguments, const std::string& kind,
+            const std::vector<std::string>& options) {
+  for (const std::string& option : options) {
+    if (arguments.has(option))
+      fail_usage("query: " + option + " has no meaning for " + kind + "; leave it out");
+  }
+}
+
+void check_kind(const std::string& kind) {
+  for (const char* known : {"distance", "segment", "curve"}) {
+    if (kind == known) return;
+  }
+  for (const char* later : {"hull", "spline", "footpoints"}) {
+    if (kind == later) {
+      fail_usage("query: " + kind +
+                 " is not in this version of Firmtouch yet; ask distance, segment or curve");
+    }
+  }
+  fail_usage("query: '" + kind + "' is no kind of query; ask distance, segment or curve");
+}
+
+// Before anything is read: a bad option is a usage error whatever the files are.
+void check_options(const Arguments& arguments, const std::string& kind) {
+  (void)budget_of(arguments);
+  if (kind == "curve") (void)curve_options_of(arguments);
+}
+
+}  // namespace
+
+const Command& query_command() {
+  static const Command command{
+      "query",
+      "ASSET.fta NAME distance|segment|curve [options] < IN.csv > OUT.csv",
+      "Answers each row of a CSV as the controller would, bit for bit.",
+      "in:  distance, curve: header x,y,z     segment: header ax,ay,az,bx,by,bz     (metres)\n"
+      "out: distance: distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact\n"
+      "               (negative inside; sign 0: unknown; lower: no point of the surface is "
+      "nearer)\n"
+      "     segment:  hit,t,triangle,steps    (the first crossing from a to b; -1: no triangle)\n"
+      "     curve:    distance,cx,cy,cz,segment,arc,lower,steps,exact\n"
+      "Rows are answered in order, each warm-started by the one before.",
+      {{"--cold", nullptr, "each row on its own"},
+       {"--budget", "N", "at most N steps a query (default: unlimited, so exact)"},
+       {"--time", nullptr, "no CSV: the median time a query over 5 passes"},
+       {"--mode", "exact|nearest",
+        "curve: the closest point, or of the N nearest samples (default exact)"},
+       {"--n", "N", "curve, nearest: samples looked at, 1 to 100 (default 10)"},
+       {"--arc-penalty", "W",
+        "curve, nearest: metres for the whole length's change of arc (default 0)"},
+       {"--band", "M", nullptr},
+       {"--all", nullptr, nullptr},
+       {"--base", "N", nullptr}},
+      3,
+      3};
+  return command;
+}
+
+int run_query(const Arguments& arguments) {
+  const std::string& path = arguments.positionals()[0];
+  const std::string& name = arguments.positionals()[1];
+  const std::string& kind = arguments.positionals()[2];
+  check_kind(kind);
+  if (kind != "curve") forbid(arguments, kind, {"--mode", "--n", "--arc-penalty"});
+  if (kind == "curve" && arguments.text("--mode", "exact") == "exact") {
+    forbid(arguments, "--mode exact", {"--n", "--arc-penalty"});
+  }
+  check_options(arguments, kind);
+  const LoadedAsset asset(path);
+  if (kind == "curve") {
+    const LoadedCurve curve = asset.curve(name);
+    query_curve(curve, read_csv(read_standard_input(), "standard input", kPoint), arguments);
+    return kDone;
+  }
+  const LoadedMesh mesh = asset.mesh(name);
+  if (kind == "distance") {
+    query_distance(mesh, read_csv(read_standard_input(), "standard input", kPoint), arguments);
+  } else {
+    query_segment(mesh, read_csv(read_standard_input(), "standard input", kSegment), arguments);
+  }
+  return kDone;
+}
+
+}  // namespace firmtouch::cli

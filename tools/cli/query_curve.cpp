@@ -1,0 +1,85 @@
+#include <cstdio>
+#include <vector>
+
+#include "cli/queries.hpp"
+#include "cli/timing.hpp"
+#include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/curve/nearest_constraint.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+constexpr uint32_t kUsualNearest =
+    10;  // samples, the smaller of the two counts that were published
+
+// Rows in order, each warm-started by the one before unless `cold`: by its place in the exact mode,
+// by its arc position in the nearest mode.
+class Answers {
+ public:
+  Answers(const curve::View& view, const Arguments& arguments)
+      : view_(view),
+        budget_(budget_of(arguments)),
+        cold_(arguments.has("--cold")),
+        options_(curve_options_of(arguments)),
+        nearest_(options_.nearest) {
+    penalty_.weight_m = options_.arc_penalty_m;
+  }
+
+  curve::Closest next(const float* row) {
+    const math::Vec3 p_m{row[0], row[1], row[2]};
+    if (cold_) {
+      hint_ = query::Hint{};
+      penalty_.has_previous = false;
+    }
+    if (options_.is_exact) return curve::closest_point(view_, p_m, budget_, hint_);
+    const core::Span<curve::Neighbour> memory(nearest_.data(),
+                                              static_cast<uint32_t>(nearest_.size()));
+    const curve::Closest closest =
+        curve::nearest_constraint(view_, p_m, penalty_, memory, budget_).closest;
+    penalty_.previous_arc = closest.arc;
+    penalty_.has_previous = true;
+    return closest;
+  }
+
+ private:
+  const curve::View& view_;
+  query::Budget budget_;
+  bool cold_;
+  CurveOptions options_;
+  std::vector<curve::Neighbour> nearest_;
+  curve::ArcPenalty penalty_;
+  query::Hint hint_;
+};
+
+}  // namespace
+
+CurveOptions curve_options_of(const Arguments& arguments) {
+  CurveOptions options;
+  options.is_exact = arguments.choice("--mode", "exact", {"exact", "nearest"}) == "exact";
+  options.nearest = arguments.count("--n", kUsualNearest, 1, curve::kMaxNearest);
+  options.arc_penalty_m = static_cast<float>(arguments.number("--arc-penalty", 0, 0));
+  return options;
+}
+
+void query_curve(const LoadedCurve& curve, const CsvTable& table, const Arguments& arguments) {
+  if (arguments.has("--time")) {
+    print_time(table.rows(), [&] {
+      Answers answers(curve.view, arguments);
+      float sum = 0;
+      for (size_t i = 0; i < table.rows(); ++i) sum += answers.next(table.row(i)).distance_m;
+      return sum;
+    });
+    return;
+  }
+  std::puts("distance,cx,cy,cz,segment,arc,lower,steps,exact");
+  const auto wide = [](float value) { return static_cast<double>(value); };
+  Answers answers(curve.view, arguments);
+  for (size_t i = 0; i < table.rows(); ++i) {
+    const curve::Closest a = answers.next(table.row(i));
+    std::printf("%.9g,%.9g,%.9g,%.9g,%u,%.9g,%.9g,%u,%d\n", wide(a.distance_m), wide(a.point_m.x),
+                wide(a.point_m.y), wide(a.point_m.z), curve.row_of(a.segment), wide(a.arc),
+                wide(a.certificate.lower_m), a.certificate.steps, a.certificate.exact ? 1 : 0);
+  }
+}
+
+}  // namespace firmtouch::cli

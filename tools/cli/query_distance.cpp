@@ -1,0 +1,63 @@
+#include <cstdio>
+
+#include "cli/queries.hpp"
+#include "cli/timing.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+const char* feature_text(mesh::Feature feature) {
+  if (mesh::is_vertex(feature)) return "vertex";
+  return mesh::is_edge(feature) ? "edge" : "face";
+}
+
+// Rows in order, each warm-started by the one before unless `cold`.
+class Answers {
+ public:
+  Answers(const mesh::View& view, const Arguments& arguments)
+      : view_(view), budget_(budget_of(arguments)), cold_(arguments.has("--cold")) {}
+
+  mesh::Closest next(const float* row) {
+    if (cold_) hint_ = query::Hint{};
+    return mesh::closest_point(view_, {row[0], row[1], row[2]}, budget_, hint_);
+  }
+
+ private:
+  const mesh::View& view_;
+  query::Budget budget_;
+  bool cold_;
+  query::Hint hint_;
+};
+
+void print_row(const LoadedMesh& mesh, const mesh::Closest& a) {
+  const auto wide = [](float value) { return static_cast<double>(value); };
+  std::printf("%.9g,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%u,%s,%.9g,%u,%d\n", wide(a.distance_m),
+              static_cast<int>(a.certificate.sign), wide(a.point_m.x), wide(a.point_m.y),
+              wide(a.point_m.z), wide(a.direction.x), wide(a.direction.y), wide(a.direction.z),
+              mesh.source_of(a.triangle), feature_text(a.feature), wide(a.certificate.lower_m),
+              a.certificate.steps, a.certificate.exact ? 1 : 0);
+}
+
+}  // namespace
+
+query::Budget budget_of(const Arguments& arguments) {
+  return {arguments.count("--budget", UINT32_MAX, 1, UINT32_MAX)};
+}
+
+void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
+  if (arguments.has("--time")) {
+    print_time(table.rows(), [&] {
+      Answers answers(mesh.view, arguments);
+      float sum = 0;
+      for (size_t i = 0; i < table.rows(); ++i) sum += answers.next(table.row(i)).distance_m;
+      return sum;
+    });
+    return;
+  }
+  std::puts("distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact");
+  Answers answers(mesh.view, arguments);
+  for (size_t i = 0; i < table.rows(); ++i) print_row(mesh, answers.next(table.row(i)));
+}
+
+}  // namespace firmtouch::cli

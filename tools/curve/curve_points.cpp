@@ -1,0 +1,84 @@
+#include "curve/curve_points.hpp"
+
+#include <cmath>
+
+#include "firmtouch/curve/layout.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+// A little above what open() asks for, because it reckons in float32.
+constexpr double kMinSpacing_m = double{curve::kMinSpacing_m} * (1 + 1e-6);
+constexpr double kMinDiagonal_m = double{curve::kMinDiagonal_m} * (1 + 2e-6);
+
+double square(float a, float b) {
+  const double difference = double{a} - double{b};
+  return difference * difference;
+}
+
+double distance_m(math::Vec3 a, math::Vec3 b) {
+  return std::sqrt(square(a.x, b.x) + square(a.y, b.y) + square(a.z, b.z));
+}
+
+void drop_repeated(CurvePoints& points) {
+  size_t kept = 0, dropped = 0;
+  uint32_t first_dropped = 0;
+  for (size_t i = 0; i < points.samples_m.size(); ++i) {
+    if (kept > 0 && distance_m(points.samples_m[kept - 1], points.samples_m[i]) < kMinSpacing_m) {
+      if (dropped++ == 0) first_dropped = points.rows[i];
+      continue;
+    }
+    points.samples_m[kept] = points.samples_m[i];
+    points.rows[kept++] = points.rows[i];
+  }
+  points.samples_m.resize(kept);
+  points.rows.resize(kept);
+  if (dropped == 0) return;
+  points.notes.push_back("dropped " + std::to_string(dropped) +
+                         (dropped == 1 ? " sample that repeats" : " samples that repeat") +
+                         " the one before (first: row " + std::to_string(first_dropped) +
+                         ", counted from 0)");
+}
+
+double diagonal_m(const CurvePoints& points) {
+  math::Vec3 low = points.samples_m[0], high = low;
+  for (const math::Vec3& s : points.samples_m) {
+    low = {s.x < low.x ? s.x : low.x, s.y < low.y ? s.y : low.y, s.z < low.z ? s.z : low.z};
+    high = {s.x > high.x ? s.x : high.x, s.y > high.y ? s.y : high.y, s.z > high.z ? s.z : high.z};
+  }
+  return distance_m(low, high);
+}
+
+bool fits(float value) { return std::abs(value) <= curve::kMaxCoordinate_m; }
+
+}  // namespace
+
+void mend_curve(CurvePoints& points, const std::string& name) {
+  if (!points.problem.empty()) return;
+  for (size_t i = 0; i < points.samples_m.size(); ++i) {
+    const math::Vec3& s = points.samples_m[i];
+    if (fits(s.x) && fits(s.y) && fits(s.z)) continue;
+    points.problem = name + ": row " + std::to_string(points.rows[i]) +
+                     " (from 0) lies more than 1e9 m from the origin: check its numbers and --unit";
+    return;
+  }
+  const size_t rows = points.samples_m.size();
+  drop_repeated(points);
+  if (rows < 2) {
+    points.problem = name + ": " + (rows == 0 ? "no samples" : "only one sample") +
+                     " below the header: a curve needs at least two";
+  } else if (points.samples_m.size() < 2) {
+    points.problem = name + ": all " + std::to_string(rows) +
+                     " samples are the same point: the curve has no length; record it anew";
+  } else if (points.samples_m.size() > curve::kMaxSamples) {
+    points.problem = name + ": " + std::to_string(points.samples_m.size()) +
+                     " samples are more than " + std::to_string(curve::kMaxSamples) +
+                     ": thin the recording or cut it";
+  } else if (!(diagonal_m(points) >= kMinDiagonal_m)) {
+    points.problem = name +
+                     ": the whole curve is smaller than a thousandth of a millimetre: check "
+                     "the unit (coordinates are metres unless --unit says otherwise)";
+  }
+}
+
+}  // namespace firmtouch::tools

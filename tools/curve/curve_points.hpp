@@ -1,0 +1,23 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "firmtouch/math/vec3.hpp"
+
+namespace firmtouch::tools {
+
+/// A curve in memory: what a reader gives and the baker takes. Float32 metres, in the order of the
+/// file.
+struct CurvePoints {
+  std::vector<math::Vec3> samples_m;
+  std::vector<uint32_t> rows;      // of each sample: its row in the file from 0, the header apart
+  std::vector<std::string> notes;  // what was mended or passed over, for the report
+  std::string problem;             // empty: usable; else file, line, what is wrong, how to mend it
+};
+
+/// Drops samples that repeat the one before them and refuses what cannot be a guide: fewer than two
+/// different samples, a curve too small or too far for float32. `name` stands in the messages.
+void mend_curve(CurvePoints& points, const std::string& name);
+
+}  // namespace firmtouch::tools

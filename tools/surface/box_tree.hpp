@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "surface/point.hpp"
+
+namespace firmtouch::tools {
+
+struct Box {
+  Point low, high;
+};
+
+/// Boxes of many items, found by overlap. For the offline checks: a complete binary tree over the items in Morton order.
+/// Bounds: building O(n log n), no recursion.
+class BoxTree {
+ public:
+  explicit BoxTree(const std::vector<Box>& items);
+
+  /// Appends to `found` the items whose box overlaps `box` (touching counts), in a fixed order.
+  void overlaps(const Box& box, std::vector<uint32_t>& found) const;
+
+ private:
+  static constexpr uint32_t kLeafItems = 4;
+
+  std::vector<Box> items_;        // in leaf order
+  std::vector<uint32_t> number_;  // of each, as it was given
+  std::vector<Box> nodes_;        // children of i: 2 i + 1 and 2 i + 2; the last leaves_ of them are leaves
+  uint32_t leaves_ = 1;
+};
+
+}  // namespace firmtouch::tools

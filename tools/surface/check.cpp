@@ -1,0 +1,81 @@
+#include "surface/check.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "surface/mending.hpp"
+#include "surface/point.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+std::string coordinates(const math::Vec3& v) {
+  char text[80];
+  std::snprintf(text, sizeof text, " (%.6g, %.6g, %.6g m)", static_cast<double>(v.x), static_cast<double>(v.y),
+                static_cast<double>(v.z));
+  return text;
+}
+
+}  // namespace
+
+std::string counted(uint64_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string named_vertex(const Surface& surface, uint32_t vertex) {
+  return "vertex " + std::to_string(vertex) + coordinates(surface.vertices[vertex]);
+}
+
+std::string named_edge(const Surface& surface, uint32_t a, uint32_t b) {
+  return "the edge from " + named_vertex(surface, a) + " to " + named_vertex(surface, b);
+}
+
+std::string named_face(const Surface& surface, uint32_t face) {
+  return "face " + std::to_string(surface.source[face]) + ", at " + named_vertex(surface, surface.faces[face][0]);
+}
+
+void drop_faces(Surface& surface, const std::vector<bool>& dropped) {
+  size_t to = 0;
+  for (size_t f = 0; f < surface.faces.size(); ++f) {
+    if (dropped[f]) continue;
+    surface.faces[to] = surface.faces[f];
+    surface.source[to] = surface.source[f];
+    ++to;
+  }
+  surface.faces.resize(to);
+  surface.source.resize(to);
+}
+
+CheckReport check_and_mend(Surface& surface, const CheckOptions& options) {
+  CheckReport report;
+  surface.source.resize(std::min(surface.source.size(), surface.faces.size()));
+  for (size_t f = surface.source.size(); f < surface.faces.size(); ++f) {
+    surface.source.push_back(static_cast<uint32_t>(f));
+  }
+  refuse_bad_numbers(surface, report);
+  if (!report.usable()) return report;
+
+  drop_pointlike_faces(surface, report);
+  weld_torn_vertices(surface, report);
+  drop_duplicate_faces(surface, report);
+
+  std::vector<std::string> defects;
+  std::vector<uint32_t> component;
+  std::vector<bool> turned;
+  const uint32_t components = wind_alike(surface, component, turned, defects);
+  find_topology_defects(surface, defects);
+  wind_outward(surface, component, components, defects.empty(), turned, report);
+  remove_flat_faces(surface, options, report);
+  report.is_closed = defects.empty();
+  if (!defects.empty() && !options.allow_unsigned) {
+    defects.back() += "; or bake with --unsigned: distances without inside and outside";
+  }
+  std::vector<std::string>& told = options.allow_unsigned ? report.kept : report.refused;
+  told.insert(told.end(), defects.begin(), defects.end());
+
+  drop_unused_vertices(surface, report);
+  refuse_bad_size(surface, report);
+  return report;
+}
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,170 @@
+#include <algorithm>
+
+#include "surface/mending.hpp"
+#include "surface/point.hpp"
+#include "surface/winding_number.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+void turn(Face& face) { std::swap(face[1], face[2]); }
+
+double volume6(const Surface& surface, const Face& face, Point origin) {
+  return dot(to_point(surface.vertices[face[0]]) - origin,
+             cross(to_point(surface.vertices[face[1]]) - origin, to_point(surface.vertices[face[2]]) - origin));
+}
+
+struct Shell {
+  uint32_t first_face = kNone;
+  uint32_t faces = 0, turned = 0;
+  double volume6 = 0;
+  Box box;
+};
+
+std::vector<Shell> measure(const Surface& surface, const std::vector<uint32_t>& component, uint32_t components,
+                           const std::vector<bool>& turned) {
+  std::vector<Shell> shells(components);
+  for (uint32_t f = 0; f < surface.faces.size(); ++f) {
+    Shell& shell = shells[component[f]];
+    if (shell.faces++ == 0) {
+      shell.first_face = f;
+      shell.box.low = shell.box.high = to_point(surface.vertices[surface.faces[f][0]]);
+    }
+    shell.turned += turned[f] ? 1u : 0u;
+    for (const uint32_t v : surface.faces[f]) {
+      const Point p = to_point(surface.vertices[v]);
+      Box& box = shell.box;
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+    shell.volume6 += volume6(surface, surface.faces[f], to_point(surface.vertices[surface.faces[shell.first_face][0]]));
+  }
+  return shells;
+}
+
+bool within(const Box& a, const Box& b) {
+  return a.low.x > b.low.x && a.low.y > b.low.y && a.low.z > b.low.z && a.high.x < b.high.x && a.high.y < b.high.y &&
+         a.high.z < b.high.z;
+}
+
+// In how many other shells each shell lies with all its vertices: where that is odd it bounds a cavity. Shells that cross
+// one another are not nested.
+std::vector<uint32_t> nesting(const Surface& surface, const std::vector<uint32_t>& component,
+                              const std::vector<Shell>& shells) {
+  std::vector<std::vector<uint32_t>> vertices(shells.size());
+  for (uint32_t f = 0; f < surface.faces.size(); ++f) {
+    for (const uint32_t v : surface.faces[f]) vertices[component[f]].push_back(v);
+  }
+  std::vector<uint32_t> depth(shells.size(), 0);
+  for (uint32_t outer = 0; outer < shells.size(); ++outer) {
+    std::vector<uint32_t> candidates;
+    for (uint32_t s = 0; s < shells.size(); ++s) {
+      if (s != outer && within(shells[s].box, shells[outer].box)) candidates.push_back(s);
+    }
+    if (candidates.empty()) continue;
+    std::vector<bool> chosen(surface.faces.size());
+    for (size_t f = 0; f < chosen.size(); ++f) chosen[f] = component[f] == outer;
+    const WindingNumber around(surface, chosen);
+    for (const uint32_t s : candidates) {
+      const auto is_inside = [&](uint32_t v) { return around.at(to_point(surface.vertices[v])) != 0; };
+      if (std::all_of(vertices[s].begin(), vertices[s].end(), is_inside)) ++depth[s];
+    }
+  }
+  return depth;
+}
+
+}  // namespace
+
+uint32_t wind_alike(Surface& surface, std::vector<uint32_t>& component, std::vector<bool>& turned,
+                    std::vector<std::string>& defects) {
+  const std::vector<uint32_t> mates = Edges(surface.faces).mates();
+  const uint32_t count = static_cast<uint32_t>(surface.faces.size());
+  component.assign(count, kNone);
+  turned.assign(count, false);
+  uint32_t components = 0, one_sided = 0, first = kNone;
+  std::vector<uint32_t> queue;
+  for (uint32_t seed = 0; seed < count; ++seed) {
+    if (component[seed] != kNone) continue;
+    queue.assign(1, seed);
+    component[seed] = components;
+    uint32_t turns = 0;
+    bool has_one_side = false;
+    for (size_t at = 0; at < queue.size(); ++at) {
+      const uint32_t f = queue[at];
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t h = 3 * f + k, mate = mates[h];
+        if (mate == kNone) continue;
+        const bool same_way = start_of(surface.faces, h) == start_of(surface.faces, mate);
+        const bool must_turn = turned[f] != same_way;
+        if (component[mate / 3] == kNone) {
+          component[mate / 3] = components;
+          turned[mate / 3] = must_turn;
+          turns += must_turn ? 1u : 0u;
+          queue.push_back(mate / 3);
+        } else if (turned[mate / 3] != must_turn) {
+          has_one_side = true;
+          if (first == kNone) first = f;
+        }
+      }
+    }
+    if (has_one_side) ++one_sided;
+    const bool keep_as_is = has_one_side;
+    const bool turn_the_rest = turns > queue.size() - turns;  // the majority is right, until the volume tells
+    for (const uint32_t f : queue) turned[f] = !keep_as_is && turned[f] != turn_the_rest;
+    ++components;
+  }
+  for (uint32_t f = 0; f < count; ++f) {
+    if (turned[f]) turn(surface.faces[f]);
+  }
+  if (one_sided != 0) {
+    defects.push_back("has " + counted(one_sided, "piece", "pieces") + " with one side alone, as a Moebius band, first near " +
+                      named_face(surface, first) + ": no winding makes an outside; model it as a solid");
+  }
+  return components;
+}
+
+void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint32_t components, bool is_closed,
+                  std::vector<bool>& turned, CheckReport& report) {
+  std::vector<Shell> shells = measure(surface, component, components, turned);
+  std::vector<bool> inverted(components, false);
+  if (is_closed) {
+    const std::vector<uint32_t> depth = nesting(surface, component, shells);
+    for (uint32_t s = 0; s < components; ++s) {
+      const bool is_cavity = depth[s] % 2 == 1;
+      inverted[s] = is_cavity ? shells[s].volume6 > 0 : shells[s].volume6 < 0;
+      if (inverted[s]) shells[s].turned = shells[s].faces - shells[s].turned;
+    }
+  }
+  uint32_t odd_faces = 0, odd_shells = 0, first_odd = kNone, inside_out = 0, faces_of_those = 0, first_shell = kNone;
+  for (uint32_t f = 0; f < surface.faces.size(); ++f) {
+    const Shell& shell = shells[component[f]];
+    if (inverted[component[f]]) {
+      turn(surface.faces[f]);
+      turned[f] = !turned[f];
+    }
+    const bool mostly = shell.turned > shell.faces - shell.turned;
+    if (turned[f] != mostly) {  // against the rest of its shell
+      ++odd_faces;
+      first_odd = std::min(first_odd, f);
+    }
+  }
+  for (const Shell& shell : shells) {
+    const bool mostly = shell.turned > shell.faces - shell.turned;
+    if (shell.turned != 0 && shell.turned != shell.faces) ++odd_shells;
+    if (!mostly) continue;
+    ++inside_out;
+    faces_of_those += shell.faces;
+    first_shell = std::min(first_shell, shell.first_face);
+  }
+  if (odd_faces != 0) {
+    report.mended.push_back("turned " + counted(odd_faces, "face", "faces") + " wound against the rest of " +
+                            counted(odd_shells, "piece", "pieces") + ", first " + named_face(surface, first_odd));
+  }
+  if (inside_out != 0) {
+    report.mended.push_back("turned " + counted(inside_out, "piece", "pieces") + " of " +
+                            counted(faces_of_those, "face", "faces") + " wound inside out, first with " +
+                            named_face(surface, first_shell));
+  }
+}
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,28 @@
+#pragma once
+#include <cmath>
+
+#include "firmtouch/math/vec3.hpp"
+
+namespace firmtouch::tools {
+
+/// A point or vector in double, for the offline tools.
+struct Point {
+  double x = 0, y = 0, z = 0;
+};
+
+inline Point to_point(math::Vec3 v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+inline math::Vec3 to_vec3(Point p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Point operator*(Point a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Point cross(Point a, Point b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Point a) { return std::sqrt(dot(a, a)); }
+
+}  // namespace firmtouch::tools
