@@ -51,17 +51,18 @@ Words::Words(const std::string& line, std::string place, const std::vector<std::
 void Words::refuse(const std::string& what) const { throw Refused(place_ + ": " + what); }
 
 void Words::refuse_unknown(const std::string& kind, const std::string& name) const {
-  const std::string* nearest = nullptr;
+  std::string nearest, containing;
   size_t fewest = name.size() / 3 + 2;
   for (const std::string& known : names_) {
     const size_t count = edits(name, known);
-    if (count < fewest) fewest = count, nearest = &known;
+    if (count < fewest) fewest = count, nearest = "`" + known + "`";
+    // "stiffness" alone could be the hand's, the contact's or the guide's.
+    if (name.size() > 3 && known.find(name) != std::string::npos)
+      containing += (containing.empty() ? "`" : ", `") + known + "`";
   }
-  for (const std::string& known : names_)  // "stiffness" means contact_stiffness more likely than nothing
-    if (nearest == nullptr && name.size() > 3 && known.find(name) != std::string::npos) nearest = &known;
+  if (nearest.empty()) nearest = containing;
   refuse("unknown " + kind + " `" + name + "`" +
-         (nearest != nullptr ? "; did you mean `" + *nearest + "`?"
-                             : "; `firmtouch-sim run --help` lists the known ones"));
+         (nearest.empty() ? "; `firmtouch-sim run --help` lists the known ones" : "; did you mean " + nearest + "?"));
 }
 
 std::string Words::next(const std::string& wanted) {

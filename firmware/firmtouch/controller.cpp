@@ -16,7 +16,8 @@ device::Settings device_settings(const Values& v) {
 }
 
 servo::Settings servo_settings(const Values& v) {
-  return {v[params::kForceLimit], v[params::kSlewLimit], v[params::kRampIn], v[params::kTickPeriod]};
+  return {v[params::kForceLimit], v[params::kSlewLimit], v[params::kRampIn],
+          v[params::kTickPeriod]};
 }
 
 servo::GuardLimits guard_limits(const Values& v) {
@@ -67,7 +68,8 @@ core::Verdict Controller::open(core::Bytes asset, Selection selection) {
 bool Controller::take_parameter(const record::TickInput& input) {
   const uint32_t row = input.command - 1;
   if (row >= params::kCount) return false;
-  const bool motors_off = live_.servo.mode == servo::Mode::kOff || live_.servo.mode == servo::Mode::kFault;
+  const bool motors_off =
+      live_.servo.mode == servo::Mode::kOff || live_.servo.mode == servo::Mode::kFault;
   const bool enable = (input.lines & record::kLineEnable) != 0;
   if (params::kTable[row].when == params::When::kMotorsOff && (enable || !motors_off)) return false;
   return params::set(live_.values, row, input.command_value);
@@ -81,7 +83,8 @@ void Controller::feel(math::Vec3 position_m, bool ready) {
   object.mesh = &opener_.mesh();
   object.pose = scene_pose(v);
   object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
-  scene::touch_mesh(object, v[params::kToolRadius], position_m, budget(v, params::kMeshSteps), live_.touch, live_.model);
+  scene::touch_mesh(object, v[params::kToolRadius], position_m, budget(v, params::kMeshSteps),
+                    live_.touch, live_.model);
   scene::CurveGuide guide;
   guide.curve = &opener_.curve();
   guide.pose = object.pose;
@@ -125,12 +128,14 @@ void Controller::tick(const record::TickInput& input, record::TickOutput& output
 
   const servo::ClockReading clock =
       watch_clock(live_.clock, input.clock_us, v[params::kTickPeriod], v[params::kLateRatio]);
-  const device::Sample sample{{input.encoder_counts[0], input.encoder_counts[1], input.encoder_counts[2]},
-                              (input.lines & record::kLineEncoderFault) == 0,
-                              clock.dt_s};
+  const device::Sample sample{
+      {input.encoder_counts[0], input.encoder_counts[1], input.encoder_counts[2]},
+      (input.lines & record::kLineEncoderFault) == 0,
+      clock.dt_s};
   const device::Reading tool = read(live_.device, device_settings(v), sample);
 
-  scene::begin_model(live_.model, tool.position_m, input.tick, static_cast<uint32_t>(v[params::kModelAge]));
+  scene::begin_model(live_.model, tool.position_m, input.tick,
+                     static_cast<uint32_t>(v[params::kModelAge]));
   feel(tool.position_m, ready);
 
   servo::StepInput step;

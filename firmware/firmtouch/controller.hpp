@@ -15,16 +15,18 @@
 
 namespace firmtouch {
 
-/// One composition of the rooms among possible ones: a Cartesian device of three axes feels one mesh by the sphere at its
-/// tip and is guided along one curve. Its size is the RAM that it takes: no heap, nothing static. Controllers are
-/// independent of each other and may share an asset.
+/// One composition of the rooms among possible ones: a Cartesian device of three axes feels one
+/// mesh by the sphere at its tip and is guided along one curve. Its size is the RAM that it takes:
+/// no heap, nothing static. Controllers are independent of each other and may share an asset.
 class Controller {
  public:
-  /// Starts to open an asset, which must outlive the controller; motors stay off until it is proven. Everything that ran
-  /// before is forgotten, parameters and faults included. Not while tick() may interrupt.
+  /// Starts to open an asset, which must outlive the controller; motors stay off until it is
+  /// proven. Everything that ran before is forgotten, parameters and faults included. Not while
+  /// tick() may interrupt.
   void begin(core::Bytes asset, Selection selection = {});
 
-  /// Goes on opening, by about `budget` bytes or elements (opener.hpp). For the main loop; tick() may interrupt it.
+  /// Goes on opening, by about `budget` bytes or elements (opener.hpp). For the main loop; tick()
+  /// may interrupt it.
   /// Result: true when finished; verdict() then says whether the motors may be enabled.
   bool work(uint32_t budget) { return opener_.work(budget); }
 
@@ -34,13 +36,15 @@ class Controller {
   core::Verdict verdict() const { return opener_.verdict(); }
   bool is_ready() const { return opener_.is_ready(); }
 
-  /// As right after begin(), without opening the asset again: initial parameters, no faults, nothing felt yet.
-  /// Not while tick() may interrupt.
+  /// As right after begin(), without opening the asset again: initial parameters, no faults,
+  /// nothing felt yet. Not while tick() may interrupt.
   void reset() { live_ = Live{}; }
 
-  /// A function of the controller's state and `input` alone: calls no HAL, reads no clock. Every field of `output` is set
-  /// and finite. A parameter changes only by `input.command`, so that the record holds all that a replay needs.
-  /// Bounds: two queries of at most mesh_steps and curve_steps; callable from an interrupt; not re-entrant.
+  /// A function of the controller's state and `input` alone: calls no HAL, reads no clock. Every
+  /// field of `output` is set and finite. A parameter changes only by `input.command`, so that the
+  /// record holds all that a replay needs.
+  /// Bounds: two queries of at most mesh_steps and curve_steps; callable from an interrupt; not
+  /// re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output);
 
   const params::Values& values() const { return live_.values; }

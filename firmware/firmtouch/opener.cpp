@@ -116,7 +116,8 @@ void Opener::start_curve() {
   const char* name = choose(container_, curve::kHeadSection, selection_.curve);
   if (name == nullptr && selection_.curve != nullptr) return refuse(core::reject(kRuleNoSuchCurve));
   selection_.curve = name;
-  if (name == nullptr && selection_.mesh == nullptr) return refuse(core::reject(kRuleNothingToFeel));
+  if (name == nullptr && selection_.mesh == nullptr)
+    return refuse(core::reject(kRuleNothingToFeel));
   if (name == nullptr) return set_stage(Stage::kProbes);
   curve_opening_ = curve::Opening(curve_sections(container_, name));
   set_stage(Stage::kCurve);
@@ -125,13 +126,15 @@ void Opener::start_curve() {
 void Opener::run_probes() {
   if (!math::arithmetic_is_sound()) return refuse(core::reject(kRuleArithmetic));
   if (mesh_.is_open()) {
-    const query::Probes probes = query::read_probes(container_.find(mesh::kProbesSection, selection_.mesh));
+    const query::Probes probes =
+        query::read_probes(container_.find(mesh::kProbesSection, selection_.mesh));
     if (!is_sensible(probes) || mesh::probe_hash(mesh_, probes.points) != probes.hash) {
       return refuse(core::reject(kRuleMeshProbes));
     }
   }
   if (curve_.is_open()) {
-    const query::Probes probes = query::read_probes(container_.find(curve::kProbesSection, selection_.curve));
+    const query::Probes probes =
+        query::read_probes(container_.find(curve::kProbesSection, selection_.curve));
     if (!is_sensible(probes) || curve::probe_hash(curve_, probes.points) != probes.hash) {
       return refuse(core::reject(kRuleCurveProbes));
     }

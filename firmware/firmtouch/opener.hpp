@@ -13,24 +13,28 @@ namespace firmtouch {
 constexpr uint16_t kRuleNoSuchMesh = 901;     // no section of the mesh that was asked for by name
 constexpr uint16_t kRuleNoSuchCurve = 902;    // the same for the curve
 constexpr uint16_t kRuleNothingToFeel = 903;  // neither a mesh nor a curve in the asset
-constexpr uint16_t kRuleArithmetic = 904;     // rounding, denormals or contraction differ from the baker's machine
-constexpr uint16_t kRuleMeshProbes = 905;     // the mesh's probe queries answered other bits, or there are none
-constexpr uint16_t kRuleCurveProbes = 906;    // the same for the curve
+constexpr uint16_t kRuleArithmetic =
+    904;  // rounding, denormals or contraction differ from the baker's machine
+constexpr uint16_t kRuleMeshProbes =
+    905;  // the mesh's probe queries answered other bits, or there are none
+constexpr uint16_t kRuleCurveProbes = 906;  // the same for the curve
 
-/// Which mesh and curve of the asset to feel; nullptr: the first one, if there is any. The names must outlive the opener.
+/// Which mesh and curve of the asset to feel; nullptr: the first one, if there is any. The names
+/// must outlive the opener.
 struct Selection {
   const char* mesh = nullptr;
   const char* curve = nullptr;
 };
 
-/// From the bytes of an asset to a proven mesh and a proven curve, in slices for the main loop; then the floating-point
-/// mode is checked and the asset's probe queries are run.
+/// From the bytes of an asset to a proven mesh and a proven curve, in slices for the main loop;
+/// then the floating-point mode is checked and the asset's probe queries are run.
 class Opener {
  public:
   /// `asset` must outlive the views.
   void begin(core::Bytes asset, Selection selection);
 
-  /// About `budget` bytes, vertices, nodes, triangles or samples more; the last slice runs all the probe queries.
+  /// About `budget` bytes, vertices, nodes, triangles or samples more; the last slice runs all the
+  /// probe queries.
   /// Result: true when finished.
   bool work(uint32_t budget);
 

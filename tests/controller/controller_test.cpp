@@ -1,4 +1,5 @@
-// The controller without an asset, as it is between power-on and the end of begin(): it measures, and pushes nothing.
+// The controller without an asset, as it is between power-on and the end of begin(): it measures,
+// and pushes nothing.
 #include "firmtouch/controller.hpp"
 
 #include <stdint.h>
@@ -24,7 +25,9 @@ record::TickInput at(uint32_t tick, int32_t counts) {
   return input;
 }
 
-uint32_t servo_mode(const record::TickOutput& output) { return output.state & record::kStateServoMask; }
+uint32_t servo_mode(const record::TickOutput& output) {
+  return output.state & record::kStateServoMask;
+}
 
 bool is_still(const record::TickOutput& output) {
   for (uint32_t k = 0; k < record::kAxes; ++k) {
@@ -35,8 +38,10 @@ bool is_still(const record::TickOutput& output) {
 
 }  // namespace
 
-// The RAM of a controller: a release that grows it says so here. (Pointers are twice as wide on a 64-bit host.)
-static_assert(sizeof(Controller) <= (sizeof(void*) == 8 ? 1664 : 1280), "the controller outgrew its RAM budget");
+// The RAM of a controller: a release that grows it says so here. (Pointers are twice as wide on a
+// 64-bit host.)
+static_assert(sizeof(Controller) <= (sizeof(void*) == 8 ? 1664 : 1280),
+              "the controller outgrew its RAM budget");
 
 TEST(ControllerWithoutAnAssetMeasuresAndStaysStill) {
   g_controller.reset();

@@ -1,4 +1,5 @@
-// The ground floor: check sums, spans of structs, arrays that do not overrun, the hash that machines compare.
+// The ground floor: check sums, spans of structs, arrays that do not overrun, the hash that
+// machines compare.
 #include <stdint.h>
 
 #include "firmtouch/core/bytes.hpp"
@@ -49,7 +50,8 @@ TEST(CrcGivesThePublishedCheckValue) {
 
 TEST(CrcIsThatOfTheDefinitionForEveryLength) {
   fill();
-  for (uint32_t n = 0; n <= sizeof g_bytes; ++n) CHECK_EQ(core::crc32({g_bytes, n}), bitwise_crc({g_bytes, n}));
+  for (uint32_t n = 0; n <= sizeof g_bytes; ++n)
+    CHECK_EQ(core::crc32({g_bytes, n}), bitwise_crc({g_bytes, n}));
 }
 
 TEST(CrcGoesOnWhereItStopped) {
@@ -89,7 +91,8 @@ TEST(StructsAreSeenOnlyWhereTheyFit) {
     for (uint32_t count = 1; count < 12; ++count) {
       CHECK_EQ(core::as_array<Pair>({g_bytes, bytes}, count).size(), count <= whole ? count : 0u);
     }
-    CHECK_EQ(core::as_whole_array<Pair>({g_bytes, bytes}).size(), bytes % sizeof(Pair) == 0 ? whole : 0u);
+    CHECK_EQ(core::as_whole_array<Pair>({g_bytes, bytes}).size(),
+             bytes % sizeof(Pair) == 0 ? whole : 0u);
   }
   // A count whose bytes overflow 32 bits must not look small.
   CHECK(core::as_array<Pair>({g_bytes, 64}, 0x20000001u).empty());
@@ -100,7 +103,8 @@ TEST(StructsAreTheBytesInPlace) {
   fill();
   const core::Span<const uint32_t> words = core::as_array<uint32_t>(g_bytes, 2);
   CHECK_EQ(words[1], static_cast<uint32_t>(g_bytes[4]) | static_cast<uint32_t>(g_bytes[5]) << 8 |
-                         static_cast<uint32_t>(g_bytes[6]) << 16 | static_cast<uint32_t>(g_bytes[7]) << 24);
+                         static_cast<uint32_t>(g_bytes[6]) << 16 |
+                         static_cast<uint32_t>(g_bytes[7]) << 24);
   CHECK(reinterpret_cast<const uint8_t*>(words.data()) == g_bytes);
 }
 

@@ -12,6 +12,7 @@ using firmtouch::curve::Closest;
 using firmtouch::curve::closest_point;
 using firmtouch::curve::Sample;
 using firmtouch::curve::View;
+using firmtouch::curve_test::LongCurve;
 using firmtouch::curve_test::SmallCurve;
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
@@ -39,8 +40,8 @@ class Random {
 };
 
 // Spacing from 1e-5 to 1, turning back towards itself every eight samples.
-SmallCurve tangled(uint32_t count) {
-  static Sample samples[firmtouch::curve_test::kMost];
+LongCurve tangled(uint32_t count) {
+  static Sample samples[256];
   Random random(7);
   Sample at{0, 0, 0};
   float step = 1e-5f;
@@ -51,17 +52,17 @@ SmallCurve tangled(uint32_t count) {
     at.z_m += random.between(-0.3f, 0.3f) * step;
     step = i % 11 == 10 ? 1e-5f : step * 3.0f;
   }
-  return SmallCurve(samples, count);
+  return LongCurve(samples, count);
 }
 
 // A gentle arc with even spacing, as a recorded path is.
-SmallCurve gentle(uint32_t count) {
-  static Sample samples[firmtouch::curve_test::kMost];
+LongCurve gentle(uint32_t count) {
+  static Sample samples[256];
   for (uint32_t i = 0; i < count; ++i) {
     const float x = static_cast<float>(i) * 0x1p-8f;
     samples[i] = {x, 0.25f * x * x, 0.0f};
   }
-  return SmallCurve(samples, count);
+  return LongCurve(samples, count);
 }
 
 bool finite(const Closest& c) {
@@ -117,7 +118,7 @@ TEST(APointOnTheCurveIsAtDistanceZeroWithLowerBoundZero) {
 }
 
 TEST(EveryBudgetBracketsTheTruthAndNeverWidens) {
-  static const SmallCurve c = tangled(200);
+  static const LongCurve c = tangled(200);
   const View view = c.view();
   CHECK_EQ(view.is_open(), true);
   Random random(11);
@@ -142,7 +143,7 @@ TEST(EveryBudgetBracketsTheTruthAndNeverWidens) {
 }
 
 TEST(AWarmStartAnswersTheSameDistanceInNoMoreSteps) {
-  static const SmallCurve c = gentle(256);
+  static const LongCurve c = gentle(256);
   const View view = c.view();
   Hint hint;
   uint32_t warm_steps = 0, cold_steps = 0;
@@ -159,7 +160,7 @@ TEST(AWarmStartAnswersTheSameDistanceInNoMoreSteps) {
 }
 
 TEST(TheLastCertificateMinusTheMotionHoldsWhenTheBudgetEnds) {
-  static const SmallCurve c = tangled(200);
+  static const LongCurve c = tangled(200);
   Hint hint;
   const Closest first = closest_point(c.view(), {0.5f, 0.4f, 0.4f}, kUnlimited, hint);
   const Closest next = closest_point(c.view(), {0.5f, 0.4f, 0.40625f}, {1}, hint);
@@ -167,7 +168,7 @@ TEST(TheLastCertificateMinusTheMotionHoldsWhenTheBudgetEnds) {
 }
 
 TEST(AnyBitsForAQueryGiveFiniteNumbersWithinTheBudget) {
-  static const SmallCurve c = tangled(64);
+  static const LongCurve c = tangled(64);
   const View view = c.view();
   const float values[] = {
       0.0f,     -0.0f,   1e-45f, -1e-40f,          FLT_MIN,           1.0f,
@@ -209,7 +210,7 @@ TEST(FarAwayTheDistanceIsStillRightAndCertified) {
 }
 
 TEST(AForeignHintCostsStepsAndNothingElse) {
-  static const SmallCurve c = tangled(64);
+  static const LongCurve c = tangled(64);
   const Vec3 p{0.3f, 0.1f, -0.2f};
   const Closest fresh = cold(c.view(), p);
   const uint32_t places[] = {0u, 62u, 63u, 64u, 0x7FFFFFFFu, 0xFFFFFFFEu};
@@ -243,4 +244,20 @@ TEST(TheMiddleOfASegmentIsNeverMissed) {
                       (line[0].z_m + line[1].z_m) * 0.5f};
     CHECK_LE(cold(c.view(), middle).distance_m, 2e-7f);
   }
+}
+
+TEST(OneHashOfTheAnswersOnEveryTarget) {
+  static const LongCurve c = tangled(200);
+  static firmtouch::query::ProbePoint points[500];
+  Random random(5);
+  for (firmtouch::query::ProbePoint& p : points) {
+    const float scale = random.between(0.0f, 1.0f) < 0.1f ? 1e6f : 0.5f;
+    p.x_m = random.between(-scale, scale);
+    p.y_m = random.between(-scale, scale);
+    p.z_m = random.between(-scale, scale);
+  }
+  const uint64_t hash = firmtouch::curve::probe_hash(
+      c.view(), firmtouch::core::Span<const firmtouch::query::ProbePoint>(points, 500));
+  CHECK_EQ(static_cast<uint32_t>(hash >> 32), 0xE311EE5Du);
+  CHECK_EQ(static_cast<uint32_t>(hash), 0x39A08054u);
 }

@@ -249,3 +249,39 @@ TEST(Rule220RefusesAnyOtherReach) {
     }
   }
 }
+
+TEST(AnyFlippedBitIsRefusedByARuleOrLeavesAQueryWithinBounds) {
+  static SmallCurve c(kHook);
+  uint32_t refused = 0, kept = 0;
+  uint8_t* const parts[] = {
+      reinterpret_cast<uint8_t*>(&c.head), reinterpret_cast<uint8_t*>(c.samples),
+      reinterpret_cast<uint8_t*>(c.arcs), reinterpret_cast<uint8_t*>(c.nodes)};
+  const uint32_t sizes[] = {48, 72, 24, 48};
+  for (uint32_t part = 0; part < 4; ++part) {
+    for (uint32_t bit = 0; bit < 8 * sizes[part]; ++bit) {
+      uint8_t& byte = parts[part][bit / 8];
+      const auto flipped = static_cast<uint8_t>(byte ^ (1u << (bit % 8)));
+      const uint8_t before = byte;
+      byte = flipped;
+      const View view = c.view();
+      byte = before;
+      if (!view.is_open()) {
+        ++refused;
+        continue;
+      }
+      ++kept;
+      byte = flipped;
+      firmtouch::query::Hint hint;
+      const firmtouch::curve::Closest found =
+          firmtouch::curve::closest_point(view, {0.3f, -0.2f, 0.1f}, {6}, hint);
+      byte = before;
+      CHECK(found.distance_m - found.distance_m <= 0.0f);
+      CHECK(found.tangent.x - found.tangent.x <= 0.0f);
+      CHECK(found.arc >= 0.0f && found.arc <= 1.0f);
+      CHECK_LT(found.segment, 5u);
+      CHECK_LE(found.certificate.steps, 6u);
+    }
+  }
+  CHECK_GE(refused, 1200u);
+  CHECK_GE(kept, 1u);  // the last bits of a coordinate move a sample by less than any rule asks for
+}

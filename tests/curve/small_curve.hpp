@@ -9,20 +9,20 @@
 
 namespace firmtouch::curve_test {
 
-constexpr uint32_t kMost = 256;
-
-struct SmallCurve {
+/// A curve of up to `Most` samples and all that follows from them.
+template <uint32_t Most>
+struct CurveOf {
   curve::Head head{};
-  curve::Sample samples[kMost];
-  float arcs[kMost];
-  curve::Node nodes[kMost];
+  curve::Sample samples[Most];
+  float arcs[Most];
+  curve::Node nodes[Most];
 
   template <uint32_t N>
-  explicit SmallCurve(const curve::Sample (&from)[N]) {
-    static_assert(N >= 2 && N <= kMost);
+  explicit CurveOf(const curve::Sample (&from)[N]) {
+    static_assert(N >= 2 && N <= Most);
     build(from, N);
   }
-  SmallCurve(const curve::Sample* from, uint32_t count) { build(from, count); }
+  CurveOf(const curve::Sample* from, uint32_t count) { build(from, count); }
 
   curve::Sections sections() const {
     const uint32_t n = head.sample_count;
@@ -116,11 +116,15 @@ struct SmallCurve {
     return node == top;
   }
 
-  uint32_t order_[kMost];
+  uint32_t order_[Most];
 };
 
+using SmallCurve = CurveOf<8>;
+using LongCurve = CurveOf<256>;  // 7 KB: for static memory
+
 /// Squared distance to the polyline in double, over every segment.
-inline double brute_distance2(const SmallCurve& c, math::Vec3 p) {
+template <uint32_t Most>
+double brute_distance2(const CurveOf<Most>& c, math::Vec3 p) {
   double least = 1e300;
   for (uint32_t i = 0; i + 1 < c.head.sample_count; ++i) {
     const curve::Sample &a = c.samples[i], &b = c.samples[i + 1];

@@ -72,7 +72,8 @@ TEST(WrapOfTheCounterIsNoMotion) {
       sample.counts[0] = static_cast<int32_t>(next);
       const device::Reading reading = device::read(state, wide, sample);
       CHECK(reading.believed);
-      CHECK_EQ(state.total[0] - static_cast<int64_t>(static_cast<int32_t>(start)), static_cast<int64_t>(step));
+      CHECK_EQ(state.total[0] - static_cast<int64_t>(static_cast<int32_t>(start)),
+               static_cast<int64_t>(step));
     }
   }
 }
@@ -183,9 +184,11 @@ TEST(EncoderThatNeverAnsweredIsAFault) {
 }
 
 TEST(EveryCountAndEveryTimeGivesFiniteAnswers) {
-  const int32_t counts[] = {0, 1, -1, INT32_MAX, INT32_MIN, INT32_MAX - 1, 1 << 24, (1 << 24) + 1, -(1 << 30)};
-  const uint32_t times[] = {0u, 0x80000000u, 1u, 0x007FFFFFu, 0x3A83126Fu, 0x3F800000u, 0x7F7FFFFFu,
-                            0xFF7FFFFFu, 0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00001u};
+  const int32_t counts[] = {
+      0, 1, -1, INT32_MAX, INT32_MIN, INT32_MAX - 1, 1 << 24, (1 << 24) + 1, -(1 << 30)};
+  const uint32_t times[] = {0u,          0x80000000u, 1u,          0x007FFFFFu,
+                            0x3A83126Fu, 0x3F800000u, 0x7F7FFFFFu, 0xFF7FFFFFu,
+                            0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00001u};
   device::State state;
   for (const int32_t first : counts) {
     for (const int32_t second : counts) {
@@ -194,7 +197,8 @@ TEST(EveryCountAndEveryTimeGivesFiniteAnswers) {
         sample.dt_s = math::float_of(time);
         sample.trusted = (first ^ second) % 3 != 0;
         const device::Reading reading = read(state, sample);
-        CHECK(is_finite(reading.position_m.x) && is_finite(reading.position_m.y) && is_finite(reading.position_m.z));
+        CHECK(is_finite(reading.position_m.x) && is_finite(reading.position_m.y) &&
+              is_finite(reading.position_m.z));
         CHECK(is_finite(reading.velocity_mps.x) && is_finite(reading.velocity_mps.y));
         CHECK_LE(reading.position_m.x, 0.6f);
         CHECK_GE(reading.position_m.x, -0.4f);
@@ -208,7 +212,8 @@ TEST(SameSamplesGiveTheSameBits) {
   uint32_t word = 99;
   for (int k = 0; k < 2000; ++k) {
     word = word * 1664525u + 1013904223u;
-    const device::Sample sample = at(static_cast<int32_t>(word >> 20), static_cast<int32_t>(word >> 22), k % 50);
+    const device::Sample sample =
+        at(static_cast<int32_t>(word >> 20), static_cast<int32_t>(word >> 22), k % 50);
     const device::Reading x = read(a, sample), y = read(b, sample);
     CHECK_EQ(math::bits_of(x.position_m.x), math::bits_of(y.position_m.x));
     CHECK_EQ(math::bits_of(x.velocity_mps.y), math::bits_of(y.velocity_mps.y));

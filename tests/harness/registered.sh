@@ -11,7 +11,7 @@ for program in "$2"/tests/test_*; do
   programs=$((programs + 1))
   room=${program##*/test_}
   for name in $("$program" --list); do
-    if ! grep -qx "$room.$name" "$known"; then
+    if ! grep -q "\.$name\$" "$known"; then
       echo "$room.$name is in the program but not in CTest: write TEST($name) at the start of a line"
       failed=1
     fi

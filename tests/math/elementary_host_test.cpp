@@ -1,4 +1,5 @@
-// The elementary functions against the C library's in double, over every exponent and at the hard places.
+// The elementary functions against the C library's in double, over every exponent and at the hard
+// places.
 #include "firmtouch/math/elementary.hpp"
 
 #include <cfloat>
@@ -23,11 +24,13 @@ float float_of(uint32_t bits) {
 // Distance from the truth in units in the last place of the float nearest to the truth.
 double error_ulp(float got, double truth) {
   const double size = std::fabs(truth);
-  if (size < static_cast<double>(FLT_MIN)) return std::fabs(static_cast<double>(got) - truth) / 0x1p-149;
+  if (size < static_cast<double>(FLT_MIN))
+    return std::fabs(static_cast<double>(got) - truth) / 0x1p-149;
   return std::fabs(static_cast<double>(got) - truth) / std::ldexp(1.0, std::ilogb(size) - 23);
 }
 
-// Every float whose bits are start + k stride, both signs: a prime stride meets every exponent and mantissa pattern.
+// Every float whose bits are start + k stride, both signs: a prime stride meets every exponent and
+// mantissa pattern.
 template <class Function, class Truth>
 double worst_ulp(uint32_t last_bits, uint32_t stride, Function function, Truth truth) {
   double worst = 0;
@@ -80,7 +83,8 @@ TEST(SineAndCosineHoldNextToEveryQuarterTurn) {
 }
 
 TEST(SineHoldsWhereAFloatComesNearestToAQuarterTurn) {
-  // 16367173 * 2^72: the float nearest to a multiple of pi / 2 (Muller, Elementary Functions, table 11.1).
+  // 16367173 * 2^72: the float nearest to a multiple of pi / 2 (Muller, Elementary Functions,
+  // table 11.1).
   const float x = std::ldexp(16367173.0f, 72);
   CHECK_LE(error_ulp(math::sine(x), std::sin(static_cast<double>(x))), 1.5);
   CHECK_LE(error_ulp(math::cosine(x), std::cos(static_cast<double>(x))), 1.5);
@@ -113,7 +117,8 @@ TEST(ArcTangentIsWithin3UlpOverTheWholePlane) {
 
 TEST(ArcTangentHoldsAtZeroesInfinitiesAndLimits) {
   const float inf = std::numeric_limits<float>::infinity();
-  const float values[] = {0.0f, -0.0f, 1.0f, -1.0f, FLT_MIN, FLT_MAX, -FLT_MAX, FLT_TRUE_MIN, inf, -inf, -2e38f};
+  const float values[] = {0.0f,     -0.0f,        1.0f, -1.0f, FLT_MIN, FLT_MAX,
+                          -FLT_MAX, FLT_TRUE_MIN, inf,  -inf,  -2e38f};
   for (const float y : values) {
     for (const float x : values) {
       const double truth = std::atan2(static_cast<double>(y), static_cast<double>(x));
@@ -125,7 +130,8 @@ TEST(ArcTangentHoldsAtZeroesInfinitiesAndLimits) {
 }
 
 TEST(ArcCosineIsWithin1point5UlpOverItsRange) {
-  CHECK_LE(worst_ulp(bits_of(1.0f), 499, math::arc_cosine, [](double x) { return std::acos(x); }), 1.5);
+  CHECK_LE(worst_ulp(bits_of(1.0f), 499, math::arc_cosine, [](double x) { return std::acos(x); }),
+           1.5);
   double worst = 0;  // every float next to the ends and to the seams
   for (const float seam : {1.0f, 0.5f}) {
     for (uint32_t k = 0; k < 200000; ++k) {

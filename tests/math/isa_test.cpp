@@ -1,4 +1,5 @@
-// The instruction-set variants give the bits of their portable definitions, and elementary functions are total.
+// The instruction-set variants give the bits of their portable definitions, and elementary
+// functions are total.
 #include "firmtouch/math/isa.hpp"
 
 #include <float.h>
@@ -21,7 +22,8 @@ uint32_t next_random() {
 
 bool is_nan(float value) { return (math::bits_of(value) & 0x7FFFFFFFu) > 0x7F800000u; }
 
-// Both square roots of a value read at run time: bits equal, or both NaN (whose payload is nobody's business).
+// Both square roots of a value read at run time: bits equal, or both NaN (whose payload is nobody's
+// business).
 bool roots_agree(uint32_t bits) {
   volatile uint32_t word = bits;
   const float value = math::float_of(word);
@@ -29,19 +31,21 @@ bool roots_agree(uint32_t bits) {
   return math::bits_of(portable) == math::bits_of(variant) || (is_nan(portable) && is_nan(variant));
 }
 
-constexpr uint32_t kSpecials[] = {0x00000000u, 0x80000000u, 0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u,
-                                  0x807FFFFFu, 0x3F7FFFFFu, 0x3F800000u, 0x3F800001u, 0xBF800000u, 0x7F7FFFFFu,
-                                  0xFF7FFFFFu, 0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00000u, 0x7F800001u,
-                                  0x3FC90FDBu, 0x40490FDBu};
+constexpr uint32_t kSpecials[] = {0x00000000u, 0x80000000u, 0x00000001u, 0x80000001u, 0x007FFFFFu,
+                                  0x00800000u, 0x807FFFFFu, 0x3F7FFFFFu, 0x3F800000u, 0x3F800001u,
+                                  0xBF800000u, 0x7F7FFFFFu, 0xFF7FFFFFu, 0x7F800000u, 0xFF800000u,
+                                  0x7FC00000u, 0xFFC00000u, 0x7F800001u, 0x3FC90FDBu, 0x40490FDBu};
 
 }  // namespace
 
 TEST(PortableSquareRootHasTheBitsOfTheProcessors) {
   for (const uint32_t bits : kSpecials) CHECK(roots_agree(bits));
   uint32_t differ = 0;
-  for (uint32_t i = 0; i < 40000; ++i) differ += roots_agree(i * 107377u) ? 0u : 1u;           // all over
-  for (uint32_t i = 0; i < 4000; ++i) differ += roots_agree(next_random() & 0x7FFFFFu) ? 0u : 1u;  // denormals
-  for (uint32_t i = 0; i < 4000; ++i) differ += roots_agree(0x3F800000u + i) ? 0u : 1u;       // next to 1
+  for (uint32_t i = 0; i < 40000; ++i) differ += roots_agree(i * 107377u) ? 0u : 1u;  // all over
+  for (uint32_t i = 0; i < 4000; ++i)
+    differ += roots_agree(next_random() & 0x7FFFFFu) ? 0u : 1u;  // denormals
+  for (uint32_t i = 0; i < 4000; ++i)
+    differ += roots_agree(0x3F800000u + i) ? 0u : 1u;  // next to 1
   for (uint32_t i = 1; i < 4000; ++i) {  // next to exact squares, where rounding turns
     const float square = static_cast<float>(i) * static_cast<float>(i);
     for (uint32_t k = 0; k < 3; ++k) differ += roots_agree(math::bits_of(square) + k - 1) ? 0u : 1u;
@@ -50,7 +54,8 @@ TEST(PortableSquareRootHasTheBitsOfTheProcessors) {
 }
 
 TEST(PortableSquareRootIsTheNearestFloat) {
-  // r is right where (r - half ulp)^2 < x < (r + half ulp)^2, in integers: r = 2^12 scaled, x = r^2 scaled.
+  // r is right where (r - half ulp)^2 < x < (r + half ulp)^2, in integers: r = 2^12 scaled, x = r^2
+  // scaled.
   uint32_t wrong = 0;
   for (uint32_t i = 0; i < 4000; ++i) {
     const uint32_t mantissa = 0x800000u | (next_random() & 0x7FFFFFu);
@@ -71,10 +76,13 @@ TEST(BoxDistanceVariantsAgree) {
     uint32_t box[3], point[3];
     for (int k = 0; k < 3; ++k) {
       const uint32_t low = next_random() & 0x7FFFu, high = next_random() & 0x7FFFu;
-      const uint32_t ceil = next_random() & 0x7FFFu, floor = ceil == 0 ? 0 : ceil - (next_random() & 1u);
+      const uint32_t ceil = next_random() & 0x7FFFu,
+                     floor = ceil == 0 ? 0 : ceil - (next_random() & 1u);
       box[k] = (low < high ? low : high) | (32767u - (low < high ? high : low)) << 16;
       point[k] = ceil | (32767u - floor) << 16;
-      if (i % 16 == 0) box[k] = (i & 16u) != 0 ? 32767u : 32767u << 16, point[k] = (i & 32u) != 0 ? 32767u : 32767u << 16;
+      if (i % 16 == 0)
+        box[k] = (i & 16u) != 0 ? 32767u : 32767u << 16,
+        point[k] = (i & 32u) != 0 ? 32767u : 32767u << 16;
     }
     if (math::box_distance2(box, point) != math::portable_box_distance2(box, point)) ++differ;
   }
@@ -82,9 +90,12 @@ TEST(BoxDistanceVariantsAgree) {
 }
 
 TEST(BoxDistanceIsTheSquaredGapInCells) {
-  const uint32_t box[3] = {100u | (32767u - 200u) << 16, 100u | (32767u - 200u) << 16, 0u | 0u << 16};
-  const uint32_t inside[3] = {150u | (32767u - 150u) << 16, 100u | (32767u - 100u) << 16, 7u | (32767u - 7u) << 16};
-  const uint32_t beside[3] = {90u | (32767u - 90u) << 16, 203u | (32767u - 203u) << 16, 7u | (32767u - 7u) << 16};
+  const uint32_t box[3] = {100u | (32767u - 200u) << 16, 100u | (32767u - 200u) << 16,
+                           0u | 0u << 16};
+  const uint32_t inside[3] = {150u | (32767u - 150u) << 16, 100u | (32767u - 100u) << 16,
+                              7u | (32767u - 7u) << 16};
+  const uint32_t beside[3] = {90u | (32767u - 90u) << 16, 203u | (32767u - 203u) << 16,
+                              7u | (32767u - 7u) << 16};
   CHECK_EQ(math::box_distance2(box, inside), 0u);
   CHECK_EQ(math::box_distance2(box, beside), 100u + 9u);
 }
@@ -92,14 +103,17 @@ TEST(BoxDistanceIsTheSquaredGapInCells) {
 TEST(ThisProcessorComputesAsTheBakersDid) { CHECK(math::arithmetic_is_sound()); }
 
 TEST(ElementaryFunctionsAreFiniteForEveryInput) {
-  const auto is_finite = [](float value) { return (math::bits_of(value) & 0x7FFFFFFFu) < 0x7F800000u; };
+  const auto is_finite = [](float value) {
+    return (math::bits_of(value) & 0x7FFFFFFFu) < 0x7F800000u;
+  };
   for (const uint32_t bits : kSpecials) {
     const float x = math::float_of(bits);
     CHECK(is_finite(math::sine(x)));
     CHECK(is_finite(math::cosine(x)));
     CHECK(is_finite(math::arc_cosine(x)));
     CHECK(is_finite(math::safe_square_root(x)));
-    for (const uint32_t other : kSpecials) CHECK(is_finite(math::arc_tangent2(x, math::float_of(other))));
+    for (const uint32_t other : kSpecials)
+      CHECK(is_finite(math::arc_tangent2(x, math::float_of(other))));
   }
   const float nan = math::float_of(0x7FC00000u), inf = math::float_of(0x7F800000u);
   CHECK_EQ(math::sine(nan), 0.0f);
@@ -112,7 +126,8 @@ TEST(ElementaryFunctionsAreFiniteForEveryInput) {
   CHECK_EQ(math::safe_square_root(inf), FLT_MAX);
 }
 
-// The same number on every compiler, level and controller: it was computed once on x86-64, and no target may differ.
+// The same number on every compiler, level and controller: it was computed once on x86-64, and no
+// target may differ.
 TEST(ElementaryFunctionsHaveOneHashEverywhere) {
   firmtouch::core::Hash hash;
   for (uint32_t i = 0; i < 8000; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// The oracle: brute force in double. Distance by Ericson's region tests, side by the winding number: no part of the
-// library's method.
+// The oracle: brute force in double. Distance by Ericson's region tests, side by the winding
+// number: no part of the library's method.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -87,7 +87,8 @@ class Random {
   uint64_t state_;
 };
 
-/// Queries where it hurts: beside faces, edges and vertices at distances down to nothing, all around, and far away.
+/// Queries where it hurts: beside faces, edges and vertices at distances down to nothing, all
+/// around, and far away.
 inline std::vector<math::Vec3> hard_queries(const tools::Surface& surface, size_t count,
                                             uint64_t seed) {
   Random random(seed);

@@ -1,4 +1,5 @@
-// Distances, sides and certificates against brute force in double, on the demo's part and on real models.
+// Distances, sides and certificates against brute force in double, on the demo's part and on real
+// models.
 #include <cmath>
 #include <map>
 #include <thread>

@@ -1,6 +1,6 @@
 #pragma once
-// A cube of 12 triangles as an asset, built by hand without the baker and without heap: its distances, sides and normals
-// have closed forms, and a rule can be broken in it.
+// A cube of 12 triangles as an asset, built by hand without the baker and without heap: its
+// distances, sides and normals have closed forms, and a rule can be broken in it.
 #include <stdint.h>
 
 #include "firmtouch/mesh/view.hpp"
@@ -74,7 +74,8 @@ struct Cube {
     head.diagonal_m = 3.4641f * half_m;
   }
 
-  // Two triangles a side; edge 0 is the side's diagonal (no fold), the other two are the cube's edges (a right angle).
+  // Two triangles a side; edge 0 is the side's diagonal (no fold), the other two are the cube's
+  // edges (a right angle).
   void make_triangles() {
     uint32_t count = 0;
     for (uint32_t axis = 0; axis < 3; ++axis)

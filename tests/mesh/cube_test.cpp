@@ -195,7 +195,8 @@ TEST(NoSegmentLeaksThroughAnEdgeOrACorner) {
   const mesh::View view = cube.view();
   for (int i = 0; i < 3000; ++i) {
     test::note("segment", i);
-    // From inside through a corner, a point of an edge or a point of a side's diagonal, to far outside.
+    // From inside through a corner, a point of an edge or a point of a side's diagonal, to far
+    // outside.
     const float u = random_in(-1, 1);
     const Vec3 aims[3] = {{1, 1, 1}, {1, 1, u}, {u, u, 1}};
     const Vec3 aim = aims[i % 3],

@@ -26,8 +26,9 @@ Turned longest_first(Vec3 a, Vec3 b, Vec3 c) {
   return bc >= ca ? Turned{b, c, a} : Turned{c, a, b};
 }
 
-// Ericson's region tests lose a sliver of height 1e-6 even in double. Here: the nearest of the three sides and, where the
-// foot lies inside, the plane, in an orthonormal frame of the triangle and 64 bits of mantissa.
+// Ericson's region tests lose a sliver of height 1e-6 even in double. Here: the nearest of the
+// three sides and, where the foot lies inside, the plane, in an orthonormal frame of the triangle
+// and 64 bits of mantissa.
 double true_distance(Point p, Point a, Point b, Point c) {
   using Wide = long double;
   struct W {

@@ -64,15 +64,22 @@ TEST(NamesSitWhereTheIndexSaysTheyDo) {
 
 TEST(ValuesBeginAsTheTableSays) {
   const params::Values values;
-  for (uint32_t i = 0; i < params::kCount; ++i) CHECK_EQ(values.value[i], params::kTable[i].initial);
+  for (uint32_t i = 0; i < params::kCount; ++i)
+    CHECK_EQ(values.value[i], params::kTable[i].initial);
 }
 
 TEST(NothingOutOfRangeIsEverTaken) {
   params::Values values;
   for (uint32_t i = 0; i < params::kCount; ++i) {
     const params::Entry& row = params::kTable[i];
-    const float bad[] = {float_of(0x7FC00000u), float_of(0xFFC00001u), float_of(0x7F800000u), float_of(0xFF800000u),
-                         FLT_MAX, -FLT_MAX, beyond(row.low, false), beyond(row.high, true)};
+    const float bad[] = {float_of(0x7FC00000u),
+                         float_of(0xFFC00001u),
+                         float_of(0x7F800000u),
+                         float_of(0xFF800000u),
+                         FLT_MAX,
+                         -FLT_MAX,
+                         beyond(row.low, false),
+                         beyond(row.high, true)};
     for (const float value : bad) {
       CHECK(!params::set(values, i, value));
       CHECK_EQ(values.value[i], row.initial);
@@ -87,9 +94,13 @@ TEST(NothingOutOfRangeIsEverTaken) {
 
 TEST(IndicesOutsideTheTableAreRefused) {
   params::Values values;
-  CHECK(!params::set(values, params::kCount, 1.0f));
-  CHECK(!params::set(values, UINT32_MAX, 1.0f));
-  for (uint32_t i = 0; i < params::kCount; ++i) CHECK_EQ(values.value[i], params::kTable[i].initial);
+  const float usual[] = {0.0f, 1.0f, -1.0f, 1e-3f, 1e3f};
+  for (const float value : usual) {
+    CHECK(!params::set(values, params::kCount, value));
+    CHECK(!params::set(values, UINT32_MAX, value));
+  }
+  for (uint32_t i = 0; i < params::kCount; ++i)
+    CHECK_EQ(values.value[i], params::kTable[i].initial);
 }
 
 // Logs and hosts tell tables apart by this. A row that is added changes it; so does a range.

@@ -47,16 +47,19 @@ TEST(RestKeepsAlmostAll) {
   CHECK_EQ(carried.sign, 1);
 }
 
-// In exact arithmetic: (lower + left)^2 is compared by squares in double, whose 53 bits hold products of floats exactly
-// but for the sum of three; the margin of 2^-48 is far below the 2^-24 that would matter.
+// In exact arithmetic: (lower + left)^2 is compared by squares in double, whose 53 bits hold
+// products of floats exactly but for the sum of three; the margin of 2^-48 is far below the 2^-24
+// that would matter.
 TEST(CarriedBoundIsNeverMoreThanTheTruth) {
   uint32_t too_much = 0;
   uint32_t known = 0;
   for (int i = 0; i < 20000; ++i) {
-    const float scale = math::float_of(0x3F800000u + (static_cast<uint32_t>(i % 60) << 23) - (30u << 23));
+    const float scale =
+        math::float_of(0x3F800000u + (static_cast<uint32_t>(i % 60) << 23) - (30u << 23));
     const math::Vec3 from{random_unit() * scale, random_unit() * scale, random_unit() * scale};
     const float step = scale * (i % 3 == 0 ? 1.0f : 1e-3f);
-    const math::Vec3 to{from.x + random_unit() * step, from.y + random_unit() * step, from.z + random_unit() * step};
+    const math::Vec3 to{from.x + random_unit() * step, from.y + random_unit() * step,
+                        from.z + random_unit() * step};
     const float lower = step * 1.7f * (1.0f + 0.5f * random_unit());
     const query::Carried carried = query::carry(hint_at(from, lower, 1), to);
     const double x = static_cast<double>(to.x) - static_cast<double>(from.x);
@@ -75,7 +78,8 @@ TEST(JumpBeyondTheFreeRadiusLeavesNothing) {
   const query::Carried carried = query::carry(hint_at({0, 0, 0}, 1.0f, 1), {0, 1.0000001f, 0});
   CHECK_EQ(carried.lower_m, 0.0f);
   CHECK_EQ(carried.sign, 0);
-  const query::Carried far = query::carry(hint_at({0, 0, 0}, 1.0f, 1), {FLT_MAX, -FLT_MAX, FLT_MAX});
+  const query::Carried far =
+      query::carry(hint_at({0, 0, 0}, 1.0f, 1), {FLT_MAX, -FLT_MAX, FLT_MAX});
   CHECK_EQ(far.lower_m, 0.0f);
   CHECK_EQ(far.sign, 0);
 }
@@ -111,7 +115,8 @@ TEST(ProbeSectionIsReadOnlyWhole) {
   CHECK_EQ(probes.points.size(), 3u);
   CHECK(probes.hash == 0x5566778811223344ull);
   CHECK_EQ(probes.points[2].z_m, 9.0f);
-  for (uint32_t n = 0; n < sizeof section; ++n) CHECK(query::read_probes({bytes, n}).points.empty());
+  for (uint32_t n = 0; n < sizeof section; ++n)
+    CHECK(query::read_probes({bytes, n}).points.empty());
   section.head.count = 4;
   CHECK(query::read_probes({bytes, sizeof section}).points.empty());
   section.head.count = 3;

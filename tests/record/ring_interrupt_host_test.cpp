@@ -101,7 +101,7 @@ TEST(AWholeInterruptBetweenAnyTwoInstructionsOfPopIsHarmless) {
         uint32_t place = 0;
         while (try_one(waiting, turned, place, pushes)) {
           // All places of optimised code; samples of what sanitizers make of it, which is longer.
-          place += place < 400 ? 1 : 1 + place / 16;
+          place += place < 200 ? 1 : place / 4;
           ++places;
         }
       }

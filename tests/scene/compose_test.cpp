@@ -1,4 +1,5 @@
-// What effects do to a local model: planes, guides, the certified free radius, and shapes of a user's own.
+// What effects do to a local model: planes, guides, the certified free radius, and shapes of a
+// user's own.
 #include "firmtouch/scene/compose.hpp"
 
 #include <float.h>
@@ -47,7 +48,8 @@ TEST(ModelBeginsEmptyOneNumberOnAndWithItsExpiry) {
 
 TEST(ContactPushesBackByTheDepthOfTheSphere) {
   servo::LocalModel model = fresh({0, 0, 0.004f});
-  const float depth_m = scene::add_contact(model, {0, 0, 0.004f}, 0.005f, surface(0.004f, {0, 0, 1}, 1), kMaterial);
+  const float depth_m =
+      scene::add_contact(model, {0, 0, 0.004f}, 0.005f, surface(0.004f, {0, 0, 1}, 1), kMaterial);
   CHECK(is_near(depth_m, 0.001f));
   CHECK(is_near(servo::evaluate(model, {0, 0, 0.004f}, {}).z, 1.0f));
   CHECK(is_near(servo::evaluate(model, {0, 0, 0.003f}, {}).z, 2.0f));  // at a fresher position
@@ -57,7 +59,8 @@ TEST(ContactPushesBackByTheDepthOfTheSphere) {
 
 TEST(ContactInsideReachesRadiusAndDepthDeep) {
   servo::LocalModel model = fresh({});
-  CHECK(is_near(scene::add_contact(model, {}, 0.005f, surface(-0.002f, {0, 1, 0}, -1), kMaterial), 0.007f));
+  CHECK(is_near(scene::add_contact(model, {}, 0.005f, surface(-0.002f, {0, 1, 0}, -1), kMaterial),
+                0.007f));
   CHECK(is_near(servo::evaluate(model, {}, {}).y, 7.0f));
 }
 
@@ -70,7 +73,8 @@ TEST(UnknownSideIsNeverPushedOn) {
 
 TEST(NormalsThatAreNoneMakeNoPlane) {
   const float nan = math::float_of(0x7FC00000u), inf = math::float_of(0x7F800000u);
-  const math::Vec3 normals[] = {{0, 0, 0}, {nan, 0, 1}, {inf, 0, 0}, {0, 0, 2}, {FLT_MAX, 0, 0}, {1e-30f, 0, 0}};
+  const math::Vec3 normals[] = {{0, 0, 0}, {nan, 0, 1},     {inf, 0, 0},
+                                {0, 0, 2}, {FLT_MAX, 0, 0}, {1e-30f, 0, 0}};
   for (const math::Vec3 normal : normals) {
     servo::LocalModel model = fresh({});
     CHECK_EQ(scene::add_contact(model, {}, 0.005f, surface(0.001f, normal, 1), kMaterial), 0.0f);
@@ -90,7 +94,8 @@ TEST(OfManyContactsTheDeepestAreKept) {
   servo::LocalModel model = fresh({});
   const float distance_m[] = {0.004f, 0.001f, 0.003f, 0.002f, 0.0045f, -0.001f};
   for (const float d : distance_m) {
-    (void)scene::add_contact(model, {}, 0.005f, surface(d, {0, 0, 1}, d < 0 ? int8_t{-1} : int8_t{1}), kMaterial);
+    (void)scene::add_contact(model, {}, 0.005f,
+                             surface(d, {0, 0, 1}, d < 0 ? int8_t{-1} : int8_t{1}), kMaterial);
   }
   CHECK_EQ(model.plane_count, servo::kMaxPlanes);
   // 4 mm, 6 mm and 3 mm deep, a newton a millimetre.
@@ -121,17 +126,20 @@ TEST(SecondGuideAndFourthPlaneAreRefused) {
 }
 
 TEST(UsersOwnShapeComposesWithTheRest) {
-  // A ball of 20 mm about the origin, felt from inside: what a user writes is a distance, a normal and a side.
+  // A ball of 20 mm about the origin, felt from inside: what a user writes is a distance, a normal
+  // and a side.
   const auto bowl = [](math::Vec3 p_m, servo::LocalModel& model) {
     const float out_m = math::square_root(p_m.x * p_m.x + p_m.y * p_m.y + p_m.z * p_m.z);
     if (!(out_m > 1e-6f)) return;
     const math::Vec3 inward{-p_m.x / out_m, -p_m.y / out_m, -p_m.z / out_m};
-    (void)scene::add_contact(model, p_m, 0.002f, {0.02f - out_m, inward, 1, 0.02f - out_m}, kMaterial);
+    (void)scene::add_contact(model, p_m, 0.002f, {0.02f - out_m, inward, 1, 0.02f - out_m},
+                             kMaterial);
   };
   const math::Vec3 p_m{0, 0.019f, 0};
   servo::LocalModel model = fresh(p_m);
   bowl(p_m, model);
-  (void)scene::add_contact(model, p_m, 0.002f, surface(0.001f, {0, 0, 1}, 1), kMaterial);  // and a floor
+  (void)scene::add_contact(model, p_m, 0.002f, surface(0.001f, {0, 0, 1}, 1),
+                           kMaterial);  // and a floor
   const math::Vec3 force_N = servo::evaluate(model, p_m, {});
   CHECK(is_near(force_N.y, -1.0f));
   CHECK(is_near(force_N.z, 1.0f));

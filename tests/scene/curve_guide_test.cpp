@@ -67,7 +67,8 @@ TEST(GuidePullsInItsOwnPose) {
 
 TEST(PastAnEndThePullIsToTheEnd) {
   Rig rig;
-  CHECK(is_near(rig.force_N({-0.008f, 0, 0.5f}), {0.8f, 0, 0}));  // straight on: no direction across is given
+  CHECK(is_near(rig.force_N({-0.008f, 0, 0.5f}),
+                {0.8f, 0, 0}));  // straight on: no direction across is given
   CHECK(is_near(rig.force_N({-0.003f, 0.004f, 0.5f}), {0.3f, -0.4f, 0}));
   CHECK(is_near(rig.force_N({0.2f, 0.107f, 0.5f}), {0, -0.7f, 0}));
 }

@@ -18,7 +18,9 @@ constexpr float kPeriod_s = 0.001f;
 struct Clock {
   servo::ClockState state;
   uint32_t now_us = 0;
-  servo::ClockReading after(uint32_t us) { return servo::watch_clock(state, now_us += us, kPeriod_s, 1.5f); }
+  servo::ClockReading after(uint32_t us) {
+    return servo::watch_clock(state, now_us += us, kPeriod_s, 1.5f);
+  }
 };
 
 bool is_near(float a, float b) { return a - b < 1e-9f && b - a < 1e-9f; }

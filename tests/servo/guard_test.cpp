@@ -22,7 +22,8 @@ struct Rig {
     return servo::guard(state, kLimits, may_push, cut, motor_N);
   }
   bool is_zero() const {
-    return math::bits_of(motor_N[0]) == 0 && math::bits_of(motor_N[1]) == 0 && math::bits_of(motor_N[2]) == 0;
+    return math::bits_of(motor_N[0]) == 0 && math::bits_of(motor_N[1]) == 0 &&
+           math::bits_of(motor_N[2]) == 0;
   }
 };
 
@@ -70,7 +71,8 @@ TEST(GuardStopsEverythingThatIsNotANumber) {
       Rig rig;
       float motor_N[3] = {};
       motor_N[axis] = math::float_of(bits);
-      const bool small = !(motor_N[axis] > 5.0f) && !(motor_N[axis] < -5.0f) && test::is_number(motor_N[axis]);
+      const bool small =
+          !(motor_N[axis] > 5.0f) && !(motor_N[axis] < -5.0f) && test::is_number(motor_N[axis]);
       const bool passed = servo::guard(rig.state, kLimits, true, false, motor_N);
       CHECK_EQ(passed, small);
       CHECK(passed || math::bits_of(motor_N[axis]) == 0);
@@ -79,13 +81,15 @@ TEST(GuardStopsEverythingThatIsNotANumber) {
 }
 
 TEST(GuardStopsWhereItsLimitsAreNotNumbers) {
-  const uint32_t bad[] = {0x7FC00000u, 0x7F800000u, 0xFF800000u, 0xBF800000u, 0x7F7FFFFFu, 0xFFC00001u};
+  const uint32_t bad[] = {0x7FC00000u, 0x7F800000u, 0xFF800000u,
+                          0xBF800000u, 0x7F7FFFFFu, 0xFFC00001u};
   for (int field = 0; field < 3; ++field) {
     for (const uint32_t bits : bad) {
       if (field != 0 && bits == 0xBF800000u) continue;  // size counts there
       servo::GuardLimits limits = kLimits;
-      (field == 0 ? limits.force_limit_N : field == 1 ? limits.slew_limit_N_per_s : limits.tick_period_s) =
-          math::float_of(bits);
+      (field == 0   ? limits.force_limit_N
+       : field == 1 ? limits.slew_limit_N_per_s
+                    : limits.tick_period_s) = math::float_of(bits);
       servo::GuardState state;
       float motor_N[3] = {1, 0, 0};
       CHECK(!servo::guard(state, limits, true, false, motor_N));
@@ -130,8 +134,9 @@ TEST(GuardNoticesEveryFlippedBitOfItsMemoryThatMatters) {
     Rig rig;
     CHECK(rig.pass(1, 1, 1));
     uint32_t* word = bit < 32 ? &rig.state.armed
-                     : bit < 128 ? reinterpret_cast<uint32_t*>(&rig.state.passed[(bit - 32) / 32])
-                                 : reinterpret_cast<uint32_t*>(&rig.state.complement[(bit - 128) / 32]);
+                     : bit < 128
+                         ? reinterpret_cast<uint32_t*>(&rig.state.passed[(bit - 32) / 32])
+                         : reinterpret_cast<uint32_t*>(&rig.state.complement[(bit - 128) / 32]);
     *word ^= 1u << (bit % 32);
     CHECK(!rig.pass(1, 1, 1));
     CHECK(rig.is_zero());

@@ -1,5 +1,6 @@
-// Every float special in every field of what servo takes, and random bits in what it keeps: the force that reaches the
-// motors stays finite, within its limit and within its slew, whatever happens.
+// Every float special in every field of what servo takes, and random bits in what it keeps: the
+// force that reaches the motors stays finite, within its limit and within its slew, whatever
+// happens.
 #include <stddef.h>
 #include <stdint.h>
 
@@ -43,10 +44,12 @@ Everything usual() {
 // Calls visit(offset in Everything) for each float of it.
 template <class Visit>
 void for_each_float(Visit visit) {
-  for (size_t at = 0; at < sizeof(servo::Settings); at += 4) visit(offsetof(Everything, settings) + at);
+  for (size_t at = 0; at < sizeof(servo::Settings); at += 4)
+    visit(offsetof(Everything, settings) + at);
   const size_t model = offsetof(Everything, model);
   for (size_t at = 0; at < offsetof(servo::LocalModel, plane_count); at += 4) visit(model + at);
-  for (size_t at = offsetof(servo::LocalModel, guide); at < offsetof(servo::LocalModel, has_guide); at += 4) {
+  for (size_t at = offsetof(servo::LocalModel, guide); at < offsetof(servo::LocalModel, has_guide);
+       at += 4) {
     visit(model + at);
   }
   for (size_t at = 0; at < 16; at += 4) visit(model + offsetof(servo::LocalModel, made_at_m) + at);
@@ -58,12 +61,14 @@ void put(Everything& all, size_t offset, uint32_t bits) {
   __builtin_memcpy(reinterpret_cast<unsigned char*>(&all) + offset, &bits, 4);
 }
 
-// Whether `now` keeps its promise after `before`: finite, within the limit, and grown by no more than the slew.
+// Whether `now` keeps its promise after `before`: finite, within the limit, and grown by no more
+// than the slew.
 bool keeps_promise(math::Vec3 before, math::Vec3 now, const servo::Settings& settings) {
   if (!test::is_number(now)) return false;
   if (!(test::square(now) <= test::square(settings.force_limit_N))) return !(test::square(now) > 0);
   if (test::square(now) <= test::square(before)) return true;
-  const double step = static_cast<double>(settings.slew_limit_N_per_s) * static_cast<double>(settings.tick_period_s);
+  const double step = static_cast<double>(settings.slew_limit_N_per_s) *
+                      static_cast<double>(settings.tick_period_s);
   return test::square_of_change(before, now) <= step * step;
 }
 
@@ -84,7 +89,8 @@ TEST(EverySpecialInEveryFieldKeepsTheForceFiniteLimitedAndSlow) {
         all.input.velocity_mps = {-swing * 30, 0, swing * 10};
         if (tick >= 20 && tick < 23) put(all, offset, bits);
         const servo::StepOutput output = servo::step(state, all.settings, all.model, all.input);
-        // A fault that stands cannot be called a promise of the settings that were bent: judged by the usual ones.
+        // A fault that stands cannot be called a promise of the settings that were bent: judged by
+        // the usual ones.
         const servo::Settings& judge = output.faults != 0 ? usual().settings : all.settings;
         if (!keeps_promise(before, output.force_N, judge)) ++broken;
         before = output.force_N;
@@ -138,11 +144,15 @@ TEST(FlippedBitsInTheServosMemoryDoNotPassTheGuard) {
     for (uint32_t tick = 0; tick < 40; ++tick) {
       Everything all = usual();
       all.input.tick = tick;
-      all.input.position_m = {0.003f * random.unit(), 0.003f * random.unit(), 0.003f * random.unit()};
+      all.input.position_m = {0.003f * random.unit(), 0.003f * random.unit(),
+                              0.003f * random.unit()};
       if (tick == hit_at) {
-        const uint32_t bit = random.next() % (8 * static_cast<uint32_t>(sizeof state + sizeof guard));
-        unsigned char* byte = bit / 8 < sizeof state ? reinterpret_cast<unsigned char*>(&state) + bit / 8
-                                                     : reinterpret_cast<unsigned char*>(&guard) + bit / 8 - sizeof state;
+        const uint32_t bit =
+            random.next() % (8 * static_cast<uint32_t>(sizeof state + sizeof guard));
+        unsigned char* byte =
+            bit / 8 < sizeof state
+                ? reinterpret_cast<unsigned char*>(&state) + bit / 8
+                : reinterpret_cast<unsigned char*>(&guard) + bit / 8 - sizeof state;
         *byte = static_cast<unsigned char>(*byte ^ (1u << (bit % 8)));
       }
       const servo::StepOutput output = servo::step(state, all.settings, all.model, all.input);

@@ -8,9 +8,9 @@
 namespace firmtouch::test {
 
 constexpr uint32_t kSpecialBits[] = {
-    0x00000000u, 0x80000000u, 0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u, 0x322BCC77u, 0x3F800000u,
-    0xBF800000u, 0x3F7FFFFFu, 0x461C4000u, 0xC61C4001u, 0x49742400u, 0x5F000000u, 0x7F7FFFFFu, 0xFF7FFFFFu,
-    0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00001u, 0x7F800001u};
+    0x00000000u, 0x80000000u, 0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u, 0x322BCC77u,
+    0x3F800000u, 0xBF800000u, 0x3F7FFFFFu, 0x461C4000u, 0xC61C4001u, 0x49742400u, 0x5F000000u,
+    0x7F7FFFFFu, 0xFF7FFFFFu, 0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00001u, 0x7F800001u};
 
 inline double square(float a) { return static_cast<double>(a) * static_cast<double>(a); }
 inline double square(math::Vec3 a) { return square(a.x) + square(a.y) + square(a.z); }

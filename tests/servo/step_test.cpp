@@ -36,7 +36,8 @@ servo::StepInput at(float z_m, uint32_t tick) {
 // A servo that has been on for long, pressed 1 mm into the floor.
 servo::State pressed(const servo::LocalModel& model) {
   servo::State state;
-  for (uint32_t tick = 0; tick < 100; ++tick) (void)servo::step(state, kSettings, model, at(-0.001f, tick));
+  for (uint32_t tick = 0; tick < 100; ++tick)
+    (void)servo::step(state, kSettings, model, at(-0.001f, tick));
   return state;
 }
 
@@ -79,7 +80,8 @@ TEST(ForceRampsInAfterEnable) {
     const float share = tick < 50 ? static_cast<float>(tick) / 50.0f : 1.0f;
     CHECK_LE(output.force_N.z, share * 1.0001f);
     CHECK_GE(output.force_N.z, share * 0.9999f);
-    CHECK_EQ(static_cast<int>(output.mode), static_cast<int>(tick < 50 ? servo::Mode::kRampIn : servo::Mode::kOn));
+    CHECK_EQ(static_cast<int>(output.mode),
+             static_cast<int>(tick < 50 ? servo::Mode::kRampIn : servo::Mode::kOn));
   }
 }
 
@@ -87,7 +89,8 @@ TEST(NothingIsRenderedUnlessEnabled) {
   servo::State state;
   servo::StepInput input = at(-0.1f, 0);
   input.enable = false;
-  for (int i = 0; i < 10; ++i) CHECK_EQ(servo::step(state, kSettings, floor_model(), input).force_N.z, 0.0f);
+  for (int i = 0; i < 10; ++i)
+    CHECK_EQ(servo::step(state, kSettings, floor_model(), input).force_N.z, 0.0f);
 }
 
 TEST(ForceStopsAtItsLimitAndGetsThereByItsSlew) {
@@ -128,7 +131,8 @@ TEST(EachFaultIsLatchedInItsTickAndLeavesNoForceTenMillisecondsLater) {
     const bool at_once = ((1u << bit) & servo::kCutAtOnce) != 0;
     CHECK_EQ(output.force_N.z > 0.0f, !at_once);
     input.reported = 0;  // gone again: the latch stays
-    for (int tick = 0; tick < 9; ++tick) output = servo::step(state, kSettings, floor_model(), input);
+    for (int tick = 0; tick < 9; ++tick)
+      output = servo::step(state, kSettings, floor_model(), input);
     CHECK_EQ(output.force_N.z, 0.0f);
     CHECK_EQ(output.faults, 1u << bit);
     CHECK(output.mode == servo::Mode::kFault);
@@ -173,7 +177,8 @@ TEST(StaleModelIsLetGoOfInItsTickAndAcrossTheWrap) {
     for (uint32_t k = 0; k <= 3; ++k) {
       CHECK_EQ(servo::step(state, kSettings, model, at(-0.001f, made + k)).faults, 0u);
     }
-    CHECK_EQ(servo::step(state, kSettings, model, at(-0.001f, made + 4)).faults, servo::kFaultStaleModel);
+    CHECK_EQ(servo::step(state, kSettings, model, at(-0.001f, made + 4)).faults,
+             servo::kFaultStaleModel);
   }
 }
 

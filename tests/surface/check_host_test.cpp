@@ -19,23 +19,26 @@ bool is_refused(const Surface& surface, const char* what, const char* where) {
   Surface strict = surface, loose = surface;
   const CheckReport report = check_and_mend(strict, {}), kept = check_and_mend(loose, {true});
   bool found = false;
-  for (const std::string& line : report.refused) found = found || (says(line, what) && says(line, where));
+  for (const std::string& line : report.refused)
+    found = found || (says(line, what) && says(line, where));
   if (!found) {
     for (const std::string& line : report.refused) std::printf("  got: %s\n", line.c_str());
   }
-  return found && says(report.refused.back(), "--unsigned") && kept.usable() && says(kept.kept, what) &&
-         !kept.is_closed && loose.faces.size() == surface.faces.size();
+  return found && says(report.refused.back(), "--unsigned") && kept.usable() &&
+         says(kept.kept, what) && !kept.is_closed && loose.faces.size() == surface.faces.size();
 }
 
 bool is_always_refused(const Surface& surface, const char* what) {
   Surface strict = surface, loose = surface;
-  return says(check_and_mend(strict, {}).refused, what) && says(check_and_mend(loose, {true}).refused, what);
+  return says(check_and_mend(strict, {}).refused, what) &&
+         says(check_and_mend(loose, {true}).refused, what);
 }
 
 bool is_mended(Surface& surface, const char* how) {
   const CheckReport report = check_and_mend(surface, {});
   for (const std::string& line : report.refused) std::printf("  refused: %s\n", line.c_str());
-  const bool good = report.usable() && report.is_closed && says(report.mended, how) && is_closed_and_alike(surface);
+  const bool good = report.usable() && report.is_closed && says(report.mended, how) &&
+                    is_closed_and_alike(surface);
   if (!good) {
     for (const std::string& line : report.mended) std::printf("  mended: %s\n", line.c_str());
   }
@@ -117,8 +120,9 @@ TEST(DuplicateFacesAreDropped) {
 
 TEST(AFinOfTwoSheetsIsDropped) {
   // Two pyramids base to base, and the base between them twice, back to back.
-  const Surface body = numbered({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3f, 0.3f, 1}, {0.3f, 0.3f, -1}},
-                                {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
+  const Surface body =
+      numbered({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3f, 0.3f, 1}, {0.3f, 0.3f, -1}},
+               {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
   CHECK(passes(body));
   Surface surface = body;
   surface.faces.insert(surface.faces.begin() + 2, {{0, 1, 2}, {0, 2, 1}});
@@ -133,7 +137,9 @@ TEST(EachFaceTurnedSinglyIsTurnedBack) {
     Surface surface = part;
     turn(surface.faces[f]);
     test::note("face", f);
-    CHECK(is_mended(surface, ("turned 1 face wound against the rest of 1 piece, first face " + std::to_string(f)).c_str()));
+    CHECK(is_mended(surface, ("turned 1 face wound against the rest of 1 piece, first face " +
+                              std::to_string(f))
+                                 .c_str()));
     CHECK(near(volume_of(surface), volume_of(part)));
   }
   for (const Surface& small : {tetrahedron(), cube()}) {
@@ -207,8 +213,9 @@ TEST(CrowdedEdgesAreRefusedWithTheirFaces) {
   for (uint32_t f = 4; f < 8; ++f) {
     for (uint32_t& v : surface.faces[f]) v = v - 6 < 2 ? v - 6 : v - 4;  // 0 and 1 are shared
   }
-  CHECK(is_refused(surface, "1 edge that more than two faces share (non-manifold)",
-                   "the edge from vertex 0 (0, 0, 0 m) to vertex 1 (1, 0, 0 m) of 4 faces (0, 1, 4, 5)"));
+  CHECK(is_refused(
+      surface, "1 edge that more than two faces share (non-manifold)",
+      "the edge from vertex 0 (0, 0, 0 m) to vertex 1 (1, 0, 0 m) of 4 faces (0, 1, 4, 5)"));
 }
 
 TEST(PinchedVerticesAreRefused) {
@@ -218,14 +225,16 @@ TEST(PinchedVerticesAreRefused) {
     for (uint32_t& v : surface.faces[f]) v = v == 4 ? 0 : v;
   }
   for (uint32_t v = 4; v < 8; ++v) surface.vertices[v].x -= 3;
-  CHECK(is_refused(surface, "1 vertex where separate sheets touch", "first vertex 0 (0, 0, 0 m) of 2 sheets"));
+  CHECK(is_refused(surface, "1 vertex where separate sheets touch",
+                   "first vertex 0 (0, 0, 0 m) of 2 sheets"));
 }
 
 TEST(SurfacesWithOneSideAreRefused) {
   Surface klein;  // a grid closed straight one way and mirrored the other
   constexpr uint32_t kSide = 6;
   for (uint32_t i = 0; i < kSide * kSide; ++i) {
-    klein.vertices.push_back({static_cast<float>(i % kSide), static_cast<float>(i / kSide), static_cast<float>(i * i % 7)});
+    klein.vertices.push_back({static_cast<float>(i % kSide), static_cast<float>(i / kSide),
+                              static_cast<float>(i * i % 7)});
   }
   const auto at = [](uint32_t x, uint32_t y) {
     const uint32_t mirrored = y == kSide ? (kSide - x) % kSide : x % kSide;
@@ -245,7 +254,8 @@ TEST(WhatCannotBeMeasuredIsAlwaysRefused) {
   for (const float bad : {std::nanf(""), INFINITY, -INFINITY}) {
     Surface surface = cube();
     surface.vertices[6].y = bad;
-    CHECK(is_always_refused(surface, "1 vertex has coordinates that are not finite, first vertex 6"));
+    CHECK(
+        is_always_refused(surface, "1 vertex has coordinates that are not finite, first vertex 6"));
   }
   Surface surface = cube();
   surface.faces[4][1] = 8;

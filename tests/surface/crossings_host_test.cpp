@@ -13,10 +13,13 @@ namespace {
 bool hits(Point p, Point q, Point a, Point b, Point c) {
   using Real = long double;
   const auto wide = [](Point from, Point to, Real* v) {
-    v[0] = static_cast<Real>(to.x) - from.x, v[1] = static_cast<Real>(to.y) - from.y, v[2] = static_cast<Real>(to.z) - from.z;
+    v[0] = static_cast<Real>(to.x) - static_cast<Real>(from.x);
+    v[1] = static_cast<Real>(to.y) - static_cast<Real>(from.y);
+    v[2] = static_cast<Real>(to.z) - static_cast<Real>(from.z);
   };
   const auto det = [](const Real* u, const Real* v, const Real* w) {
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
+           u[2] * (v[0] * w[1] - v[1] * w[0]);
   };
   Real d[3], e[3], f[3], r[3];
   wide(q, p, d);  // p + t (q - p) = a + u e + v f   =>   u e + v f + t (p - q) = p - a
@@ -29,15 +32,24 @@ bool hits(Point p, Point q, Point a, Point b, Point c) {
   return u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < 1;
 }
 
+Box box_of(Point a, Point b, Point c) {
+  return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), 0},
+          {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), 0}};
+}
+
+// Pairs of faces without a common vertex that cross.
 std::vector<std::pair<uint32_t, uint32_t>> pairs_by_force(const Surface& s) {
   std::vector<std::pair<uint32_t, uint32_t>> pairs;
   const auto at = [&](uint32_t f, uint32_t k) { return to_point(s.vertices[s.faces[f][k % 3]]); };
   for (uint32_t f = 0; f < s.faces.size(); ++f) {
     for (uint32_t g = f + 1; g < s.faces.size(); ++g) {
-      const std::set<uint32_t> corners = {s.faces[f][0], s.faces[f][1], s.faces[f][2],
-                                          s.faces[g][0], s.faces[g][1], s.faces[g][2]};
-      if (corners.size() < 6) continue;
-      bool crosses = false;
+      bool crosses = false, is_apart = false;
+      for (uint32_t k = 0; k < 9; ++k)
+        is_apart = is_apart || s.faces[f][k / 3] == s.faces[g][k % 3];
+      const Box a = box_of(at(f, 0), at(f, 1), at(f, 2)), b = box_of(at(g, 0), at(g, 1), at(g, 2));
+      is_apart = is_apart || a.low.x > b.high.x || b.low.x > a.high.x || a.low.y > b.high.y ||
+                 b.low.y > a.high.y;
+      if (is_apart) continue;
       for (uint32_t k = 0; k < 3; ++k) {
         crosses = crosses || hits(at(f, k), at(f, k + 1), at(g, 0), at(g, 1), at(g, 2)) ||
                   hits(at(g, k), at(g, k + 1), at(f, 0), at(f, 1), at(f, 2));
@@ -56,7 +68,8 @@ TEST(CrossingPairsAreThoseOfBruteForce) {
     Random random(seed);
     Surface soup;
     for (uint32_t k = 0; k < 300; ++k) {
-      soup.vertices.push_back({static_cast<float>(random.uniform()), static_cast<float>(random.uniform()),
+      soup.vertices.push_back({static_cast<float>(random.uniform()),
+                               static_cast<float>(random.uniform()),
                                static_cast<float>(random.uniform())});
       if (k % 3 == 2) soup.faces.push_back({k - 2, k - 1, k});
     }
@@ -72,7 +85,8 @@ TEST(SurfacesThatTouchDoNotCross) {
   Surface stack = cube();
   append(stack, cube({0, 2, 2}));     // edge to edge
   append(stack, cube({-2, -2, -2}));  // corner to corner
-  append(stack, numbered({{3, 0, 0}, {1, 0.5f, 0}, {1, -0.5f, 0.25f}, {3, 0, 1}}, {{0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 1, 3}}));  // edge on face
+  append(stack, numbered({{3, 0, 0}, {1, 0.5f, 0}, {1, -0.5f, 0.25f}, {3, 0, 1}},
+                         {{0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 1, 3}}));  // edge on face
   const Crossings found = find_crossings(stack);
   CHECK(found.pairs.empty());
   CHECK(found.places.empty());
@@ -80,7 +94,8 @@ TEST(SurfacesThatTouchDoNotCross) {
 
 TEST(BodiesThatCrossOnlyAtDiagonalsAreFound) {
   Surface two = cube();
-  append(two, cube({1, 1, 1}));  // every edge that enters the other does so on the diagonal of a face
+  append(two,
+         cube({1, 1, 1}));  // every edge that enters the other does so on the diagonal of a face
   const Crossings found = find_crossings(two);
   CHECK_EQ(found.places.size(), 1u);
   CHECK_LE(12, found.pairs.size());
@@ -95,11 +110,13 @@ TEST(FeaturesInsideAnotherSheetAreListed) {
   const Crossings found = find_crossings(two);
   CHECK(found.pairs == pairs_by_force(two));
   std::set<uint32_t> listed;
-  for (const Crossings::Place& place : found.places) listed.insert(place.vertices.begin(), place.vertices.end());
+  for (const Crossings::Place& place : found.places)
+    listed.insert(place.vertices.begin(), place.vertices.end());
   const uint32_t split = static_cast<uint32_t>(first.vertices.size());
   uint32_t inside = 0;
   for (uint32_t v = 0; v < two.vertices.size(); ++v) {
-    const bool is_inside = winding_by_angles(v < split ? other : first, to_point(two.vertices[v])) > 0.5;
+    const bool is_inside =
+        winding_by_angles(v < split ? other : first, to_point(two.vertices[v])) > 0.5;
     CHECK_EQ(listed.count(v) == 1, is_inside);
     inside += is_inside ? 1u : 0u;
   }
@@ -129,12 +146,15 @@ TEST(AVertexPushedThroughTheOtherSideIsListed) {
   for (uint32_t v = 0; v < surface.vertices.size(); ++v) {
     const math::Vec3 p = surface.vertices[v];
     const float r2 = p.x * p.x + p.y * p.y;
-    if (r2 > 0.0009f && r2 < 0.0015f && p.z > 0.005f && p.z < surface.vertices[pulled].z + 1 && pulled == 0) pulled = v;
+    if (r2 > 0.0009f && r2 < 0.0015f && p.z > 0.005f && p.z < surface.vertices[pulled].z + 1 &&
+        pulled == 0)
+      pulled = v;
   }
   surface.vertices[pulled].z = -0.001f;
   const Crossings found = find_crossings(surface);
   CHECK_EQ(found.places.size(), 1u);
-  const std::vector<uint32_t>& vertices = found.places.empty() ? std::vector<uint32_t>{} : found.places[0].vertices;
+  const std::vector<uint32_t>& vertices =
+      found.places.empty() ? std::vector<uint32_t>{} : found.places[0].vertices;
   CHECK(std::count(vertices.begin(), vertices.end(), pulled) == 1);
 }
 
@@ -150,8 +170,10 @@ TEST(WindingNumberEqualsTheSolidAngle) {
   for (int k = 0; k < 2000; ++k) {
     test::note("point", k);
     const bool is_near = k % 2 == 0;
-    const Point p = is_near ? Point{random.between(0.024, 0.036), random.between(-0.006, 0.006), random.between(0, 0.01)}
-                            : Point{random.between(-0.06, 0.06), random.between(-0.06, 0.06), random.between(-0.01, 0.03)};
+    const Point p = is_near ? Point{random.between(0.024, 0.036), random.between(-0.006, 0.006),
+                                    random.between(0, 0.01)}
+                            : Point{random.between(-0.06, 0.06), random.between(-0.06, 0.06),
+                                    random.between(-0.01, 0.03)};
     const int wanted = static_cast<int>(std::lround(winding_by_angles(shells, p)));
     CHECK_EQ(winding.at(p), wanted);
     if (wanted >= 0 && wanted <= 2) ++seen[wanted];
@@ -162,7 +184,8 @@ TEST(WindingNumberEqualsTheSolidAngle) {
 }
 
 TEST(RaysThroughEdgesAndVerticesCountOnce) {
-  // The ray's direction is the source's: the points lie below corners, edges and diagonals, up to rounding either way.
+  // The ray's direction is the source's: the points lie below corners, edges and diagonals, up to
+  // rounding either way.
   const Surface body = cube();
   const WindingNumber winding(body, {});
   for (double x = -0.75; x < 1; x += 0.25) {

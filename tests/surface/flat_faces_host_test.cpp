@@ -11,7 +11,10 @@ uint32_t flat_count(const Surface& surface) {
   uint32_t count = 0;
   for (const Face& f : surface.faces) {
     const Point a = to_point(surface.vertices[f[0]]);
-    count += length(cross(to_point(surface.vertices[f[1]]) - a, to_point(surface.vertices[f[2]]) - a)) > 0 ? 0u : 1u;
+    count += length(cross(to_point(surface.vertices[f[1]]) - a,
+                          to_point(surface.vertices[f[2]]) - a)) > 0
+                 ? 0u
+                 : 1u;
   }
   return count;
 }
@@ -19,7 +22,8 @@ uint32_t flat_count(const Surface& surface) {
 // Whether all vertices of `after` are of `before`, as the report numbers them.
 bool stand_still(const Surface& before, const Surface& after, const CheckReport& report) {
   for (uint32_t v = 0; v < after.vertices.size(); ++v) {
-    const Point moved = to_point(after.vertices[v]) - to_point(before.vertices[report.vertex_source[v]]);
+    const Point moved =
+        to_point(after.vertices[v]) - to_point(before.vertices[report.vertex_source[v]]);
     if (dot(moved, moved) > 0) return false;
   }
   return report.vertex_source.size() == after.vertices.size();
@@ -38,11 +42,14 @@ bool loses_its_flat_faces(const Surface& before, const char* how) {
   return good;
 }
 
-// A vertex in the middle of edge k of face f: one neighbour is split in two, the other gets a cap along its edge.
+// A vertex in the middle of edge k of face f: one neighbour is split in two, the other gets a cap
+// along its edge.
 Surface with_cap(Surface surface, uint32_t f, uint32_t k) {
-  const uint32_t a = surface.faces[f][k], b = surface.faces[f][(k + 1) % 3], c = surface.faces[f][(k + 2) % 3];
+  const uint32_t a = surface.faces[f][k], b = surface.faces[f][(k + 1) % 3],
+                 c = surface.faces[f][(k + 2) % 3];
   const uint32_t middle = static_cast<uint32_t>(surface.vertices.size());
-  surface.vertices.push_back(to_vec3((to_point(surface.vertices[a]) + to_point(surface.vertices[b])) * 0.5));
+  surface.vertices.push_back(
+      to_vec3((to_point(surface.vertices[a]) + to_point(surface.vertices[b])) * 0.5));
   surface.faces[f] = {a, middle, c};
   surface.faces.push_back({middle, b, c});
   surface.faces.push_back({b, middle, a});
@@ -96,7 +103,8 @@ TEST(CapsOnTwoEdgesOfOneFaceAreFlippedAway) {
 
 TEST(NeedlesAreCollapsed) {
   const Surface body = cube();
-  CHECK(loses_its_flat_faces(with_needles(body, 0, 1, 4), "removed 2 faces without area, first face 12"));
+  CHECK(loses_its_flat_faces(with_needles(body, 0, 1, 4),
+                             "removed 2 faces without area, first face 12"));
   CHECK(loses_its_flat_faces(with_needles(body, 7, 3, 4), "and 1 collapse"));
 }
 

@@ -31,7 +31,8 @@ double smallest_angle_rad(const Surface& surface) {
   double smallest = 4;
   for (const Face& f : surface.faces) {
     for (uint32_t k = 0; k < 3; ++k) {
-      const Point a = to_point(surface.vertices[f[k]]), b = to_point(surface.vertices[f[(k + 1) % 3]]) - a,
+      const Point a = to_point(surface.vertices[f[k]]),
+                  b = to_point(surface.vertices[f[(k + 1) % 3]]) - a,
                   c = to_point(surface.vertices[f[(k + 2) % 3]]) - a;
       smallest = std::min(smallest, std::atan2(length(cross(b, c)), dot(b, c)));
     }
@@ -148,7 +149,8 @@ TEST(SeedsDifferAndRepeat) {
   CHECK(hash_of(walk_on(cube(), 1, 50)) != hash_of(walk_on(cube(), 2, 50)));
 }
 
-// The same bytes on every machine: these hashes were seen from gcc and clang, -O0 to -O3, on x86-64.
+// The same bytes on every machine: these hashes were seen from gcc and clang, -O0 to -O3, on
+// x86-64.
 TEST(GeneratedBytesAreTheSameEverywhere) {
   CHECK(hash_of(make_part(1).vertices) == 0x7DB6C8DED09D0EE7ull);
   CHECK(hash_of(make_path(1)) == 0x8ABDF86C9B91070Cull);
@@ -156,7 +158,8 @@ TEST(GeneratedBytesAreTheSameEverywhere) {
 }
 
 TEST(PointsAreWrittenWithNineDigits) {
-  CHECK(to_csv({{0.1f, -2, 1e-9f}, {1234567.875f, 0, 3}}) == "x,y,z\n0.100000001,-2,9.99999972e-10\n1234567.88,0,3\n");
+  CHECK(to_csv({{0.1f, -2, 1e-9f}, {1234567.875f, 0, 3}}) ==
+        "x,y,z\n0.100000001,-2,9.99999972e-10\n1234567.88,0,3\n");
 }
 
 }  // namespace firmtouch::tools

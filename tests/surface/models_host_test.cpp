@@ -42,16 +42,21 @@ TEST(TheHorseIsTurnedAndItsCrossingsListed) {
   CHECK_LT(volume_of(horse), 0);
   const CheckReport report = check_and_mend(horse, {});
   CHECK(report.usable() && report.is_closed);
-  CHECK(report.mended.size() == 1 && says(report.mended, "turned 1 piece of 96966 faces wound inside out"));
+  CHECK(report.mended.size() == 1 &&
+        says(report.mended, "turned 1 piece of 96966 faces wound inside out"));
   CHECK_LT(0, volume_of(horse));
   const Crossings found = find_crossings(horse);
   CHECK_EQ(found.pairs.size(), 4u);
   CHECK_EQ(found.places.size(), 1u);
   if (found.places.empty()) return;
-  // Seen by brute force: points around whose nearest feature is one of these have a pseudonormal and a winding number that differ.
+  // Seen by brute force: points around whose nearest feature is one of these have a pseudonormal
+  // and a winding number that differ.
   CHECK(found.places[0].vertices == (std::vector<uint32_t>{11778, 11890, 11891}));
   CHECK(found.places[0].faces == (std::vector<uint32_t>{70644, 70670, 70686, 71143, 71145, 71399}));
-  for (const auto& edge : {std::pair<uint32_t, uint32_t>{11778, 11890}, {11778, 11891}, {11890, 11891}, {11890, 11994}}) {
+  for (const auto& edge : {std::pair<uint32_t, uint32_t>{11778, 11890},
+                           {11778, 11891},
+                           {11890, 11891},
+                           {11890, 11994}}) {
     CHECK_EQ(std::count(found.places[0].edges.begin(), found.places[0].edges.end(), edge), 1);
   }
 }
@@ -61,10 +66,11 @@ TEST(ModelsThatAreNoSolidsAreRefusedUnlessUnsigned) {
   if (folder == nullptr) return;
   const struct {
     const char *name, *what, *where;
-  } kModels[] = {
-      {"cow.obj", "1 vertex where separate sheets touch", "vertex 253 (-3.50769, 1.70021, 0 m) of 2 sheets"},
-      {"suzanne.obj", "44 open edges around 5 holes", "edge from vertex 4"},
-      {"stanford-bunny.obj", "223 open edges around 5 holes", "vertex 1884 (-0.0575, 0.058827, 0.02126 m)"}};
+  } kModels[] = {{"cow.obj", "1 vertex where separate sheets touch",
+                  "vertex 253 (-3.50769, 1.70021, 0 m) of 2 sheets"},
+                 {"suzanne.obj", "44 open edges around 5 holes", "edge from vertex 4"},
+                 {"stanford-bunny.obj", "223 open edges around 5 holes",
+                  "vertex 1884 (-0.0575, 0.058827, 0.02126 m)"}};
   for (const auto& model : kModels) {
     Surface strict = load(folder, model.name), loose = strict;
     const CheckReport report = check_and_mend(strict, {}), kept = check_and_mend(loose, {true});

@@ -5,7 +5,8 @@
 #include "surface/random.hpp"
 #include "surface/read_surface.hpp"
 
-// Damaged files: a problem or a surface that may be used, never a crash (the suite runs these under ASan and UBSan).
+// Damaged files: a problem or a surface that may be used, never a crash (the suite runs these under
+// ASan and UBSan).
 
 namespace firmtouch::tools {
 namespace {
@@ -16,8 +17,10 @@ struct File {
 };
 
 std::vector<File> files() {
-  return {{"a.obj", cube_obj()},       {"a.off", cube_off()},
-          {"a.ply", cube_ply_ascii()}, {"a.ply", cube_ply_binary(false)},
+  return {{"a.obj", cube_obj()},
+          {"a.off", cube_off()},
+          {"a.ply", cube_ply_ascii()},
+          {"a.ply", cube_ply_binary(false)},
           {"a.ply", cube_ply_binary(true)}};
 }
 
@@ -49,7 +52,8 @@ void survive(const File& file, const std::string& bytes) {
 
 TEST(EveryTruncationEndsInAProblemOrASurface) {
   for (const File& file : files()) {
-    for (size_t length = 0; length < file.bytes.size(); ++length) survive(file, file.bytes.substr(0, length));
+    for (size_t length = 0; length < file.bytes.size(); ++length)
+      survive(file, file.bytes.substr(0, length));
   }
 }
 
@@ -74,12 +78,21 @@ TEST(RandomDamageEndsInAProblemOrASurface) {
     std::string bytes = file.bytes;
     for (uint32_t edits = 1 + random.below(6); edits > 0 && !bytes.empty(); --edits) {
       const uint32_t at = random.below(static_cast<uint32_t>(bytes.size()));
-      const uint32_t length = std::min<uint32_t>(1 + random.below(12), static_cast<uint32_t>(bytes.size()) - at);
+      const uint32_t length =
+          std::min<uint32_t>(1 + random.below(12), static_cast<uint32_t>(bytes.size()) - at);
       switch (random.below(4)) {
-        case 0: bytes[at] = static_cast<char>(random.below(256)); break;
-        case 1: bytes.erase(at, length); break;
-        case 2: bytes.insert(at, bytes, at, length); break;
-        default: bytes[at] = "0123456789-.e \n"[random.below(15)]; break;
+        case 0:
+          bytes[at] = static_cast<char>(random.below(256));
+          break;
+        case 1:
+          bytes.erase(at, length);
+          break;
+        case 2:
+          bytes.insert(at, bytes, at, length);
+          break;
+        default:
+          bytes[at] = "0123456789-.e \n"[random.below(15)];
+          break;
       }
     }
     survive(file, bytes);

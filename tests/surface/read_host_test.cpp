@@ -34,9 +34,13 @@ TEST(ObjIsReadHoweverItIsWritten) {
   CHECK(reads_cube(cube_obj("", "\r\n", [](int v) { return std::to_string(v + 1); }), "A.B.OBJ"));
   CHECK(reads_cube(cube_obj("", "\r", [](int v) { return std::to_string(v + 1); }), "a.obj"));
   CHECK(reads_cube(cube_obj("\t1.0", "\n", [](int v) { return std::to_string(v - 8); }), "a.obj"));
-  CHECK(reads_cube(cube_obj(" 0.1 0.2 0.3", " \n", [](int v) { return std::to_string(v + 1) + "/1/1"; }), "a.obj"));
-  CHECK(reads_cube(cube_obj(" # here", "\n", [](int v) { return std::to_string(v + 1) + "//1"; }), "a.obj"));
-  CHECK(reads_cube(cube_obj("", "\n", [](int v) { return "\\\n +" + std::to_string(v + 1) + "/1"; }), "a.obj"));
+  CHECK(reads_cube(
+      cube_obj(" 0.1 0.2 0.3", " \n", [](int v) { return std::to_string(v + 1) + "/1/1"; }),
+      "a.obj"));
+  CHECK(reads_cube(cube_obj(" # here", "\n", [](int v) { return std::to_string(v + 1) + "//1"; }),
+                   "a.obj"));
+  CHECK(reads_cube(
+      cube_obj("", "\n", [](int v) { return "\\\n +" + std::to_string(v + 1) + "/1"; }), "a.obj"));
   std::string text = cube_obj();
   text.pop_back();
   CHECK(reads_cube("\xEF\xBB\xBF\n\n" + text, "a.obj"));
@@ -47,7 +51,9 @@ TEST(ObjIsReadHoweverItIsWritten) {
 TEST(OffIsReadHoweverItIsWritten) {
   CHECK(reads_cube(cube_off(), "a.off"));
   CHECK(reads_cube(cube_off("OFF 8 6 12\r\n", "\r\n", "\r\n"), "a.Off"));
-  CHECK(reads_cube(cube_off("# a cube\nOFF\n# counts\n8 6\n12 # edges\n\n", " 0.5 0.5 0.5\n", "\t255 0 0\n"), "a.off"));
+  CHECK(reads_cube(
+      cube_off("# a cube\nOFF\n# counts\n8 6\n12 # edges\n\n", " 0.5 0.5 0.5\n", "\t255 0 0\n"),
+      "a.off"));
   std::string text = cube_off();
   text.pop_back();
   CHECK(reads_cube(text, "a.off"));
@@ -55,7 +61,8 @@ TEST(OffIsReadHoweverItIsWritten) {
 
 TEST(PlyIsReadInEveryFormatAndOrder) {
   CHECK(reads_cube(cube_ply_ascii(), "a.ply"));
-  CHECK(reads_cube(replaced(cube_ply_ascii(), "uchar int vertex_indices", "uint int8 vertex_index"), "a.PLY"));
+  CHECK(reads_cube(replaced(cube_ply_ascii(), "uchar int vertex_indices", "uint int8 vertex_index"),
+                   "a.PLY"));
   CHECK(reads_cube(cube_ply_binary(false), "a.ply"));
   CHECK(reads_cube(cube_ply_binary(true), "a.ply"));
 }
@@ -67,9 +74,12 @@ TEST(CoordinatesAreScaledInDoubleAndRoundedOnce) {
   const double wanted[3][3] = {{0.1, 25.4, 1e-3}, {16777217, 3, 0}, {1, 0, 7.0000001}};
   for (size_t v = 0; v < 3 && read.surface.vertices.size() == 3; ++v) {
     const math::Vec3 got = read.surface.vertices[v];
-    CHECK(!(got.x < static_cast<float>(wanted[v][0] * 0.0254) || got.x > static_cast<float>(wanted[v][0] * 0.0254)));
-    CHECK(!(got.y < static_cast<float>(wanted[v][1] * 0.0254) || got.y > static_cast<float>(wanted[v][1] * 0.0254)));
-    CHECK(!(got.z < static_cast<float>(wanted[v][2] * 0.0254) || got.z > static_cast<float>(wanted[v][2] * 0.0254)));
+    CHECK(!(got.x < static_cast<float>(wanted[v][0] * 0.0254) ||
+            got.x > static_cast<float>(wanted[v][0] * 0.0254)));
+    CHECK(!(got.y < static_cast<float>(wanted[v][1] * 0.0254) ||
+            got.y > static_cast<float>(wanted[v][1] * 0.0254)));
+    CHECK(!(got.z < static_cast<float>(wanted[v][2] * 0.0254) ||
+            got.z > static_cast<float>(wanted[v][2] * 0.0254)));
   }
 }
 
@@ -84,7 +94,8 @@ TEST(ObjProblemsAreNamedWithTheirLine) {
   CHECK(refuses("", "a.obj", "", "empty"));
   CHECK(refuses("# nothing\n", "a.obj", "", "no vertices"));
   CHECK(refuses("v 0 0 0\nv 1 0 0\n", "a.obj", "", "no faces"));
-  CHECK(refuses("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "a.obj", ":4:", "index 9 is out of range: the file has 3"));
+  CHECK(refuses("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "a.obj",
+                ":4:", "index 9 is out of range: the file has 3"));
   CHECK(refuses("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "a.obj", ":4:", "index -4 reaches back"));
   CHECK(refuses("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "a.obj", ":4:", "OBJ counts from 1"));
   CHECK(refuses("v 0 0 0\nv 1 0 0\nf 1 2\n", "a.obj", ":3:", "2 corners"));
@@ -114,10 +125,13 @@ TEST(OffProblemsAreNamedWithTheirLine) {
   CHECK(refuses(cube_off("OFF\n9 6 12\n"), "a.off", ":16: ", "the file ends here"));
   CHECK(refuses(cube_off("OFF\n8 7 12\n"), "a.off", "face 6 (from 0)", "the file ends here"));
   CHECK(refuses(cube_off("OFF\n8 5 12\n"), "a.off", ":16:", "counts at the top are too small"));
-  CHECK(refuses(replaced(cube_off(), "\n1 -1 -1", "\n1 x -1"), "a.off", ":4: vertex 1", "`x` is not a number"));
+  CHECK(refuses(replaced(cube_off(), "\n1 -1 -1", "\n1 x -1"), "a.off", ":4: vertex 1",
+                "`x` is not a number"));
   CHECK(refuses(replaced(cube_off(), "4 0 2 3 1", "2 0 2"), "a.off", ":11: face 0", "2 corners"));
-  CHECK(refuses(replaced(cube_off(), "4 0 2 3 1", "4 0 2 8 1"), "a.off", ":11: face 0", "index 8 is out of range"));
-  CHECK(refuses(replaced(cube_off(), "4 0 2 3 1", "4 0 2 -3 1"), "a.off", ":11: face 0", "out of range"));
+  CHECK(refuses(replaced(cube_off(), "4 0 2 3 1", "4 0 2 8 1"), "a.off", ":11: face 0",
+                "index 8 is out of range"));
+  CHECK(refuses(replaced(cube_off(), "4 0 2 3 1", "4 0 2 -3 1"), "a.off", ":11: face 0",
+                "out of range"));
   CHECK(refuses(cube_ply_ascii(), "a.off", "", "a PLY file by its content"));
 }
 
@@ -126,17 +140,24 @@ TEST(PlyProblemsAreNamedWithTheirPlace) {
   CHECK(refuses(cube_obj(), "a.ply", "", "does not begin with the line `ply`"));
   CHECK(refuses(ascii.substr(0, ascii.find("property")), "a.ply", ":4:", "no `end_header`"));
   CHECK(refuses(replaced(ascii, "ascii 1.0", "ebcdic 1.0"), "a.ply", ":2:", "no format of PLY"));
-  CHECK(refuses(replaced(ascii, "property double x", "property quad x"), "a.ply", ":5:", "`quad` is no type"));
+  CHECK(refuses(replaced(ascii, "property double x", "property quad x"), "a.ply",
+                ":5:", "`quad` is no type"));
   CHECK(refuses(replaced(ascii, "float z", "float w"), "a.ply", "", "no properties x, y and z"));
-  CHECK(refuses(replaced(ascii, "int vertex_indices", "float vertex_indices"), "a.ply", "", "not whole numbers"));
-  CHECK(refuses(replaced(ascii, "int vertex_indices", "int strip"), "a.ply", "", "no list vertex_indices"));
-  CHECK(refuses(replaced(ascii, "4 0 2 3 1", "4 0 2 9 1"), "a.ply", ":25: face 0", "index 9 is out of range"));
+  CHECK(refuses(replaced(ascii, "int vertex_indices", "float vertex_indices"), "a.ply", "",
+                "not whole numbers"));
+  CHECK(refuses(replaced(ascii, "int vertex_indices", "int strip"), "a.ply", "",
+                "no list vertex_indices"));
+  CHECK(refuses(replaced(ascii, "4 0 2 3 1", "4 0 2 9 1"), "a.ply", ":25: face 0",
+                "index 9 is out of range"));
   CHECK(refuses(replaced(ascii, "4 0 2 3 1", "2 0 2"), "a.ply", ":25: face 0", "2 corners"));
-  CHECK(refuses(replaced(ascii, "2 0.5 0.25", "2 0.5 0.25 9"), "a.ply", ":25: face 0", "more values"));
+  CHECK(refuses(replaced(ascii, "2 0.5 0.25", "2 0.5 0.25 9"), "a.ply", ":25: face 0",
+                "more values"));
   CHECK(refuses(replaced(ascii, "element face", "element faces"), "a.ply", "", "no element face"));
-  CHECK(refuses(replaced(ascii, "element face 6", "element face 7"), "a.ply", "face 6", "cut short"));
+  CHECK(
+      refuses(replaced(ascii, "element face 6", "element face 7"), "a.ply", "face 6", "cut short"));
   CHECK(refuses(binary.substr(0, binary.size() - 1), "a.ply", "vertex 7 (from 0)", "cut short"));
-  CHECK(refuses(replaced(binary, "element face 6", "element face 99999999999"), "a.ply", "byte ", "face"));
+  CHECK(refuses(replaced(binary, "element face 6", "element face 99999999999"), "a.ply", "byte ",
+                "face"));
   std::string nan = binary;
   nan.replace(nan.size() - 8, 8, std::string(8, '\xFF'));
   CHECK(refuses(nan, "a.ply", "vertex 7", "not finite"));

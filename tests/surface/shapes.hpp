@@ -22,18 +22,31 @@ inline Surface numbered(std::vector<math::Vec3> vertices, std::vector<Face> face
 }
 
 inline Surface tetrahedron() {
-  return numbered({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  return numbered({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                  {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
 }
 
-/// A cube of side 2 * half about `centre`, outward; quads 0123 from below, then as the file formats below have them.
+/// A cube of side 2 * half about `centre`, outward; quads 0123 from below, then as the file formats
+/// below have them.
 inline Surface cube(math::Vec3 centre = {0, 0, 0}, float half = 1) {
   std::vector<math::Vec3> vertices;
   for (int k = 0; k < 8; ++k) {
-    vertices.push_back({centre.x + ((k & 1) != 0 ? half : -half), centre.y + ((k & 2) != 0 ? half : -half),
+    vertices.push_back({centre.x + ((k & 1) != 0 ? half : -half),
+                        centre.y + ((k & 2) != 0 ? half : -half),
                         centre.z + ((k & 4) != 0 ? half : -half)});
   }
-  return numbered(vertices, {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                             {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}});
+  return numbered(vertices, {{0, 2, 3},
+                             {0, 3, 1},
+                             {4, 5, 7},
+                             {4, 7, 6},
+                             {0, 1, 5},
+                             {0, 5, 4},
+                             {2, 6, 7},
+                             {2, 7, 3},
+                             {0, 4, 6},
+                             {0, 6, 2},
+                             {1, 3, 7},
+                             {1, 7, 5}});
 }
 
 inline void append(Surface& to, const Surface& more) {
@@ -76,7 +89,8 @@ inline double winding_by_angles(const Surface& surface, Point p) {
     const Point a = to_point(surface.vertices[f[0]]) - p, b = to_point(surface.vertices[f[1]]) - p,
                 c = to_point(surface.vertices[f[2]]) - p;
     const double la = length(a), lb = length(b), lc = length(c);
-    sum += 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    sum += 2 * std::atan2(dot(a, cross(b, c)),
+                          la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
   return sum / (4 * 3.14159265358979323846);
 }
@@ -89,9 +103,12 @@ inline bool same(const Surface& a, const Surface& b) {
          std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), equal);
 }
 
-inline bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+inline bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != text.npos;
+}
 inline bool says(const std::vector<std::string>& lines, const std::string& part) {
-  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return says(line, part); });
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const std::string& line) { return says(line, part); });
 }
 
 /// The folder of real models, or nullptr with a line that says what was not run.

@@ -24,7 +24,8 @@ void longest_edge_first(Surface& surface) {
   }
 }
 
-mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& tree, bool is_signed) {
+mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& tree,
+                     bool is_signed) {
   mesh::Head head{};
   head.vertex_count = static_cast<uint32_t>(surface.vertices.size());
   head.triangle_count = static_cast<uint32_t>(surface.faces.size());
@@ -53,11 +54,13 @@ template <class Index>
 std::vector<mesh::Triangle<Index>> make_triangles(const Surface& surface) {
   std::vector<mesh::Triangle<Index>> triangles;
   for (const Face& f : surface.faces)
-    triangles.push_back({{static_cast<Index>(f[0]), static_cast<Index>(f[1]), static_cast<Index>(f[2])}});
+    triangles.push_back(
+        {{static_cast<Index>(f[0]), static_cast<Index>(f[1]), static_cast<Index>(f[2])}});
   return triangles;
 }
 
-// Faces in the order of the leaves, vertices in the order in which the faces first use them: what is near lies near.
+// Faces in the order of the leaves, vertices in the order in which the faces first use them: what
+// is near lies near.
 Surface in_leaf_order(const Surface& surface, const std::vector<uint32_t>& order) {
   constexpr uint32_t kUnseen = UINT32_MAX;
   Surface sorted;
@@ -79,26 +82,29 @@ Surface in_leaf_order(const Surface& surface, const std::vector<uint32_t>& order
 
 std::string proof_failure(const core::Verdict& verdict) {
   if (verdict.rule == 128 || verdict.rule == 129)
-    return "a triangle is too thin for float32; remove slivers with sides shorter than 1e-15 m or heights below 1e-10 of "
-           "their length (rule R" + std::to_string(verdict.rule) + ")";
-  return "the baked mesh fails its own proof, rule R" + std::to_string(verdict.rule) + " at element " +
-         std::to_string(verdict.element) + "; please report this model";
+    return "a triangle is too thin for float32; remove slivers with sides shorter than 1e-15 m or "
+           "heights below 1e-10 of "
+           "their length (rule R" +
+           std::to_string(verdict.rule) + ")";
+  return "the baked mesh fails its own proof, rule R" + std::to_string(verdict.rule) +
+         " at element " + std::to_string(verdict.element) + "; please report this model";
 }
 
 }  // namespace
 
-std::vector<Section> bake_mesh(const Surface& input, const std::string& name, const MeshOptions& options,
-                               MeshReport& report) {
+std::vector<Section> bake_mesh(const Surface& input, const std::string& name,
+                               const MeshOptions& options, MeshReport& report) {
   if (input.faces.size() > mesh::kMaxTriangles) {
-    report.problem = std::to_string(input.faces.size()) + " triangles; at most " + std::to_string(mesh::kMaxTriangles) +
-                     " fit an asset: simplify the model";
+    report.problem = std::to_string(input.faces.size()) + " triangles; at most " +
+                     std::to_string(mesh::kMaxTriangles) + " fit an asset: simplify the model";
     return {};
   }
   const Grid grid = make_grid(input);
   const MeshTree tree = build_mesh_tree(input, grid, options.leaf_triangles);
   if (tree.depth > mesh::kMaxDepth) {
     report.problem = "the tree is " + std::to_string(tree.depth) + " levels deep, more than the " +
-                     std::to_string(mesh::kMaxDepth) + " that a query can hold: many triangles lie on one spot";
+                     std::to_string(mesh::kMaxDepth) +
+                     " that a query can hold: many triangles lie on one spot";
     return {};
   }
   Surface surface = in_leaf_order(input, tree.order);
@@ -111,9 +117,11 @@ std::vector<Section> bake_mesh(const Surface& input, const std::string& name, co
   sections.push_back(make_section(mesh::kHeadSection, name, &head, 1));
   sections.push_back(make_section(mesh::kVerticesSection, name, vertices));
   if (vertices.size() <= 65536)
-    sections.push_back(make_section(mesh::kTriangles16Section, name, make_triangles<uint16_t>(surface)));
+    sections.push_back(
+        make_section(mesh::kTriangles16Section, name, make_triangles<uint16_t>(surface)));
   else
-    sections.push_back(make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
+    sections.push_back(
+        make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
   sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
   if (options.is_signed) {
@@ -142,7 +150,8 @@ std::vector<Section> bake_mesh(const Surface& input, const std::string& name, co
 mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::string& name) {
   const auto find = [&](uint32_t type) {
     for (const Section& s : sections)
-      if (s.type == type && s.name == name) return core::Bytes(s.bytes.data(), static_cast<uint32_t>(s.bytes.size()));
+      if (s.type == type && s.name == name)
+        return core::Bytes(s.bytes.data(), static_cast<uint32_t>(s.bytes.size()));
     return core::Bytes();
   };
   mesh::Sections found;

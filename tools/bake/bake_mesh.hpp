@@ -16,14 +16,16 @@ struct MeshOptions {
 
 struct MeshReport {
   uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0, bytes = 0;
-  double smallest_vertex_margin_rad = 0;  // by how much the worst stored vertex normal may still turn
+  double smallest_vertex_margin_rad =
+      0;  // by how much the worst stored vertex normal may still turn
   double smallest_edge_margin_rad = 0;
   std::string problem;  // empty: baked and proven; else what, where and how to mend
 };
 
-/// Builds tree, pseudonormals and arrays of a checked surface and proves them with the firmware's own open().
-std::vector<Section> bake_mesh(const Surface& surface, const std::string& name, const MeshOptions& options,
-                               MeshReport& report);
+/// Builds tree, pseudonormals and arrays of a checked surface and proves them with the firmware's
+/// own open().
+std::vector<Section> bake_mesh(const Surface& surface, const std::string& name,
+                               const MeshOptions& options, MeshReport& report);
 
 /// The baked sections as the firmware sees them (`sections` must stay alive and 4-byte aligned).
 mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::string& name);

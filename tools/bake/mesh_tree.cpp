@@ -34,11 +34,14 @@ std::vector<Box> face_boxes(const Surface& surface) {
   return boxes;
 }
 
-// Grid coordinates of a box, rounded outward; 1/128 cell more than the rounding that the firmware's check allows.
+// Grid coordinates of a box, rounded outward; 1/128 cell more than the rounding that the firmware's
+// check allows.
 void store_box(const Box& box, const Grid& grid, uint32_t* words) {
   for (size_t k = 0; k < 3; ++k) {
-    const double low = std::floor((box.low[k] - double{grid.low_m[k]}) / double{grid.cell_m} - 0x1p-7);
-    const double high = std::ceil((box.high[k] - double{grid.low_m[k]}) / double{grid.cell_m} + 0x1p-7);
+    const double low =
+        std::floor((box.low[k] - double{grid.low_m[k]}) / double{grid.cell_m} - 0x1p-7);
+    const double high =
+        std::ceil((box.high[k] - double{grid.low_m[k]}) / double{grid.cell_m} + 0x1p-7);
     words[k] = static_cast<uint32_t>(low) | ((mesh::kGridMax - static_cast<uint32_t>(high)) << 16);
   }
 }
@@ -62,12 +65,14 @@ class Builder {
       const uint32_t index = static_cast<uint32_t>(tree_.nodes.size());
       tree_.nodes.push_back({});
       ranges_.push_back({});
-      tree_.parents.push_back(task.slot == 2 ? 0 : mesh::make_parent(task.parent, task.slot, task.depth));
+      tree_.parents.push_back(
+          task.slot == 2 ? 0 : mesh::make_parent(task.parent, task.slot, task.depth));
       if (task.slot != 2) tree_.nodes[task.parent].child[task.slot] = index;
       tree_.depth = std::max(tree_.depth, task.depth + 1);
       const uint32_t middle = split(task.begin, task.end);
       const uint32_t ends[3] = {task.begin, middle, task.end};
-      for (uint32_t slot = 2; slot-- > 0;) {  // the first child is taken off the stack first: depth-first numbering
+      for (uint32_t slot = 2;
+           slot-- > 0;) {  // the first child is taken off the stack first: depth-first numbering
         store_box(box_of(ends[slot], ends[slot + 1]), grid_, tree_.nodes[index].box[slot]);
         if (ends[slot + 1] - ends[slot] <= leaf_faces_)
           ranges_[index][slot] = {ends[slot], ends[slot + 1]};
@@ -91,7 +96,9 @@ class Builder {
     return box;
   }
 
-  double centre(uint32_t face, size_t axis) const { return boxes_[face].low[axis] + boxes_[face].high[axis]; }
+  double centre(uint32_t face, size_t axis) const {
+    return boxes_[face].low[axis] + boxes_[face].high[axis];
+  }
 
   void sort_range(uint32_t begin, uint32_t end, size_t axis) {
     std::sort(faces_.begin() + begin, faces_.begin() + end, [&](uint32_t a, uint32_t b) {
@@ -117,7 +124,8 @@ class Builder {
       box = {};
       for (uint32_t i = end - 1; i > begin; --i) {
         box.add(boxes_[faces_[i]]);
-        const double cost = area_before[i - 1 - begin] * blocks(i - begin) + box.half_area() * blocks(end - i);
+        const double cost =
+            area_before[i - 1 - begin] * blocks(i - begin) + box.half_area() * blocks(end - i);
         if (cost < best_cost) best_cost = cost, best_axis = axis, best_middle = i;
       }
     }
@@ -139,7 +147,8 @@ class Builder {
         std::sort(leaf.begin(), leaf.end());
         tree_.order.insert(tree_.order.end(), leaf.begin(), leaf.end());
       }
-    // Inner boxes are the unions of the stored boxes below them, so that the firmware's check holds to the bit.
+    // Inner boxes are the unions of the stored boxes below them, so that the firmware's check holds
+    // to the bit.
     for (size_t n = tree_.nodes.size(); n-- > 1;) {
       const mesh::Node& node = tree_.nodes[n];
       const uint32_t word = tree_.parents[n];
@@ -169,7 +178,8 @@ Grid make_grid(const Surface& surface) {
   grid.cell_m = 0x1p-60f;
   while (double{grid.cell_m} * (mesh::kGridMax - 8) < 1.25 * extent) grid.cell_m *= 2;
   for (size_t k = 0; k < 3; ++k)
-    grid.low_m[k] = static_cast<float>((box.low[k] + box.high[k] - double{grid.cell_m} * mesh::kGridMax) / 2);
+    grid.low_m[k] =
+        static_cast<float>((box.low[k] + box.high[k] - double{grid.cell_m} * mesh::kGridMax) / 2);
   return grid;
 }
 

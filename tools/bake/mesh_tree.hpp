@@ -8,7 +8,8 @@
 
 namespace firmtouch::tools {
 
-/// The grid on which boxes are stored: covers at least 1.25 extents about the centre of the bounding box.
+/// The grid on which boxes are stored: covers at least 1.25 extents about the centre of the
+/// bounding box.
 struct Grid {
   std::array<float, 3> low_m{};
   float cell_m = 0;
@@ -16,8 +17,8 @@ struct Grid {
 
 Grid make_grid(const Surface& surface);
 
-/// A flattened tree over the faces of a surface. Nodes in depth-first order, parents before children; `order` lists the
-/// faces as the leaves hold them, in the order of their nodes.
+/// A flattened tree over the faces of a surface. Nodes in depth-first order, parents before
+/// children; `order` lists the faces as the leaves hold them, in the order of their nodes.
 struct MeshTree {
   std::vector<mesh::Node> nodes;
   std::vector<uint32_t> parents;
@@ -25,8 +26,8 @@ struct MeshTree {
   uint32_t depth = 0;  // levels of nodes
 };
 
-/// Surface area heuristic by a full sweep over the face centres of each axis, ties by face index: the same tree on every
-/// machine. Cost: O(n log^2 n), about 1 s for 100,000 faces.
+/// Surface area heuristic by a full sweep over the face centres of each axis, ties by face index:
+/// the same tree on every machine. Cost: O(n log^2 n), about 1 s for 100,000 faces.
 MeshTree build_mesh_tree(const Surface& surface, const Grid& grid, uint32_t leaf_faces);
 
 }  // namespace firmtouch::tools

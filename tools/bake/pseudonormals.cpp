@@ -15,16 +15,21 @@ D3 operator+(D3 a, D3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 D3 operator-(D3 a, D3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 D3 operator*(D3 a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 double dot(D3 a, D3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-D3 cross(D3 a, D3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+D3 cross(D3 a, D3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 double length(D3 a) { return std::sqrt(dot(a, a)); }
 D3 unit(D3 a) {
   const double l = length(a);
   return l > 0 ? a * (1 / l) : D3{};
 }
 D3 wide(math::Vec3 v) { return {double{v.x}, double{v.y}, double{v.z}}; }
-math::Vec3 narrow(D3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+math::Vec3 narrow(D3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
-// Our own, so that every machine bakes the same bytes. Halved three times to below 0.2, then its series: 1e-15.
+// Our own, so that every machine bakes the same bytes. Halved three times to below 0.2, then its
+// series: 1e-15.
 double arc_tangent(double x) {
   int halvings = 0;
   for (; halvings < 3; ++halvings) x = x / (1 + std::sqrt(1 + x * x));
@@ -35,7 +40,9 @@ double arc_tangent(double x) {
 double arc_sine(double s) { return 2 * arc_tangent(s / (1 + std::sqrt(std::max(0.0, 1 - s * s)))); }
 
 // Of two unit vectors, exact near 0 and near pi.
-double angle_between(D3 a, D3 b) { return 2 * arc_tangent(length(a - b) / std::max(length(a + b), 1e-300)); }
+double angle_between(D3 a, D3 b) {
+  return 2 * arc_tangent(length(a - b) / std::max(length(a + b), 1e-300));
+}
 
 uint32_t encode_vertex_normal(D3 n) {
   const double sum = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
@@ -45,7 +52,9 @@ uint32_t encode_vertex_normal(D3 n) {
     v = (1 - std::fabs(u)) * (v < 0 ? -1 : 1);
     u = folded;
   }
-  const auto code = [](double x) { return static_cast<uint32_t>(static_cast<int32_t>(std::floor(x * 32767 + 0.5)) + 32767); };
+  const auto code = [](double x) {
+    return static_cast<uint32_t>(static_cast<int32_t>(std::floor(x * 32767 + 0.5)) + 32767);
+  };
   return code(u) | code(v) << 16;
 }
 
@@ -62,7 +71,8 @@ std::vector<std::array<uint32_t, 3>> neighbours(const Surface& surface) {
       edges.push_back({std::min(a, b), std::max(a, b), f, k});
     }
   std::sort(edges.begin(), edges.end(), [](const Halfedge& a, const Halfedge& b) {
-    return std::array<uint32_t, 3>{a.from, a.to, a.face} < std::array<uint32_t, 3>{b.from, b.to, b.face};
+    return std::array<uint32_t, 3>{a.from, a.to, a.face} <
+           std::array<uint32_t, 3>{b.from, b.to, b.face};
   });
   std::vector<std::array<uint32_t, 3>> others(surface.faces.size());
   for (size_t i = 0; i + 1 < edges.size(); i += 2) {
@@ -72,8 +82,9 @@ std::vector<std::array<uint32_t, 3>> neighbours(const Surface& surface) {
   return others;
 }
 
-// Smallest angle between the plane across `stored` and the directions r from which the vertex is the closest point: those
-// with r . e <= 0 for every edge e. The least is reached on a ray of that cone, across two of the edges.
+// Smallest angle between the plane across `stored` and the directions r from which the vertex is
+// the closest point: those with r . e <= 0 for every edge e. The least is reached on a ray of that
+// cone, across two of the edges.
 double vertex_margin(const std::vector<D3>& edges, D3 exact, D3 stored) {
   double least = 2;
   for (size_t i = 0; i < edges.size(); ++i)
@@ -97,11 +108,14 @@ Pseudonormals make_pseudonormals(const Surface& surface) {
   const size_t faces = surface.faces.size(), vertices = surface.vertices.size();
   std::vector<D3> normals(faces), sums(vertices);
   std::vector<std::vector<D3>> stars(vertices);  // unit edges that leave each vertex
-  const auto corner = [&](size_t f, size_t k) { return wide(surface.vertices[surface.faces[f][k % 3]]); };
+  const auto corner = [&](size_t f, size_t k) {
+    return wide(surface.vertices[surface.faces[f][k % 3]]);
+  };
   for (size_t f = 0; f < faces; ++f) {
     normals[f] = unit(cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0)));
     for (size_t k = 0; k < 3; ++k) {
-      const D3 next = unit(corner(f, k + 1) - corner(f, k)), last = unit(corner(f, k + 2) - corner(f, k));
+      const D3 next = unit(corner(f, k + 1) - corner(f, k)),
+               last = unit(corner(f, k + 2) - corner(f, k));
       D3& sum = sums[surface.faces[f][k]];
       sum = sum + normals[f] * angle_between(next, last);
       stars[surface.faces[f][k]].push_back(next);
@@ -115,7 +129,8 @@ Pseudonormals make_pseudonormals(const Surface& surface) {
     const D3 exact = length(sums[v]) > 0 ? unit(sums[v]) : D3{0, 0, 1};
     result.vertices.push_back(encode_vertex_normal(exact));
     if (stars[v].size() > kLargestStar) continue;
-    const double margin = vertex_margin(stars[v], exact, wide(mesh::decode_vertex_normal(result.vertices[v])));
+    const double margin =
+        vertex_margin(stars[v], exact, wide(mesh::decode_vertex_normal(result.vertices[v])));
     if (margin < least_vertex) least_vertex = margin, result.worst_vertex = v;
   }
 
@@ -129,7 +144,8 @@ Pseudonormals make_pseudonormals(const Surface& surface) {
       const double sum = std::fabs(along) + std::fabs(out);
       const double s = sum > 0 ? out / sum : 1;  // a fold of no thickness: straight out
       folds.fold[k] = static_cast<int16_t>(std::floor(s * 32767 + 0.5));
-      const D3 stored = wide(mesh::decode_edge_normal(narrow(normals[f]), narrow(edge), folds.fold[k]));
+      const D3 stored =
+          wide(mesh::decode_edge_normal(narrow(normals[f]), narrow(edge), folds.fold[k]));
       const double margin = std::min(dot(stored, normals[f]), dot(stored, normals[others[f][k]]));
       if (margin < least_edge) least_edge = margin, result.worst_face = f;
     }

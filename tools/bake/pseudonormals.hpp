@@ -8,8 +8,8 @@
 
 namespace firmtouch::tools {
 
-/// The stored pseudonormals of a closed surface, and what their encoding leaves of the margin by which each may turn
-/// before it tells a wrong side (Baerentzen & Aanaes 2005, equation 15).
+/// The stored pseudonormals of a closed surface, and what their encoding leaves of the margin by
+/// which each may turn before it tells a wrong side (Baerentzen & Aanaes 2005, equation 15).
 struct Pseudonormals {
   std::vector<uint32_t> vertices;
   std::vector<mesh::EdgeFolds> edges;  // of the faces, in their order

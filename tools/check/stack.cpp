@@ -15,12 +15,13 @@ namespace {
 const char kHelp[] =
     "stack [OPTION]... FILE.ci...\n"
     "Joins call graphs of gcc -fcallgraph-info=su,da; prints the worst path of each root with its bytes of stack.\n"
-    "Functions are named as in the source (firmtouch::mesh::closest_point) or as the linker names them.\n"
+    "Functions are named as in the source (firmtouch::mesh::closest_point) or as the linker names them; there a\n"
+    "* at the end stands for any rest (_GLOBAL__sub_I_* are the constructors of a file's variables).\n"
     "  --root NAME            a function that something else than a call begins: main, reset. Default: no path is\n"
     "                         printed, all functions are checked\n"
     "  --interrupt NAME       a root that may come on top of the others; its exception frame is added (108 bytes)\n"
     "  --calls CALLER=CALLEE  what the indirect calls of CALLER reach (again for several)\n"
-    "  --size NAME=BYTES      stack of a function without a graph (libgcc, assembly); NAME may end in *\n"
+    "  --size NAME=BYTES      stack of a function without a graph (libgcc, assembly)\n"
     "  --limit BYTES          the stack there is: exit 1 where the sum of all roots is more\n"
     "Exit 1: recursion, a frame of unknown size (alloca, variable-length array), an indirect call without --calls,\n"
     "a function without a size, more than --limit. Exit 2: usage. Exit 3: a file that cannot be read.\n";
@@ -79,7 +80,9 @@ bool read(Graph& graph, const char* path) {
   for (std::string line; std::getline(file, line);) {
     if (line.compare(0, 5, "node:") == 0) take_node(graph, line);
     if (line.compare(0, 5, "edge:") == 0) {
-      graph[quoted(line, "sourcename")].calls.insert(quoted(line, "targetname"));
+      const std::string callee = quoted(line, "targetname");
+      graph[callee];
+      graph[quoted(line, "sourcename")].calls.insert(callee);
     }
   }
   return true;
@@ -88,6 +91,10 @@ bool read(Graph& graph, const char* path) {
 // By the linker's name, or by the source's up to its parameters.
 bool is_named(const std::string& title, const Function& function, const std::string& name) {
   if (title == name) return true;
+  if (!name.empty() && name.back() == '*') {  // a local function's title is `file:name`
+    const std::string linked = title.substr(title.rfind(':') + 1);
+    return linked.compare(0, name.size() - 1, name, 0, name.size() - 1) == 0;
+  }
   const std::string& text = function.source_name;
   for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
     const size_t end = at + name.size();
@@ -236,6 +243,40 @@ void bind_calls(Graph& graph, const Options& options, Problems& problems) {
   }
 }
 
+// The compiler calls a constructor or destructor by its "complete" name, C1 or D1, and where both are the same code
+// defines only the "base" one, C2 or D2 (Itanium C++ ABI, 5.1.4.3).
+void bind_constructors(Graph& graph) {
+  for (auto& [title, function] : graph) {
+    if (function.is_defined || title == kIndirect) continue;
+    for (const char* kind : {"C1E", "D1E"}) {
+      const size_t at = title.rfind(kind);
+      if (at == std::string::npos) continue;
+      std::string base = title;
+      base[at + 1] = '2';
+      const auto found = graph.find(base);
+      if (found == graph.end() || !found->second.is_defined) continue;
+      function.is_defined = true;
+      function.own_bytes = 0;
+      function.calls = {base};
+    }
+  }
+}
+
+// A weak function is titled `file:name` where it is defined and `name` where it is called.
+void bind_weak(Graph& graph) {
+  std::map<std::string, std::set<std::string>> definitions;
+  for (const auto& [title, function] : graph) {
+    const size_t colon = title.rfind(':');
+    if (function.is_defined && colon != std::string::npos) definitions[title.substr(colon + 1)].insert(title);
+  }
+  for (auto& [title, function] : graph) {
+    const auto found = definitions.find(title);
+    if (function.is_defined || found == definitions.end()) continue;
+    function.is_defined = true;
+    function.calls = found->second;
+  }
+}
+
 void bind_sizes(Graph& graph, const Options& options) {
   for (auto& [title, function] : graph) {
     if (function.is_defined) continue;
@@ -291,6 +332,8 @@ int main(int argc, char** argv) {
   }
   Problems problems;
   graph[kIndirect];
+  bind_constructors(graph);
+  bind_weak(graph);
   bind_calls(graph, options, problems);
   bind_sizes(graph, options);
   check_functions(graph, problems);

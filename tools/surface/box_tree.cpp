@@ -10,8 +10,10 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr Box kEmpty{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
 void grow(Box& box, const Box& by) {
-  box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y), std::min(box.low.z, by.low.z)};
-  box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y), std::max(box.high.z, by.high.z)};
+  box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y),
+             std::min(box.low.z, by.low.z)};
+  box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y),
+              std::max(box.high.z, by.high.z)};
 }
 
 bool overlap(const Box& a, const Box& b) {
@@ -35,7 +37,8 @@ uint64_t cell(double value, double low, double high) {
 
 uint64_t morton(const Box& box, const Box& all) {
   const Point middle = (box.low + box.high) * 0.5;
-  return spread(cell(middle.x, all.low.x, all.high.x)) | spread(cell(middle.y, all.low.y, all.high.y)) << 1 |
+  return spread(cell(middle.x, all.low.x, all.high.x)) |
+         spread(cell(middle.y, all.low.y, all.high.y)) << 1 |
          spread(cell(middle.z, all.low.z, all.high.z)) << 2;
 }
 

@@ -10,7 +10,8 @@ struct Box {
   Point low, high;
 };
 
-/// Boxes of many items, found by overlap. For the offline checks: a complete binary tree over the items in Morton order.
+/// Boxes of many items, found by overlap. For the offline checks: a complete binary tree over the
+/// items in Morton order.
 /// Bounds: building O(n log n), no recursion.
 class BoxTree {
  public:
@@ -24,7 +25,8 @@ class BoxTree {
 
   std::vector<Box> items_;        // in leaf order
   std::vector<uint32_t> number_;  // of each, as it was given
-  std::vector<Box> nodes_;        // children of i: 2 i + 1 and 2 i + 2; the last leaves_ of them are leaves
+  std::vector<Box>
+      nodes_;  // children of i: 2 i + 1 and 2 i + 2; the last leaves_ of them are leaves
   uint32_t leaves_ = 1;
 };
 

@@ -11,8 +11,8 @@ namespace {
 
 std::string coordinates(const math::Vec3& v) {
   char text[80];
-  std::snprintf(text, sizeof text, " (%.6g, %.6g, %.6g m)", static_cast<double>(v.x), static_cast<double>(v.y),
-                static_cast<double>(v.z));
+  std::snprintf(text, sizeof text, " (%.6g, %.6g, %.6g m)", static_cast<double>(v.x),
+                static_cast<double>(v.y), static_cast<double>(v.z));
   return text;
 }
 
@@ -31,7 +31,8 @@ std::string named_edge(const Surface& surface, uint32_t a, uint32_t b) {
 }
 
 std::string named_face(const Surface& surface, uint32_t face) {
-  return "face " + std::to_string(surface.source[face]) + ", at " + named_vertex(surface, surface.faces[face][0]);
+  return "face " + std::to_string(surface.source[face]) + ", at " +
+         named_vertex(surface, surface.faces[face][0]);
 }
 
 void drop_faces(Surface& surface, const std::vector<bool>& dropped) {

@@ -17,7 +17,8 @@ PositionKey key_of(const math::Vec3& v) {
   return key;
 }
 
-// Of each vertex: the lowest vertex on the border of the surface at the same place; other vertices stand for themselves.
+// Of each vertex: the lowest vertex on the border of the surface at the same place; other vertices
+// stand for themselves.
 std::vector<uint32_t> border_twins(const Surface& surface, const Edges& edges) {
   std::vector<bool> on_border(surface.vertices.size(), false);
   for (const Edges::Edge& edge : edges.all()) {
@@ -36,7 +37,8 @@ std::vector<uint32_t> border_twins(const Surface& surface, const Edges& edges) {
   return twin;
 }
 
-// Where two bodies only touch at a welded vertex, each gets a vertex of its own again: one of the group's own.
+// Where two bodies only touch at a welded vertex, each gets a vertex of its own again: one of the
+// group's own.
 void part_touching_fans(std::vector<Face>& faces, const std::vector<uint32_t>& twin) {
   const Edges edges(faces);
   std::vector<bool> parted(twin.size(), false);
@@ -108,9 +110,11 @@ void weld_torn_vertices(Surface& surface, CheckReport& report) {
     if (twin[v] != v && count++ == 0) first = v;
   }
   report = std::move(after);
-  report.mended.push_back("welded " + counted(count, "vertex", "vertices") + " to others at the same place, first " +
-                          named_vertex(surface, first) + " to vertex " + std::to_string(twin[first]) + ": that closed " +
-                          std::to_string(open - left) + " of " + counted(open, "open edge", "open edges"));
+  report.mended.push_back("welded " + counted(count, "vertex", "vertices") +
+                          " to others at the same place, first " + named_vertex(surface, first) +
+                          " to vertex " + std::to_string(twin[first]) + ": that closed " +
+                          std::to_string(open - left) + " of " +
+                          counted(open, "open edge", "open edges"));
   surface = std::move(welded);
 }
 
@@ -125,7 +129,8 @@ void drop_duplicate_faces(Surface& surface, CheckReport& report) {
   for (size_t i = 1; i < order.size(); ++i) any = any || order[i].first == order[i - 1].first;
   if (!any) return;
 
-  std::vector<uint32_t> uses(surface.faces.size() * 3, 0);  // of each half-edge: the half-edges of its edge
+  std::vector<uint32_t> uses(surface.faces.size() * 3,
+                             0);  // of each half-edge: the half-edges of its edge
   const Edges edges(surface.faces);
   for (const Edges::Edge& edge : edges.all()) {
     for (uint32_t k = 0; k < edge.count; ++k) uses[edge.half[k]] = edge.count;
@@ -145,7 +150,8 @@ void drop_duplicate_faces(Surface& surface, CheckReport& report) {
       first = std::min(first, order[j].second);
     }
   }
-  report.mended.push_back("dropped " + counted(count, "face that repeats another", "faces that repeat others") +
+  report.mended.push_back("dropped " +
+                          counted(count, "face that repeats another", "faces that repeat others") +
                           ", first " + named_face(surface, first));
   drop_faces(surface, dropped);
 }

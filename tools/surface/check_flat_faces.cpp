@@ -3,15 +3,16 @@
 #include "surface/mending.hpp"
 #include "surface/point.hpp"
 
-// A face without area has no normal, and dropping it would leave a crack. Two cases, after Botsch et al. 2010, "Polygon Mesh
-// Processing", section 8: a needle (two corners at one place) goes by collapsing that edge, a cap (the middle corner on the
-// longest edge) by flipping the longest edge: neither moves the surface.
+// A face without area has no normal, and dropping it would leave a crack. Two cases, after Botsch
+// et al. 2010, "Polygon Mesh Processing", section 8: a needle (two corners at one place) goes by
+// collapsing that edge, a cap (the middle corner on the longest edge) by flipping the longest edge:
+// neither moves the surface.
 
 namespace firmtouch::tools {
 namespace {
 
-// |cross product| over the longest edge squared. Float coordinates give exactly 0 for collinear corners; rounding in double
-// adds less than this.
+// |cross product| over the longest edge squared. Float coordinates give exactly 0 for collinear
+// corners; rounding in double adds less than this.
 constexpr double kFlat = 4e-16;
 
 class FlatFaces {
@@ -58,7 +59,9 @@ class FlatFaces {
   uint32_t flips = 0, collapses = 0;
 
  private:
-  Point at(uint32_t f, uint32_t k) const { return to_point(surface_.vertices[surface_.faces[f][k]]); }
+  Point at(uint32_t f, uint32_t k) const {
+    return to_point(surface_.vertices[surface_.faces[f][k]]);
+  }
 
   bool has(uint32_t f, uint32_t v) const {
     const Face& face = surface_.faces[f];
@@ -79,7 +82,8 @@ class FlatFaces {
   }
 
   bool has_face(uint32_t a, uint32_t b, uint32_t c) const {
-    return std::any_of(around_[a].begin(), around_[a].end(), [&](uint32_t f) { return has(f, b) && has(f, c); });
+    return std::any_of(around_[a].begin(), around_[a].end(),
+                       [&](uint32_t f) { return has(f, b) && has(f, c); });
   }
 
   std::vector<uint32_t> neighbours(uint32_t v) const {
@@ -103,7 +107,8 @@ class FlatFaces {
     const uint32_t g = sides[0] == f ? sides[1] : sides[0];
     uint32_t d = kNone;
     for (uint32_t k = 0; k < 3; ++k) {
-      if (surface_.faces[g][k] == a && surface_.faces[g][(k + 1) % 3] == c) d = surface_.faces[g][(k + 2) % 3];
+      if (surface_.faces[g][k] == a && surface_.faces[g][(k + 1) % 3] == c)
+        d = surface_.faces[g][(k + 2) % 3];
     }
     if (d == kNone || d == b || !faces_with(b, d).empty()) return false;
     surface_.faces[f] = {a, b, d};
@@ -118,15 +123,16 @@ class FlatFaces {
     return true;
   }
 
-  // Vertex `from` goes, its faces take `to`, if the surface stays a closed manifold (the link condition: what both vertices
-  // share are the two faces between them and nothing else).
+  // Vertex `from` goes, its faces take `to`, if the surface stays a closed manifold (the link
+  // condition: what both vertices share are the two faces between them and nothing else).
   bool collapse(uint32_t u, uint32_t v) {
     const uint32_t to = std::min(u, v), from = std::max(u, v);
     const std::vector<uint32_t> between = faces_with(to, from);
     if (between.size() != 2) return false;
     const std::vector<uint32_t> n_to = neighbours(to), n_from = neighbours(from);
     std::vector<uint32_t> shared;
-    std::set_intersection(n_to.begin(), n_to.end(), n_from.begin(), n_from.end(), std::back_inserter(shared));
+    std::set_intersection(n_to.begin(), n_to.end(), n_from.begin(), n_from.end(),
+                          std::back_inserter(shared));
     if (shared.size() != 2) return false;
     // A face across both on either side would leave two faces on the same three corners.
     if (has_face(to, shared[0], shared[1]) && has_face(from, shared[0], shared[1])) return false;
@@ -168,7 +174,8 @@ void remove_flat_faces(Surface& surface, const CheckOptions& options, CheckRepor
     if (flat.is_flat(f)) queue.push_back(f);
   }
   const uint32_t found = static_cast<uint32_t>(queue.size()), first = queue[0];
-  const size_t limit = 16 * queue.size() + 64;  // a flip may make another flat face, but only so often
+  const size_t limit =
+      16 * queue.size() + 64;  // a flip may make another flat face, but only so often
   for (size_t at = 0; at < queue.size(); ++at) {
     const uint32_t f = queue[at];
     if (flat.is_dropped(f) || !flat.is_flat(f)) continue;
@@ -185,16 +192,19 @@ void remove_flat_faces(Surface& surface, const CheckOptions& options, CheckRepor
     if (flat.is_dropped(f) || !flat.is_flat(f)) continue;
     ++still;
     first_still = std::min(first_still, f);
-    if (options.allow_unsigned) flat.drop(f);  // it covers nothing that its neighbours' edges do not
+    if (options.allow_unsigned)
+      flat.drop(f);  // it covers nothing that its neighbours' edges do not
   }
   if (still != 0 && !options.allow_unsigned) {
     report.refused.push_back("has " + counted(still, "face", "faces") +
                              " without area that cannot be removed without a crack, first " +
-                             named_face(before, first_still) + ": remove degenerate faces in a modelling program");
+                             named_face(before, first_still) +
+                             ": remove degenerate faces in a modelling program");
   }
   if (found > still || options.allow_unsigned) {
     report.mended.push_back("removed " + counted(found, "face", "faces") + " without area, first " +
-                            named_face(before, first) + ", by " + counted(flat.flips, "flip", "flips") + " and " +
+                            named_face(before, first) + ", by " +
+                            counted(flat.flips, "flip", "flips") + " and " +
                             counted(flat.collapses, "collapse", "collapses") +
                             (still != 0 ? ", " + std::to_string(still) + " by dropping" : ""));
   }

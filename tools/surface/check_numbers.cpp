@@ -9,8 +9,9 @@ namespace {
 
 constexpr double kSmallestExtent_m = 1e-6, kLargestExtent_m = 1e6;
 
-// Float32 rounds a coordinate by up to 6e-8 of its size. Where that exceeds this share of the mean edge, the edges' directions
-// are off by about as many radians (0.6 degrees) and the shape is no longer the one that was drawn.
+// Float32 rounds a coordinate by up to 6e-8 of its size. Where that exceeds this share of the mean
+// edge, the edges' directions are off by about as many radians (0.6 degrees) and the shape is no
+// longer the one that was drawn.
 constexpr double kRoundingOfEdge = 0.01;
 
 bool is_finite(const math::Vec3& v) { return v.x - v.x <= 0 && v.y - v.y <= 0 && v.z - v.z <= 0; }
@@ -35,14 +36,15 @@ void refuse_bad_numbers(const Surface& surface, CheckReport& report) {
   }
   if (count != 0) {
     report.refused.push_back(counted(count, "vertex has", "vertices have") +
-                             " coordinates that are not finite, first vertex " + std::to_string(first) +
-                             ": mend or remove them");
+                             " coordinates that are not finite, first vertex " +
+                             std::to_string(first) + ": mend or remove them");
   }
   for (size_t f = 0; f < surface.faces.size(); ++f) {
     for (const uint32_t v : surface.faces[f]) {
       if (v < surface.vertices.size()) continue;
-      report.refused.push_back("face " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " +
-                               std::to_string(surface.vertices.size()) + ": its index is out of range");
+      report.refused.push_back("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+                               " of " + std::to_string(surface.vertices.size()) +
+                               ": its index is out of range");
       return;
     }
   }
@@ -61,21 +63,23 @@ void refuse_bad_size(const Surface& surface, CheckReport& report) {
   }
   const double extent_m = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   if (!(extent_m >= kSmallestExtent_m && extent_m <= kLargestExtent_m)) {
-    report.refused.push_back("is " + metres(extent_m) + " large, beyond what is rendered (" + metres(kSmallestExtent_m) +
-                             " to " + metres(kLargestExtent_m) + "): choose another --unit or scale it");
+    report.refused.push_back("is " + metres(extent_m) + " large, beyond what is rendered (" +
+                             metres(kSmallestExtent_m) + " to " + metres(kLargestExtent_m) +
+                             "): choose another --unit or scale it");
     return;
   }
   double edges_m = 0;
   for (const Face& face : surface.faces) {
     for (uint32_t k = 0; k < 3; ++k) {
-      edges_m += length(to_point(surface.vertices[face[k]]) - to_point(surface.vertices[face[(k + 1) % 3]]));
+      edges_m += length(to_point(surface.vertices[face[k]]) -
+                        to_point(surface.vertices[face[(k + 1) % 3]]));
     }
   }
   const double mean_m = edges_m / (3 * static_cast<double>(surface.faces.size()));
   const double reach_m = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});
   if (!(reach_m * 0x1p-24 <= kRoundingOfEdge * mean_m)) {
-    report.refused.push_back("lies " + metres(reach_m) + " from the origin with a size of " + metres(extent_m) +
-                             " and edges of " + metres(mean_m) +
+    report.refused.push_back("lies " + metres(reach_m) + " from the origin with a size of " +
+                             metres(extent_m) + " and edges of " + metres(mean_m) +
                              ": 32-bit coordinates lose its shape there; move it to the origin");
   }
 }
@@ -102,8 +106,8 @@ void drop_unused_vertices(Surface& surface, CheckReport& report) {
     for (uint32_t& v : face) v = to[v];
   }
   if (unused != 0 && was_read) {
-    report.mended.push_back("dropped " + counted(unused, "vertex", "vertices") + " that no face uses, first vertex " +
-                            std::to_string(first));
+    report.mended.push_back("dropped " + counted(unused, "vertex", "vertices") +
+                            " that no face uses, first vertex " + std::to_string(first));
   }
 }
 

@@ -21,33 +21,42 @@ uint32_t count_loops(const Surface& surface, const Edges& edges) {
   return loops;
 }
 
-void find_open_edges(const Surface& surface, const Edges& edges, std::vector<std::string>& defects) {
+void find_open_edges(const Surface& surface, const Edges& edges,
+                     std::vector<std::string>& defects) {
   const uint32_t open = edges.open_count();
   if (open == 0) return;
-  const auto first = std::find_if(edges.all().begin(), edges.all().end(), [](const auto& e) { return e.count == 1; });
+  const auto first = std::find_if(edges.all().begin(), edges.all().end(),
+                                  [](const auto& e) { return e.count == 1; });
   defects.push_back("has " + counted(open, "open edge", "open edges") + " around " +
                     counted(count_loops(surface, edges), "hole", "holes") + ", first " +
                     named_edge(surface, first->low, first->high) + " of face " +
-                    std::to_string(surface.source[first->half[0] / 3]) + ": close the holes in a modelling program");
+                    std::to_string(surface.source[first->half[0] / 3]) +
+                    ": close the holes in a modelling program");
 }
 
-void find_crowded_edges(const Surface& surface, const Edges& edges, std::vector<std::string>& defects) {
+void find_crowded_edges(const Surface& surface, const Edges& edges,
+                        std::vector<std::string>& defects) {
   const uint32_t crowded = edges.crowded_count();
   if (crowded == 0) return;
-  const auto first = std::find_if(edges.all().begin(), edges.all().end(), [](const auto& e) { return e.count > 2; });
+  const auto first = std::find_if(edges.all().begin(), edges.all().end(),
+                                  [](const auto& e) { return e.count > 2; });
   std::string faces;
   for (uint32_t k = 0; k < first->count && k < 4; ++k) {
     faces += (k == 0 ? "" : ", ") + std::to_string(surface.source[first->half[k] / 3]);
   }
-  defects.push_back("has " + counted(crowded, "edge that more than two faces share",
-                                     "edges that more than two faces share") +
-                    " (non-manifold), first " + named_edge(surface, first->low, first->high) + " of " +
-                    std::to_string(first->count) + " faces (" + faces + (first->count > 4 ? ", ..." : "") +
+  defects.push_back("has " +
+                    counted(crowded, "edge that more than two faces share",
+                            "edges that more than two faces share") +
+                    " (non-manifold), first " + named_edge(surface, first->low, first->high) +
+                    " of " + std::to_string(first->count) + " faces (" + faces +
+                    (first->count > 4 ? ", ..." : "") +
                     "): separate the sheets or delete inner faces in a modelling program");
 }
 
-// Vertices where more than one fan of faces meets; those on an edge of more than two faces are told of with that edge.
-void find_pinched_vertices(const Surface& surface, const Edges& edges, std::vector<std::string>& defects) {
+// Vertices where more than one fan of faces meets; those on an edge of more than two faces are told
+// of with that edge.
+void find_pinched_vertices(const Surface& surface, const Edges& edges,
+                           std::vector<std::string>& defects) {
   Sets fans = corner_fans(surface.faces, edges.mates());
   std::vector<bool> skipped(surface.vertices.size(), false);
   for (const Edges::Edge& edge : edges.all()) {
@@ -63,7 +72,8 @@ void find_pinched_vertices(const Surface& surface, const Edges& edges, std::vect
     if (pinched++ == 0) first = v;
   }
   if (pinched == 0) return;
-  defects.push_back("has " + counted(pinched, "vertex", "vertices") + " where separate sheets touch (non-manifold), first " +
+  defects.push_back("has " + counted(pinched, "vertex", "vertices") +
+                    " where separate sheets touch (non-manifold), first " +
                     named_vertex(surface, first) + " of " + std::to_string(fan_count[first]) +
                     " sheets: give each sheet its own vertex in a modelling program");
 }

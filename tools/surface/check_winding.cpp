@@ -11,7 +11,8 @@ void turn(Face& face) { std::swap(face[1], face[2]); }
 
 double volume6(const Surface& surface, const Face& face, Point origin) {
   return dot(to_point(surface.vertices[face[0]]) - origin,
-             cross(to_point(surface.vertices[face[1]]) - origin, to_point(surface.vertices[face[2]]) - origin));
+             cross(to_point(surface.vertices[face[1]]) - origin,
+                   to_point(surface.vertices[face[2]]) - origin));
 }
 
 struct Shell {
@@ -21,8 +22,8 @@ struct Shell {
   Box box;
 };
 
-std::vector<Shell> measure(const Surface& surface, const std::vector<uint32_t>& component, uint32_t components,
-                           const std::vector<bool>& turned) {
+std::vector<Shell> measure(const Surface& surface, const std::vector<uint32_t>& component,
+                           uint32_t components, const std::vector<bool>& turned) {
   std::vector<Shell> shells(components);
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {
     Shell& shell = shells[component[f]];
@@ -37,18 +38,19 @@ std::vector<Shell> measure(const Surface& surface, const std::vector<uint32_t>& 
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
       box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
     }
-    shell.volume6 += volume6(surface, surface.faces[f], to_point(surface.vertices[surface.faces[shell.first_face][0]]));
+    shell.volume6 += volume6(surface, surface.faces[f],
+                             to_point(surface.vertices[surface.faces[shell.first_face][0]]));
   }
   return shells;
 }
 
 bool within(const Box& a, const Box& b) {
-  return a.low.x > b.low.x && a.low.y > b.low.y && a.low.z > b.low.z && a.high.x < b.high.x && a.high.y < b.high.y &&
-         a.high.z < b.high.z;
+  return a.low.x > b.low.x && a.low.y > b.low.y && a.low.z > b.low.z && a.high.x < b.high.x &&
+         a.high.y < b.high.y && a.high.z < b.high.z;
 }
 
-// In how many other shells each shell lies with all its vertices: where that is odd it bounds a cavity. Shells that cross
-// one another are not nested.
+// In how many other shells each shell lies with all its vertices: where that is odd it bounds a
+// cavity. Shells that cross one another are not nested.
 std::vector<uint32_t> nesting(const Surface& surface, const std::vector<uint32_t>& component,
                               const std::vector<Shell>& shells) {
   std::vector<std::vector<uint32_t>> vertices(shells.size());
@@ -66,7 +68,9 @@ std::vector<uint32_t> nesting(const Surface& surface, const std::vector<uint32_t
     for (size_t f = 0; f < chosen.size(); ++f) chosen[f] = component[f] == outer;
     const WindingNumber around(surface, chosen);
     for (const uint32_t s : candidates) {
-      const auto is_inside = [&](uint32_t v) { return around.at(to_point(surface.vertices[v])) != 0; };
+      const auto is_inside = [&](uint32_t v) {
+        return around.at(to_point(surface.vertices[v])) != 0;
+      };
       if (std::all_of(vertices[s].begin(), vertices[s].end(), is_inside)) ++depth[s];
     }
   }
@@ -109,7 +113,8 @@ uint32_t wind_alike(Surface& surface, std::vector<uint32_t>& component, std::vec
     }
     if (has_one_side) ++one_sided;
     const bool keep_as_is = has_one_side;
-    const bool turn_the_rest = turns > queue.size() - turns;  // the majority is right, until the volume tells
+    const bool turn_the_rest =
+        turns > queue.size() - turns;  // the majority is right, until the volume tells
     for (const uint32_t f : queue) turned[f] = !keep_as_is && turned[f] != turn_the_rest;
     ++components;
   }
@@ -117,14 +122,16 @@ uint32_t wind_alike(Surface& surface, std::vector<uint32_t>& component, std::vec
     if (turned[f]) turn(surface.faces[f]);
   }
   if (one_sided != 0) {
-    defects.push_back("has " + counted(one_sided, "piece", "pieces") + " with one side alone, as a Moebius band, first near " +
-                      named_face(surface, first) + ": no winding makes an outside; model it as a solid");
+    defects.push_back("has " + counted(one_sided, "piece", "pieces") +
+                      " with one side alone, as a Moebius band, first near " +
+                      named_face(surface, first) +
+                      ": no winding makes an outside; model it as a solid");
   }
   return components;
 }
 
-void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint32_t components, bool is_closed,
-                  std::vector<bool>& turned, CheckReport& report) {
+void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint32_t components,
+                  bool is_closed, std::vector<bool>& turned, CheckReport& report) {
   std::vector<Shell> shells = measure(surface, component, components, turned);
   std::vector<bool> inverted(components, false);
   if (is_closed) {
@@ -135,7 +142,8 @@ void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint
       if (inverted[s]) shells[s].turned = shells[s].faces - shells[s].turned;
     }
   }
-  uint32_t odd_faces = 0, odd_shells = 0, first_odd = kNone, inside_out = 0, faces_of_those = 0, first_shell = kNone;
+  uint32_t odd_faces = 0, odd_shells = 0, first_odd = kNone, inside_out = 0, faces_of_those = 0,
+           first_shell = kNone;
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {
     const Shell& shell = shells[component[f]];
     if (inverted[component[f]]) {
@@ -157,13 +165,14 @@ void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint
     first_shell = std::min(first_shell, shell.first_face);
   }
   if (odd_faces != 0) {
-    report.mended.push_back("turned " + counted(odd_faces, "face", "faces") + " wound against the rest of " +
-                            counted(odd_shells, "piece", "pieces") + ", first " + named_face(surface, first_odd));
+    report.mended.push_back("turned " + counted(odd_faces, "face", "faces") +
+                            " wound against the rest of " + counted(odd_shells, "piece", "pieces") +
+                            ", first " + named_face(surface, first_odd));
   }
   if (inside_out != 0) {
     report.mended.push_back("turned " + counted(inside_out, "piece", "pieces") + " of " +
-                            counted(faces_of_those, "face", "faces") + " wound inside out, first with " +
-                            named_face(surface, first_shell));
+                            counted(faces_of_those, "face", "faces") +
+                            " wound inside out, first with " + named_face(surface, first_shell));
   }
 }
 

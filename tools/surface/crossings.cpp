@@ -11,17 +11,20 @@ namespace firmtouch::tools {
 namespace {
 
 // Six times the volume of a, b, c, d; 0 where rounding leaves the sign open.
-// Source: Shewchuk 1997, "Adaptive precision floating-point arithmetic", section 4.4, error bound of orient3d.
+// Source: Shewchuk 1997, "Adaptive precision floating-point arithmetic", section 4.4, error bound
+//         of orient3d.
 double side_of_plane(Point a, Point b, Point c, Point d) {
   const Point p = a - d, q = b - d, r = c - d;
-  const double value = p.x * (q.y * r.z - q.z * r.y) + p.y * (q.z * r.x - q.x * r.z) + p.z * (q.x * r.y - q.y * r.x);
+  const double value =
+      p.x * (q.y * r.z - q.z * r.y) + p.y * (q.z * r.x - q.x * r.z) + p.z * (q.x * r.y - q.y * r.x);
   const double size = std::fabs(p.x) * (std::fabs(q.y * r.z) + std::fabs(q.z * r.y)) +
                       std::fabs(p.y) * (std::fabs(q.z * r.x) + std::fabs(q.x * r.z)) +
                       std::fabs(p.z) * (std::fabs(q.x * r.y) + std::fabs(q.y * r.x));
   return std::fabs(value) > 8e-16 * size ? value : 0;
 }
 
-// Faces on a common edge cannot pass through each other; those at a common vertex can, where the surface folds over there.
+// Faces on a common edge cannot pass through each other; those at a common vertex can, where the
+// surface folds over there.
 bool share_an_edge(const Face& a, const Face& b) {
   uint32_t shared = 0;
   for (const uint32_t v : a) shared += v == b[0] || v == b[1] || v == b[2] ? 1u : 0u;
@@ -49,7 +52,8 @@ class Search {
       std::sort(near.begin(), near.end());
       for (const uint32_t g : near) {
         if (g <= f || share_an_edge(surface_.faces[f], surface_.faces[g])) continue;
-        const Pierced how = std::max(pierced(surface_.faces[f], surface_.faces[g]), pierced(surface_.faces[g], surface_.faces[f]));
+        const Pierced how = std::max(pierced(surface_.faces[f], surface_.faces[g]),
+                                     pierced(surface_.faces[g], surface_.faces[f]));
         if (how == Pierced::kNot) continue;
         if (found.pairs.size() == kMaxCrossings) {
           found.has_more_pairs = true;
@@ -66,12 +70,15 @@ class Search {
     const Point p = at_[a], q = at_[b], u = at_[face[0]], v = at_[face[1]], w = at_[face[2]];
     const double above = side_of_plane(u, v, w, p), below = side_of_plane(u, v, w, q);
     if (!((above > 0 && below < 0) || (above < 0 && below > 0))) return Pierced::kNot;
-    const double s = side_of_plane(p, q, u, v), t = side_of_plane(p, q, v, w), r = side_of_plane(p, q, w, u);
+    const double s = side_of_plane(p, q, u, v), t = side_of_plane(p, q, v, w),
+                 r = side_of_plane(p, q, w, u);
     if ((s > 0 && t > 0 && r > 0) || (s < 0 && t < 0 && r < 0)) return Pierced::kInside;
-    return (s >= 0 && t >= 0 && r >= 0) || (s <= 0 && t <= 0 && r <= 0) ? Pierced::kOnBorder : Pierced::kNot;
+    return (s >= 0 && t >= 0 && r >= 0) || (s <= 0 && t <= 0 && r <= 0) ? Pierced::kOnBorder
+                                                                        : Pierced::kNot;
   }
 
-  // Whether the surface lies as often around this corner as its winding says: 1 just under the face, 0 just above it.
+  // Whether the surface lies as often around this corner as its winding says: 1 just under the
+  // face, 0 just above it.
   bool corner_is_wrong(const WindingNumber& winding, uint32_t f, uint32_t k) const {
     const Face& face = surface_.faces[f];
     const Point a = at_[face[0]], b = at_[face[1]], c = at_[face[2]];
@@ -88,7 +95,8 @@ class Search {
 
  private:
   static constexpr double kIntoFace = 1e-3;  // of the way to the centroid
-  static constexpr double kLift = 1e-7;      // of the shortest edge: far above rounding, far below the next sheet
+  static constexpr double kLift =
+      1e-7;  // of the shortest edge: far above rounding, far below the next sheet
 
   Box box_of(const Face& face) const {
     const Point a = at_[face[0]], b = at_[face[1]], c = at_[face[2]];
@@ -97,7 +105,8 @@ class Search {
   }
 
   Pierced pierced(const Face& by, const Face& face) const {
-    return std::max({pierced(by[0], by[1], face), pierced(by[1], by[2], face), pierced(by[2], by[0], face)});
+    return std::max(
+        {pierced(by[0], by[1], face), pierced(by[1], by[2], face), pierced(by[2], by[0], face)});
   }
 
   const Surface& surface_;
@@ -107,7 +116,8 @@ class Search {
 // Faces around each vertex, one list after another.
 struct Stars {
   std::vector<uint32_t> start, face;
-  explicit Stars(const Surface& surface) : start(surface.vertices.size() + 1, 0), face(surface.faces.size() * 3) {
+  explicit Stars(const Surface& surface)
+      : start(surface.vertices.size() + 1, 0), face(surface.faces.size() * 3) {
     for (const Face& f : surface.faces) {
       for (const uint32_t v : f) ++start[v + 1];
     }
@@ -132,8 +142,8 @@ void put_in_order(std::vector<T>& items) {
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
-// From the crossing faces outwards: where a corner of a face at a vertex is wrong, so are the vertex, the face and its two edges
-// there, and the other faces of that vertex are looked at next.
+// From the crossing faces outwards: where a corner of a face at a vertex is wrong, so are the
+// vertex, the face and its two edges there, and the other faces of that vertex are looked at next.
 void spread(const Surface& surface, const Search& search, const Crossings& found, Wrong& wrong) {
   const WindingNumber winding(surface, {});
   const Stars stars(surface);
@@ -162,26 +172,32 @@ void spread(const Surface& surface, const Search& search, const Crossings& found
   }
 }
 
-// Pairs that meet at their edges cross where a vertex of theirs is wrong, else they only touch and go.
-void drop_touching(const Surface& surface, const std::vector<bool>& is_sure, const Wrong& wrong, Crossings& found) {
+// Pairs that meet at their edges cross where a vertex of theirs is wrong, else they only touch and
+// go.
+void drop_touching(const Surface& surface, const std::vector<bool>& is_sure, const Wrong& wrong,
+                   Crossings& found) {
   const auto is_wrong = [&](uint32_t f) {
     const Face& face = surface.faces[f];
     return wrong.vertex[face[0]] || wrong.vertex[face[1]] || wrong.vertex[face[2]];
   };
   size_t to = 0;
   for (size_t i = 0; i < found.pairs.size(); ++i) {
-    if (is_sure[i] || is_wrong(found.pairs[i].first) || is_wrong(found.pairs[i].second)) found.pairs[to++] = found.pairs[i];
+    if (is_sure[i] || is_wrong(found.pairs[i].first) || is_wrong(found.pairs[i].second))
+      found.pairs[to++] = found.pairs[i];
   }
   found.pairs.resize(to);
 }
 
-void add_crossing_features(const Surface& surface, const Search& search, const Crossings& found, Wrong& wrong) {
+void add_crossing_features(const Surface& surface, const Search& search, const Crossings& found,
+                           Wrong& wrong) {
   for (const auto& [f, g] : found.pairs) {
     wrong.faces.insert(wrong.faces.end(), {f, g});
     const Face &a = surface.faces[f], &b = surface.faces[g];
     for (uint32_t k = 0; k < 3; ++k) {
-      if (search.pierced(a[k], a[(k + 1) % 3], b) != Pierced::kNot) wrong.add_edge(a[k], a[(k + 1) % 3]);
-      if (search.pierced(b[k], b[(k + 1) % 3], a) != Pierced::kNot) wrong.add_edge(b[k], b[(k + 1) % 3]);
+      if (search.pierced(a[k], a[(k + 1) % 3], b) != Pierced::kNot)
+        wrong.add_edge(a[k], a[(k + 1) % 3]);
+      if (search.pierced(b[k], b[(k + 1) % 3], a) != Pierced::kNot)
+        wrong.add_edge(b[k], b[(k + 1) % 3]);
     }
   }
   put_in_order(wrong.faces);
@@ -192,7 +208,8 @@ std::string some(const std::vector<uint32_t>& indices, const std::vector<uint32_
   constexpr size_t kShown = 40;
   std::string text;
   for (size_t i = 0; i < indices.size() && i < kShown; ++i) {
-    text += (i == 0 ? "" : ", ") + std::to_string(indices[i] < source.size() ? source[indices[i]] : indices[i]);
+    text += (i == 0 ? "" : ", ") +
+            std::to_string(indices[i] < source.size() ? source[indices[i]] : indices[i]);
   }
   if (indices.size() > kShown) text += " and " + std::to_string(indices.size() - kShown) + " more";
   return indices.empty() ? "none" : text;
@@ -230,7 +247,8 @@ Crossings find_crossings(const Surface& surface) {
   for (uint32_t v = 0; v < wrong.vertex.size(); ++v) {
     if (wrong.vertex[v]) found.places[place_of[sets.find(v)]].vertices.push_back(v);
   }
-  for (const auto& edge : wrong.edges) found.places[place_of[sets.find(edge.first)]].edges.push_back(edge);
+  for (const auto& edge : wrong.edges)
+    found.places[place_of[sets.find(edge.first)]].edges.push_back(edge);
   return found;
 }
 
@@ -244,14 +262,17 @@ std::vector<std::string> describe(const Crossings& crossings, const Surface& sur
                   some({crossings.pairs[0].second}, surface.source));
   for (size_t p = 0; p < crossings.places.size(); ++p) {
     const Crossings::Place& place = crossings.places[p];
-    std::string line = "place " + std::to_string(p + 1) + " of " + std::to_string(crossings.places.size()) +
-                       ": the side may be told either way near vertices " + some(place.vertices, vertex_source) +
-                       "; faces " + some(place.faces, surface.source) + "; edges ";
+    std::string line =
+        "place " + std::to_string(p + 1) + " of " + std::to_string(crossings.places.size()) +
+        ": the side may be told either way near vertices " + some(place.vertices, vertex_source) +
+        "; faces " + some(place.faces, surface.source) + "; edges ";
     for (size_t e = 0; e < place.edges.size() && e < 40; ++e) {
       line += (e == 0 ? "" : ", ") + some({place.edges[e].first}, vertex_source) + "-" +
               some({place.edges[e].second}, vertex_source);
     }
-    lines.push_back(line + (place.edges.size() > 40 ? " and " + std::to_string(place.edges.size() - 40) + " more" : ""));
+    lines.push_back(line + (place.edges.size() > 40
+                                ? " and " + std::to_string(place.edges.size() - 40) + " more"
+                                : ""));
   }
   return lines;
 }

@@ -8,8 +8,9 @@
 
 namespace firmtouch::tools {
 
-/// Where a closed surface crosses itself. There the side told by the pseudonormal of the nearest feature and the side told by the
-/// winding number can differ, and neither is wrong. Indices are those of the surface given.
+/// Where a closed surface crosses itself. There the side told by the pseudonormal of the nearest
+/// feature and the side told by the winding number can differ, and neither is wrong. Indices are
+/// those of the surface given.
 struct Crossings {
   std::vector<std::pair<uint32_t, uint32_t>> pairs;  // of faces that cross, lower first, in order
   bool has_more_pairs = false;                       // the search stopped at kMaxCrossings
@@ -24,9 +25,11 @@ struct Crossings {
 
 constexpr uint32_t kMaxCrossings = 100000;
 
-/// Finds all pairs of faces that pass through each other (a vertex in common or none), then the features around them whose sides differ.
+/// Finds all pairs of faces that pass through each other (a vertex in common or none), then the
+/// features around them whose sides differ.
 /// Bounds: O(n log n + pairs) for surfaces of even triangles.
-/// Result: sheets that touch at an edge or a corner do not cross; faces that lie on one another are not looked for.
+/// Result: sheets that touch at an edge or a corner do not cross; faces that lie on one another are
+///         not looked for.
 Crossings find_crossings(const Surface& surface);
 
 /// One line a place, with indices of the file (`vertex_source`: CheckReport; faces by `source`).

@@ -39,8 +39,8 @@ std::vector<uint32_t> Edges::mates() const {
 }
 
 uint32_t Edges::open_count() const {
-  return static_cast<uint32_t>(
-      std::count_if(edges_.begin(), edges_.end(), [](const Edge& edge) { return edge.count == 1; }));
+  return static_cast<uint32_t>(std::count_if(edges_.begin(), edges_.end(),
+                                             [](const Edge& edge) { return edge.count == 1; }));
 }
 
 uint32_t Edges::crowded_count() const {

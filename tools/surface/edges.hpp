@@ -11,9 +11,12 @@ constexpr uint32_t kNone = 0xFFFFFFFFu;
 // Half-edge h = 3 * face + k runs from corner k of the face to corner k + 1.
 constexpr uint32_t next_half(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 inline uint32_t start_of(const std::vector<Face>& faces, uint32_t h) { return faces[h / 3][h % 3]; }
-inline uint32_t end_of(const std::vector<Face>& faces, uint32_t h) { return start_of(faces, next_half(h)); }
+inline uint32_t end_of(const std::vector<Face>& faces, uint32_t h) {
+  return start_of(faces, next_half(h));
+}
 
-/// The edges of a mesh: every half-edge sorted by its two vertices, so that those of one edge lie side by side.
+/// The edges of a mesh: every half-edge sorted by its two vertices, so that those of one edge lie
+/// side by side.
 class Edges {
  public:
   explicit Edges(const std::vector<Face>& faces);
@@ -28,8 +31,8 @@ class Edges {
 
   /// Of each half-edge: the other one of its edge where there are exactly two, else kNone.
   std::vector<uint32_t> mates() const;
-  uint32_t open_count() const;      // edges of one face
-  uint32_t crowded_count() const;   // edges of more than two
+  uint32_t open_count() const;     // edges of one face
+  uint32_t crowded_count() const;  // edges of more than two
 
  private:
   std::vector<uint32_t> halves_;
@@ -47,7 +50,8 @@ class Sets {
   std::vector<uint32_t> parent_;
 };
 
-/// The fans of a mesh: corners (3 * face + k) of one vertex joined across edges of two faces have the same fan.
+/// The fans of a mesh: corners (3 * face + k) of one vertex joined across edges of two faces have
+/// the same fan.
 Sets corner_fans(const std::vector<Face>& faces, const std::vector<uint32_t>& mates);
 
 }  // namespace firmtouch::tools

@@ -8,15 +8,17 @@
 
 namespace firmtouch::tools {
 
-/// Where in a file: a line of a text, or a byte of a binary, and in either an element where it helps.
+/// Where in a file: a line of a text, or a byte of a binary, and in either an element where it
+/// helps.
 struct Place {
   uint64_t line = 0;  // from 1; 0: there are no lines, `byte` counts
   uint64_t byte = 0;
-  const char* element = nullptr;  // "vertex", "face"
+  const char* element = nullptr;  // "vertex", "face"; lives for ever
   uint64_t index = 0;             // of that element, from 0
 };
 
-/// Takes what a reader finds, checks it and builds the surface. The first problem is kept; after it nothing is taken.
+/// Takes what a reader finds, checks it and builds the surface. The first problem is kept; after it
+/// nothing is taken.
 class ImportSink {
  public:
   ImportSink(const std::string& path, double unit_m) : path_(path), unit_m_(unit_m) {}
@@ -26,7 +28,8 @@ class ImportSink {
 
   /// Coordinates in the file's unit: scaled in double, rounded once.
   bool add_vertex(const double* xyz, const Place& place);
-  /// A polygon, fanned from its first corner. An index may name a vertex that comes later: finish() checks.
+  /// A polygon, fanned from its first corner. An index may name a vertex that comes later: finish()
+  /// checks.
   bool add_polygon(const std::vector<int64_t>& corners, const Place& place);
   bool finish();
   /// Whether the format counts vertices from 0 or 1, for messages.

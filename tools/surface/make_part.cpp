@@ -7,9 +7,10 @@
 #include "surface/random.hpp"
 #include "surface/turns.hpp"
 
-// The section is cut into rows, each a ring of vertices around the axis with as many as its length asks for; every other
-// ring is turned by half a step. Two rings are joined like a zip: whatever their counts, each of their edges gets one
-// triangle of the strip, so the surface is a closed manifold by construction, a torus of rings.
+// The section is cut into rows, each a ring of vertices around the axis with as many as its length
+// asks for; every other ring is turned by half a step. Two rings are joined like a zip: whatever
+// their counts, each of their edges gets one triangle of the strip, so the surface is a closed
+// manifold by construction, a torus of rings.
 
 namespace firmtouch::tools {
 namespace {
@@ -22,14 +23,19 @@ struct Row {
   uint32_t first;   // vertex
 };
 
-// How fine a piece is, in steps of the whole: the groove is what the demo touches, the foot lies on the table.
+// How fine a piece is, in steps of the whole: the groove is what the demo touches, the foot lies on
+// the table.
 double spacing_of(PartShape::Piece piece) {
   switch (piece) {
-    case PartShape::kGroove: return 0.6;
+    case PartShape::kGroove:
+      return 0.6;
     case PartShape::kRim:
-    case PartShape::kFillet: return 0.8;
-    case PartShape::kFoot: return 2.0;
-    default: return 1.0;
+    case PartShape::kFillet:
+      return 0.8;
+    case PartShape::kFoot:
+      return 2.0;
+    default:
+      return 1.0;
   }
 }
 
@@ -59,7 +65,8 @@ std::vector<Row> cut(const PartShape& shape, const Lengths& lengths_m, double st
     for (uint32_t k = 0; k < pieces; ++k) {
       const double along = static_cast<double>(k) / pieces;
       const double around_m = 6.283185307179586 * shape.at(piece, along, 0).radius_m;
-      const double wish = around_m / (1.1547 * (k == 0 && row_m > step_m ? step_m : row_m));  // equal sides
+      const double wish =
+          around_m / (1.1547 * (k == 0 && row_m > step_m ? step_m : row_m));  // equal sides
       const uint32_t count = wish < 12 ? 12 : static_cast<uint32_t>(wish);
       rows.push_back({piece, along, count, static_cast<uint32_t>(rows.size() & 1), vertices});
       vertices += count;
@@ -110,8 +117,8 @@ void zip(const Row& a, const Row& b, std::vector<Face>& faces) {
 }
 
 math::Vec3 turned(SectionPoint p, double turns) {
-  return {static_cast<float>(p.radius_m * cosine_of_turns(turns)), static_cast<float>(p.radius_m * sine_of_turns(turns)),
-          static_cast<float>(p.height_m)};
+  return {static_cast<float>(p.radius_m * cosine_of_turns(turns)),
+          static_cast<float>(p.radius_m * sine_of_turns(turns)), static_cast<float>(p.height_m)};
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace {
 constexpr double kStep = 0.0005;     // of the diagonal
 constexpr uint32_t kAskEvery = 5;    // steps, in which the distance grows by 0.0025 at most
 constexpr double kPullFrom = 0.010;  // of the diagonal: beyond it the surface draws the walk back
-constexpr double kTurnAt = 0.0165;   // beyond it the walk goes straight back; 0.0165 + 0.0025 leaves 5 % to spare
+constexpr double kTurnAt =
+    0.0165;  // beyond it the walk goes straight back; 0.0165 + 0.0025 leaves 5 % to spare
 
 double diagonal_of(const Surface& surface) {
   Point low = to_point(surface.vertices[0]), high = low;

@@ -6,8 +6,8 @@
 #include "surface/edges.hpp"
 #include "surface/surface.hpp"
 
-// The single steps of check_and_mend(), in the order in which it takes them. Vertex numbers are the file's: vertices are
-// dropped only at the end.
+// The single steps of check_and_mend(), in the order in which it takes them. Vertex numbers are the
+// file's: vertices are dropped only at the end.
 
 namespace firmtouch::tools {
 
@@ -25,13 +25,14 @@ void refuse_bad_size(const Surface& surface, CheckReport& report);
 void drop_pointlike_faces(Surface& surface, CheckReport& report);
 void weld_torn_vertices(Surface& surface, CheckReport& report);
 void drop_duplicate_faces(Surface& surface, CheckReport& report);
-/// Makes the winding of each component consistent. `component` gets each face's component, numbered from 0, `turned` which
-/// faces were turned. Result: components; a surface with one side alone is refused (or kept).
+/// Makes the winding of each component consistent. `component` gets each face's component, numbered
+/// from 0, `turned` which faces were turned. Result: components; a surface with one side alone is
+/// refused (or kept).
 uint32_t wind_alike(Surface& surface, std::vector<uint32_t>& component, std::vector<bool>& turned,
                     std::vector<std::string>& defects);
 /// Turns whole components so that solids lie inside; then tells of all that was turned.
-void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint32_t components, bool is_closed,
-                  std::vector<bool>& turned, CheckReport& report);
+void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint32_t components,
+                  bool is_closed, std::vector<bool>& turned, CheckReport& report);
 void remove_flat_faces(Surface& surface, const CheckOptions& options, CheckReport& report);
 /// Open edges, edges of more than two faces, vertices of more than one fan.
 void find_topology_defects(const Surface& surface, std::vector<std::string>& defects);

@@ -9,16 +9,34 @@ struct SectionPoint {
   double height_m;
 };
 
-/// The knob's shape as a closed section that changes with the angle around the axis. What a seed decides is here.
+/// The knob's shape as a closed section that changes with the angle around the axis. What a seed
+/// decides is here.
 class PartShape {
  public:
   explicit PartShape(uint64_t seed);
 
-  /// The pieces of the section in order: up the bore, over the collar, the face and the rim, back along the bottom.
-  enum Piece : uint32_t { kBore, kBoreChamfer, kCollarTop, kCollarChamfer, kCollarWall, kFillet, kInnerFace, kGroove,
-                          kOuterFace, kRim, kWall, kFootChamfer, kFoot, kBoreFoot, kPieces };
+  /// The pieces of the section in order: up the bore, over the collar, the face and the rim, back
+  /// along the bottom.
+  enum Piece : uint32_t {
+    kBore,
+    kBoreChamfer,
+    kCollarTop,
+    kCollarChamfer,
+    kCollarWall,
+    kFillet,
+    kInnerFace,
+    kGroove,
+    kOuterFace,
+    kRim,
+    kWall,
+    kFootChamfer,
+    kFoot,
+    kBoreFoot,
+    kPieces
+  };
 
-  /// The point at fraction `along` (0 to 1) of a piece, at `turns` around the axis. Pieces meet exactly end to start.
+  /// The point at fraction `along` (0 to 1) of a piece, at `turns` around the axis. Pieces meet
+  /// exactly end to start.
   SectionPoint at(Piece piece, double along, double turns) const;
 
   /// The groove's centre line on its floor.

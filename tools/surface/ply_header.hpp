@@ -8,7 +8,16 @@
 
 namespace firmtouch::tools {
 
-enum class PlyType : uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+enum class PlyType : uint8_t {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kFloat32,
+  kFloat64
+};
 
 constexpr uint32_t ply_bytes(PlyType type) {
   constexpr uint32_t kBytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
@@ -38,7 +47,8 @@ struct PlyHeader {
   uint64_t lines = 0;  // before the body
 };
 
-/// Reads the header of a PLY file. Result: false with the sink's problem set where it is not understood.
+/// Reads the header of a PLY file. Result: false with the sink's problem set where it is not
+/// understood.
 bool read_ply_header(std::string_view file, PlyHeader& header, ImportSink& sink);
 
 }  // namespace firmtouch::tools

@@ -3,7 +3,8 @@
 
 namespace firmtouch::tools {
 
-/// splitmix64: the same numbers on every machine (the standard library's distributions differ between libraries).
+/// splitmix64: the same numbers on every machine (the standard library's distributions differ
+/// between libraries).
 /// Source: Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators", figure 16.
 class Random {
  public:

@@ -1,18 +1,20 @@
 #include "surface/import_sink.hpp"
 #include "surface/text_scan.hpp"
 
-// Wavefront OBJ: `v x y z [w or colours]` and `f a b c ...`, where a corner is a, a/b, a//c or a/b/c and a negative index
-// counts back from the last vertex read. All else that OBJ knows is passed over; what it does not know is refused, since
-// a damaged `v` would shift every index after it.
+// Wavefront OBJ: `v x y z [w or colours]` and `f a b c ...`, where a corner is a, a/b, a//c or
+// a/b/c and a negative index counts back from the last vertex read. All else that OBJ knows is
+// passed over; what it does not know is refused, since a damaged `v` would shift every index after
+// it.
 
 namespace firmtouch::tools {
 namespace {
 
 constexpr std::string_view kPassedOver[] = {
-    "vt",    "vn",     "vp",      "g",      "o",     "s",     "usemtl",     "mtllib",    "l",    "p",
-    "mg",    "usemap", "maplib",  "bevel",  "c_interp", "d_interp", "lod",  "shadow_obj", "trace_obj", "ctech",
-    "stech", "cstype", "deg",     "bmat",   "step",  "curv",  "curv2",      "surf",      "parm", "trim",
-    "hole",  "scrv",   "sp",      "end",    "con",   "call",  "csh",        "maplib"};
+    "vt",   "vn",         "vp",        "g",      "o",      "s",      "usemtl",   "mtllib",
+    "l",    "p",          "mg",        "usemap", "maplib", "bevel",  "c_interp", "d_interp",
+    "lod",  "shadow_obj", "trace_obj", "ctech",  "stech",  "cstype", "deg",      "bmat",
+    "step", "curv",       "curv2",     "surf",   "parm",   "trim",   "hole",     "scrv",
+    "sp",   "end",        "con",       "call",   "csh",    "maplib"};
 
 bool is_passed_over(std::string_view word) {
   for (const std::string_view known : kPassedOver) {
@@ -28,7 +30,8 @@ bool read_vertex(TextScan& scan, ImportSink& sink) {
   for (int k = 0; k < 3; ++k) {
     std::string_view word;
     if (!scan.next_word(word)) {
-      return sink.fail({scan.line()}, "a vertex with fewer than three coordinates: is the file cut short?");
+      return sink.fail({scan.line()},
+                       "a vertex with fewer than three coordinates: is the file cut short?");
     }
     const char* wrong = read_number(word, xyz[k]);
     if (wrong != nullptr) return sink.fail({scan.line()}, quoted(word) + " " + wrong);
@@ -46,7 +49,8 @@ bool read_face(TextScan& scan, ImportSink& sink, std::vector<int64_t>& corners) 
     if (wrong != nullptr) return sink.fail({scan.line()}, quoted(word) + " " + wrong);
     if (index == 0) return sink.fail({scan.line()}, "vertex index 0: OBJ counts from 1");
     if (index < -count) {
-      return sink.fail({scan.line()}, "vertex index " + std::to_string(index) + " reaches back before the first of " +
+      return sink.fail({scan.line()}, "vertex index " + std::to_string(index) +
+                                          " reaches back before the first of " +
                                           std::to_string(count) + " vertices");
     }
     corners.push_back(index > 0 ? index - 1 : count + index);
@@ -59,7 +63,8 @@ bool read_face(TextScan& scan, ImportSink& sink, std::vector<int64_t>& corners) 
 void read_obj(std::string_view text, ImportSink& sink) {
   const char* other = known_by_content(text);
   if (other != nullptr) {
-    sink.fail(std::string("is ") + other + " by its content, not OBJ: rename it, or export the model as OBJ");
+    sink.fail(std::string("is ") + other +
+              " by its content, not OBJ: rename it, or export the model as OBJ");
     return;
   }
   sink.count_from(1);
@@ -74,7 +79,9 @@ void read_obj(std::string_view text, ImportSink& sink) {
     } else if (word == "f" || word == "fo") {
       going_on = read_face(scan, sink, corners);
     } else if (!is_passed_over(word)) {
-      going_on = sink.fail({scan.line()}, quoted(word) + " is no keyword of OBJ: is the file damaged, or of another format?");
+      going_on = sink.fail(
+          {scan.line()},
+          quoted(word) + " is no keyword of OBJ: is the file damaged, or of another format?");
     }
     if (!going_on) return;
   }

@@ -1,8 +1,9 @@
 #include "surface/import_sink.hpp"
 #include "surface/text_scan.hpp"
 
-// OFF: the word OFF, the counts of vertices, faces and edges, the vertices, the faces. Numbers after the third of a
-// vertex's line and after the corners of a face's line are colours and passed over.
+// OFF: the word OFF, the counts of vertices, faces and edges, the vertices, the faces. Numbers
+// after the third of a vertex's line and after the corners of a face's line are colours and passed
+// over.
 
 namespace firmtouch::tools {
 namespace {
@@ -14,20 +15,27 @@ bool read_header(TextScan& scan, std::string_view text, ImportSink& sink) {
   if (!scan.find_word(word)) return sink.fail("holds no text: export the model again");
   if (word != "OFF") {
     if (word.size() > 3 && word.size() <= 8 && word.substr(word.size() - 3) == "OFF") {
-      return sink.fail({scan.line()}, quoted(word) + " files are not read, only plain OFF: export without colours, " +
-                                          "normals and texture coordinates");
+      return sink.fail({scan.line()},
+                       quoted(word) +
+                           " files are not read, only plain OFF: export without colours, " +
+                           "normals and texture coordinates");
     }
     const char* other = known_by_content(text);
-    if (other != nullptr) return sink.fail(std::string("is ") + other + " by its content, not OFF: rename or export it");
-    return sink.fail({scan.line()}, quoted(word) + " stands where the word OFF should: is this an OFF file?");
+    if (other != nullptr)
+      return sink.fail(std::string("is ") + other +
+                       " by its content, not OFF: rename or export it");
+    return sink.fail({scan.line()},
+                     quoted(word) + " stands where the word OFF should: is this an OFF file?");
   }
   return true;
 }
 
 bool read_count(TextScan& scan, ImportSink& sink, const char* what, int64_t& count) {
   std::string_view word;
-  if (!scan.find_word(word)) return sink.fail({scan.line()}, std::string("ends before the number of ") + what);
-  if (word == "BINARY") return sink.fail({scan.line()}, "binary OFF is not read: export the model as text");
+  if (!scan.find_word(word))
+    return sink.fail({scan.line()}, std::string("ends before the number of ") + what);
+  if (word == "BINARY")
+    return sink.fail({scan.line()}, "binary OFF is not read: export the model as text");
   const char* wrong = read_integer(word, count);
   if (wrong != nullptr || count < 0) {
     return sink.fail({scan.line()}, quoted(word) + " is no number of " + what);
@@ -43,7 +51,9 @@ bool read_vertices(TextScan& scan, ImportSink& sink, int64_t count) {
       std::string_view word;
       const bool found = scan.find_word(word);
       place = {scan.line(), 0, "vertex", static_cast<uint64_t>(i)};
-      if (!found) return sink.fail(place, "the file ends here; it tells of " + std::to_string(count) + " vertices");
+      if (!found)
+        return sink.fail(place,
+                         "the file ends here; it tells of " + std::to_string(count) + " vertices");
       const char* wrong = read_number(word, xyz[k]);
       if (wrong != nullptr) return sink.fail(place, quoted(word) + " " + wrong);
     }
@@ -63,14 +73,17 @@ bool read_faces(TextScan& scan, ImportSink& sink, int64_t count) {
       std::string_view word;
       const bool found = scan.find_word(word);
       place = {scan.line(), 0, "face", static_cast<uint64_t>(i)};
-      if (!found) return sink.fail(place, "the file ends here; it tells of " + std::to_string(count) + " faces");
+      if (!found)
+        return sink.fail(place,
+                         "the file ends here; it tells of " + std::to_string(count) + " faces");
       int64_t value = 0;
       const char* wrong = read_integer(word, value);
       if (wrong != nullptr) return sink.fail(place, quoted(word) + " " + wrong);
       if (k > 0) {
         corners.push_back(value);
       } else if (value < 3) {
-        return sink.fail(place, "a face with " + std::to_string(value) + " corners: a face needs at least 3; remove it");
+        return sink.fail(place, "a face with " + std::to_string(value) +
+                                    " corners: a face needs at least 3; remove it");
       } else {
         wanted = value;
       }

@@ -4,8 +4,9 @@
 #include "surface/ply_header.hpp"
 #include "surface/text_scan.hpp"
 
-// PLY: a header that names elements and their properties, then the values, as text or binary of either byte order.
-// Elements other than `vertex` and `face`, and properties other than x, y, z and the corner list, are passed over.
+// PLY: a header that names elements and their properties, then the values, as text or binary of
+// either byte order. Elements other than `vertex` and `face`, and properties other than x, y, z and
+// the corner list, are passed over.
 
 namespace firmtouch::tools {
 namespace {
@@ -14,7 +15,11 @@ namespace {
 class PlyValues {
  public:
   PlyValues(std::string_view file, const PlyHeader& header)
-      : format_(header.format), file_(file), at_(header.bytes), scan_(file.substr(header.bytes)), lines_(header.lines) {}
+      : format_(header.format),
+        file_(file),
+        at_(header.bytes),
+        scan_(file.substr(header.bytes)),
+        lines_(header.lines) {}
 
   // Result: nullptr, or what is wrong.
   const char* next(PlyType type, double& value) {
@@ -48,8 +53,11 @@ class PlyValues {
   bool is_text() const { return format_ == PlyFormat::kAscii; }
   const std::string& word() const { return word_; }
   Place place(const PlyElement& element, uint64_t index) const {
-    if (is_text()) return {lines_ + scan_.line(), 0, element.name.c_str(), index};
-    return {0, at_, element.name.c_str(), index};
+    const char* name = element.name == "vertex" ? "vertex"
+                       : element.name == "face" ? "face"
+                                                : "element";
+    if (is_text()) return {lines_ + scan_.line(), 0, name, index};
+    return {0, at_, name, index};
   }
 
  private:
@@ -58,14 +66,22 @@ class PlyValues {
     double whole = 0;
     const uint32_t low = static_cast<uint32_t>(bits);
     switch (type) {
-      case PlyType::kInt8: return static_cast<int8_t>(bits);
-      case PlyType::kInt16: return static_cast<int16_t>(bits);
-      case PlyType::kInt32: return static_cast<int32_t>(low);
-      case PlyType::kFloat32: std::memcpy(&single, &low, sizeof single); return static_cast<double>(single);
-      case PlyType::kFloat64: std::memcpy(&whole, &bits, sizeof whole); return whole;
+      case PlyType::kInt8:
+        return static_cast<int8_t>(bits);
+      case PlyType::kInt16:
+        return static_cast<int16_t>(bits);
+      case PlyType::kInt32:
+        return static_cast<int32_t>(low);
+      case PlyType::kFloat32:
+        std::memcpy(&single, &low, sizeof single);
+        return static_cast<double>(single);
+      case PlyType::kFloat64:
+        std::memcpy(&whole, &bits, sizeof whole);
+        return whole;
       case PlyType::kUint8:
       case PlyType::kUint16:
-      case PlyType::kUint32: break;
+      case PlyType::kUint32:
+        break;
     }
     return low;
   }
@@ -87,15 +103,18 @@ bool find_wanted(const PlyElement& element, Wanted& wanted, ImportSink& sink) {
   for (int i = 0; i < static_cast<int>(element.properties.size()); ++i) {
     const PlyProperty& property = element.properties[static_cast<size_t>(i)];
     for (int k = 0; k < 3; ++k) {
-      if (!property.is_list && property.name.size() == 1 && property.name[0] == 'x' + k) wanted.xyz[k] = i;
+      if (!property.is_list && property.name.size() == 1 && property.name[0] == 'x' + k)
+        wanted.xyz[k] = i;
     }
-    if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) wanted.corners = i;
+    if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
+      wanted.corners = i;
   }
   if (element.name == "vertex" && (wanted.xyz[0] < 0 || wanted.xyz[1] < 0 || wanted.xyz[2] < 0)) {
     return sink.fail("element vertex has no properties x, y and z: export it with positions");
   }
   if (element.name != "face") return true;
-  if (wanted.corners < 0) return sink.fail("element face has no list vertex_indices: export it with its faces");
+  if (wanted.corners < 0)
+    return sink.fail("element face has no list vertex_indices: export it with its faces");
   if (!is_integer(element.properties[static_cast<size_t>(wanted.corners)].type)) {
     return sink.fail("vertex_indices are not whole numbers: export the model with integer indices");
   }
@@ -103,11 +122,12 @@ bool find_wanted(const PlyElement& element, Wanted& wanted, ImportSink& sink) {
 }
 
 // One list: its items go to `items` where that is given.
-bool read_list(PlyValues& values, const PlyProperty& property, const PlyElement& element, uint64_t index,
-               std::vector<int64_t>* items, ImportSink& sink) {
+bool read_list(PlyValues& values, const PlyProperty& property, const PlyElement& element,
+               uint64_t index, std::vector<int64_t>* items, ImportSink& sink) {
   double count = 0, item = 0;
   const char* wrong = values.next(property.count_type, count);
-  if (wrong == nullptr && !(count >= 0 && count <= 4294967295.0)) wrong = "a list with a negative or too large count";
+  if (wrong == nullptr && !(count >= 0 && count <= 4294967295.0))
+    wrong = "a list with a negative or too large count";
   for (int64_t k = 0; wrong == nullptr && k < static_cast<int64_t>(count); ++k) {
     wrong = values.next(property.type, item);
     if (items == nullptr || wrong != nullptr) continue;
@@ -115,14 +135,15 @@ bool read_list(PlyValues& values, const PlyProperty& property, const PlyElement&
       wrong = "an index that no 32-bit number holds";
     } else {
       items->push_back(static_cast<int64_t>(item));
-      if (item - static_cast<double>(items->back()) > 0) wrong = "an index that is not a whole number";
+      if (item - static_cast<double>(items->back()) > 0)
+        wrong = "an index that is not a whole number";
     }
   }
   return wrong == nullptr || sink.fail(values.place(element, index), values.word() + wrong);
 }
 
-bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wanted, uint64_t index,
-                  std::vector<int64_t>& corners, ImportSink& sink) {
+bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wanted,
+                  uint64_t index, std::vector<int64_t>& corners, ImportSink& sink) {
   double xyz[3] = {};
   corners.clear();
   const bool is_face = element.name == "face", is_vertex = element.name == "vertex";
@@ -135,8 +156,10 @@ bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wa
     }
     double value = 0;
     const char* wrong = values.next(property.type, value);
-    const bool is_coordinate = is_vertex && (i == wanted.xyz[0] || i == wanted.xyz[1] || i == wanted.xyz[2]);
-    if (wrong == nullptr && is_coordinate && !(value - value <= 0)) wrong = "a coordinate is not finite: mend the model";
+    const bool is_coordinate =
+        is_vertex && (i == wanted.xyz[0] || i == wanted.xyz[1] || i == wanted.xyz[2]);
+    if (wrong == nullptr && is_coordinate && !(value - value <= 0))
+      wrong = "a coordinate is not finite: mend the model";
     if (wrong != nullptr) return sink.fail(values.place(element, index), values.word() + wrong);
     for (int k = 0; k < 3; ++k) {
       if (i == wanted.xyz[k]) xyz[k] = value;
@@ -167,7 +190,8 @@ void read_ply(std::string_view file, ImportSink& sink) {
       if (!read_element(values, element, wanted, i, corners, sink)) return;
     }
   }
-  if (!has_faces) sink.fail("has no element face: export it as a triangle mesh, not as points or strips");
+  if (!has_faces)
+    sink.fail("has no element face: export it as a triangle mesh, not as points or strips");
 }
 
 }  // namespace firmtouch::tools

@@ -46,7 +46,8 @@ Imported read_surface_bytes(const std::string& bytes, const std::string& path, d
   } else if (extension == "ply") {
     read_ply(bytes, sink);
   } else {
-    sink.fail("`" + extension + "` is no extension of a mesh: give a file that ends in .obj, .off or .ply");
+    sink.fail("`" + extension +
+              "` is no extension of a mesh: give a file that ends in .obj, .off or .ply");
   }
   sink.finish();
   Imported imported;

@@ -12,8 +12,8 @@ struct Imported {
 };
 
 /// Reads .obj, .off or .ply (ascii and binary), told apart by the extension in either case.
-/// Coordinates are read as double, multiplied by `unit_m` and rounded once to float. Polygons are fanned from their
-/// first corner; `source` counts the triangles in the file's order.
+/// Coordinates are read as double, multiplied by `unit_m` and rounded once to float. Polygons are
+/// fanned from their first corner; `source` counts the triangles in the file's order.
 Imported read_surface(const std::string& path, double unit_m);
 
 /// The same from memory; `path` gives the extension and the name used in messages.

@@ -10,7 +10,8 @@ namespace firmtouch::tools {
 
 using Face = std::array<uint32_t, 3>;
 
-/// A triangle mesh in memory: what the readers give, the check mends and the baker takes. Float32 metres, outward.
+/// A triangle mesh in memory: what the readers give, the check mends and the baker takes. Float32
+/// metres, outward.
 struct Surface {
   std::vector<math::Vec3> vertices;
   std::vector<Face> faces;

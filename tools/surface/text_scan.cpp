@@ -57,7 +57,8 @@ const char* read_number(std::string_view word, double& value) {
   const char* end = word.data() + word.size();
   const std::from_chars_result result = std::from_chars(word.data(), end, value);
   if (result.ec == std::errc::result_out_of_range && result.ptr == end) {
-    if (word.find("e-") != word.npos || word.find("E-") != word.npos) return nullptr;  // rounds to 0
+    if (word.find("e-") != word.npos || word.find("E-") != word.npos)
+      return nullptr;  // rounds to 0
     return "is too large for a number";
   }
   if (result.ec == std::errc() && result.ptr == end) {

@@ -29,10 +29,14 @@ double sine_of_turns(double turns) {
   const double quarter = std::floor(part * 4 + 0.5);
   const double x = (part - quarter * 0.25) * kTwoPi;
   switch (static_cast<int>(quarter) & 3) {
-    case 0: return sine_series(x);
-    case 1: return cosine_series(x);
-    case 2: return -sine_series(x);
-    default: return -cosine_series(x);
+    case 0:
+      return sine_series(x);
+    case 1:
+      return cosine_series(x);
+    case 2:
+      return -sine_series(x);
+    default:
+      return -cosine_series(x);
   }
 }
 

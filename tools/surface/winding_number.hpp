@@ -6,14 +6,16 @@
 
 namespace firmtouch::tools {
 
-/// How often a closed surface winds around a point: 1 inside an outward solid, 0 outside; where a surface crosses itself or
-/// shells lie in one another also other numbers.
-/// Counts, with their sign, the triangles that a ray from the point crosses. Vertices are projected along the ray onto a grid,
-/// where sides of edges are exact, and ties go one way, so that a ray through an edge or a vertex is still counted once.
+/// How often a closed surface winds around a point: 1 inside an outward solid, 0 outside; where a
+/// surface crosses itself or shells lie in one another also other numbers. Counts, with their sign,
+/// the triangles that a ray from the point crosses. Vertices are projected along the ray onto a
+/// grid, where sides of edges are exact, and ties go one way, so that a ray through an edge or a
+/// vertex is still counted once.
 /// Source: Edelsbrunner & Muecke 1990, "Simulation of simplicity".
 class WindingNumber {
  public:
-  /// `chosen`: which faces count; empty: all. They must close: every edge as often in one direction as in the other.
+  /// `chosen`: which faces count; empty: all. They must close: every edge as often in one direction
+  /// as in the other.
   WindingNumber(const Surface& surface, const std::vector<bool>& chosen);
 
   /// Exact but for points nearer to a triangle than 1e-13 of the surface's size.

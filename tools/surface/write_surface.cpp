@@ -11,8 +11,8 @@ namespace {
 // %.9g whatever the locale says.
 void append(std::string& text, float value) {
   char digits[32];
-  const std::to_chars_result end =
-      std::to_chars(digits, digits + sizeof digits, static_cast<double>(value), std::chars_format::general, 9);
+  const std::to_chars_result end = std::to_chars(
+      digits, digits + sizeof digits, static_cast<double>(value), std::chars_format::general, 9);
   text.append(digits, end.ptr);
 }
 

@@ -23,10 +23,9 @@ static inline bool is_near(math::Vec3 p_m) {
 // 3 h); the last difference, the sum of squares, the root and the subtraction below lose 4.5 u d.
 // Rounding of t moves it along the segment by x <= 7 u h + 3 u d, which adds sqrt(d^2 + x^2) - d:
 // at most x where d vanishes, nothing where d is of the size of h. Together: 10 u h where d is
-// small, 5.5 u d
-// + 3 u h where it is not. With care the differences lose nothing and the sum of squares one more
-// rounding: 4 u d. The loss told must not fall with d: else a better answer could widen the
-// certificate.
+// small, 5.5 u d and 3 u h where it is not. With care the differences lose nothing and the sum of
+// squares one rounding more: 4 u d. The loss told must not fall with d: else a better answer could
+// widen the certificate.
 constexpr float kUnit = 0x1p-24f;
 constexpr float kVanishing_m = 0x1p-58f;  // squares of less may underflow
 

@@ -35,7 +35,7 @@ struct Constraint {
 /// It can miss the closest point where samples lie unevenly: closest_point() cannot.
 /// Pre:    `curve` is open. `nearest` is memory for N samples (at most kMaxNearest are used); what
 ///         it holds is overwritten.
-/// Bounds: <= budget steps, and 2 N segments; 1.7 KB of stack; re-entrant; interrupt-safe.
+/// Bounds: <= budget steps, and 2 N segments; 1.5 KB of stack; re-entrant; interrupt-safe.
 /// Result: always finite. Equal costs: the first segment. On a closed curve the change of arc is
 ///         taken the shorter way round. No penalty for a weight that is not positive or a previous
 ///         arc position outside 0 to 1. No memory, or a query that is not finite or beyond 2^60 m:

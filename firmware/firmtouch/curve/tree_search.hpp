@@ -14,13 +14,16 @@ namespace firmtouch::curve {
 /// The visitor has
 ///     float radius_m() const;   what lies farther has nothing for it
 ///     void take(uint32_t sample, math::Vec3 from_sample_m, float distance2_m2);
-/// and its radius never grows, and is rounded up by a millionth: a sum of squares that is greater than
-/// the square of radius + reach is then greater in truth. A cell is the part of space that the planes above a node leave to it;
-/// a point of the curve lies within a node's reach of the cell of one of its samples, so distance
-/// to the cell minus reach bounds the distance of all that the subtree stands for. Along a branch
-/// cells shrink and reaches shrink, so the bound of the nearest cell left never falls: more steps
-/// never widen a certificate, and the order of steps does not depend on the budget. Source: Arya &
-/// Mount 1993 (distance to cells, kept axis by axis).
+/// Its radius never grows and is rounded up by a millionth: what is farther than radius + reach in
+/// squares of float32 is farther in truth.
+///
+/// A cell is the part of space that the planes above a node leave to it. A point of the curve lies
+/// within a node's reach of the cell of one of its samples, so distance to the cell minus reach
+/// bounds the distance of all that the subtree stands for. Along a branch cells and reaches shrink,
+/// so the bound of the nearest cell left never falls: more steps never widen a certificate, and the
+/// order of steps does not depend on the budget.
+///
+/// Source: Arya & Mount 1993 (distance to cells, kept axis by axis).
 template <class Visitor>
 class TreeSearch {
  public:
@@ -65,7 +68,7 @@ class TreeSearch {
  private:
   // Best first while there is room for a whole descent, last in first out beyond: then entries
   // above kBestFirst lie on one way down, at most one a level.
-  static constexpr uint32_t kBestFirst = 40;
+  static constexpr uint32_t kBestFirst = 24;
   static constexpr uint32_t kCapacity = kBestFirst + kMaxLevels + 1;
 
   struct Cell {

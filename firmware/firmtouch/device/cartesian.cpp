@@ -6,7 +6,8 @@ namespace firmtouch::device {
 namespace {
 
 constexpr float kTwoPi = 6.2831853f;
-// A time step outside of this is a broken clock, which servo faults; here it must only not break the arithmetic.
+// A time step outside of this is a broken clock, which servo faults; here it must only not break
+// the arithmetic.
 constexpr float kLeastStep_s = 1e-6f;
 constexpr float kMostStep_s = 1.0f;
 
@@ -48,7 +49,8 @@ math::Vec3 position_of(const State& state, const Settings& settings) {
                                         to_float(state.total[2]) / settings.counts_per_metre[2]};
 }
 
-// a dt / (dt + tau): the backward-difference form of a first-order low-pass, stable for every dt > 0.
+// a dt / (dt + tau): the backward-difference form of a first-order low-pass, stable for every dt >
+// 0.
 void filter_velocity(State& state, const Settings& settings, const int32_t (&step)[kAxes],
                      float since_s) {
   const float tau_s = 1.0f / (kTwoPi * settings.velocity_filter_Hz);

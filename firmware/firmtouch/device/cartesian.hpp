@@ -54,11 +54,13 @@ struct Reading {
 
 /// Position and velocity from this tick's counts. Counts wrap at 32 bits: what matters is their
 /// difference. The first sample is believed as it is. A step of more than max_speed_mps over the
-/// time since the last believed sample is not. Bounds: constant; re-entrant. Result: always finite;
-/// the position lies within the workspace, or is clamped to it with kWorkspaceFault. Error:  the
-/// quantum is 1 / counts_per_metre; beyond it the position is within 1.5 ulp of the larger of
-/// |origin| and
-///         |position - origin|, counts above 2^24 included (tests/device/cartesian_test.cpp).
+/// time since the last believed sample is not.
+/// Bounds: constant; re-entrant.
+/// Result: always finite; the position lies within the workspace, or is clamped to it with
+/// kWorkspaceFault.
+/// Error:  the quantum is 1 / counts_per_metre; beyond it the position is within 1.5 ulp of the
+/// larger of |origin| and |position - origin|, counts above 2^24 included
+/// (tests/device/cartesian_test.cpp).
 Reading read(State& state, const Settings& settings, const Sample& sample);
 
 /// Forgets bad samples, so that a fault which was cleared does not come back by itself.

@@ -51,8 +51,8 @@ bool does_not_contract() {
 }  // namespace
 
 bool arithmetic_is_sound() {
-  return rounds_to_nearest_even() && keeps_denormals() && has_no_extra_precision() && does_not_contract() &&
-         is(square_root(run_time(0x40000000u)), 0x3FB504F3u);
+  return rounds_to_nearest_even() && keeps_denormals() && has_no_extra_precision() &&
+         does_not_contract() && is(square_root(run_time(0x40000000u)), 0x3FB504F3u);
 }
 
 }  // namespace firmtouch::math

@@ -2,8 +2,9 @@
 
 namespace firmtouch::math {
 
-/// Whether this processor, as it is set up now, computes float32 as the baker's machine did: rounding to nearest even,
-/// denormals kept, no extra precision, products not fused into sums, square roots correctly rounded.
+/// Whether this processor, as it is set up now, computes float32 as the baker's machine did:
+/// rounding to nearest even, denormals kept, no extra precision, products not fused into sums,
+/// square roots correctly rounded.
 /// Bounds: about 100 instructions. The flags checked are those that the library was built with.
 bool arithmetic_is_sound();
 

@@ -16,7 +16,9 @@ constexpr float kHalfPi = 1.57079637f;
 constexpr float kHalfPiOver = 4.37113883e-8f;
 
 uint32_t size_bits(float value) { return bits_of(value) & ~kSign; }
-float with_sign_of(float size, float sign) { return float_of(bits_of(size) | (bits_of(sign) & kSign)); }
+float with_sign_of(float size, float sign) {
+  return float_of(bits_of(size) | (bits_of(sign) & kSign));
+}
 
 // An angle as a quarter turn (0 to 3) and what is left, within an eighth of a turn either side.
 struct Reduced {
@@ -34,8 +36,9 @@ uint32_t window(uint32_t first_bit) {
   return static_cast<uint32_t>(pair >> (32u - shift));
 }
 
-// x 2/pi modulo 4, by the 96 bits of 2/pi that matter: those above are worth whole turns, those below less than 2^-70.
-// x = m 2^s with a mantissa m of 24 bits; the window's first bit is worth 2 quarters. (Payne & Hanek 1983)
+// x 2/pi modulo 4, by the 96 bits of 2/pi that matter: those above are worth whole turns, those
+// below less than 2^-70. x = m 2^s with a mantissa m of 24 bits; the window's first bit is worth 2
+// quarters. (Payne & Hanek 1983)
 Reduced reduce(float angle_rad) {
   const uint32_t bits = size_bits(angle_rad);
   if (bits < 0x3F490FDBu) return {0, angle_rad};  // below pi / 4
@@ -43,8 +46,10 @@ Reduced reduce(float angle_rad) {
   const uint32_t first = (bits >> 23) - 150u + 30u;  // s + 30: -24 <= s <= 104
   const uint64_t low = m * window(first + 64u);
   const uint64_t middle = m * window(first + 32u) + (low >> 32);
-  const uint32_t high = static_cast<uint32_t>(m * window(first)) + static_cast<uint32_t>(middle >> 32);
-  const uint64_t turn = static_cast<uint64_t>(high) << 32 | static_cast<uint32_t>(middle);  // 2^62 a quarter
+  const uint32_t high =
+      static_cast<uint32_t>(m * window(first)) + static_cast<uint32_t>(middle >> 32);
+  const uint64_t turn =
+      static_cast<uint64_t>(high) << 32 | static_cast<uint32_t>(middle);  // 2^62 a quarter
 
   const uint64_t part = turn << 2;  // of a quarter, 2^64 the whole
   const bool over = (part >> 63) != 0;
@@ -91,8 +96,10 @@ float arc_tangent_of_small(float t) {
 // On [-1/2, 1/2]; Moshier's asinf.
 float arc_sine_of_small(float a) {
   const float z = a * a;
-  const float p = (((4.2163199048e-2f * z + 2.4181311049e-2f) * z + 4.5470025998e-2f) * z +
-                   7.4953002686e-2f) * z + 1.6666752422e-1f;
+  const float p =
+      (((4.2163199048e-2f * z + 2.4181311049e-2f) * z + 4.5470025998e-2f) * z + 7.4953002686e-2f) *
+          z +
+      1.6666752422e-1f;
   return a + (p * z) * a;
 }
 

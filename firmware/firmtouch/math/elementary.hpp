@@ -1,19 +1,21 @@
 #pragma once
 
-// Elementary functions in float32, of + - * / and integer operations only: the same bits on every target, no libm. All are
-// total and finite. Bounds are in ulp of the result, against double, over every float of the range unless it says
-// otherwise (tests/math/elementary_host_test.cpp).
+// Elementary functions in float32, of + - * / and integer operations only: the same bits on every
+// target, no libm. All are total and finite. Bounds are in ulp of the result, against double, over
+// every float of the range unless it says otherwise (tests/math/elementary_host_test.cpp).
 namespace firmtouch::math {
 
-/// Of an angle in radians, any float: the reduction is exact (2/pi to 224 bits). 1.5 ulp. NaN, infinity: 0.
+/// Of an angle in radians, any float: the reduction is exact (2/pi to 224 bits). 1.5 ulp. NaN,
+/// infinity: 0.
 /// Bounds: about 100 instructions, 64-bit products included.
 float sine(float angle_rad);
 
 /// As sine. 1.5 ulp. NaN, infinity: 1.
 float cosine(float angle_rad);
 
-/// Angle of the point (x, y), -pi to pi; 3 ulp where it is at least FLT_MIN, else within 2^-149. Signed zeros as in C;
-/// an infinity counts as farther than every number, two of them as equal. NaN: 0.
+/// Angle of the point (x, y), -pi to pi; 3 ulp where it is at least FLT_MIN, else within 2^-149.
+/// Signed zeros as in C; an infinity counts as farther than every number, two of them as equal.
+/// NaN: 0.
 /// Bounds: two divisions, about 60 instructions.
 float arc_tangent2(float y, float x);
 

@@ -25,14 +25,16 @@ struct Closest {
 };
 
 /// Closest point of the surface to `p_m` (mesh frame), its side, and a certificate.
-/// One greedy descent to a leaf, then best box first; from the last leaf upwards where the hint is
-/// warm. Bounds: <= budget steps; 600 B of stack; re-entrant; callable from an interrupt. Result:
-/// always finite. Two triangles equally near: the one visited first. A query that is not finite: a
-/// vertex, at
+/// Cold: one descent to a leaf, nearer child first, then best box first. Warm: from the last leaf
+/// upwards, as far as the last certificate does not already exclude the rest.
+/// Bounds: <= budget steps; 1.2 KB of stack; re-entrant; callable from an interrupt.
+/// Result: always finite. Two triangles equally near: the one visited first. Outside the mesh's
+///         grid the side is known under any budget. A query that is not finite: a vertex, at
 ///         distance FLT_MAX, lower 0, not exact, sign 0.
-/// Error:  |distance| within 3.5e-7 max(diagonal, distance) (tests/mesh/closest_point_test.cpp).
+/// Error:  |distance| within 2e-7 max(diagonal, distance) (tests/mesh/triangle_host_test.cpp,
+///         closest_point_host_test.cpp).
 /// Source: Baerentzen & Aanaes 2005, sections 3 and 4; Morris 2006, 3.3 (ascend from the last
-/// leaf).
+///         leaf).
 Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
 
 /// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.

@@ -19,15 +19,17 @@ struct Foot {
 
 /// Closest point of the triangle a b c, whose edge a b is the longest, to p.
 ///
-/// In the orthogonal frame of a b and the height vector h = ac - ab (ab . ac) / |ab|^2 the foot of p in the plane is
-/// a + ab x + h w; its barycentric coordinates are v = x - w xc (of b) and w (of c). Because a b is the longest edge, the
-/// angles at a and b are acute: a point beyond a b has its closest point on a b, one beyond a c or b c on that edge, and
-/// only beyond the corner c must both be asked.
+/// In the orthogonal frame of a b and the height vector h = ac - ab (ab . ac) / |ab|^2 the foot of
+/// p in the plane is a + ab x + h w; its barycentric coordinates are v = x - w xc (of b) and w (of
+/// c). Because a b is the longest edge, the angles at a and b are acute: a point beyond a b has its
+/// closest point on a b, one beyond a c or b c on that edge, and only beyond the corner c must both
+/// be asked.
 ///
-/// Why not the book's form (Ericson 2005, 5.1.5): it takes v and w from differences of fourth-degree products and loses
-/// them on slivers, by 2^-24 (length / height)^2. Here w is taken from what ab x leaves of ap, e, so that h being skew to
-/// ab by a rounding, 2^-24 length, meets no component along ab. With d the distance and u = 2^-24 the foot is off in the
-/// plane by at most min(u d length / height, height) beside u length, which lengthens d by at most u length / 2.
+/// Why not the book's form (Ericson 2005, 5.1.5): it takes v and w from differences of
+/// fourth-degree products and loses them on slivers, by 2^-24 (length / height)^2. Here w is taken
+/// from what ab x leaves of ap, e, so that h being skew to ab by a rounding, 2^-24 length, meets no
+/// component along ab. With d the distance and u = 2^-24 the foot is off in the plane by at most
+/// min(u d length / height, height) beside u length, which lengthens d by at most u length / 2.
 [[gnu::always_inline]] static inline Foot closest_on_triangle(math::Vec3 p, math::Vec3 a,
                                                               math::Vec3 b, math::Vec3 c) {
   using math::dot;
@@ -45,7 +47,8 @@ struct Foot {
   }
   const float w = y / dot(h, h);
   const float v = x - w * xc;
-  const bool beyond_ac = v<0.0f, beyond_bc = v + w> 1.0f;
+  const bool beyond_ac = v < 0.0f;
+  const bool beyond_bc = v + w > 1.0f;
   if (!(beyond_ac || beyond_bc)) return foot_at(e - h * w, Feature::kFace);
   if (beyond_ac) {
     const float t = dot(ac, ap), ac2 = dot(ac, ac);

@@ -4,26 +4,35 @@
 
 namespace firmtouch::params {
 
-// The initial values are of a table-top device that a hand can stop: 8 N, 1 kHz. With 75 g and 0.5 N s/m of its own,
-// such a device is stable to 1,000 N/m without virtual damping (Colgate & Schenkel 1994: b > K T / 2).
+// The initial values are of a table-top device that a hand can stop: 8 N, 1 kHz. With 75 g and 0.5
+// N s/m of its own, such a device is stable to 1,000 N/m without virtual damping (Colgate &
+// Schenkel 1994: b > K T / 2).
 extern constexpr Entry kTable[kCount] = {
     {"tool_radius_m", "m", 0.0f, 0.1f, 0.003f, When::kAnytime, "sphere at the tool's tip"},
     {"contact_stiffness_N_per_m", "N/m", 0.0f, 20000.0f, 800.0f, When::kAnytime, "of the surface"},
     {"contact_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime, "of the surface"},
     {"guide_stiffness_N_per_m", "N/m", 0.0f, 20000.0f, 400.0f, When::kAnytime, "across the guide"},
     {"guide_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime, "across the guide"},
-    {"guide_snap_m", "m", 0.0f, 1.0f, 0.005f, When::kAnytime, "nearer than this: the guide takes hold"},
+    {"guide_snap_m", "m", 0.0f, 1.0f, 0.005f, When::kAnytime,
+     "nearer than this: the guide takes hold"},
     {"guide_release_m", "m", 0.0f, 1.0f, 0.015f, When::kAnytime, "farther than this: it lets go"},
     {"force_limit_N", "N", 0.0f, 100.0f, 8.0f, When::kAnytime, "the most force at the tool"},
-    {"slew_limit_N_per_s", "N/s", 1.0f, 1000000.0f, 5000.0f, When::kAnytime, "the fastest change of force"},
+    {"slew_limit_N_per_s", "N/s", 1.0f, 1000000.0f, 5000.0f, When::kAnytime,
+     "the fastest change of force"},
     {"ramp_in_s", "s", 0.0f, 10.0f, 0.2f, When::kAnytime, "from enable to full force"},
-    {"velocity_filter_Hz", "Hz", 1.0f, 10000.0f, 150.0f, When::kAnytime, "cut-off of the velocity estimate"},
+    {"velocity_filter_Hz", "Hz", 1.0f, 10000.0f, 150.0f, When::kAnytime,
+     "cut-off of the velocity estimate"},
     {"tick_period_s", "s", 0.00005f, 0.1f, 0.001f, When::kMotorsOff, "nominal time between ticks"},
-    {"late_ratio", "1", 1.05f, 4.0f, 1.5f, When::kAnytime, "a tick that took longer, in periods, is late"},
-    {"max_speed_mps", "m/s", 0.01f, 100.0f, 5.0f, When::kAnytime, "a faster jump of an encoder is not believed"},
-    {"counts_per_metre_x", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff, "encoder of the x axis"},
-    {"counts_per_metre_y", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff, "encoder of the y axis"},
-    {"counts_per_metre_z", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff, "encoder of the z axis"},
+    {"late_ratio", "1", 1.05f, 4.0f, 1.5f, When::kAnytime,
+     "a tick that took longer, in periods, is late"},
+    {"max_speed_mps", "m/s", 0.01f, 100.0f, 5.0f, When::kAnytime,
+     "a faster jump of an encoder is not believed"},
+    {"counts_per_metre_x", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
+     "encoder of the x axis"},
+    {"counts_per_metre_y", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
+     "encoder of the y axis"},
+    {"counts_per_metre_z", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
+     "encoder of the z axis"},
     {"origin_x_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff, "position at a count of 0"},
     {"origin_y_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff, "position at a count of 0"},
     {"origin_z_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff, "position at a count of 0"},
@@ -47,7 +56,8 @@ constexpr bool rows_are_sound() {
   }
   return true;
 }
-static_assert(rows_are_sound(), "a row of the table is missing, or its initial value is out of its range");
+static_assert(rows_are_sound(),
+              "a row of the table is missing, or its initial value is out of its range");
 
 void add_text(core::Hash& hash, const char* text) {
   for (; *text != 0; ++text) hash.add(static_cast<unsigned char>(*text));

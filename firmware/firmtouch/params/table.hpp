@@ -65,15 +65,18 @@ struct Values {
   float operator[](Index i) const { return value[i]; }
 };
 
-/// Sets one value. Result: false, and nothing changed, for an index outside the table, NaN, or a
-/// value out of range.
+/// Sets one value.
+/// Result: false, and nothing changed, for an index outside the table, NaN, or a value out of
+/// range.
 bool set(Values& values, uint32_t index, float value);
 
-/// Row of a name that ends with a zero. Result: kCount where there is none.
+/// Row of a name that ends with a zero.
+/// Result: kCount where there is none.
 uint32_t find(const char* name);
 
 /// One number for names, units, ranges, defaults and their order: two programs with the same one
-/// mean the same by an index. Bounds: about 4,000 table steps; not for a tick.
+/// mean the same by an index.
+/// Bounds: about 4,000 table steps; not for a tick.
 uint64_t table_hash();
 
 }  // namespace firmtouch::params

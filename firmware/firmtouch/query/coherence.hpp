@@ -12,8 +12,8 @@ struct Carried {
   float motion_m = 0;  // rounded up
 };
 
-/// Bounds: constant, about 25 instructions. Result: nothing known (zeros) for a cold hint or a
-/// motion that is not finite.
+/// Bounds: constant, about 45 instructions.
+/// Result: nothing known (zeros) for a cold hint or a motion that is not finite.
 Carried carry(const Hint& hint, math::Vec3 position_m);
 
 }  // namespace firmtouch::query

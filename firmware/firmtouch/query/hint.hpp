@@ -8,16 +8,16 @@ namespace firmtouch::query {
 constexpr uint32_t kNowhere = UINT32_MAX;
 
 /// What a query leaves for the next one of the same (tool, object) pair; the caller owns it and
-/// never reads it. A default hint is a cold start. It is a hint: a reset, a jump, a hint of another
-/// asset or random bits cost steps and cannot make an answer wrong as long as (position_m, lower_m,
-/// sign) are what a query of this asset wrote.
+/// never reads it. A default hint is a cold start. A reset, a jump or a lost tick costs steps and
+/// cannot make an answer wrong; nor can any value of `place`. The rest is a certificate: what a
+/// query of another asset wrote must not be passed on.
 struct Hint {
   uint32_t place = kNowhere;  // where the last answer was found (the room's own numbering)
   math::Vec3 position_m;      // where the last query was
   float lower_m = 0;          // certified free radius about position_m
   int8_t sign = 0;            // certified side of position_m
-  uint32_t fence = kNowhere;  // a subtree of the room's tree ...
-  float fence_m = 0;  // ... outside which everything is certified at least this far from position_m
+  uint32_t fence = kNowhere;  // a subtree, outside which ...
+  float fence_m = 0;          // ... everything is certified at least this far from position_m
 };
 
 }  // namespace firmtouch::query

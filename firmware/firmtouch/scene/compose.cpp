@@ -14,14 +14,16 @@ float depth_at(const servo::ContactPlane& plane, math::Vec3 position_m) {
 uint32_t least_deep(const servo::LocalModel& model) {
   uint32_t least = 0;
   for (uint32_t i = 1; i < servo::kMaxPlanes; ++i) {
-    if (depth_at(model.plane[i], model.made_at_m) < depth_at(model.plane[least], model.made_at_m)) least = i;
+    if (depth_at(model.plane[i], model.made_at_m) < depth_at(model.plane[least], model.made_at_m))
+      least = i;
   }
   return least;
 }
 
 }  // namespace
 
-void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick, uint32_t age_ticks) {
+void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick,
+                 uint32_t age_ticks) {
   const uint32_t sequence = model.sequence + 1;
   model = servo::LocalModel{};
   model.made_at_m = position_m;
@@ -44,8 +46,8 @@ bool add_guide(servo::LocalModel& model, const servo::GuideLine& guide) {
   return true;
 }
 
-float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_m, const SurfacePoint& surface,
-                  const Material& material) {
+float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_m,
+                  const SurfacePoint& surface, const Material& material) {
   const float free_m = surface.lower_m > 0.0f ? surface.lower_m : 0.0f;
   if (!(model.free_radius_m <= free_m)) model.free_radius_m = free_m;
   if (surface.sign == 0) return 0.0f;
@@ -54,7 +56,8 @@ float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_
   const float depth_m = radius_m - surface.distance_m;
   servo::ContactPlane plane;
   plane.normal = surface.normal;
-  // Through the tool's own position rather than the surface's: the depth at this position keeps its last digits.
+  // Through the tool's own position rather than the surface's: the depth at this position keeps its
+  // last digits.
   plane.offset_m = math::dot(surface.normal, position_m) + depth_m;
   plane.stiffness_N_per_m = material.stiffness_N_per_m;
   plane.damping_N_s_per_m = material.damping_N_s_per_m;

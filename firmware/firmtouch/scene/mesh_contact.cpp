@@ -7,17 +7,19 @@ namespace {
 
 using math::Vec3;
 
-// A closest point is good to 3.5e-7 of the diagonal. At 1e-4 of the diagonal the direction to it is good to 4e-3 rad; at
-// 1e-5 it is not worth having. In between the two are mixed, so that no step is felt.
+// A closest point is good to 3.5e-7 of the diagonal. At 1e-4 of the diagonal the direction to it is
+// good to 4e-3 rad; at 1e-5 it is not worth having. In between the two are mixed, so that no step
+// is felt.
 constexpr float kOwnDirection = 1e-4f;
 constexpr float kPseudonormal = 1e-5f;
 
-// Outward unit normal at the closest point `c`, mesh frame. Both candidates lie in the normal cone of one feature, less
-// than a right angle apart, so that their mix has a length.
+// Outward unit normal at the closest point `c`, mesh frame. Both candidates lie in the normal cone
+// of one feature, less than a right angle apart, so that their mix has a length.
 Vec3 contact_normal(const mesh::Closest& c, Vec3 p_m, float diagonal_m) {
   const Vec3 off = p_m - c.point_m;
   const float size_m = math::length(off);
-  const float own = (size_m - kPseudonormal * diagonal_m) / ((kOwnDirection - kPseudonormal) * diagonal_m);
+  const float own =
+      (size_m - kPseudonormal * diagonal_m) / ((kOwnDirection - kPseudonormal) * diagonal_m);
   if (!(own > 0.0f)) return c.direction;
   const float side = c.certificate.sign > 0 ? 1.0f : -1.0f;
   const Vec3 outward = off * (side / size_m);
@@ -29,8 +31,8 @@ Vec3 contact_normal(const mesh::Closest& c, Vec3 p_m, float diagonal_m) {
 
 }  // namespace
 
-void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query::Budget budget, MeshTouch& touch,
-                servo::LocalModel& model) {
+void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query::Budget budget,
+                MeshTouch& touch, servo::LocalModel& model) {
   touch.penetration_m = 0;
   touch.normal = {};
   touch.closest = {};

@@ -10,14 +10,16 @@
 
 namespace firmtouch::scene {
 
-/// A mesh, where it lies (pose: mesh frame to device frame) and how it feels. Any number of objects may share a mesh.
+/// A mesh, where it lies (pose: mesh frame to device frame) and how it feels. Any number of objects
+/// may share a mesh.
 struct MeshObject {
   const mesh::View* mesh = nullptr;
   math::RigidTransform pose;
   Material material;
 };
 
-/// What a (tool, object) pair remembers from tick to tick, and what its last query said. The caller owns one a pair.
+/// What a (tool, object) pair remembers from tick to tick, and what its last query said. The caller
+/// owns one a pair.
 struct MeshTouch {
   query::Hint hint;
   mesh::Closest closest;    // mesh frame
@@ -25,14 +27,16 @@ struct MeshTouch {
   float penetration_m = 0;  // of the sphere; 0 in free space, and where the side is unknown
 };
 
-/// Penalty contact of a sphere of `radius_m` at `position_m` (device frame) with the object, by the signed distance of its
-/// centre. Never pushes on an unknown side (touch.closest.certificate.sign == 0: no plane is made).
-/// The plane's normal is the direction from the closest point to the centre (inside: the other way), which turns without
-/// a jump over edges and vertices; close to the surface, where that direction loses its digits, it fades into the
-/// pseudonormal. Where the query was not exact, no more depth is rendered than its certificate proves.
+/// Penalty contact of a sphere of `radius_m` at `position_m` (device frame) with the object, by the
+/// signed distance of its centre. Never pushes on an unknown side (touch.closest.certificate.sign
+/// == 0: no plane is made). The plane's normal is the direction from the closest point to the
+/// centre (inside: the other way), which turns without a jump over edges and vertices; close to the
+/// surface, where that direction loses its digits, it fades into the pseudonormal. Where the query
+/// was not exact, no more depth is rendered than its certificate proves.
 /// Known limit of penalty contact: a wall thinner than twice the penetration is pushed through.
-/// Bounds: one query of at most `budget` steps, and about 200 instructions; re-entrant for different touches.
-void touch_mesh(const MeshObject& object, float radius_m, math::Vec3 position_m, query::Budget budget, MeshTouch& touch,
-                servo::LocalModel& model);
+/// Bounds: one query of at most `budget` steps, and about 200 instructions; re-entrant for
+/// different touches.
+void touch_mesh(const MeshObject& object, float radius_m, math::Vec3 position_m,
+                query::Budget budget, MeshTouch& touch, servo::LocalModel& model);
 
 }  // namespace firmtouch::scene

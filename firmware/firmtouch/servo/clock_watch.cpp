@@ -6,8 +6,9 @@ namespace firmtouch::servo {
 namespace {
 
 constexpr uint32_t kJump_us = 1000000;
-constexpr float kStall = 4.0f;   // periods: the force of one tick was held for longer than a hand forgives
-constexpr float kEarly = 0.5f;   // periods
+constexpr float kStall =
+    4.0f;  // periods: the force of one tick was held for longer than a hand forgives
+constexpr float kEarly = 0.5f;  // periods
 constexpr uint32_t kWindowMask = (1u << kTimingWindow) - 1;
 
 bool too_many(uint32_t history) {

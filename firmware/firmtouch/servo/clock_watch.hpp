@@ -3,30 +3,33 @@
 
 namespace firmtouch::servo {
 
-// Of the last 10 ticks, so many may be late (or early) before the loop counts as lost. One late tick is a hiccup: the
-// measured time is used and nothing is said.
+// Of the last 10 ticks, so many may be late (or early) before the loop counts as lost. One late
+// tick is a hiccup: the measured time is used and nothing is said.
 constexpr uint32_t kTimingWindow = 10;
 constexpr uint32_t kTimingMisses = 3;
 
 struct ClockState {
   bool started = false;
   uint32_t last_us = 0;
-  uint32_t late_history = 0;   // bit k: the tick k ago was late
+  uint32_t late_history = 0;  // bit k: the tick k ago was late
   uint32_t early_history = 0;
 };
 
 struct ClockReading {
-  float dt_s = 0;       // measured, within half a period and four
+  float dt_s = 0;  // measured, within half a period and four
   bool late = false;
   uint32_t faults = 0;  // kFaultDeadline, kFaultClock
 };
 
-/// Measured time since the tick before, on a clock that wraps at 32 bits, and whether the loop keeps its period.
+/// Measured time since the tick before, on a clock that wraps at 32 bits, and whether the loop
+/// keeps its period.
 ///   late:  more than late_ratio periods. 3 of 10: kFaultDeadline. Four periods at once: at once.
-///   early: less than half a period (a tick that came twice, a clock that stands). 3 of 10: kFaultClock.
-///   a second or more, which is also what a clock set back looks like: kFaultClock at once.
-/// Bounds: constant; re-entrant. Result: the first tick, and one with a broken clock, is given a period.
+///   early: less than half a period (a tick that came twice, a clock that stands).
+///          3 of 10: kFaultClock.
+///   a second or more, as a clock that is set back looks too: kFaultClock at once.
 /// Pre: period_s and late_ratio within their ranges of params; others give finite results too.
+/// Bounds: constant; re-entrant.
+/// Result: the first tick, and one with a broken clock, is given a period.
 ClockReading watch_clock(ClockState& state, uint32_t clock_us, float period_s, float late_ratio);
 
 /// Forgets past misses, so that a fault which was cleared does not come back by itself.

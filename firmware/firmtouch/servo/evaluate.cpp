@@ -13,12 +13,13 @@ using math::Vec3;
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 bool is_unit(Vec3 a) {
-  return is_between(a.x, -2.0f, 2.0f) && is_between(a.y, -2.0f, 2.0f) && is_between(a.z, -2.0f, 2.0f) &&
-         is_between(dot(a, a), 0.98f, 1.02f);
+  return is_between(a.x, -2.0f, 2.0f) && is_between(a.y, -2.0f, 2.0f) &&
+         is_between(a.z, -2.0f, 2.0f) && is_between(dot(a, a), 0.98f, 1.02f);
 }
 
 bool is_near(Vec3 a) {
-  return is_between(a.x, -kMostPosition_m, kMostPosition_m) && is_between(a.y, -kMostPosition_m, kMostPosition_m) &&
+  return is_between(a.x, -kMostPosition_m, kMostPosition_m) &&
+         is_between(a.y, -kMostPosition_m, kMostPosition_m) &&
          is_between(a.z, -kMostPosition_m, kMostPosition_m);
 }
 
@@ -36,7 +37,8 @@ bool is_sound(const LocalModel& model) {
   if (!is_between(model.free_radius_m, 0.0f, FLT_MAX)) return false;
   for (uint32_t i = 0; i < model.plane_count; ++i) {
     const ContactPlane& plane = model.plane[i];
-    if (!is_unit(plane.normal) || !is_between(plane.offset_m, -kMostPosition_m, kMostPosition_m)) return false;
+    if (!is_unit(plane.normal) || !is_between(plane.offset_m, -kMostPosition_m, kMostPosition_m))
+      return false;
     if (!is_material(plane.stiffness_N_per_m, plane.damping_N_s_per_m)) return false;
   }
   if (!model.has_guide) return true;
@@ -51,13 +53,14 @@ Vec3 evaluate(const LocalModel& model, Vec3 position_m, Vec3 velocity_mps) {
     const ContactPlane& plane = model.plane[i];
     const float depth_m = plane.offset_m - dot(plane.normal, position_m);
     if (!(depth_m > 0.0f)) continue;
-    const float push_N =
-        plane.stiffness_N_per_m * depth_m - plane.damping_N_s_per_m * dot(plane.normal, velocity_mps);
+    const float push_N = plane.stiffness_N_per_m * depth_m -
+                         plane.damping_N_s_per_m * dot(plane.normal, velocity_mps);
     if (push_N > 0.0f) force_N = force_N + plane.normal * push_N;
   }
   if (model.has_guide) {
     const GuideLine& guide = model.guide;
-    force_N = force_N - across(position_m - guide.point_m, guide.direction) * guide.stiffness_N_per_m -
+    force_N = force_N -
+              across(position_m - guide.point_m, guide.direction) * guide.stiffness_N_per_m -
               across(velocity_mps, guide.direction) * guide.damping_N_s_per_m;
   }
   return force_N;

@@ -1,38 +1,42 @@
 #pragma once
 #include <stdint.h>
 
-// What switches the motors off. Numbered, append-only, latched: one bit each in record::TickOutput::faults, until a clear
-// command while the enable line is low. The setting that governs a fault stands beside it.
+// What switches the motors off. Numbered, append-only, latched: one bit each in
+// record::TickOutput::faults, until a clear command while the enable line is low. The setting that
+// governs a fault stands beside it.
 namespace firmtouch::servo {
 
 constexpr uint32_t kFaultNotFinite = 1u << 0;      // position, velocity, or what became of them
-constexpr uint32_t kFaultModel = 1u << 1;          // a local model with NaN, no unit normal, or a number out of range
-constexpr uint32_t kFaultStaleModel = 1u << 2;     // older than model_age ticks
-constexpr uint32_t kFaultDeadline = 1u << 3;       // 3 late ticks of 10, or one of 4 periods; late_ratio, tick_period_s
-constexpr uint32_t kFaultClock = 1u << 4;          // it jumped, or stood still in 3 ticks of 10; tick_period_s
+constexpr uint32_t kFaultModel = 1u << 1;          // a local model with NaN or out of range
+constexpr uint32_t kFaultStaleModel = 1u << 2;     // model_age
+constexpr uint32_t kFaultDeadline = 1u << 3;       // late_ratio, tick_period_s (clock_watch.hpp)
+constexpr uint32_t kFaultClock = 1u << 4;          // it jumped or stood still; tick_period_s
 constexpr uint32_t kFaultEncoder = 1u << 5;        // lost, or faster than max_speed_mps
 constexpr uint32_t kFaultWorkspace = 1u << 6;      // outside of workspace_half_{x,y,z}_m
 constexpr uint32_t kFaultDrive = 1u << 7;          // the motor driver's line
 constexpr uint32_t kFaultEmergencyStop = 1u << 8;  // the operator's line
 constexpr uint32_t kFaultAsset = 1u << 9;          // enabled over an asset that was refused
-constexpr uint32_t kFaultProbes = 1u << 10;        // enabled over probe queries or arithmetic that differ
+constexpr uint32_t kFaultProbes = 1u << 10;        // enabled over other arithmetic than the baker's
 constexpr uint32_t kFaultSettings = 1u << 11;      // servo settings out of range
 constexpr uint32_t kFaultGuard = 1u << 12;         // the last guard stopped what servo wanted
 constexpr uint32_t kFaultCount = 13;
 
-// These cut the force within the same tick; the others let it down over kRampOut_s, since a sudden loss of support is
-// felt as a blow. force_limit_N holds all the while.
-constexpr uint32_t kCutAtOnce = kFaultNotFinite | kFaultModel | kFaultDrive | kFaultEmergencyStop | kFaultAsset |
-                                kFaultProbes | kFaultSettings | kFaultGuard;
-// These are latched only while the motors are on: whoever plugs in an encoder or halts in a debugger with the motors off
-// has done no harm. A cause that still stands when the motors come on is latched then.
-constexpr uint32_t kOnlyWhileOn = kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder | kFaultWorkspace;
+// These cut the force within the same tick; the others let it down over kRampOut_s, since a sudden
+// loss of support is felt as a blow. force_limit_N holds all the while.
+constexpr uint32_t kCutAtOnce = kFaultNotFinite | kFaultModel | kFaultDrive | kFaultEmergencyStop |
+                                kFaultAsset | kFaultProbes | kFaultSettings | kFaultGuard;
+// These are latched only while the motors are on: whoever plugs in an encoder or halts in a
+// debugger with the motors off has done no harm. A cause that still stands when the motors come on
+// is latched then.
+constexpr uint32_t kOnlyWhileOn =
+    kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder | kFaultWorkspace;
 
-/// Short name of fault `number` (its bit), for messages and tables. Result: "unknown" beyond the last.
+/// Short name of fault `number` (its bit), for messages and tables.
+/// Result: "unknown" beyond the last.
 constexpr const char* fault_name(uint32_t number) {
   constexpr const char* kName[kFaultCount] = {
-      "not finite", "model", "stale model", "deadline", "clock",    "encoder", "workspace",
-      "drive",      "emergency stop", "asset", "probes", "settings", "guard"};
+      "not finite", "model",          "stale model", "deadline", "clock",    "encoder", "workspace",
+      "drive",      "emergency stop", "asset",       "probes",   "settings", "guard"};
   return number < kFaultCount ? kName[number] : "unknown";
 }
 

@@ -12,7 +12,8 @@ uint32_t word_of(float value) {
   return word;
 }
 
-// |value| in units of 2^-fraction, digits below cut off; kNotANumber from 2^(62 - fraction) on, and for NaN.
+// |value| in units of 2^-fraction, digits below cut off; kNotANumber from 2^(62 - fraction) on, and
+// for NaN.
 uint64_t fixed_point(float value, uint32_t fraction) {
   const uint32_t word = word_of(value) & 0x7FFFFFFFu;
   const uint32_t exponent = word >> 23;
@@ -45,10 +46,12 @@ bool remembers(const GuardState& state) {
   return true;
 }
 
-bool is_in_limits(const GuardState& state, const GuardLimits& limits, const int32_t (&force)[kGuardedMotors]) {
+bool is_in_limits(const GuardState& state, const GuardLimits& limits,
+                  const int32_t (&force)[kGuardedMotors]) {
   const uint64_t limit = fixed_point(limits.force_limit_N, 16) + 1;
   uint64_t growth = 0;
-  if (limit == 0 || limit > (1u << 30) || is_negative(limits.force_limit_N) || !largest_growth(limits, growth)) {
+  if (limit == 0 || limit > (1u << 30) || is_negative(limits.force_limit_N) ||
+      !largest_growth(limits, growth)) {
     return false;
   }
   uint64_t squares = 0;
@@ -64,7 +67,8 @@ bool is_in_limits(const GuardState& state, const GuardLimits& limits, const int3
   return squares <= limit * limit;
 }
 
-bool is_quiet_in_time(GuardState& state, const GuardLimits& limits, bool may_push, bool cut, bool is_zero) {
+bool is_quiet_in_time(GuardState& state, const GuardLimits& limits, bool may_push, bool cut,
+                      bool is_zero) {
   if (may_push) {
     state.quiet_ticks = 0;
   } else if (state.quiet_ticks < UINT32_MAX) {
@@ -79,7 +83,8 @@ bool is_quiet_in_time(GuardState& state, const GuardLimits& limits, bool may_pus
 
 }  // namespace
 
-bool guard(GuardState& state, const GuardLimits& limits, bool may_push, bool cut, float (&motor_N)[kGuardedMotors]) {
+bool guard(GuardState& state, const GuardLimits& limits, bool may_push, bool cut,
+           float (&motor_N)[kGuardedMotors]) {
   int32_t force[kGuardedMotors] = {};
   bool good = remembers(state);
   bool is_zero = true;

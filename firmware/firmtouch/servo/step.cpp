@@ -16,15 +16,19 @@ constexpr float kLeastLimit_N = 1e-9f;
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 bool is_sound(const Settings& settings) {
-  return is_between(settings.force_limit_N, 0.0f, 1e4f) && is_between(settings.slew_limit_N_per_s, 0.0f, 1e9f) &&
-         is_between(settings.ramp_in_s, 0.0f, 100.0f) && is_between(settings.tick_period_s, 1e-5f, 1.0f);
+  return is_between(settings.force_limit_N, 0.0f, 1e4f) &&
+         is_between(settings.slew_limit_N_per_s, 0.0f, 1e9f) &&
+         is_between(settings.ramp_in_s, 0.0f, 100.0f) &&
+         is_between(settings.tick_period_s, 1e-5f, 1.0f);
 }
 
 bool is_within(Vec3 a, float most) {
-  return is_between(a.x, -most, most) && is_between(a.y, -most, most) && is_between(a.z, -most, most);
+  return is_between(a.x, -most, most) && is_between(a.y, -most, most) &&
+         is_between(a.z, -most, most);
 }
 
-// Shortens a vector to `most`, rounding included: what comes out is not longer than that in exact arithmetic.
+// Shortens a vector to `most`, rounding included: what comes out is not longer than that in exact
+// arithmetic.
 Vec3 shorten(Vec3 a, float most) {
   if (!(most >= kLeastLimit_N)) return {};
   const float kept = most * (1.0f - 8.0f * kRound);
@@ -32,11 +36,12 @@ Vec3 shorten(Vec3 a, float most) {
   return is <= kept ? a : a * (kept / is);
 }
 
-uint32_t seen_faults(const State& state, const Settings& settings, const LocalModel& model, const StepInput& input) {
+uint32_t seen_faults(const State& state, const Settings& settings, const LocalModel& model,
+                     const StepInput& input) {
   uint32_t faults = input.reported;
   if (!is_sound(settings)) faults |= kFaultSettings;
-  if (!is_within(input.position_m, kMostPosition_m) || !is_within(input.velocity_mps, kMostVelocity_mps) ||
-      !math::is_finite(state.force_N)) {
+  if (!is_within(input.position_m, kMostPosition_m) ||
+      !is_within(input.velocity_mps, kMostVelocity_mps) || !math::is_finite(state.force_N)) {
     faults |= kFaultNotFinite;
   }
   if (!is_sound(model)) faults |= kFaultModel;
@@ -82,27 +87,30 @@ Vec3 ramped_out(State& state, const Settings& settings) {
   return shorten(state.ramp_from_N * share, settings.force_limit_N);
 }
 
-Vec3 rendered(State& state, const Settings& settings, const LocalModel& model, const StepInput& input) {
+Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
+              const StepInput& input) {
   if (state.ticks_on < UINT32_MAX) ++state.ticks_on;
-  const float ramp = static_cast<float>(state.ticks_on) * settings.tick_period_s / settings.ramp_in_s;
+  const float ramp =
+      static_cast<float>(state.ticks_on) * settings.tick_period_s / settings.ramp_in_s;
   float share = 1.0f;
   if (ramp < 1.0f) {
     share = ramp;
   } else {
     state.mode = Mode::kOn;
   }
-  const Vec3 wanted_N =
-      shorten(evaluate(model, input.position_m, input.velocity_mps) * share, settings.force_limit_N);
-  const Vec3 before_N = shorten(state.force_N, settings.force_limit_N);
-  // The sum below rounds by half an ulp of an axis of at most the limit: taken off the step beforehand.
-  const float step_N =
-      settings.slew_limit_N_per_s * settings.tick_period_s - settings.force_limit_N * (4.0f * kRound);
-  return shorten(before_N + shorten(wanted_N - before_N, step_N), settings.force_limit_N);
+  const Vec3 wanted_N = shorten(evaluate(model, input.position_m, input.velocity_mps) * share,
+                                settings.force_limit_N);
+  // The sum below rounds by half an ulp of an axis of at most the limit: taken off the step
+  // beforehand.
+  const float step_N = settings.slew_limit_N_per_s * settings.tick_period_s -
+                       settings.force_limit_N * (4.0f * kRound);
+  return shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);
 }
 
 }  // namespace
 
-StepOutput step(State& state, const Settings& settings, const LocalModel& model, const StepInput& input) {
+StepOutput step(State& state, const Settings& settings, const LocalModel& model,
+                const StepInput& input) {
   if (input.clear_faults && !input.enable) {
     state = State{};
   }

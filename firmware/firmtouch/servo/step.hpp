@@ -6,12 +6,13 @@
 
 namespace firmtouch::servo {
 
-// From a fault that lets the force down to no force: 10 ms at most, without a blow. In ticks: rounded down, at least 1.
+// From a fault that lets the force down to no force: 10 ms at most, without a blow. In ticks:
+// rounded down, at least 1.
 constexpr float kRampOut_s = 0.008f;
 
 enum class Mode : uint8_t {
-  kOff,      // not enabled: no force
-  kRampIn,   // enabled a moment ago: the force grows in over ramp_in_s
+  kOff,     // not enabled: no force
+  kRampIn,  // enabled a moment ago: the force grows in over ramp_in_s
   kOn,
   kRampOut,  // disabled, or a fault: the last force dies away
   kFault,    // latched: no force
@@ -25,7 +26,7 @@ struct Settings {
 };
 
 struct StepInput {
-  math::Vec3 position_m;    // fresh, device frame
+  math::Vec3 position_m;  // fresh, device frame
   math::Vec3 velocity_mps;
   uint32_t tick = 0;
   bool enable = false;
@@ -36,8 +37,8 @@ struct StepInput {
 struct StepOutput {
   math::Vec3 force_N;
   Mode mode = Mode::kOff;
-  uint32_t faults = 0;           // latched
-  bool in_free_radius = false;   // no surface can be between here and where the model was made
+  uint32_t faults = 0;          // latched
+  bool in_free_radius = false;  // no surface can be between here and where the model was made
 };
 
 struct State {
@@ -45,17 +46,19 @@ struct State {
   uint32_t faults = 0;
   uint32_t ticks_on = 0;
   uint32_t ramp_out_left = 0;
-  math::Vec3 force_N;           // of the tick before
-  math::Vec3 ramp_from_N;       // where the ramp out began
+  math::Vec3 force_N;      // of the tick before
+  math::Vec3 ramp_from_N;  // where the ramp out began
 };
 
-/// The force of this tick: the local model evaluated at the fresh position, ramped in, limited in size and in its change,
-/// or none. A function of its arguments.
-/// Bounds: constant; re-entrant. Result, for every input, NaN in any field included:
+/// The force of this tick: the local model evaluated at the fresh position, ramped in, limited in
+/// size and in its change, or none. A function of its arguments.
+/// Bounds: constant; re-entrant.
+/// Result, for every input, NaN in any field included:
 ///   force finite and |force| <= force_limit_N;
-///   |change| <= slew_limit_N_per_s * tick_period_s, except towards zero: a fault or a lowered limit takes force away
-///   faster, and faults of kCutAtOnce take it away at once;
+///   |change| <= slew_limit_N_per_s * tick_period_s, except towards zero: faults and a lowered
+///   limit take force away faster, those of kCutAtOnce at once;
 ///   a fault is latched in the tick that shows it, and no force is left 10 ms later.
-StepOutput step(State& state, const Settings& settings, const LocalModel& model, const StepInput& input);
+StepOutput step(State& state, const Settings& settings, const LocalModel& model,
+                const StepInput& input);
 
 }  // namespace firmtouch::servo

@@ -1,0 +1,168 @@
+#pragma once
+// The search for the nearest triangle: the room's inner loop. For closest_point.cpp alone.
+
+#include <float.h>
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/grid.hpp"
+#include "firmtouch/mesh/triangle.hpp"
+#include "firmtouch/mesh/view.hpp"
+#include "firmtouch/query/hint.hpp"
+
+namespace firmtouch::mesh {
+namespace {
+
+using math::Vec3;
+
+// Boxes still to be looked at. Smallest key first while there is room for a whole descent, last in
+// first out beyond, which needs kMaxDepth entries at most. 64 entries for smallest first: within
+// the 64 steps of a tick's budget it never overflows.
+constexpr uint32_t kBestFirst = 64;
+constexpr uint32_t kCapacity = kBestFirst + kMaxDepth;
+
+struct Best {
+  float distance2_m2 = FLT_MAX;
+  Vec3 offset_m;
+  uint32_t triangle = 0;
+  uint32_t place = query::kNowhere;  // of its leaf: node << 1 | slot
+  Feature feature = Feature::kVertex0;
+};
+
+// A place is a box: node << 1 | which of its two.
+struct Pending {
+  uint32_t key;
+  uint32_t place;
+};
+
+/// In: the best so far and the last fence, the subtree outside which everything is at least fence_m
+/// away. Out: the same, renewed, and what the search came to.
+struct Search {
+  Best best;
+  uint32_t fence;
+  float fence_m;
+  float fence_margin_m;  // in: how much farther than the first leaf a new fence should stand
+  uint32_t steps;
+  bool complete;    // nothing nearer can be left
+  float pending_m;  // where it is not: certified distance to everything that was not looked at
+};
+
+// Takes a key below `prune`: while there are more than `best_first`, the last, else the smallest.
+// Result: false when there is none. A cold search takes the smallest, for the sake of its lower
+//          bound; a warm one knows its upper bound so well that the order no longer matters, and
+//          saves the comparisons.
+inline bool take_next(Pending* pending, uint32_t& count, uint32_t best_first, uint32_t prune,
+                      Pending& taken) {
+  while (count > best_first) {
+    taken = pending[--count];
+    if (taken.key < prune) return true;
+  }
+  if (count == 0) return false;
+  uint32_t at = count - 1;
+  for (uint32_t i = at; i-- > 0;) at = pending[i].key < pending[at].key ? i : at;
+  taken = pending[at];
+  pending[at] = pending[--count];
+  return taken.key < prune;
+}
+
+// From the leaf at `place`, which has been read, up to the fence where that is far enough away,
+// else to the root, building the next fence: the highest node with a box beside the way that is
+// nearer than the fence should be. Result: false where the budget ends on the way.
+template <class Bound>
+inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t prune,
+                  uint32_t& left, Pending* pending, uint32_t& count, Search& search) {
+  const Node* const nodes = mesh.nodes().data();
+  const uint32_t* const parents = mesh.parents().data();
+  const float leaf_m = math::square_root(search.best.distance2_m2) * (1.0f + 0x1p-22f);
+  const uint32_t stop = leaf_m <= search.fence_m ? search.fence : 0;
+  const float reach_m = leaf_m + search.fence_margin_m;
+  const uint32_t beyond = bound.prune_key(reach_m * reach_m);
+  uint32_t index = place >> 1, beside = (place & 1) ^ 1, fence = index;
+  while (left != 0) {
+    --left;
+    const uint32_t key = bound.key(nodes[index].box[beside]);
+    if (key < beyond) {
+      fence = index;
+      if (key < prune) pending[count++] = {key, index << 1 | beside};
+    }
+    if (index == stop && index != 0) return true;
+    if (index == 0) {
+      search.fence = fence;
+      search.fence_m = reach_m * (1.0f - 0x1p-22f);
+      return true;
+    }
+    const uint32_t word = parents[index];
+    index = parent_of(word);
+    beside = slot_of(word) ^ 1;
+  }
+  return false;
+}
+
+// One loop with its state in registers. A box is a place; a leaf that is reached is read, an inner
+// node is entered by its nearer child, the other left in `pending`. A warm search begins with the
+// last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
+template <class Bound, class Index>
+void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangles,
+                    const Bound& bound_at, Vec3 p_m, uint32_t budget, uint32_t start,
+                    Search& search) {
+  const Bound bound = bound_at;  // in registers
+  const Vertex* const vertices = mesh.vertices().data();
+  const Triangle<Index>* const triangle = triangles.data();
+  const Node* const nodes = mesh.nodes().data();
+  const uint32_t allowed = budget == 0 ? 1 : budget;
+  Pending pending[kCapacity];
+  uint32_t count = 0, left = allowed;
+  float least2_m2 = search.best.distance2_m2;
+  uint32_t prune = bound.prune_key(least2_m2);
+  bool climbing = start != query::kNowhere;
+  const uint32_t best_first = climbing ? 0 : kBestFirst;
+  Pending now{0, start};
+  uint32_t child = climbing ? nodes[start >> 1].child[start & 1] : 0;  // else the root
+  while (left != 0) {
+    --left;
+    if (!is_leaf(child)) {
+      const Node& node = nodes[child];
+      const uint32_t key0 = bound.key(node.box[0]), key1 = bound.key(node.box[1]);
+      const uint32_t slot = key1 < key0 ? 1 : 0, far_key = slot ? key0 : key1;
+      now.place = child << 1 | slot;
+      now.key = slot ? key1 : key0;
+      if (far_key < prune) pending[count++] = {far_key, now.place ^ 1u};
+      if (now.key < prune) {
+        child = node.child[slot];
+        continue;
+      }
+    } else {
+      const float before2_m2 = least2_m2;
+      uint32_t i = leaf_first(child);
+      for (const uint32_t end = i + leaf_count(child); i < end; ++i) {
+        const Vertex &a = vertices[triangle[i].corner[0]], &b = vertices[triangle[i].corner[1]],
+                     &c = vertices[triangle[i].corner[2]];
+        const Foot foot = closest_on_triangle(p_m, {a.x_m, a.y_m, a.z_m}, {b.x_m, b.y_m, b.z_m},
+                                              {c.x_m, c.y_m, c.z_m});
+        if (!(foot.distance2_m2 < least2_m2)) continue;
+        least2_m2 = foot.distance2_m2;
+        search.best = {least2_m2, foot.offset_m, i, now.place, foot.feature};
+      }
+      if (least2_m2 < before2_m2) prune = bound.prune_key(least2_m2);
+      if (climbing) {
+        if (!climb(mesh, bound, start, prune, left, pending, count, search)) break;
+        climbing = false;
+      }
+    }
+    if (!take_next(pending, count, best_first, prune, now)) {
+      search.complete = true;
+      search.steps = allowed - left;
+      return;
+    }
+    child = nodes[now.place >> 1].child[now.place & 1];
+  }
+  // The budget ran out: what was about to be read is left too.
+  search.complete = false;
+  search.complete = false;
+  search.steps = allowed - left;
+  uint32_t least = climbing ? 0 : now.key;
+  for (uint32_t i = 0; i < count; ++i) least = pending[i].key < least ? pending[i].key : least;
+  search.pending_m = bound.distance_m(least);
+}
+
+}  // namespace
+}  // namespace firmtouch::mesh

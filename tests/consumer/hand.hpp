@@ -1,0 +1,10 @@
+#pragma once
+#include <stdint.h>
+
+// The hand that leads the tool: where it is at each tick, in encoder counts of 10 um. It goes down onto the torus, the
+// gem and the wall in turn and rests on each.
+void hand_counts(uint32_t tick, int32_t (&counts)[3]);
+
+enum class Place { kFree, kOnTorus, kOnGem, kOnWall, kEnd };
+/// What the hand rests on or is surely free of at this tick; kEnd after the last.
+Place hand_place(uint32_t tick, bool& settled);

@@ -1,0 +1,113 @@
+// A device of this project's own: the library's baked mesh beside a shape and an effect that the library does not know.
+// The scripted hand rests on each in turn; the program checks what it felt and ends with 0, or says what was wrong.
+#include "firmtouch/device/cartesian.hpp"
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hal/encoders.hpp"
+#include "firmtouch/hal/motors.hpp"
+#include "firmtouch/opener.hpp"
+#include "firmtouch/scene/compose.hpp"
+#include "firmtouch/scene/mesh_contact.hpp"
+#include "firmtouch/servo/guard.hpp"
+#include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
+#include "humming_wall.hpp"
+#include "torus.hpp"
+
+using namespace firmtouch;
+
+namespace {
+
+constexpr uint32_t kPeriod_us = 1000;
+constexpr float kRadius_m = 0.003f;
+constexpr float kStiffness_N_per_m = 500.0f;
+constexpr query::Budget kBudget{64};
+constexpr Torus kTorus{{-0.04f, 0, 0}, 0.02f, 0.008f};
+constexpr HummingWall kWall{-0.02f, 0.0005f, kStiffness_N_per_m};
+constexpr device::Settings kDevice{{100000, 100000, 100000}, {0, 0, 0}, {0.1f, 0.1f, 0.1f}, 1.0f, 100.0f};
+constexpr servo::Settings kServo{5.0f, 1000.0f, 0.02f, 0.001f};
+constexpr servo::GuardLimits kGuard{5.0f, 1000.0f, 0.001f};
+
+Opener opener;
+device::State joints;
+scene::MeshTouch gem_touch;
+servo::LocalModel model;
+servo::State servo_state;
+servo::GuardState guard_state;
+
+struct Felt {
+  float low_N = 1e9f, high_N = -1e9f;  // upwards
+  bool sideways = false;
+};
+Felt felt[4];
+volatile bool done = false;
+
+void keep(uint32_t tick, const float (&force_N)[3]) {
+  bool settled = false;
+  const Place place = hand_place(tick, settled);
+  if (place == Place::kEnd) done = true;
+  if (!settled || place == Place::kEnd) return;
+  Felt& here = felt[static_cast<int>(place)];
+  if (force_N[2] < here.low_N) here.low_N = force_N[2];
+  if (force_N[2] > here.high_N) here.high_N = force_N[2];
+  if (force_N[0] * force_N[0] + force_N[1] * force_N[1] > 0.0025f) here.sideways = true;
+}
+
+void servo_interrupt() {
+  static uint32_t tick = 0;
+  device::Sample sample{{}, false, 0.001f};
+  sample.trusted = hal::encoders_read(sample.counts);
+  const device::Reading tool = device::read(joints, kDevice, sample);
+
+  scene::begin_model(model, tool.position_m, tick, 2);
+  const scene::MeshObject gem{&opener.mesh(), {}, {kStiffness_N_per_m, 0}};
+  scene::touch_mesh(gem, kRadius_m, tool.position_m, kBudget, gem_touch, model);
+  scene::add_contact(model, tool.position_m, kRadius_m, closest_on(kTorus, tool.position_m), {kStiffness_N_per_m, 0});
+  add_hum(model, kWall, kRadius_m, tick);
+
+  servo::StepInput input;
+  input.position_m = tool.position_m;
+  input.velocity_mps = tool.velocity_mps;
+  input.tick = tick;
+  input.enable = hal::motors_lines() != 0;
+  input.reported = tool.faults;
+  const servo::StepOutput output = servo::step(servo_state, kServo, model, input);
+  float motor_N[3] = {output.force_N.x, output.force_N.y, output.force_N.z};
+  servo::guard(guard_state, kGuard, input.enable && output.faults == 0, false, motor_N);
+  hal::motors_write_N(motor_N);
+  keep(tick++, motor_N);
+}
+
+bool check(bool holds, const char* text) {
+  hal::board_print(holds ? "ok    " : "FAIL  ");
+  hal::board_print(text);
+  hal::board_print("\n");
+  return holds;
+}
+
+bool between(Place place, float low_N, float high_N) {
+  const Felt& here = felt[static_cast<int>(place)];
+  return here.low_N >= low_N && here.high_N <= high_N && !here.sideways;
+}
+
+}  // namespace
+
+int main() {
+  hal::board_begin();
+  opener.begin(hal::board_asset(), {});
+  while (!opener.work(4096)) {
+  }
+  if (!check(opener.is_ready(), "ConsumerAssetOpensAndItsProbesAnswerTheSameBits")) return opener.verdict().rule % 256;
+  hal::clock_start_servo(kPeriod_us, servo_interrupt);
+  while (!done) asm volatile("wfi");
+
+  bool good = check(servo_state.faults == 0 && guard_state.armed == servo::kGuardArmed, "ConsumerRunsWithoutAFault");
+  good &= check(between(Place::kFree, 0, 0), "ConsumerFeelsNothingInFreeSpace");
+  good &= check(between(Place::kOnTorus, 2.45f, 2.55f), "ConsumerFeelsItsOwnShape");       // 500 N/m, 5 mm deep
+  good &= check(between(Place::kOnGem, 1.45f, 1.55f), "ConsumerFeelsTheBakedMesh");        // 3 mm deep
+  good &= check(between(Place::kOnWall, 0.24f, 0.76f), "ConsumerFeelsItsOwnEffect");       // 1 mm, +- 0.5 mm
+  const Felt& wall = felt[static_cast<int>(Place::kOnWall)];
+  good &= check(wall.high_N - wall.low_N > 0.45f, "ConsumerFeelsItsOwnEffectHum");
+  hal::board_print(good ? "7 passed, 0 failed\n" : "0 passed, 1 failed\n");
+  return good ? 0 : 1;
+}

@@ -1,0 +1,202 @@
+// What latches, when, what it leaves of the force, and how it is cleared: over the whole tick.
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "controller/ride.hpp"
+#include "firmtouch/controller.hpp"
+#include "firmtouch/servo/fault.hpp"
+#include "harness/test.hpp"
+
+namespace asset = firmtouch::asset;
+namespace core = firmtouch::core;
+namespace curve = firmtouch::curve;
+namespace mesh = firmtouch::mesh;
+namespace params = firmtouch::params;
+namespace record = firmtouch::record;
+namespace servo = firmtouch::servo;
+namespace tools = firmtouch::tools;
+
+using firmtouch::Controller;
+using firmtouch::Selection;
+
+using namespace firmtouch::controller_test;
+
+TEST(EachLineAndEachBrokenInputLatchesItsFaultInTime) {
+  struct Plan {
+    const char* name;
+    uint32_t fault, within_ticks;
+    void (*bend)(record::TickInput& input, uint32_t since);
+  };
+  const Plan plans[] = {
+      {"emergency stop", servo::kFaultEmergencyStop, 1,
+       [](record::TickInput& i, uint32_t since) {
+         if (since == 0) i.lines |= record::kLineEmergencyStop;
+       }},
+      {"drive", servo::kFaultDrive, 1,
+       [](record::TickInput& i, uint32_t since) {
+         if (since == 0) i.lines |= record::kLineDriveFault;
+       }},
+      {"encoder lost", servo::kFaultEncoder, 3,
+       [](record::TickInput& i, uint32_t) { i.lines |= record::kLineEncoderFault; }},
+      {"encoder jump", servo::kFaultEncoder, 3,
+       [](record::TickInput& i, uint32_t since) {
+         i.encoder_counts[1] += since % 2 == 0 ? 200000 : -200000;
+       }},
+      {"clock stands", servo::kFaultClock, 4,
+       [](record::TickInput& i, uint32_t since) { i.clock_us -= 1000u * since; }},
+      {"clock set back", servo::kFaultClock, 1,
+       [](record::TickInput& i, uint32_t) { i.clock_us -= 50000u; }},
+      {"three late ticks", servo::kFaultDeadline, 3,
+       [](record::TickInput& i, uint32_t since) { i.clock_us += 1000u * (since + 1); }},
+      {"stall", servo::kFaultDeadline, 1,
+       [](record::TickInput& i, uint32_t) { i.clock_us += 5000u; }},
+      {"out of reach", servo::kFaultWorkspace, 120,
+       [](record::TickInput& i, uint32_t since) {
+         i.encoder_counts[0] += 450 * static_cast<int32_t>(since);
+       }},
+  };
+  for (const Plan& plan : plans) {
+    for (const uint32_t at : {300u, 517u, 801u, 1103u}) {
+      Ride ride;
+      ride.run(0, at);
+      CHECK_EQ(ride.output.faults, 0u);
+      uint32_t latched = UINT32_MAX;
+      for (uint32_t since = 0; since < 140; ++since) {
+        ride.fill(at + since);
+        plan.bend(ride.input, since);
+        ride.step();
+        CHECK(all_finite(ride.output));
+        CHECK_LE(size_of(ride.output.motor_N), 8.0);
+        if (ride.output.faults != 0 && latched == UINT32_MAX) latched = since;
+        if (latched != UINT32_MAX && since >= latched + 10)
+          CHECK_EQ(size_of(ride.output.motor_N), 0.0);
+      }
+      firmtouch::test::note(plan.name, at);
+      CHECK_LT(latched, plan.within_ticks);
+      CHECK_NE(ride.output.faults & plan.fault, 0u);
+      CHECK_EQ(ride.output.faults & servo::kFaultGuard, 0u);  // servo itself was enough
+    }
+  }
+}
+
+TEST(ClearedFaultsLetItGoOn) {
+  Ride ride;
+  ride.run(0, 400);
+  ride.fill(400);
+  ride.input.lines |= record::kLineEmergencyStop;
+  ride.step();
+  ride.run(401, 500);
+  CHECK_EQ(ride.output.faults, servo::kFaultEmergencyStop);
+  ride.fill(500);
+  ride.input.command = record::kCommandClearFaults;
+  ride.step();  // refused: enable is high
+  CHECK_NE(ride.output.state & record::kStateCommandRefused, 0u);
+  CHECK_NE(ride.output.faults, 0u);
+  ride.fill(501);
+  ride.input.lines = 0;
+  ride.input.command = record::kCommandClearFaults;
+  ride.step();
+  CHECK_EQ(ride.output.faults, 0u);
+  double most = 0;
+  for (uint32_t tick = 502; tick < 1500; ++tick) {
+    ride.fill(tick);
+    ride.step();
+    most = std::fmax(most, size_of(ride.output.motor_N));
+  }
+  CHECK_EQ(ride.output.faults, 0u);
+  CHECK_GE(most, 0.3);
+}
+
+TEST(ClearedTimingAndEncoderFaultsDoNotComeBackByThemselves) {
+  for (int kind = 0; kind < 2; ++kind) {
+    Ride ride;
+    ride.run(0, 400);
+    for (uint32_t tick = 400; tick < 408; ++tick) {
+      ride.fill(tick);
+      if (kind == 0) ride.input.clock_us += (tick - 400) * 1000u;
+      if (kind == 1) ride.input.lines |= record::kLineEncoderFault;
+      ride.step();
+    }
+    CHECK_NE(ride.output.faults, 0u);
+    ride.fill(408);
+    ride.input.clock_us += kind == 0 ? 8000u : 0u;
+    ride.input.lines = 0;
+    ride.input.command = record::kCommandClearFaults;
+    ride.step();
+    for (uint32_t tick = 409; tick < 500; ++tick) {
+      ride.fill(tick);
+      ride.input.clock_us += kind == 0 ? 8000u : 0u;
+      ride.step();
+      CHECK_EQ(ride.output.faults, 0u);
+    }
+  }
+}
+
+TEST(TrippedGuardIsAFaultThatStaysUntilItIsCleared) {
+  Ride ride;
+  ride.run(0, 400);
+  uint32_t found = 0;  // the guard's own memory, by its pattern
+  unsigned char* bytes = reinterpret_cast<unsigned char*>(&ride.controller);
+  for (size_t at = 0; at + 4 <= sizeof ride.controller; at += 4) {
+    uint32_t word = 0;
+    std::memcpy(&word, bytes + at, 4);
+    if (word != servo::kGuardArmed) continue;
+    bytes[at + 1] ^= 0x10u;
+    ++found;
+  }
+  CHECK_EQ(found, 1u);
+  ride.run(400, 420);
+  CHECK_EQ(ride.output.faults, servo::kFaultGuard);
+  CHECK_EQ(size_of(ride.output.motor_N), 0.0);
+  ride.fill(420);
+  ride.input.lines = 0;
+  ride.input.command = record::kCommandClearFaults;
+  ride.step();
+  CHECK_EQ(ride.output.faults, 0u);
+  ride.run(421, 600);
+  CHECK_EQ(ride.output.faults, 0u);
+}
+
+TEST(RandomInputsNeverBreakTheOutput) {
+  Ride ride;
+  uint64_t word = 1;
+  const auto random = [&word] {
+    word = word * 6364136223846793005ull + 1442695040888963407ull;
+    return static_cast<uint32_t>(word >> 32);
+  };
+  double before[3] = {};
+  uint32_t pushing = 0;
+  for (uint32_t tick = 0; tick < 20000; ++tick) {
+    ride.fill(tick);
+    const uint32_t what = ride.output.faults != 0 && random() % 4 == 0 ? 6 : random() % 200;
+    if (what == 0) ride.input.encoder_counts[random() % 3] = static_cast<int32_t>(random());
+    if (what == 1) ride.input.clock_us = random();
+    if (what == 2) ride.input.lines = random() & 0xFu;
+    if (what == 3) ride.input.tick = random();
+    if (tick % 2000 == 0)
+      ride.controller.reset();  // else the random parameters end as a device that feels nothing
+    if (what == 4 || what == 5) {
+      ride.input.command = 1 + random() % (params::kCount + 1);
+      const uint32_t bits = random();
+      std::memcpy(&ride.input.command_value, &bits, 4);
+    }
+    if (what == 6) ride.input.command = record::kCommandClearFaults, ride.input.lines = 0;
+    const double slew_N = static_cast<double>(ride.controller.values()[params::kSlewLimit]) *
+                          static_cast<double>(ride.controller.values()[params::kTickPeriod]);
+    ride.step();
+    CHECK(all_finite(ride.output));
+    if (size_of(ride.output.motor_N) > 0.01) ++pushing;
+    const double limit_N = static_cast<double>(ride.controller.values()[params::kForceLimit]);
+    CHECK_LE(size_of(ride.output.motor_N), limit_N);
+    const double slew_now_N = static_cast<double>(ride.controller.values()[params::kSlewLimit]) *
+                              static_cast<double>(ride.controller.values()[params::kTickPeriod]);
+    for (int k = 0; k < 3; ++k) {
+      const double now = static_cast<double>(ride.output.motor_N[k]);
+      const double from = now * before[k] > 0 ? std::fabs(before[k]) : 0;
+      CHECK_LE(std::fabs(now), from + std::fmax(slew_N, slew_now_N) * (1 + 1e-6) + 1e-6);
+      before[k] = now;
+    }
+  }
+  CHECK_GE(pushing, 1000u);  // it must not pass by being off
+}

@@ -1,0 +1,125 @@
+#pragma once
+// A baked part with its guide, and a tool that rides along: what the controller's host tests stand
+// on.
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bake/asset_writer.hpp"
+#include "bake/bake_curve.hpp"
+#include "bake/bake_mesh.hpp"
+#include "bake/probes.hpp"
+#include "firmtouch/controller.hpp"
+#include "firmtouch/curve/layout.hpp"
+#include "firmtouch/servo/fault.hpp"
+#include "harness/test.hpp"
+#include "surface/make_part.hpp"
+
+namespace firmtouch::controller_test {
+
+// An asset in memory at an address that is a multiple of 16.
+struct Asset {
+  std::vector<uint8_t> storage;
+  uint8_t* begin = nullptr;
+  uint32_t size = 0;
+  explicit Asset(const std::vector<uint8_t>& bytes) : storage(bytes.size() + 16) {
+    const auto address = reinterpret_cast<uintptr_t>(storage.data());
+    begin = storage.data() + (16 - address % 16) % 16;
+    size = static_cast<uint32_t>(bytes.size());
+    std::memcpy(begin, bytes.data(), bytes.size());
+  }
+  Asset(const Asset&) = delete;
+  core::Bytes bytes() const { return {begin, size}; }
+};
+
+inline std::vector<tools::Section> part_sections() {
+  tools::MeshReport report;
+  std::vector<tools::Section> sections =
+      tools::bake_mesh(tools::make_part(1, 4000), "part", {}, report);
+  CHECK(report.problem.empty());
+  mesh::View view;
+  CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+  sections.push_back(tools::mesh_probes(view, "part"));
+  return sections;
+}
+
+inline std::vector<tools::Section> path_sections() {
+  tools::CurvePoints points;
+  points.samples_m = tools::make_path(1, 400);
+  for (uint32_t i = 0; i < points.samples_m.size(); ++i) points.rows.push_back(i);
+  tools::CurveReport report;
+  std::vector<tools::Section> sections = tools::bake_curve(points, "path", report);
+  CHECK(report.problem.empty());
+  curve::View view;
+  CHECK(curve::open(tools::curve_sections(sections, "path"), view).ok());
+  sections.push_back(tools::curve_probes(view, "path"));
+  return sections;
+}
+
+inline std::vector<uint8_t> file_of(std::vector<tools::Section> sections) {
+  const tools::AssetFile file = tools::write_asset(std::move(sections));
+  CHECK(file.problem.empty());
+  return file.bytes;
+}
+
+inline const Asset& both() {
+  static const Asset made([] {
+    std::vector<tools::Section> sections = part_sections();
+    for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
+    return file_of(std::move(sections));
+  }());
+  return made;
+}
+
+// A tool that follows the guide's samples while it bobs up and down, so that it is in contact, on
+// the guide, and free.
+struct Ride {
+  Controller controller;
+  record::TickInput input{};
+  record::TickOutput output{};
+  std::vector<math::Vec3> path = tools::make_path(1, 400);
+  explicit Ride(const Asset& from = both(), Selection selection = {}) {
+    CHECK_EQ(controller.open(from.bytes(), selection).rule, 0u);
+  }
+
+  void fill(uint32_t tick) {
+    const double along = 0.02 * tick;
+    const size_t i = static_cast<size_t>(along) % (path.size() - 1);
+    const double t = along - std::floor(along);
+    const double lift = 0.004 * std::sin(0.011 * tick) - 0.001;
+    const auto mix = [t](float a, float b) {
+      return static_cast<double>(a) * (1 - t) + static_cast<double>(b) * t;
+    };
+    const double p_m[3] = {mix(path[i].x, path[i + 1].x), mix(path[i].y, path[i + 1].y),
+                           mix(path[i].z, path[i + 1].z) + lift};
+    input = {};
+    input.tick = tick;
+    input.clock_us = 4294900000u + tick * 1000u;  // wraps early on
+    input.lines = tick < 10 ? 0 : record::kLineEnable;
+    for (int k = 0; k < 3; ++k)
+      input.encoder_counts[k] = static_cast<int32_t>(std::lround(p_m[k] * 100000));
+  }
+  void step() { controller.tick(input, output); }
+  void run(uint32_t from, uint32_t to) {
+    for (uint32_t tick = from; tick < to; ++tick) fill(tick), step();
+  }
+};
+
+inline double size_of(const float (&a)[3]) {
+  return std::hypot(static_cast<double>(a[0]), static_cast<double>(a[1]),
+                    static_cast<double>(a[2]));
+}
+
+inline bool all_finite(const record::TickOutput& output) {
+  const float* at = output.motor_N;
+  for (int k = 0; k < 17; ++k) {
+    if (!std::isfinite(at[k])) return false;
+  }
+  return true;
+}
+
+}  // namespace firmtouch::controller_test

@@ -1,0 +1,172 @@
+// The closed loop in this process, its log, and the replay.
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmtouch/servo/fault.hpp"
+#include "harness/test.hpp"
+#include "host_sim/brute_force.hpp"
+#include "host_sim/hand.hpp"
+#include "host_sim/log.hpp"
+#include "host_sim/replay.hpp"
+#include "host_sim/session.hpp"
+#include "host_sim/summary.hpp"
+#include "host_sim/part_asset.hpp"
+
+namespace host_sim = firmtouch::host_sim;
+namespace record = firmtouch::record;
+namespace servo = firmtouch::servo;
+using firmtouch::test::loop_scenario;
+using firmtouch::test::part_asset;
+using firmtouch::test::scratch;
+using host_sim::Difference;
+using host_sim::Log;
+using host_sim::Session;
+using host_sim::Trace;
+
+namespace {
+
+struct Run {
+  host_sim::Scenario scenario = loop_scenario();
+  Session session{part_asset()};
+  host_sim::World world = host_sim::world_of(*session.controller, scene_origin_m(scenario));
+  Trace trace = host_sim::run(scenario, *session.controller, world, nullptr, {});
+};
+
+const Run& the_run() {
+  static const Run made;
+  return made;
+}
+
+Log log_of(const Trace& trace) {
+  Log log;
+  log.text["asset"] = "part.fta";
+  log.text["scenario"] = "two\nlines \\ and a backslash";
+  log.records = trace.records;
+  return log;
+}
+
+std::string refusal_of(const std::string& path) {
+  try {
+    host_sim::read_log(path);
+  } catch (const host_sim::Refused& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(LoopTouchesFollowsAndLatchesItsFault) {
+  const host_sim::Summary s = summarise(the_run().scenario, the_run().world, the_run().trace);
+  CHECK_GE(s.ticks, 10000u);
+  CHECK_GE(s.contact_ticks, 2000u);
+  CHECK_GE(s.guide_ticks, 2000u);
+  CHECK_EQ(s.faults, servo::kFaultEmergencyStop);
+  CHECK_LT(0.5, s.peak_force_N);
+  CHECK_LE(s.peak_force_N, s.force_limit_N * (1 + 1e-6));
+  CHECK_LE(s.worst_steps, s.budget_steps);
+  CHECK_EQ(s.wrong_bounds, 0u);
+  CHECK_GE(s.judged_ticks, 1000u);
+}
+
+TEST(SameScenarioGivesTheSameRecords) {
+  const Run again;
+  CHECK_EQ(again.trace.records.size(), the_run().trace.records.size());
+  CHECK(std::memcmp(again.trace.records.data(), the_run().trace.records.data(),
+                    again.trace.records.size() * sizeof(record::TickRecord)) == 0);
+}
+
+TEST(ReplayOfTheLogGivesEveryBitAgain) {
+  const std::string path = scratch() + "/run.ftl";
+  write_log(path, log_of(the_run().trace));
+  const Log log = host_sim::read_log(path);
+  CHECK(log.is_whole);
+  CHECK(log.text.at("scenario") == "two\nlines \\ and a backslash");
+  CHECK_EQ(log.records.size(), the_run().trace.records.size());
+  const Session session(part_asset());
+  CHECK(!replay(log, *session.controller));
+}
+
+TEST(PlantedDifferenceIsNamedByTickAndField) {
+  for (const host_sim::Field& field : host_sim::fields()) {
+    if (field.name.compare(0, 7, "output.") != 0) continue;
+    Log log = log_of(the_run().trace);
+    log.records.resize(4000);
+    reinterpret_cast<unsigned char*>(&log.records[3456])[field.offset] ^= 1;
+    const Session session(part_asset());
+    const std::optional<Difference> found = replay(log, *session.controller);
+    CHECK(found && found->tick == 3456 && found->field == field.name);
+    CHECK(found && found->expected != found->found);
+  }
+}
+
+TEST(ReplayOnOtherInputsDiffers) {
+  Log log = log_of(the_run().trace);
+  log.records[5000].input.encoder_counts[2] += 3;
+  const Session session(part_asset());
+  const std::optional<Difference> found = replay(log, *session.controller);
+  CHECK(found && found->tick >= 5000);
+}
+
+TEST(EveryDamagedByteOfALogIsRefused) {
+  Log log = log_of(the_run().trace);
+  log.records.resize(3);
+  const std::string path = scratch() + "/damaged.ftl";
+  write_log(path, log);
+  const std::string whole = host_sim::read_file(path);
+  for (size_t i = 0; i < whole.size(); ++i) {
+    std::string bytes = whole;
+    bytes[i] = static_cast<char>(bytes[i] ^ 0x10);
+    host_sim::write_file(path, bytes);
+    // A damaged count of records makes a block that is longer than the file: told as cut off.
+    if (refusal_of(path).empty()) CHECK(!host_sim::read_log(path).is_whole);
+  }
+}
+
+TEST(LogThatWasCutOffKeepsItsWholeBlocks) {
+  const std::string path = scratch() + "/cut.ftl";
+  write_log(path, log_of(the_run().trace));
+  const std::string whole = host_sim::read_file(path);
+  host_sim::write_file(path, whole.substr(0, whole.size() - 300000));
+  const Log log = host_sim::read_log(path);
+  CHECK(!log.is_whole);
+  CHECK_LT(5000u, log.records.size());
+  CHECK_EQ(log.records.size() % 1000, 0u);
+  host_sim::write_file(path, "no log at all");
+  CHECK(refusal_of(path).find("this is no log") != std::string::npos);
+}
+
+TEST(RefusedParameterEndsTheRunNamingIt) {
+  host_sim::Scenario scenario = loop_scenario();
+  for (uint32_t i = 0; i < firmtouch::params::kCount; ++i)
+    if (firmtouch::params::kTable[i].when == firmtouch::params::When::kMotorsOff) {
+      scenario.events.insert(scenario.events.begin(), {1.0, host_sim::Event::Kind::kSet, i, static_cast<double>(firmtouch::params::kTable[i].initial)});
+      break;
+    }
+  const Session session(part_asset());
+  const host_sim::World world = host_sim::world_of(*session.controller, {});
+  std::string message;
+  try {
+    host_sim::run(scenario, *session.controller, world, nullptr, {});
+  } catch (const host_sim::Refused& refused) {
+    message = refused.what();
+  }
+  CHECK(message.find("refuses tick_period_s") != std::string::npos);
+  CHECK(message.find("only while the motors are off") != std::string::npos);
+}
+
+TEST(AssetOfOtherBytesIsRefusedByItsRule) {
+  std::string bytes = host_sim::read_file(part_asset());
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  const std::string path = scratch() + "/bent.fta";
+  host_sim::write_file(path, bytes);
+  std::string message;
+  try {
+    const Session session(path);
+  } catch (const host_sim::Refused& refused) {
+    message = refused.what();
+  }
+  CHECK(message.find("bent.fta: refused by rule R") != std::string::npos);
+}

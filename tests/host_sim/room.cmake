@@ -1,0 +1,7 @@
+if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
+  add_library(firmtouch_test_part STATIC ${CMAKE_CURRENT_LIST_DIR}/part_asset.cpp)
+  target_include_directories(firmtouch_test_part PUBLIC ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(firmtouch_test_part PUBLIC firmtouch_host_sim firmtouch_tools_bake firmtouch_tools_surface)
+  firmtouch_hosted(firmtouch_test_part)
+  firmtouch_test_room(host_sim LINKS firmtouch_test_part)
+endif()

@@ -1,0 +1,132 @@
+// Scenario files: what is read, and that every kind of mistake is refused with its line.
+#include <string>
+#include <vector>
+
+#include "harness/test.hpp"
+#include "host_sim/run.hpp"
+#include "host_sim/scenario.hpp"
+#include "host_sim/units.hpp"
+
+namespace host_sim = firmtouch::host_sim;
+using host_sim::Event;
+using host_sim::Move;
+using host_sim::Scenario;
+
+namespace {
+
+bool near(double a, double b) { return std::abs(a - b) <= 1e-12 * (1 + std::abs(b)); }
+
+Scenario read(const std::string& text, const std::vector<std::string>& sets = {}) {
+  return host_sim::read_scenario("test.scenario", text, sets, host_sim::parameter_rows());
+}
+
+std::string refusal(const std::string& text, const std::vector<std::string>& sets = {}) {
+  try {
+    read(text, sets);
+  } catch (const host_sim::Refused& refused) {
+    return refused.what();
+  }
+  return "not refused";
+}
+
+bool says(const std::string& message, const std::string& part) {
+  if (message.find(part) != std::string::npos) return true;
+  firmtouch::test::print(("  message: " + message + "\n  lacks:   " + part + "\n").c_str());
+  return false;
+}
+
+const std::string kHead = "asset a.fta\nduration 1 s\n";
+
+}  // namespace
+
+TEST(EveryStatementIsReadInSi) {
+  const Scenario s = read(
+      "# a comment\nasset my part.fta  # with a blank\nrate 4 kHz\nduration 2500 ms\nmass 75 g\nviscous_friction 0.5 N.s/m\n"
+      "coulomb_friction 20 mN\nencoder_quantum 30 um\nmotor_limit 10 N\noutput_delay 1 samples\nhand_stiffness 0.4 N/mm\n"
+      "hand_damping 4 Ns/m\nstart 1 2 -3 cm\ncontact_stiffness 800 N/m\ntool_radius_m 5 mm\nmesh_steps 64\n"
+      "\tmove to 0 0 0.1 m at 50 mm/s\nhold for 1 s\npress 0 0 0.01 m for 0.5 s\n"
+      "follow guide at 0.05 m/s for 4 s pressing 2 mm\nat 2 s set guide_stiffness 100 N/m\nat 1.5 s emergency_stop\n");
+  CHECK(s.asset == "my part.fta");
+  CHECK(near(s.rate_Hz, 4000) && near(s.duration_s, 2.5) && near(s.device.mass_kg, 0.075));
+  CHECK(near(s.device.viscous_N_s_per_m, 0.5) && near(s.device.coulomb_N, 0.02));
+  CHECK(near(s.device.encoder_quantum_m, 30e-6) && near(s.device.force_limit_N, 10));
+  CHECK_EQ(s.device.output_delay_samples, 1u);
+  CHECK(near(s.hand.stiffness_N_per_m, 400) && near(s.hand.damping_N_s_per_m, 4));
+  CHECK(near(s.start_m.x, 0.01) && near(s.start_m.z, -0.03));
+  CHECK_EQ(s.settings.size(), 3u);
+  CHECK(near(s.settings[0].value, 800) && near(s.settings[1].value, 0.005) && near(s.settings[2].value, 64));
+  CHECK_EQ(s.moves.size(), 4u);
+  CHECK(s.moves[3].kind == Move::Kind::kFollow && near(s.moves[3].press_m, 0.002));
+  CHECK_EQ(s.events.size(), 2u);  // in order of time
+  CHECK(s.events[0].kind == Event::Kind::kEmergencyStop && s.events[1].kind == Event::Kind::kSet);
+}
+
+TEST(MistakesAreRefusedWithTheirLine) {
+  struct Case {
+    const char* line;
+    const char* says;
+  };
+  constexpr Case kCases[] = {
+      {"masss 1 kg", "did you mean `mass`"},
+      {"stiffness 800 N/m", "did you mean `hand_stiffness`, `contact_stiffness`, `guide_stiffness`?"},
+      {"mass 1 m", "`m` is no unit for `mass`; write one of: kg, g"},
+      {"mass 1 pound", "`pound` is no unit"},
+      {"mass 1", "the unit of `mass`"},
+      {"mass", "the value of `mass`"},
+      {"mass one kg", "`one` is no number"},
+      {"mass nan kg", "`nan` is no number"},
+      {"mass inf kg", "`inf` is no number"},
+      {"mass -1 kg", "outside"},
+      {"mass 1 kg 2", "`2` is more than"},
+      {"contact_stiffness 1e9 N/m", "outside"},
+      {"mesh_steps 3 m", "`m` is more than"},
+      {"output_delay 1.5 samples", "whole number"},
+      {"start 1 2 m", "is no number"},
+      {"start 1 2 3", "the unit of `start`"},
+      {"start 1 2 1e9 m", "outside"},
+      {"move 1 2 3 m at 1 m/s", "`to` is expected"},
+      {"move to 1 2 3 m", "`at`"},
+      {"move to 1 2 3 m at 0 m/s", "outside"},
+      {"follow guide at 1 m/s", "`for`"},
+      {"follow path at 1 m/s for 1 s", "`guide` is expected"},
+      {"at 1 s explode", "nothing called `explode`"},
+      {"at 1 m emergency_stop", "`m` is no unit"},
+      {"at 1 s set nothing 1", "unknown parameter `nothing`"},
+      {"duration 2 s", "`duration` is given twice"},
+  };
+  for (const Case& c : kCases) {
+    const std::string message = refusal(kHead + c.line + "\n");
+    CHECK(says(message, "test.scenario:3: "));
+    CHECK(says(message, c.says));
+  }
+}
+
+TEST(ScenarioWithoutAnAssetOrAnEndIsRefused) {
+  CHECK(says(refusal("duration 1 s\n"), "no asset is named"));
+  CHECK(says(refusal("asset a.fta\n"), "no end"));
+}
+
+TEST(SetReplacesAValueAndMayLeaveOutTheUnit) {
+  const Scenario s = read(kHead + "mass 1 kg\ntool_radius 1 mm\n", {"mass 80 g", "tool_radius 0.004"});
+  CHECK(near(s.device.mass_kg, 0.08));
+  CHECK_EQ(s.settings.size(), 1u);
+  CHECK(near(s.settings[0].value, 0.004));
+  CHECK(says(refusal(kHead, {"mas 1"}), "--set mas 1: unknown key"));
+}
+
+TEST(UnitsOfOtherDimensionsDoNotConvert) {
+  CHECK(near(*host_sim::to_si(2, "N/mm", "N/m"), 2000));
+  CHECK(near(*host_sim::to_si(2, "N*s/m", "N s/m"), 2));
+  CHECK(!host_sim::to_si(2, "N", "N/m"));
+  CHECK(!host_sim::to_si(2, "", "m"));
+}
+
+// The table is the controller's; its names must stay writable in a scenario.
+TEST(EveryParameterOfTheTableCanBeSetByName) {
+  for (const host_sim::ParameterRow& row : host_sim::parameter_rows()) {
+    const Scenario s = read(kHead, {row.short_name + " " + std::to_string(row.initial)});
+    CHECK_EQ(s.settings.size(), 1u);
+    if (!row.unit.empty() && !host_sim::to_si(1, row.unit, row.unit)) CHECK(says("", row.unit));
+    CHECK(row.unit.empty() || host_sim::units_like(row.unit) != "");
+  }
+}
