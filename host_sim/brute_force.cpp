@@ -23,8 +23,8 @@ double edge_distance2(Vec p, Vec a, Vec b) {
 double triangle_distance2(Vec p, Vec a, Vec b, Vec c) {
   const Vec n = cross(b - a, c - a);
   const double area2 = dot(n, n);
-  const bool above = area2 > 0 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
-                     dot(cross(a - c, p - c), n) >= 0;
+  const bool above = area2 > 0 && dot(cross(b - a, p - a), n) >= 0 &&
+                     dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0;
   if (above) {
     const double height = dot(p - a, n);
     return height * height / area2;
@@ -38,8 +38,9 @@ double brute_force_distance_m(const mesh::View& mesh, Vec p_m) {
   double least = std::numeric_limits<double>::infinity();
   for (uint32_t i = 0; i < mesh.head().triangle_count; ++i) {
     const mesh::Triangle<uint32_t> t = mesh.triangle(i);
-    least = std::min(least, triangle_distance2(p_m, corner(mesh, t.corner[0]), corner(mesh, t.corner[1]),
-                                               corner(mesh, t.corner[2])));
+    least =
+        std::min(least, triangle_distance2(p_m, corner(mesh, t.corner[0]),
+                                           corner(mesh, t.corner[1]), corner(mesh, t.corner[2])));
   }
   return std::sqrt(least);
 }

@@ -30,7 +30,8 @@ int connect_unix(const std::string& path) {
                   std::to_string(sizeof address.sun_path - 1) + " bytes)");
   std::memcpy(address.sun_path, path.data(), path.size());
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (fd >= 0 && connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return fd;
+  if (fd >= 0 && connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+    return fd;
   const std::string why = reason();
   if (fd >= 0) close(fd);
   throw Refused("unix:" + path + ": " + why + "; is the controller running and listening there?");
@@ -42,7 +43,8 @@ int connect_tcp(const std::string& where) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  const int status = getaddrinfo(where.substr(0, colon).c_str(), where.substr(colon + 1).c_str(), &hints, &found);
+  const int status =
+      getaddrinfo(where.substr(0, colon).c_str(), where.substr(colon + 1).c_str(), &hints, &found);
   if (status != 0) throw Refused("tcp:" + where + ": " + gai_strerror(status));
   int fd = -1;
   std::string why = "no address";
@@ -54,7 +56,8 @@ int connect_tcp(const std::string& where) {
     fd = -1;
   }
   freeaddrinfo(found);
-  if (fd < 0) throw Refused("tcp:" + where + ": " + why + "; is the controller running and listening there?");
+  if (fd < 0)
+    throw Refused("tcp:" + where + ": " + why + "; is the controller running and listening there?");
   const int on = 1;
   setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   return fd;
@@ -63,13 +66,15 @@ int connect_tcp(const std::string& where) {
 int open_serial(const std::string& device) {
   const int fd = open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (fd < 0)
-    throw Refused(device + ": " + reason() +
-                  "; a controller is inproc, qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial device");
+    throw Refused(
+        device + ": " + reason() +
+        "; a controller is inproc, qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial device");
   termios settings{};
   if (tcgetattr(fd, &settings) != 0) {
     close(fd);
-    throw Refused(device + ": this is no serial device; a controller is inproc, qemu:BOARD, unix:PATH, "
-                           "tcp:HOST:PORT or a serial device");
+    throw Refused(device +
+                  ": this is no serial device; a controller is inproc, qemu:BOARD, unix:PATH, "
+                  "tcp:HOST:PORT or a serial device");
   }
   cfmakeraw(&settings);
   cfsetspeed(&settings, B1000000);
@@ -113,9 +118,12 @@ uint32_t ByteStream::read(uint8_t* to, uint32_t capacity, int timeout_ms) {
 
 std::unique_ptr<ByteStream> connect_stream(const std::string& where) {
   int fd;
-  if (where.compare(0, 5, "unix:") == 0) fd = connect_unix(where.substr(5));
-  else if (where.compare(0, 4, "tcp:") == 0) fd = connect_tcp(where.substr(4));
-  else fd = open_serial(where);
+  if (where.compare(0, 5, "unix:") == 0)
+    fd = connect_unix(where.substr(5));
+  else if (where.compare(0, 4, "tcp:") == 0)
+    fd = connect_tcp(where.substr(4));
+  else
+    fd = open_serial(where);
   return std::make_unique<ByteStream>(fd, fd, where);
 }
 

@@ -28,9 +28,9 @@ class ByteStream {
 /// unix:PATH, tcp:HOST:PORT, or a serial device (raw, 1 Mbaud).
 std::unique_ptr<ByteStream> connect_stream(const std::string& where);
 
-/// A board of ours in QEMU, `image` its program, the asset loaded where the board looks for it. It speaks over two FIFOs
-/// of this machine, one trap a frame (hal/cortex-m/file_link.hpp): some 20,000 ticks a second, where its emulated UART
-/// makes 1,000.
+/// A board of ours in QEMU, `image` its program, the asset loaded where the board looks for it. It
+/// speaks over two FIFOs of this machine, one trap a frame (hal/cortex-m/file_link.hpp): some
+/// 20,000 ticks a second, where its emulated UART makes 1,000.
 std::unique_ptr<ByteStream> start_emulator(const std::string& board, const std::string& image,
                                            const std::string& asset_path);
 

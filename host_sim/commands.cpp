@@ -8,14 +8,18 @@ namespace {
 
 constexpr const char* kHelp =
     "firmtouch-sim runs a controller against a simulated device and hand.\n\n"
-    "  firmtouch-sim run SCENARIO [options]      run it (run --help: the options, and how a scenario is written)\n"
-    "  firmtouch-sim replay LOG [--asset FILE]   re-run a log's inputs and compare every output bit\n"
-    "  firmtouch-sim scenario ASSET -o FILE      write a scenario that suits an asset: follow its guide, press on it\n\n"
+    "  firmtouch-sim run SCENARIO [options]      run it (run --help: the options, and how a "
+    "scenario is written)\n"
+    "  firmtouch-sim replay LOG [--asset FILE]   re-run a log's inputs and compare every output "
+    "bit\n"
+    "  firmtouch-sim scenario ASSET -o FILE      write a scenario that suits an asset: follow its "
+    "guide, press on it\n\n"
     "Exit codes: 0 done; 1 it ran and the answer is no; 2 usage; 3 bad input.\n";
 
 }  // namespace
 
-Options::Options(const std::vector<std::string>& words, const std::vector<std::string>& with_value) {
+Options::Options(const std::vector<std::string>& words,
+                 const std::vector<std::string>& with_value) {
   for (size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (word == "--help" || word == "-h") {
@@ -27,7 +31,8 @@ Options::Options(const std::vector<std::string>& words, const std::vector<std::s
       const std::string name = word.substr(0, equals);
       if (std::find(with_value.begin(), with_value.end(), name) == with_value.end())
         throw Usage("unknown option " + name);
-      if (equals == std::string::npos && i + 1 == words.size()) throw Usage(name + " wants a value");
+      if (equals == std::string::npos && i + 1 == words.size())
+        throw Usage(name + " wants a value");
       given_.emplace_back(name, equals != std::string::npos ? word.substr(equals + 1) : words[++i]);
     }
   }

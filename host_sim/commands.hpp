@@ -10,7 +10,8 @@ struct Usage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `run ...`, `replay ...`, `scenario ...`, `--help`. Result: the exit code; throws Usage or Refused.
+/// `run ...`, `replay ...`, `scenario ...`, `--help`. Result: the exit code; throws Usage or
+/// Refused.
 int run_command(const std::vector<std::string>& words);
 
 int run_scenario(const std::vector<std::string>& words);

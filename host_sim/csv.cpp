@@ -19,7 +19,8 @@ std::string csv_of(const Trace& trace) {
   std::string text = "time_s";
   for (const Field& field : fields()) text += "," + field.name.substr(field.name.find('.') + 1);
   for (const char* name : {"device_m", "hand_target_m", "hand_N"})
-    for (int axis = 0; axis < 3; ++axis) text += std::string(",") + name + "[" + std::to_string(axis) + "]";
+    for (int axis = 0; axis < 3; ++axis)
+      text += std::string(",") + name + "[" + std::to_string(axis) + "]";
   text += ",instructions\n";
   for (size_t i = 0; i < trace.records.size(); ++i) {
     char time[32];

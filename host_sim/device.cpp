@@ -6,7 +6,8 @@
 namespace firmtouch::host_sim {
 namespace {
 
-// Below this many time constants the exponentials lose their digits; the series is exact to rounding there.
+// Below this many time constants the exponentials lose their digits; the series is exact to
+// rounding there.
 constexpr double kShort = 1e-5;
 
 // m dv/dt = F - b v over `time_s`.
@@ -19,7 +20,8 @@ void glide(const DeviceModel& model, double force_N, double time_s, double& x, d
     return;
   }
   const double terminal = force_N / model.viscous_N_s_per_m;
-  const double lost = -std::expm1(-rate);  // share of the difference to the terminal velocity lost in this time
+  const double lost =
+      -std::expm1(-rate);  // share of the difference to the terminal velocity lost in this time
   x += terminal * time_s + (v - terminal) * lost * time_s / rate;
   v += (terminal - v) * lost;
 }

@@ -21,7 +21,8 @@ constexpr useconds_t kPoll_us = 10000;
 
 struct Board {
   const char* name;
-  const char* asset_address;  // where its program looks for an asset that was not linked in (hal/BOARD/link.ld)
+  const char* asset_address;  // where its program looks for an asset that was not linked in
+                              // (hal/BOARD/link.ld)
 };
 constexpr Board kBoards[] = {{"mps2-an500", "0x60000000"}, {"netduinoplus2", "0x08010000"}};
 
@@ -49,8 +50,10 @@ class Emulator : public ByteStream {
     int status = 0;
     for (int i = 0; i < 50 && process_ > 0; ++i, usleep(kPoll_us))
       if (waitpid(process_, &status, WNOHANG) == process_) process_ = -1;
-    std::string text = process_ > 0 ? "" : " (the emulator ended with status " +
-                                               std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : 128) + ")";
+    std::string text =
+        process_ > 0 ? ""
+                     : " (the emulator ended with status " +
+                           std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : 128) + ")";
     const int log = open((folder_ + "/log").c_str(), O_RDONLY | O_CLOEXEC);
     char said[400];
     const ssize_t count = log < 0 ? 0 : ::read(log, said, sizeof said);
@@ -98,7 +101,8 @@ pid_t start(const std::vector<std::string>& words, const std::string& log) {
   dup2(out, 1);
   dup2(out, 2);
   execvp(arguments[0], arguments.data());
-  const char kMissing[] = "qemu-system-arm is missing. On Debian and Ubuntu: apt-get install qemu-system-arm\n";
+  const char kMissing[] =
+      "qemu-system-arm is missing. On Debian and Ubuntu: apt-get install qemu-system-arm\n";
   if (::write(2, kMissing, sizeof kMissing - 1) < 0) _exit(126);
   _exit(127);
 }
@@ -116,18 +120,20 @@ std::unique_ptr<ByteStream> start_emulator(const std::string& board, const std::
     throw Refused("qemu:" + board + ": no such board; known: " + list);
   }
   if (access(image.c_str(), R_OK) != 0)
-    throw Refused("qemu:" + board + ": cannot read " + image + "; build it (cmake --preset " + board +
-                  " && cmake --build --preset " + board + ") or name it with --image");
+    throw Refused("qemu:" + board + ": cannot read " + image + "; build it (cmake --preset " +
+                  board + " && cmake --build --preset " + board + ") or name it with --image");
   const char* temporary = std::getenv("TMPDIR");
   std::string folder = std::string(temporary != nullptr ? temporary : "/tmp") + "/firmtouch-XXXXXX";
   if (mkdtemp(folder.data()) == nullptr || mkfifo((folder + "/link.in").c_str(), 0600) != 0 ||
       mkfifo((folder + "/link.out").c_str(), 0600) != 0)
-    throw Refused(folder + ": " + std::strerror(errno) + "; TMPDIR must name a folder that can hold FIFOs");
+    throw Refused(folder + ": " + std::strerror(errno) +
+                  "; TMPDIR must name a folder that can hold FIFOs");
   const pid_t process = start(
-      {"qemu-system-arm", "-M", board, "-kernel", image, "-display", "none", "-monitor", "none", "-serial", "null",
-       "-icount", "shift=10,sleep=off,align=off", "-semihosting-config",
+      {"qemu-system-arm", "-M", board, "-kernel", image, "-display", "none", "-monitor", "none",
+       "-serial", "null", "-icount", "shift=10,sleep=off,align=off", "-semihosting-config",
        "enable=on,target=native,arg=link,arg=" + doubled_commas(folder + "/link"), "-device",
-       "loader,file=" + doubled_commas(asset_path) + ",addr=" + found->asset_address + ",force-raw=on"},
+       "loader,file=" + doubled_commas(asset_path) + ",addr=" + found->asset_address +
+           ",force-raw=on"},
       folder + "/log");
   auto emulator = std::make_unique<Emulator>("qemu:" + board, folder, process);
   emulator->open_files();

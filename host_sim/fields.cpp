@@ -12,14 +12,27 @@ struct Row {
   uint32_t count;
 };
 
-constexpr Field::Kind kU = Field::Kind::kUnsigned, kI = Field::Kind::kSigned, kF = Field::Kind::kFloat;
+constexpr Field::Kind kU = Field::Kind::kUnsigned, kI = Field::Kind::kSigned,
+                      kF = Field::Kind::kFloat;
 constexpr Row kRows[] = {
-    {"input.tick", kU, 1},           {"input.clock_us", kU, 1},      {"input.encoder_counts", kI, 3},
-    {"input.lines", kU, 1},          {"input.command", kU, 1},       {"input.command_value", kF, 1},
-    {"output.motor_N", kF, 3},       {"output.position_m", kF, 3},   {"output.velocity_mps", kF, 3},
-    {"output.force_N", kF, 3},       {"output.distance_m", kF, 1},   {"output.distance_lower_m", kF, 1},
-    {"output.penetration_m", kF, 1}, {"output.guide_deviation_m", kF, 1}, {"output.guide_arc", kF, 1},
-    {"output.steps", kU, 1},         {"output.faults", kU, 1},       {"output.state", kU, 1},
+    {"input.tick", kU, 1},
+    {"input.clock_us", kU, 1},
+    {"input.encoder_counts", kI, 3},
+    {"input.lines", kU, 1},
+    {"input.command", kU, 1},
+    {"input.command_value", kF, 1},
+    {"output.motor_N", kF, 3},
+    {"output.position_m", kF, 3},
+    {"output.velocity_mps", kF, 3},
+    {"output.force_N", kF, 3},
+    {"output.distance_m", kF, 1},
+    {"output.distance_lower_m", kF, 1},
+    {"output.penetration_m", kF, 1},
+    {"output.guide_deviation_m", kF, 1},
+    {"output.guide_arc", kF, 1},
+    {"output.steps", kU, 1},
+    {"output.faults", kU, 1},
+    {"output.state", kU, 1},
     {"output.model_sequence", kU, 1},
 };
 
@@ -28,7 +41,8 @@ constexpr uint32_t words_in_rows() {
   for (const Row& row : kRows) words += row.count;
   return words;
 }
-static_assert(words_in_rows() * 4 == sizeof(record::TickRecord), "a field of the record is missing here");
+static_assert(words_in_rows() * 4 == sizeof(record::TickRecord),
+              "a field of the record is missing here");
 
 }  // namespace
 
@@ -61,11 +75,14 @@ std::string text_of(const Field& field, const record::TickRecord& record) {
   return text;
 }
 
-std::optional<Difference> first_difference(const record::TickRecord& expected, const record::TickOutput& found) {
+std::optional<Difference> first_difference(const record::TickRecord& expected,
+                                           const record::TickOutput& found) {
   if (std::memcmp(&expected.output, &found, sizeof found) == 0) return {};
   const record::TickRecord other{expected.input, found};
   for (const Field& field : fields()) {
-    const auto at = [&](const record::TickRecord& r) { return reinterpret_cast<const char*>(&r) + field.offset; };
+    const auto at = [&](const record::TickRecord& r) {
+      return reinterpret_cast<const char*>(&r) + field.offset;
+    };
     if (std::memcmp(at(expected), at(other), 4) == 0) continue;
     uint32_t bits[2];
     std::memcpy(&bits[0], at(expected), 4);

@@ -7,7 +7,8 @@
 
 namespace firmtouch::host_sim {
 
-/// One 4-byte word of a tick's record, under the name that a log's schema, a CSV's header and a message give it.
+/// One 4-byte word of a tick's record, under the name that a log's schema, a CSV's header and a
+/// message give it.
 struct Field {
   enum class Kind { kUnsigned, kSigned, kFloat };
   std::string name;  // "input.encoder_counts[1]"
@@ -28,6 +29,7 @@ struct Difference {
 };
 
 /// The first word of the output that differs in any bit. Result: nothing where all are the same.
-std::optional<Difference> first_difference(const record::TickRecord& expected, const record::TickOutput& found);
+std::optional<Difference> first_difference(const record::TickRecord& expected,
+                                           const record::TickOutput& found);
 
 }  // namespace firmtouch::host_sim

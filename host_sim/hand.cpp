@@ -6,8 +6,10 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kPressShare = 0.25;  // of a press's time for the way there, and again for the way back
-constexpr double kLeanTime_s = 0.4;   // a person leans on a surface, and lets go of it, in about this time
+constexpr double kPressShare =
+    0.25;  // of a press's time for the way there, and again for the way back
+constexpr double kLeanTime_s =
+    0.4;  // a person leans on a surface, and lets go of it, in about this time
 
 // 0 to 1 with no jump of velocity or acceleration at either end (minimum jerk).
 double smooth(double share) {
@@ -53,13 +55,15 @@ Hand::Hand(const Scenario& scenario, const World& world, double tool_radius_m)
 }
 
 Vec Hand::on_guide(const Stretch& stretch, double time_s) const {
-  const Vec guide = world_->guide_at(stretch.arc_m + stretch.move.speed_mps * (time_s - stretch.begin_s));
+  const Vec guide =
+      world_->guide_at(stretch.arc_m + stretch.move.speed_mps * (time_s - stretch.begin_s));
   if (!(stretch.move.press_m > 0) || !world_->has_surface()) return guide;
   const World::Surface surface = world_->nearest(guide);
   const Vec aim = surface.point_m + surface.normal * (tool_radius_m_ - stretch.move.press_m);
   const double length_s = stretch.end_s - stretch.begin_s;
   const double lean_s = std::min(kLeanTime_s, length_s / 3);
-  const double lean = std::min(smooth((time_s - stretch.begin_s) / lean_s), smooth((stretch.end_s - time_s) / lean_s));
+  const double lean = std::min(smooth((time_s - stretch.begin_s) / lean_s),
+                               smooth((stretch.end_s - time_s) / lean_s));
   return guide + (aim - guide) * lean;
 }
 
@@ -67,12 +71,16 @@ Vec Hand::along(const Stretch& stretch, double time_s) const {
   const double length_s = stretch.end_s - stretch.begin_s;
   const double share = length_s > 0 ? (time_s - stretch.begin_s) / length_s : 1;
   switch (stretch.move.kind) {
-    case Move::Kind::kHold: return stretch.from_m;
-    case Move::Kind::kMove: return between(stretch.from_m, stretch.move.to_m, share);
+    case Move::Kind::kHold:
+      return stretch.from_m;
+    case Move::Kind::kMove:
+      return between(stretch.from_m, stretch.move.to_m, share);
     case Move::Kind::kPress:
       return share < 0.5 ? between(stretch.from_m, stretch.move.to_m, share / kPressShare)
-                         : between(stretch.move.to_m, stretch.from_m, (share - 1 + kPressShare) / kPressShare);
-    case Move::Kind::kFollow: return on_guide(stretch, time_s);
+                         : between(stretch.move.to_m, stretch.from_m,
+                                   (share - 1 + kPressShare) / kPressShare);
+    case Move::Kind::kFollow:
+      return on_guide(stretch, time_s);
   }
   return stretch.from_m;
 }

@@ -48,8 +48,10 @@ std::string escaped(const std::string& text) {
 std::string unescaped(const std::string& line) {
   std::string text;
   for (size_t i = 0; i < line.size(); ++i) {
-    if (line[i] != '\\' || i + 1 == line.size()) text += line[i];
-    else text += line[++i] == 'n' ? '\n' : line[i];
+    if (line[i] != '\\' || i + 1 == line.size())
+      text += line[i];
+    else
+      text += line[++i] == 'n' ? '\n' : line[i];
   }
   return text;
 }
@@ -85,9 +87,10 @@ void LogReader::header(Log& log) {
     refuse("this is no log; `firmtouch-sim run SCENARIO --log FILE` makes one");
   const uint32_t version = get(bytes, 8), text_bytes = get(bytes, 16);
   if (version != kLogVersion)
-    refuse("version " + std::to_string(version) + " of the log format; this program reads version " +
-           std::to_string(kLogVersion));
-  if (text_bytes > bytes.size() - kHeaderBytes) refuse("cut off inside its header; record the run again");
+    refuse("version " + std::to_string(version) +
+           " of the log format; this program reads version " + std::to_string(kLogVersion));
+  if (text_bytes > bytes.size() - kHeaderBytes)
+    refuse("cut off inside its header; record the run again");
   const uint32_t crc = core::crc32(bytes_of(bytes.data() + kHeaderBytes, text_bytes),
                                    core::crc32(bytes_of(bytes.data(), 20)));
   if (crc != get(bytes, 20))
@@ -97,8 +100,10 @@ void LogReader::header(Log& log) {
   while (std::getline(lines, line)) {
     const size_t blank = line.find(' ');
     const std::string key = line.substr(0, blank);
-    if (key == "field") found_schema += line + "\n";
-    else if (blank != std::string::npos) log.text[key] = unescaped(line.substr(blank + 1));
+    if (key == "field")
+      found_schema += line + "\n";
+    else if (blank != std::string::npos)
+      log.text[key] = unescaped(line.substr(blank + 1));
   }
   if (found_schema != schema() || get(bytes, 12) != sizeof(record::TickRecord))
     refuse("its records have other fields than this program's; use the version that recorded it");
@@ -122,8 +127,8 @@ bool LogReader::block(Log& log) {
   if (bytes.size() - at - kTagBytes < size) return log.is_whole = false;
   const uint32_t crc = core::crc32(bytes_of(bytes.data() + at + kTagBytes, size), head);
   if (crc != stated)
-    refuse("damaged block of " + std::to_string(count) + " ticks: its CRC is " + crc_text(crc) + ", stated " +
-           crc_text(stated));
+    refuse("damaged block of " + std::to_string(count) + " ticks: its CRC is " + crc_text(crc) +
+           ", stated " + crc_text(stated));
   const size_t before = log.records.size();
   log.records.resize(before + count);
   if (count > 0) std::memcpy(&log.records[before], bytes.data() + at + kTagBytes, size);
@@ -160,7 +165,8 @@ void write_log(const std::string& path, const Log& log) {
   put(bytes, kLogVersion);
   put(bytes, sizeof(record::TickRecord));
   put(bytes, static_cast<uint32_t>(text.size()));
-  put(bytes, core::crc32(bytes_of(text.data(), text.size()), core::crc32(bytes_of(bytes.data(), 20))));
+  put(bytes,
+      core::crc32(bytes_of(text.data(), text.size()), core::crc32(bytes_of(bytes.data(), 20))));
   bytes += text;
   for (size_t first = 0; first < log.records.size(); first += kBlockRecords) {
     const size_t count = std::min<size_t>(kBlockRecords, log.records.size() - first);

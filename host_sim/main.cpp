@@ -1,4 +1,5 @@
-// firmtouch-sim: the world around a controller. Exit codes: 0 done; 1 it ran and the answer is no; 2 usage; 3 bad input.
+// firmtouch-sim: the world around a controller. Exit codes: 0 done; 1 it ran and the answer is no;
+// 2 usage; 3 bad input.
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -14,7 +15,8 @@ int main(int argc, char** argv) {
   try {
     return run_command(words);
   } catch (const Usage& usage) {
-    std::cerr << "firmtouch-sim: " << usage.what() << "\n`firmtouch-sim --help` says what there is.\n";
+    std::cerr << "firmtouch-sim: " << usage.what()
+              << "\n`firmtouch-sim --help` says what there is.\n";
     return 2;
   } catch (const Refused& refused) {
     std::cerr << "firmtouch-sim: " << refused.what() << "\n";

@@ -24,7 +24,8 @@ Vec vertex(const mesh::View& mesh, uint32_t i) {
   return {static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)};
 }
 
-// A vertex on the plane itself counts as above it, so that every triangle has none or two crossings.
+// A vertex on the plane itself counts as above it, so that every triangle has none or two
+// crossings.
 Cut cut_by(const mesh::View& mesh, Vec normal, double offset) {
   Cut cut;
   for (uint32_t i = 0; i < mesh.head().triangle_count; ++i) {
@@ -62,7 +63,8 @@ std::vector<Vec> longest_loop(Cut& cut) {
       seen[here] = true;
       loop.push_back(cut.point[here]);
       const std::vector<EdgeKey>& ways = cut.next[here];
-      const auto way = std::find_if(ways.begin(), ways.end(), [&](const EdgeKey& e) { return !seen[e]; });
+      const auto way =
+          std::find_if(ways.begin(), ways.end(), [&](const EdgeKey& e) { return !seen[e]; });
       if (way == ways.end()) break;
       here = *way;
     }
@@ -79,8 +81,10 @@ std::vector<Vec> evenly(const std::vector<Vec>& line, size_t count) {
   double walked = 0;
   for (size_t i = 1; i < line.size(); ++i) {
     const double span = norm(line[i] - line[i - 1]);
-    while (span > 0 && walked + span >= step * static_cast<double>(even.size()) && even.size() < count)
-      even.push_back(line[i - 1] + (line[i] - line[i - 1]) * ((step * static_cast<double>(even.size()) - walked) / span));
+    while (span > 0 && walked + span >= step * static_cast<double>(even.size()) &&
+           even.size() < count)
+      even.push_back(line[i - 1] + (line[i] - line[i - 1]) *
+                                       ((step * static_cast<double>(even.size()) - walked) / span));
     walked += span;
   }
   return even;
@@ -96,7 +100,8 @@ std::vector<Vec> outline(const World& world, double height_m) {
     extent[k] = static_cast<double>(head.high_m[k]) - static_cast<double>(head.low_m[k]);
     middle[k] = (static_cast<double>(head.high_m[k]) + static_cast<double>(head.low_m[k])) / 2;
   }
-  // The plane holds the longest side and stands on the shortest: across it the part is thinnest, and the loop longest.
+  // The plane holds the longest side and stands on the shortest: across it the part is thinnest,
+  // and the loop longest.
   const size_t thin = static_cast<size_t>(std::min_element(extent, extent + 3) - extent);
   const Vec normal = {thin == 0 ? 1.0 : 0.0, thin == 1 ? 1.0 : 0.0, thin == 2 ? 1.0 : 0.0};
   Cut cut = cut_by(world.mesh(), normal, middle[thin]);
@@ -110,7 +115,9 @@ std::vector<Vec> outline(const World& world, double height_m) {
   for (int round = 0; round < kSmoothings; ++round) {
     std::vector<Vec> smooth(loop.size());
     for (size_t i = 0; i < loop.size(); ++i)
-      smooth[i] = (loop[i] * 2 + loop[(i + 1) % loop.size()] + loop[(i + loop.size() - 1) % loop.size()]) * 0.25;
+      smooth[i] =
+          (loop[i] * 2 + loop[(i + 1) % loop.size()] + loop[(i + loop.size() - 1) % loop.size()]) *
+          0.25;
     loop = std::move(smooth);
   }
   loop.push_back(loop.front());

@@ -26,9 +26,10 @@ class Port {
   virtual std::string name() const = 0;
 };
 
-/// Opens what --controller names: unix:PATH, tcp:HOST:PORT, qemu:BOARD or a serial DEVICE; nullptr for inproc.
-/// `image`: the program for qemu:BOARD; empty: looked for beside this build. `asset_crc`: Controller::asset_crc().
-/// Throws Refused saying what is missing, or which of both sides' versions differ.
+/// Opens what --controller names: unix:PATH, tcp:HOST:PORT, qemu:BOARD or a serial DEVICE; nullptr
+/// for inproc. `image`: the program for qemu:BOARD; empty: looked for beside this build.
+/// `asset_crc`: Controller::asset_crc(). Throws Refused saying what is missing, or which of both
+/// sides' versions differ.
 std::unique_ptr<Port> open_port(const std::string& controller, const std::string& image,
                                 const std::string& asset_path, uint32_t asset_crc);
 

@@ -14,7 +14,8 @@ std::function<void(double)> progress_bar(const std::string& what) {
     if (percent == shown) return;
     shown = percent;
     const std::string bar(static_cast<size_t>(percent / 4), '#');
-    std::fprintf(stderr, "\r%s [%-25s] %3d %%%s", what.c_str(), bar.c_str(), percent, percent == 100 ? "\r\033[K" : "");
+    std::fprintf(stderr, "\r%s [%-25s] %3d %%%s", what.c_str(), bar.c_str(), percent,
+                 percent == 100 ? "\r\033[K" : "");
     std::fflush(stderr);
   };
 }

@@ -1,6 +1,6 @@
 #include <chrono>
-#include <cstring>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -17,8 +17,9 @@ namespace firmtouch::host_sim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int kHelloAgain_ms = 1000;                     // a Hello may fall into a controller's start
-constexpr auto kHandshakeTime = std::chrono::seconds(60);  // an asset of megabytes is proven in emulation first
+constexpr int kHelloAgain_ms = 1000;  // a Hello may fall into a controller's start
+constexpr auto kHandshakeTime =
+    std::chrono::seconds(60);  // an asset of megabytes is proven in emulation first
 constexpr int kReplyTime_ms = 20000;
 
 class Remote : public Port {
@@ -41,7 +42,9 @@ class Remote : public Port {
   void send(uint8_t type, core::Bytes payload);
   bool receive(link::Frame& frame, int timeout_ms);
   void shake_hands(uint32_t asset_crc);
-  [[noreturn]] void refuse(const std::string& what) const { throw Refused(stream_->name() + ": " + what); }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Refused(stream_->name() + ": " + what);
+  }
 
   std::unique_ptr<ByteStream> stream_;
   link::Decoder decoder_;
@@ -53,7 +56,8 @@ class Remote : public Port {
 
 void Remote::send(uint8_t type, core::Bytes payload) {
   uint8_t frame[link::kMaxFrameBytes];
-  const uint32_t count = link::encode(type, ++sequence_, payload, core::Span<uint8_t>(frame, sizeof frame));
+  const uint32_t count =
+      link::encode(type, ++sequence_, payload, core::Span<uint8_t>(frame, sizeof frame));
   stream_->write(frame, count);
 }
 
@@ -103,24 +107,29 @@ TickCost Remote::tick(const record::TickInput& input, record::TickOutput& output
   while (receive(frame, kReplyTime_ms)) {
     link::StepReply reply;
     if (frame.type == link::kText)
-      refuse("tick " + std::to_string(input.tick) + ": " +
-             std::string(reinterpret_cast<const char*>(frame.payload.data()), frame.payload.size()));
-    if (frame.type != link::kStepReply || !link::take(frame, reply) || reply.tick != input.tick) continue;
+      refuse(
+          "tick " + std::to_string(input.tick) + ": " +
+          std::string(reinterpret_cast<const char*>(frame.payload.data()), frame.payload.size()));
+    if (frame.type != link::kStepReply || !link::take(frame, reply) || reply.tick != input.tick)
+      continue;
     output = reply.output;
     TickCost cost;
     if (reply.work_per_1000 > 0)
-      cost.instructions = static_cast<uint32_t>((uint64_t{reply.work} * 1000 + reply.work_per_1000 / 2) / reply.work_per_1000);
+      cost.instructions = static_cast<uint32_t>(
+          (uint64_t{reply.work} * 1000 + reply.work_per_1000 / 2) / reply.work_per_1000);
     cost.stack_high_bytes = reply.stack_high_bytes;
     return cost;
   }
-  refuse("no answer to tick " + std::to_string(input.tick) + " in " + std::to_string(kReplyTime_ms / 1000) + " s");
+  refuse("no answer to tick " + std::to_string(input.tick) + " in " +
+         std::to_string(kReplyTime_ms / 1000) + " s");
 }
 
 // build/<board>/bin/firmtouch_app.elf beside this program's build/host/bin.
 std::string image_of(const std::string& board) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return (self.parent_path().parent_path().parent_path() / board / "bin/firmtouch_app.elf").string();
+  return (self.parent_path().parent_path().parent_path() / board / "bin/firmtouch_app.elf")
+      .string();
 }
 
 }  // namespace
@@ -130,8 +139,8 @@ std::unique_ptr<Port> open_port(const std::string& controller, const std::string
   if (controller.empty() || controller == "inproc") return nullptr;
   if (controller.compare(0, 5, "qemu:") == 0) {
     const std::string board = controller.substr(5);
-    return std::make_unique<Remote>(start_emulator(board, image.empty() ? image_of(board) : image, asset_path),
-                                    asset_crc);
+    return std::make_unique<Remote>(
+        start_emulator(board, image.empty() ? image_of(board) : image, asset_path), asset_crc);
   }
   return std::make_unique<Remote>(connect_stream(controller), asset_crc);
 }

@@ -12,21 +12,25 @@ namespace {
 
 constexpr const char* kHelp =
     "firmtouch-sim replay LOG [--asset FILE]\n"
-    "Feeds the inputs of a log to the in-process controller and compares every bit of every output.\n"
+    "Feeds the inputs of a log to the in-process controller and compares every bit of every "
+    "output.\n"
     "  --asset FILE   the asset, where it is no longer where the log says\n"
     "Exit codes: 0 all the same; 1 they differ: the first difference is named by tick and field.\n";
 
 const std::string& entry(const Log& log, const std::string& path, const std::string& key) {
   const auto found = log.text.find(key);
-  if (found == log.text.end()) throw Refused(path + ": its header does not name " + key + "; record the run again");
+  if (found == log.text.end())
+    throw Refused(path + ": its header does not name " + key + "; record the run again");
   return found->second;
 }
 
-void check_same(const std::string& path, const char* what, uint64_t logged, uint64_t here, int digits, const char* remedy) {
+void check_same(const std::string& path, const char* what, uint64_t logged, uint64_t here,
+                int digits, const char* remedy) {
   if (logged == here) return;
   char text[96];
-  std::snprintf(text, sizeof text, ": recorded with %0*llx, here %0*llx; ", digits, static_cast<unsigned long long>(logged),
-                digits, static_cast<unsigned long long>(here));
+  std::snprintf(text, sizeof text, ": recorded with %0*llx, here %0*llx; ", digits,
+                static_cast<unsigned long long>(logged), digits,
+                static_cast<unsigned long long>(here));
   throw Refused(path + ": " + what + text + remedy);
 }
 
@@ -41,18 +45,20 @@ int replay_log(const std::vector<std::string>& words) {
   if (options.operands().size() != 1) throw Usage("replay wants one log");
   const std::string path = options.operands()[0];
   const Log log = read_log(path);
-  check_same(path, "parameter table", std::strtoull(entry(log, path, "parameter_table").c_str(), nullptr, 16),
+  check_same(path, "parameter table",
+             std::strtoull(entry(log, path, "parameter_table").c_str(), nullptr, 16),
              params::table_hash(), 16, "use the version that recorded it");
   const std::string named = options.value("--asset");
   const Session session(named.empty() ? path_beside(path, entry(log, path, "asset")) : named);
   check_same(path, ("asset CRC of " + session.asset.path()).c_str(),
-             std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16), session.controller->asset_crc(), 8,
-             "name the asset of that time with --asset");
+             std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16),
+             session.controller->asset_crc(), 8, "name the asset of that time with --asset");
   if (!log.is_whole)
-    std::cerr << path << ": cut off; the " << log.records.size() << " ticks before that are replayed\n";
+    std::cerr << path << ": cut off; the " << log.records.size()
+              << " ticks before that are replayed\n";
   if (const std::optional<Difference> d = replay(log, *session.controller)) {
-    std::cerr << "firmtouch-sim: " << path << ": first difference at tick " << d->tick << " in " << d->field << ": recorded "
-              << d->expected << ", replayed " << d->found << "\n";
+    std::cerr << "firmtouch-sim: " << path << ": first difference at tick " << d->tick << " in "
+              << d->field << ": recorded " << d->expected << ", replayed " << d->found << "\n";
     return 1;
   }
   std::cerr << path << ": " << log.records.size() << " ticks replayed, every output bit the same\n";

@@ -11,12 +11,12 @@
 namespace firmtouch::host_sim {
 namespace {
 
-// Steps of the device and hand within a tick: with a grip of 2,000 N/m on 75 g the hand's force, held over one of
-// these, differs from a continuous one by less than 1e-3 at 1 kHz.
+// Steps of the device and hand within a tick: with a grip of 2,000 N/m on 75 g the hand's force,
+// held over one of these, differs from a continuous one by less than 1e-3 at 1 kHz.
 constexpr uint32_t kSubsteps = 16;
-constexpr uint32_t kMaxTicks = 5000000;        // 250 B each in memory
-constexpr uint32_t kSettlingTicks = 5;         // between the last initial parameter and the enable line
-constexpr double kArmLag_s = 0.012;            // an arm's own lag, twice: it rounds the script's corners
+constexpr uint32_t kMaxTicks = 5000000;  // 250 B each in memory
+constexpr uint32_t kSettlingTicks = 5;   // between the last initial parameter and the enable line
+constexpr double kArmLag_s = 0.012;      // an arm's own lag, twice: it rounds the script's corners
 
 constexpr params::Index kCountsPerMetre[3] = {params::kCountsPerMetreX, params::kCountsPerMetreY,
                                               params::kCountsPerMetreZ};
@@ -68,12 +68,23 @@ class Operator {
   // Result: lines of this tick alone.
   uint32_t happen(const Event& event) {
     switch (event.kind) {
-      case Event::Kind::kEmergencyStop: held_ |= record::kLineEmergencyStop; return 0;
-      case Event::Kind::kDriveFault: held_ |= record::kLineDriveFault; return 0;
-      case Event::Kind::kEncoderFault: return record::kLineEncoderFault;
-      case Event::Kind::kDisable: enabled_ = false; return 0;
-      case Event::Kind::kEnable: enabled_ = true; return 0;
-      case Event::Kind::kSet: commands_.push_back({event.parameter, event.value}); return 0;
+      case Event::Kind::kEmergencyStop:
+        held_ |= record::kLineEmergencyStop;
+        return 0;
+      case Event::Kind::kDriveFault:
+        held_ |= record::kLineDriveFault;
+        return 0;
+      case Event::Kind::kEncoderFault:
+        return record::kLineEncoderFault;
+      case Event::Kind::kDisable:
+        enabled_ = false;
+        return 0;
+      case Event::Kind::kEnable:
+        enabled_ = true;
+        return 0;
+      case Event::Kind::kSet:
+        commands_.push_back({event.parameter, event.value});
+        return 0;
     }
     return 0;
   }
@@ -88,7 +99,8 @@ class Operator {
 
 // A parameter's name without the unit that ends it.
 std::string short_name(const std::string& name) {
-  for (const char* suffix : {"_N_s_per_m", "_N_per_m", "_N_per_s", "_mps", "_Hz", "_N", "_s", "_m"}) {
+  for (const char* suffix :
+       {"_N_s_per_m", "_N_per_m", "_N_per_s", "_mps", "_Hz", "_N", "_s", "_m"}) {
     const std::string end = suffix;
     if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
       return name.substr(0, name.size() - end.size());
@@ -101,18 +113,20 @@ void check_command(const Scenario& scenario, const record::TickRecord& record) {
   const params::Entry& row = params::kTable[record.input.command - 1];
   std::ostringstream value;
   value << record.input.command_value;
-  throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) + " the controller refuses " + row.name +
-                " = " + value.str() + " " + row.unit +
-                (row.when == params::When::kMotorsOff ? "; this one may change only while the motors are off"
-                                                      : "; it is out of range"));
+  throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) +
+                " the controller refuses " + row.name + " = " + value.str() + " " + row.unit +
+                (row.when == params::When::kMotorsOff
+                     ? "; this one may change only while the motors are off"
+                     : "; it is out of range"));
 }
 
 uint32_t tick_count(const Scenario& scenario, const Hand& hand) {
   const double seconds = scenario.duration_s > 0 ? scenario.duration_s : hand.end_s();
   const double ticks = std::round(seconds * scenario.rate_Hz);
   if (ticks > kMaxTicks)
-    throw Refused(scenario.file + ": " + std::to_string(static_cast<uint64_t>(ticks)) + " ticks are more than " +
-                  std::to_string(kMaxTicks) + "; shorten the duration or lower the rate");
+    throw Refused(scenario.file + ": " + std::to_string(static_cast<uint64_t>(ticks)) +
+                  " ticks are more than " + std::to_string(kMaxTicks) +
+                  "; shorten the duration or lower the rate");
   return static_cast<uint32_t>(std::max(ticks, 1.0));
 }
 
@@ -122,8 +136,9 @@ std::vector<ParameterRow> parameter_rows() {
   std::vector<ParameterRow> rows;
   for (const params::Entry& entry : params::kTable) {
     const std::string unit = entry.unit;
-    rows.push_back({entry.name, short_name(entry.name), unit == "1" ? "" : unit, static_cast<double>(entry.low),
-                    static_cast<double>(entry.high), static_cast<double>(entry.initial)});
+    rows.push_back({entry.name, short_name(entry.name), unit == "1" ? "" : unit,
+                    static_cast<double>(entry.low), static_cast<double>(entry.high),
+                    static_cast<double>(entry.initial)});
   }
   return rows;
 }
@@ -144,7 +159,8 @@ void complete(Scenario& scenario) {
     scenario.settings.push_back({params::kTickPeriod, 1 / scenario.rate_Hz});
   if (scenario.device.encoder_quantum_m > 0) {
     for (const params::Index axis : kCountsPerMetre)
-      if (!is_set(scenario, axis)) scenario.settings.push_back({axis, 1 / scenario.device.encoder_quantum_m});
+      if (!is_set(scenario, axis))
+        scenario.settings.push_back({axis, 1 / scenario.device.encoder_quantum_m});
   } else {
     scenario.device.encoder_quantum_m = 1 / parameter_value(scenario, params::kCountsPerMetreX);
   }
@@ -184,18 +200,19 @@ Trace run(const Scenario& scenario, Controller& controller, const World& world, 
     }
     check_command(scenario, record);
     const float(&motor)[3] = record.output.motor_N;
-    device.command({static_cast<double>(motor[0]), static_cast<double>(motor[1]), static_cast<double>(motor[2])});
+    device.command({static_cast<double>(motor[0]), static_cast<double>(motor[1]),
+                    static_cast<double>(motor[2])});
     trace.records.push_back(record);
     trace.device_m.push_back(device.position_m() + zero_m);
     trace.target_m.push_back(arm.position_m());
-    trace.hand_N.push_back(hand.force_N(arm.position_m(), arm.velocity_mps(), device.position_m() + zero_m,
-                                        device.velocity_mps()));
+    trace.hand_N.push_back(hand.force_N(arm.position_m(), arm.velocity_mps(),
+                                        device.position_m() + zero_m, device.velocity_mps()));
     if (trace.difference) break;
     const Vec script_m = hand.target_m(now_s);
     for (uint32_t k = 0; k < kSubsteps; ++k) {
       arm.advance(script_m, substep_s);
-      device.advance(hand.force_N(arm.position_m(), arm.velocity_mps(), device.position_m() + zero_m,
-                                  device.velocity_mps()),
+      device.advance(hand.force_N(arm.position_m(), arm.velocity_mps(),
+                                  device.position_m() + zero_m, device.velocity_mps()),
                      substep_s);
     }
     if (progress && tick % 256 == 0) progress(static_cast<double>(tick) / ticks);

@@ -17,10 +17,13 @@ namespace {
 
 constexpr const char* kHelp =
     "firmtouch-sim run SCENARIO [options]\n"
-    "  --set KEY=VALUE          a line of the scenario, set from here; VALUE may carry a unit: --set \"mass=60 g\"\n"
-    "  --controller WHAT        inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE (serial)\n"
+    "  --set KEY=VALUE          a line of the scenario, set from here; VALUE may carry a unit: "
+    "--set \"mass=60 g\"\n"
+    "  --controller WHAT        inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE "
+    "(serial)\n"
     "                           every controller but inproc is compared with it, bit for bit\n"
-    "  --image FILE             the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)\n"
+    "  --image FILE             the program for qemu:BOARD (default: "
+    "build/BOARD/bin/firmtouch_app.elf)\n"
     "  --report FILE.html       a page with pictures and numbers, complete in itself\n"
     "  --picture FILE.svg       its first picture\n"
     "  --log FILE.ftl           every tick's input and output, for `firmtouch-sim replay`\n"
@@ -38,12 +41,14 @@ std::string line_of(std::string set) {
   set[equals] = ' ';
   // "1N" and "1 N" both: the number ends where the unit begins.
   const size_t unit = set.find_first_not_of("0123456789.+-eE", equals + 1);
-  if (unit != std::string::npos && unit > equals + 1 && set[unit] != ' ' && set.find(' ', equals + 1) == std::string::npos)
+  if (unit != std::string::npos && unit > equals + 1 && set[unit] != ' ' &&
+      set.find(' ', equals + 1) == std::string::npos)
     set.insert(unit, " ");
   return set;
 }
 
-Log log_of(const Scenario& scenario, const Session& session, const Trace& trace, const std::string& log_path) {
+Log log_of(const Scenario& scenario, const Session& session, const Trace& trace,
+           const std::string& log_path) {
   Log log;
   log.text["asset"] = path_from(log_path, session.asset.path());
   log.text["asset_crc"] = hex(session.controller->asset_crc(), 8);
@@ -54,7 +59,8 @@ Log log_of(const Scenario& scenario, const Session& session, const Trace& trace,
   log.text["scenario"] = scenario.text;
   for (uint32_t i = 0; i < params::kCount; ++i) {
     char value[32];
-    std::snprintf(value, sizeof value, "%.9g %s", parameter_value(scenario, i), params::kTable[i].unit);
+    std::snprintf(value, sizeof value, "%.9g %s", parameter_value(scenario, i),
+                  params::kTable[i].unit);
     log.text[std::string("parameter.") + params::kTable[i].name] = value;
   }
   log.records = trace.records;
@@ -71,7 +77,8 @@ std::string command_of(const std::vector<std::string>& words) {
 }  // namespace
 
 int run_scenario(const std::vector<std::string>& words) {
-  const Options options(words, {"--set", "--controller", "--image", "--report", "--picture", "--log", "--csv"});
+  const Options options(
+      words, {"--set", "--controller", "--image", "--report", "--picture", "--log", "--csv"});
   if (options.help()) {
     std::cout << kHelp << scenario_help();
     return 0;
@@ -85,27 +92,37 @@ int run_scenario(const std::vector<std::string>& words) {
   const Session session(path_beside(file, scenario.asset));
   const World world = world_of(*session.controller, scene_origin_m(scenario));
   const std::unique_ptr<Port> port =
-      open_port(options.value("--controller"), options.value("--image"), session.asset.path(), session.controller->asset_crc());
-  const Trace trace = run(scenario, *session.controller, world, port.get(), progress_bar("simulating"));
+      open_port(options.value("--controller"), options.value("--image"), session.asset.path(),
+                session.controller->asset_crc());
+  const Trace trace =
+      run(scenario, *session.controller, world, port.get(), progress_bar("simulating"));
   const Summary summary = summarise(scenario, world, trace);
 
-  if (const std::string path = options.value("--csv"); !path.empty()) write_file(path, csv_of(trace));
+  if (const std::string path = options.value("--csv"); !path.empty())
+    write_file(path, csv_of(trace));
   if (const std::string path = options.value("--log"); !path.empty())
     write_log(path, log_of(scenario, session, trace, path));
   if (!options.value("--report").empty() || !options.value("--picture").empty()) {
-    const Report report{scenario, world, trace, summary, session.asset.path(), session.asset.bytes().size(), command_of(words)};
-    if (const std::string path = options.value("--report"); !path.empty()) write_file(path, page_of(report));
-    if (const std::string path = options.value("--picture"); !path.empty()) write_file(path, picture_of(report));
+    const Report report{
+        scenario,         world, trace, summary, session.asset.path(), session.asset.bytes().size(),
+        command_of(words)};
+    if (const std::string path = options.value("--report"); !path.empty())
+      write_file(path, page_of(report));
+    if (const std::string path = options.value("--picture"); !path.empty())
+      write_file(path, picture_of(report));
   }
   std::cerr << text_of(summary, trace);
   if (trace.difference) {
     const Difference& d = *trace.difference;
-    std::cerr << "firmtouch-sim: " << trace.controller << " differs from the in-process controller first at tick " << d.tick
-              << " in " << d.field << ": in-process " << d.expected << ", " << trace.controller << " " << d.found << "\n";
+    std::cerr << "firmtouch-sim: " << trace.controller
+              << " differs from the in-process controller first at tick " << d.tick << " in "
+              << d.field << ": in-process " << d.expected << ", " << trace.controller << " "
+              << d.found << "\n";
     return 1;
   }
   if (summary.wrong_bounds > 0) {
-    std::cerr << "firmtouch-sim: " << summary.wrong_bounds << " certificates do not hold; this is a defect, please report it\n";
+    std::cerr << "firmtouch-sim: " << summary.wrong_bounds
+              << " certificates do not hold; this is a defect, please report it\n";
     return 1;
   }
   return 0;

@@ -20,7 +20,8 @@ struct Key {
 
 // The simulator's own keys. Every other key must be a row of the controller's parameter table.
 const Key kKeys[] = {
-    {"rate", "Hz", 50, 20000, [](Scenario& s) -> double& { return s.rate_Hz; }, "servo ticks a second"},
+    {"rate", "Hz", 50, 20000, [](Scenario& s) -> double& { return s.rate_Hz; },
+     "servo ticks a second"},
     {"duration", "s", 0.001, 3600, [](Scenario& s) -> double& { return s.duration_s; },
      "of the run; without it, until the hand's script ends"},
     {"mass", "kg", 1e-4, 100, [](Scenario& s) -> double& { return s.device.mass_kg; },
@@ -114,8 +115,9 @@ void Reader::event(Words& words) {
   for (const Name& name : kNames)
     if (what == name.name) found = &name;
   if (found == nullptr)
-    words.refuse("nothing called `" + what +
-                 "` can happen; known: emergency_stop, drive_fault, encoder_fault, disable, enable, set");
+    words.refuse(
+        "nothing called `" + what +
+        "` can happen; known: emergency_stop, drive_fault, encoder_fault, disable, enable, set");
   event.kind = found->kind;
   if (event.kind == Event::Kind::kSet) {
     const std::string name = words.next("a parameter's name");
@@ -154,14 +156,16 @@ void check_whole(const Scenario& scenario) {
 
 }  // namespace
 
-Scenario read_scenario(const std::string& file, const std::string& text, const std::vector<std::string>& sets,
+Scenario read_scenario(const std::string& file, const std::string& text,
+                       const std::vector<std::string>& sets,
                        const std::vector<ParameterRow>& parameters) {
   Reader reader{parameters};
   reader.out.file = file;
   reader.out.text = text;
   std::vector<std::string> names;
   for (const Key& key : kKeys) names.emplace_back(key.name);
-  for (const char* name : {"output_delay", "asset", "start", "at", "move", "hold", "press", "follow"})
+  for (const char* name :
+       {"output_delay", "asset", "start", "at", "move", "hold", "press", "follow"})
     names.emplace_back(name);
   for (const ParameterRow& row : parameters) names.push_back(row.short_name);
   std::istringstream lines(text);
@@ -185,7 +189,8 @@ Scenario read_scenario(const std::string& file, const std::string& text, const s
 
 std::string scenario_help() {
   std::ostringstream help;
-  help << "A scenario is a text file, one statement a line; # begins a comment; every quantity has its unit.\n\n"
+  help << "A scenario is a text file, one statement a line; # begins a comment; every quantity has "
+          "its unit.\n\n"
           "  asset PATH                        what is felt; relative to the scenario's folder\n"
           "  start X Y Z m                     where device and hand begin\n";
   Scenario defaults;
@@ -206,7 +211,8 @@ std::string scenario_help() {
           "  follow guide at V m/s for T s [pressing D m]\n"
           "                                    D: how far behind the surface the hand aims\n"
           "Happenings:\n"
-          "  at T s emergency_stop | drive_fault | encoder_fault | disable | enable | set PARAMETER VALUE UNIT\n";
+          "  at T s emergency_stop | drive_fault | encoder_fault | disable | enable | set "
+          "PARAMETER VALUE UNIT\n";
   return help.str();
 }
 

@@ -26,7 +26,8 @@ struct Move {
   Vec to_m;              // kMove, kPress
   double speed_mps = 0;  // kMove, kFollow
   double time_s = 0;     // kHold, kPress, kFollow
-  double press_m = 0;    // kFollow: how far behind the surface the hand aims; 0: it follows the guide itself
+  double press_m =
+      0;  // kFollow: how far behind the surface the hand aims; 0: it follows the guide itself
 };
 
 /// Something that happens at a stated time, whatever the hand does.
@@ -46,7 +47,8 @@ struct Setting {
 /// A row of the controller's parameter table, as the scenario's reader needs it.
 struct ParameterRow {
   std::string name;
-  std::string short_name;  // without its unit, "tool_radius" for "tool_radius_m": the unit stands beside the value
+  std::string short_name;  // without its unit, "tool_radius" for "tool_radius_m": the unit stands
+                           // beside the value
   std::string unit;        // SI; empty: a plain number
   double low = 0, high = 0, initial = 0;
 };
@@ -66,10 +68,12 @@ struct Scenario {
   std::vector<Event> events;  // in order of time
 };
 
-/// Reads a scenario: one statement a line, `#` begins a comment, every quantity carries its unit (docs: scenario_help()).
-/// `sets` are further `key value` lines, from the command line; there a missing unit means the key's own.
-/// Throws Refused naming file and line for an unknown key, statement or unit, a value out of range, a key given twice.
-Scenario read_scenario(const std::string& file, const std::string& text, const std::vector<std::string>& sets,
+/// Reads a scenario: one statement a line, `#` begins a comment, every quantity carries its unit
+/// (docs: scenario_help()). `sets` are further `key value` lines, from the command line; there a
+/// missing unit means the key's own. Throws Refused naming file and line for an unknown key,
+/// statement or unit, a value out of range, a key given twice.
+Scenario read_scenario(const std::string& file, const std::string& text,
+                       const std::vector<std::string>& sets,
                        const std::vector<ParameterRow>& parameters);
 
 /// All keys and statements with their units and defaults, for --help.

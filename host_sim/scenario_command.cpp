@@ -9,11 +9,13 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kOutlineHeight = 0.016;  // diagonals above the surface: a tool of the plan's radius just touches it
+constexpr double kOutlineHeight =
+    0.016;  // diagonals above the surface: a tool of the plan's radius just touches it
 
 constexpr const char* kHelp =
     "firmtouch-sim scenario ASSET -o FILE [--outline FILE.csv]\n"
-    "Writes a scenario that suits an asset, from its bounding box: press on the part, follow its guide, stop.\n"
+    "Writes a scenario that suits an asset, from its bounding box: press on the part, follow its "
+    "guide, stop.\n"
     "  --outline FILE.csv   instead: a line around the part, to be baked as its guide\n";
 
 std::string csv_of(const std::vector<Vec>& line) {
@@ -35,13 +37,16 @@ int make_scenario(const std::vector<std::string>& words) {
     return 0;
   }
   if (options.operands().size() != 1) throw Usage("scenario wants one asset");
-  const std::string path = options.operands()[0], to = options.value("-o"), outline_path = options.value("--outline");
-  if (to.empty() && outline_path.empty()) throw Usage("scenario wants -o FILE or --outline FILE.csv");
+  const std::string path = options.operands()[0], to = options.value("-o"),
+                    outline_path = options.value("--outline");
+  if (to.empty() && outline_path.empty())
+    throw Usage("scenario wants -o FILE or --outline FILE.csv");
   const Session session(path);
   const World world = world_of(*session.controller, {});
   if (!outline_path.empty()) {
     const std::vector<Vec> line = outline(world, kOutlineHeight * diagonal_m(world));
-    if (line.empty()) throw Refused(path + ": no closed line around the part was found; give a path of your own");
+    if (line.empty())
+      throw Refused(path + ": no closed line around the part was found; give a path of your own");
     write_file(outline_path, csv_of(line));
   }
   if (!to.empty()) write_file(to, plan_scenario(world, path_from(to, path)));

@@ -37,8 +37,12 @@ size_t edits(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-Words::Words(const std::string& line, std::string place, const std::vector<std::string>& names, bool overrides)
-    : line_(line.substr(0, line.find('#'))), place_(std::move(place)), names_(names), overrides_(overrides) {
+Words::Words(const std::string& line, std::string place, const std::vector<std::string>& names,
+             bool overrides)
+    : line_(line.substr(0, line.find('#'))),
+      place_(std::move(place)),
+      names_(names),
+      overrides_(overrides) {
   const char* blank = " \t\r";
   for (size_t i = line_.find_first_not_of(blank); i != std::string::npos;) {
     const size_t end = line_.find_first_of(blank, i);
@@ -62,7 +66,8 @@ void Words::refuse_unknown(const std::string& kind, const std::string& name) con
   }
   if (nearest.empty()) nearest = containing;
   refuse("unknown " + kind + " `" + name + "`" +
-         (nearest.empty() ? "; `firmtouch-sim run --help` lists the known ones" : "; did you mean " + nearest + "?"));
+         (nearest.empty() ? "; `firmtouch-sim run --help` lists the known ones"
+                          : "; did you mean " + nearest + "?"));
 }
 
 std::string Words::next(const std::string& wanted) {
@@ -103,15 +108,16 @@ double Words::in_si(const std::string& name, double value, const std::string& un
   if (!more() && overrides_) return value;
   const std::string text = next("the unit of `" + name + "` (" + units_like(unit) + ")");
   const std::optional<double> si = to_si(value, text, unit);
-  if (!si) refuse("`" + text + "` is no unit for `" + name + "`; write one of: " + units_like(unit));
+  if (!si)
+    refuse("`" + text + "` is no unit for `" + name + "`; write one of: " + units_like(unit));
   return *si;
 }
 
 double Words::ranged(const std::string& name, double value, const std::string& unit, double low,
                      double high) const {
   if (!(value >= low && value <= high))
-    refuse("`" + name + "` = " + short_number(value) + " " + unit + " is outside " + short_number(low) + " to " +
-           short_number(high) + " " + unit);
+    refuse("`" + name + "` = " + short_number(value) + " " + unit + " is outside " +
+           short_number(low) + " to " + short_number(high) + " " + unit);
   return value;
 }
 

@@ -6,12 +6,14 @@
 
 namespace firmtouch::host_sim {
 
-/// The words of one line of a scenario, taken from left to right. Every way to be wrong ends in Refused with the place.
+/// The words of one line of a scenario, taken from left to right. Every way to be wrong ends in
+/// Refused with the place.
 class Words {
  public:
-  /// `names`: every key and statement, to suggest the nearest of them. `overrides`: from the command line, where a later
-  /// value replaces an earlier one and the unit may be left out.
-  Words(const std::string& line, std::string place, const std::vector<std::string>& names, bool overrides);
+  /// `names`: every key and statement, to suggest the nearest of them. `overrides`: from the
+  /// command line, where a later value replaces an earlier one and the unit may be left out.
+  Words(const std::string& line, std::string place, const std::vector<std::string>& names,
+        bool overrides);
 
   bool empty() const { return words_.empty(); }
   bool overrides() const { return overrides_; }
@@ -34,7 +36,8 @@ class Words {
  private:
   double number(const std::string& name);
   double in_si(const std::string& name, double value, const std::string& unit);
-  double ranged(const std::string& name, double value, const std::string& unit, double low, double high) const;
+  double ranged(const std::string& name, double value, const std::string& unit, double low,
+                double high) const;
 
   std::string line_;
   std::string place_;

@@ -7,17 +7,23 @@ namespace {
 
 std::string remedy_of(uint16_t rule) {
   switch (rule) {
-    case kRuleNothingToFeel: return "it holds neither a mesh nor a curve; bake one into it";
-    case kRuleArithmetic: return "this machine's floating-point mode differs from what the library needs";
+    case kRuleNothingToFeel:
+      return "it holds neither a mesh nor a curve; bake one into it";
+    case kRuleArithmetic:
+      return "this machine's floating-point mode differs from what the library needs";
     case kRuleMeshProbes:
-    case kRuleCurveProbes: return "this program answers its probe queries with other bits; bake it with the same version";
-    default: return "it is damaged or of another version; bake it again";
+    case kRuleCurveProbes:
+      return "this program answers its probe queries with other bits; bake it with the same "
+             "version";
+    default:
+      return "it is damaged or of another version; bake it again";
   }
 }
 
 }  // namespace
 
-Session::Session(const std::string& asset_path) : asset(asset_path), controller(std::make_unique<Controller>()) {
+Session::Session(const std::string& asset_path)
+    : asset(asset_path), controller(std::make_unique<Controller>()) {
   const core::Verdict verdict = controller->open(asset.bytes());
   if (verdict.ok()) return;
   throw Refused(asset_path + ": refused by rule R" + std::to_string(verdict.rule) + " at element " +
@@ -33,7 +39,8 @@ std::string path_from(const std::string& folder_of, const std::string& path) {
 
 std::string path_beside(const std::string& file, const std::string& relative) {
   const std::filesystem::path path = relative;
-  return path.is_absolute() ? relative : (std::filesystem::path(file).parent_path() / path).string();
+  return path.is_absolute() ? relative
+                            : (std::filesystem::path(file).parent_path() / path).string();
 }
 
 }  // namespace firmtouch::host_sim

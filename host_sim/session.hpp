@@ -17,7 +17,8 @@ struct Session {
   std::unique_ptr<Controller> controller;
 };
 
-/// A path as a log names it: relative to the log's folder where that is possible, so that both can move together.
+/// A path as a log names it: relative to the log's folder where that is possible, so that both can
+/// move together.
 std::string path_from(const std::string& folder_of, const std::string& path);
 /// The other way round.
 std::string path_beside(const std::string& file, const std::string& relative);

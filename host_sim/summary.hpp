@@ -18,16 +18,17 @@ struct Summary {
   double mean_guide_deviation_m = 0, worst_guide_deviation_m = 0;
   double mean_steps = 0;
   uint32_t worst_steps = 0, budget_steps = 0;
-  size_t surface_ticks = 0;         // ticks whose distance answer could be judged
-  size_t judged_ticks = 0;          // of these, judged against brute force over every triangle, in double
-  size_t wrong_bounds = 0;          // lower bound above the truth, or distance below it, beyond float32 rounding
-  double worst_gap_m = 0;           // distance - lower bound
-  double median_ratio = 0;          // of lower bound to truth
+  size_t surface_ticks = 0;  // ticks whose distance answer could be judged
+  size_t judged_ticks = 0;   // of these, judged against brute force over every triangle, in double
+  size_t wrong_bounds =
+      0;  // lower bound above the truth, or distance below it, beyond float32 rounding
+  double worst_gap_m = 0;   // distance - lower bound
+  double median_ratio = 0;  // of lower bound to truth
   bool has_surface = false, has_guide = false;
   double mean_instructions = 0;
   uint32_t worst_instructions = 0, stack_high_bytes = 0;
   uint32_t faults = 0;
-  double fault_s = -1;              // when the first one was latched; -1: none
+  double fault_s = -1;  // when the first one was latched; -1: none
   std::string fault_names;
 };
 

@@ -4,8 +4,9 @@
 
 namespace firmtouch::host_sim {
 
-/// `value` of `unit` in the SI unit of the same dimension as `wanted` ("mm" where "m" is wanted: 0.001 value).
-/// Result: nothing where either unit is not known or the two measure different things.
+/// `value` of `unit` in the SI unit of the same dimension as `wanted` ("mm" where "m" is wanted:
+/// 0.001 value). Result: nothing where either unit is not known or the two measure different
+/// things.
 std::optional<double> to_si(double value, const std::string& unit, const std::string& wanted);
 
 /// The units that may stand where `wanted` is wanted, for a message: "m, mm, um, cm, in".

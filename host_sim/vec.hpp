@@ -1,7 +1,8 @@
 #pragma once
 #include <cmath>
 
-// The simulated world is computed in double: it is the physics around the controller, not the controller.
+// The simulated world is computed in double: it is the physics around the controller, not the
+// controller.
 namespace firmtouch::host_sim {
 
 struct Vec {

@@ -30,9 +30,11 @@ World::Surface World::nearest(Vec from_m) const {
   const Vec in_mesh = from_m - origin_m_;
   query::Hint cold;
   const mesh::Closest found = mesh::closest_point(
-      mesh_, {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y), static_cast<float>(in_mesh.z)},
+      mesh_,
+      {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y), static_cast<float>(in_mesh.z)},
       query::kUnlimited, cold);
-  return {wide(found.point_m) + origin_m_, wide(found.direction), static_cast<double>(found.distance_m)};
+  return {wide(found.point_m) + origin_m_, wide(found.direction),
+          static_cast<double>(found.distance_m)};
 }
 
 Vec World::guide_at(double arc_m) const {
@@ -40,9 +42,11 @@ Vec World::guide_at(double arc_m) const {
   double arc = std::fmod(arc_m, closed_ ? length : 2 * length);
   if (arc > length) arc = 2 * length - arc;
   const auto above = std::upper_bound(arc_m_.begin(), arc_m_.end(), arc);
-  const size_t i = std::clamp<size_t>(static_cast<size_t>(above - arc_m_.begin()), 1, arc_m_.size() - 1);
+  const size_t i =
+      std::clamp<size_t>(static_cast<size_t>(above - arc_m_.begin()), 1, arc_m_.size() - 1);
   const double span = arc_m_[i] - arc_m_[i - 1];
-  return guide_m_[i - 1] + (guide_m_[i] - guide_m_[i - 1]) * (span > 0 ? (arc - arc_m_[i - 1]) / span : 0);
+  return guide_m_[i - 1] +
+         (guide_m_[i] - guide_m_[i - 1]) * (span > 0 ? (arc - arc_m_[i - 1]) / span : 0);
 }
 
 }  // namespace firmtouch::host_sim

@@ -10,7 +10,8 @@ class Controller;
 
 namespace firmtouch::host_sim {
 
-/// What lies around the hand, in the device's frame: it sees the surface and the guide as a person would.
+/// What lies around the hand, in the device's frame: it sees the surface and the guide as a person
+/// would.
 class World {
  public:
   World() = default;
@@ -27,7 +28,8 @@ class World {
   bool has_guide() const { return guide_m_.size() > 1; }
   double guide_length_m() const { return arc_m_.empty() ? 0 : arc_m_.back(); }
   bool guide_is_closed() const { return closed_; }
-  /// Point of the guide at `arc_m` from its start: past its end a closed guide goes round, an open one turns back.
+  /// Point of the guide at `arc_m` from its start: past its end a closed guide goes round, an open
+  /// one turns back.
   Vec guide_at(double arc_m) const;
   const std::vector<Vec>& guide_m() const { return guide_m_; }
   const mesh::View& mesh() const { return mesh_; }

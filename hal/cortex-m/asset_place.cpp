@@ -11,7 +11,8 @@ namespace firmtouch::hal {
 namespace {
 
 core::Bytes between(const uint8_t* begin, const uint8_t* end) {
-  return {begin, static_cast<uint32_t>(reinterpret_cast<uintptr_t>(end) - reinterpret_cast<uintptr_t>(begin))};
+  return {begin, static_cast<uint32_t>(reinterpret_cast<uintptr_t>(end) -
+                                       reinterpret_cast<uintptr_t>(begin))};
 }
 
 }  // namespace

@@ -6,7 +6,8 @@ namespace firmtouch::hal {
 /// Received bytes on their way from an interrupt (push) to the main loop (pop): one writer, one reader, no lock.
 class ByteRing {
  public:
-  static constexpr uint32_t kCapacity_bytes = 1024;  // 8 ms of 1 Mbaud, several of the largest frames
+  static constexpr uint32_t kCapacity_bytes =
+      1024;  // 8 ms of 1 Mbaud, several of the largest frames
 
   /// Result: false where it is full; the byte is lost, and the frame's CRC will say so.
   bool push(uint8_t byte) {
@@ -19,7 +20,8 @@ class ByteRing {
   uint32_t pop(uint8_t* to, uint32_t capacity) {
     uint32_t count = 0;
     uint32_t out = out_;
-    for (; count < capacity && out != in_; ++count, ++out) to[count] = bytes_[out % kCapacity_bytes];
+    for (; count < capacity && out != in_; ++count, ++out)
+      to[count] = bytes_[out % kCapacity_bytes];
     out_ = out;
     return count;
   }

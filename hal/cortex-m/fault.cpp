@@ -9,9 +9,10 @@
 namespace firmtouch::hal {
 namespace {
 
-constexpr uint32_t kFromDebugEvent = 1u << 31;  // of the HardFault status: a breakpoint with no debugger attached
-constexpr uint16_t kSemihostingCall = 0xBEAB;   // bkpt 0xAB
-constexpr int kExitStatus = 70;                 // what an emulator's process ends with
+constexpr uint32_t kFromDebugEvent =
+    1u << 31;  // of the HardFault status: a breakpoint with no debugger attached
+constexpr uint16_t kSemihostingCall = 0xBEAB;  // bkpt 0xAB
+constexpr int kExitStatus = 70;                // what an emulator's process ends with
 
 struct Frame {  // what the core pushes (ARM DDI 0403, B1.5.6)
   uint32_t r[4], r12, lr, pc, status;
@@ -27,7 +28,8 @@ void print_hex(const char* name, uint32_t value) {
 // Nobody listens to semihosting on a board without a debugger: then the call answers -1, and the caller does without.
 bool skip_unheard_semihosting(Frame& frame) {
   if ((reg(kHardFaultStatus) & kFromDebugEvent) == 0) return false;
-  if (*reinterpret_cast<const uint16_t*>(static_cast<uintptr_t>(frame.pc)) != kSemihostingCall) return false;
+  if (*reinterpret_cast<const uint16_t*>(static_cast<uintptr_t>(frame.pc)) != kSemihostingCall)
+    return false;
   reg(kHardFaultStatus) = kFromDebugEvent;
   frame.r[0] = UINT32_MAX;
   frame.pc += 2;

@@ -1,7 +1,7 @@
 #include "cortex-m/file_link.hpp"
 
-#include "firmtouch/hal/board.hpp"
 #include "cortex-m/semihosting.hpp"
+#include "firmtouch/hal/board.hpp"
 
 namespace firmtouch::hal {
 namespace {

@@ -3,7 +3,8 @@
 namespace firmtouch::hal {
 namespace {
 
-constexpr uint32_t kOpen = 0x01, kClose = 0x02, kWrite = 0x05, kRead = 0x06, kCommandLine = 0x15, kExitExtended = 0x20;
+constexpr uint32_t kOpen = 0x01, kClose = 0x02, kWrite = 0x05, kRead = 0x06, kCommandLine = 0x15,
+                   kExitExtended = 0x20;
 constexpr uint32_t kApplicationExit = 0x20026;
 
 uint32_t call(uint32_t operation, uint32_t* arguments) {

@@ -1,6 +1,6 @@
+#include "cortex-m/servo_timer.hpp"
 #include "cortex-m/cortex_m.hpp"
 #include "firmtouch/hal/clock.hpp"
-#include "cortex-m/servo_timer.hpp"
 
 namespace firmtouch::hal {
 namespace {

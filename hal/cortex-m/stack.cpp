@@ -12,7 +12,8 @@ namespace {
 constexpr uint32_t kPaint = 0x5AFE57AC;
 
 uint32_t bytes_between(const uint32_t* low, const uint32_t* high) {
-  return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(high) - reinterpret_cast<uintptr_t>(low));
+  return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(high) -
+                               reinterpret_cast<uintptr_t>(low));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include <stdint.h>
 
 #include "cortex-m/cortex_m.hpp"
-#include "firmtouch/hal/board.hpp"
 #include "cortex-m/stack.hpp"
+#include "firmtouch/hal/board.hpp"
 
 // From reset to main(): FPU, data, constructors.
 
@@ -23,7 +23,8 @@ void servo_timer_handler();
   const uint32_t* from = __data_load;
   for (uint32_t* to = __data_begin; to < __data_end; ++to) *to = *from++;
   for (uint32_t* to = __bss_begin; to < __bss_end; ++to) *to = 0;
-  for (firmtouch::hal::Handler* make = __init_array_begin; make < __init_array_end; ++make) (*make)();
+  for (firmtouch::hal::Handler* make = __init_array_begin; make < __init_array_end; ++make)
+    (*make)();
   firmtouch::hal::board_exit(main());
 }
 

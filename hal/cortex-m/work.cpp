@@ -15,7 +15,8 @@ namespace {
 }  // namespace
 
 uint32_t measure_work_per_1000() {
-  constexpr uint32_t kThousands = 200;  // instructions of the loop: one tick of doubt is 1 in 300,000
+  constexpr uint32_t kThousands =
+      200;  // instructions of the loop: one tick of doubt is 1 in 300,000
   const uint32_t ticks = ticks_of(kThousands * 500 + 1) - ticks_of(1);
   return (ticks + kThousands / 2) / kThousands;
 }

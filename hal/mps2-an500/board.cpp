@@ -1,11 +1,11 @@
 #include "firmtouch/hal/board.hpp"
 
 #include "cortex-m/asset_place.hpp"
+#include "cortex-m/semihosting.hpp"
+#include "cortex-m/stack.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
 #include "registers.hpp"
-#include "cortex-m/semihosting.hpp"
-#include "cortex-m/stack.hpp"
 
 extern "C" {
 void uart1_receive_handler();

@@ -1,8 +1,8 @@
 #include "firmtouch/hal/clock.hpp"
 
-#include "registers.hpp"
 #include "cortex-m/servo_timer.hpp"
 #include "cortex-m/work.hpp"
+#include "registers.hpp"
 
 // TIMER0 counts down at the core's clock. Under an emulator's -icount shift=N an instruction takes 2^N ns, so its ticks
 // of 40 ns count instructions: at shift=6 exactly 1.6 an instruction.

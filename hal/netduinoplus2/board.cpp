@@ -1,11 +1,11 @@
 #include "firmtouch/hal/board.hpp"
 
 #include "cortex-m/asset_place.hpp"
+#include "cortex-m/semihosting.hpp"
+#include "cortex-m/stack.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
 #include "registers.hpp"
-#include "cortex-m/semihosting.hpp"
-#include "cortex-m/stack.hpp"
 
 extern "C" {
 void usart2_handler();
@@ -22,7 +22,8 @@ struct BoardVectors {
   Handler usart2;
 };
 
-[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors kBoardVectors = {{}, usart2_handler};
+[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors kBoardVectors = {{},
+                                                                                  usart2_handler};
 
 void pins_begin() {
   reg(kRccAhb1Enable) = reg(kRccAhb1Enable) | 1u;

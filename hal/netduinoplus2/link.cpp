@@ -41,7 +41,8 @@ uint32_t link_write(const uint8_t* from, uint32_t count) {
 
 void link_wait() {
   if (file_link_is_open()) return file_link_wait(g_received);
-  const Uninterrupted here;  // a byte that comes after the check still ends the wait, because it is pending
+  const Uninterrupted
+      here;  // a byte that comes after the check still ends the wait, because it is pending
   if (g_received.empty()) asm volatile("wfi");
 }
 

@@ -12,7 +12,8 @@ const std::string kOnCard = "paint-order=\"stroke\" stroke=\"var(--card)\" strok
 
 class Plot {
  public:
-  Plot(const Chart& chart, const TimeAxis& axis, const ChartSize& size) : chart_(chart), axis_(axis), size_(size) {
+  Plot(const Chart& chart, const TimeAxis& axis, const ChartSize& size)
+      : chart_(chart), axis_(axis), size_(size) {
     double most = chart.limit;
     for (const Series& s : chart.series)
       for (const double v : s.values) most = std::max(most, v);
@@ -30,7 +31,8 @@ class Plot {
     return size_.left + (size_.width - size_.left - size_.right) * time_s / axis_.seconds;
   }
   double y(double value) const {
-    const double share = chart_.is_logarithmic ? std::log(std::max(value, 1.0)) / std::log(high_) : value / high_;
+    const double share =
+        chart_.is_logarithmic ? std::log(std::max(value, 1.0)) / std::log(high_) : value / high_;
     return base() - (base() - size_.top) * std::clamp(share, 0.0, 1.0);
   }
   double base() const { return size_.height - size_.bottom; }
@@ -50,12 +52,13 @@ class Plot {
 };
 
 std::string text_at(double x, double y, const std::string& style, const std::string& text) {
-  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" " + style + ">" + html_of(text) + "</text>";
+  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" " + style + ">" +
+         html_of(text) + "</text>";
 }
 
 std::string rule(double x1, double y1, double x2, double y2, const std::string& style) {
-  return "<line x1=\"" + fixed(x1, 1) + "\" y1=\"" + fixed(y1, 1) + "\" x2=\"" + fixed(x2, 1) + "\" y2=\"" + fixed(y2, 1) +
-         "\" " + style + "/>";
+  return "<line x1=\"" + fixed(x1, 1) + "\" y1=\"" + fixed(y1, 1) + "\" x2=\"" + fixed(x2, 1) +
+         "\" y2=\"" + fixed(y2, 1) + "\" " + style + "/>";
 }
 
 int decimals_of(const std::vector<double>& marks) {
@@ -69,7 +72,8 @@ std::string Plot::frame() const {
   const int decimals = chart_.is_logarithmic ? 0 : decimals_of(marks_);
   for (const double mark : marks_) {
     svg += rule(size_.left, y(mark), right, y(mark), "stroke=\"var(--grid)\"");
-    svg += text_at(size_.left - 8, y(mark) + 4, "text-anchor=\"end\" fill=\"var(--soft)\"", fixed(mark, decimals));
+    svg += text_at(size_.left - 8, y(mark) + 4, "text-anchor=\"end\" fill=\"var(--soft)\"",
+                   fixed(mark, decimals));
   }
   const std::vector<double> times = round_numbers(0, axis_.seconds, 10);
   const int time_decimals = decimals_of(times);
@@ -77,11 +81,15 @@ std::string Plot::frame() const {
     if (time > axis_.seconds * 1.0001) continue;
     svg += rule(x(time), base(), x(time), base() + 4, "stroke=\"var(--line)\"");
     const bool at_end = x(time) > right - 12;
-    svg += text_at(x(time), base() + 18, std::string("text-anchor=\"") + (at_end ? "end" : "middle") + "\" fill=\"var(--soft)\"",
-                   fixed(time, time_decimals) + (time > 0 ? "" : " s"));
+    svg += text_at(
+        x(time), base() + 18,
+        std::string("text-anchor=\"") + (at_end ? "end" : "middle") + "\" fill=\"var(--soft)\"",
+        fixed(time, time_decimals) + (time > 0 ? "" : " s"));
   }
   svg += rule(size_.left, base(), right, base(), "stroke=\"var(--line)\"");
-  return svg + text_at(size_.left - 8, size_.top - 5, "text-anchor=\"end\" fill=\"var(--soft)\" font-style=\"italic\"", chart_.unit);
+  return svg + text_at(size_.left - 8, size_.top - 5,
+                       "text-anchor=\"end\" fill=\"var(--soft)\" font-style=\"italic\"",
+                       chart_.unit);
 }
 
 std::string Plot::bands() const {
@@ -99,10 +107,12 @@ std::string Plot::bands() const {
 // A column of pixels shows the least and the greatest of its ticks, so that no peak is lost.
 std::string Plot::line(const Series& series) const {
   const size_t n = series.values.size();
-  const size_t columns = std::min<size_t>(n, static_cast<size_t>(size_.width - size_.left - size_.right));
+  const size_t columns =
+      std::min<size_t>(n, static_cast<size_t>(size_.width - size_.left - size_.right));
   std::string points;
   const auto add = [&](size_t i) {
-    points += (points.empty() ? "" : " ") + fixed(x(axis_.seconds * static_cast<double>(i) / static_cast<double>(n)), 1) + "," +
+    points += (points.empty() ? "" : " ") +
+              fixed(x(axis_.seconds * static_cast<double>(i) / static_cast<double>(n)), 1) + "," +
               fixed(y(series.values[i]), 1);
   };
   for (size_t c = 0; c < columns; ++c) {
@@ -117,16 +127,18 @@ std::string Plot::line(const Series& series) const {
   }
   std::string svg;
   if (series.is_area)
-    svg += "<polygon points=\"" + fixed(x(0), 1) + "," + fixed(base(), 1) + " " + points + " " + fixed(x(axis_.seconds), 1) +
-           "," + fixed(base(), 1) + "\" fill=\"" + series.colour + "\" fill-opacity=\".14\"/>";
-  return svg + "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + series.colour + "\" stroke-width=\"" +
-         fixed(series.width, 1) + "\" stroke-linejoin=\"round\"/>";
+    svg += "<polygon points=\"" + fixed(x(0), 1) + "," + fixed(base(), 1) + " " + points + " " +
+           fixed(x(axis_.seconds), 1) + "," + fixed(base(), 1) + "\" fill=\"" + series.colour +
+           "\" fill-opacity=\".14\"/>";
+  return svg + "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + series.colour +
+         "\" stroke-width=\"" + fixed(series.width, 1) + "\" stroke-linejoin=\"round\"/>";
 }
 
 std::string Plot::limit() const {
   if (!(chart_.limit > 0)) return "";
   const double at = y(chart_.limit), right = size_.width - size_.right;
-  return rule(size_.left, at, right, at, "stroke=\"var(--bad)\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\"") +
+  return rule(size_.left, at, right, at,
+              "stroke=\"var(--bad)\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\"") +
          text_at(size_.left + 6, at + 14, kOnCard + "fill=\"var(--bad)\"", chart_.limit_label);
 }
 
@@ -135,9 +147,11 @@ std::string Plot::events() const {
   for (const auto& [time, name] : axis_.events) {
     if (time > axis_.seconds) continue;
     const bool at_end = x(time) > size_.width * 0.8;
-    svg += rule(x(time), size_.top, x(time), base(), "stroke=\"var(--bad)\" stroke-dasharray=\"2 3\"");
-    svg += text_at(x(time) + (at_end ? -5 : 5), size_.top + 13, kOnCard + "text-anchor=\"" + (at_end ? "end" : "start") +
-                   "\" fill=\"var(--bad)\"", name);
+    svg +=
+        rule(x(time), size_.top, x(time), base(), "stroke=\"var(--bad)\" stroke-dasharray=\"2 3\"");
+    svg += text_at(
+        x(time) + (at_end ? -5 : 5), size_.top + 13,
+        kOnCard + "text-anchor=\"" + (at_end ? "end" : "start") + "\" fill=\"var(--bad)\"", name);
   }
   return svg;
 }
@@ -161,24 +175,32 @@ std::string fixed(double value, int decimals) {
 
 std::string grouped(uint64_t value) {
   std::string text = std::to_string(value);
-  for (size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, "\u202f");  // narrow no-break space
+  for (size_t i = text.size(); i > 3; i -= 3)
+    text.insert(i - 3, "\u202f");  // narrow no-break space
   return text;
 }
 
 std::string html_of(const std::string& text) {
   std::string html;
   for (const char c : text)
-    html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+    html += c == '&'   ? "&amp;"
+            : c == '<' ? "&lt;"
+            : c == '>' ? "&gt;"
+            : c == '"' ? "&quot;"
+                       : std::string(1, c);
   return html;
 }
 
 std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& size, int index) {
   const Plot plot(chart, axis, size);
-  std::string svg = "<svg class=\"chart\" viewBox=\"0 0 " + fixed(size.width, 0) + " " + fixed(size.height, 0) +
-                    "\" data-chart=\"" + std::to_string(index) + "\" data-left=\"" + fixed(size.left, 0) +
-                    "\" data-right=\"" + fixed(size.width - size.right, 0) +
-                    "\" font-family=\"system-ui,Segoe UI,Roboto,Helvetica,Arial,sans-serif\" font-size=\"12\" role=\"img\" "
-                    "aria-label=\"" + html_of(chart.title) + " over time\">";
+  std::string svg = "<svg class=\"chart\" viewBox=\"0 0 " + fixed(size.width, 0) + " " +
+                    fixed(size.height, 0) + "\" data-chart=\"" + std::to_string(index) +
+                    "\" data-left=\"" + fixed(size.left, 0) + "\" data-right=\"" +
+                    fixed(size.width - size.right, 0) +
+                    "\" font-family=\"system-ui,Segoe UI,Roboto,Helvetica,Arial,sans-serif\" "
+                    "font-size=\"12\" role=\"img\" "
+                    "aria-label=\"" +
+                    html_of(chart.title) + " over time\">";
   svg += plot.frame() + plot.bands();
   for (const Series& series : chart.series) svg += plot.line(series);
   svg += plot.limit() + plot.events();

@@ -21,7 +21,7 @@ struct Chart {
   bool is_logarithmic = false;  // values of at least 1
   double limit = 0;             // a dashed line at this value, named; 0: none
   std::string limit_label;
-  int decimals = 2;             // of the values told
+  int decimals = 2;  // of the values told
 };
 
 /// What all charts of a run share.
@@ -37,7 +37,8 @@ struct ChartSize {
   double left = 58, right = 14, top = 16, bottom = 26;
 };
 
-/// The <svg> element; `index` names it for the page's cursor. Colours are the style sheet's variables.
+/// The <svg> element; `index` names it for the page's cursor. Colours are the style sheet's
+/// variables.
 std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& size, int index);
 
 /// Round numbers from `low` to `high`, about `count` of them.

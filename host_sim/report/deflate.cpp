@@ -11,15 +11,20 @@ namespace firmtouch::host_sim {
 namespace {
 
 constexpr size_t kWindow = 32768, kMaxMatch = 258, kMinMatch = 3;
-constexpr int kMaxChain = 64;  // candidates looked at for a match; more gained less than 1 % on our pictures
+constexpr int kMaxChain =
+    64;  // candidates looked at for a match; more gained less than 1 % on our pictures
 constexpr uint32_t kHashBits = 15;
 
-constexpr uint16_t kLengthBase[29] = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
-                                      31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
-constexpr uint8_t kLengthExtra[29] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
-constexpr uint16_t kDistanceBase[30] = {1,   2,   3,   4,   5,   7,    9,    13,   17,   25,   33,   49,   65,    97,    129,
-                                        193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
-constexpr uint8_t kCodeOrder[19] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
+constexpr uint16_t kLengthBase[29] = {3,  4,  5,  6,   7,   8,   9,   10,  11, 13,
+                                      15, 17, 19, 23,  27,  31,  35,  43,  51, 59,
+                                      67, 83, 99, 115, 131, 163, 195, 227, 258};
+constexpr uint8_t kLengthExtra[29] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
+                                      2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
+constexpr uint16_t kDistanceBase[30] = {
+    1,   2,   3,   4,   5,   7,    9,    13,   17,   25,   33,   49,   65,    97,    129,
+    193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
+constexpr uint8_t kCodeOrder[19] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                    11, 4,  12, 3, 13, 2, 14, 1, 15};
 
 struct Token {
   uint16_t literal_or_length;  // below 256: a byte; else 257 + length code
@@ -98,9 +103,12 @@ std::vector<uint32_t> canonical_codes(const std::vector<uint8_t>& lengths) {
 }
 
 Token match_token(size_t length, size_t distance) {
-  const size_t l = static_cast<size_t>(std::upper_bound(kLengthBase, kLengthBase + 29, length) - kLengthBase - 1);
-  const size_t d = static_cast<size_t>(std::upper_bound(kDistanceBase, kDistanceBase + 30, distance) - kDistanceBase - 1);
-  return {static_cast<uint16_t>(257 + l), static_cast<uint16_t>(d), static_cast<uint16_t>(length - kLengthBase[l]),
+  const size_t l = static_cast<size_t>(std::upper_bound(kLengthBase, kLengthBase + 29, length) -
+                                       kLengthBase - 1);
+  const size_t d = static_cast<size_t>(
+      std::upper_bound(kDistanceBase, kDistanceBase + 30, distance) - kDistanceBase - 1);
+  return {static_cast<uint16_t>(257 + l), static_cast<uint16_t>(d),
+          static_cast<uint16_t>(length - kLengthBase[l]),
           static_cast<uint16_t>(distance - kDistanceBase[d])};
 }
 
@@ -110,7 +118,8 @@ std::vector<Token> find_matches(const std::string& bytes) {
   const auto byte = [&](size_t i) { return static_cast<uint32_t>(static_cast<uint8_t>(bytes[i])); };
   const auto enter = [&](size_t i) {
     if (i + kMinMatch > bytes.size()) return;
-    const uint32_t key = (byte(i) | byte(i + 1) << 8 | byte(i + 2) << 16) * 2654435761u >> (32 - kHashBits);
+    const uint32_t key =
+        (byte(i) | byte(i + 1) << 8 | byte(i + 2) << 16) * 2654435761u >> (32 - kHashBits);
     before[i] = head[key];
     head[key] = static_cast<int64_t>(i);
   };
@@ -119,7 +128,8 @@ std::vector<Token> find_matches(const std::string& bytes) {
     size_t best = 0, distance = 0;
     int64_t candidate = before[i];
     const size_t most = std::min(kMaxMatch, bytes.size() - i);
-    for (int chain = 0; candidate >= 0 && chain < kMaxChain && best < most; ++chain, candidate = before[static_cast<size_t>(candidate)]) {
+    for (int chain = 0; candidate >= 0 && chain < kMaxChain && best < most;
+         ++chain, candidate = before[static_cast<size_t>(candidate)]) {
       const size_t at = static_cast<size_t>(candidate);
       if (i - at > kWindow) break;
       size_t length = 0;
@@ -146,12 +156,14 @@ void write_block(BitWriter& out, const std::vector<Token>& tokens) {
   }
   const std::vector<uint8_t> lengths = code_lengths(counts, 15);
   std::vector<uint8_t> distances = code_lengths(distance_counts, 15);
-  if (std::all_of(distances.begin(), distances.end(), [](uint8_t l) { return l == 0; })) distances[0] = 1;
+  if (std::all_of(distances.begin(), distances.end(), [](uint8_t l) { return l == 0; }))
+    distances[0] = 1;
   std::vector<uint8_t> both = lengths;
   both.insert(both.end(), distances.begin(), distances.end());
   for (const uint8_t length : both) ++order_counts[length];
   const std::vector<uint8_t> order = code_lengths(order_counts, 7);
-  const std::vector<uint32_t> codes = canonical_codes(lengths), distance_codes = canonical_codes(distances),
+  const std::vector<uint32_t> codes = canonical_codes(lengths),
+                              distance_codes = canonical_codes(distances),
                               order_codes = canonical_codes(order);
   out.bits(1, 1);  // the last block
   out.bits(2, 2);  // with its own codes

@@ -7,9 +7,11 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kAzimuth_rad = 0.72, kElevation_rad = 0.52;  // the same first sight as the viewer's
-constexpr double kMargin = 0.93;        // of each side, for what is shown
-constexpr double kSmoothBelow = 0.82;   // cosine: a face that bends less from its vertex normal is shaded smoothly
+constexpr double kAzimuth_rad = 0.72,
+                 kElevation_rad = 0.52;  // the same first sight as the viewer's
+constexpr double kMargin = 0.93;         // of each side, for what is shown
+constexpr double kSmoothBelow =
+    0.82;  // cosine: a face that bends less from its vertex normal is shaded smoothly
 constexpr Colour kPart{176, 186, 201};
 
 struct Screen {
@@ -25,11 +27,12 @@ struct Canvas {
 
   Screen see(Vec p) const {
     const Vec d = p - centre;
-    return {image.width / 2.0 + dot(d, right) * pixels_per_m, image.height / 2.0 - dot(d, up) * pixels_per_m,
-            dot(d, eye) * pixels_per_m};
+    return {image.width / 2.0 + dot(d, right) * pixels_per_m,
+            image.height / 2.0 - dot(d, up) * pixels_per_m, dot(d, eye) * pixels_per_m};
   }
   void put(int x, int y, double z, Colour c) {
-    if (x < 0 || y < 0 || x >= static_cast<int>(image.width) || y >= static_cast<int>(image.height)) return;
+    if (x < 0 || y < 0 || x >= static_cast<int>(image.width) || y >= static_cast<int>(image.height))
+      return;
     const size_t i = static_cast<size_t>(y) * image.width + static_cast<size_t>(x);
     if (z < static_cast<double>(depth[i])) return;
     depth[i] = static_cast<float>(z);
@@ -37,23 +40,27 @@ struct Canvas {
   }
 };
 
-uint8_t channel(double value) { return static_cast<uint8_t>(std::clamp(std::lround(value), 0l, 255l)); }
+uint8_t channel(double value) {
+  return static_cast<uint8_t>(std::clamp(std::lround(value), 0l, 255l));
+}
 
 // Two lights fixed to the eye and a soft rim, so that every side of the part reads.
 Colour lit(const Canvas& canvas, Vec normal, Colour base) {
   const Vec key = unit(canvas.eye * 0.62 + canvas.up * 0.62 - canvas.right * 0.48);
   const Vec fill = unit(canvas.eye * 0.5 - canvas.up * 0.3 + canvas.right * 0.8);
   const double facing = std::max(0.0, dot(normal, canvas.eye));
-  const double light = 0.34 + 0.62 * std::max(0.0, dot(normal, key)) + 0.16 * std::max(0.0, dot(normal, fill)) -
-                       0.12 * std::pow(1 - facing, 3);
+  const double light = 0.34 + 0.62 * std::max(0.0, dot(normal, key)) +
+                       0.16 * std::max(0.0, dot(normal, fill)) - 0.12 * std::pow(1 - facing, 3);
   const double shine = 46 * std::pow(std::max(0.0, dot(normal, unit(key + canvas.eye))), 40);
-  return {channel(base.r * light + shine), channel(base.g * light + shine), channel(base.b * light + shine)};
+  return {channel(base.r * light + shine), channel(base.g * light + shine),
+          channel(base.b * light + shine)};
 }
 
 std::vector<Vec> vertex_normals(const Stage& stage) {
   std::vector<Vec> normals(stage.vertices.size());
   for (const auto& t : stage.triangles) {
-    const Vec n = cross(stage.vertices[t[1]] - stage.vertices[t[0]], stage.vertices[t[2]] - stage.vertices[t[0]]);
+    const Vec n = cross(stage.vertices[t[1]] - stage.vertices[t[0]],
+                        stage.vertices[t[2]] - stage.vertices[t[0]]);
     for (const uint32_t corner : t) normals[corner] = normals[corner] + n;
   }
   for (Vec& n : normals) n = unit(n);
@@ -63,16 +70,23 @@ std::vector<Vec> vertex_normals(const Stage& stage) {
 void fill_triangle(Canvas& canvas, const Screen (&p)[3], const Vec (&normal)[3]) {
   const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
   if (!(std::fabs(area) > 1e-12)) return;
-  const auto low = [](double a, double b, double c) { return static_cast<int>(std::ceil(std::min({a, b, c}) - 0.5)); };
-  const auto high = [](double a, double b, double c) { return static_cast<int>(std::floor(std::max({a, b, c}) - 0.5)); };
-  const int x0 = std::max(0, low(p[0].x, p[1].x, p[2].x)), y0 = std::max(0, low(p[0].y, p[1].y, p[2].y));
+  const auto low = [](double a, double b, double c) {
+    return static_cast<int>(std::ceil(std::min({a, b, c}) - 0.5));
+  };
+  const auto high = [](double a, double b, double c) {
+    return static_cast<int>(std::floor(std::max({a, b, c}) - 0.5));
+  };
+  const int x0 = std::max(0, low(p[0].x, p[1].x, p[2].x)),
+            y0 = std::max(0, low(p[0].y, p[1].y, p[2].y));
   const int x1 = std::min(static_cast<int>(canvas.image.width) - 1, high(p[0].x, p[1].x, p[2].x));
   const int y1 = std::min(static_cast<int>(canvas.image.height) - 1, high(p[0].y, p[1].y, p[2].y));
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       const double px = x + 0.5, py = y + 0.5;
-      const double b = ((px - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (py - p[0].y)) / area;
-      const double c = ((p[1].x - p[0].x) * (py - p[0].y) - (px - p[0].x) * (p[1].y - p[0].y)) / area;
+      const double b =
+          ((px - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (py - p[0].y)) / area;
+      const double c =
+          ((p[1].x - p[0].x) * (py - p[0].y) - (px - p[0].x) * (p[1].y - p[0].y)) / area;
       const double a = 1 - b - c;
       if (a < 0 || b < 0 || c < 0) continue;
       const double z = a * p[0].depth + b * p[1].depth + c * p[2].depth;
@@ -83,7 +97,8 @@ void fill_triangle(Canvas& canvas, const Screen (&p)[3], const Vec (&normal)[3])
 void draw_mesh(Canvas& canvas, const Stage& stage) {
   const std::vector<Vec> normals = vertex_normals(stage);
   for (const auto& t : stage.triangles) {
-    const Vec face = unit(cross(stage.vertices[t[1]] - stage.vertices[t[0]], stage.vertices[t[2]] - stage.vertices[t[0]]));
+    const Vec face = unit(cross(stage.vertices[t[1]] - stage.vertices[t[0]],
+                                stage.vertices[t[2]] - stage.vertices[t[0]]));
     const double side = dot(face, canvas.eye) < 0 ? -1 : 1;  // an open surface shows its back too
     Screen p[3];
     Vec n[3];
@@ -103,7 +118,8 @@ void draw_path(Canvas& canvas, const Path& path, double scale) {
     if (std::isnan(path.points[i].x) || std::isnan(path.points[i - 1].x)) continue;
     const Colour colour = path.values.empty() ? path.colour : heat(path.values[i]);
     const Screen a = canvas.see(path.points[i - 1]), b = canvas.see(path.points[i]);
-    const int steps = std::min(4000, static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y) * 2)) + 1);
+    const int steps =
+        std::min(4000, static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y) * 2)) + 1);
     for (int s = 0; s <= steps; ++s) {
       const double f = static_cast<double>(s) / steps;
       const double x = a.x + (b.x - a.x) * f, y = a.y + (b.y - a.y) * f;
@@ -111,7 +127,8 @@ void draw_path(Canvas& canvas, const Path& path, double scale) {
       for (int dy = -reach; dy <= reach; ++dy)
         for (int dx = -reach; dx <= reach; ++dx)
           if (dx * dx + dy * dy <= radius * radius)
-            canvas.put(static_cast<int>(std::lround(x)) + dx, static_cast<int>(std::lround(y)) + dy, z, colour);
+            canvas.put(static_cast<int>(std::lround(x)) + dx, static_cast<int>(std::lround(y)) + dy,
+                       z, colour);
     }
   }
 }
@@ -126,8 +143,8 @@ void draw_tool(Canvas& canvas, Vec centre_m, double radius_m) {
       if (rest < 0) continue;
       const double h = std::sqrt(rest);
       const Vec normal = (canvas.right * dx - canvas.up * dy + canvas.eye * h) * (1 / radius);
-      canvas.put(static_cast<int>(std::lround(c.x)) + dx, static_cast<int>(std::lround(c.y)) + dy, c.depth + h,
-                 lit(canvas, normal, {96, 150, 255}));
+      canvas.put(static_cast<int>(std::lround(c.x)) + dx, static_cast<int>(std::lround(c.y)) + dy,
+                 c.depth + h, lit(canvas, normal, {96, 150, 255}));
     }
 }
 
@@ -151,7 +168,8 @@ Image draw(const Stage& stage, uint32_t width, uint32_t height, Colour backgroun
   const double ca = std::cos(kAzimuth_rad), sa = std::sin(kAzimuth_rad);
   const double ce = std::cos(kElevation_rad), se = std::sin(kElevation_rad);
   Canvas canvas{Image(width * kOver, height * kOver, background),
-                std::vector<float>(size_t{width} * height * kOver * kOver, -std::numeric_limits<float>::infinity()),
+                std::vector<float>(size_t{width} * height * kOver * kOver,
+                                   -std::numeric_limits<float>::infinity()),
                 {ca, sa, 0},
                 {},
                 {sa * ce, -ca * ce, se},

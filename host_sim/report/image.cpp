@@ -25,7 +25,8 @@ void chunk(std::string& to, const std::string& type, const std::string& body) {
   put_u32(to, static_cast<uint32_t>(body.size()));
   const std::string checked = type + body;
   to += checked;
-  put_u32(to, core::crc32({reinterpret_cast<const uint8_t*>(checked.data()), static_cast<uint32_t>(checked.size())}));
+  put_u32(to, core::crc32({reinterpret_cast<const uint8_t*>(checked.data()),
+                           static_cast<uint32_t>(checked.size())}));
 }
 
 uint32_t distance2(Colour a, Colour b) {
@@ -50,7 +51,8 @@ Palette make_palette(const Image& image) {
   std::vector<uint32_t> used;
   for (uint32_t i = 0; i < kBins; ++i)
     if (bins[i].count > 0) used.push_back(i);
-  std::stable_sort(used.begin(), used.end(), [&](uint32_t a, uint32_t b) { return bins[a].count > bins[b].count; });
+  std::stable_sort(used.begin(), used.end(),
+                   [&](uint32_t a, uint32_t b) { return bins[a].count > bins[b].count; });
   const auto mean = [&](uint32_t i) {
     const Bin& bin = bins[i];
     return Colour{static_cast<uint8_t>(bin.r / bin.count), static_cast<uint8_t>(bin.g / bin.count),
@@ -58,13 +60,16 @@ Palette make_palette(const Image& image) {
   };
   Palette palette;
   palette.index_of_bin.resize(kBins, 0);
-  for (size_t k = 0; k < std::min(used.size(), kPalette); ++k) palette.colours.push_back(mean(used[k]));
+  for (size_t k = 0; k < std::min(used.size(), kPalette); ++k)
+    palette.colours.push_back(mean(used[k]));
   for (size_t k = 0; k < used.size(); ++k) {
     size_t best = k;
     if (k >= kPalette) {
       best = 0;
       for (size_t j = 1; j < palette.colours.size(); ++j)
-        if (distance2(mean(used[k]), palette.colours[j]) < distance2(mean(used[k]), palette.colours[best])) best = j;
+        if (distance2(mean(used[k]), palette.colours[j]) <
+            distance2(mean(used[k]), palette.colours[best]))
+          best = j;
     }
     palette.index_of_bin[used[k]] = static_cast<uint8_t>(best);
   }
@@ -82,7 +87,8 @@ Image halved(const Image& image) {
         const Colour c = image.at(2 * x + (k & 1u), 2 * y + (k >> 1));
         r += c.r, g += c.g, b += c.b;
       }
-      half.at(x, y) = {static_cast<uint8_t>(r / 4), static_cast<uint8_t>(g / 4), static_cast<uint8_t>(b / 4)};
+      half.at(x, y) = {static_cast<uint8_t>(r / 4), static_cast<uint8_t>(g / 4),
+                       static_cast<uint8_t>(b / 4)};
     }
   return half;
 }

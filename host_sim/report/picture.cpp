@@ -16,19 +16,22 @@ constexpr Colour kPaper{255, 255, 255};
 
 // The style sheet's variables of the light theme: a picture in a README has no style sheet.
 std::string with_colours(std::string svg) {
-  constexpr const char* kColours[][2] = {{"var(--force)", "#2159d6"}, {"var(--second)", "#e2742b"}, {"var(--third)", "#8a93a6"},
-                                         {"var(--good)", "#1f8a5b"},  {"var(--bad)", "#c62839"},    {"var(--soft)", "#566175"},
-                                         {"var(--line)", "#dde2ea"},  {"var(--grid)", "#e8ecf1"},   {"var(--card)", "#ffffff"},
-                                         {"var(--ink)", "#16202e"}};
+  constexpr const char* kColours[][2] = {{"var(--force)", "#2159d6"}, {"var(--second)", "#e2742b"},
+                                         {"var(--third)", "#8a93a6"}, {"var(--good)", "#1f8a5b"},
+                                         {"var(--bad)", "#c62839"},   {"var(--soft)", "#566175"},
+                                         {"var(--line)", "#dde2ea"},  {"var(--grid)", "#e8ecf1"},
+                                         {"var(--card)", "#ffffff"},  {"var(--ink)", "#16202e"}};
   for (const auto& [name, colour] : kColours)
     for (size_t at = svg.find(name); at != std::string::npos; at = svg.find(name, at))
       svg.replace(at, std::string(name).size(), colour);
   return svg;
 }
 
-std::string text_at(double x, double y, int size, const std::string& colour, const std::string& text, int weight = 400) {
-  return "<text x=\"" + fixed(x, 0) + "\" y=\"" + fixed(y, 0) + "\" font-size=\"" + std::to_string(size) + "\" font-weight=\"" +
-         std::to_string(weight) + "\" fill=\"" + colour + "\">" + text + "</text>";
+std::string text_at(double x, double y, int size, const std::string& colour,
+                    const std::string& text, int weight = 400) {
+  return "<text x=\"" + fixed(x, 0) + "\" y=\"" + fixed(y, 0) + "\" font-size=\"" +
+         std::to_string(size) + "\" font-weight=\"" + std::to_string(weight) + "\" fill=\"" +
+         colour + "\">" + text + "</text>";
 }
 
 // The tool where it presses hardest.
@@ -37,7 +40,8 @@ Vec tool_at_peak(const Trace& trace) {
   double most = -1;
   for (size_t i = 0; i < trace.records.size(); ++i) {
     const float(&f)[3] = trace.records[i].output.force_N;
-    const double force = norm({static_cast<double>(f[0]), static_cast<double>(f[1]), static_cast<double>(f[2])});
+    const double force =
+        norm({static_cast<double>(f[0]), static_cast<double>(f[1]), static_cast<double>(f[2])});
     if (force > most) most = force, best = i;
   }
   return trace.device_m[best];
@@ -46,7 +50,8 @@ Vec tool_at_peak(const Trace& trace) {
 }  // namespace
 
 std::string picture_of(const Report& report) {
-  Stage stage = make_stage(report.world, report.trace, parameter_value(report.scenario, params::kToolRadius));
+  Stage stage =
+      make_stage(report.world, report.trace, parameter_value(report.scenario, params::kToolRadius));
   std::string key;
   double at = 24;
   for (Path& path : stage.paths) {
@@ -54,33 +59,45 @@ std::string picture_of(const Report& report) {
       path.points.clear();
       continue;
     }
-    const std::string colour = path.values.empty() ? "rgb(" + std::to_string(path.colour.r) + "," + std::to_string(path.colour.g) +
-                                                         "," + std::to_string(path.colour.b) + ")" : "rgb(226,60,40)";
-    key += "<rect x=\"" + fixed(at, 0) + "\" y=\"522\" width=\"18\" height=\"4\" rx=\"2\" fill=\"" + colour + "\"/>" +
-           text_at(at + 25, 528, 13, "#566175", html_of(path.label));
+    const std::string colour = path.values.empty() ? "rgb(" + std::to_string(path.colour.r) + "," +
+                                                         std::to_string(path.colour.g) + "," +
+                                                         std::to_string(path.colour.b) + ")"
+                                                   : "rgb(226,60,40)";
+    key += "<rect x=\"" + fixed(at, 0) + "\" y=\"522\" width=\"18\" height=\"4\" rx=\"2\" fill=\"" +
+           colour + "\"/>" + text_at(at + 25, 528, 13, "#566175", html_of(path.label));
     at += 52 + 7.0 * static_cast<double>(path.label.size());
   }
-  const std::string png = png_of(draw(stage, kImageWidth, kImageHeight, kPaper, tool_at_peak(report.trace)));
+  const std::string png =
+      png_of(draw(stage, kImageWidth, kImageHeight, kPaper, tool_at_peak(report.trace)));
   const RunCharts run = make_charts(report);
   const Summary& s = report.summary;
   const double charts_top = kImageTop + kImageShown + 34;
   const ChartSize size{kWidth - 48, 140};
   const size_t shown = std::min<size_t>(2, run.charts.size());
   const double height = charts_top + static_cast<double>(shown) * 166 + 8;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(kWidth, 0) + " " + fixed(height, 0) +
-                    "\" font-family=\"system-ui,Segoe UI,Roboto,Helvetica,Arial,sans-serif\"><rect width=\"100%\" height=\"100%\" "
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(kWidth, 0) +
+                    " " + fixed(height, 0) +
+                    "\" font-family=\"system-ui,Segoe UI,Roboto,Helvetica,Arial,sans-serif\"><rect "
+                    "width=\"100%\" height=\"100%\" "
                     "rx=\"12\" fill=\"#ffffff\"/>";
-  svg += text_at(24, 36, 19, "#16202e", grouped(stage.source_triangles) + " triangles, felt at " + fixed(s.rate_Hz, 0) + " Hz", 650);
-  svg += text_at(24, 57, 13, "#566175", "penalty contact, up to " + fixed(s.peak_force_N, 2) + " N; at worst " + std::to_string(s.worst_steps) + " of " +
-                                            std::to_string(s.budget_steps) + " steps a tick; certificates judged on " + grouped(s.judged_ticks) + " ticks, " +
-                                            (s.wrong_bounds == 0 ? "all hold" : grouped(s.wrong_bounds) + " wrong"));
+  svg += text_at(
+      24, 36, 19, "#16202e",
+      grouped(stage.source_triangles) + " triangles, felt at " + fixed(s.rate_Hz, 0) + " Hz", 650);
+  svg +=
+      text_at(24, 57, 13, "#566175",
+              "penalty contact, up to " + fixed(s.peak_force_N, 2) + " N; at worst " +
+                  std::to_string(s.worst_steps) + " of " + std::to_string(s.budget_steps) +
+                  " steps a tick; certificates judged on " + grouped(s.judged_ticks) + " ticks, " +
+                  (s.wrong_bounds == 0 ? "all hold" : grouped(s.wrong_bounds) + " wrong"));
   const double shown_width = kImageShown * kImageWidth / kImageHeight;
-  svg += "<image x=\"" + fixed((kWidth - shown_width) / 2, 0) + "\" y=\"" + fixed(kImageTop, 0) + "\" width=\"" + fixed(shown_width, 0) +
-         "\" height=\"" + fixed(kImageShown, 0) + "\" href=\"data:image/png;base64," + base64_of(png.data(), png.size()) + "\"/>" + key;
+  svg += "<image x=\"" + fixed((kWidth - shown_width) / 2, 0) + "\" y=\"" + fixed(kImageTop, 0) +
+         "\" width=\"" + fixed(shown_width, 0) + "\" height=\"" + fixed(kImageShown, 0) +
+         "\" href=\"data:image/png;base64," + base64_of(png.data(), png.size()) + "\"/>" + key;
   for (size_t i = 0; i < shown; ++i) {
     const double top = charts_top + static_cast<double>(i) * 166;
     svg += text_at(24, top + 14, 14, "#16202e", html_of(run.charts[i].title), 620);
-    svg += "<svg x=\"24\" y=\"" + fixed(top + 20, 0) + "\" width=\"" + fixed(size.width, 0) + "\" height=\"" + fixed(size.height, 0) + "\">" +
+    svg += "<svg x=\"24\" y=\"" + fixed(top + 20, 0) + "\" width=\"" + fixed(size.width, 0) +
+           "\" height=\"" + fixed(size.height, 0) + "\">" +
            svg_of(run.charts[i], run.axis, size, 0) + "</svg>";
   }
   return with_colours(svg + "</svg>\n");

@@ -42,8 +42,10 @@ TimeAxis::Spans spans(const Trace& trace, uint32_t bit) {
     if ((trace.records[i].output.state & bit) == 0) continue;
     const double from = static_cast<double>(i) / trace.rate_Hz, to = from + 1 / trace.rate_Hz;
     // Gaps of a few ticks are not to be seen at this scale.
-    if (!list.empty() && from - list.back().second < 0.004) list.back().second = to;
-    else list.emplace_back(from, to);
+    if (!list.empty() && from - list.back().second < 0.004)
+      list.back().second = to;
+    else
+      list.emplace_back(from, to);
   }
   return list;
 }
@@ -56,7 +58,8 @@ std::vector<std::pair<double, std::string>> happenings(const Trace& trace) {
     before |= risen;
     for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
       if ((risen >> bit & 1u) != 0)
-        list.emplace_back(static_cast<double>(i) / trace.rate_Hz, std::string("fault: ") + servo::fault_name(bit));
+        list.emplace_back(static_cast<double>(i) / trace.rate_Hz,
+                          std::string("fault: ") + servo::fault_name(bit));
   }
   return list;
 }
@@ -64,31 +67,44 @@ std::vector<std::pair<double, std::string>> happenings(const Trace& trace) {
 Chart force_chart(const Report& report) {
   Chart chart{"Force", "N", {}, false, 0, "", 2};
   chart.series.push_back({"of the hand", kGrey, lengths(report.trace.hand_N), false, 1.1});
-  chart.series.push_back({"at the tool", kBlue, values(report.trace, [](const Output& o) { return norm(wide(o.force_N)); }), true, 1.7});
+  chart.series.push_back(
+      {"at the tool", kBlue,
+       values(report.trace, [](const Output& o) { return norm(wide(o.force_N)); }), true, 1.7});
   return chart;
 }
 
 Chart distance_chart(const Report& report) {
   Chart chart{"Distance of the tool's centre to the surface", "mm", {}, false, 0, "", 3};
-  chart.series.push_back({"told (upper bound)", kBlue, values(report.trace, [](const Output& o) {
-                            return std::fabs(static_cast<double>(o.distance_m)) * 1e3;
-                          }), false, 2.6});
-  chart.series.push_back({"certified lower bound", kOrange, values(report.trace, [](const Output& o) {
-                            return static_cast<double>(o.distance_lower_m) * 1e3;
-                          }), false, 1.1});
+  chart.series.push_back(
+      {"told (upper bound)", kBlue,
+       values(report.trace,
+              [](const Output& o) { return std::fabs(static_cast<double>(o.distance_m)) * 1e3; }),
+       false, 2.6});
+  chart.series.push_back(
+      {"certified lower bound", kOrange,
+       values(report.trace,
+              [](const Output& o) { return static_cast<double>(o.distance_lower_m) * 1e3; }),
+       false, 1.1});
   return chart;
 }
 
 Chart steps_chart(const Report& report) {
-  Chart chart{"Steps a tick", "steps", {}, true, static_cast<double>(report.summary.budget_steps), "", 0};
+  Chart chart{
+      "Steps a tick", "steps", {}, true, static_cast<double>(report.summary.budget_steps), "", 0};
   chart.limit_label = "budget " + std::to_string(report.summary.budget_steps);
-  chart.series.push_back({"tree nodes read", kBlue, values(report.trace, [](const Output& o) { return static_cast<double>(o.steps); }), true, 1.2});
+  chart.series.push_back(
+      {"tree nodes read", kBlue,
+       values(report.trace, [](const Output& o) { return static_cast<double>(o.steps); }), true,
+       1.2});
   return chart;
 }
 
 std::string note_of_distance(const Summary& s) {
-  std::string note = "The truth lies between the two lines. Judged against brute force over every triangle, in double, on " +
-                     grouped(s.judged_ticks) + " ticks: " + (s.wrong_bounds == 0 ? "never outside." : grouped(s.wrong_bounds) + " times outside.");
+  std::string note =
+      "The truth lies between the two lines. Judged against brute force over every triangle, in "
+      "double, on " +
+      grouped(s.judged_ticks) + " ticks: " +
+      (s.wrong_bounds == 0 ? "never outside." : grouped(s.wrong_bounds) + " times outside.");
   return note + " Exact answers: " + grouped(s.exact_ticks) + " of " + grouped(s.ticks) + ".";
 }
 
@@ -105,26 +121,45 @@ RunCharts make_charts(const Report& report) {
     run.charts.push_back(std::move(chart));
     run.notes.push_back(std::move(note));
   };
-  add(force_chart(report), "After every limit; the limit is " + fixed(report.summary.force_limit_N, 1) + " N.");
+  add(force_chart(report),
+      "After every limit; the limit is " + fixed(report.summary.force_limit_N, 1) + " N.");
   if (report.summary.has_surface) {
     Chart depth{"Penetration of the tool's sphere", "mm", {}, false, 0, "", 2};
-    depth.series.push_back({"into the surface", kOrange, values(trace, [](const Output& o) { return static_cast<double>(o.penetration_m) * 1e3; }), true, 1.6});
-    add(std::move(depth), "Penalty contact: the force comes from this depth, so a softer surface lets the tool in farther.");
+    depth.series.push_back(
+        {"into the surface", kOrange,
+         values(trace, [](const Output& o) { return static_cast<double>(o.penetration_m) * 1e3; }),
+         true, 1.6});
+    add(std::move(depth),
+        "Penalty contact: the force comes from this depth, so a softer surface lets the tool in "
+        "farther.");
     add(distance_chart(report), note_of_distance(report.summary));
   }
-  add(steps_chart(report), "Both queries of a tick together; the scale is logarithmic. A tick never takes more than its budget.");
+  add(steps_chart(report),
+      "Both queries of a tick together; the scale is logarithmic. A tick never takes more than its "
+      "budget.");
   if (report.summary.has_guide) {
     Chart off{"Distance to the guide", "mm", {}, false, 0, "", 2};
-    off.series.push_back({"of the tool's centre", kGreen, values(trace, [](const Output& o) { return static_cast<double>(o.guide_deviation_m) * 1e3; }), true, 1.6});
-    add(std::move(off), "A virtual spring and damper pulls across the guide; along it the hand is free.");
+    off.series.push_back(
+        {"of the tool's centre", kGreen,
+         values(trace,
+                [](const Output& o) { return static_cast<double>(o.guide_deviation_m) * 1e3; }),
+         true, 1.6});
+    add(std::move(off),
+        "A virtual spring and damper pulls across the guide; along it the hand is free.");
   }
   Chart speed{"Speed", "mm/s", {}, false, 0, "", 1};
-  speed.series.push_back({"of the tool, as estimated from the encoders", kBlue, values(trace, [](const Output& o) { return norm(wide(o.velocity_mps)) * 1e3; }), false, 1.2});
+  speed.series.push_back(
+      {"of the tool, as estimated from the encoders", kBlue,
+       values(trace, [](const Output& o) { return norm(wide(o.velocity_mps)) * 1e3; }), false,
+       1.2});
   add(std::move(speed), "");
   if (report.summary.worst_instructions > 0) {
     Chart work{"Instructions a tick", "instr.", {}, false, 0, "", 0};
-    work.series.push_back({"counted on " + trace.controller, kBlue, std::vector<double>(trace.instructions.begin(), trace.instructions.end()), false, 1.2});
-    add(std::move(work), "Of the whole tick. An emulator counts instructions, it does not show cycles.");
+    work.series.push_back(
+        {"counted on " + trace.controller, kBlue,
+         std::vector<double>(trace.instructions.begin(), trace.instructions.end()), false, 1.2});
+    add(std::move(work),
+        "Of the whole tick. An emulator counts instructions, it does not show cycles.");
   }
   return run;
 }

@@ -7,8 +7,8 @@
 
 namespace firmtouch::host_sim {
 
-/// The charts of a run, the most telling first: force, penetration, distance and its bound, steps, guide, speed, and
-/// instructions where they were counted.
+/// The charts of a run, the most telling first: force, penetration, distance and its bound, steps,
+/// guide, speed, and instructions where they were counted.
 struct RunCharts {
   std::vector<Chart> charts;
   std::vector<std::string> notes;  // one a chart: what to look at

@@ -8,12 +8,14 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr uint32_t kMaxShownTriangles = 120000;  // a browser turns this many smoothly without a graphics card
+constexpr uint32_t kMaxShownTriangles =
+    120000;  // a browser turns this many smoothly without a graphics card
 constexpr size_t kMaxPathPoints = 3000;
 constexpr double kFelt = 0.04;  // of the largest force: a fainter touch is not drawn
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-constexpr Colour kGuideColour{31, 138, 91}, kDeviceColour{37, 99, 235}, kHandColour{138, 147, 166}, kTouchColour{232, 93, 38};
+constexpr Colour kGuideColour{31, 138, 91}, kDeviceColour{37, 99, 235}, kHandColour{138, 147, 166},
+    kTouchColour{232, 93, 38};
 
 Vec narrow(const float (&v)[3]) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
@@ -49,7 +51,9 @@ void take_mesh(Stage& stage, const World& world) {
   if (!mesh.is_open()) return;
   Vec low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const mesh::Vertex& v : mesh.vertices()) {
-    const Vec p = Vec{static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)} + world.origin_m();
+    const Vec p =
+        Vec{static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)} +
+        world.origin_m();
     stage.vertices.push_back(p);
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
@@ -66,17 +70,22 @@ void take_mesh(Stage& stage, const World& world) {
 }
 
 // The points of the run that a path keeps: evenly spread in time.
-size_t stride_of(const Trace& trace) { return std::max<size_t>(1, trace.records.size() / kMaxPathPoints); }
+size_t stride_of(const Trace& trace) {
+  return std::max<size_t>(1, trace.records.size() / kMaxPathPoints);
+}
 
 Path touch_path(const World& world, const Trace& trace) {
   Path path{"touch", "touch on the part, coloured by force", kTouchColour, 6.5, {}, {}};
   double most = 1e-9;
-  for (const record::TickRecord& r : trace.records) most = std::max(most, norm(narrow(r.output.force_N)));
+  for (const record::TickRecord& r : trace.records)
+    most = std::max(most, norm(narrow(r.output.force_N)));
   for (size_t i = 0; i < trace.records.size(); i += stride_of(trace)) {
     const record::TickOutput& out = trace.records[i].output;
-    const bool touches = (out.state & record::kStateContact) != 0 && norm(narrow(out.force_N)) > kFelt * most;
+    const bool touches =
+        (out.state & record::kStateContact) != 0 && norm(narrow(out.force_N)) > kFelt * most;
     if (!touches && (path.points.empty() || std::isnan(path.points.back().x))) continue;
-    path.points.push_back(touches ? world.nearest(narrow(out.position_m)).point_m : Vec{kNone, 0, 0});
+    path.points.push_back(touches ? world.nearest(narrow(out.position_m)).point_m
+                                  : Vec{kNone, 0, 0});
     path.values.push_back(norm(narrow(out.force_N)) / most);
   }
   return path;
@@ -100,7 +109,8 @@ Stage make_stage(const World& world, const Trace& trace, double tool_radius_m) {
   Stage stage;
   stage.tool_radius_m = tool_radius_m;
   take_mesh(stage, world);
-  if (world.has_guide()) stage.paths.push_back({"guide", "guide", kGuideColour, 2.4, world.guide_m(), {}});
+  if (world.has_guide())
+    stage.paths.push_back({"guide", "guide", kGuideColour, 2.4, world.guide_m(), {}});
   Path device{"device", "device path (tool's centre)", kDeviceColour, 2, {}, {}};
   Path tool{"tool", "tool path, as the encoders see it", {14, 165, 190}, 1.2, {}, {}};
   Path hand{"hand", "where the hand aims", kHandColour, 1.4, {}, {}};
@@ -111,7 +121,8 @@ Stage make_stage(const World& world, const Trace& trace, double tool_radius_m) {
   }
   if (stage.triangles.empty() && !device.points.empty()) {
     stage.centre = device.points.front();
-    for (const Vec& p : device.points) stage.radius_m = std::max(stage.radius_m, norm(p - stage.centre));
+    for (const Vec& p : device.points)
+      stage.radius_m = std::max(stage.radius_m, norm(p - stage.centre));
   }
   stage.paths.push_back(std::move(hand));
   stage.paths.push_back(std::move(device));

@@ -4,7 +4,7 @@
 (() => {
   const data = JSON.parse(document.getElementById('run-data').textContent);
   const canvas = document.getElementById('stage');
-  const first = {azimuth: 0.72, elevation: 0.52, zoom: 1};  // as the drawn picture has it
+  const first = {azimuth: 0.72, elevation: 0.52, zoom: 1, yUp: false};  // as the drawn picture has it
   const view = {...first};
   const hidden = new Set(['tool', 'hand']);
   let cursor = data.series.start, dragging = false, queued = false;
@@ -40,7 +40,8 @@
   function frame() {
     const ca = Math.cos(view.azimuth), sa = Math.sin(view.azimuth);
     const ce = Math.cos(view.elevation), se = Math.sin(view.elevation);
-    const right = [ca, sa, 0], eye = [sa * ce, -ca * ce, se], up = [-sa * se, ca * se, ce];
+    const stood = v => view.yUp ? [v[0], v[2], -v[1]] : v;  // many models are made with y upwards
+    const right = stood([ca, sa, 0]), eye = stood([sa * ce, -ca * ce, se]), up = stood([-sa * se, ca * se, ce]);
     const key = unit(sum(eye, 0.62, up, 0.62, right, -0.48)), fill = unit(sum(eye, 0.5, up, -0.3, right, 0.8));
     return {right, up, eye, key, fill, half: unit(sum(key, 1, eye, 1, eye, 0))};
   }
@@ -65,7 +66,7 @@
     const lit = new Float32Array(vertexCount);
     for (let i = 0, j = 0; i < vertexCount; ++i, j += 3) {
       const x = points[j], y = points[j + 1], z = points[j + 2];
-      sx[i] = w / 2 + (x * f.right[0] + y * f.right[1]) * scale;
+      sx[i] = w / 2 + (x * f.right[0] + y * f.right[1] + z * f.right[2]) * scale;
       sy[i] = h / 2 - (x * f.up[0] + y * f.up[1] + z * f.up[2]) * scale;
       sz[i] = (x * f.eye[0] + y * f.eye[1] + z * f.eye[2]) * scale;
       lit[i] = light(f, vertexNormals[j], vertexNormals[j + 1], vertexNormals[j + 2]);
@@ -102,7 +103,7 @@
   }
 
   function see(f, p, w, h, scale) {
-    return [w / 2 + (p[0] * f.right[0] + p[1] * f.right[1]) * scale,
+    return [w / 2 + (p[0] * f.right[0] + p[1] * f.right[1] + p[2] * f.right[2]) * scale,
       h / 2 - (p[0] * f.up[0] + p[1] * f.up[1] + p[2] * f.up[2]) * scale,
       (p[0] * f.eye[0] + p[1] * f.eye[1] + p[2] * f.eye[2]) * scale];
   }
@@ -153,19 +154,19 @@
   // Pixels a unit so that all that is shown fits at the first sight.
   function fitted(w, h) {
     const now = {...view};
-    Object.assign(view, first);
+    Object.assign(view, first, {yUp: now.yUp});
     const f = frame();
     Object.assign(view, now);
     let x = 0.05, y = 0.05;
     const take = (px, py, pz) => {
-      x = Math.max(x, Math.abs(px * f.right[0] + py * f.right[1]));
+      x = Math.max(x, Math.abs(px * f.right[0] + py * f.right[1] + pz * f.right[2]));
       y = Math.max(y, Math.abs(px * f.up[0] + py * f.up[1] + pz * f.up[2]));
     };
     for (let j = 0; j < points.length; j += 3) take(points[j], points[j + 1], points[j + 2]);
     for (const path of data.paths) for (const p of path.points) if (p) take(...p);
     return 0.45 * Math.min(w / x, h * 0.94 / y);
   }
-  const fit = fitted(1000, 700);
+  let fit = fitted(1000, 700);
 
   function render() {
     queued = false;
@@ -208,7 +209,12 @@
   const release = () => { last = null; dragging = false; draw(); };
   canvas.addEventListener('pointerup', release);
   canvas.addEventListener('pointercancel', release);
-  canvas.addEventListener('dblclick', () => { Object.assign(view, first); draw(); });
+  canvas.addEventListener('dblclick', () => { Object.assign(view, first, {yUp: view.yUp}); draw(); });
+  document.getElementById('upright').addEventListener('change', e => {
+    Object.assign(view, first, {yUp: e.target.checked});
+    fit = fitted(1000, 700);
+    draw();
+  });
   // The wheel scrolls the page until the picture was clicked.
   canvas.addEventListener('wheel', e => {
     if (document.activeElement !== canvas) return;

@@ -121,8 +121,7 @@ TEST(TheLengthIsReadFromTheStartOfALongerRegion) {
 }
 
 TEST(EveryBitAndEveryLengthCounts) {
-  static SmallFile file;
-  file = SmallFile();
+  SmallFile file;
   Container container;
   for (uint32_t bit = 0; bit < SmallFile::kTotal * 8; ++bit) {
     file.bytes[bit / 8] ^= static_cast<uint8_t>(1u << (bit % 8));

@@ -31,8 +31,8 @@ void find_all(const std::string& text, const char* pattern, std::map<int, int>& 
 
 std::map<int, int> rules_of_sources(const std::string& text) {
   std::map<int, int> rules;
-  find_all(text, R"(\b(?:reject|fail)\((\d+))", rules);
-  find_all(text, R"(\bkRule\w+ = (\d+))", rules);
+  find_all(text, R"(\b(?:reject|fail)\(\s*(\d+))", rules);
+  find_all(text, R"(\bkRule\w+\s*=\s*(\d+))", rules);
   return rules;
 }
 
@@ -65,10 +65,9 @@ TEST(EveryRuleOfTheFirmwareStandsInTheFormatPageOnce) {
   const std::map<int, int> used = rules_of_sources(sources);
   const std::map<int, int> told = rules_of_page(text_of(kRoot / "tools" / "FORMAT.md"));
   CHECK_GE(used.size(), 60u);
-  for (const int rule : differences(used, told)) {
-    firmtouch::test::note("rule of firmware or FORMAT.md without its other half: R", rule);
-    CHECK(!"the page and the sources name the same rules");
-  }
+  const std::set<int> wrong = differences(used, told);
+  if (!wrong.empty()) firmtouch::test::note("first without its other half: rule", *wrong.begin());
+  CHECK_EQ(wrong.size(), 0u);
 }
 
 TEST(ARuleWithoutItsLineAndALineWithoutItsRuleAreFound) {

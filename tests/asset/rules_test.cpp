@@ -11,7 +11,7 @@ using firmtouch::asset_test::SmallFile;
 using firmtouch::core::Bytes;
 using firmtouch::core::Verdict;
 
-constexpr uint32_t kFirst = 32, kSecond = 80, kThird = 128;  // entries
+constexpr uint32_t kSecond = 80, kThird = 128;  // entries
 constexpr uint32_t kOffset = 4, kBytes = 8, kCrc = 12, kName = 16;
 constexpr uint32_t kData = SmallFile::kData;
 
@@ -33,7 +33,7 @@ void expect(const SmallFile& file, uint32_t rule, uint32_t element = 0) {
 TEST(TheFileThatTheRulesAreTriedOnIsGood) { expect(SmallFile(), 0); }
 
 TEST(Rule1RefusesAMisalignedBase) {
-  static SmallFile file;
+  SmallFile file;
   for (uint32_t shift = 1; shift < 16; ++shift) {
     file = SmallFile();
     memmove(file.bytes + shift, file.bytes, SmallFile::kTotal);

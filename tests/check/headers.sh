@@ -1,14 +1,14 @@
 # Public headers compile alone, without a warning, and hold no floating-point arithmetic: there a user's flags (contraction,
 # fast-math) would change the answers' bits. Looked for in what the compiler makes of every inline function; functions
 # that are templates are seen only where a header uses them. A header for the library's own units says so in its first
-# lines ("own translation units", "for .cpp files"): no public header and no user's program may reach it.
+# lines ("own translation units", "for .cpp files", "for x.cpp alone"): no public header and no user's program may reach it.
 # Read by tests/check/run.
 
 private_headers() {
   echo firmware/firmtouch/math/isa.hpp
   for header in $(find firmware/firmtouch -name '*.hpp'); do
     ! sed -n '2,8s/^\/\/ *//p' "$header" | tr '\n' ' ' |
-      grep -qiE 'own translation units|for \.cpp files' || echo "$header"
+      grep -qiE 'own translation units|for [a-z_]*\.cpp (files|alone)' || echo "$header"
   done
 }
 

@@ -9,7 +9,7 @@ struct Stop {
 };
 
 constexpr Stop kStops[] = {
-    {0, {0, 0, 2500}, Place::kFree},      {200, {0, 0, 2500}, Place::kFree},
+    {0, {0, 0, 2500}, Place::kFree},       {200, {0, 0, 2500}, Place::kFree},
     {500, {-2000, 0, 2500}, Place::kFree}, {800, {-2000, 0, 600}, Place::kOnTorus},
     {1000, {-2000, 0, 600}, Place::kFree}, {1300, {-2000, 0, 2500}, Place::kFree},
     {1900, {4000, 0, 3000}, Place::kFree}, {2200, {4000, 0, 1500}, Place::kOnGem},
@@ -31,7 +31,8 @@ void hand_counts(uint32_t tick, int32_t (&counts)[3]) {
   const Stop &from = kStops[stop_before(tick)], &to = kStops[stop_before(tick) + 1];
   const int32_t span = static_cast<int32_t>(to.tick - from.tick);
   const int32_t gone = static_cast<int32_t>((tick < to.tick ? tick : to.tick) - from.tick);
-  for (int k = 0; k < 3; ++k) counts[k] = from.counts[k] + (to.counts[k] - from.counts[k]) * gone / span;
+  for (int k = 0; k < 3; ++k)
+    counts[k] = from.counts[k] + (to.counts[k] - from.counts[k]) * gone / span;
 }
 
 Place hand_place(uint32_t tick, bool& settled) {

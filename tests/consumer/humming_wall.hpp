@@ -11,4 +11,5 @@ struct HummingWall {
   float stiffness_N_per_m;
 };
 
-void add_hum(firmtouch::servo::LocalModel& model, const HummingWall& wall, float radius_m, uint32_t tick);
+void add_hum(firmtouch::servo::LocalModel& model, const HummingWall& wall, float radius_m,
+             uint32_t tick);

@@ -11,7 +11,8 @@ firmtouch::scene::SurfacePoint closest_on(const Torus& torus, firmtouch::math::V
   const float from_ring_m = from_axis_m - torus.ring_radius_m;
   const float from_core_m = safe_square_root(from_ring_m * from_ring_m + z * z);
   firmtouch::scene::SurfacePoint point;
-  if (!(from_axis_m > 1e-6f) || !(from_core_m > 1e-6f)) return point;  // no direction is nearest: nothing is certain
+  if (!(from_axis_m > 1e-6f) || !(from_core_m > 1e-6f))
+    return point;  // no direction is nearest: nothing is certain
   const float outward = from_ring_m / (from_core_m * from_axis_m);
   point.distance_m = from_core_m - torus.tube_radius_m;
   point.normal = {x * outward, y * outward, z / from_core_m};

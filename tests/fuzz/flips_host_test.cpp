@@ -60,10 +60,8 @@ TEST(EveryFlippedBitIsRefused) {
   std::vector<uint8_t> file = victim();
   for (size_t bit = 0; bit < file.size() * 8; bit += stride()) {
     flip(file, bit);
-    if (fuzz::feel(file).ok()) {
-      test::note("bit", static_cast<int64_t>(bit));
-      CHECK(!"refused");
-    }
+    test::note("bit", static_cast<int64_t>(bit));
+    CHECK(!fuzz::feel(file).ok());
     flip(file, bit);
   }
 }
@@ -116,15 +114,13 @@ TEST(AnOddWordWithRepairedCrcsIsRefusedByARuleOrHarmless) {
   }
 }
 
-// Once undefined: the first arc position of a curve as -0, which passes `>= 0`.
-TEST(AMinusZeroForAnyZeroWordIsRefusedByARuleOrHarmless) {
+// Once undefined: a curve's second arc position as -0, which passes `>= 0`.
+TEST(AMinusZeroForAnyWordIsRefusedByARuleOrHarmless) {
   std::vector<uint8_t> file;
+  const uint32_t minus_zero = 0x80000000u;
   for (size_t at = 0; at + 4 <= victim().size(); at += 4) {
-    uint32_t word = 0;
-    std::memcpy(&word, &victim()[at], 4);
-    if (word != 0) continue;
     file = victim();
-    file[at + 3] = 0x80;
+    std::memcpy(&file[at], &minus_zero, 4);
     tools::repair_crcs(file);
     test::note("byte", static_cast<int64_t>(at));
     (void)fuzz::feel(file);

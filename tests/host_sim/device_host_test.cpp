@@ -1,5 +1,5 @@
-// The simulated device against closed forms, and against the stability limits of sampled walls: the simulator is judged
-// before it judges a controller.
+// The simulated device against closed forms, and against the stability limits of sampled walls: the
+// simulator is judged before it judges a controller.
 #include <cmath>
 #include <vector>
 
@@ -23,9 +23,11 @@ DeviceModel free_mass(double mass_kg, double viscous) {
   return model;
 }
 
-// A sampled wall, F = -K x - B (x - previous x) / T, felt through the device for `ticks` ticks. Result: by how much the
-// motion has grown over the second half, as log of the ratio of its largest excursions.
-double growth(const DeviceModel& model, double period_s, double stiffness, double damping, int ticks) {
+// A sampled wall, F = -K x - B (x - previous x) / T, felt through the device for `ticks` ticks.
+// Result: by how much the motion has grown over the second half, as log of the ratio of its largest
+// excursions.
+double growth(const DeviceModel& model, double period_s, double stiffness, double damping,
+              int ticks) {
   Device device(model, {1e-3, 0, 0});
   double before = 1e-3, first = 1e-300, second = 1e-300, scale = 0;
   for (int i = 0; i < ticks; ++i) {
@@ -58,12 +60,15 @@ struct Row {
 
 // Spectral radius of the exact discrete model, computed elsewhere.
 constexpr Row kTable[] = {
-    {.050, .2, 1e-3, 0, 400, 133},       {.050, .2, 1e-3, .1, 599, 200},      {.050, .2, 1e-3, 2, 4231, 1403},
-    {.050, .2, .25e-3, 0, 1600, 533},    {.050, .2, .25e-3, .1, 2398, 799},   {.050, .2, .25e-3, 2, 17427, 5803},
-    {.075, .5, 1e-3, 0, 1001, 334},      {.075, .5, 1e-3, .25, 1497, 499},    {.075, .5, 1e-3, 5, 10304, 3401},
-    {.075, .5, .25e-3, 0, 4000, 1333},   {.075, .5, .25e-3, .25, 5995, 1998}, {.075, .5, .25e-3, 5, 43284, 14401},
-    {.075, .5, .1e-3, 0, 9991, 3330},    {.075, .5, .1e-3, .25, 14986, 4994}, {.075, .5, .1e-3, 5, 109270, 36396},
-    {.200, 1.0, 1e-3, 0, 2001, 668},     {.200, 1.0, 1e-3, .5, 2995, 999},    {.200, 1.0, 1e-3, 10, 20947, 6936},
+    {.050, .2, 1e-3, 0, 400, 133},       {.050, .2, 1e-3, .1, 599, 200},
+    {.050, .2, 1e-3, 2, 4231, 1403},     {.050, .2, .25e-3, 0, 1600, 533},
+    {.050, .2, .25e-3, .1, 2398, 799},   {.050, .2, .25e-3, 2, 17427, 5803},
+    {.075, .5, 1e-3, 0, 1001, 334},      {.075, .5, 1e-3, .25, 1497, 499},
+    {.075, .5, 1e-3, 5, 10304, 3401},    {.075, .5, .25e-3, 0, 4000, 1333},
+    {.075, .5, .25e-3, .25, 5995, 1998}, {.075, .5, .25e-3, 5, 43284, 14401},
+    {.075, .5, .1e-3, 0, 9991, 3330},    {.075, .5, .1e-3, .25, 14986, 4994},
+    {.075, .5, .1e-3, 5, 109270, 36396}, {.200, 1.0, 1e-3, 0, 2001, 668},
+    {.200, 1.0, 1e-3, .5, 2995, 999},    {.200, 1.0, 1e-3, 10, 20947, 6936},
 };
 
 void check_table(uint32_t delay_samples, double Row::*column) {
@@ -105,9 +110,12 @@ TEST(FreeMotionUnderConstantForceIsExactForAnyStep) {
       for (int i = 0; i < steps; ++i) axis.advance(model, 1.5, 0.05 / steps);
       const double rate = viscous / 0.075, t = 0.05;
       const double lost = rate > 0 ? -std::expm1(-rate * t) / rate : t;  // integral of the decay
-      const double expected_v = viscous > 1e-5 ? 0.2 + (1.5 / viscous - 0.2) * -std::expm1(-rate * t) : 0.2 + 1.5 / 0.075 * t;
-      const double expected_x =
-          viscous > 1e-5 ? 0.01 + 1.5 / viscous * t + (0.2 - 1.5 / viscous) * lost : 0.01 + 0.2 * t + 0.5 * 1.5 / 0.075 * t * t;
+      const double expected_v = viscous > 1e-5
+                                    ? 0.2 + (1.5 / viscous - 0.2) * -std::expm1(-rate * t)
+                                    : 0.2 + 1.5 / 0.075 * t;
+      const double expected_x = viscous > 1e-5
+                                    ? 0.01 + 1.5 / viscous * t + (0.2 - 1.5 / viscous) * lost
+                                    : 0.01 + 0.2 * t + 0.5 * 1.5 / 0.075 * t * t;
       CHECK_LE(std::fabs(axis.velocity_mps - expected_v), 2e-6);
       CHECK_LE(std::fabs(axis.position_m - expected_x), 1e-7);
     }

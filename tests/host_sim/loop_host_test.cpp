@@ -9,10 +9,10 @@
 #include "host_sim/brute_force.hpp"
 #include "host_sim/hand.hpp"
 #include "host_sim/log.hpp"
+#include "host_sim/part_asset.hpp"
 #include "host_sim/replay.hpp"
 #include "host_sim/session.hpp"
 #include "host_sim/summary.hpp"
-#include "host_sim/part_asset.hpp"
 
 namespace host_sim = firmtouch::host_sim;
 namespace record = firmtouch::record;
@@ -142,7 +142,9 @@ TEST(RefusedParameterEndsTheRunNamingIt) {
   host_sim::Scenario scenario = loop_scenario();
   for (uint32_t i = 0; i < firmtouch::params::kCount; ++i)
     if (firmtouch::params::kTable[i].when == firmtouch::params::When::kMotorsOff) {
-      scenario.events.insert(scenario.events.begin(), {1.0, host_sim::Event::Kind::kSet, i, static_cast<double>(firmtouch::params::kTable[i].initial)});
+      scenario.events.insert(scenario.events.begin(),
+                             {1.0, host_sim::Event::Kind::kSet, i,
+                              static_cast<double>(firmtouch::params::kTable[i].initial)});
       break;
     }
   const Session session(part_asset());

@@ -19,7 +19,8 @@ namespace {
 
 std::vector<uint8_t> baked() {
   tools::MeshReport mesh_report;
-  std::vector<tools::Section> sections = tools::bake_mesh(tools::make_part(1, 5000), "part", {}, mesh_report);
+  std::vector<tools::Section> sections =
+      tools::bake_mesh(tools::make_part(1, 5000), "part", {}, mesh_report);
   mesh::View mesh;
   tools::CurvePoints points;
   points.samples_m = tools::make_path(1, 600);
@@ -68,8 +69,8 @@ const std::string& part_asset() {
 host_sim::Scenario loop_scenario() {
   const host_sim::Session session(part_asset());
   const host_sim::World world = host_sim::world_of(*session.controller, {});
-  host_sim::Scenario scenario =
-      host_sim::read_scenario("loop.scenario", host_sim::plan_scenario(world, "part.fta"), {}, host_sim::parameter_rows());
+  host_sim::Scenario scenario = host_sim::read_scenario(
+      "loop.scenario", host_sim::plan_scenario(world, "part.fta"), {}, host_sim::parameter_rows());
   host_sim::complete(scenario);
   return scenario;
 }

@@ -14,7 +14,8 @@ const std::string& scratch();
 /// The demo's part in 5,000 triangles and its path, baked into scratch(): the asset's path.
 const std::string& part_asset();
 
-/// The closed loop of the tests over that asset: 10,000 ticks of pressing, following and an emergency stop.
+/// The closed loop of the tests over that asset: 10,000 ticks of pressing, following and an
+/// emergency stop.
 host_sim::Scenario loop_scenario();
 
 }  // namespace firmtouch::test

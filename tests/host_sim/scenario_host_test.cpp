@@ -41,11 +41,15 @@ const std::string kHead = "asset a.fta\nduration 1 s\n";
 
 TEST(EveryStatementIsReadInSi) {
   const Scenario s = read(
-      "# a comment\nasset my part.fta  # with a blank\nrate 4 kHz\nduration 2500 ms\nmass 75 g\nviscous_friction 0.5 N.s/m\n"
-      "coulomb_friction 20 mN\nencoder_quantum 30 um\nmotor_limit 10 N\noutput_delay 1 samples\nhand_stiffness 0.4 N/mm\n"
-      "hand_damping 4 Ns/m\nstart 1 2 -3 cm\ncontact_stiffness 800 N/m\ntool_radius_m 5 mm\nmesh_steps 64\n"
+      "# a comment\nasset my part.fta  # with a blank\nrate 4 kHz\nduration 2500 ms\nmass 75 "
+      "g\nviscous_friction 0.5 N.s/m\n"
+      "coulomb_friction 20 mN\nencoder_quantum 30 um\nmotor_limit 10 N\noutput_delay 1 "
+      "samples\nhand_stiffness 0.4 N/mm\n"
+      "hand_damping 4 Ns/m\nstart 1 2 -3 cm\ncontact_stiffness 800 N/m\ntool_radius_m 5 "
+      "mm\nmesh_steps 64\n"
       "\tmove to 0 0 0.1 m at 50 mm/s\nhold for 1 s\npress 0 0 0.01 m for 0.5 s\n"
-      "follow guide at 0.05 m/s for 4 s pressing 2 mm\nat 2 s set guide_stiffness 100 N/m\nat 1.5 s emergency_stop\n");
+      "follow guide at 0.05 m/s for 4 s pressing 2 mm\nat 2 s set guide_stiffness 100 N/m\nat 1.5 "
+      "s emergency_stop\n");
   CHECK(s.asset == "my part.fta");
   CHECK(near(s.rate_Hz, 4000) && near(s.duration_s, 2.5) && near(s.device.mass_kg, 0.075));
   CHECK(near(s.device.viscous_N_s_per_m, 0.5) && near(s.device.coulomb_N, 0.02));
@@ -54,7 +58,8 @@ TEST(EveryStatementIsReadInSi) {
   CHECK(near(s.hand.stiffness_N_per_m, 400) && near(s.hand.damping_N_s_per_m, 4));
   CHECK(near(s.start_m.x, 0.01) && near(s.start_m.z, -0.03));
   CHECK_EQ(s.settings.size(), 3u);
-  CHECK(near(s.settings[0].value, 800) && near(s.settings[1].value, 0.005) && near(s.settings[2].value, 64));
+  CHECK(near(s.settings[0].value, 800) && near(s.settings[1].value, 0.005) &&
+        near(s.settings[2].value, 64));
   CHECK_EQ(s.moves.size(), 4u);
   CHECK(s.moves[3].kind == Move::Kind::kFollow && near(s.moves[3].press_m, 0.002));
   CHECK_EQ(s.events.size(), 2u);  // in order of time
@@ -68,7 +73,8 @@ TEST(MistakesAreRefusedWithTheirLine) {
   };
   constexpr Case kCases[] = {
       {"masss 1 kg", "did you mean `mass`"},
-      {"stiffness 800 N/m", "did you mean `hand_stiffness`, `contact_stiffness`, `guide_stiffness`?"},
+      {"stiffness 800 N/m",
+       "did you mean `hand_stiffness`, `contact_stiffness`, `guide_stiffness`?"},
       {"mass 1 m", "`m` is no unit for `mass`; write one of: kg, g"},
       {"mass 1 pound", "`pound` is no unit"},
       {"mass 1", "the unit of `mass`"},
@@ -107,7 +113,8 @@ TEST(ScenarioWithoutAnAssetOrAnEndIsRefused) {
 }
 
 TEST(SetReplacesAValueAndMayLeaveOutTheUnit) {
-  const Scenario s = read(kHead + "mass 1 kg\ntool_radius 1 mm\n", {"mass 80 g", "tool_radius 0.004"});
+  const Scenario s =
+      read(kHead + "mass 1 kg\ntool_radius 1 mm\n", {"mass 80 g", "tool_radius 0.004"});
   CHECK(near(s.device.mass_kg, 0.08));
   CHECK_EQ(s.settings.size(), 1u);
   CHECK(near(s.settings[0].value, 0.004));

@@ -108,6 +108,45 @@ TEST(NeedlesAreCollapsed) {
   CHECK(loses_its_flat_faces(with_needles(body, 7, 3, 4), "and 1 collapse"));
 }
 
+TEST(ANeedleAcrossANeckIsRefused) {
+  // A tube of two triangles' rings between two tips. Corners 1 and 2 of the upper ring lie at one
+  // place: to collapse their edge would pinch the tube.
+  const Surface tube = numbered({{0, 0, 2},
+                                 {1, 0, 1},
+                                 {1, 0, 1},
+                                 {-1, 0, -1},
+                                 {1, -1, -1},
+                                 {1, 1, -1},
+                                 {-1, 0, 1},
+                                 {0, 0, -2}},
+                                {{0, 1, 2},
+                                 {0, 2, 6},
+                                 {0, 6, 1},
+                                 {1, 4, 5},
+                                 {1, 5, 2},
+                                 {2, 5, 3},
+                                 {2, 3, 6},
+                                 {6, 3, 4},
+                                 {6, 4, 1},
+                                 {7, 5, 4},
+                                 {7, 3, 5},
+                                 {7, 4, 3}});
+  CHECK(is_closed_and_alike(tube));
+  Surface strict = tube, loose = tube;
+  const CheckReport report = check_and_mend(strict, {});
+  CHECK(says(report.refused,
+             "2 faces without area that cannot be removed without a crack, first face 0"));
+  CHECK(check_and_mend(loose, {true}).usable());
+  CHECK_EQ(flat_count(loose), 0u);
+}
+
+TEST(ANeedleOfATetrahedronIsRefused) {
+  Surface flat = tetrahedron();
+  flat.vertices[1] = flat.vertices[0];
+  const CheckReport report = check_and_mend(flat, {});
+  CHECK(says(report.refused, "2 faces without area that cannot be removed without a crack"));
+}
+
 TEST(FlatFacesOfAnOpenSurfaceAreDroppedWhereItNeedNotClose) {
   Surface sheet = numbered({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 2, 3}, {0, 1, 2}});
   Surface strict = sheet;

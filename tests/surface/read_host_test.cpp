@@ -100,6 +100,7 @@ TEST(ObjProblemsAreNamedWithTheirLine) {
   CHECK(refuses("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "a.obj", ":4:", "OBJ counts from 1"));
   CHECK(refuses("v 0 0 0\nv 1 0 0\nf 1 2\n", "a.obj", ":3:", "2 corners"));
   CHECK(refuses("v 0 0 nan\n", "a.obj", ":1:", "`nan` is not finite"));
+  CHECK(refuses("v 0 0 0\r\n\r\nv 0 0 x\r\n", "a.obj", ":3:", "`x` is not a number"));
   CHECK(refuses("v 0 0 0\nv -inf 0 0\n", "a.obj", ":2:", "not finite"));
   CHECK(refuses("v 0 0 1e39\n", "a.obj", ":1:", "not a finite 32-bit"));
   CHECK(refuses("v 0 0 1e999\n", "a.obj", ":1:", "too large"));

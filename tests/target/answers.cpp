@@ -64,16 +64,22 @@ class Points {
     return static_cast<float>(state_ >> 8) * 0x1p-24f;
   }
   float place(int axis, float unit) const {
-    const volatile float part_m = extent_m_[axis] * unit;  // volatile: rounded before it is added, on every target
+    const volatile float part_m =
+        extent_m_[axis] * unit;  // volatile: rounded before it is added, on every target
     return low_m_[axis] + part_m;
   }
   static math::Vec3 hostile(uint32_t which) {
     switch (which % 5) {
-      case 0: return {kNever, 0, 0};
-      case 1: return {0, __builtin_inff(), 0};
-      case 2: return {3e38f, -3e38f, 3e38f};
-      case 3: return {1e-42f, -1e-42f, 0};
-      default: return {1e12f, 0, -1e12f};
+      case 0:
+        return {kNever, 0, 0};
+      case 1:
+        return {0, __builtin_inff(), 0};
+      case 2:
+        return {3e38f, -3e38f, 3e38f};
+      case 3:
+        return {1e-42f, -1e-42f, 0};
+      default:
+        return {1e12f, 0, -1e12f};
     }
   }
 

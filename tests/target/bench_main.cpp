@@ -53,7 +53,8 @@ bool run(const mesh::View& view, const char* path, query::Budget budget, uint32_
     const uint32_t before = hal::clock_work();
     const mesh::Closest closest = mesh::closest_point(view, p_m, budget, hint);
     const uint32_t work = hal::clock_work() - before - empty;
-    print_row(budget.steps == UINT32_MAX ? 0 : budget.steps, instructions(work), closest.certificate);
+    print_row(budget.steps == UINT32_MAX ? 0 : budget.steps, instructions(work),
+              closest.certificate);
   }
   return row > 0;
 }
@@ -74,6 +75,7 @@ int main() {
     hal::board_print("no rows x,y,z in the walk\n");
     return 1;
   }
-  for (const uint32_t steps : kBudgets) run(views.mesh, line + kWord, {steps}, kBudgetedRows, false);
+  for (const uint32_t steps : kBudgets)
+    run(views.mesh, line + kWord, {steps}, kBudgetedRows, false);
   return 0;
 }

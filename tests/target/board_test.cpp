@@ -37,7 +37,7 @@ TEST(WorkCountsInstructionsExactly) {
   const uint32_t short_one = instructions_of_loop(1000);
   const uint32_t long_one = instructions_of_loop(51000);
   CHECK_GE(short_one, 2000u);
-  CHECK_LE(short_one, 2012u);  // the two reads of the clock and what surrounds them
+  CHECK_LE(short_one, 2012u);              // the two reads of the clock and what surrounds them
   CHECK_GE(long_one - short_one, 99999u);  // one instruction of rounding
   CHECK_LE(long_one - short_one, 100001u);
 }

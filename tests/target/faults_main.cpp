@@ -34,7 +34,8 @@ int main() {
   board_print("running\n");
   char line[64];
   if (!firmtouch::hal::semihosting_command_line(line, sizeof line)) return 2;
-  if (wants(line, "bus")) return static_cast<int>(*reinterpret_cast<volatile uint32_t*>(uintptr_t{0x90000000}));
+  if (wants(line, "bus"))
+    return static_cast<int>(*reinterpret_cast<volatile uint32_t*>(uintptr_t{0x90000000}));
   if (wants(line, "undefined")) asm volatile("udf #1");
   if (wants(line, "overflow")) return static_cast<int>(fall(0));
   if (wants(line, "watchdog")) {

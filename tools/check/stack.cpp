@@ -14,19 +14,27 @@ namespace {
 
 const char kHelp[] =
     "stack [OPTION]... FILE.ci...\n"
-    "Joins call graphs of gcc -fcallgraph-info=su,da; prints the worst path of each root with its bytes of stack.\n"
-    "Functions are named as in the source (firmtouch::mesh::closest_point) or as the linker names them; there a\n"
-    "* at the end stands for any rest (_GLOBAL__sub_I_* are the constructors of a file's variables).\n"
-    "  --root NAME            a function that something else than a call begins: main, reset. Default: no path is\n"
+    "Joins call graphs of gcc -fcallgraph-info=su,da; prints the worst path of each root with its "
+    "bytes of stack.\n"
+    "Functions are named as in the source (firmtouch::mesh::closest_point) or as the linker names "
+    "them; there a\n"
+    "* at the end stands for any rest (_GLOBAL__sub_I_* are the constructors of a file's "
+    "variables).\n"
+    "  --root NAME            a function that something else than a call begins: main, reset. "
+    "Default: no path is\n"
     "                         printed, all functions are checked\n"
-    "  --interrupt NAME       a root that may come on top of the others; its exception frame is added (108 bytes)\n"
+    "  --interrupt NAME       a root that may come on top of the others; its exception frame is "
+    "added (108 bytes)\n"
     "  --calls CALLER=CALLEE  what the indirect calls of CALLER reach (again for several)\n"
     "  --size NAME=BYTES      stack of a function without a graph (libgcc, assembly)\n"
     "  --limit BYTES          the stack there is: exit 1 where the sum of all roots is more\n"
-    "Exit 1: recursion, a frame of unknown size (alloca, variable-length array), an indirect call without --calls,\n"
-    "a function without a size, more than --limit. Exit 2: usage. Exit 3: a file that cannot be read.\n";
+    "Exit 1: recursion, a frame of unknown size (alloca, variable-length array), an indirect call "
+    "without --calls,\n"
+    "a function without a size, more than --limit. Exit 2: usage. Exit 3: a file that cannot be "
+    "read.\n";
 
-constexpr uint32_t kExceptionFrame_bytes = 108;  // with floating-point registers, and 4 to align it (ARM DDI 0403)
+constexpr uint32_t kExceptionFrame_bytes =
+    108;  // with floating-point registers, and 4 to align it (ARM DDI 0403)
 const char kIndirect[] = "__indirect_call";
 
 struct Function {
@@ -64,7 +72,8 @@ void take_node(Graph& graph, const std::string& line) {
   const size_t bytes = label.find(" bytes (");
   if (bytes == std::string::npos) return;
   const size_t number = label.rfind("\\n", bytes) + 2;
-  const uint32_t own_bytes = static_cast<uint32_t>(std::stoul(label.substr(number, bytes - number)));
+  const uint32_t own_bytes =
+      static_cast<uint32_t>(std::stoul(label.substr(number, bytes - number)));
   function.own_bytes = std::max(function.own_bytes, own_bytes);
   function.place = label.substr(first + 2, number - first - 4);
   function.is_defined = true;
@@ -98,7 +107,8 @@ bool is_named(const std::string& title, const Function& function, const std::str
   const std::string& text = function.source_name;
   for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
     const size_t end = at + name.size();
-    const bool starts = at == 0 || text[at - 1] == ' ' || text[at - 1] == '*' || text[at - 1] == '&';
+    const bool starts =
+        at == 0 || text[at - 1] == ' ' || text[at - 1] == '*' || text[at - 1] == '&';
     if (starts && (end == text.size() || text[end] == '(')) return true;
   }
   return false;
@@ -267,7 +277,8 @@ void bind_weak(Graph& graph) {
   std::map<std::string, std::set<std::string>> definitions;
   for (const auto& [title, function] : graph) {
     const size_t colon = title.rfind(':');
-    if (function.is_defined && colon != std::string::npos) definitions[title.substr(colon + 1)].insert(title);
+    if (function.is_defined && colon != std::string::npos)
+      definitions[title.substr(colon + 1)].insert(title);
   }
   for (auto& [title, function] : graph) {
     const auto found = definitions.find(title);
@@ -295,13 +306,16 @@ void check_functions(const Graph& graph, Problems& problems) {
     if (title == kIndirect) continue;
     const std::string name = shown(graph, title);
     if (!function.is_defined) {
-      problems.say(name + ": called, but no file says what stack it takes: give its .ci file, or --size");
+      problems.say(name +
+                   ": called, but no file says what stack it takes: give its .ci file, or --size");
     }
     if (function.is_unbounded) {
-      problems.say(name + " at " + function.place + ": a frame without a bound: use an array of fixed size");
+      problems.say(name + " at " + function.place +
+                   ": a frame without a bound: use an array of fixed size");
     }
     if (function.calls.count(kIndirect) != 0) {
-      problems.say(name + " at " + function.place + ": an indirect call: say whom it reaches with --calls");
+      problems.say(name + " at " + function.place +
+                   ": an indirect call: say whom it reaches with --calls");
     }
   }
 }
@@ -314,7 +328,8 @@ uint32_t print_root(const Graph& graph, Walk& walk, const std::string& name, uin
   for (const std::string& title : titles) {
     const uint32_t bytes = walk.worst_bytes(title) + extra_bytes;
     worst_bytes = std::max(worst_bytes, bytes);
-    std::printf("%8u  from %s%s\n", bytes, name.c_str(), extra_bytes != 0 ? ", exception frame included" : "");
+    std::printf("%8u  from %s%s\n", bytes, name.c_str(),
+                extra_bytes != 0 ? ", exception frame included" : "");
     walk.print_path(title);
   }
   return worst_bytes;
@@ -328,7 +343,8 @@ int main(int argc, char** argv) {
   if (!parse(argc, argv, options)) return std::fputs(kHelp, stderr), 2;
   Graph graph;
   for (const std::string& path : options.files) {
-    if (!read(graph, path.c_str())) return std::fprintf(stderr, "stack: cannot read %s\n", path.c_str()), 3;
+    if (!read(graph, path.c_str()))
+      return std::fprintf(stderr, "stack: cannot read %s\n", path.c_str()), 3;
   }
   Problems problems;
   graph[kIndirect];
@@ -341,7 +357,8 @@ int main(int argc, char** argv) {
   for (const auto& [title, function] : graph) walk.worst_bytes(title);
 
   uint32_t sum_bytes = 0;
-  for (const std::string& name : options.roots) sum_bytes += print_root(graph, walk, name, 0, problems);
+  for (const std::string& name : options.roots)
+    sum_bytes += print_root(graph, walk, name, 0, problems);
   for (const std::string& name : options.interrupts) {
     sum_bytes += print_root(graph, walk, name, kExceptionFrame_bytes, problems);
   }

@@ -32,16 +32,16 @@ struct NearBound {
     cell_m = head.cell_m;
     const float per_cell = 1.0f / cell_m;
     per_cell2 = per_cell * per_cell;
-    const float cells[3] = {(p_m.x - head.grid_low_m[0]) * per_cell,
-                            (p_m.y - head.grid_low_m[1]) * per_cell,
-                            (p_m.z - head.grid_low_m[2]) * per_cell};
-    for (int k = 0; k < 3; ++k) {
-      if (!(cells[k] >= 1.0f && cells[k] <= static_cast<float>(kGridMax) - 2.0f)) return false;
-      const uint32_t floor_cell = static_cast<uint32_t>(static_cast<int32_t>(cells[k] - 0x1p-8f));
-      const uint32_t ceil_cell =
-          static_cast<uint32_t>(static_cast<int32_t>(cells[k] + (1.0f + 0x1p-8f)));
-      point[k] = ceil_cell | ((kGridMax - floor_cell) << 16);
-    }
+    return put((p_m.x - head.grid_low_m[0]) * per_cell, point[0]) &&
+           put((p_m.y - head.grid_low_m[1]) * per_cell, point[1]) &&
+           put((p_m.z - head.grid_low_m[2]) * per_cell, point[2]);
+  }
+  static bool put(float cells, uint32_t& word) {
+    if (!(cells >= 1.0f && cells <= static_cast<float>(kGridMax) - 2.0f)) return false;
+    const uint32_t floor_cell = static_cast<uint32_t>(static_cast<int32_t>(cells - 0x1p-8f));
+    const uint32_t ceil_cell =
+        static_cast<uint32_t>(static_cast<int32_t>(cells + (1.0f + 0x1p-8f)));
+    word = ceil_cell | ((kGridMax - floor_cell) << 16);
     return true;
   }
   uint32_t key(const uint32_t* box) const { return math::box_distance2(box, point); }

@@ -73,26 +73,28 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
   const Node* const nodes = mesh.nodes().data();
   const uint32_t* const parents = mesh.parents().data();
   const float leaf_m = math::square_root(search.best.distance2_m2) * (1.0f + 0x1p-22f);
-  const uint32_t stop = leaf_m <= search.fence_m ? search.fence : 0;
   const float reach_m = leaf_m + search.fence_margin_m;
   const uint32_t beyond = bound.prune_key(reach_m * reach_m);
-  uint32_t index = place >> 1, beside = (place & 1) ^ 1, fence = index;
+  uint32_t stop = leaf_m <= search.fence_m ? search.fence : 0, fence = place >> 1;
   while (left != 0) {
     --left;
-    const uint32_t key = bound.key(nodes[index].box[beside]);
+    const uint32_t beside = place ^ 1u, index = place >> 1;
+    const uint32_t key = bound.key(nodes[index].box[beside & 1u]);
     if (key < beyond) {
       fence = index;
-      if (key < prune) pending[count++] = {key, index << 1 | beside};
+      if (key < prune) pending[count++] = {key, beside};
     }
-    if (index == stop && index != 0) return true;
-    if (index == 0) {
-      search.fence = fence;
-      search.fence_m = reach_m * (1.0f - 0x1p-22f);
-      return true;
+    if (index <=
+        stop) {  // parents come before their children: at the fence, or past one that is no ancestor
+      if (index == stop && index != 0) return true;
+      if (index == 0) {
+        search.fence = fence;
+        search.fence_m = reach_m * (1.0f - 0x1p-22f);
+        return true;
+      }
+      stop = 0;
     }
-    const uint32_t word = parents[index];
-    index = parent_of(word);
-    beside = slot_of(word) ^ 1;
+    place = place_of(parents[index]);
   }
   return false;
 }
@@ -156,7 +158,6 @@ void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangle
     child = nodes[now.place >> 1].child[now.place & 1];
   }
   // The budget ran out: what was about to be read is left too.
-  search.complete = false;
   search.complete = false;
   search.steps = allowed - left;
   uint32_t least = climbing ? 0 : now.key;

@@ -47,12 +47,27 @@ void timer() {
 
 extern "C" [[gnu::naked]] void reset() {
   asm volatile(
-      "ldr r0, =0xE000ED88\n ldr r1, [r0]\n orr r1, #0xF00000\n str r1, [r0]\n dsb\n isb\n bx %0" ::"r"(start));
+      "ldr r0, =0xE000ED88\n ldr r1, [r0]\n orr r1, #0xF00000\n str r1, [r0]\n dsb\n isb\n bx %0" ::
+          "r"(start));
 }
 
 [[gnu::section(".vectors"), gnu::used]] const Handler vectors[16] = {
-    reinterpret_cast<Handler>(stack_top), reset, fault, fault, fault, fault, fault, nullptr, nullptr, nullptr, nullptr,
-    fault, fault, nullptr, fault, timer};
+    reinterpret_cast<Handler>(stack_top),
+    reset,
+    fault,
+    fault,
+    fault,
+    fault,
+    fault,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    fault,
+    fault,
+    nullptr,
+    fault,
+    timer};
 
 namespace firmtouch::hal {
 
