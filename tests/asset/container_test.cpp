@@ -56,7 +56,7 @@ TEST(TheFirstSectionOfATypeIsFoundWhateverItsName) {
   CHECK_EQ(container.next_of_type(0x1001, 1), 2u);
   CHECK_EQ(container.next_of_type(0x1001, 3), kNoSection);
   CHECK_EQ(container.next_of_type(0x2001), kNoSection);
-  CHECK(memcmp(container.name(2), "wall", 5) == 0);
+  CHECK(__builtin_memcmp(container.name(2), "wall", 5) == 0);
   CHECK_EQ(container.section(2).size(), 16u);
 }
 

@@ -36,7 +36,7 @@ TEST(Rule1RefusesAMisalignedBase) {
   SmallFile file;
   for (uint32_t shift = 1; shift < 16; ++shift) {
     file = SmallFile();
-    memmove(file.bytes + shift, file.bytes, SmallFile::kTotal);
+    __builtin_memmove(file.bytes + shift, file.bytes, SmallFile::kTotal);
     CHECK_EQ(verdict_of({file.bytes + shift, SmallFile::kTotal}).rule, 1);
   }
 }
@@ -137,7 +137,7 @@ TEST(Rule13RefusesAnEmptyName) {
 
 TEST(Rule14RefusesANameWithoutAnEnd) {
   SmallFile file;
-  memset(file.bytes + kThird + kName, 'x', 32);
+  __builtin_memset(file.bytes + kThird + kName, 'x', 32);
   file.repair();
   expect(file, 14, 2);
 }

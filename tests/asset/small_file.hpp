@@ -1,6 +1,5 @@
 #pragma once
 #include <stdint.h>
-#include <string.h>
 
 #include "firmtouch/asset/layout.hpp"
 #include "firmtouch/core/crc32.hpp"
@@ -18,7 +17,7 @@ struct SmallFile {
   uint32_t size = kTotal;
 
   SmallFile() {
-    memset(bytes, 0, sizeof(bytes));
+    __builtin_memset(bytes, 0, sizeof(bytes));
     word(0, 0x1A415446u);
     word(4, 0x01020304u);
     word(8, 1);
@@ -47,7 +46,7 @@ struct SmallFile {
     word(at, type);
     word(at + 4, offset);
     word(at + 8, count);
-    memset(bytes + at + 16, 0, 32);
+    __builtin_memset(bytes + at + 16, 0, 32);
     for (uint32_t k = 0; name[k] != 0; ++k) bytes[at + 16 + k] = static_cast<uint8_t>(name[k]);
   }
   void repair() {

@@ -1,3 +1,5 @@
+#include <cstring>
+
 #include "asset/small_file.hpp"
 #include "bake/asset_writer.hpp"
 #include "bake/probes.hpp"

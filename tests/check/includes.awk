@@ -56,7 +56,7 @@ function judge(file, line, header, quoted,    where, top, room, answer) {
       return
     }
   }
-  if (!quoted) return
+  if (!quoted && top != "tests") return
   if (top == "firmware") {
     room = folder[2] == "app" ? "app" : folder[3] ~ /\./ ? "controller" : folder[3]
     if (header !~ /^firmtouch\// || header ~ /\.\./) {
@@ -75,6 +75,8 @@ function judge(file, line, header, quoted,    where, top, room, answer) {
     } else if (header ~ /\.\./ || header ~ /^(host_sim|tests|tools|harness|bake|surface|cli)\//) {
       complain(where "hal may not include \"" header "\"")
     }
+  } else if (top == "tests") {
+    include_of[file] = include_of[file] (quoted ? "\"" : "<") header "|" line " "
   } else if (top == "tools" && header ~ /^(\.\.\/.*)?(tests|harness|host_sim)\//) {
     complain(where "tools may not include \"" header "\"")
   } else if (top == "host_sim" && header ~ /^(\.\.\/.*)?(tests|harness)\//) {
@@ -82,9 +84,39 @@ function judge(file, line, header, quoted,    where, top, room, answer) {
   }
 }
 
+# What runs on a controller: the tests that are not *_host_test.cpp, the harness, and the headers of tests that they reach.
+function walk_tests(    queue, head, tail, file, n, part, i, header, line, place) {
+  for (file in include_of)
+    if (file ~ /^tests\/[a-z_]+\/[a-z0-9_]*_test\.cpp$/ && file !~ /_host_test\.cpp$/ || file == "tests/harness/test.cpp") queue[tail++] = file
+  for (head = 0; head < tail; ++head) {
+    file = queue[head]
+    n = split(include_of[file], part, " ")
+    for (i = 1; i <= n; ++i) {
+      split(substr(part[i], 2), place, "|")
+      header = place[1]
+      if (substr(part[i], 1, 1) == "<") {
+        if (header !~ /^(stdint|stddef|float|limits)\.h$/) complain(file ":" place[2] ": <" header "> is not freestanding, and this runs on the controller")
+        continue
+      }
+      header = "tests/" header
+      if (!(header in include_of)) header = file_beside(file, place[1])
+      if (header in include_of && !(header in reached)) {
+        reached[header] = 1
+        queue[tail++] = header
+      }
+    }
+  }
+  if (tail < 10) complain("only " tail + 0 " tests that run on the controller were found: this check looks in the wrong place")
+}
+function file_beside(file, header) {
+  sub(/[^\/]*$/, "", file)
+  return file header
+}
+
 {
   file = $0
   line = 0
+  if (file ~ /^tests\//) include_of[file] = ""
   while ((getline text < file) > 0) {
     ++line
     if (text !~ /^[ \t]*#[ \t]*include[ \t]*[<"]/) continue
@@ -99,6 +131,7 @@ function judge(file, line, header, quoted,    where, top, room, answer) {
 }
 
 END {
+  walk_tests()
   if (seen < 20) complain("only " seen + 0 " includes were found: this check looks in the wrong place")
   exit bad
 }

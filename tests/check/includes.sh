@@ -71,6 +71,15 @@ plant_tests_in_tools() {
   add tools/bake/planted.cpp '#include "harness/test.hpp"'
   expect='planted.cpp:1: tools may not include "harness/test.hpp"'
 }
+plant_hosted_header_in_a_test() {
+  add tests/core/core_test.cpp '#include <cstring>'
+  expect='core_test.cpp:[0-9]+: <cstring> is not freestanding, and this runs on the controller'
+}
+plant_hosted_header_behind_a_test() {
+  add tests/core/planted.hpp '#include <string.h>'
+  add tests/core/core_test.cpp '#include "core/planted.hpp"'
+  expect='core/planted.hpp:1: <string.h> is not freestanding'
+}
 plant_circle_of_rooms() {
   sed 's/firmtouch_room(core)/firmtouch_room(core LINKS mesh)/' firmware/CMakeLists.txt >CMakeLists.new
   mv CMakeLists.new firmware/CMakeLists.txt

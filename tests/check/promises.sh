@@ -26,7 +26,8 @@ check() {
 }
 
 row() {  # row CELL...: puts a row of four cells after the table's head
-  awk -v row="| $1 | $2 | $3 | $4 |" '{ print } /^\|---/ && !done { print row; done = 1 }' DESIGN.md >new.md
+  awk -v row="| $1 | $2 | $3 | $4 |" '
+    { print } /^\| promise \| mechanism/ { table = 1 } table && /^\|---/ && !done { print row; done = 1 }' DESIGN.md >new.md
   mv new.md DESIGN.md
 }
 plant_missing_file() {
@@ -39,7 +40,7 @@ plant_missing_test() {
 }
 plant_missing_command() {
   row 'planted' '`tools/test`' '`check.words`' '`build/host/bin/firmtouch frobnicate x.fta`'
-  expect='planted: no command frobnicate of firmtouch'
+  expect='planted: no command frobnicate of build/host/bin/firmtouch'
 }
 plant_missing_script() {
   row 'planted' '`tools/test`' '`check.words`' '`tools/nothing --long`'

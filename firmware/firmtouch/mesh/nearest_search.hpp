@@ -86,12 +86,12 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
     }
     if (index <=
         stop) {  // parents come before their children: at the fence, or past one that is no ancestor
-      if (index == stop && index != 0) return true;
       if (index == 0) {
         search.fence = fence;
         search.fence_m = reach_m * (1.0f - 0x1p-22f);
         return true;
       }
+      if (index == stop) return true;
       stop = 0;
     }
     place = place_of(parents[index]);
@@ -142,7 +142,12 @@ void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangle
                                               {c.x_m, c.y_m, c.z_m});
         if (!(foot.distance2_m2 < least2_m2)) continue;
         least2_m2 = foot.distance2_m2;
-        search.best = {least2_m2, foot.offset_m, i, now.place, foot.feature};
+        search.best.distance2_m2 =
+            least2_m2;  // one by one: an aggregate would be built aside first
+        search.best.offset_m = foot.offset_m;
+        search.best.triangle = i;
+        search.best.place = now.place;
+        search.best.feature = foot.feature;
       }
       if (least2_m2 < before2_m2) prune = bound.prune_key(least2_m2);
       if (climbing) {
