@@ -147,8 +147,23 @@ std::string read_file(const std::string& path) {
   return bytes.str();
 }
 
+std::string partial_of(const std::string& path) { return path + ".partial"; }
+
+void check_writable(const std::string& path) {
+  const std::string partial = partial_of(path);
+  const bool is_folder = std::filesystem::is_directory(path);
+  std::ofstream out;
+  if (!is_folder) out.open(partial, std::ios::binary);
+  if (!is_folder && out) {
+    out.close();
+    std::remove(partial.c_str());
+    return;
+  }
+  throw Refused(path + ": cannot be written: " + std::strerror(is_folder ? EISDIR : errno));
+}
+
 void write_file(const std::string& path, const std::string& bytes) {
-  const std::string partial = path + ".partial";
+  const std::string partial = partial_of(path);
   std::ofstream out(partial, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();

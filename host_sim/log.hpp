@@ -37,5 +37,9 @@ Log read_log(const std::string& path);
 /// Whole file in and out. Throw Refused naming the file.
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& bytes);
+/// Whether write_file() could, as far as can be told beforehand; changes nothing.
+void check_writable(const std::string& path);
+/// Where write_file() writes before it gives the file its name.
+std::string partial_of(const std::string& path);
 
 }  // namespace firmtouch::host_sim

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host_sim/scenario_words.hpp"
+
 namespace firmtouch::host_sim {
 namespace {
 
@@ -29,6 +31,7 @@ class Lines {
     text_ += text;
     text_ += '\n';
   }
+  void line(const std::string& text) { text_ += text + "\n"; }
   const std::string& text() const { return text_; }
 
  private:
@@ -122,9 +125,8 @@ std::string plan_scenario(const World& world, const std::string& asset) {
   const Vec start = first + outward(world, first, box) * (kHover * diagonal);
   const Way way = way_along(world, start, diagonal);
   Lines out;
-  out.add("# A hand explores %s: made from its bounding box by `firmtouch-sim scenario`.",
-          asset.c_str());
-  out.add("asset %s", asset.c_str());
+  out.line("# A hand explores the asset: made from its bounding box by `firmtouch-sim scenario`.");
+  out.line("asset " + path_word(asset));
   add_setting(out, box, diagonal, tool);
   out.add("\n# the hand\nhand_stiffness 400 N/m\nhand_damping 4 N*s/m");
   out.add("start %.6g %.6g %.6g m\nhold for %.4g s", start.x, start.y, start.z, kHold_s);

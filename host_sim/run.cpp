@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "firmtouch/params/table.hpp"
+#include "firmtouch/servo/step.hpp"
 #include "host_sim/hand.hpp"
 
 namespace firmtouch::host_sim {
@@ -82,6 +83,12 @@ class Operator {
       case Event::Kind::kEnable:
         enabled_ = true;
         return 0;
+      case Event::Kind::kRelease:
+        held_ = 0;
+        return 0;
+      case Event::Kind::kClearFaults:
+        commands_.push_back({record::kCommandClearFaults - 1, 0});
+        return 0;
       case Event::Kind::kSet:
         commands_.push_back({event.parameter, event.value});
         return 0;
@@ -110,6 +117,10 @@ std::string short_name(const std::string& name) {
 
 void check_command(const Scenario& scenario, const record::TickRecord& record) {
   if ((record.output.state & record::kStateCommandRefused) == 0) return;
+  if (record.input.command == record::kCommandClearFaults)
+    throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) +
+                  " the controller refuses clear_faults, which it takes only while disabled; put "
+                  "`at T s disable` before it");
   const params::Entry& row = params::kTable[record.input.command - 1];
   std::ostringstream value;
   value << record.input.command_value;
@@ -117,6 +128,8 @@ void check_command(const Scenario& scenario, const record::TickRecord& record) {
                 " the controller refuses " + row.name + " = " + value.str() + " " + row.unit +
                 (row.when == params::When::kMotorsOff
                      ? "; this one may change only while the motors are off"
+                 : row.when == params::When::kMayFall
+                     ? "; it is out of range, or a raise while the motors are on"
                      : "; it is out of range"));
 }
 
@@ -131,6 +144,12 @@ uint32_t tick_count(const Scenario& scenario, const Hand& hand) {
 }
 
 }  // namespace
+
+bool motors_are_on(const record::TickOutput& output) {
+  const uint32_t mode = output.state & record::kStateServoMask;
+  return mode == static_cast<uint32_t>(servo::Mode::kRampIn) ||
+         mode == static_cast<uint32_t>(servo::Mode::kOn);
+}
 
 std::vector<ParameterRow> parameter_rows() {
   std::vector<ParameterRow> rows;

@@ -29,6 +29,10 @@ struct Trace {
   size_t setup_ticks = 0;  // the first ones, in which the scenario's parameters were set
 };
 
+/// Whether a hand feels the motors in this tick: enabled, and no fault yet. What a report tells of
+/// contact, depth and guide is of these ticks.
+bool motors_are_on(const record::TickOutput& output);
+
 /// The parameter table as the scenario reader needs it: names without their unit's suffix too.
 std::vector<ParameterRow> parameter_rows();
 

@@ -7,6 +7,7 @@
 #include "host_sim/commands.hpp"
 #include "host_sim/csv.hpp"
 #include "host_sim/log.hpp"
+#include "host_sim/outputs.hpp"
 #include "host_sim/progress.hpp"
 #include "host_sim/report/report.hpp"
 #include "host_sim/session.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 constexpr const char* kHelp =
     "firmtouch-sim run SCENARIO [options]\n"
-    "  --set KEY=VALUE          a line of the scenario, set from here; VALUE may carry a unit: "
+    "  --set KEY=VALUE          a line of the scenario, set from here, with its unit: "
     "--set \"mass=60 g\"\n"
     "  --controller WHAT        inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE "
     "(serial)\n"
@@ -41,8 +42,8 @@ std::string line_of(std::string set) {
   set[equals] = ' ';
   // "1N" and "1 N" both: the number ends where the unit begins.
   const size_t unit = set.find_first_not_of("0123456789.+-eE", equals + 1);
-  if (unit != std::string::npos && unit > equals + 1 && set[unit] != ' ' &&
-      set.find(' ', equals + 1) == std::string::npos)
+  if (set.compare(0, equals, "asset") != 0 && unit != std::string::npos && unit > equals + 1 &&
+      set[unit] != ' ' && set.find(' ', equals + 1) == std::string::npos)
     set.insert(unit, " ");
   return set;
 }
@@ -89,6 +90,13 @@ int run_scenario(const std::vector<std::string>& words) {
   for (const std::string& set : options.values("--set")) sets.push_back(line_of(set));
   Scenario scenario = read_scenario(file, read_file(file), sets, parameter_rows());
   complete(scenario);
+  NamedFiles outputs;
+  for (const char* name : {"--report", "--picture", "--log", "--csv"})
+    outputs.emplace_back(name, options.value(name));
+  check_outputs({{"the scenario", file},
+                 {"the asset", path_beside(file, scenario.asset)},
+                 {"--image", options.value("--image")}},
+                outputs);
   const Session session(path_beside(file, scenario.asset));
   const World world = world_of(*session.controller, scene_origin_m(scenario));
   const std::unique_ptr<Port> port =

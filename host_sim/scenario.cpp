@@ -96,7 +96,8 @@ bool Reader::parameter(const std::string& name, Words& words) {
   return true;
 }
 
-// at 9.5 s emergency_stop | drive_fault | encoder_fault | disable | enable | set KEY VALUE UNIT
+// at 9.5 s emergency_stop | drive_fault | encoder_fault | disable | enable | release |
+// clear_faults | set KEY VALUE UNIT
 void Reader::event(Words& words) {
   struct Name {
     const char* name;
@@ -107,6 +108,8 @@ void Reader::event(Words& words) {
                              {"encoder_fault", Event::Kind::kEncoderFault},
                              {"disable", Event::Kind::kDisable},
                              {"enable", Event::Kind::kEnable},
+                             {"release", Event::Kind::kRelease},
+                             {"clear_faults", Event::Kind::kClearFaults},
                              {"set", Event::Kind::kSet}};
   Event event;
   event.time_s = words.quantity("at", "s", 0, 3600);
@@ -115,9 +118,10 @@ void Reader::event(Words& words) {
   for (const Name& name : kNames)
     if (what == name.name) found = &name;
   if (found == nullptr)
-    words.refuse(
-        "nothing called `" + what +
-        "` can happen; known: emergency_stop, drive_fault, encoder_fault, disable, enable, set");
+    words.refuse("nothing called `" + what +
+                 "` can happen; known: emergency_stop, drive_fault, encoder_fault, disable, "
+                 "enable, release, "
+                 "clear_faults, set");
   event.kind = found->kind;
   if (event.kind == Event::Kind::kSet) {
     const std::string name = words.next("a parameter's name");
@@ -132,7 +136,7 @@ void Reader::statement(Words& words) {
   const std::string name = words.next("a statement");
   if (name == "asset") {
     once(name, words);
-    out.asset = words.rest("a path");
+    out.asset = words.path();
   } else if (name == "start") {
     once(name, words);
     out.start_m = words.point("start");
@@ -191,7 +195,8 @@ std::string scenario_help() {
   std::ostringstream help;
   help << "A scenario is a text file, one statement a line; # begins a comment; every quantity has "
           "its unit.\n\n"
-          "  asset PATH                        what is felt; relative to the scenario's folder\n"
+          "  asset PATH                        what is felt; relative to the scenario's folder;\n"
+          "                                    in \"quotes\" where it holds a # after a blank\n"
           "  start X Y Z m                     where device and hand begin\n";
   Scenario defaults;
   for (const Key& key : kKeys) {
@@ -211,8 +216,9 @@ std::string scenario_help() {
           "  follow guide at V m/s for T s [pressing D m]\n"
           "                                    D: how far behind the surface the hand aims\n"
           "Happenings:\n"
-          "  at T s emergency_stop | drive_fault | encoder_fault | disable | enable | set "
-          "PARAMETER VALUE UNIT\n";
+          "  at T s emergency_stop | drive_fault | encoder_fault | disable | enable |\n"
+          "         release (emergency stop and drive fault are no longer held) |\n"
+          "         clear_faults (taken only while disabled) | set PARAMETER VALUE UNIT\n";
   return help.str();
 }
 

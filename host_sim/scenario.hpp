@@ -26,13 +26,22 @@ struct Move {
   Vec to_m;              // kMove, kPress
   double speed_mps = 0;  // kMove, kFollow
   double time_s = 0;     // kHold, kPress, kFollow
-  double press_m =
-      0;  // kFollow: how far behind the surface the hand aims; 0: it follows the guide itself
+  // kFollow: how far behind the surface the hand aims; 0: it follows the guide itself.
+  double press_m = 0;
 };
 
 /// Something that happens at a stated time, whatever the hand does.
 struct Event {
-  enum class Kind { kEmergencyStop, kDriveFault, kEncoderFault, kDisable, kEnable, kSet };
+  enum class Kind {
+    kEmergencyStop,
+    kDriveFault,
+    kEncoderFault,
+    kDisable,
+    kEnable,
+    kRelease,
+    kClearFaults,
+    kSet
+  };
   double time_s = 0;
   Kind kind = Kind::kEnable;
   uint32_t parameter = 0;  // kSet: row of the parameter table
@@ -68,9 +77,8 @@ struct Scenario {
   std::vector<Event> events;  // in order of time
 };
 
-/// Reads a scenario: one statement a line, `#` begins a comment, every quantity carries its unit
-/// (docs: scenario_help()). `sets` are further `key value` lines, from the command line; there a
-/// missing unit means the key's own. Throws Refused naming file and line for an unknown key,
+/// Reads a scenario: one statement a line, `#` after a blank begins a comment, every quantity carries its unit
+/// (docs: scenario_help()). `sets` are further `key value unit` lines, from the command line. Throws Refused naming file and line for an unknown key,
 /// statement or unit, a value out of range, a key given twice.
 Scenario read_scenario(const std::string& file, const std::string& text,
                        const std::vector<std::string>& sets,

@@ -3,6 +3,7 @@
 
 #include "host_sim/commands.hpp"
 #include "host_sim/log.hpp"
+#include "host_sim/outputs.hpp"
 #include "host_sim/plan.hpp"
 #include "host_sim/session.hpp"
 
@@ -41,6 +42,7 @@ int make_scenario(const std::vector<std::string>& words) {
                     outline_path = options.value("--outline");
   if (to.empty() && outline_path.empty())
     throw Usage("scenario wants -o FILE or --outline FILE.csv");
+  check_outputs({{"the asset", path}}, {{"-o", to}, {"--outline", outline_path}});
   const Session session(path);
   const World world = world_of(*session.controller, {});
   if (!outline_path.empty()) {

@@ -35,20 +35,54 @@ size_t edits(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+constexpr const char* kBlank = " \t\r";
+
+bool is_blank(char c) { return std::string(kBlank).find(c) != std::string::npos; }
+
+// Just behind the quote that closes the one at `begin`; npos where none does.
+size_t quote_end(const std::string& line, size_t begin) {
+  for (size_t i = begin + 1; i < line.size(); ++i) {
+    if (line[i] == '"') return i + 1;
+    if (line[i] == '\\') ++i;
+  }
+  return std::string::npos;
+}
+
+// A # at the line's start or after a blank, and not in quotes; npos: there is none.
+size_t comment_begin(const std::string& line) {
+  for (size_t i = 0; i < line.size(); ++i) {
+    const bool begins_word = i == 0 || is_blank(line[i - 1]);
+    if (begins_word && line[i] == '#') return i;
+    if (begins_word && line[i] == '"') {
+      const size_t end = quote_end(line, i);
+      if (end == std::string::npos) return end;
+      i = end - 1;
+    }
+  }
+  return std::string::npos;
+}
+
 }  // namespace
+
+std::string path_word(const std::string& path) {
+  if (!path.empty() && path.find_first_of(" \t\r\n#\"\\") == std::string::npos) return path;
+  std::string text = "\"";
+  for (const char c : path)
+    text += c == '\n' ? "\\n" : (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
+  return text + "\"";
+}
 
 Words::Words(const std::string& line, std::string place, const std::vector<std::string>& names,
              bool overrides)
-    : line_(line.substr(0, line.find('#'))),
+    : line_(line.substr(0, comment_begin(line))),
       place_(std::move(place)),
       names_(names),
       overrides_(overrides) {
-  const char* blank = " \t\r";
-  for (size_t i = line_.find_first_not_of(blank); i != std::string::npos;) {
-    const size_t end = line_.find_first_of(blank, i);
+  for (size_t i = line_.find_first_not_of(kBlank); i != std::string::npos;) {
+    const size_t end = line_.find_first_of(kBlank, i);
     words_.push_back(line_.substr(i, end - i));
     offsets_.push_back(i);
-    i = end == std::string::npos ? end : line_.find_first_not_of(blank, end);
+    i = end == std::string::npos ? end : line_.find_first_not_of(kBlank, end);
   }
 }
 
@@ -86,11 +120,20 @@ void Words::expect(const std::string& word) {
   if (found != word) refuse("`" + word + "` is expected where `" + found + "` stands");
 }
 
-std::string Words::rest(const std::string& wanted) {
-  if (!more()) refuse("the line ends where " + wanted + " should stand");
+std::string Words::path() {
+  if (!more()) refuse("the line ends where a path should stand");
   const size_t begin = offsets_[at_];
   at_ = words_.size();
-  return line_.substr(begin, line_.find_last_not_of(" \t\r") + 1 - begin);
+  const size_t end = line_.find_last_not_of(kBlank) + 1;
+  if (line_[begin] != '"') return line_.substr(begin, end - begin);
+  if (quote_end(line_, begin) != end) refuse("a quoted path ends with its quote and the line");
+  std::string text;
+  for (size_t i = begin + 1; i + 1 < end; ++i) {
+    const bool escapes = line_[i] == '\\';
+    if (escapes) ++i;
+    text += escapes && line_[i] == 'n' ? '\n' : line_[i];
+  }
+  return text;
 }
 
 void Words::end() {
@@ -105,7 +148,6 @@ double Words::number(const std::string& name) {
 }
 
 double Words::in_si(const std::string& name, double value, const std::string& unit) {
-  if (!more() && overrides_) return value;
   const std::string text = next("the unit of `" + name + "` (" + units_like(unit) + ")");
   const std::optional<double> si = to_si(value, text, unit);
   if (!si)

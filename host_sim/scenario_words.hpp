@@ -11,7 +11,7 @@ namespace firmtouch::host_sim {
 class Words {
  public:
   /// `names`: every key and statement, to suggest the nearest of them. `overrides`: from the
-  /// command line, where a later value replaces an earlier one and the unit may be left out.
+  /// command line, where a later value replaces an earlier one.
   Words(const std::string& line, std::string place, const std::vector<std::string>& names,
         bool overrides);
 
@@ -22,8 +22,8 @@ class Words {
   /// Takes the next word if it is this one.
   bool take(const std::string& word);
   void expect(const std::string& word);
-  /// The rest of the line as it stands (a path may hold spaces).
-  std::string rest(const std::string& wanted);
+  /// The rest of the line: as it stands (a path may hold blanks), or what path_word() quoted.
+  std::string path();
   /// A number and its unit, in SI. `unit` empty: a plain number.
   double quantity(const std::string& name, const std::string& unit, double low, double high);
   /// Three numbers and one unit of length.
@@ -47,6 +47,9 @@ class Words {
   std::vector<size_t> offsets_;
   size_t at_ = 0;
 };
+
+/// A path as Words::path() reads it: in quotes where a blank, #, quote or backslash is in it.
+std::string path_word(const std::string& path);
 
 bool is_move(const std::string& name);
 /// The rest of a line of the hand's script that begins with `name`.

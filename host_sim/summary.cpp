@@ -49,18 +49,17 @@ void judge(Summary& summary, const World& world, const Trace& trace) {
 
 void count(Summary& summary, const record::TickOutput& out, double time_s, uint64_t& steps,
            double& deviation) {
-  if ((out.state & record::kStateContact) != 0) ++summary.contact_ticks;
+  const bool is_on = motors_are_on(out);
+  if (is_on && (out.state & record::kStateContact) != 0) ++summary.contact_ticks;
   if ((out.state & record::kStateExact) != 0) ++summary.exact_ticks;
-  if ((out.state & record::kStateOnGuide) != 0) {
+  if (is_on && (out.state & record::kStateOnGuide) != 0) {
     ++summary.guide_ticks;
     deviation += static_cast<double>(out.guide_deviation_m);
     summary.worst_guide_deviation_m =
         std::max(summary.worst_guide_deviation_m, static_cast<double>(out.guide_deviation_m));
   }
   summary.peak_force_N = std::max(summary.peak_force_N, norm(wide(out.force_N)));
-  const uint32_t mode = out.state & record::kStateServoMask;
-  if (mode == static_cast<uint32_t>(servo::Mode::kRampIn) ||
-      mode == static_cast<uint32_t>(servo::Mode::kOn))
+  if (is_on)
     summary.worst_penetration_m =
         std::max(summary.worst_penetration_m, static_cast<double>(out.penetration_m));
   summary.worst_gap_m =
@@ -118,7 +117,8 @@ std::string text_of(const Summary& s, const Trace& trace) {
   line("  ticks          %zu at %g Hz (%.4g s), controller: %s\n", s.ticks, s.rate_Hz, s.seconds,
        trace.controller.c_str());
   line(
-      "  contact        %zu ticks; penalty contact of a sphere; peak force %.2f N of %.2f N; "
+      "  contact        %zu ticks with the motors on; penalty contact of a sphere; peak force %.2f "
+      "N of %.2f N; "
       "deepest %.2f mm\n",
       s.contact_ticks, s.peak_force_N, s.force_limit_N, s.worst_penetration_m * 1e3);
   if (s.has_guide)

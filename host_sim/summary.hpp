@@ -11,7 +11,8 @@ namespace firmtouch::host_sim {
 
 /// The numbers of a run that matter.
 struct Summary {
-  size_t ticks = 0, contact_ticks = 0, guide_ticks = 0, exact_ticks = 0;
+  size_t ticks = 0, exact_ticks = 0;
+  size_t contact_ticks = 0, guide_ticks = 0;  // while the motors were on
   double seconds = 0, rate_Hz = 0;
   double peak_force_N = 0, force_limit_N = 0;
   double worst_penetration_m = 0;  // while the motors were on
@@ -20,8 +21,8 @@ struct Summary {
   uint32_t worst_steps = 0, budget_steps = 0;
   size_t surface_ticks = 0;  // ticks whose distance answer could be judged
   size_t judged_ticks = 0;   // of these, judged against brute force over every triangle, in double
-  size_t wrong_bounds =
-      0;  // lower bound above the truth, or distance below it, beyond float32 rounding
+  // Lower bound above the truth, or distance below it, beyond float32 rounding.
+  size_t wrong_bounds = 0;
   double worst_gap_m = 0;   // distance - lower bound
   double median_ratio = 0;  // of lower bound to truth
   bool has_surface = false, has_guide = false;

@@ -60,6 +60,8 @@ void HostSession::handle(const link::Frame& frame) {
       return answer_step(frame);
     case link::kSetParam:
       return answer_set_param(frame);
+    case link::kClearFaults:
+      return answer_clear_faults(frame);
     case link::kBye:
       return leave(frame);
     default:
@@ -144,6 +146,8 @@ void HostSession::answer_set_param(const link::Frame& frame) {
     ack.result = link::kAckInLockStep;
   } else if (wanted.index >= params::kCount) {
     ack.result = link::kAckNoSuchParameter;
+  } else if (wanted.index == params::kTickPeriod) {
+    ack.result = link::kAckTimerRuns;  // programmed once, when the session began
   } else {
     const params::Entry& row = params::kTable[wanted.index];
     if (!(wanted.value >= row.low) || !(wanted.value <= row.high)) {
@@ -151,6 +155,20 @@ void HostSession::answer_set_param(const link::Frame& frame) {
     } else if (!commands.put(wanted.index, wanted.value)) {
       ack.result = link::kAckBusy;
     }
+  }
+  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+}
+
+void HostSession::answer_clear_faults(const link::Frame& frame) {
+  link::ClearFaults wanted;
+  if (phase_ == Phase::kStranger) return complain(frame, "a ClearFaults before an accepted Hello");
+  if (!link::take(frame, wanted)) return complain(frame, "a ClearFaults of another length");
+  link::Ack ack;
+  ack.index = link::kAckOfClearFaults;
+  if (is_lock_step()) {
+    ack.result = link::kAckInLockStep;
+  } else if (!commands.put_clear_faults()) {
+    ack.result = link::kAckBusy;
   }
   outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
 }

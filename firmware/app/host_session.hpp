@@ -27,6 +27,7 @@ class HostSession {
   uint32_t reasons_to_refuse(const link::Hello& hello, const link::HelloReply& reply) const;
   void answer_step(const link::Frame& frame);
   void answer_set_param(const link::Frame& frame);
+  void answer_clear_faults(const link::Frame& frame);
   void leave(const link::Frame& frame);
   void stream_records();
   void complain(const link::Frame& frame, const char* text);

@@ -16,6 +16,8 @@ namespace {
 constexpr uint32_t kWatchdogTicks = 4;
 
 bool g_running = false;
+bool g_saw_enable_low = false;
+bool g_show_enable_low = false;
 
 }  // namespace
 
@@ -31,10 +33,23 @@ void start_servo() {
   hal::clock_start_servo(servo_period_us(), servo_interrupt);
 }
 
+uint32_t servo_lines() {
+  const uint32_t lines = hal::motors_lines();
+  if (!g_show_enable_low) return lines;
+  g_show_enable_low = false;
+  return lines & ~record::kLineEnable;
+}
+
 bool servo_is_running() { return g_running; }
 
 void start_servo_when_enabled() {
-  if ((hal::motors_lines() & record::kLineEnable) != 0) start_servo();
+  if (g_running) return;
+  if ((hal::motors_lines() & record::kLineEnable) == 0) {
+    g_saw_enable_low = true;
+  } else if (g_saw_enable_low) {
+    g_show_enable_low = true;
+    start_servo();
+  }
 }
 
 }  // namespace firmtouch::app

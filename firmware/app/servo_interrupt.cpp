@@ -4,6 +4,7 @@
 #include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
+#include "servo.hpp"
 
 namespace firmtouch::app {
 
@@ -17,7 +18,7 @@ void servo_interrupt() {
 
   now.input.tick = next_tick++;
   now.input.clock_us = hal::clock_us();
-  now.input.lines = hal::motors_lines();
+  now.input.lines = servo_lines();
   if (!hal::encoders_read(now.input.encoder_counts)) now.input.lines |= record::kLineEncoderFault;
   commands.take(now.input);  // at most one parameter a tick
 

@@ -7,8 +7,13 @@ if(FIRMTOUCH_WERROR)
   list(APPEND FIRMTOUCH_WARNING_FLAGS -Werror)
 endif()
 
-# The same bits everywhere: no contraction to fused multiply-add, no fast-math (math/isa.hpp refuses it).
-set(FIRMTOUCH_ARITHMETIC_FLAGS -ffp-contract=off -fno-math-errno)
+# The same bits everywhere: no contraction to fused multiply-add, no fast-math nor any part of it. A target's options
+# follow CMAKE_CXX_FLAGS and add_compile_options, so these win over what the project around Firmtouch sets. What comes later
+# still is refused by math/isa.hpp and math/arithmetic_check.cpp (check.arithmetic). Not -fno-fast-math: it brings
+# contraction back and errno with it, and the flags here are all that it would undo.
+set(FIRMTOUCH_ARITHMETIC_FLAGS
+    -fno-unsafe-math-optimizations -fno-finite-math-only -fno-associative-math -fno-reciprocal-math
+    -fsigned-zeros -fno-rounding-math -ffp-contract=off -fno-math-errno)
 set(FIRMTOUCH_NATIVE_FLAGS $<$<BOOL:${FIRMTOUCH_NATIVE}>:-march=native>)
 
 # Freestanding code: firmware and hal.

@@ -20,8 +20,25 @@ servo::Settings servo_settings(const Values& v) {
           v[params::kTickPeriod]};
 }
 
-servo::GuardLimits guard_limits(const Values& v) {
-  return {v[params::kForceLimit], v[params::kSlewLimit], v[params::kTickPeriod]};
+// The guard's ceilings are its own words, and mean the table's.
+static_assert(servo::kGuardMostForce_N >= params::kMostForceLimit_N &&
+              servo::kGuardMostForce_N <= servo::kMostForceLimit_N &&
+              servo::kMostForceLimit_N <= params::kMostForceLimit_N);
+static_assert(servo::kGuardMostSlew_N_per_s >= params::kMostSlewLimit_N_per_s &&
+              servo::kGuardMostSlew_N_per_s <= servo::kMostSlewLimit_N_per_s &&
+              servo::kMostSlewLimit_N_per_s <= params::kMostSlewLimit_N_per_s);
+static_assert(servo::kGuardMostPeriod_s >= params::kMostTickPeriod_s &&
+              servo::kGuardMostPeriod_s <= servo::kMostTickPeriod_s &&
+              servo::kMostTickPeriod_s <= params::kMostTickPeriod_s);
+
+// The guard takes the one limit that the command names, from the command: the parameters' memory is
+// what it guards against.
+void tell_guard(servo::GuardState& guard, uint32_t row, float value) {
+  servo::GuardLimits limits = guard_limits(guard);
+  if (row == params::kForceLimit) limits.force_limit_N = value;
+  if (row == params::kSlewLimit) limits.slew_limit_N_per_s = value;
+  if (row == params::kTickPeriod) limits.tick_period_s = value;
+  guard_set_limits(guard, limits);
 }
 
 query::Budget budget(const Values& v, params::Index row) { return {static_cast<uint32_t>(v[row])}; }
@@ -58,6 +75,13 @@ void Controller::begin(core::Bytes asset, Selection selection) {
   reset();
 }
 
+void Controller::reset() {
+  live_ = Live{};
+  const Values& v = live_.values;
+  guard_set_limits(live_.guard,
+                   {v[params::kForceLimit], v[params::kSlewLimit], v[params::kTickPeriod]});
+}
+
 core::Verdict Controller::open(core::Bytes asset, Selection selection) {
   begin(asset, selection);
   while (!work(4096)) {
@@ -71,8 +95,15 @@ bool Controller::take_parameter(const record::TickInput& input) {
   const bool motors_off =
       live_.servo.mode == servo::Mode::kOff || live_.servo.mode == servo::Mode::kFault;
   const bool enable = (input.lines & record::kLineEnable) != 0;
-  if (params::kTable[row].when == params::When::kMotorsOff && (enable || !motors_off)) return false;
-  return params::set(live_.values, row, input.command_value);
+  if (enable || !motors_off) {
+    const params::When when = params::kTable[row].when;
+    if (when == params::When::kMotorsOff) return false;
+    if (when == params::When::kMayFall && !(input.command_value <= live_.values.value[row]))
+      return false;
+  }
+  if (!params::set(live_.values, row, input.command_value)) return false;
+  tell_guard(live_.guard, row, input.command_value);
+  return true;
 }
 
 void Controller::feel(math::Vec3 position_m, bool ready) {
@@ -113,6 +144,7 @@ void Controller::tell_scene(record::TickOutput& output) const {
 void Controller::tick(const record::TickInput& input, record::TickOutput& output) {
   const bool ready = opener_.is_ready();
   const bool enable = (input.lines & record::kLineEnable) != 0;
+  if (!enable && ready) live_.enable_was_low = true;
   const bool clear = input.command == record::kCommandClearFaults && !enable;
   output = {};
   if (clear) {
@@ -136,13 +168,13 @@ void Controller::tick(const record::TickInput& input, record::TickOutput& output
 
   scene::begin_model(live_.model, tool.position_m, input.tick,
                      static_cast<uint32_t>(v[params::kModelAge]));
-  feel(tool.position_m, ready);
+  feel(tool.position_m, ready && tool.started);
 
   servo::StepInput step;
   step.position_m = tool.position_m;
   step.velocity_mps = tool.velocity_mps;
   step.tick = input.tick;
-  step.enable = enable && ready;
+  step.enable = enable && ready && live_.enable_was_low;
   step.clear_faults = clear;
   step.reported = clock.faults | device_faults(tool.faults) | line_faults(input.lines);
   if (enable) step.reported |= asset_faults(opener_);
@@ -151,8 +183,8 @@ void Controller::tick(const record::TickInput& input, record::TickOutput& output
   // A Cartesian device's joints are its axes: the force of each motor is the tool's.
   float motor_N[record::kAxes];
   put(motor_N, wanted.force_N);
-  const bool cut = line_faults(input.lines) != 0;
-  if (!guard(live_.guard, guard_limits(v), step.enable && wanted.faults == 0, cut, motor_N)) {
+  const bool cut = line_faults(input.lines) != 0 || (wanted.faults & servo::kCutAtOnce) != 0;
+  if (!guard(live_.guard, step.enable && wanted.faults == 0, cut, motor_N)) {
     live_.servo.faults |= servo::kFaultGuard;
     live_.servo.mode = servo::Mode::kFault;
   }

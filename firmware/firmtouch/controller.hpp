@@ -25,7 +25,7 @@ class Controller {
   /// tick() may interrupt.
   void begin(core::Bytes asset, Selection selection = {});
 
-  /// Goes on opening, by about `budget` bytes or elements (opener.hpp). For the main loop; tick()
+  /// Goes on opening, by about `budget` bytes or what takes as long (opener.hpp). For the main loop; tick()
   /// may interrupt it.
   /// Result: true when finished; verdict() then says whether the motors may be enabled.
   bool work(uint32_t budget) { return opener_.work(budget); }
@@ -38,11 +38,14 @@ class Controller {
 
   /// As right after begin(), without opening the asset again: initial parameters, no faults,
   /// nothing felt yet. Not while tick() may interrupt.
-  void reset() { live_ = Live{}; }
+  void reset();
 
   /// A function of the controller's state and `input` alone: calls no HAL, reads no clock. Every
   /// field of `output` is set and finite. A parameter changes only by `input.command`, so that the
   /// record holds all that a replay needs.
+  /// The motors come on only after kLineEnable was seen low in a tick since reset() with the asset
+  /// ready: a line that stands high from the beginning, as after a watchdog's reset, enables
+  /// nothing.
   /// Bounds: two queries of at most mesh_steps and curve_steps; callable from an interrupt; not
   /// re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output);
@@ -64,9 +67,10 @@ class Controller {
     servo::LocalModel model;
     servo::State servo;
     servo::GuardState guard;
+    bool enable_was_low = false;  // in a tick with the asset ready
   };
   bool take_parameter(const record::TickInput& input);
-  void feel(math::Vec3 position_m, bool enabled);
+  void feel(math::Vec3 position_m, bool ready);
   void tell_scene(record::TickOutput& output) const;
 
   Opener opener_;

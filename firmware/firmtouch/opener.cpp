@@ -8,8 +8,10 @@
 namespace firmtouch {
 namespace {
 
-// A baker writes some hundred; a section of millions would keep the main loop for seconds.
-constexpr uint32_t kMostProbes = 4096;
+// The probes of one section are one slice, because their hash is one. The baker writes 64.
+constexpr uint32_t kMostProbes = 256;
+// To check a vertex, node or triangle costs up to this many times what a byte of a CRC does.
+constexpr uint32_t kBytesAnElement = 16;
 
 const char* choose(const asset::Container& container, uint32_t head_type, const char* wanted) {
   if (wanted != nullptr) return container.find(head_type, wanted).empty() ? nullptr : wanted;
@@ -58,10 +60,14 @@ void Opener::begin(core::Bytes asset, Selection selection) {
 // An interrupt must not see a stage before what the stage stands on.
 void Opener::set_stage(Stage stage) { __atomic_store(&stage_, &stage, __ATOMIC_RELEASE); }
 
-bool Opener::is_ready() const {
+Opener::Stage Opener::stage() const {
   Stage stage;
   __atomic_load(&stage_, &stage, __ATOMIC_ACQUIRE);
-  return stage == Stage::kReady;
+  return stage;
+}
+
+core::Verdict Opener::verdict() const {
+  return is_ready() || is_refused() ? verdict_ : core::kPassed;
 }
 
 void Opener::refuse(core::Verdict verdict) {
@@ -80,7 +86,7 @@ bool Opener::work(uint32_t budget) {
       refuse(asset_opening_.verdict());
     }
   } else if (stage_ == Stage::kMesh) {
-    mesh_opening_.work(budget);
+    mesh_opening_.work(budget / kBytesAnElement + 1);
     if (!mesh_opening_.done()) return false;
     mesh_ = mesh_opening_.view();
     if (mesh_opening_.verdict().ok()) {
@@ -89,16 +95,18 @@ bool Opener::work(uint32_t budget) {
       refuse(mesh_opening_.verdict());
     }
   } else if (stage_ == Stage::kCurve) {
-    curve_opening_.work(budget);
+    curve_opening_.work(budget / kBytesAnElement + 1);
     if (!curve_opening_.done()) return false;
     curve_ = curve_opening_.view();
     if (curve_opening_.verdict().ok()) {
-      set_stage(Stage::kProbes);
+      set_stage(Stage::kMeshProbes);
     } else {
       refuse(curve_opening_.verdict());
     }
-  } else if (stage_ == Stage::kProbes) {
-    run_probes();
+  } else if (stage_ == Stage::kMeshProbes) {
+    run_mesh_probes();
+  } else if (stage_ == Stage::kCurveProbes) {
+    run_curve_probes();
   }
   return stage_ == Stage::kReady || stage_ == Stage::kRefused || stage_ == Stage::kIdle;
 }
@@ -118,12 +126,12 @@ void Opener::start_curve() {
   selection_.curve = name;
   if (name == nullptr && selection_.mesh == nullptr)
     return refuse(core::reject(kRuleNothingToFeel));
-  if (name == nullptr) return set_stage(Stage::kProbes);
+  if (name == nullptr) return set_stage(Stage::kMeshProbes);
   curve_opening_ = curve::Opening(curve_sections(container_, name));
   set_stage(Stage::kCurve);
 }
 
-void Opener::run_probes() {
+void Opener::run_mesh_probes() {
   if (!math::arithmetic_is_sound()) return refuse(core::reject(kRuleArithmetic));
   if (mesh_.is_open()) {
     const query::Probes probes =
@@ -132,6 +140,10 @@ void Opener::run_probes() {
       return refuse(core::reject(kRuleMeshProbes));
     }
   }
+  set_stage(Stage::kCurveProbes);
+}
+
+void Opener::run_curve_probes() {
   if (curve_.is_open()) {
     const query::Probes probes =
         query::read_probes(container_.find(curve::kProbesSection, selection_.curve));

@@ -33,27 +33,41 @@ class Opener {
   /// `asset` must outlive the views.
   void begin(core::Bytes asset, Selection selection);
 
-  /// About `budget` bytes, vertices, nodes, triangles or samples more; the last slice runs all the
-  /// probe queries.
+  /// About `budget` bytes more, or a sixteenth as many vertices, nodes, triangles or samples, which
+  /// take about as long. Not by `budget` go the last two slices, one for the mesh's and one for the
+  /// curve's probe queries: they are unlimited, at most 256, and 64 as baked.
   /// Result: true when finished.
   bool work(uint32_t budget);
 
-  core::Verdict verdict() const { return verdict_; }
-  /// Safe to ask from an interrupt: once true, the views do not change until the next begin().
-  bool is_ready() const;
-  bool is_refused() const { return stage_ == Stage::kRefused; }
+  // Safe to ask from an interrupt of work(): what they say once finished does not change until the
+  // next begin(), nor do the views.
+  /// Passed until it is finished.
+  core::Verdict verdict() const;
+  bool is_ready() const { return stage() == Stage::kReady; }
+  bool is_refused() const { return stage() == Stage::kRefused; }
   /// One that is not open where the asset has none.
   const mesh::View& mesh() const { return mesh_; }
   const curve::View& curve() const { return curve_; }
   const asset::Container& container() const { return container_; }
 
  private:
-  enum class Stage : uint8_t { kIdle, kAsset, kMesh, kCurve, kProbes, kReady, kRefused };
+  enum class Stage : uint8_t {
+    kIdle,
+    kAsset,
+    kMesh,
+    kCurve,
+    kMeshProbes,
+    kCurveProbes,
+    kReady,
+    kRefused
+  };
+  Stage stage() const;
   void set_stage(Stage stage);
   void refuse(core::Verdict verdict);
   void start_mesh();
   void start_curve();
-  void run_probes();
+  void run_mesh_probes();
+  void run_curve_probes();
 
   Stage stage_ = Stage::kIdle;
   core::Verdict verdict_;

@@ -6,8 +6,8 @@ namespace firmtouch::hal {
 /// Received bytes on their way from an interrupt (push) to the main loop (pop): one writer, one reader, no lock.
 class ByteRing {
  public:
-  static constexpr uint32_t kCapacity_bytes =
-      1024;  // 8 ms of 1 Mbaud, several of the largest frames
+  // 8 ms of 1 Mbaud, several of the largest frames.
+  static constexpr uint32_t kCapacity_bytes = 1024;
 
   /// Result: false where it is full; the byte is lost, and the frame's CRC will say so.
   bool push(uint8_t byte) {

@@ -9,8 +9,8 @@ namespace firmtouch::hal {
 constexpr uint32_t kCore_MHz = 25;  // core and peripherals alike
 
 constexpr uint32_t kTimer0 = 0x40000000;  // +0 control, +4 value (counts down), +8 reload
-constexpr uint32_t kWatchdog =
-    0x40008000;  // +0 load, +4 value, +8 control, +C interrupt clear, +C00 lock
+// +0 load, +4 value, +8 control, +C interrupt clear, +C00 lock.
+constexpr uint32_t kWatchdog = 0x40008000;
 constexpr uint32_t kUart0 = 0x40004000;
 constexpr uint32_t kUart1 = 0x40005000;
 

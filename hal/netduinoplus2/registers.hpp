@@ -12,8 +12,8 @@ constexpr uint32_t kRccAhb1Enable = 0x40023830;  // b0 port A, b2 port C
 constexpr uint32_t kRccApb1Enable = 0x40023840;  // b0 TIM2, b3 TIM5, b17 USART2
 constexpr uint32_t kRccApb2Enable = 0x40023844;  // b4 USART1
 constexpr uint32_t kPortA = 0x40020000;          // +00 mode, +20 and +24 alternate functions
-constexpr uint32_t kTimer2 =
-    0x40000000;  // +00 control, +14 event, +24 counter, +28 prescaler, +2C reload
+// +00 control, +14 event, +24 counter, +28 prescaler, +2C reload.
+constexpr uint32_t kTimer2 = 0x40000000;
 constexpr uint32_t kTimer5 = 0x40000C00;
 constexpr uint32_t kWatchdog = 0x40003000;  // +00 key, +04 prescaler, +08 reload
 constexpr uint32_t kUsart1 = 0x40011000;

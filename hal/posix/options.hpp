@@ -3,8 +3,8 @@
 namespace firmtouch::hal {
 
 struct Options {
-  const char* link =
-      nullptr;  // unix:PATH, tcp:HOST:PORT, listen:PATH, fd:N, pty, or a serial device
+  // unix:PATH, tcp:HOST:PORT, listen:PATH, fd:N, pty, or a serial device.
+  const char* link = nullptr;
   const char* asset = nullptr;  // file
 };
 

@@ -14,15 +14,22 @@ class Plot {
  public:
   Plot(const Chart& chart, const TimeAxis& axis, const ChartSize& size)
       : chart_(chart), axis_(axis), size_(size) {
-    double most = chart.limit;
+    double most = chart.limit, least = 0;
     for (const Series& s : chart.series)
-      for (const double v : s.values) most = std::max(most, v);
+      for (const double v : s.values) most = std::max(most, v), least = std::min(least, v);
     if (chart.is_logarithmic) {
       high_ = 1;
       while (high_ < most * 1.05) high_ *= 2;
       for (double v = 1; v * 1.5 <= high_; v *= 4) marks_.push_back(v);
     } else {
-      marks_ = round_numbers(0, std::max(most * 1.04, 1e-9), 4);
+      marks_ = round_numbers(0, std::max((most - least) * 1.04, 1e-9), 4);
+      const double step = marks_[1];
+      if (least < 0) {
+        low_ = std::floor(least * 1.04 / step) * step;
+        marks_.clear();
+        for (int i = static_cast<int>(std::lround(low_ / step)); i * step <= most * 1.04; ++i)
+          marks_.push_back(i * step);
+      }
       high_ = std::max(most * 1.04, marks_.back());
     }
   }
@@ -31,14 +38,15 @@ class Plot {
     return size_.left + (size_.width - size_.left - size_.right) * time_s / axis_.seconds;
   }
   double y(double value) const {
-    const double share =
-        chart_.is_logarithmic ? std::log(std::max(value, 1.0)) / std::log(high_) : value / high_;
+    const double share = chart_.is_logarithmic ? std::log(std::max(value, 1.0)) / std::log(high_)
+                                               : (value - low_) / (high_ - low_);
     return base() - (base() - size_.top) * std::clamp(share, 0.0, 1.0);
   }
   double base() const { return size_.height - size_.bottom; }
 
   std::string frame() const;
   std::string bands() const;
+  std::string off() const;
   std::string line(const Series& series) const;
   std::string limit() const;
   std::string events() const;
@@ -47,7 +55,7 @@ class Plot {
   const Chart& chart_;
   const TimeAxis& axis_;
   const ChartSize& size_;
-  double high_ = 1;
+  double low_ = 0, high_ = 1;  // of the values; low_ is 0 where none is negative
   std::vector<double> marks_;
 };
 
@@ -75,6 +83,7 @@ std::string Plot::frame() const {
     svg += text_at(size_.left - 8, y(mark) + 4, "text-anchor=\"end\" fill=\"var(--soft)\"",
                    fixed(mark, decimals));
   }
+  if (low_ < 0) svg += rule(size_.left, y(0), right, y(0), "stroke=\"var(--line)\"");
   const std::vector<double> times = round_numbers(0, axis_.seconds, 10);
   const int time_decimals = decimals_of(times);
   for (const double time : times) {
@@ -101,6 +110,20 @@ std::string Plot::bands() const {
   };
   band(axis_.contact_s, size_.top - 9, "var(--second)");
   band(axis_.guide_s, size_.top - 4, "var(--good)");
+  return svg;
+}
+
+// Over the lines, so that they pale: what nobody feels.
+std::string Plot::off() const {
+  std::string svg;
+  for (const auto& [from, to] : axis_.off_s) {
+    svg += "<rect class=\"off\" x=\"" + fixed(x(from), 1) + "\" y=\"" + fixed(size_.top, 1) +
+           "\" width=\"" + fixed(std::max(0.6, x(to) - x(from)), 1) + "\" height=\"" +
+           fixed(base() - size_.top, 1) + "\" fill=\"var(--card)\" fill-opacity=\".72\"/>";
+    svg += "<rect x=\"" + fixed(x(from), 1) + "\" y=\"" + fixed(size_.top, 1) + "\" width=\"" +
+           fixed(std::max(0.6, x(to) - x(from)), 1) + "\" height=\"" +
+           fixed(base() - size_.top, 1) + "\" fill=\"var(--soft)\" fill-opacity=\".16\"/>";
+  }
   return svg;
 }
 
@@ -203,7 +226,7 @@ std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& si
                     html_of(chart.title) + " over time\">";
   svg += plot.frame() + plot.bands();
   for (const Series& series : chart.series) svg += plot.line(series);
-  svg += plot.limit() + plot.events();
+  svg += plot.off() + plot.limit() + plot.events();
   svg += "<line class=\"cursor\" y1=\"" + fixed(size.top, 0) + "\" y2=\"" + fixed(plot.base(), 0) +
          "\" stroke=\"var(--ink)\" stroke-opacity=\".55\" style=\"display:none\"/>";
   return svg + "</svg>";

@@ -29,6 +29,7 @@ struct TimeAxis {
   double seconds = 1;
   using Spans = std::vector<std::pair<double, double>>;
   Spans contact_s, guide_s;
+  Spans off_s;  // motors off after a fault: shown in grey
   std::vector<std::pair<double, std::string>> events;
 };
 

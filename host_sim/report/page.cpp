@@ -62,15 +62,16 @@ std::string bits_claim(const Report& report) {
     return claim("Same bits", "<span class=\"no\">they differ</span>",
                  "First at tick " + std::to_string(trace.difference->tick) + " in " +
                      html_of(trace.difference->field) + ".");
-  return claim("Same bits on the Cortex-M7", "<span class=\"open\">not compared</span>",
-               "This run was in-process and did not verify it. To compare every bit with an "
-               "emulated Cortex-M7, add <code>--controller qemu:mps2-an500</code>.");
+  return claim(
+      "Same bits on the Cortex-M7", "<span class=\"open\">not compared</span>",
+      "This run was in-process. <code>tools/test</code> compares every bit with an emulated "
+      "Cortex-M7; so does <code>--controller qemu:mps2-an500</code> here.");
 }
 
 std::string contact_claim(const Summary& s) {
   return claim("Contact", "penalty <small>up to " + fixed(s.peak_force_N, 2) + " N</small>",
                "A spring on the depth of the tool&rsquo;s sphere, from the signed distance; no "
-               "proxy yet. Deepest " +
+               "proxy yet. Deepest while the motors were on: " +
                    fixed(s.worst_penetration_m * 1e3, 2) +
                    " mm. A wall thinner than twice that could be pushed through.");
 }
@@ -93,10 +94,10 @@ std::string table(const Report& report, const Stage& stage) {
   rows += row("Asset in flash", grouped(report.asset_bytes) + " bytes");
   rows += row("Controller state in RAM", grouped(sizeof(Controller)) + " bytes");
   rows += row("Ticks", grouped(s.ticks) + " at " + fixed(s.rate_Hz, 0) + " Hz");
-  rows += row("in contact", grouped(s.contact_ticks));
-  if (s.has_guide) rows += row("on the guide", grouped(s.guide_ticks));
+  rows += row("in contact, motors on", grouped(s.contact_ticks));
+  if (s.has_guide) rows += row("on the guide, motors on", grouped(s.guide_ticks));
   rows += row("Peak force", fixed(s.peak_force_N, 2) + " N of " + fixed(s.force_limit_N, 1) + " N");
-  rows += row("Deepest penetration", fixed(s.worst_penetration_m * 1e3, 2) + " mm");
+  rows += row("Deepest penetration, motors on", fixed(s.worst_penetration_m * 1e3, 2) + " mm");
   if (s.has_guide)
     rows +=
         row("Mean distance to the guide, on it", fixed(s.mean_guide_deviation_m * 1e3, 2) + " mm");

@@ -36,10 +36,10 @@ std::vector<double> lengths(const std::vector<Vec>& vectors) {
   return list;
 }
 
-TimeAxis::Spans spans(const Trace& trace, uint32_t bit) {
+TimeAxis::Spans spans(const Trace& trace, const std::function<bool(const Output&)>& holds) {
   TimeAxis::Spans list;
   for (size_t i = 0; i < trace.records.size(); ++i) {
-    if ((trace.records[i].output.state & bit) == 0) continue;
+    if (!holds(trace.records[i].output)) continue;
     const double from = static_cast<double>(i) / trace.rate_Hz, to = from + 1 / trace.rate_Hz;
     // Gaps of a few ticks are not to be seen at this scale.
     if (!list.empty() && from - list.back().second < 0.004)
@@ -76,15 +76,18 @@ Chart force_chart(const Report& report) {
 Chart distance_chart(const Report& report) {
   Chart chart{"Distance of the tool's centre to the surface", "mm", {}, false, 0, "", 3};
   chart.series.push_back(
-      {"told (upper bound)", kBlue,
+      {"told, negative inside", kBlue,
        values(report.trace,
-              [](const Output& o) { return std::fabs(static_cast<double>(o.distance_m)) * 1e3; }),
+              [](const Output& o) { return static_cast<double>(o.distance_m) * 1e3; }),
        false, 2.6});
-  chart.series.push_back(
-      {"certified lower bound", kOrange,
-       values(report.trace,
-              [](const Output& o) { return static_cast<double>(o.distance_lower_m) * 1e3; }),
-       false, 1.1});
+  chart.series.push_back({"certified bound towards the surface", kOrange,
+                          values(report.trace,
+                                 [](const Output& o) {
+                                   return std::copysign(static_cast<double>(o.distance_lower_m),
+                                                        static_cast<double>(o.distance_m)) *
+                                          1e3;
+                                 }),
+                          false, 1.1});
   return chart;
 }
 
@@ -114,8 +117,12 @@ RunCharts make_charts(const Report& report) {
   const Trace& trace = report.trace;
   RunCharts run;
   run.axis.seconds = report.summary.seconds;
-  run.axis.contact_s = spans(trace, record::kStateContact);
-  run.axis.guide_s = spans(trace, record::kStateOnGuide);
+  const auto felt = [](uint32_t bit) {
+    return [bit](const Output& o) { return motors_are_on(o) && (o.state & bit) != 0; };
+  };
+  run.axis.contact_s = spans(trace, felt(record::kStateContact));
+  run.axis.guide_s = spans(trace, felt(record::kStateOnGuide));
+  run.axis.off_s = spans(trace, [](const Output& o) { return o.faults != 0; });
   run.axis.events = happenings(trace);
   const auto add = [&](Chart chart, std::string note) {
     run.charts.push_back(std::move(chart));
@@ -131,7 +138,7 @@ RunCharts make_charts(const Report& report) {
          true, 1.6});
     add(std::move(depth),
         "Penalty contact: the force comes from this depth, so a softer surface lets the tool in "
-        "farther.");
+        "farther. Grey: after a fault the motors are off, and nothing holds the hand.");
     add(distance_chart(report), note_of_distance(report.summary));
   }
   add(steps_chart(report),

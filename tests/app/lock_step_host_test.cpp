@@ -131,7 +131,7 @@ TEST(AnotherProtocolIsRefusedNamingBoth) {
   host.protocol = 77;
   const link::HelloReply reply = greet(app, host, link::kModeLockStep);
   CHECK_EQ(reply.refused, link::kRefusedProtocol);
-  CHECK(contains(refusal(host, reply), "protocol version: host 77, controller 1"));
+  CHECK(contains(refusal(host, reply), "protocol version: host 77, controller 2"));
   // Nor may another version's Hello be as long as ours.
   const uint32_t longer[20] = {78};
   app.send(link::kHello, longer);
@@ -182,8 +182,8 @@ TEST(FramesOfTheWrongLengthOrTypeAreAnsweredInWords) {
   Inproc here;
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   CHECK_EQ(greet(app, identity(here.controller.asset_crc()), link::kModeLockStep).refused, 0u);
-  for (const uint8_t type :
-       std::vector<uint8_t>{link::kHello, link::kStep, link::kSetParam, link::kBye, 0x77}) {
+  for (const uint8_t type : std::vector<uint8_t>{link::kHello, link::kStep, link::kSetParam,
+                                                 link::kBye, link::kClearFaults, 0x77}) {
     app.send_frame(type, {});
     CHECK_EQ(app.receive().type, link::kText);
   }
@@ -191,6 +191,10 @@ TEST(FramesOfTheWrongLengthOrTypeAreAnsweredInWords) {
   app.send(link::kSetParam, set);
   link::Ack ack;
   CHECK(app.receive(link::kAck).take(ack));
+  CHECK_EQ(ack.result, link::kAckInLockStep);
+  app.send(link::kClearFaults, link::ClearFaults{});
+  CHECK(app.receive(link::kAck).take(ack));
+  CHECK_EQ(ack.index, link::kAckOfClearFaults);
   CHECK_EQ(ack.result, link::kAckInLockStep);
   step(app, input_of(0));  // and it goes on
 }

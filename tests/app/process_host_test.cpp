@@ -78,6 +78,7 @@ TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
   };
   CHECK_EQ(result_of(params::kCount, 1.0f), link::kAckNoSuchParameter);
   CHECK_EQ(result_of(UINT32_MAX, 1.0f), link::kAckNoSuchParameter);
+  CHECK_EQ(result_of(params::kTickPeriod, 0.002f), link::kAckTimerRuns);
   CHECK_EQ(result_of(params::kForceLimit, NAN), link::kAckOutOfRange);
   CHECK_EQ(result_of(params::kForceLimit, INFINITY), link::kAckOutOfRange);
   CHECK_EQ(result_of(params::kForceLimit, -1.0f), link::kAckOutOfRange);
@@ -96,6 +97,31 @@ TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
     if (message.type != link::kLog || !message.take(log) || log.record.input.command == 0) continue;
     CHECK_EQ(log.record.input.command, 1 + params::kForceLimit);
     CHECK_EQ(log.record.input.command_value, 3.5f);
+    ++commands;
+  }
+  CHECK_EQ(acknowledged, 1u);
+  CHECK_EQ(commands, 1u);
+}
+
+TEST(ClearFaultsReachesTheTickAndIsTakenThere) {
+  AppProcess app(FIRMTOUCH_TEST_ASSET);
+  app.send(link::kClearFaults, link::ClearFaults{});
+  CHECK_EQ(app.receive().type, link::kText);  // nobody has said Hello yet
+  CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
+  app.send(link::kClearFaults, link::ClearFaults{});
+  uint32_t acknowledged = 0, commands = 0;
+  for (uint32_t i = 0; i < 300; ++i) {
+    const Message message = app.receive();
+    link::Ack ack;
+    link::Log log;
+    if (message.type == link::kAck && message.take(ack)) {
+      CHECK_EQ(ack.index, link::kAckOfClearFaults);
+      CHECK_EQ(ack.result, link::kAckTaken);
+      ++acknowledged;
+    }
+    if (message.type != link::kLog || !message.take(log) || log.record.input.command == 0) continue;
+    CHECK_EQ(log.record.input.command, record::kCommandClearFaults);
+    CHECK_NE(log.record.output.state & record::kStateCommandTaken, 0u);  // its enable line is low
     ++commands;
   }
   CHECK_EQ(acknowledged, 1u);

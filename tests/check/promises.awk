@@ -23,6 +23,9 @@ function judge_name(token) {
 
 function judge_command(token,    part) {
   split(token, part, " ")
+  if (token ~ / (--help|-h)( |$)/) { complain("`" token "` prints no figure"); return }
+  # Without its rows a query waits for them.
+  if (part[2] == "query" && token !~ /[|<]/) { complain("`" token "` waits on standard input"); return }
   if (part[1] ~ /^build\/[a-z0-9-]+\/bin\/firmtouch(-sim)?$/) {
     if (part[2] !~ /^--/ && !(part[2] in word)) complain("no command " part[2] " of " part[1])
   } else if (part[1] ~ /^[A-Z_]+=/ || part[1] == "ctest" || part[1] == "sh") {

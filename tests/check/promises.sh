@@ -42,6 +42,14 @@ plant_missing_command() {
   row 'planted' '`tools/test`' '`check.words`' '`build/host/bin/firmtouch frobnicate x.fta`'
   expect='planted: no command frobnicate of build/host/bin/firmtouch'
 }
+plant_help_as_a_figure() {
+  row 'planted' '`tools/test`' '`check.words`' '`build/host/bin/firmtouch bake --help`'
+  expect='planted: `build/host/bin/firmtouch bake --help` prints no figure'
+}
+plant_command_that_waits() {
+  row 'planted' '`tools/test`' '`check.words`' '`build/host/bin/firmtouch query part.fta part distance`'
+  expect='planted: .* waits on standard input'
+}
 plant_missing_script() {
   row 'planted' '`tools/test`' '`check.words`' '`tools/nothing --long`'
   expect='planted: there is no tools/nothing'

@@ -104,7 +104,8 @@ AnInputIsNeverOverwritten() {
   box >box.obj
   f bake box.obj -o box.obj; exits 2; told 'overwrite'
   f bake box.obj -o a.fta --cpp ./box.obj; exits 2; told 'overwrite'
-  f make walk box.obj -o box.obj; exits 2; told 'overwrite'
+  cp box.obj box.csv
+  f make walk box.csv -o box.csv; exits 2; told 'overwrite'
   same "$(box | cksum)" "$(cksum <box.obj)"
   f bake box.obj -o a.fta --cpp a.fta; exits 2; absent a.fta
 }
@@ -160,17 +161,30 @@ TheSameInputsGiveTheSameBytes() {
   cmp -s scene.fta mm.fta && fail '--unit changed nothing'
 }
 
+AMadeFileIsWhatItsNameSays() {
+  f make part -o p.ply; exits 2; told "'p.ply'" '.obj' '-o p.obj'; absent p.ply
+  f make part -o p; exits 2; told '.obj'; absent p
+  f make path -o p.obj; exits 2; told '.csv'; absent p.obj
+  box >box.obj
+  f make walk box.obj -o w.txt; exits 2; told "'w.txt'" '.csv'; absent w.txt
+  f make part --triangles 2000 -o P.OBJ; exits 0
+}
+
 MakingIsDeterministicToo() {
   for kind in 'part --triangles 2000' path; do
     # shellcheck disable=SC2086
-    f make $kind --seed 3 -o a
+    case $kind in path) end=csv ;; *) end=obj ;; esac
+    # shellcheck disable=SC2086
+    f make $kind --seed 3 -o a.$end
     exits 0
     # shellcheck disable=SC2086
-    f make $kind --seed 3 -o b
-    cmp -s a b || fail "$kind: other bytes"
+    f make $kind --seed 3 -o b.$end
+    exits 0
+    cmp -s a.$end b.$end || fail "$kind: other bytes"
     # shellcheck disable=SC2086
-    f make $kind --seed 4 -o c
-    cmp -s a c && fail "$kind: --seed changed nothing"
+    f make $kind --seed 4 -o c.$end
+    exits 0
+    cmp -s a.$end c.$end && fail "$kind: --seed changed nothing"
   done
 }
 
@@ -253,6 +267,8 @@ BadRowsAreNamedByLine() {
   printf '1,2,3\n' >p.csv
   f query scene.fta box distance <p.csv; exits 3; told 'standard input:1' "no column 'x'" 'x,y,z'
   f query scene.fta box segment <p.csv; exits 3; told 'ax,ay,az,bx,by,bz'
+  printf 'x,y,z\n1,2,3\n0,5,1,0\n' >p.csv
+  f query scene.fta box distance <p.csv; exits 3; told 'standard input:3' 'has 4 values' 'decimal comma'; same "$out" ''
   printf 'x,y,z,x\n' >p.csv
   f query scene.fta box distance <p.csv; exits 3; told "'x' twice"
   f query scene.fta box distance </dev/null; exits 3; told empty
@@ -298,6 +314,16 @@ TimeIsOneLineWithoutCsv() {
   done
 }
 
+TimeOfNoRowsIsNoFigure() {
+  small_scene
+  printf 'x,y,z\n' >p.csv
+  printf 'ax,ay,az,bx,by,bz\n' >g.csv
+  f query scene.fta box distance --time <p.csv; exits 3; told 'no rows'; same "$out" ''
+  f query scene.fta bend curve --time <p.csv; exits 3; told 'no rows'; same "$out" ''
+  f query scene.fta box segment --time <g.csv; exits 3; told 'no rows'; same "$out" ''
+  f query scene.fta box distance <p.csv; exits 0
+}
+
 AnAbsentNameIsAnsweredWithTheNamesThereAre() {
   small_scene
   f query scene.fta ball distance </dev/null; exits 3; told scene.fta "'ball'" 'meshes: box' 'curves: bend'
@@ -321,12 +347,12 @@ InfoTellsNamesSizesAndProvenance() {
   small_scene
   f info scene.fta
   exits 0
-  for text in 'box:' 'bend:' 'source               box.obj' 'triangles            12' 'mesh nodes'; do
+  for text in 'box:' 'bend:' 'source               box.obj' 'triangles            12' 'mesh nodes' 'bytes a triangle     '; do
     printf '%s\n' "$out" | grep -qF "$text" || fail "no '$text' in: $out"
   done
   f info scene.fta --json
   exits 0
-  for text in '"name": "box"' '"name": "bend"' '"source": "box.obj"' '"crc": "'; do
+  for text in '"triangles": 12' '"diagonal_m": 7.48331' '"tool": "firmtouch' '"source_fnv1a64": "' '"name": "box"' '"name": "bend"' '"source": "box.obj"' '"crc": "'; do
     printf '%s\n' "$out" | grep -qF "$text" || fail "no '$text' in: $out"
   done
   printf '%s' "$out" | tr -cd '{[' | wc -c >open

@@ -75,7 +75,7 @@ void servo_interrupt() {
   input.reported = tool.faults;
   const servo::StepOutput output = servo::step(servo_state, kServo, model, input);
   float motor_N[3] = {output.force_N.x, output.force_N.y, output.force_N.z};
-  servo::guard(guard_state, kGuard, input.enable && output.faults == 0, false, motor_N);
+  servo::guard(guard_state, input.enable && output.faults == 0, false, motor_N);
   hal::motors_write_N(motor_N);
   keep(tick++, motor_N);
 }
@@ -104,6 +104,7 @@ int main() {
   }
   if (!check(opener.is_ready(), "ConsumerAssetOpensAndItsProbesAnswerTheSameBits"))
     return opener.verdict().rule % 256;
+  servo::guard_set_limits(guard_state, kGuard);
   hal::clock_start_servo(kPeriod_us, servo_interrupt);
   while (!done) asm volatile("wfi");
 

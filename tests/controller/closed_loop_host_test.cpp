@@ -5,6 +5,7 @@
 
 #include "controller/ride.hpp"
 #include "firmtouch/controller.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
 
@@ -136,6 +137,35 @@ TEST(OtherProbeAnswersKeepTheMotorsOff) {
     CHECK_EQ(output.faults, servo::kFaultProbes);
     CHECK_EQ(size_of(output.motor_N), 0.0);
   }
+}
+
+TEST(MoreProbesThanASliceMayRunAreRefused) {
+  for (const uint32_t count : {256u, 257u}) {
+    std::vector<tools::Section> sections = part_sections();
+    mesh::View view;
+    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    sections.pop_back();
+    std::vector<firmtouch::query::ProbePoint> points;
+    for (uint32_t i = 0; i < count; ++i)
+      points.push_back({0.001f * static_cast<float>(i), 0, 0.01f});
+    const uint64_t hash = mesh::probe_hash(view, {points.data(), count});
+    sections.push_back(tools::probe_section(mesh::kProbesSection, "part", points, hash));
+    const Asset many(file_of(std::move(sections)));
+    Controller controller;
+    CHECK_EQ(controller.open(many.bytes()).rule, count == 256 ? 0u : firmtouch::kRuleMeshProbes);
+  }
+}
+
+TEST(SlicesOfOpeningStaySmallAlsoWhereElementsAreChecked) {
+  Controller controller;
+  controller.begin(both().bytes());
+  uint32_t slices = 0;
+  while (!controller.work(4096)) {
+    ++slices;
+    CHECK(controller.verdict().ok());  // nothing is said before it is finished
+  }
+  CHECK(controller.verdict().ok());
+  CHECK_GE(slices, both().size / 4096 + controller.mesh().head().triangle_count / 256);
 }
 
 TEST(OpeningInSmallSlicesWhileTicksRunEndsTheSame) {

@@ -115,7 +115,38 @@ TEST(WhatBendsPositionOrTimeCannotChangeWhileEnabled) {
     input.command_value = params::kTable[row].low;
     g_controller.tick(input, output);
     const bool taken = (output.state & record::kStateCommandTaken) != 0;
-    CHECK_EQ(taken, params::kTable[row].when == params::When::kAnytime);
+    CHECK_EQ(taken, params::kTable[row].when != params::When::kMotorsOff);
+  }
+  g_controller.reset();
+}
+
+TEST(WhereTheSceneLiesCannotChangeAndLimitsOnlyFallWhileEnabled) {
+  g_controller.reset();
+  record::TickOutput output;
+  uint32_t tick = 0;
+  const auto takes = [&](uint32_t row, float value, uint32_t lines) {
+    record::TickInput input = at(tick++, 0);
+    input.lines = lines;
+    input.command = 1 + row;
+    input.command_value = value;
+    g_controller.tick(input, output);
+    return (output.state & record::kStateCommandTaken) != 0;
+  };
+  const uint32_t scene[] = {params::kSceneX, params::kSceneY, params::kSceneZ};
+  for (const uint32_t row : scene) {
+    CHECK(!takes(row, 0.01f, record::kLineEnable));
+    CHECK(takes(row, 0.01f, 0));
+  }
+  const uint32_t limits[] = {params::kForceLimit, params::kSlewLimit};
+  for (const uint32_t row : limits) {
+    const float now = params::kTable[row].initial;
+    CHECK(!takes(row, 1.001f * now, record::kLineEnable));
+    CHECK_EQ(g_controller.values().value[row], now);
+    CHECK(takes(row, now, record::kLineEnable));
+    CHECK(takes(row, 0.5f * now, record::kLineEnable));
+    CHECK(!takes(row, now, record::kLineEnable));
+    CHECK_EQ(g_controller.values().value[row], 0.5f * now);
+    CHECK(takes(row, 1.5f * now, 0));
   }
   g_controller.reset();
 }

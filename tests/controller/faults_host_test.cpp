@@ -158,6 +158,112 @@ TEST(TrippedGuardIsAFaultThatStaysUntilItIsCleared) {
   CHECK_EQ(ride.output.faults, 0u);
 }
 
+TEST(EnableThatStandsSinceTheBeginningPushesOnlyOnceItWasLow) {
+  const auto press = [](Ride& ride, uint32_t tick, bool enable) {
+    ride.fill(400);
+    ride.input.encoder_counts[2] -= 300;
+    ride.input.tick = tick;
+    ride.input.clock_us = tick * 1000u;
+    ride.input.lines = enable ? record::kLineEnable : 0;
+    ride.step();
+  };
+  Ride ride;
+  for (uint32_t round = 0; round < 2; ++round) {
+    double most = 0;
+    for (uint32_t tick = 0; tick < 500; ++tick) {
+      press(ride, tick, true);
+      CHECK_EQ(size_of(ride.output.motor_N), 0.0);
+      CHECK_EQ(ride.output.state & record::kStateServoMask,
+               static_cast<uint32_t>(servo::Mode::kOff));
+    }
+    press(ride, 500, false);
+    for (uint32_t tick = 501; tick < 1000; ++tick) {
+      press(ride, tick, true);
+      most = std::fmax(most, size_of(ride.output.motor_N));
+    }
+    CHECK_GE(most, 0.3);
+    CHECK_EQ(ride.output.faults, 0u);
+    ride.controller.reset();
+  }
+  // Low while the asset was still being opened does not count.
+  ride.controller.begin(both().bytes());
+  press(ride, 0, false);
+  while (!ride.controller.work(4096)) {
+  }
+  for (uint32_t tick = 1; tick < 300; ++tick) {
+    press(ride, tick, true);
+    CHECK_EQ(size_of(ride.output.motor_N), 0.0);
+  }
+}
+
+TEST(DeviceThatNeverReadASampleIsNotFeltAndFaultsWhenEnabled) {
+  Ride ride;
+  const auto step = [&](uint32_t tick, uint32_t lines, uint32_t row, float value) {
+    ride.fill(tick);
+    ride.input.lines = lines | record::kLineEncoderFault;
+    ride.input.command = row == params::kCount ? 0 : 1 + row;
+    ride.input.command_value = value;
+    ride.step();
+  };
+  step(0, 0, params::kRampIn, 0);
+  step(1, 0, params::kForceLimit, 100);
+  step(2, 0, params::kSlewLimit, 1e6f);
+  step(3, 0, params::kContactStiffness, 20000);
+  step(4, 0, params::kGuideSnap, 1);
+  step(5, 0, params::kGuideStiffness, 20000);
+  for (uint32_t tick = 6; tick < 40; ++tick) {
+    const uint32_t lines = tick < 10 ? 0 : record::kLineEnable;
+    step(tick, lines, params::kCount, 0);
+    CHECK_EQ(ride.output.steps, 0u);
+    CHECK_EQ(ride.output.distance_m, 0.0f);
+    CHECK_EQ(ride.output.state & (record::kStateContact | record::kStateOnGuide), 0u);
+    CHECK_EQ(size_of(ride.output.motor_N), 0.0);
+    CHECK_EQ(ride.output.faults, tick < 10 ? 0u : servo::kFaultEncoder);
+  }
+}
+
+TEST(FlippedBitsInTheParametersDoNotPassTheGuard) {
+  uint32_t stopped = 0, too_much = 0, too_fast = 0;
+  for (uint32_t row = 0; row < params::kCount; ++row) {
+    for (uint32_t bit = 0; bit < 32; ++bit) {
+      Ride ride;
+      float before[3] = {};
+      for (uint32_t tick = 0; tick < 330; ++tick) {
+        ride.fill(400);
+        ride.input.tick = tick;
+        ride.input.clock_us = tick * 1000u;
+        ride.input.lines = tick < 10 ? 0 : record::kLineEnable;
+        // 30 mm further in, 0.5 mm a tick: 800 N/m would like to push with far more than 8 N.
+        const uint32_t pressed = tick < 250 ? 0 : tick < 310 ? tick - 250 : 60;
+        ride.input.encoder_counts[2] -= 50 * static_cast<int32_t>(pressed);
+        if (tick == 240) {
+          float& value = const_cast<float&>(ride.controller.values().value[row]);
+          uint32_t word;
+          std::memcpy(&word, &value, 4);
+          word ^= 1u << bit;
+          std::memcpy(&value, &word, 4);
+        }
+        if (tick == 245) {  // somebody sets another row: what was hit must not be taken for good
+          ride.input.command = 1 + params::kToolRadius;
+          ride.input.command_value = 0.003f;
+        }
+        ride.step();
+        if (!(size_of(ride.output.motor_N) <= 8.0001)) ++too_much;
+        for (int k = 0; k < 3; ++k) {
+          const float now = ride.output.motor_N[k];
+          const float from = now * before[k] > 0 ? std::fabs(before[k]) : 0;
+          if (!(std::fabs(now) <= from + 5.006f)) ++too_fast;
+          before[k] = now;
+        }
+      }
+      if ((ride.output.faults & (servo::kFaultGuard | servo::kFaultSettings)) != 0) ++stopped;
+    }
+  }
+  CHECK_EQ(too_much, 0u);
+  CHECK_EQ(too_fast, 0u);
+  CHECK_GE(stopped, 10u);
+}
+
 TEST(RandomInputsNeverBreakTheOutput) {
   Ride ride;
   uint64_t word = 1;

@@ -1,10 +1,8 @@
-// The ground floor: check sums, spans of structs, arrays that do not overrun, the hash that
-// machines compare.
+// The ground floor: check sums, spans of structs, the hash that machines compare.
 #include <stdint.h>
 
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/core/crc32.hpp"
-#include "firmtouch/core/fixed_array.hpp"
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
@@ -106,21 +104,6 @@ TEST(StructsAreTheBytesInPlace) {
                          static_cast<uint32_t>(g_bytes[6]) << 16 |
                          static_cast<uint32_t>(g_bytes[7]) << 24);
   CHECK(reinterpret_cast<const uint8_t*>(words.data()) == g_bytes);
-}
-
-TEST(FixedArrayRefusesWhatDoesNotFit) {
-  core::FixedArray<uint32_t, 3> array;
-  CHECK(array.empty());
-  for (uint32_t i = 0; i < 3; ++i) CHECK(array.push(i + 7));
-  CHECK(!array.push(99));
-  CHECK_EQ(array.size(), 3u);
-  uint32_t sum = 0;
-  for (const uint32_t value : array) sum += value;
-  CHECK_EQ(sum, 24u);
-  array.clear();
-  CHECK(array.empty());
-  CHECK(array.push(5));
-  CHECK_EQ(array[0], 5u);
 }
 
 TEST(HashIsFnv1aOfTheLittleEndianBytes) {

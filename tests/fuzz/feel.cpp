@@ -135,13 +135,14 @@ core::Verdict open_curve(const asset::Container& container, const char* name) {
 
 }  // namespace
 
-core::Verdict feel(const std::vector<uint8_t>& file) {
+core::Verdict feel(const std::vector<uint8_t>& file, const char* only) {
   asset::Container container;
   const core::Verdict verdict =
       asset::open({file.data(), static_cast<uint32_t>(file.size())}, container);
   if (!verdict.ok()) return verdict;
   core::Verdict first = core::kPassed;
   for (uint32_t i = 0; i < container.section_count(); ++i) {
+    if (only != nullptr && std::strcmp(container.name(i), only) != 0) continue;
     core::Verdict found = core::kPassed;
     if (container.type(i) == mesh::kHeadSection) found = open_mesh(container, container.name(i));
     if (container.type(i) == curve::kHeadSection) found = open_curve(container, container.name(i));

@@ -1,5 +1,6 @@
 # The decoders under the address and undefined-behaviour sanitizers, where the compiler has them: the rooms that read an
-# asset are compiled once more, into this program alone. FIRMTOUCH_LONG=1 in the environment tries every bit.
+# asset are compiled once more, into this program alone. FIRMTOUCH_LONG=1 in the environment tries
+# more odd words.
 include(CheckCXXSourceCompiles)
 set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all)
 set(CMAKE_REQUIRED_FLAGS "-fsanitize=address,undefined")

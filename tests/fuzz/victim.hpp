@@ -15,7 +15,8 @@ std::vector<uint8_t> make_victim();
 /// at points that include NaN and the limits, with small and large budgets. Every section is copied
 /// to its own allocation first, so that the address sanitizer sees a read beyond it. Result: the
 /// first refusal, or a pass; a failed check of the harness where an answer is out of range, not
-/// finite or over its budget.
-core::Verdict feel(const std::vector<uint8_t>& file);
+/// finite or over its budget. `only`: the asset that is asked, nullptr for all; none shares a byte
+/// with another.
+core::Verdict feel(const std::vector<uint8_t>& file, const char* only = nullptr);
 
 }  // namespace firmtouch::fuzz

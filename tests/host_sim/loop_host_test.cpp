@@ -1,4 +1,5 @@
 // The closed loop in this process, its log, and the replay.
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -69,6 +70,24 @@ TEST(LoopTouchesFollowsAndLatchesItsFault) {
   CHECK_LE(s.worst_steps, s.budget_steps);
   CHECK_EQ(s.wrong_bounds, 0u);
   CHECK_GE(s.judged_ticks, 1000u);
+}
+
+// After the emergency stop the hand sinks into the part: nobody feels that, and no figure tells of it.
+TEST(ContactIsToldOfTicksWithTheMotorsOnAlone) {
+  const host_sim::Summary s = summarise(the_run().scenario, the_run().world, the_run().trace);
+  size_t contact = 0, later = 0;
+  double deepest_m = 0, deepest_later_m = 0;
+  for (const record::TickRecord& r : the_run().trace.records) {
+    const bool touches = (r.output.state & record::kStateContact) != 0;
+    const bool stopped = r.output.faults != 0;
+    double& deepest = stopped ? deepest_later_m : deepest_m;
+    deepest = std::max(deepest, static_cast<double>(r.output.penetration_m));
+    (stopped ? later : contact) += touches ? 1 : 0;
+  }
+  CHECK_GE(later, 100u);
+  CHECK_LT(deepest_m * 2, deepest_later_m);
+  CHECK_EQ(s.contact_ticks, contact);
+  CHECK(!(s.worst_penetration_m < deepest_m) && !(s.worst_penetration_m > deepest_m));
 }
 
 TEST(SameScenarioGivesTheSameRecords) {
@@ -157,6 +176,35 @@ TEST(RefusedParameterEndsTheRunNamingIt) {
   }
   CHECK(message.find("refuses tick_period_s") != std::string::npos);
   CHECK(message.find("only while the motors are off") != std::string::npos);
+}
+
+// A fault of a moment and a held line; both are cleared as an operator does it, and the loop goes on.
+TEST(FaultsAreClearedByTheScenarioWhileDisabled) {
+  const auto run_with = [](const std::string& events) {
+    const Session session(part_asset());
+    const host_sim::World world = host_sim::world_of(*session.controller, {});
+    host_sim::Scenario scenario =
+        host_sim::read_scenario("clear.scenario", "asset part.fta\nduration 1 s\n" + events, {},
+                                host_sim::parameter_rows());
+    host_sim::complete(scenario);
+    return host_sim::run(scenario, *session.controller, world, nullptr, {});
+  };
+  const std::string stop = "at 0.3 s emergency_stop\nat 0.4 s release\n";
+  const std::string clear = stop + "at 0.5 s disable\nat 0.6 s clear_faults\nat 0.7 s enable\n";
+  const Trace trace = run_with(clear);
+  CHECK_EQ(trace.records[450].output.faults, servo::kFaultEmergencyStop);  // latched
+  CHECK_EQ(trace.records[600].input.command, record::kCommandClearFaults);
+  CHECK_EQ(trace.records[650].output.faults, 0u);
+  CHECK_EQ(trace.records.back().output.faults, 0u);
+  CHECK_EQ(trace.records.back().output.state & record::kStateServoMask,
+           static_cast<uint32_t>(servo::Mode::kOn));
+  std::string message;
+  try {
+    run_with(stop + "at 0.6 s clear_faults\n");
+  } catch (const host_sim::Refused& refused) {
+    message = refused.what();
+  }
+  CHECK(message.find("only while disabled") != std::string::npos);
 }
 
 TEST(AssetOfOtherBytesIsRefusedByItsRule) {

@@ -4,4 +4,6 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
   target_link_libraries(firmtouch_test_part PUBLIC firmtouch_host_sim firmtouch_tools_bake firmtouch_tools_surface)
   firmtouch_hosted(firmtouch_test_part)
   firmtouch_test_room(host_sim LINKS firmtouch_test_part)
+  add_test(NAME host_sim.outputs
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_outputs $<TARGET_FILE_DIR:firmtouch-sim>)
 endif()

@@ -5,6 +5,7 @@
 #include "harness/test.hpp"
 #include "host_sim/run.hpp"
 #include "host_sim/scenario.hpp"
+#include "host_sim/scenario_words.hpp"
 #include "host_sim/units.hpp"
 
 namespace host_sim = firmtouch::host_sim;
@@ -112,13 +113,28 @@ TEST(ScenarioWithoutAnAssetOrAnEndIsRefused) {
   CHECK(says(refusal("asset a.fta\n"), "no end"));
 }
 
-TEST(SetReplacesAValueAndMayLeaveOutTheUnit) {
+TEST(SetReplacesAValueAndWantsItsUnit) {
   const Scenario s =
-      read(kHead + "mass 1 kg\ntool_radius 1 mm\n", {"mass 80 g", "tool_radius 0.004"});
+      read(kHead + "mass 1 kg\ntool_radius 1 mm\n", {"mass 80 g", "tool_radius 4 mm"});
   CHECK(near(s.device.mass_kg, 0.08));
   CHECK_EQ(s.settings.size(), 1u);
   CHECK(near(s.settings[0].value, 0.004));
   CHECK(says(refusal(kHead, {"mas 1"}), "--set mas 1: unknown key"));
+  CHECK(says(refusal(kHead, {"mass 60"}), "the unit of `mass` (kg, g)"));
+  CHECK(says(refusal(kHead, {"tool_radius 0.004"}), "the unit of `tool_radius`"));
+}
+
+TEST(AnyPathComesBackFromItsWord) {
+  for (const std::string path :
+       {"a.fta", "gear #2.fta", "#1", " leading", "trailing ", "a#b", "a\"b\"", "back\\slash",
+        "back\\", "two\nlines", "\ttab", "\"", "\\n"}) {
+    const std::string line = "asset " + host_sim::path_word(path);
+    CHECK(read(line + "\nduration 1 s\n").asset == path);
+    CHECK(read(line + "  # \"a\" comment\nduration 1 s\n").asset == path);
+  }
+  CHECK(read("asset gear#2.fta # comment\nduration 1 s\n").asset == "gear#2.fta");
+  CHECK(says(refusal("asset \"a.fta\n"), "a quoted path ends with its quote"));
+  CHECK(says(refusal("asset \"a.fta\" b\n"), "a quoted path ends with its quote"));
 }
 
 TEST(UnitsOfOtherDimensionsDoNotConvert) {
@@ -131,7 +147,11 @@ TEST(UnitsOfOtherDimensionsDoNotConvert) {
 // The table is the controller's; its names must stay writable in a scenario.
 TEST(EveryParameterOfTheTableCanBeSetByName) {
   for (const host_sim::ParameterRow& row : host_sim::parameter_rows()) {
-    const Scenario s = read(kHead, {row.short_name + " " + std::to_string(row.initial)});
+    const Scenario s =
+        read(kHead, {row.short_name + " " + std::to_string(row.initial) +
+                     (row.unit.empty() ? ""
+                                       : " " + host_sim::units_like(row.unit).substr(
+                                                   0, host_sim::units_like(row.unit).find(',')))});
     CHECK_EQ(s.settings.size(), 1u);
     if (!row.unit.empty() && !host_sim::to_si(1, row.unit, row.unit)) CHECK(says("", row.unit));
     CHECK(row.unit.empty() || host_sim::units_like(row.unit) != "");

@@ -24,6 +24,19 @@ TEST(CommandsAreTakenOneATickInTheirOrder) {
   CHECK_EQ(input.command_value, 0.0f);
 }
 
+TEST(ClearFaultsTakesItsTurnAmongParameters) {
+  CommandMailbox mailbox;
+  record::TickInput input{};
+  CHECK(mailbox.put(3, 1.5f));
+  CHECK(mailbox.put_clear_faults());
+  mailbox.take(input);
+  CHECK_EQ(input.command, 4u);
+  mailbox.take(input);
+  CHECK_EQ(input.command, record::kCommandClearFaults);
+  mailbox.take(input);
+  CHECK_EQ(input.command, record::kCommandNone);
+}
+
 TEST(AFullMailboxRefusesAndKeepsWhatItHas) {
   CommandMailbox mailbox;
   for (uint32_t i = 0; i < CommandMailbox::kCapacity; ++i) CHECK(mailbox.put(i, 0));

@@ -8,6 +8,7 @@
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/math/arithmetic_check.hpp"
 #include "firmtouch/math/elementary.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
@@ -101,6 +102,21 @@ TEST(BoxDistanceIsTheSquaredGapInCells) {
 }
 
 TEST(ThisProcessorComputesAsTheBakersDid) { CHECK(math::arithmetic_is_sound()); }
+
+// Every check of the firmware is of these forms; -ffinite-math-only would make them pass a NaN.
+TEST(NanIsInsideNoLimit) {
+  const uint32_t nans[] = {0x7FC00000u, 0xFFC00000u, 0x7F800001u, 0xFFFFFFFFu};
+  for (const uint32_t bits : nans) {
+    volatile uint32_t word = bits;
+    const float nan = math::float_of(word);
+    const bool above = !(nan <= FLT_MAX), below = !(nan >= -FLT_MAX);
+    CHECK(above && below);
+    CHECK(!math::is_finite(nan));
+    CHECK(!math::is_finite(math::Vec3{0, nan, 0}));
+  }
+  volatile float largest = FLT_MAX;
+  CHECK(math::is_finite(largest));
+}
 
 TEST(ElementaryFunctionsAreFiniteForEveryInput) {
   const auto is_finite = [](float value) {

@@ -72,6 +72,7 @@ struct Cube {
       head.grid_low_m[k] = -head.cell_m * 16384.0f;
     }
     head.diagonal_m = 3.4641f * half_m;
+    head.longest_edge_m = 2.8285f * half_m;
   }
 
   // Two triangles a side; edge 0 is the side's diagonal (no fold), the other two are the cube's

@@ -16,10 +16,11 @@ const servo::GuardLimits kLimits{8.0f, 5000.0f, 0.001f};
 
 struct Rig {
   servo::GuardState state;
+  Rig() { CHECK(servo::guard_set_limits(state, kLimits)); }
   float motor_N[3] = {};
   bool pass(float x, float y, float z, bool may_push = true, bool cut = false) {
     motor_N[0] = x, motor_N[1] = y, motor_N[2] = z;
-    return servo::guard(state, kLimits, may_push, cut, motor_N);
+    return servo::guard(state, may_push, cut, motor_N);
   }
   bool is_zero() const {
     return math::bits_of(motor_N[0]) == 0 && math::bits_of(motor_N[1]) == 0 &&
@@ -73,7 +74,7 @@ TEST(GuardStopsEverythingThatIsNotANumber) {
       motor_N[axis] = math::float_of(bits);
       const bool small =
           !(motor_N[axis] > 5.0f) && !(motor_N[axis] < -5.0f) && test::is_number(motor_N[axis]);
-      const bool passed = servo::guard(rig.state, kLimits, true, false, motor_N);
+      const bool passed = servo::guard(rig.state, true, false, motor_N);
       CHECK_EQ(passed, small);
       CHECK(passed || math::bits_of(motor_N[axis]) == 0);
     }
@@ -85,14 +86,14 @@ TEST(GuardStopsWhereItsLimitsAreNotNumbers) {
                           0xBF800000u, 0x7F7FFFFFu, 0xFFC00001u};
   for (int field = 0; field < 3; ++field) {
     for (const uint32_t bits : bad) {
-      if (field != 0 && bits == 0xBF800000u) continue;  // size counts there
       servo::GuardLimits limits = kLimits;
       (field == 0   ? limits.force_limit_N
        : field == 1 ? limits.slew_limit_N_per_s
                     : limits.tick_period_s) = math::float_of(bits);
       servo::GuardState state;
+      CHECK(servo::guard_set_limits(state, limits));
       float motor_N[3] = {1, 0, 0};
-      CHECK(!servo::guard(state, limits, true, false, motor_N));
+      CHECK(!servo::guard(state, true, false, motor_N));
       CHECK_EQ(motor_N[0], 0.0f);
     }
   }
@@ -127,6 +128,56 @@ TEST(GuardCutsAtOnceWhereItMust) {
   CHECK(rig.pass(0, 0, 0, true, true));
   CHECK(!rig.pass(0.5f, 0, 0, true, true));
   CHECK(rig.is_zero());
+}
+
+TEST(GuardHoldsItsCeilingsWhateverLimitsItIsGiven) {
+  const servo::GuardLimits beyond[] = {
+      {128.0f, 5000.0f, 0.001f}, {8.0f, 2e6f, 0.001f}, {8.0f, 5000.0f, 0.11f}};
+  for (const servo::GuardLimits& limits : beyond) {
+    Rig rig;
+    CHECK(servo::guard_set_limits(rig.state, limits));
+    CHECK(rig.pass(0, 0, 0));
+    CHECK(!rig.pass(0.5f, 0, 0));
+    CHECK(rig.is_zero());
+  }
+  Rig most;
+  CHECK(servo::guard_set_limits(
+      most.state,
+      {servo::kGuardMostForce_N, servo::kGuardMostSlew_N_per_s, servo::kGuardMostPeriod_s}));
+  CHECK(most.pass(99.9f, 0, 0));
+  CHECK(!most.pass(100.1f, 0, 0));
+}
+
+TEST(GuardWithoutLimitsLetsNoForcePass) {
+  servo::GuardState state;
+  float motor_N[3] = {0.01f, 0, 0};
+  CHECK(!servo::guard(state, true, false, motor_N));
+  CHECK_EQ(motor_N[0], 0.0f);
+}
+
+TEST(GuardKeepsItsLimitsThroughAClear) {
+  Rig rig;
+  CHECK(!rig.pass(100, 0, 0));
+  servo::guard_clear(rig.state);
+  const servo::GuardLimits limits = servo::guard_limits(rig.state);
+  CHECK_EQ(limits.force_limit_N, kLimits.force_limit_N);
+  CHECK_EQ(limits.slew_limit_N_per_s, kLimits.slew_limit_N_per_s);
+  CHECK_EQ(limits.tick_period_s, kLimits.tick_period_s);
+}
+
+TEST(LimitsThatWereHitAreNotMendedByAClearOrAnotherLimit) {
+  for (uint32_t bit = 0; bit < 64 * 3; ++bit) {
+    Rig rig;
+    uint32_t* words = bit < 96 ? rig.state.limit : rig.state.limit_complement;
+    words[bit % 96 / 32] ^= 1u << (bit % 32);
+    CHECK(!rig.pass(0, 0, 0));
+    servo::guard_clear(rig.state);
+    CHECK(!rig.pass(0, 0, 0));
+    servo::guard_clear(rig.state);
+    CHECK(!servo::guard_set_limits(rig.state, kLimits));
+    CHECK(!rig.pass(0.1f, 0, 0));
+    CHECK(rig.is_zero());
+  }
 }
 
 TEST(GuardNoticesEveryFlippedBitOfItsMemoryThatMatters) {

@@ -105,7 +105,6 @@ TEST(EverySpecialInEveryFieldKeepsTheForceFiniteLimitedAndSlow) {
 
 TEST(NotANumberIsAFaultInItsTickInEveryField) {
   for_each_float([](size_t offset) {
-    test::Random random;
     servo::State state;
     Everything all = usual();
     (void)servo::step(state, all.settings, all.model, all.input);
@@ -128,7 +127,11 @@ TEST(SameInputsGiveTheSameBits) {
     const servo::StepOutput x = servo::step(a, all.settings, all.model, all.input);
     const servo::StepOutput y = servo::step(b, all.settings, all.model, all.input);
     CHECK_EQ(math::bits_of(x.force_N.x), math::bits_of(y.force_N.x));
+    CHECK_EQ(math::bits_of(x.force_N.y), math::bits_of(y.force_N.y));
     CHECK_EQ(math::bits_of(x.force_N.z), math::bits_of(y.force_N.z));
+    CHECK(x.mode == y.mode);
+    CHECK_EQ(x.faults, y.faults);
+    CHECK_EQ(x.in_free_radius, y.in_free_radius);
   }
 }
 
@@ -139,6 +142,7 @@ TEST(FlippedBitsInTheServosMemoryDoNotPassTheGuard) {
   for (uint32_t round = 0; round < 3000; ++round) {
     servo::State state;
     servo::GuardState guard;
+    CHECK(servo::guard_set_limits(guard, limits));
     math::Vec3 before;
     const uint32_t hit_at = 10 + random.next() % 20;
     for (uint32_t tick = 0; tick < 40; ++tick) {
@@ -157,7 +161,7 @@ TEST(FlippedBitsInTheServosMemoryDoNotPassTheGuard) {
       }
       const servo::StepOutput output = servo::step(state, all.settings, all.model, all.input);
       float motor_N[3] = {output.force_N.x, output.force_N.y, output.force_N.z};
-      if (!servo::guard(guard, limits, output.faults == 0, false, motor_N)) ++tripped;
+      if (!servo::guard(guard, output.faults == 0, false, motor_N)) ++tripped;
       const math::Vec3 now{motor_N[0], motor_N[1], motor_N[2]};
       if (!test::is_number(now) || test::square(now) > 8.0001 * 8.0001) ++broken;
       // The guard looks at each axis; 2 N a tick and its own rounding.

@@ -164,8 +164,45 @@ TEST(TimingAndEncoderFaultsCountOnlyWhileTheMotorsAreOn) {
   input.reported = servo::kOnlyWhileOn;
   CHECK_EQ(servo::step(state, kSettings, floor_model(), input).faults, 0u);
   input.enable = true;
-  (void)servo::step(state, kSettings, floor_model(), input);
   CHECK_EQ(servo::step(state, kSettings, floor_model(), input).faults, servo::kOnlyWhileOn);
+}
+
+TEST(EnablingOverAFaultThatStandsPushesInNoTick) {
+  for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit) {
+    servo::Settings at_once = kSettings;
+    at_once.ramp_in_s = 0;
+    servo::State state;
+    servo::StepInput input = at(-0.001f, 0);
+    input.reported = 1u << bit;
+    input.enable = false;
+    (void)servo::step(state, at_once, floor_model(), input);
+    input.enable = true;
+    for (int tick = 0; tick < 3; ++tick) {
+      const servo::StepOutput output = servo::step(state, at_once, floor_model(), input);
+      CHECK_EQ(output.faults, 1u << bit);
+      CHECK_EQ(output.force_N.z, 0.0f);
+      CHECK(output.mode == servo::Mode::kFault);
+    }
+  }
+  servo::State state;  // a model that expired is no different
+  servo::LocalModel stale = floor_model();
+  stale.expires_tick = 3;
+  const servo::StepOutput output = servo::step(state, kSettings, stale, at(-0.001f, 4));
+  CHECK_EQ(output.faults, servo::kFaultStaleModel);
+  CHECK_EQ(output.force_N.z, 0.0f);
+}
+
+TEST(SettingsBeyondTheCeilingAreAFaultThatCutsAtOnce) {
+  for (int field = 0; field < 3; ++field) {
+    servo::State state = pressed(floor_model());
+    servo::Settings bent = kSettings;
+    if (field == 0) bent.force_limit_N = 128.0f;
+    if (field == 1) bent.slew_limit_N_per_s = 1.1e6f;
+    if (field == 2) bent.tick_period_s = 0.11f;
+    const servo::StepOutput output = servo::step(state, bent, floor_model(), at(-0.001f, 100));
+    CHECK_EQ(output.faults, servo::kFaultSettings);
+    CHECK_EQ(output.force_N.z, 0.0f);
+  }
 }
 
 TEST(StaleModelIsLetGoOfInItsTickAndAcrossTheWrap) {

@@ -24,6 +24,20 @@ void longest_edge_first(Surface& surface) {
   }
 }
 
+// Half a unit in the last place of every coordinate: what reading them as float32 can have lost.
+float import_rounding_m(const Surface& surface) {
+  double largest2 = 0;
+  for (const math::Vec3& v : surface.vertices) {
+    double sum = 0;
+    for (const float x : {v.x, v.y, v.z}) {
+      const double half = std::fabs(double{x}) * 0x1p-24;
+      sum += half * half;
+    }
+    largest2 = std::max(largest2, sum);
+  }
+  return static_cast<float>(std::sqrt(largest2) * (1 + 0x1p-20));
+}
+
 mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& tree,
                      bool is_signed) {
   mesh::Head head{};
@@ -47,6 +61,11 @@ mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& t
   }
   head.diagonal_m = static_cast<float>(std::sqrt(diagonal2) * (1 - 0x1p-21));
   head.cell_m = grid.cell_m;
+  head.rounding_m = std::min(import_rounding_m(surface), mesh::kMostRounding * head.diagonal_m);
+  for (const Face& f : surface.faces) {
+    const float edge_m = math::length(surface.vertices[f[1]] - surface.vertices[f[0]]);
+    head.longest_edge_m = std::max(head.longest_edge_m, edge_m);
+  }
   return head;
 }
 
@@ -78,6 +97,27 @@ Surface in_leaf_order(const Surface& surface, const std::vector<uint32_t>& order
     sorted.source.push_back(f < surface.source.size() ? surface.source[f] : f);
   }
   return sorted;
+}
+
+// A needle or a knife's edge so sharp that the stored pseudonormal could tell the wrong side: its
+// encoding errs by 6e-5 rad, and near the surface the direction to the query errs too.
+constexpr double kLeastMargin_rad = 3e-4;
+
+std::string place(const math::Vec3& v) {
+  return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) +
+         " m)";
+}
+
+std::string margin_failure(const Surface& surface, const Pseudonormals& normals) {
+  const char* remedy = "; blunt it, or bake with --unsigned";
+  if (normals.smallest_vertex_margin_rad < kLeastMargin_rad)
+    return "the corner at " + place(surface.vertices[normals.worst_vertex]) +
+           " is too sharp a needle for inside and outside to be told from the nearest point" +
+           remedy;
+  if (normals.smallest_edge_margin_rad < kLeastMargin_rad)
+    return "the triangle at " + place(surface.vertices[surface.faces[normals.worst_face][0]]) +
+           " folds back on its neighbour: inside and outside cannot be told there" + remedy;
+  return {};
 }
 
 std::string proof_failure(const core::Verdict& verdict) {
@@ -128,6 +168,8 @@ std::vector<Section> bake_mesh(const Surface& input, const std::string& name,
     const Pseudonormals normals = make_pseudonormals(surface);
     report.smallest_vertex_margin_rad = normals.smallest_vertex_margin_rad;
     report.smallest_edge_margin_rad = normals.smallest_edge_margin_rad;
+    report.problem = margin_failure(surface, normals);
+    if (!report.problem.empty()) return {};
     sections.push_back(make_section(mesh::kVertexNormalsSection, name, normals.vertices));
     sections.push_back(make_section(mesh::kEdgeFoldsSection, name, normals.edges));
   }

@@ -16,8 +16,8 @@ struct MeshOptions {
 
 struct MeshReport {
   uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0, bytes = 0;
-  double smallest_vertex_margin_rad =
-      0;  // by how much the worst stored vertex normal may still turn
+  // By how much the worst stored vertex normal may still turn.
+  double smallest_vertex_margin_rad = 0;
   double smallest_edge_margin_rad = 0;
   std::string problem;  // empty: baked and proven; else what, where and how to mend
 };

@@ -102,12 +102,22 @@ double vertex_margin(const std::vector<D3>& edges, D3 exact, D3 stored) {
   return least;
 }
 
+// The same where many faces meet, as at the tip of a finely cut cone: the normals of the faces are
+// what the rays come down to at a convex or concave corner.
+double fan_margin(const std::vector<D3>& face_normals, D3 exact, D3 stored) {
+  double least = 2;
+  for (const D3& n : face_normals)
+    if (dot(exact, n) > 0) least = std::min(least, dot(stored, n));
+  return least;
+}
+
 }  // namespace
 
 Pseudonormals make_pseudonormals(const Surface& surface) {
   const size_t faces = surface.faces.size(), vertices = surface.vertices.size();
   std::vector<D3> normals(faces), sums(vertices);
   std::vector<std::vector<D3>> stars(vertices);  // unit edges that leave each vertex
+  std::vector<std::vector<D3>> fans(vertices);   // normals of its faces
   const auto corner = [&](size_t f, size_t k) {
     return wide(surface.vertices[surface.faces[f][k % 3]]);
   };
@@ -119,18 +129,19 @@ Pseudonormals make_pseudonormals(const Surface& surface) {
       D3& sum = sums[surface.faces[f][k]];
       sum = sum + normals[f] * angle_between(next, last);
       stars[surface.faces[f][k]].push_back(next);
+      fans[surface.faces[f][k]].push_back(normals[f]);
     }
   }
 
   Pseudonormals result;
   double least_vertex = 1, least_edge = 1;
-  constexpr size_t kLargestStar = 64;  // the margin's search is cubic in the valence
+  constexpr size_t kLargestStar = 200;  // the margin's search is cubic in the valence
   for (uint32_t v = 0; v < vertices; ++v) {
     const D3 exact = length(sums[v]) > 0 ? unit(sums[v]) : D3{0, 0, 1};
     result.vertices.push_back(encode_vertex_normal(exact));
-    if (stars[v].size() > kLargestStar) continue;
-    const double margin =
-        vertex_margin(stars[v], exact, wide(mesh::decode_vertex_normal(result.vertices[v])));
+    const D3 stored = wide(mesh::decode_vertex_normal(result.vertices[v]));
+    const double margin = stars[v].size() <= kLargestStar ? vertex_margin(stars[v], exact, stored)
+                                                          : fan_margin(fans[v], exact, stored);
     if (margin < least_vertex) least_vertex = margin, result.worst_vertex = v;
   }
 

@@ -55,6 +55,7 @@ struct Reader {
   const std::string& origin;
   const std::vector<std::string>& columns;
   std::vector<size_t> places;  // of each column in a row
+  size_t names_of_header = 0;
   CsvTable table;
 
   [[noreturn]] void fail(uint32_t line, const std::string& what) const {
@@ -63,6 +64,7 @@ struct Reader {
 
   void read_header(std::string_view line, uint32_t number) {
     const std::vector<std::string_view> names = fields_of(line);
+    names_of_header = names.size();
     for (const std::string& column : columns) {
       size_t found = names.size();
       for (size_t i = 0; i < names.size(); ++i) {
@@ -80,6 +82,11 @@ struct Reader {
 
   void read_row(std::string_view line, uint32_t number) {
     const std::vector<std::string_view> fields = fields_of(line);
+    if (fields.size() > names_of_header) {
+      fail(number, "the row has " + std::to_string(fields.size()) + " values, the header " +
+                       std::to_string(names_of_header) +
+                       " columns; was a decimal comma used? Write numbers with a point, as 0.125");
+    }
     for (size_t i = 0; i < columns.size(); ++i) {
       if (places[i] >= fields.size()) {
         fail(number, "the row has " + std::to_string(fields.size()) + " values, column '" +
@@ -101,7 +108,7 @@ struct Reader {
 
 CsvTable read_csv(const std::string& text, const std::string& origin,
                   const std::vector<std::string>& columns) {
-  Reader reader{origin, columns, {}, {}};
+  Reader reader{origin, columns, {}, 0, {}};
   reader.table.columns = columns.size();
   std::string_view rest = text;
   if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);

@@ -18,7 +18,7 @@ struct CsvTable {
 /// Reads `text` (of the file or stream `origin`): a header row that names at least `columns`, in
 /// any order, then one row a line. Takes CRLF, blanks about values, empty lines and a byte-order
 /// mark; other columns are ignored. `nan` and `inf` are values here. Fails (bad input) with the
-/// line and the remedy on anything else.
+/// line and the remedy on anything else, a row of more values than the header has names included.
 CsvTable read_csv(const std::string& text, const std::string& origin,
                   const std::vector<std::string>& columns);
 

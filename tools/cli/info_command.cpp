@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 
 #include "bake/asset_views.hpp"
@@ -83,6 +84,42 @@ std::string json_text(const std::string& text) {
   return quoted + "\"";
 }
 
+// A hash, a name or a version may look like a number and is none.
+bool is_text(const std::string& fact) {
+  for (const char* const text : {"kind", "source", "source_fnv1a64", "options", "tool"}) {
+    if (fact == text) return true;
+  }
+  return false;
+}
+
+size_t digits_end(const std::string& text, size_t at) {
+  while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+  return at;
+}
+
+// The numbers of JSON: -12, 0.5, 1e-07; not 007, .5, inf.
+bool is_number(const std::string& text) {
+  const size_t begin = text[0] == '-' ? 1 : 0;
+  size_t at = digits_end(text, begin);
+  if (at == begin || (text[begin] == '0' && at > begin + 1)) return false;
+  if (at < text.size() && text[at] == '.') {
+    const size_t fraction = at + 1;
+    at = digits_end(text, fraction);
+    if (at == fraction) return false;
+  }
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    size_t exponent = at + 1;
+    if (exponent < text.size() && (text[exponent] == '-' || text[exponent] == '+')) ++exponent;
+    at = digits_end(text, exponent);
+    if (at == exponent) return false;
+  }
+  return at == text.size();
+}
+
+std::string json_fact(const std::string& fact, const std::string& value) {
+  return !is_text(fact) && is_number(value) ? value : json_text(value);
+}
+
 void print_json(const LoadedAsset& loaded) {
   const asset::Container& container = loaded.container();
   std::printf(
@@ -96,7 +133,8 @@ void print_json(const LoadedAsset& loaded) {
     between = ",\n";
     const char* comma = "";
     for (const auto& fact : named.facts) {
-      std::printf("%s%s: %s", comma, json_text(fact.first).c_str(), json_text(fact.second).c_str());
+      std::printf("%s%s: %s", comma, json_text(fact.first).c_str(),
+                  json_fact(fact.first, fact.second).c_str());
       comma = ", ";
     }
     std::printf("}, \"sections\": [");
@@ -120,6 +158,11 @@ void print_text(const LoadedAsset& loaded) {
                 static_cast<unsigned long long>(named.bytes));
     for (const auto& fact : named.facts)
       std::printf("  %-20s %s\n", fact.first.c_str(), fact.second.c_str());
+    for (const auto& fact : named.facts) {
+      if (fact.first != "triangles") continue;
+      std::printf("  %-20s %.1f\n", "bytes a triangle",
+                  static_cast<double>(named.bytes) / std::strtod(fact.second.c_str(), nullptr));
+    }
     for (const uint32_t i : named.sections) {
       std::printf("  section %04x %10u bytes  %s\n", container.type(i), container.section(i).size(),
                   section_text(container.type(i)));

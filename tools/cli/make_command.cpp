@@ -27,6 +27,14 @@ void forbid(const Arguments& arguments, const std::string& kind, const std::stri
     fail_usage("make: " + option + " has no meaning for " + kind + "; leave it out");
 }
 
+// What is written is one format a kind: a name that says another would lie.
+void demand_extension(const std::string& kind, const std::string& output) {
+  const std::string wanted = kind == "part" ? ".obj" : ".csv";
+  if (extension_of(output) == wanted) return;
+  fail_usage("make: " + kind + " writes " + wanted + ", and '" + output +
+             "' does not end in it; name a file that does: -o " + stem_of(output) + wanted);
+}
+
 std::string made_part(const Arguments& arguments, uint64_t seed) {
   forbid(arguments, "part", "--points");
   const uint32_t triangles = arguments.count("--triangles", kPartTriangles, 2000, 4000000);
@@ -97,6 +105,7 @@ int run_make(const Arguments& arguments) {
     fail_usage("make: one word too many: '" + arguments.positionals()[words] + "'");
   }
   if (output.empty()) fail_usage("make: say where to write: -o FILE");
+  demand_extension(kind, output);
   const uint64_t seed = arguments.count("--seed", 1, 0, UINT32_MAX);
   if (kind == "part") {
     write_text(output, made_part(arguments, seed));

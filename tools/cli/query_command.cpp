@@ -37,6 +37,13 @@ void check_options(const Arguments& arguments, const std::string& kind) {
   if (kind == "curve") (void)curve_options_of(arguments);
 }
 
+CsvTable asked_rows(const std::vector<std::string>& columns, const Arguments& arguments) {
+  CsvTable table = read_csv(read_standard_input(), "standard input", columns);
+  if (arguments.has("--time") && table.rows() == 0)
+    fail_input("standard input: no rows after the header, so there is nothing to time; add some");
+  return table;
+}
+
 }  // namespace
 
 const Command& query_command() {
@@ -80,14 +87,14 @@ int run_query(const Arguments& arguments) {
   const LoadedAsset asset(path);
   if (kind == "curve") {
     const LoadedCurve curve = asset.curve(name);
-    query_curve(curve, read_csv(read_standard_input(), "standard input", kPoint), arguments);
+    query_curve(curve, asked_rows(kPoint, arguments), arguments);
     return kDone;
   }
   const LoadedMesh mesh = asset.mesh(name);
   if (kind == "distance") {
-    query_distance(mesh, read_csv(read_standard_input(), "standard input", kPoint), arguments);
+    query_distance(mesh, asked_rows(kPoint, arguments), arguments);
   } else {
-    query_segment(mesh, read_csv(read_standard_input(), "standard input", kSegment), arguments);
+    query_segment(mesh, asked_rows(kSegment, arguments), arguments);
   }
   return kDone;
 }

@@ -8,7 +8,8 @@
 namespace firmtouch::cli {
 
 /// Runs `pass` (all queries once, result: a sum of the answers, so that none is optimised away)
-/// five times and prints the median as `us_per_query 0.1234 queries 20000`.
+/// five times and prints the median as `us_per_query 0.1234 queries 20000`. `queries` is at
+/// least 1.
 template <class Pass>
 void print_time(size_t queries, const Pass& pass) {
   constexpr size_t kPasses = 5;
@@ -21,8 +22,8 @@ void print_time(size_t queries, const Pass& pass) {
     us.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
   }
   std::sort(us.begin(), us.end());
-  const double count = queries == 0 ? 1 : static_cast<double>(queries);
-  std::printf("us_per_query %.4f queries %zu\n", us[kPasses / 2] / count, queries);
+  std::printf("us_per_query %.4f queries %zu\n", us[kPasses / 2] / static_cast<double>(queries),
+              queries);
 }
 
 }  // namespace firmtouch::cli

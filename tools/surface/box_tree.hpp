@@ -25,8 +25,8 @@ class BoxTree {
 
   std::vector<Box> items_;        // in leaf order
   std::vector<uint32_t> number_;  // of each, as it was given
-  std::vector<Box>
-      nodes_;  // children of i: 2 i + 1 and 2 i + 2; the last leaves_ of them are leaves
+  // Children of i: 2 i + 1 and 2 i + 2; the last leaves_ of them are leaves.
+  std::vector<Box> nodes_;
   uint32_t leaves_ = 1;
 };
 

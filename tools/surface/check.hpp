@@ -8,8 +8,8 @@
 namespace firmtouch::tools {
 
 struct CheckOptions {
-  bool allow_unsigned =
-      false;  // --unsigned: distance without inside and outside; the surface need not be closed
+  // --unsigned: distance without inside and outside; the surface need not be closed.
+  bool allow_unsigned = false;
 };
 
 /// What check_and_mend() did and found, one sentence each: what, how often, where first (indices

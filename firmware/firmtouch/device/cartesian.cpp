@@ -122,6 +122,7 @@ Reading read(State& state, const Settings& settings, const Sample& sample) {
   }
   Reading reading;
   reading.believed = believed;
+  reading.started = state.started;
   if (state.bad_in_a_row >= kBadInARow || count_bits(state.bad_history) >= kBadOf32 ||
       !state.started) {
     reading.faults |= kEncoderFault;

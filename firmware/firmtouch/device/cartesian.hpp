@@ -50,13 +50,15 @@ struct Reading {
   math::Vec3 velocity_mps;
   uint32_t faults = 0;
   bool believed = false;
+  bool started = false;  // a sample was believed once: before, the position is not a measured one
 };
 
 /// Position and velocity from this tick's counts. Counts wrap at 32 bits: what matters is their
 /// difference. The first sample is believed as it is. A step of more than max_speed_mps over the
 /// time since the last believed sample is not.
 /// Bounds: constant; re-entrant.
-/// Result: always finite; the position lies within the workspace, or is clamped to it with
+/// Result: always finite; before the first believed sample `started` is false, the position means
+/// nothing and kEncoderFault is set; the position lies within the workspace, or is clamped to it with
 /// kWorkspaceFault.
 /// Error:  the quantum is 1 / counts_per_metre; beyond it the position is within 1.5 ulp of the
 /// larger of |origin| and |position - origin|, counts above 2^24 included

@@ -6,7 +6,7 @@
 
 namespace firmtouch::link {
 
-/// Parameters on their way from the main loop to the tick: accepted there, taken one a tick at its
+/// Parameters and the operator's wish to clear faults on their way from the main loop to the tick: accepted there, taken one a tick at its
 /// beginning, so that every tick sees a whole set of parameters and the record shows which tick
 /// changed which.
 class CommandMailbox {
@@ -19,6 +19,11 @@ class CommandMailbox {
   bool put(uint32_t parameter_index, float value) {
     return ring_.push({parameter_index + 1, value});
   }
+
+  /// Main loop: the latched faults are to be forgotten.
+  /// Bounds: wait-free.
+  /// Result: false where the mailbox is full.
+  bool put_clear_faults() { return ring_.push({record::kCommandClearFaults, 0}); }
 
   /// Servo interrupt: fills the command of this tick, 0 where there is none.
   /// Bounds: wait-free.

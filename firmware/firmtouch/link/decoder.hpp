@@ -41,8 +41,8 @@ class Decoder {
 
   uint8_t bytes_[kMaxFrameBytes] = {};
   uint32_t count_ = 0;
-  uint32_t given_ =
-      0;  // bytes of the frame that the last next() gave: dropped at the following call
+  // Bytes of the frame that the last next() gave: dropped at the following call.
+  uint32_t given_ = 0;
   uint32_t frames_ = 0;
   uint32_t rejects_ = 0;
   uint32_t skipped_bytes_ = 0;

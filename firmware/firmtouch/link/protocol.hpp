@@ -13,10 +13,10 @@
 //               accepted Hello resets the controller; a Step that comes twice is answered twice,
 //               but ticked once.
 //   live        Hello(kModeLive) -> HelloReply. Ticks are the timer's; their Log frames flow, and
-//               SetParam -> Ack.
+//               SetParam -> Ack, ClearFaults -> Ack.
 namespace firmtouch::link {
 
-constexpr uint32_t kProtocolVersion = 1;
+constexpr uint32_t kProtocolVersion = 2;
 
 // Append-only. The high bit marks what the controller says.
 enum Type : uint8_t {
@@ -24,6 +24,7 @@ enum Type : uint8_t {
   kStep = 0x02,
   kSetParam = 0x03,
   kBye = 0x04,
+  kClearFaults = 0x05,
   kHelloReply = 0x81,
   kStepReply = 0x82,
   kAck = 0x83,
@@ -90,12 +91,22 @@ struct SetParam {
 };
 static_assert(sizeof(SetParam) == 8);
 
+/// Forgets the latched faults at the next tick, if the enable switch is open then; the record of that
+/// tick says whether (record::kStateCommandTaken).
+struct ClearFaults {
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(ClearFaults) == 4);
+
 // Ack::result
 constexpr uint32_t kAckTaken = 0;
 constexpr uint32_t kAckNoSuchParameter = 1;
 constexpr uint32_t kAckOutOfRange = 2;
 constexpr uint32_t kAckBusy = 3;  // the command before it has not reached its tick: send again
 constexpr uint32_t kAckInLockStep = 4;  // there a command travels in its Step: TickInput::command
+constexpr uint32_t kAckTimerRuns = 5;   // tick_period_s: the board's timer keeps its own
+
+constexpr uint32_t kAckOfClearFaults = UINT32_MAX;  // Ack::index, where no parameter was meant
 
 struct Ack {
   uint32_t index = 0;

@@ -48,11 +48,37 @@ bool does_not_contract() {
   return is(a * a - square, 0u);
 }
 
+// As the checks of an asset and the guard compare: a NaN is never inside a limit.
+bool is_inside(float low, float value, float high) {
+  volatile bool outside = !(value >= low && value <= high);
+  return !outside;
+}
+
+bool refuses_nan() {
+  const float limit = run_time(0x7F7FFFFFu);
+  const uint32_t outside[] = {0x7FC00000u, 0xFFC00000u, 0x7F800001u, 0x7F800000u, 0xFF800000u};
+  for (const uint32_t bits : outside)
+    if (is_inside(-limit, run_time(bits), limit)) return false;
+  const float nan = run_time(0x7FC00000u);
+  volatile bool finite = nan - nan <= 0.0f;  // as is_finite() asks
+  volatile bool above = !(nan <= limit);
+  volatile bool below = !(nan >= -limit);
+  return !finite && above && below && is_inside(-limit, limit, limit);
+}
+
+// Sums in the order written, quotients divided, zeroes with their sign.
+bool does_as_written() {
+  const float one = run_time(kOne), tiny = run_time(0x33000000u);  // 2^-25
+  return is((one + tiny) - one, 0u) && is(run_time(0x40A00000u) / 3.0f, 0x3FD55555u) &&
+         is(run_time(0x80000000u) + 0.0f, 0u);
+}
+
 }  // namespace
 
 bool arithmetic_is_sound() {
   return rounds_to_nearest_even() && keeps_denormals() && has_no_extra_precision() &&
-         does_not_contract() && is(square_root(run_time(0x40000000u)), 0x3FB504F3u);
+         does_not_contract() && refuses_nan() && does_as_written() &&
+         is(square_root(run_time(0x40000000u)), 0x3FB504F3u);
 }
 
 }  // namespace firmtouch::math

@@ -6,8 +6,15 @@
 
 #include <stdint.h>
 
-#if defined(__FAST_MATH__)
-#error "Firmtouch promises the same bits everywhere: build it without -ffast-math"
+// Not every compiler tells of each of these flags: arithmetic_is_sound() looks at what they do.
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "Firmtouch promises the same bits everywhere: build it without -ffast-math and its parts"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0
+#error "Firmtouch refuses NaN by comparing it: build it without -ffinite-math-only"
+#endif
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16
+#error "Firmtouch needs float computed as float, not in a wider type (x86: -mfpmath=sse -msse2)"
 #endif
 
 #if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32)
@@ -65,8 +72,8 @@ static inline float portable_square_root(float value) {
     }
   }
   uint32_t rounded = static_cast<uint32_t>(root >> 1);  // 24 bits and the half bit below them
-  if ((root & 1) && (radicand != 0 || (rounded & 1)))
-    ++rounded;  // a root is never half-way: sticky decides
+  // A root is never half-way: sticky decides.
+  if ((root & 1) && (radicand != 0 || (rounded & 1))) ++rounded;
   return float_of((static_cast<uint32_t>(half + 127) << 23) + (rounded - 0x800000u));
 }
 

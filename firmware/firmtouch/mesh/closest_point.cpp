@@ -10,10 +10,16 @@
 namespace firmtouch::mesh {
 namespace {
 
-// What float32 can lose in a triangle's distance, beside max(diagonal, distance): measured at most
-// 1.5e-7 (tests/mesh/triangle_host_test.cpp, slivers of 1e7 to 1 included). Twice this is what an
-// exact answer promises.
-constexpr float kDistanceError = 2e-7f;
+// What an exact answer promises of told distance and lower bound, beside max(diagonal, distance), a
+// little inside of 4e-7.
+constexpr float kPromise = 3.9e-7f;
+
+// Below this distance, beside the diagonal, either side is right; what is nearer is not carried on.
+constexpr float kEitherSide = 2e-6f;
+
+// Error of a stored pseudonormal, its decoding included. The baker refuses features whose margin is
+// not several times this.
+constexpr float kNormalError_rad = 6e-5f;
 
 // A new fence stands this many of the last motions beyond the nearest leaf: nearer, it must soon be
 // renewed; farther, more lies inside it. Of 6, 8, 12 and 16, 8 served the worst touching
@@ -41,63 +47,141 @@ Vec3 feature_direction(const View& mesh, const Best& best) {
 }
 
 bool is_place(const View& mesh, uint32_t place) {
-  return (place >> 1) < mesh.nodes().size() && is_leaf(mesh.nodes()[place >> 1].child[place & 1]);
+  if ((place >> 1) >= mesh.nodes().size()) return false;
+  const uint32_t child = mesh.nodes()[place >> 1].child[place & 1];
+  return is_leaf(child) && leaf_count(child) != 0;
+}
+
+template <bool kCareful, class Bound>
+void search(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budget, uint32_t start,
+            Search& result) {
+  if (!mesh.triangles16().empty())
+    search_nearest<kCareful>(mesh, mesh.triangles16(), bound, p_m, budget, start, result);
+  else
+    search_nearest<kCareful>(mesh, mesh.triangles32(), bound, p_m, budget, start, result);
+}
+
+// What a search found, and what it is worth.
+struct Found {
+  Search search;
+  float distance_m;
+  float lower_m;  // certified by this search alone
+};
+
+void weigh(Found& found, float loss_m, float rounding_m) {
+  found.distance_m = math::square_root(found.search.best.distance2_m2);
+  found.lower_m = found.distance_m - (loss_m + rounding_m);
+  const float pending_m = found.search.pending_m - rounding_m;
+  if (!found.search.complete && pending_m < found.lower_m) found.lower_m = pending_m;
+  if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
+}
+
+// Plain float32 was not enough for the promise: once more with care, from where the nearest was.
+template <class Bound>
+void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budget, Found& found) {
+  const Loss loss(mesh.head());
+  if (found.search.complete && budget > found.search.steps) {
+    Found again{};
+    // The nearest one is no farther than this, so that in its leaf too only what ties is measured.
+    const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
+    again.search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
+    again.search.fence = found.search.fence;
+    again.search.fence_m = found.search.fence_m;
+    again.search.fence_margin_m = found.search.fence_margin_m;
+    search<true>(mesh, bound, p_m, budget - found.search.steps, found.search.best.place,
+                 again.search);
+    again.search.steps += found.search.steps;
+    if (again.search.complete) {
+      found = again;
+      const float distance_m = math::square_root(found.search.best.distance2_m2);
+      return weigh(found, loss.careful_m(distance_m), loss.rounding_m);
+    }
+    found.search.steps = again.search.steps;
+  }
+  // No budget left for it: what is told is the true distance of the triangle that was found.
+  found.search.complete = false;
+  if (found.search.best.place == query::kNowhere) return;
+  const Triangle<uint32_t> t = mesh.triangle(found.search.best.triangle);
+  const float distance2_m2 = careful_distance2(p_m, mesh.vertex(t.corner[0]),
+                                               mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
+  found.distance_m = math::square_root(distance2_m2);
+}
+
+// The side of the offset, or 0 where the roundings of offset and pseudonormal could turn it.
+int8_t side_of(const View& mesh, const Found& found, Vec3 direction) {
+  const float height_m = dot(found.search.best.offset_m, direction);
+  const float doubt_m = kNormalError_rad * found.distance_m + Loss(mesh.head()).plain_m(0.0f);
+  if (found.distance_m > kEitherSide * mesh.head().diagonal_m && height_m <= doubt_m &&
+      height_m >= -doubt_m)
+    return 0;
+  return height_m >= 0.0f ? 1 : -1;
 }
 
 template <class Bound>
 Closest answer(const View& mesh, const Bound& bound, Vec3 p_m, query::Budget budget,
                query::Hint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
-  Search search;
+  const Loss loss(mesh.head());
+  Found found;
   uint32_t start = hint.place;
   if (!is_place(mesh, start)) {
-    start = query::
-        kNowhere;  // cold: a stored vertex is a point of the surface before any triangle is reached
-    search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
-    search.best.distance2_m2 = dot(search.best.offset_m, search.best.offset_m);
+    // Cold: a stored vertex is a point of the surface before any triangle is reached.
+    start = query::kNowhere;
+    found.search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
+    found.search.best.distance2_m2 = dot(found.search.best.offset_m, found.search.best.offset_m);
   }
-  search.fence = hint.fence;
-  search.fence_m = carried.fence_m;
-  search.fence_margin_m = kFenceMotions * carried.motion_m;
-  if (!mesh.triangles16().empty())
-    search_nearest(mesh, mesh.triangles16(), bound, p_m, budget.steps, start, search);
-  else
-    search_nearest(mesh, mesh.triangles32(), bound, p_m, budget.steps, start, search);
-  const Best& best = search.best;
+  found.search.fence = hint.fence;
+  found.search.fence_m = carried.fence_m;
+  found.search.fence_margin_m = kFenceMotions * carried.motion_m;
+  search<Bound::kCareful>(mesh, bound, p_m, budget.steps, start, found.search);
+  const float plain_m = math::square_root(found.search.best.distance2_m2);
+  const float plain_loss_m = loss.plain_m(plain_m);
+  weigh(found, Bound::kCareful ? loss.careful_m(plain_m) : plain_loss_m, loss.rounding_m);
+  const float diagonal_m = mesh.head().diagonal_m;
+  const float scale_m = plain_m > diagonal_m ? plain_m : diagonal_m;
+  if (!Bound::kCareful && !(2.0f * plain_loss_m + loss.rounding_m <= kPromise * scale_m))
+    search_again(mesh, bound, p_m, budget.steps, found);
 
-  Closest closest;
-  const float distance_m = math::square_root(best.distance2_m2);
-  const float scale_m = distance_m > mesh.head().diagonal_m ? distance_m : mesh.head().diagonal_m;
-  float lower_m = distance_m - kDistanceError * scale_m;
-  if (!search.complete && search.pending_m < lower_m) lower_m = search.pending_m;
-  if (!(lower_m > 0.0f)) lower_m = 0.0f;
-  // The carried bound is worth keeping where the search was cut short; after a complete one it can
-  // only be older.
-  if (!search.complete && carried.lower_m > lower_m) lower_m = carried.lower_m;
-
-  closest.point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);
-  closest.direction = feature_direction(mesh, best);
-  closest.triangle = best.triangle;
-  closest.feature = best.feature;
-  closest.certificate.lower_m = lower_m;
-  closest.certificate.steps = search.steps;
-  closest.certificate.exact = search.complete;
+  const Best& best = found.search.best;
+  const Vec3 point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);
+  const Vec3 direction = feature_direction(mesh, best);
+  // The carried bound is worth keeping where the search was cut short; else it can only be older.
+  float lower_m = found.lower_m;
+  if (!found.search.complete && carried.lower_m > lower_m) lower_m = carried.lower_m;
+  bool exact = found.search.complete;
+  int8_t sign = 0;
   if (mesh.is_signed()) {
-    const int8_t side = dot(best.offset_m, closest.direction) >= 0.0f ? 1 : -1;
-    closest.certificate.sign = bound.is_outside() ? 1 : search.complete ? side : carried.sign;
+    sign = carried.sign;
+    if (bound.is_outside()) {
+      sign = 1;
+    } else if (exact) {
+      const int8_t side = side_of(mesh, found, direction);
+      if (side != 0) sign = side;
+      exact = sign != 0;
+    }
   }
-  closest.distance_m = closest.certificate.sign < 0 ? -distance_m : distance_m;
 
   if (best.place != query::kNowhere) hint.place = best.place;
   hint.position_m = p_m;
   hint.lower_m = lower_m;
-  hint.sign = closest.certificate.sign;
-  hint.fence = search.fence;
-  hint.fence_m = search.fence_m;
+  hint.sign = lower_m > kEitherSide * diagonal_m ? sign : int8_t{0};
+  hint.fence = found.search.fence;
+  hint.fence_m = found.search.fence_m;
+
+  Closest closest;
+  closest.distance_m = sign < 0 ? -found.distance_m : found.distance_m;
+  closest.point_m = point_m;
+  closest.direction = direction;
+  closest.triangle = best.triangle;
+  closest.feature = best.feature;
+  closest.certificate.lower_m = lower_m;
+  closest.certificate.steps = found.search.steps;
+  closest.certificate.exact = exact;
+  closest.certificate.sign = sign;
   return closest;
 }
 
-// So far away that every vertex is as near as any other to 1e-9: no square of such a distance fits
+// So far away that every vertex is as near as any other to 4e-8: no square of such a distance fits
 // a float.
 Closest answer_beyond(const View& mesh, Vec3 p_m, query::Hint& hint) {
   Closest closest;
@@ -108,7 +192,7 @@ Closest answer_beyond(const View& mesh, Vec3 p_m, query::Hint& hint) {
   const float scaled = math::length((p_m - closest.point_m) * 0x1p-70f);
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
-  closest.certificate.lower_m = fits ? closest.distance_m * (1.0f - kDistanceError) : 0x1.fff0p127f;
+  closest.certificate.lower_m = fits ? closest.distance_m * (1.0f - 0x1p-22f) : 0x1.fff0p127f;
   closest.certificate.exact = fits;
   closest.certificate.sign = mesh.is_signed() ? 1 : 0;
   hint.position_m = p_m;

@@ -53,6 +53,7 @@ struct NearBound {
   float distance_m(uint32_t key) const {
     return math::square_root(static_cast<float>(key)) * cell_m * kRoundDown;
   }
+  static constexpr bool kCareful = false;  // near: plain float32 is enough, or is tried first
   /// Whether the query is certainly outside, whatever is nearest.
   constexpr bool is_outside() const { return false; }
   math::Vec3 foot_m(const View&, math::Vec3 p_m, math::Vec3 offset_m, uint32_t) const {
@@ -64,8 +65,8 @@ struct NearBound {
 ///
 /// Each axis has an error of at most 2^-24 (|x| + d) with x = p - grid_low and |x| <= d + 1.3
 /// extents <= 11.4 d, so 13 d units an axis, 23 d units in all, 46 in the square and 4 more for its
-/// sum. The boxes' slack of 2^-9 cells, less than 1.2e-6 d, is 40 more in the square: 90 of the 128
-/// units that kRoundDown takes.
+/// sum. The boxes' slack, 2^-10 cells an axis (half a unit in the last place below 2^15), less than
+/// 6.3e-7 d, is 37 more in the square of the three: 87 of the 128 units that kRoundDown takes.
 struct FarBound {
   math::Vec3 x_m;
   float cell_m;
@@ -92,6 +93,7 @@ struct FarBound {
   float distance_m(uint32_t key) const {
     return math::square_root(math::float_of(key)) * kRoundDown;
   }
+  static constexpr bool kCareful = true;
   constexpr bool is_outside() const { return true; }
   /// p - offset has lost the low bits of a far p: put back on its triangle.
   math::Vec3 foot_m(const View& mesh, math::Vec3 p_m, math::Vec3 offset_m,

@@ -10,17 +10,17 @@ namespace firmtouch::mesh {
 // Section types of one mesh; all share its name. Index width is part of the type.
 constexpr uint32_t kHeadSection = 0x1001;
 constexpr uint32_t kVerticesSection = 0x1002;  // Vertex[vertex_count]
-constexpr uint32_t kTriangles16Section =
-    0x1003;  // Triangle<uint16_t>[triangle_count], in leaf order
+// Triangle<uint16_t>[triangle_count], in leaf order.
+constexpr uint32_t kTriangles16Section = 0x1003;
 constexpr uint32_t kTriangles32Section = 0x1004;  // Triangle<uint32_t>[triangle_count]
 constexpr uint32_t kNodesSection = 0x1005;        // Node[node_count], parents before children
 constexpr uint32_t kParentsSection = 0x1006;      // uint32_t[node_count]
-constexpr uint32_t kVertexNormalsSection =
-    0x1007;  // uint32_t[vertex_count]; absent from an unsigned mesh
-constexpr uint32_t kEdgeFoldsSection =
-    0x1008;  // EdgeFolds[triangle_count]; absent from an unsigned mesh
-constexpr uint32_t kSourceSection =
-    0x1009;  // uint32_t[triangle_count]: index in the imported file; for tools
+// uint32_t[vertex_count]; absent from an unsigned mesh.
+constexpr uint32_t kVertexNormalsSection = 0x1007;
+// EdgeFolds[triangle_count]; absent from an unsigned mesh.
+constexpr uint32_t kEdgeFoldsSection = 0x1008;
+// uint32_t[triangle_count]: index in the imported file; for tools.
+constexpr uint32_t kSourceSection = 0x1009;
 constexpr uint32_t kProbesSection = 0x100A;  // query::ProbeHead and its points
 
 // A traversal keeps one entry a level. 2^24 triangles in pairs make 23 levels of a balanced tree;
@@ -35,6 +35,11 @@ constexpr uint32_t kMaxNodes = 1u << 24;
 // differences fit 32 bits.
 constexpr uint32_t kGridMax = 32767;
 
+// The share of the diagonal up to which a lower bound also covers the rounding of the imported
+// coordinates to float32: a model about two diagonals from its origin. One farther off is certified
+// as it was rounded.
+constexpr float kMostRounding = 1.5e-7f;
+
 struct Head {
   uint32_t vertex_count;
   uint32_t triangle_count;
@@ -44,10 +49,12 @@ struct Head {
   float low_m[3];      // bounding box of the vertices, exact
   float high_m[3];
   float diagonal_m;  // of that box, rounded down
-  float
-      grid_low_m[3];  // grid coordinate 0; the grid covers twice the extent about the box's centre
-  float cell_m;       // a power of two, so that metres to cells rounds only once
-  uint32_t reserved[2];  // 0
+  // Grid coordinate 0; the grid covers twice the extent about the box's centre.
+  float grid_low_m[3];
+  float cell_m;          // a power of two, so that metres to cells rounds only once
+  float longest_edge_m;  // of all triangles, rounded up
+  // By how much importing it to float32 may have moved a vertex; at most kMostRounding diagonals.
+  float rounding_m;
 };
 static_assert(sizeof(Head) == 72 && alignof(Head) == 4);
 static_assert(offsetof(Head, low_m) == 20 && offsetof(Head, grid_low_m) == 48);

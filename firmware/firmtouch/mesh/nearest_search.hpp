@@ -4,7 +4,9 @@
 #include <float.h>
 
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/careful_distance.hpp"
 #include "firmtouch/mesh/grid.hpp"
+#include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/triangle.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/query/hint.hpp"
@@ -102,11 +104,13 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
 // One loop with its state in registers. A box is a place; a leaf that is reached is read, an inner
 // node is entered by its nearer child, the other left in `pending`. A warm search begins with the
 // last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
-template <class Bound, class Index>
+// With care, a triangle that may be the nearest is measured again in pairs of floats.
+template <bool kCareful, class Bound, class Index>
 void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangles,
                     const Bound& bound_at, Vec3 p_m, uint32_t budget, uint32_t start,
                     Search& search) {
   const Bound bound = bound_at;  // in registers
+  const Loss loss(mesh.head());
   const Vertex* const vertices = mesh.vertices().data();
   const Triangle<Index>* const triangle = triangles.data();
   const Node* const nodes = mesh.nodes().data();
@@ -138,8 +142,14 @@ void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangle
       for (const uint32_t end = i + leaf_count(child); i < end; ++i) {
         const Vertex &a = vertices[triangle[i].corner[0]], &b = vertices[triangle[i].corner[1]],
                      &c = vertices[triangle[i].corner[2]];
-        const Foot foot = closest_on_triangle(p_m, {a.x_m, a.y_m, a.z_m}, {b.x_m, b.y_m, b.z_m},
-                                              {c.x_m, c.y_m, c.z_m});
+        const Vec3 a_m{a.x_m, a.y_m, a.z_m}, b_m{b.x_m, b.y_m, b.z_m}, c_m{c.x_m, c.y_m, c.z_m};
+        Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
+        if constexpr (kCareful) {
+          if (!loss.may_be_less(foot.distance2_m2, least2_m2)) continue;
+          foot.distance2_m2 = loss.is_clear(foot.distance2_m2)
+                                  ? careful_distance2(p_m, a_m, b_m, c_m, foot.feature)
+                                  : careful_distance2(p_m, a_m, b_m, c_m);
+        }
         if (!(foot.distance2_m2 < least2_m2)) continue;
         least2_m2 = foot.distance2_m2;
         search.best.distance2_m2 =

@@ -13,6 +13,10 @@ using core::reject;
 using core::Verdict;
 using math::Vec3;
 
+// A model is at most 1e6 m large and its origin not much farther off: closest_point() counts on it
+// for queries beyond the range where squares fit.
+constexpr float kFarthest_m = 1e7f;
+
 bool is_power_of_two(float value) {
   const uint32_t bits = math::bits_of(value);
   return (bits & 0x807FFFFFu) == 0 && bits >= 0x10000000u && bits <= 0x60000000u;
@@ -38,12 +42,12 @@ bool holds(const uint32_t* outer, const uint32_t* inner) {
 }
 
 Verdict check_head(const Head& head) {
-  if (head.reserved[0] != 0 || head.reserved[1] != 0) return reject(106, 0);
   if (!is_power_of_two(head.cell_m)) return reject(106, 1);
   const float reach_m = static_cast<float>(kGridMax) * head.cell_m;
   float extent_m = 0;
   for (int k = 0; k < 3; ++k) {
-    if (!(head.low_m[k] <= head.high_m[k]) || !(head.low_m[k] >= -1e9f && head.high_m[k] <= 1e9f))
+    if (!(head.low_m[k] <= head.high_m[k]) ||
+        !(head.low_m[k] >= -kFarthest_m && head.high_m[k] <= kFarthest_m))
       return reject(106, 2);
     const float side_m = head.high_m[k] - head.low_m[k];
     if (side_m > extent_m) extent_m = side_m;
@@ -59,6 +63,10 @@ Verdict check_head(const Head& head) {
   const float diagonal_m = math::length(sides);
   if (!(head.diagonal_m <= diagonal_m && head.diagonal_m >= diagonal_m * (1.0f - 0x1p-20f)))
     return reject(106, 5);
+  if (!(head.longest_edge_m > 0.0f && head.longest_edge_m <= 1.001f * diagonal_m))
+    return reject(106, 6);
+  if (!(head.rounding_m >= 0.0f && head.rounding_m <= kMostRounding * head.diagonal_m))
+    return reject(106, 0);
   return kPassed;
 }
 
@@ -231,10 +239,12 @@ Verdict Opening::check_triangle(uint32_t i) const {
              c = view_.vertex(t.corner[2]);
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const float ab2 = dot(ab, ab);
-  if (!(ab2 >= 1e-30f && ab2 >= dot(bc, bc) && ab2 >= dot(ca, ca))) return reject(128, i);
+  if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ca, ca))) return reject(128, i);
+  if (!(math::length(ab) <= view_.head_->longest_edge_m)) return reject(131, i);
   const float per_ab = 1.0f / math::length(ab);
   const Vec3 normal = cross(ab * per_ab, ca * per_ab);
-  if (!(dot(normal, normal) >= 1e-20f)) return reject(129, i);
+  const Vec3 height = (c - a) - ab * (dot(ab, c - a) * (1.0f / ab2));  // as the solver has it
+  if (!(dot(normal, normal) >= 1e-20f && dot(height, height) >= 1e-36f)) return reject(129, i);
   if (view_.is_signed())
     for (const int16_t fold : view_.folds_[i].fold)
       if (fold < -32767) return reject(130, i);

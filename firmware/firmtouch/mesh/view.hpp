@@ -89,8 +89,8 @@ class Opening {
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0;
-  uint32_t next_triangle_ =
-      0;  // leaves hold the triangles in the order of their nodes: none twice, none left out
+  // Leaves hold the triangles in the order of their nodes: none twice, none left out.
+  uint32_t next_triangle_ = 0;
   uint32_t deepest_ = 0;
   Vertex low_{}, high_{};
 };

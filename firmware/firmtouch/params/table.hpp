@@ -44,7 +44,13 @@ enum Index : uint32_t {
 enum class When : uint8_t {
   kAnytime,    // at any tick
   kMotorsOff,  // it bends what position or time means: only while the motors are off
+  kMayFall,    // a limit: while the motors are on it may only fall
 };
+
+// Most that the rows of the same names take; servo and its guard hold these ceilings as well.
+constexpr float kMostForceLimit_N = 100.0f;
+constexpr float kMostSlewLimit_N_per_s = 1e6f;
+constexpr float kMostTickPeriod_s = 0.1f;
 
 struct Entry {
   const char* name;  // ends in its unit

@@ -38,8 +38,8 @@ struct TickInput {
   uint32_t clock_us;  // free-running, wraps
   int32_t encoder_counts[kAxes];
   uint32_t lines;
-  uint32_t
-      command;  // 0: none; 1 + a parameter's index: set it to command_value at this tick; or below
+  // 0: none; 1 + a parameter's index: set it to command_value at this tick; or below.
+  uint32_t command;
   float command_value;
 };
 static_assert(sizeof(TickInput) == 32);

@@ -26,8 +26,8 @@ constexpr uint32_t kFaultCount = 13;
 constexpr uint32_t kCutAtOnce = kFaultNotFinite | kFaultModel | kFaultDrive | kFaultEmergencyStop |
                                 kFaultAsset | kFaultProbes | kFaultSettings | kFaultGuard;
 // These are latched only while the motors are on: whoever plugs in an encoder or halts in a
-// debugger with the motors off has done no harm. A cause that still stands when the motors come on
-// is latched then.
+// debugger with the motors off has done no harm. A cause that still stands in the tick that enables
+// is latched then, and the motors stay off.
 constexpr uint32_t kOnlyWhileOn =
     kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder | kFaultWorkspace;
 

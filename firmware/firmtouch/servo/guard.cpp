@@ -12,6 +12,12 @@ uint32_t word_of(float value) {
   return word;
 }
 
+float float_of(uint32_t word) {
+  float value;
+  __builtin_memcpy(&value, &word, sizeof value);
+  return value;
+}
+
 // |value| in units of 2^-fraction, digits below cut off; kNotANumber from 2^(62 - fraction) on, and
 // for NaN.
 uint64_t fixed_point(float value, uint32_t fraction) {
@@ -28,18 +34,33 @@ uint64_t fixed_point(float value, uint32_t fraction) {
 
 bool is_negative(float value) { return (word_of(value) >> 31) != 0; }
 
-// Units of 2^-16 N that a force may grow by in a tick.
-bool largest_growth(const GuardLimits& limits, uint64_t& growth) {
+bool is_up_to(float value, float most, uint32_t fraction) {
+  return !is_negative(value) && fixed_point(value, fraction) <= fixed_point(most, fraction);
+}
+
+bool are_sane(const GuardLimits& limits) {
+  return is_up_to(limits.force_limit_N, kGuardMostForce_N, 16) &&
+         is_up_to(limits.slew_limit_N_per_s, kGuardMostSlew_N_per_s, 16) &&
+         is_up_to(limits.tick_period_s, kGuardMostPeriod_s, 28);
+}
+
+// Units of 2^-16 N that a force may grow by in a tick. Sane limits keep the product within 64 bits.
+uint64_t largest_growth(const GuardLimits& limits) {
   const uint64_t slew = fixed_point(limits.slew_limit_N_per_s, 16);
   const uint64_t period = fixed_point(limits.tick_period_s, 28);
-  if (slew >= (uint64_t{1} << 37) || period >= (uint64_t{1} << 27)) return false;
-  growth = (slew * period) >> 28;  // the bounds above keep the product within 64 bits
-  growth += (growth >> 10) + 2;
+  const uint64_t growth = (slew * period) >> 28;
+  return growth + (growth >> 10) + 2;
+}
+
+bool remembers_limits(const GuardState& state) {
+  for (uint32_t k = 0; k < kGuardLimitCount; ++k) {
+    if (state.limit[k] != ~state.limit_complement[k]) return false;
+  }
   return true;
 }
 
 bool remembers(const GuardState& state) {
-  if (state.armed != kGuardArmed) return false;
+  if (state.armed != kGuardArmed || !remembers_limits(state)) return false;
   for (uint32_t k = 0; k < kGuardedMotors; ++k) {
     if (state.passed[k] != ~state.complement[k]) return false;
   }
@@ -48,12 +69,9 @@ bool remembers(const GuardState& state) {
 
 bool is_in_limits(const GuardState& state, const GuardLimits& limits,
                   const int32_t (&force)[kGuardedMotors]) {
+  if (!are_sane(limits)) return false;
   const uint64_t limit = fixed_point(limits.force_limit_N, 16) + 1;
-  uint64_t growth = 0;
-  if (limit == 0 || limit > (1u << 30) || is_negative(limits.force_limit_N) ||
-      !largest_growth(limits, growth)) {
-    return false;
-  }
+  const uint64_t growth = largest_growth(limits);
   uint64_t squares = 0;
   for (uint32_t k = 0; k < kGuardedMotors; ++k) {
     const int64_t now = force[k];
@@ -77,14 +95,33 @@ bool is_quiet_in_time(GuardState& state, const GuardLimits& limits, bool may_pus
   if (is_zero) return true;
   if (cut) return false;
   // 10 ms in units of 2^-28 s; the first tick always may die down.
-  const uint64_t period = fixed_point(limits.tick_period_s, 28);
-  return state.quiet_ticks <= 1 || period * (state.quiet_ticks - 1u) <= 2684354u;
+  if (state.quiet_ticks <= 1) return true;
+  return are_sane(limits) &&
+         fixed_point(limits.tick_period_s, 28) * (state.quiet_ticks - 1u) <= 2684354u;
 }
 
 }  // namespace
 
-bool guard(GuardState& state, const GuardLimits& limits, bool may_push, bool cut,
-           float (&motor_N)[kGuardedMotors]) {
+bool guard_set_limits(GuardState& state, const GuardLimits& limits) {
+  if (!remembers_limits(state)) {
+    state.armed = kTripped;
+    return false;
+  }
+  const float value[kGuardLimitCount] = {limits.force_limit_N, limits.slew_limit_N_per_s,
+                                         limits.tick_period_s};
+  for (uint32_t k = 0; k < kGuardLimitCount; ++k) {
+    state.limit[k] = word_of(value[k]);
+    state.limit_complement[k] = ~state.limit[k];
+  }
+  return true;
+}
+
+GuardLimits guard_limits(const GuardState& state) {
+  return {float_of(state.limit[0]), float_of(state.limit[1]), float_of(state.limit[2])};
+}
+
+bool guard(GuardState& state, bool may_push, bool cut, float (&motor_N)[kGuardedMotors]) {
+  const GuardLimits limits = guard_limits(state);
   int32_t force[kGuardedMotors] = {};
   bool good = remembers(state);
   bool is_zero = true;
@@ -112,6 +149,13 @@ bool guard(GuardState& state, const GuardLimits& limits, bool may_push, bool cut
   return good;
 }
 
-void guard_clear(GuardState& state) { state = GuardState{}; }
+void guard_clear(GuardState& state) {
+  GuardState armed;
+  for (uint32_t k = 0; k < kGuardLimitCount; ++k) {
+    armed.limit[k] = state.limit[k];
+    armed.limit_complement[k] = state.limit_complement[k];
+  }
+  state = armed;
+}
 
 }  // namespace firmtouch::servo

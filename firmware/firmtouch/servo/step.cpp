@@ -16,10 +16,10 @@ constexpr float kLeastLimit_N = 1e-9f;
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 bool is_sound(const Settings& settings) {
-  return is_between(settings.force_limit_N, 0.0f, 1e4f) &&
-         is_between(settings.slew_limit_N_per_s, 0.0f, 1e9f) &&
+  return is_between(settings.force_limit_N, 0.0f, kMostForceLimit_N) &&
+         is_between(settings.slew_limit_N_per_s, 0.0f, kMostSlewLimit_N_per_s) &&
          is_between(settings.ramp_in_s, 0.0f, 100.0f) &&
-         is_between(settings.tick_period_s, 1e-5f, 1.0f);
+         is_between(settings.tick_period_s, 1e-5f, kMostTickPeriod_s);
 }
 
 bool is_within(Vec3 a, float most) {
@@ -115,7 +115,9 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
     state = State{};
   }
   uint32_t faults = seen_faults(state, settings, model, input);
-  if (!is_on(state.mode)) faults &= ~kOnlyWhileOn;
+  // In the tick that enables, the motors count as on already: a fault that stands keeps them off.
+  const bool enabling = state.mode == Mode::kOff && input.enable;
+  if (!is_on(state.mode) && !enabling) faults &= ~kOnlyWhileOn;
   state.faults |= faults;
   change_mode(state, settings, input.enable);
 

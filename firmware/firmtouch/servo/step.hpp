@@ -10,6 +10,12 @@ namespace firmtouch::servo {
 // rounded down, at least 1.
 constexpr float kRampOut_s = 0.008f;
 
+// Settings beyond these are kFaultSettings: no device that a hand holds needs more, and a bit that
+// flips in a setting mostly ends there.
+constexpr float kMostForceLimit_N = 100.0f;
+constexpr float kMostSlewLimit_N_per_s = 1e6f;
+constexpr float kMostTickPeriod_s = 0.1f;
+
 enum class Mode : uint8_t {
   kOff,     // not enabled: no force
   kRampIn,  // enabled a moment ago: the force grows in over ramp_in_s
@@ -57,7 +63,8 @@ struct State {
 ///   force finite and |force| <= force_limit_N;
 ///   |change| <= slew_limit_N_per_s * tick_period_s, except towards zero: faults and a lowered
 ///   limit take force away faster, those of kCutAtOnce at once;
-///   a fault is latched in the tick that shows it, and no force is left 10 ms later.
+///   a fault is latched in the tick that shows it, and no force is left 10 ms later; enabling over
+///   one that stands gives no force at all.
 StepOutput step(State& state, const Settings& settings, const LocalModel& model,
                 const StepInput& input);
 

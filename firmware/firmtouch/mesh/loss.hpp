@@ -1,0 +1,47 @@
+#pragma once
+// What float32 loses in a distance to a triangle. For the library's own translation units.
+
+#include "firmtouch/math/isa.hpp"
+#include "firmtouch/mesh/layout.hpp"
+
+namespace firmtouch::mesh {
+
+/// Bounds of the error of closest_on_triangle(), with u = 2^-24, d the distance and L the mesh's
+/// longest edge (first order; 2 % are added for the rest).
+///
+/// The offset is p - q rounded, q a point of the triangle but for h's own error. Roundings of the
+/// vector: ap by u |ap| <= u (d + L); ab x by 2 u L; e by u (d + 0.9 L); h w by u (4.9 L) for h and
+/// its product; the last difference by u d. Squares, their sum and the root lose 2.5 u d. Together
+/// u (5.5 d + 8.8 L). Of x the error is 5 u (d + L) / L + 6.5 u, of w (d + L + 2 L) u / |h| + 7 u (d +
+/// 0.9 L) / |h| beside the sliver's term (mesh/triangle.hpp, at most u L / 2 in d): they move q in
+/// the plane by at most u (13 d + 21 L). That lengthens d by as much where d is of that size, where
+/// 13 u d is nothing, and by its square over 2 d, nothing, where d is larger: u 18 L at most.
+struct Loss {
+  float longest_edge_m;
+  float rounding_m;  // of the model's coordinates: a lower bound is told for the model as imported
+
+  explicit Loss(const Head& head)
+      : longest_edge_m(head.longest_edge_m), rounding_m(head.rounding_m) {}
+
+  float plain_m(float distance_m) const {
+    return 0x1p-24f * (5.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
+  }
+  /// Of careful_distance2() and its root: one rounding each, the first halved by the root.
+  float careful_m(float distance_m) const {
+    return 0x1p-24f * (1.6f * distance_m + 0x1p-4f * longest_edge_m) + kVanishing_m;
+  }
+  /// Whether the feature of a foot is good enough to measure its distance by.
+  bool is_clear(float distance2_m2) const {
+    return distance2_m2 > longest_edge_m * longest_edge_m * 0x1p-20f;
+  }
+  /// Whether a plain squared distance may in truth be below a careful one.
+  bool may_be_less(float plain2_m2, float careful2_m2) const {
+    const float distance_m = math::square_root(plain2_m2);
+    return distance_m - plain_m(distance_m) <= math::square_root(careful2_m2) * (1.0f + 0x1p-23f);
+  }
+
+ private:
+  static constexpr float kVanishing_m = 0x1p-60f;  // squares of less underflow
+};
+
+}  // namespace firmtouch::mesh

@@ -1,0 +1,50 @@
+# Compares the figures of README.md with those measured:  awk -f figures.awk TABLE README.md
+# TABLE: what tools/bench/cortex-m7, tools/check/image and the closed loop printed, one after the other. A row that differs
+# is printed as it should be.
+function commas(number,    text, out) {
+  text = sprintf("%.0f", number)
+  while (length(text) > 3) {
+    out = "," substr(text, length(text) - 2) out
+    text = substr(text, 1, length(text) - 3)
+  }
+  return text out
+}
+
+FNR == 1 { ++files }
+files == 1 {
+  if (/warm queries/) model = /^the demo part:/ ? "demo part" : /rocker-arm/ ? "rocker-arm" : "other"
+  if (/the whole controller program/) { board = $1; sub(/,$/, "", board) }
+  if ($1 == "instructions" && $4 == "p99.9") measured[model] = "mean " commas($3) ", worst " commas($7)
+  if ($1 == "steps") measured[model " steps"] = "mean " $3 ", worst " $7
+  if ($1 == "tick") measured["tick " $2] = "mean " commas($3) ", worst " commas($4)
+  if ($1 == "flash") measured[board] = commas($2) " B, "
+  if ($1 == "RAM") measured[board] = measured[board] commas($2) " B, "
+  if ($1 == "worst" && $2 == "stack") measured[board] = measured[board] commas($3) " B"
+  next
+}
+
+!/^\|/ { next }
+{
+  key = ""
+  if (/`tools\/bench\/cortex-m7`/) key = /^\| steps/ ? "demo part steps" : "demo part"
+  if (/`tools\/bench\/cortex-m7 MODEL`/ && /rocker-arm/) key = "rocker-arm"
+  if (/^\| a whole tick/) key = "tick mps2-an500"
+  if (match($0, /`tools\/check\/image [a-z0-9-]+`/)) key = substr($0, RSTART + 19, RLENGTH - 20)
+  if (key == "") next
+  seen[key] = 1
+  if (!(key in measured)) next
+  split($0, cell, "|")
+  if (cell[3] == " " measured[key] " ") next
+  print "README.md:" FNR ": the figures are not what was measured; paste this line:"
+  print "|" cell[2] "| " measured[key] " |" cell[4] "|"
+  bad = 1
+}
+
+END {
+  split("demo part,demo part steps,mps2-an500,netduinoplus2", wanted, ",")
+  for (i = 1; i in wanted; ++i) {
+    if (!(wanted[i] in measured)) { print "the table holds no figures of " wanted[i]; bad = 1 }
+    if (!(wanted[i] in seen)) { print "README.md: there is no row of " wanted[i]; bad = 1 }
+  }
+  exit bad
+}
