@@ -14,7 +14,7 @@ small_scene() {
 }
 
 EveryCommandHelps() {
-  for command in '' make bake info query; do
+  for command in '' make bake info query bench; do
     # shellcheck disable=SC2086
     f $command --help
     exits 0
@@ -60,7 +60,7 @@ WhatIsPlannedIsRefusedByName() {
     exits 2
     told "${option%% *} is not in this version"
   done
-  for command in voxelize hull bench log; do f $command x; exits 2; told "$command: is not in this version"; done
+  for command in voxelize hull log; do f $command x; exits 2; told "$command: is not in this version"; done
   for kind in hull spline footpoints; do f query a.fta a $kind; exits 2; told "$kind is not in this version"; done
   for kind in igs iges bpt ftl stl; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
 }

@@ -16,4 +16,7 @@ int run_info(const Arguments& arguments);
 const Command& query_command();
 int run_query(const Arguments& arguments);
 
+const Command& bench_command();
+int run_bench(const Arguments& arguments);
+
 }  // namespace firmtouch::cli

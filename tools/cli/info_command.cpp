@@ -3,6 +3,7 @@
 #include <map>
 
 #include "bake/asset_views.hpp"
+#include "bake/json_text.hpp"
 #include "bake/provenance.hpp"
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
@@ -67,23 +68,6 @@ std::vector<NamedAsset> assets_of(const asset::Container& container) {
   return assets;
 }
 
-std::string json_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    char escaped[8];
-    if (letter == '"' || letter == '\\') {
-      quoted += '\\';
-      quoted += letter;
-    } else if (static_cast<unsigned char>(letter) < 0x20) {
-      std::snprintf(escaped, sizeof(escaped), "\\u%04x", static_cast<unsigned>(letter));
-      quoted += escaped;
-    } else {
-      quoted += letter;
-    }
-  }
-  return quoted + "\"";
-}
-
 // A hash, a name or a version may look like a number and is none.
 bool is_text(const std::string& fact) {
   for (const char* const text : {"kind", "source", "source_fnv1a64", "options", "tool"}) {
@@ -117,23 +101,23 @@ bool is_number(const std::string& text) {
 }
 
 std::string json_fact(const std::string& fact, const std::string& value) {
-  return !is_text(fact) && is_number(value) ? value : json_text(value);
+  return !is_text(fact) && is_number(value) ? value : tools::json_text(value);
 }
 
 void print_json(const LoadedAsset& loaded) {
   const asset::Container& container = loaded.container();
   std::printf(
       "{\"file\": %s, \"version\": \"%u.%u\", \"bytes\": %u, \"crc\": \"%08x\", \"assets\": [",
-      json_text(loaded.path()).c_str(), asset::kMajor, asset::kMinor, container.bytes().size(),
-      container.crc());
+      tools::json_text(loaded.path()).c_str(), asset::kMajor, asset::kMinor,
+      container.bytes().size(), container.crc());
   const char* between = "\n";
   for (const NamedAsset& named : assets_of(container)) {
     std::printf("%s  {\"name\": %s, \"bytes\": %llu, \"facts\": {", between,
-                json_text(named.name).c_str(), static_cast<unsigned long long>(named.bytes));
+                tools::json_text(named.name).c_str(), static_cast<unsigned long long>(named.bytes));
     between = ",\n";
     const char* comma = "";
     for (const auto& fact : named.facts) {
-      std::printf("%s%s: %s", comma, json_text(fact.first).c_str(),
+      std::printf("%s%s: %s", comma, tools::json_text(fact.first).c_str(),
                   json_fact(fact.first, fact.second).c_str());
       comma = ", ";
     }
@@ -141,7 +125,8 @@ void print_json(const LoadedAsset& loaded) {
     comma = "";
     for (const uint32_t i : named.sections) {
       std::printf("%s{\"type\": %u, \"is\": %s, \"bytes\": %u}", comma, container.type(i),
-                  json_text(section_text(container.type(i))).c_str(), container.section(i).size());
+                  tools::json_text(section_text(container.type(i))).c_str(),
+                  container.section(i).size());
       comma = ", ";
     }
     std::printf("]}");

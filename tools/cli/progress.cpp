@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace firmtouch::cli {
@@ -43,10 +44,10 @@ void Progress::run() {
 
 void Progress::draw(double elapsed_s) {
   const size_t done = begun_ == 0 ? 0 : begun_ - 1;
-  const size_t cells = done * kBarCells / stages_;
-  std::string bar(kBarCells, '.');
-  bar.replace(0, cells, cells, '#');
-  std::fprintf(stderr, "\r\033[K[%s] %3.0f s  %s", bar.c_str(), elapsed_s, what_.c_str());
+  const size_t cells = stages_ == 0 ? 0 : std::min(done, stages_) * kBarCells / stages_;
+  std::string bar = stages_ == 0 ? "" : '[' + std::string(kBarCells, '.') + ']';
+  if (stages_ != 0) bar.replace(1, cells, cells, '#');
+  std::fprintf(stderr, "\r\033[K%s %3.0f s  %s", bar.c_str(), elapsed_s, what_.c_str());
   std::fflush(stderr);
   drawn_ = true;
 }

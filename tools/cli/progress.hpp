@@ -12,6 +12,7 @@ namespace firmtouch::cli {
 /// may be printed while it is there.
 class Progress {
  public:
+  /// `stages` 0: how many there will be is not known, and only time and stage are shown.
   explicit Progress(size_t stages);
   ~Progress();
   Progress(const Progress&) = delete;

@@ -1,9 +1,8 @@
 #pragma once
-#include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
-#include <vector>
+
+#include "bench/timing.hpp"
 
 namespace firmtouch::cli {
 
@@ -12,18 +11,9 @@ namespace firmtouch::cli {
 /// least 1.
 template <class Pass>
 void print_time(size_t queries, const Pass& pass) {
-  constexpr size_t kPasses = 5;
-  std::vector<double> us;
-  volatile float sink = 0;
-  for (size_t k = 0; k < kPasses; ++k) {
-    const auto begin = std::chrono::steady_clock::now();
-    sink = sink + pass();
-    const auto end = std::chrono::steady_clock::now();
-    us.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
-  }
-  std::sort(us.begin(), us.end());
-  std::printf("us_per_query %.4f queries %zu\n", us[kPasses / 2] / static_cast<double>(queries),
-              queries);
+  const bench::Contender contender =
+      bench::timed(queries, [&] { return static_cast<double>(pass()); });
+  std::printf("us_per_query %.4f queries %zu\n", bench::medians_us({contender})[0], queries);
 }
 
 }  // namespace firmtouch::cli

@@ -1,0 +1,68 @@
+# Cases of tests/cli/run about `firmtouch bench`.
+
+# Not a parser: brackets outside of strings match.
+well_formed() {
+  printf '%s' "$out" | sed 's/\\.//g; s/"[^"]*"//g' >bare
+  ! grep -q '"' bare || fail "a string of the JSON does not end: $out"
+  tr -cd '{[' <bare | wc -c >open
+  tr -cd '}]' <bare | wc -c >close
+  cmp -s open close || fail "brackets of the JSON do not match: $out"
+  case $out in '{'*'}') ;; *) fail "not one object: $out" ;; esac
+}
+
+BenchListsTheBenches() {
+  f bench
+  exits 0
+  printf '%s\n' "$out" | grep -qE '^  distance  +[a-z]' || fail "$out"
+  f bench --json
+  exits 0
+  well_formed
+  printf '%s\n' "$out" | grep -qF '"name": "distance"' || fail "$out"
+}
+
+BenchNeedsWhatItIsGiven() {
+  f bench warmth; exits 2; told "'warmth' is no bench" distance; same "$out" ''
+  f bench distance missing.obj; exits 3; told 'bench distance' missing.obj; same "$out" ''
+  box | sed '$d' >open.obj
+  f bench distance open.obj; exits 3; told open.obj 'open edge'
+  f bench distance --peer; exits 2; told '--peer needs a value'
+}
+
+BenchRacesAPeerOrSaysThatItIsAbsent() {
+  box >box.obj
+  f bench distance box.obj
+  exits 0
+  same "$err" ''
+  printf '%s\n' "$out" | grep -qE 'touching path.*against the peer.*peer absent' || fail "$out"
+  f bench distance box.obj --json
+  exits 0
+  well_formed
+  printf '%s\n' "$out" | grep -qF '"value": null, "unit": "", "remark": "peer absent"' || fail "$out"
+  # A peer that says it takes an hour a query loses, one that takes next to nothing wins.
+  f bench distance box.obj --bar --peer 'echo us_per_query 3600000000;:'
+  exits 0
+  printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.2500  met' || fail "$out"
+  f bench distance box.obj --bar --peer 'echo us_per_query 0.000001;:'
+  exits 1
+  told 'not met'
+  printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.2500  NOT MET' || fail "$out"
+  f bench distance box.obj --json --peer 'echo us_per_query 0.000001;:'
+  exits 0
+  well_formed
+  printf '%s\n' "$out" | grep -qF '"goal": 0.25, "goal_is": "at most", "ok": false' || fail "$out"
+}
+
+BenchNamesAPeerThatFails() {
+  box >box.obj
+  mkdir temporary
+  TMPDIR=$PWD/temporary
+  export TMPDIR
+  f bench distance box.obj --peer 'exit 9;'
+  exits 3
+  told 'exit code 9' 'closest' 'box.obj' '--peer'
+  f bench distance box.obj --peer 'echo nothing'
+  exits 3
+  told 'us_per_query'
+  same "$(ls temporary)" ''
+  unset TMPDIR
+}

@@ -1,0 +1,27 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/report.hpp"
+
+namespace firmtouch::bench {
+
+struct Options {
+  std::vector<std::string> models;  // files; none: the demo part (bench/models.hpp)
+  std::string peer;                 // a command, run by the shell; empty: none
+  bool is_long = false;             // the full sizes
+};
+
+/// A bench prints figures of the papers' tables or the project's bars. It throws a Problem where it
+/// cannot run.
+struct Bench {
+  const char* name;
+  const char* summary;  // one line
+  void (*run)(const Options& options, Report& report);
+};
+
+/// Every bench there is, in the order of the list in benches.cpp.
+const std::vector<Bench>& benches();
+
+}  // namespace firmtouch::bench

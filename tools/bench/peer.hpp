@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+
+#include "bench/timing.hpp"
+
+namespace firmtouch::bench {
+
+/// Another program that answers the same queries: `COMMAND closest|segment|polyline|spline FILE
+/// in.csv` prints a line that holds `us_per_query X`.
+class Peer {
+ public:
+  /// `command` is for the shell; empty: there is no peer.
+  explicit Peer(std::string command) : command_(std::move(command)) {}
+  bool is_present() const { return !command_.empty(); }
+
+  /// One run of the peer; throws a Problem with command, status and remedy where it fails or says no
+  /// time.
+  double us_per_query(const std::string& kind, const std::string& file,
+                      const std::string& csv) const;
+  /// The same for medians_us().
+  Contender contender(const std::string& kind, const std::string& file,
+                      const std::string& csv) const;
+
+ private:
+  std::string command_;
+};
+
+/// Stands in a report where there is no peer.
+constexpr const char* kPeerAbsent = "peer absent";
+
+}  // namespace firmtouch::bench
