@@ -52,7 +52,9 @@ BakeOptions options_of(const Arguments& arguments) {
   const std::string unit = arguments.choice("--unit", "m", {"m", "mm", "cm", "in"});
   options.unit_m = kUnits.at(unit);
   options.is_signed = !arguments.has("--unsigned");
-  options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned");
+  options.close_holes = arguments.has("--close-holes");
+  options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
+                 (options.close_holes ? " --close-holes" : "");
   return options;
 }
 
@@ -98,9 +100,9 @@ const Command& bake_command() {
       {{"-o", "FILE", "the asset to write"},
        {"--unit", "m|mm|cm|in", "of the inputs' coordinates (default m)"},
        {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
+       {"--close-holes", nullptr, "each hole of a mesh gets a cap of triangles, reported"},
        {"--fast", nullptr, "the fastest asset rather than the smallest (the default)"},
        {"--cpp", "FILE", "the asset as a C++ source, too"},
-       {"--close-holes", nullptr, nullptr},
        {"--small", nullptr, nullptr},
        {"--no-tree", nullptr, nullptr},
        {"--hull-faces", "N", nullptr},

@@ -11,6 +11,7 @@ namespace firmtouch::cli {
 struct BakeOptions {
   double unit_m = 1;
   bool is_signed = true;
+  bool close_holes = false;
   std::string text;  // as they stand in the provenance
 };
 

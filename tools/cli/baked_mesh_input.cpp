@@ -90,6 +90,7 @@ SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& 
   if (!imported.problem.empty()) fail_input(imported.problem);
   tools::CheckOptions checks;
   checks.allow_unsigned = !options.is_signed;
+  checks.close_holes = options.close_holes;
   const tools::CheckReport report = tools::check_and_mend(imported.surface, checks);
   if (!report.usable()) {
     std::string all;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "surface/close_holes.hpp"
 #include "surface/mending.hpp"
 #include "surface/point.hpp"
 
@@ -14,6 +15,25 @@ std::string coordinates(const math::Vec3& v) {
   std::snprintf(text, sizeof text, " (%.6g, %.6g, %.6g m)", static_cast<double>(v.x),
                 static_cast<double>(v.y), static_cast<double>(v.z));
   return text;
+}
+
+// Who has asked for it already need not be told of it.
+void leave_out_close_holes(std::vector<std::string>& defects) {
+  const std::string remedy = ", or with --close-holes";
+  for (std::string& line : defects) {
+    const size_t at = line.find(remedy);
+    if (at != line.npos) line.erase(at, remedy.size());
+  }
+}
+
+// Caps join the pieces that they close; nothing is left to turn.
+uint32_t wind_alike_again(Surface& surface, std::vector<uint32_t>& component,
+                          std::vector<bool>& turned) {
+  std::vector<std::string> none;
+  std::vector<bool> turned_now;
+  const uint32_t components = wind_alike(surface, component, turned_now, none);
+  turned.resize(surface.faces.size(), false);
+  return components;
 }
 
 }  // namespace
@@ -49,6 +69,7 @@ void drop_faces(Surface& surface, const std::vector<bool>& dropped) {
 
 CheckReport check_and_mend(Surface& surface, const CheckOptions& options) {
   CheckReport report;
+  const uint32_t imported = static_cast<uint32_t>(surface.faces.size());
   surface.source.resize(std::min(surface.source.size(), surface.faces.size()));
   for (size_t f = surface.source.size(); f < surface.faces.size(); ++f) {
     surface.source.push_back(static_cast<uint32_t>(f));
@@ -63,8 +84,13 @@ CheckReport check_and_mend(Surface& surface, const CheckOptions& options) {
   std::vector<std::string> defects;
   std::vector<uint32_t> component;
   std::vector<bool> turned;
-  const uint32_t components = wind_alike(surface, component, turned, defects);
+  uint32_t components = wind_alike(surface, component, turned, defects);
+  if (options.close_holes && defects.empty()) {
+    close_holes(surface, imported, report);
+    components = wind_alike_again(surface, component, turned);
+  }
   find_topology_defects(surface, defects);
+  if (options.close_holes) leave_out_close_holes(defects);
   wind_outward(surface, component, components, defects.empty(), turned, report);
   remove_flat_faces(surface, options, report);
   report.is_closed = defects.empty();

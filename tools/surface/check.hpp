@@ -10,6 +10,8 @@ namespace firmtouch::tools {
 struct CheckOptions {
   // --unsigned: distance without inside and outside; the surface need not be closed.
   bool allow_unsigned = false;
+  // --close-holes: each hole gets a cap of triangles (surface/close_holes.hpp).
+  bool close_holes = false;
 };
 
 /// What check_and_mend() did and found, one sentence each: what, how often, where first (indices

@@ -31,7 +31,7 @@ void find_open_edges(const Surface& surface, const Edges& edges,
                     counted(count_loops(surface, edges), "hole", "holes") + ", first " +
                     named_edge(surface, first->low, first->high) + " of face " +
                     std::to_string(surface.source[first->half[0] / 3]) +
-                    ": close the holes in a modelling program");
+                    ": close them in a modelling program, or with --close-holes");
 }
 
 void find_crowded_edges(const Surface& surface, const Edges& edges,
