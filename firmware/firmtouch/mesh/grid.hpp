@@ -45,6 +45,11 @@ struct NearBound {
     return true;
   }
   uint32_t key(const uint32_t* box) const { return math::box_distance2(box, point); }
+  /// Of both boxes. Into two words: a struct of them cost the Cortex-M7 2 % of a query.
+  void keys(const Node& node, uint32_t& first, uint32_t& second) const {
+    first = key(node.box[0]);
+    second = key(node.box[1]);
+  }
   /// Smallest key whose boxes cannot be nearer than the square root of distance2_m2.
   uint32_t prune_key(float distance2_m2) const {
     const float cells2 = distance2_m2 * per_cell2 * (2.0f - kRoundDown);
@@ -86,6 +91,10 @@ struct FarBound {
     const math::Vec3 d{outside_m(box[0], x_m.x), outside_m(box[1], x_m.y),
                        outside_m(box[2], x_m.z)};
     return math::bits_of(math::dot(d, d) * kRoundDown);
+  }
+  void keys(const Node& node, uint32_t& first, uint32_t& second) const {
+    first = key(node.box[0]);
+    second = key(node.box[1]);
   }
   uint32_t prune_key(float distance2_m2) const {
     return math::bits_of(distance2_m2 * (2.0f - kRoundDown));

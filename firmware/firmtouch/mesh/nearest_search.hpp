@@ -1,13 +1,10 @@
 #pragma once
 // The search for the nearest triangle: the room's inner loop. For closest_point.cpp alone.
 
-#include <float.h>
-
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/mesh/careful_distance.hpp"
 #include "firmtouch/mesh/grid.hpp"
+#include "firmtouch/mesh/leaf.hpp"
 #include "firmtouch/mesh/loss.hpp"
-#include "firmtouch/mesh/triangle.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/query/hint.hpp"
 
@@ -21,14 +18,6 @@ using math::Vec3;
 // the 64 steps of a tick's budget it never overflows.
 constexpr uint32_t kBestFirst = 64;
 constexpr uint32_t kCapacity = kBestFirst + kMaxDepth;
-
-struct Best {
-  float distance2_m2 = FLT_MAX;
-  Vec3 offset_m;
-  uint32_t triangle = 0;
-  uint32_t place = query::kNowhere;  // of its leaf: node << 1 | slot
-  Feature feature = Feature::kVertex0;
-};
 
 // A place is a box: node << 1 | which of its two.
 struct Pending {
@@ -104,7 +93,6 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
 // One loop with its state in registers. A box is a place; a leaf that is reached is read, an inner
 // node is entered by its nearer child, the other left in `pending`. A warm search begins with the
 // last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
-// With care, a triangle that may be the nearest is measured again in pairs of floats.
 template <bool kCareful, class Bound, class Index>
 void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangles,
                     const Bound& bound_at, Vec3 p_m, uint32_t budget, uint32_t start,
@@ -127,8 +115,10 @@ void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangle
     --left;
     if (!is_leaf(child)) {
       const Node& node = nodes[child];
-      const uint32_t key0 = bound.key(node.box[0]), key1 = bound.key(node.box[1]);
-      const uint32_t slot = key1 < key0 ? 1 : 0, far_key = slot ? key0 : key1;
+      uint32_t key0, key1;
+      bound.keys(node, key0, key1);
+      const uint32_t slot = key1 < key0 ? 1 : 0;
+      const uint32_t far_key = slot ? key0 : key1;
       now.place = child << 1 | slot;
       now.key = slot ? key1 : key0;
       if (far_key < prune) pending[count++] = {far_key, now.place ^ 1u};
@@ -138,27 +128,8 @@ void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangle
       }
     } else {
       const float before2_m2 = least2_m2;
-      uint32_t i = leaf_first(child);
-      for (const uint32_t end = i + leaf_count(child); i < end; ++i) {
-        const Vertex &a = vertices[triangle[i].corner[0]], &b = vertices[triangle[i].corner[1]],
-                     &c = vertices[triangle[i].corner[2]];
-        const Vec3 a_m{a.x_m, a.y_m, a.z_m}, b_m{b.x_m, b.y_m, b.z_m}, c_m{c.x_m, c.y_m, c.z_m};
-        Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
-        if constexpr (kCareful) {
-          if (!loss.may_be_less(foot.distance2_m2, least2_m2)) continue;
-          foot.distance2_m2 = loss.is_clear(foot.distance2_m2)
-                                  ? careful_distance2(p_m, a_m, b_m, c_m, foot.feature)
-                                  : careful_distance2(p_m, a_m, b_m, c_m);
-        }
-        if (!(foot.distance2_m2 < least2_m2)) continue;
-        least2_m2 = foot.distance2_m2;
-        search.best.distance2_m2 =
-            least2_m2;  // one by one: an aggregate would be built aside first
-        search.best.offset_m = foot.offset_m;
-        search.best.triangle = i;
-        search.best.place = now.place;
-        search.best.feature = foot.feature;
-      }
+      least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, p_m, child, now.place, least2_m2,
+                                         search.best);
       if (least2_m2 < before2_m2) prune = bound.prune_key(least2_m2);
       if (climbing) {
         if (!climb(mesh, bound, start, prune, left, pending, count, search)) break;
