@@ -9,7 +9,7 @@ check() {
       room=${file#tests/}
       sed -n "s/^TEST(\([A-Za-z0-9_]*\).*/${room%%/*}.\1/p" "$file"
     done
-    for file in tests/*/cases.sh; do  # shell functions, one a test
+    for file in tests/*/*cases.sh; do  # shell functions, one a test
       sed -n "s/^\([A-Z][A-Za-z0-9]*\)() *{.*/$(basename "$(dirname "$file")").\1/p" "$file"
     done
     for file in tests/check/*.sh; do basename "$file" .sh | sed 's/^/check./'; done

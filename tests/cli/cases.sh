@@ -62,7 +62,7 @@ WhatIsPlannedIsRefusedByName() {
   done
   for command in voxelize hull log; do f $command x; exits 2; told "$command: is not in this version"; done
   for kind in hull spline footpoints; do f query a.fta a $kind; exits 2; told "$kind is not in this version"; done
-  for kind in igs iges bpt ftl stl; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
+  for kind in igs iges bpt ftl; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
 }
 
 OptionsWithoutMeaningAreRefused() {

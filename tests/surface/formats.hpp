@@ -96,4 +96,38 @@ inline std::string cube_ply_binary(bool is_big) {
   return out.text;
 }
 
+/// The twelve triangles of cube() with their normals; `end` ends every line.
+inline std::string cube_stl_text(const char* name = "a cube", const char* end = "\n") {
+  std::string text = std::string("solid ") + name + end;
+  for (int f = 0; f < 12; ++f) {
+    const int* quad = kQuadCorners[f / 2];
+    const int corners[3] = {quad[0], quad[1 + f % 2], quad[2 + f % 2]};
+    constexpr const char* kNormals[6] = {"0 0 -1", "0 0 1", "0 -1 0", "0 1 0", "-1 0 0", "1 0 0"};
+    text += std::string("  facet normal ") + kNormals[f / 2] + end + "    outer loop" + end;
+    for (const int v : corners) text += std::string("      vertex ") + kCorners[v] + end;
+    text += std::string("    endloop") + end + "  endfacet" + end;
+  }
+  return text + "endsolid " + name + end;
+}
+
+/// `header` fills the first 80 bytes as far as it goes; `attribute` stands behind every facet.
+inline std::string cube_stl_binary(const std::string& header = "", uint16_t attribute = 0) {
+  Bytes out(false);
+  out.text = header.substr(0, 80);
+  out.text.resize(80, '\0');
+  out.put(uint32_t{12});
+  for (int f = 0; f < 12; ++f) {
+    const int* quad = kQuadCorners[f / 2];
+    const int corners[3] = {quad[0], quad[1 + f % 2], quad[2 + f % 2]};
+    constexpr float kNormals[6][3] = {{0, 0, -1}, {0, 0, 1},  {0, -1, 0},
+                                      {0, 1, 0},  {-1, 0, 0}, {1, 0, 0}};
+    for (const float n : kNormals[f / 2]) out.put(n);
+    for (const int v : corners) {
+      for (int k = 0; k < 3; ++k) out.put((v >> k & 1) != 0 ? 1.0f : -1.0f);
+    }
+    out.put(attribute);
+  }
+  return out.text;
+}
+
 }  // namespace firmtouch::tools

@@ -21,7 +21,10 @@ std::vector<File> files() {
           {"a.off", cube_off()},
           {"a.ply", cube_ply_ascii()},
           {"a.ply", cube_ply_binary(false)},
-          {"a.ply", cube_ply_binary(true)}};
+          {"a.ply", cube_ply_binary(true)},
+          {"a.stl", cube_stl_text()},
+          {"a.stl", cube_stl_text("a\\", "\r\n") + cube_stl_text("#2")},
+          {"a.stl", cube_stl_binary("solid of bytes", 3)}};
 }
 
 // Reads, mends and searches; what comes out must keep its promises.

@@ -164,6 +164,51 @@ TEST(PlyProblemsAreNamedWithTheirPlace) {
   CHECK(refuses(nan, "a.ply", "vertex 7", "not finite"));
 }
 
+TEST(TheFirstProblemIsToldWithHowOftenAndWhereLast) {
+  CHECK(refuses("v 0 nan 0\nv 0 0 inf\nv 1 1 1\nv 2 x nan\nf 1 2 3\n", "a.obj", ":1:",
+                "`nan` is not finite: mend it, or export the model again (3 times, last at line 4; "
+                "problems of other kinds: 1)"));
+  CHECK(refuses("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 1 2 3\nf 1 9 8\n", "a.obj",
+                ":4:", "Export it again (2 times, last at line 6)"));
+  CHECK(refuses("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "a.obj", ":4:", "(once)"));
+  CHECK(refuses("v 0,5 0,5 0\nv 1 0 0\nv 0 1,5 0\nf 1 2 3\n", "a.obj",
+                ":1:", "with a point (3 times, last at line 3)"));
+  CHECK(refuses("v 0 0 0\nq\nv 0 0 0\nq\n", "a.obj", ":2:", "(2 times, last at line 4)"));
+  CHECK(refuses(replaced(replaced(cube_off(), "\n1 -1 -1", "\n1 x -1"), "\n1 1 -1", "\n1 1 y"),
+                "a.off", ":4: vertex 1 (from 0):", "(2 times, last at vertex 3 (from 0), line 6)"));
+  CHECK(refuses(replaced(replaced(cube_off(), "4 0 2 3 1", "4 0 8 3 1"), "4 4 5", "4 4 9"), "a.off",
+                ":11: face 0 (from 0):", "(2 times, last at face 1 (from 0), line 12)"));
+  std::string nan = cube_ply_binary(false);
+  nan.replace(nan.size() - 8, 8, std::string(8, '\xFF'));
+  CHECK(refuses(nan, "a.ply", (" byte " + std::to_string(nan.size() - 8) + ", vertex 7").c_str(),
+                "a coordinate is not finite: mend the model (once)"));
+}
+
+TEST(APlyThatSaysOneThingTwiceIsRefused) {
+  const std::string ascii = cube_ply_ascii();
+  CHECK(refuses(replaced(ascii, "uchar red", "uchar x"), "a.ply", "", "property x twice"));
+  CHECK(refuses(replaced(ascii, "element edge 1",
+                         "element vertex 1\nproperty int x\nproperty int "
+                         "y\nproperty int z"),
+                "a.ply", "", "element vertex twice"));
+  CHECK(refuses(replaced(ascii, "float texcoord", "int vertex_index"), "a.ply", "", "twice"));
+}
+
+TEST(CoordinatesThatRoundingMovesAreReported) {
+  const auto far = [](const char* shift, const char* corner) {
+    const std::string s = shift, c = corner;
+    return "v " + s + ".0 0 0\nv " + s + c + " 0 0\nv " + s + ".0 1 0\nv " + s +
+           ".0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  };
+  CHECK(read_surface_bytes(far("0", ".1"), "a.obj", 1).notes.empty());
+  CHECK(read_surface_bytes(far("10000", ".5"), "a.obj", 1).notes.empty());  // a float as it is
+  const Imported moved = read_surface_bytes(far("10000", ".1"), "a.obj", 1);
+  CHECK(says(moved.notes, "moved vertices by up to 0.000391 m") &&
+        says(moved.notes, "they lie 1e+04 m from the origin"));
+  // A vertex that no face uses moves nothing.
+  CHECK(read_surface_bytes("v 1e9 1e-9 0.1\n" + far("1", ".5"), "a.obj", 1).problem.empty());
+}
+
 TEST(AFileThatCannotBeOpenedIsNamed) {
   const std::string problem = read_surface("no such folder/model.obj", 1).problem;
   CHECK(says(problem, "no such folder/model.obj: cannot be opened"));

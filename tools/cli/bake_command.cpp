@@ -19,13 +19,13 @@ void check_kind(const std::string& path) {
   static const char* const kLater[][2] = {{".igs", "NURBS"},
                                           {".iges", "NURBS"},
                                           {".bpt", "Bezier patches"},
-                                          {".ftl", "a recorded run"},
-                                          {".stl", "an STL mesh"}};
+                                          {".ftl", "a recorded run"}};
   for (const auto& later : kLater) {
     if (extension_of(path) == later[0]) {
-      fail_input(path + ": " + later[1] + " (" + later[0] +
-                 ") cannot be baked by this version yet; give .obj, .off or .ply for a mesh, .csv "
-                 "for a curve");
+      fail_input(
+          path + ": " + later[1] + " (" + later[0] +
+          ") cannot be baked by this version yet; give .obj, .off, .ply or .stl for a mesh, .csv "
+          "for a curve");
     }
   }
 }
@@ -94,7 +94,8 @@ const Command& bake_command() {
       "bake",
       "INPUT... -o SCENE.fta [options]",
       "Bakes meshes and curves into one asset, proven with the firmware's own decoder.",
-      "INPUT by extension: .obj .off .ply a mesh; .csv a curve (header x,y,z). Each is named after "
+      "INPUT by extension: .obj .off .ply .stl a mesh; .csv a curve (header x,y,z). Each is named "
+      "after "
       "its\n"
       "file's stem. What can be mended safely is mended and reported; the rest is refused.",
       {{"-o", "FILE", "the asset to write"},

@@ -50,7 +50,7 @@ BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
   const std::string name = stem_of(path);
   BakedInput baked;
   progress.stage("reading and checking " + file_name_of(path));
-  const std::vector<uint8_t> source = read_file(path);
+  const std::vector<uint8_t> source = read_model(path);
   const tools::CurvePoints points = tools::read_curve_csv_bytes(
       {reinterpret_cast<const char*>(source.data()), source.size()}, path, options.unit_m);
   if (!points.problem.empty()) fail_input(points.problem);

@@ -85,8 +85,8 @@ void tell_crossings(const SoundSurface& sound, std::vector<std::string>& report)
 
 SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
                            const BakeOptions& options) {
-  tools::Imported imported =
-      tools::read_surface_bytes(std::string(bytes.begin(), bytes.end()), path, options.unit_m);
+  tools::Imported imported = tools::read_surface_bytes(
+      {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, options.unit_m);
   if (!imported.problem.empty()) fail_input(imported.problem);
   tools::CheckOptions checks;
   checks.allow_unsigned = !options.is_signed;
@@ -99,6 +99,7 @@ SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& 
     fail_input(all);
   }
   SoundSurface sound{std::move(imported.surface), report.vertex_source, {}};
+  for (const std::string& line : imported.notes) sound.told.push_back("read: " + line);
   for (const std::string& line : report.mended) sound.told.push_back("mended: " + line);
   for (const std::string& line : report.kept) sound.told.push_back("kept: " + line);
   return sound;
@@ -109,7 +110,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   const std::string name = stem_of(path);
   BakedInput baked;
   progress.stage("reading and checking " + file_name_of(path));
-  const std::vector<uint8_t> source = read_file(path);
+  const std::vector<uint8_t> source = read_model(path);
   const SoundSurface sound = sound_surface(path, source, options);
   const tools::Surface& surface = sound.surface;
 

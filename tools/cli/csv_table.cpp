@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string_view>
 
@@ -95,7 +94,8 @@ struct Reader {
       }
       float value = 0;
       if (!parse(fields[places[i]], value)) {
-        fail(number, "column '" + columns[i] + "': '" + std::string(fields[places[i]]) +
+        fail(number, "column '" + columns[i] + "': '" +
+                         std::string(fields[places[i]].substr(0, 40)) +
                          "' is not a number; write it with a point, as 0.125 or 1.25e-1");
       }
       table.values.push_back(value);
@@ -128,15 +128,6 @@ CsvTable read_csv(const std::string& text, const std::string& origin,
   if (reader.places.empty())
     fail_input(origin + ": is empty; the first line must be " + joined(columns));
   return reader.table;
-}
-
-std::string read_standard_input() {
-  std::string text;
-  char block[65536];
-  size_t count = 0;
-  while ((count = std::fread(block, 1, sizeof(block), stdin)) > 0) text.append(block, count);
-  if (std::ferror(stdin) != 0) fail_input("standard input: cannot be read");
-  return text;
 }
 
 }  // namespace firmtouch::cli

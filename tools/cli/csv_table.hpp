@@ -22,7 +22,4 @@ struct CsvTable {
 CsvTable read_csv(const std::string& text, const std::string& origin,
                   const std::vector<std::string>& columns);
 
-/// All of standard input.
-std::string read_standard_input();
-
 }  // namespace firmtouch::cli

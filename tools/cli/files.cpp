@@ -7,37 +7,32 @@
 #include <system_error>
 
 #include "cli/failure.hpp"
+#include "surface/load_file.hpp"
 
 namespace firmtouch::cli {
 namespace {
 
 std::string reason() { return std::strerror(errno); }
 
-struct File {
-  explicit File(std::FILE* opened) : handle(opened) {}
-  ~File() {
-    if (handle != nullptr) std::fclose(handle);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  std::FILE* handle;
-};
+std::vector<uint8_t> taken(tools::LoadedFile file, const std::string& name) {
+  if (!file.problem.empty()) fail_input(name + ": " + file.problem);
+  return std::move(file.bytes);
+}
 
 }  // namespace
 
 std::vector<uint8_t> read_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail_input(path + ": is a folder; name a file");
-  const File file(std::fopen(path.c_str(), "rb"));
-  if (file.handle == nullptr) fail_input(path + ": cannot be opened: " + reason());
-  std::vector<uint8_t> bytes;
-  uint8_t block[65536];
-  size_t count = 0;
-  while ((count = std::fread(block, 1, sizeof(block), file.handle)) > 0) {
-    bytes.insert(bytes.end(), block, block + count);
-  }
-  if (std::ferror(file.handle) != 0) fail_input(path + ": cannot be read: " + reason());
-  return bytes;
+  return taken(tools::load_file(path, SIZE_MAX), path);
+}
+
+std::vector<uint8_t> read_model(const std::string& path) {
+  return taken(tools::load_file(path, tools::kMostLineBytes), path);
+}
+
+std::string read_standard_input() {
+  const std::vector<uint8_t> bytes =
+      taken(tools::load_stream(stdin, tools::kMostLineBytes), "standard input");
+  return {bytes.begin(), bytes.end()};
 }
 
 void write_file(const std::string& path, const void* bytes, size_t count) {

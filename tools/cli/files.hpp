@@ -7,6 +7,10 @@ namespace firmtouch::cli {
 
 /// Every byte of a file. Fails (bad input) where it cannot be opened or read.
 std::vector<uint8_t> read_file(const std::string& path);
+/// The same for a model, curve or table: a line without an end is refused before it fills the
+/// memory.
+std::vector<uint8_t> read_model(const std::string& path);
+std::string read_standard_input();
 
 /// Writes a file whole or not at all: to a temporary beside it, renamed at the end. A failing
 /// command leaves no output.

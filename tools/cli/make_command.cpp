@@ -54,7 +54,7 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
   forbid_overwriting(arguments.text("-o", ""), model);
   BakeOptions options;
   options.is_signed = false;
-  const tools::Surface surface = sound_surface(model, read_file(model), options).surface;
+  const tools::Surface surface = sound_surface(model, read_model(model), options).surface;
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = false;
   tools::MeshReport report;

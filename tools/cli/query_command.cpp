@@ -2,6 +2,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
+#include "cli/files.hpp"
 #include "cli/queries.hpp"
 
 namespace firmtouch::cli {

@@ -1,9 +1,8 @@
 #include "curve/read_curve_csv.hpp"
 
 #include <array>
-#include <fstream>
-#include <iterator>
 
+#include "surface/load_file.hpp"
 #include "surface/text_scan.hpp"
 
 namespace firmtouch::tools {
@@ -161,16 +160,12 @@ CurvePoints read_curve_csv_bytes(std::string_view text, const std::string& name,
 
 CurvePoints read_curve_csv(const std::string& path, double unit_m) {
   CurvePoints failed;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    failed.problem = path + ": cannot be opened: check the name and that it may be read";
+  const LoadedFile file = load_file(path, kMostLineBytes);
+  if (!file.problem.empty()) {
+    failed.problem = path + ": " + file.problem;
     return failed;
   }
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (file.bad()) {
-    failed.problem = path + ": cannot be read to its end: check the disk";
-    return failed;
-  }
+  const std::string_view text(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
   return read_curve_csv_bytes(text, path, unit_m);
 }
 

@@ -1,70 +1,9 @@
 #include <algorithm>
-#include <array>
-#include <cstring>
 
 #include "surface/mending.hpp"
 
 namespace firmtouch::tools {
 namespace {
-
-using PositionKey = std::array<uint32_t, 3>;
-
-// Equal positions have equal keys: -0 becomes +0.
-PositionKey key_of(const math::Vec3& v) {
-  const float coordinates[3] = {v.x + 0.0f, v.y + 0.0f, v.z + 0.0f};
-  PositionKey key{};
-  std::memcpy(key.data(), coordinates, sizeof key);
-  return key;
-}
-
-// Of each vertex: the lowest vertex on the border of the surface at the same place; other vertices
-// stand for themselves.
-std::vector<uint32_t> border_twins(const Surface& surface, const Edges& edges) {
-  std::vector<bool> on_border(surface.vertices.size(), false);
-  for (const Edges::Edge& edge : edges.all()) {
-    if (edge.count == 1) on_border[edge.low] = on_border[edge.high] = true;
-  }
-  std::vector<std::pair<PositionKey, uint32_t>> order;
-  std::vector<uint32_t> twin(surface.vertices.size());
-  for (uint32_t v = 0; v < twin.size(); ++v) {
-    twin[v] = v;
-    if (on_border[v]) order.push_back({key_of(surface.vertices[v]), v});
-  }
-  std::sort(order.begin(), order.end());
-  for (size_t i = 1; i < order.size(); ++i) {
-    if (order[i].first == order[i - 1].first) twin[order[i].second] = twin[order[i - 1].second];
-  }
-  return twin;
-}
-
-// Where two bodies only touch at a welded vertex, each gets a vertex of its own again: one of the
-// group's own.
-void part_touching_fans(std::vector<Face>& faces, const std::vector<uint32_t>& twin) {
-  const Edges edges(faces);
-  std::vector<bool> parted(twin.size(), false);
-  std::vector<std::vector<uint32_t>> group(twin.size());
-  for (uint32_t v = 0; v < twin.size(); ++v) {
-    if (twin[v] != v) parted[twin[v]] = true;
-  }
-  for (uint32_t v = 0; v < twin.size(); ++v) {
-    if (parted[twin[v]]) group[twin[v]].push_back(v);
-  }
-  for (const Edges::Edge& edge : edges.all()) {
-    if (edge.count > 2) parted[edge.low] = parted[edge.high] = false;  // its faces are no fans
-  }
-  Sets fans = corner_fans(faces, edges.mates());
-  std::vector<uint32_t> seen(twin.size(), 0), number(faces.size() * 3, 0);
-  for (uint32_t c = 0; c < faces.size() * 3; ++c) {
-    const uint32_t v = start_of(faces, c);
-    if (parted[v] && fans.find(c) == c) number[c] = seen[v]++;
-  }
-  for (uint32_t c = 0; c < faces.size() * 3; ++c) number[c] = number[fans.find(c)];
-  for (uint32_t c = 0; c < faces.size() * 3; ++c) {
-    uint32_t& v = faces[c / 3][c % 3];
-    if (!parted[v] || number[c] == 0) continue;
-    v = group[v][std::min<size_t>(number[c], group[v].size() - 1)];
-  }
-}
 
 bool same_way_round(const Face& a, const Face& b) {
   for (uint32_t k = 0; k < 3; ++k) {
@@ -88,34 +27,6 @@ void drop_pointlike_faces(Surface& surface, CheckReport& report) {
   report.mended.push_back("dropped " + counted(count, "face that names", "faces that name") +
                           " a vertex twice, first " + named_face(surface, first));
   drop_faces(surface, dropped);
-}
-
-void weld_torn_vertices(Surface& surface, CheckReport& report) {
-  const Edges edges(surface.faces);
-  const uint32_t open = edges.open_count();
-  if (open == 0) return;
-  const std::vector<uint32_t> twin = border_twins(surface, edges);
-  Surface welded = surface;
-  for (Face& face : welded.faces) {
-    for (uint32_t& v : face) v = twin[v];
-  }
-  CheckReport after = report;
-  drop_pointlike_faces(welded, after);
-  part_touching_fans(welded.faces, twin);
-  const uint32_t left = Edges(welded.faces).open_count();
-  if (left >= open) return;
-
-  uint32_t count = 0, first = 0;
-  for (uint32_t v = 0; v < twin.size(); ++v) {
-    if (twin[v] != v && count++ == 0) first = v;
-  }
-  report = std::move(after);
-  report.mended.push_back("welded " + counted(count, "vertex", "vertices") +
-                          " to others at the same place, first " + named_vertex(surface, first) +
-                          " to vertex " + std::to_string(twin[first]) + ": that closed " +
-                          std::to_string(open - left) + " of " +
-                          counted(open, "open edge", "open edges"));
-  surface = std::move(welded);
 }
 
 void drop_duplicate_faces(Surface& surface, CheckReport& report) {

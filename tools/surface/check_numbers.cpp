@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kSmallestExtent_m = 1e-6, kLargestExtent_m = 1e6;
 
+// 1e-6 m as float32 is a little less, and an extent is the difference of two such roundings.
+constexpr double kOfTheLimit = 1e-6;
+
 // Float32 rounds a coordinate by up to 6e-8 of its size. Where that exceeds this share of the mean
 // edge, the edges' directions are off by about as many radians (0.6 degrees) and the shape is no
 // longer the one that was drawn.
@@ -62,7 +65,8 @@ void refuse_bad_size(const Surface& surface, CheckReport& report) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const double extent_m = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  if (!(extent_m >= kSmallestExtent_m && extent_m <= kLargestExtent_m)) {
+  if (!(extent_m >= kSmallestExtent_m * (1 - kOfTheLimit) &&
+        extent_m <= kLargestExtent_m * (1 + kOfTheLimit))) {
     report.refused.push_back("is " + metres(extent_m) + " large, beyond what is rendered (" +
                              metres(kSmallestExtent_m) + " to " + metres(kLargestExtent_m) +
                              "): choose another --unit or scale it");

@@ -1,6 +1,10 @@
 #include "surface/import_sink.hpp"
 
+#include <algorithm>
+#include <cstdio>
+
 #include "firmtouch/mesh/layout.hpp"
+#include "surface/point.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -11,62 +15,118 @@ bool begins(std::string_view bytes, std::string_view with) {
 
 bool is_finite(float value) { return value - value <= 0; }
 
+std::string element_of(const Place& place) {
+  return place.element + (" " + std::to_string(place.index)) + " (from 0)";
+}
+
 }  // namespace
 
-bool ImportSink::fail(const Place& place, const std::string& what) {
-  if (failed()) return false;
-  std::string where = path_;
-  if (place.line != 0) where += ":" + std::to_string(place.line);
-  where += ": ";
-  if (place.line == 0) where += "byte " + std::to_string(place.byte) + ", ";
-  if (place.element != nullptr) {
-    where += place.element + (" " + std::to_string(place.index)) + " (from 0)";
+std::string quoted(std::string_view word) {
+  return "`" + std::string(word.substr(0, 40)) + (word.size() > 40 ? "..." : "") + "`";
+}
+
+std::string ImportSink::where(const Place& place) const {
+  std::string text = path_ + ":";
+  if (place.line != 0) {
+    text += std::to_string(place.line) + ":";
+  } else {
+    text += " byte " + std::to_string(place.byte) + (place.element != nullptr ? "," : ":");
   }
-  if (where.size() > 2 && where.substr(where.size() - 2) == ", ") where.resize(where.size() - 2);
-  if (where.substr(where.size() - 2) != ": ") where += ": ";
-  problem_ = where + what;
+  if (place.element != nullptr) text += " " + element_of(place) + ":";
+  return text + " ";
+}
+
+bool ImportSink::fail(const Place& place, const std::string& what) {
+  if (!failed()) problem_ = where(place) + what;
+  is_stopped_ = true;
   return false;
 }
 
 bool ImportSink::fail(const std::string& what) {
   if (!failed()) problem_ = path_ + ": " + what;
+  is_stopped_ = true;
   return false;
 }
 
-bool ImportSink::add_vertex(const double* xyz, const Place& place) {
-  if (failed()) return false;
-  if (surface_.vertices.size() >= 0xFFFFFFF0u)
-    return fail(place, "more vertices than 32 bits can number");
-  const math::Vec3 v{static_cast<float>(xyz[0] * unit_m_), static_cast<float>(xyz[1] * unit_m_),
-                     static_cast<float>(xyz[2] * unit_m_)};
-  if (!is_finite(v.x) || !is_finite(v.y) || !is_finite(v.z)) {
-    return fail(place,
-                "a coordinate is not a finite 32-bit number of metres: mend the model or choose "
-                "another --unit");
+bool ImportSink::defect(const Place& place, std::string_view kind, const std::string& what) {
+  if (is_stopped_) return false;
+  const bool is_first = !failed();
+  if (is_first) kind_ = std::string(kind);
+  if (kind_ != kind) {
+    ++others_;
+    return true;
   }
+  ++times_;
+  const auto is_before = [](const Place& a, const Place& b) {
+    return a.line != b.line ? a.line < b.line : a.byte < b.byte;
+  };
+  if (is_first || is_before(place, first_)) {  // indices are checked last, and tell of any line
+    problem_ = where(place) + what;
+    first_ = place;
+  }
+  if (is_first || is_before(last_, place)) last_ = place;
+  return true;
+}
+
+bool ImportSink::bad_word(const Place& place, std::string_view word, const char* wrong) {
+  std::string what = quoted(word) + " " + wrong;
+  if (what.find(": ") == what.npos) what += ": mend it, or export the model again";
+  return defect(place, wrong, what);
+}
+
+std::string ImportSink::problem() const {
+  if (times_ == 0) return problem_;
+  std::string text = problem_ + (times_ == 1 ? " (once" : " (" + std::to_string(times_) + " times");
+  if (times_ > 1) {
+    text += ", last at ";
+    if (last_.element != nullptr) text += element_of(last_) + ", ";
+    text += last_.line != 0 ? "line " + std::to_string(last_.line)
+                            : "byte " + std::to_string(last_.byte);
+  }
+  if (others_ != 0) text += "; problems of other kinds: " + std::to_string(others_);
+  return text + ")";
+}
+
+bool ImportSink::add_vertex(const double* xyz, const Place& place) {
+  if (is_stopped_) return false;
+  if (surface_.vertices.size() >= 0xFFFFFFF0u)
+    return fail(place, "more vertices than 32 bits can number: split the model");
+  const double scaled_m[3] = {xyz[0] * unit_m_, xyz[1] * unit_m_, xyz[2] * unit_m_};
+  const math::Vec3 v{static_cast<float>(scaled_m[0]), static_cast<float>(scaled_m[1]),
+                     static_cast<float>(scaled_m[2])};
   surface_.vertices.push_back(v);
+  if (!is_finite(v.x) || !is_finite(v.y) || !is_finite(v.z)) {
+    return defect(place, "coordinate",
+                  "a coordinate is not a finite 32-bit number of metres: mend the model or choose "
+                  "another --unit");
+  }
+  const Point moved = to_point(v) - Point{scaled_m[0], scaled_m[1], scaled_m[2]};
+  moved_m_ = std::max(moved_m_, length(moved));
   return true;
 }
 
 bool ImportSink::add_polygon(const std::vector<int64_t>& corners, const Place& place) {
-  if (failed()) return false;
+  if (is_stopped_) return false;
   if (corners.size() < 3) {
-    return fail(place, "a face with " + std::to_string(corners.size()) +
-                           " corners: a face needs at least 3; remove it");
+    return defect(place, "corners",
+                  "a face with " + std::to_string(corners.size()) +
+                      " corners: a face needs at least 3; remove it");
   }
   const int64_t known = static_cast<int64_t>(vertex_count());
   for (const int64_t corner : corners) {
     if (corner < 0 || corner > 0xFFFFFFFE) {
-      return fail(place, "vertex index " + std::to_string(corner + base_) +
-                             " is out of range: it must be at least " + std::to_string(base_) +
-                             " and name one of the vertices");
+      return defect(place, "index",
+                    "vertex index " + std::to_string(corner + base_) +
+                        " is out of range: it must be at least " + std::to_string(base_) +
+                        " and name one of the vertices; mend it or export the model again");
     }
-    if (corner >= known) later_.push_back({corner, place});
   }
   if (surface_.faces.size() + (corners.size() - 2) > mesh::kMaxTriangles) {
     return fail(place, "more than " + std::to_string(mesh::kMaxTriangles) +
                            " triangles: simplify or split the model");
   }
+  const int64_t greatest = *std::max_element(corners.begin(), corners.end());
+  if (greatest >= known) later_.push_back({greatest, place});
   for (size_t k = 1; k + 1 < corners.size(); ++k) {
     surface_.source.push_back(static_cast<uint32_t>(surface_.faces.size()));
     surface_.faces.push_back({static_cast<uint32_t>(corners[0]), static_cast<uint32_t>(corners[k]),
@@ -76,19 +136,47 @@ bool ImportSink::add_polygon(const std::vector<int64_t>& corners, const Place& p
 }
 
 bool ImportSink::finish() {
-  if (failed()) return false;
+  if (is_stopped_) return false;
   const int64_t count = static_cast<int64_t>(vertex_count());
   for (const Later& later : later_) {
     if (later.index < count) continue;
-    return fail(later.place, "vertex index " + std::to_string(later.index + base_) +
-                                 " is out of range: the file has " + std::to_string(count) +
-                                 " vertices, counted from " + std::to_string(base_) +
-                                 "; is it cut short?");
+    defect(later.place, "index",
+           "vertex index " + std::to_string(later.index + base_) +
+               " is out of range: the file has " + std::to_string(count) +
+               " vertices, counted from " + std::to_string(base_) +
+               "; is it cut short? Export it again");
   }
+  if (failed()) return false;
   if (count == 0) return fail("has no vertices: is it a mesh? Export it again with its geometry");
   if (surface_.faces.empty())
     return fail("has no faces: export it as a mesh, not as points or lines");
+  tell_rounding();
   return true;
+}
+
+// Far from the origin 32-bit coordinates are coarse. The asset then holds another surface than the
+// file, by more than its certificates cover.
+void ImportSink::tell_rounding() {
+  Point low = to_point(surface_.vertices[surface_.faces[0][0]]), high = low;
+  double reach_m = 0;
+  for (const Face& face : surface_.faces) {
+    for (const uint32_t v : face) {
+      const Point p = to_point(surface_.vertices[v]);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      reach_m = std::max(reach_m, length(p));
+    }
+  }
+  const double moved_m = std::min(moved_m_, reach_m * 0x1p-24);  // vertices that no face uses apart
+  const double diagonal_m = length(high - low);
+  if (!(moved_m > static_cast<double>(mesh::kMostRounding) * diagonal_m)) return;
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "rounded coordinates to 32 bits, which moved vertices by up to %.3g m (%.2g of the "
+                "diagonal), as they lie %.3g m from the origin: answers are those of the rounded "
+                "surface; move the model to the origin where that is too much",
+                moved_m, moved_m / diagonal_m, reach_m);
+  note(text);
 }
 
 const char* known_by_content(std::string_view bytes) {

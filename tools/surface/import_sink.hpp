@@ -17,16 +17,25 @@ struct Place {
   uint64_t index = 0;             // of that element, from 0
 };
 
-/// Takes what a reader finds, checks it and builds the surface. The first problem is kept; after it
-/// nothing is taken.
+/// Takes what a reader finds, checks it and builds the surface. The first problem is kept and its
+/// like are counted, so that the message says how often; after fail() nothing is taken.
 class ImportSink {
  public:
   ImportSink(const std::string& path, double unit_m) : path_(path), unit_m_(unit_m) {}
 
+  /// Reading cannot go on. Result: false.
   bool fail(const Place& place, const std::string& what);
   bool fail(const std::string& what);
+  /// The file is refused, but reading goes on, to count. `kind`: what its like have in common.
+  /// Result: true, but false after fail().
+  bool defect(const Place& place, std::string_view kind, const std::string& what);
+  /// A word that read_number() or read_integer() found `wrong`.
+  bool bad_word(const Place& place, std::string_view word, const char* wrong);
+  /// Something that the report of a bake should tell; the surface is taken.
+  void note(const std::string& what) { notes_.push_back(what); }
 
-  /// Coordinates in the file's unit: scaled in double, rounded once.
+  /// Coordinates in the file's unit: scaled in double, rounded once. A vertex that is refused still
+  /// counts, so that indices stay right.
   bool add_vertex(const double* xyz, const Place& place);
   /// A polygon, fanned from its first corner. An index may name a vertex that comes later: finish()
   /// checks.
@@ -38,7 +47,9 @@ class ImportSink {
   size_t vertex_count() const { return surface_.vertices.size(); }
   bool failed() const { return !problem_.empty(); }
   Surface& surface() { return surface_; }
-  const std::string& problem() const { return problem_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// The first problem, and how often; empty where there is none.
+  std::string problem() const;
 
  private:
   struct Later {
@@ -46,13 +57,24 @@ class ImportSink {
     Place place;
   };
 
+  std::string where(const Place& place) const;
+  void tell_rounding();
+
   std::string path_;
   double unit_m_;
   int64_t base_ = 0;
   Surface surface_;
   std::vector<Later> later_;
-  std::string problem_;
+  std::vector<std::string> notes_;
+  double moved_m_ = 0;  // by the rounding to float, at most
+  bool is_stopped_ = false;
+  std::string problem_, kind_;  // the first one
+  uint64_t times_ = 0, others_ = 0;
+  Place first_, last_;
 };
+
+/// "`word`", cut short where it is long.
+std::string quoted(std::string_view word);
 
 /// What a file is by its first bytes ("an STL file", ...), or nullptr where they do not tell.
 const char* known_by_content(std::string_view bytes);
@@ -61,5 +83,6 @@ const char* known_by_content(std::string_view bytes);
 void read_obj(std::string_view text, ImportSink& sink);
 void read_off(std::string_view text, ImportSink& sink);
 void read_ply(std::string_view bytes, ImportSink& sink);
+void read_stl(std::string_view bytes, ImportSink& sink);
 
 }  // namespace firmtouch::tools

@@ -7,8 +7,6 @@
 namespace firmtouch::tools {
 namespace {
 
-std::string quoted(std::string_view word) { return "`" + std::string(word.substr(0, 40)) + "`"; }
-
 bool type_of(std::string_view word, PlyType& type) {
   static constexpr struct {
     std::string_view name;

@@ -1,3 +1,4 @@
+#include "firmtouch/mesh/layout.hpp"
 #include "surface/import_sink.hpp"
 #include "surface/text_scan.hpp"
 
@@ -23,18 +24,18 @@ bool is_passed_over(std::string_view word) {
   return false;
 }
 
-std::string quoted(std::string_view word) { return "`" + std::string(word.substr(0, 40)) + "`"; }
-
 bool read_vertex(TextScan& scan, ImportSink& sink) {
   double xyz[3] = {};
   for (int k = 0; k < 3; ++k) {
     std::string_view word;
     if (!scan.next_word(word)) {
-      return sink.fail({scan.line()},
-                       "a vertex with fewer than three coordinates: is the file cut short?");
+      sink.defect({scan.line()}, "short vertex",
+                  "a vertex with fewer than three coordinates: is the file cut short? Export the "
+                  "model again");
+      break;
     }
     const char* wrong = read_number(word, xyz[k]);
-    if (wrong != nullptr) return sink.fail({scan.line()}, quoted(word) + " " + wrong);
+    if (wrong != nullptr) sink.bad_word({scan.line()}, word, wrong);
   }
   return sink.add_vertex(xyz, {scan.line()});
 }
@@ -46,13 +47,20 @@ bool read_face(TextScan& scan, ImportSink& sink, std::vector<int64_t>& corners) 
   while (scan.next_word(word)) {
     int64_t index = 0;
     const char* wrong = read_integer(word.substr(0, word.find('/')), index);
-    if (wrong != nullptr) return sink.fail({scan.line()}, quoted(word) + " " + wrong);
-    if (index == 0) return sink.fail({scan.line()}, "vertex index 0: OBJ counts from 1");
-    if (index < -count) {
-      return sink.fail({scan.line()}, "vertex index " + std::to_string(index) +
-                                          " reaches back before the first of " +
-                                          std::to_string(count) + " vertices");
+    const Place place{scan.line()};
+    if (wrong != nullptr) return sink.bad_word(place, word, wrong);
+    if (index == 0) {
+      return sink.defect(place, "index",
+                         "vertex index 0: OBJ counts from 1; add 1 to every index of the faces");
     }
+    if (index < -count) {
+      return sink.defect(place, "index",
+                         "vertex index " + std::to_string(index) +
+                             " reaches back before the first of " + std::to_string(count) +
+                             " vertices: mend it or export the model again");
+    }
+    if (corners.size() > mesh::kMaxTriangles + 1)
+      return sink.fail(place, "a face with more corners than an asset has triangles: split it");
     corners.push_back(index > 0 ? index - 1 : count + index);
   }
   return sink.add_polygon(corners, {scan.line()});
@@ -79,9 +87,10 @@ void read_obj(std::string_view text, ImportSink& sink) {
     } else if (word == "f" || word == "fo") {
       going_on = read_face(scan, sink, corners);
     } else if (!is_passed_over(word)) {
-      going_on = sink.fail(
-          {scan.line()},
-          quoted(word) + " is no keyword of OBJ: is the file damaged, or of another format?");
+      going_on = sink.defect({scan.line()}, "keyword",
+                             quoted(word) +
+                                 " is no keyword of OBJ: is the file damaged, or of another "
+                                 "format? Export the model again");
     }
     if (!going_on) return;
   }

@@ -1,3 +1,4 @@
+#include "firmtouch/mesh/layout.hpp"
 #include "surface/import_sink.hpp"
 #include "surface/text_scan.hpp"
 
@@ -7,8 +8,6 @@
 
 namespace firmtouch::tools {
 namespace {
-
-std::string quoted(std::string_view word) { return "`" + std::string(word.substr(0, 40)) + "`"; }
 
 bool read_header(TextScan& scan, std::string_view text, ImportSink& sink) {
   std::string_view word;
@@ -52,10 +51,10 @@ bool read_vertices(TextScan& scan, ImportSink& sink, int64_t count) {
       const bool found = scan.find_word(word);
       place = {scan.line(), 0, "vertex", static_cast<uint64_t>(i)};
       if (!found)
-        return sink.fail(place,
-                         "the file ends here; it tells of " + std::to_string(count) + " vertices");
+        return sink.fail(place, "the file ends here; it tells of " + std::to_string(count) +
+                                    " vertices: it is cut short, export it again");
       const char* wrong = read_number(word, xyz[k]);
-      if (wrong != nullptr) return sink.fail(place, quoted(word) + " " + wrong);
+      if (wrong != nullptr) sink.bad_word(place, word, wrong);
     }
     if (!sink.add_vertex(xyz, place)) return false;
     scan.next_line();
@@ -74,21 +73,30 @@ bool read_faces(TextScan& scan, ImportSink& sink, int64_t count) {
       const bool found = scan.find_word(word);
       place = {scan.line(), 0, "face", static_cast<uint64_t>(i)};
       if (!found)
-        return sink.fail(place,
-                         "the file ends here; it tells of " + std::to_string(count) + " faces");
+        return sink.fail(place, "the file ends here; it tells of " + std::to_string(count) +
+                                    " faces: it is cut short, export it again");
       int64_t value = 0;
       const char* wrong = read_integer(word, value);
-      if (wrong != nullptr) return sink.fail(place, quoted(word) + " " + wrong);
+      if (wrong != nullptr) {
+        sink.bad_word(place, word, wrong);
+        break;  // the rest of the line is passed over
+      }
       if (k > 0) {
         corners.push_back(value);
       } else if (value < 3) {
+        sink.defect(place, "corners",
+                    "a face with " + std::to_string(value) +
+                        " corners: a face needs at least 3; remove it");
+        break;
+      } else if (value > int64_t{mesh::kMaxTriangles} + 2) {
         return sink.fail(place, "a face with " + std::to_string(value) +
-                                    " corners: a face needs at least 3; remove it");
+                                    " corners, more than an asset has triangles: split it");
       } else {
         wanted = value;
       }
     }
-    if (!sink.add_polygon(corners, place)) return false;
+    const bool is_whole = static_cast<int64_t>(corners.size()) == wanted;
+    if (is_whole && wanted >= 3 && !sink.add_polygon(corners, place)) return false;
     scan.next_line();
   }
   return true;
@@ -108,7 +116,7 @@ void read_off(std::string_view text, ImportSink& sink) {
   std::string_view word;
   if (scan.find_word(word)) {
     sink.fail({scan.line()}, quoted(word) + " comes after the last of " + std::to_string(faces) +
-                                 " faces: the counts at the top are too small");
+                                 " faces: the counts at the top are too small; mend them");
   }
 }
 

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "firmtouch/mesh/layout.hpp"
 #include "surface/import_sink.hpp"
 #include "surface/ply_header.hpp"
 #include "surface/text_scan.hpp"
@@ -11,6 +12,8 @@
 namespace firmtouch::tools {
 namespace {
 
+constexpr char kEnds[] = "the file ends here: it is cut short; export it again";
+
 // The values of the body one after another, as double: that holds every type of PLY exactly.
 class PlyValues {
  public:
@@ -18,6 +21,7 @@ class PlyValues {
       : format_(header.format),
         file_(file),
         at_(header.bytes),
+        from_(header.bytes),
         scan_(file.substr(header.bytes)),
         lines_(header.lines) {}
 
@@ -25,13 +29,13 @@ class PlyValues {
   const char* next(PlyType type, double& value) {
     if (format_ == PlyFormat::kAscii) {
       std::string_view word;
-      if (!scan_.find_word(word)) return "the file ends here: it is cut short";
-      const char* wrong = read_number(word, value);
-      if (wrong != nullptr) word_ = "`" + std::string(word.substr(0, 40)) + "` ";
-      return wrong;
+      if (!scan_.find_word(word)) return kEnds;
+      word_ = word;
+      return read_number(word, value);
     }
     const uint32_t size = ply_bytes(type);
-    if (file_.size() - at_ < size) return "the file ends here: it is cut short";
+    from_ = at_;
+    if (file_.size() - at_ < size) return kEnds;
     unsigned char bytes[8] = {};  // least significant first
     for (uint32_t k = 0; k < size; ++k) {
       const uint32_t to = format_ == PlyFormat::kBigEndian ? size - 1 - k : k;
@@ -51,13 +55,17 @@ class PlyValues {
   }
 
   bool is_text() const { return format_ == PlyFormat::kAscii; }
-  const std::string& word() const { return word_; }
+  /// Tells what is wrong with the last value. Result: whether reading can go on.
+  bool tell(ImportSink& sink, const Place& place, const char* wrong) const {
+    if (wrong == kEnds) return sink.fail(place, wrong);
+    return is_text() ? sink.bad_word(place, word_, wrong) : sink.defect(place, wrong, wrong);
+  }
   Place place(const PlyElement& element, uint64_t index) const {
     const char* name = element.name == "vertex" ? "vertex"
                        : element.name == "face" ? "face"
                                                 : "element";
     if (is_text()) return {lines_ + scan_.line(), 0, name, index};
-    return {0, at_, name, index};
+    return {0, from_, name, index};
   }
 
  private:
@@ -88,10 +96,10 @@ class PlyValues {
 
   PlyFormat format_;
   std::string_view file_;
-  size_t at_;
+  size_t at_, from_;  // where the last value began
   TextScan scan_;
   uint64_t lines_;
-  std::string word_;
+  std::string_view word_;
 };
 
 struct Wanted {
@@ -99,20 +107,31 @@ struct Wanted {
   int corners = -1;
 };
 
+bool is_corner_list(const PlyProperty& property) {
+  return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
 bool find_wanted(const PlyElement& element, Wanted& wanted, ImportSink& sink) {
+  const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
   for (int i = 0; i < static_cast<int>(element.properties.size()); ++i) {
     const PlyProperty& property = element.properties[static_cast<size_t>(i)];
-    for (int k = 0; k < 3; ++k) {
+    int* place = nullptr;
+    for (int k = 0; is_vertex && k < 3; ++k) {
       if (!property.is_list && property.name.size() == 1 && property.name[0] == 'x' + k)
-        wanted.xyz[k] = i;
+        place = &wanted.xyz[k];
     }
-    if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
-      wanted.corners = i;
+    if (is_face && is_corner_list(property)) place = &wanted.corners;
+    if (place == nullptr) continue;
+    if (*place >= 0) {
+      return sink.fail("element " + element.name + " has property " + property.name +
+                       " twice: which one counts? Export it again");
+    }
+    *place = i;
   }
-  if (element.name == "vertex" && (wanted.xyz[0] < 0 || wanted.xyz[1] < 0 || wanted.xyz[2] < 0)) {
+  if (is_vertex && (wanted.xyz[0] < 0 || wanted.xyz[1] < 0 || wanted.xyz[2] < 0)) {
     return sink.fail("element vertex has no properties x, y and z: export it with positions");
   }
-  if (element.name != "face") return true;
+  if (!is_face) return true;
   if (wanted.corners < 0)
     return sink.fail("element face has no list vertex_indices: export it with its faces");
   if (!is_integer(element.properties[static_cast<size_t>(wanted.corners)].type)) {
@@ -127,19 +146,25 @@ bool read_list(PlyValues& values, const PlyProperty& property, const PlyElement&
   double count = 0, item = 0;
   const char* wrong = values.next(property.count_type, count);
   if (wrong == nullptr && !(count >= 0 && count <= 4294967295.0))
-    wrong = "a list with a negative or too large count";
+    wrong = "a list with a negative or too large count: export the model again";
+  const int64_t most = items == nullptr ? 4294967295 : int64_t{mesh::kMaxTriangles} + 2;
+  if (wrong == nullptr && count > static_cast<double>(most))
+    wrong = "a face with more corners than an asset has triangles: split it";
   for (int64_t k = 0; wrong == nullptr && k < static_cast<int64_t>(count); ++k) {
     wrong = values.next(property.type, item);
     if (items == nullptr || wrong != nullptr) continue;
     if (!(item >= -2147483648.0 && item <= 4294967295.0)) {
-      wrong = "an index that no 32-bit number holds";
+      wrong = "an index that no 32-bit number holds: export the model again";
     } else {
       items->push_back(static_cast<int64_t>(item));
-      if (item - static_cast<double>(items->back()) > 0)
-        wrong = "an index that is not a whole number";
+      if (item - static_cast<double>(items->back()) > 0 ||
+          item - static_cast<double>(items->back()) < 0)
+        wrong = "an index that is not a whole number: export the model again";
     }
   }
-  return wrong == nullptr || sink.fail(values.place(element, index), values.word() + wrong);
+  // Where a list ends is not known then: what follows it would be read wrongly.
+  return wrong == nullptr || (values.tell(sink, values.place(element, index), wrong) &&
+                              sink.fail("a list that cannot be read"));
 }
 
 bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wanted,
@@ -160,14 +185,18 @@ bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wa
         is_vertex && (i == wanted.xyz[0] || i == wanted.xyz[1] || i == wanted.xyz[2]);
     if (wrong == nullptr && is_coordinate && !(value - value <= 0))
       wrong = "a coordinate is not finite: mend the model";
-    if (wrong != nullptr) return sink.fail(values.place(element, index), values.word() + wrong);
+    // Colours and normals are passed over, whatever stands there.
+    if (wrong == kEnds || (wrong != nullptr && is_coordinate)) {
+      if (!values.tell(sink, values.place(element, index), wrong)) return false;
+      value = 0;
+    }
     for (int k = 0; k < 3; ++k) {
-      if (i == wanted.xyz[k]) xyz[k] = value;
+      if (is_vertex && i == wanted.xyz[k]) xyz[k] = value;
     }
   }
   const Place place = values.place(element, index);
   if (!element.properties.empty() && !values.ends_element()) {
-    return sink.fail(place, "more values on the line than the header tells of");
+    return sink.fail(place, "more values on the line than the header tells of: mend the header");
   }
   if (is_vertex) return sink.add_vertex(xyz, place);
   return !is_face || sink.add_polygon(corners, place);
@@ -180,11 +209,18 @@ void read_ply(std::string_view file, ImportSink& sink) {
   if (!read_ply_header(file, header, sink)) return;
   PlyValues values(file, header);
   std::vector<int64_t> corners;
-  bool has_faces = false;
+  bool has_faces = false, has_vertices = false;
   for (const PlyElement& element : header.elements) {
     Wanted wanted;
     if (!find_wanted(element, wanted, sink)) return;
-    has_faces = has_faces || element.name == "face";
+    bool& is_seen = element.name == "face" ? has_faces : has_vertices;
+    if (element.name == "face" || element.name == "vertex") {
+      if (is_seen) {
+        sink.fail("has element " + element.name + " twice: export it as one mesh");
+        return;
+      }
+      is_seen = true;
+    }
     if (element.properties.empty()) continue;  // nothing is stored for it
     for (uint64_t i = 0; i < element.count; ++i) {
       if (!read_element(values, element, wanted, i, corners, sink)) return;

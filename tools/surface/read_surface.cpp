@@ -1,10 +1,7 @@
 #include "surface/read_surface.hpp"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-
 #include "surface/import_sink.hpp"
+#include "surface/load_file.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -19,22 +16,9 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-// Result: empty, or what is wrong.
-std::string load(const std::string& path, std::string& bytes) {
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) return std::string("cannot be opened: ") + std::strerror(errno);
-  char block[1 << 16];
-  size_t count = 0;
-  while ((count = std::fread(block, 1, sizeof block, file)) > 0) bytes.append(block, count);
-  const bool failed = std::ferror(file) != 0;
-  const int why = errno;
-  std::fclose(file);
-  return failed ? std::string("cannot be read: ") + std::strerror(why) : "";
-}
-
 }  // namespace
 
-Imported read_surface_bytes(const std::string& bytes, const std::string& path, double unit_m) {
+Imported read_surface_bytes(std::string_view bytes, const std::string& path, double unit_m) {
   ImportSink sink(path, unit_m);
   const std::string extension = extension_of(path);
   if (bytes.empty()) {
@@ -45,22 +29,26 @@ Imported read_surface_bytes(const std::string& bytes, const std::string& path, d
     read_off(bytes, sink);
   } else if (extension == "ply") {
     read_ply(bytes, sink);
+  } else if (extension == "stl") {
+    read_stl(bytes, sink);
   } else {
     sink.fail("`" + extension +
-              "` is no extension of a mesh: give a file that ends in .obj, .off or .ply");
+              "` is no extension of a mesh: give a file that ends in .obj, .off, .ply or .stl");
   }
   sink.finish();
   Imported imported;
   imported.problem = sink.problem();
-  if (imported.problem.empty()) imported.surface = std::move(sink.surface());
+  if (!imported.problem.empty()) return imported;
+  imported.surface = std::move(sink.surface());
+  imported.notes = sink.notes();
   return imported;
 }
 
 Imported read_surface(const std::string& path, double unit_m) {
-  std::string bytes;
-  const std::string problem = load(path, bytes);
-  if (!problem.empty()) return {{}, path + ": " + problem};
-  return read_surface_bytes(bytes, path, unit_m);
+  const LoadedFile file = load_file(path, kMostLineBytes);
+  if (!file.problem.empty()) return {{}, path + ": " + file.problem, {}};
+  const char* bytes = reinterpret_cast<const char*>(file.bytes.data());
+  return read_surface_bytes({bytes, file.bytes.size()}, path, unit_m);
 }
 
 }  // namespace firmtouch::tools

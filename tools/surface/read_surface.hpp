@@ -1,5 +1,7 @@
 #pragma once
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "surface/surface.hpp"
 
@@ -8,15 +10,16 @@ namespace firmtouch::tools {
 /// A surface as its file says it, unchecked but for indices and numbers; or the problem.
 struct Imported {
   Surface surface;
-  std::string problem;  // empty: read; else file, place, what is wrong and how to mend
+  std::string problem;  // empty: read; else file, place, what is wrong, how often, how to mend
+  std::vector<std::string> notes;  // what the report of a bake should tell of the reading
 };
 
-/// Reads .obj, .off or .ply (ascii and binary), told apart by the extension in either case.
+/// Reads .obj, .off, .ply or .stl (the last two as text and binary), told apart by the extension in either case.
 /// Coordinates are read as double, multiplied by `unit_m` and rounded once to float. Polygons are
 /// fanned from their first corner; `source` counts the triangles in the file's order.
 Imported read_surface(const std::string& path, double unit_m);
 
 /// The same from memory; `path` gives the extension and the name used in messages.
-Imported read_surface_bytes(const std::string& bytes, const std::string& path, double unit_m);
+Imported read_surface_bytes(std::string_view bytes, const std::string& path, double unit_m);
 
 }  // namespace firmtouch::tools

@@ -1,0 +1,103 @@
+# Cases of tests/cli/run: what model files may hold.
+
+# refused FILE TEXT...: exit 3, a message with the file and each text, no file left
+refused() {
+  file=$1
+  shift
+  f bake "$file" -o bad.fta
+  exits 3
+  told "$file" "$@"
+  absent bad.fta
+}
+
+BadModelsAreRefusedWithPlaceCountAndRemedy() {
+  : >empty.stl; refused empty.stl empty 'export'
+  : >empty.csv; refused empty.csv empty 'x,y,z'
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj; refused one.obj '3 open edges' '--unsigned'
+  box | sed 's/^f 1 4 3 2/f 1 4 3 9/; s/^f 5 6 7 8/f 5 6 7 -9/' >range.obj
+  refused range.obj ':9:' 'index 9 is out of range' '2 times' 'last at line 10' 'Export'
+  box | sed 's/-1 -2 -3/-1 nan -3/; s/1 2 3$/inf nan 3/' >nan.obj; refused nan.obj ':1:' 'not finite' '5 times' 'line 8'
+  box | sed 's/^v 1/v 1,5/' >comma.obj; refused comma.obj ':2:' 'with a point' '4 times' 'last at line 7'
+  printf 'solid x\n facet normal 0 0 1\n' >cut.stl; refused cut.stl ':2:' 'cut short' 'export'
+  { printf '%080d' 0; printf '\002\0\0\0'; printf '%050d' 0; } >cut.stl
+  refused cut.stl 'byte 80' 'tells of 2 facets' 'holds 1 whole' 'export'
+  printf 'PK\003\004zip' >x.stl; refused x.stl 'zip archive'
+  printf 'ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\nend_header\nabcd' >cut.ply
+  refused cut.ply 'byte ' 'vertex 0' 'cut short' 'export'
+  box >big.obj
+  f bake big.obj -o bad.fta --unit in; exits 0; rm bad.fta
+  box | sed '/^v/s/[123]/&e30/g' >big.obj; refused big.obj 'large' '--unit'
+}
+
+# 1 GB where FIRMTOUCH_LONG asks for it; never more than a little of it is held.
+ALineThatDoesNotEndIsRefusedInBoundedMemory() {
+  megabytes=40
+  [ -n "${FIRMTOUCH_LONG:-}" ] && megabytes=1024
+  for kind in obj off ply stl csv; do
+    case $kind in
+      obj) head='v 0 0 0\nf ' ;;
+      off) head='OFF\n3 1 0\n' ;;
+      ply) head='ply\nformat ascii 1.0\nelement vertex 3\n' ;;
+      stl) head='solid ' ;;
+      csv) head='x,y,z\n' ;;
+    esac
+    # shellcheck disable=SC2059
+    { printf "$head"; head -c "${megabytes}m" /dev/zero | tr '\0' 1; } >line.$kind
+    # 400 MB of address space: the program, its threads and 16 MB of the line.
+    (ulimit -v 400000 && exec "$firmtouch" bake line.$kind -o bad.fta) >.out 2>.err
+    status=$?
+    err=$(cat .err)
+    exits 3
+    told "line.$kind" 'line ' 'longer than 16777216 bytes'
+    absent bad.fta
+    [ $kind = csv ] || rm line.$kind
+  done
+  small_scene
+  f query scene.fta box distance <line.csv
+  exits 3
+  told 'standard input: line 2 is longer'
+  rm line.csv
+}
+
+AnStlIsBakedAsTheSameModelInObj() {
+  f make part --triangles 2000 -o part.obj
+  f make walk part.obj --points 300 -o walk.csv
+  awk '/^v/ { x[++n] = $2 " " $3 " " $4 }
+       /^f/ { print "facet normal 0 0 0\nouter loop\nvertex " x[$2] "\nvertex " x[$3] "\nvertex " x[$4] "\nendloop\nendfacet" }
+       BEGIN { print "solid part" } END { print "endsolid part" }' part.obj >part.stl
+  bake part.obj -o obj.fta
+  bake part.stl -o stl.fta
+  f query obj.fta part distance <walk.csv
+  same "$(printf '%s\n' "$out" | wc -l | tr -d ' ')" 301
+  wanted=$out
+  f query stl.fta part distance <walk.csv
+  same "$(printf '%s\n' "$out" | cut -d, -f1,2,9 | cksum)" "$(printf '%s\n' "$wanted" | cut -d, -f1,2,9 | cksum)"
+  bake part.stl -o mm.fta --unit mm
+  f make walk part.stl --points 10 -o w.csv
+  exits 0
+}
+
+WhatAReaderPassesOverIsTold() {
+  { printf 'solid a\n'; printf 'facet normal 0 0 1 outer loop vertex %s endloop endfacet\n' \
+      '0 0 0 vertex 0 1 0 vertex 1 0 0' '0 0 0 vertex 1 0 0 vertex 0 0 1' \
+      '1 0 0 vertex 0 1 0 vertex 0 0 1' '0 0 0 vertex 0 0 1 vertex 0 1 0'; printf 'endsolid a\n'; } >t.stl
+  bake t.stl -o a.fta
+  told 'read: passed over stored normals' 'of 4 facets 1 have one opposite'
+  box | awk '/^v/ { $2 += 20000.1 } { print }' >far.obj
+  bake far.obj -o a.fta
+  told 'read: rounded coordinates to 32 bits' 'move the model to the origin'
+}
+
+RealModelsAreBakedMendedOrRefused() {
+  models=${FIRMTOUCH_MODELS:-}
+  [ -n "$models" ] || return 0
+  for model in spot.obj rocker-arm.off fandisk.obj; do bake "$models/$model" -o a.fta; rm a.fta; done
+  for model in cow.obj suzanne.obj stanford-bunny.obj teapot.bpt; do
+    f bake "$models/$model" -o a.fta
+    exits 3
+    told "$model"
+    absent a.fta
+  done
+  bake "$models/stanford-bunny.obj" -o a.fta --unsigned
+  told 'dropped 1113 vertices'
+}
