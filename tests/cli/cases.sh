@@ -54,7 +54,7 @@ WhatIsPlannedIsRefusedByName() {
     exits 2
     told "${option%% *} is not in this version"
   done
-  for option in '--band 1' --all '--base 1'; do
+  for option in '--band 1' '--base 1'; do
     # shellcheck disable=SC2086
     f query a.fta a distance $option
     exits 2
@@ -211,19 +211,6 @@ TheUnitScalesTheModel() {
   f query a.fta box distance <p.csv
   same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f2,10)" 1,face
   case $(printf '%s\n' "$out" | sed -n 2p) in 0.02,* | 0.0200000*,* | 0.0199999*,*) ;; *) fail "$out" ;; esac
-}
-
-SegmentsHitABoxWhereTheyShould() {
-  small_scene
-  printf 'ax,ay,az,bx,by,bz\n0.3,0.1,5,0.3,0.1,1\n5,0.2,0.3,7,0.2,0.3\n0.3,0.1,0,0.3,0.1,-6\n' >g.csv
-  f query scene.fta box segment <g.csv
-  exits 0
-  same "$(printf '%s\n' "$out" | cut -d, -f1,2)" 'hit,t
-1,0.5
-0,1
-1,0.5'
-  same "$(printf '%s\n' "$out" | sed -n 1p)" hit,t,triangle,steps
-  same "$(printf '%s\n' "$out" | sed -n 3p | cut -d, -f3)" -1
 }
 
 APolylineIsAnsweredBetweenItsSamples() {

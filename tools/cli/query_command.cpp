@@ -68,7 +68,8 @@ const Command& query_command() {
        {"--arc-penalty", "W",
         "curve, nearest: metres for the whole length's change of arc (default 0)"},
        {"--band", "M", nullptr},
-       {"--all", nullptr, nullptr},
+       {"--all", nullptr,
+        "segment: every crossing, a row each (segment,t,triangle), in order of t"},
        {"--base", "N", nullptr}},
       3,
       3};
@@ -80,6 +81,7 @@ int run_query(const Arguments& arguments) {
   const std::string& name = arguments.positionals()[1];
   const std::string& kind = arguments.positionals()[2];
   check_kind(kind);
+  if (kind != "segment") forbid(arguments, kind, {"--all"});
   if (kind != "curve") forbid(arguments, kind, {"--mode", "--n", "--arc-penalty"});
   if (kind == "curve" && arguments.text("--mode", "exact") == "exact") {
     forbid(arguments, "--mode exact", {"--n", "--arc-penalty"});

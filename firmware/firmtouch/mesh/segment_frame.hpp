@@ -1,0 +1,132 @@
+#pragma once
+// A segment against triangles, in floats wherever floats can decide. For the library's own
+// translation units.
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/exact_crossing.hpp"
+#include "firmtouch/mesh/layout.hpp"
+
+namespace firmtouch::mesh {
+
+// By how much a crossing's t may be off. Floats that promise less give way to integers.
+constexpr float kTimeError = 0x1p-18f;
+
+static inline float absolute(float v) { return v < 0.0f ? -v : v; }
+static inline float larger(float a, float b) { return a > b ? a : b; }
+static inline float smaller(float a, float b) { return a < b ? a : b; }
+
+/// The segment's own frame: the origin at a, sheared along its longest axis so that it runs along
+/// that axis. A line passes an edge on the side that the cross product of the edge's two sheared
+/// corners tells.
+///
+/// With u = 2^-24, R the largest coordinate of any vertex as seen from a, and a direction whose
+/// shears are at most 1 and off by 4 u: a difference is off by u R, its shear by 6 u R, the sheared
+/// coordinate by 7 u R and its own rounding, at most 2 u R: 10 u R with a unit to spare. With S the
+/// largest sheared coordinate of a triangle (at most 2 R), a cross product is then off by 40 u R S +
+/// 200 u^2 R^2 and its roundings by 4 u S^2 <= 8 u R S; told as 52 u R (S + 8 u R).
+class SegmentFrame {
+ public:
+  SegmentFrame(const Head& head, math::Vec3 a_m, math::Vec3 b_m)
+      : a_m_(a_m), b_m_(b_m), along_m_(b_m - a_m) {
+    const float x = absolute(along_m_.x), y = absolute(along_m_.y), z = absolute(along_m_.z);
+    // Rows of the shear; their zeros and ones multiply exactly.
+    if (x > y && x > z) {
+      flips_ = along_m_.x < 0.0f;
+      const float inverse = 1.0f / along_m_.x;
+      row_[0] = {-along_m_.y * inverse, 1, 0};
+      row_[1] = {-along_m_.z * inverse, 0, 1};
+    } else if (y > z) {
+      flips_ = along_m_.y < 0.0f;
+      const float inverse = 1.0f / along_m_.y;
+      row_[0] = {0, -along_m_.z * inverse, 1};
+      row_[1] = {1, -along_m_.x * inverse, 0};
+    } else {
+      flips_ = along_m_.z < 0.0f;
+      const float inverse = 1.0f / along_m_.z;
+      row_[0] = {1, 0, -along_m_.x * inverse};
+      row_[1] = {0, 1, -along_m_.y * inverse};
+    }
+    float reach_m = 0.0f;
+    const float at[3] = {a_m.x, a_m.y, a_m.z};
+    for (uint32_t k = 0; k < 3; ++k)
+      reach_m = larger(reach_m,
+                       larger(absolute(head.low_m[k] - at[k]), absolute(head.high_m[k] - at[k])));
+    coordinate_error_m_ = reach_m * (10.5f * 0x1p-24f);
+    side_error_m_ = reach_m * (53.0f * 0x1p-24f);
+    side_error_m2_ = side_error_m_ * (reach_m * 0x1p-21f) + kUnderflow;
+  }
+
+  /// Result: as exact_crossing(), with |t - exact| <= kTimeError. The same bits whatever decided
+  /// which side of which edge: where floats decide, they decide as integers would.
+  Crossing crossing(math::Vec3 p, math::Vec3 q, math::Vec3 r) const {
+    const Side side = pass(p, q, r);
+    if (side == Side::kMisses) return {};
+    if (side != Side::kUnsure) {
+      float error;
+      const float t = time(p, q, r, error);
+      if (error <= kTimeError && t > error && t < 1.0f - error)
+        return {static_cast<int8_t>((side == Side::kLeaves) != flips_ ? 1 : -1), t};
+      if (error <= kTimeError && (t < -error || t > 1.0f + error)) return {};
+    }
+    return exact_crossing(a_m_, b_m_, p, q, r);
+  }
+
+ private:
+  enum class Side { kMisses, kEnters, kLeaves, kUnsure };
+  // Products that vanish below the range of float lose this much and no more.
+  static constexpr float kUnderflow = 1e-36f;
+
+  struct Sheared {
+    float x, y;
+  };
+  Sheared sheared(math::Vec3 vertex_m) const {
+    const math::Vec3 v = vertex_m - a_m_;
+    return {math::dot(row_[0], v), math::dot(row_[1], v)};
+  }
+
+  // NaN and infinities pass every comparison as unsure.
+  Side pass(math::Vec3 p_m, math::Vec3 q_m, math::Vec3 r_m) const {
+    const Sheared p = sheared(p_m), q = sheared(q_m), r = sheared(r_m);
+    const float high_x = larger(p.x, larger(q.x, r.x)), low_x = smaller(p.x, smaller(q.x, r.x));
+    const float high_y = larger(p.y, larger(q.y, r.y)), low_y = smaller(p.y, smaller(q.y, r.y));
+    const float e = coordinate_error_m_;
+    if (low_x > e || high_x < -e || low_y > e || high_y < -e) return Side::kMisses;
+    const float size = larger(larger(high_x, -low_x), larger(high_y, -low_y));
+    const float error = side_error_m_ * size + side_error_m2_;
+    const float pq = p.x * q.y - p.y * q.x, qr = q.x * r.y - q.y * r.x, rp = r.x * p.y - r.y * p.x;
+    const float low = smaller(pq, smaller(qr, rp)), high = larger(pq, larger(qr, rp));
+    if (low < -error && high > error) return Side::kMisses;
+    if (low > error) return Side::kLeaves;
+    if (high < -error) return Side::kEnters;
+    return Side::kUnsure;
+  }
+
+  // From the plane. What n is off by tells only as n . (p - hit), within the triangle: with L its
+  // longer edge at p, 9 u L^2 an axis times 3 L. Each sum of products is off by 5 u of the sum of
+  // their magnitudes.
+  float time(math::Vec3 p, math::Vec3 q, math::Vec3 r, float& error) const {
+    const math::Vec3 e = q - p, f = r - p, n = cross(e, f), to_p = p - a_m_;
+    const float depth = dot(n, to_p), rate = dot(n, along_m_);
+    const float t = depth / rate;
+    const float depth_size = sum_of_sizes(n, to_p), rate_size = sum_of_sizes(n, along_m_);
+    const float edge = larger(largest(e), largest(f));
+    const float lost = 6.0f * (depth_size + absolute(t) * rate_size) + 30.0f * edge * edge * edge;
+    // Where the products underflow or the quotient is of nothing, the bound is no bound.
+    const bool is_sound = absolute(rate) > 1e-30f;
+    error = is_sound ? lost / absolute(rate) * 0x1p-24f + 0x1p-24f * absolute(t) : 1e30f;
+    return t;
+  }
+  static float sum_of_sizes(math::Vec3 a, math::Vec3 b) {
+    return absolute(a.x * b.x) + absolute(a.y * b.y) + absolute(a.z * b.z);
+  }
+  static float largest(math::Vec3 a) {
+    return larger(absolute(a.x), larger(absolute(a.y), absolute(a.z)));
+  }
+
+  math::Vec3 a_m_, b_m_, along_m_;
+  math::Vec3 row_[2];
+  bool flips_;
+  float coordinate_error_m_, side_error_m_, side_error_m2_;
+};
+
+}  // namespace firmtouch::mesh
