@@ -1,7 +1,11 @@
+#include <cmath>
+
 #include "bench/all_benches.hpp"
+#include "bench/certificates.hpp"
 #include "bench/models.hpp"
 #include "bench/peer.hpp"
 #include "bench/timing.hpp"
+#include "bench/true_distance.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "surface/write_surface.hpp"
 
@@ -11,7 +15,11 @@ namespace {
 // The goals are for this machine's own instruction set (the preset host-native).
 constexpr double kWalkGoal = 0.25;
 constexpr double kRandomGoal = 0.35;
+constexpr double kBytesGoal = 36;
 constexpr uint32_t kQueries = 20000;
+constexpr uint32_t kBudget = 64;
+constexpr size_t kBudgetQueries = 1500;
+constexpr uint64_t kBudgetSeed = 2;
 
 // All points in order; warm: each starts where the one before ended.
 Contender ours(const mesh::View& view, const std::vector<math::Vec3>& points, bool is_warm) {
@@ -49,6 +57,71 @@ void run_race(const Race& race, const Model& model, const Peer& peer, Report& re
   report.bar(against, model.name, us[0] / us[1], "x", race.goal);
 }
 
+// Bytes that queries read, by what they are for; names in the imported file, probes and provenance
+// are not among them.
+void tell_bytes(const Model& model, Report& report) {
+  double all = 0, sides = 0;
+  for (const tools::Section& section : model.sections) {
+    if (section.type == mesh::kSourceSection) continue;
+    const double bytes = static_cast<double>(section.bytes.size());
+    all += bytes;
+    if (section.type == mesh::kVertexNormalsSection || section.type == mesh::kEdgeFoldsSection)
+      sides += bytes;
+  }
+  const double triangles = model.report.triangles;
+  report.bar("bytes a triangle that queries read", model.name, all / triangles, "B", kBytesGoal);
+  report.figure("of these for tree, indices and vertices", model.name, (all - sides) / triangles,
+                "B");
+  report.figure("of these for inside and outside", model.name, sides / triangles, "B");
+}
+
+// The bar is in instructions, which tools/bench/cortex-m7 counts; here it is time.
+void race_sides(const Model& model, const std::vector<math::Vec3>& points, Report& report) {
+  report.stage("with and without sides, " + model.name);
+  const Model plain = baked_again(model, Sides::kUnsigned);
+  const std::vector<double> us =
+      medians_us({ours(model.view, points, true), ours(plain.view, points, true)});
+  report.figure("time for inside and outside, touching path", model.name, 100 * (us[0] / us[1] - 1),
+                "%", "instructions: tools/bench/cortex-m7 --unsigned");
+}
+
+AskBudget cold_ask(const mesh::View& view, const std::vector<math::Vec3>& points) {
+  return [&view, &points](size_t i, uint32_t budget) {
+    query::Hint hint;
+    const mesh::Closest c = mesh::closest_point(view, points[i], {budget}, hint);
+    return Told{std::fabs(static_cast<double>(c.distance_m)),
+                static_cast<double>(c.certificate.lower_m), c.certificate.steps};
+  };
+}
+
+void tell_certificates(const Model& model, Report& report) {
+  report.stage("certificates, " + model.name);
+  const TrueDistance truth(model.surface);
+  const std::vector<math::Vec3> points = random_points(model, kBudgetQueries, kBudgetSeed);
+  std::vector<double> truths_m;
+  for (const math::Vec3& p : points) truths_m.push_back(truth(p));
+  const AskBudget ask = cold_ask(model.view, points);
+
+  const BoundShares shares = bound_shares(truths_m, kBudget, ask);
+  const std::string cold = "64 steps, cold: ";
+  report.bar_at_least(cold + "lower / truth, median", model.name, shares.lower_median, "", 0.98);
+  report.bar_at_least(cold + "lower / truth, 10 %", model.name, shares.lower_p10, "", 0.94);
+  report.bar(cold + "upper / truth, 90 %", model.name, shares.upper_p90, "", 1.05);
+  report.figure(cold + "done within them", model.name, 100 * shares.exact, "%");
+
+  const CertificateCounts counts = count_certificates(truths_m, model.diagonal_m(), ask);
+  const std::string asked = "of " + std::to_string(counts.asked) +
+                            " answers, budgets 1, 2, 4, ... " + std::to_string(counts.worst_steps);
+  report.bar("lower bounds above the truth", model.name, static_cast<double>(counts.lower_wrong),
+             "", 0, asked);
+  report.bar("told distances below the truth", model.name, static_cast<double>(counts.upper_wrong),
+             "", 0, asked);
+  report.bar("gaps that a larger budget widened", model.name, static_cast<double>(counts.gap_grew),
+             "", 0, asked);
+  report.figure("median gap at half the worst", model.name,
+                100 * counts.half_gap_m / model.diagonal_m(), "% of the diagonal");
+}
+
 }  // namespace
 
 void run_distance(const Options& options, Report& report) {
@@ -56,8 +129,11 @@ void run_distance(const Options& options, Report& report) {
   for (const Model& model : load_models(options)) {
     report.heading("closest points: " + model.name);
     run_race({"touching path, warm", walk(model, kQueries), true, kWalkGoal}, model, peer, report);
+    race_sides(model, walk(model, kQueries), report);
     run_race({"random points, cold, exact", random_points(model, kQueries), false, kRandomGoal},
              model, peer, report);
+    tell_certificates(model, report);
+    tell_bytes(model, report);
   }
 }
 
