@@ -39,7 +39,7 @@ BenchRacesAPeerOrSaysThatItIsAbsent() {
   well_formed
   printf '%s\n' "$out" | grep -qF '"value": null, "unit": "", "remark": "peer absent"' || fail "$out"
   # A peer that says it takes an hour a query loses, one that takes next to nothing wins.
-  f bench distance box.obj --bar --peer 'echo us_per_query 3600000000;:'
+  f bench distance box.obj --peer 'echo us_per_query 3600000000;:'
   exits 0
   printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.2500  met' || fail "$out"
   f bench distance box.obj --bar --peer 'echo us_per_query 0.000001;:'
@@ -65,4 +65,11 @@ BenchNamesAPeerThatFails() {
   told 'us_per_query'
   same "$(ls temporary)" ''
   unset TMPDIR
+}
+
+BenchComparesQueryOrders() {
+  f make part --triangles 2000 -o part.obj
+  f bench orders part.obj
+  exits 0
+  same "$(printf '%s\n' "$out" | grep -cE '^  (16-bit AABB|float AABB|4-wide 16-bit|oriented) ')" 96
 }

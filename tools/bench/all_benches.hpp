@@ -5,5 +5,6 @@ namespace firmtouch::bench {
 
 // The benches, one a file of that name; what each prints stands above its definition.
 void run_distance(const Options& options, Report& report);  // distance.cpp
+void run_orders(const Options& options, Report& report);    // orders.cpp
 
 }  // namespace firmtouch::bench

@@ -6,6 +6,7 @@ namespace firmtouch::bench {
 const std::vector<Bench>& benches() {
   static const std::vector<Bench> all = {
       {"distance", "closest points of meshes: the bars, budgets, bytes", run_distance},
+      {"orders", "query orders, upper bounds and kinds of boxes, each with each", run_orders},
   };
   return all;
 }

@@ -1,18 +1,27 @@
 #include "bench/timing.hpp"
 
+#include <time.h>
+
 #include <algorithm>
-#include <chrono>
 
 namespace firmtouch::bench {
 
-Contender timed(size_t queries, const std::function<double()>& pass) {
-  return [queries, pass] {
+namespace {
+
+double now_us(Clock clock) {
+  timespec time{};
+  clock_gettime(clock == Clock::kWall ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
+}
+
+}  // namespace
+
+Contender timed(size_t queries, const std::function<double()>& pass, Clock clock) {
+  return [queries, pass, clock] {
     volatile double sink = 0;
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin_us = now_us(clock);
     sink = sink + pass();
-    const auto end = std::chrono::steady_clock::now();
-    return std::chrono::duration<double, std::micro>(end - begin).count() /
-           static_cast<double>(queries);
+    return (now_us(clock) - begin_us) / static_cast<double>(queries);
   };
 }
 
