@@ -10,8 +10,9 @@ constexpr const char* kHelp =
     "firmtouch-sim runs a controller against a simulated device and hand.\n\n"
     "  firmtouch-sim run SCENARIO [options]      run it (run --help: the options, and how a "
     "scenario is written)\n"
-    "  firmtouch-sim replay LOG [--asset FILE]   re-run a log's inputs and compare every output "
+    "  firmtouch-sim replay LOG [options]        re-run a log's inputs and compare every output "
     "bit\n"
+    "  firmtouch-sim record CONTROLLER -o FILE   record a running controller over its link\n"
     "  firmtouch-sim scenario ASSET -o FILE      write a scenario that suits an asset: follow its "
     "guide, press on it\n\n"
     "Exit codes: 0 done; 1 it ran and the answer is no; 2 usage; 3 bad input.\n";
@@ -51,16 +52,17 @@ std::vector<std::string> Options::values(const std::string& name) const {
 }
 
 int run_command(const std::vector<std::string>& words) {
-  if (words.empty()) throw Usage("say what to do: run, replay or scenario");
+  if (words.empty()) throw Usage("say what to do: run, replay, record or scenario");
   const std::vector<std::string> rest(words.begin() + 1, words.end());
   if (words[0] == "run") return run_scenario(rest);
   if (words[0] == "replay") return replay_log(rest);
+  if (words[0] == "record") return record_live(rest);
   if (words[0] == "scenario") return make_scenario(rest);
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
     std::cout << kHelp;
     return 0;
   }
-  throw Usage("no command `" + words[0] + "`: run, replay or scenario");
+  throw Usage("no command `" + words[0] + "`: run, replay, record or scenario");
 }
 
 }  // namespace firmtouch::host_sim

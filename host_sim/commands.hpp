@@ -10,12 +10,13 @@ struct Usage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `run ...`, `replay ...`, `scenario ...`, `--help`. Result: the exit code; throws Usage or
+/// `run ...`, `replay ...`, `record ...`, `scenario ...`, `--help`. Result: the exit code; throws Usage or
 /// Refused.
 int run_command(const std::vector<std::string>& words);
 
 int run_scenario(const std::vector<std::string>& words);
 int replay_log(const std::vector<std::string>& words);
+int record_live(const std::vector<std::string>& words);
 int make_scenario(const std::vector<std::string>& words);
 
 /// Options after a command: takes `--name VALUE` and `--name=VALUE`, collects the rest.

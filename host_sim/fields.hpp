@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct Field {
   Kind kind;
 };
 
-/// Every word of TickRecord, in order.
+/// Every word of TickRecord, in order, from record::kFields.
 const std::vector<Field>& fields();
 
 /// A field's value as text: floats with the digits that tell all of them apart.
@@ -28,8 +29,10 @@ struct Difference {
   std::string expected, found;
 };
 
-/// The first word of the output that differs in any bit. Result: nothing where all are the same.
+/// The first word of the output that differs in any bit; those named in `without` are not compared.
+/// Result: nothing where all are the same.
 std::optional<Difference> first_difference(const record::TickRecord& expected,
-                                           const record::TickOutput& found);
+                                           const record::TickOutput& found,
+                                           const std::set<std::string>& without = {});
 
 }  // namespace firmtouch::host_sim

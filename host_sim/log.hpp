@@ -1,37 +1,36 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "firmtouch/record/tick.hpp"
+#include "log/schema.hpp"
 
 namespace firmtouch::host_sim {
 
-// A recorded run, `.ftl` version 1, little-endian:
-//
-//   header  "FTLOG\r\n\x1a", u32 version, u32 bytes of a record, u32 bytes of the text,
-//           u32 CRC-32 of the 20 bytes before and the text
-//   text    "key value" lines: asset, asset_crc, parameter_table, scenario, ...; each line that
-//           begins with `field` is the schema of one word of a record
-//   blocks  u32 'TICK', u32 records, u32 CRC-32 of the 8 bytes before and the records; the records
-//   end     u32 'DONE', u32 records in all, u32 CRC-32 of the 8 bytes before
-//
-// A log without its end was cut off; its whole blocks can still be read.
-
-constexpr uint32_t kLogVersion = 1;
-
+/// A recorded run (tools/FORMAT.md) as the simulator needs it: its ticks, in this program's own
+/// fields.
 struct Log {
   std::map<std::string, std::string> text;  // of the header, without the schema
   std::vector<record::TickRecord> records;
-  bool is_whole = true;  // false: cut off after the records given
+  // Numbers of a run begin at 0 and leave none out; replay needs that.
+  uint64_t first_number = 0;
+  uint32_t decimation = 1;
+  bool is_whole = true;           // false: cut off, damaged or incomplete after the records given
+  std::string why_not_whole;      // in words
+  std::set<std::string> without;  // outputs of this program that the log does not have
 };
+
+/// What a record is, from record::kFields, with the names of all bits.
+log::Header tick_header();
 
 /// Throws Refused where the file cannot be written; no partial file is left.
 void write_log(const std::string& path, const Log& log);
 
-/// Throws Refused naming file, byte and what is wrong: not a log, another version or schema, a
-/// block whose CRC differs.
+/// The records up to the first that is missing. Throws Refused naming the file and what is wrong:
+/// not a log, another version, an input that this program needs and the log does not have.
 Log read_log(const std::string& path);
 
 /// Whole file in and out. Throw Refused naming the file.

@@ -4,6 +4,8 @@
 
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands.hpp"
+#include "host_sim/port.hpp"
+#include "host_sim/progress.hpp"
 #include "host_sim/replay.hpp"
 #include "host_sim/session.hpp"
 
@@ -11,11 +13,15 @@ namespace firmtouch::host_sim {
 namespace {
 
 constexpr const char* kHelp =
-    "firmtouch-sim replay LOG [--asset FILE]\n"
-    "Feeds the inputs of a log to the in-process controller and compares every bit of every "
-    "output.\n"
-    "  --asset FILE   the asset, where it is no longer where the log says\n"
-    "Exit codes: 0 all the same; 1 they differ: the first difference is named by tick and field.\n";
+    "firmtouch-sim replay LOG [--asset FILE] [--controller WHAT [--image FILE]]\n"
+    "Feeds the inputs of a log to a controller and compares every bit of every output.\n"
+    "  --asset FILE        the asset, where it is no longer where the log says\n"
+    "  --controller WHAT   inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE "
+    "(serial)\n"
+    "  --image FILE        the program for qemu:BOARD (default: "
+    "build/BOARD/bin/firmtouch_app.elf)\n"
+    "Exit codes: 0 all the same; 1 they differ, and the first difference is named by tick and "
+    "field; or the log was cut off, and all before that is the same.\n";
 
 const std::string& entry(const Log& log, const std::string& path, const std::string& key) {
   const auto found = log.text.find(key);
@@ -34,10 +40,24 @@ void check_same(const std::string& path, const char* what, uint64_t logged, uint
   throw Refused(path + ": " + what + text + remedy);
 }
 
+// A replay begins where the controller did, and needs every tick.
+void check_complete(const std::string& path, const Log& log) {
+  if (log.records.empty())
+    throw Refused(path + ": it holds no tick" +
+                  (log.why_not_whole.empty() ? "" : ": " + log.why_not_whole));
+  if (log.decimation != 1)
+    throw Refused(path + ": it keeps every " + std::to_string(log.decimation) +
+                  "th tick only; record with --decimate 1 to replay");
+  if (log.first_number != 0)
+    throw Refused(path + ": it begins at record " + std::to_string(log.first_number) +
+                  ", and what the controller did before that is not in it; replay the log that it "
+                  "was cut from");
+}
+
 }  // namespace
 
 int replay_log(const std::vector<std::string>& words) {
-  const Options options(words, {"--asset"});
+  const Options options(words, {"--asset", "--controller", "--image"});
   if (options.help()) {
     std::cout << kHelp;
     return 0;
@@ -53,15 +73,30 @@ int replay_log(const std::vector<std::string>& words) {
   check_same(path, ("asset CRC of " + session.asset.path()).c_str(),
              std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16),
              session.controller->asset_crc(), 8, "name the asset of that time with --asset");
+  check_complete(path, log);
   if (!log.is_whole)
-    std::cerr << path << ": cut off; the " << log.records.size()
+    std::cerr << path << ": " << log.why_not_whole << "; the " << log.records.size()
               << " ticks before that are replayed\n";
-  if (const std::optional<Difference> d = replay(log, *session.controller)) {
+  for (const std::string& name : log.without)
+    std::cerr << path << ": it has no " << name << "; that is not compared\n";
+  const std::unique_ptr<Port> port =
+      open_port(options.value("--controller"), options.value("--image"), session.asset.path(),
+                session.controller->asset_crc());
+  const std::string by = port ? port->name() : "in-process";
+  const Tick tick = [&](const record::TickInput& input, record::TickOutput& output) {
+    if (port)
+      port->tick(input, output);
+    else
+      session.controller->tick(input, output);
+  };
+  if (const std::optional<Difference> d = replay(log, tick, progress_bar("replaying"))) {
     std::cerr << "firmtouch-sim: " << path << ": first difference at tick " << d->tick << " in "
-              << d->field << ": recorded " << d->expected << ", replayed " << d->found << "\n";
+              << d->field << ": recorded " << d->expected << ", replayed (" << by << ") "
+              << d->found << "\n";
     return 1;
   }
-  std::cerr << path << ": " << log.records.size() << " ticks replayed, every output bit the same\n";
+  std::cerr << path << ": " << log.records.size() << " ticks replayed (" << by
+            << "), every output bit the same\n";
   return log.is_whole ? 0 : 1;
 }
 

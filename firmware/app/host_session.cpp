@@ -1,5 +1,6 @@
 #include "host_session.hpp"
 
+#include "describe.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/link.hpp"
@@ -52,6 +53,10 @@ void HostSession::poll() {
   outbox_.flush();
 }
 
+bool HostSession::is_idle() const {
+  return outbox_.empty() && !(is_live() && records.waiting() > 0);
+}
+
 void HostSession::handle(const link::Frame& frame) {
   switch (frame.type) {
     case link::kHello:
@@ -62,6 +67,10 @@ void HostSession::handle(const link::Frame& frame) {
       return answer_set_param(frame);
     case link::kClearFaults:
       return answer_clear_faults(frame);
+    case link::kStream:
+      return answer_stream(frame);
+    case link::kDescribe:
+      return answer_describe(frame);
     case link::kBye:
       return leave(frame);
     default:
@@ -90,7 +99,9 @@ void HostSession::answer_hello(const link::Frame& frame) {
   if (reply.refused != 0) {
     char text[640];
     link::explain(hello.host, reply, text);
-    if (reply.refused != link::kRefusedNotReady) hal::board_print(text);
+    const bool is_question =
+        hello.mode == link::kModeAsk || reply.refused == link::kRefusedNotReady;
+    if (!is_question) hal::board_print(text);
   } else if (hello.mode == link::kModeLockStep) {
     hal::motors_off();
     controller.reset();
@@ -98,6 +109,7 @@ void HostSession::answer_hello(const link::Frame& frame) {
     phase_ = Phase::kLockStep;
   } else {
     start_servo();
+    decimation_ = hello.decimation;
     phase_ = Phase::kLive;
   }
   outbox_.send(link::kHelloReply, frame.sequence, link::bytes_of(reply));
@@ -173,6 +185,23 @@ void HostSession::answer_clear_faults(const link::Frame& frame) {
   outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
 }
 
+void HostSession::answer_stream(const link::Frame& frame) {
+  link::Stream wanted;
+  if (!is_live()) return complain(frame, "a Stream before an accepted Hello in live mode");
+  if (!link::take(frame, wanted)) return complain(frame, "a Stream of another length");
+  decimation_ = wanted.decimation;
+  link::Ack ack;
+  ack.index = link::kAckOfStream;
+  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+}
+
+void HostSession::answer_describe(const link::Frame& frame) {
+  link::Describe wanted;
+  if (!link::take(frame, wanted)) return complain(frame, "a Describe of another length");
+  const link::Description row = describe_row(wanted);
+  outbox_.send(link::kDescription, frame.sequence, link::bytes_of(row));
+}
+
 void HostSession::leave(const link::Frame& frame) {
   link::Bye bye;
   if (!link::take(frame, bye)) return complain(frame, "a Bye of another length");
@@ -188,12 +217,14 @@ void HostSession::stream_records() {
     if (!outbox_.has_room_to_stream()) return;
     const core::Span<const record::Numbered<record::TickRecord>> ready = records.ready();
     if (ready.empty()) return;
+    const bool is_wanted = decimation_ != 0 && ready[0].number % decimation_ == 0;
     link::Log log;
-    log.number = records.consumed();
-    log.dropped = ready[0].number - log.number;
-    log.record = ready[0].value;
+    if (is_wanted) {
+      log.dropped = ready[0].number - records.consumed();
+      log.record = ready[0];
+    }
     records.release(1);
-    outbox_.send(link::kLog, log_sequence_++, link::bytes_of(log));
+    if (is_wanted) outbox_.send(link::kLog, log_sequence_++, link::bytes_of(log));
   }
 }
 

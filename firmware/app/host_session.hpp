@@ -17,7 +17,7 @@ class HostSession {
   bool is_live() const { return phase_ == Phase::kLive; }
   bool is_lock_step() const { return phase_ == Phase::kLockStep; }
   /// Whether nothing waits for the link, so that the main loop may sleep until more comes.
-  bool is_idle() const { return outbox_.empty(); }
+  bool is_idle() const;
 
  private:
   enum class Phase : uint8_t { kStranger, kLive, kLockStep };
@@ -28,6 +28,8 @@ class HostSession {
   void answer_step(const link::Frame& frame);
   void answer_set_param(const link::Frame& frame);
   void answer_clear_faults(const link::Frame& frame);
+  void answer_stream(const link::Frame& frame);
+  void answer_describe(const link::Frame& frame);
   void leave(const link::Frame& frame);
   void stream_records();
   void complain(const link::Frame& frame, const char* text);
@@ -36,6 +38,7 @@ class HostSession {
   Outbox outbox_;
   Phase phase_ = Phase::kStranger;
   uint16_t log_sequence_ = 0;
+  uint32_t decimation_ = 1;
   bool has_stepped_ = false;
   link::StepReply last_reply_;
 };

@@ -132,12 +132,15 @@ void Controller::tell_scene(record::TickOutput& output) const {
   output.distance_lower_m = surface.certificate.lower_m;
   output.penetration_m = live_.touch.penetration_m;
   output.guide_deviation_m = line.distance_m;
+  output.guide_lower_m = line.certificate.lower_m;
   output.guide_arc = line.arc;
   output.steps = surface.certificate.steps + line.certificate.steps;
+  output.guide_steps = line.certificate.steps;
   output.state |= static_cast<uint32_t>(surface.certificate.sign + 1) << record::kStateSignShift;
   if (live_.touch.penetration_m > 0) output.state |= record::kStateContact;
   if (live_.guide.is_held) output.state |= record::kStateOnGuide;
   if (surface.certificate.exact) output.state |= record::kStateExact;
+  if (line.certificate.exact) output.state |= record::kStateGuideExact;
   output.model_sequence = live_.model.sequence;
 }
 

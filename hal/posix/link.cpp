@@ -23,7 +23,8 @@ namespace firmtouch::hal {
 namespace {
 
 constexpr int kBadInput = 3;
-constexpr int kWait_ms = 20;  // the main loop looks at the enable switch and the records meanwhile
+// The main loop looks at the enable switch and the records meanwhile: 20 of them at 10 kHz.
+constexpr int kWait_ms = 2;
 
 int g_link = -1;
 bool g_is_socket = false;

@@ -14,19 +14,6 @@ constexpr uint32_t kImageWidth = 840, kImageHeight = 400;  // pixels; shown larg
 constexpr double kImageTop = 64, kImageShown = 470;        // height
 constexpr Colour kPaper{255, 255, 255};
 
-// The style sheet's variables of the light theme: a picture in a README has no style sheet.
-std::string with_colours(std::string svg) {
-  constexpr const char* kColours[][2] = {{"var(--force)", "#2159d6"}, {"var(--second)", "#e2742b"},
-                                         {"var(--third)", "#8a93a6"}, {"var(--good)", "#1f8a5b"},
-                                         {"var(--bad)", "#c62839"},   {"var(--soft)", "#566175"},
-                                         {"var(--line)", "#dde2ea"},  {"var(--grid)", "#e8ecf1"},
-                                         {"var(--card)", "#ffffff"},  {"var(--ink)", "#16202e"}};
-  for (const auto& [name, colour] : kColours)
-    for (size_t at = svg.find(name); at != std::string::npos; at = svg.find(name, at))
-      svg.replace(at, std::string(name).size(), colour);
-  return svg;
-}
-
 std::string text_at(double x, double y, int size, const std::string& colour,
                     const std::string& text, int weight = 400) {
   return "<text x=\"" + fixed(x, 0) + "\" y=\"" + fixed(y, 0) + "\" font-size=\"" +
@@ -100,7 +87,7 @@ std::string picture_of(const Report& report) {
            "\" height=\"" + fixed(size.height, 0) + "\">" +
            svg_of(run.charts[i], run.axis, size, 0) + "</svg>";
   }
-  return with_colours(svg + "</svg>\n");
+  return chart::with_colours(svg + "</svg>\n");
 }
 
 }  // namespace firmtouch::host_sim

@@ -2,10 +2,18 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/report/chart.hpp"
+#include "chart/chart.hpp"
 #include "host_sim/report/report.hpp"
 
 namespace firmtouch::host_sim {
+
+using chart::Chart;
+using chart::ChartSize;
+using chart::fixed;
+using chart::grouped;
+using chart::html_of;
+using chart::Series;
+using chart::TimeAxis;
 
 /// The charts of a run, the most telling first: force, penetration, distance and its bound, steps,
 /// guide, speed, and instructions where they were counted.

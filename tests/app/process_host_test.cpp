@@ -55,10 +55,11 @@ TEST(LiveTicksComeFromTheTimerNumberedAndCounted) {
   for (uint32_t i = 0; i < 200; ++i) {
     link::Log log;
     CHECK(app.receive(link::kLog).take(log));
-    CHECK_EQ(log.number, before.number + 1);
-    CHECK_EQ(log.record.input.tick - before.record.input.tick, 1 + log.dropped - before.dropped);
-    CHECK_EQ(log.record.input.lines, record::kLineEncoderFault);  // a process has no joints
-    for (const float force_N : log.record.output.motor_N) CHECK_EQ(force_N, 0.0f);
+    CHECK_EQ(log.record.number - before.record.number, 1 + log.dropped - before.dropped);
+    const record::TickRecord& tick = log.record.value;
+    CHECK_EQ(tick.input.tick, log.record.number);
+    CHECK_EQ(tick.input.lines, record::kLineEncoderFault);  // a process has no joints
+    for (const float force_N : tick.output.motor_N) CHECK_EQ(force_N, 0.0f);
     before = log;
   }
 }
@@ -94,9 +95,10 @@ TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
     link::Log log;
     if (message.type == link::kAck && message.take(ack) && ack.result == link::kAckTaken)
       ++acknowledged;
-    if (message.type != link::kLog || !message.take(log) || log.record.input.command == 0) continue;
-    CHECK_EQ(log.record.input.command, 1 + params::kForceLimit);
-    CHECK_EQ(log.record.input.command_value, 3.5f);
+    if (message.type != link::kLog || !message.take(log) || log.record.value.input.command == 0)
+      continue;
+    CHECK_EQ(log.record.value.input.command, 1 + params::kForceLimit);
+    CHECK_EQ(log.record.value.input.command_value, 3.5f);
     ++commands;
   }
   CHECK_EQ(acknowledged, 1u);
@@ -119,9 +121,11 @@ TEST(ClearFaultsReachesTheTickAndIsTakenThere) {
       CHECK_EQ(ack.result, link::kAckTaken);
       ++acknowledged;
     }
-    if (message.type != link::kLog || !message.take(log) || log.record.input.command == 0) continue;
-    CHECK_EQ(log.record.input.command, record::kCommandClearFaults);
-    CHECK_NE(log.record.output.state & record::kStateCommandTaken, 0u);  // its enable line is low
+    if (message.type != link::kLog || !message.take(log) || log.record.value.input.command == 0)
+      continue;
+    CHECK_EQ(log.record.value.input.command, record::kCommandClearFaults);
+    CHECK_NE(log.record.value.output.state & record::kStateCommandTaken,
+             0u);  // its enable line is low
     ++commands;
   }
   CHECK_EQ(acknowledged, 1u);

@@ -39,7 +39,7 @@ class CommandMailbox {
     uint32_t command = 0;  // as TickInput::command
     float value = 0;
   };
-  record::Ring<Command, kCapacity> ring_;
+  record::Ring<Command, kCapacity, 4> ring_;  // on a controller both sides share a core
 };
 
 }  // namespace firmtouch::link

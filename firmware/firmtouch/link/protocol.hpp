@@ -2,6 +2,7 @@
 #include <stdint.h>
 
 #include "firmtouch/link/frame.hpp"
+#include "firmtouch/record/ring.hpp"
 #include "firmtouch/record/tick.hpp"
 
 // What is said over the link: the payload of each frame type, plain structs without padding,
@@ -12,11 +13,14 @@
 //               Bye. Every tick is the host's: the timer does not run, the motors stay off. An
 //               accepted Hello resets the controller; a Step that comes twice is answered twice,
 //               but ticked once.
-//   live        Hello(kModeLive) -> HelloReply. Ticks are the timer's; their Log frames flow, and
-//               SetParam -> Ack, ClearFaults -> Ack.
+//   live        Hello(kModeLive) -> HelloReply. Ticks are the timer's; their Log frames flow, every
+//               one or every so many-th (Hello, Stream -> Ack), and SetParam -> Ack,
+//               ClearFaults -> Ack go between them.
+//   both        Describe -> Description: what a record, its bits and the parameters are, from the
+//               controller itself. Answered to a stranger too.
 namespace firmtouch::link {
 
-constexpr uint32_t kProtocolVersion = 2;
+constexpr uint32_t kProtocolVersion = 3;
 
 // Append-only. The high bit marks what the controller says.
 enum Type : uint8_t {
@@ -25,15 +29,19 @@ enum Type : uint8_t {
   kSetParam = 0x03,
   kBye = 0x04,
   kClearFaults = 0x05,
+  kStream = 0x06,
+  kDescribe = 0x07,
   kHelloReply = 0x81,
   kStepReply = 0x82,
   kAck = 0x83,
   kLog = 0x84,
   kText = 0x85,  // payload: UTF-8, no terminating zero
+  kDescription = 0x86,
 };
 
 constexpr uint32_t kModeLive = 0;
 constexpr uint32_t kModeLockStep = 1;
+constexpr uint32_t kModeAsk = UINT32_MAX;  // always refused: the answer says what the controller is
 
 /// What must be the same on both sides, or the figures of one are not those of the other.
 struct Identity {
@@ -47,7 +55,7 @@ static_assert(sizeof(Identity) == 24);
 struct Hello {
   Identity host;
   uint32_t mode = kModeLive;
-  uint32_t reserved = 0;
+  uint32_t decimation = 1;  // live: as Stream::decimation
 };
 static_assert(sizeof(Hello) == 32);
 
@@ -83,7 +91,7 @@ struct StepReply {
   uint32_t stack_high_bytes = 0;  // deepest stack, looked at every 64 ticks; 0: not painted
   record::TickOutput output{};
 };
-static_assert(sizeof(StepReply) == 100);
+static_assert(sizeof(StepReply) == 108);
 
 struct SetParam {
   uint32_t index = 0;  // in the parameter table
@@ -106,7 +114,9 @@ constexpr uint32_t kAckBusy = 3;  // the command before it has not reached its t
 constexpr uint32_t kAckInLockStep = 4;  // there a command travels in its Step: TickInput::command
 constexpr uint32_t kAckTimerRuns = 5;   // tick_period_s: the board's timer keeps its own
 
-constexpr uint32_t kAckOfClearFaults = UINT32_MAX;  // Ack::index, where no parameter was meant
+// Ack::index, where no parameter was meant.
+constexpr uint32_t kAckOfClearFaults = UINT32_MAX;
+constexpr uint32_t kAckOfStream = UINT32_MAX - 1;
 
 struct Ack {
   uint32_t index = 0;
@@ -114,14 +124,46 @@ struct Ack {
 };
 static_assert(sizeof(Ack) == 8);
 
-/// One tick's record; produced = consumed + dropped holds between any two of them.
-struct Log {
-  uint32_t number = 0;   // of this record among those kept, from 0
-  uint32_t dropped = 0;  // records lost before this one, in all
-  record::TickRecord record{};
+/// Which records are sent from now on: those whose number is a multiple of `decimation`; 0: none.
+/// A line of 1 Mbaud carries about 690 records a second; what it cannot carry is dropped and
+/// counted.
+struct Stream {
+  uint32_t decimation = 1;
 };
-static_assert(sizeof(Log) == 124);
+static_assert(sizeof(Stream) == 4);
+
+/// One tick's record. A jump of its number by more than the decimation says that records are
+/// missing before it: number, dropped and the frames that came tell where they were lost.
+struct Log {
+  uint32_t dropped = 0;  // in all, before this one: the ring was full
+  record::Numbered<record::TickRecord> record;
+};
+static_assert(sizeof(Log) == 132);
 static_assert(sizeof(Log) <= kMaxPayloadBytes);
+
+// Describe::what
+constexpr uint16_t kDescribeField = 0;      // record::kFields
+constexpr uint16_t kDescribeBit = 1;        // record::kBits, then the faults
+constexpr uint16_t kDescribeParameter = 2;  // params::kTable
+
+struct Describe {
+  uint16_t what = kDescribeField;
+  uint16_t index = 0;
+};
+static_assert(sizeof(Describe) == 4);
+
+/// One row. Texts are padded with zeros; one that fills its place has none behind it.
+struct Description {
+  uint16_t what = 0;
+  uint16_t index = 0;
+  uint16_t rows = 0;     // of this table; index >= rows: there is no such row, and the rest is 0
+  uint8_t kind = 0;      // field: record::Type; bit: its number; parameter: params::When
+  uint8_t count = 0;     // field: values of four bytes
+  float number[4] = {};  // field: scale, zero; parameter: low, high, initial, present value
+  char name[32] = {};    // bit: what it says
+  char unit[24] = {};    // bit: the field that it is of
+};
+static_assert(sizeof(Description) == 80);
 
 // Bye::what
 constexpr uint32_t kByeLeave = 0;  // the controller waits for the next Hello

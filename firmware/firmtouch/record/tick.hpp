@@ -29,6 +29,7 @@ constexpr uint32_t kStateExact = 1u << 10;           // the mesh query was exact
 constexpr uint32_t kStateCommandTaken = 1u << 11;    // this tick's command took effect
 constexpr uint32_t kStateCommandRefused = 1u << 12;  // it did not
 constexpr uint32_t kStateReady = 1u << 13;           // an asset is open and proven
+constexpr uint32_t kStateGuideExact = 1u << 14;      // the guide query was exact
 constexpr uint32_t kStateSignShift = 16;             // 2 bits: sign + 1; 1 = unknown: not pushed on
 
 /// Everything that a tick depends on besides the controller's state. Nothing else may be read in a
@@ -53,18 +54,20 @@ struct TickOutput {
   float distance_lower_m;   // its certified lower bound (unsigned)
   float penetration_m;      // of the tool's sphere; 0 in free space
   float guide_deviation_m;  // distance to the guide; 0 where there is none
+  float guide_lower_m;      // certified lower bound of that distance
   float guide_arc;          // 0 to 1 along the guide
   uint32_t steps;           // all tree nodes read in this tick
+  uint32_t guide_steps;     // those of the guide query among them
   uint32_t faults;          // latched, one bit a fault (servo/fault.hpp)
   uint32_t state;           // kState... above
   uint32_t model_sequence;  // of the local model that this tick used
 };
-static_assert(sizeof(TickOutput) == 84);
+static_assert(sizeof(TickOutput) == 92);
 
 struct TickRecord {
   TickInput input;
   TickOutput output;
 };
-static_assert(sizeof(TickRecord) == 116);
+static_assert(sizeof(TickRecord) == 124);
 
 }  // namespace firmtouch::record

@@ -1,10 +1,10 @@
-#include "host_sim/report/chart.hpp"
+#include "chart/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace firmtouch::host_sim {
+namespace firmtouch::chart {
 namespace {
 
 // Text that lines may run behind.
@@ -48,6 +48,7 @@ class Plot {
   std::string bands() const;
   std::string off() const;
   std::string line(const Series& series) const;
+  std::string points(const std::vector<double>& values, size_t from, size_t to) const;
   std::string limit() const;
   std::string events() const;
 
@@ -127,34 +128,56 @@ std::string Plot::off() const {
   return svg;
 }
 
-// A column of pixels shows the least and the greatest of its ticks, so that no peak is lost.
-std::string Plot::line(const Series& series) const {
-  const size_t n = series.values.size();
-  const size_t columns =
-      std::min<size_t>(n, static_cast<size_t>(size_.width - size_.left - size_.right));
+// A column of pixels shows the least and the greatest of its values, so that no peak is lost.
+std::string Plot::points(const std::vector<double>& values, size_t from, size_t to) const {
+  const size_t n = values.size();
+  const size_t pixels = static_cast<size_t>(size_.width - size_.left - size_.right);
+  const size_t columns = std::max<size_t>(1, std::min(to - from, (to - from) * pixels / n));
   std::string points;
   const auto add = [&](size_t i) {
     points += (points.empty() ? "" : " ") +
               fixed(x(axis_.seconds * static_cast<double>(i) / static_cast<double>(n)), 1) + "," +
-              fixed(y(series.values[i]), 1);
+              fixed(y(values[i]), 1);
   };
   for (size_t c = 0; c < columns; ++c) {
-    const size_t begin = c * n / columns, end = std::max(begin + 1, (c + 1) * n / columns);
+    const size_t begin = from + c * (to - from) / columns;
+    const size_t end = std::max(begin + 1, from + (c + 1) * (to - from) / columns);
     size_t low = begin, high = begin;
     for (size_t i = begin; i < end; ++i) {
-      if (series.values[i] < series.values[low]) low = i;
-      if (series.values[i] > series.values[high]) high = i;
+      if (values[i] < values[low]) low = i;
+      if (values[i] > values[high]) high = i;
     }
     add(std::min(low, high));
-    if (std::fabs(y(series.values[low]) - y(series.values[high])) > 0.3) add(std::max(low, high));
+    if (std::fabs(y(values[low]) - y(values[high])) > 0.3) add(std::max(low, high));
   }
+  return points;
+}
+
+// Piece by piece between the NaNs.
+std::string Plot::line(const Series& series) const {
+  const std::vector<double>& values = series.values;
+  const size_t n = values.size();
   std::string svg;
-  if (series.is_area)
-    svg += "<polygon points=\"" + fixed(x(0), 1) + "," + fixed(base(), 1) + " " + points + " " +
-           fixed(x(axis_.seconds), 1) + "," + fixed(base(), 1) + "\" fill=\"" + series.colour +
-           "\" fill-opacity=\".14\"/>";
-  return svg + "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + series.colour +
-         "\" stroke-width=\"" + fixed(series.width, 1) + "\" stroke-linejoin=\"round\"/>";
+  for (size_t from = 0; from < n;) {
+    if (std::isnan(values[from])) {
+      ++from;
+      continue;
+    }
+    size_t to = from;
+    while (to < n && !std::isnan(values[to])) ++to;
+    const std::string line = points(values, from, to);
+    const auto time = [&](size_t i) {
+      return axis_.seconds * static_cast<double>(i) / static_cast<double>(n);
+    };
+    if (series.is_area)
+      svg += "<polygon points=\"" + fixed(x(time(from)), 1) + "," + fixed(base(), 1) + " " + line +
+             " " + fixed(x(time(to)), 1) + "," + fixed(base(), 1) + "\" fill=\"" + series.colour +
+             "\" fill-opacity=\".14\"/>";
+    svg += "<polyline points=\"" + line + "\" fill=\"none\" stroke=\"" + series.colour +
+           "\" stroke-width=\"" + fixed(series.width, 1) + "\" stroke-linejoin=\"round\"/>";
+    from = to;
+  }
+  return svg;
 }
 
 std::string Plot::limit() const {
@@ -203,6 +226,18 @@ std::string grouped(uint64_t value) {
   return text;
 }
 
+std::string with_colours(std::string svg) {
+  constexpr const char* kColours[][2] = {{"var(--force)", "#2159d6"}, {"var(--second)", "#e2742b"},
+                                         {"var(--third)", "#8a93a6"}, {"var(--good)", "#1f8a5b"},
+                                         {"var(--bad)", "#c62839"},   {"var(--soft)", "#566175"},
+                                         {"var(--line)", "#dde2ea"},  {"var(--grid)", "#e8ecf1"},
+                                         {"var(--card)", "#ffffff"},  {"var(--ink)", "#16202e"}};
+  for (const auto& [name, colour] : kColours)
+    for (size_t at = svg.find(name); at != std::string::npos; at = svg.find(name, at))
+      svg.replace(at, std::string(name).size(), colour);
+  return svg;
+}
+
 std::string html_of(const std::string& text) {
   std::string html;
   for (const char c : text)
@@ -232,4 +267,4 @@ std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& si
   return svg + "</svg>";
 }
 
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::chart

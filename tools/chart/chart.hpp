@@ -1,11 +1,12 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace firmtouch::host_sim {
+namespace firmtouch::chart {
 
-/// A line of a chart, one value a tick.
+/// A line of a chart, its values evenly spaced over the time; NaN interrupts it.
 struct Series {
   std::string label;
   std::string colour;  // CSS
@@ -45,6 +46,10 @@ std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& si
 /// Round numbers from `low` to `high`, about `count` of them.
 std::vector<double> round_numbers(double low, double high, int count);
 
+/// The same SVG with the light theme's colours in place of the style sheet's variables: for a picture
+/// that has no style sheet.
+std::string with_colours(std::string svg);
+
 /// Text for HTML and SVG.
 std::string html_of(const std::string& text);
 /// A number with `decimals` digits behind the point.
@@ -52,4 +57,4 @@ std::string fixed(double value, int decimals);
 /// With a space between each three digits of the whole part: 20 160.
 std::string grouped(uint64_t value);
 
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::chart

@@ -1,0 +1,63 @@
+#pragma once
+#include <mutex>
+#include <vector>
+
+#include "log/drain.hpp"
+
+namespace firmtouch::host_sim {
+
+/// Records of a size that is known only at run time, from a thread that reads a link to the one that
+/// writes the log. That thread may wait: it is no servo, and the controller's own ring is behind it.
+class QueuedRecords : public log::Records {
+ public:
+  QueuedRecords(uint32_t record_bytes, uint32_t capacity)
+      : record_bytes_(record_bytes), capacity_(capacity), bytes_(size_t{record_bytes} * capacity) {}
+
+  /// Drops it, counted, where there is no room.
+  void push(const uint8_t* record) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    number_ = log::word(record, 0) + 1;
+    if (kept_ - taken_ == capacity_) {
+      ++dropped_;
+      return;
+    }
+    uint8_t* slot = bytes_.data() + size_t{kept_ % capacity_} * record_bytes_;
+    for (uint32_t i = 0; i < record_bytes_; ++i) slot[i] = record[i];
+    ++kept_;
+  }
+  uint32_t record_bytes() const { return record_bytes_; }
+
+  core::Bytes ready() override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const uint32_t first = taken_ % capacity_, waiting = kept_ - taken_;
+    const uint32_t together = capacity_ - first;
+    return {bytes_.data() + size_t{first} * record_bytes_,
+            (waiting < together ? waiting : together) * record_bytes_};
+  }
+  void release(uint32_t count) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    taken_ += count;
+  }
+  uint32_t waiting() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return kept_ - taken_;
+  }
+  uint32_t capacity() const override { return capacity_; }
+  /// Behind the number of the last record that came.
+  uint32_t produced() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return number_;
+  }
+  uint32_t dropped() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return dropped_;
+  }
+
+ private:
+  const uint32_t record_bytes_, capacity_;
+  mutable std::mutex mutex_;
+  std::vector<uint8_t> bytes_;
+  uint32_t kept_ = 0, taken_ = 0, dropped_ = 0, number_ = 0;
+};
+
+}  // namespace firmtouch::host_sim
