@@ -93,8 +93,8 @@ log::Header header_of(const LiveLink& controller, uint32_t decimation, const std
   header.text["parameter_table"] = hex(reply.controller.parameter_table_hash, 16);
   header.text["build"] = hex(reply.controller.build_id, 16);
   header.text["controller"] = text_in(reply.board) + " (live)";
-  header.text["recorded_at_s"] =
-      std::to_string(std::chrono::duration_cast<std::chrono::seconds>(
+  header.text["recorded_at_us"] =
+      std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(
                          std::chrono::system_clock::now().time_since_epoch())
                          .count());
   for (const link::Description& row : controller.parameters())

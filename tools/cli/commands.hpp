@@ -19,4 +19,7 @@ int run_query(const Arguments& arguments);
 const Command& bench_command();
 int run_bench(const Arguments& arguments);
 
+const Command& log_command();
+int run_log(const Arguments& arguments);
+
 }  // namespace firmtouch::cli

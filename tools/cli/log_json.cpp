@@ -1,0 +1,72 @@
+#include "cli/log_json.hpp"
+
+#include <cstdio>
+
+#include "bake/json_text.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+std::string number(double value, const char* format) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+class Json {
+ public:
+  Json& add(const std::string& name, const std::string& value) {
+    text_ += (text_.empty() ? "" : ", ") + ("\"" + name + "\": " + value);
+    return *this;
+  }
+  Json& add(const std::string& name, uint64_t value) { return add(name, std::to_string(value)); }
+  Json& add(const std::string& name, double value) { return add(name, number(value, "%.9g")); }
+  std::string object() const { return "{" + text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+template <class List, class Of>
+std::string json_list(const List& list, Of of) {
+  std::string text;
+  for (const auto& item : list) text += (text.empty() ? "" : ", ") + of(item);
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+std::string json_of(const log::Statistics& s) {
+  Json period;
+  period.add("count", s.period.count).add("median_us", s.period.median_us);
+  period.add("mean_us", s.period.mean_us).add("deviation_us", s.period.deviation_us);
+  period.add("least_us", s.period.least_us).add("p99_us", s.period.p99_us);
+  period.add("p999_us", s.period.p999_us).add("most_us", s.period.most_us);
+  period.add("most_number", s.period.most_number);
+  Json all;
+  all.add("records", s.records).add("blocks", s.blocks).add("missing", s.missing);
+  all.add("first_number", s.first_number).add("last_number", s.last_number);
+  all.add("seconds", s.seconds).add("troubles", tools::json_text(s.troubles));
+  all.add("gaps", json_list(s.gaps, [](const log::Gap& gap) {
+            return Json()
+                .add("number", gap.number)
+                .add("count", gap.count)
+                .add("of_blocks", gap.of_blocks)
+                .object();
+          }));
+  all.add("period", period.object()).add("mean_steps", s.mean_steps);
+  all.add("worst_steps", json_list(s.worst_steps, [](const log::Statistics::Steps& at) {
+            return Json().add("number", at.number).add("steps", uint64_t{at.steps}).object();
+          }));
+  all.add("most_force_N", s.most_force_N).add("most_force_number", s.most_force_number);
+  all.add("faults", json_list(s.faults, [](const log::Statistics::Fault& fault) {
+            return Json()
+                .add("what", tools::json_text(fault.what))
+                .add("first_number", fault.first_number)
+                .add("records", fault.records)
+                .object();
+          }));
+  return all.object() + "\n";
+}
+
+}  // namespace firmtouch::cli
