@@ -1,8 +1,11 @@
 # The controller program as a process, against a controller in this one.
 if(TARGET firmtouch AND TARGET firmtouch-app-posix)
   firmtouch_bake(TARGET app_test_asset INPUTS app/cube.obj app/guide.csv OUTPUT app_test.fta)
-  firmtouch_test_room(app LINKS firmtouch_controller firmtouch_link firmtouch_params)
-  target_sources(test_app PRIVATE app/app_process.cpp)
+  firmtouch_test_room(app LINKS firmtouch_controller firmtouch_link firmtouch_params firmtouch_hal)
+  # The program's own servo interrupt, over joints of the test's (logging_host_test.cpp).
+  target_sources(test_app PRIVATE app/app_process.cpp ${PROJECT_SOURCE_DIR}/firmware/app/servo_interrupt.cpp
+                                  ${PROJECT_SOURCE_DIR}/firmware/app/servo.cpp)
+  target_include_directories(test_app PRIVATE ${PROJECT_SOURCE_DIR}/firmware/app)
   target_compile_definitions(
     test_app PRIVATE FIRMTOUCH_APP_PROGRAM="$<TARGET_FILE:firmtouch-app-posix>"
                      FIRMTOUCH_TEST_ASSET="$<TARGET_PROPERTY:app_test_asset,FIRMTOUCH_ASSET>")

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <thread>
 
 #include "firmtouch/record/ring.hpp"
@@ -7,7 +8,7 @@
 namespace firmtouch::record {
 namespace {
 
-constexpr uint32_t kTransfers = 1000000;
+constexpr uint32_t kTransfers = 300000;
 
 TickRecord filled(uint32_t number) {
   TickRecord made{};
@@ -62,6 +63,43 @@ void stream(uint32_t pace) {
   CHECK_EQ(ring.dropped() - begin_dropped, missing);
   CHECK_EQ(ring.produced() - begin_produced, kTransfers);
   CHECK_EQ(ring.produced(), ring.consumed() + ring.dropped());
+}
+
+// Small ones, many: a transfer is a record that was read.
+TEST(SmallRecordsInTheirMillions) {
+  struct Small {
+    uint32_t value = 0, inverse = 0;
+  };
+  static Ring<Small, 1024> ring;
+  const uint32_t transfers = std::getenv("FIRMTOUCH_LONG") != nullptr ? 1000000000 : 2000000;
+  std::thread producer([&] {
+    for (uint32_t kept = 0; kept < transfers;) {
+      const uint32_t number = ring.produced();
+      if (ring.push({number, ~number}))
+        ++kept;
+      else
+        std::this_thread::yield();
+    }
+  });
+  Numbered<Small> batch[256];
+  uint32_t bad = 0, got = 0, missing = 0, next = 0;
+  while (got < transfers) {
+    const uint32_t count = ring.pop(batch);
+    for (uint32_t i = 0; i < count; ++i) {
+      missing += batch[i].number - next;
+      next = batch[i].number + 1;
+      if (batch[i].value.value != batch[i].number || batch[i].value.inverse != ~batch[i].number)
+        ++bad;
+    }
+    got += count;
+    if (count == 0) std::this_thread::yield();
+  }
+  producer.join();
+  test::note("transfers", transfers);
+  CHECK_EQ(bad, 0u);
+  CHECK_EQ(ring.consumed(), got);
+  CHECK_EQ(ring.produced(), ring.consumed() + ring.dropped());
+  CHECK_EQ(missing + (ring.produced() - next), ring.dropped());
 }
 
 TEST(ThreadToThreadEveryRecordIsWholeOrCountedAsDropped) {

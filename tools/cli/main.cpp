@@ -16,12 +16,9 @@ struct Entry {
   int (*run)(const Arguments&);
 };
 
-constexpr Entry kEntries[] = {{make_command, run_make},
-                              {bake_command, run_bake},
-                              {info_command, run_info},
-                              {query_command, run_query},
-                              {log_command, run_log},
-                              {bench_command, run_bench}};
+constexpr Entry kEntries[] = {{make_command, run_make}, {bake_command, run_bake},
+                              {info_command, run_info}, {query_command, run_query},
+                              {log_command, run_log},   {bench_command, run_bench}};
 
 std::string usage() {
   std::string text =
