@@ -216,6 +216,36 @@ TEST(BodiesThatTouchAtACornerAnswerLikeBruteForce) {
       baked(obj_of(box({0, 0, 0}, {1, 1, 1})) + obj_of(box({1, 1, 1}, {2, 2, 2}), 8)), 3000);
 }
 
+// One point of a pit, touched by the tip of another body: below it the nearest point belongs to both,
+// and each would tell another side.
+TEST(ATipInThePitOfAnotherBodyIsRefusedRatherThanToldWrong) {
+  const std::string tip =
+      "v 0 0 0\nv -0.2 -0.2 1\nv 0.2 -0.2 1\nv 0.2 0.2 1\nv -0.2 0.2 1\nf -4 -3 -2 -1\n"
+      "f -5 -3 -4\nf -5 -2 -3\nf -5 -1 -2\nf -5 -4 -1\n";
+  std::string pit = obj_of(box({-1, -1, -1}, {1, 1, 1}));
+  const std::string top = "f 5 6 8 7\n";
+  pit.replace(pit.find(top), top.size(), "v 0 0 0\nf 5 6 9\nf 6 8 9\nf 8 7 9\nf 7 5 9\n");
+  std::string pit_after = obj_of(box({-1, -1, -1}, {1, 1, 1}), 5);
+  const std::string top_after = "f 10 11 13 12\n";
+  pit_after.replace(pit_after.find(top_after), top_after.size(),
+                    "v 0 0 0\nf 10 11 14\nf 11 13 14\nf 13 12 14\nf 12 10 14\n");
+  answers_like_brute_force(baked(pit), 2000);
+  for (const std::string& order : {pit + tip, tip + pit_after}) {
+    CHECK(baked(order).problem.find("in a pit or a notch") != std::string::npos);
+  }
+}
+
+// Inside the upper box the nearest point lies on both, and the lower one would tell outside.
+TEST(FacesOnFacesAreRefusedRatherThanToldWrong) {
+  const std::string lower = obj_of(box({0, 0, 0}, {1, 1, 1}));
+  for (const Corners& upper : {box({0, 0, 1}, {1, 1, 2}), box({0.25, 0.25, 1}, {0.5, 0.75, 2}),
+                               box({0.4, 0.3, 1}, {1.7, 1.6, 2})}) {
+    CHECK(baked(lower + obj_of(upper, 8)).problem.find("on the face of another piece") !=
+          std::string::npos);
+  }
+  answers_like_brute_force(baked(lower + obj_of(box({0, 0, 1.0001}, {1, 1, 2}), 8)), 1000);
+}
+
 TEST(OneTriangleIsRefusedOrAnswersUnsigned) {
   const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1e-3 1\nf 1 2 3\n";
   CHECK(baked(text).problem.find("3 open edges around 1 hole") != std::string::npos);

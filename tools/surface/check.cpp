@@ -100,6 +100,8 @@ CheckReport check_and_mend(Surface& surface, const CheckOptions& options) {
   std::vector<std::string>& told = options.allow_unsigned ? report.kept : report.refused;
   told.insert(told.end(), defects.begin(), defects.end());
 
+  if (report.is_closed && report.usable() && !options.allow_unsigned)
+    refuse_contacts(surface, report);
   drop_unused_vertices(surface, report);
   refuse_bad_size(surface, report);
   return report;

@@ -36,6 +36,8 @@ void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint
 void remove_flat_faces(Surface& surface, const CheckOptions& options, CheckReport& report);
 /// Open edges, edges of more than two faces, vertices of more than one fan.
 void find_topology_defects(const Surface& surface, std::vector<std::string>& defects);
+/// Pieces that touch so that the nearest point would not tell the side. Pre: closed and outward.
+void refuse_contacts(const Surface& surface, CheckReport& report);
 void drop_unused_vertices(Surface& surface, CheckReport& report);
 
 }  // namespace firmtouch::tools
