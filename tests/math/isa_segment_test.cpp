@@ -38,7 +38,7 @@ TEST(BoxesEnteredByASegmentAreThePortableOnesToTheBit) {
     const float limit = i % 3 == 0 ? 1.0f : unit();
     math::SlabLanes lanes(slabs);
     lanes.set_limit(limit);
-    uint32_t boxes[6];
+    uint32_t boxes[8];  // the fourth and the eighth word: any
     for (uint32_t& word : boxes) {
       const uint32_t low = next_random() & 0x7FFFu, high = next_random() & 0x7FFFu;
       word = (low < high ? low : high) | (32767u - (low < high ? high : low)) << 16;

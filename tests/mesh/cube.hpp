@@ -99,11 +99,11 @@ struct Cube {
 
   // Root, two inner nodes, two of theirs: leaves of 2, 2, 2, 2, 2 and 2 triangles.
   void make_tree() {
-    nodes[0].child[0] = 1, nodes[0].child[1] = 3;
-    nodes[1].child[0] = 2, nodes[1].child[1] = mesh::make_leaf(0, 2);
-    nodes[2].child[0] = mesh::make_leaf(2, 2), nodes[2].child[1] = mesh::make_leaf(4, 2);
-    nodes[3].child[0] = mesh::make_leaf(6, 2), nodes[3].child[1] = 4;
-    nodes[4].child[0] = mesh::make_leaf(8, 2), nodes[4].child[1] = mesh::make_leaf(10, 2);
+    nodes[0].side[0].child = 1, nodes[0].side[1].child = 3;
+    nodes[1].side[0].child = 2, nodes[1].side[1].child = mesh::make_leaf(0, 2);
+    nodes[2].side[0].child = mesh::make_leaf(2, 2), nodes[2].side[1].child = mesh::make_leaf(4, 2);
+    nodes[3].side[0].child = mesh::make_leaf(6, 2), nodes[3].side[1].child = 4;
+    nodes[4].side[0].child = mesh::make_leaf(8, 2), nodes[4].side[1].child = mesh::make_leaf(10, 2);
     parents[0] = 0;
     parents[1] = mesh::make_parent(0, 0, 1);
     parents[2] = mesh::make_parent(1, 0, 2);
@@ -116,15 +116,15 @@ struct Cube {
 
   void make_box(uint32_t n, uint32_t slot) {
     uint32_t low[3] = {40000, 40000, 40000}, high[3] = {0, 0, 0};
-    const uint32_t child = nodes[n].child[slot];
+    const uint32_t child = nodes[n].side[slot].child;
     const auto grow = [&](uint32_t k, uint32_t from, uint32_t to) {
       low[k] = from < low[k] ? from : low[k];
       high[k] = to > high[k] ? to : high[k];
     };
     for (uint32_t k = 0; k < 3; ++k) {
       if (!mesh::is_leaf(child)) {
-        for (const auto& box : nodes[child].box)
-          grow(k, box[k] & 0xFFFFu, mesh::kGridMax - (box[k] >> 16));
+        for (const mesh::Side& side : nodes[child].side)
+          grow(k, side.box[k] & 0xFFFFu, mesh::kGridMax - (side.box[k] >> 16));
         continue;
       }
       for (uint32_t t = mesh::leaf_first(child);
@@ -135,7 +135,7 @@ struct Cube {
         }
     }
     for (uint32_t k = 0; k < 3; ++k)
-      nodes[n].box[slot][k] = low[k] | (mesh::kGridMax - high[k]) << 16;
+      nodes[n].side[slot].box[k] = low[k] | (mesh::kGridMax - high[k]) << 16;
   }
 };
 

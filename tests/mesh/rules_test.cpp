@@ -28,12 +28,12 @@ struct Chain {
     }
     for (uint32_t n = 0; n < node_count; ++n) {
       nodes[n] = {};
-      nodes[n].child[0] = n + 1;
-      nodes[n].child[1] = mesh::make_leaf(n, 1);
+      nodes[n].side[0].child = n + 1;
+      nodes[n].side[1].child = mesh::make_leaf(n, 1);
       parents[n] = n == 0 ? 0 : mesh::make_parent(n - 1, 0, n);
     }
-    nodes[node_count - 1].child[0] = mesh::make_leaf(node_count - 1, 1);
-    nodes[node_count - 1].child[1] = mesh::make_leaf(node_count, 1);
+    nodes[node_count - 1].side[0].child = mesh::make_leaf(node_count - 1, 1);
+    nodes[node_count - 1].side[1].child = mesh::make_leaf(node_count, 1);
     cube.head.node_count = node_count;
     cube.head.triangle_count = node_count + 1;
     cube.head.depth = node_count < mesh::kMaxDepth ? node_count : mesh::kMaxDepth;
@@ -56,8 +56,8 @@ struct OneNode {
   Cube cube;
   OneNode(uint32_t first_child, uint32_t second_child) {
     cube.nodes[0] = {};
-    cube.nodes[0].child[0] = first_child;
-    cube.nodes[0].child[1] = second_child;
+    cube.nodes[0].side[0].child = first_child;
+    cube.nodes[0].side[1].child = second_child;
     cube.head.node_count = cube.head.depth = 1;
     cube.head.triangle_count = 7;
   }
@@ -95,7 +95,7 @@ TEST(R107DepthNotTheTrees) {
 TEST(R107NodeTooDeep) {
   CHECK_EQ(refusal_of(Chain(mesh::kMaxDepth).sections()), 0u);
   Chain chain(mesh::kMaxDepth + 1);
-  chain.nodes[mesh::kMaxDepth].child[1] = mesh::make_leaf(41, 0);  // never looked at
+  chain.nodes[mesh::kMaxDepth].side[1].child = mesh::make_leaf(41, 0);  // never looked at
   CHECK_EQ(refusal_of(chain.sections()), 107'040u);
 }
 
@@ -129,18 +129,18 @@ TEST(R112NormalOutOfRange) {
 TEST(R120BoxInsideOut) {
   const uint32_t inverted = 30000u | (mesh::kGridMax - 20000u) << 16;
   Cube cube;
-  cube.nodes[2].box[1][0] = inverted;  // of a leaf
+  cube.nodes[2].side[1].box[0] = inverted;  // of a leaf
   CHECK_EQ(refusal_of(cube), 120'002u);
-  cube.nodes[0].box[1][2] = inverted;  // of a node
+  cube.nodes[0].side[1].box[2] = inverted;  // of a node
   CHECK_EQ(refusal_of(cube), 120'000u);
 }
 
 TEST(R121ChildLeavesItsParentsBox) {
   Cube cube;
-  cube.nodes[0].box[0][1] += 40;
+  cube.nodes[0].side[0].box[1] += 40;
   CHECK_EQ(refusal_of(cube), 121'001u);
   cube = Cube();
-  cube.nodes[0].box[1][2] += 40 * kHighUnit;
+  cube.nodes[0].side[1].box[2] += 40 * kHighUnit;
   CHECK_EQ(refusal_of(cube), 121'003u);
 }
 
@@ -148,7 +148,7 @@ TEST(R122ChildIsNotTheNodesOwn) {
   const uint32_t children[] = {4, 1, 99};  // another's, itself, nobody
   for (const uint32_t child : children) {
     Cube cube;
-    cube.nodes[1].child[0] = child;
+    cube.nodes[1].side[0].child = child;
     CHECK_EQ(refusal_of(cube), 122'001u);
   }
   Cube cube;
@@ -164,28 +164,28 @@ TEST(R123ParentIsNotTheNodesOwn) {
   cube.parents[0] = 1;
   CHECK_EQ(refusal_of(cube), 123'000u);
   cube = Cube();
-  cube.nodes[3].child[1] = mesh::make_leaf(8, 2);  // nobody's child any more
+  cube.nodes[3].side[1].child = mesh::make_leaf(8, 2);  // nobody's child any more
   CHECK_EQ(refusal_of(cube), 123'004u);
   cube.parents[4] = mesh::make_parent(4, 1, 2);  // its own parent and child
-  cube.nodes[4].child[1] = 4;
+  cube.nodes[4].side[1].child = 4;
   CHECK_EQ(refusal_of(cube), 123'004u);
 }
 
 TEST(R124LeafOutOfOrder) {
   Cube cube;
-  cube.nodes[1].child[1] = mesh::make_leaf(1, 2);
+  cube.nodes[1].side[1].child = mesh::make_leaf(1, 2);
   CHECK_EQ(refusal_of(cube), 124'001u);
   cube = Cube();
-  cube.nodes[4].child[1] = mesh::make_leaf(10, 3);  // one more than there are
+  cube.nodes[4].side[1].child = mesh::make_leaf(10, 3);  // one more than there are
   CHECK_EQ(refusal_of(cube), 124'004u);
 }
 
 TEST(R124LeafEmpty) {
   Cube cube;
-  cube.nodes[1].child[1] = mesh::make_leaf(0, 0);
+  cube.nodes[1].side[1].child = mesh::make_leaf(0, 0);
   CHECK_EQ(refusal_of(cube), 124'001u);
   cube = Cube();
-  cube.nodes[2].child[0] = mesh::make_leaf(2, 0);
+  cube.nodes[2].side[0].child = mesh::make_leaf(2, 0);
   CHECK_EQ(refusal_of(cube), 124'002u);
   CHECK_EQ(refusal_of(OneNode(mesh::make_leaf(0, 7), mesh::make_leaf(7, 0)).sections()), 0u);
   CHECK_EQ(refusal_of(OneNode(mesh::make_leaf(0, 0), mesh::make_leaf(0, 7)).sections()), 124'000u);
@@ -193,7 +193,7 @@ TEST(R124LeafEmpty) {
 
 TEST(R125TrianglesLeftOver) {
   Cube cube;
-  cube.nodes[4].child[1] = mesh::make_leaf(10, 1);
+  cube.nodes[4].side[1].child = mesh::make_leaf(10, 1);
   CHECK_EQ(refusal_of(cube), 125'011u);
 }
 
@@ -205,10 +205,10 @@ TEST(R126CornerIsNoVertex) {
 
 TEST(R127TriangleLeavesItsLeafsBox) {
   Cube cube;
-  cube.nodes[4].box[1][1] += 40;
+  cube.nodes[4].side[1].box[1] += 40;
   CHECK_EQ(refusal_of(cube), 127'010u);
   cube = Cube();
-  cube.nodes[4].box[1][0] += 40 * kHighUnit;
+  cube.nodes[4].side[1].box[0] += 40 * kHighUnit;
   CHECK_EQ(refusal_of(cube), 127'010u);
 }
 

@@ -140,7 +140,7 @@ std::vector<Section> bake_mesh(const Surface& input, const std::string& name,
     return {};
   }
   const Grid grid = make_grid(input);
-  const MeshTree tree = build_mesh_tree(input, grid, options.leaf_triangles);
+  const MeshTree tree = build_mesh_tree(input, grid, options.shape);
   if (tree.depth > mesh::kMaxDepth) {
     report.problem = "the tree is " + std::to_string(tree.depth) + " levels deep, more than the " +
                      std::to_string(mesh::kMaxDepth) +
@@ -164,6 +164,7 @@ std::vector<Section> bake_mesh(const Surface& input, const std::string& name,
         make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
   sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
+  for (const Section& s : sections) report.shape_bytes += static_cast<uint32_t>(s.bytes.size());
   if (options.is_signed) {
     const Pseudonormals normals = make_pseudonormals(surface);
     report.smallest_vertex_margin_rad = normals.smallest_vertex_margin_rad;
@@ -173,7 +174,8 @@ std::vector<Section> bake_mesh(const Surface& input, const std::string& name,
     sections.push_back(make_section(mesh::kVertexNormalsSection, name, normals.vertices));
     sections.push_back(make_section(mesh::kEdgeFoldsSection, name, normals.edges));
   }
-  for (const Section& s : sections) report.bytes += static_cast<uint32_t>(s.bytes.size());
+  for (const Section& s : sections) report.sign_bytes += static_cast<uint32_t>(s.bytes.size());
+  report.sign_bytes -= report.shape_bytes;
   sections.push_back(make_section(mesh::kSourceSection, name, surface.source));
   report.triangles = head.triangle_count;
   report.vertices = head.vertex_count;

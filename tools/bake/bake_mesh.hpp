@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/mesh_tree.hpp"
 #include "bake/section.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "surface/surface.hpp"
@@ -11,11 +12,13 @@ namespace firmtouch::tools {
 
 struct MeshOptions {
   bool is_signed = true;
-  uint32_t leaf_triangles = 2;  // at most; 1 to 7
+  TreeShape shape = kFastTree;
 };
 
 struct MeshReport {
-  uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0, bytes = 0;
+  uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0;
+  // Of what a query reads: tree, indices and vertices, and what tells the side.
+  uint32_t shape_bytes = 0, sign_bytes = 0;
   // By how much the worst stored vertex normal may still turn.
   double smallest_vertex_margin_rad = 0;
   double smallest_edge_margin_rad = 0;

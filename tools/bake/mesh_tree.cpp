@@ -16,9 +16,11 @@ struct Box {
       high[k] = std::max(high[k], other.high[k]);
     }
   }
-  double half_area() const {
-    const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-    return x < 0 ? 0 : x * y + y * z + z * x;
+  // Of the box with `more` added to each side.
+  double half_area(double more) const {
+    const double x = high[0] - low[0] + more, y = high[1] - low[1] + more,
+                 z = high[2] - low[2] + more;
+    return high[0] < low[0] ? 0 : x * y + y * z + z * x;
   }
 };
 
@@ -32,6 +34,23 @@ std::vector<Box> face_boxes(const Surface& surface) {
       boxes[f].add(Box{p, p});
     }
   return boxes;
+}
+
+// A closest-point query reads the boxes within its distance of the surface, not those that a line
+// crosses: with boxes widened by this many mean edges the heuristic prefers what is compact.
+// Of 0, 2, 4, 6, 10, 20 and 40, 10 served the touching walks best (up to 6 % fewer instructions than 0).
+constexpr double kMarginEdges = 10;
+
+double mean_edge(const Surface& surface) {
+  double sum = 0;
+  for (const auto& face : surface.faces)
+    for (size_t k = 0; k < 3; ++k) {
+      const std::array<double, 3> a = coordinates(surface.vertices[face[k]]),
+                                  b = coordinates(surface.vertices[face[(k + 1) % 3]]);
+      sum += std::sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
+                       (b[2] - a[2]) * (b[2] - a[2]));
+    }
+  return sum / (3.0 * static_cast<double>(surface.faces.size()));
 }
 
 // Grid coordinates of a box, rounded outward; 1/128 cell more than the rounding that the firmware's
@@ -48,8 +67,11 @@ void store_box(const Box& box, const Grid& grid, uint32_t* words) {
 
 class Builder {
  public:
-  Builder(const Surface& surface, const Grid& grid, uint32_t leaf_faces)
-      : boxes_(face_boxes(surface)), grid_(grid), leaf_faces_(leaf_faces) {
+  Builder(const Surface& surface, const Grid& grid, const TreeShape& shape)
+      : boxes_(face_boxes(surface)),
+        grid_(grid),
+        shape_(shape),
+        margin_(kMarginEdges * mean_edge(surface)) {
     faces_.resize(boxes_.size());
     for (size_t f = 0; f < faces_.size(); ++f) faces_[f] = static_cast<uint32_t>(f);
   }
@@ -67,14 +89,14 @@ class Builder {
       ranges_.push_back({});
       tree_.parents.push_back(
           task.slot == 2 ? 0 : mesh::make_parent(task.parent, task.slot, task.depth));
-      if (task.slot != 2) tree_.nodes[task.parent].child[task.slot] = index;
+      if (task.slot != 2) tree_.nodes[task.parent].side[task.slot].child = index;
       tree_.depth = std::max(tree_.depth, task.depth + 1);
       const uint32_t middle = split(task.begin, task.end);
       const uint32_t ends[3] = {task.begin, middle, task.end};
       for (uint32_t slot = 2;
            slot-- > 0;) {  // the first child is taken off the stack first: depth-first numbering
-        store_box(box_of(ends[slot], ends[slot + 1]), grid_, tree_.nodes[index].box[slot]);
-        if (ends[slot + 1] - ends[slot] <= leaf_faces_)
+        store_box(box_of(ends[slot], ends[slot + 1]), grid_, tree_.nodes[index].side[slot].box);
+        if (ends[slot + 1] - ends[slot] <= shape_.leaf_faces)
           ranges_[index][slot] = {ends[slot], ends[slot + 1]};
         else
           tasks.push_back({ends[slot], ends[slot + 1], index, slot, task.depth + 1});
@@ -119,13 +141,13 @@ class Builder {
       Box box;
       for (uint32_t i = begin; i < end; ++i) {
         box.add(boxes_[faces_[i]]);
-        area_before[i - begin] = box.half_area();
+        area_before[i - begin] = box.half_area(margin_);
       }
       box = {};
       for (uint32_t i = end - 1; i > begin; --i) {
         box.add(boxes_[faces_[i]]);
         const double cost =
-            area_before[i - 1 - begin] * blocks(i - begin) + box.half_area() * blocks(end - i);
+            area_before[i - 1 - begin] * price(i - begin) + box.half_area(margin_) * price(end - i);
         if (cost < best_cost) best_cost = cost, best_axis = axis, best_middle = i;
       }
     }
@@ -133,8 +155,12 @@ class Builder {
     return best_middle;
   }
 
-  // A leaf of two costs nearly what a leaf of one does: whole leaves are what a split should leave.
-  double blocks(uint32_t faces) const { return static_cast<double>(faces); }
+  // What a subtree costs: its faces, and `empty_cost` for each by which its leaves would not be full.
+  double price(uint32_t faces) const {
+    const uint32_t rest = faces % shape_.leaf_faces;
+    const uint32_t missing = rest == 0 ? 0 : shape_.leaf_faces - rest;
+    return static_cast<double>(faces) + shape_.empty_cost * static_cast<double>(missing);
+  }
 
   void number_leaves() {
     for (size_t n = 0; n < tree_.nodes.size(); ++n)
@@ -142,7 +168,7 @@ class Builder {
         const Range range = ranges_[n][slot];
         if (range.end == std::numeric_limits<uint32_t>::max()) continue;
         const uint32_t first = static_cast<uint32_t>(tree_.order.size());
-        tree_.nodes[n].child[slot] = mesh::make_leaf(first, range.end - range.begin);
+        tree_.nodes[n].side[slot].child = mesh::make_leaf(first, range.end - range.begin);
         std::vector<uint32_t> leaf(faces_.begin() + range.begin, faces_.begin() + range.end);
         std::sort(leaf.begin(), leaf.end());
         tree_.order.insert(tree_.order.end(), leaf.begin(), leaf.end());
@@ -152,16 +178,17 @@ class Builder {
     for (size_t n = tree_.nodes.size(); n-- > 1;) {
       const mesh::Node& node = tree_.nodes[n];
       const uint32_t word = tree_.parents[n];
-      uint32_t* box = tree_.nodes[mesh::parent_of(word)].box[mesh::slot_of(word)];
+      uint32_t* box = tree_.nodes[mesh::parent_of(word)].side[mesh::slot_of(word)].box;
       for (size_t k = 0; k < 3; ++k)
-        box[k] = std::min(node.box[0][k] & 0xFFFFu, node.box[1][k] & 0xFFFFu) |
-                 std::min(node.box[0][k] >> 16, node.box[1][k] >> 16) << 16;
+        box[k] = std::min(node.side[0].box[k] & 0xFFFFu, node.side[1].box[k] & 0xFFFFu) |
+                 std::min(node.side[0].box[k] >> 16, node.side[1].box[k] >> 16) << 16;
     }
   }
 
   std::vector<Box> boxes_;
   Grid grid_;
-  uint32_t leaf_faces_;
+  TreeShape shape_;
+  double margin_;
   std::vector<uint32_t> faces_;
   std::vector<std::array<Range, 2>> ranges_;
   MeshTree tree_;
@@ -183,8 +210,8 @@ Grid make_grid(const Surface& surface) {
   return grid;
 }
 
-MeshTree build_mesh_tree(const Surface& surface, const Grid& grid, uint32_t leaf_faces) {
-  return Builder(surface, grid, leaf_faces).build();
+MeshTree build_mesh_tree(const Surface& surface, const Grid& grid, const TreeShape& shape) {
+  return Builder(surface, grid, shape).build();
 }
 
 }  // namespace firmtouch::tools

@@ -26,8 +26,18 @@ struct MeshTree {
   uint32_t depth = 0;  // levels of nodes
 };
 
-/// Surface area heuristic by a full sweep over the face centres of each axis, ties by face index:
-/// the same tree on every machine. Cost: O(n log^2 n), about 1 s for 100,000 faces.
-MeshTree build_mesh_tree(const Surface& surface, const Grid& grid, uint32_t leaf_faces);
+/// What of bytes and speed a tree is for.
+struct TreeShape {
+  uint32_t leaf_faces;  // at most; 1 to 7
+  double empty_cost;  // of a leaf's place without a face, beside 1 for a face: more, fuller leaves
+};
+// Measured on spot, rocker-arm and horse (DESIGN.md, "Bytes and instructions").
+constexpr TreeShape kFastTree{2, 0.1};
+constexpr TreeShape kSmallTree{7, 0};
+
+/// Surface area heuristic over widened boxes by a full sweep over the face centres of each axis,
+/// ties by face index: the same tree on every machine. Cost: O(n log^2 n), about 1 s for 100,000
+/// faces.
+MeshTree build_mesh_tree(const Surface& surface, const Grid& grid, const TreeShape& shape);
 
 }  // namespace firmtouch::tools

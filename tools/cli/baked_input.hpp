@@ -12,7 +12,8 @@ struct BakeOptions {
   double unit_m = 1;
   bool is_signed = true;
   bool close_holes = false;
-  std::string text;  // as they stand in the provenance
+  bool small = false;  // the smallest asset rather than the fastest
+  std::string text;    // as they stand in the provenance
 };
 
 /// One input as sections of an asset, proven, with its probes and provenance, and what to tell

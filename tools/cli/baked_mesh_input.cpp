@@ -59,10 +59,13 @@ std::vector<std::string> report_of(const tools::MeshReport& report, const tools:
   return {"mesh, " + std::to_string(report.triangles) + " triangles, " +
               std::to_string(report.vertices) + " vertices, " +
               (is_signed ? "closed: inside and outside are known" : "unsigned: distance only"),
-          std::to_string(bytes) + " bytes" +
-              sentence(", %.1f a triangle; tree of depth %.0f",
-                       static_cast<double>(bytes) / triangles, static_cast<double>(report.depth)) +
-              " (at most " + std::to_string(mesh::kMaxDepth) + ")",
+          std::to_string(bytes) + " bytes, " +
+              std::to_string(report.shape_bytes + report.sign_bytes) +
+              sentence(" of them for queries: a triangle %.1f for tree, indices and vertices, %.1f "
+                       "for its side",
+                       report.shape_bytes / triangles, report.sign_bytes / triangles),
+          sentence("tree of depth %.0f (at most %.0f)", static_cast<double>(report.depth),
+                   static_cast<double>(mesh::kMaxDepth)),
           "RAM " + std::to_string(sizeof(query::Hint)) +
               " bytes a tool that touches it (query::Hint), " + std::to_string(sizeof(mesh::View)) +
               " for the view here; the asset stays in flash",
@@ -117,6 +120,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   progress.stage("building the tree of " + name);
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = options.is_signed;
+  if (options.small) mesh_options.shape = tools::kSmallTree;
   tools::MeshReport report;
   baked.sections = tools::bake_mesh(surface, name, mesh_options, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);

@@ -21,7 +21,7 @@ struct SegmentSlabs {
   float enter[3], leave[3], rate[3];
 };
 
-/// Entry of the segment into two boxes of three words each, and which of them it enters no later
+/// Entry of the segment into two boxes of three words each, a word between them, and which of them it enters no later
 /// than `limit`: bit 0 the first, bit 1 the second. Only differences, products and comparisons.
 static inline uint32_t portable_entered(const SegmentSlabs& slabs, const uint32_t* boxes,
                                         float limit, float* entry) {
@@ -29,7 +29,7 @@ static inline uint32_t portable_entered(const SegmentSlabs& slabs, const uint32_
   for (uint32_t box = 0; box < 2; ++box) {
     float first = 0.0f, last = limit;
     for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t word = boxes[3 * box + k], turn = slabs.turn[k];
+      const uint32_t word = boxes[4 * box + k], turn = slabs.turn[k];
       const uint32_t near_half = (word >> turn) & 0xFFFFu;
       const uint32_t far_half = (word >> (16 - turn)) & 0xFFFFu;
       const float in = (static_cast<float>(near_half) - slabs.enter[k]) * slabs.rate[k];
@@ -55,12 +55,9 @@ class SlabLanes {
   void set_limit(float limit) { rate_[6] = rate_[7] = limit; }
 
   uint32_t entered(const uint32_t* boxes, float* entry) const {
-    // Two loads that stay within the six words.
-    Words4 front, back;
-    __builtin_memcpy(&front, boxes, sizeof front);
-    __builtin_memcpy(&back, boxes + 2, sizeof back);
-    const Words8 both = __builtin_shufflevector(front, back, 0, 1, 2, 3, 4, 5, 6, 7);
-    const Words8 words = __builtin_shufflevector(both, both, 0, 3, 1, 6, 2, 7, 0, 0);
+    Words8 both;  // with a word behind the second, which is never looked at
+    __builtin_memcpy(&both, boxes, sizeof both);
+    const Words8 words = __builtin_shufflevector(both, both, 0, 4, 1, 5, 2, 6, 0, 0);
     const Words8 half = {0xFFFFu, 0xFFFFu, 0xFFFFu, 0xFFFFu, 0xFFFFu, 0xFFFFu, 0, 0};
     const Words8 near_half = (words >> turn_) & half;
     const Words8 far_half = (words >> (16 - turn_)) & half;
@@ -82,7 +79,6 @@ class SlabLanes {
   }
 
  private:
-  typedef uint32_t Words4 __attribute__((vector_size(16)));
   typedef uint32_t Words8 __attribute__((vector_size(32)));
   typedef int32_t Ints8 __attribute__((vector_size(32)));
   typedef float Floats8 __attribute__((vector_size(32)));

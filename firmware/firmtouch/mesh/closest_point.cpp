@@ -48,7 +48,7 @@ Vec3 feature_direction(const View& mesh, const Best& best) {
 
 bool is_place(const View& mesh, uint32_t place) {
   if ((place >> 1) >= mesh.nodes().size()) return false;
-  const uint32_t child = mesh.nodes()[place >> 1].child[place & 1];
+  const uint32_t child = mesh.sides()[place].child;
   return is_leaf(child) && leaf_count(child) != 0;
 }
 

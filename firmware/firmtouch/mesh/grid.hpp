@@ -37,18 +37,20 @@ struct NearBound {
            put((p_m.z - head.grid_low_m[2]) * per_cell, point[2]);
   }
   static bool put(float cells, uint32_t& word) {
-    if (!(cells >= 1.0f && cells <= static_cast<float>(kGridMax) - 2.0f)) return false;
-    const uint32_t floor_cell = static_cast<uint32_t>(static_cast<int32_t>(cells - 0x1p-8f));
-    const uint32_t ceil_cell =
-        static_cast<uint32_t>(static_cast<int32_t>(cells + (1.0f + 0x1p-8f)));
+    constexpr float kMiddle = 0x1p14f;
+    if (!(__builtin_fabsf(cells - kMiddle) <= kMiddle - 4.0f)) return false;
+    // In 256ths of a cell (exact but for the fraction that is cut off): one less, rounded down to
+    // cells, and one more than what may have been cut off, rounded up.
+    const uint32_t parts = static_cast<uint32_t>(static_cast<int32_t>(cells * 0x1p8f));
+    const uint32_t floor_cell = (parts - 1) >> 8, ceil_cell = (parts + 257) >> 8;
     word = ceil_cell | ((kGridMax - floor_cell) << 16);
     return true;
   }
   uint32_t key(const uint32_t* box) const { return math::box_distance2(box, point); }
-  /// Of both boxes. Into two words: a struct of them cost the Cortex-M7 2 % of a query.
-  void keys(const Node& node, uint32_t& first, uint32_t& second) const {
-    first = key(node.box[0]);
-    second = key(node.box[1]);
+  /// Of both sides of a node. Into two words: a struct of them cost the Cortex-M7 2 % of a query.
+  void keys(const Side* sides, uint32_t& first, uint32_t& second) const {
+    first = key(sides[0].box);
+    second = key(sides[1].box);
   }
   /// Smallest key whose boxes cannot be nearer than the square root of distance2_m2.
   uint32_t prune_key(float distance2_m2) const {
@@ -92,9 +94,9 @@ struct FarBound {
                        outside_m(box[2], x_m.z)};
     return math::bits_of(math::dot(d, d) * kRoundDown);
   }
-  void keys(const Node& node, uint32_t& first, uint32_t& second) const {
-    first = key(node.box[0]);
-    second = key(node.box[1]);
+  void keys(const Side* sides, uint32_t& first, uint32_t& second) const {
+    first = key(sides[0].box);
+    second = key(sides[1].box);
   }
   uint32_t prune_key(float distance2_m2) const {
     return math::bits_of(distance2_m2 * (2.0f - kRoundDown));

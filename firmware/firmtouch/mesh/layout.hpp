@@ -72,13 +72,19 @@ struct Triangle {
 };
 static_assert(sizeof(Triangle<uint16_t>) == 6 && sizeof(Triangle<uint32_t>) == 12);
 
-/// An inner node: the boxes of its two children and where they are. box[c][k] = low | (32767 -
-/// high) << 16.
-struct Node {
-  uint32_t box[2][3];
-  uint32_t child[2];
+/// One side of an inner node: the box of a child, box[k] = low | (32767 - high) << 16, and where the
+/// child is.
+struct Side {
+  uint32_t box[3];
+  uint32_t child;
 };
-static_assert(sizeof(Node) == 32 && offsetof(Node, child) == 24);
+static_assert(sizeof(Side) == 16 && offsetof(Side, child) == 12);
+
+/// An inner node. A place, node << 1 | slot, names a side; all sides lie 16 bytes apart.
+struct Node {
+  Side side[2];
+};
+static_assert(sizeof(Node) == 32);
 
 // child: an inner node's index, always more than its parent's; or a leaf: bit 31, count << 28 for 0
 // to 7 triangles, first triangle in the low 28 bits. Only the root of a mesh of one triangle has a

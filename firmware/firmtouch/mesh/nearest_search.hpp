@@ -37,21 +37,23 @@ struct Search {
   float pending_m;  // where it is not: certified distance to everything that was not looked at
 };
 
-// Takes a key below `prune`: while there are more than `best_first`, the last, else the smallest.
-// Result: false when there is none. A cold search takes the smallest, for the sake of its lower
-//          bound; a warm one knows its upper bound so well that the order no longer matters, and
-//          saves the comparisons.
+// Takes the place of a key below `prune`: while there are more than `best_first`, the last, else the
+// smallest. A cold search takes the smallest, for the sake of its lower bound; a warm one knows its
+// upper bound so well that the order no longer matters, and saves the comparisons.
+// Result: false when there is none.
 inline bool take_next(Pending* pending, uint32_t& count, uint32_t best_first, uint32_t prune,
-                      Pending& taken) {
+                      uint32_t& place) {
   while (count > best_first) {
-    taken = pending[--count];
+    const Pending taken = pending[--count];
+    place = taken.place;
     if (taken.key < prune) return true;
   }
   if (count == 0) return false;
   uint32_t at = count - 1;
   for (uint32_t i = at; i-- > 0;) at = pending[i].key < pending[at].key ? i : at;
-  taken = pending[at];
+  const Pending taken = pending[at];
   pending[at] = pending[--count];
+  place = taken.place;
   return taken.key < prune;
 }
 
@@ -61,7 +63,7 @@ inline bool take_next(Pending* pending, uint32_t& count, uint32_t best_first, ui
 template <class Bound>
 inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t prune,
                   uint32_t& left, Pending* pending, uint32_t& count, Search& search) {
-  const Node* const nodes = mesh.nodes().data();
+  const Side* const sides = mesh.sides();
   const uint32_t* const parents = mesh.parents().data();
   const float leaf_m = math::square_root(search.best.distance2_m2) * (1.0f + 0x1p-22f);
   const float reach_m = leaf_m + search.fence_margin_m;
@@ -70,7 +72,7 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
   while (left != 0) {
     --left;
     const uint32_t beside = place ^ 1u, index = place >> 1;
-    const uint32_t key = bound.key(nodes[index].box[beside & 1u]);
+    const uint32_t key = bound.key(sides[beside].box);
     if (key < beyond) {
       fence = index;
       if (key < prune) pending[count++] = {key, beside};
@@ -93,15 +95,16 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
 // One loop with its state in registers. A box is a place; a leaf that is reached is read, an inner
 // node is entered by its nearer child, the other left in `pending`. A warm search begins with the
 // last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
+// A function of its own: beside its caller's values the loop's do not stay in registers.
 template <bool kCareful, class Bound, class Index>
-void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangles,
-                    const Bound& bound_at, Vec3 p_m, uint32_t budget, uint32_t start,
-                    Search& search) {
+[[gnu::noinline]] void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangles,
+                                      const Bound& bound_at, Vec3 p_m, uint32_t budget,
+                                      uint32_t start, Search& search) {
   const Bound bound = bound_at;  // in registers
   const Loss loss(mesh.head());
   const Vertex* const vertices = mesh.vertices().data();
   const Triangle<Index>* const triangle = triangles.data();
-  const Node* const nodes = mesh.nodes().data();
+  const Side* const sides = mesh.sides();
   const uint32_t allowed = budget == 0 ? 1 : budget;
   Pending pending[kCapacity];
   uint32_t count = 0, left = allowed;
@@ -109,26 +112,34 @@ void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangle
   uint32_t prune = bound.prune_key(least2_m2);
   bool climbing = start != query::kNowhere;
   const uint32_t best_first = climbing ? 0 : kBestFirst;
-  Pending now{0, start};
-  uint32_t child = climbing ? nodes[start >> 1].child[start & 1] : 0;  // else the root
+  uint32_t place = start;
+  uint32_t child = climbing ? sides[start].child : 0;  // else the root
   while (left != 0) {
     --left;
     if (!is_leaf(child)) {
-      const Node& node = nodes[child];
       uint32_t key0, key1;
-      bound.keys(node, key0, key1);
-      const uint32_t slot = key1 < key0 ? 1 : 0;
-      const uint32_t far_key = slot ? key0 : key1;
-      now.place = child << 1 | slot;
-      now.key = slot ? key1 : key0;
-      if (far_key < prune) pending[count++] = {far_key, now.place ^ 1u};
-      if (now.key < prune) {
-        child = node.child[slot];
+      bound.keys(sides + 2 * child, key0, key1);
+      place = 2 * child;
+      if (key0 < prune) {
+        if (key1 < prune) {
+          if (key1 < key0) {
+            pending[count++] = {key0, place};
+            place |= 1u;
+          } else {
+            pending[count++] = {key1, place | 1u};
+          }
+        }
+        child = sides[place].child;
+        continue;
+      }
+      if (key1 < prune) {
+        place |= 1u;
+        child = sides[place].child;
         continue;
       }
     } else {
       const float before2_m2 = least2_m2;
-      least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, p_m, child, now.place, least2_m2,
+      least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, p_m, child, place, least2_m2,
                                          search.best);
       if (least2_m2 < before2_m2) prune = bound.prune_key(least2_m2);
       if (climbing) {
@@ -136,17 +147,18 @@ void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangle
         climbing = false;
       }
     }
-    if (!take_next(pending, count, best_first, prune, now)) {
+    if (!take_next(pending, count, best_first, prune, place)) {
       search.complete = true;
       search.steps = allowed - left;
       return;
     }
-    child = nodes[now.place >> 1].child[now.place & 1];
+    child = sides[place].child;
   }
   // The budget ran out: what was about to be read is left too.
   search.complete = false;
   search.steps = allowed - left;
-  uint32_t least = climbing ? 0 : now.key;
+  const bool nothing = climbing || place == query::kNowhere;
+  uint32_t least = nothing ? 0 : bound.key(sides[place].box);
   for (uint32_t i = 0; i < count; ++i) least = pending[i].key < least ? pending[i].key : least;
   search.pending_m = bound.distance_m(least);
 }

@@ -77,12 +77,12 @@ bool search(const View& mesh, Vec3 a_m, Vec3 b_m, query::Budget budget, Visitor&
     }
     const Node& node = nodes[now.child];
     float entry[2];
-    const uint32_t entered = slabs.entered(node.box[0], entry);
+    const uint32_t entered = slabs.entered(node.side[0].box, entry);
     // Both are written; how many of them count is what was entered.
     const uint32_t nearer = entered == 2 || (entered == 3 && entry[1] < entry[0]) ? 1 : 0;
-    pending[count] = {entry[nearer ^ 1], node.child[nearer ^ 1]};
+    pending[count] = {entry[nearer ^ 1], node.side[nearer ^ 1].child};
     count += entered == 3 ? 1 : 0;
-    pending[count] = {entry[nearer], node.child[nearer]};
+    pending[count] = {entry[nearer], node.side[nearer].child};
     count += entered != 0 ? 1 : 0;
   }
   return true;

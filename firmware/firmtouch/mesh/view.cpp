@@ -185,36 +185,37 @@ Verdict Opening::check_node(uint32_t i) {
   const Node& node = view_.nodes_[i];
   const uint32_t word = view_.parents_[i];
   if (i == 0 ? word != 0
-             : parent_of(word) >= i || view_.nodes_[parent_of(word)].child[slot_of(word)] != i)
+             : parent_of(word) >= i || view_.nodes_[parent_of(word)].side[slot_of(word)].child != i)
     return reject(123, i);
   if (depth_of(word) > deepest_) deepest_ = depth_of(word);
   if (deepest_ >= kMaxDepth) return reject(107, i);
   for (uint32_t slot = 0; slot < 2; ++slot) {
-    const uint32_t child = node.child[slot];
+    const uint32_t child = node.side[slot].child;
     if (is_leaf(child)) {
       const Verdict leaf = check_leaf(i, slot);
       if (!leaf.ok()) return leaf;
       continue;
     }
-    if (!is_box(node.box[slot])) return reject(120, i);
+    if (!is_box(node.side[slot].box)) return reject(120, i);
     if (child <= i || child >= view_.nodes_.size() ||
         view_.parents_[child] != make_parent(i, slot, depth_of(word) + 1))
       return reject(122, i);
     const Node& inner = view_.nodes_[child];
     for (uint32_t grandchild = 0; grandchild < 2; ++grandchild)
-      if (!holds(node.box[slot], inner.box[grandchild])) return reject(121, child);
+      if (!holds(node.side[slot].box, inner.side[grandchild].box)) return reject(121, child);
   }
   return kPassed;
 }
 
 Verdict Opening::check_leaf(uint32_t i, uint32_t slot) {
   const Node& node = view_.nodes_[i];
-  const uint32_t first = leaf_first(node.child[slot]), count = leaf_count(node.child[slot]);
+  const uint32_t first = leaf_first(node.side[slot].child),
+                 count = leaf_count(node.side[slot].child);
   // Only the second child of the one node of a mesh of one leaf may be empty.
   if (first != next_triangle_ || (count == 0 && !(slot == 1 && view_.nodes_.size() == 1)))
     return reject(124, i);
   if (count > view_.head_->triangle_count - first) return reject(124, i);
-  if (!is_box(node.box[slot])) return reject(120, i);
+  if (!is_box(node.side[slot].box)) return reject(120, i);
   const float per_cell = 1.0f / view_.head_->cell_m;
   for (uint32_t t = first; t < first + count; ++t) {
     const Triangle<uint32_t> triangle = view_.triangle(t);
@@ -224,7 +225,7 @@ Verdict Opening::check_leaf(uint32_t i, uint32_t slot) {
       const float values[3] = {v.x_m, v.y_m, v.z_m};
       for (int k = 0; k < 3; ++k) {  // with the rounding that NearBound allows for
         const float cells = (values[k] - view_.head_->grid_low_m[k]) * per_cell;
-        if (!(low_of(node.box[slot][k]) <= cells && cells <= high_of(node.box[slot][k])))
+        if (!(low_of(node.side[slot].box[k]) <= cells && cells <= high_of(node.side[slot].box[k])))
           return reject(127, t);
       }
     }

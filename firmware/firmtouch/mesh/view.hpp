@@ -26,6 +26,8 @@ class View {
   const Head& head() const { return *head_; }
   core::Span<const Vertex> vertices() const { return vertices_; }
   core::Span<const Node> nodes() const { return nodes_; }
+  /// Both sides of each node, in the order of their places.
+  const Side* sides() const { return nodes_.data()->side; }
   core::Span<const uint32_t> parents() const { return parents_; }
   core::Span<const uint32_t> vertex_normals() const { return vertex_normals_; }
   core::Span<const EdgeFolds> folds() const { return folds_; }
