@@ -25,7 +25,7 @@ static inline Range joined(Range a, Range b) {
 static inline void put_ranges(const mesh::View& mesh, Range* ranges) {
   for (uint32_t n = mesh.nodes().size(); n-- > 0;)  // children come after their parents
     for (uint32_t slot = 0; slot < 2; ++slot) {
-      const uint32_t child = mesh.nodes()[n].child[slot];
+      const uint32_t child = mesh.nodes()[n].side[slot].child;
       const uint32_t first = mesh::leaf_first(child);
       ranges[2 * n + slot] = mesh::is_leaf(child)
                                  ? Range{first, first + mesh::leaf_count(child)}
@@ -57,7 +57,7 @@ static inline void put_box(const mesh::View& mesh, uint32_t, uint32_t, Range ran
 }
 static inline void put_box(const mesh::View& mesh, uint32_t node, uint32_t slot, Range,
                            GridBox& box) {
-  for (int k = 0; k < 3; ++k) box.word[k] = mesh.nodes()[node].box[slot][k];
+  for (int k = 0; k < 3; ++k) box.word[k] = mesh.nodes()[node].side[slot].box[k];
 }
 
 static inline Vec3 centre_of(const mesh::Head& head, const GridBox& box) {
@@ -94,7 +94,7 @@ Tree<K> build(const mesh::View& mesh, Workshop work, typename K::Node* nodes, ui
     for (uint32_t slot = 0; slot < 2; ++slot) {
       const Range range = work.ranges[2 * n + slot];
       put_box(mesh, n, slot, range, nodes[n].box[slot]);
-      nodes[n].child[slot] = mesh.nodes()[n].child[slot];
+      nodes[n].child[slot] = mesh.nodes()[n].side[slot].child;
       middle[2 * n + slot] =
           nearest_vertex(mesh, range, centre_of(mesh.head(), nodes[n].box[slot]));
     }
@@ -115,13 +115,13 @@ inline Tree<WideKind> build_wide(const mesh::View& mesh, Workshop work, WideKind
       put_box(mesh, from, slot, {}, node.box[ways]);
       middle[4 * n + ways] = nearest_vertex(mesh, work.ranges[2 * from + slot],
                                             centre_of(mesh.head(), node.box[ways]));
-      const uint32_t child = mesh.nodes()[from].child[slot];
+      const uint32_t child = mesh.nodes()[from].side[slot].child;
       node.child[ways++] = mesh::is_leaf(child) ? child : count;
       if (!mesh::is_leaf(child)) work.sources[count++] = child;
     };
     const uint32_t source = work.sources[n];
     for (uint32_t slot = 0; slot < 2; ++slot) {
-      const uint32_t child = mesh.nodes()[source].child[slot];
+      const uint32_t child = mesh.nodes()[source].side[slot].child;
       if (mesh::is_leaf(child)) {
         add(source, slot);
       } else {
