@@ -54,7 +54,7 @@ WhatIsPlannedIsRefusedByName() {
     exits 2
     told "${option%% *} is not in this version"
   done
-  for option in '--band 1' '--base 1'; do
+  for option in '--base 1'; do
     # shellcheck disable=SC2086
     f query a.fta a distance $option
     exits 2

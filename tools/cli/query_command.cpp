@@ -67,7 +67,7 @@ const Command& query_command() {
        {"--n", "N", "curve, nearest: samples looked at, 1 to 100 (default 10)"},
        {"--arc-penalty", "W",
         "curve, nearest: metres for the whole length's change of arc (default 0)"},
-       {"--band", "M", nullptr},
+       {"--band", "M", "distance: beyond M metres only a lower bound, in fewer steps (not exact)"},
        {"--all", nullptr,
         "segment: every crossing, a row each (segment,t,triangle), in order of t"},
        {"--base", "N", nullptr}},

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cfloat>
 #include <cstdio>
 
 #include "cli/queries.hpp"
@@ -16,7 +18,11 @@ const char* feature_text(mesh::Feature feature) {
 class Answers {
  public:
   Answers(const mesh::View& view, const Arguments& arguments)
-      : view_(view), budget_(budget_of(arguments)), cold_(arguments.has("--cold")) {}
+      : view_(view), budget_(budget_of(arguments)), cold_(arguments.has("--cold")) {
+    if (arguments.has("--band"))
+      budget_.band_m =
+          static_cast<float>(std::min(arguments.number("--band", 0, 0), double{FLT_MAX}));
+  }
 
   mesh::Closest next(const float* row) {
     if (cold_) hint_ = query::Hint{};
@@ -42,7 +48,9 @@ void print_row(const LoadedMesh& mesh, const mesh::Closest& a) {
 }  // namespace
 
 query::Budget budget_of(const Arguments& arguments) {
-  return {arguments.count("--budget", UINT32_MAX, 1, UINT32_MAX)};
+  query::Budget budget;
+  budget.steps = arguments.count("--budget", UINT32_MAX, 1, UINT32_MAX);
+  return budget;
 }
 
 void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {

@@ -68,9 +68,14 @@ struct Found {
   float lower_m;  // certified by this search alone
 };
 
-void weigh(Found& found, float loss_m, float rounding_m) {
+// How near something may be: beyond the band nothing was looked for.
+float nearest_m(const Search& search) {
+  return math::square_root(smaller(search.best.distance2_m2, search.band2_m2));
+}
+
+void weigh(Found& found, float near_m, float loss_m, float rounding_m) {
   found.distance_m = math::square_root(found.search.best.distance2_m2);
-  found.lower_m = found.distance_m - (loss_m + rounding_m);
+  found.lower_m = near_m - (loss_m + rounding_m);
   const float pending_m = found.search.pending_m - rounding_m;
   if (!found.search.complete && pending_m < found.lower_m) found.lower_m = pending_m;
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
@@ -85,6 +90,7 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
     // The nearest one is no farther than this, so that in its leaf too only what ties is measured.
     const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
     again.search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
+    again.search.band2_m2 = found.search.band2_m2;
     again.search.fence = found.search.fence;
     again.search.fence_m = found.search.fence_m;
     again.search.fence_margin_m = found.search.fence_margin_m;
@@ -93,8 +99,8 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
     again.search.steps += found.search.steps;
     if (again.search.complete) {
       found = again;
-      const float distance_m = math::square_root(found.search.best.distance2_m2);
-      return weigh(found, loss.careful_m(distance_m), loss.rounding_m);
+      const float near_m = nearest_m(found.search);
+      return weigh(found, near_m, loss.careful_m(near_m), loss.rounding_m);
     }
     found.search.steps = again.search.steps;
   }
@@ -123,23 +129,29 @@ Closest answer(const View& mesh, const Bound& bound, Vec3 p_m, query::Budget bud
   const query::Carried carried = query::carry(hint, p_m);
   const Loss loss(mesh.head());
   Found found;
+  // After a jump out of the band's reach the last leaf does not help.
+  const float fence_margin_m = kFenceMotions * carried.motion_m;
   uint32_t start = hint.place;
-  if (!is_place(mesh, start)) {
+  if (fence_margin_m > budget.band_m || !is_place(mesh, start)) {
     // Cold: a stored vertex is a point of the surface before any triangle is reached.
     start = query::kNowhere;
     found.search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
     found.search.best.distance2_m2 = dot(found.search.best.offset_m, found.search.best.offset_m);
   }
+  // FLT_MAX and what squares beyond it: no band.
+  const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
+  found.search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
   found.search.fence = hint.fence;
   found.search.fence_m = carried.fence_m;
-  found.search.fence_margin_m = kFenceMotions * carried.motion_m;
+  found.search.fence_margin_m = fence_margin_m;
   search<Bound::kCareful>(mesh, bound, p_m, budget.steps, start, found.search);
-  const float plain_m = math::square_root(found.search.best.distance2_m2);
+  const float plain_m = nearest_m(found.search);
   const float plain_loss_m = loss.plain_m(plain_m);
-  weigh(found, Bound::kCareful ? loss.careful_m(plain_m) : plain_loss_m, loss.rounding_m);
+  weigh(found, plain_m, Bound::kCareful ? loss.careful_m(plain_m) : plain_loss_m, loss.rounding_m);
   const float diagonal_m = mesh.head().diagonal_m;
   const float scale_m = plain_m > diagonal_m ? plain_m : diagonal_m;
-  if (!Bound::kCareful && !(2.0f * plain_loss_m + loss.rounding_m <= kPromise * scale_m))
+  const bool is_near = found.search.best.distance2_m2 <= found.search.band2_m2;
+  if (!Bound::kCareful && is_near && !(2.0f * plain_loss_m + loss.rounding_m <= kPromise * scale_m))
     search_again(mesh, bound, p_m, budget.steps, found);
 
   const Best& best = found.search.best;
@@ -147,8 +159,8 @@ Closest answer(const View& mesh, const Bound& bound, Vec3 p_m, query::Budget bud
   const Vec3 direction = feature_direction(mesh, best);
   // The carried bound is worth keeping where the search was cut short; else it can only be older.
   float lower_m = found.lower_m;
-  if (!found.search.complete && carried.lower_m > lower_m) lower_m = carried.lower_m;
-  bool exact = found.search.complete;
+  bool exact = found.search.complete && is_near;
+  if (!exact && carried.lower_m > lower_m) lower_m = carried.lower_m;
   int8_t sign = 0;
   if (mesh.is_signed()) {
     sign = carried.sign;

@@ -31,11 +31,17 @@ struct Search {
   Best best;
   uint32_t fence;
   float fence_m;
+  float band2_m2;        // in: what is farther off need not be found
   float fence_margin_m;  // in: how much farther than the first leaf a new fence should stand
   uint32_t steps;
   bool complete;    // nothing nearer can be left
   float pending_m;  // where it is not: certified distance to everything that was not looked at
 };
+
+template <class Number>
+inline Number smaller(Number a, Number b) {
+  return a < b ? a : b;
+}
 
 // Takes the place of a key below `prune`: while there are more than `best_first`, the last, else the
 // smallest. A cold search takes the smallest, for the sake of its lower bound; a warm one knows its
@@ -65,7 +71,8 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
                   uint32_t& left, Pending* pending, uint32_t& count, Search& search) {
   const Side* const sides = mesh.sides();
   const uint32_t* const parents = mesh.parents().data();
-  const float leaf_m = math::square_root(search.best.distance2_m2) * (1.0f + 0x1p-22f);
+  const float leaf_m =
+      math::square_root(smaller(search.best.distance2_m2, search.band2_m2)) * (1.0f + 0x1p-22f);
   const float reach_m = leaf_m + search.fence_margin_m;
   const uint32_t beyond = bound.prune_key(reach_m * reach_m);
   uint32_t stop = leaf_m <= search.fence_m ? search.fence : 0, fence = place >> 1;
@@ -109,9 +116,11 @@ template <bool kCareful, class Bound, class Index>
   Pending pending[kCapacity];
   uint32_t count = 0, left = allowed;
   float least2_m2 = search.best.distance2_m2;
-  uint32_t prune = bound.prune_key(least2_m2);
+  const uint32_t band = bound.prune_key(search.band2_m2);
+  uint32_t prune = smaller(bound.prune_key(least2_m2), band);
   bool climbing = start != query::kNowhere;
-  const uint32_t best_first = climbing ? 0 : kBestFirst;
+  // Where nothing cuts a search short no lower bound is told on the way.
+  const uint32_t best_first = climbing || budget == UINT32_MAX ? 0 : kBestFirst;
   uint32_t place = start;
   uint32_t child = climbing ? sides[start].child : 0;  // else the root
   while (left != 0) {
@@ -141,7 +150,7 @@ template <bool kCareful, class Bound, class Index>
       const float before2_m2 = least2_m2;
       least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, p_m, child, place, least2_m2,
                                          search.best);
-      if (least2_m2 < before2_m2) prune = bound.prune_key(least2_m2);
+      if (least2_m2 < before2_m2) prune = smaller(bound.prune_key(least2_m2), band);
       if (climbing) {
         if (!climb(mesh, bound, start, prune, left, pending, count, search)) break;
         climbing = false;

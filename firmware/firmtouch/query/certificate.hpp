@@ -1,11 +1,16 @@
 #pragma once
+#include <float.h>
 #include <stdint.h>
 
 namespace firmtouch::query {
 
-/// The most steps that a query may take. A step is one tree node read; a leaf is a node.
+/// The most steps that a query may take (a step is one tree node read; a leaf is a node), and how far
+/// off it need not be exact: touch asks for what is near. Beyond band_m an answer is a certified
+/// lower bound, at least band_m unless the steps ran out, with the side where it is known without a
+/// search; the point told may be any of the surface.
 struct Budget {
   uint32_t steps = UINT32_MAX;  // 0 counts as 1
+  float band_m = FLT_MAX;       // what is no number counts as 0
 };
 
 constexpr Budget kUnlimited{};

@@ -1,0 +1,98 @@
+// Band queries: exact within the band, beyond it a certified lower bound in bounded work.
+#include <cfloat>
+#include <cmath>
+
+#include "bake/bake_mesh.hpp"
+#include "brute_force.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "harness/test.hpp"
+#include "surface/make_part.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using namespace mesh_test;  // NOLINT
+using math::Vec3;
+
+struct Baked {
+  tools::Surface surface = tools::make_part(1, 2000);
+  std::vector<tools::Section> sections;
+  mesh::View view;
+
+  Baked() {
+    tools::MeshReport report;
+    sections = tools::bake_mesh(surface, "part", {}, report);
+    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+  }
+};
+
+const Baked& part() {
+  static const Baked baked;
+  return baked;
+}
+
+void check_band(const mesh::Closest& c, const Truth& truth, double size, double band_m) {
+  const double told = std::fabs(double{c.distance_m}), scale = std::max(size, truth.distance);
+  CHECK_LE(truth.distance - told, 4e-7 * scale);
+  CHECK_LE(double{c.certificate.lower_m}, truth.distance + 1e-9 * scale);
+  if (truth.distance > 2e-6 * size && c.certificate.sign != 0)
+    CHECK_EQ(c.certificate.sign, truth.inside ? -1 : 1);
+  if (truth.distance < band_m - 4e-7 * scale) {
+    CHECK(c.certificate.exact);
+    CHECK_LE(told - truth.distance, 4e-7 * scale);
+  } else if (truth.distance > band_m + 4e-7 * scale) {
+    CHECK(!c.certificate.exact);
+    CHECK_LE(band_m - 4e-7 * scale, double{c.certificate.lower_m});
+  }
+}
+
+TEST(WithinTheBandExactBeyondItCertified) {
+  const double size = diagonal(part().surface);
+  uint32_t inside_band = 0;
+  const std::vector<Vec3> queries = hard_queries(part().surface, 600, 3);
+  for (const double share : {0.0, 0.002, 0.02, 0.3}) {
+    query::Hint warm;
+    for (const Vec3 p : queries) {
+      const Truth truth = brute_force(part().surface, wide(p));
+      query::Budget budget;
+      budget.band_m = static_cast<float>(share * size);
+      query::Hint cold;
+      check_band(mesh::closest_point(part().view, p, budget, cold), truth, size, share * size);
+      check_band(mesh::closest_point(part().view, p, budget, warm), truth, size, share * size);
+      inside_band += truth.distance < share * size ? 1u : 0u;
+    }
+  }
+  CHECK_LT(100u, inside_band);
+}
+
+TEST(FarAwayABandCostsLittle) {
+  const double size = diagonal(part().surface);
+  query::Budget budget;
+  budget.band_m = static_cast<float>(0.01 * size);
+  for (const Vec3 p : hard_queries(part().surface, 200, 4)) {
+    if (brute_force(part().surface, wide(p)).distance < 0.2 * size) continue;
+    query::Hint hint;
+    CHECK_LE(mesh::closest_point(part().view, p, budget, hint).certificate.steps, 40u);
+  }
+}
+
+TEST(NoNumberForABandIsNone) {
+  const Vec3 p{0.01f, 0.02f, 0.03f};
+  for (const float band_m : {std::nanf(""), -1.0f, 0.0f}) {
+    query::Budget budget;
+    budget.band_m = band_m;
+    query::Hint hint;
+    const mesh::Closest c = mesh::closest_point(part().view, p, budget, hint);
+    CHECK(std::isfinite(c.distance_m));
+    CHECK_LE(c.certificate.lower_m, std::fabs(c.distance_m));
+  }
+  query::Budget unbounded;
+  unbounded.band_m = INFINITY;
+  query::Hint hint, other;
+  const mesh::Closest c = mesh::closest_point(part().view, p, unbounded, hint);
+  CHECK(c.certificate.exact);
+  const mesh::Closest d = mesh::closest_point(part().view, p, query::kUnlimited, other);
+  CHECK_EQ(c.certificate.steps, d.certificate.steps);
+}
+
+}  // namespace
