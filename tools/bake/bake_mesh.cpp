@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "bake/mesh_tree.hpp"
-#include "bake/pseudonormals.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::tools {
@@ -80,9 +79,15 @@ std::vector<mesh::Triangle<Index>> make_triangles(const Surface& surface) {
 
 // Faces in the order of the leaves, vertices in the order in which the faces first use them: what
 // is near lies near.
-Surface in_leaf_order(const Surface& surface, const std::vector<uint32_t>& order) {
+struct Reordered {
+  Surface surface;
+  std::vector<uint32_t> vertex_from;  // of each vertex: its index before
+};
+
+Reordered in_leaf_order(const Surface& surface, const std::vector<uint32_t>& order) {
   constexpr uint32_t kUnseen = UINT32_MAX;
-  Surface sorted;
+  Reordered result;
+  Surface& sorted = result.surface;
   std::vector<uint32_t> renamed(surface.vertices.size(), kUnseen);
   for (const uint32_t f : order) {
     Face face = surface.faces[f];
@@ -90,34 +95,25 @@ Surface in_leaf_order(const Surface& surface, const std::vector<uint32_t>& order
       if (renamed[corner] == kUnseen) {
         renamed[corner] = static_cast<uint32_t>(sorted.vertices.size());
         sorted.vertices.push_back(surface.vertices[corner]);
+        result.vertex_from.push_back(corner);
       }
       corner = renamed[corner];
     }
     sorted.faces.push_back(face);
     sorted.source.push_back(f < surface.source.size() ? surface.source[f] : f);
   }
-  return sorted;
+  return result;
 }
 
-// A needle or a knife's edge so sharp that the stored pseudonormal could tell the wrong side: its
-// encoding errs by 6e-5 rad, and near the surface the direction to the query errs too.
-constexpr double kLeastMargin_rad = 3e-4;
-
-std::string place(const math::Vec3& v) {
-  return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) +
-         " m)";
-}
-
-std::string margin_failure(const Surface& surface, const Pseudonormals& normals) {
-  const char* remedy = "; blunt it, or bake with --unsigned";
-  if (normals.smallest_vertex_margin_rad < kLeastMargin_rad)
-    return "the corner at " + place(surface.vertices[normals.worst_vertex]) +
-           " is too sharp a needle for inside and outside to be told from the nearest point" +
-           remedy;
-  if (normals.smallest_edge_margin_rad < kLeastMargin_rad)
-    return "the triangle at " + place(surface.vertices[surface.faces[normals.worst_face][0]]) +
-           " folds back on its neighbour: inside and outside cannot be told there" + remedy;
-  return {};
+void add_signs(const Pseudonormals& signs, const std::vector<uint32_t>& vertex_from,
+               const std::vector<uint32_t>& face_from, const std::string& name,
+               std::vector<Section>& sections) {
+  std::vector<uint32_t> vertices;
+  std::vector<mesh::EdgeFolds> edges;
+  for (const uint32_t v : vertex_from) vertices.push_back(signs.vertices[v]);
+  for (const uint32_t f : face_from) edges.push_back(signs.edges[f]);
+  sections.push_back(make_section(mesh::kVertexNormalsSection, name, vertices));
+  sections.push_back(make_section(mesh::kEdgeFoldsSection, name, edges));
 }
 
 std::string proof_failure(const core::Verdict& verdict) {
@@ -132,13 +128,15 @@ std::string proof_failure(const core::Verdict& verdict) {
 
 }  // namespace
 
-std::vector<Section> bake_mesh(const Surface& input, const std::string& name,
+std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
                                const MeshOptions& options, MeshReport& report) {
-  if (input.faces.size() > mesh::kMaxTriangles) {
-    report.problem = std::to_string(input.faces.size()) + " triangles; at most " +
+  if (given.faces.size() > mesh::kMaxTriangles) {
+    report.problem = std::to_string(given.faces.size()) + " triangles; at most " +
                      std::to_string(mesh::kMaxTriangles) + " fit an asset: simplify the model";
     return {};
   }
+  Surface input = given;
+  longest_edge_first(input);
   const Grid grid = make_grid(input);
   const MeshTree tree = build_mesh_tree(input, grid, options.shape);
   if (tree.depth > mesh::kMaxDepth) {
@@ -147,8 +145,8 @@ std::vector<Section> bake_mesh(const Surface& input, const std::string& name,
                      " that a query can hold: many triangles lie on one spot";
     return {};
   }
-  Surface surface = in_leaf_order(input, tree.order);
-  longest_edge_first(surface);
+  const Reordered reordered = in_leaf_order(input, tree.order);
+  const Surface& surface = reordered.surface;
 
   std::vector<Section> sections;
   const mesh::Head head = make_head(surface, grid, tree, options.is_signed);
@@ -166,13 +164,9 @@ std::vector<Section> bake_mesh(const Surface& input, const std::string& name,
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
   for (const Section& s : sections) report.shape_bytes += static_cast<uint32_t>(s.bytes.size());
   if (options.is_signed) {
-    const Pseudonormals normals = make_pseudonormals(surface);
-    report.smallest_vertex_margin_rad = normals.smallest_vertex_margin_rad;
-    report.smallest_edge_margin_rad = normals.smallest_edge_margin_rad;
-    report.problem = margin_failure(surface, normals);
+    const Pseudonormals signs = bake_signs(input, report.signs, report.problem);
     if (!report.problem.empty()) return {};
-    sections.push_back(make_section(mesh::kVertexNormalsSection, name, normals.vertices));
-    sections.push_back(make_section(mesh::kEdgeFoldsSection, name, normals.edges));
+    add_signs(signs, reordered.vertex_from, tree.order, name, sections);
   }
   for (const Section& s : sections) report.sign_bytes += static_cast<uint32_t>(s.bytes.size());
   report.sign_bytes -= report.shape_bytes;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/bake_signs.hpp"
 #include "bake/mesh_tree.hpp"
 #include "bake/section.hpp"
 #include "firmtouch/mesh/view.hpp"
@@ -19,9 +20,7 @@ struct MeshReport {
   uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0;
   // Of what a query reads: tree, indices and vertices, and what tells the side.
   uint32_t shape_bytes = 0, sign_bytes = 0;
-  // By how much the worst stored vertex normal may still turn.
-  double smallest_vertex_margin_rad = 0;
-  double smallest_edge_margin_rad = 0;
+  SignReport signs;     // of a signed mesh
   std::string problem;  // empty: baked and proven; else what, where and how to mend
 };
 

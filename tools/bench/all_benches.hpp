@@ -4,7 +4,9 @@
 namespace firmtouch::bench {
 
 // The benches, one a file of that name; what each prints stands above its definition.
-void run_distance(const Options& options, Report& report);  // distance.cpp
-void run_orders(const Options& options, Report& report);    // orders.cpp
+void run_distance(const Options& options, Report& report);       // distance.cpp
+void run_orders(const Options& options, Report& report);         // orders.cpp
+void run_pseudonormals(const Options& options, Report& report);  // pseudonormals.cpp
+void run_pyramids(const Options& options, Report& report);       // pyramids.cpp
 
 }  // namespace firmtouch::bench

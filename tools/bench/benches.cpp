@@ -7,6 +7,9 @@ const std::vector<Bench>& benches() {
   static const std::vector<Bench> all = {
       {"distance", "closest points of meshes: the bars, budgets, bytes", run_distance},
       {"orders", "query orders, upper bounds and kinds of boxes, each with each", run_orders},
+      {"pseudonormals", "sides told by every pseudonormal proposed, on figures and models",
+       run_pseudonormals},
+      {"pyramids", "margins of the sign on slender pyramids, stored and not", run_pyramids},
   };
   return all;
 }
