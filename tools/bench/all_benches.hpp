@@ -8,5 +8,6 @@ void run_distance(const Options& options, Report& report);       // distance.cpp
 void run_orders(const Options& options, Report& report);         // orders.cpp
 void run_pseudonormals(const Options& options, Report& report);  // pseudonormals.cpp
 void run_pyramids(const Options& options, Report& report);       // pyramids.cpp
+void run_truth(const Options& options, Report& report);          // truth.cpp
 
 }  // namespace firmtouch::bench

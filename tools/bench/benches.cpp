@@ -10,6 +10,7 @@ const std::vector<Bench>& benches() {
       {"pseudonormals", "sides told by every pseudonormal proposed, on figures and models",
        run_pseudonormals},
       {"pyramids", "margins of the sign on slender pyramids, stored and not", run_pyramids},
+      {"truth", "distances and sides against brute force in double", run_truth},
   };
   return all;
 }
