@@ -214,8 +214,8 @@ TEST(OnRandomCornersOnlyAngleWeightedAndConvexHullHold) {
     if (bench::reference_normals()[k].kind != NormalKind::kHuang) CHECK_GT(wrong[k], 0u);
 }
 
-// The appendix says that the hull of the normals holds the origin only in a degenerate mesh. It also
-// does at a sound corner whose cross-section has no point that sees all of it.
+// The appendix says that the hull of the normals holds the origin only in a degenerate mesh. It
+// also does at a sound corner whose cross-section has no point that sees all of it.
 TEST(TheConvexHullNormalVanishesAtACornerShapedLikeAU) {
   tools::Random random(7);
   for (int i = 0; i < 200; ++i) {

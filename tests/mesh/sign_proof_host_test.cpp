@@ -1,5 +1,5 @@
-// What the baker proves of the stored pseudonormals: that it finds each that tells a wrong side, and
-// what it does where no normal can be right.
+// What the baker proves of the stored pseudonormals: that it finds each that tells a wrong side,
+// and what it does where no normal can be right.
 #include <algorithm>
 #include <cmath>
 
@@ -132,8 +132,8 @@ TEST(AMarginOfNoNumberIsTheWorst) {
   CHECK_LE(tools::edge_margin({0, 0, 1}, {0, 1, 0}, {nan, 0, 0}), -1.0);
 }
 
-// The opposite of a vertex's normal is wrong wherever the vertex can be the closest point; an edge's
-// normal in the plane of a face has no margin to it.
+// The opposite of a vertex's normal is wrong wherever the vertex can be the closest point; an
+// edge's normal in the plane of a face has no margin to it.
 TEST(EveryWrongCodeIsFound) {
   const Proven sound(tools::make_part(1, 500));
   CHECK(sound.proof().holds());
@@ -159,8 +159,8 @@ TEST(EveryWrongCodeIsFound) {
   }
 }
 
-// The corner c of a face lies, but for a rounding, on the edge a b of the next: float32 may lose the
-// normal of the sliver between them.
+// The corner c of a face lies, but for a rounding, on the edge a b of the next: float32 may take
+// the sides of the sliver between them for one another.
 TEST(ASliverIsRefusedOrItsSideIsRight) {
   tools::Random random(9);
   const auto near = [&](Point p) {

@@ -13,9 +13,10 @@ namespace firmtouch::tools {
 /// sharp that, near the surface, the rounding of the direction to the query could turn its side.
 constexpr double kLeastMargin_rad = 3e-4;
 
-/// The margin by which each stored pseudonormal may still turn before it tells a wrong side for some
-/// point whose closest point lies on its feature (Baerentzen & Aanaes 2005, equation 15): what the
-/// firmware decodes from the stored values, against the exact surface, in double.
+/// The margin by which each stored pseudonormal may still turn before it tells a wrong side for
+/// some point whose closest point lies on its feature (Baerentzen & Aanaes 2005, equation 15): what
+/// the firmware decodes from the stored values, against the exact surface, in double. Triangles so
+/// thin that float32 takes their features for one another must tell one side with all of them.
 struct SignProof {
   struct Kind {
     double smallest_rad = 1.5707963267948966;

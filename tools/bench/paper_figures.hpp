@@ -23,8 +23,8 @@ std::vector<PaperFigure> paper_figures();
 /// Pre: cuts >= 1.
 tools::Surface cut_wedge(uint32_t cuts, double radius);
 
-/// The tent of figure 6: apex vertex 0 at the origin, all below z = 0; its upper side almost a line,
-/// `thickness` wide, over two that face down and drop by `drop`.
+/// The tent of figure 6: apex vertex 0 at the origin, all below z = 0; its upper side almost a
+/// line, `thickness` wide, over two that face down and drop by `drop`.
 tools::Surface flat_tent(double thickness, double drop);
 
 }  // namespace firmtouch::bench

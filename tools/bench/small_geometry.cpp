@@ -7,8 +7,8 @@ namespace {
 
 using tools::Point;
 
-// The nearest point to the origin of the plane, line or point through `corners` (at most three); its
-// weights there. False: outside of the corners, or they do not span it.
+// The point nearest to the origin of the plane, line or point through `corners` (at most three).
+// False: it lies outside of the corners, or they do not span it.
 bool nearest_inside(const std::vector<Point>& corners, Point& nearest) {
   if (corners.size() == 1) return nearest = corners[0], true;
   if (corners.size() == 2) {

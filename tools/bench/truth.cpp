@@ -47,8 +47,8 @@ void run_model(const std::string& path, size_t count, Report& report) {
 
 }  // namespace
 
-// Distances and sides of 100,000 points a model (2,000 without --long) against brute force in double:
-// every triangle, and the generalized winding number.
+// Distances and sides of 100,000 points a model (2,000 without --long) against brute force in
+// double: every triangle, and the generalized winding number.
 void run_truth(const Options& options, Report& report) {
   const size_t count = options.is_long ? kWhole : kQuick;
   report.heading(std::to_string(count) + " points a model against brute force in double");
