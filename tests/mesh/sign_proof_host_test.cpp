@@ -126,6 +126,25 @@ TEST(MarginOfAnEvenPyramidHasAClosedForm) {
   }
 }
 
+// A cone of 20,000 sides takes seconds, not hours, and is not refused.
+TEST(AFinelyCutConeIsProven) {
+  tools::Surface cone;
+  constexpr uint32_t kSides = 20000;
+  cone.vertices = {{0, 0, 1}, {0, 0, 0}};
+  for (uint32_t k = 0; k < kSides; ++k)
+    cone.vertices.push_back(tools::to_vec3(
+        {0.5 * std::cos(2 * M_PI * k / kSides), 0.5 * std::sin(2 * M_PI * k / kSides), 0}));
+  for (uint32_t k = 0; k < kSides; ++k) {
+    const uint32_t here = 2 + k, next = 2 + (k + 1) % kSides;
+    cone.faces.push_back({0, here, next});
+    cone.faces.push_back({1, next, here});
+  }
+  const Proven proven(std::move(cone));
+  const tools::SignProof proof = proven.proof();
+  CHECK(proof.holds());
+  CHECK_GT(proof.vertices.smallest_rad, 0.4);  // atan(0.5) at the tip, less what thinning takes
+}
+
 TEST(AMarginOfNoNumberIsTheWorst) {
   const double nan = std::nan("");
   CHECK_LE(tools::vertex_margin({{{0, 0, 1}, 1}}, {0, 0, nan}), -1.0);
