@@ -191,13 +191,13 @@ TEST(OnTheMedialAxisOfACubeEveryNearestFaceTellsInside) {
 }
 
 // On the surface no side is asked, but feature and direction are told: a step along the direction
-// leads out, a step back leads in. At a corner or an edge the features that meet there are all at
-// distance 0 but for a rounding, and any of them may be told.
+// leads out, a step back leads in. A query at a corner is told the corner; one that float32 puts
+// beside the middle of an edge may be told a face of it.
 TEST(FeatureAndOutwardDirectionAreToldOnTheSurfaceToo) {
   const Solid solid(tools::make_part(1, 2000));
   const tools::Stars stars(solid.surface, solid.exact);
   query::Hint hint;
-  uint32_t edges = 0, corners = 0;
+  uint32_t edges = 0;
   const auto check = [&](Vec3 at) {
     const mesh::Closest c = mesh::closest_point(solid.view, at, query::kUnlimited, hint);
     CHECK_LE(std::fabs(double{c.distance_m}), 4e-7 * solid.size);
@@ -210,8 +210,7 @@ TEST(FeatureAndOutwardDirectionAreToldOnTheSurfaceToo) {
   for (uint32_t v = 0; v < solid.surface.vertices.size(); ++v) {
     test::note("vertex", v);
     const mesh::Closest c = check(solid.surface.vertices[v]);
-    if (!mesh::is_vertex(c.feature)) continue;
-    ++corners;
+    CHECK(mesh::is_vertex(c.feature));
     CHECK_LE(length(tools::to_point(c.direction) - solid.exact.vertices[v]), 0.02);
   }
   for (uint32_t h = 0; h < 3 * solid.surface.faces.size(); ++h) {
@@ -229,5 +228,4 @@ TEST(FeatureAndOutwardDirectionAreToldOnTheSurfaceToo) {
     }
   }
   CHECK_GT(edges, 100u);
-  CHECK_GT(corners, 100u);
 }

@@ -47,8 +47,9 @@ struct Foot {
   }
   const float w = y / dot(h, h);
   const float v = x - w * xc;
-  const bool beyond_ac = v < 0.0f;
-  const bool beyond_bc = v + w > 1.0f;
+  // On a border too, so that a query at a corner is told the corner, not a face that meets there.
+  const bool beyond_ac = v <= 0.0f;
+  const bool beyond_bc = v + w >= 1.0f;
   if (!(beyond_ac || beyond_bc)) return foot_at(e - h * w, Feature::kFace);
   if (beyond_ac) {
     const float t = dot(ac, ap), ac2 = dot(ac, ac);
