@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bake/stars.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/pseudonormal.hpp"
 #include "surface/winding_number.hpp"
 
@@ -65,8 +66,8 @@ double confusion_m(const Surface& surface) {
   return 0x1p-24 * (13 * length(high - low) + 21 * std::sqrt(longest2));
 }
 
-// Triangles so thin, and edges so short, that their features are taken for one another: each stored
-// normal there must tell the side of the others' points too.
+// Triangles so thin that their features are taken for one another: each stored normal there must
+// tell the side of the others' points too.
 class Confusion {
  public:
   Confusion(const Surface& surface, const ExactNormals& exact, const Pseudonormals& stored)
@@ -76,6 +77,18 @@ class Confusion {
     const Face& face = surface_.faces[f];
     const Point base = corner(face, 1) - corner(face, 0), side = corner(face, 2) - corner(face, 0);
     return !(length(cross(base, side)) > within_m_ * length(base));
+  }
+
+  // Whether the firmware's own arithmetic (mesh/triangle.hpp) turns the height of the triangle, by
+  // which it tells the features apart.
+  bool loses_height(uint32_t f) const {
+    const Face& face = surface_.faces[f];
+    const Point base = corner(face, 1) - corner(face, 0), side = corner(face, 2) - corner(face, 0);
+    const Point exact = side - base * (dot(side, base) / dot(base, base));
+    const math::Vec3 a = surface_.vertices[face[0]], ab = surface_.vertices[face[1]] - a,
+                     ac = surface_.vertices[face[2]] - a;
+    const Point told = to_point(ac - ab * (dot(ab, ac) * (1.0f / dot(ab, ab))));
+    return !(dot(told, exact) > 0.99 * length(told) * length(exact));
   }
 
   // Around a thin face only directions across its length are in question; the surface turns there
@@ -100,18 +113,6 @@ class Confusion {
     if (at > within_m_ && at < length(base) - within_m_)
       check(to_point(mesh::decode_vertex_normal(stored_.vertices[face[2]])));
     return least;
-  }
-
-  double short_margin(uint32_t h, const Stars& stars) const {
-    const Face& face = surface_.faces[h / 3];
-    const uint32_t a = face[h % 3], b = face[(h % 3 + 1) % 3];
-    if (length(to_point(surface_.vertices[b]) - to_point(surface_.vertices[a])) > within_m_)
-      return 1;
-    const auto told = [&](uint32_t v) {
-      return to_point(mesh::decode_vertex_normal(stored_.vertices[v]));
-    };
-    return std::min(vertex_margin(extreme_rays(stars.around(a)), told(b)),
-                    vertex_margin(extreme_rays(stars.around(b)), told(a)));
   }
 
  private:
@@ -155,12 +156,9 @@ SignProof prove_signs(const Surface& surface, const ExactNormals& exact,
   const Stars stars(surface, exact);
   const Confusion confusion(surface, exact, stored);
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {
-    if (confusion.is_thin(f)) {
+    if (confusion.is_thin(f) && confusion.loses_height(f)) {
       // Not excused where it crosses others: its sides would reach far beyond the place.
-      double sine = confusion.thin_margin(f);
-      for (uint32_t h = 3 * f; h < 3 * f + 3; ++h)
-        sine = std::min(sine, confusion.short_margin(h, stars));
-      take(proof.faces, f, sine, least_rad, {});
+      take(proof.faces, f, confusion.thin_margin(f), least_rad, {});
     } else {
       take(proof.faces, f, dot(to_point(told_face_normal(surface, f)), exact.faces[f]), least_rad,
            excused.faces);
