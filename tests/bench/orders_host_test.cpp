@@ -41,7 +41,7 @@ void check_all(const Model& model, const std::vector<math::Vec3>& points) {
     const double truth_m = by_force(model.surface, p_m);
     for (size_t i = 0; i < contest.entrants().size(); ++i) {
       test::note("entrant", static_cast<int64_t>(i));
-      const double told_m = std::sqrt(double{contest.entrants()[i].distance2_m2(p_m)});
+      const double told_m = std::sqrt(double{contest.entrants()[i].nearest(p_m).distance2_m2});
       CHECK_LE(std::fabs(told_m - truth_m), 4e-7 * std::fmax(model.diagonal_m(), truth_m));
     }
   }
@@ -147,7 +147,7 @@ TEST(AFullQueueLosesNothing) {
   bool was_full = false;
   for (const Entrant& e : contest.entrants()) {
     was_full = was_full || e.count({{0, 0, 0}}).overflows > 0;
-    CHECK_LE(std::fabs(std::sqrt(double{e.distance2_m2({0, 0, 0})}) - truth_m), 1e-6);
+    CHECK_LE(std::fabs(std::sqrt(double{e.nearest({0, 0, 0}).distance2_m2}) - truth_m), 1e-6);
   }
   CHECK(was_full);
 }

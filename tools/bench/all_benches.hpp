@@ -9,5 +9,6 @@ void run_orders(const Options& options, Report& report);         // orders.cpp
 void run_pseudonormals(const Options& options, Report& report);  // pseudonormals.cpp
 void run_pyramids(const Options& options, Report& report);       // pyramids.cpp
 void run_truth(const Options& options, Report& report);          // truth.cpp
+void run_grid(const Options& options, Report& report);           // grid.cpp
 
 }  // namespace firmtouch::bench

@@ -11,6 +11,8 @@ const std::vector<Bench>& benches() {
        run_pseudonormals},
       {"pyramids", "margins of the sign on slender pyramids, stored and not", run_pyramids},
       {"truth", "distances and sides against brute force in double", run_truth},
+      {"grid", "Table 1 of Baerentzen & Aanaes: trees, grids and signs, two kinds of boxes",
+       run_grid},
   };
   return all;
 }

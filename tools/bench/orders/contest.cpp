@@ -34,24 +34,27 @@ Entrant entrant(const char* kind, const Tree<K>& tree, const Variant<K>& variant
   e.order = name_of(variant.order);
   e.upper = name_of(variant.upper);
   e.tree_bytes = bytes_of(tree, variant.upper);
-  e.distance2_m2 = [&tree, variant, waiting](Vec3 p_m) {
+  e.nearest = [&tree, variant, waiting](Vec3 p_m) {
     Counters ignored;
-    return variant.run(tree, p_m, waiting, ignored);
+    Nearest nearest;
+    if (!variant.run(tree, p_m, waiting, ignored, nearest)) refuse();
+    return nearest;
   };
   e.pass = [&tree, variant, waiting](const std::vector<Vec3>& points) {
     double sum = 0;
     Counters ignored;
+    Nearest nearest;
     for (const Vec3& p_m : points) {
-      const float distance2_m2 = variant.run(tree, p_m, waiting, ignored);
-      if (distance2_m2 < 0) refuse();
-      sum += static_cast<double>(math::square_root(distance2_m2));
+      if (!variant.run(tree, p_m, waiting, ignored, nearest)) refuse();
+      sum += static_cast<double>(math::square_root(nearest.distance2_m2));
     }
     return sum;
   };
   e.count = [&tree, variant, waiting](const std::vector<Vec3>& points) {
     Counters counters;
+    Nearest nearest;
     for (const Vec3& p_m : points)
-      if (variant.count(tree, p_m, waiting, counters) < 0) refuse();
+      if (!variant.count(tree, p_m, waiting, counters, nearest)) refuse();
     return counters;
   };
   return e;

@@ -12,7 +12,7 @@ namespace firmtouch::bench::orders {
 struct Entrant {
   std::string kind, order, upper;
   double tree_bytes;  // nodes, and what the upper bound needs beside them
-  std::function<float(Vec3)> distance2_m2;
+  std::function<Nearest(Vec3)> nearest;
   /// All points in turn; result: a sum of the distances.
   std::function<double(const std::vector<Vec3>&)> pass;
   std::function<Counters(const std::vector<Vec3>&)> count;  // sums; most_pending: the most

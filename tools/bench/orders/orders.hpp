@@ -15,7 +15,7 @@ constexpr uint32_t kRingBoxes = 1u << 17;
 
 /// Nearest child first, last in first out.
 template <class S>
-float depth_first(S& search, Pending* pending) {
+bool depth_first(S& search, Pending* pending) {
   uint32_t count = 0;
   Pending found[S::kWays];
   uint32_t child = 0;
@@ -29,7 +29,7 @@ float depth_first(S& search, Pending* pending) {
       continue;
     }
     do {
-      if (count == 0) return search.best2_m2();
+      if (count == 0) return true;
     } while (pending[--count].key >= search.prune());
     child = pending[count].child;
   }
@@ -56,7 +56,7 @@ static inline void sift_down(Pending* heap, uint32_t count, Pending down) {
 /// least bound is no less than the best distance.
 /// Source: Baerentzen & Aanaes 2005, sections 4.1 and 4.2.
 template <class S>
-float best_first(S& search, Pending* pending) {
+bool best_first(S& search, Pending* pending) {
   Pending* const heap = pending;
   Pending* const stack = pending + kQueueBoxes;
   uint32_t heaped = 0, stacked = 0;
@@ -83,17 +83,17 @@ float best_first(S& search, Pending* pending) {
       if (now.key >= search.prune()) now.child = kNoChild;  // reads as an empty leaf
       continue;
     }
-    if (heaped == 0 || heap[0].key >= search.prune()) return search.best2_m2();
+    if (heaped == 0 || heap[0].key >= search.prune()) return true;
     now = heap[0];
     const Pending last = heap[--heaped];
     if (heaped > 0) sift_down(heap, heaped, last);
   }
 }
 
-/// A level after the other, by a ring of kRingBoxes. Result: negative where that is not enough.
+/// A level after the other, by a ring of kRingBoxes. Result: false where that is not enough.
 /// Source: Morris 2004, section 3.2, as what depth-first is compared with.
 template <class S>
-float breadth_first(S& search, Pending* pending, uint32_t ring_boxes) {
+bool breadth_first(S& search, Pending* pending, uint32_t ring_boxes) {
   uint32_t head = 0, tail = 0;
   Pending found[S::kWays];
   Pending now{0, 0};
@@ -102,12 +102,12 @@ float breadth_first(S& search, Pending* pending, uint32_t ring_boxes) {
       search.read_leaf(now.child);
     } else {
       const uint32_t n = search.read_node(now.child, found);
-      if (ring_boxes - (tail - head) < n) return -1.0f;
+      if (ring_boxes - (tail - head) < n) return false;
       for (uint32_t i = 0; i < n; ++i) pending[tail++ & (ring_boxes - 1)] = found[i];
       search.note_pending(tail - head);
     }
     do {
-      if (head == tail) return search.best2_m2();
+      if (head == tail) return true;
       now = pending[head++ & (ring_boxes - 1)];
     } while (now.key >= search.prune());
   }
@@ -120,33 +120,40 @@ struct Waiting {
 };
 
 template <Order kOrder, class S>
-float search_in_order(S& search, Waiting waiting) {
+bool search_in_order(S& search, Waiting waiting) {
   if constexpr (kOrder == Order::kDepthFirst) return depth_first(search, waiting.boxes);
   if constexpr (kOrder == Order::kBestFirst) return best_first(search, waiting.boxes);
   return breadth_first(search, waiting.boxes, waiting.count);
 }
 
-/// Squared distance from `p_m` to the tree's mesh; negative where too many boxes wait.
+/// The nearest of the tree's mesh to `p_m`. Result: false where too many boxes wait.
 template <class K, Order kOrder, Upper kUpper, bool kCount>
-float nearest2_m2(const Tree<K>& tree, Vec3 p_m, Waiting waiting, Counters& counters) {
+bool find_nearest(const Tree<K>& tree, Vec3 p_m, Waiting waiting, Counters& counters,
+                  Nearest& nearest) {
   Search<K, typename K::Query, kUpper, kCount> near(tree, p_m, counters);
-  if (near.begin()) return search_in_order<kOrder>(near, waiting);
+  if (near.begin()) {
+    const bool done = search_in_order<kOrder>(near, waiting);
+    nearest = near.nearest();
+    return done;
+  }
   Search<K, typename K::FarQuery, kUpper, kCount> far(tree, p_m, counters);
-  return far.begin() ? search_in_order<kOrder>(far, waiting) : -1.0f;
+  const bool done = far.begin() && search_in_order<kOrder>(far, waiting);
+  nearest = far.nearest();
+  return done;
 }
 
 template <class K>
 struct Variant {
   Order order;
   Upper upper;
-  float (*run)(const Tree<K>&, Vec3, Waiting, Counters&);
-  float (*count)(const Tree<K>&, Vec3, Waiting, Counters&);
+  bool (*run)(const Tree<K>&, Vec3, Waiting, Counters&, Nearest&);
+  bool (*count)(const Tree<K>&, Vec3, Waiting, Counters&, Nearest&);
 };
 
 template <class K, Order kOrder, Upper kUpper>
 constexpr Variant<K> variant() {
-  return {kOrder, kUpper, nearest2_m2<K, kOrder, kUpper, false>,
-          nearest2_m2<K, kOrder, kUpper, true>};
+  return {kOrder, kUpper, find_nearest<K, kOrder, kUpper, false>,
+          find_nearest<K, kOrder, kUpper, true>};
 }
 
 /// Every order with every upper bound, over one kind of boxes.

@@ -17,6 +17,14 @@ struct Counters {
   uint32_t overflows = 0;  // how often a queue was full
 };
 
+/// What a search found.
+struct Nearest {
+  float distance2_m2 = FLT_MAX;
+  Vec3 offset_m;  // from the closest point to the query
+  uint32_t triangle = 0;
+  mesh::Feature feature = mesh::Feature::kVertex0;
+};
+
 /// A box still to be looked at.
 struct Pending {
   uint32_t key, child;
@@ -34,21 +42,22 @@ class Search {
   bool begin() { return query_.begin(tree_.mesh->head(), p_m_); }
   /// Nothing at this key or beyond can be the nearest.
   uint32_t prune() const { return prune_; }
-  float best2_m2() const { return best2_m2_; }
+  const Nearest& nearest() const { return nearest_; }
 
   void read_leaf(uint32_t child) {
     uint32_t i = mesh::leaf_first(child);
     const uint32_t end = i + mesh::leaf_count(child);
     if constexpr (kCount) ++counters_.nodes, counters_.triangles += end - i;
-    const float before2_m2 = best2_m2_;
+    const float before2_m2 = nearest_.distance2_m2;
     for (; i < end; ++i) {
       const mesh::Triangle<uint32_t> t = tree_.mesh->triangle(i);
       const mesh::Foot foot = mesh::closest_on_triangle(p_m_, tree_.mesh->vertex(t.corner[0]),
                                                         tree_.mesh->vertex(t.corner[1]),
                                                         tree_.mesh->vertex(t.corner[2]));
-      if (foot.distance2_m2 < best2_m2_) best2_m2_ = foot.distance2_m2;
+      if (foot.distance2_m2 < nearest_.distance2_m2)
+        nearest_ = {foot.distance2_m2, foot.offset_m, i, foot.feature};
     }
-    if (best2_m2_ < before2_m2) lower_prune(best2_m2_);
+    if (nearest_.distance2_m2 < before2_m2) lower_prune(nearest_.distance2_m2);
   }
 
   /// The children of a node with their keys, nearest first; those that cannot hold the nearest are
@@ -102,7 +111,7 @@ class Search {
   Counters& counters_;
   Query query_;
   uint32_t prune_ = UINT32_MAX;
-  float best2_m2_ = FLT_MAX;
+  Nearest nearest_;
 };
 
 }  // namespace firmtouch::bench::orders
