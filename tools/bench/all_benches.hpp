@@ -10,5 +10,6 @@ void run_pseudonormals(const Options& options, Report& report);  // pseudonormal
 void run_pyramids(const Options& options, Report& report);       // pyramids.cpp
 void run_truth(const Options& options, Report& report);          // truth.cpp
 void run_grid(const Options& options, Report& report);           // grid.cpp
+void run_ring(const Options& options, Report& report);           // ring.cpp
 
 }  // namespace firmtouch::bench

@@ -13,6 +13,8 @@ const std::vector<Bench>& benches() {
       {"truth", "distances and sides against brute force in double", run_truth},
       {"grid", "Table 1 of Baerentzen & Aanaes: trees, grids and signs, two kinds of boxes",
        run_grid},
+      {"ring", "records from thread to thread: the lock-free ring, a locked deque, a peer",
+       run_ring},
   };
   return all;
 }
