@@ -38,7 +38,7 @@ class HostSession {
   Outbox outbox_;
   Phase phase_ = Phase::kStranger;
   uint16_t log_sequence_ = 0;
-  uint32_t decimation_ = 1;
+  uint32_t decimation_ = 0;  // as the Hello says; 0, so that all of this begins as zeros
   bool has_stepped_ = false;
   link::StepReply last_reply_;
 };
