@@ -37,7 +37,9 @@ curve::Sections curve_sections(const asset::Container& container, const char* na
   sections.head = container.find(curve::kHeadSection, name);
   sections.samples = container.find(curve::kSamplesSection, name);
   sections.arcs = container.find(curve::kArcsSection, name);
-  sections.nodes = container.find(curve::kNodesSection, name);
+  sections.places = container.find(curve::kPlacesSection, name);
+  sections.boxes = container.find(curve::kBoxesSection, name);
+  sections.runs = container.find(curve::kRunsSection, name);
   return sections;
 }
 

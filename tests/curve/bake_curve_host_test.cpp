@@ -22,7 +22,8 @@ TEST(EveryHardCurveIsBakedAndProven) {
     CHECK(baked.report.problem.empty());
     CHECK(baked.view.is_open());
     CHECK_EQ(baked.report.is_closed, named.name == "closed");
-    CHECK_EQ(baked.report.tick_bytes, 48 + 24ull * baked.report.samples);
+    const uint64_t runs = (baked.report.samples - 1 + 63) / 64;
+    CHECK_EQ(baked.report.tick_bytes, 64 + 20ull * baked.report.samples + 96 * runs - 12);
   }
 }
 
@@ -43,12 +44,19 @@ TEST(EveryCountFromTwoToSixtyFillsTheTreeFromTheLeft) {
   }
 }
 
+TEST(AFineCurveTakesNoMoreThanTwentyFourBytesASample) {
+  for (const uint32_t count : {2000u, 20000u}) {
+    const Baked baked(curve_test::knot(count, 1, 3));
+    CHECK_LE(baked.report.tick_bytes, 24ull * count);
+  }
+}
+
 TEST(DroppedRowsAreToldToTools) {
   tools::CurvePoints points;
   points.samples_m = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   tools::CurveReport report;
   const auto sections = tools::bake_curve(points, "path", report);
-  CHECK_EQ(sections.size(), 5u);
+  CHECK_EQ(sections.size(), 7u);
   CHECK_EQ(sections.back().type, curve::kRowsSection);
   const std::vector<uint32_t> rows{0, 1, 3};
   CHECK(sections.back().bytes == tools::make_section(0, "", rows).bytes);

@@ -15,7 +15,9 @@ struct CurveOf {
   curve::Head head{};
   curve::Sample samples[Most];
   float arcs[Most];
-  curve::Node nodes[Most];
+  uint32_t places[Most];
+  curve::Run runs[curve::run_count_of(Most)];
+  curve::Box boxes[2 * curve::run_count_of(Most) - 1];
 
   template <uint32_t N>
   explicit CurveOf(const curve::Sample (&from)[N]) {
@@ -26,8 +28,12 @@ struct CurveOf {
 
   curve::Sections sections() const {
     const uint32_t n = head.sample_count;
-    return {bytes(&head, sizeof head), bytes(samples, n * 12), bytes(arcs, n * 4),
-            bytes(nodes, n * 8)};
+    return {bytes(&head, sizeof head),
+            bytes(samples, n * 12),
+            bytes(arcs, n * 4),
+            bytes(places, n * 4),
+            bytes(boxes, (2 * run_count() - 1) * 12),
+            bytes(runs, run_count() * uint32_t{sizeof(curve::Run)})};
   }
   curve::View view() const {
     curve::View opened;
@@ -47,6 +53,11 @@ struct CurveOf {
     double travelled_m = 0;
     for (uint32_t i = 1; i < n; ++i) travelled_m += spacing_m(i);
     head.length_m = static_cast<float>(travelled_m);
+    head.longest_half_m = 0;
+    for (uint32_t i = 1; i < n; ++i) {
+      const float half_m = curve::half_segment_m(samples[i - 1], samples[i]);
+      if (half_m > head.longest_half_m) head.longest_half_m = half_m;
+    }
     double so_far_m = 0;
     for (uint32_t i = 0; i < n; ++i) {
       if (i > 0) so_far_m += spacing_m(i);
@@ -54,14 +65,30 @@ struct CurveOf {
     }
     for (uint32_t i = 0; i < n; ++i) order_[i] = i;
     place(n);
-    derive_reaches();
+    derive_runs();
   }
-  void derive_reaches() {
-    const uint32_t n = head.sample_count;
-    for (uint32_t i = n; i-- > 0;) {
-      nodes[i].reach_m = curve::own_reach_m(samples, n, curve::sample_of(nodes[i].place));
-      for (uint32_t c = 2 * i + 1; c < 2 * i + 3 && c < n; ++c)
-        if (nodes[c].reach_m > nodes[i].reach_m) nodes[i].reach_m = nodes[c].reach_m;
+  uint32_t run_count() const { return curve::run_count_of(head.sample_count); }
+  // Runs are leaves in turn: another tree than the baker's, as good to open().
+  void derive_runs() {
+    derive_grid();
+    const uint32_t count = run_count();
+    for (uint32_t r = 0; r < count; ++r) {
+      runs[r].leaf = runs[r].run = count - 1 - r;
+      for (uint32_t k = 0; k < curve::kParts; ++k) {
+        const curve::Part part = curve::part_of(r, k, head.sample_count - 1);
+        runs[r].radius[k] = curve::stored_radius(samples, part.first, part.last);
+      }
+      runs[r].reserved = 0;
+      derive_box(boxes[2 * (count - 1) - r], curve::part_of(r, 0, head.sample_count - 1));
+    }
+    for (uint32_t i = count - 1; i-- > 0;) {
+      const curve::Box &a = boxes[2 * i + 1], &b = boxes[2 * i + 2];
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t low_a = curve::low_of(a.side[k]), low_b = curve::low_of(b.side[k]);
+        const uint32_t high_a = curve::high_of(a.side[k]), high_b = curve::high_of(b.side[k]);
+        boxes[i].side[k] =
+            curve::make_side(low_a < low_b ? low_a : low_b, high_a > high_b ? high_a : high_b);
+      }
     }
   }
 
@@ -85,6 +112,29 @@ struct CurveOf {
     const curve::Sample &a = samples[0], &b = samples[n - 1];
     head.is_closed = math::length(curve::vec(a) - curve::vec(b)) > 0.0f ? 0 : 1;
   }
+  void derive_grid() {
+    float extent_m = 0;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const float side_m = head.high_m[k] - head.low_m[k];
+      if (side_m > extent_m) extent_m = side_m;
+    }
+    head.cell_m = 0x1p-60f;
+    while (head.cell_m * 32767.0f < 1.25f * extent_m) head.cell_m *= 2.0f;
+    for (uint32_t k = 0; k < 3; ++k) head.grid_low_m[k] = head.low_m[k] - 0.125f * extent_m;
+  }
+  void derive_box(curve::Box& box, curve::Part part) const {
+    for (uint32_t k = 0; k < 3; ++k) {
+      uint32_t low = curve::kGridMax, high = 0;
+      for (uint32_t s = part.first; s <= part.last; ++s) {
+        const float cells = curve::cells_of(head, (&samples[s].x_m)[k], k);
+        const auto down = static_cast<uint32_t>(cells);
+        const uint32_t up = static_cast<float>(down) < cells ? down + 1 : down;
+        low = down < low ? down : low;
+        high = up > high ? up : high;
+      }
+      box.side[k] = curve::make_side(low, high);
+    }
+  }
   // Axes in turn, by insertion sort: another tree than the baker's, as good to open().
   void place(uint32_t n) {
     struct Range {
@@ -106,7 +156,7 @@ struct CurveOf {
       uint32_t first = 0;  // nodes below the first child: those whose way up passes it
       for (uint32_t i = 0; i < n; ++i) first += is_below(i, 2 * r.node + 1) ? 1u : 0u;
       const uint32_t middle = r.begin + first;
-      nodes[r.node].place = curve::make_place(order_[middle], axis);
+      places[r.node] = curve::make_place(order_[middle], axis);
       if (middle > r.begin) open[count++] = {2 * r.node + 1, r.begin, middle};
       if (middle + 1 < r.end) open[count++] = {2 * r.node + 2, middle + 1, r.end};
     }

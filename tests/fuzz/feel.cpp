@@ -121,7 +121,9 @@ core::Verdict open_curve(const asset::Container& container, const char* name) {
   sections.head = copies.of(container.find(curve::kHeadSection, name));
   sections.samples = copies.of(container.find(curve::kSamplesSection, name));
   sections.arcs = copies.of(container.find(curve::kArcsSection, name));
-  sections.nodes = copies.of(container.find(curve::kNodesSection, name));
+  sections.places = copies.of(container.find(curve::kPlacesSection, name));
+  sections.boxes = copies.of(container.find(curve::kBoxesSection, name));
+  sections.runs = copies.of(container.find(curve::kRunsSection, name));
   curve::View view;
   const core::Verdict verdict = curve::open(sections, view);
   CHECK_EQ(verdict.ok(), view.is_open());

@@ -1,10 +1,12 @@
 // How many instructions a closest-point query takes: `bench WALK.csv` on the emulator's command line. Queries the mesh of
-// the board's asset at every row, each warm-started by the one before, and prints a row a query:
+// the board's asset (or, where it has none, the curve) at every row, each warm-started by the one before, and prints a
+// row a query:
 //     BUDGET INSTRUCTIONS STEPS SIGN      (BUDGET 0: unlimited)
 // tools/bench/cortex-m7 runs it and adds up.
 #include <stdint.h>
 
 #include "cortex-m/semihosting.hpp"
+#include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
@@ -42,7 +44,8 @@ uint32_t empty_work() {
   return hal::clock_work() - before;
 }
 
-bool run(const mesh::View& view, const char* path, query::Budget budget, uint32_t rows, bool warm) {
+template <class View>
+bool run(const View& view, const char* path, query::Budget budget, uint32_t rows, bool warm) {
   target::CsvPoints points(path);
   query::Hint hint;
   const uint32_t empty = empty_work();
@@ -51,12 +54,22 @@ bool run(const mesh::View& view, const char* path, query::Budget budget, uint32_
   for (; row < rows && points.next(p_m); ++row) {
     if (!warm) hint = {};
     const uint32_t before = hal::clock_work();
-    const mesh::Closest closest = mesh::closest_point(view, p_m, budget, hint);
+    const auto closest = closest_point(view, p_m, budget, hint);
     const uint32_t work = hal::clock_work() - before - empty;
     print_row(budget.steps == UINT32_MAX ? 0 : budget.steps, instructions(work),
               closest.certificate);
   }
   return row > 0;
+}
+
+template <class View>
+int run_all(const View& view, const char* path) {
+  if (!run(view, path, query::kUnlimited, UINT32_MAX, true)) {
+    hal::board_print("no rows x,y,z in the walk\n");
+    return 1;
+  }
+  for (const uint32_t steps : kBudgets) run(view, path, {steps}, kBudgetedRows, false);
+  return 0;
 }
 
 }  // namespace
@@ -65,17 +78,12 @@ int main() {
   hal::board_begin();
   const target::Views views = target::open_views(hal::board_asset());
   char line[512];
-  if (!views.verdict.ok() || !views.mesh.is_open()) {
-    hal::board_print("no mesh in the asset, or a rule rejects it\n");
+  if (!views.verdict.ok() || !(views.mesh.is_open() || views.curve.is_open())) {
+    hal::board_print("no mesh or curve in the asset, or a rule rejects it\n");
     return 1;
   }
   constexpr uint32_t kWord = 6;  // "bench "
   if (!hal::semihosting_command_line(line, sizeof line)) return 2;
-  if (!run(views.mesh, line + kWord, query::kUnlimited, UINT32_MAX, true)) {
-    hal::board_print("no rows x,y,z in the walk\n");
-    return 1;
-  }
-  for (const uint32_t steps : kBudgets)
-    run(views.mesh, line + kWord, {steps}, kBudgetedRows, false);
-  return 0;
+  return views.mesh.is_open() ? run_all(views.mesh, line + kWord)
+                              : run_all(views.curve, line + kWord);
 }

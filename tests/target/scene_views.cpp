@@ -24,7 +24,9 @@ core::Verdict open_curve(const asset::Container& file, const char* name, curve::
   sections.head = file.find(curve::kHeadSection, name);
   sections.samples = file.find(curve::kSamplesSection, name);
   sections.arcs = file.find(curve::kArcsSection, name);
-  sections.nodes = file.find(curve::kNodesSection, name);
+  sections.places = file.find(curve::kPlacesSection, name);
+  sections.boxes = file.find(curve::kBoxesSection, name);
+  sections.runs = file.find(curve::kRunsSection, name);
   return curve::open(sections, view);
 }
 

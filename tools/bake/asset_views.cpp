@@ -46,7 +46,9 @@ curve::Sections curve_sections_of(const asset::Container& container, const char*
   sections.head = container.find(curve::kHeadSection, name);
   sections.samples = container.find(curve::kSamplesSection, name);
   sections.arcs = container.find(curve::kArcsSection, name);
-  sections.nodes = container.find(curve::kNodesSection, name);
+  sections.places = container.find(curve::kPlacesSection, name);
+  sections.boxes = container.find(curve::kBoxesSection, name);
+  sections.runs = container.find(curve::kRunsSection, name);
   return sections;
 }
 

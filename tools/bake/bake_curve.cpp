@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/curve_runs.hpp"
 #include "bake/curve_tree.hpp"
 #include "firmtouch/curve/derived.hpp"
 
@@ -44,6 +45,9 @@ curve::Head make_head(const std::vector<curve::Sample>& samples, double length_m
   }
   head.diagonal_m = curve::diagonal_m(head);
   head.length_m = static_cast<float>(length_m);
+  for (size_t i = 1; i < samples.size(); ++i)
+    head.longest_half_m =
+        std::max(head.longest_half_m, curve::half_segment_m(samples[i - 1], samples[i]));
   return head;
 }
 
@@ -84,12 +88,22 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
   samples.reserve(mended.samples_m.size());
   for (const math::Vec3& s : mended.samples_m) samples.push_back({s.x, s.y, s.z});
   const std::vector<float> arcs = arc_positions(samples, report);
-  const curve::Head head = make_head(samples, report.length_m);
+  curve::Head head = make_head(samples, report.length_m);
+  if (!choose_grid(head)) {
+    report.problem =
+        name +
+        ": the curve lies too far from the origin for its size: float32 cannot tell its "
+        "points apart; move it nearer to the origin";
+    return {};
+  }
   std::vector<Section> sections;
   sections.push_back(make_section(curve::kHeadSection, name, &head, 1));
   sections.push_back(make_section(curve::kSamplesSection, name, samples));
   sections.push_back(make_section(curve::kArcsSection, name, arcs));
-  sections.push_back(make_section(curve::kNodesSection, name, build_curve_tree(samples)));
+  sections.push_back(make_section(curve::kPlacesSection, name, build_curve_tree(samples)));
+  const CurveRuns runs = build_curve_runs(samples, head);
+  sections.push_back(make_section(curve::kBoxesSection, name, runs.boxes));
+  sections.push_back(make_section(curve::kRunsSection, name, runs.runs));
   for (const Section& section : sections) report.tick_bytes += section.bytes.size();
   report.bytes = report.tick_bytes;
   if (has_gaps(mended.rows)) {
@@ -97,7 +111,7 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
     report.bytes += sections.back().bytes.size();
   }
   report.samples = head.sample_count;
-  report.levels = levels_of(head.sample_count);
+  report.levels = levels_of(2 * curve::run_count_of(head.sample_count) - 1);
   report.is_closed = head.is_closed == 1;
 
   curve::View view;
@@ -115,7 +129,9 @@ curve::Sections curve_sections(const std::vector<Section>& sections, const std::
   return {bytes_of(sections, name, curve::kHeadSection),
           bytes_of(sections, name, curve::kSamplesSection),
           bytes_of(sections, name, curve::kArcsSection),
-          bytes_of(sections, name, curve::kNodesSection)};
+          bytes_of(sections, name, curve::kPlacesSection),
+          bytes_of(sections, name, curve::kBoxesSection),
+          bytes_of(sections, name, curve::kRunsSection)};
 }
 
 }  // namespace firmtouch::tools

@@ -11,7 +11,7 @@ namespace firmtouch::tools {
 
 struct CurveReport {
   uint32_t samples = 0;
-  uint32_t levels = 0;  // of the tree
+  uint32_t levels = 0;  // of the tree of runs
   bool is_closed = false;
   double length_m = 0;
   double shortest_segment_m = 0, longest_segment_m = 0;

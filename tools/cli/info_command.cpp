@@ -32,7 +32,9 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {curve::kHeadSection, "curve head"},
                                          {curve::kSamplesSection, "curve samples"},
                                          {curve::kArcsSection, "curve arcs"},
-                                         {curve::kNodesSection, "curve nodes"},
+                                         {curve::kPlacesSection, "curve places"},
+                                         {curve::kBoxesSection, "curve boxes"},
+                                         {curve::kRunsSection, "curve runs"},
                                          {curve::kRowsSection, "curve source rows"},
                                          {curve::kProbesSection, "curve probes"}};
 

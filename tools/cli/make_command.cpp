@@ -5,6 +5,8 @@
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
+#include "curve/make_hand_walk.hpp"
+#include "curve/read_curve_csv.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "surface/make_part.hpp"
 #include "surface/make_walk.hpp"
@@ -52,6 +54,12 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
   forbid(arguments, "walk", "--triangles");
   const std::string& model = arguments.positionals()[1];
   forbid_overwriting(arguments.text("-o", ""), model);
+  const uint32_t points = arguments.count("--points", kWalkPoints, 1, kMostPoints);
+  if (extension_of(model) == ".csv") {
+    const tools::CurvePoints curve = tools::read_curve_csv(model, 1.0);
+    if (!curve.problem.empty()) fail_input(curve.problem);
+    return tools::to_csv(tools::make_hand_walk(curve.samples_m, seed, points));
+  }
   BakeOptions options;
   options.is_signed = false;
   const tools::Surface surface = sound_surface(model, read_model(model), options).surface;
@@ -65,7 +73,6 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
   const core::Verdict verdict = mesh::open(tools::mesh_sections(sections, "walk"), view);
   if (!verdict.ok()) fail_input(model + ": its mesh breaks rule R" + std::to_string(verdict.rule));
   query::Hint hint;
-  const uint32_t points = arguments.count("--points", kWalkPoints, 1, kMostPoints);
   return tools::to_csv(tools::make_walk(surface, seed, points, [&](math::Vec3 p_m) {
     return mesh::closest_point(view, p_m, query::kUnlimited, hint).point_m;
   }));
@@ -82,7 +89,9 @@ const Command& make_command() {
       "path  the guide that runs in the groove of the part of the same seed (.csv)\n"
       "walk  a random walk that stays within 2 % of the diagonal of MODEL's surface, 0.0005 "
       "diagonals a\n"
-      "      step (.csv): what a touching hand asks",
+      "      step (.csv): what a touching hand asks; of a curve (.csv): a hand led along it once, "
+      "up to\n"
+      "      1 % of its diagonal aside",
       {{"-o", "FILE", "the file to write"},
        {"--seed", "N", "which of them (default 1)"},
        {"--points", "N", "path, walk: how many (default 2000, 20000)"},

@@ -18,15 +18,16 @@ struct Closest {
 };
 
 /// Closest point of the polyline (not of its samples) to `p_m` (curve frame), with a certificate:
-/// from the segment of the hint where it is warm, then down the k-d tree, nearest cell first.
+/// from the segment of the hint where it is warm and up the tree of runs, else down it, nearest box
+/// first.
 /// Pre:    `curve` is open.
 /// Bounds: <= budget steps; 1.5 KB of stack; re-entrant; callable from an interrupt.
 /// Result: always finite. Two points equally near: the one found first. A query that is not finite:
 ///         the first sample, at distance FLT_MAX, lower 0, not exact.
 /// Error:  distance and, where exact, lower bound within 4e-7 max(diagonal, distance) of the truth
 ///         (tests/curve/closest_point_host_test.cpp).
-/// Source: Morris 2006, section 2.2; a tree of samples that keeps the longest half segment of each
-///         subtree instead of N nearest samples, which can miss (tests/curve/paper_test.cpp).
+/// Source: Morris 2006, section 2.2; a tree of all segments instead of N nearest samples, which can
+///         miss (tests/curve/paper_test.cpp). Ballard 1981 (strips about chords).
 Closest closest_point(const View& curve, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
 
 /// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.

@@ -9,17 +9,9 @@ namespace firmtouch::curve {
 
 static inline math::Vec3 vec(const Sample& s) { return {s.x_m, s.y_m, s.z_m}; }
 
-/// Half of a segment, rounded up by more than length() loses (5 operations) and more than the
-/// search loses when it adds the reach to a distance and compares squares (8 operations).
+/// Half of a segment, rounded up by more than length() loses (5 operations).
 static inline float half_segment_m(const Sample& a, const Sample& b) {
   return math::length(vec(b) - vec(a)) * (0.5f + 0x1p-20f);
-}
-
-/// Longest half segment at sample i of `count`.
-static inline float own_reach_m(const Sample* samples, uint32_t count, uint32_t i) {
-  const float before_m = i > 0 ? half_segment_m(samples[i - 1], samples[i]) : 0.0f;
-  const float after_m = i + 1 < count ? half_segment_m(samples[i], samples[i + 1]) : 0.0f;
-  return before_m > after_m ? before_m : after_m;
 }
 
 /// Diagonal of the head's box, rounded down.
@@ -29,12 +21,91 @@ static inline float diagonal_m(const Head& head) {
   return math::length(sides) * (1.0f - 0x1p-21f);
 }
 
-/// True where sample a comes before sample b on `axis`: the total order of the tree.
+/// True where sample a comes before sample b on `axis`: the total order of the k-d tree.
 static inline bool comes_before(const Sample* samples, uint32_t axis, uint32_t a, uint32_t b) {
   const float at_a = (&samples[a].x_m)[axis], at_b = (&samples[b].x_m)[axis];
   if (at_a < at_b) return true;
   if (at_b < at_a) return false;
   return a < b;
+}
+
+/// Squared distance from p to the straight line from a to b, reckoned from a.
+static inline float chord_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b) {
+  const math::Vec3 from = p - a, along = b - a;
+  const float progress = dot(from, along), length2 = dot(along, along);
+  const float t = !(progress > 0.0f) ? 0.0f : progress < length2 ? progress / length2 : 1.0f;
+  const math::Vec3 rest = from - along * t;
+  return dot(rest, rest);
+}
+
+/// The upper half of a float that is not negative, rounded up.
+static inline uint16_t rounded_radius(float radius_m) {
+  return static_cast<uint16_t>((math::bits_of(radius_m) + 0xFFFFu) >> 16);
+}
+static inline float radius_m_of(uint16_t stored) {
+  return math::float_of(static_cast<uint32_t>(stored) << 16);
+}
+
+/// How far the samples from `first` to `last` lie from the straight line between these two. What
+/// chord_distance2() loses is at most 20 u of the line's length and 6 u of the distance, here and
+/// again in the search (u = 2^-24; derived as in answer.hpp, which reckons from the nearer end); the
+/// latter's share of the distance is in the search's own radius.
+static inline uint16_t stored_radius(const Sample* samples, uint32_t first, uint32_t last) {
+  if (last <= first) return 0;
+  const math::Vec3 a = vec(samples[first]), b = vec(samples[last]);
+  float most2_m2 = 0;
+  for (uint32_t i = first + 1; i < last; ++i) {
+    const float distance2_m2 = chord_distance2(vec(samples[i]), a, b);
+    if (distance2_m2 > most2_m2) most2_m2 = distance2_m2;
+  }
+  const float lost_m = math::length(b - a) * 0x1p-18f;
+  return rounded_radius(math::square_root(most2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
+}
+
+/// Part `k` of run `run`: from sample `first` to sample `last`; the same sample twice where the run
+/// ends before.
+struct Part {
+  uint32_t first, last;
+};
+static inline Part part_of(uint32_t run, uint32_t k, uint32_t segment_count) {
+  uint32_t level = 0;
+  while (k + 1 >= (2u << level)) ++level;
+  const uint32_t size = kRunSegments >> level,
+                 begin = run * kRunSegments + (k + 1 - (1u << level)) * size;
+  const uint32_t end = begin + size;
+  return {begin < segment_count ? begin : segment_count, end < segment_count ? end : segment_count};
+}
+
+/// The bounds of grid.hpp stand on these: a cell that is a power of two, a grid that is not much
+/// larger than the box and leaves an eighth of the extent free about it (one rounding less).
+/// Result: 0 where all hold, else 1 for the cell, 2 for the size, 3 to 5 for an axis.
+static inline uint32_t wrong_of_grid(const Head& head) {
+  const uint32_t cell = math::bits_of(head.cell_m), exponent = cell >> 23;
+  if ((cell & 0x7FFFFFu) != 0 || exponent < 127 - 60 || exponent > 127 + 60) return 1;
+  float extent_m = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const float side_m = head.high_m[k] - head.low_m[k];
+    if (side_m > extent_m) extent_m = side_m;
+  }
+  const float grid_m = static_cast<float>(kGridMax) * head.cell_m, free_m = 0.124f * extent_m;
+  if (!(grid_m <= 4.0f * extent_m)) return 2;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const float below_m = head.low_m[k] - head.grid_low_m[k];
+    const float above_m = grid_m - (head.high_m[k] - head.grid_low_m[k]);
+    if (!(below_m >= free_m && below_m <= extent_m && above_m >= free_m)) return 3 + k;
+  }
+  return 0;
+}
+
+/// A coordinate in cells of the grid: one rounding of the difference, the rest exact.
+static inline float cells_of(const Head& head, float at_m, uint32_t axis) {
+  return (at_m - head.grid_low_m[axis]) * (1.0f / head.cell_m);
+}
+
+constexpr uint32_t low_of(uint32_t side) { return side & 0xFFFFu; }
+constexpr uint32_t high_of(uint32_t side) { return kGridMax - (side >> 16); }
+constexpr uint32_t make_side(uint32_t low, uint32_t high) {
+  return low | ((kGridMax - high) << 16);
 }
 
 }  // namespace firmtouch::curve

@@ -134,7 +134,7 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
 
   // A point of the curve that no candidate holds is within a reach of a sample that was not found.
   Constraint found;
-  const float reach_m = curve.nodes()[0].reach_m;
+  const float reach_m = curve.head().longest_half_m;
   found.closest = answer_at(curve, choice.best);
   const float least_m = math::square_root(choice.least2_m2);
   float lower_m = rounded_down(least_m, reach_m, choice.carefully());

@@ -14,12 +14,10 @@ namespace firmtouch::curve {
 /// The visitor has
 ///     float radius_m() const;   what lies farther has nothing for it
 ///     void take(uint32_t sample, math::Vec3 from_sample_m, float distance2_m2);
-/// Its radius never grows and is rounded up by a millionth: what is farther than radius + reach in
-/// squares of float32 is farther in truth.
+/// Its radius never grows and is rounded up by a millionth: what is farther in squares of float32 is
+/// farther in truth.
 ///
-/// A cell is the part of space that the planes above a node leave to it. A point of the curve lies
-/// within a node's reach of the cell of one of its samples, so distance to the cell minus reach
-/// bounds the distance of all that the subtree stands for. Along a branch cells and reaches shrink,
+/// A cell is the part of space that the planes above a node leave to it. Along a branch cells shrink,
 /// so the bound of the nearest cell left never falls: more steps never widen a certificate, and the
 /// order of steps does not depend on the budget.
 ///
@@ -28,7 +26,7 @@ template <class Visitor>
 class TreeSearch {
  public:
   TreeSearch(const View& curve, math::Vec3 p_m, uint32_t budget, Visitor& visitor)
-      : nodes_(curve.nodes().data()),
+      : places_(curve.places().data()),
         samples_(curve.samples().data()),
         count_(curve.samples().size()),
         budget_(budget == 0 ? 1 : budget),
@@ -77,11 +75,11 @@ class TreeSearch {
     float outside2_m2[3];  // squared distance to the cell, axis by axis
   };
 
-  // Distance to a cell minus a reach, rounded down: the sum of squares loses 5 roundings, the root
-  // halves them and adds one, the difference adds one of at most the distance.
-  static float bound_m(const float* outside2_m2, float reach_m) {
+  // Distance to a cell, rounded down: the sum of squares loses 5 roundings, the root halves them and
+  // adds one.
+  static float bound_m(const float* outside2_m2) {
     const float distance2_m2 = outside2_m2[0] + outside2_m2[1] + outside2_m2[2];
-    return math::square_root(distance2_m2) * (1.0f - 0x1p-21f) - reach_m;
+    return math::square_root(distance2_m2) * (1.0f - 0x1p-21f);
   }
 
   // From a node for which there is budget to a leaf, the nearer child first. Squares of lengths are
@@ -89,17 +87,14 @@ class TreeSearch {
   bool descend(uint32_t node) {
     const math::Vec3 p_m{p_m_[0], p_m_[1], p_m_[2]};
     const uint32_t cell2 = math::bits_of(outside2_m2_[0] + outside2_m2_[1] + outside2_m2_[2]);
-    float limit_m = visitor_.radius_m(), reach_m = 0;
+    uint32_t limit2 = limit();
     do {
       if (left_ == 0) {
-        put(node, reach_m);
+        put(node);
         return false;
       }
       --left_;
-      const uint32_t place = nodes_[node].place;
-      reach_m = nodes_[node].reach_m;
-      float radius_m = limit_m + reach_m;
-      uint32_t limit2 = math::bits_of(radius_m * radius_m);
+      const uint32_t place = places_[node];
       if (cell2 >= limit2) return true;
       const uint32_t sample = sample_of(place), axis = axis_of(place);
       const float* at_m = &samples_[sample].x_m;
@@ -107,29 +102,32 @@ class TreeSearch {
       const float distance2_m2 = dot(from_m, from_m);
       if (math::bits_of(distance2_m2) < limit2) {
         visitor_.take(sample, from_m, distance2_m2);
-        limit_m = visitor_.radius_m();
-        radius_m = limit_m + reach_m;
-        limit2 = math::bits_of(radius_m * radius_m);
+        limit2 = limit();
       }
       const float beyond_m = p_m_[axis] - at_m[axis];
       const float beyond2_m2 = beyond_m * beyond_m;
       const uint32_t is_before = math::bits_of(beyond_m) >> 31;
       const uint32_t first = first_child(node);
       if (math::bits_of(beyond2_m2) < limit2)
-        put_other(first + is_before, axis, beyond2_m2, reach_m, limit2);
+        put_other(first + is_before, axis, beyond2_m2, limit2);
       node = first + 1 - is_before;
     } while (node < count_);
     return true;
   }
 
-  void put(uint32_t node, float reach_m) {
+  uint32_t limit() const {
+    const float radius_m = visitor_.radius_m();
+    return math::bits_of(radius_m * radius_m);
+  }
+
+  void put(uint32_t node) {
     Cell& cell = pending_[pending_count_++];
     cell.node = node;
-    cell.bound_m = bound_m(outside2_m2_, reach_m);
+    cell.bound_m = bound_m(outside2_m2_);
     for (uint32_t k = 0; k < 3; ++k) cell.outside2_m2[k] = outside2_m2_[k];
   }
 
-  void put_other(uint32_t node, uint32_t axis, float beyond2_m2, float reach_m, uint32_t limit2) {
+  void put_other(uint32_t node, uint32_t axis, float beyond2_m2, uint32_t limit2) {
     if (node >= count_) return;
     Cell& cell = pending_[pending_count_];
     for (uint32_t k = 0; k < 3; ++k) cell.outside2_m2[k] = outside2_m2_[k];
@@ -137,7 +135,7 @@ class TreeSearch {
     const float sum_m2 = cell.outside2_m2[0] + cell.outside2_m2[1] + cell.outside2_m2[2];
     if (math::bits_of(sum_m2) >= limit2) return;
     cell.node = node;
-    cell.bound_m = bound_m(cell.outside2_m2, reach_m);
+    cell.bound_m = bound_m(cell.outside2_m2);
     ++pending_count_;
   }
 
@@ -162,7 +160,7 @@ class TreeSearch {
     return taken.node;
   }
 
-  const Node* nodes_;
+  const uint32_t* places_;
   const Sample* samples_;
   uint32_t count_;
   uint32_t budget_;

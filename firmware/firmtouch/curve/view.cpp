@@ -12,6 +12,7 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
+constexpr uint32_t kRunElements = 4 * kRunSegments;  // that many distances are reckoned
 constexpr uint64_t kWhole = uint64_t{1} << 62;  // the length of the curve, in units of travelled_
 
 // How far a stored arc position may lie from the one that the samples say: a millionth of the
@@ -30,7 +31,7 @@ uint64_t as_fixed(float fraction) {
 }
 
 Verdict check_head(const Head& head) {
-  if (head.reserved[0] != 0 || head.reserved[1] != 0) return reject(203);
+  if (head.reserved != 0) return reject(203);
   if (head.is_closed > 1) return reject(204);
   for (uint32_t k = 0; k < 3; ++k)
     if (!(head.low_m[k] >= -kMaxCoordinate_m && head.low_m[k] <= head.high_m[k] &&
@@ -39,7 +40,8 @@ Verdict check_head(const Head& head) {
   if (!same_bits(head.diagonal_m, diagonal_m(head)) || !(head.diagonal_m >= kMinDiagonal_m))
     return reject(209);
   if (!(head.length_m >= head.diagonal_m * 0.5f && head.length_m <= 0x1p60f)) return reject(210);
-  return kPassed;
+  const uint32_t grid = wrong_of_grid(head);
+  return grid == 0 ? kPassed : reject(222, grid - 1);
 }
 
 }  // namespace
@@ -60,8 +62,13 @@ void Opening::open_head(const Sections& s) {
   if (view_.samples_.size() != head.sample_count) return fail(205, view_.samples_.size());
   view_.arcs_ = core::as_whole_array<float>(s.arcs);
   if (view_.arcs_.size() != head.sample_count) return fail(206, view_.arcs_.size());
-  view_.nodes_ = core::as_whole_array<Node>(s.nodes);
-  if (view_.nodes_.size() != head.sample_count) return fail(207, view_.nodes_.size());
+  view_.places_ = core::as_whole_array<uint32_t>(s.places);
+  if (view_.places_.size() != head.sample_count) return fail(207, view_.places_.size());
+  const uint32_t runs = run_count_of(head.sample_count);
+  view_.boxes_ = core::as_whole_array<Box>(s.boxes);
+  if (view_.boxes_.size() != 2 * runs - 1) return fail(221, view_.boxes_.size());
+  view_.runs_ = core::as_whole_array<Run>(s.runs);
+  if (view_.runs_.size() != runs) return fail(221, view_.runs_.size());
   verdict_ = check_head(head);
   if (!verdict_.ok()) return;
   view_.head_ = &head;
@@ -71,13 +78,35 @@ void Opening::open_head(const Sections& s) {
 }
 
 void Opening::work(uint32_t elements) {
-  for (; elements > 0 && stage_ != Stage::kDone; --elements) {
-    const Verdict found = stage_ == Stage::kSamples  ? check_sample(next_)
-                          : stage_ == Stage::kLength ? check_length(next_)
-                                                     : check_node(next_);
+  for (uint32_t used = 0; used < elements && stage_ != Stage::kDone;) {
+    used += stage_ == Stage::kRuns ? kRunElements : 1;
+    const Verdict found = check(next_);
     if (!found.ok()) return fail(found.rule, found.element);
-    if (++next_ == view_.samples_.size()) next_stage();
+    if (++next_ == this->elements()) next_stage();
   }
+}
+
+Verdict Opening::check(uint32_t i) {
+  switch (stage_) {
+    case Stage::kSamples:
+      return check_sample(i);
+    case Stage::kLength:
+      return check_length(i);
+    case Stage::kPlaces:
+      return check_place(i);
+    case Stage::kBoxes:
+      return check_box(i);
+    case Stage::kRuns:
+      return check_run(i);
+    case Stage::kDone:
+      break;
+  }
+  return kPassed;
+}
+
+uint32_t Opening::elements() const {
+  if (stage_ == Stage::kBoxes) return view_.boxes_.size();
+  return stage_ == Stage::kRuns ? view_.runs_.size() : view_.samples_.size();
 }
 
 void Opening::next_stage() {
@@ -85,10 +114,10 @@ void Opening::next_stage() {
   if (stage_ == Stage::kSamples) {
     const Verdict ends = check_ends();
     if (!ends.ok()) return fail(ends.rule, ends.element);
-    stage_ = Stage::kLength;
-  } else {
-    stage_ = stage_ == Stage::kLength ? Stage::kNodes : Stage::kDone;
   }
+  if (stage_ == Stage::kLength && !same_bits(longest_half_m_, view_.head_->longest_half_m))
+    return fail(223, 0);
+  stage_ = static_cast<Stage>(static_cast<uint8_t>(stage_) + 1);
 }
 
 Verdict Opening::check_sample(uint32_t i) {
@@ -126,6 +155,8 @@ Verdict Opening::check_length(uint32_t i) {
   const float spacing_m = math::length(vec(view_.samples_[i]) - vec(from));
   if (!(spacing_m >= kMinSpacing_m)) return reject(215, i);
   if (!(arc >= view_.arcs_[i - 1])) return reject(216, i);
+  const float half_m = half_segment_m(from, view_.samples_[i]);
+  if (half_m > longest_half_m_) longest_half_m_ = half_m;
   const float fraction = spacing_m / view_.head_->length_m;
   travelled_ += fraction < 1.0f ? as_fixed(fraction) : kWhole;
   const uint64_t told = as_fixed(arc);
@@ -137,21 +168,55 @@ Verdict Opening::check_length(uint32_t i) {
 
 // The order by (coordinate, sample) is strict: a sample that stood in two nodes would have to come
 // before itself where their ways part. So nodes in order, as many as samples, hold each once.
-Verdict Opening::check_node(uint32_t i) const {
-  const uint32_t count = view_.samples_.size(), place = view_.nodes_[i].place;
+Verdict Opening::check_place(uint32_t i) const {
+  const uint32_t count = view_.samples_.size(), place = view_.places_[i];
   const Sample* samples = view_.samples_.data();
   if (sample_of(place) >= count || axis_of(place) > 2) return reject(218, i);
   for (uint32_t at = i; at != 0; at = parent_of(at)) {  // ancestors have passed the line above
-    const uint32_t above = view_.nodes_[parent_of(at)].place;
+    const uint32_t above = view_.places_[parent_of(at)];
     const bool is_first = (at & 1u) != 0;
     const uint32_t first = is_first ? place : above, second = is_first ? above : place;
     if (!comes_before(samples, axis_of(above), sample_of(first), sample_of(second)))
       return reject(219, i);
   }
-  float reach_m = own_reach_m(samples, count, sample_of(place));
-  for (uint32_t child = first_child(i); child < first_child(i) + 2 && child < count; ++child)
-    if (!(view_.nodes_[child].reach_m <= reach_m)) reach_m = view_.nodes_[child].reach_m;
-  return same_bits(view_.nodes_[i].reach_m, reach_m) ? kPassed : reject(220, i);
+  return kPassed;
+}
+
+Verdict Opening::check_box(uint32_t i) const {
+  const Box& box = view_.boxes_[i];
+  const Box& around = view_.boxes_[i == 0 ? 0 : parent_of(i)];
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t side = box.side[k], low = low_of(side), high = high_of(side);
+    if ((side >> 16) > kGridMax || low > high) return reject(224, i);
+    if (low < low_of(around.side[k]) || high > high_of(around.side[k])) return reject(225, i);
+  }
+  return kPassed;
+}
+
+// leaf -> run is undone by run -> leaf, so each run is one leaf.
+Verdict Opening::check_run(uint32_t i) const {
+  const core::Span<const Run> runs = view_.runs_;
+  const Run& run = runs[i];
+  if (run.run >= runs.size() || runs[run.run].leaf != i) return reject(226, i);
+  if (run.leaf >= runs.size() || runs[run.leaf].run != i) return reject(226, i);
+  const uint32_t segments = view_.segment_count();
+  const Part whole = part_of(i, 0, segments);
+  const Box& box = view_.boxes_[runs.size() - 1 + run.leaf];
+  for (uint32_t s = whole.first; s <= whole.last; ++s) {
+    const float* at_m = &view_.samples_[s].x_m;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const float cells = cells_of(*view_.head_, at_m[k], k);
+      if (!(cells >= static_cast<float>(low_of(box.side[k])) &&
+            cells <= static_cast<float>(high_of(box.side[k]))))
+        return reject(227, s);
+    }
+  }
+  for (uint32_t k = 0; k < kParts; ++k) {
+    const Part part = part_of(i, k, segments);
+    if (run.radius[k] != stored_radius(view_.samples_.data(), part.first, part.last))
+      return reject(228, i);
+  }
+  return run.reserved == 0 ? kPassed : reject(229, i);
 }
 
 Verdict open(const Sections& sections, View& view) {

@@ -10,10 +10,10 @@ namespace firmtouch::curve {
 
 /// The bytes of a curve's sections, as the container hands them out.
 struct Sections {
-  core::Bytes head, samples, arcs, nodes;
+  core::Bytes head, samples, arcs, places, boxes, runs;
 };
 
-/// A curve that open() has proven: every index, order, reach and float. Immutable; share it between
+/// A curve that open() has proven: every index, order, box, radius and float. Immutable; share it between
 /// any number of tools.
 class View {
  public:
@@ -24,7 +24,9 @@ class View {
   const Head& head() const { return *head_; }
   core::Span<const Sample> samples() const { return samples_; }
   core::Span<const float> arcs() const { return arcs_; }
-  core::Span<const Node> nodes() const { return nodes_; }
+  core::Span<const uint32_t> places() const { return places_; }
+  core::Span<const Box> boxes() const { return boxes_; }
+  core::Span<const Run> runs() const { return runs_; }
   uint32_t segment_count() const { return samples_.size() - 1; }
 
   math::Vec3 sample(uint32_t i) const {
@@ -36,11 +38,13 @@ class View {
   const Head* head_ = nullptr;
   core::Span<const Sample> samples_;
   core::Span<const float> arcs_;
-  core::Span<const Node> nodes_;
+  core::Span<const uint32_t> places_;
+  core::Span<const Box> boxes_;
+  core::Span<const Run> runs_;
 };
 
 /// Proves a curve in slices, so that a main loop stays alive while it opens a large one: rules R201
-/// to R220 of tools/FORMAT.md.
+/// to R230 of tools/FORMAT.md.
 ///
 ///     Opening opening(sections);
 ///     while (!opening.done()) opening.work(1000);
@@ -49,8 +53,8 @@ class Opening {
  public:
   explicit Opening(const Sections& sections);
 
-  /// Checks up to `elements` samples or nodes more.
-  /// Bounds: at most kMaxLevels reads an element; no recursion; reads only inside the sections.
+  /// Checks up to `elements` samples or boxes more; a run counts as four elements a segment.
+  /// Bounds: at most kMaxLevels reads an element, a run (300 distances) at once; no recursion; reads only inside the sections.
   void work(uint32_t elements);
   bool done() const { return stage_ == Stage::kDone; }
   core::Verdict verdict() const { return verdict_; }
@@ -58,20 +62,25 @@ class Opening {
   View view() const { return done() && verdict_.ok() ? view_ : View{}; }
 
  private:
-  enum class Stage : uint8_t { kSamples, kLength, kNodes, kDone };
+  enum class Stage : uint8_t { kSamples, kLength, kPlaces, kBoxes, kRuns, kDone };
   void fail(uint16_t rule, uint32_t element);
   void open_head(const Sections& sections);
+  core::Verdict check(uint32_t i);
+  uint32_t elements() const;
   void next_stage();
   core::Verdict check_sample(uint32_t i);
   core::Verdict check_ends() const;
   core::Verdict check_length(uint32_t i);
-  core::Verdict check_node(uint32_t i) const;
+  core::Verdict check_place(uint32_t i) const;
+  core::Verdict check_box(uint32_t i) const;
+  core::Verdict check_run(uint32_t i) const;
 
   View view_;
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0;
   uint64_t travelled_ = 0;  // along the curve, in 2^-62 of its length
+  float longest_half_m_ = 0;
   Sample low_{}, high_{};
 };
 

@@ -1,0 +1,108 @@
+#pragma once
+// The walk through a curve's tree of runs, for .cpp files of this room only.
+
+#include <float.h>
+
+#include "firmtouch/curve/grid.hpp"
+#include "firmtouch/curve/view.hpp"
+
+namespace firmtouch::curve {
+
+constexpr uint32_t kNoRun = UINT32_MAX;
+
+// Boxes still to be looked at. Smallest key first while there is room for a whole descent, last in
+// first out beyond, which needs one entry a level.
+constexpr uint32_t kMaxRunLevels =
+    kMaxLevels - kRunLevels - 1;     // a run is 2^(kRunLevels + 2) segments
+constexpr uint32_t kBestFirst = 64;  // within a tick's budget it never overflows
+constexpr uint32_t kMaxPending = kBestFirst + kMaxRunLevels + 1;
+
+struct Pending {
+  uint32_t key;
+  uint32_t box;
+};
+
+/// What a walk came to.
+struct Walk {
+  uint32_t steps;
+  bool complete;    // nothing is left that the visitor would take
+  float pending_m;  // where it is not: certified distance to everything that was not looked at
+};
+
+// Takes a key below `prune`: while there are more than `best_first`, the last, else the smallest.
+// Result: false when there is none.
+static inline bool take_next(Pending* pending, uint32_t& count, uint32_t best_first, uint32_t prune,
+                             Pending& taken) {
+  while (count > best_first) {
+    taken = pending[--count];
+    if (taken.key < prune) return true;
+  }
+  if (count == 0) return false;
+  uint32_t at = count - 1;
+  for (uint32_t i = at; i-- > 0;) at = pending[i].key < pending[at].key ? i : at;
+  taken = pending[at];
+  pending[at] = pending[--count];
+  return taken.key < prune;
+}
+
+/// Offers every run that may matter to a visitor: from `start`, which it takes first, up to the root
+/// and into what lies beside the way; from the root where `start` is kNoRun.
+///
+/// The visitor has
+///     float reach2_m2() const;       squared: what lies farther has nothing for it; never grows
+///     void begin(uint32_t run);      takes the run where a warm walk starts
+///     void take(uint32_t run);
+///
+/// Boxes nest to the bit, so the bound of the nearest box left never falls: more steps never widen a
+/// certificate. A cold walk takes the nearest box, for the sake of its lower bound; a warm one knows
+/// its upper bound so well that the order no longer matters, and saves the comparisons.
+template <class Bound, class Visitor>
+static inline Walk walk_runs(const View& curve, const Bound& bound_at, uint32_t budget,
+                             uint32_t start, Visitor& visitor) {
+  const Bound bound = bound_at;  // in registers
+  const Box* const boxes = curve.boxes().data();
+  const Run* const runs = curve.runs().data();
+  const uint32_t leaves = curve.runs().size() - 1;  // the first leaf's box
+  const uint32_t allowed = budget == 0 ? 1 : budget;
+  Pending pending[kMaxPending];
+  uint32_t count = 0, left = allowed - 1;
+  uint32_t prune;
+  Pending now{0, 0};
+  uint32_t best_first = kBestFirst;
+  if (start != kNoRun) {
+    best_first = 0;
+    visitor.begin(start);
+    prune = bound.prune_key(visitor.reach2_m2());
+    for (uint32_t box = leaves + runs[start].leaf; box != 0; box = parent_of(box), --left) {
+      if (left == 0) return {allowed, false, 0.0f};  // nothing is known of the rest of the way
+      const uint32_t beside = ((box - 1) ^ 1u) + 1;
+      const uint32_t key = bound.key(boxes[beside]);
+      if (key < prune) pending[count++] = {key, beside};
+    }
+    if (!take_next(pending, count, best_first, prune, now)) return {allowed - left, true, FLT_MAX};
+  } else {
+    prune = bound.prune_key(visitor.reach2_m2());
+    ++left;
+  }
+  for (;;) {
+    if (left == 0) break;
+    --left;
+    if (now.box < leaves) {
+      const uint32_t first = first_child(now.box);
+      const uint32_t key0 = bound.key(boxes[first]), key1 = bound.key(boxes[first + 1]);
+      const uint32_t slot = key1 < key0 ? 1 : 0, far_key = slot ? key0 : key1;
+      if (far_key < prune) pending[count++] = {far_key, first + 1 - slot};
+      now = {slot ? key1 : key0, first + slot};
+      if (now.key < prune) continue;
+    } else {
+      visitor.take(runs[now.box - leaves].run);
+      prune = bound.prune_key(visitor.reach2_m2());
+    }
+    if (!take_next(pending, count, best_first, prune, now)) return {allowed - left, true, FLT_MAX};
+  }
+  uint32_t least = now.key;
+  for (uint32_t i = 0; i < count; ++i) least = pending[i].key < least ? pending[i].key : least;
+  return {allowed, false, bound.distance_m(least)};
+}
+
+}  // namespace firmtouch::curve

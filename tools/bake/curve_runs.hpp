@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "firmtouch/curve/layout.hpp"
+
+namespace firmtouch::tools {
+
+struct CurveRuns {
+  std::vector<curve::Box> boxes;
+  std::vector<curve::Run> runs;
+};
+
+/// Sets grid_low_m and cell_m from the head's box: the finest grid that open() takes.
+/// Result: false where float32 has no such grid, the curve being far from the origin for its size.
+bool choose_grid(curve::Head& head);
+
+/// The tree of runs: split at the median across the widest axis by (middle of the run's box, run),
+/// a total order, so the same tree on every machine; boxes rounded outward to the head's grid.
+/// Cost: O(n log n), about 0.1 s for 2,000,000 samples.
+CurveRuns build_curve_runs(const std::vector<curve::Sample>& samples, const curve::Head& head);
+
+}  // namespace firmtouch::tools
