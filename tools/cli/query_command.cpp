@@ -66,7 +66,9 @@ const Command& query_command() {
         "curve: the closest point, or of the N nearest samples (default exact)"},
        {"--n", "N", "curve, nearest: samples looked at, 1 to 100 (default 10)"},
        {"--arc-penalty", "W",
-        "curve, nearest: metres for the whole length's change of arc (default 0)"},
+        "curve: metres of distance for the whole length's change of arc since the row before "
+        "(default "
+        "0); lower then bounds distance and penalty together"},
        {"--band", "M", "distance: beyond M metres only a lower bound, in fewer steps (not exact)"},
        {"--all", nullptr,
         "segment: every crossing, a row each (segment,t,triangle), in order of t"},
@@ -84,7 +86,7 @@ int run_query(const Arguments& arguments) {
   if (kind != "segment") forbid(arguments, kind, {"--all"});
   if (kind != "curve") forbid(arguments, kind, {"--mode", "--n", "--arc-penalty"});
   if (kind == "curve" && arguments.text("--mode", "exact") == "exact") {
-    forbid(arguments, "--mode exact", {"--n", "--arc-penalty"});
+    forbid(arguments, "--mode exact", {"--n"});
   }
   check_options(arguments, kind);
   const LoadedAsset asset(path);

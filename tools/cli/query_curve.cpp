@@ -3,7 +3,7 @@
 
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
-#include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/curve/guided_point.hpp"
 #include "firmtouch/curve/nearest_constraint.hpp"
 
 namespace firmtouch::cli {
@@ -13,7 +13,7 @@ constexpr uint32_t kUsualNearest =
     10;  // samples, the smaller of the two counts that were published
 
 // Rows in order, each warm-started by the one before unless `cold`: by its place in the exact mode,
-// by its arc position in the nearest mode.
+// and where changes of arc are penalised by its arc position.
 class Answers {
  public:
   Answers(const curve::View& view, const Arguments& arguments)
@@ -31,17 +31,20 @@ class Answers {
       hint_ = query::Hint{};
       penalty_.has_previous = false;
     }
-    if (options_.is_exact) return curve::closest_point(view_, p_m, budget_, hint_);
+    if (options_.is_exact)
+      return kept(curve::guided_point(view_, p_m, penalty_, budget_, hint_).closest);
     const core::Span<curve::Neighbour> memory(nearest_.data(),
                                               static_cast<uint32_t>(nearest_.size()));
-    const curve::Closest closest =
-        curve::nearest_constraint(view_, p_m, penalty_, memory, budget_).closest;
+    return kept(curve::nearest_constraint(view_, p_m, penalty_, memory, budget_).closest);
+  }
+
+ private:
+  curve::Closest kept(const curve::Closest& closest) {
     penalty_.previous_arc = closest.arc;
     penalty_.has_previous = true;
     return closest;
   }
 
- private:
   const curve::View& view_;
   query::Budget budget_;
   bool cold_;

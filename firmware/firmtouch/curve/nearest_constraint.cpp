@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "firmtouch/curve/answer.hpp"
+#include "firmtouch/curve/arc_penalty.hpp"
 #include "firmtouch/curve/tree_search.hpp"
 
 namespace firmtouch::curve {
@@ -72,13 +73,8 @@ class NearestSamples {
 };
 
 float penalty_m(const View& curve, const Foot& foot, const ArcPenalty& penalty) {
-  if (!penalty.has_previous || !(penalty.weight_m > 0.0f)) return 0.0f;
-  if (!(penalty.previous_arc >= 0.0f && penalty.previous_arc <= 1.0f)) return 0.0f;
-  const float change = arc_of(curve, foot) - penalty.previous_arc;
-  float apart = change < 0.0f ? -change : change;
-  if (curve.is_closed() && apart > 0.5f) apart = 1.0f - apart;
-  const float cost_m = apart * penalty.weight_m;
-  return cost_m < 0x1p100f ? cost_m : 0x1p100f;
+  if (!is_penalty(penalty)) return 0.0f;
+  return penalty_at_m(penalty, arc_of(curve, foot), curve.is_closed());
 }
 
 /// The candidates in order; of equal costs the first.

@@ -1,0 +1,52 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/curve/nearest_constraint.hpp"
+
+namespace firmtouch::curve {
+
+/// The point of the curve that a haptic device is tied to: of the closest points of all segments the
+/// one of the least distance + penalty, with a certificate. nearest_constraint() asks the same of
+/// the segments at the N nearest samples only.
+/// Pre:    `curve` is open.
+/// Bounds: <= budget steps; 1.5 KB of stack; re-entrant; callable from an interrupt.
+/// Result: always finite. Equal costs: the one found first. On a closed curve the change of arc is
+///         taken the shorter way round. Without a penalty (no previous arc, one outside 0 to 1, a
+///         weight that is not positive), or where the query is not finite or beyond 2^60 m: as
+///         closest_point(), bit for bit. certificate.lower_m bounds the cost of all segments, and
+///         `exact` says that cost and bound are within 4e-7 max(diagonal, distance) and, for
+///         what float32 knows of arc positions, 1e-6 weight_m (1 + cost_m / length) of the truth.
+/// Error:  tests/curve/guided_point_host_test.cpp, against every segment in double.
+/// Source: Morris 2006, section 2.2, over all segments instead of those at N samples.
+Constraint guided_point(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
+                        query::Budget budget, query::Hint& hint);
+
+/// How a guide holds on to a curve.
+struct Hold {
+  float weight_m = 0;   // metres of distance for the whole length's change of arc; 0: none
+  float release_m = 0;  // a deviation beyond this lets go
+};
+
+/// What one (tool, guide) pair remembers from tick to tick; the caller owns it. A default one has no
+/// previous state: its first query is not penalised.
+struct Following {
+  query::Hint hint;
+  float arc = 0;  // of the last point, where is_following
+  bool is_following = false;
+};
+
+struct Followed {
+  Constraint constraint;  // point, tangent, arc, deviation (closest.distance_m), cost, certificate
+  float change_of_arc = 0;  // since the last tick, the shorter way round; 0 where the guide is new
+  bool is_new = false;      // no previous state, or let go: found by distance alone
+  bool is_held = false;     // the deviation is within release_m
+};
+
+/// One tick of a guide: guided_point() from the previous arc position; where that point is farther
+/// than release_m, or not a number, the guide lets go and finds itself again, by distance alone.
+/// Bounds: <= 2 budgets of steps, the second only in the tick that lets go; else as guided_point().
+Followed follow(const View& curve, math::Vec3 p_m, const Hold& hold, query::Budget budget,
+                Following& following);
+
+}  // namespace firmtouch::curve
