@@ -66,14 +66,14 @@ void add_mesh(std::vector<Section>& sections, const std::string& name, bool is_s
 
 void add_curve(std::vector<Section>& sections, const std::string& name, bool closed) {
   tools::CurvePoints points;
-  for (uint32_t i = 0; i < 70; ++i) {
+  for (uint32_t i = 0; i < (closed ? 12u : 70u); ++i) {  // one run, two runs
     const float t = 0.2f * static_cast<float>(i);
     points.samples_m.push_back({0.1f * t, 0.02f * t * t, i % 3 == 0 ? 0.05f : 0.0f});
     points.rows.push_back(i < 5 ? i : i + 1);  // row 5 was dropped
   }
   if (closed) {
     points.samples_m.push_back(points.samples_m[0]);
-    points.rows.push_back(71);
+    points.rows.push_back(13);
   }
   tools::CurveReport report;
   std::vector<Section> curve = tools::bake_curve(points, name, report);

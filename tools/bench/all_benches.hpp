@@ -11,5 +11,6 @@ void run_pyramids(const Options& options, Report& report);       // pyramids.cpp
 void run_truth(const Options& options, Report& report);          // truth.cpp
 void run_grid(const Options& options, Report& report);           // grid.cpp
 void run_ring(const Options& options, Report& report);           // ring.cpp
+void run_curve(const Options& options, Report& report);          // curve.cpp
 
 }  // namespace firmtouch::bench

@@ -5,6 +5,7 @@ namespace firmtouch::bench {
 
 const std::vector<Bench>& benches() {
   static const std::vector<Bench> all = {
+      {"curve", "guides along recorded curves: the bars, time against samples and N", run_curve},
       {"distance", "closest points of meshes: the bars, budgets, bytes", run_distance},
       {"orders", "query orders, upper bounds and kinds of boxes, each with each", run_orders},
       {"pseudonormals", "sides told by every pseudonormal proposed, on figures and models",

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "bake/bake_curve.hpp"
@@ -37,8 +38,19 @@ tools::Facts facts_of(const curve::View& view, const tools::CurveReport& report,
           {"steps_path_worst", std::to_string(steps.path_worst)}};
 }
 
+// What the parameters workspace_half_x_m, _y_m and _z_m are where nobody sets them.
+constexpr double kUsualWorkspace_m = 0.5;
+
+double reach_of(const curve::View& view) {
+  double reach_m = 0;
+  for (int k = 0; k < 3; ++k)
+    reach_m = std::max({reach_m, -static_cast<double>(view.head().low_m[k]),
+                        static_cast<double>(view.head().high_m[k])});
+  return reach_m;
+}
+
 std::string sentence(const char* format, double a, double b) {
-  char text[200];
+  char text[300];
   std::snprintf(text, sizeof(text), format, a, b);
   return text;
 }
@@ -89,6 +101,13 @@ BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
                steps.random_mean, steps.random_worst),
       sentence("steps on a path of 2000 points beside it: mean %.1f, worst seen %.0f",
                steps.path_mean, steps.path_worst)};
+  const double reach_m = reach_of(view);
+  if (reach_m > kUsualWorkspace_m)
+    baked.report.push_back(
+        sentence("reaches %.4g m from the origin, beyond the usual workspace of %.4g m along each "
+                 "axis: where that is not meant, check --unit; else set workspace_half_x_m, _y_m, "
+                 "_z_m and the guide's pose",
+                 reach_m, kUsualWorkspace_m));
   for (const std::string& note : points.notes) baked.report.push_back("mended: " + note);
   return baked;
 }

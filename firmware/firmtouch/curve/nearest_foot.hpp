@@ -78,7 +78,8 @@ class NearestFoot {
 
   void take(uint32_t run) {
     const Cut whole{0, run * kRunSegments};
-    if (may_hold(run, whole, kRunSegments, false)) take_part(run, whole, kRunSegments);
+    if (may_hold(run, whole, kRunSegments, best_.sample > whole.first))
+      take_part(run, whole, kRunSegments);
   }
 
  private:
@@ -160,8 +161,14 @@ class NearestFoot {
     return dot(rest_m, rest_m) < limit2_m2 ? t : -1.0f;
   }
 
-  /// The segments of a part of the last level. With v = p - sample, the foot lies within a segment
-  /// only where v . v' of its ends is less than both squares; rounding loses less than 8 u of these.
+  /// With v = p - sample, the foot lies within a segment only where v . v' of its ends is less than
+  /// both squares; rounding loses less than 8 u of these.
+  static bool is_between(math::Vec3 from_m, math::Vec3 next_m, float from2_m2, float next2_m2) {
+    const float across_m2 = dot(from_m, next_m) * (1.0f - 8.0f * 0x1p-24f);
+    return across_m2 < from2_m2 && across_m2 < next2_m2;
+  }
+
+  /// The segments of a part of the last level, but for one that is known.
   void take_segments(uint32_t first, uint32_t but) {
     const uint32_t after = first + kPartSegments;
     const uint32_t end = after < segment_count_ ? after : segment_count_;
@@ -172,8 +179,7 @@ class NearestFoot {
       if (segment == end) return;
       const math::Vec3 next_m = p_m_ - vec(samples_[segment + 1]);
       const float next2_m2 = dot(next_m, next_m);
-      const float across_m2 = dot(from_m, next_m) * (1.0f - 8.0f * 0x1p-24f);
-      if ((kCareful || (across_m2 < from2_m2 && across_m2 < next2_m2)) && segment != but)
+      if (segment != but && (kCareful || is_between(from_m, next_m, from2_m2, next2_m2)))
         (void)look_at(segment);
       from_m = next_m;
       from2_m2 = next2_m2;

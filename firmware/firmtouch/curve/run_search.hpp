@@ -95,8 +95,9 @@ static inline Walk walk_runs(const View& curve, const Bound& bound_at, uint32_t 
       now = {slot ? key1 : key0, first + slot};
       if (now.key < prune) continue;
     } else {
+      const float before_m2 = visitor.reach2_m2();
       visitor.take(runs[now.box - leaves].run);
-      prune = bound.prune_key(visitor.reach2_m2());
+      if (visitor.reach2_m2() < before_m2) prune = bound.prune_key(visitor.reach2_m2());
     }
     if (!take_next(pending, count, best_first, prune, now)) return {allowed - left, true, FLT_MAX};
   }
