@@ -227,27 +227,6 @@ APolylineIsAnsweredBetweenItsSamples() {
   same "$(printf '%s\n' "$out" | wc -l | tr -d ' ')" 4
 }
 
-APenaltyHoldsAQueryOnItsPartOfACurve() {
-  printf 'x,y,z\n0,0,0\n1,0,0\n1,0.1,0\n0,0.1,0\n' >c.csv
-  bake c.csv -o a.fta
-  printf 'x,y,z\n0.5,0.02,0\n0.5,0.06,0\n' >p.csv
-  f query a.fta c curve <p.csv
-  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f5)" '0
-2'
-  f query a.fta c curve --arc-penalty 1 <p.csv
-  exits 0
-  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f5,9)" '0,1
-0,1'
-}
-
-ACurveBeyondTheUsualWorkspaceIsTold() {
-  printf 'x,y,z\n0,0,0\n700,0,0\n' >c.csv
-  bake c.csv -o a.fta
-  told 'reaches 700 m' '--unit'
-  f bake c.csv -o a.fta --unit mm; exits 0; told 'reaches 0.7 m'
-  f bake c.csv -o a.fta --unit in; exits 0; told 'reaches 17.78 m'
-}
-
 RowsOfACurveKeepTheirNumbers() {
   printf 'x,y,z\n0,0,0\n0,0,0\n1,0,0\n2,0,0\n' >c.csv
   bake c.csv -o a.fta
