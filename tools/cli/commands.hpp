@@ -22,4 +22,7 @@ int run_bench(const Arguments& arguments);
 const Command& log_command();
 int run_log(const Arguments& arguments);
 
+const Command& voxelize_command();
+int run_voxelize(const Arguments& arguments);
+
 }  // namespace firmtouch::cli

@@ -16,9 +16,10 @@ struct Entry {
   int (*run)(const Arguments&);
 };
 
-constexpr Entry kEntries[] = {{make_command, run_make}, {bake_command, run_bake},
-                              {info_command, run_info}, {query_command, run_query},
-                              {log_command, run_log},   {bench_command, run_bench}};
+constexpr Entry kEntries[] = {{make_command, run_make},        {bake_command, run_bake},
+                              {info_command, run_info},        {query_command, run_query},
+                              {log_command, run_log},          {bench_command, run_bench},
+                              {voxelize_command, run_voxelize}};
 
 std::string usage() {
   std::string text =
@@ -55,7 +56,7 @@ int run(const std::vector<std::string>& words) {
     std::fputs(help_of(command).c_str(), stdout);
     return kDone;
   }
-  for (const char* later : {"voxelize", "hull"}) {
+  for (const char* later : {"hull"}) {
     if (words[0] == later) fail_usage(words[0] + ": is not in this version of Firmtouch yet");
   }
   fail_usage("'" + words[0] + "' is no command (see firmtouch --help)");

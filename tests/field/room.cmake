@@ -1,0 +1,3 @@
+if(TARGET firmtouch_tools_field)
+  firmtouch_test_room(field LINKS firmtouch_tools_field)
+endif()

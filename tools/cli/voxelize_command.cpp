@@ -1,0 +1,133 @@
+#include <cstdio>
+#include <thread>
+
+#include "cli/baked_input.hpp"
+#include "cli/commands.hpp"
+#include "cli/failure.hpp"
+#include "cli/files.hpp"
+#include "cli/progress.hpp"
+#include "field/distance_map.hpp"
+#include "field/write_vti.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+constexpr uint32_t kMostCells = 4096;
+// About 60 bytes a voxel while it works, and 22 in the file.
+constexpr double kMostVoxels = 1 << 29;
+constexpr size_t kShown = 20;
+
+void print_report(const std::string& name, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines)
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), line.c_str());
+}
+
+void print_map(const tools::DistanceMap& map, const std::vector<std::string>& inputs,
+               uint32_t threads) {
+  const auto& grid = map.grid;
+  std::fprintf(stderr, "%u x %u x %u voxels of %.6g m: %zu on a surface, %zu inside, %zu outside\n",
+               grid.count[0], grid.count[1], grid.count[2], grid.size_m, map.surface, map.inside,
+               map.outside);
+  std::fprintf(
+      stderr, "voxelized and filled in %.3f s; %zu distances in %.3f s by %u %s, %.3f us each\n",
+      map.voxelize_s, map.computed, map.distance_s, threads, threads == 1 ? "thread" : "threads",
+      map.distance_s * 1e6 / static_cast<double>(map.computed));
+  if (map.disagreements.empty()) {
+    std::fputs("flood fill and pseudonormals tell the same side of every voxel off the surface\n",
+               stderr);
+    return;
+  }
+  std::fprintf(stderr, "flood fill and pseudonormals differ at %zu %s off the surface:\n",
+               map.disagreements.size(), map.disagreements.size() == 1 ? "voxel" : "voxels");
+  for (size_t i = 0; i < map.disagreements.size() && i < kShown; ++i) {
+    const auto& each = map.disagreements[i];
+    const size_t x = each.voxel % grid.count[0], y = each.voxel / grid.count[0] % grid.count[1],
+                 z = each.voxel / grid.count[0] / grid.count[1];
+    const tools::Point p =
+        grid.centre_m(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+    std::fprintf(stderr, "    %s: voxel %zu, %zu, %zu at (%.6g, %.6g, %.6g m): the flood says %s\n",
+                 inputs[each.object].c_str(), x, y, z, p.x, p.y, p.z,
+                 each.flood_says_inside ? "inside" : "outside");
+  }
+  if (map.disagreements.size() > kShown)
+    std::fprintf(stderr, "    and %zu more\n", map.disagreements.size() - kShown);
+}
+
+}  // namespace
+
+const Command& voxelize_command() {
+  static const Command command{
+      "voxelize",
+      "MODEL... -n LONG_AXIS_CELLS [-o MAP.vti] [options]",
+      "Voxels of closed models: surface, inside, outside, and the distance and closest point of "
+      "each.",
+      "All models share one grid: its long axis has LONG_AXIS_CELLS voxels. Distance is to the "
+      "nearest\n"
+      "surface of any, negative inside of any. The .vti has a point a voxel with the arrays "
+      "distance,\n"
+      "closest_point, triangle, object, side and kind; ParaView opens it.",
+      {{"-n", "LONG_AXIS_CELLS", "voxels along the longest side, 1 to 4096"},
+       {"-o", "FILE", "the .vti to write"},
+       {"--interior", nullptr, "distances only for voxels on a surface or inside"},
+       {"--close-holes", nullptr, "each hole of a model gets a cap of triangles, reported"},
+       {"--threads", "N", "how many compute (default: one a processor; the result is the same)"}},
+      1,
+      SIZE_MAX};
+  return command;
+}
+
+int run_voxelize(const Arguments& arguments) {
+  const std::vector<std::string>& inputs = arguments.positionals();
+  const std::string output = arguments.text("-o", "");
+  if (!arguments.has("-n")) fail_usage("voxelize: say how fine: -n LONG_AXIS_CELLS");
+  const uint32_t cells = arguments.count("-n", 1, 1, kMostCells);
+  if (!output.empty() && extension_of(output) != ".vti")
+    fail_usage("voxelize: -o " + output + ": name it .vti");
+  if (inputs.size() > INT16_MAX)
+    fail_usage("voxelize: at most " + std::to_string(INT16_MAX) + " models at once");
+  for (const std::string& input : inputs) forbid_overwriting(output, input);
+  tools::MapOptions options;
+  options.interior_only = arguments.has("--interior");
+  const uint32_t processors = std::max(1u, std::thread::hardware_concurrency());
+  options.threads = arguments.count("--threads", std::min(processors, 256u), 1, 256);
+  BakeOptions read;
+  read.close_holes = arguments.has("--close-holes");
+
+  tools::DistanceMap map;
+  std::vector<SoundSurface> sound;
+  std::string file;
+  {
+    constexpr size_t kParts = 16;
+    Progress progress(inputs.size() + kParts + 2);
+    std::vector<const tools::Surface*> surfaces;
+    for (const std::string& path : inputs) {
+      progress.stage("reading and checking " + file_name_of(path));
+      sound.push_back(sound_surface(path, read_model(path), read));
+    }
+    for (const SoundSurface& each : sound) surfaces.push_back(&each.surface);
+    const tools::VoxelGrid grid = tools::make_voxel_grid(surfaces, cells);
+    if (static_cast<double>(grid.count[0]) * grid.count[1] * grid.count[2] > kMostVoxels)
+      fail_usage("voxelize: -n " + std::to_string(cells) + " makes more than " +
+                 std::to_string(1 << 29) + " voxels of these models; choose less");
+    progress.stage("voxelizing");
+    std::vector<tools::Solid> solids;
+    solids.reserve(sound.size());
+    for (const SoundSurface& each : sound) solids.emplace_back(each.surface);
+    size_t told = 0;
+    options.on_progress = [&](size_t done, size_t all) {
+      for (; told * all < done * kParts; ++told) progress.stage("distances");
+    };
+    map = tools::make_distance_map(solids, grid, options);
+    if (!output.empty()) {
+      progress.stage("writing " + file_name_of(output));
+      file = tools::to_vti(map, solids);
+      write_file(output, file.data(), file.size());
+    }
+  }
+  for (size_t i = 0; i < inputs.size(); ++i) print_report(inputs[i], sound[i].told);
+  print_map(map, inputs, options.threads);
+  if (!output.empty()) std::fprintf(stderr, "%s: %zu bytes\n", output.c_str(), file.size());
+  return kDone;
+}
+
+}  // namespace firmtouch::cli

@@ -1,0 +1,245 @@
+#include "field/distance_map.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+#include "field/block_search.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+constexpr uint32_t kBlock = 8;          // voxels a side; halved twice on the way to a voxel
+constexpr size_t kPointsAChunk = 4096;  // a chunk begins without a seed: the same for all threads
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// Items 0 to count - 1 on all threads; `work` is made once a thread.
+template <class MakeWork>
+void in_parallel(size_t count, uint32_t threads, const MakeWork& make_work,
+                 const std::function<void(size_t, size_t)>& on_progress) {
+  std::atomic<size_t> next{0}, done{0};
+  std::mutex telling;
+  const auto run = [&] {
+    auto work = make_work();
+    for (size_t item; (item = next.fetch_add(1)) < count;) {
+      work(item);
+      const size_t so_far = done.fetch_add(1) + 1;
+      if (!on_progress || so_far % 16 != 0) continue;
+      const std::lock_guard<std::mutex> lock(telling);
+      on_progress(so_far, count);
+    }
+  };
+  std::vector<std::thread> others;
+  for (uint32_t t = 1; t < threads; ++t) others.emplace_back(run);
+  run();
+  for (std::thread& other : others) other.join();
+}
+
+std::array<Point, 3> corners_of(const Surface& surface, uint32_t face) {
+  const Face& f = surface.faces[face];
+  return {to_point(surface.vertices[f[0]]), to_point(surface.vertices[f[1]]),
+          to_point(surface.vertices[f[2]])};
+}
+
+// What the nearest triangle says, in double.
+Nearest told_by(const Solid& solid, uint32_t triangle, Point p, uint16_t object) {
+  Nearest nearest;
+  nearest.face = solid.tree.face_of(triangle);
+  const Foot foot = foot_on(p, corners_of(solid.surface, nearest.face));
+  nearest.sign = static_cast<int8_t>(solid.sides.side_of(p, nearest.face, foot));
+  nearest.distance_m = static_cast<float>(nearest.sign * std::sqrt(foot.distance2));
+  nearest.closest_m = to_vec3(foot.at);
+  nearest.object = object;
+  return nearest;
+}
+
+// Nearest of both; inside where either is.
+void join(Nearest& to, const Nearest& more) {
+  if (to.sign == 0) {
+    to = more;
+    return;
+  }
+  const int8_t sign = std::min(to.sign, more.sign);
+  if (std::fabs(more.distance_m) < std::fabs(to.distance_m)) to = more;
+  to.sign = sign;
+  to.distance_m = sign < 0 ? -std::fabs(to.distance_m) : std::fabs(to.distance_m);
+}
+
+// The blocks of one solid, one after another.
+class BlockWork {
+ public:
+  BlockWork(const Solid& solid, uint16_t object, DistanceMap& map, const std::vector<bool>& wanted,
+            std::vector<int8_t>& own_sign)
+      : solid_(solid),
+        object_(object),
+        map_(map),
+        wanted_(wanted),
+        own_sign_(own_sign),
+        search_(solid.tree) {}
+
+  void operator()(size_t block) {
+    const auto& count = map_.grid.count;
+    const uint32_t nx = blocks(count[0]), ny = blocks(count[1]);
+    const Cube whole{static_cast<uint32_t>(block % nx) * kBlock,
+                     static_cast<uint32_t>(block / nx % ny) * kBlock,
+                     static_cast<uint32_t>(block / nx / ny) * kBlock, kBlock};
+    if (!any_wanted(whole)) return;
+    search_.seed = kNoFace;  // what a block gives depends on nothing but the block
+    const Bounds bounds = bounds_of(whole);
+    search_.open_block(bounds.low, bounds.high, of_block_);
+    for (uint32_t half = 0; half < 8; ++half) {
+      const Cube cube = child(whole, half);
+      if (!any_wanted(cube)) continue;
+      const Bounds in = bounds_of(cube);
+      search_.narrow(of_block_, in.low, in.high, of_cube_);
+      for (uint32_t quarter = 0; quarter < 8; ++quarter) {
+        const Cube small = child(cube, quarter);
+        if (!any_wanted(small)) continue;
+        const Bounds inner = bounds_of(small);
+        search_.narrow(of_cube_, inner.low, inner.high, of_small_);
+        answer(small);
+      }
+    }
+  }
+
+  static uint32_t blocks(uint32_t voxels) { return (voxels + kBlock - 1) / kBlock; }
+
+ private:
+  struct Cube {
+    uint32_t x, y, z, side;
+  };
+  struct Bounds {
+    std::array<float, 3> low, high;
+  };
+
+  static Cube child(const Cube& of, uint32_t which) {
+    const uint32_t half = of.side / 2;
+    return {of.x + (which & 1u) * half, of.y + (which >> 1 & 1u) * half, of.z + (which >> 2) * half,
+            half};
+  }
+
+  template <class Visit>
+  void each(const Cube& cube, const Visit& visit) const {
+    const auto& count = map_.grid.count;
+    for (uint32_t z = cube.z; z < std::min(cube.z + cube.side, count[2]); ++z)
+      for (uint32_t y = cube.y; y < std::min(cube.y + cube.side, count[1]); ++y)
+        for (uint32_t x = cube.x; x < std::min(cube.x + cube.side, count[0]); ++x)
+          if (wanted_[map_.grid.index(x, y, z)] && visit(x, y, z)) return;
+  }
+
+  bool any_wanted(const Cube& cube) const {
+    bool any = false;
+    each(cube, [&](uint32_t, uint32_t, uint32_t) { return any = true; });
+    return any;
+  }
+
+  // Of the centres of its voxels.
+  Bounds bounds_of(const Cube& cube) const {
+    const double more = cube.side - 1.0;
+    return {solid_.tree.local(map_.grid.centre_m(cube.x, cube.y, cube.z)),
+            solid_.tree.local(map_.grid.centre_m(cube.x + more, cube.y + more, cube.z + more))};
+  }
+
+  void answer(const Cube& cube) {
+    each(cube, [&](uint32_t x, uint32_t y, uint32_t z) {
+      const Point p = map_.grid.centre_m(x, y, z);
+      const uint32_t triangle = search_.nearest(of_small_, solid_.tree.local(p));
+      const Nearest nearest = told_by(solid_, triangle, p, object_);
+      const size_t voxel = map_.grid.index(x, y, z);
+      own_sign_[voxel] = nearest.sign;
+      join(map_.values[voxel], nearest);
+      return false;
+    });
+  }
+
+  const Solid& solid_;
+  uint16_t object_;
+  DistanceMap& map_;
+  const std::vector<bool>& wanted_;
+  std::vector<int8_t>& own_sign_;
+  BlockSearch search_;
+  BoxList of_block_, of_cube_;
+  DiskList of_small_;
+};
+
+void compare(const std::vector<Voxel>& flood, const std::vector<int8_t>& signs, uint16_t object,
+             DistanceMap& map) {
+  for (size_t v = 0; v < flood.size(); ++v) {
+    if (flood[v] == Voxel::kSurface || signs[v] == 0) continue;
+    const bool is_inside = flood[v] == Voxel::kInside;
+    if (is_inside != (signs[v] < 0)) map.disagreements.push_back({v, object, is_inside});
+  }
+}
+
+void join_kinds(std::vector<Voxel>& to, const std::vector<Voxel>& more) {
+  for (size_t v = 0; v < to.size(); ++v) to[v] = std::max(to[v], more[v]);
+}
+
+}  // namespace
+
+DistanceMap make_distance_map(const std::vector<Solid>& solids, const VoxelGrid& grid,
+                              const MapOptions& options) {
+  DistanceMap map;
+  map.grid = grid;
+  const auto begin = Clock::now();
+  std::vector<std::vector<Voxel>> floods;
+  for (const Solid& solid : solids) floods.push_back(voxelize(solid.surface, grid));
+  map.kinds = floods[0];
+  for (const auto& flood : floods) join_kinds(map.kinds, flood);
+  std::vector<bool> wanted(grid.voxels(), true);
+  for (size_t v = 0; v < wanted.size(); ++v) {
+    size_t& counter = map.kinds[v] == Voxel::kOutside   ? map.outside
+                      : map.kinds[v] == Voxel::kSurface ? map.surface
+                                                        : map.inside;
+    ++counter;
+    if (options.interior_only && map.kinds[v] == Voxel::kOutside) wanted[v] = false;
+  }
+  map.computed = options.interior_only ? map.surface + map.inside : wanted.size();
+  map.voxelize_s = since(begin);
+
+  const auto middle = Clock::now();
+  map.values.resize(wanted.size());
+  const size_t blocks = size_t{BlockWork::blocks(grid.count[0])} *
+                        BlockWork::blocks(grid.count[1]) * BlockWork::blocks(grid.count[2]);
+  for (size_t s = 0; s < solids.size(); ++s) {
+    std::vector<int8_t> own_sign(wanted.size(), 0);
+    const auto tell = [&](size_t done, size_t all) {
+      if (options.on_progress) options.on_progress(s * all + done, solids.size() * all);
+    };
+    in_parallel(
+        blocks, options.threads,
+        [&] { return BlockWork(solids[s], static_cast<uint16_t>(s), map, wanted, own_sign); },
+        tell);
+    compare(floods[s], own_sign, static_cast<uint16_t>(s), map);
+  }
+  map.distance_s = since(middle);
+  return map;
+}
+
+std::vector<Nearest> nearest_to_points(const std::vector<Solid>& solids,
+                                       const std::vector<Point>& points, uint32_t threads) {
+  std::vector<Nearest> values(points.size());
+  const auto make_work = [&] {
+    return [&](size_t chunk) {
+      const size_t end = std::min((chunk + 1) * kPointsAChunk, points.size());
+      for (size_t s = 0; s < solids.size(); ++s) {
+        uint32_t seed = kNoFace;
+        for (size_t i = chunk * kPointsAChunk; i < end; ++i) {
+          seed = solids[s].tree.nearest(solids[s].tree.local(points[i]), seed);
+          join(values[i], told_by(solids[s], seed, points[i], static_cast<uint16_t>(s)));
+        }
+      }
+    };
+  };
+  in_parallel((points.size() + kPointsAChunk - 1) / kPointsAChunk, threads, make_work, nullptr);
+  return values;
+}
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,67 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "field/foot.hpp"
+#include "field/triangle_tree.hpp"
+#include "field/voxel_grid.hpp"
+
+namespace firmtouch::tools {
+
+/// A closed surface made ready for distances; refers to it.
+struct Solid {
+  explicit Solid(const Surface& from) : surface(from), tree(from), sides(from) {}
+  const Surface& surface;
+  TriangleTree tree;
+  SideTeller sides;
+};
+
+/// The nearest point of one or several solids. Distance is that to the nearest surface of any; inside
+/// is what lies inside any.
+struct Nearest {
+  float distance_m = 0;  // negative inside
+  math::Vec3 closest_m;
+  uint32_t face = kNoFace;  // of the object's surface
+  uint16_t object = 0;
+  int8_t sign = 0;  // -1 inside, +1 outside, 0: not computed
+};
+
+struct MapOptions {
+  bool interior_only = false;  // voxels that a surface meets or that lie inside
+  uint32_t threads = 1;
+  // Told now and then how much is done, from any thread, one at a time.
+  std::function<void(size_t done, size_t all)> on_progress;
+};
+
+struct DistanceMap {
+  VoxelGrid grid;
+  std::vector<Voxel> kinds;  // inside any, else surface of any, else outside
+  std::vector<Nearest> values;
+  size_t outside = 0, surface = 0, inside = 0, computed = 0;
+  double voxelize_s = 0, distance_s = 0;
+
+  /// Voxels off every surface where the flood and a pseudonormal tell different sides.
+  struct Disagreement {
+    size_t voxel;
+    uint16_t object;
+    bool flood_says_inside;
+  };
+  std::vector<Disagreement> disagreements;  // in the order of object and voxel
+};
+
+/// Kind, distance, closest point, triangle and side of every voxel's centre.
+/// Result: the same for any number of threads.
+/// Error: the triangle told is nearest but for 1e-6 of the diagonal; its distance is computed in
+///        double.
+/// Source: Morris 2006, section 3.
+DistanceMap make_distance_map(const std::vector<Solid>& solids, const VoxelGrid& grid,
+                              const MapOptions& options);
+
+/// The same for any list of points: each begins with the triangle of the point before it, so that a
+/// list whose neighbours lie together is answered faster. Points: computed, all of them.
+std::vector<Nearest> nearest_to_points(const std::vector<Solid>& solids,
+                                       const std::vector<Point>& points, uint32_t threads);
+
+}  // namespace firmtouch::tools
