@@ -48,7 +48,7 @@ WhatDoesNotExistIsAUsageError() {
 
 WhatIsPlannedIsRefusedByName() {
   for option in --no-tree '--hull-faces 1000' '--hull-grid 22' '--max-valence 9' \
-    '--compactness 1' '--max-deviation-deg 1' '--distance-map 64' '--teach a' '--max-deviation 1'; do
+    '--compactness 1' '--max-deviation-deg 1' '--teach a' '--max-deviation 1'; do
     # shellcheck disable=SC2086
     f bake x.obj -o a.fta $option
     exits 2

@@ -41,3 +41,14 @@ VoxelizeRefusesWhatItCannotDo() {
   f voxelize a.obj -n 9 -o a.obj; exits 2; told 'name it .vti'
   f voxelize missing.obj -n 9; exits 3; told missing.obj
 }
+
+ADistanceMapIsBakedProvenAndShown() {
+  f make part --triangles 2000 -o part.obj; exits 0
+  f bake part.obj -o a.fta --distance-map 16; exits 0; told 'distance map of 18 x ' 'proven with'
+  f info a.fta; exits 0
+  printf '%s\n' "$out" | grep -q 'distance map bounds' || fail "$out"
+  f bake part.obj -o b.fta --distance-map 16; cmp -s a.fta b.fta || fail 'another map the second time'
+  f bake part.obj -o c.fta; exits 0
+  [ "$(wc -c <c.fta)" -lt "$(wc -c <a.fta)" ] || fail 'no map in the asset'
+  f bake part.obj -o d.fta --distance-map 900; exits 3; told 'choose fewer'; absent d.fta
+}

@@ -7,6 +7,7 @@
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/nearest_constraint.hpp"
+#include "firmtouch/field/distance_bounds.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "fuzz/victim.hpp"
@@ -93,6 +94,33 @@ void feel_curve(const curve::View& view) {
   }
 }
 
+void feel_map(const field::View& map, const mesh::View& mesh) {
+  query::Hint hint;
+  for (const Vec3 p : kPoints) {
+    const field::Bounds bounds = field::distance_bounds(map, p);
+    CHECK(is_finite(bounds.lower_m) && bounds.lower_m >= 0);
+    CHECK(is_finite(bounds.upper_m) && bounds.upper_m >= bounds.lower_m);
+    CHECK(bounds.sign >= -1 && bounds.sign <= 1);
+    const field::Felt felt = field::closest_point(map, mesh, p, 0.1f, {7}, hint);
+    if (!felt.is_far) check_certificate(felt.closest.certificate, 7, is_finite(p));
+  }
+}
+
+core::Verdict open_map(const asset::Container& container, const char* name,
+                       const mesh::View& mesh) {
+  Copies copies;
+  field::Sections sections;
+  sections.head = copies.of(container.find(field::kHeadSection, name));
+  if (sections.head.empty()) return core::kPassed;
+  sections.distances = copies.of(container.find(field::kDistancesSection, name));
+  sections.seeds = copies.of(container.find(field::kSeedsSection, name));
+  field::View view;
+  const core::Verdict verdict = field::open(sections, mesh, view);
+  CHECK_EQ(verdict.ok(), view.is_open());
+  if (verdict.ok()) feel_map(view, mesh);
+  return verdict;
+}
+
 core::Verdict open_mesh(const asset::Container& container, const char* name) {
   Copies copies;
   mesh::Sections sections;
@@ -112,7 +140,7 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   const query::Probes probes =
       query::read_probes(copies.of(container.find(mesh::kProbesSection, name)));
   (void)mesh::probe_hash(view, probes.points);
-  return verdict;
+  return open_map(container, name, view);
 }
 
 core::Verdict open_curve(const asset::Container& container, const char* name) {

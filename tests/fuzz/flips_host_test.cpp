@@ -8,6 +8,7 @@
 #include "bake/asset_writer.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/layout.hpp"
+#include "firmtouch/field/layout.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "fuzz/victim.hpp"
 #include "harness/test.hpp"
@@ -79,6 +80,8 @@ TEST(TheVictimHoldsEverySectionTypeAndIsFelt) {
   for (uint32_t type = asset::kBoundsSection; type <= asset::kProvenanceSection; ++type)
     CHECK_EQ(types.count(type), 1u);
   for (uint32_t type = mesh::kHeadSection; type <= mesh::kProbesSection; ++type)
+    CHECK_EQ(types.count(type), 1u);
+  for (uint32_t type = field::kHeadSection; type <= field::kSeedsSection; ++type)
     CHECK_EQ(types.count(type), 1u);
   for (uint32_t type = curve::kHeadSection; type <= curve::kRunsSection; ++type)
     CHECK_EQ(types.count(type), type == 0x2004u ? 0u : 1u);  // of an earlier layout

@@ -7,7 +7,7 @@
 namespace firmtouch::fuzz {
 
 /// A small asset that holds every section type of the format, and one that no reader knows: a mesh
-/// with 16-bit indices, the same with 32-bit ones, an unsigned mesh, an open curve and a closed one
+/// with 16-bit indices and a distance map, the same with 32-bit ones, an unsigned mesh, an open curve and a closed one
 /// with a dropped row.
 std::vector<uint8_t> make_victim();
 

@@ -10,6 +10,11 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
   mesh::View view;
   const core::Verdict verdict = mesh::open(mesh_sections_of(container, name.c_str()), view);
   if (!verdict.ok()) return "mesh '" + name + "': " + rule_text(verdict);
+  field::View map;
+  const field::Sections sections = field_sections_of(container, name.c_str());
+  const core::Verdict of_map =
+      sections.head.empty() ? core::kPassed : field::open(sections, view, map);
+  if (!of_map.ok()) return "distance map '" + name + "': " + rule_text(of_map);
   const core::Bytes probes = container.find(mesh::kProbesSection, name.c_str());
   if (probes.empty() || mesh_probes_agree(view, probes)) return "";
   return "mesh '" + name +
@@ -39,6 +44,11 @@ mesh::Sections mesh_sections_of(const asset::Container& container, const char* n
   sections.vertex_normals = container.find(mesh::kVertexNormalsSection, name);
   sections.edge_folds = container.find(mesh::kEdgeFoldsSection, name);
   return sections;
+}
+
+field::Sections field_sections_of(const asset::Container& container, const char* name) {
+  return {container.find(field::kHeadSection, name), container.find(field::kDistancesSection, name),
+          container.find(field::kSeedsSection, name)};
 }
 
 curve::Sections curve_sections_of(const asset::Container& container, const char* name) {

@@ -12,5 +12,6 @@ void run_truth(const Options& options, Report& report);          // truth.cpp
 void run_grid(const Options& options, Report& report);           // grid.cpp
 void run_ring(const Options& options, Report& report);           // ring.cpp
 void run_curve(const Options& options, Report& report);          // curve.cpp
+void run_morris(const Options& options, Report& report);         // morris.cpp
 
 }  // namespace firmtouch::bench

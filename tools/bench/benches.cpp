@@ -16,6 +16,7 @@ const std::vector<Bench>& benches() {
        run_grid},
       {"ring", "records from thread to thread: the lock-free ring, a locked deque, a peer",
        run_ring},
+      {"morris", "interior distance fields: the table of Morris, the bar", run_morris},
   };
   return all;
 }

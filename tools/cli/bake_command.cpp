@@ -9,6 +9,7 @@
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "firmtouch/asset/opening.hpp"
+#include "firmtouch/field/layout.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -58,6 +59,9 @@ BakeOptions options_of(const Arguments& arguments) {
     fail_usage("bake: --fast and --small contradict each other; give one");
   options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
                  (options.close_holes ? " --close-holes" : "") + (options.small ? " --small" : "");
+  options.map_cells = arguments.count("--distance-map", 0, 1, field::kMostCellsAnAxis - 2);
+  if (options.map_cells != 0)
+    options.text += " --distance-map " + std::to_string(options.map_cells);
   return options;
 }
 
@@ -107,6 +111,8 @@ const Command& bake_command() {
        {"--close-holes", nullptr, "each hole of a mesh gets a cap of triangles, reported"},
        {"--fast", nullptr, "meshes: the fastest asset rather than the smallest (the default)"},
        {"--small", nullptr, "meshes: a third less flash, a third more work a query"},
+       {"--distance-map", "CELLS",
+        "meshes get a grid of certified bounds, CELLS along the long axis"},
        {"--cpp", "FILE", "the asset as a C++ source, too"},
        {"--no-tree", nullptr, nullptr},
        {"--hull-faces", "N", nullptr},
@@ -114,7 +120,6 @@ const Command& bake_command() {
        {"--max-valence", "N", nullptr},
        {"--compactness", "R", nullptr},
        {"--max-deviation-deg", "A", nullptr},
-       {"--distance-map", "CELLS", nullptr},
        {"--teach", "NAME", nullptr},
        {"--max-deviation", "M", nullptr}},
       1,

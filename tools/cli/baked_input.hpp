@@ -13,7 +13,8 @@ struct BakeOptions {
   bool is_signed = true;
   bool close_holes = false;
   bool small = false;  // the smallest asset rather than the fastest
-  std::string text;    // as they stand in the provenance
+  uint32_t map_cells = 0;  // along the long axis; 0: no distance map
+  std::string text;        // as they stand in the provenance
 };
 
 /// One input as sections of an asset, proven, with its probes and provenance, and what to tell

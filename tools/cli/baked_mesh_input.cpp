@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "bake/bake_field.hpp"
 #include "bake/bake_mesh.hpp"
 #include "bake/probes.hpp"
 #include "bake/provenance.hpp"
@@ -81,6 +82,23 @@ std::vector<std::string> report_of(const tools::MeshReport& report, const tools:
                    steps.path_mean, steps.path_worst)};
 }
 
+// Adds the sections of a distance map. Result: what to tell of it.
+std::string add_map(const mesh::View& view, const std::string& name, uint32_t cells,
+                    const std::string& path, BakedInput& baked) {
+  tools::FieldReport report;
+  const std::vector<tools::Section> sections = tools::bake_field(view, name, cells, report);
+  if (!report.problem.empty()) fail_input(path + ": " + report.problem);
+  baked.sections.insert(baked.sections.end(), sections.begin(), sections.end());
+  const std::string grid = std::to_string(report.count[0]) + " x " +
+                           std::to_string(report.count[1]) + " x " +
+                           std::to_string(report.count[2]);
+  return "distance map of " + grid + " cells" +
+         sentence(" of %.4g m, bounds %.2g m apart at their centres", report.cell_m,
+                  2 * report.quantum_m) +
+         ", " + std::to_string(report.bytes) + " bytes" +
+         (report.unknown == 0 ? "" : ", " + std::to_string(report.unknown) + " cells unknown");
+}
+
 }  // namespace
 
 SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
@@ -125,6 +143,9 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   const core::Verdict verdict = mesh::open(tools::mesh_sections(baked.sections, name), view);
   if (!verdict.ok()) fail_input(path + ": its mesh breaks rule R" + std::to_string(verdict.rule));
 
+  std::string told_of_map;
+  if (options.map_cells != 0) told_of_map = add_map(view, name, options.map_cells, path, baked);
+
   progress.stage("counting steps on " + name);
   const tools::StepFigures steps = steps_of(view, surface);
   progress.stage("asking the probes of " + name);
@@ -134,6 +155,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
       asset::kProvenanceSection, name,
       tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
   baked.report = report_of(report, steps, bytes_of(baked.sections), options.is_signed);
+  if (!told_of_map.empty()) baked.report.push_back(told_of_map);
   baked.report.insert(baked.report.end(), sound.told.begin(), sound.told.end());
   // Where a surface crosses itself no side is wrong; who touches it there should know.
   for (const std::string& line : tools::describe(report.signs, surface, sound.vertex_source))

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include "firmtouch/field/layout.hpp"
 
 #include "bake/asset_views.hpp"
 #include "bake/json_text.hpp"
@@ -29,6 +30,9 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {mesh::kEdgeFoldsSection, "mesh edge folds"},
                                          {mesh::kSourceSection, "mesh source triangles"},
                                          {mesh::kProbesSection, "mesh probes"},
+                                         {field::kHeadSection, "distance map head"},
+                                         {field::kDistancesSection, "distance map bounds"},
+                                         {field::kSeedsSection, "distance map seeds"},
                                          {curve::kHeadSection, "curve head"},
                                          {curve::kSamplesSection, "curve samples"},
                                          {curve::kArcsSection, "curve arcs"},

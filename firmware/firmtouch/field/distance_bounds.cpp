@@ -1,0 +1,97 @@
+#include "firmtouch/field/distance_bounds.hpp"
+
+#include <float.h>
+
+#include "firmtouch/core/hash.hpp"
+#include "firmtouch/field/centre.hpp"
+
+namespace firmtouch::field {
+namespace {
+
+using math::Vec3;
+
+// Relative roundings: a difference has one, a square two of its own, sums two, the root half of all and
+// one: below 4 units of 2^-24. Products and differences of the bounds take as many again.
+constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
+constexpr float kDown = 1.0f - 8.0f * 0x1p-24f;
+
+// The cell on one axis; the nearest one where p is beside the grid or no number.
+uint32_t cell_on_axis(float cells, uint32_t count) {
+  if (!(cells >= 1.0f)) return 0;
+  if (cells >= static_cast<float>(static_cast<int32_t>(count))) return count - 1;
+  return static_cast<uint32_t>(static_cast<int32_t>(cells));
+}
+
+float beside(float low, float high, float x) {
+  const float below = low - x, above = x - high;
+  const float gap = below > above ? below : above;
+  return gap > 0.0f ? gap : 0.0f;
+}
+
+}  // namespace
+
+Bounds distance_bounds(const View& map, Vec3 p_m) {
+  const Head& head = map.head();
+  const float per_cell = 1.0f / head.cell_m;
+  const uint32_t x = cell_on_axis((p_m.x - head.low_m[0]) * per_cell, head.count[0]);
+  const uint32_t y = cell_on_axis((p_m.y - head.low_m[1]) * per_cell, head.count[1]);
+  const uint32_t z = cell_on_axis((p_m.z - head.low_m[2]) * per_cell, head.count[2]);
+  const uint32_t cell = (z * head.count[1] + y) * head.count[0] + x;
+  const float way_m = math::length(p_m - centre_of(head, x, y, z)) * kUp;
+  const Vec3 off{beside(head.low_m[0], high_on_axis(head, 0), p_m.x),
+                 beside(head.low_m[1], high_on_axis(head, 1), p_m.y),
+                 beside(head.low_m[2], high_on_axis(head, 2), p_m.z)};
+  const float box_m = math::length(off) * kDown;
+
+  Bounds bounds;
+  bounds.seed = map.seeds()[cell];
+  bounds.upper_m = FLT_MAX;
+  const int16_t word = map.distances()[cell];
+  if (word != kUnknown) {
+    const float quanta = static_cast<float>(static_cast<int32_t>(quanta_of(word)));
+    const float lower_m = (quanta * head.quantum_m - way_m) * kDown;
+    const float upper_m =
+        ((quanta + static_cast<float>(static_cast<int32_t>(kWide))) * head.quantum_m + way_m) * kUp;
+    if (lower_m > 0.0f) bounds.lower_m = lower_m;
+    if (upper_m <= FLT_MAX) bounds.upper_m = upper_m;
+    if (lower_m > 0.0f && map.is_signed()) bounds.sign = word < 0 ? int8_t{-1} : int8_t{1};
+  }
+  if (box_m > 0.0f) {
+    if (map.is_signed()) bounds.sign = 1;
+    if (box_m > bounds.lower_m) bounds.lower_m = box_m <= FLT_MAX ? box_m : FLT_MAX;
+  }
+  return math::is_finite(p_m) ? bounds : Bounds{0, FLT_MAX, 0, query::kNowhere};
+}
+
+Felt closest_point(const View& map, const mesh::View& mesh, Vec3 p_m, float band_m,
+                   query::Budget budget, query::Hint& hint) {
+  Felt felt;
+  felt.bounds = distance_bounds(map, p_m);
+  if (felt.bounds.lower_m > band_m) {
+    felt.is_far = true;
+    hint.place = felt.bounds.seed;
+    hint.position_m = p_m;
+    hint.lower_m = felt.bounds.lower_m;
+    hint.sign = felt.bounds.sign;
+    hint.fence = query::kNowhere;
+    hint.fence_m = 0;
+    return felt;
+  }
+  if (hint.place == query::kNowhere) hint.place = felt.bounds.seed;
+  felt.closest = mesh::closest_point(mesh, p_m, budget, hint);
+  return felt;
+}
+
+uint64_t probe_hash(const View& map, core::Span<const query::ProbePoint> points) {
+  core::Hash hash;
+  for (const query::ProbePoint& p : points) {
+    const Bounds bounds = distance_bounds(map, {p.x_m, p.y_m, p.z_m});
+    hash.add(math::bits_of(bounds.lower_m));
+    hash.add(math::bits_of(bounds.upper_m));
+    hash.add(static_cast<uint32_t>(bounds.sign + 1));
+    hash.add(bounds.seed);
+  }
+  return hash.value();
+}
+
+}  // namespace firmtouch::field

@@ -1,0 +1,101 @@
+#include "firmtouch/field/view.hpp"
+
+#include "firmtouch/core/bytes.hpp"
+#include "firmtouch/field/centre.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+
+namespace firmtouch::field {
+namespace {
+
+using core::kPassed;
+using core::reject;
+using core::Verdict;
+
+constexpr float kFarthest_m = 1e8f;  // a model ends at 1e7 m, its map not much later
+
+bool is_power_of_two(float value) {
+  const uint32_t bits = math::bits_of(value);
+  return (bits & 0x807FFFFFu) == 0 && bits >= 0x10000000u && bits <= 0x60000000u;
+}
+
+Verdict check_head(const Head& head, const mesh::View& mesh) {
+  for (const uint32_t word : head.reserved)
+    if (word != 0) return reject(306);
+  if (head.is_signed > 1 || (head.is_signed == 1) != mesh.is_signed()) return reject(305);
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!(head.low_m[k] >= -kFarthest_m && head.low_m[k] <= kFarthest_m)) return reject(307, k);
+  if (!(head.cell_m >= 1e-12f && head.cell_m <= kFarthest_m)) return reject(308);
+  if (!is_power_of_two(head.quantum_m)) return reject(309);
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!(head.low_m[k] <= mesh.head().low_m[k] && high_on_axis(head, k) >= mesh.head().high_m[k]))
+      return reject(307, k);
+  return kPassed;
+}
+
+}  // namespace
+
+Opening::Opening(const Sections& sections, const mesh::View& mesh) : mesh_(&mesh) {
+  verdict_ = open_head(sections);
+  done_ = !verdict_.ok();
+}
+
+void Opening::fail(uint16_t rule, uint32_t element) {
+  verdict_ = reject(rule, element);
+  done_ = true;
+}
+
+Verdict Opening::open_head(const Sections& s) {
+  const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
+  if (heads.size() != 1) return reject(301);
+  const Head& head = heads[0];
+  uint64_t cells = 1;
+  for (uint32_t k = 0; k < 3; ++k) {
+    if (head.count[k] == 0 || head.count[k] > kMostCellsAnAxis) return reject(302, k);
+    cells *= head.count[k];
+  }
+  if (cells > kMostCells) return reject(302, 3);
+  view_.distances_ = core::as_whole_array<int16_t>(s.distances);
+  if (view_.distances_.size() != cells) return reject(303, view_.distances_.size());
+  view_.seeds_ = core::as_whole_array<uint32_t>(s.seeds);
+  if (view_.seeds_.size() != cells) return reject(304, view_.seeds_.size());
+  if (!mesh_->is_open()) return reject(305);
+  view_.head_ = &head;
+  return check_head(head, *mesh_);
+}
+
+void Opening::work(uint32_t cells) {
+  for (; cells > 0 && !done_; --cells) {
+    const Verdict found = check_cell(next_);
+    if (!found.ok()) return fail(found.rule, found.element);
+    if (++next_ == view_.distances_.size()) done_ = true;
+  }
+}
+
+Verdict Opening::check_cell(uint32_t i) const {
+  const Head& head = view_.head();
+  const int16_t word = view_.distances_[i];
+  if (word == kUnknown) return kPassed;
+  const uint32_t x = i % head.count[0], yz = i / head.count[0];
+  const math::Vec3 centre_m = centre_of(head, x, yz % head.count[1], yz / head.count[1]);
+  query::Hint hint;
+  hint.place = view_.seeds_[i];
+  const mesh::Closest truth = mesh::closest_point(*mesh_, centre_m, query::kUnlimited, hint);
+  const float told_m = truth.distance_m < 0.0f ? -truth.distance_m : truth.distance_m;
+  const uint32_t quanta = quanta_of(word);
+  const float lower_m = static_cast<float>(static_cast<int32_t>(quanta)) * head.quantum_m;
+  const float upper_m = static_cast<float>(static_cast<int32_t>(quanta + kWide)) * head.quantum_m;
+  const float most_m = told_m + told_slack_m(told_m, mesh_->head().diagonal_m);
+  if (!(lower_m <= truth.certificate.lower_m && upper_m >= most_m)) return reject(310, i);
+  const int32_t side = word < 0 ? -1 : 1;
+  if (!view_.is_signed()) return word < 0 ? reject(310, i) : kPassed;
+  return quanta == 0 || truth.certificate.sign == side ? kPassed : reject(310, i);
+}
+
+Verdict open(const Sections& sections, const mesh::View& mesh, View& view) {
+  Opening opening(sections, mesh);
+  while (!opening.done()) opening.work(UINT32_MAX);
+  view = opening.view();
+  return opening.verdict();
+}
+
+}  // namespace firmtouch::field

@@ -1,0 +1,68 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
+#include "firmtouch/field/layout.hpp"
+#include "firmtouch/mesh/view.hpp"
+#include "firmtouch/query/hint.hpp"
+
+namespace firmtouch::field {
+
+/// The bytes of a distance map's sections, as the container hands them out.
+struct Sections {
+  core::Bytes head, distances, seeds;
+};
+
+/// A distance map that Opening has proven against its mesh: every cell's bounds and side. Immutable;
+/// share it between any number of tools.
+class View {
+ public:
+  View() = default;
+
+  bool is_open() const { return head_ != nullptr; }
+  bool is_signed() const { return head_->is_signed != 0; }
+  const Head& head() const { return *head_; }
+  core::Span<const int16_t> distances() const { return distances_; }
+  core::Span<const uint32_t> seeds() const { return seeds_; }
+
+ private:
+  friend class Opening;
+  const Head* head_ = nullptr;
+  core::Span<const int16_t> distances_;
+  core::Span<const uint32_t> seeds_;
+};
+
+/// Proves a distance map in slices: rules R301 to R310 of tools/FORMAT.md. Each cell's bounds are
+/// compared with what the proven mesh answers at its centre, one query a cell, which starts at the
+/// cell's own seed: a map that passes is as true as its mesh.
+class Opening {
+ public:
+  /// `mesh` is open and outlives the opening; else rule R305.
+  Opening(const Sections& sections, const mesh::View& mesh);
+
+  /// Checks up to `cells` cells more.
+  /// Bounds: one query of the mesh a cell (some thousand instructions where the seed is right); no
+  ///         recursion; reads only inside the sections.
+  void work(uint32_t cells);
+  bool done() const { return done_; }
+  core::Verdict verdict() const { return verdict_; }
+  /// The proven map; one that is not open unless done() and verdict().ok().
+  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+
+ private:
+  void fail(uint16_t rule, uint32_t element);
+  core::Verdict open_head(const Sections& sections);
+  core::Verdict check_cell(uint32_t i) const;
+
+  View view_;
+  const mesh::View* mesh_;
+  core::Verdict verdict_;
+  bool done_ = false;
+  uint32_t next_ = 0;
+};
+
+/// All at once.
+core::Verdict open(const Sections& sections, const mesh::View& mesh, View& view);
+
+}  // namespace firmtouch::field

@@ -1,0 +1,138 @@
+#include "firmtouch/field/distance_bounds.hpp"
+
+#include <float.h>
+
+#include "cube_map.hpp"
+#include "harness/test.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using field_test::CubeMap;
+using math::Vec3;
+
+struct Opened {
+  CubeMap map;
+  mesh::View mesh = map.cube.view();
+  field::View view;
+  Opened() { CHECK(field::open(map.sections(), mesh, view).ok()); }
+};
+
+// Signed distance to the cube from -1 to 1, negative inside.
+float truth_of(Vec3 p) {
+  const float x = (p.x < 0 ? -p.x : p.x) - 1, y = (p.y < 0 ? -p.y : p.y) - 1,
+              z = (p.z < 0 ? -p.z : p.z) - 1;
+  const float most = x > y ? (x > z ? x : z) : (y > z ? y : z);
+  if (most <= 0) return most;
+  const auto plus = [](float v) { return v > 0 ? v : 0.0f; };
+  return math::length(Vec3{plus(x), plus(y), plus(z)});
+}
+
+float coordinate(uint32_t& state, float reach) {
+  state = state * 1664525u + 1013904223u;
+  return (static_cast<float>(static_cast<int32_t>(state >> 8)) * 0x1p-23f - 1.0f) * reach;
+}
+
+}  // namespace
+
+TEST(BoundsHoldTheCubesDistanceAndSideInTheGridAndBesideIt) {
+  const Opened o;
+  uint32_t state = 1, known = 0;
+  const float reaches[] = {1.0f, 1.4f, 3.0f, 100.0f};
+  for (const float reach : reaches) {
+    for (uint32_t i = 0; i < 2000; ++i) {
+      const Vec3 p{coordinate(state, reach), coordinate(state, reach), coordinate(state, reach)};
+      const field::Bounds b = field::distance_bounds(o.view, p);
+      const float signed_m = truth_of(p), truth_m = signed_m < 0 ? -signed_m : signed_m;
+      CHECK_LE(b.lower_m, truth_m * (1 + 0x1p-20f) + 1e-6f);
+      CHECK_GE(b.upper_m, truth_m * (1 - 0x1p-20f) - 1e-6f);
+      if (b.lower_m > 0) CHECK_EQ(static_cast<int>(b.sign), signed_m < 0 ? -1 : 1);
+      known += b.lower_m > 0 ? 1u : 0u;
+    }
+  }
+  CHECK_GT(known, 5000u);
+}
+
+TEST(AtACentreTheBoundsAreTwoQuantaApartButForRounding) {
+  const Opened o;
+  for (uint32_t i = 0; i < CubeMap::kCells; ++i) {
+    const field::Bounds b = field::distance_bounds(o.view, o.map.centre_of(i));
+    CHECK_LE(b.upper_m - b.lower_m, 2.0f * o.map.head.quantum_m + 2e-6f);
+    CHECK_EQ(b.seed, o.map.seeds[i]);
+  }
+}
+
+TEST(HostilePointsGiveFiniteBoundsThatAreTrue) {
+  const Opened o;
+  const float nan = __builtin_nanf(""), infinite = __builtin_inff();
+  const float bads[] = {nan, infinite, -infinite};
+  for (const float bad : bads) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      Vec3 p{0, 0, 0};
+      (&p.x)[k] = bad;
+      const field::Bounds b = field::distance_bounds(o.view, p);
+      CHECK(b.lower_m >= 0 && b.lower_m <= 0 && b.upper_m <= FLT_MAX && b.sign == 0);
+    }
+  }
+  const float fars[] = {1e10f, 1e18f, 1e19f, 1e30f, FLT_MAX};
+  for (const float far : fars) {
+    const field::Bounds b = field::distance_bounds(o.view, {far, -far, 0});
+    CHECK(b.lower_m >= 0 && b.lower_m <= FLT_MAX && b.upper_m <= FLT_MAX && b.upper_m >= far);
+    CHECK_EQ(static_cast<int>(b.sign), 1);
+  }
+  const field::Bounds tiny = field::distance_bounds(o.view, {1e-42f, -1e-42f, 0});
+  CHECK(tiny.lower_m > 0.5f && tiny.sign == -1);
+}
+
+TEST(AnUnknownCellStillTellsWhatTheGridsBoxDoes) {
+  CubeMap map;
+  for (int16_t& word : map.words) word = field::kUnknown;
+  field::View view;
+  const mesh::View mesh = map.cube.view();
+  CHECK(field::open(map.sections(), mesh, view).ok());
+  const field::Bounds in = field::distance_bounds(view, {0, 0, 0});
+  CHECK(in.lower_m <= 0 && in.upper_m >= FLT_MAX && in.sign == 0);
+  const field::Bounds out = field::distance_bounds(view, {4, 0, 0});
+  CHECK(out.lower_m > 2.6f && out.lower_m < 3 && out.sign == 1);
+}
+
+TEST(InFreeSpaceTheMeshIsNotAskedAndNearItTheAnswerIsTheMeshs) {
+  const Opened o;
+  query::Hint hint, alone;
+  uint32_t state = 5, far = 0, near = 0;
+  Vec3 p{1.3f, 0.2f, 0.1f};
+  for (uint32_t i = 0; i < 3000; ++i) {
+    p = {p.x * 0.98f + coordinate(state, 0.1f), p.y * 0.98f + coordinate(state, 0.1f),
+         p.z * 0.98f + coordinate(state, 0.1f)};
+    const field::Felt felt =
+        field::closest_point(o.view, o.mesh, p, 0.05f, query::kUnlimited, hint);
+    const mesh::Closest truth = mesh::closest_point(o.mesh, p, query::kUnlimited, alone);
+    const float distance_m = truth.distance_m < 0 ? -truth.distance_m : truth.distance_m;
+    if (felt.is_far) {
+      ++far;
+      CHECK_GT(felt.bounds.lower_m, 0.05f);
+      CHECK_LE(felt.bounds.lower_m, distance_m);
+      CHECK_GE(felt.bounds.upper_m * (1 + 1e-6f), truth.certificate.lower_m);
+      CHECK_EQ(static_cast<int>(felt.bounds.sign), static_cast<int>(truth.certificate.sign));
+      continue;
+    }
+    ++near;
+    CHECK(felt.closest.certificate.exact);
+    CHECK_LE(felt.closest.distance_m - truth.distance_m, 1e-6f);
+    CHECK_GE(felt.closest.distance_m - truth.distance_m, -1e-6f);
+  }
+  CHECK_GT(far, 100u);
+  CHECK_GT(near, 100u);
+}
+
+TEST(BoundsHaveOneHashEverywhere) {
+  const Opened o;
+  query::ProbePoint points[500];
+  uint32_t state = 9;
+  for (uint32_t i = 0; i < 500; ++i) {
+    const float reach = i % 5 == 0 ? 1e3f : 1.5f;
+    points[i] = {coordinate(state, reach), coordinate(state, reach), coordinate(state, reach)};
+  }
+  const uint64_t hash = field::probe_hash(o.view, {points, 500});
+  CHECK_EQ(hash, 0xb018ac097cf2c4f9u);
+}

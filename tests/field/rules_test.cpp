@@ -1,0 +1,118 @@
+// The reject rules of a distance map, each condition tripped alone.
+#include "cube_map.hpp"
+#include "harness/test.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using field_test::CubeMap;
+
+uint32_t refusal_of(const field::Sections& sections, const mesh::View& mesh) {
+  field::View view;
+  const core::Verdict verdict = field::open(sections, mesh, view);
+  CHECK_EQ(verdict.ok(), view.is_open());
+  return verdict.rule * 1000u + verdict.element;
+}
+uint32_t refusal_of(const CubeMap& map) { return refusal_of(map.sections(), map.cube.view()); }
+
+template <class Change>
+uint32_t refusal_with(Change change) {
+  CubeMap map;
+  change(map);
+  return refusal_of(map);
+}
+
+float not_a_number() {
+  const uint32_t bits = 0x7FC00000;
+  float value;
+  __builtin_memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+core::Bytes shorter(core::Bytes bytes, uint32_t by) { return {bytes.data(), bytes.size() - by}; }
+
+}  // namespace
+
+TEST(WholeMapPasses) { CHECK_EQ(refusal_of(CubeMap()), 0u); }
+
+TEST(R301HeadOfTheWrongSize) {
+  const CubeMap map;
+  field::Sections s = map.sections();
+  s.head = shorter(s.head, 4);
+  CHECK_EQ(refusal_of(s, map.cube.view()), 301'000u);
+  s.head = {};
+  CHECK_EQ(refusal_of(s, map.cube.view()), 301'000u);
+}
+
+TEST(R302CountsOutOfRange) {
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.count[1] = 0; }), 302'001u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.count[2] = 1025; }), 302'002u);
+  CHECK_EQ(
+      refusal_with([](CubeMap& m) { m.head.count[0] = m.head.count[1] = m.head.count[2] = 1024; }),
+      302'003u);
+}
+
+TEST(R303DistancesDoNotMatchTheCells) {
+  const CubeMap map;
+  field::Sections s = map.sections();
+  s.distances = shorter(s.distances, 2);
+  CHECK_EQ(refusal_of(s, map.cube.view()), 303'511u);
+}
+
+TEST(R304SeedsDoNotMatchTheCells) {
+  const CubeMap map;
+  field::Sections s = map.sections();
+  s.seeds = shorter(s.seeds, 4);
+  CHECK_EQ(refusal_of(s, map.cube.view()), 304'511u);
+}
+
+TEST(R305SidesThatAreNotTheMeshs) {
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.is_signed = 0; }), 305'000u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.is_signed = 2; }), 305'000u);
+  const CubeMap map;
+  CHECK_EQ(refusal_of(map.sections(), mesh::View()), 305'000u);
+}
+
+TEST(R306ReservedWordsAreZero) {
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.reserved[2] = 1; }), 306'000u);
+}
+
+TEST(R307GridThatDoesNotHoldTheMesh) {
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.low_m[1] = -0.99f; }), 307'001u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.low_m[2] = -1.8f; }), 307'002u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.low_m[0] = -2e8f; }), 307'000u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.low_m[0] = not_a_number(); }), 307'000u);
+}
+
+TEST(R308CellsOfNoSize) {
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.cell_m = 0; }), 308'000u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.cell_m = -0.4f; }), 308'000u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.cell_m = not_a_number(); }), 308'000u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.cell_m = 2e8f; }), 308'000u);
+}
+
+TEST(R309QuantumThatIsNoPowerOfTwo) {
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.quantum_m = 3.0f; }), 309'000u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.quantum_m = -0.5f; }), 309'000u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.quantum_m = not_a_number(); }), 309'000u);
+}
+
+TEST(R310BoundsAndSidesThatTheMeshDoesNotAnswer) {
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.words[7] = static_cast<int16_t>(m.words[7] + 2); }),
+           310'007u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.words[7] = static_cast<int16_t>(m.words[7] - 2); }),
+           310'007u);
+  const auto other_side = [](CubeMap& m) {
+    m.words[300] = static_cast<int16_t>(-1 - m.words[300]);
+  };
+  CHECK_EQ(refusal_with(other_side), 310'300u);
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.quantum_m *= 2; }), 310'000u);
+}
+
+TEST(ACellMaySayNothingAndASeedAnything) {
+  CHECK_EQ(refusal_with([](CubeMap& m) { m.words[9] = field::kUnknown; }), 0u);
+  CHECK_EQ(refusal_with([](CubeMap& m) {
+             for (uint32_t i = 0; i < CubeMap::kCells; ++i) m.seeds[i] = i * 2654435761u;
+           }),
+           0u);
+}
