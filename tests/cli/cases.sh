@@ -60,7 +60,6 @@ WhatIsPlannedIsRefusedByName() {
     exits 2
     told "${option%% *} is not in this version"
   done
-  for command in hull; do f $command x; exits 2; told "$command: is not in this version"; done
   for kind in hull spline footpoints; do f query a.fta a $kind; exits 2; told "$kind is not in this version"; done
   for kind in igs iges bpt ftl; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
 }

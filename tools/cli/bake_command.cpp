@@ -46,25 +46,6 @@ void check_names(const std::vector<std::string>& inputs) {
   }
 }
 
-BakeOptions options_of(const Arguments& arguments) {
-  static const std::map<std::string, double> kUnits = {
-      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
-  BakeOptions options;
-  const std::string unit = arguments.choice("--unit", "m", {"m", "mm", "cm", "in"});
-  options.unit_m = kUnits.at(unit);
-  options.is_signed = !arguments.has("--unsigned");
-  options.close_holes = arguments.has("--close-holes");
-  options.small = arguments.has("--small");
-  if (options.small && arguments.has("--fast"))
-    fail_usage("bake: --fast and --small contradict each other; give one");
-  options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
-                 (options.close_holes ? " --close-holes" : "") + (options.small ? " --small" : "");
-  options.map_cells = arguments.count("--distance-map", 0, 1, field::kMostCellsAnAxis - 2);
-  if (options.map_cells != 0)
-    options.text += " --distance-map " + std::to_string(options.map_cells);
-  return options;
-}
-
 void print_report(const std::string& name, const std::vector<std::string>& lines) {
   for (size_t i = 0; i < lines.size(); ++i) {
     std::fprintf(stderr, "%s%s\n", i == 0 ? (name + ": ").c_str() : "    ", lines[i].c_str());
@@ -95,6 +76,25 @@ void write_source(const std::string& path, const std::vector<uint8_t>& asset,
 }
 
 }  // namespace
+
+BakeOptions bake_options(const Arguments& arguments) {
+  static const std::map<std::string, double> kUnits = {
+      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
+  BakeOptions options;
+  const std::string unit = arguments.choice("--unit", "m", {"m", "mm", "cm", "in"});
+  options.unit_m = kUnits.at(unit);
+  options.is_signed = !arguments.has("--unsigned");
+  options.close_holes = arguments.has("--close-holes");
+  options.small = arguments.has("--small");
+  if (options.small && arguments.has("--fast"))
+    fail_usage("bake: --fast and --small contradict each other; give one");
+  options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
+                 (options.close_holes ? " --close-holes" : "") + (options.small ? " --small" : "");
+  options.map_cells = arguments.count("--distance-map", 0, 1, field::kMostCellsAnAxis - 2);
+  if (options.map_cells != 0)
+    options.text += " --distance-map " + std::to_string(options.map_cells);
+  return options;
+}
 
 const Command& bake_command() {
   static const Command command{
@@ -133,7 +133,7 @@ int run_bake(const Arguments& arguments) {
   const std::string source = arguments.text("--cpp", "");
   if (output.empty()) fail_usage("bake: say where to write: -o SCENE.fta");
   if (source == output) fail_usage("bake: -o and --cpp name the same file; name two");
-  const BakeOptions options = options_of(arguments);
+  const BakeOptions options = bake_options(arguments);
   for (const std::string& input : inputs) {
     check_kind(input);
     forbid_overwriting(output, input);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bake/section.hpp"
+#include "cli/arguments.hpp"
 #include "cli/progress.hpp"
 #include "surface/surface.hpp"
 
@@ -16,6 +17,9 @@ struct BakeOptions {
   uint32_t map_cells = 0;  // along the long axis; 0: no distance map
   std::string text;        // as they stand in the provenance
 };
+
+/// Of --unit, --unsigned and --close-holes.
+BakeOptions bake_options(const Arguments& arguments);
 
 /// One input as sections of an asset, proven, with its probes and provenance, and what to tell
 /// about it.

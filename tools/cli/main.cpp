@@ -16,10 +16,10 @@ struct Entry {
   int (*run)(const Arguments&);
 };
 
-constexpr Entry kEntries[] = {{make_command, run_make},        {bake_command, run_bake},
-                              {info_command, run_info},        {query_command, run_query},
-                              {log_command, run_log},          {bench_command, run_bench},
-                              {voxelize_command, run_voxelize}};
+constexpr Entry kEntries[] = {{make_command, run_make},         {bake_command, run_bake},
+                              {info_command, run_info},         {query_command, run_query},
+                              {log_command, run_log},           {bench_command, run_bench},
+                              {voxelize_command, run_voxelize}, {hull_command, run_hull}};
 
 std::string usage() {
   std::string text =
@@ -55,9 +55,6 @@ int run(const std::vector<std::string>& words) {
     if (!arguments.wants_help()) return entry.run(arguments);
     std::fputs(help_of(command).c_str(), stdout);
     return kDone;
-  }
-  for (const char* later : {"hull"}) {
-    if (words[0] == later) fail_usage(words[0] + ": is not in this version of Firmtouch yet");
   }
   fail_usage("'" + words[0] + "' is no command (see firmtouch --help)");
 }

@@ -1,0 +1,59 @@
+# Cases of tests/cli/run about hulls.
+
+AHullIsWrittenAndIsAModelItself() {
+  f make part -o part.obj --triangles 4000; exits 0
+  for strategy in 1 2 lazy; do
+    f hull part.obj --faces 500 --strategy $strategy -o hull.obj; exits 0
+    told '500 faces enclose' 'void' 'proven outside in exact arithmetic'
+    same "$(grep -c '^f ' hull.obj)" 500
+    f bake hull.obj -o hull.fta; exits 0
+    told 'closed: inside and outside are known'
+  done
+  f hull part.obj --faces 500 -o again.obj; exits 0
+  cmp -s hull.obj again.obj || fail 'a second run gave other bytes'
+  f hull part.obj --faces 500 --hull-grid 16 -o coarse.obj; exits 0
+  told 'grid of'
+}
+
+BadModelsAreNoHulls() {
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >open.obj
+  f hull open.obj --faces 4 -o h.obj; exits 3; told open.obj '3 open edges' '--close-holes'; absent h.obj
+  f hull open.obj --faces 4 --close-holes -o h.obj; exits 0; told 'closed 1 hole' 'written as it is'; rm h.obj
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 1 2 5\n' >fin.obj
+  f hull fin.obj --faces 4 -o h.obj; exits 3; told fin.obj 'share'; absent h.obj
+  box | sed 's/^f \(.\) \(.\) \(.\) \(.\)/f \4 \3 \2 \1/' >inward.obj
+  f hull inward.obj --faces 12 -o h.obj; exits 0; told 'turned 1 piece of 12 faces wound inside out' 'void 0 %'
+  : >empty.obj; rm h.obj
+  f hull empty.obj --faces 4 -o h.obj; exits 3; told empty.obj; absent h.obj
+  { box; echo 'f 1 1 2'; } >flat.obj
+  f hull flat.obj --faces 12 -o h.obj; exits 0; told 'mended'; rm h.obj
+}
+
+AHullThatCannotBeCoarserSaysWhereAndWhy() {
+  f make part -o part.obj --triangles 2000; exits 0
+  f hull part.obj --faces 4 -o h.obj; exits 0
+  told 'stops at' 'of the 4 asked for' 'may collapse' 'first the edge at vertex' '--compactness'
+  [ -s h.obj ] || fail 'the best was not kept'
+  f hull part.obj --faces 100000 -o h.obj; exits 0; told 'written as it is'
+}
+
+HullsNeedFacesAndAnObjFile() {
+  box >box.obj
+  f hull box.obj -o h.obj; exits 2; told '--faces N'
+  f hull box.obj --faces 8; exits 2; told '-o FILE.obj'
+  f hull box.obj --faces 8 -o h.stl; exits 2; told '.obj'
+  f hull box.obj --faces 3 -o h.obj; exits 2; told '--faces'
+  f hull box.obj --faces 8 -o box.obj; exits 2; told 'box.obj'
+  f hull box.obj --faces 8 --strategy 3 -o h.obj; exits 2; told '--strategy'
+  f hull box.obj --faces 8 --compactness 2 -o h.obj; exits 2; told 'at most 1'
+  f hull box.obj --faces 8 --max-deviation-deg 91 -o h.obj; exits 2; told 'at most 90'
+  absent h.obj
+}
+
+AModelThatCrossesItselfListsThePlaces() {
+  box >two.obj
+  box | sed -n 's/^v \(.*\) \(.*\) \(.*\)/\1 \2 \3/p' |
+    awk '{ print "v", $1 + 0.7, $2 + 1.1, $3 + 1.3 }' >>two.obj
+  box | awk '/^f/ { print "f", $2 + 8, $3 + 8, $4 + 8, $5 + 8 }' >>two.obj
+  f hull two.obj --faces 24 -o h.obj; exits 0; told 'crosses itself in' 'place 1 of 1'
+}

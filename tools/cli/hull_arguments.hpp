@@ -1,0 +1,11 @@
+#pragma once
+#include "cli/arguments.hpp"
+#include "hull/build_hull.hpp"
+
+namespace firmtouch::cli {
+
+/// The limits and the grid that the options of a command ask for. Fails (usage) on what has no
+/// meaning.
+tools::HullOptions hull_options(const Arguments& arguments);
+
+}  // namespace firmtouch::cli
