@@ -17,6 +17,7 @@ const std::vector<Bench>& benches() {
       {"ring", "records from thread to thread: the lock-free ring, a locked deque, a peer",
        run_ring},
       {"morris", "interior distance fields: the table of Morris, the bar", run_morris},
+      {"hulls", "progressive hulls: time, void, limits, segments by base size", run_hulls},
   };
   return all;
 }

@@ -1,0 +1,67 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "hull/progressive_hull.hpp"
+
+namespace firmtouch::tools {
+
+struct Segment {
+  Point from_m, to_m;
+};
+
+struct RefinementCounts {
+  uint64_t tests = 0;   // of a face
+  uint64_t splits = 0;  // of a vertex
+};
+
+struct SegmentHit {
+  double t;       // 0 at from_m, 1 at to_m
+  uint32_t face;  // of the mesh
+};
+
+/// The paper's selective refinement: a base hull is split where a segment hits it until only faces
+/// of the mesh are hit, without a mesh that changes: the state is which collapses are undone.
+///
+/// A face was made by the collapse of its youngest vertex and is replaced by the first collapse
+/// that removes a vertex of it. It is there if that collapse is not undone in the one case, and is
+/// undone (or after the base) in the other. To undo a collapse, its new vertex and the link of it
+/// must be there: the collapses that removed these are undone as well (the closure).
+///
+/// Result: for segments that begin and end outside the base hull, first and last hit are those of
+///         the
+///         mesh; hits between them may be missed where the segment passes below the hull.
+/// Source: Platis & Theoharis 2003, section 3.2.
+class Refinement {
+ public:
+  /// Any base: a cut of the same sequence.
+  Refinement(const ProgressiveHull& hull, uint32_t base_faces);
+
+  uint32_t base_face_count() const { return static_cast<uint32_t>(base_.faces.size()); }
+  /// All hits found, by t, then face. The state is that of the base again afterwards.
+  std::vector<SegmentHit> hits(const Segment& segment, RefinementCounts& counts);
+  /// The faces that are there when every collapse is undone, in no order.
+  std::vector<Face> all_split();
+  /// Whether the segment touches the base hull's box.
+  bool touches_box(const Segment& segment) const;
+
+ private:
+  void ask_for(uint32_t collapse);
+  void ask_for_corners(const Face& face);
+  void undo_all();
+  Face star_face(const Collapse& collapse, uint32_t i) const;
+  bool is_of_mesh(const Face& face) const;
+  bool is_made(const Face& face) const;  // its making collapse is not undone
+  bool crosses(const Face& face, const Segment& segment, double& t) const;
+  uint32_t mesh_face(const Face& face) const;
+
+  const ProgressiveHull& hull_;
+  Surface base_;
+  uint32_t cut_;  // collapses of the base
+  Point low_m_, high_m_;
+  std::vector<bool> is_undone_;
+  std::vector<uint32_t> undone_;                       // in the order of asking
+  std::vector<std::pair<Face, uint32_t>> by_corners_;  // the mesh's faces, sorted
+};
+
+}  // namespace firmtouch::tools
