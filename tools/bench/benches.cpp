@@ -18,6 +18,7 @@ const std::vector<Bench>& benches() {
        run_ring},
       {"morris", "interior distance fields: the table of Morris, the bar", run_morris},
       {"hulls", "progressive hulls: time, void, limits, segments by base size", run_hulls},
+      {"segment", "segments through meshes: first, any and every crossing", run_segment},
   };
   return all;
 }

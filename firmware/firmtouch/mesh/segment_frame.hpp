@@ -26,31 +26,28 @@ static inline float smaller(float a, float b) { return a < b ? a : b; }
 /// 200 u^2 R^2 and its roundings by 4 u S^2 <= 8 u R S; told as 52 u R (S + 8 u R).
 class SegmentFrame {
  public:
+  SegmentFrame() = default;
   SegmentFrame(const Head& head, math::Vec3 a_m, math::Vec3 b_m)
       : a_m_(a_m), b_m_(b_m), along_m_(b_m - a_m) {
     const float x = absolute(along_m_.x), y = absolute(along_m_.y), z = absolute(along_m_.z);
-    // Rows of the shear; their zeros and ones multiply exactly.
-    if (x > y && x > z) {
-      flips_ = along_m_.x < 0.0f;
-      const float inverse = 1.0f / along_m_.x;
-      row_[0] = {-along_m_.y * inverse, 1, 0};
-      row_[1] = {-along_m_.z * inverse, 0, 1};
-    } else if (y > z) {
-      flips_ = along_m_.y < 0.0f;
-      const float inverse = 1.0f / along_m_.y;
-      row_[0] = {0, -along_m_.z * inverse, 1};
-      row_[1] = {1, -along_m_.x * inverse, 0};
-    } else {
-      flips_ = along_m_.z < 0.0f;
-      const float inverse = 1.0f / along_m_.z;
-      row_[0] = {1, 0, -along_m_.x * inverse};
-      row_[1] = {0, 1, -along_m_.y * inverse};
-    }
+    // The longest axis, and the next two in turn. Rows of the shear: their zeros and ones multiply
+    // exactly.
+    const uint32_t is_x = (x > y ? 1u : 0u) & (x > z ? 1u : 0u);
+    const uint32_t is_y = (y > z ? 1u : 0u) & (1u - is_x), k = 2 - 2 * is_x - is_y;
+    const uint32_t i = k == 2 ? 0 : k + 1, j = i == 2 ? 0 : i + 1;
+    const float along[3] = {along_m_.x, along_m_.y, along_m_.z}, inverse = 1.0f / along[k];
+    flips_ = along[k] < 0.0f;
+    float row[2][3] = {};
+    row[0][i] = row[1][j] = 1.0f;
+    row[0][k] = -along[i] * inverse;
+    row[1][k] = -along[j] * inverse;
+    row_[0] = {row[0][0], row[0][1], row[0][2]};
+    row_[1] = {row[1][0], row[1][1], row[1][2]};
     float reach_m = 0.0f;
     const float at[3] = {a_m.x, a_m.y, a_m.z};
-    for (uint32_t k = 0; k < 3; ++k)
+    for (uint32_t n = 0; n < 3; ++n)
       reach_m = larger(reach_m,
-                       larger(absolute(head.low_m[k] - at[k]), absolute(head.high_m[k] - at[k])));
+                       larger(absolute(head.low_m[n] - at[n]), absolute(head.high_m[n] - at[n])));
     coordinate_error_m_ = reach_m * (10.5f * 0x1p-24f);
     side_error_m_ = reach_m * (53.0f * 0x1p-24f);
     side_error_m2_ = side_error_m_ * (reach_m * 0x1p-21f) + kUnderflow;
