@@ -74,31 +74,74 @@ TEST(PortableSquareRootIsTheNearestFloat) {
 TEST(BoxDistanceVariantsAgree) {
   uint32_t differ = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
-    uint32_t box[3], point[3];
-    for (int k = 0; k < 3; ++k) {
+    uint32_t boxes[8], point[3];  // two boxes and what lies behind them
+    boxes[6] = next_random(), boxes[7] = next_random();
+    for (int k = 0; k < 6; ++k) {
       const uint32_t low = next_random() & 0x7FFFu, high = next_random() & 0x7FFFu;
+      boxes[k] = (low < high ? low : high) | (32767u - (low < high ? high : low)) << 16;
+      if (i % 16 == 0) boxes[k] = (i & 16u) != 0 ? 32767u : 32767u << 16;
+    }
+    for (int k = 0; k < 3; ++k) {
       const uint32_t ceil = next_random() & 0x7FFFu,
                      floor = ceil == 0 ? 0 : ceil - (next_random() & 1u);
-      box[k] = (low < high ? low : high) | (32767u - (low < high ? high : low)) << 16;
       point[k] = ceil | (32767u - floor) << 16;
-      if (i % 16 == 0)
-        box[k] = (i & 16u) != 0 ? 32767u : 32767u << 16,
-        point[k] = (i & 32u) != 0 ? 32767u : 32767u << 16;
+      if (i % 16 == 0) point[k] = (i & 32u) != 0 ? 32767u : 32767u << 16;
     }
-    if (math::box_distance2(box, point) != math::portable_box_distance2(box, point)) ++differ;
+    const math::BoxPoint packed = math::box_point(point[0], point[1], point[2]);
+    const uint32_t first = math::portable_box_distance2(boxes, point),
+                   second = math::portable_box_distance2(boxes + 3, point);
+    uint32_t told_first, told_second;
+    math::box_distances2(boxes, boxes + 3, packed, told_first, told_second);
+    if (told_first != first || told_second != second) ++differ;
+    if (math::box_distance2(boxes, packed) != first) ++differ;
+    if (math::box_distance2(boxes + 3, packed) != second) ++differ;
   }
   CHECK_EQ(differ, 0u);
 }
 
 TEST(BoxDistanceIsTheSquaredGapInCells) {
-  const uint32_t box[3] = {100u | (32767u - 200u) << 16, 100u | (32767u - 200u) << 16,
-                           0u | 0u << 16};
-  const uint32_t inside[3] = {150u | (32767u - 150u) << 16, 100u | (32767u - 100u) << 16,
-                              7u | (32767u - 7u) << 16};
-  const uint32_t beside[3] = {90u | (32767u - 90u) << 16, 203u | (32767u - 203u) << 16,
-                              7u | (32767u - 7u) << 16};
+  const uint32_t box[4] = {100u | (32767u - 200u) << 16, 100u | (32767u - 200u) << 16,
+                           0u | 0u << 16, 0xFFFFFFFFu};
+  const math::BoxPoint inside = math::box_point(
+      150u | (32767u - 150u) << 16, 100u | (32767u - 100u) << 16, 7u | (32767u - 7u) << 16);
+  const math::BoxPoint beside = math::box_point(
+      90u | (32767u - 90u) << 16, 203u | (32767u - 203u) << 16, 7u | (32767u - 7u) << 16);
   CHECK_EQ(math::box_distance2(box, inside), 0u);
   CHECK_EQ(math::box_distance2(box, beside), 100u + 9u);
+}
+
+TEST(LanesCompareChooseAndGatherLikeOneFloat) {
+  uint32_t differ = 0;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    float a[4], b[4];
+    for (uint32_t k = 0; k < 4; ++k) {
+      a[k] = math::float_of(i % 3 == 0 ? kSpecials[next_random() % 20] : next_random());
+      b[k] = math::float_of(i % 3 == 0 ? kSpecials[next_random() % 20] : next_random());
+      if (next_random() % 4 == 0) b[k] = a[k];
+    }
+    const math::Float4 x{a[0], a[1], a[2], a[3]}, y{b[0], b[1], b[2], b[3]};
+    const math::Mask4 less = math::less(x, y), at_most = math::at_most(x, y);
+    const math::Float4 chosen = math::select(less, x, y);
+    for (uint32_t k = 0; k < 4; ++k) {
+      const bool is_less = a[k] < b[k];
+      if (((math::lanes_of(less) >> k) & 1u) != (is_less ? 1u : 0u)) ++differ;
+      if (((math::lanes_of(at_most) >> k) & 1u) != (a[k] <= b[k] ? 1u : 0u)) ++differ;
+      if (math::bits_of(chosen[k]) != math::bits_of(is_less ? a[k] : b[k])) ++differ;
+    }
+    if (math::lanes_of(less) != math::portable_lanes_of(less)) ++differ;
+
+    float places[12];
+    for (float& place : places) place = math::float_of(next_random());
+    const uint32_t at[4] = {next_random() % 10, next_random() % 10, next_random() % 10, 9};
+    const math::Vec3x4 v = math::gather(places + at[0], places + at[1], places + at[2], places + 9);
+    for (uint32_t k = 0; k < 4; ++k) {
+      if (math::bits_of(v.x[k]) != math::bits_of(places[at[k]]) ||
+          math::bits_of(v.y[k]) != math::bits_of(places[at[k] + 1]) ||
+          math::bits_of(v.z[k]) != math::bits_of(places[at[k] + 2]))
+        ++differ;
+    }
+  }
+  CHECK_EQ(differ, 0u);
 }
 
 TEST(ThisProcessorComputesAsTheBakersDid) { CHECK(math::arithmetic_is_sound()); }

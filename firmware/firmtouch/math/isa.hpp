@@ -24,6 +24,13 @@
 #define FIRMTOUCH_ISA_DSP 0
 #endif
 
+#if defined(__AVX2__)
+#include <immintrin.h>
+#define FIRMTOUCH_ISA_AVX2 1
+#else
+#define FIRMTOUCH_ISA_AVX2 0
+#endif
+
 #if defined(__SSE2__) || defined(__riscv_flen) || (defined(__ARM_FP) && (__ARM_FP & 4))
 #define FIRMTOUCH_ISA_SQRT 1
 #else
@@ -101,14 +108,135 @@ static inline uint32_t portable_box_distance2(const uint32_t* box, const uint32_
   return sum;
 }
 
-static inline uint32_t box_distance2(const uint32_t* box, const uint32_t* point) {
-#if FIRMTOUCH_ISA_DSP
-  const int16x2_t x = static_cast<int16x2_t>(__uqsub16(box[0], point[0]));
-  const int16x2_t y = static_cast<int16x2_t>(__uqsub16(box[1], point[1]));
-  const int16x2_t z = static_cast<int16x2_t>(__uqsub16(box[2], point[2]));
-  return static_cast<uint32_t>(__smlad(z, z, __smlad(y, y, __smuad(x, x))));
+/// A query packed for box_distance2(), in the shape that the processor takes fastest.
+struct BoxPoint {
+#if FIRMTOUCH_ISA_AVX2
+  __m128i words;  // the fourth is all ones: nothing is left of what lies behind a box
 #else
-  return portable_box_distance2(box, point);
+  uint32_t words[3];
+#endif
+};
+
+static inline BoxPoint box_point(uint32_t x, uint32_t y, uint32_t z) {
+#if FIRMTOUCH_ISA_AVX2
+  return {_mm_setr_epi32(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z), -1)};
+#else
+  return {{x, y, z}};
+#endif
+}
+
+#if FIRMTOUCH_ISA_AVX2
+// The squares of the three axes and 0.
+static inline __m128i box_squares(const uint32_t* box, BoxPoint point) {
+  const __m128i words = _mm_loadu_si128(reinterpret_cast<const __m128i*>(box));
+  const __m128i gaps = _mm_subs_epu16(words, point.words);
+  return _mm_madd_epi16(gaps, gaps);
+}
+#endif
+
+/// portable_box_distance2(). Pre: a word may be read behind the box.
+static inline uint32_t box_distance2(const uint32_t* box, const BoxPoint& point) {
+#if FIRMTOUCH_ISA_DSP
+  const int16x2_t x = static_cast<int16x2_t>(__uqsub16(box[0], point.words[0]));
+  const int16x2_t y = static_cast<int16x2_t>(__uqsub16(box[1], point.words[1]));
+  const int16x2_t z = static_cast<int16x2_t>(__uqsub16(box[2], point.words[2]));
+  return static_cast<uint32_t>(__smlad(z, z, __smlad(y, y, __smuad(x, x))));
+#elif FIRMTOUCH_ISA_AVX2
+  const __m128i squares = box_squares(box, point);
+  const __m128i pairs = _mm_add_epi32(squares, _mm_unpackhi_epi64(squares, squares));
+  return static_cast<uint32_t>(
+      _mm_cvtsi128_si32(_mm_add_epi32(pairs, _mm_shuffle_epi32(pairs, 1))));
+#else
+  return portable_box_distance2(box, point.words);
+#endif
+}
+
+/// box_distance2() of two boxes. Pre: a word may be read behind each.
+static inline void box_distances2(const uint32_t* box0, const uint32_t* box1,
+                                  const BoxPoint& point, uint32_t& first, uint32_t& second) {
+#if FIRMTOUCH_ISA_AVX2
+  const __m128i a = box_squares(box0, point), b = box_squares(box1, point);
+  const __m128i xz = _mm_add_epi32(_mm_unpacklo_epi32(a, b), _mm_unpackhi_epi32(a, b));
+  const uint64_t sums =
+      static_cast<uint64_t>(_mm_cvtsi128_si64(_mm_add_epi32(xz, _mm_unpackhi_epi64(xz, xz))));
+  first = static_cast<uint32_t>(sums);
+  second = static_cast<uint32_t>(sums >> 32);
+#else
+  first = box_distance2(box0, point);
+  second = box_distance2(box1, point);
+#endif
+}
+
+/// Four floats side by side, in the compiler's own arithmetic of vectors: each operation rounds as
+/// that of one float does. Fast only where kHasLanes says so.
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int32_t Mask4 __attribute__((vector_size(16)));  // of a comparison: 0 or -1
+constexpr bool kHasLanes = FIRMTOUCH_ISA_AVX2 != 0;
+
+struct Vec3x4 {
+  Float4 x, y, z;
+};
+
+/// Three floats at each of four places.
+static inline Vec3x4 portable_gather(const float* p0, const float* p1, const float* p2,
+                                     const float* p3) {
+  return {Float4{p0[0], p1[0], p2[0], p3[0]}, Float4{p0[1], p1[1], p2[1], p3[1]},
+          Float4{p0[2], p1[2], p2[2], p3[2]}};
+}
+
+static inline Vec3x4 gather(const float* p0, const float* p1, const float* p2, const float* p3) {
+#if FIRMTOUCH_ISA_AVX2
+  const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
+  const __m128 a = _mm_maskload_ps(p0, three), b = _mm_maskload_ps(p1, three);
+  const __m128 c = _mm_maskload_ps(p2, three), d = _mm_maskload_ps(p3, three);
+  const __m128 xy0 = _mm_unpacklo_ps(a, b), xy1 = _mm_unpacklo_ps(c, d);
+  const __m128 z0 = _mm_unpackhi_ps(a, b), z1 = _mm_unpackhi_ps(c, d);
+  return {_mm_movelh_ps(xy0, xy1), _mm_movehl_ps(xy1, xy0), _mm_movelh_ps(z0, z1)};
+#else
+  return portable_gather(p0, p1, p2, p3);
+#endif
+}
+
+// Comparison and choice by name: of operators the compiler makes masks of single bits where the
+// target has them, and carries them to and fro.
+static inline Mask4 less(Float4 a, Float4 b) {
+#if FIRMTOUCH_ISA_AVX2
+  return reinterpret_cast<Mask4>(_mm_cmp_ps(a, b, _CMP_LT_OQ));
+#else
+  return a < b;
+#endif
+}
+static inline Mask4 at_most(Float4 a, Float4 b) {
+#if FIRMTOUCH_ISA_AVX2
+  return reinterpret_cast<Mask4>(_mm_cmp_ps(a, b, _CMP_LE_OQ));
+#else
+  return a <= b;
+#endif
+}
+static inline Float4 select(Mask4 mask, Float4 a, Float4 b) {
+#if FIRMTOUCH_ISA_AVX2
+  return _mm_blendv_ps(b, a, reinterpret_cast<__m128>(mask));
+#else
+  return mask ? a : b;
+#endif
+}
+static inline Mask4 select(Mask4 mask, Mask4 a, Mask4 b) {
+  return reinterpret_cast<Mask4>(
+      select(mask, reinterpret_cast<Float4>(a), reinterpret_cast<Float4>(b)));
+}
+
+/// Bit k: lane k of the mask is set.
+static inline uint32_t portable_lanes_of(Mask4 mask) {
+  uint32_t bits = 0;
+  for (uint32_t k = 0; k < 4; ++k) bits |= mask[k] != 0 ? 1u << k : 0u;
+  return bits;
+}
+
+static inline uint32_t lanes_of(Mask4 mask) {
+#if FIRMTOUCH_ISA_AVX2
+  return static_cast<uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#else
+  return portable_lanes_of(mask);
 #endif
 }
 

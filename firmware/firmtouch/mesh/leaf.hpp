@@ -8,6 +8,7 @@
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/triangle.hpp"
+#include "firmtouch/mesh/triangle_lanes.hpp"
 #include "firmtouch/query/hint.hpp"
 
 namespace firmtouch::mesh {
@@ -21,16 +22,16 @@ struct Best {
   Feature feature = Feature::kVertex0;
 };
 
-/// Puts into `best` what of the leaf `child`, which is at `place`, is nearer than `least2_m2`; of two
-/// equally near triangles the first. With care, a triangle that may be the nearest is measured again
-/// in pairs of floats.
+/// Puts into `best` what of the leaf `child`, which is at `place`, is nearer than `least2_m2`; of
+/// two equally near triangles the first. With care, a triangle that may be the nearest is measured
+/// again in pairs of floats.
 /// Result: the least squared distance so far.
 template <bool kCareful, class Index>
-[[gnu::always_inline]] static inline float measure_leaf(const Vertex* vertices,
-                                                        const Triangle<Index>* triangle,
-                                                        const Loss& loss, math::Vec3 p_m,
-                                                        uint32_t child, uint32_t place,
-                                                        float least2_m2, Best& best) {
+[[gnu::always_inline]] static inline float measure_in_turn(const Vertex* vertices,
+                                                           const Triangle<Index>* triangle,
+                                                           const Loss& loss, math::Vec3 p_m,
+                                                           uint32_t child, uint32_t place,
+                                                           float least2_m2, Best& best) {
   using math::Vec3;
   uint32_t i = leaf_first(child);
   for (const uint32_t end = i + leaf_count(child); i < end; ++i) {
@@ -53,6 +54,56 @@ template <bool kCareful, class Index>
     best.feature = foot.feature;
   }
   return least2_m2;
+}
+
+/// measure_in_turn() without care, four triangles side by side.
+template <class Index>
+[[gnu::always_inline]] static inline float measure_side_by_side(const Vertex* vertices,
+                                                                const Triangle<Index>* triangle,
+                                                                math::Vec3 p_m, uint32_t child,
+                                                                uint32_t place, float least2_m2,
+                                                                Best& best) {
+  const uint32_t end = leaf_first(child) + leaf_count(child), last = end - 1;
+  for (uint32_t i = leaf_first(child); i < end; i += 4) {
+    // Where there are fewer than four the last stands for the others: it comes first, so it wins.
+    const Triangle<Index>&t0 = triangle[i], &t1 = triangle[i + 1 < end ? i + 1 : last],
+          &t2 = triangle[i + 2 < end ? i + 2 : last], &t3 = triangle[i + 3 < end ? i + 3 : last];
+    const auto corner = [&](uint32_t k) {
+      return math::gather(&vertices[t0.corner[k]].x_m, &vertices[t1.corner[k]].x_m,
+                          &vertices[t2.corner[k]].x_m, &vertices[t3.corner[k]].x_m);
+    };
+    const Feet feet = closest_on_triangles(p_m, corner(0), corner(1), corner(2));
+    uint32_t nearer = math::lanes_of(math::less(feet.distance2_m2, lanes::all_of(least2_m2)));
+    if (nearer == 0) continue;
+    uint32_t lane = 0;
+    for (; nearer != 0; nearer &= nearer - 1) {
+      const uint32_t k = static_cast<uint32_t>(__builtin_ctz(nearer));
+      if (!(feet.distance2_m2[k] < least2_m2)) continue;
+      least2_m2 = feet.distance2_m2[k];
+      lane = k;
+    }
+    best.distance2_m2 = least2_m2;
+    best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
+    best.triangle = i + lane;
+    best.place = place;
+    best.feature = static_cast<Feature>(feet.features()[lane]);
+  }
+  return least2_m2;
+}
+
+/// The one of both that is faster here. `is_last`: the leaf is that of the last answer, whose
+/// branches the processor foresees: then in turn it is sooner there by a tenth of a warm query.
+template <bool kCareful, class Index>
+[[gnu::always_inline]] static inline float measure_leaf(const Vertex* vertices,
+                                                        const Triangle<Index>* triangle,
+                                                        const Loss& loss, math::Vec3 p_m,
+                                                        uint32_t child, uint32_t place,
+                                                        bool is_last, float least2_m2, Best& best) {
+  if constexpr (math::kHasLanes && !kCareful) {
+    if (!is_last)
+      return measure_side_by_side(vertices, triangle, p_m, child, place, least2_m2, best);
+  }
+  return measure_in_turn<kCareful>(vertices, triangle, loss, p_m, child, place, least2_m2, best);
 }
 
 }  // namespace firmtouch::mesh

@@ -148,8 +148,8 @@ template <bool kCareful, class Bound, class Index>
       }
     } else {
       const float before2_m2 = least2_m2;
-      least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, p_m, child, place, least2_m2,
-                                         search.best);
+      least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, p_m, child, place, climbing,
+                                         least2_m2, search.best);
       if (least2_m2 < before2_m2) prune = smaller(bound.prune_key(least2_m2), band);
       if (climbing) {
         if (!climb(mesh, bound, start, prune, left, pending, count, search)) break;
