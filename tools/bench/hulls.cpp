@@ -5,7 +5,7 @@
 
 #include "bench/all_benches.hpp"
 #include "bench/models.hpp"
-#include "bench/timing.hpp"
+#include "firmtouch/mesh/segment_cast.hpp"
 #include "hull/build_hull.hpp"
 #include "hull/refinement.hpp"
 #include "surface/random.hpp"
@@ -195,9 +195,36 @@ std::vector<tools::Segment> segments(const Model& model, size_t count) {
   for (size_t i = 0; i < count; ++i) {
     const uint32_t side = random.below(6), other = (side + 1 + random.below(5)) % 6;
     const tools::Point from = on_side(side);
-    all.push_back({from, on_side(other)});
+    const tools::Point to = on_side(other);
+    // Floats, so that the mesh can be asked for the truth.
+    all.push_back({tools::to_point(tools::to_vec3(from)), tools::to_point(tools::to_vec3(to))});
   }
   return all;
+}
+
+struct Misses {
+  size_t crossings = 0, missed = 0, extra = 0, wrong_ends = 0;
+};
+
+// What the refinement told of a segment, against all that the segment crosses.
+void compare(const Model& model, const tools::Segment& segment,
+             const std::vector<tools::SegmentHit>& found, Misses& misses) {
+  mesh::SurfaceCrossing room[256];
+  const mesh::Crossings truth =
+      mesh::all_crossings(model.view, tools::to_vec3(segment.from_m), tools::to_vec3(segment.to_m),
+                          query::kUnlimited, core::Span<mesh::SurfaceCrossing>(room, 256));
+  misses.crossings += truth.found;
+  misses.missed += truth.found > found.size() ? truth.found - found.size() : 0;
+  misses.extra += found.size() > truth.found ? found.size() - truth.found : 0;
+  if (truth.told == 0 || found.empty()) {
+    misses.wrong_ends += (truth.told == 0) == found.empty() ? 0u : 1u;
+    return;
+  }
+  const auto differ = [](double t, float u) {
+    return std::fabs(t - static_cast<double>(u)) > 1e-5;
+  };
+  if (differ(found.front().t, room[0].t) || differ(found.back().t, room[truth.told - 1].t))
+    ++misses.wrong_ends;
 }
 
 // Figure 8 and the counts of table 3: the paper's algorithm, so in double and without its
@@ -208,24 +235,30 @@ void run_bases(const Model& model, HullStrategy strategy, Report& report) {
   const ProgressiveHull hull = built(model, strategy, 200, ignored);
   const std::vector<tools::Segment> all = segments(model, 10000);
   const bool is_horse = model.name == "horse" && strategy == HullStrategy::kVolume;
+  size_t wrong_ends = 0;
   std::vector<std::vector<std::string>> rows;
   for (const auto& told : kHorse) {
     const uint32_t base = static_cast<uint32_t>(told[0]);
     if (base < hull.least_faces() || base >= model.surface.faces.size()) continue;
     tools::Refinement refinement(hull, base);
     tools::RefinementCounts counts;
-    size_t hit = 0;
+    std::vector<std::vector<tools::SegmentHit>> answers;
+    answers.reserve(all.size());
     const auto begin = std::chrono::steady_clock::now();
-    for (const tools::Segment& segment : all)
-      hit += refinement.hits(segment, counts).empty() ? 0u : 1u;
+    for (const tools::Segment& segment : all) answers.push_back(refinement.hits(segment, counts));
     const double us =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() * 1e6 /
         static_cast<double>(all.size());
+    Misses misses;
+    for (size_t i = 0; i < all.size(); ++i) compare(model, all[i], answers[i], misses);
     const double tests = static_cast<double>(counts.tests) / static_cast<double>(all.size());
     const double splits = static_cast<double>(counts.splits) / static_cast<double>(all.size());
     rows.push_back({std::to_string(refinement.base_face_count()), number_text(us),
                     number_text(tests), is_horse ? number_text(told[1]) : "-", number_text(splits),
-                    is_horse ? number_text(told[2]) : "-", std::to_string(hit)});
+                    is_horse ? number_text(told[2]) : "-", std::to_string(misses.crossings),
+                    std::to_string(misses.missed), std::to_string(misses.extra),
+                    std::to_string(misses.wrong_ends)});
+    wrong_ends += misses.wrong_ends;
     if (!is_horse || base != 1000) continue;
     report.bar("tests at base 1,000 off the paper's 939", model.name,
                100 * std::fabs(tests / 939 - 1), "%", 3);
@@ -233,8 +266,11 @@ void run_bases(const Model& model, HullStrategy strategy, Report& report) {
                100 * std::fabs(splits / 179 - 1), "%", 3);
   }
   report.table({"base, faces", "us a segment", "tests", "the paper's", "splits", "the paper's",
-                "segments that hit"},
+                "crossings", "missed", "extra", "first or last wrong"},
                rows);
+  report.bar(std::string("first or last hits wrong, from outside, strategy ") +
+                 (strategy == HullStrategy::kVolume ? "1" : "2"),
+             model.name, static_cast<double>(wrong_ends), "", 0);
 }
 
 }  // namespace
