@@ -19,6 +19,8 @@ struct FakeDisk {
   double full_from_s = 1e18, full_to_s = 1e18;
   std::function<void(double now_s)> meanwhile;  // records up to this time are made
   std::map<uint32_t, std::vector<uint8_t>> files;
+  // Takes a file that was closed; without it they are kept in `files`.
+  std::function<void(const std::vector<uint8_t>&)> closed;
 
   void pass(double seconds) {
     now_s += seconds;
@@ -35,7 +37,12 @@ struct FakeDisk {
 class FakeFile : public log::MemorySink {
  public:
   FakeFile(FakeDisk& disk, uint32_t part) : disk_(disk), part_(part) {}
-  ~FakeFile() override { disk_.files[part_] = bytes(); }
+  ~FakeFile() override {
+    if (disk_.closed)
+      disk_.closed(bytes());
+    else
+      disk_.files[part_] = bytes();
+  }
   bool write(uint64_t offset, Part first, Part second) override {
     if (disk_.work(first.bytes + second.bytes)) return MemorySink::write(offset, first, second);
     // A full disk takes a part of it.
