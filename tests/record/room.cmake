@@ -1,5 +1,6 @@
 find_package(Threads REQUIRED)
 firmtouch_test_room(record LINKS firmtouch_record firmtouch_core Threads::Threads)
+set_tests_properties(record.SmallRecordsInTheirMillions PROPERTIES TIMEOUT 7200)  # a thousand million (--long)
 
 # The same tests under ThreadSanitizer, where the compiler has it: it knows the memory model, the machine that runs the
 # plain test shows only its own.
@@ -15,4 +16,5 @@ if(FIRMTOUCH_HAS_THREAD_SANITIZER AND NOT CMAKE_CXX_FLAGS MATCHES sanitize)
   target_compile_options(test_record_tsan PRIVATE -fsanitize=thread)
   target_link_options(test_record_tsan PRIVATE -fsanitize=thread)
   add_test(NAME record.ThreadSanitizerFindsNoRace COMMAND test_record_tsan)
+  set_tests_properties(record.ThreadSanitizerFindsNoRace PROPERTIES TIMEOUT 7200)  # a thousand million transfers (--long)
 endif()
