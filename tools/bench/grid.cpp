@@ -18,7 +18,6 @@ namespace firmtouch::bench {
 namespace {
 
 constexpr uint32_t kSide = 32, kSideLong = 128;  // 128: the paper's
-constexpr uint32_t kLeafTriangles = 2;
 constexpr uint32_t kWaiting = orders::kQueueBoxes + orders::kStackBoxes;
 
 using Points = std::vector<math::Vec3>;
@@ -79,9 +78,12 @@ Columns measure(const Model& model, const Model& plain, const Grown<orders::Orie
   const std::vector<double> us = medians_us({
       once([&] {
         const tools::Grid grid = tools::make_grid(model.surface);
-        return tools::build_mesh_tree(model.surface, grid, kLeafTriangles).depth;
+        return tools::build_mesh_tree(model.surface, grid, tools::kFastTree).depth;
       }),
-      once([&] { return tools::make_pseudonormals(model.surface).smallest_vertex_margin_rad; }),
+      once([&] {
+        const tools::ExactNormals exact(model.surface);
+        return tools::make_pseudonormals(model.surface, exact).vertices.size();
+      }),
       once([&] { return Grown<orders::OrientedKind>(view).tree().nodes.size(); }),
       once([&] { return Grown<orders::FloatKind>(view).tree().nodes.size(); }),
       once([&] { return paper_pass(oriented.tree(), points, false); }),

@@ -134,20 +134,27 @@ static inline __m128i box_squares(const uint32_t* box, BoxPoint point) {
 }
 #endif
 
-/// portable_box_distance2(). Pre: a word may be read behind the box.
-static inline uint32_t box_distance2(const uint32_t* box, const BoxPoint& point) {
+/// portable_box_distance2() as this processor takes it, where no word may be read behind the box.
+static inline uint32_t box_distance2(const uint32_t* box, const uint32_t* point) {
 #if FIRMTOUCH_ISA_DSP
-  const int16x2_t x = static_cast<int16x2_t>(__uqsub16(box[0], point.words[0]));
-  const int16x2_t y = static_cast<int16x2_t>(__uqsub16(box[1], point.words[1]));
-  const int16x2_t z = static_cast<int16x2_t>(__uqsub16(box[2], point.words[2]));
+  const int16x2_t x = static_cast<int16x2_t>(__uqsub16(box[0], point[0]));
+  const int16x2_t y = static_cast<int16x2_t>(__uqsub16(box[1], point[1]));
+  const int16x2_t z = static_cast<int16x2_t>(__uqsub16(box[2], point[2]));
   return static_cast<uint32_t>(__smlad(z, z, __smlad(y, y, __smuad(x, x))));
-#elif FIRMTOUCH_ISA_AVX2
+#else
+  return portable_box_distance2(box, point);
+#endif
+}
+
+/// The same. Pre: a word may be read behind the box.
+static inline uint32_t box_distance2(const uint32_t* box, const BoxPoint& point) {
+#if FIRMTOUCH_ISA_AVX2
   const __m128i squares = box_squares(box, point);
   const __m128i pairs = _mm_add_epi32(squares, _mm_unpackhi_epi64(squares, squares));
   return static_cast<uint32_t>(
       _mm_cvtsi128_si32(_mm_add_epi32(pairs, _mm_shuffle_epi32(pairs, 1))));
 #else
-  return portable_box_distance2(box, point.words);
+  return box_distance2(box, point.words);
 #endif
 }
 
