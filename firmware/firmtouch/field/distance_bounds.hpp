@@ -21,7 +21,7 @@ struct Bounds {
 /// Bounds: one cell read; at most 256 instructions on the Cortex-M7, without a loop or a call;
 ///         re-entrant; callable from an interrupt.
 /// Result: lower_m >= 0 and both finite for every input; a query that is not finite: 0, FLT_MAX, 0.
-/// Error:  bounds are rounded outward through all float32 error (tests/field/bounds_host_test.cpp).
+/// Error:  bounds are rounded outward through all float32 error (tests/field/bake_field_host_test.cpp).
 Bounds distance_bounds(const View& map, math::Vec3 p_m);
 
 /// An answer by map and mesh.
