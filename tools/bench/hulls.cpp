@@ -265,6 +265,15 @@ void run_bases(const Model& model, HullStrategy strategy, Report& report) {
     report.bar("splits at base 1,000 off the paper's 179", model.name,
                100 * std::fabs(splits / 179 - 1), "%", 3);
   }
+  // Without a hull: every face, for each segment that touches the box.
+  const tools::Refinement none(hull, static_cast<uint32_t>(model.surface.faces.size()));
+  size_t touching = 0;
+  for (const tools::Segment& segment : all) touching += none.touches_box(segment) ? 1u : 0u;
+  rows.push_back(
+      {"no hull", "-",
+       number_text(static_cast<double>(touching) * static_cast<double>(model.surface.faces.size()) /
+                   static_cast<double>(all.size())),
+       is_horse ? "35751" : "-", "0", "-", "-", "-", "-", "-"});
   report.table({"base, faces", "us a segment", "tests", "the paper's", "splits", "the paper's",
                 "crossings", "missed", "extra", "first or last wrong"},
                rows);
