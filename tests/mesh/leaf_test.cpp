@@ -91,12 +91,12 @@ TEST(ALeafSideBySideTellsWhatALeafInTurnTells) {
     const uint32_t child = mesh::make_leaf(first, count);
     const float bound2_m2 = turn % 5 == 0 ? 0.25f : FLT_MAX;
     mesh::Best a, b, c;
-    const float in_turn = mesh::measure_in_turn<false>(leaf.vertices, leaf.triangles, loss,
-                                                       leaf.p_m, child, 5, bound2_m2, a);
+    const float in_turn = mesh::measure_leaf<false>(leaf.vertices, leaf.triangles, loss, leaf.p_m,
+                                                    child, 5, true, bound2_m2, a);
     const float side_by_side =
         mesh::measure_side_by_side(leaf.vertices, leaf.triangles, leaf.p_m, child, 5, bound2_m2, b);
     const float chosen = mesh::measure_leaf<false>(leaf.vertices, leaf.triangles, loss, leaf.p_m,
-                                                   child, 5, turn % 2 != 0, bound2_m2, c);
+                                                   child, 5, false, bound2_m2, c);
     const mesh::Best* const others[] = {&b, &c};
     for (const mesh::Best* other : others) {
       if (!same(a.offset_m, other->offset_m) || !same(a.distance2_m2, other->distance2_m2) ||
