@@ -13,7 +13,7 @@ struct BakeOptions {
   double unit_m = 1;
   bool is_signed = true;
   bool close_holes = false;
-  bool small = false;  // the smallest asset rather than the fastest
+  bool small = false;      // the smallest asset rather than the fastest
   uint32_t map_cells = 0;  // along the long axis; 0: no distance map
   std::string text;        // as they stand in the provenance
 };

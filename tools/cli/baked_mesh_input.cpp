@@ -58,28 +58,28 @@ double degrees(double rad) { return rad * 57.295779513082320; }
 std::vector<std::string> report_of(const tools::MeshReport& report, const tools::StepFigures& steps,
                                    uint64_t bytes, bool is_signed) {
   const double triangles = report.triangles;
-  return {"mesh, " + std::to_string(report.triangles) + " triangles, " +
-              std::to_string(report.vertices) + " vertices, " +
-              (is_signed ? "closed: inside and outside are known" : "unsigned: distance only"),
-          std::to_string(bytes) + " bytes, " +
-              std::to_string(report.shape_bytes + report.sign_bytes) +
-              sentence(" of them for queries: a triangle %.1f for tree, indices and vertices, %.1f "
-                       "for its side",
-                       report.shape_bytes / triangles, report.sign_bytes / triangles),
-          sentence("tree of depth %.0f (at most %.0f)", static_cast<double>(report.depth),
-                   static_cast<double>(mesh::kMaxDepth)),
-          "RAM " + std::to_string(sizeof(query::Hint)) +
-              " bytes a tool that touches it (query::Hint), " + std::to_string(sizeof(mesh::View)) +
-              " for the view here; the asset stays in flash",
-          is_signed ? sentence("every side proven on the stored normals: each could turn by "
-                               "%.3g degrees more at edges, %.3g at vertices",
-                               degrees(report.signs.edge_margin_rad),
-                               degrees(report.signs.vertex_margin_rad))
-                    : std::string("no normals of edges and vertices: sides are unknown"),
-          sentence("steps at 2000 random points, each on its own: mean %.1f, worst seen %.0f",
-                   steps.random_mean, steps.random_worst),
-          sentence("steps on a touching path of 2000 points: mean %.1f, worst seen %.0f",
-                   steps.path_mean, steps.path_worst)};
+  return {
+      "mesh, " + std::to_string(report.triangles) + " triangles, " +
+          std::to_string(report.vertices) + " vertices, " +
+          (is_signed ? "closed: inside and outside are known" : "unsigned: distance only"),
+      std::to_string(bytes) + " bytes, " + std::to_string(report.shape_bytes + report.sign_bytes) +
+          sentence(" of them for queries: a triangle %.1f for tree, indices and vertices, %.1f "
+                   "for its side",
+                   report.shape_bytes / triangles, report.sign_bytes / triangles),
+      sentence("tree of depth %.0f (at most %.0f)", static_cast<double>(report.depth),
+               static_cast<double>(mesh::kMaxDepth)),
+      "RAM " + std::to_string(sizeof(query::Hint)) +
+          " bytes a tool that touches it (query::Hint), " + std::to_string(sizeof(mesh::View)) +
+          " for the view here; the asset stays in flash",
+      is_signed
+          ? sentence("every side proven on the stored normals: each could turn by "
+                     "%.3g degrees more at edges, %.3g at vertices",
+                     degrees(report.signs.edge_margin_rad), degrees(report.signs.vertex_margin_rad))
+          : std::string("no normals of edges and vertices: sides are unknown"),
+      sentence("steps at 2000 random points, each on its own: mean %.1f, worst seen %.0f",
+               steps.random_mean, steps.random_worst),
+      sentence("steps on a touching path of 2000 points: mean %.1f, worst seen %.0f",
+               steps.path_mean, steps.path_worst)};
 }
 
 // Adds the sections of a distance map. Result: what to tell of it.

@@ -159,8 +159,8 @@ static inline uint32_t box_distance2(const uint32_t* box, const BoxPoint& point)
 }
 
 /// box_distance2() of two boxes. Pre: a word may be read behind each.
-static inline void box_distances2(const uint32_t* box0, const uint32_t* box1,
-                                  const BoxPoint& point, uint32_t& first, uint32_t& second) {
+static inline void box_distances2(const uint32_t* box0, const uint32_t* box1, const BoxPoint& point,
+                                  uint32_t& first, uint32_t& second) {
 #if FIRMTOUCH_ISA_AVX2
   const __m128i a = box_squares(box0, point), b = box_squares(box1, point);
   const __m128i xz = _mm_add_epi32(_mm_unpacklo_epi32(a, b), _mm_unpackhi_epi32(a, b));

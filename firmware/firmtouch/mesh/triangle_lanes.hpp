@@ -74,7 +74,7 @@ struct Feet {
   const Float4 part_ac = t_ac / ac2, part_bc = t_bc / bc2;
 
   const Mask4 at_a = at_most(t_ac, zero), at_b = at_most(t_bc, zero);
-  const Mask4 beyond_ac = less(v, zero), beyond_bc = less(one, v + w);
+  const Mask4 beyond_ac = at_most(v, zero), beyond_bc = at_most(one, v + w);
   const Mask4 before = at_most(x, zero), behind = at_most(one, x);
   const Mask4 below = at_most(y, zero);
   Feet feet;
