@@ -92,7 +92,7 @@ struct Cube {
                          c = corner[half ? 3 : 1];
           triangles[count] = {{a, b, c}};
           if (up == 0) triangles[count] = {{b, a, c}};
-          folds[count++] = {{0, 16384, 16384}};
+          folds[count++] = {{0, 64, 64}};
         }
       }
   }

@@ -90,7 +90,7 @@ TEST(R104NodesDoNotMatchTheirCount) {
 TEST(R105SignDataMissing) {
   const Cube cube;
   mesh::Sections s = cube.sections();
-  s.edge_folds = shorter(s.edge_folds, 6);
+  s.edge_folds = shorter(s.edge_folds, 3);
   CHECK_EQ(refusal_of(s), 105'000u);
   s.edge_folds = {};
   CHECK_EQ(refusal_of(s), 105'000u);
@@ -110,7 +110,7 @@ TEST(R105SignDataOfAnUnsignedMesh) {
   s.vertex_normals = {whole.vertex_normals.data(), 3};  // there, and no normal
   CHECK_EQ(refusal_of(s), 105'000u);
   s.vertex_normals = {};
-  s.edge_folds = {whole.edge_folds.data(), 3};
+  s.edge_folds = {whole.edge_folds.data(), 2};
   CHECK_EQ(refusal_of(s), 105'000u);
   s.edge_folds = {};
   cube.head.is_signed = 2;

@@ -46,7 +46,7 @@ struct Chain {
     s.triangles16 = bytes(triangles, cube.head.triangle_count * 6);
     s.nodes = bytes(nodes, cube.head.node_count * 32);
     s.parents = bytes(parents, cube.head.node_count * 4);
-    s.edge_folds = bytes(folds, cube.head.triangle_count * 6);
+    s.edge_folds = bytes(folds, cube.head.triangle_count * 3);
     return s;
   }
 };
@@ -66,7 +66,7 @@ struct OneNode {
     s.nodes = shorter(s.nodes, 4 * 32);
     s.parents = shorter(s.parents, 4 * 4);
     s.triangles16 = shorter(s.triangles16, 5 * 6);
-    s.edge_folds = shorter(s.edge_folds, 5 * 6);
+    s.edge_folds = shorter(s.edge_folds, 5 * 3);
     return s;
   }
 };
@@ -246,7 +246,7 @@ TEST(R129TriangleTooThin) {
 TEST(R130FoldOutOfRange) {
   for (uint32_t edge = 0; edge < 3; ++edge) {
     Cube cube;
-    cube.folds[11].fold[edge] = -32768;
+    cube.folds[11].fold[edge] = -128;
     CHECK_EQ(refusal_of(cube), 130'011u);
   }
 }

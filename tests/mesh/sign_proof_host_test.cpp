@@ -170,11 +170,30 @@ TEST(EveryWrongCodeIsFound) {
     CHECK(broken.proof().vertices.weak == std::vector<uint32_t>{v});
   }
   CHECK_GT(planted, 100u);
+  planted = 0;
   for (uint32_t h = 0; h < 3 * sound.surface.faces.size(); h += 7) {
     test::note("half-edge", h);
     Proven broken = sound;
-    broken.stored.edges[h / 3].fold[h % 3] = h % 2 == 0 ? 32767 : -32767;
+    int8_t& fold = broken.stored.edges[h / 3].fold[h % 3];
+    if (fold == 0) continue;  // flat: either end of the codes is right
+    fold = fold > 0 ? -127 : 127;
+    ++planted;
     CHECK(broken.proof().edges.weak == std::vector<uint32_t>{h});
+  }
+  CHECK_GT(planted, 50u);
+}
+
+// The codes of 8 bits end so that a blade's edge keeps a margin on both of its sides.
+TEST(ABladesEdgeIsToldDownToSevenTenThousandths) {
+  for (const auto& [opening_rad, weak] : std::vector<std::pair<double, bool>>{
+           {0.01, false}, {0.001, false}, {7e-4, false}, {6e-4, true}}) {
+    test::note("opening in millionths", static_cast<int64_t>(opening_rad * 1e6));
+    const float half_m = static_cast<float>(opening_rad / 2);
+    tools::Surface blade;
+    blade.vertices = {{0, -1, 0}, {0, 1, 0}, {1, 0, half_m}, {1, 0, -half_m}};
+    blade.faces = {{1, 0, 2}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    const Proven proven(std::move(blade));
+    CHECK_EQ(!proven.proof().edges.weak.empty(), weak);
   }
 }
 

@@ -34,7 +34,9 @@ double angle_between(Point a, Point b) {
   return 2 * arc_tangent(length(a - b) / std::max(length(a + b), 1e-300));
 }
 
-int32_t nearest(double x) { return static_cast<int32_t>(std::floor(x * 32767 + 0.5)); }
+int32_t nearest(double x, double per_unit = 32767) {
+  return static_cast<int32_t>(std::floor(x * per_unit + 0.5));
+}
 
 uint32_t vertex_code(int32_t u, int32_t v) {
   return static_cast<uint32_t>(u + 32767) | static_cast<uint32_t>(v + 32767) << 16;
@@ -65,29 +67,31 @@ uint32_t encode_vertex_normal(Point normal, const std::vector<SideRay>& rays) {
 }
 
 // The same for edge k of a face whose normal the firmware reckons as `told`.
-int16_t encode_fold(const Surface& surface, const ExactNormals& exact, uint32_t f, uint32_t k,
-                    math::Vec3 told) {
+int8_t encode_fold(const Surface& surface, const ExactNormals& exact, uint32_t f, uint32_t k,
+                   math::Vec3 told) {
   const Face& face = surface.faces[f];
   const math::Vec3 from = surface.vertices[face[k]], to = surface.vertices[face[(k + 1) % 3]];
   const Point normal = exact.faces[f], other = exact.faces[exact.mates[3 * f + k] / 3],
               across = cross(unit(to_point(to) - to_point(from)), normal);
   const double along = dot(normal + other, normal), out = dot(normal + other, across);
   const double sum = std::fabs(along) + std::fabs(out);
-  const int32_t code = nearest(sum > 0 ? out / sum : 1);  // a fold of no thickness: straight out
+  // A fold of no thickness: straight out.
+  const int32_t code = nearest(sum > 0 ? out / sum : 1, static_cast<double>(mesh::kFoldsPerUnit));
   const auto margin = [&](int32_t fold) {
     return edge_margin(
         normal, other,
-        to_point(mesh::decode_edge_normal(told, to - from, static_cast<int16_t>(fold))));
+        to_point(mesh::decode_edge_normal(told, to - from, static_cast<int8_t>(fold))));
   };
   int32_t best = code;
   double most = margin(code);
   if (most < kSmallMargin) {
-    for (const int32_t fold : {std::max(-32767, code - 1), std::min(32767, code + 1)}) {
+    for (const int32_t fold :
+         {std::max(-mesh::kMostFold, code - 1), std::min(mesh::kMostFold, code + 1)}) {
       const double now = margin(fold);
       if (now > most) most = now, best = fold;
     }
   }
-  return static_cast<int16_t>(best);
+  return static_cast<int8_t>(best);
 }
 
 }  // namespace

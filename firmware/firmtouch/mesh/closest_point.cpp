@@ -17,9 +17,10 @@ constexpr float kPromise = 3.9e-7f;
 // Below this distance, beside the diagonal, either side is right; what is nearer is not carried on.
 constexpr float kEitherSide = 2e-6f;
 
-// Error of a stored pseudonormal, its decoding included. The baker refuses features whose margin is
-// not several times this.
-constexpr float kNormalError_rad = 6e-5f;
+// A height above the plane of a pseudonormal that is less, beside the distance, tells no side: far
+// above what decoding loses. The baker refuses features whose margin, as stored, is not five times
+// this.
+constexpr float kDoubt_rad = 6e-5f;
 
 // A new fence stands this many of the last motions beyond the nearest leaf: nearer, it must soon be
 // renewed; farther, more lies inside it. Of 6, 8, 12 and 16, 8 served the worst touching
@@ -116,7 +117,7 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
 // The side of the offset, or 0 where the roundings of offset and pseudonormal could turn it.
 int8_t side_of(const View& mesh, const Found& found, Vec3 direction) {
   const float height_m = dot(found.search.best.offset_m, direction);
-  const float doubt_m = kNormalError_rad * found.distance_m + Loss(mesh.head()).plain_m(0.0f);
+  const float doubt_m = kDoubt_rad * found.distance_m + Loss(mesh.head()).plain_m(0.0f);
   if (found.distance_m > kEitherSide * mesh.head().diagonal_m && height_m <= doubt_m &&
       height_m >= -doubt_m)
     return 0;

@@ -17,11 +17,11 @@ constexpr uint32_t kNodesSection = 0x1005;        // Node[node_count], parents b
 constexpr uint32_t kParentsSection = 0x1006;      // uint32_t[node_count]
 // uint32_t[vertex_count]; absent from an unsigned mesh.
 constexpr uint32_t kVertexNormalsSection = 0x1007;
-// EdgeFolds[triangle_count]; absent from an unsigned mesh.
-constexpr uint32_t kEdgeFoldsSection = 0x1008;
 // uint32_t[triangle_count]: index in the imported file; for tools.
 constexpr uint32_t kSourceSection = 0x1009;
 constexpr uint32_t kProbesSection = 0x100A;  // query::ProbeHead and its points
+// EdgeFolds[triangle_count]; absent from an unsigned mesh.
+constexpr uint32_t kEdgeFoldsSection = 0x100B;
 
 // A traversal keeps one entry a level. 2^24 triangles in pairs make 23 levels of a balanced tree;
 // the baker's SAH trees of up to 2e6 triangles were seen to need 26. The baker refuses a deeper
@@ -108,11 +108,16 @@ constexpr uint32_t make_parent(uint32_t parent, uint32_t slot, uint32_t depth) {
 
 /// The pseudonormal of each edge (edge k runs from corner k to k + 1), in the triangle's own frame:
 /// with n the face's unit normal, m the unit vector in its plane, across the edge and outward, s =
-/// fold / 32767: n (1 - |s|) + m s.
+/// fold / 127.05: n (1 - |s|) + m s.
+///
+/// The last codes, +-127, stand 3.9e-4 rad short of m. A normal square to its own face would tell no
+/// side; theirs still tell it of a face that is folded back to within 7e-4 rad.
 struct EdgeFolds {
-  int16_t fold[3];
+  int8_t fold[3];
 };
-static_assert(sizeof(EdgeFolds) == 6);
+static_assert(sizeof(EdgeFolds) == 3 && alignof(EdgeFolds) == 1);
+constexpr int32_t kMostFold = 127;
+constexpr float kFoldsPerUnit = 127.05f;
 
 // A vertex's pseudonormal: octahedral, u in the low and v in the high 16 bits, each (value + 32767)
 // of -32767..32767.

@@ -32,9 +32,9 @@ static inline math::Vec3 decode_vertex_normal(uint32_t code) {
 }
 
 /// The pseudonormal of an edge that runs along `edge` (any length; its triangle to the left, seen
-/// from outside), given its triangle's unit normal. Error: 5e-5 rad.
-static inline math::Vec3 decode_edge_normal(math::Vec3 normal, math::Vec3 edge, int16_t fold) {
-  const float s = static_cast<float>(fold) * (1.0f / 32767.0f);
+/// from outside), given its triangle's unit normal.
+static inline math::Vec3 decode_edge_normal(math::Vec3 normal, math::Vec3 edge, int8_t fold) {
+  const float s = static_cast<float>(fold) * (1.0f / kFoldsPerUnit);
   const float along = 1.0f - (s < 0.0f ? -s : s);
   const math::Vec3 across =
       cross(edge, normal);  // in the plane, outward, |edge| times as long as the normal

@@ -247,8 +247,8 @@ Verdict Opening::check_triangle(uint32_t i) const {
   const Vec3 height = (c - a) - ab * (dot(ab, c - a) * (1.0f / ab2));  // as the solver has it
   if (!(dot(normal, normal) >= 1e-20f && dot(height, height) >= 1e-36f)) return reject(129, i);
   if (view_.is_signed())
-    for (const int16_t fold : view_.folds_[i].fold)
-      if (fold < -32767) return reject(130, i);
+    for (const int8_t fold : view_.folds_[i].fold)
+      if (fold < -kMostFold) return reject(130, i);
   return kPassed;
 }
 

@@ -23,7 +23,7 @@ static inline bool is_inside(const mesh::View& mesh, const Nearest& nearest) {
   const uint32_t k =
       static_cast<uint32_t>(nearest.feature) - static_cast<uint32_t>(mesh::Feature::kEdge0);
   const Vec3 edge = corner[(k + 1) % 3] - corner[k];
-  const int16_t fold = mesh.folds()[nearest.triangle].fold[k];
+  const int8_t fold = mesh.folds()[nearest.triangle].fold[k];
   return dot(nearest.offset_m, mesh::decode_edge_normal(normal, edge, fold)) < 0.0f;
 }
 
