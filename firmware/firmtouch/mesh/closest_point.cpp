@@ -114,13 +114,14 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
   found.distance_m = math::square_root(distance2_m2);
 }
 
-// The side of the offset, or 0 where the roundings of offset and pseudonormal could turn it.
-int8_t side_of(const View& mesh, const Found& found, Vec3 direction) {
+// The side of the offset, or 0 where the roundings of offset, `loss_m`, and pseudonormal could turn
+// it.
+int8_t side_of(const Found& found, Vec3 direction, float loss_m, float diagonal_m) {
   const float height_m = dot(found.search.best.offset_m, direction);
-  const float doubt_m = kDoubt_rad * found.distance_m + Loss(mesh.head()).plain_m(0.0f);
-  if (found.distance_m > kEitherSide * mesh.head().diagonal_m && height_m <= doubt_m &&
-      height_m >= -doubt_m)
-    return 0;
+  const float doubt_m = kDoubt_rad * found.distance_m + loss_m;
+  if (height_m > doubt_m) return 1;
+  if (height_m < -doubt_m) return -1;
+  if (found.distance_m > kEitherSide * diagonal_m) return 0;
   return height_m >= 0.0f ? 1 : -1;
 }
 
@@ -168,7 +169,7 @@ Closest answer(const View& mesh, const Bound& bound, Vec3 p_m, query::Budget bud
     if (bound.is_outside()) {
       sign = 1;
     } else if (exact) {
-      const int8_t side = side_of(mesh, found, direction);
+      const int8_t side = side_of(found, direction, plain_loss_m, diagonal_m);
       if (side != 0) sign = side;
       exact = sign != 0;
     }

@@ -37,15 +37,6 @@ enum Index : uint32_t {
   kMeshSteps,
   kCurveSteps,
   kModelAge,
-  kGuideArcPenalty,
-  kGuideTunnel,
-  kGuideSideX,
-  kGuideSideY,
-  kGuideSideZ,
-  kGuideEnds,
-  kGuideDrive,
-  kGuideDriveForce,
-  kGuideDriveSpeed,
   kCount
 };
 

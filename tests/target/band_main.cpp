@@ -1,0 +1,151 @@
+// What a band query takes wherever its point is: over the mesh of the board's asset, with a band of 1 % of its extent.
+// Prints a row a point:
+//     KIND COLD WARM      instructions of a query on its own, and of one after a motion of a twentieth of the band
+// KIND 0: anywhere in 1.5 boxes. 1: the centre and about it. 2: up to 1.3 bands beside the middle of a face. 3: climbed
+// from the dearest of those before to the dearest nearby. tools/bench/cortex-m7 --band runs it and adds up.
+#include <stdint.h>
+
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "target/scene_views.hpp"
+#include "target/text.hpp"
+
+namespace hal = firmtouch::hal;
+namespace mesh = firmtouch::mesh;
+namespace query = firmtouch::query;
+namespace target = firmtouch::target;
+using firmtouch::math::Vec3;
+
+namespace {
+
+constexpr uint32_t kAnywhere = 4000, kAboutCentre = 3000, kBeside = 12000;
+constexpr uint32_t kClimbs = 24, kTries = 120;  // the dearest points, and moves of each
+
+class Random {
+ public:
+  /// Evenly spread over -1 to 1.
+  float sign() {
+    state_ ^= state_ << 13;
+    state_ ^= state_ >> 17;
+    state_ ^= state_ << 5;
+    return static_cast<float>(static_cast<int32_t>(state_ >> 8) - (1 << 23)) * 0x1p-23f;
+  }
+  uint32_t below(uint32_t end) {
+    return static_cast<uint32_t>((sign() * 0.5f + 0.5f) * static_cast<float>(end - 1));
+  }
+  Vec3 cube() {
+    const float x = sign(), y = sign();
+    return {x, y, sign()};
+  }
+
+ private:
+  uint32_t state_ = 1;
+};
+
+struct Dear {
+  Vec3 point_m;
+  uint32_t taken = 0;
+};
+
+class Bench {
+ public:
+  explicit Bench(const mesh::View& mesh) : mesh_(mesh) {
+    const mesh::Head& head = mesh.head();
+    const float sides_m[] = {head.high_m[0] - head.low_m[0], head.high_m[1] - head.low_m[1],
+                             head.high_m[2] - head.low_m[2]};
+    side_m_ = {sides_m[0], sides_m[1], sides_m[2]};
+    for (const float side_m : sides_m) extent_m_ = side_m > extent_m_ ? side_m : extent_m_;
+    centre_m_ = Vec3{head.low_m[0], head.low_m[1], head.low_m[2]} + side_m_ * 0.5f;
+    budget_.band_m = 0.01f * extent_m_;
+    const uint32_t before = hal::clock_work();
+    empty_ = hal::clock_work() - before;
+  }
+
+  void run() {
+    for (uint32_t i = 0; i < kAnywhere; ++i) {
+      const Vec3 at = random_.cube();
+      print(0, centre_m_ + Vec3{at.x * side_m_.x, at.y * side_m_.y, at.z * side_m_.z} * 0.75f);
+    }
+    print(1, centre_m_);
+    float reach_m = 0.1f * extent_m_;
+    for (uint32_t i = 0; i < kAboutCentre; ++i, reach_m *= 0.996f)
+      print(1, centre_m_ + random_.cube() * reach_m);
+    for (uint32_t i = 0; i < kBeside; ++i) print(2, beside());
+    for (const Dear& from : dear_) climb(from);
+  }
+
+ private:
+  Vec3 beside() {
+    const mesh::Triangle<uint32_t> t = mesh_.triangle(random_.below(mesh_.head().triangle_count));
+    const Vec3 a = mesh_.vertex(t.corner[0]), b = mesh_.vertex(t.corner[1]),
+               c = mesh_.vertex(t.corner[2]);
+    const Vec3 middle_m = (a + b + c) * (1.0f / 3.0f);
+    const float per_m = 1.0f / extent_m_;
+    const Vec3 normal = cross((b - a) * per_m, (c - a) * per_m);
+    return middle_m +
+           normal * (1.3f * random_.sign() * budget_.band_m / firmtouch::math::length(normal));
+  }
+
+  uint32_t ask(Vec3 p_m, query::Hint& hint) const {
+    const uint32_t before = hal::clock_work();
+    const mesh::Closest closest = mesh::closest_point(mesh_, p_m, budget_, hint);
+    const uint32_t work = hal::clock_work() - before - empty_;
+    if (!(closest.certificate.lower_m >= 0.0f)) hal::board_print("no bound\n");
+    const uint32_t per_1000 = hal::clock_work_per_1000();
+    return static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
+  }
+
+  uint32_t print(uint32_t kind, Vec3 p_m) {
+    query::Hint hint;
+    const uint32_t cold = ask(p_m, hint);
+    const uint32_t warm = ask(p_m + random_.cube() * (0.03f * budget_.band_m), hint);
+    hal::board_print(target::decimal(kind).text);
+    hal::board_print(" ");
+    hal::board_print(target::decimal(cold).text);
+    hal::board_print(" ");
+    hal::board_print(target::decimal(warm).text);
+    hal::board_print("\n");
+    if (kind < 3) keep(p_m, cold);
+    return cold;
+  }
+
+  // The dearest, each in the place of the least dear one so far.
+  void keep(Vec3 p_m, uint32_t taken) {
+    uint32_t least = 0;
+    for (uint32_t i = 1; i < kClimbs; ++i)
+      if (dear_[i].taken < dear_[least].taken) least = i;
+    if (taken > dear_[least].taken) dear_[least] = {p_m, taken};
+  }
+
+  void climb(Dear from) {
+    float reach_m = 0.5f * budget_.band_m;
+    for (uint32_t i = 0; i < kTries; ++i, reach_m *= 0.97f) {
+      const Vec3 p_m = from.point_m + random_.cube() * reach_m;
+      const uint32_t taken = print(3, p_m);
+      if (taken > from.taken) from = {p_m, taken};
+    }
+  }
+
+  const mesh::View& mesh_;
+  query::Budget budget_;
+  Vec3 side_m_, centre_m_;
+  float extent_m_ = 0;
+  uint32_t empty_ = 0;
+  Random random_;
+  Dear dear_[kClimbs];
+};
+
+}  // namespace
+
+int main() {
+  hal::board_begin();
+  const target::Views views = target::open_views(hal::board_asset());
+  if (!views.verdict.ok() || !views.mesh.is_open()) {
+    hal::board_print("no mesh in the asset, or a rule rejects it\n");
+    return 1;
+  }
+  Bench(views.mesh).run();
+  return 0;
+}
