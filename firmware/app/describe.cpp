@@ -37,6 +37,7 @@ void put_bit(link::Description& row) {
     row.kind = static_cast<uint8_t>(row.index - record::kBitCount);
     put(row.name, servo::fault_name(row.kind));
     put(row.unit, "output.faults");
+    put(row.text, servo::fault_text(row.kind));
   }
 }
 
@@ -52,6 +53,7 @@ void put_parameter(link::Description& row) {
   row.number[3] = controller.values()[static_cast<params::Index>(row.index)];
   put(row.name, entry.name);
   put(row.unit, entry.unit);
+  put(row.text, entry.what);
 }
 
 }  // namespace

@@ -57,6 +57,8 @@ uint32_t board_stack_high_bytes() { return stack_used_bytes(); }
 void watchdog_begin(uint32_t timeout_us) {
   const uint32_t longest_us = UINT32_MAX / kCore_MHz;
   reg(kWatchdog + 0x0) = (timeout_us < longest_us ? timeout_us : longest_us) * kCore_MHz;
+  reg(kWatchdog + 0xC) =
+      1;  // it may have counted down since the reset, unheard: not the servo's time-out
   reg(kWatchdog + 0x8) = 3;
 }
 

@@ -39,11 +39,10 @@ uint32_t link_write(const uint8_t* from, uint32_t count) {
   return sent;
 }
 
+// Over the UART it does not sleep: the main loop watches the enable switch too, which interrupts nobody. (And an
+// emulator's virtual time would jump while the core sleeps, over ticks and the watchdog's time-outs.)
 void link_wait() {
-  if (file_link_is_open()) return file_link_wait(g_received);
-  const Uninterrupted
-      here;  // a byte that comes after the check still ends the wait, because it is pending
-  if (g_received.empty()) asm volatile("wfi");
+  if (file_link_is_open()) file_link_wait(g_received);
 }
 
 }  // namespace firmtouch::hal

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <string>
 
 #include "app/app_process.hpp"
 #include "app/tick_source.hpp"
 #include "firmtouch/asset/container.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/link/handshake.hpp"
+#include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
 
 namespace firmtouch::app_test {
@@ -103,6 +106,38 @@ TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
   }
   CHECK_EQ(acknowledged, 1u);
   CHECK_EQ(commands, 1u);
+}
+
+TEST(EveryParameterAndFaultIsDescribedForAPerson) {
+  AppProcess app(FIRMTOUCH_TEST_ASSET);
+  const auto row_of = [&](uint16_t what, uint16_t index) {
+    link::Describe wanted;
+    wanted.what = what;
+    wanted.index = index;
+    app.send(link::kDescribe, wanted);
+    link::Description row;
+    CHECK(app.receive(link::kDescription).take(row));
+    CHECK_EQ(row.index, index);
+    return row;
+  };
+  for (uint16_t i = 0; i < params::kCount; ++i) {
+    const link::Description row = row_of(link::kDescribeParameter, i);
+    CHECK_EQ(row.rows, uint16_t{params::kCount});
+    CHECK(std::string(row.name, ::strnlen(row.name, sizeof row.name)) == params::kTable[i].name);
+    CHECK(std::string(row.text, ::strnlen(row.text, sizeof row.text)) == params::kTable[i].what);
+    CHECK_EQ(row.number[0], params::kTable[i].low);
+    CHECK_EQ(row.number[1], params::kTable[i].high);
+  }
+  uint32_t faults = 0;
+  const uint16_t rows = row_of(link::kDescribeBit, 0).rows;
+  for (uint16_t i = 0; i < rows; ++i) {
+    const link::Description row = row_of(link::kDescribeBit, i);
+    if (std::string(row.unit) != "output.faults") continue;
+    CHECK_NE(row.text[0], 0);
+    CHECK_EQ(row.text[sizeof row.text - 1], 0);  // none is cut off
+    CHECK_EQ(uint32_t{row.kind}, faults++);
+  }
+  CHECK_EQ(faults, servo::kFaultCount);
 }
 
 TEST(ClearFaultsReachesTheTickAndIsTakenThere) {

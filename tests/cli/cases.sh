@@ -47,20 +47,13 @@ WhatDoesNotExistIsAUsageError() {
 }
 
 WhatIsPlannedIsRefusedByName() {
-  for option in --no-tree '--hull-faces 1000' '--hull-grid 22' '--max-valence 9' \
-    '--compactness 1' '--max-deviation-deg 1' '--teach a' '--max-deviation 1'; do
+  for option in '--teach a' '--max-deviation 1'; do
     # shellcheck disable=SC2086
     f bake x.obj -o a.fta $option
     exits 2
     told "${option%% *} is not in this version"
   done
-  for option in '--base 1'; do
-    # shellcheck disable=SC2086
-    f query a.fta a distance $option
-    exits 2
-    told "${option%% *} is not in this version"
-  done
-  for kind in hull spline footpoints; do f query a.fta a $kind; exits 2; told "$kind is not in this version"; done
+  for kind in spline footpoints; do f query a.fta a $kind; exits 2; told "$kind is not in this version"; done
   for kind in igs iges bpt ftl; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
 }
 

@@ -57,3 +57,47 @@ AModelThatCrossesItselfListsThePlaces() {
   box | awk '/^f/ { print "f", $2 + 8, $3 + 8, $4 + 8, $5 + 8 }' >>two.obj
   f hull two.obj --faces 24 -o h.obj; exits 0; told 'crosses itself in' 'place 1 of 1'
 }
+
+AHullIsBakedShownAndAsked() {
+  f make part -o part.obj --triangles 2000; exits 0
+  f bake part.obj -o s.fta --hull-faces 200 --hull-grid 16; exits 0
+  told 'progressive hull down to 200 faces' 'RAM of a refinement' 'proven with'
+  f bake part.obj -o again.fta --hull-faces 200 --hull-grid 16; cmp -s s.fta again.fta || fail 'another hull the second time'
+  f info s.fta; exits 0
+  printf '%s\n' "$out" | grep -q 'hull boxes of stars' || fail "$out"
+  f bake part.obj -o bare.fta --hull-faces 200 --hull-grid 16 --no-tree; exits 0; told 'only queries of its hull'
+  f info bare.fta; exits 0
+  printf 'ax,ay,az,bx,by,bz\n-1,0.01,0.002,1,0.012,0.003\n0,0,-1,0.03,0.01,1\n0,0,3,1,0,3\n' >g.csv
+  f query s.fta part segment --all <g.csv; exits 0; tree=$out
+  [ "$(printf '%s\n' "$tree" | wc -l)" -gt 3 ] || fail "too few to tell: $tree"
+  f query s.fta part hull --all <g.csv; exits 0; same "$out" "$tree"
+  f query bare.fta part hull --all <g.csv; exits 0; same "$out" "$tree"
+  f query s.fta part segment <g.csv; exits 0; tree=$(printf '%s\n' "$out" | cut -d, -f1-3)
+  for mode in '' '--mode complete' '--mode refine' '--mode refine --base 800'; do
+    # shellcheck disable=SC2086
+    f query s.fta part hull $mode <g.csv; exits 0
+    same "$(printf '%s\n' "$out" | cut -d, -f1-3)" "$tree"
+    same "$(printf '%s\n' "$out" | sed -n 1p)" hit,t,triangle,steps
+  done
+  f query s.fta part hull --mode refine --budget 3 <g.csv; exits 0
+  f query s.fta part hull --time <g.csv; exits 0
+  printf '%s\n' "$out" | grep -qxE 'us_per_query [0-9]+\.[0-9]{4} queries 3' || fail "$out"
+}
+
+WhatAHullCannotDoIsRefused() {
+  box >box.obj
+  f bake box.obj -o a.fta --hull-grid 16; exits 2; told '--hull-faces N'
+  f bake box.obj -o a.fta --no-tree; exits 2; told '--hull-faces N'
+  f bake box.obj -o a.fta --hull-faces 8 --unsigned; exits 2; told 'needs an inside'
+  f bake box.obj -o a.fta --hull-faces 8 --max-valence 40; exits 2; told 'at most 31'
+  f bake box.obj -o a.fta --hull-faces 8 --no-tree --distance-map 9; exits 2; told 'needs the tree'
+  absent a.fta
+  f bake box.obj -o a.fta; exits 0
+  printf 'ax,ay,az,bx,by,bz\n5,0,0,-5,0.1,0.2\n' >g.csv
+  f query a.fta box hull <g.csv; exits 3; told 'has no hull' '--hull-faces'
+  f bake box.obj -o a.fta --hull-faces 4 --no-tree; exits 0; told 'stops at' 'void 0 %'
+  f query a.fta box segment <g.csv; exits 3; told '--no-tree'
+  f query a.fta box hull --base 4 <g.csv; exits 2; told '--mode complete'
+  f query a.fta box hull --mode refine --base 4 <g.csv; exits 3; told 'down to'
+  f query a.fta box hull --mode exact <g.csv; exits 2; told '--mode'
+}

@@ -95,7 +95,7 @@ Ride ride(const Baked& baked, double weight) {
     CHECK_EQ(tick.is_new, k == 0);
     if (std::abs(tick.change_of_arc) > 0.05f) ++ridden.jumps;
     if (tick.change_of_arc < 0) ++ridden.backwards;
-    ridden.last_arc = tick.constraint.closest.arc;
+    ridden.last_arc = tick.closest.arc;
   }
   return ridden;
 }

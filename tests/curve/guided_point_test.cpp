@@ -73,13 +73,13 @@ TEST(BeyondItsReleaseAGuideLetsGoAndFindsItselfAgain) {
   CHECK(first.is_new && first.is_held);
   const Followed next = follow(c.view(), {1.125f, 0.125f, 0}, hold, kUnlimited, following);
   CHECK(!next.is_new && next.is_held);
-  CHECK_EQ(next.constraint.closest.segment, 1u);
+  CHECK_EQ(next.closest.segment, 1u);
   CHECK_GE(next.change_of_arc, 0.0f);
   const Followed gone = follow(c.view(), {1, 0.25f, 3}, hold, kUnlimited, following);
   CHECK(gone.is_new && !gone.is_held && !following.is_following);
   const Followed again = follow(c.view(), {1, 0.25f, 0}, hold, kUnlimited, following);
   CHECK(again.is_new && again.is_held);
-  CHECK_EQ(again.constraint.closest.distance_m, 0.0f);  // by distance alone
+  CHECK_EQ(again.closest.distance_m, 0.0f);  // by distance alone
 }
 
 TEST(AGuideLetsGoInTheTickThatTearsItOffToAnotherPart) {
@@ -89,7 +89,7 @@ TEST(AGuideLetsGoInTheTickThatTearsItOffToAnotherPart) {
   (void)follow(c.view(), {0, 0.9f, 0}, hold, kUnlimited, following);
   const Followed torn = follow(c.view(), {1, 0.9f, 0}, hold, kUnlimited, following);
   CHECK(torn.is_new && torn.is_held);
-  CHECK_EQ(torn.constraint.closest.segment, 4u);
+  CHECK_EQ(torn.closest.segment, 4u);
   CHECK_EQ(torn.change_of_arc, 0.0f);
 }
 

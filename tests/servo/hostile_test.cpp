@@ -35,6 +35,11 @@ Everything usual() {
   all.model.guide.direction = {1, 0, 0};
   all.model.guide.stiffness_N_per_m = 300.0f;
   all.model.guide.damping_N_s_per_m = 1.0f;
+  all.model.guide.tunnel_m = 0.0001f;
+  all.model.guide.drive_N = 0.5f;
+  all.model.guide.drive_stiffness_N_per_m = 300.0f;
+  all.model.guide.drive_damping_N_s_per_m = 1.0f;
+  all.model.guide.drive_limit_N = 1.0f;
   all.model.has_guide = true;
   all.model.expires_tick = 1u << 30;
   all.input.enable = true;
@@ -99,8 +104,8 @@ TEST(EverySpecialInEveryFieldKeepsTheForceFiniteLimitedAndSlow) {
     }
   });
   CHECK_EQ(broken, 0u);
-  CHECK_EQ(fields, 40u);
-  CHECK_GE(faulted, 40u * 4u);
+  CHECK_EQ(fields, 45u);
+  CHECK_GE(faulted, 45u * 4u);
 }
 
 TEST(NotANumberIsAFaultInItsTickInEveryField) {

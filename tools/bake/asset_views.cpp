@@ -6,7 +6,17 @@
 namespace firmtouch::tools {
 namespace {
 
+std::string prove_hull(const asset::Container& container, const std::string& name) {
+  hull::View view;
+  const core::Verdict verdict = hull::open(hull_sections_of(container, name.c_str()), view);
+  return verdict.ok() ? "" : "hull '" + name + "': " + rule_text(verdict);
+}
+
 std::string prove_mesh(const asset::Container& container, const std::string& name) {
+  if (!container.find(hull::kHeadSection, name.c_str()).empty()) {
+    const std::string problem = prove_hull(container, name);
+    if (!problem.empty() || !has_tree(container, name.c_str())) return problem;
+  }
   mesh::View view;
   const core::Verdict verdict = mesh::open(mesh_sections_of(container, name.c_str()), view);
   if (!verdict.ok()) return "mesh '" + name + "': " + rule_text(verdict);
@@ -49,6 +59,20 @@ mesh::Sections mesh_sections_of(const asset::Container& container, const char* n
 field::Sections field_sections_of(const asset::Container& container, const char* name) {
   return {container.find(field::kHeadSection, name), container.find(field::kDistancesSection, name),
           container.find(field::kSeedsSection, name)};
+}
+
+hull::Sections hull_sections_of(const asset::Container& container, const char* name) {
+  const auto find = [&](uint32_t type) { return container.find(type, name); };
+  return {find(hull::kHeadSection),        find(hull::kVerticesSection),
+          find(hull::kOriginsSection),     find(hull::kRecordsSection),
+          find(hull::kPlacesSection),      find(hull::kStarBoxesSection),
+          find(hull::kBoxesSection),       find(hull::kShellSection),
+          find(mesh::kHeadSection),        find(mesh::kVerticesSection),
+          find(mesh::kTriangles16Section), find(mesh::kTriangles32Section)};
+}
+
+bool has_tree(const asset::Container& container, const char* name) {
+  return !container.find(mesh::kNodesSection, name).empty();
 }
 
 curve::Sections curve_sections_of(const asset::Container& container, const char* name) {

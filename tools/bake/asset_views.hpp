@@ -5,14 +5,18 @@
 #include "firmtouch/asset/container.hpp"
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/field/view.hpp"
+#include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
 
 namespace firmtouch::tools {
 
-/// The sections of one mesh or curve of an asset, as its room's open() takes them.
+/// The sections of one mesh, map, hull or curve of an asset, as its room's open() takes them.
 mesh::Sections mesh_sections_of(const asset::Container& container, const char* name);
 curve::Sections curve_sections_of(const asset::Container& container, const char* name);
 field::Sections field_sections_of(const asset::Container& container, const char* name);
+hull::Sections hull_sections_of(const asset::Container& container, const char* name);
+/// Whether a mesh has its tree; without it only its hull can be asked.
+bool has_tree(const asset::Container& container, const char* name);
 
 /// The names of the geometries that have a section of this type, in the asset's order.
 std::vector<std::string> names_with(const asset::Container& container, uint32_t type);

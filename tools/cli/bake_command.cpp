@@ -8,8 +8,10 @@
 #include "cli/cpp_source.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
+#include "cli/hull_arguments.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/field/layout.hpp"
+#include "firmtouch/hull/layout.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -63,6 +65,32 @@ std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
   return baked;
 }
 
+// The options of a hull, which mean nothing without one.
+void add_hull(const Arguments& arguments, BakeOptions& options) {
+  static const char* const kOfHulls[] = {"--hull-grid", "--max-valence", "--compactness",
+                                         "--max-deviation-deg", "--no-tree"};
+  options.hull_faces = arguments.count("--hull-faces", 0, 4, 4'000'000);
+  options.hull = hull_options(arguments);
+  options.hull.target_faces = options.hull_faces;
+  options.has_tree = !arguments.has("--no-tree");
+  if (options.hull_faces != 0)
+    options.text += " --hull-faces " + std::to_string(options.hull_faces);
+  for (const std::string option : kOfHulls) {
+    if (!arguments.has(option)) continue;
+    if (options.hull_faces == 0)
+      fail_usage("bake: " + option + " is of a hull: add --hull-faces N");
+    options.text += " " + option;
+    if (option != "--no-tree") options.text += " " + arguments.text(option, "");
+  }
+  if (options.hull_faces != 0 && !options.is_signed)
+    fail_usage("bake: a hull needs an inside: leave out --unsigned or --hull-faces");
+  if (options.hull.limits.max_valence > hull::kMostLink)
+    fail_usage("bake: --max-valence: a hull in an asset has at most " +
+               std::to_string(hull::kMostLink));
+  if (!options.has_tree && options.map_cells != 0)
+    fail_usage("bake: --distance-map needs the tree: leave out --no-tree");
+}
+
 // Both files or none.
 void write_source(const std::string& path, const std::vector<uint8_t>& asset,
                   const std::string& output) {
@@ -114,12 +142,15 @@ const Command& bake_command() {
        {"--distance-map", "CELLS",
         "meshes get a grid of certified bounds, CELLS along the long axis"},
        {"--cpp", "FILE", "the asset as a C++ source, too"},
-       {"--no-tree", nullptr, nullptr},
-       {"--hull-faces", "N", nullptr},
-       {"--hull-grid", "22|16", nullptr},
-       {"--max-valence", "N", nullptr},
-       {"--compactness", "R", nullptr},
-       {"--max-deviation-deg", "A", nullptr},
+       {"--hull-faces", "N",
+        "meshes get a progressive hull, at its coarsest of at most N faces: enclosing, proven"},
+       {"--hull-grid", "22|16", "bits of a hull's coordinate (default 22)"},
+       {"--max-valence", "N", "faces around a hull's vertex, at most 31 (default 12)"},
+       {"--compactness", "R",
+        "share of the faces' compactness that a collapse leaves (default 0.8)"},
+       {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
+       {"--no-tree", nullptr,
+        "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
        {"--teach", "NAME", nullptr},
        {"--max-deviation", "M", nullptr}},
       1,
@@ -133,7 +164,8 @@ int run_bake(const Arguments& arguments) {
   const std::string source = arguments.text("--cpp", "");
   if (output.empty()) fail_usage("bake: say where to write: -o SCENE.fta");
   if (source == output) fail_usage("bake: -o and --cpp name the same file; name two");
-  const BakeOptions options = bake_options(arguments);
+  BakeOptions options = bake_options(arguments);
+  add_hull(arguments, options);
   for (const std::string& input : inputs) {
     check_kind(input);
     forbid_overwriting(output, input);

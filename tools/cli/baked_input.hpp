@@ -5,6 +5,7 @@
 #include "bake/section.hpp"
 #include "cli/arguments.hpp"
 #include "cli/progress.hpp"
+#include "hull/build_hull.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::cli {
@@ -13,9 +14,12 @@ struct BakeOptions {
   double unit_m = 1;
   bool is_signed = true;
   bool close_holes = false;
-  bool small = false;      // the smallest asset rather than the fastest
-  uint32_t map_cells = 0;  // along the long axis; 0: no distance map
-  std::string text;        // as they stand in the provenance
+  bool small = false;       // the smallest asset rather than the fastest
+  uint32_t map_cells = 0;   // along the long axis; 0: no distance map
+  uint32_t hull_faces = 0;  // 0: no hull
+  bool has_tree = true;     // of the mesh; without it only a hull can be asked
+  tools::HullOptions hull;
+  std::string text;  // as they stand in the provenance
 };
 
 /// Of --unit, --unsigned and --close-holes.
@@ -29,7 +33,7 @@ struct BakedInput {
 };
 
 /// Stages that the progress bar shows for each input.
-constexpr size_t kStagesAnInput = 4;
+constexpr size_t kStagesAnInput = 5;
 
 /// Each fails (bad input) with the file, the place, what is wrong, how often and how to mend it.
 BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options, Progress& progress);

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
 #include "bake/bake_field.hpp"
+#include "bake/bake_hull.hpp"
 #include "bake/bake_mesh.hpp"
 #include "bake/probes.hpp"
 #include "bake/provenance.hpp"
@@ -11,6 +13,7 @@
 #include "cli/files.hpp"
 #include "cli/version.hpp"
 #include "firmtouch/asset/layout.hpp"
+#include "firmtouch/hull/refinement.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "surface/check.hpp"
 #include "surface/make_walk.hpp"
@@ -99,6 +102,50 @@ std::string add_map(const mesh::View& view, const std::string& name, uint32_t ce
          (report.unknown == 0 ? "" : ", " + std::to_string(report.unknown) + " cells unknown");
 }
 
+// Adds the sections of a hull. Result: what to tell of it.
+std::vector<std::string> add_hull(const mesh::View& view, const std::string& name,
+                                  const BakeOptions& options, const std::string& path,
+                                  Progress& progress, BakedInput& baked) {
+  progress.stage("collapsing edges of " + name);
+  tools::HullOptions hull_options = options.hull;
+  hull_options.on_progress = [&](uint32_t faces) {
+    progress.stage(std::to_string(faces) + " faces left, of " +
+                   std::to_string(view.head().triangle_count));
+  };
+  tools::HullBakeReport report;
+  const std::vector<tools::Section> sections =
+      tools::bake_hull(view, baked.sections, name, hull_options, report);
+  if (!report.problem.empty()) fail_input(path + ": " + report.problem);
+  baked.sections.insert(baked.sections.end(), sections.begin(), sections.end());
+  const double triangles = view.head().triangle_count;
+  std::vector<std::string> told{
+      "progressive hull down to " + std::to_string(report.faces) + " faces, void " +
+          sentence("%.3g %% of the volume, grid of %.0f bits", report.void_percent,
+                   options.hull.grid_bits) +
+          "; every new vertex proven outside in exact arithmetic",
+      sentence("hull: a triangle %.1f bytes, and %.1f for boxes of stars,",
+               report.other_bytes / triangles, report.star_bytes / triangles) +
+          sentence(" %.1f for boxes over the triangles; coarsest hull %.0f bytes",
+                   report.box_bytes / triangles, report.shell_bytes),
+      "RAM of a refinement: " + std::to_string(4 * hull::bit_words(report.collapses)) +
+          " bytes (a bit a collapse), 4 for each that may be undone, 8 for each crossing kept"};
+  if (!report.stalled.empty()) told.push_back("hull " + report.stalled);
+  return told;
+}
+
+bool is_of_tree(uint32_t type) {
+  return type == mesh::kNodesSection || type == mesh::kParentsSection ||
+         type == mesh::kVertexNormalsSection || type == mesh::kEdgeFoldsSection;
+}
+
+// What is left of a mesh for hull queries alone.
+void drop_tree(BakedInput& baked) {
+  auto& sections = baked.sections;
+  sections.erase(std::remove_if(sections.begin(), sections.end(),
+                                [](const tools::Section& s) { return is_of_tree(s.type); }),
+                 sections.end());
+}
+
 }  // namespace
 
 SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
@@ -146,16 +193,34 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   std::string told_of_map;
   if (options.map_cells != 0) told_of_map = add_map(view, name, options.map_cells, path, baked);
 
+  std::vector<std::string> told_of_hull;
+  if (options.hull_faces != 0) told_of_hull = add_hull(view, name, options, path, progress, baked);
+  const auto add_facts = [&](const tools::Facts& facts) {
+    baked.sections.push_back(tools::text_section(asset::kBoundsSection, name, facts));
+    baked.sections.push_back(tools::text_section(
+        asset::kProvenanceSection, name,
+        tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
+  };
+  if (!options.has_tree) {
+    drop_tree(baked);
+    add_facts({{"kind", "mesh for hull queries alone"},
+               {"triangles", std::to_string(view.head().triangle_count)},
+               {"vertices", std::to_string(view.head().vertex_count)}});
+    baked.report = {"mesh without a tree, " + std::to_string(report.triangles) + " triangles, " +
+                    std::to_string(bytes_of(baked.sections)) +
+                    " bytes: no distances, no touch, only queries of its hull"};
+    baked.report.insert(baked.report.end(), told_of_hull.begin(), told_of_hull.end());
+    baked.report.insert(baked.report.end(), sound.told.begin(), sound.told.end());
+    return baked;
+  }
   progress.stage("counting steps on " + name);
   const tools::StepFigures steps = steps_of(view, surface);
   progress.stage("asking the probes of " + name);
   baked.sections.push_back(tools::mesh_probes(view, name));
-  baked.sections.push_back(tools::text_section(asset::kBoundsSection, name, facts_of(view, steps)));
-  baked.sections.push_back(tools::text_section(
-      asset::kProvenanceSection, name,
-      tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
+  add_facts(facts_of(view, steps));
   baked.report = report_of(report, steps, bytes_of(baked.sections), options.is_signed);
   if (!told_of_map.empty()) baked.report.push_back(told_of_map);
+  baked.report.insert(baked.report.end(), told_of_hull.begin(), told_of_hull.end());
   baked.report.insert(baked.report.end(), sound.told.begin(), sound.told.end());
   // Where a surface crosses itself no side is wrong; who touches it there should know.
   for (const std::string& line : tools::describe(report.signs, surface, sound.vertex_source))

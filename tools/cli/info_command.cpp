@@ -33,6 +33,14 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {field::kHeadSection, "distance map head"},
                                          {field::kDistancesSection, "distance map bounds"},
                                          {field::kSeedsSection, "distance map seeds"},
+                                         {hull::kHeadSection, "hull head"},
+                                         {hull::kVerticesSection, "hull vertices"},
+                                         {hull::kOriginsSection, "hull origins of ids"},
+                                         {hull::kRecordsSection, "hull stars"},
+                                         {hull::kPlacesSection, "hull places of stars"},
+                                         {hull::kStarBoxesSection, "hull boxes of stars"},
+                                         {hull::kBoxesSection, "hull boxes over the triangles"},
+                                         {hull::kShellSection, "hull at its coarsest"},
                                          {curve::kHeadSection, "curve head"},
                                          {curve::kSamplesSection, "curve samples"},
                                          {curve::kArcsSection, "curve arcs"},
@@ -177,8 +185,11 @@ const Command& info_command() {
 
 int run_info(const Arguments& arguments) {
   const LoadedAsset loaded(arguments.positionals()[0]);
-  for (const std::string& name : tools::names_with(loaded.container(), mesh::kHeadSection))
-    (void)loaded.mesh(name);
+  for (const std::string& name : tools::names_with(loaded.container(), mesh::kHeadSection)) {
+    if (tools::has_tree(loaded.container(), name.c_str())) (void)loaded.mesh(name);
+  }
+  for (const std::string& name : tools::names_with(loaded.container(), hull::kHeadSection))
+    (void)loaded.hull(name);
   for (const std::string& name : tools::names_with(loaded.container(), curve::kHeadSection))
     (void)loaded.curve(name);
   if (arguments.has("--json")) {

@@ -37,9 +37,27 @@ void LoadedAsset::fail_absent(const std::string& kind, const std::string& name) 
 LoadedMesh LoadedAsset::mesh(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(mesh::kHeadSection, key).empty()) fail_absent("mesh", name);
+  if (!tools::has_tree(container_, key)) {
+    fail_input(path_ + ": '" + name +
+               "' was baked with --no-tree: only its hull can be asked; bake it without for more");
+  }
   LoadedMesh loaded;
   const core::Verdict verdict = mesh::open(tools::mesh_sections_of(container_, key), loaded.view);
   if (!verdict.ok()) fail_unsound("mesh '" + name + "': " + tools::rule_text(verdict));
+  loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
+  return loaded;
+}
+
+LoadedHull LoadedAsset::hull(const std::string& name) const {
+  const char* key = name.c_str();
+  if (container_.find(mesh::kHeadSection, key).empty()) fail_absent("mesh", name);
+  if (container_.find(hull::kHeadSection, key).empty()) {
+    fail_input(path_ + ": mesh '" + name +
+               "' has no hull; bake it with --hull-faces N, or ask for segment");
+  }
+  LoadedHull loaded;
+  const core::Verdict verdict = hull::open(tools::hull_sections_of(container_, key), loaded.view);
+  if (!verdict.ok()) fail_unsound("hull '" + name + "': " + tools::rule_text(verdict));
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
   return loaded;
 }

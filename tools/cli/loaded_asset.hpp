@@ -5,12 +5,22 @@
 
 #include "firmtouch/asset/container.hpp"
 #include "firmtouch/curve/view.hpp"
+#include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
 
 namespace firmtouch::cli {
 
 struct LoadedMesh {
   mesh::View view;
+  core::Span<const uint32_t> source;  // of each triangle: its index in the imported file
+
+  uint32_t source_of(uint32_t triangle) const {
+    return triangle < source.size() ? source[triangle] : triangle;
+  }
+};
+
+struct LoadedHull {
+  hull::View view;
   core::Span<const uint32_t> source;  // of each triangle: its index in the imported file
 
   uint32_t source_of(uint32_t triangle) const {
@@ -37,6 +47,7 @@ class LoadedAsset {
   const asset::Container& container() const { return container_; }
   /// Fails (bad input) where there is none of this name: the message says which there are.
   LoadedMesh mesh(const std::string& name) const;
+  LoadedHull hull(const std::string& name) const;
   LoadedCurve curve(const std::string& name) const;
 
  private:

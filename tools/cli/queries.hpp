@@ -19,9 +19,13 @@ struct CurveOptions {
 /// --mode, --n and --arc-penalty.
 CurveOptions curve_options_of(const Arguments& arguments);
 
+/// --mode and --base of a hull: fails (usage) on what has no meaning.
+void check_hull_options(const Arguments& arguments);
+
 // One a kind of query: answers every row of `table` on standard output, or times them.
 void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
 void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
+void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments);
 void query_curve(const LoadedCurve& curve, const CsvTable& table, const Arguments& arguments);
 
 }  // namespace firmtouch::cli

@@ -20,22 +20,23 @@ void forbid(const Arguments& arguments, const std::string& kind,
 }
 
 void check_kind(const std::string& kind) {
-  for (const char* known : {"distance", "segment", "curve"}) {
+  for (const char* known : {"distance", "segment", "hull", "curve"}) {
     if (kind == known) return;
   }
-  for (const char* later : {"hull", "spline", "footpoints"}) {
+  for (const char* later : {"spline", "footpoints"}) {
     if (kind == later) {
       fail_usage("query: " + kind +
-                 " is not in this version of Firmtouch yet; ask distance, segment or curve");
+                 " is not in this version of Firmtouch yet; ask distance, segment, hull or curve");
     }
   }
-  fail_usage("query: '" + kind + "' is no kind of query; ask distance, segment or curve");
+  fail_usage("query: '" + kind + "' is no kind of query; ask distance, segment, hull or curve");
 }
 
 // Before anything is read: a bad option is a usage error whatever the files are.
 void check_options(const Arguments& arguments, const std::string& kind) {
   (void)budget_of(arguments);
   if (kind == "curve") (void)curve_options_of(arguments);
+  if (kind == "hull") check_hull_options(arguments);
 }
 
 CsvTable asked_rows(const std::vector<std::string>& columns, const Arguments& arguments) {
@@ -50,20 +51,23 @@ CsvTable asked_rows(const std::vector<std::string>& columns, const Arguments& ar
 const Command& query_command() {
   static const Command command{
       "query",
-      "ASSET.fta NAME distance|segment|curve [options] < IN.csv > OUT.csv",
+      "ASSET.fta NAME distance|segment|hull|curve [options] < IN.csv > OUT.csv",
       "Answers each row of a CSV as the controller would, bit for bit.",
-      "in:  distance, curve: header x,y,z     segment: header ax,ay,az,bx,by,bz     (metres)\n"
+      "in:  distance, curve: header x,y,z     segment, hull: header ax,ay,az,bx,by,bz     "
+      "(metres)\n"
       "out: distance: distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact\n"
       "               (negative inside; sign 0: unknown; lower: no point of the surface is "
       "nearer)\n"
-      "     segment:  hit,t,triangle,steps    (the first crossing from a to b; -1: no triangle)\n"
+      "     segment, hull: hit,t,triangle,steps    (the first crossing from a to b; -1: no "
+      "triangle)\n"
       "     curve:    distance,cx,cy,cz,segment,arc,lower,steps,exact\n"
       "Rows are answered in order, each warm-started by the one before.",
       {{"--cold", nullptr, "each row on its own"},
        {"--budget", "N", "at most N steps a query (default: unlimited, so exact)"},
        {"--time", nullptr, "no CSV: the median time a query over 5 passes"},
-       {"--mode", "exact|nearest",
-        "curve: the closest point, or of the N nearest samples (default exact)"},
+       {"--mode", "MODE",
+        "curve: exact (default) or nearest, of the N nearest samples; hull: complete (default): "
+        "misses nothing, or refine: splits the hull where it is crossed"},
        {"--n", "N", "curve, nearest: samples looked at, 1 to 100 (default 10)"},
        {"--arc-penalty", "W",
         "curve: metres of distance for the whole length's change of arc since the row before "
@@ -71,8 +75,9 @@ const Command& query_command() {
         "0); lower then bounds distance and penalty together"},
        {"--band", "M", "distance: beyond M metres only a lower bound, in fewer steps (not exact)"},
        {"--all", nullptr,
-        "segment: every crossing, a row each (segment,t,triangle), in order of t"},
-       {"--base", "N", nullptr}},
+        "segment, hull: every crossing, a row each (segment,t,triangle), in order of t"},
+       {"--base", "N",
+        "hull, refine: faces that a segment meets at first (default: the coarsest)"}},
       3,
       3};
   return command;
@@ -83,8 +88,10 @@ int run_query(const Arguments& arguments) {
   const std::string& name = arguments.positionals()[1];
   const std::string& kind = arguments.positionals()[2];
   check_kind(kind);
-  if (kind != "segment") forbid(arguments, kind, {"--all"});
-  if (kind != "curve") forbid(arguments, kind, {"--mode", "--n", "--arc-penalty"});
+  if (kind != "segment" && kind != "hull") forbid(arguments, kind, {"--all"});
+  if (kind != "curve" && kind != "hull") forbid(arguments, kind, {"--mode"});
+  if (kind != "curve") forbid(arguments, kind, {"--n", "--arc-penalty"});
+  if (kind != "hull") forbid(arguments, kind, {"--base"});
   if (kind == "curve" && arguments.text("--mode", "exact") == "exact") {
     forbid(arguments, "--mode exact", {"--n"});
   }
@@ -93,6 +100,11 @@ int run_query(const Arguments& arguments) {
   if (kind == "curve") {
     const LoadedCurve curve = asset.curve(name);
     query_curve(curve, asked_rows(kPoint, arguments), arguments);
+    return kDone;
+  }
+  if (kind == "hull") {
+    const LoadedHull hull = asset.hull(name);
+    query_hull(hull, asked_rows(kSegment, arguments), arguments);
     return kDone;
   }
   const LoadedMesh mesh = asset.mesh(name);

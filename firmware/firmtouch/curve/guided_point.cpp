@@ -153,6 +153,38 @@ Constraint answer(const View& curve, const Bound& bound, Vec3 p_m, const ArcPena
   return found;
 }
 
+// The segment that goes on from the end at which the foot lies; the same where there is none.
+uint32_t beyond(const View& curve, const Foot& foot) {
+  const uint32_t segment = segment_of(foot), last = curve.segment_count() - 1;
+  if (foot.t > 0.0f) return segment;
+  if (foot.sample == segment) return segment > 0 ? segment - 1 : curve.is_closed() ? last : 0;
+  return segment < last ? segment + 1 : curve.is_closed() ? 0 : last;
+}
+
+// Along the curve from the point found, while the distance falls.
+void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& closest,
+           query::Hint& hint) {
+  if (!is_near(p_m)) return;
+  const bool carefully = needs_care(curve.head(), p_m);
+  Foot best = foot_on_segment(curve, p_m, closest.segment, carefully);
+  for (uint32_t i = 0; i < kMostSlides; ++i) {
+    const uint32_t segment = beyond(curve, best);
+    if (segment == segment_of(best)) break;
+    const Foot foot = foot_on_segment(curve, p_m, segment, carefully);
+    if (!(foot.distance2_m2 < best.distance2_m2)) break;
+    best = foot;
+  }
+  query::Certificate certificate = closest.certificate;
+  // The cost of no point is less: at most this much of it is penalty.
+  const float previous = penalty.previous_arc;
+  const float most_change = curve.is_closed() ? 0.5f : previous > 0.5f ? previous : 1.0f - previous;
+  const float lower_m = certificate.lower_m - penalty.weight_m * most_change * (1.0f + 0x1p-20f);
+  certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  closest = answer_at(curve, best);
+  closest.certificate = certificate;
+  hint.place = closest.segment;
+}
+
 }  // namespace
 
 Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
@@ -177,17 +209,22 @@ Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget bud
                 Following& following) {
   Followed followed;
   const ArcPenalty penalty{hold.weight_m, following.arc, following.is_following};
-  followed.constraint = guided_point(curve, p_m, penalty, budget, following.hint);
-  followed.is_held = followed.constraint.closest.distance_m <= hold.release_m;
+  const query::Budget first{budget.steps > 1 ? budget.steps - 1 : 1, budget.band_m};
+  followed.constraint = guided_point(curve, p_m, penalty, first, following.hint);
+  followed.closest = followed.constraint.closest;
+  if (is_penalty(penalty)) slide(curve, p_m, penalty, followed.closest, following.hint);
+  followed.is_held = followed.closest.distance_m <= hold.release_m;
   followed.is_new = !following.is_following;
   if (!followed.is_held && following.is_following) {
-    const uint32_t steps = followed.constraint.closest.certificate.steps;
-    followed.constraint = guided_point(curve, p_m, {}, budget, following.hint);
-    followed.constraint.closest.certificate.steps += steps;
-    followed.is_held = followed.constraint.closest.distance_m <= hold.release_m;
+    const uint32_t steps = followed.closest.certificate.steps;
+    const query::Budget rest{budget.steps > steps ? budget.steps - steps : 1, budget.band_m};
+    followed.constraint = guided_point(curve, p_m, {}, rest, following.hint);
+    followed.closest = followed.constraint.closest;
+    followed.closest.certificate.steps += steps;
+    followed.is_held = followed.closest.distance_m <= hold.release_m;
     followed.is_new = true;
   }
-  const float arc = followed.constraint.closest.arc;
+  const float arc = followed.closest.arc;
   if (!followed.is_new)
     followed.change_of_arc = change_of_arc(following.arc, arc, curve.is_closed());
   following.arc = arc;

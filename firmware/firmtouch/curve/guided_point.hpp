@@ -37,16 +37,25 @@ struct Following {
 };
 
 struct Followed {
-  Constraint constraint;  // point, tangent, arc, deviation (closest.distance_m), cost, certificate
+  Constraint constraint;  // the part of the curve that the guide is on: guided_point()
+  // From there along the curve to the closest point near by. Its certificate's lower_m bounds the
+  // distance to the whole curve; `exact` is the constraint's, steps are all.
+  Closest closest;
   float change_of_arc = 0;  // since the last tick, the shorter way round; 0 where the guide is new
   bool is_new = false;      // no previous state, or let go: found by distance alone
-  bool is_held = false;     // the deviation is within release_m
+  bool is_held = false;     // the deviation, closest.distance_m, is within release_m
 };
 
-/// One tick of a guide: guided_point() from the previous arc position; where that point is farther
-/// than release_m, or not a number, the guide lets go and finds itself again, by distance alone.
-/// Bounds: <= 2 budgets of steps, the second only in the tick that lets go; else as guided_point().
+/// One tick of a guide. guided_point() from the previous arc position says which part of the curve
+/// it is on, and the closest point of that part where it pulls to: a penalty alone would hold the
+/// guide back at every sample that it passes, and drag. Where the point is farther than release_m, or
+/// not a number, the guide lets go and finds itself again, by distance alone.
+/// Bounds: <= budget steps (2 at least, in the tick that lets go), and kMostSlides segments.
+/// Result: a change of part never raises the distance: what a spring holds is not increased by it.
 Followed follow(const View& curve, math::Vec3 p_m, const Hold& hold, query::Budget budget,
                 Following& following);
+
+/// Segments that follow() goes along the curve in a tick; beyond them the next tick goes on.
+constexpr uint32_t kMostSlides = 32;
 
 }  // namespace firmtouch::curve

@@ -20,7 +20,7 @@
 //               controller itself. Answered to a stranger too.
 namespace firmtouch::link {
 
-constexpr uint32_t kProtocolVersion = 3;
+constexpr uint32_t kProtocolVersion = 4;
 
 // Append-only. The high bit marks what the controller says.
 enum Type : uint8_t {
@@ -162,8 +162,11 @@ struct Description {
   float number[4] = {};  // field: scale, zero; parameter: low, high, initial, present value
   char name[32] = {};    // bit: what it says
   char unit[24] = {};    // bit: the field that it is of
+  char text[96] =
+      {};  // for a person: what a parameter does; what makes a fault, and what governs it
 };
-static_assert(sizeof(Description) == 80);
+static_assert(sizeof(Description) == 176);
+static_assert(sizeof(Description) <= kMaxPayloadBytes);
 
 // Bye::what
 constexpr uint32_t kByeLeave = 0;  // the controller waits for the next Hello

@@ -28,6 +28,9 @@ class SegmentFrame {
  public:
   SegmentFrame() = default;
   SegmentFrame(const Head& head, math::Vec3 a_m, math::Vec3 b_m)
+      : SegmentFrame(head.low_m, head.high_m, a_m, b_m) {}
+  /// `low_m` and `high_m`: the box of all vertices.
+  SegmentFrame(const float (&low_m)[3], const float (&high_m)[3], math::Vec3 a_m, math::Vec3 b_m)
       : a_m_(a_m), b_m_(b_m), along_m_(b_m - a_m) {
     const float x = absolute(along_m_.x), y = absolute(along_m_.y), z = absolute(along_m_.z);
     // The longest axis, and the next two in turn. Rows of the shear: their zeros and ones multiply
@@ -46,8 +49,7 @@ class SegmentFrame {
     float reach_m = 0.0f;
     const float at[3] = {a_m.x, a_m.y, a_m.z};
     for (uint32_t n = 0; n < 3; ++n)
-      reach_m = larger(reach_m,
-                       larger(absolute(head.low_m[n] - at[n]), absolute(head.high_m[n] - at[n])));
+      reach_m = larger(reach_m, larger(absolute(low_m[n] - at[n]), absolute(high_m[n] - at[n])));
     coordinate_error_m_ = reach_m * (10.5f * 0x1p-24f);
     side_error_m_ = reach_m * (53.0f * 0x1p-24f);
     side_error_m2_ = side_error_m_ * (reach_m * 0x1p-21f) + kUnderflow;

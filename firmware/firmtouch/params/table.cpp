@@ -47,6 +47,22 @@ extern constexpr Entry kTable[kCount] = {
     {"mesh_steps", "1", 1.0f, 65536.0f, 256.0f, When::kAnytime, "step budget of the mesh query"},
     {"curve_steps", "1", 1.0f, 65536.0f, 256.0f, When::kAnytime, "step budget of the guide query"},
     {"model_age", "1", 1.0f, 1000.0f, 3.0f, When::kAnytime, "ticks that a local model lives"},
+    {"guide_arc_penalty_m", "m", 0.0f, 1000.0f, 1.0f, When::kAnytime,
+     "what a jump by the whole guide's length costs; 0: it goes to whatever part is nearest"},
+    {"guide_tunnel_m", "m", 0.0f, 1.0f, 0.0f, When::kAnytime,
+     "nearer than this to the guide nothing is felt"},
+    {"guide_side_x", "1", -1.0f, 1.0f, 0.0f, When::kAnytime,
+     "the free side of a one-sided guide; 0, 0, 0: it pulls from all sides"},
+    {"guide_side_y", "1", -1.0f, 1.0f, 0.0f, When::kAnytime, "the free side, y"},
+    {"guide_side_z", "1", -1.0f, 1.0f, 0.0f, When::kAnytime, "the free side, z"},
+    {"guide_ends", "1", 0.0f, 2.0f, 0.0f, When::kAnytime,
+     "0: it holds at its ends, 1: it lets go, 2: it goes on at the other end"},
+    {"guide_drive", "1", 0.0f, 2.0f, 0.0f, When::kAnytime,
+     "along the guide: 0: free, 1: pushed by guide_drive_force, 2: led at guide_drive_speed"},
+    {"guide_drive_force_N", "N", -20.0f, 20.0f, 1.0f, When::kAnytime,
+     "pushes along the guide; the most that leads or holds"},
+    {"guide_drive_speed_mps", "m/s", -1.0f, 1.0f, 0.0f, When::kAnytime,
+     "leads along the guide; 0: holds"},
 };
 
 namespace {

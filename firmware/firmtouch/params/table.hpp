@@ -37,6 +37,15 @@ enum Index : uint32_t {
   kMeshSteps,
   kCurveSteps,
   kModelAge,
+  kGuideArcPenalty,
+  kGuideTunnel,
+  kGuideSideX,
+  kGuideSideY,
+  kGuideSideZ,
+  kGuideEnds,
+  kGuideDrive,
+  kGuideDriveForce,
+  kGuideDriveSpeed,
   kCount
 };
 

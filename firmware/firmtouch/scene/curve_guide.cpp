@@ -7,6 +7,14 @@ namespace {
 
 using math::Vec3;
 
+// Shorter than this, a side says no direction: nobody means one by it.
+constexpr float kLeastSide = 1e-3f;
+
+// No device reaches farther, and no distance that is not a number is as near.
+constexpr float kMostReach_m = 1e4f;
+
+float positive(float value) { return value > 0.0f ? value : 0.0f; }  // NaN too
+
 // Some unit vector at right angles to the unit vector `u`: across the axis that it leans on least.
 Vec3 any_across(Vec3 u) {
   const float x = u.x < 0.0f ? -u.x : u.x, y = u.y < 0.0f ? -u.y : u.y, z = u.z < 0.0f ? -u.z : u.z;
@@ -15,44 +23,175 @@ Vec3 any_across(Vec3 u) {
   return side * (1.0f / math::length(side));
 }
 
-// The way along which the tool is free: the tangent, turned to be across the line from the closest
-// point to the tool. On a segment it is so already; at a corner or past an end this is what makes
-// the whole distance count.
-Vec3 free_direction(const curve::Closest& c, Vec3 p_m, float diagonal_m) {
+// The way along which the tool is not pulled, and whether it leads along the curve.
+struct Way {
+  Vec3 direction;
+  bool is_along = true;
+};
+
+// The tangent, turned to be across the line from the closest point to the tool. On a segment it is so
+// already; at a corner or past an end this is what makes the whole distance count.
+Way free_way(const curve::Closest& c, Vec3 p_m, float diagonal_m) {
   const Vec3 off = p_m - c.point_m;
   const float size_m = math::length(off);
   if (!(size_m > 1e-5f * diagonal_m))
-    return c.tangent;  // too near for a direction, and for a force
+    return {c.tangent, true};  // too near for a direction, and for a force
   const Vec3 u = off * (1.0f / size_m);
   const Vec3 turned = c.tangent - u * math::dot(c.tangent, u);
   const float turned_size = math::length(turned);
-  return turned_size > 1e-3f ? turned * (1.0f / turned_size) : any_across(u);
+  if (turned_size > 1e-3f) return {turned * (1.0f / turned_size), true};
+  return {any_across(u), false};
+}
+
+// -1: past the first end of an open curve, 1: past the last one, 0: beside the curve.
+int past_end(const curve::View& curve, const curve::Closest& c, Vec3 p_m) {
+  if (curve.is_closed()) return 0;
+  const float beyond_m = math::dot(p_m - c.point_m, c.tangent);
+  if (c.segment == 0 && !(c.arc > 0.0f) && beyond_m < 0.0f) return -1;
+  return c.segment + 1 == curve.segment_count() && c.arc >= 1.0f && beyond_m > 0.0f ? 1 : 0;
+}
+
+// A tool that let go at an end is taken hold of again once it was clear of the guide, or came a way
+// back along it.
+bool stays_off(const CurveGuide& guide, const curve::Closest& c) {
+  const float from_end = c.arc < 0.5f ? c.arc : 1.0f - c.arc;
+  const float back_m = from_end * guide.curve->head().length_m;
+  return c.distance_m <= guide.snap_m && !(back_m >= guide.snap_m || from_end >= 0.25f);
+}
+
+// Which end is nearer goes by their samples alone; from the next tick on the guide is there.
+void go_on_at_other_end(const CurveGuide& guide, int end, Vec3 p_m, GuideTouch& touch) {
+  const curve::View& curve = *guide.curve;
+  const uint32_t last = curve.segment_count();
+  const float there_m = math::length(p_m - curve.sample(end > 0 ? 0 : last));
+  if (!(there_m < touch.closest.distance_m)) return;
+  touch.following.arc = end > 0 ? 0.0f : 1.0f;
+  touch.following.hint.place = end > 0 ? 0 : last - 1;
+}
+
+// Whether the guide holds the tool in this tick, `end` being the one that it is past.
+bool take_hold(const CurveGuide& guide, const curve::Followed& followed, int end,
+               GuideTouch& touch) {
+  // Written so that NaN lets go. A release nearer than the snap would chatter: the farther of the
+  // two counts.
+  const bool is_near = followed.is_held && followed.closest.distance_m <= guide.snap_m;
+  const bool was_held = touch.is_held && !followed.is_new && followed.is_held;
+  if (guide.ends != Ends::kRelease) {
+    touch.is_off_end = false;
+    return is_near || was_held;
+  }
+  if (end != 0) {
+    touch.is_off_end = (touch.is_off_end || touch.is_held) && stays_off(guide, followed.closest);
+    return false;
+  }
+  if (touch.is_off_end && stays_off(guide, followed.closest)) return false;
+  touch.is_off_end = false;
+  return is_near || was_held;
+}
+
+// Moves the carriage on, and with it as far from the tool as the most force stretches the spring.
+void lead(const CurveGuide& guide, float moved_m, float force_N, GuideTouch& touch) {
+  const Drive& drive = guide.drive;
+  const float step_m = drive.speed_mps * drive.tick_period_s;
+  float ahead_m = touch.ahead_m + (step_m <= 1.0f && step_m >= -1.0f ? step_m : 0.0f) - moved_m;
+  const float most_m = force_N / guide.material.stiffness_N_per_m;
+  float low_m = -most_m, high_m = most_m;
+  if (!guide.curve->is_closed()) {  // a carriage stops at the ends
+    const float length_m = guide.curve->head().length_m;
+    const float back_m = -touch.closest.arc * length_m, on_m = back_m + length_m;
+    if (guide.ends != Ends::kGoOn) {
+      low_m = low_m > back_m ? low_m : back_m;
+      high_m = high_m < on_m ? high_m : on_m;
+    }
+  }
+  ahead_m = ahead_m < high_m ? ahead_m : high_m;
+  touch.ahead_m = ahead_m > low_m ? ahead_m : low_m;
+}
+
+void put_drive(const CurveGuide& guide, int end, float moved_m, bool is_along, GuideTouch& touch,
+               servo::GuideLine& line) {
+  const Drive& drive = guide.drive;
+  const float size_N = drive.force_N < 0.0f ? -drive.force_N : drive.force_N;
+  const float limit_N = size_N <= servo::kMostDriveLimit_N ? size_N : 0.0f;
+  if (drive.kind == Drive::Kind::kLead && guide.material.stiffness_N_per_m > 0.0f &&
+      limit_N > 0.0f) {
+    lead(guide, moved_m, limit_N, touch);
+    if (!is_along) return;
+    const float speed_mps =
+        drive.speed_mps <= 1e3f && drive.speed_mps >= -1e3f ? drive.speed_mps : 0.0f;
+    line.drive_stiffness_N_per_m = guide.material.stiffness_N_per_m;
+    line.drive_damping_N_s_per_m = guide.material.damping_N_s_per_m;
+    line.drive_N = guide.material.stiffness_N_per_m * touch.ahead_m +
+                   guide.material.damping_N_s_per_m * speed_mps;
+    line.drive_limit_N = limit_N;
+    return;
+  }
+  touch.ahead_m = 0;
+  const bool is_at_goal = guide.ends != Ends::kGoOn && (drive.force_N > 0.0f ? end > 0 : end < 0);
+  if (drive.kind != Drive::Kind::kPush || !is_along || is_at_goal) return;
+  line.drive_N = limit_N > 0.0f ? drive.force_N : 0.0f;
+  line.drive_limit_N = limit_N;
+}
+
+// The edge of a ruler: a plane through the closest point, free on one side.
+void put_edge(const CurveGuide& guide, Vec3 tangent, const servo::GuideLine& line,
+              servo::LocalModel& model) {
+  const Vec3 normal = guide.free_side - tangent * math::dot(guide.free_side, tangent);
+  const float size = math::length(normal);
+  if (!(size > kLeastSide)) return;  // the curve runs to the free side
+  servo::ContactPlane edge;
+  edge.normal = normal * (1.0f / size);
+  edge.offset_m = math::dot(edge.normal, line.point_m) - line.tunnel_m;
+  edge.stiffness_N_per_m = guide.material.stiffness_N_per_m;
+  edge.damping_N_s_per_m = guide.material.damping_N_s_per_m;
+  (void)add_plane(model, edge);  // a model full of contacts keeps them
+}
+
+void put_line(const CurveGuide& guide, Vec3 p_m, int end, float moved_m, GuideTouch& touch,
+              servo::LocalModel& model) {
+  const Way way = free_way(touch.closest, p_m, guide.curve->head().diagonal_m);
+  servo::GuideLine line;
+  line.point_m = math::apply(guide.pose, touch.closest.point_m);
+  line.direction = guide.pose.rotation * way.direction;
+  const float tunnel_m = positive(guide.tunnel_m);
+  line.tunnel_m = tunnel_m < servo::kMostTunnel_m ? tunnel_m : servo::kMostTunnel_m;
+  put_drive(guide, end, moved_m, way.is_along, touch, line);
+  const float side2 = math::dot(guide.free_side, guide.free_side);
+  if (side2 >= kLeastSide * kLeastSide && side2 <= 1e6f) {
+    put_edge(guide, guide.pose.rotation * touch.closest.tangent, line, model);
+    line.tunnel_m = 0;
+  } else {
+    line.stiffness_N_per_m = guide.material.stiffness_N_per_m;
+    line.damping_N_s_per_m = guide.material.damping_N_s_per_m;
+  }
+  (void)add_guide(model, line);  // a model that has a guide already keeps it
 }
 
 }  // namespace
 
 void follow_curve(const CurveGuide& guide, Vec3 position_m, query::Budget budget, GuideTouch& touch,
                   servo::LocalModel& model) {
-  touch.closest = {};
   if (guide.curve == nullptr || !guide.curve->is_open()) {
-    touch.is_held = false;
+    touch = {};
     return;
   }
   const Vec3 p_m = math::apply_inverse(guide.pose, position_m);
-  touch.closest = curve::closest_point(*guide.curve, p_m, budget, touch.hint);
-  const float off_m = touch.closest.distance_m;
-  // Written so that NaN lets go. A release nearer than the snap would chatter: the farther of the
-  // two counts.
-  const bool is_near = off_m <= guide.snap_m;
-  touch.is_held = is_near || (touch.is_held && off_m <= guide.release_m);
+  const bool was_held = touch.is_held;
+  const float farther_m = guide.release_m >= guide.snap_m ? guide.release_m : guide.snap_m;
+  const curve::Hold hold{positive(guide.arc_penalty_m),
+                         farther_m < kMostReach_m ? farther_m : kMostReach_m};
+  touch.following.is_following = was_held;
+  const curve::Followed followed = curve::follow(*guide.curve, p_m, hold, budget, touch.following);
+  touch.closest = followed.closest;
+  const int end = past_end(*guide.curve, touch.closest, p_m);
+  touch.is_held = take_hold(guide, followed, end, touch);
+  const bool is_new = !was_held || followed.is_new;
+  if (is_new || !touch.is_held) touch.progress_m = touch.ahead_m = 0;
   if (!touch.is_held) return;
-  servo::GuideLine line;
-  line.point_m = math::apply(guide.pose, touch.closest.point_m);
-  line.direction =
-      guide.pose.rotation * free_direction(touch.closest, p_m, guide.curve->head().diagonal_m);
-  line.stiffness_N_per_m = guide.material.stiffness_N_per_m;
-  line.damping_N_s_per_m = guide.material.damping_N_s_per_m;
-  (void)add_guide(model, line);  // a model that has a guide already keeps it
+  const float moved_m = is_new ? 0.0f : followed.change_of_arc * guide.curve->head().length_m;
+  touch.progress_m += moved_m;
+  put_line(guide, p_m, end, moved_m, touch, model);
+  if (guide.ends == Ends::kGoOn && end != 0) go_on_at_other_end(guide, end, p_m, touch);
 }
 
 }  // namespace firmtouch::scene

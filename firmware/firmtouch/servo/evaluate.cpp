@@ -30,6 +30,28 @@ bool is_material(float stiffness_N_per_m, float damping_N_s_per_m) {
 
 Vec3 across(Vec3 a, Vec3 direction) { return a - direction * dot(direction, a); }
 
+// Spring and damper across the line. Within a tunnel there is nothing; beyond it both grow in with
+// the share of the way that lies outside.
+Vec3 pull_N(const GuideLine& guide, Vec3 off_m, Vec3 velocity_mps) {
+  Vec3 pull = across(off_m, guide.direction) * -guide.stiffness_N_per_m -
+              across(velocity_mps, guide.direction) * guide.damping_N_s_per_m;
+  if (guide.tunnel_m > 0.0f) {
+    const float away_m = math::length(across(off_m, guide.direction));
+    const float share = away_m > guide.tunnel_m ? 1.0f - guide.tunnel_m / away_m : 0.0f;
+    pull = pull * share;
+  }
+  return pull;
+}
+
+Vec3 drive_N(const GuideLine& guide, Vec3 off_m, Vec3 velocity_mps) {
+  const float most_N = guide.drive_limit_N;
+  if (!(most_N > 0.0f)) return {};
+  const float along_N = guide.drive_N -
+                        guide.drive_stiffness_N_per_m * dot(guide.direction, off_m) -
+                        guide.drive_damping_N_s_per_m * dot(guide.direction, velocity_mps);
+  return guide.direction * (along_N > most_N ? most_N : along_N < -most_N ? -most_N : along_N);
+}
+
 }  // namespace
 
 bool is_sound(const LocalModel& model) {
@@ -44,7 +66,11 @@ bool is_sound(const LocalModel& model) {
   if (!model.has_guide) return true;
   const GuideLine& guide = model.guide;
   return is_near(guide.point_m) && is_unit(guide.direction) &&
-         is_material(guide.stiffness_N_per_m, guide.damping_N_s_per_m);
+         is_material(guide.stiffness_N_per_m, guide.damping_N_s_per_m) &&
+         is_between(guide.tunnel_m, 0.0f, kMostTunnel_m) &&
+         is_between(guide.drive_N, -kMostDrive_N, kMostDrive_N) &&
+         is_material(guide.drive_stiffness_N_per_m, guide.drive_damping_N_s_per_m) &&
+         is_between(guide.drive_limit_N, 0.0f, kMostDriveLimit_N);
 }
 
 Vec3 evaluate(const LocalModel& model, Vec3 position_m, Vec3 velocity_mps) {
@@ -58,10 +84,9 @@ Vec3 evaluate(const LocalModel& model, Vec3 position_m, Vec3 velocity_mps) {
     if (push_N > 0.0f) force_N = force_N + plane.normal * push_N;
   }
   if (model.has_guide) {
-    const GuideLine& guide = model.guide;
-    force_N = force_N -
-              across(position_m - guide.point_m, guide.direction) * guide.stiffness_N_per_m -
-              across(velocity_mps, guide.direction) * guide.damping_N_s_per_m;
+    const Vec3 off_m = position_m - model.guide.point_m;
+    force_N = force_N + pull_N(model.guide, off_m, velocity_mps) +
+              drive_N(model.guide, off_m, velocity_mps);
   }
   return force_N;
 }

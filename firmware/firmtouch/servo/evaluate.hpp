@@ -10,13 +10,15 @@ constexpr float kMostStiffness_N_per_m = 1e6f;
 constexpr float kMostDamping_N_s_per_m = 1e4f;
 constexpr float kMostPosition_m = 1e4f;
 constexpr float kMostVelocity_mps = 1e4f;
+constexpr float kMostDrive_N = 1e9f;  // before its limit: stiffness and damping times the above
 
 /// Whether every number of the model is finite and in range and its directions are unit to 1 %.
 bool is_sound(const LocalModel& model);
 
 /// Force of the model on the tool at this position and velocity (device frame). A plane pushes
 /// along its normal or not at all: its damper never pulls the tool into the surface. The guide acts
-/// across its line. Planes add up.
+/// across its line beyond its tunnel, without a jump where that begins, and along it by its drive.
+/// Planes add up.
 /// Pre: is_sound(model), position and velocity finite and within the bounds above.
 /// Result: finite.
 math::Vec3 evaluate(const LocalModel& model, math::Vec3 position_m, math::Vec3 velocity_mps);

@@ -40,4 +40,25 @@ constexpr const char* fault_name(uint32_t number) {
   return number < kFaultCount ? kName[number] : "unknown";
 }
 
+/// What made fault `number`, and the parameter that governs it: a line for a person, short enough
+/// for link::Description.
+/// Result: empty beyond the last.
+constexpr const char* fault_text(uint32_t number) {
+  constexpr const char* kText[kFaultCount] = {
+      "a position, velocity or force was not a finite number",
+      "the local model was not finite or out of range",
+      "no fresh local model came in time (model_age)",
+      "ticks came late (late_ratio, tick_period_s)",
+      "the clock jumped or stood still (tick_period_s)",
+      "an encoder was lost, or jumped faster than max_speed_mps",
+      "the tool left its reach (workspace_half_x_m, _y_m, _z_m)",
+      "the motor driver reported a fault",
+      "the operator pressed the emergency stop",
+      "enabled over an asset that was refused: bake it again",
+      "this processor answers the asset's probe queries otherwise than the baker's",
+      "a setting of the servo is out of range",
+      "the last guard stopped a force beyond force_limit_N or slew_limit_N_per_s"};
+  return number < kFaultCount ? kText[number] : "";
+}
+
 }  // namespace firmtouch::servo

@@ -8,6 +8,10 @@ namespace firmtouch::servo {
 constexpr uint32_t kMaxPlanes =
     3;  // a corner of three faces: more planes than that are one contact too many to feel apart
 
+// Far beyond every device.
+constexpr float kMostDriveLimit_N = 1e3f;
+constexpr float kMostTunnel_m = 1e3f;
+
 /// Free where dot(normal, x) >= offset_m (device frame); a spring and damper across it behind.
 struct ContactPlane {
   math::Vec3 normal;  // unit, outward
@@ -16,12 +20,19 @@ struct ContactPlane {
   float damping_N_s_per_m = 0;
 };
 
-/// A straight piece of a guide: pulls towards the line, across it only; free along it.
+/// A straight piece of a guide: pulls towards the line, across it only. Along it the tool is free,
+/// or driven.
 struct GuideLine {
   math::Vec3 point_m;
   math::Vec3 direction;  // unit
   float stiffness_N_per_m = 0;
   float damping_N_s_per_m = 0;
+  float tunnel_m = 0;  // nearer to the line than this nothing is felt across it
+  // Along the line: drive_N where the tool is at the point and at rest, less spring and damper.
+  float drive_N = 0;
+  float drive_stiffness_N_per_m = 0;
+  float drive_damping_N_s_per_m = 0;
+  float drive_limit_N = 0;  // the most along the line, either way; 0: free
 };
 
 /// What scene gives servo: not a force, but what the force is made of, so that servo can evaluate

@@ -1,0 +1,144 @@
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hal/encoders.hpp"
+#include "firmtouch/hal/motors.hpp"
+#include "firmtouch/hal/pace.hpp"
+#include "firmtouch/math/elementary.hpp"
+#include "servo_interrupt.hpp"
+
+// For who has no device yet: joints that a hand made of numbers moves, instead of the board's. It
+// follows the asset's curve (a circle about its mesh where there is none), presses and lifts, and
+// holds the enable switch. What the motors push moves it, so that a change of a parameter is felt.
+// Everything else is the controller program as it is.
+
+namespace firmtouch::hal {
+namespace {
+
+constexpr float kTwoPi_rad = 6.2831853f;
+constexpr float kStep_s = 0.001f;  // of the servo (params::kTickPeriod)
+// A table-top device in a relaxed hand.
+constexpr float kMass_kg = 0.075f;
+constexpr float kHandStiffness_N_per_m = 400.0f;
+constexpr float kDamping_N_s_per_m = 4.5f;
+constexpr float kRound_s = 12.0f;     // once along the curve
+constexpr float kPress_s = 2.0f;      // from one press to the next
+constexpr float kPressDepth = 0.12f;  // of the way from the curve to the middle of the mesh
+constexpr float kLiftHeight = 0.06f;
+constexpr uint32_t kCloses_us = 500000;    // after the start
+constexpr uint32_t kGivesUp_us = 5000000;  // without a force in that time the switch is let go
+constexpr uint32_t kRests_us = 4000000;
+
+struct Axis {
+  float position_m = 0;
+  float velocity_mps = 0;
+  float motor_N = 0;
+};
+
+Axis g_axis[3];
+uint32_t g_ticks = 0;
+bool g_is_closed = false;
+bool g_has_switched = false;
+uint32_t g_switched_us = 0;
+uint32_t g_pushed_us = 0;
+
+float share_of(float period_s) {
+  const uint32_t period = static_cast<uint32_t>(period_s / kStep_s);
+  return static_cast<float>(g_ticks % period) / static_cast<float>(period);
+}
+
+math::Vec3 on_a_circle(const mesh::Head& head) {
+  const float angle_rad = kTwoPi_rad * share_of(kRound_s);
+  return {0.5f * (head.low_m[0] + head.high_m[0]) +
+              0.5f * (head.high_m[0] - head.low_m[0]) * math::cosine(angle_rad),
+          0.5f * (head.low_m[1] + head.high_m[1]) +
+              0.5f * (head.high_m[1] - head.low_m[1]) * math::sine(angle_rad),
+          0.5f * (head.low_m[2] + head.high_m[2])};
+}
+
+math::Vec3 along_the_curve(const curve::View& curve) {
+  const core::Span<const curve::Sample> samples = curve.samples();
+  const float at = share_of(kRound_s) * static_cast<float>(samples.size() - 1);
+  const uint32_t first = static_cast<uint32_t>(at);
+  const float rest = at - static_cast<float>(first);
+  const curve::Sample& a = samples[first];
+  const curve::Sample& b = samples[first + 1 < samples.size() ? first + 1 : first];
+  return {a.x_m + (b.x_m - a.x_m) * rest, a.y_m + (b.y_m - a.y_m) * rest,
+          a.z_m + (b.z_m - a.z_m) * rest};
+}
+
+// Where the hand wants the tool: on its way, and now deeper, now farther out.
+math::Vec3 wanted_m() {
+  const Controller& seen = app::controller;
+  if (!seen.is_ready() || !seen.mesh().is_open()) return {};
+  const mesh::Head& head = seen.mesh().head();
+  const math::Vec3 way = seen.curve().is_open() ? along_the_curve(seen.curve()) : on_a_circle(head);
+  const float swing = math::sine(kTwoPi_rad * share_of(kPress_s));
+  const float in = swing > 0 ? kPressDepth * swing : kLiftHeight * swing;
+  const math::Vec3 middle{0.5f * (head.low_m[0] + head.high_m[0]),
+                          0.5f * (head.low_m[1] + head.high_m[1]),
+                          0.5f * (head.low_m[2] + head.high_m[2])};
+  return {way.x + (middle.x - way.x) * in, way.y + (middle.y - way.y) * in,
+          way.z + (middle.z - way.z) * in};
+}
+
+void move(Axis& axis, float wanted_m) {
+  if (g_ticks == 0) axis.position_m = wanted_m;
+  const float force_N = axis.motor_N + kHandStiffness_N_per_m * (wanted_m - axis.position_m) -
+                        kDamping_N_s_per_m * axis.velocity_mps;
+  axis.velocity_mps += force_N / kMass_kg * kStep_s;
+  axis.position_m += axis.velocity_mps * kStep_s;
+}
+
+// As an encoder of this scene's parameters counts. What is no number, or beyond the counts of an
+// encoder, is not to be trusted.
+bool count(const Axis& axis, uint32_t k, int32_t& counts) {
+  const params::Values& v = app::controller.values();
+  const float scale = v.value[params::kCountsPerMetreX + k];
+  const float at = (axis.position_m - v.value[params::kOriginX + k]) * scale;
+  counts = 0;
+  if (!(at > -1e9f) || !(at < 1e9f)) return false;
+  counts = static_cast<int32_t>(at < 0 ? at - 0.5f : at + 0.5f);
+  return true;
+}
+
+}  // namespace
+
+bool encoders_read(int32_t (&counts)[3]) {
+  pace_tick();
+  const math::Vec3 to = wanted_m();
+  move(g_axis[0], to.x);
+  move(g_axis[1], to.y);
+  move(g_axis[2], to.z);
+  if (app::controller.is_ready()) ++g_ticks;
+  bool good = true;
+  for (uint32_t k = 0; k < 3; ++k) good = count(g_axis[k], k, counts[k]) && good;
+  return good;
+}
+
+void motors_write_N(const float (&motor_N)[3]) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    g_axis[k].motor_N = motor_N[k];
+    if (motor_N[k] > 0 || motor_N[k] < 0) g_pushed_us = clock_us();
+  }
+}
+
+void motors_off() {}
+
+// The operator closes the switch soon after the start. Where nothing pushes any more, as after a
+// fault, he opens it for a while, so that faults can be cleared, and tries again.
+uint32_t motors_lines() {
+  const uint32_t now_us = clock_us();
+  const uint32_t since_us = now_us - g_switched_us;
+  if (!g_has_switched) {
+    g_has_switched = true;
+    g_switched_us = now_us;
+  } else if (!g_is_closed && since_us > (g_pushed_us == 0 ? kCloses_us : kRests_us)) {
+    g_is_closed = true;
+    g_switched_us = now_us;
+  } else if (g_is_closed && since_us > kGivesUp_us && now_us - g_pushed_us > kGivesUp_us) {
+    g_is_closed = false;
+    g_switched_us = now_us;
+  }
+  return g_is_closed ? record::kLineEnable : 0u;
+}
+
+}  // namespace firmtouch::hal

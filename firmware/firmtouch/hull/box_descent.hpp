@@ -1,0 +1,122 @@
+#pragma once
+// A segment against boxes, and down a tree of them. For the library's own translation units.
+
+#include "firmtouch/hull/vertices.hpp"
+#include "firmtouch/query/certificate.hpp"
+
+namespace firmtouch::hull {
+
+/// The slabs of boxes as a segment meets them.
+///
+/// Box and origin are floats, so a plane's difference is off by one rounding, as are the step and its
+/// inverse, and their product once more: 4 units of 2^-24 of the time told. The exit is stretched by
+/// four times that, and by an absolute 2^-100 for what vanishes below the range of float. Boxes are
+/// padded by what a segment may move along an axis on which it is said to stand still.
+struct Slabs {
+  float origin[3], rate[3];
+
+  Slabs(math::Vec3 a_m, math::Vec3 b_m) {
+    constexpr float kStill = 1e-30f, kFar = 1e30f;
+    const math::Vec3 step_m = b_m - a_m;
+    const float from[3] = {a_m.x, a_m.y, a_m.z}, step[3] = {step_m.x, step_m.y, step_m.z};
+    bool is_near = true;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const float size = step[k] < 0.0f ? -step[k] : step[k];
+      const float off = from[k] < 0.0f ? -from[k] : from[k];
+      is_near = is_near && size <= kFar && off <= kFar;
+      origin[k] = from[k];
+      rate[k] = 1.0f / (size > kStill ? step[k] : kStill);
+    }
+    for (uint32_t k = 0; k < 3 && !is_near; ++k)
+      origin[k] = rate[k] = 0.0f;  // all are entered at 0
+  }
+
+  /// When the segment enters the box; more than `limit` where it does not until then.
+  float enter(const Box& box, float limit) const {
+    float first = 0.0f, last = limit;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const float one = (box.low_m[k] - origin[k] - kPad_m) * rate[k];
+      const float other = (box.high_m[k] - origin[k] + kPad_m) * rate[k];
+      const float in = one < other ? one : other, out = one < other ? other : one;
+      first = in > first ? in : first;
+      last = out < last ? out : last;
+    }
+    const float latest = last * (1.0f + 0x1p-20f) + 0x1p-100f;
+    return first <= latest ? first : kNever;
+  }
+  static constexpr float kNever = 2.0f, kPad_m = 4e-30f;
+};
+
+/// A tree whose levels are filled from the left. Its leaves stand from left to right in the last
+/// level, then in the one above.
+struct FilledTree {
+  uint32_t nodes, inner, deepest;  // inner nodes; first node of the last level
+
+  explicit FilledTree(uint32_t node_count) : nodes(node_count), inner(node_count / 2), deepest(1) {
+    while (2 * deepest <= nodes) deepest *= 2;
+    deepest -= 1;
+  }
+  bool is_leaf(uint32_t node) const { return node >= inner; }
+  uint32_t leaf(uint32_t node) const {
+    return node >= deepest ? node - deepest : node - inner + (nodes - deepest);
+  }
+  uint32_t node(uint32_t leaf) const {
+    return leaf < nodes - deepest ? leaf + deepest : leaf - (nodes - deepest) + inner;
+  }
+  /// The box of a node, from the root down; false where one on the way is inverted.
+  bool box_of(core::Span<const NodeBox> boxes, const Box& whole, uint32_t node, Box& box) const {
+    uint32_t level = 0;
+    while (((node + 1) >> (level + 1)) != 0) ++level;
+    box = whole;
+    for (uint32_t up = level + 1; up-- > 0;) {
+      box = child_box(box, boxes[((node + 1) >> up) - 1]);
+      for (uint32_t k = 0; k < 3; ++k)
+        if (!(box.low_m[k] <= box.high_m[k])) return false;
+    }
+    return true;
+  }
+};
+
+/// Visits the leaves whose boxes the segment enters, nearest box first, until `visitor` has enough.
+/// Visitor::limit is the largest t that is still of interest; Visitor::leaf(i) answers whether it
+/// wants more.
+/// Result: whether the search came to its end within `allowed` steps in all.
+template <class Visitor>
+bool descend(core::Span<const NodeBox> boxes, const Box& whole, const Slabs& slabs,
+             uint32_t allowed, uint32_t& steps, Visitor& visitor) {
+  struct Pending {
+    Box box;
+    float entry;
+    uint32_t node;
+  };
+  const FilledTree tree(boxes.size());
+  Pending pending[kMostTreeDepth + 1];
+  uint32_t count = 0;
+  Pending now{child_box(whole, boxes[0]), 0.0f, 0};
+  now.entry = slabs.enter(now.box, visitor.limit);
+  while (true) {
+    if (!(now.entry <= visitor.limit)) {
+      if (count == 0) return true;
+      now = pending[--count];
+      continue;
+    }
+    if (steps >= allowed) return false;
+    ++steps;
+    if (tree.is_leaf(now.node)) {
+      if (!visitor.leaf(tree.leaf(now.node))) return true;
+      now.entry = Slabs::kNever;
+      continue;
+    }
+    const uint32_t left = 2 * now.node + 1;
+    Pending one{child_box(now.box, boxes[left]), 0.0f, left};
+    Pending other{child_box(now.box, boxes[left + 1]), 0.0f, left + 1};
+    one.entry = slabs.enter(one.box, visitor.limit);
+    other.entry = slabs.enter(other.box, visitor.limit);
+    const bool swap = other.entry < one.entry;
+    const Pending& farther = swap ? one : other;
+    if (farther.entry <= visitor.limit) pending[count++] = farther;
+    now = swap ? other : one;
+  }
+}
+
+}  // namespace firmtouch::hull

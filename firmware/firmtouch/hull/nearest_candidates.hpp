@@ -1,0 +1,62 @@
+#pragma once
+// What a refinement has yet to look at, the nearest first. For the library's own translation units.
+
+#include "firmtouch/hull/box_descent.hpp"
+#include "firmtouch/hull/refinement.hpp"
+
+namespace firmtouch::hull {
+
+// Candidate::what: bit 31, a triangle of the mesh; bit 30, the segment enters there; the triangle or
+// the collapse that made the face.
+constexpr uint32_t kOfMesh = 0x80000000u, kEnters = 0x40000000u, kIndex = 0x3FFFFFFFu;
+
+static inline bool is_before(const Candidate& a, const Candidate& b) {
+  return a.t < b.t || (a.t <= b.t && (a.what & kIndex) < (b.what & kIndex));
+}
+
+// The nearest candidate on top. Where it is full the farthest gives way, and `horizon` tells how near
+// the nearest of those was.
+class Nearest {
+ public:
+  explicit Nearest(core::Span<Candidate> room) : room_(room) {}
+  float horizon = Slabs::kNever;
+
+  bool is_empty() const { return count_ == 0; }
+  void push(const Candidate& candidate) {
+    if (count_ == room_.size()) {
+      uint32_t farthest = 0;
+      for (uint32_t i = 1; i < count_; ++i)
+        if (is_before(room_[farthest], room_[i])) farthest = i;
+      const bool gives_way = is_before(candidate, room_[farthest]);
+      const float lost = gives_way ? room_[farthest].t : candidate.t;
+      if (lost < horizon) horizon = lost;
+      if (gives_way) rise(farthest, candidate);
+      return;
+    }
+    rise(count_++, candidate);
+  }
+  Candidate pop() {
+    const Candidate top = room_[0], last = room_[--count_];
+    uint32_t at = 0;
+    while (2 * at + 1 < count_) {
+      uint32_t child = 2 * at + 1;
+      if (child + 1 < count_ && is_before(room_[child + 1], room_[child])) ++child;
+      if (!is_before(room_[child], last)) break;
+      room_[at] = room_[child];
+      at = child;
+    }
+    if (count_ != 0) room_[at] = last;
+    return top;
+  }
+
+ private:
+  void rise(uint32_t at, const Candidate& candidate) {
+    for (; at > 0 && is_before(candidate, room_[(at - 1) / 2]); at = (at - 1) / 2)
+      room_[at] = room_[(at - 1) / 2];
+    room_[at] = candidate;
+  }
+  core::Span<Candidate> room_;
+  uint32_t count_ = 0;
+};
+
+}  // namespace firmtouch::hull

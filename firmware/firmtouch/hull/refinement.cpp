@@ -1,0 +1,270 @@
+#include "firmtouch/hull/refinement.hpp"
+
+#include "firmtouch/hull/box_descent.hpp"
+#include "firmtouch/hull/nearest_candidates.hpp"
+#include "firmtouch/mesh/crossing_takers.hpp"
+
+namespace firmtouch::hull {
+namespace {
+
+using math::Vec3;
+
+Box box_of(const ShellHead& head) {
+  return {{head.low_m[0], head.low_m[1], head.low_m[2]},
+          {head.high_m[0], head.high_m[1], head.high_m[2]}};
+}
+
+uint32_t triangle_of(const Shell& shell, uint32_t face) {
+  const core::Span<const ShellTriangle> all = shell.triangles();
+  uint32_t low = 0, high = all.size();
+  while (high - low > 1) {
+    const uint32_t middle = (low + high) / 2;
+    if (all[middle].face <= face) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return all[low].triangle;
+}
+
+}  // namespace
+
+/// One segment and the faces that it crosses, handed on as candidates.
+class Refinement::Search {
+ public:
+  float limit = 1;
+  uint32_t steps = 0, tests = 0;
+
+  Search(Refinement& of, Vec3 a_m, Vec3 b_m, query::Budget budget)
+      : of_(of),
+        slabs_(a_m, b_m),
+        frame_(of.hull_.head().low_m, of.hull_.head().high_m, a_m, b_m),
+        allowed_(budget.steps == 0 ? 1 : budget.steps) {}
+
+  bool has_steps() const { return steps < allowed_; }
+
+  /// Of the shell's faces. Result: false where the budget ran out.
+  template <class Use>
+  bool shell(Use use) {
+    ShellFaces<Use> faces{limit, *this, use};
+    return descend(of_.shell_.boxes(), box_of(of_.shell_.head()), slabs_, allowed_, steps, faces);
+  }
+
+  /// Of the star of an undone collapse, those that are there.
+  template <class Use>
+  void star(uint32_t collapse, Use use) {
+    const View& hull = of_.hull_;
+    ++steps;
+    const Vec3 about_m = made_vertex(hull, collapse);
+    const Box box = star_box_m(about_m, hull.head().cell_m, hull.star_box(collapse));
+    if (!(slabs_.enter(box, limit) <= limit)) return;
+    const uint8_t* record = hull.record(collapse);
+    const Star star(hull, collapse, record);
+    Vec3 at_m[2 + kMostLink];
+    for (uint32_t i = 0; i < 2 + star.link; ++i) at_m[i] = vertex(hull, star.number[i]);
+    const uint32_t mesh_vertices = hull.head().mesh_vertex_count;
+    uint32_t triangle = 1 + star.link;
+    for (uint32_t i = 0; i < star.face_count(); ++i) {
+      uint32_t corner[3];
+      star.face(i, corner);
+      const uint32_t youngest = star.youngest(corner);
+      const bool is_of_mesh = youngest < mesh_vertices;
+      if (is_of_mesh) {
+        mesh_triangle(hull.id_in(record, triangle++), use);
+        continue;
+      }
+      if (of_.is_undone(youngest - mesh_vertices)) continue;
+      test(at_m[corner[0]], at_m[corner[1]], at_m[corner[2]], youngest - mesh_vertices, use);
+    }
+  }
+
+ private:
+  template <class Use>
+  struct ShellFaces {
+    float limit;
+    Search& search;
+    Use& use;
+    bool leaf(uint32_t leaf) {
+      const Shell& shell = search.of_.shell_;
+      const uint32_t first = leaf * kLeafFaces, count = shell.face_count();
+      const uint32_t end = first + kLeafFaces < count ? first + kLeafFaces : count;
+      for (uint32_t i = first; i < end; ++i) search.shell_face(i, use);
+      return true;
+    }
+  };
+
+  template <class Use>
+  void shell_face(uint32_t i, Use& use) {
+    const Shell& shell = of_.shell_;
+    const ShellFace& face = shell.face(i);
+    if (!(shell.is_made(face.corner[0]) || shell.is_made(face.corner[1]) ||
+          shell.is_made(face.corner[2])))
+      return mesh_triangle(triangle_of(shell, i), use);
+    const auto of_face = [&](const Candidate& candidate) {
+      uint32_t youngest = 0;
+      for (const uint16_t corner : face.corner) {
+        const uint32_t number = of_.hull_.number_of(shell.id_of(corner));
+        youngest = number > youngest ? number : youngest;
+      }
+      const uint32_t maker = youngest - of_.hull_.head().mesh_vertex_count;
+      use(Candidate{candidate.t, candidate.what | maker});
+    };
+    test(vertex(shell, face.corner[0]), vertex(shell, face.corner[1]),
+         vertex(shell, face.corner[2]), 0, of_face);
+  }
+
+  // With the mesh's own order of corners: to the bit what the mesh answers.
+  template <class Use>
+  void mesh_triangle(uint32_t i, Use& use) {
+    const mesh::Triangle<uint32_t> t = of_.hull_.triangle(i);
+    test(of_.hull_.mesh_vertex(t.corner[0]), of_.hull_.mesh_vertex(t.corner[1]),
+         of_.hull_.mesh_vertex(t.corner[2]), i | kOfMesh, use);
+  }
+
+  template <class Use>
+  void test(Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t what, Use& use) {
+    ++tests;
+    const mesh::Crossing crossing = frame_.crossing(p_m, q_m, r_m);
+    if (crossing.direction == 0) return;
+    use(Candidate{crossing.t, what | (crossing.direction < 0 ? kEnters : 0u)});
+  }
+
+  Refinement& of_;
+  Slabs slabs_;
+  mesh::SegmentFrame frame_;
+  uint32_t allowed_;
+};
+
+Refinement::Refinement(const View& hull, const Shell& shell, const RefinementMemory& memory)
+    : hull_(hull), shell_(shell), memory_(memory) {
+  for (uint32_t& word : memory_.is_undone) word = 0;
+}
+
+// False: no room for one more.
+bool Refinement::add(uint32_t collapse) {
+  if (collapse >= shell_.head().cut || is_undone(collapse)) return true;
+  if (count_ == memory_.undone.size()) return false;
+  memory_.is_undone[collapse / 32] |= 1u << (collapse % 32);
+  memory_.undone[count_++] = collapse;
+  return true;
+}
+
+bool Refinement::split(uint32_t collapse) {
+  const uint32_t before = count_;
+  bool fits = add(collapse);
+  for (uint32_t at = before; fits && at < count_; ++at) {
+    const uint8_t* record = hull_.record(memory_.undone[at]);
+    const uint32_t ids = 1 + link_of(View::head_of(record));
+    for (uint32_t i = 0; fits && i < ids; ++i) fits = add(removed_by(hull_.id_in(record, i)));
+  }
+  if (count_ > most_) most_ = count_;
+  while (!fits && count_ > before) {
+    const uint32_t undone = memory_.undone[--count_];
+    memory_.is_undone[undone / 32] &= ~(1u << (undone % 32));
+  }
+  return fits;
+}
+
+void Refinement::reset() {
+  for (uint32_t i = 0; i < count_; ++i) memory_.is_undone[memory_.undone[i] / 32] = 0;
+  count_ = 0;
+}
+
+RefinedHit Refinement::first(Vec3 a_m, Vec3 b_m, query::Budget budget) {
+  return nearest(a_m, b_m, budget, false);
+}
+RefinedHit Refinement::any(Vec3 a_m, Vec3 b_m, query::Budget budget) {
+  return nearest(a_m, b_m, budget, true);
+}
+
+// The nearest crossing of the hull as it is can never lie behind the mesh's: where it is one of the
+// mesh, that is the answer; else its face is replaced.
+RefinedHit Refinement::nearest(Vec3 a_m, Vec3 b_m, query::Budget budget, bool is_any) {
+  RefinedHit hit;
+  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return hit;
+  reset();
+  Search search(*this, a_m, b_m, budget);
+  Nearest queue(memory_.candidates);
+  const auto keep = [&](const Candidate& candidate) {
+    if (candidate.t <= search.limit) queue.push(candidate);
+  };
+  const auto tell = [&](const Candidate& candidate) {
+    hit.hit = true;
+    hit.is_of_mesh = (candidate.what & kOfMesh) != 0;
+    hit.triangle = hit.is_of_mesh ? candidate.what & kIndex : 0;
+    hit.t = candidate.t;
+    hit.enters = (candidate.what & kEnters) != 0;
+  };
+  hit.exact = search.shell(keep);
+  if (!hit.exact) tell({0.0f, kEnters});  // a face that was not looked at may be crossed at once
+  while (hit.exact && !queue.is_empty()) {
+    const Candidate now = queue.pop();
+    if (now.t > search.limit) break;
+    if (!hit.hit && now.t >= queue.horizon) break;
+    const uint32_t index = now.what & kIndex;
+    if ((now.what & kOfMesh) != 0) {
+      const bool is_first = !hit.hit || now.t < hit.t || (now.t <= hit.t && index < hit.triangle);
+      if (is_first) tell(now);
+      if (is_any) break;
+      // A face that is crossed later in truth may be told earlier.
+      search.limit = mesh::smaller(hit.t + 2.0f * mesh::kTimeError, search.limit);
+      continue;
+    }
+    if (is_undone(index)) continue;
+    const uint32_t before = count_;
+    if (!search.has_steps() || !split(index)) {
+      if (!hit.hit) tell(now);
+      hit.exact = false;
+      break;
+    }
+    for (uint32_t at = before; at < count_; ++at) search.star(memory_.undone[at], keep);
+  }
+  if (queue.horizon <= search.limit) {  // one that had to give way may have been nearer
+    if (!hit.hit) tell({queue.horizon, kEnters});
+    hit.exact = false;
+  }
+  hit.steps = search.steps;
+  hit.tests = search.tests;
+  hit.splits = count_;
+  reset();
+  return hit;
+}
+
+RefinedCrossings Refinement::all(Vec3 a_m, Vec3 b_m, query::Budget budget,
+                                 core::Span<mesh::SurfaceCrossing> room) {
+  RefinedCrossings result;
+  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return result;
+  reset();
+  Search search(*this, a_m, b_m, budget);
+  mesh::All all(room);
+  bool fits = true;
+  // What an earlier one has replaced meanwhile is left out.
+  const auto use = [&](const Candidate& candidate) {
+    const uint32_t index = candidate.what & kIndex;
+    if ((candidate.what & kOfMesh) == 0) {
+      fits = split(index) && fits;
+      return;
+    }
+    const int8_t direction = (candidate.what & kEnters) != 0 ? int8_t{-1} : int8_t{1};
+    (void)all.take({direction, candidate.t}, index);
+  };
+  result.exact = search.shell(use);
+  for (uint32_t at = 0; at < count_; ++at) {
+    if (!search.has_steps()) {
+      result.exact = false;
+      break;
+    }
+    search.star(memory_.undone[at], use);
+  }
+  result.exact = result.exact && fits;
+  result.found = all.crossings.found;
+  result.told = all.crossings.told;
+  result.steps = search.steps;
+  result.tests = search.tests;
+  result.splits = count_;
+  reset();
+  return result;
+}
+
+}  // namespace firmtouch::hull

@@ -1,0 +1,175 @@
+#include "firmtouch/hull/shell.hpp"
+
+#include "firmtouch/core/bytes.hpp"
+#include "firmtouch/hull/box_descent.hpp"
+
+namespace firmtouch::hull {
+namespace {
+
+using core::kPassed;
+using core::reject;
+using core::Verdict;
+
+// What is left of a block, taken from its front.
+class Rest {
+ public:
+  explicit Rest(core::Bytes bytes) : bytes_(bytes) {}
+  /// Empty, and no more whole, where there are too few.
+  core::Bytes take(uint64_t bytes) {
+    const uint64_t whole = (bytes + 3) & ~uint64_t{3};
+    if (whole > bytes_.size()) {
+      is_whole_ = false;
+      return {};
+    }
+    const core::Bytes taken(bytes_.data(), static_cast<uint32_t>(bytes));
+    bytes_ = {bytes_.data() + whole, bytes_.size() - static_cast<uint32_t>(whole)};
+    return taken;
+  }
+  template <class T>
+  core::Span<const T> take_array(uint64_t count) {
+    const core::Bytes bytes = take(count * sizeof(T));
+    return core::as_array<T>(bytes, static_cast<uint32_t>(bytes.size() / sizeof(T)));
+  }
+  bool is_used_up() const { return is_whole_ && bytes_.empty(); }
+
+ private:
+  core::Bytes bytes_;
+  bool is_whole_ = true;
+};
+
+Box box_of(const ShellHead& head) {
+  return {{head.low_m[0], head.low_m[1], head.low_m[2]},
+          {head.high_m[0], head.high_m[1], head.high_m[2]}};
+}
+
+}  // namespace
+
+ShellOpening::ShellOpening(core::Bytes bytes, const View& hull) {
+  stage_ = Stage::kVertices;
+  verdict_ = open_head(bytes, hull);
+  if (!verdict_.ok()) fail(verdict_);
+}
+
+void ShellOpening::fail(Verdict verdict) {
+  verdict_ = verdict;
+  stage_ = Stage::kDone;
+}
+
+Verdict ShellOpening::open_head(core::Bytes bytes, const View& hull) {
+  const core::Span<const ShellHead> heads = core::as_array<ShellHead>(bytes, 1);
+  if (heads.empty() || heads[0].bytes != bytes.size()) return reject(540);
+  const ShellHead& head = heads[0];
+  const Head& of = hull.head();
+  if (head.cut > of.collapse_count) return reject(541, 0);
+  if (head.face_count == 0 || head.face_count != of.mesh_triangle_count - 2 * head.cut)
+    return reject(541, 1);
+  if (head.made_count > kMostShellVertices || head.kept_count > kMostShellVertices ||
+      head.made_count + head.kept_count > kMostShellVertices)
+    return reject(541, 2);
+  if (head.triangle_count > head.face_count) return reject(541, 3);
+  Rest rest(
+      {bytes.data() + sizeof(ShellHead), bytes.size() - static_cast<uint32_t>(sizeof(ShellHead))});
+  shell_.head_ = &head;
+  shell_.boxes_ = rest.take_array<NodeBox>(nodes_for(leaves_for(head.face_count, kLeafFaces)));
+  shell_.faces_ = rest.take_array<ShellFace>(head.face_count);
+  shell_.coordinates_ = rest.take(uint64_t{head.made_count} * 3 * of.coordinate_bytes);
+  shell_.ids_ = rest.take(uint64_t{head.made_count} * of.id_bytes);
+  shell_.kept_ = rest.take_array<ShellVertex>(head.kept_count);
+  shell_.triangles_ = rest.take_array<ShellTriangle>(head.triangle_count);
+  if (!rest.is_used_up()) return reject(540, 1);
+  shell_.coordinate_bytes_ = of.coordinate_bytes;
+  shell_.id_bytes_ = of.id_bytes;
+  for (uint32_t k = 0; k < 3; ++k) {
+    shell_.grid_low_m_[k] = of.grid_low_m[k];
+    if (!(head.low_m[k] >= of.low_m[k] && head.low_m[k] <= head.high_m[k] &&
+          head.high_m[k] <= of.high_m[k]))
+      return reject(542, k);
+  }
+  shell_.cell_m_ = of.cell_m;
+  return kPassed;
+}
+
+void ShellOpening::work(uint32_t elements, const View& hull) {
+  for (; elements > 0 && stage_ != Stage::kDone; --elements) {
+    const bool of_vertices = stage_ == Stage::kVertices;
+    const uint32_t vertices = shell_.head_->made_count + shell_.head_->kept_count;
+    Verdict found = kPassed;
+    if (!of_vertices) {
+      found = check_face(next_, hull);
+    } else if (next_ < vertices) {
+      found = check_vertex(next_, hull);
+    }
+    if (!found.ok()) return fail(found);
+    if (++next_ < (of_vertices ? vertices : shell_.head_->face_count)) continue;
+    next_ = 0;
+    if (of_vertices) {
+      stage_ = Stage::kFaces;
+    } else if (next_triangle_ != shell_.head_->triangle_count) {
+      return fail(reject(546, next_triangle_));
+    } else if (edges_ != 0) {
+      return fail(reject(548));
+    } else {
+      stage_ = Stage::kDone;
+    }
+  }
+}
+
+Verdict ShellOpening::check_vertex(uint32_t i, const View& hull) const {
+  const uint32_t id = shell_.id_of(i), mesh_vertices = hull.head().mesh_vertex_count;
+  if (id >= hull.id_count() || (removed_by(id) < shell_.head_->cut)) return reject(543, i);
+  const uint32_t number = hull.number_of(id);
+  if (shell_.is_made(i) != (number >= mesh_vertices) || number >= mesh_vertices + shell_.head_->cut)
+    return reject(543, i);
+  const math::Vec3 here_m = vertex(shell_, i), there_m = hull::vertex(hull, number);
+  if (math::bits_of(here_m.x) != math::bits_of(there_m.x) ||
+      math::bits_of(here_m.y) != math::bits_of(there_m.y) ||
+      math::bits_of(here_m.z) != math::bits_of(there_m.z))
+    return reject(544, i);
+  return kPassed;
+}
+
+Verdict ShellOpening::check_face(uint32_t i, const View& hull) {
+  const ShellFace& face = shell_.face(i);
+  uint32_t number[3];
+  bool is_triangle = true;
+  for (uint32_t k = 0; k < 3; ++k) {
+    if (face.corner[k] >= shell_.head_->made_count + shell_.head_->kept_count)
+      return reject(545, i);
+    number[k] = hull.number_of(shell_.id_of(face.corner[k]));
+    is_triangle = is_triangle && !shell_.is_made(face.corner[k]);
+  }
+  faces_ += face_hash(number[0], number[1], number[2]);
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t next = number[k == 2 ? 0 : k + 1];
+    edges_ += edge_hash(number[k], next) - edge_hash(next, number[k]);
+  }
+  const Verdict boxed = check_box(i);
+  if (!boxed.ok() || !is_triangle) return boxed;
+  if (next_triangle_ == shell_.head_->triangle_count) return reject(546, i);
+  const ShellTriangle& told = shell_.triangles_[next_triangle_++];
+  if (told.face != i || told.triangle >= hull.head().mesh_triangle_count) return reject(546, i);
+  const mesh::Triangle<uint32_t> t = hull.triangle(told.triangle);
+  return face_hash(t.corner[0], t.corner[1], t.corner[2]) ==
+                 face_hash(number[0], number[1], number[2])
+             ? kPassed
+             : reject(546, i);
+}
+
+Verdict ShellOpening::check_box(uint32_t face) const {
+  const FilledTree tree(shell_.boxes_.size());
+  Box box;
+  if (!tree.box_of(shell_.boxes_, box_of(*shell_.head_), tree.node(face / kLeafFaces), box))
+    return reject(547, face);
+  for (const uint16_t corner : shell_.face(face).corner)
+    if (!holds(box, vertex(shell_, corner))) return reject(547, face);
+  return kPassed;
+}
+
+Verdict open_shell(core::Bytes bytes, const View& hull, Shell& shell) {
+  ShellOpening opening(bytes, hull);
+  while (!opening.done()) opening.work(UINT32_MAX, hull);
+  shell = opening.shell();
+  return opening.verdict();
+}
+
+}  // namespace firmtouch::hull

@@ -1,0 +1,85 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
+#include "firmtouch/hull/layout.hpp"
+
+namespace firmtouch::hull {
+
+class View;
+
+/// A hull of one size in a block of bytes that open() has proven: the coarsest lies in the asset,
+/// others are cut by tools. Copied to fast memory and opened there it is tested without a read of
+/// the asset.
+class Shell {
+ public:
+  Shell() = default;
+
+  bool is_open() const { return head_ != nullptr; }
+  const ShellHead& head() const { return *head_; }
+  uint32_t face_count() const { return head_->face_count; }
+  core::Span<const NodeBox> boxes() const { return boxes_; }
+  const ShellFace& face(uint32_t i) const { return faces_[i]; }
+  bool is_made(uint32_t vertex) const { return vertex < head_->made_count; }
+  const uint8_t* coordinates(uint32_t made) const {
+    return &coordinates_[made * 3 * coordinate_bytes_];
+  }
+  uint32_t coordinate_bytes() const { return coordinate_bytes_; }
+  const ShellVertex& kept(uint32_t vertex) const { return kept_[vertex - head_->made_count]; }
+  uint32_t id_of(uint32_t vertex) const {
+    if (!is_made(vertex)) return kept(vertex).id;
+    const uint8_t* at = &ids_[vertex * id_bytes_];
+    const uint32_t low = at[0] | static_cast<uint32_t>(at[1]) << 8;
+    return id_bytes_ == 2 ? low : low | static_cast<uint32_t>(at[2]) << 16;
+  }
+  core::Span<const ShellTriangle> triangles() const { return triangles_; }
+  // Of the grid, kept here so that a test reads nothing else.
+  const float* grid_low_m() const { return grid_low_m_; }
+  float cell_m() const { return cell_m_; }
+
+ private:
+  friend class ShellOpening;
+  const ShellHead* head_ = nullptr;
+  core::Span<const NodeBox> boxes_;
+  core::Span<const ShellFace> faces_;
+  core::Bytes coordinates_, ids_;
+  core::Span<const ShellVertex> kept_;
+  core::Span<const ShellTriangle> triangles_;
+  uint32_t coordinate_bytes_ = 0, id_bytes_ = 0;
+  float grid_low_m_[3] = {}, cell_m_ = 0;
+};
+
+/// Proves a shell against its hull (whose ids and vertices must be proven): rules R540 to R549.
+class ShellOpening {
+ public:
+  ShellOpening() = default;
+  ShellOpening(core::Bytes bytes, const View& hull);
+
+  /// Checks up to `elements` vertices or faces more.
+  void work(uint32_t elements, const View& hull);
+  bool done() const { return stage_ == Stage::kDone; }
+  core::Verdict verdict() const { return verdict_; }
+  Shell shell() const { return done() && verdict_.ok() ? shell_ : Shell{}; }
+  /// Sum of the hashes of its faces' vertex numbers.
+  uint64_t faces() const { return faces_; }
+
+ private:
+  enum class Stage : uint8_t { kVertices, kFaces, kDone };
+  void fail(core::Verdict verdict);
+  core::Verdict open_head(core::Bytes bytes, const View& hull);
+  core::Verdict check_vertex(uint32_t i, const View& hull) const;
+  core::Verdict check_face(uint32_t i, const View& hull);
+  core::Verdict check_box(uint32_t face) const;
+
+  Shell shell_;
+  core::Verdict verdict_;
+  Stage stage_ = Stage::kDone;
+  uint32_t next_ = 0, next_triangle_ = 0;
+  uint64_t faces_ = 0, edges_ = 0;
+};
+
+/// All at once.
+core::Verdict open_shell(core::Bytes bytes, const View& hull, Shell& shell);
+
+}  // namespace firmtouch::hull

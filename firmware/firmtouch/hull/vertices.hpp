@@ -1,0 +1,140 @@
+#pragma once
+// Where the vertices and boxes of a hull lie. For the library's own translation units.
+
+#include "firmtouch/hull/view.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::hull {
+
+/// A coordinate on the grid: exact, as the grid's points are.
+static inline float on_grid(const uint8_t* at, uint32_t bytes, float low_m, float cell_m) {
+  const uint32_t two = at[0] | static_cast<uint32_t>(at[1]) << 8;
+  const uint32_t steps = bytes == 2 ? two : two | static_cast<uint32_t>(at[2]) << 16;
+  return low_m + static_cast<float>(static_cast<int32_t>(steps)) * cell_m;
+}
+static inline math::Vec3 on_grid(const uint8_t* at, uint32_t bytes, const float* low_m,
+                                 float cell_m) {
+  return {on_grid(at, bytes, low_m[0], cell_m), on_grid(at + bytes, bytes, low_m[1], cell_m),
+          on_grid(at + 2 * bytes, bytes, low_m[2], cell_m)};
+}
+
+/// The new vertex of a collapse.
+static inline math::Vec3 made_vertex(const View& hull, uint32_t collapse) {
+  const Head& head = hull.head();
+  return on_grid(hull.coordinates(collapse), head.coordinate_bytes, head.grid_low_m, head.cell_m);
+}
+/// By number.
+static inline math::Vec3 vertex(const View& hull, uint32_t number) {
+  const uint32_t mesh_vertices = hull.head().mesh_vertex_count;
+  return number < mesh_vertices ? hull.mesh_vertex(number)
+                                : made_vertex(hull, number - mesh_vertices);
+}
+/// By the shell's own number.
+static inline math::Vec3 vertex(const Shell& shell, uint32_t i) {
+  if (!shell.is_made(i)) return {shell.kept(i).x_m, shell.kept(i).y_m, shell.kept(i).z_m};
+  return on_grid(shell.coordinates(i), shell.coordinate_bytes(), shell.grid_low_m(),
+                 shell.cell_m());
+}
+
+struct Box {
+  float low_m[3], high_m[3];
+};
+
+/// As the baker computed it, to the bit: the proof at open() is of these floats.
+static inline Box child_box(const Box& parent, const NodeBox& node) {
+  Box box;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const float unit_m = (parent.high_m[k] - parent.low_m[k]) * 0x1p-8f;
+    box.low_m[k] = parent.low_m[k] + static_cast<float>(static_cast<int32_t>(node.low[k])) * unit_m;
+    box.high_m[k] =
+        parent.high_m[k] - static_cast<float>(static_cast<int32_t>(node.high[k])) * unit_m;
+  }
+  return box;
+}
+
+static inline Box star_box_m(math::Vec3 about_m, float cell_m, const StarBox& star) {
+  uint64_t bits = 0;
+  for (uint32_t i = 0; i < 6; ++i) bits |= static_cast<uint64_t>(star.bits[i]) << (8 * i);
+  const uint32_t exponent = static_cast<uint32_t>(bits >> 42);
+  const float unit_m = cell_m * math::float_of((127u + exponent) << 23);
+  const float about[3] = {about_m.x, about_m.y, about_m.z};
+  Box box;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t low = static_cast<uint32_t>(bits >> (14 * k)) & kMostReach;
+    const uint32_t high = static_cast<uint32_t>(bits >> (14 * k + 7)) & kMostReach;
+    box.low_m[k] = about[k] - static_cast<float>(static_cast<int32_t>(low)) * unit_m;
+    box.high_m[k] = about[k] + static_cast<float>(static_cast<int32_t>(high)) * unit_m;
+  }
+  return box;
+}
+
+static inline bool holds(const Box& box, math::Vec3 p_m) {
+  return box.low_m[0] <= p_m.x && p_m.x <= box.high_m[0] && box.low_m[1] <= p_m.y &&
+         p_m.y <= box.high_m[1] && box.low_m[2] <= p_m.z && p_m.z <= box.high_m[2];
+}
+
+/// Corner numbers of a star's faces, in the order that a record tells.
+struct Star {
+  uint32_t link, split;
+  uint32_t id[2 + kMostLink];      // of vertices 2 k and 2 k + 1, then of the link
+  uint32_t number[2 + kMostLink];  // of the same
+
+  Star(const View& hull, uint32_t collapse, const uint8_t* record) {
+    const uint32_t head = View::head_of(record);
+    link = link_of(head);
+    split = split_of(head);
+    id[0] = 2 * collapse;
+    id[1] = 2 * collapse + 1;
+    for (uint32_t i = 0; i < link; ++i) id[2 + i] = hull.id_in(record, 1 + i);
+    for (uint32_t i = 0; i < 2 + link; ++i) number[i] = hull.number_of(id[i]);
+  }
+  uint32_t face_count() const { return link + 2; }
+  /// Places in `id` and `number` of the corners of a face.
+  void face(uint32_t i, uint32_t (&corner)[3]) const {
+    if (i < link) {
+      corner[0] = i < split ? 0 : 1;
+      corner[1] = 2 + i;
+      corner[2] = i + 1 == link ? 2 : 3 + i;
+    } else {
+      corner[0] = i == link ? 0 : 1;
+      corner[1] = i == link ? 1 : 0;
+      corner[2] = i == link ? 2 : 2 + split;
+    }
+  }
+  /// The youngest corner's number: below mesh_vertex_count a triangle of the mesh, else made by that
+  /// vertex's collapse.
+  uint32_t youngest(const uint32_t (&corner)[3]) const {
+    uint32_t most = number[corner[0]];
+    if (number[corner[1]] > most) most = number[corner[1]];
+    return number[corner[2]] > most ? number[corner[2]] : most;
+  }
+};
+
+/// Scatters a number over 64 bits.
+/// Source: Steele, Lea & Flood 2014, SplitMix.
+static inline uint64_t scattered(uint64_t x) {
+  x += 0x9E3779B97F4A7C15u;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+  return x ^ (x >> 31);
+}
+
+/// Of a face's three vertex numbers, whichever comes first.
+static inline uint64_t face_hash(uint32_t a, uint32_t b, uint32_t c) {
+  const bool is_b = b < a && b < c, is_c = c < a && c < b;
+  const uint32_t first = is_b   ? b
+                         : is_c ? c
+                                : a,
+                 second = is_b   ? c
+                          : is_c ? a
+                                 : b,
+                 third = is_b   ? a
+                         : is_c ? b
+                                : c;
+  return scattered(scattered(scattered(first) ^ second) ^ third);
+}
+static inline uint64_t edge_hash(uint32_t from, uint32_t to) {
+  return scattered(scattered(from) ^ to);
+}
+
+}  // namespace firmtouch::hull

@@ -1,0 +1,125 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
+#include "firmtouch/hull/layout.hpp"
+#include "firmtouch/hull/shell.hpp"
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/mesh/layout.hpp"
+
+namespace firmtouch::hull {
+
+/// The bytes of a hull's sections, as the container hands them out, and of its mesh those that a
+/// hull reads: never the mesh's tree. One of triangles16 and triangles32.
+struct Sections {
+  core::Bytes head, vertices, origins, records, places, star_boxes, boxes, shell;
+  core::Bytes mesh_head, mesh_vertices, triangles16, triangles32;
+};
+
+/// A progressive hull that open() has proven. Immutable; share it between any number of tools.
+class View {
+ public:
+  View() = default;
+
+  bool is_open() const { return head_ != nullptr; }
+  const Head& head() const { return *head_; }
+  const mesh::Head& mesh_head() const { return *mesh_head_; }
+  uint32_t collapse_count() const { return head_->collapse_count; }
+  uint32_t id_count() const { return head_->mesh_vertex_count + head_->collapse_count; }
+  /// The coarsest hull.
+  const Shell& shell() const { return shell_; }
+
+  /// Of an id: a vertex of the mesh, or mesh_vertex_count + the collapse that makes it.
+  uint32_t number_of(uint32_t id) const { return read_id(&origins_[id * head_->id_bytes]); }
+  mesh::Triangle<uint32_t> triangle(uint32_t i) const {
+    if (!triangles16_.empty()) {
+      const mesh::Triangle<uint16_t>& t = triangles16_[i];
+      return {{t.corner[0], t.corner[1], t.corner[2]}};
+    }
+    return triangles32_[i];
+  }
+  math::Vec3 mesh_vertex(uint32_t i) const {
+    return {mesh_vertices_[i].x_m, mesh_vertices_[i].y_m, mesh_vertices_[i].z_m};
+  }
+  /// The record of a collapse, at its head.
+  const uint8_t* record(uint32_t collapse) const {
+    const uint8_t* at = records_.data() + places_[collapse / kRecordsAPlace];
+    for (uint32_t skip = collapse % kRecordsAPlace; skip > 0; --skip)
+      at += record_size(head_of(at), head_->id_bytes);
+    return at;
+  }
+  static uint32_t head_of(const uint8_t* record) {
+    return record[0] | static_cast<uint32_t>(record[1]) << 8;
+  }
+  /// Of a record: 0 the new vertex, 1 and on the link, then the mesh's triangles.
+  uint32_t id_in(const uint8_t* record, uint32_t i) const {
+    return read_id(record + 2 + i * head_->id_bytes);
+  }
+  const uint8_t* coordinates(uint32_t collapse) const {
+    return &vertices_[collapse * 3 * head_->coordinate_bytes];
+  }
+  const StarBox& star_box(uint32_t collapse) const { return star_boxes_[collapse]; }
+  core::Span<const NodeBox> boxes() const { return boxes_; }
+
+ private:
+  friend class Opening;
+  uint32_t read_id(const uint8_t* at) const {
+    const uint32_t low = at[0] | static_cast<uint32_t>(at[1]) << 8;
+    return head_->id_bytes == 2 ? low : low | static_cast<uint32_t>(at[2]) << 16;
+  }
+
+  const Head* head_ = nullptr;
+  const mesh::Head* mesh_head_ = nullptr;
+  core::Bytes vertices_, origins_, records_;
+  core::Span<const uint32_t> places_;
+  core::Span<const StarBox> star_boxes_;
+  core::Span<const NodeBox> boxes_;
+  core::Span<const mesh::Vertex> mesh_vertices_;
+  core::Span<const mesh::Triangle<uint16_t>> triangles16_;
+  core::Span<const mesh::Triangle<uint32_t>> triangles32_;
+  Shell shell_;
+};
+
+/// Proves a hull in slices, as mesh::Opening does its mesh: rules R501 to R549 of tools/FORMAT.md.
+/// It needs the mesh's vertices and triangles, not the mesh's proof.
+class Opening {
+ public:
+  explicit Opening(const Sections& sections);
+
+  /// Checks up to `elements` vertices, triangles, ids, records or faces more.
+  /// Bounds: O(elements), a triangle as often as its tree is deep; no recursion; reads only inside
+  ///         the sections.
+  void work(uint32_t elements);
+  bool done() const { return stage_ == Stage::kDone; }
+  core::Verdict verdict() const { return verdict_; }
+  /// The proven hull; one that is not open unless done() and verdict().ok().
+  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+
+ private:
+  enum class Stage : uint8_t { kMeshVertices, kIds, kRecords, kTriangles, kShell, kDone };
+  void fail(core::Verdict verdict);
+  core::Verdict open_head(const Sections& sections);
+  core::Verdict open_mesh(const Sections& sections);
+  void next_stage();
+  core::Verdict check_mesh_vertex(uint32_t i) const;
+  core::Verdict check_id(uint32_t id);
+  core::Verdict check_record(uint32_t collapse);
+  core::Verdict check_star(uint32_t collapse, const uint8_t* record);
+  core::Verdict check_triangle(uint32_t i);
+
+  View view_;
+  core::Bytes shell_bytes_;
+  core::Verdict verdict_;
+  Stage stage_ = Stage::kDone;
+  uint32_t next_ = 0, record_at_ = 0;
+  // Sums of hashes, which tell without memory that the same things stand on both sides: each number
+  // has one id; each face that is there or is made is replaced or left once.
+  uint64_t numbers_ = 0, faces_ = 0;
+  ShellOpening shell_opening_;
+};
+
+/// All at once.
+core::Verdict open(const Sections& sections, View& view);
+
+}  // namespace firmtouch::hull

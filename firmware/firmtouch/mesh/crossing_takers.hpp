@@ -1,0 +1,74 @@
+#pragma once
+// What a search along a segment keeps of the crossings that it finds. For the library's own
+// translation units.
+
+#include "firmtouch/mesh/segment_cast.hpp"
+#include "firmtouch/mesh/segment_frame.hpp"
+
+namespace firmtouch::mesh {
+
+// limit: the largest t that is still of interest. take(): whether more are wanted.
+
+class First {
+ public:
+  float limit = 1;
+  Hit hit;
+
+  bool take(const Crossing& crossing, uint32_t triangle) {
+    const bool is_first =
+        !hit.hit || crossing.t < hit.t || (crossing.t <= hit.t && triangle < hit.triangle);
+    if (!is_first) return true;
+    hit.hit = true;
+    hit.t = crossing.t;
+    hit.triangle = triangle;
+    hit.enters = crossing.direction < 0;
+    // A box that is entered later in truth may hold a crossing that is told earlier.
+    limit = smaller(crossing.t + 2.0f * kTimeError, 1.0f);
+    return true;
+  }
+};
+
+class Any {
+ public:
+  float limit = 1;
+  Hit hit;
+
+  bool take(const Crossing& crossing, uint32_t triangle) {
+    hit.hit = true;
+    hit.t = crossing.t;
+    hit.triangle = triangle;
+    hit.enters = crossing.direction < 0;
+    return false;
+  }
+};
+
+class All {
+ public:
+  explicit All(core::Span<SurfaceCrossing> room) : room_(room) {}
+  float limit = 1;
+  Crossings crossings;
+
+  bool take(const Crossing& crossing, uint32_t triangle) {
+    ++crossings.found;
+    uint32_t at = crossings.told;
+    if (at < room_.size()) {
+      ++crossings.told;
+    } else if (at == 0 || !is_before(crossing.t, triangle, room_[at - 1])) {
+      return true;
+    } else {
+      --at;  // the last one gives way
+    }
+    for (; at > 0 && is_before(crossing.t, triangle, room_[at - 1]); --at)
+      room_[at] = room_[at - 1];
+    room_[at] = {crossing.t, triangle, crossing.direction < 0};
+    return true;
+  }
+
+ private:
+  static bool is_before(float t, uint32_t triangle, const SurfaceCrossing& other) {
+    return t < other.t || (t <= other.t && triangle < other.triangle);
+  }
+  core::Span<SurfaceCrossing> room_;
+};
+
+}  // namespace firmtouch::mesh

@@ -1,0 +1,228 @@
+// Refinement of a small hull: on the host and on the controller, with the same bits.
+#include "firmtouch/hull/refinement.hpp"
+#include "firmtouch/core/hash.hpp"
+#include "firmtouch/hull/complete_cast.hpp"
+#include "small_hull.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using hull_test::SmallHull;
+using math::Vec3;
+
+constexpr uint32_t kMost = 128;  // collapses, of the small hull fewer
+
+struct Opened {
+  SmallHull small;
+  hull::View view;
+  Opened() { CHECK(hull::open(small.sections, view).ok()); }
+};
+
+template <uint32_t kUndone, uint32_t kCandidates>
+struct Memory {
+  uint32_t bits[hull::bit_words(kMost)];
+  uint32_t undone[kUndone];
+  hull::Candidate candidates[kCandidates];
+  hull::RefinementMemory spans() { return {{bits}, {undone}, {candidates}}; }
+};
+
+uint32_t g_random = 1;
+float random_in(float low, float high) {
+  g_random = g_random * 1664525u + 1013904223u;
+  const float part = (high - low) * static_cast<float>(g_random >> 8) * 0x1p-24f;
+  return low + part;
+}
+struct Segment {
+  Vec3 a, b;
+};
+// Both ends outside, through the ring's neighbourhood.
+Segment through() {
+  const float side = random_in(0, 1) < 0.5f ? -3.0f : 3.0f;
+  const Vec3 aim{random_in(-1.3f, 1.3f), random_in(-1.3f, 1.3f), random_in(-0.4f, 0.4f)};
+  const Vec3 a{random_in(-3, 3), side, random_in(-2, 2)};
+  const Vec3 twice{aim.x * 2, aim.y * 2, aim.z * 2};
+  return {a, {twice.x - a.x, twice.y - a.y, twice.z - a.z}};
+}
+
+uint32_t bits_of(float value) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+// Of a triangle's corners in their turn, whichever comes first; summed, an order does not matter.
+uint64_t mark(const uint32_t (&corner)[3]) {
+  uint32_t first = 0;
+  for (uint32_t k = 1; k < 3; ++k)
+    if (corner[k] < corner[first]) first = k;
+  core::Hash hash;
+  for (uint32_t k = 0; k < 3; ++k) hash.add(corner[(first + k) % 3]);
+  return hash.value();
+}
+
+}  // namespace
+
+TEST(SplittingEverythingRestoresTheMeshFaceForFace) {
+  const Opened opened;
+  Memory<kMost, 4> memory;
+  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  for (uint32_t k = 0; k < opened.view.collapse_count(); ++k) CHECK(refinement.split(k));
+  CHECK_EQ(refinement.split_count(), opened.view.collapse_count());
+  uint64_t wanted = 0, found = 0;
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < opened.view.head().mesh_triangle_count; ++i)
+    wanted += mark(opened.view.triangle(i).corner);
+  for (hull::Refinement::Faces faces(refinement); faces.next(); ++count)
+    found += mark(faces.number);
+  CHECK_EQ(count, opened.view.head().mesh_triangle_count);
+  CHECK_EQ(found, wanted);
+  refinement.reset();
+  count = 0;
+  for (hull::Refinement::Faces faces(refinement); faces.next();) ++count;
+  CHECK_EQ(count, opened.view.shell().face_count());
+}
+
+TEST(AnyClosureLeavesAHullOfTheRightSize) {
+  const Opened opened;
+  Memory<kMost, 4> memory;
+  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  for (uint32_t k = 0; k < opened.view.collapse_count(); k += 3) {
+    refinement.reset();
+    CHECK(refinement.split(k));
+    uint32_t count = 0;
+    for (hull::Refinement::Faces faces(refinement); faces.next();) ++count;
+    CHECK_EQ(count, opened.view.shell().face_count() + 2 * refinement.split_count());
+  }
+}
+
+TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
+  const Opened opened;
+  Memory<kMost, 64> memory;
+  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  g_random = 7;
+  uint32_t hits = 0, splits = 0;
+  for (uint32_t i = 0; i < 400; ++i) {
+    test::note("segment", i);
+    const Segment s = through();
+    const mesh::Hit truth = hull::cast_segment(opened.view, s.a, s.b, query::kUnlimited);
+    const hull::RefinedHit hit = refinement.first(s.a, s.b, query::kUnlimited);
+    CHECK(hit.exact);
+    CHECK_EQ(hit.hit, truth.hit);
+    CHECK_EQ(refinement.any(s.a, s.b, query::kUnlimited).hit, truth.hit);
+    CHECK_EQ(refinement.split_count(), 0u);
+    if (!truth.hit) continue;
+    ++hits;
+    splits += hit.splits;
+    CHECK(hit.is_of_mesh);
+    CHECK_EQ(bits_of(hit.t), bits_of(truth.t));
+    CHECK_EQ(hit.triangle, truth.triangle);
+    CHECK_EQ(hit.enters, truth.enters);
+  }
+  CHECK(hits > 100);
+  CHECK(splits > hits);
+}
+
+TEST(FirstAndLastOfAllCrossingsAreTheMeshsAndNoneIsMadeUp) {
+  const Opened opened;
+  Memory<kMost, 4> memory;
+  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  g_random = 9;
+  for (uint32_t i = 0; i < 400; ++i) {
+    test::note("segment", i);
+    const Segment s = through();
+    mesh::SurfaceCrossing truth[16], told[16];
+    const mesh::Crossings all =
+        hull::all_crossings(opened.view, s.a, s.b, query::kUnlimited, {truth});
+    const hull::RefinedCrossings found = refinement.all(s.a, s.b, query::kUnlimited, {told});
+    CHECK(found.exact);
+    CHECK(found.found <= all.found);
+    CHECK_EQ(found.found == 0, all.found == 0);
+    if (all.found == 0 || found.found == 0) continue;
+    CHECK_EQ(told[0].triangle, truth[0].triangle);
+    CHECK_EQ(told[found.told - 1].triangle, truth[all.told - 1].triangle);
+    uint32_t at = 0;
+    for (uint32_t k = 0; k < found.told; ++k) {
+      while (at < all.told && truth[at].triangle != told[k].triangle) ++at;
+      CHECK(at < all.told);
+    }
+  }
+}
+
+// Half a closure is no hull: what does not fit is taken back, and the hull's crossing is told.
+TEST(WhereMemoryOrStepsRunOutNothingOfTheMeshIsNearerThanTold) {
+  const Opened opened;
+  Memory<12, 3> memory;
+  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  g_random = 11;
+  uint32_t conservative = 0, exact = 0;
+  for (uint32_t i = 0; i < 600; ++i) {
+    test::note("segment", i);
+    const Segment s = through();
+    const query::Budget budget{i % 2 == 0 ? UINT32_MAX : 1 + i % 40};
+    const mesh::Hit truth = hull::cast_segment(opened.view, s.a, s.b, query::kUnlimited);
+    const hull::RefinedHit hit = refinement.first(s.a, s.b, budget);
+    CHECK_EQ(refinement.split_count(), 0u);
+    if (truth.hit) CHECK(hit.hit);
+    if (truth.hit) CHECK(hit.t <= truth.t + 0x1p-17f);
+    if (hit.exact) {
+      ++exact;
+      CHECK_EQ(hit.hit, truth.hit);
+      if (truth.hit) CHECK_EQ(hit.triangle, truth.triangle);
+    } else {
+      ++conservative;
+    }
+  }
+  CHECK(refinement.most_splits() == 12u);
+  CHECK(conservative > 50);
+  CHECK(exact > 50);
+}
+
+TEST(HostileSegmentsAreAnsweredInFiniteNumbers) {
+  const Opened opened;
+  Memory<kMost, 8> memory;
+  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  const uint32_t bits[] = {0x00000000, 0x80000001, 0x3F800000, 0xBF800000, 0x4E000000,
+                           0x7149F2CA, 0xFF7FFFFF, 0x7F800000, 0x7FC00000, 0xFFFFFFFF};
+  for (uint32_t i = 0; i < 1000; ++i) {
+    float value[6];
+    for (uint32_t k = 0; k < 6; ++k) {
+      g_random = g_random * 1664525u + 1013904223u;
+      __builtin_memcpy(&value[k], &bits[(g_random >> 12) % 10], 4);
+    }
+    const Vec3 a{value[0], value[1], value[2]}, b{value[3], value[4], value[5]};
+    const hull::RefinedHit hit = refinement.first(a, b, query::kUnlimited);
+    const mesh::Hit truth = hull::cast_segment(opened.view, a, b, query::kUnlimited);
+    mesh::SurfaceCrossing room[4];
+    const mesh::Crossings all = hull::all_crossings(opened.view, a, b, query::kUnlimited, {room});
+    CHECK(hit.t >= 0 && hit.t <= 1);
+    CHECK(truth.t >= 0 && truth.t <= 1);
+    CHECK_EQ(truth.hit, all.found > 0);
+    CHECK_EQ(truth.hit, hull::any_crossing(opened.view, a, b, query::kUnlimited).hit);
+    CHECK(truth.triangle < opened.view.head().mesh_triangle_count);
+  }
+}
+
+// The same number on every compiler, level and controller.
+TEST(HullAnswersHaveOneHashEverywhere) {
+  const Opened opened;
+  Memory<40, 6> memory;
+  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  core::Hash hash;
+  g_random = 5;
+  for (uint32_t i = 0; i < 1000; ++i) {
+    const Segment s = through();
+    const query::Budget budget{i % 5 == 0 ? 9 : UINT32_MAX};
+    const hull::RefinedHit hit = refinement.first(s.a, s.b, budget);
+    hash.add(bits_of(hit.t));
+    hash.add(hit.triangle);
+    hash.add(hit.steps);
+    hash.add(hit.splits << 4 | (hit.hit ? 1u : 0u) | (hit.exact ? 2u : 0u) |
+             (hit.is_of_mesh ? 4u : 0u));
+    mesh::SurfaceCrossing room[8];
+    const mesh::Crossings all = hull::all_crossings(opened.view, s.a, s.b, budget, {room});
+    hash.add(all.found);
+    hash.add(all.steps);
+    for (uint32_t k = 0; k < all.told; ++k) hash.add(bits_of(room[k].t));
+  }
+  CHECK_EQ(static_cast<uint32_t>(hash.value()), 1243664464u);
+}

@@ -1,0 +1,95 @@
+// The reject rules of a shell, each condition tripped alone.
+#include "small_hull.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using hull_test::SmallHull;
+
+template <class Change>
+uint32_t refusal_with(Change change) {
+  SmallHull small;
+  change(small);
+  hull::View view;
+  const core::Verdict verdict = hull::open(small.sections, view);
+  CHECK_EQ(verdict.ok(), view.is_open());
+  return verdict.rule * 1000u + verdict.element;
+}
+
+core::Bytes shorter(core::Bytes bytes, uint32_t by) { return {bytes.data(), bytes.size() - by}; }
+
+}  // namespace
+
+TEST(R540ShellOfTheWrongSize) {
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.sections.shell = {}; }), 540'000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.sections.shell = shorter(h.sections.shell, 4); }),
+           540'000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) {
+             h.sections.shell = shorter(h.sections.shell, 4);
+             h.shell_head().bytes -= 4;
+           }),
+           540'001u);
+}
+
+TEST(R541CountsOutOfRange) {
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_head().cut = h.head().collapse_count + 1; }),
+           541'000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { ++h.shell_head().face_count; }), 541'001u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_head().made_count = 65537; }), 541'002u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_head().made_count = UINT32_MAX; }), 541'002u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_head().triangle_count = UINT32_MAX; }),
+           541'003u);
+}
+
+TEST(R542BoxOutsideTheHulls) {
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_head().high_m[1] += 1.0f; }), 542'001u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_head().high_m[2] = __builtin_nanf(""); }),
+           542'002u);
+}
+
+TEST(R543VertexThatIsNotThere) {
+  CHECK_EQ(refusal_with([](SmallHull& h) { __builtin_memset(h.shell_ids(), 0, 2); }), 543'000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { __builtin_memset(h.shell_ids() + 2, 255, 2); }),
+           543'001u);
+  SmallHull small;
+  const uint32_t made = small.shell_head().made_count;
+  CHECK_EQ(refusal_with([](SmallHull& h) {
+             const uint8_t* id = h.shell_ids();  // a made one among those kept
+             h.shell_kept()[0].id = id[0] | static_cast<uint32_t>(id[1]) << 8;
+           }),
+           543'000u + made);
+}
+
+TEST(R544VertexThatLiesElsewhere) {
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_coordinates()[6 * 2] ^= 1; }), 544'002u);
+  SmallHull small;
+  const uint32_t made = small.shell_head().made_count;
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_kept()[0].y_m += 0.001f; }), 544'000u + made);
+}
+
+TEST(R545CornerOutOfRange) {
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_faces()[3].corner[1] = 60000; }), 545'003u);
+}
+
+TEST(R546TrianglesThatAreNotTheFaces) {
+  SmallHull whole;
+  CHECK(whole.shell_head().triangle_count > 1);
+  const auto rule = [](uint32_t refusal) { return refusal / 1000; };
+  CHECK_EQ(rule(refusal_with([](SmallHull& h) { h.shell_triangles()[0].triangle ^= 1; })), 546u);
+  CHECK_EQ(rule(refusal_with([](SmallHull& h) { ++h.shell_triangles()[0].face; })), 546u);
+  CHECK_EQ(rule(refusal_with([](SmallHull& h) { h.shell_triangles()[0].triangle = 60000; })), 546u);
+}
+
+TEST(R547FaceOutsideItsLeaf) {
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_boxes()[3] = 255; }) / 1000, 547u);
+}
+
+TEST(R548FacesThatDoNotClose) {
+  const auto turned = [](SmallHull& h) {
+    hull::ShellFace& face = h.shell_faces()[0];
+    const uint16_t corner = face.corner[0];
+    face.corner[0] = face.corner[1];
+    face.corner[1] = corner;
+  };
+  CHECK_EQ(refusal_with(turned), 548'000u);
+}

@@ -1,0 +1,74 @@
+#pragma once
+// A baked hull in memory that a test may change, without heap: one copy, made anew each time.
+#include "firmtouch/asset/opening.hpp"
+#include "firmtouch/hull/view.hpp"
+#include "harness/test.hpp"
+#include "small_hull_words.hpp"
+
+namespace firmtouch::hull_test {
+
+constexpr const char* kName = "model";
+
+struct SmallHull {
+  alignas(16) static inline uint8_t bytes[sizeof kWords];
+  hull::Sections sections;
+
+  SmallHull() {
+    __builtin_memcpy(bytes, kWords, sizeof kWords);
+    asset::Container all;
+    CHECK(asset::open({bytes, sizeof bytes}, all).ok());
+    sections = {
+        all.find(hull::kHeadSection, kName),        all.find(hull::kVerticesSection, kName),
+        all.find(hull::kOriginsSection, kName),     all.find(hull::kRecordsSection, kName),
+        all.find(hull::kPlacesSection, kName),      all.find(hull::kStarBoxesSection, kName),
+        all.find(hull::kBoxesSection, kName),       all.find(hull::kShellSection, kName),
+        all.find(mesh::kHeadSection, kName),        all.find(mesh::kVerticesSection, kName),
+        all.find(mesh::kTriangles16Section, kName), {}};
+  }
+  /// The same bytes, to be changed.
+  static uint8_t* open_up(core::Bytes bytes_of) { return bytes + (bytes_of.data() - bytes); }
+  hull::Head& head() { return *reinterpret_cast<hull::Head*>(open_up(sections.head)); }
+  mesh::Head& mesh_head() { return *reinterpret_cast<mesh::Head*>(open_up(sections.mesh_head)); }
+  hull::ShellHead& shell_head() {
+    return *reinterpret_cast<hull::ShellHead*>(open_up(sections.shell));
+  }
+  float& mesh_coordinate(uint32_t i) {
+    return reinterpret_cast<float*>(open_up(sections.mesh_vertices))[i];
+  }
+  uint16_t& mesh_corner(uint32_t i) {
+    return reinterpret_cast<uint16_t*>(open_up(sections.triangles16))[i];
+  }
+  uint8_t* record(uint32_t collapse) {
+    uint8_t* at = open_up(sections.records);
+    for (; collapse > 0; --collapse) at += hull::record_size(hull::View::head_of(at), 2);
+    return at;
+  }
+  /// Of a record, as hull::View::id_in().
+  static void set_id(uint8_t* record, uint32_t i, uint32_t id) {
+    record[2 + 2 * i] = static_cast<uint8_t>(id);
+    record[3 + 2 * i] = static_cast<uint8_t>(id >> 8);
+  }
+  static uint32_t get_id(const uint8_t* record, uint32_t i) {
+    return record[2 + 2 * i] | static_cast<uint32_t>(record[3 + 2 * i]) << 8;
+  }
+
+  // Parts of the shell, by the layout's own order.
+  uint8_t* shell_boxes() { return open_up(sections.shell) + sizeof(hull::ShellHead); }
+  hull::ShellFace* shell_faces() {
+    const uint32_t nodes = hull::nodes_for(hull::leaves_for(shell_head().face_count, 8));
+    return reinterpret_cast<hull::ShellFace*>(shell_boxes() + hull::padded(6 * nodes));
+  }
+  uint8_t* shell_coordinates() {
+    return reinterpret_cast<uint8_t*>(shell_faces()) + hull::padded(6 * shell_head().face_count);
+  }
+  uint8_t* shell_ids() { return shell_coordinates() + hull::padded(6 * shell_head().made_count); }
+  hull::ShellVertex* shell_kept() {
+    return reinterpret_cast<hull::ShellVertex*>(shell_ids() +
+                                                hull::padded(2 * shell_head().made_count));
+  }
+  hull::ShellTriangle* shell_triangles() {
+    return reinterpret_cast<hull::ShellTriangle*>(shell_kept() + shell_head().kept_count);
+  }
+};
+
+}  // namespace firmtouch::hull_test

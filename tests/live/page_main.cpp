@@ -1,0 +1,171 @@
+#include <signal.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "live/browser.hpp"
+
+// The live page in a browser, against the controller program in an emulator whose joints a hand of
+// numbers moves. What a person does is done to the page's own buttons and inputs, and what he would
+// read is read from it.
+
+namespace {
+
+using firmtouch::live_test::Browser;
+using Clock = std::chrono::steady_clock;
+
+struct Test {
+  Browser& browser;
+  int passed = 0, failed = 0;
+
+  // Whether `expression` becomes true in the page within the time.
+  bool becomes(const std::string& expression, double most_s) {
+    const auto end = Clock::now() + std::chrono::duration<double>(most_s);
+    do {
+      if (browser.evaluate(expression) == "true") return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    } while (Clock::now() < end);
+    return false;
+  }
+  bool check(const char* claim, bool holds) {
+    std::printf("%s  %s\n", holds ? "ok  " : "FAIL", claim);
+    if (!holds) {
+      std::printf("      the page says: %s\n", browser.evaluate("$('banner').textContent").c_str());
+    }
+    std::fflush(stdout);
+    ++(holds ? passed : failed);
+    return holds;
+  }
+  double number(const std::string& expression) {
+    return std::strtod(browser.evaluate(expression).c_str(), nullptr);
+  }
+  // Types a value into a parameter's field, as a person does.
+  void type(const std::string& parameter, const std::string& value) {
+    const std::string input =
+        "document.querySelector('[data-parameter=" + parameter + "] input[type=number]')";
+    browser.evaluate(input + ".value = '" + value + "', " + input +
+                     ".dispatchEvent(new Event('change'))");
+  }
+  bool said(const std::string& parameter, const std::string& what) {
+    return becomes("document.querySelector('[data-parameter=" + parameter +
+                       "] .said').textContent.includes('" + what + "')",
+                   5);
+  }
+  // Greatest of a field's length over the next `ticks` records.
+  double peak(const char* field, int ticks) {
+    const std::string begin = browser.evaluate("page.number");
+    becomes("page.number - " + begin + " > " + std::to_string(ticks), 20);
+    return number(std::string("(() => { const f = page.session.field('") + field +
+                  "'), s = page.store; let most = 0; for (let i = Math.max(0, s.count - " +
+                  std::to_string(ticks) +
+                  " / page.session.decimation); i < s.count; ++i) { const b = (i & (kKept - 1)) * "
+                  "s.words; let q = 0; for "
+                  "(let k = 0; k < f.count; ++k) q += valueOf(s, f, b, k) ** 2; most = "
+                  "Math.max(most, Math.sqrt(q)); } return most; })()");
+  }
+};
+
+// What records at 10 kHz cost the page, whatever brings them: frames as the controller sends them,
+// in pieces of 4 KB, to its decoder, its store and its plots.
+constexpr const char* kCostOf10kHz =
+    "(() => { const n = 10000, parts = []; for (let i = 0; i < n; ++i) { const p = new "
+    "Uint8Array(4 + page.session.recordBytes); new DataView(p.buffer).setUint32(4, i, true); "
+    "parts.push(...encode(kLog, i & 0xFFFF, p)); } const bytes = new Uint8Array(parts); let "
+    "records = 0; const decoder = new Decoder((t, q, v) => { ++records; page.record(v.getUint32(4, "
+    "true), v); }); const begin = performance.now(); for (let at = 0; at < bytes.length; at += "
+    "4096) decoder.push(bytes.subarray(at, at + 4096)); for (const plot of page.plots) "
+    "plot.draw(page.columnOf(n)); return records + ' records of ' + page.session.recordBytes + ' "
+    "bytes: ' + Math.round(performance.now() - begin) + ' ms to read and plot'; })()";
+
+constexpr const char* kConnected = "$('banner').textContent.includes('records flow')";
+constexpr const char* kNoFault = "$('faults').textContent.includes('No faults')";
+constexpr int kPressTicks = 2100;  // a press and a lift of the hand's
+
+void stiffness(Test& test) {
+  const double before_N = test.peak("output.force_N", kPressTicks);
+  test.type("contact_stiffness_N_per_m", "0");
+  test.type("guide_stiffness_N_per_m", "0");
+  test.check("a stiffness is changed, acknowledged, and told as the controller has it",
+             test.said("contact_stiffness_N_per_m", "acknowledged: 800 ") &&
+                 test.said("guide_stiffness_N_per_m", "acknowledged: 400 "));
+  test.type("contact_damping_N_s_per_m", "0");
+  test.type("guide_damping_N_s_per_m", "0");
+  test.said("guide_damping_N_s_per_m", "acknowledged");
+  test.becomes("page.number % 50 === 0", 1);
+  const double without_N = test.peak("output.force_N", 500);
+  test.type("contact_stiffness_N_per_m", "1600");
+  test.said("contact_stiffness_N_per_m", "acknowledged: 0 ");
+  const double after_N = test.peak("output.force_N", kPressTicks);
+  std::printf("      force, greatest: %.3f N; without stiffness %.3f N; at 1,600 N/m %.3f N\n",
+              before_N, without_N, after_N);
+  test.check("the force follows it: there, gone, and back",
+             before_N > 0.3 && without_N < 0.02 && after_N > 0.3);
+}
+
+void refusals(Test& test) {
+  test.type("contact_stiffness_N_per_m", "1e9");
+  test.check("a value out of range is not sent, and the range told",
+             test.said("contact_stiffness_N_per_m", "0 to 20000 N/m"));
+  test.check("the controller refuses it by itself",
+             test.becomes("page.session.set(1, 1e9).then(r => r.why.includes('out of range'))", 2));
+  test.type("force_limit_N", "9");
+  test.check("a limit may only fall while the motors are on: refused by the tick, and said",
+             test.said("force_limit_N", "may only fall"));
+}
+
+void faults(Test& test) {
+  test.type("max_speed_mps", "0.01");
+  test.check("a fault is told in words, with what governs it",
+             test.becomes("/encoder.*max_speed_mps/.test($('faults').textContent)", 5));
+  test.type("max_speed_mps", "5");
+  test.said("max_speed_mps", "acknowledged");
+  test.browser.evaluate("$('clear').click()");
+  test.check("cleared when the operator opens the enable switch", test.becomes(kNoFault, 15));
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 5) {
+    std::fprintf(stderr, "usage: live_page BROWSER URL EMULATOR_PID FOLDER [PICTURES]\n");
+    return 2;
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+  const std::string pictures = count > 5 ? words[5] : "";
+  Browser browser(words[1], words[4]);
+  Test test{browser};
+  const auto picture = [&](const char* name) {
+    if (!pictures.empty()) browser.picture(pictures + "/" + name + ".png");
+  };
+  if (!test.check("the browser opens the page", browser.open(words[2], 1440, 960))) return 1;
+  if (test.check("it connects to the controller", test.becomes(kConnected, 20))) {
+    const double first = test.number("page.session.records");
+    test.check("records come, and the pictures move",
+               test.becomes("page.session.records > 50 + " + std::to_string(first), 10) &&
+                   test.becomes("document.querySelectorAll('.plot').length === 5", 1));
+    test.check("the motors come on when the hand closes its switch",
+               test.becomes("$('mode').textContent === 'motors: on'", 15));
+    stiffness(test);
+    picture("desktop");
+    refusals(test);
+    faults(test);
+    picture("cleared");
+    std::printf("      %s\n", browser.evaluate("$('flow').textContent").c_str());
+    test.check("no frame was damaged", browser.evaluate("page.session.decoder.rejects") == "0");
+  }
+  ::kill(static_cast<pid_t>(std::atoi(words[3])), SIGKILL);
+  test.check("the plug is pulled: it says so",
+             test.becomes("$('banner').textContent.includes('The link is gone')", 5));
+  picture("gone");
+  std::printf("      a second at 10 kHz, %s\n", browser.evaluate(kCostOf10kHz).c_str());
+  browser.resize(390, 844);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  test.check("at a phone's width nothing stands out to the side",
+             test.becomes("document.documentElement.scrollWidth <= 390", 2));
+  picture("phone");
+  std::printf("%d passed, %d failed\n", test.passed, test.failed);
+  return test.failed == 0 ? 0 : 1;
+}

@@ -1,0 +1,193 @@
+#include "footpoint/footpoints.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace firmtouch::tools {
+namespace {
+
+constexpr double kSame = 1e-12;   // of the extent: pieces that meet
+constexpr double kSmooth = 1e-9;  // sine between tangents
+constexpr size_t kNone = static_cast<size_t>(-1);
+
+Point place_of(const ControlPoint& p) { return {p.x, p.y, p.z}; }
+
+FootKind kind_of(const Root& root) {
+  if (root.before < 0 && root.after > 0) return FootKind::kMin;
+  return root.before > 0 && root.after < 0 ? FootKind::kMax : FootKind::kSaddle;
+}
+
+template <class Piece>
+void grow(const std::vector<Piece>& pieces, Point& low, Point& high, bool& is_first) {
+  for (const Piece& piece : pieces) {
+    for (const ControlPoint& p : piece.points) {
+      if (is_first) low = high = place_of(p);
+      is_first = false;
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+}
+
+double parameter_of(const BezierCurve& c, double t) { return c.t0 + t * (c.t1 - c.t0); }
+
+}  // namespace
+
+const char* name_of(FootKind kind) {
+  constexpr const char* kNames[] = {"min", "max", "saddle", "end"};
+  return kNames[static_cast<int>(kind)];
+}
+
+Footpoints::Footpoints(const std::vector<BezierCurve>& curves,
+                       const std::vector<BezierPatch>& patches) {
+  Point low, high;
+  bool is_first = true;
+  grow(curves, low, high, is_first);
+  grow(patches, low, high, is_first);
+  extent_m_ = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  for (const BezierCurve& c : curves) curves_.emplace_back(c);
+  find_joints();
+  for (const BezierPatch& p : patches) patches_.emplace_back(p);
+  find_borders(patches, extent_m_, borders_, corners_);
+  for (const Border& b : borders_) border_curves_.emplace_back(b.curve);
+}
+
+// A curve's ends and corners are listed; over smooth joints its equation goes on.
+void Footpoints::find_joints() {
+  follows_.assign(curves_.size(), {false, kNone, 1});
+  const auto corner = [this](const CurveSystem& c, bool at_end) {
+    const Point at = place_of(at_end ? c.piece.points.back() : c.piece.points.front());
+    corners_.push_back({at, c.piece.piece, at_end ? c.piece.t1 : c.piece.t0, 0});
+  };
+  size_t first = 0;  // of the entity
+  for (size_t k = 0; k < curves_.size(); ++k) {
+    if (curves_[k].piece.piece != curves_[first].piece.piece) first = k;
+    const bool is_last =
+        k + 1 == curves_.size() || curves_[k + 1].piece.piece != curves_[k].piece.piece;
+    const size_t next = is_last ? first : k + 1;
+    const CurveSystem &a = curves_[k], &b = curves_[next];
+    const Point from = a.b.c.back(), to = b.b.c.front();
+    const bool meets = length(place_of(a.piece.points.back()) - place_of(b.piece.points.front())) <=
+                       kSame * extent_m_;
+    const double size = length(from) * length(to);
+    if (meets && size > 0 && dot(from, to) > 0 && length(cross(from, to)) <= kSmooth * size) {
+      follows_[next] = {true, k, length(to) / length(from)};
+    } else {
+      corner(a, true);
+      if (!meets) corner(b, false);
+    }
+  }
+}
+
+void Footpoints::add_curves(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const {
+  std::vector<std::vector<double>> f;
+  std::vector<double> noise;
+  for (const CurveSystem& c : curves_) {
+    f.push_back(c.coefficients(p_m));
+    noise.push_back(c.noise(p_m));
+  }
+  const auto add = [&](size_t k, const Root& root) {
+    const CurveSystem& c = curves_[k];
+    const Point at = c.point(root.t);
+    found.push_back(
+        {kind_of(root), length(at - p_m), at, c.piece.piece, parameter_of(c.piece, root.t), 0});
+  };
+  for (size_t k = 0; k < f.size(); ++k) {
+    if (!follows_[k].is_smooth) continue;
+    const size_t before = follows_[k].piece;
+    f[k].front() = follows_[k].ratio * f[before].back();
+    if (std::fabs(f[k].front()) > noise[k] && std::fabs(f[before].back()) > noise[before]) continue;
+    f[k].front() = f[before].back() = 0;
+    const Root root{0, last_sign(f[before], noise[before]), first_sign(f[k], noise[k])};
+    if (root.before * root.after < 0) add(k, root);
+  }
+  std::vector<Root> roots;
+  for (size_t k = 0; k < f.size(); ++k) {
+    bool is_zero = false;
+    roots.clear();
+    roots_of(f[k], noise[k], roots, is_zero);
+    if (is_zero) {  // an arc about the query
+      is_complete = false;
+      roots.push_back({0.5, 0, 0});
+    }
+    for (const Root& root : roots) add(k, root);
+  }
+}
+
+void Footpoints::add_patches(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const {
+  struct OnEdge {
+    Footpoint foot;
+    size_t patch;
+  };
+  std::vector<OnEdge> on_edges;  // of patches: a neighbour may find the same
+  std::vector<SurfaceRoot> roots;
+  for (size_t k = 0; k < patches_.size(); ++k) {
+    roots.clear();
+    size_t boxes = 0;
+    patches_[k].solve(p_m, roots, boxes, is_complete);
+    const BezierPatch& s = patches_[k].patch;
+    for (const SurfaceRoot& root : roots) {
+      const Point at = patches_[k].point(root.u, root.v);
+      const FootKind kind = !(root.det > 0)     ? FootKind::kSaddle
+                            : root.diagonal > 0 ? FootKind::kMin
+                                                : FootKind::kMax;
+      const Footpoint foot{kind,
+                           length(at - p_m),
+                           at,
+                           s.piece,
+                           s.u0 + root.u * (s.u1 - s.u0),
+                           s.v0 + root.v * (s.v1 - s.v0)};
+      constexpr double kNear = 1e-6;
+      const bool inside =
+          root.u > kNear && root.u < 1 - kNear && root.v > kNear && root.v < 1 - kNear;
+      bool is_known = false;
+      for (const Corner& c : corners_) is_known |= length(c.at - at) <= 1e-9 * extent_m_;
+      for (const OnEdge& e : on_edges)
+        is_known |= !inside && e.patch != k && e.foot.kind == kind &&
+                    length(e.foot.point_m - at) <= 1e-6 * extent_m_;
+      if (is_known) continue;
+      if (!inside) on_edges.push_back({foot, k});
+      found.push_back(foot);
+    }
+  }
+}
+
+void Footpoints::add_borders(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const {
+  std::vector<Root> roots;
+  for (size_t k = 0; k < borders_.size(); ++k) {
+    const CurveSystem& c = border_curves_[k];
+    bool is_zero = false;
+    roots.clear();
+    roots_of(c.coefficients(p_m), c.noise(p_m), roots, is_zero);
+    if (is_zero) {
+      is_complete = false;
+      roots.push_back({0.5, 0, 0});
+    }
+    for (const Root& root : roots) {
+      const Border& b = borders_[k];
+      const Point at = c.point(root.t);
+      bool is_known = false;  // where two surfaces meet at an edge both have it
+      for (const Footpoint& f : found)
+        is_known |= f.kind == FootKind::kEnd && length(f.point_m - at) <= 1e-9 * extent_m_;
+      if (is_known) continue;
+      found.push_back({FootKind::kEnd, length(at - p_m), at, c.piece.piece,
+                       b.u0 + root.t * (b.u1 - b.u0), b.v0 + root.t * (b.v1 - b.v0)});
+    }
+  }
+}
+
+std::vector<Footpoint> Footpoints::all(Point p_m, bool& is_complete) const {
+  is_complete = true;
+  std::vector<Footpoint> found;
+  add_curves(p_m, found, is_complete);
+  add_patches(p_m, found, is_complete);
+  add_borders(p_m, found, is_complete);
+  for (const Corner& c : corners_)
+    found.push_back({FootKind::kEnd, length(c.at - p_m), c.at, c.piece, c.u, c.v});
+  std::stable_sort(found.begin(), found.end(), [](const Footpoint& a, const Footpoint& b) {
+    return a.distance_m < b.distance_m;
+  });
+  return found;
+}
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,68 @@
+#pragma once
+#include <vector>
+
+#include "footpoint/border.hpp"
+#include "footpoint/curve_system.hpp"
+#include "footpoint/surface_system.hpp"
+#include "spline/spline.hpp"
+
+namespace firmtouch::tools {
+
+enum class FootKind { kMin, kMax, kSaddle, kEnd };
+
+/// "min", "max", "saddle" or "end"
+const char* name_of(FootKind kind);
+
+/// A point of a curve or surface where the direction to the query is normal to it, or an end: an end
+/// or corner of a curve, a corner of a surface, or a point of a surface's border where the direction
+/// is normal to the border.
+struct Footpoint {
+  FootKind kind = FootKind::kMin;
+  double distance_m = 0;
+  Point point_m;
+  int piece = 0;
+  double u = 0, v = 0;  // of the entity's own parameters; v = 0 on curves
+};
+
+/// All foot-points of a point, from scratch: no state, no budget. For listings, benches and judges;
+/// nothing of it runs on a controller.
+/// Source: Seong, Johnson, Cohen, "A higher dimensional formulation for robust and interactive
+/// distance queries", equations (1), (3) and (4), by subdivision of their Bernstein coefficients.
+/// The ends, corners and borders that it leaves out are told besides.
+class Footpoints {
+ public:
+  /// Pieces of a curve stand in the order of its parameter.
+  Footpoints(const std::vector<BezierCurve>& curves, const std::vector<BezierPatch>& patches);
+
+  /// Sorted by distance. `is_complete` is cleared where whole lines are foot-points (about the
+  /// centre of a circle or on the axis of a surface of revolution): then some of them are told.
+  std::vector<Footpoint> all(Point p_m, bool& is_complete) const;
+
+  const std::vector<CurveSystem>& curves() const { return curves_; }
+  const std::vector<SurfaceSystem>& patches() const { return patches_; }
+  const std::vector<Corner>& corners() const { return corners_; }
+  double extent_m() const { return extent_m_; }
+
+ private:
+  // The piece that goes on smoothly from another, and by what that one's equation is to be
+  // multiplied where they meet to have its value.
+  struct Follows {
+    bool is_smooth;
+    size_t piece;
+    double ratio;
+  };
+  void find_joints();
+  void add_curves(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const;
+  void add_patches(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const;
+  void add_borders(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const;
+
+  std::vector<CurveSystem> curves_;
+  std::vector<Follows> follows_;  // one a curve piece
+  std::vector<SurfaceSystem> patches_;
+  std::vector<Border> borders_;
+  std::vector<CurveSystem> border_curves_;
+  std::vector<Corner> corners_;
+  double extent_m_ = 0;
+};
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,137 @@
+#include "spline/spline_sink.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace firmtouch::tools {
+namespace {
+
+constexpr double kMostCoordinate_m = 1e9;
+constexpr double kLeastExtent_m = 1e-6;
+constexpr double kFlatness = 1e-9;  // of the extent
+
+Point place_of(const ControlPoint& p) { return {p.x, p.y, p.z}; }
+
+double extent_of(const std::vector<ControlPoint>& points) {
+  Point low = place_of(points.front()), high = low;
+  for (const ControlPoint& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+// Every point near the plane through the first, the one farthest from it, and the one farthest from
+// the line through both.
+bool lies_in_a_plane(const std::vector<ControlPoint>& points) {
+  const Point origin = place_of(points.front());
+  Point along, normal;
+  for (const ControlPoint& p : points) {
+    const Point d = place_of(p) - origin;
+    if (dot(d, d) > dot(along, along)) along = d;
+  }
+  for (const ControlPoint& p : points) {
+    const Point n = cross(along, place_of(p) - origin);
+    if (dot(n, n) > dot(normal, normal)) normal = n;
+  }
+  const double size = length(normal), extent = extent_of(points);
+  if (!(size > kFlatness * length(along) * extent)) return true;  // a straight line
+  for (const ControlPoint& p : points)
+    if (!(std::abs(dot(normal, place_of(p) - origin)) <= kFlatness * extent * size)) return false;
+  return true;
+}
+
+}  // namespace
+
+bool SplineSink::fail(const std::string& what) {
+  if (!failed()) problem_ = path_ + ": " + what;
+  return false;
+}
+
+bool SplineSink::fail(uint64_t line, const std::string& what) {
+  if (!failed()) problem_ = path_ + ":" + std::to_string(line) + ": " + what;
+  return false;
+}
+
+bool SplineSink::defect(uint64_t line, const std::string& kind, const std::string& what) {
+  if (!failed()) kind_ = kind;
+  if (failed() && kind_ != kind) {
+    ++others_;
+    return false;
+  }
+  fail(line, what);
+  ++times_;
+  last_line_ = line;
+  return false;
+}
+
+void SplineSink::tell_dropped(const std::string& where, size_t dropped) {
+  if (dropped == 0) return;
+  note(where + ": left out " + std::to_string(dropped) +
+       (dropped == 1 ? " piece that has" : " pieces that have") +
+       " no length, because their control points coincide");
+}
+
+void SplineSink::add(SplineCurve curve, uint64_t line) {
+  curve.piece = pieces_;
+  size_t spans = 0;
+  for (size_t k = 1; k < curve.knots.size(); ++k)
+    spans += curve.knots[k - 1] < curve.knots[k] && curve.knots[k] > curve.t0 &&
+             curve.knots[k - 1] < curve.t1;
+  const std::vector<BezierCurve> pieces = bezier_pieces(curve);
+  if (pieces.empty() || !(extent_of(curve.points) >= kLeastExtent_m)) {
+    defect(line, "length",
+           curve.where +
+               " has no length (less than a thousandth of a millimetre): remove it, or "
+               "check the unit");
+    return;
+  }
+  tell_dropped(curve.where, spans - pieces.size());
+  curve.is_planar = lies_in_a_plane(curve.points);
+  model_.curves.push_back(std::move(curve));
+  ++pieces_;
+}
+
+void SplineSink::add(SplineSurface surface, uint64_t line) {
+  surface.piece = pieces_;
+  if (bezier_pieces(surface).empty() || !(extent_of(surface.points) >= kLeastExtent_m)) {
+    defect(line, "length",
+           surface.where +
+               " has no extent (less than a thousandth of a millimetre): remove it, "
+               "or check the unit");
+    return;
+  }
+  model_.surfaces.push_back(std::move(surface));
+  ++pieces_;
+}
+
+SplineModel SplineSink::finish() {
+  if (!failed() && pieces_ == 0)
+    fail(
+        "holds no curve and no surface that can be read: export NURBS curves (126) or untrimmed "
+        "NURBS surfaces (128)");
+  if (!failed()) return std::move(model_);
+  SplineModel refused;
+  refused.problem = problem_;
+  if (times_ > 1)
+    refused.problem +=
+        " (" + std::to_string(times_) + " times, last in line " + std::to_string(last_line_) + ")";
+  if (others_ > 0)
+    refused.problem += "; " + std::to_string(others_) + " other problem" + (others_ > 1 ? "s" : "");
+  return refused;
+}
+
+SplineDefect check_coordinates(const std::vector<ControlPoint>& points) {
+  for (size_t i = 0; i < points.size(); ++i) {
+    const ControlPoint& p = points[i];
+    if (std::abs(p.x) <= kMostCoordinate_m && std::abs(p.y) <= kMostCoordinate_m &&
+        std::abs(p.z) <= kMostCoordinate_m)
+      continue;
+    return {"control point " + std::to_string(i) +
+                " (from 0) lies more than 1e9 m from the origin: check its numbers and the unit",
+            i};
+  }
+  return {};
+}
+
+}  // namespace firmtouch::tools
