@@ -56,7 +56,7 @@ TEST(AnotherProtocolIsRefusedBeforeFieldsThatMayMeanSomethingElse) {
   reply.controller = other;
   char text[256];
   explain(identity(), reply, text);
-  CHECK(contains(text, "protocol version: host 3, controller 4"));
+  CHECK(contains(text, "protocol version: host 4, controller 5"));
   CHECK(!contains(text, "asset"));
 }
 
