@@ -123,7 +123,7 @@ void Controller::feel(math::Vec3 position_m, bool ready) {
   guide.snap_m = v[params::kGuideSnap];
   guide.release_m = v[params::kGuideRelease];
   guide.tunnel_m = v[params::kGuideTunnel];
-  guide.arc_penalty_m = v[params::kGuideArcPenalty];
+  guide.arc_penalty = v[params::kGuideArcPenalty];
   guide.free_side = {v[params::kGuideSideX], v[params::kGuideSideY], v[params::kGuideSideZ]};
   guide.ends = static_cast<scene::Ends>(static_cast<uint8_t>(v[params::kGuideEnds]));
   guide.drive = {static_cast<scene::Drive::Kind>(static_cast<uint8_t>(v[params::kGuideDrive])),

@@ -94,7 +94,7 @@ TEST(AnOpenRingThatGoesOnIsFollowedRoundAfterRound) {
     Rig rig;
     rig.view = g_open_ring.view();
     rig.guide.ends = ends;
-    rig.guide.arc_penalty_m = 1.0f;
+    rig.guide.arc_penalty = 2.0f;
     float worst_m = 0;
     for (uint32_t i = 0; i < 3 * 400; ++i) {
       (void)rig.force_N(around(i, 400, 0.002f));
@@ -113,7 +113,7 @@ TEST(AnOpenRingThatGoesOnIsFollowedRoundAfterRound) {
 TEST(ProgressCountsRoundsOfAClosedGuideBothWays) {
   Rig rig;
   rig.view = g_ring.view();
-  rig.guide.arc_penalty_m = 1.0f;
+  rig.guide.arc_penalty = 2.0f;
   for (uint32_t i = 0; i <= 2 * 400; ++i) (void)rig.force_N(around(i, 400, 0.001f));
   CHECK(is_about(rig.touch.progress_m, 0.8f));
   for (uint32_t i = 5 * 400; i-- > 400;) (void)rig.force_N(around(i, 400, 0.001f));
@@ -159,18 +159,18 @@ TEST(ALeadWithoutSpeedHoldsThePlaceAndSlipsBeyondItsForce) {
 }
 
 TEST(AGuideKeepsToItsStrandByThePenaltyAndFindsItselfAgainBeyondItsRelease) {
-  const float penalties_m[] = {0.0f, 0.1f, 100.0f};
-  for (const float penalty_m : penalties_m) {
+  const float penalties[] = {0.0f, 0.25f, 250.0f};
+  for (const float penalty : penalties) {
     Rig rig;
     rig.view = g_hairpin.view();
-    rig.guide.arc_penalty_m = penalty_m;
+    rig.guide.arc_penalty = penalty;
     CHECK(is_near(rig.force_N({0.05f, 0.001f, 0.5f}), {0, -0.1f, 0}));
     const math::Vec3 aside_N = rig.force_N({0.05f, 0.003f, 0.5f});
-    CHECK(is_near(aside_N, {0, penalty_m > 0.0f ? -0.3f : 0.1f, 0}));
+    CHECK(is_near(aside_N, {0, penalty > 0.0f ? -0.3f : 0.1f, 0}));
     CHECK(is_near(
         rig.force_N({0.05f, 0.033f, 0.5f}),
-        {0, penalty_m > 0.0f ? 0.0f : -2.9f, 0}));  // the nearer strand is not within its snap
-    CHECK_EQ(rig.touch.is_held, !(penalty_m > 0.0f));
+        {0, penalty > 0.0f ? 0.0f : -2.9f, 0}));  // the nearer strand is not within its snap
+    CHECK_EQ(rig.touch.is_held, !(penalty > 0.0f));
     CHECK(is_near(rig.force_N({0.05f, 0.005f, 0.5f}), {0, -0.1f, 0}));
   }
 }
@@ -192,7 +192,7 @@ TEST(HostileSettingsOfAGuideLeaveASoundModel) {
         rig.guide.drive = drive(static_cast<scene::Drive::Kind>(kind % 3), 1.0f, 0.1f);
         rig.guide.ends = static_cast<scene::Ends>(kind / 3);
         float* const fields[] = {
-            &rig.guide.tunnel_m,      &rig.guide.arc_penalty_m,   &rig.guide.free_side.x,
+            &rig.guide.tunnel_m,      &rig.guide.arc_penalty,     &rig.guide.free_side.x,
             &rig.guide.drive.force_N, &rig.guide.drive.speed_mps, &rig.guide.drive.tick_period_s,
             &rig.guide.snap_m,        &rig.guide.release_m,       &rig.guide.free_side.z};
         *fields[field] = value;

@@ -178,7 +178,7 @@ void follow_curve(const CurveGuide& guide, Vec3 position_m, query::Budget budget
   const Vec3 p_m = math::apply_inverse(guide.pose, position_m);
   const bool was_held = touch.is_held;
   const float farther_m = guide.release_m >= guide.snap_m ? guide.release_m : guide.snap_m;
-  const curve::Hold hold{positive(guide.arc_penalty_m),
+  const curve::Hold hold{positive(guide.arc_penalty) * guide.curve->head().length_m,
                          farther_m < kMostReach_m ? farther_m : kMostReach_m};
   touch.following.is_following = was_held;
   const curve::Followed followed = curve::follow(*guide.curve, p_m, hold, budget, touch.following);

@@ -38,9 +38,10 @@ struct CurveGuide {
   float snap_m = 0;     // nearer than this, the guide takes hold
   float release_m = 0;  // farther than this, and than snap_m, it lets go
   float tunnel_m = 0;   // nearer than this nothing is felt
-  // What a jump by the whole length costs in metres of distance: keeps the guide on its part where the
-  // curve passes near itself. 0: on to whatever is nearest.
-  float arc_penalty_m = 0;
+  // What a jump along the curve costs, in metres of distance a metre of the way: keeps the guide on
+  // its part where the curve passes near itself. 0: on to whatever is nearest. 0.1 holds well and is
+  // hardly felt at corners; from 1 on, sharp corners hold the tool back until it is torn off.
+  float arc_penalty = 0;
   // Device frame; any length from 1e-3 on. A direction in which the tool may leave the curve freely:
   // the guide is then the edge of a ruler, and pulls back in the direction itself only. None: from all
   // sides.
