@@ -47,14 +47,8 @@ WhatDoesNotExistIsAUsageError() {
 }
 
 WhatIsPlannedIsRefusedByName() {
-  for option in '--teach a' '--max-deviation 1'; do
-    # shellcheck disable=SC2086
-    f bake x.obj -o a.fta $option
-    exits 2
-    told "${option%% *} is not in this version"
-  done
   for kind in spline footpoints; do f query a.fta a $kind; exits 2; told "$kind is not in this version"; done
-  for kind in igs iges bpt ftl; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
+  for kind in igs iges bpt; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
 }
 
 OptionsWithoutMeaningAreRefused() {

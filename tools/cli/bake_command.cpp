@@ -3,6 +3,7 @@
 
 #include "bake/asset_views.hpp"
 #include "bake/asset_writer.hpp"
+#include "bake/provenance.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/commands.hpp"
 #include "cli/cpp_source.hpp"
@@ -16,29 +17,52 @@
 namespace firmtouch::cli {
 namespace {
 
+constexpr double kUsualDeviation_m = 1e-4;
+
 bool is_curve(const std::string& path) { return extension_of(path) == ".csv"; }
+bool is_run(const std::string& path) { return extension_of(path) == ".ftl"; }
+
+std::string name_of(const std::string& path, const BakeOptions& options) {
+  return is_run(path) ? options.teach : stem_of(path);
+}
+
+// A run has no name of its own, and whoever names one must give it.
+void check_runs(const std::vector<std::string>& inputs, const BakeOptions& options) {
+  size_t runs = 0;
+  for (const std::string& path : inputs) {
+    if (!is_run(path)) continue;
+    ++runs;
+    if (options.teach.empty())
+      fail_usage("bake: " + path +
+                 " is a recorded run; say what its guide is called: --teach NAME");
+  }
+  if (runs > 1)
+    fail_usage("bake: --teach names one guide and " + std::to_string(runs) +
+               " runs are given; give one");
+  if (runs == 0 && !options.teach.empty())
+    fail_usage("bake: --teach wants a recorded run, RUN.ftl, among the inputs");
+}
 
 void check_kind(const std::string& path) {
-  static const char* const kLater[][2] = {{".igs", "NURBS"},
-                                          {".iges", "NURBS"},
-                                          {".bpt", "Bezier patches"},
-                                          {".ftl", "a recorded run"}};
+  static const char* const kLater[][2] = {
+      {".igs", "NURBS"}, {".iges", "NURBS"}, {".bpt", "Bezier patches"}};
   for (const auto& later : kLater) {
     if (extension_of(path) == later[0]) {
       fail_input(
           path + ": " + later[1] + " (" + later[0] +
           ") cannot be baked by this version yet; give .obj, .off, .ply or .stl for a mesh, .csv "
-          "for a curve");
+          "or a recorded .ftl for a curve");
     }
   }
 }
 
 // An asset is named after its file's stem, so two inputs of one stem would be one asset.
-void check_names(const std::vector<std::string>& inputs) {
+void check_names(const std::vector<std::string>& inputs, const BakeOptions& options) {
   std::map<std::string, std::string> seen;
   for (const std::string& path : inputs) {
-    const std::string name = stem_of(path);
+    const std::string name = name_of(path, options);
     const std::string problem = tools::name_problem(name);
+    if (!problem.empty() && is_run(path)) fail_usage("bake: --teach " + name + ": " + problem);
     if (!problem.empty()) fail_input(path + ": " + problem);
     const auto added = seen.emplace(name, path);
     if (!added.second) {
@@ -60,6 +84,7 @@ std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
   std::vector<BakedInput> baked;
   for (const std::string& path : inputs) {
     baked.push_back(is_curve(path) ? bake_curve_input(path, options, progress)
+                    : is_run(path) ? bake_run_input(path, options, progress)
                                    : bake_mesh_input(path, options, progress));
   }
   return baked;
@@ -121,6 +146,13 @@ BakeOptions bake_options(const Arguments& arguments) {
   options.map_cells = arguments.count("--distance-map", 0, 1, field::kMostCellsAnAxis - 2);
   if (options.map_cells != 0)
     options.text += " --distance-map " + std::to_string(options.map_cells);
+  options.teach = arguments.text("--teach", "");
+  options.most_deviation_m = arguments.number("--max-deviation", kUsualDeviation_m, 1e-9);
+  if (arguments.has("--max-deviation") && options.teach.empty())
+    fail_usage("bake: --max-deviation is of a taught guide; give --teach NAME too");
+  if (!options.teach.empty())
+    options.text += " --teach " + options.teach + " --max-deviation " +
+                    tools::number_text(options.most_deviation_m);
   return options;
 }
 
@@ -129,7 +161,9 @@ const Command& bake_command() {
       "bake",
       "INPUT... -o SCENE.fta [options]",
       "Bakes meshes and curves into one asset, proven with the firmware's own decoder.",
-      "INPUT by extension: .obj .off .ply .stl a mesh; .csv a curve (header x,y,z). Each is named "
+      "INPUT by extension: .obj .off .ply .stl a mesh; .csv a curve (header x,y,z); .ftl a "
+      "recorded run, "
+      "which teaches a guide. Each is named "
       "after "
       "its\n"
       "file's stem. What can be mended safely is mended and reported; the rest is refused.",
@@ -151,8 +185,9 @@ const Command& bake_command() {
        {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
        {"--no-tree", nullptr,
         "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
-       {"--teach", "NAME", nullptr},
-       {"--max-deviation", "M", nullptr}},
+       {"--teach", "NAME", "what the guide is called that a recorded run gives"},
+       {"--max-deviation", "METRES",
+        "no place of the run is farther from its guide (default 0.0001)"}},
       1,
       SIZE_MAX};
   return command;
@@ -171,7 +206,8 @@ int run_bake(const Arguments& arguments) {
     forbid_overwriting(output, input);
     forbid_overwriting(source, input);
   }
-  check_names(inputs);
+  check_runs(inputs, options);
+  check_names(inputs, options);
 
   const std::vector<BakedInput> baked = bake_all(inputs, options);
   std::vector<tools::Section> sections;
@@ -189,7 +225,8 @@ int run_bake(const Arguments& arguments) {
   write_file(output, file.bytes.data(), file.bytes.size());
   if (!source.empty()) write_source(source, file.bytes, output);
 
-  for (size_t i = 0; i < inputs.size(); ++i) print_report(stem_of(inputs[i]), baked[i].report);
+  for (size_t i = 0; i < inputs.size(); ++i)
+    print_report(name_of(inputs[i], options), baked[i].report);
   asset::Container container;
   (void)asset::open(bytes, container);
   std::fprintf(stderr, "%s: %zu bytes, %zu %s, CRC %08x, proven with the firmware's decoder\n",

@@ -59,14 +59,18 @@ std::string sentence(const char* format, double a, double b) {
 
 BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
                             Progress& progress) {
-  const std::string name = stem_of(path);
-  BakedInput baked;
   progress.stage("reading and checking " + file_name_of(path));
   const std::vector<uint8_t> source = read_model(path);
   const tools::CurvePoints points = tools::read_curve_csv_bytes(
       {reinterpret_cast<const char*>(source.data()), source.size()}, path, options.unit_m);
   if (!points.problem.empty()) fail_input(points.problem);
+  return bake_points(points, path, stem_of(path), source, options, progress);
+}
 
+BakedInput bake_points(const tools::CurvePoints& points, const std::string& path,
+                       const std::string& name, const std::vector<uint8_t>& source,
+                       const BakeOptions& options, Progress& progress) {
+  BakedInput baked;
   progress.stage("building the tree of " + name);
   tools::CurveReport report;
   baked.sections = tools::bake_curve(points, name, report);

@@ -5,6 +5,7 @@
 #include "bake/section.hpp"
 #include "cli/arguments.hpp"
 #include "cli/progress.hpp"
+#include "curve/curve_points.hpp"
 #include "hull/build_hull.hpp"
 #include "surface/surface.hpp"
 
@@ -19,7 +20,9 @@ struct BakeOptions {
   uint32_t hull_faces = 0;  // 0: no hull
   bool has_tree = true;     // of the mesh; without it only a hull can be asked
   tools::HullOptions hull;
-  std::string text;  // as they stand in the provenance
+  std::string teach;            // what a recorded run's guide is called
+  double most_deviation_m = 0;  // of the guide from the run
+  std::string text;             // as they stand in the provenance
 };
 
 /// Of --unit, --unsigned and --close-holes.
@@ -39,6 +42,13 @@ constexpr size_t kStagesAnInput = 5;
 BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options, Progress& progress);
 BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
                             Progress& progress);
+/// A recorded run, thinned to a guide named options.teach.
+BakedInput bake_run_input(const std::string& path, const BakeOptions& options, Progress& progress);
+
+/// What curve and run have in common, from the points on; `source` is the file's bytes.
+BakedInput bake_points(const tools::CurvePoints& points, const std::string& path,
+                       const std::string& name, const std::vector<uint8_t>& source,
+                       const BakeOptions& options, Progress& progress);
 
 /// A model read, checked and mended.
 struct SoundSurface {
