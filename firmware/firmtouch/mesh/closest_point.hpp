@@ -27,14 +27,15 @@ struct Closest {
 /// Closest point of the surface to `p_m` (mesh frame), its side, and a certificate.
 /// Cold: one descent to a leaf, nearer child first, then best box first. Warm: from the last leaf
 /// upwards, as far as the last certificate does not already exclude the rest.
-/// Bounds: <= budget steps; 1.2 KB of stack; re-entrant; callable from an interrupt.
+/// Bounds: <= budget steps; 2.4 KB of stack; re-entrant; callable from an interrupt.
 /// Result: always finite. Two triangles equally near: the one visited first. Outside the mesh's
 ///         grid the side is known under any budget. A query that is not finite: a vertex, at
 ///         distance FLT_MAX, lower 0, not exact, sign 0.
 /// Error:  where exact, |distance| and lower_m within 4e-7 max(diagonal, distance); lower_m never above
 ///         the truth (mesh/loss.hpp; tests/mesh/careful_host_test.cpp attacks it). Where plain
-///         float32 is not enough for that (far away, or few large triangles) the search is made a
-///         second time with care, which costs some thousand instructions and is counted in steps.
+///         float32 is not enough for that (far away, or few large triangles) the nearest triangle is
+///         measured again with care, and where that is not enough either the search is made a second
+///         time, which costs some thousand instructions and is counted in steps.
 /// Source: Baerentzen & Aanaes 2005, sections 3 and 4; Morris 2006, 3.3 (ascend from the last
 ///         leaf).
 Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
