@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "footpoint/sample_splines.hpp"
 #include "harness/test.hpp"
 #include "spline/random_splines.hpp"
 #include "spline/read_spline.hpp"
@@ -50,23 +51,6 @@ size_t turns_of(const tools::SplineCurve& c, Point p, int samples) {
     last = d;
   }
   return turns;
-}
-
-// A bicubic surface over about the unit square.
-tools::SplineSurface hills(tools::Random& random, size_t n, double rise, bool weighs) {
-  tools::SplineSurface s;
-  s.degree_u = s.degree_v = 3;
-  s.count_u = s.count_v = n;
-  for (int k = -3; k <= static_cast<int>(n); ++k)
-    s.knots_u.push_back(std::fmin(std::fmax(k, 0), static_cast<double>(n) - 3));
-  s.knots_v = s.knots_u;
-  s.u1 = s.v1 = static_cast<double>(n) - 3;
-  for (size_t j = 0; j < n; ++j)
-    for (size_t i = 0; i < n; ++i)
-      s.points.push_back({static_cast<double>(i) / (static_cast<double>(n) - 1) - 0.5,
-                          static_cast<double>(j) / (static_cast<double>(n) - 1) - 0.5,
-                          random.between(-rise, rise), weighs ? random.between(0.5, 2) : 1});
-  return s;
 }
 
 // The nearest of samples, and from there downhill.
@@ -205,10 +189,10 @@ TEST(TheNearestFootPointIsTheNearestPointOfTheSurface) {
   for (uint64_t seed = 1; seed <= 8; ++seed) {
     test::note("seed", static_cast<int64_t>(seed));
     tools::Random random(seed);
-    const tools::SplineSurface s = hills(random, 6, 0.2, seed % 2 == 0);
+    const tools::SplineSurface s = tools::hilly_surface(seed, 6, 0.2, seed % 2 == 0);
     const Footpoints feet = of_surface(s);
     for (int k = 0; k < 6; ++k) {
-      const Point p = {random.between(-0.7, 0.7), random.between(-0.7, 0.7),
+      const Point p = {random.between(-0.2, 1.2), random.between(-0.2, 1.2),
                        random.between(-0.6, 0.6)};
       const double sampled = nearest_sample(s, p, 150), told = all(feet, p).front().distance_m;
       CHECK_LE(told, sampled + 1e-12);
@@ -221,10 +205,10 @@ TEST(EveryFootPointOfASurfaceIsNormalToItAndOfItsKind) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     test::note("seed", static_cast<int64_t>(seed));
     tools::Random random(seed);
-    const tools::SplineSurface s = hills(random, 7, 0.25, seed % 2 == 0);
+    const tools::SplineSurface s = tools::hilly_surface(seed, 7, 0.25, seed % 2 == 0);
     const Footpoints feet = of_surface(s);
     for (int k = 0; k < 5; ++k) {
-      const Point p = {random.between(-0.6, 0.6), random.between(-0.6, 0.6),
+      const Point p = {random.between(-0.1, 1.1), random.between(-0.1, 1.1),
                        random.between(-0.6, 0.6)};
       for (const Footpoint& f : all(feet, p)) {
         CHECK_LE(tools::length(point_at(s, f.u, f.v) - f.point_m), 1e-12);

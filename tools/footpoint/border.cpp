@@ -13,7 +13,6 @@ constexpr double kSmooth = 1e-6;  // sine between normals or tangents
 struct Edge {
   Border border;
   BezierCurve inner;  // the row of points beside it
-  size_t patch;
 };
 
 Point place_of(const ControlPoint& p) { return {p.x, p.y, p.z}; }
@@ -25,7 +24,8 @@ Edge edge_of(const BezierPatch& s, size_t patch, int side) {
   const size_t last = (is_row ? high : wide) - 1, fixed = is_far ? last : 0;
   const size_t beside = is_far ? last - 1 : 1;
   Edge e;
-  e.patch = patch;
+  e.border.patch = patch;
+  e.border.side = side;
   e.border.curve.degree = e.inner.degree = is_row ? s.degree_u : s.degree_v;
   e.border.curve.piece = e.inner.piece = s.piece;
   for (size_t k = 0; k < (is_row ? wide : high); ++k) {
@@ -82,7 +82,9 @@ Point leaving(const Border& border, bool at_end) {
 }  // namespace
 
 void find_borders(const std::vector<BezierPatch>& patches, double extent_m,
-                  std::vector<Border>& borders, std::vector<Corner>& corners) {
+                  std::vector<Border>& borders, std::vector<Corner>& corners,
+                  std::vector<std::array<Neighbour, 4>>& neighbours) {
+  neighbours.assign(patches.size(), {});
   const double tolerance = kSame * extent_m;
   const auto add_corner = [&](const Corner& c) {
     for (const Corner& known : corners)
@@ -106,6 +108,7 @@ void find_borders(const std::vector<BezierPatch>& patches, double extent_m,
   for (size_t a = 0; a < edges.size(); ++a) {
     size_t others = 0;
     bool goes_on = false;
+    Neighbour neighbour;
     for (size_t b = 0; b < edges.size(); ++b) {
       if (a == b || length(middles[a] - middles[b]) > tolerance) continue;
       const BezierCurve &p = edges[a].border.curve, &q = edges[b].border.curve;
@@ -114,8 +117,13 @@ void find_borders(const std::vector<BezierPatch>& patches, double extent_m,
       if (!straight && !turned) continue;
       ++others;
       goes_on = is_smooth(edges[a], edges[b], turned);
+      neighbour = {edges[b].border.patch, edges[b].border.side, turned};
     }
-    if (others != 1 || !goes_on) borders.push_back(edges[a].border);
+    const Border& border = edges[a].border;
+    if (others != 1 || !goes_on)
+      borders.push_back(border);
+    else
+      neighbours[border.patch][static_cast<size_t>(border.side)] = neighbour;
   }
   for (const Border& border : borders) {
     for (const bool at_end : {false, true}) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "spline/spline.hpp"
@@ -9,6 +10,16 @@ namespace firmtouch::tools {
 struct Border {
   BezierCurve curve;  // t from 0 to 1
   double u0, v0, u1, v1;
+  size_t patch;
+  int side;  // 0: v = v0, 1: v = v1, 2: u = u0, 3: u = u1
+};
+
+/// What goes on smoothly over an edge.
+struct Neighbour {
+  static constexpr size_t kNone = static_cast<size_t>(-1);
+  size_t patch = kNone;
+  int side = 0;
+  bool is_turned = false;  // its edge runs the other way
 };
 
 struct Corner {
@@ -18,8 +29,10 @@ struct Corner {
 };
 
 /// The edges of patches over which no other patch goes on smoothly, and the corners where they end or
-/// turn, edges that are a single point among them.
+/// turn, edges that are a single point among them. `neighbours`:
+/// over each side of each patch.
 void find_borders(const std::vector<BezierPatch>& patches, double extent_m,
-                  std::vector<Border>& borders, std::vector<Corner>& corners);
+                  std::vector<Border>& borders, std::vector<Corner>& corners,
+                  std::vector<std::array<Neighbour, 4>>& neighbours);
 
 }  // namespace firmtouch::tools

@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kSame = 1e-12;   // of the extent: pieces that meet
 constexpr double kSmooth = 1e-9;  // sine between tangents
-constexpr size_t kNone = static_cast<size_t>(-1);
 
 Point place_of(const ControlPoint& p) { return {p.x, p.y, p.z}; }
 
@@ -48,13 +47,14 @@ Footpoints::Footpoints(const std::vector<BezierCurve>& curves,
   for (const BezierCurve& c : curves) curves_.emplace_back(c);
   find_joints();
   for (const BezierPatch& p : patches) patches_.emplace_back(p);
-  find_borders(patches, extent_m_, borders_, corners_);
+  find_borders(patches, extent_m_, borders_, corners_, neighbours_);
   for (const Border& b : borders_) border_curves_.emplace_back(b.curve);
 }
 
 // A curve's ends and corners are listed; over smooth joints its equation goes on.
 void Footpoints::find_joints() {
   follows_.assign(curves_.size(), {false, kNone, 1});
+  next_.assign(curves_.size(), kNone);
   const auto corner = [this](const CurveSystem& c, bool at_end) {
     const Point at = place_of(at_end ? c.piece.points.back() : c.piece.points.front());
     corners_.push_back({at, c.piece.piece, at_end ? c.piece.t1 : c.piece.t0, 0});
@@ -72,6 +72,7 @@ void Footpoints::find_joints() {
     const double size = length(from) * length(to);
     if (meets && size > 0 && dot(from, to) > 0 && length(cross(from, to)) <= kSmooth * size) {
       follows_[next] = {true, k, length(to) / length(from)};
+      next_[k] = next;
     } else {
       corner(a, true);
       if (!meets) corner(b, false);
@@ -112,6 +113,20 @@ void Footpoints::add_curves(Point p_m, std::vector<Footpoint>& found, bool& is_c
     }
     for (const Root& root : roots) add(k, root);
   }
+}
+
+void Footpoints::roots_in(size_t k, Point p_m, std::vector<Root>& roots) const {
+  std::vector<double> f = curves_[k].coefficients(p_m);
+  const double noise = curves_[k].noise(p_m);
+  // The value at a joint is the predecessor's, so that neighbours agree whose the foot-point is.
+  if (follows_[k].is_smooth) {
+    const CurveSystem& before = curves_[follows_[k].piece];
+    f.front() =
+        follows_[k].ratio * (before.a.c.back() - dot(p_m - before.origin, before.b.c.back()));
+  }
+  bool is_zero = false;
+  roots.clear();
+  roots_of(f, noise, roots, is_zero);
 }
 
 void Footpoints::add_patches(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const {

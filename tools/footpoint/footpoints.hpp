@@ -40,6 +40,17 @@ class Footpoints {
 
   const std::vector<CurveSystem>& curves() const { return curves_; }
   const std::vector<SurfaceSystem>& patches() const { return patches_; }
+  /// The curve piece that goes on smoothly from piece `k`, or that it goes on from; kNone: an end.
+  static constexpr size_t kNone = static_cast<size_t>(-1);
+  size_t next_of(size_t k) const { return next_[k]; }
+  size_t previous_of(size_t k) const { return follows_[k].piece; }
+  /// The foot-points in one curve piece alone, joints with its neighbours apart.
+  void roots_in(size_t k, Point p_m, std::vector<Root>& roots) const;
+  const std::vector<Border>& borders() const { return borders_; }
+  const std::vector<CurveSystem>& border_curves() const { return border_curves_; }
+  const Neighbour& over(size_t patch, int side) const {
+    return neighbours_[patch][static_cast<size_t>(side)];
+  }
   const std::vector<Corner>& corners() const { return corners_; }
   double extent_m() const { return extent_m_; }
 
@@ -58,7 +69,9 @@ class Footpoints {
 
   std::vector<CurveSystem> curves_;
   std::vector<Follows> follows_;  // one a curve piece
+  std::vector<size_t> next_;
   std::vector<SurfaceSystem> patches_;
+  std::vector<std::array<Neighbour, 4>> neighbours_;
   std::vector<Border> borders_;
   std::vector<CurveSystem> border_curves_;
   std::vector<Corner> corners_;
