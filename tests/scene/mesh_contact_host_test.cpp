@@ -1,6 +1,7 @@
 // Contact of a sphere with a baked mesh, judged by closed forms.
 #include "firmtouch/scene/mesh_contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -218,6 +219,37 @@ TEST(ShortBudgetInsideRendersNoMoreDepthThanItsCertificateProves) {
     }
   }
   CHECK_GE(inexact, 50u);
+}
+
+// A tool comes from afar, touches, presses in and leaves: as the depth says on every tick, though
+// what lies beyond reach is not looked for.
+TEST(InFreeSpaceOnlyWhatMayBeTouchedIsLookedFor) {
+  const Rig rig(12);
+  const float reach_m = 0.003f + 0.02f * rig.view.head().diagonal_m;
+  Tool tool;
+  uint32_t near_steps = 0, free_ticks = 0;
+  for (int i = 0; i <= 4000; ++i) {
+    const float height_m = 0.03f + 0.035f * std::cos(static_cast<float>(i) * 3.1416e-3f);
+    const math::Vec3 p_m{0.011f, 0.007f, kHalf + height_m};
+    const math::Vec3 force_N = tool.force_N(rig.object, p_m);
+    const query::Certificate& certificate = tool.touch.closest.certificate;
+    const double depth_m = std::max(0.0, 0.003 - static_cast<double>(p_m.z - kHalf));
+    CHECK_LE(far_from(force_N, {0, 0, static_cast<float>(depth_m * 1000)}), 1e-3);
+    CHECK_LE(tool.model.free_radius_m, std::fabs(height_m) + 1e-6f);
+    if (i == 0) continue;  // nothing is known yet: everything is looked at
+    if (height_m > reach_m * 1.001f) {
+      ++free_ticks;
+      CHECK_EQ(tool.model.plane_count, 0u);
+      CHECK_EQ(certificate.sign, 1);
+      CHECK_LE(reach_m * 0.99f, tool.model.free_radius_m);
+      CHECK_LE(certificate.steps, 20u);
+    } else if (std::fabs(height_m) < reach_m * 0.999f) {
+      CHECK(certificate.exact);
+      near_steps = std::max(near_steps, certificate.steps);
+    }
+  }
+  CHECK_GT(free_ticks, 2000u);
+  CHECK_GT(near_steps, 0u);
 }
 
 TEST(TwoToolsOnOneObjectDoNotFeelEachOther) {

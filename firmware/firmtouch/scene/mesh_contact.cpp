@@ -29,6 +29,10 @@ Vec3 contact_normal(const mesh::Closest& c, Vec3 p_m, float diagonal_m) {
   return mix_size > 0.1f ? mix * (1.0f / mix_size) : c.direction;
 }
 
+// How far beyond the sphere the surface is looked for while the tool is free, beside the diagonal:
+// many times what a hand moves while a model lives.
+constexpr float kAhead = 0.02f;
+
 }  // namespace
 
 void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query::Budget budget,
@@ -38,6 +42,9 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   touch.closest = {};
   if (object.mesh == nullptr || !object.mesh->is_open()) return;
   const Vec3 p_m = math::apply_inverse(object.pose, position_m);
+  // Certainly outside a moment ago: what is farther off than the sphere may reach need not be known.
+  const float reach_m = radius_m + kAhead * object.mesh->head().diagonal_m;
+  if (touch.hint.sign > 0 && reach_m < budget.band_m) budget.band_m = reach_m;
   touch.closest = mesh::closest_point(*object.mesh, p_m, budget, touch.hint);
   const query::Certificate& certificate = touch.closest.certificate;
 
@@ -46,7 +53,9 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   surface.lower_m = certificate.lower_m;
   surface.distance_m = touch.closest.distance_m;
   if (certificate.sign < 0 && !certificate.exact) surface.distance_m = -certificate.lower_m;
-  if (certificate.sign != 0) {
+  // Nothing within reach: which way the surface lies is not known, and not needed.
+  if (!certificate.exact && certificate.lower_m >= 0.99f * reach_m) surface.sign = 0;
+  if (surface.sign != 0) {
     touch.normal =
         object.pose.rotation * contact_normal(touch.closest, p_m, object.mesh->head().diagonal_m);
   }

@@ -32,7 +32,9 @@ struct MeshTouch {
 /// == 0: no plane is made). The plane's normal is the direction from the closest point to the
 /// centre (inside: the other way), which turns without a jump over edges and vertices; close to the
 /// surface, where that direction loses its digits, it fades into the pseudonormal. Where the query
-/// was not exact, no more depth is rendered than its certificate proves.
+/// was not exact, no more depth is rendered than its certificate proves. While the tool is certainly
+/// outside, the surface is looked for within 2 % of the diagonal beyond the sphere (a band query):
+/// farther off no plane is made, and the free radius is at least that.
 /// Known limit of penalty contact: a wall thinner than twice the penetration is pushed through.
 /// Bounds: one query of at most `budget` steps, and about 200 instructions; re-entrant for
 /// different touches.
