@@ -13,7 +13,8 @@ void run_grid(const Options& options, Report& report);           // grid.cpp
 void run_ring(const Options& options, Report& report);           // ring.cpp
 void run_curve(const Options& options, Report& report);          // curve.cpp
 void run_morris(const Options& options, Report& report);         // morris.cpp
-void run_hulls(const Options& options, Report& report);          // hulls.cpp
-void run_segment(const Options& options, Report& report);        // segment.cpp
+void run_hull_queries(const Options& options, Report& report);
+void run_hulls(const Options& options, Report& report);    // hulls.cpp
+void run_segment(const Options& options, Report& report);  // segment.cpp
 
 }  // namespace firmtouch::bench

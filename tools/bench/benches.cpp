@@ -18,6 +18,9 @@ const std::vector<Bench>& benches() {
        run_ring},
       {"morris", "interior distance fields: the table of Morris, the bar", run_morris},
       {"hulls", "progressive hulls: time, void, limits, segments by base size", run_hulls},
+      {"hull-queries",
+       "queries of a baked hull: table 4 beside k-DOP and AABB trees, memory, shells",
+       run_hull_queries},
       {"segment", "segments through meshes: first, any and every crossing", run_segment},
   };
   return all;

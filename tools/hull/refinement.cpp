@@ -86,6 +86,7 @@ void Refinement::ask_for_corners(const Face& face) {
 void Refinement::undo_all() {
   for (const uint32_t k : undone_) is_undone_[k] = false;
   undone_.clear();
+  kept_ = 0;
 }
 
 uint32_t Refinement::mesh_face(const Face& face) const {
@@ -117,6 +118,7 @@ bool Refinement::touches_box(const Segment& s) const {
 std::vector<SegmentHit> Refinement::hits(const Segment& segment, RefinementCounts& counts) {
   std::vector<SegmentHit> found;
   if (!touches_box(segment)) return found;
+  const size_t before = undone_.size();
   const auto test = [&](const Face& face) {
     ++counts.tests;
     double t = 0;
@@ -137,8 +139,8 @@ std::vector<SegmentHit> Refinement::hits(const Segment& segment, RefinementCount
       if (is_made(face)) test(face);
     }
   }
-  counts.splits += undone_.size();
-  undo_all();
+  counts.splits += undone_.size() - before;
+  if (++kept_ >= keep_) undo_all();
   std::sort(found.begin(), found.end(), [](const SegmentHit& a, const SegmentHit& b) {
     return a.t < b.t || (!(b.t < a.t) && a.face < b.face);
   });

@@ -38,8 +38,11 @@ class Refinement {
   Refinement(const ProgressiveHull& hull, uint32_t base_faces);
 
   uint32_t base_face_count() const { return static_cast<uint32_t>(base_.faces.size()); }
-  /// All hits found, by t, then face. The state is that of the base again afterwards.
+  /// All hits found, by t, then face. Afterwards the state is that of the base again, or of so many
+  /// queries together as keep_for() asks.
   std::vector<SegmentHit> hits(const Segment& segment, RefinementCounts& counts);
+  /// What is undone stays so for this many queries, 1 unless told otherwise.
+  void keep_for(uint32_t queries) { keep_ = queries; }
   /// The faces that are there when every collapse is undone, in no order.
   std::vector<Face> all_split();
   /// Whether the segment touches the base hull's box.
@@ -58,6 +61,7 @@ class Refinement {
   const ProgressiveHull& hull_;
   Surface base_;
   uint32_t cut_;  // collapses of the base
+  uint32_t keep_ = 1, kept_ = 0;
   Point low_m_, high_m_;
   std::vector<bool> is_undone_;
   std::vector<uint32_t> undone_;                       // in the order of asking

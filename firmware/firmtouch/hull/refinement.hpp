@@ -67,7 +67,7 @@ class Refinement {
   Refinement(const View& hull, const Shell& shell, const RefinementMemory& memory);
 
   /// First crossing of the segment from `a_m` to `b_m` (mesh frame), either way.
-  /// Bounds: <= budget steps but for the closure of the last; 4 KB of stack; not re-entrant.
+  /// Bounds: <= budget steps but for the closure of the last; 5 KB of stack; not re-entrant.
   /// Result: least t; equal t: the lowest triangle in leaf order.
   RefinedHit first(math::Vec3 a_m, math::Vec3 b_m, query::Budget budget);
 

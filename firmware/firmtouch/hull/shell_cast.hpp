@@ -1,0 +1,33 @@
+#pragma once
+#include "firmtouch/hull/shell.hpp"
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/query/certificate.hpp"
+
+namespace firmtouch::hull {
+
+struct ShellHit {
+  bool hit = false;
+  float t = 1;
+  uint32_t face = 0;
+  bool enters = false;
+  uint32_t steps = 0;
+  bool exact = false;  // of the shell: false where the budget ran out
+};
+
+/// First crossing of the segment from `a_m` to `b_m` (mesh frame) with a shell: reads the shell's
+/// own block and nothing else, so that a shell in fast memory answers without a read of flash.
+/// Bounds: <= budget steps (boxes read); 4 KB of stack; re-entrant; callable from an interrupt.
+/// Result: none and not exact where the segment is not finite. For one that begins outside the shell: where none is told and exact, it meets
+///         nothing of the mesh; else the mesh is not met before t. A budget that runs out tells a
+///         hit at 0, or one that is certain to be there.
+ShellHit cast_shell(const Shell& shell, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget);
+
+/// How often the shell winds around a point, told by the crossings of a segment to a point outside
+/// its box: 0 is outside, 1 or more inside. Exact; reads the shell's own block.
+/// Bounds: <= budget steps, with those that `steps` holds already; 4 KB of stack; re-entrant;
+///         callable from an interrupt.
+/// Result: false where the budget ran out or the point is not finite.
+bool wind_around(const Shell& shell, math::Vec3 p_m, query::Budget budget, int32_t& winding,
+                 uint32_t& steps);
+
+}  // namespace firmtouch::hull

@@ -1,0 +1,115 @@
+// What a shell certifies of the mesh's distance, against brute force in double.
+#include <cfloat>
+
+#include "../mesh/brute_force.hpp"
+#include "bake/bake_shell.hpp"
+#include "bumpy_ring.hpp"
+#include "firmtouch/hull/shell_distance.hpp"
+#include "firmtouch/hull/vertices.hpp"
+#include "surface/make_part.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+Surface surface_of(const hull::Shell& shell) {
+  Surface surface;
+  for (uint32_t i = 0; i < shell.face_count(); ++i) {
+    const hull::ShellFace& face = shell.face(i);
+    for (const uint16_t corner : face.corner)
+      surface.vertices.push_back(hull::vertex(shell, corner));
+    surface.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return surface;
+}
+
+mesh_test::Point wide(math::Vec3 v) { return {double{v.x}, double{v.y}, double{v.z}}; }
+
+// Half the points near the surface, where shell and mesh are told apart.
+math::Vec3 some_point(const Surface& mesh, Random& random, int i) {
+  const math::Vec3& v = mesh.vertices[random.below(static_cast<uint32_t>(mesh.vertices.size()))];
+  const double reach = i % 2 == 0 ? 0.02 : 0.8;
+  const auto near = [&](float at) {
+    return at + static_cast<float>(reach * random.between(-1, 1));
+  };
+  const float x = near(v.x), y = near(v.y), z = near(v.z);
+  return {x, y, z};
+}
+
+void judge(const BakedHull& baked, const hull::Shell& shell, int count) {
+  const Surface of_shell = surface_of(shell);
+  Random random(31);
+  int outside = 0, inside = 0, between = 0;
+  for (int i = 0; i < count; ++i) {
+    test::note("point", i);
+    const math::Vec3 p = some_point(baked.surface, random, i);
+    const mesh_test::Truth to_mesh = mesh_test::brute_force(baked.surface, wide(p)),
+                           to_shell = mesh_test::brute_force(of_shell, wide(p));
+    for (const uint32_t steps : {UINT32_MAX, 40u, 12u, 3u, 1u}) {
+      const hull::ShellDistance told = hull::shell_distance(shell, p, {steps});
+      CHECK_LE(told.steps, steps);
+      if (told.side == hull::ShellSide::kOutside) {
+        CHECK(!to_shell.inside);
+        CHECK(!to_mesh.inside);
+        CHECK_LE(double{told.lower_m}, to_shell.distance);
+        CHECK_LE(double{told.lower_m}, to_mesh.distance);
+        CHECK(!(told.deepest_m < FLT_MAX));
+      } else if (told.side == hull::ShellSide::kInside) {
+        CHECK(to_shell.inside);
+        CHECK_EQ(told.lower_m, 0.0f);
+        CHECK_LE(to_shell.distance, double{told.deepest_m});
+        if (to_mesh.inside) CHECK_LE(to_mesh.distance, double{told.deepest_m});
+      } else {
+        CHECK_EQ(told.lower_m, 0.0f);
+      }
+      if (steps != UINT32_MAX) continue;
+      CHECK(told.exact);
+      CHECK(told.side != hull::ShellSide::kUnknown);
+      if (told.side == hull::ShellSide::kOutside)
+        CHECK_LE(to_shell.distance - double{told.lower_m}, 1e-5);
+      CHECK_LE(std::fabs(mesh_test::length(wide(told.point_m) - wide(p)) - to_shell.distance),
+               1e-5);
+      outside += told.side == hull::ShellSide::kOutside ? 1 : 0;
+      inside += to_mesh.inside ? 1 : 0;
+      between += to_shell.inside && !to_mesh.inside ? 1 : 0;
+    }
+  }
+  CHECK_LT(count / 10, outside);
+  CHECK_LT(count / 50, inside);
+  CHECK_LT(0, between);
+}
+
+}  // namespace
+
+TEST(WhatAShellCertifiesOfTheMeshIsTrueUnderEveryBudget) {
+  const BakedHull ring(bumpy_ring(8, 4, 0.2), 150, 16);
+  judge(ring, ring.view.shell(), 600);
+  const std::vector<uint32_t> words = cut_shell(ring.view, 400);
+  hull::Shell finer;
+  CHECK_EQ(hull::open_shell({reinterpret_cast<const uint8_t*>(words.data()),
+                             static_cast<uint32_t>(4 * words.size())},
+                            ring.view, finer)
+               .rule,
+           0);
+  judge(ring, finer, 300);
+}
+
+TEST(HostilePointsGetFiniteDistancesToAShell) {
+  const BakedHull ring(bumpy_ring(4, 2), 100, 22);
+  const float values[] = {0, -0.0f, 1e-42f, 1, 1e7f, 3e18f, -3e19f, 3e38f, FLT_MAX, NAN, INFINITY};
+  for (const float x : values)
+    for (const float y : values)
+      for (const float z : values) {
+        const hull::ShellDistance told =
+            hull::shell_distance(ring.view.shell(), {x, y, z}, query::kUnlimited);
+        CHECK(told.lower_m >= 0 && told.lower_m <= FLT_MAX);
+        CHECK(told.deepest_m >= 0 && told.deepest_m <= FLT_MAX);
+        CHECK_LE(mesh_test::length(wide(told.point_m)), 10.0);
+        const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
+        const double off = mesh_test::length({double{x}, double{y}, double{z}});
+        if (finite && off > 10) CHECK(told.side == hull::ShellSide::kOutside);
+        if (finite && off > 10) CHECK_LE(double{told.lower_m}, off + 10);
+        if (!finite) CHECK_EQ(told.lower_m, 0.0f);
+      }
+}
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,125 @@
+// How many instructions a query of a hull takes. Segments from one side to another of a box twice the mesh's, over the hull
+// of the board's asset, whose coarsest is copied to RAM first; a row a segment:
+//     SHELL FIRST COMPLETE STEPS_SHELL SPLITS HIT_SHELL HIT
+// (instructions of a shell's first crossing, of a refinement's in 256 entries, of the complete first crossing).
+// tools/bench/cortex-m7-hull runs it and adds up.
+#include <stdint.h>
+
+#include "firmtouch/asset/container.hpp"
+#include "firmtouch/asset/opening.hpp"
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hull/complete_cast.hpp"
+#include "firmtouch/hull/refinement.hpp"
+#include "firmtouch/hull/shell_cast.hpp"
+#include "target/text.hpp"
+
+namespace asset = firmtouch::asset;
+namespace core = firmtouch::core;
+namespace hal = firmtouch::hal;
+namespace hull = firmtouch::hull;
+namespace math = firmtouch::math;
+namespace mesh = firmtouch::mesh;
+namespace query = firmtouch::query;
+namespace target = firmtouch::target;
+
+namespace {
+
+constexpr uint32_t kSegments = 2000;
+uint32_t g_shell[8192];
+uint32_t g_bits[hull::bit_words(65536)];
+uint32_t g_undone[256];
+hull::Candidate g_candidates[64];
+
+hull::Sections sections_of(const asset::Container& file, const char* name) {
+  const auto find = [&](uint32_t type) { return file.find(type, name); };
+  return {find(hull::kHeadSection),        find(hull::kVerticesSection),
+          find(hull::kOriginsSection),     find(hull::kRecordsSection),
+          find(hull::kPlacesSection),      find(hull::kStarBoxesSection),
+          find(hull::kBoxesSection),       find(hull::kShellSection),
+          find(mesh::kHeadSection),        find(mesh::kVerticesSection),
+          find(mesh::kTriangles16Section), find(mesh::kTriangles32Section)};
+}
+
+uint32_t instructions(uint32_t work) {
+  const uint32_t per_1000 = hal::clock_work_per_1000();
+  return static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
+}
+uint32_t empty_work() {
+  const uint32_t before = hal::clock_work();
+  return hal::clock_work() - before;
+}
+
+uint32_t g_random = 7;
+float random_in(float low, float high) {
+  g_random = g_random * 1664525u + 1013904223u;
+  const volatile float part = (high - low) * static_cast<float>(g_random >> 8) * 0x1p-24f;
+  return low + part;
+}
+math::Vec3 on_side(const mesh::Head& head, uint32_t side) {
+  float p[3];
+  for (uint32_t k = 0; k < 3; ++k) {
+    const float half = (head.high_m[k] - head.low_m[k]) * 0.5f, low = head.low_m[k] - half,
+                high = head.high_m[k] + half;
+    p[k] = k != side / 2 ? random_in(low, high) : side % 2 == 0 ? low : high;
+  }
+  return {p[0], p[1], p[2]};
+}
+
+void print(uint32_t value, const char* behind) {
+  hal::board_print(target::decimal(value).text);
+  hal::board_print(behind);
+}
+
+void run(const hull::View& view, const hull::Shell& shell) {
+  hull::Refinement refinement(view, shell, {{g_bits}, {g_undone}, {g_candidates}});
+  const uint32_t empty = empty_work();
+  for (uint32_t i = 0; i < kSegments; ++i) {
+    const uint32_t from = (g_random >> 12) % 6;
+    const math::Vec3 a_m = on_side(view.mesh_head(), from);
+    const math::Vec3 b_m = on_side(view.mesh_head(), (from + 1 + (g_random >> 12) % 5) % 6);
+    const uint32_t begin = hal::clock_work();
+    const hull::ShellHit of_shell = hull::cast_shell(shell, a_m, b_m, query::kUnlimited);
+    const uint32_t shell_end = hal::clock_work();
+    const hull::RefinedHit first = refinement.first(a_m, b_m, query::kUnlimited);
+    const uint32_t first_end = hal::clock_work();
+    const mesh::Hit hit = hull::cast_segment(view, a_m, b_m, query::kUnlimited);
+    const uint32_t end = hal::clock_work();
+    print(instructions(shell_end - begin - empty), " ");
+    print(instructions(first_end - shell_end - empty), " ");
+    print(instructions(end - first_end - empty), " ");
+    print(of_shell.steps, " ");
+    print(first.splits, of_shell.hit ? " 1" : " 0");
+    hal::board_print(hit.hit ? " 1\n" : " 0\n");
+  }
+}
+
+}  // namespace
+
+int main() {
+  hal::board_begin();
+  const core::Bytes region = hal::board_asset();
+  const uint32_t bytes = asset::stated_bytes(region);
+  asset::Container file;
+  hull::View view;
+  hull::Shell shell;
+  bool is_sound = asset::open({region.data(), bytes != 0 ? bytes : region.size()}, file).ok();
+  const uint32_t at = is_sound ? file.next_of_type(hull::kHeadSection) : asset::kNoSection;
+  is_sound = at != asset::kNoSection && hull::open(sections_of(file, file.name(at)), view).ok() &&
+             hull::bit_words(view.collapse_count()) <= sizeof g_bits / 4;
+  if (is_sound) {
+    const core::Bytes stored = file.find(hull::kShellSection, file.name(at));
+    is_sound = stored.size() <= sizeof g_shell;
+    if (is_sound) __builtin_memcpy(g_shell, stored.data(), stored.size());
+    is_sound =
+        is_sound &&
+        hull::open_shell({reinterpret_cast<const uint8_t*>(g_shell), stored.size()}, view, shell)
+            .ok();
+  }
+  if (!is_sound) {
+    hal::board_print("no hull in the asset, or a rule rejects it, or it is too large\n");
+    return 1;
+  }
+  run(view, shell);
+  return 0;
+}

@@ -1,0 +1,132 @@
+#include "bench/hull_memory.hpp"
+
+#include "bench/segments.hpp"
+#include "bench/timing.hpp"
+#include "firmtouch/hull/shell_cast.hpp"
+#include "firmtouch/mesh/segment_cast.hpp"
+#include "hull/refinement.hpp"
+
+namespace firmtouch::bench {
+
+void run_memory(const Model& model, const Baked& baked, Report& report) {
+  const std::vector<FloatSegment> segments = across_box(model, 10000, 7);
+  std::vector<std::vector<std::string>> rows;
+  for (const uint32_t base : {500u, 2000u}) {
+    if (base < baked.view.shell().face_count() || base >= model.surface.faces.size()) continue;
+    for (const uint32_t entries : {32u, 64u, 128u, 256u, 512u, 1024u}) {
+      report.stage("memory of " + std::to_string(entries) + " entries, " + model.name);
+      Refined refined(baked.view, base, entries, 64);
+      size_t cut_off = 0, ghosts = 0, wrong = 0, hits = 0;
+      double error = 0;
+      for (const FloatSegment& s : segments) {
+        const mesh::Hit truth = mesh::cast_segment(model.view, s.a_m, s.b_m, query::kUnlimited);
+        const hull::RefinedHit hit = refined.refinement->first(s.a_m, s.b_m, query::kUnlimited);
+        cut_off += hit.exact ? 0 : 1;
+        ghosts += hit.hit && !truth.hit ? 1 : 0;
+        const bool is_late = truth.hit && (!hit.hit || hit.t > truth.t + 0x1p-17f);
+        const bool is_other =
+            hit.exact && (hit.hit != truth.hit || (hit.hit && hit.triangle != truth.triangle));
+        wrong += is_late || is_other ? 1 : 0;
+        if (!truth.hit) continue;
+        ++hits;
+        error += length(tools::to_point(s.b_m) - tools::to_point(s.a_m)) *
+                 static_cast<double>(truth.t - hit.t) / model.diagonal_m();
+      }
+      error *= 100 / static_cast<double>(hits);
+      rows.push_back({std::to_string(base), std::to_string(entries), std::to_string(cut_off),
+                      std::to_string(ghosts), number_text(error), std::to_string(wrong)});
+      if (base != 2000 || entries != 256) continue;
+      const double bytes = 4 * 256 + 8 * 64 + static_cast<double>(sizeof(hull::Refinement));
+      report.bar("RAM of a first hit at 256 entries, beside a bit a collapse", model.name, bytes,
+                 "bytes", 2000);
+      report.bar("mean depth error at 256 entries, base 2,000", model.name, error,
+                 "% of the diagonal", 0.03);
+      report.bar("answers later than the mesh, or wrong where exact", model.name,
+                 static_cast<double>(wrong), "", 0);
+    }
+  }
+  report.table({"base, faces", "entries", "of 10,000 cut off", "of them told without a hit",
+                "mean depth error, % of the diagonal", "late or wrong"},
+               rows);
+}
+
+void run_shells(const Model& model, const Baked& baked, Report& report) {
+  const std::vector<FloatSegment> segments = across_box(model, 10000, 7);
+  std::vector<std::vector<std::string>> rows;
+  for (const uint32_t faces : {500u, 1000u, 2000u}) {
+    if (faces < baked.view.shell().face_count() || faces >= model.surface.faces.size()) continue;
+    const Refined refined(baked.view, faces, 1, 1);
+    size_t free_segments = 0, read = 0, late = 0, hits = 0;
+    double error = 0, steps = 0;
+    for (const FloatSegment& s : segments) {
+      const mesh::Hit truth = mesh::cast_segment(model.view, s.a_m, s.b_m, query::kUnlimited);
+      const hull::ShellHit hit = hull::cast_shell(refined.shell, s.a_m, s.b_m, query::kUnlimited);
+      steps += hit.steps / static_cast<double>(segments.size());
+      late += truth.hit && (!hit.hit || hit.t > truth.t + 0x1p-17f) ? 1 : 0;
+      free_segments += truth.hit ? 0 : 1;
+      read += !truth.hit && hit.hit ? 1 : 0;
+      if (!truth.hit) continue;
+      ++hits;
+      error += length(tools::to_point(s.b_m) - tools::to_point(s.a_m)) *
+               static_cast<double>(truth.t - hit.t) / model.diagonal_m();
+    }
+    const double share = 100 * static_cast<double>(read) / static_cast<double>(free_segments);
+    rows.push_back({std::to_string(refined.shell.face_count()),
+                    std::to_string(4 * refined.words.size()), number_text(steps),
+                    number_text(share), number_text(100 * error / static_cast<double>(hits)),
+                    std::to_string(late)});
+    if (faces != 1000) continue;
+    report.bar("bytes of a shell of 1,000 faces with boxes", model.name,
+               static_cast<double>(4 * refined.words.size()), "bytes", 12288);
+    report.bar("segments without a hit that read flash, shell of 1,000", model.name, share, "%",
+               1.5);
+    report.bar("shell hits later than the mesh", model.name, static_cast<double>(late), "", 0);
+  }
+  report.table({"shell, faces", "bytes", "boxes a segment", "free segments that read flash, %",
+                "mean depth error, % of the diagonal", "late"},
+               rows);
+}
+
+void run_keeping(const Model& model, Report& report) {
+  report.stage("keeping between queries, " + model.name);
+  tools::HullReport ignored;
+  tools::HullOptions options;
+  options.target_faces = 1000;
+  const tools::ProgressiveHull built = tools::build_hull(model.surface, options, ignored);
+  const std::vector<FloatSegment> segments = across_box(model, 2000, 7);
+  // Rays side by side, as a scan casts them.
+  std::vector<FloatSegment> scan = segments;
+  for (size_t i = 0; i < scan.size(); ++i) {
+    const FloatSegment& from = segments[i / 20];
+    const float shift = 0.0005f * model.view.head().diagonal_m * static_cast<float>(i % 20);
+    scan[i] = {{from.a_m.x + shift, from.a_m.y, from.a_m.z},
+               {from.b_m.x + shift, from.b_m.y, from.b_m.z}};
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const uint32_t keep : {1u, 2u, 5u, 20u}) {
+    std::vector<std::string> row{std::to_string(keep)};
+    for (const auto* all :
+         std::initializer_list<const std::vector<FloatSegment>*>{&segments, &scan}) {
+      tools::Refinement refinement(built, 1000);
+      refinement.keep_for(keep);
+      tools::RefinementCounts counts;
+      const auto pass = [&] {
+        double sum = 0;
+        for (const FloatSegment& s : *all)
+          sum += static_cast<double>(
+              refinement.hits({tools::to_point(s.a_m), tools::to_point(s.b_m)}, counts).size());
+        return sum;
+      };
+      (void)pass();
+      row.push_back(number_text(static_cast<double>(counts.tests) / 2000));
+      row.push_back(number_text(static_cast<double>(counts.splits) / 2000));
+      row.push_back(number_text(medians_us({timed(all->size(), pass, Clock::kProcessor)})[0]));
+    }
+    rows.push_back(row);
+  }
+  report.table(
+      {"kept for queries", "random: tests", "splits", "us", "side by side: tests", "splits", "us"},
+      rows);
+}
+
+}  // namespace firmtouch::bench

@@ -1,0 +1,14 @@
+#pragma once
+#include "bench/baked_hull.hpp"
+#include "bench/report.hpp"
+
+namespace firmtouch::bench {
+
+/// What fixed memory costs: first hits by how many collapses may be undone.
+void run_memory(const Model& model, const Baked& baked, Report& report);
+/// Shells, what they are for: a segment that misses one reads nothing else.
+void run_shells(const Model& model, const Baked& baked, Report& report);
+/// Between two queries: undone at once, or kept for some.
+void run_keeping(const Model& model, Report& report);
+
+}  // namespace firmtouch::bench
