@@ -20,6 +20,7 @@ std::optional<Difference> replay(const Log& log, const Tick& tick,
 std::optional<Difference> replay(const Log& log, Controller& controller) {
   return replay(log, [&](const record::TickInput& input, record::TickOutput& output) {
     controller.tick(input, output);
+    controller.make_model();
   });
 }
 

@@ -87,7 +87,7 @@ int replay_log(const std::vector<std::string>& words) {
     if (port)
       port->tick(input, output);
     else
-      session.controller->tick(input, output);
+      session.controller->tick(input, output), session.controller->make_model();
   };
   if (const std::optional<Difference> d = replay(log, tick, progress_bar("replaying"))) {
     std::cerr << "firmtouch-sim: " << path << ": first difference at tick " << d->tick << " in "

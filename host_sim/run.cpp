@@ -28,6 +28,19 @@ bool is_set(const Scenario& scenario, uint32_t parameter) {
                      [&](const Setting& s) { return s.parameter == parameter; });
 }
 
+// Ticks from one local model to the next; 0: each makes its own.
+uint32_t model_ticks(const Scenario& scenario) {
+  return scenario.geometry_rate_Hz > 0
+             ? static_cast<uint32_t>(
+                   std::max(1.0, std::round(scenario.rate_Hz / scenario.geometry_rate_Hz)))
+             : 0;
+}
+
+// Parameters are set one a tick; the models made before do not know them yet.
+size_t setup_ticks(const Scenario& scenario) {
+  return scenario.settings.size() + kSettlingTicks + 3 * size_t{model_ticks(scenario)};
+}
+
 // The arm between the script and the hand's spring: two equal first-order lags.
 class Arm {
  public:
@@ -51,7 +64,7 @@ class Operator {
  public:
   explicit Operator(const Scenario& scenario) : scenario_(scenario) {
     for (const Setting& setting : scenario.settings) commands_.push_back(setting);
-    enable_tick_ = static_cast<uint32_t>(commands_.size()) + kSettlingTicks;
+    enable_tick_ = static_cast<uint32_t>(setup_ticks(scenario));
   }
   void fill(record::TickInput& input, double time_s) {
     uint32_t once = 0;
@@ -133,6 +146,14 @@ void check_command(const Scenario& scenario, const record::TickRecord& record) {
                      : "; it is out of range"));
 }
 
+// At two rates: each model is there when the next one is asked for.
+uint32_t model_lines(const Scenario& scenario, uint32_t tick) {
+  const uint32_t every = model_ticks(scenario);
+  if (every == 0) return 0;
+  if (tick % every != 0) return record::kLineModelApart;
+  return record::kLineModelApart | record::kLineModelTaken | record::kLineModelWanted;
+}
+
 uint32_t tick_count(const Scenario& scenario, const Hand& hand) {
   const double seconds = scenario.duration_s > 0 ? scenario.duration_s : hand.end_s();
   const double ticks = std::round(seconds * scenario.rate_Hz);
@@ -176,6 +197,10 @@ Vec scene_origin_m(const Scenario& scenario) {
 void complete(Scenario& scenario) {
   if (!is_set(scenario, params::kTickPeriod))
     scenario.settings.push_back({params::kTickPeriod, 1 / scenario.rate_Hz});
+  // A model is used until the next one, which is made from that moment, is there.
+  const uint32_t every = model_ticks(scenario);
+  if (every > 1 && !is_set(scenario, params::kModelAge))
+    scenario.settings.push_back({params::kModelAge, 2.0 * every + 1});
   if (scenario.device.encoder_quantum_m > 0) {
     for (const params::Index axis : kCountsPerMetre)
       if (!is_set(scenario, axis))
@@ -198,7 +223,7 @@ Trace run(const Scenario& scenario, Controller& controller, const World& world, 
   Trace trace;
   trace.events = scenario.events;
   trace.rate_Hz = scenario.rate_Hz;
-  trace.setup_ticks = std::min<size_t>(scenario.settings.size() + kSettlingTicks, ticks - 1);
+  trace.setup_ticks = std::min<size_t>(setup_ticks(scenario), ticks - 1);
   trace.records.reserve(ticks);
   if (remote != nullptr) trace.controller = remote->name(), trace.compared = true;
 
@@ -209,7 +234,9 @@ Trace run(const Scenario& scenario, Controller& controller, const World& world, 
     record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
     for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = device.count(axis);
     panel.fill(record.input, now_s);
+    record.input.lines |= model_lines(scenario, tick);
     controller.tick(record.input, record.output);
+    controller.make_model();
     if (remote != nullptr) {
       const record::TickRecord expected = record;
       const TickCost cost = remote->tick(record.input, record.output);

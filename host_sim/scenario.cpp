@@ -22,6 +22,8 @@ struct Key {
 const Key kKeys[] = {
     {"rate", "Hz", 50, 20000, [](Scenario& s) -> double& { return s.rate_Hz; },
      "servo ticks a second"},
+    {"geometry_rate", "Hz", 1, 20000, [](Scenario& s) -> double& { return s.geometry_rate_Hz; },
+     "local models a second; without it, one in every tick"},
     {"duration", "s", 0.001, 3600, [](Scenario& s) -> double& { return s.duration_s; },
      "of the run; without it, until the hand's script ends"},
     {"mass", "kg", 1e-4, 100, [](Scenario& s) -> double& { return s.device.mass_kg; },

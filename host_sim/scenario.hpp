@@ -67,6 +67,7 @@ struct Scenario {
   std::string text;   // as read, --set lines added: goes into the log
   std::string asset;  // path, made relative to the scenario's folder by the reader
   double rate_Hz = 1000;
+  double geometry_rate_Hz = 0;  // 0: a local model in every tick
   double duration_s = 0;
   DeviceModel device;
   HandModel hand;

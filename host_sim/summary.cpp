@@ -21,6 +21,20 @@ Vec wide(const float (&v)[3]) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
+// Of each tick: the one whose position its local model was made from.
+std::vector<size_t> model_ticks(const Trace& trace) {
+  std::vector<size_t> made(trace.records.size());
+  size_t used = 0, wanted = 0;
+  for (size_t i = 0; i < trace.records.size(); ++i) {
+    const uint32_t lines = trace.records[i].input.lines;
+    if ((lines & record::kLineModelTaken) != 0) used = wanted;
+    if ((lines & record::kLineModelWanted) != 0) wanted = i;
+    if ((lines & record::kLineModelApart) == 0) used = wanted = i;
+    made[i] = used;
+  }
+  return made;
+}
+
 void judge(Summary& summary, const World& world, const Trace& trace) {
   const mesh::View& mesh = world.mesh();
   const double diagonal = static_cast<double>(mesh.head().diagonal_m);
@@ -28,11 +42,14 @@ void judge(Summary& summary, const World& world, const Trace& trace) {
       static_cast<size_t>(std::clamp(kJudgedTriangles / mesh.head().triangle_count, 20.0,
                                      static_cast<double>(trace.records.size())));
   const size_t stride = std::max<size_t>(1, trace.records.size() / count);
+  const std::vector<size_t> made = model_ticks(trace);
   std::vector<double> ratios;
   for (size_t i = 0; i < trace.records.size(); i += stride) {
     const record::TickOutput& out = trace.records[i].output;
     if ((out.state & record::kStateReady) == 0) continue;
-    const double truth = brute_force_distance_m(mesh, wide(out.position_m) - world.origin_m());
+    const record::TickOutput& asked = trace.records[made[i]].output;
+    if ((asked.state & record::kStateReady) == 0 || out.model_sequence == 0) continue;
+    const double truth = brute_force_distance_m(mesh, wide(asked.position_m) - world.origin_m());
     const double scale = std::max(diagonal, truth);
     const double told = std::fabs(static_cast<double>(out.distance_m)),
                  lower = static_cast<double>(out.distance_lower_m);

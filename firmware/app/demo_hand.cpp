@@ -123,9 +123,10 @@ void motors_write_N(const float (&motor_N)[3]) {
 
 void motors_off() {}
 
-// The operator closes the switch soon after the start. Where nothing pushes any more, as after a
+// The operator closes the switch soon after somebody began to look. Where nothing pushes any more, as after a
 // fault, he opens it for a while, so that faults can be cleared, and tries again.
 uint32_t motors_lines() {
+  if (g_ticks == 0) return 0;
   const uint32_t now_us = clock_us();
   const uint32_t since_us = now_us - g_switched_us;
   if (!g_has_switched) {

@@ -139,6 +139,7 @@ void HostSession::answer_step(const link::Frame& frame) {
     const uint32_t before = hal::clock_work();
     controller.tick(step.input, last_reply_.output);
     last_reply_.work = hal::clock_work() - before;
+    controller.make_model();  // where this tick wants one made beside it
     last_reply_.work_per_1000 = hal::clock_work_per_1000();
     if (step.input.tick % kTicksPerStackLook == 0)
       last_reply_.stack_high_bytes = hal::board_stack_high_bytes();

@@ -47,6 +47,7 @@ void say_verdict() {
   for (;;) {
     session.poll();
     if (controller.is_ready() && !session.is_lock_step()) start_servo_when_enabled();
+    if (kTwoRates && !session.is_lock_step()) controller.make_model();
     if (session.is_idle()) hal::link_wait();
   }
 }

@@ -18,6 +18,14 @@ extern Controller controller;
 extern link::CommandMailbox commands;  // main loop -> interrupt
 extern Records records;                // interrupt -> main loop
 
+// At two rates the interrupt renders the last local model, and the main loop below it makes the
+// next one: for a servo that is faster than a query.
+#ifdef FIRMTOUCH_APP_TWO_RATES
+constexpr bool kTwoRates = true;
+#else
+constexpr bool kTwoRates = false;
+#endif
+
 /// One turn of the force loop: everything from the encoders to the motors. Called by the board's
 /// timer.
 void servo_interrupt();

@@ -41,6 +41,9 @@ void tell_guard(servo::GuardState& guard, uint32_t row, float value) {
   guard_set_limits(guard, limits);
 }
 
+// A drive does not catch up with more than that: the tick counter was set otherwise.
+constexpr uint32_t kMostTicksOfAModel = 1000;
+
 query::Budget budget(const Values& v, params::Index row) { return {static_cast<uint32_t>(v[row])}; }
 
 math::RigidTransform scene_pose(const Values& v) {
@@ -106,48 +109,93 @@ bool Controller::take_parameter(const record::TickInput& input) {
   return true;
 }
 
-void Controller::feel(math::Vec3 position_m, bool ready) {
-  live_.touch.penetration_m = 0;
-  if (!ready) return;
-  const Values& v = live_.values;
-  scene::MeshObject object;
-  object.mesh = &opener_.mesh();
-  object.pose = scene_pose(v);
-  object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
-  scene::touch_mesh(object, v[params::kToolRadius], position_m, budget(v, params::kMeshSteps),
-                    live_.touch, live_.model);
-  scene::CurveGuide guide;
-  guide.curve = &opener_.curve();
-  guide.pose = object.pose;
-  guide.material = {v[params::kGuideStiffness], v[params::kGuideDamping]};
-  guide.snap_m = v[params::kGuideSnap];
-  guide.release_m = v[params::kGuideRelease];
-  guide.tunnel_m = v[params::kGuideTunnel];
-  guide.arc_penalty = v[params::kGuideArcPenalty];
-  guide.free_side = {v[params::kGuideSideX], v[params::kGuideSideY], v[params::kGuideSideZ]};
-  guide.ends = static_cast<scene::Ends>(static_cast<uint8_t>(v[params::kGuideEnds]));
-  guide.drive = {static_cast<scene::Drive::Kind>(static_cast<uint8_t>(v[params::kGuideDrive])),
-                 v[params::kGuideDriveForce], v[params::kGuideDriveSpeed], v[params::kTickPeriod]};
-  scene::follow_curve(guide, position_m, budget(v, params::kCurveSteps), live_.guide, live_.model);
+void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
+  Geometry& g = live_.geometry;
+  // The drive of a guide goes on by the time since the model before, at one rate a tick.
+  const uint32_t passed = wish.tick - g.tick;
+  const uint32_t ticks = g.sequence != 0 && passed <= kMostTicksOfAModel ? passed : 1;
+  g.tick = wish.tick;
+  felt.model.sequence = g.sequence;
+  scene::begin_model(felt.model, wish.position_m, wish.tick,
+                     static_cast<uint32_t>(v[params::kModelAge]));
+  g.sequence = felt.model.sequence;
+  g.touch.penetration_m = 0;
+  if (wish.can_feel) {
+    scene::MeshObject object;
+    object.mesh = &opener_.mesh();
+    object.pose = scene_pose(v);
+    object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
+    scene::touch_mesh(object, v[params::kToolRadius], wish.position_m,
+                      budget(v, params::kMeshSteps), g.touch, felt.model);
+    scene::CurveGuide guide;
+    guide.curve = &opener_.curve();
+    guide.pose = object.pose;
+    guide.material = {v[params::kGuideStiffness], v[params::kGuideDamping]};
+    guide.snap_m = v[params::kGuideSnap];
+    guide.release_m = v[params::kGuideRelease];
+    guide.tunnel_m = v[params::kGuideTunnel];
+    guide.arc_penalty = v[params::kGuideArcPenalty];
+    guide.free_side = {v[params::kGuideSideX], v[params::kGuideSideY], v[params::kGuideSideZ]};
+    guide.ends = static_cast<scene::Ends>(static_cast<uint8_t>(v[params::kGuideEnds]));
+    guide.drive = {static_cast<scene::Drive::Kind>(static_cast<uint8_t>(v[params::kGuideDrive])),
+                   v[params::kGuideDriveForce], v[params::kGuideDriveSpeed],
+                   static_cast<float>(ticks) * v[params::kTickPeriod]};
+    scene::follow_curve(guide, wish.position_m, budget(v, params::kCurveSteps), g.guide,
+                        felt.model);
+  }
+  const mesh::Closest& surface = g.touch.closest;
+  const curve::Closest& line = g.guide.closest;
+  felt.distance_m = surface.distance_m;
+  felt.distance_lower_m = surface.certificate.lower_m;
+  felt.penetration_m = g.touch.penetration_m;
+  felt.guide_deviation_m = line.distance_m;
+  felt.guide_lower_m = line.certificate.lower_m;
+  felt.guide_arc = line.arc;
+  felt.steps = surface.certificate.steps + line.certificate.steps;
+  felt.guide_steps = line.certificate.steps;
+  felt.state = static_cast<uint32_t>(surface.certificate.sign + 1) << record::kStateSignShift;
+  if (g.touch.penetration_m > 0) felt.state |= record::kStateContact;
+  if (g.guide.is_held) felt.state |= record::kStateOnGuide;
+  if (surface.certificate.exact) felt.state |= record::kStateExact;
+  if (line.certificate.exact) felt.state |= record::kStateGuideExact;
 }
 
-void Controller::tell_scene(record::TickOutput& output) const {
-  const mesh::Closest& surface = live_.touch.closest;
-  const curve::Closest& line = live_.guide.closest;
-  output.distance_m = surface.distance_m;
-  output.distance_lower_m = surface.certificate.lower_m;
-  output.penetration_m = live_.touch.penetration_m;
-  output.guide_deviation_m = line.distance_m;
-  output.guide_lower_m = line.certificate.lower_m;
-  output.guide_arc = line.arc;
-  output.steps = surface.certificate.steps + line.certificate.steps;
-  output.guide_steps = line.certificate.steps;
-  output.state |= static_cast<uint32_t>(surface.certificate.sign + 1) << record::kStateSignShift;
-  if (live_.touch.penetration_m > 0) output.state |= record::kStateContact;
-  if (live_.guide.is_held) output.state |= record::kStateOnGuide;
-  if (surface.certificate.exact) output.state |= record::kStateExact;
-  if (line.certificate.exact) output.state |= record::kStateGuideExact;
-  output.model_sequence = live_.model.sequence;
+// The model of this tick, made in it or elsewhere.
+const Controller::Felt& Controller::felt_in(const Wish& wish, uint32_t lines) {
+  if ((lines & record::kLineModelApart) == 0) {
+    feel(wish, live_.values, live_.models.answer());
+    return live_.models.answer();
+  }
+  if ((lines & record::kLineModelTaken) != 0) live_.models.take();
+  if ((lines & record::kLineModelWanted) != 0) live_.models.ask({wish, live_.values});
+  return live_.models.answer();
+}
+
+uint32_t Controller::model_lines() const {
+  uint32_t lines = record::kLineModelApart;
+  if (live_.models.is_made()) lines |= record::kLineModelTaken | record::kLineModelWanted;
+  if (live_.models.is_idle()) lines |= record::kLineModelWanted;
+  return lines;
+}
+
+void Controller::make_model() {
+  const Question* question = live_.models.asked();
+  if (question == nullptr) return;
+  feel(question->wish, question->values, live_.models.draft());
+  live_.models.made();
+}
+
+void Controller::tell(const Felt& felt, record::TickOutput& output) {
+  output.distance_m = felt.distance_m;
+  output.distance_lower_m = felt.distance_lower_m;
+  output.penetration_m = felt.penetration_m;
+  output.guide_deviation_m = felt.guide_deviation_m;
+  output.guide_lower_m = felt.guide_lower_m;
+  output.guide_arc = felt.guide_arc;
+  output.steps = felt.steps;
+  output.guide_steps = felt.guide_steps;
+  output.state |= felt.state;
+  output.model_sequence = felt.model.sequence;
 }
 
 void Controller::tick(const record::TickInput& input, record::TickOutput& output) {
@@ -175,9 +223,7 @@ void Controller::tick(const record::TickInput& input, record::TickOutput& output
       clock.dt_s};
   const device::Reading tool = read(live_.device, device_settings(v), sample);
 
-  scene::begin_model(live_.model, tool.position_m, input.tick,
-                     static_cast<uint32_t>(v[params::kModelAge]));
-  feel(tool.position_m, ready && tool.started);
+  const Felt& felt = felt_in({tool.position_m, input.tick, ready && tool.started}, input.lines);
 
   servo::StepInput step;
   step.position_m = tool.position_m;
@@ -187,7 +233,7 @@ void Controller::tick(const record::TickInput& input, record::TickOutput& output
   step.clear_faults = clear;
   step.reported = clock.faults | device_faults(tool.faults) | line_faults(input.lines);
   if (enable) step.reported |= asset_faults(opener_);
-  const servo::StepOutput wanted = servo::step(live_.servo, servo_settings(v), live_.model, step);
+  const servo::StepOutput wanted = servo::step(live_.servo, servo_settings(v), felt.model, step);
 
   // A Cartesian device's joints are its axes: the force of each motor is the tool's.
   float motor_N[record::kAxes];
@@ -202,7 +248,7 @@ void Controller::tick(const record::TickInput& input, record::TickOutput& output
   put(output.velocity_mps, tool.velocity_mps);
   output.faults = live_.servo.faults;
   output.state |= static_cast<uint32_t>(live_.servo.mode) | (ready ? record::kStateReady : 0u);
-  tell_scene(output);
+  tell(felt, output);
 }
 
 }  // namespace firmtouch

@@ -1,6 +1,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/core/handoff.hpp"
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/device/cartesian.hpp"
@@ -46,9 +47,21 @@ class Controller {
   /// The motors come on only after kLineEnable was seen low in a tick since reset() with the asset
   /// ready: a line that stands high from the beginning, as after a watchdog's reset, enables
   /// nothing.
-  /// Bounds: two queries of at most mesh_steps and curve_steps; callable from an interrupt; not
-  /// re-entrant.
+  /// At one rate the local model is made in the tick. At two, where input.lines holds
+  /// kLineModelApart, make_model() makes it elsewhere: this tick asks for one from its own position
+  /// where kLineModelWanted says so, begins to use the one that was made where kLineModelTaken does,
+  /// and goes on with the last one else. Since these are inputs, a log replays at two rates too.
+  /// Bounds: two queries of at most mesh_steps and curve_steps, at two rates none; callable from an
+  /// interrupt; not re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output);
+
+  /// Servo interrupt, at two rates: the lines of the tick that comes, by what make_model() has done.
+  uint32_t model_lines() const;
+
+  /// Below the servo interrupt, which may interrupt it anywhere; in lock-step and on replay after
+  /// each tick. Makes the model that a tick asked for; nothing where none was.
+  /// Bounds: two queries of at most mesh_steps and curve_steps.
+  void make_model();
 
   const params::Values& values() const { return live_.values; }
   const mesh::View& mesh() const { return opener_.mesh(); }
@@ -57,21 +70,46 @@ class Controller {
   uint32_t asset_crc() const { return opener_.container().crc(); }
 
  private:
+  // What a model is made from.
+  struct Wish {
+    math::Vec3 position_m;
+    uint32_t tick = 0;
+    bool can_feel = false;  // the asset is ready and the position known
+  };
+  struct Question {
+    Wish wish;
+    params::Values values;  // of that tick
+  };
+  // A model, and what the record tells of how it was made.
+  struct Felt {
+    servo::LocalModel model;
+    float distance_m = 0, distance_lower_m = 0, penetration_m = 0;
+    float guide_deviation_m = 0, guide_lower_m = 0, guide_arc = 0;
+    uint32_t steps = 0, guide_steps = 0;
+    uint32_t state = 1u << record::kStateSignShift;  // side unknown
+  };
+  // What making a model hands to the next one: of the tick, or of make_model(), never of both.
+  struct Geometry {
+    scene::MeshTouch touch;
+    scene::GuideTouch guide;
+    uint32_t sequence = 0;
+    uint32_t tick = 0;  // of the last model
+  };
   // All that a tick hands to the next one.
   struct Live {
     params::Values values;
     servo::ClockState clock;
     device::State device;
-    scene::MeshTouch touch;
-    scene::GuideTouch guide;
-    servo::LocalModel model;
+    Geometry geometry;
+    core::Handoff<Question, Felt> models;
     servo::State servo;
     servo::GuardState guard;
     bool enable_was_low = false;  // in a tick with the asset ready
   };
   bool take_parameter(const record::TickInput& input);
-  void feel(math::Vec3 position_m, bool ready);
-  void tell_scene(record::TickOutput& output) const;
+  void feel(const Wish& wish, const params::Values& values, Felt& felt);
+  const Felt& felt_in(const Wish& wish, uint32_t lines);
+  static void tell(const Felt& felt, record::TickOutput& output);
 
   Opener opener_;
   Live live_;

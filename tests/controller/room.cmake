@@ -1,3 +1,4 @@
 if(TARGET firmtouch_tools_bake)
-  firmtouch_test_room(controller LINKS firmtouch_tools_bake firmtouch_tools_surface firmtouch_controller)
+  find_package(Threads REQUIRED)
+  firmtouch_test_room(controller LINKS Threads::Threads firmtouch_tools_bake firmtouch_tools_surface firmtouch_controller)
 endif()

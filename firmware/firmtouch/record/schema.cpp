@@ -28,17 +28,13 @@ extern constexpr Field kFields[kFieldCount] = {
 };
 
 extern constexpr Bit kBits[kBitCount] = {
-    {"input.lines", "enable", 0},
-    {"input.lines", "emergency stop", 1},
-    {"input.lines", "drive fault", 2},
-    {"input.lines", "encoder fault", 3},
-    {"output.state", "contact", 8},
-    {"output.state", "on guide", 9},
-    {"output.state", "exact", 10},
-    {"output.state", "command taken", 11},
-    {"output.state", "command refused", 12},
-    {"output.state", "ready", 13},
-    {"output.state", "guide exact", 14},
+    {"input.lines", "enable", 0},          {"input.lines", "emergency stop", 1},
+    {"input.lines", "drive fault", 2},     {"input.lines", "encoder fault", 3},
+    {"input.lines", "model apart", 4},     {"input.lines", "model taken", 5},
+    {"input.lines", "model wanted", 6},    {"output.state", "contact", 8},
+    {"output.state", "on guide", 9},       {"output.state", "exact", 10},
+    {"output.state", "command taken", 11}, {"output.state", "command refused", 12},
+    {"output.state", "ready", 13},         {"output.state", "guide exact", 14},
 };
 
 namespace {
@@ -50,8 +46,8 @@ constexpr uint32_t words_of_fields() {
 }
 static_assert(words_of_fields() * 4 == sizeof(Numbered<TickRecord>),
               "a field of the record has no row, or a row no field");
-static_assert(kLineEncoderFault == 1u << 3 && kStateContact == 1u << 8 &&
-                  kStateGuideExact == 1u << 14,
+static_assert(kLineEncoderFault == 1u << 3 && kLineModelWanted == 1u << 6 &&
+                  kStateContact == 1u << 8 && kStateGuideExact == 1u << 14,
               "the bits are those of tick.hpp");
 
 }  // namespace

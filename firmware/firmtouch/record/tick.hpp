@@ -15,6 +15,10 @@ constexpr uint32_t kLineEnable = 1u << 0;  // the operator's enable; falling: ra
 constexpr uint32_t kLineEmergencyStop = 1u << 1;  // latched fault
 constexpr uint32_t kLineDriveFault = 1u << 2;     // the motor driver reports a fault: latched fault
 constexpr uint32_t kLineEncoderFault = 1u << 3;   // a count of this tick is not to be trusted
+// The local model, where geometry and servo run at two rates (controller.hpp).
+constexpr uint32_t kLineModelApart = 1u << 4;   // it is not made in this tick
+constexpr uint32_t kLineModelTaken = 1u << 5;   // from this tick on the one that was made is used
+constexpr uint32_t kLineModelWanted = 1u << 6;  // the next one is made from this tick's position
 
 // TickInput::command. A parameter of the wrong value, or one that may not change while the motors
 // are on, is refused: it stays as it was and TickOutput::state says so.

@@ -1,0 +1,126 @@
+#include <sys/ucontext.h>
+
+#include <csignal>
+#include <cstdint>
+
+#include "firmtouch/core/handoff.hpp"
+#include "harness/test.hpp"
+
+// The real machine code of the slow side, with a whole servo interrupt between any two of its
+// instructions: the processor's trap flag stops after each one, and the handler is the interrupt.
+#if defined(__x86_64__) && defined(__linux__)
+
+namespace firmtouch::core {
+namespace {
+
+// As large as a local model; every word tells whose it is, so that a torn one shows.
+struct Words {
+  uint32_t word[48] = {};
+};
+using Models = Handoff<Words, Words>;
+
+Words all(uint32_t value) {
+  Words words;
+  for (uint32_t& word : words.word) word = value;
+  return words;
+}
+bool is_all(const Words& words, uint32_t value) {
+  bool same = true;
+  for (const uint32_t word : words.word) same = same && word == value;
+  return same;
+}
+
+Models* g_models;
+volatile uint32_t g_instruction, g_interrupt_at, g_interrupts, g_torn;
+uint32_t g_used, g_asked;
+
+// One turn of the servo: takes what is made, asks for the next, renders what it has.
+void servo() {
+  if (g_models->take()) g_used = g_asked;
+  if (g_models->is_idle() && g_models->ask(all(g_asked + 1))) ++g_asked;
+  if (!is_all(g_models->answer(), 2 * g_used)) g_torn = g_torn + 1;
+}
+
+// One turn below it: the answer to a question is twice the question.
+[[gnu::noinline]] void geometry(Models& models) {
+  const Words* question = models.asked();
+  if (question == nullptr) return;
+  Words& draft = models.draft();
+  for (uint32_t i = 0; i < 48; ++i) draft.word[i] = 2 * question->word[i];
+  models.made();
+}
+
+void on_trap(int, siginfo_t*, void* context) {
+  if (g_instruction == g_interrupt_at) {
+    for (uint32_t i = 0; i < g_interrupts; ++i) servo();
+    static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_EFL] &= ~0x100;
+  }
+  g_instruction = g_instruction + 1;
+}
+
+// Below the red zone of the caller, which pushf would overwrite.
+void set_trap_flag() {
+  asm volatile(
+      "lea -128(%%rsp), %%rsp\n pushf\n orl $0x100, (%%rsp)\n popf\n lea 128(%%rsp), %%rsp" ::
+          : "memory", "cc");
+}
+void clear_trap_flag() {
+  asm volatile(
+      "lea -128(%%rsp), %%rsp\n pushf\n andl $0xFFFFFEFF, (%%rsp)\n popf\n lea 128(%%rsp), %%rsp" ::
+          : "memory", "cc");
+}
+
+// Result: false where the interrupt's place lies behind the end.
+bool try_one(uint32_t before, uint32_t place, uint32_t interrupts) {
+  Models models;
+  g_models = &models;
+  g_used = g_asked = 0;
+  for (uint32_t i = 0; i < before; ++i) {  // so that either of the two answers is in use
+    servo();
+    geometry(models);
+  }
+  servo();
+  g_interrupt_at = place;
+  g_interrupts = interrupts;
+  g_instruction = 0;
+  set_trap_flag();
+  geometry(models);
+  clear_trap_flag();
+  const bool happened = g_instruction > place;
+  // Whatever came between, nothing is lost: the next turns take what was asked.
+  const uint32_t used = g_used;
+  servo();
+  geometry(models);
+  servo();
+  CHECK_GE(g_used, used + 1);
+  CHECK_GE(g_used, before + 1);
+  return happened;
+}
+
+TEST(AWholeServoTickBetweenAnyTwoInstructionsOfTheGeometryTearsNothing) {
+  struct sigaction handler {};
+  struct sigaction before {};
+  handler.sa_sigaction = on_trap;
+  handler.sa_flags = SA_SIGINFO;
+  CHECK_EQ(sigaction(SIGTRAP, &handler, &before), 0);
+  g_torn = 0;
+  uint32_t places = 0;
+  for (uint32_t turns = 0; turns < 3; ++turns) {
+    for (uint32_t interrupts = 1; interrupts <= 3; ++interrupts) {
+      uint32_t place = 0;
+      while (try_one(turns, place, interrupts)) {
+        // All places of optimised code; samples of what sanitizers make of it, which is longer.
+        place += place < 400 ? 1 : place / 8;
+        ++places;
+      }
+    }
+  }
+  sigaction(SIGTRAP, &before, nullptr);
+  CHECK_EQ(g_torn, 0u);
+  CHECK_GE(places, 9u * 20u);  // single stepping did happen
+}
+
+}  // namespace
+}  // namespace firmtouch::core
+
+#endif
