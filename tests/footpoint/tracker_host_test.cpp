@@ -87,6 +87,22 @@ TEST(PlanarCurvesAreFollowedAtTheTolerancePublished) {
   CHECK_GT(pruned, moves / 10);
 }
 
+// Knots of multiplicity 2 and 3: curvature jumps, and corners.
+TEST(CurvesWithRepeatedKnotsAreFollowed) {
+  size_t wrong = 0;
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    tools::SplineCurve c = tools::winding_curve(seed, 16, true, seed % 2 == 0);
+    for (size_t k = 5; k + 5 < c.knots.size(); k += 3) {
+      c.knots[k + 1] = c.knots[k];
+      if (seed > 4) c.knots[k - 1] = c.knots[k];
+    }
+    const Footpoints feet(tools::bezier_pieces(c), {});
+    const CriticalGrid grid(feet, 5, 0.25);
+    wrong += follow(feet, grid, tools::wandering_path(seed, 1000, 0.002, 0, 0), {}).wrong;
+  }
+  CHECK_EQ(wrong, 0u);
+}
+
 TEST(WithoutEndEventsFootPointsAreLost) {
   size_t wrong = 0, moves = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {

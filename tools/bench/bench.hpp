@@ -10,6 +10,7 @@ namespace firmtouch::bench {
 struct Options {
   std::vector<std::string> models;  // files; none: the demo part (bench/models.hpp)
   std::string peer;                 // a command, run by the shell; empty: none
+  std::string figures;              // a folder for drawings; empty: none
   bool is_long = false;             // the full sizes
 };
 

@@ -22,6 +22,7 @@ const std::vector<Bench>& benches() {
        "queries of a baked hull: table 4 beside k-DOP and AABB trees, memory, shells",
        run_hull_queries},
       {"segment", "segments through meshes: first, any and every crossing", run_segment},
+      {"splines", "foot-points of splines carried along, at the published parameters", run_splines},
   };
   return all;
 }

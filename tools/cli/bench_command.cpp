@@ -72,6 +72,7 @@ const Command& bench_command() {
       "    COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`",
       {{"--peer", "COMMAND", "what to race against (default: none)"},
        {"--bar", nullptr, "exit code 1 where a bar is not met"},
+       {"--figures", "FOLDER", "splines: figures 7 to 11 drawn as SVG"},
        {"--json", nullptr, "for programs"},
        {"--long", nullptr, "the full sizes"}},
       0,
@@ -86,6 +87,7 @@ int run_bench(const Arguments& arguments) {
   bench::Options options;
   options.models.assign(words.begin() + 1, words.end());
   options.peer = arguments.text("--peer", "");
+  options.figures = arguments.text("--figures", "");
   options.is_long = arguments.has("--long");
   size_t not_met = 0;
   std::string text;

@@ -43,6 +43,7 @@ Footpoints::Footpoints(const std::vector<BezierCurve>& curves,
   bool is_first = true;
   grow(curves, low, high, is_first);
   grow(patches, low, high, is_first);
+  low_m_ = low, high_m_ = high;
   extent_m_ = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   for (const BezierCurve& c : curves) curves_.emplace_back(c);
   find_joints();

@@ -53,6 +53,9 @@ class Footpoints {
   }
   const std::vector<Corner>& corners() const { return corners_; }
   double extent_m() const { return extent_m_; }
+  /// Of the control points.
+  Point low_m() const { return low_m_; }
+  Point high_m() const { return high_m_; }
 
  private:
   // The piece that goes on smoothly from another, and by what that one's equation is to be
@@ -76,6 +79,7 @@ class Footpoints {
   std::vector<CurveSystem> border_curves_;
   std::vector<Corner> corners_;
   double extent_m_ = 0;
+  Point low_m_, high_m_;
 };
 
 }  // namespace firmtouch::tools

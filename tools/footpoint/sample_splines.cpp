@@ -68,4 +68,15 @@ std::vector<Point> wandering_path(uint64_t seed, size_t positions, double step, 
   return path;
 }
 
+std::vector<Point> path_about(const std::vector<Point>& path, Point low, Point high) {
+  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const Point middle = (low + high) * 0.5;
+  std::vector<Point> points;
+  for (const Point& p : path) {
+    const Point d = (p - Point{0.5, 0.5, 0.5}) * extent;
+    points.push_back(middle + (high.z > low.z ? d : Point{d.x, d.y, 0}));
+  }
+  return points;
+}
+
 }  // namespace firmtouch::tools

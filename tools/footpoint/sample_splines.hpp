@@ -19,4 +19,8 @@ SplineSurface hilly_surface(uint64_t seed, size_t n, double rise, bool weighs);
 std::vector<Point> wandering_path(uint64_t seed, size_t positions, double step, double low_z,
                                   double high_z);
 
+/// The same path about the box from `low` to `high`, by the extent of the box; in its plane where it
+/// has no height.
+std::vector<Point> path_about(const std::vector<Point>& path, Point low, Point high);
+
 }  // namespace firmtouch::tools

@@ -11,6 +11,11 @@ void add(std::vector<uint32_t>& pieces, size_t piece) {
   if (std::find(pieces.begin(), pieces.end(), wanted) == pieces.end()) pieces.push_back(wanted);
 }
 
+double reach(Point gradient, Point half) {
+  return std::fabs(gradient.x * half.x) + std::fabs(gradient.y * half.y) +
+         std::fabs(gradient.z * half.z);
+}
+
 }  // namespace
 
 Tracker::Tracker(const Footpoints& feet, const CriticalGrid& grid, TrackerOptions options)
@@ -70,8 +75,8 @@ void Tracker::find_border_events(Point p_m, std::vector<uint32_t>& pieces) {
   }
 }
 
-// The published test without the hierarchy: whether (1) and (2) have a common zero for a point of
-// the box about the move, by subdivision of the piece.
+// The published test of a crossing: whether (1) and (2) have a common zero for a point of the box
+// about the move, by subdivision of the piece.
 bool Tracker::may_be_critical(size_t piece, Point p_m) const {
   const CurveSystem& system = feet_.curves()[piece];
   const Point half = (p_m - at_) * 0.5, middle = at_ + half - system.origin;
@@ -81,10 +86,8 @@ bool Tracker::may_be_critical(size_t piece, Point p_m) const {
   };
   Part whole{Scalars(system.a.degree_u, 0), Scalars(system.a.degree_u, 0), 0};
   for (size_t k = 0; k < system.a.c.size(); ++k) {
-    const Point& b = system.b.c[k];
-    const double value = system.a.c[k] - dot(middle, b);
-    const double slack =
-        std::fabs(b.x * half.x) + std::fabs(b.y * half.y) + std::fabs(b.z * half.z);
+    const double value = system.a.c[k] - dot(middle, system.b.c[k]);
+    const double slack = reach(system.b.c[k], half);
     whole.low.c[k] = value - slack, whole.high.c[k] = value + slack;
   }
   std::vector<Part> stack{whole};
@@ -107,29 +110,46 @@ bool Tracker::may_be_critical(size_t piece, Point p_m) const {
     stack.push_back(std::move(part));
     stack.push_back(std::move(right));
   }
-  return false;
+  const size_t next = feet_.next_of(piece), previous = feet_.previous_of(piece);
+  return (next != Footpoints::kNone && joint_may_be_critical(piece, next, p_m)) ||
+         (previous != Footpoints::kNone && joint_may_be_critical(previous, piece, p_m));
+}
+
+// Where curvature jumps: whether the move may cross the joint's normal between both centres of
+// curvature.
+bool Tracker::joint_may_be_critical(size_t from, size_t to, Point p_m) const {
+  const CurveSystem &a = feet_.curves()[from], &b = feet_.curves()[to];
+  const Point half = (p_m - at_) * 0.5, middle = at_ + half;
+  const auto sign = [&](double value, Point gradient, Point origin) {
+    const double v = value - dot(middle - origin, gradient), slack = reach(gradient, half);
+    return v > slack ? 1 : v < -slack ? -1 : 0;
+  };
+  if (sign(b.a.c.front(), b.b.c.front(), b.origin) != 0) return false;
+  return sign(a.a_slope.c.back(), a.b_slope.c.back(), a.origin) *
+             sign(b.a_slope.c.front(), b.b_slope.c.front(), b.origin) !=
+         1;
 }
 
 void Tracker::find_critical(Point p_m, std::vector<uint32_t>& pieces) {
-  const size_t before = pieces.size(), curves = feet_.curves().size();
-  if (!options_.uses_grid) {
-    for (size_t k = 0; k < curves; ++k)
-      if (may_be_critical(k, p_m)) add(pieces, k);
-    for (size_t k = 0; k < feet_.patches().size(); ++k) add(pieces, curves + k);
-  } else if (!grid_.cells_between(at_, p_m, cells_)) {  // outside: all of them
-    for (size_t k = 0; k < curves + feet_.patches().size(); ++k) add(pieces, k);
+  const size_t curves = feet_.curves().size(), all = curves + feet_.patches().size();
+  std::vector<uint32_t> listed;
+  if (!options_.uses_grid || !grid_.cells_between(at_, p_m, cells_)) {  // or outside of it
+    for (size_t k = 0; k < all; ++k) listed.push_back(static_cast<uint32_t>(k));
   } else {
     for (const size_t cell : cells_)
-      for (const uint32_t piece : grid_.pieces_in(cell)) add(pieces, piece);
+      for (const uint32_t piece : grid_.pieces_in(cell)) add(listed, piece);
   }
-  // A foot-point born beside a joint may pass it within the same move.
-  for (size_t i = before, count = pieces.size(); i < count; ++i) {
-    if (pieces[i] >= curves) continue;
-    if (feet_.next_of(pieces[i]) != Footpoints::kNone) add(pieces, feet_.next_of(pieces[i]));
-    if (feet_.previous_of(pieces[i]) != Footpoints::kNone)
-      add(pieces, feet_.previous_of(pieces[i]));
+  counts_.pruned += listed.empty();
+  for (const uint32_t piece : listed) {
+    if (piece >= curves) {
+      add(pieces, piece);
+    } else if (may_be_critical(piece, p_m)) {
+      // A foot-point born beside a joint may pass it within the same move.
+      add(pieces, piece);
+      if (feet_.next_of(piece) != Footpoints::kNone) add(pieces, feet_.next_of(piece));
+      if (feet_.previous_of(piece) != Footpoints::kNone) add(pieces, feet_.previous_of(piece));
+    }
   }
-  counts_.pruned += pieces.size() == before;
 }
 
 bool Tracker::march_curve(Track& track, Point p_m, bool& has_left) {

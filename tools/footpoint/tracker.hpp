@@ -16,7 +16,7 @@ enum class Predictor {
 struct TrackerOptions {
   Predictor predictor = Predictor::kFixedPoint;
   bool watches_ends = true;  // foot-points that leave or enter at ends and borders
-  bool uses_grid = true;     // else every move is tested against equations (1) and (2) anew
+  bool uses_grid = true;     // else every move is tested against every curve piece
 };
 
 struct TrackerCounts {
@@ -68,6 +68,7 @@ class Tracker {
   void find_border_events(Point p_m, std::vector<uint32_t>& pieces);
   void find_critical(Point p_m, std::vector<uint32_t>& pieces);
   bool may_be_critical(size_t piece, Point p_m) const;
+  bool joint_may_be_critical(size_t from, size_t to, Point p_m) const;
   void solve(std::vector<uint32_t>& pieces, Point p_m);
   void solve_all(Point p_m);
   bool has_doubles() const;
