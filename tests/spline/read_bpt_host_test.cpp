@@ -59,6 +59,22 @@ TEST(TheTeapotIsThirtyTwoPatchesThatMeet) {
     CHECK_EQ(model.surfaces[0].points[4 * j + 3].x, model.surfaces[1].points[4 * j].x);
 }
 
+TEST(PatchesMayHoldTheirOwnPointsAndDegrees) {
+  const tools::SplineModel model = tools::read_spline_bytes(
+      "2\n1 2\n0 0 0\n1 0 0\n0 1 1\n1 1 1\n0 2 0\n1 2 0\n1 1\n0,0,5\n1,0,5\n0,1,5\n1,1,5\n",
+      "a.bpt", 0);
+  CHECK(model.problem.empty());
+  CHECK_EQ(model.surfaces.size(), 2u);
+  const tools::SplineSurface& s = model.surfaces[0];
+  CHECK_EQ(s.degree_u, 1);
+  CHECK_EQ(s.degree_v, 2);
+  CHECK_LE(tools::length(point_at(s, 0.5, 0.5) - tools::Point{0.5, 1, 0.5}), 1e-16);
+  CHECK(refused_text("1\n3 9\n0 0 0\n", {"part.bpt:2:", "degrees 3 and 9", "1 to 5"}));
+  CHECK(refused_text("1\n1 1\n0 0 0\n1 0 0\n0 1 0\n", {"ends before point 4 of 4", "cut short"}));
+  CHECK(
+      refused_text("1\n1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 nan\n", {"part.bpt:6:", "point 4", "`nan`"}));
+}
+
 TEST(BadPatchFilesAreRefusedWithLineAndRemedy) {
   CHECK(refused_text("x\n", {"part.bpt:1:", "the number of patches", "`x`"}));
   CHECK(refused_text("0\n", {"part.bpt:1:", "is 0"}));

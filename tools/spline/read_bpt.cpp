@@ -3,8 +3,9 @@
 #include "spline/spline_sink.hpp"
 #include "surface/text_scan.hpp"
 
-// Newell's patches: how many; sixteen point numbers a patch, from 1, u fastest; how many points; x,
-// y and z of each. Commas or blanks stand between numbers.
+// Patches, how many first. Newell's: sixteen point numbers a patch, from 1, u fastest, in a line; how
+// many points; x, y and z of each. Or each patch by itself: its two degrees, then its points, u
+// fastest. Commas or blanks stand between numbers.
 
 namespace firmtouch::tools {
 namespace {
@@ -26,6 +27,11 @@ class Numbers {
     rest_.remove_prefix(word.size());
     pass_commas();
     return true;
+  }
+  /// Whether the line of the number read last goes on.
+  bool more_in_line() {
+    if (rest_.empty() && scan_.next_word(rest_)) pass_commas();
+    return !rest_.empty();
   }
   uint64_t line() const { return line_ == 0 ? scan_.line() : line_; }
 
@@ -49,9 +55,14 @@ class Reader {
       : numbers_(text), unit_m_(unit_m), sink_(sink) {}
 
   void read() {
-    int64_t patches = 0, points = 0;
-    if (!count("patches", kMostPatches, patches) || !read_patches(patches) ||
-        !count("points", kMostPoints, points) || !read_points(points))
+    int64_t patches = 0, points = 0, first = 0, second = 0;
+    if (!count("patches", kMostPatches, patches) || !integer("patch 0", first)) return;
+    const uint64_t line = numbers_.line();
+    if (!integer("patch 0", second)) return;
+    is_indexed_ = numbers_.line() != line || numbers_.more_in_line();
+    if (is_indexed_ ? !read_patches(patches, line, first, second) ||
+                          !count("points", kMostPoints, points) || !read_points(points)
+                    : !read_each(patches, line, first, second))
       return;
     std::string_view word;
     if (numbers_.next(word)) {
@@ -60,6 +71,7 @@ class Reader {
       return;
     }
     for (size_t i = 0; i < patches_.size(); ++i) take(i);
+    for (size_t i = 0; i < whole_.size(); ++i) check_and_add(std::move(whole_[i]), lines_[i]);
   }
 
  private:
@@ -86,19 +98,56 @@ class Reader {
                                            " can be read: mend it");
   }
 
-  bool read_patches(int64_t patches) {
+  bool read_patches(int64_t patches, uint64_t line, int64_t first, int64_t second) {
     for (int64_t i = 0; i < patches; ++i) {
       Patch patch{};
       for (int64_t& corner : patch.corner) {
-        if (!integer("patch " + std::to_string(i), corner)) return false;
-        if (&corner == patch.corner) patch.line = numbers_.line();
-        if (numbers_.line() != patch.line)
+        const auto k = &corner - patch.corner;
+        if (i == 0 && k < 2)
+          corner = k == 0 ? first : second;
+        else if (!integer("patch " + std::to_string(i), corner))
+          return false;
+        if (k == 0) patch.line = i == 0 ? line : numbers_.line();
+        if (k > 1 || i > 0 ? numbers_.line() != patch.line : false)
           return sink_.fail(patch.line, "patch " + std::to_string(i) +
                                             " has not 16 numbers in its line: mend it");
       }
       patches_.push_back(patch);
     }
     return true;
+  }
+
+  // Each patch with its own points.
+  bool read_each(int64_t patches, uint64_t line, int64_t first, int64_t second) {
+    for (int64_t i = 0; i < patches; ++i) {
+      const std::string name = "patch " + std::to_string(i);
+      if (i > 0) {
+        if (!integer(name, first)) return false;
+        line = numbers_.line();
+        if (!integer(name, second)) return false;
+      }
+      if (first < 1 || first > kMostDegree || second < 1 || second > kMostDegree)
+        return sink_.fail(line, name + " is of degrees " + std::to_string(first) + " and " +
+                                    std::to_string(second) +
+                                    ", but 1 to 5 are read: mend it, or lower them at export");
+      const int64_t points = (first + 1) * (second + 1);
+      points_.clear();
+      if (!read_points(points)) return false;
+      whole_.push_back(surface_of(static_cast<int>(first), static_cast<int>(second)));
+      whole_.back().points = points_;
+      whole_.back().where = name + " in line " + std::to_string(line);
+      lines_.push_back(line);
+    }
+    return true;
+  }
+
+  static SplineSurface surface_of(int degree_u, int degree_v) {
+    SplineSurface s;
+    s.degree_u = degree_u, s.degree_v = degree_v;
+    s.count_u = static_cast<size_t>(degree_u) + 1, s.count_v = static_cast<size_t>(degree_v) + 1;
+    s.knots_u.assign(s.count_u, 0.0), s.knots_u.resize(2 * s.count_u, 1.0);
+    s.knots_v.assign(s.count_v, 0.0), s.knots_v.resize(2 * s.count_v, 1.0);
+    return s;
   }
 
   bool read_points(int64_t points) {
@@ -121,10 +170,7 @@ class Reader {
 
   void take(size_t index) {
     const Patch& patch = patches_[index];
-    SplineSurface s;
-    s.degree_u = s.degree_v = 3;
-    s.count_u = s.count_v = 4;
-    s.knots_u = s.knots_v = {0, 0, 0, 0, 1, 1, 1, 1};
+    SplineSurface s = surface_of(3, 3);
     s.where = "patch " + std::to_string(index) + " in line " + std::to_string(patch.line);
     for (int64_t corner : patch.corner) {
       if (corner < 1 || corner > static_cast<int64_t>(points_.size())) {
@@ -136,12 +182,15 @@ class Reader {
       }
       s.points.push_back(points_[static_cast<size_t>(corner - 1)]);
     }
+    check_and_add(std::move(s), patch.line);
+  }
+
+  void check_and_add(SplineSurface s, uint64_t line) {
     const SplineDefect far = check_coordinates(s.points);
-    if (!far.what.empty()) {
-      sink_.defect(patch.line, "far", s.where + ": " + far.what);
-      return;
-    }
-    sink_.add(std::move(s), patch.line);
+    if (!far.what.empty())
+      sink_.defect(line, "far", s.where + ": " + far.what);
+    else
+      sink_.add(std::move(s), line);
   }
 
   Numbers numbers_;
@@ -149,6 +198,9 @@ class Reader {
   SplineSink& sink_;
   std::vector<Patch> patches_;
   std::vector<ControlPoint> points_;
+  bool is_indexed_ = true;
+  std::vector<SplineSurface> whole_;  // patches that hold their own points
+  std::vector<uint64_t> lines_;       // theirs
 };
 
 }  // namespace
