@@ -16,8 +16,8 @@ void run_morris(const Options& options, Report& report);         // morris.cpp
 void run_hull_queries(const Options& options, Report& report);
 void run_hulls(const Options& options, Report& report);    // hulls.cpp
 void run_segment(const Options& options, Report& report);  // segment.cpp
-void run_hulls(const Options& options, Report& report);          // hulls.cpp
-void run_segment(const Options& options, Report& report);        // segment.cpp
-void run_splines(const Options& options, Report& report);        // splines.cpp
+void run_hulls(const Options& options, Report& report);    // hulls.cpp
+void run_segment(const Options& options, Report& report);  // segment.cpp
+void run_splines(const Options& options, Report& report);  // splines.cpp
 
 }  // namespace firmtouch::bench
