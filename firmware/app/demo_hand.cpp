@@ -24,8 +24,8 @@ constexpr float kPress_s = 2.0f;      // from one press to the next
 constexpr float kPressDepth = 0.12f;  // of the way from the curve to the middle of the mesh
 constexpr float kLiftHeight = 0.06f;
 constexpr uint32_t kCloses_us = 500000;    // after the start
-constexpr uint32_t kGivesUp_us = 5000000;  // without a force in that time the switch is let go
-constexpr uint32_t kRests_us = 4000000;
+constexpr uint32_t kGivesUp_us = 3000000;  // without a force in that time the switch is let go
+constexpr uint32_t kRests_us = 3000000;
 
 struct Axis {
   float position_m = 0;

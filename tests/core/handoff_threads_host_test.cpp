@@ -17,7 +17,7 @@ struct Words {
 // model where this machine shows only its own.
 TEST(TwoThreadsHandQuestionsAndAnswersOverWithoutATornOne) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
-  const uint32_t wanted = is_long ? 10000000 : 100000;
+  const uint32_t wanted = is_long ? 1000000 : 100000;
   static Handoff<Words, Words> models;
   std::atomic<bool> is_over{false};
   uint32_t torn_questions = 0;
