@@ -3,6 +3,7 @@
 #include "bench/segments.hpp"
 #include "bench/timing.hpp"
 #include "firmtouch/hull/shell_cast.hpp"
+#include "firmtouch/hull/shell_distance.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "hull/refinement.hpp"
 
@@ -50,6 +51,35 @@ void run_memory(const Model& model, const Baked& baked, Report& report) {
                rows);
 }
 
+namespace {
+
+// A path of short moves that stays off the shell: none of them may read flash.
+void run_path(const Model& model, const hull::Shell& shell, Report& report) {
+  const double off_m = 0.02 * model.diagonal_m();
+  size_t moves = 0, reads = 0;
+  math::Vec3 last{};
+  bool has_last = false;
+  for (const FloatSegment& s : across_box(model, 300, 9)) {
+    const tools::Point a = tools::to_point(s.a_m), way = tools::to_point(s.b_m) - a;
+    has_last = false;
+    for (int i = 0; i <= 200; ++i) {
+      const math::Vec3 here = tools::to_vec3(a + way * (i / 200.0));
+      const hull::ShellDistance near = hull::shell_distance(shell, here, query::kUnlimited);
+      const bool is_off = static_cast<double>(near.lower_m) > off_m;
+      if (is_off && has_last) {
+        ++moves;
+        reads += hull::cast_shell(shell, last, here, query::kUnlimited).hit ? 1u : 0u;
+      }
+      last = here;
+      has_last = is_off;
+    }
+  }
+  report.bar("moves that read flash on paths 2 % of the diagonal off the shell", model.name,
+             static_cast<double>(reads), "of " + std::to_string(moves), 0);
+}
+
+}  // namespace
+
 void run_shells(const Model& model, const Baked& baked, Report& report) {
   const std::vector<FloatSegment> segments = across_box(model, 10000, 7);
   std::vector<std::vector<std::string>> rows;
@@ -81,6 +111,7 @@ void run_shells(const Model& model, const Baked& baked, Report& report) {
     report.bar("segments without a hit that read flash, shell of 1,000", model.name, share, "%",
                1.5);
     report.bar("shell hits later than the mesh", model.name, static_cast<double>(late), "", 0);
+    run_path(model, refined.shell, report);
   }
   report.table({"shell, faces", "bytes", "boxes a segment", "free segments that read flash, %",
                 "mean depth error, % of the diagonal", "late"},

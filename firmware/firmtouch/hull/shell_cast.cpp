@@ -28,6 +28,8 @@ class Leaves {
     const uint32_t end = first + kLeafFaces < count ? first + kLeafFaces : count;
     for (uint32_t i = first; i < end; ++i) {
       const ShellFace& face = shell_.face(i);
+      if (frame_.misses(sheared(face.corner[0]), sheared(face.corner[1]), sheared(face.corner[2])))
+        continue;
       const mesh::Crossing crossing =
           frame_.crossing(vertex(shell_, face.corner[0]), vertex(shell_, face.corner[1]),
                           vertex(shell_, face.corner[2]));
@@ -38,8 +40,22 @@ class Leaves {
   }
 
  private:
+  // A vertex is met by three faces of a leaf: those met last are kept by the low bits of their
+  // numbers.
+  mesh::SegmentFrame::Sheared sheared(uint32_t i) {
+    Met& met = met_[i % kMet];
+    if (met.vertex != i) met = {i, frame_.sheared(vertex(shell_, i))};
+    return met.at;
+  }
+  struct Met {
+    uint32_t vertex = UINT32_MAX;
+    mesh::SegmentFrame::Sheared at;
+  };
+  static constexpr uint32_t kMet = 16;
+
   const Shell& shell_;
   mesh::SegmentFrame frame_;
+  Met met_[kMet];
   Taker& taker_;
 };
 

@@ -55,10 +55,26 @@ class SegmentFrame {
     side_error_m2_ = side_error_m_ * (reach_m * 0x1p-21f) + kUnderflow;
   }
 
+  /// A vertex in the frame, for who meets it in several triangles.
+  struct Sheared {
+    float x, y;
+  };
+  Sheared sheared(math::Vec3 vertex_m) const {
+    const math::Vec3 v = vertex_m - a_m_;
+    return {math::dot(row_[0], v), math::dot(row_[1], v)};
+  }
+  /// Whether floats are sure that the triangle is not crossed: crossing() would tell none.
+  bool misses(Sheared p, Sheared q, Sheared r) const {
+    const float e = coordinate_error_m_;  // most lie to one side
+    if (p.x > e ? q.x > e && r.x > e : p.x < -e && q.x < -e && r.x < -e) return true;
+    if (p.y > e ? q.y > e && r.y > e : p.y < -e && q.y < -e && r.y < -e) return true;
+    return pass(p, q, r) == Side::kMisses;
+  }
+
   /// Result: as exact_crossing(), with |t - exact| <= kTimeError. The same bits whatever decided
   /// which side of which edge: where floats decide, they decide as integers would.
   Crossing crossing(math::Vec3 p, math::Vec3 q, math::Vec3 r) const {
-    const Side side = pass(p, q, r);
+    const Side side = pass(sheared(p), sheared(q), sheared(r));
     if (side == Side::kMisses) return {};
     if (side != Side::kUnsure) {
       float error;
@@ -75,17 +91,8 @@ class SegmentFrame {
   // Products that vanish below the range of float lose this much and no more.
   static constexpr float kUnderflow = 1e-36f;
 
-  struct Sheared {
-    float x, y;
-  };
-  Sheared sheared(math::Vec3 vertex_m) const {
-    const math::Vec3 v = vertex_m - a_m_;
-    return {math::dot(row_[0], v), math::dot(row_[1], v)};
-  }
-
   // NaN and infinities pass every comparison as unsure.
-  Side pass(math::Vec3 p_m, math::Vec3 q_m, math::Vec3 r_m) const {
-    const Sheared p = sheared(p_m), q = sheared(q_m), r = sheared(r_m);
+  Side pass(Sheared p, Sheared q, Sheared r) const {
     const float high_x = larger(p.x, larger(q.x, r.x)), low_x = smaller(p.x, smaller(q.x, r.x));
     const float high_y = larger(p.y, larger(q.y, r.y)), low_y = smaller(p.y, smaller(q.y, r.y));
     const float e = coordinate_error_m_;
