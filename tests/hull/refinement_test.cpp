@@ -179,6 +179,27 @@ TEST(WhereMemoryOrStepsRunOutNothingOfTheMeshIsNearerThanTold) {
   CHECK(exact > 50);
 }
 
+TEST(AClosureThatDoesNotFitIsTakenBackWhole) {
+  const Opened opened;
+  Memory<12, 4> memory;
+  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  uint32_t refused = 0;
+  for (uint32_t turn = 0; turn < 2; ++turn) {
+    for (uint32_t k = opened.view.collapse_count(); k-- > 0;) {
+      const uint32_t before = refinement.split_count();
+      const bool fits = refinement.split(k);
+      refused += fits ? 0u : 1u;
+      if (!fits) CHECK_EQ(refinement.split_count(), before);
+      uint32_t count = 0;
+      for (hull::Refinement::Faces faces(refinement); faces.next();) ++count;
+      CHECK_EQ(count, opened.view.shell().face_count() + 2 * refinement.split_count());
+      if (turn == 1) refinement.reset();
+    }
+    refinement.reset();
+  }
+  CHECK(refused > 10);
+}
+
 TEST(HostileSegmentsAreAnsweredInFiniteNumbers) {
   const Opened opened;
   Memory<kMost, 8> memory;
