@@ -47,8 +47,7 @@ WhatDoesNotExistIsAUsageError() {
 }
 
 WhatIsPlannedIsRefusedByName() {
-  for kind in spline footpoints; do f query a.fta a $kind; exits 2; told "$kind is not in this version"; done
-  for kind in igs iges bpt; do f bake x.$kind -o a.fta; exits 3; told "x.$kind"; done
+  f query a.fta a footpoints; exits 2; told "footpoints is not in this version"
 }
 
 OptionsWithoutMeaningAreRefused() {

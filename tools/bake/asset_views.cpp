@@ -41,6 +41,16 @@ std::string prove_curve(const asset::Container& container, const std::string& na
          "': its probe queries are answered otherwise here than where it was baked";
 }
 
+std::string prove_spline(const asset::Container& container, const std::string& name) {
+  spline::View view;
+  const core::Verdict verdict = spline::open(spline_sections_of(container, name.c_str()), view);
+  if (!verdict.ok()) return "spline '" + name + "': " + rule_text(verdict);
+  const core::Bytes probes = container.find(spline::kProbesSection, name.c_str());
+  if (probes.empty() || spline_probes_agree(view, probes)) return "";
+  return "spline '" + name +
+         "': its probe queries are answered otherwise here than where it was baked";
+}
+
 }  // namespace
 
 mesh::Sections mesh_sections_of(const asset::Container& container, const char* name) {
@@ -86,6 +96,17 @@ curve::Sections curve_sections_of(const asset::Container& container, const char*
   return sections;
 }
 
+spline::Sections spline_sections_of(const asset::Container& container, const char* name) {
+  return {container.find(spline::kHeadSection, name),
+          container.find(spline::kPiecesSection, name),
+          container.find(spline::kCoefficientsSection, name),
+          container.find(spline::kLeavesSection, name),
+          container.find(spline::kBendsSection, name),
+          container.find(spline::kPlacesSection, name),
+          container.find(spline::kNodesSection, name),
+          container.find(spline::kPointsSection, name)};
+}
+
 std::vector<std::string> names_with(const asset::Container& container, uint32_t type) {
   std::vector<std::string> names;
   for (uint32_t i = container.next_of_type(type); i != asset::kNoSection;
@@ -109,6 +130,10 @@ std::string prove_asset(core::Bytes file) {
   }
   for (const std::string& name : names_with(container, curve::kHeadSection)) {
     const std::string problem = prove_curve(container, name);
+    if (!problem.empty()) return problem;
+  }
+  for (const std::string& name : names_with(container, spline::kHeadSection)) {
+    const std::string problem = prove_spline(container, name);
     if (!problem.empty()) return problem;
   }
   return "";

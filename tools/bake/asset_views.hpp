@@ -7,12 +7,14 @@
 #include "firmtouch/field/view.hpp"
 #include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
+#include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::tools {
 
-/// The sections of one mesh, map, hull or curve of an asset, as its room's open() takes them.
+/// The sections of one mesh, map, hull, curve or spline of an asset, as its room's open() takes them.
 mesh::Sections mesh_sections_of(const asset::Container& container, const char* name);
 curve::Sections curve_sections_of(const asset::Container& container, const char* name);
+spline::Sections spline_sections_of(const asset::Container& container, const char* name);
 field::Sections field_sections_of(const asset::Container& container, const char* name);
 hull::Sections hull_sections_of(const asset::Container& container, const char* name);
 /// Whether a mesh has its tree; without it only its hull can be asked.

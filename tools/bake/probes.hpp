@@ -7,6 +7,7 @@
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/query/probe.hpp"
+#include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::tools {
 
@@ -36,10 +37,12 @@ Section probe_section(uint32_t type, const std::string& name,
 /// controller's begin() compares with its own answers.
 Section mesh_probes(const mesh::View& mesh, const std::string& name);
 Section curve_probes(const curve::View& curve, const std::string& name);
+Section spline_probes(const spline::View& model, const std::string& name);
 
 /// Whether this machine answers a probe section of the geometry as it says. Result: false where
 /// `bytes` is no such section.
 bool mesh_probes_agree(const mesh::View& mesh, core::Bytes bytes);
 bool curve_probes_agree(const curve::View& curve, core::Bytes bytes);
+bool spline_probes_agree(const spline::View& model, core::Bytes bytes);
 
 }  // namespace firmtouch::tools

@@ -20,6 +20,11 @@ namespace {
 constexpr double kUsualDeviation_m = 1e-4;
 
 bool is_curve(const std::string& path) { return extension_of(path) == ".csv"; }
+bool is_spline(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".igs" || extension == ".iges" || extension == ".bpt";
+}
+
 bool is_run(const std::string& path) { return extension_of(path) == ".ftl"; }
 
 std::string name_of(const std::string& path, const BakeOptions& options) {
@@ -41,19 +46,6 @@ void check_runs(const std::vector<std::string>& inputs, const BakeOptions& optio
                " runs are given; give one");
   if (runs == 0 && !options.teach.empty())
     fail_usage("bake: --teach wants a recorded run, RUN.ftl, among the inputs");
-}
-
-void check_kind(const std::string& path) {
-  static const char* const kLater[][2] = {
-      {".igs", "NURBS"}, {".iges", "NURBS"}, {".bpt", "Bezier patches"}};
-  for (const auto& later : kLater) {
-    if (extension_of(path) == later[0]) {
-      fail_input(
-          path + ": " + later[1] + " (" + later[0] +
-          ") cannot be baked by this version yet; give .obj, .off, .ply or .stl for a mesh, .csv "
-          "or a recorded .ftl for a curve");
-    }
-  }
 }
 
 // An asset is named after its file's stem, so two inputs of one stem would be one asset.
@@ -83,9 +75,10 @@ std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
   Progress progress(inputs.size() * kStagesAnInput);
   std::vector<BakedInput> baked;
   for (const std::string& path : inputs) {
-    baked.push_back(is_curve(path) ? bake_curve_input(path, options, progress)
-                    : is_run(path) ? bake_run_input(path, options, progress)
-                                   : bake_mesh_input(path, options, progress));
+    baked.push_back(is_curve(path)    ? bake_curve_input(path, options, progress)
+                    : is_run(path)    ? bake_run_input(path, options, progress)
+                    : is_spline(path) ? bake_spline_input(path, options, progress)
+                                      : bake_mesh_input(path, options, progress));
   }
   return baked;
 }
@@ -136,6 +129,7 @@ BakeOptions bake_options(const Arguments& arguments) {
   BakeOptions options;
   const std::string unit = arguments.choice("--unit", "m", {"m", "mm", "cm", "in"});
   options.unit_m = kUnits.at(unit);
+  options.has_unit = arguments.has("--unit");
   options.is_signed = !arguments.has("--unsigned");
   options.close_holes = arguments.has("--close-holes");
   options.small = arguments.has("--small");
@@ -160,19 +154,19 @@ const Command& bake_command() {
   static const Command command{
       "bake",
       "INPUT... -o SCENE.fta [options]",
-      "Bakes meshes and curves into one asset, proven with the firmware's own decoder.",
+      "Bakes meshes, curves and splines into one asset, proven with the firmware's own decoder.",
       "INPUT by extension: .obj .off .ply .stl a mesh; .csv a curve (header x,y,z); .ftl a "
-      "recorded run, "
-      "which teaches a guide. Each is named "
-      "after "
-      "its\n"
-      "file's stem. What can be mended safely is mended and reported; the rest is refused.",
+      "recorded\n"
+      "run, which teaches a guide; .igs .iges NURBS curves or surfaces (126, 128); .bpt Bezier\n"
+      "patches. Each is named after its file's stem. What can be mended safely is mended and\n"
+      "reported; the rest is refused.",
       {{"-o", "FILE", "the asset to write"},
-       {"--unit", "m|mm|cm|in", "of the inputs' coordinates (default m)"},
+       {"--unit", "m|mm|cm|in", "of the inputs' coordinates (default m; .igs: its own)"},
        {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
        {"--close-holes", nullptr, "each hole of a mesh gets a cap of triangles, reported"},
        {"--fast", nullptr, "meshes: the fastest asset rather than the smallest (the default)"},
-       {"--small", nullptr, "meshes: a third less flash, a third more work a query"},
+       {"--small", nullptr,
+        "meshes: a third less flash, a third more work a query; spline surfaces likewise"},
        {"--distance-map", "CELLS",
         "meshes get a grid of certified bounds, CELLS along the long axis"},
        {"--cpp", "FILE", "the asset as a C++ source, too"},
@@ -202,7 +196,6 @@ int run_bake(const Arguments& arguments) {
   BakeOptions options = bake_options(arguments);
   add_hull(arguments, options);
   for (const std::string& input : inputs) {
-    check_kind(input);
     forbid_overwriting(output, input);
     forbid_overwriting(source, input);
   }

@@ -13,6 +13,7 @@ namespace firmtouch::cli {
 
 struct BakeOptions {
   double unit_m = 1;
+  bool has_unit = false;  // said by the user: a file's own unit gives way to it
   bool is_signed = true;
   bool close_holes = false;
   bool small = false;       // the smallest asset rather than the fastest
@@ -49,6 +50,8 @@ BakedInput bake_run_input(const std::string& path, const BakeOptions& options, P
 BakedInput bake_points(const tools::CurvePoints& points, const std::string& path,
                        const std::string& name, const std::vector<uint8_t>& source,
                        const BakeOptions& options, Progress& progress);
+BakedInput bake_spline_input(const std::string& path, const BakeOptions& options,
+                             Progress& progress);
 
 /// A model read, checked and mended.
 struct SoundSurface {

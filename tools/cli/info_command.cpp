@@ -48,7 +48,16 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {curve::kBoxesSection, "curve boxes"},
                                          {curve::kRunsSection, "curve runs"},
                                          {curve::kRowsSection, "curve source rows"},
-                                         {curve::kProbesSection, "curve probes"}};
+                                         {curve::kProbesSection, "curve probes"},
+                                         {spline::kHeadSection, "spline head"},
+                                         {spline::kPiecesSection, "spline pieces"},
+                                         {spline::kCoefficientsSection, "spline coefficients"},
+                                         {spline::kLeavesSection, "spline leaves"},
+                                         {spline::kBendsSection, "spline bends"},
+                                         {spline::kPlacesSection, "spline places"},
+                                         {spline::kNodesSection, "spline nodes"},
+                                         {spline::kPointsSection, "spline points"},
+                                         {spline::kProbesSection, "spline probes"}};
 
 const char* section_text(uint32_t type) {
   for (const SectionName& known : kSectionNames) {
@@ -192,6 +201,8 @@ int run_info(const Arguments& arguments) {
     (void)loaded.hull(name);
   for (const std::string& name : tools::names_with(loaded.container(), curve::kHeadSection))
     (void)loaded.curve(name);
+  for (const std::string& name : tools::names_with(loaded.container(), spline::kHeadSection))
+    (void)loaded.spline(name);
   if (arguments.has("--json")) {
     print_json(loaded);
   } else {

@@ -31,7 +31,8 @@ void LoadedAsset::fail_unsound(const std::string& what) const {
 void LoadedAsset::fail_absent(const std::string& kind, const std::string& name) const {
   fail_input(path_ + ": holds no " + kind + " '" + name +
              "'; meshes: " + joined(tools::names_with(container_, mesh::kHeadSection)) +
-             "; curves: " + joined(tools::names_with(container_, curve::kHeadSection)));
+             "; curves: " + joined(tools::names_with(container_, curve::kHeadSection)) +
+             "; splines: " + joined(tools::names_with(container_, spline::kHeadSection)));
 }
 
 LoadedMesh LoadedAsset::mesh(const std::string& name) const {
@@ -70,6 +71,15 @@ LoadedCurve LoadedAsset::curve(const std::string& name) const {
   if (!verdict.ok()) fail_unsound("curve '" + name + "': " + tools::rule_text(verdict));
   loaded.rows = core::as_whole_array<uint32_t>(container_.find(curve::kRowsSection, key));
   return loaded;
+}
+
+spline::View LoadedAsset::spline(const std::string& name) const {
+  const char* key = name.c_str();
+  if (container_.find(spline::kHeadSection, key).empty()) fail_absent("spline", name);
+  spline::View view;
+  const core::Verdict verdict = spline::open(tools::spline_sections_of(container_, key), view);
+  if (!verdict.ok()) fail_unsound("spline '" + name + "': " + tools::rule_text(verdict));
+  return view;
 }
 
 }  // namespace firmtouch::cli

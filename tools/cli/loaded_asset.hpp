@@ -7,6 +7,7 @@
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
+#include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::cli {
 
@@ -49,6 +50,7 @@ class LoadedAsset {
   LoadedMesh mesh(const std::string& name) const;
   LoadedHull hull(const std::string& name) const;
   LoadedCurve curve(const std::string& name) const;
+  spline::View spline(const std::string& name) const;
 
  private:
   [[noreturn]] void fail_unsound(const std::string& what) const;

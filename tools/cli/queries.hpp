@@ -27,5 +27,6 @@ void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Argumen
 void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
 void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments);
 void query_curve(const LoadedCurve& curve, const CsvTable& table, const Arguments& arguments);
+void query_spline(const spline::View& model, const CsvTable& table, const Arguments& arguments);
 
 }  // namespace firmtouch::cli

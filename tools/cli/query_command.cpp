@@ -20,16 +20,15 @@ void forbid(const Arguments& arguments, const std::string& kind,
 }
 
 void check_kind(const std::string& kind) {
-  for (const char* known : {"distance", "segment", "hull", "curve"}) {
+  for (const char* known : {"distance", "segment", "hull", "curve", "spline"}) {
     if (kind == known) return;
   }
-  for (const char* later : {"spline", "footpoints"}) {
-    if (kind == later) {
-      fail_usage("query: " + kind +
-                 " is not in this version of Firmtouch yet; ask distance, segment, hull or curve");
-    }
-  }
-  fail_usage("query: '" + kind + "' is no kind of query; ask distance, segment, hull or curve");
+  if (kind == "footpoints")
+    fail_usage(
+        "query: footpoints is not in this version of Firmtouch yet; ask distance, segment, hull, "
+        "curve or spline");
+  fail_usage("query: '" + kind +
+             "' is no kind of query; ask distance, segment, hull, curve or spline");
 }
 
 // Before anything is read: a bad option is a usage error whatever the files are.
@@ -51,9 +50,9 @@ CsvTable asked_rows(const std::vector<std::string>& columns, const Arguments& ar
 const Command& query_command() {
   static const Command command{
       "query",
-      "ASSET.fta NAME distance|segment|hull|curve [options] < IN.csv > OUT.csv",
+      "ASSET.fta NAME distance|segment|hull|curve|spline [options] < IN.csv > OUT.csv",
       "Answers each row of a CSV as the controller would, bit for bit.",
-      "in:  distance, curve: header x,y,z     segment, hull: header ax,ay,az,bx,by,bz     "
+      "in:  distance, curve, spline: header x,y,z     segment, hull: header ax,ay,az,bx,by,bz     "
       "(metres)\n"
       "out: distance: distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact\n"
       "               (negative inside; sign 0: unknown; lower: no point of the surface is "
@@ -61,6 +60,9 @@ const Command& query_command() {
       "     segment, hull: hit,t,triangle,steps    (the first crossing from a to b; -1: no "
       "triangle)\n"
       "     curve:    distance,cx,cy,cz,segment,arc,lower,steps,exact\n"
+      "     spline:   distance,cx,cy,cz,piece,u,v,lower,steps,exact   (piece: of the file, from 0; "
+      "u, "
+      "v: its own)\n"
       "Rows are answered in order, each warm-started by the one before.",
       {{"--cold", nullptr, "each row on its own"},
        {"--budget", "N", "at most N steps a query (default: unlimited, so exact)"},
@@ -105,6 +107,10 @@ int run_query(const Arguments& arguments) {
   if (kind == "hull") {
     const LoadedHull hull = asset.hull(name);
     query_hull(hull, asked_rows(kSegment, arguments), arguments);
+    return kDone;
+  }
+  if (kind == "spline") {
+    query_spline(asset.spline(name), asked_rows(kPoint, arguments), arguments);
     return kDone;
   }
   const LoadedMesh mesh = asset.mesh(name);

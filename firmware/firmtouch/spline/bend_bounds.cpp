@@ -1,0 +1,135 @@
+#include "firmtouch/spline/bend_bounds.hpp"
+
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::spline {
+namespace {
+
+using math::Vec3;
+
+constexpr uint32_t kOrders = 5;         // derivatives of order 0 to 4 are bounded
+constexpr float kUp = 1.0f + 0x1p-16f;  // for sums and products of a few dozen roundings
+constexpr float kChoose[kOrders][kOrders] = {
+    {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
+
+float least(float a, float b) { return a < b ? a : b; }
+float size_of(float a) { return a < 0.0f ? -a : a; }
+
+// j (j - 1) ... of k factors.
+float falling(uint32_t j, uint32_t k) {
+  float product = 1.0f;
+  for (uint32_t i = 0; i < k; ++i) product *= static_cast<float>(j - i);
+  return product;
+}
+
+float power(float base, uint32_t exponent) {
+  float product = 1.0f;
+  for (uint32_t k = 0; k < exponent; ++k) product *= base;
+  return product;
+}
+
+/// By [order in x][order in y].
+struct Sizes {
+  float of[kOrders][kOrders];
+};
+struct Vectors {
+  Vec3 of[4][4];
+};
+
+// Of the numerator and of the weight: the sums of what their powers may amount to.
+void bound_sums(const LeafShape& shape, const Part& part, float noise_m, float noise_w, Sizes& c,
+                Sizes& w) {
+  for (uint32_t b = 0; b < kOrders; ++b)
+    for (uint32_t a = 0; a + b < kOrders; ++a) {
+      c.of[a][b] = w.of[a][b] = 0.0f;
+      for (uint32_t j = b; j <= shape.degree_v; ++j)
+        for (uint32_t i = a; i <= shape.degree_u; ++i) {
+          const float small = power(part.half_u, i) * power(part.half_v, j);
+          const float factor = falling(i, a) * falling(j, b);
+          const uint32_t at = j * (shape.degree_u + 1) + i;
+          c.of[a][b] += factor * (math::length(shape.c[at]) + small * noise_m);
+          w.of[a][b] += factor * (size_of(shape.w[at]) + small * noise_w);
+        }
+    }
+}
+
+// With numerator = point * weight, Leibniz' rule gives each derivative of the point by the lower ones.
+void quotient(Sizes& c, const Sizes& w, float least_weight) {
+  for (uint32_t order = 0; order < kOrders; ++order)
+    for (uint32_t b = 0; b <= order; ++b) {
+      const uint32_t a = order - b;
+      float sum = c.of[a][b];
+      for (uint32_t l = 0; l <= b; ++l)
+        for (uint32_t k = 0; k <= a; ++k)
+          if (k + l < order) sum += kChoose[a][k] * kChoose[b][l] * c.of[k][l] * w.of[a - k][b - l];
+      c.of[a][b] = sum / least_weight * kUp;
+    }
+}
+
+// The same in the middle, as vectors; the weight there is 1.
+void middle_derivatives(const LeafShape& shape, Vectors& x) {
+  for (uint32_t order = 0; order < 4; ++order)
+    for (uint32_t b = 0; b <= order; ++b) {
+      const uint32_t a = order - b;
+      Vec3 sum{};
+      if (a <= shape.degree_u && b <= shape.degree_v)
+        sum = shape.c[b * (shape.degree_u + 1) + a] * (falling(a, a) * falling(b, b));
+      for (uint32_t l = 0; l <= b; ++l)
+        for (uint32_t k = 0; k <= a; ++k) {
+          if (k + l >= order || a - k > shape.degree_u || b - l > shape.degree_v) continue;
+          const float weight = shape.w[(b - l) * (shape.degree_u + 1) + a - k] *
+                               falling(a - k, a - k) * falling(b - l, b - l);
+          sum = sum - x.of[k][l] * (kChoose[a][k] * kChoose[b][l] * weight);
+        }
+      x.of[a][b] = sum;
+    }
+}
+
+// What changes over the leaf, at most, from what it is in the middle: nothing is lost to the sizes of
+// terms that cancel there. The numerator's own noise is in the sums already.
+void tighten(const Vectors& x, Sizes& c) {
+  for (uint32_t order = 4; order-- > 1;)
+    for (uint32_t b = 0; b <= order; ++b) {
+      const uint32_t a = order - b;
+      const float from_middle = (math::length(x.of[a][b]) + c.of[a + 1][b] + c.of[a][b + 1]) * kUp;
+      c.of[a][b] = least(c.of[a][b], from_middle);
+    }
+}
+
+// |p . q| over the leaf, p and q being the derivatives (a, b) and (k, l): by their sizes, or by what it
+// is in the middle and how fast it may change from there.
+float product(const Vectors& x, const Sizes& c, uint32_t a, uint32_t b, uint32_t k, uint32_t l) {
+  const float sizes = c.of[a][b] * c.of[k][l];
+  const float along_u = c.of[a + 1][b] * c.of[k][l] + c.of[a][b] * c.of[k + 1][l];
+  const float along_v = c.of[a][b + 1] * c.of[k][l] + c.of[a][b] * c.of[k][l + 1];
+  const float in_middle = size_of(dot(x.of[a][b], x.of[k][l])) + 0x1p-18f * sizes;
+  return least(sizes, in_middle + along_u + along_v) * kUp;
+}
+
+}  // namespace
+
+void bound_bends(const Part& part, float noise_m, float noise_w, LeafShape& shape) {
+  Sizes c, w;
+  bound_sums(shape, part, noise_m, noise_w, c, w);
+  quotient(c, w, shape.least_weight);
+  Vectors x;
+  middle_derivatives(shape, x);
+  tighten(x, c);
+  const float products[4] = {
+      3.0f * product(x, c, 1, 0, 2, 0),
+      product(x, c, 0, 1, 2, 0) + 2.0f * product(x, c, 1, 0, 1, 1),
+      product(x, c, 1, 0, 0, 2) + 2.0f * product(x, c, 0, 1, 1, 1),
+      3.0f * product(x, c, 0, 1, 0, 2),
+  };
+  const float span_m = 2.0f * shape.reach_m;
+  for (uint32_t k = 0; k < 4; ++k) {
+    shape.turning[k] = c.of[3 - k][k] * kUp;
+    shape.fixed[k] = (products[k] + shape.turning[k] * span_m) * kUp;
+  }
+  if (shape.degree_v != 0) return;
+  const float cubed = power(part.half_u, 3);
+  shape.fixed[0] = shape.fixed[0] / cubed;
+  shape.turning[0] = shape.turning[0] / cubed;
+}
+
+}  // namespace firmtouch::spline

@@ -1,0 +1,165 @@
+#include "firmtouch/spline/closest_point.hpp"
+
+#include <float.h>
+
+#include "firmtouch/core/hash.hpp"
+#include "firmtouch/query/coherence.hpp"
+#include "firmtouch/spline/curve_parts.hpp"
+#include "firmtouch/spline/surface_parts.hpp"
+
+namespace firmtouch::spline {
+namespace {
+
+using math::Vec3;
+
+// By how much a part may be nearer than the best and is not looked at, of the extent: what is left of
+// 4e-7 and 1e-6 when the losses are taken off.
+constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
+// Farther than so many extents all points of a model are as near as any other, to 2^-28.
+constexpr float kBeyond = 0x1p28f;
+
+// Where the search knows nothing: the middle of the first piece, which takes no evaluation.
+void begin_at_first(const View& model, Vec3 p_m, Best& best) {
+  const Piece& piece = model.pieces()[0];
+  const float* c = model.coefficients().data() + piece.coefficients;
+  best.x = vec3_at(c) * (piece.is_rational != 0 ? 1.0f / c[3] : 1.0f);
+  const Vec3 r_m = best.x - (p_m - vec3_at(piece.origin_m));
+  (void)best.take(dot(r_m, r_m));
+  best.leaf = UINT32_MAX;
+}
+
+// Distance to the model's box, rounded down: float32 loses 5 roundings of the sizes involved.
+float outside_m(const Head& head, Vec3 p_m) {
+  const float at_m[3] = {p_m.x, p_m.y, p_m.z};
+  float sum_m2 = 0, size_m = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const float below_m = head.low_m[k] - at_m[k], above_m = at_m[k] - head.high_m[k];
+    const float off_m = below_m > above_m ? below_m : above_m;
+    if (off_m > 0.0f) sum_m2 += off_m * off_m;
+    size_m += head.high_m[k] - head.low_m[k];
+  }
+  const float off_m = math::square_root(sum_m2) * (1.0f - 0x1p-20f) - size_m * 0x1p-20f;
+  return off_m > 0.0f ? off_m : 0.0f;
+}
+
+bool is_near(const Head& head, Vec3 p_m) {
+  const float at_m[3] = {p_m.x, p_m.y, p_m.z};
+  const float most_m = head.extent_m * kBeyond;
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!(at_m[k] - head.low_m[k] <= most_m && head.low_m[k] - at_m[k] <= most_m)) return false;
+  return true;
+}
+
+uint32_t piece_of(const View& model, uint32_t leaf) {
+  if (leaf == UINT32_MAX) return 0;
+  return model.leaves()[leaf].piece;
+}
+
+Vec3 unit_of(Vec3 v) {
+  const float most = [&] {
+    const float x = v.x < 0.0f ? -v.x : v.x, y = v.y < 0.0f ? -v.y : v.y,
+                z = v.z < 0.0f ? -v.z : v.z;
+    return x > y ? (x > z ? x : z) : (y > z ? y : z);
+  }();
+  if (!(most >= 0x1p-100f && most <= 0x1p100f)) return {};
+  const Vec3 scaled = v * (1.0f / most);
+  return scaled * (1.0f / math::length(scaled));
+}
+
+// All but the certificate.
+Closest answer_at(const View& model, const Best& best) {
+  const Piece& piece = model.pieces()[piece_of(model, best.leaf)];
+  Closest closest;
+  closest.distance_m = best.distance_m;
+  closest.point_m = vec3_at(piece.origin_m) + best.x;
+  closest.direction =
+      unit_of(model.is_surface() ? cross(best.along[0], best.along[1]) : best.along[0]);
+  closest.piece = piece.entity;
+  closest.u = piece.middle_u + piece.half_u * best.s;
+  closest.v = piece.middle_v + piece.half_v * best.t;
+  closest.evaluations = best.evaluations;
+  return closest;
+}
+
+// What float32 loses of a distance: two roundings of the query's differences, three of the squares'
+// sum (halved by the root) and one each of root and result; the rest is the model's own.
+float lost_m(const Head& head, float distance_m) { return head.loss_m + 5.5f * kUnit * distance_m; }
+
+template <class Shape>
+Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+  const Head& head = model.head();
+  Best best;
+  best.gap_m = head.extent_m * (head.is_rational != 0 ? kRationalGap : kGap);
+  Shape shape(model, p_m);
+  Search<Shape> search(shape, model.leaf_count(), budget.steps, outside_m(head, p_m), best);
+  begin_at_first(model, p_m, best);
+  const uint32_t leaf = hint.place >> 16;
+  if (leaf < model.leaf_count())
+    search.run_warm(leaf, shape.resumed(leaf, hint.place & 0xFFFFu));
+  else
+    search.run_cold();
+
+  Closest closest = answer_at(model, best);
+  float lower_m = best.limit_m < closest.distance_m ? best.limit_m : closest.distance_m;
+  if (!search.is_complete() && search.pending_m() < lower_m) lower_m = search.pending_m();
+  lower_m -= lost_m(head, closest.distance_m);
+  const float carried_m = query::carry(hint, p_m).lower_m;
+  if (!search.is_complete() && carried_m > lower_m) lower_m = carried_m;
+  closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  closest.certificate.steps = search.steps();
+  closest.certificate.exact = search.is_complete();
+  // Leaf in the upper half, where in it in the lower.
+  hint.place =
+      best.leaf == UINT32_MAX ? query::kNowhere : best.leaf << 16 | shape.place_in(best.leaf, best);
+  hint.position_m = p_m;
+  hint.lower_m = closest.certificate.lower_m;
+  hint.sign = 0;
+  return closest;
+}
+
+Closest answer_beyond(const View& model, Vec3 p_m, query::Hint& hint) {
+  Best best;
+  begin_at_first(model, p_m, best);
+  Closest closest = answer_at(model, best);
+  const float scaled = math::length((p_m - closest.point_m) * 0x1p-70f);
+  const bool fits = scaled < 0x1.ffffp57f;
+  closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
+  closest.certificate = {closest.distance_m * (1.0f - 8.0f * kUnit), 1, fits, 0};
+  hint = {query::kNowhere, p_m, closest.certificate.lower_m, 0};
+  return closest;
+}
+
+Closest answer_nothing(const View& model, query::Hint& hint) {
+  Best best;
+  begin_at_first(model, {}, best);
+  Closest closest = answer_at(model, best);
+  closest.distance_m = FLT_MAX;
+  hint.lower_m = 0;
+  return closest;
+}
+
+}  // namespace
+
+Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+  if (!math::is_finite(p_m)) return answer_nothing(model, hint);
+  if (!is_near(model.head(), p_m)) return answer_beyond(model, p_m, hint);
+  if (model.is_surface()) return answer<SurfaceParts>(model, p_m, budget, hint);
+  return answer<CurveParts>(model, p_m, budget, hint);
+}
+
+uint64_t probe_hash(const View& model, core::Span<const query::ProbePoint> points) {
+  core::Hash hash;
+  query::Hint hint;
+  for (const query::ProbePoint& p : points) {
+    const Closest c = closest_point(model, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint);
+    const float values[] = {c.distance_m,  c.point_m.x,          c.point_m.y,   c.point_m.z,
+                            c.direction.x, c.direction.y,        c.direction.z, c.u,
+                            c.v,           c.certificate.lower_m};
+    for (const float value : values) hash.add(math::bits_of(value));
+    hash.add(c.piece);
+    hash.add(c.certificate.steps);
+  }
+  return hash.value();
+}
+
+}  // namespace firmtouch::spline

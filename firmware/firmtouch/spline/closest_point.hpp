@@ -1,0 +1,38 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/query/certificate.hpp"
+#include "firmtouch/query/hint.hpp"
+#include "firmtouch/query/probe.hpp"
+#include "firmtouch/spline/view.hpp"
+
+namespace firmtouch::spline {
+
+struct Closest {
+  float distance_m = 0;
+  math::Vec3 point_m;    // on the curve or surface
+  math::Vec3 direction;  // unit: a curve's tangent, a surface's normal (along u x along v); 0 where
+                         // there is none
+  uint32_t piece = 0;    // the entity, in the order of the file
+  float u = 0, v = 0;    // in the entity's own parameters; v = 0 for a curve
+  uint32_t evaluations = 0;        // of the curve or surface, counted in certificate.steps too
+  query::Certificate certificate;  // sign: always 0
+};
+
+/// Closest point of all the model's curves or surfaces to `p_m` (model frame): always the global one,
+/// found by branch and bound over parts of Bezier pieces, from the part of the hint where it is warm.
+/// A part is done with when a second-order expansion at one of its points, with a bound of its third
+/// derivative, proves that no point of it is nearer; parts for which it does not are halved.
+/// Pre:    `model` is open.
+/// Bounds: <= budget steps, a step being a node read or a point evaluated; 2 KB of stack;
+///         re-entrant; callable from an interrupt.
+/// Result: always finite. Two points equally near: the one found first. A query that is not finite:
+///         some point, at distance FLT_MAX, lower 0, not exact.
+/// Error:  distance and, where exact, lower bound within 4e-7 of the extent (rational: 1e-6) and 6e-7
+///         of the distance of the truth (tests/spline/closest_point_host_test.cpp).
+Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
+
+/// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.
+uint64_t probe_hash(const View& model, core::Span<const query::ProbePoint> points);
+
+}  // namespace firmtouch::spline

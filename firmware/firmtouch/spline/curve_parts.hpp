@@ -1,0 +1,164 @@
+#pragma once
+// The parts of curves for Search, for .cpp files of this room only.
+#include "firmtouch/spline/evaluation.hpp"
+#include "firmtouch/spline/leaf_shape.hpp"
+#include "firmtouch/spline/search.hpp"
+
+namespace firmtouch::spline {
+
+class CurveParts {
+ public:
+  struct Range {
+    float low, high;  // of the piece's s
+    float start;      // where to evaluate first
+  };
+
+  CurveParts(const View& model, math::Vec3 p_m)
+      : pieces_(model.pieces().data()),
+        coefficients_(model.coefficients().data()),
+        leaves_(model.leaves().data()),
+        bends_(model.bends().data()),
+        capsules_(model.capsules().data()),
+        points_(model.points().data()),
+        loss_m_(model.head().loss_m),
+        p_m_(p_m) {}
+
+  /// Of the leaf whose node bound_m() was asked about last: it begins at the foot on the chord.
+  Range whole(uint32_t leaf) const {
+    const Part part = part_of(pieces_[leaves_[leaf].piece], leaves_[leaf]);
+    const float low = part.middle_u - part.half_u;
+    return {low, part.middle_u + part.half_u, low + 2.0f * part.half_u * foot_};
+  }
+
+  /// Of the leaf of a hint, from where it was left.
+  Range resumed(uint32_t leaf, uint32_t code) const {
+    const Part part = part_of(pieces_[leaves_[leaf].piece], leaves_[leaf]);
+    const float low = part.middle_u - part.half_u;
+    return {low, part.middle_u + part.half_u, low + 2.0f * part.half_u * decoded(code, 65535)};
+  }
+  uint32_t place_in(uint32_t leaf, const Best& best) const {
+    const Part part = part_of(pieces_[leaves_[leaf].piece], leaves_[leaf]);
+    return coded((best.s - (part.middle_u - part.half_u)) / (2.0f * part.half_u), 65535);
+  }
+
+  // The stored radius holds what float32 loses here (with_slack()).
+  float bound_m(uint32_t node) {
+    const Capsule& capsule = capsules_[node];
+    const math::Vec3 a_m = point(capsule.first);
+    const math::Vec3 from_m = p_m_ - a_m, along_m = point(capsule.last) - a_m;
+    const float length2_m2 = dot(along_m, along_m), progress_m2 = dot(from_m, along_m);
+    float t = progress_m2 > 0.0f ? progress_m2 / length2_m2 : 0.0f;
+    if (!(t < 1.0f)) t = 1.0f;
+    foot_ = t;
+    const float off_m = math::length(from_m - along_m * t);
+    return off_m * (1.0f - 0x1p-20f) - from_half(capsule.radius);
+  }
+
+  Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
+                Half<Range> (&halves)[2]) {
+    const Leaf& part = leaves_[leaf];
+    const Piece& piece = pieces_[part.piece];
+    const math::Vec3 q_m = p_m_ - vec3_at(piece.origin_m);
+    const float fixed = from_half(bends_[leaf].fixed), turning = from_half(bends_[leaf].turning);
+    float s = range.start;
+    for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
+      if (left == 0) {
+        range.start = s;
+        return Outcome::kStopped;
+      }
+      --left;
+      ++best.evaluations;
+      CurvePoint at;
+      evaluate(piece, coefficients_, s, at);
+      const math::Vec3 r_m = at.x - q_m;
+      const float distance2_m2 = dot(r_m, r_m);
+      if (best.take(distance2_m2)) {
+        best.leaf = leaf;
+        best.s = s;
+        best.x = at.x;
+        best.along[0] = at.d1;
+      }
+      const Expansion f = expand(r_m, distance2_m2, at, fixed, turning);
+      const float below2 = f.least2(-f.slope, s - range.low);
+      const float above2 = f.least2(f.slope, range.high - s);
+      const bool is_below_done = best.is_beyond(below2), is_above_done = best.is_beyond(above2);
+      if (is_below_done) range.low = s;
+      if (is_above_done) range.high = s;
+      if (is_below_done && is_above_done) return Outcome::kClosed;
+      float next = f.bend > 0.0f ? s - f.slope / f.bend : f.slope > 0.0f ? range.low : range.high;
+      if (!(next > range.low)) next = range.low;
+      if (!(next < range.high)) next = range.high;
+      const float step = next - s;
+      if (!(step > 0.0f || step < 0.0f)) {  // Newton goes no further, yet a side is not proven
+        if (!is_below_done && !is_above_done) {
+          halves[0] = half(range.low, s, lower_m, below2);
+          halves[1] = half(s, range.high, lower_m, above2);
+          return Outcome::kSplit;
+        }
+        next = 0.5f * (range.low + range.high);
+      }
+      s = next;
+    }
+    const float middle = 0.5f * (range.low + range.high);
+    if (!(middle > range.low && middle < range.high)) return Outcome::kLost;
+    halves[0] = half(range.low, middle, lower_m, 0.0f);
+    halves[1] = half(middle, range.high, lower_m, 0.0f);
+    return Outcome::kSplit;
+  }
+
+ private:
+  static constexpr uint32_t kMostTurns = 5;
+
+  /// D^2 / 2 about a point: its slope and bend there, and how far the bend changes a unit of s.
+  struct Expansion {
+    float distance2, slope, bend;
+    float slope_noise, least_bend, change;
+
+    // The least of D^2 on one side, over a length: outward slope and bend as small as they may be,
+    // f(d) >= f + slope d + (bend - change length / 3) d^2 / 2, whose least over 0 to length is
+    // told.
+    float least2(float outward, float length) const {
+      const float g = outward - slope_noise;
+      const float q = least_bend - change * length * 0.33333337f;
+      if (q > 0.0f && g < 0.0f && -g < q * length) return distance2 - g * (g / q);
+      const float end = (2.0f * g + q * length) * length;
+      return end < 0.0f ? distance2 + end : distance2;
+    }
+  };
+
+  Expansion expand(math::Vec3 r_m, float distance2, const CurvePoint& at, float fixed,
+                   float turning) const {
+    const float distance_m = math::square_root(distance2);
+    const float speed2 = dot(at.d1, at.d1);
+    const float speed = size_of(at.d1), swing = size_of(at.d2);
+    Expansion f;
+    f.distance2 = distance2;
+    f.slope = dot(r_m, at.d1);
+    f.bend = speed2 + dot(r_m, at.d2);
+    f.slope_noise =
+        speed * (loss_m_ + 6.0f * kUnit * distance_m) + kSlopeNoise * loss_m_ * distance_m;
+    f.least_bend = f.bend - kBendNoise * loss_m_ * (speed + distance_m) -
+                   8.0f * kUnit * (speed2 + distance_m * swing);
+    f.change = (fixed + turning * distance_m) * (1.0f + 0x1p-20f);
+    return f;
+  }
+
+  static Half<Range> half(float low, float high, float lower_m, float lower2) {
+    const float own_m = lower2 > 0.0f ? math::square_root(lower2) * (1.0f - 0x1p-21f) : 0.0f;
+    return {{low, high, 0.5f * (low + high)}, own_m > lower_m ? own_m : lower_m};
+  }
+
+  math::Vec3 point(uint32_t i) const { return {points_[i].x_m, points_[i].y_m, points_[i].z_m}; }
+
+  const Piece* pieces_;
+  const float* coefficients_;
+  const Leaf* leaves_;
+  const Bend* bends_;
+  const Capsule* capsules_;
+  const Point* points_;
+  float loss_m_;
+  math::Vec3 p_m_;
+  float foot_ = 0.5f;
+};
+
+}  // namespace firmtouch::spline

@@ -1,0 +1,105 @@
+#pragma once
+#include <stddef.h>
+#include <stdint.h>
+
+// How spline curves or surfaces lie in an asset, byte for byte (tools/FORMAT.md says it in words).
+// The baker writes these structs, the firmware reads them in place.
+
+namespace firmtouch::spline {
+
+// Section types of one spline model; all share its name.
+constexpr uint32_t kHeadSection = 0x6001;
+constexpr uint32_t kPiecesSection = 0x6002;        // Piece[piece_count]
+constexpr uint32_t kCoefficientsSection = 0x6003;  // float[coefficient_count]
+constexpr uint32_t kLeavesSection = 0x6004;        // Leaf[leaf_count], in the order of the tree
+constexpr uint32_t kPlacesSection = 0x6005;        // uint16_t[leaf_count]: piece by piece, the leaf
+constexpr uint32_t kNodesSection = 0x6006;         // Capsule or Box [2 * leaf_count - 1]
+constexpr uint32_t kPointsSection = 0x6007;        // Point[point_count], curves only
+constexpr uint32_t kProbesSection = 0x6008;        // query::ProbeHead and its points
+constexpr uint32_t kBendsSection = 0x6009;         // Bend[leaf_count], of a surface four a leaf
+
+constexpr uint32_t kMaxDegree = 5;
+constexpr uint32_t kMaxLeaves = 65535;  // indices are of 16 bits
+constexpr uint32_t kMaxLevels = 17;     // of a tree whose levels are filled from the left
+constexpr uint32_t kMaxHalvings = 8;    // of a piece on an axis, to a leaf
+
+// Between these limits squares and fourth powers of all lengths stay finite and normal in float32.
+constexpr float kMaxCoordinate_m = 1e6f;
+constexpr float kMinExtent_m = 0x1p-20f;  // 1e-6 m: a model smaller than that has a wrong unit
+
+struct Head {
+  uint32_t is_surface;   // 1: surfaces, 0: curves
+  uint32_t is_rational;  // 1: a piece of it is: then what `exact` promises is wider
+  uint32_t piece_count;
+  uint32_t leaf_count;
+  uint32_t coefficient_count;
+  uint32_t point_count;
+  float low_m[3];  // box of all control points of all leaves
+  float high_m[3];
+  float extent_m;        // at most the longest side of the shape itself
+  float loss_m;          // by how much the stored shape, and a point computed of it, may be off
+  uint32_t worst_steps;  // seen by the baker's search: a default budget, never a bound
+  uint32_t reserved;     // 0
+};
+static_assert(sizeof(Head) == 64 && offsetof(Head, low_m) == 24 && offsetof(Head, loss_m) == 52);
+
+/// A polynomial or rational piece over s (and t) from -1 to 1: with the powers about 0, x(s) =
+/// origin + sum of c[k] s^k; rational: origin + (sum of c[k] s^k) / (sum of w[k] s^k). A surface has
+/// c[i, j] s^i t^j, the power of s fastest. Coefficients are x, y, z, and w where it is rational.
+struct Piece {
+  uint32_t coefficients;       // index of the first float
+  uint8_t degree_u, degree_v;  // degree_v: 0 for a curve
+  uint8_t is_rational;
+  uint8_t level_u : 4, level_v : 4;  // halvings to its leaves
+  uint32_t entity;                   // of the file, in its order
+  float origin_m[3];
+  float middle_u, half_u;  // the entity's own parameter: middle + half s
+  float middle_v, half_v;  // 0 for a curve
+};
+static_assert(sizeof(Piece) == 40 && offsetof(Piece, origin_m) == 12);
+
+/// A part of a piece: half-width 2^-level of it on each axis, the `index`th from -1.
+struct Leaf {
+  uint16_t piece;
+  uint8_t index_u, index_v;
+};
+static_assert(sizeof(Leaf) == 4);
+
+/// On a leaf, a third derivative of half the squared distance D^2 / 2 is at most fixed + turning D in
+/// size, where D is the distance to any point of the leaf. Both are the upper half of a float32,
+/// rounded up. A curve has one a leaf, by the piece's s; a surface four, uuu, uuv, uvv and vvv, in
+/// coordinates that are -1 to 1 across the leaf.
+struct Bend {
+  uint16_t fixed, turning;
+};
+static_assert(sizeof(Bend) == 4);
+constexpr uint32_t bends_a_leaf(bool is_surface) { return is_surface ? 4 : 1; }
+
+/// Node i of the tree: inner nodes for i < leaf_count - 1, else leaf i - (leaf_count - 1). Children
+/// are nodes 2 i + 1 and 2 i + 2. No point of the curve below it lies farther than the radius from
+/// the straight line between two points.
+struct Capsule {
+  uint16_t first, last;  // of the points
+  uint16_t radius;       // in metres, the upper half of a float32, rounded up
+};
+static_assert(sizeof(Capsule) == 6);
+
+struct Point {
+  float x_m, y_m, z_m;
+};
+static_assert(sizeof(Point) == 12);
+
+/// Node i of a surface's tree. The third axis is the product of the two; the axes are a little
+/// shorter than unit vectors, so that no distance seen along them is longer than it is.
+struct Box {
+  float centre_m[3];
+  float axis[2][3];
+  float half_m[3];
+};
+static_assert(sizeof(Box) == 48);
+
+constexpr uint32_t first_child(uint32_t node) { return 2 * node + 1; }
+constexpr uint32_t parent_of(uint32_t node) { return (node - 1) / 2; }
+constexpr uint32_t sibling_of(uint32_t node) { return (node & 1u) != 0 ? node + 1 : node - 1; }
+
+}  // namespace firmtouch::spline

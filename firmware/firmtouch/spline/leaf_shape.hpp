@@ -1,0 +1,60 @@
+#pragma once
+// What is derived of a leaf's coefficients: for the proof at open, and for the baker, which stores it.
+#include <stdint.h>
+
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/spline/layout.hpp"
+
+namespace firmtouch::spline {
+
+/// The part of a piece that a leaf covers. `level` halvings of -1 to 1, the `index`th from -1.
+struct Part {
+  float middle_u, half_u;
+  float middle_v, half_v;  // 0, 1 for a curve
+};
+Part part_of(const Piece& piece, const Leaf& leaf);
+
+/// A leaf about its middle, in leaf coordinates x (and y) from -1 to 1: with the powers of x
+/// fastest, point(x, y) = middle_m + (sum of c[i, j] x^i y^j) / (sum of w[i, j] x^i y^j).
+struct LeafShape {
+  static constexpr uint32_t kMost = (kMaxDegree + 1) * (kMaxDegree + 1);
+  uint32_t degree_u = 0, degree_v = 0;
+  math::Vec3 middle_m;
+  math::Vec3 c[kMost];     // c[0] is what float32 left of it, next to nothing
+  float w[kMost];          // w[0] = 1
+  float least_weight = 0;  // on the leaf; where it is not above 1 / 2 nothing else is known
+  float noise_m = 0;       // of any point of it, as computed here
+  float reach_m = 0;       // no point of the leaf is farther from middle_m
+  float loss_m = 0;  // of a point that evaluation.hpp computes, but for 5 units of its distance
+  float fixed[4] = {}, turning[4] = {};  // as Bend says
+};
+
+/// Pre: the piece's coefficients lie at `coefficients`, its degrees and part are in range.
+void derive(const Piece& piece, const float* coefficients, const Part& part, LeafShape& shape);
+
+/// The least and the most of (point - centre_m) . axis over the leaf, rounded outward.
+struct Extent {
+  float low, high;
+};
+Extent extent_along(const LeafShape& shape, math::Vec3 centre_m, math::Vec3 axis);
+
+/// What a stored radius or half side must at least be, so that it also holds what float32 loses when
+/// a query measures against it.
+float radius_for(const LeafShape& shape, math::Vec3 a_m, math::Vec3 b_m);
+/// The same of a node above: the leaf's own capsule and the node's.
+float radius_above(float leaf_radius_m, math::Vec3 leaf_a_m, math::Vec3 leaf_b_m, math::Vec3 a_m,
+                   math::Vec3 b_m);
+/// Of a box with this centre and these axes, to hold the leaf: enlarges half_m.
+void enlarge(const LeafShape& shape, Box& box);
+
+/// Whether nodes hold a leaf; the capsule of a leaf itself, and those above it.
+bool leaf_fits(const LeafShape& shape, const Capsule& capsule, const Point* points);
+bool leaf_fits(const Capsule& leaf, const Capsule& above, const Point* points);
+bool leaf_fits(const LeafShape& shape, const Box& box);
+
+/// The upper half of the least such float32 that is not below `value`; 0xFFFF where there is none.
+uint16_t rounded_up(float value);
+/// And back.
+float from_half(uint16_t stored);
+
+}  // namespace firmtouch::spline

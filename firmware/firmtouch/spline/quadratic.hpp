@@ -1,0 +1,111 @@
+#pragma once
+// Half the squared distance to a surface about one of its points, with what it may be off: for .cpp
+// files of this room only.
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/spline/search.hpp"
+
+namespace firmtouch::spline {
+
+/// A rectangle of a leaf, in leaf coordinates.
+struct Rectangle {
+  float low[2], high[2];
+  float start[2];  // where to evaluate first
+};
+
+/// D^2 / 2 = distance2 / 2 + slope . d + d . bend . d / 2 and a rest whose third derivatives uuu, uuv,
+/// uvv, vvv are at most `change` in size, in leaf coordinates.
+struct Quadratic {
+  float distance2;
+  float at[2];
+  float slope[2];
+  float bend[3];         // uu, uv, vv
+  float gauss[3];        // the same of the tangents alone: never bent downward
+  float slope_noise[2];  // by which a slope may be off
+  float bend_noise;      // by which d . bend . d may be off, of |d|^2
+  float change[4];
+
+  /// A lower bound of D^2 over a rectangle. Where |u| <= U and |v| <= V, the rest is at least -((uuu U +
+  /// 3 uuv V) u^2 + (vvv V + 3 uvv U) v^2) / 6, which with the bend is a quadratic form Q. On an axis that leads only away from the point and uphill, g d >=
+  /// (g / U) d^2 as long as d <= U: the slope becomes part of Q. What is left of the slopes, g,
+  /// costs at most g . Q^-1 . g / 2 where Q is positive; else all
+  /// terms are taken one by one.
+  float least2(const Rectangle& r) const {
+    float g[2], q[2], reach[2], linear = 0;
+    bool is_flat[2];
+    for (uint32_t k = 0; k < 2; ++k) {
+      const float below = r.low[k] - at[k], above = r.high[k] - at[k];
+      const float far = above > -below ? above : -below;
+      reach[k] = far;
+      is_flat[k] = !(far > 0.0f);
+      const bool is_upward = below >= 0.0f, is_downward = above <= 0.0f;
+      const float outward = is_upward ? slope[k] : is_downward ? -slope[k] : -1.0f;
+      const float sure = outward - slope_noise[k];
+      const float size = (slope[k] < 0.0f ? -slope[k] : slope[k]) + slope_noise[k];
+      q[k] = 0.0f;
+      if (is_flat[k]) {
+        g[k] = 0.0f;
+      } else if ((is_upward || is_downward) && sure > 0.0f) {
+        g[k] = 0.0f;
+        q[k] = 2.0f * sure / far;
+      } else {
+        g[k] = size;
+        linear += size * far;
+      }
+    }
+    const float third = 0.33333337f;
+    const float uu = bend[0] - bend_noise - (change[0] * reach[0] * third + change[1] * reach[1]);
+    const float vv = bend[2] - bend_noise - (change[3] * reach[1] * third + change[2] * reach[0]);
+    const float across = bend[1] < 0.0f ? -bend[1] : bend[1];
+    const float low_u = (uu < 0.0f ? uu : 0.0f) * (reach[0] * reach[0]);
+    const float low_v = (vv < 0.0f ? vv : 0.0f) * (reach[1] * reach[1]);
+    float bound = 0.5f * (low_u + low_v) - linear - across * reach[0] * reach[1];
+    const float a = is_flat[0] ? 1.0f : uu + q[0], c = is_flat[1] ? 1.0f : vv + q[1];
+    const float b = is_flat[0] || is_flat[1] ? 0.0f : across;
+    const float determinant = a * c - b * b;
+    if (a > 0.0f && c > 0.0f && determinant > 0x1p-20f * (a * c)) {
+      const float cost = g[0] * g[0] * c + 2.0f * g[0] * g[1] * b + g[1] * g[1] * a;
+      const float proven = -0.5f * (cost / determinant) * (1.0f + 0x1p-3f);
+      if (proven > bound) bound = proven;
+    }
+    return distance2 + 2.0f * bound;
+  }
+
+  /// Where Newton's method, within the rectangle, would look next: of the bend where it is positive,
+  /// else of the tangents alone.
+  void next(const Rectangle& r, float (&to)[2]) const {
+    const float* h = bend;
+    if (!(h[0] > 0.0f && h[2] > 0.0f && h[0] * h[2] - h[1] * h[1] > 0x1p-10f * (h[0] * h[2])))
+      h = gauss;
+    bool is_fixed[2];
+    for (uint32_t k = 0; k < 2; ++k)
+      is_fixed[k] =
+          (at[k] <= r.low[k] && slope[k] > 0.0f) || (at[k] >= r.high[k] && slope[k] < 0.0f);
+    float step[2] = {0.0f, 0.0f};
+    const float determinant = h[0] * h[2] - h[1] * h[1];
+    if (!is_fixed[0] && !is_fixed[1] && determinant > 0.0f) {
+      step[0] = (h[1] * slope[1] - h[2] * slope[0]) / determinant;
+      step[1] = (h[1] * slope[0] - h[0] * slope[1]) / determinant;
+      // Where one axis ends, the other is solved anew along the edge.
+      for (uint32_t k = 0; k < 2; ++k) {
+        const float wanted = at[k] + step[k], held = clamped(wanted, r, k);
+        if (held < wanted || held > wanted) {
+          step[k] = held - at[k];
+          const uint32_t o = 1 - k;
+          const float diagonal = h[2 * o];
+          if (diagonal > 0.0f) step[o] = -(slope[o] + h[1] * step[k]) / diagonal;
+          break;
+        }
+      }
+    } else {
+      for (uint32_t k = 0; k < 2; ++k)
+        if (!is_fixed[k] && h[2 * k] > 0.0f) step[k] = -slope[k] / h[2 * k];
+    }
+    for (uint32_t k = 0; k < 2; ++k) to[k] = clamped(at[k] + step[k], r, k);
+  }
+
+  static float clamped(float value, const Rectangle& r, uint32_t k) {
+    return value > r.low[k] ? value < r.high[k] ? value : r.high[k] : r.low[k];
+  }
+};
+
+}  // namespace firmtouch::spline

@@ -1,0 +1,257 @@
+#include "firmtouch/spline/view.hpp"
+
+#include "firmtouch/core/bytes.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/spline/leaf_shape.hpp"
+
+namespace firmtouch::spline {
+namespace {
+
+using core::kPassed;
+using core::reject;
+using core::Verdict;
+using math::Vec3;
+
+constexpr uint32_t kLeafElements = 64;
+constexpr uint32_t kMaxPieces = 65535;
+constexpr float kUnit = 0x1p-24f;
+// What `exact` promises less what closest_point() gives away leaves so much of the extent.
+constexpr float kMostLoss = 2.0f * kUnit, kMostRationalLoss = 5.0f * kUnit;
+
+bool is_between(float value, float low, float high) { return value >= low && value <= high; }
+Vec3 vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+Verdict check_head(const Head& head) {
+  if (head.is_surface > 1 || head.is_rational > 1 || head.reserved != 0) return reject(603);
+  float longest_m = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    if (!(head.low_m[k] >= -kMaxCoordinate_m && head.low_m[k] <= head.high_m[k] &&
+          head.high_m[k] <= kMaxCoordinate_m))
+      return reject(605, k);
+    const float side_m = head.high_m[k] - head.low_m[k];
+    if (side_m > longest_m) longest_m = side_m;
+  }
+  if (!(head.extent_m >= kMinExtent_m && head.extent_m <= longest_m)) return reject(606);
+  const float most = head.is_rational != 0 ? kMostRationalLoss : kMostLoss;
+  if (!(head.loss_m >= 0.0f && head.loss_m <= head.extent_m * most)) return reject(607);
+  if (head.worst_steps == 0) return reject(608);
+  return kPassed;
+}
+
+bool is_inside(const Head& head, const float* at_m) {
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!is_between(at_m[k], head.low_m[k], head.high_m[k])) return false;
+  return true;
+}
+
+bool is_sound(const Box& box) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    if (!is_between(box.centre_m[k], -2.0f * kMaxCoordinate_m, 2.0f * kMaxCoordinate_m) ||
+        !is_between(box.half_m[k], 0.0f, 4.0f * kMaxCoordinate_m))
+      return false;
+  }
+  const Vec3 a = vec(box.axis[0]), b = vec(box.axis[1]);
+  // No map with these rows lengthens a vector, the third, their product, included.
+  const float across = dot(a, b), size = across < 0.0f ? -across : across;
+  return dot(a, a) + size <= 1.0f - 0x1p-22f && dot(b, b) + size <= 1.0f - 0x1p-22f;
+}
+
+}  // namespace
+
+Opening::Opening(const Sections& sections) { open_head(sections); }
+
+void Opening::fail(uint16_t rule, uint32_t element) {
+  verdict_ = reject(rule, element);
+  stage_ = Stage::kDone;
+}
+
+void Opening::open_head(const Sections& sections) {
+  const core::Span<const Head> heads = core::as_whole_array<Head>(sections.head);
+  if (heads.size() != 1) return fail(601, 0);
+  const Head& head = heads[0];
+  if (head.piece_count == 0 || head.piece_count > kMaxPieces || head.leaf_count == 0 ||
+      head.leaf_count > kMaxLeaves || head.point_count > kMaxLeaves + 1)
+    return fail(602, 0);
+  verdict_ = check_head(head);
+  if (verdict_.ok()) verdict_ = take_sections(sections, head);
+  if (!verdict_.ok()) return;
+  view_.head_ = &head;
+  stage_ = Stage::kPieces;
+}
+
+Verdict Opening::take_sections(const Sections& s, const Head& head) {
+  view_.pieces_ = core::as_whole_array<Piece>(s.pieces);
+  if (view_.pieces_.size() != head.piece_count) return reject(604, 0);
+  view_.coefficients_ = core::as_whole_array<float>(s.coefficients);
+  if (view_.coefficients_.size() != head.coefficient_count) return reject(604, 1);
+  view_.leaves_ = core::as_whole_array<Leaf>(s.leaves);
+  if (view_.leaves_.size() != head.leaf_count) return reject(604, 2);
+  view_.bends_ = core::as_whole_array<Bend>(s.bends);
+  if (view_.bends_.size() != head.leaf_count * bends_a_leaf(head.is_surface != 0))
+    return reject(604, 6);
+  view_.places_ = core::as_whole_array<uint16_t>(s.places);
+  if (view_.places_.size() != head.leaf_count) return reject(604, 3);
+  const uint32_t nodes = 2 * head.leaf_count - 1;
+  if (head.is_surface != 0) {
+    view_.boxes_ = core::as_whole_array<Box>(s.nodes);
+    if (view_.boxes_.size() != nodes) return reject(604, 4);
+    if (head.point_count != 0 || s.points.size() != 0) return reject(604, 5);
+  } else {
+    view_.capsules_ = core::as_whole_array<Capsule>(s.nodes);
+    if (view_.capsules_.size() != nodes) return reject(604, 4);
+    view_.points_ = core::as_whole_array<Point>(s.points);
+    if (view_.points_.size() != head.point_count) return reject(604, 5);
+  }
+  return kPassed;
+}
+
+void Opening::work(uint32_t elements) {
+  for (uint32_t used = 0; used < elements && stage_ != Stage::kDone;) {
+    used += stage_ == Stage::kLeaves ? kLeafElements : 1;
+    if (next_ < this->elements()) {
+      const Verdict found = check(next_);
+      if (!found.ok()) return fail(found.rule, found.element);
+      ++next_;
+    }
+    if (next_ == this->elements()) next_stage();
+  }
+}
+
+uint32_t Opening::elements() const {
+  switch (stage_) {
+    case Stage::kPieces:
+      return view_.pieces_.size();
+    case Stage::kPoints:
+      return view_.points_.size();
+    case Stage::kNodes:
+      return 2 * view_.leaves_.size() - 1;
+    default:
+      return view_.leaves_.size();
+  }
+}
+
+void Opening::next_stage() {
+  next_ = 0;
+  if (stage_ == Stage::kPieces && coefficients_used_ != view_.coefficients_.size())
+    return fail(613, view_.pieces_.size());
+  if (stage_ == Stage::kPlaces && piece_ != view_.pieces_.size()) return fail(615, piece_);
+  stage_ = static_cast<Stage>(static_cast<uint8_t>(stage_) + 1);
+}
+
+Verdict Opening::check(uint32_t i) {
+  switch (stage_) {
+    case Stage::kPieces:
+      return check_piece(i);
+    case Stage::kPoints:
+      return check_point(i);
+    case Stage::kNodes:
+      return check_node(i);
+    case Stage::kPlaces:
+      return check_place(i);
+    case Stage::kLeaves:
+      return check_leaf(i);
+    case Stage::kDone:
+      break;
+  }
+  return kPassed;
+}
+
+Verdict Opening::check_piece(uint32_t i) {
+  const Piece& piece = view_.pieces_[i];
+  const Head& head = *view_.head_;
+  const bool is_surface = head.is_surface != 0;
+  if (piece.degree_u < 1 || piece.degree_u > kMaxDegree ||
+      piece.degree_v < (is_surface ? 1u : 0u) || piece.degree_v > (is_surface ? kMaxDegree : 0u))
+    return reject(611, i);
+  if (piece.is_rational > head.is_rational || piece.level_u > kMaxHalvings ||
+      piece.level_v > (is_surface ? kMaxHalvings : 0u))
+    return reject(612, i);
+  const uint32_t floats =
+      (piece.degree_u + 1u) * (piece.degree_v + 1u) * (piece.is_rational != 0 ? 4u : 3u);
+  if (piece.coefficients != coefficients_used_ ||
+      floats > view_.coefficients_.size() - coefficients_used_)
+    return reject(613, i);
+  for (uint32_t k = 0; k < floats; ++k)
+    if (!is_between(view_.coefficients_[coefficients_used_ + k], -64.0f * kMaxCoordinate_m,
+                    64.0f * kMaxCoordinate_m))
+      return reject(614, coefficients_used_ + k);
+  coefficients_used_ += floats;
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!is_between(piece.origin_m[k], -2.0f * kMaxCoordinate_m, 2.0f * kMaxCoordinate_m))
+      return reject(616, i);
+  const float parameters[] = {piece.middle_u, piece.half_u, piece.middle_v, piece.half_v};
+  for (const float parameter : parameters)
+    if (!is_between(parameter, -1e30f, 1e30f)) return reject(616, i);
+  return kPassed;
+}
+
+Verdict Opening::check_point(uint32_t i) const {
+  return is_inside(*view_.head_, &view_.points_[i].x_m) ? kPassed : reject(617, i);
+}
+
+Verdict Opening::check_node(uint32_t i) const {
+  if (view_.is_surface()) return is_sound(view_.boxes_[i]) ? kPassed : reject(618, i);
+  const Capsule& capsule = view_.capsules_[i];
+  const uint32_t points = view_.points_.size();
+  const bool is_sound = capsule.first < points && capsule.last < points && capsule.radius < 0x7F80u;
+  return is_sound ? kPassed : reject(618, i);
+}
+
+// Parts of pieces in turn, and each has a leaf that says the same: so each has one of its own.
+Verdict Opening::check_place(uint32_t i) {
+  if (piece_ == view_.pieces_.size()) return reject(615, i);
+  const Piece& piece = view_.pieces_[piece_];
+  const uint32_t columns = 1u << piece.level_u, rows = 1u << piece.level_v;
+  const uint32_t at = view_.places_[i];
+  if (at >= view_.leaves_.size()) return reject(615, i);
+  const Leaf& leaf = view_.leaves_[at];
+  if (leaf.piece != piece_ || leaf.index_u != in_piece_ % columns ||
+      leaf.index_v != in_piece_ / columns)
+    return reject(615, i);
+  if (++in_piece_ == columns * rows) {
+    in_piece_ = 0;
+    ++piece_;
+  }
+  return kPassed;
+}
+
+Verdict Opening::check_leaf(uint32_t i) const {
+  const Leaf& leaf = view_.leaves_[i];
+  const Piece& piece = view_.pieces_[leaf.piece];
+  const Head& head = *view_.head_;
+  LeafShape shape;
+  derive(piece, view_.coefficients_.data() + piece.coefficients, part_of(piece, leaf), shape);
+  if (!(shape.least_weight > 0.0f)) return reject(619, i);
+  const uint32_t bends = bends_a_leaf(head.is_surface != 0);
+  for (uint32_t k = 0; k < bends; ++k) {
+    const Bend& bend = view_.bends_[i * bends + k];
+    if (bend.fixed >= 0x7F80u || bend.turning >= 0x7F80u ||
+        bend.fixed < rounded_up(shape.fixed[k]) || bend.turning < rounded_up(shape.turning[k]))
+      return reject(620, i);
+  }
+  if (!(shape.loss_m <= head.loss_m)) return reject(621, i);
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3 axis{k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f};
+    const Extent extent = extent_along(shape, {}, axis);
+    if (!(extent.low >= head.low_m[k] && extent.high <= head.high_m[k])) return reject(622, i);
+  }
+  const uint32_t node = view_.leaves_.size() - 1 + i;
+  if (head.is_surface == 0 && !leaf_fits(shape, view_.capsules_[node], view_.points_.data()))
+    return reject(623, i);
+  for (uint32_t at = node;; at = parent_of(at)) {
+    const bool fits = head.is_surface != 0 ? leaf_fits(shape, view_.boxes_[at])
+                                           : leaf_fits(view_.capsules_[node], view_.capsules_[at],
+                                                       view_.points_.data());
+    if (!fits) return reject(623, i);
+    if (at == 0) return kPassed;
+  }
+}
+
+core::Verdict open(const Sections& sections, View& view) {
+  Opening opening(sections);
+  while (!opening.done()) opening.work(1u << 20);
+  view = opening.view();
+  return opening.verdict();
+}
+
+}  // namespace firmtouch::spline

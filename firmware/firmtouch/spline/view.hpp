@@ -1,0 +1,87 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/spline/layout.hpp"
+
+namespace firmtouch::spline {
+
+/// The bytes of a spline model's sections, as the container hands them out.
+struct Sections {
+  core::Bytes head, pieces, coefficients, leaves, bends, places, nodes, points;
+};
+
+/// Spline curves, or spline surfaces, that open() has proven: every index, float, bound and
+/// enclosure. Immutable; share it between any number of tools.
+class View {
+ public:
+  View() = default;
+
+  bool is_open() const { return head_ != nullptr; }
+  bool is_surface() const { return head_->is_surface != 0; }
+  const Head& head() const { return *head_; }
+  core::Span<const Piece> pieces() const { return pieces_; }
+  core::Span<const float> coefficients() const { return coefficients_; }
+  uint32_t leaf_count() const { return head_->leaf_count; }
+  core::Span<const Leaf> leaves() const { return leaves_; }
+  core::Span<const Bend> bends() const { return bends_; }
+  core::Span<const Capsule> capsules() const { return capsules_; }
+  core::Span<const Box> boxes() const { return boxes_; }
+  core::Span<const Point> points() const { return points_; }
+
+ private:
+  friend class Opening;
+  const Head* head_ = nullptr;
+  core::Span<const Piece> pieces_;
+  core::Span<const float> coefficients_;
+  core::Span<const Leaf> leaves_;
+  core::Span<const Bend> bends_;
+  core::Span<const uint16_t> places_;
+  core::Span<const Capsule> capsules_;
+  core::Span<const Box> boxes_;
+  core::Span<const Point> points_;
+};
+
+/// Proves a spline model in slices, so that a main loop stays alive while it opens a large one: rules
+/// R601 to R624 of tools/FORMAT.md.
+class Opening {
+ public:
+  explicit Opening(const Sections& sections);
+
+  /// Checks up to `elements` pieces, points, nodes or leaves more; a leaf counts as 64.
+  /// Bounds: about 1,000 instructions an element, 3 KB of stack; no recursion; reads only inside
+  /// the sections.
+  void work(uint32_t elements);
+  bool done() const { return stage_ == Stage::kDone; }
+  core::Verdict verdict() const { return verdict_; }
+  /// The proven model; one that is not open unless done() and verdict().ok().
+  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+
+ private:
+  enum class Stage : uint8_t { kPieces, kPoints, kNodes, kPlaces, kLeaves, kDone };
+  void fail(uint16_t rule, uint32_t element);
+  void open_head(const Sections& sections);
+  core::Verdict take_sections(const Sections& sections, const Head& head);
+  uint32_t elements() const;
+  void next_stage();
+  core::Verdict check(uint32_t i);
+  core::Verdict check_piece(uint32_t i);
+  core::Verdict check_point(uint32_t i) const;
+  core::Verdict check_node(uint32_t i) const;
+  core::Verdict check_place(uint32_t i);
+  core::Verdict check_leaf(uint32_t i) const;
+
+  View view_;
+  core::Verdict verdict_;
+  Stage stage_ = Stage::kDone;
+  uint32_t next_ = 0;
+  uint32_t coefficients_used_ = 0;
+  uint32_t piece_ = 0, in_piece_ = 0;  // of the place that is next
+};
+
+/// All at once.
+core::Verdict open(const Sections& sections, View& view);
+
+}  // namespace firmtouch::spline

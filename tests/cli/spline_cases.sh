@@ -1,0 +1,41 @@
+# Cases of tests/cli/run about splines.
+
+# A quarter of a unit arc (about) in one Bezier patch of a roof, 1 m deep: .bpt.
+roof() {
+  printf '1\n3 3\n'
+  for y in 0 0.333333333 0.666666667 1; do
+    for xz in '0 0' '0.3 0.4' '0.7 0.4' '1 0'; do
+      # shellcheck disable=SC2086
+      set -- $xz
+      echo "$1 $y $2"
+    done
+  done
+}
+
+ASplineIsBakedToldAndAsked() {
+  roof >roof.bpt
+  bake roof.bpt -o a.fta
+  told 'spline surface, 1 entity' 'worst query that a search found'
+  f info a.fta
+  exits 0
+  printf '%s\n' "$out" | grep -q 'spline pieces' || fail "info: $out"
+  printf 'x,y,z\n0.5,0.5,1.3\n0,-1,0\n' >p.csv
+  f query a.fta roof spline <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | sed -n 1p)" 'distance,cx,cy,cz,piece,u,v,lower,steps,exact'
+  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f1,5,10)" '1,0,1
+1,0,1'
+  f query a.fta roof spline --budget 1 --cold <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f9)" '1
+1'
+  f query a.fta roof distance <p.csv
+  exits 3
+  told "holds no mesh 'roof'" 'splines: roof'
+}
+
+AUnitGivenStandsAboveTheFiles() {
+  roof >roof.bpt
+  bake roof.bpt -o a.fta --unit mm
+  told 'extent 0.001 m'
+}

@@ -1,0 +1,225 @@
+// The global minimum with its certificate, against dense sampling of the file's own knots in double.
+#include "firmtouch/spline/closest_point.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include "bake/bake_spline.hpp"
+#include "harness/test.hpp"
+#include "spline/random_splines.hpp"
+#include "spline/read_spline.hpp"
+#include "spline/sampled_truth.hpp"
+
+namespace {
+
+using firmtouch::math::Vec3;
+using firmtouch::query::Budget;
+using firmtouch::query::Hint;
+using firmtouch::query::kUnlimited;
+using firmtouch::spline_test::SampledTruth;
+namespace spline = firmtouch::spline;
+namespace spline_test = firmtouch::spline_test;
+namespace tools = firmtouch::tools;
+
+bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
+
+struct Baked {
+  tools::SplineModel model;
+  std::vector<tools::Section> sections;
+  tools::SplineReport report;
+  spline::View view;
+
+  explicit Baked(const tools::SplineModel& from, bool is_small = false) : model(from) {
+    const tools::SplineDetail detail =
+        model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(is_small);
+    sections = tools::bake_spline(model, "x", detail, report);
+    if (report.problem.empty())
+      CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+  }
+};
+
+tools::SplineModel of(const tools::SplineCurve& curve) {
+  tools::SplineModel model;
+  model.curves.push_back(curve);
+  return model;
+}
+tools::SplineModel of(const tools::SplineSurface& surface) {
+  tools::SplineModel model;
+  model.surfaces.push_back(surface);
+  return model;
+}
+
+tools::SplineCurve bezier(std::vector<tools::ControlPoint> points) {
+  tools::SplineCurve curve;
+  curve.degree = static_cast<int>(points.size()) - 1;
+  curve.points = std::move(points);
+  curve.knots.assign(curve.points.size(), 0);
+  curve.knots.insert(curve.knots.end(), curve.points.size(), 1);
+  return curve;
+}
+
+// A full circle in four rational quarters.
+tools::SplineCurve circle() {
+  tools::SplineCurve c;
+  c.degree = 2;
+  const double w = std::sqrt(0.5);
+  c.points = {{1, 0, 0, 1},   {1, 1, 0, w},  {0, 1, 0, 1},  {-1, 1, 0, w}, {-1, 0, 0, 1},
+              {-1, -1, 0, w}, {0, -1, 0, 1}, {1, -1, 0, w}, {1, 0, 0, 1}};
+  c.knots = {0, 0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1, 1, 1};
+  return c;
+}
+
+// Told, exact and certified as promised, cold and warm.
+void judge(const Baked& baked, const SampledTruth& truth, const Vec3& p, Hint& warm) {
+  const double d = truth.distance(tools::to_point(p));
+  const double unit = baked.report.is_rational ? 1e-6 : 4e-7;
+  const double slack = unit * baked.report.extent_m + 6e-7 * d;
+  Hint cold;
+  Hint* const hints[] = {&cold, &warm};
+  for (Hint* hint : hints) {
+    const spline::Closest c = closest_point(baked.view, p, kUnlimited, *hint);
+    CHECK_EQ(c.certificate.exact, true);
+    CHECK_LE(std::fabs(static_cast<double>(c.distance_m) - d), unit * baked.report.extent_m);
+    CHECK_LE(static_cast<double>(c.certificate.lower_m), d * (1 + 1e-9) + 1e-12);
+    CHECK_GE(static_cast<double>(c.certificate.lower_m), d - slack);
+    // The place told is where the point told is.
+    const tools::Point at = baked.model.surfaces.empty()
+                                ? point_at(baked.model.curves[c.piece], static_cast<double>(c.u))
+                                : point_at(baked.model.surfaces[c.piece], static_cast<double>(c.u),
+                                           static_cast<double>(c.v));
+    CHECK_LE(length(at - tools::to_point(c.point_m)),
+             2e-5 * baked.report.extent_m + 1.5e-7 * length(at));
+  }
+}
+
+Vec3 anywhere(const Baked& baked, tools::Random& random) {
+  const spline::Head& head = baked.view.head();
+  float at[3];
+  for (size_t k = 0; k < 3; ++k) {
+    const auto low = static_cast<double>(head.low_m[k]), high = static_cast<double>(head.high_m[k]);
+    at[k] =
+        static_cast<float>(random.between(low - 0.25 * (high - low), high + 0.25 * (high - low)));
+  }
+  return {at[0], at[1], at[2]};
+}
+
+void judge_many(const Baked& baked, uint32_t seed, uint32_t queries, int samples) {
+  CHECK(baked.report.problem.empty());
+  if (!baked.report.problem.empty()) return;
+  const SampledTruth truth(baked.model, samples);
+  tools::Random random(seed);
+  Hint warm;
+  for (uint32_t i = 0; i < queries; ++i) {
+    firmtouch::test::note("seed", seed);
+    judge(baked, truth, anywhere(baked, random), warm);
+    const tools::Point& on =
+        truth.points()[random.below(static_cast<uint32_t>(truth.points().size()))];
+    judge(baked, truth, tools::to_vec3(on), warm);
+    const double near = 0.01 * baked.report.extent_m;
+    judge(baked, truth,
+          tools::to_vec3(
+              on + tools::Point{near * random.bell(), near * random.bell(), near * random.bell()}),
+          warm);
+  }
+}
+
+}  // namespace
+
+TEST(RandomCurvesOfEveryDegreeAnswerAsDenseSamplingDoes) {
+  const uint32_t curves = is_long() ? 60 : 10, queries = is_long() ? 2000 : 25;
+  for (uint32_t seed = 0; seed < curves; ++seed) {
+    tools::Random random(seed + 1);
+    const int degree = 1 + static_cast<int>(seed % 5);
+    judge_many(Baked(of(spline_test::random_curve(random, degree, degree))), seed, queries, 48);
+  }
+}
+
+TEST(RandomSurfacesOfEveryDegreeAnswerAsDenseSamplingDoes) {
+  const uint32_t surfaces = is_long() ? 30 : 4, queries = is_long() ? 300 : 6;
+  for (uint32_t seed = 0; seed < surfaces; ++seed) {
+    tools::Random random(seed + 100);
+    const int u = 1 + static_cast<int>(seed % 3), v = 3 - static_cast<int>(seed % 2);
+    judge_many(Baked(of(spline_test::random_surface(random, u, v, 1)), seed % 2 == 1), seed,
+               queries, 40);
+  }
+}
+
+TEST(TheCentreOfACircleIsCertifiedThoughAllPointsAreAsNear) {
+  const Baked baked(of(circle()));
+  for (const float off : {0.0f, 1e-7f, 1e-5f, 1e-3f}) {
+    Hint hint;
+    const spline::Closest c = closest_point(baked.view, {off, 0.5f * off, 0}, kUnlimited, hint);
+    CHECK_EQ(c.certificate.exact, true);
+    CHECK_LE(std::fabs(static_cast<double>(c.distance_m) - 1.0) - 1.2 * static_cast<double>(off),
+             2e-6);
+    CHECK_GE(static_cast<double>(c.certificate.lower_m),
+             1.0 - 1.2 * static_cast<double>(off) - 5e-6);
+    CHECK_LE(c.certificate.steps, 4000u);  // all parts, each cut some times
+  }
+}
+
+TEST(CurvesWithCoincidentControlPointsAndFoldsAnswerAsDenseSamplingDoes) {
+  const tools::ControlPoint a{0, 0, 0, 1}, b{1, 0.5, 0.2, 1}, c{0.4, 1, -0.3, 1};
+  judge_many(Baked(of(bezier({a, a, a, b}))), 1, 40, 400);
+  judge_many(Baked(of(bezier({a, b, b, b, c}))), 2, 40, 400);
+  judge_many(Baked(of(bezier({a, b, c, a}))), 3, 40, 400);                       // closed, a corner
+  judge_many(Baked(of(bezier({a, {1, 0, 0, 1}, {0.2, 0, 0, 1}}))), 4, 40, 400);  // folded on itself
+  judge_many(Baked(of(bezier({a, {3, 2, 0, 1}, {-2, 2, 0, 1}, {1, 0, 0, 1}}))), 5, 40,
+             400);  // a loop
+}
+
+TEST(OnTheEvoluteAndBesideItTheAnswerIsTheGlobalOne) {
+  tools::Random random(3);
+  const Baked baked(of(spline_test::random_curve(random, 3, 1)));
+  const SampledTruth truth(baked.model, 200);
+  const tools::SplineCurve& curve = baked.model.curves[0];
+  Hint warm;
+  for (int i = 1; i < 60; ++i) {
+    const double t = curve.t0 + (curve.t1 - curve.t0) * i / 60.0, h = 1e-4 * (curve.t1 - curve.t0);
+    const tools::Point before = point_at(curve, t - h), at = point_at(curve, t),
+                       after = point_at(curve, t + h);
+    const tools::Point d1 = (after - before) * (0.5 / h);
+    const tools::Point d2 = (after - at * 2 + before) * (1 / (h * h));
+    const tools::Point bend = d2 - d1 * (dot(d1, d2) / dot(d1, d1));
+    if (!(dot(bend, bend) > 0)) continue;
+    const tools::Point centre = at + bend * (dot(d1, d1) / dot(bend, bend));
+    if (!(length(centre) < 5)) continue;
+    judge(baked, truth, tools::to_vec3(centre), warm);
+  }
+}
+
+TEST(EveryBudgetBracketsTheTruthOnRandomModels) {
+  for (uint32_t seed = 0; seed < 4; ++seed) {
+    tools::Random random(seed + 50);
+    const Baked baked(seed % 2 == 0 ? of(spline_test::random_curve(random, 3, 2))
+                                    : of(spline_test::random_surface(random, 3, 3, 1)));
+    const SampledTruth truth(baked.model, 40);
+    Hint warm;
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 p = anywhere(baked, random);
+      const double d = truth.distance(tools::to_point(p));
+      for (uint32_t steps = 1; steps < 400; steps += 1 + steps / 4) {
+        Hint cold;
+        const spline::Closest c =
+            closest_point(baked.view, p, Budget{steps}, steps % 2 == 0 ? cold : warm);
+        CHECK_LE(c.certificate.steps, steps);
+        CHECK_LE(static_cast<double>(c.certificate.lower_m), d * (1 + 1e-9) + 1e-12);
+        CHECK_GE(static_cast<double>(c.distance_m), d - 1e-6 * (d + baked.report.extent_m));
+      }
+    }
+  }
+}
+
+TEST(AModelFarFromTheOriginIsAsGoodAsNearIt) {
+  tools::Random random(8);
+  tools::SplineCurve curve = spline_test::random_curve(random, 3, 1);
+  for (tools::ControlPoint& p : curve.points) p.x += 512, p.y -= 256;
+  judge_many(Baked(of(curve)), 8, 30, 48);
+}
+
+TEST(TheTeapotAnswersAsDenseSamplingDoes) {
+  const char* models = std::getenv("FIRMTOUCH_MODELS");
+  if (models == nullptr) return firmtouch::test::skip("FIRMTOUCH_MODELS is not set");
+  const Baked baked(tools::read_spline_file(std::string(models) + "/teapot.bpt", 0.001));
+  judge_many(baked, 5, is_long() ? 3000 : 10, 100);
+}

@@ -1,0 +1,194 @@
+// Closest point of splines on host and controller: small models, hostile inputs.
+#include "firmtouch/spline/closest_point.hpp"
+
+#include <float.h>
+
+#include "harness/test.hpp"
+#include "spline/small_spline.hpp"
+
+namespace {
+
+using firmtouch::math::Vec3;
+using firmtouch::query::Budget;
+using firmtouch::query::Hint;
+using firmtouch::query::kUnlimited;
+using firmtouch::spline::Closest;
+using firmtouch::spline::closest_point;
+using firmtouch::spline::View;
+using firmtouch::spline_test::sampled_distance;
+using firmtouch::spline_test::SmallSpline;
+
+// The same pseudo-random numbers on every machine.
+class Random {
+ public:
+  explicit Random(uint32_t seed) : state_(seed) {}
+  float between(float low, float high) {
+    state_ = state_ * 1664525u + 1013904223u;
+    return low + (high - low) * (static_cast<float>(state_ >> 8) * 0x1p-24f);
+  }
+  uint32_t bits() { return state_ = state_ * 1664525u + 1013904223u; }
+
+ private:
+  uint32_t state_;
+};
+
+Vec3 about(Random& random) {
+  return {random.between(-2.0f, 3.5f), random.between(-1.5f, 4.0f), random.between(-2.0f, 2.0f)};
+}
+
+bool finite(const Closest& c) {
+  const float values[] = {c.distance_m,  c.point_m.x,          c.point_m.y,   c.point_m.z,
+                          c.direction.x, c.direction.y,        c.direction.z, c.u,
+                          c.v,           c.certificate.lower_m};
+  for (const float value : values)
+    if (!(value - value <= 0.0f)) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST(EveryKindAnswersTheGlobalMinimumColdAndWarm) {
+  for (uint32_t kind = 0; kind < 4; ++kind) {
+    const SmallSpline model((kind & 1u) != 0, (kind & 2u) != 0);
+    const View view = model.view();
+    CHECK_EQ(view.is_open(), true);
+    Random random(kind + 1);
+    Hint warm;
+    for (uint32_t i = 0; i < 20; ++i) {
+      firmtouch::test::note("kind * 100 + query", kind * 100 + i);
+      const Vec3 p = about(random);
+      const double truth = sampled_distance(model, p);
+      const double slack = 1e-6 * (static_cast<double>(view.head().extent_m) + truth);
+      Hint cold;
+      Hint* const hints[] = {&cold, &warm};
+      for (Hint* hint : hints) {
+        const Closest c = closest_point(view, p, kUnlimited, *hint);
+        CHECK_EQ(c.certificate.exact, true);
+        CHECK_LE(static_cast<double>(c.distance_m), truth + slack);
+        CHECK_GE(static_cast<double>(c.distance_m), truth - slack);
+        CHECK_LE(static_cast<double>(c.certificate.lower_m), truth);
+        CHECK_GE(static_cast<double>(c.certificate.lower_m), truth - 2.0 * slack);
+        CHECK_GE(c.piece, 5u);
+        CHECK_LE(c.piece, 6u);
+      }
+    }
+  }
+}
+
+TEST(EveryBudgetBracketsTheTruth) {
+  for (uint32_t kind = 0; kind < 2; ++kind) {
+    const SmallSpline model(kind == 1);
+    const View view = model.view();
+    Random random(kind + 7);
+    for (uint32_t i = 0; i < 12; ++i) {
+      const Vec3 p = about(random);
+      const double truth = sampled_distance(model, p);
+      Hint warm;
+      for (uint32_t steps = 0; steps < 40; ++steps) {
+        firmtouch::test::note("query * 100 + steps", i * 100 + steps);
+        Hint cold;
+        const Closest c = closest_point(view, p, Budget{steps}, (steps & 1u) != 0 ? warm : cold);
+        CHECK_LE(c.certificate.steps, steps == 0 ? 1u : steps);
+        CHECK_LE(static_cast<double>(c.certificate.lower_m), truth);
+        CHECK_GE(static_cast<double>(c.distance_m), truth - 1e-6 * (truth + 3.9));
+      }
+    }
+  }
+}
+
+TEST(HostileQueriesGiveFiniteAnswers) {
+  static const float kValues[] = {0.0f,
+                                  -0.0f,
+                                  1e-45f,
+                                  1e-20f,
+                                  1.0f,
+                                  -1e6f,
+                                  2e8f,
+                                  1e12f,
+                                  -1e18f,
+                                  1e30f,
+                                  -3.4e38f,
+                                  __builtin_inff(),
+                                  -__builtin_inff(),
+                                  __builtin_nanf("")};
+  constexpr uint32_t kCount = sizeof kValues / sizeof kValues[0];
+  for (uint32_t kind = 0; kind < 4; ++kind) {
+    const SmallSpline model((kind & 1u) != 0, (kind & 2u) != 0);
+    const View view = model.view();
+    Hint hint;
+    for (uint32_t i = 0; i < kCount * kCount; ++i) {
+      const Vec3 p{kValues[i % kCount], kValues[i / kCount], kValues[(i * 5 + 3) % kCount]};
+      const Closest c = closest_point(view, p, Budget{200}, hint);
+      CHECK_EQ(finite(c), true);
+      CHECK_LE(c.certificate.steps, 200u);
+      CHECK_LE(c.certificate.lower_m, c.distance_m);
+    }
+  }
+}
+
+TEST(AQueryThatIsNoNumberKnowsNothing) {
+  const SmallSpline model(false);
+  Hint hint;
+  const Closest c = closest_point(model.view(), {0, __builtin_nanf(""), 0}, kUnlimited, hint);
+  CHECK_EQ(c.distance_m, FLT_MAX);
+  CHECK_EQ(c.certificate.lower_m, 0.0f);
+  CHECK_EQ(c.certificate.exact, false);
+}
+
+TEST(HintsOfRandomBitsAreOnlyHints) {
+  for (uint32_t kind = 0; kind < 2; ++kind) {
+    const SmallSpline model(kind == 1);
+    const View view = model.view();
+    Random random(99);
+    for (uint32_t i = 0; i < 100; ++i) {
+      const Vec3 p = about(random);
+      Hint cold, bent;
+      bent.place = random.bits();
+      const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
+      const Closest c = closest_point(view, p, kUnlimited, bent);
+      CHECK_EQ(c.certificate.exact, true);
+      CHECK_LE(c.distance_m, truth + 5e-7f * (truth + 3.9f));
+      CHECK_GE(c.distance_m, truth - 5e-7f * (truth + 3.9f));
+    }
+  }
+}
+
+TEST(AWarmQueryBesideItsLastPlaceTakesFewEvaluations) {
+  const SmallSpline model(false);
+  const View view = model.view();
+  Hint hint;
+  uint32_t evaluations = 0;
+  for (uint32_t i = 0; i < 200; ++i) {
+    const float x = static_cast<float>(i) * 0.01f - 0.5f;
+    evaluations += closest_point(view, {x, 0.25f, 0.1f}, kUnlimited, hint).evaluations;
+  }
+  CHECK_LE(evaluations, 200u * 4u);
+}
+
+TEST(AnEmptyModelSpaceFarAwayIsAsNearAsAnyPoint) {
+  const SmallSpline model(true);
+  Hint hint;
+  const Closest c = closest_point(model.view(), {1e12f, 0, 0}, kUnlimited, hint);
+  CHECK_EQ(c.certificate.exact, true);
+  CHECK_GE(c.distance_m, 0.9999999e12f);
+  CHECK_LE(c.certificate.lower_m, 1e12f);
+  CHECK_GE(c.certificate.lower_m, 0.999999e12f);
+}
+
+// One number for all answers: the same on the host and on the controllers.
+TEST(AnswersHaveOneHashEverywhere) {
+  uint64_t hash = 0;
+  for (uint32_t kind = 0; kind < 4; ++kind) {
+    const SmallSpline model((kind & 1u) != 0, (kind & 2u) != 0);
+    Random random(5);
+    firmtouch::query::ProbePoint points[100];
+    for (auto* p = points; p != points + 100; ++p) {
+      const Vec3 at = about(random);
+      *p = {at.x, at.y, at.z};
+    }
+    hash = hash * 31 + firmtouch::spline::probe_hash(model.view(), points);
+  }
+  firmtouch::test::note("hash, upper half", static_cast<int64_t>(hash >> 32));
+  firmtouch::test::note("hash, lower half", static_cast<int64_t>(hash & 0xFFFFFFFFu));
+  CHECK_EQ(hash, 14519615272374256772ull);
+}

@@ -1,0 +1,259 @@
+// Each rule of a spline model, tripped alone: one thing is wrong, all that follows from it fits.
+#include "harness/test.hpp"
+#include "spline/small_spline.hpp"
+
+namespace {
+
+using firmtouch::core::Verdict;
+using firmtouch::spline::Sections;
+using firmtouch::spline::View;
+using firmtouch::spline_test::SmallSpline;
+
+Verdict verdict_of(const Sections& sections) {
+  View view;
+  const Verdict verdict = firmtouch::spline::open(sections, view);
+  CHECK_EQ(verdict.ok(), view.is_open());
+  return verdict;
+}
+
+void expect(const SmallSpline& model, uint32_t rule, uint32_t element) {
+  const Verdict verdict = verdict_of(model.sections());
+  CHECK_EQ(verdict.rule, rule);
+  CHECK_EQ(verdict.element, element);
+}
+
+SmallSpline curve() { return SmallSpline(false); }
+SmallSpline surface() { return SmallSpline(true); }
+float nan_value() { return __builtin_nanf(""); }
+
+}  // namespace
+
+TEST(TheModelsThatTheRulesAreTriedOnAreGood) {
+  for (uint32_t kind = 0; kind < 4; ++kind)
+    expect(SmallSpline((kind & 1u) != 0, (kind & 2u) != 0), 0, 0);
+}
+
+TEST(OpeningInSlicesOfAnySizeSaysTheSame) {
+  const SmallSpline model = surface();
+  for (uint32_t slice = 1; slice < 100; slice += 33) {
+    firmtouch::spline::Opening opening(model.sections());
+    uint32_t slices = 0;
+    for (; !opening.done() && slices < 1000; ++slices) {
+      CHECK_EQ(opening.view().is_open(), false);
+      opening.work(slice);
+    }
+    CHECK_EQ(opening.verdict().ok(), true);
+    CHECK_EQ(opening.view().is_open(), true);
+  }
+}
+
+TEST(Rule601RefusesAMissingHead) {
+  const SmallSpline model = curve();
+  Sections s = model.sections();
+  s.head = {};
+  CHECK_EQ(verdict_of(s).rule, 601);
+  CHECK_EQ(verdict_of({}).rule, 601);
+}
+
+TEST(Rule602RefusesCountsOutOfRange) {
+  SmallSpline model = curve();
+  model.head.leaf_count = 0;
+  expect(model, 602, 0);
+  model.head.leaf_count = 65536;
+  expect(model, 602, 0);
+  model.head.leaf_count = 4;
+  model.head.piece_count = 0;
+  expect(model, 602, 0);
+}
+
+TEST(Rule603RefusesFlagsAndReservedWords) {
+  SmallSpline model = curve();
+  model.head.is_rational = 2;
+  expect(model, 603, 0);
+  model = curve();
+  model.head.reserved = 1;
+  expect(model, 603, 0);
+}
+
+TEST(Rule604RefusesSectionsOfAnotherLength) {
+  const SmallSpline model = curve();
+  const Sections whole = model.sections();
+  for (uint32_t which = 0; which < 7; ++which) {
+    Sections s = whole;
+    firmtouch::core::Bytes* const parts[] = {&s.pieces, &s.coefficients, &s.leaves, &s.places,
+                                             &s.nodes,  &s.points,       &s.bends};
+    *parts[which] = {parts[which]->data(), parts[which]->size() - 1};
+    const Verdict verdict = verdict_of(s);
+    CHECK_EQ(verdict.rule, 604);
+    CHECK_EQ(verdict.element, which);
+  }
+  const SmallSpline other = surface();
+  Sections s = other.sections();
+  s.points = whole.points;
+  CHECK_EQ(verdict_of(s).element, 5u);
+}
+
+TEST(Rule605RefusesABoxThatIsInvertedOrFarAway) {
+  SmallSpline model = curve();
+  model.head.low_m[1] = model.head.high_m[1] + 1.0f;
+  expect(model, 605, 1);
+  model = curve();
+  model.head.high_m[2] = 2e6f;
+  expect(model, 605, 2);
+  model = curve();
+  model.head.low_m[0] = nan_value();
+  expect(model, 605, 0);
+}
+
+TEST(Rule606RefusesAnExtentThatTheBoxDoesNotHave) {
+  SmallSpline model = curve();
+  model.head.extent_m = 100.0f;
+  expect(model, 606, 0);
+  model.head.extent_m = 0.0f;
+  expect(model, 606, 0);
+}
+
+TEST(Rule607RefusesALossThatBreaksThePromise) {
+  SmallSpline model = curve();
+  model.head.loss_m = model.head.extent_m * 1e-6f;
+  expect(model, 607, 0);
+  model.head.loss_m = nan_value();
+  expect(model, 607, 0);
+}
+
+TEST(Rule608RefusesABudgetOfNothing) {
+  SmallSpline model = curve();
+  model.head.worst_steps = 0;
+  expect(model, 608, 0);
+}
+
+TEST(Rule611RefusesADegreeOutOfRange) {
+  SmallSpline model = curve();
+  model.pieces[1].degree_u = 6;
+  expect(model, 611, 1);
+  model = curve();
+  model.pieces[0].degree_v = 1;
+  expect(model, 611, 0);
+  model = surface();
+  model.pieces[0].degree_v = 0;
+  expect(model, 611, 0);
+}
+
+TEST(Rule612RefusesWeightsThatTheHeadDoesNotTellAndTooManyHalvings) {
+  SmallSpline model = curve();
+  model.pieces[0].is_rational = 1;
+  expect(model, 612, 0);
+  model = curve();
+  model.pieces[1].level_u = 9;
+  expect(model, 612, 1);
+}
+
+TEST(Rule613RefusesCoefficientsOutOfTurn) {
+  SmallSpline model = curve();
+  model.pieces[1].coefficients += 3;
+  expect(model, 613, 1);
+  model = curve();
+  model.pieces[1].degree_u = 4;
+  expect(model, 613, 1);
+  model = curve();
+  model.pieces[1].degree_u = 2;
+  expect(model, 613, 2);
+}
+
+TEST(Rule614RefusesACoefficientThatIsNoNumber) {
+  SmallSpline model = curve();
+  model.coefficients[7] = nan_value();
+  expect(model, 614, 7);
+}
+
+TEST(Rule615RefusesPartsThatHaveNoLeafOfTheirOwn) {
+  SmallSpline model = curve();
+  model.places[2] = 9;
+  expect(model, 615, 2);
+  model = curve();
+  model.places[1] = 0;
+  expect(model, 615, 1);
+  model = curve();
+  model.leaves[3].index_u = 0;
+  expect(model, 615, 3);
+  model = curve();
+  model.leaves[3].piece = 0;
+  expect(model, 615, 3);
+  model = curve();
+  model.pieces[1].level_u = 2;
+  expect(model, 615, 1);
+}
+
+TEST(Rule616RefusesAnOriginOrAParameterThatIsNoNumber) {
+  SmallSpline model = curve();
+  model.pieces[1].origin_m[2] = nan_value();
+  expect(model, 616, 1);
+  model = curve();
+  model.pieces[0].half_u = nan_value();
+  expect(model, 616, 0);
+}
+
+TEST(Rule617RefusesAPointOutsideTheBox) {
+  SmallSpline model = curve();
+  model.points[3].x_m = 9.0f;
+  expect(model, 617, 3);
+}
+
+TEST(Rule618RefusesANodeThatIsNone) {
+  SmallSpline model = curve();
+  model.capsules[2].last = 5;
+  expect(model, 618, 2);
+  model = curve();
+  model.capsules[1].radius = 0x7F80;
+  expect(model, 618, 1);
+  model = surface();
+  model.boxes[4].axis[1][2] = 0.5f;
+  expect(model, 618, 4);
+  model = surface();
+  model.boxes[0].half_m[1] = nan_value();
+  expect(model, 618, 0);
+}
+
+TEST(Rule619RefusesWeightsThatVaryTooMuchOnALeaf) {
+  SmallSpline model(false, true);
+  model.coefficients[7] = 1.3f;  // of s
+  expect(model, 619, 0);
+}
+
+TEST(Rule620RefusesBendsThatAreNotBounds) {
+  SmallSpline model = curve();
+  model.bends[2].fixed = static_cast<uint16_t>(model.bends[2].fixed - 1);
+  expect(model, 620, 2);
+  model = surface();
+  model.bends[5].turning = static_cast<uint16_t>(model.bends[5].turning - 1);
+  expect(model, 620, 1);
+  model = curve();
+  model.bends[0].fixed = 0x7F80;
+  expect(model, 620, 0);
+}
+
+TEST(Rule621RefusesALossBelowWhatALeafLoses) {
+  SmallSpline model = curve();
+  model.head.loss_m *= 0.5f;
+  const Verdict verdict = verdict_of(model.sections());
+  CHECK_EQ(verdict.rule, 621);
+}
+
+TEST(Rule622RefusesALeafOutsideTheBox) {
+  SmallSpline model = surface();
+  model.head.high_m[1] -= 0.25f;
+  const Verdict verdict = verdict_of(model.sections());
+  CHECK_EQ(verdict.rule, 622);
+}
+
+TEST(Rule623RefusesANodeThatDoesNotHoldItsLeaves) {
+  for (uint32_t node = 0; node < 7; ++node) {
+    firmtouch::test::note("node", node);
+    SmallSpline model = curve();
+    model.capsules[node].radius = static_cast<uint16_t>(model.capsules[node].radius * 127 / 128);
+    CHECK_EQ(verdict_of(model.sections()).rule, 623);
+    model = surface();
+    model.boxes[node].half_m[2] *= 0.999f;
+    CHECK_EQ(verdict_of(model.sections()).rule, 623);
+  }
+}

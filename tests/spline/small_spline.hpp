@@ -1,0 +1,215 @@
+#pragma once
+// Spline models of two pieces and four leaves, built without the baker and without heap, so that the
+// tests run on the controller too and a rule can be broken by hand.
+#include <stdint.h>
+
+#include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/leaf_shape.hpp"
+#include "firmtouch/spline/view.hpp"
+
+namespace firmtouch::spline_test {
+
+/// Two cubics in space that meet with a corner, or two patches (cubic by quadratic) beside each other;
+/// each cut into two leaves along u.
+struct SmallSpline {
+  spline::Head head{};
+  spline::Piece pieces[2] = {};
+  float coefficients[2 * 48] = {};
+  spline::Leaf leaves[4] = {};
+  spline::Bend bends[16] = {};
+  uint16_t places[4] = {};
+  spline::Capsule capsules[7] = {};
+  spline::Box boxes[7] = {};
+  spline::Point points[5] = {};
+
+  explicit SmallSpline(bool is_surface, bool is_rational = false) {
+    head.is_surface = is_surface ? 1 : 0;
+    head.is_rational = is_rational ? 1 : 0;
+    put_piece(0, {0, 0, 0}, is_surface, is_rational);
+    put_piece(1, {2.0625f, 0.375f, 0x1p-6f}, is_surface, is_rational);
+    derive();
+  }
+
+  spline::Sections sections() const {
+    const bool is_surface = head.is_surface != 0;
+    const uint32_t bend_count = 4 * spline::bends_a_leaf(is_surface);
+    return {bytes(&head, sizeof head),
+            bytes(pieces, sizeof pieces),
+            bytes(coefficients, head.coefficient_count * 4),
+            bytes(leaves, sizeof leaves),
+            bytes(bends, bend_count * 4),
+            bytes(places, sizeof places),
+            is_surface ? bytes(boxes, sizeof boxes) : bytes(capsules, sizeof capsules),
+            is_surface ? core::Bytes{} : bytes(points, sizeof points)};
+  }
+  spline::View view() const {
+    spline::View opened;
+    const core::Verdict verdict = spline::open(sections(), opened);
+    return verdict.ok() ? opened : spline::View{};
+  }
+  spline::LeafShape shape(uint32_t leaf) const {
+    spline::LeafShape made;
+    const spline::Piece& piece = pieces[leaves[leaf].piece];
+    spline::derive(piece, coefficients + piece.coefficients, spline::part_of(piece, leaves[leaf]),
+                   made);
+    return made;
+  }
+
+  /// Everything that follows from the pieces.
+  void derive() {
+    const bool is_surface = head.is_surface != 0;
+    head.piece_count = 2;
+    head.leaf_count = 4;
+    head.point_count = is_surface ? 0 : 5;
+    head.extent_m = 3.9f;
+    head.worst_steps = 100;
+    head.loss_m = 0;
+    for (uint32_t k = 0; k < 3; ++k) head.low_m[k] = 1e6f, head.high_m[k] = -1e6f;
+    const uint32_t bends_each = spline::bends_a_leaf(is_surface);
+    for (uint32_t i = 0; i < 4; ++i) {
+      leaves[i] = {static_cast<uint16_t>(i / 2), static_cast<uint8_t>(i % 2), 0};
+      places[i] = static_cast<uint16_t>(i);
+      const spline::LeafShape s = shape(i);
+      for (uint32_t k = 0; k < bends_each; ++k)
+        bends[i * bends_each + k] = {spline::rounded_up(s.fixed[k]),
+                                     spline::rounded_up(s.turning[k])};
+      if (s.loss_m > head.loss_m) head.loss_m = s.loss_m;
+      widen(s);
+    }
+    if (is_surface)
+      derive_boxes();
+    else
+      derive_capsules();
+  }
+
+  // A point of a piece, in double.
+  void point(uint32_t piece, double s, double t, double (&at)[3]) const {
+    const spline::Piece& p = pieces[piece];
+    const uint32_t stride = p.is_rational != 0 ? 4 : 3;
+    double sum[4] = {0, 0, 0, p.is_rational != 0 ? 0.0 : 1.0}, power_t = 1;
+    for (uint32_t j = 0; j <= p.degree_v; ++j, power_t *= t) {
+      double power = power_t;
+      for (uint32_t i = 0; i <= p.degree_u; ++i, power *= s)
+        for (uint32_t k = 0; k < stride; ++k)
+          sum[k] +=
+              power * static_cast<double>(
+                          coefficients[p.coefficients + (j * (p.degree_u + 1u) + i) * stride + k]);
+    }
+    for (uint32_t k = 0; k < 3; ++k) at[k] = static_cast<double>(p.origin_m[k]) + sum[k] / sum[3];
+  }
+
+ private:
+  static core::Bytes bytes(const void* data, uint32_t size) {
+    return {static_cast<const uint8_t*>(data), size};
+  }
+
+  void put_piece(uint32_t i, math::Vec3 origin_m, bool is_surface, bool is_rational) {
+    // s, s^2, s^3; t and t^2; s t.
+    static const float kFirst[][3] = {{0, 0, 0},       {1, 0, 0},       {0, 0.125f, 0},
+                                      {0, 0, 0x1p-6f}, {0, 0, 0.125f},  {0, 0x1p-6f, 0},
+                                      {0, 0, 0},       {0, 0x1p-7f, 0}, {0, 0x1p-5f, 0},
+                                      {0, 0x1p-8f, 0}, {0, 0, 0},       {0, 0, 0}};
+    static const float kSecond[][3] = {
+        {0, 0, 0},       {1, 0.25f, 0}, {-0x1p-4f, 0, 0}, {0, 0, 0},       {0, 0x1p-5f, 0.125f},
+        {0x1p-6f, 0, 0}, {0, 0, 0},     {0, 0, 0},        {0x1p-6f, 0, 0}, {0, 0, 0x1p-7f},
+        {0, 0, 0},       {0, 0, 0}};
+    static const float kWeights[12] = {1, 0.0625f, 0.03125f, 0, 0.03125f};
+    spline::Piece& piece = pieces[i];
+    piece.degree_u = 3;
+    piece.degree_v = is_surface ? 2 : 0;
+    piece.level_u = 1;
+    piece.is_rational = is_rational ? 1 : 0;
+    piece.entity = i + 5;
+    piece.origin_m[0] = origin_m.x, piece.origin_m[1] = origin_m.y, piece.origin_m[2] = origin_m.z;
+    piece.middle_u = static_cast<float>(i) + 0.5f;
+    piece.half_u = 0.5f;
+    piece.coefficients = head.coefficient_count;
+    for (uint32_t k = 0; k < (is_surface ? 12u : 4u); ++k) {
+      for (uint32_t d = 0; d < 3; ++d)
+        coefficients[head.coefficient_count++] = (i == 0 ? kFirst : kSecond)[k][d];
+      if (is_rational) coefficients[head.coefficient_count++] = kWeights[k];
+    }
+  }
+
+  void widen(const spline::LeafShape& s) {
+    const math::Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (uint32_t k = 0; k < 3; ++k) {
+      const spline::Extent e = spline::extent_along(s, {}, axes[k]);
+      if (e.low < head.low_m[k]) head.low_m[k] = e.low;
+      if (e.high > head.high_m[k]) head.high_m[k] = e.high;
+    }
+  }
+
+  // Leaf i is node 3 + i; nodes 1 and 2 hold two leaves each.
+  void derive_capsules() {
+    for (uint32_t i = 0; i < 5; ++i) {
+      double at[3];
+      point(i < 4 ? i / 2 : 1, i % 2 == 0 ? (i == 4 ? 1.0 : -1.0) : 0.0, 0, at);
+      points[i] = {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
+    }
+    static const uint16_t kEnds[7][2] = {{0, 4}, {0, 2}, {2, 4}, {0, 1}, {1, 2}, {2, 3}, {3, 4}};
+    for (uint32_t node = 7; node-- > 0;) {
+      capsules[node] = {kEnds[node][0], kEnds[node][1], 0};
+      for (uint32_t leaf = kEnds[node][0]; leaf < kEnds[node][1]; ++leaf) {
+        const uint16_t needed = spline::rounded_up(
+            node >= 3 ? spline::radius_for(shape(leaf), at(leaf), at(leaf + 1))
+                      : spline::radius_above(spline::from_half(capsules[3 + leaf].radius), at(leaf),
+                                             at(leaf + 1), at(kEnds[node][0]), at(kEnds[node][1])));
+        if (needed > capsules[node].radius) capsules[node].radius = needed;
+      }
+    }
+  }
+  math::Vec3 at(uint32_t i) const { return {points[i].x_m, points[i].y_m, points[i].z_m}; }
+
+  void derive_boxes() {
+    constexpr float kShort = 1.0f - 0x1p-21f;
+    for (uint32_t node = 0; node < 7; ++node) {
+      const uint32_t first = node >= 3 ? node - 3 : node == 2 ? 2 : 0;
+      const uint32_t count = node >= 3 ? 1 : node == 0 ? 4 : 2;
+      spline::Box& box = boxes[node];
+      box = {};
+      const math::Vec3 middle_m = shape(first).middle_m;
+      box.centre_m[0] = middle_m.x, box.centre_m[1] = middle_m.y, box.centre_m[2] = middle_m.z;
+      box.axis[0][0] = 0.6f * kShort, box.axis[0][1] = 0.8f * kShort;
+      box.axis[1][0] = -0.8f * kShort, box.axis[1][1] = 0.6f * kShort;
+      for (uint32_t i = first; i < first + count; ++i) spline::enlarge(shape(i), box);
+    }
+  }
+};
+
+/// Squared distance to the model in double, by sampling and refining about the best samples.
+inline double sampled_distance(const SmallSpline& model, math::Vec3 p) {
+  const bool is_surface = model.head.is_surface != 0;
+  const int most = is_surface ? 24 : 200;
+  double best2 = 1e300;
+  for (uint32_t piece = 0; piece < 2; ++piece) {
+    double u = 0, v = 0, d2 = 1e300;
+    const auto look = [&](double s, double t) {
+      s = s < -1 ? -1 : s > 1 ? 1 : s;
+      t = t < -1 ? -1 : t > 1 ? 1 : t;
+      double at[3];
+      model.point(piece, s, t, at);
+      const double x = at[0] - static_cast<double>(p.x), y = at[1] - static_cast<double>(p.y),
+                   z = at[2] - static_cast<double>(p.z), found = x * x + y * y + z * z;
+      if (!(found < d2)) return false;
+      d2 = found, u = s, v = t;
+      return true;
+    };
+    for (int i = -most; i <= most; ++i)
+      for (int j = is_surface ? -most : 0; j <= (is_surface ? most : 0); ++j)
+        (void)look(static_cast<double>(i) / most, static_cast<double>(j) / most);
+    for (double step = 1.0 / most; step > 1e-9; step *= 0.5)
+      for (bool moved = true; moved;) {
+        moved = false;
+        for (int i = -1; i <= 1; ++i)
+          for (int j = is_surface ? -1 : 0; j <= (is_surface ? 1 : 0); ++j)
+            moved = look(u + i * step, v + j * step) || moved;
+      }
+    if (d2 < best2) best2 = d2;
+  }
+  double root = best2 < 1 ? 1 : best2;  // Heron's method: no library here
+  for (int i = 0; i < 60; ++i) root = 0.5 * (root + best2 / root);
+  return root;
+}
+
+}  // namespace firmtouch::spline_test

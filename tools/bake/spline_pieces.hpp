@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "firmtouch/spline/layout.hpp"
+#include "firmtouch/spline/leaf_shape.hpp"
+#include "spline/spline.hpp"
+
+namespace firmtouch::tools {
+
+/// A Bezier piece as the firmware stores it: float32 powers about its middle.
+struct StoredPiece {
+  spline::Piece piece{};  // `coefficients` and the levels are set when all are put together
+  std::vector<float> coefficients;
+  double deviation_m = 0;  // of any point of it from the piece that it was made of, at most
+};
+
+/// Curves have degree_v 0 and one row of points.
+StoredPiece store_piece(const BezierPatch& patch, bool is_surface);
+BezierPatch as_patch(const BezierCurve& curve);
+
+/// The two halves of a patch across its middle, along u or v.
+std::vector<BezierPatch> halves_of(const BezierPatch& patch, bool along_v);
+
+/// What the firmware derives of a part of a piece, `level_u` and `level_v` halvings deep.
+spline::LeafShape shape_of(const StoredPiece& stored, uint32_t level_u, uint32_t index_u,
+                           uint32_t level_v, uint32_t index_v);
+
+}  // namespace firmtouch::tools

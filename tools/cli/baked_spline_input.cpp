@@ -1,0 +1,132 @@
+#include <cstdio>
+
+#include "bake/bake_spline.hpp"
+#include "bake/probes.hpp"
+#include "bake/provenance.hpp"
+#include "bake/spline_worst.hpp"
+#include "bake/step_figures.hpp"
+#include "cli/baked_input.hpp"
+#include "cli/failure.hpp"
+#include "cli/files.hpp"
+#include "cli/version.hpp"
+#include "firmtouch/asset/layout.hpp"
+#include "firmtouch/spline/closest_point.hpp"
+#include "spline/read_spline.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+// Along the entities in turn; of a surface along a line that winds across each.
+std::vector<math::Vec3> polyline_of(const tools::SplineModel& model) {
+  std::vector<math::Vec3> line;
+  const auto part = [](double low, double high, double at) { return low + (high - low) * at; };
+  for (const tools::SplineCurve& curve : model.curves)
+    for (int i = 0; i <= 64; ++i)
+      line.push_back(tools::to_vec3(tools::point_at(curve, part(curve.t0, curve.t1, i / 64.0))));
+  for (const tools::SplineSurface& s : model.surfaces)
+    for (int i = 0; i <= 64; ++i) {
+      const double across = i % 16 < 8 ? i % 8 / 8.0 : 1 - i % 8 / 8.0;
+      line.push_back(
+          tools::to_vec3(tools::point_at(s, part(s.u0, s.u1, across), part(s.v0, s.v1, i / 64.0))));
+    }
+  return line;
+}
+
+tools::StepFigures steps_of(const spline::View& view, const tools::SplineModel& model) {
+  query::Hint hint;
+  return tools::measure_steps(
+      view.head().low_m, view.head().high_m,
+      tools::path_along(polyline_of(model), view.head().extent_m), [&](math::Vec3 p_m, bool cold) {
+        if (cold) hint = query::Hint{};
+        return spline::closest_point(view, p_m, query::kUnlimited, hint).certificate.steps;
+      });
+}
+
+std::string kind_of(const tools::SplineReport& report) {
+  const std::string rational = report.is_rational ? "rational " : "";
+  if (report.is_surface) return rational + "spline surface";
+  return rational + (report.is_planar ? "planar" : "space") + " spline curve";
+}
+
+tools::Facts facts_of(const tools::SplineReport& report, const tools::StepFigures& steps,
+                      const tools::WorstQuery& worst) {
+  return {{"kind", kind_of(report)},
+          {"entities", std::to_string(report.entities)},
+          {"pieces", std::to_string(report.pieces)},
+          {"leaves", std::to_string(report.leaves)},
+          {"levels", std::to_string(report.levels)},
+          {"extent_m", tools::number_text(report.extent_m)},
+          {"loss_m", tools::number_text(report.loss_m)},
+          {"deviation_m", tools::number_text(report.deviation_m)},
+          {"steps_random_mean", tools::number_text(steps.random_mean)},
+          {"steps_random_worst", std::to_string(steps.random_worst)},
+          {"steps_path_mean", tools::number_text(steps.path_mean)},
+          {"steps_path_worst", std::to_string(steps.path_worst)},
+          {"steps_worst_found", std::to_string(worst.steps)},
+          {"evaluations_worst_found", std::to_string(worst.evaluations)}};
+}
+
+std::string sentence(const char* format, double a, double b) {
+  char text[300];
+  std::snprintf(text, sizeof(text), format, a, b);
+  return text;
+}
+
+}  // namespace
+
+BakedInput bake_spline_input(const std::string& path, const BakeOptions& options,
+                             Progress& progress) {
+  const std::string name = stem_of(path);
+  BakedInput baked;
+  progress.stage("reading and checking " + file_name_of(path));
+  const std::vector<uint8_t> source = read_model(path);
+  const tools::SplineModel model =
+      tools::read_spline_bytes({reinterpret_cast<const char*>(source.data()), source.size()}, path,
+                               options.has_unit ? options.unit_m : 0);
+  if (!model.problem.empty()) fail_input(model.problem);
+
+  progress.stage("building the tree of " + name);
+  tools::SplineReport report;
+  const tools::SplineDetail detail =
+      model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(options.small);
+  baked.sections = tools::bake_spline(model, name, detail, report);
+  if (!report.problem.empty()) fail_input(path + ": " + report.problem);
+  spline::View view;
+  const core::Verdict verdict = spline::open(tools::spline_sections(baked.sections, name), view);
+  if (!verdict.ok()) fail_input(path + ": its spline breaks rule R" + std::to_string(verdict.rule));
+
+  progress.stage("counting steps on " + name);
+  const tools::StepFigures steps = steps_of(view, model);
+  const tools::WorstQuery worst = tools::find_worst(view);
+  tools::set_worst_steps(baked.sections, name, worst.steps);
+  progress.stage("asking the probes of " + name);
+  baked.sections.push_back(tools::spline_probes(view, name));
+  baked.sections.push_back(
+      tools::text_section(asset::kBoundsSection, name, facts_of(report, steps, worst)));
+  baked.sections.push_back(tools::text_section(
+      asset::kProvenanceSection, name,
+      tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
+
+  baked.report = {
+      kind_of(report) + ", " + std::to_string(report.entities) +
+          (report.entities == 1 ? " entity" : " entities") +
+          sentence(", extent %.4g m; %.0f pieces", report.extent_m, report.pieces) +
+          sentence(" in %.0f parts, a tree of %.0f levels", report.leaves, report.levels),
+      std::to_string(report.bytes) + " bytes that a tick reads, " +
+          std::to_string(bytes_of(baked.sections)) + " in all",
+      sentence("distances good to %.2g m, the stored shape to %.2g m", report.loss_m,
+               report.deviation_m),
+      "RAM " + std::to_string(sizeof(query::Hint)) +
+          " bytes a tool that it guides (query::Hint), " + std::to_string(sizeof(spline::View)) +
+          " for the view here; the asset stays in flash",
+      sentence("steps at 2000 random points, each on its own: mean %.1f, worst seen %.0f",
+               steps.random_mean, steps.random_worst),
+      sentence("steps on a path of 2000 points beside it: mean %.1f, worst seen %.0f",
+               steps.path_mean, steps.path_worst),
+      sentence("worst query that a search found: %.0f steps, %.0f of them evaluations", worst.steps,
+               worst.evaluations)};
+  for (const std::string& note : model.notes) baked.report.push_back(note);
+  return baked;
+}
+
+}  // namespace firmtouch::cli
