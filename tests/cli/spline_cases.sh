@@ -2,13 +2,9 @@
 
 # A quarter of a unit arc (about) in one Bezier patch of a roof, 1 m deep: .bpt.
 roof() {
-  printf '1\n3 3\n'
+  printf '1\n1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n16\n'
   for y in 0 0.333333333 0.666666667 1; do
-    for xz in '0 0' '0.3 0.4' '0.7 0.4' '1 0'; do
-      # shellcheck disable=SC2086
-      set -- $xz
-      echo "$1 $y $2"
-    done
+    printf '%s\n' "0,$y,0" "0.3,$y,0.4" "0.7,$y,0.4" "1,$y,0"
   done
 }
 
@@ -23,8 +19,8 @@ ASplineIsBakedToldAndAsked() {
   f query a.fta roof spline <p.csv
   exits 0
   same "$(printf '%s\n' "$out" | sed -n 1p)" 'distance,cx,cy,cz,piece,u,v,lower,steps,exact'
-  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f1,5,10)" '1,0,1
-1,0,1'
+  same "$(printf '%s\n' "$out" | awk -F, 'NR > 1 { printf "%.5f,%s,%s\n", $1, $5, $10 }')" '1.00000,0,1
+1.00000,0,1'
   f query a.fta roof spline --budget 1 --cold <p.csv
   exits 0
   same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f9)" '1

@@ -213,8 +213,8 @@ SplineDetail curve_detail() { return {}; }
 
 SplineDetail surface_detail(bool is_small) {
   SplineDetail detail;
-  detail.thickness = is_small ? 0.04 : 0.008;
-  detail.doubt = is_small ? 4 : 0.8;
+  detail.thickness = is_small ? 0.1 : 0.021;
+  detail.doubt = 100;
   detail.most_halvings = is_small ? 1 : 3;
   return detail;
 }

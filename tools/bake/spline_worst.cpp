@@ -13,6 +13,7 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr uint32_t kAnywhere = 1500, kBetween = 1000, kMostCentres = 1500;
+constexpr uint32_t kMostSteps = 20000;  // of one query: what takes more is told as that
 constexpr size_t kClimbers = 12;
 constexpr int kClimbs = 120;
 
@@ -23,7 +24,7 @@ class Finder {
   void ask(const Point& p) {
     const math::Vec3 at_m = to_vec3(p);
     query::Hint hint;
-    const spline::Closest c = spline::closest_point(model_, at_m, query::kUnlimited, hint);
+    const spline::Closest c = spline::closest_point(model_, at_m, {kMostSteps}, hint);
     seen_.push_back({c.certificate.steps, c.evaluations, at_m});
   }
 

@@ -21,7 +21,7 @@ struct Quadratic {
   float bend[3];         // uu, uv, vv
   float gauss[3];        // the same of the tangents alone: never bent downward
   float slope_noise[2];  // by which a slope may be off
-  float bend_noise;      // by which d . bend . d may be off, of |d|^2
+  float bend_noise[2];   // d . bend . d may be off by these times u^2 and v^2 together
   float change[4];
 
   /// A lower bound of D^2 over a rectangle. Where |u| <= U and |v| <= V, the rest is at least -((uuu U +
@@ -53,8 +53,10 @@ struct Quadratic {
       }
     }
     const float third = 0.33333337f;
-    const float uu = bend[0] - bend_noise - (change[0] * reach[0] * third + change[1] * reach[1]);
-    const float vv = bend[2] - bend_noise - (change[3] * reach[1] * third + change[2] * reach[0]);
+    const float uu =
+        bend[0] - bend_noise[0] - (change[0] * reach[0] * third + change[1] * reach[1]);
+    const float vv =
+        bend[2] - bend_noise[1] - (change[3] * reach[1] * third + change[2] * reach[0]);
     const float across = bend[1] < 0.0f ? -bend[1] : bend[1];
     const float low_u = (uu < 0.0f ? uu : 0.0f) * (reach[0] * reach[0]);
     const float low_v = (vv < 0.0f ? vv : 0.0f) * (reach[1] * reach[1]);
@@ -101,6 +103,14 @@ struct Quadratic {
         if (!is_fixed[k] && h[2 * k] > 0.0f) step[k] = -slope[k] / h[2 * k];
     }
     for (uint32_t k = 0; k < 2; ++k) to[k] = clamped(at[k] + step[k], r, k);
+  }
+
+  /// The axis on which more of the doubt lies, over half of the rectangle: what is to be halved.
+  uint32_t doubtful_axis(const Rectangle& r) const {
+    const float u = 0.5f * (r.high[0] - r.low[0]), v = 0.5f * (r.high[1] - r.low[1]);
+    const float of_u = (change[0] * u * 0.33333337f + change[1] * v + bend_noise[0]) * (u * u);
+    const float of_v = (change[3] * v * 0.33333337f + change[2] * u + bend_noise[1]) * (v * v);
+    return of_u >= of_v ? 0 : 1;
   }
 
   static float clamped(float value, const Rectangle& r, uint32_t k) {
