@@ -1,5 +1,5 @@
 // How many instructions a closest-point query takes: `bench WALK.csv` on the emulator's command line. Queries the mesh of
-// the board's asset (or, where it has none, the curve) at every row, each warm-started by the one before, and prints a
+// the board's asset (or, where it has none, the curve, or the spline) at every row, each warm-started by the one before, and prints a
 // row a query:
 //     BUDGET INSTRUCTIONS STEPS SIGN      (BUDGET 0: unlimited)
 // tools/bench/cortex-m7 runs it and adds up.
@@ -10,6 +10,7 @@
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/spline/closest_point.hpp"
 #include "target/csv_points.hpp"
 #include "target/scene_views.hpp"
 #include "target/text.hpp"
@@ -78,12 +79,14 @@ int main() {
   hal::board_begin();
   const target::Views views = target::open_views(hal::board_asset());
   char line[512];
-  if (!views.verdict.ok() || !(views.mesh.is_open() || views.curve.is_open())) {
-    hal::board_print("no mesh or curve in the asset, or a rule rejects it\n");
+  if (!views.verdict.ok() ||
+      !(views.mesh.is_open() || views.curve.is_open() || views.spline.is_open())) {
+    hal::board_print("no mesh, curve or spline in the asset, or a rule rejects it\n");
     return 1;
   }
   constexpr uint32_t kWord = 6;  // "bench "
   if (!hal::semihosting_command_line(line, sizeof line)) return 2;
-  return views.mesh.is_open() ? run_all(views.mesh, line + kWord)
-                              : run_all(views.curve, line + kWord);
+  if (views.mesh.is_open()) return run_all(views.mesh, line + kWord);
+  return views.curve.is_open() ? run_all(views.curve, line + kWord)
+                               : run_all(views.spline, line + kWord);
 }

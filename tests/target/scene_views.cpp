@@ -30,6 +30,19 @@ core::Verdict open_curve(const asset::Container& file, const char* name, curve::
   return curve::open(sections, view);
 }
 
+core::Verdict open_spline(const asset::Container& file, const char* name, spline::View& view) {
+  spline::Sections sections;
+  sections.head = file.find(spline::kHeadSection, name);
+  sections.pieces = file.find(spline::kPiecesSection, name);
+  sections.coefficients = file.find(spline::kCoefficientsSection, name);
+  sections.leaves = file.find(spline::kLeavesSection, name);
+  sections.bends = file.find(spline::kBendsSection, name);
+  sections.places = file.find(spline::kPlacesSection, name);
+  sections.nodes = file.find(spline::kNodesSection, name);
+  sections.points = file.find(spline::kPointsSection, name);
+  return spline::open(sections, view);
+}
+
 }  // namespace
 
 Views open_views(core::Bytes region) {
@@ -43,6 +56,10 @@ Views open_views(core::Bytes region) {
   if (!views.verdict.ok()) return views;
   const uint32_t curve = file.next_of_type(curve::kHeadSection);
   if (curve != asset::kNoSection) views.verdict = open_curve(file, file.name(curve), views.curve);
+  if (!views.verdict.ok()) return views;
+  const uint32_t spline = file.next_of_type(spline::kHeadSection);
+  if (spline != asset::kNoSection)
+    views.verdict = open_spline(file, file.name(spline), views.spline);
   return views;
 }
 
