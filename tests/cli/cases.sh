@@ -46,10 +46,6 @@ WhatDoesNotExistIsAUsageError() {
   f make walk -o w.csv; exits 2; told 'MODEL'
 }
 
-WhatIsPlannedIsRefusedByName() {
-  f query a.fta a footpoints; exits 2; told "footpoints is not in this version"
-}
-
 OptionsWithoutMeaningAreRefused() {
   small_scene
   f query scene.fta box distance --mode exact </dev/null; exits 2; told '--mode has no meaning for distance'

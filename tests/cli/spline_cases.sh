@@ -35,3 +35,34 @@ AUnitGivenStandsAboveTheFiles() {
   bake roof.bpt -o a.fta --unit mm
   told 'extent 0.001 m'
 }
+
+EveryFootPointIsListedWithItsKind() {
+  roof >roof.bpt
+  bake roof.bpt -o a.fta
+  printf 'x,y,z\n0.5,0.5,1.3\n0.5,0.5,-3\n' >p.csv
+  f query a.fta roof footpoints <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | sed -n 1p)" 'point,kind,distance,cx,cy,cz,piece,u,v'
+  same "$(printf '%s\n' "$out" | awk -F, '$2 != "end" && NR > 1 { printf "%s,%s,%.5f\n", $1, $2, $3 }')" '0,min,1.00000
+1,saddle,3.30000'
+  same "$(printf '%s\n' "$out" | awk -F, '$2 == "end" && $1 == 0' | wc -l | tr -d ' ')" 8 # corners, middles of the edges
+  f query a.fta roof footpoints --budget 3 <p.csv; exits 2; told '--budget has no meaning for footpoints'
+}
+
+ACadKernelsFileIsBakedAndAskedInItsUnit() {
+  cad=$here/../spline/cad
+  bake "$cad/circle-and-ellipse.igs" "$cad/torus.igs" "$cad/wave-in-inches.igs" -o a.fta
+  printf 'x,y,z\n0.1,0.005,0\n' >p.csv
+  f query a.fta circle-and-ellipse footpoints <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | awk -F, '$7 == 0 { printf "%s,%.6f\n", $2, $3 }')" 'min,0.050000
+max,0.130000'
+  printf 'x,y,z\n0.06,0.01,0.005\n' >p.csv
+  f query a.fta torus footpoints <p.csv
+  exits 0
+  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f2 | sort | tr '\n' ' ')" 'max min saddle saddle '
+  f bake "$cad/trimmed-face.igs" -o bad.fta
+  exits 3
+  told 'trimmed-face.igs:6: entity 144 in line 6' 'trimmed surfaces are not read'
+  absent bad.fta
+}

@@ -28,5 +28,6 @@ void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Argument
 void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments);
 void query_curve(const LoadedCurve& curve, const CsvTable& table, const Arguments& arguments);
 void query_spline(const spline::View& model, const CsvTable& table, const Arguments& arguments);
+void query_footpoints(const spline::View& model, const CsvTable& table, const Arguments& arguments);
 
 }  // namespace firmtouch::cli

@@ -20,15 +20,11 @@ void forbid(const Arguments& arguments, const std::string& kind,
 }
 
 void check_kind(const std::string& kind) {
-  for (const char* known : {"distance", "segment", "hull", "curve", "spline"}) {
+  for (const char* known : {"distance", "segment", "hull", "curve", "spline", "footpoints"}) {
     if (kind == known) return;
   }
-  if (kind == "footpoints")
-    fail_usage(
-        "query: footpoints is not in this version of Firmtouch yet; ask distance, segment, hull, "
-        "curve or spline");
   fail_usage("query: '" + kind +
-             "' is no kind of query; ask distance, segment, hull, curve or spline");
+             "' is no kind of query; ask distance, segment, hull, curve, spline or footpoints");
 }
 
 // Before anything is read: a bad option is a usage error whatever the files are.
@@ -50,10 +46,10 @@ CsvTable asked_rows(const std::vector<std::string>& columns, const Arguments& ar
 const Command& query_command() {
   static const Command command{
       "query",
-      "ASSET.fta NAME distance|segment|hull|curve|spline [options] < IN.csv > OUT.csv",
+      "ASSET.fta NAME distance|segment|hull|curve|spline|footpoints [options] < IN.csv > OUT.csv",
       "Answers each row of a CSV as the controller would, bit for bit.",
-      "in:  distance, curve, spline: header x,y,z     segment, hull: header ax,ay,az,bx,by,bz     "
-      "(metres)\n"
+      "in:  distance, curve, spline, footpoints: header x,y,z\n"
+      "     segment, hull: header ax,ay,az,bx,by,bz     (metres)\n"
       "out: distance: distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact\n"
       "               (negative inside; sign 0: unknown; lower: no point of the surface is "
       "nearer)\n"
@@ -63,6 +59,11 @@ const Command& query_command() {
       "     spline:   distance,cx,cy,cz,piece,u,v,lower,steps,exact   (piece: of the file, from 0; "
       "u, "
       "v: its own)\n"
+      "     footpoints: point,kind,distance,cx,cy,cz,piece,u,v   (a row a foot-point of a spline, "
+      "nearest\n"
+      "               first; kind: min, max, saddle or end, which is an end, a corner or of a "
+      "border; in\n"
+      "               double, on this machine alone)\n"
       "Rows are answered in order, each warm-started by the one before.",
       {{"--cold", nullptr, "each row on its own"},
        {"--budget", "N", "at most N steps a query (default: unlimited, so exact)"},
@@ -90,6 +91,7 @@ int run_query(const Arguments& arguments) {
   const std::string& name = arguments.positionals()[1];
   const std::string& kind = arguments.positionals()[2];
   check_kind(kind);
+  if (kind == "footpoints") forbid(arguments, kind, {"--budget", "--cold"});
   if (kind != "segment" && kind != "hull") forbid(arguments, kind, {"--all"});
   if (kind != "curve" && kind != "hull") forbid(arguments, kind, {"--mode"});
   if (kind != "curve") forbid(arguments, kind, {"--n", "--arc-penalty"});
@@ -107,6 +109,10 @@ int run_query(const Arguments& arguments) {
   if (kind == "hull") {
     const LoadedHull hull = asset.hull(name);
     query_hull(hull, asked_rows(kSegment, arguments), arguments);
+    return kDone;
+  }
+  if (kind == "footpoints") {
+    query_footpoints(asset.spline(name), asked_rows(kPoint, arguments), arguments);
     return kDone;
   }
   if (kind == "spline") {

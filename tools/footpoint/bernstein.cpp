@@ -67,6 +67,15 @@ void halve(double* left, double* right, size_t count, size_t step) {
   }
 }
 
+// The coefficients over -more to 1 + more of `count` that stand `step` apart.
+void extend(double* f, size_t count, size_t step, double more) {
+  for (size_t r = 1; r < count; ++r)  // the end, to 1 + more
+    for (size_t i = count - 1; i >= r; --i) f[i * step] += more * (f[i * step] - f[(i - 1) * step]);
+  const double begin = -more / (1 + more);
+  for (size_t r = 1; r < count; ++r)  // the beginning, to -more
+    for (size_t i = 0; i + r < count; ++i) f[i * step] += begin * (f[(i + 1) * step] - f[i * step]);
+}
+
 int sign_of(double value, double noise) { return value > noise ? 1 : value < -noise ? -1 : 0; }
 
 int variations(const std::vector<double>& f, double noise) {
@@ -142,6 +151,13 @@ void split_u(Scalars& left, Scalars& right) {
 void split_v(Scalars& low, Scalars& high) {
   high = low;
   for (size_t i = 0; i < low.wide(); ++i) halve(&low.c[i], &high.c[i], low.high(), low.wide());
+}
+
+Scalars extended(const Scalars& f, double more) {
+  Scalars g = f;
+  for (size_t j = 0; j < g.high(); ++j) extend(&g.c[j * g.wide()], g.wide(), 1, more);
+  for (size_t i = 0; i < g.wide(); ++i) extend(&g.c[i], g.high(), g.wide(), more);
+  return g;
 }
 
 double value_at(const Scalars& f, double u, double v) {

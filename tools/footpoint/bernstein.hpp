@@ -38,6 +38,10 @@ Points difference(const Points& f, const Points& g);  // of equal degrees
 void split_u(Scalars& left, Scalars& right);
 void split_v(Scalars& low, Scalars& high);
 
+/// The coefficients over a square (an interval where degree_v is 0) that is larger by `more` on every
+/// side.
+Scalars extended(const Scalars& f, double more);
+
 double value_at(const Scalars& f, double u, double v);
 
 /// A root of a polynomial of one variable in (0, 1), and the signs of the polynomial just before

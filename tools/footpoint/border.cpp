@@ -7,8 +7,8 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr double kSame = 1e-9;    // of the extent
-constexpr double kSmooth = 1e-6;  // sine between normals or tangents
+constexpr double kSame = 1e-9;    // of the extent, beside the gap
+constexpr double kSmooth = 1e-6;  // sine between normals or tangents, beside 1000 gaps
 
 struct Edge {
   Border border;
@@ -51,14 +51,14 @@ bool coincide(const BezierCurve& a, const BezierCurve& b, bool is_turned, double
   for (size_t k = 0; k < n; ++k) {
     const ControlPoint& p = b.points[is_turned ? n - 1 - k : k];
     if (length(place_of(a.points[k]) - place_of(p)) > tolerance) return false;
-    if (std::fabs(p.w - ratio * a.points[k].w) > 1e-9 * p.w) return false;
+    if (std::fabs(p.w - ratio * a.points[k].w) > 1e-5 * p.w) return false;
   }
   return true;
 }
 
 // Whether the surface goes on across two edges that coincide: its normals agree, and the inner rows
 // lie on either side.
-bool is_smooth(const Edge& a, const Edge& b, bool is_turned) {
+bool is_smooth(const Edge& a, const Edge& b, bool is_turned, double sine) {
   const CurveSystem along(a.border.curve);
   for (int k = 0; k <= 16; ++k) {
     const double s = k / 16.0, t = is_turned ? 1 - s : s;
@@ -68,7 +68,7 @@ bool is_smooth(const Edge& a, const Edge& b, bool is_turned) {
     const Point m = cross(tangent, into_a), n = cross(tangent, into_b);
     const double size = length(m) * length(n);
     if (!(size > 1e-12 * dot(tangent, tangent) * length(into_a) * length(into_b))) continue;
-    if (!(dot(m, n) < 0) || length(cross(m, n)) > kSmooth * size) return false;
+    if (!(dot(m, n) < 0) || length(cross(m, n)) > sine * size) return false;
   }
   return true;
 }
@@ -81,11 +81,11 @@ Point leaving(const Border& border, bool at_end) {
 
 }  // namespace
 
-void find_borders(const std::vector<BezierPatch>& patches, double extent_m,
+void find_borders(const std::vector<BezierPatch>& patches, double gap, double extent_m,
                   std::vector<Border>& borders, std::vector<Corner>& corners,
                   std::vector<std::array<Neighbour, 4>>& neighbours) {
   neighbours.assign(patches.size(), {});
-  const double tolerance = kSame * extent_m;
+  const double tolerance = (kSame + gap) * extent_m, sine = kSmooth + 1000 * gap;
   const auto add_corner = [&](const Corner& c) {
     for (const Corner& known : corners)
       if (length(known.at - c.at) <= tolerance) return;
@@ -116,7 +116,7 @@ void find_borders(const std::vector<BezierPatch>& patches, double extent_m,
       const bool turned = !straight && coincide(p, q, true, tolerance);
       if (!straight && !turned) continue;
       ++others;
-      goes_on = is_smooth(edges[a], edges[b], turned);
+      goes_on = is_smooth(edges[a], edges[b], turned, sine);
       neighbour = {edges[b].border.patch, edges[b].border.side, turned};
     }
     const Border& border = edges[a].border;
@@ -139,7 +139,7 @@ void find_borders(const std::vector<BezierPatch>& patches, double extent_m,
           if (length(place_of(p) - at) > tolerance) continue;
           ++meeting;
           const Point d = leaving(other, other_end);
-          goes_on |= dot(d, out) < 0 && length(cross(d, out)) <= kSmooth * length(d) * length(out);
+          goes_on |= dot(d, out) < 0 && length(cross(d, out)) <= sine * length(d) * length(out);
         }
       }
       if (meeting != 1 || !goes_on)

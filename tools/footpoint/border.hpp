@@ -29,9 +29,10 @@ struct Corner {
 };
 
 /// The edges of patches over which no other patch goes on smoothly, and the corners where they end or
-/// turn, edges that are a single point among them. `neighbours`:
+/// turn, edges that are a single point among them. `gap`: as of
+/// Footpoints. `neighbours`:
 /// over each side of each patch.
-void find_borders(const std::vector<BezierPatch>& patches, double extent_m,
+void find_borders(const std::vector<BezierPatch>& patches, double gap, double extent_m,
                   std::vector<Border>& borders, std::vector<Corner>& corners,
                   std::vector<std::array<Neighbour, 4>>& neighbours);
 

@@ -6,8 +6,7 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr double kSame = 1e-12;   // of the extent: pieces that meet
-constexpr double kSmooth = 1e-9;  // sine between tangents
+constexpr double kSmooth = 1000;  // gaps: sine between tangents that are one
 
 Point place_of(const ControlPoint& p) { return {p.x, p.y, p.z}; }
 
@@ -38,7 +37,8 @@ const char* name_of(FootKind kind) {
 }
 
 Footpoints::Footpoints(const std::vector<BezierCurve>& curves,
-                       const std::vector<BezierPatch>& patches) {
+                       const std::vector<BezierPatch>& patches, double gap)
+    : gap_(gap) {
   Point low, high;
   bool is_first = true;
   grow(curves, low, high, is_first);
@@ -48,7 +48,7 @@ Footpoints::Footpoints(const std::vector<BezierCurve>& curves,
   for (const BezierCurve& c : curves) curves_.emplace_back(c);
   find_joints();
   for (const BezierPatch& p : patches) patches_.emplace_back(p);
-  find_borders(patches, extent_m_, borders_, corners_, neighbours_);
+  find_borders(patches, gap, extent_m_, borders_, corners_, neighbours_);
   for (const Border& b : borders_) border_curves_.emplace_back(b.curve);
 }
 
@@ -69,9 +69,10 @@ void Footpoints::find_joints() {
     const CurveSystem &a = curves_[k], &b = curves_[next];
     const Point from = a.b.c.back(), to = b.b.c.front();
     const bool meets = length(place_of(a.piece.points.back()) - place_of(b.piece.points.front())) <=
-                       kSame * extent_m_;
+                       gap_ * extent_m_;
     const double size = length(from) * length(to);
-    if (meets && size > 0 && dot(from, to) > 0 && length(cross(from, to)) <= kSmooth * size) {
+    if (meets && size > 0 && dot(from, to) > 0 &&
+        length(cross(from, to)) <= kSmooth * gap_ * size) {
       follows_[next] = {true, k, length(to) / length(from)};
       next_[k] = next;
     } else {
@@ -140,7 +141,7 @@ void Footpoints::add_patches(Point p_m, std::vector<Footpoint>& found, bool& is_
   for (size_t k = 0; k < patches_.size(); ++k) {
     roots.clear();
     size_t boxes = 0;
-    patches_[k].solve(p_m, roots, boxes, is_complete);
+    patches_[k].solve(p_m, roots, boxes, is_complete, 1e-9 + 4 * gap_);
     const BezierPatch& s = patches_[k].patch;
     for (const SurfaceRoot& root : roots) {
       const Point at = patches_[k].point(root.u, root.v);
@@ -153,14 +154,14 @@ void Footpoints::add_patches(Point p_m, std::vector<Footpoint>& found, bool& is_
                            s.piece,
                            s.u0 + root.u * (s.u1 - s.u0),
                            s.v0 + root.v * (s.v1 - s.v0)};
-      constexpr double kNear = 1e-6;
-      const bool inside =
-          root.u > kNear && root.u < 1 - kNear && root.v > kNear && root.v < 1 - kNear;
+      const double near = 1e-6 + 8 * gap_;
+      const bool inside = root.u > near && root.u < 1 - near && root.v > near && root.v < 1 - near;
       bool is_known = false;
-      for (const Corner& c : corners_) is_known |= length(c.at - at) <= 1e-9 * extent_m_;
+      for (const Corner& c : corners_)
+        is_known |= length(c.at - at) <= (1e-9 + 4 * gap_) * extent_m_;
       for (const OnEdge& e : on_edges)
         is_known |= !inside && e.patch != k && e.foot.kind == kind &&
-                    length(e.foot.point_m - at) <= 1e-6 * extent_m_;
+                    length(e.foot.point_m - at) <= (1e-6 + 16 * gap_) * extent_m_;
       if (is_known) continue;
       if (!inside) on_edges.push_back({foot, k});
       found.push_back(foot);
@@ -174,7 +175,12 @@ void Footpoints::add_borders(Point p_m, std::vector<Footpoint>& found, bool& is_
     const CurveSystem& c = border_curves_[k];
     bool is_zero = false;
     roots.clear();
-    roots_of(c.coefficients(p_m), c.noise(p_m), roots, is_zero);
+    // A little beyond the ends: where borders meet smoothly, a foot-point is one of either's.
+    const double more = 1e-9 + 4 * gap_;
+    Scalars equation(c.a.degree_u, 0);
+    equation.c = c.coefficients(p_m);
+    roots_of(extended(equation, more).c, c.noise(p_m), roots, is_zero);
+    for (Root& root : roots) root.t = std::clamp(root.t * (1 + 2 * more) - more, 0.0, 1.0);
     if (is_zero) {
       is_complete = false;
       roots.push_back({0.5, 0, 0});
@@ -184,7 +190,8 @@ void Footpoints::add_borders(Point p_m, std::vector<Footpoint>& found, bool& is_
       const Point at = c.point(root.t);
       bool is_known = false;  // where two surfaces meet at an edge both have it
       for (const Footpoint& f : found)
-        is_known |= f.kind == FootKind::kEnd && length(f.point_m - at) <= 1e-9 * extent_m_;
+        is_known |=
+            f.kind == FootKind::kEnd && length(f.point_m - at) <= (1e-8 + 16 * gap_) * extent_m_;
       if (is_known) continue;
       found.push_back({FootKind::kEnd, length(at - p_m), at, c.piece.piece,
                        b.u0 + root.t * (b.u1 - b.u0), b.v0 + root.t * (b.v1 - b.v0)});

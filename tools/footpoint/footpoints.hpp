@@ -31,8 +31,10 @@ struct Footpoint {
 /// The ends, corners and borders that it leaves out are told besides.
 class Footpoints {
  public:
-  /// Pieces of a curve stand in the order of its parameter.
-  Footpoints(const std::vector<BezierCurve>& curves, const std::vector<BezierPatch>& patches);
+  /// Pieces of a curve stand in the order of its parameter. `gap`: what rounding has left open
+  /// between pieces that meet, of the extent.
+  Footpoints(const std::vector<BezierCurve>& curves, const std::vector<BezierPatch>& patches,
+             double gap = 1e-12);
 
   /// Sorted by distance. `is_complete` is cleared where whole lines are foot-points (about the
   /// centre of a circle or on the axis of a surface of revolution): then some of them are told.
@@ -78,7 +80,7 @@ class Footpoints {
   std::vector<Border> borders_;
   std::vector<CurveSystem> border_curves_;
   std::vector<Corner> corners_;
-  double extent_m_ = 0;
+  double gap_ = 0, extent_m_ = 0;
   Point low_m_, high_m_;
 };
 

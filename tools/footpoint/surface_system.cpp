@@ -206,12 +206,13 @@ void SurfaceSystem::gradients(double u, double v, Point& by_h, Point& by_i) cons
 }
 
 void SurfaceSystem::solve(Point p_m, std::vector<SurfaceRoot>& roots, size_t& boxes,
-                          bool& is_complete) const {
+                          bool& is_complete, double more) const {
   const Point q = p_m - origin;
   double noise[2];
-  Box whole{a[0], a[1], 0, 0, 1, 1};
+  Box whole{a[0], a[1], -more, -more, 1 + 2 * more, 1 + 2 * more};
   for (size_t c = 0; c < whole.h.c.size(); ++c) whole.h.c[c] -= dot(q, b[0].c[c]);
   for (size_t c = 0; c < whole.i.c.size(); ++c) whole.i.c[c] -= dot(q, b[1].c[c]);
+  whole.h = extended(whole.h, more), whole.i = extended(whole.i, more);
   for (size_t k = 0; k < 2; ++k) noise[k] = kRounding * (scale_a[k] + length(q) * scale_b[k]);
 
   const auto add = [&](double u, double v) {
@@ -255,7 +256,8 @@ void SurfaceSystem::solve(Point p_m, std::vector<SurfaceRoot>& roots, size_t& bo
     if (content == Content::kNone) continue;
     if (content == Content::kOneAtMost && newton(box)) continue;
     if (box.wide < kLeastBox && box.high < kLeastBox) {
-      add(box.u + 0.5 * box.wide, box.v + 0.5 * box.high);
+      add(std::clamp(box.u + 0.5 * box.wide, 0.0, 1.0),
+          std::clamp(box.v + 0.5 * box.high, 0.0, 1.0));
       continue;
     }
     Box other = box;
