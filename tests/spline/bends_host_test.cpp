@@ -1,0 +1,97 @@
+// The baked bounds of third derivatives, against differences of D^2 / 2 in double.
+#include <cmath>
+
+#include "bake/bake_spline.hpp"
+#include "firmtouch/spline/leaf_shape.hpp"
+#include "harness/test.hpp"
+#include "spline/random_splines.hpp"
+
+namespace {
+
+namespace spline = firmtouch::spline;
+namespace tools = firmtouch::tools;
+
+double wide(float value) { return static_cast<double>(value); }
+
+// Of a stored piece at s, t, from its coefficients.
+tools::Point point_of(const spline::View& view, const spline::Piece& piece, double s, double t) {
+  const uint32_t stride = piece.is_rational != 0 ? 4 : 3;
+  double sum[4] = {0, 0, 0, piece.is_rational != 0 ? 0.0 : 1.0}, power_t = 1;
+  for (uint32_t j = 0; j <= piece.degree_v; ++j, power_t *= t) {
+    double power = power_t;
+    for (uint32_t i = 0; i <= piece.degree_u; ++i, power *= s)
+      for (uint32_t k = 0; k < stride; ++k)
+        sum[k] += power * wide(view.coefficients()[piece.coefficients +
+                                                   (j * (piece.degree_u + 1u) + i) * stride + k]);
+  }
+  return {wide(piece.origin_m[0]) + sum[0] / sum[3], wide(piece.origin_m[1]) + sum[1] / sum[3],
+          wide(piece.origin_m[2]) + sum[2] / sum[3]};
+}
+
+// On random leaves, at random places, along random directions, from random queries.
+void judge(const tools::SplineModel& model, uint32_t seed) {
+  tools::SplineReport report;
+  const auto sections = tools::bake_spline(
+      model, "x", model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(false),
+      report);
+  CHECK(report.problem.empty());
+  spline::View view;
+  CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+  if (!view.is_open()) return;
+  tools::Random random(seed);
+  const uint32_t each = spline::bends_a_leaf(view.is_surface());
+  for (int trial = 0; trial < 2000; ++trial) {
+    const uint32_t i = random.below(view.leaf_count());
+    const spline::Piece& piece = view.pieces()[view.leaves()[i].piece];
+    const spline::Part part = spline::part_of(piece, view.leaves()[i]);
+    const double angle = random.between(0, 6.283185307);
+    const double eu = view.is_surface() ? std::cos(angle) : 1;
+    const double ev = view.is_surface() ? std::sin(angle) : 0;
+    const double x = random.between(-0.98, 0.98), y = random.between(-0.98, 0.98), h = 4e-3;
+    const double size = random.below(2) == 0 ? 0.02 : 2;
+    const tools::Point on = point_of(view, piece, wide(part.middle_u), wide(part.middle_v));
+    const tools::Point p =
+        on + tools::Point{random.bell(), random.bell(), random.bell()} * (size * report.extent_m);
+    const auto half_square = [&](double step) {
+      const tools::Point off =
+          point_of(
+              view, piece, wide(part.middle_u) + wide(part.half_u) * (x + step * eu),
+              view.is_surface() ? wide(part.middle_v) + wide(part.half_v) * (y + step * ev) : 0) -
+          p;
+      return 0.5 * dot(off, off);
+    };
+    const double third =
+        (half_square(2 * h) - 2 * half_square(h) + 2 * half_square(-h) - half_square(-2 * h)) /
+        (2 * h * h * h);
+    const double distance = std::sqrt(2 * half_square(0));
+    double bound = 0;
+    for (uint32_t k = 0; k < each; ++k) {
+      const spline::Bend& bend = view.bends()[i * each + k];
+      const double of =
+          wide(spline::from_half(bend.fixed)) + wide(spline::from_half(bend.turning)) * distance;
+      const double times = k == 1 || k == 2 ? 3 : 1;
+      bound += times * of * std::pow(std::fabs(eu), 3 - k) * std::pow(std::fabs(ev), k);
+    }
+    if (!view.is_surface()) bound *= std::pow(wide(part.half_u), 3);  // told by the piece's s
+    // Differences of doubles are off by about 1e-15 / h^3 of the square.
+    const double noise = 1e-8 * (distance * distance + report.extent_m * report.extent_m);
+    firmtouch::test::note("seed * 10000 + trial", seed * 10000 + static_cast<uint32_t>(trial));
+    CHECK_LE(std::fabs(third), bound * 1.001 + noise);
+  }
+}
+
+}  // namespace
+
+TEST(NoThirdDerivativeOnALeafIsAboveItsBakedBound) {
+  for (uint32_t seed = 0; seed < 12; ++seed) {
+    tools::Random random(seed + 900);
+    tools::SplineModel model;
+    if (seed % 2 == 0)
+      model.curves.push_back(
+          firmtouch::spline_test::random_curve(random, 2 + static_cast<int>(seed / 2 % 4), 1));
+    else
+      model.surfaces.push_back(
+          firmtouch::spline_test::random_surface(random, 3, 2 + static_cast<int>(seed / 2 % 2), 1));
+    judge(model, seed);
+  }
+}
