@@ -173,6 +173,22 @@ TEST(AnInsideOutSurfaceIsTurned) {
   CHECK(near(volume_of(surface), 8));
 }
 
+// Each shell asks those about it alone: thousands of hollow cubes take no longer than their faces.
+TEST(ThousandsOfHollowPiecesAreEachHollow) {
+  constexpr int kSide = 14;
+  Surface foam;
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    const math::Vec3 at{static_cast<float>(i % kSide) * 8,
+                        static_cast<float>(i / kSide % kSide) * 8,
+                        static_cast<float>(i / kSide / kSide) * 8};
+    append(foam, cube(at, 2));
+    append(foam, cube(at, 1));
+  }
+  const CheckReport report = check_and_mend(foam, {});
+  CHECK(report.usable());
+  CHECK(near(volume_of(foam) / (kSide * kSide * kSide), 64 - 8));
+}
+
 TEST(CavitiesAreInwardAndWhatLiesInThemOutward) {
   for (int wound = 0; wound < 16; ++wound) {  // which of the four shells are inside out at first
     Surface nested = cube({0, 0, 0}, 4);

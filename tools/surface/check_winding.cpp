@@ -49,29 +49,68 @@ bool within(const Box& a, const Box& b) {
          a.high.y < b.high.y && a.high.z < b.high.z;
 }
 
+// The faces of one shell with their own vertices, so that what is asked of it costs what it is large.
+class ShellsAlone {
+ public:
+  ShellsAlone(const Surface& surface, const std::vector<uint32_t>& component, size_t shells)
+      : surface_(surface), faces_(shells), index_(surface.vertices.size(), kNone) {
+    for (uint32_t f = 0; f < surface.faces.size(); ++f) faces_[component[f]].push_back(f);
+  }
+
+  const std::vector<uint32_t>& faces(uint32_t shell) const { return faces_[shell]; }
+
+  Surface alone(uint32_t shell) {
+    Surface part;
+    for (const uint32_t f : faces_[shell]) {
+      Face face = surface_.faces[f];
+      for (uint32_t& v : face) {
+        if (index_[v] == kNone) {
+          index_[v] = static_cast<uint32_t>(part.vertices.size());
+          part.vertices.push_back(surface_.vertices[v]);
+        }
+        v = index_[v];
+      }
+      part.faces.push_back(face);
+    }
+    for (const uint32_t f : faces_[shell])
+      for (const uint32_t v : surface_.faces[f]) index_[v] = kNone;
+    return part;
+  }
+
+ private:
+  const Surface& surface_;
+  std::vector<std::vector<uint32_t>> faces_;
+  std::vector<uint32_t> index_;  // of the vertices in the part at hand
+};
+
 // In how many other shells each shell lies with all its vertices: where that is odd it bounds a
 // cavity. Shells that cross one another are not nested.
 std::vector<uint32_t> nesting(const Surface& surface, const std::vector<uint32_t>& component,
                               const std::vector<Shell>& shells) {
-  std::vector<std::vector<uint32_t>> vertices(shells.size());
-  for (uint32_t f = 0; f < surface.faces.size(); ++f) {
-    for (const uint32_t v : surface.faces[f]) vertices[component[f]].push_back(v);
-  }
-  std::vector<uint32_t> depth(shells.size(), 0);
+  ShellsAlone parts(surface, component, shells.size());
+  std::vector<uint32_t> depth(shells.size(), 0), by_low(shells.size());
+  for (uint32_t s = 0; s < by_low.size(); ++s) by_low[s] = s;
+  const auto low = [&](uint32_t s) { return shells[s].box.low.x; };
+  std::sort(by_low.begin(), by_low.end(), [&](uint32_t a, uint32_t b) {
+    return low(a) < low(b) || (!(low(b) < low(a)) && a < b);
+  });
   for (uint32_t outer = 0; outer < shells.size(); ++outer) {
     std::vector<uint32_t> candidates;
-    for (uint32_t s = 0; s < shells.size(); ++s) {
-      if (s != outer && within(shells[s].box, shells[outer].box)) candidates.push_back(s);
-    }
+    auto next = std::upper_bound(by_low.begin(), by_low.end(), low(outer),
+                                 [&](double x, uint32_t s) { return x < low(s); });
+    for (; next != by_low.end() && low(*next) < shells[outer].box.high.x; ++next)
+      if (within(shells[*next].box, shells[outer].box)) candidates.push_back(*next);
     if (candidates.empty()) continue;
-    std::vector<bool> chosen(surface.faces.size());
-    for (size_t f = 0; f < chosen.size(); ++f) chosen[f] = component[f] == outer;
-    const WindingNumber around(surface, chosen);
+    const Surface alone = parts.alone(outer);
+    const WindingNumber around(alone, {});
     for (const uint32_t s : candidates) {
-      const auto is_inside = [&](uint32_t v) {
-        return around.at(to_point(surface.vertices[v])) != 0;
+      const auto is_inside = [&](uint32_t f) {
+        const Face& face = surface.faces[f];
+        return std::all_of(face.begin(), face.end(), [&](uint32_t v) {
+          return around.at(to_point(surface.vertices[v])) != 0;
+        });
       };
-      if (std::all_of(vertices[s].begin(), vertices[s].end(), is_inside)) ++depth[s];
+      if (std::all_of(parts.faces(s).begin(), parts.faces(s).end(), is_inside)) ++depth[s];
     }
   }
   return depth;
