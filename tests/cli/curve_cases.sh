@@ -20,3 +20,15 @@ ACurveBeyondTheUsualWorkspaceIsTold() {
   f bake c.csv -o a.fta --unit mm; exits 0; told 'reaches 0.7 m'
   f bake c.csv -o a.fta --unit in; exits 0; told 'reaches 17.78 m'
 }
+
+ASmoothCurveGoesThroughItsSamplesWithoutCorners() {
+  printf 'x,y,z\n0,0,0\n0.1,0,0\n0.1,0.1,0\n0.2,0.1,0\n' >c.csv
+  bake c.csv -o a.fta --smooth
+  told 'open smooth curve, 4 samples'
+  f info a.fta; printf '%s\n' "$out" | grep -q 'cubic' || fail "info does not tell: $out"
+  printf 'x,y,z\n0.1,0,0\n0.1,0.1,0\n0.15,0.1125,0\n' >p.csv
+  f query a.fta c curve <p.csv
+  exits 0
+  printf '%s\n' "$out" | awk -F, 'NR == 2 || NR == 3 { if (!($1 < 1e-7)) exit 1 } NR == 4 { if (!($1 < 0.01 && $9 == 1)) exit 1 }' ||
+    fail "answers: $out"
+}

@@ -4,6 +4,7 @@
 #include <float.h>
 
 #include "curve/small_curve.hpp"
+#include "firmtouch/core/hash.hpp"
 #include "harness/test.hpp"
 
 namespace {
@@ -114,4 +115,34 @@ TEST(HostilePenaltiesGiveFiniteAnswers) {
   const Followed lost =
       follow(view, {__builtin_nanf(""), 0, 0}, {1.0f, 1.0f}, kUnlimited, following);
   CHECK(!lost.is_held && !following.is_following);
+}
+
+// The same on every compiler and controller: smooth pieces, cold, warm, penalised and by budget.
+TEST(AnswersOfCubicPiecesHaveOneHashEverywhere) {
+  static LongCurve smooth = [] {
+    LongCurve made = loops();
+    made.head.is_smooth = 1;
+    made.derive();
+    return made;
+  }();
+  const View view = smooth.view();
+  CHECK(view.is_open());
+  firmtouch::core::Hash hash;
+  Hint hint;
+  Following following;
+  uint32_t state = 1;
+  const auto next = [&] {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<float>(state >> 8) * 0x1p-24f;
+  };
+  for (uint32_t i = 0; i < 300; ++i) {
+    const Vec3 p{next() * 1.5f, next() * 0.75f, next() * 0.5f};
+    const Constraint found = guided_point(view, p, {0.5f, next(), i % 3 != 0}, {40}, hint);
+    const Followed tick = follow(view, p, {0.25f, 0.25f}, kUnlimited, following);
+    const float values[] = {
+        found.cost_m,           found.closest.arc,      found.closest.certificate.lower_m,
+        tick.closest.point_m.x, tick.closest.tangent.y, tick.closest.certificate.lower_m};
+    for (const float value : values) hash.add(firmtouch::math::bits_of(value));
+  }
+  CHECK_EQ(hash.value(), 14492833506723696599u);
 }

@@ -1,5 +1,5 @@
 // Each rule of a curve, tripped alone: one thing is wrong, all that follows from it fits.
-#include "curve/small_curve.hpp"
+#include "curve/rule_curves.hpp"
 #include "harness/test.hpp"
 
 namespace {
@@ -8,38 +8,16 @@ using firmtouch::core::Verdict;
 using firmtouch::curve::Sample;
 using firmtouch::curve::Sections;
 using firmtouch::curve::View;
+using firmtouch::curve_test::expect;
+using firmtouch::curve_test::long_hook;
 using firmtouch::curve_test::LongCurve;
 using firmtouch::curve_test::SmallCurve;
+using firmtouch::curve_test::verdict_of;
 
 constexpr Sample kHook[] = {{0, 0, 0},           {0.125f, 0, 0},
                             {0.25f, 0.0625f, 0}, {0.25f, 0.25f, 0.5f},
                             {0, 0.25f, 0.25f},   {-0.5f, 0.125f, 0}};
 constexpr Sample kRing[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}};
-
-Verdict verdict_of(const Sections& sections) {
-  View view;
-  const Verdict verdict = firmtouch::curve::open(sections, view);
-  CHECK_EQ(verdict.ok(), view.is_open());
-  return verdict;
-}
-
-template <class Curve>
-void expect(const Curve& c, uint32_t rule, uint32_t element) {
-  const Verdict verdict = verdict_of(c.sections());
-  CHECK_EQ(verdict.rule, rule);
-  CHECK_EQ(verdict.element, element);
-}
-
-// Four runs, the last one short.
-const LongCurve& long_hook() {
-  static Sample samples[200];
-  for (uint32_t i = 0; i < 200; ++i) {
-    const float t = static_cast<float>(i) * 0x1p-7f;
-    samples[i] = {t, t * t - 0.25f * t, 0.5f * t * t * t};
-  }
-  static const LongCurve curve(samples, 200);
-  return curve;
-}
 
 float nan_value() { return __builtin_nanf(""); }
 
@@ -90,7 +68,7 @@ TEST(Rule202RefusesFewerThanTwoSamplesAndTooMany) {
 
 TEST(Rule203RefusesReservedWordsThatAreNotZero) {
   SmallCurve c(kHook);
-  c.head.reserved = 1;
+  c.head.is_smooth = 2;
   expect(c, 203, 0);
 }
 

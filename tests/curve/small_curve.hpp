@@ -76,7 +76,7 @@ struct CurveOf {
       runs[r].leaf = runs[r].run = count - 1 - r;
       for (uint32_t k = 0; k < curve::kParts; ++k) {
         const curve::Part part = curve::part_of(r, k, head.sample_count - 1);
-        runs[r].radius[k] = curve::stored_radius(samples, part.first, part.last);
+        runs[r].radius[k] = curve::part_radius(track(), head.is_smooth != 0, part.first, part.last);
       }
       runs[r].reserved = 0;
       derive_box(boxes[2 * (count - 1) - r], curve::part_of(r, 0, head.sample_count - 1));
@@ -91,6 +91,8 @@ struct CurveOf {
       }
     }
   }
+
+  curve::Track track() const { return {samples, head.sample_count, head.is_closed != 0}; }
 
  private:
   static core::Bytes bytes(const void* data, uint32_t size) {
@@ -119,8 +121,9 @@ struct CurveOf {
       if (side_m > extent_m) extent_m = side_m;
     }
     head.cell_m = 0x1p-60f;
-    while (head.cell_m * 32767.0f < 1.25f * extent_m) head.cell_m *= 2.0f;
-    for (uint32_t k = 0; k < 3; ++k) head.grid_low_m[k] = head.low_m[k] - 0.125f * extent_m;
+    const float room = head.is_smooth != 0 ? 0.5f : 0.125f;
+    while (head.cell_m * 32767.0f < (1.0f + 2.0f * room) * extent_m) head.cell_m *= 2.0f;
+    for (uint32_t k = 0; k < 3; ++k) head.grid_low_m[k] = head.low_m[k] - room * extent_m;
   }
   void derive_box(curve::Box& box, curve::Part part) const {
     for (uint32_t k = 0; k < 3; ++k) {
@@ -131,6 +134,15 @@ struct CurveOf {
         const uint32_t up = static_cast<float>(down) < cells ? down + 1 : down;
         low = down < low ? down : low;
         high = up > high ? up : high;
+        if (head.is_smooth == 0 || s == part.last) continue;
+        const curve::Cubic c = curve::cubic_of(track(), s);
+        const math::Vec3 offs[] = {c.c1, c.c2};
+        for (const math::Vec3& off : offs) {
+          const float at = curve::cells_of(head, (&samples[s].x_m)[k], (&off.x)[k], k);
+          const auto cell = static_cast<uint32_t>(at);
+          low = cell - 1 < low ? cell - 1 : low;
+          high = cell + 2 > high ? cell + 2 : high;
+        }
       }
       box.side[k] = curve::make_side(low, high);
     }

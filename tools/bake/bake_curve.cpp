@@ -51,6 +51,23 @@ curve::Head make_head(const std::vector<curve::Sample>& samples, double length_m
   return head;
 }
 
+// How far the pieces' Bezier points lie beyond the samples' box, in its extents.
+float beyond_of(const std::vector<curve::Sample>& samples, const curve::Head& head) {
+  const curve::Track track{samples.data(), head.sample_count, head.is_closed != 0};
+  float most_m = 0, extent_m = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    extent_m = std::max(extent_m, head.high_m[k] - head.low_m[k]);
+    for (uint32_t s = 0; s + 1 < head.sample_count; ++s) {
+      const curve::Cubic c = curve::cubic_of(track, s);
+      for (const math::Vec3& off : {c.c1, c.c2}) {
+        const float at_m = (&samples[s].x_m)[k] + (&off.x)[k];
+        most_m = std::max({most_m, head.low_m[k] - at_m, at_m - head.high_m[k]});
+      }
+    }
+  }
+  return most_m / extent_m;
+}
+
 core::Bytes bytes_of(const std::vector<Section>& sections, const std::string& name, uint32_t type) {
   for (const Section& section : sections)
     if (section.type == type && section.name == name)
@@ -89,11 +106,12 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
   for (const math::Vec3& s : mended.samples_m) samples.push_back({s.x, s.y, s.z});
   const std::vector<float> arcs = arc_positions(samples, report);
   curve::Head head = make_head(samples, report.length_m);
-  if (!choose_grid(head)) {
-    report.problem =
-        name +
-        ": the curve lies too far from the origin for its size: float32 cannot tell its "
-        "points apart; move it nearer to the origin";
+  head.is_smooth = mended.is_smooth ? 1 : 0;
+  if (!choose_grid(head, mended.is_smooth ? beyond_of(samples, head) : 0)) {
+    report.problem = name +
+                     (mended.is_smooth ? ": too few samples for smooth pieces, or the" : ": the") +
+                     " curve lies too far from the origin for its size: float32 cannot tell its "
+                     "points apart; move it nearer to the origin";
     return {};
   }
   std::vector<Section> sections;

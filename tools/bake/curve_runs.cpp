@@ -21,6 +21,10 @@ struct Range {
   uint32_t begin, end;
 };
 
+curve::Track track_of(const std::vector<curve::Sample>& samples, const curve::Head& head) {
+  return {samples.data(), static_cast<uint32_t>(samples.size()), head.is_closed != 0};
+}
+
 curve::Box box_of(const std::vector<curve::Sample>& samples, const curve::Head& head,
                   const curve::Part& part) {
   curve::Box box;
@@ -31,6 +35,15 @@ curve::Box box_of(const std::vector<curve::Sample>& samples, const curve::Head& 
       low = std::min(low, cells);
       high = std::max(high, cells);
     }
+    for (uint32_t s = part.first; head.is_smooth != 0 && s < part.last; ++s) {
+      const curve::Cubic c = curve::cubic_of(track_of(samples, head), s);
+      for (const math::Vec3& off : {c.c1, c.c2}) {
+        const float cells = curve::cells_of(head, (&samples[s].x_m)[k], (&off.x)[k], k);
+        low = std::min(low, cells - 2 * curve::kPointSlack_cells);
+        high = std::max(high, cells + 2 * curve::kPointSlack_cells);
+      }
+    }
+    if (!(low >= 0 && high <= static_cast<float>(curve::kGridMax))) return {};
     box.side[k] = curve::make_side(static_cast<uint32_t>(std::floor(low)),
                                    static_cast<uint32_t>(std::ceil(high)));
   }
@@ -86,15 +99,16 @@ void place_runs(std::vector<Item>& items, std::vector<curve::Run>& runs) {
 
 }  // namespace
 
-bool choose_grid(curve::Head& head) {
+bool choose_grid(curve::Head& head, float beyond) {
   float extent_m = 0;
   for (int k = 0; k < 3; ++k) extent_m = std::max(extent_m, head.high_m[k] - head.low_m[k]);
   head.cell_m = 0x1p-60f;
-  while (head.cell_m * static_cast<float>(curve::kGridMax) < 1.25f * extent_m) head.cell_m *= 2;
+  const float least = 1.25f + 2 * beyond;
+  while (head.cell_m * static_cast<float>(curve::kGridMax) < least * extent_m) head.cell_m *= 2;
   // Far from the origin the grid's low corner is rounded coarsely: more room, then coarser cells.
   for (int doubled = 0; doubled < 2; ++doubled, head.cell_m *= 2) {
     for (const float room : {0.125f, 0.1875f, 0.25f, 0.375f, 0.5f, 0.75f}) {
-      for (int k = 0; k < 3; ++k) head.grid_low_m[k] = head.low_m[k] - room * extent_m;
+      for (int k = 0; k < 3; ++k) head.grid_low_m[k] = head.low_m[k] - (room + beyond) * extent_m;
       if (curve::wrong_of_grid(head) == 0) return true;
     }
   }
@@ -117,7 +131,8 @@ CurveRuns build_curve_runs(const std::vector<curve::Sample>& samples, const curv
     items[r].run = r;
     for (uint32_t k = 0; k < curve::kParts; ++k) {
       const curve::Part part = curve::part_of(r, k, sample_count - 1);
-      run.radius[k] = curve::stored_radius(samples.data(), part.first, part.last);
+      run.radius[k] =
+          curve::part_radius(track_of(samples, head), head.is_smooth != 0, part.first, part.last);
     }
     run.reserved = 0;
   }

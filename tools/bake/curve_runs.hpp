@@ -10,9 +10,10 @@ struct CurveRuns {
   std::vector<curve::Run> runs;
 };
 
-/// Sets grid_low_m and cell_m from the head's box: the finest grid that open() takes.
+/// Sets grid_low_m and cell_m from the head's box: the finest grid that open() takes. `beyond`: how far
+/// pieces lie beyond the box of the samples, in its extents.
 /// Result: false where float32 has no such grid, the curve being far from the origin for its size.
-bool choose_grid(curve::Head& head);
+bool choose_grid(curve::Head& head, float beyond = 0);
 
 /// The tree of runs: split at the median across the widest axis by (middle of the run's box, run),
 /// a total order, so the same tree on every machine; boxes rounded outward to the head's grid.

@@ -140,6 +140,8 @@ BakeOptions bake_options(const Arguments& arguments) {
   options.map_cells = arguments.count("--distance-map", 0, 1, field::kMostCellsAnAxis - 2);
   if (options.map_cells != 0)
     options.text += " --distance-map " + std::to_string(options.map_cells);
+  options.smooth = arguments.has("--smooth");
+  if (options.smooth) options.text += " --smooth";
   options.teach = arguments.text("--teach", "");
   options.most_deviation_m = arguments.number("--max-deviation", kUsualDeviation_m, 1e-9);
   if (arguments.has("--max-deviation") && options.teach.empty())
@@ -179,6 +181,7 @@ const Command& bake_command() {
        {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
        {"--no-tree", nullptr,
         "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
+       {"--smooth", nullptr, "curves and runs: cubic pieces through the samples, without corners"},
        {"--teach", "NAME", "what the guide is called that a recorded run gives"},
        {"--max-deviation", "METRES",
         "no place of the run is farther from its guide (default 0.0001)"}},

@@ -29,6 +29,7 @@ tools::StepFigures steps_of(const curve::View& view, const std::vector<math::Vec
 tools::Facts facts_of(const curve::View& view, const tools::CurveReport& report,
                       const tools::StepFigures& steps) {
   return {{"kind", view.is_closed() ? "closed curve" : "open curve"},
+          {"pieces", view.is_smooth() ? "cubic" : "straight"},
           {"samples", std::to_string(report.samples)},
           {"levels", std::to_string(report.levels)},
           {"length_m", tools::number_text(static_cast<double>(view.head().length_m))},
@@ -67,10 +68,12 @@ BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
   return bake_points(points, path, stem_of(path), source, options, progress);
 }
 
-BakedInput bake_points(const tools::CurvePoints& points, const std::string& path,
+BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
                        const std::string& name, const std::vector<uint8_t>& source,
                        const BakeOptions& options, Progress& progress) {
   BakedInput baked;
+  tools::CurvePoints points = given;
+  points.is_smooth = options.smooth;
   progress.stage("building the tree of " + name);
   tools::CurveReport report;
   baked.sections = tools::bake_curve(points, name, report);
@@ -91,8 +94,8 @@ BakedInput bake_points(const tools::CurvePoints& points, const std::string& path
 
   const uint64_t bytes = bytes_of(baked.sections);
   baked.report = {
-      std::string(view.is_closed() ? "closed" : "open") + " curve, " +
-          std::to_string(report.samples) +
+      std::string(view.is_closed() ? "closed" : "open") +
+          (view.is_smooth() ? " smooth curve, " : " curve, ") + std::to_string(report.samples) +
           sentence(" samples, %.4g m long, segments up to %.3g m", report.length_m,
                    report.longest_segment_m),
       std::to_string(bytes) + sentence(" bytes, %.1f a sample; tree of %.0f levels",

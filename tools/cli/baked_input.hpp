@@ -21,6 +21,7 @@ struct BakeOptions {
   uint32_t hull_faces = 0;  // 0: no hull
   bool has_tree = true;     // of the mesh; without it only a hull can be asked
   tools::HullOptions hull;
+  bool smooth = false;          // cubic pieces between a curve's samples
   std::string teach;            // what a recorded run's guide is called
   double most_deviation_m = 0;  // of the guide from the run
   std::string text;             // as they stand in the provenance
@@ -47,7 +48,7 @@ BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
 BakedInput bake_run_input(const std::string& path, const BakeOptions& options, Progress& progress);
 
 /// What curve and run have in common, from the points on; `source` is the file's bytes.
-BakedInput bake_points(const tools::CurvePoints& points, const std::string& path,
+BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
                        const std::string& name, const std::vector<uint8_t>& source,
                        const BakeOptions& options, Progress& progress);
 BakedInput bake_spline_input(const std::string& path, const BakeOptions& options,

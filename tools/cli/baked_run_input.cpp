@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
+#include "bake/bake_curve.hpp"
+#include "bake/provenance.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "curve/thin_run.hpp"
+#include "firmtouch/curve/closest_point.hpp"
 #include "log/reader.hpp"
 
 namespace firmtouch::cli {
@@ -13,6 +17,8 @@ namespace {
 
 constexpr uint32_t kEnable = 1u << 0,
                    kEncoderFault = 1u << 3;  // of input.lines, as every log has them
+
+constexpr int kMostTries = 8;
 
 // What a record says of the tool.
 struct Tick {
@@ -72,6 +78,42 @@ Run run_of(const std::vector<Tick>& ticks, const log::Header& header) {
   return run;
 }
 
+// The greatest distance of any place from the cubic pieces, as the firmware tells it.
+double most_off_m(const tools::CurvePoints& points, const std::vector<tools::Place>& places,
+                  const std::string& path) {
+  tools::CurvePoints smooth = points;
+  smooth.is_smooth = true;
+  tools::CurveReport report;
+  const std::vector<tools::Section> sections = tools::bake_curve(smooth, "smooth", report);
+  if (!report.problem.empty()) fail_input(path + ": " + report.problem);
+  curve::View view;
+  (void)curve::open(tools::curve_sections(sections, "smooth"), view);
+  query::Hint hint;
+  double most_m = 0;
+  for (const tools::Place& p : places) {
+    const math::Vec3 at{static_cast<float>(p.x_m), static_cast<float>(p.y_m),
+                        static_cast<float>(p.z_m)};
+    most_m = std::max(
+        most_m,
+        static_cast<double>(curve::closest_point(view, at, query::kUnlimited, hint).distance_m));
+  }
+  return most_m;
+}
+
+// Cubic pieces leave the straight ones that were judged: thinned less, until they too keep near.
+tools::ThinnedRun thinned_for(const Run& run, const BakeOptions& options, const std::string& path) {
+  double most_m = options.most_deviation_m;
+  for (int tries = 0; tries < kMostTries; ++tries, most_m /= 2) {
+    tools::ThinnedRun thinned = tools::thin_run(run.places, most_m, path);
+    if (!thinned.points.problem.empty() || !options.smooth) return thinned;
+    thinned.most_deviation_m = most_off_m(thinned.points, run.places, path);
+    if (thinned.most_deviation_m <= options.most_deviation_m) return thinned;
+  }
+  fail_input(path + ": no smooth guide through its places keeps within " +
+             tools::number_text(options.most_deviation_m) +
+             " m of the run; allow more, or leave out --smooth");
+}
+
 std::string sentence(const char* format, size_t a, size_t b, double c, double d) {
   char text[300];
   std::snprintf(text, sizeof text, format, a, b, c, d);
@@ -87,7 +129,7 @@ BakedInput bake_run_input(const std::string& path, const BakeOptions& options, P
     log::Reader reader(log::over_memory(source), path);
     const std::vector<Tick> ticks = ticks_of(reader, path);
     const Run run = run_of(ticks, reader.header());
-    tools::ThinnedRun thinned = tools::thin_run(run.places, options.most_deviation_m, path);
+    tools::ThinnedRun thinned = thinned_for(run, options, path);
     if (!thinned.points.problem.empty()) fail_input(thinned.points.problem);
     std::vector<std::string>& notes = thinned.points.notes;
     if (run.left_out > 0)

@@ -12,6 +12,7 @@ namespace firmtouch::tools {
 struct CurvePoints {
   std::vector<math::Vec3> samples_m;
   std::vector<uint32_t> rows;      // of each sample: its row in the file from 0, the header apart
+  bool is_smooth = false;          // cubic pieces between the samples rather than straight ones
   std::vector<std::string> notes;  // what was mended or passed over, for the report
   std::string problem;             // empty: usable; else file, line, what is wrong, how to mend it
 };

@@ -5,6 +5,7 @@
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/curve/answer.hpp"
 #include "firmtouch/curve/nearest_foot.hpp"
+#include "firmtouch/curve/smooth_point.hpp"
 #include "firmtouch/query/coherence.hpp"
 
 namespace firmtouch::curve {
@@ -63,6 +64,7 @@ Closest answer_nothing(const View& curve, query::Hint& hint) {
 }  // namespace
 
 Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+  if (curve.is_smooth() && is_near(p_m)) return smooth_point(curve, p_m, {}, budget, hint).closest;
   NearBound near_bound;
   if (near_bound.begin(curve.head(), p_m)) {
     if (!near_bound.needs_care(curve)) return answer<false>(curve, near_bound, p_m, budget, hint);

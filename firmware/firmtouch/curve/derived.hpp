@@ -2,6 +2,7 @@
 // What the baker derives from the samples and open() derives again, to the bit. For .cpp files of
 // the library and the baker only: both are compiled with the library's own floating-point flags.
 
+#include "firmtouch/curve/cubic.hpp"
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
@@ -62,6 +63,28 @@ static inline uint16_t stored_radius(const Sample* samples, uint32_t first, uint
   return rounded_radius(math::square_root(most2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
 }
 
+/// The same of a smooth curve: how far the Bezier points of the pieces between these two samples lie
+/// from that line. A piece lies within its points' hull, and distance to a line is convex.
+static inline uint16_t smooth_radius(const Track& track, uint32_t first, uint32_t last) {
+  if (last <= first) return 0;
+  const math::Vec3 a = vec(track.samples[first]), along = vec(track.samples[last]) - a;
+  float most2_m2 = 0;
+  for (uint32_t i = first; i < last; ++i) {
+    const math::Vec3 from = vec(track.samples[i]) - a;
+    const Cubic c = cubic_of(track, i);
+    const float at_m2[] = {line_distance2(from, along), line_distance2(from + c.c1, along),
+                           line_distance2(from + c.c2, along)};
+    for (uint32_t k = 0; k < 3; ++k)
+      if (at_m2[k] > most2_m2) most2_m2 = at_m2[k];
+  }
+  const float lost_m = math::length(along) * 0x1p-18f;
+  return rounded_radius(math::square_root(most2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
+}
+static inline uint16_t part_radius(const Track& track, bool is_smooth, uint32_t first,
+                                   uint32_t last) {
+  return is_smooth ? smooth_radius(track, first, last) : stored_radius(track.samples, first, last);
+}
+
 /// Part `k` of run `run`: from sample `first` to sample `last`; the same sample twice where the run
 /// ends before.
 struct Part {
@@ -97,9 +120,31 @@ static inline uint32_t wrong_of_grid(const Head& head) {
   return 0;
 }
 
+/// The bounds need as much room about the boxes of a smooth curve, which may lie beyond its samples.
+/// Result: 0 where there is, else 1 to 3 for an axis.
+static inline uint32_t wrong_of_root(const Head& head, const Box& root) {
+  float extent_m = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const float side_m = head.high_m[k] - head.low_m[k];
+    if (side_m > extent_m) extent_m = side_m;
+  }
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t below = root.side[k] & 0xFFFFu, above = root.side[k] >> 16;
+    const float least_m = static_cast<float>(below < above ? below : above) * head.cell_m;
+    if (!(least_m >= 0.12f * extent_m)) return 1 + k;
+  }
+  return 0;
+}
+
 /// A coordinate in cells of the grid: one rounding of the difference, the rest exact.
 static inline float cells_of(const Head& head, float at_m, uint32_t axis) {
   return (at_m - head.grid_low_m[axis]) * (1.0f / head.cell_m);
+}
+
+/// The cells that a run's box must hold about a Bezier point: two roundings, and to be sure.
+constexpr float kPointSlack_cells = 0x1p-7f;
+static inline float cells_of(const Head& head, float at_m, float off_m, uint32_t axis) {
+  return ((at_m - head.grid_low_m[axis]) + off_m) * (1.0f / head.cell_m);
 }
 
 constexpr uint32_t low_of(uint32_t side) { return side & 0xFFFFu; }

@@ -57,5 +57,6 @@ Followed follow(const View& curve, math::Vec3 p_m, const Hold& hold, query::Budg
 
 /// Segments that follow() goes along the curve in a tick; beyond them the next tick goes on.
 constexpr uint32_t kMostSlides = 32;
+constexpr uint32_t kMostSmoothSlides = 4;  // of cubic pieces
 
 }  // namespace firmtouch::curve

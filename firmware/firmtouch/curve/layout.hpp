@@ -36,7 +36,7 @@ struct Head {
   float longest_half_m;  // half of the longest segment, rounded up
   float cell_m;          // of the grid, a power of two
   float grid_low_m[3];   // coordinate 0 of the grid
-  uint32_t reserved;     // 0
+  uint32_t is_smooth;    // 1: cubic pieces between the samples, 0: straight ones
 };
 static_assert(sizeof(Head) == 64 && alignof(Head) == 4);
 static_assert(offsetof(Head, low_m) == 8 && offsetof(Head, grid_low_m) == 48);

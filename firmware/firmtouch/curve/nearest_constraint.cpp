@@ -4,6 +4,7 @@
 
 #include "firmtouch/curve/answer.hpp"
 #include "firmtouch/curve/arc_penalty.hpp"
+#include "firmtouch/curve/piece.hpp"
 #include "firmtouch/curve/tree_search.hpp"
 
 namespace firmtouch::curve {
@@ -86,12 +87,20 @@ class Choice {
   bool carefully() const { return carefully_; }
 
   void look_at(uint32_t segment) {
-    const Foot foot = foot_on_segment(curve_, p_m_, segment, carefully_);
+    const Foot foot = foot_on(segment);
     const float cost_m = math::square_root(foot.distance2_m2) + penalty_m(curve_, foot, penalty_);
     if (foot.distance2_m2 < least2_m2) least2_m2 = foot.distance2_m2;
     if (candidates++ == 0 || cost_m < best_cost_m) best = foot, best_cost_m = cost_m;
   }
 
+  Foot foot_on(uint32_t segment) {
+    if (!curve_.is_smooth()) return foot_on_segment(curve_, p_m_, segment, carefully_);
+    const PieceFoot found = foot_on_piece(curve_, p_m_, segment);
+    if (found.doubt_m > doubt_m) doubt_m = found.doubt_m;
+    return found.foot;
+  }
+
+  float doubt_m = 0;  // of feet on cubic pieces
   Foot best{};
   float best_cost_m = 0;
   float least2_m2 = FLT_MAX;  // of all candidates, whatever their penalty
@@ -130,10 +139,14 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
 
   // A point of the curve that no candidate holds is within a reach of a sample that was not found.
   Constraint found;
-  const float reach_m = curve.head().longest_half_m;
-  found.closest = answer_at(curve, choice.best);
+  const bool is_smooth = curve.is_smooth();
+  const float half_m = curve.head().longest_half_m;
+  // A piece's Bezier points lie within a third of its length of its ends.
+  const float reach_m = is_smooth ? 2.0f * half_m : half_m;
+  found.closest = any_answer(curve, choice.best);
   const float least_m = math::square_root(choice.least2_m2);
-  float lower_m = rounded_down(least_m, reach_m, choice.carefully());
+  float lower_m = is_smooth ? least_m - choice.doubt_m - piece_loss_m(least_m, half_m)
+                            : rounded_down(least_m, half_m, choice.carefully());
   const float pending_m = search.pending_m();
   const bool by_budget = !complete && pending_m < farthest_m;
   const float unseen_m = (by_budget ? pending_m : farthest_m) * (1.0f - 0x1p-20f) - reach_m;
@@ -141,7 +154,8 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
   found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   found.closest.certificate.steps = search.steps();
   found.closest.certificate.exact =
-      complete && !(choice.best.distance2_m2 > choice.least2_m2) &&
+      complete && choice.doubt_m <= 2.0f * piece_slack_m(curve.head(), least_m) &&
+      !(choice.best.distance2_m2 > choice.least2_m2) &&
       (nearest.size() == curve.samples().size() || unseen_m >= least_m);
   found.cost_m = choice.best_cost_m;
   found.candidates = choice.candidates;

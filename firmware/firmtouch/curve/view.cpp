@@ -12,7 +12,8 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
-constexpr uint32_t kRunElements = 4 * kRunSegments;  // that many distances are reckoned
+constexpr uint32_t kRunElements = 4 * kRunSegments;        // that many distances are reckoned
+constexpr uint32_t kSmoothRunElements = 4 * kRunElements;  // and here the pieces about them
 constexpr uint64_t kWhole = uint64_t{1} << 62;  // the length of the curve, in units of travelled_
 
 // How far a stored arc position may lie from the one that the samples say: a millionth of the
@@ -31,7 +32,7 @@ uint64_t as_fixed(float fraction) {
 }
 
 Verdict check_head(const Head& head) {
-  if (head.reserved != 0) return reject(203);
+  if (head.is_smooth > 1) return reject(203);
   if (head.is_closed > 1) return reject(204);
   for (uint32_t k = 0; k < 3; ++k)
     if (!(head.low_m[k] >= -kMaxCoordinate_m && head.low_m[k] <= head.high_m[k] &&
@@ -42,6 +43,22 @@ Verdict check_head(const Head& head) {
   if (!(head.length_m >= head.diagonal_m * 0.5f && head.length_m <= 0x1p60f)) return reject(210);
   const uint32_t grid = wrong_of_grid(head);
   return grid == 0 ? kPassed : reject(222, grid - 1);
+}
+
+// Whether a run's box holds the inner Bezier points of a piece.
+bool holds_piece(const Head& head, const Track& track, uint32_t segment, const Box& box) {
+  const Cubic c = cubic_of(track, segment);
+  const float* at_m = &track.samples[segment].x_m;
+  const float* first_m = &c.c1.x;
+  const float* second_m = &c.c2.x;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const float low = static_cast<float>(low_of(box.side[k])) + kPointSlack_cells;
+    const float high = static_cast<float>(high_of(box.side[k])) - kPointSlack_cells;
+    const float first = cells_of(head, at_m[k], first_m[k], k);
+    const float second = cells_of(head, at_m[k], second_m[k], k);
+    if (!(first >= low && first <= high && second >= low && second <= high)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -79,7 +96,7 @@ void Opening::open_head(const Sections& s) {
 
 void Opening::work(uint32_t elements) {
   for (uint32_t used = 0; used < elements && stage_ != Stage::kDone;) {
-    used += stage_ == Stage::kRuns ? kRunElements : 1;
+    used += stage_ != Stage::kRuns ? 1 : view_.is_smooth() ? kSmoothRunElements : kRunElements;
     const Verdict found = check(next_);
     if (!found.ok()) return fail(found.rule, found.element);
     if (++next_ == this->elements()) next_stage();
@@ -190,7 +207,9 @@ Verdict Opening::check_box(uint32_t i) const {
     if ((side >> 16) > kGridMax || low > high) return reject(224, i);
     if (low < low_of(around.side[k]) || high > high_of(around.side[k])) return reject(225, i);
   }
-  return kPassed;
+  if (i > 0 || !view_.is_smooth()) return kPassed;
+  const uint32_t wrong = wrong_of_root(*view_.head_, box);
+  return wrong == 0 ? kPassed : reject(230, wrong - 1);
 }
 
 // leaf -> run is undone by run -> leaf, so each run is one leaf.
@@ -211,9 +230,12 @@ Verdict Opening::check_run(uint32_t i) const {
         return reject(227, s);
     }
   }
+  const Track track{view_.samples_.data(), view_.samples_.size(), view_.is_closed()};
+  for (uint32_t s = whole.first; view_.is_smooth() && s < whole.last; ++s)
+    if (!holds_piece(*view_.head_, track, s, box)) return reject(227, s);
   for (uint32_t k = 0; k < kParts; ++k) {
     const Part part = part_of(i, k, segments);
-    if (run.radius[k] != stored_radius(view_.samples_.data(), part.first, part.last))
+    if (run.radius[k] != part_radius(track, view_.is_smooth(), part.first, part.last))
       return reject(228, i);
   }
   return run.reserved == 0 ? kPassed : reject(229, i);

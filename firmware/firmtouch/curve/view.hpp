@@ -21,6 +21,7 @@ class View {
 
   bool is_open() const { return head_ != nullptr; }
   bool is_closed() const { return head_->is_closed != 0; }
+  bool is_smooth() const { return head_->is_smooth != 0; }
   const Head& head() const { return *head_; }
   core::Span<const Sample> samples() const { return samples_; }
   core::Span<const float> arcs() const { return arcs_; }
@@ -53,7 +54,8 @@ class Opening {
  public:
   explicit Opening(const Sections& sections);
 
-  /// Checks up to `elements` samples or boxes more; a run counts as four elements a segment.
+  /// Checks up to `elements` samples or boxes more; a run counts as four elements a segment,
+  /// one of cubic pieces as sixteen.
   /// Bounds: at most kMaxLevels reads an element, a run (300 distances) at once; no recursion; reads only inside the sections.
   void work(uint32_t elements);
   bool done() const { return stage_ == Stage::kDone; }

@@ -1,0 +1,51 @@
+#pragma once
+// Closest point of one cubic piece, for .cpp files of this room only.
+
+#include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/curve/segment.hpp"
+
+namespace firmtouch::curve {
+
+struct PieceFoot {
+  Foot foot;      // t: of the piece's parameter, from the nearer end
+  float doubt_m;  // no point of the piece is nearer than the foot by more than this
+};
+
+/// Cuts of a piece that a query may look at.
+constexpr uint32_t kMostCuts = 96;
+
+/// Closest point of piece `segment`: Newton's method for a point, then halves of the piece, each within
+/// a stated distance of its chord, until none can be nearer by more than piece_slack_m().
+/// Bounds: kMostCuts cuts of about 250 instructions, 0.8 KB of stack.
+/// Result: doubt_m <= piece_slack_m() unless cuts ran out, as about the centre of an arc.
+PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment);
+
+/// All but the certificate, for a foot on a piece.
+Closest answer_on_piece(const View& curve, const Foot& foot);
+
+/// The same, of whatever kind the pieces are.
+Closest any_answer(const View& curve, const Foot& foot);
+
+static inline Track track_of(const View& curve) {
+  return {curve.samples().data(), curve.samples().size(), curve.is_closed()};
+}
+
+/// What a distance to a piece may be off by beside doubt_m, u = 2^-24: the difference of two places
+/// rounds by u d on each axis, and the sum of squares and its root by 3 u d more; Bezier points, halves
+/// of halves and polynomials move a point of the piece by at most 30 u of its length.
+static inline float piece_loss_m(float distance_m, float half_m) {
+  return 0x1p-24f * (7.5f * distance_m + 64.0f * half_m) + 0x1p-58f;
+}
+
+/// How near the answer of a piece shall be: float32 knows no less of a far one.
+static inline float piece_slack_m(const Head& head, float distance_m) {
+  const float near_m = head.diagonal_m * 0x1p-23f, far_m = distance_m * 0x1p-22f;
+  return near_m > far_m ? near_m : far_m;
+}
+
+static inline Foot any_foot(const View& curve, math::Vec3 p_m, uint32_t segment, bool carefully) {
+  if (curve.is_smooth()) return foot_on_piece(curve, p_m, segment).foot;
+  return foot_on_segment(curve, p_m, segment, carefully);
+}
+
+}  // namespace firmtouch::curve
