@@ -66,7 +66,7 @@ TEST(Rule202RefusesFewerThanTwoSamplesAndTooMany) {
   }
 }
 
-TEST(Rule203RefusesReservedWordsThatAreNotZero) {
+TEST(Rule203RefusesAKindOfPiecesBeyondOne) {
   SmallCurve c(kHook);
   c.head.is_smooth = 2;
   expect(c, 203, 0);

@@ -185,6 +185,7 @@ void run_curve(const Options& options, Report& report) {
   const uint32_t many = options.is_long ? kLongSamples : 200000;
   run_case(bake_case(make_track(many, 0), std::to_string(many) + " samples"), peer, report);
   run_published(options, report);
+  run_force_steps(report);
   run_drag(report);
 }
 

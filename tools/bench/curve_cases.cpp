@@ -30,11 +30,12 @@ std::vector<math::Vec3> make_track(uint32_t samples, uint32_t power) {
   return points;
 }
 
-CurveCase bake_case(std::vector<math::Vec3> samples_m, const std::string& name) {
+CurveCase bake_case(std::vector<math::Vec3> samples_m, const std::string& name, bool is_smooth) {
   CurveCase made;
   made.name = name;
   tools::CurvePoints points;
   points.samples_m = std::move(samples_m);
+  points.is_smooth = is_smooth;
   const auto start = std::chrono::steady_clock::now();
   made.sections = tools::bake_curve(points, "curve", made.report);
   made.bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

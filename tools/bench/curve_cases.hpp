@@ -30,7 +30,8 @@ struct CurveCase {
 std::vector<math::Vec3> make_track(uint32_t samples, uint32_t power);
 
 /// Throws a Problem where the curve cannot be baked.
-CurveCase bake_case(std::vector<math::Vec3> samples_m, const std::string& name);
+CurveCase bake_case(std::vector<math::Vec3> samples_m, const std::string& name,
+                    bool is_smooth = false);
 
 /// Points spread evenly in 1.5 times the curve's box.
 std::vector<math::Vec3> random_points(const CurveCase& curve, size_t count);
