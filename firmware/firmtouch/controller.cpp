@@ -123,6 +123,7 @@ void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
   if (wish.can_feel) {
     scene::MeshObject object;
     object.mesh = &opener_.mesh();
+    object.map = &opener_.map();
     object.pose = scene_pose(v);
     object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
     scene::touch_mesh(object, v[params::kToolRadius], wish.position_m,

@@ -17,8 +17,9 @@
 namespace firmtouch {
 
 /// One composition of the rooms among possible ones: a Cartesian device of three axes feels one
-/// mesh by the sphere at its tip and is guided along one curve. Its size is the RAM that it takes:
-/// no heap, nothing static. Controllers are independent of each other and may share an asset.
+/// mesh by the sphere at its tip, beyond reach by the mesh's distance map where the asset has one, and
+/// is guided along one curve. Its size is the RAM that it takes: no heap, nothing static. Controllers
+/// are independent of each other and may share an asset.
 class Controller {
  public:
   /// Starts to open an asset, which must outlive the controller; motors stay off until it is
@@ -65,6 +66,7 @@ class Controller {
 
   const params::Values& values() const { return live_.values; }
   const mesh::View& mesh() const { return opener_.mesh(); }
+  const field::View& map() const { return opener_.map(); }
   const curve::View& curve() const { return opener_.curve(); }
   /// Tells assets apart; 0 before the asset's frame is proven.
   uint32_t asset_crc() const { return opener_.container().crc(); }

@@ -12,6 +12,8 @@ namespace {
 constexpr uint32_t kMostProbes = 256;
 // To check a vertex, node or triangle costs up to this many times what a byte of a CRC does.
 constexpr uint32_t kBytesAnElement = 16;
+// And a cell of a map, which takes a query from its seed.
+constexpr uint32_t kBytesACell = 512;
 
 const char* choose(const asset::Container& container, uint32_t head_type, const char* wanted) {
   if (wanted != nullptr) return container.find(head_type, wanted).empty() ? nullptr : wanted;
@@ -29,6 +31,14 @@ mesh::Sections mesh_sections(const asset::Container& container, const char* name
   sections.parents = container.find(mesh::kParentsSection, name);
   sections.vertex_normals = container.find(mesh::kVertexNormalsSection, name);
   sections.edge_folds = container.find(mesh::kEdgeFoldsSection, name);
+  return sections;
+}
+
+field::Sections map_sections(const asset::Container& container, const char* name) {
+  field::Sections sections;
+  sections.head = container.find(field::kHeadSection, name);
+  sections.distances = container.find(field::kDistancesSection, name);
+  sections.seeds = container.find(field::kSeedsSection, name);
   return sections;
 }
 
@@ -56,6 +66,7 @@ void Opener::begin(core::Bytes asset, Selection selection) {
   container_ = {};
   mesh_ = {};
   curve_ = {};
+  map_ = {};
   asset_opening_ = asset::Opening(asset);
 }
 
@@ -107,6 +118,15 @@ bool Opener::work(uint32_t budget) {
     }
   } else if (stage_ == Stage::kMeshProbes) {
     run_mesh_probes();
+  } else if (stage_ == Stage::kMap) {
+    map_opening_.work(budget / kBytesACell + 1);
+    if (!map_opening_.done()) return false;
+    map_ = map_opening_.view();
+    if (map_opening_.verdict().ok()) {
+      set_stage(Stage::kCurveProbes);
+    } else {
+      refuse(map_opening_.verdict());
+    }
   } else if (stage_ == Stage::kCurveProbes) {
     run_curve_probes();
   }
@@ -142,7 +162,15 @@ void Opener::run_mesh_probes() {
       return refuse(core::reject(kRuleMeshProbes));
     }
   }
-  set_stage(Stage::kCurveProbes);
+  start_map();
+}
+
+void Opener::start_map() {
+  if (!mesh_.is_open()) return set_stage(Stage::kCurveProbes);
+  const field::Sections sections = map_sections(container_, selection_.mesh);
+  if (sections.head.empty()) return set_stage(Stage::kCurveProbes);
+  map_opening_ = field::Opening(sections, mesh_);
+  set_stage(Stage::kMap);
 }
 
 void Opener::run_curve_probes() {

@@ -5,6 +5,7 @@
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/curve/view.hpp"
+#include "firmtouch/field/view.hpp"
 #include "firmtouch/mesh/view.hpp"
 
 namespace firmtouch {
@@ -27,14 +28,19 @@ struct Selection {
 };
 
 /// From the bytes of an asset to a proven mesh and a proven curve, in slices for the main loop;
-/// then the floating-point mode is checked and the asset's probe queries are run.
+/// then the floating-point mode is checked and the asset's probe queries are run. Where the asset has
+/// a distance map of the mesh, every cell of it is proven by a query of the mesh.
 class Opener {
  public:
+  Opener() = default;
+  Opener(const Opener&) = delete;  // the map is proven against the mesh that is in here
+  Opener& operator=(const Opener&) = delete;
+
   /// `asset` must outlive the views.
   void begin(core::Bytes asset, Selection selection);
 
-  /// About `budget` bytes more, or a sixteenth as many vertices, nodes, triangles or samples, which
-  /// take about as long. Not by `budget` go the last two slices, one for the mesh's and one for the
+  /// About `budget` bytes more, or a sixteenth as many vertices, nodes, triangles or samples, or a
+  /// 512th as many cells of a map, which take about as long. Not by `budget` go the last two slices, one for the mesh's and one for the
   /// curve's probe queries: they are unlimited, at most 256, and 64 as baked.
   /// Result: true when finished.
   bool work(uint32_t budget);
@@ -48,6 +54,8 @@ class Opener {
   /// One that is not open where the asset has none.
   const mesh::View& mesh() const { return mesh_; }
   const curve::View& curve() const { return curve_; }
+  /// Of the mesh; one that is not open where the asset has none.
+  const field::View& map() const { return map_; }
   const asset::Container& container() const { return container_; }
 
  private:
@@ -57,6 +65,7 @@ class Opener {
     kMesh,
     kCurve,
     kMeshProbes,
+    kMap,
     kCurveProbes,
     kReady,
     kRefused
@@ -66,6 +75,7 @@ class Opener {
   void refuse(core::Verdict verdict);
   void start_mesh();
   void start_curve();
+  void start_map();
   void run_mesh_probes();
   void run_curve_probes();
 
@@ -75,9 +85,11 @@ class Opener {
   asset::Container container_;
   mesh::View mesh_;
   curve::View curve_;
+  field::View map_;
   asset::Opening asset_opening_{core::Bytes{}};
   mesh::Opening mesh_opening_{mesh::Sections{}};
   curve::Opening curve_opening_{curve::Sections{}};
+  field::Opening map_opening_{field::Sections{}, mesh_};
 };
 
 }  // namespace firmtouch

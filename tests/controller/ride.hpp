@@ -11,6 +11,7 @@
 
 #include "bake/asset_writer.hpp"
 #include "bake/bake_curve.hpp"
+#include "bake/bake_field.hpp"
 #include "bake/bake_mesh.hpp"
 #include "bake/probes.hpp"
 #include "firmtouch/controller.hpp"
@@ -57,6 +58,16 @@ inline std::vector<tools::Section> path_sections() {
   curve::View view;
   CHECK(curve::open(tools::curve_sections(sections, "path"), view).ok());
   sections.push_back(tools::curve_probes(view, "path"));
+  return sections;
+}
+
+// Of the part: proven against `part`, which holds its sections.
+inline std::vector<tools::Section> map_sections(const std::vector<tools::Section>& part) {
+  mesh::View view;
+  CHECK(mesh::open(tools::mesh_sections(part, "part"), view).ok());
+  tools::FieldReport report;
+  std::vector<tools::Section> sections = tools::bake_field(view, "part", 16, report);
+  CHECK(report.problem.empty());
   return sections;
 }
 

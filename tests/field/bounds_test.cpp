@@ -96,35 +96,6 @@ TEST(AnUnknownCellStillTellsWhatTheGridsBoxDoes) {
   CHECK(out.lower_m > 2.6f && out.lower_m < 3 && out.sign == 1);
 }
 
-TEST(InFreeSpaceTheMeshIsNotAskedAndNearItTheAnswerIsTheMeshs) {
-  const Opened o;
-  query::Hint hint, alone;
-  uint32_t state = 5, far = 0, near = 0;
-  Vec3 p{1.3f, 0.2f, 0.1f};
-  for (uint32_t i = 0; i < 3000; ++i) {
-    p = {p.x * 0.98f + coordinate(state, 0.1f), p.y * 0.98f + coordinate(state, 0.1f),
-         p.z * 0.98f + coordinate(state, 0.1f)};
-    const field::Felt felt =
-        field::closest_point(o.view, o.mesh, p, 0.05f, query::kUnlimited, hint);
-    const mesh::Closest truth = mesh::closest_point(o.mesh, p, query::kUnlimited, alone);
-    const float distance_m = truth.distance_m < 0 ? -truth.distance_m : truth.distance_m;
-    if (felt.is_far) {
-      ++far;
-      CHECK_GT(felt.bounds.lower_m, 0.05f);
-      CHECK_LE(felt.bounds.lower_m, distance_m);
-      CHECK_GE(felt.bounds.upper_m * (1 + 1e-6f), truth.certificate.lower_m);
-      CHECK_EQ(static_cast<int>(felt.bounds.sign), static_cast<int>(truth.certificate.sign));
-      continue;
-    }
-    ++near;
-    CHECK(felt.closest.certificate.exact);
-    CHECK_LE(felt.closest.distance_m - truth.distance_m, 1e-6f);
-    CHECK_GE(felt.closest.distance_m - truth.distance_m, -1e-6f);
-  }
-  CHECK_GT(far, 100u);
-  CHECK_GT(near, 100u);
-}
-
 TEST(BoundsHaveOneHashEverywhere) {
   const Opened o;
   query::ProbePoint points[500];

@@ -7,7 +7,7 @@
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/nearest_constraint.hpp"
-#include "firmtouch/field/distance_bounds.hpp"
+#include "firmtouch/field/closest_point.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "fuzz/victim.hpp"
@@ -102,7 +102,8 @@ void feel_map(const field::View& map, const mesh::View& mesh) {
     CHECK(is_finite(bounds.upper_m) && bounds.upper_m >= bounds.lower_m);
     CHECK(bounds.sign >= -1 && bounds.sign <= 1);
     const field::Felt felt = field::closest_point(map, mesh, p, 0.1f, {7}, hint);
-    if (!felt.is_far) check_certificate(felt.closest.certificate, 7, is_finite(p));
+    check_certificate(felt.closest.certificate, 7, is_finite(p));
+    CHECK(is_finite(felt.closest.distance_m));
   }
 }
 

@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "bake/bake_field.hpp"
 #include "bake/bake_mesh.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "harness/test.hpp"
 #include "surface/surface.hpp"
 
+namespace field = firmtouch::field;
 namespace math = firmtouch::math;
 namespace mesh = firmtouch::mesh;
 namespace query = firmtouch::query;
@@ -82,6 +84,19 @@ struct Rig {
     CHECK(mesh::open(tools::mesh_sections(sections, "cube"), view).ok());
     object.mesh = &view;
     object.material = {1000.0f, 0.0f};
+  }
+};
+
+// The same with a distance map of the cube.
+struct MappedRig : Rig {
+  std::vector<tools::Section> map_sections;
+  field::View map;
+  explicit MappedRig(uint32_t n, bool is_signed = true) : Rig(n, is_signed) {
+    tools::FieldReport report;
+    map_sections = tools::bake_field(view, "cube", 24, report);
+    CHECK(report.problem.empty());
+    CHECK(field::open(tools::field_sections(map_sections, "cube"), view, map).ok());
+    object.map = &map;
   }
 };
 
@@ -250,6 +265,58 @@ TEST(InFreeSpaceOnlyWhatMayBeTouchedIsLookedFor) {
   }
   CHECK_GT(free_ticks, 2000u);
   CHECK_GT(near_steps, 0u);
+}
+
+// With a map a tick in free space is one look-up, from the first on, and what is felt is the same.
+TEST(WithAMapFreeSpaceTakesOneLookUpATickAndTouchIsTheSame) {
+  const MappedRig rig(12);
+  scene::MeshObject plain = rig.object;
+  plain.map = nullptr;
+  const float cell_m = rig.map.head().cell_m;
+  const float reach_m = 0.003f + 0.02f * rig.view.head().diagonal_m;
+  Tool tool, without;
+  uint32_t free_ticks = 0, contacts = 0;
+  for (int i = 0; i <= 4000; ++i) {
+    const float height_m = 0.03f + 0.035f * std::cos(static_cast<float>(i) * 3.1416e-3f);
+    const math::Vec3 p_m{0.011f + 0.02f * std::sin(static_cast<float>(i) * 0.01f), 0.007f,
+                         kHalf + height_m};
+    const math::Vec3 force_N = tool.force_N(rig.object, p_m);
+    CHECK_LE(far_from(force_N, without.force_N(plain, p_m)), 1e-4);
+    contacts += tool.touch.penetration_m > 0 ? 1 : 0;
+    const query::Certificate& certificate = tool.touch.closest.certificate;
+    if (certificate.steps == 1) {
+      ++free_ticks;
+      CHECK_EQ(tool.model.plane_count, 0u);
+      CHECK_EQ(certificate.sign, 1);
+      CHECK_GT(tool.model.free_radius_m, reach_m);
+      CHECK_LE(tool.model.free_radius_m, height_m * 1.00001f);
+      CHECK_GE(tool.touch.closest.distance_m, height_m * 0.99999f);
+    } else {  // the way to a cell's centre is at most 0.87 cells
+      CHECK_LE(height_m, reach_m + 1.8f * cell_m);
+    }
+  }
+  CHECK_GT(free_ticks, 2000u);
+  CHECK_GT(contacts, 500u);
+}
+
+TEST(InsideAMapDoesNotStandInForTheDepth) {
+  const MappedRig rig(12);
+  Tool tool;
+  for (int i = 0; i <= 100; ++i) {
+    const float depth_m = 0.0004f * static_cast<float>(i);
+    const math::Vec3 force_N = tool.force_N(rig.object, {0.001f, 0.002f, kHalf - depth_m});
+    CHECK_LE(far_from(force_N, {0, 0, (0.003f + depth_m) * 1000}), 2e-3);
+  }
+}
+
+TEST(AnUnsignedMapIsOfFreeSpaceAloneAndNothingIsPushedOn) {
+  const MappedRig rig(4, false);
+  Tool tool;
+  (void)tool.force_N(rig.object, {0, 0, 3 * kHalf});
+  CHECK_EQ(tool.touch.closest.certificate.steps, 1u);
+  CHECK_GT(tool.model.free_radius_m, 1.9f * kHalf);
+  CHECK_LE(far_from(tool.force_N(rig.object, {0, 0, kHalf - 0.001f}), {0, 0, 0}), 0.0);
+  CHECK_EQ(tool.touch.closest.certificate.sign, 0);
 }
 
 TEST(TwoToolsOnOneObjectDoNotFeelEachOther) {

@@ -63,25 +63,6 @@ Bounds distance_bounds(const View& map, Vec3 p_m) {
   return math::is_finite(p_m) ? bounds : Bounds{0, FLT_MAX, 0, query::kNowhere};
 }
 
-Felt closest_point(const View& map, const mesh::View& mesh, Vec3 p_m, float band_m,
-                   query::Budget budget, query::Hint& hint) {
-  Felt felt;
-  felt.bounds = distance_bounds(map, p_m);
-  if (felt.bounds.lower_m > band_m) {
-    felt.is_far = true;
-    hint.place = felt.bounds.seed;
-    hint.position_m = p_m;
-    hint.lower_m = felt.bounds.lower_m;
-    hint.sign = felt.bounds.sign;
-    hint.fence = query::kNowhere;
-    hint.fence_m = 0;
-    return felt;
-  }
-  if (hint.place == query::kNowhere) hint.place = felt.bounds.seed;
-  felt.closest = mesh::closest_point(mesh, p_m, budget, hint);
-  return felt;
-}
-
 uint64_t probe_hash(const View& map, core::Span<const query::ProbePoint> points) {
   core::Hash hash;
   for (const query::ProbePoint& p : points) {

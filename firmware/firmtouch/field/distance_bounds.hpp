@@ -2,7 +2,8 @@
 #include <stdint.h>
 
 #include "firmtouch/field/view.hpp"
-#include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/query/probe.hpp"
 
 namespace firmtouch::field {
 
@@ -23,21 +24,6 @@ struct Bounds {
 /// Result: lower_m >= 0 and both finite for every input; a query that is not finite: 0, FLT_MAX, 0.
 /// Error:  bounds are rounded outward through all float32 error (tests/field/bake_field_host_test.cpp).
 Bounds distance_bounds(const View& map, math::Vec3 p_m);
-
-/// An answer by map and mesh.
-struct Felt {
-  bool is_far = false;    // farther than the band: bounds say how far, the mesh was not asked
-  Bounds bounds;          // of the map
-  mesh::Closest closest;  // where it is not far
-};
-
-/// The closest point where it is within `band_m`, else certified bounds: one cell read in free space,
-/// the mesh's query near the surface, started at the cell's seed where the last one left no place.
-/// Pre: `map` was proven against `mesh`; the hint is used with this pair alone.
-/// Bounds: those of distance_bounds(), and of one mesh::closest_point() where it is not far.
-/// Result: is_far only where bounds.lower_m > band_m. Queries are exact as mesh::closest_point() says.
-Felt closest_point(const View& map, const mesh::View& mesh, math::Vec3 p_m, float band_m,
-                   query::Budget budget, query::Hint& hint);
 
 /// Hash of the bits of distance_bounds() of `points`.
 uint64_t probe_hash(const View& map, core::Span<const query::ProbePoint> points);

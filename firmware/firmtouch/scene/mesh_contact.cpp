@@ -1,5 +1,6 @@
 #include "firmtouch/scene/mesh_contact.hpp"
 
+#include "firmtouch/field/closest_point.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::scene {
@@ -33,6 +34,13 @@ Vec3 contact_normal(const mesh::Closest& c, Vec3 p_m, float diagonal_m) {
 // many times what a hand moves while a model lives.
 constexpr float kAhead = 0.02f;
 
+mesh::Closest ask(const MeshObject& object, Vec3 p_m, float reach_m, query::Budget budget,
+                  query::Hint& hint) {
+  if (object.map == nullptr || !object.map->is_open())
+    return mesh::closest_point(*object.mesh, p_m, budget, hint);
+  return field::closest_point(*object.map, *object.mesh, p_m, reach_m, budget, hint).closest;
+}
+
 }  // namespace
 
 void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query::Budget budget,
@@ -45,7 +53,7 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   // Certainly outside a moment ago: what is farther off than the sphere may reach need not be known.
   const float reach_m = radius_m + kAhead * object.mesh->head().diagonal_m;
   if (touch.hint.sign > 0 && reach_m < budget.band_m) budget.band_m = reach_m;
-  touch.closest = mesh::closest_point(*object.mesh, p_m, budget, touch.hint);
+  touch.closest = ask(object, p_m, reach_m, budget, touch.hint);
   const query::Certificate& certificate = touch.closest.certificate;
 
   SurfacePoint surface;

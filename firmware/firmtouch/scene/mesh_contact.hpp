@@ -1,6 +1,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/field/view.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/query/certificate.hpp"
@@ -14,6 +15,7 @@ namespace firmtouch::scene {
 /// may share a mesh.
 struct MeshObject {
   const mesh::View* mesh = nullptr;
+  const field::View* map = nullptr;  // proven against the mesh; or none, or one that is not open
   math::RigidTransform pose;
   Material material;
 };
@@ -22,7 +24,7 @@ struct MeshObject {
 /// owns one a pair.
 struct MeshTouch {
   query::Hint hint;
-  mesh::Closest closest;    // mesh frame
+  mesh::Closest closest;    // mesh frame; without a point where only the map was asked
   math::Vec3 normal;        // of the plane, device frame
   float penetration_m = 0;  // of the sphere; 0 in free space, and where the side is unknown
 };
@@ -34,7 +36,8 @@ struct MeshTouch {
 /// surface, where that direction loses its digits, it fades into the pseudonormal. Where the query
 /// was not exact, no more depth is rendered than its certificate proves. While the tool is certainly
 /// outside, the surface is looked for within 2 % of the diagonal beyond the sphere (a band query):
-/// farther off no plane is made, and the free radius is at least that.
+/// farther off no plane is made, and the free radius is at least that. With a distance map that
+/// takes one look-up, and then the free radius is all that the map certifies.
 /// Known limit of penalty contact: a wall thinner than twice the penetration is pushed through.
 /// Bounds: one query of at most `budget` steps, and about 200 instructions; re-entrant for
 /// different touches.

@@ -1,0 +1,61 @@
+#include "firmtouch/field/closest_point.hpp"
+
+#include "firmtouch/query/coherence.hpp"
+
+namespace firmtouch::field {
+namespace {
+
+using math::Vec3;
+
+// What the map knows about p, as if a query had left it.
+void leave_hint(const Bounds& bounds, Vec3 p_m, query::Hint& hint) {
+  hint.place = bounds.seed;
+  hint.position_m = p_m;
+  hint.lower_m = bounds.lower_m;
+  hint.sign = bounds.sign;
+  hint.fence = query::kNowhere;
+  hint.fence_m = 0;
+}
+
+// Where the last leaf is no help the cell's is; of what is certified the farther.
+void start_at_seed(const Bounds& bounds, float cell_m, Vec3 p_m, query::Hint& hint) {
+  const query::Carried carried = query::carry(hint, p_m);
+  if (hint.place != query::kNowhere && carried.motion_m <= cell_m) return;
+  leave_hint(bounds, p_m, hint);
+  if (carried.lower_m > bounds.lower_m) {
+    hint.lower_m = carried.lower_m;
+    hint.sign = carried.sign;
+  }
+}
+
+// What a search that its budget ended, or its band, left open.
+void stand_in(const Bounds& bounds, mesh::Closest& closest, query::Hint& hint) {
+  query::Certificate& certificate = closest.certificate;
+  if (bounds.lower_m > certificate.lower_m) certificate.lower_m = hint.lower_m = bounds.lower_m;
+  if (certificate.sign != 0 || bounds.sign == 0) return;
+  certificate.sign = hint.sign = bounds.sign;
+  if (bounds.sign < 0) closest.distance_m = -closest.distance_m;
+}
+
+}  // namespace
+
+Felt closest_point(const View& map, const mesh::View& mesh, Vec3 p_m, float band_m,
+                   query::Budget budget, query::Hint& hint) {
+  const Bounds bounds = distance_bounds(map, p_m);
+  Felt felt;
+  if (bounds.lower_m > band_m && bounds.sign >= 0) {
+    leave_hint(bounds, p_m, hint);
+    felt.is_far = true;
+    felt.closest.distance_m = bounds.upper_m;
+    felt.closest.certificate.lower_m = bounds.lower_m;
+    felt.closest.certificate.sign = bounds.sign;
+    felt.closest.certificate.steps = 1;
+    return felt;
+  }
+  start_at_seed(bounds, map.head().cell_m, p_m, hint);
+  felt.closest = mesh::closest_point(mesh, p_m, budget, hint);
+  if (!felt.closest.certificate.exact) stand_in(bounds, felt.closest, hint);
+  return felt;
+}
+
+}  // namespace firmtouch::field
