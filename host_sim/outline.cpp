@@ -93,7 +93,7 @@ std::vector<Vec> evenly(const std::vector<Vec>& line, size_t count) {
 }  // namespace
 
 std::vector<Vec> outline(const World& world, double height_m) {
-  if (!world.has_surface()) return {};
+  if (!world.has_mesh()) return {};
   const mesh::Head& head = world.mesh().head();
   double extent[3], middle[3];
   for (size_t k = 0; k < 3; ++k) {

@@ -48,7 +48,8 @@ struct Box {
 
 Box box_of(const World& world) {
   Box box;
-  if (world.has_surface())
+  for (const Vec& p : world.shell().vertices) box.take(p + world.origin_m());
+  if (world.has_mesh())
     for (const mesh::Vertex& v : world.mesh().vertices())
       box.take(
           Vec{static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)} +
@@ -80,7 +81,7 @@ Way way_along(const World& world, Vec start, double diagonal) {
   return way;
 }
 
-void add_setting(Lines& out, const Box& box, double diagonal, double tool_m) {
+void add_setting(Lines& out, const World& world, const Box& box, double diagonal, double tool_m) {
   const Vec middle = (box.low + box.high) * 0.5;
   const Vec half = {std::max(0.5, (box.high.x - box.low.x) + diagonal),
                     std::max(0.5, (box.high.y - box.low.y) + diagonal),
@@ -93,6 +94,12 @@ void add_setting(Lines& out, const Box& box, double diagonal, double tool_m) {
           half.y, half.z);
   out.add("\n# what is felt\ntool_radius %.4g mm", tool_m * 1e3);
   out.add("contact_stiffness 1200 N/m\nguide_stiffness 400 N/m");
+  if (world.has_surface() && !world.has_mesh()) {
+    const Sides sides = sides_of(world.shell());
+    out.add("surface_closed %d\nsurface_turned %d", sides.is_closed ? 1 : 0,
+            sides.is_turned ? 1 : 0);
+    out.add("mesh_steps 2048");  // a surface's part takes more than a triangle
+  }
   out.add("guide_snap %.4g mm\nguide_release %.4g mm", kSnap * diagonal * 1e3,
           kRelease * diagonal * 1e3);
 }
@@ -127,7 +134,7 @@ std::string plan_scenario(const World& world, const std::string& asset) {
   Lines out;
   out.line("# A hand explores the asset: made from its bounding box by `firmtouch-sim scenario`.");
   out.line("asset " + path_word(asset));
-  add_setting(out, box, diagonal, tool);
+  add_setting(out, world, box, diagonal, tool);
   out.add("\n# the hand\nhand_stiffness 400 N/m\nhand_damping 4 N*s/m");
   out.add("start %.6g %.6g %.6g m\nhold for %.4g s", start.x, start.y, start.z, kHold_s);
   if (world.has_surface()) add_press(out, world, start, tool, 1.3 * deep, kFirstPress_s);

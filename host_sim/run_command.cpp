@@ -98,7 +98,8 @@ int run_scenario(const std::vector<std::string>& words) {
                  {"--image", options.value("--image")}},
                 outputs);
   const Session session(path_beside(file, scenario.asset));
-  const World world = world_of(*session.controller, scene_origin_m(scenario));
+  World world = world_of(*session.controller, scene_origin_m(scenario));
+  world.turn(parameter_value(scenario, params::kSurfaceTurned) >= 0.5);
   const std::unique_ptr<Port> port =
       open_port(options.value("--controller"), options.value("--image"), session.asset.path(),
                 session.controller->asset_crc());

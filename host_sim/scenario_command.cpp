@@ -44,7 +44,8 @@ int make_scenario(const std::vector<std::string>& words) {
     throw Usage("scenario wants -o FILE or --outline FILE.csv");
   check_outputs({{"the asset", path}}, {{"-o", to}, {"--outline", outline_path}});
   const Session session(path);
-  const World world = world_of(*session.controller, {});
+  World world = world_of(*session.controller, {});
+  if (world.has_surface() && !world.has_mesh()) world.turn(sides_of(world.shell()).is_turned);
   if (!outline_path.empty()) {
     const std::vector<Vec> line = outline(world, kOutlineHeight * diagonal_m(world));
     if (line.empty())

@@ -8,11 +8,12 @@ namespace {
 std::string remedy_of(uint16_t rule) {
   switch (rule) {
     case kRuleNothingToFeel:
-      return "it holds neither a mesh nor a curve; bake one into it";
+      return "it holds neither a surface nor a curve; bake one into it";
     case kRuleArithmetic:
       return "this machine's floating-point mode differs from what the library needs";
     case kRuleMeshProbes:
     case kRuleCurveProbes:
+    case kRuleSplineProbes:
       return "this program answers its probe queries with other bits; bake it with the same "
              "version";
     default:

@@ -15,6 +15,8 @@ namespace {
 constexpr double kJudgedTriangles = 4e7;  // looked at by brute force in all: about half a second
 constexpr double kRounding =
     4e-7;  // of max(diagonal, distance): what a float32 answer may be off by
+constexpr double kOfSpline = 2.5;        // that promises 1e-6, rational
+constexpr double kSplineSamples = 4e2;   // of a piece
 constexpr double kBoundRounding = 1e-7;  // of the same: what the judge's own position may be off by
 
 Vec wide(const float (&v)[3]) {
@@ -37,10 +39,14 @@ std::vector<size_t> model_ticks(const Trace& trace) {
 
 void judge(Summary& summary, const World& world, const Trace& trace) {
   const mesh::View& mesh = world.mesh();
-  const double diagonal = static_cast<double>(mesh.head().diagonal_m);
-  const size_t count =
-      static_cast<size_t>(std::clamp(kJudgedTriangles / mesh.head().triangle_count, 20.0,
-                                     static_cast<double>(trace.records.size())));
+  const bool is_mesh = world.has_mesh();
+  const double size_m =
+      static_cast<double>(is_mesh ? mesh.head().diagonal_m : world.surface().head().extent_m);
+  // A sample of a spline takes about as long as ten triangles.
+  const double work =
+      is_mesh ? mesh.head().triangle_count : 10 * kSplineSamples * world.surface().pieces().size();
+  const size_t count = static_cast<size_t>(
+      std::clamp(kJudgedTriangles / work, 20.0, static_cast<double>(trace.records.size())));
   const size_t stride = std::max<size_t>(1, trace.records.size() / count);
   const std::vector<size_t> made = model_ticks(trace);
   std::vector<double> ratios;
@@ -49,8 +55,10 @@ void judge(Summary& summary, const World& world, const Trace& trace) {
     if ((out.state & record::kStateReady) == 0) continue;
     const record::TickOutput& asked = trace.records[made[i]].output;
     if ((asked.state & record::kStateReady) == 0 || out.model_sequence == 0) continue;
-    const double truth = brute_force_distance_m(mesh, wide(asked.position_m) - world.origin_m());
-    const double scale = std::max(diagonal, truth);
+    const Vec at = wide(asked.position_m) - world.origin_m();
+    const double truth =
+        is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(world.surface(), at);
+    const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kOfSpline);
     const double told = std::fabs(static_cast<double>(out.distance_m)),
                  lower = static_cast<double>(out.distance_lower_m);
     if (!(lower <= truth + kBoundRounding * scale) || !(told >= truth - kRounding * scale))

@@ -2,6 +2,8 @@
 #include <vector>
 
 #include "firmtouch/mesh/view.hpp"
+#include "firmtouch/spline/view.hpp"
+#include "host_sim/spline_shape.hpp"
 #include "host_sim/vec.hpp"
 
 namespace firmtouch {
@@ -15,14 +17,17 @@ namespace firmtouch::host_sim {
 class World {
  public:
   World() = default;
-  /// A mesh that is open, or not, and the corners of a guide, both about `origin_m`.
-  World(const mesh::View& mesh, std::vector<Vec> guide_m, Vec origin_m);
+  /// A mesh or spline surfaces that are open, or neither, and the corners of a guide, all about
+  /// `origin_m`.
+  World(const mesh::View& mesh, const spline::View& surface, std::vector<Vec> guide_m,
+        Vec origin_m);
 
   struct Surface {
     Vec point_m, normal;
     double distance_m = 0;  // signed
   };
-  bool has_surface() const { return mesh_.is_open(); }
+  bool has_surface() const { return mesh_.is_open() || surface_.is_open(); }
+  bool has_mesh() const { return mesh_.is_open(); }
   Surface nearest(Vec from_m) const;
 
   bool has_guide() const { return guide_m_.size() > 1; }
@@ -33,17 +38,25 @@ class World {
   Vec guide_at(double arc_m) const;
   const std::vector<Vec>& guide_m() const { return guide_m_; }
   const mesh::View& mesh() const { return mesh_; }
+  const spline::View& surface() const { return surface_; }
+  /// Triangles over the spline surfaces, about the origin of their own; none of a mesh.
+  const Shell& shell() const { return shell_; }
+  /// The free side of spline surfaces is the one away from their normals (surface_turned).
+  void turn(bool is_turned) { is_turned_ = is_turned; }
   Vec origin_m() const { return origin_m_; }
 
  private:
   mesh::View mesh_;
+  spline::View surface_;
+  Shell shell_;
+  bool is_turned_ = false;
   Vec origin_m_;
   std::vector<Vec> guide_m_;
   std::vector<double> arc_m_;
   bool closed_ = false;
 };
 
-/// The mesh and curve that a controller feels, moved to `origin_m`.
+/// The surface and curve that a controller feels, moved to `origin_m`.
 World world_of(const Controller& controller, Vec origin_m);
 
 }  // namespace firmtouch::host_sim

@@ -6,7 +6,7 @@
 #include "servo_interrupt.hpp"
 
 // For who has no device yet: joints that a hand made of numbers moves, instead of the board's. It
-// follows the asset's curve (a circle about its mesh where there is none), presses and lifts, and
+// follows the asset's curve (a circle about its surface where there is none), presses and lifts, and
 // holds the enable switch. What the motors push moves it, so that a change of a parameter is felt.
 // Everything else is the controller program as it is.
 
@@ -45,7 +45,25 @@ float share_of(float period_s) {
   return static_cast<float>(g_ticks % period) / static_cast<float>(period);
 }
 
-math::Vec3 on_a_circle(const mesh::Head& head) {
+struct Box {
+  float low_m[3] = {}, high_m[3] = {};
+};
+
+// Of the surface, of whichever kind; else of the splines that lead.
+bool find_box(const Controller& seen, Box& box) {
+  const auto take = [&](const auto& head) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      box.low_m[k] = head.low_m[k];
+      box.high_m[k] = head.high_m[k];
+    }
+    return true;
+  };
+  if (seen.mesh().is_open()) return take(seen.mesh().head());
+  if (seen.spline_surface().is_open()) return take(seen.spline_surface().head());
+  return seen.spline_guide().is_open() && take(seen.spline_guide().model().head());
+}
+
+math::Vec3 on_a_circle(const Box& head) {
   const float angle_rad = kTwoPi_rad * share_of(kRound_s);
   return {0.5f * (head.low_m[0] + head.high_m[0]) +
               0.5f * (head.high_m[0] - head.low_m[0]) * math::cosine(angle_rad),
@@ -68,9 +86,12 @@ math::Vec3 along_the_curve(const curve::View& curve) {
 // Where the hand wants the tool: on its way, and now deeper, now farther out.
 math::Vec3 wanted_m() {
   const Controller& seen = app::controller;
-  if (!seen.is_ready() || !seen.mesh().is_open()) return {};
-  const mesh::Head& head = seen.mesh().head();
-  const math::Vec3 way = seen.curve().is_open() ? along_the_curve(seen.curve()) : on_a_circle(head);
+  Box head;
+  if (!seen.is_ready() || !find_box(seen, head)) return {};
+  const math::Vec3 way = seen.curve().is_open() ? along_the_curve(seen.curve())
+                         : seen.spline_guide().is_open()
+                             ? spline::point_at_arc(seen.spline_guide(), share_of(kRound_s))
+                             : on_a_circle(head);
   const float swing = math::sine(kTwoPi_rad * share_of(kPress_s));
   const float in = swing > 0 ? kPressDepth * swing : kLiftHeight * swing;
   const math::Vec3 middle{0.5f * (head.low_m[0] + head.high_m[0]),

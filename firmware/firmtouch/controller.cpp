@@ -109,6 +109,33 @@ bool Controller::take_parameter(const record::TickInput& input) {
   return true;
 }
 
+Controller::Surface Controller::touch(const Wish& wish, const Values& v, servo::LocalModel& model) {
+  Geometry& g = live_.geometry;
+  const scene::Material material = {v[params::kContactStiffness], v[params::kContactDamping]};
+  if (opener_.spline_surface().is_open()) {
+    scene::SplineObject object;
+    object.surface = &opener_.spline_surface();
+    object.pose = scene_pose(v);
+    object.material = material;
+    object.is_turned = v[params::kSurfaceTurned] >= 0.5f;
+    object.is_closed = v[params::kSurfaceClosed] >= 0.5f;
+    scene::touch_spline(object, v[params::kToolRadius], wish.position_m,
+                        budget(v, params::kMeshSteps), g.spline, model);
+    const spline::Closest& closest = g.spline.closest;
+    const bool is_inside = closest.certificate.sign < 0;
+    return {is_inside ? -closest.distance_m : closest.distance_m, g.spline.penetration_m,
+            closest.certificate};
+  }
+  scene::MeshObject object;
+  object.mesh = &opener_.mesh();
+  object.map = &opener_.map();
+  object.pose = scene_pose(v);
+  object.material = material;
+  scene::touch_mesh(object, v[params::kToolRadius], wish.position_m, budget(v, params::kMeshSteps),
+                    g.touch, model);
+  return {g.touch.closest.distance_m, g.touch.penetration_m, g.touch.closest.certificate};
+}
+
 void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
   Geometry& g = live_.geometry;
   // The drive of a guide goes on by the time since the model before, at one rate a tick.
@@ -119,18 +146,13 @@ void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
   scene::begin_model(felt.model, wish.position_m, wish.tick,
                      static_cast<uint32_t>(v[params::kModelAge]));
   g.sequence = felt.model.sequence;
-  g.touch.penetration_m = 0;
+  Surface surface;
   if (wish.can_feel) {
-    scene::MeshObject object;
-    object.mesh = &opener_.mesh();
-    object.map = &opener_.map();
-    object.pose = scene_pose(v);
-    object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
-    scene::touch_mesh(object, v[params::kToolRadius], wish.position_m,
-                      budget(v, params::kMeshSteps), g.touch, felt.model);
+    surface = touch(wish, v, felt.model);
     scene::CurveGuide guide;
     guide.curve = &opener_.curve();
-    guide.pose = object.pose;
+    guide.spline = &opener_.spline_guide();
+    guide.pose = scene_pose(v);
     guide.material = {v[params::kGuideStiffness], v[params::kGuideDamping]};
     guide.snap_m = v[params::kGuideSnap];
     guide.release_m = v[params::kGuideRelease];
@@ -144,18 +166,17 @@ void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
     scene::follow_curve(guide, wish.position_m, budget(v, params::kCurveSteps), g.guide,
                         felt.model);
   }
-  const mesh::Closest& surface = g.touch.closest;
   const curve::Closest& line = g.guide.closest;
   felt.distance_m = surface.distance_m;
   felt.distance_lower_m = surface.certificate.lower_m;
-  felt.penetration_m = g.touch.penetration_m;
+  felt.penetration_m = surface.penetration_m;
   felt.guide_deviation_m = line.distance_m;
   felt.guide_lower_m = line.certificate.lower_m;
   felt.guide_arc = line.arc;
   felt.steps = surface.certificate.steps + line.certificate.steps;
   felt.guide_steps = line.certificate.steps;
   felt.state = static_cast<uint32_t>(surface.certificate.sign + 1) << record::kStateSignShift;
-  if (g.touch.penetration_m > 0) felt.state |= record::kStateContact;
+  if (surface.penetration_m > 0) felt.state |= record::kStateContact;
   if (g.guide.is_held) felt.state |= record::kStateOnGuide;
   if (surface.certificate.exact) felt.state |= record::kStateExact;
   if (line.certificate.exact) felt.state |= record::kStateGuideExact;

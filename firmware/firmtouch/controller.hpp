@@ -10,6 +10,7 @@
 #include "firmtouch/record/tick.hpp"
 #include "firmtouch/scene/curve_guide.hpp"
 #include "firmtouch/scene/mesh_contact.hpp"
+#include "firmtouch/scene/spline_contact.hpp"
 #include "firmtouch/servo/clock_watch.hpp"
 #include "firmtouch/servo/guard.hpp"
 #include "firmtouch/servo/step.hpp"
@@ -17,9 +18,10 @@
 namespace firmtouch {
 
 /// One composition of the rooms among possible ones: a Cartesian device of three axes feels one
-/// mesh by the sphere at its tip, beyond reach by the mesh's distance map where the asset has one, and
-/// is guided along one curve. Its size is the RAM that it takes: no heap, nothing static. Controllers
-/// are independent of each other and may share an asset.
+/// surface, a mesh or splines, by the sphere at its tip (beyond reach of a mesh by its distance map,
+/// where the asset has one), and is guided along one curve, of samples or splines. Its size is the RAM
+/// that it takes: no heap, nothing static. Controllers are independent of each other and may share an
+/// asset.
 class Controller {
  public:
   /// Starts to open an asset, which must outlive the controller; motors stay off until it is
@@ -68,6 +70,8 @@ class Controller {
   const mesh::View& mesh() const { return opener_.mesh(); }
   const field::View& map() const { return opener_.map(); }
   const curve::View& curve() const { return opener_.curve(); }
+  const spline::View& spline_surface() const { return opener_.spline_surface(); }
+  const spline::GuideView& spline_guide() const { return opener_.spline_guide(); }
   /// Tells assets apart; 0 before the asset's frame is proven.
   uint32_t asset_crc() const { return opener_.container().crc(); }
 
@@ -93,6 +97,7 @@ class Controller {
   // What making a model hands to the next one: of the tick, or of make_model(), never of both.
   struct Geometry {
     scene::MeshTouch touch;
+    scene::SplineTouch spline;
     scene::GuideTouch guide;
     uint32_t sequence = 0;
     uint32_t tick = 0;  // of the last model
@@ -108,6 +113,12 @@ class Controller {
     servo::GuardState guard;
     bool enable_was_low = false;  // in a tick with the asset ready
   };
+  // What a query said of the surface, of whichever kind.
+  struct Surface {
+    float distance_m = 0, penetration_m = 0;  // the first signed
+    query::Certificate certificate;
+  };
+  Surface touch(const Wish& wish, const params::Values& values, servo::LocalModel& model);
   bool take_parameter(const record::TickInput& input);
   void feel(const Wish& wish, const params::Values& values, Felt& felt);
   const Felt& felt_in(const Wish& wish, uint32_t lines);

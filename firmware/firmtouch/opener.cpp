@@ -1,5 +1,6 @@
 #include "firmtouch/opener.hpp"
 
+#include "firmtouch/core/bytes.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/math/arithmetic_check.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
@@ -53,6 +54,35 @@ curve::Sections curve_sections(const asset::Container& container, const char* na
   return sections;
 }
 
+spline::Sections spline_sections(const asset::Container& container, const char* name) {
+  spline::Sections sections;
+  sections.head = container.find(spline::kHeadSection, name);
+  sections.pieces = container.find(spline::kPiecesSection, name);
+  sections.coefficients = container.find(spline::kCoefficientsSection, name);
+  sections.leaves = container.find(spline::kLeavesSection, name);
+  sections.bends = container.find(spline::kBendsSection, name);
+  sections.places = container.find(spline::kPlacesSection, name);
+  sections.nodes = container.find(spline::kNodesSection, name);
+  sections.points = container.find(spline::kPointsSection, name);
+  return sections;
+}
+
+// A curve of splines that holds what a guide needs, or surfaces: what a head says, as yet unproven.
+bool is_of_kind(const asset::Container& container, const char* name, bool is_surface) {
+  const core::Span<const spline::Head> head =
+      core::as_whole_array<spline::Head>(container.find(spline::kHeadSection, name));
+  if (head.size() != 1 || (head[0].is_surface != 0) != is_surface) return false;
+  return is_surface || !container.find(spline::kArcsSection, name).empty();
+}
+
+const char* choose_spline(const asset::Container& container, const char* wanted, bool is_surface) {
+  if (wanted != nullptr) return is_of_kind(container, wanted, is_surface) ? wanted : nullptr;
+  for (uint32_t at = container.next_of_type(spline::kHeadSection); at != asset::kNoSection;
+       at = container.next_of_type(spline::kHeadSection, at + 1))
+    if (is_of_kind(container, container.name(at), is_surface)) return container.name(at);
+  return nullptr;
+}
+
 bool is_sensible(const query::Probes& probes) {
   return !probes.points.empty() && probes.points.size() <= kMostProbes;
 }
@@ -67,6 +97,8 @@ void Opener::begin(core::Bytes asset, Selection selection) {
   mesh_ = {};
   curve_ = {};
   map_ = {};
+  spline_surface_ = {};
+  spline_guide_ = {};
   asset_opening_ = asset::Opening(asset);
 }
 
@@ -116,6 +148,10 @@ bool Opener::work(uint32_t budget) {
     } else {
       refuse(curve_opening_.verdict());
     }
+  } else if (stage_ == Stage::kSplineSurface || stage_ == Stage::kSplineCurve) {
+    take_spline(budget);
+  } else if (stage_ == Stage::kSplineGuide) {
+    take_spline_guide(budget);
   } else if (stage_ == Stage::kMeshProbes) {
     run_mesh_probes();
   } else if (stage_ == Stage::kMap) {
@@ -129,28 +165,68 @@ bool Opener::work(uint32_t budget) {
     }
   } else if (stage_ == Stage::kCurveProbes) {
     run_curve_probes();
+  } else if (stage_ == Stage::kSurfaceProbes || stage_ == Stage::kGuideProbes) {
+    run_spline_probe();
   }
   return stage_ == Stage::kReady || stage_ == Stage::kRefused || stage_ == Stage::kIdle;
 }
 
 void Opener::start_mesh() {
   const char* name = choose(container_, mesh::kHeadSection, selection_.mesh);
-  if (name == nullptr && selection_.mesh != nullptr) return refuse(core::reject(kRuleNoSuchMesh));
+  if (name == nullptr) return start_spline_surface();
   selection_.mesh = name;
-  if (name == nullptr) return start_curve();
   mesh_opening_ = mesh::Opening(mesh_sections(container_, name));
   set_stage(Stage::kMesh);
 }
 
+void Opener::start_spline_surface() {
+  const char* name = choose_spline(container_, selection_.mesh, true);
+  if (name == nullptr && selection_.mesh != nullptr) return refuse(core::reject(kRuleNoSuchMesh));
+  selection_.mesh = name;
+  if (name == nullptr) return start_curve();
+  spline_opening_ = spline::Opening(spline_sections(container_, name));
+  set_stage(Stage::kSplineSurface);
+}
+
 void Opener::start_curve() {
   const char* name = choose(container_, curve::kHeadSection, selection_.curve);
+  if (name == nullptr) return start_spline_curve();
+  selection_.curve = name;
+  curve_opening_ = curve::Opening(curve_sections(container_, name));
+  set_stage(Stage::kCurve);
+}
+
+void Opener::start_spline_curve() {
+  const char* name = choose_spline(container_, selection_.curve, false);
   if (name == nullptr && selection_.curve != nullptr) return refuse(core::reject(kRuleNoSuchCurve));
   selection_.curve = name;
   if (name == nullptr && selection_.mesh == nullptr)
     return refuse(core::reject(kRuleNothingToFeel));
   if (name == nullptr) return set_stage(Stage::kMeshProbes);
-  curve_opening_ = curve::Opening(curve_sections(container_, name));
-  set_stage(Stage::kCurve);
+  spline_opening_ = spline::Opening(spline_sections(container_, name));
+  set_stage(Stage::kSplineCurve);
+}
+
+void Opener::take_spline(uint32_t budget) {
+  spline_opening_.work(budget / kBytesAnElement + 1);
+  if (!spline_opening_.done()) return;
+  if (!spline_opening_.verdict().ok()) return refuse(spline_opening_.verdict());
+  if (stage_ == Stage::kSplineSurface) {
+    spline_surface_ = spline_opening_.view();
+    return start_curve();
+  }
+  const spline::GuideSections sections{container_.find(spline::kArcsSection, selection_.curve),
+                                       container_.find(spline::kChainsSection, selection_.curve)};
+  guide_opening_ = spline::GuideOpening(spline_opening_.view(), sections);
+  set_stage(Stage::kSplineGuide);
+}
+
+void Opener::take_spline_guide(uint32_t budget) {
+  guide_opening_.work(budget / kBytesAnElement + 1);
+  if (!guide_opening_.done()) return;
+  if (!guide_opening_.verdict().ok()) return refuse(guide_opening_.verdict());
+  spline_guide_ = guide_opening_.view();
+  set_stage(Stage::kMeshProbes);
 }
 
 void Opener::run_mesh_probes() {
@@ -181,6 +257,25 @@ void Opener::run_curve_probes() {
       return refuse(core::reject(kRuleCurveProbes));
     }
   }
+  start_spline_probes(Stage::kSurfaceProbes);
+}
+
+void Opener::start_spline_probes(Stage stage) {
+  if (stage == Stage::kSurfaceProbes && !spline_surface_.is_open()) stage = Stage::kGuideProbes;
+  if (stage == Stage::kGuideProbes && !spline_guide_.is_open()) return set_stage(Stage::kReady);
+  const char* name = stage == Stage::kSurfaceProbes ? selection_.mesh : selection_.curve;
+  const query::Probes probes = query::read_probes(container_.find(spline::kProbesSection, name));
+  if (!is_sensible(probes)) return refuse(core::reject(kRuleSplineProbes));
+  spline_probes_ = spline::ProbeRun(probes);
+  set_stage(stage);
+}
+
+void Opener::run_spline_probe() {
+  const bool is_surface = stage_ == Stage::kSurfaceProbes;
+  spline_probes_.work(is_surface ? spline_surface_ : spline_guide_.model());
+  if (!spline_probes_.done()) return;
+  if (!spline_probes_.agrees()) return refuse(core::reject(kRuleSplineProbes));
+  if (is_surface) return start_spline_probes(Stage::kGuideProbes);
   set_stage(Stage::kReady);
 }
 

@@ -98,7 +98,7 @@ std::string hex_of(Colour colour) {
 }
 
 std::string data_of(const Report& report, const Stage& stage, const RunCharts& run) {
-  const bool closed = report.world.has_surface() && report.world.mesh().is_signed() &&
+  const bool closed = report.world.has_mesh() && report.world.mesh().is_signed() &&
                       stage.triangles.size() == stage.source_triangles;
   std::string text = "{\"toolRadius\":" + fixed(stage.tool_radius_m / stage.radius_m, 5) +
                      ",\"mesh\":" + mesh_text(stage, closed) + ",\"paths\":[";

@@ -46,19 +46,22 @@ void thin_out(Stage& stage, Vec low, double cell_m) {
   stage.triangles = std::move(kept);
 }
 
-void take_mesh(Stage& stage, const World& world) {
+void take_surface(Stage& stage, const World& world) {
   const mesh::View& mesh = world.mesh();
-  if (!mesh.is_open()) return;
+  if (!world.has_surface()) return;
   Vec low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  for (const mesh::Vertex& v : mesh.vertices()) {
-    const Vec p =
-        Vec{static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)} +
-        world.origin_m();
-    stage.vertices.push_back(p);
+  stage.vertices = world.shell().vertices;
+  stage.triangles = world.shell().triangles;
+  if (world.has_mesh())
+    for (const mesh::Vertex& v : mesh.vertices())
+      stage.vertices.push_back(
+          {static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)});
+  for (Vec& p : stage.vertices) {
+    p = p + world.origin_m();
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  for (uint32_t i = 0; i < mesh.head().triangle_count; ++i) {
+  for (uint32_t i = 0; world.has_mesh() && i < mesh.head().triangle_count; ++i) {
     const mesh::Triangle<uint32_t> t = mesh.triangle(i);
     stage.triangles.push_back({t.corner[0], t.corner[1], t.corner[2]});
   }
@@ -108,7 +111,7 @@ Colour heat(double share) {
 Stage make_stage(const World& world, const Trace& trace, double tool_radius_m) {
   Stage stage;
   stage.tool_radius_m = tool_radius_m;
-  take_mesh(stage, world);
+  take_surface(stage, world);
   if (world.has_guide())
     stage.paths.push_back({"guide", "guide", kGuideColour, 2.4, world.guide_m(), {}});
   Path device{"device", "device path (tool's centre)", kDeviceColour, 2, {}, {}};

@@ -6,6 +6,9 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
   firmtouch_test_room(host_sim LINKS firmtouch_test_part)
   add_test(NAME host_sim.outputs
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_outputs $<TARGET_FILE_DIR:firmtouch-sim>)
+  add_test(NAME host_sim.splines
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_spline_loop $<TARGET_FILE_DIR:firmtouch-sim>
+                   ${CMAKE_CURRENT_LIST_DIR}/../spline/cad)
   add_test(NAME host_sim.teach
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_teach $<TARGET_FILE_DIR:firmtouch-sim>)
 endif()

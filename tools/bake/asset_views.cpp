@@ -45,6 +45,12 @@ std::string prove_spline(const asset::Container& container, const std::string& n
   spline::View view;
   const core::Verdict verdict = spline::open(spline_sections_of(container, name.c_str()), view);
   if (!verdict.ok()) return "spline '" + name + "': " + rule_text(verdict);
+  if (!container.find(spline::kArcsSection, name.c_str()).empty()) {
+    spline::GuideView guide;
+    const core::Verdict of_guide =
+        spline::open_guide(view, spline_guide_sections_of(container, name.c_str()), guide);
+    if (!of_guide.ok()) return "guide along spline '" + name + "': " + rule_text(of_guide);
+  }
   const core::Bytes probes = container.find(spline::kProbesSection, name.c_str());
   if (probes.empty() || spline_probes_agree(view, probes)) return "";
   return "spline '" + name +
@@ -94,6 +100,11 @@ curve::Sections curve_sections_of(const asset::Container& container, const char*
   sections.boxes = container.find(curve::kBoxesSection, name);
   sections.runs = container.find(curve::kRunsSection, name);
   return sections;
+}
+
+spline::GuideSections spline_guide_sections_of(const asset::Container& container,
+                                               const char* name) {
+  return {container.find(spline::kArcsSection, name), container.find(spline::kChainsSection, name)};
 }
 
 spline::Sections spline_sections_of(const asset::Container& container, const char* name) {

@@ -7,6 +7,7 @@
 #include "firmtouch/field/view.hpp"
 #include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
+#include "firmtouch/spline/guide_view.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::tools {
@@ -14,6 +15,7 @@ namespace firmtouch::tools {
 /// The sections of one mesh, map, hull, curve or spline of an asset, as its room's open() takes them.
 mesh::Sections mesh_sections_of(const asset::Container& container, const char* name);
 curve::Sections curve_sections_of(const asset::Container& container, const char* name);
+spline::GuideSections spline_guide_sections_of(const asset::Container& container, const char* name);
 spline::Sections spline_sections_of(const asset::Container& container, const char* name);
 field::Sections field_sections_of(const asset::Container& container, const char* name);
 hull::Sections hull_sections_of(const asset::Container& container, const char* name);

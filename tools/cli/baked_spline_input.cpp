@@ -3,6 +3,7 @@
 #include "bake/bake_spline.hpp"
 #include "bake/probes.hpp"
 #include "bake/provenance.hpp"
+#include "bake/spline_guide.hpp"
 #include "bake/spline_worst.hpp"
 #include "bake/step_figures.hpp"
 #include "cli/baked_input.hpp"
@@ -49,21 +50,38 @@ std::string kind_of(const tools::SplineReport& report) {
 }
 
 tools::Facts facts_of(const tools::SplineReport& report, const tools::StepFigures& steps,
-                      const tools::WorstQuery& worst) {
-  return {{"kind", kind_of(report)},
-          {"entities", std::to_string(report.entities)},
-          {"pieces", std::to_string(report.pieces)},
-          {"leaves", std::to_string(report.leaves)},
-          {"levels", std::to_string(report.levels)},
-          {"extent_m", tools::number_text(report.extent_m)},
-          {"loss_m", tools::number_text(report.loss_m)},
-          {"deviation_m", tools::number_text(report.deviation_m)},
-          {"steps_random_mean", tools::number_text(steps.random_mean)},
-          {"steps_random_worst", std::to_string(steps.random_worst)},
-          {"steps_path_mean", tools::number_text(steps.path_mean)},
-          {"steps_path_worst", std::to_string(steps.path_worst)},
-          {"steps_worst_found", std::to_string(worst.steps)},
-          {"evaluations_worst_found", std::to_string(worst.evaluations)}};
+                      const tools::WorstQuery& worst, const tools::SplineGuideReport& guide) {
+  tools::Facts facts = {{"kind", kind_of(report)},
+                        {"entities", std::to_string(report.entities)},
+                        {"pieces", std::to_string(report.pieces)},
+                        {"leaves", std::to_string(report.leaves)},
+                        {"levels", std::to_string(report.levels)},
+                        {"extent_m", tools::number_text(report.extent_m)},
+                        {"loss_m", tools::number_text(report.loss_m)},
+                        {"deviation_m", tools::number_text(report.deviation_m)},
+                        {"steps_random_mean", tools::number_text(steps.random_mean)},
+                        {"steps_random_worst", std::to_string(steps.random_worst)},
+                        {"steps_path_mean", tools::number_text(steps.path_mean)},
+                        {"steps_path_worst", std::to_string(steps.path_worst)},
+                        {"steps_worst_found", std::to_string(worst.steps)},
+                        {"evaluations_worst_found", std::to_string(worst.evaluations)}};
+  if (guide.is_guide) {
+    facts.push_back({"length_m", tools::number_text(guide.length_m)});
+    facts.push_back({"chains", std::to_string(guide.chains)});
+    facts.push_back({"arc_error", tools::number_text(guide.arc_error)});
+  }
+  return facts;
+}
+
+std::string text_of(const tools::SplineGuideReport& guide) {
+  if (!guide.is_guide) return "no guide: its lengths could not be proven";
+  char text[200];
+  std::snprintf(text, sizeof(text),
+                "as a guide: %.4g m long, %u %s (%u closed), arc positions within %.1g of the "
+                "length, %llu bytes more",
+                guide.length_m, guide.chains, guide.chains == 1 ? "chain" : "chains",
+                guide.closed_chains, guide.arc_error, static_cast<unsigned long long>(guide.bytes));
+  return text;
 }
 
 std::string sentence(const char* format, double a, double b) {
@@ -95,6 +113,10 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   const core::Verdict verdict = spline::open(tools::spline_sections(baked.sections, name), view);
   if (!verdict.ok()) fail_input(path + ": its spline breaks rule R" + std::to_string(verdict.rule));
 
+  tools::SplineGuideReport guide;
+  for (tools::Section& section : tools::bake_spline_guide(view, name, guide))
+    baked.sections.push_back(std::move(section));
+
   progress.stage("counting steps on " + name);
   const tools::StepFigures steps = steps_of(view, model);
   const tools::WorstQuery worst = tools::find_worst(view);
@@ -102,7 +124,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   progress.stage("asking the probes of " + name);
   baked.sections.push_back(tools::spline_probes(view, name));
   baked.sections.push_back(
-      tools::text_section(asset::kBoundsSection, name, facts_of(report, steps, worst)));
+      tools::text_section(asset::kBoundsSection, name, facts_of(report, steps, worst, guide)));
   baked.sections.push_back(tools::text_section(
       asset::kProvenanceSection, name,
       tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
@@ -125,6 +147,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
                steps.path_mean, steps.path_worst),
       sentence("worst query that a search found: %.0f steps, %.0f of them evaluations", worst.steps,
                worst.evaluations)};
+  if (!report.is_surface) baked.report.push_back(text_of(guide));
   for (const std::string& note : model.notes) baked.report.push_back(note);
   return baked;
 }

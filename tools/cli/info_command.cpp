@@ -57,7 +57,9 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {spline::kPlacesSection, "spline places"},
                                          {spline::kNodesSection, "spline nodes"},
                                          {spline::kPointsSection, "spline points"},
-                                         {spline::kProbesSection, "spline probes"}};
+                                         {spline::kProbesSection, "spline probes"},
+                                         {spline::kArcsSection, "spline arcs"},
+                                         {spline::kChainsSection, "spline chains"}};
 
 const char* section_text(uint32_t type) {
   for (const SectionName& known : kSectionNames) {

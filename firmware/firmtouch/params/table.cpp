@@ -63,6 +63,10 @@ extern constexpr Entry kTable[kCount] = {
      "pushes along the guide; the most that leads or holds"},
     {"guide_drive_speed_mps", "m/s", -1.0f, 1.0f, 0.0f, When::kAnytime,
      "leads along the guide; 0: holds"},
+    {"surface_closed", "1", 0.0f, 1.0f, 0.0f, When::kAnytime,
+     "spline surfaces: 0: sheets, felt from their free side, 1: they enclose what they bound"},
+    {"surface_turned", "1", 0.0f, 1.0f, 0.0f, When::kAnytime,
+     "their free side: 0: to which their normals point, 1: the other one"},
 };
 
 namespace {

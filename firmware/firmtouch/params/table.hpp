@@ -46,6 +46,8 @@ enum Index : uint32_t {
   kGuideDrive,
   kGuideDriveForce,
   kGuideDriveSpeed,
+  kSurfaceClosed,
+  kSurfaceTurned,
   kCount
 };
 

@@ -43,6 +43,21 @@ Way free_way(const curve::Closest& c, Vec3 p_m, float diagonal_m) {
   return {any_across(u), false};
 }
 
+bool is_sampled(const CurveGuide& guide) {
+  return guide.curve != nullptr && guide.curve->is_open();
+}
+
+// A tick's query of a curve of either kind.
+struct Found {
+  bool is_new = false, is_held = false;
+  bool is_closed = false;
+  float moved_m = 0;                // since the last tick
+  float length_m = 0;               // of the way from end to end
+  float behind_m = 0, ahead_m = 0;  // to the ends
+  float size_m = 0;                 // of the curve: what float32 loses goes by it
+  int end = 0;  // past the first end of an open curve: -1, past the last: 1, beside it: 0
+};
+
 // -1: past the first end of an open curve, 1: past the last one, 0: beside the curve.
 int past_end(const curve::View& curve, const curve::Closest& c, Vec3 p_m) {
   if (curve.is_closed()) return 0;
@@ -53,14 +68,17 @@ int past_end(const curve::View& curve, const curve::Closest& c, Vec3 p_m) {
 
 // A tool that let go at an end is taken hold of again once it was clear of the guide, or came a way
 // back along it.
-bool stays_off(const CurveGuide& guide, const curve::Closest& c) {
-  const float from_end = c.arc < 0.5f ? c.arc : 1.0f - c.arc;
-  const float back_m = from_end * guide.curve->head().length_m;
-  return c.distance_m <= guide.snap_m && !(back_m >= guide.snap_m || from_end >= 0.25f);
+bool stays_off(const CurveGuide& guide, const Found& found, float distance_m) {
+  const float back_m = found.behind_m < found.ahead_m ? found.behind_m : found.ahead_m;
+  return distance_m <= guide.snap_m &&
+         !(back_m >= guide.snap_m || back_m >= 0.25f * found.length_m);
 }
 
 // Which end is nearer goes by their samples alone; from the next tick on the guide is there.
 void go_on_at_other_end(const CurveGuide& guide, int end, Vec3 p_m, GuideTouch& touch) {
+  if (!is_sampled(guide))
+    return spline::go_on_at_other_end(*guide.spline, end, p_m, touch.closest.distance_m,
+                                      touch.spline_following);
   const curve::View& curve = *guide.curve;
   const uint32_t last = curve.segment_count();
   const float there_m = math::length(p_m - curve.sample(end > 0 ? 0 : last));
@@ -69,53 +87,51 @@ void go_on_at_other_end(const CurveGuide& guide, int end, Vec3 p_m, GuideTouch& 
   touch.following.hint.place = end > 0 ? 0 : last - 1;
 }
 
-// Whether the guide holds the tool in this tick, `end` being the one that it is past.
-bool take_hold(const CurveGuide& guide, const curve::Followed& followed, int end,
-               GuideTouch& touch) {
+// Whether the guide holds the tool in this tick.
+bool take_hold(const CurveGuide& guide, const Found& found, GuideTouch& touch) {
   // Written so that NaN lets go. A release nearer than the snap would chatter: the farther of the
   // two counts.
-  const bool is_near = followed.is_held && followed.closest.distance_m <= guide.snap_m;
-  const bool was_held = touch.is_held && !followed.is_new && followed.is_held;
+  const float distance_m = touch.closest.distance_m;
+  const bool is_near = found.is_held && distance_m <= guide.snap_m;
+  const bool was_held = touch.is_held && !found.is_new && found.is_held;
   if (guide.ends != Ends::kRelease) {
     touch.is_off_end = false;
     return is_near || was_held;
   }
-  if (end != 0) {
-    touch.is_off_end = (touch.is_off_end || touch.is_held) && stays_off(guide, followed.closest);
+  if (found.end != 0) {
+    touch.is_off_end = (touch.is_off_end || touch.is_held) && stays_off(guide, found, distance_m);
     return false;
   }
-  if (touch.is_off_end && stays_off(guide, followed.closest)) return false;
+  if (touch.is_off_end && stays_off(guide, found, distance_m)) return false;
   touch.is_off_end = false;
   return is_near || was_held;
 }
 
 // Moves the carriage on, and with it as far from the tool as the most force stretches the spring.
-void lead(const CurveGuide& guide, float moved_m, float force_N, GuideTouch& touch) {
+void lead(const CurveGuide& guide, const Found& found, float moved_m, float force_N,
+          GuideTouch& touch) {
   const Drive& drive = guide.drive;
   const float step_m = drive.speed_mps * drive.tick_period_s;
   float ahead_m = touch.ahead_m + (step_m <= 1.0f && step_m >= -1.0f ? step_m : 0.0f) - moved_m;
   const float most_m = force_N / guide.material.stiffness_N_per_m;
   float low_m = -most_m, high_m = most_m;
-  if (!guide.curve->is_closed()) {  // a carriage stops at the ends
-    const float length_m = guide.curve->head().length_m;
-    const float back_m = -touch.closest.arc * length_m, on_m = back_m + length_m;
-    if (guide.ends != Ends::kGoOn) {
-      low_m = low_m > back_m ? low_m : back_m;
-      high_m = high_m < on_m ? high_m : on_m;
-    }
+  if (!found.is_closed && guide.ends != Ends::kGoOn) {  // a carriage stops at the ends
+    const float back_m = -found.behind_m, on_m = found.ahead_m;
+    low_m = low_m > back_m ? low_m : back_m;
+    high_m = high_m < on_m ? high_m : on_m;
   }
   ahead_m = ahead_m < high_m ? ahead_m : high_m;
   touch.ahead_m = ahead_m > low_m ? ahead_m : low_m;
 }
 
-void put_drive(const CurveGuide& guide, int end, float moved_m, bool is_along, GuideTouch& touch,
-               servo::GuideLine& line) {
+void put_drive(const CurveGuide& guide, const Found& found, float moved_m, bool is_along,
+               GuideTouch& touch, servo::GuideLine& line) {
   const Drive& drive = guide.drive;
   const float size_N = drive.force_N < 0.0f ? -drive.force_N : drive.force_N;
   const float limit_N = size_N <= servo::kMostDriveLimit_N ? size_N : 0.0f;
   if (drive.kind == Drive::Kind::kLead && guide.material.stiffness_N_per_m > 0.0f &&
       limit_N > 0.0f) {
-    lead(guide, moved_m, limit_N, touch);
+    lead(guide, found, moved_m, limit_N, touch);
     if (!is_along) return;
     const float speed_mps =
         drive.speed_mps <= 1e3f && drive.speed_mps >= -1e3f ? drive.speed_mps : 0.0f;
@@ -127,7 +143,8 @@ void put_drive(const CurveGuide& guide, int end, float moved_m, bool is_along, G
     return;
   }
   touch.ahead_m = 0;
-  const bool is_at_goal = guide.ends != Ends::kGoOn && (drive.force_N > 0.0f ? end > 0 : end < 0);
+  const bool is_at_goal =
+      guide.ends != Ends::kGoOn && (drive.force_N > 0.0f ? found.end > 0 : found.end < 0);
   if (drive.kind != Drive::Kind::kPush || !is_along || is_at_goal) return;
   line.drive_N = limit_N > 0.0f ? drive.force_N : 0.0f;
   line.drive_limit_N = limit_N;
@@ -147,15 +164,15 @@ void put_edge(const CurveGuide& guide, Vec3 tangent, const servo::GuideLine& lin
   (void)add_plane(model, edge);  // a model full of contacts keeps them
 }
 
-void put_line(const CurveGuide& guide, Vec3 p_m, int end, float moved_m, GuideTouch& touch,
-              servo::LocalModel& model) {
-  const Way way = free_way(touch.closest, p_m, guide.curve->head().diagonal_m);
+void put_line(const CurveGuide& guide, Vec3 p_m, const Found& found, float moved_m,
+              GuideTouch& touch, servo::LocalModel& model) {
+  const Way way = free_way(touch.closest, p_m, found.size_m);
   servo::GuideLine line;
   line.point_m = math::apply(guide.pose, touch.closest.point_m);
   line.direction = guide.pose.rotation * way.direction;
   const float tunnel_m = positive(guide.tunnel_m);
   line.tunnel_m = tunnel_m < servo::kMostTunnel_m ? tunnel_m : servo::kMostTunnel_m;
-  put_drive(guide, end, moved_m, way.is_along, touch, line);
+  put_drive(guide, found, moved_m, way.is_along, touch, line);
   const float side2 = math::dot(guide.free_side, guide.free_side);
   if (side2 >= kLeastSide * kLeastSide && side2 <= 1e6f) {
     put_edge(guide, guide.pose.rotation * touch.closest.tangent, line, model);
@@ -167,31 +184,75 @@ void put_line(const CurveGuide& guide, Vec3 p_m, int end, float moved_m, GuideTo
   (void)add_guide(model, line);  // a model that has a guide already keeps it
 }
 
+Found find_sampled(const CurveGuide& guide, Vec3 p_m, float release_m, query::Budget budget,
+                   GuideTouch& touch) {
+  const curve::View& curve = *guide.curve;
+  Found found;
+  found.length_m = curve.head().length_m;
+  found.size_m = curve.head().diagonal_m;
+  found.is_closed = curve.is_closed();
+  touch.following.is_following = touch.is_held;
+  const curve::Hold hold{positive(guide.arc_penalty) * found.length_m, release_m};
+  const curve::Followed followed = curve::follow(curve, p_m, hold, budget, touch.following);
+  touch.closest = followed.closest;
+  found.is_new = followed.is_new;
+  found.is_held = followed.is_held;
+  found.moved_m = followed.change_of_arc * found.length_m;
+  found.behind_m = touch.closest.arc * found.length_m;
+  found.ahead_m = found.length_m - found.behind_m;
+  found.end = past_end(curve, touch.closest, p_m);
+  return found;
+}
+
+Found find_spline(const CurveGuide& guide, Vec3 p_m, float release_m, query::Budget budget,
+                  GuideTouch& touch) {
+  const spline::GuideView& curve = *guide.spline;
+  touch.spline_following.is_following = touch.is_held;
+  const spline::Hold hold{positive(guide.arc_penalty) * curve.length_m(), release_m};
+  const spline::Followed followed =
+      spline::follow(curve, p_m, hold, budget, touch.spline_following);
+  touch.closest.distance_m = followed.closest.distance_m;
+  touch.closest.point_m = followed.closest.point_m;
+  touch.closest.tangent = followed.closest.direction;
+  touch.closest.segment = followed.closest.bezier;
+  touch.closest.arc = followed.arc;
+  touch.closest.certificate = followed.closest.certificate;
+  Found found;
+  found.is_new = followed.is_new;
+  found.is_held = followed.is_held;
+  found.is_closed = followed.is_chain_closed;
+  found.moved_m = followed.change_of_arc * curve.length_m();
+  found.behind_m = followed.behind_m;
+  found.ahead_m = followed.ahead_m;
+  found.length_m = followed.behind_m + followed.ahead_m;
+  found.size_m = curve.model().head().extent_m;
+  found.end = followed.end;
+  return found;
+}
+
 }  // namespace
 
 void follow_curve(const CurveGuide& guide, Vec3 position_m, query::Budget budget, GuideTouch& touch,
                   servo::LocalModel& model) {
-  if (guide.curve == nullptr || !guide.curve->is_open()) {
+  const bool is_spline = guide.spline != nullptr && guide.spline->is_open();
+  if (!is_sampled(guide) && !is_spline) {
     touch = {};
     return;
   }
   const Vec3 p_m = math::apply_inverse(guide.pose, position_m);
   const bool was_held = touch.is_held;
   const float farther_m = guide.release_m >= guide.snap_m ? guide.release_m : guide.snap_m;
-  const curve::Hold hold{positive(guide.arc_penalty) * guide.curve->head().length_m,
-                         farther_m < kMostReach_m ? farther_m : kMostReach_m};
-  touch.following.is_following = was_held;
-  const curve::Followed followed = curve::follow(*guide.curve, p_m, hold, budget, touch.following);
-  touch.closest = followed.closest;
-  const int end = past_end(*guide.curve, touch.closest, p_m);
-  touch.is_held = take_hold(guide, followed, end, touch);
-  const bool is_new = !was_held || followed.is_new;
+  const float release_m = farther_m < kMostReach_m ? farther_m : kMostReach_m;
+  const Found found = is_sampled(guide) ? find_sampled(guide, p_m, release_m, budget, touch)
+                                        : find_spline(guide, p_m, release_m, budget, touch);
+  touch.is_held = take_hold(guide, found, touch);
+  const bool is_new = !was_held || found.is_new;
   if (is_new || !touch.is_held) touch.progress_m = touch.ahead_m = 0;
   if (!touch.is_held) return;
-  const float moved_m = is_new ? 0.0f : followed.change_of_arc * guide.curve->head().length_m;
+  const float moved_m = is_new ? 0.0f : found.moved_m;
   touch.progress_m += moved_m;
-  put_line(guide, p_m, end, moved_m, touch, model);
-  if (guide.ends == Ends::kGoOn && end != 0) go_on_at_other_end(guide, end, p_m, touch);
+  put_line(guide, p_m, found, moved_m, touch, model);
+  if (guide.ends == Ends::kGoOn && found.end != 0) go_on_at_other_end(guide, found.end, p_m, touch);
 }
 
 }  // namespace firmtouch::scene

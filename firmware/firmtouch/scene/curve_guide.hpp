@@ -6,6 +6,7 @@
 #include "firmtouch/query/certificate.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/local_model.hpp"
+#include "firmtouch/spline/guided_point.hpp"
 
 namespace firmtouch::scene {
 
@@ -32,7 +33,8 @@ struct Drive {
 /// A curve, where it lies (pose: curve frame to device frame), how it pulls, and when it takes hold
 /// and lets go.
 struct CurveGuide {
-  const curve::View* curve = nullptr;
+  const curve::View* curve = nullptr;         // sampled; or, where that is not open,
+  const spline::GuideView* spline = nullptr;  // of splines
   math::RigidTransform pose;
   Material material;
   float snap_m = 0;     // nearer than this, the guide takes hold
@@ -54,7 +56,8 @@ struct CurveGuide {
 /// owns one a pair.
 struct GuideTouch {
   curve::Following following;
-  curve::Closest closest;  // curve frame; distance_m is the deviation
+  spline::Following spline_following;
+  curve::Closest closest;  // curve frame; distance_m is the deviation; of a spline segment = piece
   float progress_m = 0;    // along the curve since the guide took hold, rounds of a closed one too
   float ahead_m = 0;       // of the drive's carriage, from the closest point on
   bool is_held = false;
@@ -63,8 +66,8 @@ struct GuideTouch {
 
 /// Ties the tool at `position_m` (device frame) to the curve, across it only: along it the tool is
 /// free, or driven. At a corner, and past an end that holds, the pull is to that point itself, so that
-/// the force has no jump. Which part of the curve it is tied to: curve::follow().
-/// Bounds: one curve::follow() of `budget`, and about 300 instructions; re-entrant for different
+/// the force has no jump. Which part of the curve it is tied to: curve::follow(), spline::follow().
+/// Bounds: one of the two of `budget`, and about 300 instructions; re-entrant for different
 /// touches.
 /// Result: a sound model where the material is sound; numbers of the guide that are NaN count as 0.
 ///         Without a drive no force does work on a tool that comes back to where it was (beside the

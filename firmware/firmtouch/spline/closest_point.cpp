@@ -77,6 +77,9 @@ Closest answer_at(const View& model, const Best& best) {
   closest.piece = piece.entity;
   closest.u = piece.middle_u + piece.half_u * best.s;
   closest.v = piece.middle_v + piece.half_v * best.t;
+  closest.bezier = piece_of(model, best.leaf);
+  closest.s = best.s;
+  closest.t = best.t;
   closest.evaluations = best.evaluations;
   return closest;
 }
@@ -147,18 +150,29 @@ Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::
   return answer<CurveParts>(model, p_m, budget, hint);
 }
 
+namespace {
+
+void add_answer(const View& model, const query::ProbePoint& p, query::Hint& hint,
+                core::Hash& hash) {
+  const Closest c = closest_point(model, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint);
+  const float values[] = {c.distance_m,  c.point_m.x,          c.point_m.y,   c.point_m.z,
+                          c.direction.x, c.direction.y,        c.direction.z, c.u,
+                          c.v,           c.certificate.lower_m};
+  for (const float value : values) hash.add(math::bits_of(value));
+  hash.add(c.piece);
+  hash.add(c.certificate.steps);
+}
+
+}  // namespace
+
+void ProbeRun::work(const View& model) {
+  if (!done()) add_answer(model, probes_.points[next_++], hint_, hash_);
+}
+
 uint64_t probe_hash(const View& model, core::Span<const query::ProbePoint> points) {
   core::Hash hash;
   query::Hint hint;
-  for (const query::ProbePoint& p : points) {
-    const Closest c = closest_point(model, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint);
-    const float values[] = {c.distance_m,  c.point_m.x,          c.point_m.y,   c.point_m.z,
-                            c.direction.x, c.direction.y,        c.direction.z, c.u,
-                            c.v,           c.certificate.lower_m};
-    for (const float value : values) hash.add(math::bits_of(value));
-    hash.add(c.piece);
-    hash.add(c.certificate.steps);
-  }
+  for (const query::ProbePoint& p : points) add_answer(model, p, hint, hash);
   return hash.value();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/core/hash.hpp"
 #include "firmtouch/query/certificate.hpp"
 #include "firmtouch/query/hint.hpp"
 #include "firmtouch/query/probe.hpp"
@@ -15,6 +16,8 @@ struct Closest {
                          // there is none
   uint32_t piece = 0;    // the entity, in the order of the file
   float u = 0, v = 0;    // in the entity's own parameters; v = 0 for a curve
+  uint32_t bezier = 0;   // the piece of the asset, and where on it, -1 to 1
+  float s = 0, t = 0;
   uint32_t evaluations = 0;        // of the curve or surface, counted in certificate.steps too
   query::Certificate certificate;  // sign: always 0
 };
@@ -31,6 +34,23 @@ struct Closest {
 /// Error:  distance and, where exact, lower bound within 4e-7 of the extent (rational: 1e-6) and 6e-7
 ///         of the distance of the truth (tests/spline/closest_point_host_test.cpp).
 Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
+
+/// Probe queries one after the other with one hint, each in a slice of its own.
+class ProbeRun {
+ public:
+  ProbeRun() = default;
+  explicit ProbeRun(const query::Probes& probes) : probes_(probes) {}
+  /// Asks the next one.
+  void work(const View& model);
+  bool done() const { return next_ >= probes_.points.size(); }
+  bool agrees() const { return hash_.value() == probes_.hash; }
+
+ private:
+  query::Probes probes_;
+  core::Hash hash_;
+  query::Hint hint_;
+  uint32_t next_ = 0;
+};
 
 /// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.
 uint64_t probe_hash(const View& model, core::Span<const query::ProbePoint> points);
