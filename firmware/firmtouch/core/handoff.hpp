@@ -13,6 +13,8 @@ namespace firmtouch::core {
 ///   kMade   the fast side's again, which takes it when it likes: the two answers change places.
 /// Each change is made by the side that owns, so that a load and a store are enough. Both stores
 /// release and both loads acquire: what was written before the word changed is seen behind it.
+/// tests/core/handoff.pml is a model of these steps with store buffers and early loads: all four are
+/// shown to be needed there, and the relaxed store of take() to be enough.
 /// (tests/core/handoff_interrupt_host_test.cpp, tests/core/handoff_threads_host_test.cpp.)
 template <class Question, class Answer>
 class Handoff {
