@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -123,11 +125,15 @@ struct Recording {
   std::vector<Wish> wishes;
   uint32_t asked = 0, answered = 0;
   bool is_refused = false;
+  uint64_t came = 0;
+  uint32_t first = 0, last = 0;  // numbers
 
   void take(const link::Frame& frame) {
     link::Ack ack;
     if (frame.type == link::kLog && frame.payload.size() == 4 + records.record_bytes()) {
       records.push(frame.payload.data() + 4);
+      last = log::word(frame.payload.data() + 4, 0);
+      if (came++ == 0) first = last;
     } else if (frame.type == link::kAck && link::take(frame, ack) && answered < asked) {
       const Wish& wish = wishes[answered];
       if (ack.result == link::kAckBusy) {
@@ -152,6 +158,50 @@ struct Recording {
     controller.set_parameter(wishes[asked].index, wishes[asked].value);
     ++asked;
   }
+};
+
+// What is being recorded, twice a second where stderr is a terminal; what the disk refuses,
+// everywhere and once.
+class Watch {
+ public:
+  Watch(const Recording& session, log::Recorder& recorder, uint32_t decimation)
+      : session_(session), recorder_(recorder), decimation_(decimation) {}
+  ~Watch() { clear(); }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  void look(double now_s) {
+    const std::string trouble = recorder_.trouble();
+    if (!trouble.empty() && trouble != told_) {
+      clear();
+      std::cerr << "firmtouch-sim: " << trouble << "; it is tried again, "
+                << session_.records.capacity() << " records find room meanwhile\n";
+      told_ = trouble;
+    }
+    if (!is_terminal_ || now_s < next_s_) return;
+    next_s_ = now_s + 0.5;
+    const uint64_t due =
+        session_.came > 0 ? (session_.last - session_.first) / decimation_ + uint64_t{1} : 0;
+    std::fprintf(stderr, "\r\033[K%.1f s, %llu records, %llu missing, %u wait for the disk", now_s,
+                 static_cast<unsigned long long>(session_.came),
+                 static_cast<unsigned long long>(due - session_.came + session_.records.dropped()),
+                 session_.records.waiting());
+    std::fflush(stderr);
+    is_shown_ = true;
+  }
+
+ private:
+  void clear() {
+    if (is_shown_) std::cerr << "\r\033[K";
+    is_shown_ = false;
+  }
+  const Recording& session_;
+  log::Recorder& recorder_;
+  const uint32_t decimation_;
+  const bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+  bool is_shown_ = false;
+  double next_s_ = 0.5;
+  std::string told_;
 };
 
 }  // namespace
@@ -187,7 +237,8 @@ int record_live(const std::vector<std::string>& words) {
   log::Header header = header_of(controller, decimation, asset, path);
   QueuedRecords records(header.record_bytes, kRingBytes / header.record_bytes);
   log::DrainOptions drain;
-  drain.file_bytes = static_cast<uint64_t>(number_of(options, "--file-megabytes", 0, 0)) << 20;
+  drain.file_bytes =
+      static_cast<uint64_t>(number_of(options, "--file-megabytes", 0, 0) * (1 << 20));
   drain.keep_files = static_cast<uint32_t>(number_of(options, "--keep", 0, 0));
   log::Recorder recorder(records, header, drain, path);
   Recording session{controller, records, std::move(wishes)};
@@ -196,11 +247,12 @@ int record_live(const std::vector<std::string>& words) {
   const auto begin = std::chrono::steady_clock::now();
   std::string gone;
   try {
-    while (g_stop == 0 &&
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() <
-               seconds) {
+    Watch watch(session, recorder, decimation);
+    for (double now_s = 0; g_stop == 0 && now_s < seconds;
+         now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) {
       session.wish();
       controller.poll(50, [&](const link::Frame& frame) { session.take(frame); });
+      watch.look(now_s);
     }
     controller.leave();
   } catch (const Refused& refused) {
@@ -209,7 +261,9 @@ int record_live(const std::vector<std::string>& words) {
   const bool is_closed = recorder.stop();
   const log::DrainTotals& totals = recorder.totals();
   if (!gone.empty()) std::cerr << "firmtouch-sim: " << gone << "\n";
-  if (!is_closed) std::cerr << "firmtouch-sim: " << totals.problem << "\n";
+  if (!is_closed)
+    std::cerr << "firmtouch-sim: " << totals.problem << "; " << records.waiting()
+              << " records that came could not be written\n";
   std::cerr << path << ": " << totals.records << " records, " << totals.missing << " missing, "
             << totals.bytes << " bytes in " << totals.files
             << (totals.files == 1 ? " file" : " files")

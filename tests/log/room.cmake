@@ -6,6 +6,9 @@ if(TARGET firmtouch_tools_log)
   target_compile_definitions(test_log PRIVATE FIRMTOUCH_ROOT="${PROJECT_SOURCE_DIR}")
   # A hundred million tries (--long).
   set_tests_properties(log.ADamagedLogGivesNoBlockThatWasNotWritten PROPERTIES TIMEOUT 7200)
+  # Ten minutes of real time (--long).
+  set_tests_properties(log.AtTenKilohertzADiskThatStallsCostsTheDefaultRingNothingAndASmallOneWhatItTells
+    PROPERTIES TIMEOUT 1800)
   if(TARGET firmtouch-sim AND TARGET firmtouch-app-posix)
     add_test(NAME log.commands COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_commands $<TARGET_FILE_DIR:firmtouch-sim>)
   endif()

@@ -180,8 +180,10 @@ TEST(APlotShowsItsLinesBrokenWhereRecordsAreMissing) {
                             "Speed", "Period of the ticks"})
     CHECK_GE(count(svg, title), 1u);
   CHECK_EQ(count(svg, "Position of the tool"), 0u);  // the log has none
-  CHECK_EQ(count(svg, "50 missing"), 6u);            // once in its head
-  CHECK_EQ(count(svg, "fault: deadline"), 5u);
+  CHECK_EQ(count(svg, "50 missing in 1 place<"), 1u);
+  CHECK_EQ(count(svg, "class=\"missing\""), 5u);
+  CHECK_EQ(count(svg, "fault: deadline, from 0.90"), 1u);
+  CHECK_EQ(count(svg, "fault: the last one"), 1u);
   CHECK_EQ(count(svg, "<polyline"), 10u);  // each of five lines in two pieces
   CHECK_EQ(count(svg, "<svg"), count(svg, "</svg>"));
   CHECK_EQ(count(svg, "var(--"), 0u);
@@ -189,9 +191,33 @@ TEST(APlotShowsItsLinesBrokenWhereRecordsAreMissing) {
   const std::string page = log::plot(path, {"output.steps", "output.force_N"}, true);
   CHECK_EQ(count(page, "<polyline"), 8u);
   CHECK_GE(count(page, "50 before record 400"), 1u);
+  CHECK_EQ(count(log::plot(path, {"output.faults"}, false), "fault: deadline"), 1u);  // in words
   CHECK(refusal([&] {
           log::plot(path, {"output.colour"}, false);
         }).find("no field output.colour") != std::string::npos);
+}
+
+TEST(ARunThatStoodStillOrLostItsNumbersIsDrawnAndTold) {
+  Folder folder;
+  const std::string path = folder.name + "/a.ftl";
+  std::vector<Tick> ticks = sample_ticks();
+  for (Tick& tick : ticks) {
+    tick.steps = 0;
+    tick.force_N[0] = tick.force_N[2] = tick.velocity_mps[0] = 0;
+  }
+  write(path, ticks);
+  CHECK_EQ(count(log::plot(path, {}, false), "nan"), 0u);
+  write(path, {ticks[3]});
+  CHECK_EQ(count(log::plot(path, {}, false), "<circle"), 4u);  // a period takes two
+  ticks[500].force_N[1] = std::nanf("");
+  ticks[501].velocity_mps[2] = -INFINITY;
+  write(path, ticks);
+  const std::string svg = log::plot(path, {}, false);
+  CHECK_EQ(count(svg, "nan") + count(svg, "inf"), 0u);
+  CHECK_EQ(count(svg, "2 with values that are no numbers"), 1u);
+  log::Reader reader(log::open_file(path), path);
+  const std::string told = log::text_of(log::statistics_of(reader));
+  CHECK_EQ(count(told, "output.force_N[1]: first at record 550, in 2 records"), 1u);
 }
 
 }  // namespace

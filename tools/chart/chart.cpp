@@ -18,11 +18,12 @@ class Plot {
     for (const Series& s : chart.series)
       for (const double v : s.values) most = std::max(most, v), least = std::min(least, v);
     if (chart.is_logarithmic) {
-      high_ = 1;
+      high_ = 4;
       while (high_ < most * 1.05) high_ *= 2;
       for (double v = 1; v * 1.5 <= high_; v *= 4) marks_.push_back(v);
     } else {
-      marks_ = round_numbers(0, std::max((most - least) * 1.04, 1e-9), 4);
+      if (!(most - least > 1e-30)) most = 1;
+      marks_ = round_numbers(0, (most - least) * 1.04, 4);
       const double step = marks_[1];
       if (least < 0) {
         low_ = std::floor(least * 1.04 / step) * step;
@@ -44,10 +45,12 @@ class Plot {
   }
   double base() const { return size_.height - size_.bottom; }
 
+  std::string scale() const;
   std::string frame() const;
   std::string bands() const;
   std::string off() const;
-  std::string line(const Series& series) const;
+  std::string missing() const;
+  std::string line(const Series& series, size_t index) const;
   std::string points(const std::vector<double>& values, size_t from, size_t to) const;
   std::string limit() const;
   std::string events() const;
@@ -75,18 +78,25 @@ int decimals_of(const std::vector<double>& marks) {
   return step >= 1 ? 0 : std::min(4, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
 }
 
+// As a decimal number where that is short.
+std::string mark_text(double mark, const std::vector<double>& marks) {
+  const double step = marks.size() > 1 ? marks[1] - marks[0] : 1;
+  if (step >= 1e-4 && step <= 1e6) return fixed(mark, decimals_of(marks));
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", mark);
+  return text;
+}
+
 std::string Plot::frame() const {
   std::string svg;
   const double right = size_.width - size_.right;
-  const int decimals = chart_.is_logarithmic ? 0 : decimals_of(marks_);
   for (const double mark : marks_) {
     svg += rule(size_.left, y(mark), right, y(mark), "stroke=\"var(--grid)\"");
     svg += text_at(size_.left - 8, y(mark) + 4, "text-anchor=\"end\" fill=\"var(--soft)\"",
-                   fixed(mark, decimals));
+                   chart_.is_logarithmic ? fixed(mark, 0) : mark_text(mark, marks_));
   }
   if (low_ < 0) svg += rule(size_.left, y(0), right, y(0), "stroke=\"var(--line)\"");
   const std::vector<double> times = round_numbers(0, axis_.seconds, 10);
-  const int time_decimals = decimals_of(times);
   for (const double time : times) {
     if (time > axis_.seconds * 1.0001) continue;
     svg += rule(x(time), base(), x(time), base() + 4, "stroke=\"var(--line)\"");
@@ -94,12 +104,21 @@ std::string Plot::frame() const {
     svg += text_at(
         x(time), base() + 18,
         std::string("text-anchor=\"") + (at_end ? "end" : "middle") + "\" fill=\"var(--soft)\"",
-        fixed(time, time_decimals) + (time > 0 ? "" : " s"));
+        mark_text(time, times) + (time > 0 ? "" : " s"));
   }
   svg += rule(size_.left, base(), right, base(), "stroke=\"var(--line)\"");
   return svg + text_at(size_.left - 8, size_.top - 5,
                        "text-anchor=\"end\" fill=\"var(--soft)\" font-style=\"italic\"",
                        chart_.unit);
+}
+
+// For a page that tells the value at the pointer: those at the lower and the upper border.
+std::string Plot::scale() const {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "\" data-base=\"%.1f\" data-top=\"%.1f\" data-low=\"%.9g\" data-high=\"%.9g",
+                base(), size_.top, chart_.is_logarithmic ? 1.0 : low_, high_);
+  return text + std::string(chart_.is_logarithmic ? "\" data-log=\"1" : "");
 }
 
 std::string Plot::bands() const {
@@ -125,6 +144,15 @@ std::string Plot::off() const {
            fixed(std::max(0.6, x(to) - x(from)), 1) + "\" height=\"" +
            fixed(base() - size_.top, 1) + "\" fill=\"var(--soft)\" fill-opacity=\".16\"/>";
   }
+  return svg;
+}
+
+std::string Plot::missing() const {
+  std::string svg;
+  for (const auto& [from, to] : axis_.missing_s)
+    svg += "<rect class=\"missing\" x=\"" + fixed(x(from), 1) + "\" y=\"" + fixed(size_.top, 1) +
+           "\" width=\"" + fixed(std::max(0.8, x(to) - x(from)), 1) + "\" height=\"" +
+           fixed(base() - size_.top, 1) + "\" fill=\"var(--bad)\" fill-opacity=\".13\"/>";
   return svg;
 }
 
@@ -154,7 +182,7 @@ std::string Plot::points(const std::vector<double>& values, size_t from, size_t 
 }
 
 // Piece by piece between the NaNs.
-std::string Plot::line(const Series& series) const {
+std::string Plot::line(const Series& series, size_t index) const {
   const std::vector<double>& values = series.values;
   const size_t n = values.size();
   std::string svg;
@@ -169,12 +197,19 @@ std::string Plot::line(const Series& series) const {
     const auto time = [&](size_t i) {
       return axis_.seconds * static_cast<double>(i) / static_cast<double>(n);
     };
+    if (to - from == 1) {  // a line of no length would not be seen
+      svg += "<circle cx=\"" + fixed(x(time(from)), 1) + "\" cy=\"" + fixed(y(values[from]), 1) +
+             "\" r=\"" + fixed(series.width, 1) + "\" fill=\"" + series.colour + "\"/>";
+      from = to;
+      continue;
+    }
     if (series.is_area)
       svg += "<polygon points=\"" + fixed(x(time(from)), 1) + "," + fixed(base(), 1) + " " + line +
-             " " + fixed(x(time(to)), 1) + "," + fixed(base(), 1) + "\" fill=\"" + series.colour +
-             "\" fill-opacity=\".14\"/>";
-    svg += "<polyline points=\"" + line + "\" fill=\"none\" stroke=\"" + series.colour +
-           "\" stroke-width=\"" + fixed(series.width, 1) + "\" stroke-linejoin=\"round\"/>";
+             " " + fixed(x(time(to - 1)), 1) + "," + fixed(base(), 1) + "\" fill=\"" +
+             series.colour + "\" fill-opacity=\".14\"/>";
+    svg += "<polyline data-series=\"" + std::to_string(index) + "\" points=\"" + line +
+           "\" fill=\"none\" stroke=\"" + series.colour + "\" stroke-width=\"" +
+           fixed(series.width, 1) + "\" stroke-linejoin=\"round\"/>";
     from = to;
   }
   return svg;
@@ -195,6 +230,7 @@ std::string Plot::events() const {
     const bool at_end = x(time) > size_.width * 0.8;
     svg +=
         rule(x(time), size_.top, x(time), base(), "stroke=\"var(--bad)\" stroke-dasharray=\"2 3\"");
+    if (name.empty()) continue;
     svg += text_at(
         x(time) + (at_end ? -5 : 5), size_.top + 13,
         kOnCard + "text-anchor=\"" + (at_end ? "end" : "start") + "\" fill=\"var(--bad)\"", name);
@@ -241,11 +277,12 @@ std::string with_colours(std::string svg) {
 std::string html_of(const std::string& text) {
   std::string html;
   for (const char c : text)
-    html += c == '&'   ? "&amp;"
-            : c == '<' ? "&lt;"
-            : c == '>' ? "&gt;"
-            : c == '"' ? "&quot;"
-                       : std::string(1, c);
+    html += c == '&'                                        ? "&amp;"
+            : c == '<'                                      ? "&lt;"
+            : c == '>'                                      ? "&gt;"
+            : c == '"'                                      ? "&quot;"
+            : (c >= 0 && c < ' ' && c != '\n') || c == 0x7F ? "?"  // no page may hold them
+                                                            : std::string(1, c);
   return html;
 }
 
@@ -254,13 +291,13 @@ std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& si
   std::string svg = "<svg class=\"chart\" viewBox=\"0 0 " + fixed(size.width, 0) + " " +
                     fixed(size.height, 0) + "\" data-chart=\"" + std::to_string(index) +
                     "\" data-left=\"" + fixed(size.left, 0) + "\" data-right=\"" +
-                    fixed(size.width - size.right, 0) +
+                    fixed(size.width - size.right, 0) + plot.scale() +
                     "\" font-family=\"system-ui,Segoe UI,Roboto,Helvetica,Arial,sans-serif\" "
                     "font-size=\"12\" role=\"img\" "
                     "aria-label=\"" +
                     html_of(chart.title) + " over time\">";
-  svg += plot.frame() + plot.bands();
-  for (const Series& series : chart.series) svg += plot.line(series);
+  svg += plot.frame() + plot.missing() + plot.bands();
+  for (size_t i = 0; i < chart.series.size(); ++i) svg += plot.line(chart.series[i], i);
   svg += plot.off() + plot.limit() + plot.events();
   svg += "<line class=\"cursor\" y1=\"" + fixed(size.top, 0) + "\" y2=\"" + fixed(plot.base(), 0) +
          "\" stroke=\"var(--ink)\" stroke-opacity=\".55\" style=\"display:none\"/>";

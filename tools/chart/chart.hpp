@@ -6,7 +6,8 @@
 
 namespace firmtouch::chart {
 
-/// A line of a chart, its values evenly spaced over the time; NaN interrupts it.
+/// A line of a chart, its values evenly spaced over the time; NaN interrupts it. The others are
+/// within 1e30.
 struct Series {
   std::string label;
   std::string colour;  // CSS
@@ -30,8 +31,9 @@ struct TimeAxis {
   double seconds = 1;
   using Spans = std::vector<std::pair<double, double>>;
   Spans contact_s, guide_s;
-  Spans off_s;  // motors off after a fault: shown in grey
-  std::vector<std::pair<double, std::string>> events;
+  Spans off_s;                                         // motors off after a fault: shown in grey
+  Spans missing_s;                                     // of which nothing is known: shown in red
+  std::vector<std::pair<double, std::string>> events;  // the text may be empty
 };
 
 struct ChartSize {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -74,7 +75,8 @@ int info(const std::string& path) {
   if (header.decimation > 1) std::printf("every %u-th tick only\n", header.decimation);
   for (const auto& [key, text] : header.text) {
     const size_t end = text.find('\n');
-    std::printf("  %-20s %s%s\n", key.c_str(), text.substr(0, end).c_str(),
+    std::printf("  %-20s %s%s\n", log::printable(key).c_str(),
+                log::printable(text.substr(0, end)).c_str(),
                 end == std::string::npos ? "" : " ...");
   }
   std::printf("\n  %-26s %-8s %s\n", "field", "unit", "stored as");
@@ -86,6 +88,12 @@ int info(const std::string& path) {
     const std::string count = field.count > 1 ? " x " + std::to_string(field.count) : "";
     std::printf("  %-26s %-8s %s%s%s\n", field.name.c_str(), field.unit.c_str(),
                 kTypes[static_cast<int>(field.type)], count.c_str(), scale);
+  }
+  std::string field;
+  for (const log::Bit& bit : header.bits) {
+    if (bit.field != field) std::printf("\n  bits of %s\n", bit.field.c_str());
+    field = bit.field;
+    std::printf("    %2u  %s\n", bit.bit, bit.what.c_str());
   }
   return told(path, reader.troubles());
 }
@@ -112,7 +120,11 @@ int csv(const std::string& path, const Arguments& arguments) {
       columns_of(path, reader.header(), list_of(arguments.text("--fields", "")));
   TextOutput out(arguments.text("-o", ""));
   std::string text;
-  for (const log::Column& column : columns) text += (text.empty() ? "" : ",") + column.name;
+  for (const log::Column& column : columns) {
+    std::string name = column.name;
+    std::replace(name.begin(), name.end(), ',', ';');  // a name of this project has none
+    text += (text.empty() ? "" : ",") + name;
+  }
   out.add(text + "\n");
   log::Block block;
   while (reader.next(block)) {
@@ -132,10 +144,11 @@ int plot(const std::string& path, const Arguments& arguments) {
   const std::string extension = extension_of(output);
   if (extension != ".svg" && extension != ".html")
     fail_usage("log: plot wants -o FILE.svg or -o FILE.html");
+  std::string troubles;
   const std::string text =
-      log::plot(path, list_of(arguments.text("--fields", "")), extension == ".html");
+      log::plot(path, list_of(arguments.text("--fields", "")), extension == ".html", &troubles);
   write_file(output, text.data(), text.size());
-  return kDone;
+  return told(path, troubles);
 }
 
 // A record's number, or a time as "2.5s".
@@ -155,20 +168,23 @@ uint64_t place_of(const std::string& path, const std::string& name, const std::s
 int cut(const std::string& path, const Arguments& arguments, const std::string& output) {
   const uint64_t from = place_of(path, "--from", arguments.text("--from", ""), 0);
   const uint64_t to = place_of(path, "--to", arguments.text("--to", ""), UINT64_MAX);
-  const uint64_t records = log::cut(path, from, to, output);
+  std::string troubles;
+  const uint64_t records = log::cut(path, from, to, output, &troubles);
   std::fprintf(stderr, "%s: %llu records\n", output.c_str(),
                static_cast<unsigned long long>(records));
-  return kDone;
+  return told(path, troubles);
 }
 
 int join(const std::vector<std::string>& words, const std::string& output) {
   std::vector<std::string> paths = {words[0]};
   paths.insert(paths.end(), words.begin() + 2, words.end());
   for (const std::string& path : paths) forbid_overwriting(output, path);
-  const uint64_t records = log::join(paths, output);
+  std::string troubles;
+  const uint64_t records = log::join(paths, output, &troubles);
   std::fprintf(stderr, "%s: %llu records\n", output.c_str(),
                static_cast<unsigned long long>(records));
-  return kDone;
+  if (!troubles.empty()) std::fprintf(stderr, "firmtouch: %s\n", troubles.c_str());
+  return troubles.empty() ? kDone : kAnswerIsNo;
 }
 
 int stats(const std::string& path, bool is_json) {

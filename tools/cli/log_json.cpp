@@ -1,5 +1,6 @@
 #include "cli/log_json.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include "bake/json_text.hpp"
@@ -20,7 +21,9 @@ class Json {
     return *this;
   }
   Json& add(const std::string& name, uint64_t value) { return add(name, std::to_string(value)); }
-  Json& add(const std::string& name, double value) { return add(name, number(value, "%.9g")); }
+  Json& add(const std::string& name, double value) {
+    return add(name, std::isfinite(value) ? number(value, "%.9g") : "null");
+  }
   std::string object() const { return "{" + text_ + "}"; }
 
  private:
@@ -58,6 +61,12 @@ std::string json_of(const log::Statistics& s) {
   all.add("worst_steps", json_list(s.worst_steps, [](const log::Statistics::Steps& at) {
             return Json().add("number", at.number).add("steps", uint64_t{at.steps}).object();
           }));
+  if (s.not_finite.records > 0)
+    all.add("not_finite", Json()
+                              .add("records", s.not_finite.records)
+                              .add("first_number", s.not_finite.first_number)
+                              .add("first_field", tools::json_text(s.not_finite.first_field))
+                              .object());
   all.add("most_force_N", s.most_force_N).add("most_force_number", s.most_force_number);
   all.add("faults", json_list(s.faults, [](const log::Statistics::Fault& fault) {
             return Json()

@@ -82,7 +82,8 @@ void check_same_run(const std::string& path, const Header& first, const Header& 
 
 }  // namespace
 
-uint64_t cut(const std::string& path, uint64_t from, uint64_t to, const std::string& output) {
+uint64_t cut(const std::string& path, uint64_t from, uint64_t to, const std::string& output,
+             std::string* troubles) {
   Reader reader(open_file(path), path);
   Header header = reader.header();
   header.text["cut"] = std::to_string(from) + " to " + std::to_string(to);
@@ -97,8 +98,8 @@ uint64_t cut(const std::string& path, uint64_t from, uint64_t to, const std::str
       if (number < to) end = i + 1;
     }
     if (begin < end) out.append(block.record(begin), end - begin);
-    if (end < block.count) break;
   }
+  if (troubles != nullptr) *troubles = reader.troubles();
   if (out.records() == 0)
     throw std::runtime_error(path + ": no record has a number from " + std::to_string(from) +
                              " to below " + std::to_string(to));
@@ -127,7 +128,8 @@ uint64_t number_at(const std::string& path, double seconds) {
   return found;
 }
 
-uint64_t join(const std::vector<std::string>& paths, const std::string& output) {
+uint64_t join(const std::vector<std::string>& paths, const std::string& output,
+              std::string* troubles) {
   const Reader first(open_file(paths.at(0)), paths[0]);
   Header header = first.header();
   header.text.erase("part");
@@ -148,6 +150,8 @@ uint64_t join(const std::vector<std::string>& paths, const std::string& output) 
              (word(block.record(block.count - 1), 0) - static_cast<uint32_t>(block.first_number)) +
              1;
     }
+    if (troubles != nullptr && troubles->empty() && !reader.is_whole())
+      *troubles = path + ": " + reader.troubles();
   }
   out.close();
   return out.records();

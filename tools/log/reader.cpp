@@ -251,7 +251,8 @@ std::string Reader::troubles() const {
   for (const Damage& damage : damage_) bytes += damage.bytes;
   for (const Gap& gap : gaps_) lost += gap.of_blocks;
   if (!damage_.empty())
-    text += "damaged in " + std::to_string(damage_.size()) + " places, the first at byte " +
+    text += "damaged in " + std::to_string(damage_.size()) +
+            (damage_.size() == 1 ? " place, at byte " : " places, the first at byte ") +
             std::to_string(damage_[0].offset) + " (rule L" + std::to_string(damage_[0].rule) +
             "), " + std::to_string(bytes) + " bytes and " + std::to_string(lost) +
             " records between whole blocks lost";

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #if defined(__linux__)
 #include <sys/resource.h>
@@ -36,24 +37,40 @@ std::string part_path(const std::string& path, uint32_t part) {
       .string();
 }
 
+Recorder::Recorder(Records& records, Header header, DrainOptions options, Drain::Make make,
+                   Drain::Remove remove)
+    : drain_(records, std::move(header), options, std::move(make), std::move(remove)),
+      thread_([this] { run(); }) {}
+
 Recorder::Recorder(Records& records, Header header, DrainOptions options, const std::string& path)
-    : drain_(
+    : Recorder(
           records, std::move(header), options,
           [path](uint32_t part, std::string& problem) {
             return make_file(part_path(path, part), problem);
           },
-          [path](uint32_t part) { std::remove(part_path(path, part).c_str()); }),
-      thread_([this] { run(); }) {}
+          [path](uint32_t part) { std::remove(part_path(path, part).c_str()); }) {}
 
 Recorder::~Recorder() { stop(); }
 
 void Recorder::run() {
   lower_priority();
   const auto begin = std::chrono::steady_clock::now();
+  uint32_t told = 0;
   while (!is_stopping_.load(std::memory_order_acquire)) {
     const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begin;
-    if (!drain_.step(now.count())) std::this_thread::sleep_for(kNap);
+    const bool is_more = drain_.step(now.count());
+    if (drain_.totals().failures != told) {
+      told = drain_.totals().failures;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      trouble_ = drain_.totals().problem;
+    }
+    if (!is_more) std::this_thread::sleep_for(kNap);
   }
+}
+
+std::string Recorder::trouble() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(trouble_, std::string());
 }
 
 bool Recorder::stop() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -15,6 +16,9 @@ class Recorder {
  public:
   /// The first file is `path`; further ones `stem.0002.ftl` and so on beside it.
   Recorder(Records& records, Header header, DrainOptions options, const std::string& path);
+  /// To files of the caller's kind.
+  Recorder(Records& records, Header header, DrainOptions options, Drain::Make make,
+           Drain::Remove remove);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -22,6 +26,9 @@ class Recorder {
   /// Writes what is left and closes the log. Result: false where the disk refused; totals() says
   /// why.
   bool stop();
+  /// What the disk refused since this was asked last, while the records wait in the ring and it is
+  /// tried again; empty where nothing was.
+  std::string trouble();
   /// After stop().
   const DrainTotals& totals() const { return drain_.totals(); }
 
@@ -30,6 +37,8 @@ class Recorder {
 
   Drain drain_;
   std::atomic<bool> is_stopping_{false};
+  std::mutex mutex_;
+  std::string trouble_;  // guarded by mutex_
   bool is_closed_ = false;
   std::thread thread_;
 };

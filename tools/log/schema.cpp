@@ -54,6 +54,7 @@ bool read_number(const std::string& text, double& number) {
 bool read_field(std::istringstream& words, Header& header) {
   std::string type, count, name, unit, scale, zero, rest;
   if (!(words >> type >> count >> name >> unit >> scale >> zero) || (words >> rest)) return false;
+  name = printable(name);
   Field field;
   uint32_t kind = 0;
   while (kind < 3 && type != kTypeNames[kind]) ++kind;
@@ -62,7 +63,7 @@ bool read_field(std::istringstream& words, Header& header) {
   if (header.find(name) != nullptr) return false;
   field.type = static_cast<Type>(kind);
   field.name = name;
-  field.unit = unit;
+  field.unit = printable(unit);
   header.fields.push_back(field);
   return true;
 }
@@ -72,8 +73,9 @@ bool read_bit(std::istringstream& words, Header& header) {
   std::string field, number;
   Bit bit;
   if (!(words >> field >> number) || !read_count(number, 0, 31, bit.bit)) return false;
-  bit.field = field;
+  bit.field = printable(field);
   std::getline(words >> std::ws, bit.what);
+  bit.what = printable(bit.what);
   header.bits.push_back(bit);
   return !bit.what.empty();
 }
@@ -114,6 +116,12 @@ std::vector<Column> Header::columns() const {
   return list;
 }
 
+std::string printable(std::string text) {
+  for (char& c : text)
+    if ((c >= 0 && c < ' ') || c == 0x7F) c = '?';
+  return text;
+}
+
 std::string text_of(const Header& header) {
   std::string text;
   for (const Field& field : header.fields)
@@ -132,7 +140,8 @@ std::string parse(const std::string& text, uint32_t record_bytes, Header& header
   std::string line;
   for (size_t number = 1; std::getline(lines, line); ++number)
     if (!read_line(line, header))
-      return "line " + std::to_string(number) + " of its text is not understood: " + line;
+      return "line " + std::to_string(number) +
+             " of its text is not understood: " + printable(line).substr(0, 100);
   header.record_bytes = record_bytes;
   return "";
 }

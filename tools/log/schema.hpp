@@ -46,6 +46,9 @@ struct Header {
   std::vector<Column> columns() const;
 };
 
+/// Without the characters that command a terminal: for words of a log that may come from anywhere.
+std::string printable(std::string text);
+
 /// The text of a log's head: `field` lines, `bit` lines, `decimation`, then `key value` lines in the
 /// order of their keys.
 std::string text_of(const Header& header);

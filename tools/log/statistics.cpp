@@ -19,7 +19,10 @@ class Collector {
         steps_(header.find("output.steps")),
         faults_(header.find("output.faults")),
         force_(header.find("output.force_N")),
-        seen_(32) {}
+        seen_(32) {
+    for (const Column& column : header.columns())
+      if (column.field->type == Type::kF32) floats_.push_back(column);
+  }
 
   void take(uint64_t number, const uint8_t* record) {
     if (result_.records == 0) result_.first_number = number;
@@ -27,6 +30,7 @@ class Collector {
     if (steps_ != nullptr) take_steps(number, word(record, steps_->offset));
     if (faults_ != nullptr) take_faults(number, word(record, faults_->offset));
     if (force_ != nullptr) take_force(number, record);
+    take_floats(number, record);
     ++result_.records;
     result_.last_number = number;
   }
@@ -82,6 +86,16 @@ class Collector {
       result_.most_force_N = force_N, result_.most_force_number = number;
   }
 
+  void take_floats(uint64_t number, const uint8_t* record) {
+    constexpr uint32_t kExponent = 0x7F800000u;  // all of it set: not finite
+    for (const Column& column : floats_) {
+      if ((word(record, column.offset) & kExponent) != kExponent) continue;
+      if (result_.not_finite.records++ == 0)
+        result_.not_finite.first_number = number, result_.not_finite.first_field = column.name;
+      return;
+    }
+  }
+
   void close_period() {
     Statistics::Period& period = result_.period;
     period.count = passed_.size();
@@ -111,6 +125,7 @@ class Collector {
   uint32_t last_clock_ = 0, longest_ = 0;
   uint64_t all_passed_ = 0;
   std::vector<uint32_t> passed_;
+  std::vector<Column> floats_;
   std::vector<Statistics::Fault> seen_;
 };
 

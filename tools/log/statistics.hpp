@@ -36,6 +36,12 @@ struct Statistics {
     uint64_t records = 0;  // that show it
   };
   std::vector<Fault> faults;  // in the order of their bits
+  // Records that hold an infinity or no number at all, and where that is seen first.
+  struct NotFinite {
+    uint64_t records = 0;
+    uint64_t first_number = 0;
+    std::string first_field;
+  } not_finite;
   double most_force_N = 0;
   uint64_t most_force_number = 0;
 };

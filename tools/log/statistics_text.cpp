@@ -59,6 +59,11 @@ std::string text_of(const Statistics& s) {
   for (const Statistics::Fault& fault : s.faults)
     text += row("fault", fault.what + ": first at record " + std::to_string(fault.first_number) +
                              ", in " + std::to_string(fault.records) + " records");
+  if (s.not_finite.records > 0)
+    text += row("no numbers", s.not_finite.first_field + ": first at record " +
+                                  std::to_string(s.not_finite.first_number) + ", in " +
+                                  std::to_string(s.not_finite.records) +
+                                  " records some value is not finite");
   if (s.faults.empty()) text += row("faults", "none");
   return text;
 }
