@@ -14,9 +14,8 @@ namespace {
 Surface surface_of(const hull::Shell& shell) {
   Surface surface;
   for (uint32_t i = 0; i < shell.face_count(); ++i) {
-    const hull::ShellFace& face = shell.face(i);
-    for (const uint16_t corner : face.corner)
-      surface.vertices.push_back(hull::vertex(shell, corner));
+    for (uint32_t k = 0; k < 3; ++k)
+      surface.vertices.push_back(hull::vertex(shell, shell.vertex_of(i, k)));
     surface.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return surface;

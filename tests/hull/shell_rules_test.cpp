@@ -68,7 +68,23 @@ TEST(R544VertexThatLiesElsewhere) {
 }
 
 TEST(R545CornerOutOfRange) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_faces()[3].corner[1] = 60000; }), 545'003u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_corners()[1] = 60000; }), 545'000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_faces()[3] |= 0x00F0; }), 545'003u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_faces()[3] ^= 0x1000; }), 545'003u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.shell_faces()[4] |= 0xF000; }), 545'004u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { ++h.shell_corner_places()[1]; }), 545'008u);
+  SmallHull whole;
+  const uint32_t last = (whole.shell_leaves() - 1) * hull::kLeafFaces;
+  CHECK_EQ(refusal_with([&](SmallHull& h) {
+             for (uint32_t i = last; i < h.shell_head().face_count; ++i)
+               h.shell_faces()[i] = static_cast<hull::ShellFace>(h.shell_faces()[i] + 0x1000);
+           }),
+           545'000u + last);
+  CHECK_EQ(refusal_with([&](SmallHull& h) {  // one corner that no leaf has
+             for (uint32_t i = last; i < h.shell_head().face_count; ++i)
+               h.shell_faces()[i] = static_cast<hull::ShellFace>(h.shell_faces()[i] - 0x1000);
+           }) / 1000,
+           545u);
 }
 
 TEST(R546TrianglesThatAreNotTheFaces) {
@@ -86,10 +102,9 @@ TEST(R547FaceOutsideItsLeaf) {
 
 TEST(R548FacesThatDoNotClose) {
   const auto turned = [](SmallHull& h) {
-    hull::ShellFace& face = h.shell_faces()[0];
-    const uint16_t corner = face.corner[0];
-    face.corner[0] = face.corner[1];
-    face.corner[1] = corner;
+    const uint32_t face = h.shell_faces()[0];
+    h.shell_faces()[0] =
+        static_cast<hull::ShellFace>((face & 0xFF00u) | (face & 15u) << 4 | (face >> 4 & 15u));
   };
   CHECK_EQ(refusal_with(turned), 548'000u);
 }

@@ -54,20 +54,33 @@ struct SmallHull {
 
   // Parts of the shell, by the layout's own order.
   uint8_t* shell_boxes() { return open_up(sections.shell) + sizeof(hull::ShellHead); }
+  uint32_t shell_leaves() { return hull::leaves_for(shell_head().face_count, hull::kLeafFaces); }
+  uint32_t* shell_corner_places() {
+    return reinterpret_cast<uint32_t*>(shell_boxes() +
+                                       hull::padded(6 * hull::nodes_for(shell_leaves())));
+  }
   hull::ShellFace* shell_faces() {
-    const uint32_t nodes = hull::nodes_for(hull::leaves_for(shell_head().face_count, 8));
-    return reinterpret_cast<hull::ShellFace*>(shell_boxes() + hull::padded(6 * nodes));
+    return reinterpret_cast<hull::ShellFace*>(shell_corner_places() +
+                                              hull::corner_places_for(shell_leaves()));
+  }
+  uint16_t* shell_corners() {
+    return reinterpret_cast<uint16_t*>(reinterpret_cast<uint8_t*>(shell_faces()) +
+                                       hull::padded(2 * shell_head().face_count));
   }
   uint8_t* shell_coordinates() {
-    return reinterpret_cast<uint8_t*>(shell_faces()) + hull::padded(6 * shell_head().face_count);
+    return reinterpret_cast<uint8_t*>(shell_corners()) +
+           hull::padded(2 * shell_head().corner_count);
   }
-  uint8_t* shell_ids() { return shell_coordinates() + hull::padded(6 * shell_head().made_count); }
   hull::ShellVertex* shell_kept() {
-    return reinterpret_cast<hull::ShellVertex*>(shell_ids() +
-                                                hull::padded(2 * shell_head().made_count));
+    return reinterpret_cast<hull::ShellVertex*>(shell_coordinates() +
+                                                hull::padded(6 * shell_head().made_count));
+  }
+  uint8_t* shell_ids() {
+    return reinterpret_cast<uint8_t*>(shell_kept() + shell_head().kept_count);
   }
   hull::ShellTriangle* shell_triangles() {
-    return reinterpret_cast<hull::ShellTriangle*>(shell_kept() + shell_head().kept_count);
+    return reinterpret_cast<hull::ShellTriangle*>(shell_ids() +
+                                                  hull::padded(2 * shell_head().made_count));
   }
 };
 

@@ -108,13 +108,12 @@ int main() {
   is_sound = at != asset::kNoSection && hull::open(sections_of(file, file.name(at)), view).ok() &&
              hull::bit_words(view.collapse_count()) <= sizeof g_bits / 4;
   if (is_sound) {
+    const uint32_t resident = view.shell().resident_bytes();
+    is_sound = resident <= sizeof g_shell;
     const core::Bytes stored = file.find(hull::kShellSection, file.name(at));
-    is_sound = stored.size() <= sizeof g_shell;
-    if (is_sound) __builtin_memcpy(g_shell, stored.data(), stored.size());
-    is_sound =
-        is_sound &&
-        hull::open_shell({reinterpret_cast<const uint8_t*>(g_shell), stored.size()}, view, shell)
-            .ok();
+    if (is_sound) __builtin_memcpy(g_shell, stored.data(), resident);
+    shell = view.shell().resident({reinterpret_cast<const uint8_t*>(g_shell), resident});
+    is_sound = is_sound && shell.is_open();
   }
   if (!is_sound) {
     hal::board_print("no hull in the asset, or a rule rejects it, or it is too large\n");

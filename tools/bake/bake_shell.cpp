@@ -15,9 +15,9 @@ class Encoder {
       : source_(source), mesh_vertices_(source.head.mesh_vertex_count) {}
 
   std::vector<uint8_t> run() {
+    order_faces();
     number_vertices();
     if (ids_.size() > hull::kMostShellVertices) return {};
-    order_faces();
     hull::ShellHead head{};
     head.cut = source_.cut;
     head.face_count = static_cast<uint32_t>(source_.faces.size());
@@ -28,27 +28,21 @@ class Encoder {
     std::copy(whole.low_m, whole.low_m + 3, head.low_m);
     std::copy(whole.high_m, whole.high_m + 3, head.high_m);
     bytes_.resize(sizeof head);
-    put(filled_boxes(head.face_count, hull::kLeafFaces, whole, [&](uint32_t i) {
-      hull::Box box = box_of_point(at(source_.faces[order_[i]][0]));
-      for (const uint32_t id : source_.faces[order_[i]]) grow(box, box_of_point(at(id)));
-      return box;
-    }));
-    std::vector<hull::ShellTriangle> triangles;
-    std::vector<hull::ShellFace> faces;
-    for (const uint32_t from : order_) {
-      const auto& f = source_.faces[from];
-      if (source_.triangles[from] != kNone)
-        triangles.push_back({static_cast<uint32_t>(faces.size()), source_.triangles[from]});
-      faces.push_back({{local(f[0]), local(f[1]), local(f[2])}});
-    }
-    put(faces);
-    put_made();
+    put(filled_boxes(head.face_count, hull::kLeafFaces, BoxesWithin::kWhole, whole,
+                     [&](uint32_t i) { return boxes_[order_[i]]; }));
+    put_faces(head);
+    put(coordinates_of_made());
     std::vector<hull::ShellVertex> kept;
     for (size_t i = made_; i < ids_.size(); ++i) {
       const math::Vec3 v = at(ids_[i]);
       kept.push_back({ids_[i], v.x, v.y, v.z});
     }
     put(kept);
+    put(ids_of_made());
+    std::vector<hull::ShellTriangle> triangles;
+    for (uint32_t i = 0; i < order_.size(); ++i)
+      if (source_.triangles[order_[i]] != kNone)
+        triangles.push_back({i, source_.triangles[order_[i]]});
     put(triangles);
     head.triangle_count = static_cast<uint32_t>(triangles.size());
     head.bytes = static_cast<uint32_t>(bytes_.size());
@@ -60,40 +54,77 @@ class Encoder {
   math::Vec3 at(uint32_t id) const { return source_.vertices_m[source_.numbers[id]]; }
   bool is_kept(uint32_t id) const { return source_.numbers[id] < mesh_vertices_; }
 
-  // Those made by a collapse first.
+  // Those made by a collapse first, each kind as the faces meet it: a leaf's corners have numbers that
+  // lie together.
   void number_vertices() {
-    for (const auto& face : source_.faces) ids_.insert(ids_.end(), face.begin(), face.end());
-    std::sort(ids_.begin(), ids_.end());
-    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
-    const auto kept = std::stable_partition(ids_.begin(), ids_.end(),
-                                            [this](uint32_t id) { return !is_kept(id); });
-    made_ = static_cast<uint32_t>(kept - ids_.begin());
     local_.assign(source_.numbers.size(), kNone);
-    for (uint32_t i = 0; i < ids_.size(); ++i) local_[ids_[i]] = i;
+    for (const bool is_kept_turn : {false, true}) {
+      for (const uint32_t from : order_) {
+        for (const uint32_t id : source_.faces[from]) {
+          if (is_kept(id) != is_kept_turn || local_[id] != kNone) continue;
+          local_[id] = static_cast<uint32_t>(ids_.size());
+          ids_.push_back(id);
+        }
+      }
+      if (!is_kept_turn) made_ = static_cast<uint32_t>(ids_.size());
+    }
   }
   uint16_t local(uint32_t id) const { return static_cast<uint16_t>(local_[id]); }
 
   void order_faces() {
-    std::vector<math::Vec3> middles_m;
     for (const auto& f : source_.faces) {
-      const math::Vec3 a = at(f[0]), b = at(f[1]), c = at(f[2]);
-      middles_m.push_back({a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z});
+      hull::Box box = box_of_point(at(f[0]));
+      for (const uint32_t id : f) grow(box, box_of_point(at(id)));
+      boxes_.push_back(box);
     }
-    order_ = filled_order(middles_m, hull::kLeafFaces);
+    order_ = filled_order(boxes_, hull::kLeafFaces);
   }
 
-  void put_made() {
+  // Each leaf's corners as its faces meet them.
+  void put_faces(hull::ShellHead& head) {
+    std::vector<uint32_t> places;
+    std::vector<uint16_t> corners;
+    std::vector<hull::ShellFace> faces;
+    for (uint32_t first = 0; first < order_.size(); first += hull::kLeafFaces) {
+      const size_t begin = corners.size(),
+                   end = std::min<size_t>(first + hull::kLeafFaces, order_.size());
+      if (first / hull::kLeafFaces % 2 == 0) places.push_back(static_cast<uint32_t>(begin));
+      for (size_t i = first; i < end; ++i) {
+        uint32_t face = 0;
+        for (uint32_t k = 0; k < 3; ++k) {
+          const uint16_t vertex = local(source_.faces[order_[i]][k]);
+          const auto from = corners.begin() + static_cast<std::ptrdiff_t>(begin);
+          const auto found = std::find(from, corners.end(), vertex);
+          face |= static_cast<uint32_t>(found - from) << (4 * k);
+          if (found == corners.end()) corners.push_back(vertex);
+        }
+        faces.push_back(static_cast<hull::ShellFace>(face));
+      }
+      for (size_t i = first; i < end; ++i)
+        faces[i] = static_cast<hull::ShellFace>(faces[i] | (corners.size() - begin) << 12);
+    }
+    head.corner_count = static_cast<uint32_t>(corners.size());
+    put(places);
+    put(faces);
+    put(corners);
+  }
+
+  std::vector<uint8_t> coordinates_of_made() const {
     const uint32_t one = 3 * source_.head.coordinate_bytes;
-    std::vector<uint8_t> coordinates, ids;
+    std::vector<uint8_t> coordinates;
     for (uint32_t i = 0; i < made_; ++i) {
       const uint8_t* from =
           source_.coordinates + size_t{source_.numbers[ids_[i]] - mesh_vertices_} * one;
       coordinates.insert(coordinates.end(), from, from + one);
+    }
+    return coordinates;
+  }
+  std::vector<uint8_t> ids_of_made() const {
+    std::vector<uint8_t> ids;
+    for (uint32_t i = 0; i < made_; ++i)
       for (uint32_t k = 0; k < source_.head.id_bytes; ++k)
         ids.push_back(static_cast<uint8_t>(ids_[i] >> (8 * k)));
-    }
-    put(coordinates);
-    put(ids);
+    return ids;
   }
 
   template <class T>
@@ -105,6 +136,7 @@ class Encoder {
 
   const ShellSource& source_;
   const uint32_t mesh_vertices_;
+  std::vector<hull::Box> boxes_;  // of the faces as they came
   std::vector<uint32_t> ids_, local_, order_;
   uint32_t made_ = 0;
   std::vector<uint8_t> bytes_;
@@ -148,8 +180,9 @@ std::vector<uint32_t> cut_shell(const hull::View& view, uint32_t faces) {
     uint32_t triangle = kNone;
     if (told < shell.triangles().size() && shell.triangles()[told].face == i)
       triangle = shell.triangles()[told++].triangle;
-    const hull::ShellFace& f = shell.face(i);
-    add({shell.id_of(f.corner[0]), shell.id_of(f.corner[1]), shell.id_of(f.corner[2])}, triangle);
+    add({shell.id_of(shell.vertex_of(i, 0)), shell.id_of(shell.vertex_of(i, 1)),
+         shell.id_of(shell.vertex_of(i, 2))},
+        triangle);
   }
   const std::vector<uint8_t> bytes = encode_shell(source);
   std::vector<uint32_t> words(bytes.size() / 4);

@@ -1,6 +1,7 @@
 #include "bake/filled_boxes.hpp"
 
 #include <algorithm>
+#include <cfloat>
 #include <numeric>
 
 #include "bake/left_filled.hpp"
@@ -9,10 +10,8 @@
 namespace firmtouch::tools {
 namespace {
 
-float coordinate(math::Vec3 v, uint32_t k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-
 // The largest step that keeps the child inside: guessed, then mended by the reader's own floats.
-hull::NodeBox within(const hull::Box& parent, const hull::Box& child) {
+hull::NodeBox told_within(const hull::Box& parent, const hull::Box& child) {
   hull::NodeBox node{};
   for (uint32_t k = 0; k < 3; ++k) {
     const float side = parent.high_m[k] - parent.low_m[k];
@@ -30,10 +29,22 @@ hull::NodeBox within(const hull::Box& parent, const hull::Box& child) {
   return node;
 }
 
-class Halver {
+// Towards a cube's faces, edges and corners.
+constexpr int kDirections[13][3] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},  {1, 1, 0},  {1, -1, 0},
+                                    {1, 0, 1},  {1, 0, -1}, {0, 1, 1},  {0, 1, -1}, {1, 1, 1},
+                                    {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
+
+double surface_of(const hull::Box& box) {
+  double side[3];
+  for (uint32_t k = 0; k < 3; ++k)
+    side[k] = static_cast<double>(box.high_m[k]) - static_cast<double>(box.low_m[k]);
+  return side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+}
+
+class Parter {
  public:
-  Halver(const std::vector<math::Vec3>& middles_m, uint32_t a_leaf)
-      : middles_m_(middles_m), a_leaf_(a_leaf), order_(middles_m.size()) {
+  Parter(const std::vector<hull::Box>& items, uint32_t a_leaf)
+      : items_(items), a_leaf_(a_leaf), order_(items.size()), place_(items.size()) {
     std::iota(order_.begin(), order_.end(), 0);
   }
 
@@ -47,9 +58,9 @@ class Halver {
       const Part part = parts.back();
       parts.pop_back();
       if (part.leaves < 2) continue;
-      const uint32_t left = (first_size(hull::nodes_for(part.leaves)) + 1) / 2;
+      const uint32_t left = left_of(part.leaves);
       const uint32_t middle = std::min(part.first + left * a_leaf_, part.end);
-      halve(part.first, middle, part.end);
+      cut(part.first, middle, part.end, part.leaves);
       parts.push_back({part.first, middle, left});
       parts.push_back({middle, part.end, part.leaves - left});
     }
@@ -57,26 +68,72 @@ class Halver {
   }
 
  private:
-  void halve(uint32_t first, uint32_t middle, uint32_t end) {
-    hull::Box box = box_of_point(middles_m_[order_[first]]);
-    for (uint32_t i = first; i < end; ++i) grow(box, box_of_point(middles_m_[order_[i]]));
-    uint32_t axis = 0;
-    for (uint32_t k = 1; k < 3; ++k)
-      if (box.high_m[k] - box.low_m[k] > box.high_m[axis] - box.low_m[axis]) axis = k;
-    const auto is_before = [&](uint32_t a, uint32_t b) {
-      const float one = coordinate(middles_m_[a], axis), other = coordinate(middles_m_[b], axis);
-      return one < other || (!(other < one) && a < b);
-    };
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + end,
-                     is_before);
-    // What nth_element leaves in no order: sorted, so that every library gives the same.
-    std::sort(order_.begin() + first, order_.begin() + middle, is_before);
-    std::sort(order_.begin() + middle, order_.begin() + end, is_before);
+  using Order = std::vector<uint32_t>;
+
+  static uint32_t left_of(uint32_t leaves) { return (first_size(hull::nodes_for(leaves)) + 1) / 2; }
+
+  // The two sides of a tree may hold unequal numbers, so each direction is tried both ways. Looks one
+  // cut ahead: of parts of many items that would take long and tell little.
+  void cut(uint32_t first, uint32_t middle, uint32_t end, uint32_t leaves) {
+    constexpr uint32_t kMostAhead = 4096;
+    Order tried(order_.begin() + first, order_.begin() + end), best;
+    double least = 0;
+    for (const int(&direction)[3] : kDirections) {
+      for (const double sign : {1.0, -1.0}) {
+        sort(tried, direction, sign);
+        const auto border = tried.begin() + (middle - first);
+        double cost = cost_of(tried.begin(), border) + cost_of(border, tried.end());
+        if (end - first <= kMostAhead) {
+          const uint32_t left = left_of(leaves);
+          cost += least_below({tried.begin(), border}, left) +
+                  least_below({border, tried.end()}, leaves - left);
+        }
+        if (best.empty() || cost < least) {
+          least = cost;
+          best = tried;
+        }
+      }
+    }
+    std::copy(best.begin(), best.end(), order_.begin() + first);
+  }
+  void sort(Order& items, const int (&direction)[3], double sign) {
+    for (const uint32_t item : items) place_[item] = sign * place(items_[item], direction);
+    std::sort(items.begin(), items.end(), [this](uint32_t a, uint32_t b) {
+      return place_[a] < place_[b] || (!(place_[b] < place_[a]) && a < b);
+    });
+  }
+  // The least cost of the two parts of a part.
+  double least_below(Order items, uint32_t leaves) {
+    if (leaves < 2) return 0;
+    const size_t middle = std::min<size_t>(left_of(leaves) * a_leaf_, items.size());
+    double least = DBL_MAX;
+    for (const int(&direction)[3] : kDirections) {
+      for (const double sign : {1.0, -1.0}) {
+        sort(items, direction, sign);
+        const auto border = items.begin() + static_cast<std::ptrdiff_t>(middle);
+        least = std::min(least, cost_of(items.begin(), border) + cost_of(border, items.end()));
+      }
+    }
+    return least;
+  }
+  static double place(const hull::Box& item, const int (&direction)[3]) {
+    double sum = 0;
+    for (uint32_t k = 0; k < 3; ++k)
+      sum +=
+          direction[k] * (static_cast<double>(item.low_m[k]) + static_cast<double>(item.high_m[k]));
+    return sum;
+  }
+  double cost_of(Order::const_iterator from, Order::const_iterator to) const {
+    if (from == to) return 0;
+    hull::Box box = items_[*from];
+    for (auto at = from; at != to; ++at) grow(box, items_[*at]);
+    return surface_of(box) * static_cast<double>(to - from);
   }
 
-  const std::vector<math::Vec3>& middles_m_;
+  const std::vector<hull::Box>& items_;
   uint32_t a_leaf_;
-  std::vector<uint32_t> order_;
+  Order order_;
+  std::vector<double> place_;  // of each item along the direction being tried
 };
 
 }  // namespace
@@ -90,7 +147,8 @@ void grow(hull::Box& into, const hull::Box& box) {
   }
 }
 
-std::vector<hull::NodeBox> filled_boxes(uint32_t items, uint32_t a_leaf, const hull::Box& whole,
+std::vector<hull::NodeBox> filled_boxes(uint32_t items, uint32_t a_leaf, BoxesWithin within,
+                                        const hull::Box& whole,
                                         const std::function<hull::Box(uint32_t)>& box_of) {
   const uint32_t nodes = hull::nodes_for(hull::leaves_for(items, a_leaf));
   const hull::FilledTree tree(nodes);
@@ -107,15 +165,16 @@ std::vector<hull::NodeBox> filled_boxes(uint32_t items, uint32_t a_leaf, const h
   }
   std::vector<hull::NodeBox> boxes(nodes);
   for (uint32_t node = 0; node < nodes; ++node) {
-    const hull::Box& parent = node == 0 ? whole : stored[(node - 1) / 2];
-    boxes[node] = within(parent, exact[node]);
+    const bool is_nested = node != 0 && within == BoxesWithin::kParent;
+    const hull::Box& parent = is_nested ? stored[(node - 1) / 2] : whole;
+    boxes[node] = told_within(parent, exact[node]);
     stored[node] = hull::child_box(parent, boxes[node]);
   }
   return boxes;
 }
 
-std::vector<uint32_t> filled_order(const std::vector<math::Vec3>& middles_m, uint32_t a_leaf) {
-  return Halver(middles_m, a_leaf).run();
+std::vector<uint32_t> filled_order(const std::vector<hull::Box>& items, uint32_t a_leaf) {
+  return Parter(items, a_leaf).run();
 }
 
 }  // namespace firmtouch::tools

@@ -159,12 +159,14 @@ std::vector<hull::NodeBox> HullEncoder::triangle_boxes() const {
   hull::Box whole{};
   std::copy(head.low_m, head.low_m + 3, whole.low_m);
   std::copy(head.high_m, head.high_m + 3, whole.high_m);
-  return filled_boxes(head.triangle_count, hull::kLeafTriangles, whole, [&](uint32_t i) {
-    const mesh::Triangle<uint32_t> t = mesh_.triangle(i);
-    hull::Box box = box_of_point(mesh_.vertex(t.corner[0]));
-    for (const uint32_t corner : t.corner) grow(box, box_of_point(mesh_.vertex(corner)));
-    return box;
-  });
+  return filled_boxes(head.triangle_count, hull::kLeafTriangles, BoxesWithin::kParent, whole,
+                      [&](uint32_t i) {
+                        const mesh::Triangle<uint32_t> t = mesh_.triangle(i);
+                        hull::Box box = box_of_point(mesh_.vertex(t.corner[0]));
+                        for (const uint32_t corner : t.corner)
+                          grow(box, box_of_point(mesh_.vertex(corner)));
+                        return box;
+                      });
 }
 
 std::vector<uint8_t> HullEncoder::coarsest() const {

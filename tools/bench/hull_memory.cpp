@@ -102,12 +102,12 @@ void run_shells(const Model& model, const Baked& baked, Report& report) {
     }
     const double share = 100 * static_cast<double>(read) / static_cast<double>(free_segments);
     rows.push_back({std::to_string(refined.shell.face_count()),
-                    std::to_string(4 * refined.words.size()), number_text(steps),
+                    std::to_string(refined.shell.resident_bytes()), number_text(steps),
                     number_text(share), number_text(100 * error / static_cast<double>(hits)),
                     std::to_string(late)});
     if (faces != 1000) continue;
     report.bar("bytes of a shell of 1,000 faces with boxes", model.name,
-               static_cast<double>(4 * refined.words.size()), "bytes", 12288);
+               refined.shell.resident_bytes(), "bytes", 12288);
     report.bar("segments without a hit that read flash, shell of 1,000", model.name, share, "%",
                1.5);
     report.bar("shell hits later than the mesh", model.name, static_cast<double>(late), "", 0);

@@ -75,7 +75,7 @@ static_assert(sizeof(NodeBox) == 6 && alignof(NodeBox) == 1);
 
 // A leaf of the tree over the mesh holds so many triangles, of the tree over a shell so many faces.
 constexpr uint32_t kLeafTriangles = 4;
-constexpr uint32_t kLeafFaces = 8;
+constexpr uint32_t kLeafFaces = 4;
 constexpr uint32_t kMostTreeDepth = 24;
 
 constexpr uint32_t leaves_for(uint32_t items, uint32_t a_leaf) {
@@ -84,9 +84,12 @@ constexpr uint32_t leaves_for(uint32_t items, uint32_t a_leaf) {
 constexpr uint32_t nodes_for(uint32_t leaves) { return 2 * leaves - 1; }
 
 /// A hull as a block of bytes that needs no neighbours to be tested: head, then in this order, each
-/// beginning at a multiple of 4: NodeBox of the tree over the faces; ShellFace[face_count];
-/// coordinates of the made vertices (3 x coordinate_bytes each); their ids (id_bytes each);
-/// ShellVertex[kept_count]; ShellTriangle[triangle_count].
+/// beginning at a multiple of 4: NodeBox of the tree over the faces, each within the head's box;
+/// uint32_t for every second leaf, where its corners begin; ShellFace[face_count]; corners, the
+/// shell's own uint16_t numbers of its vertices, leaf by leaf; coordinates of the made vertices (3 x
+/// coordinate_bytes each); ShellVertex[kept_count]. Up to here it is *resident*, what a test of the
+/// shell reads; what ties it to the hull comes behind: ids of the made vertices (id_bytes each);
+/// ShellTriangle[triangle_count].
 struct ShellHead {
   uint32_t bytes;  // of the whole block
   uint32_t cut;    // the hull after so many collapses
@@ -94,13 +97,18 @@ struct ShellHead {
   uint32_t made_count;      // vertices made by a collapse, first
   uint32_t kept_count;      // vertices of the mesh, behind them
   uint32_t triangle_count;  // faces that are triangles of the mesh
+  uint32_t corner_count;    // of all leaves
   float low_m[3], high_m[3];
 };
-static_assert(sizeof(ShellHead) == 48 && alignof(ShellHead) == 4);
-struct ShellFace {
-  uint16_t corner[3];  // the shell's own numbers of its vertices
-};
-static_assert(sizeof(ShellFace) == 6);
+static_assert(sizeof(ShellHead) == 52 && alignof(ShellHead) == 4);
+/// Places of its three corners among those of its leaf in bits 0 to 3, 4 to 7, 8 to 11; in bits 12 to
+/// 15 how many those are.
+using ShellFace = uint16_t;
+constexpr uint32_t kMostLeafCorners = 3 * kLeafFaces;
+constexpr uint32_t corner_at(ShellFace face, uint32_t k) { return (face >> (4 * k)) & 15u; }
+constexpr uint32_t corners_of(ShellFace face) { return face >> 12; }
+constexpr uint32_t corner_places_for(uint32_t leaves) { return (leaves + 1) / 2; }
+
 struct ShellVertex {
   uint32_t id;
   float x_m, y_m, z_m;

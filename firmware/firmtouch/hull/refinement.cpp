@@ -2,17 +2,13 @@
 
 #include "firmtouch/hull/box_descent.hpp"
 #include "firmtouch/hull/nearest_candidates.hpp"
+#include "firmtouch/hull/shell_segment.hpp"
 #include "firmtouch/mesh/crossing_takers.hpp"
 
 namespace firmtouch::hull {
 namespace {
 
 using math::Vec3;
-
-Box box_of(const ShellHead& head) {
-  return {{head.low_m[0], head.low_m[1], head.low_m[2]},
-          {head.high_m[0], head.high_m[1], head.high_m[2]}};
-}
 
 uint32_t triangle_of(const Shell& shell, uint32_t face) {
   const core::Span<const ShellTriangle> all = shell.triangles();
@@ -38,6 +34,8 @@ class Refinement::Search {
 
   Search(Refinement& of, Vec3 a_m, Vec3 b_m, query::Budget budget)
       : of_(of),
+        a_m_(a_m),
+        b_m_(b_m),
         slabs_(a_m, b_m),
         frame_(of.hull_.head().low_m, of.hull_.head().high_m, a_m, b_m),
         allowed_(budget.steps == 0 ? 1 : budget.steps) {}
@@ -47,8 +45,9 @@ class Refinement::Search {
   /// Of the shell's faces. Result: false where the budget ran out.
   template <class Use>
   bool shell(Use use) {
-    ShellFaces<Use> faces{limit, *this, use};
-    return descend(of_.shell_.boxes(), box_of(of_.shell_.head()), slabs_, allowed_, steps, faces);
+    const ShellSegment segment(of_.shell_, a_m_, b_m_);
+    ShellFaces<Use> faces{segment.until(limit), *this, segment, use};
+    return walk(of_.shell_, segment, allowed_, steps, faces);
   }
 
   /// Of the star of an undone collapse, those that are there.
@@ -82,14 +81,16 @@ class Refinement::Search {
  private:
   template <class Use>
   struct ShellFaces {
-    float limit;
+    int32_t limit;
     Search& search;
+    const ShellSegment& segment;
     Use& use;
-    bool leaf(uint32_t leaf) {
-      const Shell& shell = search.of_.shell_;
-      const uint32_t first = leaf * kLeafFaces, count = shell.face_count();
-      const uint32_t end = first + kLeafFaces < count ? first + kLeafFaces : count;
-      for (uint32_t i = first; i < end; ++i) search.shell_face(i, use);
+    bool leaf(uint32_t i) {
+      const Shell::Leaf leaf = search.of_.shell_.leaf(i);
+      ShellSegment::Corners corners;
+      if (segment.place(search.of_.shell_, leaf, corners) != 0) return true;
+      for (uint32_t n = 0; n < leaf.faces.size(); ++n)
+        if (!segment.passes(corners, leaf.faces[n])) search.shell_face(leaf.first_face + n, use);
       return true;
     }
   };
@@ -97,21 +98,23 @@ class Refinement::Search {
   template <class Use>
   void shell_face(uint32_t i, Use& use) {
     const Shell& shell = of_.shell_;
-    const ShellFace& face = shell.face(i);
-    if (!(shell.is_made(face.corner[0]) || shell.is_made(face.corner[1]) ||
-          shell.is_made(face.corner[2])))
-      return mesh_triangle(triangle_of(shell, i), use);
+    uint32_t corner[3];
+    bool is_made = false;
+    for (uint32_t k = 0; k < 3; ++k) {
+      corner[k] = shell.vertex_of(i, k);
+      is_made = is_made || shell.is_made(corner[k]);
+    }
+    if (!is_made) return mesh_triangle(triangle_of(shell, i), use);
     const auto of_face = [&](const Candidate& candidate) {
       uint32_t youngest = 0;
-      for (const uint16_t corner : face.corner) {
-        const uint32_t number = of_.hull_.number_of(shell.id_of(corner));
+      for (const uint32_t vertex : corner) {
+        const uint32_t number = of_.hull_.number_of(shell.id_of(vertex));
         youngest = number > youngest ? number : youngest;
       }
       const uint32_t maker = youngest - of_.hull_.head().mesh_vertex_count;
       use(Candidate{candidate.t, candidate.what | maker});
     };
-    test(vertex(shell, face.corner[0]), vertex(shell, face.corner[1]),
-         vertex(shell, face.corner[2]), 0, of_face);
+    test(vertex(shell, corner[0]), vertex(shell, corner[1]), vertex(shell, corner[2]), 0, of_face);
   }
 
   // With the mesh's own order of corners: to the bit what the mesh answers.
@@ -131,6 +134,7 @@ class Refinement::Search {
   }
 
   Refinement& of_;
+  Vec3 a_m_, b_m_;
   Slabs slabs_;
   mesh::SegmentFrame frame_;
   uint32_t allowed_;

@@ -16,7 +16,7 @@ bool Refinement::Faces::next() {
         continue;
       }
       for (uint32_t k = 0; k < 3; ++k)
-        number[k] = hull.number_of(of_.shell_.id_of(of_.shell_.face(face).corner[k]));
+        number[k] = hull.number_of(of_.shell_.id_of(of_.shell_.vertex_of(face, k)));
     } else {
       const uint32_t collapse = of_.memory_.undone[at_ - 1];
       const Star star(hull, collapse, hull.record(collapse));

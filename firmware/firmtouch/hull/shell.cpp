@@ -30,6 +30,7 @@ class Rest {
     const core::Bytes bytes = take(count * sizeof(T));
     return core::as_array<T>(bytes, static_cast<uint32_t>(bytes.size() / sizeof(T)));
   }
+  bool is_whole() const { return is_whole_; }
   bool is_used_up() const { return is_whole_ && bytes_.empty(); }
 
  private:
@@ -43,6 +44,39 @@ Box box_of(const ShellHead& head) {
 }
 
 }  // namespace
+
+// Everything but what ties it to the hull. Result: false where the bytes do not hold it.
+bool Shell::point_into(core::Bytes resident, uint32_t coordinate_bytes) {
+  const core::Span<const ShellHead> heads = core::as_array<ShellHead>(resident, 1);
+  if (heads.empty()) return false;
+  head_ = &heads[0];
+  coordinate_bytes_ = coordinate_bytes;
+  const uint32_t leaves = leaves_for(head_->face_count, kLeafFaces);
+  Rest rest(resident);
+  (void)rest.take(sizeof(ShellHead));
+  boxes_ = rest.take_array<NodeBox>(nodes_for(leaves));
+  corner_places_ = rest.take_array<uint32_t>(corner_places_for(leaves));
+  faces_ = rest.take_array<ShellFace>(head_->face_count);
+  corners_ = rest.take_array<uint16_t>(head_->corner_count);
+  coordinates_ = rest.take(uint64_t{head_->made_count} * 3 * coordinate_bytes);
+  kept_ = rest.take_array<ShellVertex>(head_->kept_count);
+  return rest.is_whole();
+}
+
+uint32_t Shell::resident_bytes() const {
+  const uint8_t* end = reinterpret_cast<const uint8_t*>(kept_.data() + kept_.size());
+  if (kept_.empty()) end = coordinates_.data() + padded(coordinates_.size());
+  return static_cast<uint32_t>(end - reinterpret_cast<const uint8_t*>(head_));
+}
+
+Shell Shell::resident(core::Bytes copy) const {
+  if (!is_open() || copy.size() < resident_bytes()) return {};
+  const uint8_t* own = reinterpret_cast<const uint8_t*>(head_);
+  for (uint32_t i = 0; i < resident_bytes(); ++i)
+    if (copy[i] != own[i]) return {};
+  Shell shell = *this;
+  return shell.point_into(copy, coordinate_bytes_) ? shell : Shell{};
+}
 
 ShellOpening::ShellOpening(core::Bytes bytes, const View& hull) {
   stage_ = Stage::kVertices;
@@ -67,17 +101,12 @@ Verdict ShellOpening::open_head(core::Bytes bytes, const View& hull) {
       head.made_count + head.kept_count > kMostShellVertices)
     return reject(541, 2);
   if (head.triangle_count > head.face_count) return reject(541, 3);
-  Rest rest(
-      {bytes.data() + sizeof(ShellHead), bytes.size() - static_cast<uint32_t>(sizeof(ShellHead))});
-  shell_.head_ = &head;
-  shell_.boxes_ = rest.take_array<NodeBox>(nodes_for(leaves_for(head.face_count, kLeafFaces)));
-  shell_.faces_ = rest.take_array<ShellFace>(head.face_count);
-  shell_.coordinates_ = rest.take(uint64_t{head.made_count} * 3 * of.coordinate_bytes);
+  if (!shell_.point_into(bytes, of.coordinate_bytes)) return reject(540, 1);
+  const uint32_t resident = shell_.resident_bytes();
+  Rest rest({bytes.data() + resident, bytes.size() - resident});
   shell_.ids_ = rest.take(uint64_t{head.made_count} * of.id_bytes);
-  shell_.kept_ = rest.take_array<ShellVertex>(head.kept_count);
   shell_.triangles_ = rest.take_array<ShellTriangle>(head.triangle_count);
   if (!rest.is_used_up()) return reject(540, 1);
-  shell_.coordinate_bytes_ = of.coordinate_bytes;
   shell_.id_bytes_ = of.id_bytes;
   for (uint32_t k = 0; k < 3; ++k) {
     shell_.grid_low_m_[k] = of.grid_low_m[k];
@@ -106,6 +135,8 @@ void ShellOpening::work(uint32_t elements, const View& hull) {
       stage_ = Stage::kFaces;
     } else if (next_triangle_ != shell_.head_->triangle_count) {
       return fail(reject(546, next_triangle_));
+    } else if (next_corner_ != shell_.head_->corner_count) {
+      return fail(reject(545, shell_.head_->face_count));
     } else if (edges_ != 0) {
       return fail(reject(548));
     } else {
@@ -128,15 +159,33 @@ Verdict ShellOpening::check_vertex(uint32_t i, const View& hull) const {
   return kPassed;
 }
 
+// Its corners follow those of the leaf before, and all are there.
+Verdict ShellOpening::check_leaf(uint32_t leaf) {
+  const uint32_t face = leaf * kLeafFaces, count = corners_of(shell_.faces_[face]);
+  if (leaf % 2 == 0 && shell_.corner_places_[leaf / 2] != next_corner_) return reject(545, face);
+  if (count > kMostLeafCorners || count > shell_.head_->corner_count - next_corner_)
+    return reject(545, face);
+  next_corner_ += count;
+  for (const uint16_t vertex : shell_.leaf(leaf).corners)
+    if (vertex >= shell_.head_->made_count + shell_.head_->kept_count) return reject(545, face);
+  return kPassed;
+}
+
 Verdict ShellOpening::check_face(uint32_t i, const View& hull) {
-  const ShellFace& face = shell_.face(i);
+  if (i % kLeafFaces == 0) {
+    const Verdict found = check_leaf(i / kLeafFaces);
+    if (!found.ok()) return found;
+  }
+  const ShellFace face = shell_.faces_[i];
+  const Shell::Leaf leaf = shell_.leaf(i / kLeafFaces);
+  if (corners_of(face) != leaf.corners.size()) return reject(545, i);
   uint32_t number[3];
   bool is_triangle = true;
   for (uint32_t k = 0; k < 3; ++k) {
-    if (face.corner[k] >= shell_.head_->made_count + shell_.head_->kept_count)
-      return reject(545, i);
-    number[k] = hull.number_of(shell_.id_of(face.corner[k]));
-    is_triangle = is_triangle && !shell_.is_made(face.corner[k]);
+    if (corner_at(face, k) >= leaf.corners.size()) return reject(545, i);
+    const uint32_t vertex = leaf.corners[corner_at(face, k)];
+    number[k] = hull.number_of(shell_.id_of(vertex));
+    is_triangle = is_triangle && !shell_.is_made(vertex);
   }
   faces_ += face_hash(number[0], number[1], number[2]);
   for (uint32_t k = 0; k < 3; ++k) {
@@ -157,11 +206,13 @@ Verdict ShellOpening::check_face(uint32_t i, const View& hull) {
 
 Verdict ShellOpening::check_box(uint32_t face) const {
   const FilledTree tree(shell_.boxes_.size());
-  Box box;
-  if (!tree.box_of(shell_.boxes_, box_of(*shell_.head_), tree.node(face / kLeafFaces), box))
-    return reject(547, face);
-  for (const uint16_t corner : shell_.face(face).corner)
-    if (!holds(box, vertex(shell_, corner))) return reject(547, face);
+  const Box whole = box_of(*shell_.head_);
+  uint32_t node = tree.node(face / kLeafFaces) + 1;  // counted from 1, a node's parent is its half
+  for (; node != 0; node /= 2) {
+    const Box box = child_box(whole, shell_.boxes_[node - 1]);
+    for (uint32_t k = 0; k < 3; ++k)
+      if (!holds(box, vertex(shell_, shell_.vertex_of(face, k)))) return reject(547, face);
+  }
   return kPassed;
 }
 

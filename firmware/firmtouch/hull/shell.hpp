@@ -10,8 +10,8 @@ namespace firmtouch::hull {
 class View;
 
 /// A hull of one size in a block of bytes that open() has proven: the coarsest lies in the asset,
-/// others are cut by tools. Copied to fast memory and opened there it is tested without a read of
-/// the asset.
+/// others are cut by tools. Its resident part, copied to fast memory, is tested without a read of the
+/// asset.
 class Shell {
  public:
   Shell() = default;
@@ -20,11 +20,29 @@ class Shell {
   const ShellHead& head() const { return *head_; }
   uint32_t face_count() const { return head_->face_count; }
   core::Span<const NodeBox> boxes() const { return boxes_; }
-  const ShellFace& face(uint32_t i) const { return faces_[i]; }
+  /// Of a leaf: its faces, and the vertices that are their corners, each once.
+  struct Leaf {
+    uint32_t first_face;
+    core::Span<const ShellFace> faces;
+    core::Span<const uint16_t> corners;
+  };
+  Leaf leaf(uint32_t i) const {
+    const uint32_t first = i * kLeafFaces, left = head_->face_count - first;
+    const uint32_t before = i % 2 == 0 ? 0 : corners_of(faces_[first - kLeafFaces]);
+    return {first,
+            {&faces_[first], left < kLeafFaces ? left : kLeafFaces},
+            {&corners_[corner_places_[i / 2] + before], corners_of(faces_[first])}};
+  }
+  /// The shell's own number of a face's corner.
+  uint32_t vertex_of(uint32_t face, uint32_t k) const {
+    return leaf(face / kLeafFaces).corners[corner_at(faces_[face], k)];
+  }
   bool is_made(uint32_t vertex) const { return vertex < head_->made_count; }
   const uint8_t* coordinates(uint32_t made) const {
     return &coordinates_[made * 3 * coordinate_bytes_];
   }
+  /// The upper two bytes of each coordinate.
+  const uint8_t* upper_coordinates() const { return coordinates_.data() + coordinate_bytes_ - 2; }
   uint32_t coordinate_bytes() const { return coordinate_bytes_; }
   const ShellVertex& kept(uint32_t vertex) const { return kept_[vertex - head_->made_count]; }
   uint32_t id_of(uint32_t vertex) const {
@@ -34,15 +52,25 @@ class Shell {
     return id_bytes_ == 2 ? low : low | static_cast<uint32_t>(at[2]) << 16;
   }
   core::Span<const ShellTriangle> triangles() const { return triangles_; }
+  /// Bytes of the block from its front that a test of the shell reads.
+  uint32_t resident_bytes() const;
+  /// The same shell, whose tested part is read from `copy`: the block's first resident_bytes(), in
+  /// fast memory.
+  /// Result: a shell that is not open where the copy is none, or lies at no multiple of 4.
+  Shell resident(core::Bytes copy) const;
+
   // Of the grid, kept here so that a test reads nothing else.
   const float* grid_low_m() const { return grid_low_m_; }
   float cell_m() const { return cell_m_; }
 
  private:
   friend class ShellOpening;
+  bool point_into(core::Bytes resident, uint32_t coordinate_bytes);
   const ShellHead* head_ = nullptr;
   core::Span<const NodeBox> boxes_;
+  core::Span<const uint32_t> corner_places_;
   core::Span<const ShellFace> faces_;
+  core::Span<const uint16_t> corners_;
   core::Bytes coordinates_, ids_;
   core::Span<const ShellVertex> kept_;
   core::Span<const ShellTriangle> triangles_;
@@ -69,13 +97,14 @@ class ShellOpening {
   void fail(core::Verdict verdict);
   core::Verdict open_head(core::Bytes bytes, const View& hull);
   core::Verdict check_vertex(uint32_t i, const View& hull) const;
+  core::Verdict check_leaf(uint32_t leaf);
   core::Verdict check_face(uint32_t i, const View& hull);
   core::Verdict check_box(uint32_t face) const;
 
   Shell shell_;
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
-  uint32_t next_ = 0, next_triangle_ = 0;
+  uint32_t next_ = 0, next_triangle_ = 0, next_corner_ = 0;
   uint64_t faces_ = 0, edges_ = 0;
 };
 

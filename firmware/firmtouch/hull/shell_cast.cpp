@@ -1,92 +1,150 @@
 #include "firmtouch/hull/shell_cast.hpp"
 
-#include "firmtouch/hull/box_descent.hpp"
-#include "firmtouch/mesh/crossing_takers.hpp"
+#include "firmtouch/hull/shell_segment.hpp"
+#include "firmtouch/mesh/segment_frame.hpp"
 
 namespace firmtouch::hull {
 namespace {
 
 using math::Vec3;
 
-Box box_of(const ShellHead& head) {
-  return {{head.low_m[0], head.low_m[1], head.low_m[2]},
-          {head.high_m[0], head.high_m[1], head.high_m[2]}};
-}
-
-template <class Taker>
-class Leaves {
+// The first crossing, or a time before which there is none: who asks a shell asks where it is safe, so
+// a face that floats are not sure of counts as crossed, no later than its plane. Integers tell it
+// exactly, at 10,000 instructions; they are left what lies along the segment, where the plane tells
+// nothing.
+class First {
  public:
-  Leaves(const Shell& shell, Vec3 a_m, Vec3 b_m, Taker& taker)
-      : limit(taker.limit),
-        shell_(shell),
-        frame_(shell.head().low_m, shell.head().high_m, a_m, b_m),
-        taker_(taker) {}
-  float limit;
+  float limit = 1;
+  ShellHit hit;
 
-  bool leaf(uint32_t leaf) {
-    const uint32_t first = leaf * kLeafFaces, count = shell_.face_count();
-    const uint32_t end = first + kLeafFaces < count ? first + kLeafFaces : count;
-    for (uint32_t i = first; i < end; ++i) {
-      const ShellFace& face = shell_.face(i);
-      if (frame_.misses(sheared(face.corner[0]), sheared(face.corner[1]), sheared(face.corner[2])))
-        continue;
-      const mesh::Crossing crossing =
-          frame_.crossing(vertex(shell_, face.corner[0]), vertex(shell_, face.corner[1]),
-                          vertex(shell_, face.corner[2]));
-      if (crossing.direction != 0 && !taker_.take(crossing, i)) return false;
+  First(Vec3 a_m, Vec3 b_m) : a_m_(a_m), b_m_(b_m), along_m_(b_m - a_m) {
+    const float length2_m2 = dot(along_m_, along_m_);
+    per_length2_ = length2_m2 > 1e-30f && length2_m2 < 1e30f ? 1.0f / length2_m2 : 0.0f;
+  }
+
+  bool take(const mesh::SegmentFrame& frame, Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t face) {
+    mesh::Crossing told;
+    float early;
+    bool is_decided = frame.decides(p_m, q_m, r_m, told, early);
+    if (!is_decided) {
+      const Range feet = feet_of(p_m, q_m, r_m);
+      if (feet.last < 0.0f || feet.first > 1.0f) return true;
+      is_decided = !(told.t > 0.0f);  // where the plane tells nothing at all
+      told.t = mesh::larger(feet.first, told.t);
+      if (is_decided) told = mesh::exact_crossing(a_m_, b_m_, p_m, q_m, r_m);
     }
-    limit = taker_.limit;
+    if (is_decided && told.direction == 0) return true;
+    const bool is_first = !hit.hit || told.t < hit.t || (told.t <= hit.t && face < hit.face);
+    if (!is_first) return true;
+    hit.hit = true;
+    hit.t = told.t;
+    hit.face = face;
+    hit.enters = told.direction <= 0;
+    hit.exact = is_decided || early <= kMostEarly;
+    // A box that is entered later in truth may hold a crossing that is told earlier.
+    limit = mesh::smaller(told.t + 2.0f * mesh::kTimeError, 1.0f);
     return true;
   }
 
  private:
-  // A vertex is met by three faces of a leaf: those met last are kept by the low bits of their
-  // numbers.
-  mesh::SegmentFrame::Sheared sheared(uint32_t i) {
-    Met& met = met_[i % kMet];
-    if (met.vertex != i) met = {i, frame_.sheared(vertex(shell_, i))};
-    return met.at;
-  }
-  struct Met {
-    uint32_t vertex = UINT32_MAX;
-    mesh::SegmentFrame::Sheared at;
+  static constexpr float kMostEarly = 0x1p-12f;
+  struct Range {
+    float first, last;
   };
-  static constexpr uint32_t kMet = 16;
+  // A crossing lies between the corners' feet on the line. With u = 2^-24 a foot is off by 6 u of the
+  // magnitudes summed.
+  Range feet_of(Vec3 p_m, Vec3 q_m, Vec3 r_m) const {
+    const Range p = foot_of(p_m), q = foot_of(q_m), r = foot_of(r_m);
+    return {mesh::smaller(p.first, mesh::smaller(q.first, r.first)),
+            mesh::larger(p.last, mesh::larger(q.last, r.last))};
+  }
+  Range foot_of(Vec3 corner_m) const {
+    const Vec3 v = (corner_m - a_m_) * per_length2_;
+    const float foot = dot(v, along_m_);
+    const float off =
+        0x1p-20f * (mesh::absolute(v.x * along_m_.x) + mesh::absolute(v.y * along_m_.y) +
+                    mesh::absolute(v.z * along_m_.z));
+    return {foot - off, foot + off};
+  }
 
-  const Shell& shell_;
-  mesh::SegmentFrame frame_;
-  Met met_[kMet];
-  Taker& taker_;
+  Vec3 a_m_, b_m_, along_m_;
+  float per_length2_;
 };
 
-struct Turns {
+// All crossings, each way, exactly.
+class Turns {
+ public:
   float limit = 1;
   int32_t sum = 0;
-  bool take(const mesh::Crossing& crossing, uint32_t) {
-    sum += crossing.direction;
+  bool take(const mesh::SegmentFrame& frame, Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t) {
+    sum += frame.crossing(p_m, q_m, r_m).direction;
     return true;
   }
+};
+
+template <class Taker>
+class Leaves {
+ public:
+  Leaves(const Shell& shell, const ShellSegment& segment, Vec3 a_m, Vec3 b_m, Taker& taker)
+      : limit(segment.until(taker.limit)),
+        shell_(shell),
+        segment_(segment),
+        a_m_(a_m),
+        b_m_(b_m),
+        taker_(taker) {}
+  int32_t limit;
+
+  bool leaf(uint32_t i) {
+    const Shell::Leaf leaf = shell_.leaf(i);
+    ShellSegment::Corners corners;
+    if (segment_.place(shell_, leaf, corners) != 0) return true;
+    for (uint32_t n = 0; n < leaf.faces.size(); ++n) {
+      const ShellFace face = leaf.faces[n];
+      if (segment_.passes(corners, face)) continue;
+      if (!has_frame_)
+        frame_ = mesh::SegmentFrame(shell_.head().low_m, shell_.head().high_m, a_m_, b_m_);
+      has_frame_ = true;
+      if (!taker_.take(frame_, vertex(shell_, leaf.corners[corner_at(face, 0)]),
+                       vertex(shell_, leaf.corners[corner_at(face, 1)]),
+                       vertex(shell_, leaf.corners[corner_at(face, 2)]), leaf.first_face + n))
+        return false;
+      limit = segment_.until(taker_.limit);
+    }
+    return true;
+  }
+
+ private:
+  const Shell& shell_;
+  const ShellSegment& segment_;
+  Vec3 a_m_, b_m_;
+  mesh::SegmentFrame frame_;
+  bool has_frame_ = false;  // most segments come near no face
+  Taker& taker_;
 };
 
 template <class Taker>
 bool search(const Shell& shell, Vec3 a_m, Vec3 b_m, query::Budget budget, uint32_t& steps,
             Taker& taker) {
-  Leaves<Taker> leaves(shell, a_m, b_m, taker);
-  return descend(shell.boxes(), box_of(shell.head()), Slabs(a_m, b_m),
-                 budget.steps == 0 ? 1 : budget.steps, steps, leaves);
+  const ShellSegment segment(shell, a_m, b_m);
+  if (segment.misses()) return true;
+  Leaves<Taker> leaves(shell, segment, a_m, b_m, taker);
+  return walk(shell, segment, budget.steps == 0 ? 1 : budget.steps, steps, leaves);
 }
 
 }  // namespace
 
 ShellHit cast_shell(const Shell& shell, Vec3 a_m, Vec3 b_m, query::Budget budget) {
-  ShellHit hit;
-  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return hit;
-  mesh::First first;
-  hit.exact = search(shell, a_m, b_m, budget, hit.steps, first);
-  hit.hit = first.hit.hit || !hit.exact;
-  hit.t = hit.exact ? first.hit.t : 0.0f;
-  hit.face = first.hit.triangle;
-  hit.enters = first.hit.enters;
+  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
+  First first(a_m, b_m);
+  uint32_t steps = 0;
+  const bool is_done = search(shell, a_m, b_m, budget, steps, first);
+  ShellHit hit = first.hit;
+  if (!is_done) {
+    hit.hit = true;
+    hit.t = 0.0f;
+  }
+  hit.exact = is_done && (hit.exact || !hit.hit);
+  hit.steps = steps;
   return hit;
 }
 

@@ -11,15 +11,18 @@ struct ShellHit {
   uint32_t face = 0;
   bool enters = false;
   uint32_t steps = 0;
-  bool exact = false;  // of the shell: false where the budget ran out
+  bool exact = false;  // the shell's first crossing, or certainly none
 };
 
 /// First crossing of the segment from `a_m` to `b_m` (mesh frame) with a shell: reads the shell's
 /// own block and nothing else, so that a shell in fast memory answers without a read of flash.
-/// Bounds: <= budget steps (boxes read); 4 KB of stack; re-entrant; callable from an interrupt.
-/// Result: none and not exact where the segment is not finite. For one that begins outside the shell: where none is told and exact, it meets
-///         nothing of the mesh; else the mesh is not met before t. A budget that runs out tells a
-///         hit at 0, or one that is certain to be there.
+/// Bounds: <= budget steps (boxes read); 3.5 KB of stack; re-entrant; callable from an interrupt.
+/// Result: none and not exact where the segment is not finite. For one that begins outside the shell:
+///         where none is told and exact, it meets nothing of the mesh; else the mesh is not met before
+///         t. A hit that is not exact: floats cannot tell whether or when a face is crossed that
+///         is passed at its very edge or almost along it, and t is the earliest that it may be; or the
+///         budget ran out, and t is 0.
+/// Error:  exact: t is at most 2^-12 early, and late by no more than mesh::cast_segment() may be.
 ShellHit cast_shell(const Shell& shell, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget);
 
 /// How often the shell winds around a point, told by the crossings of a segment to a point outside

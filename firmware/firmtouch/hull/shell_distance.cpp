@@ -31,9 +31,8 @@ struct Nearest {
 };
 
 void look_at(const Shell& shell, uint32_t i, Vec3 p_m, Nearest& nearest) {
-  const ShellFace& face = shell.face(i);
-  Vec3 a = vertex(shell, face.corner[0]), b = vertex(shell, face.corner[1]),
-       c = vertex(shell, face.corner[2]);
+  Vec3 a = vertex(shell, shell.vertex_of(i, 0)), b = vertex(shell, shell.vertex_of(i, 1)),
+       c = vertex(shell, shell.vertex_of(i, 2));
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const float ab2 = dot(ab, ab), bc2 = dot(bc, bc), ca2 = dot(ca, ca);
   if (bc2 > ab2 && bc2 >= ca2) {  // the solver wants the longest edge first
@@ -81,8 +80,8 @@ float search(const Shell& shell, Vec3 p_m, uint32_t allowed, uint32_t& steps, Ne
       continue;
     }
     const uint32_t left = 2 * now.node + 1;
-    Pending one{child_box(now.box, boxes[left]), 0.0f, left};
-    Pending other{child_box(now.box, boxes[left + 1]), 0.0f, left + 1};
+    Pending one{child_box(whole, boxes[left]), 0.0f, left};
+    Pending other{child_box(whole, boxes[left + 1]), 0.0f, left + 1};
     one.distance2_m2 = distance2_to(one.box, p_m);
     other.distance2_m2 = distance2_to(other.box, p_m);
     const bool swap = other.distance2_m2 < one.distance2_m2;

@@ -74,16 +74,39 @@ class SegmentFrame {
   /// Result: as exact_crossing(), with |t - exact| <= kTimeError. The same bits whatever decided
   /// which side of which edge: where floats decide, they decide as integers would.
   Crossing crossing(math::Vec3 p, math::Vec3 q, math::Vec3 r) const {
+    Crossing told;
+    float early;
+    return decides(p, q, r, told, early) ? told : exact_crossing(a_m_, b_m_, p, q, r);
+  }
+
+  /// Whether floats can tell: then `told` is what crossing() tells. Else told.direction is the way,
+  /// 0 where floats are not sure that it is crossed at all, and otherwise told.t a time before which
+  /// it is not, by `early` at most.
+  bool decides(math::Vec3 p, math::Vec3 q, math::Vec3 r, Crossing& told, float& early) const {
     const Side side = pass(sheared(p), sheared(q), sheared(r));
-    if (side == Side::kMisses) return {};
-    if (side != Side::kUnsure) {
-      float error;
-      const float t = time(p, q, r, error);
-      if (error <= kTimeError && t > error && t < 1.0f - error)
-        return {static_cast<int8_t>((side == Side::kLeaves) != flips_ ? 1 : -1), t};
-      if (error <= kTimeError && (t < -error || t > 1.0f + error)) return {};
+    told = {};
+    early = 1.0f;
+    if (side == Side::kMisses) return true;
+    float error;
+    bool is_steady;
+    const float t = time(p, q, r, error, is_steady);
+    const bool is_through = side != Side::kUnsure;
+    if (is_through && error <= kTimeError && (t < -error || t > 1.0f + error)) return true;
+    const bool is_sure = is_through && error <= kTimeError && t > error && t < 1.0f - error;
+    if (is_through) told.direction = (side == Side::kLeaves) != flips_ ? 1 : -1;
+    if (is_sure) told.t = t;
+    // Of a triangle that is no speck the plane is passed near it, and t is of the plane.
+    const bool is_speck = larger(largest(q - p), largest(r - p)) < coordinate_error_m_;
+    if (is_sure || !is_steady || is_speck) return is_sure;
+    // First order in what the rate is off by and all else; where a side is open, twice as far off.
+    const float wide = (is_through ? 1.5f : 3.0f) * error;
+    if (t < -wide || t > 1.0f + wide) {
+      told.direction = 0;
+      return true;
     }
-    return exact_crossing(a_m_, b_m_, p, q, r);
+    told.t = larger(t - wide, 0.0f);
+    if (is_through && t > wide && t < 1.0f - wide) early = 2.0f * wide;
+    return false;
   }
 
  private:
@@ -110,7 +133,7 @@ class SegmentFrame {
   // From the plane. What n is off by tells only as n . (p - hit), within the triangle: with L its
   // longer edge at p, 9 u L^2 an axis times 3 L. Each sum of products is off by 5 u of the sum of
   // their magnitudes.
-  float time(math::Vec3 p, math::Vec3 q, math::Vec3 r, float& error) const {
+  float time(math::Vec3 p, math::Vec3 q, math::Vec3 r, float& error, bool& is_steady) const {
     const math::Vec3 e = q - p, f = r - p, n = cross(e, f), to_p = p - a_m_;
     const float depth = dot(n, to_p), rate = dot(n, along_m_);
     const float t = depth / rate;
@@ -119,6 +142,7 @@ class SegmentFrame {
     const float lost = 6.0f * (depth_size + absolute(t) * rate_size) + 30.0f * edge * edge * edge;
     // Where the products underflow or the quotient is of nothing, the bound is no bound.
     const bool is_sound = absolute(rate) > 1e-30f;
+    is_steady = is_sound && rate_size * 0x1p-19f < absolute(rate);  // off by a quarter at most
     error = is_sound ? lost / absolute(rate) * 0x1p-24f + 0x1p-24f * absolute(t) : 1e30f;
     return t;
   }
