@@ -134,6 +134,7 @@ template <bool kCareful, class Bound, class Index>
                                       const Bound& bound_at, Vec3 p_m, uint32_t budget,
                                       uint32_t start, Search& search) {
   const Bound bound = bound_at;  // in registers
+  const float px_m = p_m.x, py_m = p_m.y, pz_m = p_m.z;
   const Loss loss(mesh.head());
   const Vertex* const vertices = mesh.vertices().data();
   const Triangle<Index>* const triangle = triangles.data();
@@ -174,8 +175,8 @@ template <bool kCareful, class Bound, class Index>
       }
     } else {
       const float before2_m2 = least2_m2;
-      least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, p_m, child, place, climbing,
-                                         least2_m2, search.best);
+      least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, Vec3{px_m, py_m, pz_m}, child,
+                                         place, climbing, least2_m2, search.best);
       if (least2_m2 < before2_m2) prune = smaller(bound.prune_key(least2_m2), band);
       if (climbing) {
         if (!climb(mesh, bound, start, prune, left, pending, count, search)) break;
