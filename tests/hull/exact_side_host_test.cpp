@@ -1,6 +1,6 @@
 #include "exact_judge.hpp"
 #include "harness/test.hpp"
-#include "hull/exact_side.hpp"
+#include "surface/exact_side.hpp"
 #include "surface/random.hpp"
 
 namespace firmtouch::tools {

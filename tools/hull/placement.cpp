@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hull/exact_side.hpp"
+#include "surface/exact_side.hpp"
 #include "surface/random.hpp"
 #include "surface/turns.hpp"
 

@@ -40,7 +40,8 @@ bool lies_on_another(const Surface& surface, const WindingNumber& winding, const
   return false;
 }
 
-// Faces that lie on faces of another piece; those of one piece are not looked for.
+// Faces that lie on faces of another piece, also all but rounding; those of one piece are left to
+// refuse_touches().
 void refuse_faces_on_faces(const Surface& surface, CheckReport& report) {
   Sets pieces(surface.vertices.size());
   std::vector<Box> boxes;
@@ -133,6 +134,7 @@ void refuse_contacts(const Surface& surface, CheckReport& report) {
   const size_t before = report.refused.size();
   refuse_faces_on_faces(surface, report);
   if (report.refused.size() == before) refuse_corners_in_pits(surface, report);
+  if (report.refused.size() == before) refuse_touches(surface, report);
   if (report.refused.size() != before)
     report.refused.back() += ", or bake with --unsigned: distances without inside and outside";
 }

@@ -38,6 +38,9 @@ void remove_flat_faces(Surface& surface, const CheckOptions& options, CheckRepor
 void find_topology_defects(const Surface& surface, std::vector<std::string>& defects);
 /// Pieces that touch so that the nearest point would not tell the side. Pre: closed and outward.
 void refuse_contacts(const Surface& surface, CheckReport& report);
+/// Of these, corners and edges that touch the surface elsewhere, of one piece too, without rounding.
+/// Pre: coordinates are finite and below 2^24 m.
+void refuse_touches(const Surface& surface, CheckReport& report);
 void drop_unused_vertices(Surface& surface, CheckReport& report);
 
 }  // namespace firmtouch::tools

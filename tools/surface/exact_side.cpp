@@ -1,4 +1,4 @@
-#include "hull/exact_side.hpp"
+#include "surface/exact_side.hpp"
 
 #include <cmath>
 #include <cstdint>
