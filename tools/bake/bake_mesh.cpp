@@ -29,7 +29,10 @@ float import_rounding_m(const Surface& surface) {
   for (const math::Vec3& v : surface.vertices) {
     double sum = 0;
     for (const float x : {v.x, v.y, v.z}) {
-      const double half = std::fabs(double{x}) * 0x1p-24;
+      if (!(std::fabs(x) > 0)) continue;
+      int exponent = 0;
+      std::frexp(x, &exponent);
+      const double half = std::ldexp(1.0, exponent - 25);
       sum += half * half;
     }
     largest2 = std::max(largest2, sum);

@@ -74,9 +74,15 @@ float nearest_m(const Search& search) {
   return math::square_root(smaller(search.best.distance2_m2, search.band2_m2));
 }
 
-void weigh(Found& found, float near_m, float loss_m, float rounding_m) {
+// a - b rounded down: a - s is exact where b is the smaller part.
+float less_m(float a_m, float b_m) {
+  const float s_m = a_m - b_m;
+  return a_m - s_m < b_m ? s_m * (1.0f - 0x1p-23f) : s_m;
+}
+
+void weigh(Found& found, float lower_m, float rounding_m) {
   found.distance_m = math::square_root(found.search.best.distance2_m2);
-  found.lower_m = near_m - (loss_m + rounding_m);
+  found.lower_m = lower_m;
   const float pending_m = found.search.pending_m - rounding_m;
   if (!found.search.complete && pending_m < found.lower_m) found.lower_m = pending_m;
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
@@ -94,7 +100,10 @@ bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
   const float distance_m = math::square_root(
       loss.is_clear(best.distance2_m2) ? careful_distance2(p_m, a_m, b_m, c_m, best.feature)
                                        : careful_distance2(p_m, a_m, b_m, c_m));
-  if (!(distance_m + loss.careful_m(distance_m) - found.lower_m <= within_m)) return false;
+  const float near_m = nearest_m(found.search);
+  weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
+  const float most_m = distance_m + loss.careful_m(distance_m) + loss.rounding_m;
+  if (!(most_m - found.lower_m <= within_m)) return false;
   found.distance_m = distance_m;
   return true;
 }
@@ -118,7 +127,8 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
     if (again.search.complete) {
       found = again;
       const float near_m = nearest_m(found.search);
-      return weigh(found, near_m, loss.careful_m(near_m), loss.rounding_m);
+      const float lower_m = less_m(near_m, loss.careful_m(near_m) + loss.rounding_m);
+      return weigh(found, lower_m, loss.rounding_m);
     }
     found.search.steps = again.search.steps;
   }
@@ -165,13 +175,16 @@ Closest answer(const View& mesh, const Bound& bound, Vec3 p_m, query::Budget bud
   found.search.fence_margin_m = fence_margin_m;
   search<Bound::kCareful>(mesh, bound, p_m, budget.steps, start, found.search);
   const float plain_m = nearest_m(found.search);
-  const float plain_loss_m = loss.plain_m(plain_m);
-  weigh(found, plain_m, Bound::kCareful ? loss.careful_m(plain_m) : plain_loss_m, loss.rounding_m);
+  const float plain_loss_m = loss.told_m(plain_m);
+  weigh(found,
+        Bound::kCareful ? less_m(plain_m, loss.careful_m(plain_m) + loss.rounding_m)
+                        : plain_m - (plain_loss_m + loss.rounding_m),
+        loss.rounding_m);
   const float diagonal_m = mesh.head().diagonal_m;
   const float scale_m = plain_m > diagonal_m ? plain_m : diagonal_m;
   const bool is_near = found.search.best.distance2_m2 <= found.search.band2_m2;
   const float promise_m = kPromise * scale_m;
-  if (!Bound::kCareful && is_near && !(2.0f * plain_loss_m + loss.rounding_m <= promise_m) &&
+  if (!Bound::kCareful && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
       !measure_again(mesh, p_m, promise_m, found))
     search_again(mesh, bound, p_m, budget.steps, found);
 

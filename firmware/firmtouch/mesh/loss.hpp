@@ -26,6 +26,10 @@ struct Loss {
   float plain_m(float distance_m) const {
     return 0x1p-24f * (5.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
+  /// plain_m() and what the difference of distance and loss is rounded by.
+  float told_m(float distance_m) const {
+    return 0x1p-24f * (6.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
+  }
   /// Of careful_distance2() and its root: one rounding each, the first halved by the root.
   float careful_m(float distance_m) const {
     return 0x1p-24f * (1.6f * distance_m + 0x1p-4f * longest_edge_m) + kVanishing_m;
