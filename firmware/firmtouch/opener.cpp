@@ -64,6 +64,8 @@ spline::Sections spline_sections(const asset::Container& container, const char* 
   sections.places = container.find(spline::kPlacesSection, name);
   sections.nodes = container.find(spline::kNodesSection, name);
   sections.points = container.find(spline::kPointsSection, name);
+  sections.grids = container.find(spline::kGridsSection, name);
+  sections.radii = container.find(spline::kRadiiSection, name);
   return sections;
 }
 

@@ -78,19 +78,22 @@ TEST(Rule603RefusesFlagsAndReservedWords) {
 TEST(Rule604RefusesSectionsOfAnotherLength) {
   const SmallSpline model = curve();
   const Sections whole = model.sections();
-  for (uint32_t which = 0; which < 7; ++which) {
-    Sections s = whole;
-    firmtouch::core::Bytes* const parts[] = {&s.pieces, &s.coefficients, &s.leaves, &s.places,
-                                             &s.nodes,  &s.points,       &s.bends};
-    *parts[which] = {parts[which]->data(), parts[which]->size() - 1};
-    const Verdict verdict = verdict_of(s);
-    CHECK_EQ(verdict.rule, 604);
-    CHECK_EQ(verdict.element, which);
-  }
   const SmallSpline other = surface();
-  Sections s = other.sections();
-  s.points = whole.points;
-  CHECK_EQ(verdict_of(s).element, 5u);
+  const Sections across = other.sections();
+  for (uint32_t which = 0; which < 9; ++which)
+    for (uint32_t kind = 0; kind < 2; ++kind) {
+      Sections s = kind == 0 ? whole : across;
+      firmtouch::core::Bytes* const parts[] = {&s.pieces, &s.coefficients, &s.leaves,
+                                               &s.places, &s.nodes,        &s.points,
+                                               &s.bends,  &s.grids,        &s.radii};
+      if (parts[which]->size() == 0)  // of the other kind: of any length it is too much
+        *parts[which] = whole.head;
+      else
+        *parts[which] = {parts[which]->data(), parts[which]->size() - 1};
+      const Verdict verdict = verdict_of(s);
+      CHECK_EQ(verdict.rule, 604);
+      CHECK_EQ(verdict.element, which);
+    }
 }
 
 TEST(Rule605RefusesABoxThatIsInvertedOrFarAway) {
@@ -207,8 +210,8 @@ TEST(Rule618RefusesANodeThatIsNone) {
   model.capsules[1].radius = 0x7F80;
   expect(model, 618, 1);
   model = surface();
-  model.boxes[4].axis[1][2] = 0.5f;
-  expect(model, 618, 4);
+  model.boxes[0].axis[1][2] = 0.5f;
+  expect(model, 618, 0);
   model = surface();
   model.boxes[0].half_m[1] = nan_value();
   expect(model, 618, 0);
@@ -224,9 +227,20 @@ TEST(Rule620RefusesBendsThatAreNotBounds) {
   SmallSpline model = curve();
   model.bends[2].fixed = static_cast<uint16_t>(model.bends[2].fixed - 1);
   expect(model, 620, 2);
-  model = surface();
-  model.bends[5].turning = static_cast<uint16_t>(model.bends[5].turning - 1);
-  expect(model, 620, 1);
+  for (uint32_t k = 0; k < 5; ++k) {
+    for (uint32_t cell = 0; cell < 3; ++cell) {
+      const uint32_t leaf = cell == 0 ? 0 : cell + 1;  // the first of each
+      model = surface();
+      firmtouch::spline::PatchBend& bend = model.patch_bends[cell];
+      uint8_t* const bytes[] = {&bend.fixed[k], &bend.turning[k]};
+      for (uint8_t* const byte : bytes) {
+        if (*byte == 0) continue;  // below the unit
+        *byte = static_cast<uint8_t>(*byte - 1);
+        expect(model, 620, leaf);
+        *byte = static_cast<uint8_t>(*byte + 1);
+      }
+    }
+  }
   model = curve();
   model.bends[0].fixed = 0x7F80;
   expect(model, 620, 0);
@@ -252,8 +266,59 @@ TEST(Rule623RefusesANodeThatDoesNotHoldItsLeaves) {
     SmallSpline model = curve();
     model.capsules[node].radius = static_cast<uint16_t>(model.capsules[node].radius * 127 / 128);
     CHECK_EQ(verdict_of(model.sections()).rule, 623);
+  }
+  SmallSpline model = surface();
+  model.boxes[0].half_m[2] *= 0.999f;
+  CHECK_EQ(verdict_of(model.sections()).rule, 623);
+  for (uint32_t part = 0; part < 6; ++part) {
+    firmtouch::test::note("part", part);
     model = surface();
-    model.boxes[node].half_m[2] *= 0.999f;
+    model.radii[part] = static_cast<uint8_t>(model.radii[part] - 1);
     CHECK_EQ(verdict_of(model.sections()).rule, 623);
   }
+  model = surface();
+  model.corners[4].z = static_cast<int16_t>(model.corners[4].z + 2000);
+  CHECK_EQ(verdict_of(model.sections()).rule, 623);
+}
+
+TEST(Rule624RefusesCornersAndLeavesOutOfTurn) {
+  SmallSpline model = surface();
+  model.grids[1].first_corner = 5;
+  expect(model, 624, 1);
+  model = surface();
+  model.grids[0].first_leaf = 1;
+  expect(model, 624, 0);
+  model = surface();
+  model.grids[1].first_cell = 2;
+  expect(model, 624, 1);
+  model = surface();
+  model.grids[1].cell_level = 0;
+  expect(model, 624, 2);
+  model = surface();
+  model.grids[1].cell_level = 7;
+  expect(model, 624, 1);
+  model = surface();
+  model.pieces[0].level_v = 1;
+  expect(model, 624, 1);
+  model = surface();
+  model.pieces[1].level_u = 0;
+  expect(model, 624, 2);
+}
+
+TEST(Rule625RefusesStepsAndUnitsThatAreNone) {
+  SmallSpline model = surface();
+  model.grids[1].step_m = 0x1.8p-13f;
+  expect(model, 625, 1);
+  model = surface();
+  model.grids[0].step_m = nan_value();
+  expect(model, 625, 0);
+  model = surface();
+  model.grids[1].fixed_unit_m2 = 0.0f;
+  expect(model, 625, 1);
+  model = surface();
+  model.grids[1].turning_unit_m = nan_value();
+  expect(model, 625, 1);
+  model = surface();
+  model.grids[0].radius_unit_m = 0x1p61f;
+  expect(model, 625, 0);
 }

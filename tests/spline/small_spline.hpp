@@ -3,6 +3,7 @@
 // tests run on the controller too and a rule can be broken by hand.
 #include <stdint.h>
 
+#include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/leaf_shape.hpp"
 #include "firmtouch/spline/view.hpp"
@@ -16,11 +17,15 @@ struct SmallSpline {
   spline::Piece pieces[2] = {};
   float coefficients[2 * 48] = {};
   spline::Leaf leaves[4] = {};
-  spline::Bend bends[16] = {};
+  spline::Bend bends[4] = {};
   uint16_t places[4] = {};
   spline::Capsule capsules[7] = {};
-  spline::Box boxes[7] = {};
   spline::Point points[5] = {};
+  spline::Grid grids[2] = {};
+  spline::Corner corners[12] = {};
+  uint8_t radii[6] = {};
+  spline::PatchBend patch_bends[3] = {};  // one cell of the first piece, two of the second
+  spline::Box boxes[1] = {};
 
   explicit SmallSpline(bool is_surface, bool is_rational = false) {
     head.is_surface = is_surface ? 1 : 0;
@@ -31,16 +36,24 @@ struct SmallSpline {
   }
 
   spline::Sections sections() const {
-    const bool is_surface = head.is_surface != 0;
-    const uint32_t bend_count = 4 * spline::bends_a_leaf(is_surface);
-    return {bytes(&head, sizeof head),
-            bytes(pieces, sizeof pieces),
-            bytes(coefficients, head.coefficient_count * 4),
-            bytes(leaves, sizeof leaves),
-            bytes(bends, bend_count * 4),
-            bytes(places, sizeof places),
-            is_surface ? bytes(boxes, sizeof boxes) : bytes(capsules, sizeof capsules),
-            is_surface ? core::Bytes{} : bytes(points, sizeof points)};
+    spline::Sections made;
+    made.head = bytes(&head, sizeof head);
+    made.pieces = bytes(pieces, sizeof pieces);
+    made.coefficients = bytes(coefficients, head.coefficient_count * 4);
+    if (head.is_surface != 0) {
+      made.bends = bytes(patch_bends, sizeof patch_bends);
+      made.nodes = bytes(boxes, sizeof boxes);
+      made.points = bytes(corners, sizeof corners);
+      made.grids = bytes(grids, sizeof grids);
+      made.radii = bytes(radii, sizeof radii);
+    } else {
+      made.leaves = bytes(leaves, sizeof leaves);
+      made.bends = bytes(bends, sizeof bends);
+      made.places = bytes(places, sizeof places);
+      made.nodes = bytes(capsules, sizeof capsules);
+      made.points = bytes(points, sizeof points);
+    }
+    return made;
   }
   spline::View view() const {
     spline::View opened;
@@ -48,10 +61,12 @@ struct SmallSpline {
     return verdict.ok() ? opened : spline::View{};
   }
   spline::LeafShape shape(uint32_t leaf) const {
+    return shape(leaf / 2, spline::part_of(pieces[leaf / 2], leaf % 2, 0));
+  }
+  spline::LeafShape shape(uint32_t of, const spline::Part& part) const {
     spline::LeafShape made;
-    const spline::Piece& piece = pieces[leaves[leaf].piece];
-    spline::derive(piece, coefficients + piece.coefficients, spline::part_of(piece, leaves[leaf]),
-                   made);
+    spline::derive(pieces[of], coefficients + pieces[of].coefficients, part, made);
+    spline::bound_bends(part, made);
     return made;
   }
 
@@ -60,24 +75,21 @@ struct SmallSpline {
     const bool is_surface = head.is_surface != 0;
     head.piece_count = 2;
     head.leaf_count = 4;
-    head.point_count = is_surface ? 0 : 5;
+    head.point_count = is_surface ? 12 : 5;
     head.extent_m = 3.9f;
     head.worst_steps = 100;
     head.loss_m = 0;
     for (uint32_t k = 0; k < 3; ++k) head.low_m[k] = 1e6f, head.high_m[k] = -1e6f;
-    const uint32_t bends_each = spline::bends_a_leaf(is_surface);
     for (uint32_t i = 0; i < 4; ++i) {
       leaves[i] = {static_cast<uint16_t>(i / 2), static_cast<uint8_t>(i % 2), 0};
       places[i] = static_cast<uint16_t>(i);
       const spline::LeafShape s = shape(i);
-      for (uint32_t k = 0; k < bends_each; ++k)
-        bends[i * bends_each + k] = {spline::rounded_up(s.fixed[k]),
-                                     spline::rounded_up(s.turning[k])};
+      bends[i] = {spline::rounded_up(s.fixed[0]), spline::rounded_up(s.turning[0])};
       if (s.loss_m > head.loss_m) head.loss_m = s.loss_m;
       widen(s);
     }
     if (is_surface)
-      derive_boxes();
+      derive_grids();
     else
       derive_capsules();
   }
@@ -161,19 +173,55 @@ struct SmallSpline {
   }
   math::Vec3 at(uint32_t i) const { return {points[i].x_m, points[i].y_m, points[i].z_m}; }
 
-  void derive_boxes() {
-    constexpr float kShort = 1.0f - 0x1p-21f;
-    for (uint32_t node = 0; node < 7; ++node) {
-      const uint32_t first = node >= 3 ? node - 3 : node == 2 ? 2 : 0;
-      const uint32_t count = node >= 3 ? 1 : node == 0 ? 4 : 2;
-      spline::Box& box = boxes[node];
-      box = {};
-      const math::Vec3 middle_m = shape(first).middle_m;
-      box.centre_m[0] = middle_m.x, box.centre_m[1] = middle_m.y, box.centre_m[2] = middle_m.z;
-      box.axis[0][0] = 0.6f * kShort, box.axis[0][1] = 0.8f * kShort;
-      box.axis[1][0] = -0.8f * kShort, box.axis[1][1] = 0.6f * kShort;
-      for (uint32_t i = first; i < first + count; ++i) spline::enlarge(shape(i), box);
+  void derive_grids() {
+    for (uint32_t p = 0; p < 2; ++p) {
+      spline::Grid& grid = grids[p];
+      grid = {6 * p, 2 * p, p, p, 0x1p-13f, 0x1p-28f, 0x1p-26f, 0x1p-26f};
+      for (uint32_t i = 0; i < 6; ++i) {
+        double at[3];
+        point(p, static_cast<double>(i % 3) - 1.0, i < 3 ? -1.0 : 1.0, at);
+        int16_t* const to = &corners[6 * p + i].x;
+        for (uint32_t k = 0; k < 3; ++k)
+          to[k] = static_cast<int16_t>((at[k] - static_cast<double>(pieces[p].origin_m[k])) * 8192);
+      }
+      for (uint32_t i = 0; i < p + 1; ++i) {
+        const spline::Part part = spline::part_of(spline::cell_levels(pieces[p], grid), i, 0);
+        const spline::LeafShape s = shape(p, part);
+        for (uint32_t k = 0; k < 5; ++k) {
+          patch_bends[p + i].fixed[k] = byte(grid.fixed_unit_m2, s.fixed[k]);
+          patch_bends[p + i].turning[k] = byte(grid.turning_unit_m, s.turning[k]);
+        }
+      }
+      const spline::Parallelogram whole = around({p, 0, 0, 0});
+      for (uint32_t u = 0; u < 2; ++u) {
+        const spline::LeafShape s = shape(2 * p + u);
+        const spline::Parallelogram leaf = around({p, 1, u, 0});
+        uint8_t& own = radii[3 * p + 1 + u];
+        own = byte(grid.radius_unit_m, spline::radius_for(s, leaf));
+        const uint8_t above =
+            byte(grid.radius_unit_m,
+                 spline::radius_above(spline::stored_value(grid.radius_unit_m, own), leaf, whole));
+        if (u == 0 || above > radii[3 * p]) radii[3 * p] = above;
+      }
     }
+    derive_box();
+  }
+  spline::Parallelogram around(const spline::Patch& p) const {
+    return spline::stored_parallelogram(pieces[p.piece], grids[p.piece], corners, p);
+  }
+  static uint8_t byte(float unit, float value) {
+    return static_cast<uint8_t>(spline::byte_above(unit, value));
+  }
+
+  void derive_box() {
+    constexpr float kShort = 1.0f - 0x1p-21f;
+    spline::Box& box = boxes[0];
+    box = {};
+    const math::Vec3 middle_m = shape(0).middle_m;
+    box.centre_m[0] = middle_m.x, box.centre_m[1] = middle_m.y, box.centre_m[2] = middle_m.z;
+    box.axis[0][0] = 0.6f * kShort, box.axis[0][1] = 0.8f * kShort;
+    box.axis[1][0] = -0.8f * kShort, box.axis[1][1] = 0.6f * kShort;
+    for (uint32_t i = 0; i < 4; ++i) spline::enlarge(shape(i), box);
   }
 };
 

@@ -40,6 +40,8 @@ core::Verdict open_spline(const asset::Container& file, const char* name, spline
   sections.places = file.find(spline::kPlacesSection, name);
   sections.nodes = file.find(spline::kNodesSection, name);
   sections.points = file.find(spline::kPointsSection, name);
+  sections.grids = file.find(spline::kGridsSection, name);
+  sections.radii = file.find(spline::kRadiiSection, name);
   return spline::open(sections, view);
 }
 

@@ -115,7 +115,9 @@ spline::Sections spline_sections_of(const asset::Container& container, const cha
           container.find(spline::kBendsSection, name),
           container.find(spline::kPlacesSection, name),
           container.find(spline::kNodesSection, name),
-          container.find(spline::kPointsSection, name)};
+          container.find(spline::kPointsSection, name),
+          container.find(spline::kGridsSection, name),
+          container.find(spline::kRadiiSection, name)};
 }
 
 std::vector<std::string> names_with(const asset::Container& container, uint32_t type) {

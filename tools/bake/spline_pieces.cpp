@@ -1,5 +1,7 @@
 #include "bake/spline_pieces.hpp"
 
+#include "firmtouch/spline/bend_bounds.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -146,11 +148,10 @@ spline::LeafShape shape_of(const StoredPiece& stored, uint32_t level_u, uint32_t
   spline::Piece piece = stored.piece;
   piece.level_u = static_cast<uint8_t>(level_u & 15u);
   piece.level_v = static_cast<uint8_t>(level_v & 15u);
-  spline::Leaf leaf{};
-  leaf.index_u = static_cast<uint8_t>(index_u);
-  leaf.index_v = static_cast<uint8_t>(index_v);
+  const spline::Part part = spline::part_of(piece, index_u, index_v);
   spline::LeafShape shape;
-  spline::derive(piece, stored.coefficients.data(), spline::part_of(piece, leaf), shape);
+  spline::derive(piece, stored.coefficients.data(), part, shape);
+  if (shape.least_weight > 0.0f) spline::bound_bends(part, shape);
   return shape;
 }
 

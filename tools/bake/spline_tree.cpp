@@ -1,11 +1,9 @@
 #include "bake/spline_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bake/left_filled.hpp"
-#include "bake/principal_axes.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -13,7 +11,6 @@ namespace {
 struct Part {
   spline::Leaf leaf;
   spline::LeafShape shape;
-  std::array<float, 3> middle_m;
   uint32_t order;                // piece by piece
   uint16_t first = 0, last = 0;  // points of a curve
 };
@@ -22,8 +19,8 @@ struct Range {
   uint32_t node, begin, end;
 };
 
-spline::Bend bend_of(const Part& part, uint32_t k) {
-  return {spline::rounded_up(part.shape.fixed[k]), spline::rounded_up(part.shape.turning[k])};
+spline::Bend bend_of(const Part& part) {
+  return {spline::rounded_up(part.shape.fixed[0]), spline::rounded_up(part.shape.turning[0])};
 }
 
 std::vector<Part> parts_of(const std::vector<StoredPiece>& pieces) {
@@ -37,7 +34,6 @@ std::vector<Part> parts_of(const std::vector<StoredPiece>& pieces) {
         part.leaf.piece = static_cast<uint16_t>(p);
         part.leaf.index_u = static_cast<uint8_t>(u);
         part.leaf.index_v = static_cast<uint8_t>(v);
-        part.middle_m = {part.shape.middle_m.x, part.shape.middle_m.y, part.shape.middle_m.z};
         part.order = static_cast<uint32_t>(parts.size());
         parts.push_back(part);
       }
@@ -73,19 +69,6 @@ bool place_points(std::vector<Part>& parts, std::vector<spline::Point>& points) 
   return true;
 }
 
-uint32_t widest_axis(const std::vector<Part>& parts, uint32_t begin, uint32_t end) {
-  std::array<float, 3> low = parts[begin].middle_m, high = low;
-  for (uint32_t i = begin + 1; i < end; ++i)
-    for (size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], parts[i].middle_m[k]);
-      high[k] = std::max(high[k], parts[i].middle_m[k]);
-    }
-  size_t widest = 0;
-  for (size_t k = 1; k < 3; ++k)
-    if (high[k] - low[k] > high[widest] - low[widest]) widest = k;
-  return static_cast<uint32_t>(widest);
-}
-
 math::Vec3 vec(const spline::Point& p) { return {p.x_m, p.y_m, p.z_m}; }
 
 spline::Capsule capsule_around(const std::vector<Part>& parts, uint32_t begin, uint32_t end,
@@ -104,109 +87,33 @@ spline::Capsule capsule_around(const std::vector<Part>& parts, uint32_t begin, u
   return capsule;
 }
 
-Point at(const spline::LeafShape& shape, double x, double y) {
-  Point sum{};
-  double w = 0, py = 1;
-  for (uint32_t j = 0; j <= shape.degree_v; ++j, py *= y) {
-    double px = py;
-    for (uint32_t i = 0; i <= shape.degree_u; ++i, px *= x) {
-      const uint32_t k = j * (shape.degree_u + 1) + i;
-      sum = sum + to_point(shape.c[k]) * px;
-      w += static_cast<double>(shape.w[k]) * px;
-    }
-  }
-  return to_point(shape.middle_m) + sum * (1 / w);
-}
-
-double volume(const spline::Box& box, double least_m) {
-  double product = 1;
-  for (const float half_m : box.half_m) product *= static_cast<double>(half_m) + least_m;
-  return product;
-}
-
-// Along the principal axes of points of the parts, or along the model's, whichever is smaller.
-spline::Box box_around(const std::vector<Part>& parts, uint32_t begin, uint32_t end) {
-  std::vector<Point> samples;
-  for (uint32_t i = begin; i < end; ++i)
-    for (const double y : {-1.0, 0.0, 1.0})
-      for (const double x : {-1.0, 0.0, 1.0}) samples.push_back(at(parts[i].shape, x, y));
-  spline::Box best{};
-  double least = HUGE_VAL;
-  for (const bool is_own : {true, false}) {
-    const Frame frame = is_own ? principal_axes(samples) : Frame{};
-    double low[3], high[3];
-    for (size_t k = 0; k < 3; ++k) {
-      low[k] = HUGE_VAL, high[k] = -HUGE_VAL;
-      for (const Point& s : samples) {
-        low[k] = std::min(low[k], dot(s, frame.axis[k]));
-        high[k] = std::max(high[k], dot(s, frame.axis[k]));
-      }
-    }
-    spline::Box box{};
-    Point centre{};
-    for (size_t k = 0; k < 3; ++k) centre = centre + frame.axis[k] * (0.5 * (low[k] + high[k]));
-    const math::Vec3 c = to_vec3(centre);
-    box.centre_m[0] = c.x, box.centre_m[1] = c.y, box.centre_m[2] = c.z;
-    for (size_t k = 0; k < 2; ++k) {
-      const math::Vec3 axis = to_vec3(frame.axis[k] * (1 - 0x1p-21));
-      box.axis[k][0] = axis.x, box.axis[k][1] = axis.y, box.axis[k][2] = axis.z;
-    }
-    for (uint32_t i = begin; i < end; ++i) spline::enlarge(parts[i].shape, box);
-    const double size =
-        volume(box, 1e-3 * static_cast<double>(box.half_m[0] + box.half_m[1] + box.half_m[2]));
-    if (size < least) {
-      least = size;
-      best = box;
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
-SplineTree build_spline_tree(const std::vector<StoredPiece>& pieces, bool is_surface) {
+SplineTree build_spline_tree(const std::vector<StoredPiece>& pieces) {
   SplineTree tree;
   std::vector<Part> parts = parts_of(pieces);
-  const uint32_t bends = spline::bends_a_leaf(is_surface);
   for (const Part& part : parts)
-    for (uint32_t k = 0; k < bends; ++k)
-      if (bend_of(part, k).fixed >= 0x7F80u || bend_of(part, k).turning >= 0x7F80u) return tree;
-  if (!is_surface && !place_points(parts, tree.points)) return tree;
+    if (bend_of(part).fixed >= 0x7F80u || bend_of(part).turning >= 0x7F80u) return tree;
+  if (!place_points(parts, tree.points)) return tree;
   const auto count = static_cast<uint32_t>(parts.size());
   tree.leaves.resize(count);
-  tree.bends.resize(size_t{count} * bends);
+  tree.bends.resize(count);
   tree.places.resize(count);
-  if (is_surface)
-    tree.boxes.resize(2 * count - 1);
-  else
-    tree.capsules.resize(2 * count - 1);
+  tree.capsules.resize(2 * count - 1);
   std::vector<Range> open{{0, 0, count}};
   while (!open.empty()) {
     const Range range = open.back();
     open.pop_back();
-    if (is_surface)
-      tree.boxes[range.node] = box_around(parts, range.begin, range.end);
-    else
-      tree.capsules[range.node] = capsule_around(parts, range.begin, range.end, tree.points);
+    tree.capsules[range.node] = capsule_around(parts, range.begin, range.end, tree.points);
     const uint32_t size = range.end - range.begin;
     if (size == 1) {
       const uint32_t leaf = range.node - (count - 1);
       tree.leaves[leaf] = parts[range.begin].leaf;
-      for (uint32_t k = 0; k < bends; ++k)
-        tree.bends[leaf * bends + k] = bend_of(parts[range.begin], k);
+      tree.bends[leaf] = bend_of(parts[range.begin]);
       tree.places[parts[range.begin].order] = static_cast<uint16_t>(leaf);
       continue;
     }
     const uint32_t middle = range.begin + (first_size(2 * size - 1) + 1) / 2;
-    if (is_surface) {  // a curve keeps its order
-      const size_t axis = widest_axis(parts, range.begin, range.end);
-      std::sort(parts.begin() + range.begin, parts.begin() + range.end,
-                [axis](const Part& a, const Part& b) {
-                  if (a.middle_m[axis] < b.middle_m[axis]) return true;
-                  if (b.middle_m[axis] < a.middle_m[axis]) return false;
-                  return a.order < b.order;
-                });
-    }
     open.push_back({spline::first_child(range.node), range.begin, middle});
     open.push_back({spline::first_child(range.node) + 1, middle, range.end});
   }

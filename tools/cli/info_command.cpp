@@ -57,6 +57,8 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {spline::kPlacesSection, "spline places"},
                                          {spline::kNodesSection, "spline nodes"},
                                          {spline::kPointsSection, "spline points"},
+                                         {spline::kGridsSection, "spline grids"},
+                                         {spline::kRadiiSection, "spline radii"},
                                          {spline::kProbesSection, "spline probes"},
                                          {spline::kArcsSection, "spline arcs"},
                                          {spline::kChainsSection, "spline chains"}};

@@ -7,10 +7,11 @@ namespace {
 
 using math::Vec3;
 
-constexpr uint32_t kOrders = 5;         // derivatives of order 0 to 4 are bounded
+constexpr uint32_t kOrders = 6;         // derivatives of order 0 to 5 are bounded
 constexpr float kUp = 1.0f + 0x1p-16f;  // for sums and products of a few dozen roundings
-constexpr float kChoose[kOrders][kOrders] = {
-    {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
+constexpr float kChoose[kOrders][kOrders] = {{1, 0, 0, 0, 0, 0}, {1, 1, 0, 0, 0, 0},
+                                             {1, 2, 1, 0, 0, 0}, {1, 3, 3, 1, 0, 0},
+                                             {1, 4, 6, 4, 1, 0}, {1, 5, 10, 10, 5, 1}};
 
 float least(float a, float b) { return a < b ? a : b; }
 float size_of(float a) { return a < 0.0f ? -a : a; }
@@ -33,7 +34,7 @@ struct Sizes {
   float of[kOrders][kOrders];
 };
 struct Vectors {
-  Vec3 of[4][4];
+  Vec3 of[kOrders - 1][kOrders - 1];
 };
 
 // Of the numerator and of the weight: the sums of what their powers may amount to.
@@ -68,7 +69,7 @@ void quotient(Sizes& c, const Sizes& w, float least_weight) {
 
 // The same in the middle, as vectors; the weight there is 1.
 void middle_derivatives(const LeafShape& shape, Vectors& x) {
-  for (uint32_t order = 0; order < 4; ++order)
+  for (uint32_t order = 0; order + 1 < kOrders; ++order)
     for (uint32_t b = 0; b <= order; ++b) {
       const uint32_t a = order - b;
       Vec3 sum{};
@@ -88,7 +89,7 @@ void middle_derivatives(const LeafShape& shape, Vectors& x) {
 // What changes over the leaf, at most, from what it is in the middle: nothing is lost to the sizes of
 // terms that cancel there. The numerator's own noise is in the sums already.
 void tighten(const Vectors& x, Sizes& c) {
-  for (uint32_t order = 4; order-- > 1;)
+  for (uint32_t order = kOrders - 1; order-- > 1;)
     for (uint32_t b = 0; b <= order; ++b) {
       const uint32_t a = order - b;
       const float from_middle = (math::length(x.of[a][b]) + c.of[a + 1][b] + c.of[a][b + 1]) * kUp;
@@ -108,28 +109,33 @@ float product(const Vectors& x, const Sizes& c, uint32_t a, uint32_t b, uint32_t
 
 }  // namespace
 
-void bound_bends(const Part& part, float noise_m, float noise_w, LeafShape& shape) {
+void bound_bends(const Part& part, LeafShape& shape) {
   Sizes c, w;
-  bound_sums(shape, part, noise_m, noise_w, c, w);
+  bound_sums(shape, part, shape.numerator_noise_m, shape.weight_noise, c, w);
   quotient(c, w, shape.least_weight);
   Vectors x;
   middle_derivatives(shape, x);
   tighten(x, c);
-  const float products[4] = {
-      3.0f * product(x, c, 1, 0, 2, 0),
-      product(x, c, 0, 1, 2, 0) + 2.0f * product(x, c, 1, 0, 1, 1),
-      product(x, c, 1, 0, 0, 2) + 2.0f * product(x, c, 0, 1, 1, 1),
-      3.0f * product(x, c, 0, 1, 0, 2),
+  const auto of = [&](uint32_t a, uint32_t b, uint32_t k, uint32_t l) {
+    return product(x, c, a, b, k, l);
   };
   const float span_m = 2.0f * shape.reach_m;
-  for (uint32_t k = 0; k < 4; ++k) {
-    shape.turning[k] = c.of[3 - k][k] * kUp;
-    shape.fixed[k] = (products[k] + shape.turning[k] * span_m) * kUp;
-  }
-  if (shape.degree_v != 0) return;
-  const float cubed = power(part.half_u, 3);
-  shape.fixed[0] = shape.fixed[0] / cubed;
-  shape.turning[0] = shape.turning[0] / cubed;
+  const auto bound = [&](uint32_t i, float products, float turning, float halves) {
+    // By the piece's s and t: the halves are powers of two.
+    shape.fixed[i] = (products + turning * kUp * span_m) * kUp / halves;
+    shape.turning[i] = turning * kUp / halves;
+  };
+  const float u = part.half_u, v = part.half_v;
+  if (shape.degree_v == 0) return bound(0, 3.0f * of(1, 0, 2, 0), c.of[3][0], u * u * u);
+  const float products[5] = {
+      4.0f * of(1, 0, 3, 0) + 3.0f * of(2, 0, 2, 0),
+      of(0, 1, 3, 0) + 3.0f * of(1, 0, 2, 1) + 3.0f * of(2, 0, 1, 1),
+      2.0f * of(1, 0, 1, 2) + 2.0f * of(0, 1, 2, 1) + of(2, 0, 0, 2) + 2.0f * of(1, 1, 1, 1),
+      of(1, 0, 0, 3) + 3.0f * of(0, 1, 1, 2) + 3.0f * of(0, 2, 1, 1),
+      4.0f * of(0, 1, 0, 3) + 3.0f * of(0, 2, 0, 2),
+  };
+  for (uint32_t k = 0; k < 5; ++k)
+    bound(k, products[k], c.of[4 - k][k], power(u, 4 - k) * power(v, k));
 }
 
 }  // namespace firmtouch::spline

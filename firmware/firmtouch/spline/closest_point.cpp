@@ -15,6 +15,8 @@ using math::Vec3;
 // By how much a part may be nearer than the best and is not looked at, of the extent: what is left of
 // 4e-7 and 1e-6 when the losses are taken off.
 constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
+// A new fence stands this many of the last motions beyond the nearest point.
+constexpr float kFenceMotions = 8.0f;
 // Farther than so many extents all points of a model are as near as any other, to 2^-28.
 constexpr float kBeyond = 0x1p28f;
 
@@ -25,7 +27,7 @@ void begin_at_first(const View& model, Vec3 p_m, Best& best) {
   best.x = vec3_at(c) * (piece.is_rational != 0 ? 1.0f / c[3] : 1.0f);
   const Vec3 r_m = best.x - (p_m - vec3_at(piece.origin_m));
   (void)best.take(dot(r_m, r_m));
-  best.leaf = UINT32_MAX;
+  best.node = query::kNowhere;
 }
 
 // Distance to the model's box, rounded down: float32 loses 5 roundings of the sizes involved.
@@ -50,11 +52,6 @@ bool is_near(const Head& head, Vec3 p_m) {
   return true;
 }
 
-uint32_t piece_of(const View& model, uint32_t leaf) {
-  if (leaf == UINT32_MAX) return 0;
-  return model.leaves()[leaf].piece;
-}
-
 Vec3 unit_of(Vec3 v) {
   const float most = [&] {
     const float x = v.x < 0.0f ? -v.x : v.x, y = v.y < 0.0f ? -v.y : v.y,
@@ -67,8 +64,8 @@ Vec3 unit_of(Vec3 v) {
 }
 
 // All but the certificate.
-Closest answer_at(const View& model, const Best& best) {
-  const Piece& piece = model.pieces()[piece_of(model, best.leaf)];
+Closest answer_at(const View& model, const Best& best, uint32_t piece_index) {
+  const Piece& piece = model.pieces()[piece_index];
   Closest closest;
   closest.distance_m = best.distance_m;
   closest.point_m = vec3_at(piece.origin_m) + best.x;
@@ -77,7 +74,7 @@ Closest answer_at(const View& model, const Best& best) {
   closest.piece = piece.entity;
   closest.u = piece.middle_u + piece.half_u * best.s;
   closest.v = piece.middle_v + piece.half_v * best.t;
-  closest.bezier = piece_of(model, best.leaf);
+  closest.bezier = piece_index;
   closest.s = best.s;
   closest.t = best.t;
   closest.evaluations = best.evaluations;
@@ -91,53 +88,65 @@ float lost_m(const Head& head, float distance_m) { return head.loss_m + 5.5f * k
 template <class Shape>
 Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
   const Head& head = model.head();
+  const query::Carried carried = query::carry(hint, p_m);
   Best best;
   best.gap_m = head.extent_m * (head.is_rational != 0 ? kRationalGap : kGap);
   Shape shape(model, p_m);
-  Search<Shape> search(shape, model.leaf_count(), budget.steps, outside_m(head, p_m), best);
-  begin_at_first(model, p_m, best);
-  const uint32_t leaf = hint.place >> 16;
-  if (leaf < model.leaf_count())
-    search.run_warm(leaf, shape.resumed(leaf, hint.place & 0xFFFFu));
-  else
-    search.run_cold();
+  Search<Shape> search(shape, budget.steps, best);
+  Fence fence{hint.fence, carried.fence_m};
+  uint32_t leaf;
+  typename Shape::Range range;
+  if (shape.resume(hint.place, leaf, range)) {
+    search.run_warm(leaf, range, kFenceMotions * carried.motion_m, fence);
+  } else {
+    begin_at_first(model, p_m, best);
+    search.run_cold(outside_m(head, p_m));
+    fence = {query::kNowhere, 0.0f};
+  }
 
-  Closest closest = answer_at(model, best);
+  const bool is_first = best.node == query::kNowhere;
+  Closest closest = answer_at(model, best, is_first ? 0 : shape.piece_of(best.node));
   float lower_m = best.limit_m < closest.distance_m ? best.limit_m : closest.distance_m;
-  if (!search.is_complete() && search.pending_m() < lower_m) lower_m = search.pending_m();
+  const bool is_complete = search.is_complete();
+  if (!is_complete) {
+    const float pending_m = search.pending_m(outside_m(head, p_m));
+    if (pending_m < lower_m) lower_m = pending_m;
+  }
   lower_m -= lost_m(head, closest.distance_m);
-  const float carried_m = query::carry(hint, p_m).lower_m;
-  if (!search.is_complete() && carried_m > lower_m) lower_m = carried_m;
+  if (!is_complete && carried.lower_m > lower_m) lower_m = carried.lower_m;
   closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   closest.certificate.steps = search.steps();
-  closest.certificate.exact = search.is_complete();
-  // Leaf in the upper half, where in it in the lower.
-  hint.place =
-      best.leaf == UINT32_MAX ? query::kNowhere : best.leaf << 16 | shape.place_in(best.leaf, best);
+  closest.certificate.exact = is_complete;
+  hint.place = is_first ? query::kNowhere : shape.place_of(best);
   hint.position_m = p_m;
   hint.lower_m = closest.certificate.lower_m;
   hint.sign = 0;
+  hint.fence = fence.node;
+  hint.fence_m = fence.distance_m;
   return closest;
 }
 
 Closest answer_beyond(const View& model, Vec3 p_m, query::Hint& hint) {
   Best best;
   begin_at_first(model, p_m, best);
-  Closest closest = answer_at(model, best);
+  Closest closest = answer_at(model, best, 0);
   const float scaled = math::length((p_m - closest.point_m) * 0x1p-70f);
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
   closest.certificate = {closest.distance_m * (1.0f - 8.0f * kUnit), 1, fits, 0};
-  hint = {query::kNowhere, p_m, closest.certificate.lower_m, 0};
+  hint = query::Hint{};
+  hint.position_m = p_m;
+  hint.lower_m = closest.certificate.lower_m;
   return closest;
 }
 
 Closest answer_nothing(const View& model, query::Hint& hint) {
   Best best;
   begin_at_first(model, {}, best);
-  Closest closest = answer_at(model, best);
+  Closest closest = answer_at(model, best, 0);
   closest.distance_m = FLT_MAX;
   hint.lower_m = 0;
+  hint.fence_m = 0;
   return closest;
 }
 

@@ -20,44 +20,50 @@ class CurveParts {
         bends_(model.bends().data()),
         capsules_(model.capsules().data()),
         points_(model.points().data()),
+        base_(model.leaf_count() - 1),
         loss_m_(model.head().loss_m),
         p_m_(p_m) {}
 
-  /// Of the leaf whose node bound_m() was asked about last: it begins at the foot on the chord.
-  Range whole(uint32_t leaf) const {
-    const Part part = part_of(pieces_[leaves_[leaf].piece], leaves_[leaf]);
-    const float low = part.middle_u - part.half_u;
-    return {low, part.middle_u + part.half_u, low + 2.0f * part.half_u * foot_};
-  }
+  uint32_t root() const { return 0; }
+  bool is_leaf(uint32_t node) const { return node >= base_; }
+  uint32_t first_child(uint32_t node) const { return 2 * node + 1; }
+  uint32_t sibling_of(uint32_t node) const { return spline::sibling_of(node); }
+  uint32_t parent_of(uint32_t node) const { return spline::parent_of(node); }
 
-  /// Of the leaf of a hint, from where it was left.
-  Range resumed(uint32_t leaf, uint32_t code) const {
-    const Part part = part_of(pieces_[leaves_[leaf].piece], leaves_[leaf]);
-    const float low = part.middle_u - part.half_u;
-    return {low, part.middle_u + part.half_u, low + 2.0f * part.half_u * decoded(code, 65535)};
+  /// The leaf of a hint, from where it was left: none for a hint that is none.
+  bool resume(uint32_t place, uint32_t& node, Range& range) const {
+    const uint32_t leaf = place >> 16;
+    if (leaf > base_) return false;
+    node = base_ + leaf;
+    range = range_of(leaf, decoded(place & 0xFFFFu, 65535));
+    return true;
   }
-  uint32_t place_in(uint32_t leaf, const Best& best) const {
-    const Part part = part_of(pieces_[leaves_[leaf].piece], leaves_[leaf]);
-    return coded((best.s - (part.middle_u - part.half_u)) / (2.0f * part.half_u), 65535);
+  uint32_t place_of(const Best& best) const {
+    const Range range = range_of(best.node - base_, 0.0f);
+    return (best.node - base_) << 16 |
+           coded((best.s - range.low) / (range.high - range.low), 65535);
   }
+  uint32_t piece_of(uint32_t node) const { return leaves_[node - base_].piece; }
+
+  uint32_t closed_around(uint32_t leaf, const Best&) const { return leaf; }
 
   // The stored radius holds what float32 loses here (with_slack()).
-  float bound_m(uint32_t node) {
+  float bound_m(uint32_t node, Range& range) const {
     const Capsule& capsule = capsules_[node];
     const math::Vec3 a_m = point(capsule.first);
     const math::Vec3 from_m = p_m_ - a_m, along_m = point(capsule.last) - a_m;
     const float length2_m2 = dot(along_m, along_m), progress_m2 = dot(from_m, along_m);
     float t = progress_m2 > 0.0f ? progress_m2 / length2_m2 : 0.0f;
     if (!(t < 1.0f)) t = 1.0f;
-    foot_ = t;
     const float off_m = math::length(from_m - along_m * t);
+    if (node >= base_) range = range_of(node - base_, t);
     return off_m * (1.0f - 0x1p-20f) - from_half(capsule.radius);
   }
 
-  Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
+  Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
                 Half<Range> (&halves)[2]) {
-    const Leaf& part = leaves_[leaf];
-    const Piece& piece = pieces_[part.piece];
+    const uint32_t leaf = node - base_;
+    const Piece& piece = pieces_[leaves_[leaf].piece];
     const math::Vec3 q_m = p_m_ - vec3_at(piece.origin_m);
     const float fixed = from_half(bends_[leaf].fixed), turning = from_half(bends_[leaf].turning);
     float s = range.start;
@@ -71,21 +77,29 @@ class CurveParts {
       CurvePoint at;
       evaluate(piece, coefficients_, s, at);
       const math::Vec3 r_m = at.x - q_m;
-      const float distance2_m2 = dot(r_m, r_m);
+      const float distance2_m2 = dot(r_m, r_m), speed2 = dot(at.d1, at.d1);
       if (best.take(distance2_m2)) {
-        best.leaf = leaf;
+        best.node = node;
         best.s = s;
         best.x = at.x;
         best.along[0] = at.d1;
       }
-      const Expansion f = expand(r_m, distance2_m2, at, fixed, turning);
-      const float below2 = f.least2(-f.slope, s - range.low);
-      const float above2 = f.least2(f.slope, range.high - s);
+      const float slope = dot(r_m, at.d1), bend = speed2 + dot(r_m, at.d2);
+      // Where Newton's step leads within the range, and what it would gain there is needed, no proof can
+      // hold yet.
+      float next = bend > 0.0f ? s - slope / bend : slope > 0.0f ? range.low : range.high;
+      if (next > range.low && next < range.high && turn + 1 < kMostTurns &&
+          !best.seems_beyond(distance2_m2 + slope * (next - s))) {
+        s = next;
+        continue;
+      }
+      const Expansion f = expand(distance2_m2, bend, speed2, at, fixed, turning);
+      const float below2 = f.least2(-slope, s - range.low),
+                  above2 = f.least2(slope, range.high - s);
       const bool is_below_done = best.is_beyond(below2), is_above_done = best.is_beyond(above2);
       if (is_below_done) range.low = s;
       if (is_above_done) range.high = s;
       if (is_below_done && is_above_done) return Outcome::kClosed;
-      float next = f.bend > 0.0f ? s - f.slope / f.bend : f.slope > 0.0f ? range.low : range.high;
       if (!(next > range.low)) next = range.low;
       if (!(next < range.high)) next = range.high;
       const float step = next - s;
@@ -109,10 +123,10 @@ class CurveParts {
  private:
   static constexpr uint32_t kMostTurns = 5;
 
-  /// D^2 / 2 about a point: its slope and bend there, and how far the bend changes a unit of s.
+  /// D^2 / 2 about a point: its bend there as small as it may be, and how far the bend changes a unit
+  /// of s.
   struct Expansion {
-    float distance2, slope, bend;
-    float slope_noise, least_bend, change;
+    float distance2, slope_noise, least_bend, change;
 
     // The least of D^2 on one side, over a length: outward slope and bend as small as they may be,
     // f(d) >= f + slope d + (bend - change length / 3) d^2 / 2, whose least over 0 to length is
@@ -126,18 +140,15 @@ class CurveParts {
     }
   };
 
-  Expansion expand(math::Vec3 r_m, float distance2, const CurvePoint& at, float fixed,
+  Expansion expand(float distance2, float bend, float speed2, const CurvePoint& at, float fixed,
                    float turning) const {
     const float distance_m = math::square_root(distance2);
-    const float speed2 = dot(at.d1, at.d1);
-    const float speed = size_of(at.d1), swing = size_of(at.d2);
+    const float speed = math::square_root(speed2) * (1.0f + 0x1p-20f), swing = size_of(at.d2);
     Expansion f;
     f.distance2 = distance2;
-    f.slope = dot(r_m, at.d1);
-    f.bend = speed2 + dot(r_m, at.d2);
     f.slope_noise =
         speed * (loss_m_ + 6.0f * kUnit * distance_m) + kSlopeNoise * loss_m_ * distance_m;
-    f.least_bend = f.bend - kBendNoise * loss_m_ * (speed + distance_m) -
+    f.least_bend = bend - kBendNoise * loss_m_ * (speed + distance_m) -
                    8.0f * kUnit * (speed2 + distance_m * swing);
     f.change = (fixed + turning * distance_m) * (1.0f + 0x1p-20f);
     return f;
@@ -148,6 +159,14 @@ class CurveParts {
     return {{low, high, 0.5f * (low + high)}, own_m > lower_m ? own_m : lower_m};
   }
 
+  // A leaf, to be begun at a share of its length.
+  Range range_of(uint32_t leaf, float share) const {
+    const Leaf& at = leaves_[leaf];
+    const float wide = math::float_of((128u - pieces_[at.piece].level_u) << 23);  // 2^(1 - level)
+    const float low = static_cast<float>(static_cast<uint32_t>(at.index_u)) * wide - 1.0f;
+    return {low, low + wide, low + wide * share};
+  }
+
   math::Vec3 point(uint32_t i) const { return {points_[i].x_m, points_[i].y_m, points_[i].z_m}; }
 
   const Piece* pieces_;
@@ -156,9 +175,9 @@ class CurveParts {
   const Bend* bends_;
   const Capsule* capsules_;
   const Point* points_;
+  uint32_t base_;
   float loss_m_;
   math::Vec3 p_m_;
-  float foot_ = 0.5f;
 };
 
 }  // namespace firmtouch::spline

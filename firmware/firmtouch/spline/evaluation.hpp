@@ -13,8 +13,9 @@ struct CurvePoint {
 
 /// A point of a surface and its derivatives by the piece's s and t.
 struct SurfacePoint {
-  math::Vec3 x, du, dv, duu, duv, dvv;
+  math::Vec3 x, du, dv, duu, duv, dvv, uuu, uuv, uvv, vvv;
 };
+static_assert(sizeof(SurfacePoint) == 30 * sizeof(float));
 
 static inline math::Vec3 vec3_at(const float* from) { return {from[0], from[1], from[2]}; }
 
@@ -73,71 +74,120 @@ static inline void evaluate(const Piece& piece, const float* coefficients, float
   if (piece.is_rational != 0) divide(point, weight.value, weight.first, weight.half_second * 2.0f);
 }
 
-/// The numerator's derivatives become the point's; `w`: the weight's own, in the order of SurfacePoint.
-static inline void divide(SurfacePoint& p, const float (&w)[6]) {
-  const float per_w = 1.0f / w[0];
+/// The numerator's derivatives become the point's; `w`: the weight's own.
+struct Weights {
+  float x, du, dv, duu, duv, dvv, uuu, uuv, uvv, vvv;
+};
+static inline void divide(SurfacePoint& p, const Weights& w) {
+  const float per_w = 1.0f / w.x;
   p.x = p.x * per_w;
-  p.du = (p.du - p.x * w[1]) * per_w;
-  p.dv = (p.dv - p.x * w[2]) * per_w;
-  p.duu = (p.duu - p.du * (2.0f * w[1]) - p.x * w[3]) * per_w;
-  p.duv = (p.duv - p.du * w[2] - p.dv * w[1] - p.x * w[4]) * per_w;
-  p.dvv = (p.dvv - p.dv * (2.0f * w[2]) - p.x * w[5]) * per_w;
+  p.du = (p.du - p.x * w.du) * per_w;
+  p.dv = (p.dv - p.x * w.dv) * per_w;
+  p.duu = (p.duu - p.du * (2.0f * w.du) - p.x * w.duu) * per_w;
+  p.duv = (p.duv - p.du * w.dv - p.dv * w.du - p.x * w.duv) * per_w;
+  p.dvv = (p.dvv - p.dv * (2.0f * w.dv) - p.x * w.dvv) * per_w;
+  p.uuu = (p.uuu - p.duu * (3.0f * w.du) - p.du * (3.0f * w.duu) - p.x * w.uuu) * per_w;
+  p.uuv = (p.uuv - p.duu * w.dv - p.duv * (2.0f * w.du) - p.du * (2.0f * w.duv) - p.dv * w.duu -
+           p.x * w.uuv) *
+          per_w;
+  p.uvv = (p.uvv - p.dvv * w.du - p.duv * (2.0f * w.dv) - p.dv * (2.0f * w.duv) - p.du * w.dvv -
+           p.x * w.uvv) *
+          per_w;
+  p.vvv = (p.vvv - p.dvv * (3.0f * w.dv) - p.dv * (3.0f * w.dvv) - p.x * w.vvv) * per_w;
 }
 
-/// A row of powers of s, and the rows before it by powers of t.
-template <class T>
+/// One coordinate of a point and its derivatives, those of an order k divided by k! of each axis. Horner's
+/// rule along s in each row, then along t.
 struct Rows {
-  T x{}, du{}, dv{}, half_duu{}, duv{}, half_dvv{};
-  void add(const Jet<T>& row, float t) {
-    half_dvv = half_dvv * t + dv;
-    dv = dv * t + x;
-    x = x * t + row.value;
-    duv = duv * t + du;
-    du = du * t + row.first;
-    half_duu = half_duu * t + row.half_second;
+  float x, u, v, uu, uv, vv, uuu, uuv, uvv, vvv;
+  void begin(float value, float first, float second, float third) {
+    x = value, u = first, uu = second, uuu = third;
+    v = uv = uuv = vv = uvv = vvv = 0.0f;
+  }
+  void add(float value, float first, float second, float third, float t) {
+    vvv = vvv * t + vv;
+    vv = vv * t + v;
+    v = v * t + x;
+    x = x * t + value;
+    uvv = uvv * t + uv;
+    uv = uv * t + u;
+    u = u * t + first;
+    uuv = uuv * t + uu;
+    uu = uu * t + second;
+    uuu = uuu * t + third;
   }
 };
 
-static inline void cubic_row(const float* c, float s, Jet<math::Vec3>& jet) {
-  const math::Vec3 c1 = vec3_at(c + 3), c2 = vec3_at(c + 6), c3 = vec3_at(c + 9);
-  const math::Vec3 top = c3 * s, a = top + c2, b = a * s + c1, d = top + a;
-  jet.value = b * s + vec3_at(c);
-  jet.first = d * s + b;
-  jet.half_second = top + d;
+/// The same of a cubic by a cubic, coefficients three floats apart: nothing is computed of what is 0.
+static inline void cubic_rows(const float* c, float s, float t, Rows& r) {
+  const auto row = [c, s](uint32_t j, float& value, float& first, float& second, float& third) {
+    const float* const of = c + 12 * j;
+    third = of[9];
+    const float top = third * s, a = top + of[6], b = a * s + of[3], d = top + a;
+    value = b * s + of[0];
+    first = d * s + b;
+    second = top + d;
+  };
+  float x3, u3, uu3, uuu3, x2, u2, uu2, uuu2, x1, u1, uu1, uuu1, x0, u0, uu0, uuu0;
+  row(3, x3, u3, uu3, uuu3);
+  row(2, x2, u2, uu2, uuu2);
+  x2 = x3 * t + x2, u2 = u3 * t + u2, uu2 = uu3 * t + uu2, uuu2 = uuu3 * t + uuu2;
+  row(1, x1, u1, uu1, uuu1);
+  const float v1 = x3 * t + x2, uv1 = u3 * t + u2, uuv1 = uu3 * t + uu2;
+  x1 = x2 * t + x1, u1 = u2 * t + u1, uu1 = uu2 * t + uu1, uuu1 = uuu2 * t + uuu1;
+  row(0, x0, u0, uu0, uuu0);
+  r.vvv = x3;
+  r.vv = x3 * t + v1;
+  r.v = v1 * t + x1;
+  r.x = x1 * t + x0;
+  r.uvv = u3 * t + uv1;
+  r.uv = uv1 * t + u1;
+  r.u = u1 * t + u0;
+  r.uuv = uuv1 * t + uu1;
+  r.uu = uu1 * t + uu0;
+  r.uuu = uuu1 * t + uuu0;
+}
+
+static inline void any_rows(const Piece& piece, const float* c, uint32_t stride, float s, float t,
+                            Rows& r) {
+  const uint32_t columns = piece.degree_u + 1u;
+  for (uint32_t j = columns * piece.degree_v, rows = 0; rows <= piece.degree_v;
+       ++rows, j -= columns) {
+    float value = 0.0f, first = 0.0f, second = 0.0f, third = 0.0f;
+    for (uint32_t k = columns; k-- > 0;) {
+      third = third * s + second;
+      second = second * s + first;
+      first = first * s + value;
+      value = value * s + c[(j + k) * stride];
+    }
+    if (rows == 0)
+      r.begin(value, first, second, third);
+    else
+      r.add(value, first, second, third, t);
+  }
 }
 
 static inline void evaluate(const Piece& piece, const float* coefficients, float s, float t,
                             SurfacePoint& point) {
-  const uint32_t stride = piece.is_rational != 0 ? 4 : 3, columns = piece.degree_u + 1u;
-  const float* row = coefficients + piece.coefficients + piece.degree_v * columns * stride;
-  Rows<math::Vec3> rows;
-  Rows<float> weights;
-  for (uint32_t j = piece.degree_v + 1u; j > 0; --j, row -= columns * stride) {
-    Jet<math::Vec3> jet;
-    if (piece.degree_u == 3 && piece.is_rational == 0) {
-      cubic_row(row, s, jet);
-      rows.add(jet, t);
-      continue;
-    }
-    const float* c = row + piece.degree_u * stride;
-    Jet<float> weight;
-    begin(jet, vec3_at(c));
-    begin(weight, piece.is_rational != 0 ? c[3] : 0.0f);
-    for (uint32_t k = piece.degree_u; k > 0; --k) {
-      c -= stride;
-      add_power(jet, vec3_at(c), s);
-      if (piece.is_rational != 0) add_power(weight, c[3], s);
-    }
-    rows.add(jet, t);
-    if (piece.is_rational != 0) weights.add(weight, t);
+  const float* const c = coefficients + piece.coefficients;
+  const bool is_bicubic = piece.is_rational == 0 && piece.degree_u == 3 && piece.degree_v == 3;
+  const uint32_t stride = piece.is_rational != 0 ? 4 : 3;
+  float* const to = &point.x.x;  // ten vectors in a row
+  Rows r;
+  for (uint32_t k = 0; k < 3; ++k) {
+    if (is_bicubic)
+      cubic_rows(c + k, s, t, r);
+    else
+      any_rows(piece, c + k, stride, s, t, r);
+    to[k] = r.x, to[3 + k] = r.u, to[6 + k] = r.v;
+    to[9 + k] = 2.0f * r.uu, to[12 + k] = r.uv, to[15 + k] = 2.0f * r.vv;
+    to[18 + k] = 6.0f * r.uuu, to[21 + k] = 2.0f * r.uuv;
+    to[24 + k] = 2.0f * r.uvv, to[27 + k] = 6.0f * r.vvv;
   }
-  point = {rows.x, rows.du, rows.dv, rows.half_duu * 2.0f, rows.duv, rows.half_dvv * 2.0f};
-  if (piece.is_rational != 0) {
-    const float w[6] = {weights.x,   weights.du,
-                        weights.dv,  weights.half_duu * 2.0f,
-                        weights.duv, weights.half_dvv * 2.0f};
-    divide(point, w);
-  }
+  if (piece.is_rational == 0) return;
+  any_rows(piece, c + 3, 4, s, t, r);
+  divide(point, {r.x, r.u, r.v, 2.0f * r.uu, r.uv, 2.0f * r.vv, 6.0f * r.uuu, 2.0f * r.uuv,
+                 2.0f * r.uvv, 6.0f * r.vvv});
 }
 
 }  // namespace firmtouch::spline

@@ -11,17 +11,23 @@ namespace firmtouch::spline {
 constexpr uint32_t kHeadSection = 0x6001;
 constexpr uint32_t kPiecesSection = 0x6002;        // Piece[piece_count]
 constexpr uint32_t kCoefficientsSection = 0x6003;  // float[coefficient_count]
-constexpr uint32_t kLeavesSection = 0x6004;        // Leaf[leaf_count], in the order of the tree
-constexpr uint32_t kPlacesSection = 0x6005;        // uint16_t[leaf_count]: piece by piece, the leaf
-constexpr uint32_t kNodesSection = 0x6006;         // Capsule or Box [2 * leaf_count - 1]
-constexpr uint32_t kPointsSection = 0x6007;        // Point[point_count], curves only
-constexpr uint32_t kProbesSection = 0x6008;        // query::ProbeHead and its points
-constexpr uint32_t kBendsSection = 0x6009;         // Bend[leaf_count], of a surface four a leaf
+constexpr uint32_t kLeavesSection =
+    0x6004;  // Leaf[leaf_count], in the order of the tree: curves only
+constexpr uint32_t kPlacesSection =
+    0x6005;  // uint16_t[leaf_count]: piece by piece, the leaf: curves only
+constexpr uint32_t kNodesSection = 0x6006;   // Capsule[2 * leaf_count - 1]; Box[piece_count - 1]
+constexpr uint32_t kPointsSection = 0x6007;  // Point[point_count]; Corner[point_count]
+constexpr uint32_t kProbesSection = 0x6008;  // query::ProbeHead and its points
+constexpr uint32_t kBendsSection = 0x6009;   // Bend[leaf_count]; PatchBend, one a cell
+constexpr uint32_t kGridsSection = 0x600C;   // Grid[piece_count]: surfaces only
+constexpr uint32_t kRadiiSection = 0x600D;   // uint8_t[2 * leaf_count - piece_count]: surfaces only
 
 constexpr uint32_t kMaxDegree = 5;
-constexpr uint32_t kMaxLeaves = 65535;  // indices are of 16 bits
-constexpr uint32_t kMaxLevels = 17;     // of a tree whose levels are filled from the left
-constexpr uint32_t kMaxHalvings = 8;    // of a piece on an axis, to a leaf
+constexpr uint32_t kMaxLeaves = 65535;      // indices are of 16 bits
+constexpr uint32_t kMaxPatches = 32768;     // a surface's pieces
+constexpr uint32_t kMaxLevels = 29;         // of a tree: 17 over leaves or pieces, 12 in a piece
+constexpr uint32_t kMaxHalvings = 8;        // of a curve's piece, to a leaf
+constexpr uint32_t kMaxHalvingsAcross = 6;  // of a surface's, on each axis
 
 // Between these limits squares and fourth powers of all lengths stay finite and normal in float32.
 constexpr float kMaxCoordinate_m = 1e6f;
@@ -66,14 +72,38 @@ struct Leaf {
 static_assert(sizeof(Leaf) == 4);
 
 /// On a leaf, a third derivative of half the squared distance D^2 / 2 is at most fixed + turning D in
-/// size, where D is the distance to any point of the leaf. Both are the upper half of a float32,
-/// rounded up. A curve has one a leaf, by the piece's s; a surface four, uuu, uuv, uvv and vvv, in
-/// coordinates that are -1 to 1 across the leaf.
+/// size, where D is the distance to any point of the leaf, by the piece's s. Both are the upper half of
+/// a float32, rounded up.
 struct Bend {
   uint16_t fixed, turning;
 };
 static_assert(sizeof(Bend) == 4);
-constexpr uint32_t bends_a_leaf(bool is_surface) { return is_surface ? 4 : 1; }
+
+/// The same of the fourth derivatives on a cell of a surface, which holds leaves, by the piece's s and t: ssss, ssst, sstt,
+/// sttt and tttt, as bytes of its Grid's units.
+struct PatchBend {
+  uint8_t fixed[5], turning[5];
+};
+static_assert(sizeof(PatchBend) == 10);
+
+/// How a surface's piece is cut into 2^level_u x 2^level_v leaves, and what holds them. Corners of leaves
+/// lie in rows, (2^level_u + 1) x (2^level_v + 1). A byte b of a unit is the float32 whose bits are the
+/// unit's + b 2^20: eight steps to every doubling.
+struct Grid {
+  uint32_t first_corner;
+  uint32_t
+      first_leaf;  // its leaves follow in rows; its radii begin at 2 first_leaf - its own number
+  uint32_t first_cell;  // its cells follow in rows
+  uint32_t cell_level;  // a cell is so many halvings on each axis, or as many as there are
+  float step_m;         // of its corners, from the piece's origin: a power of two
+  float radius_unit_m, fixed_unit_m2, turning_unit_m;
+};
+static_assert(sizeof(Grid) == 32);
+
+struct Corner {
+  int16_t x, y, z;
+};
+static_assert(sizeof(Corner) == 6);
 
 /// Node i of the tree: inner nodes for i < leaf_count - 1, else leaf i - (leaf_count - 1). Children
 /// are nodes 2 i + 1 and 2 i + 2. No point of the curve below it lies farther than the radius from
@@ -89,7 +119,8 @@ struct Point {
 };
 static_assert(sizeof(Point) == 12);
 
-/// Node i of a surface's tree. The third axis is the product of the two; the axes are a little
+/// Node i of the tree over a surface's pieces, of piece_count leaves: only the inner ones are stored.
+/// The third axis is the product of the two; the axes are a little
 /// shorter than unit vectors, so that no distance seen along them is longer than it is.
 struct Box {
   float centre_m[3];

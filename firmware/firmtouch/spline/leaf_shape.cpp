@@ -1,7 +1,7 @@
 #include "firmtouch/spline/leaf_shape.hpp"
 
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/spline/bend_bounds.hpp"
+#include "firmtouch/spline/patch_grid.hpp"
 
 namespace firmtouch::spline {
 namespace {
@@ -79,6 +79,40 @@ float off_chord_m(const LeafShape& shape, Vec3 a_m, Vec3 b_m) {
          4.0f * kUnit * (math::length(a_m) + math::length(b_m));
 }
 
+// (point - centre - x a - y b) * weight, as a polynomial of one degree more on each axis.
+struct Residual {
+  static constexpr uint32_t kSide = kMaxDegree + 2;
+  Vec3 e[kSide][kSide] = {};  // [power of y][power of x]
+};
+void residual_of(const LeafShape& shape, const Parallelogram& around, Residual& r) {
+  const Vec3 off_m = around.centre - shape.local_m;
+  for (uint32_t j = 0; j <= shape.degree_v; ++j)
+    for (uint32_t i = 0; i <= shape.degree_u; ++i) {
+      const uint32_t at = j * (shape.degree_u + 1) + i;
+      const float w = shape.w[at];
+      r.e[j][i] = r.e[j][i] + shape.c[at] - off_m * w;
+      r.e[j][i + 1] = r.e[j][i + 1] - around.a * w;
+      r.e[j + 1][i] = r.e[j + 1][i] - around.b * w;
+    }
+}
+
+// The most of the terms that are even or odd alike: with x^2 and y^2 apart from a factor of at most 1,
+// the first four are linear in each, and longest in a corner; the others are added up.
+float most_of(const Residual& r, uint32_t odd_y, uint32_t odd_x) {
+  const Vec3 one = r.e[odd_y][odd_x], x2 = r.e[odd_y][odd_x + 2], y2 = r.e[odd_y + 2][odd_x],
+             both = r.e[odd_y + 2][odd_x + 2];
+  const float at_y0 = longest(one, x2), at_y1 = longest(one + y2, x2 + both);
+  float sum_m = at_y0 > at_y1 ? at_y0 : at_y1;
+  for (uint32_t j = odd_y; j < Residual::kSide; j += 2)
+    for (uint32_t i = odd_x; i < Residual::kSide; i += 2)
+      if (j > odd_y + 2 || i > odd_x + 2) sum_m += math::length(r.e[j][i]);
+  return sum_m;
+}
+
+float size_of(const Parallelogram& p) {
+  return math::length(p.centre) + math::length(p.a) + math::length(p.b);
+}
+
 // How far a point is from that line, rounded up.
 float off_line_m(Vec3 p_m, Vec3 a_m, Vec3 b_m) {
   const Vec3 along_m = b_m - a_m, from_m = p_m - a_m;
@@ -91,10 +125,13 @@ float off_line_m(Vec3 p_m, Vec3 a_m, Vec3 b_m) {
 
 }  // namespace
 
-Part part_of(const Piece& piece, const Leaf& leaf) {
-  const float half_u = half_of(piece.level_u), half_v = half_of(piece.level_v);
-  return {static_cast<float>(2 * leaf.index_u + 1) * half_u - 1.0f, half_u,
-          static_cast<float>(2 * leaf.index_v + 1) * half_v - 1.0f, half_v};
+Part part_of(const Halvings& made, uint32_t u, uint32_t v) {
+  const float half_u = half_of(made.u), half_v = half_of(made.v);
+  return {static_cast<float>(2 * u + 1) * half_u - 1.0f, half_u,
+          static_cast<float>(2 * v + 1) * half_v - 1.0f, half_v};
+}
+Part part_of(const Piece& piece, uint32_t index_u, uint32_t index_v) {
+  return part_of(Halvings{piece.level_u, piece.level_v}, index_u, index_v);
 }
 
 void derive(const Piece& piece, const float* coefficients, const Part& part, LeafShape& shape) {
@@ -115,6 +152,7 @@ void derive(const Piece& piece, const float* coefficients, const Part& part, Lea
   const float weight = c[0].v[3], per_weight = 1.0f / weight;
   const Vec3 middle_m = vec(c[0]) * per_weight;  // from the origin
   const Vec3 origin_m{piece.origin_m[0], piece.origin_m[1], piece.origin_m[2]};
+  shape.local_m = middle_m;
   shape.middle_m = origin_m + middle_m;
   const float away_m = math::length(middle_m);
   float others = 0, reach_m = 0;
@@ -139,8 +177,8 @@ void derive(const Piece& piece, const float* coefficients, const Part& part, Lea
   const float lost_m = sums.lost_m + (piece.is_rational != 0 ? sums.lost_weight * point_m : 0.0f);
   const float lowest = weight * shape.least_weight;
   shape.loss_m = kUnit * kUp * (lost_m / lowest + (piece.is_rational != 0 ? 5.0f : 2.0f) * point_m);
-
-  bound_bends(part, noise_m, noise_w, shape);
+  shape.numerator_noise_m = noise_m;
+  shape.weight_noise = noise_w;
 }
 
 Extent extent_along(const LeafShape& shape, Vec3 centre_m, Vec3 axis) {
@@ -172,6 +210,36 @@ float radius_for(const LeafShape& shape, Vec3 a_m, Vec3 b_m) {
 float radius_above(float leaf_radius_m, Vec3 leaf_a_m, Vec3 leaf_b_m, Vec3 a_m, Vec3 b_m) {
   const float first_m = off_line_m(leaf_a_m, a_m, b_m), last_m = off_line_m(leaf_b_m, a_m, b_m);
   return with_slack((first_m > last_m ? first_m : last_m) + leaf_radius_m, math::length(b_m - a_m));
+}
+
+Parallelogram stored_parallelogram(const Piece& piece, const Grid& grid, const Corner* corners,
+                                   const Patch& patch) {
+  return parallelogram_of(piece, grid, corners, patch, halvings_of(piece, patch.depth));
+}
+
+float stored_value(float unit, uint32_t byte) { return in_units(unit, byte); }
+
+float radius_for(const LeafShape& shape, const Parallelogram& around) {
+  Residual r;
+  residual_of(shape, around, r);
+  float off_m = 0;
+  for (uint32_t odd = 0; odd < 4; ++odd) off_m += most_of(r, odd >> 1, odd & 1u);
+  const float rounding_m = 16.0f * kUnit * (shape.reach_m + size_of(around));
+  return with_slack(off_m / shape.least_weight * kUp + shape.noise_m + rounding_m, size_of(around));
+}
+
+// The distance to what is convex is most at a corner, and a parallelogram is.
+float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above) {
+  float most_m = 0;
+  for (uint32_t corner = 0; corner < 4; ++corner) {
+    const Vec3 along_a = (corner & 1u) != 0 ? leaf.a : -leaf.a;
+    const Vec3 at_m = leaf.centre + along_a + ((corner & 2u) != 0 ? leaf.b : -leaf.b);
+    const Foot foot = foot_on(above, at_m);
+    const float off_m = math::length(at_m - above.centre - above.a * foot.x - above.b * foot.y);
+    if (off_m > most_m) most_m = off_m;
+  }
+  const float size_m = size_of(leaf) + size_of(above);
+  return with_slack(most_m * kUp + 8.0f * kUnit * size_m + leaf_radius_m, size_of(above));
 }
 
 void enlarge(const LeafShape& shape, Box& box) {
@@ -210,6 +278,13 @@ bool leaf_fits(const LeafShape& shape, const Box& box) {
   for (uint32_t k = 0; k < 3; ++k)
     if (enlarged.half_m[k] > box.half_m[k]) return false;
   return true;
+}
+
+uint32_t byte_above(float unit, float value) {
+  if (!(value > unit)) return value <= unit ? 0 : 256;
+  const uint32_t over = math::bits_of(value) - math::bits_of(unit);
+  const uint32_t byte = (over + 0xFFFFFu) >> 20;
+  return byte < 256 ? byte : 256;
 }
 
 uint16_t rounded_up(float value) {

@@ -4,6 +4,7 @@
 
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/spline/layout.hpp"
+#include "firmtouch/spline/patch.hpp"
 
 namespace firmtouch::spline {
 
@@ -12,23 +13,29 @@ struct Part {
   float middle_u, half_u;
   float middle_v, half_v;  // 0, 1 for a curve
 };
-Part part_of(const Piece& piece, const Leaf& leaf);
+Part part_of(const Piece& piece, uint32_t index_u, uint32_t index_v);
+/// The `u`th and `v`th of parts halved so often.
+Part part_of(const Halvings& made, uint32_t u, uint32_t v);
 
 /// A leaf about its middle, in leaf coordinates x (and y) from -1 to 1: with the powers of x
 /// fastest, point(x, y) = middle_m + (sum of c[i, j] x^i y^j) / (sum of w[i, j] x^i y^j).
 struct LeafShape {
   static constexpr uint32_t kMost = (kMaxDegree + 1) * (kMaxDegree + 1);
   uint32_t degree_u = 0, degree_v = 0;
-  math::Vec3 middle_m;
-  math::Vec3 c[kMost];     // c[0] is what float32 left of it, next to nothing
-  float w[kMost];          // w[0] = 1
-  float least_weight = 0;  // on the leaf; where it is not above 1 / 2 nothing else is known
-  float noise_m = 0;       // of any point of it, as computed here
-  float reach_m = 0;       // no point of the leaf is farther from middle_m
+  math::Vec3 middle_m, local_m;  // the latter from the piece's origin
+  math::Vec3 c[kMost];           // c[0] is what float32 left of it, next to nothing
+  float w[kMost];                // w[0] = 1
+  float least_weight = 0;        // on the leaf; where it is not above 1 / 2 nothing else is known
+  float noise_m = 0;             // of any point of it, as computed here
+  float reach_m = 0;             // no point of the leaf is farther from middle_m
   float loss_m = 0;  // of a point that evaluation.hpp computes, but for 5 units of its distance
-  float fixed[4] = {}, turning[4] = {};  // as Bend says
+  // By which a coefficient of the numerator, or of the weight, may be off, times the powers of the
+  // part's halves that belong to it.
+  float numerator_noise_m = 0, weight_noise = 0;
+  float fixed[5] = {}, turning[5] = {};  // of bound_bends(): as Bend and PatchBend say
 };
 
+/// All but fixed and turning.
 /// Pre: the piece's coefficients lie at `coefficients`, its degrees and part are in range.
 void derive(const Piece& piece, const float* coefficients, const Part& part, LeafShape& shape);
 
@@ -44,6 +51,14 @@ float radius_for(const LeafShape& shape, math::Vec3 a_m, math::Vec3 b_m);
 /// The same of a node above: the leaf's own capsule and the node's.
 float radius_above(float leaf_radius_m, math::Vec3 leaf_a_m, math::Vec3 leaf_b_m, math::Vec3 a_m,
                    math::Vec3 b_m);
+/// What is stored of a part of a surface: its parallelogram, and a byte of a unit.
+Parallelogram stored_parallelogram(const Piece& piece, const Grid& grid, const Corner* corners,
+                                   const Patch& patch);
+float stored_value(float unit, uint32_t byte);
+
+/// What the radius of a part of a surface must at least be: of a leaf, and of a part above one.
+float radius_for(const LeafShape& shape, const Parallelogram& around);
+float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above);
 /// Of a box with this centre and these axes, to hold the leaf: enlarges half_m.
 void enlarge(const LeafShape& shape, Box& box);
 
@@ -52,6 +67,8 @@ bool leaf_fits(const LeafShape& shape, const Capsule& capsule, const Point* poin
 bool leaf_fits(const Capsule& leaf, const Capsule& above, const Point* points);
 bool leaf_fits(const LeafShape& shape, const Box& box);
 
+/// The least byte whose value, in such units, is not below `value`; 256 where there is none.
+uint32_t byte_above(float unit, float value);
 /// The upper half of the least such float32 that is not below `value`; 0xFFFF where there is none.
 uint16_t rounded_up(float value);
 /// And back.

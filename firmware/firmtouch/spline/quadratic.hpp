@@ -6,14 +6,15 @@
 
 namespace firmtouch::spline {
 
-/// A rectangle of a leaf, in leaf coordinates.
+/// A rectangle of a piece, by its s and t.
 struct Rectangle {
   float low[2], high[2];
   float start[2];  // where to evaluate first
 };
 
-/// D^2 / 2 = distance2 / 2 + slope . d + d . bend . d / 2 and a rest whose third derivatives uuu, uuv,
-/// uvv, vvv are at most `change` in size, in leaf coordinates.
+/// D^2 / 2 = distance2 / 2 + slope . d + d . bend . d / 2 and a rest of third derivatives uuu, uuv, uvv,
+/// vvv that are at most `third` in size at the point, and fourth ones, uuuu to vvvv, at most `fourth`
+/// everywhere, by the piece's s and t.
 struct Quadratic {
   float distance2;
   float at[2];
@@ -22,48 +23,59 @@ struct Quadratic {
   float gauss[3];        // the same of the tangents alone: never bent downward
   float slope_noise[2];  // by which a slope may be off
   float bend_noise[2];   // d . bend . d may be off by these times u^2 and v^2 together
-  float change[4];
+  float third[4], fourth[5];
 
-  /// A lower bound of D^2 over a rectangle. Where |u| <= U and |v| <= V, the rest is at least -((uuu U +
-  /// 3 uuv V) u^2 + (vvv V + 3 uvv U) v^2) / 6, which with the bend is a quadratic form Q. On an axis that leads only away from the point and uphill, g d >=
-  /// (g / U) d^2 as long as d <= U: the slope becomes part of Q. What is left of the slopes, g,
-  /// costs at most g . Q^-1 . g / 2 where Q is positive; else all
-  /// terms are taken one by one.
+  /// Third derivatives that make up for the fourth ones within U and V: u^3 v <= U u^2 v, and of u^2 v^2
+  /// half counts as V u^2 v, half as U u v^2.
+  void changes(float u, float v, float (&change)[4]) const {
+    change[0] = third[0] + fourth[0] * u * 0.25f;
+    change[1] = third[1] + fourth[1] * u * 0.33333337f + fourth[2] * v * 0.25f;
+    change[2] = third[2] + fourth[3] * v * 0.33333337f + fourth[2] * u * 0.25f;
+    change[3] = third[3] + fourth[4] * v * 0.25f;
+  }
+
+  /// A lower bound of D^2 over a rectangle. With x and y from -1 to 1 of its reaches U and V, the rest is
+  /// at least -(uuu U^3 |x|^3 + 3 uuv U^2 V x^2 |y| + 3 uvv U V^2 |x| y^2 + vvv V^3 |y|^3) / 6, which with
+  /// the bend is a quadratic form Q of |x| and |y|: x^2 |y| is at most x^2, and at most |x y|, whichever
+  /// leaves more of it. On an axis that leads only away from the point and uphill, g |x| >= g x^2: the
+  /// slope becomes part of Q. What is left of the slopes, g, costs at most g . Q^-1 . g / 2 where Q is
+  /// positive; else all terms are taken one by one.
   float least2(const Rectangle& r) const {
-    float g[2], q[2], reach[2], linear = 0;
-    bool is_flat[2];
+    float g[2], q[2], reach[2];
     for (uint32_t k = 0; k < 2; ++k) {
-      const float below = r.low[k] - at[k], above = r.high[k] - at[k];
-      const float far = above > -below ? above : -below;
+      const float below = at[k] - r.low[k], above = r.high[k] - at[k];
+      const float far = above > below ? above : below;
+      const float outward = below <= 0.0f ? slope[k] : above <= 0.0f ? -slope[k] : -1.0f;
+      const float sure = (outward - slope_noise[k]) * far;
       reach[k] = far;
-      is_flat[k] = !(far > 0.0f);
-      const bool is_upward = below >= 0.0f, is_downward = above <= 0.0f;
-      const float outward = is_upward ? slope[k] : is_downward ? -slope[k] : -1.0f;
-      const float sure = outward - slope_noise[k];
-      const float size = (slope[k] < 0.0f ? -slope[k] : slope[k]) + slope_noise[k];
-      q[k] = 0.0f;
-      if (is_flat[k]) {
-        g[k] = 0.0f;
-      } else if ((is_upward || is_downward) && sure > 0.0f) {
-        g[k] = 0.0f;
-        q[k] = 2.0f * sure / far;
-      } else {
-        g[k] = size;
-        linear += size * far;
-      }
+      const bool is_uphill = sure > 0.0f;
+      q[k] = is_uphill ? 2.0f * sure : 0.0f;
+      g[k] = is_uphill ? 0.0f : ((slope[k] < 0.0f ? -slope[k] : slope[k]) + slope_noise[k]) * far;
     }
-    const float third = 0.33333337f;
-    const float uu =
-        bend[0] - bend_noise[0] - (change[0] * reach[0] * third + change[1] * reach[1]);
-    const float vv =
-        bend[2] - bend_noise[1] - (change[3] * reach[1] * third + change[2] * reach[0]);
-    const float across = bend[1] < 0.0f ? -bend[1] : bend[1];
-    const float low_u = (uu < 0.0f ? uu : 0.0f) * (reach[0] * reach[0]);
-    const float low_v = (vv < 0.0f ? vv : 0.0f) * (reach[1] * reach[1]);
-    float bound = 0.5f * (low_u + low_v) - linear - across * reach[0] * reach[1];
-    const float a = is_flat[0] ? 1.0f : uu + q[0], c = is_flat[1] ? 1.0f : vv + q[1];
-    const float b = is_flat[0] || is_flat[1] ? 0.0f : across;
-    const float determinant = a * c - b * b;
+    float change[4];
+    changes(reach[0], reach[1], change);
+    const float a_third = 0.33333337f;
+    const float u2 = reach[0] * reach[0], v2 = reach[1] * reach[1], uv = reach[0] * reach[1];
+    const float uuv = change[1] * reach[1] * u2, uvv = change[2] * reach[0] * v2;
+    const float uu = (bend[0] - bend_noise[0] - change[0] * reach[0] * a_third) * u2;
+    const float vv = (bend[2] - bend_noise[1] - change[3] * reach[1] * a_third) * v2;
+    const float across = (bend[1] < 0.0f ? -bend[1] : bend[1]) * uv;
+    const float a0 = uu + q[0], c0 = vv + q[1];
+    float a = a0 - uuv, b = across, c = c0 - uvv;
+    float determinant = a * c - b * b;
+    if (!(a > 0.0f && c > 0.0f && determinant > 0x1p-4f * (a * c))) {  // the weaker axis is spared
+      if (a0 < c0) {
+        a = a0;
+        b = across + 0.5f * uuv;
+      } else {
+        c = c0;
+        b = across + 0.5f * uvv;
+      }
+      determinant = a * c - b * b;
+    }
+    const float low_u = uu - uuv < 0.0f ? uu - uuv : 0.0f;
+    const float low_v = vv - uvv < 0.0f ? vv - uvv : 0.0f;
+    float bound = 0.5f * (low_u + low_v) - g[0] - g[1] - across;
     if (a > 0.0f && c > 0.0f && determinant > 0x1p-20f * (a * c)) {
       const float cost = g[0] * g[0] * c + 2.0f * g[0] * g[1] * b + g[1] * g[1] * a;
       const float proven = -0.5f * (cost / determinant) * (1.0f + 0x1p-3f);
@@ -73,8 +85,8 @@ struct Quadratic {
   }
 
   /// Where Newton's method, within the rectangle, would look next: of the bend where it is positive,
-  /// else of the tangents alone.
-  void next(const Rectangle& r, float (&to)[2]) const {
+  /// else of the tangents alone. Result: by how much D^2 / 2 should be less there.
+  float next(const Rectangle& r, float (&to)[2]) const {
     const float* h = bend;
     if (!(h[0] > 0.0f && h[2] > 0.0f && h[0] * h[2] - h[1] * h[1] > 0x1p-10f * (h[0] * h[2])))
       h = gauss;
@@ -102,12 +114,19 @@ struct Quadratic {
       for (uint32_t k = 0; k < 2; ++k)
         if (!is_fixed[k] && h[2 * k] > 0.0f) step[k] = -slope[k] / h[2 * k];
     }
-    for (uint32_t k = 0; k < 2; ++k) to[k] = clamped(at[k] + step[k], r, k);
+    for (uint32_t k = 0; k < 2; ++k) {
+      to[k] = clamped(at[k] + step[k], r, k);
+      step[k] = to[k] - at[k];
+    }
+    return -(slope[0] * step[0] + slope[1] * step[1]) -
+           0.5f * (h[0] * step[0] * step[0] + h[2] * step[1] * step[1]) - h[1] * step[0] * step[1];
   }
 
   /// The axis on which more of the doubt lies, over half of the rectangle: what is to be halved.
   uint32_t doubtful_axis(const Rectangle& r) const {
     const float u = 0.5f * (r.high[0] - r.low[0]), v = 0.5f * (r.high[1] - r.low[1]);
+    float change[4];
+    changes(u, v, change);
     const float of_u = (change[0] * u * 0.33333337f + change[1] * v + bend_noise[0]) * (u * u);
     const float of_v = (change[3] * v * 0.33333337f + change[2] * u + bend_noise[1]) * (v * v);
     return of_u >= of_v ? 0 : 1;

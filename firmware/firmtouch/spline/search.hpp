@@ -15,10 +15,10 @@ struct Best {
   float distance_m = FLT_MAX;
   float limit_m = FLT_MAX;  // what is at least so far off need not be looked at
   float gap_m = 0;          // by how much less than the best that is, but for 3 units of it
-  uint32_t leaf = 0;
-  float s = 0, t = 0;   // of the leaf's piece
-  math::Vec3 x;         // from the piece's origin
-  math::Vec3 along[2];  // the derivatives there
+  uint32_t node = 0;        // the leaf it is of
+  float s = 0, t = 0;       // of the leaf's piece
+  math::Vec3 x;             // from the piece's origin
+  math::Vec3 along[2];      // the derivatives there
   uint32_t evaluations = 0;
 
   bool take(float d2) {
@@ -32,6 +32,10 @@ struct Best {
   /// operations fits in the 6 units by which the limit's square is below the best's.
   bool is_beyond(float lower2_m2) const {
     return limit_m <= 0.0f || lower2_m2 * (1.0f - 2.0f * kUnit) >= limit_m * limit_m;
+  }
+  /// Whether a squared distance, seen without its error, is.
+  bool seems_beyond(float lower2_m2) const {
+    return limit_m <= 0.0f || lower2_m2 >= limit_m * limit_m;
   }
 };
 
@@ -52,16 +56,18 @@ static inline float size_of(math::Vec3 v) {
 
 /// What rounding does to the slope of D^2 / 2 and to its change, beside what it does to D: the
 /// model's loss bounds the error of a point, and with these factors that of its derivatives, whose
-/// sums carry k or k (k - 1) more (and three times that where the weights' derivatives come in).
-constexpr float kSlopeNoise = 20.0f, kBendNoise = 80.0f;
+/// sums carry k, k (k - 1) or k (k - 1) (k - 2) more (and three times that where the weights' derivatives come in).
+constexpr float kSlopeNoise = 20.0f, kBendNoise = 80.0f, kTwistNoise = 400.0f;
 
 enum class Outcome : uint8_t { kClosed, kSplit, kStopped, kLost };
 
 /// Shape: a curve's or a surface's parts. It has
-///     Range, a part of a leaf, and Range whole(uint32_t leaf) const;
-///     float bound_m(uint32_t node) const;           no point below the node is nearer
+///     Range, a part of a leaf;
+///     uint32_t root(), bool is_leaf(node), first_child(node), sibling_of(node), parent_of(node);
+///     float bound_m(uint32_t node, Range& range): no point below the node is nearer; of a leaf, all of it;
 ///     Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
 ///                   Half (&halves)[2]);
+///     uint32_t closed_around(leaf, best): a node about the leaf that was just closed, closed as well.
 /// solve() evaluates points of the range, each for one of `left`, until what is left of it is beyond
 /// the best's limit (kClosed), or in two halves with bounds of their own (kSplit); where float32 has
 /// no point between the ends it is given up (kLost).
@@ -71,47 +77,59 @@ struct Half {
   float lower_m;
 };
 
+/// A part of the tree outside which everything is at least so far away.
+struct Fence {
+  uint32_t node;
+  float distance_m;
+};
+
 template <class Shape>
 class Search {
  public:
   using Range = typename Shape::Range;
 
-  Search(Shape& shape, uint32_t leaf_count, uint32_t budget, float outside_m, Best& best)
-      : shape_(shape),
-        base_(leaf_count - 1),
-        budget_(budget == 0 ? 1 : budget),
-        left_(budget_),
-        outside_m_(outside_m),
-        best_(best) {}
+  Search(Shape& shape, uint32_t budget, Best& best)
+      : shape_(shape), budget_(budget == 0 ? 1 : budget), left_(budget_), best_(best) {}
 
-  /// From a part that may be near (`place` in it) up the tree.
-  void run_warm(uint32_t leaf, const Range& range) {
-    uint32_t node = base_ + leaf;
-    Entry first{node, outside_m_, range};
+  /// From a leaf that may be near up the tree, as far as the fence where that is far enough away, else
+  /// to the root: then a new fence is told, `margin_m` farther than the best.
+  void run_warm(uint32_t leaf, const Range& range, float margin_m, Fence& fence) {
+    Entry first{leaf, 0.0f, range};
     if (!solve(first)) return stop();
-    const uint32_t kept = count_;
-    while (node != 0) {
+    const uint32_t from = count_ == 0 ? shape_.closed_around(leaf, best_) : leaf;
+    if (!drain(0)) return stop();
+    is_complete_ = best_.limit_m <= 0.0f;
+    if (is_complete_) return;
+    const uint32_t root = shape_.root();
+    const uint32_t end = best_.limit_m <= fence.distance_m ? fence.node : root;
+    const float reach_m = best_.distance_m + margin_m;
+    uint32_t renewed = from;
+    for (uint32_t node = from; node != root && node != end;) {
       if (left_ == 0) return stop();
-      const uint32_t beside = sibling_of(node);
-      visit(beside, outside_m_);
-      if (!drain(kept)) return stop();
-      node = parent_of(node);
+      const uint32_t beside = shape_.sibling_of(node);
+      node = shape_.parent_of(node);
+      if (visit(beside, 0.0f) < reach_m) renewed = node;
+      if (!drain(0)) return stop();
+      if (node == root) fence = {renewed, reach_m * (1.0f - 0x1p-22f)};
     }
-    is_complete_ = drain(0);
+    is_complete_ = true;
   }
 
-  void run_cold() {
-    put({0, outside_m_, base_ == 0 ? shape_.whole(0) : Range{}});
+  void run_cold(float outside_m) {
+    Entry first{shape_.root(), outside_m, {}};
+    if (shape_.is_leaf(first.node)) (void)shape_.bound_m(first.node, first.range);
+    put(first);
     is_complete_ = drain(0);
   }
 
   bool is_complete() const { return is_complete_ && lost_m_ >= FLT_MAX; }
   uint32_t steps() const { return budget_ - left_; }
 
-  /// Certified distance to all that was not looked at, before what float32 loses.
-  float pending_m() const {
+  /// Certified distance to all that was not looked at, before what float32 loses; nothing of the model
+  /// is nearer than outside_m.
+  float pending_m(float outside_m) const {
     float least_m = lost_m_;
-    if (is_cut_) least_m = outside_m_;
+    if (is_cut_) least_m = outside_m;
     for (uint32_t i = 0; i < count_; ++i)
       if (stack_[i].lower_m < least_m) least_m = stack_[i].lower_m;
     return least_m;
@@ -135,38 +153,46 @@ class Search {
       lost_m_ = entry.lower_m;
   }
 
-  // Reads a node and keeps it where it may hold something nearer.
-  void visit(uint32_t node, float above_m) {
+  // Reads a node and keeps it where it may hold something nearer. Result: its bound.
+  float visit(uint32_t node, float above_m) {
     --left_;
-    float lower_m = shape_.bound_m(node);
+    Entry* const entry = stack_ + (count_ < kCapacity ? count_ : kCapacity);
+    entry->node = node;
+    float lower_m = shape_.bound_m(node, entry->range);
     if (lower_m < above_m) lower_m = above_m;
-    if (lower_m < best_.limit_m)
-      put({node, lower_m, node >= base_ ? shape_.whole(node - base_) : Range{}});
+    entry->lower_m = lower_m;
+    if (lower_m < best_.limit_m) {
+      if (count_ < kCapacity)
+        ++count_;
+      else if (lower_m < lost_m_)
+        lost_m_ = lower_m;
+    }
+    return lower_m;
   }
 
   // False: the budget ended, and what is left stands on the stack.
   bool drain(uint32_t kept) {
     while (count_ > kept) {
-      Entry entry = stack_[--count_];
+      Entry& entry = stack_[--count_];
       if (entry.lower_m >= best_.limit_m) continue;
-      if (entry.node >= base_) {
+      if (shape_.is_leaf(entry.node)) {
         if (!solve(entry)) return false;
       } else if (left_ < 2) {
         ++count_;
         left_ = 0;
         return false;
       } else {
-        open(entry);
+        open(entry.node, entry.lower_m);
       }
     }
     return true;
   }
 
   // The nearer child comes up first.
-  void open(const Entry& entry) {
-    const uint32_t before = count_;
-    visit(first_child(entry.node), entry.lower_m);
-    visit(first_child(entry.node) + 1, entry.lower_m);
+  void open(uint32_t node, float lower_m) {
+    const uint32_t before = count_, child = shape_.first_child(node);
+    visit(child, lower_m);
+    visit(shape_.sibling_of(child), lower_m);
     if (count_ == before + 2 && stack_[before].lower_m < stack_[before + 1].lower_m) {
       const Entry first = stack_[before];
       stack_[before] = stack_[before + 1];
@@ -176,29 +202,29 @@ class Search {
 
   bool solve(Entry& entry) {
     Half<Range> halves[2];
-    const Outcome outcome =
-        shape_.solve(entry.node - base_, entry.range, entry.lower_m, left_, best_, halves);
-    if (outcome == Outcome::kStopped) put(entry);
-    if (outcome == Outcome::kLost && entry.lower_m < lost_m_) lost_m_ = entry.lower_m;
+    const uint32_t node = entry.node;
+    const float lower_m = entry.lower_m;
+    const Outcome outcome = shape_.solve(node, entry.range, lower_m, left_, best_, halves);
+    if (outcome == Outcome::kClosed) return true;
+    if (outcome == Outcome::kStopped) put(Entry(entry));
+    if (outcome == Outcome::kLost && lower_m < lost_m_) lost_m_ = lower_m;
     if (outcome == Outcome::kSplit) {
       const uint32_t near = halves[1].lower_m < halves[0].lower_m ? 1 : 0;
-      put({entry.node, halves[1 - near].lower_m, halves[1 - near].range});
-      put({entry.node, halves[near].lower_m, halves[near].range});
+      put({node, halves[1 - near].lower_m, halves[1 - near].range});
+      put({node, halves[near].lower_m, halves[near].range});
     }
     return outcome != Outcome::kStopped;
   }
 
   Shape& shape_;
-  uint32_t base_;
   uint32_t budget_;
   uint32_t left_;
-  float outside_m_;
   Best& best_;
   float lost_m_ = FLT_MAX;  // bound of what the stack had no room for
   bool is_complete_ = false;
   bool is_cut_ = false;  // parts of the tree were not reached at all
   uint32_t count_ = 0;
-  Entry stack_[kCapacity];
+  Entry stack_[kCapacity + 1];
 };
 
 }  // namespace firmtouch::spline

@@ -1,7 +1,9 @@
 #pragma once
 // The parts of surfaces for Search, for .cpp files of this room only.
+#include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/evaluation.hpp"
 #include "firmtouch/spline/leaf_shape.hpp"
+#include "firmtouch/spline/patch_grid.hpp"
 #include "firmtouch/spline/quadratic.hpp"
 
 namespace firmtouch::spline {
@@ -13,113 +15,104 @@ class SurfaceParts {
   SurfaceParts(const View& model, math::Vec3 p_m)
       : pieces_(model.pieces().data()),
         coefficients_(model.coefficients().data()),
-        leaves_(model.leaves().data()),
-        bends_(model.bends().data()),
+        grids_(model.grids().data()),
+        corners_(model.corners().data()),
+        radii_(model.radii().data()),
+        bends_(model.patch_bends().data()),
         boxes_(model.boxes().data()),
+        piece_count_(model.pieces().size()),
         loss_m_(model.head().loss_m),
         p_m_(p_m) {}
 
-  Range whole(uint32_t) const { return {{-1.0f, -1.0f}, {1.0f, 1.0f}, {0.0f, 0.0f}}; }
-
-  /// Of the leaf of a hint, from where it was left.
-  Range resumed(uint32_t, uint32_t code) const {
-    const float u = 2.0f * decoded(code >> 8, 255) - 1.0f;
-    const float v = 2.0f * decoded(code & 0xFFu, 255) - 1.0f;
-    return {{-1.0f, -1.0f}, {1.0f, 1.0f}, {u, v}};
+  // Nodes are patches and, above the pieces, kUpper + i for node i of the tree over them.
+  uint32_t root() const { return upper(0); }
+  bool is_leaf(uint32_t node) const {
+    if (node >= kUpper) return false;
+    const Piece& piece = pieces_[node >> 16];
+    return ((node >> 12) & 15u) == 0u + piece.level_u + piece.level_v;
   }
-  uint32_t place_in(uint32_t leaf, const Best& best) const {
-    const Part part = part_of(pieces_[leaves_[leaf].piece], leaves_[leaf]);
-    const float u = (best.s - part.middle_u) / part.half_u;
-    const float v = (best.t - part.middle_v) / part.half_v;
-    return coded(0.5f * (u + 1.0f), 255) << 8 | coded(0.5f * (v + 1.0f), 255);
+  uint32_t first_child(uint32_t node) const {
+    if (node >= kUpper) return upper(2 * (node - kUpper) + 1);
+    const Patch patch = patch_of(node);
+    return node_of(spline::first_child(pieces_[patch.piece], patch));
   }
-
-  // The stored half sides hold what float32 loses here.
-  float bound_m(uint32_t node) const {
-    const Box& box = boxes_[node];
-    const math::Vec3 from_m = p_m_ - vec3_at(box.centre_m);
-    const math::Vec3 a = vec3_at(box.axis[0]), b = vec3_at(box.axis[1]);
-    const math::Vec3 off{beyond(dot(a, from_m), box.half_m[0]),
-                         beyond(dot(b, from_m), box.half_m[1]),
-                         beyond(dot(cross(a, b), from_m), box.half_m[2])};
-    return math::length(off) * (1.0f - 0x1p-19f);
+  uint32_t sibling_of(uint32_t node) const {
+    if (is_upper(node)) return upper(spline::sibling_of(upper_of(node)));
+    const Patch patch = patch_of(node);
+    return node_of(spline::sibling_of(pieces_[patch.piece], patch));
+  }
+  uint32_t parent_of(uint32_t node) const {
+    if (is_upper(node)) return upper(spline::parent_of(upper_of(node)));
+    const Patch patch = patch_of(node);
+    return node_of(spline::parent_of(pieces_[patch.piece], patch));
   }
 
-  Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
+  /// The leaf of a hint, from where it was left: none for a hint that is none.
+  bool resume(uint32_t place, uint32_t& node, Range& range) const {
+    const uint32_t piece = place >> 16, u = (place >> 8) & 255u, v = place & 255u;
+    if (piece >= piece_count_) return false;
+    const Piece& of = pieces_[piece];
+    const Patch leaf{piece, 0u + of.level_u + of.level_v, u >> (8u - of.level_u),
+                     v >> (8u - of.level_v)};
+    node = node_of(leaf);
+    range = range_of({of.level_u, of.level_v}, leaf, 0.0f, 0.0f);
+    range.start[0] = static_cast<float>(u) * 0x1p-7f - (1.0f - 0x1p-8f);
+    range.start[1] = static_cast<float>(v) * 0x1p-7f - (1.0f - 0x1p-8f);
+    return true;
+  }
+  uint32_t place_of(const Best& best) const {
+    const uint32_t u = coded(0.5f * best.s + 0.5f, 256), v = coded(0.5f * best.t + 0.5f, 256);
+    return (best.node & 0xFFFF0000u) | (u < 255 ? u : 255) << 8 | (v < 255 ? v : 255);
+  }
+  uint32_t piece_of(uint32_t node) const { return node >> 16; }
+
+  /// The largest part about a leaf, just closed, that the same expansion closes: at most its cell.
+  uint32_t closed_around(uint32_t leaf, const Best& best) const {
+    Patch patch = patch_of(leaf);
+    const Piece& piece = pieces_[patch.piece];
+    const Halvings cell = cell_levels(piece, grids_[patch.piece]);
+    while (patch.depth > cell.u + cell.v) {
+      const Patch above = spline::parent_of(piece, patch);
+      const Halvings made = halvings_of(piece, above.depth);
+      if (made.u < cell.u || made.v < cell.v ||
+          !best.is_beyond(closed_by_.least2(range_of(made, above, 0.0f, 0.0f))))
+        break;
+      patch = above;
+    }
+    return node_of(patch);
+  }
+
+  // The stored radii and half sides hold what float32 loses here.
+  float bound_m(uint32_t node, Range& range) const {
+    if (node >= kUpper) return box_bound_m(boxes_[node - kUpper]);
+    const Patch patch = patch_of(node);
+    const Piece& piece = pieces_[patch.piece];
+    const Grid& grid = grids_[patch.piece];
+    const Halvings made = halvings_of(piece, patch.depth);
+    const Foot foot = foot_on(parallelogram_of(piece, grid, corners_, patch, made),
+                              p_m_ - vec3_at(piece.origin_m));
+    if (patch.depth == 0u + piece.level_u + piece.level_v)
+      range = range_of(made, patch, foot.x, foot.y);
+    return foot.distance_m - in_units(grid.radius_unit_m, radii_[radius_of(grid, patch, made)]);
+  }
+
+  Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
                 Half<Range> (&halves)[2]) {
-    const float wide = range.high[0] - range.low[0], high = range.high[1] - range.low[1];
-    const bool is_own = wide * high <= kSmall && left >= kDerivation;
-    const Frame frame = is_own ? frame_of(leaf, range) : frame_of(leaf);
-    if (is_own) left -= kDerivation;
-    Range inside = range;
-    if (is_own) inside = {{-1.0f, -1.0f}, {1.0f, 1.0f}, {0.0f, 0.0f}};
-    const Outcome outcome = close(leaf, frame, inside, lower_m, left, best, halves);
-    if (!is_own) {
-      range = inside;
-    } else if (outcome == Outcome::kSplit) {
-      for (Half<Range>& half : halves) half.range = placed(half.range, range);
+    if (best.limit_m <= 0.0f) return Outcome::kClosed;
+    const Patch patch = patch_of(node);
+    const float area = (range.high[0] - range.low[0]) * (range.high[1] - range.low[1]);
+    const Piece& piece = pieces_[patch.piece];
+    const float whole = math::float_of((129u - piece.level_u - piece.level_v) << 23);
+    Bends bends;
+    if (area <= kSmall * whole && left >= kDerivation) {
+      left -= kDerivation;
+      derive_bends(piece, range, bends);
+    } else {
+      stored_bends(patch, bends);
     }
-    return outcome;
-  }
-
- private:
-  static constexpr uint32_t kMostTurns = 5;
-  // A rectangle of so little of a leaf's 4 gets bends of its own, for the price of so many steps. The
-  // leaf's are too wide where a row of control points is one point: there they shrink with the
-  // rectangle, and without that some queries took millions of evaluations.
-  static constexpr float kSmall = 0.3f;
-  static constexpr uint32_t kDerivation = 8;
-
-  /// What local coordinates of -1 to 1 cover of the piece, and the bends there.
-  struct Frame {
-    Part part;
-    float fixed[4], turning[4];
-  };
-
-  Frame frame_of(uint32_t leaf) const {
-    Frame frame;
-    frame.part = part_of(pieces_[leaves_[leaf].piece], leaves_[leaf]);
-    for (uint32_t k = 0; k < 4; ++k) {
-      frame.fixed[k] = from_half(bends_[4 * leaf + k].fixed);
-      frame.turning[k] = from_half(bends_[4 * leaf + k].turning);
-    }
-    return frame;
-  }
-
-  Frame frame_of(uint32_t leaf, const Range& range) const {
-    const Piece& piece = pieces_[leaves_[leaf].piece];
-    const Part part = part_of(piece, leaves_[leaf]);
-    Frame frame;
-    frame.part.half_u = part.half_u * (0.5f * (range.high[0] - range.low[0]));
-    frame.part.half_v = part.half_v * (0.5f * (range.high[1] - range.low[1]));
-    frame.part.middle_u = part.middle_u + part.half_u * (0.5f * (range.high[0] + range.low[0]));
-    frame.part.middle_v = part.middle_v + part.half_v * (0.5f * (range.high[1] + range.low[1]));
-    LeafShape shape;
-    derive(piece, coefficients_ + piece.coefficients, frame.part, shape);
-    for (uint32_t k = 0; k < 4; ++k) {
-      frame.fixed[k] = shape.fixed[k];
-      frame.turning[k] = shape.turning[k];
-    }
-    return frame;
-  }
-
-  // From a rectangle's own coordinates to the leaf's. Halving is exact, for widths are powers of two.
-  static Range placed(const Range& inside, const Range& range) {
-    Range made;
-    for (uint32_t k = 0; k < 2; ++k) {
-      const float middle = 0.5f * (range.low[k] + range.high[k]);
-      const float half = 0.5f * (range.high[k] - range.low[k]);
-      made.low[k] = middle + half * inside.low[k];
-      made.high[k] = middle + half * inside.high[k];
-      made.start[k] = middle + half * inside.start[k];
-    }
-    return made;
-  }
-
-  Outcome close(uint32_t leaf, const Frame& frame, Range& range, float lower_m, uint32_t& left,
-                Best& best, Half<Range> (&halves)[2]) {
+    const math::Vec3 q_m = p_m_ - vec3_at(piece.origin_m);
     float at[2] = {range.start[0], range.start[1]};
-    Quadratic base;
+    Quadratic f, base;
     base.distance2 = FLT_MAX;
     for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
       if (left == 0) {
@@ -128,75 +121,154 @@ class SurfaceParts {
         return Outcome::kStopped;
       }
       --left;
-      Quadratic f;
-      expand(leaf, frame, at, best, f);
-      if (best.is_beyond(f.least2(range))) return Outcome::kClosed;
-      if (f.distance2 < base.distance2) {
-        base = f;
-        base.next(range, at);
-      } else if (turn > 0) {  // too far along the way: a quarter of it
+      ++best.evaluations;
+      expand(node, piece, bends, q_m, at, best, f);
+      if (!(f.distance2 < base.distance2)) {  // too far along the way: a quarter of it
         for (uint32_t k = 0; k < 2; ++k) at[k] = base.at[k] + 0.25f * (at[k] - base.at[k]);
+        continue;
       }
+      base = f;
+      const float gain = base.next(range, at);
       const float moved =
           (at[0] - base.at[0]) * (at[0] - base.at[0]) + (at[1] - base.at[1]) * (at[1] - base.at[1]);
-      if (!(moved > 0x1p-40f)) break;
+      // What Newton's step would gain is needed: no proof can hold yet.
+      const bool has_arrived = !(moved > 0x1p-40f) || best.seems_beyond(f.distance2 - 2.0f * gain);
+      if (!has_arrived) continue;
+      if (best.is_beyond(base.least2(range))) {
+        closed_by_ = base;
+        return Outcome::kClosed;
+      }
+      break;
     }
     return split(range, base, lower_m, halves);
   }
 
+ private:
+  static constexpr uint32_t kMostTurns = 6;
+  static constexpr float kUp = 1.0f + 0x1p-16f;  // for sums and products of a few dozen roundings
+  // A rectangle of so little of a leaf gets bends of its own, for the price of so many steps. The
+  // leaf's are too wide where a row of control points is one point: there they shrink with the
+  // rectangle, and without that some queries took millions of evaluations.
+  static constexpr float kSmall = 0x1p-20f;
+  static constexpr uint32_t kDerivation = 16;
+
+  struct Bends {
+    float fixed[5], turning[5];
+  };
+
+  uint32_t upper(uint32_t i) const {
+    return i >= piece_count_ - 1 ? (i - (piece_count_ - 1)) << 16 : kUpper + i;
+  }
+  bool is_upper(uint32_t node) const { return node >= kUpper || (node & 0xF000u) == 0; }
+  uint32_t upper_of(uint32_t node) const {
+    return node >= kUpper ? node - kUpper : (node >> 16) + piece_count_ - 1;
+  }
+
+  // A part, to be begun at x and y of its own, from -1 to 1.
+  static Range range_of(const Halvings& made, const Patch& patch, float x, float y) {
+    const float half_u = math::float_of((127u - made.u) << 23);
+    const float half_v = math::float_of((127u - made.v) << 23);
+    const float u = static_cast<float>(2 * patch.u + 1) * half_u - 1.0f;
+    const float v = static_cast<float>(2 * patch.v + 1) * half_v - 1.0f;
+    return {{u - half_u, v - half_v}, {u + half_u, v + half_v}, {u + half_u * x, v + half_v * y}};
+  }
+
+  void stored_bends(const Patch& leaf, Bends& bends) const {
+    const Grid& grid = grids_[leaf.piece];
+    const PatchBend& stored = bends_[cell_of(pieces_[leaf.piece], grid, leaf.u, leaf.v)];
+    for (uint32_t k = 0; k < 5; ++k) {
+      bends.fixed[k] = in_units(grid.fixed_unit_m2, stored.fixed[k]);
+      bends.turning[k] = in_units(grid.turning_unit_m, stored.turning[k]);
+    }
+  }
+
+  [[gnu::noinline]] void derive_bends(const Piece& piece, const Range& range, Bends& bends) const {
+    Part part;
+    part.half_u = 0.5f * (range.high[0] - range.low[0]);
+    part.half_v = 0.5f * (range.high[1] - range.low[1]);
+    part.middle_u = 0.5f * (range.high[0] + range.low[0]);
+    part.middle_v = 0.5f * (range.high[1] + range.low[1]);
+    LeafShape shape;
+    derive(piece, coefficients_ + piece.coefficients, part, shape);
+    bound_bends(part, shape);
+    for (uint32_t k = 0; k < 5; ++k) {
+      bends.fixed[k] = shape.fixed[k];
+      bends.turning[k] = shape.turning[k];
+    }
+  }
+
+  float box_bound_m(const Box& box) const {
+    const math::Vec3 from_m = p_m_ - vec3_at(box.centre_m);
+    const math::Vec3 a = vec3_at(box.axis[0]), b = vec3_at(box.axis[1]);
+    const math::Vec3 off{beyond(dot(a, from_m), box.half_m[0]),
+                         beyond(dot(b, from_m), box.half_m[1]),
+                         beyond(dot(cross(a, b), from_m), box.half_m[2])};
+    return math::length(off) * (1.0f - 0x1p-19f);
+  }
   static float beyond(float along, float half) {
     const float off = (along < 0.0f ? -along : along) - half;
     return off > 0.0f ? off : 0.0f;
   }
 
-  void expand(uint32_t leaf, const Frame& frame, const float (&at)[2], Best& best,
-              Quadratic& f) const {
-    const Piece& piece = pieces_[leaves_[leaf].piece];
-    const Part& part = frame.part;
-    const float s = part.middle_u + part.half_u * at[0], t = part.middle_v + part.half_v * at[1];
-    ++best.evaluations;
+  void expand(uint32_t node, const Piece& piece, const Bends& bends, math::Vec3 q_m,
+              const float (&at)[2], Best& best, Quadratic& f) const {
     SurfacePoint point;
-    evaluate(piece, coefficients_, s, t, point);
-    const math::Vec3 r_m = point.x - (p_m_ - vec3_at(piece.origin_m));
+    evaluate(piece, coefficients_, at[0], at[1], point);
+    const math::Vec3 r_m = point.x - q_m;
     f.distance2 = dot(r_m, r_m);
     if (best.take(f.distance2)) {
-      best.leaf = leaf;
-      best.s = s;
-      best.t = t;
+      best.node = node;
+      best.s = at[0];
+      best.t = at[1];
       best.x = point.x;
       best.along[0] = point.du;
       best.along[1] = point.dv;
     }
-    const math::Vec3 du = point.du * part.half_u, dv = point.dv * part.half_v;
     f.at[0] = at[0];
     f.at[1] = at[1];
-    f.slope[0] = dot(r_m, du);
-    f.slope[1] = dot(r_m, dv);
-    f.gauss[0] = dot(du, du);
-    f.gauss[1] = dot(du, dv);
-    f.gauss[2] = dot(dv, dv);
-    f.bend[0] = f.gauss[0] + part.half_u * part.half_u * dot(r_m, point.duu);
-    f.bend[1] = f.gauss[1] + part.half_u * part.half_v * dot(r_m, point.duv);
-    f.bend[2] = f.gauss[2] + part.half_v * part.half_v * dot(r_m, point.dvv);
+    f.slope[0] = dot(r_m, point.du);
+    f.slope[1] = dot(r_m, point.dv);
+    f.gauss[0] = dot(point.du, point.du);
+    f.gauss[1] = dot(point.du, point.dv);
+    f.gauss[2] = dot(point.dv, point.dv);
+    f.bend[0] = f.gauss[0] + dot(r_m, point.duu);
+    f.bend[1] = f.gauss[1] + dot(r_m, point.duv);
+    f.bend[2] = f.gauss[2] + dot(r_m, point.dvv);
+    thirds(point, r_m, f);
     const float distance_m = math::square_root(f.distance2);
-    const float speed_u = size_of(du), speed_v = size_of(dv);
-    const float lost_m = loss_m_ + 6.0f * kUnit * distance_m;
-    f.slope_noise[0] = speed_u * lost_m + kSlopeNoise * loss_m_ * distance_m * part.half_u;
-    f.slope_noise[1] = speed_v * lost_m + kSlopeNoise * loss_m_ * distance_m * part.half_v;
+    const float speed_u = math::square_root(f.gauss[0]), speed_v = math::square_root(f.gauss[2]);
+    const float lost_m = (loss_m_ + 6.0f * kUnit * distance_m) * kUp;
+    const float both_m2 = kSlopeNoise * loss_m_ * distance_m;
+    f.slope_noise[0] = speed_u * lost_m + both_m2;
+    f.slope_noise[1] = speed_v * lost_m + both_m2;
     // The noise of the mixed derivative is shared between the two axes: 2 |u v| <= u^2 + v^2.
-    const float mixed = loss_m_ * (part.half_u * speed_v + part.half_v * speed_u);
-    f.bend_noise[0] =
-        kBendNoise * (2.0f * loss_m_ * part.half_u * (speed_u + distance_m * part.half_u) + mixed) +
-        16.0f * kUnit *
-            (f.gauss[0] + distance_m * size_of(point.duu) * part.half_u * part.half_u +
-             speed_u * speed_v + distance_m * size_of(point.duv) * part.half_u * part.half_v);
-    f.bend_noise[1] =
-        kBendNoise * (2.0f * loss_m_ * part.half_v * (speed_v + distance_m * part.half_v) + mixed) +
-        16.0f * kUnit *
-            (f.gauss[2] + distance_m * size_of(point.dvv) * part.half_v * part.half_v +
-             speed_u * speed_v + distance_m * size_of(point.duv) * part.half_u * part.half_v);
-    for (uint32_t k = 0; k < 4; ++k)
-      f.change[k] = (frame.fixed[k] + frame.turning[k] * distance_m) * (1.0f + 0x1p-20f);
+    const float swing_u = size_of(point.duu), swing_v = size_of(point.dvv);
+    const float swing_both = size_of(point.duv), speeds = speed_u + speed_v;
+    const float mixed = speed_u * speed_v + distance_m * swing_both;
+    const float turned = kBendNoise * loss_m_ * kUp, rounded = 16.0f * kUnit * kUp;
+    f.bend_noise[0] = turned * (2.0f * (speed_u + distance_m) + speeds) +
+                      rounded * (f.gauss[0] + distance_m * swing_u + mixed);
+    f.bend_noise[1] = turned * (2.0f * (speed_v + distance_m) + speeds) +
+                      rounded * (f.gauss[2] + distance_m * swing_v + mixed);
+    const float swings = swing_u + swing_both + swing_v;
+    const float twists =
+        size_of(point.uuu) + size_of(point.uuv) + size_of(point.uvv) + size_of(point.vvv);
+    const float noise =
+        ((3.0f * kSlopeNoise * swings + 3.0f * kBendNoise * speeds + kTwistNoise * distance_m) *
+             loss_m_ +
+         lost_m * twists + 24.0f * kUnit * (3.0f * speeds * swings + distance_m * twists)) *
+        kUp;
+    for (float& third : f.third) third = (third < 0.0f ? -third : third) + noise;
+    for (uint32_t k = 0; k < 5; ++k)
+      f.fourth[k] = (bends.fixed[k] + bends.turning[k] * distance_m) * kUp;
+  }
+
+  // Of D^2 / 2.
+  static void thirds(const SurfacePoint& p, math::Vec3 r_m, Quadratic& f) {
+    f.third[0] = 3.0f * dot(p.du, p.duu) + dot(r_m, p.uuu);
+    f.third[1] = dot(p.dv, p.duu) + 2.0f * dot(p.du, p.duv) + dot(r_m, p.uuv);
+    f.third[2] = dot(p.du, p.dvv) + 2.0f * dot(p.dv, p.duv) + dot(r_m, p.uvv);
+    f.third[3] = 3.0f * dot(p.dv, p.dvv) + dot(r_m, p.vvv);
   }
 
   static Outcome split(const Range& range, const Quadratic& f, float lower_m,
@@ -212,18 +284,22 @@ class SurfaceParts {
       const float own2 = f.least2(half);
       const float own_m = own2 > 0.0f ? math::square_root(own2) * (1.0f - 0x1p-21f) : 0.0f;
       halves[i].lower_m = own_m > lower_m ? own_m : lower_m;
-      for (uint32_t j = 0; j < 2; ++j) half.start[j] = 0.5f * (half.low[j] + half.high[j]);
+      for (uint32_t j = 0; j < 2; ++j) half.start[j] = Quadratic::clamped(f.at[j], half, j);
     }
     return Outcome::kSplit;
   }
 
   const Piece* pieces_;
   const float* coefficients_;
-  const Leaf* leaves_;
-  const Bend* bends_;
+  const Grid* grids_;
+  const Corner* corners_;
+  const uint8_t* radii_;
+  const PatchBend* bends_;
   const Box* boxes_;
+  uint32_t piece_count_;
   float loss_m_;
   math::Vec3 p_m_;
+  Quadratic closed_by_;
 };
 
 }  // namespace firmtouch::spline

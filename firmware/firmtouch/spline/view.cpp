@@ -2,6 +2,7 @@
 
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/spline/leaf_proof.hpp"
 #include "firmtouch/spline/leaf_shape.hpp"
 
 namespace firmtouch::spline {
@@ -69,8 +70,10 @@ void Opening::open_head(const Sections& sections) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(sections.head);
   if (heads.size() != 1) return fail(601, 0);
   const Head& head = heads[0];
-  if (head.piece_count == 0 || head.piece_count > kMaxPieces || head.leaf_count == 0 ||
-      head.leaf_count > kMaxLeaves || head.point_count > kMaxLeaves + 1)
+  const bool is_surface = head.is_surface != 0;
+  if (head.piece_count == 0 || head.piece_count > (is_surface ? kMaxPatches : kMaxPieces) ||
+      head.leaf_count < head.piece_count || head.leaf_count > kMaxLeaves ||
+      head.point_count > (is_surface ? 4 : 1) * (kMaxLeaves + 1))
     return fail(602, 0);
   verdict_ = check_head(head);
   if (verdict_.ok()) verdict_ = take_sections(sections, head);
@@ -84,24 +87,37 @@ Verdict Opening::take_sections(const Sections& s, const Head& head) {
   if (view_.pieces_.size() != head.piece_count) return reject(604, 0);
   view_.coefficients_ = core::as_whole_array<float>(s.coefficients);
   if (view_.coefficients_.size() != head.coefficient_count) return reject(604, 1);
+  return head.is_surface != 0 ? take_surfaces(s, head) : take_curves(s, head);
+}
+
+Verdict Opening::take_curves(const Sections& s, const Head& head) {
   view_.leaves_ = core::as_whole_array<Leaf>(s.leaves);
   if (view_.leaves_.size() != head.leaf_count) return reject(604, 2);
-  view_.bends_ = core::as_whole_array<Bend>(s.bends);
-  if (view_.bends_.size() != head.leaf_count * bends_a_leaf(head.is_surface != 0))
-    return reject(604, 6);
   view_.places_ = core::as_whole_array<uint16_t>(s.places);
   if (view_.places_.size() != head.leaf_count) return reject(604, 3);
-  const uint32_t nodes = 2 * head.leaf_count - 1;
-  if (head.is_surface != 0) {
-    view_.boxes_ = core::as_whole_array<Box>(s.nodes);
-    if (view_.boxes_.size() != nodes) return reject(604, 4);
-    if (head.point_count != 0 || s.points.size() != 0) return reject(604, 5);
-  } else {
-    view_.capsules_ = core::as_whole_array<Capsule>(s.nodes);
-    if (view_.capsules_.size() != nodes) return reject(604, 4);
-    view_.points_ = core::as_whole_array<Point>(s.points);
-    if (view_.points_.size() != head.point_count) return reject(604, 5);
-  }
+  view_.capsules_ = core::as_whole_array<Capsule>(s.nodes);
+  if (view_.capsules_.size() != 2 * head.leaf_count - 1) return reject(604, 4);
+  view_.points_ = core::as_whole_array<Point>(s.points);
+  if (view_.points_.size() != head.point_count) return reject(604, 5);
+  view_.bends_ = core::as_whole_array<Bend>(s.bends);
+  if (view_.bends_.size() != head.leaf_count) return reject(604, 6);
+  if (s.grids.size() != 0) return reject(604, 7);
+  return s.radii.size() == 0 ? kPassed : reject(604, 8);
+}
+
+Verdict Opening::take_surfaces(const Sections& s, const Head& head) {
+  if (s.leaves.size() != 0) return reject(604, 2);
+  if (s.places.size() != 0) return reject(604, 3);
+  view_.boxes_ = core::as_whole_array<Box>(s.nodes);
+  if (view_.boxes_.size() != head.piece_count - 1) return reject(604, 4);
+  view_.corners_ = core::as_whole_array<Corner>(s.points);
+  if (view_.corners_.size() != head.point_count) return reject(604, 5);
+  view_.patch_bends_ = core::as_whole_array<PatchBend>(s.bends);
+  if (view_.patch_bends_.size() * sizeof(PatchBend) != s.bends.size()) return reject(604, 6);
+  view_.grids_ = core::as_whole_array<Grid>(s.grids);
+  if (view_.grids_.size() != head.piece_count) return reject(604, 7);
+  view_.radii_ = core::as_whole_array<uint8_t>(s.radii);
+  if (view_.radii_.size() != 2 * head.leaf_count - head.piece_count) return reject(604, 8);
   return kPassed;
 }
 
@@ -124,9 +140,11 @@ uint32_t Opening::elements() const {
     case Stage::kPoints:
       return view_.points_.size();
     case Stage::kNodes:
-      return 2 * view_.leaves_.size() - 1;
+      return view_.is_surface() ? view_.boxes_.size() : view_.capsules_.size();
+    case Stage::kPlaces:
+      return view_.places_.size();
     default:
-      return view_.leaves_.size();
+      return view_.leaf_count();
   }
 }
 
@@ -134,7 +152,12 @@ void Opening::next_stage() {
   next_ = 0;
   if (stage_ == Stage::kPieces && coefficients_used_ != view_.coefficients_.size())
     return fail(613, view_.pieces_.size());
-  if (stage_ == Stage::kPlaces && piece_ != view_.pieces_.size()) return fail(615, piece_);
+  if (stage_ == Stage::kPieces && view_.is_surface() &&
+      (corners_used_ != view_.corners_.size() || leaves_used_ != view_.leaf_count() ||
+       cells_used_ != view_.patch_bends_.size()))
+    return fail(624, view_.pieces_.size());
+  if (stage_ == Stage::kPlaces && !view_.is_surface() && piece_ != view_.pieces_.size())
+    return fail(615, piece_);
   stage_ = static_cast<Stage>(static_cast<uint8_t>(stage_) + 1);
 }
 
@@ -163,8 +186,9 @@ Verdict Opening::check_piece(uint32_t i) {
   if (piece.degree_u < 1 || piece.degree_u > kMaxDegree ||
       piece.degree_v < (is_surface ? 1u : 0u) || piece.degree_v > (is_surface ? kMaxDegree : 0u))
     return reject(611, i);
-  if (piece.is_rational > head.is_rational || piece.level_u > kMaxHalvings ||
-      piece.level_v > (is_surface ? kMaxHalvings : 0u))
+  if (piece.is_rational > head.is_rational ||
+      piece.level_u > (is_surface ? kMaxHalvingsAcross : kMaxHalvings) ||
+      piece.level_v > (is_surface ? kMaxHalvingsAcross : 0u))
     return reject(612, i);
   const uint32_t floats =
       (piece.degree_u + 1u) * (piece.degree_v + 1u) * (piece.is_rational != 0 ? 4u : 3u);
@@ -182,7 +206,30 @@ Verdict Opening::check_piece(uint32_t i) {
   const float parameters[] = {piece.middle_u, piece.half_u, piece.middle_v, piece.half_v};
   for (const float parameter : parameters)
     if (!is_between(parameter, -1e30f, 1e30f)) return reject(616, i);
-  return kPassed;
+  return is_surface ? check_grid(i) : kPassed;
+}
+
+Verdict Opening::check_grid(uint32_t i) {
+  const Piece& piece = view_.pieces_[i];
+  const Grid& grid = view_.grids_[i];
+  const uint32_t columns = 1u << piece.level_u, rows = 1u << piece.level_v;
+  const uint32_t corners = (columns + 1) * (rows + 1);
+  const Halvings cell = cell_levels(piece, grid);
+  const uint32_t cells = 1u << (cell.u + cell.v);
+  if (grid.cell_level > kMaxHalvingsAcross || grid.first_corner != corners_used_ ||
+      grid.first_leaf != leaves_used_ || grid.first_cell != cells_used_ ||
+      cells > view_.patch_bends_.size() - cells_used_ ||
+      corners > view_.corners_.size() - corners_used_ ||
+      columns * rows > view_.leaf_count() - leaves_used_)
+    return reject(624, i);
+  corners_used_ += corners;
+  leaves_used_ += columns * rows;
+  cells_used_ += cells;
+  const float units[] = {grid.radius_unit_m, grid.fixed_unit_m2, grid.turning_unit_m};
+  for (const float unit : units)
+    if (!is_between(unit, 0x1p-100f, 0x1p60f)) return reject(625, i);
+  const bool is_power = (math::bits_of(grid.step_m) & 0x7FFFFFu) == 0;
+  return is_power && is_between(grid.step_m, 0x1p-100f, 0x1p20f) ? kPassed : reject(625, i);
 }
 
 Verdict Opening::check_point(uint32_t i) const {
@@ -215,36 +262,35 @@ Verdict Opening::check_place(uint32_t i) {
   return kPassed;
 }
 
-Verdict Opening::check_leaf(uint32_t i) const {
-  const Leaf& leaf = view_.leaves_[i];
-  const Piece& piece = view_.pieces_[leaf.piece];
-  const Head& head = *view_.head_;
-  LeafShape shape;
-  derive(piece, view_.coefficients_.data() + piece.coefficients, part_of(piece, leaf), shape);
-  if (!(shape.least_weight > 0.0f)) return reject(619, i);
-  const uint32_t bends = bends_a_leaf(head.is_surface != 0);
-  for (uint32_t k = 0; k < bends; ++k) {
-    const Bend& bend = view_.bends_[i * bends + k];
-    if (bend.fixed >= 0x7F80u || bend.turning >= 0x7F80u ||
-        bend.fixed < rounded_up(shape.fixed[k]) || bend.turning < rounded_up(shape.turning[k]))
-      return reject(620, i);
+Verdict Opening::check_leaf(uint32_t i) {
+  const bool is_surface = view_.is_surface();
+  View::Place place{};
+  if (is_surface) {
+    place.piece = piece_;
+    place.index_u = in_piece_ % (1u << view_.pieces_[piece_].level_u);
+    place.index_v = in_piece_ >> view_.pieces_[piece_].level_u;
+  } else {
+    const Leaf& leaf = view_.leaves_[i];
+    place = {leaf.piece, leaf.index_u, leaf.index_v};
   }
+  const Piece& piece = view_.pieces_[place.piece];
+  LeafShape shape;
+  derive(piece, view_.coefficients_.data() + piece.coefficients,
+         part_of(piece, place.index_u, place.index_v), shape);
+  if (!(shape.least_weight > 0.0f)) return reject(619, i);
+  const Head& head = *view_.head_;
   if (!(shape.loss_m <= head.loss_m)) return reject(621, i);
   for (uint32_t k = 0; k < 3; ++k) {
     const Vec3 axis{k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f};
     const Extent extent = extent_along(shape, {}, axis);
     if (!(extent.low >= head.low_m[k] && extent.high <= head.high_m[k])) return reject(622, i);
   }
-  const uint32_t node = view_.leaves_.size() - 1 + i;
-  if (head.is_surface == 0 && !leaf_fits(shape, view_.capsules_[node], view_.points_.data()))
-    return reject(623, i);
-  for (uint32_t at = node;; at = parent_of(at)) {
-    const bool fits = head.is_surface != 0 ? leaf_fits(shape, view_.boxes_[at])
-                                           : leaf_fits(view_.capsules_[node], view_.capsules_[at],
-                                                       view_.points_.data());
-    if (!fits) return reject(623, i);
-    if (at == 0) return kPassed;
+  if (!is_surface) return check_capsules(view_, i, shape);
+  if (++in_piece_ == 1u << (piece.level_u + piece.level_v)) {
+    in_piece_ = 0;
+    ++piece_;
   }
+  return check_patch(view_, i, place, shape);
 }
 
 core::Verdict open(const Sections& sections, View& view) {

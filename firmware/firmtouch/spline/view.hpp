@@ -10,7 +10,7 @@ namespace firmtouch::spline {
 
 /// The bytes of a spline model's sections, as the container hands them out.
 struct Sections {
-  core::Bytes head, pieces, coefficients, leaves, bends, places, nodes, points;
+  core::Bytes head, pieces, coefficients, leaves, bends, places, nodes, points, grids, radii;
 };
 
 /// Spline curves, or spline surfaces, that open() has proven: every index, float, bound and
@@ -25,11 +25,30 @@ class View {
   core::Span<const Piece> pieces() const { return pieces_; }
   core::Span<const float> coefficients() const { return coefficients_; }
   uint32_t leaf_count() const { return head_->leaf_count; }
+  // Of curves:
   core::Span<const Leaf> leaves() const { return leaves_; }
   core::Span<const Bend> bends() const { return bends_; }
   core::Span<const Capsule> capsules() const { return capsules_; }
-  core::Span<const Box> boxes() const { return boxes_; }
   core::Span<const Point> points() const { return points_; }
+  // Of surfaces:
+  core::Span<const Grid> grids() const { return grids_; }
+  core::Span<const Corner> corners() const { return corners_; }
+  core::Span<const uint8_t> radii() const { return radii_; }
+  core::Span<const PatchBend> patch_bends() const { return patch_bends_; }
+  core::Span<const Box> boxes() const { return boxes_; }
+
+  /// Which part of which piece a leaf is, by its number in the asset.
+  /// Pre: leaf < leaf_count().
+  struct Place {
+    uint32_t piece, index_u, index_v;
+  };
+  Place place_of(uint32_t leaf) const;
+  /// What is stored of it: bounds of the fourth derivatives ssss, ssst, sstt, sttt, tttt (of a curve: of
+  /// the third).
+  struct Bounds {
+    float fixed_m2[5], turning_m[5];
+  };
+  Bounds bounds_of(uint32_t leaf) const;
 
  private:
   friend class Opening;
@@ -40,12 +59,16 @@ class View {
   core::Span<const Bend> bends_;
   core::Span<const uint16_t> places_;
   core::Span<const Capsule> capsules_;
-  core::Span<const Box> boxes_;
   core::Span<const Point> points_;
+  core::Span<const Grid> grids_;
+  core::Span<const Corner> corners_;
+  core::Span<const uint8_t> radii_;
+  core::Span<const PatchBend> patch_bends_;
+  core::Span<const Box> boxes_;
 };
 
 /// Proves a spline model in slices, so that a main loop stays alive while it opens a large one: rules
-/// R601 to R624 of tools/FORMAT.md.
+/// R601 to R625 of tools/FORMAT.md.
 class Opening {
  public:
   explicit Opening(const Sections& sections);
@@ -64,21 +87,24 @@ class Opening {
   void fail(uint16_t rule, uint32_t element);
   void open_head(const Sections& sections);
   core::Verdict take_sections(const Sections& sections, const Head& head);
+  core::Verdict take_curves(const Sections& sections, const Head& head);
+  core::Verdict take_surfaces(const Sections& sections, const Head& head);
   uint32_t elements() const;
   void next_stage();
   core::Verdict check(uint32_t i);
   core::Verdict check_piece(uint32_t i);
+  core::Verdict check_grid(uint32_t i);
   core::Verdict check_point(uint32_t i) const;
   core::Verdict check_node(uint32_t i) const;
   core::Verdict check_place(uint32_t i);
-  core::Verdict check_leaf(uint32_t i) const;
+  core::Verdict check_leaf(uint32_t i);
 
   View view_;
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0;
-  uint32_t coefficients_used_ = 0;
-  uint32_t piece_ = 0, in_piece_ = 0;  // of the place that is next
+  uint32_t coefficients_used_ = 0, corners_used_ = 0, leaves_used_ = 0, cells_used_ = 0;
+  uint32_t piece_ = 0, in_piece_ = 0;  // of the place, or of a surface's leaf, that is next
 };
 
 /// All at once.

@@ -1,0 +1,108 @@
+#include "firmtouch/spline/leaf_proof.hpp"
+
+#include "firmtouch/spline/bend_bounds.hpp"
+#include "firmtouch/spline/patch_grid.hpp"
+
+namespace firmtouch::spline {
+namespace {
+
+using core::kPassed;
+using core::reject;
+using core::Verdict;
+
+bool bends_hold(const PatchBend& bend, const Grid& grid, const LeafShape& shape) {
+  for (uint32_t k = 0; k < 5; ++k)
+    if (!(in_units(grid.fixed_unit_m2, bend.fixed[k]) >= shape.fixed[k] &&
+          in_units(grid.turning_unit_m, bend.turning[k]) >= shape.turning[k]))
+      return false;
+  return true;
+}
+
+}  // namespace
+
+Verdict check_capsules(const View& model, uint32_t i, LeafShape& shape) {
+  const Leaf& leaf = model.leaves()[i];
+  bound_bends(part_of(model.pieces()[leaf.piece], leaf.index_u, leaf.index_v), shape);
+  const Bend& bend = model.bends()[i];
+  if (bend.fixed >= 0x7F80u || bend.turning >= 0x7F80u || bend.fixed < rounded_up(shape.fixed[0]) ||
+      bend.turning < rounded_up(shape.turning[0]))
+    return reject(620, i);
+  const uint32_t node = model.leaf_count() - 1 + i;
+  const Point* const points = model.points().data();
+  const Capsule& own = model.capsules()[node];
+  if (!leaf_fits(shape, own, points)) return reject(623, i);
+  for (uint32_t at = node; at != 0;) {
+    at = parent_of(at);
+    if (!leaf_fits(own, model.capsules()[at], points)) return reject(623, i);
+  }
+  return kPassed;
+}
+
+Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
+                    const LeafShape& shape) {
+  const Piece& piece = model.pieces()[place.piece];
+  const Grid& grid = model.grids()[place.piece];
+  const Halvings cell = cell_levels(piece, grid);
+  const uint32_t in_u = (1u << (piece.level_u - cell.u)) - 1u;
+  const uint32_t in_v = (1u << (piece.level_v - cell.v)) - 1u;
+  if ((place.index_u & in_u) == 0 && (place.index_v & in_v) == 0) {  // a cell with its first leaf
+    LeafShape whole;
+    const Part part = part_of(cell, place.index_u >> (piece.level_u - cell.u),
+                              place.index_v >> (piece.level_v - cell.v));
+    derive(piece, model.coefficients().data() + piece.coefficients, part, whole);
+    if (!(whole.least_weight > 0.0f)) return reject(619, i);
+    bound_bends(part, whole);
+    const PatchBend& bend = model.patch_bends()[cell_of(piece, grid, place.index_u, place.index_v)];
+    if (!bends_hold(bend, grid, whole)) return reject(620, i);
+  }
+  Patch patch{place.piece, 0u + piece.level_u + piece.level_v, place.index_u, place.index_v};
+  const Parallelogram leaf =
+      parallelogram_of(piece, grid, model.corners().data(), patch, halvings_of(piece, patch.depth));
+  const auto stored_m = [&] {
+    return in_units(grid.radius_unit_m,
+                    model.radii()[radius_of(grid, patch, halvings_of(piece, patch.depth))]);
+  };
+  const float leaf_m = stored_m();
+  if (!(radius_for(shape, leaf) <= leaf_m)) return reject(623, i);
+  while (patch.depth != 0) {
+    patch = parent_of(piece, patch);
+    const Parallelogram above = parallelogram_of(piece, grid, model.corners().data(), patch,
+                                                 halvings_of(piece, patch.depth));
+    if (!(radius_above(leaf_m, leaf, above) <= stored_m())) return reject(623, i);
+  }
+  for (uint32_t at = model.pieces().size() - 1 + place.piece; at != 0;) {
+    at = parent_of(at);
+    if (!leaf_fits(shape, model.boxes()[at])) return reject(623, i);
+  }
+  return kPassed;
+}
+
+View::Place View::place_of(uint32_t leaf) const {
+  if (!is_surface()) return {leaves_[leaf].piece, leaves_[leaf].index_u, leaves_[leaf].index_v};
+  uint32_t first = 0, last = grids_.size() - 1;  // the last piece that begins no later
+  while (first < last) {
+    const uint32_t middle = (first + last + 1) / 2;
+    if (grids_[middle].first_leaf <= leaf)
+      first = middle;
+    else
+      last = middle - 1;
+  }
+  const uint32_t in_piece = leaf - grids_[first].first_leaf, level_u = pieces_[first].level_u;
+  return {first, in_piece & ((1u << level_u) - 1u), in_piece >> level_u};
+}
+
+View::Bounds View::bounds_of(uint32_t leaf) const {
+  if (!is_surface()) return {{from_half(bends_[leaf].fixed)}, {from_half(bends_[leaf].turning)}};
+  const Place place = place_of(leaf);
+  const Grid& grid = grids_[place.piece];
+  const PatchBend& bend =
+      patch_bends_[cell_of(pieces_[place.piece], grid, place.index_u, place.index_v)];
+  Bounds bounds;
+  for (uint32_t k = 0; k < 5; ++k) {
+    bounds.fixed_m2[k] = in_units(grid.fixed_unit_m2, bend.fixed[k]);
+    bounds.turning_m[k] = in_units(grid.turning_unit_m, bend.turning[k]);
+  }
+  return bounds;
+}
+
+}  // namespace firmtouch::spline
