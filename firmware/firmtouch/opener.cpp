@@ -51,6 +51,7 @@ curve::Sections curve_sections(const asset::Container& container, const char* na
   sections.places = container.find(curve::kPlacesSection, name);
   sections.boxes = container.find(curve::kBoxesSection, name);
   sections.runs = container.find(curve::kRunsSection, name);
+  sections.radii = container.find(curve::kRadiiSection, name);
   return sections;
 }
 

@@ -22,8 +22,11 @@ TEST(EveryHardCurveIsBakedAndProven) {
     CHECK(baked.report.problem.empty());
     CHECK(baked.view.is_open());
     CHECK_EQ(baked.report.is_closed, named.name == "closed");
-    const uint64_t runs = (baked.report.samples - 1 + 63) / 64;
-    CHECK_EQ(baked.report.tick_bytes, 64 + 20ull * baked.report.samples + 96 * runs - 12);
+    const uint32_t levels = baked.view.run_levels();
+    const uint64_t segments = 4u << levels, parts = 2u << levels;
+    const uint64_t runs = (baked.report.samples - 1 + segments - 1) / segments;
+    CHECK_EQ(baked.report.tick_bytes,
+             68 + 20ull * baked.report.samples + (32 + 2 * parts) * runs - 12);
   }
 }
 
@@ -56,7 +59,7 @@ TEST(DroppedRowsAreToldToTools) {
   points.samples_m = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   tools::CurveReport report;
   const auto sections = tools::bake_curve(points, "path", report);
-  CHECK_EQ(sections.size(), 7u);
+  CHECK_EQ(sections.size(), 8u);
   CHECK_EQ(sections.back().type, curve::kRowsSection);
   const std::vector<uint32_t> rows{0, 1, 3};
   CHECK(sections.back().bytes == tools::make_section(0, "", rows).bytes);

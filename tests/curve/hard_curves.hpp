@@ -20,10 +20,11 @@ struct NamedCurve {
 
 /// A baked curve; the view reads the sections, so it does not move.
 struct Baked {
-  explicit Baked(const Points& points, bool is_smooth = false) {
+  explicit Baked(const Points& points, bool is_smooth = false, uint32_t run_levels = 0) {
     tools::CurvePoints given;
     given.samples_m = points;
     given.is_smooth = is_smooth;
+    given.run_levels = run_levels;
     sections = tools::bake_curve(given, "curve", report);
     if (report.problem.empty() && !curve::open(tools::curve_sections(sections, "curve"), view).ok())
       report.problem = "refused";

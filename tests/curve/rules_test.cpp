@@ -41,7 +41,15 @@ TEST(OpeningInSlicesOfAnySizeSaysTheSame) {
     }
     CHECK_EQ(opening.verdict().ok(), true);
     CHECK_EQ(opening.view().is_open(), true);
-    CHECK_EQ(slices, (20 + slice - 1) / slice);  // 3 times 6 samples, a box, the run
+    // 3 times 6 samples and a box, one each; the run and its parts as many as they have segments.
+    uint32_t expected = 1, used = 0;
+    for (uint32_t i = 0; i < 19 + 1 + 32; ++i) {
+      if (used >= slice) ++expected, used = 0;
+      uint32_t cost = i < 19 ? 1 : 64;
+      for (uint32_t part = i < 20 ? 0 : i - 20; part != 0; part = (part - 1) / 2) cost /= 2;
+      used += cost;
+    }
+    CHECK_EQ(slices, expected);
   }
 }
 
@@ -232,7 +240,10 @@ TEST(Rule221RefusesBoxesAndRunsThatAreNotAsManyAsTheSamplesAsk) {
     s.boxes = {s.boxes.data(), less ? s.boxes.size() - 12 : s.boxes.size() + 12};
     CHECK_EQ(verdict_of(s).rule, 221);
     s = c.sections();
-    s.runs = {s.runs.data(), less ? s.runs.size() - 72 : s.runs.size() + 72};
+    s.runs = {s.runs.data(), less ? s.runs.size() - 8 : s.runs.size() + 8};
+    CHECK_EQ(verdict_of(s).rule, 221);
+    s = c.sections();
+    s.radii = {s.radii.data(), less ? s.radii.size() - 2 : s.radii.size() + 2};
     CHECK_EQ(verdict_of(s).rule, 221);
   }
 }
@@ -309,30 +320,52 @@ TEST(Rule227RefusesASampleThatLeavesTheBoxOfItsRun) {
 
 TEST(Rule228RefusesAnyOtherRadius) {
   for (uint32_t i = 0; i < long_hook().run_count(); ++i) {
-    for (uint32_t k = 0; k < firmtouch::curve::kParts; ++k) {
+    for (uint32_t k = 0; k < 31; ++k) {
       LongCurve c = long_hook();
-      c.runs[i].radius[k] ^= 1;
+      c.radii[32 * i + k] ^= 1;
       expect(c, 228, i);
     }
   }
 }
 
-TEST(Rule229RefusesAReservedHalfOfARunThatIsNotZero) {
+TEST(Rule229RefusesARadiusBeyondThePartsOfARun) {
   LongCurve c = long_hook();
-  c.runs[1].reserved = 1;
+  c.radii[32 + 31] = 1;
   expect(c, 229, 1);
+}
+
+TEST(Rule231RefusesRunsTooShortOrTooLong) {
+  const uint32_t wrong[] = {0u, 1u, 9u, 0xFFFFFFFFu};
+  for (const uint32_t levels : wrong) {
+    LongCurve c = long_hook();
+    c.head.run_levels = levels;
+    Sections s = c.sections();
+    CHECK_EQ(verdict_of({s.head, s.samples, s.arcs, s.places, {}, {}, {}}).rule, 231);
+  }
+}
+
+TEST(RunsOfEveryLengthAreGood) {
+  for (uint32_t levels = 2; levels <= 8; ++levels) {
+    LongCurve c = long_hook();
+    c.head.run_levels = levels;
+    c.derive_runs();
+    expect(c, 0, 0);
+    CHECK_EQ(c.view().run_levels(), levels);
+    c.radii[0] ^= 1;
+    expect(c, 228, 0);
+  }
 }
 
 TEST(AnyFlippedBitIsRefusedByARuleOrLeavesAQueryWithinBounds) {
   static SmallCurve c(kHook);
-  static_assert(sizeof(firmtouch::curve::Run) == 72);
   uint32_t refused = 0, kept = 0;
   uint8_t* const parts[] = {
       reinterpret_cast<uint8_t*>(&c.head), reinterpret_cast<uint8_t*>(c.samples),
       reinterpret_cast<uint8_t*>(c.arcs),  reinterpret_cast<uint8_t*>(c.places),
-      reinterpret_cast<uint8_t*>(c.boxes), reinterpret_cast<uint8_t*>(c.runs)};
-  const uint32_t sizes[] = {64, 72, 24, 24, 12, 72};
-  for (uint32_t part = 0; part < 6; ++part) {
+      reinterpret_cast<uint8_t*>(c.boxes), reinterpret_cast<uint8_t*>(c.runs),
+      reinterpret_cast<uint8_t*>(c.radii)};
+  const uint32_t sizes[] = {68, 72, 24, 24, 12, 8, 64};
+  for (uint32_t part = 0; part < 7; ++part) {
     for (uint32_t bit = 0; bit < 8 * sizes[part]; ++bit) {
       uint8_t& byte = parts[part][bit / 8];
       const auto flipped = static_cast<uint8_t>(byte ^ (1u << (bit % 8)));

@@ -16,8 +16,9 @@ struct CurveOf {
   curve::Sample samples[Most];
   float arcs[Most];
   uint32_t places[Most];
-  curve::Run runs[curve::run_count_of(Most)];
-  curve::Box boxes[2 * curve::run_count_of(Most) - 1];
+  curve::Run runs[curve::run_count_of(Most, curve::kMinRunLevels)];
+  uint16_t radii[Most / 2 + curve::parts_of(curve::kMaxRunLevels) + 1];  // of any levels
+  curve::Box boxes[2 * curve::run_count_of(Most, curve::kMinRunLevels) - 1];
 
   template <uint32_t N>
   explicit CurveOf(const curve::Sample (&from)[N]) {
@@ -33,7 +34,8 @@ struct CurveOf {
             bytes(arcs, n * 4),
             bytes(places, n * 4),
             bytes(boxes, (2 * run_count() - 1) * 12),
-            bytes(runs, run_count() * uint32_t{sizeof(curve::Run)})};
+            bytes(runs, run_count() * uint32_t{sizeof(curve::Run)}),
+            bytes(radii, run_count() * (curve::parts_of(head.run_levels) + 1) * 2)};
   }
   curve::View view() const {
     curve::View opened;
@@ -44,6 +46,7 @@ struct CurveOf {
   void build(const curve::Sample* from, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) samples[i] = from[i];
     head.sample_count = count;
+    head.run_levels = 4;
     derive();
   }
   // Everything that follows from the samples.
@@ -67,19 +70,21 @@ struct CurveOf {
     place(n);
     derive_runs();
   }
-  uint32_t run_count() const { return curve::run_count_of(head.sample_count); }
+  uint32_t run_count() const { return curve::run_count_of(head.sample_count, head.run_levels); }
   // Runs are leaves in turn: another tree than the baker's, as good to open().
   void derive_runs() {
     derive_grid();
     const uint32_t count = run_count();
     for (uint32_t r = 0; r < count; ++r) {
       runs[r].leaf = runs[r].run = count - 1 - r;
-      for (uint32_t k = 0; k < curve::kParts; ++k) {
-        const curve::Part part = curve::part_of(r, k, head.sample_count - 1);
-        runs[r].radius[k] = curve::part_radius(track(), head.is_smooth != 0, part.first, part.last);
+      const uint32_t levels = head.run_levels, parts = curve::parts_of(levels);
+      for (uint32_t k = 0; k < parts; ++k) {
+        const curve::Part part = curve::part_of(levels, r, k, head.sample_count - 1);
+        radii[r * (parts + 1) + k] =
+            curve::part_radius(track(), head.is_smooth != 0, part.first, part.last);
       }
-      runs[r].reserved = 0;
-      derive_box(boxes[2 * (count - 1) - r], curve::part_of(r, 0, head.sample_count - 1));
+      radii[r * (parts + 1) + parts] = 0;
+      derive_box(boxes[2 * (count - 1) - r], curve::part_of(levels, r, 0, head.sample_count - 1));
     }
     for (uint32_t i = count - 1; i-- > 0;) {
       const curve::Box &a = boxes[2 * i + 1], &b = boxes[2 * i + 2];

@@ -34,7 +34,7 @@ TEST(Rule227RefusesACubicPieceThatLeavesTheBoxOfItsRun) {
 TEST(Rule228RefusesTheRadiusOfStraightPiecesForCubicOnes) {
   LongCurve c = smooth_hook();
   const LongCurve& straight = long_hook();
-  c.runs[0] = straight.runs[0];
+  for (uint32_t k = 0; k < 31; ++k) c.radii[k] = straight.radii[k];
   expect(c, 228, 0);
 }
 

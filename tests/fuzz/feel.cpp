@@ -153,6 +153,7 @@ core::Verdict open_curve(const asset::Container& container, const char* name) {
   sections.places = copies.of(container.find(curve::kPlacesSection, name));
   sections.boxes = copies.of(container.find(curve::kBoxesSection, name));
   sections.runs = copies.of(container.find(curve::kRunsSection, name));
+  sections.radii = copies.of(container.find(curve::kRadiiSection, name));
   curve::View view;
   const core::Verdict verdict = curve::open(sections, view);
   CHECK_EQ(verdict.ok(), view.is_open());

@@ -83,7 +83,7 @@ TEST(TheVictimHoldsEverySectionTypeAndIsFelt) {
     CHECK_EQ(types.count(type), type == 0x1008u ? 0u : 1u);  // of an earlier layout
   for (uint32_t type = field::kHeadSection; type <= field::kSeedsSection; ++type)
     CHECK_EQ(types.count(type), 1u);
-  for (uint32_t type = curve::kHeadSection; type <= curve::kRunsSection; ++type)
+  for (uint32_t type = curve::kHeadSection; type <= curve::kRadiiSection; ++type)
     CHECK_EQ(types.count(type), type == 0x2004u ? 0u : 1u);  // of an earlier layout
 }
 

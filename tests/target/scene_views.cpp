@@ -27,6 +27,7 @@ core::Verdict open_curve(const asset::Container& file, const char* name, curve::
   sections.places = file.find(curve::kPlacesSection, name);
   sections.boxes = file.find(curve::kBoxesSection, name);
   sections.runs = file.find(curve::kRunsSection, name);
+  sections.radii = file.find(curve::kRadiiSection, name);
   return curve::open(sections, view);
 }
 

@@ -99,6 +99,7 @@ curve::Sections curve_sections_of(const asset::Container& container, const char*
   sections.places = container.find(curve::kPlacesSection, name);
   sections.boxes = container.find(curve::kBoxesSection, name);
   sections.runs = container.find(curve::kRunsSection, name);
+  sections.radii = container.find(curve::kRadiiSection, name);
   return sections;
 }
 

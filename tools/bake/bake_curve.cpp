@@ -107,6 +107,8 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
   const std::vector<float> arcs = arc_positions(samples, report);
   curve::Head head = make_head(samples, report.length_m);
   head.is_smooth = mended.is_smooth ? 1 : 0;
+  head.run_levels =
+      mended.run_levels != 0 ? mended.run_levels : choose_run_levels(head.sample_count);
   if (!choose_grid(head, mended.is_smooth ? beyond_of(samples, head) : 0)) {
     report.problem = name +
                      (mended.is_smooth ? ": too few samples for smooth pieces, or the" : ": the") +
@@ -122,6 +124,7 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
   const CurveRuns runs = build_curve_runs(samples, head);
   sections.push_back(make_section(curve::kBoxesSection, name, runs.boxes));
   sections.push_back(make_section(curve::kRunsSection, name, runs.runs));
+  sections.push_back(make_section(curve::kRadiiSection, name, runs.radii));
   for (const Section& section : sections) report.tick_bytes += section.bytes.size();
   report.bytes = report.tick_bytes;
   if (has_gaps(mended.rows)) {
@@ -129,7 +132,7 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
     report.bytes += sections.back().bytes.size();
   }
   report.samples = head.sample_count;
-  report.levels = levels_of(2 * curve::run_count_of(head.sample_count) - 1);
+  report.levels = levels_of(2 * curve::run_count_of(head.sample_count, head.run_levels) - 1);
   report.is_closed = head.is_closed == 1;
 
   curve::View view;
@@ -149,7 +152,8 @@ curve::Sections curve_sections(const std::vector<Section>& sections, const std::
           bytes_of(sections, name, curve::kArcsSection),
           bytes_of(sections, name, curve::kPlacesSection),
           bytes_of(sections, name, curve::kBoxesSection),
-          bytes_of(sections, name, curve::kRunsSection)};
+          bytes_of(sections, name, curve::kRunsSection),
+          bytes_of(sections, name, curve::kRadiiSection)};
 }
 
 }  // namespace firmtouch::tools

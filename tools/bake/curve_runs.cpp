@@ -115,26 +115,31 @@ bool choose_grid(curve::Head& head, float beyond) {
   return false;
 }
 
+uint32_t choose_run_levels(uint32_t sample_count) {
+  constexpr uint32_t kFew = 10000;
+  return sample_count < kFew ? 3 : curve::kMaxRunLevels;
+}
+
 CurveRuns build_curve_runs(const std::vector<curve::Sample>& samples, const curve::Head& head) {
   const auto sample_count = static_cast<uint32_t>(samples.size());
-  const uint32_t count = curve::run_count_of(sample_count);
+  const uint32_t levels = head.run_levels, parts = curve::parts_of(levels);
+  const uint32_t count = curve::run_count_of(sample_count, levels);
   CurveRuns built;
   built.boxes.resize(2 * count - 1);
   built.runs.resize(count);
+  built.radii.assign(size_t{count} * (parts + 1), 0);
   std::vector<curve::Box> boxes(count);
   std::vector<Item> items(count);
   for (uint32_t r = 0; r < count; ++r) {
-    curve::Run& run = built.runs[r];
-    boxes[r] = box_of(samples, head, curve::part_of(r, 0, sample_count - 1));
+    boxes[r] = box_of(samples, head, curve::part_of(levels, r, 0, sample_count - 1));
     for (size_t k = 0; k < 3; ++k)
       items[r].middle[k] = curve::low_of(boxes[r].side[k]) + curve::high_of(boxes[r].side[k]);
     items[r].run = r;
-    for (uint32_t k = 0; k < curve::kParts; ++k) {
-      const curve::Part part = curve::part_of(r, k, sample_count - 1);
-      run.radius[k] =
+    for (uint32_t k = 0; k < parts; ++k) {
+      const curve::Part part = curve::part_of(levels, r, k, sample_count - 1);
+      built.radii[size_t{r} * (parts + 1) + k] =
           curve::part_radius(track_of(samples, head), head.is_smooth != 0, part.first, part.last);
     }
-    run.reserved = 0;
   }
   place_runs(items, built.runs);
   for (uint32_t leaf = 0; leaf < count; ++leaf)

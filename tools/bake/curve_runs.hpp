@@ -8,7 +8,11 @@ namespace firmtouch::tools {
 struct CurveRuns {
   std::vector<curve::Box> boxes;
   std::vector<curve::Run> runs;
+  std::vector<uint16_t> radii;
 };
+
+/// How often runs are halved, by what was measured (DESIGN.md).
+uint32_t choose_run_levels(uint32_t sample_count);
 
 /// Sets grid_low_m and cell_m from the head's box: the finest grid that open() takes. `beyond`: how far
 /// pieces lie beyond the box of the samples, in its extents.

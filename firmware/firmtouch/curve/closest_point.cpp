@@ -13,21 +13,20 @@ namespace {
 
 using math::Vec3;
 
-// A warm search begins at the last segment; a cold one knows a point of the curve at once: its
-// first sample.
-template <bool kCareful, class Bound>
-Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget budget,
-               query::Hint& hint) {
-  NearestFoot<kCareful> nearest(curve, p_m);
-  uint32_t start = kNoRun;
-  if (hint.place < curve.segment_count())
-    start = nearest.follow(hint.place) / kRunSegments;
-  else
-    nearest.begin_at_first();
-  const Walk walk = walk_runs(curve, bound, budget.steps, start, nearest);
+// Nearer than this share of the diagonal plain floats lose no more than near the curve (answer.hpp: at
+// most 5.6 u d + 3.3 u h against 10.5 u h, h half a segment: half the diagonal at most).
+constexpr float kPlain = 0.25f;
 
-  Closest closest = answer_at(curve, nearest.best());
-  float lower_m = rounded_down(closest.distance_m, curve.head().longest_half_m, kCareful);
+// On average, between samples.
+float spacing_m(const View& curve) {
+  return curve.head().length_m / static_cast<float>(curve.segment_count());
+}
+
+// All but the fence.
+Closest finish(const View& curve, const Foot& best, const Walk& walk, bool carefully, Vec3 p_m,
+               query::Hint& hint) {
+  Closest closest = answer_at(curve, best);
+  float lower_m = rounded_down(closest.distance_m, curve.head().longest_half_m, carefully);
   if (!walk.complete) {
     const float carried_m = query::carry(hint, p_m).lower_m;
     const float known_m = walk.pending_m > carried_m ? walk.pending_m : carried_m;
@@ -43,6 +42,55 @@ Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget bu
   return closest;
 }
 
+// Without a fence. A warm search begins at the last segment; a cold one knows a point of the curve
+// at once: its first sample.
+template <bool kCareful, class Bound>
+Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget budget,
+               query::Hint& hint) {
+  NearestFoot<kCareful> nearest(curve, p_m);
+  uint32_t start = kNoRun;
+  Steps steps(budget);
+  bool has_begun = true;
+  if (hint.place < curve.segment_count()) {
+    start = run_of(nearest.follow(hint.place), curve.run_levels());
+    has_begun = nearest.begin(start, kNoNode, steps.left) == Climb::kRun;
+  } else {
+    nearest.begin_at_first();
+  }
+  const Walk walk = walk_runs(curve, bound, steps, start, has_begun, nearest);
+  hint.fence = query::kNowhere;
+  return finish(curve, nearest.best(), walk, kCareful, p_m, hint);
+}
+
+// From the last segment up to the last fence where that is far enough away, else to the root, making
+// the next fence.
+// Result: false where plain floats do not do, or the query is not near.
+bool search_near(const View& curve, Vec3 p_m, query::Budget budget, query::Hint& hint,
+                 NearestFoot<false>& nearest, Walk& walk) {
+  const uint32_t run = run_of(nearest.follow(hint.place), curve.run_levels());
+  const float radius_m = nearest.radius_m();
+  if (!(radius_m <= kPlain * curve.head().diagonal_m)) return false;
+  // What the last certificate says of all outside its fence, rounded down as query::carry() does.
+  const float motion_m = math::length(p_m - hint.position_m) * (1.0f + 8.0f * kUnit);
+  const float left_m = (hint.fence_m - motion_m) * (1.0f - 4.0f * kUnit);
+  Steps steps(budget);
+  const uint32_t fence = radius_m <= left_m ? hint.fence : kNoNode;
+  const Climb climb = nearest.begin(run, fence, steps.left);
+  walk.steps = steps.allowed - steps.left;
+  walk.complete = climb == Climb::kFence;
+  hint.fence_m = left_m;
+  if (climb == Climb::kFence) return true;
+  hint.fence = kNoNode;
+  walk.pending_m = 0.0f;
+  if (climb == Climb::kSpent) return true;
+  NearBound bound;
+  if (!bound.begin(curve.head(), p_m)) return false;
+  walk = walk_runs(curve, bound, steps, run, true, nearest);
+  if (walk.complete && walk.pending_m > nearest.radius_m() && motion_m <= kBeyond_m)
+    nearest.make_fence(run, motion_m, spacing_m(curve), walk.pending_m, hint);
+  return true;
+}
+
 // So far away that the first sample is as near as any other point, to 2^-28.
 Closest answer_beyond(const View& curve, Vec3 p_m, query::Hint& hint) {
   Closest closest = answer_at(curve, {0.0f, 0, 1, 0.0f});
@@ -50,7 +98,7 @@ Closest answer_beyond(const View& curve, Vec3 p_m, query::Hint& hint) {
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
   closest.certificate = {closest.distance_m * (1.0f - 6.0f * kUnit), 1, fits, 0};
-  hint = {0, p_m, closest.certificate.lower_m, 0};
+  hint = {0, p_m, closest.certificate.lower_m, 0, query::kNowhere, 0};
   return closest;
 }
 
@@ -58,12 +106,13 @@ Closest answer_nothing(const View& curve, query::Hint& hint) {
   Closest closest = answer_at(curve, {0.0f, 0, 1, 0.0f});
   closest.distance_m = FLT_MAX;
   hint.lower_m = 0;
+  hint.fence = query::kNowhere;
   return closest;
 }
 
-}  // namespace
-
-Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+// A function of its own: its frame is larger than what a warm query needs.
+[[gnu::noinline]] Closest answer_anywhere(const View& curve, Vec3 p_m, query::Budget budget,
+                                          query::Hint& hint) {
   if (curve.is_smooth() && is_near(p_m)) return smooth_point(curve, p_m, {}, budget, hint).closest;
   NearBound near_bound;
   if (near_bound.begin(curve.head(), p_m)) {
@@ -75,6 +124,18 @@ Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, query::
   FarBound far_bound;
   far_bound.begin(curve.head(), p_m);
   return answer<true>(curve, far_bound, p_m, budget, hint);
+}
+
+}  // namespace
+
+Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+  if (!curve.is_smooth() && hint.place < curve.segment_count()) {
+    NearestFoot<false> nearest(curve, p_m);
+    Walk walk;
+    if (search_near(curve, p_m, budget, hint, nearest, walk))
+      return finish(curve, nearest.best(), walk, false, p_m, hint);
+  }
+  return answer_anywhere(curve, p_m, budget, hint);
 }
 
 uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points) {

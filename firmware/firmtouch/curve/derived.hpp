@@ -90,11 +90,11 @@ static inline uint16_t part_radius(const Track& track, bool is_smooth, uint32_t 
 struct Part {
   uint32_t first, last;
 };
-static inline Part part_of(uint32_t run, uint32_t k, uint32_t segment_count) {
+static inline Part part_of(uint32_t levels, uint32_t run, uint32_t k, uint32_t segment_count) {
   uint32_t level = 0;
   while (k + 1 >= (2u << level)) ++level;
-  const uint32_t size = kRunSegments >> level,
-                 begin = run * kRunSegments + (k + 1 - (1u << level)) * size;
+  const uint32_t whole = run_segments_of(levels), size = whole >> level;
+  const uint32_t begin = run * whole + (k + 1 - (1u << level)) * size;
   const uint32_t end = begin + size;
   return {begin < segment_count ? begin : segment_count, end < segment_count ? end : segment_count};
 }

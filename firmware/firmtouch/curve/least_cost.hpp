@@ -50,21 +50,25 @@ class LeastCost {
     return segment_of(best_);
   }
 
-  void begin(uint32_t run) { take(run); }
+  float others_m() const { return 0.0f; }
 
-  void take(uint32_t run) {
+  /// Result: false where the budget ended.
+  bool take(uint32_t run, uint32_t& budget_left) {
     struct Cut {
-      uint32_t part, size;
+      uint32_t part, size, first;
     };
-    Cut pending[kRunLevels + 2] = {{0, kRunSegments}};
-    const uint32_t first_of_run = run * kRunSegments, count = curve_.segment_count();
+    const uint32_t levels = curve_.run_levels(), whole = run_segments_of(levels);
+    const uint16_t* const radii = curve_.radii().data() + (run << (levels + 1));
+    const uint32_t count = curve_.segment_count();
+    Cut pending[kMaxRunLevels + 2];
+    pending[0] = {0, whole, run * whole};
     for (uint32_t left = 1; left > 0;) {
       const Cut cut = pending[--left];
-      const uint32_t level_first = kRunSegments / cut.size - 1;
-      const uint32_t first = first_of_run + (cut.part - level_first) * cut.size;
+      const uint32_t first = cut.first;
       if (first >= count) continue;
+      if (cut.size < whole && !spend(cut.size, budget_left)) return false;
       const uint32_t end = first + cut.size, last = end < count ? end : count;
-      if (!may_hold(first, last, curve_.runs()[run].radius[cut.part])) continue;
+      if (!may_hold(first, last, radii[cut.part])) continue;
       if (cut.size == kPartSegments) {
         for (uint32_t segment = first; segment < last; ++segment) (void)look_at(segment);
         continue;
@@ -72,9 +76,11 @@ class LeastCost {
       const uint32_t child = first_child(cut.part), half = cut.size / 2;
       const bool is_second =
           penalty_.previous_arc > curve_.arcs()[first + half < count ? first + half : count];
-      pending[left++] = {is_second ? child : child + 1, half};  // the last is taken first
-      pending[left++] = {is_second ? child + 1 : child, half};
+      const Cut low{child, half, first}, high{child + 1, half, first + half};
+      pending[left++] = is_second ? low : high;  // the last is taken first
+      pending[left++] = is_second ? high : low;
     }
+    return true;
   }
 
  private:
@@ -142,8 +148,10 @@ static inline Constraint least_cost(const View& curve, const Bound& bound, math:
   LeastCost<kSmooth> least(curve, p_m, penalty, carefully);
   const uint32_t from =
       hint.place < curve.segment_count() ? hint.place : segment_at(curve, penalty.previous_arc);
-  const uint32_t start = least.approach(from) / kRunSegments;
-  const Walk walk = walk_runs(curve, bound, budget.steps, start, least);
+  const uint32_t start = run_of(least.approach(from), curve.run_levels());
+  Steps steps(budget);
+  const bool begun = least.take(start, steps.left);
+  const Walk walk = walk_runs(curve, bound, steps, start, begun, least);
 
   Constraint found;
   found.closest = kSmooth ? answer_on_piece(curve, least.best()) : answer_at(curve, least.best());
@@ -167,6 +175,7 @@ static inline Constraint least_cost(const View& curve, const Bound& bound, math:
   hint.position_m = p_m;
   hint.lower_m = 0;  // a bound of the cost is none of the distance
   hint.sign = 0;
+  hint.fence = query::kNowhere;
   return found;
 }
 

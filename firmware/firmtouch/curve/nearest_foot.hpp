@@ -7,13 +7,17 @@
 
 namespace firmtouch::curve {
 
+/// What a climb from a segment came to: the budget's end, the top of the run, or the fence.
+enum class Climb : uint8_t { kSpent, kRun, kFence };
+
 /// Keeps the closest point of the runs that it is offered.
 template <bool kCareful>
 class NearestFoot {
  public:
   NearestFoot(const View& curve, math::Vec3 p_m)
       : samples_(curve.samples().data()),
-        runs_(curve.runs().data()),
+        radii_(curve.radii().data()),
+        levels_(curve.run_levels()),
         segment_count_(curve.segment_count()),
         p_m_(p_m) {}
 
@@ -34,8 +38,8 @@ class NearestFoot {
   /// the segments about it, whose spacing is evener. A few are looked at, whatever the curve.
   /// Result: the segment of the best point.
   uint32_t follow(uint32_t segment) {
-    for (uint32_t i = 0; i < kMaxJumps; ++i) {
-      const float before_m2 = best_.distance2_m2, ahead = look_at(segment);
+    float ahead = look_at(segment), before_m2 = FLT_MAX;
+    for (uint32_t i = 1; i < kMaxJumps; ++i) {
       if ((ahead >= 0.0f && ahead < 1.0f) || !(best_.distance2_m2 < before_m2)) break;
       const uint32_t to = ahead >= -2.0f && ahead <= 3.0f
                               ? clamped(static_cast<int32_t>(segment) +
@@ -43,47 +47,91 @@ class NearestFoot {
                               : beside(segment);
       if (to == segment) break;
       segment = to;
+      before_m2 = best_.distance2_m2;
+      ahead = look_at(segment);
     }
     return segment_of(best_);
   }
 
+  /// More than the distance of the best point so far.
+  float radius_m() const { return radius_m_; }
+  float others_m() const { return others_m_; }
+
   /// The run of the best point so far: its part of the last level, then, level by level, what lies
-  /// beside.
-  void begin(uint32_t run) {
-    const uint32_t first_of_run = run * kRunSegments, found = segment_of(best_);
-    uint32_t part = (found - first_of_run) / kPartSegments;
-    uint32_t first = first_of_run + part * kPartSegments;
-    part += kParts / 2;
+  /// beside, up to the top; of a fence's part, up to that and its neighbours.
+  [[gnu::always_inline]] inline Climb begin(uint32_t run, uint32_t fence, uint32_t& left) {
+    const uint32_t found = segment_of(best_);
+    const uint32_t node = run << (levels_ + 1), stop = fence - node;
+    const uint16_t* const radii = radii_ + node;
+    const uint32_t least = (1u << levels_) - 1;  // the first part of the last level
+    uint32_t first = found - found % kPartSegments, size = kPartSegments;
+    uint32_t part = (found / kPartSegments & least) + least;
     take_segments(first, found);
-    const uint16_t* const radii = runs_[run].radius;
-    for (uint32_t size = kPartSegments; size < kRunSegments; size *= 2) {
-      if ((part & 1u) != 0) {
-        const uint32_t after = first + size;
-        if (after < segment_count_) {
-          const uint32_t end = after + size, last = end < segment_count_ ? end : segment_count_;
-          if (near_part(samples_[after], samples_[last], radii[part + 1]) >= 0.0f)
-            take_part(run, {part + 1, after}, size);
-        }
-      } else {
-        const uint32_t before = first - size;
-        if (near_part(samples_[first], samples_[before], radii[part - 1]) >= 0.0f) {
-          is_second_ = true;
-          take_part(run, {part - 1, before}, size);
-        }
-        first = before;
-      }
+    for (; part != stop; size *= 2) {
+      if (part == 0) return Climb::kRun;
+      if (!take_beside(radii, part, first, size, (part & 1u) != 0, left)) return Climb::kSpent;
+      if ((part & 1u) == 0) first -= size;
       part = parent_of(part);
     }
+    const uint32_t end = (part + 2) & (part + 1);  // 0 for the last part of its level
+    if (end != 0 && !take_beside(radii, part, first, size, true, left)) return Climb::kSpent;
+    const bool is_inside = ((part + 1) & part) != 0;  // not the first part of its level
+    if (is_inside && !take_beside(radii, part, first, size, false, left)) return Climb::kSpent;
+    return Climb::kFence;
   }
 
-  void take(uint32_t run) {
-    const Cut whole{0, run * kRunSegments};
-    if (may_hold(run, whole, kRunSegments, best_.sample > whole.first))
-      take_part(run, whole, kRunSegments);
+  /// A fence about the run's part where the best point lies, whose ends are some motions apart: all that
+  /// lies neither in that part nor in the parts of its size beside it in the run is certified to be at
+  /// least so far from the query. None where the run is too short for one. Part k of run r is node r *
+  /// (parts of a run + 1) + k. Pre: all other runs are at least `outside_m` away.
+  void make_fence(uint32_t run, float motion_m, float spacing_m, float outside_m,
+                  query::Hint& hint) const {
+    const uint32_t segments = run_segments_of(levels_), run_first = run * segments;
+    const float least_m = kFenceMotions * motion_m;
+    uint32_t size = kPartSegments, first = segment_of(best_);
+    for (float mean_m = 4.0f * spacing_m; mean_m < least_m && size < segments; mean_m *= 2.0f)
+      size *= 2;
+    for (;; size *= 2) {
+      if (size >= segments / 2) return;
+      first -= (first - run_first) % size;
+      if (first + size > segment_count_) return;
+      const math::Vec3 along_m = vec(samples_[first + size]) - vec(samples_[first]);
+      if (dot(along_m, along_m) >= least_m * least_m) break;
+    }
+    const uint16_t* const radii = radii_ + (run << (levels_ + 1));
+    const uint32_t at = first - run_first;
+    const uint32_t level_first = segments / size - 1;
+    // Parts of falling, then of rising size, from both ends to the neighbours.
+    for (uint32_t end = at > size ? at - size : 0; end != 0;) {
+      const uint32_t step = end & (0u - end);
+      end -= step;
+      outside_m = smaller(outside_m, part_distance_m(radii, run_first + end, step, segments));
+    }
+    for (uint32_t from = at + 2 * size; from < segments && run_first + from < segment_count_;) {
+      const uint32_t step = from & (0u - from);
+      outside_m = smaller(outside_m, part_distance_m(radii, run_first + from, step, segments));
+      from += step;
+    }
+    hint.fence = (run << (levels_ + 1)) + level_first + at / size;
+    hint.fence_m = outside_m;
+  }
+
+  /// Result: false where the budget ended.
+  bool take(uint32_t run, uint32_t& left) {
+    const uint32_t size = run_segments_of(levels_);
+    const Cut whole{0, run * size};
+    const uint16_t* const radii = radii_ + (run << (levels_ + 1));
+    const float before_m = others_m_;
+    others_m_ = 0.0f;
+    if (may_hold(radii, whole, size, best_.sample > whole.first))
+      return take_part(radii, whole, size, left);
+    others_m_ = smaller(before_m, part_distance_m(radii, whole.first, size, size));
+    return true;
   }
 
  private:
   static constexpr uint32_t kMaxJumps = 4;
+  static constexpr float kFenceMotions = 8.0f;
   static constexpr uint32_t kAbout = 8;  // segments on either side
 
   uint32_t clamped(int32_t segment) const {
@@ -110,11 +158,42 @@ class NearestFoot {
     uint32_t first;
   };
 
+  /// The part of this size after, or before, the one that begins with `first`.
+  /// Result: false where the budget ended.
+  bool take_beside(const uint16_t* radii, uint32_t part, uint32_t first, uint32_t size,
+                   bool is_after, uint32_t& left) {
+    if (!spend(size, left)) return false;
+    // From its end on this side.
+    uint32_t near = first, far = first - size;
+    if (is_after) {
+      near = first + size;
+      if (near >= segment_count_) return true;
+      far = near + size < segment_count_ ? near + size : segment_count_;
+    }
+    const uint32_t beside = is_after ? part + 1 : part - 1;
+    const float limit_m = radius_m_ + radius_m_of(radii[beside]);
+    const Off off = off_chord(samples_[near], samples_[far]);
+    if (!(off.distance2_m2 < limit_m * limit_m)) return true;
+    is_second_ = !is_after;
+    return take_part(radii, {beside, is_after ? near : far}, size, left);
+  }
+
+  /// Certified distance to a part of the run of these segments.
+  float part_distance_m(const uint16_t* radii, uint32_t first, uint32_t size,
+                        uint32_t segments) const {
+    const uint32_t end = first + size, last = end < segment_count_ ? end : segment_count_;
+    const uint32_t part = segments / size - 1 + first % segments / size;
+    const float distance2_m2 = off_chord(samples_[first], samples_[last]).distance2_m2;
+    return math::square_root(distance2_m2) * (1.0f - 0x1p-20f) - radius_m_of(radii[part]);
+  }
+  static float smaller(float a, float b) { return a < b ? a : b; }
+
   /// A part that may hold a nearer point, by halves, the one first on whose side the foot lies.
-  void take_part(uint32_t run, Cut cut, uint32_t size) {
-    Cut pending[kRunLevels + 1];
+  /// Result: false where the budget ended.
+  bool take_part(const uint16_t* radii, Cut cut, uint32_t size, uint32_t& left) {
+    Cut pending[kMaxRunLevels + 1];
     uint32_t count = 0;
-    uint32_t level_size[kRunLevels + 1];
+    uint32_t level_size[kMaxRunLevels + 1];
     for (;;) {
       if (size == kPartSegments) {
         take_segments(cut.first, kNoRun);
@@ -126,39 +205,43 @@ class NearestFoot {
         pending[count] = second ? low : high;
         level_size[count++] = size;
         cut = second ? high : low;
-        if (may_hold(run, cut, size, !second)) continue;
+        if (!spend(size, left)) return false;
+        if (may_hold(radii, cut, size, !second)) continue;
       }
       do {
-        if (count == 0) return;
+        if (count == 0) return true;
         cut = pending[--count];
         size = level_size[count];
-      } while (!may_hold(run, cut, size, (cut.part & 1u) != 0));
+        if (!spend(size, left)) return false;
+      } while (!may_hold(radii, cut, size, (cut.part & 1u) != 0));
     }
   }
 
   /// Whether a part of a run may hold a point nearer than the best. Reckoned from the end where the
   /// query is expected to lie beyond: most parts are left out without a division.
-  bool may_hold(uint32_t run, Cut cut, uint32_t size, bool from_last) {
+  bool may_hold(const uint16_t* radii, Cut cut, uint32_t size, bool from_last) {
     if (cut.first >= segment_count_) return false;
     const uint32_t end = cut.first + size, last = end < segment_count_ ? end : segment_count_;
-    const uint16_t radius = runs_[run].radius[cut.part];
-    const float t = from_last ? near_part(samples_[last], samples_[cut.first], radius)
-                              : near_part(samples_[cut.first], samples_[last], radius);
-    is_second_ = (t > 0.5f) != from_last;
-    return t >= 0.0f;
+    const float limit_m = radius_m_ + radius_m_of(radii[cut.part]);
+    const Off off = from_last ? off_chord(samples_[last], samples_[cut.first])
+                              : off_chord(samples_[cut.first], samples_[last]);
+    is_second_ = (off.t > 0.5f) != from_last;
+    return off.distance2_m2 < limit_m * limit_m;
   }
 
-  /// Where the foot lies on the straight line between two samples, 0 to 1; less than 0 where all
-  /// within the radius of that line is farther than the best.
-  float near_part(const Sample& near, const Sample& far, uint16_t radius) const {
+  /// How far the query is from the straight line between two samples, and where on it, 0 to 1, the
+  /// foot lies.
+  struct Off {
+    float distance2_m2, t;
+  };
+  Off off_chord(const Sample& near, const Sample& far) const {
     const math::Vec3 near_m = vec(near), from_m = p_m_ - near_m, along_m = vec(far) - near_m;
-    const float limit_m = radius_m_ + radius_m_of(radius), limit2_m2 = limit_m * limit_m;
     const float progress = dot(from_m, along_m);
-    if (!(progress > 0.0f)) return dot(from_m, from_m) < limit2_m2 ? 0.0f : -1.0f;
+    if (!(progress > 0.0f)) return {dot(from_m, from_m), 0.0f};
     const float length2 = dot(along_m, along_m);
     const float t = progress < length2 ? progress / length2 : 1.0f;
     const math::Vec3 rest_m = from_m - along_m * t;
-    return dot(rest_m, rest_m) < limit2_m2 ? t : -1.0f;
+    return {dot(rest_m, rest_m), t};
   }
 
   /// With v = p - sample, the foot lies within a segment only where v . v' of its ends is less than
@@ -195,7 +278,7 @@ class NearestFoot {
   }
 
   /// Result: where the foot would be on the segment's straight line, in lengths of the segment.
-  float look_at(uint32_t segment) {
+  [[gnu::always_inline]] inline float look_at(uint32_t segment) {
     const math::Vec3 a_m = vec(samples_[segment]), b_m = vec(samples_[segment + 1]);
     const math::Vec3 along_m = b_m - a_m;
     math::Vec3 from_m = p_m_ - a_m;
@@ -228,10 +311,12 @@ class NearestFoot {
   }
 
   const Sample* samples_;
-  const Run* runs_;
+  const uint16_t* radii_;
+  uint32_t levels_;
   uint32_t segment_count_;
   math::Vec3 p_m_;
   float radius_m_ = 0x1p62f;  // more than any distance that comes here
+  float others_m_ = 0x1p62f;
   bool is_second_ = false;
   Foot best_{FLT_MAX, 0, 1, 0.0f};
 };

@@ -5,17 +5,38 @@
 
 #include "firmtouch/curve/grid.hpp"
 #include "firmtouch/curve/view.hpp"
+#include "firmtouch/query/certificate.hpp"
 
 namespace firmtouch::curve {
 
 constexpr uint32_t kNoRun = UINT32_MAX;
+constexpr uint32_t kNoNode = UINT32_MAX;
 
 // Boxes still to be looked at. Smallest key first while there is room for a whole descent, last in
 // first out beyond, which needs one entry a level.
-constexpr uint32_t kMaxRunLevels =
-    kMaxLevels - kRunLevels - 1;     // a run is 2^(kRunLevels + 2) segments
+constexpr uint32_t kMaxTreeLevels =
+    kMaxLevels - kMinRunLevels - 1;  // a run has 4 << levels segments
 constexpr uint32_t kBestFirst = 64;  // within a tick's budget it never overflows
-constexpr uint32_t kMaxPending = kBestFirst + kMaxRunLevels + 1;
+constexpr uint32_t kMaxPending = kBestFirst + kMaxTreeLevels + 1;
+
+// Within a run a part of this many segments or more is a node of its own: a step.
+constexpr uint32_t kStepSegments = 64;
+
+/// A budget: how many steps it has and how many are left. The root, or the run where a warm walk
+/// starts, is one.
+struct Steps {
+  explicit Steps(query::Budget budget)
+      : allowed(budget.steps == 0 ? 1 : budget.steps), left(allowed - 1) {}
+  uint32_t allowed, left;
+};
+
+/// Result: false where a part of a run is a step and none is left.
+static inline bool spend(uint32_t segments, uint32_t& left) {
+  if (segments < kStepSegments) return true;
+  if (left == 0) return false;
+  --left;
+  return true;
+}
 
 struct Pending {
   uint32_t key;
@@ -25,8 +46,10 @@ struct Pending {
 /// What a walk came to.
 struct Walk {
   uint32_t steps;
-  bool complete;    // nothing is left that the visitor would take
-  float pending_m;  // where it is not: certified distance to everything that was not looked at
+  bool complete;  // nothing is left that the visitor would take
+  float
+      pending_m;  // where it is not: certified distance to everything that was not looked at; where
+                  // it is: to all runs but the first, if that is beyond the visitor's reach
 };
 
 // Takes a key below `prune`: while there are more than `best_first`, the last, else the smallest.
@@ -45,41 +68,45 @@ static inline bool take_next(Pending* pending, uint32_t& count, uint32_t best_fi
   return taken.key < prune;
 }
 
-/// Offers every run that may matter to a visitor: from `start`, which it takes first, up to the root
+/// Offers every run that may matter to a visitor: from `start`, which it has begun with, up to the root
 /// and into what lies beside the way; from the root where `start` is kNoRun.
 ///
 /// The visitor has
 ///     float reach2_m2() const;       squared: what lies farther has nothing for it; never grows
-///     void begin(uint32_t run);      takes the run where a warm walk starts
-///     void take(uint32_t run);
+///     bool take(uint32_t run, uint32_t& left);      false: no step was left
+///     float others_m() const;                       certified distance to all runs so taken
 ///
 /// Boxes nest to the bit, so the bound of the nearest box left never falls: more steps never widen a
 /// certificate. A cold walk takes the nearest box, for the sake of its lower bound; a warm one knows
 /// its upper bound so well that the order no longer matters, and saves the comparisons.
 template <class Bound, class Visitor>
-static inline Walk walk_runs(const View& curve, const Bound& bound_at, uint32_t budget,
-                             uint32_t start, Visitor& visitor) {
+static inline Walk walk_runs(const View& curve, const Bound& bound_at, Steps steps, uint32_t start,
+                             bool has_begun, Visitor& visitor) {
+  if (!has_begun) return {steps.allowed, false, 0.0f};
   const Bound bound = bound_at;  // in registers
   const Box* const boxes = curve.boxes().data();
   const Run* const runs = curve.runs().data();
   const uint32_t leaves = curve.runs().size() - 1;  // the first leaf's box
-  const uint32_t allowed = budget == 0 ? 1 : budget;
+  const uint32_t allowed = steps.allowed;
   Pending pending[kMaxPending];
-  uint32_t count = 0, left = allowed - 1;
+  uint32_t count = 0, left = steps.left;
   uint32_t prune;
   Pending now{0, 0};
-  uint32_t best_first = kBestFirst;
+  uint32_t best_first = kBestFirst, least = kFarthest;  // of what was left out
   if (start != kNoRun) {
     best_first = 0;
-    visitor.begin(start);
     prune = bound.prune_key(visitor.reach2_m2());
     for (uint32_t box = leaves + runs[start].leaf; box != 0; box = parent_of(box), --left) {
       if (left == 0) return {allowed, false, 0.0f};  // nothing is known of the rest of the way
       const uint32_t beside = ((box - 1) ^ 1u) + 1;
       const uint32_t key = bound.key(boxes[beside]);
-      if (key < prune) pending[count++] = {key, beside};
+      if (key < prune)
+        pending[count++] = {key, beside};
+      else
+        least = key < least ? key : least;
     }
-    if (!take_next(pending, count, best_first, prune, now)) return {allowed - left, true, FLT_MAX};
+    if (count == 0) return {allowed - left, true, bound.distance_m(least)};
+    now = pending[--count];
   } else {
     prune = bound.prune_key(visitor.reach2_m2());
     ++left;
@@ -91,17 +118,27 @@ static inline Walk walk_runs(const View& curve, const Bound& bound_at, uint32_t 
       const uint32_t first = first_child(now.box);
       const uint32_t key0 = bound.key(boxes[first]), key1 = bound.key(boxes[first + 1]);
       const uint32_t slot = key1 < key0 ? 1 : 0, far_key = slot ? key0 : key1;
-      if (far_key < prune) pending[count++] = {far_key, first + 1 - slot};
+      if (far_key < prune)
+        pending[count++] = {far_key, first + 1 - slot};
+      else
+        least = far_key < least ? far_key : least;
       now = {slot ? key1 : key0, first + slot};
       if (now.key < prune) continue;
+      least = now.key < least ? now.key : least;
     } else {
       const float before_m2 = visitor.reach2_m2();
-      visitor.take(runs[now.box - leaves].run);
-      if (visitor.reach2_m2() < before_m2) prune = bound.prune_key(visitor.reach2_m2());
+      if (!visitor.take(runs[now.box - leaves].run, left)) break;
+      if (visitor.reach2_m2() < before_m2) {
+        prune = bound.prune_key(visitor.reach2_m2());
+        least = 0;  // what is pending may be dropped now
+      }
     }
-    if (!take_next(pending, count, best_first, prune, now)) return {allowed - left, true, FLT_MAX};
+    if (!take_next(pending, count, best_first, prune, now)) {
+      const float boxes_m = bound.distance_m(least), runs_m = visitor.others_m();
+      return {allowed - left, true, boxes_m < runs_m ? boxes_m : runs_m};
+    }
   }
-  uint32_t least = now.key;
+  least = now.key;
   for (uint32_t i = 0; i < count; ++i) least = pending[i].key < least ? pending[i].key : least;
   return {allowed, false, bound.distance_m(least)};
 }

@@ -12,8 +12,6 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
-constexpr uint32_t kRunElements = 4 * kRunSegments;        // that many distances are reckoned
-constexpr uint32_t kSmoothRunElements = 4 * kRunElements;  // and here the pieces about them
 constexpr uint64_t kWhole = uint64_t{1} << 62;  // the length of the curve, in units of travelled_
 
 // How far a stored arc position may lie from the one that the samples say: a millionth of the
@@ -41,6 +39,7 @@ Verdict check_head(const Head& head) {
   if (!same_bits(head.diagonal_m, diagonal_m(head)) || !(head.diagonal_m >= kMinDiagonal_m))
     return reject(209);
   if (!(head.length_m >= head.diagonal_m * 0.5f && head.length_m <= 0x1p60f)) return reject(210);
+  if (head.run_levels < kMinRunLevels || head.run_levels > kMaxRunLevels) return reject(231);
   const uint32_t grid = wrong_of_grid(head);
   return grid == 0 ? kPassed : reject(222, grid - 1);
 }
@@ -81,13 +80,16 @@ void Opening::open_head(const Sections& s) {
   if (view_.arcs_.size() != head.sample_count) return fail(206, view_.arcs_.size());
   view_.places_ = core::as_whole_array<uint32_t>(s.places);
   if (view_.places_.size() != head.sample_count) return fail(207, view_.places_.size());
-  const uint32_t runs = run_count_of(head.sample_count);
+  verdict_ = check_head(head);
+  if (!verdict_.ok()) return;
+  const uint32_t runs = run_count_of(head.sample_count, head.run_levels);
   view_.boxes_ = core::as_whole_array<Box>(s.boxes);
   if (view_.boxes_.size() != 2 * runs - 1) return fail(221, view_.boxes_.size());
   view_.runs_ = core::as_whole_array<Run>(s.runs);
   if (view_.runs_.size() != runs) return fail(221, view_.runs_.size());
-  verdict_ = check_head(head);
-  if (!verdict_.ok()) return;
+  const core::Span<const uint16_t> radii = core::as_whole_array<uint16_t>(s.radii);
+  if (radii.size() != runs * (parts_of(head.run_levels) + 1)) return fail(221, radii.size());
+  view_.radii_ = radii.data();
   view_.head_ = &head;
   low_ = {FLT_MAX, FLT_MAX, FLT_MAX};
   high_ = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
@@ -96,7 +98,7 @@ void Opening::open_head(const Sections& s) {
 
 void Opening::work(uint32_t elements) {
   for (uint32_t used = 0; used < elements && stage_ != Stage::kDone;) {
-    used += stage_ != Stage::kRuns ? 1 : view_.is_smooth() ? kSmoothRunElements : kRunElements;
+    used += cost(next_);
     const Verdict found = check(next_);
     if (!found.ok()) return fail(found.rule, found.element);
     if (++next_ == this->elements()) next_stage();
@@ -115,13 +117,25 @@ Verdict Opening::check(uint32_t i) {
       return check_box(i);
     case Stage::kRuns:
       return check_run(i);
+    case Stage::kParts:
+      return check_part(i);
     case Stage::kDone:
       break;
   }
   return kPassed;
 }
 
+uint32_t Opening::cost(uint32_t i) const {
+  if (stage_ != Stage::kRuns && stage_ != Stage::kParts) return 1;
+  const uint32_t levels = view_.run_levels(), k = i & parts_of(levels);
+  uint32_t size = run_segments_of(levels);
+  for (uint32_t above = k; stage_ == Stage::kParts && above != 0; above = parent_of(above))
+    size /= 2;
+  return view_.is_smooth() ? 4 * size : size;
+}
+
 uint32_t Opening::elements() const {
+  if (stage_ == Stage::kParts) return view_.radii().size();
   if (stage_ == Stage::kBoxes) return view_.boxes_.size();
   return stage_ == Stage::kRuns ? view_.runs_.size() : view_.samples_.size();
 }
@@ -219,7 +233,7 @@ Verdict Opening::check_run(uint32_t i) const {
   if (run.run >= runs.size() || runs[run.run].leaf != i) return reject(226, i);
   if (run.leaf >= runs.size() || runs[run.leaf].run != i) return reject(226, i);
   const uint32_t segments = view_.segment_count();
-  const Part whole = part_of(i, 0, segments);
+  const Part whole = part_of(view_.run_levels(), i, 0, segments);
   const Box& box = view_.boxes_[runs.size() - 1 + run.leaf];
   for (uint32_t s = whole.first; s <= whole.last; ++s) {
     const float* at_m = &view_.samples_[s].x_m;
@@ -233,12 +247,17 @@ Verdict Opening::check_run(uint32_t i) const {
   const Track track{view_.samples_.data(), view_.samples_.size(), view_.is_closed()};
   for (uint32_t s = whole.first; view_.is_smooth() && s < whole.last; ++s)
     if (!holds_piece(*view_.head_, track, s, box)) return reject(227, s);
-  for (uint32_t k = 0; k < kParts; ++k) {
-    const Part part = part_of(i, k, segments);
-    if (run.radius[k] != part_radius(track, view_.is_smooth(), part.first, part.last))
-      return reject(228, i);
-  }
-  return run.reserved == 0 ? kPassed : reject(229, i);
+  return kPassed;
+}
+
+Verdict Opening::check_part(uint32_t i) const {
+  const uint32_t levels = view_.run_levels(), parts = parts_of(levels);
+  const uint32_t run = i >> (levels + 1), k = i & parts;
+  if (k == parts) return view_.radii_[i] == 0 ? kPassed : reject(229, run);
+  const Part part = part_of(levels, run, k, view_.segment_count());
+  const Track track{view_.samples_.data(), view_.samples_.size(), view_.is_closed()};
+  const uint16_t radius = part_radius(track, view_.is_smooth(), part.first, part.last);
+  return view_.radii_[i] == radius ? kPassed : reject(228, run);
 }
 
 Verdict open(const Sections& sections, View& view) {

@@ -10,7 +10,7 @@ namespace firmtouch::curve {
 
 /// The bytes of a curve's sections, as the container hands them out.
 struct Sections {
-  core::Bytes head, samples, arcs, places, boxes, runs;
+  core::Bytes head, samples, arcs, places, boxes, runs, radii;
 };
 
 /// A curve that open() has proven: every index, order, box, radius and float. Immutable; share it between
@@ -28,7 +28,11 @@ class View {
   core::Span<const uint32_t> places() const { return places_; }
   core::Span<const Box> boxes() const { return boxes_; }
   core::Span<const Run> runs() const { return runs_; }
+  core::Span<const uint16_t> radii() const {
+    return {radii_, runs_.size() * (parts_of(run_levels()) + 1)};
+  }
   uint32_t segment_count() const { return samples_.size() - 1; }
+  uint32_t run_levels() const { return head_->run_levels; }
 
   math::Vec3 sample(uint32_t i) const {
     return {samples_[i].x_m, samples_[i].y_m, samples_[i].z_m};
@@ -42,10 +46,11 @@ class View {
   core::Span<const uint32_t> places_;
   core::Span<const Box> boxes_;
   core::Span<const Run> runs_;
+  const uint16_t* radii_ = nullptr;  // as many as the runs have
 };
 
 /// Proves a curve in slices, so that a main loop stays alive while it opens a large one: rules R201
-/// to R230 of tools/FORMAT.md.
+/// to R231 of tools/FORMAT.md.
 ///
 ///     Opening opening(sections);
 ///     while (!opening.done()) opening.work(1000);
@@ -54,9 +59,10 @@ class Opening {
  public:
   explicit Opening(const Sections& sections);
 
-  /// Checks up to `elements` samples or boxes more; a run counts as four elements a segment,
-  /// one of cubic pieces as sixteen.
-  /// Bounds: at most kMaxLevels reads an element, a run (300 distances) at once; no recursion; reads only inside the sections.
+  /// Checks up to `elements` samples or boxes more; a run, and a part of one, counts as an element a
+  /// segment, one of cubic pieces as four.
+  /// Bounds: at most kMaxLevels reads an element; at most a run, 1,024 segments, at once; no recursion;
+  /// reads only inside the sections.
   void work(uint32_t elements);
   bool done() const { return stage_ == Stage::kDone; }
   core::Verdict verdict() const { return verdict_; }
@@ -64,7 +70,7 @@ class Opening {
   View view() const { return done() && verdict_.ok() ? view_ : View{}; }
 
  private:
-  enum class Stage : uint8_t { kSamples, kLength, kPlaces, kBoxes, kRuns, kDone };
+  enum class Stage : uint8_t { kSamples, kLength, kPlaces, kBoxes, kRuns, kParts, kDone };
   void fail(uint16_t rule, uint32_t element);
   void open_head(const Sections& sections);
   core::Verdict check(uint32_t i);
@@ -76,6 +82,8 @@ class Opening {
   core::Verdict check_place(uint32_t i) const;
   core::Verdict check_box(uint32_t i) const;
   core::Verdict check_run(uint32_t i) const;
+  core::Verdict check_part(uint32_t i) const;
+  uint32_t cost(uint32_t i) const;
 
   View view_;
   core::Verdict verdict_;
