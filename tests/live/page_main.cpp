@@ -17,7 +17,7 @@ namespace {
 using firmtouch::live_test::Browser;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPatience_s = 15;  // an emulator on a busy machine runs at a fraction of its pace
+constexpr double kPatience_s = 30;  // an emulator on a busy machine runs at a fraction of its pace
 constexpr const char* kMotorsAreOn = "$('mode').textContent === 'motors: on'";
 
 struct Test {
@@ -137,6 +137,42 @@ void faults(Test& test) {
              test.becomes(kNoFault, kPatience_s));
 }
 
+// A cable that is none: a serial port for the page, whose bytes go to the emulator's WebSocket and come
+// from it.
+constexpr const char* kStandInPort =
+    "Object.defineProperty(navigator, 'serial', { configurable: true, value: { requestPort: async "
+    "() => { let socket; const port = { async open(how) { window.baud = how.baudRate; socket = new "
+    "WebSocket($('address').value, ['binary']); socket.binaryType = 'arraybuffer'; await new "
+    "Promise(done => socket.onopen = done); port.readable = new ReadableStream({ start(to) { "
+    "socket.onmessage = event => to.enqueue(new Uint8Array(event.data)); window.pullCable = () => "
+    "{ "
+    "to.error(new Error('The device has been lost.')); socket.close(); }; } }); port.writable = "
+    "new "
+    "WritableStream({ async write(bytes) { for (let at = 0; at < bytes.length; at += 32) { "
+    "socket.send(bytes.slice(at, at + 32)); await new Promise(done => setTimeout(done, 3)); } } "
+    "}); "
+    "}, async close() { socket.close(); } }; return port; } } })";
+
+void serial(Test& test) {
+  test.browser.evaluate("$('leave').click()");
+  test.check("told to, it leaves: what is shown is called the last that was told",
+             test.becomes("$('banner').textContent === 'Disconnected.'", 5) &&
+                 test.becomes("$('state').textContent.startsWith('State, as last told')", 1) &&
+                 test.becomes("$('flow').textContent === 'no records'", 1));
+  test.browser.evaluate(kStandInPort);
+  test.browser.evaluate("$('serial').click()");
+  test.check("it connects over a serial port too (a stand-in), at 1 Mbaud",
+             test.becomes(kConnected, kPatience_s) && test.becomes("window.baud === 1000000", 1) &&
+                 test.becomes("page.session.records > 50", kPatience_s));
+  test.browser.evaluate("window.pullCable()");
+  test.check("the cable is pulled: it says so",
+             test.becomes("$('banner').textContent.includes('the cable was pulled')", 5));
+  test.browser.evaluate("$('connect').click()");
+  test.check("it connects again",
+             test.becomes(kConnected, kPatience_s) &&
+                 test.becomes("$('mode').textContent !== 'motors: ?'", kPatience_s));
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -152,10 +188,10 @@ int main(int count, char** words) {
     if (!pictures.empty()) browser.picture(pictures + "/" + name + ".png");
   };
   if (!test.check("the browser opens the page", browser.open(words[2], 1440, 960))) return 1;
-  if (test.check("it connects to the controller", test.becomes(kConnected, 20))) {
+  if (test.check("it connects to the controller", test.becomes(kConnected, kPatience_s))) {
     const double first = test.number("page.session.records");
     test.check("records come, and the pictures move",
-               test.becomes("page.session.records > 50 + " + std::to_string(first), 10) &&
+               test.becomes("page.session.records > 50 + " + std::to_string(first), kPatience_s) &&
                    test.becomes("document.querySelectorAll('.plot').length === 5", 1));
     test.check("the motors come on when the hand closes its switch",
                test.becomes(kMotorsAreOn, kPatience_s));
@@ -165,11 +201,13 @@ int main(int count, char** words) {
     faults(test);
     picture("cleared");
     std::printf("      %s\n", browser.evaluate("$('flow').textContent").c_str());
+    serial(test);
     test.check("no frame was damaged", browser.evaluate("page.session.decoder.rejects") == "0");
   }
   ::kill(static_cast<pid_t>(std::atoi(words[3])), SIGKILL);
   test.check("the plug is pulled: it says so",
-             test.becomes("$('banner').textContent.includes('The link is gone')", 5));
+             test.becomes("$('banner').textContent.includes('The link is gone')", 5) &&
+                 test.becomes("$('state').textContent.startsWith('State, as last told')", 1));
   picture("gone");
   std::printf("      a second at 10 kHz, %s\n", browser.evaluate(kCostOf10kHz).c_str());
   browser.resize(390, 844);
