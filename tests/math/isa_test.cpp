@@ -110,40 +110,6 @@ TEST(BoxDistanceIsTheSquaredGapInCells) {
   CHECK_EQ(math::box_distance2(box, beside), 100u + 9u);
 }
 
-TEST(LanesCompareChooseAndGatherLikeOneFloat) {
-  uint32_t differ = 0;
-  for (uint32_t i = 0; i < 4000; ++i) {
-    float a[4], b[4];
-    for (uint32_t k = 0; k < 4; ++k) {
-      a[k] = math::float_of(i % 3 == 0 ? kSpecials[next_random() % 20] : next_random());
-      b[k] = math::float_of(i % 3 == 0 ? kSpecials[next_random() % 20] : next_random());
-      if (next_random() % 4 == 0) b[k] = a[k];
-    }
-    const math::Float4 x{a[0], a[1], a[2], a[3]}, y{b[0], b[1], b[2], b[3]};
-    const math::Mask4 less = math::less(x, y), at_most = math::at_most(x, y);
-    const math::Float4 chosen = math::select(less, x, y);
-    for (uint32_t k = 0; k < 4; ++k) {
-      const bool is_less = a[k] < b[k];
-      if (((math::lanes_of(less) >> k) & 1u) != (is_less ? 1u : 0u)) ++differ;
-      if (((math::lanes_of(at_most) >> k) & 1u) != (a[k] <= b[k] ? 1u : 0u)) ++differ;
-      if (math::bits_of(chosen[k]) != math::bits_of(is_less ? a[k] : b[k])) ++differ;
-    }
-    if (math::lanes_of(less) != math::portable_lanes_of(less)) ++differ;
-
-    float places[12];
-    for (float& place : places) place = math::float_of(next_random());
-    const uint32_t at[4] = {next_random() % 10, next_random() % 10, next_random() % 10, 9};
-    const math::Vec3x4 v = math::gather(places + at[0], places + at[1], places + at[2], places + 9);
-    for (uint32_t k = 0; k < 4; ++k) {
-      if (math::bits_of(v.x[k]) != math::bits_of(places[at[k]]) ||
-          math::bits_of(v.y[k]) != math::bits_of(places[at[k] + 1]) ||
-          math::bits_of(v.z[k]) != math::bits_of(places[at[k] + 2]))
-        ++differ;
-    }
-  }
-  CHECK_EQ(differ, 0u);
-}
-
 TEST(ThisProcessorComputesAsTheBakersDid) { CHECK(math::arithmetic_is_sound()); }
 
 // Every check of the firmware is of these forms; -ffinite-math-only would make them pass a NaN.

@@ -3,6 +3,7 @@
 
 #include <float.h>
 
+#include "firmtouch/core/span.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/careful_distance.hpp"
 #include "firmtouch/mesh/layout.hpp"
@@ -22,56 +23,72 @@ struct Best {
   Feature feature = Feature::kVertex0;
 };
 
-/// measure_leaf() without care, four triangles side by side.
-template <class Index>
-[[gnu::always_inline]] static inline float measure_side_by_side(const Vertex* vertices,
-                                                                const Triangle<Index>* triangle,
-                                                                math::Vec3 p_m, uint32_t child,
-                                                                uint32_t place, float least2_m2,
-                                                                Best& best) {
-  const uint32_t end = leaf_first(child) + leaf_count(child), last = end - 1;
-  for (uint32_t i = leaf_first(child); i < end; i += 4) {
-    // Where there are fewer than four the last stands for the others: it comes first, so it wins.
-    const Triangle<Index>&t0 = triangle[i], &t1 = triangle[i + 1 < end ? i + 1 : last],
-          &t2 = triangle[i + 2 < end ? i + 2 : last], &t3 = triangle[i + 3 < end ? i + 3 : last];
-    const auto corner = [&](uint32_t k) {
-      return math::gather(&vertices[t0.corner[k]].x_m, &vertices[t1.corner[k]].x_m,
-                          &vertices[t2.corner[k]].x_m, &vertices[t3.corner[k]].x_m);
-    };
-    const Feet feet = closest_on_triangles(p_m, corner(0), corner(1), corner(2));
-    uint32_t nearer = math::lanes_of(math::less(feet.distance2_m2, lanes::all_of(least2_m2)));
-    if (nearer == 0) continue;
-    uint32_t lane = 0;
-    for (; nearer != 0; nearer &= nearer - 1) {
-      const uint32_t k = static_cast<uint32_t>(__builtin_ctz(nearer));
-      if (!(feet.distance2_m2[k] < least2_m2)) continue;
-      least2_m2 = feet.distance2_m2[k];
-      lane = k;
-    }
-    best.distance2_m2 = least2_m2;
-    best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
-    best.triangle = i + lane;
-    best.place = place;
-    best.feature = static_cast<Feature>(feet.features()[lane]);
+/// measure_leaf() without care, side by side as many triangles as a Float holds.
+/// Pre: the leaf holds no more, the mesh no fewer.
+template <class Float, class Index>
+[[gnu::always_inline]] static inline float measure_side_by_side(
+    const Vertex* vertices, core::Span<const Triangle<Index>> triangles, math::Vec3 p_m,
+    uint32_t child, uint32_t place, float least2_m2, Best& best) {
+  constexpr uint32_t kLanes = math::kLanesOf<Float>;
+  // Neighbours of the leaf fill what lanes are left, and are not asked.
+  uint32_t first = leaf_first(child), asked = (1u << leaf_count(child)) - 1u;
+  const uint32_t last = triangles.size() - kLanes;
+  if (first > last) {
+    asked <<= first - last;
+    first = last;
   }
+  const Triangle<Index>* const t = triangles.data() + first;
+  const auto corner = [&](uint32_t k) {
+    const auto at = [&](uint32_t lane) { return &vertices[t[lane].corner[k]].x_m; };
+    if constexpr (kLanes == 8)
+      return math::gather(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7));
+    else
+      return math::gather(at(0), at(1), at(2), at(3));
+  };
+  const Feet<Float> feet = closest_on_triangles<Float>(p_m, corner(0), corner(1), corner(2));
+  uint32_t nearer =
+      math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(least2_m2))) & asked;
+  if (nearer == 0) return least2_m2;
+  uint32_t lane = 0;
+  for (; nearer != 0; nearer &= nearer - 1) {
+    const uint32_t k = static_cast<uint32_t>(__builtin_ctz(nearer));
+    if (!(feet.distance2_m2[k] < least2_m2)) continue;
+    least2_m2 = feet.distance2_m2[k];
+    lane = k;
+  }
+  best.distance2_m2 = least2_m2;
+  best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
+  best.triangle = first + lane;
+  best.place = place;
+  best.feature = static_cast<Feature>(feet.features()[lane]);
   return least2_m2;
 }
 
 /// Puts into `best` what of the leaf `child`, which is at `place`, is nearer than `least2_m2`; of
 /// two equally near triangles the first. With care, a triangle that may be the nearest is measured
 /// again in pairs of floats.
-/// `is_last`: the leaf is that of the last answer, whose branches the processor foresees: measured
-/// in turn there, a warm query costs a tenth less than side by side.
+/// `is_last`: the leaf is that of the last answer, whose branches the processor foresees: where it
+/// is a small one, measured in turn there, a warm query costs a tenth less than side by side.
 /// Result: the least squared distance so far.
 template <bool kCareful, class Index>
-[[gnu::always_inline]] static inline float measure_leaf(
-    const Vertex* vertices, const Triangle<Index>* triangle, const Loss& loss, math::Vec3 p_m,
-    uint32_t child, uint32_t place, [[maybe_unused]] bool is_last, float least2_m2, Best& best) {
+[[gnu::always_inline]] static inline float measure_leaf(const Vertex* vertices,
+                                                        core::Span<const Triangle<Index>> triangles,
+                                                        const Loss& loss, math::Vec3 p_m,
+                                                        uint32_t child, uint32_t place,
+                                                        [[maybe_unused]] bool is_last,
+                                                        float least2_m2, Best& best) {
   if constexpr (math::kHasLanes && !kCareful) {
-    if (!is_last)
-      return measure_side_by_side(vertices, triangle, p_m, child, place, least2_m2, best);
+    using math::Float4;
+    using math::FloatWide;
+    const bool is_small = leaf_count(child) <= math::kLanesOf<Float4>;
+    if (!is_small && triangles.size() >= math::kLanesOf<FloatWide>)
+      return measure_side_by_side<FloatWide>(vertices, triangles, p_m, child, place, least2_m2,
+                                             best);
+    if (is_small && !is_last && triangles.size() >= math::kLanesOf<Float4>)
+      return measure_side_by_side<Float4>(vertices, triangles, p_m, child, place, least2_m2, best);
   }
   using math::Vec3;
+  const Triangle<Index>* const triangle = triangles.data();
   uint32_t i = leaf_first(child);
   for (const uint32_t end = i + leaf_count(child); i < end; ++i) {
     const Vertex &a = vertices[triangle[i].corner[0]], &b = vertices[triangle[i].corner[1]],

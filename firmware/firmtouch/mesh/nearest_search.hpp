@@ -137,7 +137,6 @@ template <bool kCareful, class Bound, class Index>
   const float px_m = p_m.x, py_m = p_m.y, pz_m = p_m.z;
   const Loss loss(mesh.head());
   const Vertex* const vertices = mesh.vertices().data();
-  const Triangle<Index>* const triangle = triangles.data();
   const Side* const sides = mesh.sides();
   const uint32_t allowed = budget == 0 ? 1 : budget;
   Pending pending[kCapacity];
@@ -175,7 +174,7 @@ template <bool kCareful, class Bound, class Index>
       }
     } else {
       const float before2_m2 = least2_m2;
-      least2_m2 = measure_leaf<kCareful>(vertices, triangle, loss, Vec3{px_m, py_m, pz_m}, child,
+      least2_m2 = measure_leaf<kCareful>(vertices, triangles, loss, Vec3{px_m, py_m, pz_m}, child,
                                          place, climbing, least2_m2, search.best);
       if (least2_m2 < before2_m2) prune = smaller(bound.prune_key(least2_m2), band);
       if (climbing) {

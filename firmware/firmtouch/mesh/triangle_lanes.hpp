@@ -1,93 +1,107 @@
 #pragma once
-// closest_on_triangle() of four triangles side by side: the same formulas in the same order, so the
+// closest_on_triangle() of triangles side by side: the same formulas in the same order, so the
 // same bits; where it branches, all branches are computed and one is chosen. For the library's own
 // translation units.
 
-#include "firmtouch/math/isa.hpp"
+#include "firmtouch/math/isa_lanes.hpp"
 #include "firmtouch/mesh/triangle.hpp"
 
 namespace firmtouch::mesh {
 namespace lanes {
 
-using math::Float4;
-using math::Mask4;
-using math::Vec3x4;
+using math::Lanes;
 
-[[gnu::always_inline]] static inline Vec3x4 operator-(Vec3x4 a, Vec3x4 b) {
+template <class Float>
+using Mask = decltype(math::less(Float{}, Float{}));
+
+template <class Float>
+[[gnu::always_inline]] static inline Lanes<Float> operator-(const Lanes<Float>& a,
+                                                            const Lanes<Float>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-[[gnu::always_inline]] static inline Vec3x4 operator*(Vec3x4 a, Float4 s) {
+template <class Float>
+[[gnu::always_inline]] static inline Lanes<Float> operator*(const Lanes<Float>& a, Float s) {
   return {a.x * s, a.y * s, a.z * s};
 }
-[[gnu::always_inline]] static inline Float4 dot(Vec3x4 a, Vec3x4 b) {
+template <class Float>
+[[gnu::always_inline]] static inline Float dot(const Lanes<Float>& a, const Lanes<Float>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-[[gnu::always_inline]] static inline Vec3x4 choose(Mask4 mask, Vec3x4 a, Vec3x4 b) {
+template <class Float>
+[[gnu::always_inline]] static inline Lanes<Float> choose(Mask<Float> mask, const Lanes<Float>& a,
+                                                         const Lanes<Float>& b) {
   return {math::select(mask, a.x, b.x), math::select(mask, a.y, b.y), math::select(mask, a.z, b.z)};
 }
 // 0 where the mask is not set: x - 0 is x to the bit.
-[[gnu::always_inline]] static inline Float4 only(Mask4 mask, Float4 v) {
-  return reinterpret_cast<Float4>(reinterpret_cast<Mask4>(v) & mask);
+template <class Float>
+[[gnu::always_inline]] static inline Float only(Mask<Float> mask, Float v) {
+  return reinterpret_cast<Float>(reinterpret_cast<Mask<Float>>(v) & mask);
 }
-[[gnu::always_inline]] static inline Float4 all_of(float v) { return Float4{v, v, v, v}; }
-[[gnu::always_inline]] static inline Mask4 all_of(Feature feature) {
-  const int32_t v = static_cast<int32_t>(feature);
-  return Mask4{v, v, v, v};
+template <class Float>
+[[gnu::always_inline]] static inline Float all_of(float v) {
+  return v - Float{};  // - 0 is v to the bit, + 0 would lose a sign
 }
 
 }  // namespace lanes
 
 /// Of each lane: the offset is one from the plane's foot on the line a b, from a, from b or else
 /// from c, and `moved` on from there.
+template <class Float>
 struct Feet {
-  math::Vec3x4 offset_m;
-  math::Float4 distance2_m2;
-  math::Mask4 of_line, of_a, of_b, below, moved;
+  using Mask = lanes::Mask<Float>;
+  math::Lanes<Float> offset_m;
+  Float distance2_m2;
+  Mask of_line, of_a, of_b, below, moved;
 
-  math::Mask4 features() const {
-    using namespace lanes;
+  Mask features() const {
     using math::select;
-    const Mask4 line = select(below, all_of(Feature::kEdge0), all_of(Feature::kFace));
-    const Mask4 a = select(moved, all_of(Feature::kEdge2), all_of(Feature::kVertex0));
-    const Mask4 b = select(moved, all_of(Feature::kEdge1), all_of(Feature::kVertex1));
-    return select(of_line, line, select(of_a, a, select(of_b, b, all_of(Feature::kVertex2))));
+    const auto all = [](Feature feature) { return Mask{} + static_cast<int32_t>(feature); };
+    const Mask line = select(below, all(Feature::kEdge0), all(Feature::kFace));
+    const Mask a = select(moved, all(Feature::kEdge2), all(Feature::kVertex0));
+    const Mask b = select(moved, all(Feature::kEdge1), all(Feature::kVertex1));
+    return select(of_line, line, select(of_a, a, select(of_b, b, all(Feature::kVertex2))));
   }
 };
 
-[[gnu::always_inline]] static inline Feet closest_on_triangles(math::Vec3 p_m, math::Vec3x4 a,
-                                                               math::Vec3x4 b, math::Vec3x4 c) {
+template <class Float>
+[[gnu::always_inline]] static inline Feet<Float> closest_on_triangles(math::Vec3 p_m,
+                                                                      const math::Lanes<Float>& a,
+                                                                      const math::Lanes<Float>& b,
+                                                                      const math::Lanes<Float>& c) {
   using namespace lanes;
   using math::at_most;
   using math::less;
   using math::select;
-  const Float4 zero{}, one = all_of(1.0f);
-  const Vec3x4 p{all_of(p_m.x), all_of(p_m.y), all_of(p_m.z)};
-  const Vec3x4 ab = b - a, ac = c - a, ap = p - a, bc = c - b, bp = p - b, cp = p - c;
-  const Float4 per_ab2 = one / dot(ab, ab);
-  const Float4 x = dot(ab, ap) * per_ab2;
-  const Float4 xc = dot(ab, ac) * per_ab2;
-  const Vec3x4 e = ap - ab * x, h = ac - ab * xc;
-  const Float4 y = dot(e, h);
-  const Float4 w = y / dot(h, h);
-  const Float4 v = x - w * xc;
-  const Float4 t_ac = dot(ac, ap), ac2 = dot(ac, ac), t_bc = dot(bc, bp), bc2 = dot(bc, bc);
-  const Float4 part_ac = t_ac / ac2, part_bc = t_bc / bc2;
+  using Mask = lanes::Mask<Float>;
+  const Float zero{}, one = all_of<Float>(1.0f);
+  const Lanes<Float> p{all_of<Float>(p_m.x), all_of<Float>(p_m.y), all_of<Float>(p_m.z)};
+  const Lanes<Float> ab = b - a, ac = c - a, ap = p - a, bc = c - b, bp = p - b, cp = p - c;
+  const Float per_ab2 = one / dot(ab, ab);
+  const Float x = dot(ab, ap) * per_ab2;
+  const Float xc = dot(ab, ac) * per_ab2;
+  const Lanes<Float> e = ap - ab * x, h = ac - ab * xc;
+  const Float y = dot(e, h);
+  const Float w = y / dot(h, h);
+  const Float v = x - w * xc;
+  const Float t_ac = dot(ac, ap), ac2 = dot(ac, ac), t_bc = dot(bc, bp), bc2 = dot(bc, bc);
+  const Float part_ac = t_ac / ac2, part_bc = t_bc / bc2;
 
-  const Mask4 at_a = at_most(t_ac, zero), at_b = at_most(t_bc, zero);
-  const Mask4 beyond_ac = at_most(v, zero), beyond_bc = at_most(one, v + w);
-  const Mask4 before = at_most(x, zero), behind = at_most(one, x);
-  const Mask4 below = at_most(y, zero);
-  Feet feet;
+  const Mask at_a = at_most(t_ac, zero), at_b = at_most(t_bc, zero);
+  const Mask beyond_ac = at_most(v, zero), beyond_bc = at_most(one, v + w);
+  const Mask before = at_most(x, zero), behind = at_most(one, x);
+  const Mask below = at_most(y, zero);
+  Feet<Float> feet;
   feet.below = below;
   feet.of_line = ~select(below, before | behind, beyond_ac | beyond_bc);
   feet.of_a = select(below, before, beyond_ac & (at_a | less(t_ac, ac2)));
   feet.of_b = select(below, behind, beyond_bc & (at_b | less(t_bc, bc2)));
   feet.moved = ~below & (feet.of_line | select(feet.of_a, ~at_a, feet.of_b & ~at_b));
-  const Vec3x4 from = choose(feet.of_line, e, choose(feet.of_a, ap, choose(feet.of_b, bp, cp)));
-  const Vec3x4 along = choose(feet.of_line, h, choose(feet.of_a, ac, bc));
-  const Vec3x4 way = along * select(feet.of_line, w, select(feet.of_a, part_ac, part_bc));
-  feet.offset_m =
-      from - Vec3x4{only(feet.moved, way.x), only(feet.moved, way.y), only(feet.moved, way.z)};
+  const Lanes<Float> from =
+      choose(feet.of_line, e, choose(feet.of_a, ap, choose(feet.of_b, bp, cp)));
+  const Lanes<Float> along = choose(feet.of_line, h, choose(feet.of_a, ac, bc));
+  const Lanes<Float> way = along * select(feet.of_line, w, select(feet.of_a, part_ac, part_bc));
+  feet.offset_m = from - Lanes<Float>{only(feet.moved, way.x), only(feet.moved, way.y),
+                                      only(feet.moved, way.z)};
   feet.distance2_m2 = dot(feet.offset_m, feet.offset_m);
   return feet;
 }
