@@ -185,6 +185,23 @@ DistancesOfABoxAreKnown() {
   case $(printf '%s\n' "$out" | sed -n 2p | cut -d, -f9) in 2 | 3) ;; *) fail "triangle of the file: $out" ;; esac
 }
 
+EveryBakeTellsTheSameDistances() {
+  f make part --triangles 2000 -o p.obj; exits 0
+  bake p.obj -o fast.fta
+  awk 'BEGIN { print "x,y,z"; for (i = 0; i < 300; ++i) print (i % 7 - 3) / 40 "," (i % 11 - 5) / 50 "," (i % 13 - 6) / 70 }' >p.csv
+  f query fast.fta p distance --cold <p.csv
+  exits 0
+  of_fast=$(printf '%s\n' "$out" | cut -d, -f1,2,13)
+  for option in --small --desktop; do
+    bake p.obj -o other.fta "$option"
+    cmp -s fast.fta other.fta && fail "$option changed nothing"
+    f query other.fta p distance --cold <p.csv
+    exits 0
+    same "$(printf '%s\n' "$out" | cut -d, -f1,2,13)" "$of_fast"
+  done
+  f bake p.obj -o a.fta --small --desktop; exits 2; told contradict; absent a.fta
+}
+
 TheUnitScalesTheModel() {
   box >box.obj
   bake box.obj -o a.fta --unit cm

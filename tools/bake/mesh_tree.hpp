@@ -34,6 +34,8 @@ struct TreeShape {
 // Measured on spot, rocker-arm and horse (DESIGN.md, "Bytes and instructions").
 constexpr TreeShape kFastTree{2, 0.1};
 constexpr TreeShape kSmallTree{7, 0};
+// Leaves that fill the lanes of a desktop's processor (DESIGN.md, "Vector instructions").
+constexpr TreeShape kDesktopTree{7, 0.3};
 
 /// Surface area heuristic over widened boxes by a full sweep over the face centres of each axis,
 /// ties by face index: the same tree on every machine. Cost: O(n log^2 n), about 1 s for 100,000

@@ -43,20 +43,27 @@ struct Race {
   double goal;
 };
 
-void run_race(const Race& race, const Model& model, const Peer& peer, Report& report) {
+// As baked for a controller, and for a desktop.
+void run_race(const Race& race, const Model& model, const Model& desktop, const Peer& peer,
+              Report& report) {
   report.stage(std::string(race.what) + ", " + model.name);
   const TemporaryFolder folder;
-  std::vector<Contender> contenders{ours(model.view, race.points, race.is_warm)};
+  std::vector<Contender> contenders{ours(model.view, race.points, race.is_warm),
+                                    ours(desktop.view, race.points, race.is_warm)};
   if (peer.is_present()) {
     contenders.push_back(peer.contender("closest", file_for_peer(model, folder),
                                         folder.write("points.csv", tools::to_csv(race.points))));
   }
   const std::vector<double> us = medians_us(contenders);
-  report.figure(race.what, model.name, us[0], "us");
-  const std::string against = std::string(race.what) + " against the peer";
-  if (!peer.is_present()) return report.absent(against, model.name, kPeerAbsent);
-  report.figure(std::string(race.what) + ", the peer", model.name, us[1], "us");
-  report.bar(against, model.name, us[0] / us[1], "x", race.goal);
+  const char* const bakes[] = {", --fast", ", --desktop"};
+  for (size_t i = 0; i < 2; ++i)
+    report.figure(std::string(race.what) + bakes[i], model.name, us[i], "us");
+  if (!peer.is_present())
+    return report.absent(std::string(race.what) + " against the peer", model.name, kPeerAbsent);
+  report.figure(std::string(race.what) + ", the peer", model.name, us[2], "us");
+  for (size_t i = 0; i < 2; ++i)
+    report.bar(std::string(race.what) + bakes[i] + " against the peer", model.name, us[i] / us[2],
+               "x", race.goal);
 }
 
 // Bytes that queries read, by what they are for; names in the imported file, probes and provenance
@@ -130,10 +137,12 @@ void run_distance(const Options& options, Report& report) {
   const Peer peer(options.peer);
   for (const Model& model : load_models(options)) {
     report.heading("closest points: " + model.name);
-    run_race({"touching path, warm", walk(model, kQueries), true, kWalkGoal}, model, peer, report);
+    const Model desktop = baked_for_desktop(model);
+    run_race({"touching path, warm", walk(model, kQueries), true, kWalkGoal}, model, desktop, peer,
+             report);
     race_sides(model, walk(model, kQueries), report);
     run_race({"random points, cold, exact", random_points(model, kQueries), false, kRandomGoal},
-             model, peer, report);
+             model, desktop, peer, report);
     tell_certificates(model, report);
     tell_bytes(model, report);
   }

@@ -45,7 +45,7 @@ std::string TemporaryFolder::write(const std::string& name, const std::string& t
 }
 
 Model model_of(tools::Surface surface, const std::string& name, const std::string& path,
-               Sides sides) {
+               Sides sides, const tools::TreeShape& shape) {
   Model model;
   model.name = name;
   model.path = path;
@@ -53,6 +53,7 @@ Model model_of(tools::Surface surface, const std::string& name, const std::strin
   const std::string where = path.empty() ? name : path;
   tools::MeshOptions options;
   options.is_signed = sides == Sides::kSigned;
+  options.shape = shape;
   model.sections = tools::bake_mesh(model.surface, "model", options, model.report);
   if (!model.report.problem.empty()) throw Problem(where + ": " + model.report.problem);
   const core::Verdict verdict =
@@ -86,6 +87,10 @@ std::vector<Model> load_models(const Options& options, Sides sides) {
 
 Model baked_again(const Model& model, Sides sides) {
   return model_of(model.surface, model.name, model.path, sides);
+}
+
+Model baked_for_desktop(const Model& model) {
+  return model_of(model.surface, model.name, model.path, Sides::kSigned, tools::kDesktopTree);
 }
 
 std::string file_for_peer(const Model& model, const TemporaryFolder& folder) {

@@ -53,10 +53,11 @@ std::vector<Model> load_models(const Options& options, Sides sides = Sides::kSig
 Model load_model(const std::string& path, Sides sides = Sides::kSigned);
 Model demo_part(Sides sides = Sides::kSigned, uint32_t triangles = 20000);
 Model model_of(tools::Surface surface, const std::string& name, const std::string& path,
-               Sides sides);
+               Sides sides, const tools::TreeShape& shape = tools::kFastTree);
 
 /// The same surface baked otherwise.
 Model baked_again(const Model& model, Sides sides);
+Model baked_for_desktop(const Model& model);
 
 /// The file that a peer is to read: the model's own, or one written into `folder`.
 std::string file_for_peer(const Model& model, const TemporaryFolder& folder);

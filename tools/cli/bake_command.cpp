@@ -133,10 +133,12 @@ BakeOptions bake_options(const Arguments& arguments) {
   options.is_signed = !arguments.has("--unsigned");
   options.close_holes = arguments.has("--close-holes");
   options.small = arguments.has("--small");
-  if (options.small && arguments.has("--fast"))
-    fail_usage("bake: --fast and --small contradict each other; give one");
+  options.desktop = arguments.has("--desktop");
+  if ((options.small ? 1 : 0) + (options.desktop ? 1 : 0) + (arguments.has("--fast") ? 1 : 0) > 1)
+    fail_usage("bake: --fast, --small and --desktop contradict each other; give one");
   options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
-                 (options.close_holes ? " --close-holes" : "") + (options.small ? " --small" : "");
+                 (options.close_holes ? " --close-holes" : "") + (options.small ? " --small" : "") +
+                 (options.desktop ? " --desktop" : "");
   options.map_cells = arguments.count("--distance-map", 0, 1, field::kMostCellsAnAxis - 2);
   if (options.map_cells != 0)
     options.text += " --distance-map " + std::to_string(options.map_cells);
@@ -166,9 +168,12 @@ const Command& bake_command() {
        {"--unit", "m|mm|cm|in", "of the inputs' coordinates (default m; .igs: its own)"},
        {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
        {"--close-holes", nullptr, "each hole of a mesh gets a cap of triangles, reported"},
-       {"--fast", nullptr, "meshes: the fastest asset rather than the smallest (the default)"},
+       {"--fast", nullptr,
+        "meshes: the fastest on a controller rather than the smallest (the default)"},
        {"--small", nullptr,
         "meshes: a third less flash, a third more work a query; spline surfaces likewise"},
+       {"--desktop", nullptr,
+        "meshes: the fastest on a desktop with AVX2; half as much work again on a controller"},
        {"--distance-map", "CELLS",
         "meshes get a grid of certified bounds, CELLS along the long axis"},
        {"--cpp", "FILE", "the asset as a C++ source, too"},

@@ -16,7 +16,8 @@ struct BakeOptions {
   bool has_unit = false;  // said by the user: a file's own unit gives way to it
   bool is_signed = true;
   bool close_holes = false;
-  bool small = false;       // the smallest asset rather than the fastest
+  bool small = false;       // the smallest asset rather than the fastest on a controller
+  bool desktop = false;     // the fastest one on a desktop's processor
   uint32_t map_cells = 0;   // along the long axis; 0: no distance map
   uint32_t hull_faces = 0;  // 0: no hull
   bool has_tree = true;     // of the mesh; without it only a hull can be asked

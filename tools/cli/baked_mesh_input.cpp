@@ -183,6 +183,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = options.is_signed;
   if (options.small) mesh_options.shape = tools::kSmallTree;
+  if (options.desktop) mesh_options.shape = tools::kDesktopTree;
   tools::MeshReport report;
   baked.sections = tools::bake_mesh(surface, name, mesh_options, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
