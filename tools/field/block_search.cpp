@@ -51,14 +51,15 @@ Point3 middle_of(const Point3& low, const Point3& high) {
 // between the edges, else to the nearest edge.
 [[gnu::always_inline]] inline Lanes distances2(const TriangleTree& tree, const uint32_t* which,
                                                const Lanes3& p) {
-  alignas(32) float at[9][kLanes];
+  const float* corners[kLanes];
+  float last[kLanes];
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
-    const float* const corners = tree.triangles()[which[lane]].at;
-    for (uint32_t k = 0; k < 9; ++k) at[k][lane] = corners[k];
+    corners[lane] = tree.triangles()[which[lane]].at;
+    last[lane] = corners[lane][8];
   }
-  const Lanes3 a{Lanes(at[0]), Lanes(at[1]), Lanes(at[2])};
-  const Lanes3 b{Lanes(at[3]), Lanes(at[4]), Lanes(at[5])};
-  const Lanes3 c{Lanes(at[6]), Lanes(at[7]), Lanes(at[8])};
+  Lanes at[kLanes];
+  turn(corners, at);
+  const Lanes3 a{at[0], at[1], at[2]}, b{at[3], at[4], at[5]}, c{at[6], at[7], Lanes(last)};
   const Lanes3 ab = b - a, ac = c - a, bc = c - b, ap = p - a, bp = p - b;
   const Lanes3 n = cross(ab, ac);
   const Lanes n2 = dot(n, n), zero(0.0f);
@@ -140,17 +141,18 @@ void BlockSearch::open_block(const Point3& low, const Point3& high, BoxList& fou
       stack_.push_back(node.first);
       continue;
     }
+    found.reserve(found.count + node.count);
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const FloatBox& box = tree_.boxes()[i];
-      if (gap2(box, low, high) <= limit2)
-        found.push({box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2]}, i);
+      const float* const box = tree_.boxes()[i].word;
+      if (gap2(box, box + 3, low, high) <= limit2) found.triangle[found.count++] = i;
     }
   }
+  found.fill(tree_.boxes());
 }
 
-template <class Push>
-void BlockSearch::each_within(const BoxList& from, const Point3& low, const Point3& high,
-                              const Push& push) {
+template <class List>
+void BlockSearch::list_within(const BoxList& from, const Point3& low, const Point3& high,
+                              List& found) {
   const Point3 middle = middle_of(low, high);
   Best best(tree_, middle, seed);
   for (uint32_t at = 0; at < from.count; at += kLanes) {
@@ -162,31 +164,27 @@ void BlockSearch::each_within(const BoxList& from, const Point3& low, const Poin
   }
   seed = best.finish();
   const float limit2 = reach2(low, high);
+  found.reserve(from.count);
+  uint32_t* const to = found.triangle.data();
+  uint32_t count = 0;
   for (uint32_t at = 0; at < from.count; at += kLanes) {
     uint32_t bits = bits_of_mask(gaps2(from.group(at), low, high) < Lanes(limit2));
-    for (; bits != 0; bits &= bits - 1) {
-      const uint32_t i = at + static_cast<uint32_t>(__builtin_ctz(bits));
-      if (i < from.count) push(i);
-    }
+    if (from.count - at < kLanes) bits &= (1u << (from.count - at)) - 1u;
+    count += keep(from.triangle.data() + at, bits, to + count);
   }
+  found.count = count;
 }
 
 void BlockSearch::narrow(const BoxList& from, const Point3& low, const Point3& high,
                          BoxList& found) {
-  found.count = 0;
-  each_within(from, low, high, [&](uint32_t i) {
-    found.push({from.word(i, 0), from.word(i, 1), from.word(i, 2), from.word(i, 3), from.word(i, 4),
-                from.word(i, 5)},
-               from.triangle[i]);
-  });
+  list_within(from, low, high, found);
+  found.fill(tree_.boxes());
 }
 
 void BlockSearch::narrow(const BoxList& from, const Point3& low, const Point3& high,
                          DiskList& found) {
-  found.count = 0;
-  each_within(from, low, high, [&](uint32_t i) {
-    found.push(tree_.disks()[from.triangle[i]].word, from.triangle[i]);
-  });
+  list_within(from, low, high, found);
+  found.fill(tree_.disks());
 }
 
 uint32_t BlockSearch::nearest(const DiskList& from, const Point3& p) {

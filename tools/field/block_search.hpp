@@ -8,7 +8,7 @@
 
 namespace firmtouch::tools {
 
-/// Triangles with `kWords` floats each, the words of kLanes triangles beside each other.
+/// Triangles with the first `kWords` words of their rows, those of kLanes triangles beside each other.
 template <uint32_t kWords>
 struct LaneList {
   std::vector<float> words;  // of group g: kWords times kLanes floats from g * kWords * kLanes on
@@ -16,17 +16,24 @@ struct LaneList {
   uint32_t count = 0;
 
   const float* group(uint32_t first) const { return words.data() + size_t{first} * kWords; }
-  float word(uint32_t i, uint32_t k) const {
-    return group(i - i % kLanes)[k * kLanes + i % kLanes];
+  /// Room for so many triangles and a group more.
+  void reserve(uint32_t triangles) {
+    if (triangles + kLanes <= triangle.size()) return;
+    triangle.resize((size_t{triangles} / kLanes + 2) * kLanes);
+    words.resize(triangle.size() * kWords);
   }
-  void push(const float (&item)[kWords], uint32_t which) {
-    if (count == triangle.size()) {
-      triangle.resize(triangle.size() * 2 + kLanes);
-      words.resize(triangle.size() * kWords);
+  /// Sets the words of the triangles that are listed.
+  void fill(const std::vector<TriangleTree::Row>& rows) {
+    if (count == 0) return;
+    for (uint32_t i = count; i % kLanes != 0; ++i) triangle[i] = triangle[count - 1];
+    for (uint32_t at = 0; at < count; at += kLanes) {
+      const float* row[kLanes];
+      for (uint32_t i = 0; i < kLanes; ++i) row[i] = rows[triangle[at + i]].word;
+      Lanes columns[kLanes];
+      turn(row, columns);
+      float* const to = words.data() + size_t{at} * kWords;
+      for (uint32_t k = 0; k < kWords; ++k) columns[k].store(to + k * kLanes);
     }
-    float* const to = words.data() + size_t{count - count % kLanes} * kWords + count % kLanes;
-    for (uint32_t k = 0; k < kWords; ++k) to[k * kLanes] = item[k];
-    triangle[count++] = which;
   }
 };
 
@@ -54,8 +61,8 @@ class BlockSearch {
 
  private:
   class Best;
-  template <class Push>
-  void each_within(const BoxList& from, const Point3& low, const Point3& high, const Push& push);
+  template <class List>
+  void list_within(const BoxList& from, const Point3& low, const Point3& high, List& found);
   float reach2(const Point3& low, const Point3& high);
 
   const TriangleTree& tree_;

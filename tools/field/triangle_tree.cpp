@@ -48,7 +48,7 @@ void halve(std::vector<uint32_t>& faces, const std::vector<FloatBox>& boxes, uin
 }
 
 // Of the triangle as float32 has it, about `origin`.
-TriangleTree::Disk disk_of(const TriangleTree::Corners& c) {
+TriangleTree::Row disk_of(const TriangleTree::Corners& c) {
   const auto corner = [&](size_t k) {
     return Point{double{c.at[3 * k]}, double{c.at[3 * k + 1]}, double{c.at[3 * k + 2]}};
   };
@@ -113,7 +113,8 @@ TriangleTree::TriangleTree(const Surface& surface, uint32_t leaf_triangles) {
   for (uint32_t i = 0; i < count; ++i) {
     places_[faces_[i]] = i;
     triangles_.push_back(corners[faces_[i]]);
-    boxes_.push_back(boxes[faces_[i]]);
+    const FloatBox& box = boxes[faces_[i]];
+    boxes_.push_back({{box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2]}});
     disks_.push_back(disk_of(triangles_.back()));
   }
 }

@@ -31,16 +31,18 @@ class TriangleTree {
     float at[9];
   };
 
-  /// A disk in the triangle's plane that holds it: centre, unit normal, radius. Where the triangle has
-  /// no plane worth the name the normal is 0, and the disk a sphere.
-  struct Disk {
-    float word[7];
+  /// Eight words, of which a box or a disk fills the first.
+  struct Row {
+    alignas(32) float word[8];
   };
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<Corners>& triangles() const { return triangles_; }  // in leaf order
-  const std::vector<FloatBox>& boxes() const { return boxes_; }         // of the same
-  const std::vector<Disk>& disks() const { return disks_; }
+  /// Of the same: low x y z, high x y z.
+  const std::vector<Row>& boxes() const { return boxes_; }
+  /// A disk in the triangle's plane that holds it: centre, unit normal, radius. Where the triangle has
+  /// no plane worth the name the normal is 0, and the disk a sphere.
+  const std::vector<Row>& disks() const { return disks_; }
   uint32_t face_of(uint32_t triangle) const { return faces_[triangle]; }
   uint32_t triangle_of(uint32_t face) const { return places_[face]; }
   /// Frame of the floats.
@@ -64,21 +66,24 @@ class TriangleTree {
   float slack_m_ = 0;
   std::vector<Node> nodes_;
   std::vector<Corners> triangles_;
-  std::vector<FloatBox> boxes_;
-  std::vector<Disk> disks_;
+  std::vector<Row> boxes_, disks_;
   std::vector<uint32_t> faces_, places_;
 };
 
 /// Squared distance from a box to a box or a point, axis by axis.
-inline float gap2(const FloatBox& a, const std::array<float, 3>& low,
+inline float gap2(const float* a_low, const float* a_high, const std::array<float, 3>& low,
                   const std::array<float, 3>& high) {
   float sum = 0;
   for (size_t k = 0; k < 3; ++k) {
-    const float below = a.low[k] - high[k], above = low[k] - a.high[k];
+    const float below = a_low[k] - high[k], above = low[k] - a_high[k];
     const float gap = below > above ? below : above;
     if (gap > 0) sum += gap * gap;
   }
   return sum;
+}
+inline float gap2(const FloatBox& a, const std::array<float, 3>& low,
+                  const std::array<float, 3>& high) {
+  return gap2(a.low.data(), a.high.data(), low, high);
 }
 
 }  // namespace firmtouch::tools
