@@ -198,7 +198,8 @@ std::vector<spline::LeafShape> cells_of(const Cut& cut, uint32_t least, spline::
 
 void store_bends(const Cut& cut, uint32_t cell_level, spline::Grid& grid,
                  std::vector<spline::PatchBend>& bends) {
-  const std::vector<spline::LeafShape> cells = cells_of(cut, cell_level, grid);
+  const std::vector<spline::LeafShape> cells =
+      cells_of(cut, cell_level + cut.stored.piece.is_rational, grid);
   float fixed = 0, turning = 0;
   for (const spline::LeafShape& shape : cells)
     for (uint32_t k = 0; k < 5; ++k) {

@@ -16,7 +16,7 @@ using math::Vec3;
 // 4e-7 and 1e-6 when the losses are taken off.
 constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
 // A new fence stands this many of the last motions beyond the nearest point.
-constexpr float kFenceMotions = 8.0f;
+constexpr float kFenceMotions = 4.0f;
 // Farther than so many extents all points of a model are as near as any other, to 2^-28.
 constexpr float kBeyond = 0x1p28f;
 

@@ -26,7 +26,10 @@ class CurveParts {
 
   uint32_t root() const { return 0; }
   bool is_leaf(uint32_t node) const { return node >= base_; }
-  uint32_t first_child(uint32_t node) const { return 2 * node + 1; }
+  void children(uint32_t node, uint32_t& low, uint32_t& high) const {
+    low = first_child(node);
+    high = low + 1;
+  }
   uint32_t sibling_of(uint32_t node) const { return spline::sibling_of(node); }
   uint32_t parent_of(uint32_t node) const { return spline::parent_of(node); }
 

@@ -19,6 +19,8 @@ inline Patch patch_of(uint32_t node) {
   return {node >> 16, (node >> 12) & 15u, (node >> 6) & 63u, node & 63u};
 }
 
+constexpr uint32_t kNextU = 1u << 6, kNextV = 1;  // to the node of the part beside
+
 /// How many of a part's halvings were of u and of v.
 struct Halvings {
   uint32_t u, v;
@@ -59,12 +61,6 @@ inline Patch sibling_of(const Piece& piece, const Patch& p) {
   const bool was_u = halves_u(piece, halvings_of(piece, p.depth - 1));
   return {p.piece, p.depth, was_u ? p.u ^ 1u : p.u, was_u ? p.v : p.v ^ 1u};
 }
-/// The lower of its halves; the other is its sibling.
-inline Patch first_child(const Piece& piece, const Patch& p) {
-  const bool is_u = halves_u(piece, halvings_of(piece, p.depth));
-  return {p.piece, p.depth + 1, is_u ? p.u << 1 : p.u, is_u ? p.v : p.v << 1};
-}
-
 inline uint32_t radius_of(const Grid& grid, const Patch& p, const Halvings& made) {
   return 2 * grid.first_leaf - p.piece + (1u << p.depth) - 1u + (p.v << made.u | p.u);
 }

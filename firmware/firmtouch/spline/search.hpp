@@ -63,7 +63,8 @@ enum class Outcome : uint8_t { kClosed, kSplit, kStopped, kLost };
 
 /// Shape: a curve's or a surface's parts. It has
 ///     Range, a part of a leaf;
-///     uint32_t root(), bool is_leaf(node), first_child(node), sibling_of(node), parent_of(node);
+///     uint32_t root(), bool is_leaf(node), sibling_of(node), parent_of(node);
+///     void children(uint32_t node, uint32_t& low, uint32_t& high);
 ///     float bound_m(uint32_t node, Range& range): no point below the node is nearer; of a leaf, all of it;
 ///     Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
 ///                   Half (&halves)[2]);
@@ -108,8 +109,10 @@ class Search {
       if (left_ == 0) return stop();
       const uint32_t beside = shape_.sibling_of(node);
       node = shape_.parent_of(node);
-      if (visit(beside, 0.0f) < reach_m) renewed = node;
+      passed_m_ = FLT_MAX;
+      visit(beside, 0.0f);
       if (!drain(0)) return stop();
+      if (passed_m_ < reach_m) renewed = node;
       if (node == root) fence = {renewed, reach_m * (1.0f - 0x1p-22f)};
     }
     is_complete_ = true;
@@ -149,12 +152,20 @@ class Search {
   void put(const Entry& entry) {
     if (count_ < kCapacity)
       stack_[count_++] = entry;
-    else if (entry.lower_m < lost_m_)
-      lost_m_ = entry.lower_m;
+    else
+      lose(entry.lower_m);
   }
 
-  // Reads a node and keeps it where it may hold something nearer. Result: its bound.
-  float visit(uint32_t node, float above_m) {
+  void lose(float lower_m) {
+    if (lower_m < lost_m_) lost_m_ = lower_m;
+    pass(lower_m);
+  }
+  void pass(float lower_m) {
+    if (lower_m < passed_m_) passed_m_ = lower_m;
+  }
+
+  // Reads a node and keeps it where it may hold something nearer.
+  void visit(uint32_t node, float above_m) {
     --left_;
     Entry* const entry = stack_ + (count_ < kCapacity ? count_ : kCapacity);
     entry->node = node;
@@ -164,17 +175,21 @@ class Search {
     if (lower_m < best_.limit_m) {
       if (count_ < kCapacity)
         ++count_;
-      else if (lower_m < lost_m_)
-        lost_m_ = lower_m;
+      else
+        lose(lower_m);
+    } else {
+      pass(lower_m);
     }
-    return lower_m;
   }
 
   // False: the budget ended, and what is left stands on the stack.
   bool drain(uint32_t kept) {
     while (count_ > kept) {
       Entry& entry = stack_[--count_];
-      if (entry.lower_m >= best_.limit_m) continue;
+      if (entry.lower_m >= best_.limit_m) {
+        pass(entry.lower_m);
+        continue;
+      }
       if (shape_.is_leaf(entry.node)) {
         if (!solve(entry)) return false;
       } else if (left_ < 2) {
@@ -190,9 +205,11 @@ class Search {
 
   // The nearer child comes up first.
   void open(uint32_t node, float lower_m) {
-    const uint32_t before = count_, child = shape_.first_child(node);
-    visit(child, lower_m);
-    visit(shape_.sibling_of(child), lower_m);
+    const uint32_t before = count_;
+    uint32_t low, high;
+    shape_.children(node, low, high);
+    visit(low, lower_m);
+    visit(high, lower_m);
     if (count_ == before + 2 && stack_[before].lower_m < stack_[before + 1].lower_m) {
       const Entry first = stack_[before];
       stack_[before] = stack_[before + 1];
@@ -205,9 +222,10 @@ class Search {
     const uint32_t node = entry.node;
     const float lower_m = entry.lower_m;
     const Outcome outcome = shape_.solve(node, entry.range, lower_m, left_, best_, halves);
+    pass(0.0f);
     if (outcome == Outcome::kClosed) return true;
     if (outcome == Outcome::kStopped) put(Entry(entry));
-    if (outcome == Outcome::kLost && lower_m < lost_m_) lost_m_ = lower_m;
+    if (outcome == Outcome::kLost) lose(lower_m);
     if (outcome == Outcome::kSplit) {
       const uint32_t near = halves[1].lower_m < halves[0].lower_m ? 1 : 0;
       put({node, halves[1 - near].lower_m, halves[1 - near].range});
@@ -220,7 +238,8 @@ class Search {
   uint32_t budget_;
   uint32_t left_;
   Best& best_;
-  float lost_m_ = FLT_MAX;  // bound of what the stack had no room for
+  float lost_m_ = FLT_MAX;    // bound of what the stack had no room for
+  float passed_m_ = FLT_MAX;  // of what was passed over since it was set; 0: more was looked at
   bool is_complete_ = false;
   bool is_cut_ = false;  // parts of the tree were not reached at all
   uint32_t count_ = 0;

@@ -31,10 +31,18 @@ class SurfaceParts {
     const Piece& piece = pieces_[node >> 16];
     return ((node >> 12) & 15u) == 0u + piece.level_u + piece.level_v;
   }
-  uint32_t first_child(uint32_t node) const {
-    if (node >= kUpper) return upper(2 * (node - kUpper) + 1);
+  void children(uint32_t node, uint32_t& low, uint32_t& high) const {
+    if (node >= kUpper) {
+      low = upper(2 * (node - kUpper) + 1);
+      high = upper(2 * (node - kUpper) + 2);
+      return;
+    }
     const Patch patch = patch_of(node);
-    return node_of(spline::first_child(pieces_[patch.piece], patch));
+    const Piece& piece = pieces_[patch.piece];
+    const bool is_u = halves_u(piece, halvings_of(piece, patch.depth));
+    low = node_of({patch.piece, patch.depth + 1, is_u ? patch.u << 1 : patch.u,
+                   is_u ? patch.v : patch.v << 1});
+    high = low + (is_u ? kNextU : kNextV);
   }
   uint32_t sibling_of(uint32_t node) const {
     if (is_upper(node)) return upper(spline::sibling_of(upper_of(node)));
@@ -75,7 +83,7 @@ class SurfaceParts {
       const Patch above = spline::parent_of(piece, patch);
       const Halvings made = halvings_of(piece, above.depth);
       if (made.u < cell.u || made.v < cell.v ||
-          !best.is_beyond(closed_by_.least2(range_of(made, above, 0.0f, 0.0f))))
+          !best.is_beyond(closed_by_->least2(range_of(made, above, 0.0f, 0.0f))))
         break;
       patch = above;
     }
@@ -83,17 +91,18 @@ class SurfaceParts {
   }
 
   // The stored radii and half sides hold what float32 loses here.
-  float bound_m(uint32_t node, Range& range) const {
+  float bound_m(uint32_t node, Range& range) {
     if (node >= kUpper) return box_bound_m(boxes_[node - kUpper]);
     const Patch patch = patch_of(node);
-    const Piece& piece = pieces_[patch.piece];
-    const Grid& grid = grids_[patch.piece];
-    const Halvings made = halvings_of(piece, patch.depth);
-    const Foot foot = foot_on(parallelogram_of(piece, grid, corners_, patch, made),
-                              p_m_ - vec3_at(piece.origin_m));
-    if (patch.depth == 0u + piece.level_u + piece.level_v)
-      range = range_of(made, patch, foot.x, foot.y);
-    return foot.distance_m - in_units(grid.radius_unit_m, radii_[radius_of(grid, patch, made)]);
+    if (patch.piece != near_.piece) come_near(patch.piece);
+    const Halvings made = halvings_of(*near_.of, patch.depth);
+    const uint32_t left_u = near_.of->level_u - made.u, left_v = near_.of->level_v - made.v;
+    const Foot foot = foot_on(
+        quarters_of(near_.corners, near_.columns, 1u << left_u, 1u << left_v, patch.u, patch.v),
+        near_.q);
+    if (left_u + left_v == 0) range = range_of(made, patch, foot.x, foot.y);
+    const uint32_t radius = (1u << patch.depth) - 1u + (patch.v << made.u | patch.u);
+    return foot.distance * near_.quarter_m - in_units(near_.radius_unit_m, near_.radii[radius]);
   }
 
   Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
@@ -112,8 +121,8 @@ class SurfaceParts {
     }
     const math::Vec3 q_m = p_m_ - vec3_at(piece.origin_m);
     float at[2] = {range.start[0], range.start[1]};
-    Quadratic f, base;
-    base.distance2 = FLT_MAX;
+    Quadratic *f = expansions_, *base = expansions_ + 1;
+    base->distance2 = FLT_MAX;
     for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
       if (left == 0) {
         range.start[0] = at[0];
@@ -122,25 +131,28 @@ class SurfaceParts {
       }
       --left;
       ++best.evaluations;
-      expand(node, piece, bends, q_m, at, best, f);
-      if (!(f.distance2 < base.distance2)) {  // too far along the way: a quarter of it
-        for (uint32_t k = 0; k < 2; ++k) at[k] = base.at[k] + 0.25f * (at[k] - base.at[k]);
+      expand(node, piece, bends, q_m, at, best, *f);
+      if (!(f->distance2 < base->distance2)) {  // too far along the way: a quarter of it
+        for (uint32_t k = 0; k < 2; ++k) at[k] = base->at[k] + 0.25f * (at[k] - base->at[k]);
         continue;
       }
+      Quadratic* const before = base;
       base = f;
-      const float gain = base.next(range, at);
-      const float moved =
-          (at[0] - base.at[0]) * (at[0] - base.at[0]) + (at[1] - base.at[1]) * (at[1] - base.at[1]);
+      f = before;
+      const float gain = base->next(range, at);
+      const float moved = (at[0] - base->at[0]) * (at[0] - base->at[0]) +
+                          (at[1] - base->at[1]) * (at[1] - base->at[1]);
       // What Newton's step would gain is needed: no proof can hold yet.
-      const bool has_arrived = !(moved > 0x1p-40f) || best.seems_beyond(f.distance2 - 2.0f * gain);
+      const bool has_arrived =
+          !(moved > 0x1p-40f) || best.seems_beyond(base->distance2 - 2.0f * gain);
       if (!has_arrived) continue;
-      if (best.is_beyond(base.least2(range))) {
+      if (best.is_beyond(base->least2(range))) {
         closed_by_ = base;
         return Outcome::kClosed;
       }
       break;
     }
-    return split(range, base, lower_m, halves);
+    return split(range, *base, lower_m, halves);
   }
 
  private:
@@ -155,6 +167,28 @@ class SurfaceParts {
   struct Bends {
     float fixed[5], turning[5];
   };
+
+  /// What the bounds of one piece's parts have in common, with the query from its origin.
+  struct Near {
+    uint32_t piece = UINT32_MAX;
+    uint32_t columns;
+    const Piece* of;
+    const Corner* corners;
+    const uint8_t* radii;
+    float quarter_m, radius_unit_m;
+    math::Vec3 q;  // in quarters of a step, a power of two: exactly as in metres
+  };
+  void come_near(uint32_t piece) {
+    const Grid& grid = grids_[piece];
+    near_.piece = piece;
+    near_.of = pieces_ + piece;
+    near_.columns = (1u << near_.of->level_u) + 1u;
+    near_.corners = corners_ + grid.first_corner;
+    near_.radii = radii_ + (2 * grid.first_leaf - piece);
+    near_.quarter_m = 0.25f * grid.step_m;
+    near_.radius_unit_m = grid.radius_unit_m;
+    near_.q = (p_m_ - vec3_at(near_.of->origin_m)) * (1.0f / near_.quarter_m);
+  }
 
   uint32_t upper(uint32_t i) const {
     return i >= piece_count_ - 1 ? (i - (piece_count_ - 1)) << 16 : kUpper + i;
@@ -299,7 +333,9 @@ class SurfaceParts {
   uint32_t piece_count_;
   float loss_m_;
   math::Vec3 p_m_;
-  Quadratic closed_by_;
+  Near near_;
+  Quadratic expansions_[2];
+  const Quadratic* closed_by_ = expansions_;
 };
 
 }  // namespace firmtouch::spline
