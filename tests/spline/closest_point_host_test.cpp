@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bake/bake_spline.hpp"
+#include "bake/spline_worst.hpp"
 #include "harness/test.hpp"
 #include "spline/random_splines.hpp"
 #include "spline/read_spline.hpp"
@@ -209,6 +210,31 @@ TEST(EveryBudgetBracketsTheTruthOnRandomModels) {
         CHECK_GE(static_cast<double>(c.distance_m), d - 1e-6 * (d + baked.report.extent_m));
       }
     }
+  }
+}
+
+// A path of 0.2 % of the extent a step, turning gently, that comes back to the model.
+TEST(AtABudgetOfTheBakedWorstAPathIsExact) {
+  for (uint32_t seed = 0; seed < 4; ++seed) {
+    tools::Random random(seed + 70);
+    const Baked baked(seed % 2 == 0 ? of(spline_test::random_curve(random, 3, 2))
+                                    : of(spline_test::random_surface(random, 3, 3, 1)));
+    const Budget budget{tools::find_worst(baked.view).steps};
+    const double step = 0.002 * baked.report.extent_m;
+    const Vec3 start = anywhere(baked, random), home = anywhere(baked, random);
+    tools::Point at = tools::to_point(start), way{0, 0, 0};
+    Hint hint;
+    uint32_t inexact = 0;
+    const uint32_t moves = is_long() ? 100000 : 3000;
+    for (uint32_t i = 0; i < moves; ++i) {
+      way = way * 0.97 + tools::Point{random.bell(), random.bell(), random.bell()} * 0.2 +
+            (tools::to_point(home) - at) * (0.02 / baked.report.extent_m);
+      at = at + way * (step / length(way));
+      inexact +=
+          closest_point(baked.view, tools::to_vec3(at), budget, hint).certificate.exact ? 0u : 1u;
+    }
+    firmtouch::test::note("seed", seed);
+    CHECK_LE(1000 * inexact, moves);
   }
 }
 
