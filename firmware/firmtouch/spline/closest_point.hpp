@@ -31,7 +31,7 @@ struct Closest {
 ///         re-entrant; callable from an interrupt.
 /// Result: always finite. Two points equally near: the one found first. A query that is not finite:
 ///         some point, at distance FLT_MAX, lower 0, not exact.
-/// Error:  distance and, where exact, lower bound within 4e-7 of the extent (rational: 1e-6) and 6e-7
+/// Error:  distance and, where exact, lower bound within 4e-7 of the extent (rational: 1e-6) and 9e-7
 ///         of the distance of the truth (tests/spline/closest_point_host_test.cpp).
 Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
 
