@@ -183,6 +183,19 @@ std::vector<ParameterRow> parameter_rows() {
   return rows;
 }
 
+std::string parameter_help() {
+  std::ostringstream help;
+  help << "\nParameters of the controller, each with its range and what it begins with:\n";
+  for (const params::Entry& entry : params::kTable) {
+    const std::string unit = entry.unit;
+    std::string left = "  " + short_name(entry.name) + " VALUE" + (unit == "1" ? "" : " " + unit);
+    left.resize(std::max<size_t>(left.size() + 1, 36), ' ');
+    help << left << entry.low << " to " << entry.high << " (" << entry.initial
+         << "): " << entry.what << "\n";
+  }
+  return help.str();
+}
+
 double parameter_value(const Scenario& scenario, uint32_t parameter) {
   for (const Setting& setting : scenario.settings)
     if (setting.parameter == parameter) return setting.value;

@@ -36,6 +36,9 @@ bool motors_are_on(const record::TickOutput& output);
 /// The parameter table as the scenario reader needs it: names without their unit's suffix too.
 std::vector<ParameterRow> parameter_rows();
 
+/// The same as text, a line a parameter, for --help.
+std::string parameter_help();
+
 /// Completes a scenario with what follows from it: tick period, encoder counts a metre.
 void complete(Scenario& scenario);
 /// A parameter's value after the scenario's settings.

@@ -81,7 +81,7 @@ int run_scenario(const std::vector<std::string>& words) {
   const Options options(
       words, {"--set", "--controller", "--image", "--report", "--picture", "--log", "--csv"});
   if (options.help()) {
-    std::cout << kHelp << scenario_help();
+    std::cout << kHelp << scenario_help() << parameter_help();
     return 0;
   }
   if (options.operands().size() != 1) throw Usage("run wants one scenario");

@@ -210,7 +210,7 @@ std::string scenario_help() {
     help << "\n";
   }
   help << "  output_delay VALUE samples        between a force computed and felt (0)\n"
-          "  PARAMETER VALUE UNIT              any parameter of the controller, by its name\n\n"
+          "  PARAMETER VALUE UNIT              any parameter of the controller, listed below\n\n"
           "The hand's script, in order:\n"
           "  move to X Y Z m at V m/s\n"
           "  hold for T s\n"

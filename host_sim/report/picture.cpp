@@ -69,7 +69,9 @@ std::string picture_of(const Report& report) {
                     "rx=\"12\" fill=\"#ffffff\"/>";
   svg += text_at(
       24, 36, 19, "#16202e",
-      grouped(stage.source_triangles) + " triangles, felt at " + fixed(s.rate_Hz, 0) + " Hz", 650);
+      (stage.source_triangles > 0 ? grouped(stage.source_triangles) + " triangles" : "A guide") +
+          ", felt at " + fixed(s.rate_Hz, 0) + " Hz",
+      650);
   svg +=
       text_at(24, 57, 13, "#566175",
               "penalty contact, up to " + fixed(s.peak_force_N, 2) + " N; at worst " +

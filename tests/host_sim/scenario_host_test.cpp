@@ -157,3 +157,9 @@ TEST(EveryParameterOfTheTableCanBeSetByName) {
     CHECK(row.unit.empty() || host_sim::units_like(row.unit) != "");
   }
 }
+
+TEST(TheHelpTellsEveryParameterOfTheTable) {
+  const std::string help = host_sim::parameter_help();
+  for (const host_sim::ParameterRow& row : host_sim::parameter_rows())
+    CHECK(help.find("\n  " + row.short_name + " VALUE") != std::string::npos);
+}

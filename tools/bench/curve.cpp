@@ -1,9 +1,12 @@
 #include <cmath>
 #include <functional>
 
+#include "bake/curve_runs.hpp"
+#include "bake/curve_tree.hpp"
 #include "bench/all_benches.hpp"
 #include "bench/curve_cases.hpp"
 #include "bench/curve_drag.hpp"
+#include "bench/curve_truth.hpp"
 #include "bench/models.hpp"
 #include "bench/peer.hpp"
 #include "bench/problem.hpp"
@@ -21,6 +24,7 @@ constexpr uint32_t kPublishedSamples = 2000;
 constexpr uint32_t kLongSamples = 2000000;
 constexpr double kPublished_us = 200;  // Morris 2006: 2,000 points, N = 100, a 1 GHz Pentium 4
 constexpr double kMostBytes = 24;      // a sample
+constexpr double kBuildGoal = 3;       // of the peer's time
 constexpr double kWrongApart = 4e-7;   // of the diagonal
 
 using Query = std::function<double(math::Vec3)>;
@@ -98,6 +102,30 @@ void run_race(const Race& race, const CurveCase& curve, const Peer& peer, Report
     report.figure(against, curve.name, us[0] / us[1], "x");
 }
 
+// Of both trees, reading and proving apart.
+void run_build(const CurveCase& curve, const Peer& peer, Report& report) {
+  report.stage("tree build, " + curve.name);
+  std::vector<curve::Sample> samples(curve.view.samples().data(),
+                                     curve.view.samples().data() + curve.view.samples().size());
+  const TemporaryFolder folder;
+  std::vector<Contender> contenders{timed(1, [&] {
+    const size_t places = tools::build_curve_tree(samples).size();
+    return static_cast<double>(places +
+                               tools::build_curve_runs(samples, curve.view.head()).boxes.size());
+  })};
+  if (peer.is_present()) {
+    const std::string file = folder.write("curve.csv", tools::to_csv(curve.samples_m));
+    const std::string one = folder.write("one.csv", tools::to_csv({curve.samples_m[0]}));
+    contenders.push_back([peer, file, one] { return peer.build_us("polyline", file, one); });
+  }
+  const std::vector<double> us = medians_us(contenders);
+  report.figure("trees built", curve.name, us[0] * 1e-6, "s");
+  const char* const against = "trees built against the peer's";
+  if (!peer.is_present()) return report.absent(against, curve.name, kPeerAbsent);
+  report.figure("trees built, the peer", curve.name, us[1] * 1e-6, "s");
+  report.bar(against, curve.name, us[0] / us[1], "x", kBuildGoal);
+}
+
 void run_case(const CurveCase& curve, const Peer& peer, Report& report) {
   const bool is_small = curve.samples_m.size() <= kPublishedSamples;
   const bool is_large = curve.samples_m.size() >= 2000000;
@@ -114,6 +142,7 @@ void run_case(const CurveCase& curve, const Peer& peer, Report& report) {
            curve, peer, report);
   run_race({"random points, cold", random_points(curve, kQueries), false, is_large ? 0.4 : 0},
            curve, peer, report);
+  if (!is_small) run_build(curve, peer, report);
   const float size_m = curve.view.head().diagonal_m;
   const std::vector<double> us =
       medians_us({ours(walk, guided(curve.view, size_m), Clock::kProcessor)});
@@ -184,6 +213,7 @@ void run_curve(const Options& options, Report& report) {
   run_case(bake_case(make_track(kPublishedSamples, 6), "2,000 samples, uneven"), peer, report);
   const uint32_t many = options.is_long ? kLongSamples : 200000;
   run_case(bake_case(make_track(many, 0), std::to_string(many) + " samples"), peer, report);
+  run_curve_truth(options, report);
   run_published(options, report);
   run_force_steps(report);
   run_drag(report);

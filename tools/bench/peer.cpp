@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -33,26 +34,42 @@ std::string output_of(const std::string& line, int& status) {
   return text;
 }
 
+// The number after a word; NaN where it is not there.
+double number_after(const std::string& text, const std::string& word) {
+  const size_t at = text.find(word);
+  return at == std::string::npos ? std::nan("")
+                                 : std::strtod(text.c_str() + at + word.size(), nullptr);
+}
+
+constexpr const char* kRemedy = "; run it by hand, or leave --peer out";
+
 }  // namespace
 
-double Peer::us_per_query(const std::string& kind, const std::string& file,
-                          const std::string& csv) const {
+std::string Peer::output(const std::string& kind, const std::string& file,
+                         const std::string& csv) const {
   const std::string line = command_ + " " + kind + " " + quoted(file) + " " + quoted(csv);
   int status = 0;
   const std::string text = output_of(line, status);
-  const char* const remedy = "; run it by hand, or leave --peer out";
   if (status != 0) {
     throw Problem("peer: " + line + (WIFEXITED(status) ? ": exit code " : ": ended by signal ") +
                   std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status)) +
-                  remedy);
+                  kRemedy);
   }
-  const std::string word = "us_per_query ";
-  const size_t at = text.find(word);
-  const double us =
-      at == std::string::npos ? 0 : std::strtod(text.c_str() + at + word.size(), nullptr);
+  return text;
+}
+
+double Peer::us_per_query(const std::string& kind, const std::string& file,
+                          const std::string& csv) const {
+  const double us = number_after(output(kind, file, csv), "us_per_query ");
   if (!(us > 0 && us < 1e12))
-    throw Problem("peer: " + line + ": printed no `us_per_query` above 0" + remedy);
+    throw Problem("peer: " + command_ + " " + kind + " " + file +
+                  ": printed no `us_per_query` above 0" + kRemedy);
   return us;
+}
+
+double Peer::build_us(const std::string& kind, const std::string& file,
+                      const std::string& csv) const {
+  return number_after(output(kind, file, csv), "build_s ") * 1e6;
 }
 
 Contender Peer::contender(const std::string& kind, const std::string& file,

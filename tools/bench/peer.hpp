@@ -17,11 +17,17 @@ class Peer {
   /// time.
   double us_per_query(const std::string& kind, const std::string& file,
                       const std::string& csv) const;
-  /// The same for medians_us().
+  /// The same program's `build_s X`: what building its tree took, in microseconds; NaN where it tells
+  /// none.
+  double build_us(const std::string& kind, const std::string& file, const std::string& csv) const;
+  /// us_per_query() for medians_us().
   Contender contender(const std::string& kind, const std::string& file,
                       const std::string& csv) const;
 
  private:
+  std::string output(const std::string& kind, const std::string& file,
+                     const std::string& csv) const;
+
   std::string command_;
 };
 
