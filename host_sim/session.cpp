@@ -14,6 +14,7 @@ std::string remedy_of(uint16_t rule) {
     case kRuleMeshProbes:
     case kRuleCurveProbes:
     case kRuleSplineProbes:
+    case kRuleHullProbes:
       return "this program answers its probe queries with other bits; bake it with the same "
              "version";
     default:

@@ -124,16 +124,18 @@ Controller::Surface Controller::touch(const Wish& wish, const Values& v, servo::
     const spline::Closest& closest = g.spline.closest;
     const bool is_inside = closest.certificate.sign < 0;
     return {is_inside ? -closest.distance_m : closest.distance_m, g.spline.penetration_m,
-            closest.certificate};
+            closest.certificate, closest.certificate.steps, false};
   }
   scene::MeshObject object;
   object.mesh = &opener_.mesh();
   object.map = &opener_.map();
+  object.shell = &opener_.hull().shell();
   object.pose = scene_pose(v);
   object.material = material;
   scene::touch_mesh(object, v[params::kToolRadius], wish.position_m, budget(v, params::kMeshSteps),
                     g.touch, model);
-  return {g.touch.closest.distance_m, g.touch.penetration_m, g.touch.closest.certificate};
+  return {g.touch.closest.distance_m, g.touch.penetration_m, g.touch.closest.certificate,
+          g.touch.closest.certificate.steps + g.touch.shell_steps, g.touch.is_of_shell};
 }
 
 void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
@@ -173,10 +175,11 @@ void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
   felt.guide_deviation_m = line.distance_m;
   felt.guide_lower_m = line.certificate.lower_m;
   felt.guide_arc = line.arc;
-  felt.steps = surface.certificate.steps + line.certificate.steps;
+  felt.steps = surface.steps + line.certificate.steps;
   felt.guide_steps = line.certificate.steps;
   felt.state = static_cast<uint32_t>(surface.certificate.sign + 1) << record::kStateSignShift;
   if (surface.penetration_m > 0) felt.state |= record::kStateContact;
+  if (surface.is_of_shell) felt.state |= record::kStateOfShell;
   if (g.guide.is_held) felt.state |= record::kStateOnGuide;
   if (surface.certificate.exact) felt.state |= record::kStateExact;
   if (line.certificate.exact) felt.state |= record::kStateGuideExact;

@@ -19,7 +19,7 @@ namespace firmtouch {
 
 /// One composition of the rooms among possible ones: a Cartesian device of three axes feels one
 /// surface, a mesh or splines, by the sphere at its tip (beyond reach of a mesh by its distance map,
-/// where the asset has one), and is guided along one curve, of samples or splines. Its size is the RAM
+/// where the asset has one; where time runs out its hull, if there is one), and is guided along one curve, of samples or splines. Its size is the RAM
 /// that it takes: no heap, nothing static. Controllers are independent of each other and may share an
 /// asset.
 class Controller {
@@ -54,8 +54,8 @@ class Controller {
   /// kLineModelApart, make_model() makes it elsewhere: this tick asks for one from its own position
   /// where kLineModelWanted says so, begins to use the one that was made where kLineModelTaken does,
   /// and goes on with the last one else. Since these are inputs, a log replays at two rates too.
-  /// Bounds: two queries of at most mesh_steps and curve_steps, at two rates none; callable from an
-  /// interrupt; not re-entrant.
+  /// Bounds: two queries of at most mesh_steps and curve_steps, with a hull of the mesh
+  /// another one of mesh_steps or 512, at two rates none; callable from an interrupt; not re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output);
 
   /// Servo interrupt, at two rates: the lines of the tick that comes, by what make_model() has done.
@@ -68,6 +68,7 @@ class Controller {
 
   const params::Values& values() const { return live_.values; }
   const mesh::View& mesh() const { return opener_.mesh(); }
+  const hull::View& hull() const { return opener_.hull(); }
   const field::View& map() const { return opener_.map(); }
   const curve::View& curve() const { return opener_.curve(); }
   const spline::View& spline_surface() const { return opener_.spline_surface(); }
@@ -117,6 +118,8 @@ class Controller {
   struct Surface {
     float distance_m = 0, penetration_m = 0;  // the first signed
     query::Certificate certificate;
+    uint32_t steps = 0;
+    bool is_of_shell = false;
   };
   Surface touch(const Wish& wish, const params::Values& values, servo::LocalModel& model);
   bool take_parameter(const record::TickInput& input);

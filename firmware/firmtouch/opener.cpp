@@ -43,6 +43,23 @@ field::Sections map_sections(const asset::Container& container, const char* name
   return sections;
 }
 
+hull::Sections hull_sections(const asset::Container& container, const char* name) {
+  hull::Sections sections;
+  sections.head = container.find(hull::kHeadSection, name);
+  sections.vertices = container.find(hull::kVerticesSection, name);
+  sections.origins = container.find(hull::kOriginsSection, name);
+  sections.records = container.find(hull::kRecordsSection, name);
+  sections.places = container.find(hull::kPlacesSection, name);
+  sections.star_boxes = container.find(hull::kStarBoxesSection, name);
+  sections.boxes = container.find(hull::kBoxesSection, name);
+  sections.shell = container.find(hull::kShellSection, name);
+  sections.mesh_head = container.find(mesh::kHeadSection, name);
+  sections.mesh_vertices = container.find(mesh::kVerticesSection, name);
+  sections.triangles16 = container.find(mesh::kTriangles16Section, name);
+  sections.triangles32 = container.find(mesh::kTriangles32Section, name);
+  return sections;
+}
+
 curve::Sections curve_sections(const asset::Container& container, const char* name) {
   curve::Sections sections;
   sections.head = container.find(curve::kHeadSection, name);
@@ -100,6 +117,7 @@ void Opener::begin(core::Bytes asset, Selection selection) {
   mesh_ = {};
   curve_ = {};
   map_ = {};
+  hull_ = {};
   spline_surface_ = {};
   spline_guide_ = {};
   asset_opening_ = asset::Opening(asset);
@@ -162,10 +180,14 @@ bool Opener::work(uint32_t budget) {
     if (!map_opening_.done()) return false;
     map_ = map_opening_.view();
     if (map_opening_.verdict().ok()) {
-      set_stage(Stage::kCurveProbes);
+      start_hull();
     } else {
       refuse(map_opening_.verdict());
     }
+  } else if (stage_ == Stage::kHull) {
+    take_hull(budget);
+  } else if (stage_ == Stage::kHullProbes) {
+    run_hull_probe();
   } else if (stage_ == Stage::kCurveProbes) {
     run_curve_probes();
   } else if (stage_ == Stage::kSurfaceProbes || stage_ == Stage::kGuideProbes) {
@@ -247,9 +269,35 @@ void Opener::run_mesh_probes() {
 void Opener::start_map() {
   if (!mesh_.is_open()) return set_stage(Stage::kCurveProbes);
   const field::Sections sections = map_sections(container_, selection_.mesh);
-  if (sections.head.empty()) return set_stage(Stage::kCurveProbes);
+  if (sections.head.empty()) return start_hull();
   map_opening_ = field::Opening(sections, mesh_);
   set_stage(Stage::kMap);
+}
+
+void Opener::start_hull() {
+  const hull::Sections sections = hull_sections(container_, selection_.mesh);
+  if (sections.head.empty()) return set_stage(Stage::kCurveProbes);
+  hull_opening_ = hull::Opening(sections);
+  set_stage(Stage::kHull);
+}
+
+void Opener::take_hull(uint32_t budget) {
+  hull_opening_.work(budget / kBytesAnElement + 1);
+  if (!hull_opening_.done()) return;
+  if (!hull_opening_.verdict().ok()) return refuse(hull_opening_.verdict());
+  hull_ = hull_opening_.view();
+  const query::Probes probes =
+      query::read_probes(container_.find(hull::kProbesSection, selection_.mesh));
+  if (!is_sensible(probes)) return refuse(core::reject(kRuleHullProbes));
+  hull_probes_ = hull::ProbeRun(probes);
+  set_stage(Stage::kHullProbes);
+}
+
+void Opener::run_hull_probe() {
+  hull_probes_.work(hull_);
+  if (!hull_probes_.done()) return;
+  if (!hull_probes_.agrees()) return refuse(core::reject(kRuleHullProbes));
+  set_stage(Stage::kCurveProbes);
 }
 
 void Opener::run_curve_probes() {

@@ -6,6 +6,8 @@
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/field/view.hpp"
+#include "firmtouch/hull/probes.hpp"
+#include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/guide_view.hpp"
@@ -22,6 +24,7 @@ constexpr uint16_t kRuleMeshProbes =
     905;  // the mesh's probe queries answered other bits, or there are none
 constexpr uint16_t kRuleCurveProbes = 906;   // the same for the curve
 constexpr uint16_t kRuleSplineProbes = 907;  // the same for a spline surface or curve
+constexpr uint16_t kRuleHullProbes = 908;    // the same for a hull of the mesh
 
 /// Which surface (a mesh, or spline surfaces) and which curve (of samples, or of splines) of the asset
 /// to feel; nullptr: the first mesh, else the first spline surfaces; the first sampled curve, else
@@ -33,7 +36,8 @@ struct Selection {
 
 /// From the bytes of an asset to a proven surface and a proven curve, in slices for the main loop;
 /// then the floating-point mode is checked and the asset's probe queries are run. Where the asset has
-/// a distance map of the mesh, every cell of it is proven by a query of the mesh.
+/// a distance map of the mesh, every cell of it is proven by a query of the mesh; where it has a hull
+/// of the mesh, that is proven too.
 class Opener {
  public:
   Opener() = default;
@@ -43,10 +47,10 @@ class Opener {
   /// `asset` must outlive the views.
   void begin(core::Bytes asset, Selection selection);
 
-  /// About `budget` bytes more, or a sixteenth as many vertices, nodes, triangles or samples, or a
+  /// About `budget` bytes more, or a sixteenth as many vertices, nodes, triangles, stars or samples, or a
   /// 512th as many cells of a map, which take about as long. Not by `budget` go the slices for probe
   /// queries, which are unlimited: one for all of the mesh's and one for all of the curve's (at most
-  /// 256, and 64 as baked), of splines one a query.
+  /// 256, and 64 as baked), of splines and of a hull one a query.
   /// Result: true when finished.
   bool work(uint32_t budget);
 
@@ -61,6 +65,7 @@ class Opener {
   const curve::View& curve() const { return curve_; }
   /// Of the mesh; one that is not open where the asset has none.
   const field::View& map() const { return map_; }
+  const hull::View& hull() const { return hull_; }
   const spline::View& spline_surface() const { return spline_surface_; }
   const spline::GuideView& spline_guide() const { return spline_guide_; }
   const asset::Container& container() const { return container_; }
@@ -76,6 +81,8 @@ class Opener {
     kSplineGuide,
     kMeshProbes,
     kMap,
+    kHull,
+    kHullProbes,
     kCurveProbes,
     kSurfaceProbes,
     kGuideProbes,
@@ -89,6 +96,9 @@ class Opener {
   void start_spline_surface();
   void start_curve();
   void start_map();
+  void start_hull();
+  void take_hull(uint32_t budget);
+  void run_hull_probe();
   void start_spline_curve();
   void take_spline(uint32_t budget);
   void take_spline_guide(uint32_t budget);
@@ -104,12 +114,15 @@ class Opener {
   mesh::View mesh_;
   curve::View curve_;
   field::View map_;
+  hull::View hull_;
   spline::View spline_surface_;
   spline::GuideView spline_guide_;
   asset::Opening asset_opening_{core::Bytes{}};
   mesh::Opening mesh_opening_{mesh::Sections{}};
   curve::Opening curve_opening_{curve::Sections{}};
   field::Opening map_opening_{field::Sections{}, mesh_};
+  hull::Opening hull_opening_{hull::Sections{}};
+  hull::ProbeRun hull_probes_;
   spline::Opening spline_opening_{spline::Sections{}};  // of the surface, then of the curve
   spline::GuideOpening guide_opening_;
   spline::ProbeRun spline_probes_;

@@ -9,7 +9,11 @@ namespace {
 std::string prove_hull(const asset::Container& container, const std::string& name) {
   hull::View view;
   const core::Verdict verdict = hull::open(hull_sections_of(container, name.c_str()), view);
-  return verdict.ok() ? "" : "hull '" + name + "': " + rule_text(verdict);
+  if (!verdict.ok()) return "hull '" + name + "': " + rule_text(verdict);
+  const core::Bytes probes = container.find(hull::kProbesSection, name.c_str());
+  if (probes.empty() || hull_probes_agree(view, probes)) return "";
+  return "hull '" + name +
+         "': its probe queries are answered otherwise here than where it was baked";
 }
 
 std::string prove_mesh(const asset::Container& container, const std::string& name) {

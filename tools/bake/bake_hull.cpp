@@ -1,6 +1,7 @@
 #include "bake/bake_hull.hpp"
 
 #include "bake/hull_encoder.hpp"
+#include "bake/probes.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -62,6 +63,7 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
                      "; please report this model";
     return {};
   }
+  baked.push_back(hull_probes(view, name));
   return baked;
 }
 

@@ -5,6 +5,7 @@
 
 #include "bake/section.hpp"
 #include "firmtouch/curve/view.hpp"
+#include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/query/probe.hpp"
 #include "firmtouch/spline/view.hpp"
@@ -33,16 +34,18 @@ std::vector<math::Vec3> anchors_of(core::Span<const Point> points) {
 Section probe_section(uint32_t type, const std::string& name,
                       const std::vector<query::ProbePoint>& points, uint64_t hash);
 
-/// What this machine answers to probe_points() of a proven mesh or curve, as the section that a
+/// What this machine answers to probe_points() of a proven mesh, hull or curve, as the section that a
 /// controller's begin() compares with its own answers.
 Section mesh_probes(const mesh::View& mesh, const std::string& name);
 Section curve_probes(const curve::View& curve, const std::string& name);
+Section hull_probes(const hull::View& hull, const std::string& name);
 Section spline_probes(const spline::View& model, const std::string& name);
 
 /// Whether this machine answers a probe section of the geometry as it says. Result: false where
 /// `bytes` is no such section.
 bool mesh_probes_agree(const mesh::View& mesh, core::Bytes bytes);
 bool curve_probes_agree(const curve::View& curve, core::Bytes bytes);
+bool hull_probes_agree(const hull::View& hull, core::Bytes bytes);
 bool spline_probes_agree(const spline::View& model, core::Bytes bytes);
 
 }  // namespace firmtouch::tools

@@ -15,6 +15,7 @@ constexpr uint32_t kPlacesSection = 0x5005;     // uint32_t: where every eighth 
 constexpr uint32_t kStarBoxesSection = 0x5006;  // StarBox[collapse_count]
 constexpr uint32_t kBoxesSection = 0x5007;      // NodeBox: a tree over the mesh's triangles
 constexpr uint32_t kShellSection = 0x5008;      // the coarsest hull (hull/shell.hpp)
+constexpr uint32_t kProbesSection = 0x5009;     // query::ProbeHead and its points
 
 // Numbers: 0 to mesh_vertex_count - 1 are the mesh's vertices, mesh_vertex_count + k is the new one
 // of collapse k. Ids: the two vertices that collapse k removes have the ids 2 k and 2 k + 1, those

@@ -28,7 +28,17 @@ float distance2_to(const Box& box, Vec3 p_m) {
 struct Nearest {
   float distance2_m2 = FLT_MAX;
   Vec3 point_m{};
+  uint32_t face = UINT32_MAX;
 };
+
+// Of a face of no area: none.
+Vec3 normal_of(const Shell& shell, uint32_t face) {
+  const Vec3 a = vertex(shell, shell.vertex_of(face, 0));
+  const Vec3 n = cross(vertex(shell, shell.vertex_of(face, 1)) - a,
+                       vertex(shell, shell.vertex_of(face, 2)) - a);
+  const float size = math::length(n);
+  return size > 0.0f ? n * (1.0f / size) : Vec3{};
+}
 
 void look_at(const Shell& shell, uint32_t i, Vec3 p_m, Nearest& nearest) {
   Vec3 a = vertex(shell, shell.vertex_of(i, 0)), b = vertex(shell, shell.vertex_of(i, 1)),
@@ -48,6 +58,7 @@ void look_at(const Shell& shell, uint32_t i, Vec3 p_m, Nearest& nearest) {
   const float distance2 = is_number ? foot.distance2_m2 : dot(to_a, to_a);
   if (!(distance2 < nearest.distance2_m2)) return;
   nearest.distance2_m2 = distance2;
+  nearest.face = i;
   nearest.point_m = is_number ? p_m - foot.offset_m : a;
 }
 
@@ -116,6 +127,7 @@ ShellDistance shell_distance(const Shell& shell, Vec3 p_m, query::Budget budget)
   const bool is_far = !(nearest.distance2_m2 < FLT_MAX);
   result.exact = rest2 >= nearest.distance2_m2 && !is_far;
   result.point_m = nearest.point_m;
+  if (nearest.face != UINT32_MAX) result.normal = normal_of(shell, nearest.face);
   const Vec3 sides{head.high_m[0] - head.low_m[0], head.high_m[1] - head.low_m[1],
                    head.high_m[2] - head.low_m[2]};
   const float diagonal_m = math::length(sides);

@@ -18,6 +18,7 @@ struct ShellDistance {
   // Certified, inside: if the point is inside the mesh too, it is no deeper than this. Else FLT_MAX.
   float deepest_m = FLT_MAX;
   math::Vec3 point_m{};  // of the shell, the nearest that was found
+  math::Vec3 normal{};   // unit, outward, of a face that it is on; 0 where none was found
   uint32_t steps = 0;
   bool exact = false;  // point_m is the nearest of the shell, but for rounding
 };

@@ -35,6 +35,7 @@ extern constexpr Bit kBits[kBitCount] = {
     {"output.state", "on guide", 9},       {"output.state", "exact", 10},
     {"output.state", "command taken", 11}, {"output.state", "command refused", 12},
     {"output.state", "ready", 13},         {"output.state", "guide exact", 14},
+    {"output.state", "of shell", 15},
 };
 
 namespace {
@@ -47,7 +48,8 @@ constexpr uint32_t words_of_fields() {
 static_assert(words_of_fields() * 4 == sizeof(Numbered<TickRecord>),
               "a field of the record has no row, or a row no field");
 static_assert(kLineEncoderFault == 1u << 3 && kLineModelWanted == 1u << 6 &&
-                  kStateContact == 1u << 8 && kStateGuideExact == 1u << 14,
+                  kStateContact == 1u << 8 && kStateGuideExact == 1u << 14 &&
+                  kStateOfShell == 1u << 15,
               "the bits are those of tick.hpp");
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "firmtouch/scene/mesh_contact.hpp"
 
 #include "firmtouch/field/closest_point.hpp"
+#include "firmtouch/hull/shell_distance.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::scene {
@@ -14,31 +15,63 @@ using math::Vec3;
 constexpr float kOwnDirection = 1e-4f;
 constexpr float kPseudonormal = 1e-5f;
 
+// Where a surface is nearest, and which way is out there.
+struct Nearest {
+  Vec3 point_m, normal;
+  int8_t sign;
+};
+
 // Outward unit normal at the closest point `c`, mesh frame. Both candidates lie in the normal cone
 // of one feature, less than a right angle apart, so that their mix has a length.
-Vec3 contact_normal(const mesh::Closest& c, Vec3 p_m, float diagonal_m) {
+Vec3 contact_normal(const Nearest& c, Vec3 p_m, float diagonal_m) {
   const Vec3 off = p_m - c.point_m;
   const float size_m = math::length(off);
   const float own =
       (size_m - kPseudonormal * diagonal_m) / ((kOwnDirection - kPseudonormal) * diagonal_m);
-  if (!(own > 0.0f)) return c.direction;
-  const float side = c.certificate.sign > 0 ? 1.0f : -1.0f;
+  if (!(own > 0.0f)) return c.normal;
+  const float side = c.sign > 0 ? 1.0f : -1.0f;
   const Vec3 outward = off * (side / size_m);
   if (own >= 1.0f) return outward;
-  const Vec3 mix = outward * own + c.direction * (1.0f - own);
+  const Vec3 mix = outward * own + c.normal * (1.0f - own);
   const float mix_size = math::length(mix);
-  return mix_size > 0.1f ? mix * (1.0f / mix_size) : c.direction;
+  return mix_size > 0.1f ? mix * (1.0f / mix_size) : c.normal;
 }
 
 // How far beyond the sphere the surface is looked for while the tool is free, beside the diagonal:
 // many times what a hand moves while a model lives.
 constexpr float kAhead = 0.02f;
 
+// A shell of some 1,000 faces is done in a fifth of it (tests/scene/shell_contact_host_test.cpp): it is
+// there for ticks whose own budget is too small.
+constexpr uint32_t kShellSteps = 512;
+
 mesh::Closest ask(const MeshObject& object, Vec3 p_m, float reach_m, query::Budget budget,
                   query::Hint& hint) {
   if (object.map == nullptr || !object.map->is_open())
     return mesh::closest_point(*object.mesh, p_m, budget, hint);
   return field::closest_point(*object.map, *object.mesh, p_m, reach_m, budget, hint).closest;
+}
+
+// Of the shell in place of the mesh: no farther than the mesh is outside, no less deep inside.
+// Result: whether the shell tells.
+bool ask_shell(const MeshObject& object, Vec3 p_m, query::Budget budget, MeshTouch& touch,
+               SurfacePoint& surface, Nearest& nearest) {
+  if (object.shell == nullptr || !object.shell->is_open()) return false;
+  const query::Budget own{budget.steps > kShellSteps ? budget.steps : kShellSteps};
+  const hull::ShellDistance told = hull::shell_distance(*object.shell, p_m, own);
+  touch.shell_steps = told.steps;
+  if (told.side == hull::ShellSide::kUnknown) return false;
+  const bool is_outside = told.side == hull::ShellSide::kOutside;
+  if (!is_outside && !told.exact) return false;
+  const query::Certificate& certificate = touch.closest.certificate;
+  const float off_m = is_outside ? told.lower_m : -math::length(p_m - told.point_m);
+  nearest = {told.point_m, told.normal, is_outside ? int8_t{1} : int8_t{-1}};
+  surface.sign = nearest.sign;
+  surface.distance_m = off_m;
+  // What the mesh's own query has proven holds as well.
+  if (certificate.sign > 0 && certificate.lower_m > off_m) surface.distance_m = certificate.lower_m;
+  if (is_outside && told.lower_m > surface.lower_m) surface.lower_m = told.lower_m;
+  return true;
 }
 
 }  // namespace
@@ -48,6 +81,8 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   touch.penetration_m = 0;
   touch.normal = {};
   touch.closest = {};
+  touch.is_of_shell = false;
+  touch.shell_steps = 0;
   if (object.mesh == nullptr || !object.mesh->is_open()) return;
   const Vec3 p_m = math::apply_inverse(object.pose, position_m);
   // Certainly outside a moment ago: what is farther off than the sphere may reach need not be known.
@@ -62,11 +97,14 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   surface.distance_m = touch.closest.distance_m;
   if (certificate.sign < 0 && !certificate.exact) surface.distance_m = -certificate.lower_m;
   // Nothing within reach: which way the surface lies is not known, and not needed.
-  if (!certificate.exact && certificate.lower_m >= 0.99f * reach_m) surface.sign = 0;
-  if (surface.sign != 0) {
+  const bool is_beyond = !certificate.exact && certificate.lower_m >= 0.99f * reach_m;
+  if (is_beyond) surface.sign = 0;
+  Nearest nearest{touch.closest.point_m, touch.closest.direction, certificate.sign};
+  if (!certificate.exact && !(is_beyond && certificate.sign > 0))
+    touch.is_of_shell = ask_shell(object, p_m, budget, touch, surface, nearest);
+  if (surface.sign != 0)
     touch.normal =
-        object.pose.rotation * contact_normal(touch.closest, p_m, object.mesh->head().diagonal_m);
-  }
+        object.pose.rotation * contact_normal(nearest, p_m, object.mesh->head().diagonal_m);
   surface.normal = touch.normal;
   touch.penetration_m = add_contact(model, position_m, radius_m, surface, object.material);
 }

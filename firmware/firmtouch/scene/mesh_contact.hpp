@@ -2,6 +2,7 @@
 #include <stdint.h>
 
 #include "firmtouch/field/view.hpp"
+#include "firmtouch/hull/shell.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/query/certificate.hpp"
@@ -15,7 +16,8 @@ namespace firmtouch::scene {
 /// may share a mesh.
 struct MeshObject {
   const mesh::View* mesh = nullptr;
-  const field::View* map = nullptr;  // proven against the mesh; or none, or one that is not open
+  const field::View* map = nullptr;    // proven against the mesh; or none, or one that is not open
+  const hull::Shell* shell = nullptr;  // that encloses the mesh; likewise
   math::RigidTransform pose;
   Material material;
 };
@@ -24,9 +26,11 @@ struct MeshObject {
 /// owns one a pair.
 struct MeshTouch {
   query::Hint hint;
-  mesh::Closest closest;    // mesh frame; without a point where only the map was asked
-  math::Vec3 normal;        // of the plane, device frame
-  float penetration_m = 0;  // of the sphere; 0 in free space, and where the side is unknown
+  mesh::Closest closest;     // mesh frame; without a point where only the map was asked
+  math::Vec3 normal;         // of the plane, device frame
+  float penetration_m = 0;   // of the sphere; 0 in free space, and where the side is unknown
+  bool is_of_shell = false;  // the mesh's query was not done, so the shell was touched in its place
+  uint32_t shell_steps = 0;
 };
 
 /// Penalty contact of a sphere of `radius_m` at `position_m` (device frame) with the object, by the
@@ -38,9 +42,13 @@ struct MeshTouch {
 /// outside, the surface is looked for within 2 % of the diagonal beyond the sphere (a band query):
 /// farther off no plane is made, and the free radius is at least that. With a distance map that
 /// takes one look-up, and then the free radius is all that the map certifies.
+/// With a shell, where the query was not exact and the sphere may be in contact, the shell is touched
+/// in place of the mesh, as deep as the sphere reaches into it, but for what the mesh's certificate
+/// rules out: force begins early by what lies between the two, never late, and is never less deep
+/// than the mesh's contact. What the shell does not tell in its budget is as without it.
 /// Known limit of penalty contact: a wall thinner than twice the penetration is pushed through.
-/// Bounds: one query of at most `budget` steps, and about 200 instructions; re-entrant for
-/// different touches.
+/// Bounds: one query of at most `budget` steps, with a shell another one of as many or 512, and
+/// about 200 instructions; re-entrant for different touches.
 void touch_mesh(const MeshObject& object, float radius_m, math::Vec3 position_m,
                 query::Budget budget, MeshTouch& touch, servo::LocalModel& model);
 

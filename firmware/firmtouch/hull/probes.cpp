@@ -1,0 +1,40 @@
+#include "firmtouch/hull/probes.hpp"
+
+#include "firmtouch/hull/complete_cast.hpp"
+#include "firmtouch/hull/shell_cast.hpp"
+#include "firmtouch/hull/shell_distance.hpp"
+#include "firmtouch/math/isa.hpp"
+
+namespace firmtouch::hull {
+namespace {
+
+math::Vec3 place_of(const query::ProbePoint& point) { return {point.x_m, point.y_m, point.z_m}; }
+
+}  // namespace
+
+void ProbeRun::work(const View& hull) {
+  if (done()) return;
+  const math::Vec3 from_m = place_of(probes_.points[next_ == 0 ? 0 : next_ - 1]),
+                   p_m = place_of(probes_.points[next_]);
+  ++next_;
+  const ShellDistance near = shell_distance(hull.shell(), p_m, query::kUnlimited);
+  const ShellHit of_shell = cast_shell(hull.shell(), from_m, p_m, query::kUnlimited);
+  const mesh::Hit of_mesh = cast_segment(hull, from_m, p_m, query::kUnlimited);
+  const float values[] = {near.lower_m,   near.deepest_m, near.point_m.x, near.point_m.y,
+                          near.point_m.z, near.normal.x,  near.normal.y,  near.normal.z,
+                          of_shell.t,     of_mesh.t};
+  for (const float value : values) hash_.add(math::bits_of(value));
+  hash_.add(near.steps << 2 | static_cast<uint32_t>(near.side));
+  hash_.add(of_shell.steps << 2 | (of_shell.hit ? 1u : 0u) | (of_shell.exact ? 2u : 0u));
+  hash_.add(of_shell.face);
+  hash_.add(of_mesh.steps << 1 | (of_mesh.hit ? 1u : 0u));
+  hash_.add(of_mesh.triangle);
+}
+
+uint64_t probe_hash(const View& hull, core::Span<const query::ProbePoint> points) {
+  ProbeRun run({points, 0});
+  while (!run.done()) run.work(hull);
+  return run.hash();
+}
+
+}  // namespace firmtouch::hull

@@ -1,0 +1,131 @@
+// A controller whose asset carries a hull of its mesh, with too little time for the mesh.
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "bake/bake_hull.hpp"
+#include "controller/ride.hpp"
+#include "firmtouch/hull/layout.hpp"
+#include "harness/test.hpp"
+
+namespace hull = firmtouch::hull;
+namespace mesh = firmtouch::mesh;
+namespace params = firmtouch::params;
+namespace record = firmtouch::record;
+namespace servo = firmtouch::servo;
+namespace tools = firmtouch::tools;
+
+using firmtouch::Controller;
+
+using namespace firmtouch::controller_test;
+
+namespace {
+
+std::vector<tools::Section> hulled_sections() {
+  std::vector<tools::Section> sections = part_sections();
+  mesh::View view;
+  CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+  tools::HullOptions options;
+  options.target_faces = 600;
+  options.grid_bits = 16;
+  tools::HullBakeReport report;
+  for (tools::Section& section : tools::bake_hull(view, sections, "part", options, report))
+    sections.push_back(std::move(section));
+  CHECK(report.problem.empty());
+  for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
+  return sections;
+}
+
+const Asset& hulled() {
+  static const Asset made(file_of(hulled_sections()));
+  return made;
+}
+
+// With `steps` for the mesh from the first tick on.
+void fill_short(Ride& ride, uint32_t tick, float steps) {
+  ride.fill(tick);
+  if (tick != 0) return;
+  ride.input.command = 1 + params::kMeshSteps;
+  ride.input.command_value = steps;
+}
+
+}  // namespace
+
+TEST(WhereABudgetRunsOutTheHullIsFeltAndTheRecordTells) {
+  Ride cut_off(hulled()), exact;
+  CHECK(cut_off.controller.hull().is_open() && !exact.controller.hull().is_open());
+  uint32_t of_shell = 0, contact = 0, late = 0, told_exact = 0;
+  for (uint32_t tick = 0; tick < 6000; ++tick) {
+    fill_short(cut_off, tick, 16);
+    exact.fill(tick);
+    cut_off.step();
+    exact.step();
+    const record::TickOutput &a = cut_off.output, &b = exact.output;
+    CHECK(all_finite(a));
+    CHECK_LE(size_of(a.motor_N), 8.0);
+    of_shell += (a.state & record::kStateOfShell) != 0 ? 1u : 0u;
+    told_exact += (a.state & record::kStateOfShell) != 0 && (a.state & record::kStateExact) != 0;
+    CHECK_EQ(b.state & record::kStateOfShell, 0u);
+    if (tick < 12 || (b.state & record::kStateExact) == 0) continue;
+    contact += (b.state & record::kStateContact) != 0 ? 1u : 0u;
+    late += a.penetration_m < b.penetration_m - 2e-6f ? 1u : 0u;
+  }
+  CHECK_EQ(cut_off.output.faults, 0u);
+  CHECK_LT(100u, of_shell);
+  CHECK_LT(1000u, contact);
+  CHECK_EQ(late, 0u);
+  CHECK_EQ(told_exact, 0u);
+}
+
+TEST(ARideByTheHullIsAFunctionOfItsInputs) {
+  Ride a(hulled()), b(hulled());
+  uint32_t differ = 0;
+  for (uint32_t tick = 0; tick < 2000; ++tick) {
+    fill_short(a, tick, 16);
+    b.input = a.input;
+    a.step();
+    b.step();
+    if (std::memcmp(&a.output, &b.output, sizeof a.output) != 0) ++differ;
+  }
+  CHECK_EQ(differ, 0u);
+}
+
+TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
+  for (const uint32_t type : {hull::kProbesSection, hull::kShellSection}) {
+    std::vector<tools::Section> sections = hulled_sections();
+    for (tools::Section& section : sections) {
+      if (section.type != type) continue;
+      const size_t at = type == hull::kProbesSection ? 8 : section.bytes.size() / 2;
+      section.bytes[at] = static_cast<uint8_t>(section.bytes[at] ^ 1u);
+    }
+    const Asset bent(file_of(std::move(sections)));
+    Controller controller;
+    const uint16_t rule = controller.open(bent.bytes()).rule;
+    if (type == hull::kProbesSection) {
+      CHECK_EQ(rule, firmtouch::kRuleHullProbes);
+    } else {
+      CHECK(rule >= 540 && rule <= 549);
+    }
+    record::TickInput input{};
+    input.lines = record::kLineEnable;
+    record::TickOutput output;
+    controller.tick(input, output);
+    CHECK_NE(output.faults, 0u);
+    CHECK_EQ(size_of(output.motor_N), 0.0);
+  }
+}
+
+TEST(AHullIsProvenInSlicesOfTheBudget) {
+  Controller controller;
+  controller.begin(hulled().bytes());
+  uint32_t slices = 0;  // with the curve proven, the hull not yet
+  while (!controller.work(2048))
+    slices += controller.curve().is_open() && !controller.hull().is_open() ? 1u : 0u;
+  CHECK(controller.verdict().ok() && controller.hull().is_open());
+  CHECK_GE(slices, controller.hull().id_count() / 200);
+  controller.begin(both().bytes());  // and is forgotten with its asset
+  CHECK(!controller.hull().is_open());
+  while (!controller.work(1u << 20)) {
+  }
+  CHECK(controller.is_ready() && !controller.hull().is_open());
+}

@@ -1,0 +1,134 @@
+// Contact by the shell where the mesh's query has no time: against the exact query, and against every
+// face of the shell in double.
+#include <cmath>
+#include <vector>
+
+#include "bake/bake_hull.hpp"
+#include "bake/bake_mesh.hpp"
+#include "firmtouch/hull/vertices.hpp"
+#include "firmtouch/hull/view.hpp"
+#include "firmtouch/scene/mesh_contact.hpp"
+#include "harness/test.hpp"
+#include "mesh/brute_force.hpp"
+#include "surface/make_part.hpp"
+
+namespace hull = firmtouch::hull;
+namespace math = firmtouch::math;
+namespace mesh = firmtouch::mesh;
+namespace query = firmtouch::query;
+namespace scene = firmtouch::scene;
+namespace servo = firmtouch::servo;
+namespace tools = firmtouch::tools;
+namespace mesh_test = firmtouch::mesh_test;
+
+namespace {
+
+constexpr float kRadius_m = 0.002f;
+
+struct Rig {
+  tools::Surface surface = tools::make_part(1, 3000), of_shell;
+  std::vector<tools::Section> sections;
+  mesh::View view;
+  hull::View hull_view;
+  scene::MeshObject object;
+  Rig() {
+    tools::MeshReport report;
+    sections = tools::bake_mesh(surface, "part", {}, report);
+    CHECK(report.problem.empty());
+    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    tools::HullOptions options;
+    options.target_faces = 400;
+    options.grid_bits = 16;
+    tools::HullBakeReport of_hull;
+    for (tools::Section& s : tools::bake_hull(view, sections, "part", options, of_hull))
+      sections.push_back(std::move(s));
+    CHECK(of_hull.problem.empty());
+    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    CHECK(hull::open(tools::hull_sections(sections, "part"), hull_view).ok());
+    const hull::Shell& shell = hull_view.shell();
+    for (uint32_t i = 0; i < shell.face_count(); ++i) {
+      for (uint32_t k = 0; k < 3; ++k)
+        of_shell.vertices.push_back(hull::vertex(shell, shell.vertex_of(i, k)));
+      of_shell.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    object.mesh = &view;
+    object.shell = &shell;
+    object.material = {1000.0f, 0.0f};
+  }
+};
+
+const Rig& rig() {
+  static const Rig made;
+  return made;
+}
+
+// Along the surface, into it and off it again.
+std::vector<math::Vec3> way(int count) {
+  std::vector<math::Vec3> points;
+  const mesh::View& view = rig().view;
+  for (int i = 0; i < count; ++i) {
+    const uint32_t at = static_cast<uint32_t>(i / 40) * 211u % view.vertices().size();
+    const math::Vec3 v = view.vertex(at);
+    const float lift = 0.006f * std::sin(0.11f * static_cast<float>(i));
+    points.push_back({v.x + 0.2f * lift, v.y - 0.1f * lift, v.z + lift});
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST(WhereTheMeshsQueryIsCutOffTheShellIsFeltEarlyAndNeverLate) {
+  uint32_t of_shell = 0, touched = 0, early = 0, most_steps = 0;
+  for (const uint32_t steps : {1u, 2u, 4u, 8u, 16u, 64u}) {
+    scene::MeshTouch touch;
+    int i = 0;
+    for (const math::Vec3 p_m : way(1200)) {
+      firmtouch::test::note("point", ++i);
+      query::Hint none;
+      const mesh::Closest truth = mesh::closest_point(rig().view, p_m, query::kUnlimited, none);
+      servo::LocalModel model;
+      scene::begin_model(model, p_m, 0, 3);
+      scene::touch_mesh(rig().object, kRadius_m, p_m, {steps}, touch, model);
+      const float depth_m = kRadius_m - truth.distance_m;
+      if (depth_m > 1e-6f) CHECK_LE(depth_m - 2e-6f, touch.penetration_m);
+      touched += depth_m > 0 ? 1u : 0u;
+      if (touch.shell_steps > most_steps) most_steps = touch.shell_steps;
+      if (!touch.is_of_shell) {
+        CHECK_LE(touch.penetration_m, (depth_m > 0 ? depth_m : 0.0f) + 2e-6f);
+        continue;
+      }
+      ++of_shell;
+      early += touch.penetration_m > 0 && depth_m <= 0 ? 1u : 0u;
+      const mesh_test::Truth to_shell =
+          mesh_test::brute_force(rig().of_shell, mesh_test::wide(p_m));
+      const double off_m = to_shell.inside ? -to_shell.distance : to_shell.distance;
+      CHECK_LE(double{touch.penetration_m}, std::max(0.0, double{kRadius_m} - off_m) + 2e-6);
+      if (model.plane_count == 0) continue;
+      const math::Vec3 n = model.plane[0].normal;
+      CHECK_LE(std::fabs(n.x * n.x + n.y * n.y + n.z * n.z - 1.0f), 1e-4f);
+    }
+  }
+  CHECK_LT(2000u, of_shell);
+  CHECK_LT(1000u, touched);
+  CHECK_LT(10u, early);
+  CHECK_LT(most_steps, 512u);
+}
+
+TEST(WithTimeForTheMeshAShellChangesNothing) {
+  scene::MeshObject alone = rig().object;
+  alone.shell = nullptr;
+  scene::MeshTouch with_it, without;
+  int i = 0;
+  for (const math::Vec3 p_m : way(800)) {
+    if (i++ % 40 == 0) with_it = without = {};  // a hand does not jump
+    servo::LocalModel a, b;
+    scene::begin_model(a, p_m, 0, 3);
+    scene::begin_model(b, p_m, 0, 3);
+    scene::touch_mesh(rig().object, kRadius_m, p_m, query::kUnlimited, with_it, a);
+    scene::touch_mesh(alone, kRadius_m, p_m, query::kUnlimited, without, b);
+    CHECK(!with_it.is_of_shell);
+    CHECK_EQ(with_it.penetration_m, without.penetration_m);
+    CHECK_EQ(a.free_radius_m, b.free_radius_m);
+    CHECK_EQ(a.plane_count, b.plane_count);
+  }
+}
