@@ -77,12 +77,13 @@ struct FilledTree {
   }
 };
 
-/// Visits the leaves whose boxes the segment enters, nearest box first, until `visitor` has enough.
+/// Visits the leaves whose boxes the region (Slabs of a segment, or a TriangleRegion) enters, nearest
+/// box first, until `visitor` has enough.
 /// Visitor::limit is the largest t that is still of interest; Visitor::leaf(i) answers whether it
 /// wants more.
 /// Result: whether the search came to its end within `allowed` steps in all.
-template <class Visitor>
-bool descend(core::Span<const NodeBox> boxes, const Box& whole, const Slabs& slabs,
+template <class Region, class Visitor>
+bool descend(core::Span<const NodeBox> boxes, const Box& whole, const Region& region,
              uint32_t allowed, uint32_t& steps, Visitor& visitor) {
   struct Pending {
     Box box;
@@ -93,7 +94,7 @@ bool descend(core::Span<const NodeBox> boxes, const Box& whole, const Slabs& sla
   Pending pending[kMostTreeDepth + 1];
   uint32_t count = 0;
   Pending now{child_box(whole, boxes[0]), 0.0f, 0};
-  now.entry = slabs.enter(now.box, visitor.limit);
+  now.entry = region.enter(now.box, visitor.limit);
   while (true) {
     if (!(now.entry <= visitor.limit)) {
       if (count == 0) return true;
@@ -110,8 +111,8 @@ bool descend(core::Span<const NodeBox> boxes, const Box& whole, const Slabs& sla
     const uint32_t left = 2 * now.node + 1;
     Pending one{child_box(now.box, boxes[left]), 0.0f, left};
     Pending other{child_box(now.box, boxes[left + 1]), 0.0f, left + 1};
-    one.entry = slabs.enter(one.box, visitor.limit);
-    other.entry = slabs.enter(other.box, visitor.limit);
+    one.entry = region.enter(one.box, visitor.limit);
+    other.entry = region.enter(other.box, visitor.limit);
     const bool swap = other.entry < one.entry;
     const Pending& farther = swap ? one : other;
     if (farther.entry <= visitor.limit) pending[count++] = farther;

@@ -3,6 +3,7 @@
 #include "firmtouch/hull/box_descent.hpp"
 #include "firmtouch/hull/nearest_candidates.hpp"
 #include "firmtouch/hull/shell_segment.hpp"
+#include "firmtouch/hull/triangle_region.hpp"
 #include "firmtouch/mesh/crossing_takers.hpp"
 
 namespace firmtouch::hull {
@@ -26,28 +27,104 @@ uint32_t triangle_of(const Shell& shell, uint32_t face) {
 
 }  // namespace
 
-/// One segment and the faces that it crosses, handed on as candidates.
+namespace {
+
+// What a refinement is asked with. enter(): when a box is met, beyond `limit` where not; crossing() of
+// a face; shell_faces(): faces of a shell that may be crossed, one by one.
+class SegmentAsked {
+ public:
+  SegmentAsked(const Head& head, Vec3 a_m, Vec3 b_m)
+      : a_m_(a_m), b_m_(b_m), slabs_(a_m, b_m), frame_(head.low_m, head.high_m, a_m, b_m) {}
+
+  float enter(const Box& box, float limit) const { return slabs_.enter(box, limit); }
+  mesh::Crossing crossing(Vec3 p_m, Vec3 q_m, Vec3 r_m) const {
+    return frame_.crossing(p_m, q_m, r_m);
+  }
+  template <class Face>
+  bool shell_faces(const Shell& shell, float limit, uint32_t allowed, uint32_t& steps,
+                   Face face) const {
+    const ShellSegment segment(shell, a_m_, b_m_);
+    Faces<Face> faces{segment.until(limit), shell, segment, face};
+    return walk(shell, segment, allowed, steps, faces);
+  }
+
+ private:
+  template <class Face>
+  struct Faces {
+    int32_t limit;
+    const Shell& shell;
+    const ShellSegment& segment;
+    Face& face;
+    bool leaf(uint32_t i) {
+      const Shell::Leaf leaf = shell.leaf(i);
+      ShellSegment::Corners corners;
+      if (segment.place(shell, leaf, corners) != 0) return true;
+      for (uint32_t n = 0; n < leaf.faces.size(); ++n)
+        if (!segment.passes(corners, leaf.faces[n])) face(leaf.first_face + n);
+      return true;
+    }
+  };
+  Vec3 a_m_, b_m_;
+  Slabs slabs_;
+  mesh::SegmentFrame frame_;
+};
+
+// All that a triangle crosses is told at t = 0.
+class TriangleAsked {
+ public:
+  TriangleAsked(const Head& head, const Vec3 (&corner_m)[3])
+      : region_(head.low_m, head.high_m, corner_m) {}
+
+  float enter(const Box& box, float limit) const { return region_.enter(box, limit); }
+  mesh::Crossing crossing(Vec3 p_m, Vec3 q_m, Vec3 r_m) const {
+    return {region_.crosses(p_m, q_m, r_m) ? int8_t{1} : int8_t{0}, 0.0f};
+  }
+  template <class Face>
+  bool shell_faces(const Shell& shell, float, uint32_t allowed, uint32_t& steps, Face face) const {
+    const ShellHead& head = shell.head();
+    const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
+                    {head.high_m[0], head.high_m[1], head.high_m[2]}};
+    const FilledTree tree(shell.boxes().size());
+    uint32_t pending[kMostTreeDepth + 2] = {}, count = 1;
+    while (count > 0) {
+      const uint32_t node = pending[--count];
+      if (region_.enter(child_box(whole, shell.boxes()[node]), 1.0f) > 1.0f) continue;
+      if (steps >= allowed) return false;
+      ++steps;
+      if (!tree.is_leaf(node)) {
+        pending[count++] = 2 * node + 2;
+        pending[count++] = 2 * node + 1;
+        continue;
+      }
+      const Shell::Leaf leaf = shell.leaf(tree.leaf(node));
+      for (uint32_t n = 0; n < leaf.faces.size(); ++n) face(leaf.first_face + n);
+    }
+    return true;
+  }
+
+ private:
+  TriangleRegion region_;
+};
+
+}  // namespace
+
+/// What is asked and the faces that it crosses, handed on as candidates.
+template <class Asked>
 class Refinement::Search {
  public:
   float limit = 1;
   uint32_t steps = 0, tests = 0;
 
-  Search(Refinement& of, Vec3 a_m, Vec3 b_m, query::Budget budget)
-      : of_(of),
-        a_m_(a_m),
-        b_m_(b_m),
-        slabs_(a_m, b_m),
-        frame_(of.hull_.head().low_m, of.hull_.head().high_m, a_m, b_m),
-        allowed_(budget.steps == 0 ? 1 : budget.steps) {}
+  Search(Refinement& of, const Asked& asked, query::Budget budget)
+      : of_(of), asked_(asked), allowed_(budget.steps == 0 ? 1 : budget.steps) {}
 
   bool has_steps() const { return steps < allowed_; }
 
   /// Of the shell's faces. Result: false where the budget ran out.
   template <class Use>
   bool shell(Use use) {
-    const ShellSegment segment(of_.shell_, a_m_, b_m_);
-    ShellFaces<Use> faces{segment.until(limit), *this, segment, use};
-    return walk(of_.shell_, segment, allowed_, steps, faces);
+    return asked_.shell_faces(of_.shell_, limit, allowed_, steps,
+                              [&](uint32_t face) { shell_face(face, use); });
   }
 
   /// Of the star of an undone collapse, those that are there.
@@ -57,7 +134,7 @@ class Refinement::Search {
     ++steps;
     const Vec3 about_m = made_vertex(hull, collapse);
     const Box box = star_box_m(about_m, hull.head().cell_m, hull.star_box(collapse));
-    if (!(slabs_.enter(box, limit) <= limit)) return;
+    if (!(asked_.enter(box, limit) <= limit)) return;
     const uint8_t* record = hull.record(collapse);
     const Star star(hull, collapse, record);
     Vec3 at_m[2 + kMostLink];
@@ -79,22 +156,6 @@ class Refinement::Search {
   }
 
  private:
-  template <class Use>
-  struct ShellFaces {
-    int32_t limit;
-    Search& search;
-    const ShellSegment& segment;
-    Use& use;
-    bool leaf(uint32_t i) {
-      const Shell::Leaf leaf = search.of_.shell_.leaf(i);
-      ShellSegment::Corners corners;
-      if (segment.place(search.of_.shell_, leaf, corners) != 0) return true;
-      for (uint32_t n = 0; n < leaf.faces.size(); ++n)
-        if (!segment.passes(corners, leaf.faces[n])) search.shell_face(leaf.first_face + n, use);
-      return true;
-    }
-  };
-
   template <class Use>
   void shell_face(uint32_t i, Use& use) {
     const Shell& shell = of_.shell_;
@@ -128,15 +189,13 @@ class Refinement::Search {
   template <class Use>
   void test(Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t what, Use& use) {
     ++tests;
-    const mesh::Crossing crossing = frame_.crossing(p_m, q_m, r_m);
+    const mesh::Crossing crossing = asked_.crossing(p_m, q_m, r_m);
     if (crossing.direction == 0) return;
     use(Candidate{crossing.t, what | (crossing.direction < 0 ? kEnters : 0u)});
   }
 
   Refinement& of_;
-  Vec3 a_m_, b_m_;
-  Slabs slabs_;
-  mesh::SegmentFrame frame_;
+  const Asked& asked_;
   uint32_t allowed_;
 };
 
@@ -176,19 +235,38 @@ void Refinement::reset() {
 }
 
 RefinedHit Refinement::first(Vec3 a_m, Vec3 b_m, query::Budget budget) {
-  return nearest(a_m, b_m, budget, false);
+  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
+  return nearest(SegmentAsked(hull_.head(), a_m, b_m), budget, false);
 }
 RefinedHit Refinement::any(Vec3 a_m, Vec3 b_m, query::Budget budget) {
-  return nearest(a_m, b_m, budget, true);
+  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
+  return nearest(SegmentAsked(hull_.head(), a_m, b_m), budget, true);
+}
+RefinedCrossings Refinement::all(Vec3 a_m, Vec3 b_m, query::Budget budget,
+                                 core::Span<mesh::SurfaceCrossing> room) {
+  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
+  return every(SegmentAsked(hull_.head(), a_m, b_m), budget, room);
+}
+
+RefinedHit Refinement::any(const Vec3 (&corner_m)[3], query::Budget budget) {
+  for (const Vec3& corner : corner_m)
+    if (!math::is_finite(corner)) return {};
+  return nearest(TriangleAsked(hull_.head(), corner_m), budget, true);
+}
+RefinedCrossings Refinement::all(const Vec3 (&corner_m)[3], query::Budget budget,
+                                 core::Span<mesh::SurfaceCrossing> room) {
+  for (const Vec3& corner : corner_m)
+    if (!math::is_finite(corner)) return {};
+  return every(TriangleAsked(hull_.head(), corner_m), budget, room);
 }
 
 // The nearest crossing of the hull as it is can never lie behind the mesh's: where it is one of the
 // mesh, that is the answer; else its face is replaced.
-RefinedHit Refinement::nearest(Vec3 a_m, Vec3 b_m, query::Budget budget, bool is_any) {
+template <class Asked>
+RefinedHit Refinement::nearest(const Asked& asked, query::Budget budget, bool is_any) {
   RefinedHit hit;
-  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return hit;
   reset();
-  Search search(*this, a_m, b_m, budget);
+  Search<Asked> search(*this, asked, budget);
   Nearest queue(memory_.candidates);
   const auto keep = [&](const Candidate& candidate) {
     if (candidate.t <= search.limit) queue.push(candidate);
@@ -235,12 +313,12 @@ RefinedHit Refinement::nearest(Vec3 a_m, Vec3 b_m, query::Budget budget, bool is
   return hit;
 }
 
-RefinedCrossings Refinement::all(Vec3 a_m, Vec3 b_m, query::Budget budget,
-                                 core::Span<mesh::SurfaceCrossing> room) {
+template <class Asked>
+RefinedCrossings Refinement::every(const Asked& asked, query::Budget budget,
+                                   core::Span<mesh::SurfaceCrossing> room) {
   RefinedCrossings result;
-  if (!(math::is_finite(a_m) && math::is_finite(b_m))) return result;
   reset();
-  Search search(*this, a_m, b_m, budget);
+  Search<Asked> search(*this, asked, budget);
   mesh::All all(room);
   bool fits = true;
   // What an earlier one has replaced meanwhile is left out.

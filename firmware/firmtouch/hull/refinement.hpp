@@ -78,6 +78,14 @@ class Refinement {
   RefinedCrossings all(math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
                        core::Span<mesh::SurfaceCrossing> room);
 
+  /// The same with a triangle: crossings of triangles are told at t = 0, which way is not told. One
+  /// that has a corner outside the shell and crosses none of its faces meets nothing of the mesh; of
+  /// those that cross the mesh inside the hull alone some may be missed (hull/triangle_cast.hpp misses
+  /// none).
+  RefinedHit any(const math::Vec3 (&corner_m)[3], query::Budget budget);
+  RefinedCrossings all(const math::Vec3 (&corner_m)[3], query::Budget budget,
+                       core::Span<mesh::SurfaceCrossing> room);
+
   /// Undoes one collapse and what it needs, and keeps it until reset() or the next query: a hull
   /// finer where wanted.
   /// Result: false where the memory does not hold it; then nothing has changed.
@@ -93,12 +101,17 @@ class Refinement {
   uint32_t most_splits() const { return most_; }
 
  private:
+  template <class Asked>
   class Search;
   bool is_undone(uint32_t collapse) const {
     return (memory_.is_undone[collapse / 32] >> (collapse % 32) & 1u) != 0;
   }
   bool add(uint32_t collapse);
-  RefinedHit nearest(math::Vec3 a_m, math::Vec3 b_m, query::Budget budget, bool is_any);
+  template <class Asked>
+  RefinedHit nearest(const Asked& asked, query::Budget budget, bool is_any);
+  template <class Asked>
+  RefinedCrossings every(const Asked& asked, query::Budget budget,
+                         core::Span<mesh::SurfaceCrossing> room);
 
   const View& hull_;
   const Shell& shell_;

@@ -1,0 +1,49 @@
+#pragma once
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/hull/view.hpp"
+#include "firmtouch/query/certificate.hpp"
+
+namespace firmtouch::hull {
+
+// Triangles of the mesh that a triangle crosses, by the hull's own sections and the mesh's vertices
+// and triangles, as hull/complete_cast.hpp: nothing is missed, wherever it lies. Decided without any
+// rounding, also where triangles touch or lie in one plane: as if the one that asks had been moved by
+// (e, e^2, e^3) for an infinitely small e > 0. A triangle that lies all inside the mesh crosses nothing.
+
+struct TriangleHit {
+  bool hit = false;
+  uint32_t triangle = 0;  // in leaf order
+  uint32_t steps = 0;
+  bool exact = false;  // false: not finite, or the budget ran out before it was certain
+};
+
+struct TriangleHits {
+  uint32_t found = 0;  // all of them, also those for which there was no room
+  uint32_t told = 0;   // in the caller's span: the smaller of `found` and its size
+  uint32_t steps = 0;
+  bool exact = false;
+};
+
+/// One of them, the first that turns up: for whether something is in the way.
+/// Bounds: <= budget steps (boxes of the tree read); 5 KB of stack; re-entrant; callable from an
+///         interrupt.
+TriangleHit any_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget);
+
+/// The one that is first in leaf order.
+/// Bounds: as above.
+TriangleHit first_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget);
+
+/// All of them, in leaf order; where there are more than `room` holds, the first ones.
+/// Bounds: as above, and found * told moves in `room`.
+TriangleHits all_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget,
+                         core::Span<uint32_t> room);
+
+/// Whether a triangle may meet anything of the mesh, by a shell alone: it crosses a face of the shell,
+/// or begins inside. Reads the shell's own block and nothing else.
+/// Bounds: <= budget steps; 5 KB of stack; re-entrant; callable from an interrupt.
+/// Result: no hit and exact: it meets nothing of the mesh, and lies outside of it. `triangle` is a face
+///         of the shell. A budget that runs out tells a hit that is not exact.
+TriangleHit shell_crossed(const Shell& shell, const math::Vec3 (&corner_m)[3],
+                          query::Budget budget);
+
+}  // namespace firmtouch::hull
