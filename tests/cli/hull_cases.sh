@@ -84,6 +84,33 @@ AHullIsBakedShownAndAsked() {
   printf '%s\n' "$out" | grep -qxE 'us_per_query [0-9]+\.[0-9]{4} queries 3' || fail "$out"
 }
 
+AHullIsAskedWithRaysAndTriangles() {
+  f make part -o part.obj --triangles 2000; exits 0
+  f bake part.obj -o s.fta --hull-faces 200 --hull-grid 16; exits 0
+  printf 'ax,ay,az,bx,by,bz\n-1,0.01,0.002,1,0.012,0.003\n0,0,-1,0.03,0.01,1\n' >g.csv
+  printf 'ax,ay,az,dx,dy,dz\n-1,0.01,0.002,2,0.002,0.001\n0,0,-1,0.03,0.01,2\n' >r.csv
+  f query s.fta part hull --all <g.csv; exits 0; segments=$(printf '%s\n' "$out" | cut -d, -f1,3)
+  f query s.fta part hull --all --primitive ray <r.csv; exits 0; same "$(printf '%s\n' "$out" | cut -d, -f1,3)" "$segments"
+  f query s.fta part hull <g.csv; exits 0; first=$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f2)
+  f query s.fta part hull --primitive ray <r.csv; exits 0
+  printf '%s\n' "$out" | sed -n 2p | awk -F, -v t="$first" '{ exit !($1 == 1 && $2 - t < 1e-5 && t - $2 < 1e-5) }' || fail "$out"
+  printf 'ax,ay,az,dx,dy,dz\n0,0,0,0,0,0\n' >none.csv
+  f query s.fta part hull --primitive ray <none.csv; exits 3; told 'row 1' 'direction'
+  printf 'ax,ay,az,bx,by,bz,cx,cy,cz\n-1,0.01,0.002,1,0.012,0.003,0,0,1\n0,0,3,1,0,3,0,1,3\n' >t.csv
+  f query s.fta part hull --primitive triangle --all <t.csv; exits 0; whole=$out
+  [ "$(printf '%s\n' "$whole" | wc -l)" -gt 5 ] || fail "too few to tell: $whole"
+  same "$(printf '%s\n' "$whole" | sed -n 1p)" asked,triangle
+  printf '%s\n' "$whole" | grep -q '^1,' && fail 'a triangle far off crosses something'
+  f query s.fta part hull --primitive triangle <t.csv; exits 0
+  same "$(printf '%s\n' "$out" | cut -d, -f1)" "$(printf 'hit\n1\n0')"
+  f query s.fta part hull --primitive triangle --mode refine --all <t.csv; exits 0
+  printf '%s\n' "$out" | sort >refined; printf '%s\n' "$whole" | sort >whole
+  [ -z "$(comm -23 refined whole)" ] || fail 'refinement makes some up'
+  f query s.fta part hull --primitive triangle --time <t.csv; exits 0
+  f query s.fta part hull --primitive sphere <t.csv; exits 2; told '--primitive'
+  f query s.fta part segment --primitive ray <r.csv; exits 2; told '--primitive'
+}
+
 WhatAHullCannotDoIsRefused() {
   box >box.obj
   f bake box.obj -o a.fta --hull-grid 16; exits 2; told '--hull-faces N'

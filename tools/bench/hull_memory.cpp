@@ -134,12 +134,15 @@ void run_keeping(const Model& model, Report& report) {
                {from.b_m.x + shift, from.b_m.y, from.b_m.z}};
   }
   std::vector<std::vector<std::string>> rows;
-  for (const uint32_t keep : {1u, 2u, 5u, 20u}) {
-    std::vector<std::string> row{std::to_string(keep)};
+  constexpr uint32_t kCoarsened = 0;
+  for (const uint32_t keep : {1u, 2u, 5u, 20u, kCoarsened}) {
+    std::vector<std::string> row{keep == kCoarsened ? "coarsened where not crossed"
+                                                    : std::to_string(keep)};
     for (const auto* all :
          std::initializer_list<const std::vector<FloatSegment>*>{&segments, &scan}) {
       tools::Refinement refinement(built, 1000);
       refinement.keep_for(keep);
+      refinement.coarsen_between(keep == kCoarsened);
       tools::RefinementCounts counts;
       const auto pass = [&] {
         double sum = 0;

@@ -21,6 +21,8 @@ CurveOptions curve_options_of(const Arguments& arguments);
 
 /// --mode and --base of a hull: fails (usage) on what has no meaning.
 void check_hull_options(const Arguments& arguments);
+/// Of a hull's query: segment, ray or triangle; fails (usage) on another.
+std::string primitive_of(const Arguments& arguments);
 
 // One a kind of query: answers every row of `table` on standard output, or times them.
 void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);

@@ -10,6 +10,14 @@ namespace {
 
 const std::vector<std::string> kPoint = {"x", "y", "z"};
 const std::vector<std::string> kSegment = {"ax", "ay", "az", "bx", "by", "bz"};
+const std::vector<std::string> kRay = {"ax", "ay", "az", "dx", "dy", "dz"};
+const std::vector<std::string> kTriangle = {"ax", "ay", "az", "bx", "by", "bz", "cx", "cy", "cz"};
+
+// Of a hull.
+const std::vector<std::string>& columns_of(const Arguments& arguments) {
+  const std::string primitive = primitive_of(arguments);
+  return primitive == "ray" ? kRay : primitive == "triangle" ? kTriangle : kSegment;
+}
 
 void forbid(const Arguments& arguments, const std::string& kind,
             const std::vector<std::string>& options) {
@@ -50,11 +58,15 @@ const Command& query_command() {
       "Answers each row of a CSV as the controller would, bit for bit.",
       "in:  distance, curve, spline, footpoints: header x,y,z\n"
       "     segment, hull: header ax,ay,az,bx,by,bz     (metres)\n"
+      "     hull --primitive ray: ax,ay,az,dx,dy,dz; triangle: ax,ay,az,bx,by,bz,cx,cy,cz\n"
       "out: distance: distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact\n"
       "               (negative inside; sign 0: unknown; lower: no point of the surface is "
       "nearer)\n"
       "     segment, hull: hit,t,triangle,steps    (the first crossing from a to b; -1: no "
       "triangle)\n"
+      "     hull --primitive ray: t in lengths of its direction; triangle: hit,triangle,steps (the "
+      "lowest\n"
+      "               that it crosses); --all: asked,triangle\n"
       "     curve:    distance,cx,cy,cz,segment,arc,lower,steps,exact\n"
       "     spline:   distance,cx,cy,cz,piece,u,v,lower,steps,exact   (piece: of the file, from 0; "
       "u, "
@@ -79,6 +91,7 @@ const Command& query_command() {
        {"--band", "M", "distance: beyond M metres only a lower bound, in fewer steps (not exact)"},
        {"--all", nullptr,
         "segment, hull: every crossing, a row each (segment,t,triangle), in order of t"},
+       {"--primitive", "KIND", "hull: segment (default), ray or triangle"},
        {"--base", "N",
         "hull, refine: faces that a segment meets at first (default: the coarsest)"}},
       3,
@@ -95,7 +108,7 @@ int run_query(const Arguments& arguments) {
   if (kind != "segment" && kind != "hull") forbid(arguments, kind, {"--all"});
   if (kind != "curve" && kind != "hull") forbid(arguments, kind, {"--mode"});
   if (kind != "curve") forbid(arguments, kind, {"--n", "--arc-penalty"});
-  if (kind != "hull") forbid(arguments, kind, {"--base"});
+  if (kind != "hull") forbid(arguments, kind, {"--base", "--primitive"});
   if (kind == "curve" && arguments.text("--mode", "exact") == "exact") {
     forbid(arguments, "--mode exact", {"--n"});
   }
@@ -108,7 +121,7 @@ int run_query(const Arguments& arguments) {
   }
   if (kind == "hull") {
     const LoadedHull hull = asset.hull(name);
-    query_hull(hull, asked_rows(kSegment, arguments), arguments);
+    query_hull(hull, asked_rows(columns_of(arguments), arguments), arguments);
     return kDone;
   }
   if (kind == "footpoints") {

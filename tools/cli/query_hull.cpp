@@ -7,10 +7,16 @@
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
+#include "firmtouch/hull/ray.hpp"
 #include "firmtouch/hull/refinement.hpp"
+#include "firmtouch/hull/triangle_cast.hpp"
 
 namespace firmtouch::cli {
 namespace {
+
+struct Corners {
+  math::Vec3 at_m[3];
+};
 
 // How a segment is answered.
 class Asked {
@@ -68,6 +74,11 @@ class Refined : public Asked {
             hit.enters, hit.steps, hit.exact};
   }
 
+  hull::RefinedCrossings crossed(const math::Vec3 (&corner_m)[3],
+                                 core::Span<mesh::SurfaceCrossing> room) {
+    return refinement_.all(corner_m, budget_, room);
+  }
+
  protected:
   uint32_t ask(math::Vec3 a_m, math::Vec3 b_m) override {
     return refinement_.all(a_m, b_m, budget_, room()).found;
@@ -86,14 +97,19 @@ class Refined : public Asked {
 
 void answer(Asked& asked, const LoadedHull& hull, const CsvTable& table,
             const Arguments& arguments) {
-  const auto from = [&](size_t i) {
+  const bool is_ray = primitive_of(arguments) == "ray";
+  const hull::Head& head = hull.view.head();
+  std::vector<hull::RaySegment> lines;  // a ray's reach, or 1
+  for (size_t i = 0; i < table.rows(); ++i) {
     const float* row = table.row(i);
-    return math::Vec3{row[0], row[1], row[2]};
-  };
-  const auto to = [&](size_t i) {
-    const float* row = table.row(i);
-    return math::Vec3{row[3], row[4], row[5]};
-  };
+    const math::Vec3 a_m{row[0], row[1], row[2]}, b{row[3], row[4], row[5]};
+    lines.push_back({a_m, b, 1});
+    if (is_ray && !hull::segment_of_ray(head.low_m, head.high_m, a_m, b, lines.back()))
+      fail_input("standard input, row " + std::to_string(i + 1) +
+                 ": a ray without a direction, or too far off; give dx,dy,dz that are not all 0");
+  }
+  const auto from = [&](size_t i) { return lines[i].from_m; };
+  const auto to = [&](size_t i) { return lines[i].to_m; };
   const bool all = arguments.has("--all");
   if (arguments.has("--time")) {
     print_time(table.rows(), [&] {
@@ -111,14 +127,48 @@ void answer(Asked& asked, const LoadedHull& hull, const CsvTable& table,
   for (size_t i = 0; i < table.rows(); ++i) {
     if (all) {
       for (const mesh::SurfaceCrossing& c : asked.all(from(i), to(i)))
-        std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t), hull.source_of(c.triangle));
+        std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t * lines[i].reach),
+                    hull.source_of(c.triangle));
       continue;
     }
     const mesh::Hit hit = asked.first(from(i), to(i));
     const bool is_of_mesh = hit.hit && hit.triangle != UINT32_MAX;
     const int64_t triangle = is_of_mesh ? int64_t{hull.source_of(hit.triangle)} : -1;
-    std::printf("%d,%.9g,%lld,%u\n", hit.hit ? 1 : 0, static_cast<double>(hit.t),
+    std::printf("%d,%.9g,%lld,%u\n", hit.hit ? 1 : 0, static_cast<double>(hit.t * lines[i].reach),
                 static_cast<long long>(triangle), hit.steps);
+  }
+}
+
+// The lowest triangle that each row's crosses, or all of them.
+template <class Ask>
+void answer_triangles(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments,
+                      Ask ask) {
+  const auto corners = [&](size_t i) {
+    const float* row = table.row(i);
+    return Corners{{{row[0], row[1], row[2]}, {row[3], row[4], row[5]}, {row[6], row[7], row[8]}}};
+  };
+  std::vector<uint32_t> met;
+  if (arguments.has("--time")) {
+    print_time(table.rows(), [&] {
+      float sum = 0;
+      for (size_t i = 0; i < table.rows(); ++i) {
+        (void)ask(corners(i), met);
+        sum += static_cast<float>(met.size());
+      }
+      return sum;
+    });
+    return;
+  }
+  const bool all = arguments.has("--all");
+  std::puts(all ? "asked,triangle" : "hit,triangle,steps");
+  for (size_t i = 0; i < table.rows(); ++i) {
+    const uint32_t steps = ask(corners(i), met);
+    if (all) {
+      for (const uint32_t triangle : met) std::printf("%zu,%u\n", i, hull.source_of(triangle));
+      continue;
+    }
+    const int64_t first = met.empty() ? -1 : int64_t{hull.source_of(met[0])};
+    std::printf("%d,%lld,%u\n", met.empty() ? 0 : 1, static_cast<long long>(first), steps);
   }
 }
 
@@ -128,15 +178,32 @@ bool is_refined(const Arguments& arguments) {
 
 }  // namespace
 
+std::string primitive_of(const Arguments& arguments) {
+  return arguments.choice("--primitive", "segment", {"segment", "ray", "triangle"});
+}
+
 void check_hull_options(const Arguments& arguments) {
+  (void)primitive_of(arguments);
   (void)arguments.count("--base", 4, 4, UINT32_MAX);
   if (!is_refined(arguments) && arguments.has("--base"))
     fail_usage("query: --base has no meaning for --mode complete; leave it out");
 }
 
 void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments) {
+  const bool is_triangle = primitive_of(arguments) == "triangle";
+  const query::Budget budget = budget_of(arguments);
+  const uint32_t triangles = hull.view.head().mesh_triangle_count;
+  if (is_triangle && !is_refined(arguments)) {
+    return answer_triangles(hull, table, arguments, [&](const Corners& c, auto& met) {
+      met.resize(triangles);
+      const hull::TriangleHits told =
+          hull::all_crossed(hull.view, c.at_m, budget, {met.data(), triangles});
+      met.resize(told.told);
+      return told.steps;
+    });
+  }
   if (!is_refined(arguments)) {
-    Complete complete(hull.view, budget_of(arguments));
+    Complete complete(hull.view, budget);
     return answer(complete, hull, table, arguments);
   }
   const hull::Shell& coarsest = hull.view.shell();
@@ -158,7 +225,16 @@ void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& 
   if (!verdict.ok())
     fail_input("the hull of " + std::to_string(base) + " faces breaks rule R" +
                std::to_string(verdict.rule));
-  Refined refined(hull.view, shell, budget_of(arguments));
+  Refined refined(hull.view, shell, budget);
+  if (is_triangle) {
+    std::vector<mesh::SurfaceCrossing> room(triangles);
+    return answer_triangles(hull, table, arguments, [&](const Corners& c, auto& met) {
+      const hull::RefinedCrossings told = refined.crossed(c.at_m, {room.data(), triangles});
+      met.clear();
+      for (uint32_t i = 0; i < told.told; ++i) met.push_back(room[i].triangle);
+      return told.steps;
+    });
+  }
   answer(refined, hull, table, arguments);
 }
 

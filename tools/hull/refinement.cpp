@@ -89,6 +89,27 @@ void Refinement::undo_all() {
   kept_ = 0;
 }
 
+// What a collapse needs has a higher number, so each is looked at after all that may need it.
+void Refinement::coarsen() {
+  std::sort(undone_.begin(), undone_.end());
+  std::vector<bool> is_needed(cut_, false);
+  std::vector<uint32_t> left;
+  for (const uint32_t k : undone_) {
+    if (!is_needed[k] && !is_crossed_[k]) {
+      is_undone_[k] = false;
+      continue;
+    }
+    left.push_back(k);
+    const Collapse& c = hull_.collapses[k];
+    const auto need = [&](uint32_t vertex) {
+      if (hull_.removed_by[vertex] < cut_) is_needed[hull_.removed_by[vertex]] = true;
+    };
+    need(hull_.mesh_vertices + k);
+    for (uint32_t i = 0; i < c.link_count; ++i) need(hull_.links[c.first_link + i]);
+  }
+  undone_ = left;
+}
+
 uint32_t Refinement::mesh_face(const Face& face) const {
   const std::pair<Face, uint32_t> wanted{lowest_first(face), 0};
   return std::lower_bound(by_corners_.begin(), by_corners_.end(), wanted)->second;
@@ -119,28 +140,34 @@ std::vector<SegmentHit> Refinement::hits(const Segment& segment, RefinementCount
   std::vector<SegmentHit> found;
   if (!touches_box(segment)) return found;
   const size_t before = undone_.size();
+  is_crossed_.assign(coarsens_ ? cut_ : 0, false);
   const auto test = [&](const Face& face) {
     ++counts.tests;
     double t = 0;
-    if (!crosses(face, segment, t)) return;
+    if (!crosses(face, segment, t)) return false;
     if (is_of_mesh(face)) {
       found.push_back({t, mesh_face(face)});
     } else {
       ask_for_corners(face);
     }
+    return true;
   };
   for (const Face& face : base_.faces) {
-    if (is_made(face)) test(face);
+    if (is_made(face)) (void)test(face);
   }
   for (size_t head = 0; head < undone_.size(); ++head) {
     const Collapse& collapse = hull_.collapses[undone_[head]];
     for (uint32_t i = 0; i < collapse.link_count + 2; ++i) {
       const Face face = star_face(collapse, i);
-      if (is_made(face)) test(face);
+      if (is_made(face) && test(face) && coarsens_) is_crossed_[undone_[head]] = true;
     }
   }
   counts.splits += undone_.size() - before;
-  if (++kept_ >= keep_) undo_all();
+  if (coarsens_) {
+    coarsen();
+  } else if (++kept_ >= keep_) {
+    undo_all();
+  }
   std::sort(found.begin(), found.end(), [](const SegmentHit& a, const SegmentHit& b) {
     return a.t < b.t || (!(b.t < a.t) && a.face < b.face);
   });

@@ -43,6 +43,9 @@ class Refinement {
   std::vector<SegmentHit> hits(const Segment& segment, RefinementCounts& counts);
   /// What is undone stays so for this many queries, 1 unless told otherwise.
   void keep_for(uint32_t queries) { keep_ = queries; }
+  /// Selective coarsening (section 3.2.2): what is undone stays so, but for what the last query did not
+  /// cross and nothing undone needs.
+  void coarsen_between(bool is_wanted) { coarsens_ = is_wanted; }
   /// The faces that are there when every collapse is undone, in no order.
   std::vector<Face> all_split();
   /// Whether the segment touches the base hull's box.
@@ -52,6 +55,7 @@ class Refinement {
   void ask_for(uint32_t collapse);
   void ask_for_corners(const Face& face);
   void undo_all();
+  void coarsen();
   Face star_face(const Collapse& collapse, uint32_t i) const;
   bool is_of_mesh(const Face& face) const;
   bool is_made(const Face& face) const;  // its making collapse is not undone
@@ -63,7 +67,9 @@ class Refinement {
   uint32_t cut_;  // collapses of the base
   uint32_t keep_ = 1, kept_ = 0;
   Point low_m_, high_m_;
+  bool coarsens_ = false;
   std::vector<bool> is_undone_;
+  std::vector<bool> is_crossed_;                       // a star of what is undone, by this query
   std::vector<uint32_t> undone_;                       // in the order of asking
   std::vector<std::pair<Face, uint32_t>> by_corners_;  // the mesh's faces, sorted
 };
