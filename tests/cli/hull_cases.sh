@@ -58,6 +58,26 @@ AModelThatCrossesItselfListsThePlaces() {
   f hull two.obj --faces 24 -o h.obj; exits 0; told 'crosses itself in' 'place 1 of 1'
 }
 
+WhatIsNoSoundSurfaceIsNamedOrMendedFirst() {
+  box >box.obj
+  sed '$d' box.obj >open.obj
+  f hull open.obj --faces 8 -o h.obj; exits 3; told 'open.obj' 'open edges around 1 hole' 'first the edge'
+  { box; printf 'v 9 9 9\nf 1 2 9\n'; } >three.obj
+  f hull three.obj --faces 8 -o h.obj; exits 3; told 'three.obj' 'more than two faces share'
+  f bake three.obj -o a.fta --hull-faces 8; exits 3; told 'more than two faces share'
+  absent h.obj; absent a.fta
+  awk '/^f/ { print "f", $5, $4, $3, $2; next } { print }' box.obj >turned.obj
+  f hull turned.obj --faces 8 -o h.obj; exits 0; told 'turned 1 piece' 'wound inside out'
+  { box; echo 'f 1 1 2'; } >twice.obj
+  f hull twice.obj --faces 8 -o h.obj; exits 0; told 'dropped 1 face that names a vertex twice'
+  f make part -o part.obj --triangles 2000; exits 0
+  vertices=$(grep -c '^v ' part.obj)
+  { cat part.obj; awk -v n="$vertices" '/^v / { print "v", $2 + 1, $3, $4 } /^f / { print "f", $2 + n, $3 + n, $4 + n }' part.obj; } >apart.obj
+  f hull apart.obj --faces 800 -o h.obj; exits 0; told '800 faces enclose'
+  [ "$(awk '/^v / { if ($2 < 0.5) a++; else b++ } END { print (a > 100 && b > 100) }' h.obj)" = 1 ] ||
+    fail 'the pieces were not coarsened each by itself'
+}
+
 AHullIsBakedShownAndAsked() {
   f make part -o part.obj --triangles 2000; exits 0
   f bake part.obj -o s.fta --hull-faces 200 --hull-grid 16; exits 0

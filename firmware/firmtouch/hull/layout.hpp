@@ -106,8 +106,10 @@ static_assert(sizeof(ShellHead) == 52 && alignof(ShellHead) == 4);
 /// 15 how many those are.
 using ShellFace = uint16_t;
 constexpr uint32_t kMostLeafCorners = 3 * kLeafFaces;
-constexpr uint32_t corner_at(ShellFace face, uint32_t k) { return (face >> (4 * k)) & 15u; }
-constexpr uint32_t corners_of(ShellFace face) { return face >> 12; }
+constexpr uint32_t corner_at(ShellFace face, uint32_t k) {
+  return (uint32_t{face} >> (4 * k)) & 15u;
+}
+constexpr uint32_t corners_of(ShellFace face) { return uint32_t{face} >> 12; }
 constexpr uint32_t corner_places_for(uint32_t leaves) { return (leaves + 1) / 2; }
 
 struct ShellVertex {
