@@ -118,12 +118,13 @@ struct Rows {
   }
 };
 
-/// The same of a cubic by a cubic, coefficients three floats apart: nothing is computed of what is 0.
+/// The same of a cubic by a cubic: nothing is computed of what is 0.
+template <uint32_t kStride>
 static inline void cubic_rows(const float* c, float s, float t, Rows& r) {
   const auto row = [c, s](uint32_t j, float& value, float& first, float& second, float& third) {
-    const float* const of = c + 12 * j;
-    third = of[9];
-    const float top = third * s, a = top + of[6], b = a * s + of[3], d = top + a;
+    const float* const of = c + 4 * kStride * j;
+    third = of[3 * kStride];
+    const float top = third * s, a = top + of[2 * kStride], b = a * s + of[kStride], d = top + a;
     value = b * s + of[0];
     first = d * s + b;
     second = top + d;
@@ -170,22 +171,27 @@ static inline void any_rows(const Piece& piece, const float* c, uint32_t stride,
 static inline void evaluate(const Piece& piece, const float* coefficients, float s, float t,
                             SurfacePoint& point) {
   const float* const c = coefficients + piece.coefficients;
-  const bool is_bicubic = piece.is_rational == 0 && piece.degree_u == 3 && piece.degree_v == 3;
+  const bool is_bicubic = piece.degree_u == 3 && piece.degree_v == 3;
   const uint32_t stride = piece.is_rational != 0 ? 4 : 3;
   float* const to = &point.x.x;  // ten vectors in a row
   Rows r;
-  for (uint32_t k = 0; k < 3; ++k) {
-    if (is_bicubic)
-      cubic_rows(c + k, s, t, r);
+  const auto find = [&](uint32_t k) {
+    if (is_bicubic && stride == 3)
+      cubic_rows<3>(c + k, s, t, r);
+    else if (is_bicubic)
+      cubic_rows<4>(c + k, s, t, r);
     else
       any_rows(piece, c + k, stride, s, t, r);
+  };
+  for (uint32_t k = 0; k < 3; ++k) {
+    find(k);
     to[k] = r.x, to[3 + k] = r.u, to[6 + k] = r.v;
     to[9 + k] = 2.0f * r.uu, to[12 + k] = r.uv, to[15 + k] = 2.0f * r.vv;
     to[18 + k] = 6.0f * r.uuu, to[21 + k] = 2.0f * r.uuv;
     to[24 + k] = 2.0f * r.uvv, to[27 + k] = 6.0f * r.vvv;
   }
   if (piece.is_rational == 0) return;
-  any_rows(piece, c + 3, 4, s, t, r);
+  find(3);
   divide(point, {r.x, r.u, r.v, 2.0f * r.uu, r.uv, 2.0f * r.vv, 6.0f * r.uuu, 2.0f * r.uuv,
                  2.0f * r.uvv, 6.0f * r.vvv});
 }

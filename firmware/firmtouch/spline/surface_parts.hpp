@@ -161,7 +161,7 @@ class SurfaceParts {
   // A rectangle of so little of a leaf gets bends of its own, for the price of so many steps. The
   // leaf's are too wide where a row of control points is one point: there they shrink with the
   // rectangle, and without that some queries took millions of evaluations.
-  static constexpr float kSmall = 0x1p-20f;
+  static constexpr float kSmall = 0x1p-32f;
   static constexpr uint32_t kDerivation = 16;
 
   struct Bends {
