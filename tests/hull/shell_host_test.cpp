@@ -13,6 +13,7 @@
 #include "firmtouch/hull/shell_distance.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/mesh/exact_crossing.hpp"
+#include "firmtouch/sections.hpp"
 #include "surface/make_part.hpp"
 
 namespace firmtouch::tools {
@@ -78,7 +79,7 @@ TEST(AShellInFastMemoryAnswersWithTheAssetLocked) {
   asset::Container container;
   CHECK(asset::open(flash.bytes(), container).ok());
   hull::View view;
-  CHECK_EQ(hull::open(hull_sections_of(container, "model"), view).rule, 0);
+  CHECK_EQ(hull::open(firmtouch::hull_sections(container, "model"), view).rule, 0);
   const uint32_t resident = view.shell().resident_bytes();
   std::vector<uint32_t> fast(resident / 4);
   std::memcpy(fast.data(), container.find(hull::kShellSection, "model").data(), resident);

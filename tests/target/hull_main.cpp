@@ -12,6 +12,7 @@
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/refinement.hpp"
 #include "firmtouch/hull/shell_cast.hpp"
+#include "firmtouch/sections.hpp"
 #include "target/text.hpp"
 
 namespace asset = firmtouch::asset;
@@ -30,16 +31,6 @@ uint32_t g_shell[8192];
 uint32_t g_bits[hull::bit_words(65536)];
 uint32_t g_undone[256];
 hull::Candidate g_candidates[64];
-
-hull::Sections sections_of(const asset::Container& file, const char* name) {
-  const auto find = [&](uint32_t type) { return file.find(type, name); };
-  return {find(hull::kHeadSection),        find(hull::kVerticesSection),
-          find(hull::kOriginsSection),     find(hull::kRecordsSection),
-          find(hull::kPlacesSection),      find(hull::kStarBoxesSection),
-          find(hull::kBoxesSection),       find(hull::kShellSection),
-          find(mesh::kHeadSection),        find(mesh::kVerticesSection),
-          find(mesh::kTriangles16Section), find(mesh::kTriangles32Section)};
-}
 
 uint32_t instructions(uint32_t work) {
   const uint32_t per_1000 = hal::clock_work_per_1000();
@@ -105,7 +96,8 @@ int main() {
   hull::Shell shell;
   bool is_sound = asset::open({region.data(), bytes != 0 ? bytes : region.size()}, file).ok();
   const uint32_t at = is_sound ? file.next_of_type(hull::kHeadSection) : asset::kNoSection;
-  is_sound = at != asset::kNoSection && hull::open(sections_of(file, file.name(at)), view).ok() &&
+  is_sound = at != asset::kNoSection &&
+             hull::open(firmtouch::hull_sections(file, file.name(at)), view).ok() &&
              hull::bit_words(view.collapse_count()) <= sizeof g_bits / 4;
   if (is_sound) {
     const uint32_t resident = view.shell().resident_bytes();

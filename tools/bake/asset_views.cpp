@@ -2,13 +2,14 @@
 
 #include "bake/probes.hpp"
 #include "firmtouch/asset/opening.hpp"
+#include "firmtouch/sections.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
 std::string prove_hull(const asset::Container& container, const std::string& name) {
   hull::View view;
-  const core::Verdict verdict = hull::open(hull_sections_of(container, name.c_str()), view);
+  const core::Verdict verdict = hull::open(hull_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "hull '" + name + "': " + rule_text(verdict);
   const core::Bytes probes = container.find(hull::kProbesSection, name.c_str());
   if (probes.empty() || hull_probes_agree(view, probes)) return "";
@@ -22,10 +23,10 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
     if (!problem.empty() || !has_tree(container, name.c_str())) return problem;
   }
   mesh::View view;
-  const core::Verdict verdict = mesh::open(mesh_sections_of(container, name.c_str()), view);
+  const core::Verdict verdict = mesh::open(mesh_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "mesh '" + name + "': " + rule_text(verdict);
   field::View map;
-  const field::Sections sections = field_sections_of(container, name.c_str());
+  const field::Sections sections = map_sections(container, name.c_str());
   const core::Verdict of_map =
       sections.head.empty() ? core::kPassed : field::open(sections, view, map);
   if (!of_map.ok()) return "distance map '" + name + "': " + rule_text(of_map);
@@ -37,7 +38,7 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
 
 std::string prove_curve(const asset::Container& container, const std::string& name) {
   curve::View view;
-  const core::Verdict verdict = curve::open(curve_sections_of(container, name.c_str()), view);
+  const core::Verdict verdict = curve::open(curve_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "curve '" + name + "': " + rule_text(verdict);
   const core::Bytes probes = container.find(curve::kProbesSection, name.c_str());
   if (probes.empty() || curve_probes_agree(view, probes)) return "";
@@ -47,12 +48,12 @@ std::string prove_curve(const asset::Container& container, const std::string& na
 
 std::string prove_spline(const asset::Container& container, const std::string& name) {
   spline::View view;
-  const core::Verdict verdict = spline::open(spline_sections_of(container, name.c_str()), view);
+  const core::Verdict verdict = spline::open(spline_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "spline '" + name + "': " + rule_text(verdict);
   if (!container.find(spline::kArcsSection, name.c_str()).empty()) {
     spline::GuideView guide;
     const core::Verdict of_guide =
-        spline::open_guide(view, spline_guide_sections_of(container, name.c_str()), guide);
+        spline::open_guide(view, guide_sections(container, name.c_str()), guide);
     if (!of_guide.ok()) return "guide along spline '" + name + "': " + rule_text(of_guide);
   }
   const core::Bytes probes = container.find(spline::kProbesSection, name.c_str());
@@ -63,66 +64,8 @@ std::string prove_spline(const asset::Container& container, const std::string& n
 
 }  // namespace
 
-mesh::Sections mesh_sections_of(const asset::Container& container, const char* name) {
-  mesh::Sections sections;
-  sections.head = container.find(mesh::kHeadSection, name);
-  sections.vertices = container.find(mesh::kVerticesSection, name);
-  sections.triangles16 = container.find(mesh::kTriangles16Section, name);
-  sections.triangles32 = container.find(mesh::kTriangles32Section, name);
-  sections.nodes = container.find(mesh::kNodesSection, name);
-  sections.parents = container.find(mesh::kParentsSection, name);
-  sections.vertex_normals = container.find(mesh::kVertexNormalsSection, name);
-  sections.edge_folds = container.find(mesh::kEdgeFoldsSection, name);
-  return sections;
-}
-
-field::Sections field_sections_of(const asset::Container& container, const char* name) {
-  return {container.find(field::kHeadSection, name), container.find(field::kDistancesSection, name),
-          container.find(field::kSeedsSection, name)};
-}
-
-hull::Sections hull_sections_of(const asset::Container& container, const char* name) {
-  const auto find = [&](uint32_t type) { return container.find(type, name); };
-  return {find(hull::kHeadSection),        find(hull::kVerticesSection),
-          find(hull::kOriginsSection),     find(hull::kRecordsSection),
-          find(hull::kPlacesSection),      find(hull::kStarBoxesSection),
-          find(hull::kBoxesSection),       find(hull::kShellSection),
-          find(mesh::kHeadSection),        find(mesh::kVerticesSection),
-          find(mesh::kTriangles16Section), find(mesh::kTriangles32Section)};
-}
-
 bool has_tree(const asset::Container& container, const char* name) {
   return !container.find(mesh::kNodesSection, name).empty();
-}
-
-curve::Sections curve_sections_of(const asset::Container& container, const char* name) {
-  curve::Sections sections;
-  sections.head = container.find(curve::kHeadSection, name);
-  sections.samples = container.find(curve::kSamplesSection, name);
-  sections.arcs = container.find(curve::kArcsSection, name);
-  sections.places = container.find(curve::kPlacesSection, name);
-  sections.boxes = container.find(curve::kBoxesSection, name);
-  sections.runs = container.find(curve::kRunsSection, name);
-  sections.radii = container.find(curve::kRadiiSection, name);
-  return sections;
-}
-
-spline::GuideSections spline_guide_sections_of(const asset::Container& container,
-                                               const char* name) {
-  return {container.find(spline::kArcsSection, name), container.find(spline::kChainsSection, name)};
-}
-
-spline::Sections spline_sections_of(const asset::Container& container, const char* name) {
-  return {container.find(spline::kHeadSection, name),
-          container.find(spline::kPiecesSection, name),
-          container.find(spline::kCoefficientsSection, name),
-          container.find(spline::kLeavesSection, name),
-          container.find(spline::kBendsSection, name),
-          container.find(spline::kPlacesSection, name),
-          container.find(spline::kNodesSection, name),
-          container.find(spline::kPointsSection, name),
-          container.find(spline::kGridsSection, name),
-          container.find(spline::kRadiiSection, name)};
 }
 
 std::vector<std::string> names_with(const asset::Container& container, uint32_t type) {

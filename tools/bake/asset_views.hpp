@@ -12,13 +12,6 @@
 
 namespace firmtouch::tools {
 
-/// The sections of one mesh, map, hull, curve or spline of an asset, as its room's open() takes them.
-mesh::Sections mesh_sections_of(const asset::Container& container, const char* name);
-curve::Sections curve_sections_of(const asset::Container& container, const char* name);
-spline::GuideSections spline_guide_sections_of(const asset::Container& container, const char* name);
-spline::Sections spline_sections_of(const asset::Container& container, const char* name);
-field::Sections field_sections_of(const asset::Container& container, const char* name);
-hull::Sections hull_sections_of(const asset::Container& container, const char* name);
 /// Whether a mesh has its tree; without it only its hull can be asked.
 bool has_tree(const asset::Container& container, const char* name);
 

@@ -5,6 +5,7 @@
 #include "cli/files.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/core/bytes.hpp"
+#include "firmtouch/sections.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -43,7 +44,7 @@ LoadedMesh LoadedAsset::mesh(const std::string& name) const {
                "' was baked with --no-tree: only its hull can be asked; bake it without for more");
   }
   LoadedMesh loaded;
-  const core::Verdict verdict = mesh::open(tools::mesh_sections_of(container_, key), loaded.view);
+  const core::Verdict verdict = mesh::open(mesh_sections(container_, key), loaded.view);
   if (!verdict.ok()) fail_unsound("mesh '" + name + "': " + tools::rule_text(verdict));
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
   return loaded;
@@ -57,7 +58,7 @@ LoadedHull LoadedAsset::hull(const std::string& name) const {
                "' has no hull; bake it with --hull-faces N, or ask for segment");
   }
   LoadedHull loaded;
-  const core::Verdict verdict = hull::open(tools::hull_sections_of(container_, key), loaded.view);
+  const core::Verdict verdict = hull::open(hull_sections(container_, key), loaded.view);
   if (!verdict.ok()) fail_unsound("hull '" + name + "': " + tools::rule_text(verdict));
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
   return loaded;
@@ -67,7 +68,7 @@ LoadedCurve LoadedAsset::curve(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(curve::kHeadSection, key).empty()) fail_absent("curve", name);
   LoadedCurve loaded;
-  const core::Verdict verdict = curve::open(tools::curve_sections_of(container_, key), loaded.view);
+  const core::Verdict verdict = curve::open(curve_sections(container_, key), loaded.view);
   if (!verdict.ok()) fail_unsound("curve '" + name + "': " + tools::rule_text(verdict));
   loaded.rows = core::as_whole_array<uint32_t>(container_.find(curve::kRowsSection, key));
   return loaded;
@@ -77,7 +78,7 @@ spline::View LoadedAsset::spline(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(spline::kHeadSection, key).empty()) fail_absent("spline", name);
   spline::View view;
-  const core::Verdict verdict = spline::open(tools::spline_sections_of(container_, key), view);
+  const core::Verdict verdict = spline::open(spline_sections(container_, key), view);
   if (!verdict.ok()) fail_unsound("spline '" + name + "': " + tools::rule_text(verdict));
   return view;
 }
