@@ -1,0 +1,156 @@
+// Every bound that baked surfaces stand on, as tools/FORMAT.md words it.
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "harness/test.hpp"
+#include "spline/random_splines.hpp"
+#include "spline/read_spline.hpp"
+#include "spline/stored_piece.hpp"
+
+using namespace firmtouch::spline_test;
+namespace spline = firmtouch::spline;
+namespace tools = firmtouch::tools;
+
+namespace {
+
+// As FORMAT.md says a byte of a unit is one.
+float of_byte(float unit, uint8_t byte) {
+  uint32_t bits;
+  std::memcpy(&bits, &unit, sizeof bits);
+  bits += static_cast<uint32_t>(byte) << 20;
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+bool is_in_parallelogram(const Vector& x, const Plain& centre, const Plain& a, const Plain& b,
+                         float radius) {
+  Plain off;
+  for (size_t k = 0; k < 3; ++k) off[k] = middle(x[k]) - centre[k];
+  const Wide aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
+  Wide v = det > 0 ? held((aa * dot(b, off) - ab * dot(a, off)) / det, -1, 1) : 0;
+  const Wide u = aa > 0 ? held((dot(a, off) - ab * v) / aa, -1, 1) : 0;
+  v = bb > 0 ? held((dot(b, off) - ab * u) / bb, -1, 1) : 0;
+  Vector rest;
+  for (size_t k = 0; k < 3; ++k)
+    rest[k] =
+        x[k] - (Interval(centre[k]) + Interval(a[k]) * Interval(u) + Interval(b[k]) * Interval(v));
+  return longest(rest) <= static_cast<Wide>(radius);
+}
+
+void check_parts(const spline::View& view, uint32_t index, const StoredPiece& stored) {
+  const spline::Piece& piece = view.pieces()[index];
+  const spline::Grid& grid = view.grids()[index];
+  const uint32_t columns = (1u << piece.level_u) + 1;
+  uint32_t radius = 2 * grid.first_leaf - index, u = 0, v = 0;
+  for (bool is_finest = false; !is_finest;) {
+    const uint32_t across = 1u << (piece.level_u - u), along = 1u << (piece.level_v - v);
+    for (uint32_t j = 0; j < 1u << v; ++j)
+      for (uint32_t i = 0; i < 1u << u; ++i, ++radius) {
+        const auto corner = [&](uint32_t di, uint32_t dj) {
+          const spline::Corner& c =
+              view.corners()[grid.first_corner + (j + dj) * along * columns + (i + di) * across];
+          const int16_t at[3] = {c.x, c.y, c.z};
+          Plain made;
+          for (size_t k = 0; k < 3; ++k)
+            made[k] = static_cast<Wide>(piece.origin_m[k]) + static_cast<Wide>(grid.step_m) * at[k];
+          return made;
+        };
+        const Plain c00 = corner(0, 0), c10 = corner(1, 0), c01 = corner(0, 1), c11 = corner(1, 1);
+        Plain centre, a, b;
+        for (size_t k = 0; k < 3; ++k) {
+          centre[k] = (c00[k] + c10[k] + c01[k] + c11[k]) / 4;
+          a[k] = (c10[k] + c11[k] - c00[k] - c01[k]) / 4;
+          b[k] = (c01[k] + c11[k] - c00[k] - c10[k]) / 4;
+        }
+        const float r = of_byte(grid.radius_unit_m, view.radii()[radius]);
+        CHECK(holds(area_of(u, i, v, j, true), true, kFinest, [&](const Area& part) {
+          return is_in_parallelogram(stored.over(part, 0).of[0][0], centre, a, b, r);
+        }));
+      }
+    const uint32_t left_u = piece.level_u - u, left_v = piece.level_v - v;
+    is_finest = left_u + left_v == 0;
+    if (!is_finest) (left_u >= left_v ? u : v) += 1;
+  }
+}
+
+void check_cells(const spline::View& view, uint32_t index, const StoredPiece& stored) {
+  const spline::Piece& piece = view.pieces()[index];
+  const spline::Grid& grid = view.grids()[index];
+  const uint32_t u = std::min<uint32_t>(piece.level_u, grid.cell_level);
+  const uint32_t v = std::min<uint32_t>(piece.level_v, grid.cell_level);
+  for (uint32_t j = 0; j < 1u << v; ++j)
+    for (uint32_t i = 0; i < 1u << u; ++i) {
+      const spline::PatchBend& bend = view.patch_bends()[grid.first_cell + (j << u) + i];
+      const Area area = area_of(u, i, v, j, true);
+      const Wide width = width_of(stored, area, true);
+      for (int k = 0; k < 5; ++k) {
+        const float fixed = of_byte(grid.fixed_unit_m2, bend.fixed[k]);
+        const float turning = of_byte(grid.turning_unit_m, bend.turning[k]);
+        CHECK(holds(area, true, kFinest, [&](const Area& part) {
+          return turns_no_faster(stored.over(part, 4), 4 - k, k, width, fixed, turning);
+        }));
+      }
+    }
+}
+
+void check_boxes(const spline::View& view, uint32_t index, const StoredPiece& stored) {
+  for (uint32_t node = view.pieces().size() - 1 + index; node != 0;) {
+    node = (node - 1) / 2;
+    const spline::Box& box = view.boxes()[node];
+    const float* u = box.axis[0];
+    const float* v = box.axis[1];
+    const Wide w[3] = {Wide{u[1]} * v[2] - Wide{u[2]} * v[1], Wide{u[2]} * v[0] - Wide{u[0]} * v[2],
+                       Wide{u[0]} * v[1] - Wide{u[1]} * v[0]};
+    CHECK(holds(area_of(0, 0, 0, 0, true), true, kFinest, [&](const Area& part) {
+      const Vector x = stored.over(part, 0).of[0][0];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        Interval along;
+        for (size_t k = 0; k < 3; ++k) {
+          const Wide a = axis == 2 ? w[k] : static_cast<Wide>(box.axis[axis][k]);
+          along = along + (x[k] - Interval(static_cast<Wide>(box.centre_m[k]))) * Interval(a);
+        }
+        if (!(most(along) <= static_cast<Wide>(box.half_m[axis]))) return false;
+      }
+      return true;
+    }));
+  }
+}
+
+void check(const tools::SplineModel& model, bool is_small = false) {
+  const BakedModel baked(model, is_small);
+  if (!baked.view.is_open()) return;
+  for (uint32_t piece = 0; piece < baked.view.pieces().size(); ++piece) {
+    const StoredPiece stored(baked.view, piece);
+    firmtouch::test::note("piece", piece);
+    check_parts(baked.view, piece, stored);
+    check_cells(baked.view, piece, stored);
+    check_boxes(baked.view, piece, stored);
+  }
+}
+
+bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
+
+}  // namespace
+
+TEST(EveryBoundBakedOfRandomSurfacesHoldsByIntervals) {
+  for (uint32_t seed = 0; seed < (is_long() ? 12u : 1u); ++seed) {
+    tools::Random random(seed + 400);
+    tools::SplineModel model;
+    model.surfaces.push_back(random_surface(random, 3, 3 - static_cast<int>(seed % 2), 1));
+    check(model, seed % 2 == 0);
+  }
+}
+
+TEST(EveryBoundBakedOfATorusOfACadKernelHoldsByIntervals) {
+  check(tools::read_spline_file(std::string(FIRMTOUCH_CAD_FILES) + "/torus.igs", 0), true);
+}
+
+TEST(EveryBoundBakedOfTheTeapotHoldsByIntervals) {
+  const char* models = std::getenv("FIRMTOUCH_MODELS");
+  if (models == nullptr) return firmtouch::test::skip("FIRMTOUCH_MODELS is not set");
+  if (!is_long()) return firmtouch::test::skip("FIRMTOUCH_LONG is not set");
+  check(tools::read_spline_file(std::string(models) + "/teapot.bpt", 0.01));
+}
