@@ -41,7 +41,7 @@ class Random {
 };
 
 // Spacing from 1e-5 to 1, turning back towards itself every eight samples.
-LongCurve tangled(uint32_t count) {
+const LongCurve& tangled(uint32_t count) {
   static Sample samples[256];
   Random random(7);
   Sample at{0, 0, 0};
@@ -53,17 +53,17 @@ LongCurve tangled(uint32_t count) {
     at.z_m += random.between(-0.3f, 0.3f) * step;
     step = i % 11 == 10 ? 1e-5f : step * 3.0f;
   }
-  return LongCurve(samples, count);
+  return firmtouch::curve_test::shared_curve(samples, count);
 }
 
 // A gentle arc with even spacing, as a recorded path is.
-LongCurve gentle(uint32_t count) {
+const LongCurve& gentle(uint32_t count) {
   static Sample samples[256];
   for (uint32_t i = 0; i < count; ++i) {
     const float x = static_cast<float>(i) * 0x1p-8f;
     samples[i] = {x, 0.25f * x * x, 0.0f};
   }
-  return LongCurve(samples, count);
+  return firmtouch::curve_test::shared_curve(samples, count);
 }
 
 bool finite(const Closest& c) {
@@ -119,7 +119,7 @@ TEST(APointOnTheCurveIsAtDistanceZeroWithLowerBoundZero) {
 }
 
 TEST(EveryBudgetBracketsTheTruthAndNeverWidens) {
-  static const LongCurve c = tangled(200);
+  const LongCurve& c = tangled(200);
   const View view = c.view();
   CHECK_EQ(view.is_open(), true);
   Random random(11);
@@ -144,7 +144,7 @@ TEST(EveryBudgetBracketsTheTruthAndNeverWidens) {
 }
 
 TEST(AWarmStartAnswersTheSameDistanceInNoMoreSteps) {
-  static const LongCurve c = gentle(256);
+  const LongCurve& c = gentle(256);
   const View view = c.view();
   Hint hint;
   uint32_t warm_steps = 0, cold_steps = 0;
@@ -161,7 +161,7 @@ TEST(AWarmStartAnswersTheSameDistanceInNoMoreSteps) {
 }
 
 TEST(TheLastCertificateMinusTheMotionHoldsWhenTheBudgetEnds) {
-  static const LongCurve c = tangled(200);
+  const LongCurve& c = tangled(200);
   Hint hint;
   const Closest first = closest_point(c.view(), {0.5f, 0.4f, 0.4f}, kUnlimited, hint);
   const Closest next = closest_point(c.view(), {0.5f, 0.4f, 0.40625f}, {1}, hint);
@@ -169,7 +169,7 @@ TEST(TheLastCertificateMinusTheMotionHoldsWhenTheBudgetEnds) {
 }
 
 TEST(AnyBitsForAQueryGiveFiniteNumbersWithinTheBudget) {
-  static const LongCurve c = tangled(64);
+  const LongCurve& c = tangled(64);
   const View view = c.view();
   const float values[] = {
       0.0f,     -0.0f,   1e-45f, -1e-40f,          FLT_MIN,           1.0f,
@@ -211,7 +211,7 @@ TEST(FarAwayTheDistanceIsStillRightAndCertified) {
 }
 
 TEST(AForeignHintCostsStepsAndNothingElse) {
-  static const LongCurve c = tangled(64);
+  const LongCurve& c = tangled(64);
   const Vec3 p{0.3f, 0.1f, -0.2f};
   const Closest fresh = cold(c.view(), p);
   const uint32_t places[] = {0u, 62u, 63u, 64u, 0x7FFFFFFFu, 0xFFFFFFFEu};
@@ -248,7 +248,8 @@ TEST(TheMiddleOfASegmentIsNeverMissed) {
 }
 
 TEST(OneHashOfAWalkThatStopsEarlyOnEveryTarget) {
-  static LongCurve c = firmtouch::curve_test::long_hook();
+  LongCurve& c =
+      firmtouch::curve_test::shared_curve(firmtouch::curve_test::long_hook().samples, 200);
   static firmtouch::query::ProbePoint points[400];
   uint32_t steps[2] = {0, 0};
   const uint32_t expected[] = {254071976u, 3433676074u};
@@ -275,7 +276,7 @@ TEST(OneHashOfAWalkThatStopsEarlyOnEveryTarget) {
 }
 
 TEST(OneHashOfTheAnswersOnEveryTarget) {
-  static const LongCurve c = tangled(200);
+  const LongCurve& c = tangled(200);
   static firmtouch::query::ProbePoint points[500];
   Random random(5);
   for (firmtouch::query::ProbePoint& p : points) {

@@ -44,6 +44,7 @@ struct CurveOf {
   }
 
   void build(const curve::Sample* from, uint32_t count) {
+    head = {};
     for (uint32_t i = 0; i < count; ++i) samples[i] = from[i];
     head.sample_count = count;
     head.run_levels = 4;
@@ -187,7 +188,15 @@ struct CurveOf {
 };
 
 using SmallCurve = CurveOf<8>;
-using LongCurve = CurveOf<256>;  // 7 KB: for static memory
+using LongCurve = CurveOf<256>;  // 8 KB: for static memory
+
+/// The one long curve of tests that need no other beside it: a controller has not the RAM for one
+/// each. It stays until the next call.
+inline LongCurve& shared_curve(const curve::Sample* from, uint32_t count) {
+  static LongCurve curve(from, count);
+  curve.build(from, count);
+  return curve;
+}
 
 /// Squared distance to the polyline in double, over every segment.
 template <uint32_t Most>
