@@ -118,13 +118,15 @@ static inline Walk walk_runs(const View& curve, const Bound& bound_at, Steps ste
       const uint32_t first = first_child(now.box);
       const uint32_t key0 = bound.key(boxes[first]), key1 = bound.key(boxes[first + 1]);
       const uint32_t slot = key1 < key0 ? 1 : 0, far_key = slot ? key0 : key1;
-      if (far_key < prune)
-        pending[count++] = {far_key, first + 1 - slot};
-      else
-        least = far_key < least ? far_key : least;
       now = {slot ? key1 : key0, first + slot};
-      if (now.key < prune) continue;
-      least = now.key < least ? now.key : least;
+      if (far_key < prune) {  // and so is the nearer
+        pending[count++] = {far_key, first + 1 - slot};
+        continue;
+      }
+      const bool goes_on = now.key < prune;
+      const uint32_t left_out = goes_on ? far_key : now.key;
+      least = left_out < least ? left_out : least;
+      if (goes_on) continue;
     } else {
       const float before_m2 = visitor.reach2_m2();
       if (!visitor.take(runs[now.box - leaves].run, left)) break;
