@@ -24,7 +24,7 @@ struct Board {
   const char* asset_address;  // where its program looks for an asset that was not linked in
                               // (hal/BOARD/link.ld)
 };
-constexpr Board kBoards[] = {{"mps2-an500", "0x60000000"}, {"netduinoplus2", "0x08020000"}};
+constexpr Board kBoards[] = {{"mps2-an500", "0x60000000"}, {"netduinoplus2", "0x08040000"}};
 
 // The emulator's process and the folder of its link's files; both end with it.
 class Emulator : public ByteStream {

@@ -42,6 +42,11 @@ plant_frame_without_a_bound() {
 void planted_frame(int n) { char* p = static_cast<char*>(__builtin_alloca(n)); take(p); }'
   expect='planted_frame'
 }
+plant_program_in_the_assets_slot() {
+  arm-none-eabi-objcopy --strip-symbol __firmtouch_asset_slot --add-symbol __firmtouch_asset_slot=0x1000,global \
+    build/mps2-an500/bin/firmtouch_app.elf
+  expect='the program reaches into the asset'
+}
 plant_indirect_call() {
   plant 'int planted_pointer(int (*f)(int), int n) { return 3 * f(n); }'
   expect='planted_pointer'
