@@ -16,10 +16,10 @@ namespace firmtouch::scene {
 /// may share a mesh.
 struct MeshObject {
   const mesh::View* mesh = nullptr;
-  const field::View* map = nullptr;    // proven against the mesh; or none, or one that is not open
-  const hull::Shell* shell = nullptr;  // that encloses the mesh; likewise
   math::RigidTransform pose;
   Material material;
+  const field::View* map = nullptr;    // proven against the mesh; or none, or one that is not open
+  const hull::Shell* shell = nullptr;  // that encloses the mesh; likewise
 };
 
 /// What a (tool, object) pair remembers from tick to tick, and what its last query said. The caller
