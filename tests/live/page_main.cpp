@@ -17,7 +17,7 @@ namespace {
 using firmtouch::live_test::Browser;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPatience_s = 30;  // an emulator on a busy machine runs at a fraction of its pace
+constexpr double kPatience_s = 40;  // an emulator on a busy machine runs at a fraction of its pace
 constexpr double kConnect_s = 120;  // some hundred answers, each a turn of the emulator's
 constexpr const char* kMotorsAreOn = "$('mode').textContent === 'motors: on'";
 
@@ -118,7 +118,7 @@ void refusals(Test& test) {
   test.check("a value out of range is not sent, and the range told",
              test.said("contact_stiffness_N_per_m", "0 to 20000 N/m"));
   test.check("the controller refuses it by itself",
-             test.becomes("page.session.set(1, 1e9).then(r => r.why.includes('out of range'))", 2));
+             test.becomes("page.session.set(1, 1e9).then(r => r.why.includes('out of range'))", kPatience_s));
   test.becomes(kMotorsAreOn, kPatience_s);
   test.type("force_limit_N", "9");
   if (!test.check("a limit may only fall while the motors are on: refused by the tick, and said",
