@@ -118,7 +118,8 @@ void refusals(Test& test) {
   test.check("a value out of range is not sent, and the range told",
              test.said("contact_stiffness_N_per_m", "0 to 20000 N/m"));
   test.check("the controller refuses it by itself",
-             test.becomes("page.session.set(1, 1e9).then(r => r.why.includes('out of range'))", kPatience_s));
+             test.becomes("page.session.set(1, 1e9).then(r => r.why.includes('out of range'))",
+                          kPatience_s));
   test.becomes(kMotorsAreOn, kPatience_s);
   test.type("force_limit_N", "9");
   if (!test.check("a limit may only fall while the motors are on: refused by the tick, and said",
