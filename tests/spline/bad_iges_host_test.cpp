@@ -53,12 +53,38 @@ TEST(BadKnotsAreRefusedWithEntityLineAndRemedy) {
                       {"entity 128 in line 3", "v knot 2", "must not decrease"}));
 }
 
+TEST(AKnotThatStandsTooOftenIsRefusedWhereverItStands) {
+  // A quadratic of five points: its first, an inner and its last knot, each four times.
+  const std::string points =
+      "1.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,2.,1.,0.,3.,0.,0.,4.,1.,0.,0.,3.,0.,0.,1.;";
+  const struct {
+    const char *knots, *where;
+  } cases[] = {{"0.,0.,0.,0.,1.,2.,3.,3.,", "knot 3 (from 0), 0, stands 4 times"},
+               {"0.,0.,1.,1.,1.,1.,2.,3.,", "knot 5 (from 0), 1, stands 4 times"},
+               {"0.,0.,1.,2.,3.,3.,3.,3.,", "knot 7 (from 0), 3, stands 4 times"}};
+  for (const auto& c : cases)
+    CHECK(refused_entity({126, "126,4,2,0,0,1,0," + std::string(c.knots) + points},
+                         {"part.igs:", "entity 126 in line 3", c.where, "degree 2 allows 3",
+                          "remove repeated knots"}));
+  // Three times, as degree 2 allows, is read.
+  CHECK(
+      read_entities({{126, "126,4,2,0,0,1,0,0.,0.,0.,1.,2.,3.,3.,3.," + points}}).problem.empty());
+  CHECK(refused_sheet("0.,0.,1.,1.,0.,0.,1.,1.", "0.,0.,0.,1.,0.,0.,1.,1.",
+                      {"entity 128 in line 3", "u knot 2", "stands 3 times", "degree 1 allows 2"}));
+  CHECK(refused_sheet("0.,0.,1.,1.,0.,0.,1.,1.", "0.,0.,1.,1.,0.,1.,1.,1.",
+                      {"entity 128 in line 3", "v knot 3", "stands 3 times", "remove"}));
+}
+
 TEST(BadWeightsAreRefused) {
   CHECK(refused_arch("1.,1.,1.,1.,1.,1.,1.,1.", "1.,1.,1.,1.,1.,1.,0.,1.",
                      {"part.igs:5:", "entity 126", "weight 2 (from 0) is 0", "greater than 0"}));
   CHECK(refused_arch("1.,1.,1.,1.,1.,1.,1.,1.", "1.,1.,1.,1.,-1.,1.,1.,1.", {"weight 0", "is -1"}));
   CHECK(refused_arch("1.,1.,1.,1.,1.,1.,1.,1.", "1.,1.,1.,1.,1.,1E7,1.,1.", {"factor of", "1e6"}));
   CHECK(refused_arch("1.,1.,1.,1.,1.,1.,1.,1.", "1.,1.,1.,1.,1.,INF,1.,1.", {"weight 1", "`INF`"}));
+  CHECK(refused_sheet("1.,1.,1.,1.,0.,0.,0.", "1.,1.,0.,1.,0.,0.,0.",
+                      {"part.igs:", "entity 128", "weight 2 (from 0) is 0", "greater than 0"}));
+  CHECK(refused_sheet("1.,1.,1.,1.,0.,0.,0.", "1.,-2.,1.,1.,0.,0.,0.", {"weight 1", "is -2"}));
+  CHECK(refused_sheet("1.,1.,1.,1.,0.,0.,0.", "1.,1.,1.,nan,0.,0.,0.", {"weight 3", "`nan`"}));
 }
 
 TEST(BadCoordinatesAreRefused) {

@@ -123,6 +123,14 @@ TEST(PiecesWithoutLengthAreTold) {
   CHECK(model.problem.empty());
   CHECK_EQ(model.notes.size(), 1u);
   CHECK(has(model.notes[0], "entity 126 in line 3: left out 1 piece"));
+  // Of four patches the one whose four corners are one point.
+  const SplineModel sheet = read_entities(
+      {{128,
+        "128,2,2,1,1,0,0,1,0,0,0.,0.,1.,2.,2.,0.,0.,1.,2.,2.,1.,1.,1.,1.,1.,1.,1.,1.,1.,0.,0.,0.,"
+        "0.,0.,0.,1.,0.,0.,0.,0.,0.,0.,0.,0.,1.,1.,0.,0.,1.,0.,0.5,1.,0.,1.,2.,0.,0.,2.,0.,2.;"}});
+  CHECK(sheet.problem.empty());
+  CHECK_EQ(sheet.notes.size(), 1u);
+  CHECK(has(sheet.notes[0], "entity 128 in line 3: left out 1 piece that has no extent"));
 }
 
 TEST(ACircleOfACadKernelIsRound) {

@@ -41,6 +41,14 @@ bool lies_in_a_plane(const std::vector<ControlPoint>& points) {
   return true;
 }
 
+// Pieces that a range of knots is cut into.
+size_t spans_within(const std::vector<double>& knots, double from, double to) {
+  size_t spans = 0;
+  for (size_t k = 1; k < knots.size(); ++k)
+    spans += knots[k - 1] < knots[k] && knots[k] > from && knots[k - 1] < to;
+  return spans;
+}
+
 }  // namespace
 
 bool SplineSink::fail(const std::string& what) {
@@ -65,19 +73,16 @@ bool SplineSink::defect(uint64_t line, const std::string& kind, const std::strin
   return false;
 }
 
-void SplineSink::tell_dropped(const std::string& where, size_t dropped) {
+void SplineSink::tell_dropped(const std::string& where, size_t dropped, const char* what) {
   if (dropped == 0) return;
   note(where + ": left out " + std::to_string(dropped) +
-       (dropped == 1 ? " piece that has" : " pieces that have") +
-       " no length, because their control points coincide");
+       (dropped == 1 ? " piece that has" : " pieces that have") + " no " + what +
+       ", because their control points coincide");
 }
 
 void SplineSink::add(SplineCurve curve, uint64_t line) {
   curve.piece = pieces_;
-  size_t spans = 0;
-  for (size_t k = 1; k < curve.knots.size(); ++k)
-    spans += curve.knots[k - 1] < curve.knots[k] && curve.knots[k] > curve.t0 &&
-             curve.knots[k - 1] < curve.t1;
+  const size_t spans = spans_within(curve.knots, curve.t0, curve.t1);
   const std::vector<BezierCurve> pieces = bezier_pieces(curve);
   if (pieces.empty() || !(extent_of(curve.points) >= kLeastExtent_m)) {
     defect(line, "length",
@@ -86,7 +91,7 @@ void SplineSink::add(SplineCurve curve, uint64_t line) {
                "check the unit");
     return;
   }
-  tell_dropped(curve.where, spans - pieces.size());
+  tell_dropped(curve.where, spans - pieces.size(), "length");
   curve.is_planar = lies_in_a_plane(curve.points);
   model_.curves.push_back(std::move(curve));
   ++pieces_;
@@ -94,13 +99,17 @@ void SplineSink::add(SplineCurve curve, uint64_t line) {
 
 void SplineSink::add(SplineSurface surface, uint64_t line) {
   surface.piece = pieces_;
-  if (bezier_pieces(surface).empty() || !(extent_of(surface.points) >= kLeastExtent_m)) {
+  const size_t spans = spans_within(surface.knots_u, surface.u0, surface.u1) *
+                       spans_within(surface.knots_v, surface.v0, surface.v1);
+  const size_t kept = bezier_pieces(surface).size();
+  if (kept == 0 || !(extent_of(surface.points) >= kLeastExtent_m)) {
     defect(line, "length",
            surface.where +
                " has no extent (less than a thousandth of a millimetre): remove it, "
                "or check the unit");
     return;
   }
+  tell_dropped(surface.where, spans - kept, "extent");
   model_.surfaces.push_back(std::move(surface));
   ++pieces_;
 }

@@ -49,7 +49,7 @@ class SplineSink {
   SplineModel finish();
 
  private:
-  void tell_dropped(const std::string& where, size_t dropped);
+  void tell_dropped(const std::string& where, size_t dropped, const char* what);
 
   std::string path_;
   SplineModel model_;
