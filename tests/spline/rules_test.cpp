@@ -229,14 +229,13 @@ TEST(Rule620RefusesBendsThatAreNotBounds) {
   expect(model, 620, 2);
   for (uint32_t k = 0; k < 5; ++k) {
     for (uint32_t cell = 0; cell < 3; ++cell) {
-      const uint32_t leaf = cell == 0 ? 0 : cell + 1;  // the first of each
       model = surface();
       firmtouch::spline::PatchBend& bend = model.patch_bends[cell];
       uint8_t* const bytes[] = {&bend.fixed[k], &bend.turning[k]};
       for (uint8_t* const byte : bytes) {
         if (*byte == 0) continue;  // below the unit
         *byte = static_cast<uint8_t>(*byte - 1);
-        expect(model, 620, leaf);
+        expect(model, 620, cell);
         *byte = static_cast<uint8_t>(*byte + 1);
       }
     }

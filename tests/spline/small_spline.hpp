@@ -186,10 +186,14 @@ struct SmallSpline {
       }
       for (uint32_t i = 0; i < p + 1; ++i) {
         const spline::Part part = spline::part_of(spline::cell_levels(pieces[p], grid), i, 0);
-        const spline::LeafShape s = shape(p, part);
+        const float* const from = coefficients + pieces[p].coefficients;
+        spline::CellBends needed;
+        (void)spline::begin_bends(pieces[p], from, part, needed);
+        for (uint32_t k = 0; k < spline::kFineParts; ++k)
+          (void)spline::add_bends(pieces[p], from, part, k, needed);
         for (uint32_t k = 0; k < 5; ++k) {
-          patch_bends[p + i].fixed[k] = byte(grid.fixed_unit_m2, s.fixed[k]);
-          patch_bends[p + i].turning[k] = byte(grid.turning_unit_m, s.turning[k]);
+          patch_bends[p + i].fixed[k] = byte(grid.fixed_unit_m2, needed.fixed[k]);
+          patch_bends[p + i].turning[k] = byte(grid.turning_unit_m, needed.turning[k]);
         }
       }
       const spline::Parallelogram whole = around({p, 0, 0, 0});

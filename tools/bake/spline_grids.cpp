@@ -180,40 +180,41 @@ float unit_for(float most) {
 }
 
 // Cells as large as may be, but for weights that vary too much on them.
-std::vector<spline::LeafShape> cells_of(const Cut& cut, uint32_t least, spline::Grid& grid) {
+std::vector<spline::CellBends> cells_of(const Cut& cut, uint32_t least, spline::Grid& grid) {
   const spline::Piece& piece = cut.stored.piece;
   for (uint32_t level = least;; ++level) {
     grid.cell_level = level;
     const spline::Halvings cell = spline::cell_levels(piece, grid);
-    std::vector<spline::LeafShape> shapes;
+    std::vector<spline::CellBends> cells;
     bool has_weight = true;
     for (uint32_t v = 0; v < 1u << cell.v; ++v)
       for (uint32_t u = 0; u < 1u << cell.u; ++u) {
-        shapes.push_back(shape_of(cut.stored, cell.u, u, cell.v, v));
-        has_weight = has_weight && shapes.back().least_weight > 0.0f;
+        spline::CellBends bends;
+        has_weight = bound_cell(cut.stored, cell, u, v, bends) && has_weight;
+        cells.push_back(bends);
       }
-    if (has_weight || (cell.u == piece.level_u && cell.v == piece.level_v)) return shapes;
+    if (has_weight || (cell.u == piece.level_u && cell.v == piece.level_v)) return cells;
   }
 }
 
 void store_bends(const Cut& cut, uint32_t cell_level, spline::Grid& grid,
                  std::vector<spline::PatchBend>& bends) {
-  const std::vector<spline::LeafShape> cells =
+  const std::vector<spline::CellBends> cells =
       cells_of(cut, cell_level + cut.stored.piece.is_rational, grid);
   float fixed = 0, turning = 0;
-  for (const spline::LeafShape& shape : cells)
+  for (const spline::CellBends& cell : cells)
     for (uint32_t k = 0; k < 5; ++k) {
-      fixed = std::max(fixed, shape.fixed[k]);
-      turning = std::max(turning, shape.turning[k]);
+      fixed = std::max(fixed, cell.fixed[k]);
+      turning = std::max(turning, cell.turning[k]);
     }
   grid.fixed_unit_m2 = unit_for(fixed);
   grid.turning_unit_m = unit_for(turning);
-  for (const spline::LeafShape& shape : cells) {
+  for (const spline::CellBends& cell : cells) {
     spline::PatchBend bend{};
     for (uint32_t k = 0; k < 5; ++k) {
-      bend.fixed[k] = static_cast<uint8_t>(spline::byte_above(grid.fixed_unit_m2, shape.fixed[k]));
+      bend.fixed[k] = static_cast<uint8_t>(spline::byte_above(grid.fixed_unit_m2, cell.fixed[k]));
       bend.turning[k] =
-          static_cast<uint8_t>(spline::byte_above(grid.turning_unit_m, shape.turning[k]));
+          static_cast<uint8_t>(spline::byte_above(grid.turning_unit_m, cell.turning[k]));
     }
     bends.push_back(bend);
   }

@@ -155,4 +155,14 @@ spline::LeafShape shape_of(const StoredPiece& stored, uint32_t level_u, uint32_t
   return shape;
 }
 
+bool bound_cell(const StoredPiece& stored, const spline::Halvings& levels, uint32_t index_u,
+                uint32_t index_v, spline::CellBends& bends) {
+  const spline::Part cell = spline::part_of(levels, index_u, index_v);
+  const float* const coefficients = stored.coefficients.data();
+  bool has_weight = spline::begin_bends(stored.piece, coefficients, cell, bends);
+  for (uint32_t k = 0; k < spline::kFineParts && has_weight; ++k)
+    has_weight = spline::add_bends(stored.piece, coefficients, cell, k, bends);
+  return has_weight;
+}
+
 }  // namespace firmtouch::tools

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/layout.hpp"
 #include "firmtouch/spline/leaf_shape.hpp"
 #include "spline/spline.hpp"
@@ -24,5 +25,9 @@ std::vector<BezierPatch> halves_of(const BezierPatch& patch, bool along_v);
 /// What the firmware derives of a part of a piece, `level_u` and `level_v` halvings deep.
 spline::LeafShape shape_of(const StoredPiece& stored, uint32_t level_u, uint32_t index_u,
                            uint32_t level_v, uint32_t index_v);
+
+/// The same of a cell's bends. Result: false where the weight may fall to half of its middle's.
+bool bound_cell(const StoredPiece& stored, const spline::Halvings& levels, uint32_t index_u,
+                uint32_t index_v, spline::CellBends& bends);
 
 }  // namespace firmtouch::tools

@@ -107,9 +107,8 @@ float product(const Vectors& x, const Sizes& c, uint32_t a, uint32_t b, uint32_t
   return least(sizes, in_middle + along_u + along_v) * kUp;
 }
 
-}  // namespace
-
-void bound_bends(const Part& part, LeafShape& shape) {
+// Of a part of something no two points of which are farther apart than span_m.
+void bound_bends(const Part& part, float span_m, LeafShape& shape) {
   Sizes c, w;
   bound_sums(shape, part, shape.numerator_noise_m, shape.weight_noise, c, w);
   quotient(c, w, shape.least_weight);
@@ -119,7 +118,6 @@ void bound_bends(const Part& part, LeafShape& shape) {
   const auto of = [&](uint32_t a, uint32_t b, uint32_t k, uint32_t l) {
     return product(x, c, a, b, k, l);
   };
-  const float span_m = 2.0f * shape.reach_m;
   const auto bound = [&](uint32_t i, float products, float turning, float halves) {
     // By the piece's s and t: the halves are powers of two.
     shape.fixed[i] = (products + turning * kUp * span_m) * kUp / halves;
@@ -136,6 +134,39 @@ void bound_bends(const Part& part, LeafShape& shape) {
   };
   for (uint32_t k = 0; k < 5; ++k)
     bound(k, products[k], c.of[4 - k][k], power(u, 4 - k) * power(v, k));
+}
+
+}  // namespace
+
+void bound_bends(const Part& part, LeafShape& shape) {
+  bound_bends(part, 2.0f * shape.reach_m, shape);
+}
+
+bool begin_bends(const Piece& piece, const float* coefficients, const Part& cell,
+                 CellBends& bends) {
+  LeafShape whole;
+  derive(piece, coefficients, cell, whole);
+  bends = {};
+  bends.span_m = 2.0f * whole.reach_m;
+  return whole.least_weight > 0.0f;
+}
+
+bool add_bends(const Piece& piece, const float* coefficients, const Part& cell, uint32_t fine_part,
+               CellBends& bends) {
+  Part part;
+  part.half_u = 0.25f * cell.half_u;
+  part.half_v = 0.25f * cell.half_v;
+  part.middle_u = cell.middle_u + part.half_u * (2.0f * static_cast<float>(fine_part & 3u) - 3.0f);
+  part.middle_v = cell.middle_v + part.half_v * (2.0f * static_cast<float>(fine_part >> 2) - 3.0f);
+  LeafShape shape;
+  derive(piece, coefficients, part, shape);
+  if (!(shape.least_weight > 0.0f)) return false;
+  bound_bends(part, bends.span_m, shape);
+  for (uint32_t k = 0; k < 5; ++k) {  // one that is no number stays
+    if (!(shape.fixed[k] <= bends.fixed[k])) bends.fixed[k] = shape.fixed[k];
+    if (!(shape.turning[k] <= bends.turning[k])) bends.turning[k] = shape.turning[k];
+  }
+  return true;
 }
 
 }  // namespace firmtouch::spline

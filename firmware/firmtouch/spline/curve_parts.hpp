@@ -48,6 +48,7 @@ class CurveParts {
   }
   uint32_t piece_of(uint32_t node) const { return leaves_[node - base_].piece; }
 
+  bool is_closed(uint32_t, const Best&) const { return false; }  // rare, and bounds are cheap
   uint32_t closed_around(uint32_t leaf, const Best&) const { return leaf; }
 
   // The stored radius holds what float32 loses here (with_slack()).

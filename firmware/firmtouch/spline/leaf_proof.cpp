@@ -10,10 +10,10 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
-bool bends_hold(const PatchBend& bend, const Grid& grid, const LeafShape& shape) {
+bool bends_hold(const PatchBend& bend, const Grid& grid, const CellBends& needed) {
   for (uint32_t k = 0; k < 5; ++k)
-    if (!(in_units(grid.fixed_unit_m2, bend.fixed[k]) >= shape.fixed[k] &&
-          in_units(grid.turning_unit_m, bend.turning[k]) >= shape.turning[k]))
+    if (!(in_units(grid.fixed_unit_m2, bend.fixed[k]) >= needed.fixed[k] &&
+          in_units(grid.turning_unit_m, bend.turning[k]) >= needed.turning[k]))
       return false;
   return true;
 }
@@ -38,23 +38,25 @@ Verdict check_capsules(const View& model, uint32_t i, LeafShape& shape) {
   return kPassed;
 }
 
+Verdict check_cell(const View& model, uint32_t piece_index, uint32_t cell, uint32_t fine_part,
+                   CellBends& needed) {
+  const Piece& piece = model.pieces()[piece_index];
+  const Grid& grid = model.grids()[piece_index];
+  const float* const coefficients = model.coefficients().data() + piece.coefficients;
+  const Halvings levels = cell_levels(piece, grid);
+  const uint32_t in_piece = cell - grid.first_cell;
+  const Part part = part_of(levels, in_piece & ((1u << levels.u) - 1u), in_piece >> levels.u);
+  if (fine_part == 0 && !begin_bends(piece, coefficients, part, needed)) return reject(619, cell);
+  if (!add_bends(piece, coefficients, part, fine_part, needed)) return reject(619, cell);
+  const bool is_last = fine_part + 1 == kFineParts;
+  if (is_last && !bends_hold(model.patch_bends()[cell], grid, needed)) return reject(620, cell);
+  return kPassed;
+}
+
 Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
                     const LeafShape& shape) {
   const Piece& piece = model.pieces()[place.piece];
   const Grid& grid = model.grids()[place.piece];
-  const Halvings cell = cell_levels(piece, grid);
-  const uint32_t in_u = (1u << (piece.level_u - cell.u)) - 1u;
-  const uint32_t in_v = (1u << (piece.level_v - cell.v)) - 1u;
-  if ((place.index_u & in_u) == 0 && (place.index_v & in_v) == 0) {  // a cell with its first leaf
-    LeafShape whole;
-    const Part part = part_of(cell, place.index_u >> (piece.level_u - cell.u),
-                              place.index_v >> (piece.level_v - cell.v));
-    derive(piece, model.coefficients().data() + piece.coefficients, part, whole);
-    if (!(whole.least_weight > 0.0f)) return reject(619, i);
-    bound_bends(part, whole);
-    const PatchBend& bend = model.patch_bends()[cell_of(piece, grid, place.index_u, place.index_v)];
-    if (!bends_hold(bend, grid, whole)) return reject(620, i);
-  }
   Patch patch{place.piece, 0u + piece.level_u + piece.level_v, place.index_u, place.index_v};
   const Parallelogram leaf =
       parallelogram_of(piece, grid, model.corners().data(), patch, halvings_of(piece, patch.depth));

@@ -1,7 +1,7 @@
 #pragma once
 // What open() proves of a leaf beside its head's promises.
 #include "firmtouch/core/status.hpp"
-#include "firmtouch/spline/leaf_shape.hpp"
+#include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::spline {
@@ -9,8 +9,14 @@ namespace firmtouch::spline {
 /// Its bends, which are derived here, and all capsules that hold it (R620, R623).
 /// Pre: the model is proven up to its leaves; `shape` is leaf i's.
 core::Verdict check_capsules(const View& model, uint32_t i, LeafShape& shape);
-/// The same of a surface: the bends of its cell, the parallelograms with radii and the boxes that hold it.
+/// Of a surface's leaf the parallelograms with radii and the boxes that hold it (R623).
 core::Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
                           const LeafShape& shape);
+
+/// Of a surface's cell one of kFineParts after the other, and with the last of them its bends (R619,
+/// R620). `needed` is carried from each to the next.
+/// Pre: the model is proven up to its cells; the cell is the piece's.
+core::Verdict check_cell(const View& model, uint32_t piece_index, uint32_t cell, uint32_t fine_part,
+                         CellBends& needed);
 
 }  // namespace firmtouch::spline

@@ -132,6 +132,11 @@ struct Quadratic {
     return of_u >= of_v ? 0 : 1;
   }
 
+  bool is_at(const float (&there)[2]) const {
+    return math::bits_of(there[0]) == math::bits_of(at[0]) &&
+           math::bits_of(there[1]) == math::bits_of(at[1]);
+  }
+
   static float clamped(float value, const Rectangle& r, uint32_t k) {
     return value > r.low[k] ? value < r.high[k] ? value : r.high[k] : r.low[k];
   }

@@ -68,8 +68,9 @@ enum class Outcome : uint8_t { kClosed, kSplit, kStopped, kLost };
 ///     float bound_m(uint32_t node, Range& range): no point below the node is nearer; of a leaf, all of it;
 ///     Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
 ///                   Half (&halves)[2]);
-///     uint32_t closed_around(leaf, best): a node about the leaf that was just closed, closed as well.
-/// solve() evaluates points of the range, each for one of `left`, until what is left of it is beyond
+///     uint32_t closed_around(leaf, best): a node about the leaf that was just closed, closed as well;
+///     bool is_closed(node, best): whether what closed the last leaf closes all below the node.
+/// solve() evaluates points of the range, each for one of `left` (as does a half that needs none), until what is left of it is beyond
 /// the best's limit (kClosed), or in two halves with bounds of their own (kSplit); where float32 has
 /// no point between the ends it is given up (kLost).
 template <class Range>
@@ -188,6 +189,10 @@ class Search {
       Entry& entry = stack_[--count_];
       if (entry.lower_m >= best_.limit_m) {
         pass(entry.lower_m);
+        continue;
+      }
+      if (shape_.is_closed(entry.node, best_)) {
+        pass(0.0f);
         continue;
       }
       if (shape_.is_leaf(entry.node)) {

@@ -90,6 +90,20 @@ class SurfaceParts {
     return node_of(patch);
   }
 
+  /// Whether the expansion that closed the last leaf closes this part of its cell as well.
+  bool is_closed(uint32_t node, const Best& best) const {
+    if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
+    const Patch patch = patch_of(node), leaf = patch_of(closed_);
+    const Piece& piece = pieces_[patch.piece];
+    const Halvings cell = cell_levels(piece, grids_[patch.piece]);
+    const Halvings made = halvings_of(piece, patch.depth);
+    if (made.u < cell.u || made.v < cell.v ||
+        patch.u >> (made.u - cell.u) != leaf.u >> (piece.level_u - cell.u) ||
+        patch.v >> (made.v - cell.v) != leaf.v >> (piece.level_v - cell.v))
+      return false;
+    return best.is_beyond(closed_by_->least2(range_of(made, patch, 0.0f, 0.0f)));
+  }
+
   // The stored radii and half sides hold what float32 loses here.
   float bound_m(uint32_t node, Range& range) {
     if (node >= kUpper) return box_bound_m(boxes_[node - kUpper]);
@@ -112,8 +126,15 @@ class SurfaceParts {
     const float area = (range.high[0] - range.low[0]) * (range.high[1] - range.low[1]);
     const Piece& piece = pieces_[patch.piece];
     const float whole = math::float_of((129u - piece.level_u - piece.level_v) << 23);
+    const bool is_small = area <= kSmall * whole && left >= kDerivation;
+    // The half that an expansion was made in: it failed there too, but where the bends are its own.
+    if (node == halved_ && halved_by_->is_at(range.start) && !is_small && left > 0) {
+      --left;
+      return split(range, *halved_by_, lower_m, halves);
+    }
+    closed_ = halved_ = kNone;
     Bends bends;
-    if (area <= kSmall * whole && left >= kDerivation) {
+    if (is_small) {
       left -= kDerivation;
       derive_bends(piece, range, bends);
     } else {
@@ -148,14 +169,18 @@ class SurfaceParts {
       if (!has_arrived) continue;
       if (best.is_beyond(base->least2(range))) {
         closed_by_ = base;
+        closed_ = is_small ? kNone : node;  // a rectangle's own bends are not those of the cell
         return Outcome::kClosed;
       }
       break;
     }
+    halved_by_ = base;
+    halved_ = node;
     return split(range, *base, lower_m, halves);
   }
 
  private:
+  static constexpr uint32_t kNone = UINT32_MAX;  // no node
   static constexpr uint32_t kMostTurns = 6;
   static constexpr float kUp = 1.0f + 0x1p-16f;  // for sums and products of a few dozen roundings
   // A rectangle of so little of a leaf gets bends of its own, for the price of so many steps. The
@@ -335,7 +360,9 @@ class SurfaceParts {
   math::Vec3 p_m_;
   Near near_;
   Quadratic expansions_[2];
-  const Quadratic* closed_by_ = expansions_;
+  // The leaves that an expansion closed, or did not, last.
+  const Quadratic *closed_by_ = expansions_, *halved_by_ = expansions_;
+  uint32_t closed_ = kNone, halved_ = kNone;
 };
 
 }  // namespace firmtouch::spline

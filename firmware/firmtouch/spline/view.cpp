@@ -123,7 +123,7 @@ Verdict Opening::take_surfaces(const Sections& s, const Head& head) {
 
 void Opening::work(uint32_t elements) {
   for (uint32_t used = 0; used < elements && stage_ != Stage::kDone;) {
-    used += stage_ == Stage::kLeaves ? kLeafElements : 1;
+    used += stage_ == Stage::kLeaves || stage_ == Stage::kCells ? kLeafElements : 1;
     if (next_ < this->elements()) {
       const Verdict found = check(next_);
       if (!found.ok()) return fail(found.rule, found.element);
@@ -143,6 +143,8 @@ uint32_t Opening::elements() const {
       return view_.is_surface() ? view_.boxes_.size() : view_.capsules_.size();
     case Stage::kPlaces:
       return view_.places_.size();
+    case Stage::kCells:
+      return view_.patch_bends_.size() * kFineParts;
     default:
       return view_.leaf_count();
   }
@@ -150,6 +152,7 @@ uint32_t Opening::elements() const {
 
 void Opening::next_stage() {
   next_ = 0;
+  if (stage_ == Stage::kCells) piece_ = 0;
   if (stage_ == Stage::kPieces && coefficients_used_ != view_.coefficients_.size())
     return fail(613, view_.pieces_.size());
   if (stage_ == Stage::kPieces && view_.is_surface() &&
@@ -171,6 +174,8 @@ Verdict Opening::check(uint32_t i) {
       return check_node(i);
     case Stage::kPlaces:
       return check_place(i);
+    case Stage::kCells:
+      return check_cell(i);
     case Stage::kLeaves:
       return check_leaf(i);
     case Stage::kDone:
@@ -260,6 +265,16 @@ Verdict Opening::check_place(uint32_t i) {
     ++piece_;
   }
   return kPassed;
+}
+
+Verdict Opening::check_cell(uint32_t i) {
+  const Grid& grid = view_.grids_[piece_];
+  const Halvings cell = cell_levels(view_.pieces_[piece_], grid);
+  const uint32_t of = i / kFineParts;
+  const Verdict found = spline::check_cell(view_, piece_, of, i % kFineParts, bends_);
+  const bool is_last = (i + 1) % kFineParts == 0;
+  if (is_last && of + 1 - grid.first_cell == 1u << (cell.u + cell.v)) ++piece_;
+  return found;
 }
 
 Verdict Opening::check_leaf(uint32_t i) {

@@ -4,6 +4,7 @@
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/math/vec3.hpp"
+#include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/layout.hpp"
 
 namespace firmtouch::spline {
@@ -73,7 +74,8 @@ class Opening {
  public:
   explicit Opening(const Sections& sections);
 
-  /// Checks up to `elements` pieces, points, nodes or leaves more; a leaf counts as 64.
+  /// Checks up to `elements` pieces, points, nodes, sixteenths of cells or leaves more; one of the last two
+  /// counts as 64.
   /// Bounds: about 1,000 instructions an element, 3 KB of stack; no recursion; reads only inside
   /// the sections.
   void work(uint32_t elements);
@@ -83,7 +85,7 @@ class Opening {
   View view() const { return done() && verdict_.ok() ? view_ : View{}; }
 
  private:
-  enum class Stage : uint8_t { kPieces, kPoints, kNodes, kPlaces, kLeaves, kDone };
+  enum class Stage : uint8_t { kPieces, kPoints, kNodes, kPlaces, kCells, kLeaves, kDone };
   void fail(uint16_t rule, uint32_t element);
   void open_head(const Sections& sections);
   core::Verdict take_sections(const Sections& sections, const Head& head);
@@ -97,6 +99,7 @@ class Opening {
   core::Verdict check_point(uint32_t i) const;
   core::Verdict check_node(uint32_t i) const;
   core::Verdict check_place(uint32_t i);
+  core::Verdict check_cell(uint32_t i);
   core::Verdict check_leaf(uint32_t i);
 
   View view_;
@@ -104,7 +107,8 @@ class Opening {
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0;
   uint32_t coefficients_used_ = 0, corners_used_ = 0, leaves_used_ = 0, cells_used_ = 0;
-  uint32_t piece_ = 0, in_piece_ = 0;  // of the place, or of a surface's leaf, that is next
+  uint32_t piece_ = 0, in_piece_ = 0;  // of the place, or of a surface's cell or leaf, that is next
+  CellBends bends_;
 };
 
 /// All at once.
