@@ -90,11 +90,15 @@ TEST(BoxDistanceVariantsAgree) {
     const math::BoxPoint packed = math::box_point(point[0], point[1], point[2]);
     const uint32_t first = math::portable_box_distance2(boxes, point),
                    second = math::portable_box_distance2(boxes + 3, point);
-    uint32_t told_first, told_second;
-    math::box_distances2(boxes, boxes + 3, packed, told_first, told_second);
-    if (told_first != first || told_second != second) ++differ;
     if (math::box_distance2(boxes, packed) != first) ++differ;
     if (math::box_distance2(boxes + 3, packed) != second) ++differ;
+    // As a node holds them: each with a word behind it.
+    const uint32_t sides[8] = {boxes[0], boxes[1], boxes[2], next_random(),
+                               boxes[3], boxes[4], boxes[5], next_random()};
+    uint32_t told_first, told_second, word0, word1;
+    math::side_distances2(sides, packed, told_first, told_second, word0, word1);
+    if (told_first != first || told_second != second) ++differ;
+    if (word0 != sides[3] || word1 != sides[7]) ++differ;
   }
   CHECK_EQ(differ, 0u);
 }

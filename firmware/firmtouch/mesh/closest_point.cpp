@@ -31,20 +31,39 @@ constexpr float kFenceMotions = 8.0f;
 // than 1e6 m.
 constexpr float kBeyond_m = 1e15f;
 
-Vec3 feature_direction(const View& mesh, const Best& best) {
-  const Triangle<uint32_t> t = mesh.triangle(best.triangle);
-  const Vec3 a = mesh.vertex(t.corner[0]), b = mesh.vertex(t.corner[1]),
-             c = mesh.vertex(t.corner[2]);
-  const Vec3 normal = unit_normal(a, b, c);
-  if (best.feature == Feature::kFace || !mesh.is_signed()) return normal;
+struct Corners {
+  uint32_t index[3];
+  Vec3 a_m, b_m, c_m;
+};
+
+inline Corners corners_of(const View& mesh, uint32_t triangle) {
+  const Triangle<uint32_t> t = mesh.triangle(triangle);
+  return {{t.corner[0], t.corner[1], t.corner[2]},
+          mesh.vertex(t.corner[0]),
+          mesh.vertex(t.corner[1]),
+          mesh.vertex(t.corner[2])};
+}
+
+// The pseudonormal of an edge or a vertex of a triangle whose unit normal is `normal`. Apart: nearly
+// every answer is a face's, whose values would wait in memory.
+[[gnu::noinline]] Vec3 border_direction(const View& mesh, const Best& best, Vec3 normal) {
+  const Corners t = corners_of(mesh, best.triangle);
   if (is_vertex(best.feature)) {
     const uint32_t corner =
         static_cast<uint32_t>(best.feature) - static_cast<uint32_t>(Feature::kVertex0);
-    return decode_vertex_normal(mesh.vertex_normals()[t.corner[corner]]);
+    return decode_vertex_normal(mesh.vertex_normals()[t.index[corner]]);
   }
   const uint32_t k = static_cast<uint32_t>(best.feature) - static_cast<uint32_t>(Feature::kEdge0);
-  const Vec3 edge = k == 0 ? b - a : k == 1 ? c - b : a - c;
+  const Vec3 edge = k == 0 ? t.b_m - t.a_m : k == 1 ? t.c_m - t.b_m : t.a_m - t.c_m;
   return decode_edge_normal(normal, edge, mesh.folds()[best.triangle].fold[k]);
+}
+
+[[gnu::always_inline]] inline Vec3 feature_direction(const View& mesh, const Best& best) {
+  const Corners t = corners_of(mesh, best.triangle);
+  const Vec3 normal = unit_normal(t.a_m, t.b_m, t.c_m);
+  if (best.feature != Feature::kFace && mesh.is_signed())
+    return border_direction(mesh, best, normal);
+  return {normal.x, normal.y, normal.z};  // one by one: see measure_leaf()
 }
 
 bool is_place(const View& mesh, uint32_t place) {
@@ -54,12 +73,11 @@ bool is_place(const View& mesh, uint32_t place) {
 }
 
 template <bool kCareful, class Bound>
-void search(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budget, uint32_t start,
-            Search& result) {
+void look(const View& mesh, const Bound& bound, Search& search) {
   if (!mesh.triangles16().empty())
-    search_nearest<kCareful>(mesh, mesh.triangles16(), bound, p_m, budget, start, result);
+    search_nearest<kCareful, Bound, uint16_t>(mesh, bound, search);
   else
-    search_nearest<kCareful>(mesh, mesh.triangles32(), bound, p_m, budget, start, result);
+    search_nearest<kCareful, Bound, uint32_t>(mesh, bound, search);
 }
 
 // What a search found, and what it is worth.
@@ -121,8 +139,10 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
     again.search.fence = found.search.fence;
     again.search.fence_m = found.search.fence_m;
     again.search.fence_margin_m = found.search.fence_margin_m;
-    search<true>(mesh, bound, p_m, budget - found.search.steps, found.search.best.place,
-                 again.search);
+    again.search.p_m = p_m;
+    again.search.start = found.search.best.place;
+    again.search.budget = budget - found.search.steps;
+    look<true>(mesh, bound, again.search);
     again.search.steps += found.search.steps;
     if (again.search.complete) {
       found = again;
@@ -153,28 +173,33 @@ int8_t side_of(const Found& found, Vec3 direction, float loss_m, float diagonal_
 }
 
 template <class Bound>
-Closest answer(const View& mesh, const Bound& bound, Vec3 p_m, query::Budget budget,
+Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m, const query::Budget& budget,
                query::Hint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
   const Loss loss(mesh.head());
-  Found found;
-  // After a jump out of the band's reach the last leaf does not help.
   const float fence_margin_m = kFenceMotions * carried.motion_m;
-  uint32_t start = hint.place;
-  if (fence_margin_m > budget.band_m || !is_place(mesh, start)) {
-    // Cold: a stored vertex is a point of the surface before any triangle is reached.
-    start = query::kNowhere;
-    found.search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
-    found.search.best.distance2_m2 = dot(found.search.best.offset_m, found.search.best.offset_m);
-  }
   // FLT_MAX and what squares beyond it: no band.
   const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
-  found.search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
-  found.search.fence = hint.fence;
-  found.search.fence_m = carried.fence_m;
-  found.search.fence_margin_m = fence_margin_m;
-  search<Bound::kCareful>(mesh, bound, p_m, budget.steps, start, found.search);
-  const float plain_m = nearest_m(found.search);
+  // After a jump out of the band's reach the last leaf does not help.
+  const uint32_t place = hint.place, fence = hint.fence;
+  const bool is_warm = !(fence_margin_m > budget.band_m) && is_place(mesh, place);
+  Found found;  // all at once, with nothing read between: else each of its defaults is stored too
+  Search& search = found.search;
+  search.p_m.x = p_m.x;
+  search.p_m.y = p_m.y;
+  search.p_m.z = p_m.z;
+  search.start = is_warm ? place : query::kNowhere;
+  search.budget = budget.steps;
+  search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
+  search.fence_margin_m = fence_margin_m;
+  search.fence = fence;
+  search.fence_m = carried.fence_m;
+  if (!is_warm) {  // a stored vertex is a point of the surface before any triangle is reached
+    search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
+    search.best.distance2_m2 = dot(search.best.offset_m, search.best.offset_m);
+  }
+  look<Bound::kCareful>(mesh, bound, search);
+  const float plain_m = nearest_m(search);
   const float plain_loss_m = loss.told_m(plain_m);
   weigh(found,
         Bound::kCareful ? less_m(plain_m, loss.careful_m(plain_m) + loss.rounding_m)
@@ -182,18 +207,18 @@ Closest answer(const View& mesh, const Bound& bound, Vec3 p_m, query::Budget bud
         loss.rounding_m);
   const float diagonal_m = mesh.head().diagonal_m;
   const float scale_m = plain_m > diagonal_m ? plain_m : diagonal_m;
-  const bool is_near = found.search.best.distance2_m2 <= found.search.band2_m2;
+  const bool is_near = search.best.distance2_m2 <= search.band2_m2;
   const float promise_m = kPromise * scale_m;
   if (!Bound::kCareful && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
       !measure_again(mesh, p_m, promise_m, found))
     search_again(mesh, bound, p_m, budget.steps, found);
 
-  const Best& best = found.search.best;
+  const Best& best = search.best;
   const Vec3 point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);
   const Vec3 direction = feature_direction(mesh, best);
   // The carried bound is worth keeping where the search was cut short; else it can only be older.
   float lower_m = found.lower_m;
-  bool exact = found.search.complete && is_near;
+  bool exact = search.complete && is_near;
   if (!exact && carried.lower_m > lower_m) lower_m = carried.lower_m;
   int8_t sign = 0;
   if (mesh.is_signed()) {
@@ -206,25 +231,20 @@ Closest answer(const View& mesh, const Bound& bound, Vec3 p_m, query::Budget bud
       exact = sign != 0;
     }
   }
-
   if (best.place != query::kNowhere) hint.place = best.place;
-  hint.position_m = p_m;
+  hint.position_m.x = p_m.x;
+  hint.position_m.y = p_m.y;
+  hint.position_m.z = p_m.z;
   hint.lower_m = lower_m;
   hint.sign = lower_m > kEitherSide * diagonal_m ? sign : int8_t{0};
-  hint.fence = found.search.fence;
-  hint.fence_m = found.search.fence_m;
-
-  Closest closest;
-  closest.distance_m = sign < 0 ? -found.distance_m : found.distance_m;
-  closest.point_m = point_m;
-  closest.direction = direction;
-  closest.triangle = best.triangle;
-  closest.feature = best.feature;
-  closest.certificate.lower_m = lower_m;
-  closest.certificate.steps = found.search.steps;
-  closest.certificate.exact = exact;
-  closest.certificate.sign = sign;
-  return closest;
+  hint.fence = search.fence;
+  hint.fence_m = search.fence_m;
+  return {sign < 0 ? -found.distance_m : found.distance_m,
+          {point_m.x, point_m.y, point_m.z},
+          {direction.x, direction.y, direction.z},
+          best.triangle,
+          best.feature,
+          {lower_m, search.steps, exact, sign}};
 }
 
 // So far away that every vertex is as near as any other to 4e-8: no square of such a distance fits

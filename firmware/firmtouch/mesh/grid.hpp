@@ -51,9 +51,11 @@ struct NearBound {
     return true;
   }
   uint32_t key(const uint32_t* box) const { return math::box_distance2(box, point); }
-  /// Of both sides of a node. Into two words: a struct of them cost the Cortex-M7 2 % of a query.
-  void keys(const Side* sides, uint32_t& first, uint32_t& second) const {
-    math::box_distances2(sides[0].box, sides[1].box, point, first, second);
+  /// Of both sides of a node, and where their children are. Into words: a struct of them cost the
+  /// Cortex-M7 2 % of a query.
+  void keys(const Side* sides, uint32_t& key0, uint32_t& key1, uint32_t& child0,
+            uint32_t& child1) const {
+    math::side_distances2(sides[0].box, point, key0, key1, child0, child1);
   }
   /// Smallest key whose boxes cannot be nearer than the square root of distance2_m2.
   uint32_t prune_key(float distance2_m2) const {
@@ -97,9 +99,12 @@ struct FarBound {
                        outside_m(box[2], x_m.z)};
     return math::bits_of(math::dot(d, d) * kRoundDown);
   }
-  void keys(const Side* sides, uint32_t& first, uint32_t& second) const {
-    first = key(sides[0].box);
-    second = key(sides[1].box);
+  void keys(const Side* sides, uint32_t& key0, uint32_t& key1, uint32_t& child0,
+            uint32_t& child1) const {
+    key0 = key(sides[0].box);
+    key1 = key(sides[1].box);
+    child0 = sides[0].child;
+    child1 = sides[1].child;
   }
   uint32_t prune_key(float distance2_m2) const {
     return math::bits_of(distance2_m2 * (2.0f - kRoundDown));

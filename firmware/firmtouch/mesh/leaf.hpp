@@ -88,11 +88,11 @@ template <bool kCareful, class Index>
       return measure_side_by_side<Float4>(vertices, triangles, p_m, child, place, least2_m2, best);
   }
   using math::Vec3;
-  const Triangle<Index>* const triangle = triangles.data();
-  uint32_t i = leaf_first(child);
-  for (const uint32_t end = i + leaf_count(child); i < end; ++i) {
-    const Vertex &a = vertices[triangle[i].corner[0]], &b = vertices[triangle[i].corner[1]],
-                 &c = vertices[triangle[i].corner[2]];
+  const Triangle<Index>* triangle = triangles.data() + leaf_first(child);
+  for (const Triangle<Index>* const end = triangle + leaf_count(child); triangle != end;
+       ++triangle) {
+    const Vertex &a = vertices[triangle->corner[0]], &b = vertices[triangle->corner[1]],
+                 &c = vertices[triangle->corner[2]];
     const Vec3 a_m{a.x_m, a.y_m, a.z_m}, b_m{b.x_m, b.y_m, b.z_m}, c_m{c.x_m, c.y_m, c.z_m};
     Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
     if constexpr (kCareful) {
@@ -105,7 +105,7 @@ template <bool kCareful, class Index>
     least2_m2 = foot.distance2_m2;
     best.distance2_m2 = least2_m2;  // one by one: an aggregate would be built aside first
     best.offset_m = foot.offset_m;
-    best.triangle = i;
+    best.triangle = static_cast<uint32_t>(triangle - triangles.data());
     best.place = place;
     best.feature = foot.feature;
   }

@@ -25,14 +25,16 @@ struct Pending {
   uint32_t place;
 };
 
-/// In: the best so far and the last fence, the subtree outside which everything is at least fence_m
-/// away. Out: the same, renewed, and what the search came to.
+/// What is looked for, and what came of it.
 struct Search {
-  Best best;
-  uint32_t fence;
-  float fence_m;
-  float band2_m2;        // in: what is farther off need not be found
-  float fence_margin_m;  // in: how much farther than the first leaf a new fence should stand
+  Vec3 p_m;
+  uint32_t start;        // a leaf's place, or kNowhere
+  uint32_t budget;       // in steps
+  float band2_m2;        // what is farther off need not be found
+  float fence_margin_m;  // how much farther than the first leaf a new fence should stand
+  Best best;             // in: no farther than this; out: the nearest
+  uint32_t fence;        // in: the last fence, the subtree outside which everything is at least ...
+  float fence_m;         // ... this far away; out: the same, renewed
   uint32_t steps;
   bool complete;    // nothing nearer can be left
   float pending_m;  // where it is not: certified distance to everything that was not looked at
@@ -53,13 +55,12 @@ struct Taken {
 
 // Takes the leaf of the smallest key, which is below `prune`: where the smallest is an inner node's,
 // both of its boxes take its place first. So the lower bound of a search that is cut short rises
-// fastest. Where more than `best_first` are pending or nothing is `left`, what was about to be read.
+// fastest. Where kBestFirst or more are pending or nothing is `left`, what was about to be read.
 // A function of its own: in the loop it would take the registers of the warm search, which does
 // not use it.
 template <class Bound>
 [[gnu::noinline]] Taken take_smallest(const Side* sides, const Bound& bound, Pending* pending,
-                                      uint32_t count, uint32_t best_first, uint32_t prune,
-                                      uint32_t left) {
+                                      uint32_t count, uint32_t prune, uint32_t left) {
   while (count != 0) {
     uint32_t at = count - 1;
     for (uint32_t i = at; i-- > 0;) at = pending[i].key < pending[at].key ? i : at;
@@ -67,10 +68,10 @@ template <class Bound>
     pending[at] = pending[--count];
     if (taken.key >= prune) break;
     const uint32_t child = sides[taken.place].child;
-    if (is_leaf(child) || left == 0 || count >= best_first) return {taken.place, count, left, true};
+    if (is_leaf(child) || left == 0 || count >= kBestFirst) return {taken.place, count, left, true};
     --left;
-    uint32_t key0, key1;
-    bound.keys(sides + 2 * child, key0, key1);
+    uint32_t key0, key1, child0, child1;
+    bound.keys(sides + 2 * child, key0, key1, child0, child1);
     if (key0 < prune) pending[count++] = {key0, 2 * child};
     if (key1 < prune) pending[count++] = {key1, 2 * child + 1};
   }
@@ -78,29 +79,35 @@ template <class Bound>
 }
 
 // Takes the last place of a key below `prune`.
-// Result: false when none is left of more than `best_first`.
-inline bool take_last(const Pending* pending, uint32_t& count, uint32_t best_first, uint32_t prune,
-                      uint32_t& place) {
-  while (count > best_first) {
-    const Pending taken = pending[--count];
-    place = taken.place;
-    if (taken.key < prune) return true;
+// Result: false when none is left above `best_first`.
+inline bool take_last(Pending*& top, const Pending* best_first, uint32_t prune, uint32_t& place) {
+  while (top > best_first) {
+    --top;
+    place = top->place;
+    if (top->key < prune) return true;
   }
   return false;
 }
 
-// From the leaf at `place`, which has been read, up to the fence where that is far enough away,
+// What the nearest so far, or the band, leaves to be looked at.
+template <class Bound>
+inline uint32_t prune_key(const Bound& bound, const Search& search) {
+  return bound.prune_key(smaller(search.best.distance2_m2, search.band2_m2));
+}
+
+// From the leaf at search.start, which has been read, up to the fence where that is far enough away,
 // else to the root, building the next fence: the highest node with a box beside the way that is
 // nearer than the fence should be. Result: false where the budget ends on the way.
 template <class Bound>
-inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t prune,
-                  uint32_t& left, Pending* pending, uint32_t& count, Search& search) {
+inline bool climb(const View& mesh, const Bound& bound, uint32_t prune, uint32_t& left,
+                  Pending*& top, Search& search) {
   const Side* const sides = mesh.sides();
   const uint32_t* const parents = mesh.parents().data();
   const float leaf_m =
       math::square_root(smaller(search.best.distance2_m2, search.band2_m2)) * (1.0f + 0x1p-22f);
   const float reach_m = leaf_m + search.fence_margin_m;
   const uint32_t beyond = bound.prune_key(reach_m * reach_m);
+  uint32_t place = search.start;
   uint32_t stop = leaf_m <= search.fence_m ? search.fence : 0, fence = place >> 1;
   while (left != 0) {
     --left;
@@ -108,7 +115,7 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
     const uint32_t key = bound.key(sides[beside].box);
     if (key < beyond) {
       fence = index;
-      if (key < prune) pending[count++] = {key, beside};
+      if (key < prune) *top++ = {key, beside};
     }
     if (index <=
         stop) {  // parents come before their children: at the fence, or past one that is no ancestor
@@ -125,87 +132,129 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t place, uint32_t
   return false;
 }
 
+template <class Index>
+inline core::Span<const Triangle<Index>> triangles_of(const View& mesh) {
+  if constexpr (sizeof(Index) == sizeof(uint16_t))
+    return mesh.triangles16();
+  else
+    return mesh.triangles32();
+}
+
+// measure_leaf() of a leaf that is reached. Result: the least squared distance so far.
+template <bool kCareful, class Index, bool kIsLast>
+[[gnu::always_inline]] inline float measure_here(const View& mesh, uint32_t child, uint32_t place,
+                                                 Search& search) {
+  const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};  // one by one: see measure_leaf()
+  return measure_leaf<kCareful>(mesh.vertices().data(), triangles_of<Index>(mesh),
+                                Loss(mesh.head()), p_m, child, place, kIsLast,
+                                search.best.distance2_m2, search.best);
+}
+
+// A function of its own: in the loop it would take the registers of the descent.
+template <bool kCareful, class Index>
+[[gnu::noinline]] float measure_apart(const View& mesh, uint32_t child, uint32_t place,
+                                      Search& search) {
+  return measure_here<kCareful, Index, false>(mesh, child, place, search);
+}
+
+// Side by side so few instructions measure a leaf that a call would show.
+template <bool kCareful, class Index, bool kIsLast>
+inline float measure(const View& mesh, uint32_t child, uint32_t place, Search& search) {
+  if constexpr (math::kHasLanes)
+    return measure_here<kCareful, Index, kIsLast>(mesh, child, place, search);
+  else
+    return measure_apart<kCareful, Index>(mesh, child, place, search);
+}
+
+// Of an inner node's boxes the nearer one below `prune` becomes child and place; the other, below it
+// too, is left pending. Result: false where neither is below it.
+template <class Bound>
+[[gnu::always_inline]] inline bool enter(const Side* sides, const Bound& bound, uint32_t prune,
+                                         uint32_t& child, uint32_t& place, Pending*& top) {
+  place = 2 * child;
+  uint32_t key0, key1, child0, child1;
+  bound.keys(sides + place, key0, key1, child0, child1);
+  if (key0 < prune) {
+    if (key1 < prune) {
+      if (key1 < key0) {
+        *top++ = {key0, place};
+        place |= 1u;
+        child = child1;
+        return true;
+      }
+      *top++ = {key1, place | 1u};
+    }
+    child = child0;
+    return true;
+  }
+  if (key1 >= prune) return false;
+  place |= 1u;
+  child = child1;
+  return true;
+}
+
 // One loop with its state in registers. A box is a place; a leaf that is reached is read, an inner
 // node is entered by its nearer child, the other left in `pending`. A warm search begins with the
 // last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
 // A function of its own: beside its caller's values the loop's do not stay in registers.
 template <bool kCareful, class Bound, class Index>
-[[gnu::noinline]] void search_nearest(const View& mesh, core::Span<const Triangle<Index>> triangles,
-                                      const Bound& bound_at, Vec3 p_m, uint32_t budget,
-                                      uint32_t start, Search& search) {
+[[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers
-  const float px_m = p_m.x, py_m = p_m.y, pz_m = p_m.z;
-  const Loss loss(mesh.head());
-  const Vertex* const vertices = mesh.vertices().data();
   const Side* const sides = mesh.sides();
-  const uint32_t allowed = budget == 0 ? 1 : budget;
+  const uint32_t allowed = search.budget == 0 ? 1 : search.budget;
   Pending pending[kCapacity];
-  uint32_t count = 0, left = allowed;
-  float least2_m2 = search.best.distance2_m2;
-  const uint32_t band = bound.prune_key(search.band2_m2);
-  uint32_t prune = smaller(bound.prune_key(least2_m2), band);
-  bool climbing = start != query::kNowhere;
+  Pending* top = pending;  // behind the last
   // Where nothing cuts a search short no lower bound is told on the way.
-  const uint32_t best_first = climbing || budget == UINT32_MAX ? 0 : kBestFirst;
-  uint32_t place = start;
-  uint32_t child = climbing ? sides[start].child : 0;  // else the root
-  while (left != 0) {
+  const Pending* best_first = allowed == UINT32_MAX ? pending : pending + kBestFirst;
+  uint32_t left = allowed, place = query::kNowhere, child = 0, prune;
+  search.complete = true;
+  if (search.start != query::kNowhere) {
+    best_first = pending;
     --left;
+    measure<kCareful, Index, true>(mesh, sides[search.start].child, search.start, search);
+    prune = prune_key(bound, search);
+    if (!climb(mesh, bound, prune, left, top, search)) {
+      search.complete = false;
+      search.steps = allowed;
+      search.pending_m = 0.0f;
+      return;
+    }
+    if (!take_last(top, best_first, prune, place)) {
+      search.steps = allowed - left;
+      return;
+    }
+    child = sides[place].child;
+  } else {
+    prune = prune_key(bound, search);
+  }
+  for (; left != 0; --left) {
     if (!is_leaf(child)) {
-      uint32_t key0, key1;
-      bound.keys(sides + 2 * child, key0, key1);
-      place = 2 * child;
-      if (key0 < prune) {
-        if (key1 < prune) {
-          if (key1 < key0) {
-            pending[count++] = {key0, place};
-            place |= 1u;
-          } else {
-            pending[count++] = {key1, place | 1u};
-          }
-        }
-        child = sides[place].child;
-        continue;
-      }
-      if (key1 < prune) {
-        place |= 1u;
-        child = sides[place].child;
-        continue;
-      }
+      if (enter(sides, bound, prune, child, place, top)) continue;
     } else {
-      const float before2_m2 = least2_m2;
-      least2_m2 = measure_leaf<kCareful>(vertices, triangles, loss, Vec3{px_m, py_m, pz_m}, child,
-                                         place, climbing, least2_m2, search.best);
-      if (least2_m2 < before2_m2) prune = smaller(bound.prune_key(least2_m2), band);
-      if (climbing) {
-        if (!climb(mesh, bound, start, prune, left, pending, count, search)) break;
-        climbing = false;
-      }
+      const float before2_m2 = search.best.distance2_m2;
+      if (measure<kCareful, Index, false>(mesh, child, place, search) < before2_m2)
+        prune = prune_key(bound, search);
     }
     // Many, or warm: the last, whose order does not matter then and costs nothing.
-    if (!take_last(pending, count, best_first, prune, place)) {
-      bool found = count != 0;
-      if (found) {
-        const Taken taken = take_smallest(sides, bound_at, pending, count, best_first, prune, left);
-        found = taken.found;
-        place = taken.place;
-        count = taken.count;
-        left = taken.left;
-      }
-      if (!found) {
-        search.complete = true;
-        search.steps = allowed - left;
+    if (!take_last(top, best_first, prune, place)) {
+      const uint32_t count = static_cast<uint32_t>(top - pending);
+      Taken taken{0, 0, left - 1, false};
+      if (count != 0) taken = take_smallest(sides, bound_at, pending, count, prune, left - 1);
+      if (!taken.found) {
+        search.steps = allowed - taken.left;
         return;
       }
+      place = taken.place;
+      top = pending + taken.count;
+      left = taken.left + 1;
     }
     child = sides[place].child;
   }
   // The budget ran out: what was about to be read is left too.
   search.complete = false;
-  search.steps = allowed - left;
-  const bool nothing = climbing || place == query::kNowhere;
-  uint32_t least = nothing ? 0 : bound.key(sides[place].box);
-  for (uint32_t i = 0; i < count; ++i) least = pending[i].key < least ? pending[i].key : least;
+  search.steps = allowed;
+  uint32_t least = bound.key(sides[place].box);
+  for (const Pending* p = pending; p != top; ++p) least = p->key < least ? p->key : least;
   search.pending_m = bound.distance_m(least);
 }
 

@@ -48,15 +48,13 @@ struct Foot {
   const float w = y / dot(h, h);
   const float v = x - w * xc;
   // On a border too, so that a query at a corner is told the corner, not a face that meets there.
-  const bool beyond_ac = v <= 0.0f;
-  const bool beyond_bc = v + w >= 1.0f;
-  if (!(beyond_ac || beyond_bc)) return foot_at(e - h * w, Feature::kFace);
-  if (beyond_ac) {
+  if (!(v <= 0.0f || v + w >= 1.0f)) return foot_at(e - h * w, Feature::kFace);
+  if (v <= 0.0f) {
     const float t = dot(ac, ap), ac2 = dot(ac, ac);
     if (t <= 0.0f) return foot_at(ap, Feature::kVertex0);
     if (t < ac2) return foot_at(ap - ac * (t / ac2), Feature::kEdge2);
   }
-  if (beyond_bc) {
+  if (v + w >= 1.0f) {
     const Vec3 bc = c - b, bp = p - b;
     const float t = dot(bc, bp), bc2 = dot(bc, bc);
     if (t <= 0.0f) return foot_at(bp, Feature::kVertex1);
