@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include "bake/bake_spline.hpp"
 #include "bake/probes.hpp"
 #include "bake/provenance.hpp"
+#include "bake/spline_choice.hpp"
 #include "bake/spline_guide.hpp"
 #include "bake/spline_worst.hpp"
 #include "bake/step_figures.hpp"
@@ -105,9 +105,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
 
   progress.stage("building the tree of " + name);
   tools::SplineReport report;
-  const tools::SplineDetail detail =
-      model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(options.small);
-  baked.sections = tools::bake_spline(model, name, detail, report);
+  baked.sections = tools::bake_fast_spline(model, name, options.small, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   spline::View view;
   const core::Verdict verdict = spline::open(tools::spline_sections(baked.sections, name), view);
