@@ -65,6 +65,8 @@ constexpr curve::Sample kL[] = {{0, 0, 0}, {0.1f, 0, 0}, {0.2f, 0, 0}, {0.2f, 0.
 constexpr curve::Sample kRing[] = {
     {0, 0, 0}, {0.1f, 0, 0}, {0.1f, 0.1f, 0}, {0, 0.1f, 0}, {0, 0, 0}};
 constexpr curve::Sample kHairpin[] = {{0, 0, 0}, {0.2f, 0, 0}, {0.2f, 0.004f, 0}, {0, 0.004f, 0}};
+constexpr curve::Sample kThree[] = {{0, 0, 0},     {0.2f, 0, 0},  {0.2f, 0.01f, 0},
+                                    {0, 0.01f, 0}, {0, 0.02f, 0}, {0.2f, 0.02f, 0}};
 
 struct Rig {
   scene::CurveGuide guide;
@@ -149,6 +151,7 @@ TEST(ASplineOfStraightPiecesFeelsLikeTheSampledCurveOfTheSameCorners) {
   compare(kL, settings());
   compare(kRing, settings());
   compare(kHairpin, settings());
+  compare(kThree, settings());
 }
 
 TEST(TheSameWithTunnelSideEndsAndDrive) {

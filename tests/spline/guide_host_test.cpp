@@ -1,16 +1,16 @@
 // Splines as guides: lengths along them, which part the guide keeps to, and what open_guide() refuses.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <string>
 #include <vector>
 
-#include "bake/bake_spline.hpp"
-#include "bake/spline_guide.hpp"
 #include "firmtouch/math/isa.hpp"
+#include "firmtouch/spline/arc.hpp"
 #include "firmtouch/spline/guided_point.hpp"
+#include "firmtouch/spline/least_cost.hpp"
 #include "harness/test.hpp"
+#include "spline/baked_guide.hpp"
 #include "spline/random_splines.hpp"
+#include "spline/small_spline.hpp"
 
 namespace {
 
@@ -22,76 +22,10 @@ namespace core = firmtouch::core;
 namespace spline = firmtouch::spline;
 namespace spline_test = firmtouch::spline_test;
 namespace tools = firmtouch::tools;
-
-struct Guide {
-  tools::SplineModel model;
-  std::vector<tools::Section> sections, lengths;
-  tools::SplineGuideReport report;
-  spline::View view;
-  spline::GuideView guide;
-
-  explicit Guide(std::vector<tools::SplineCurve> curves) {
-    model.curves = std::move(curves);
-    tools::SplineReport of_bake;
-    sections = tools::bake_spline(model, "x", tools::curve_detail(), of_bake);
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
-    lengths = tools::bake_spline_guide(view, "x", report);
-    CHECK_EQ(lengths.size(), 2u);
-    CHECK(spline::open_guide(view, parts(), guide).ok());
-  }
-  spline::GuideSections parts() const { return {bytes(0), bytes(1)}; }
-  core::Verdict verdict() const {
-    spline::GuideView opened;
-    return spline::open_guide(view, parts(), opened);
-  }
-  std::vector<float> arcs() const {
-    std::vector<float> made(lengths[0].bytes.size() / 4);
-    std::memcpy(made.data(), lengths[0].bytes.data(), lengths[0].bytes.size());
-    return made;
-  }
-  void set_arcs(const std::vector<float>& arcs) {
-    lengths[0] = tools::make_section(spline::kArcsSection, "x", arcs);
-  }
-  void set_chains(const std::vector<spline::Chain>& chains) {
-    lengths[1] = tools::make_section(spline::kChainsSection, "x", chains);
-  }
-
- private:
-  core::Bytes bytes(size_t i) const {
-    return {lengths[i].bytes.data(), static_cast<uint32_t>(lengths[i].bytes.size())};
-  }
-};
-
-tools::SplineCurve through(std::vector<tools::ControlPoint> points, int degree) {
-  tools::SplineCurve curve;
-  curve.degree = degree;
-  curve.points = std::move(points);
-  const size_t inner = curve.points.size() - static_cast<size_t>(degree);
-  curve.knots.assign(static_cast<size_t>(degree), 0.0);
-  for (size_t i = 0; i <= inner; ++i) curve.knots.push_back(static_cast<double>(i));
-  curve.knots.insert(curve.knots.end(), static_cast<size_t>(degree), static_cast<double>(inner));
-  curve.t0 = 0, curve.t1 = static_cast<double>(inner);
-  return curve;
-}
-
-// Two strands 4 mm apart, joined 0.2 m away, as a polygon.
-tools::SplineCurve hairpin() {
-  return through({{0, 0, 0, 1}, {0.2, 0, 0, 1}, {0.2, 0.004, 0, 1}, {0, 0.004, 0, 1}}, 1);
-}
-
-// A closed eight that crosses itself in the middle.
-tools::SplineCurve eight() {
-  return through({{0, 0, 0, 1},
-                  {1, 1, 0, 1},
-                  {2, 0, 0, 1},
-                  {1, -1, 0, 1},
-                  {0, 0, 0, 1},
-                  {-1, 1, 0, 1},
-                  {-2, 0, 0, 1},
-                  {-1, -1, 0, 1},
-                  {0, 0, 0, 1}},
-                 2);
-}
+using spline_test::eight;
+using spline_test::Guide;
+using spline_test::hairpin;
+using spline_test::through;
 
 double length_to(const tools::SplineCurve& curve, double t) {
   double sum = 0;
@@ -197,6 +131,105 @@ TEST(APenaltyKeepsTheGuideOnItsStrandAndNoneDoesNot) {
   }
 }
 
+// Three strands, 4 mm apart, one after the other: a tool at the first's end that lifts towards the third
+// passes the second, which is nearer than the first and less far along than the third.
+TEST(OfThreeStrandsTheGuideGoesToTheOneBetweenWhereThatCostsLeast) {
+  const Guide g({through({{0, 0, 0, 1},
+                          {0.2, 0, 0, 1},
+                          {0.2, 0.004, 0, 1},
+                          {0, 0.004, 0, 1},
+                          {0, 0.008, 0, 1},
+                          {0.2, 0.008, 0, 1}},
+                         1)});
+  const spline::Hold hold{0.1f * g.guide.length_m(), 0.03f};
+  const auto at = [&](float x, float y) {
+    spline::Following following;
+    (void)follow(g.guide, {x, 0.0001f, 0}, hold, kUnlimited, following);
+    return follow(g.guide, {x, y, 0}, hold, kUnlimited, following).closest;
+  };
+  // To the second: 0.024 m along, so 2.4 mm of penalty; to the third 0.4 m, 40 mm.
+  CHECK_LE(std::fabs(at(0.19f, 0.0065f).point_m.y - 0.004f), 1e-6f);
+  CHECK_LE(std::fabs(at(0.19f, 0.0030f).point_m.y), 1e-6f);           // 3 mm against 1 + 2.4
+  CHECK_LE(std::fabs(at(0.19f, 0.0034f).point_m.y - 0.004f), 1e-6f);  // 3.4 mm against 0.6 + 2.4
+  CHECK_LE(std::fabs(at(0.10f, 0.0065f).point_m.y), 1e-6f);           // 6.5 mm against 2.5 + 20.4
+  CHECK_LE(at(0.19f, 0.0065f).certificate.lower_m, 0.0015001f);       // of the whole curve, still
+  CHECK(at(0.19f, 0.0065f).certificate.exact);
+}
+
+// Above a parabola's centre of curvature the distance has two low points close together, with a ridge
+// between them: nearer is not worth the way over it.
+TEST(ARidgeBetweenTwoLowPointsOfOnePieceIsNotCrossed) {
+  const double first = -0.19, last = 0.31;
+  const Guide g({through({{first, first * first, 0, 1},
+                          {0.5 * (first + last), first * last, 0, 1},
+                          {last, last * last, 0, 1}},
+                         2)});
+  for (const double up : {0.5009, 0.5025, 0.51}) {
+    const auto height = static_cast<float>(up);
+    const auto side = static_cast<float>(std::sqrt(up - 0.5));
+    const float aside = 0.1f * side * side * side;  // well within the evolute
+    for (const float weight : {0.0f, 0.3f}) {
+      spline::Following following;
+      const spline::Hold hold{weight * g.guide.length_m(), 10.0f};
+      (void)follow(g.guide, {-aside, height, 0}, hold, kUnlimited, following);
+      const spline::Followed f = follow(g.guide, {aside, height, 0}, hold, kUnlimited, following);
+      CHECK_EQ(f.closest.point_m.x > 0, !(weight > 0));
+      CHECK_LE(std::fabs(std::fabs(f.closest.point_m.x) - side), 0.5f * side);
+      CHECK(f.closest.certificate.exact);
+    }
+  }
+}
+
+// What least_cost() finds is where the guide is found from: from there to the point told the distance
+// falls, and goes on falling no further.
+TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
+  constexpr float kPerMetre[] = {0.01f, 0.1f, 0.5f, 2.0f};
+  uint32_t others = 0, moves = 0;
+  for (uint32_t seed = 0; seed < 12; ++seed) {
+    tools::Random random(seed + 60);
+    const Guide g({spline_test::random_curve(random, 1 + static_cast<int>(seed % 5), 1)});
+    const float extent_m = g.view.head().extent_m;
+    spline::Following following;
+    Hint hint;
+    const spline::Hold hold{kPerMetre[seed % 4] * g.guide.length_m(), 1e3f};
+    for (int i = 0; i < 1500; ++i) {
+      firmtouch::test::note("tick", i);
+      const float arc = std::fabs(std::sin(0.0021f * static_cast<float>(i)));
+      Vec3 p = point_at_arc(g.guide, i % 100 == 0 ? static_cast<float>(random.between(0, 1)) : arc);
+      const float aside_m = extent_m * (i % 3 == 0 ? 0.2f : 0.01f);
+      p = {p.x + aside_m * std::sin(0.013f * static_cast<float>(i)), p.y + aside_m * 0.3f,
+           p.z - aside_m * std::cos(0.017f * static_cast<float>(i))};
+      const spline::Following was = following;
+      const spline::Followed told = follow(g.guide, p, hold, kUnlimited, following);
+      if (!was.is_following) continue;
+      const spline::Closest nearest = closest_point(g.view, p, kUnlimited, hint);
+      const spline::LeastCost least =
+          least_cost(g.guide, p, {hold.weight_m, was.piece, was.s}, nearest, kUnlimited);
+      CHECK(told.closest.certificate.exact && least.certificate.exact);
+      CHECK(told.is_held && !told.is_new);
+      const auto along = [](uint32_t piece, float s) {
+        return static_cast<float>(piece) + 0.5f * (s + 1);
+      };
+      const float from = along(least.piece, least.s),
+                  to = along(told.closest.bezier, told.closest.s);
+      float before_m = least.distance_m;
+      bool is_downhill = true;
+      for (int k = 0; k <= 40; ++k) {
+        const float at = from + (to - from) * static_cast<float>(k) / 40;
+        const uint32_t piece = std::min(static_cast<uint32_t>(at), g.view.pieces().size() - 1);
+        const Vec3 on = spline::place_of(g.view, piece, 2 * (at - static_cast<float>(piece)) - 1);
+        const float off_m = std::hypot(on.x - p.x, on.y - p.y, on.z - p.z);
+        is_downhill = is_downhill && off_m <= before_m + 2e-6f * extent_m;
+        before_m = off_m;
+      }
+      CHECK_LE(told.closest.distance_m, least.distance_m + 1e-6f * extent_m);
+      ++moves;
+      others += !is_downhill;
+    }
+  }
+  CHECK_LE(others, moves / 2000);  // two parts of the same cost: either
+}
+
 TEST(AroundAnEightTheGuideRunsThroughTheCrossingBothTimes) {
   const Guide g({eight()});
   const tools::SplineCurve& curve = g.model.curves[0];
@@ -224,15 +257,12 @@ TEST(NoStateMakesTheGuidesAnswerWorseThanTheClosestPoints) {
     spline::Following following;
     following.piece = random.below(i % 3 == 0 ? 0xFFFFFFFFu : 40);
     following.s = firmtouch::math::float_of(random.below(0xFFFFFFFFu));
-    following.arc = i % 5 == 0 ? firmtouch::math::float_of(random.below(0xFFFFFFFFu))
-                               : static_cast<float>(random.between(0, 1));
     following.is_following = true;
     following.hint.place = random.below(0xFFFFFFFFu);
     const Vec3 p =
         tools::to_vec3({random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)});
     const uint32_t steps = i % 2 == 0 ? UINT32_MAX : 2 + random.below(60);
-    const float was = following.arc;
-    const bool is_sound = was >= 0 && was <= 1 && following.piece < g.view.pieces().size();
+    const bool is_sound = following.piece < g.view.pieces().size();
     const spline::Hold hold{0.1f * g.guide.length_m(), 1e3f};
     const spline::Followed f = follow(g.guide, p, hold, Budget{steps}, following);
     Hint cold;
@@ -244,7 +274,7 @@ TEST(NoStateMakesTheGuidesAnswerWorseThanTheClosestPoints) {
     // Never by more than the penalty that the closest point would cost: half a round at most.
     if (steps == UINT32_MAX && is_sound)
       CHECK_LE(f.closest.distance_m, c.distance_m + hold.weight_m * 1.001f);
-    CHECK(following.arc - following.arc <= 0.0f && following.s >= -1 && following.s <= 1);
+    CHECK(following.s >= -1 && following.s <= 1);
   }
 }
 
@@ -339,4 +369,25 @@ TEST(Rule645RefusesChainsWithAGap) {
   CHECK_EQ(g.verdict().rule, 645);
   g.set_chains({{0, 0}, {1, 1}});
   CHECK_EQ(g.verdict().rule, 645);
+}
+
+TEST(Rule646RefusesLeavesThatDoNotFollowTheCurve) {
+  spline_test::SmallSpline small(false);
+  tools::SplineGuideReport report;
+  const std::vector<tools::Section> lengths = tools::bake_spline_guide(small.view(), "x", report);
+  CHECK_EQ(lengths.size(), 2u);
+  const auto bytes = [&](size_t i) {
+    return core::Bytes{lengths[i].bytes.data(), static_cast<uint32_t>(lengths[i].bytes.size())};
+  };
+  spline::GuideView guide;
+  CHECK(spline::open_guide(small.view(), {bytes(0), bytes(1)}, guide).ok());
+  // Two leaves below one node change places: the model is as sound as before, and no guide.
+  std::swap(small.leaves[2], small.leaves[3]);
+  std::swap(small.bends[2], small.bends[3]);
+  std::swap(small.capsules[5], small.capsules[6]);
+  std::swap(small.places[2], small.places[3]);
+  CHECK(small.view().is_open());
+  const core::Verdict verdict = spline::open_guide(small.view(), {bytes(0), bytes(1)}, guide);
+  CHECK_EQ(verdict.rule, 646);
+  CHECK_EQ(verdict.element, 2u);
 }

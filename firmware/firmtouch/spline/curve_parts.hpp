@@ -124,9 +124,6 @@ class CurveParts {
     return Outcome::kSplit;
   }
 
- private:
-  static constexpr uint32_t kMostTurns = 5;
-
   /// D^2 / 2 about a point: its bend there as small as it may be, and how far the bend changes a unit
   /// of s.
   struct Expansion {
@@ -158,17 +155,20 @@ class CurveParts {
     return f;
   }
 
-  static Half<Range> half(float low, float high, float lower_m, float lower2) {
-    const float own_m = lower2 > 0.0f ? math::square_root(lower2) * (1.0f - 0x1p-21f) : 0.0f;
-    return {{low, high, 0.5f * (low + high)}, own_m > lower_m ? own_m : lower_m};
-  }
-
-  // A leaf, to be begun at a share of its length.
+  /// A leaf, to be begun at a share of its length.
   Range range_of(uint32_t leaf, float share) const {
     const Leaf& at = leaves_[leaf];
     const float wide = math::float_of((128u - pieces_[at.piece].level_u) << 23);  // 2^(1 - level)
     const float low = static_cast<float>(static_cast<uint32_t>(at.index_u)) * wide - 1.0f;
     return {low, low + wide, low + wide * share};
+  }
+
+ private:
+  static constexpr uint32_t kMostTurns = 5;
+
+  static Half<Range> half(float low, float high, float lower_m, float lower2) {
+    const float own_m = lower2 > 0.0f ? math::square_root(lower2) * (1.0f - 0x1p-21f) : 0.0f;
+    return {{low, high, 0.5f * (low + high)}, own_m > lower_m ? own_m : lower_m};
   }
 
   math::Vec3 point(uint32_t i) const { return {points_[i].x_m, points_[i].y_m, points_[i].z_m}; }

@@ -4,48 +4,23 @@
 
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/arc.hpp"
+#include "firmtouch/spline/chain.hpp"
+#include "firmtouch/spline/curve_parts.hpp"
+#include "firmtouch/spline/least_cost.hpp"
 
 namespace firmtouch::spline {
 namespace {
 
 using math::Vec3;
 
-// A cost that is less by so much of the extent is less.
-constexpr float kSlack = 0x1p-20f;
+// Fewer steps tell nothing of costs.
+constexpr uint32_t kLeastSteps = 16;
 // Beyond that squares may overflow, and no guide holds.
 constexpr float kMostPolished_m = 1e9f;
 // Steps along the curve shorter than that end a slide.
 constexpr float kStill = 0x1p-21f;
 
-uint32_t chain_of(const GuideView& guide, uint32_t piece) {
-  uint32_t first = 0, last = guide.chains().size();
-  while (last - first > 1) {
-    const uint32_t middle = first + (last - first) / 2;
-    if (guide.chains()[middle].first_piece <= piece)
-      first = middle;
-    else
-      last = middle;
-  }
-  return first;
-}
-
-uint32_t end_of(const GuideView& guide, uint32_t chain) {
-  return chain + 1 < guide.chains().size() ? guide.chains()[chain + 1].first_piece
-                                           : guide.model().pieces().size();
-}
-
 constexpr uint32_t kPolishings = 2;
-
-constexpr uint32_t kNoPiece = UINT32_MAX;
-
-// The piece that goes on from an end of one; kNoPiece where the curve ends.
-uint32_t beyond(const GuideView& guide, uint32_t piece, bool is_forward) {
-  const uint32_t chain = chain_of(guide, piece);
-  const uint32_t first = guide.chains()[chain].first_piece, last = end_of(guide, chain) - 1;
-  const bool is_closed = guide.chains()[chain].is_closed != 0;
-  if (is_forward) return piece < last ? piece + 1 : is_closed ? first : kNoPiece;
-  return piece > first ? piece - 1 : is_closed ? last : kNoPiece;
-}
 
 struct Foot {
   uint32_t piece;
@@ -74,12 +49,12 @@ float way_down(const Foot& foot) {
   return step >= -1.0f ? step : -1.0f;
 }
 
-// From where the guide was along the curve, while the distance falls.
-Foot slide(const GuideView& guide, Vec3 p_m, const Following& following, uint32_t most,
+// From a place along the curve, while the distance falls.
+Foot slide(const GuideView& guide, Vec3 p_m, uint32_t from_piece, float from_s, uint32_t most,
            uint32_t& used) {
   const View& model = guide.model();
   const float still_m = kStill * model.head().extent_m;
-  Foot best = foot_at(model, p_m, following.piece, following.s);
+  Foot best = foot_at(model, p_m, from_piece, from_s);
   used = 1;
   float step = way_down(best);
   while (used < most && best.distance2_m2 < FLT_MAX && (best.slope > 0.0f || best.slope < 0.0f)) {
@@ -138,20 +113,6 @@ Foot polished(const View& model, Vec3 p_m, const Foot& from) {
   return best;
 }
 
-// The shorter way round where both are on one closed chain.
-float change_of_arc(const GuideView& guide, uint32_t from_piece, float from, uint32_t to_piece,
-                    float to) {
-  const float change = to - from;
-  const uint32_t chain = chain_of(guide, to_piece);
-  if (guide.chains()[chain].is_closed == 0 || chain_of(guide, from_piece) != chain) return change;
-  const float first_m = guide.arcs()[guide.chains()[chain].first_piece * guide.parts()];
-  const float last_m = guide.arcs()[end_of(guide, chain) * guide.parts()];
-  const float round = (last_m - first_m) / guide.length_m();
-  return change > 0.5f * round ? change - round : change < -0.5f * round ? change + round : change;
-}
-
-float size_of_change(float change) { return change < 0.0f ? -change : change; }
-
 float clamped(float s) { return s > -1.0f ? (s < 1.0f ? s : 1.0f) : -1.0f; }
 
 Closest as_closest(const View& model, const Foot& foot, const Closest& nearest) {
@@ -182,62 +143,109 @@ void put_ends(const GuideView& guide, Vec3 p_m, float arc_m, Followed& followed)
     followed.end = 1;
 }
 
+// Whether the guide comes to the closest point for certain, without a search: what costs less than that
+// lies no farther along the curve, before or behind, and there is one point in all that stretch to
+// which the distance falls, for its square is convex there. (Of a part, by the bends of one leaf.)
+bool comes_to(const GuideView& guide, Vec3 p_m, const Foot& nearest, float lower_m, float weight_m,
+              const Following& following, Arcs& arcs) {
+  const View& model = guide.model();
+  const uint32_t leaf = following.hint.place >> 16;
+  if (following.piece != nearest.piece || !(leaf < model.leaf_count()) ||
+      model.leaves()[leaf].piece != nearest.piece)
+    return false;
+  const float was_m = arcs.at_m(following.piece, following.s);
+  const uint32_t part = arcs.part();
+  const float way_m = arcs.at_m(nearest.piece, nearest.s) - was_m;
+  if (arcs.part() != part) return false;
+  const float beside_m = (math::square_root(nearest.distance2_m2) - lower_m) *
+                             (guide.length_m() / weight_m) * (1.0f + 0x1p-18f) +
+                         guide.length_m() * 0x1p-22f;
+  const float reach_m = ((way_m < 0.0f ? -way_m : way_m) + beside_m) * (1.0f + 0x1p-18f);
+  const CurveParts curve(model, p_m);
+  const CurveParts::Range whole = curve.range_of(leaf, 0.5f);
+  const float off = following.s - nearest.s, size = off < 0.0f ? -off : off;
+  const float speed2 = dot(nearest.at.d1, nearest.at.d1);
+  if (!(speed2 > 0.0f)) return false;
+  const float margin = size + 2.0f * beside_m / math::square_root(speed2);
+  float low = (off < 0.0f ? following.s : nearest.s) - margin;
+  float high = (off < 0.0f ? nearest.s : following.s) + margin;
+  const bool is_first = !(low > -1.0f) && beyond(guide, nearest.piece, false) == kNoPiece;
+  const bool is_last = !(high < 1.0f) && beyond(guide, nearest.piece, true) == kNoPiece;
+  if (is_first) low = -1.0f;
+  if (is_last) high = 1.0f;
+  if (!(low >= whole.low && high <= whole.high)) return false;
+  const bool is_below = is_first || arcs.at_m(nearest.piece, low) <= was_m - reach_m;
+  const bool is_above = is_last || arcs.at_m(nearest.piece, high) >= was_m + reach_m;
+  if (!is_below || !is_above) return false;
+  const Bend bend_of = model.bends()[leaf];
+  const CurveParts::Expansion f =
+      curve.expand(nearest.distance2_m2, speed2 + dot(nearest.r_m, nearest.at.d2), speed2,
+                   nearest.at, from_half(bend_of.fixed), from_half(bend_of.turning));
+  const float farthest = nearest.s - low > high - nearest.s ? nearest.s - low : high - nearest.s;
+  return f.least_bend - f.change * farthest > 0.0f;
+}
+
+// The part of the least cost, and on it where the distance falls no further.
+void keep_to_part(const GuideView& guide, Vec3 p_m, const Hold& hold, uint32_t steps,
+                  const Following& following, Followed& followed) {
+  const View& model = guide.model();
+  const Closest nearest = followed.closest;
+  const uint32_t third = steps / 3, most = third < kMostSlides ? third : kMostSlides;
+  const LeastCost least = least_cost(guide, p_m, {hold.weight_m, following.piece, following.s},
+                                     nearest, {steps - most});
+  query::Certificate& certificate = followed.closest.certificate;
+  certificate.steps += least.certificate.steps;
+  certificate.exact = certificate.exact && least.certificate.exact;
+  if (!least.is_found) return;
+  uint32_t slid = 0;
+  const Foot foot = polished(model, p_m, slide(guide, p_m, least.piece, least.s, most, slid));
+  certificate.steps += slid;
+  const query::Certificate all = certificate;
+  const Closest kept = as_closest(model, foot, nearest);
+  followed.is_new = !(kept.distance_m <= hold.release_m);
+  if (!followed.is_new) followed.closest = kept;  // else it finds itself again by distance alone
+  followed.closest.certificate = all;
+}
+
 }  // namespace
 
 Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budget budget,
                 Following& following) {
   const View& model = guide.model();
-  if (!(following.piece < model.pieces().size() && following.arc >= 0.0f && following.arc <= 1.0f))
-    following.is_following = false;
+  if (!(following.piece < model.pieces().size())) following.is_following = false;
   following.s = clamped(following.s);
   const bool was_following = following.is_following;
-  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.steps > 2;
-  uint32_t slid = 0;
-  Foot own{};
-  if (is_penalty) {
-    const uint32_t half = budget.steps / 2;
-    own = slide(guide, p_m, following, half < kMostSlides ? half : kMostSlides, slid);
-    own = polished(model, p_m, own);
-  }
+  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.steps >= kLeastSteps;
   Followed followed;
-  const query::Budget rest{budget.steps > slid ? budget.steps - slid : 1, budget.band_m};
-  Closest nearest = closest_point(model, p_m, rest, following.hint);
-  if (nearest.distance_m < kMostPolished_m)
-    nearest = as_closest(
-        model, polished(model, p_m, foot_at(model, p_m, nearest.bezier, nearest.s)), nearest);
-  float arc_m = arc_m_at(guide, nearest.bezier, nearest.s);
-  const float length_m = guide.length_m();
-  followed.closest = nearest;
   followed.is_new = !was_following;
-  if (is_penalty) {
-    const float own_arc_m = arc_m_at(guide, own.piece, own.s);
-    const float to_own =
-        change_of_arc(guide, following.piece, following.arc, own.piece, own_arc_m / length_m);
-    const float to_nearest =
-        change_of_arc(guide, following.piece, following.arc, nearest.bezier, arc_m / length_m);
-    const float own_cost_m =
-        math::square_root(own.distance2_m2) + hold.weight_m * size_of_change(to_own);
-    const float nearest_cost_m = nearest.distance_m + hold.weight_m * size_of_change(to_nearest);
-    if (own_cost_m + kSlack * model.head().extent_m < nearest_cost_m) {
-      const Closest kept = as_closest(model, own, nearest);
-      if (kept.distance_m <= hold.release_m) {
-        followed.closest = kept;
-        arc_m = own_arc_m;
-      } else {
-        followed.is_new = true;  // lets go, and finds itself again by distance alone
-      }
-    }
+  const query::Budget first{is_penalty ? budget.steps - budget.steps / 2 : budget.steps,
+                            budget.band_m};
+  followed.closest = closest_point(model, p_m, first, following.hint);
+  Arcs arcs(guide);
+  if (followed.closest.distance_m < kMostPolished_m) {
+    const query::Certificate certificate = followed.closest.certificate;
+    const Foot foot =
+        polished(model, p_m, foot_at(model, p_m, followed.closest.bezier, followed.closest.s));
+    followed.closest = as_closest(model, foot, followed.closest);
+    const bool is_kept =
+        is_penalty && !(certificate.exact && comes_to(guide, p_m, foot, certificate.lower_m,
+                                                      hold.weight_m, following, arcs));
+    if (is_kept)
+      keep_to_part(guide, p_m, hold, budget.steps - certificate.steps, following, followed);
   }
-  followed.closest.certificate.steps += slid;
-  followed.is_held = followed.closest.distance_m <= hold.release_m;
-  followed.arc = arc_m / length_m;
-  if (!followed.is_new)
+  const Closest& closest = followed.closest;
+  followed.is_held = closest.distance_m <= hold.release_m;
+  const float arc_m = arcs.at_m(closest.bezier, closest.s);
+  followed.arc = arc_m / guide.length_m();
+  if (!followed.is_new) {
+    const float was_m = arcs.at_m(following.piece, following.s);
     followed.change_of_arc =
-        change_of_arc(guide, following.piece, following.arc, followed.closest.bezier, followed.arc);
+        change_of_arc_m(round_of(guide, following.piece), was_m, closest.bezier, arc_m) /
+        guide.length_m();
+  }
   put_ends(guide, p_m, arc_m, followed);
-  following.piece = followed.closest.bezier;
-  following.s = followed.closest.s;
-  following.arc = followed.arc;
+  following.piece = closest.bezier;
+  following.s = closest.s;
   following.is_following = followed.is_held;
   return followed;
 }
@@ -250,7 +258,6 @@ void go_on_at_other_end(const GuideView& guide, int end, Vec3 p_m, float distanc
   if (!(math::length(p_m - place_of(guide.model(), piece, s)) < distance_m)) return;
   following.piece = piece;
   following.s = s;
-  following.arc = guide.arcs()[(end > 0 ? piece : piece + 1) * guide.parts()] / guide.length_m();
 }
 
 Vec3 point_at_arc(const GuideView& guide, float arc) {

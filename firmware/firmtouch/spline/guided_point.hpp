@@ -18,7 +18,6 @@ struct Following {
   query::Hint hint;
   uint32_t piece = 0;  // where on the curve the guide is, where is_following
   float s = 0;
-  float arc = 0;
   bool is_following = false;
 };
 
@@ -34,15 +33,17 @@ struct Followed {
   bool is_held = false;  // the deviation is within release_m
 };
 
-/// One tick of a guide. Of two points the one of the least distance + penalty of the change of arc:
-/// the closest of the whole curve, certified, and the one to which the distance falls along the curve
-/// from where the guide was. So the guide keeps to its part where the curve passes near itself, and
-/// no lost tick, jump or reset can keep it on a wrong one. Where the point is farther than release_m,
-/// or not a number, the guide lets go and takes the closest.
+/// One tick of a guide. The penalty says on which part of the curve it is: of all points the one of the
+/// least distance + penalty of the change of arc, least_cost(). Distance says where on it: from there
+/// the guide goes along the curve to where the distance falls no further. Without a penalty it is at the
+/// closest point of the whole curve. No lost tick, jump or reset can keep it on a wrong part. Where
+/// the point is farther than release_m, or not a number, the guide lets go and takes the closest.
 /// Pre:    `guide` is open.
-/// Bounds: <= budget steps (2 at least), kMostSlides of them at most from where the guide was; and 10
-///         points evaluated for lengths and for the last digits of the place; stack and reentrancy as closest_point().
-/// Result: always finite. `exact` is the closest point's.
+/// Bounds: <= budget steps (16 for a penalty), at most half of them for the closest point where there is one,
+///         kMostSlides for the way along; and 14 points evaluated for lengths and for the last
+///         digits of the place; stack and reentrancy as closest_point().
+/// Result: always finite. lower_m bounds the distance of the whole curve; `exact` says that it meets that of
+///         the closest point, and that of no other part a point costs less.
 Followed follow(const GuideView& guide, math::Vec3 p_m, const Hold& hold, query::Budget budget,
                 Following& following);
 

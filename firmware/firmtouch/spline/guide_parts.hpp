@@ -1,0 +1,178 @@
+#pragma once
+// The parts of a guide for Search, by distance and penalty together, for .cpp files of this room only.
+#include "firmtouch/spline/arc.hpp"
+#include "firmtouch/spline/chain.hpp"
+#include "firmtouch/spline/curve_parts.hpp"
+
+namespace firmtouch::spline {
+
+/// What changes of arc cost.
+struct Penalty {
+  float per_m = 0;  // metres of distance for a metre of arc
+  float at_m = 0;   // where it is nothing
+  uint32_t piece = 0;
+  float s = 0;
+  Round round;  // the chain of that piece
+
+  float of(uint32_t on, float arc_m) const {
+    const float change_m = change_of_arc_m(round, at_m, on, arc_m);
+    return per_m * (change_m < 0.0f ? -change_m : change_m);
+  }
+  /// Of arcs between two; nothing is between them and less.
+  float least(float low_m, float high_m) const {
+    if (low_m <= at_m && at_m <= high_m) return 0.0f;
+    float least_m = low_m > at_m ? low_m - at_m : at_m - high_m;
+    if (round.is_closed && high_m >= round.first_m && low_m <= round.last_m) {
+      const float first_m = low_m > round.first_m ? low_m : round.first_m;
+      const float last_m = high_m < round.last_m ? high_m : round.last_m;
+      const float way_m = first_m > at_m ? last_m - at_m : at_m - first_m;
+      const float other_m = round.length_m() - way_m;
+      if (other_m < least_m) least_m = other_m;
+    }
+    return least_m > 0.0f ? per_m * least_m : 0.0f;
+  }
+};
+
+/// A point's cost: false where it is not the least so far.
+static inline bool take_cost(Best& best, float cost_m) {
+  if (!(cost_m < best.distance_m)) return false;
+  best.distance_m = cost_m;
+  best.limit_m = cost_m * (1.0f - 16.0f * kUnit) - best.gap_m;
+  return true;
+}
+
+/// Best holds costs in the place of distances.
+class GuideParts {
+ public:
+  using Range = CurveParts::Range;
+
+  /// Nothing of the curve is nearer than nearest_m. `kink` is the point where the penalty is nothing.
+  GuideParts(const GuideView& guide, math::Vec3 p_m, const Penalty& penalty, const CurvePoint& kink,
+             Arcs& arcs, float nearest_m, const Best& best)
+      : guide_(guide),
+        curve_(guide.model(), p_m),
+        p_m_(p_m),
+        penalty_(penalty),
+        kink_(kink),
+        nearest_m_(nearest_m),
+        best_(best),
+        count_(guide.model().leaf_count()),
+        arcs_(arcs) {}
+
+  uint32_t root() const { return 0; }
+  bool is_leaf(uint32_t node) const { return curve_.is_leaf(node); }
+  void children(uint32_t node, uint32_t& low, uint32_t& high) const {
+    curve_.children(node, low, high);
+  }
+  uint32_t sibling_of(uint32_t node) const { return curve_.sibling_of(node); }
+  uint32_t parent_of(uint32_t node) const { return curve_.parent_of(node); }
+  uint32_t piece_of(uint32_t node) const { return curve_.piece_of(node); }
+  uint32_t closed_around(uint32_t node, const Best&) const { return node; }
+  bool is_closed(uint32_t, const Best&) const { return false; }
+
+  /// The node of the leaf that holds a place.
+  uint32_t node_at(uint32_t piece, float s, Range& range) const {
+    uint32_t first = 0, last = count_;  // along the curve
+    while (last - first > 1) {
+      const uint32_t middle = first + (last - first) / 2, leaf = guide_.leaf_at(middle);
+      const uint32_t on = guide_.model().leaves()[leaf].piece;
+      if (on < piece || (on == piece && curve_.range_of(leaf, 0.0f).low <= s))
+        first = middle;
+      else
+        last = middle;
+    }
+    const uint32_t leaf = guide_.leaf_at(first);
+    range = curve_.range_of(leaf, 0.0f);
+    range.start = s;
+    return count_ - 1 + leaf;
+  }
+
+  /// The lowest node above one that holds all that is no farther along the curve than a reach.
+  uint32_t node_around(uint32_t node, float reach_m) const;
+
+  float bound_m(uint32_t node, Range& range) const {
+    const Stretch below = stretch_below(node);
+    const float least_m = penalty_.least(below.low_m, below.high_m);
+    const float by_arc_m = with_slack(nearest_m_, least_m);
+    if (by_arc_m >= best_.limit_m) {  // no need to know how far off it is
+      if (is_leaf(node)) range = curve_.range_of(node - (count_ - 1), 0.5f);
+      return by_arc_m;
+    }
+    const float off_m = curve_.bound_m(node, range);
+    return off_m > nearest_m_ ? with_slack(off_m, least_m) : by_arc_m;
+  }
+
+  Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
+                Half<Range> (&halves)[2]);
+
+ private:
+  static constexpr uint32_t kMostTurns = 5;
+
+  // A change of arc on one side of where there is none, and on a closed chain the other way round.
+  struct Way {
+    float offset_m;  // what the other way costs more
+    float per_m;     // along the curve: rising or falling
+  };
+  // What is left for the distance, outward from a point: at most first + slope d + half_bend d^2; it falls by
+  // at least `fall` all along, where that is not 0.
+  struct Room {
+    float first_m, slope, half_bend, fall;
+  };
+  // The penalty's own derivatives, by s.
+  struct Slopes {
+    float first, second, third;
+  };
+
+  // A point of a piece, how far off it is, and what it costs to go there.
+  struct Seen {
+    CurvePoint at;
+    float distance2_m2, distance_m;
+    float slope, bend, speed2;  // of D^2 / 2, and of the curve
+    float arc_m, penalty_m;
+    Slopes arc;
+  };
+  struct Sides {
+    bool below, above;
+  };
+
+  static float with_slack(float distance_m, float penalty_m) {
+    return (distance_m + penalty_m) * (1.0f - 4.0f * kUnit);
+  }
+
+  struct Stretch {
+    float low_m, high_m;  // by arcs
+  };
+  Stretch stretch_below(uint32_t node) const;
+  bool find_cut(uint32_t piece, const Range& range, float& at) const;
+  float least_within(uint32_t piece, float low, float high) const;
+  Half<Range> half(uint32_t piece, float low, float high, float lower_m) const {
+    const float own_m = with_slack(nearest_m_, least_within(piece, low, high));
+    return {{low, high, 0.5f * (low + high)}, own_m > lower_m ? own_m : lower_m};
+  }
+  Slopes slopes_at(float t) const;
+  bool take_part(uint32_t on, const Range& range, uint32_t& left, Best& best);
+  bool take_point(uint32_t on, uint32_t node, float s, uint32_t& left, Best& best,
+                  Seen& seen) const;
+  static float step_from(const Seen& seen, const Way& way, float& gain_m2);
+  bool prove(uint32_t leaf, const Seen& seen, float s, const Way* ways, uint32_t way_count,
+             Range& range, Sides& sides) const;
+  Outcome split(uint32_t on, const Range& range, float at, float lower_m,
+                Half<Range> (&halves)[2]) const;
+  uint32_t ways_of(uint32_t piece, const Range& range, Way (&ways)[2]) const;
+  static Room room_of(const Slopes& arc, const Way& way, float limit_m, float outward,
+                      float length);
+  static bool is_side_done(const CurveParts::Expansion& f, float distance_m, float outward_slope,
+                           const Room& room, float length);
+
+  const GuideView& guide_;
+  CurveParts curve_;
+  math::Vec3 p_m_;
+  const Penalty& penalty_;
+  const CurvePoint& kink_;
+  float nearest_m_;
+  const Best& best_;
+  uint32_t count_;
+  Arcs& arcs_;
+};
+
+}  // namespace firmtouch::spline
