@@ -276,6 +276,10 @@ TEST(Rule623RefusesANodeThatDoesNotHoldItsLeaves) {
     CHECK_EQ(verdict_of(model.sections()).rule, 623);
   }
   model = surface();
+  CHECK(model.radii[7] > 0);  // the second piece's overlap
+  model.radii[7] = static_cast<uint8_t>(model.radii[7] - 1);
+  CHECK_EQ(verdict_of(model.sections()).rule, 623);
+  model = surface();
   model.corners[4].z = static_cast<int16_t>(model.corners[4].z + 2000);
   CHECK_EQ(verdict_of(model.sections()).rule, 623);
 }

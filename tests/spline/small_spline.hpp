@@ -23,7 +23,7 @@ struct SmallSpline {
   spline::Point points[5] = {};
   spline::Grid grids[2] = {};
   spline::Corner corners[12] = {};
-  uint8_t radii[6] = {};
+  uint8_t radii[8] = {};                  // and two overlaps
   spline::PatchBend patch_bends[3] = {};  // one cell of the first piece, two of the second
   spline::Box boxes[1] = {};
 
@@ -207,8 +207,21 @@ struct SmallSpline {
                  spline::radius_above(spline::stored_value(grid.radius_unit_m, own), leaf, whole));
         if (u == 0 || above > radii[3 * p]) radii[3 * p] = above;
       }
+      uint8_t& overlap = radii[6 + p];
+      for (overlap = 0; !halves_hold(p, overlap);) ++overlap;
     }
     derive_box();
+  }
+  bool halves_hold(uint32_t p, uint32_t overlap) const {
+    const float unit = grids[p].radius_unit_m;
+    for (uint32_t u = 0; u < 2; ++u) {
+      const spline::PartHalf half = spline::half_of(pieces[p], {p, 0, 0, 0}, {p, 1, u, 0}, overlap);
+      const float leaf_m = spline::stored_value(unit, radii[3 * p + 1 + u]);
+      const float needed_m =
+          spline::radius_above(leaf_m, around({p, 1, u, 0}), around({p, 0, 0, 0}), half);
+      if (!(needed_m <= spline::stored_value(unit, radii[3 * p]))) return false;
+    }
+    return true;
   }
   spline::Parallelogram around(const spline::Patch& p) const {
     return spline::stored_parallelogram(pieces[p.piece], grids[p.piece], corners, p);

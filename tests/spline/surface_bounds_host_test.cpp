@@ -25,14 +25,22 @@ float of_byte(float unit, uint8_t byte) {
   return value;
 }
 
-bool is_in_parallelogram(const Vector& x, const Plain& centre, const Plain& a, const Plain& b,
-                         float radius) {
+// centre + u a + v b, u and v between these.
+struct Flat {
+  Plain centre, a, b;
+  Wide low[2] = {-1, -1}, high[2] = {1, 1};
+};
+
+bool is_in_parallelogram(const Vector& x, const Flat& flat, float radius) {
+  const Plain &centre = flat.centre, &a = flat.a, &b = flat.b;
+  const auto held_u = [&](Wide u) { return held(u, flat.low[0], flat.high[0]); };
+  const auto held_v = [&](Wide v) { return held(v, flat.low[1], flat.high[1]); };
   Plain off;
   for (size_t k = 0; k < 3; ++k) off[k] = middle(x[k]) - centre[k];
   const Wide aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
-  Wide v = det > 0 ? held((aa * dot(b, off) - ab * dot(a, off)) / det, -1, 1) : 0;
-  const Wide u = aa > 0 ? held((dot(a, off) - ab * v) / aa, -1, 1) : 0;
-  v = bb > 0 ? held((dot(b, off) - ab * u) / bb, -1, 1) : 0;
+  Wide v = held_v(det > 0 ? (aa * dot(b, off) - ab * dot(a, off)) / det : 0);
+  const Wide u = held_u(aa > 0 ? (dot(a, off) - ab * v) / aa : 0);
+  v = held_v(bb > 0 ? (dot(b, off) - ab * u) / bb : 0);
   Vector rest;
   for (size_t k = 0; k < 3; ++k)
     rest[k] =
@@ -45,6 +53,7 @@ void check_parts(const spline::View& view, uint32_t index, const StoredPiece& st
   const spline::Grid& grid = view.grids()[index];
   const uint32_t columns = (1u << piece.level_u) + 1;
   uint32_t radius = 2 * grid.first_leaf - index, u = 0, v = 0;
+  uint32_t inner = grid.first_leaf - index;  // of the overlaps
   for (bool is_finest = false; !is_finest;) {
     const uint32_t across = 1u << (piece.level_u - u), along = 1u << (piece.level_v - v);
     for (uint32_t j = 0; j < 1u << v; ++j)
@@ -59,16 +68,30 @@ void check_parts(const spline::View& view, uint32_t index, const StoredPiece& st
           return made;
         };
         const Plain c00 = corner(0, 0), c10 = corner(1, 0), c01 = corner(0, 1), c11 = corner(1, 1);
-        Plain centre, a, b;
+        Flat flat;
         for (size_t k = 0; k < 3; ++k) {
-          centre[k] = (c00[k] + c10[k] + c01[k] + c11[k]) / 4;
-          a[k] = (c10[k] + c11[k] - c00[k] - c01[k]) / 4;
-          b[k] = (c01[k] + c11[k] - c00[k] - c10[k]) / 4;
+          flat.centre[k] = (c00[k] + c10[k] + c01[k] + c11[k]) / 4;
+          flat.a[k] = (c10[k] + c11[k] - c00[k] - c01[k]) / 4;
+          flat.b[k] = (c01[k] + c11[k] - c00[k] - c10[k]) / 4;
         }
         const float r = of_byte(grid.radius_unit_m, view.radii()[radius]);
-        CHECK(holds(area_of(u, i, v, j, true), true, kFinest, [&](const Area& part) {
-          return is_in_parallelogram(stored.over(part, 0).of[0][0], centre, a, b, r);
-        }));
+        const auto holds_on = [&](const Area& area) {
+          return holds(area, true, kFinest, [&](const Area& part) {
+            return is_in_parallelogram(stored.over(part, 0).of[0][0], flat, r);
+          });
+        };
+        CHECK(holds_on(area_of(u, i, v, j, true)));
+        if (across + along == 2) continue;
+        // Each half about its own half, which goes on beyond the middle by the overlap.
+        const bool is_u = piece.level_u - u >= piece.level_v - v;
+        const Wide overlap = static_cast<Wide>(view.overlaps()[inner++]) / 128;
+        for (uint32_t upper = 0; upper < 2; ++upper) {
+          const size_t axis = is_u ? 0 : 1;
+          flat.low[axis] = upper == 1 ? -overlap : -1;
+          flat.high[axis] = upper == 1 ? 1 : overlap;
+          CHECK(holds_on(is_u ? area_of(u + 1, 2 * i + upper, v, j, true)
+                              : area_of(u, i, v + 1, 2 * j + upper, true)));
+        }
       }
     const uint32_t left_u = piece.level_u - u, left_v = piece.level_v - v;
     is_finest = left_u + left_v == 0;

@@ -220,9 +220,14 @@ void store_bends(const Cut& cut, uint32_t cell_level, spline::Grid& grid,
   }
 }
 
+struct Bounds {
+  std::vector<uint8_t> radii, overlaps;
+};
+
 // The radii of all parts, those of the leaves first: the others stand on them as stored.
 void store_radii(const Cut& cut, uint32_t number, spline::Grid& grid,
-                 const std::vector<spline::Corner>& corners, std::vector<uint8_t>& radii) {
+                 const std::vector<spline::Corner>& corners, Bounds& bounds) {
+  std::vector<uint8_t>& radii = bounds.radii;
   const spline::Piece& piece = cut.stored.piece;
   const uint32_t depth = 0u + piece.level_u + piece.level_v, columns = 1u << piece.level_u;
   const auto around = [&](const spline::Patch& p) {
@@ -259,6 +264,36 @@ void store_radii(const Cut& cut, uint32_t number, spline::Grid& grid,
   }
 }
 
+// The least with which each leaf lies within the radii about its halves of the parts above it.
+void store_overlaps(const Cut& cut, uint32_t number, const spline::Grid& grid,
+                    const std::vector<spline::Corner>& corners, Bounds& bounds) {
+  constexpr uint32_t kWhole = 128;  // of that each half is the whole
+  const spline::Piece& piece = cut.stored.piece;
+  const uint32_t depth = 0u + piece.level_u + piece.level_v, columns = 1u << piece.level_u;
+  const auto around = [&](const spline::Patch& p) {
+    return spline::stored_parallelogram(piece, grid, corners.data(), p);
+  };
+  const auto radius_m = [&](const spline::Patch& p) {
+    const uint32_t at = radius_of(grid, p, spline::halvings_of(piece, p.depth));
+    return spline::stored_value(grid.radius_unit_m, bounds.radii[at]);
+  };
+  bounds.overlaps.resize(bounds.overlaps.size() + cut.shapes.size() - 1);
+  for (uint32_t i = 0; i < cut.shapes.size(); ++i) {
+    const spline::Patch part{number, depth, i % columns, i / columns};
+    const spline::Parallelogram leaf = around(part);
+    for (spline::Patch above = part; above.depth != 0;) {
+      above = spline::parent_of(piece, above);
+      const spline::Parallelogram whole = around(above);
+      uint8_t& byte =
+          bounds.overlaps[overlap_of(grid, above, spline::halvings_of(piece, above.depth))];
+      while (byte < kWhole &&
+             !(spline::radius_above(radius_m(part), leaf, whole,
+                                    spline::half_of(piece, above, part, byte)) <= radius_m(above)))
+        ++byte;
+    }
+  }
+}
+
 }  // namespace
 
 SplineGrids build_spline_grids(std::vector<StoredPiece>& pieces, uint32_t cell_level) {
@@ -270,6 +305,7 @@ SplineGrids build_spline_grids(std::vector<StoredPiece>& pieces, uint32_t cell_l
         if (!(shape.fixed[k] <= 0x1p90f && shape.turning[k] <= 0x1p90f)) return made;
   made.boxes = build_tree(cuts);
   uint32_t leaves = 0;
+  Bounds bounds;
   for (size_t i = 0; i < cuts.size(); ++i) {
     spline::Grid grid{};
     grid.first_corner = static_cast<uint32_t>(made.corners.size());
@@ -278,10 +314,13 @@ SplineGrids build_spline_grids(std::vector<StoredPiece>& pieces, uint32_t cell_l
     leaves += static_cast<uint32_t>(cuts[i].shapes.size());
     place_corners(cuts[i], grid, made.corners);
     store_bends(cuts[i], cell_level, grid, made.bends);
-    store_radii(cuts[i], static_cast<uint32_t>(i), grid, made.corners, made.radii);
+    store_radii(cuts[i], static_cast<uint32_t>(i), grid, made.corners, bounds);
+    store_overlaps(cuts[i], static_cast<uint32_t>(i), grid, made.corners, bounds);
     made.grids.push_back(grid);
     pieces[i] = cuts[i].stored;
   }
+  made.radii = std::move(bounds.radii);
+  made.radii.insert(made.radii.end(), bounds.overlaps.begin(), bounds.overlaps.end());
   return made;
 }
 

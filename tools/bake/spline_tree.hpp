@@ -23,7 +23,7 @@ SplineTree build_spline_tree(const std::vector<StoredPiece>& pieces);
 struct SplineGrids {
   std::vector<spline::Grid> grids;
   std::vector<spline::Corner> corners;
-  std::vector<uint8_t> radii;
+  std::vector<uint8_t> radii;  // and the overlaps behind them
   std::vector<spline::PatchBend> bends;
   std::vector<spline::Box> boxes;
 };

@@ -51,8 +51,9 @@ class CurveParts {
   bool is_closed(uint32_t, const Best&) const { return false; }  // rare, and bounds are cheap
   uint32_t closed_around(uint32_t leaf, const Best&) const { return leaf; }
 
+  static float child_bound_m(const Range&, uint32_t) { return 0.0f; }
   // The stored radius holds what float32 loses here (with_slack()).
-  float bound_m(uint32_t node, Range& range) const {
+  float bound_m(uint32_t node, float, Range& range) const {
     const Capsule& capsule = capsules_[node];
     const math::Vec3 a_m = point(capsule.first);
     const math::Vec3 from_m = p_m_ - a_m, along_m = point(capsule.last) - a_m;

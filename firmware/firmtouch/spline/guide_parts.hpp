@@ -90,7 +90,8 @@ class GuideParts {
   /// The lowest node above one that holds all that is no farther along the curve than a reach.
   uint32_t node_around(uint32_t node, float reach_m) const;
 
-  float bound_m(uint32_t node, Range& range) const {
+  static float child_bound_m(const Range&, uint32_t) { return 0.0f; }
+  float bound_m(uint32_t node, float limit_m, Range& range) const {
     const Stretch below = stretch_below(node);
     const float least_m = penalty_.least(below.low_m, below.high_m);
     const float by_arc_m = with_slack(nearest_m_, least_m);
@@ -98,7 +99,7 @@ class GuideParts {
       if (is_leaf(node)) range = curve_.range_of(node - (count_ - 1), 0.5f);
       return by_arc_m;
     }
-    const float off_m = curve_.bound_m(node, range);
+    const float off_m = curve_.bound_m(node, limit_m, range);
     return off_m > nearest_m_ ? with_slack(off_m, least_m) : by_arc_m;
   }
 

@@ -20,7 +20,8 @@ constexpr uint32_t kPointsSection = 0x6007;  // Point[point_count]; Corner[point
 constexpr uint32_t kProbesSection = 0x6008;  // query::ProbeHead and its points
 constexpr uint32_t kBendsSection = 0x6009;   // Bend[leaf_count]; PatchBend, one a cell
 constexpr uint32_t kGridsSection = 0x600C;   // Grid[piece_count]: surfaces only
-constexpr uint32_t kRadiiSection = 0x600D;   // uint8_t[2 * leaf_count - piece_count]: surfaces only
+constexpr uint32_t kRadiiSection =
+    0x600D;  // uint8_t[3 * leaf_count - 2 * piece_count]: radii, overlaps; surfaces only
 
 constexpr uint32_t kMaxDegree = 5;
 constexpr uint32_t kMaxLeaves = 65535;      // indices are of 16 bits

@@ -70,7 +70,10 @@ Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
     patch = parent_of(piece, patch);
     const Parallelogram above = parallelogram_of(piece, grid, model.corners().data(), patch,
                                                  halvings_of(piece, patch.depth));
-    if (!(radius_above(leaf_m, leaf, above) <= stored_m())) return reject(623, i);
+    const uint32_t overlap =
+        model.overlaps()[overlap_of(grid, patch, halvings_of(piece, patch.depth))];
+    const PartHalf half = half_of(piece, patch, {0, 0, place.index_u, place.index_v}, overlap);
+    if (!(radius_above(leaf_m, leaf, above, half) <= stored_m())) return reject(623, i);
   }
   for (uint32_t at = model.pieces().size() - 1 + place.piece; at != 0;) {
     at = parent_of(at);

@@ -113,6 +113,10 @@ float size_of(const Parallelogram& p) {
   return math::length(p.centre) + math::length(p.a) + math::length(p.b);
 }
 
+float between(float value, float low, float high) {
+  return value > low ? value < high ? value : high : low;
+}
+
 // How far a point is from that line, rounded up.
 float off_line_m(Vec3 p_m, Vec3 a_m, Vec3 b_m) {
   const Vec3 along_m = b_m - a_m, from_m = p_m - a_m;
@@ -228,18 +232,39 @@ float radius_for(const LeafShape& shape, const Parallelogram& around) {
   return with_slack(off_m / shape.least_weight * kUp + shape.noise_m + rounding_m, size_of(around));
 }
 
-// The distance to what is convex is most at a corner, and a parallelogram is.
+// The distance to what is convex is most at a corner, and parallelograms and their halves are.
 float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above) {
+  return radius_above(leaf_radius_m, leaf, above, {{-1.0f, -1.0f}, {1.0f, 1.0f}});
+}
+float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above,
+                   const PartHalf& half) {
   float most_m = 0;
   for (uint32_t corner = 0; corner < 4; ++corner) {
     const Vec3 along_a = (corner & 1u) != 0 ? leaf.a : -leaf.a;
     const Vec3 at_m = leaf.centre + along_a + ((corner & 2u) != 0 ? leaf.b : -leaf.b);
-    const Foot foot = foot_on(above, at_m);
-    const float off_m = math::length(at_m - above.centre - above.a * foot.x - above.b * foot.y);
+    Seen seen;
+    see(above, at_m, seen);
+    float x = between(seen.of_a * seen.per_aa, half.low[0], half.high[0]);
+    const float y = between((seen.of_b - seen.ab * x) * seen.per_bb, half.low[1], half.high[1]);
+    x = between((seen.of_a - seen.ab * y) * seen.per_aa, half.low[0], half.high[0]);
+    const float off_m = math::length(seen.r - above.a * x - above.b * y);
     if (off_m > most_m) most_m = off_m;
   }
   const float size_m = size_of(leaf) + size_of(above);
   return with_slack(most_m * kUp + 8.0f * kUnit * size_m + leaf_radius_m, size_of(above));
+}
+
+PartHalf half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap) {
+  const Halvings made = halvings_of(piece, above.depth);
+  const uint32_t axis = halves_u(piece, made) ? 0 : 1;
+  const uint32_t left = (axis == 0 ? piece.level_u - made.u : piece.level_v - made.v) - 1;
+  const bool is_low = (((axis == 0 ? leaf.u : leaf.v) >> left) & 1u) == 0;
+  PartHalf half{{-1.0f, -1.0f}, {1.0f, 1.0f}};
+  if (is_low)
+    half.high[axis] = in_overlaps(overlap);
+  else
+    half.low[axis] = -in_overlaps(overlap);
+  return half;
 }
 
 void enlarge(const LeafShape& shape, Box& box) {

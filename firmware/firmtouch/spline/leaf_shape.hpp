@@ -56,9 +56,19 @@ Parallelogram stored_parallelogram(const Piece& piece, const Grid& grid, const C
                                    const Patch& patch);
 float stored_value(float unit, uint32_t byte);
 
+/// Of a part's parallelogram centre + x a + y b the x and y that belong to one of its halves.
+struct PartHalf {
+  float low[2], high[2];
+};
+
 /// What the radius of a part of a surface must at least be: of a leaf, and of a part above one.
 float radius_for(const LeafShape& shape, const Parallelogram& around);
 float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above);
+/// The same where the leaf has to lie about its half of the part: what it is of the half, by the part's
+/// overlap.
+float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above,
+                   const PartHalf& half);
+PartHalf half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap);
 /// Of a box with this centre and these axes, to hold the leaf: enlarges half_m.
 void enlarge(const LeafShape& shape, Box& box);
 

@@ -65,6 +65,10 @@ inline uint32_t radius_of(const Grid& grid, const Patch& p, const Halvings& made
   return 2 * grid.first_leaf - p.piece + (1u << p.depth) - 1u + (p.v << made.u | p.u);
 }
 
+inline uint32_t overlap_of(const Grid& grid, const Patch& p, const Halvings& made) {
+  return grid.first_leaf - p.piece + (1u << p.depth) - 1u + (p.v << made.u | p.u);
+}
+
 /// centre + x a + y b for x and y from -1 to 1, in metres from the piece's origin: without rounding.
 struct Parallelogram {
   math::Vec3 centre, a, b;

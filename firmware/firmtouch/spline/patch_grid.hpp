@@ -39,30 +39,64 @@ static inline Parallelogram parallelogram_of(const Piece& piece, const Grid& gri
   return {quarters.centre * quarter, quarters.a * quarter, quarters.b * quarter};
 }
 
-/// A lower bound of the distance to a parallelogram from q (from where it is told from, in its units), and
-/// where on it, x and y, the foot is thought to be. Any x and y would do: of a convex function the tangent
-/// there tells what it may still fall by (twice `left`). Where that is most of it, nothing is told.
-struct Foot {
-  float x, y, distance;
+/// A parallelogram as seen from a point; both in one unit.
+struct Seen {
+  math::Vec3 r;  // from its centre to the point
+  float aa, ab, bb, of_a, of_b, per_aa, per_bb;
 };
+static inline void see(const Parallelogram& p, math::Vec3 q, Seen& seen) {
+  seen.r = q - p.centre;
+  seen.aa = dot(p.a, p.a), seen.ab = dot(p.a, p.b), seen.bb = dot(p.b, p.b);
+  seen.of_a = dot(p.a, seen.r), seen.of_b = dot(p.b, seen.r);
+  seen.per_aa = seen.aa > 0.0f ? 1.0f / seen.aa : 0.0f;
+  seen.per_bb = seen.bb > 0.0f ? 1.0f / seen.bb : 0.0f;
+}
+
 static inline float held(float value) {
   return value > -1.0f ? value < 1.0f ? value : 1.0f : -1.0f;
 }
-static inline Foot foot_on(const Parallelogram& p, math::Vec3 q) {
-  const math::Vec3 r = q - p.centre;
-  const float aa = dot(p.a, p.a), ab = dot(p.a, p.b), bb = dot(p.b, p.b);
-  const float of_a = dot(p.a, r), of_b = dot(p.b, r);
-  const float per_aa = aa > 0.0f ? 1.0f / aa : 0.0f, per_bb = bb > 0.0f ? 1.0f / bb : 0.0f;
-  float x = held(of_a * per_aa);
-  const float y = held((of_b - ab * x) * per_bb);
-  x = held((of_a - ab * y) * per_aa);
-  const math::Vec3 off = r - p.a * x - p.b * y;
-  const float slope_x = dot(p.a, off), slope_y = dot(p.b, off);
-  const float left = (slope_x < 0.0f ? -slope_x : slope_x) - slope_x * x +
-                     ((slope_y < 0.0f ? -slope_y : slope_y) - slope_y * y);
+/// Of a convex function's square that is off . off at a point the root of what it is at least, where it
+/// may fall by twice `left` from there. Where that is most of it, nothing is told.
+static inline float least_of(math::Vec3 off, float left) {
   const float off2 = dot(off, off), least2 = off2 - 2.0f * left;
   const float distance = least2 > 0.5f * off2 ? math::square_root(least2) : 0.0f;
-  return {x, y, distance * (1.0f - 0x1p-20f)};
+  return distance * (1.0f - 0x1p-20f);
+}
+
+/// A lower bound of the distance to a parallelogram, and where on it, x and y, the foot is thought to be.
+/// Any x and y would do: the tangent there tells what the square may still fall by.
+struct Foot {
+  float x, y, distance;
+};
+static inline Foot foot_on(const Parallelogram& p, const Seen& seen) {
+  float x = held(seen.of_a * seen.per_aa);
+  const float y = held((seen.of_b - seen.ab * x) * seen.per_bb);
+  x = held((seen.of_a - seen.ab * y) * seen.per_aa);
+  const math::Vec3 off = seen.r - p.a * x - p.b * y;
+  const float slope_x = dot(p.a, off), slope_y = dot(p.b, off);
+  const float left =
+      __builtin_fabsf(slope_x) - slope_x * x + (__builtin_fabsf(slope_y) - slope_y * y);
+  return {x, y, least_of(off, left)};
+}
+static inline Foot foot_on(const Parallelogram& p, math::Vec3 q) {
+  Seen seen;
+  see(p, q, seen);
+  return foot_on(p, seen);
+}
+
+/// A part's halves overlap by as much of its parallelogram to each side of the middle.
+static inline float in_overlaps(uint32_t byte) { return static_cast<float>(byte) * 0x1p-7f; }
+
+/// The same of a half: along one axis, `across`, the lower one up to `overlap` beyond the middle, or the
+/// upper one from as much before it on. The foot lies outside it.
+static inline float half_bound(const Seen& seen, math::Vec3 across, math::Vec3 along,
+                               float of_along, float per_along, float overlap, bool is_low) {
+  const float x = is_low ? overlap : -overlap;  // the nearest line of it
+  const float y = held((of_along - seen.ab * x) * per_along);
+  const math::Vec3 off = seen.r - across * x - along * y;
+  const float slope_x = dot(across, off), slope_y = dot(along, off);
+  const float inward = (is_low ? -slope_x : slope_x) * (1.0f + overlap);
+  return least_of(off, (inward > 0.0f ? inward : 0.0f) + (__builtin_fabsf(slope_y) - slope_y * y));
 }
 
 }  // namespace firmtouch::spline

@@ -50,7 +50,7 @@ struct Quadratic {
       reach[k] = far;
       const bool is_uphill = sure > 0.0f;
       q[k] = is_uphill ? 2.0f * sure : 0.0f;
-      g[k] = is_uphill ? 0.0f : ((slope[k] < 0.0f ? -slope[k] : slope[k]) + slope_noise[k]) * far;
+      g[k] = is_uphill ? 0.0f : (__builtin_fabsf(slope[k]) + slope_noise[k]) * far;
     }
     float change[4];
     changes(reach[0], reach[1], change);
@@ -59,7 +59,7 @@ struct Quadratic {
     const float uuv = change[1] * reach[1] * u2, uvv = change[2] * reach[0] * v2;
     const float uu = (bend[0] - bend_noise[0] - change[0] * reach[0] * a_third) * u2;
     const float vv = (bend[2] - bend_noise[1] - change[3] * reach[1] * a_third) * v2;
-    const float across = (bend[1] < 0.0f ? -bend[1] : bend[1]) * uv;
+    const float across = __builtin_fabsf(bend[1]) * uv;
     const float a0 = uu + q[0], c0 = vv + q[1];
     float a = a0 - uuv, b = across, c = c0 - uvv;
     float determinant = a * c - b * b;

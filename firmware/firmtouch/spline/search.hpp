@@ -50,8 +50,7 @@ static inline float decoded(uint32_t code, uint32_t most) {
 
 /// At least as long as the vector.
 static inline float size_of(math::Vec3 v) {
-  const float x = v.x < 0.0f ? -v.x : v.x, y = v.y < 0.0f ? -v.y : v.y, z = v.z < 0.0f ? -v.z : v.z;
-  return x + y + z;
+  return __builtin_fabsf(v.x) + __builtin_fabsf(v.y) + __builtin_fabsf(v.z);
 }
 
 /// What rounding does to the slope of D^2 / 2 and to its change, beside what it does to D: the
@@ -65,7 +64,9 @@ enum class Outcome : uint8_t { kClosed, kSplit, kStopped, kLost };
 ///     Range, a part of a leaf;
 ///     uint32_t root(), bool is_leaf(node), sibling_of(node), parent_of(node);
 ///     void children(uint32_t node, uint32_t& low, uint32_t& high);
-///     float bound_m(uint32_t node, Range& range): no point below the node is nearer; of a leaf, all of it;
+///     float bound_m(uint32_t node, float limit_m, Range& range): no point below the node is nearer. Where
+///     that is below the limit the range is told: of a leaf all of it, of others what child_bound_m(range,
+///     0 or 1) knows of a child beforehand;
 ///     Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
 ///                   Half (&halves)[2]);
 ///     uint32_t closed_around(leaf, best): a node about the leaf that was just closed, closed as well;
@@ -121,7 +122,7 @@ class Search {
 
   void run_cold(float outside_m) {
     Entry first{shape_.root(), outside_m, {}};
-    if (shape_.is_leaf(first.node)) (void)shape_.bound_m(first.node, first.range);
+    (void)shape_.bound_m(first.node, FLT_MAX, first.range);
     put(first);
     is_complete_ = drain(0);
   }
@@ -167,20 +168,17 @@ class Search {
 
   // Reads a node and keeps it where it may hold something nearer.
   void visit(uint32_t node, float above_m) {
+    if (above_m >= best_.limit_m) return pass(above_m);
     --left_;
-    Entry* const entry = stack_ + (count_ < kCapacity ? count_ : kCapacity);
-    entry->node = node;
-    float lower_m = shape_.bound_m(node, entry->range);
-    if (lower_m < above_m) lower_m = above_m;
-    entry->lower_m = lower_m;
-    if (lower_m < best_.limit_m) {
-      if (count_ < kCapacity)
-        ++count_;
-      else
-        lose(lower_m);
-    } else {
-      pass(lower_m);
-    }
+    Entry& entry = stack_[count_ < kCapacity ? count_ : kCapacity];
+    entry.node = node;
+    const float own_m = shape_.bound_m(node, best_.limit_m, entry.range);
+    entry.lower_m = own_m < above_m ? above_m : own_m;
+    if (!(entry.lower_m < best_.limit_m)) return pass(entry.lower_m);
+    if (count_ < kCapacity)
+      ++count_;
+    else
+      lose(entry.lower_m);
   }
 
   // False: the budget ended, and what is left stands on the stack.
@@ -202,19 +200,22 @@ class Search {
         left_ = 0;
         return false;
       } else {
-        open(entry.node, entry.lower_m);
+        open(entry);
       }
     }
     return true;
   }
 
   // The nearer child comes up first.
-  void open(uint32_t node, float lower_m) {
+  void open(const Entry& entry) {
+    const float low_m = Shape::child_bound_m(entry.range, 0);
+    const float high_m = Shape::child_bound_m(entry.range, 1);
+    const float lower_m = entry.lower_m;
     const uint32_t before = count_;
     uint32_t low, high;
-    shape_.children(node, low, high);
-    visit(low, lower_m);
-    visit(high, lower_m);
+    shape_.children(entry.node, low, high);
+    visit(low, low_m > lower_m ? low_m : lower_m);
+    visit(high, high_m > lower_m ? high_m : lower_m);
     if (count_ == before + 2 && stack_[before].lower_m < stack_[before + 1].lower_m) {
       const Entry first = stack_[before];
       stack_[before] = stack_[before + 1];

@@ -18,6 +18,7 @@ class SurfaceParts {
         grids_(model.grids().data()),
         corners_(model.corners().data()),
         radii_(model.radii().data()),
+        overlaps_(model.overlaps().data()),
         bends_(model.patch_bends().data()),
         boxes_(model.boxes().data()),
         piece_count_(model.pieces().size()),
@@ -95,6 +96,7 @@ class SurfaceParts {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
     const Patch patch = patch_of(node), leaf = patch_of(closed_);
     const Piece& piece = pieces_[patch.piece];
+    if (patch.depth + kTried < 0u + piece.level_u + piece.level_v) return false;
     const Halvings cell = cell_levels(piece, grids_[patch.piece]);
     const Halvings made = halvings_of(piece, patch.depth);
     if (made.u < cell.u || made.v < cell.v ||
@@ -104,19 +106,42 @@ class SurfaceParts {
     return best.is_beyond(closed_by_->least2(range_of(made, patch, 0.0f, 0.0f)));
   }
 
-  // The stored radii and half sides hold what float32 loses here.
-  float bound_m(uint32_t node, Range& range) {
-    if (node >= kUpper) return box_bound_m(boxes_[node - kUpper]);
+  static float child_bound_m(const Range& of, uint32_t child) { return of.start[child]; }
+  // The stored radii and half sides hold what float32 loses here. Of a part that may hold something
+  // nearer than the limit, and is no leaf, the start is told to be the bounds of its halves, as seen
+  // from here: that of the half with the foot is none.
+  float bound_m(uint32_t node, float limit_m, Range& range) {
+    if (node >= kUpper) {
+      range.start[0] = range.start[1] = 0.0f;
+      return box_bound_m(boxes_[node - kUpper]);
+    }
     const Patch patch = patch_of(node);
     if (patch.piece != near_.piece) come_near(patch.piece);
     const Halvings made = halvings_of(*near_.of, patch.depth);
     const uint32_t left_u = near_.of->level_u - made.u, left_v = near_.of->level_v - made.v;
-    const Foot foot = foot_on(
-        quarters_of(near_.corners, near_.columns, 1u << left_u, 1u << left_v, patch.u, patch.v),
-        near_.q);
-    if (left_u + left_v == 0) range = range_of(made, patch, foot.x, foot.y);
-    const uint32_t radius = (1u << patch.depth) - 1u + (patch.v << made.u | patch.u);
-    return foot.distance * near_.quarter_m - in_units(near_.radius_unit_m, near_.radii[radius]);
+    const Parallelogram p =
+        quarters_of(near_.corners, near_.columns, 1u << left_u, 1u << left_v, patch.u, patch.v);
+    Seen seen;
+    see(p, near_.q, seen);
+    const Foot foot = foot_on(p, seen);
+    const uint32_t part = (1u << patch.depth) - 1u + (patch.v << made.u | patch.u);
+    const float radius_m = in_units(near_.radius_unit_m, near_.radii[part]);
+    const float bound_m = foot.distance * near_.quarter_m - radius_m;
+    if (bound_m >= limit_m) return bound_m;
+    if (left_u + left_v == 0) {
+      range = range_of(made, patch, foot.x, foot.y);
+      return bound_m;
+    }
+    const bool is_u = left_u >= left_v;
+    const float overlap = in_overlaps(near_.overlaps[part]), at = is_u ? foot.x : foot.y;
+    range.start[0] = range.start[1] = 0.0f;
+    if (__builtin_fabsf(at) > overlap) {
+      const bool is_low = at > 0.0f;  // the half without the foot
+      const float off = is_u ? half_bound(seen, p.a, p.b, seen.of_b, seen.per_bb, overlap, is_low)
+                             : half_bound(seen, p.b, p.a, seen.of_a, seen.per_aa, overlap, is_low);
+      range.start[is_low ? 0 : 1] = off * near_.quarter_m - radius_m;
+    }
+    return bound_m;
   }
 
   Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
@@ -181,6 +206,8 @@ class SurfaceParts {
 
  private:
   static constexpr uint32_t kNone = UINT32_MAX;  // no node
+  // Parts so many halvings above leaves are tried by the last expansion; larger ones are rarely closed.
+  static constexpr uint32_t kTried = 2;
   static constexpr uint32_t kMostTurns = 6;
   static constexpr float kUp = 1.0f + 0x1p-16f;  // for sums and products of a few dozen roundings
   // A rectangle of so little of a leaf gets bends of its own, for the price of so many steps. The
@@ -199,7 +226,7 @@ class SurfaceParts {
     uint32_t columns;
     const Piece* of;
     const Corner* corners;
-    const uint8_t* radii;
+    const uint8_t *radii, *overlaps;
     float quarter_m, radius_unit_m;
     math::Vec3 q;  // in quarters of a step, a power of two: exactly as in metres
   };
@@ -210,6 +237,7 @@ class SurfaceParts {
     near_.columns = (1u << near_.of->level_u) + 1u;
     near_.corners = corners_ + grid.first_corner;
     near_.radii = radii_ + (2 * grid.first_leaf - piece);
+    near_.overlaps = overlaps_ + (grid.first_leaf - piece);
     near_.quarter_m = 0.25f * grid.step_m;
     near_.radius_unit_m = grid.radius_unit_m;
     near_.q = (p_m_ - vec3_at(near_.of->origin_m)) * (1.0f / near_.quarter_m);
@@ -265,7 +293,7 @@ class SurfaceParts {
     return math::length(off) * (1.0f - 0x1p-19f);
   }
   static float beyond(float along, float half) {
-    const float off = (along < 0.0f ? -along : along) - half;
+    const float off = __builtin_fabsf(along) - half;
     return off > 0.0f ? off : 0.0f;
   }
 
@@ -317,7 +345,7 @@ class SurfaceParts {
              loss_m_ +
          lost_m * twists + 24.0f * kUnit * (3.0f * speeds * swings + distance_m * twists)) *
         kUp;
-    for (float& third : f.third) third = (third < 0.0f ? -third : third) + noise;
+    for (float& third : f.third) third = __builtin_fabsf(third) + noise;
     for (uint32_t k = 0; k < 5; ++k)
       f.fourth[k] = (bends.fixed[k] + bends.turning[k] * distance_m) * kUp;
   }
@@ -352,7 +380,7 @@ class SurfaceParts {
   const float* coefficients_;
   const Grid* grids_;
   const Corner* corners_;
-  const uint8_t* radii_;
+  const uint8_t *radii_, *overlaps_;
   const PatchBend* bends_;
   const Box* boxes_;
   uint32_t piece_count_;

@@ -116,8 +116,8 @@ Verdict Opening::take_surfaces(const Sections& s, const Head& head) {
   if (view_.patch_bends_.size() * sizeof(PatchBend) != s.bends.size()) return reject(604, 6);
   view_.grids_ = core::as_whole_array<Grid>(s.grids);
   if (view_.grids_.size() != head.piece_count) return reject(604, 7);
-  view_.radii_ = core::as_whole_array<uint8_t>(s.radii);
-  if (view_.radii_.size() != 2 * head.leaf_count - head.piece_count) return reject(604, 8);
+  if (s.radii.size() != 3 * head.leaf_count - 2 * head.piece_count) return reject(604, 8);
+  view_.radii_ = s.radii.data();
   return kPassed;
 }
 

@@ -34,7 +34,10 @@ class View {
   // Of surfaces:
   core::Span<const Grid> grids() const { return grids_; }
   core::Span<const Corner> corners() const { return corners_; }
-  core::Span<const uint8_t> radii() const { return radii_; }
+  core::Span<const uint8_t> radii() const { return {radii_, radius_count()}; }
+  core::Span<const uint8_t> overlaps() const {
+    return {radii_ + radius_count(), head_->leaf_count - head_->piece_count};
+  }
   core::Span<const PatchBend> patch_bends() const { return patch_bends_; }
   core::Span<const Box> boxes() const { return boxes_; }
 
@@ -53,6 +56,7 @@ class View {
 
  private:
   friend class Opening;
+  uint32_t radius_count() const { return 2 * head_->leaf_count - head_->piece_count; }
   const Head* head_ = nullptr;
   core::Span<const Piece> pieces_;
   core::Span<const float> coefficients_;
@@ -63,7 +67,7 @@ class View {
   core::Span<const Point> points_;
   core::Span<const Grid> grids_;
   core::Span<const Corner> corners_;
-  core::Span<const uint8_t> radii_;
+  const uint8_t* radii_ = nullptr;  // and the overlaps behind them
   core::Span<const PatchBend> patch_bends_;
   core::Span<const Box> boxes_;
 };
