@@ -1,6 +1,7 @@
 // The instruction-set variants give the bits of their portable definitions, and elementary
 // functions are total.
 #include "firmtouch/math/isa.hpp"
+#include "firmtouch/math/isa_loads.hpp"
 
 #include <float.h>
 #include <stdint.h>
@@ -112,6 +113,39 @@ TEST(BoxDistanceIsTheSquaredGapInCells) {
       90u | (32767u - 90u) << 16, 203u | (32767u - 203u) << 16, 7u | (32767u - 7u) << 16);
   CHECK_EQ(math::box_distance2(box, inside), 0u);
   CHECK_EQ(math::box_distance2(box, beside), 100u + 9u);
+}
+
+TEST(FloatsBeyondAWordAreSaturated) {
+  CHECK_EQ(math::portable_saturated(3.99f), 3u);
+  CHECK_EQ(math::portable_saturated(-0.5f), 0u);
+  CHECK_EQ(math::portable_saturated(-1e30f), 0u);
+  CHECK_EQ(math::portable_saturated(4294967040.0f), 4294967040u);  // the last float below 2^32
+  CHECK_EQ(math::portable_saturated(0x1p32f), UINT32_MAX);
+  CHECK_EQ(math::portable_saturated(math::float_of(0x7F800000u)), UINT32_MAX);
+  CHECK_EQ(math::portable_saturated(math::float_of(0x7FC00000u)), 0u);
+  CHECK_EQ(math::portable_saturated(math::float_of(0xFF800001u)), 0u);
+  uint32_t differ = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const float value = math::float_of(next_random());
+    if (math::saturated(value) != math::portable_saturated(value)) ++differ;
+  }
+  CHECK_EQ(differ, 0u);
+}
+
+TEST(FloatsLoadedTogetherAreThoseOfTheirPlaces) {
+  float values[9];
+  for (int k = 0; k < 9; ++k) values[k] = static_cast<float>(k + 1);
+  const uint32_t stride = math::as_multiplier(3);
+  CHECK_EQ(stride, 3u);
+  float a[3], b[3], c[3];
+  math::load_floats<0>(values + 2 * stride, a[0], a[1], a[2]);
+  math::load_floats<1>(values + 0 * stride, b[0], b[1], b[2]);
+  math::load_floats<2>(values + 1 * stride, c[0], c[1], c[2]);
+  for (int k = 0; k < 3; ++k) {
+    CHECK_EQ(a[k], values[6 + k]);
+    CHECK_EQ(b[k], values[k]);
+    CHECK_EQ(c[k], values[3 + k]);
+  }
 }
 
 TEST(ThisProcessorComputesAsTheBakersDid) { CHECK(math::arithmetic_is_sound()); }

@@ -31,6 +31,12 @@
 #define FIRMTOUCH_ISA_PAIRS 0
 #endif
 
+#if FIRMTOUCH_ISA_PAIRS && defined(__ARM_FP) && (__ARM_FP & 4)
+#define FIRMTOUCH_ISA_BLOCKS 1
+#else
+#define FIRMTOUCH_ISA_BLOCKS 0
+#endif
+
 #if defined(__AVX2__)
 #include <immintrin.h>
 #define FIRMTOUCH_ISA_AVX2 1
@@ -100,6 +106,22 @@ static inline float square_root(float value) {
 #endif
 }
 
+/// Without its fraction; the nearest that a word can hold; 0 for NaN.
+static inline uint32_t portable_saturated(float value) {
+  if (!(value > 0.0f)) return 0;
+  return value < 0x1p32f ? static_cast<uint32_t>(value) : UINT32_MAX;
+}
+
+static inline uint32_t saturated(float value) {
+#if FIRMTOUCH_ISA_BLOCKS
+  uint32_t whole;
+  __asm__("vcvt.u32.f32 %0, %1" : "=t"(whole) : "t"(value));
+  return whole;
+#else
+  return portable_saturated(value);
+#endif
+}
+
 /// Squared distance, in cells, from a point to a box on a grid of 15-bit coordinates; never more
 /// than the true one. box[k] = low | (32767 - high) << 16 for axis k; point[k] = ceil(p) | (32767 -
 /// floor(p)) << 16. Each half of the saturating difference is max(low - p, 0) or max(p - high, 0),
@@ -153,18 +175,6 @@ static inline uint32_t box_distance2(const uint32_t* box, const uint32_t* point)
 #endif
 }
 
-/// The same. Pre: a word may be read behind the box.
-static inline uint32_t box_distance2(const uint32_t* box, const BoxPoint& point) {
-#if FIRMTOUCH_ISA_AVX2
-  const __m128i squares = box_squares(box, point);
-  const __m128i pairs = _mm_add_epi32(squares, _mm_unpackhi_epi64(squares, squares));
-  return static_cast<uint32_t>(
-      _mm_cvtsi128_si32(_mm_add_epi32(pairs, _mm_shuffle_epi32(pairs, 1))));
-#else
-  return box_distance2(box, point.words);
-#endif
-}
-
 #if FIRMTOUCH_ISA_PAIRS
 // Two neighbouring words by one instruction, where the compiler takes two.
 template <int kOffset>
@@ -177,6 +187,23 @@ static inline void load_pair(const uint32_t* from, uint32_t& first, uint32_t& se
           : "r"(from), "I"(kOffset), "m"(*reinterpret_cast<const Pair*>(from + kOffset / 4)));
 }
 #endif
+
+/// The same. Pre: a word may be read behind the box.
+static inline uint32_t box_distance2(const uint32_t* box, const BoxPoint& point) {
+#if FIRMTOUCH_ISA_AVX2
+  const __m128i squares = box_squares(box, point);
+  const __m128i pairs = _mm_add_epi32(squares, _mm_unpackhi_epi64(squares, squares));
+  return static_cast<uint32_t>(
+      _mm_cvtsi128_si32(_mm_add_epi32(pairs, _mm_shuffle_epi32(pairs, 1))));
+#elif FIRMTOUCH_ISA_PAIRS
+  uint32_t words[3];
+  load_pair<0>(box, words[0], words[1]);
+  words[2] = box[2];
+  return box_distance2(words, point.words);
+#else
+  return box_distance2(box, point.words);
+#endif
+}
 
 /// box_distance2() of two boxes that lie one behind the other, each followed by a word, and these
 /// words.
@@ -197,8 +224,8 @@ static inline void side_distances2(const uint32_t* sides, const BoxPoint& point,
   load_pair<8>(sides, box0[2], word0);
   load_pair<16>(sides, box1[0], box1[1]);
   load_pair<24>(sides, box1[2], word1);
-  first = box_distance2(box0, point);
-  second = box_distance2(box1, point);
+  first = box_distance2(box0, point.words);
+  second = box_distance2(box1, point.words);
 #else
   first = box_distance2(sides, point);
   second = box_distance2(sides + 4, point);

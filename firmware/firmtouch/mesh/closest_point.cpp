@@ -31,36 +31,24 @@ constexpr float kFenceMotions = 8.0f;
 // than 1e6 m.
 constexpr float kBeyond_m = 1e15f;
 
-struct Corners {
-  uint32_t index[3];
-  Vec3 a_m, b_m, c_m;
-};
-
-inline Corners corners_of(const View& mesh, uint32_t triangle) {
-  const Triangle<uint32_t> t = mesh.triangle(triangle);
-  return {{t.corner[0], t.corner[1], t.corner[2]},
-          mesh.vertex(t.corner[0]),
-          mesh.vertex(t.corner[1]),
-          mesh.vertex(t.corner[2])};
-}
-
 // The pseudonormal of an edge or a vertex of a triangle whose unit normal is `normal`. Apart: nearly
 // every answer is a face's, whose values would wait in memory.
 [[gnu::noinline]] Vec3 border_direction(const View& mesh, const Best& best, Vec3 normal) {
-  const Corners t = corners_of(mesh, best.triangle);
+  const Triangle<uint32_t> t = mesh.triangle(best.triangle);
   if (is_vertex(best.feature)) {
     const uint32_t corner =
         static_cast<uint32_t>(best.feature) - static_cast<uint32_t>(Feature::kVertex0);
-    return decode_vertex_normal(mesh.vertex_normals()[t.index[corner]]);
+    return decode_vertex_normal(mesh.vertex_normals()[t.corner[corner]]);
   }
   const uint32_t k = static_cast<uint32_t>(best.feature) - static_cast<uint32_t>(Feature::kEdge0);
-  const Vec3 edge = k == 0 ? t.b_m - t.a_m : k == 1 ? t.c_m - t.b_m : t.a_m - t.c_m;
+  const Vec3 edge = mesh.vertex(t.corner[k == 2 ? 0 : k + 1]) - mesh.vertex(t.corner[k]);
   return decode_edge_normal(normal, edge, mesh.folds()[best.triangle].fold[k]);
 }
 
 [[gnu::always_inline]] inline Vec3 feature_direction(const View& mesh, const Best& best) {
-  const Corners t = corners_of(mesh, best.triangle);
-  const Vec3 normal = unit_normal(t.a_m, t.b_m, t.c_m);
+  const Triangle<uint32_t> t = mesh.triangle(best.triangle);
+  const Vec3 normal =
+      unit_normal(mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
   if (best.feature != Feature::kFace && mesh.is_signed())
     return border_direction(mesh, best, normal);
   return {normal.x, normal.y, normal.z};  // one by one: see measure_leaf()

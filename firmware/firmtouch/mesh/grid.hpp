@@ -28,27 +28,26 @@ struct NearBound {
   float per_cell2;
 
   /// False: the query is not inside the grid (or not a number).
-  bool begin(const Head& head, math::Vec3 p_m) {
+  bool begin(const Head& head, const math::Vec3& p_m) {
     cell_m = head.cell_m;
-    const float per_cell = 1.0f / cell_m;
-    per_cell2 = per_cell * per_cell;
-    uint32_t x, y, z;
-    if (!(put((p_m.x - head.grid_low_m[0]) * per_cell, x) &&
-          put((p_m.y - head.grid_low_m[1]) * per_cell, y) &&
-          put((p_m.z - head.grid_low_m[2]) * per_cell, z)))
-      return false;
+    const float per_part = 0x1p16f / cell_m;
+    per_cell2 = per_part * 0x1p-16f * (per_part * 0x1p-16f);
+    uint32_t outside = 0;
+    const uint32_t x = put((p_m.x - head.grid_low_m[0]) * per_part, outside),
+                   y = put((p_m.y - head.grid_low_m[1]) * per_part, outside),
+                   z = put((p_m.z - head.grid_low_m[2]) * per_part, outside);
     point = math::box_point(x, y, z);
-    return true;
+    return (outside >> 31) == 0;
   }
-  static bool put(float cells, uint32_t& word) {
-    constexpr float kMiddle = 0x1p14f;
-    if (!(__builtin_fabsf(cells - kMiddle) <= kMiddle - 4.0f)) return false;
-    // In 256ths of a cell (exact but for the fraction that is cut off): one less, rounded down to
-    // cells, and one more than what may have been cut off, rounded up.
-    const uint32_t parts = static_cast<uint32_t>(static_cast<int32_t>(cells * 0x1p8f));
-    const uint32_t floor_cell = (parts - 1) >> 8, ceil_cell = (parts + 257) >> 8;
-    word = ceil_cell | ((kGridMax - floor_cell) << 16);
-    return true;
+  /// A coordinate in 65536ths of a cell as a word of a point. The top bit of `outside` is set where
+  /// it is not inside the grid.
+  static uint32_t put(float parts, uint32_t& outside) {
+    // Exact but for the fraction that is cut off. 256 less, rounded down to cells, and 256 more than
+    // what may have been cut off, rounded up.
+    const uint32_t whole = math::saturated(parts);
+    const uint32_t below = (kGridMax + 1) * 0x10000u - 1 - (whole - 256), above = whole + 0x10100u;
+    outside |= below | above;
+    return (below & 0xFFFF0000u) | (above >> 16);
   }
   uint32_t key(const uint32_t* box) const { return math::box_distance2(box, point); }
   /// Of both sides of a node, and where their children are. Into words: a struct of them cost the

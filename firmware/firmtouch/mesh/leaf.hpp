@@ -4,6 +4,7 @@
 #include <float.h>
 
 #include "firmtouch/core/span.hpp"
+#include "firmtouch/math/isa_loads.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/careful_distance.hpp"
 #include "firmtouch/mesh/layout.hpp"
@@ -64,6 +65,14 @@ template <class Float, class Index>
   return least2_m2;
 }
 
+// Pre: `stride` is that of vertices.
+template <int kBlock>
+[[gnu::always_inline]] static inline void load_corner(const Vertex* vertices, uint32_t index,
+                                                      uint32_t stride, math::Vec3& corner_m) {
+  const uint8_t* const at = reinterpret_cast<const uint8_t*>(vertices) + index * stride;
+  math::load_floats<kBlock>(reinterpret_cast<const float*>(at), corner_m.x, corner_m.y, corner_m.z);
+}
+
 /// Puts into `best` what of the leaf `child`, which is at `place`, is nearer than `least2_m2`; of
 /// two equally near triangles the first. With care, a triangle that may be the nearest is measured
 /// again in pairs of floats.
@@ -88,12 +97,14 @@ template <bool kCareful, class Index>
       return measure_side_by_side<Float4>(vertices, triangles, p_m, child, place, least2_m2, best);
   }
   using math::Vec3;
+  const uint32_t stride = math::as_multiplier(sizeof(Vertex));
   const Triangle<Index>* triangle = triangles.data() + leaf_first(child);
   for (const Triangle<Index>* const end = triangle + leaf_count(child); triangle != end;
        ++triangle) {
-    const Vertex &a = vertices[triangle->corner[0]], &b = vertices[triangle->corner[1]],
-                 &c = vertices[triangle->corner[2]];
-    const Vec3 a_m{a.x_m, a.y_m, a.z_m}, b_m{b.x_m, b.y_m, b.z_m}, c_m{c.x_m, c.y_m, c.z_m};
+    Vec3 a_m, b_m, c_m;
+    load_corner<0>(vertices, triangle->corner[0], stride, a_m);
+    load_corner<1>(vertices, triangle->corner[1], stride, b_m);
+    load_corner<2>(vertices, triangle->corner[2], stride, c_m);
     Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
     if constexpr (kCareful) {
       if (!loss.may_be_less(foot.distance2_m2, least2_m2)) continue;

@@ -109,22 +109,23 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t prune, uint32_t
   const uint32_t beyond = bound.prune_key(reach_m * reach_m);
   uint32_t place = search.start;
   uint32_t stop = leaf_m <= search.fence_m ? search.fence : 0, fence = place >> 1;
-  while (left != 0) {
-    --left;
+  for (; left != 0; --left) {
     const uint32_t beside = place ^ 1u, index = place >> 1;
     const uint32_t key = bound.key(sides[beside].box);
     if (key < beyond) {
       fence = index;
       if (key < prune) *top++ = {key, beside};
     }
-    if (index <=
-        stop) {  // parents come before their children: at the fence, or past one that is no ancestor
+    // Parents come before their children: at the fence, or past one that is no ancestor.
+    if (index <= stop) {
       if (index == 0) {
         search.fence = fence;
         search.fence_m = reach_m * (1.0f - 0x1p-22f);
+      }
+      if (index == 0 || index == stop) {
+        --left;
         return true;
       }
-      if (index == stop) return true;
       stop = 0;
     }
     place = place_of(parents[index]);
@@ -204,12 +205,10 @@ template <bool kCareful, class Bound, class Index>
   const uint32_t allowed = search.budget == 0 ? 1 : search.budget;
   Pending pending[kCapacity];
   Pending* top = pending;  // behind the last
-  // Where nothing cuts a search short no lower bound is told on the way.
-  const Pending* best_first = allowed == UINT32_MAX ? pending : pending + kBestFirst;
+  const Pending* best_first = pending;
   uint32_t left = allowed, place = query::kNowhere, child = 0, prune;
   search.complete = true;
   if (search.start != query::kNowhere) {
-    best_first = pending;
     --left;
     measure<kCareful, Index, true>(mesh, sides[search.start].child, search.start, search);
     prune = prune_key(bound, search);
@@ -226,6 +225,8 @@ template <bool kCareful, class Bound, class Index>
     child = sides[place].child;
   } else {
     prune = prune_key(bound, search);
+    // Where nothing cuts a search short no lower bound is told on the way.
+    if (allowed != UINT32_MAX) best_first += kBestFirst;
   }
   for (; left != 0; --left) {
     if (!is_leaf(child)) {
