@@ -6,6 +6,7 @@
 #include "firmtouch/scene/spline_contact.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "harness/test.hpp"
+#include "spline/orientation.hpp"
 
 namespace {
 
@@ -24,6 +25,7 @@ struct Surface {
   explicit Surface(std::vector<tools::SplineSurface> surfaces) {
     tools::SplineModel model;
     model.surfaces = std::move(surfaces);
+    orient(model);
     tools::SplineReport report;
     sections = tools::bake_spline(model, "x", tools::surface_detail(false), report);
     CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
@@ -55,8 +57,8 @@ Surface torus(bool is_inside_out = false) {
   return Surface({s});
 }
 
-// A cube of 40 mm of six bilinear patches: creases everywhere.
-Surface cube() {
+// A cube of 40 mm of six bilinear patches: creases everywhere. `inward`: normals that the file turns in.
+Surface cube(uint32_t inward = 0) {
   std::vector<tools::SplineSurface> sides;
   const double h = 0.02;
   for (int axis = 0; axis < 3; ++axis)
@@ -70,7 +72,8 @@ Surface cube() {
         for (int i = -1; i <= 1; i += 2) {
           double at[3];
           at[axis] = end * h;
-          at[(axis + 1) % 3] = i * end * h;  // u x v points out
+          const bool is_in = (inward >> sides.size() & 1u) != 0;
+          at[(axis + 1) % 3] = (is_in ? -i : i) * end * h;  // else u x v points out
           at[(axis + 2) % 3] = j * h;
           s.points.push_back({at[0], at[1], at[2], 1});
         }
@@ -194,6 +197,22 @@ TEST(OverTheCreasesOfASolidTheForceTurnsWithoutAJump) {
     before = now;
   }
   CHECK_LE(worst, 0.06f);
+}
+
+TEST(ASolidWhoseNormalsPointToBothSidesFeelsAsIfTheyPointedToOne) {
+  for (const uint32_t inward : {0x01u, 0x02u, 0x18u, 0x24u}) {
+    const Surface sound = cube(), mixed = cube(inward);
+    Rig a(sound, true), b(mixed, true);
+    math::Vec3 at{0, 0, 0.04f};
+    for (int i = 0; i < 3000; ++i) {
+      const float t = 0.004f * static_cast<float>(i);
+      at = {0.024f * std::sin(t), 0.024f * std::sin(2.1f * t + 1), 0.024f * std::cos(0.7f * t)};
+      const math::Vec3 fa = a.force_N(at), fb = b.force_N(at);
+      if (a.touch.closest.piece != b.touch.closest.piece) continue;  // two sides equally near
+      CHECK_LE(apart(fa, fb), 2e-3f + 1e-3f * apart(fa, {}));
+      CHECK_EQ(a.touch.closest.certificate.sign, b.touch.closest.certificate.sign);
+    }
+  }
 }
 
 TEST(ASideIsToldInsideAConvexAndAConcaveCornerOfASolid) {

@@ -42,7 +42,8 @@ std::vector<BezierPatch> patches_of(const SplineModel& model) {
   for (const SplineCurve& curve : model.curves)
     for (const BezierCurve& piece : bezier_pieces(curve)) patches.push_back(as_patch(piece));
   for (const SplineSurface& surface : model.surfaces)
-    for (const BezierPatch& piece : bezier_pieces(surface)) patches.push_back(piece);
+    for (const BezierPatch& piece : bezier_pieces(surface))
+      patches.push_back(surface.is_turned ? turned_over(piece) : piece);
   return patches;
 }
 

@@ -68,6 +68,15 @@ double length(const Four& c) { return std::sqrt(c[0] * c[0] + c[1] * c[1] + c[2]
 
 }  // namespace
 
+BezierPatch turned_over(const BezierPatch& patch) {
+  BezierPatch made = patch;
+  const auto wide = static_cast<std::ptrdiff_t>(patch.degree_u) + 1;
+  for (auto row = made.points.begin(); row != made.points.end(); row += wide)
+    std::reverse(row, row + wide);
+  std::swap(made.u0, made.u1);
+  return made;
+}
+
 BezierPatch as_patch(const BezierCurve& curve) {
   BezierPatch patch;
   patch.degree_u = curve.degree;

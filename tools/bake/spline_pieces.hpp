@@ -19,6 +19,9 @@ struct StoredPiece {
 StoredPiece store_piece(const BezierPatch& patch, bool is_surface);
 BezierPatch as_patch(const BezierCurve& curve);
 
+/// The same patch from its other side: u runs the other way, from u1 to u0.
+BezierPatch turned_over(const BezierPatch& patch);
+
 /// The two halves of a patch across its middle, along u or v.
 std::vector<BezierPatch> halves_of(const BezierPatch& patch, bool along_v);
 

@@ -12,6 +12,7 @@
 #include "cli/version.hpp"
 #include "firmtouch/asset/layout.hpp"
 #include "firmtouch/spline/closest_point.hpp"
+#include "spline/orientation.hpp"
 #include "spline/read_spline.hpp"
 
 namespace firmtouch::cli {
@@ -98,10 +99,11 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   BakedInput baked;
   progress.stage("reading and checking " + file_name_of(path));
   const std::vector<uint8_t> source = read_model(path);
-  const tools::SplineModel model =
+  tools::SplineModel model =
       tools::read_spline_bytes({reinterpret_cast<const char*>(source.data()), source.size()}, path,
                                options.has_unit ? options.unit_m : 0);
   if (!model.problem.empty()) fail_input(model.problem);
+  tools::orient(model);
 
   progress.stage("building the tree of " + name);
   tools::SplineReport report;

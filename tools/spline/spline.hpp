@@ -35,6 +35,7 @@ struct SplineSurface {
   double u0 = 0, u1 = 1, v0 = 0, v1 = 1;
   int piece = 0;
   std::string where;
+  bool is_turned = false;  // its normal is against u x v: so that it agrees with its neighbours
 };
 
 /// What a file holds: the answer of read_spline_file() (spline/read_spline.hpp).

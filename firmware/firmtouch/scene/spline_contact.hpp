@@ -15,7 +15,7 @@ struct SplineObject {
   const spline::View* surface = nullptr;
   math::RigidTransform pose;
   Material material;
-  // The free side is the one to which the normal points, along u x along v; true: the other one.
+  // The free side is the one to which normals point; true: the other one.
   bool is_turned = false;
   // The surfaces enclose what they bound, and a tool in it is pushed out. Else they are sheets: from
   // behind nothing is felt.

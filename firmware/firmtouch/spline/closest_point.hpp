@@ -12,8 +12,8 @@ namespace firmtouch::spline {
 struct Closest {
   float distance_m = 0;
   math::Vec3 point_m;    // on the curve or surface
-  math::Vec3 direction;  // unit: a curve's tangent, a surface's normal (along u x along v); 0 where
-                         // there is none
+  math::Vec3 direction;  // unit: a curve's tangent, a surface's normal (along u x along v, or
+                         // against it where the baker turned it over); 0 where there is none
   uint32_t piece = 0;    // the entity, in the order of the file
   float u = 0, v = 0;    // in the entity's own parameters; v = 0 for a curve
   uint32_t bezier = 0;   // the piece of the asset, and where on it, -1 to 1

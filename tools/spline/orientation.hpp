@@ -1,0 +1,12 @@
+#pragma once
+#include "spline/spline.hpp"
+
+namespace firmtouch::tools {
+
+/// Turns surfaces over (is_turned) until those that share a border have their normals on one side: fewer of
+/// each shell than half. Borders are shared where they lie within 2e-5 of the extent of each other, of
+/// the whole of one of them or of a part, however they are parametrised. What was done, what has no two sides, and what
+/// shares no border is told in the model's notes. Deterministic.
+void orient(SplineModel& model);
+
+}  // namespace firmtouch::tools
