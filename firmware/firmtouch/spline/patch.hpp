@@ -11,16 +11,6 @@ struct Patch {
   uint32_t piece, depth, u, v;  // from where u and v are least
 };
 
-/// A node of a surface's tree in one word: a part of a piece, or an inner node of the tree above. No
-/// piece has the number of kUpper: there are at most kMaxPatches.
-constexpr uint32_t kUpper = 0xFFFF0000u;
-inline uint32_t node_of(const Patch& p) { return p.piece << 16 | p.depth << 12 | p.u << 6 | p.v; }
-inline Patch patch_of(uint32_t node) {
-  return {node >> 16, (node >> 12) & 15u, (node >> 6) & 63u, node & 63u};
-}
-
-constexpr uint32_t kNextU = 1u << 6, kNextV = 1;  // to the node of the part beside
-
 /// How many of a part's halvings were of u and of v.
 struct Halvings {
   uint32_t u, v;

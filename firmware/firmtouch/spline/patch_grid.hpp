@@ -9,12 +9,9 @@ static inline float in_units(float unit, uint32_t byte) {
   return math::float_of(math::bits_of(unit) + (byte << 20));
 }
 
-/// Of a part, from a piece's corners; in units of a quarter of the grid's step: all are whole.
-static inline Parallelogram quarters_of(const Corner* corners, uint32_t columns, uint32_t across,
-                                        uint32_t along, uint32_t u, uint32_t v) {
-  const Corner* const c00 = corners + v * along * columns + u * across;
-  const Corner *const c10 = c00 + across, *const c01 = c00 + along * columns,
-                      *const c11 = c01 + across;
+/// Of a part, from its first corner and by how many the next along u and along v follow; in units of a quarter of the grid's step: all are whole.
+static inline Parallelogram quarters_between(const Corner* c00, uint32_t across, uint32_t along) {
+  const Corner *const c10 = c00 + across, *const c01 = c00 + along, *const c11 = c01 + across;
   Parallelogram made_of;
   const auto axis = [](int32_t v00, int32_t v10, int32_t v01, int32_t v11, float& centre, float& a,
                        float& b) {
@@ -32,9 +29,11 @@ static inline Parallelogram quarters_of(const Corner* corners, uint32_t columns,
 static inline Parallelogram parallelogram_of(const Piece& piece, const Grid& grid,
                                              const Corner* corners, const Patch& p,
                                              const Halvings& made) {
+  const uint32_t columns = (1u << piece.level_u) + 1u;
+  const uint32_t across = 1u << (piece.level_u - made.u);
+  const uint32_t along = columns << (piece.level_v - made.v);
   const Parallelogram quarters =
-      quarters_of(corners + grid.first_corner, (1u << piece.level_u) + 1u,
-                  1u << (piece.level_u - made.u), 1u << (piece.level_v - made.v), p.u, p.v);
+      quarters_between(corners + grid.first_corner + p.v * along + p.u * across, across, along);
   const float quarter = 0.25f * grid.step_m;
   return {quarters.centre * quarter, quarters.a * quarter, quarters.b * quarter};
 }
@@ -53,7 +52,8 @@ static inline void see(const Parallelogram& p, math::Vec3 q, Seen& seen) {
 }
 
 static inline float held(float value) {
-  return value > -1.0f ? value < 1.0f ? value : 1.0f : -1.0f;
+  const float above = value > -1.0f ? value : -1.0f;  // without branches
+  return above < 1.0f ? above : 1.0f;
 }
 /// Of a convex function's square that is off . off at a point the root of what it is at least, where it
 /// may fall by twice `left` from there. Where that is most of it, nothing is told.

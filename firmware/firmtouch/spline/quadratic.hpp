@@ -13,25 +13,26 @@ struct Rectangle {
 };
 
 /// D^2 / 2 = distance2 / 2 + slope . d + d . bend . d / 2 and a rest of third derivatives uuu, uuv, uvv,
-/// vvv that are at most `third` in size at the point, and fourth ones, uuuu to vvvv, at most `fourth`
-/// everywhere, by the piece's s and t.
+/// vvv, at the point, and fourth ones, uuuu to vvvv, at most `fourth` in size everywhere, by the piece's
+/// s and t.
 struct Quadratic {
   float distance2;
   float at[2];
   float slope[2];
-  float bend[3];         // uu, uv, vv
-  float gauss[3];        // the same of the tangents alone: never bent downward
-  float slope_noise[2];  // by which a slope may be off
-  float bend_noise[2];   // d . bend . d may be off by these times u^2 and v^2 together
-  float third[4], fourth[5];
+  float bend[3];                // uu, uv, vv
+  float gauss[3];               // the same of the tangents alone: never bent downward
+  float slope_noise[2];         // by which a slope may be off
+  float bend_noise[2];          // d . bend . d may be off by these times u^2 and v^2 together
+  float third[4], third_noise;  // a third derivative may be off by the latter
+  float fourth[5];
 
-  /// Third derivatives that make up for the fourth ones within U and V: u^3 v <= U u^2 v, and of u^2 v^2
+  /// By how much third derivatives may lower the rest, with what makes up for the fourth ones within U and V: u^3 v <= U u^2 v, and of u^2 v^2
   /// half counts as V u^2 v, half as U u v^2.
-  void changes(float u, float v, float (&change)[4]) const {
-    change[0] = third[0] + fourth[0] * u * 0.25f;
-    change[1] = third[1] + fourth[1] * u * 0.33333337f + fourth[2] * v * 0.25f;
-    change[2] = third[2] + fourth[3] * v * 0.33333337f + fourth[2] * u * 0.25f;
-    change[3] = third[3] + fourth[4] * v * 0.25f;
+  void changes(float u, float v, const float (&lows)[4], float (&change)[4]) const {
+    change[0] = lows[0] + third_noise + fourth[0] * u * 0.25f;
+    change[1] = lows[1] + third_noise + fourth[1] * u * 0.33333337f + fourth[2] * v * 0.25f;
+    change[2] = lows[2] + third_noise + fourth[3] * v * 0.33333337f + fourth[2] * u * 0.25f;
+    change[3] = lows[3] + third_noise + fourth[4] * v * 0.25f;
   }
 
   /// A lower bound of D^2 over a rectangle. With x and y from -1 to 1 of its reaches U and V, the rest is
@@ -42,24 +43,41 @@ struct Quadratic {
   /// positive; else all terms are taken one by one.
   float least2(const Rectangle& r) const {
     float g[2], q[2], reach[2];
+    // By how much terms may lower the rest: those whose sign is known, on one side of the point, by nothing
+    // where that leads up.
+    float low_third[4] = {__builtin_fabsf(third[0]), __builtin_fabsf(third[1]),
+                          __builtin_fabsf(third[2]), __builtin_fabsf(third[3])};
+    float quarter = 1.0f, mixed = __builtin_fabsf(bend[1]);
     for (uint32_t k = 0; k < 2; ++k) {
       const float below = at[k] - r.low[k], above = r.high[k] - at[k];
       const float far = above > below ? above : below;
-      const float outward = below <= 0.0f ? slope[k] : above <= 0.0f ? -slope[k] : -1.0f;
-      const float sure = (outward - slope_noise[k]) * far;
       reach[k] = far;
-      const bool is_uphill = sure > 0.0f;
-      q[k] = is_uphill ? 2.0f * sure : 0.0f;
-      g[k] = is_uphill ? 0.0f : (__builtin_fabsf(slope[k]) + slope_noise[k]) * far;
+      q[k] = 0.0f;
+      g[k] = (__builtin_fabsf(slope[k]) + slope_noise[k]) * far;
+      if (below > 0.0f && above > 0.0f) {
+        quarter = 0.0f;
+        continue;
+      }
+      const float side = below > 0.0f ? -1.0f : 1.0f;
+      quarter *= side;
+      const uint32_t own = 3 * k, other = 2 - k;
+      low_third[own] = risen(-side * third[own]);
+      low_third[other] = risen(-side * third[other]);
+      const float sure = (side * slope[k] - slope_noise[k]) * far;
+      if (sure > 0.0f) {
+        q[k] = 2.0f * sure;
+        g[k] = 0.0f;
+      }
     }
+    if (quarter * quarter > 0.0f) mixed = risen(-quarter * bend[1]);
     float change[4];
-    changes(reach[0], reach[1], change);
+    changes(reach[0], reach[1], low_third, change);
     const float a_third = 0.33333337f;
     const float u2 = reach[0] * reach[0], v2 = reach[1] * reach[1], uv = reach[0] * reach[1];
     const float uuv = change[1] * reach[1] * u2, uvv = change[2] * reach[0] * v2;
     const float uu = (bend[0] - bend_noise[0] - change[0] * reach[0] * a_third) * u2;
     const float vv = (bend[2] - bend_noise[1] - change[3] * reach[1] * a_third) * v2;
-    const float across = __builtin_fabsf(bend[1]) * uv;
+    const float across = mixed * uv;
     const float a0 = uu + q[0], c0 = vv + q[1];
     float a = a0 - uuv, b = across, c = c0 - uvv;
     float determinant = a * c - b * b;
@@ -126,7 +144,9 @@ struct Quadratic {
   uint32_t doubtful_axis(const Rectangle& r) const {
     const float u = 0.5f * (r.high[0] - r.low[0]), v = 0.5f * (r.high[1] - r.low[1]);
     float change[4];
-    changes(u, v, change);
+    const float low_third[4] = {__builtin_fabsf(third[0]), __builtin_fabsf(third[1]),
+                                __builtin_fabsf(third[2]), __builtin_fabsf(third[3])};
+    changes(u, v, low_third, change);
     const float of_u = (change[0] * u * 0.33333337f + change[1] * v + bend_noise[0]) * (u * u);
     const float of_v = (change[3] * v * 0.33333337f + change[2] * u + bend_noise[1]) * (v * v);
     return of_u >= of_v ? 0 : 1;
@@ -137,8 +157,10 @@ struct Quadratic {
            math::bits_of(there[1]) == math::bits_of(at[1]);
   }
 
+  static float risen(float value) { return value > 0.0f ? value : 0.0f; }
   static float clamped(float value, const Rectangle& r, uint32_t k) {
-    return value > r.low[k] ? value < r.high[k] ? value : r.high[k] : r.low[k];
+    const float above = value > r.low[k] ? value : r.low[k];
+    return above < r.high[k] ? above : r.high[k];
   }
 };
 

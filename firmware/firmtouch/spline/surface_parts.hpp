@@ -4,6 +4,7 @@
 #include "firmtouch/spline/evaluation.hpp"
 #include "firmtouch/spline/leaf_shape.hpp"
 #include "firmtouch/spline/patch_grid.hpp"
+#include "firmtouch/spline/patch_node.hpp"
 #include "firmtouch/spline/quadratic.hpp"
 
 namespace firmtouch::spline {
@@ -25,12 +26,11 @@ class SurfaceParts {
         loss_m_(model.head().loss_m),
         p_m_(p_m) {}
 
-  // Nodes are patches and, above the pieces, kUpper + i for node i of the tree over them.
   uint32_t root() const { return upper(0); }
   bool is_leaf(uint32_t node) const {
     if (node >= kUpper) return false;
     const Piece& piece = pieces_[node >> 16];
-    return ((node >> 12) & 15u) == 0u + piece.level_u + piece.level_v;
+    return ((node >> 7) & 127u) >> piece.level_u != 0 && (node & 127u) >> piece.level_v != 0;
   }
   void children(uint32_t node, uint32_t& low, uint32_t& high) const {
     if (node >= kUpper) {
@@ -38,22 +38,17 @@ class SurfaceParts {
       high = upper(2 * (node - kUpper) + 2);
       return;
     }
-    const Patch patch = patch_of(node);
-    const Piece& piece = pieces_[patch.piece];
-    const bool is_u = halves_u(piece, halvings_of(piece, patch.depth));
-    low = node_of({patch.piece, patch.depth + 1, is_u ? patch.u << 1 : patch.u,
-                   is_u ? patch.v : patch.v << 1});
-    high = low + (is_u ? kNextU : kNextV);
+    const PatchNode part = apart(pieces_[node >> 16], node);
+    low = first_half(node, part);
+    high = low + (is_halved_u(part) ? kNextU : kNextV);
   }
   uint32_t sibling_of(uint32_t node) const {
     if (is_upper(node)) return upper(spline::sibling_of(upper_of(node)));
-    const Patch patch = patch_of(node);
-    return node_of(spline::sibling_of(pieces_[patch.piece], patch));
+    return node ^ (was_halved_u(apart(pieces_[node >> 16], node)) ? kNextU : kNextV);
   }
   uint32_t parent_of(uint32_t node) const {
     if (is_upper(node)) return upper(spline::parent_of(upper_of(node)));
-    const Patch patch = patch_of(node);
-    return node_of(spline::parent_of(pieces_[patch.piece], patch));
+    return whole_of(node, apart(pieces_[node >> 16], node));
   }
 
   /// The leaf of a hint, from where it was left: none for a hint that is none.
@@ -61,10 +56,8 @@ class SurfaceParts {
     const uint32_t piece = place >> 16, u = (place >> 8) & 255u, v = place & 255u;
     if (piece >= piece_count_) return false;
     const Piece& of = pieces_[piece];
-    const Patch leaf{piece, 0u + of.level_u + of.level_v, u >> (8u - of.level_u),
-                     v >> (8u - of.level_v)};
-    node = node_of(leaf);
-    range = range_of({of.level_u, of.level_v}, leaf, 0.0f, 0.0f);
+    node = node_of_leaf(of, piece, u >> (8u - of.level_u), v >> (8u - of.level_v));
+    range = range_of(apart(of, node), 0.0f, 0.0f);
     range.start[0] = static_cast<float>(u) * 0x1p-7f - (1.0f - 0x1p-8f);
     range.start[1] = static_cast<float>(v) * 0x1p-7f - (1.0f - 0x1p-8f);
     return true;
@@ -77,33 +70,31 @@ class SurfaceParts {
 
   /// The largest part about a leaf, just closed, that the same expansion closes: at most its cell.
   uint32_t closed_around(uint32_t leaf, const Best& best) const {
-    Patch patch = patch_of(leaf);
-    const Piece& piece = pieces_[patch.piece];
-    const Halvings cell = cell_levels(piece, grids_[patch.piece]);
-    while (patch.depth > cell.u + cell.v) {
-      const Patch above = spline::parent_of(piece, patch);
-      const Halvings made = halvings_of(piece, above.depth);
-      if (made.u < cell.u || made.v < cell.v ||
-          !best.is_beyond(closed_by_->least2(range_of(made, above, 0.0f, 0.0f))))
-        break;
-      patch = above;
+    const Piece& piece = pieces_[leaf >> 16];
+    const Halvings cell = cell_levels(piece, grids_[leaf >> 16]);
+    for (uint32_t node = leaf;;) {
+      PatchNode part = apart(piece, node);
+      if (part.made_u == cell.u && part.made_v == cell.v) return node;
+      const uint32_t above = whole_of(node, part);
+      part = apart(piece, above);
+      if (part.made_u < cell.u || part.made_v < cell.v || !closes(part, best)) return node;
+      node = above;
     }
-    return node_of(patch);
   }
 
   /// Whether the expansion that closed the last leaf closes this part of its cell as well.
   bool is_closed(uint32_t node, const Best& best) const {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
-    const Patch patch = patch_of(node), leaf = patch_of(closed_);
-    const Piece& piece = pieces_[patch.piece];
-    if (patch.depth + kTried < 0u + piece.level_u + piece.level_v) return false;
-    const Halvings cell = cell_levels(piece, grids_[patch.piece]);
-    const Halvings made = halvings_of(piece, patch.depth);
-    if (made.u < cell.u || made.v < cell.v ||
-        patch.u >> (made.u - cell.u) != leaf.u >> (piece.level_u - cell.u) ||
-        patch.v >> (made.v - cell.v) != leaf.v >> (piece.level_v - cell.v))
+    const Piece& piece = pieces_[node >> 16];
+    const PatchNode part = apart(piece, node);
+    if (part.left_u + part.left_v > kTried) return false;
+    const Halvings cell = cell_levels(piece, grids_[node >> 16]);
+    const uint32_t leaf_u = (closed_ >> 7) & 127u, leaf_v = closed_ & 127u;
+    if (part.made_u < cell.u || part.made_v < cell.v ||
+        part.u >> (part.made_u - cell.u) != leaf_u >> (piece.level_u - cell.u) ||
+        part.v >> (part.made_v - cell.v) != leaf_v >> (piece.level_v - cell.v))
       return false;
-    return best.is_beyond(closed_by_->least2(range_of(made, patch, 0.0f, 0.0f)));
+    return closes(part, best);
   }
 
   static float child_bound_m(const Range& of, uint32_t child) { return of.start[child]; }
@@ -115,28 +106,28 @@ class SurfaceParts {
       range.start[0] = range.start[1] = 0.0f;
       return box_bound_m(boxes_[node - kUpper]);
     }
-    const Patch patch = patch_of(node);
-    if (patch.piece != near_.piece) come_near(patch.piece);
-    const Halvings made = halvings_of(*near_.of, patch.depth);
-    const uint32_t left_u = near_.of->level_u - made.u, left_v = near_.of->level_v - made.v;
+    if (node >> 16 != near_.piece) come_near(node >> 16);
+    const PatchNode at = apart(*near_.of, node);
+    const uint32_t first =
+        near_.first_corner + (at.v << at.left_v) * near_.columns + (at.u << at.left_u);
     const Parallelogram p =
-        quarters_of(near_.corners, near_.columns, 1u << left_u, 1u << left_v, patch.u, patch.v);
+        quarters_between(corners_ + first, 1u << at.left_u, near_.columns << at.left_v);
     Seen seen;
     see(p, near_.q, seen);
     const Foot foot = foot_on(p, seen);
-    const uint32_t part = (1u << patch.depth) - 1u + (patch.v << made.u | patch.u);
+    const uint32_t part = place_among(at);
     const float radius_m = in_units(near_.radius_unit_m, near_.radii[part]);
     const float bound_m = foot.distance * near_.quarter_m - radius_m;
     if (bound_m >= limit_m) return bound_m;
-    if (left_u + left_v == 0) {
-      range = range_of(made, patch, foot.x, foot.y);
+    if (at.left_u + at.left_v == 0) {
+      range = range_of(at, foot.x, foot.y);
       return bound_m;
     }
-    const bool is_u = left_u >= left_v;
-    const float overlap = in_overlaps(near_.overlaps[part]), at = is_u ? foot.x : foot.y;
+    const bool is_u = is_halved_u(at);
+    const float overlap = in_overlaps(near_.overlaps[part]), on = is_u ? foot.x : foot.y;
     range.start[0] = range.start[1] = 0.0f;
-    if (__builtin_fabsf(at) > overlap) {
-      const bool is_low = at > 0.0f;  // the half without the foot
+    if (__builtin_fabsf(on) > overlap) {
+      const bool is_low = on > 0.0f;  // the half without the foot
       const float off = is_u ? half_bound(seen, p.a, p.b, seen.of_b, seen.per_bb, overlap, is_low)
                              : half_bound(seen, p.b, p.a, seen.of_a, seen.per_aa, overlap, is_low);
       range.start[is_low ? 0 : 1] = off * near_.quarter_m - radius_m;
@@ -147,9 +138,8 @@ class SurfaceParts {
   Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
                 Half<Range> (&halves)[2]) {
     if (best.limit_m <= 0.0f) return Outcome::kClosed;
-    const Patch patch = patch_of(node);
     const float area = (range.high[0] - range.low[0]) * (range.high[1] - range.low[1]);
-    const Piece& piece = pieces_[patch.piece];
+    const Piece& piece = pieces_[node >> 16];
     const float whole = math::float_of((129u - piece.level_u - piece.level_v) << 23);
     const bool is_small = area <= kSmall * whole && left >= kDerivation;
     // The half that an expansion was made in: it failed there too, but where the bends are its own.
@@ -163,7 +153,7 @@ class SurfaceParts {
       left -= kDerivation;
       derive_bends(piece, range, bends);
     } else {
-      stored_bends(patch, bends);
+      stored_bends(piece, node, bends);
     }
     const math::Vec3 q_m = p_m_ - vec3_at(piece.origin_m);
     float at[2] = {range.start[0], range.start[1]};
@@ -204,6 +194,10 @@ class SurfaceParts {
     return split(range, *base, lower_m, halves);
   }
 
+  bool closes(const PatchNode& part, const Best& best) const {
+    return best.is_beyond(closed_by_->least2(range_of(part, 0.0f, 0.0f)));
+  }
+
  private:
   static constexpr uint32_t kNone = UINT32_MAX;  // no node
   // Parts so many halvings above leaves are tried by the last expansion; larger ones are rarely closed.
@@ -223,9 +217,8 @@ class SurfaceParts {
   /// What the bounds of one piece's parts have in common, with the query from its origin.
   struct Near {
     uint32_t piece = UINT32_MAX;
-    uint32_t columns;
+    uint32_t columns, first_corner;  // the latter less what the ones before u and v come to
     const Piece* of;
-    const Corner* corners;
     const uint8_t *radii, *overlaps;
     float quarter_m, radius_unit_m;
     math::Vec3 q;  // in quarters of a step, a power of two: exactly as in metres
@@ -235,7 +228,8 @@ class SurfaceParts {
     near_.piece = piece;
     near_.of = pieces_ + piece;
     near_.columns = (1u << near_.of->level_u) + 1u;
-    near_.corners = corners_ + grid.first_corner;
+    near_.first_corner =
+        grid.first_corner - (near_.columns << near_.of->level_v) - (1u << near_.of->level_u);
     near_.radii = radii_ + (2 * grid.first_leaf - piece);
     near_.overlaps = overlaps_ + (grid.first_leaf - piece);
     near_.quarter_m = 0.25f * grid.step_m;
@@ -244,25 +238,27 @@ class SurfaceParts {
   }
 
   uint32_t upper(uint32_t i) const {
-    return i >= piece_count_ - 1 ? (i - (piece_count_ - 1)) << 16 : kUpper + i;
+    return i >= piece_count_ - 1 ? (i - (piece_count_ - 1)) << 16 | kWholePiece : kUpper + i;
   }
-  bool is_upper(uint32_t node) const { return node >= kUpper || (node & 0xF000u) == 0; }
+  bool is_upper(uint32_t node) const { return node >= kUpper || (node & 0xFFFFu) == kWholePiece; }
   uint32_t upper_of(uint32_t node) const {
     return node >= kUpper ? node - kUpper : (node >> 16) + piece_count_ - 1;
   }
 
-  // A part, to be begun at x and y of its own, from -1 to 1.
-  static Range range_of(const Halvings& made, const Patch& patch, float x, float y) {
-    const float half_u = math::float_of((127u - made.u) << 23);
-    const float half_v = math::float_of((127u - made.v) << 23);
-    const float u = static_cast<float>(2 * patch.u + 1) * half_u - 1.0f;
-    const float v = static_cast<float>(2 * patch.v + 1) * half_v - 1.0f;
+  // A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the piece.
+  static Range range_of(const PatchNode& part, float x, float y) {
+    const float half_u = math::float_of((127u - part.made_u) << 23);
+    const float half_v = math::float_of((127u - part.made_v) << 23);
+    const float u = static_cast<float>(2 * part.u + 1) * half_u - 3.0f;
+    const float v = static_cast<float>(2 * part.v + 1) * half_v - 3.0f;
     return {{u - half_u, v - half_v}, {u + half_u, v + half_v}, {u + half_u * x, v + half_v * y}};
   }
 
-  void stored_bends(const Patch& leaf, Bends& bends) const {
-    const Grid& grid = grids_[leaf.piece];
-    const PatchBend& stored = bends_[cell_of(pieces_[leaf.piece], grid, leaf.u, leaf.v)];
+  void stored_bends(const Piece& piece, uint32_t leaf, Bends& bends) const {
+    const Grid& grid = grids_[leaf >> 16];
+    const uint32_t u = ((leaf >> 7) & 127u) - (1u << piece.level_u);
+    const uint32_t v = (leaf & 127u) - (1u << piece.level_v);
+    const PatchBend& stored = bends_[cell_of(piece, grid, u, v)];
     for (uint32_t k = 0; k < 5; ++k) {
       bends.fixed[k] = in_units(grid.fixed_unit_m2, stored.fixed[k]);
       bends.turning[k] = in_units(grid.turning_unit_m, stored.turning[k]);
@@ -340,12 +336,11 @@ class SurfaceParts {
     const float swings = swing_u + swing_both + swing_v;
     const float twists =
         size_of(point.uuu) + size_of(point.uuv) + size_of(point.uvv) + size_of(point.vvv);
-    const float noise =
+    f.third_noise =
         ((3.0f * kSlopeNoise * swings + 3.0f * kBendNoise * speeds + kTwistNoise * distance_m) *
              loss_m_ +
          lost_m * twists + 24.0f * kUnit * (3.0f * speeds * swings + distance_m * twists)) *
         kUp;
-    for (float& third : f.third) third = __builtin_fabsf(third) + noise;
     for (uint32_t k = 0; k < 5; ++k)
       f.fourth[k] = (bends.fixed[k] + bends.turning[k] * distance_m) * kUp;
   }
