@@ -114,20 +114,38 @@ class Neighbours {
         for (int64_t k = z.first; k <= z.second; ++k) cells_.push_back({key(i, j, k), index});
   }
 
-  // How far a point is from a segment.
+  // How far a point is from a segment, by golden section.
   double off(const Segment& s, const Point& p) const {
-    double a = s.from, b = s.to;
+    constexpr double kShare = 0.381966011250105;
     const auto distance = [&](double t) { return length(on(model_, borders_[s.border], t) - p); };
-    for (int turn = 0; turn < 48; ++turn) {
-      const double first = a + 0.381966 * (b - a), second = b - 0.381966 * (b - a);
-      (distance(first) < distance(second) ? b : a) =
-          distance(first) < distance(second) ? second : first;
+    double a = s.from, b = s.to;
+    double low = a + kShare * (b - a), high = b - kShare * (b - a);
+    double at_low = distance(low), at_high = distance(high);
+    double least = std::min({at_low, at_high, length(s.first - p), length(s.last - p)});
+    for (int turn = 0; turn < 32 && least > 0.1 * near_; ++turn) {
+      if (at_low < at_high) {
+        b = high, high = low, at_high = at_low;
+        low = a + kShare * (b - a);
+        at_low = distance(low);
+      } else {
+        a = low, low = high, at_low = at_high;
+        high = b - kShare * (b - a);
+        at_high = distance(high);
+      }
+      least = std::min({least, at_low, at_high});
     }
-    return std::min({distance(0.5 * (a + b)), length(s.first - p), length(s.last - p)});
+    return least;
   }
 
-  Point along(
-      const Segment& s) const {  // its surface to the left, seen from where the normal points
+  // The curve bows from its chord by about as much as its middle does.
+  bool may_hold(const Segment& s, const Point& p) const {
+    const Point chord = s.last - s.first, way = p - s.first;
+    const double t = std::clamp(dot(way, chord) / dot(chord, chord), 0.0, 1.0);
+    return length(way - chord * t) <= 2 * length(s.middle - (s.first + s.last) * 0.5) + near_;
+  }
+
+  // Its surface to the left, seen from where the normal points.
+  Point along(const Segment& s) const {
     const Point way = s.last - s.first;
     return borders_[s.border].side < 2 ? way : way * -1;
   }
@@ -141,9 +159,7 @@ class Neighbours {
     for (; found != cells_.end() && found->first == at; ++found) {
       const Segment& s = segments_[found->second];
       if (s.border == own.border || length(s.last - s.first) < 4 * near_) continue;
-      const double reach =
-          length(s.last - s.first) + 2 * length(s.middle - (s.first + s.last) * 0.5);
-      if (length(s.middle - p) > reach + near_ || off(s, p) > near_) continue;
+      if (!may_hold(s, p) || off(s, p) > near_) continue;
       if (other != nullptr && other->border != s.border) return;  // three meet: none is the next
       other = &s;
     }

@@ -11,7 +11,8 @@ using math::Vec3;
 // At a foot-point inside a surface the line to it is along the normal; so near to it, a side is told.
 constexpr float kAlong = 0.98f;
 constexpr float kOnSurface = 2e-6f;  // of the extent: no side
-constexpr float kBehind = 0.02f;     // of the extent
+// A tick that goes this far, of the extent and beside the radius, leaps.
+constexpr float kLeap = 0.02f;
 
 struct Place {
   Vec3 normal;  // to the free side, or 0
@@ -43,15 +44,21 @@ int8_t side_of_solid(const Place& place, bool is_exact, int8_t carried, float ex
 }
 
 // A sheet has no inside, so that a way round its border tells no side. From its free side a border
-// is felt too.
-int8_t side_of_sheet(const Place& place, bool is_exact, float radius_m, float extent_m,
-                     SplineTouch& touch) {
-  if (!is_exact) return touch.is_ahead && place.along_m > 0.0f ? 1 : 0;
+// is felt too. Behind it is a tool that came through it, from one tick to the next, and since then has
+// not been where a border was the nearest: no matter how deep, for a wall does not let go of a hand that
+// presses harder. Where a tick leaped it is not known which way it went.
+int8_t side_of_sheet(const Place& place, bool is_exact, const query::Carried& carried,
+                     float radius_m, float extent_m, SplineTouch& touch) {
   const bool is_before = place.along_m > 0.0f;
-  if (is_before && place.size_m >= radius_m && side_by_normal(place) > 0) touch.is_ahead = true;
+  const int8_t by_normal = side_by_normal(place);
+  if (!is_exact) {
+    if (!touch.is_ahead) return 0;
+    return is_before ? 1 : by_normal < 0 ? carried.sign : int8_t{0};
+  }
+  if (is_before && place.size_m >= radius_m && by_normal > 0) touch.is_ahead = true;
   const bool is_behind = !is_before && place.size_m > kOnSurface * extent_m;
-  if (is_behind && (side_by_normal(place) == 0 || !(place.size_m <= radius_m + kBehind * extent_m)))
-    touch.is_ahead = false;
+  const bool is_leap = !(carried.motion_m <= radius_m + kLeap * extent_m);
+  if (is_behind && (by_normal == 0 || is_leap)) touch.is_ahead = false;
   if (!touch.is_ahead) return 0;
   return is_behind ? -1 : 1;
 }
@@ -79,7 +86,7 @@ void touch_spline(const SplineObject& object, float radius_m, Vec3 position_m, q
   touch.closest = {};
   if (object.surface == nullptr || !object.surface->is_open()) return;
   const Vec3 p_m = math::apply_inverse(object.pose, position_m);
-  const int8_t carried = query::carry(touch.hint, p_m).sign;
+  const query::Carried carried = query::carry(touch.hint, p_m);
   touch.closest = spline::closest_point(*object.surface, p_m, budget, touch.hint);
   query::Certificate& certificate = touch.closest.certificate;
   const Place place = place_of(object, touch.closest, p_m);
@@ -90,11 +97,11 @@ void touch_spline(const SplineObject& object, float radius_m, Vec3 position_m, q
   surface.distance_m = touch.closest.distance_m;
   if (object.is_closed) {
     touch.is_ahead = false;
-    surface.sign = side_of_solid(place, certificate.exact, carried, extent_m);
-    touch.hint.sign = surface.sign;
+    surface.sign = side_of_solid(place, certificate.exact, carried.sign, extent_m);
   } else {
-    surface.sign = side_of_sheet(place, certificate.exact, radius_m, extent_m, touch);
+    surface.sign = side_of_sheet(place, certificate.exact, carried, radius_m, extent_m, touch);
   }
+  touch.hint.sign = surface.sign;
   certificate.sign = surface.sign;
   if (surface.sign < 0) {
     if (!certificate.exact) surface.distance_m = certificate.lower_m;

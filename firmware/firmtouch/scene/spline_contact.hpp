@@ -35,8 +35,9 @@ struct SplineTouch {
 /// Penalty contact of a sphere of `radius_m` at `position_m` (device frame), as touch_mesh(). The side
 /// is told by the normal where the line to the closest point is along it, and goes on by continuity
 /// where it is not (at a crease, a border or a pole): through certified free distance alone. Never
-/// pushes on an unknown side. A sheet is felt by a tool that was clear of it on its free side, till it
-/// slips off a border or is farther behind than its radius and 2 % of the extent.
+/// pushes on an unknown side. A sheet is felt by a tool that was clear of it on its free side, however
+/// deep it is pressed through, till a border (or a crease that points to the tool) is nearest behind it, or
+/// a tick leaps farther than its radius and 2 % of the extent.
 /// Bounds: one query of at most `budget` steps, and about 250 instructions; re-entrant for
 /// different touches.
 void touch_spline(const SplineObject& object, float radius_m, math::Vec3 position_m,
