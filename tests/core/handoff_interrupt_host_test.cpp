@@ -1,14 +1,12 @@
-#include <sys/ucontext.h>
-
-#include <csignal>
 #include <cstdint>
 
 #include "firmtouch/core/handoff.hpp"
+#include "harness/single_step.hpp"
 #include "harness/test.hpp"
 
 // The real machine code of the slow side, with a whole servo interrupt between any two of its
-// instructions: the processor's trap flag stops after each one, and the handler is the interrupt.
-#if defined(__x86_64__) && defined(__linux__)
+// instructions.
+#if defined(FIRMTOUCH_SINGLE_STEP)
 
 namespace firmtouch::core {
 namespace {
@@ -31,8 +29,8 @@ bool is_all(const Words& words, uint32_t value) {
 }
 
 Models* g_models;
-volatile uint32_t g_instruction, g_interrupt_at, g_interrupts, g_torn;
-uint32_t g_used, g_asked;
+volatile uint32_t g_torn;
+uint32_t g_used, g_asked, g_interrupts;
 
 // One turn of the servo: takes what is made, asks for the next, renders what it has.
 void servo() {
@@ -50,28 +48,12 @@ void servo() {
   models.made();
 }
 
-void on_trap(int, siginfo_t*, void* context) {
-  if (g_instruction == g_interrupt_at) {
-    for (uint32_t i = 0; i < g_interrupts; ++i) servo();
-    static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_EFL] &= ~0x100;
-  }
-  g_instruction = g_instruction + 1;
-}
-
-// Below the red zone of the caller, which pushf would overwrite.
-void set_trap_flag() {
-  asm volatile(
-      "lea -128(%%rsp), %%rsp\n pushf\n orl $0x100, (%%rsp)\n popf\n lea 128(%%rsp), %%rsp" ::
-          : "memory", "cc");
-}
-void clear_trap_flag() {
-  asm volatile(
-      "lea -128(%%rsp), %%rsp\n pushf\n andl $0xFFFFFEFF, (%%rsp)\n popf\n lea 128(%%rsp), %%rsp" ::
-          : "memory", "cc");
+void interrupt() {
+  for (uint32_t i = 0; i < g_interrupts; ++i) servo();
 }
 
 // Result: false where the interrupt's place lies behind the end.
-bool try_one(uint32_t before, uint32_t place, uint32_t interrupts) {
+bool try_one(test::SingleStep& step, uint32_t before, uint32_t place, uint32_t interrupts) {
   Models models;
   g_models = &models;
   g_used = g_asked = 0;
@@ -80,13 +62,8 @@ bool try_one(uint32_t before, uint32_t place, uint32_t interrupts) {
     geometry(models);
   }
   servo();
-  g_interrupt_at = place;
   g_interrupts = interrupts;
-  g_instruction = 0;
-  set_trap_flag();
-  geometry(models);
-  clear_trap_flag();
-  const bool happened = g_instruction > place;
+  const bool happened = step.run(place, interrupt, [&models] { geometry(models); });
   // Whatever came between, nothing is lost: the next turns take what was asked.
   const uint32_t used = g_used;
   servo();
@@ -98,24 +75,20 @@ bool try_one(uint32_t before, uint32_t place, uint32_t interrupts) {
 }
 
 TEST(AWholeServoTickBetweenAnyTwoInstructionsOfTheGeometryTearsNothing) {
-  struct sigaction handler {};
-  struct sigaction before {};
-  handler.sa_sigaction = on_trap;
-  handler.sa_flags = SA_SIGINFO;
-  CHECK_EQ(sigaction(SIGTRAP, &handler, &before), 0);
+  test::SingleStep step;
+  CHECK(step.is_ready());
   g_torn = 0;
   uint32_t places = 0;
   for (uint32_t turns = 0; turns < 3; ++turns) {
     for (uint32_t interrupts = 1; interrupts <= 3; ++interrupts) {
       uint32_t place = 0;
-      while (try_one(turns, place, interrupts)) {
+      while (try_one(step, turns, place, interrupts)) {
         // All places of optimised code; samples of what sanitizers make of it, which is longer.
         place += place < 400 ? 1 : place / 8;
         ++places;
       }
     }
   }
-  sigaction(SIGTRAP, &before, nullptr);
   CHECK_EQ(g_torn, 0u);
   CHECK_GE(places, 9u * 20u);  // single stepping did happen
 }

@@ -1,13 +1,9 @@
-#include <sys/ucontext.h>
-
-#include <csignal>
-
 #include "firmtouch/record/ring.hpp"
+#include "harness/single_step.hpp"
 #include "harness/test.hpp"
 
-// The real machine code of pop() with a whole interrupt between any two of its instructions: the
-// processor's trap flag stops after each one, and the handler is the interrupt.
-#if defined(__x86_64__) && defined(__linux__)
+// The real machine code of pop() with a whole interrupt between any two of its instructions.
+#if defined(FIRMTOUCH_SINGLE_STEP)
 
 namespace firmtouch::record {
 namespace {
@@ -19,9 +15,7 @@ struct Item {
 using SmallRing = Ring<Item, 4>;
 
 SmallRing* g_ring;
-volatile uint32_t g_instruction;   // counted since the trap flag was set
-volatile uint32_t g_interrupt_at;  // at this one the interrupt comes
-volatile uint32_t g_interrupt_pushes;
+uint32_t g_interrupt_pushes;
 uint32_t g_pushed;
 
 void push_next() {
@@ -29,30 +23,13 @@ void push_next() {
   ++g_pushed;
 }
 
-// The kernel clears the trap flag for the handler and restores it afterwards, unless the handler is
-// done with stepping.
-void on_trap(int, siginfo_t*, void* context) {
-  if (g_instruction == g_interrupt_at) {
-    for (uint32_t i = 0; i < g_interrupt_pushes; ++i) push_next();
-    static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_EFL] &= ~0x100;
-  }
-  g_instruction = g_instruction + 1;
-}
-
-// Below the red zone of the caller, which pushf would overwrite.
-void set_trap_flag() {
-  asm volatile(
-      "lea -128(%%rsp), %%rsp\n pushf\n orl $0x100, (%%rsp)\n popf\n lea 128(%%rsp), %%rsp" ::
-          : "memory", "cc");
-}
-void clear_trap_flag() {
-  asm volatile(
-      "lea -128(%%rsp), %%rsp\n pushf\n andl $0xFFFFFEFF, (%%rsp)\n popf\n lea 128(%%rsp), %%rsp" ::
-          : "memory", "cc");
+void interrupt() {
+  for (uint32_t i = 0; i < g_interrupt_pushes; ++i) push_next();
 }
 
 // Result: false where the interrupt's place lies behind the end of pop().
-bool try_one(uint32_t waiting, uint32_t turned, uint32_t place, uint32_t pushes) {
+bool try_one(test::SingleStep& step, uint32_t waiting, uint32_t turned, uint32_t place,
+             uint32_t pushes) {
   SmallRing ring;
   g_ring = &ring;
   g_pushed = 0;
@@ -62,14 +39,9 @@ bool try_one(uint32_t waiting, uint32_t turned, uint32_t place, uint32_t pushes)
     ring.pop(out);
   }
   for (uint32_t i = 0; i < waiting; ++i) push_next();
-  g_interrupt_at = place;
   g_interrupt_pushes = pushes;
-  g_instruction = 0;
-
-  set_trap_flag();
-  const uint32_t count = ring.pop({out, 4});
-  clear_trap_flag();
-  const bool happened = g_instruction > place;
+  uint32_t count = 0;
+  const bool happened = step.run(place, interrupt, [&] { count = ring.pop({out, 4}); });
 
   uint32_t next = turned;
   uint32_t missing = 0;
@@ -89,17 +61,14 @@ bool try_one(uint32_t waiting, uint32_t turned, uint32_t place, uint32_t pushes)
 }
 
 TEST(AWholeInterruptBetweenAnyTwoInstructionsOfPopIsHarmless) {
-  struct sigaction handler {};
-  struct sigaction before {};
-  handler.sa_sigaction = on_trap;
-  handler.sa_flags = SA_SIGINFO;
-  CHECK_EQ(sigaction(SIGTRAP, &handler, &before), 0);
+  test::SingleStep step;
+  CHECK(step.is_ready());
   uint32_t places = 0;
   for (uint32_t waiting = 0; waiting <= 4; ++waiting) {
     for (uint32_t turned = 0; turned < 4; turned += 3) {
       for (uint32_t pushes = 1; pushes <= 5; pushes += 4) {
         uint32_t place = 0;
-        while (try_one(waiting, turned, place, pushes)) {
+        while (try_one(step, waiting, turned, place, pushes)) {
           // All places of optimised code; samples of what sanitizers make of it, which is longer.
           place += place < 200 ? 1 : place / 4;
           ++places;
@@ -107,7 +76,6 @@ TEST(AWholeInterruptBetweenAnyTwoInstructionsOfPopIsHarmless) {
       }
     }
   }
-  sigaction(SIGTRAP, &before, nullptr);
   CHECK_GE(places, 10u * 2u * 10u);  // single stepping did happen
 }
 
