@@ -27,7 +27,7 @@ struct Closest {
 /// Closest point of the surface to `p_m` (mesh frame), its side, and a certificate.
 /// Cold: one descent to a leaf, nearer child first, then best box first. Warm: from the last leaf
 /// upwards, as far as the last certificate does not already exclude the rest.
-/// Bounds: <= budget steps; 2.4 KB of stack; re-entrant; callable from an interrupt.
+/// Bounds: <= budget steps; 2.5 KB of stack; re-entrant; callable from an interrupt.
 /// Result: always finite. Two triangles equally near: the one visited first. Outside the mesh's
 ///         grid the side is known under any budget. A query that is not finite: a vertex, at
 ///         distance FLT_MAX, lower 0, not exact, sign 0.
