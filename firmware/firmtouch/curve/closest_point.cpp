@@ -98,7 +98,7 @@ Closest answer_beyond(const View& curve, Vec3 p_m, query::Hint& hint) {
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
   closest.certificate = {closest.distance_m * (1.0f - 6.0f * kUnit), 1, fits, 0};
-  hint = {0, p_m, closest.certificate.lower_m, 0, query::kNowhere, 0};
+  hint = {0, p_m, closest.certificate.lower_m, 0, {0, 0}, query::kNowhere, 0};
   return closest;
 }
 

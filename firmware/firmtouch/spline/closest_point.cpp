@@ -96,7 +96,8 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& h
   Fence fence{hint.fence, carried.fence_m};
   uint32_t leaf;
   typename Shape::Range range;
-  if (shape.resume(hint.place, leaf, range)) {
+  const bool is_warm = shape.resume(hint, leaf, range);
+  if (is_warm) {
     search.run_warm(leaf, range, kFenceMotions * carried.motion_m, fence);
   } else {
     begin_at_first(model, p_m, best);
@@ -117,7 +118,9 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& h
   closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   closest.certificate.steps = search.steps();
   closest.certificate.exact = is_complete;
-  hint.place = is_first ? query::kNowhere : shape.place_of(best);
+  const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
+  hint.place = query::kNowhere;
+  if (!is_first) shape.leave(best, motion_m, hint);
   hint.position_m = p_m;
   hint.lower_m = closest.certificate.lower_m;
   hint.sign = 0;

@@ -34,13 +34,15 @@ class CurveParts {
   uint32_t parent_of(uint32_t node) const { return spline::parent_of(node); }
 
   /// The leaf of a hint, from where it was left: none for a hint that is none.
-  bool resume(uint32_t place, uint32_t& node, Range& range) const {
+  bool resume(const query::Hint& hint, uint32_t& node, Range& range) const {
+    const uint32_t place = hint.place;
     const uint32_t leaf = place >> 16;
     if (leaf > base_) return false;
     node = base_ + leaf;
     range = range_of(leaf, decoded(place & 0xFFFFu, 65535));
     return true;
   }
+  void leave(const Best& best, math::Vec3, query::Hint& hint) const { hint.place = place_of(best); }
   uint32_t place_of(const Best& best) const {
     const Range range = range_of(best.node - base_, 0.0f);
     return (best.node - base_) << 16 |

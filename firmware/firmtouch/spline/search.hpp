@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/query/hint.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::spline {
@@ -19,6 +20,7 @@ struct Best {
   float s = 0, t = 0;       // of the leaf's piece
   math::Vec3 x;             // from the piece's origin
   math::Vec3 along[2];      // the derivatives there
+  float bend[3];            // of half the squared distance there, of a surface: uu, uv, vv
   uint32_t evaluations = 0;
 
   bool take(float d2) {

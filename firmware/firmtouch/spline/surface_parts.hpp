@@ -5,7 +5,7 @@
 #include "firmtouch/spline/leaf_shape.hpp"
 #include "firmtouch/spline/patch_grid.hpp"
 #include "firmtouch/spline/patch_node.hpp"
-#include "firmtouch/spline/quadratic.hpp"
+#include "firmtouch/spline/surface_expansion.hpp"
 
 namespace firmtouch::spline {
 
@@ -52,19 +52,33 @@ class SurfaceParts {
   }
 
   /// The leaf of a hint, from where it was left: none for a hint that is none.
-  bool resume(uint32_t place, uint32_t& node, Range& range) const {
+  bool resume(const query::Hint& hint, uint32_t& node, Range& range) const {
+    const uint32_t place = hint.place;
     const uint32_t piece = place >> 16, u = (place >> 8) & 255u, v = place & 255u;
     if (piece >= piece_count_) return false;
     const Piece& of = pieces_[piece];
     node = node_of_leaf(of, piece, u >> (8u - of.level_u), v >> (8u - of.level_v));
     range = range_of(apart(of, node), 0.0f, 0.0f);
-    range.start[0] = static_cast<float>(u) * 0x1p-7f - (1.0f - 0x1p-8f);
-    range.start[1] = static_cast<float>(v) * 0x1p-7f - (1.0f - 0x1p-8f);
+    range.start[0] = start_at(u << 8 | hint.fine[0]);
+    range.start[1] = start_at(v << 8 | hint.fine[1]);
     return true;
   }
-  uint32_t place_of(const Best& best) const {
-    const uint32_t u = coded(0.5f * best.s + 0.5f, 256), v = coded(0.5f * best.t + 0.5f, 256);
-    return (best.node & 0xFFFF0000u) | (u < 255 ? u : 255) << 8 | (v < 255 ? v : 255);
+  /// Where the next query, after the same motion once more, will have its foot.
+  void leave(const Best& best, math::Vec3 motion_m, query::Hint& hint) const {
+    const float(&h)[3] = best.bend;
+    const float determinant = h[0] * h[2] - h[1] * h[1];
+    float to[2] = {best.s, best.t};
+    if (h[0] > 0.0f && determinant > 0x1p-6f * (h[0] * h[2])) {
+      const float u = dot(best.along[0], motion_m), v = dot(best.along[1], motion_m);
+      const float step[2] = {(h[2] * u - h[1] * v) / determinant,
+                             (h[0] * v - h[1] * u) / determinant};
+      for (uint32_t k = 0; k < 2; ++k)
+        if (step[k] > -kMostStep && step[k] < kMostStep) to[k] += step[k];
+    }
+    const uint32_t u = coded(0.5f * to[0] + 0.5f, 65535), v = coded(0.5f * to[1] + 0.5f, 65535);
+    hint.place = (best.node & 0xFFFF0000u) | (u & 0xFF00u) | v >> 8;
+    hint.fine[0] = static_cast<uint8_t>(u & 255u);
+    hint.fine[1] = static_cast<uint8_t>(v & 255u);
   }
   uint32_t piece_of(uint32_t node) const { return node >> 16; }
 
@@ -148,7 +162,7 @@ class SurfaceParts {
       return split(range, *halved_by_, lower_m, halves);
     }
     closed_ = halved_ = kNone;
-    Bends bends;
+    SurfaceBends bends;
     if (is_small) {
       left -= kDerivation;
       derive_bends(piece, range, bends);
@@ -178,15 +192,18 @@ class SurfaceParts {
       const float gain = base->next(range, at);
       const float moved = (at[0] - base->at[0]) * (at[0] - base->at[0]) +
                           (at[1] - base->at[1]) * (at[1] - base->at[1]);
-      // What Newton's step would gain is needed: no proof can hold yet.
-      const bool has_arrived =
-          !(moved > 0x1p-40f) || best.seems_beyond(base->distance2 - 2.0f * gain);
-      if (!has_arrived) continue;
+      // What Newton's step would gain is needed: no proof can hold yet. The best point itself stays where
+      // the step would gain little and a proof holds already; else it is gone on from.
+      const bool is_best = !(base->distance2 > best.distance2_m2);
+      const bool has_arrived = !(moved > 0x1p-40f);
+      if (!has_arrived && !best.seems_beyond(base->distance2 - (is_best ? kNearly : 2.0f) * gain))
+        continue;
       if (best.is_beyond(base->least2(range))) {
         closed_by_ = base;
         closed_ = is_small ? kNone : node;  // a rectangle's own bends are not those of the cell
         return Outcome::kClosed;
       }
+      if (is_best && !has_arrived) continue;
       break;
     }
     halved_by_ = base;
@@ -202,17 +219,15 @@ class SurfaceParts {
   static constexpr uint32_t kNone = UINT32_MAX;  // no node
   // Parts so many halvings above leaves are tried by the last expansion; larger ones are rarely closed.
   static constexpr uint32_t kTried = 2;
+  static constexpr float kMostStep = 0.25f;  // of a half piece, that a foot is thought to go
+  // Where a point that would be bettered by so little of the gap (1 / 8 of it) has a proof, it is told.
+  static constexpr float kNearly = 16.0f;
   static constexpr uint32_t kMostTurns = 6;
-  static constexpr float kUp = 1.0f + 0x1p-16f;  // for sums and products of a few dozen roundings
   // A rectangle of so little of a leaf gets bends of its own, for the price of so many steps. The
   // leaf's are too wide where a row of control points is one point: there they shrink with the
   // rectangle, and without that some queries took millions of evaluations.
   static constexpr float kSmall = 0x1p-32f;
   static constexpr uint32_t kDerivation = 16;
-
-  struct Bends {
-    float fixed[5], turning[5];
-  };
 
   /// What the bounds of one piece's parts have in common, with the query from its origin.
   struct Near {
@@ -245,6 +260,12 @@ class SurfaceParts {
     return node >= kUpper ? node - kUpper : (node >> 16) + piece_count_ - 1;
   }
 
+  // From a hint's 16 bits: the ends are the piece's own.
+  static float start_at(uint32_t code) {
+    if (code == 65535) return 1.0f;
+    return static_cast<float>(code) * 0x1p-15f - 1.0f;
+  }
+
   // A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the piece.
   static Range range_of(const PatchNode& part, float x, float y) {
     const float half_u = math::float_of((127u - part.made_u) << 23);
@@ -254,7 +275,7 @@ class SurfaceParts {
     return {{u - half_u, v - half_v}, {u + half_u, v + half_v}, {u + half_u * x, v + half_v * y}};
   }
 
-  void stored_bends(const Piece& piece, uint32_t leaf, Bends& bends) const {
+  void stored_bends(const Piece& piece, uint32_t leaf, SurfaceBends& bends) const {
     const Grid& grid = grids_[leaf >> 16];
     const uint32_t u = ((leaf >> 7) & 127u) - (1u << piece.level_u);
     const uint32_t v = (leaf & 127u) - (1u << piece.level_v);
@@ -265,7 +286,8 @@ class SurfaceParts {
     }
   }
 
-  [[gnu::noinline]] void derive_bends(const Piece& piece, const Range& range, Bends& bends) const {
+  [[gnu::noinline]] void derive_bends(const Piece& piece, const Range& range,
+                                      SurfaceBends& bends) const {
     Part part;
     part.half_u = 0.5f * (range.high[0] - range.low[0]);
     part.half_v = 0.5f * (range.high[1] - range.low[1]);
@@ -293,13 +315,14 @@ class SurfaceParts {
     return off > 0.0f ? off : 0.0f;
   }
 
-  void expand(uint32_t node, const Piece& piece, const Bends& bends, math::Vec3 q_m,
+  void expand(uint32_t node, const Piece& piece, const SurfaceBends& bends, math::Vec3 q_m,
               const float (&at)[2], Best& best, Quadratic& f) const {
     SurfacePoint point;
     evaluate(piece, coefficients_, at[0], at[1], point);
     const math::Vec3 r_m = point.x - q_m;
     f.distance2 = dot(r_m, r_m);
-    if (best.take(f.distance2)) {
+    const bool is_best = best.take(f.distance2);
+    if (is_best) {
       best.node = node;
       best.s = at[0];
       best.t = at[1];
@@ -309,48 +332,9 @@ class SurfaceParts {
     }
     f.at[0] = at[0];
     f.at[1] = at[1];
-    f.slope[0] = dot(r_m, point.du);
-    f.slope[1] = dot(r_m, point.dv);
-    f.gauss[0] = dot(point.du, point.du);
-    f.gauss[1] = dot(point.du, point.dv);
-    f.gauss[2] = dot(point.dv, point.dv);
-    f.bend[0] = f.gauss[0] + dot(r_m, point.duu);
-    f.bend[1] = f.gauss[1] + dot(r_m, point.duv);
-    f.bend[2] = f.gauss[2] + dot(r_m, point.dvv);
-    thirds(point, r_m, f);
-    const float distance_m = math::square_root(f.distance2);
-    const float speed_u = math::square_root(f.gauss[0]), speed_v = math::square_root(f.gauss[2]);
-    const float lost_m = (loss_m_ + 6.0f * kUnit * distance_m) * kUp;
-    const float both_m2 = kSlopeNoise * loss_m_ * distance_m;
-    f.slope_noise[0] = speed_u * lost_m + both_m2;
-    f.slope_noise[1] = speed_v * lost_m + both_m2;
-    // The noise of the mixed derivative is shared between the two axes: 2 |u v| <= u^2 + v^2.
-    const float swing_u = size_of(point.duu), swing_v = size_of(point.dvv);
-    const float swing_both = size_of(point.duv), speeds = speed_u + speed_v;
-    const float mixed = speed_u * speed_v + distance_m * swing_both;
-    const float turned = kBendNoise * loss_m_ * kUp, rounded = 16.0f * kUnit * kUp;
-    f.bend_noise[0] = turned * (2.0f * (speed_u + distance_m) + speeds) +
-                      rounded * (f.gauss[0] + distance_m * swing_u + mixed);
-    f.bend_noise[1] = turned * (2.0f * (speed_v + distance_m) + speeds) +
-                      rounded * (f.gauss[2] + distance_m * swing_v + mixed);
-    const float swings = swing_u + swing_both + swing_v;
-    const float twists =
-        size_of(point.uuu) + size_of(point.uuv) + size_of(point.uvv) + size_of(point.vvv);
-    f.third_noise =
-        ((3.0f * kSlopeNoise * swings + 3.0f * kBendNoise * speeds + kTwistNoise * distance_m) *
-             loss_m_ +
-         lost_m * twists + 24.0f * kUnit * (3.0f * speeds * swings + distance_m * twists)) *
-        kUp;
-    for (uint32_t k = 0; k < 5; ++k)
-      f.fourth[k] = (bends.fixed[k] + bends.turning[k] * distance_m) * kUp;
-  }
-
-  // Of D^2 / 2.
-  static void thirds(const SurfacePoint& p, math::Vec3 r_m, Quadratic& f) {
-    f.third[0] = 3.0f * dot(p.du, p.duu) + dot(r_m, p.uuu);
-    f.third[1] = dot(p.dv, p.duu) + 2.0f * dot(p.du, p.duv) + dot(r_m, p.uuv);
-    f.third[2] = dot(p.du, p.dvv) + 2.0f * dot(p.dv, p.duv) + dot(r_m, p.uvv);
-    f.third[3] = 3.0f * dot(p.dv, p.dvv) + dot(r_m, p.vvv);
+    expand_about(point, r_m, loss_m_, bends, f);
+    if (is_best)
+      for (uint32_t k = 0; k < 3; ++k) best.bend[k] = f.bend[k];
   }
 
   static Outcome split(const Range& range, const Quadratic& f, float lower_m,
