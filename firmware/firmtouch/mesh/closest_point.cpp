@@ -62,10 +62,12 @@ bool is_place(const View& mesh, uint32_t place) {
 
 template <bool kCareful, class Bound>
 void look(const View& mesh, const Bound& bound, Search& search) {
-  if (!mesh.triangles16().empty())
-    search_nearest<kCareful, Bound, uint16_t>(mesh, bound, search);
+  if constexpr (kCareful)
+    search_nearest<true, Bound, void>(mesh, bound, search);
+  else if (!mesh.triangles16().empty())
+    search_nearest<false, Bound, uint16_t>(mesh, bound, search);
   else
-    search_nearest<kCareful, Bound, uint32_t>(mesh, bound, search);
+    search_nearest<false, Bound, uint32_t>(mesh, bound, search);
 }
 
 // What a search found, and what it is worth.

@@ -158,13 +158,17 @@ template <bool kCareful, class Index>
   return measure_here<kCareful, Index, false>(mesh, child, place, search);
 }
 
-// Side by side so few instructions measure a leaf that a call would show.
+// Side by side so few instructions measure a leaf that a call would show. With care the width of the
+// indices is told at each leaf, where it does not show: one loop less a bound, 1.1 to 1.5 KB.
 template <bool kCareful, class Index, bool kIsLast>
 inline float measure(const View& mesh, uint32_t child, uint32_t place, Search& search) {
-  if constexpr (math::kHasLanes)
-    return measure_here<kCareful, Index, kIsLast>(mesh, child, place, search);
+  if constexpr (kCareful)
+    return mesh.triangles16().empty() ? measure_apart<true, uint32_t>(mesh, child, place, search)
+                                      : measure_apart<true, uint16_t>(mesh, child, place, search);
+  else if constexpr (math::kHasLanes)
+    return measure_here<false, Index, kIsLast>(mesh, child, place, search);
   else
-    return measure_apart<kCareful, Index>(mesh, child, place, search);
+    return measure_apart<false, Index>(mesh, child, place, search);
 }
 
 // Of an inner node's boxes the nearer one below `prune` becomes child and place; the other, below it
@@ -198,6 +202,7 @@ template <class Bound>
 // node is entered by its nearer child, the other left in `pending`. A warm search begins with the
 // last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
 // A function of its own: beside its caller's values the loop's do not stay in registers.
+// `Index`: of the triangles; with care of none.
 template <bool kCareful, class Bound, class Index>
 [[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers
