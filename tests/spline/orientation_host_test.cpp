@@ -200,13 +200,63 @@ TEST(ShellsThatShareNoBorderAreEachTurnedByThemselves) {
   std::vector<SplineSurface> sides = cube(), others = cube({5, 0, 0});
   sides[1] = reversed(sides[1]);
   others[4] = swapped(others[4]);
+  sides.erase(sides.begin() + 5);  // both are open: nothing says how they lie to each other
+  others.erase(others.begin());
+  for (SplineSurface& s : others) s = reversed(s);
   sides.insert(sides.end(), others.begin(), others.end());
   SplineModel model = numbered(sides);
   orient(model);
-  CHECK(model.surfaces[1].is_turned && model.surfaces[10].is_turned);
+  CHECK(model.surfaces[1].is_turned && model.surfaces[8].is_turned);
   CHECK_EQ(model.notes.size(), 2u);
-  CHECK(has(model.notes[0], "turned over 2 of 12 surfaces"));
+  CHECK(has(model.notes[0], "turned over 2 of 10 surfaces"));
   CHECK(has(model.notes[1], "its 2 shells share no border"));
+}
+
+TEST(ClosedShellsAreTurnedToEncloseOneSolid) {
+  // Two cubes beside each other, and in the first a cavity with a cube in it.
+  const auto scaled = [](std::vector<SplineSurface> sides, double by) {
+    for (SplineSurface& s : sides)
+      for (ControlPoint& p : s.points) p.x *= by, p.y *= by, p.z *= by;
+    return sides;
+  };
+  const std::vector<std::vector<SplineSurface>> shells = {cube({5, 0, 0}), cube(),
+                                                          scaled(cube(), 0.6), scaled(cube(), 0.3)};
+  for (int mask = 0; mask < 16; ++mask) {
+    std::vector<SplineSurface> all;
+    for (size_t k = 0; k < 4; ++k)
+      for (const SplineSurface& s : shells[k])
+        all.push_back((mask >> k & 1) != 0 ? reversed(s) : s);
+    SplineModel model = numbered(all);
+    orient(model);
+    int side[4];  // 1: normals away from the shell's own middle
+    for (size_t k = 0; k < 4; ++k) {
+      SplineModel one;
+      one.surfaces.assign(model.surfaces.begin() + static_cast<std::ptrdiff_t>(6 * k),
+                          model.surfaces.begin() + static_cast<std::ptrdiff_t>(6 * k + 6));
+      const size_t out = pointing_out(one, k == 0 ? Point{5, 0, 0} : Point{});
+      CHECK(out == 0 || out == 6);
+      side[k] = out == 6 ? 1 : -1;
+    }
+    CHECK(side[0] == side[1] && side[2] == -side[1] && side[3] == side[1]);
+    size_t turned = 0;
+    for (const SplineSurface& s : model.surfaces) turned += s.is_turned;
+    CHECK_LE(turned, 12u);
+    CHECK_EQ(model.notes.size(), turned > 0 ? 1u : 0u);
+  }
+}
+
+TEST(ClosedShellsMayTouchButNotCross) {
+  for (const bool crosses : {false, true}) {
+    std::vector<SplineSurface> sides = cube();
+    for (const SplineSurface& s : cube({crosses ? 1.5 : 2, 0.5, 0.5})) sides.push_back(reversed(s));
+    SplineModel model = numbered(sides);
+    orient(model);
+    size_t turned = 0;
+    for (const SplineSurface& s : model.surfaces) turned += s.is_turned;
+    CHECK_EQ(turned, crosses ? 0u : 6u);
+    CHECK_EQ(model.notes.size(), 1u);
+    CHECK(has(model.notes[0], crosses ? "its 2 shells share no border" : "turned over 6 of 12"));
+  }
 }
 
 TEST(WhereThreeSurfacesMeetNoneIsTurnedByThat) {
