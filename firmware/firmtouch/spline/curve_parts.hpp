@@ -53,7 +53,8 @@ class CurveParts {
   bool is_closed(uint32_t, const Best&) const { return false; }  // rare, and bounds are cheap
   uint32_t closed_around(uint32_t leaf, const Best&) const { return leaf; }
 
-  static float child_bound_m(const Range&, uint32_t) { return 0.0f; }
+  static constexpr bool kTellsHalves = false;
+  static float child_bound_m(const Range&, uint32_t, float lower_m) { return lower_m; }
   // The stored radius holds what float32 loses here (with_slack()).
   float bound_m(uint32_t node, float, Range& range) const {
     const Capsule& capsule = capsules_[node];

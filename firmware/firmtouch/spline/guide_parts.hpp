@@ -90,7 +90,8 @@ class GuideParts {
   /// The lowest node above one that holds all that is no farther along the curve than a reach.
   uint32_t node_around(uint32_t node, float reach_m) const;
 
-  static float child_bound_m(const Range&, uint32_t) { return 0.0f; }
+  static constexpr bool kTellsHalves = false;
+  static float child_bound_m(const Range&, uint32_t, float lower_m) { return lower_m; }
   float bound_m(uint32_t node, float limit_m, Range& range) const {
     const Stretch below = stretch_below(node);
     const float least_m = penalty_.least(below.low_m, below.high_m);

@@ -68,7 +68,7 @@ enum class Outcome : uint8_t { kClosed, kSplit, kStopped, kLost };
 ///     void children(uint32_t node, uint32_t& low, uint32_t& high);
 ///     float bound_m(uint32_t node, float limit_m, Range& range): no point below the node is nearer. Where
 ///     that is below the limit the range is told: of a leaf all of it, of others what child_bound_m(range,
-///     0 or 1) knows of a child beforehand;
+///     0 or 1, lower_m) tells of a child beforehand where kTellsHalves, else lower_m;
 ///     Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
 ///                   Half (&halves)[2]);
 ///     uint32_t closed_around(leaf, best): a node about the leaf that was just closed, closed as well;
@@ -170,7 +170,6 @@ class Search {
 
   // Reads a node and keeps it where it may hold something nearer.
   void visit(uint32_t node, float above_m) {
-    if (above_m >= best_.limit_m) return pass(above_m);
     --left_;
     Entry& entry = stack_[count_ < kCapacity ? count_ : kCapacity];
     entry.node = node;
@@ -210,14 +209,20 @@ class Search {
 
   // The nearer child comes up first.
   void open(const Entry& entry) {
-    const float low_m = Shape::child_bound_m(entry.range, 0);
-    const float high_m = Shape::child_bound_m(entry.range, 1);
     const float lower_m = entry.lower_m;
+    const float low_m = Shape::child_bound_m(entry.range, 0, lower_m);
+    const float high_m = Shape::child_bound_m(entry.range, 1, lower_m);
     const uint32_t before = count_;
     uint32_t low, high;
     shape_.children(entry.node, low, high);
-    visit(low, low_m > lower_m ? low_m : lower_m);
-    visit(high, high_m > lower_m ? high_m : lower_m);
+    if (Shape::kTellsHalves && low_m >= best_.limit_m)
+      pass(low_m);
+    else
+      visit(low, low_m > lower_m ? low_m : lower_m);
+    if (Shape::kTellsHalves && high_m >= best_.limit_m)
+      pass(high_m);
+    else
+      visit(high, high_m > lower_m ? high_m : lower_m);
     if (count_ == before + 2 && stack_[before].lower_m < stack_[before + 1].lower_m) {
       const Entry first = stack_[before];
       stack_[before] = stack_[before + 1];

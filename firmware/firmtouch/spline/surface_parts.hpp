@@ -111,7 +111,8 @@ class SurfaceParts {
     return closes(part, best);
   }
 
-  static float child_bound_m(const Range& of, uint32_t child) { return of.start[child]; }
+  static constexpr bool kTellsHalves = true;
+  static float child_bound_m(const Range& of, uint32_t child, float) { return of.start[child]; }
   // The stored radii and half sides hold what float32 loses here. Of a part that may hold something
   // nearer than the limit, and is no leaf, the start is told to be the bounds of its halves, as seen
   // from here: that of the half with the foot is none.
