@@ -12,8 +12,9 @@ float least_of(float a, float b) { return a < b ? a : b; }
 
 }  // namespace
 
-// Leaves below a node follow each other along the curve: its first and its last say how far.
-GuideParts::Stretch GuideParts::stretch_below(uint32_t node) const {
+// Leaves below a node follow each other along the curve: its first and its last say how far, by the ends
+// of stored lengths about them, or within them.
+GuideParts::Stretch GuideParts::stretch_below(uint32_t node, bool is_within) const {
   const core::Span<const Leaf> leaves = guide_.model().leaves();
   uint32_t first = node, last = node;
   while (!is_leaf(first)) first = first_child(first);
@@ -22,8 +23,10 @@ GuideParts::Stretch GuideParts::stretch_below(uint32_t node) const {
   const uint32_t parts = guide_.parts();
   const uint32_t from_level = guide_.model().pieces()[from.piece].level_u;
   const uint32_t to_level = guide_.model().pieces()[to.piece].level_u;
-  const uint32_t low = (from.index_u * parts) >> from_level;
-  const uint32_t high = ((to.index_u + 1u) * parts + (1u << to_level) - 1) >> to_level;
+  const uint32_t low_more = is_within ? (1u << from_level) - 1 : 0;
+  const uint32_t high_more = is_within ? 0 : (1u << to_level) - 1;
+  const uint32_t low = (from.index_u * parts + low_more) >> from_level;
+  const uint32_t high = ((to.index_u + 1u) * parts + high_more) >> to_level;
   return {guide_.arcs()[from.piece * parts + low], guide_.arcs()[to.piece * parts + high]};
 }
 
@@ -32,7 +35,7 @@ uint32_t GuideParts::node_around(uint32_t node, float reach_m) const {
   const Round& round = penalty_.round;
   if (round.is_closed && !(low_m >= round.first_m && high_m <= round.last_m)) return root();
   while (node != root()) {
-    const Stretch below = stretch_below(node);
+    const Stretch below = stretch_below(node, true);
     const bool holds_low = below.low_m <= low_m || !(below.low_m > 0.0f);
     const bool holds_high = below.high_m >= high_m || !(below.high_m < guide_.length_m());
     if (holds_low && holds_high) break;

@@ -93,7 +93,7 @@ class GuideParts {
   static constexpr bool kTellsHalves = false;
   static float child_bound_m(const Range&, uint32_t, float lower_m) { return lower_m; }
   float bound_m(uint32_t node, float limit_m, Range& range) const {
-    const Stretch below = stretch_below(node);
+    const Stretch below = stretch_below(node, false);
     const float least_m = penalty_.least(below.low_m, below.high_m);
     const float by_arc_m = with_slack(nearest_m_, least_m);
     if (by_arc_m >= best_.limit_m) {  // no need to know how far off it is
@@ -144,7 +144,7 @@ class GuideParts {
   struct Stretch {
     float low_m, high_m;  // by arcs
   };
-  Stretch stretch_below(uint32_t node) const;
+  Stretch stretch_below(uint32_t node, bool is_within) const;
   bool find_cut(uint32_t piece, const Range& range, float& at) const;
   float least_within(uint32_t piece, float low, float high) const;
   Half<Range> half(uint32_t piece, float low, float high, float lower_m) const {
