@@ -9,6 +9,7 @@ namespace firmtouch::spline {
 /// A point of a curve, from its piece's origin, and its derivatives by the piece's s.
 struct CurvePoint {
   math::Vec3 x, d1, d2;
+  CurvePoint() {}  // by hand: else all is cleared by a call, and then set
 };
 
 /// A point of a surface and its derivatives by the piece's s and t.
@@ -44,19 +45,25 @@ static inline void divide(CurvePoint& point, float w, float w1, float w2) {
   point.d2 = (point.d2 - point.d1 * (2.0f * w1) - point.x * w2) * per_w;
 }
 
-static inline void evaluate_cubic(const float* c, float s, CurvePoint& point) {
-  const math::Vec3 c1 = vec3_at(c + 3), c2 = vec3_at(c + 6), c3 = vec3_at(c + 9);
-  const math::Vec3 a = c3 * s + c2, b = a * s + c1;
-  const math::Vec3 d = c3 * s + a;
-  point.x = b * s + vec3_at(c);
-  point.d1 = d * s + b;
-  point.d2 = (c3 * s + d) * 2.0f;
+/// One coordinate of a cubic with its derivatives: nothing is computed of what is 0.
+static inline void cubic_at(const float* c, uint32_t stride, float s, float& x, float& d1,
+                            float& d2) {
+  const float top = c[3 * stride] * s, a = top + c[2 * stride], b = a * s + c[stride];
+  const float d = top + a;
+  x = b * s + c[0];
+  d1 = d * s + b;
+  d2 = (top + d) * 2.0f;
 }
 
-static inline void evaluate(const Piece& piece, const float* coefficients, float s,
-                            CurvePoint& point) {
-  const float* c = coefficients + piece.coefficients;
-  if (piece.degree_u == 3 && piece.is_rational == 0) return evaluate_cubic(c, s, point);
+/// kFlat: z is left out.
+template <bool kFlat>
+static inline void evaluate_cubic(const float* c, uint32_t stride, float s, CurvePoint& point) {
+  cubic_at(c, stride, s, point.x.x, point.d1.x, point.d2.x);
+  cubic_at(c + 1, stride, s, point.x.y, point.d1.y, point.d2.y);
+  if constexpr (!kFlat) cubic_at(c + 2, stride, s, point.x.z, point.d1.z, point.d2.z);
+}
+
+static inline void evaluate_any(const Piece& piece, const float* c, float s, CurvePoint& point) {
   const uint32_t stride = piece.is_rational != 0 ? 4 : 3;
   c += piece.degree_u * stride;
   Jet<math::Vec3> jet;
@@ -72,6 +79,23 @@ static inline void evaluate(const Piece& piece, const float* coefficients, float
   point.d1 = jet.first;
   point.d2 = jet.half_second * 2.0f;
   if (piece.is_rational != 0) divide(point, weight.value, weight.first, weight.half_second * 2.0f);
+}
+
+template <bool kFlat>
+static inline void evaluate_as(const Piece& piece, const float* coefficients, float s,
+                               CurvePoint& point) {
+  const float* c = coefficients + piece.coefficients;
+  if (piece.degree_u != 3) return evaluate_any(piece, c, s, point);
+  if (piece.is_rational == 0) return evaluate_cubic<kFlat>(c, 3, s, point);
+  evaluate_cubic<kFlat>(c, 4, s, point);
+  float w, w1, w2;
+  cubic_at(c + 3, 4, s, w, w1, w2);
+  divide(point, w, w1, w2);
+}
+
+static inline void evaluate(const Piece& piece, const float* coefficients, float s,
+                            CurvePoint& point) {
+  evaluate_as<false>(piece, coefficients, s, point);
 }
 
 /// The numerator's derivatives become the point's; `w`: the weight's own.

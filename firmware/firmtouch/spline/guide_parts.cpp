@@ -124,12 +124,12 @@ GuideParts::Room GuideParts::room_of(const Slopes& arc, const Way& way, float li
 }
 
 // No point has a cost below the limit if its squared distance is at least the square of what the
-// penalty leaves of it. D^2 >= D0^2 + 2 g d + q d^2 there (curve_parts.hpp), and with room m0 + m1 d + m2 d^2
+// penalty leaves of it. D^2 >= D0^2 + 2 g d + q d^2 there (curve_proof.hpp), and with room m0 + m1 d + m2 d^2
 //     D^2 - room^2 >= (D0^2 - m0^2) + 2 (g - m0 m1) d + (q - m1^2 - 2 m0 m2 - 2 m1 m2 l - m2^2 l^2) d^2
 // over a length l, the third but last term where it takes away. Beyond where the room ends nothing is
 // to be shown. The limit is 16 units of the cost below the best, which is more than what is rounded
 // of D0^2 - m0^2; what is rounded of the other terms is taken off them.
-bool GuideParts::is_side_done(const CurveParts::Expansion& f, float distance_m, float outward_slope,
+bool GuideParts::is_side_done(const Expansion& f, float distance_m, float outward_slope,
                               const Room& room, float length) {
   const float m1 = room.slope, m2 = room.half_bend;
   const float most =
@@ -209,9 +209,8 @@ float GuideParts::step_from(const Seen& seen, const Way& way, float& gain_m2) {
 // Takes off a range what is proven on both sides of a point: nothing there costs less than the limit.
 bool GuideParts::prove(uint32_t leaf, const Seen& seen, float s, const Way* ways,
                        uint32_t way_count, Range& range, Sides& sides) const {
-  const Bend bend = guide_.model().bends()[leaf];
-  const CurveParts::Expansion f = curve_.expand(seen.distance2_m2, seen.bend, seen.speed2, seen.at,
-                                                from_half(bend.fixed), from_half(bend.turning));
+  const Expansion f = expand<false>(seen.distance2_m2, seen.bend, seen.speed2, seen.at.d2,
+                                    guide_.model().bends()[leaf], guide_.model().head().loss_m);
   const float below = s - range.low, above = range.high - s;
   sides = {true, true};
   for (uint32_t k = 0; k < way_count; ++k) {

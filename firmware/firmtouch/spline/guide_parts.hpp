@@ -2,7 +2,7 @@
 // The parts of a guide for Search, by distance and penalty together, for .cpp files of this room only.
 #include "firmtouch/spline/arc.hpp"
 #include "firmtouch/spline/chain.hpp"
-#include "firmtouch/spline/curve_parts.hpp"
+#include "firmtouch/spline/curve_proof.hpp"
 
 namespace firmtouch::spline {
 
@@ -44,7 +44,7 @@ static inline bool take_cost(Best& best, float cost_m) {
 /// Best holds costs in the place of distances.
 class GuideParts {
  public:
-  using Range = CurveParts::Range;
+  using Range = CurveRange;
 
   /// Nothing of the curve is nearer than nearest_m. `kink` is the point where the penalty is nothing.
   GuideParts(const GuideView& guide, math::Vec3 p_m, const Penalty& penalty, const CurvePoint& kink,
@@ -62,10 +62,11 @@ class GuideParts {
   uint32_t root() const { return 0; }
   bool is_leaf(uint32_t node) const { return curve_.is_leaf(node); }
   void children(uint32_t node, uint32_t& low, uint32_t& high) const {
-    curve_.children(node, low, high);
+    low = first_child(node);
+    high = low + 1;
   }
-  uint32_t sibling_of(uint32_t node) const { return curve_.sibling_of(node); }
-  uint32_t parent_of(uint32_t node) const { return curve_.parent_of(node); }
+  uint32_t sibling_of(uint32_t node) const { return spline::sibling_of(node); }
+  uint32_t parent_of(uint32_t node) const { return spline::parent_of(node); }
   uint32_t piece_of(uint32_t node) const { return curve_.piece_of(node); }
   uint32_t closed_around(uint32_t node, const Best&) const { return node; }
   bool is_closed(uint32_t, const Best&) const { return false; }
@@ -76,13 +77,13 @@ class GuideParts {
     while (last - first > 1) {
       const uint32_t middle = first + (last - first) / 2, leaf = guide_.leaf_at(middle);
       const uint32_t on = guide_.model().leaves()[leaf].piece;
-      if (on < piece || (on == piece && curve_.range_of(leaf, 0.0f).low <= s))
+      if (on < piece || (on == piece && curve_.range_of(curve_.node_of(leaf), 0.0f).low <= s))
         first = middle;
       else
         last = middle;
     }
     const uint32_t leaf = guide_.leaf_at(first);
-    range = curve_.range_of(leaf, 0.0f);
+    range = curve_.range_of(curve_.node_of(leaf), 0.0f);
     range.start = s;
     return count_ - 1 + leaf;
   }
@@ -92,16 +93,17 @@ class GuideParts {
 
   static constexpr bool kTellsHalves = false;
   static float child_bound_m(const Range&, uint32_t, float lower_m) { return lower_m; }
-  float bound_m(uint32_t node, float limit_m, Range& range) const {
+  float bound_m(uint32_t node, float, Range& range) const {
     const Stretch below = stretch_below(node, false);
     const float least_m = penalty_.least(below.low_m, below.high_m);
     const float by_arc_m = with_slack(nearest_m_, least_m);
     if (by_arc_m >= best_.limit_m) {  // no need to know how far off it is
-      if (is_leaf(node)) range = curve_.range_of(node - (count_ - 1), 0.5f);
+      if (is_leaf(node)) range = curve_.range_of(node, 0.5f);
       return by_arc_m;
     }
-    const float off_m = curve_.bound_m(node, limit_m, range);
-    return off_m > nearest_m_ ? with_slack(off_m, least_m) : by_arc_m;
+    const CurveTree<false>::Seen seen = curve_.see(node);
+    if (is_leaf(node)) range = curve_.range_of(node, seen.share);
+    return seen.lower_m > nearest_m_ ? with_slack(seen.lower_m, least_m) : by_arc_m;
   }
 
   Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
@@ -163,11 +165,11 @@ class GuideParts {
   uint32_t ways_of(uint32_t piece, const Range& range, Way (&ways)[2]) const;
   static Room room_of(const Slopes& arc, const Way& way, float limit_m, float outward,
                       float length);
-  static bool is_side_done(const CurveParts::Expansion& f, float distance_m, float outward_slope,
+  static bool is_side_done(const Expansion& f, float distance_m, float outward_slope,
                            const Room& room, float length);
 
   const GuideView& guide_;
-  CurveParts curve_;
+  CurveTree<false> curve_;
   math::Vec3 p_m_;
   const Penalty& penalty_;
   const CurvePoint& kink_;

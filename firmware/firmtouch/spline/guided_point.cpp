@@ -5,7 +5,7 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/arc.hpp"
 #include "firmtouch/spline/chain.hpp"
-#include "firmtouch/spline/curve_parts.hpp"
+#include "firmtouch/spline/curve_proof.hpp"
 #include "firmtouch/spline/least_cost.hpp"
 
 namespace firmtouch::spline {
@@ -161,8 +161,8 @@ bool comes_to(const GuideView& guide, Vec3 p_m, const Foot& nearest, float lower
                              (guide.length_m() / weight_m) * (1.0f + 0x1p-18f) +
                          guide.length_m() * 0x1p-22f;
   const float reach_m = ((way_m < 0.0f ? -way_m : way_m) + beside_m) * (1.0f + 0x1p-18f);
-  const CurveParts curve(model, p_m);
-  const CurveParts::Range whole = curve.range_of(leaf, 0.5f);
+  const CurveTree<false> curve(model, p_m);
+  const CurveRange whole = curve.range_of(curve.node_of(leaf), 0.5f);
   const float off = following.s - nearest.s, size = off < 0.0f ? -off : off;
   const float speed2 = dot(nearest.at.d1, nearest.at.d1);
   if (!(speed2 > 0.0f)) return false;
@@ -177,10 +177,9 @@ bool comes_to(const GuideView& guide, Vec3 p_m, const Foot& nearest, float lower
   const bool is_below = is_first || arcs.at_m(nearest.piece, low) <= was_m - reach_m;
   const bool is_above = is_last || arcs.at_m(nearest.piece, high) >= was_m + reach_m;
   if (!is_below || !is_above) return false;
-  const Bend bend_of = model.bends()[leaf];
-  const CurveParts::Expansion f =
-      curve.expand(nearest.distance2_m2, speed2 + dot(nearest.r_m, nearest.at.d2), speed2,
-                   nearest.at, from_half(bend_of.fixed), from_half(bend_of.turning));
+  const Expansion f =
+      expand<false>(nearest.distance2_m2, speed2 + dot(nearest.r_m, nearest.at.d2), speed2,
+                    nearest.at.d2, model.bends()[leaf], model.head().loss_m);
   const float farthest = nearest.s - low > high - nearest.s ? nearest.s - low : high - nearest.s;
   return f.least_bend - f.change * farthest > 0.0f;
 }

@@ -23,6 +23,9 @@ struct Best {
   float bend[3];            // of half the squared distance there, of a surface: uu, uv, vv
   uint32_t evaluations = 0;
 
+  // By hand: else all is cleared by a call, and then most of it set.
+  Best() {}
+
   bool take(float d2) {
     if (!(d2 < distance2_m2)) return false;
     distance2_m2 = d2;

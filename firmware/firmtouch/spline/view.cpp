@@ -39,6 +39,8 @@ Verdict check_head(const Head& head) {
   return kPassed;
 }
 
+bool is_same(float a, float b) { return a <= b && a >= b; }
+
 bool is_inside(const Head& head, const float* at_m) {
   for (uint32_t k = 0; k < 3; ++k)
     if (!is_between(at_m[k], head.low_m[k], head.high_m[k])) return false;
@@ -79,6 +81,7 @@ void Opening::open_head(const Sections& sections) {
   if (verdict_.ok()) verdict_ = take_sections(sections, head);
   if (!verdict_.ok()) return;
   view_.head_ = &head;
+  view_.is_flat_ = !is_surface;
   stage_ = Stage::kPieces;
 }
 
@@ -93,8 +96,8 @@ Verdict Opening::take_sections(const Sections& s, const Head& head) {
 Verdict Opening::take_curves(const Sections& s, const Head& head) {
   view_.leaves_ = core::as_whole_array<Leaf>(s.leaves);
   if (view_.leaves_.size() != head.leaf_count) return reject(604, 2);
-  view_.places_ = core::as_whole_array<uint16_t>(s.places);
-  if (view_.places_.size() != head.leaf_count) return reject(604, 3);
+  places_ = core::as_whole_array<uint16_t>(s.places);
+  if (places_.size() != head.leaf_count) return reject(604, 3);
   view_.capsules_ = core::as_whole_array<Capsule>(s.nodes);
   if (view_.capsules_.size() != 2 * head.leaf_count - 1) return reject(604, 4);
   view_.points_ = core::as_whole_array<Point>(s.points);
@@ -142,7 +145,7 @@ uint32_t Opening::elements() const {
     case Stage::kNodes:
       return view_.is_surface() ? view_.boxes_.size() : view_.capsules_.size();
     case Stage::kPlaces:
-      return view_.places_.size();
+      return places_.size();
     case Stage::kCells:
       return view_.patch_bends_.size() * kFineParts;
     default:
@@ -204,10 +207,13 @@ Verdict Opening::check_piece(uint32_t i) {
     if (!is_between(view_.coefficients_[coefficients_used_ + k], -64.0f * kMaxCoordinate_m,
                     64.0f * kMaxCoordinate_m))
       return reject(614, coefficients_used_ + k);
+  for (uint32_t k = 2; k < floats; k += piece.is_rational != 0 ? 4u : 3u)
+    if (!is_same(view_.coefficients_[coefficients_used_ + k], 0.0f)) view_.is_flat_ = false;
   coefficients_used_ += floats;
   for (uint32_t k = 0; k < 3; ++k)
     if (!is_between(piece.origin_m[k], -2.0f * kMaxCoordinate_m, 2.0f * kMaxCoordinate_m))
       return reject(616, i);
+  if (!is_same(piece.origin_m[2], view_.pieces_[0].origin_m[2])) view_.is_flat_ = false;
   const float parameters[] = {piece.middle_u, piece.half_u, piece.middle_v, piece.half_v};
   for (const float parameter : parameters)
     if (!is_between(parameter, -1e30f, 1e30f)) return reject(616, i);
@@ -237,7 +243,9 @@ Verdict Opening::check_grid(uint32_t i) {
   return is_power && is_between(grid.step_m, 0x1p-100f, 0x1p20f) ? kPassed : reject(625, i);
 }
 
-Verdict Opening::check_point(uint32_t i) const {
+Verdict Opening::check_point(uint32_t i) {
+  if (!view_.is_surface() && !is_same(view_.points_[i].z_m, view_.pieces_[0].origin_m[2]))
+    view_.is_flat_ = false;
   return is_inside(*view_.head_, &view_.points_[i].x_m) ? kPassed : reject(617, i);
 }
 
@@ -254,7 +262,7 @@ Verdict Opening::check_place(uint32_t i) {
   if (piece_ == view_.pieces_.size()) return reject(615, i);
   const Piece& piece = view_.pieces_[piece_];
   const uint32_t columns = 1u << piece.level_u, rows = 1u << piece.level_v;
-  const uint32_t at = view_.places_[i];
+  const uint32_t at = places_[i];
   if (at >= view_.leaves_.size()) return reject(615, i);
   const Leaf& leaf = view_.leaves_[at];
   if (leaf.piece != piece_ || leaf.index_u != in_piece_ % columns ||

@@ -27,6 +27,7 @@ class View {
   core::Span<const float> coefficients() const { return coefficients_; }
   uint32_t leaf_count() const { return head_->leaf_count; }
   // Of curves:
+  bool is_flat() const { return is_flat_; }  // in a plane of one z
   core::Span<const Leaf> leaves() const { return leaves_; }
   core::Span<const Bend> bends() const { return bends_; }
   core::Span<const Capsule> capsules() const { return capsules_; }
@@ -58,11 +59,11 @@ class View {
   friend class Opening;
   uint32_t radius_count() const { return 2 * head_->leaf_count - head_->piece_count; }
   const Head* head_ = nullptr;
+  bool is_flat_ = false;
   core::Span<const Piece> pieces_;
   core::Span<const float> coefficients_;
   core::Span<const Leaf> leaves_;
   core::Span<const Bend> bends_;
-  core::Span<const uint16_t> places_;
   core::Span<const Capsule> capsules_;
   core::Span<const Point> points_;
   core::Span<const Grid> grids_;
@@ -100,13 +101,14 @@ class Opening {
   core::Verdict check(uint32_t i);
   core::Verdict check_piece(uint32_t i);
   core::Verdict check_grid(uint32_t i);
-  core::Verdict check_point(uint32_t i) const;
+  core::Verdict check_point(uint32_t i);
   core::Verdict check_node(uint32_t i) const;
   core::Verdict check_place(uint32_t i);
   core::Verdict check_cell(uint32_t i);
   core::Verdict check_leaf(uint32_t i);
 
   View view_;
+  core::Span<const uint16_t> places_;  // of curves, piece by piece: nobody asks for them later
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0;

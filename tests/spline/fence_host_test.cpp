@@ -1,0 +1,122 @@
+// What a query along a path keeps from the one before: where a fence lets it pass over the rest of a curve,
+// the answer is that of a query which knows nothing.
+#include <cmath>
+#include <cstdlib>
+
+#include "bake/bake_spline.hpp"
+#include "firmtouch/spline/closest_point.hpp"
+#include "harness/test.hpp"
+#include "spline/random_splines.hpp"
+
+namespace {
+
+using firmtouch::math::Vec3;
+using firmtouch::query::Hint;
+using firmtouch::query::kUnlimited;
+namespace query = firmtouch::query;
+namespace spline = firmtouch::spline;
+namespace spline_test = firmtouch::spline_test;
+namespace tools = firmtouch::tools;
+
+int most_of(uint32_t seed) { return static_cast<int>(1 + seed % 3); }
+double wide(float value) { return static_cast<double>(value); }
+
+struct Baked {
+  std::vector<tools::Section> sections;
+  tools::SplineReport report;
+  spline::View view;
+
+  explicit Baked(const tools::SplineCurve& curve) {
+    tools::SplineModel model;
+    model.curves.push_back(curve);
+    sections = tools::bake_spline(model, "x", tools::curve_detail(), report);
+    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+  }
+};
+
+tools::SplineCurve flattened(tools::SplineCurve curve) {
+  for (tools::ControlPoint& p : curve.points) p.z = 0;
+  return curve;
+}
+// About x, by a quarter turn: y becomes z.
+tools::SplineCurve raised(tools::SplineCurve curve) {
+  for (tools::ControlPoint& p : curve.points) p = {p.x, -p.z, p.y, p.w};
+  return curve;
+}
+
+// Wanders about the curve's middle; often it goes back, now and then it jumps.
+struct Path {
+  tools::Random& random;
+  double step, reach, at[3] = {0, 0, 0}, heading[3] = {0, 0, 0};
+
+  Vec3 next() {
+    if (random.below(10) == 0)
+      for (double& h : heading) h = -h;
+    for (int k = 0; k < 3; ++k) {
+      heading[k] = 0.95 * heading[k] + 0.3 * random.bell();
+      at[k] += step * heading[k];
+      if (std::fabs(at[k]) > reach) {
+        at[k] = std::copysign(reach, at[k]);
+        heading[k] = -heading[k];
+      }
+      if (random.below(1500) == 0) at[k] = random.between(-reach, reach);
+    }
+    return {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
+  }
+};
+
+}  // namespace
+
+TEST(AlongAPathAFenceLeavesNothingOut) {
+  const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
+  uint32_t wrong = 0, inexact = 0, passed_over = 0;
+  for (uint32_t seed = 0; seed < (is_long ? 200u : 24u); ++seed) {
+    tools::Random random(seed + 90);
+    const tools::SplineCurve curve =
+        spline_test::random_curve(random, static_cast<int>(2 + seed % 4), most_of(seed));
+    const Baked baked(seed % 2 == 0 ? flattened(curve) : curve);
+    for (const double step : {0.0002, 0.002, 0.02}) {
+      Path path{random, step, 1.3};
+      Hint hint;
+      const double unit = 2.1e-6 * baked.report.extent_m;
+      for (int i = 0; i < 3000; ++i) {
+        const Vec3 p = path.next();
+        const uint32_t fence = hint.fence;
+        const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
+        Hint cold;
+        const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
+        const double told = wide(warm.distance_m), truth = wide(alone.distance_m);
+        wrong += std::fabs(told - truth) <= unit + 2e-6 * truth &&
+                         wide(warm.certificate.lower_m) <= truth
+                     ? 0u
+                     : 1u;
+        inexact += warm.certificate.exact ? 0u : 1u;
+        passed_over += fence != query::kNowhere && hint.fence == fence ? 1u : 0u;
+      }
+    }
+  }
+  CHECK_EQ(wrong, 0u);
+  CHECK_EQ(inexact, 0u);
+  CHECK(passed_over > 100000);
+}
+
+TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {
+  for (uint32_t seed = 0; seed < 12; ++seed) {
+    tools::Random random(seed + 3);
+    const tools::SplineCurve curve =
+        flattened(spline_test::random_curve(random, static_cast<int>(1 + seed % 5), most_of(seed)));
+    const Baked flat(curve), standing(raised(curve));
+    CHECK(flat.view.is_flat());
+    CHECK(!standing.view.is_flat());
+    Path path{random, 0.01, 1.3};
+    Hint hint, other;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 p = path.next();
+      const spline::Closest a = closest_point(flat.view, p, kUnlimited, hint);
+      const spline::Closest b = closest_point(standing.view, {p.x, -p.z, p.y}, kUnlimited, other);
+      CHECK(a.certificate.exact && b.certificate.exact);
+      CHECK_LE(std::fabs(wide(a.distance_m) - wide(b.distance_m)),
+               2e-6 * (flat.report.extent_m + wide(a.distance_m)));
+    }
+  }
+}
