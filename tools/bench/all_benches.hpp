@@ -19,5 +19,6 @@ void run_segment(const Options& options, Report& report);  // segment.cpp
 void run_hulls(const Options& options, Report& report);    // hulls.cpp
 void run_segment(const Options& options, Report& report);  // segment.cpp
 void run_splines(const Options& options, Report& report);  // splines.cpp
+void run_cells(const Options& options, Report& report);    // cells.cpp
 
 }  // namespace firmtouch::bench

@@ -23,6 +23,7 @@ const std::vector<Bench>& benches() {
        run_hull_queries},
       {"segment", "segments through meshes: first, any and every crossing", run_segment},
       {"splines", "foot-points of splines carried along, at the published parameters", run_splines},
+      {"cells", "planar splines: cells that list what may be nearest, beside the tree", run_cells},
   };
   return all;
 }
