@@ -17,7 +17,7 @@ using Vector = std::array<Interval, 3>;
 constexpr int kOrders = 5;
 // Halvings of a part on an axis, before a bound is called wrong: where a bound is met at an end of a
 // curve's leaf, intervals come near it by halves. A radius may leave 3 % of it to a part's farthest point.
-constexpr int kFinest = 12, kFinestOfCurve = 20;
+constexpr int kFinest = 12, kFinestOfCurve = 20, kFinestOfBox = 18;
 constexpr Wide kNothing = 1e-40L;  // what widening makes of 0
 
 inline Wide most(Interval a) { return std::max(std::fabs(a.lo), std::fabs(a.hi)); }

@@ -127,7 +127,7 @@ void check_boxes(const spline::View& view, uint32_t index, const StoredPiece& st
     const float* v = box.axis[1];
     const Wide w[3] = {Wide{u[1]} * v[2] - Wide{u[2]} * v[1], Wide{u[2]} * v[0] - Wide{u[0]} * v[2],
                        Wide{u[0]} * v[1] - Wide{u[1]} * v[0]};
-    CHECK(holds(area_of(0, 0, 0, 0, true), true, kFinest, [&](const Area& part) {
+    CHECK(holds(area_of(0, 0, 0, 0, true), true, kFinestOfBox, [&](const Area& part) {
       const Vector x = stored.over(part, 0).of[0][0];
       for (size_t axis = 0; axis < 3; ++axis) {
         Interval along;
