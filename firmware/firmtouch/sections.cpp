@@ -12,6 +12,8 @@ mesh::Sections mesh_sections(const asset::Container& container, const char* name
   sections.parents = container.find(mesh::kParentsSection, name);
   sections.vertex_normals = container.find(mesh::kVertexNormalsSection, name);
   sections.edge_folds = container.find(mesh::kEdgeFoldsSection, name);
+  sections.rows = container.find(mesh::kRowsSection, name);
+  sections.directions = container.find(mesh::kDirectionsSection, name);
   return sections;
 }
 

@@ -133,6 +133,8 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   sections.parents = copies.of(container.find(mesh::kParentsSection, name));
   sections.vertex_normals = copies.of(container.find(mesh::kVertexNormalsSection, name));
   sections.edge_folds = copies.of(container.find(mesh::kEdgeFoldsSection, name));
+  sections.rows = copies.of(container.find(mesh::kRowsSection, name));
+  sections.directions = copies.of(container.find(mesh::kDirectionsSection, name));
   mesh::View view;
   const core::Verdict verdict = mesh::open(sections, view);
   CHECK_EQ(verdict.ok(), view.is_open());

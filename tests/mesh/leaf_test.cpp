@@ -93,6 +93,27 @@ float measured_in_turn(const Leaf& leaf, uint32_t child, float least2_m2, mesh::
   return least2_m2;
 }
 
+// The same leaf from rows of its corners, what lies behind them being no corner's.
+template <class Float>
+void compare_rows(const Leaf& leaf, uint32_t child, float in_turn, const mesh::Best& a,
+                  float bound2_m2, Compared& compared) {
+  constexpr uint32_t kFloats = mesh::kRowsOfLeaf * kTriangles + mesh::kRowsEnd;
+  float rows[kFloats];
+  for (float& f : rows) f = coordinate(true);
+  const uint32_t first = mesh::leaf_first(child), count = mesh::leaf_count(child);
+  for (uint32_t i = 0; i < mesh::kRowsOfLeaf * count; ++i) {
+    const uint32_t row = i / count, corner = leaf.triangles[first + i % count].corner[row / 3];
+    const mesh::Vertex& v = leaf.vertices[corner];
+    rows[mesh::kRowsOfLeaf * first + i] = row % 3 == 0 ? v.x_m : row % 3 == 1 ? v.y_m : v.z_m;
+  }
+  mesh::Best b;
+  const float told = mesh::measure_rows<Float>(rows, leaf.p_m, child, 5, bound2_m2, b);
+  if (!same(in_turn, told) || !same(a.offset_m, b.offset_m) ||
+      !same(a.distance2_m2, b.distance2_m2) || a.triangle != b.triangle || a.place != b.place ||
+      a.feature != b.feature)
+    ++compared.differ;
+}
+
 template <class Float>
 void compare_leaves(const Leaf& leaf, uint32_t turn, Compared& compared) {
   constexpr uint32_t kLanes = math::kLanesOf<Float>;
@@ -119,6 +140,7 @@ void compare_leaves(const Leaf& leaf, uint32_t turn, Compared& compared) {
         a.place != other.place || a.feature != other.feature)
       ++compared.differ;
   }
+  compare_rows<Float>(leaf, child, in_turn, a, bound2_m2, compared);
   compared.improved += in_turn < bound2_m2 ? 1u : 0u;
 }
 

@@ -5,6 +5,7 @@
 
 #include "bake/mesh_tree.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/direction.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -108,6 +109,33 @@ Reordered in_leaf_order(const Surface& surface, const std::vector<uint32_t>& ord
   return result;
 }
 
+// The corners of each leaf side by side (FORMAT.md, 0x100C).
+std::vector<float> make_rows(const Surface& surface, const MeshTree& tree) {
+  std::vector<float> rows;
+  for (const mesh::Node& node : tree.nodes)
+    for (const mesh::Side& side : node.side) {
+      if (!mesh::is_leaf(side.child)) continue;
+      const uint32_t first = mesh::leaf_first(side.child), count = mesh::leaf_count(side.child);
+      for (size_t k = 0; k < 3; ++k)
+        for (const auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z})
+          for (uint32_t i = first; i < first + count; ++i)
+            rows.push_back(surface.vertices[surface.faces[i][k]].*axis);
+    }
+  rows.insert(rows.end(), mesh::kRowsEnd, 0.0f);
+  return rows;
+}
+
+// As the firmware decodes them.
+std::vector<mesh::Vertex> make_directions(const mesh::View& mesh) {
+  std::vector<mesh::Vertex> directions;
+  for (uint32_t i = 0; i < mesh.head().triangle_count; ++i)
+    for (uint32_t f = 0; f < mesh::kFeatures; ++f) {
+      const math::Vec3 d = mesh::decoded_direction(mesh, i, static_cast<mesh::Feature>(f));
+      directions.push_back({d.x, d.y, d.z});
+    }
+  return directions;
+}
+
 void add_signs(const Pseudonormals& signs, const std::vector<uint32_t>& vertex_from,
                const std::vector<uint32_t>& face_from, const std::string& name,
                std::vector<Section>& sections) {
@@ -165,6 +193,8 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
         make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
   sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
+  if (options.shape.is_for_desktop)
+    sections.push_back(make_section(mesh::kRowsSection, name, make_rows(surface, tree)));
   for (const Section& s : sections) report.shape_bytes += static_cast<uint32_t>(s.bytes.size());
   if (options.is_signed) {
     const Pseudonormals signs = bake_signs(input, report.signs, report.problem);
@@ -185,6 +215,8 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
     report.problem = proof_failure(verdict);
     return {};
   }
+  if (options.shape.is_for_desktop)
+    sections.push_back(make_section(mesh::kDirectionsSection, name, make_directions(view)));
   return sections;
 }
 
@@ -204,6 +236,8 @@ mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::st
   found.parents = find(mesh::kParentsSection);
   found.vertex_normals = find(mesh::kVertexNormalsSection);
   found.edge_folds = find(mesh::kEdgeFoldsSection);
+  found.rows = find(mesh::kRowsSection);
+  found.directions = find(mesh::kDirectionsSection);
   return found;
 }
 

@@ -48,8 +48,9 @@ void run_race(const Race& race, const Model& model, const Model& desktop, const 
               Report& report) {
   report.stage(std::string(race.what) + ", " + model.name);
   const TemporaryFolder folder;
-  std::vector<Contender> contenders{ours(model.view, race.points, race.is_warm),
-                                    ours(desktop.view, race.points, race.is_warm)};
+  std::vector<Contender> contenders{
+      median_of_passes(ours(model.view, race.points, race.is_warm)),
+      median_of_passes(ours(desktop.view, race.points, race.is_warm))};
   if (peer.is_present()) {
     contenders.push_back(peer.contender("closest", file_for_peer(model, folder),
                                         folder.write("points.csv", tools::to_csv(race.points))));

@@ -25,6 +25,10 @@ Contender timed(size_t queries, const std::function<double()>& pass, Clock clock
   };
 }
 
+Contender median_of_passes(const Contender& contender) {
+  return [contender] { return medians_us({contender})[0]; };
+}
+
 std::vector<double> medians_us(const std::vector<Contender>& contenders) {
   std::vector<std::vector<double>> us(contenders.size());
   for (size_t pass = 0; pass < kPasses; ++pass)

@@ -19,6 +19,10 @@ enum class Clock { kWall, kProcessor };
 /// optimised away.
 Contender timed(size_t queries, const std::function<double()>& pass, Clock clock = Clock::kWall);
 
+/// The median of kPasses passes in a row: what a peer tells of itself in one turn. One pass alone
+/// would begin where the other's process has left the caches.
+Contender median_of_passes(const Contender& contender);
+
 /// Runs the contenders in turn, kPasses times each, so that what disturbs the machine disturbs all.
 /// Result: the median of each, in microseconds a query.
 std::vector<double> medians_us(const std::vector<Contender>& contenders);

@@ -135,7 +135,8 @@ std::vector<std::string> add_hull(const mesh::View& view, const std::string& nam
 
 bool is_of_tree(uint32_t type) {
   return type == mesh::kNodesSection || type == mesh::kParentsSection ||
-         type == mesh::kVertexNormalsSection || type == mesh::kEdgeFoldsSection;
+         type == mesh::kVertexNormalsSection || type == mesh::kEdgeFoldsSection ||
+         type == mesh::kRowsSection || type == mesh::kDirectionsSection;
 }
 
 // What is left of a mesh for hull queries alone.

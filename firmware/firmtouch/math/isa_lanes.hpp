@@ -26,6 +26,14 @@ struct Lanes {
   Float x, y, z;
 };
 
+/// As many floats as a Float holds, one after the other.
+template <class Float>
+[[gnu::always_inline]] static inline Float lanes_from(const float* p) {
+  Float lanes;
+  __builtin_memcpy(&lanes, p, sizeof lanes);
+  return lanes;
+}
+
 /// Three floats at each of four places.
 static inline Lanes<Float4> portable_gather(const float* p0, const float* p1, const float* p2,
                                             const float* p3) {

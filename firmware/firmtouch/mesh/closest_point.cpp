@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "firmtouch/core/hash.hpp"
+#include "firmtouch/mesh/direction.hpp"
 #include "firmtouch/mesh/nearest_search.hpp"
 #include "firmtouch/mesh/pseudonormal.hpp"
 #include "firmtouch/query/coherence.hpp"
@@ -31,29 +32,6 @@ constexpr float kFenceMotions = 8.0f;
 // than 1e6 m.
 constexpr float kBeyond_m = 1e15f;
 
-// The pseudonormal of an edge or a vertex of a triangle whose unit normal is `normal`. Apart: nearly
-// every answer is a face's, whose values would wait in memory.
-[[gnu::noinline]] Vec3 border_direction(const View& mesh, const Best& best, Vec3 normal) {
-  const Triangle<uint32_t> t = mesh.triangle(best.triangle);
-  if (is_vertex(best.feature)) {
-    const uint32_t corner =
-        static_cast<uint32_t>(best.feature) - static_cast<uint32_t>(Feature::kVertex0);
-    return decode_vertex_normal(mesh.vertex_normals()[t.corner[corner]]);
-  }
-  const uint32_t k = static_cast<uint32_t>(best.feature) - static_cast<uint32_t>(Feature::kEdge0);
-  const Vec3 edge = mesh.vertex(t.corner[k == 2 ? 0 : k + 1]) - mesh.vertex(t.corner[k]);
-  return decode_edge_normal(normal, edge, mesh.folds()[best.triangle].fold[k]);
-}
-
-[[gnu::always_inline]] inline Vec3 feature_direction(const View& mesh, const Best& best) {
-  const Triangle<uint32_t> t = mesh.triangle(best.triangle);
-  const Vec3 normal =
-      unit_normal(mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
-  if (best.feature != Feature::kFace && mesh.is_signed())
-    return border_direction(mesh, best, normal);
-  return {normal.x, normal.y, normal.z};  // one by one: see measure_leaf()
-}
-
 bool is_place(const View& mesh, uint32_t place) {
   if ((place >> 1) >= mesh.nodes().size()) return false;
   const uint32_t child = mesh.sides()[place].child;
@@ -62,6 +40,8 @@ bool is_place(const View& mesh, uint32_t place) {
 
 template <bool kCareful, class Bound>
 void look(const View& mesh, const Bound& bound, Search& search) {
+  if constexpr (math::kHasLanes && !kCareful)
+    if (mesh.rows() != nullptr) return search_nearest<false, Bound, Rows>(mesh, bound, search);
   if constexpr (kCareful)
     search_nearest<true, Bound, void>(mesh, bound, search);
   else if (!mesh.triangles16().empty())
@@ -205,7 +185,7 @@ Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m, const quer
 
   const Best& best = search.best;
   const Vec3 point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);
-  const Vec3 direction = feature_direction(mesh, best);
+  const Vec3 direction = feature_direction(mesh, best.triangle, best.feature);
   // The carried bound is worth keeping where the search was cut short; else it can only be older.
   float lower_m = found.lower_m;
   bool exact = search.complete && is_near;

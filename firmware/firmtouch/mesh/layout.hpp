@@ -22,6 +22,16 @@ constexpr uint32_t kSourceSection = 0x1009;
 constexpr uint32_t kProbesSection = 0x100A;  // query::ProbeHead and its points
 // EdgeFolds[triangle_count]; absent from an unsigned mesh.
 constexpr uint32_t kEdgeFoldsSection = 0x100B;
+// Only in an asset for a desktop, whose vector instructions alone read them (DESIGN.md):
+// float[9 * triangle_count + kRowsEnd]: the corners of each leaf's triangles side by side. Leaf by
+// leaf a row of x of all corners 0, a row of y, of z, then the rows of corners 1 and 2.
+constexpr uint32_t kRowsSection = 0x100C;
+// Vertex[7 * triangle_count]: the unit pseudonormals of a triangle's features, in their order.
+constexpr uint32_t kDirectionsSection = 0x100D;
+
+constexpr uint32_t kRowsOfLeaf = 9;
+constexpr uint32_t kRowsEnd = 8;  // zeros, so that eight floats may be read where a row begins
+constexpr uint32_t kFeatures = 7;
 
 // A traversal keeps one entry a level. 2^24 triangles in pairs make 23 levels of a balanced tree;
 // the baker's SAH trees of up to 2e6 triangles were seen to need 26. The baker refuses a deeper

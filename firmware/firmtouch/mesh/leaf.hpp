@@ -24,6 +24,31 @@ struct Best {
   Feature feature = Feature::kVertex0;
 };
 
+/// Puts into `best` the nearest of the lanes `asked` that is nearer than `least2_m2`; of two equally
+/// near ones the first. Lane 0 is triangle `first`.
+/// Result: the least squared distance so far.
+template <class Float>
+[[gnu::always_inline]] static inline float take_nearest(const Feet<Float>& feet, uint32_t asked,
+                                                        uint32_t first, uint32_t place,
+                                                        float least2_m2, Best& best) {
+  uint32_t nearer =
+      math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(least2_m2))) & asked;
+  if (nearer == 0) return least2_m2;
+  uint32_t lane = 0;
+  for (; nearer != 0; nearer &= nearer - 1) {
+    const uint32_t k = static_cast<uint32_t>(__builtin_ctz(nearer));
+    if (!(feet.distance2_m2[k] < least2_m2)) continue;
+    least2_m2 = feet.distance2_m2[k];
+    lane = k;
+  }
+  best.distance2_m2 = least2_m2;
+  best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
+  best.triangle = first + lane;
+  best.place = place;
+  best.feature = static_cast<Feature>(feet.features()[lane]);
+  return least2_m2;
+}
+
 /// measure_leaf() without care, side by side as many triangles as a Float holds.
 /// Pre: the leaf holds no more, the mesh no fewer.
 template <class Float, class Index>
@@ -47,22 +72,23 @@ template <class Float, class Index>
       return math::gather(at(0), at(1), at(2), at(3));
   };
   const Feet<Float> feet = closest_on_triangles<Float>(p_m, corner(0), corner(1), corner(2));
-  uint32_t nearer =
-      math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(least2_m2))) & asked;
-  if (nearer == 0) return least2_m2;
-  uint32_t lane = 0;
-  for (; nearer != 0; nearer &= nearer - 1) {
-    const uint32_t k = static_cast<uint32_t>(__builtin_ctz(nearer));
-    if (!(feet.distance2_m2[k] < least2_m2)) continue;
-    least2_m2 = feet.distance2_m2[k];
-    lane = k;
-  }
-  best.distance2_m2 = least2_m2;
-  best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
-  best.triangle = first + lane;
-  best.place = place;
-  best.feature = static_cast<Feature>(feet.features()[lane]);
-  return least2_m2;
+  return take_nearest(feet, asked, first, place, least2_m2, best);
+}
+
+/// The same of the corners that lie side by side. Lanes that a leaf leaves over hold what comes next.
+template <class Float>
+[[gnu::always_inline]] static inline float measure_rows(const float* rows, math::Vec3 p_m,
+                                                        uint32_t child, uint32_t place,
+                                                        float least2_m2, Best& best) {
+  const uint32_t first = leaf_first(child), count = leaf_count(child);
+  const float* const row = rows + size_t{kRowsOfLeaf} * first;
+  const auto corner = [&](size_t k) -> math::Lanes<Float> {
+    return {math::lanes_from<Float>(row + (3 * k) * count),
+            math::lanes_from<Float>(row + (3 * k + 1) * count),
+            math::lanes_from<Float>(row + (3 * k + 2) * count)};
+  };
+  const Feet<Float> feet = closest_on_triangles<Float>(p_m, corner(0), corner(1), corner(2));
+  return take_nearest(feet, (1u << count) - 1u, first, place, least2_m2, best);
 }
 
 // Pre: `stride` is that of vertices.

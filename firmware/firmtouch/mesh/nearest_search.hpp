@@ -112,7 +112,13 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t prune, uint32_t
   for (; left != 0; --left) {
     const uint32_t beside = place ^ 1u, index = place >> 1;
     const uint32_t key = bound.key(sides[beside].box);
-    if (key < beyond) {
+    if constexpr (math::kHasLanes) {
+      // While a desktop waits for the leaf's distance it runs ahead: a branch on that distance which
+      // it has guessed wrong would throw all of this away.
+      fence = key < beyond ? index : fence;
+      *top = {key, beside};
+      top += key < prune ? 1 : 0;
+    } else if (key < beyond) {
       fence = index;
       if (key < prune) *top++ = {key, beside};
     }
@@ -133,6 +139,13 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t prune, uint32_t
   return false;
 }
 
+// In place of an index's type: a leaf's corners are taken from rows.
+struct Rows {};
+template <class Index>
+constexpr bool kIsRows = false;
+template <>
+constexpr bool kIsRows<Rows> = true;
+
 template <class Index>
 inline core::Span<const Triangle<Index>> triangles_of(const View& mesh) {
   if constexpr (sizeof(Index) == sizeof(uint16_t))
@@ -146,9 +159,13 @@ template <bool kCareful, class Index, bool kIsLast>
 [[gnu::always_inline]] inline float measure_here(const View& mesh, uint32_t child, uint32_t place,
                                                  Search& search) {
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};  // one by one: see measure_leaf()
-  return measure_leaf<kCareful>(mesh.vertices().data(), triangles_of<Index>(mesh),
-                                Loss(mesh.head()), p_m, child, place, kIsLast,
-                                search.best.distance2_m2, search.best);
+  if constexpr (kIsRows<Index>)
+    return measure_rows<math::FloatWide>(mesh.rows(), p_m, child, place, search.best.distance2_m2,
+                                         search.best);
+  else
+    return measure_leaf<kCareful>(mesh.vertices().data(), triangles_of<Index>(mesh),
+                                  Loss(mesh.head()), p_m, child, place, kIsLast,
+                                  search.best.distance2_m2, search.best);
 }
 
 // A function of its own: in the loop it would take the registers of the descent.

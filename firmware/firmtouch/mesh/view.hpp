@@ -9,10 +9,11 @@
 namespace firmtouch::mesh {
 
 /// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
-/// triangles32; the normals and folds are empty for an unsigned mesh; source is not read on a
-/// controller.
+/// triangles32; the normals and folds are empty for an unsigned mesh, rows and directions but for a
+/// desktop; source is not read on a controller.
 struct Sections {
-  core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds;
+  core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds,
+      rows, directions;
 };
 
 /// A mesh that open() has proven: every index, box, depth and float. Immutable; share it between
@@ -31,6 +32,9 @@ class View {
   core::Span<const uint32_t> parents() const { return parents_; }
   core::Span<const uint32_t> vertex_normals() const { return vertex_normals_; }
   core::Span<const EdgeFolds> folds() const { return folds_; }
+  /// Null where the asset has none: what they hold follows from the rest.
+  const float* rows() const { return rows_; }
+  const Vertex* directions() const { return directions_; }
   core::Span<const Triangle<uint16_t>> triangles16() const { return triangles16_; }
   core::Span<const Triangle<uint32_t>> triangles32() const { return triangles32_; }
 
@@ -56,10 +60,12 @@ class View {
   core::Span<const uint32_t> parents_;
   core::Span<const uint32_t> vertex_normals_;
   core::Span<const EdgeFolds> folds_;
+  const float* rows_ = nullptr;
+  const Vertex* directions_ = nullptr;
 };
 
 /// Proves a mesh in slices, so that a main loop stays alive while it opens a large one: rules R101
-/// to R130 of tools/FORMAT.md.
+/// to R135 of tools/FORMAT.md.
 ///
 ///     Opening opening(sections);
 ///     while (!opening.done()) opening.work(1000);
@@ -80,11 +86,13 @@ class Opening {
   enum class Stage : uint8_t { kVertices, kNormals, kNodes, kTriangles, kDone };
   void fail(uint16_t rule, uint32_t element);
   void open_head(const Sections& sections);
+  core::Verdict open_desktop(const Sections& sections);
   void next_stage();
   core::Verdict check_vertex(uint32_t i);
   core::Verdict check_normal(uint32_t i) const;
   core::Verdict check_node(uint32_t i);
   core::Verdict check_leaf(uint32_t node, uint32_t slot);
+  core::Verdict check_rows(uint32_t first, uint32_t count, uint32_t triangle) const;
   core::Verdict check_triangle(uint32_t i) const;
 
   View view_;

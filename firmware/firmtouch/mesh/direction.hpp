@@ -1,0 +1,43 @@
+#pragma once
+// Which way is out. For the library's own translation units and the baker.
+
+#include "firmtouch/math/isa_lanes.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/mesh/pseudonormal.hpp"
+
+namespace firmtouch::mesh {
+
+/// The pseudonormal of an edge or a vertex of a triangle whose unit normal is `normal`. Apart: nearly
+/// every answer is a face's, whose values would wait in memory.
+math::Vec3 border_direction(const View& mesh, uint32_t triangle, Feature feature,
+                            math::Vec3 normal);
+
+/// Unit pseudonormal of a feature of a triangle, from what the mesh stores of it; of an unsigned mesh
+/// the face's normal.
+[[gnu::always_inline]] static inline math::Vec3 decoded_direction(const View& mesh,
+                                                                  uint32_t triangle,
+                                                                  Feature feature) {
+  const Triangle<uint32_t> t = mesh.triangle(triangle);
+  const math::Vec3 normal =
+      unit_normal(mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
+  if (feature != Feature::kFace && mesh.is_signed())
+    return border_direction(mesh, triangle, feature, normal);
+  return {normal.x, normal.y, normal.z};  // one by one: see measure_leaf()
+}
+
+/// The same, looked up where the asset is for a desktop and this is one: which feature it is need not
+/// be foreseen then.
+[[gnu::always_inline]] static inline math::Vec3 feature_direction(const View& mesh,
+                                                                  uint32_t triangle,
+                                                                  Feature feature) {
+  if constexpr (math::kHasLanes) {
+    if (mesh.directions() != nullptr) {
+      const Vertex& v = mesh.directions()[kFeatures * triangle + static_cast<uint32_t>(feature)];
+      return {v.x_m, v.y_m, v.z_m};
+    }
+  }
+  return decoded_direction(mesh, triangle, feature);
+}
+
+}  // namespace firmtouch::mesh

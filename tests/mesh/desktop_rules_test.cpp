@@ -1,0 +1,119 @@
+// The reject rules of what a mesh holds for a desktop, each condition tripped alone.
+#include "firmtouch/mesh/direction.hpp"
+#include "refusal.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using mesh_test::Cube;
+using mesh_test::refusal_of;
+using mesh_test::shorter;
+
+struct DesktopCube {
+  static constexpr uint32_t kFloats = mesh::kRowsOfLeaf * Cube::kTriangles + mesh::kRowsEnd;
+  Cube cube;
+  float rows[kFloats] = {};
+  mesh::Vertex directions[mesh::kFeatures * Cube::kTriangles];
+
+  DesktopCube() {
+    uint32_t next = 0;
+    for (const mesh::Node& node : cube.nodes)
+      for (const mesh::Side& side : node.side)
+        if (mesh::is_leaf(side.child)) next = put_leaf(side.child, next);
+    const mesh::View view = cube.view();
+    for (uint32_t i = 0; i < mesh::kFeatures * Cube::kTriangles; ++i) {
+      const math::Vec3 d = mesh::decoded_direction(view, i / mesh::kFeatures,
+                                                   static_cast<mesh::Feature>(i % mesh::kFeatures));
+      directions[i] = {d.x, d.y, d.z};
+    }
+  }
+  mesh::Sections sections() const {
+    mesh::Sections s = cube.sections();
+    s.rows = {reinterpret_cast<const uint8_t*>(rows), sizeof rows};
+    s.directions = {reinterpret_cast<const uint8_t*>(directions), sizeof directions};
+    return s;
+  }
+
+ private:
+  uint32_t put_leaf(uint32_t leaf, uint32_t next) {
+    const uint32_t first = mesh::leaf_first(leaf), end = first + mesh::leaf_count(leaf);
+    for (uint32_t corner = 0; corner < 3; ++corner)
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        for (uint32_t t = first; t < end; ++t) {
+          const mesh::Vertex& v = cube.vertices[cube.triangles[t].corner[corner]];
+          rows[next++] = axis == 0 ? v.x_m : axis == 1 ? v.y_m : v.z_m;
+        }
+    return next;
+  }
+};
+
+float next_float(float value) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, &value, sizeof bits);
+  ++bits;
+  __builtin_memcpy(&value, &bits, sizeof bits);
+  return value;
+}
+
+}  // namespace
+
+TEST(WhatIsThereForADesktopMayBeThereOrNot) {
+  const DesktopCube cube;
+  CHECK_EQ(refusal_of(cube.sections()), 0u);
+  mesh::Sections s = cube.sections();
+  s.rows = {};
+  CHECK_EQ(refusal_of(s), 0u);
+  s.directions = {};
+  CHECK_EQ(refusal_of(s), 0u);
+}
+
+TEST(R132RowsNotOfThisMesh) {
+  const DesktopCube cube;
+  mesh::Sections s = cube.sections();
+  const uint32_t cuts[] = {1, 4, DesktopCube::kFloats * 4 - 1};
+  for (const uint32_t cut : cuts) {
+    s.rows = shorter(cube.sections().rows, cut);
+    CHECK_EQ(refusal_of(s), 132'000u);
+  }
+}
+
+TEST(R132RowsThatDoNotEndInZeros) {
+  for (uint32_t i = 1; i <= mesh::kRowsEnd; ++i) {
+    DesktopCube cube;
+    cube.rows[DesktopCube::kFloats - i] = -0.0f;
+    CHECK_EQ(refusal_of(cube.sections()), 132'001u);
+  }
+}
+
+TEST(R133RowThatIsNotOfTheCorners) {
+  for (uint32_t i = 0; i < mesh::kRowsOfLeaf * Cube::kTriangles; ++i) {
+    DesktopCube cube;
+    cube.rows[i] = next_float(cube.rows[i]);
+    CHECK_EQ(refusal_of(cube.sections()) / 1000, 133u);
+  }
+  DesktopCube cube;
+  cube.rows[0] = next_float(cube.rows[0]);
+  CHECK_EQ(refusal_of(cube.sections()), 133'000u);
+}
+
+TEST(R134DirectionsNotOfThisMesh) {
+  const DesktopCube cube;
+  mesh::Sections s = cube.sections();
+  const uint32_t cuts[] = {1, 4, 12};
+  for (const uint32_t cut : cuts) {
+    s.directions = shorter(cube.sections().directions, cut);
+    CHECK_EQ(refusal_of(s), 134'000u);
+  }
+}
+
+TEST(R135DirectionThatIsNotWhatIsStored) {
+  for (uint32_t i = 0; i < mesh::kFeatures * Cube::kTriangles; ++i) {
+    float mesh::Vertex::*const axes[] = {&mesh::Vertex::x_m, &mesh::Vertex::y_m,
+                                         &mesh::Vertex::z_m};
+    for (float mesh::Vertex::*const axis : axes) {
+      DesktopCube cube;
+      cube.directions[i].*axis = next_float(cube.directions[i].*axis);
+      CHECK_EQ(refusal_of(cube.sections()), 135'000u + i / mesh::kFeatures);
+    }
+  }
+}
