@@ -17,7 +17,8 @@ using tools::Footpoints;
 
 void same_as_baked(const tools::SplineModel& model, const Footpoints& source, uint64_t seed) {
   tools::SplineReport report;
-  const auto detail = model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(true);
+  const auto detail =
+      model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(true);
   const auto sections = tools::bake_spline(model, "a", detail, report);
   CHECK(report.problem.empty());
   spline::View view;

@@ -22,7 +22,7 @@ struct Guide {
     model.curves = std::move(curves);
     for (size_t i = 0; i < model.curves.size(); ++i) model.curves[i].piece = static_cast<int>(i);
     tools::SplineReport of_bake;
-    sections = tools::bake_spline(model, "x", tools::curve_detail(), of_bake);
+    sections = tools::bake_spline(model, "x", tools::curve_detail(false), of_bake);
     CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
     lengths = tools::bake_spline_guide(view, "x", report);
     CHECK_EQ(lengths.size(), 2u);

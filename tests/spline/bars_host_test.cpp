@@ -31,8 +31,8 @@ double reflected(double x, double low, double high) {
 void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
   tools::SplineReport report;
   const auto sections = tools::bake_spline(
-      model, "x", model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(false),
-      report);
+      model, "x",
+      model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
   spline::View view;
   CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   if (!view.is_open()) return;

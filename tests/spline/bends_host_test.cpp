@@ -32,8 +32,8 @@ tools::Point point_of(const spline::View& view, const spline::Piece& piece, doub
 void judge(const tools::SplineModel& model, uint32_t seed) {
   tools::SplineReport report;
   const auto sections = tools::bake_spline(
-      model, "x", model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(false),
-      report);
+      model, "x",
+      model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
   CHECK(report.problem.empty());
   spline::View view;
   CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());

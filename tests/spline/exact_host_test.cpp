@@ -39,8 +39,8 @@ struct Baked {
 
   explicit Baked(const tools::SplineModel& from) : model(from), exact(model) {
     sections = tools::bake_spline(
-        model, "x", model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(false),
-        report);
+        model, "x",
+        model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
     CHECK(report.problem.empty());
     CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   }

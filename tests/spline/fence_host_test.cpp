@@ -29,7 +29,7 @@ struct Baked {
   explicit Baked(const tools::SplineCurve& curve) {
     tools::SplineModel model;
     model.curves.push_back(curve);
-    sections = tools::bake_spline(model, "x", tools::curve_detail(), report);
+    sections = tools::bake_spline(model, "x", tools::curve_detail(false), report);
     CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   }
 };

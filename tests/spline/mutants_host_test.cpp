@@ -112,8 +112,8 @@ void count(const tools::SplineModel& model, uint32_t seed, int queries, Counts& 
            Second second) {
   tools::SplineReport report;
   const auto sections = tools::bake_spline(
-      model, "x", model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(false),
-      report);
+      model, "x",
+      model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
   spline::View view;
   CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   const ExactDistance exact(model);

@@ -177,7 +177,8 @@ struct BakedModel {
     tools::SplineReport report;
     sections = tools::bake_spline(
         model, "x",
-        model.surfaces.empty() ? tools::curve_detail() : tools::surface_detail(is_small), report);
+        model.surfaces.empty() ? tools::curve_detail(is_small) : tools::surface_detail(is_small),
+        report);
     CHECK(report.problem.empty());
     CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   }

@@ -223,7 +223,11 @@ std::string input_problem(const SplineModel& model, const std::vector<BezierPatc
 
 }  // namespace
 
-SplineDetail curve_detail() { return {}; }
+SplineDetail curve_detail(bool is_small) {
+  SplineDetail detail;
+  if (is_small) detail.thickness = 0.016, detail.doubt = 8;
+  return detail;
+}
 
 SplineDetail surface_detail(bool is_small) {
   SplineDetail detail;

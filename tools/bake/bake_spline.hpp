@@ -23,14 +23,14 @@ struct SplineReport {
   std::string problem;     // empty: baked and proven; else what, where and how to mend
 };
 
-/// How finely pieces are cut into leaves. More leaves, fewer evaluations a query.
+/// How finely pieces are cut into leaves. More leaves, fewer evaluations a query; small: half the bytes.
 struct SplineDetail {
   double thickness = 0.004;    // of a leaf about its chord or plane, of the extent
   double doubt = 0.5;          // change of the second derivative across a leaf, of itself
   uint32_t most_halvings = 4;  // of a piece on an axis
   uint32_t cell_level = 1;  // halvings of a surface's piece to a cell, a rational one.s: one more
 };
-SplineDetail curve_detail();
+SplineDetail curve_detail(bool is_small);
 SplineDetail surface_detail(bool is_small);
 
 /// Cuts a file's curves or surfaces into pieces and parts with proven bounds and a tree over them,

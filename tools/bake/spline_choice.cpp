@@ -47,7 +47,7 @@ double work_of(const std::vector<Section>& sections, const std::string& name) {
 
 std::vector<Section> bake_fast_spline(const SplineModel& model, const std::string& name,
                                       bool is_small, SplineReport& report) {
-  if (model.surfaces.empty()) return bake_spline(model, name, curve_detail(), report);
+  if (model.surfaces.empty()) return bake_spline(model, name, curve_detail(is_small), report);
   SplineDetail detail = surface_detail(is_small);
   std::vector<Section> best = bake_spline(model, name, detail, report);
   if (!report.problem.empty() || is_small) return best;

@@ -47,7 +47,7 @@ std::vector<std::string> row_of(uint64_t seed, int levels, size_t positions, siz
   model.curves.push_back(tools::winding_curve(seed, 9 + seed, true, seed % 2 == 0));
   tools::SplineReport baked;
   const std::vector<tools::Section> sections =
-      tools::bake_spline(model, "curve", tools::curve_detail(), baked);
+      tools::bake_spline(model, "curve", tools::curve_detail(false), baked);
   if (!baked.problem.empty()) throw Problem(baked.problem);
   spline::View view;
   if (!spline::open(tools::spline_sections(sections, "curve"), view).ok())

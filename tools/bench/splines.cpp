@@ -1,13 +1,12 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <type_traits>
 
 #include "bench/all_benches.hpp"
 #include "bench/models.hpp"
-#include "bench/peer.hpp"
 #include "bench/problem.hpp"
 #include "bench/spline_pictures.hpp"
+#include "bench/spline_race.hpp"
 #include "bench/timing.hpp"
 #include "footpoint/sample_splines.hpp"
 #include "footpoint/tracker.hpp"
@@ -228,85 +227,6 @@ void run_surfaces(std::vector<Case> cases, const std::string& shape, const std::
   report.table(kHeads, rows);
 }
 
-// The plain numbers that a peer reads: kind, counts and degree, knots, weights, points.
-std::string plain_text(const tools::SplineCurve& c) {
-  std::string text = "curve " + std::to_string(c.points.size()) + " " + std::to_string(c.degree);
-  char number[40];
-  const auto put = [&](double x, const char* end) {
-    std::snprintf(number, sizeof(number), "%.17g%s", x, end);
-    text += number;
-  };
-  text += "\n";
-  for (const double x : c.knots) put(x, " ");
-  text += "\n";
-  for (const tools::ControlPoint& p : c.points) put(p.w, " ");
-  for (const tools::ControlPoint& p : c.points) {
-    text += "\n";
-    put(p.x, " "), put(p.y, " "), put(p.z, "");
-  }
-  return text + "\n";
-}
-
-std::string plain_text(const tools::SplineSurface& s) {
-  std::string text = "surface " + std::to_string(s.count_u) + " " + std::to_string(s.count_v) +
-                     " " + std::to_string(s.degree_u);
-  char number[40];
-  const auto put = [&](double x, const char* end) {
-    std::snprintf(number, sizeof(number), "%.17g%s", x, end);
-    text += number;
-  };
-  text += "\n";
-  for (const double x : s.knots_u) put(x, " ");
-  text += "\n";
-  for (const double x : s.knots_v) put(x, " ");
-  text += "\n";
-  for (const tools::ControlPoint& p : s.points) put(p.w, " ");
-  for (const tools::ControlPoint& p : s.points) {
-    text += "\n";
-    put(p.x, " "), put(p.y, " "), put(p.z, "");
-  }
-  return text + "\n";
-}
-
-std::string csv_of(const std::vector<Point>& points) {
-  std::string text = "x,y,z\n";
-  char row[100];
-  for (const Point& p : points) {
-    std::snprintf(row, sizeof(row), "%.9g,%.9g,%.9g\n", p.x, p.y, p.z);
-    text += row;
-  }
-  return text;
-}
-
-// All foot-points from scratch, against the global routine of another library on the same points.
-template <class Spline>
-void race(const char* what, const Spline& spline, const std::vector<Point>& path, const Peer& peer,
-          Report& report) {
-  const std::string of = "all foot-points from scratch against the peer's nearest";
-  if (!peer.is_present()) return report.absent(of, what, kPeerAbsent);
-  report.stage(std::string("the peer, ") + what);
-  const Footpoints feet = [&] {
-    if constexpr (std::is_same_v<Spline, tools::SplineCurve>)
-      return Footpoints(bezier_pieces(spline), {});
-    else
-      return Footpoints({}, bezier_pieces(spline));
-  }();
-  const TemporaryFolder folder;
-  const Contender ours = timed(path.size(), [&] {
-    double total = 0;
-    for (const Point p : path) {
-      bool is_complete = false;
-      total += feet.all(p, is_complete).front().distance_m;
-    }
-    return total;
-  });
-  const std::vector<double> us =
-      medians_us({ours, peer.contender("spline", folder.write("spline.txt", plain_text(spline)),
-                                       folder.write("points.csv", csv_of(path)))});
-  report.figure(of, what, us[0] / us[1], "x",
-                number_text(us[0]) + " us, the peer " + number_text(us[1]) + " us");
-}
-
 Case model_case(const std::string& path, size_t positions) {
   const tools::SplineModel model = tools::read_spline_file(path, 0);
   if (!model.problem.empty()) throw Problem(model.problem);
@@ -345,20 +265,7 @@ void run_splines(const Options& options, Report& report) {
     }
     run_surfaces(std::move(cases), "4 surfaces", {4, 5}, report);
   }
-  if (options.models.empty()) {
-    const Peer peer(options.peer);
-    report.heading("against another library's global routine");
-    race("planar cubic", tools::winding_curve(1, 15, true, false),
-         tools::wandering_path(1, 300, kStep, 0, 0), peer, report);
-    race("planar NURBS", tools::winding_curve(2, 15, true, true),
-         tools::wandering_path(2, 300, kStep, 0, 0), peer, report);
-    race("space NURBS", tools::winding_curve(3, 15, false, true),
-         tools::wandering_path(3, 300, kStep, -0.2, 1.2), peer, report);
-    race("surface", tools::hilly_surface(1, 8, 0.15, false),
-         tools::wandering_path(1, 100, kStep, -0.3, 0.5), peer, report);
-    race("NURBS surface", tools::hilly_surface(2, 8, 0.15, true),
-         tools::wandering_path(2, 100, kStep, -0.3, 0.5), peer, report);
-  }
+  if (options.models.empty()) race_splines(options, report);
   if (!options.figures.empty()) draw_spline_figures(options, report);
 }
 

@@ -171,7 +171,7 @@ const Command& bake_command() {
        {"--fast", nullptr,
         "meshes: the fastest on a controller rather than the smallest (the default)"},
        {"--small", nullptr,
-        "meshes: a third less flash, a third more work a query; spline surfaces likewise"},
+        "meshes: a third less flash, a third more work a query; splines: half the flash"},
        {"--desktop", nullptr,
         "meshes: the fastest on a desktop with AVX2; half as much work again on a controller"},
        {"--distance-map", "CELLS",
