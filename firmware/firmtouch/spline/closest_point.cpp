@@ -96,12 +96,39 @@ Closest answer_at(const View& model, const Best& best, uint32_t piece_index) {
 // sum (halved by the root) and one each of root and result; the rest is the model's own.
 float lost_m(const Head& head, float distance_m) { return head.loss_m + 5.5f * kUnit * distance_m; }
 
-template <class Shape>
-Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
-  const Head& head = model.head();
-  const query::Carried carried = query::carry(hint, p_m);
+Best best_of(const Head& head) {
   Best best;
   best.gap_m = head.extent_m * (head.is_rational != 0 ? kRationalGap : kGap);
+  return best;
+}
+
+// What a search leaves: the answer with its certificate, and the hint but for place and fence.
+template <class Search>
+Closest certified(const View& model, Vec3 p_m, const Search& search, const Best& best,
+                  uint32_t piece, const query::Carried& carried, query::Hint& hint) {
+  const Head& head = model.head();
+  Closest closest = answer_at(model, best, piece);
+  float lower_m = best.limit_m < closest.distance_m ? best.limit_m : closest.distance_m;
+  const bool is_complete = search.is_complete();
+  if (!is_complete) {
+    const float pending_m = search.pending_m(outside_m(head, p_m));
+    if (pending_m < lower_m) lower_m = pending_m;
+  }
+  lower_m -= lost_m(head, closest.distance_m);
+  if (!is_complete && carried.lower_m > lower_m) lower_m = carried.lower_m;
+  closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  closest.certificate.steps = search.steps();
+  closest.certificate.exact = is_complete;
+  hint.position_m = p_m;
+  hint.lower_m = closest.certificate.lower_m;
+  hint.sign = 0;
+  return closest;
+}
+
+template <class Shape>
+Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+  const query::Carried carried = query::carry(hint, p_m);
+  Best best = best_of(model.head());
   Shape shape(model, p_m);
   Search<Shape> search(shape, budget.steps, best);
   Fence fence{hint.fence, carried.fence_m};
@@ -112,29 +139,15 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& h
     search.run_warm(leaf, range, kFenceMotions * carried.motion_m, fence);
   } else {
     begin_at_first(model, p_m, best);
-    search.run_cold(outside_m(head, p_m));
+    search.run_cold(outside_m(model.head(), p_m));
     fence = {query::kNowhere, 0.0f};
   }
-
   const bool is_first = best.node == query::kNowhere;
-  Closest closest = answer_at(model, best, is_first ? 0 : shape.piece_of(best.node));
-  float lower_m = best.limit_m < closest.distance_m ? best.limit_m : closest.distance_m;
-  const bool is_complete = search.is_complete();
-  if (!is_complete) {
-    const float pending_m = search.pending_m(outside_m(head, p_m));
-    if (pending_m < lower_m) lower_m = pending_m;
-  }
-  lower_m -= lost_m(head, closest.distance_m);
-  if (!is_complete && carried.lower_m > lower_m) lower_m = carried.lower_m;
-  closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
-  closest.certificate.steps = search.steps();
-  closest.certificate.exact = is_complete;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
+  const Closest closest =
+      certified(model, p_m, search, best, is_first ? 0 : shape.piece_of(best.node), carried, hint);
   hint.place = query::kNowhere;
   if (!is_first) shape.leave(best, motion_m, hint);
-  hint.position_m = p_m;
-  hint.lower_m = closest.certificate.lower_m;
-  hint.sign = 0;
   hint.fence = fence.node;
   hint.fence_m = fence.distance_m;
   return closest;
@@ -142,41 +155,25 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& h
 
 template <bool kFlat>
 Closest answer_curve(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
-  const Head& head = model.head();
   const query::Carried carried = query::carry(hint, p_m);
-  Best best;
-  best.gap_m = head.extent_m * (head.is_rational != 0 ? kRationalGap : kGap);
+  Best best = best_of(model.head());
   CurveSearch<kFlat> search(model, p_m, budget.steps, best);
   LeafFence fence{hint.fence & 0xFFFFu, hint.fence >> 16, carried.fence_m};
   uint32_t leaf;
   typename CurveSearch<kFlat>::Range range;
   const bool is_warm = search.resume(hint.place, leaf, range);
   if (is_warm) {
-    search.run_warm(leaf, range, kFenceReach * head.extent_m, fence);
+    search.run_warm(leaf, range, kFenceReach * model.head().extent_m, fence);
   } else {
     begin_at_first(model, p_m, best);
-    search.run_cold(outside_m(head, p_m));
+    search.run_cold(outside_m(model.head(), p_m));
     fence = {0xFFFFu, 0xFFFFu, 0.0f};
   }
-
   const bool is_first = best.node == query::kNowhere;
-  Closest closest = answer_at(model, best, is_first ? 0 : search.piece_of(best.node));
-  float lower_m = best.limit_m < closest.distance_m ? best.limit_m : closest.distance_m;
-  const bool is_complete = search.is_complete();
-  if (!is_complete) {
-    const float pending_m = search.pending_m(outside_m(head, p_m));
-    if (pending_m < lower_m) lower_m = pending_m;
-  }
-  lower_m -= lost_m(head, closest.distance_m);
-  if (!is_complete && carried.lower_m > lower_m) lower_m = carried.lower_m;
-  closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
-  closest.certificate.steps = search.steps();
-  closest.certificate.exact = is_complete;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
+  const Closest closest =
+      certified(model, p_m, search, best, is_first ? 0 : search.piece_of(best.node), carried, hint);
   hint.place = is_first ? query::kNowhere : search.place_after(motion_m);
-  hint.position_m = p_m;
-  hint.lower_m = closest.certificate.lower_m;
-  hint.sign = 0;
   hint.fence = fence.first | fence.last << 16;
   hint.fence_m = fence.distance_m;
   return closest;
