@@ -51,6 +51,7 @@ OptionsWithoutMeaningAreRefused() {
   f query scene.fta box distance --mode exact </dev/null; exits 2; told '--mode has no meaning for distance'
   f query scene.fta bend curve --n 3 </dev/null; exits 2; told '--n has no meaning for --mode exact'
   f make part --points 9 -o p.obj; exits 2; told '--points has no meaning for part'
+  f make surface --space -o s.igs; exits 2; told '--space has no meaning for surface'
 }
 
 AMissingFileIsNamed() {
@@ -146,15 +147,15 @@ AMadeFileIsWhatItsNameSays() {
   f make part -o p.ply; exits 2; told "'p.ply'" '.obj' '-o p.obj'; absent p.ply
   f make part -o p; exits 2; told '.obj'; absent p
   f make path -o p.obj; exits 2; told '.csv'; absent p.obj
+  f make curve -o c.bpt; exits 2; told "'c.bpt'" '.igs'; absent c.bpt
   box >box.obj
   f make walk box.obj -o w.txt; exits 2; told "'w.txt'" '.csv'; absent w.txt
   f make part --triangles 2000 -o P.OBJ; exits 0
 }
 
 MakingIsDeterministicToo() {
-  for kind in 'part --triangles 2000' path; do
-    # shellcheck disable=SC2086
-    case $kind in path) end=csv ;; *) end=obj ;; esac
+  for kind in 'part --triangles 2000' path 'curve --space' 'surface --weights'; do
+    case $kind in part*) end=obj ;; path) end=csv ;; *) end=igs ;; esac
     # shellcheck disable=SC2086
     f make $kind --seed 3 -o a.$end
     exits 0

@@ -66,3 +66,24 @@ max,0.130000'
   told 'trimmed-face.igs:6: entity 144 in line 6' 'trimmed surfaces are not read'
   absent bad.fta
 }
+
+# A walk of a spline goes through its box and a fifth of its extent beyond, in even steps; of a curve in a plane it stays there.
+AWalkAboutSplinesKeepsToTheirBox() {
+  f make curve -o c.igs; exits 0
+  f make curve --space -o s.igs; exits 0
+  for name in c s; do
+    f make walk $name.igs --points 3000 -o w.csv; exits 0
+    f bake $name.igs -o a.fta; exits 0
+    extent=$(printf '%s\n' "$err" | sed -n 's/.*extent \([0-9.]*\) m.*/\1/p')
+    awk -F, -v extent="$extent" -v planar="$([ $name = c ] && echo 1)" '
+      NR == 1 { next }
+      NR > 2 { step = sqrt(($1 - x) ^ 2 + ($2 - y) ^ 2 + ($3 - z) ^ 2); if (step > 1.002 * 0.002 * extent) far++; sum += step }
+      { for (i = 1; i <= 3; i++) { if (NR == 2 || $i < low[i]) low[i] = $i; if (NR == 2 || $i > high[i]) high[i] = $i }
+        x = $1; y = $2; z = $3 }
+      END { for (i = 1; i <= 3; i++) if (high[i] - low[i] > 1.41 * extent) exit 1
+            exit far > 0 || sum < 0.0019 * extent * 2900 || (planar != "") != (high[3] == low[3]) }' w.csv ||
+      fail "the walk of $name.igs"
+  done
+  printf 'no spline\n' >bad.igs
+  f make walk bad.igs -o w2.csv; exits 3; told bad.igs; absent w2.csv
+}

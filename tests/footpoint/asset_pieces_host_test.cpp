@@ -5,8 +5,8 @@
 
 #include "bake/bake_spline.hpp"
 #include "footpoint/footpoints.hpp"
-#include "footpoint/sample_splines.hpp"
 #include "harness/test.hpp"
+#include "spline/sample_splines.hpp"
 #include "surface/random.hpp"
 
 namespace {

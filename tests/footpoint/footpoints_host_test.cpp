@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "footpoint/sample_splines.hpp"
 #include "harness/test.hpp"
 #include "spline/random_splines.hpp"
 #include "spline/read_spline.hpp"
+#include "spline/sample_splines.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "footpoint/footpoints.hpp"
-#include "footpoint/sample_splines.hpp"
 #include "harness/test.hpp"
+#include "spline/sample_splines.hpp"
 #include "surface/random.hpp"
 
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "footpoint/sample_splines.hpp"
 #include "harness/test.hpp"
+#include "spline/sample_splines.hpp"
 #include "surface/random.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 #include "bench/all_benches.hpp"
 #include "bench/problem.hpp"
 #include "firmtouch/spline/closest_point.hpp"
-#include "footpoint/sample_splines.hpp"
+#include "spline/sample_splines.hpp"
 
 // Of planar curves: cells that list what may be nearest, beside the tree that is baked.
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 
 #include "bench/problem.hpp"
-#include "footpoint/sample_splines.hpp"
 #include "footpoint/tracker.hpp"
 #include "spline/read_spline.hpp"
+#include "spline/sample_splines.hpp"
 
 namespace firmtouch::bench {
 namespace {

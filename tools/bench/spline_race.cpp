@@ -11,7 +11,7 @@
 #include "bench/timing.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "footpoint/footpoints.hpp"
-#include "footpoint/sample_splines.hpp"
+#include "spline/sample_splines.hpp"
 
 namespace firmtouch::bench {
 namespace {

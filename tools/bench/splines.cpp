@@ -8,9 +8,9 @@
 #include "bench/spline_pictures.hpp"
 #include "bench/spline_race.hpp"
 #include "bench/timing.hpp"
-#include "footpoint/sample_splines.hpp"
 #include "footpoint/tracker.hpp"
 #include "spline/read_spline.hpp"
+#include "spline/sample_splines.hpp"
 
 // The published method for splines at the published parameters: Seong, Johnson, Cohen, section 5.
 

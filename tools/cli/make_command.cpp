@@ -1,4 +1,4 @@
-#include <cstdio>
+#include <algorithm>
 
 #include "bake/bake_mesh.hpp"
 #include "cli/baked_input.hpp"
@@ -8,6 +8,9 @@
 #include "curve/make_hand_walk.hpp"
 #include "curve/read_curve_csv.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "spline/read_spline.hpp"
+#include "spline/sample_splines.hpp"
+#include "spline/write_iges.hpp"
 #include "surface/make_part.hpp"
 #include "surface/make_walk.hpp"
 #include "surface/write_surface.hpp"
@@ -19,39 +22,85 @@ constexpr uint32_t kWalkPoints = 20000;
 constexpr uint32_t kPathPoints = 2000;
 constexpr uint32_t kPartTriangles = 20000;
 constexpr uint32_t kMostPoints = 100000000;
+constexpr uint32_t kControlPoints = 15, kMostControlPoints = 1000;  // of a spline, in one direction
+constexpr double kRise = 0.15;                                      // of a surface's hills
+constexpr double kSplineStep = 0.002;                               // of the extent
 
-void write_text(const std::string& path, const std::string& text) {
-  write_file(path, text.data(), text.size());
-}
+// Of what is made: the format it is written in (a name that says another would lie), and its own options.
+struct Kind {
+  const char* name;
+  const char* extension;
+  std::string (*make)(const Arguments& arguments, uint64_t seed);
+  std::vector<std::string> options;
+};
 
-void forbid(const Arguments& arguments, const std::string& kind, const std::string& option) {
-  if (arguments.has(option))
-    fail_usage("make: " + option + " has no meaning for " + kind + "; leave it out");
-}
-
-// What is written is one format a kind: a name that says another would lie.
-void demand_extension(const std::string& kind, const std::string& output) {
-  const std::string wanted = kind == "part" ? ".obj" : ".csv";
-  if (extension_of(output) == wanted) return;
-  fail_usage("make: " + kind + " writes " + wanted + ", and '" + output +
+void demand_extension(const Kind& kind, const std::string& output) {
+  const std::string wanted = kind.extension, name = kind.name;
+  if (extension_of(output) == wanted || (wanted == ".igs" && extension_of(output) == ".iges"))
+    return;
+  fail_usage("make: " + name + " writes " + wanted + ", and '" + output +
              "' does not end in it; name a file that does: -o " + stem_of(output) + wanted);
 }
 
 std::string made_part(const Arguments& arguments, uint64_t seed) {
-  forbid(arguments, "part", "--points");
   const uint32_t triangles = arguments.count("--triangles", kPartTriangles, 2000, 4000000);
   return tools::to_obj(tools::make_part(seed, triangles));
 }
 
 std::string made_path(const Arguments& arguments, uint64_t seed) {
-  forbid(arguments, "path", "--triangles");
   return tools::to_csv(
       tools::make_path(seed, arguments.count("--points", kPathPoints, 16, kMostPoints)));
 }
 
+std::string made_curve(const Arguments& arguments, uint64_t seed) {
+  tools::SplineModel model;
+  model.curves.push_back(tools::winding_curve(
+      seed, arguments.count("--control-points", kControlPoints, 4, kMostControlPoints),
+      !arguments.has("--space"), arguments.has("--weights")));
+  model.curves[0].is_planar = !arguments.has("--space");
+  return tools::to_iges(model);
+}
+
+std::string made_surface(const Arguments& arguments, uint64_t seed) {
+  tools::SplineModel model;
+  model.surfaces.push_back(
+      tools::hilly_surface(seed, arguments.count("--control-points", 8, 4, kMostControlPoints),
+                           kRise, arguments.has("--weights")));
+  return tools::to_iges(model);
+}
+
+// Through the box about a spline and a fifth of its extent beyond, as the published examples are
+// asked: near the middle of a shape, where much of it is about as near, as often as beside it.
+std::string walk_about_spline(const std::string& path, uint64_t seed, uint32_t points) {
+  constexpr int kSamples = 16;  // of a piece, in one direction
+  const auto share = [](int i) { return static_cast<double>(i) / kSamples; };
+  const tools::SplineModel model = tools::read_spline_file(path, 0);
+  if (!model.problem.empty()) fail_input(model.problem);
+  std::vector<tools::Point> on_it;
+  for (const tools::SplineCurve& curve : model.curves)
+    for (const tools::BezierCurve& piece : bezier_pieces(curve))
+      for (int i = 0; i <= kSamples; ++i) on_it.push_back(point_at(piece, share(i)));
+  for (const tools::SplineSurface& surface : model.surfaces)
+    for (const tools::BezierPatch& piece : bezier_pieces(surface))
+      for (int i = 0; i <= kSamples; ++i)
+        for (int j = 0; j <= kSamples; ++j) on_it.push_back(point_at(piece, share(i), share(j)));
+  tools::Point low = on_it[0], high = low;
+  for (const tools::Point p : on_it) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const bool is_flat = model.surfaces.empty() && !(high.z > low.z);
+  std::vector<math::Vec3> walk;
+  for (const tools::Point& p :
+       tools::path_about(tools::wandering_path(seed, points, kSplineStep, is_flat ? 0.5 : -0.2,
+                                               is_flat ? 0.5 : 1.2),
+                         low, high))
+    walk.push_back(tools::to_vec3(p));
+  return tools::to_csv(walk);
+}
+
 // A walk touches any surface, also one without inside and outside.
 std::string made_walk(const Arguments& arguments, uint64_t seed) {
-  forbid(arguments, "walk", "--triangles");
   const std::string& model = arguments.positionals()[1];
   forbid_overwriting(arguments.text("-o", ""), model);
   const uint32_t points = arguments.count("--points", kWalkPoints, 1, kMostPoints);
@@ -60,6 +109,9 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
     if (!curve.problem.empty()) fail_input(curve.problem);
     return tools::to_csv(tools::make_hand_walk(curve.samples_m, seed, points));
   }
+  const std::string extension = extension_of(model);
+  if (extension == ".igs" || extension == ".iges" || extension == ".bpt")
+    return walk_about_spline(model, seed, points);
   BakeOptions options;
   options.is_signed = false;
   const tools::Surface surface = sound_surface(model, read_model(model), options).surface;
@@ -78,51 +130,73 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
   }));
 }
 
+const Kind kKinds[] = {
+    {"part", ".obj", made_part, {"--triangles"}},
+    {"path", ".csv", made_path, {"--points"}},
+    {"walk", ".csv", made_walk, {"--points"}},
+    {"curve", ".igs", made_curve, {"--control-points", "--space", "--weights"}},
+    {"surface", ".igs", made_surface, {"--control-points", "--weights"}},
+};
+
+const Kind& kind_of(const std::string& name) {
+  for (const Kind& kind : kKinds)
+    if (name == kind.name) return kind;
+  fail_usage("make: '" + name + "' cannot be made; make part, path, walk, curve or surface");
+}
+
+void forbid_options_of_others(const Arguments& arguments, const Kind& kind) {
+  for (const Kind& other : kKinds)
+    for (const std::string& option : other.options)
+      if (arguments.has(option) &&
+          std::find(kind.options.begin(), kind.options.end(), option) == kind.options.end())
+        fail_usage("make: " + option + " has no meaning for " + kind.name + "; leave it out");
+}
+
 }  // namespace
 
 const Command& make_command() {
   static const Command command{
       "make",
-      "part|path|walk MODEL -o FILE [options]",
-      "Makes the demo's part and guide path, and touching paths; the same on every machine.",
-      "part  a closed mesh (.obj)\n"
-      "path  the guide that runs in the groove of the part of the same seed (.csv)\n"
-      "walk  a random walk that stays within 2 % of the diagonal of MODEL's surface, 0.0005 "
-      "diagonals a\n"
-      "      step (.csv): what a touching hand asks; of a curve (.csv): a hand led along it once, "
-      "up to\n"
-      "      1 % of its diagonal aside",
+      "part|path|curve|surface|walk MODEL -o FILE [options]",
+      "Makes the demo's part and guide path, splines, and walks to ask a model along; the same on "
+      "every machine.",
+      "part     a closed mesh (.obj)\n"
+      "path     the guide that runs in the groove of the part of the same seed (.csv)\n"
+      "curve    a cubic spline curve that winds about in a plane (.igs)\n"
+      "surface  a bicubic spline surface of hills (.igs)\n"
+      "walk     of a mesh: a random walk that stays within 2 % of the diagonal of its surface, "
+      "0.0005\n"
+      "         diagonals a step (.csv): what a touching hand asks; of a path (.csv): a hand led "
+      "along\n"
+      "         it once, up to 1 % of its diagonal aside; of splines (.igs, .iges, .bpt): all "
+      "through\n"
+      "         their box and a fifth of its extent beyond, 0.002 extents a step",
       {{"-o", "FILE", "the file to write"},
        {"--seed", "N", "which of them (default 1)"},
        {"--points", "N", "path, walk: how many (default 2000, 20000)"},
-       {"--triangles", "N", "part: at least so many (default 20000)"}},
+       {"--triangles", "N", "part: at least so many (default 20000)"},
+       {"--control-points", "N", "curve, surface: how many, each way (default 15, 8)"},
+       {"--space", nullptr, "curve: not in a plane"},
+       {"--weights", nullptr, "curve, surface: a NURBS whose weights differ"}},
       1,
       2};
   return command;
 }
 
 int run_make(const Arguments& arguments) {
-  const std::string& kind = arguments.positionals()[0];
+  const Kind& kind = kind_of(arguments.positionals()[0]);
   const std::string output = arguments.text("-o", "");
-  if (kind != "part" && kind != "path" && kind != "walk") {
-    fail_usage("make: '" + kind + "' cannot be made; make part, path or walk");
-  }
-  const size_t words = kind == "walk" ? 2 : 1;
+  const size_t words = std::string("walk") == kind.name ? 2 : 1;
   if (arguments.positionals().size() < words)
     fail_usage("make: walk needs a model: make walk MODEL -o FILE");
   if (arguments.positionals().size() > words) {
     fail_usage("make: one word too many: '" + arguments.positionals()[words] + "'");
   }
   if (output.empty()) fail_usage("make: say where to write: -o FILE");
+  forbid_options_of_others(arguments, kind);
   demand_extension(kind, output);
-  const uint64_t seed = arguments.count("--seed", 1, 0, UINT32_MAX);
-  if (kind == "part") {
-    write_text(output, made_part(arguments, seed));
-  } else if (kind == "path") {
-    write_text(output, made_path(arguments, seed));
-  } else {
-    write_text(output, made_walk(arguments, seed));
-  }
+  const std::string text = kind.make(arguments, arguments.count("--seed", 1, 0, UINT32_MAX));
+  write_file(output, text.data(), text.size());
   return kDone;
 }
 

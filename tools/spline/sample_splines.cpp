@@ -1,8 +1,9 @@
-#include "footpoint/sample_splines.hpp"
+#include "spline/sample_splines.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "firmtouch/math/elementary.hpp"
 #include "surface/random.hpp"
 
 namespace firmtouch::tools {
@@ -23,8 +24,9 @@ SplineCurve winding_curve(uint64_t seed, size_t n, bool is_planar, bool weighs) 
     heading += random.between(-1.2, 2.2);
     const double step = random.between(0.1, 0.45);
     const auto inside = [](double to) { return to < 0 ? -to : to > 1 ? 2 - to : to; };
-    x = inside(x + step * std::cos(heading));
-    y = inside(y + step * std::sin(heading));
+    const auto angle_rad = static_cast<float>(heading);
+    x = inside(x + step * static_cast<double>(math::cosine(angle_rad)));
+    y = inside(y + step * static_cast<double>(math::sine(angle_rad)));
   }
   return c;
 }

@@ -7,7 +7,7 @@
 namespace firmtouch::tools {
 
 /// Curves and surfaces of about unit size, as the published examples are, and a path beside them, for
-/// benches and tests. The same for a seed on every run.
+/// benches, tests and `firmtouch make`. The same for a seed on every machine.
 
 /// A clamped cubic of `n` points that winds about, uneven knots.
 SplineCurve winding_curve(uint64_t seed, size_t n, bool is_planar, bool weighs);
