@@ -34,6 +34,7 @@ uint32_t comparisons_that_differ(bool is_special) {
   }
   const auto less = math::less(x, y), at_most = math::at_most(x, y);
   const Float chosen = math::select(less, x, y);
+  const Float larger = math::larger(x, y), smaller = math::smaller(x, y);
   const auto mask = math::select(less, at_most, ~at_most);
   uint32_t differ = 0;
   for (uint32_t k = 0; k < kLanes; ++k) {
@@ -41,6 +42,8 @@ uint32_t comparisons_that_differ(bool is_special) {
     if (((math::lanes_of(less) >> k) & 1u) != (is_less ? 1u : 0u)) ++differ;
     if (((math::lanes_of(at_most) >> k) & 1u) != (is_at_most ? 1u : 0u)) ++differ;
     if (math::bits_of(chosen[k]) != math::bits_of(is_less ? a[k] : b[k])) ++differ;
+    if (math::bits_of(larger[k]) != math::bits_of(a[k] > b[k] ? a[k] : b[k])) ++differ;
+    if (math::bits_of(smaller[k]) != math::bits_of(is_less ? a[k] : b[k])) ++differ;
     if ((mask[k] != 0) != (is_less ? is_at_most : !is_at_most)) ++differ;
   }
   if ((math::lanes_of(less) >> kLanes) != 0) ++differ;

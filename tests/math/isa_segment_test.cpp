@@ -1,4 +1,4 @@
-// The variants of a segment against two boxes give the bits of the portable definition.
+// The variants of a segment against boxes give the bits of the portable definition.
 #include "firmtouch/math/isa_segment.hpp"
 
 #include "harness/test.hpp"
@@ -14,18 +14,35 @@ uint32_t next_random() {
 }
 float unit() { return static_cast<float>(next_random() >> 8) * 0x1p-24f; }
 
-// From inside the grid or beside it, of any length; every eleventh too far off or not a number.
-math::GridSegment random_segment(uint32_t i) {
+struct Segment {
+  float a[3], b[3];
+  math::Vec3 from() const { return {a[0], a[1], a[2]}; }
+  math::Vec3 to() const { return {b[0], b[1], b[2]}; }
+};
+constexpr float kLow[3] = {-3.25f, 0.5f, 17.0f};
+constexpr float kCell = 0x1p-9f;
+
+// From inside the grid or beside it, of any length, some along an axis; every eleventh too far off
+// or not a number.
+Segment random_segment(uint32_t i) {
   constexpr float kLengths[] = {1e6f, 3e4f, 1e3f, 4.0f, 0.0f, 1e-31f, 1e18f};
   const float strange[] = {1e19f, -1e30f, math::float_of(0x7F800000u), math::float_of(0x7FC00000u)};
-  math::GridSegment segment;
+  Segment segment;
   for (uint32_t k = 0; k < 3; ++k) {
-    segment.origin[k] = (unit() * 1.25f - 0.125f) * 32768.0f;
-    segment.step[k] = (unit() - 0.5f) * kLengths[next_random() % 7];
+    segment.a[k] = kLow[k] + (unit() * 1.25f - 0.125f) * 32768.0f * kCell;
+    segment.b[k] = segment.a[k] + (unit() - 0.5f) * kLengths[next_random() % 7] * kCell;
   }
-  if (i % 11 == 0) segment.origin[next_random() % 3] = strange[next_random() % 4];
-  if (i % 11 == 5) segment.step[next_random() % 3] = strange[next_random() % 4];
+  if (i % 11 == 0) segment.a[next_random() % 3] = strange[next_random() % 4];
+  if (i % 11 == 5) segment.b[next_random() % 3] = strange[next_random() % 4];
   return segment;
+}
+
+void random_boxes(bool is_all, uint32_t (&boxes)[8]) {  // the fourth words: any
+  for (uint32_t& word : boxes) {
+    const uint32_t low = next_random() & 0x7FFFu, high = next_random() & 0x7FFFu;
+    word = (low < high ? low : high) | (32767u - (low < high ? high : low)) << 16;
+    if (is_all) word = 0;
+  }
 }
 
 }  // namespace
@@ -33,31 +50,73 @@ math::GridSegment random_segment(uint32_t i) {
 TEST(BoxesEnteredByASegmentAreThePortableOnesToTheBit) {
   uint32_t differ = 0, entered = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
-    const math::GridSegment segment = random_segment(i);
+    const Segment segment = random_segment(i);
     math::PortableSlabs portable;
-    math::Slabs slabs;
-    const bool is_near = portable.begin(segment);
-    CHECK_EQ(slabs.begin(segment), is_near);
+    math::FamilySlabs family;
+    const bool is_near = portable.begin(math::on_grid(segment.from(), segment.to(), kLow, kCell));
+    CHECK_EQ(family.begin(segment.from(), segment.to(), kLow, kCell), is_near);
     CHECK_EQ(is_near, i % 11 != 0 && i % 11 != 5);
-    const float limit = i % 3 == 0 ? 1.0f : unit();
-    portable.set_limit(limit);
-    slabs.set_limit(limit);
-    uint32_t boxes[7];  // the fourth word: any
-    for (uint32_t& word : boxes) {
-      const uint32_t low = next_random() & 0x7FFFu, high = next_random() & 0x7FFFu;
-      word = (low < high ? low : high) | (32767u - (low < high ? high : low)) << 16;
-      if (i % 4 == 0) word = 0;  // all of the grid
-    }
-    uint32_t expected[2], told[2];
-    portable.enter(boxes, expected);
-    slabs.enter(boxes, told);
-    for (uint32_t box = 0; box < 2; ++box) {
-      if (expected[box] != told[box]) ++differ;
-      if (expected[box] != math::kNotEntered) ++entered;
-      if (!is_near) CHECK_EQ(told[box], 0u);
+    portable.set_limit(1.0f);
+    uint32_t boxes[2][8];
+    uint64_t told[2];
+    for (uint32_t(&two)[8] : boxes) random_boxes(i % 4 == 0, two);
+    family.enter(boxes[0], boxes[1], told[0], told[1]);
+    CHECK_EQ(family.enter_two(boxes[0]), told[0]);
+    for (uint32_t pair = 0; pair < 2; ++pair) {
+      uint32_t expected[2];
+      portable.enter(boxes[pair], expected);
+      if (math::keys_of(expected[0], expected[1]) != told[pair]) ++differ;
+      for (const uint32_t key : expected) {
+        if (key != math::kNotEntered) ++entered;
+        if (!is_near) CHECK_EQ(key, 0u);
+      }
     }
   }
   CHECK_EQ(differ, 0u);
-  CHECK_LT(4000u, entered);
-  CHECK_LT(entered, 36000u);
+  CHECK_LT(8000u, entered);
+  CHECK_LT(entered, 72000u);
+}
+
+// What a search that looks ahead relies on: it measures boxes once, with a limit of 1.
+TEST(ALimitOnlyTakesAwayBoxesThatAreEnteredLater) {
+  uint32_t taken = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const Segment segment = random_segment(i);
+    math::PortableSlabs slabs;
+    slabs.begin(math::on_grid(segment.from(), segment.to(), kLow, kCell));
+    uint32_t boxes[8], whole[2], limited[2];
+    random_boxes(i % 4 == 0, boxes);
+    slabs.set_limit(1.0f);
+    slabs.enter(boxes, whole);
+    const float limit = unit();
+    slabs.set_limit(limit);
+    slabs.enter(boxes, limited);
+    for (uint32_t box = 0; box < 2; ++box) {
+      CHECK_EQ(limited[box], whole[box] <= math::bits_of(limit) ? whole[box] : math::kNotEntered);
+      if (limited[box] != whole[box]) ++taken;
+    }
+  }
+  CHECK_LT(50u, taken);
+}
+
+TEST(WhatWaitsIsOrderedAndReplacedWithWhatGoesWithIt) {
+  for (uint32_t i = 0; i < 4000; ++i) {
+    const auto any = [] {
+      const uint64_t low = next_random();
+      return next_random() % 5 == 0 ? UINT64_MAX : uint64_t{next_random()} << 32 | low;
+    };
+    const math::Waiting a{any(), any()}, b{i % 7 == 0 ? a.what : any(), any()};
+    math::Waiting first = a, second = b;
+    math::put_in_order(first, second);
+    const bool swaps = b.what < a.what;
+    CHECK_EQ(first.what, swaps ? b.what : a.what);
+    CHECK_EQ(first.keys, swaps ? b.keys : a.keys);
+    CHECK_EQ(second.what, swaps ? a.what : b.what);
+    CHECK_EQ(second.keys, swaps ? a.keys : b.keys);
+    const uint64_t last = i % 3 == 0 ? a.what : any();
+    math::Waiting now = a;
+    math::replace_beyond(last, now, b);
+    CHECK_EQ(now.what, a.what > last ? b.what : a.what);
+    CHECK_EQ(now.keys, a.what > last ? b.keys : a.keys);
+  }
 }

@@ -83,6 +83,22 @@ static inline Mask4 select(Mask4 mask, Mask4 a, Mask4 b) {
       select(mask, reinterpret_cast<Float4>(a), reinterpret_cast<Float4>(b)));
 }
 
+// a > b ? a : b and a < b ? a : b.
+static inline Float4 larger(Float4 a, Float4 b) {
+#if FIRMTOUCH_ISA_AVX2
+  return _mm_max_ps(a, b);
+#else
+  return select(less(b, a), a, b);
+#endif
+}
+static inline Float4 smaller(Float4 a, Float4 b) {
+#if FIRMTOUCH_ISA_AVX2
+  return _mm_min_ps(a, b);
+#else
+  return select(less(a, b), a, b);
+#endif
+}
+
 /// Bit k: lane k of the mask is set.
 static inline uint32_t portable_lanes_of(Mask4 mask) {
   uint32_t bits = 0;
@@ -127,6 +143,8 @@ static inline MaskWide select(MaskWide mask, MaskWide a, MaskWide b) {
   return reinterpret_cast<MaskWide>(
       select(mask, reinterpret_cast<FloatWide>(a), reinterpret_cast<FloatWide>(b)));
 }
+static inline FloatWide larger(FloatWide a, FloatWide b) { return _mm256_max_ps(a, b); }
+static inline FloatWide smaller(FloatWide a, FloatWide b) { return _mm256_min_ps(a, b); }
 static inline uint32_t lanes_of(MaskWide mask) {
   return static_cast<uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
 }

@@ -1,10 +1,11 @@
 #pragma once
-// A segment against two boxes on a grid, with the variants of math/isa.hpp's kind. For the
-// library's own translation units.
+// A segment against boxes on a grid, with the variants of math/isa.hpp's kind. For the library's own
+// translation units.
 
 #include "firmtouch/math/isa.hpp"
+#include "firmtouch/math/vec3.hpp"
 
-#if defined(__AVX2__)
+#if defined(__AVX2__) && defined(__x86_64__)
 #define FIRMTOUCH_ISA_SLABS 1
 #else
 #define FIRMTOUCH_ISA_SLABS 0
@@ -16,6 +17,18 @@ namespace firmtouch::math {
 struct GridSegment {
   float origin[3], step[3];
 };
+
+/// The segment from `a` to `b` on a grid that begins at `low`.
+/// Pre: `cell` is a power of two.
+///
+/// With u = 2^-24 and o the origin in cells: o is off by u |o|, the box check by 2^-9 cells, rate and
+/// each plane's difference by 3 u of the plane's distance, at most |o| + 32768: 4 u |o| + 2^-7 in
+/// all. Slabs widen boxes by twice that.
+static inline GridSegment on_grid(Vec3 a, Vec3 b, const float* low, float cell) {
+  const float per_cell = 1.0f / cell;
+  return {{(a.x - low[0]) * per_cell, (a.y - low[1]) * per_cell, (a.z - low[2]) * per_cell},
+          {(b.x - a.x) * per_cell, (b.y - a.y) * per_cell, (b.z - a.z) * per_cell}};
+}
 
 // An axis along which the segment stands still (less than this in cells) has so high a rate that the
 // whole segment is inside a slab, or outside. One beyond kFarCells is not reckoned with.
@@ -75,80 +88,157 @@ class PortableSlabs {
   float limit_ = 0;
 };
 
-#if FIRMTOUCH_ISA_SLABS
-/// The same in lanes. For boxes: x, y, z of one, two lanes that hold 0 and the limit, and
-/// x, y, z of the other: as the two loads bring them.
-class LaneSlabs {
- public:
-  bool begin(const GridSegment& segment) {
-    // The fourth lane is one cell off and moves one cell.
-    const Floats4 origin = {segment.origin[0], segment.origin[1], segment.origin[2], 1},
-                  step = {segment.step[0], segment.step[1], segment.step[2], 1};
-    const Floats4 zero = {}, offset = origin < zero ? -origin : origin,
-                  size = step < zero ? -step : step;
-    const Floats4 still = zero + kStillCells, far = zero + kFarCells;
-    const Ints4 is_near = (offset <= far) & (size <= far);
-    const Floats4 slack = offset * 0x1p-21f + 0x1p-6f;
-    const Floats4 low = origin + slack, high = 32767.0f - (origin - slack);
-    const Ints4 back = step < zero;
-    const Floats4 one = zero + 1.0f;
-    set(Words4(back) & 16u, back ? high : low, back ? low : high,
-        one / (size > still ? size : still));
-    const Ints4 both = is_near & __builtin_shufflevector(is_near, is_near, 2, 3, 0, 1);
-    if ((both[0] & both[1]) != 0) return true;
-    set(Words4(back) & 16u, zero + 32768.0f, zero + 32768.0f, one);
-    return false;
-  }
-  void set_limit(float limit) {
-    const Floats8 all = Floats8{} + limit;
-    rate_ = __builtin_shufflevector(rate_, all, 0, 1, 2, 11, 12, 5, 6, 7);
-  }
+/// Keys of two boxes, that of the first in the low half.
+constexpr uint64_t keys_of(uint32_t first, uint32_t second) {
+  return uint64_t{second} << 32 | first;
+}
 
-  void enter(const uint32_t* boxes, uint32_t* key) const {
-    // Two loads that stay within the seven words.
-    Words4 front, back;
-    __builtin_memcpy(&front, boxes, sizeof front);
-    __builtin_memcpy(&back, boxes + 3, sizeof back);
-    const Words8 words = __builtin_shufflevector(front, back, 0, 1, 2, 3, 4, 5, 6, 7);
-    const Words8 half = {0xFFFFu, 0xFFFFu, 0xFFFFu, 0, 0, 0xFFFFu, 0xFFFFu, 0xFFFFu};
-    const Words8 near_half = (words >> turn_) & half, far_half = (words >> back_turn_) & half;
-    const Floats8 in = (__builtin_convertvector(Ints8(near_half), Floats8) - enter_) * rate_;
-    const Floats8 out = (leave_ - __builtin_convertvector(Ints8(far_half), Floats8)) * rate_;
-    const Floats8 in_half = __builtin_shufflevector(in, in, 2, 3, 0, 1, 6, 7, 4, 5),
-                  out_half = __builtin_shufflevector(out, out, 2, 3, 0, 1, 6, 7, 4, 5);
-    const Floats8 in2 = in > in_half ? in : in_half, out2 = out < out_half ? out : out_half;
-    const Floats8 in_other = __builtin_shufflevector(in2, in2, 1, 0, 3, 2, 5, 4, 7, 6),
-                  out_other = __builtin_shufflevector(out2, out2, 1, 0, 3, 2, 5, 4, 7, 6);
-    const Floats8 first = in2 > in_other ? in2 : in_other;
-    const Floats8 last = out2 < out_other ? out2 : out_other;
-    const Words8 keys = Words8(first) | ~Words8(first <= last);
-    key[0] = keys[0];
-    key[1] = keys[4];
+/// Twice two boxes against a segment, with a limit of 1.
+class PortableFamilySlabs {
+ public:
+  bool begin(Vec3 a, Vec3 b, const float* low, float cell) {
+    slabs_.set_limit(1.0f);
+    return slabs_.begin(on_grid(a, b, low, cell));
+  }
+  /// Of two boxes, each of three words and one more that may be read.
+  uint64_t enter_two(const uint32_t* boxes) const {
+    uint32_t key[2];
+    slabs_.enter(boxes, key);
+    return keys_of(key[0], key[1]);
+  }
+  void enter(const uint32_t* ones, const uint32_t* others, uint64_t& one_keys,
+             uint64_t& other_keys) const {
+    one_keys = enter_two(ones);
+    other_keys = enter_two(others);
   }
 
  private:
-  typedef uint32_t Words4 __attribute__((vector_size(16)));
-  typedef int32_t Ints4 __attribute__((vector_size(16)));
-  typedef float Floats4 __attribute__((vector_size(16)));
-  typedef uint32_t Words8 __attribute__((vector_size(32)));
-  typedef int32_t Ints8 __attribute__((vector_size(32)));
-  typedef float Floats8 __attribute__((vector_size(32)));
+  PortableSlabs slabs_;
+};
 
-  void set(Words4 turn, Floats4 enter, Floats4 leave, Floats4 rate) {
-    turn_ = __builtin_shufflevector(turn, turn, 0, 1, 2, 2, 2, 0, 1, 2);
-    back_turn_ = 16 - turn_;
-    const Floats4 zero = {}, one = zero + 1.0f;
-    enter_ = __builtin_shufflevector(enter, zero, 0, 1, 2, 4, 4, 0, 1, 2);
-    leave_ = __builtin_shufflevector(leave, one, 0, 1, 2, 4, 4, 0, 1, 2);
-    rate_ = __builtin_shufflevector(rate, one, 0, 1, 2, 4, 4, 0, 1, 2);
+/// What waits for its turn: the least `what` is the first; `keys` go with it.
+struct Waiting {
+  uint64_t what, keys;
+};
+
+#if FIRMTOUCH_ISA_SLABS
+/// The same in lanes, where four boxes take as long as one. The planes where the segment enters are
+/// in the low half, those where it leaves in the upper one, where out = -(high half - leave) * rate.
+class LaneFamilySlabs {
+ public:
+  bool begin(Vec3 a_in, Vec3 b_in, const float* low_in, float cell) {
+    const __m128 a = _mm_setr_ps(a_in.x, a_in.y, a_in.z, 0),
+                 b = _mm_setr_ps(b_in.x, b_in.y, b_in.z, 0);
+    const __m128 grid_low = _mm_maskload_ps(low_in, _mm_setr_epi32(-1, -1, -1, 0));
+    const __m128 per_cell = _mm_set1_ps(float_of((254u << 23) - bits_of(cell)));
+    const __m128 origin = _mm_mul_ps(_mm_sub_ps(a, grid_low), per_cell);
+    const __m128 step = _mm_mul_ps(_mm_sub_ps(b, a), per_cell), sign = _mm_set1_ps(-0.0f);
+    const __m128 offset = _mm_andnot_ps(sign, origin), size = _mm_andnot_ps(sign, step);
+    const __m128 slack =
+        _mm_add_ps(_mm_mul_ps(offset, _mm_set1_ps(0x1p-21f)), _mm_set1_ps(0x1p-6f));
+    const __m128 low = _mm_add_ps(origin, slack);
+    const __m128 high = _mm_sub_ps(_mm_set1_ps(32767.0f), _mm_sub_ps(origin, slack));
+    const __m128 back = _mm_cmp_ps(step, _mm_setzero_ps(), _CMP_LT_OQ);
+    const __m128 one = _mm_set1_ps(1.0f), far = _mm_set1_ps(kFarCells);
+    const __m128 is_near = _mm_and_ps(_mm_cmp_ps(offset, far, _CMP_LE_OQ),  // the fourth lane is
+                                      _mm_cmp_ps(size, far, _CMP_LE_OQ));
+    set(back, _mm_blendv_ps(low, high, back), _mm_blendv_ps(high, low, back),
+        _mm_div_ps(one, _mm_max_ps(size, _mm_set1_ps(kStillCells))));
+    if (_mm_movemask_ps(is_near) == 15) return true;
+    set(back, _mm_set1_ps(32768.0f), _mm_set1_ps(32768.0f), one);
+    return false;
   }
 
-  Words8 turn_, back_turn_;
-  Floats8 enter_, leave_, rate_;
+  uint64_t enter_two(const uint32_t* boxes) const {
+    uint64_t keys, again;
+    enter(boxes, boxes, keys, again);
+    return keys;
+  }
+  void enter(const uint32_t* ones, const uint32_t* others, uint64_t& one_keys,
+             uint64_t& other_keys) const {
+    const __m256i a = twice(ones), b = twice(ones + 4), c = twice(others), d = twice(others + 4);
+    const __m256i xy0 = _mm256_unpacklo_epi32(a, b), xy1 = _mm256_unpacklo_epi32(c, d);
+    const __m256i z0 = _mm256_unpackhi_epi32(a, b), z1 = _mm256_unpackhi_epi32(c, d);
+    const __m256 x = times(_mm256_unpacklo_epi64(xy0, xy1), 0),
+                 y = times(_mm256_unpackhi_epi64(xy0, xy1), 1),
+                 z = times(_mm256_unpacklo_epi64(z0, z1), 2);
+    const __m256 ends = _mm256_setr_ps(0, 0, 0, 0, -1, -1, -1, -1);
+    const __m256 last_of = _mm256_max_ps(_mm256_max_ps(x, y), _mm256_max_ps(z, ends));
+    const __m128 first = _mm256_castps256_ps128(last_of);
+    const __m128 last = _mm_xor_ps(_mm256_extractf128_ps(last_of, 1), _mm_set1_ps(-0.0f));
+    const __m128i keys = _mm_castps_si128(_mm_or_ps(first, _mm_cmp_ps(first, last, _CMP_NLE_UQ)));
+    one_keys = static_cast<uint64_t>(_mm_cvtsi128_si64(keys));
+    other_keys = static_cast<uint64_t>(_mm_extract_epi64(keys, 1));
+  }
+
+ private:
+  static __m256i twice(const uint32_t* box) {
+    return _mm256_broadcastsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(box)));
+  }
+  // Of one axis of four boxes.
+  __m256 times(__m256i words, int axis) const {
+    const __m256 planes = _mm256_cvtepi32_ps(_mm256_shuffle_epi8(words, pick_[axis]));
+    return _mm256_mul_ps(_mm256_sub_ps(planes, plane_[axis]), rate_[axis]);
+  }
+  void set(__m128 back, __m128 enter, __m128 leave, __m128 rate) {
+    const __m256 planes = _mm256_set_m128(leave, enter), rates = _mm256_set_m128(rate, rate);
+    // Bytes of the low half of each word, or two bytes on.
+    const __m128i words =
+        _mm_setr_epi32(static_cast<int>(0x80800100), static_cast<int>(0x80800504),
+                       static_cast<int>(0x80800908), static_cast<int>(0x80800D0C));
+    const __m128i two = _mm_set1_epi32(0x0202), turn = _mm_castps_si128(back);
+    const __m256i turns = _mm256_set_m128i(_mm_andnot_si128(turn, two), _mm_and_si128(turn, two));
+    const __m256i picks = _mm256_set_m128i(words, words);
+    pick_[0] = _mm256_add_epi32(picks, _mm256_shuffle_epi32(turns, 0x00));
+    pick_[1] = _mm256_add_epi32(picks, _mm256_shuffle_epi32(turns, 0x55));
+    pick_[2] = _mm256_add_epi32(picks, _mm256_shuffle_epi32(turns, 0xAA));
+    plane_[0] = _mm256_permute_ps(planes, 0x00), rate_[0] = _mm256_permute_ps(rates, 0x00);
+    plane_[1] = _mm256_permute_ps(planes, 0x55), rate_[1] = _mm256_permute_ps(rates, 0x55);
+    plane_[2] = _mm256_permute_ps(planes, 0xAA), rate_[2] = _mm256_permute_ps(rates, 0xAA);
+  }
+
+  __m256i pick_[3];
+  __m256 plane_[3], rate_[3];
 };
-using Slabs = LaneSlabs;
+using FamilySlabs = LaneFamilySlabs;
 #else
-using Slabs = PortableSlabs;
+using FamilySlabs = PortableFamilySlabs;
 #endif
+
+/// Puts the lesser of two first; of equal ones, none moves. Moves under a condition, which
+/// compilers make branches of that no processor could foresee.
+static inline void put_in_order(Waiting& first, Waiting& second) {
+#if FIRMTOUCH_ISA_SLABS
+  const Waiting a = first, b = second;
+  uint64_t what = a.what, keys = a.keys, later_what = b.what, later_keys = b.keys;
+  __asm__(
+      "cmpq %[a], %[b]\n\tcmovbq %[b], %[what]\n\tcmovbq %[b_keys], %[keys]\n\t"
+      "cmovbq %[a], %[later_what]\n\tcmovbq %[a_keys], %[later_keys]"
+      : [what] "+&r"(what), [keys] "+&r"(keys), [later_what] "+&r"(later_what),
+        [later_keys] "+&r"(later_keys)
+      : [a] "r"(a.what), [b] "r"(b.what), [a_keys] "r"(a.keys), [b_keys] "r"(b.keys)
+      : "cc");
+  first = {what, keys};
+  second = {later_what, later_keys};
+#else
+  if (second.what < first.what) {
+    const Waiting lesser = second;
+    second = first;
+    first = lesser;
+  }
+#endif
+}
+
+/// Where `now` is beyond `last`, `other` takes its place.
+static inline void replace_beyond(uint64_t last, Waiting& now, const Waiting& other) {
+#if FIRMTOUCH_ISA_SLABS
+  __asm__("cmpq %[now], %[last]\n\tcmovbq %[other], %[now]\n\tcmovbq %[other_keys], %[keys]"
+          : [now] "+&r"(now.what), [keys] "+&r"(now.keys)
+          : [last] "r"(last), [other] "rm"(other.what), [other_keys] "rm"(other.keys)
+          : "cc");
+#else
+  if (now.what > last) now = other;
+#endif
+}
 
 }  // namespace firmtouch::math

@@ -11,9 +11,12 @@ namespace firmtouch::mesh {
 // By how much a crossing's t may be off. Floats that promise less give way to integers.
 constexpr float kTimeError = 0x1p-18f;
 
-static inline float absolute(float v) { return v < 0.0f ? -v : v; }
+static inline float absolute(float v) { return __builtin_fabsf(v); }
 static inline float larger(float a, float b) { return a > b ? a : b; }
 static inline float smaller(float a, float b) { return a < b ? a : b; }
+
+// How a segment's line passes a triangle's three edges.
+enum class Pass { kMisses, kEnters, kLeaves, kUnsure };
 
 /// The segment's own frame: the origin at a, sheared along its longest axis so that it runs along
 /// that axis. A line passes an edge on the side that the cross product of the edge's two sheared
@@ -32,12 +35,9 @@ class SegmentFrame {
   /// `low_m` and `high_m`: the box of all vertices.
   SegmentFrame(const float (&low_m)[3], const float (&high_m)[3], math::Vec3 a_m, math::Vec3 b_m)
       : a_m_(a_m), b_m_(b_m), along_m_(b_m - a_m) {
-    const float x = absolute(along_m_.x), y = absolute(along_m_.y), z = absolute(along_m_.z);
-    // The longest axis, and the next two in turn. Rows of the shear: their zeros and ones multiply
-    // exactly.
-    const uint32_t is_x = (x > y ? 1u : 0u) & (x > z ? 1u : 0u);
-    const uint32_t is_y = (y > z ? 1u : 0u) & (1u - is_x), k = 2 - 2 * is_x - is_y;
-    const uint32_t i = k == 2 ? 0 : k + 1, j = i == 2 ? 0 : i + 1;
+    // Rows of the shear: their zeros and ones multiply exactly.
+    const Axes axes = longest_axis(along_m_);
+    const uint32_t i = axes.i, j = axes.j, k = axes.k;
     const float along[3] = {along_m_.x, along_m_.y, along_m_.z}, inverse = 1.0f / along[k];
     flips_ = along[k] < 0.0f;
     float row[2][3] = {};
@@ -68,7 +68,7 @@ class SegmentFrame {
     const float e = coordinate_error_m_;  // most lie to one side
     if (p.x > e ? q.x > e && r.x > e : p.x < -e && q.x < -e && r.x < -e) return true;
     if (p.y > e ? q.y > e && r.y > e : p.y < -e && q.y < -e && r.y < -e) return true;
-    return pass(p, q, r) == Side::kMisses;
+    return pass(p, q, r) == Pass::kMisses;
   }
 
   /// Result: as exact_crossing(), with |t - exact| <= kTimeError. The same bits whatever decided
@@ -83,17 +83,23 @@ class SegmentFrame {
   /// 0 where floats are not sure that it is crossed at all, and otherwise told.t a time before which
   /// it is not, by `early` at most.
   bool decides(math::Vec3 p, math::Vec3 q, math::Vec3 r, Crossing& told, float& early) const {
-    const Side side = pass(sheared(p), sheared(q), sheared(r));
+    return decides(pass(sheared(p), sheared(q), sheared(r)), p, q, r, told, early);
+  }
+
+ protected:
+  /// The same of a triangle that the line is known to pass so.
+  [[gnu::always_inline]] inline bool decides(Pass way, math::Vec3 p, math::Vec3 q, math::Vec3 r,
+                                             Crossing& told, float& early) const {
     told = {};
     early = 1.0f;
-    if (side == Side::kMisses) return true;
+    if (way == Pass::kMisses) return true;
     float error;
     bool is_steady;
     const float t = time(p, q, r, error, is_steady);
-    const bool is_through = side != Side::kUnsure;
+    const bool is_through = way != Pass::kUnsure;
     if (is_through && error <= kTimeError && (t < -error || t > 1.0f + error)) return true;
     const bool is_sure = is_through && error <= kTimeError && t > error && t < 1.0f - error;
-    if (is_through) told.direction = (side == Side::kLeaves) != flips_ ? 1 : -1;
+    if (is_through) told.direction = (way == Pass::kLeaves) != flips_ ? 1 : -1;
     if (is_sure) told.t = t;
     // Of a triangle that is no speck the plane is passed near it, and t is of the plane.
     const bool is_speck = larger(largest(q - p), largest(r - p)) < coordinate_error_m_;
@@ -109,25 +115,34 @@ class SegmentFrame {
     return false;
   }
 
- private:
-  enum class Side { kMisses, kEnters, kLeaves, kUnsure };
+  // The longest axis k and the next two in turn, without a branch.
+  struct Axes {
+    uint32_t i, j, k;
+  };
+  static Axes longest_axis(math::Vec3 along_m) {
+    const float x = absolute(along_m.x), y = absolute(along_m.y), z = absolute(along_m.z);
+    const uint32_t is_x = (x > y ? 1u : 0u) & (x > z ? 1u : 0u);
+    const uint32_t is_y = (y > z ? 1u : 0u) & (1u - is_x), k = 2 - 2 * is_x - is_y;
+    return {(0x09u >> (2 * k)) & 3u, (0x12u >> (2 * k)) & 3u, k};
+  }
+
   // Products that vanish below the range of float lose this much and no more.
   static constexpr float kUnderflow = 1e-36f;
 
   // NaN and infinities pass every comparison as unsure.
-  Side pass(Sheared p, Sheared q, Sheared r) const {
+  Pass pass(Sheared p, Sheared q, Sheared r) const {
     const float high_x = larger(p.x, larger(q.x, r.x)), low_x = smaller(p.x, smaller(q.x, r.x));
     const float high_y = larger(p.y, larger(q.y, r.y)), low_y = smaller(p.y, smaller(q.y, r.y));
     const float e = coordinate_error_m_;
-    if (low_x > e || high_x < -e || low_y > e || high_y < -e) return Side::kMisses;
+    if (low_x > e || high_x < -e || low_y > e || high_y < -e) return Pass::kMisses;
     const float size = larger(larger(high_x, -low_x), larger(high_y, -low_y));
     const float error = side_error_m_ * size + side_error_m2_;
     const float pq = p.x * q.y - p.y * q.x, qr = q.x * r.y - q.y * r.x, rp = r.x * p.y - r.y * p.x;
     const float low = smaller(pq, smaller(qr, rp)), high = larger(pq, larger(qr, rp));
-    if (low < -error && high > error) return Side::kMisses;
-    if (low > error) return Side::kLeaves;
-    if (high < -error) return Side::kEnters;
-    return Side::kUnsure;
+    if (low < -error && high > error) return Pass::kMisses;
+    if (low > error) return Pass::kLeaves;
+    if (high < -error) return Pass::kEnters;
+    return Pass::kUnsure;
   }
 
   // From the plane. What n is off by tells only as n . (p - hit), within the triangle: with L its

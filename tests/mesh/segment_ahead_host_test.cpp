@@ -1,0 +1,119 @@
+// A search that looks ahead, with triangles side by side, tells to the bit what the one in turn
+// tells: crossings, t and steps, whatever the budget and with or without a desktop's rows.
+#include <cmath>
+
+#include "bake/bake_mesh.hpp"
+#include "firmtouch/mesh/crossing_takers.hpp"
+#include "firmtouch/mesh/segment_search.hpp"
+#include "harness/test.hpp"
+#include "surface/make_part.hpp"
+#include "surface/random.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using math::Vec3;
+
+struct Baked {
+  tools::Surface surface = tools::make_part(3, 3000);
+  std::vector<tools::Section> sections;
+  mesh::View view, without_rows;
+
+  explicit Baked(const tools::TreeShape& shape) {
+    tools::MeshOptions options;
+    options.shape = shape;
+    tools::MeshReport report;
+    sections = tools::bake_mesh(surface, "part", options, report);
+    CHECK(report.problem.empty());
+    mesh::Sections found = tools::mesh_sections(sections, "part");
+    CHECK(mesh::open(found, view).ok());
+    found.rows = {};
+    found.directions = {};
+    CHECK(mesh::open(found, without_rows).ok());
+  }
+};
+
+// Anywhere about the part, along its edges and through its corners, and far off.
+class Ends {
+ public:
+  Ends(const Baked& baked, uint64_t seed) : baked_(baked), random_(seed) {}
+  Vec3 next() {
+    const mesh::Head& head = baked_.view.head();
+    const double size = static_cast<double>(head.diagonal_m);
+    const double reach = size * (random_.below(20) == 0 ? 1e25 : 0.6);
+    if (random_.below(3) == 0)
+      return baked_.surface
+          .vertices[random_.below(static_cast<uint32_t>(baked_.surface.vertices.size()))];
+    float at[3];
+    for (uint32_t k = 0; k < 3; ++k)
+      at[k] = static_cast<float>(static_cast<double>((head.low_m[k] + head.high_m[k]) / 2) +
+                                 random_.between(-reach, reach));
+    if (random_.below(200) == 0) at[random_.below(3)] = NAN;
+    return {at[0], at[1], at[2]};
+  }
+
+ private:
+  const Baked& baked_;
+  tools::Random random_;
+};
+
+template <class Visitor>
+struct Found {
+  Visitor visitor;
+  uint32_t steps = 0;
+  bool is_done = false;
+};
+
+bool is_same(const mesh::Hit& a, const mesh::Hit& b) {
+  return a.hit == b.hit && math::bits_of(a.t) == math::bits_of(b.t) && a.triangle == b.triangle &&
+         a.enters == b.enters;
+}
+
+size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget budget, size_t& hits) {
+  mesh::First first, first_ahead;
+  mesh::Any any, any_ahead;
+  mesh::SurfaceCrossing room[64], room_ahead[64];
+  mesh::All all{{room}}, all_ahead{{room_ahead}};
+  size_t differ = 0;
+  const auto same_way = [&](auto& in_turn, auto& ahead) {
+    uint32_t steps = 0, steps_ahead = 0;
+    const bool done = mesh::search_in_turn(view, a_m, b_m, budget, in_turn, steps);
+    const bool done_ahead = mesh::search_ahead(view, a_m, b_m, budget, ahead, steps_ahead);
+    if (done != done_ahead || steps != steps_ahead) ++differ;
+  };
+  same_way(first, first_ahead);
+  same_way(any, any_ahead);
+  same_way(all, all_ahead);
+  if (!is_same(first.hit, first_ahead.hit) || !is_same(any.hit, any_ahead.hit)) ++differ;
+  if (all.crossings.found != all_ahead.crossings.found ||
+      all.crossings.told != all_ahead.crossings.told)
+    return differ + 1;
+  for (uint32_t i = 0; i < all.crossings.told; ++i)
+    if (math::bits_of(room[i].t) != math::bits_of(room_ahead[i].t) ||
+        room[i].triangle != room_ahead[i].triangle || room[i].enters != room_ahead[i].enters)
+      ++differ;
+  hits += first.hit.hit ? 1 : 0;
+  return differ;
+}
+
+void compare(const tools::TreeShape& shape, uint64_t seed) {
+  const Baked baked(shape);
+  Ends ends(baked, seed);
+  size_t differ = 0, hits = 0;
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const Vec3 a_m = ends.next(), b_m = ends.next();
+    for (const uint32_t steps : {UINT32_MAX, i % 40})
+      for (const mesh::View* view : {&baked.view, &baked.without_rows})
+        differ += differences(*view, a_m, b_m, {steps}, hits);
+  }
+  CHECK_EQ(differ, size_t{0});
+  CHECK(hits > 1000);
+}
+
+}  // namespace
+
+TEST(LookingAheadTellsWhatTheSearchInTurnTells) {
+  compare(tools::kFastTree, 1);
+  compare(tools::kSmallTree, 2);
+  compare(tools::kDesktopTree, 3);
+}
