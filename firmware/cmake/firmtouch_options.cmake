@@ -22,6 +22,15 @@ set(FIRMTOUCH_NATIVE_FLAGS $<$<BOOL:${FIRMTOUCH_NATIVE}>:-march=native>)
 # (tests/math/rounding_host_test.cpp sees it). Freestanding code has no doubles and keeps its vectors.
 set(FIRMTOUCH_ROUNDING_FLAGS $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 
+# The smaller and the larger of two floats by one instruction (math/isa.hpp): no compiler's macro tells of it.
+include(CheckCXXSourceCompiles)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^arm|^aarch32")
+  set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+  check_cxx_source_compiles(
+    "float f(float a, float b) { __asm__(\"vmaxnm.f32 %0, %1, %2\" : \"=t\"(a) : \"t\"(a), \"t\"(b)); return a; }"
+    FIRMTOUCH_HAS_VMAXNM)
+endif()
+
 # Freestanding code: firmware and hal.
 set(FIRMTOUCH_FREESTANDING_FLAGS
     -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables
@@ -60,6 +69,7 @@ function(firmtouch_freestanding target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O2> ${FIRMTOUCH_FREESTANDING_FLAGS}
                                            ${FIRMTOUCH_ARITHMETIC_FLAGS} ${FIRMTOUCH_NATIVE_FLAGS}
                                            ${FIRMTOUCH_WARNING_FLAGS})
+  target_compile_definitions(${target} PRIVATE $<$<BOOL:${FIRMTOUCH_HAS_VMAXNM}>:FIRMTOUCH_HAS_VMAXNM>)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
 

@@ -132,6 +132,32 @@ TEST(FloatsBeyondAWordAreSaturated) {
   CHECK_EQ(differ, 0u);
 }
 
+TEST(TheLargerAndTheSmallerOfTwoHaveTheSameBitsEverywhere) {
+  const float infinite = math::float_of(0x7F800000u), none = math::float_of(0x7FC00000u);
+  const float edges[] = {0.0f,       -0.0f,    1.0f,      -1.0f, 0x1p-149f,
+                         -0x1p-149f, infinite, -infinite, none};
+  const float limits[] = {0.0f, 1.0f, -1.0f, 0x1p-149f, infinite, -infinite};
+  uint32_t differ = 0;
+  const auto compare = [&differ](float value, float limit) {
+    const uint32_t larger = math::bits_of(math::portable_larger(value, limit));
+    const uint32_t smaller = math::bits_of(math::portable_smaller(value, limit));
+    if (math::bits_of(math::larger(value, limit)) != larger) ++differ;
+    if (math::bits_of(math::smaller(value, limit)) != smaller) ++differ;
+  };
+  for (const float limit : limits) {
+    for (const float edge : edges) compare(edge, limit);
+    for (uint32_t i = 0; i < 5000; ++i) {
+      const float value = math::float_of(next_random());
+      if (value - value <= 0.0f) compare(value, limit);
+    }
+  }
+  CHECK_EQ(differ, 0u);
+  CHECK_EQ(math::bits_of(math::larger(-2.0f, -1.0f)), math::bits_of(-1.0f));
+  CHECK_EQ(math::bits_of(math::smaller(-2.0f, -1.0f)), math::bits_of(-2.0f));
+  CHECK_EQ(math::bits_of(math::larger(none, 3.0f)), math::bits_of(3.0f));
+  CHECK_EQ(math::bits_of(math::smaller(none, 3.0f)), math::bits_of(3.0f));
+}
+
 TEST(FloatsLoadedTogetherAreThoseOfTheirPlaces) {
   float values[9];
   for (int k = 0; k < 9; ++k) values[k] = static_cast<float>(k + 1);

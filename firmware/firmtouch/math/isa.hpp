@@ -37,6 +37,14 @@
 #define FIRMTOUCH_ISA_BLOCKS 0
 #endif
 
+// No compiler's macro tells the FPv5 of a Cortex-M7 from the FPv4 of a Cortex-M4: cmake/firmtouch_options.cmake asks the
+// assembler.
+#if defined(FIRMTOUCH_HAS_VMAXNM) && defined(__ARM_FP) && (__ARM_FP & 4)
+#define FIRMTOUCH_ISA_MAXNM 1
+#else
+#define FIRMTOUCH_ISA_MAXNM 0
+#endif
+
 #if defined(__AVX2__)
 #include <immintrin.h>
 #define FIRMTOUCH_ISA_AVX2 1
@@ -103,6 +111,34 @@ static inline float square_root(float value) {
   return __builtin_sqrtf(value);
 #else
   return portable_square_root(value);
+#endif
+}
+
+/// The larger and the smaller of two; the limit where the value is no number.
+/// Pre: the limit is a number and not -0, the value no signalling NaN (no operation makes one).
+static inline float portable_larger(float value, float limit) {
+  return value > limit ? value : limit;
+}
+static inline float portable_smaller(float value, float limit) {
+  return value < limit ? value : limit;
+}
+
+static inline float larger(float value, float limit) {
+#if FIRMTOUCH_ISA_MAXNM
+  float most;
+  __asm__("vmaxnm.f32 %0, %1, %2" : "=t"(most) : "t"(value), "t"(limit));
+  return most;
+#else
+  return portable_larger(value, limit);
+#endif
+}
+static inline float smaller(float value, float limit) {
+#if FIRMTOUCH_ISA_MAXNM
+  float least;
+  __asm__("vminnm.f32 %0, %1, %2" : "=t"(least) : "t"(value), "t"(limit));
+  return least;
+#else
+  return portable_smaller(value, limit);
 #endif
 }
 
