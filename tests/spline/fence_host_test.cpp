@@ -1,5 +1,6 @@
 // What a query along a path keeps from the one before: where a fence lets it pass over the rest of a curve,
 // the answer is that of a query which knows nothing.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -29,7 +30,17 @@ struct Baked {
   explicit Baked(const tools::SplineCurve& curve) {
     tools::SplineModel model;
     model.curves.push_back(curve);
-    sections = tools::bake_spline(model, "x", tools::curve_detail(false), report);
+    bake(model, tools::curve_detail(false));
+  }
+  explicit Baked(const std::vector<tools::SplineSurface>& surfaces) {
+    tools::SplineModel model;
+    model.surfaces = surfaces;
+    bake(model, tools::surface_detail(false));
+  }
+
+ private:
+  void bake(const tools::SplineModel& model, const tools::SplineDetail& detail) {
+    sections = tools::bake_spline(model, "x", detail, report);
     CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   }
 };
@@ -98,6 +109,44 @@ TEST(AlongAPathAFenceLeavesNothingOut) {
   CHECK_EQ(wrong, 0u);
   CHECK_EQ(inexact, 0u);
   CHECK(passed_over > 100000);
+}
+
+// Trees of one piece, of less than the 16 groups of a fence, and of many more.
+TEST(AlongAPathAFenceLeavesNothingOutOfSurfaces) {
+  const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
+  uint32_t wrong = 0, inexact = 0, passed_over = 0, most_pieces = 0;
+  for (uint32_t seed = 0; seed < (is_long ? 60u : 10u); ++seed) {
+    tools::Random random(seed + 40);
+    std::vector<tools::SplineSurface> surfaces;
+    for (uint32_t i = 0; i <= seed % 3; ++i)
+      surfaces.push_back(spline_test::random_surface(random, static_cast<int>(1 + random.below(3)),
+                                                     static_cast<int>(1 + random.below(3)), 1));
+    const Baked baked(surfaces);
+    most_pieces = std::max(most_pieces, baked.view.pieces().size());
+    for (const double step : {0.0002, 0.002, 0.02}) {
+      Path path{random, step, 1.3};
+      Hint hint;
+      const double unit = 2.1e-6 * baked.report.extent_m;
+      for (int i = 0; i < 1000; ++i) {
+        const Vec3 p = path.next();
+        const uint32_t fence = hint.fence;
+        const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
+        Hint cold;
+        const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
+        const double told = wide(warm.distance_m), truth = wide(alone.distance_m);
+        wrong += std::fabs(told - truth) <= unit + 2e-6 * truth &&
+                         wide(warm.certificate.lower_m) <= truth
+                     ? 0u
+                     : 1u;
+        inexact += warm.certificate.exact ? 0u : 1u;
+        passed_over += fence != query::kNowhere && hint.fence == fence ? 1u : 0u;
+      }
+    }
+  }
+  CHECK_EQ(wrong, 0u);
+  CHECK_EQ(inexact, 0u);
+  CHECK(most_pieces > 64);
+  CHECK(passed_over > 10000);
 }
 
 TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {

@@ -5,7 +5,7 @@
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/query/coherence.hpp"
 #include "firmtouch/spline/curve_search.hpp"
-#include "firmtouch/spline/surface_parts.hpp"
+#include "firmtouch/spline/surface_search.hpp"
 
 namespace firmtouch::spline {
 namespace {
@@ -125,30 +125,28 @@ Closest certified(const View& model, Vec3 p_m, const Search& search, const Best&
   return closest;
 }
 
-template <class Shape>
-Closest answer(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
-  Shape shape(model, p_m);
-  Search<Shape> search(shape, budget.steps, best);
-  Fence fence{hint.fence, carried.fence_m};
+  SurfaceSearch search(model, p_m, budget.steps, best);
+  PieceFence fence{hint.fence & 0xFFFFu, hint.fence >> 16, carried.fence_m};
   uint32_t leaf;
-  typename Shape::Range range;
-  const bool is_warm = shape.resume(hint, leaf, range);
+  Rectangle range;
+  const bool is_warm = search.resume(hint, leaf, range);
   if (is_warm) {
     search.run_warm(leaf, range, kFenceMotions * carried.motion_m, fence);
   } else {
     begin_at_first(model, p_m, best);
     search.run_cold(outside_m(model.head(), p_m));
-    fence = {query::kNowhere, 0.0f};
+    fence = {0xFFFFu, 0xFFFFu, 0.0f};
   }
   const bool is_first = best.node == query::kNowhere;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
   const Closest closest =
-      certified(model, p_m, search, best, is_first ? 0 : shape.piece_of(best.node), carried, hint);
+      certified(model, p_m, search, best, is_first ? 0 : search.piece_of(best.node), carried, hint);
   hint.place = query::kNowhere;
-  if (!is_first) shape.leave(best, motion_m, hint);
-  hint.fence = fence.node;
+  if (!is_first) search.leave(motion_m, hint);
+  hint.fence = fence.node | fence.groups << 16;
   hint.fence_m = fence.distance_m;
   return closest;
 }
@@ -208,7 +206,7 @@ Closest answer_nothing(const View& model, query::Hint& hint) {
 Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
   if (!is_near(model.head(), p_m))
     return math::is_finite(p_m) ? answer_beyond(model, p_m, hint) : answer_nothing(model, hint);
-  if (model.is_surface()) return answer<SurfaceParts>(model, p_m, budget, hint);
+  if (model.is_surface()) return answer_surface(model, p_m, budget, hint);
   return model.is_flat() ? answer_curve<true>(model, p_m, budget, hint)
                          : answer_curve<false>(model, p_m, budget, hint);
 }

@@ -33,8 +33,8 @@ GuideParts::Stretch GuideParts::stretch_below(uint32_t node, bool is_within) con
 uint32_t GuideParts::node_around(uint32_t node, float reach_m) const {
   const float low_m = penalty_.at_m - reach_m, high_m = penalty_.at_m + reach_m;
   const Round& round = penalty_.round;
-  if (round.is_closed && !(low_m >= round.first_m && high_m <= round.last_m)) return root();
-  while (node != root()) {
+  if (round.is_closed && !(low_m >= round.first_m && high_m <= round.last_m)) return 0;
+  while (node != 0) {
     const Stretch below = stretch_below(node, true);
     const bool holds_low = below.low_m <= low_m || !(below.low_m > 0.0f);
     const bool holds_high = below.high_m >= high_m || !(below.high_m < guide_.length_m());

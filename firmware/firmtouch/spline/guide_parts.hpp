@@ -59,7 +59,6 @@ class GuideParts {
         count_(guide.model().leaf_count()),
         arcs_(arcs) {}
 
-  uint32_t root() const { return 0; }
   bool is_leaf(uint32_t node) const { return curve_.is_leaf(node); }
   void children(uint32_t node, uint32_t& low, uint32_t& high) const {
     low = first_child(node);
@@ -68,8 +67,6 @@ class GuideParts {
   uint32_t sibling_of(uint32_t node) const { return spline::sibling_of(node); }
   uint32_t parent_of(uint32_t node) const { return spline::parent_of(node); }
   uint32_t piece_of(uint32_t node) const { return curve_.piece_of(node); }
-  uint32_t closed_around(uint32_t node, const Best&) const { return node; }
-  bool is_closed(uint32_t, const Best&) const { return false; }
 
   /// The node of the leaf that holds a place.
   uint32_t node_at(uint32_t piece, float s, Range& range) const {
@@ -91,9 +88,7 @@ class GuideParts {
   /// The lowest node above one that holds all that is no farther along the curve than a reach.
   uint32_t node_around(uint32_t node, float reach_m) const;
 
-  static constexpr bool kTellsHalves = false;
-  static float child_bound_m(const Range&, uint32_t, float lower_m) { return lower_m; }
-  float bound_m(uint32_t node, float, Range& range) const {
+  float bound_m(uint32_t node, Range& range) const {
     const Stretch below = stretch_below(node, false);
     const float least_m = penalty_.least(below.low_m, below.high_m);
     const float by_arc_m = with_slack(nearest_m_, least_m);

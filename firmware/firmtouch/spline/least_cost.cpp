@@ -63,9 +63,8 @@ LeastCost least_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& asked,
   const uint32_t node = parts.node_at(asked.piece, asked.s, range);
   // What is farther along the curve costs more, for nothing is nearer than the nearest.
   const float reach_m = (best.distance_m - nearest.certificate.lower_m) / penalty.per_m;
-  Fence fence{parts.node_around(node, reach_m * (1.0f + 0x1p-18f) + guide.length_m() * kArcLoss),
-              FLT_MAX};
-  search.run_warm(node, range, 0.0f, fence);
+  search.run(node, range,
+             parts.node_around(node, reach_m * (1.0f + 0x1p-18f) + guide.length_m() * kArcLoss));
 
   if (best.node != kNoNode) {
     found.piece = parts.piece_of(best.node);

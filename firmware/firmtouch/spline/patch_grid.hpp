@@ -38,6 +38,9 @@ static inline Parallelogram parallelogram_of(const Piece& piece, const Grid& gri
   return {quarters.centre * quarter, quarters.a * quarter, quarters.b * quarter};
 }
 
+/// Next to the square of any side, in whole units; of a side of 0 all products are 0.
+constexpr float kNothing = 0x1p-60f;
+
 /// A parallelogram as seen from a point; both in one unit.
 struct Seen {
   math::Vec3 r;  // from its centre to the point
@@ -47,56 +50,59 @@ static inline void see(const Parallelogram& p, math::Vec3 q, Seen& seen) {
   seen.r = q - p.centre;
   seen.aa = dot(p.a, p.a), seen.ab = dot(p.a, p.b), seen.bb = dot(p.b, p.b);
   seen.of_a = dot(p.a, seen.r), seen.of_b = dot(p.b, seen.r);
-  seen.per_aa = seen.aa > 0.0f ? 1.0f / seen.aa : 0.0f;
-  seen.per_bb = seen.bb > 0.0f ? 1.0f / seen.bb : 0.0f;
+  seen.per_aa = 1.0f / (seen.aa + kNothing);
+  seen.per_bb = 1.0f / (seen.bb + kNothing);
 }
 
-static inline float held(float value) {
-  const float above = value > -1.0f ? value : -1.0f;  // without branches
-  return above < 1.0f ? above : 1.0f;
-}
-/// Of a convex function's square that is off . off at a point the root of what it is at least, where it
-/// may fall by twice `left` from there. Where that is most of it, nothing is told.
-static inline float least_of(math::Vec3 off, float left) {
-  const float off2 = dot(off, off), least2 = off2 - 2.0f * left;
-  const float distance = least2 > 0.5f * off2 ? math::square_root(least2) : 0.0f;
-  return distance * (1.0f - 0x1p-20f);
+static inline float held(float value) { return math::smaller(math::larger(value, -1.0f), 1.0f); }
+/// Of a convex function's square that is off2 at a point the root of what it is at least, where it may
+/// fall by twice `left` from there. What rounding does to it is less than 2^-20 of off2, and to the root
+/// than 2^-22 of itself.
+static inline float least_of(float off2, float left) {
+  return math::square_root(math::larger(off2 * (1.0f - 0x1p-20f) - (left + left), 0.0f));
 }
 
-/// A lower bound of the distance to a parallelogram, and where on it, x and y, the foot is thought to be.
-/// Any x and y would do: the tangent there tells what the square may still fall by.
+/// A lower bound of the distance to a parallelogram, but for the rounding of its root, and where on it, x
+/// and y, the foot is thought to be. Any x and y would do: the tangent there tells what the square may
+/// still fall by.
 struct Foot {
   float x, y, distance;
+  float off2, slope_x, slope_y;
 };
-static inline Foot foot_on(const Parallelogram& p, const Seen& seen) {
+static inline void foot_on(const Parallelogram& p, const Seen& seen, Foot& foot) {
   float x = held(seen.of_a * seen.per_aa);
   const float y = held((seen.of_b - seen.ab * x) * seen.per_bb);
   x = held((seen.of_a - seen.ab * y) * seen.per_aa);
   const math::Vec3 off = seen.r - p.a * x - p.b * y;
-  const float slope_x = dot(p.a, off), slope_y = dot(p.b, off);
-  const float left =
-      __builtin_fabsf(slope_x) - slope_x * x + (__builtin_fabsf(slope_y) - slope_y * y);
-  return {x, y, least_of(off, left)};
-}
-static inline Foot foot_on(const Parallelogram& p, math::Vec3 q) {
-  Seen seen;
-  see(p, q, seen);
-  return foot_on(p, seen);
+  foot.x = x, foot.y = y;
+  foot.off2 = dot(off, off);
+  foot.slope_x = dot(p.a, off), foot.slope_y = dot(p.b, off);
+  const float left = __builtin_fabsf(foot.slope_x) - foot.slope_x * x +
+                     (__builtin_fabsf(foot.slope_y) - foot.slope_y * y);
+  foot.distance = least_of(foot.off2, left);
 }
 
 /// A part's halves overlap by as much of its parallelogram to each side of the middle.
 static inline float in_overlaps(uint32_t byte) { return static_cast<float>(byte) * 0x1p-7f; }
 
-/// The same of a half: along one axis, `across`, the lower one up to `overlap` beyond the middle, or the
-/// upper one from as much before it on. The foot lies outside it.
-static inline float half_bound(const Seen& seen, math::Vec3 across, math::Vec3 along,
-                               float of_along, float per_along, float overlap, bool is_low) {
-  const float x = is_low ? overlap : -overlap;  // the nearest line of it
-  const float y = held((of_along - seen.ab * x) * per_along);
-  const math::Vec3 off = seen.r - across * x - along * y;
-  const float slope_x = dot(across, off), slope_y = dot(along, off);
-  const float inward = (is_low ? -slope_x : slope_x) * (1.0f + overlap);
-  return least_of(off, (inward > 0.0f ? inward : 0.0f) + (__builtin_fabsf(slope_y) - slope_y * y));
+/// The same of the half without the foot, whose nearest line is `excess` from it: along one axis, `across`, up to
+/// `overlap` beyond the middle, or from as much before it on. What is known at the foot is moved there: that loses less
+/// than 2^-20 of the squares of both sides.
+struct Side {
+  float at, slope, square, per_square;  // of the foot, along an axis
+};
+static inline float half_bound(float off2, const Side& across, const Side& along, float ab,
+                               float excess, float overlap) {
+  const uint32_t inward = (math::bits_of(across.at) & 0x80000000u) ^ 0x80000000u;  // a sign
+  const float dx = math::float_of(math::bits_of(excess) | inward);
+  const float turned = along.slope - ab * dx;
+  const float y = held(along.at + turned * along.per_square), dy = y - along.at;
+  const float slope_x = across.slope - across.square * dx - ab * dy;
+  const float slope_y = turned - along.square * dy;
+  const float moved2 = off2 - dx * (across.slope + slope_x) - dy * (along.slope + slope_y);
+  const float rising = math::larger(math::float_of(math::bits_of(slope_x) ^ inward), 0.0f);
+  const float left = rising * (1.0f + overlap) + (__builtin_fabsf(slope_y) - slope_y * y);
+  return least_of(moved2 - (across.square + along.square) * 0x1p-20f, left);
 }
 
 }  // namespace firmtouch::spline

@@ -9,6 +9,8 @@ namespace firmtouch::spline {
 constexpr uint32_t kUpper = 0xFFFF0000u;
 /// Of a part bits 16 to 31 are the piece, bits 7 to 13 and 0 to 6 its u and v, each with a 1 before
 /// their binary digits: as many as the halvings made.
+/// Bit 14 is free for a search's own mark of leaves and their rectangles.
+constexpr uint32_t kLeafMark = 1u << 14;
 constexpr uint32_t kNextU = 1u << 7, kNextV = 1;  // to the node of the part beside
 constexpr uint32_t kWholePiece = kNextU | kNextV;
 

@@ -65,17 +65,14 @@ constexpr float kSlopeNoise = 20.0f, kBendNoise = 80.0f, kTwistNoise = 400.0f;
 
 enum class Outcome : uint8_t { kClosed, kSplit, kStopped, kLost };
 
-/// Shape: a curve's or a surface's parts. It has
+/// Shape: a curve's parts. It has
 ///     Range, a part of a leaf;
-///     uint32_t root(), bool is_leaf(node), sibling_of(node), parent_of(node);
+///     bool is_leaf(node), uint32_t sibling_of(node), parent_of(node);
 ///     void children(uint32_t node, uint32_t& low, uint32_t& high);
-///     float bound_m(uint32_t node, float limit_m, Range& range): no point below the node is nearer. Where
-///     that is below the limit the range is told: of a leaf all of it, of others what child_bound_m(range,
-///     0 or 1, lower_m) tells of a child beforehand where kTellsHalves, else lower_m;
+///     float bound_m(uint32_t node, Range& range): no point below the node is nearer. Of a leaf the range
+///     is told;
 ///     Outcome solve(uint32_t leaf, Range& range, float lower_m, uint32_t& left, Best& best,
 ///                   Half (&halves)[2]);
-///     uint32_t closed_around(leaf, best): a node about the leaf that was just closed, closed as well;
-///     bool is_closed(node, best): whether what closed the last leaf closes all below the node.
 /// solve() evaluates points of the range, each for one of `left` (as does a half that needs none), until what is left of it is beyond
 /// the best's limit (kClosed), or in two halves with bounds of their own (kSplit); where float32 has
 /// no point between the ends it is given up (kLost).
@@ -83,12 +80,6 @@ template <class Range>
 struct Half {
   Range range;
   float lower_m;
-};
-
-/// A part of the tree outside which everything is at least so far away.
-struct Fence {
-  uint32_t node;
-  float distance_m;
 };
 
 template <class Shape>
@@ -99,37 +90,16 @@ class Search {
   Search(Shape& shape, uint32_t budget, Best& best)
       : shape_(shape), budget_(budget == 0 ? 1 : budget), left_(budget_), best_(best) {}
 
-  /// From a leaf that may be near up the tree, as far as the fence where that is far enough away, else
-  /// to the root: then a new fence is told, `margin_m` farther than the best.
-  void run_warm(uint32_t leaf, const Range& range, float margin_m, Fence& fence) {
+  /// From a leaf that may be near up the tree, as far as a node `end` above it.
+  void run(uint32_t leaf, const Range& range, uint32_t end) {
     Entry first{leaf, 0.0f, range};
-    if (!solve(first)) return stop();
-    const uint32_t from = count_ == 0 ? shape_.closed_around(leaf, best_) : leaf;
-    if (!drain(0)) return stop();
-    is_complete_ = best_.limit_m <= 0.0f;
-    if (is_complete_) return;
-    const uint32_t root = shape_.root();
-    const uint32_t end = best_.limit_m <= fence.distance_m ? fence.node : root;
-    const float reach_m = best_.distance_m + margin_m;
-    uint32_t renewed = from;
-    for (uint32_t node = from; node != root && node != end;) {
+    if (!solve(first) || !drain()) return stop();
+    for (uint32_t node = leaf; node != end && best_.limit_m > 0.0f; node = shape_.parent_of(node)) {
       if (left_ == 0) return stop();
-      const uint32_t beside = shape_.sibling_of(node);
-      node = shape_.parent_of(node);
-      passed_m_ = FLT_MAX;
-      visit(beside, 0.0f);
-      if (!drain(0)) return stop();
-      if (passed_m_ < reach_m) renewed = node;
-      if (node == root) fence = {renewed, reach_m * (1.0f - 0x1p-22f)};
+      visit(shape_.sibling_of(node), 0.0f);
+      if (!drain()) return stop();
     }
     is_complete_ = true;
-  }
-
-  void run_cold(float outside_m) {
-    Entry first{shape_.root(), outside_m, {}};
-    (void)shape_.bound_m(first.node, FLT_MAX, first.range);
-    put(first);
-    is_complete_ = drain(0);
   }
 
   bool is_complete() const { return is_complete_ && lost_m_ >= FLT_MAX; }
@@ -165,10 +135,6 @@ class Search {
 
   void lose(float lower_m) {
     if (lower_m < lost_m_) lost_m_ = lower_m;
-    pass(lower_m);
-  }
-  void pass(float lower_m) {
-    if (lower_m < passed_m_) passed_m_ = lower_m;
   }
 
   // Reads a node and keeps it where it may hold something nearer.
@@ -176,9 +142,9 @@ class Search {
     --left_;
     Entry& entry = stack_[count_ < kCapacity ? count_ : kCapacity];
     entry.node = node;
-    const float own_m = shape_.bound_m(node, best_.limit_m, entry.range);
+    const float own_m = shape_.bound_m(node, entry.range);
     entry.lower_m = own_m < above_m ? above_m : own_m;
-    if (!(entry.lower_m < best_.limit_m)) return pass(entry.lower_m);
+    if (!(entry.lower_m < best_.limit_m)) return;
     if (count_ < kCapacity)
       ++count_;
     else
@@ -186,17 +152,10 @@ class Search {
   }
 
   // False: the budget ended, and what is left stands on the stack.
-  bool drain(uint32_t kept) {
-    while (count_ > kept) {
+  bool drain() {
+    while (count_ > 0) {
       Entry& entry = stack_[--count_];
-      if (entry.lower_m >= best_.limit_m) {
-        pass(entry.lower_m);
-        continue;
-      }
-      if (shape_.is_closed(entry.node, best_)) {
-        pass(0.0f);
-        continue;
-      }
+      if (entry.lower_m >= best_.limit_m) continue;
       if (shape_.is_leaf(entry.node)) {
         if (!solve(entry)) return false;
       } else if (left_ < 2) {
@@ -213,19 +172,11 @@ class Search {
   // The nearer child comes up first.
   void open(const Entry& entry) {
     const float lower_m = entry.lower_m;
-    const float low_m = Shape::child_bound_m(entry.range, 0, lower_m);
-    const float high_m = Shape::child_bound_m(entry.range, 1, lower_m);
     const uint32_t before = count_;
     uint32_t low, high;
     shape_.children(entry.node, low, high);
-    if (Shape::kTellsHalves && low_m >= best_.limit_m)
-      pass(low_m);
-    else
-      visit(low, low_m > lower_m ? low_m : lower_m);
-    if (Shape::kTellsHalves && high_m >= best_.limit_m)
-      pass(high_m);
-    else
-      visit(high, high_m > lower_m ? high_m : lower_m);
+    visit(low, lower_m);
+    visit(high, lower_m);
     if (count_ == before + 2 && stack_[before].lower_m < stack_[before + 1].lower_m) {
       const Entry first = stack_[before];
       stack_[before] = stack_[before + 1];
@@ -238,7 +189,6 @@ class Search {
     const uint32_t node = entry.node;
     const float lower_m = entry.lower_m;
     const Outcome outcome = shape_.solve(node, entry.range, lower_m, left_, best_, halves);
-    pass(0.0f);
     if (outcome == Outcome::kClosed) return true;
     if (outcome == Outcome::kStopped) put(Entry(entry));
     if (outcome == Outcome::kLost) lose(lower_m);
@@ -254,8 +204,7 @@ class Search {
   uint32_t budget_;
   uint32_t left_;
   Best& best_;
-  float lost_m_ = FLT_MAX;    // bound of what the stack had no room for
-  float passed_m_ = FLT_MAX;  // of what was passed over since it was set; 0: more was looked at
+  float lost_m_ = FLT_MAX;  // bound of what the stack had no room for
   bool is_complete_ = false;
   bool is_cut_ = false;  // parts of the tree were not reached at all
   uint32_t count_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of surfaces for Search, for .cpp files of this room only.
+// How the parts of surfaces are numbered, and what closes them, for .cpp files of this room only.
 #include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/evaluation.hpp"
 #include "firmtouch/spline/leaf_shape.hpp"
@@ -17,39 +17,21 @@ class SurfaceParts {
       : pieces_(model.pieces().data()),
         coefficients_(model.coefficients().data()),
         grids_(model.grids().data()),
-        corners_(model.corners().data()),
-        radii_(model.radii().data()),
-        overlaps_(model.overlaps().data()),
         bends_(model.patch_bends().data()),
-        boxes_(model.boxes().data()),
         piece_count_(model.pieces().size()),
         loss_m_(model.head().loss_m),
         p_m_(p_m) {}
 
   uint32_t root() const { return upper(0); }
-  bool is_leaf(uint32_t node) const {
-    if (node >= kUpper) return false;
-    const Piece& piece = pieces_[node >> 16];
-    return ((node >> 7) & 127u) >> piece.level_u != 0 && (node & 127u) >> piece.level_v != 0;
+  uint32_t upper(uint32_t i) const {
+    return i >= piece_count_ - 1 ? (i - (piece_count_ - 1)) << 16 | kWholePiece : kUpper + i;
   }
-  void children(uint32_t node, uint32_t& low, uint32_t& high) const {
-    if (node >= kUpper) {
-      low = upper(2 * (node - kUpper) + 1);
-      high = upper(2 * (node - kUpper) + 2);
-      return;
-    }
-    const PatchNode part = apart(pieces_[node >> 16], node);
-    low = first_half(node, part);
-    high = low + (is_halved_u(part) ? kNextU : kNextV);
+  static bool is_upper(uint32_t node) { return node >= kUpper || (node & 0xFFFFu) == kWholePiece; }
+  uint32_t upper_of(uint32_t node) const {
+    return node >= kUpper ? node - kUpper : (node >> 16) + piece_count_ - 1;
   }
-  uint32_t sibling_of(uint32_t node) const {
-    if (is_upper(node)) return upper(spline::sibling_of(upper_of(node)));
-    return node ^ (was_halved_u(apart(pieces_[node >> 16], node)) ? kNextU : kNextV);
-  }
-  uint32_t parent_of(uint32_t node) const {
-    if (is_upper(node)) return upper(spline::parent_of(upper_of(node)));
-    return whole_of(node, apart(pieces_[node >> 16], node));
-  }
+
+  uint32_t upper_count() const { return 2 * piece_count_ - 1; }
 
   /// The leaf of a hint, from where it was left: none for a hint that is none.
   bool resume(const query::Hint& hint, uint32_t& node, Range& range) const {
@@ -80,22 +62,24 @@ class SurfaceParts {
     hint.fine[0] = static_cast<uint8_t>(u & 255u);
     hint.fine[1] = static_cast<uint8_t>(v & 255u);
   }
-  uint32_t piece_of(uint32_t node) const { return node >> 16; }
 
   /// The largest part about a leaf, just closed, that the same expansion closes: at most its cell.
   uint32_t closed_around(uint32_t leaf, const Best& best) const {
     const Piece& piece = pieces_[leaf >> 16];
     const Halvings cell = cell_levels(piece, grids_[leaf >> 16]);
-    for (uint32_t node = leaf;;) {
-      PatchNode part = apart(piece, node);
-      if (part.made_u == cell.u && part.made_v == cell.v) return node;
-      const uint32_t above = whole_of(node, part);
-      part = apart(piece, above);
-      if (part.made_u < cell.u || part.made_v < cell.v || !closes(part, best)) return node;
-      node = above;
-    }
+    uint32_t above[kMostlyClosed + 1] = {leaf}, count = 0;
+    while (count < kMostlyClosed && whole_within(piece, cell, above[count], above[count + 1]))
+      ++count;
+    const uint32_t first = count;
+    while (count > 0 && !closes(apart(piece, above[count]), best)) --count;
+    uint32_t node = above[count];
+    if (count == first)
+      for (uint32_t next = node; whole_within(piece, cell, node, next); node = next)
+        if (!closes(apart(piece, next), best)) break;
+    return node;
   }
 
+  bool may_be_closed(uint32_t node) const { return (node ^ closed_) >> 16 == 0; }
   /// Whether the expansion that closed the last leaf closes this part of its cell as well.
   bool is_closed(uint32_t node, const Best& best) const {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
@@ -109,45 +93,6 @@ class SurfaceParts {
         part.v >> (part.made_v - cell.v) != leaf_v >> (piece.level_v - cell.v))
       return false;
     return closes(part, best);
-  }
-
-  static constexpr bool kTellsHalves = true;
-  static float child_bound_m(const Range& of, uint32_t child, float) { return of.start[child]; }
-  // The stored radii and half sides hold what float32 loses here. Of a part that may hold something
-  // nearer than the limit, and is no leaf, the start is told to be the bounds of its halves, as seen
-  // from here: that of the half with the foot is none.
-  float bound_m(uint32_t node, float limit_m, Range& range) {
-    if (node >= kUpper) {
-      range.start[0] = range.start[1] = 0.0f;
-      return box_bound_m(boxes_[node - kUpper]);
-    }
-    if (node >> 16 != near_.piece) come_near(node >> 16);
-    const PatchNode at = apart(*near_.of, node);
-    const uint32_t first =
-        near_.first_corner + (at.v << at.left_v) * near_.columns + (at.u << at.left_u);
-    const Parallelogram p =
-        quarters_between(corners_ + first, 1u << at.left_u, near_.columns << at.left_v);
-    Seen seen;
-    see(p, near_.q, seen);
-    const Foot foot = foot_on(p, seen);
-    const uint32_t part = place_among(at);
-    const float radius_m = in_units(near_.radius_unit_m, near_.radii[part]);
-    const float bound_m = foot.distance * near_.quarter_m - radius_m;
-    if (bound_m >= limit_m) return bound_m;
-    if (at.left_u + at.left_v == 0) {
-      range = range_of(at, foot.x, foot.y);
-      return bound_m;
-    }
-    const bool is_u = is_halved_u(at);
-    const float overlap = in_overlaps(near_.overlaps[part]), on = is_u ? foot.x : foot.y;
-    range.start[0] = range.start[1] = 0.0f;
-    if (__builtin_fabsf(on) > overlap) {
-      const bool is_low = on > 0.0f;  // the half without the foot
-      const float off = is_u ? half_bound(seen, p.a, p.b, seen.of_b, seen.per_bb, overlap, is_low)
-                             : half_bound(seen, p.b, p.a, seen.of_a, seen.per_aa, overlap, is_low);
-      range.start[is_low ? 0 : 1] = off * near_.quarter_m - radius_m;
-    }
-    return bound_m;
   }
 
   Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
@@ -216,8 +161,23 @@ class SurfaceParts {
     return best.is_beyond(closed_by_->least2(range_of(part, 0.0f, 0.0f)));
   }
 
+  /// A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the piece.
+  static Range range_of(const PatchNode& part, float x, float y) {
+    const float half_u = math::float_of((127u - part.made_u) << 23);
+    const float half_v = math::float_of((127u - part.made_v) << 23);
+    const float u = static_cast<float>(2 * part.u + 1) * half_u - 3.0f;
+    const float v = static_cast<float>(2 * part.v + 1) * half_v - 3.0f;
+    return {{u - half_u, v - half_v}, {u + half_u, v + half_v}, {u + half_u * x, v + half_v * y}};
+  }
+
+  Range range_of(uint32_t leaf, float x, float y) const {
+    return range_of(apart(pieces_[leaf >> 16], leaf), x, y);
+  }
+
  private:
   static constexpr uint32_t kNone = UINT32_MAX;  // no node
+  // What closes a leaf mostly closes the part so many halvings above it: that is tried first.
+  static constexpr uint32_t kMostlyClosed = 3;
   // Parts so many halvings above leaves are tried by the last expansion; larger ones are rarely closed.
   static constexpr uint32_t kTried = 2;
   static constexpr float kMostStep = 0.25f;  // of a half piece, that a foot is thought to go
@@ -230,50 +190,20 @@ class SurfaceParts {
   static constexpr float kSmall = 0x1p-32f;
   static constexpr uint32_t kDerivation = 16;
 
-  /// What the bounds of one piece's parts have in common, with the query from its origin.
-  struct Near {
-    uint32_t piece = UINT32_MAX;
-    uint32_t columns, first_corner;  // the latter less what the ones before u and v come to
-    const Piece* of;
-    const uint8_t *radii, *overlaps;
-    float quarter_m, radius_unit_m;
-    math::Vec3 q;  // in quarters of a step, a power of two: exactly as in metres
-  };
-  void come_near(uint32_t piece) {
-    const Grid& grid = grids_[piece];
-    near_.piece = piece;
-    near_.of = pieces_ + piece;
-    near_.columns = (1u << near_.of->level_u) + 1u;
-    near_.first_corner =
-        grid.first_corner - (near_.columns << near_.of->level_v) - (1u << near_.of->level_u);
-    near_.radii = radii_ + (2 * grid.first_leaf - piece);
-    near_.overlaps = overlaps_ + (grid.first_leaf - piece);
-    near_.quarter_m = 0.25f * grid.step_m;
-    near_.radius_unit_m = grid.radius_unit_m;
-    near_.q = (p_m_ - vec3_at(near_.of->origin_m)) * (1.0f / near_.quarter_m);
-  }
-
-  uint32_t upper(uint32_t i) const {
-    return i >= piece_count_ - 1 ? (i - (piece_count_ - 1)) << 16 | kWholePiece : kUpper + i;
-  }
-  bool is_upper(uint32_t node) const { return node >= kUpper || (node & 0xFFFFu) == kWholePiece; }
-  uint32_t upper_of(uint32_t node) const {
-    return node >= kUpper ? node - kUpper : (node >> 16) + piece_count_ - 1;
-  }
-
   // From a hint's 16 bits: the ends are the piece's own.
   static float start_at(uint32_t code) {
     if (code == 65535) return 1.0f;
     return static_cast<float>(code) * 0x1p-15f - 1.0f;
   }
 
-  // A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the piece.
-  static Range range_of(const PatchNode& part, float x, float y) {
-    const float half_u = math::float_of((127u - part.made_u) << 23);
-    const float half_v = math::float_of((127u - part.made_v) << 23);
-    const float u = static_cast<float>(2 * part.u + 1) * half_u - 3.0f;
-    const float v = static_cast<float>(2 * part.v + 1) * half_v - 3.0f;
-    return {{u - half_u, v - half_v}, {u + half_u, v + half_v}, {u + half_u * x, v + half_v * y}};
+  // The part that was halved into a node, where it is no larger than a cell.
+  static bool whole_within(const Piece& piece, const Halvings& cell, uint32_t node,
+                           uint32_t& whole) {
+    const PatchNode part = apart(piece, node);
+    if (part.made_u == cell.u && part.made_v == cell.v) return false;
+    whole = whole_of(node, part);
+    const PatchNode above = apart(piece, whole);
+    return above.made_u >= cell.u && above.made_v >= cell.v;
   }
 
   void stored_bends(const Piece& piece, uint32_t leaf, SurfaceBends& bends) const {
@@ -301,19 +231,6 @@ class SurfaceParts {
       bends.fixed[k] = shape.fixed[k];
       bends.turning[k] = shape.turning[k];
     }
-  }
-
-  float box_bound_m(const Box& box) const {
-    const math::Vec3 from_m = p_m_ - vec3_at(box.centre_m);
-    const math::Vec3 a = vec3_at(box.axis[0]), b = vec3_at(box.axis[1]);
-    const math::Vec3 off{beyond(dot(a, from_m), box.half_m[0]),
-                         beyond(dot(b, from_m), box.half_m[1]),
-                         beyond(dot(cross(a, b), from_m), box.half_m[2])};
-    return math::length(off) * (1.0f - 0x1p-19f);
-  }
-  static float beyond(float along, float half) {
-    const float off = __builtin_fabsf(along) - half;
-    return off > 0.0f ? off : 0.0f;
   }
 
   void expand(uint32_t node, const Piece& piece, const SurfaceBends& bends, math::Vec3 q_m,
@@ -359,14 +276,10 @@ class SurfaceParts {
   const Piece* pieces_;
   const float* coefficients_;
   const Grid* grids_;
-  const Corner* corners_;
-  const uint8_t *radii_, *overlaps_;
   const PatchBend* bends_;
-  const Box* boxes_;
   uint32_t piece_count_;
   float loss_m_;
   math::Vec3 p_m_;
-  Near near_;
   Quadratic expansions_[2];
   // The leaves that an expansion closed, or did not, last.
   const Quadratic *closed_by_ = expansions_, *halved_by_ = expansions_;
