@@ -61,7 +61,6 @@ spline::Sections spline_sections(const asset::Container& container, const char* 
   sections.coefficients = container.find(spline::kCoefficientsSection, name);
   sections.leaves = container.find(spline::kLeavesSection, name);
   sections.bends = container.find(spline::kBendsSection, name);
-  sections.places = container.find(spline::kPlacesSection, name);
   sections.nodes = container.find(spline::kNodesSection, name);
   sections.points = container.find(spline::kPointsSection, name);
   sections.grids = container.find(spline::kGridsSection, name);

@@ -17,8 +17,7 @@ namespace tools = firmtouch::tools;
 namespace {
 
 // Whether all of it lies within a radius of a straight line: of any point of that, a good one.
-bool is_in_capsule(const Vector& x, const spline::Point& a, const spline::Point& b, float radius) {
-  const Plain from = {a.x_m, a.y_m, a.z_m}, to = {b.x_m, b.y_m, b.z_m};
+bool is_in_capsule(const Vector& x, const Plain& from, const Plain& to, float radius) {
   Plain along, off;
   for (size_t k = 0; k < 3; ++k) along[k] = to[k] - from[k], off[k] = middle(x[k]) - from[k];
   const Wide length2 = dot(along, along);
@@ -29,32 +28,51 @@ bool is_in_capsule(const Vector& x, const spline::Point& a, const spline::Point&
   return longest(rest) <= static_cast<Wide>(radius);
 }
 
-float of_half(uint16_t stored) {
-  const uint32_t bits = static_cast<uint32_t>(stored) << 16;
-  float value;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
+// What a byte of a unit stands for.
+float of_byte(float unit, uint8_t byte) {
+  uint32_t bits;
+  std::memcpy(&bits, &unit, sizeof bits);
+  bits += uint32_t{byte} << 20;
+  std::memcpy(&unit, &bits, sizeof unit);
+  return unit;
 }
 
+// The points between leaves; those of a flat model lie where its pieces' origins do.
+Plain point(const spline::View& view, uint32_t i) {
+  return {view.points()[i].x_m, view.points()[i].y_m,
+          view.is_flat() ? view.pieces()[0].origin_m[2] : view.heights_m()[i]};
+}
+
+// By the words of the format: leaf i is node 2^h + i, with the least 2^h that is not below their number.
 void check_curve(const spline::View& view) {
-  for (uint32_t leaf = 0; leaf < view.leaf_count(); ++leaf) {
-    const spline::Leaf& place = view.leaves()[leaf];
-    const StoredPiece stored(view, place.piece);
-    const Area area = area_of(view.pieces()[place.piece].level_u, place.index_u, 0, 0, false);
+  const uint32_t count = view.leaf_count();
+  uint32_t first_node = 1;
+  while (first_node < count) first_node *= 2;
+  for (uint32_t leaf = 0; leaf < count; ++leaf) {
+    const uint32_t piece = view.leaves()[leaf];
+    if (piece == 0xFFFF) continue;
+    const StoredPiece stored(view, piece);
+    const uint32_t first = view.curve_bends()[piece].first_leaf;
+    const Area area = area_of(view.pieces()[piece].level_u, leaf - first, 0, 0, false);
     firmtouch::test::note("leaf", leaf);
-    uint32_t node = view.leaf_count() - 1 + leaf;
-    for (bool is_root = false; !is_root; node = (node - 1) / 2) {
-      const spline::Capsule& c = view.capsules()[node];
+    uint32_t wide = 1;
+    for (uint32_t node = first_node + leaf; node != 0; node /= 2, wide *= 2) {
+      const uint32_t begin = node * wide - first_node, end = std::min(begin + wide, count);
+      const float radius = of_byte(view.head().radius_unit_m, view.curve_radii()[node - 1]);
       CHECK(holds(area, false, kFinestOfCurve, [&](const Area& part) {
-        return is_in_capsule(stored.over(part, 0).of[0][0], view.points()[c.first],
-                             view.points()[c.last], of_half(c.radius));
+        return is_in_capsule(stored.over(part, 0).of[0][0], point(view, begin), point(view, end),
+                             radius);
       }));
-      is_root = node == 0;
     }
+  }
+  for (uint32_t piece = 0; piece < view.pieces().size(); ++piece) {
+    firmtouch::test::note("piece", piece);
+    const StoredPiece stored(view, piece);
+    const Area area{-1, 1};
+    const spline::CurveBend& bend = view.curve_bends()[piece];
     const Wide width = width_of(stored, area, false);
     CHECK(holds(area, false, kFinestOfCurve, [&](const Area& part) {
-      return turns_no_faster(stored.over(part, 3), 3, 0, width, of_half(view.bends()[leaf].fixed),
-                             of_half(view.bends()[leaf].turning));
+      return bends_no_lower(stored.over(part, 4), width, bend.fixed_m2, bend.turning_m);
     }));
   }
 }

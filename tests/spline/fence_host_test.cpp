@@ -169,3 +169,85 @@ TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {
     }
   }
 }
+
+// Twelve short curves that do not meet, of a flat model and of one in space: between two of them is no leaf.
+TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
+  for (uint32_t seed = 0; seed < 8; ++seed) {
+    tools::Random random(seed + 41);
+    tools::SplineModel model;
+    std::vector<Baked> alone;
+    for (int i = 0; i < 12; ++i) {
+      tools::SplineCurve curve =
+          spline_test::random_curve(random, static_cast<int>(1 + seed % 4), most_of(seed));
+      if (seed % 2 == 0) curve = flattened(curve);
+      for (tools::ControlPoint& p : curve.points)
+        p = {0.2 * p.x + 0.1 * i, 0.2 * p.y + 0.3 * (i % 3), 0.2 * p.z, p.w};
+      model.curves.push_back(curve);
+      alone.emplace_back(curve);
+    }
+    tools::SplineReport report;
+    const auto sections = tools::bake_spline(model, "x", tools::curve_detail(false), report);
+    spline::View view;
+    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+    uint32_t none = 0;
+    for (uint32_t leaf = 0; leaf < view.leaf_count(); ++leaf) none += view.is_leaf(leaf) ? 0u : 1u;
+    CHECK_GE(none, 11u);
+    Path path{random, 0.003, 1.3};
+    Hint hint;
+    for (int i = 0; i < 1500; ++i) {
+      const Vec3 p = path.next();
+      double truth = HUGE_VAL;
+      for (const Baked& one : alone) {
+        Hint cold;
+        truth = std::min(truth, wide(closest_point(one.view, p, kUnlimited, cold).distance_m));
+      }
+      const spline::Closest c = closest_point(view, p, kUnlimited, hint);
+      CHECK(c.certificate.exact);
+      CHECK_LE(std::fabs(wide(c.distance_m) - truth), 2e-6 * (report.extent_m + truth));
+      CHECK_LE(wide(c.certificate.lower_m), truth * (1 + 1e-6));
+    }
+  }
+}
+
+// One piece whose ends lie beside its middle: where a query comes to be nearer to them, the middle is a
+// foot-point still, the distance rises from there on both sides, and only the fourth derivative says that it
+// falls again. (Beside a curve far away: else the piece would be cut for the sake of float32.)
+TEST(ThePointOfAPieceThatTurnsBackIsNotKeptToItsMiddle) {
+  for (const double weight : {1.0, 1.2, 0.8}) {
+    tools::SplineCurve curve, far_away;
+    curve.degree = 3;
+    curve.knots = {0, 0, 0, 0, 1, 1, 1, 1};
+    curve.t1 = 1;
+    // x = s - s^3, y = 0.2 s^2, for s from -1 to 1.
+    curve.points = {{0, 0.2, 0, 1},
+                    {-4.0 / 3, -0.2 / 3, 0, weight},
+                    {4.0 / 3, -0.2 / 3, 0, weight},
+                    {0, 0.2, 0, 1}};
+    far_away.degree = 1;
+    far_away.knots = {0, 0, 1, 1};
+    far_away.t1 = 1;
+    far_away.points = {{20, 20, 0, 1}, {21, 21, 0, 1}};
+    tools::SplineModel model;
+    model.curves = {curve, far_away};
+    tools::SplineDetail detail = tools::curve_detail(false);
+    detail.thickness = detail.doubt = 100;
+    tools::SplineReport report;
+    const auto sections = tools::bake_spline(model, "x", detail, report);
+    spline::View view;
+    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+    CHECK_EQ(view.leaf_count(), 3u);  // two, and one between them that is none
+    Hint hint;
+    for (int i = 0; i <= 200; ++i) {
+      const Vec3 p{1e-3f, -0.5f + 0.0075f * static_cast<float>(i), 0};
+      double truth = HUGE_VAL;
+      for (int k = 0; k <= 4000; ++k) {
+        const tools::Point on = tools::point_at(curve, k / 4000.0);
+        truth = std::min(truth, std::hypot(on.x - wide(p.x), on.y - wide(p.y)));
+      }
+      const spline::Closest c = closest_point(view, p, kUnlimited, hint);
+      CHECK(c.certificate.exact);
+      CHECK_LE(wide(c.distance_m), truth + 1e-5);
+      CHECK_LE(wide(c.certificate.lower_m), truth);
+    }
+  }
+}

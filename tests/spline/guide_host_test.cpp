@@ -370,24 +370,3 @@ TEST(Rule645RefusesChainsWithAGap) {
   g.set_chains({{0, 0}, {1, 1}});
   CHECK_EQ(g.verdict().rule, 645);
 }
-
-TEST(Rule646RefusesLeavesThatDoNotFollowTheCurve) {
-  spline_test::SmallSpline small(false);
-  tools::SplineGuideReport report;
-  const std::vector<tools::Section> lengths = tools::bake_spline_guide(small.view(), "x", report);
-  CHECK_EQ(lengths.size(), 2u);
-  const auto bytes = [&](size_t i) {
-    return core::Bytes{lengths[i].bytes.data(), static_cast<uint32_t>(lengths[i].bytes.size())};
-  };
-  spline::GuideView guide;
-  CHECK(spline::open_guide(small.view(), {bytes(0), bytes(1)}, guide).ok());
-  // Two leaves below one node change places: the model is as sound as before, and no guide.
-  std::swap(small.leaves[2], small.leaves[3]);
-  std::swap(small.bends[2], small.bends[3]);
-  std::swap(small.capsules[5], small.capsules[6]);
-  std::swap(small.places[2], small.places[3]);
-  CHECK(small.view().is_open());
-  const core::Verdict verdict = spline::open_guide(small.view(), {bytes(0), bytes(1)}, guide);
-  CHECK_EQ(verdict.rule, 646);
-  CHECK_EQ(verdict.element, 2u);
-}

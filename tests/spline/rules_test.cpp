@@ -64,14 +64,14 @@ TEST(Rule602RefusesCountsOutOfRange) {
   model.head.leaf_count = 4;
   model.head.piece_count = 0;
   expect(model, 602, 0);
+  model = curve();
+  model.head.point_count = 4;
+  expect(model, 602, 0);
 }
 
-TEST(Rule603RefusesFlagsAndReservedWords) {
+TEST(Rule603RefusesFlags) {
   SmallSpline model = curve();
   model.head.is_rational = 2;
-  expect(model, 603, 0);
-  model = curve();
-  model.head.reserved = 1;
   expect(model, 603, 0);
 }
 
@@ -82,9 +82,10 @@ TEST(Rule604RefusesSectionsOfAnotherLength) {
   const Sections across = other.sections();
   for (uint32_t which = 0; which < 9; ++which)
     for (uint32_t kind = 0; kind < 2; ++kind) {
+      if (which == 3) continue;  // is not used
       Sections s = kind == 0 ? whole : across;
       firmtouch::core::Bytes* const parts[] = {&s.pieces, &s.coefficients, &s.leaves,
-                                               &s.places, &s.nodes,        &s.points,
+                                               nullptr,   &s.nodes,        &s.points,
                                                &s.bends,  &s.grids,        &s.radii};
       if (parts[which]->size() == 0)  // of the other kind: of any length it is too much
         *parts[which] = whole.head;
@@ -130,6 +131,19 @@ TEST(Rule608RefusesABudgetOfNothing) {
   expect(model, 608, 0);
 }
 
+TEST(Rule609RefusesAUnitOfRadiiThatIsNone) {
+  SmallSpline model = curve();
+  model.head.radius_unit_m = 0.0f;
+  expect(model, 609, 0);
+  model.head.radius_unit_m = 0x1p61f;
+  expect(model, 609, 0);
+  model.head.radius_unit_m = nan_value();
+  expect(model, 609, 0);
+  model = surface();
+  model.head.radius_unit_m = 1.0f;
+  expect(model, 609, 0);
+}
+
 TEST(Rule611RefusesADegreeOutOfRange) {
   SmallSpline model = curve();
   model.pieces[1].degree_u = 6;
@@ -169,22 +183,31 @@ TEST(Rule614RefusesACoefficientThatIsNoNumber) {
   expect(model, 614, 7);
 }
 
-TEST(Rule615RefusesPartsThatHaveNoLeafOfTheirOwn) {
+TEST(Rule615RefusesLeavesThatAreNotThePartsOfEachPieceInTurn) {
   SmallSpline model = curve();
-  model.places[2] = 9;
-  expect(model, 615, 2);
+  model.leaves[1] = 1;
+  expect(model, 615, 0);
   model = curve();
-  model.places[1] = 0;
+  model.leaves[3] = 0;
   expect(model, 615, 1);
   model = curve();
-  model.leaves[3].index_u = 0;
-  expect(model, 615, 3);
+  model.bends[1].first_leaf = 1;
+  expect(model, 615, 1);
   model = curve();
-  model.leaves[3].piece = 0;
-  expect(model, 615, 3);
+  model.bends[1].first_leaf = 3;
+  expect(model, 615, 1);
+  model.leaves[2] = firmtouch::spline::kNoLeaf;  // now there is one too few
+  expect(model, 615, 1);
+  model = curve();
+  model.bends[0].first_leaf = 1;
+  model.leaves[0] = firmtouch::spline::kNoLeaf;
+  expect(model, 615, 0);
   model = curve();
   model.pieces[1].level_u = 2;
   expect(model, 615, 1);
+  model = curve();
+  model.pieces[1].level_u = 0;
+  expect(model, 615, 2);
 }
 
 TEST(Rule616RefusesAnOriginOrAParameterThatIsNoNumber) {
@@ -198,17 +221,34 @@ TEST(Rule616RefusesAnOriginOrAParameterThatIsNoNumber) {
 
 TEST(Rule617RefusesAPointOutsideTheBox) {
   SmallSpline model = curve();
-  model.points[3].x_m = 9.0f;
+  model.points[2 * 3] = 9.0f;
   expect(model, 617, 3);
+  model = curve();
+  model.points[10 + 4] = nan_value();
+  expect(model, 617, 4);
 }
 
 TEST(Rule618RefusesANodeThatIsNone) {
   SmallSpline model = curve();
-  model.capsules[2].last = 5;
-  expect(model, 618, 2);
-  model = curve();
-  model.capsules[1].radius = 0x7F80;
-  expect(model, 618, 1);
+  // Six leaves: those of node 7 would be the seventh and eighth.
+  model.pieces[1].level_u = 2;
+  model.head.leaf_count = 6;
+  model.head.point_count = 7;
+  const uint16_t leaves[] = {0, 0, 1, 1, 1, 1};
+  float points[7 * 3];
+  for (uint32_t k = 0; k < 21; ++k) points[k] = model.head.low_m[k < 14 ? k % 2 : 2];
+  uint8_t radii[13] = {};
+  const auto verdict = [&] {
+    Sections s = model.sections();
+    s.leaves = {reinterpret_cast<const uint8_t*>(leaves), sizeof leaves};
+    s.points = {reinterpret_cast<const uint8_t*>(points), sizeof points};
+    s.radii = {radii, sizeof radii};
+    return verdict_of(s);
+  };
+  CHECK(verdict().rule != 618);
+  radii[6] = 1;
+  CHECK_EQ(verdict().rule, 618);
+  CHECK_EQ(verdict().element, 6u);
   model = surface();
   model.boxes[0].axis[1][2] = 0.5f;
   expect(model, 618, 0);
@@ -225,8 +265,23 @@ TEST(Rule619RefusesWeightsThatVaryTooMuchOnALeaf) {
 
 TEST(Rule620RefusesBendsThatAreNotBounds) {
   SmallSpline model = curve();
-  model.bends[2].fixed = static_cast<uint16_t>(model.bends[2].fixed - 1);
-  expect(model, 620, 2);
+  for (uint32_t piece = 0; piece < 2; ++piece) {
+    model = SmallSpline(false, true);
+    firmtouch::spline::CurveBend& bend = model.bends[piece];
+    float* const bounds[] = {&bend.fixed_m2, &bend.turning_m, &bend.noise_m2,
+                             &bend.noise_turning_m};
+    for (float* const bound : bounds) {
+      const float derived = *bound;
+      CHECK(derived > 0.0f);
+      *bound = derived * 0.999f;
+      expect(model, 620, piece);
+      *bound = nan_value();
+      expect(model, 620, piece);
+      *bound = __builtin_inff();
+      expect(model, 620, piece);
+      *bound = derived;
+    }
+  }
   for (uint32_t k = 0; k < 5; ++k) {
     for (uint32_t cell = 0; cell < 3; ++cell) {
       model = surface();
@@ -240,9 +295,6 @@ TEST(Rule620RefusesBendsThatAreNotBounds) {
       }
     }
   }
-  model = curve();
-  model.bends[0].fixed = 0x7F80;
-  expect(model, 620, 0);
 }
 
 TEST(Rule621RefusesALossBelowWhatALeafLoses) {
@@ -263,7 +315,7 @@ TEST(Rule623RefusesANodeThatDoesNotHoldItsLeaves) {
   for (uint32_t node = 0; node < 7; ++node) {
     firmtouch::test::note("node", node);
     SmallSpline model = curve();
-    model.capsules[node].radius = static_cast<uint16_t>(model.capsules[node].radius * 127 / 128);
+    model.curve_radii[node] = static_cast<uint8_t>(model.curve_radii[node] - 1);
     CHECK_EQ(verdict_of(model.sections()).rule, 623);
   }
   SmallSpline model = surface();
@@ -324,4 +376,23 @@ TEST(Rule625RefusesStepsAndUnitsThatAreNone) {
   model = surface();
   model.grids[0].radius_unit_m = 0x1p61f;
   expect(model, 625, 0);
+}
+
+TEST(Rule626RefusesAFlatCurveThatIsNotFlat) {
+  SmallSpline model = curve();
+  model.is_flat = true;
+  expect(model, 626, 0);  // a power of s has a z
+  const auto flatten = [&] {
+    model = curve();
+    model.is_flat = true;
+    for (uint32_t k = 2; k < 24; k += 3) model.coefficients[k] = 0.0f;
+    model.pieces[1].origin_m[2] = model.pieces[0].origin_m[2];
+  };
+  flatten();
+  CHECK(verdict_of(model.sections()).rule != 626);
+  model.pieces[1].origin_m[2] += 0x1p-6f;
+  expect(model, 626, 1);
+  flatten();
+  model.coefficients[23] = 0x1p-20f;
+  expect(model, 626, 1);
 }

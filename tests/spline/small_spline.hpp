@@ -16,16 +16,17 @@ struct SmallSpline {
   spline::Head head{};
   spline::Piece pieces[2] = {};
   float coefficients[2 * 48] = {};
-  spline::Leaf leaves[4] = {};
-  spline::Bend bends[4] = {};
-  uint16_t places[4] = {};
-  spline::Capsule capsules[7] = {};
-  spline::Point points[5] = {};
+  uint16_t leaves[4] = {0, 0, 1, 1};
+  spline::CurveBend bends[2] = {};
+  float points[5 * 3] = {};  // x and y of each, then z
+  uint8_t curve_radii[7] = {};
   spline::Grid grids[2] = {};
   spline::Corner corners[12] = {};
   uint8_t radii[8] = {};                  // and two overlaps
   spline::PatchBend patch_bends[3] = {};  // one cell of the first piece, two of the second
   spline::Box boxes[1] = {};
+
+  bool is_flat = false;  // its points are stored without z: a curve whose numbers must allow it
 
   explicit SmallSpline(bool is_surface, bool is_rational = false) {
     head.is_surface = is_surface ? 1 : 0;
@@ -49,9 +50,8 @@ struct SmallSpline {
     } else {
       made.leaves = bytes(leaves, sizeof leaves);
       made.bends = bytes(bends, sizeof bends);
-      made.places = bytes(places, sizeof places);
-      made.nodes = bytes(capsules, sizeof capsules);
-      made.points = bytes(points, sizeof points);
+      made.points = bytes(points, is_flat ? 5 * sizeof(spline::Point) : sizeof points);
+      made.radii = bytes(curve_radii, sizeof curve_radii);
     }
     return made;
   }
@@ -66,7 +66,7 @@ struct SmallSpline {
   spline::LeafShape shape(uint32_t of, const spline::Part& part) const {
     spline::LeafShape made;
     spline::derive(pieces[of], coefficients + pieces[of].coefficients, part, made);
-    spline::bound_bends(part, made);
+    if (head.is_surface != 0) spline::bound_bends(part, made);
     return made;
   }
 
@@ -81,17 +81,14 @@ struct SmallSpline {
     head.loss_m = 0;
     for (uint32_t k = 0; k < 3; ++k) head.low_m[k] = 1e6f, head.high_m[k] = -1e6f;
     for (uint32_t i = 0; i < 4; ++i) {
-      leaves[i] = {static_cast<uint16_t>(i / 2), static_cast<uint8_t>(i % 2), 0};
-      places[i] = static_cast<uint16_t>(i);
       const spline::LeafShape s = shape(i);
-      bends[i] = {spline::rounded_up(s.fixed[0]), spline::rounded_up(s.turning[0])};
       if (s.loss_m > head.loss_m) head.loss_m = s.loss_m;
       widen(s);
     }
     if (is_surface)
       derive_grids();
     else
-      derive_capsules();
+      derive_curves();
   }
 
   // A point of a piece, in double.
@@ -152,26 +149,38 @@ struct SmallSpline {
     }
   }
 
-  // Leaf i is node 3 + i; nodes 1 and 2 hold two leaves each.
-  void derive_capsules() {
+  // Leaf i is node 4 + i; node 1 is the root, nodes 2 and 3 hold two leaves each.
+  void derive_curves() {
+    head.radius_unit_m = 0x1p-24f;
     for (uint32_t i = 0; i < 5; ++i) {
       double at[3];
       point(i < 4 ? i / 2 : 1, i % 2 == 0 ? (i == 4 ? 1.0 : -1.0) : 0.0, 0, at);
-      points[i] = {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
+      points[2 * i] = static_cast<float>(at[0]);
+      points[2 * i + 1] = static_cast<float>(at[1]);
+      points[10 + i] = static_cast<float>(at[2]);
     }
-    static const uint16_t kEnds[7][2] = {{0, 4}, {0, 2}, {2, 4}, {0, 1}, {1, 2}, {2, 3}, {3, 4}};
-    for (uint32_t node = 7; node-- > 0;) {
-      capsules[node] = {kEnds[node][0], kEnds[node][1], 0};
-      for (uint32_t leaf = kEnds[node][0]; leaf < kEnds[node][1]; ++leaf) {
-        const uint16_t needed = spline::rounded_up(
-            node >= 3 ? spline::radius_for(shape(leaf), at(leaf), at(leaf + 1))
-                      : spline::radius_above(spline::from_half(capsules[3 + leaf].radius), at(leaf),
-                                             at(leaf + 1), at(kEnds[node][0]), at(kEnds[node][1])));
-        if (needed > capsules[node].radius) capsules[node].radius = needed;
+    for (uint32_t p = 0; p < 2; ++p) {
+      spline::CurveBends needed;
+      for (uint32_t k = 0; k < spline::kFineParts; ++k)
+        (void)spline::add_bends(pieces[p], coefficients + pieces[p].coefficients, k, needed);
+      bends[p] = needed.stored();
+      bends[p].first_leaf = 2 * p;
+    }
+    static const uint32_t kEnds[7][2] = {{0, 4}, {0, 2}, {2, 4}, {0, 1}, {1, 2}, {2, 3}, {3, 4}};
+    for (uint32_t node = 7; node > 0; --node) {
+      const uint32_t(&ends)[2] = kEnds[node - 1];
+      uint8_t& radius = curve_radii[node - 1] = 0;
+      for (uint32_t leaf = ends[0]; leaf < ends[1]; ++leaf) {
+        const float leaf_m = spline::stored_value(head.radius_unit_m, curve_radii[3 + leaf]);
+        const uint8_t needed = byte(
+            head.radius_unit_m, node >= 4 ? spline::radius_for(shape(leaf), at(leaf), at(leaf + 1))
+                                          : spline::radius_above(leaf_m, at(leaf), at(leaf + 1),
+                                                                 at(ends[0]), at(ends[1])));
+        if (needed > radius) radius = needed;
       }
     }
   }
-  math::Vec3 at(uint32_t i) const { return {points[i].x_m, points[i].y_m, points[i].z_m}; }
+  math::Vec3 at(uint32_t i) const { return {points[2 * i], points[2 * i + 1], points[10 + i]}; }
 
   void derive_grids() {
     for (uint32_t p = 0; p < 2; ++p) {

@@ -170,6 +170,15 @@ inline bool turns_no_faster(const Jet& jet, int a, int b, Wide width, float fixe
          raised(most(rest) + raised(own * width)) <= static_cast<Wide>(fixed) + kNothing;
 }
 
+// Of a curve the fourth derivative of D^2 / 2, which may be below 0 by as much.
+inline bool bends_no_lower(const Jet& jet, Wide width, float fixed, float turning) {
+  const Wide own = longest(jet.of[4][0]);
+  const Interval rest =
+      Interval(4) * dot(jet.of[1][0], jet.of[3][0]) + Interval(3) * dot(jet.of[2][0], jet.of[2][0]);
+  return own <= static_cast<Wide>(turning) + kNothing &&
+         raised(-rest.lo + raised(own * width)) <= static_cast<Wide>(fixed) + kNothing;
+}
+
 struct BakedModel {
   std::vector<tools::Section> sections;
   spline::View view;

@@ -12,6 +12,7 @@ namespace {
 // As open() asks (rule R607), less what rounding of the sum may take.
 constexpr double kMostLoss = 1.98 * 0x1p-24, kMostRationalLoss = 4.98 * 0x1p-24;
 constexpr size_t kMostPieces = 20000;
+constexpr int kMostCuts = 3;  // of a piece, for the sake of its weights
 
 struct Bounds {
   double low_m[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -63,8 +64,7 @@ double doubt_of(const spline::LeafShape& shape, const StoredPiece& stored, uint3
   const double reach = std::ldexp(1.0, -static_cast<int>(level_u));
   const Point u = to_point(shape.c[1]) * (1 / reach);
   const double uu = dot(u, u);
-  if (stored.piece.degree_v == 0)
-    return uu > 0 ? wide(shape.fixed[0]) * reach / (3 * uu) : HUGE_VAL;
+  if (stored.piece.degree_v == 0) return 0;
   const double reach_v = std::ldexp(1.0, -static_cast<int>(level_v));
   const Point v = to_point(shape.c[shape.degree_u + 1]) * (1 / reach_v);
   const double vv = dot(v, v);
@@ -116,17 +116,34 @@ double loss_of(const StoredPiece& stored) {
   return worst + stored.deviation_m;
 }
 
-// Pieces short enough that float32 loses no more than is promised.
+// How much of the second derivative of D^2 / 2 in the middle of a curve's piece, seen from a tenth of the
+// extent, the fourth may take away at its ends: where weights vary, more than the whole.
+double doubt_of(const StoredPiece& stored, double extent_m) {
+  const spline::CurveBend bend = curve_bend_of(stored);
+  const spline::LeafShape whole = shape_of(stored, 0, 0, 0, 0);
+  const Point along = to_point(whole.c[1]);
+  const double fourth =
+      static_cast<double>(bend.fixed_m2) + static_cast<double>(bend.turning_m) * 0.1 * extent_m;
+  return fourth / (12 * dot(along, along));
+}
+
+// Pieces short enough that float32 loses no more than is promised, and that a point tells much of those
+// about it.
 std::vector<StoredPiece> cut(std::vector<BezierPatch> patches, bool is_surface,
                              const SplineDetail& detail, double extent_m, double most_m) {
   std::vector<StoredPiece> pieces;
   std::reverse(patches.begin(), patches.end());  // a stack, its top the first
+  std::vector<int> cuts(patches.size(), 0);
   while (!patches.empty() && pieces.size() + patches.size() < kMostPieces) {
     const BezierPatch patch = patches.back();
+    const int made = cuts.back();
     patches.pop_back();
+    cuts.pop_back();
     StoredPiece stored = store_piece(patch, is_surface);
     choose_levels(stored, detail, extent_m);
-    if (loss_of(stored) <= most_m) {
+    const bool is_doubtful = !is_surface && stored.piece.is_rational != 0 && made < kMostCuts &&
+                             !(doubt_of(stored, extent_m) <= detail.doubt);
+    if (loss_of(stored) <= most_m && !is_doubtful) {
       pieces.push_back(stored);
       continue;
     }
@@ -138,19 +155,20 @@ std::vector<StoredPiece> cut(std::vector<BezierPatch> patches, bool is_surface,
     const std::vector<BezierPatch> halves = halves_of(patch, along_v);
     patches.push_back(halves[1]);
     patches.push_back(halves[0]);
+    cuts.insert(cuts.end(), 2, made + 1);
   }
   if (!patches.empty()) pieces.clear();
   return pieces;
 }
 
-spline::Head make_head(const std::vector<StoredPiece>& pieces,
-                       const std::vector<spline::Point>& points, bool is_surface, bool is_rational,
-                       double extent_m) {
+spline::Head make_head(const std::vector<StoredPiece>& pieces, const SplineTree& tree,
+                       bool is_surface, bool is_rational, double extent_m) {
   spline::Head head{};
   head.is_surface = is_surface ? 1 : 0;
   head.is_rational = is_rational ? 1 : 0;
   head.piece_count = static_cast<uint32_t>(pieces.size());
-  head.point_count = static_cast<uint32_t>(points.size());
+  head.point_count = static_cast<uint32_t>(tree.points_m.size());
+  head.radius_unit_m = tree.radius_unit_m;
   for (size_t k = 0; k < 3; ++k) {
     head.low_m[k] = HUGE_VALF;
     head.high_m[k] = -HUGE_VALF;
@@ -172,15 +190,40 @@ spline::Head make_head(const std::vector<StoredPiece>& pieces,
         }
       }
   }
-  for (const spline::Point& p : points)
+  for (const math::Vec3& p : tree.points_m) {
+    const float at_m[3] = {p.x, p.y, p.z};
     for (size_t k = 0; k < 3; ++k) {
-      head.low_m[k] = std::min(head.low_m[k], (&p.x_m)[k]);
-      head.high_m[k] = std::max(head.high_m[k], (&p.x_m)[k]);
+      head.low_m[k] = std::min(head.low_m[k], at_m[k]);
+      head.high_m[k] = std::max(head.high_m[k], at_m[k]);
     }
+  }
+  if (!is_surface) head.leaf_count = static_cast<uint32_t>(tree.leaves.size());
   head.extent_m = static_cast<float>(extent_m * (1 - 1e-6));
   head.loss_m = static_cast<float>(loss_m * (1 + 1e-6));
   head.worst_steps = 1;
   return head;
+}
+
+// In a plane of one z, as they are stored.
+bool is_flat(const std::vector<StoredPiece>& pieces) {
+  for (const StoredPiece& stored : pieces) {
+    const float off_m = stored.piece.origin_m[2] - pieces[0].piece.origin_m[2];
+    if (off_m < 0 || off_m > 0) return false;
+    for (size_t k = 2; k < stored.coefficients.size(); k += stored.piece.is_rational != 0 ? 4 : 3)
+      if (stored.coefficients[k] < 0 || stored.coefficients[k] > 0) return false;
+  }
+  return true;
+}
+
+// x and y of all, and behind them their z.
+std::vector<float> stored_points(const std::vector<math::Vec3>& points_m, bool is_flat) {
+  std::vector<float> stored;
+  for (const math::Vec3& p : points_m) {
+    stored.push_back(p.x);
+    stored.push_back(p.y);
+  }
+  for (size_t i = 0; i < points_m.size() && !is_flat; ++i) stored.push_back(points_m[i].z);
+  return stored;
 }
 
 core::Bytes bytes_of(const std::vector<Section>& sections, const std::string& name, uint32_t type) {
@@ -275,8 +318,7 @@ std::vector<Section> bake_spline(const SplineModel& model, const std::string& na
     report.problem = "turns too sharply for its size: its derivatives leave the range of float32";
     return {};
   }
-  spline::Head head =
-      make_head(pieces, tree.points, is_surface, report.is_rational, report.extent_m);
+  spline::Head head = make_head(pieces, tree, is_surface, report.is_rational, report.extent_m);
   if (is_surface) head.point_count = static_cast<uint32_t>(grids.corners.size());
   std::vector<spline::Piece> stored_pieces;
   std::vector<float> coefficients;
@@ -300,9 +342,9 @@ std::vector<Section> bake_spline(const SplineModel& model, const std::string& na
   } else {
     sections.push_back(make_section(spline::kLeavesSection, name, tree.leaves));
     sections.push_back(make_section(spline::kBendsSection, name, tree.bends));
-    sections.push_back(make_section(spline::kPlacesSection, name, tree.places));
-    sections.push_back(make_section(spline::kNodesSection, name, tree.capsules));
-    sections.push_back(make_section(spline::kPointsSection, name, tree.points));
+    sections.push_back(
+        make_section(spline::kPointsSection, name, stored_points(tree.points_m, is_flat(pieces))));
+    sections.push_back(make_section(spline::kRadiiSection, name, tree.radii));
   }
   for (const Section& section : sections) report.bytes += section.bytes.size();
   report.pieces = head.piece_count;
@@ -327,7 +369,6 @@ spline::Sections spline_sections(const std::vector<Section>& sections, const std
           bytes_of(sections, name, spline::kCoefficientsSection),
           bytes_of(sections, name, spline::kLeavesSection),
           bytes_of(sections, name, spline::kBendsSection),
-          bytes_of(sections, name, spline::kPlacesSection),
           bytes_of(sections, name, spline::kNodesSection),
           bytes_of(sections, name, spline::kPointsSection),
           bytes_of(sections, name, spline::kGridsSection),

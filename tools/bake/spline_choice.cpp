@@ -13,6 +13,8 @@ constexpr double kStep = 0.002;                 // of the extent, a query
 // Instructions of a Cortex-M7: a point evaluated with its proof, and a node.
 constexpr query::Budget kMost{2000};
 constexpr double kEvaluation = 1700, kNode = 350;
+constexpr uint64_t kCurveBytes = 5000;
+constexpr double kMostDoubt = 8;
 
 // Of straight walks within a quarter of the extent about the model's box.
 double work_of(const spline::View& model) {
@@ -43,11 +45,29 @@ double work_of(const std::vector<Section>& sections, const std::string& name) {
   return is_open ? work_of(view) : HUGE_VAL;
 }
 
+// Pieces with weights are cut less often where the curve is then of the size that is aimed at.
+std::vector<Section> bake_fast_curve(const SplineModel& model, const std::string& name,
+                                     bool is_small, SplineReport& report) {
+  SplineDetail detail = curve_detail(is_small);
+  std::vector<Section> finest = bake_spline(model, name, detail, report);
+  if (!report.problem.empty() || !report.is_rational || is_small) return finest;
+  SplineReport coarser = report;
+  for (std::vector<Section> made = finest; coarser.problem.empty() && detail.doubt <= kMostDoubt;) {
+    if (coarser.bytes <= kCurveBytes) {
+      report = coarser;
+      return made;
+    }
+    detail.doubt *= 2;
+    made = bake_spline(model, name, detail, coarser);
+  }
+  return finest;
+}
+
 }  // namespace
 
 std::vector<Section> bake_fast_spline(const SplineModel& model, const std::string& name,
                                       bool is_small, SplineReport& report) {
-  if (model.surfaces.empty()) return bake_spline(model, name, curve_detail(is_small), report);
+  if (model.surfaces.empty()) return bake_fast_curve(model, name, is_small, report);
   SplineDetail detail = surface_detail(is_small);
   std::vector<Section> best = bake_spline(model, name, detail, report);
   if (!report.problem.empty() || is_small) return best;

@@ -3,43 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/left_filled.hpp"
-
 namespace firmtouch::tools {
 namespace {
 
 struct Part {
-  spline::Leaf leaf;
   spline::LeafShape shape;
-  uint32_t order;                // piece by piece
-  uint16_t first = 0, last = 0;  // points of a curve
+  math::Vec3 first_m, last_m;
 };
-
-struct Range {
-  uint32_t node, begin, end;
-};
-
-spline::Bend bend_of(const Part& part) {
-  return {spline::rounded_up(part.shape.fixed[0]), spline::rounded_up(part.shape.turning[0])};
-}
-
-std::vector<Part> parts_of(const std::vector<StoredPiece>& pieces) {
-  std::vector<Part> parts;
-  for (size_t p = 0; p < pieces.size(); ++p) {
-    const spline::Piece& piece = pieces[p].piece;
-    for (uint32_t v = 0; v < 1u << piece.level_v; ++v)
-      for (uint32_t u = 0; u < 1u << piece.level_u; ++u) {
-        Part part{};
-        part.shape = shape_of(pieces[p], piece.level_u, u, piece.level_v, v);
-        part.leaf.piece = static_cast<uint16_t>(p);
-        part.leaf.index_u = static_cast<uint8_t>(u);
-        part.leaf.index_v = static_cast<uint8_t>(v);
-        part.order = static_cast<uint32_t>(parts.size());
-        parts.push_back(part);
-      }
-  }
-  return parts;
-}
 
 math::Vec3 end_of(const spline::LeafShape& shape, float x) {
   math::Vec3 sum{};
@@ -51,72 +21,101 @@ math::Vec3 end_of(const spline::LeafShape& shape, float x) {
   return {shape.middle_m.x + sum.x / w, shape.middle_m.y + sum.y / w, shape.middle_m.z + sum.z / w};
 }
 
-// Neighbours that meet share the point between them.
-bool place_points(std::vector<Part>& parts, std::vector<spline::Point>& points) {
-  for (Part& part : parts) {
-    const math::Vec3 first = end_of(part.shape, -1), last = end_of(part.shape, 1);
-    const spline::Point* before = points.empty() ? nullptr : &points.back();
-    const float near_m = 4 * part.shape.noise_m;
-    const bool meets = before != nullptr && std::fabs(before->x_m - first.x) <= near_m &&
-                       std::fabs(before->y_m - first.y) <= near_m &&
-                       std::fabs(before->z_m - first.z) <= near_m;
-    if (!meets) points.push_back({first.x, first.y, first.z});
-    part.first = static_cast<uint16_t>(points.size() - 1);
-    points.push_back({last.x, last.y, last.z});
-    part.last = static_cast<uint16_t>(points.size() - 1);
-    if (points.size() > spline::kMaxLeaves) return false;
-  }
-  return true;
+bool is_near(const math::Vec3& a, const math::Vec3& b, float near_m) {
+  return std::fabs(a.x - b.x) <= near_m && std::fabs(a.y - b.y) <= near_m &&
+         std::fabs(a.z - b.z) <= near_m;
 }
 
-math::Vec3 vec(const spline::Point& p) { return {p.x_m, p.y_m, p.z_m}; }
-
-spline::Capsule capsule_around(const std::vector<Part>& parts, uint32_t begin, uint32_t end,
-                               const std::vector<spline::Point>& points) {
-  spline::Capsule capsule{parts[begin].first, parts[end - 1].last, 0};
-  const math::Vec3 a = vec(points[capsule.first]), b = vec(points[capsule.last]);
-  for (uint32_t i = begin; i < end; ++i) {
-    const math::Vec3 from = vec(points[parts[i].first]), to = vec(points[parts[i].last]);
-    const uint16_t own = spline::rounded_up(spline::radius_for(parts[i].shape, from, to));
-    const uint16_t needed =
-        end - begin == 1
-            ? own
-            : spline::rounded_up(spline::radius_above(spline::from_half(own), from, to, a, b));
-    capsule.radius = std::max(capsule.radius, needed);
+// The radius of each node in metres, of all leaves below it.
+std::vector<float> radii_of(const SplineTree& tree, const std::vector<Part>& parts) {
+  const spline::CurveLevels levels(static_cast<uint32_t>(tree.leaves.size()));
+  std::vector<float> radii(levels.node_count(), 0.0f);
+  for (uint32_t i = 0; i < levels.leaf_count; ++i) {
+    if (tree.leaves[i] == spline::kNoLeaf) continue;
+    const uint32_t node = levels.first_node() + i;
+    radii[node - 1] = spline::radius_for(parts[i].shape, tree.points_m[i], tree.points_m[i + 1]);
   }
-  return capsule;
+  return radii;
+}
+
+// A unit whose bytes reach the largest radius, and the byte of each; those above a leaf follow from its own.
+void store_radii(SplineTree& tree, const std::vector<Part>& parts) {
+  const spline::CurveLevels levels(static_cast<uint32_t>(tree.leaves.size()));
+  std::vector<float> radii = radii_of(tree, parts);
+  double reach_m = 0;
+  for (const math::Vec3& p : tree.points_m) {
+    const math::Vec3 off{p.x - tree.points_m[0].x, p.y - tree.points_m[0].y,
+                         p.z - tree.points_m[0].z};
+    reach_m =
+        std::max({reach_m, static_cast<double>(std::fabs(off.x)),
+                  static_cast<double>(std::fabs(off.y)), static_cast<double>(std::fabs(off.z))});
+  }
+  for (const float radius_m : radii) reach_m = std::max(reach_m, static_cast<double>(radius_m));
+  // No radius is above four times the reach; a byte goes over almost 32 doublings.
+  tree.radius_unit_m = std::ldexp(1.0f, std::ilogb(reach_m) + 4 - 31);
+  const float unit = tree.radius_unit_m;
+  tree.radii.assign(radii.size(), 0);
+  for (uint32_t i = 0; i < levels.leaf_count; ++i) {
+    if (tree.leaves[i] == spline::kNoLeaf) continue;
+    uint32_t node = levels.first_node() + i;
+    const auto keep = [&](float radius_m) {
+      uint8_t& byte = tree.radii[node - 1];
+      byte = std::max(byte, static_cast<uint8_t>(spline::byte_above(unit, radius_m)));
+    };
+    keep(radii[node - 1]);
+    const float leaf_m = spline::stored_value(unit, tree.radii[node - 1]);
+    for (node >>= 1; node != 0; node >>= 1) {
+      const spline::CurveLevels::Leaves under = levels.below(node);
+      keep(under.end - under.first == 1
+               ? leaf_m
+               : spline::radius_above(leaf_m, tree.points_m[i], tree.points_m[i + 1],
+                                      tree.points_m[under.first], tree.points_m[under.end]));
+    }
+  }
 }
 
 }  // namespace
 
+spline::CurveBend curve_bend_of(const StoredPiece& stored) {
+  spline::CurveBends bends;
+  for (uint32_t k = 0; k < spline::kFineParts; ++k)
+    if (!spline::add_bends(stored.piece, stored.coefficients.data(), k, bends))
+      return {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, 0};
+  return bends.stored();
+}
+
 SplineTree build_spline_tree(const std::vector<StoredPiece>& pieces) {
   SplineTree tree;
-  std::vector<Part> parts = parts_of(pieces);
-  for (const Part& part : parts)
-    if (bend_of(part).fixed >= 0x7F80u || bend_of(part).turning >= 0x7F80u) return tree;
-  if (!place_points(parts, tree.points)) return tree;
-  const auto count = static_cast<uint32_t>(parts.size());
-  tree.leaves.resize(count);
-  tree.bends.resize(count);
-  tree.places.resize(count);
-  tree.capsules.resize(2 * count - 1);
-  std::vector<Range> open{{0, 0, count}};
-  while (!open.empty()) {
-    const Range range = open.back();
-    open.pop_back();
-    tree.capsules[range.node] = capsule_around(parts, range.begin, range.end, tree.points);
-    const uint32_t size = range.end - range.begin;
-    if (size == 1) {
-      const uint32_t leaf = range.node - (count - 1);
-      tree.leaves[leaf] = parts[range.begin].leaf;
-      tree.bends[leaf] = bend_of(parts[range.begin]);
-      tree.places[parts[range.begin].order] = static_cast<uint16_t>(leaf);
-      continue;
+  std::vector<Part> parts;
+  for (size_t p = 0; p < pieces.size(); ++p) {
+    const spline::Piece& piece = pieces[p].piece;
+    spline::CurveBend bend = curve_bend_of(pieces[p]);
+    for (const float bound : {bend.fixed_m2, bend.turning_m, bend.noise_m2, bend.noise_turning_m})
+      if (!(bound <= spline::kMostBend)) return {};
+    for (uint32_t u = 0; u < 1u << piece.level_u; ++u) {
+      Part part{};
+      part.shape = shape_of(pieces[p], piece.level_u, u, piece.level_v, 0);
+      part.first_m = end_of(part.shape, -1);
+      part.last_m = end_of(part.shape, 1);
+      // Neighbours that meet share the point between them.
+      const bool meets =
+          !parts.empty() && is_near(tree.points_m.back(), part.first_m, 4 * part.shape.noise_m);
+      if (!meets) {
+        if (!parts.empty()) {
+          tree.leaves.push_back(spline::kNoLeaf);
+          parts.emplace_back();
+        }
+        tree.points_m.push_back(part.first_m);
+      }
+      if (u == 0) bend.first_leaf = static_cast<uint32_t>(tree.leaves.size());
+      tree.points_m.push_back(part.last_m);
+      tree.leaves.push_back(static_cast<uint16_t>(p));
+      parts.push_back(part);
     }
-    const uint32_t middle = range.begin + (first_size(2 * size - 1) + 1) / 2;
-    open.push_back({spline::first_child(range.node), range.begin, middle});
-    open.push_back({spline::first_child(range.node) + 1, middle, range.end});
+    tree.bends.push_back(bend);
   }
+  if (tree.leaves.size() > spline::kMaxLeaves) return {};
+  store_radii(tree, parts);
   return tree;
 }
 

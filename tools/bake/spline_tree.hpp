@@ -6,17 +6,20 @@
 
 namespace firmtouch::tools {
 
-/// Curves: leaves in the order of the tree, the tree's nodes, and where each part of each piece is.
+/// Curves: leaves, of each its piece, the points between them and the radii of all nodes.
 struct SplineTree {
-  std::vector<spline::Leaf> leaves;
-  std::vector<spline::Bend> bends;
-  std::vector<uint16_t> places;
-  std::vector<spline::Capsule> capsules;
-  std::vector<spline::Point> points;
+  std::vector<uint16_t> leaves;
+  std::vector<spline::CurveBend> bends;  // of the pieces
+  std::vector<math::Vec3> points_m;
+  std::vector<uint8_t> radii;
+  float radius_unit_m = 0;
 };
 
+/// All but its first leaf; infinite where a weight may fall to half of its middle's on a sixteenth of it.
+spline::CurveBend curve_bend_of(const StoredPiece& stored);
+
 /// Pre: the pieces' levels are set; at most spline::kMaxLeaves parts in all.
-/// Result: without leaves where a bound is beyond what a leaf can store.
+/// Result: without leaves where a bound is beyond what can be stored, or there are too many leaves.
 SplineTree build_spline_tree(const std::vector<StoredPiece>& pieces);
 
 /// Surfaces: how each piece is cut, and boxes around pieces.

@@ -53,6 +53,7 @@ class Finder {
   void ask_centres() {
     const uint32_t step = model_.leaf_count() / kMostCentres + 1;
     for (uint32_t i = 0; i < model_.leaf_count(); i += step) {
+      if (!model_.is_leaf(i)) continue;
       const spline::View::Place leaf = model_.place_of(i);
       const spline::Piece& piece = model_.pieces()[leaf.piece];
       spline::LeafShape shape;

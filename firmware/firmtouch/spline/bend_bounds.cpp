@@ -1,6 +1,7 @@
 #include "firmtouch/spline/bend_bounds.hpp"
 
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/spline/search.hpp"
 
 namespace firmtouch::spline {
 namespace {
@@ -124,7 +125,6 @@ void bound_bends(const Part& part, float span_m, LeafShape& shape) {
     shape.turning[i] = turning * kUp / halves;
   };
   const float u = part.half_u, v = part.half_v;
-  if (shape.degree_v == 0) return bound(0, 3.0f * of(1, 0, 2, 0), c.of[3][0], u * u * u);
   const float products[5] = {
       4.0f * of(1, 0, 3, 0) + 3.0f * of(2, 0, 2, 0),
       of(0, 1, 3, 0) + 3.0f * of(1, 0, 2, 1) + 3.0f * of(2, 0, 1, 1),
@@ -136,7 +136,74 @@ void bound_bends(const Part& part, float span_m, LeafShape& shape) {
     bound(k, products[k], c.of[4 - k][k], power(u, 4 - k) * power(v, k));
 }
 
+// Of the fourth derivative of D^2 / 2 the terms without the query, 4 x1 . x3 + 3 x2 . x2 of the derivatives x1
+// to x4: by how much they may be below 0. Their own derivative, 10 x2 . x3 + 4 x1 . x4, tells how fast they
+// leave what they are in the middle.
+float lowest_of(const Part& part, const LeafShape& shape, const Vectors& x, const Sizes& c) {
+  const float one = c.of[1][0], two = c.of[2][0], three = c.of[3][0], four = c.of[4][0];
+  const float u = part.half_u;
+  // Of a middle derivative: what its coefficients may be off, by Leibniz' rule.
+  const float off_m =
+      16.0f * (shape.numerator_noise_m + shape.weight_noise * shape.reach_m) / shape.least_weight;
+  const float sizes = 4.0f * one * three + 3.0f * two * two;
+  const float in_middle =
+      4.0f * dot(x.of[1][0], x.of[3][0]) + 3.0f * dot(x.of[2][0], x.of[2][0]) - 0x1p-18f * sizes -
+      off_m * (4.0f * (u * three + 6.0f * u * u * u * one) + 12.0f * u * u * two);
+  const float low = in_middle - (10.0f * two * three + 4.0f * one * four) * kUp;
+  const float below = least(-low, 4.0f * one * three);
+  return below + 0x1p-16f * size_of(below);
+}
+
 }  // namespace
+
+// Beside what a point loses, its derivatives lose so many times more (search.hpp), and each product is
+// rounded; what the query's difference from a point loses counts with the derivative that it meets.
+CurveBend CurveBends::stored() const {
+  const float sum_m2 = lowest + turning * span_m * kUp;
+  CurveBend bend{};
+  bend.fixed_m2 = sum_m2 > 0.0f ? sum_m2 * kUp : 0.0f;
+  bend.turning_m = turning;
+  const float third = 0.6666667f;
+  bend.noise_m2 = (loss_m * (kBendNoise * speed + swing) + 8.0f * kUnit * speed * speed +
+                   third * (loss_m * (3.0f * (kSlopeNoise * swing + kBendNoise * speed) + twist) +
+                            72.0f * kUnit * speed * swing)) *
+                  kUp;
+  bend.noise_turning_m = (kBendNoise * loss_m + 14.0f * kUnit * swing +
+                          third * (kTwistNoise * loss_m + 30.0f * kUnit * twist)) *
+                         kUp;
+  return bend;
+}
+
+bool add_bends(const Piece& piece, const float* coefficients, uint32_t fine_part,
+               CurveBends& bends) {
+  Part part{};
+  part.half_u = 1.0f / static_cast<float>(kFineParts);
+  part.middle_u = part.half_u * static_cast<float>(2 * fine_part + 1) - 1.0f;
+  part.half_v = 1.0f;
+  LeafShape shape;
+  derive(piece, coefficients, part, shape);
+  if (!(shape.least_weight > 0.0f)) return false;
+  Sizes c, w;
+  bound_sums(shape, part, shape.numerator_noise_m, shape.weight_noise, c, w);
+  quotient(c, w, shape.least_weight);
+  Vectors x;
+  middle_derivatives(shape, x);
+  tighten(x, c);
+  const float fourth = part.half_u * part.half_u * part.half_u * part.half_u;
+  const float lowest = lowest_of(part, shape, x, c) / fourth, turning = c.of[4][0] * kUp / fourth;
+  if (fine_part == 0 || !(lowest <= bends.lowest)) bends.lowest = lowest;  // not a number stays
+  if (!(turning <= bends.turning)) bends.turning = turning;
+  bends.span_m = (bends.span_m + 2.0f * shape.reach_m) * kUp;
+  const float per_half = 1.0f / part.half_u;
+  const auto keep = [](float& most, float size) {
+    if (!(size <= most)) most = size;
+  };
+  keep(bends.speed, c.of[1][0] * per_half);
+  keep(bends.swing, c.of[2][0] * per_half * per_half);
+  keep(bends.twist, c.of[3][0] * per_half * per_half * per_half);
+  keep(bends.loss_m, shape.loss_m);
+  return true;
+}
 
 void bound_bends(const Part& part, LeafShape& shape) {
   bound_bends(part, 2.0f * shape.reach_m, shape);

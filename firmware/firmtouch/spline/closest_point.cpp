@@ -156,23 +156,23 @@ Closest answer_curve(const View& model, Vec3 p_m, query::Budget budget, query::H
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
   CurveSearch<kFlat> search(model, p_m, budget.steps, best);
-  LeafFence fence{hint.fence & 0xFFFFu, hint.fence >> 16, carried.fence_m};
+  LeafFence fence{{hint.fence & 0xFFFFu, hint.fence >> 16}, carried.fence_m};
   uint32_t leaf;
-  typename CurveSearch<kFlat>::Range range;
-  const bool is_warm = search.resume(hint.place, leaf, range);
+  float s;
+  const bool is_warm = search.resume(hint.place, leaf, s);
   if (is_warm) {
-    search.run_warm(leaf, range, kFenceReach * model.head().extent_m, fence);
+    search.run_warm(leaf, s, kFenceReach * model.head().extent_m, fence);
   } else {
     begin_at_first(model, p_m, best);
     search.run_cold(outside_m(model.head(), p_m));
-    fence = {0xFFFFu, 0xFFFFu, 0.0f};
+    fence = {{0xFFFFu, 0xFFFFu}, 0.0f};
   }
   const bool is_first = best.node == query::kNowhere;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
   const Closest closest =
-      certified(model, p_m, search, best, is_first ? 0 : search.piece_of(best.node), carried, hint);
+      certified(model, p_m, search, best, is_first ? 0 : best.node, carried, hint);
   hint.place = is_first ? query::kNowhere : search.place_after(motion_m);
-  hint.fence = fence.first | fence.last << 16;
+  hint.fence = fence.row.first | fence.row.last << 16;
   hint.fence_m = fence.distance_m;
   return closest;
 }

@@ -1,16 +1,10 @@
 #pragma once
 // Branch and bound over the parts of curves, for .cpp files of this room only.
+#include "firmtouch/spline/curve_fence.hpp"
 #include "firmtouch/spline/curve_proof.hpp"
-#include "firmtouch/spline/curve_tree.hpp"
 #include "firmtouch/spline/search.hpp"
 
 namespace firmtouch::spline {
-
-/// Leaves next to each other along the curve, outside which everything is at least so far away.
-struct LeafFence {
-  uint32_t first, last;
-  float distance_m;
-};
 
 template <bool kFlat>
 class CurveSearch {
@@ -25,57 +19,55 @@ class CurveSearch {
         left_(budget_),
         best_(best) {}
 
-  /// The leaf of a hint, from where it was left: none for a hint that is none.
-  bool resume(uint32_t place, uint32_t& node, Range& range) const {
-    const uint32_t leaf = place >> 16;
-    if (leaf > tree_.last()) return false;
-    node = tree_.node_of(leaf);
-    range = tree_.range_of(node, decoded(place & 0xFFFFu, 65535));
+  /// The leaf of a hint, and where it was left: false for a hint that is none.
+  bool resume(uint32_t place, uint32_t& leaf, float& s) const {
+    leaf = place >> 16;
+    if (leaf > tree_.last() || tree_.piece_of(leaf) == kNoLeaf) return false;
+    s = tree_.range_of(leaf, decoded(place & 0xFFFFu, 65535)).start;
     return true;
   }
-  /// Where the nearest point will be after as much motion again, as far as its leaf and the next one of
-  /// its piece reach.
+  /// Where the nearest point will be after as much motion again, no farther on than a leaf and its piece.
   uint32_t place_after(math::Vec3 motion_m) const {
-    uint32_t node = best_.node;
+    const uint32_t piece = best_.node;
+    const float wide = tree_.width_of(piece);
     float s = best_.s;
-    Range range = tree_.range_of(node, 0.0f);
     if (best_bend_ > 0.0f) {
-      s += dot_as<kFlat>(best_.along[0], motion_m) / best_bend_;
-      const bool is_above = s > range.high;
-      if (is_above || s < range.low) {
-        const uint32_t order = tree_.order_of(node) + (is_above ? 1u : 0u - 1u);
-        const uint32_t beside = order <= tree_.last() ? tree_.leaf_at(order) : node;
-        if (tree_.piece_of(beside) == tree_.piece_of(node)) {
-          node = beside;
-          range = tree_.range_of(node, 0.0f);
-        }
-      }
+      const float step = dot_as<kFlat>(best_.along[0], motion_m) / best_bend_;
+      s += step < wide ? (step > -wide ? step : -wide) : wide;
+      s = s < 1.0f ? (s > -1.0f ? s : -1.0f) : 1.0f;
     }
-    return tree_.leaf_of(node) << 16 | coded((s - range.low) / (range.high - range.low), 65535);
+    const uint32_t leaf = tree_.leaf_at(piece, s);
+    return leaf << 16 | coded((s - tree_.end_of(piece, leaf, wide)) / wide, 65535);
   }
-  uint32_t piece_of(uint32_t node) const { return tree_.piece_of(node); }
 
   /// From a leaf that may be near to those within the fence, where everything outside it is far enough
   /// away, else up the tree to the root: then a new fence is told, `margin_m` farther than the best
   /// where there is room for it.
-  void run_warm(uint32_t leaf, const Range& range, float margin_m, LeafFence& fence) {
-    Entry first{leaf, 0.0f, range};
-    if (!solve(first) || (count_ != 0 && !drain())) return stop();
+  void run_warm(uint32_t leaf, float s, float margin_m, LeafFence& fence) {
+    const uint32_t piece = tree_.piece_of(leaf);
+    LeafRow row = fence.row;
+    if (!(row.holds(leaf, leaf) && row.last <= tree_.last()))
+      row = {leaf > kBeside ? leaf - kBeside : 0, leaf + kBeside};
+    const uint32_t first = tree_.first_of(piece), last = tree_.last_of(piece);
+    row_ = {row.first > first ? row.first : first, row.last < last ? row.last : last};
+    const float wide = tree_.width_of(piece);
+    Entry all{tree_.node_of(leaf),
+              0.0f,
+              {tree_.end_of(piece, row_.first, wide), tree_.end_of(piece, row_.last + 1, wide), s}};
+    is_row_ = true;
+    if (!solve(all) || (count_ != 0 && !drain())) return stop();
     is_complete_ = best_.limit_m <= 0.0f;
     if (is_complete_) return;
-    if (best_.limit_m <= fence.distance_m && fence.last <= tree_.last())
-      is_complete_ = look_within(fence, tree_.order_of(leaf));
+    if (best_.limit_m <= fence.distance_m && fence.row.last <= tree_.last())
+      is_complete_ = look_within(fence.row);
     else
-      is_complete_ = climb(leaf, margin_m, fence);
+      is_complete_ = look_everywhere(margin_m, fence);
     if (!is_complete_) stop();
   }
 
   void run_cold(float outside_m) {
-    Entry& first = stack_[0];
-    first.node = 0;
-    first.lower_m = outside_m;
-    if (tree_.is_leaf(0)) first.range = tree_.range_of(0, tree_.see(0).share);
-    count_ = 1;
+    put(1, outside_m);
+    if (tree_.is_leaf(1)) stack_[0].range = tree_.range_of(0, tree_.see(1).share);
     is_complete_ = drain();
   }
 
@@ -94,119 +86,109 @@ class CurveSearch {
 
  private:
   static constexpr uint32_t kMostTurns = 5;
-  static constexpr uint32_t kBeside = 4;  // a fence reaches at most so many leaves to either side
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and two.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 3;
-  static constexpr uint32_t kMostPassed = 24;
-  static constexpr uint32_t kMostOpened = 4;
+  static constexpr uint32_t kStep = 2;  // levels
 
   struct Entry {
     uint32_t node;
     float lower_m;
     Range range;  // of a leaf
   };
-  struct Passed {
-    uint32_t node;
-    float lower_m;
-  };
-
   void stop() { is_cut_ = true; }
 
-  bool look_within(const LeafFence& fence, uint32_t but) {
-    for (uint32_t order = fence.first; order <= fence.last; ++order) {
-      if (order == but) continue;
-      if (left_ == 0) return false;
-      --left_;
-      const uint32_t leaf = tree_.leaf_at(order);
-      const typename Tree::Seen seen = tree_.see(leaf);
-      if (seen.lower_m >= best_.limit_m) continue;
-      Entry& entry = stack_[0];
-      entry.node = leaf;
-      entry.lower_m = seen.lower_m;
-      entry.range = tree_.range_of(leaf, seen.share);
-      count_ = 1;
+  bool look_within(const LeafRow& row) {
+    if (row.last > closed_.last &&
+        !look_at(row.first > closed_.last ? row.first : closed_.last + 1, row.last))
+      return false;
+    return row.first >= closed_.first ||
+           look_at(row.first, row.last < closed_.first ? row.last : closed_.first - 1);
+  }
+  bool look_at(uint32_t first, uint32_t last) {
+    const uint32_t count = last - first + 1;
+    if (left_ < count) return false;
+    scan(tree_.node_of(first), tree_.node_of(first) + count);
+    return drain();
+  }
+
+  bool look_everywhere(float margin_m, LeafFence& fence) {
+    passed_.begin(best_.limit_m + margin_m);
+    if (lost_m_ < FLT_MAX) passed_.pass(0.0f);
+    if (!tree_.is_leaf(1)) {
+      put(1, 0.0f);
       if (!drain()) return false;
     }
+    const uint32_t leaf = tree_.leaf_at(best_.node, best_.s);
+    LeafRow row{leaf, leaf};
+    if (closed_.holds(leaf, leaf))
+      row = closed_;
+    else if (closed_.first <= closed_.last)
+      passed_.pass(raised(0.0f, closed2_m2_));
+    fence = passed_.fence_about(tree_, leaf, row, steps(), left_);
     return true;
   }
 
-  bool climb(uint32_t leaf, float margin_m, LeafFence& fence) {
-    reach_m_ = best_.limit_m + margin_m;
-    around_m_ = lost_m_ < FLT_MAX ? 0.0f : reach_m_;
-    for (uint32_t node = leaf; node != 0;) {
-      if (left_ == 0) return false;
-      visit(sibling_of(node), 0.0f);
-      node = parent_of(node);
-      if (count_ != 0 && !drain()) return false;
-    }
-    if (leaf != best_.node) pass(leaf, 0.0f);
-    fence_about(tree_.order_of(best_.node), fence);
-    return true;
-  }
-
-  // Of what was passed over, the leaves beside the nearest point stand within; of the rest is known how
-  // far it is. A part that is more than that is opened, and some of those farther along the curve: their
-  // bounds were only as good as the search needed.
-  void fence_about(uint32_t order, LeafFence& fence) {
-    const uint32_t low = order > kBeside ? order - kBeside : 0, high = order + kBeside;
-    fence.first = fence.last = order;
-    uint32_t opened = 0;
-    for (uint32_t i = 0; i < passed_count_; ++i) {
-      const Passed passed = passed_[i];
-      const uint32_t first = tree_.order_of(tree_.first_leaf(passed.node));
-      const uint32_t last = tree_.order_of(tree_.last_leaf(passed.node));
-      if (first >= low && last <= high) {
-        if (first < fence.first) fence.first = first;
-        if (last > fence.last) fence.last = last;
-        continue;
-      }
-      const bool is_outside = first > high || last < low;
-      const bool is_kept = is_outside && (tree_.is_leaf(passed.node) || opened++ >= kMostOpened);
-      if (is_kept || left_ < 2) {
-        if (passed.lower_m < around_m_) around_m_ = passed.lower_m;
-      } else {
-        left_ -= 2;
-        pass_child(first_child(passed.node), passed.lower_m);
-        pass_child(first_child(passed.node) + 1, passed.lower_m);
-      }
-    }
-    fence.distance_m = around_m_ * (1.0f - 0x1p-22f);
-  }
-  void pass_child(uint32_t node, float above_m) {
-    const float lower_m = tree_.see(node).lower_m;
-    pass(node, lower_m > above_m ? lower_m : above_m);
-  }
-  // A part that need not be looked at, kept where it is within the reach of a new fence.
-  void pass(uint32_t node, float lower_m) {
-    if (lower_m >= reach_m_) return;
-    if (passed_count_ < kMostPassed)
-      passed_[passed_count_++] = {node, lower_m};
-    else if (lower_m < around_m_)
-      around_m_ = lower_m;
-  }
-
-  void put(uint32_t node, float lower_m, const Range& range) {
+  void put(uint32_t leaf, float lower_m, const Range& range) {
     if (count_ < kCapacity)
-      stack_[count_++] = {node, lower_m, range};
+      stack_[count_++] = {tree_.node_of(leaf), lower_m, range};
     else
       lose(lower_m);
   }
   void lose(float lower_m) {
     if (lower_m < lost_m_) lost_m_ = lower_m;
-    around_m_ = 0.0f;
+    passed_.pass(0.0f);
   }
 
-  // Reads a node and keeps it where it may hold something nearer.
-  void visit(uint32_t node, float above_m) {
-    --left_;
-    const typename Tree::Seen seen = tree_.see(node);
-    const float lower_m = seen.lower_m > above_m ? seen.lower_m : above_m;
-    if (lower_m >= best_.limit_m) return pass(node, lower_m);
-    if (count_ >= kCapacity) return lose(lower_m);
+  void put(uint32_t node, float lower_m) {
     Entry& entry = stack_[count_++];
     entry.node = node;
     entry.lower_m = lower_m;
-    if (tree_.is_leaf(node)) entry.range = tree_.range_of(node, seen.share);
+  }
+
+  // Reads the nodes of a level from one to before another, but for what is closed, and keeps those that may
+  // hold something nearer.
+  void scan(uint32_t node, uint32_t end) {
+    const CurveLevels& levels = tree_.levels();
+    const uint32_t below = levels.levels_below(node), first = levels.first_node();
+    const uint32_t there = ((first + tree_.last()) >> below) + 1;
+    if (there < end) end = there;
+    const uint32_t closed = (first + closed_.first + (1u << below) - 1) >> below;
+    const uint32_t closed_end = (first + closed_.last + 1) >> below;
+    base_ = count_;
+    if (closed_end <= node || closed >= end || closed >= closed_end) return read(node, end, below);
+    if (node < closed) read(node, closed, below);
+    if (closed_end < end) read(closed_end, end, below);
+  }
+  void read(uint32_t node, uint32_t end, uint32_t below) {
+    const uint32_t wide = 1u << below, count = tree_.last() + 1;
+    const float limit_m = best_.limit_m, reach_m = passed_.reach_m();
+    left_ -= end - node;
+    uint32_t leaf = (node << below) - tree_.levels().first_node();
+    math::Vec3 off_m = tree_.off_m(leaf);
+    for (; node < end; ++node) {
+      leaf += wide;
+      const math::Vec3 off_end_m = tree_.off_m(leaf < count ? leaf : count);
+      const typename Tree::Seen seen = tree_.see(off_m, off_end_m, tree_.radius_m(node));
+      off_m = off_end_m;
+      if (seen.lower_m < limit_m)
+        keep(node, seen);
+      else if (seen.lower_m < reach_m)
+        passed_.pass(node, seen.lower_m);
+    }
+  }
+  // The nearest of a scan comes up first.
+  void keep(uint32_t node, const typename Tree::Seen& seen) {
+    const bool is_leaf = tree_.is_leaf(node);
+    if (is_leaf && tree_.piece_of(tree_.leaf_of(node)) == kNoLeaf) return;
+    if (count_ >= kCapacity) return lose(seen.lower_m);
+    Entry* entry = stack_ + count_++;
+    if (count_ - 1 > base_ && entry[-1].lower_m <= seen.lower_m) {
+      *entry = entry[-1];
+      --entry;
+    }
+    entry->node = node;
+    entry->lower_m = seen.lower_m;
+    if (is_leaf) entry->range = tree_.range_of(tree_.leaf_of(node), seen.share);
   }
 
   // False: the budget ended, and what is left stands on the stack.
@@ -214,43 +196,48 @@ class CurveSearch {
     while (count_ > 0) {
       Entry& entry = stack_[--count_];
       if (entry.lower_m >= best_.limit_m) {
-        pass(entry.node, entry.lower_m);
+        passed_.pass(entry.node, entry.lower_m);
       } else if (tree_.is_leaf(entry.node)) {
         if (!solve(entry)) return false;
-      } else if (left_ < 2) {
+      } else if (!open(entry.node)) {
         ++count_;
         left_ = 0;
         return false;
-      } else {
-        open(entry.node, entry.lower_m);
       }
     }
     return true;
   }
 
-  // The nearer child comes up first.
-  void open(uint32_t node, float lower_m) {
-    const uint32_t before = count_, low = first_child(node);
-    visit(low, lower_m);
-    visit(low + 1, lower_m);
-    if (count_ == before + 2 && stack_[before].lower_m < stack_[before + 1].lower_m) {
-      const Entry first = stack_[before];
-      stack_[before] = stack_[before + 1];
-      stack_[before + 1] = first;
-    }
+  // Nodes that are most of the curve are not worth a look: from the root three levels to five, and then two
+  // at a time.
+  static uint32_t first_step(uint32_t levels) {
+    return levels < 5 ? levels : levels == 7 ? 5 : 3 + ((levels - 3) & 1u);
+  }
+  // Goes down several levels at once. False: the budget does not reach.
+  bool open(uint32_t node) {
+    const uint32_t below = tree_.levels().levels_below(node);
+    uint32_t step = node == 1 ? first_step(below) : below < kStep ? below : kStep;
+    if (left_ < 1u << step) step = 1;
+    if (left_ < 2) return false;
+    scan(node << step, (node + 1) << step);
+    return true;
   }
 
   bool solve(Entry& entry) {
-    const uint32_t node = entry.node;
+    uint32_t leaf = tree_.leaf_of(entry.node);
     const float lower_m = entry.lower_m;
     Range range = entry.range;
-    pass(node, 0.0f);
     float middle, below_m = lower_m, above_m = lower_m;
-    switch (close(node, range, middle, below_m, above_m)) {
+    const Outcome outcome = close(leaf, range, middle, below_m, above_m);
+    if (is_row_)
+      is_row_ = false;
+    else
+      passed_.pass(entry.node, outcome == Outcome::kClosed ? raised(lower_m, least2_m2_) : 0.0f);
+    switch (outcome) {
       case Outcome::kClosed:
         return true;
       case Outcome::kStopped:
-        put(node, lower_m, range);
+        put(leaf, lower_m, range);
         return false;
       case Outcome::kLost:
         lose(lower_m);
@@ -261,18 +248,20 @@ class CurveSearch {
     const Range below{range.low, middle, 0.5f * (range.low + middle)};
     const Range above{middle, range.high, 0.5f * (middle + range.high)};
     const bool is_below_first = above_m >= below_m;
-    if (is_below_first) put(node, above_m, above);
-    put(node, below_m, below);
-    if (!is_below_first) put(node, above_m, above);
+    if (is_below_first) put(leaf, above_m, above);
+    put(leaf, below_m, below);
+    if (!is_below_first) put(leaf, above_m, above);
     return true;
   }
 
   /// Evaluates points of the range until what is left of it is beyond the best's limit (kClosed), or in
   /// two halves with bounds of their own (kSplit); where float32 has no point between the ends it is
-  /// given up (kLost).
-  Outcome close(uint32_t node, Range& range, float& middle, float& below_m, float& above_m) {
-    const Piece& piece = tree_.piece(tree_.piece_of(node));
+  /// given up (kLost). Of a row of leaves, what a point does not close is left but for its own leaf.
+  Outcome close(uint32_t& leaf, Range& range, float& middle, float& below_m, float& above_m) {
+    const uint32_t on = tree_.piece_of(leaf);
+    const Piece& piece = tree_.piece(on);
     const math::Vec3 q_m = tree_.query_from(piece);
+    bool is_row = is_row_;
     float s = range.start;
     for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
       if (left_ == 0) {
@@ -287,7 +276,7 @@ class CurveSearch {
       const float distance2_m2 = tree_.distance2(r_m), speed2 = dot_as<kFlat>(at.d1, at.d1);
       const float slope = dot_as<kFlat>(r_m, at.d1), bend = speed2 + dot_as<kFlat>(r_m, at.d2);
       if (best_.take(distance2_m2)) {
-        best_.node = node;
+        best_.node = on;
         best_.s = s;
         best_.x = at.x;
         best_.along[0] = at.d1;
@@ -302,11 +291,36 @@ class CurveSearch {
         continue;
       }
       const Expansion f =
-          expand<kFlat>(distance2_m2, bend, speed2, at.d2, tree_.bend_of(node), loss_m_);
-      const float below2 = f.least2(-slope, s - range.low),
-                  above2 = f.least2(slope, range.high - s);
-      const bool is_below_done = best_.is_beyond(below2), is_above_done = best_.is_beyond(above2);
-      if (is_below_done && is_above_done) return Outcome::kClosed;
+          expand<kFlat>(at, r_m, distance2_m2, slope, speed2, bend, tree_.bend_of(on), loss_m_);
+      float below2 = f.least2(-1.0f, s - range.low), above2 = f.least2(1.0f, range.high - s);
+      bool is_below_done = best_.is_beyond(below2), is_above_done = best_.is_beyond(above2);
+      if (is_row) {
+        closed_ = row_;
+        if (!is_below_done || !is_above_done) {
+          is_row = false;
+          leaf = tree_.leaf_at(on, s);
+          const Range own = tree_.range_of(leaf, 0.0f);
+          if (!is_below_done) {
+            closed_.first = leaf;
+            range.low = own.low;
+            below2 = f.least2(-1.0f, s - range.low);
+            is_below_done = best_.is_beyond(below2);
+          }
+          if (!is_above_done) {
+            closed_.last = leaf;
+            range.high = own.high;
+            above2 = f.least2(1.0f, range.high - s);
+            is_above_done = best_.is_beyond(above2);
+          }
+        }
+      }
+      if (is_below_done && is_above_done) {
+        least2_m2_ = below2 < above2 ? below2 : above2;
+        const float limit2_m2 = best_.limit_m * best_.limit_m;  // so far are parts closed before
+        if (turn > 0 && limit2_m2 < least2_m2_) least2_m2_ = limit2_m2;
+        if (is_row_) closed2_m2_ = least2_m2_;
+        return Outcome::kClosed;
+      }
       if (is_below_done) range.low = s;
       if (is_above_done) range.high = s;
       if (!(next > range.low)) next = range.low;
@@ -315,8 +329,8 @@ class CurveSearch {
       if (!(step > 0.0f || step < 0.0f)) {  // Newton goes no further, yet a side is not proven
         if (!is_below_done && !is_above_done) {
           middle = s;
-          raise(below_m, below2);
-          raise(above_m, above2);
+          below_m = raised(below_m, below2);
+          above_m = raised(above_m, above2);
           return Outcome::kSplit;
         }
         next = 0.5f * (range.low + range.high);
@@ -327,23 +341,25 @@ class CurveSearch {
     return middle > range.low && middle < range.high ? Outcome::kSplit : Outcome::kLost;
   }
 
-  static void raise(float& lower_m, float lower2_m2) {
-    if (!(lower2_m2 > 0.0f)) return;
+  static float raised(float lower_m, float lower2_m2) {
+    if (!(lower2_m2 > 0.0f)) return lower_m;
     const float own_m = math::square_root(lower2_m2) * (1.0f - 0x1p-21f);
-    if (own_m > lower_m) lower_m = own_m;
+    return own_m > lower_m ? own_m : lower_m;
   }
 
   Tree tree_;
   float loss_m_;
   uint32_t budget_, left_;
-  Best& best_;
+  Best& best_;  // its node: the piece it is of
   float best_bend_ = 0.0f;
   float lost_m_ = FLT_MAX;  // bound of what the stack had no room for
   bool is_complete_ = false;
   bool is_cut_ = false;  // parts of the tree were not reached at all
-  float reach_m_ = 0.0f, around_m_ = 0.0f;
-  uint32_t passed_count_ = 0, count_ = 0;
-  Passed passed_[kMostPassed];
+  bool is_row_ = false;  // what is solved next
+  LeafRow row_{1, 0}, closed_{1, 0};
+  float least2_m2_ = 0.0f, closed2_m2_ = 0.0f;  // of the last that was closed, and of those leaves
+  PassedParts<kFlat> passed_;
+  uint32_t count_ = 0, base_ = 0;  // of the stack, and where a scan's begin
   Entry stack_[kCapacity];
 };
 

@@ -5,14 +5,11 @@
 
 namespace firmtouch::spline {
 
-/// A part of a leaf.
+/// A part of a piece.
 struct CurveRange {
   float low, high;  // of the piece's s
   float start;      // where to evaluate first
 };
-
-/// from_half(), in line.
-static inline float half_float(uint32_t stored) { return math::float_of(stored << 16); }
 
 /// kFlat: of curves in a plane of one z, where z takes no part in what is computed but in a distance.
 template <bool kFlat>
@@ -23,7 +20,7 @@ static inline float dot_as(math::Vec3 a, math::Vec3 b) {
 /// At least as long as the vector.
 template <bool kFlat>
 static inline float size_as(math::Vec3 v) {
-  if constexpr (kFlat) return (v.x < 0.0f ? -v.x : v.x) + (v.y < 0.0f ? -v.y : v.y);
+  if constexpr (kFlat) return __builtin_fabsf(v.x) + __builtin_fabsf(v.y);
   return size_of(v);
 }
 
@@ -38,71 +35,64 @@ class CurveTree {
       : pieces_(model.pieces().data()),
         coefficients_(model.coefficients().data()),
         leaves_(model.leaves().data()),
-        bends_(model.bends().data()),
-        capsules_(model.capsules().data()),
+        bends_(model.curve_bends().data()),
+        radii_(model.curve_radii().data()),
         points_(model.points().data()),
-        base_(model.leaf_count() - 1),
+        heights_m_(model.is_flat() ? &pieces_->origin_m[2] : model.heights_m().data()),
+        height_mask_(model.is_flat() ? 0 : UINT32_MAX),
+        levels_(model.leaf_count()),
+        unit_(math::bits_of(model.head().radius_unit_m)),
         p_m_(p_m) {
-    const uint32_t levels = 31u - static_cast<uint32_t>(__builtin_clz(2 * base_ + 1));
-    deepest_ = (1u << levels) - 1;
-    deep_count_ = 2 * base_ + 1 - deepest_;
     if constexpr (kFlat) {
-      const float off_m = p_m.z - points_[0].z_m;
+      const float off_m = p_m.z - pieces_[0].origin_m[2];
       height2_m2_ = off_m * off_m;
     }
   }
 
-  /// Leaves have the last nodes, in their order in the asset.
-  uint32_t last() const { return base_; }
-  uint32_t leaf_of(uint32_t node) const { return node - base_; }
-  uint32_t node_of(uint32_t leaf) const { return base_ + leaf; }
-  bool is_leaf(uint32_t node) const { return node >= base_; }
-  uint32_t piece_of(uint32_t node) const { return leaves_[node - base_].piece; }
+  /// Leaves have the last nodes, as they follow along the curve.
+  uint32_t last() const { return levels_.leaf_count - 1; }
+  uint32_t leaf_of(uint32_t node) const { return node - levels_.first_node(); }
+  uint32_t node_of(uint32_t leaf) const { return levels_.first_node() + leaf; }
+  bool is_leaf(uint32_t node) const { return node >= levels_.first_node(); }
+  CurveLevels::Leaves below(uint32_t node) const { return levels_.below(node); }
+  const CurveLevels& levels() const { return levels_; }
+
+  /// kNoLeaf where the leaf is none.
+  uint32_t piece_of(uint32_t leaf) const { return leaves_[leaf]; }
   const Piece& piece(uint32_t index) const { return pieces_[index]; }
   const float* coefficients() const { return coefficients_; }
-  const Bend& bend_of(uint32_t node) const { return bends_[node - base_]; }
+  const CurveBend& bend_of(uint32_t piece) const { return bends_[piece]; }
   math::Vec3 query_from(const Piece& piece) const { return p_m_ - vec3_at(piece.origin_m); }
 
-  /// Along the curve: the leaves of the deepest level come first.
-  uint32_t order_of(uint32_t leaf) const {
-    return leaf >= deepest_ ? leaf - deepest_ : leaf - base_ + deep_count_;
-  }
-  uint32_t leaf_at(uint32_t order) const {
-    return order < deep_count_ ? deepest_ + order : base_ + order - deep_count_;
-  }
-
-  /// No point below the node is nearer; what of its chord is nearest. The stored radius holds what
-  /// float32 loses here (with_slack()).
-  Seen see(uint32_t node) const {
-    const Capsule& capsule = capsules_[node];
-    const Point &a = points_[capsule.first], &b = points_[capsule.last];
-    math::Vec3 off{p_m_.x - a.x_m, p_m_.y - a.y_m, 0.0f}, along{b.x_m - a.x_m, b.y_m - a.y_m, 0.0f};
-    if constexpr (!kFlat) {
-      off.z = p_m_.z - a.z_m;
-      along.z = b.z_m - a.z_m;
-    }
-    const float progress_m2 = dot_as<kFlat>(off, along);
+  /// Of a chord, by the ways from its ends to the query: no point within the radius of it is nearer; what of
+  /// it is nearest. The stored radius holds what float32 loses here (with_slack()).
+  Seen see(math::Vec3 off_m, math::Vec3 off_end_m, float radius_m) const {
+    math::Vec3 along{off_m.x - off_end_m.x, off_m.y - off_end_m.y, 0.0f};
+    if constexpr (!kFlat) along.z = off_m.z - off_end_m.z;
+    const float progress_m2 = dot_as<kFlat>(off_m, along);
     float share = 0.0f;
     if (progress_m2 > 0.0f) {
       const float length2_m2 = dot_as<kFlat>(along, along);
       share = progress_m2 < length2_m2 ? progress_m2 / length2_m2 : 1.0f;
-      off.x -= along.x * share;
-      off.y -= along.y * share;
-      if constexpr (!kFlat) off.z -= along.z * share;
+      off_m.x -= along.x * share;
+      off_m.y -= along.y * share;
+      if constexpr (!kFlat) off_m.z -= along.z * share;
     }
-    float off2_m2 = dot_as<kFlat>(off, off);
-    if constexpr (kFlat) off2_m2 += height2_m2_;
-    return {math::square_root(off2_m2) * (1.0f - 0x1p-20f) - half_float(capsule.radius), share};
+    return {math::square_root(distance2(off_m)) * (1.0f - 0x1p-20f) - radius_m, share};
   }
-
-  /// Of what is below a node.
-  uint32_t first_leaf(uint32_t node) const {
-    while (node < base_) node = first_child(node);
-    return node;
+  Seen see(uint32_t node) const {
+    const CurveLevels::Leaves under = levels_.below(node);
+    return see(off_m(under.first), off_m(under.end), radius_m(node));
   }
-  uint32_t last_leaf(uint32_t node) const {
-    while (node < base_) node = first_child(node) + 1;
-    return node;
+  /// From a point between leaves to the query.
+  math::Vec3 off_m(uint32_t point) const {
+    const Point& a = points_[point];
+    math::Vec3 off{p_m_.x - a.x_m, p_m_.y - a.y_m, 0.0f};
+    if constexpr (!kFlat) off.z = p_m_.z - heights_m_[point & height_mask_];
+    return off;
+  }
+  float radius_m(uint32_t node) const {
+    return math::float_of(unit_ + (static_cast<uint32_t>(radii_[node - 1]) << 20));
   }
 
   /// Squared distance of the query to the piece's point that is `off_m` from it.
@@ -112,23 +102,43 @@ class CurveTree {
     return sum_m2;
   }
 
-  /// A leaf, to be begun at a share of its length.
-  CurveRange range_of(uint32_t node, float share) const {
-    const Leaf& at = leaves_[node - base_];
-    const float wide = math::float_of((128u - pieces_[at.piece].level_u) << 23);  // 2^(1 - level)
-    const float low = static_cast<float>(static_cast<uint32_t>(at.index_u)) * wide - 1.0f;
+  /// Of a leaf that is one, to be begun at a share of its length.
+  CurveRange range_of(uint32_t leaf, float share) const {
+    const uint32_t piece = leaves_[leaf];
+    const float wide = width_of(piece);
+    const float low = end_of(piece, leaf, wide);
     return {low, low + wide, low + wide * share};
+  }
+  /// The leaf of a piece that holds a place of it.
+  uint32_t leaf_at(uint32_t piece, float s) const {
+    const uint32_t level = pieces_[piece].level_u;
+    const auto index = static_cast<uint32_t>((s + 1.0f) * math::float_of((126u + level) << 23));
+    const uint32_t most = (1u << level) - 1;
+    return bends_[piece].first_leaf + (index < most ? index : most);
+  }
+  uint32_t first_of(uint32_t piece) const { return bends_[piece].first_leaf; }
+  uint32_t last_of(uint32_t piece) const {
+    return bends_[piece].first_leaf + (1u << pieces_[piece].level_u) - 1;
+  }
+  /// Of a piece's leaves, by its s: 2^(1 - level), and where one begins.
+  float width_of(uint32_t piece) const {
+    return math::float_of((128u - pieces_[piece].level_u) << 23);
+  }
+  float end_of(uint32_t piece, uint32_t leaf, float wide) const {
+    return static_cast<float>(leaf - bends_[piece].first_leaf) * wide - 1.0f;
   }
 
  private:
   const Piece* pieces_;
   const float* coefficients_;
-  const Leaf* leaves_;
-  const Bend* bends_;
-  const Capsule* capsules_;
+  const uint16_t* leaves_;
+  const CurveBend* bends_;
+  const uint8_t* radii_;
   const Point* points_;
-  uint32_t base_;
-  uint32_t deepest_, deep_count_;  // first leaf of the deepest level, how many there are
+  const float* heights_m_;
+  uint32_t height_mask_;  // a flat model has one for all
+  CurveLevels levels_;
+  uint32_t unit_;
   float height2_m2_ = 0.0f;
   math::Vec3 p_m_;
 };

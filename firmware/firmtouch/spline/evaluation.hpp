@@ -8,7 +8,7 @@ namespace firmtouch::spline {
 
 /// A point of a curve, from its piece's origin, and its derivatives by the piece's s.
 struct CurvePoint {
-  math::Vec3 x, d1, d2;
+  math::Vec3 x, d1, d2, d3;
   CurvePoint() {}  // by hand: else all is cleared by a call, and then set
 };
 
@@ -20,47 +20,57 @@ static_assert(sizeof(SurfacePoint) == 30 * sizeof(float));
 
 static inline math::Vec3 vec3_at(const float* from) { return {from[0], from[1], from[2]}; }
 
-/// A polynomial with its first derivative and half its second (Horner).
+/// A polynomial with its first derivative, half its second and a sixth of its third (Horner).
 template <class T>
 struct Jet {
-  T value, first, half_second;
+  T value, first, half_second, sixth_third;
 };
 template <class T>
 static inline void begin(Jet<T>& jet, T c) {
   jet.value = c;
-  jet.first = jet.half_second = T{};
+  jet.first = jet.half_second = jet.sixth_third = T{};
 }
 template <class T>
 static inline void add_power(Jet<T>& jet, T c, float s) {
+  jet.sixth_third = jet.sixth_third * s + jet.half_second;
   jet.half_second = jet.half_second * s + jet.first;
   jet.first = jet.first * s + jet.value;
   jet.value = jet.value * s + c;
 }
 
 /// Numerator over weight, with the derivatives of both (Leibniz' rule).
-static inline void divide(CurvePoint& point, float w, float w1, float w2) {
+static inline void divide(float& x, float& d1, float& d2, float& d3, float per_w, float w1,
+                          float w2, float w3) {
+  x = x * per_w;
+  d1 = (d1 - x * w1) * per_w;
+  d2 = (d2 - d1 * (2.0f * w1) - x * w2) * per_w;
+  d3 = (d3 - d2 * (3.0f * w1) - d1 * (3.0f * w2) - x * w3) * per_w;
+}
+template <bool kFlat>
+static inline void divide(CurvePoint& p, float w, float w1, float w2, float w3) {
   const float per_w = 1.0f / w;
-  point.x = point.x * per_w;
-  point.d1 = (point.d1 - point.x * w1) * per_w;
-  point.d2 = (point.d2 - point.d1 * (2.0f * w1) - point.x * w2) * per_w;
+  divide(p.x.x, p.d1.x, p.d2.x, p.d3.x, per_w, w1, w2, w3);
+  divide(p.x.y, p.d1.y, p.d2.y, p.d3.y, per_w, w1, w2, w3);
+  if constexpr (!kFlat) divide(p.x.z, p.d1.z, p.d2.z, p.d3.z, per_w, w1, w2, w3);
 }
 
 /// One coordinate of a cubic with its derivatives: nothing is computed of what is 0.
 static inline void cubic_at(const float* c, uint32_t stride, float s, float& x, float& d1,
-                            float& d2) {
+                            float& d2, float& d3) {
   const float top = c[3 * stride] * s, a = top + c[2 * stride], b = a * s + c[stride];
   const float d = top + a;
   x = b * s + c[0];
   d1 = d * s + b;
   d2 = (top + d) * 2.0f;
+  d3 = c[3 * stride] * 6.0f;
 }
 
 /// kFlat: z is left out.
 template <bool kFlat>
 static inline void evaluate_cubic(const float* c, uint32_t stride, float s, CurvePoint& point) {
-  cubic_at(c, stride, s, point.x.x, point.d1.x, point.d2.x);
-  cubic_at(c + 1, stride, s, point.x.y, point.d1.y, point.d2.y);
-  if constexpr (!kFlat) cubic_at(c + 2, stride, s, point.x.z, point.d1.z, point.d2.z);
+  cubic_at(c, stride, s, point.x.x, point.d1.x, point.d2.x, point.d3.x);
+  cubic_at(c + 1, stride, s, point.x.y, point.d1.y, point.d2.y, point.d3.y);
+  if constexpr (!kFlat) cubic_at(c + 2, stride, s, point.x.z, point.d1.z, point.d2.z, point.d3.z);
 }
 
 static inline void evaluate_any(const Piece& piece, const float* c, float s, CurvePoint& point) {
@@ -78,19 +88,27 @@ static inline void evaluate_any(const Piece& piece, const float* c, float s, Cur
   point.x = jet.value;
   point.d1 = jet.first;
   point.d2 = jet.half_second * 2.0f;
-  if (piece.is_rational != 0) divide(point, weight.value, weight.first, weight.half_second * 2.0f);
+  point.d3 = jet.sixth_third * 6.0f;
+  if (piece.is_rational != 0)
+    divide<false>(point, weight.value, weight.first, weight.half_second * 2.0f,
+                  weight.sixth_third * 6.0f);
 }
 
 template <bool kFlat>
 static inline void evaluate_as(const Piece& piece, const float* coefficients, float s,
                                CurvePoint& point) {
   const float* c = coefficients + piece.coefficients;
-  if (piece.degree_u != 3) return evaluate_any(piece, c, s, point);
+  if (piece.degree_u != 3) {
+    CurvePoint any;  // of its own: else each would have to be stored
+    evaluate_any(piece, c, s, any);
+    point = any;
+    return;
+  }
   if (piece.is_rational == 0) return evaluate_cubic<kFlat>(c, 3, s, point);
   evaluate_cubic<kFlat>(c, 4, s, point);
-  float w, w1, w2;
-  cubic_at(c + 3, 4, s, w, w1, w2);
-  divide(point, w, w1, w2);
+  float w, w1, w2, w3;
+  cubic_at(c + 3, 4, s, w, w1, w2, w3);
+  divide<kFlat>(point, w, w1, w2, w3);
 }
 
 static inline void evaluate(const Piece& piece, const float* coefficients, float s,

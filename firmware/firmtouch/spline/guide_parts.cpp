@@ -8,6 +8,8 @@ float among_parts(const GuideView& guide, float s) {
   return 0.5f * (s + 1.0f) * static_cast<float>(guide.parts());
 }
 
+constexpr uint32_t kRoot = 1;  // of the tree over leaves
+
 float least_of(float a, float b) { return a < b ? a : b; }
 
 }  // namespace
@@ -15,14 +17,13 @@ float least_of(float a, float b) { return a < b ? a : b; }
 // Leaves below a node follow each other along the curve: its first and its last say how far, by the ends
 // of stored lengths about them, or within them.
 GuideParts::Stretch GuideParts::stretch_below(uint32_t node, bool is_within) const {
-  const core::Span<const Leaf> leaves = guide_.model().leaves();
-  uint32_t first = node, last = node;
-  while (!is_leaf(first)) first = first_child(first);
-  while (!is_leaf(last)) last = first_child(last) + 1;
-  const Leaf &from = leaves[first - (count_ - 1)], &to = leaves[last - (count_ - 1)];
+  const View& model = guide_.model();
+  const CurveLevels::Leaves under = curve_.below(node);
+  const View::Place from = model.place_of(under.first + (model.is_leaf(under.first) ? 0 : 1));
+  const View::Place to = model.place_of(under.end - (model.is_leaf(under.end - 1) ? 1 : 2));
   const uint32_t parts = guide_.parts();
-  const uint32_t from_level = guide_.model().pieces()[from.piece].level_u;
-  const uint32_t to_level = guide_.model().pieces()[to.piece].level_u;
+  const uint32_t from_level = model.pieces()[from.piece].level_u;
+  const uint32_t to_level = model.pieces()[to.piece].level_u;
   const uint32_t low_more = is_within ? (1u << from_level) - 1 : 0;
   const uint32_t high_more = is_within ? 0 : (1u << to_level) - 1;
   const uint32_t low = (from.index_u * parts + low_more) >> from_level;
@@ -33,8 +34,8 @@ GuideParts::Stretch GuideParts::stretch_below(uint32_t node, bool is_within) con
 uint32_t GuideParts::node_around(uint32_t node, float reach_m) const {
   const float low_m = penalty_.at_m - reach_m, high_m = penalty_.at_m + reach_m;
   const Round& round = penalty_.round;
-  if (round.is_closed && !(low_m >= round.first_m && high_m <= round.last_m)) return 0;
-  while (node != 0) {
+  if (round.is_closed && !(low_m >= round.first_m && high_m <= round.last_m)) return kRoot;
+  while (node != kRoot) {
     const Stretch below = stretch_below(node, true);
     const bool holds_low = below.low_m <= low_m || !(below.low_m > 0.0f);
     const bool holds_high = below.high_m >= high_m || !(below.high_m < guide_.length_m());
@@ -129,8 +130,8 @@ GuideParts::Room GuideParts::room_of(const Slopes& arc, const Way& way, float li
 // over a length l, the third but last term where it takes away. Beyond where the room ends nothing is
 // to be shown. The limit is 16 units of the cost below the best, which is more than what is rounded
 // of D0^2 - m0^2; what is rounded of the other terms is taken off them.
-bool GuideParts::is_side_done(const Expansion& f, float distance_m, float outward_slope,
-                              const Room& room, float length) {
+bool GuideParts::is_side_done(const Expansion& f, float distance_m, float side, const Room& room,
+                              float length) {
   const float m1 = room.slope, m2 = room.half_bend;
   const float most =
       room.first_m + (m1 > 0.0f ? m1 * length : 0.0f) + (m2 > 0.0f ? m2 * length * length : 0.0f);
@@ -144,9 +145,9 @@ bool GuideParts::is_side_done(const Expansion& f, float distance_m, float outwar
   const float cubic = 2.0f * m1 * m2 * length, fourth = m2 * m2 * length * length;
   const float taken = square + fourth + (cubic > 0.0f ? cubic : 0.0f) + both;
   const float size = square + fourth + (cubic > 0.0f ? cubic : 0.0f) + (both < 0.0f ? -both : both);
-  const float b = outward_slope - f.slope_noise - product -
+  const float b = side * f.slope - f.slope_noise - product -
                   8.0f * kUnit * (product < 0.0f ? -product : product);
-  const float q = f.least_bend - f.change * length * 0.33333337f - taken - 16.0f * kUnit * size;
+  const float q = f.bend_over(side, length) - taken - 16.0f * kUnit * size;
   const float c = (distance_m - m0) * (distance_m + m0);
   if (q > 0.0f && b < 0.0f && -b < q * length) return c - b * (b / q) >= 0.0f;
   return least_of(c, c + (2.0f * b + q * length) * length) >= 0.0f;
@@ -177,12 +178,12 @@ bool GuideParts::take_point(uint32_t on, uint32_t node, float s, uint32_t& left,
     ++best.evaluations;
     evaluate(piece, guide_.model().coefficients().data(), s, seen.at);
   }
-  const math::Vec3 r_m = seen.at.x - (p_m_ - vec3_at(piece.origin_m));
-  seen.distance2_m2 = dot(r_m, r_m);
+  seen.r_m = seen.at.x - (p_m_ - vec3_at(piece.origin_m));
+  seen.distance2_m2 = dot(seen.r_m, seen.r_m);
   seen.distance_m = math::square_root(seen.distance2_m2);
-  seen.slope = dot(r_m, seen.at.d1);
+  seen.slope = dot(seen.r_m, seen.at.d1);
   seen.speed2 = dot(seen.at.d1, seen.at.d1);
-  seen.bend = seen.speed2 + dot(r_m, seen.at.d2);
+  seen.bend = seen.speed2 + dot(seen.r_m, seen.at.d2);
   float t = among_parts(guide_, s) - static_cast<float>(arcs_.part());
   t = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
   seen.arc_m = arcs_.cubic().at_m(t);
@@ -207,20 +208,20 @@ float GuideParts::step_from(const Seen& seen, const Way& way, float& gain_m2) {
 }
 
 // Takes off a range what is proven on both sides of a point: nothing there costs less than the limit.
-bool GuideParts::prove(uint32_t leaf, const Seen& seen, float s, const Way* ways,
-                       uint32_t way_count, Range& range, Sides& sides) const {
-  const Expansion f = expand<false>(seen.distance2_m2, seen.bend, seen.speed2, seen.at.d2,
-                                    guide_.model().bends()[leaf], guide_.model().head().loss_m);
+bool GuideParts::prove(uint32_t on, const Seen& seen, float s, const Way* ways, uint32_t way_count,
+                       Range& range, Sides& sides) const {
+  const Expansion f = expand<false>(seen.at, seen.r_m, seen.distance2_m2, seen.slope, seen.speed2,
+                                    seen.bend, curve_.bend_of(on), guide_.model().head().loss_m);
   const float below = s - range.low, above = range.high - s;
   sides = {true, true};
   for (uint32_t k = 0; k < way_count; ++k) {
     const float room_m =
         best_.limit_m - (ways[k].offset_m + ways[k].per_m * (seen.arc_m - penalty_.at_m));
     if (sides.below && below > 0.0f)
-      sides.below = is_side_done(f, seen.distance_m, -seen.slope,
+      sides.below = is_side_done(f, seen.distance_m, -1.0f,
                                  room_of(seen.arc, ways[k], room_m, -1.0f, below), below);
     if (sides.above && above > 0.0f)
-      sides.above = is_side_done(f, seen.distance_m, seen.slope,
+      sides.above = is_side_done(f, seen.distance_m, 1.0f,
                                  room_of(seen.arc, ways[k], room_m, 1.0f, above), above);
   }
   if (sides.below) range.low = s;
@@ -237,7 +238,7 @@ Outcome GuideParts::split(uint32_t on, const Range& range, float at, float lower
 
 Outcome GuideParts::solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
                           Half<Range> (&halves)[2]) {
-  const uint32_t leaf = node - (count_ - 1), on = guide_.model().leaves()[leaf].piece;
+  const uint32_t on = piece_of(node);
   float cut;
   if (find_cut(on, range, cut)) {
     if (left == 0) return Outcome::kStopped;
@@ -265,7 +266,7 @@ Outcome GuideParts::solve(uint32_t node, Range& range, float lower_m, uint32_t& 
       continue;
     }
     Sides sides;
-    if (prove(leaf, seen, s, ways, way_count, range, sides)) return Outcome::kClosed;
+    if (prove(on, seen, s, ways, way_count, range, sides)) return Outcome::kClosed;
     if (!(next > range.low)) next = range.low;
     if (!(next < range.high)) next = range.high;
     const float step = next - s;

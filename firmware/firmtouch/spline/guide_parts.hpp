@@ -56,48 +56,39 @@ class GuideParts {
         kink_(kink),
         nearest_m_(nearest_m),
         best_(best),
-        count_(guide.model().leaf_count()),
         arcs_(arcs) {}
 
   bool is_leaf(uint32_t node) const { return curve_.is_leaf(node); }
   void children(uint32_t node, uint32_t& low, uint32_t& high) const {
-    low = first_child(node);
+    low = 2 * node;
     high = low + 1;
   }
-  uint32_t sibling_of(uint32_t node) const { return spline::sibling_of(node); }
-  uint32_t parent_of(uint32_t node) const { return spline::parent_of(node); }
-  uint32_t piece_of(uint32_t node) const { return curve_.piece_of(node); }
+  uint32_t sibling_of(uint32_t node) const { return node ^ 1u; }
+  uint32_t parent_of(uint32_t node) const { return node >> 1; }
+  uint32_t piece_of(uint32_t node) const { return curve_.piece_of(curve_.leaf_of(node)); }
 
   /// The node of the leaf that holds a place.
   uint32_t node_at(uint32_t piece, float s, Range& range) const {
-    uint32_t first = 0, last = count_;  // along the curve
-    while (last - first > 1) {
-      const uint32_t middle = first + (last - first) / 2, leaf = guide_.leaf_at(middle);
-      const uint32_t on = guide_.model().leaves()[leaf].piece;
-      if (on < piece || (on == piece && curve_.range_of(curve_.node_of(leaf), 0.0f).low <= s))
-        first = middle;
-      else
-        last = middle;
-    }
-    const uint32_t leaf = guide_.leaf_at(first);
-    range = curve_.range_of(curve_.node_of(leaf), 0.0f);
+    const uint32_t leaf = curve_.leaf_at(piece, s);
+    range = curve_.range_of(leaf, 0.0f);
     range.start = s;
-    return count_ - 1 + leaf;
+    return curve_.node_of(leaf);
   }
 
   /// The lowest node above one that holds all that is no farther along the curve than a reach.
   uint32_t node_around(uint32_t node, float reach_m) const;
 
   float bound_m(uint32_t node, Range& range) const {
+    if (!is_any_below(node)) return FLT_MAX;
     const Stretch below = stretch_below(node, false);
     const float least_m = penalty_.least(below.low_m, below.high_m);
     const float by_arc_m = with_slack(nearest_m_, least_m);
     if (by_arc_m >= best_.limit_m) {  // no need to know how far off it is
-      if (is_leaf(node)) range = curve_.range_of(node, 0.5f);
+      if (is_leaf(node)) range = curve_.range_of(curve_.leaf_of(node), 0.5f);
       return by_arc_m;
     }
     const CurveTree<false>::Seen seen = curve_.see(node);
-    if (is_leaf(node)) range = curve_.range_of(node, seen.share);
+    if (is_leaf(node)) range = curve_.range_of(curve_.leaf_of(node), seen.share);
     return seen.lower_m > nearest_m_ ? with_slack(seen.lower_m, least_m) : by_arc_m;
   }
 
@@ -126,6 +117,7 @@ class GuideParts {
   struct Seen {
     CurvePoint at;
     float distance2_m2, distance_m;
+    math::Vec3 r_m;
     float slope, bend, speed2;  // of D^2 / 2, and of the curve
     float arc_m, penalty_m;
     Slopes arc;
@@ -141,6 +133,12 @@ class GuideParts {
   struct Stretch {
     float low_m, high_m;  // by arcs
   };
+  // Not in what is no node, and where the curve is broken off.
+  bool is_any_below(uint32_t node) const {
+    const CurveLevels::Leaves under = curve_.below(node);
+    return under.first <= curve_.last() &&
+           (under.end - under.first > 1 || curve_.piece_of(under.first) != kNoLeaf);
+  }
   Stretch stretch_below(uint32_t node, bool is_within) const;
   bool find_cut(uint32_t piece, const Range& range, float& at) const;
   float least_within(uint32_t piece, float low, float high) const;
@@ -153,15 +151,15 @@ class GuideParts {
   bool take_point(uint32_t on, uint32_t node, float s, uint32_t& left, Best& best,
                   Seen& seen) const;
   static float step_from(const Seen& seen, const Way& way, float& gain_m2);
-  bool prove(uint32_t leaf, const Seen& seen, float s, const Way* ways, uint32_t way_count,
+  bool prove(uint32_t on, const Seen& seen, float s, const Way* ways, uint32_t way_count,
              Range& range, Sides& sides) const;
   Outcome split(uint32_t on, const Range& range, float at, float lower_m,
                 Half<Range> (&halves)[2]) const;
   uint32_t ways_of(uint32_t piece, const Range& range, Way (&ways)[2]) const;
   static Room room_of(const Slopes& arc, const Way& way, float limit_m, float outward,
                       float length);
-  static bool is_side_done(const Expansion& f, float distance_m, float outward_slope,
-                           const Room& room, float length);
+  static bool is_side_done(const Expansion& f, float distance_m, float side, const Room& room,
+                           float length);
 
   const GuideView& guide_;
   CurveTree<false> curve_;
@@ -170,7 +168,6 @@ class GuideParts {
   const CurvePoint& kink_;
   float nearest_m_;
   const Best& best_;
-  uint32_t count_;
   Arcs& arcs_;
 };
 

@@ -32,9 +32,6 @@ Verdict GuideOpening::take_sections(const View& model, const GuideSections& sect
   if (model.is_surface() || parts * pieces + 1 != view_.arcs_.size()) return reject(641);
   view_.model_ = model;
   view_.parts_ = parts;
-  uint32_t deepest = 1;
-  while (2 * deepest < 2 * model.leaf_count()) deepest *= 2;
-  view_.first_leaf_ = deepest - model.leaf_count();
   return kPassed;
 }
 
@@ -54,7 +51,6 @@ void GuideOpening::work(uint32_t elements) {
   for (uint32_t used = 0; used < elements && !is_done_; ++used) {
     verdict_ = check_part(next_);
     if (verdict_.ok() && next_ % view_.parts_ == 0) verdict_ = check_joint(next_ / view_.parts_);
-    if (verdict_.ok() && next_ % view_.parts_ == 0) verdict_ = check_leaves(next_ / view_.parts_);
     ++next_;
     is_done_ = !verdict_.ok() || next_ == count;
   }
@@ -88,17 +84,6 @@ Verdict GuideOpening::check_joint(uint32_t piece) {
       place_of(view_.model_, piece, -1.0f) - place_of(view_.model_, before, 1.0f);
   return math::length(gap_m) <= kJoint * view_.model_.head().extent_m ? kPassed
                                                                       : reject(645, piece);
-}
-
-// Its leaves follow each other in the tree, and those of the piece before.
-Verdict GuideOpening::check_leaves(uint32_t piece) {
-  const uint32_t count = 1u << view_.model_.pieces()[piece].level_u;
-  for (uint32_t i = 0; i < count; ++i, ++leaves_) {
-    if (leaves_ >= view_.model_.leaf_count()) return reject(646, leaves_);
-    const Leaf& leaf = view_.model_.leaves()[view_.leaf_at(leaves_)];
-    if (leaf.piece != piece || leaf.index_u != i) return reject(646, leaves_);
-  }
-  return kPassed;
 }
 
 core::Verdict open_guide(const View& model, const GuideSections& sections, GuideView& view) {

@@ -35,14 +35,6 @@ class GuideView {
   /// From the first piece's beginning to each part's.
   core::Span<const float> arcs() const { return arcs_; }
   core::Span<const Chain> chains() const { return chains_; }
-  /// The `k`th leaf along all chains (rule R646): a tree whose levels are filled from the left begins
-  /// with the deepest.
-  /// Pre: k < leaf_count().
-  uint32_t leaf_at(uint32_t k) const {
-    const uint32_t leaf = k + first_leaf_, count = model_.leaf_count();
-    return leaf < count ? leaf : leaf - count;
-  }
-  uint32_t first_leaf() const { return first_leaf_; }
 
  private:
   friend class GuideOpening;
@@ -50,10 +42,9 @@ class GuideView {
   core::Span<const float> arcs_;
   core::Span<const Chain> chains_;
   uint32_t parts_ = 0;
-  uint32_t first_leaf_ = 0;
 };
 
-/// Proves in slices: rules R641 to R646 of tools/FORMAT.md.
+/// Proves in slices: rules R641 to R645 of tools/FORMAT.md.
 class GuideOpening {
  public:
   GuideOpening() = default;  // of nothing: done, and no view
@@ -74,13 +65,11 @@ class GuideOpening {
   core::Verdict check_chains() const;
   core::Verdict check_part(uint32_t i) const;
   core::Verdict check_joint(uint32_t piece);
-  core::Verdict check_leaves(uint32_t piece);
 
   GuideView view_;
   core::Verdict verdict_;
   uint32_t next_ = 0;
-  uint32_t chain_ = 0;   // of the piece that is next
-  uint32_t leaves_ = 0;  // that were checked
+  uint32_t chain_ = 0;  // of the piece that is next
   bool is_done_ = true;
 };
 

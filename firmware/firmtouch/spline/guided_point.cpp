@@ -145,14 +145,11 @@ void put_ends(const GuideView& guide, Vec3 p_m, float arc_m, Followed& followed)
 
 // Whether the guide comes to the closest point for certain, without a search: what costs less than that
 // lies no farther along the curve, before or behind, and there is one point in all that stretch to
-// which the distance falls, for its square is convex there. (Of a part, by the bends of one leaf.)
-bool comes_to(const GuideView& guide, Vec3 p_m, const Foot& nearest, float lower_m, float weight_m,
+// which the distance falls, for its square is convex there. (Of a part of one piece.)
+bool comes_to(const GuideView& guide, const Foot& nearest, float lower_m, float weight_m,
               const Following& following, Arcs& arcs) {
   const View& model = guide.model();
-  const uint32_t leaf = following.hint.place >> 16;
-  if (following.piece != nearest.piece || !(leaf < model.leaf_count()) ||
-      model.leaves()[leaf].piece != nearest.piece)
-    return false;
+  if (following.piece != nearest.piece) return false;
   const float was_m = arcs.at_m(following.piece, following.s);
   const uint32_t part = arcs.part();
   const float way_m = arcs.at_m(nearest.piece, nearest.s) - was_m;
@@ -161,8 +158,6 @@ bool comes_to(const GuideView& guide, Vec3 p_m, const Foot& nearest, float lower
                              (guide.length_m() / weight_m) * (1.0f + 0x1p-18f) +
                          guide.length_m() * 0x1p-22f;
   const float reach_m = ((way_m < 0.0f ? -way_m : way_m) + beside_m) * (1.0f + 0x1p-18f);
-  const CurveTree<false> curve(model, p_m);
-  const CurveRange whole = curve.range_of(curve.node_of(leaf), 0.5f);
   const float off = following.s - nearest.s, size = off < 0.0f ? -off : off;
   const float speed2 = dot(nearest.at.d1, nearest.at.d1);
   if (!(speed2 > 0.0f)) return false;
@@ -173,15 +168,15 @@ bool comes_to(const GuideView& guide, Vec3 p_m, const Foot& nearest, float lower
   const bool is_last = !(high < 1.0f) && beyond(guide, nearest.piece, true) == kNoPiece;
   if (is_first) low = -1.0f;
   if (is_last) high = 1.0f;
-  if (!(low >= whole.low && high <= whole.high)) return false;
+  if (!(low >= -1.0f && high <= 1.0f)) return false;
   const bool is_below = is_first || arcs.at_m(nearest.piece, low) <= was_m - reach_m;
   const bool is_above = is_last || arcs.at_m(nearest.piece, high) >= was_m + reach_m;
   if (!is_below || !is_above) return false;
-  const Expansion f =
-      expand<false>(nearest.distance2_m2, speed2 + dot(nearest.r_m, nearest.at.d2), speed2,
-                    nearest.at.d2, model.bends()[leaf], model.head().loss_m);
-  const float farthest = nearest.s - low > high - nearest.s ? nearest.s - low : high - nearest.s;
-  return f.least_bend - f.change * farthest > 0.0f;
+  const Expansion f = expand<false>(nearest.at, nearest.r_m, nearest.distance2_m2, nearest.slope,
+                                    speed2, speed2 + dot(nearest.r_m, nearest.at.d2),
+                                    model.curve_bends()[nearest.piece], model.head().loss_m);
+  return f.least_bend_over(-1.0f, nearest.s - low) > 0.0f &&
+         f.least_bend_over(1.0f, high - nearest.s) > 0.0f;
 }
 
 // The part of the least cost, and on it where the distance falls no further.
@@ -227,8 +222,8 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
         polished(model, p_m, foot_at(model, p_m, followed.closest.bezier, followed.closest.s));
     followed.closest = as_closest(model, foot, followed.closest);
     const bool is_kept =
-        is_penalty && !(certificate.exact && comes_to(guide, p_m, foot, certificate.lower_m,
-                                                      hold.weight_m, following, arcs));
+        is_penalty && !(certificate.exact &&
+                        comes_to(guide, foot, certificate.lower_m, hold.weight_m, following, arcs));
     if (is_kept)
       keep_to_part(guide, p_m, hold, budget.steps - certificate.steps, following, followed);
   }

@@ -11,17 +11,17 @@ namespace firmtouch::spline {
 constexpr uint32_t kHeadSection = 0x6001;
 constexpr uint32_t kPiecesSection = 0x6002;        // Piece[piece_count]
 constexpr uint32_t kCoefficientsSection = 0x6003;  // float[coefficient_count]
-constexpr uint32_t kLeavesSection =
-    0x6004;  // Leaf[leaf_count], in the order of the tree: curves only
-constexpr uint32_t kPlacesSection =
-    0x6005;  // uint16_t[leaf_count]: piece by piece, the leaf: curves only
-constexpr uint32_t kNodesSection = 0x6006;   // Capsule[2 * leaf_count - 1]; Box[piece_count - 1]
-constexpr uint32_t kPointsSection = 0x6007;  // Point[point_count]; Corner[point_count]
+constexpr uint32_t kNodesSection = 0x6006;         // Box[piece_count - 1]: surfaces only
+// Of curves: Point[point_count], and behind them float[point_count], their z, but for a flat model;
+// Corner[point_count].
+constexpr uint32_t kPointsSection = 0x6007;
 constexpr uint32_t kProbesSection = 0x6008;  // query::ProbeHead and its points
-constexpr uint32_t kBendsSection = 0x6009;   // Bend[leaf_count]; PatchBend, one a cell
+constexpr uint32_t kBendsSection = 0x6009;   // CurveBend[piece_count]; PatchBend, one a cell
 constexpr uint32_t kGridsSection = 0x600C;   // Grid[piece_count]: surfaces only
-constexpr uint32_t kRadiiSection =
-    0x600D;  // uint8_t[3 * leaf_count - 2 * piece_count]: radii, overlaps; surfaces only
+// Bytes of a unit. Of curves uint8_t[2^levels - 1 + leaf_count], one a node; of surfaces
+// uint8_t[3 * leaf_count - 2 * piece_count]: radii, overlaps.
+constexpr uint32_t kRadiiSection = 0x600D;
+constexpr uint32_t kLeavesSection = 0x600E;  // uint16_t[leaf_count], pieces: curves only
 
 constexpr uint32_t kMaxDegree = 5;
 constexpr uint32_t kMaxLeaves = 65535;      // indices are of 16 bits
@@ -46,7 +46,7 @@ struct Head {
   float extent_m;        // at most the longest side of the shape itself
   float loss_m;          // by how much the stored shape, and a point computed of it, may be off
   uint32_t worst_steps;  // seen by the baker's search: a default budget, never a bound
-  uint32_t reserved;     // 0
+  float radius_unit_m;   // of a curve's nodes; of surfaces 0
 };
 static_assert(sizeof(Head) == 64 && offsetof(Head, low_m) == 24 && offsetof(Head, loss_m) == 52);
 
@@ -65,23 +65,21 @@ struct Piece {
 };
 static_assert(sizeof(Piece) == 40 && offsetof(Piece, origin_m) == 12);
 
-/// A part of a piece: half-width 2^-level of it on each axis, the `index`th from -1.
-struct Leaf {
-  uint16_t piece;
-  uint8_t index_u, index_v;
-};
-static_assert(sizeof(Leaf) == 4);
+/// Leaves of curves are the parts of each piece in turn, from its first one on; between two pieces that do
+/// not meet stands one that is none.
+constexpr uint32_t kNoLeaf = 0xFFFF;  // in the place of a piece
 
-/// On a leaf, a third derivative of half the squared distance D^2 / 2 is at most fixed + turning D in
-/// size, where D is the distance to any point of the leaf, by the piece's s. Both are the upper half of
-/// a float32, rounded up.
-struct Bend {
-  uint16_t fixed, turning;
+/// On a curve's piece the fourth derivative of half the squared distance D^2 / 2, by its s, is nowhere
+/// below -(fixed + turning D), where D is the distance to any point of the piece. As computed there, the second
+/// derivative and two thirds of the third together are off by at most noise + noise_turning D.
+struct CurveBend {
+  float fixed_m2, turning_m, noise_m2, noise_turning_m;
+  uint32_t first_leaf;
 };
-static_assert(sizeof(Bend) == 4);
+static_assert(sizeof(CurveBend) == 20);
 
-/// The same of the fourth derivatives on a cell of a surface, which holds leaves, by the piece's s and t: ssss, ssst, sstt,
-/// sttt and tttt, as bytes of its Grid's units.
+/// On a cell of a surface, which holds leaves, the fourth derivatives of D^2 / 2 are at most fixed + turning D
+/// in size, by the piece's s and t: ssss, ssst, sstt, sttt and tttt, as bytes of its Grid's units.
 struct PatchBend {
   uint8_t fixed[5], turning[5];
 };
@@ -106,19 +104,39 @@ struct Corner {
 };
 static_assert(sizeof(Corner) == 6);
 
-/// Node i of the tree: inner nodes for i < leaf_count - 1, else leaf i - (leaf_count - 1). Children
-/// are nodes 2 i + 1 and 2 i + 2. No point of the curve below it lies farther than the radius from
-/// the straight line between two points.
-struct Capsule {
-  uint16_t first, last;  // of the points
-  uint16_t radius;       // in metres, the upper half of a float32, rounded up
-};
-static_assert(sizeof(Capsule) == 6);
-
+/// Leaf i of a curve lies about the straight line from point i to the next.
 struct Point {
-  float x_m, y_m, z_m;
+  float x_m, y_m;
 };
-static_assert(sizeof(Point) == 12);
+static_assert(sizeof(Point) == 8);
+
+/// The tree over a curve's leaves: node 1 is the root, the children of node i are 2 i and 2 i + 1, and leaf
+/// i is node 2^levels + i. What would hold no leaf is no node; its byte is 0. The others' leaves lie within
+/// the radius of the straight line from the first one's first point to the last one's last.
+struct CurveLevels {
+  uint32_t levels = 0;
+  uint32_t leaf_count = 0;
+
+  explicit CurveLevels(uint32_t leaves)
+      : levels(leaves > 1 ? 32u - static_cast<uint32_t>(__builtin_clz(leaves - 1)) : 0),
+        leaf_count(leaves) {}
+  uint32_t first_node() const { return 1u << levels; }  // of the leaves
+  uint32_t node_count() const { return first_node() - 1 + leaf_count; }
+  /// Of what is below a node: from the first leaf to before the end.
+  struct Leaves {
+    uint32_t first, end;
+  };
+  Leaves below(uint32_t node) const {
+    const uint32_t above = levels_below(node);
+    const uint32_t first = (node << above) - first_node(), end = first + (1u << above);
+    return {first, end < leaf_count ? end : leaf_count};
+  }
+  uint32_t levels_below(uint32_t node) const {
+    return levels + static_cast<uint32_t>(__builtin_clz(node)) - 31u;
+  }
+  /// How many leaves are below a node, but for what there is.
+  uint32_t width_of(uint32_t node) const { return 1u << levels_below(node); }
+};
 
 /// Node i of the tree over a surface's pieces, of piece_count leaves: only the inner ones are stored.
 /// The third axis is the product of the two; the axes are a little

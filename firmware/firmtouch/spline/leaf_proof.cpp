@@ -20,22 +20,42 @@ bool bends_hold(const PatchBend& bend, const Grid& grid, const CellBends& needed
 
 }  // namespace
 
-Verdict check_capsules(const View& model, uint32_t i, LeafShape& shape) {
-  const Leaf& leaf = model.leaves()[i];
-  bound_bends(part_of(model.pieces()[leaf.piece], leaf.index_u, leaf.index_v), shape);
-  const Bend& bend = model.bends()[i];
-  if (bend.fixed >= 0x7F80u || bend.turning >= 0x7F80u || bend.fixed < rounded_up(shape.fixed[0]) ||
-      bend.turning < rounded_up(shape.turning[0]))
-    return reject(620, i);
-  const uint32_t node = model.leaf_count() - 1 + i;
-  const Point* const points = model.points().data();
-  const Capsule& own = model.capsules()[node];
-  if (!leaf_fits(shape, own, points)) return reject(623, i);
-  for (uint32_t at = node; at != 0;) {
-    at = parent_of(at);
-    if (!leaf_fits(own, model.capsules()[at], points)) return reject(623, i);
+Verdict check_capsules(const View& model, uint32_t i, const LeafShape& shape) {
+  const CurveLevels levels(model.leaf_count());
+  const math::Vec3 a = model.point_at(i), b = model.point_at(i + 1);
+  const auto stored_m = [&](uint32_t node) {
+    return in_units(model.head().radius_unit_m, model.curve_radii()[node - 1]);
+  };
+  uint32_t node = levels.first_node() + i;
+  const float leaf_m = stored_m(node);
+  if (!(radius_for(shape, a, b) <= leaf_m)) return reject(623, i);
+  for (node >>= 1; node != 0; node >>= 1) {
+    const CurveLevels::Leaves under = levels.below(node);
+    const float needed_m =
+        under.end - under.first == 1
+            ? leaf_m
+            : radius_above(leaf_m, a, b, model.point_at(under.first), model.point_at(under.end));
+    if (!(needed_m <= stored_m(node))) return reject(623, i);
   }
   return kPassed;
+}
+
+Verdict check_bend(const View& model, uint32_t piece_index, uint32_t fine_part,
+                   CurveBends& needed) {
+  const Piece& piece = model.pieces()[piece_index];
+  if (fine_part == 0) needed = {};
+  if (!add_bends(piece, model.coefficients().data() + piece.coefficients, fine_part, needed))
+    return reject(619, piece_index);
+  if (fine_part + 1 < kFineParts) return kPassed;
+  const CurveBend &stored = model.curve_bends()[piece_index], least = needed.stored();
+  const auto holds = [](float value, float at_least) {
+    return value >= at_least && value <= kMostBend;
+  };
+  return holds(stored.fixed_m2, least.fixed_m2) && holds(stored.turning_m, least.turning_m) &&
+                 holds(stored.noise_m2, least.noise_m2) &&
+                 holds(stored.noise_turning_m, least.noise_turning_m)
+             ? kPassed
+             : reject(620, piece_index);
 }
 
 Verdict check_cell(const View& model, uint32_t piece_index, uint32_t cell, uint32_t fine_part,
@@ -83,7 +103,10 @@ Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
 }
 
 View::Place View::place_of(uint32_t leaf) const {
-  if (!is_surface()) return {leaves_[leaf].piece, leaves_[leaf].index_u, leaves_[leaf].index_v};
+  if (!is_surface()) {
+    const uint32_t piece = leaves_[leaf];
+    return {piece, leaf - curve_bends_[piece].first_leaf, 0};
+  }
   uint32_t first = 0, last = grids_.size() - 1;  // the last piece that begins no later
   while (first < last) {
     const uint32_t middle = (first + last + 1) / 2;
@@ -97,7 +120,10 @@ View::Place View::place_of(uint32_t leaf) const {
 }
 
 View::Bounds View::bounds_of(uint32_t leaf) const {
-  if (!is_surface()) return {{from_half(bends_[leaf].fixed)}, {from_half(bends_[leaf].turning)}};
+  if (!is_surface()) {
+    const CurveBend& bend = curve_bends_[leaves_[leaf]];
+    return {{bend.fixed_m2}, {bend.turning_m}};
+  }
   const Place place = place_of(leaf);
   const Grid& grid = grids_[place.piece];
   const PatchBend& bend =

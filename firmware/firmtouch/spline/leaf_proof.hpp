@@ -6,9 +6,11 @@
 
 namespace firmtouch::spline {
 
-/// Its bends, which are derived here, and all capsules that hold it (R620, R623).
+/// All capsules that hold it (R623).
 /// Pre: the model is proven up to its leaves; `shape` is leaf i's.
-core::Verdict check_capsules(const View& model, uint32_t i, LeafShape& shape);
+core::Verdict check_capsules(const View& model, uint32_t i, const LeafShape& shape);
+/// Of a curve's piece one of kFineParts after the other, and with the last of them its bend (R619, R620).
+core::Verdict check_bend(const View& model, uint32_t piece, uint32_t fine_part, CurveBends& needed);
 /// Of a surface's leaf the parallelograms with radii and the boxes that hold it (R623).
 core::Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
                           const LeafShape& shape);

@@ -30,7 +30,6 @@ void shift(Four* c, uint32_t degree, uint32_t stride, float middle, float half) 
 }
 
 Vec3 vec(const Four& f) { return {f.v[0], f.v[1], f.v[2]}; }
-Vec3 vec(const Point& p) { return {p.x_m, p.y_m, p.z_m}; }
 
 // A length and what a query loses when it measures against a node of that size.
 float with_slack(float derived_m, float size_m) {
@@ -284,19 +283,6 @@ void enlarge(const LeafShape& shape, Box& box) {
   }
 }
 
-bool leaf_fits(const LeafShape& shape, const Capsule& capsule, const Point* points) {
-  const float needed = radius_for(shape, vec(points[capsule.first]), vec(points[capsule.last]));
-  return capsule.radius >= rounded_up(needed);
-}
-
-bool leaf_fits(const Capsule& leaf, const Capsule& above, const Point* points) {
-  if (leaf.first == above.first && leaf.last == above.last) return above.radius >= leaf.radius;
-  const float needed =
-      radius_above(from_half(leaf.radius), vec(points[leaf.first]), vec(points[leaf.last]),
-                   vec(points[above.first]), vec(points[above.last]));
-  return above.radius >= rounded_up(needed);
-}
-
 bool leaf_fits(const LeafShape& shape, const Box& box) {
   Box enlarged = box;
   enlarge(shape, enlarged);
@@ -311,14 +297,5 @@ uint32_t byte_above(float unit, float value) {
   const uint32_t byte = (over + 0xFFFFFu) >> 20;
   return byte < 256 ? byte : 256;
 }
-
-uint16_t rounded_up(float value) {
-  if (!(value > 0.0f)) return 0;
-  const uint32_t bits = math::bits_of(value);
-  if (bits >= 0x7F7F0000u) return 0xFFFFu;
-  return static_cast<uint16_t>((bits + 0xFFFFu) >> 16);
-}
-
-float from_half(uint16_t stored) { return math::float_of(static_cast<uint32_t>(stored) << 16); }
 
 }  // namespace firmtouch::spline

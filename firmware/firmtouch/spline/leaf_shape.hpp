@@ -32,7 +32,7 @@ struct LeafShape {
   // By which a coefficient of the numerator, or of the weight, may be off, times the powers of the
   // part's halves that belong to it.
   float numerator_noise_m = 0, weight_noise = 0;
-  float fixed[5] = {}, turning[5] = {};  // of bound_bends(): as Bend and PatchBend say
+  float fixed[5] = {}, turning[5] = {};  // of bound_bends(): as PatchBend says
 };
 
 /// All but fixed and turning.
@@ -72,16 +72,10 @@ PartHalf half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint
 /// Of a box with this centre and these axes, to hold the leaf: enlarges half_m.
 void enlarge(const LeafShape& shape, Box& box);
 
-/// Whether nodes hold a leaf; the capsule of a leaf itself, and those above it.
-bool leaf_fits(const LeafShape& shape, const Capsule& capsule, const Point* points);
-bool leaf_fits(const Capsule& leaf, const Capsule& above, const Point* points);
+/// Whether a box holds a leaf.
 bool leaf_fits(const LeafShape& shape, const Box& box);
 
 /// The least byte whose value, in such units, is not below `value`; 256 where there is none.
 uint32_t byte_above(float unit, float value);
-/// The upper half of the least such float32 that is not below `value`; 0xFFFF where there is none.
-uint16_t rounded_up(float value);
-/// And back.
-float from_half(uint16_t stored);
 
 }  // namespace firmtouch::spline

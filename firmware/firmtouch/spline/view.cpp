@@ -22,8 +22,12 @@ constexpr float kMostLoss = 2.0f * kUnit, kMostRationalLoss = 5.0f * kUnit;
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 Vec3 vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
+bool is_same(float a, float b) { return a <= b && a >= b; }
+// With all bytes it is a number that has a square.
+bool is_unit_size(float unit) { return is_between(unit, 0x1p-100f, 0x1p60f); }
+
 Verdict check_head(const Head& head) {
-  if (head.is_surface > 1 || head.is_rational > 1 || head.reserved != 0) return reject(603);
+  if (head.is_surface > 1 || head.is_rational > 1) return reject(603);
   float longest_m = 0;
   for (uint32_t k = 0; k < 3; ++k) {
     if (!(head.low_m[k] >= -kMaxCoordinate_m && head.low_m[k] <= head.high_m[k] &&
@@ -36,10 +40,10 @@ Verdict check_head(const Head& head) {
   const float most = head.is_rational != 0 ? kMostRationalLoss : kMostLoss;
   if (!(head.loss_m >= 0.0f && head.loss_m <= head.extent_m * most)) return reject(607);
   if (head.worst_steps == 0) return reject(608);
-  return kPassed;
+  const bool is_unit =
+      head.is_surface != 0 ? is_same(head.radius_unit_m, 0.0f) : is_unit_size(head.radius_unit_m);
+  return is_unit ? kPassed : reject(609);
 }
-
-bool is_same(float a, float b) { return a <= b && a >= b; }
 
 bool is_inside(const Head& head, const float* at_m) {
   for (uint32_t k = 0; k < 3; ++k)
@@ -75,13 +79,13 @@ void Opening::open_head(const Sections& sections) {
   const bool is_surface = head.is_surface != 0;
   if (head.piece_count == 0 || head.piece_count > (is_surface ? kMaxPatches : kMaxPieces) ||
       head.leaf_count < head.piece_count || head.leaf_count > kMaxLeaves ||
-      head.point_count > (is_surface ? 4 : 1) * (kMaxLeaves + 1))
+      (is_surface ? head.point_count > 4 * (kMaxLeaves + 1)
+                  : head.point_count != head.leaf_count + 1))
     return fail(602, 0);
   verdict_ = check_head(head);
   if (verdict_.ok()) verdict_ = take_sections(sections, head);
   if (!verdict_.ok()) return;
   view_.head_ = &head;
-  view_.is_flat_ = !is_surface;
   stage_ = Stage::kPieces;
 }
 
@@ -94,23 +98,27 @@ Verdict Opening::take_sections(const Sections& s, const Head& head) {
 }
 
 Verdict Opening::take_curves(const Sections& s, const Head& head) {
-  view_.leaves_ = core::as_whole_array<Leaf>(s.leaves);
+  view_.leaves_ = core::as_whole_array<uint16_t>(s.leaves);
   if (view_.leaves_.size() != head.leaf_count) return reject(604, 2);
-  places_ = core::as_whole_array<uint16_t>(s.places);
-  if (places_.size() != head.leaf_count) return reject(604, 3);
-  view_.capsules_ = core::as_whole_array<Capsule>(s.nodes);
-  if (view_.capsules_.size() != 2 * head.leaf_count - 1) return reject(604, 4);
-  view_.points_ = core::as_whole_array<Point>(s.points);
-  if (view_.points_.size() != head.point_count) return reject(604, 5);
-  view_.bends_ = core::as_whole_array<Bend>(s.bends);
-  if (view_.bends_.size() != head.leaf_count) return reject(604, 6);
+  if (s.nodes.size() != 0) return reject(604, 4);
+  const uint32_t count = head.point_count, flat_size = count * sizeof(Point);
+  view_.points_ = core::as_array<Point>(s.points, count);
+  if (view_.points_.size() != count) return reject(604, 5);
+  if (s.points.size() != flat_size) {
+    view_.heights_m_ =
+        core::as_whole_array<float>({s.points.data() + flat_size, s.points.size() - flat_size});
+    if (view_.heights_m_.size() != count) return reject(604, 5);
+  }
+  view_.curve_bends_ = core::as_whole_array<CurveBend>(s.bends);
+  if (view_.curve_bends_.size() != head.piece_count) return reject(604, 6);
   if (s.grids.size() != 0) return reject(604, 7);
-  return s.radii.size() == 0 ? kPassed : reject(604, 8);
+  if (s.radii.size() != CurveLevels(head.leaf_count).node_count()) return reject(604, 8);
+  view_.radii_ = s.radii.data();
+  return kPassed;
 }
 
 Verdict Opening::take_surfaces(const Sections& s, const Head& head) {
   if (s.leaves.size() != 0) return reject(604, 2);
-  if (s.places.size() != 0) return reject(604, 3);
   view_.boxes_ = core::as_whole_array<Box>(s.nodes);
   if (view_.boxes_.size() != head.piece_count - 1) return reject(604, 4);
   view_.corners_ = core::as_whole_array<Corner>(s.points);
@@ -143,11 +151,10 @@ uint32_t Opening::elements() const {
     case Stage::kPoints:
       return view_.points_.size();
     case Stage::kNodes:
-      return view_.is_surface() ? view_.boxes_.size() : view_.capsules_.size();
-    case Stage::kPlaces:
-      return places_.size();
+      return view_.is_surface() ? view_.boxes_.size() : view_.curve_radii().size();
     case Stage::kCells:
-      return view_.patch_bends_.size() * kFineParts;
+      return (view_.is_surface() ? view_.patch_bends_.size() : view_.curve_bends_.size()) *
+             kFineParts;
     default:
       return view_.leaf_count();
   }
@@ -162,8 +169,8 @@ void Opening::next_stage() {
       (corners_used_ != view_.corners_.size() || leaves_used_ != view_.leaf_count() ||
        cells_used_ != view_.patch_bends_.size()))
     return fail(624, view_.pieces_.size());
-  if (stage_ == Stage::kPlaces && !view_.is_surface() && piece_ != view_.pieces_.size())
-    return fail(615, piece_);
+  if (stage_ == Stage::kPieces && !view_.is_surface() && leaves_used_ != view_.leaf_count())
+    return fail(615, view_.pieces_.size());
   stage_ = static_cast<Stage>(static_cast<uint8_t>(stage_) + 1);
 }
 
@@ -175,8 +182,6 @@ Verdict Opening::check(uint32_t i) {
       return check_point(i);
     case Stage::kNodes:
       return check_node(i);
-    case Stage::kPlaces:
-      return check_place(i);
     case Stage::kCells:
       return check_cell(i);
     case Stage::kLeaves:
@@ -207,17 +212,33 @@ Verdict Opening::check_piece(uint32_t i) {
     if (!is_between(view_.coefficients_[coefficients_used_ + k], -64.0f * kMaxCoordinate_m,
                     64.0f * kMaxCoordinate_m))
       return reject(614, coefficients_used_ + k);
-  for (uint32_t k = 2; k < floats; k += piece.is_rational != 0 ? 4u : 3u)
-    if (!is_same(view_.coefficients_[coefficients_used_ + k], 0.0f)) view_.is_flat_ = false;
   coefficients_used_ += floats;
   for (uint32_t k = 0; k < 3; ++k)
     if (!is_between(piece.origin_m[k], -2.0f * kMaxCoordinate_m, 2.0f * kMaxCoordinate_m))
       return reject(616, i);
-  if (!is_same(piece.origin_m[2], view_.pieces_[0].origin_m[2])) view_.is_flat_ = false;
   const float parameters[] = {piece.middle_u, piece.half_u, piece.middle_v, piece.half_v};
   for (const float parameter : parameters)
     if (!is_between(parameter, -1e30f, 1e30f)) return reject(616, i);
-  return is_surface ? check_grid(i) : kPassed;
+  return is_surface ? check_grid(i) : check_curve(i);
+}
+
+// Its leaves, behind those of the piece before or one that is none; and of a flat model that it is.
+Verdict Opening::check_curve(uint32_t i) {
+  const Piece& piece = view_.pieces_[i];
+  const uint32_t first = view_.curve_bends_[i].first_leaf, count = 1u << piece.level_u;
+  if (i > 0 && first == leaves_used_ + 1 && first < view_.leaf_count() &&
+      view_.leaves_[leaves_used_] == kNoLeaf)
+    ++leaves_used_;
+  if (first != leaves_used_ || count > view_.leaf_count() - leaves_used_) return reject(615, i);
+  for (uint32_t k = 0; k < count; ++k)
+    if (view_.leaves_[leaves_used_++] != i) return reject(615, i);
+  if (!view_.is_flat()) return kPassed;
+  if (!is_same(piece.origin_m[2], view_.pieces_[0].origin_m[2])) return reject(626, i);
+  const uint32_t stride = piece.is_rational != 0 ? 4 : 3;
+  for (uint32_t k = 0; k <= piece.degree_u; ++k)
+    if (!is_same(view_.coefficients_[piece.coefficients + k * stride + 2], 0.0f))
+      return reject(626, i);
+  return kPassed;
 }
 
 Verdict Opening::check_grid(uint32_t i) {
@@ -238,44 +259,26 @@ Verdict Opening::check_grid(uint32_t i) {
   cells_used_ += cells;
   const float units[] = {grid.radius_unit_m, grid.fixed_unit_m2, grid.turning_unit_m};
   for (const float unit : units)
-    if (!is_between(unit, 0x1p-100f, 0x1p60f)) return reject(625, i);
+    if (!is_unit_size(unit)) return reject(625, i);
   const bool is_power = (math::bits_of(grid.step_m) & 0x7FFFFFu) == 0;
   return is_power && is_between(grid.step_m, 0x1p-100f, 0x1p20f) ? kPassed : reject(625, i);
 }
 
 Verdict Opening::check_point(uint32_t i) {
-  if (!view_.is_surface() && !is_same(view_.points_[i].z_m, view_.pieces_[0].origin_m[2]))
-    view_.is_flat_ = false;
-  return is_inside(*view_.head_, &view_.points_[i].x_m) ? kPassed : reject(617, i);
+  const math::Vec3 at_m = view_.point_at(i);
+  const float at[3] = {at_m.x, at_m.y, at_m.z};
+  return is_inside(*view_.head_, at) ? kPassed : reject(617, i);
 }
 
+// Of a curve: what is no node has no radius.
 Verdict Opening::check_node(uint32_t i) const {
   if (view_.is_surface()) return is_sound(view_.boxes_[i]) ? kPassed : reject(618, i);
-  const Capsule& capsule = view_.capsules_[i];
-  const uint32_t points = view_.points_.size();
-  const bool is_sound = capsule.first < points && capsule.last < points && capsule.radius < 0x7F80u;
-  return is_sound ? kPassed : reject(618, i);
-}
-
-// Parts of pieces in turn, and each has a leaf that says the same: so each has one of its own.
-Verdict Opening::check_place(uint32_t i) {
-  if (piece_ == view_.pieces_.size()) return reject(615, i);
-  const Piece& piece = view_.pieces_[piece_];
-  const uint32_t columns = 1u << piece.level_u, rows = 1u << piece.level_v;
-  const uint32_t at = places_[i];
-  if (at >= view_.leaves_.size()) return reject(615, i);
-  const Leaf& leaf = view_.leaves_[at];
-  if (leaf.piece != piece_ || leaf.index_u != in_piece_ % columns ||
-      leaf.index_v != in_piece_ / columns)
-    return reject(615, i);
-  if (++in_piece_ == columns * rows) {
-    in_piece_ = 0;
-    ++piece_;
-  }
-  return kPassed;
+  const bool is_there = CurveLevels(view_.leaf_count()).below(i + 1).first < view_.leaf_count();
+  return is_there || view_.curve_radii()[i] == 0 ? kPassed : reject(618, i);
 }
 
 Verdict Opening::check_cell(uint32_t i) {
+  if (!view_.is_surface()) return check_bend(view_, i / kFineParts, i % kFineParts, curve_bends_);
   const Grid& grid = view_.grids_[piece_];
   const Halvings cell = cell_levels(view_.pieces_[piece_], grid);
   const uint32_t of = i / kFineParts;
@@ -293,8 +296,8 @@ Verdict Opening::check_leaf(uint32_t i) {
     place.index_u = in_piece_ % (1u << view_.pieces_[piece_].level_u);
     place.index_v = in_piece_ >> view_.pieces_[piece_].level_u;
   } else {
-    const Leaf& leaf = view_.leaves_[i];
-    place = {leaf.piece, leaf.index_u, leaf.index_v};
+    if (!view_.is_leaf(i)) return kPassed;
+    place = view_.place_of(i);
   }
   const Piece& piece = view_.pieces_[place.piece];
   LeafShape shape;

@@ -11,7 +11,7 @@ namespace firmtouch::spline {
 
 /// The bytes of a spline model's sections, as the container hands them out.
 struct Sections {
-  core::Bytes head, pieces, coefficients, leaves, bends, places, nodes, points, grids, radii;
+  core::Bytes head, pieces, coefficients, leaves, bends, nodes, points, grids, radii;
 };
 
 /// Spline curves, or spline surfaces, that open() has proven: every index, float, bound and
@@ -27,11 +27,18 @@ class View {
   core::Span<const float> coefficients() const { return coefficients_; }
   uint32_t leaf_count() const { return head_->leaf_count; }
   // Of curves:
-  bool is_flat() const { return is_flat_; }  // in a plane of one z
-  core::Span<const Leaf> leaves() const { return leaves_; }
-  core::Span<const Bend> bends() const { return bends_; }
-  core::Span<const Capsule> capsules() const { return capsules_; }
+  bool is_flat() const { return heights_m_.empty(); }  // in a plane of one z
+  core::Span<const uint16_t> leaves() const { return leaves_; }
+  core::Span<const CurveBend> curve_bends() const { return curve_bends_; }
+  core::Span<const uint8_t> curve_radii() const {
+    return {radii_, CurveLevels(head_->leaf_count).node_count()};
+  }
   core::Span<const Point> points() const { return points_; }
+  core::Span<const float> heights_m() const { return heights_m_; }  // z of the points
+  math::Vec3 point_at(uint32_t i) const {
+    const float z_m = is_flat() ? pieces_[0].origin_m[2] : heights_m_[i];
+    return {points_[i].x_m, points_[i].y_m, z_m};
+  }
   // Of surfaces:
   core::Span<const Grid> grids() const { return grids_; }
   core::Span<const Corner> corners() const { return corners_; }
@@ -43,13 +50,14 @@ class View {
   core::Span<const Box> boxes() const { return boxes_; }
 
   /// Which part of which piece a leaf is, by its number in the asset.
-  /// Pre: leaf < leaf_count().
+  /// Pre: leaf < leaf_count(), and one that is_leaf().
   struct Place {
     uint32_t piece, index_u, index_v;
   };
   Place place_of(uint32_t leaf) const;
+  bool is_leaf(uint32_t leaf) const { return is_surface() || leaves_[leaf] != kNoLeaf; }
   /// What is stored of it: bounds of the fourth derivatives ssss, ssst, sstt, sttt, tttt (of a curve: of
-  /// the third).
+  /// the first).
   struct Bounds {
     float fixed_m2[5], turning_m[5];
   };
@@ -59,16 +67,15 @@ class View {
   friend class Opening;
   uint32_t radius_count() const { return 2 * head_->leaf_count - head_->piece_count; }
   const Head* head_ = nullptr;
-  bool is_flat_ = false;
   core::Span<const Piece> pieces_;
   core::Span<const float> coefficients_;
-  core::Span<const Leaf> leaves_;
-  core::Span<const Bend> bends_;
-  core::Span<const Capsule> capsules_;
+  core::Span<const uint16_t> leaves_;
+  core::Span<const CurveBend> curve_bends_;
   core::Span<const Point> points_;
+  core::Span<const float> heights_m_;
   core::Span<const Grid> grids_;
   core::Span<const Corner> corners_;
-  const uint8_t* radii_ = nullptr;  // and the overlaps behind them
+  const uint8_t* radii_ = nullptr;  // of surfaces, and the overlaps behind them
   core::Span<const PatchBend> patch_bends_;
   core::Span<const Box> boxes_;
 };
@@ -90,7 +97,7 @@ class Opening {
   View view() const { return done() && verdict_.ok() ? view_ : View{}; }
 
  private:
-  enum class Stage : uint8_t { kPieces, kPoints, kNodes, kPlaces, kCells, kLeaves, kDone };
+  enum class Stage : uint8_t { kPieces, kPoints, kNodes, kCells, kLeaves, kDone };
   void fail(uint16_t rule, uint32_t element);
   void open_head(const Sections& sections);
   core::Verdict take_sections(const Sections& sections, const Head& head);
@@ -103,18 +110,18 @@ class Opening {
   core::Verdict check_grid(uint32_t i);
   core::Verdict check_point(uint32_t i);
   core::Verdict check_node(uint32_t i) const;
-  core::Verdict check_place(uint32_t i);
+  core::Verdict check_curve(uint32_t i);
   core::Verdict check_cell(uint32_t i);
   core::Verdict check_leaf(uint32_t i);
 
   View view_;
-  core::Span<const uint16_t> places_;  // of curves, piece by piece: nobody asks for them later
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0;
   uint32_t coefficients_used_ = 0, corners_used_ = 0, leaves_used_ = 0, cells_used_ = 0;
-  uint32_t piece_ = 0, in_piece_ = 0;  // of the place, or of a surface's cell or leaf, that is next
+  uint32_t piece_ = 0, in_piece_ = 0;  // of the cell or leaf that is next
   CellBends bends_;
+  CurveBends curve_bends_;
 };
 
 /// All at once.
