@@ -115,7 +115,7 @@ static inline float square_root(float value) {
 }
 
 /// The larger and the smaller of two; the limit where the value is no number.
-/// Pre: the limit is a number and not -0, the value no signalling NaN (no operation makes one).
+/// Pre: the limit is a number, of larger() not -0, of smaller() no zero; the value is no signalling NaN (no operation makes one).
 static inline float portable_larger(float value, float limit) {
   return value > limit ? value : limit;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Points of a piece with their derivatives, for .cpp files of this room only. The order of
 // operations is part of the result; what it loses is reckoned in leaf_shape.cpp.
+#include "firmtouch/math/isa_lanes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/view.hpp"
 
@@ -116,11 +117,15 @@ static inline void evaluate(const Piece& piece, const float* coefficients, float
   evaluate_as<false>(piece, coefficients, s, point);
 }
 
-/// The numerator's derivatives become the point's; `w`: the weight's own.
-struct Weights {
-  float x, du, dv, duu, duv, dvv, uuu, uuv, uvv, vvv;
+/// A point of a surface in any arithmetic: of each coordinate by itself, or of four side by side.
+template <class T>
+struct Derivatives {
+  T x, du, dv, duu, duv, dvv, uuu, uuv, uvv, vvv;
 };
-static inline void divide(SurfacePoint& p, const Weights& w) {
+
+/// The numerator's derivatives become the point's; `w`: the weight's own.
+template <class T>
+static inline void divide(T& p, const Derivatives<float>& w) {
   const float per_w = 1.0f / w.x;
   p.x = p.x * per_w;
   p.du = (p.du - p.x * w.du) * per_w;
@@ -138,15 +143,16 @@ static inline void divide(SurfacePoint& p, const Weights& w) {
   p.vvv = (p.vvv - p.dvv * (3.0f * w.dv) - p.dv * (3.0f * w.dvv) - p.x * w.vvv) * per_w;
 }
 
-/// One coordinate of a point and its derivatives, those of an order k divided by k! of each axis. Horner's
+/// A coordinate, or four, with its derivatives, those of an order k divided by k! of each axis. Horner's
 /// rule along s in each row, then along t.
+template <class T>
 struct Rows {
-  float x, u, v, uu, uv, vv, uuu, uuv, uvv, vvv;
-  void begin(float value, float first, float second, float third) {
+  T x, u, v, uu, uv, vv, uuu, uuv, uvv, vvv;
+  void begin(T value, T first, T second, T third) {
     x = value, u = first, uu = second, uuu = third;
-    v = uv = uuv = vv = uvv = vvv = 0.0f;
+    v = uv = uuv = vv = uvv = vvv = T{};
   }
-  void add(float value, float first, float second, float third, float t) {
+  void add(T value, T first, T second, T third, float t) {
     vvv = vvv * t + vv;
     vv = vv * t + v;
     v = v * t + x;
@@ -158,25 +164,27 @@ struct Rows {
     uu = uu * t + second;
     uuu = uuu * t + third;
   }
+  Derivatives<T> derivatives() const {
+    return {x, u, v, 2.0f * uu, uv, 2.0f * vv, 6.0f * uuu, 2.0f * uuv, 2.0f * uvv, 6.0f * vvv};
+  }
 };
 
-/// The same of a cubic by a cubic: nothing is computed of what is 0.
-template <uint32_t kStride>
-static inline void cubic_rows(const float* c, float s, float t, Rows& r) {
-  const auto row = [c, s](uint32_t j, float& value, float& first, float& second, float& third) {
-    const float* const of = c + 4 * kStride * j;
-    third = of[3 * kStride];
-    const float top = third * s, a = top + of[2 * kStride], b = a * s + of[kStride], d = top + a;
-    value = b * s + of[0];
+/// The same of a cubic by a cubic: nothing is computed of what is 0. at(i): coefficient i.
+template <class T, class At>
+static inline void cubic_rows(const At& at, float s, float t, Rows<T>& r) {
+  const auto row = [&at, s](uint32_t j, T& value, T& first, T& second, T& third) {
+    third = at(4 * j + 3);
+    const T top = third * s, a = top + at(4 * j + 2), b = a * s + at(4 * j + 1), d = top + a;
+    value = b * s + at(4 * j);
     first = d * s + b;
     second = top + d;
   };
-  float x3, u3, uu3, uuu3, x2, u2, uu2, uuu2, x1, u1, uu1, uuu1, x0, u0, uu0, uuu0;
+  T x3, u3, uu3, uuu3, x2, u2, uu2, uuu2, x1, u1, uu1, uuu1, x0, u0, uu0, uuu0;
   row(3, x3, u3, uu3, uuu3);
   row(2, x2, u2, uu2, uuu2);
   x2 = x3 * t + x2, u2 = u3 * t + u2, uu2 = uu3 * t + uu2, uuu2 = uuu3 * t + uuu2;
   row(1, x1, u1, uu1, uuu1);
-  const float v1 = x3 * t + x2, uv1 = u3 * t + u2, uuv1 = uu3 * t + uu2;
+  const T v1 = x3 * t + x2, uv1 = u3 * t + u2, uuv1 = uu3 * t + uu2;
   x1 = x2 * t + x1, u1 = u2 * t + u1, uu1 = uu2 * t + uu1, uuu1 = uuu2 * t + uuu1;
   row(0, x0, u0, uu0, uuu0);
   r.vvv = x3;
@@ -191,17 +199,17 @@ static inline void cubic_rows(const float* c, float s, float t, Rows& r) {
   r.uuu = uuu1 * t + uuu0;
 }
 
-static inline void any_rows(const Piece& piece, const float* c, uint32_t stride, float s, float t,
-                            Rows& r) {
+template <class T, class At>
+static inline void any_rows(const Piece& piece, const At& at, float s, float t, Rows<T>& r) {
   const uint32_t columns = piece.degree_u + 1u;
   for (uint32_t j = columns * piece.degree_v, rows = 0; rows <= piece.degree_v;
        ++rows, j -= columns) {
-    float value = 0.0f, first = 0.0f, second = 0.0f, third = 0.0f;
+    T value{}, first{}, second{}, third{};
     for (uint32_t k = columns; k-- > 0;) {
       third = third * s + second;
       second = second * s + first;
       first = first * s + value;
-      value = value * s + c[(j + k) * stride];
+      value = value * s + at(j + k);
     }
     if (rows == 0)
       r.begin(value, first, second, third);
@@ -210,20 +218,25 @@ static inline void any_rows(const Piece& piece, const float* c, uint32_t stride,
   }
 }
 
-static inline void evaluate(const Piece& piece, const float* coefficients, float s, float t,
-                            SurfacePoint& point) {
+static inline bool is_bicubic(const Piece& piece) {
+  return piece.degree_u == 3 && piece.degree_v == 3;
+}
+
+/// One coordinate after the other.
+static inline void evaluate_each(const Piece& piece, const float* coefficients, float s, float t,
+                                 SurfacePoint& point) {
   const float* const c = coefficients + piece.coefficients;
-  const bool is_bicubic = piece.degree_u == 3 && piece.degree_v == 3;
   const uint32_t stride = piece.is_rational != 0 ? 4 : 3;
   float* const to = &point.x.x;  // ten vectors in a row
-  Rows r;
+  Rows<float> r;
   const auto find = [&](uint32_t k) {
-    if (is_bicubic && stride == 3)
-      cubic_rows<3>(c + k, s, t, r);
-    else if (is_bicubic)
-      cubic_rows<4>(c + k, s, t, r);
+    if (is_bicubic(piece) && stride == 3)
+      cubic_rows([c, k](uint32_t i) { return c[3 * i + k]; }, s, t, r);
+    else if (is_bicubic(piece))
+      cubic_rows([c, k](uint32_t i) { return c[4 * i + k]; }, s, t, r);
     else
-      any_rows(piece, c + k, stride, s, t, r);
+      any_rows(
+          piece, [c, k, stride](uint32_t i) { return c[stride * i + k]; }, s, t, r);
   };
   for (uint32_t k = 0; k < 3; ++k) {
     find(k);
@@ -234,8 +247,46 @@ static inline void evaluate(const Piece& piece, const float* coefficients, float
   }
   if (piece.is_rational == 0) return;
   find(3);
-  divide(point, {r.x, r.u, r.v, 2.0f * r.uu, r.uv, 2.0f * r.vv, 6.0f * r.uuu, 2.0f * r.uuv,
-                 2.0f * r.uvv, 6.0f * r.vvv});
+  divide(point, r.derivatives());
+}
+
+/// The same bits: all coordinates, and the weight, side by side.
+static inline void evaluate_together(const Piece& piece, const float* coefficients, float s,
+                                     float t, SurfacePoint& point) {
+  using math::Float4;
+  const float* const c = coefficients + piece.coefficients;
+  const bool is_rational = piece.is_rational != 0;
+  const auto plain = [c](uint32_t i) { return Float4{c[3 * i], c[3 * i + 1], c[3 * i + 2], 0.0f}; };
+  const auto weighted = [c](uint32_t i) { return math::lanes_from<Float4>(c + 4 * i); };
+  Rows<Float4> r;
+  if (is_bicubic(piece)) {
+    if (is_rational)
+      cubic_rows(weighted, s, t, r);
+    else
+      cubic_rows(plain, s, t, r);
+  } else if (is_rational) {
+    any_rows(piece, weighted, s, t, r);
+  } else {
+    any_rows(piece, plain, s, t, r);
+  }
+  Derivatives<Float4> found = r.derivatives();
+  if (is_rational)
+    divide(found, Derivatives<float>{found.x[3], found.du[3], found.dv[3], found.duu[3],
+                                     found.duv[3], found.dvv[3], found.uuu[3], found.uuv[3],
+                                     found.uvv[3], found.vvv[3]});
+  const auto put = [](Float4 from, math::Vec3& to) { to = {from[0], from[1], from[2]}; };
+  put(found.x, point.x), put(found.du, point.du), put(found.dv, point.dv);
+  put(found.duu, point.duu), put(found.duv, point.duv), put(found.dvv, point.dvv);
+  put(found.uuu, point.uuu), put(found.uuv, point.uuv);
+  put(found.uvv, point.uvv), put(found.vvv, point.vvv);
+}
+
+static inline void evaluate(const Piece& piece, const float* coefficients, float s, float t,
+                            SurfacePoint& point) {
+  if (math::kHasLanes)
+    evaluate_together(piece, coefficients, s, t, point);
+  else
+    evaluate_each(piece, coefficients, s, t, point);
 }
 
 }  // namespace firmtouch::spline

@@ -38,20 +38,8 @@ class PatchBounds {
   }
 
   /// The piece whose parts are asked about from here on.
-  [[gnu::noinline]] const Piece& come_near(uint32_t piece) {
-    if (piece != piece_) {
-      const Grid& grid = grids_[piece];
-      piece_ = piece;
-      of_ = pieces_ + piece;
-      columns_ = (1u << of_->level_u) + 1u;
-      first_ = corners_ + grid.first_corner - (columns_ << of_->level_v) - (1u << of_->level_u);
-      piece_radii_ = radii_ + (2 * grid.first_leaf - piece);
-      piece_overlaps_ = overlaps_ + (grid.first_leaf - piece);
-      radius_unit_m_ = grid.radius_unit_m;
-      const float quarter_m = 0.25f * grid.step_m;
-      quarter_m_ = quarter_m * (1.0f - 0x1p-20f);
-      q_ = (p_m_ - vec3_at(of_->origin_m)) * (1.0f / quarter_m);
-    }
+  const Piece& come_near(uint32_t piece) {
+    if (piece != piece_) enter(piece);
     return *of_;
   }
 
@@ -89,6 +77,19 @@ class PatchBounds {
   }
 
  private:
+  [[gnu::noinline]] void enter(uint32_t piece) {
+    const Grid& grid = grids_[piece];
+    piece_ = piece;
+    of_ = pieces_ + piece;
+    columns_ = (1u << of_->level_u) + 1u;
+    first_ = corners_ + grid.first_corner - (columns_ << of_->level_v) - (1u << of_->level_u);
+    piece_radii_ = radii_ + (2 * grid.first_leaf - piece);
+    piece_overlaps_ = overlaps_ + (grid.first_leaf - piece);
+    radius_unit_m_ = grid.radius_unit_m;
+    const float quarter_m = 0.25f * grid.step_m;
+    quarter_m_ = quarter_m * (1.0f - 0x1p-20f);
+    q_ = (p_m_ - vec3_at(of_->origin_m)) * (1.0f / quarter_m);
+  }
   static float beyond(float along, float half) {
     const float off = __builtin_fabsf(along) - half;
     return off > 0.0f ? off : 0.0f;

@@ -42,34 +42,40 @@ struct Quadratic {
   /// slope becomes part of Q. What is left of the slopes, g, costs at most g . Q^-1 . g / 2 where Q is
   /// positive; else all terms are taken one by one.
   float least2(const Rectangle& r) const {
-    float g[2], q[2], reach[2];
     // By how much terms may lower the rest: those whose sign is known, on one side of the point, by nothing
     // where that leads up.
-    float low_third[4] = {__builtin_fabsf(third[0]), __builtin_fabsf(third[1]),
-                          __builtin_fabsf(third[2]), __builtin_fabsf(third[3])};
-    float quarter = 1.0f, mixed = __builtin_fabsf(bend[1]);
-    for (uint32_t k = 0; k < 2; ++k) {
+    struct Way {
+      float reach, side;  // the latter 0 where the rectangle is on both sides
+      float g, q;
+      float own, other;  // of uuu or vvv, and of the term that turns with it
+    };
+    const auto way_along = [&](uint32_t k) {
       const float below = at[k] - r.low[k], above = r.high[k] - at[k];
-      const float far = above > below ? above : below;
-      reach[k] = far;
-      q[k] = 0.0f;
-      g[k] = (__builtin_fabsf(slope[k]) + slope_noise[k]) * far;
-      if (below > 0.0f && above > 0.0f) {
-        quarter = 0.0f;
-        continue;
+      Way way;
+      way.reach = math::larger(above, below);
+      way.q = 0.0f;
+      way.g = (__builtin_fabsf(slope[k]) + slope_noise[k]) * way.reach;
+      const float own = third[3 * k], other = third[2 - k];
+      if (math::smaller(above, below) > 0.0f) {
+        way.side = 0.0f;
+        way.own = __builtin_fabsf(own), way.other = __builtin_fabsf(other);
+        return way;
       }
-      const float side = below > 0.0f ? -1.0f : 1.0f;
-      quarter *= side;
-      const uint32_t own = 3 * k, other = 2 - k;
-      low_third[own] = risen(-side * third[own]);
-      low_third[other] = risen(-side * third[other]);
-      const float sure = (side * slope[k] - slope_noise[k]) * far;
+      way.side = below > 0.0f ? -1.0f : 1.0f;
+      way.own = risen(-way.side * own), way.other = risen(-way.side * other);
+      const float sure = (way.side * slope[k] - slope_noise[k]) * way.reach;
       if (sure > 0.0f) {
-        q[k] = 2.0f * sure;
-        g[k] = 0.0f;
+        way.q = 2.0f * sure;
+        way.g = 0.0f;
       }
-    }
-    if (quarter * quarter > 0.0f) mixed = risen(-quarter * bend[1]);
+      return way;
+    };
+    const Way along_u = way_along(0), along_v = way_along(1);
+    const float g[2] = {along_u.g, along_v.g}, reach[2] = {along_u.reach, along_v.reach};
+    const float low_third[4] = {along_u.own, along_v.other, along_u.other, along_v.own};
+    const float quarter = along_u.side * along_v.side;
+    const float mixed =
+        quarter * quarter > 0.0f ? risen(-quarter * bend[1]) : __builtin_fabsf(bend[1]);
     float change[4];
     changes(reach[0], reach[1], low_third, change);
     const float a_third = 0.33333337f;
@@ -78,7 +84,7 @@ struct Quadratic {
     const float uu = (bend[0] - bend_noise[0] - change[0] * reach[0] * a_third) * u2;
     const float vv = (bend[2] - bend_noise[1] - change[3] * reach[1] * a_third) * v2;
     const float across = mixed * uv;
-    const float a0 = uu + q[0], c0 = vv + q[1];
+    const float a0 = uu + along_u.q, c0 = vv + along_v.q;
     float a = a0 - uuv, b = across, c = c0 - uvv;
     float determinant = a * c - b * b;
     if (!(a > 0.0f && c > 0.0f && determinant > 0x1p-4f * (a * c))) {  // the weaker axis is spared
@@ -91,13 +97,11 @@ struct Quadratic {
       }
       determinant = a * c - b * b;
     }
-    const float low_u = uu - uuv < 0.0f ? uu - uuv : 0.0f;
-    const float low_v = vv - uvv < 0.0f ? vv - uvv : 0.0f;
-    float bound = 0.5f * (low_u + low_v) - g[0] - g[1] - across;
+    const float low_u = risen(uuv - uu), low_v = risen(uvv - vv);
+    float bound = -0.5f * (low_u + low_v) - g[0] - g[1] - across;
     if (a > 0.0f && c > 0.0f && determinant > 0x1p-20f * (a * c)) {
       const float cost = g[0] * g[0] * c + 2.0f * g[0] * g[1] * b + g[1] * g[1] * a;
-      const float proven = -0.5f * (cost / determinant) * (1.0f + 0x1p-3f);
-      if (proven > bound) bound = proven;
+      bound = math::larger(cost / determinant * (-0.5f - 0x1p-4f), bound);
     }
     return distance2 + 2.0f * bound;
   }
@@ -157,9 +161,9 @@ struct Quadratic {
            math::bits_of(there[1]) == math::bits_of(at[1]);
   }
 
-  static float risen(float value) { return value > 0.0f ? value : 0.0f; }
+  static float risen(float value) { return math::larger(value, 0.0f); }
   static float clamped(float value, const Rectangle& r, uint32_t k) {
-    const float above = value > r.low[k] ? value : r.low[k];
+    const float above = math::larger(value, r.low[k]);
     return above < r.high[k] ? above : r.high[k];
   }
 };

@@ -177,7 +177,7 @@ class SurfaceParts {
  private:
   static constexpr uint32_t kNone = UINT32_MAX;  // no node
   // What closes a leaf mostly closes the part so many halvings above it: that is tried first.
-  static constexpr uint32_t kMostlyClosed = 3;
+  static constexpr uint32_t kMostlyClosed = 4;
   // Parts so many halvings above leaves are tried by the last expansion; larger ones are rarely closed.
   static constexpr uint32_t kTried = 2;
   static constexpr float kMostStep = 0.25f;  // of a half piece, that a foot is thought to go
@@ -235,7 +235,11 @@ class SurfaceParts {
 
   void expand(uint32_t node, const Piece& piece, const SurfaceBends& bends, math::Vec3 q_m,
               const float (&at)[2], Best& best, Quadratic& f) const {
-    SurfacePoint point;
+    union Unset {  // else all is cleared by a call, and then set
+      SurfacePoint point;
+      Unset() {}
+    } found;
+    SurfacePoint& point = found.point;
     evaluate(piece, coefficients_, at[0], at[1], point);
     const math::Vec3 r_m = point.x - q_m;
     f.distance2 = dot(r_m, r_m);

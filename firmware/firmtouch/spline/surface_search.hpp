@@ -74,7 +74,7 @@ class SurfaceSearch {
     while ((node & 0xFFFFu) != kWholePiece) {
       if (left_ == 0) return stop();
       const PatchNode part = apart(bounds_.come_near(node >> 16), node);
-      descend(node ^ (was_halved_u(part) ? kNextU : kNextV), 0.0f, nullptr);
+      descend(node ^ (was_halved_u(part) ? kNextU : kNextV), 0.0f, nullptr, false);
       if (!drain()) return stop();
       node = whole_of(node, part);
     }
@@ -89,7 +89,7 @@ class SurfaceSearch {
       const uint32_t beside = sibling_of(i);
       if (!holds) {
         if (left_ == 0) return stop();
-        visit_upper(beside, 0.0f);
+        visit_upper(beside, 0.0f, false);
         if (!drain()) return stop();
         continue;
       }
@@ -97,7 +97,7 @@ class SurfaceSearch {
         const uint32_t group = fence.node_of(digits_of(groups), beside, parts_.upper_count());
         groups &= ~PieceFence::groups_below(fence.node, group);
         if (left_ == 0) return stop();
-        visit_upper(group, 0.0f);
+        visit_upper(group, 0.0f, false);
         if (!drain()) return stop();
       }
     }
@@ -106,11 +106,12 @@ class SurfaceSearch {
   }
 
   void run_cold(float outside_m) {
+    is_cold_ = true;
     const uint32_t root = parts_.root();
     if (root >= kUpper)
       stack_[count_++] = {root, outside_m, {}, 0, 0.0f};
     else
-      visit_upper(0, outside_m);
+      visit_upper(0, outside_m, false);
     is_complete_ = drain();
   }
 
@@ -157,9 +158,9 @@ class SurfaceSearch {
       marked_[0] = 0;
   }
 
-  [[gnu::noinline]] void visit_upper(uint32_t i, float above_m) {
+  [[gnu::noinline]] void visit_upper(uint32_t i, float above_m, bool is_beside) {
     const uint32_t node = parts_.upper(i);
-    if (node < kUpper) return descend(node, above_m, nullptr);
+    if (node < kUpper) return descend(node, above_m, nullptr, is_beside);
     --left_;
     const float own_m = bounds_.box_m(i), lower_m = own_m < above_m ? above_m : own_m;
     if (!(lower_m < best_.limit_m)) return pass(node, lower_m);
@@ -184,7 +185,7 @@ class SurfaceSearch {
 
   // Reads a part of a piece, and of its halves the nearer one on and on, as far as the limit or a leaf.
   // What else may hold something nearer goes to the stack. `known`: it has been read already.
-  [[gnu::noinline]] void descend(uint32_t node, float above_m, const Entry* known) {
+  [[gnu::noinline]] void descend(uint32_t node, float above_m, const Entry* known, bool is_beside) {
     const Piece& piece = bounds_.come_near(node >> 16);
     uint32_t u = (node >> 7) & 127u, v = node & 127u;
     uint32_t left_u = piece.level_u - digits_of(u), left_v = piece.level_v - digits_of(v);
@@ -216,7 +217,8 @@ class SurfaceSearch {
           continue;
         }
         if (!is_kept) return pass(node, lower_m);
-        if (is_leaf || lower_m > far_lower_m || left_ < 2 || parts_.may_be_closed(node)) {
+        if (is_leaf || lower_m > far_lower_m || left_ < 2 || is_beside ||
+            parts_.may_be_closed(node)) {
           keep(node, lower_m, told, is_leaf);
           if (lower_m > far_lower_m) order(count_ - 2);
           return;
@@ -251,7 +253,8 @@ class SurfaceSearch {
   }
 
   // False: the budget ended, and what is left stands on the stack.
-  bool drain() {
+  bool drain() { return count_ == 0 || drain_all(); }
+  [[gnu::noinline]] bool drain_all() {
     while (count_ > 0) {
       const Entry& entry = stack_[--count_];
       const uint32_t node = entry.node;
@@ -275,16 +278,16 @@ class SurfaceSearch {
       }
       if (node < kUpper) {
         const Entry known = entry;
-        descend(node, lower_m, &known);
+        descend(node, lower_m, &known, false);
       } else {
         const uint32_t before = count_;
         const uint32_t low = first_child(node - kUpper);
-        visit_upper(low, lower_m);
+        visit_upper(low, lower_m, is_cold_);
         if (left_ == 0) {  // all were taken below the first one
           keep(parts_.upper(low + 1), lower_m, {}, false);
           return false;
         }
-        visit_upper(low + 1, lower_m);
+        visit_upper(low + 1, lower_m, is_cold_);
         if (count_ == before + 2) order(before);
       }
     }
@@ -321,6 +324,7 @@ class SurfaceSearch {
   float reach_m_ = 0.0f;    // of a new fence
   uint32_t marked_count_ = 0;
   uint16_t marked_[kMostMarks];  // nodes over pieces that are not farther than that
+  bool is_cold_ = false;         // nothing is known yet: the nearer of two pieces comes first
   bool is_complete_ = false;
   bool is_cut_ = false;  // parts of the tree were not reached at all
   uint32_t count_ = 0;
