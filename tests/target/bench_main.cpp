@@ -1,7 +1,7 @@
 // How many instructions a closest-point query takes: `bench WALK.csv` on the emulator's command line. Queries the mesh of
 // the board's asset (or, where it has none, the curve, or the spline) at every row, each warm-started by the one before, and prints a
 // row a query:
-//     BUDGET INSTRUCTIONS STEPS SIGN      (BUDGET 0: unlimited)
+//     BUDGET INSTRUCTIONS STEPS SIGN EVALUATIONS     (BUDGET 0: unlimited; EVALUATIONS: points evaluated of a spline)
 // tools/bench/cortex-m7 runs it and adds up.
 #include <stdint.h>
 
@@ -30,13 +30,23 @@ uint32_t instructions(uint32_t work) {
   return static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
 }
 
-void print_row(uint32_t budget, uint32_t taken, const query::Certificate& certificate) {
+template <class Closest>
+uint32_t evaluations_of(const Closest&) {
+  return 0;
+}
+uint32_t evaluations_of(const firmtouch::spline::Closest& closest) { return closest.evaluations; }
+
+template <class Closest>
+void print_row(uint32_t budget, uint32_t taken, const Closest& closest) {
+  const query::Certificate& certificate = closest.certificate;
   hal::board_print(target::decimal(budget).text);
   hal::board_print(" ");
   hal::board_print(target::decimal(taken).text);
   hal::board_print(" ");
   hal::board_print(target::decimal(certificate.steps).text);
-  hal::board_print(certificate.sign == 0 ? " 0\n" : certificate.sign > 0 ? " 1\n" : " -1\n");
+  hal::board_print(certificate.sign == 0 ? " 0 " : certificate.sign > 0 ? " 1 " : " -1 ");
+  hal::board_print(target::decimal(evaluations_of(closest)).text);
+  hal::board_print("\n");
 }
 
 // The two reads of the clock themselves.
@@ -57,8 +67,7 @@ bool run(const View& view, const char* path, query::Budget budget, uint32_t rows
     const uint32_t before = hal::clock_work();
     const auto closest = closest_point(view, p_m, budget, hint);
     const uint32_t work = hal::clock_work() - before - empty;
-    print_row(budget.steps == UINT32_MAX ? 0 : budget.steps, instructions(work),
-              closest.certificate);
+    print_row(budget.steps == UINT32_MAX ? 0 : budget.steps, instructions(work), closest);
   }
   return row > 0;
 }
