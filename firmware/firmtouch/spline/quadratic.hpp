@@ -40,25 +40,36 @@ struct Quadratic {
   /// the bend is a quadratic form Q of |x| and |y|: x^2 |y| is at most x^2, and at most |x y|, whichever
   /// leaves more of it. On an axis that leads only away from the point and uphill, g |x| >= g x^2: the
   /// slope becomes part of Q. What is left of the slopes, g, costs at most g . Q^-1 . g / 2 where Q is
-  /// positive; else all terms are taken one by one.
+  /// positive; else all terms are taken one by one. Where such an axis leads up more steeply than all
+  /// that is mixed with it may take away, the other one is left alone.
   float least2(const Rectangle& r) const {
     // By how much terms may lower the rest: those whose sign is known, on one side of the point, by nothing
     // where that leads up.
     struct Way {
       float reach, side;  // the latter 0 where the rectangle is on both sides
-      float g, q;
+      float g, q, sunk;
       float own, other;  // of uuu or vvv, and of the term that turns with it
     };
     const auto way_along = [&](uint32_t k) {
       const float below = at[k] - r.low[k], above = r.high[k] - at[k];
       Way way;
       way.reach = math::larger(above, below);
-      way.q = 0.0f;
+      way.q = way.sunk = 0.0f;
       way.g = (__builtin_fabsf(slope[k]) + slope_noise[k]) * way.reach;
       const float own = third[3 * k], other = third[2 - k];
       if (math::smaller(above, below) > 0.0f) {
         way.side = 0.0f;
         way.own = __builtin_fabsf(own), way.other = __builtin_fabsf(other);
+        // With little on the side that leads down, what it may cost there, and what counting it as leading
+        // up is off by, is taken off for good.
+        const float near = math::smaller(above, below);
+        const float sure = ((above > below ? slope[k] : -slope[k]) - slope_noise[k]) * way.reach;
+        if (near <= 0.0625f * way.reach && sure > 0.0f &&
+            sure > 0.0625f * (bend[2 * k] * (way.reach * way.reach))) {
+          way.sunk = 2.0f * near * (__builtin_fabsf(slope[k]) + slope_noise[k]);
+          way.q = 2.0f * sure;
+          way.g = 0.0f;
+        }
         return way;
       }
       way.side = below > 0.0f ? -1.0f : 1.0f;
@@ -71,7 +82,8 @@ struct Quadratic {
       return way;
     };
     const Way along_u = way_along(0), along_v = way_along(1);
-    const float g[2] = {along_u.g, along_v.g}, reach[2] = {along_u.reach, along_v.reach};
+    const float g[2] = {along_u.g, along_v.g}, q[2] = {along_u.q, along_v.q},
+                reach[2] = {along_u.reach, along_v.reach};
     const float low_third[4] = {along_u.own, along_v.other, along_u.other, along_v.own};
     const float quarter = along_u.side * along_v.side;
     const float mixed =
@@ -103,34 +115,51 @@ struct Quadratic {
       const float cost = g[0] * g[0] * c + 2.0f * g[0] * g[1] * b + g[1] * g[1] * a;
       bound = math::larger(cost / determinant * (-0.5f - 0x1p-4f), bound);
     }
-    return distance2 + 2.0f * bound;
+    const float own[2] = {uu, vv}, mixed_in[2] = {uuv, uvv};
+    for (uint32_t k = 0; k < 2; ++k) {
+      const uint32_t o = 1 - k;
+      if (!(q[k] > 0.0f)) continue;
+      const float left = 0.5f * q[k] - across - 0.5f * mixed_in[o];
+      const float at_end = left + 0.5f * (own[k] - mixed_in[k]);
+      const float slack = 0x1p-20f * (q[k] + across + uuv + uvv + __builtin_fabsf(own[k]));
+      if (!(left > slack && at_end > slack)) continue;
+      bound = math::larger(least_along(0.5f * q[o], g[o], own[o]), bound);
+    }
+    return distance2 + 2.0f * (bound - (along_u.sunk + along_v.sunk));
   }
 
-  /// Where Newton's method, within the rectangle, would look next: of the bend where it is positive,
-  /// else of the tangents alone. Result: by how much D^2 / 2 should be less there.
+  /// Where Newton's method, within the rectangle, would look next: of the bend where it is positive on
+  /// the axes that are free, else of the tangents alone. Result: by how much D^2 / 2 should be less there.
   float next(const Rectangle& r, float (&to)[2]) const {
     const float* h = bend;
-    if (!(h[0] > 0.0f && h[2] > 0.0f && h[0] * h[2] - h[1] * h[1] > 0x1p-10f * (h[0] * h[2])))
-      h = gauss;
     bool is_fixed[2];
     for (uint32_t k = 0; k < 2; ++k)
       is_fixed[k] =
           (at[k] <= r.low[k] && slope[k] > 0.0f) || (at[k] >= r.high[k] && slope[k] < 0.0f);
+    const bool is_bowl = is_fixed[0]   ? h[2] > 0.0f
+                         : is_fixed[1] ? h[0] > 0.0f
+                                       : h[0] > 0.0f && h[2] > 0.0f &&
+                                             h[0] * h[2] - h[1] * h[1] > 0x1p-10f * (h[0] * h[2]);
+    if (!is_bowl) h = gauss;
     float step[2] = {0.0f, 0.0f};
     const float determinant = h[0] * h[2] - h[1] * h[1];
     if (!is_fixed[0] && !is_fixed[1] && determinant > 0.0f) {
       step[0] = (h[1] * slope[1] - h[2] * slope[0]) / determinant;
       step[1] = (h[1] * slope[0] - h[0] * slope[1]) / determinant;
-      // Where one axis ends, the other is solved anew along the edge.
+      // Where one axis ends, the other is solved anew along the edge; where both do, along the better one.
+      const float wanted[2] = {at[0] + step[0], at[1] + step[1]};
+      float most = -FLT_MAX;
       for (uint32_t k = 0; k < 2; ++k) {
-        const float wanted = at[k] + step[k], held = clamped(wanted, r, k);
-        if (held < wanted || held > wanted) {
-          step[k] = held - at[k];
-          const uint32_t o = 1 - k;
-          const float diagonal = h[2 * o];
-          if (diagonal > 0.0f) step[o] = -(slope[o] + h[1] * step[k]) / diagonal;
-          break;
-        }
+        const float held = clamped(wanted[k], r, k);
+        if (!(held < wanted[k] || held > wanted[k])) continue;
+        const uint32_t o = 1 - k;
+        const float x = held - at[k], diagonal = h[2 * o];
+        const float y = clamped(at[o] - (slope[o] + h[1] * x) / diagonal, r, o) - at[o];
+        const float gain = gain_of(h, k == 0 ? x : y, k == 0 ? y : x);
+        if (!(gain > most)) continue;
+        most = gain;
+        step[k] = x;
+        step[o] = y;
       }
     } else {
       for (uint32_t k = 0; k < 2; ++k)
@@ -140,8 +169,10 @@ struct Quadratic {
       to[k] = clamped(at[k] + step[k], r, k);
       step[k] = to[k] - at[k];
     }
-    return -(slope[0] * step[0] + slope[1] * step[1]) -
-           0.5f * (h[0] * step[0] * step[0] + h[2] * step[1] * step[1]) - h[1] * step[0] * step[1];
+    return gain_of(h, step[0], step[1]);
+  }
+  float gain_of(const float* h, float u, float v) const {
+    return -(slope[0] * u + slope[1] * v) - 0.5f * (h[0] * u * u + h[2] * v * v) - h[1] * u * v;
   }
 
   /// The axis on which more of the doubt lies, over half of the rectangle: what is to be halved.
@@ -159,6 +190,13 @@ struct Quadratic {
   bool is_at(const float (&there)[2]) const {
     return math::bits_of(there[0]) == math::bits_of(at[0]) &&
            math::bits_of(there[1]) == math::bits_of(at[1]);
+  }
+
+  /// At most the least of x rise - x fall + x^2 own / 2 over x from 0 to 1, of which rise or fall is 0.
+  static float least_along(float rise, float fall, float own) {
+    if (own > fall) return -0.5f * (fall * fall / own) * (1.0f + 0x1p-20f);
+    const float end = rise + 0.5f * own - fall;
+    return end > 0x1p-20f * rise ? 0.0f : end - 0x1p-22f * rise;
   }
 
   static float risen(float value) { return math::larger(value, 0.0f); }

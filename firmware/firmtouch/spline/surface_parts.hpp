@@ -141,7 +141,7 @@ class SurfaceParts {
       // What Newton's step would gain is needed: no proof can hold yet. The best point itself stays where
       // the step would gain little and a proof holds already; else it is gone on from.
       const bool is_best = !(base->distance2 > best.distance2_m2);
-      const bool has_arrived = !(moved > 0x1p-40f);
+      const bool has_arrived = !(moved > 0x1p-40f && gain > kRounding * base->distance2);
       if (!has_arrived && !best.seems_beyond(base->distance2 - (is_best ? kNearly : 2.0f) * gain))
         continue;
       if (best.is_beyond(base->least2(range))) {
@@ -183,6 +183,8 @@ class SurfaceParts {
   static constexpr float kMostStep = 0.25f;  // of a half piece, that a foot is thought to go
   // Where a point that would be bettered by so little of the gap (1 / 8 of it) has a proof, it is told.
   static constexpr float kNearly = 16.0f;
+  // What Newton's step gains of D^2 / 2 is lost in rounding where it is less than this of D^2.
+  static constexpr float kRounding = 0x1p-23f;
   static constexpr uint32_t kMostTurns = 6;
   // A rectangle of so little of a leaf gets bends of its own, for the price of so many steps. The
   // leaf's are too wide where a row of control points is one point: there they shrink with the
@@ -272,7 +274,7 @@ class SurfaceParts {
       const float own2 = f.least2(half);
       const float own_m = own2 > 0.0f ? math::square_root(own2) * (1.0f - 0x1p-21f) : 0.0f;
       halves[i].lower_m = own_m > lower_m ? own_m : lower_m;
-      for (uint32_t j = 0; j < 2; ++j) half.start[j] = Quadratic::clamped(f.at[j], half, j);
+      (void)f.next(half, half.start);
     }
     return Outcome::kSplit;
   }
