@@ -98,25 +98,3 @@ TEST(ALimitOnlyTakesAwayBoxesThatAreEnteredLater) {
   }
   CHECK_LT(50u, taken);
 }
-
-TEST(WhatWaitsIsOrderedAndReplacedWithWhatGoesWithIt) {
-  for (uint32_t i = 0; i < 4000; ++i) {
-    const auto any = [] {
-      const uint64_t low = next_random();
-      return next_random() % 5 == 0 ? UINT64_MAX : uint64_t{next_random()} << 32 | low;
-    };
-    const math::Waiting a{any(), any()}, b{i % 7 == 0 ? a.what : any(), any()};
-    math::Waiting first = a, second = b;
-    math::put_in_order(first, second);
-    const bool swaps = b.what < a.what;
-    CHECK_EQ(first.what, swaps ? b.what : a.what);
-    CHECK_EQ(first.keys, swaps ? b.keys : a.keys);
-    CHECK_EQ(second.what, swaps ? a.what : b.what);
-    CHECK_EQ(second.keys, swaps ? a.keys : b.keys);
-    const uint64_t last = i % 3 == 0 ? a.what : any();
-    math::Waiting now = a;
-    math::replace_beyond(last, now, b);
-    CHECK_EQ(now.what, a.what > last ? b.what : a.what);
-    CHECK_EQ(now.keys, a.what > last ? b.keys : a.keys);
-  }
-}

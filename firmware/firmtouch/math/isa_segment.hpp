@@ -2,14 +2,8 @@
 // A segment against boxes on a grid, with the variants of math/isa.hpp's kind. For the library's own
 // translation units.
 
-#include "firmtouch/math/isa.hpp"
+#include "firmtouch/math/isa_ahead.hpp"
 #include "firmtouch/math/vec3.hpp"
-
-#if defined(__AVX2__) && defined(__x86_64__)
-#define FIRMTOUCH_ISA_SLABS 1
-#else
-#define FIRMTOUCH_ISA_SLABS 0
-#endif
 
 namespace firmtouch::math {
 
@@ -88,11 +82,6 @@ class PortableSlabs {
   float limit_ = 0;
 };
 
-/// Keys of two boxes, that of the first in the low half.
-constexpr uint64_t keys_of(uint32_t first, uint32_t second) {
-  return uint64_t{second} << 32 | first;
-}
-
 /// Twice two boxes against a segment, with a limit of 1.
 class PortableFamilySlabs {
  public:
@@ -116,12 +105,7 @@ class PortableFamilySlabs {
   PortableSlabs slabs_;
 };
 
-/// What waits for its turn: the least `what` is the first; `keys` go with it.
-struct Waiting {
-  uint64_t what, keys;
-};
-
-#if FIRMTOUCH_ISA_SLABS
+#if FIRMTOUCH_ISA_MOVES
 /// The same in lanes, where four boxes take as long as one. The planes where the segment enters are
 /// in the low half, those where it leaves in the upper one, where out = -(high half - leave) * rate.
 class LaneFamilySlabs {
@@ -204,41 +188,5 @@ using FamilySlabs = LaneFamilySlabs;
 #else
 using FamilySlabs = PortableFamilySlabs;
 #endif
-
-/// Puts the lesser of two first; of equal ones, none moves. Moves under a condition, which
-/// compilers make branches of that no processor could foresee.
-static inline void put_in_order(Waiting& first, Waiting& second) {
-#if FIRMTOUCH_ISA_SLABS
-  const Waiting a = first, b = second;
-  uint64_t what = a.what, keys = a.keys, later_what = b.what, later_keys = b.keys;
-  __asm__(
-      "cmpq %[a], %[b]\n\tcmovbq %[b], %[what]\n\tcmovbq %[b_keys], %[keys]\n\t"
-      "cmovbq %[a], %[later_what]\n\tcmovbq %[a_keys], %[later_keys]"
-      : [what] "+&r"(what), [keys] "+&r"(keys), [later_what] "+&r"(later_what),
-        [later_keys] "+&r"(later_keys)
-      : [a] "r"(a.what), [b] "r"(b.what), [a_keys] "r"(a.keys), [b_keys] "r"(b.keys)
-      : "cc");
-  first = {what, keys};
-  second = {later_what, later_keys};
-#else
-  if (second.what < first.what) {
-    const Waiting lesser = second;
-    second = first;
-    first = lesser;
-  }
-#endif
-}
-
-/// Where `now` is beyond `last`, `other` takes its place.
-static inline void replace_beyond(uint64_t last, Waiting& now, const Waiting& other) {
-#if FIRMTOUCH_ISA_SLABS
-  __asm__("cmpq %[now], %[last]\n\tcmovbq %[other], %[now]\n\tcmovbq %[other_keys], %[keys]"
-          : [now] "+&r"(now.what), [keys] "+&r"(now.keys)
-          : [last] "r"(last), [other] "rm"(other.what), [other_keys] "rm"(other.keys)
-          : "cc");
-#else
-  if (now.what > last) now = other;
-#endif
-}
 
 }  // namespace firmtouch::math

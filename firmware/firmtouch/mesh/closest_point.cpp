@@ -4,7 +4,7 @@
 
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/mesh/direction.hpp"
-#include "firmtouch/mesh/nearest_search.hpp"
+#include "firmtouch/mesh/nearest_ahead.hpp"
 #include "firmtouch/mesh/pseudonormal.hpp"
 #include "firmtouch/query/coherence.hpp"
 
@@ -38,16 +38,24 @@ bool is_place(const View& mesh, uint32_t place) {
   return is_leaf(child) && leaf_count(child) != 0;
 }
 
+template <bool kCareful, class Bound, class Index>
+void look_at(const View& mesh, const Bound& bound, Search& search) {
+  if constexpr (math::kHasLanes && !kCareful)
+    if (search.start == query::kNowhere && search.budget == query::kUnlimited.steps)
+      return search_ahead<Index>(mesh, bound, search);
+  search_nearest<kCareful, Bound, Index>(mesh, bound, search);
+}
+
 template <bool kCareful, class Bound>
 void look(const View& mesh, const Bound& bound, Search& search) {
   if constexpr (math::kHasLanes && !kCareful)
-    if (mesh.rows() != nullptr) return search_nearest<false, Bound, Rows>(mesh, bound, search);
+    if (mesh.rows() != nullptr) return look_at<false, Bound, Rows>(mesh, bound, search);
   if constexpr (kCareful)
     search_nearest<true, Bound, void>(mesh, bound, search);
   else if (!mesh.triangles16().empty())
-    search_nearest<false, Bound, uint16_t>(mesh, bound, search);
+    look_at<false, Bound, uint16_t>(mesh, bound, search);
   else
-    search_nearest<false, Bound, uint32_t>(mesh, bound, search);
+    look_at<false, Bound, uint32_t>(mesh, bound, search);
 }
 
 // What a search found, and what it is worth.

@@ -1,0 +1,127 @@
+#pragma once
+// What a search that looks ahead takes without a branch, with the variants of math/isa.hpp's kind. For
+// the library's own translation units.
+
+#include "firmtouch/math/isa.hpp"
+
+#if defined(__AVX2__) && defined(__x86_64__)
+#define FIRMTOUCH_ISA_MOVES 1
+#else
+#define FIRMTOUCH_ISA_MOVES 0
+#endif
+
+namespace firmtouch::math {
+
+/// Keys of two boxes, that of the first in the low half.
+constexpr uint64_t keys_of(uint32_t first, uint32_t second) {
+  return uint64_t{second} << 32 | first;
+}
+
+/// What waits for its turn: the least `what` is the first; the rest goes with it.
+struct Waiting {
+  uint64_t what, keys;
+};
+struct WaitingChild {
+  uint64_t what, keys, child;
+};
+
+template <class Any>
+static inline void portable_put_in_order(Any& first, Any& second) {
+  if (!(second.what < first.what)) return;
+  const Any lesser = second;
+  second = first;
+  first = lesser;
+}
+template <class Any>
+static inline void portable_replace_beyond(uint64_t last, Any& now, const Any& other) {
+  if (now.what > last) now = other;
+}
+
+/// Puts the lesser of two first; of equal ones none moves. Where the processor has moves under a
+/// condition by these: compilers make branches of it, which no processor could foresee.
+static inline void put_in_order(Waiting& first, Waiting& second) {
+#if FIRMTOUCH_ISA_MOVES
+  const Waiting a = first, b = second;
+  __asm__(
+      "cmpq %[a], %[b]\n\tcmovbq %[b], %[what]\n\tcmovbq %[b_keys], %[keys]\n\t"
+      "cmovbq %[a], %[later_what]\n\tcmovbq %[a_keys], %[later_keys]"
+      : [what] "+&r"(first.what), [keys] "+&r"(first.keys), [later_what] "+&r"(second.what),
+        [later_keys] "+&r"(second.keys)
+      : [a] "r"(a.what), [b] "r"(b.what), [a_keys] "r"(a.keys), [b_keys] "r"(b.keys)
+      : "cc");
+#else
+  portable_put_in_order(first, second);
+#endif
+}
+static inline void put_in_order(WaitingChild& first, WaitingChild& second) {
+#if FIRMTOUCH_ISA_MOVES
+  const WaitingChild a = first, b = second;
+  __asm__(
+      "cmpq %[a], %[b]\n\tcmovbq %[b], %[what]\n\tcmovbq %[b_keys], %[keys]\n\t"
+      "cmovbq %[b_child], %[child]\n\tcmovbq %[a], %[later_what]\n\t"
+      "cmovbq %[a_keys], %[later_keys]\n\tcmovbq %[a_child], %[later_child]"
+      : [what] "+&r"(first.what), [keys] "+&r"(first.keys), [child] "+&r"(first.child),
+        [later_what] "+&r"(second.what), [later_keys] "+&r"(second.keys),
+        [later_child] "+&r"(second.child)
+      : [a] "r"(a.what), [b] "r"(b.what), [a_keys] "r"(a.keys), [b_keys] "r"(b.keys),
+        [a_child] "r"(a.child), [b_child] "r"(b.child)
+      : "cc");
+#else
+  portable_put_in_order(first, second);
+#endif
+}
+
+/// Where `now` is beyond `last`, `other` takes its place.
+static inline void replace_beyond(uint64_t last, Waiting& now, const Waiting& other) {
+#if FIRMTOUCH_ISA_MOVES
+  __asm__("cmpq %[now], %[last]\n\tcmovbq %[other], %[now]\n\tcmovbq %[other_keys], %[keys]"
+          : [now] "+&r"(now.what), [keys] "+&r"(now.keys)
+          : [last] "r"(last), [other] "rm"(other.what), [other_keys] "rm"(other.keys)
+          : "cc");
+#else
+  portable_replace_beyond(last, now, other);
+#endif
+}
+static inline void replace_beyond(uint64_t last, WaitingChild& now, const WaitingChild& other) {
+#if FIRMTOUCH_ISA_MOVES
+  __asm__(
+      "cmpq %[now], %[last]\n\tcmovbq %[other], %[now]\n\tcmovbq %[other_keys], %[keys]\n\t"
+      "cmovbq %[other_child], %[child]"
+      : [now] "+&r"(now.what), [keys] "+&r"(now.keys), [child] "+&r"(now.child)
+      : [last] "r"(last), [other] "rm"(other.what), [other_keys] "rm"(other.keys),
+        [other_child] "rm"(other.child)
+      : "cc");
+#else
+  portable_replace_beyond(last, now, other);
+#endif
+}
+
+/// Keys of twice two boxes that lie one behind the other: box_distance2() of each.
+static inline void portable_family_distances2(const uint32_t* ones, const uint32_t* others,
+                                              const BoxPoint& point, uint64_t& one_keys,
+                                              uint64_t& other_keys) {
+  one_keys = keys_of(box_distance2(ones, point), box_distance2(ones + 4, point));
+  other_keys = keys_of(box_distance2(others, point), box_distance2(others + 4, point));
+}
+static inline void family_distances2(const uint32_t* ones, const uint32_t* others,
+                                     const BoxPoint& point, uint64_t& one_keys,
+                                     uint64_t& other_keys) {
+#if FIRMTOUCH_ISA_MOVES
+  const auto squares = [&](const uint32_t* boxes) {
+    const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(boxes));
+    const __m256i gaps = _mm256_subs_epu16(words, _mm256_broadcastsi128_si256(point.words));
+    return _mm256_madd_epi16(gaps, gaps);
+  };
+  const __m256i a = squares(ones), b = squares(others);
+  const __m256i xz = _mm256_add_epi32(_mm256_unpacklo_epi32(a, b), _mm256_unpackhi_epi32(a, b));
+  const __m256i sums = _mm256_add_epi32(xz, _mm256_shuffle_epi32(xz, 0x4E));
+  const __m128i keys =
+      _mm_unpacklo_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256(sums, 1));
+  one_keys = static_cast<uint64_t>(_mm_cvtsi128_si64(keys));
+  other_keys = static_cast<uint64_t>(_mm_extract_epi64(keys, 1));
+#else
+  portable_family_distances2(ones, others, point, one_keys, other_keys);
+#endif
+}
+
+}  // namespace firmtouch::math

@@ -1,0 +1,88 @@
+// What a search that looks ahead takes without a branch is what branches would give.
+#include "firmtouch/math/isa_ahead.hpp"
+
+#include "harness/test.hpp"
+
+namespace math = firmtouch::math;
+
+namespace {
+
+uint32_t g_seed = 11;
+uint32_t next_random() {
+  g_seed ^= g_seed << 13, g_seed ^= g_seed >> 17, g_seed ^= g_seed << 5;
+  return g_seed;
+}
+uint64_t any_word() {
+  const uint64_t low = next_random();
+  return next_random() % 5 == 0 ? UINT64_MAX : uint64_t{next_random()} << 32 | low;
+}
+
+void fill(math::Waiting& w) { w = {any_word(), any_word()}; }
+void fill(math::WaitingChild& w) { w = {any_word(), any_word(), any_word()}; }
+bool is_same(const math::Waiting& a, const math::Waiting& b) {
+  return a.what == b.what && a.keys == b.keys;
+}
+bool is_same(const math::WaitingChild& a, const math::WaitingChild& b) {
+  return a.what == b.what && a.keys == b.keys && a.child == b.child;
+}
+
+template <class Any>
+void compare() {
+  uint32_t moved = 0;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    Any a, b;
+    fill(a);
+    fill(b);
+    if (i % 7 == 0) b.what = a.what;
+    Any first = a, second = b, expected_first = a, expected_second = b;
+    math::put_in_order(first, second);
+    math::portable_put_in_order(expected_first, expected_second);
+    CHECK(is_same(first, expected_first) && is_same(second, expected_second));
+    CHECK(is_same(first, a) ? is_same(second, b) : is_same(first, b) && is_same(second, a));
+    CHECK(first.what <= second.what);
+    if (i % 7 == 0) CHECK(is_same(first, a));
+    const uint64_t last = i % 3 == 0 ? a.what : any_word();
+    Any now = a;
+    math::replace_beyond(last, now, b);
+    CHECK(is_same(now, a.what > last ? b : a));
+    moved += is_same(now, a) ? 0u : 1u;
+  }
+  CHECK_LT(200u, moved);
+}
+
+}  // namespace
+
+TEST(WhatWaitsIsOrderedAndReplacedWithWhatGoesWithIt) {
+  compare<math::Waiting>();
+  compare<math::WaitingChild>();
+}
+
+TEST(DistancesToFourBoxesAreThoseToEach) {
+  uint32_t differ = 0, inside = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    uint32_t boxes[2][8];
+    for (auto& two : boxes)
+      for (uint32_t& word : two) {
+        const uint32_t a = next_random() & 0x7FFFu, b = next_random() & 0x7FFFu;
+        word = (a < b ? a : b) | (32767u - (a < b ? b : a)) << 16;
+        if (i % 9 == 0) word = 0;
+      }
+    boxes[0][3] = boxes[0][7] = boxes[1][3] = boxes[1][7] = next_random();  // children
+    uint32_t at[3];
+    for (uint32_t& word : at) {
+      const uint32_t x = next_random() & 0x7FFFu;
+      word = (x + (x < 32767u ? 1u : 0u)) | (32767u - x) << 16;
+    }
+    const math::BoxPoint point = math::box_point(at[0], at[1], at[2]);
+    uint64_t told[2];
+    math::family_distances2(boxes[0], boxes[1], point, told[0], told[1]);
+    for (uint32_t pair = 0; pair < 2; ++pair) {
+      const uint32_t first = math::portable_box_distance2(boxes[pair], at),
+                     second = math::portable_box_distance2(boxes[pair] + 4, at);
+      if (told[pair] != math::keys_of(first, second)) ++differ;
+      inside += first == 0 ? 1 : 0;
+    }
+  }
+  CHECK_EQ(differ, 0u);
+  CHECK_LT(4000u, inside);
+}
