@@ -50,6 +50,29 @@ uint32_t comparisons_that_differ(bool is_special) {
   return differ;
 }
 
+// Of squares, some equal, of which every lane but one may be asked.
+template <class Float>
+uint32_t leasts_that_differ() {
+  constexpr uint32_t kLanes = math::kLanesOf<Float>;
+  Float v;
+  for (uint32_t k = 0; k < kLanes; ++k)
+    v[k] = next_random() % 3 == 0 ? static_cast<float>(next_random() % 3)
+                                  : math::float_of(next_random() % 0x7F7FFFFFu);
+  uint32_t of = next_random() & ((1u << kLanes) - 1u);
+  of |= of == 0 ? 1u << next_random() % kLanes : 0u;
+  for (uint32_t k = 0; k < kLanes; ++k)  // what is not asked may be anything
+    if (((of >> k) & 1u) == 0) v[k] = any_float(true);
+  uint32_t expected = kLanes;
+  for (uint32_t k = kLanes; k-- > 0;)
+    if (((of >> k) & 1u) != 0 && (expected == kLanes || v[k] <= v[expected])) expected = k;
+  float least = -1, portable_least = -1;
+  uint32_t differ = math::least_lane(v, of, least) == expected ? 0u : 1u;
+  if (math::portable_least_lane(v, of, portable_least) != expected) ++differ;
+  if (math::bits_of(least) != math::bits_of(v[expected])) ++differ;
+  if (math::bits_of(portable_least) != math::bits_of(v[expected])) ++differ;
+  return differ;
+}
+
 template <class Float>
 uint32_t gathered_that_differ() {
   constexpr uint32_t kLanes = math::kLanesOf<Float>;
@@ -89,5 +112,14 @@ TEST(LanesGatherThreeFloatsAndReadNoneBehind) {
   uint32_t differ = 0;
   for (uint32_t i = 0; i < 4000; ++i)
     differ += gathered_that_differ<math::Float4>() + gathered_that_differ<math::FloatWide>();
+  CHECK_EQ(differ, 0u);
+}
+
+TEST(TheLeastOfLanesIsTheFirstThatHoldsIt) {
+  uint32_t differ = 0;
+  for (uint32_t i = 0; i < 8000; ++i) {
+    differ += leasts_that_differ<math::Float4>();
+    differ += leasts_that_differ<math::FloatWide>();
+  }
   CHECK_EQ(differ, 0u);
 }

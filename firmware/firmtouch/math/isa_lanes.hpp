@@ -114,6 +114,23 @@ static inline uint32_t lanes_of(Mask4 mask) {
 #endif
 }
 
+/// The least of the lanes `of`, and the first that holds it.
+/// Pre: one lane or more, all below kMostLeast.
+constexpr float kMostLeast = 0x1.fffffep127f;
+template <class Float>
+static inline uint32_t portable_least_lane(Float v, uint32_t of, float& least) {
+  uint32_t lane = static_cast<uint32_t>(__builtin_ctz(of));
+  for (uint32_t left = of; left != 0; left &= left - 1) {
+    const uint32_t k = static_cast<uint32_t>(__builtin_ctz(left));
+    lane = v[k] < v[lane] ? k : lane;
+  }
+  least = v[lane];
+  return lane;
+}
+static inline uint32_t least_lane(Float4 v, uint32_t of, float& least) {
+  return portable_least_lane(v, of, least);
+}
+
 #if FIRMTOUCH_ISA_AVX2
 // The same of eight.
 static inline Lanes<FloatWide> gather(const float* p0, const float* p1, const float* p2,
@@ -142,6 +159,18 @@ static inline FloatWide select(MaskWide mask, FloatWide a, FloatWide b) {
 static inline MaskWide select(MaskWide mask, MaskWide a, MaskWide b) {
   return reinterpret_cast<MaskWide>(
       select(mask, reinterpret_cast<FloatWide>(a), reinterpret_cast<FloatWide>(b)));
+}
+static inline uint32_t least_lane(FloatWide v, uint32_t of, float& told) {
+  const __m256i bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  const __m256i is_of =
+      _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(of)), bits), bits);
+  const __m256 all = _mm256_blendv_ps(_mm256_set1_ps(kMostLeast), v, _mm256_castsi256_ps(is_of));
+  __m256 least = _mm256_min_ps(all, _mm256_permute_ps(all, 0x4E));
+  least = _mm256_min_ps(least, _mm256_permute_ps(least, 0xB1));
+  least = _mm256_min_ps(least, _mm256_permute2f128_ps(least, least, 1));
+  told = _mm256_cvtss_f32(least);
+  return static_cast<uint32_t>(__builtin_ctz(
+      static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(all, least, _CMP_EQ_OQ)))));
 }
 static inline FloatWide larger(FloatWide a, FloatWide b) { return _mm256_max_ps(a, b); }
 static inline FloatWide smaller(FloatWide a, FloatWide b) { return _mm256_min_ps(a, b); }

@@ -31,16 +31,10 @@ template <class Float>
 [[gnu::always_inline]] static inline float take_nearest(const Feet<Float>& feet, uint32_t asked,
                                                         uint32_t first, uint32_t place,
                                                         float least2_m2, Best& best) {
-  uint32_t nearer =
+  const uint32_t nearer =
       math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(least2_m2))) & asked;
   if (nearer == 0) return least2_m2;
-  uint32_t lane = 0;
-  for (; nearer != 0; nearer &= nearer - 1) {
-    const uint32_t k = static_cast<uint32_t>(__builtin_ctz(nearer));
-    if (!(feet.distance2_m2[k] < least2_m2)) continue;
-    least2_m2 = feet.distance2_m2[k];
-    lane = k;
-  }
+  const uint32_t lane = math::least_lane(feet.distance2_m2, nearer, least2_m2);
   best.distance2_m2 = least2_m2;
   best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
   best.triangle = first + lane;
