@@ -157,11 +157,11 @@ Closest answer_curve(const View& model, Vec3 p_m, query::Budget budget, query::H
   Best best = best_of(model.head());
   CurveSearch<kFlat> search(model, p_m, budget.steps, best);
   LeafFence fence{{hint.fence & 0xFFFFu, hint.fence >> 16}, carried.fence_m};
-  uint32_t leaf;
+  uint32_t piece;
   float s;
-  const bool is_warm = search.resume(hint.place, leaf, s);
+  const bool is_warm = search.resume(hint.place, piece, s);
   if (is_warm) {
-    search.run_warm(leaf, s, kFenceReach * model.head().extent_m, fence);
+    search.run_warm(piece, s, kFenceReach * model.head().extent_m, fence);
   } else {
     begin_at_first(model, p_m, best);
     search.run_cold(outside_m(model.head(), p_m));

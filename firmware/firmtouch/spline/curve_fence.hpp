@@ -73,7 +73,7 @@ class PassedParts {
 
  private:
   static constexpr uint32_t kMost = 24;
-  static constexpr uint32_t kMostOpened = 4, kManySteps = 24;
+  static constexpr uint32_t kMostOpened = 2, kManySteps = 32;
   struct Part {
     uint32_t node;
     float lower_m;

@@ -19,32 +19,29 @@ class CurveSearch {
         left_(budget_),
         best_(best) {}
 
-  /// The leaf of a hint, and where it was left: false for a hint that is none.
-  bool resume(uint32_t place, uint32_t& leaf, float& s) const {
-    leaf = place >> 16;
-    if (leaf > tree_.last() || tree_.piece_of(leaf) == kNoLeaf) return false;
-    s = tree_.range_of(leaf, decoded(place & 0xFFFFu, 65535)).start;
-    return true;
+  /// The piece of a hint, and where on it: false for a hint that is none.
+  bool resume(uint32_t place, uint32_t& piece, float& s) const {
+    piece = place >> 16;
+    s = static_cast<float>(place & 0xFFFFu) * kPlace - 1.0f;
+    return piece < tree_.piece_count();
   }
   /// Where the nearest point will be after as much motion again, no farther on than a leaf and its piece.
   uint32_t place_after(math::Vec3 motion_m) const {
     const uint32_t piece = best_.node;
-    const float wide = tree_.width_of(piece);
     float s = best_.s;
     if (best_bend_ > 0.0f) {
+      const float wide = tree_.width_of(piece);
       const float step = dot_as<kFlat>(best_.along[0], motion_m) / best_bend_;
       s += step < wide ? (step > -wide ? step : -wide) : wide;
-      s = s < 1.0f ? (s > -1.0f ? s : -1.0f) : 1.0f;
     }
-    const uint32_t leaf = tree_.leaf_at(piece, s);
-    return leaf << 16 | coded((s - tree_.end_of(piece, leaf, wide)) / wide, 65535);
+    return piece << 16 | coded(0.5f * s + 0.5f, 65535);
   }
 
-  /// From a leaf that may be near to those within the fence, where everything outside it is far enough
+  /// From a place that may be near to the leaves within the fence, where everything outside it is far enough
   /// away, else up the tree to the root: then a new fence is told, `margin_m` farther than the best
   /// where there is room for it.
-  void run_warm(uint32_t leaf, float s, float margin_m, LeafFence& fence) {
-    const uint32_t piece = tree_.piece_of(leaf);
+  void run_warm(uint32_t piece, float s, float margin_m, LeafFence& fence) {
+    const uint32_t leaf = tree_.leaf_at(piece, s);
     LeafRow row = fence.row;
     if (!(row.holds(leaf, leaf) && row.last <= tree_.last()))
       row = {leaf > kBeside ? leaf - kBeside : 0, leaf + kBeside};
@@ -86,6 +83,7 @@ class CurveSearch {
 
  private:
   static constexpr uint32_t kMostTurns = 5;
+  static constexpr float kPlace = 2.0f / 65535.0f;  // 65,535 of them are 2 in float32 as well
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and two.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 3;
   static constexpr uint32_t kStep = 2;  // levels
@@ -160,16 +158,12 @@ class CurveSearch {
     if (closed_end < end) read(closed_end, end, below);
   }
   void read(uint32_t node, uint32_t end, uint32_t below) {
-    const uint32_t wide = 1u << below, count = tree_.last() + 1;
     const float limit_m = best_.limit_m, reach_m = passed_.reach_m();
     left_ -= end - node;
-    uint32_t leaf = (node << below) - tree_.levels().first_node();
-    math::Vec3 off_m = tree_.off_m(leaf);
+    const Tree tree = tree_;  // of its own: nothing that is kept changes it
+    typename Tree::Chords chords(tree, node, below);
     for (; node < end; ++node) {
-      leaf += wide;
-      const math::Vec3 off_end_m = tree_.off_m(leaf < count ? leaf : count);
-      const typename Tree::Seen seen = tree_.see(off_m, off_end_m, tree_.radius_m(node));
-      off_m = off_end_m;
+      const typename Tree::Seen seen = chords.next();
       if (seen.lower_m < limit_m)
         keep(node, seen);
       else if (seen.lower_m < reach_m)
@@ -177,7 +171,7 @@ class CurveSearch {
     }
   }
   // The nearest of a scan comes up first.
-  void keep(uint32_t node, const typename Tree::Seen& seen) {
+  [[gnu::noinline]] void keep(uint32_t node, typename Tree::Seen seen) {
     const bool is_leaf = tree_.is_leaf(node);
     if (is_leaf && tree_.piece_of(tree_.leaf_of(node)) == kNoLeaf) return;
     if (count_ >= kCapacity) return lose(seen.lower_m);
@@ -198,7 +192,10 @@ class CurveSearch {
       if (entry.lower_m >= best_.limit_m) {
         passed_.pass(entry.node, entry.lower_m);
       } else if (tree_.is_leaf(entry.node)) {
-        if (!solve(entry)) return false;
+        if (is_closed_by_last(entry))
+          passed_.pass(entry.node, best_.limit_m);
+        else if (!solve(entry))
+          return false;
       } else if (!open(entry.node)) {
         ++count_;
         left_ = 0;
@@ -221,6 +218,14 @@ class CurveSearch {
     if (left_ < 2) return false;
     scan(node << step, (node + 1) << step);
     return true;
+  }
+
+  // What the last point that closed a leaf proves of another one of its piece.
+  bool is_closed_by_last(const Entry& entry) const {
+    if (tree_.piece_of(tree_.leaf_of(entry.node)) != last_piece_) return false;
+    const bool is_above = entry.range.low >= last_s_;
+    const float length = is_above ? entry.range.high - last_s_ : last_s_ - entry.range.low;
+    return best_.is_beyond(last_.least2(is_above ? 1.0f : -1.0f, length));
   }
 
   bool solve(Entry& entry) {
@@ -319,10 +324,11 @@ class CurveSearch {
         const float limit2_m2 = best_.limit_m * best_.limit_m;  // so far are parts closed before
         if (turn > 0 && limit2_m2 < least2_m2_) least2_m2_ = limit2_m2;
         if (is_row_) closed2_m2_ = least2_m2_;
+        if (passed_.reach_m() > 0.0f) remember(f, on, s);
         return Outcome::kClosed;
       }
-      if (is_below_done) range.low = s;
-      if (is_above_done) range.high = s;
+      if (is_below_done) range.low = half_left(f, 1.0f, s, range.high);
+      if (is_above_done) range.high = half_left(f, -1.0f, s, range.low);
       if (!(next > range.low)) next = range.low;
       if (!(next < range.high)) next = range.high;
       const float step = next - s;
@@ -341,6 +347,22 @@ class CurveSearch {
     return middle > range.low && middle < range.high ? Outcome::kSplit : Outcome::kLost;
   }
 
+  void remember(const Expansion& f, uint32_t piece, float s) {
+    last_.distance2 = f.distance2;
+    last_.slope = f.slope;
+    last_.slope_noise = f.slope_noise;
+    last_.least_bend = f.least_bend;
+    last_.third_3 = f.third_3;
+    last_.fourth_12 = f.fourth_12;
+    last_piece_ = piece;
+    last_s_ = s;
+  }
+  // Where a side of a point is left: at the half that it does not close, else at itself.
+  float half_left(const Expansion& f, float side, float s, float end) const {
+    const float half = 0.5f * (s + end);
+    return best_.is_beyond(f.least2(side, side * (half - s))) ? half : s;
+  }
+
   static float raised(float lower_m, float lower2_m2) {
     if (!(lower2_m2 > 0.0f)) return lower_m;
     const float own_m = math::square_root(lower2_m2) * (1.0f - 0x1p-21f);
@@ -356,6 +378,9 @@ class CurveSearch {
   bool is_complete_ = false;
   bool is_cut_ = false;  // parts of the tree were not reached at all
   bool is_row_ = false;  // what is solved next
+  Expansion last_;
+  uint32_t last_piece_ = kNoLeaf;
+  float last_s_ = 0.0f;
   LeafRow row_{1, 0}, closed_{1, 0};
   float least2_m2_ = 0.0f, closed2_m2_ = 0.0f;  // of the last that was closed, and of those leaves
   PassedParts<kFlat> passed_;

@@ -33,6 +33,7 @@ class CurveTree {
 
   CurveTree(const View& model, math::Vec3 p_m)
       : pieces_(model.pieces().data()),
+        piece_count_(model.pieces().size()),
         coefficients_(model.coefficients().data()),
         leaves_(model.leaves().data()),
         bends_(model.curve_bends().data()),
@@ -59,6 +60,7 @@ class CurveTree {
 
   /// kNoLeaf where the leaf is none.
   uint32_t piece_of(uint32_t leaf) const { return leaves_[leaf]; }
+  uint32_t piece_count() const { return piece_count_; }
   const Piece& piece(uint32_t index) const { return pieces_[index]; }
   const float* coefficients() const { return coefficients_; }
   const CurveBend& bend_of(uint32_t piece) const { return bends_[piece]; }
@@ -84,6 +86,32 @@ class CurveTree {
     const CurveLevels::Leaves under = levels_.below(node);
     return see(off_m(under.first), off_m(under.end), radius_m(node));
   }
+  /// The chords of nodes next to each other, one after the other.
+  class Chords {
+   public:
+    /// Pre: the node is there.
+    Chords(const CurveTree& tree, uint32_t node, uint32_t below)
+        : tree_(tree),
+          wide_(1u << below),
+          leaf_((node << below) - tree.levels_.first_node()),
+          radius_(tree.radii_ + node - 1),
+          off_m_(tree.off_m(leaf_)) {}
+    Seen next() {
+      const math::Vec3 from_m = off_m_;
+      leaf_ += wide_;
+      if (leaf_ > tree_.levels_.leaf_count) leaf_ = tree_.levels_.leaf_count;
+      off_m_ = tree_.off_m(leaf_);
+      const uint32_t byte = *radius_++;
+      return tree_.see(from_m, off_m_, math::float_of(tree_.unit_ + (byte << 20)));
+    }
+
+   private:
+    const CurveTree& tree_;
+    uint32_t wide_, leaf_;
+    const uint8_t* radius_;
+    math::Vec3 off_m_;
+  };
+
   /// From a point between leaves to the query.
   math::Vec3 off_m(uint32_t point) const {
     const Point& a = points_[point];
@@ -130,6 +158,7 @@ class CurveTree {
 
  private:
   const Piece* pieces_;
+  uint32_t piece_count_;
   const float* coefficients_;
   const uint16_t* leaves_;
   const CurveBend* bends_;
