@@ -157,6 +157,42 @@ TEST(TrianglesSideBySideHaveTheBitsOfTheOne) {
   for (const uint32_t times : compared.seen) CHECK(times > 200u);
 }
 
+// Without and with what is certainly no nearer left out, from the same bound.
+TEST(ALeafOfWhichSomeIsLeftOutTellsWhatTheWholeTells) {
+  Compared compared;
+  for (uint32_t turn = 0; turn < 20000; ++turn) {
+    const Leaf leaf(turn);
+    float longest_m = 0;
+    for (const mesh::Triangle<uint16_t>& t : leaf.triangles)
+      for (uint32_t k = 0; k < 3; ++k) {
+        const mesh::Vertex& u = leaf.vertices[t.corner[k]];
+        const mesh::Vertex& v = leaf.vertices[t.corner[(k + 1) % 3]];
+        const float edge_m =
+            math::length(math::Vec3{v.x_m, v.y_m, v.z_m} - math::Vec3{u.x_m, u.y_m, u.z_m});
+        longest_m = edge_m > longest_m ? edge_m : longest_m;
+      }
+    mesh::Sought all;
+    all.p_m = leaf.p_m;
+    all.slack_m2 = mesh::Nearer::slack_m2(longest_m);
+    all.vertices = leaf.vertices;
+    all.triangles = leaf.triangles;
+    const mesh::Foot any = closest_on(leaf, next_random() % kTriangles);
+    all.best.distance2_m2 = turn % 3 == 0 ? FLT_MAX : any.distance2_m2;
+    mesh::Sought nearer = all;
+    const uint32_t count = 1 + turn % 7;
+    const uint32_t child = mesh::make_leaf(next_random() % (kTriangles - count + 1), count);
+    mesh::measure_in_turn<uint16_t, mesh::Everything>(child, 5, all);
+    mesh::measure_in_turn<uint16_t, mesh::Nearer>(child, 5, nearer);
+    const mesh::Best &a = all.best, &b = nearer.best;
+    if (!same(a.offset_m, b.offset_m) || !same(a.distance2_m2, b.distance2_m2) ||
+        a.triangle != b.triangle || a.place != b.place || a.feature != b.feature)
+      ++compared.differ;
+    compared.improved += a.place == 5 ? 1u : 0u;
+  }
+  CHECK_EQ(compared.differ, 0u);
+  CHECK(compared.improved > 8000u);
+}
+
 TEST(ALeafSideBySideTellsWhatALeafInTurnTells) {
   Compared compared;
   for (uint32_t turn = 0; turn < 4000; ++turn) {

@@ -51,7 +51,59 @@ double worst_error(double height, double reach, uint64_t seed) {
   return worst;
 }
 
+struct LeftOut {
+  uint32_t wrongly = 0, at_twice = 0;
+};
+
+// Triangles of length `size` or less, beside one of length `longest`, and points up to `reach` off.
+LeftOut leave_out(float size, double height, double reach, float longest, uint64_t seed) {
+  Random random(seed);
+  LeftOut left_out;
+  const float slack_m2 = mesh::Nearer::slack_m2(longest);
+  for (int i = 0; i < 4000; ++i) {
+    const Point x{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)},
+        y{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
+    const Point along = x * (1 / length(x)), side = cross(along, y),
+                across = side * (height / length(side)), up = cross(along, side);
+    const Point corner = along * random.in(0, 1) + across;
+    const Turned t =
+        longest_first(narrow(y * size), narrow((y + along) * size), narrow((y + corner) * size));
+    const Point off = up * (random.in(-1, 1) / length(up)) +
+                      Point{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)} * random.in(0, 1);
+    const Vec3 p =
+        narrow((y + along * random.in(-1, 2) + across * random.in(-2, 2) + off * reach) * size);
+    mesh::Foot told, foot;
+    mesh::find_foot(p, t.a, t.b, t.c, mesh::Everything{}, told);
+    const float ulp_nearer = std::nextafter(told.distance2_m2, INFINITY);
+    const auto is_left_out = [&](float least2_m2) {
+      const mesh::Nearer nearer = mesh::Nearer::than(least2_m2, slack_m2);
+      return !mesh::find_foot(p, t.a, t.b, t.c, nearer, foot);
+    };
+    left_out.wrongly += is_left_out(ulp_nearer) ? 1u : 0u;
+    left_out.at_twice += is_left_out(0.25f * told.distance2_m2) ? 1u : 0u;
+  }
+  return left_out;
+}
+
 }  // namespace
+
+// Also of the coarsest bound that is allowed: a mesh of no longer edge.
+TEST(NoTriangleThatIsAnUlpNearerIsLeftOut) {
+  for (const float size : {1e-9f, 1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f})
+    for (const double height : {0.8, 1e-2, 1e-4, 1e-6, 1e-8, 0.0})
+      for (const double reach : {1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3}) {
+        test::note("height 1e-", static_cast<int64_t>(-std::log10(height + 1e-9)));
+        const LeftOut left_out = leave_out(size, height, reach, size, 11);
+        CHECK_EQ(left_out.wrongly, 0u);
+      }
+}
+
+TEST(MostTrianglesTwiceAsFarAreLeftOut) {
+  for (const double reach : {1.0, 3.0, 10.0}) {
+    const LeftOut left_out = leave_out(0.01f, 0.8, reach, 0.02f, 12);
+    CHECK_LT(3000u, left_out.at_twice);  // of 4,000
+  }
+}
 
 TEST(SliversLoseNoMoreThanWellShapedTriangles) {
   for (const double reach : {0.0, 1e-6, 1e-3, 1.0, 1e2}) {

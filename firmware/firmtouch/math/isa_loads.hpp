@@ -15,6 +15,30 @@ static inline uint32_t as_multiplier(uint32_t value) {
   return value;
 }
 
+/// Puts two words behind `top`, the last of a stack, and moves it there: by one instruction where the
+/// processor has it.
+[[gnu::always_inline]] static inline void push_pair(uint32_t*& top, uint32_t first,
+                                                    uint32_t second) {
+#if FIRMTOUCH_ISA_PAIRS
+  struct Pair {
+    uint32_t word[2];
+  };
+  Pair& pair = *reinterpret_cast<Pair*>(top);
+  __asm__("strd %2, %3, [%0], #8" : "+r"(top), "=m"(pair) : "r"(first), "r"(second));
+#else
+  top[0] = first, top[1] = second, top += 2;
+#endif
+}
+
+/// `value`, of which nothing is computed before it is needed: a compiler would keep in registers for a
+/// whole loop what few turns need.
+static inline uint32_t only_here(uint32_t value) {
+#if FIRMTOUCH_ISA_PAIRS
+  __asm__ volatile("" : "+r"(value));
+#endif
+  return value;
+}
+
 /// Three floats that lie one behind the other: where the processor can by one instruction, which
 /// needs registers in a row; those of kBlock, 0 to 2, for three that are loaded together. Into
 /// floats: a struct of them would be stored aside.
@@ -41,6 +65,23 @@ template <int kBlock>
   }
 #else
   x = from[0], y = from[1], z = from[2];
+#endif
+}
+
+/// Five floats, into registers that a call keeps.
+[[gnu::always_inline]] static inline void load_kept(const float* from, float (&to)[5]) {
+#if FIRMTOUCH_ISA_BLOCKS
+  struct Block {
+    float value[5];
+  };
+  register float v0 __asm__("s16"), v1 __asm__("s17"), v2 __asm__("s18"), v3 __asm__("s19"),
+      v4 __asm__("s20");
+  __asm__("vldmia %5, {%0-%4}"
+          : "=t"(v0), "=t"(v1), "=t"(v2), "=t"(v3), "=t"(v4)
+          : "r"(from), "m"(*reinterpret_cast<const Block*>(from)));
+  to[0] = v0, to[1] = v1, to[2] = v2, to[3] = v3, to[4] = v4;
+#else
+  for (int i = 0; i < 5; ++i) to[i] = from[i];
 #endif
 }
 

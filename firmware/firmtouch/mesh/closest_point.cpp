@@ -172,6 +172,7 @@ Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m, const quer
   search.fence_margin_m = fence_margin_m;
   search.fence = fence;
   search.fence_m = carried.fence_m;
+  search.slack_m2 = Nearer::slack_m2(loss.longest_edge_m);
   if (!is_warm) {  // a stored vertex is a point of the surface before any triangle is reached
     search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
     search.best.distance2_m2 = dot(search.best.offset_m, search.best.offset_m);

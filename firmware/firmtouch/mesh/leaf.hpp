@@ -2,6 +2,7 @@
 // The triangles of one leaf, measured against a query. For the library's own translation units.
 
 #include <float.h>
+#include <stddef.h>
 
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/math/isa_loads.hpp"
@@ -91,6 +92,54 @@ template <int kBlock>
                                                       uint32_t stride, math::Vec3& corner_m) {
   const uint8_t* const at = reinterpret_cast<const uint8_t*>(vertices) + index * stride;
   math::load_floats<kBlock>(reinterpret_cast<const float*>(at), corner_m.x, corner_m.y, corner_m.z);
+}
+
+/// What is looked for, and what came of it; its first five floats lie in a row.
+struct Sought {
+  math::Vec3 p_m;
+  float slack_m2;          // of the mesh, for Nearer
+  Best best;               // in: no farther than this; out: the nearest
+  const Vertex* vertices;  // the mesh's; here, where a leaf finds them by one pointer
+  const void* triangles;   // with indices of its width
+};
+
+/// Puts into sought.best what of the leaf `child`, which is at `place`, is nearer; of two equally
+/// near triangles the first. Wanted: Nearer or Everything, which tell the same; Everything in fewer
+/// instructions where nothing is known yet.
+template <class Index, class Wanted>
+[[gnu::always_inline]] static inline void measure_in_turn(uint32_t child, uint32_t place,
+                                                          Sought& sought) {
+  using math::Vec3;
+  static_assert(offsetof(Sought, slack_m2) == 12 && offsetof(Sought, best) == 16);
+  static_assert(offsetof(Best, distance2_m2) == 0);
+  float in[5];
+  math::load_kept(&sought.p_m.x, in);
+  const Vec3 p_m{in[0], in[1], in[2]};
+  const float slack_m2 = in[3];
+  float least2_m2 = in[4];
+  Wanted wanted = Wanted::than(least2_m2, slack_m2);
+  const uint32_t stride = math::as_multiplier(sizeof(Vertex));
+  const Vertex* const vertices = sought.vertices;
+  const Triangle<Index>* triangle =
+      static_cast<const Triangle<Index>*>(sought.triangles) + leaf_first(child);
+  for (uint32_t left = math::only_here(leaf_count(child)); left != 0; --left, ++triangle) {
+    Vec3 a_m, b_m, c_m;
+    load_corner<0>(vertices, triangle->corner[0], stride, a_m);
+    load_corner<1>(vertices, triangle->corner[1], stride, b_m);
+    load_corner<2>(vertices, triangle->corner[2], stride, c_m);
+    Foot foot;
+    if (!find_foot(p_m, a_m, b_m, c_m, wanted, foot)) continue;
+    if (!(foot.distance2_m2 < least2_m2)) continue;
+    least2_m2 = foot.distance2_m2;
+    wanted = Wanted::than(least2_m2, slack_m2);
+    Best& best = sought.best;
+    best.distance2_m2 = least2_m2;  // one by one: an aggregate would be built aside first
+    best.offset_m = foot.offset_m;
+    const uint32_t word = math::only_here(child);
+    best.triangle = leaf_first(word) + leaf_count(word) - left;
+    best.place = place;
+    best.feature = foot.feature;
+  }
 }
 
 /// Puts into `best` what of the leaf `child`, which is at `place`, is nearer than `least2_m2`; of

@@ -41,6 +41,7 @@ template <class Index>
   uint64_t again, last = last_of();
   math::family_distances2(boxes(0), boxes(0), bound.point, now.keys, again);
   search.complete = true;
+  begin_leaves<Index>(mesh, search);
   uint32_t steps = 1;
   while (true) {
     while (true) {  // from inner node to inner node, without a branch
@@ -76,9 +77,7 @@ template <class Index>
       }
       const uint32_t child = static_cast<uint32_t>(now.child);
       if (!is_leaf(child)) break;
-      const float before2_m2 = search.best.distance2_m2;
-      if (measure<false, Index, false>(mesh, child, static_cast<uint32_t>(now.what), search) <
-          before2_m2)
+      if (measure<false, Index, false>(mesh, child, static_cast<uint32_t>(now.what), search))
         last = last_of();
       now = *left--;
       steps += now.what <= last ? 1 : 0;

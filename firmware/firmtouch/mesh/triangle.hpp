@@ -13,8 +13,52 @@ struct Foot {
   Feature feature;
 };
 
-[[gnu::always_inline]] static inline Foot foot_at(math::Vec3 offset_m, Feature feature) {
-  return {offset_m, math::dot(offset_m, offset_m), feature};
+/// Leaves no triangle out.
+struct Everything {
+  static Everything than(float, float) { return {}; }
+  constexpr bool is_line_beyond(float) const { return false; }
+  constexpr bool is_corner_beyond(float, float) const { return false; }
+  constexpr bool is_plane_beyond(float, float) const { return false; }
+};
+
+/// Leaves out triangles that are certainly told no nearer than the nearest so far, L away: two thirds
+/// of the work, or less.
+///
+/// Let e be the offset of p from the line a b, square to ab. For each q of the triangle p - q is
+/// e - m ac and some multiple of ab, 0 <= m <= 1. So e . (p - q) = e^2 - m e . ac, and the distance d
+/// is at least (e^2 - e . ac) / |e|, or |e| where e . ac is below 0. And p - q is no shorter than e
+/// less its part along h, so that d^2 is at least e^2 - (e . h)^2 / h^2, for any h that is ac less a
+/// multiple of ab: also for a sliver's, which may be all rounding.
+///
+/// Suppose that d is below A = L (1 + 8 u) + 30 u E, beyond which no foot is told nearer than L
+/// (mesh/loss.hpp; u = 2^-24, E the mesh's longest edge). Then no vector is longer than A + 2 E, and
+/// roundings move none of the squares and products by more than C = 32 u (A + 2 E)^2 <= 2^-18 A^2 +
+/// 2^-16 E^2. With S = A^2 + 2 C the triangle is not left out: e^2 - (e . h)^2 / h^2 <= A^2 + 2 C; and
+/// where s = e^2 - e . ac <= |e| A + C and |e| > sqrt(S), s^2 <= e^2 S, because C <= (S - A^2) / 2 <=
+/// sqrt(S) (sqrt(S) - A). A^2 is at most (1 + 2^-11 + 2^-19) L^2 + 2^-26 E^2.
+struct Nearer {
+  float beyond_m2;  // S, or more
+
+  static float slack_m2(float longest_edge_m) { return longest_edge_m * longest_edge_m * 0x1p-13f; }
+  static Nearer than(float distance2_m2, float slack_m2) {
+    return {distance2_m2 * (1.0f + 0x1p-10f) + slack_m2};
+  }
+  bool is_line_beyond(float e2) const { return e2 > beyond_m2; }
+  bool is_corner_beyond(float e2, float s) const { return s * __builtin_fabsf(s) > e2 * beyond_m2; }
+  // Where the square of h^2 vanishes, h^2 may be no normal float.
+  bool is_plane_beyond(float plane2, float h2) const {
+    return plane2 > beyond_m2 && h2 * h2 > 0.0f;
+  }
+};
+
+// One by one: a struct would be built aside.
+[[gnu::always_inline]] static inline bool put(Foot& foot, math::Vec3 offset_m, Feature feature) {
+  foot.offset_m.x = offset_m.x;
+  foot.offset_m.y = offset_m.y;
+  foot.offset_m.z = offset_m.z;
+  foot.distance2_m2 = math::dot(offset_m, offset_m);
+  foot.feature = feature;
+  return true;
 }
 
 /// Closest point of the triangle a b c, whose edge a b is the longest, to p.
@@ -30,37 +74,55 @@ struct Foot {
 /// from what ab x leaves of ap, e, so that h being skew to ab by a rounding, 2^-24 length, meets no
 /// component along ab. With d the distance and u = 2^-24 the foot is off in the plane by at most
 /// min(u d length / height, height) beside u length, which lengthens d by at most u length / 2.
-[[gnu::always_inline]] static inline Foot closest_on_triangle(math::Vec3 p, math::Vec3 a,
-                                                              math::Vec3 b, math::Vec3 c) {
+/// Result: false, and no foot, where `wanted` leaves the triangle out.
+template <class Wanted>
+[[gnu::always_inline]] static inline bool find_foot(math::Vec3 p, math::Vec3 a, math::Vec3 b,
+                                                    math::Vec3 c, const Wanted& wanted,
+                                                    Foot& foot) {
   using math::dot;
   using math::Vec3;
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const float per_ab2 = 1.0f / dot(ab, ab);
   const float x = dot(ab, ap) * per_ab2;
+  const Vec3 e = ap - ab * x;
+  const float e2 = dot(e, e);
+  if (wanted.is_line_beyond(e2)) {
+    const float e_ac = dot(e, ac);
+    if (wanted.is_corner_beyond(e2, e2 - e_ac)) return false;
+  }
   const float xc = dot(ab, ac) * per_ab2;
-  const Vec3 e = ap - ab * x, h = ac - ab * xc;
+  const Vec3 h = ac - ab * xc;
   const float y = dot(e, h);
   if (y <= 0.0f) {
-    if (x <= 0.0f) return foot_at(ap, Feature::kVertex0);
-    if (x >= 1.0f) return foot_at(p - b, Feature::kVertex1);
-    return foot_at(e, Feature::kEdge0);
+    if (x <= 0.0f) return put(foot, ap, Feature::kVertex0);
+    if (x >= 1.0f) return put(foot, p - b, Feature::kVertex1);
+    return put(foot, e, Feature::kEdge0);
   }
-  const float w = y / dot(h, h);
+  const float h2 = dot(h, h);
+  const float w = y / h2;
   const float v = x - w * xc;
   // On a border too, so that a query at a corner is told the corner, not a face that meets there.
-  if (!(v <= 0.0f || v + w >= 1.0f)) return foot_at(e - h * w, Feature::kFace);
+  if (!(v <= 0.0f || v + w >= 1.0f)) return put(foot, e - h * w, Feature::kFace);
+  if (wanted.is_plane_beyond(e2 - y * w, h2)) return false;
   if (v <= 0.0f) {
     const float t = dot(ac, ap), ac2 = dot(ac, ac);
-    if (t <= 0.0f) return foot_at(ap, Feature::kVertex0);
-    if (t < ac2) return foot_at(ap - ac * (t / ac2), Feature::kEdge2);
+    if (t <= 0.0f) return put(foot, ap, Feature::kVertex0);
+    if (t < ac2) return put(foot, ap - ac * (t / ac2), Feature::kEdge2);
   }
   if (v + w >= 1.0f) {
     const Vec3 bc = c - b, bp = p - b;
     const float t = dot(bc, bp), bc2 = dot(bc, bc);
-    if (t <= 0.0f) return foot_at(bp, Feature::kVertex1);
-    if (t < bc2) return foot_at(bp - bc * (t / bc2), Feature::kEdge1);
+    if (t <= 0.0f) return put(foot, bp, Feature::kVertex1);
+    if (t < bc2) return put(foot, bp - bc * (t / bc2), Feature::kEdge1);
   }
-  return foot_at(p - c, Feature::kVertex2);
+  return put(foot, p - c, Feature::kVertex2);
+}
+
+[[gnu::always_inline]] static inline Foot closest_on_triangle(math::Vec3 p, math::Vec3 a,
+                                                              math::Vec3 b, math::Vec3 c) {
+  Foot foot;
+  find_foot(p, a, b, c, Everything{}, foot);
+  return foot;
 }
 
 }  // namespace firmtouch::mesh
