@@ -5,8 +5,9 @@
 
 namespace firmtouch::spline {
 
+/// Without the third derivative.
 static inline void point_of(const View& model, uint32_t piece, float s, CurvePoint& point) {
-  evaluate(model.pieces()[piece], model.coefficients().data(), s, point);
+  evaluate_as<false, false>(model.pieces()[piece], model.coefficients().data(), s, point);
 }
 
 /// In the model's frame.

@@ -40,19 +40,20 @@ static inline void add_power(Jet<T>& jet, T c, float s) {
 }
 
 /// Numerator over weight, with the derivatives of both (Leibniz' rule).
+template <bool kThird>
 static inline void divide(float& x, float& d1, float& d2, float& d3, float per_w, float w1,
                           float w2, float w3) {
   x = x * per_w;
   d1 = (d1 - x * w1) * per_w;
   d2 = (d2 - d1 * (2.0f * w1) - x * w2) * per_w;
-  d3 = (d3 - d2 * (3.0f * w1) - d1 * (3.0f * w2) - x * w3) * per_w;
+  if constexpr (kThird) d3 = (d3 - d2 * (3.0f * w1) - d1 * (3.0f * w2) - x * w3) * per_w;
 }
-template <bool kFlat>
+template <bool kFlat, bool kThird>
 static inline void divide(CurvePoint& p, float w, float w1, float w2, float w3) {
   const float per_w = 1.0f / w;
-  divide(p.x.x, p.d1.x, p.d2.x, p.d3.x, per_w, w1, w2, w3);
-  divide(p.x.y, p.d1.y, p.d2.y, p.d3.y, per_w, w1, w2, w3);
-  if constexpr (!kFlat) divide(p.x.z, p.d1.z, p.d2.z, p.d3.z, per_w, w1, w2, w3);
+  divide<kThird>(p.x.x, p.d1.x, p.d2.x, p.d3.x, per_w, w1, w2, w3);
+  divide<kThird>(p.x.y, p.d1.y, p.d2.y, p.d3.y, per_w, w1, w2, w3);
+  if constexpr (!kFlat) divide<kThird>(p.x.z, p.d1.z, p.d2.z, p.d3.z, per_w, w1, w2, w3);
 }
 
 /// One coordinate of a cubic with its derivatives: nothing is computed of what is 0.
@@ -91,11 +92,12 @@ static inline void evaluate_any(const Piece& piece, const float* c, float s, Cur
   point.d2 = jet.half_second * 2.0f;
   point.d3 = jet.sixth_third * 6.0f;
   if (piece.is_rational != 0)
-    divide<false>(point, weight.value, weight.first, weight.half_second * 2.0f,
-                  weight.sixth_third * 6.0f);
+    divide<false, true>(point, weight.value, weight.first, weight.half_second * 2.0f,
+                        weight.sixth_third * 6.0f);
 }
 
-template <bool kFlat>
+/// kThird: with the third derivative; else that is not to be used.
+template <bool kFlat, bool kThird = true>
 static inline void evaluate_as(const Piece& piece, const float* coefficients, float s,
                                CurvePoint& point) {
   const float* c = coefficients + piece.coefficients;
@@ -109,7 +111,7 @@ static inline void evaluate_as(const Piece& piece, const float* coefficients, fl
   evaluate_cubic<kFlat>(c, 4, s, point);
   float w, w1, w2, w3;
   cubic_at(c + 3, 4, s, w, w1, w2, w3);
-  divide<kFlat>(point, w, w1, w2, w3);
+  divide<kFlat, kThird>(point, w, w1, w2, w3);
 }
 
 static inline void evaluate(const Piece& piece, const float* coefficients, float s,

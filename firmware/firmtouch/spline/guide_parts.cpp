@@ -14,21 +14,23 @@ float least_of(float a, float b) { return a < b ? a : b; }
 
 }  // namespace
 
-// Leaves below a node follow each other along the curve: its first and its last say how far, by the ends
-// of stored lengths about them, or within them.
-GuideParts::Stretch GuideParts::stretch_below(uint32_t node, bool is_within) const {
+// Leaves follow each other along the curve: the first and the last say how far, by the ends of stored
+// lengths about them, or within them.
+GuideParts::Stretch GuideParts::stretch_of(const CurveLevels::Leaves& under, bool is_within) const {
   const View& model = guide_.model();
-  const CurveLevels::Leaves under = curve_.below(node);
-  const View::Place from = model.place_of(under.first + (model.is_leaf(under.first) ? 0 : 1));
-  const View::Place to = model.place_of(under.end - (model.is_leaf(under.end - 1) ? 1 : 2));
+  uint32_t first = under.first, last = under.end - 1;
+  if (curve_.piece_of(first) == kNoLeaf) ++first;
+  if (curve_.piece_of(last) == kNoLeaf) --last;
+  const uint32_t from = curve_.piece_of(first), to = curve_.piece_of(last);
+  const uint32_t from_index = first - curve_.first_of(from),
+                 to_end = last - curve_.first_of(to) + 1;
+  const uint32_t from_level = model.pieces()[from].level_u, to_level = model.pieces()[to].level_u;
   const uint32_t parts = guide_.parts();
-  const uint32_t from_level = model.pieces()[from.piece].level_u;
-  const uint32_t to_level = model.pieces()[to.piece].level_u;
   const uint32_t low_more = is_within ? (1u << from_level) - 1 : 0;
   const uint32_t high_more = is_within ? 0 : (1u << to_level) - 1;
-  const uint32_t low = (from.index_u * parts + low_more) >> from_level;
-  const uint32_t high = ((to.index_u + 1u) * parts + high_more) >> to_level;
-  return {guide_.arcs()[from.piece * parts + low], guide_.arcs()[to.piece * parts + high]};
+  const uint32_t low = (from_index * parts + low_more) >> from_level;
+  const uint32_t high = (to_end * parts + high_more) >> to_level;
+  return {guide_.arcs()[from * parts + low], guide_.arcs()[to * parts + high]};
 }
 
 uint32_t GuideParts::node_around(uint32_t node, float reach_m) const {
@@ -36,7 +38,7 @@ uint32_t GuideParts::node_around(uint32_t node, float reach_m) const {
   const Round& round = penalty_.round;
   if (round.is_closed && !(low_m >= round.first_m && high_m <= round.last_m)) return kRoot;
   while (node != kRoot) {
-    const Stretch below = stretch_below(node, true);
+    const Stretch below = stretch_of(curve_.below(node), true);
     const bool holds_low = below.low_m <= low_m || !(below.low_m > 0.0f);
     const bool holds_high = below.high_m >= high_m || !(below.high_m < guide_.length_m());
     if (holds_low && holds_high) break;

@@ -79,15 +79,17 @@ class GuideParts {
   uint32_t node_around(uint32_t node, float reach_m) const;
 
   float bound_m(uint32_t node, Range& range) const {
-    if (!is_any_below(node)) return FLT_MAX;
-    const Stretch below = stretch_below(node, false);
+    const CurveLevels::Leaves under = curve_.below(node);
+    if (!is_any_of(under)) return FLT_MAX;
+    const Stretch below = stretch_of(under, false);
     const float least_m = penalty_.least(below.low_m, below.high_m);
     const float by_arc_m = with_slack(nearest_m_, least_m);
     if (by_arc_m >= best_.limit_m) {  // no need to know how far off it is
       if (is_leaf(node)) range = curve_.range_of(curve_.leaf_of(node), 0.5f);
       return by_arc_m;
     }
-    const CurveTree<false>::Seen seen = curve_.see(node);
+    const CurveTree<false>::Seen seen =
+        curve_.see(curve_.off_m(under.first), curve_.off_m(under.end), curve_.radius_m(node));
     if (is_leaf(node)) range = curve_.range_of(curve_.leaf_of(node), seen.share);
     return seen.lower_m > nearest_m_ ? with_slack(seen.lower_m, least_m) : by_arc_m;
   }
@@ -134,12 +136,11 @@ class GuideParts {
     float low_m, high_m;  // by arcs
   };
   // Not in what is no node, and where the curve is broken off.
-  bool is_any_below(uint32_t node) const {
-    const CurveLevels::Leaves under = curve_.below(node);
+  bool is_any_of(const CurveLevels::Leaves& under) const {
     return under.first <= curve_.last() &&
            (under.end - under.first > 1 || curve_.piece_of(under.first) != kNoLeaf);
   }
-  Stretch stretch_below(uint32_t node, bool is_within) const;
+  Stretch stretch_of(const CurveLevels::Leaves& under, bool is_within) const;
   bool find_cut(uint32_t piece, const Range& range, float& at) const;
   float least_within(uint32_t piece, float low, float high) const;
   Half<Range> half(uint32_t piece, float low, float high, float lower_m) const {

@@ -172,8 +172,10 @@ bool comes_to(const GuideView& guide, const Foot& nearest, float lower_m, float 
   const bool is_below = is_first || arcs.at_m(nearest.piece, low) <= was_m - reach_m;
   const bool is_above = is_last || arcs.at_m(nearest.piece, high) >= was_m + reach_m;
   if (!is_below || !is_above) return false;
-  const Expansion f = expand<false>(nearest.at, nearest.r_m, nearest.distance2_m2, nearest.slope,
-                                    speed2, speed2 + dot(nearest.r_m, nearest.at.d2),
+  CurvePoint at;  // with its third derivative
+  evaluate(model.pieces()[nearest.piece], model.coefficients().data(), nearest.s, at);
+  const Expansion f = expand<false>(at, nearest.r_m, nearest.distance2_m2, nearest.slope, speed2,
+                                    speed2 + dot(nearest.r_m, nearest.at.d2),
                                     model.curve_bends()[nearest.piece], model.head().loss_m);
   return f.least_bend_over(-1.0f, nearest.s - low) > 0.0f &&
          f.least_bend_over(1.0f, high - nearest.s) > 0.0f;

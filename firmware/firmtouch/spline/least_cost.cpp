@@ -41,7 +41,7 @@ LeastCost least_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& asked,
 
   LeastCost found;
   CurvePoint kink;
-  point_of(model, asked.piece, asked.s, kink);
+  evaluate(model.pieces()[asked.piece], model.coefficients().data(), asked.s, kink);
   const Vec3 r_m = kink.x - (p_m - vec3_at(model.pieces()[asked.piece].origin_m));
   best.node = kNoNode;
   best.distance2_m2 = dot(r_m, r_m);
