@@ -15,10 +15,10 @@ static inline Parallelogram quarters_between(const Corner* c00, uint32_t across,
   Parallelogram made_of;
   const auto axis = [](int32_t v00, int32_t v10, int32_t v01, int32_t v11, float& centre, float& a,
                        float& b) {
-    const int32_t rising = v11 - v00, falling = v10 - v01;
-    centre = static_cast<float>(v00 + v11 + v10 + v01);
-    a = static_cast<float>(rising + falling);
-    b = static_cast<float>(rising - falling);
+    const int32_t low = v00 + v01, high = v10 + v11, across_u = high - low;
+    centre = static_cast<float>(low + high);
+    a = static_cast<float>(across_u);
+    b = static_cast<float>(across_u - 2 * (v10 - v01));
   };
   axis(c00->x, c10->x, c01->x, c11->x, made_of.centre.x, made_of.a.x, made_of.b.x);
   axis(c00->y, c10->y, c01->y, c11->y, made_of.centre.y, made_of.a.y, made_of.b.y);
@@ -87,7 +87,7 @@ static inline float in_overlaps(uint32_t byte) { return static_cast<float>(byte)
 
 /// The same of the half without the foot, whose nearest line is `excess` from it: along one axis, `across`, up to
 /// `overlap` beyond the middle, or from as much before it on. What is known at the foot is moved there: that loses less
-/// than 2^-20 of the squares of both sides.
+/// than 2^-19 of the squares of both sides.
 struct Side {
   float at, slope, square, per_square;  // of the foot, along an axis
 };
@@ -102,7 +102,7 @@ static inline float half_bound(float off2, const Side& across, const Side& along
   const float moved2 = off2 - dx * (across.slope + slope_x) - dy * (along.slope + slope_y);
   const float rising = math::larger(math::float_of(math::bits_of(slope_x) ^ inward), 0.0f);
   const float left = rising * (1.0f + overlap) + (__builtin_fabsf(slope_y) - slope_y * y);
-  return least_of(moved2 - (across.square + along.square) * 0x1p-20f, left);
+  return least_of(moved2 - (across.square + along.square) * 0x1p-19f, left);
 }
 
 }  // namespace firmtouch::spline

@@ -41,8 +41,8 @@ struct Quadratic {
   /// leaves more of it. On an axis that leads only away from the point and uphill, g |x| >= g x^2: the
   /// slope becomes part of Q. What is left of the slopes, g, costs at most g . Q^-1 . g / 2 where Q is
   /// positive; else all terms are taken one by one. Where such an axis leads up more steeply than all
-  /// that is mixed with it may take away, the other one is left alone.
-  float least2(const Rectangle& r) const {
+  /// that is mixed with it may take away, the other one is left alone: asked only where the rest is not `enough2`.
+  float least2(const Rectangle& r, float enough2 = FLT_MAX) const {
     // By how much terms may lower the rest: those whose sign is known, on one side of the point, by nothing
     // where that leads up.
     struct Way {
@@ -115,6 +115,8 @@ struct Quadratic {
       const float cost = g[0] * g[0] * c + 2.0f * g[0] * g[1] * b + g[1] * g[1] * a;
       bound = math::larger(cost / determinant * (-0.5f - 0x1p-4f), bound);
     }
+    const float sunk = along_u.sunk + along_v.sunk, first2 = distance2 + 2.0f * (bound - sunk);
+    if (first2 >= enough2 || !(q[0] + q[1] > 0.0f)) return first2;
     const float own[2] = {uu, vv}, mixed_in[2] = {uuv, uvv};
     for (uint32_t k = 0; k < 2; ++k) {
       const uint32_t o = 1 - k;
@@ -125,7 +127,7 @@ struct Quadratic {
       if (!(left > slack && at_end > slack)) continue;
       bound = math::larger(least_along(0.5f * q[o], g[o], own[o]), bound);
     }
-    return distance2 + 2.0f * (bound - (along_u.sunk + along_v.sunk));
+    return distance2 + 2.0f * (bound - sunk);
   }
 
   /// Where Newton's method, within the rectangle, would look next: of the bend where it is positive on

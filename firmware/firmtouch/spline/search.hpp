@@ -38,6 +38,8 @@ struct Best {
   bool is_beyond(float lower2_m2) const {
     return limit_m <= 0.0f || lower2_m2 * (1.0f - 2.0f * kUnit) >= limit_m * limit_m;
   }
+  /// A lower bound that is beyond.
+  float enough2() const { return limit_m * limit_m * (1.0f + 4.0f * kUnit); }
   /// Whether a squared distance, seen without its error, is.
   bool seems_beyond(float lower2_m2) const {
     return limit_m <= 0.0f || lower2_m2 >= limit_m * limit_m;

@@ -79,7 +79,9 @@ class SurfaceParts {
     return node;
   }
 
-  bool may_be_closed(uint32_t node) const { return (node ^ closed_) >> 16 == 0; }
+  bool may_be_closed(uint32_t node, uint32_t left) const {
+    return left <= kTried && (node ^ closed_) >> 16 == 0;
+  }
   /// Whether the expansion that closed the last leaf closes this part of its cell as well.
   bool is_closed(uint32_t node, const Best& best) const {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
@@ -144,7 +146,7 @@ class SurfaceParts {
       const bool has_arrived = !(moved > 0x1p-40f && gain > kRounding * base->distance2);
       if (!has_arrived && !best.seems_beyond(base->distance2 - (is_best ? kNearly : 2.0f) * gain))
         continue;
-      if (best.is_beyond(base->least2(range))) {
+      if (best.is_beyond(base->least2(range, best.enough2()))) {
         closed_by_ = base;
         closed_ = is_small ? kNone : node;  // a rectangle's own bends are not those of the cell
         return Outcome::kClosed;
@@ -158,7 +160,7 @@ class SurfaceParts {
   }
 
   bool closes(const PatchNode& part, const Best& best) const {
-    return best.is_beyond(closed_by_->least2(range_of(part, 0.0f, 0.0f)));
+    return best.is_beyond(closed_by_->least2(range_of(part, 0.0f, 0.0f), best.enough2()));
   }
 
   /// A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the piece.

@@ -109,7 +109,7 @@ class SurfaceSearch {
     is_cold_ = true;
     const uint32_t root = parts_.root();
     if (root >= kUpper)
-      stack_[count_++] = {root, outside_m, {}, 0, 0.0f};
+      stack_[count_++] = Entry(root, outside_m);
     else
       visit_upper(0, outside_m, false);
     is_complete_ = drain();
@@ -129,12 +129,19 @@ class SurfaceSearch {
   }
 
  private:
+  struct Halves {
+    uint32_t far_half;
+    float far_m;
+  };
   struct Entry {
     uint32_t node;
     float lower_m;
-    Range range;        // of a leaf
-    uint32_t far_half;  // of other parts
-    float far_m;
+    union {
+      Range range;    // of a leaf
+      Halves halves;  // of other parts
+    };
+    Entry() {}
+    Entry(uint32_t of, float no_nearer_m) : node(of), lower_m(no_nearer_m) {}
   };
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and three.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 4;
@@ -178,8 +185,8 @@ class SurfaceSearch {
       entry.range = parts_.range_of(node, told.x, told.y);
     } else {
       entry.node = node;
-      entry.far_half = told.far_half;
-      entry.far_m = told.far_m;
+      entry.halves.far_half = told.far_half;
+      entry.halves.far_m = told.far_m;
     }
   }
 
@@ -192,8 +199,8 @@ class SurfaceSearch {
     PartBound told{};
     bool is_known = known != nullptr;
     if (is_known) {
-      told.far_half = known->far_half;
-      told.far_m = known->far_m;
+      told.far_half = known->halves.far_half;
+      told.far_m = known->halves.far_m;
     }
     uint32_t near_node = 0;       // where the farther half is read: the nearer one is read after it
     float far_lower_m = FLT_MAX;  // of the farther half, where it is kept
@@ -217,8 +224,9 @@ class SurfaceSearch {
           continue;
         }
         if (!is_kept) return pass(node, lower_m);
-        if (is_leaf || lower_m > far_lower_m || left_ < 2 || is_beside ||
-            parts_.may_be_closed(node)) {
+        if (parts_.may_be_closed(node, left_u + left_v) && parts_.is_closed(node, best_))
+          return pass(node, 0.0f);
+        if (is_leaf || lower_m > far_lower_m || left_ < 2 || is_beside) {
           keep(node, lower_m, told, is_leaf);
           if (lower_m > far_lower_m) order(count_ - 2);
           return;
@@ -277,8 +285,7 @@ class SurfaceSearch {
         return false;
       }
       if (node < kUpper) {
-        const Entry known = entry;
-        descend(node, lower_m, &known, false);
+        descend(node, lower_m, &entry, false);
       } else {
         const uint32_t before = count_;
         const uint32_t low = first_child(node - kUpper);
@@ -309,10 +316,9 @@ class SurfaceSearch {
     return outcome != Outcome::kStopped;
   }
   void put(uint32_t node, float lower_m, const Range& range) {
-    if (count_ < kCapacity)
-      stack_[count_++] = {node | kLeafMark, lower_m, range, 0, 0.0f};
-    else
-      lose(lower_m);
+    if (count_ >= kCapacity) return lose(lower_m);
+    stack_[count_] = Entry(node | kLeafMark, lower_m);
+    stack_[count_++].range = range;
   }
 
   SurfaceParts parts_;
