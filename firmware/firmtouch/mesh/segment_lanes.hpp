@@ -10,7 +10,7 @@ namespace firmtouch::mesh {
 
 class SegmentLanes : private SegmentFrame {
  public:
-  SegmentLanes(const Head& head, math::Vec3 a_m, math::Vec3 b_m)
+  [[gnu::always_inline]] inline SegmentLanes(const Head& head, math::Vec3 a_m, math::Vec3 b_m)
       : SegmentFrame(head, a_m, b_m), axes_(longest_axis(along_m_)) {
     const float at_m[3] = {a_m.x, a_m.y, a_m.z};
     at_i_m_ = at_m[axes_.i], at_j_m_ = at_m[axes_.j], at_k_m_ = at_m[axes_.k];
@@ -41,7 +41,7 @@ class SegmentLanes : private SegmentFrame {
   /// Of the triangles of a leaf whose corners lie side by side, in rows. Lanes that it leaves over
   /// tell nothing.
   /// Pre: kHoldsLeaf.
-  Passes pass_rows(const float* rows, uint32_t count) const {
+  [[gnu::always_inline]] inline Passes pass_rows(const float* rows, uint32_t count) const {
     using Float = math::FloatWide;
     const size_t stride = 3 * size_t{count};
     const float *i = rows + axes_.i * count, *j = rows + axes_.j * count,
@@ -54,7 +54,8 @@ class SegmentLanes : private SegmentFrame {
     return pass(corner(0), corner(1), corner(2));
   }
   /// Of four triangles.
-  Passes pass_four(const Vertex* vertices, const Triangle<uint32_t> (&triangles)[4]) const {
+  [[gnu::always_inline]] inline Passes pass_four(const Vertex* vertices,
+                                                 const Triangle<uint32_t> (&triangles)[4]) const {
     const auto corner = [&](uint32_t c) {
       const auto at = [&](uint32_t lane) { return &vertices[triangles[lane].corner[c]].x_m; };
       const math::Lanes<math::Float4> v = math::gather(at(0), at(1), at(2), at(3));

@@ -87,9 +87,9 @@ static inline bool search_in_turn(const View& mesh, math::Vec3 a_m, math::Vec3 b
 /// it measures the boxes in both. A node's keys are those of its sides, measured when it was found;
 /// the limit may have come nearer since.
 template <class Visitor>
-[[gnu::flatten]] static inline bool search_ahead(const View& mesh, math::Vec3 a_m, math::Vec3 b_m,
-                                                 query::Budget budget, Visitor& visitor,
-                                                 uint32_t& steps) {
+[[gnu::always_inline]] static inline bool search_ahead(const View& mesh, math::Vec3 a_m,
+                                                       math::Vec3 b_m, query::Budget budget,
+                                                       Visitor& visitor, uint32_t& steps) {
   using math::Waiting;
   math::FamilySlabs slabs;
   if (!slabs.begin(a_m, b_m, mesh.head().grid_low_m, mesh.head().cell_m) &&
@@ -147,8 +147,9 @@ template <class Visitor>
 }
 
 template <class Visitor>
-static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
-                          Visitor& visitor, uint32_t& steps) {
+[[gnu::always_inline]] static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m,
+                                                 query::Budget budget, Visitor& visitor,
+                                                 uint32_t& steps) {
   if constexpr (math::kHasLanes)
     return search_ahead(mesh, a_m, b_m, budget, visitor, steps);
   else
