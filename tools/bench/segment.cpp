@@ -13,10 +13,6 @@ namespace {
 // The goal is for this machine's own instruction set (the preset host-native).
 constexpr double kFirstGoal = 1.5;
 constexpr size_t kSegments = 10000;
-// A pass lasts as long as the peer's five together: who comes first after the other's process has
-// cold caches for a part of it only.
-constexpr size_t kRounds = 10;
-
 struct Segment {
   math::Vec3 a_m, b_m;
 };
@@ -73,12 +69,12 @@ double all_of(const mesh::View& view, const Segment& s) {
 }
 
 Contender ours(const mesh::View& view, const std::vector<Segment>& segments, Answer answer) {
-  return timed(kRounds * segments.size(), [&view, &segments, answer] {
+  const auto pass = [&view, &segments, answer] {
     double sum = 0;
-    for (size_t round = 0; round < kRounds; ++round)
-      for (const Segment& s : segments) sum += answer(view, s);
+    for (const Segment& s : segments) sum += answer(view, s);
     return sum;
-  });
+  };
+  return median_of_passes(timed(segments.size(), pass));
 }
 
 void count(const Model& model, const std::vector<Segment>& segments, Report& report) {
