@@ -72,7 +72,7 @@ class PassedParts {
   }
 
  private:
-  static constexpr uint32_t kMost = 24;
+  static constexpr uint32_t kMost = 8;
   static constexpr uint32_t kMostOpened = 2, kManySteps = 32;
   struct Part {
     uint32_t node;
