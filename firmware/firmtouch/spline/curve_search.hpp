@@ -87,6 +87,7 @@ class CurveSearch {
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and two.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 3;
   static constexpr uint32_t kStep = 2;  // levels
+  static constexpr uint32_t kManySteps = 40;
 
   struct Entry {
     uint32_t node;
@@ -115,6 +116,10 @@ class CurveSearch {
     if (!tree_.is_leaf(1)) {
       put(1, 0.0f);
       if (!drain()) return false;
+    }
+    if (steps() > kManySteps) {  // the next query makes one
+      fence = {{1, 0}, 0.0f};
+      return true;
     }
     const uint32_t leaf = tree_.leaf_at(best_.node, best_.s);
     LeafRow row{leaf, leaf};
