@@ -76,45 +76,55 @@ struct Path {
   }
 };
 
+// What queries along paths told, beside each of them asked without what the last one left.
+struct Told {
+  uint32_t wrong = 0, inexact = 0, passed_over = 0;  // the latter: by a fence that stayed
+};
+
+void follow(const Baked& baked, tools::Random& random, int positions, Told& told) {
+  const double unit = 2.1e-6 * baked.report.extent_m;
+  for (const double step : {0.0002, 0.002, 0.02}) {
+    Path path{random, step, 1.3};
+    Hint hint;
+    for (int i = 0; i < positions; ++i) {
+      const Vec3 p = path.next();
+      const uint32_t fence = hint.fence;
+      const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
+      Hint cold;
+      const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
+      const double truth = wide(alone.distance_m);
+      told.wrong += std::fabs(wide(warm.distance_m) - truth) <= unit + 2e-6 * truth &&
+                            wide(warm.certificate.lower_m) <= truth
+                        ? 0u
+                        : 1u;
+      told.inexact += warm.certificate.exact ? 0u : 1u;
+      told.passed_over += fence != query::kNowhere && hint.fence == fence ? 1u : 0u;
+    }
+  }
+}
+
 }  // namespace
 
 TEST(AlongAPathAFenceLeavesNothingOut) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
-  uint32_t wrong = 0, inexact = 0, passed_over = 0;
+  Told told;
   for (uint32_t seed = 0; seed < (is_long ? 200u : 24u); ++seed) {
     tools::Random random(seed + 90);
     const tools::SplineCurve curve =
         spline_test::random_curve(random, static_cast<int>(2 + seed % 4), most_of(seed));
     const Baked baked(seed % 2 == 0 ? flattened(curve) : curve);
-    for (const double step : {0.0002, 0.002, 0.02}) {
-      Path path{random, step, 1.3};
-      Hint hint;
-      const double unit = 2.1e-6 * baked.report.extent_m;
-      for (int i = 0; i < 3000; ++i) {
-        const Vec3 p = path.next();
-        const uint32_t fence = hint.fence;
-        const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
-        Hint cold;
-        const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
-        const double told = wide(warm.distance_m), truth = wide(alone.distance_m);
-        wrong += std::fabs(told - truth) <= unit + 2e-6 * truth &&
-                         wide(warm.certificate.lower_m) <= truth
-                     ? 0u
-                     : 1u;
-        inexact += warm.certificate.exact ? 0u : 1u;
-        passed_over += fence != query::kNowhere && hint.fence == fence ? 1u : 0u;
-      }
-    }
+    follow(baked, random, 3000, told);
   }
-  CHECK_EQ(wrong, 0u);
-  CHECK_EQ(inexact, 0u);
-  CHECK(passed_over > 100000);
+  CHECK_EQ(told.wrong, 0u);
+  CHECK_EQ(told.inexact, 0u);
+  CHECK(told.passed_over > 100000);
 }
 
 // Trees of one piece, of less than the 16 groups of a fence, and of many more.
 TEST(AlongAPathAFenceLeavesNothingOutOfSurfaces) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
-  uint32_t wrong = 0, inexact = 0, passed_over = 0, most_pieces = 0;
+  Told told;
+  uint32_t most_pieces = 0;
   for (uint32_t seed = 0; seed < (is_long ? 60u : 10u); ++seed) {
     tools::Random random(seed + 40);
     std::vector<tools::SplineSurface> surfaces;
@@ -123,30 +133,12 @@ TEST(AlongAPathAFenceLeavesNothingOutOfSurfaces) {
                                                      static_cast<int>(1 + random.below(3)), 1));
     const Baked baked(surfaces);
     most_pieces = std::max(most_pieces, baked.view.pieces().size());
-    for (const double step : {0.0002, 0.002, 0.02}) {
-      Path path{random, step, 1.3};
-      Hint hint;
-      const double unit = 2.1e-6 * baked.report.extent_m;
-      for (int i = 0; i < 1000; ++i) {
-        const Vec3 p = path.next();
-        const uint32_t fence = hint.fence;
-        const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
-        Hint cold;
-        const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
-        const double told = wide(warm.distance_m), truth = wide(alone.distance_m);
-        wrong += std::fabs(told - truth) <= unit + 2e-6 * truth &&
-                         wide(warm.certificate.lower_m) <= truth
-                     ? 0u
-                     : 1u;
-        inexact += warm.certificate.exact ? 0u : 1u;
-        passed_over += fence != query::kNowhere && hint.fence == fence ? 1u : 0u;
-      }
-    }
+    follow(baked, random, 1000, told);
   }
-  CHECK_EQ(wrong, 0u);
-  CHECK_EQ(inexact, 0u);
+  CHECK_EQ(told.wrong, 0u);
+  CHECK_EQ(told.inexact, 0u);
   CHECK(most_pieces > 64);
-  CHECK(passed_over > 10000);
+  CHECK(told.passed_over > 10000);
 }
 
 TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {

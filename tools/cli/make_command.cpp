@@ -8,6 +8,7 @@
 #include "curve/make_hand_walk.hpp"
 #include "curve/read_curve_csv.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "spline/make_walk_about.hpp"
 #include "spline/read_spline.hpp"
 #include "spline/sample_splines.hpp"
 #include "spline/write_iges.hpp"
@@ -24,7 +25,6 @@ constexpr uint32_t kPartTriangles = 20000;
 constexpr uint32_t kMostPoints = 100000000;
 constexpr uint32_t kControlPoints = 15, kMostControlPoints = 1000;  // of a spline, in one direction
 constexpr double kRise = 0.15;                                      // of a surface's hills
-constexpr double kSplineStep = 0.002;                               // of the extent
 
 // Of what is made: the format it is written in (a name that says another would lie), and its own options.
 struct Kind {
@@ -69,34 +69,10 @@ std::string made_surface(const Arguments& arguments, uint64_t seed) {
   return tools::to_iges(model);
 }
 
-// Through the box about a spline and a fifth of its extent beyond, as the published examples are
-// asked: near the middle of a shape, where much of it is about as near, as often as beside it.
 std::string walk_about_spline(const std::string& path, uint64_t seed, uint32_t points) {
-  constexpr int kSamples = 16;  // of a piece, in one direction
-  const auto share = [](int i) { return static_cast<double>(i) / kSamples; };
   const tools::SplineModel model = tools::read_spline_file(path, 0);
   if (!model.problem.empty()) fail_input(model.problem);
-  std::vector<tools::Point> on_it;
-  for (const tools::SplineCurve& curve : model.curves)
-    for (const tools::BezierCurve& piece : bezier_pieces(curve))
-      for (int i = 0; i <= kSamples; ++i) on_it.push_back(point_at(piece, share(i)));
-  for (const tools::SplineSurface& surface : model.surfaces)
-    for (const tools::BezierPatch& piece : bezier_pieces(surface))
-      for (int i = 0; i <= kSamples; ++i)
-        for (int j = 0; j <= kSamples; ++j) on_it.push_back(point_at(piece, share(i), share(j)));
-  tools::Point low = on_it[0], high = low;
-  for (const tools::Point p : on_it) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const bool is_flat = model.surfaces.empty() && !(high.z > low.z);
-  std::vector<math::Vec3> walk;
-  for (const tools::Point& p :
-       tools::path_about(tools::wandering_path(seed, points, kSplineStep, is_flat ? 0.5 : -0.2,
-                                               is_flat ? 0.5 : 1.2),
-                         low, high))
-    walk.push_back(tools::to_vec3(p));
-  return tools::to_csv(walk);
+  return tools::to_csv(tools::make_walk_about(model, seed, points));
 }
 
 // A walk touches any surface, also one without inside and outside.

@@ -7,17 +7,13 @@
 namespace firmtouch::spline {
 
 template <bool kFlat>
-class CurveSearch {
+class CurveSearch : public Account {
  public:
   using Tree = CurveTree<kFlat>;
   using Range = CurveRange;
 
   CurveSearch(const View& model, math::Vec3 p_m, uint32_t budget, Best& best)
-      : tree_(model, p_m),
-        loss_m_(model.head().loss_m),
-        budget_(budget == 0 ? 1 : budget),
-        left_(budget_),
-        best_(best) {}
+      : Account(budget), tree_(model, p_m), loss_m_(model.head().loss_m), best_(best) {}
 
   /// The piece of a hint, and where on it: false for a hint that is none.
   bool resume(uint32_t place, uint32_t& piece, float& s) const {
@@ -68,18 +64,7 @@ class CurveSearch {
     is_complete_ = drain();
   }
 
-  bool is_complete() const { return is_complete_ && lost_m_ >= FLT_MAX; }
-  uint32_t steps() const { return budget_ - left_; }
-
-  /// Certified distance to all that was not looked at, before what float32 loses; nothing of the model
-  /// is nearer than outside_m.
-  float pending_m(float outside_m) const {
-    float least_m = lost_m_;
-    if (is_cut_) least_m = outside_m;
-    for (uint32_t i = 0; i < count_; ++i)
-      if (stack_[i].lower_m < least_m) least_m = stack_[i].lower_m;
-    return least_m;
-  }
+  float pending_m(float outside_m) const { return least_pending_m(stack_, count_, outside_m); }
 
  private:
   static constexpr uint32_t kMostTurns = 5;
@@ -94,7 +79,6 @@ class CurveSearch {
     float lower_m;
     Range range;  // of a leaf
   };
-  void stop() { is_cut_ = true; }
 
   bool look_within(const LeafRow& row) {
     if (row.last > closed_.last &&
@@ -138,7 +122,7 @@ class CurveSearch {
       lose(lower_m);
   }
   void lose(float lower_m) {
-    if (lower_m < lost_m_) lost_m_ = lower_m;
+    Account::lose(lower_m);
     passed_.pass(0.0f);
   }
 
@@ -376,12 +360,8 @@ class CurveSearch {
 
   Tree tree_;
   float loss_m_;
-  uint32_t budget_, left_;
   Best& best_;  // its node: the piece it is of
   float best_bend_ = 0.0f;
-  float lost_m_ = FLT_MAX;  // bound of what the stack had no room for
-  bool is_complete_ = false;
-  bool is_cut_ = false;  // parts of the tree were not reached at all
   bool is_row_ = false;  // what is solved next
   Expansion last_;
   uint32_t last_piece_ = kNoLeaf;

@@ -1,7 +1,7 @@
 #include "firmtouch/spline/least_cost.hpp"
 
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/spline/guide_parts.hpp"
+#include "firmtouch/spline/guide_search.hpp"
 
 namespace firmtouch::spline {
 namespace {
@@ -58,7 +58,7 @@ LeastCost least_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& asked,
   }
 
   GuideParts parts(guide, p_m, penalty, kink, arcs, nearest.certificate.lower_m, best);
-  Search<GuideParts> search(parts, budget.steps > 1 ? budget.steps - 1 : 1, best);
+  GuideSearch search(parts, budget.steps > 1 ? budget.steps - 1 : 1, best);
   GuideParts::Range range;
   const uint32_t node = parts.node_at(asked.piece, asked.s, range);
   // What is farther along the curve costs more, for nothing is nearer than the nearest.

@@ -46,16 +46,12 @@ struct PieceFence {
   }
 };
 
-class SurfaceSearch {
+class SurfaceSearch : public Account {
  public:
   using Range = Rectangle;
 
   SurfaceSearch(const View& model, math::Vec3 p_m, uint32_t budget, Best& best)
-      : parts_(model, p_m),
-        bounds_(model, p_m),
-        budget_(budget == 0 ? 1 : budget),
-        left_(budget_),
-        best_(best) {}
+      : Account(budget), parts_(model, p_m), bounds_(model, p_m), best_(best) {}
 
   bool resume(const query::Hint& hint, uint32_t& leaf, Range& range) const {
     return parts_.resume(hint, leaf, range);
@@ -115,18 +111,7 @@ class SurfaceSearch {
     is_complete_ = drain();
   }
 
-  bool is_complete() const { return is_complete_ && lost_m_ >= FLT_MAX; }
-  uint32_t steps() const { return budget_ - left_; }
-
-  /// Certified distance to all that was not looked at, before what float32 loses; nothing of the model
-  /// is nearer than outside_m.
-  float pending_m(float outside_m) const {
-    float least_m = lost_m_;
-    if (is_cut_) least_m = outside_m;
-    for (uint32_t i = 0; i < count_; ++i)
-      if (stack_[i].lower_m < least_m) least_m = stack_[i].lower_m;
-    return least_m;
-  }
+  float pending_m(float outside_m) const { return least_pending_m(stack_, count_, outside_m); }
 
  private:
   struct Halves {
@@ -148,10 +133,6 @@ class SurfaceSearch {
 
   static constexpr uint32_t kMostMarks = 16;
 
-  void stop() { is_cut_ = true; }
-  void lose(float lower_m) {
-    if (lower_m < lost_m_) lost_m_ = lower_m;
-  }
   // A node over pieces below which something may be within reach.
   void pass(uint32_t node, float lower_m) {
     if (lower_m < reach_m_) mark(parts_.upper_of(node));
@@ -323,16 +304,11 @@ class SurfaceSearch {
 
   SurfaceParts parts_;
   PatchBounds bounds_;
-  uint32_t budget_;
-  uint32_t left_;
   Best& best_;
-  float lost_m_ = FLT_MAX;  // bound of what the stack had no room for
-  float reach_m_ = 0.0f;    // of a new fence
+  float reach_m_ = 0.0f;  // of a new fence
   uint32_t marked_count_ = 0;
   uint16_t marked_[kMostMarks];  // nodes over pieces that are not farther than that
   bool is_cold_ = false;         // nothing is known yet: the nearer of two pieces comes first
-  bool is_complete_ = false;
-  bool is_cut_ = false;  // parts of the tree were not reached at all
   uint32_t count_ = 0;
   Entry stack_[kCapacity];
 };
