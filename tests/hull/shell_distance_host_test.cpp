@@ -65,8 +65,7 @@ void judge(const BakedHull& baked, const hull::Shell& shell, int count) {
       CHECK(told.side != hull::ShellSide::kUnknown);
       if (told.side == hull::ShellSide::kOutside)
         CHECK_LE(to_shell.distance - double{told.lower_m}, 1e-5);
-      CHECK_LE(std::fabs(mesh_test::length(wide(told.point_m) - wide(p)) - to_shell.distance),
-               1e-5);
+      CHECK_LE(std::fabs(length(wide(told.point_m) - wide(p)) - to_shell.distance), 1e-5);
       outside += told.side == hull::ShellSide::kOutside ? 1 : 0;
       inside += to_mesh.inside ? 1 : 0;
       between += to_shell.inside && !to_mesh.inside ? 1 : 0;
@@ -102,9 +101,9 @@ TEST(HostilePointsGetFiniteDistancesToAShell) {
             hull::shell_distance(ring.view.shell(), {x, y, z}, query::kUnlimited);
         CHECK(told.lower_m >= 0 && told.lower_m <= FLT_MAX);
         CHECK(told.deepest_m >= 0 && told.deepest_m <= FLT_MAX);
-        CHECK_LE(mesh_test::length(wide(told.point_m)), 10.0);
+        CHECK_LE(length(wide(told.point_m)), 10.0);
         const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-        const double off = mesh_test::length({double{x}, double{y}, double{z}});
+        const double off = length({double{x}, double{y}, double{z}});
         if (finite && off > 10) CHECK(told.side == hull::ShellSide::kOutside);
         if (finite && off > 10) CHECK_LE(double{told.lower_m}, off + 10);
         if (!finite) CHECK_EQ(told.lower_m, 0.0f);

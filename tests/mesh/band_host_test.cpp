@@ -2,8 +2,7 @@
 #include <cfloat>
 #include <cmath>
 
-#include "bake/bake_mesh.hpp"
-#include "brute_force.hpp"
+#include "baked_mesh.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
 #include "surface/make_part.hpp"
@@ -14,20 +13,8 @@ using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
 using math::Vec3;
 
-struct Baked {
-  tools::Surface surface = tools::make_part(1, 2000);
-  std::vector<tools::Section> sections;
-  mesh::View view;
-
-  Baked() {
-    tools::MeshReport report;
-    sections = tools::bake_mesh(surface, "part", {}, report);
-    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
-  }
-};
-
-const Baked& part() {
-  static const Baked baked;
+const BakedMesh& part() {
+  static const BakedMesh baked(tools::make_part(1, 2000));
   return baked;
 }
 

@@ -9,38 +9,16 @@
 #include <vector>
 
 #include "surface/check.hpp"
+#include "surface/closest_by_force.hpp"
+#include "surface/random.hpp"
 #include "surface/read_surface.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::mesh_test {
 
-struct Point {
-  double x = 0, y = 0, z = 0;
-};
-inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Point operator*(Point a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Point cross(Point a, Point b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(Point a) { return std::sqrt(dot(a, a)); }
-inline Point wide(math::Vec3 v) { return {double{v.x}, double{v.y}, double{v.z}}; }
-
-inline Point closest_on(Point p, Point a, Point b, Point c) {
-  const Point ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp),
-               d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d1 <= 0 && d2 <= 0) return a;
-  if (d3 >= 0 && d4 <= d3) return b;
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-  const double sum = va + vb + vc;
-  return a + ab * (vb / sum) + ac * (vc / sum);
-}
+using tools::Point;
+using tools::Random;
+inline Point wide(math::Vec3 v) { return tools::to_point(v); }
 
 struct Truth {
   double distance = 0;  // unsigned
@@ -52,7 +30,7 @@ inline Truth brute_force(const tools::Surface& surface, Point p) {
   for (const tools::Face& f : surface.faces) {
     const Point a = wide(surface.vertices[f[0]]), b = wide(surface.vertices[f[1]]),
                 c = wide(surface.vertices[f[2]]);
-    const Point r = closest_on(p, a, b, c) - p;
+    const Point r = closest_of(p, a, b, c) - p;
     best2 = std::min(best2, dot(r, r));
     const Point u = a - p, v = b - p, w = c - p;
     const double lu = length(u), lv = length(v), lw = length(w);
@@ -73,20 +51,6 @@ inline double diagonal(const tools::Surface& surface) {
   return length(high - low);
 }
 
-/// A random number that a seed repeats, in [low, high).
-class Random {
- public:
-  explicit Random(uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15ull + 1) {}
-  double in(double low, double high) {
-    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
-    return low + (high - low) * static_cast<double>(state_ >> 11) * 0x1p-53;
-  }
-  size_t below(size_t count) { return static_cast<size_t>(in(0, static_cast<double>(count))); }
-
- private:
-  uint64_t state_;
-};
-
 /// Queries where it hurts: beside faces, edges and vertices at distances down to nothing, all
 /// around, and far away.
 inline std::vector<math::Vec3> hard_queries(const tools::Surface& surface, size_t count,
@@ -98,19 +62,19 @@ inline std::vector<math::Vec3> hard_queries(const tools::Surface& surface, size_
     centre = centre + wide(v) * (1.0 / static_cast<double>(surface.vertices.size()));
   std::vector<math::Vec3> queries;
   for (size_t i = 0; i < count; ++i) {
-    const tools::Face& f = surface.faces[random.below(surface.faces.size())];
+    const tools::Face& f = surface.faces[random.below(static_cast<uint32_t>(surface.faces.size()))];
     const Point a = wide(surface.vertices[f[0]]), b = wide(surface.vertices[f[1]]),
                 c = wide(surface.vertices[f[2]]);
-    double u = random.in(0, 1), v = random.in(0, 1);
+    double u = random.between(0, 1), v = random.between(0, 1);
     if (u + v > 1) u = 1 - u, v = 1 - v;
     if (i % 5 == 1) v = 0;
     if (i % 5 == 2) u = v = 0;
     Point p = a + (b - a) * u + (c - a) * v;
-    const double reach = size * std::pow(10.0, random.in(-7, -1));
-    const Point shift{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
+    const double reach = size * std::pow(10.0, random.between(-7, -1));
+    const Point shift{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
     if (i % 5 < 3) p = p + shift * reach;
     if (i % 5 == 3) p = centre + shift * (0.75 * size);
-    if (i % 5 == 4) p = centre + shift * (size * std::pow(10.0, random.in(0, 4)));
+    if (i % 5 == 4) p = centre + shift * (size * std::pow(10.0, random.between(0, 4)));
     queries.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
   }
   return queries;

@@ -21,9 +21,9 @@ struct Case {
 };
 
 Vec3 moved(Vec3 v, Random& random, double by) {
-  return {static_cast<float>(double{v.x} + random.in(-by, by)),
-          static_cast<float>(double{v.y} + random.in(-by, by)),
-          static_cast<float>(double{v.z} + random.in(-by, by))};
+  return {static_cast<float>(double{v.x} + random.between(-by, by)),
+          static_cast<float>(double{v.y} + random.between(-by, by)),
+          static_cast<float>(double{v.z} + random.between(-by, by))};
 }
 
 Case longest_first(const Case& c) {
@@ -147,7 +147,7 @@ TEST(CertificatesOfSingleTrianglesHold) {
     test::note("case", i);
     Case c{};
     for (Vec3& v : c.corner) v = moved({}, random, 1);
-    c.p = moved({}, random, std::pow(10.0, random.in(-3, 3)));
+    c.p = moved({}, random, std::pow(10.0, random.between(-3, 3)));
     check_certificate(c);
   }
 }

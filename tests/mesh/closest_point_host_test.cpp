@@ -4,8 +4,7 @@
 #include <map>
 #include <thread>
 
-#include "bake/bake_mesh.hpp"
-#include "brute_force.hpp"
+#include "baked_mesh.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
 #include "surface/crossings.hpp"
@@ -17,24 +16,8 @@ using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
 using math::Vec3;
 
-struct Baked {
-  tools::Surface surface;
-  std::vector<tools::Section> sections;
-  mesh::View view;
-  double size = 0;
-
-  explicit Baked(tools::Surface from) : surface(std::move(from)) {
-    if (surface.faces.empty()) return;
-    tools::MeshReport report;
-    sections = tools::bake_mesh(surface, "part", {}, report);
-    CHECK(report.problem.empty());
-    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
-    size = diagonal(surface);
-  }
-};
-
-const Baked& part() {
-  static const Baked baked(tools::make_part(1, 5000));
+const BakedMesh& part() {
+  static const BakedMesh baked(tools::make_part(1, 5000));
   return baked;
 }
 
@@ -52,7 +35,7 @@ std::vector<Truth> truths(const tools::Surface& surface, const std::vector<Vec3>
 }
 
 // Of the model as its file has it: any vertex may be off by the rounding of its coordinates.
-void check_answer(const Baked& baked, const mesh::Closest& c, const Truth& truth,
+void check_answer(const BakedMesh& baked, const mesh::Closest& c, const Truth& truth,
                   bool crosses_itself) {
   const double scale = std::max(baked.size, truth.distance), told = std::fabs(double{c.distance_m});
   CHECK_LE(truth.distance - told, 4e-7 * scale);
@@ -69,7 +52,7 @@ void check_answer(const Baked& baked, const mesh::Closest& c, const Truth& truth
 
 // Whether the closest point lies where the surface crosses itself: there winding number and
 // pseudonormal disagree and either side is right.
-bool at_crossing(const Baked& baked, const tools::Crossings& crossings, Vec3 point) {
+bool at_crossing(const BakedMesh& baked, const tools::Crossings& crossings, Vec3 point) {
   for (const auto& pair : crossings.pairs)
     for (const uint32_t face : {pair.first, pair.second})
       for (const uint32_t corner : baked.surface.faces[face])
@@ -78,7 +61,7 @@ bool at_crossing(const Baked& baked, const tools::Crossings& crossings, Vec3 poi
   return false;
 }
 
-void against_brute_force(const Baked& baked, size_t count, uint64_t seed) {
+void against_brute_force(const BakedMesh& baked, size_t count, uint64_t seed) {
   const std::vector<Vec3> queries = hard_queries(baked.surface, count, seed);
   const std::vector<Truth> truth = truths(baked.surface, queries);
   const tools::Crossings crossings = tools::find_crossings(baked.surface);
@@ -96,7 +79,7 @@ void against_brute_force(const Baked& baked, size_t count, uint64_t seed) {
 
 void against_real_model(const char* file, size_t daily, size_t whole) {
   if (models_folder().empty()) return test::skip("FIRMTOUCH_MODELS names no folder of real models");
-  const Baked baked(real_model(file));
+  const BakedMesh baked(real_model(file));
   CHECK(!baked.surface.faces.empty());
   if (baked.surface.faces.empty()) return;
   against_brute_force(baked, long_run() ? whole : daily, 11);
@@ -109,7 +92,7 @@ TEST(APartFarFromItsOriginAnswersForTheModelThatItsFileHas) {
   tools::Surface surface = tools::make_part(1, 1000);
   const float away = static_cast<float>(1.3 * diagonal(surface));
   for (Vec3& v : surface.vertices) v = {v.x - away, v.y + away, v.z + away};
-  const Baked baked(surface);
+  const BakedMesh baked(surface);
   CHECK(baked.view.head().rounding_m > 0.5f * mesh::kMostRounding * baked.view.head().diagonal_m);
   against_brute_force(baked, long_run() ? 40000 : 4000, 5);
 }
@@ -120,7 +103,7 @@ TEST(FandiskAnswersLikeBruteForce) { against_real_model("fandisk.obj", 20000, 20
 TEST(HorseAnswersLikeBruteForce) { against_real_model("horse.ply", 2000, 20000); }
 
 TEST(EveryBudgetIsCertifiedColdAndWarm) {
-  const Baked& baked = part();
+  const BakedMesh& baked = part();
   const std::vector<Vec3> queries = hard_queries(baked.surface, 600, 5);
   const std::vector<Truth> truth = truths(baked.surface, queries);
   std::map<uint32_t, query::Hint> warm;
@@ -144,13 +127,13 @@ TEST(EveryBudgetIsCertifiedColdAndWarm) {
 }
 
 TEST(SixtyFourStepsGiveAGoodLowerBound) {
-  const Baked& baked = part();
+  const BakedMesh& baked = part();
   Random random(9);
   std::vector<double> share;
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 p{static_cast<float>(random.in(-0.075, 0.075)),
-                 static_cast<float>(random.in(-0.075, 0.075)),
-                 static_cast<float>(random.in(-0.05, 0.05))};
+    const Vec3 p{static_cast<float>(random.between(-0.075, 0.075)),
+                 static_cast<float>(random.between(-0.075, 0.075)),
+                 static_cast<float>(random.between(-0.05, 0.05))};
     query::Hint cold, whole;
     const mesh::Closest c = mesh::closest_point(baked.view, p, {64}, cold);
     const mesh::Closest truth = mesh::closest_point(baked.view, p, query::kUnlimited, whole);
@@ -162,7 +145,7 @@ TEST(SixtyFourStepsGiveAGoodLowerBound) {
 }
 
 TEST(TwoToolsShareOneMesh) {
-  const Baked& baked = part();
+  const BakedMesh& baked = part();
   const std::vector<Vec3> a = hard_queries(baked.surface, 200, 1),
                           b = hard_queries(baked.surface, 200, 2);
   query::Hint hint_a, hint_b, alone;

@@ -98,13 +98,12 @@ struct Ties {
 Ties ties_of(const Solid& solid, Point p) {
   Ties ties;
   std::vector<std::pair<double, Point>> all;
-  const auto wide = [](Point q) { return mesh_test::Point{q.x, q.y, q.z}; };
   for (const tools::Face& f : solid.surface.faces) {
-    const mesh_test::Point q = mesh_test::closest_on(
-        wide(p), wide(solid.vertex(f[0])), wide(solid.vertex(f[1])), wide(solid.vertex(f[2])));
-    const Point r = Point{q.x, q.y, q.z} - p;
+    const Point q =
+        tools::closest_of(p, solid.vertex(f[0]), solid.vertex(f[1]), solid.vertex(f[2]));
+    const Point r = q - p;
     if (length(r) > ties.distance + 1e-9 * solid.size) continue;
-    all.push_back({length(r), Point{q.x, q.y, q.z}});
+    all.push_back({length(r), q});
     ties.distance = std::min(ties.distance, length(r));
   }
   for (const auto& [distance, q] : all) {
@@ -144,11 +143,12 @@ TEST(AnUlpToEitherSideOfBordersOfRealModelsTheSideIsRight) {
 // the same side.
 TEST(OnTheMedialAxisAllTiedFeaturesTellOneSide) {
   const Solid solid(tools::make_part(1, 1000));
-  mesh_test::Random random(12);
+  tools::Random random(12);
   uint32_t found = 0;
   for (int i = 0; i < (mesh_test::long_run() ? 2000 : 60); ++i) {
     test::note("case", i);
-    const Point start{random.in(-0.05, 0.05), random.in(-0.05, 0.05), random.in(-0.02, 0.02)};
+    const Point start{random.between(-0.05, 0.05), random.between(-0.05, 0.05),
+                      random.between(-0.02, 0.02)};
     const Ties one = ties_of(solid, start);
     if (one.points.size() != 1 || one.distance < 1e-4 * solid.size) continue;
     const Point foot = one.points[0], along = unit(start - foot);

@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/bake_mesh.hpp"
-#include "brute_force.hpp"
+#include "baked_mesh.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "firmtouch/mesh/segment_frame.hpp"
@@ -16,22 +15,6 @@ using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
 using math::Vec3;
 using Room = std::vector<mesh::SurfaceCrossing>;
-
-struct Baked {
-  tools::Surface surface;
-  std::vector<tools::Section> sections;
-  mesh::View view;
-  double size = 0;
-
-  explicit Baked(tools::Surface from) : surface(std::move(from)) {
-    if (surface.faces.empty()) return;
-    tools::MeshReport report;
-    sections = tools::bake_mesh(surface, "model", {}, report);
-    CHECK(report.problem.empty());
-    CHECK(mesh::open(tools::mesh_sections(sections, "model"), view).ok());
-    size = diagonal(surface);
-  }
-};
 
 tools::Surface scaled(tools::Surface surface, double scale, Point shift) {
   for (Vec3& v : surface.vertices) {
@@ -49,16 +32,16 @@ Vec3 narrow(Point p) {
 // floats come), and anywhere in a box twice the model's.
 class Aims {
  public:
-  Aims(const Baked& baked, uint64_t seed) : baked_(baked), random_(seed) {
+  Aims(const BakedMesh& baked, uint64_t seed) : baked_(baked), random_(seed) {
     for (const Vec3& v : baked.surface.vertices)
       centre_ = centre_ + wide(v) * (1.0 / static_cast<double>(baked.surface.vertices.size()));
   }
 
   Vec3 next() {
     const tools::Surface& s = baked_.surface;
-    const tools::Face& f = s.faces[random_.below(s.faces.size())];
+    const tools::Face& f = s.faces[random_.below(static_cast<uint32_t>(s.faces.size()))];
     const Point a = wide(s.vertices[f[0]]), b = wide(s.vertices[f[1]]), c = wide(s.vertices[f[2]]);
-    const double u = random_.in(0, 1), v = random_.in(0, 1 - u);
+    const double u = random_.between(0, 1), v = random_.between(0, 1 - u);
     switch (random_.below(6)) {
       case 0:
         return s.vertices[f[0]];
@@ -74,7 +57,8 @@ class Aims {
   }
   Vec3 anywhere() {
     const double r = baked_.size * 0.8;
-    return narrow(centre_ + Point{random_.in(-r, r), random_.in(-r, r), random_.in(-r, r)});
+    return narrow(centre_ +
+                  Point{random_.between(-r, r), random_.between(-r, r), random_.between(-r, r)});
   }
   /// Where a straight line from `from` through `through` goes on to.
   static Vec3 beyond(Vec3 from, Vec3 through) {
@@ -82,13 +66,13 @@ class Aims {
   }
 
  private:
-  const Baked& baked_;
+  const BakedMesh& baked_;
   Random random_;
   Point centre_;
 };
 
 // Crossings outward less crossings inward.
-int balance(const Baked& baked, Vec3 a, Vec3 b, Room& room) {
+int balance(const BakedMesh& baked, Vec3 a, Vec3 b, Room& room) {
   const mesh::Crossings all = mesh::all_crossings(
       baked.view, a, b, query::kUnlimited, {room.data(), static_cast<uint32_t>(room.size())});
   CHECK(all.exact);
@@ -103,7 +87,7 @@ int balance(const Baked& baked, Vec3 a, Vec3 b, Room& room) {
 
 // On a closed surface a closed chain of segments comes in as often as it goes out, whatever it
 // passes through and wherever its joints lie.
-void no_leaks(const Baked& baked, size_t segments, uint64_t seed) {
+void no_leaks(const BakedMesh& baked, size_t segments, uint64_t seed) {
   Aims aims(baked, seed);
   Room room(4096);
   size_t leaks = 0;
@@ -116,14 +100,14 @@ void no_leaks(const Baked& baked, size_t segments, uint64_t seed) {
   CHECK_EQ(leaks, size_t{0});
 }
 
-const Baked& part() {
-  static const Baked baked(tools::make_part(1, 5000));
+const BakedMesh& part() {
+  static const BakedMesh baked(tools::make_part(1, 5000));
   return baked;
 }
 
 void no_leaks_in_real_model(const char* file, size_t daily, size_t whole) {
   if (models_folder().empty()) return test::skip("FIRMTOUCH_MODELS names no folder of real models");
-  const Baked baked(real_model(file));
+  const BakedMesh baked(real_model(file));
   CHECK(!baked.surface.faces.empty());
   if (!baked.surface.faces.empty()) no_leaks(baked, long_run() ? whole : daily, 21);
 }
@@ -177,7 +161,7 @@ mesh::Head head_of(const Vec3* points, size_t count) {
 
 TEST(EveryDegenerateCrossingIsDecidedAsIfTheSegmentWereMoved) {
   Random random(5);
-  const auto small = [&] { return static_cast<float>(static_cast<int>(random.in(-3, 4))); };
+  const auto small = [&] { return static_cast<float>(static_cast<int>(random.between(-3, 4))); };
   const auto point = [&] { return Vec3{small(), small(), small()}; };
   size_t crossed = 0, wrong = 0;
   for (int i = 0; i < (long_run() ? 20000000 : 300000); ++i) {
@@ -199,21 +183,23 @@ TEST(EveryDegenerateCrossingIsDecidedAsIfTheSegmentWereMoved) {
 TEST(FloatsDecideAsIntegersDo) {
   Random random(6);
   const auto point = [&](double reach) {
-    return Point{random.in(-reach, reach), random.in(-reach, reach), random.in(-reach, reach)};
+    return Point{random.between(-reach, reach), random.between(-reach, reach),
+                 random.between(-reach, reach)};
   };
   size_t wrong = 0, crossed = 0;
   double worst = 0;
   for (int i = 0; i < (long_run() ? 20000000 : 200000); ++i) {
-    const double scale = std::pow(10.0, random.in(-8, 6)), far = i % 3 == 0 ? 1000.0 : 1.0;
+    const double scale = std::pow(10.0, random.between(-8, 6)), far = i % 3 == 0 ? 1000.0 : 1.0;
     const Point place = point(far * scale);
     Vec3 corner[3];
     for (Vec3& c : corner) c = narrow(place + point(scale));
     // Through the triangle, one of its edges or one of its corners, all but rounding.
-    const double u = i % 4 == 1 ? 0 : random.in(0, 1), v = i % 4 == 2 ? 0 : random.in(0, 1 - u);
+    const double u = i % 4 == 1 ? 0 : random.between(0, 1),
+                 v = i % 4 == 2 ? 0 : random.between(0, 1 - u);
     const Point aim = wide(corner[0]) + (wide(corner[1]) - wide(corner[0])) * u +
                       (wide(corner[2]) - wide(corner[0])) * v;
-    const Point way = point(scale * std::pow(10.0, random.in(-3, 3)));
-    const Vec3 a = narrow(aim - way), b = narrow(aim + way * random.in(-0.1, 2));
+    const Point way = point(scale * std::pow(10.0, random.between(-3, 3)));
+    const Vec3 a = narrow(aim - way), b = narrow(aim + way * random.between(-0.1, 2));
     const mesh::Crossing exact = mesh::exact_crossing(a, b, corner[0], corner[1], corner[2]);
     const mesh::SegmentFrame frame(head_of(corner, 3), a, b);
     const mesh::Crossing fast = frame.crossing(corner[0], corner[1], corner[2]);
@@ -237,13 +223,13 @@ TEST(NothingLeaksThroughTinyHugeOrFarModels) {
   const size_t count = long_run() ? 2000000 : 10000;
   const tools::Surface model = tools::make_part(1, 1000);
   const double unit = 1 / diagonal(model);
-  no_leaks(Baked(scaled(model, 1e-6 * unit, {})), count, 31);
-  no_leaks(Baked(scaled(model, 1e6 * unit, {})), count, 32);
-  no_leaks(Baked(scaled(model, unit, {200, -300, 100})), count, 33);
+  no_leaks(BakedMesh(scaled(model, 1e-6 * unit, {})), count, 31);
+  no_leaks(BakedMesh(scaled(model, 1e6 * unit, {})), count, 32);
+  no_leaks(BakedMesh(scaled(model, unit, {200, -300, 100})), count, 33);
 }
 
 TEST(CrossingsAreThoseOfBruteForceInDouble) {
-  const Baked& baked = part();
+  const BakedMesh& baked = part();
   Aims aims(baked, 40);
   Room room(4096);
   size_t compared = 0, missed = 0;
@@ -291,7 +277,7 @@ TEST(CrossingsAreThoseOfBruteForceInDouble) {
 }
 
 TEST(CrossingsTellInsideFromOutside) {
-  const Baked& baked = part();
+  const BakedMesh& baked = part();
   Random random(50);
   Aims aims(baked, 50);
   Room room(4096);
@@ -306,7 +292,7 @@ TEST(CrossingsTellInsideFromOutside) {
 }
 
 TEST(AFullRoomKeepsTheFirstCrossingsAndCountsAll) {
-  const Baked& baked = part();
+  const BakedMesh& baked = part();
   Aims aims(baked, 60);
   Room room(4096), few(4096);
   size_t several = 0;
@@ -332,7 +318,7 @@ TEST(AFullRoomKeepsTheFirstCrossingsAndCountsAll) {
 }
 
 TEST(EveryBudgetTellsOnlyTrueCrossingsAndSaysWhetherItIsDone) {
-  const Baked& baked = part();
+  const BakedMesh& baked = part();
   Aims aims(baked, 70);
   Room room(4096), some(4096);
   for (int i = 0; i < 1000; ++i) {

@@ -32,17 +32,17 @@ double worst_error(double height, double reach, uint64_t seed) {
   Random random(seed);
   double worst = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Point x{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)},
-        y{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
+    const Point x{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)},
+        y{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
     const Point along = x * (1 / length(x)), side = cross(along, y),
                 across = side * (height / length(side));
     const Vec3 a = narrow(y), b = narrow(y + along),
-               c = narrow(y + along * random.in(0, 1) + across);
+               c = narrow(y + along * random.between(0, 1) + across);
     const Turned t = longest_first(a, b, c);
     const Point where =
-        wide(a) + (wide(b) - wide(a)) * random.in(-0.5, 1.5) + across * random.in(-2, 2);
-    const Vec3 p =
-        narrow(where + Point{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)} * reach);
+        wide(a) + (wide(b) - wide(a)) * random.between(-0.5, 1.5) + across * random.between(-2, 2);
+    const Vec3 p = narrow(
+        where + Point{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)} * reach);
     const mesh::Foot foot = mesh::closest_on_triangle(p, t.a, t.b, t.c);
     const double truth = true_distance(wide(p), wide(t.a), wide(t.b), wide(t.c));
     const double told = std::sqrt(double{foot.distance2_m2});
@@ -61,17 +61,18 @@ LeftOut leave_out(float size, double height, double reach, float longest, uint64
   LeftOut left_out;
   const float slack_m2 = mesh::Nearer::slack_m2(longest);
   for (int i = 0; i < 4000; ++i) {
-    const Point x{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)},
-        y{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
+    const Point x{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)},
+        y{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
     const Point along = x * (1 / length(x)), side = cross(along, y),
                 across = side * (height / length(side)), up = cross(along, side);
-    const Point corner = along * random.in(0, 1) + across;
+    const Point corner = along * random.between(0, 1) + across;
     const Turned t =
         longest_first(narrow(y * size), narrow((y + along) * size), narrow((y + corner) * size));
-    const Point off = up * (random.in(-1, 1) / length(up)) +
-                      Point{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)} * random.in(0, 1);
-    const Vec3 p =
-        narrow((y + along * random.in(-1, 2) + across * random.in(-2, 2) + off * reach) * size);
+    const Point off = up * (random.between(-1, 1) / length(up)) +
+                      Point{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)} *
+                          random.between(0, 1);
+    const Vec3 p = narrow(
+        (y + along * random.between(-1, 2) + across * random.between(-2, 2) + off * reach) * size);
     mesh::Foot told, foot;
     mesh::find_foot(p, t.a, t.b, t.c, mesh::Everything{}, told);
     const float ulp_nearer = std::nextafter(told.distance2_m2, INFINITY);

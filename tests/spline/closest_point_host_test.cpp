@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "bake/bake_spline.hpp"
 #include "bake/spline_worst.hpp"
 #include "harness/test.hpp"
+#include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"
 #include "spline/read_spline.hpp"
 #include "spline/sampled_truth.hpp"
@@ -17,6 +17,10 @@ using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
 using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
+using firmtouch::spline_test::BakedModel;
+using firmtouch::spline_test::bezier;
+using firmtouch::spline_test::circle;
+using firmtouch::spline_test::of;
 using firmtouch::spline_test::SampledTruth;
 namespace spline = firmtouch::spline;
 namespace spline_test = firmtouch::spline_test;
@@ -24,55 +28,9 @@ namespace tools = firmtouch::tools;
 
 bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
 
-struct Baked {
-  tools::SplineModel model;
-  std::vector<tools::Section> sections;
-  tools::SplineReport report;
-  spline::View view;
-
-  explicit Baked(const tools::SplineModel& from, bool is_small = false) : model(from) {
-    const tools::SplineDetail detail =
-        model.surfaces.empty() ? tools::curve_detail(is_small) : tools::surface_detail(is_small);
-    sections = tools::bake_spline(model, "x", detail, report);
-    if (report.problem.empty())
-      CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
-  }
-};
-
-tools::SplineModel of(const tools::SplineCurve& curve) {
-  tools::SplineModel model;
-  model.curves.push_back(curve);
-  return model;
-}
-tools::SplineModel of(const tools::SplineSurface& surface) {
-  tools::SplineModel model;
-  model.surfaces.push_back(surface);
-  return model;
-}
-
-tools::SplineCurve bezier(std::vector<tools::ControlPoint> points) {
-  tools::SplineCurve curve;
-  curve.degree = static_cast<int>(points.size()) - 1;
-  curve.points = std::move(points);
-  curve.knots.assign(curve.points.size(), 0);
-  curve.knots.insert(curve.knots.end(), curve.points.size(), 1);
-  return curve;
-}
-
-// A full circle in four rational quarters.
-tools::SplineCurve circle() {
-  tools::SplineCurve c;
-  c.degree = 2;
-  const double w = std::sqrt(0.5);
-  c.points = {{1, 0, 0, 1},   {1, 1, 0, w},  {0, 1, 0, 1},  {-1, 1, 0, w}, {-1, 0, 0, 1},
-              {-1, -1, 0, w}, {0, -1, 0, 1}, {1, -1, 0, w}, {1, 0, 0, 1}};
-  c.knots = {0, 0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1, 1, 1};
-  return c;
-}
-
 // Told, exact and certified as promised, cold and warm. What is told is a place, whose point in double
 // lies on the shape: the truth is at most as far, whatever the samples missed.
-void judge(const Baked& baked, const SampledTruth& truth, const Vec3& p, Hint& warm) {
+void judge(const BakedModel& baked, const SampledTruth& truth, const Vec3& p, Hint& warm) {
   const double sampled = truth.distance(tools::to_point(p));
   const double unit = baked.report.is_rational ? 1e-6 : 4e-7;
   Hint cold;
@@ -95,7 +53,7 @@ void judge(const Baked& baked, const SampledTruth& truth, const Vec3& p, Hint& w
   }
 }
 
-Vec3 anywhere(const Baked& baked, tools::Random& random) {
+Vec3 anywhere(const BakedModel& baked, tools::Random& random) {
   const spline::Head& head = baked.view.head();
   float at[3];
   for (size_t k = 0; k < 3; ++k) {
@@ -106,7 +64,7 @@ Vec3 anywhere(const Baked& baked, tools::Random& random) {
   return {at[0], at[1], at[2]};
 }
 
-void judge_many(const Baked& baked, uint32_t seed, uint32_t queries, int samples) {
+void judge_many(const BakedModel& baked, uint32_t seed, uint32_t queries, int samples) {
   CHECK(baked.report.problem.empty());
   if (!baked.report.problem.empty()) return;
   const SampledTruth truth(baked.model, samples);
@@ -133,8 +91,8 @@ TEST(RandomCurvesOfEveryDegreeAnswerAsDenseSamplingDoes) {
   for (uint32_t seed = 0; seed < curves; ++seed) {
     tools::Random random(seed + 1);
     const int degree = 1 + static_cast<int>(seed % 5);
-    judge_many(Baked(of(spline_test::random_curve(random, degree, degree)), seed % 2 == 1), seed,
-               queries, 48);
+    judge_many(BakedModel(of(spline_test::random_curve(random, degree, degree)), seed % 2 == 1),
+               seed, queries, 48);
   }
 }
 
@@ -143,13 +101,13 @@ TEST(RandomSurfacesOfEveryDegreeAnswerAsDenseSamplingDoes) {
   for (uint32_t seed = 0; seed < surfaces; ++seed) {
     tools::Random random(seed + 100);
     const int u = 1 + static_cast<int>(seed % 3), v = 3 - static_cast<int>(seed % 2);
-    judge_many(Baked(of(spline_test::random_surface(random, u, v, 1)), seed % 2 == 1), seed,
+    judge_many(BakedModel(of(spline_test::random_surface(random, u, v, 1)), seed % 2 == 1), seed,
                queries, 40);
   }
 }
 
 TEST(TheCentreOfACircleIsCertifiedThoughAllPointsAreAsNear) {
-  const Baked baked(of(circle()));
+  const BakedModel baked(of(circle()));
   for (const float off : {0.0f, 1e-7f, 1e-5f, 1e-3f}) {
     Hint hint;
     const spline::Closest c = closest_point(baked.view, {off, 0.5f * off, 0}, kUnlimited, hint);
@@ -164,17 +122,18 @@ TEST(TheCentreOfACircleIsCertifiedThoughAllPointsAreAsNear) {
 
 TEST(CurvesWithCoincidentControlPointsAndFoldsAnswerAsDenseSamplingDoes) {
   const tools::ControlPoint a{0, 0, 0, 1}, b{1, 0.5, 0.2, 1}, c{0.4, 1, -0.3, 1};
-  judge_many(Baked(of(bezier({a, a, a, b}))), 1, 40, 400);
-  judge_many(Baked(of(bezier({a, b, b, b, c}))), 2, 40, 400);
-  judge_many(Baked(of(bezier({a, b, c, a}))), 3, 40, 400);                       // closed, a corner
-  judge_many(Baked(of(bezier({a, {1, 0, 0, 1}, {0.2, 0, 0, 1}}))), 4, 40, 400);  // folded on itself
-  judge_many(Baked(of(bezier({a, {3, 2, 0, 1}, {-2, 2, 0, 1}, {1, 0, 0, 1}}))), 5, 40,
+  judge_many(BakedModel(of(bezier({a, a, a, b}))), 1, 40, 400);
+  judge_many(BakedModel(of(bezier({a, b, b, b, c}))), 2, 40, 400);
+  judge_many(BakedModel(of(bezier({a, b, c, a}))), 3, 40, 400);  // closed, a corner
+  judge_many(BakedModel(of(bezier({a, {1, 0, 0, 1}, {0.2, 0, 0, 1}}))), 4, 40,
+             400);  // folded on itself
+  judge_many(BakedModel(of(bezier({a, {3, 2, 0, 1}, {-2, 2, 0, 1}, {1, 0, 0, 1}}))), 5, 40,
              400);  // a loop
 }
 
 TEST(OnTheEvoluteAndBesideItTheAnswerIsTheGlobalOne) {
   tools::Random random(3);
-  const Baked baked(of(spline_test::random_curve(random, 3, 1)));
+  const BakedModel baked(of(spline_test::random_curve(random, 3, 1)));
   const SampledTruth truth(baked.model, 200);
   const tools::SplineCurve& curve = baked.model.curves[0];
   Hint warm;
@@ -195,8 +154,8 @@ TEST(OnTheEvoluteAndBesideItTheAnswerIsTheGlobalOne) {
 TEST(EveryBudgetBracketsTheTruthOnRandomModels) {
   for (uint32_t seed = 0; seed < 4; ++seed) {
     tools::Random random(seed + 50);
-    const Baked baked(seed % 2 == 0 ? of(spline_test::random_curve(random, 3, 2))
-                                    : of(spline_test::random_surface(random, 3, 3, 1)));
+    const BakedModel baked(seed % 2 == 0 ? of(spline_test::random_curve(random, 3, 2))
+                                         : of(spline_test::random_surface(random, 3, 3, 1)));
     const SampledTruth truth(baked.model, 40);
     Hint warm;
     for (int i = 0; i < 8; ++i) {
@@ -218,8 +177,8 @@ TEST(EveryBudgetBracketsTheTruthOnRandomModels) {
 TEST(AtABudgetOfTheBakedWorstAPathIsExact) {
   for (uint32_t seed = 0; seed < 4; ++seed) {
     tools::Random random(seed + 70);
-    const Baked baked(seed % 2 == 0 ? of(spline_test::random_curve(random, 3, 2))
-                                    : of(spline_test::random_surface(random, 3, 3, 1)));
+    const BakedModel baked(seed % 2 == 0 ? of(spline_test::random_curve(random, 3, 2))
+                                         : of(spline_test::random_surface(random, 3, 3, 1)));
     const Budget budget{tools::find_worst(baked.view).steps};
     const double step = 0.002 * baked.report.extent_m;
     const Vec3 start = anywhere(baked, random), home = anywhere(baked, random);
@@ -243,12 +202,12 @@ TEST(AModelFarFromTheOriginIsAsGoodAsNearIt) {
   tools::Random random(8);
   tools::SplineCurve curve = spline_test::random_curve(random, 3, 1);
   for (tools::ControlPoint& p : curve.points) p.x += 512, p.y -= 256;
-  judge_many(Baked(of(curve)), 8, 30, 48);
+  judge_many(BakedModel(of(curve)), 8, 30, 48);
 }
 
 TEST(TheTeapotAnswersAsDenseSamplingDoes) {
   const char* models = std::getenv("FIRMTOUCH_MODELS");
   if (models == nullptr) return firmtouch::test::skip("FIRMTOUCH_MODELS is not set");
-  const Baked baked(tools::read_spline_file(std::string(models) + "/teapot.bpt", 0.001));
+  const BakedModel baked(tools::read_spline_file(std::string(models) + "/teapot.bpt", 0.001));
   judge_many(baked, 5, is_long() ? 3000 : 10, 100);
 }

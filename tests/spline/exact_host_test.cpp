@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_spline.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "harness/test.hpp"
+#include "spline/baked_model.hpp"
 #include "spline/exact_distance.hpp"
 #include "spline/random_splines.hpp"
 #include "spline/read_spline.hpp"
@@ -17,7 +17,10 @@ namespace {
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
 using firmtouch::query::Hint;
+using firmtouch::spline_test::bezier;
+using firmtouch::spline_test::circle;
 using firmtouch::spline_test::ExactDistance;
+using firmtouch::spline_test::of;
 using tools_point = firmtouch::tools::Point;  // in double
 namespace spline = firmtouch::spline;
 namespace spline_test = firmtouch::spline_test;
@@ -29,33 +32,14 @@ constexpr Budget kPlenty{300000};
 
 double wide(float value) { return static_cast<double>(value); }
 
-struct Baked {
-  tools::SplineModel model;
-  std::vector<tools::Section> sections;
-  tools::SplineReport report;
-  spline::View view;
+struct Baked : spline_test::BakedModel {
   ExactDistance exact;
   Hint warm;
 
-  explicit Baked(const tools::SplineModel& from) : model(from), exact(model) {
-    sections = tools::bake_spline(
-        model, "x",
-        model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
+  explicit Baked(const tools::SplineModel& from) : BakedModel(from), exact(model) {
     CHECK(report.problem.empty());
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   }
 };
-
-tools::SplineModel of(const tools::SplineCurve& curve) {
-  tools::SplineModel model;
-  model.curves.push_back(curve);
-  return model;
-}
-tools::SplineModel of(const tools::SplineSurface& surface) {
-  tools::SplineModel model;
-  model.surfaces.push_back(surface);
-  return model;
-}
 
 struct Truth {
   double lo, hi;
@@ -116,42 +100,17 @@ void judge_about(Baked& baked, const tools_point& p) {
     }
 }
 
-tools::SplineCurve bezier(std::vector<tools::ControlPoint> points) {
-  tools::SplineCurve curve;
-  curve.degree = static_cast<int>(points.size()) - 1;
-  curve.points = std::move(points);
-  curve.knots.assign(curve.points.size(), 0);
-  curve.knots.insert(curve.knots.end(), curve.points.size(), 1);
-  return curve;
-}
-
-// A circle in the x-y plane, or one turned about z for a surface of revolution.
-constexpr double kW = 0.70710678118654752;
-const std::vector<tools::ControlPoint> kCircle = {{1, 0, 0, 1},   {1, 1, 0, kW},  {0, 1, 0, 1},
-                                                  {-1, 1, 0, kW}, {-1, 0, 0, 1},  {-1, -1, 0, kW},
-                                                  {0, -1, 0, 1},  {1, -1, 0, kW}, {1, 0, 0, 1}};
-const std::vector<double> kCircleKnots = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
-
-tools::SplineCurve circle() {
-  tools::SplineCurve c;
-  c.degree = 2;
-  c.points = kCircle;
-  c.knots = kCircleKnots;
-  c.t1 = 4;
-  return c;
-}
-
 // A vase: a cubic profile turned about z.
 tools::SplineSurface vase() {
   const double profile[4][2] = {{0.5, 0}, {1.1, 0.4}, {0.2, 0.9}, {0.6, 1.4}};  // radius, height
   tools::SplineSurface s;
   s.degree_u = 2, s.degree_v = 3;
   s.count_u = 9, s.count_v = 4;
-  s.knots_u = kCircleKnots;
+  s.knots_u = circle().knots;
   s.knots_v = {0, 0, 0, 0, 1, 1, 1, 1};
   s.u1 = 4;
   for (const auto& at : profile)
-    for (const tools::ControlPoint& c : kCircle)
+    for (const tools::ControlPoint& c : circle().points)
       s.points.push_back({c.x * at[0], c.y * at[0], at[1], c.w});
   return s;
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "bake/bake_spline.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "harness/test.hpp"
+#include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"
 
 namespace {
@@ -14,6 +14,8 @@ namespace {
 using firmtouch::math::Vec3;
 using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
+using firmtouch::spline_test::BakedModel;
+using firmtouch::spline_test::of;
 namespace query = firmtouch::query;
 namespace spline = firmtouch::spline;
 namespace spline_test = firmtouch::spline_test;
@@ -21,29 +23,6 @@ namespace tools = firmtouch::tools;
 
 int most_of(uint32_t seed) { return static_cast<int>(1 + seed % 3); }
 double wide(float value) { return static_cast<double>(value); }
-
-struct Baked {
-  std::vector<tools::Section> sections;
-  tools::SplineReport report;
-  spline::View view;
-
-  explicit Baked(const tools::SplineCurve& curve) {
-    tools::SplineModel model;
-    model.curves.push_back(curve);
-    bake(model, tools::curve_detail(false));
-  }
-  explicit Baked(const std::vector<tools::SplineSurface>& surfaces) {
-    tools::SplineModel model;
-    model.surfaces = surfaces;
-    bake(model, tools::surface_detail(false));
-  }
-
- private:
-  void bake(const tools::SplineModel& model, const tools::SplineDetail& detail) {
-    sections = tools::bake_spline(model, "x", detail, report);
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
-  }
-};
 
 tools::SplineCurve flattened(tools::SplineCurve curve) {
   for (tools::ControlPoint& p : curve.points) p.z = 0;
@@ -81,7 +60,7 @@ struct Told {
   uint32_t wrong = 0, inexact = 0, passed_over = 0;  // the latter: by a fence that stayed
 };
 
-void follow(const Baked& baked, tools::Random& random, int positions, Told& told) {
+void follow(const BakedModel& baked, tools::Random& random, int positions, Told& told) {
   const double unit = 2.1e-6 * baked.report.extent_m;
   for (const double step : {0.0002, 0.002, 0.02}) {
     Path path{random, step, 1.3};
@@ -112,7 +91,7 @@ TEST(AlongAPathAFenceLeavesNothingOut) {
     tools::Random random(seed + 90);
     const tools::SplineCurve curve =
         spline_test::random_curve(random, static_cast<int>(2 + seed % 4), most_of(seed));
-    const Baked baked(seed % 2 == 0 ? flattened(curve) : curve);
+    const BakedModel baked(of(seed % 2 == 0 ? flattened(curve) : curve));
     follow(baked, random, 3000, told);
   }
   CHECK_EQ(told.wrong, 0u);
@@ -131,7 +110,7 @@ TEST(AlongAPathAFenceLeavesNothingOutOfSurfaces) {
     for (uint32_t i = 0; i <= seed % 3; ++i)
       surfaces.push_back(spline_test::random_surface(random, static_cast<int>(1 + random.below(3)),
                                                      static_cast<int>(1 + random.below(3)), 1));
-    const Baked baked(surfaces);
+    const BakedModel baked(of(surfaces));
     most_pieces = std::max(most_pieces, baked.view.pieces().size());
     follow(baked, random, 1000, told);
   }
@@ -146,7 +125,7 @@ TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {
     tools::Random random(seed + 3);
     const tools::SplineCurve curve =
         flattened(spline_test::random_curve(random, static_cast<int>(1 + seed % 5), most_of(seed)));
-    const Baked flat(curve), standing(raised(curve));
+    const BakedModel flat(of(curve)), standing(of(raised(curve)));
     CHECK(flat.view.is_flat());
     CHECK(!standing.view.is_flat());
     Path path{random, 0.01, 1.3};
@@ -167,7 +146,7 @@ TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
   for (uint32_t seed = 0; seed < 8; ++seed) {
     tools::Random random(seed + 41);
     tools::SplineModel model;
-    std::vector<Baked> alone;
+    std::vector<BakedModel> alone;
     for (int i = 0; i < 12; ++i) {
       tools::SplineCurve curve =
           spline_test::random_curve(random, static_cast<int>(1 + seed % 4), most_of(seed));
@@ -175,12 +154,10 @@ TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
       for (tools::ControlPoint& p : curve.points)
         p = {0.2 * p.x + 0.1 * i, 0.2 * p.y + 0.3 * (i % 3), 0.2 * p.z, p.w};
       model.curves.push_back(curve);
-      alone.emplace_back(curve);
+      alone.emplace_back(of(curve));
     }
-    tools::SplineReport report;
-    const auto sections = tools::bake_spline(model, "x", tools::curve_detail(false), report);
-    spline::View view;
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+    const BakedModel baked(model);
+    const spline::View& view = baked.view;
     uint32_t none = 0;
     for (uint32_t leaf = 0; leaf < view.leaf_count(); ++leaf) none += view.is_leaf(leaf) ? 0u : 1u;
     CHECK_GE(none, 11u);
@@ -189,13 +166,13 @@ TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
     for (int i = 0; i < 1500; ++i) {
       const Vec3 p = path.next();
       double truth = HUGE_VAL;
-      for (const Baked& one : alone) {
+      for (const BakedModel& one : alone) {
         Hint cold;
         truth = std::min(truth, wide(closest_point(one.view, p, kUnlimited, cold).distance_m));
       }
       const spline::Closest c = closest_point(view, p, kUnlimited, hint);
       CHECK(c.certificate.exact);
-      CHECK_LE(std::fabs(wide(c.distance_m) - truth), 2e-6 * (report.extent_m + truth));
+      CHECK_LE(std::fabs(wide(c.distance_m) - truth), 2e-6 * (baked.report.extent_m + truth));
       CHECK_LE(wide(c.certificate.lower_m), truth * (1 + 1e-6));
     }
   }

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <vector>
 
-#include "bake/bake_spline.hpp"
 #include "harness/test.hpp"
 #include "spline/exact_distance.hpp"
 
@@ -178,19 +177,5 @@ inline bool bends_no_lower(const Jet& jet, Wide width, float fixed, float turnin
   return own <= static_cast<Wide>(turning) + kNothing &&
          raised(-rest.lo + raised(own * width)) <= static_cast<Wide>(fixed) + kNothing;
 }
-
-struct BakedModel {
-  std::vector<tools::Section> sections;
-  spline::View view;
-  BakedModel(const tools::SplineModel& model, bool is_small) {
-    tools::SplineReport report;
-    sections = tools::bake_spline(
-        model, "x",
-        model.surfaces.empty() ? tools::curve_detail(is_small) : tools::surface_detail(is_small),
-        report);
-    CHECK(report.problem.empty());
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
-  }
-};
 
 }  // namespace firmtouch::spline_test

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "harness/test.hpp"
+#include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"
 #include "spline/read_spline.hpp"
 #include "spline/stored_piece.hpp"

@@ -1,0 +1,31 @@
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "bake/bake_mesh.hpp"
+#include "brute_force.hpp"
+#include "firmtouch/mesh/view.hpp"
+#include "harness/test.hpp"
+
+namespace firmtouch::mesh_test {
+
+/// A surface, baked and opened; without faces (a model that is not there) neither.
+struct BakedMesh {
+  tools::Surface surface;
+  std::vector<tools::Section> sections;
+  mesh::View view;
+  double size = 0;
+
+  explicit BakedMesh(tools::Surface from, const tools::MeshOptions& options = {})
+      : surface(std::move(from)) {
+    if (surface.faces.empty()) return;
+    tools::MeshReport report;
+    sections = tools::bake_mesh(surface, "model", options, report);
+    CHECK(report.problem.empty());
+    CHECK(mesh::open(parts(), view).ok());
+    size = diagonal(surface);
+  }
+  mesh::Sections parts() const { return tools::mesh_sections(sections, "model"); }
+};
+
+}  // namespace firmtouch::mesh_test
