@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "bench/points_about.hpp"
 #include "bench/problem.hpp"
 #include "firmtouch/math/elementary.hpp"
 #include "surface/random.hpp"
@@ -49,19 +50,7 @@ CurveCase bake_case(std::vector<math::Vec3> samples_m, const std::string& name, 
 }
 
 std::vector<math::Vec3> random_points(const CurveCase& curve, size_t count) {
-  tools::Random random(1);
-  const curve::Head& head = curve.view.head();
-  std::vector<math::Vec3> points;
-  for (size_t i = 0; i < count; ++i) {
-    float at[3];
-    for (int k = 0; k < 3; ++k) {
-      const double low = static_cast<double>(head.low_m[k]);
-      const double high = static_cast<double>(head.high_m[k]), margin = 0.25 * (high - low);
-      at[k] = static_cast<float>(random.between(low - margin, high + margin));
-    }
-    points.push_back({at[0], at[1], at[2]});
-  }
-  return points;
+  return points_about(curve.view.head(), count, 1);
 }
 
 }  // namespace firmtouch::bench

@@ -7,12 +7,12 @@
 #include <system_error>
 #include <utility>
 
+#include "bench/points_about.hpp"
 #include "bench/problem.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "surface/check.hpp"
 #include "surface/make_part.hpp"
 #include "surface/make_walk.hpp"
-#include "surface/random.hpp"
 #include "surface/read_surface.hpp"
 #include "surface/write_surface.hpp"
 
@@ -99,19 +99,7 @@ std::string file_for_peer(const Model& model, const TemporaryFolder& folder) {
 }
 
 std::vector<math::Vec3> random_points(const Model& model, size_t count, uint64_t seed) {
-  tools::Random random(seed);
-  const mesh::Head& head = model.view.head();
-  std::vector<math::Vec3> points;
-  for (size_t i = 0; i < count; ++i) {
-    float at[3];
-    for (int k = 0; k < 3; ++k) {
-      const double low = static_cast<double>(head.low_m[k]);
-      const double high = static_cast<double>(head.high_m[k]), margin = 0.25 * (high - low);
-      at[k] = static_cast<float>(random.between(low - margin, high + margin));
-    }
-    points.push_back({at[0], at[1], at[2]});
-  }
-  return points;
+  return points_about(model.view.head(), count, seed);
 }
 
 std::vector<math::Vec3> walk(const Model& model, uint32_t count, uint64_t seed) {
