@@ -154,24 +154,24 @@ class CurveSearch : public Account {
     for (; node < end; ++node) {
       const typename Tree::Seen seen = chords.next();
       if (seen.lower_m < limit_m)
-        keep(node, seen);
+        keep(node, seen.lower_m, seen.share);
       else if (seen.lower_m < reach_m)
         passed_.pass(node, seen.lower_m);
     }
   }
   // The nearest of a scan comes up first.
-  [[gnu::noinline]] void keep(uint32_t node, typename Tree::Seen seen) {
+  [[gnu::noinline]] void keep(uint32_t node, float lower_m, float share) {
     const bool is_leaf = tree_.is_leaf(node);
     if (is_leaf && tree_.piece_of(tree_.leaf_of(node)) == kNoLeaf) return;
-    if (count_ >= kCapacity) return lose(seen.lower_m);
+    if (count_ >= kCapacity) return lose(lower_m);
     Entry* entry = stack_ + count_++;
-    if (count_ - 1 > base_ && entry[-1].lower_m <= seen.lower_m) {
+    if (count_ - 1 > base_ && entry[-1].lower_m <= lower_m) {
       *entry = entry[-1];
       --entry;
     }
     entry->node = node;
-    entry->lower_m = seen.lower_m;
-    if (is_leaf) entry->range = tree_.range_of(tree_.leaf_of(node), seen.share);
+    entry->lower_m = lower_m;
+    if (is_leaf) entry->range = tree_.range_of(tree_.leaf_of(node), share);
   }
 
   // False: the budget ended, and what is left stands on the stack.
