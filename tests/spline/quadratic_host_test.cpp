@@ -57,7 +57,7 @@ Quartic some_quartic(Random& random) {
   for (float& third : f.third) third = random.below(3) == 0 ? 0.0f : within(random, size(-10));
   for (uint32_t k = 0; k < 5; ++k) {
     f.fourth[k] = random.below(3) == 0 ? 0.0f : static_cast<float>(size(-10));
-    q.fourth[k] = static_cast<double>(f.fourth[k]) * random.between(-1, 1);
+    q.fourth[k] = static_cast<double>(f.fourth[k]) * random.between(-1, k % 2 == 0 ? 3 : 1);
     if (random.below(2) == 0)
       q.fourth[k] = static_cast<double>(q.fourth[k] < 0 ? -f.fourth[k] : f.fourth[k]);
   }

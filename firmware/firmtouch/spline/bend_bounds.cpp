@@ -108,6 +108,34 @@ float product(const Vectors& x, const Sizes& c, uint32_t a, uint32_t b, uint32_t
   return least(sizes, in_middle + along_u + along_v) * kUp;
 }
 
+// Sums of products p . q over the leaf, p and q being the derivatives (a, b) and (k, l): by their sizes, or by
+// what each, or all together, are in the middle and how fast they may change from there.
+struct Products {
+  const Vectors& x;
+  const Sizes& c;
+  float in_middle = 0, change = 0;  // of all
+  float most = 0, below = 0;  // of each by itself: its size, and by how much it may be below 0
+
+  void add(float times, uint32_t a, uint32_t b, uint32_t k, uint32_t l) {
+    const float sizes = c.of[a][b] * c.of[k][l];
+    const float along_u = product(x, c, a + 1, b, k, l) + product(x, c, a, b, k + 1, l);
+    const float along_v = product(x, c, a, b + 1, k, l) + product(x, c, a, b, k, l + 1);
+    const float middle = dot(x.of[a][b], x.of[k][l]);
+    const float own_change = (0x1p-18f * sizes + along_u + along_v) * kUp;
+    const bool is_square = a == k && b == l;
+    in_middle += times * middle;
+    change += times * own_change;
+    most += times * least(sizes, size_of(middle) + own_change);
+    below += times * least(is_square ? 0.0f : sizes, own_change - middle);
+  }
+  float size() const { return least(most, size_of(in_middle) + change) * kUp; }
+  // Where it is less than 0, by so much it is above.
+  float depth() const {
+    const float depth = least(below, change - in_middle);
+    return depth + size_of(depth) * 0x1p-16f;
+  }
+};
+
 // Of a part of something no two points of which are farther apart than span_m.
 void bound_bends(const Part& part, float span_m, LeafShape& shape) {
   Sizes c, w;
@@ -116,24 +144,22 @@ void bound_bends(const Part& part, float span_m, LeafShape& shape) {
   Vectors x;
   middle_derivatives(shape, x);
   tighten(x, c);
-  const auto of = [&](uint32_t a, uint32_t b, uint32_t k, uint32_t l) {
-    return product(x, c, a, b, k, l);
-  };
-  const auto bound = [&](uint32_t i, float products, float turning, float halves) {
-    // By the piece's s and t: the halves are powers of two.
-    shape.fixed[i] = (products + turning * kUp * span_m) * kUp / halves;
-    shape.turning[i] = turning * kUp / halves;
-  };
+  Products uuuu{x, c}, uuuv{x, c}, uuvv{x, c}, uvvv{x, c}, vvvv{x, c};
+  uuuu.add(4.0f, 1, 0, 3, 0), uuuu.add(3.0f, 2, 0, 2, 0);
+  uuuv.add(1.0f, 0, 1, 3, 0), uuuv.add(3.0f, 1, 0, 2, 1), uuuv.add(3.0f, 2, 0, 1, 1);
+  uuvv.add(2.0f, 1, 0, 1, 2), uuvv.add(2.0f, 0, 1, 2, 1);
+  uuvv.add(1.0f, 2, 0, 0, 2), uuvv.add(2.0f, 1, 1, 1, 1);
+  uvvv.add(1.0f, 1, 0, 0, 3), uvvv.add(3.0f, 0, 1, 1, 2), uvvv.add(3.0f, 0, 2, 1, 1);
+  vvvv.add(4.0f, 0, 1, 0, 3), vvvv.add(3.0f, 0, 2, 0, 2);
   const float u = part.half_u, v = part.half_v;
-  const float products[5] = {
-      4.0f * of(1, 0, 3, 0) + 3.0f * of(2, 0, 2, 0),
-      of(0, 1, 3, 0) + 3.0f * of(1, 0, 2, 1) + 3.0f * of(2, 0, 1, 1),
-      2.0f * of(1, 0, 1, 2) + 2.0f * of(0, 1, 2, 1) + of(2, 0, 0, 2) + 2.0f * of(1, 1, 1, 1),
-      of(1, 0, 0, 3) + 3.0f * of(0, 1, 1, 2) + 3.0f * of(0, 2, 1, 1),
-      4.0f * of(0, 1, 0, 3) + 3.0f * of(0, 2, 0, 2),
-  };
-  for (uint32_t k = 0; k < 5; ++k)
-    bound(k, products[k], c.of[4 - k][k], power(u, 4 - k) * power(v, k));
+  const float products[5] = {uuuu.depth(), uuuv.size(), uuvv.depth(), uvvv.size(), vvvv.depth()};
+  for (uint32_t k = 0; k < 5; ++k) {
+    // By the piece's s and t: the halves are powers of two.
+    const float turning = c.of[4 - k][k] * kUp, halves = power(u, 4 - k) * power(v, k);
+    const float fixed = products[k] + turning * span_m * kUp;
+    shape.fixed[k] = fixed > 0.0f ? fixed * kUp / halves : 0.0f;
+    shape.turning[k] = turning * kUp / halves;
+  }
 }
 
 // Of the fourth derivative of D^2 / 2 the terms without the query, 4 x1 . x3 + 3 x2 . x2 of the derivatives x1

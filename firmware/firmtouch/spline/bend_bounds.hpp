@@ -3,8 +3,8 @@
 
 namespace firmtouch::spline {
 
-/// Bounds the fourth derivatives of D^2 / 2 over a part of a surface, by the piece's s and t: fills fixed
-/// and turning.
+/// Bounds the fourth derivatives of D^2 / 2 over a part of a surface, by the piece's s and t, those of even powers
+/// from below: fills fixed and turning.
 /// Pre: the shape is the part's, its least_weight above 1 / 2.
 void bound_bends(const Part& part, LeafShape& shape);
 /// What is stored of a cell, a part of a surface: the most that its quarters' quarters need. Their bounds

@@ -78,8 +78,9 @@ struct CurveBend {
 };
 static_assert(sizeof(CurveBend) == 20);
 
-/// On a cell of a surface, which holds leaves, the fourth derivatives of D^2 / 2 are at most fixed + turning D
-/// in size, by the piece's s and t: ssss, ssst, sstt, sttt and tttt, as bytes of its Grid's units.
+/// On a cell of a surface, which holds leaves, of the fourth derivatives of D^2 / 2 by the piece's s and t, ssss, ssst,
+/// sstt, sttt and tttt, the second and fourth are at most fixed + turning D in size, the others nowhere below -(fixed +
+/// turning D): as bytes of its Grid's units.
 struct PatchBend {
   uint8_t fixed[5], turning[5];
 };

@@ -13,8 +13,8 @@ struct Rectangle {
 };
 
 /// D^2 / 2 = distance2 / 2 + slope . d + d . bend . d / 2 and a rest of third derivatives uuu, uuv, uvv,
-/// vvv, at the point, and fourth ones, uuuu to vvvv, at most `fourth` in size everywhere, by the piece's
-/// s and t.
+/// vvv, at the point, and fourth ones, uuuu to vvvv, everywhere at most `fourth` in size, those of even powers
+/// only downward, by the piece's s and t.
 struct Quadratic {
   float distance2;
   float at[2];
@@ -37,10 +37,10 @@ struct Quadratic {
 
   /// A lower bound of D^2 over a rectangle. With x and y from -1 to 1 of its reaches U and V, the rest is
   /// at least -(uuu U^3 |x|^3 + 3 uuv U^2 V x^2 |y| + 3 uvv U V^2 |x| y^2 + vvv V^3 |y|^3) / 6, which with
-  /// the bend is a quadratic form Q of |x| and |y|: x^2 |y| is at most x^2, and at most |x y|, whichever
-  /// leaves more of it. On an axis that leads only away from the point and uphill, g |x| >= g x^2: the
-  /// slope becomes part of Q. What is left of the slopes, g, costs at most g . Q^-1 . g / 2 where Q is
-  /// positive; else all terms are taken one by one. Where such an axis leads up more steeply than all
+  /// the bend is a quadratic form Q of |x| and |y|: x^2 |y| is at most x^2, of the stronger axis, and at most |x y|,
+  /// which spares the weaker one. On an axis that leads only away from the point and uphill, g |x| >= g x^2: the
+  /// slope becomes part of Q. What is left of the slopes costs what Q leaves of it: the stronger axis wherever it ends,
+  /// the other one within the rectangle, bent downward or not. Where an axis leads up more steeply than all
   /// that is mixed with it may take away, the other one is left alone: asked only where the rest is not `enough2`.
   float least2(const Rectangle& r, float enough2 = FLT_MAX) const {
     // By how much terms may lower the rest: those whose sign is known, on one side of the point, by nothing
@@ -97,23 +97,15 @@ struct Quadratic {
     const float vv = (bend[2] - bend_noise[1] - change[3] * reach[1] * a_third) * v2;
     const float across = mixed * uv;
     const float a0 = uu + along_u.q, c0 = vv + along_v.q;
-    float a = a0 - uuv, b = across, c = c0 - uvv;
-    float determinant = a * c - b * b;
-    if (!(a > 0.0f && c > 0.0f && determinant > 0x1p-4f * (a * c))) {  // the weaker axis is spared
-      if (a0 < c0) {
-        a = a0;
-        b = across + 0.5f * uuv;
-      } else {
-        c = c0;
-        b = across + 0.5f * uvv;
-      }
-      determinant = a * c - b * b;
-    }
-    const float low_u = risen(uuv - uu), low_v = risen(uvv - vv);
-    float bound = -0.5f * (low_u + low_v) - g[0] - g[1] - across;
-    if (a > 0.0f && c > 0.0f && determinant > 0x1p-20f * (a * c)) {
-      const float cost = g[0] * g[0] * c + 2.0f * g[0] * g[1] * b + g[1] * g[1] * a;
-      bound = math::larger(cost / determinant * (-0.5f - 0x1p-4f), bound);
+    const bool is_u_weak = a0 < c0;
+    const float weak = is_u_weak ? a0 : c0, strong = is_u_weak ? c0 - uvv : a0 - uuv;
+    float bound;
+    if (strong > 0.0f) {
+      const float b = across + 0.5f * (is_u_weak ? uuv : uvv);
+      bound = is_u_weak ? least_across(weak, b, strong, g[0], g[1])
+                        : least_across(weak, b, strong, g[1], g[0]);
+    } else {
+      bound = -0.5f * (risen(uuv - uu) + risen(uvv - vv)) - g[0] - g[1] - across;
     }
     const float sunk = along_u.sunk + along_v.sunk, first2 = distance2 + 2.0f * (bound - sunk);
     if (first2 >= enough2 || !(q[0] + q[1] > 0.0f)) return first2;
@@ -199,6 +191,18 @@ struct Quadratic {
     if (own > fall) return -0.5f * (fall * fall / own) * (1.0f + 0x1p-20f);
     const float end = rise + 0.5f * own - fall;
     return end > 0x1p-20f * rise ? 0.0f : end - 0x1p-22f * rise;
+  }
+
+  /// At most the least of -(g x + h y) + (a x^2 - 2 b x y + c y^2) / 2 over x and y from 0 to 1, where c > 0: of any y
+  /// where that may be less than 1, else of y = 1.
+  static float least_across(float a, float b, float c, float g, float h) {
+    const bool is_within = h < c;
+    const float turned = is_within ? b / c : 1.0f, own = is_within ? a - b * turned : a;
+    const float sure = own - 0x1p-20f * (__builtin_fabsf(a) + b * turned);
+    const float slope = g + turned * (is_within ? h : b);
+    const float along = sure > slope ? 0.5f * (slope * slope / sure) : slope - 0.5f * sure;
+    const float lost = (is_within ? 0.5f * (h * h / c) : h - 0.5f * c) + along;
+    return -lost * (1.0f + 0x1p-18f);
   }
 
   static float risen(float value) { return math::larger(value, 0.0f); }

@@ -258,7 +258,7 @@ class SurfaceParts {
     }
     f.at[0] = at[0];
     f.at[1] = at[1];
-    expand_about(point, r_m, loss_m_, bends, f);
+    expand_about(point, r_m, loss_m_, noise_of(piece), bends, f);
     if (is_best)
       for (uint32_t k = 0; k < 3; ++k) best.bend[k] = f.bend[k];
   }
