@@ -178,7 +178,10 @@ struct Quadratic {
     changes(u, v, low_third, change);
     const float of_u = (change[0] * u * 0.33333337f + change[1] * v + bend_noise[0]) * (u * u);
     const float of_v = (change[3] * v * 0.33333337f + change[2] * u + bend_noise[1]) * (v * v);
-    return of_u >= of_v ? 0 : 1;
+    // What bends as much upward is nearly sure.
+    const float by_u = of_u * (of_u / (of_u + risen(bend[0]) * (u * u) + FLT_MIN));
+    const float by_v = of_v * (of_v / (of_v + risen(bend[2]) * (v * v) + FLT_MIN));
+    return by_u >= by_v ? 0 : 1;
   }
 
   bool is_at(const float (&there)[2]) const {
