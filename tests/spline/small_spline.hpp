@@ -198,7 +198,7 @@ struct SmallSpline {
         const float* const from = coefficients + pieces[p].coefficients;
         spline::CellBends needed;
         (void)spline::begin_bends(pieces[p], from, part, needed);
-        for (uint32_t k = 0; k < spline::kFineParts; ++k)
+        for (uint32_t k = 0; k < spline::kFineCells; ++k)
           (void)spline::add_bends(pieces[p], from, part, k, needed);
         for (uint32_t k = 0; k < 5; ++k) {
           patch_bends[p + i].fixed[k] = byte(grid.fixed_unit_m2, needed.fixed[k]);

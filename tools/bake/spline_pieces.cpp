@@ -169,7 +169,7 @@ bool bound_cell(const StoredPiece& stored, const spline::Halvings& levels, uint3
   const spline::Part cell = spline::part_of(levels, index_u, index_v);
   const float* const coefficients = stored.coefficients.data();
   bool has_weight = spline::begin_bends(stored.piece, coefficients, cell, bends);
-  for (uint32_t k = 0; k < spline::kFineParts && has_weight; ++k)
+  for (uint32_t k = 0; k < spline::kFineCells && has_weight; ++k)
     has_weight = spline::add_bends(stored.piece, coefficients, cell, k, bends);
   return has_weight;
 }

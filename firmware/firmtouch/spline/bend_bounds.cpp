@@ -247,10 +247,13 @@ bool begin_bends(const Piece& piece, const float* coefficients, const Part& cell
 bool add_bends(const Piece& piece, const float* coefficients, const Part& cell, uint32_t fine_part,
                CellBends& bends) {
   Part part;
-  part.half_u = 0.25f * cell.half_u;
-  part.half_v = 0.25f * cell.half_v;
-  part.middle_u = cell.middle_u + part.half_u * (2.0f * static_cast<float>(fine_part & 3u) - 3.0f);
-  part.middle_v = cell.middle_v + part.half_v * (2.0f * static_cast<float>(fine_part >> 2) - 3.0f);
+  constexpr float kPart = 1.0f / kFineSide, kFirst = kFineSide - 1;
+  part.half_u = kPart * cell.half_u;
+  part.half_v = kPart * cell.half_v;
+  part.middle_u =
+      cell.middle_u + part.half_u * (2.0f * static_cast<float>(fine_part % kFineSide) - kFirst);
+  part.middle_v =
+      cell.middle_v + part.half_v * (2.0f * static_cast<float>(fine_part / kFineSide) - kFirst);
   LeafShape shape;
   derive(piece, coefficients, part, shape);
   if (!(shape.least_weight > 0.0f)) return false;

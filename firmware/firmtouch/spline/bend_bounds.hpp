@@ -7,9 +7,9 @@ namespace firmtouch::spline {
 /// from below: fills fixed and turning.
 /// Pre: the shape is the part's, its least_weight above 1 / 2.
 void bound_bends(const Part& part, LeafShape& shape);
-/// What is stored of a cell, a part of a surface: the most that its quarters' quarters need. Their bounds
-/// are tighter than those of the whole: of one with weights about 4 times, else about 2.
-constexpr uint32_t kFineParts = 16;
+/// What is stored of a cell, a part of a surface: the most that its parts, so many on a side, need. Their bounds
+/// are tighter than those of the whole: of one with weights more than 4 times, else more than 2.
+constexpr uint32_t kFineSide = 8, kFineCells = kFineSide * kFineSide;
 struct CellBends {
   float span_m = 0;  // no two points of the cell are farther apart
   float fixed[5] = {}, turning[5] = {};
@@ -21,6 +21,7 @@ bool add_bends(const Piece& piece, const float* coefficients, const Part& cell, 
 
 /// What is stored of a curve's piece: how far the fourth derivative of D^2 / 2 may be below 0 at most on one
 /// of its sixteenths.
+constexpr uint32_t kFineParts = 16;
 constexpr float kMostBend = 0x1p90f;  // with the square of any length of a model it is a float32
 struct CurveBends {
   float span_m = 0;                       // no two points of the piece are farther apart

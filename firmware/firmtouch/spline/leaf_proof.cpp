@@ -68,7 +68,7 @@ Verdict check_cell(const View& model, uint32_t piece_index, uint32_t cell, uint3
   const Part part = part_of(levels, in_piece & ((1u << levels.u) - 1u), in_piece >> levels.u);
   if (fine_part == 0 && !begin_bends(piece, coefficients, part, needed)) return reject(619, cell);
   if (!add_bends(piece, coefficients, part, fine_part, needed)) return reject(619, cell);
-  const bool is_last = fine_part + 1 == kFineParts;
+  const bool is_last = fine_part + 1 == kFineCells;
   if (is_last && !bends_hold(model.patch_bends()[cell], grid, needed)) return reject(620, cell);
   return kPassed;
 }

@@ -153,8 +153,8 @@ uint32_t Opening::elements() const {
     case Stage::kNodes:
       return view_.is_surface() ? view_.boxes_.size() : view_.curve_radii().size();
     case Stage::kCells:
-      return (view_.is_surface() ? view_.patch_bends_.size() : view_.curve_bends_.size()) *
-             kFineParts;
+      return view_.is_surface() ? view_.patch_bends_.size() * kFineCells
+                                : view_.curve_bends_.size() * kFineParts;
     default:
       return view_.leaf_count();
   }
@@ -281,9 +281,9 @@ Verdict Opening::check_cell(uint32_t i) {
   if (!view_.is_surface()) return check_bend(view_, i / kFineParts, i % kFineParts, curve_bends_);
   const Grid& grid = view_.grids_[piece_];
   const Halvings cell = cell_levels(view_.pieces_[piece_], grid);
-  const uint32_t of = i / kFineParts;
-  const Verdict found = spline::check_cell(view_, piece_, of, i % kFineParts, bends_);
-  const bool is_last = (i + 1) % kFineParts == 0;
+  const uint32_t of = i / kFineCells;
+  const Verdict found = spline::check_cell(view_, piece_, of, i % kFineCells, bends_);
+  const bool is_last = (i + 1) % kFineCells == 0;
   if (is_last && of + 1 - grid.first_cell == 1u << (cell.u + cell.v)) ++piece_;
   return found;
 }

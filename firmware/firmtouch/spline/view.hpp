@@ -86,7 +86,7 @@ class Opening {
  public:
   explicit Opening(const Sections& sections);
 
-  /// Checks up to `elements` pieces, points, nodes, sixteenths of cells or leaves more; one of the last two
+  /// Checks up to `elements` pieces, points, nodes, parts of cells or leaves more; one of the last two
   /// counts as 64.
   /// Bounds: about 1,000 instructions an element, 3 KB of stack; no recursion; reads only inside
   /// the sections.
