@@ -72,6 +72,30 @@ TEST(PortableSquareRootIsTheNearestFloat) {
   CHECK_EQ(wrong, 0u);
 }
 
+TEST(CountingDownTellsWhetherSomethingIsLeft) {
+  uint32_t count = 3;
+  CHECK(math::count_down(count));
+  CHECK_EQ(count, 2u);
+  CHECK(math::count_down(count));
+  CHECK(!math::count_down(count));
+  CHECK_EQ(count, 0u);
+  CHECK(math::count_down(count));
+  CHECK_EQ(count, UINT32_MAX);
+}
+
+TEST(NextOfTakesOneAfterTheOther) {
+  const uint16_t shorts[] = {65535, 1, 40000};
+  const uint32_t words[] = {UINT32_MAX, 7, 0x80000001u};
+  const uint16_t* at_short = shorts;
+  const uint32_t* at_word = words;
+  for (uint32_t k = 0; k < 3; ++k) {
+    CHECK_EQ(math::next_of(at_short), shorts[k]);
+    CHECK_EQ(math::next_of(at_word), words[k]);
+  }
+  CHECK(at_short == shorts + 3);
+  CHECK(at_word == words + 3);
+}
+
 TEST(BoxDistanceVariantsAgree) {
   uint32_t differ = 0;
   for (uint32_t i = 0; i < 20000; ++i) {

@@ -30,6 +30,33 @@ static inline uint32_t as_multiplier(uint32_t value) {
 #endif
 }
 
+/// Takes one off `count`. Result: whether something is left. Where the processor can by one instruction
+/// that the branch reads: a compiler that counts early compares once more.
+[[gnu::always_inline]] static inline bool count_down(uint32_t& count) {
+#if FIRMTOUCH_ISA_PAIRS && defined(__GCC_ASM_FLAG_OUTPUTS__)
+  bool is_left;
+  __asm__("subs %0, %0, #1" : "+r"(count), "=@ccne"(is_left));
+  return is_left;
+#else
+  return --count != 0;
+#endif
+}
+
+/// What `from` points to; moves it to the next: by one instruction where the processor has it.
+template <class Index>
+[[gnu::always_inline]] static inline uint32_t next_of(const Index*& from) {
+#if FIRMTOUCH_ISA_PAIRS
+  uint32_t value;
+  if constexpr (sizeof(Index) == 2)
+    __asm__("ldrh %0, [%1], #2" : "=r"(value), "+r"(from) : "m"(*from));
+  else
+    __asm__("ldr %0, [%1], #4" : "=r"(value), "+r"(from) : "m"(*from));
+  return value;
+#else
+  return *from++;
+#endif
+}
+
 /// `value`, of which nothing is computed before it is needed: a compiler would keep in registers for a
 /// whole loop what few turns need.
 static inline uint32_t only_here(uint32_t value) {

@@ -120,13 +120,13 @@ template <class Index, class Wanted>
   Wanted wanted = Wanted::than(least2_m2, slack_m2);
   const uint32_t stride = math::as_multiplier(sizeof(Vertex));
   const Vertex* const vertices = sought.vertices;
-  const Triangle<Index>* triangle =
-      static_cast<const Triangle<Index>*>(sought.triangles) + leaf_first(child);
-  for (uint32_t left = math::only_here(leaf_count(child)); left != 0; --left, ++triangle) {
+  const Index* corner =
+      (static_cast<const Triangle<Index>*>(sought.triangles) + leaf_first(child))->corner;
+  for (uint32_t left = math::only_here(leaf_count(child)); left != 0; --left) {
     Vec3 a_m, b_m, c_m;
-    load_corner<0>(vertices, triangle->corner[0], stride, a_m);
-    load_corner<1>(vertices, triangle->corner[1], stride, b_m);
-    load_corner<2>(vertices, triangle->corner[2], stride, c_m);
+    load_corner<0>(vertices, math::next_of(corner), stride, a_m);
+    load_corner<1>(vertices, math::next_of(corner), stride, b_m);
+    load_corner<2>(vertices, math::next_of(corner), stride, c_m);
     Foot foot;
     if (!find_foot(p_m, a_m, b_m, c_m, wanted, foot)) continue;
     if (!(foot.distance2_m2 < least2_m2)) continue;

@@ -287,7 +287,7 @@ template <bool kCareful, class Bound, class Index>
     // Where nothing cuts a search short no lower bound is told on the way.
     if (allowed != UINT32_MAX) best_first += kBestFirst;
   }
-  for (; left != 0; --left) {
+  for (bool is_left = left != 0; is_left; is_left = math::count_down(left)) {
     if (!is_leaf(child)) {
       if (enter(sides, bound, prune, child, place, top)) continue;
     } else {
