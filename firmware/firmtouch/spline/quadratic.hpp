@@ -122,6 +122,61 @@ struct Quadratic {
     return distance2 + 2.0f * (bound - sunk);
   }
 
+  /// The same for a valley askew: where the bend turns along it, in coordinates x and y - tilt x of the weaker and the
+  /// stronger axis, in which it does not. Of third derivatives what counts along the valley is then one number, in which
+  /// they mostly cancel. The rectangle becomes the one about what it is there. Result: 0 where no valley is seen.
+  [[gnu::noinline]] float least2_askew(const Rectangle& r, float enough2) const {
+    const float wide = r.high[0] - r.low[0], high = r.high[1] - r.low[1];
+    const bool is_u_weak = bend[0] * (wide * wide) < bend[2] * (high * high);
+    const uint32_t k = is_u_weak ? 0 : 1, o = 1 - k;
+    const float strong = bend[2 * o], mixed = bend[1];
+    if (!(strong > 0.0f && mixed * mixed > kAskew * __builtin_fabsf(bend[2 * k] * strong)))
+      return 0.0f;
+    const float t = -mixed / strong, size = __builtin_fabsf(t);
+    constexpr float kUp = 1.0f + 0x1p-16f, kLost = 0x1p-20f;
+    Quadratic f;
+    f.distance2 = distance2;
+    f.at[0] = f.at[1] = 0.0f;
+    f.slope[k] = slope[k] + t * slope[o];
+    f.slope[o] = slope[o];
+    f.slope_noise[k] = (slope_noise[k] + size * slope_noise[o]) * kUp +
+                       kLost * (__builtin_fabsf(slope[k]) + size * __builtin_fabsf(slope[o]));
+    f.slope_noise[o] = slope_noise[o];
+    f.bend[2 * k] = bend[2 * k] + t * (2.0f * mixed + t * strong);
+    f.bend[1] = mixed + t * strong;
+    f.bend[2 * o] = strong;
+    const float lost = kLost * (__builtin_fabsf(bend[2 * k]) +
+                                3.0f * size * __builtin_fabsf(mixed) + __builtin_fabsf(mixed));
+    f.bend_noise[k] = (bend_noise[k] + 2.0f * (size * size) * bend_noise[o]) * kUp + lost;
+    f.bend_noise[o] = 2.0f * bend_noise[o] + lost;
+    const float(&third_of)[4] = third;
+    const float t0 = third_of[3 * k], t1 = third_of[1 + k], t2 = third_of[2 - k],
+                t3 = third_of[3 * o];
+    f.third[3 * k] = t0 + t * (3.0f * t1 + t * (3.0f * t2 + t * t3));
+    f.third[1 + k] = t1 + t * (2.0f * t2 + t * t3);
+    f.third[2 - k] = t2 + t * t3;
+    f.third[3 * o] = t3;
+    const float thirds =
+        __builtin_fabsf(t0) + __builtin_fabsf(t1) + __builtin_fabsf(t2) + __builtin_fabsf(t3);
+    const float grown = (1.0f + size) * (1.0f + size) * (1.0f + size);
+    f.third_noise = (third_noise + kLost * thirds) * grown * kUp;
+    float moved[5];  // from k^4 on
+    for (uint32_t i = 0; i < 5; ++i) moved[i] = fourth[k == 0 ? i : 4 - i];
+    for (uint32_t least = 0; least < 4; ++least)
+      for (uint32_t i = 0; i < 4 - least; ++i) moved[i] += size * moved[i + 1];
+    for (uint32_t i = 0; i < 5; ++i) f.fourth[k == 0 ? i : 4 - i] = moved[i] * kUp;
+    Rectangle about;
+    about.low[k] = r.low[k] - at[k];
+    about.high[k] = r.high[k] - at[k];
+    const float by_low = t * about.low[k], by_high = t * about.high[k];
+    const float least = r.low[o] - at[o] - math::larger(by_low, by_high);
+    const float most = r.high[o] - at[o] - math::smaller(by_low, by_high);
+    const float room = kLost * (__builtin_fabsf(by_low) + __builtin_fabsf(by_high) + high + wide);
+    about.low[o] = least - room;
+    about.high[o] = most + room;
+    return f.least2(about, enough2);
+  }
+
   /// Where Newton's method, within the rectangle, would look next: of the bend where it is positive on
   /// the axes that are free, else of the tangents alone. Result: by how much D^2 / 2 should be less there.
   float next(const Rectangle& r, float (&to)[2]) const {
@@ -208,6 +263,8 @@ struct Quadratic {
     return -lost * (1.0f + 0x1p-18f);
   }
 
+  // Of the product of both bends the share that the square of the mixed one must be above.
+  static constexpr float kAskew = 0.25f;
   static float risen(float value) { return math::larger(value, 0.0f); }
   static float clamped(float value, const Rectangle& r, uint32_t k) {
     const float above = math::larger(value, r.low[k]);

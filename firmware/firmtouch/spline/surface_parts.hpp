@@ -146,7 +146,8 @@ class SurfaceParts {
       const bool has_arrived = !(moved > 0x1p-40f && gain > kRounding * base->distance2);
       if (!has_arrived && !best.seems_beyond(base->distance2 - (is_best ? kNearly : 2.0f) * gain))
         continue;
-      if (best.is_beyond(base->least2(range, best.enough2()))) {
+      if (best.is_beyond(base->least2(range, best.enough2())) ||
+          best.is_beyond(base->least2_askew(range, best.enough2()))) {
         closed_by_ = base;
         closed_ = is_small ? kNone : node;  // a rectangle's own bends are not those of the cell
         return Outcome::kClosed;
