@@ -67,7 +67,7 @@ struct Found {
 
 // How near something may be: beyond the band nothing was looked for.
 float nearest_m(const Search& search) {
-  return math::square_root(smaller(search.best.distance2_m2, search.band2_m2));
+  return math::square_root(math::smaller(search.best.distance2_m2, search.band2_m2));
 }
 
 // a - b rounded down: a - s is exact where b is the smaller part.

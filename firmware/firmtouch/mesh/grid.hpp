@@ -25,13 +25,13 @@ constexpr uint32_t kFarthest = UINT32_MAX;
 struct NearBound {
   math::BoxPoint point;
   float cell_m;
-  float per_cell2;
+  float prune_per_m2;  // square cells in a square metre and what a bound may lose; exact
 
   /// False: the query is not inside the grid (or not a number).
   bool begin(const Head& head, const math::Vec3& p_m) {
     cell_m = head.cell_m;
     const float per_part = 0x1p16f / cell_m;
-    per_cell2 = per_part * 0x1p-16f * (per_part * 0x1p-16f);
+    prune_per_m2 = per_part * 0x1p-16f * (per_part * 0x1p-16f) * (2.0f - kRoundDown);
     uint32_t outside = 0;
     const uint32_t x = put((p_m.x - head.grid_low_m[0]) * per_part, outside),
                    y = put((p_m.y - head.grid_low_m[1]) * per_part, outside),
@@ -58,7 +58,7 @@ struct NearBound {
   }
   /// Smallest key whose boxes cannot be nearer than the square root of distance2_m2.
   uint32_t prune_key(float distance2_m2) const {
-    const float cells2 = distance2_m2 * per_cell2 * (2.0f - kRoundDown);
+    const float cells2 = distance2_m2 * prune_per_m2;
     return cells2 < 4.2e9f ? static_cast<uint32_t>(cells2) + 1 : kFarthest;
   }
   float distance_m(uint32_t key) const {

@@ -47,11 +47,6 @@ struct Choice<false, First, Second> {
   using Type = Second;
 };
 
-template <class Number>
-inline Number smaller(Number a, Number b) {
-  return a < b ? a : b;
-}
-
 // What take_smallest() leaves.
 struct Taken {
   uint32_t place;
@@ -102,10 +97,11 @@ inline bool take_last(Pending*& top, const Pending* best_first, uint32_t prune, 
   return false;
 }
 
-// What the nearest so far, or the band, leaves to be looked at.
+// What the nearest so far, or the band, leaves to be looked at. A square is no -0, so that a band of 0
+// may be the limit.
 template <class Bound>
 inline uint32_t prune_key(const Bound& bound, const Search& search) {
-  return bound.prune_key(smaller(search.best.distance2_m2, search.band2_m2));
+  return bound.prune_key(math::smaller(search.best.distance2_m2, search.band2_m2));
 }
 
 // From the leaf at search.start, which has been read, up to the fence where that is far enough away,
@@ -116,8 +112,8 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t prune, uint32_t
                   Pending*& top, Search& search) {
   const Side* const sides = mesh.sides();
   const uint32_t* const parents = mesh.parents().data();
-  const float leaf_m =
-      math::square_root(smaller(search.best.distance2_m2, search.band2_m2)) * (1.0f + 0x1p-22f);
+  const float leaf_m = math::square_root(math::smaller(search.best.distance2_m2, search.band2_m2)) *
+                       (1.0f + 0x1p-22f);
   const float reach_m = leaf_m + search.fence_margin_m;
   const uint32_t beyond = bound.prune_key(reach_m * reach_m);
   uint32_t place = search.start;
