@@ -156,6 +156,30 @@ TEST(FloatsBeyondAWordAreSaturated) {
   CHECK_EQ(differ, 0u);
 }
 
+TEST(PointsOnTheGridAreTheSameEverywhere) {
+  uint32_t differ = 0, inside = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const float low[4] = {-1.0f, 2.0f, 0.25f, 7.0f};
+    float at[3];
+    for (uint32_t k = 0; k < 3; ++k) {  // 16 cells to a unit; 2,048 units, their ends, and any bits
+      const float share = static_cast<float>(next_random() >> 8) * 0x1p-24f;
+      at[k] = low[k] + share * (i % 4 == 1 ? 2049.0f : 2047.0f);
+      if (i % 4 == 2) at[k] = low[k] + (k == i % 3 ? share * 0x1p-10f : 2047.9f + 0.2f * share);
+      if (i % 8 == 7 && k == i % 3) at[k] = math::float_of(next_random());
+    }
+    math::BoxPoint told, portable;
+    const bool is_inside = math::grid_point(at[0], at[1], at[2], low, 0x1p20f, told);
+    if (is_inside != math::portable_grid_point(at[0], at[1], at[2], low, 0x1p20f, portable))
+      ++differ;
+    if (!is_inside) continue;
+    ++inside;
+    if (__builtin_memcmp(&told, &portable, sizeof told) != 0) ++differ;
+  }
+  CHECK_EQ(differ, 0u);
+  CHECK_LT(8000u, inside);
+  CHECK_LT(inside, 16000u);
+}
+
 TEST(TheLargerAndTheSmallerOfTwoHaveTheSameBitsEverywhere) {
   const float infinite = math::float_of(0x7F800000u), none = math::float_of(0x7FC00000u);
   const float edges[] = {0.0f,       -0.0f,    1.0f,      -1.0f, 0x1p-149f,

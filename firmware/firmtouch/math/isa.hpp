@@ -190,6 +190,44 @@ static inline BoxPoint box_point(uint32_t x, uint32_t y, uint32_t z) {
 #endif
 }
 
+/// A coordinate in 65536ths of a cell as a word of a point, 2^-8 cells wider to either side and then
+/// to whole cells. The top bit of `outside` is set where it is not inside the grid.
+static inline uint32_t portable_grid_word(float parts, uint32_t& outside) {
+  // Exact but for the fraction that is cut off. 256 less, rounded down to cells, and 256 more than
+  // what may have been cut off, rounded up.
+  const uint32_t whole = saturated(parts);
+  const uint32_t below = 0x7FFFFFFFu - (whole - 256), above = whole + 0x10100u;
+  outside |= below | above;
+  return (below & 0xFFFF0000u) | (above >> 16);
+}
+static inline bool portable_grid_point(float x, float y, float z, const float* low, float per_part,
+                                       BoxPoint& point) {
+  uint32_t outside = 0;
+  const uint32_t x_word = portable_grid_word((x - low[0]) * per_part, outside),
+                 y_word = portable_grid_word((y - low[1]) * per_part, outside),
+                 z_word = portable_grid_word((z - low[2]) * per_part, outside);
+  point = box_point(x_word, y_word, z_word);
+  return (outside >> 31) == 0;
+}
+
+/// The point x y z on the grid whose corner is `low`, of which a cell's 65536th is 1 / per_part.
+/// Pre: a float may be read behind low. Result: whether it is inside; false for NaN.
+static inline bool grid_point(float x, float y, float z, const float* low, float per_part,
+                              BoxPoint& point) {
+#if FIRMTOUCH_ISA_AVX2
+  // What no signed word holds becomes its least, which is outside too.
+  const __m128 from_low = _mm_sub_ps(_mm_setr_ps(x, y, z, 0.0f), _mm_loadu_ps(low));
+  const __m128i whole = _mm_cvttps_epi32(_mm_mul_ps(from_low, _mm_set1_ps(per_part)));
+  const __m128i below = _mm_sub_epi32(_mm_set1_epi32(static_cast<int>(0x800000FFu)), whole);
+  const __m128i above = _mm_add_epi32(whole, _mm_set1_epi32(0x10100));
+  const __m128i words = _mm_blend_epi16(_mm_srli_epi32(above, 16), below, 0xAA);
+  point.words = _mm_or_si128(words, _mm_setr_epi32(0, 0, 0, -1));
+  return (_mm_movemask_ps(_mm_castsi128_ps(_mm_or_si128(below, above))) & 7) == 0;
+#else
+  return portable_grid_point(x, y, z, low, per_part, point);
+#endif
+}
+
 #if FIRMTOUCH_ISA_AVX2
 // The squares of the three axes and 0.
 static inline __m128i box_squares(const uint32_t* box, BoxPoint point) {

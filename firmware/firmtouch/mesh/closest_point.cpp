@@ -6,7 +6,7 @@
 #include "firmtouch/mesh/direction.hpp"
 #include "firmtouch/mesh/nearest_ahead.hpp"
 #include "firmtouch/mesh/pseudonormal.hpp"
-#include "firmtouch/query/coherence.hpp"
+#include "firmtouch/query/motion.hpp"
 
 namespace firmtouch::mesh {
 namespace {
@@ -144,8 +144,13 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
 int8_t side_of(const Found& found, Vec3 direction, float loss_m, float diagonal_m) {
   const float height_m = dot(found.search.best.offset_m, direction);
   const float doubt_m = kDoubt_rad * found.distance_m + loss_m;
-  if (height_m > doubt_m) return 1;
-  if (height_m < -doubt_m) return -1;
+  if constexpr (math::kHasLanes) {  // no processor foresees when a hand passes through the surface
+    const int side = static_cast<int>(height_m > doubt_m) - static_cast<int>(height_m < -doubt_m);
+    if (side != 0) return static_cast<int8_t>(side);
+  } else {
+    if (height_m > doubt_m) return 1;
+    if (height_m < -doubt_m) return -1;
+  }
   if (found.distance_m > kEitherSide * diagonal_m) return 0;
   return height_m >= 0.0f ? 1 : -1;
 }
@@ -153,9 +158,10 @@ int8_t side_of(const Found& found, Vec3 direction, float loss_m, float diagonal_
 template <class Bound>
 Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m, const query::Budget& budget,
                query::Hint& hint) {
-  const query::Carried carried = query::carry(hint, p_m);
+  const float moved_m = query::motion_m(hint, p_m);
+  const bool has_moved = moved_m <= query::kMostMotion_m;  // else nothing is carried on
   const Loss loss(mesh.head());
-  const float fence_margin_m = kFenceMotions * carried.motion_m;
+  const float fence_margin_m = has_moved ? kFenceMotions * moved_m : 0.0f;
   // FLT_MAX and what squares beyond it: no band.
   const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
   // After a jump out of the band's reach the last leaf does not help.
@@ -168,10 +174,15 @@ Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m, const quer
   search.p_m.z = p_m.z;
   search.start = is_warm ? place : query::kNowhere;
   search.budget = budget.steps;
+  if constexpr (math::kHasLanes) {
+    uint16_t last;
+    __builtin_memcpy(&last, hint.fine, sizeof last);
+    search.last = last;
+  }
   search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
   search.fence_margin_m = fence_margin_m;
   search.fence = fence;
-  search.fence_m = carried.fence_m;
+  search.fence_m = query::left_of(hint.fence_m, moved_m);
   search.slack_m2 = Nearer::slack_m2(loss.longest_edge_m);
   if (!is_warm) {  // a stored vertex is a point of the surface before any triangle is reached
     search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
@@ -198,19 +209,26 @@ Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m, const quer
   // The carried bound is worth keeping where the search was cut short; else it can only be older.
   float lower_m = found.lower_m;
   bool exact = search.complete && is_near;
-  if (!exact && carried.lower_m > lower_m) lower_m = carried.lower_m;
+  if (!exact) {
+    const float carried_m = query::left_of(hint.lower_m, moved_m);
+    if (carried_m > lower_m) lower_m = carried_m;
+  }
   int8_t sign = 0;
   if (mesh.is_signed()) {
-    sign = carried.sign;
-    if (bound.is_outside()) {
+    if (bound.is_outside())
       sign = 1;
-    } else if (exact) {
-      const int8_t side = side_of(found, direction, plain_loss_m, diagonal_m);
-      if (side != 0) sign = side;
-      exact = sign != 0;
+    else if (exact)
+      sign = side_of(found, direction, plain_loss_m, diagonal_m);
+    if (sign == 0) {  // the last side, where the path stayed within certified free distance
+      if (query::left_of(hint.lower_m, moved_m) > 0.0f) sign = hint.sign;
+      exact = exact && sign != 0;
     }
   }
   if (best.place != query::kNowhere) hint.place = best.place;
+  if constexpr (math::kHasLanes) {
+    const uint16_t last = static_cast<uint16_t>(best.triangle);
+    __builtin_memcpy(hint.fine, &last, sizeof last);
+  }
   hint.position_m.x = p_m.x;
   hint.position_m.y = p_m.y;
   hint.position_m.z = p_m.z;

@@ -32,22 +32,8 @@ struct NearBound {
     cell_m = head.cell_m;
     const float per_part = 0x1p16f / cell_m;
     prune_per_m2 = per_part * 0x1p-16f * (per_part * 0x1p-16f) * (2.0f - kRoundDown);
-    uint32_t outside = 0;
-    const uint32_t x = put((p_m.x - head.grid_low_m[0]) * per_part, outside),
-                   y = put((p_m.y - head.grid_low_m[1]) * per_part, outside),
-                   z = put((p_m.z - head.grid_low_m[2]) * per_part, outside);
-    point = math::box_point(x, y, z);
-    return (outside >> 31) == 0;
-  }
-  /// A coordinate in 65536ths of a cell as a word of a point. The top bit of `outside` is set where
-  /// it is not inside the grid.
-  static uint32_t put(float parts, uint32_t& outside) {
-    // Exact but for the fraction that is cut off. 256 less, rounded down to cells, and 256 more than
-    // what may have been cut off, rounded up.
-    const uint32_t whole = math::saturated(parts);
-    const uint32_t below = (kGridMax + 1) * 0x10000u - 1 - (whole - 256), above = whole + 0x10100u;
-    outside |= below | above;
-    return (below & 0xFFFF0000u) | (above >> 16);
+    static_assert(kGridMax == 0x7FFF && offsetof(Head, cell_m) == offsetof(Head, grid_low_m) + 12);
+    return math::grid_point(p_m.x, p_m.y, p_m.z, head.grid_low_m, per_part, point);
   }
   uint32_t key(const uint32_t* box) const { return math::box_distance2(box, point); }
   /// Of both sides of a node, and where their children are. Into words: a struct of them cost the

@@ -70,20 +70,77 @@ template <class Float, class Index>
   return take_nearest(feet, asked, first, place, least2_m2, best);
 }
 
-/// The same of the corners that lie side by side. Lanes that a leaf leaves over hold what comes next.
+/// A leaf whose corners lie side by side. Lanes that it leaves over hold what comes next.
+template <class Float>
+struct RowsOfLeaf {
+  const float* row;
+  uint32_t first, count;
+
+  RowsOfLeaf(const float* rows, uint32_t child)
+      : row(rows + size_t{kRowsOfLeaf} * leaf_first(child)),
+        first(leaf_first(child)),
+        count(leaf_count(child)) {}
+  uint32_t asked() const { return (1u << count) - 1u; }
+  math::Lanes<Float> corner(size_t k) const {
+    return {math::lanes_from<Float>(row + (3 * k) * count),
+            math::lanes_from<Float>(row + (3 * k + 1) * count),
+            math::lanes_from<Float>(row + (3 * k + 2) * count)};
+  }
+  math::Vec3 corner(size_t k, uint32_t lane) const {
+    return {row[(3 * k) * count + lane], row[(3 * k + 1) * count + lane],
+            row[(3 * k + 2) * count + lane]};
+  }
+};
+
+/// measure_side_by_side() of such a leaf.
 template <class Float>
 [[gnu::always_inline]] static inline float measure_rows(const float* rows, math::Vec3 p_m,
                                                         uint32_t child, uint32_t place,
                                                         float least2_m2, Best& best) {
-  const uint32_t first = leaf_first(child), count = leaf_count(child);
-  const float* const row = rows + size_t{kRowsOfLeaf} * first;
-  const auto corner = [&](size_t k) -> math::Lanes<Float> {
-    return {math::lanes_from<Float>(row + (3 * k) * count),
-            math::lanes_from<Float>(row + (3 * k + 1) * count),
-            math::lanes_from<Float>(row + (3 * k + 2) * count)};
-  };
-  const Feet<Float> feet = closest_on_triangles<Float>(p_m, corner(0), corner(1), corner(2));
-  return take_nearest(feet, (1u << count) - 1u, first, place, least2_m2, best);
+  const RowsOfLeaf<Float> leaf(rows, child);
+  const Feet<Float> feet =
+      closest_on_triangles<Float>(p_m, leaf.corner(0), leaf.corner(1), leaf.corner(2));
+  return take_nearest(feet, leaf.asked(), leaf.first, place, least2_m2, best);
+}
+
+/// The same in less time where mostly none is nearer.
+template <class Float>
+[[gnu::always_inline]] static inline float measure_rows_beside(const float* rows, math::Vec3 p_m,
+                                                               uint32_t child, uint32_t place,
+                                                               float least2_m2, Best& best) {
+  const RowsOfLeaf<Float> leaf(rows, child);
+  const math::Lanes<Float> b = leaf.corner(1), c = leaf.corner(2);
+  const Frames<Float> f = frames_of<Float>(p_m, leaf.corner(0), b, c);
+  if ((may_be_nearer(f, least2_m2) & leaf.asked()) == 0) return least2_m2;
+  const Feet<Float> feet = closest_in_frames(f, p_m, b, c);
+  return take_nearest(feet, leaf.asked(), leaf.first, place, least2_m2, best);
+}
+
+/// The same from nothing known, in less time where the nearest is that of the triangle whose lowest 16
+/// bits are `last`; which they are decides nothing else.
+template <class Float>
+[[gnu::always_inline]] static inline float measure_last_rows(const float* rows, math::Vec3 p_m,
+                                                             uint32_t child, uint32_t place,
+                                                             uint32_t last, Best& best) {
+  const RowsOfLeaf<Float> leaf(rows, child);
+  const math::Lanes<Float> b = leaf.corner(1), c = leaf.corner(2);
+  const Frames<Float> f = frames_of<Float>(p_m, leaf.corner(0), b, c);
+  const uint32_t lane = (last - leaf.first) & 0xFFFFu;
+  if (lane < leaf.count) {
+    const Foot foot =
+        closest_on_triangle(p_m, leaf.corner(0, lane), leaf.corner(1, lane), leaf.corner(2, lane));
+    const uint32_t others = leaf.asked() & ~(1u << lane);
+    if ((may_be_nearer(f, foot.distance2_m2) & others) == 0 && foot.distance2_m2 < FLT_MAX) {
+      best.distance2_m2 = foot.distance2_m2;
+      best.offset_m = foot.offset_m;
+      best.triangle = leaf.first + lane;
+      best.place = place;
+      best.feature = foot.feature;
+      return foot.distance2_m2;
+    }
+  }
+  const Feet<Float> feet = closest_in_frames(f, p_m, b, c);
+  return take_nearest(feet, leaf.asked(), leaf.first, place, FLT_MAX, best);
 }
 
 // Pre: `stride` is that of vertices.

@@ -77,7 +77,7 @@ template <class Index>
       }
       const uint32_t child = static_cast<uint32_t>(now.child);
       if (!is_leaf(child)) break;
-      if (measure<false, Index, false>(mesh, child, static_cast<uint32_t>(now.what), search))
+      if (measure<false, Index, Which::kAny>(mesh, child, static_cast<uint32_t>(now.what), search))
         last = last_of();
       now = *left--;
       steps += now.what <= last ? 1 : 0;

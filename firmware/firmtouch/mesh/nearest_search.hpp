@@ -29,6 +29,7 @@ struct Pending {
 struct Search : Sought {
   uint32_t start;        // a leaf's place, or kNowhere
   uint32_t budget;       // in steps
+  uint32_t last;         // the lowest 16 bits of the last triangle; read side by side alone
   float band2_m2;        // what is farther off need not be found
   float fence_margin_m;  // how much farther than the first leaf a new fence should stand
   uint32_t fence;        // in: the last fence, the subtree outside which everything is at least ...
@@ -175,18 +176,26 @@ inline void begin_leaves(const View& mesh, Search& search) {
   }
 }
 
+// Which leaf: that of the last answer, one beside it, or one of a search that knows none.
+enum class Which { kLast, kBeside, kAny };
+
 // measure_leaf() of a leaf that is reached. Result: the least squared distance so far.
-template <bool kCareful, class Index, bool kIsLast>
+template <bool kCareful, class Index, Which kWhich>
 [[gnu::always_inline]] inline float measure_here(const View& mesh, uint32_t child, uint32_t place,
                                                  Search& search) {
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};  // one by one: see measure_leaf()
-  if constexpr (kIsRows<Index>)
-    return measure_rows<math::FloatWide>(mesh.rows(), p_m, child, place, search.best.distance2_m2,
-                                         search.best);
-  else
+  Best& best = search.best;
+  if constexpr (!kIsRows<Index>)
     return measure_leaf<kCareful>(mesh.vertices().data(), triangles_of<Index>(mesh),
-                                  Loss(mesh.head()), p_m, child, place, kIsLast,
-                                  search.best.distance2_m2, search.best);
+                                  Loss(mesh.head()), p_m, child, place, kWhich == Which::kLast,
+                                  best.distance2_m2, best);
+  else if constexpr (kWhich == Which::kLast)
+    return measure_last_rows<math::FloatWide>(mesh.rows(), p_m, child, place, search.last, best);
+  else if constexpr (kWhich == Which::kBeside)
+    return measure_rows_beside<math::FloatWide>(mesh.rows(), p_m, child, place, best.distance2_m2,
+                                                best);
+  else
+    return measure_rows<math::FloatWide>(mesh.rows(), p_m, child, place, best.distance2_m2, best);
 }
 
 // A function of its own: in the loop it would take the registers of the descent.
@@ -195,7 +204,7 @@ template <bool kCareful, class Index, class Wanted>
 [[gnu::noinline]] uint32_t measure_apart(const View& mesh, uint32_t child, uint32_t place,
                                          Search& search) {
   if constexpr (kCareful)
-    measure_here<kCareful, Index, false>(mesh, child, place, search);
+    measure_here<kCareful, Index, Which::kAny>(mesh, child, place, search);
   else
     measure_in_turn<Index, Wanted>(child, place, search);
   return search.best.place ^ place;
@@ -204,17 +213,17 @@ template <bool kCareful, class Index, class Wanted>
 // Side by side so few instructions measure a leaf that a call would show. With care the width of the
 // indices is told at each leaf, where it does not show: one loop less a bound, 1.1 to 1.5 KB.
 // Result: whether one was nearer.
-template <bool kCareful, class Index, bool kIsLast>
+template <bool kCareful, class Index, Which kWhich>
 inline bool measure(const View& mesh, uint32_t child, uint32_t place, Search& search) {
   // Before the last leaf nothing is known that could leave a triangle out.
-  using Wanted = typename Choice<kIsLast, Everything, Nearer>::Type;
+  using Wanted = typename Choice<kWhich == Which::kLast, Everything, Nearer>::Type;
   if constexpr (kCareful) {
     return (mesh.triangles16().empty()
                 ? measure_apart<true, uint32_t, Everything>(mesh, child, place, search)
                 : measure_apart<true, uint16_t, Everything>(mesh, child, place, search)) == 0;
   } else if constexpr (kIsSideBySide<Index>) {
     const float before2_m2 = search.best.distance2_m2;
-    return measure_here<false, Index, kIsLast>(mesh, child, place, search) < before2_m2;
+    return measure_here<false, Index, kWhich>(mesh, child, place, search) < before2_m2;
   } else {
     return measure_apart<false, Index, Wanted>(mesh, child, place, search) == 0;
   }
@@ -265,7 +274,7 @@ template <bool kCareful, class Bound, class Index>
   if constexpr (!kCareful) begin_leaves<Index>(mesh, search);
   if (search.start != query::kNowhere) {
     --left;
-    measure<kCareful, Index, true>(mesh, sides[search.start].child, search.start, search);
+    measure<kCareful, Index, Which::kLast>(mesh, sides[search.start].child, search.start, search);
     prune = prune_key(bound, search);
     if (!climb(mesh, bound, prune, left, top, search)) {
       search.complete = false;
@@ -287,7 +296,7 @@ template <bool kCareful, class Bound, class Index>
     if (!is_leaf(child)) {
       if (enter(sides, bound, prune, child, place, top)) continue;
     } else {
-      if (measure<kCareful, Index, false>(mesh, child, place, search))
+      if (measure<kCareful, Index, Which::kBeside>(mesh, child, place, search))
         prune = prune_key(bound, search);
     }
     // Many, or warm: the last, whose order does not matter then and costs nothing.

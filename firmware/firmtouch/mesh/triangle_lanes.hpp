@@ -63,11 +63,70 @@ struct Feet {
   }
 };
 
+/// Of each lane what tells the plane's foot: as in find_foot().
 template <class Float>
-[[gnu::always_inline]] static inline Feet<Float> closest_on_triangles(math::Vec3 p_m,
-                                                                      const math::Lanes<Float>& a,
-                                                                      const math::Lanes<Float>& b,
-                                                                      const math::Lanes<Float>& c) {
+struct Frames {
+  math::Lanes<Float> ab, ac, ap, e, h;
+  Float ab2, x, xc, y, h2, w, v;
+};
+
+template <class Float>
+[[gnu::always_inline]] static inline Frames<Float> frames_of(math::Vec3 p_m,
+                                                             const math::Lanes<Float>& a,
+                                                             const math::Lanes<Float>& b,
+                                                             const math::Lanes<Float>& c) {
+  using namespace lanes;
+  const Lanes<Float> p{all_of<Float>(p_m.x), all_of<Float>(p_m.y), all_of<Float>(p_m.z)};
+  Frames<Float> f;
+  f.ab = b - a, f.ac = c - a, f.ap = p - a;
+  f.ab2 = dot(f.ab, f.ab);
+  const Float per_ab2 = all_of<Float>(1.0f) / f.ab2;
+  f.x = dot(f.ab, f.ap) * per_ab2;
+  f.xc = dot(f.ab, f.ac) * per_ab2;
+  f.e = f.ap - f.ab * f.x, f.h = f.ac - f.ab * f.xc;
+  f.y = dot(f.e, f.h);
+  f.h2 = dot(f.h, f.h);
+  f.w = f.y / f.h2;
+  f.v = f.x - f.w * f.xc;
+  return f;
+}
+
+/// Lanes of which it is not certain that they are told farther than the nearest so far, D away; most
+/// of them by half of the work.
+///
+/// In the plane let o be how far the foot lies outside of one edge's line: at least -w |h|, -v |h| or
+/// (v + w - 1) |h|, since a b is the longest edge and |h| the least height. The distance d is at least
+/// sqrt(e^2 - (e . h)^2 / h^2 + o^2).
+///
+/// Suppose d < A = D (1 + 8 u) + 30 u E, E = |a b|, beyond which a foot is told more than D away
+/// (mesh/loss.hpp), and |h| >= E / 32. No vector is longer than A + E, |e| <= A + |h|. Square to a b,
+/// along which errors do not count, e is wrong by 4 u (A + E) and h by 4 u E; so (e . h) / |h| is by
+/// u (136 A + 12 E), its square by u (1187 A^2 + 80 E^2), where A E <= 2 A^2 + E^2 / 8; e^2 by
+/// u (60 A^2 + 15 E^2); v |h| and w |h| by u (830 A + 82 E), o^2 <= A^2 by u (2300 A^2 + 21 E^2); the
+/// sum by u (15 A^2 + 4 E^2). With A^2 <= D^2 (1 + 137 u) + 8 u E^2 what is computed is at most
+/// D^2 (1 + 3700 u) + 129 u E^2: half of what is added below. Squares that vanish are less than the
+/// constants. A comparison with what is no number leaves its lane in.
+template <class Float>
+[[gnu::always_inline]] static inline uint32_t may_be_nearer(const Frames<Float>& f,
+                                                            float least2_m2) {
+  using namespace lanes;
+  using math::larger;
+  const Float zero{};
+  const Float beyond = larger(zero - math::smaller(f.v, f.w), f.v + f.w - all_of<Float>(1.0f));
+  const Float o = larger(beyond, zero);
+  const Float least2 = dot(f.e, f.e) - f.y * f.w + f.h2 * o * o;
+  const Float limit2 =
+      f.ab2 * all_of<Float>(0x1p-16f) + all_of<Float>(least2_m2 * (1.0f + 0x1p-11f) + 0x1p-100f);
+  const Float thin2 = f.ab2 * all_of<Float>(0x1p-10f) + all_of<Float>(0x1p-110f);
+  return ~math::lanes_of(math::at_most(limit2, least2) & math::at_most(thin2, f.h2));
+}
+
+/// Pre: the frames are those of p_m, a, b and c.
+template <class Float>
+[[gnu::always_inline]] static inline Feet<Float> closest_in_frames(const Frames<Float>& f,
+                                                                   math::Vec3 p_m,
+                                                                   const math::Lanes<Float>& b,
+                                                                   const math::Lanes<Float>& c) {
   using namespace lanes;
   using math::at_most;
   using math::less;
@@ -75,14 +134,9 @@ template <class Float>
   using Mask = lanes::Mask<Float>;
   const Float zero{}, one = all_of<Float>(1.0f);
   const Lanes<Float> p{all_of<Float>(p_m.x), all_of<Float>(p_m.y), all_of<Float>(p_m.z)};
-  const Lanes<Float> ab = b - a, ac = c - a, ap = p - a, bc = c - b, bp = p - b, cp = p - c;
-  const Float per_ab2 = one / dot(ab, ab);
-  const Float x = dot(ab, ap) * per_ab2;
-  const Float xc = dot(ab, ac) * per_ab2;
-  const Lanes<Float> e = ap - ab * x, h = ac - ab * xc;
-  const Float y = dot(e, h);
-  const Float w = y / dot(h, h);
-  const Float v = x - w * xc;
+  const Lanes<Float> ac = f.ac, ap = f.ap, e = f.e, h = f.h;
+  const Lanes<Float> bc = c - b, bp = p - b, cp = p - c;
+  const Float x = f.x, y = f.y, w = f.w, v = f.v;
   const Float t_ac = dot(ac, ap), ac2 = dot(ac, ac), t_bc = dot(bc, bp), bc2 = dot(bc, bc);
   const Float part_ac = t_ac / ac2, part_bc = t_bc / bc2;
 
@@ -104,6 +158,14 @@ template <class Float>
                                       only(feet.moved, way.z)};
   feet.distance2_m2 = dot(feet.offset_m, feet.offset_m);
   return feet;
+}
+
+template <class Float>
+[[gnu::always_inline]] static inline Feet<Float> closest_on_triangles(math::Vec3 p_m,
+                                                                      const math::Lanes<Float>& a,
+                                                                      const math::Lanes<Float>& b,
+                                                                      const math::Lanes<Float>& c) {
+  return closest_in_frames(frames_of(p_m, a, b, c), p_m, b, c);
 }
 
 }  // namespace firmtouch::mesh

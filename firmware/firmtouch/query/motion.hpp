@@ -1,0 +1,23 @@
+#pragma once
+// What carry() is made of (query/coherence.hpp). For the library's own translation units.
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/query/hint.hpp"
+
+namespace firmtouch::query {
+
+/// How far `position_m` is from the last query, rounded up (five operations of relative error 2^-24
+/// each); no number where it is not finite.
+static inline float motion_m(const Hint& hint, math::Vec3 position_m) {
+  return math::length(position_m - hint.position_m) * (1.0f + 8.0f * 0x1p-24f);
+}
+
+constexpr float kMostMotion_m = 0x1p100f;
+
+/// What is left of a certified radius after a motion, rounded down; 0 where nothing is.
+static inline float left_of(float radius_m, float motion_m) {
+  const float left_m = (radius_m - motion_m) * (1.0f - 4.0f * 0x1p-24f) - 0x1p-120f;
+  return left_m > 0.0f ? left_m : 0.0f;
+}
+
+}  // namespace firmtouch::query
