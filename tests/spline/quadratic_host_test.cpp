@@ -133,6 +133,60 @@ TEST(NoQuarticIsLowerThanItsExpansionProves) {
   CHECK(better_askew > 300);
 }
 
+// Valleys askew, level or nearly so, along which only third and fourth derivatives lead up or down.
+TEST(NoValleyAskewIsLowerThanItsExpansionProves) {
+  Random random(3);
+  constexpr int kSteps = 64;
+  size_t proven = 0, tight = 0;
+  for (int turn = 0; turn < 20000; ++turn) {
+    Quartic q{};
+    Quadratic& f = q.f;
+    f.distance2 = 4.0f;
+    const double tilt = random.between(0.3, 3) * (random.below(2) == 0 ? -1 : 1);
+    const double strong = std::exp2(random.between(-2, 2));
+    const double level = random.below(2) == 0 ? 0 : std::exp2(random.between(-12, -6));
+    const uint32_t k = random.below(2), o = 1 - k;  // the valley is y = tilt x of these axes
+    f.bend[2 * o] = static_cast<float>(strong);
+    f.bend[1] = static_cast<float>(-tilt * strong);
+    f.bend[2 * k] = static_cast<float>(tilt * tilt * strong + level);
+    if (random.below(2) == 0)
+      for (float& slope : f.slope) slope = within(random, std::exp2(random.between(-8, 0)));
+    const double third = std::exp2(random.between(-12, -3)),
+                 fourth = std::exp2(random.between(-12, -3));
+    for (float& each : f.third) each = random.below(3) == 0 ? 0.0f : within(random, third);
+    for (uint32_t i = 0; i < 5; ++i) {
+      f.fourth[i] = random.below(3) == 0 ? 0.0f : static_cast<float>(fourth * random.uniform());
+      const bool leads_up = i % 2 == 1 && tilt > 0 ? random.below(4) == 0 : i % 2 == 1;
+      q.fourth[i] = static_cast<double>(leads_up ? f.fourth[i] : -f.fourth[i]);
+    }
+    Rectangle r{};
+    const double wide = std::exp2(random.between(-4, 0));
+    r.high[k] = static_cast<float>(wide * random.uniform());
+    r.low[k] = random.below(2) == 0 ? 0.0f : static_cast<float>(-wide * random.uniform());
+    r.high[o] = static_cast<float>(wide * random.between(0, 4));
+    r.low[o] = static_cast<float>(-wide * random.between(0, 4));
+    const double bound = static_cast<double>(f.least2_askew(r, FLT_MAX));
+    double least = 4;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double low = static_cast<double>(r.low[k]), high = static_cast<double>(r.high[k]);
+      const double x = low + (high - low) * i / kSteps;
+      for (const double beside : {-9.0, -0.02, -0.005, 0.0, 0.005, 0.02, 9.0}) {
+        const double y = std::min(std::max(tilt * x + beside * wide, static_cast<double>(r.low[o])),
+                                  static_cast<double>(r.high[o]));
+        least = std::min(least, k == 0 ? q.squared(x, y) : q.squared(y, x));
+      }
+    }
+    if (!(bound <= least + 0x1p-21 * (4 + std::fabs(bound)))) {
+      CHECK_LE(bound, least);
+      return;
+    }
+    proven += bound > 4.0 - 1e-4;
+    tight += least < 4.0 - 1e-4 && bound > 4.0 - 2 * (4.0 - least);
+  }
+  CHECK(proven > 500);
+  CHECK(tight > 500);
+}
+
 TEST(TheNextPointIsWithinAndNotWorseByTheModel) {
   Random random(2);
   for (int turn = 0; turn < 20000; ++turn) {
