@@ -116,7 +116,7 @@ struct Products {
   float in_middle = 0, change = 0;  // of all
   float most = 0, below = 0;  // of each by itself: its size, and by how much it may be below 0
 
-  void add(float times, uint32_t a, uint32_t b, uint32_t k, uint32_t l) {
+  [[gnu::noinline]] void add(float times, uint32_t a, uint32_t b, uint32_t k, uint32_t l) {
     const float sizes = c.of[a][b] * c.of[k][l];
     const float along_u = product(x, c, a + 1, b, k, l) + product(x, c, a, b, k + 1, l);
     const float along_v = product(x, c, a, b + 1, k, l) + product(x, c, a, b, k, l + 1);
