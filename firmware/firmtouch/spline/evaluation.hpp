@@ -240,6 +240,7 @@ static inline void evaluate_each(const Piece& piece, const float* coefficients, 
       any_rows(
           piece, [c, k, stride](uint32_t i) { return c[stride * i + k]; }, s, t, r);
   };
+#pragma GCC unroll 3
   for (uint32_t k = 0; k < 3; ++k) {
     find(k);
     to[k] = r.x, to[3 + k] = r.u, to[6 + k] = r.v;

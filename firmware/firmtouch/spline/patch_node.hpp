@@ -43,6 +43,9 @@ inline uint32_t whole_of(uint32_t node, const PatchNode& p) {
 inline uint32_t node_of_leaf(const Piece& piece, uint32_t number, uint32_t u, uint32_t v) {
   return number << 16 | ((1u << piece.level_u) + u) << 7 | ((1u << piece.level_v) + v);
 }
+inline uint32_t node_of(uint32_t number, const PatchNode& p) {
+  return number << 16 | p.u << 7 | p.v;
+}
 /// Which of a piece's parts in the order of the radii.
 inline uint32_t place_among(const PatchNode& p) {
   return (p.v << p.made_u) + p.u - (1u << p.made_u) - 1u;

@@ -110,6 +110,7 @@ struct Quadratic {
     const float sunk = along_u.sunk + along_v.sunk, first2 = distance2 + 2.0f * (bound - sunk);
     if (first2 >= enough2 || !(q[0] + q[1] > 0.0f)) return first2;
     const float own[2] = {uu, vv}, mixed_in[2] = {uuv, uvv};
+#pragma GCC unroll 2
     for (uint32_t k = 0; k < 2; ++k) {
       const uint32_t o = 1 - k;
       if (!(q[k] > 0.0f)) continue;

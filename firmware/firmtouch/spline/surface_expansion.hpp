@@ -64,6 +64,7 @@ static inline void expand_about(const SurfacePoint& point, math::Vec3 r_m, float
       ((3.0f * noise.first * swings + 3.0f * noise.mixed * speeds + noise.third * away_m) * loss_m +
        lost_m * twists + 24.0f * kUnit * (3.0f * speeds * swings + distance_m * twists)) *
       kUp;
+#pragma GCC unroll 5
   for (uint32_t k = 0; k < 5; ++k)
     f.fourth[k] = (bends.fixed[k] + bends.turning[k] * distance_m) * kUp;
 }

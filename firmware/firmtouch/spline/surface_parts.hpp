@@ -67,15 +67,14 @@ class SurfaceParts {
   uint32_t closed_around(uint32_t leaf, const Best& best) const {
     const Piece& piece = pieces_[leaf >> 16];
     const Halvings cell = cell_levels(piece, grids_[leaf >> 16]);
+    PatchNode part = apart(piece, leaf);
     uint32_t above[kMostlyClosed + 1] = {leaf}, count = 0;
-    while (count < kMostlyClosed && whole_within(piece, cell, above[count], above[count + 1]))
-      ++count;
-    const uint32_t first = count;
+    while (count < kMostlyClosed && widen(part, cell)) above[++count] = node_of(leaf >> 16, part);
+    const uint32_t most = count;
     while (count > 0 && !closes(apart(piece, above[count]), best)) --count;
     uint32_t node = above[count];
-    if (count == first)
-      for (uint32_t next = node; whole_within(piece, cell, node, next); node = next)
-        if (!closes(apart(piece, next), best)) break;
+    if (count == most)
+      while (widen(part, cell) && closes(part, best)) node = node_of(leaf >> 16, part);
     return node;
   }
 
@@ -201,14 +200,16 @@ class SurfaceParts {
     return static_cast<float>(code) * 0x1p-15f - 1.0f;
   }
 
-  // The part that was halved into a node, where it is no larger than a cell.
-  static bool whole_within(const Piece& piece, const Halvings& cell, uint32_t node,
-                           uint32_t& whole) {
-    const PatchNode part = apart(piece, node);
-    if (part.made_u == cell.u && part.made_v == cell.v) return false;
-    whole = whole_of(node, part);
-    const PatchNode above = apart(piece, whole);
-    return above.made_u >= cell.u && above.made_v >= cell.v;
+  // To the part that was halved into this one, where that is no larger than a cell.
+  static bool widen(PatchNode& part, const Halvings& cell) {
+    if (was_halved_u(part)) {
+      if (part.made_u == cell.u) return false;
+      --part.made_u, ++part.left_u, part.u >>= 1;
+    } else {
+      if (part.made_v == cell.v) return false;
+      --part.made_v, ++part.left_v, part.v >>= 1;
+    }
+    return true;
   }
 
   void stored_bends(const Piece& piece, uint32_t leaf, SurfaceBends& bends) const {
@@ -216,6 +217,7 @@ class SurfaceParts {
     const uint32_t u = ((leaf >> 7) & 127u) - (1u << piece.level_u);
     const uint32_t v = (leaf & 127u) - (1u << piece.level_v);
     const PatchBend& stored = bends_[cell_of(piece, grid, u, v)];
+#pragma GCC unroll 5
     for (uint32_t k = 0; k < 5; ++k) {
       bends.fixed[k] = in_units(grid.fixed_unit_m2, stored.fixed[k]);
       bends.turning[k] = in_units(grid.turning_unit_m, stored.turning[k]);

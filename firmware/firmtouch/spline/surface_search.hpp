@@ -138,6 +138,10 @@ class SurfaceSearch : public Account {
     if (lower_m < reach_m_) mark(parts_.upper_of(node));
   }
   void mark(uint32_t i) {
+    if (i != last_marked_) mark_another(i);
+  }
+  [[gnu::noinline]] void mark_another(uint32_t i) {
+    last_marked_ = i;
     for (uint32_t k = marked_count_; k-- > 0;)
       if (marked_[k] == i) return;
     if (marked_count_ < kMostMarks)
@@ -306,7 +310,7 @@ class SurfaceSearch : public Account {
   PatchBounds bounds_;
   Best& best_;
   float reach_m_ = 0.0f;  // of a new fence
-  uint32_t marked_count_ = 0;
+  uint32_t marked_count_ = 0, last_marked_ = UINT32_MAX;
   uint16_t marked_[kMostMarks];  // nodes over pieces that are not farther than that
   bool is_cold_ = false;         // nothing is known yet: the nearer of two pieces comes first
   uint32_t count_ = 0;
