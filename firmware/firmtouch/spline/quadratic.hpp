@@ -199,6 +199,7 @@ struct Quadratic {
       // Where one axis ends, the other is solved anew along the edge; where both do, along the better one.
       const float wanted[2] = {at[0] + step[0], at[1] + step[1]};
       float most = -FLT_MAX;
+#pragma GCC unroll 2
       for (uint32_t k = 0; k < 2; ++k) {
         const float held = clamped(wanted[k], r, k);
         if (!(held < wanted[k] || held > wanted[k])) continue;
@@ -215,6 +216,7 @@ struct Quadratic {
       for (uint32_t k = 0; k < 2; ++k)
         if (!is_fixed[k] && h[2 * k] > 0.0f) step[k] = -slope[k] / h[2 * k];
     }
+#pragma GCC unroll 2
     for (uint32_t k = 0; k < 2; ++k) {
       to[k] = clamped(at[k] + step[k], r, k);
       step[k] = to[k] - at[k];
