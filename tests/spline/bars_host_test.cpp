@@ -40,7 +40,7 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
   const double unit = (report.is_rational ? 1e-6 : 4e-7) * report.extent_m;
   tools::Random random(seed);
   const spline::Head& head = view.head();
-  query::Hint jumping, going;
+  spline::Hint jumping, going;
   double low[3], high[3], at[3], speed[3] = {0, 0, 0};
   for (int k = 0; k < 3; ++k) {
     const double side = wide(head.high_m[k]) - wide(head.low_m[k]) + 0.2 * report.extent_m;
@@ -49,7 +49,7 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
     at[k] = 0.5 * (low[k] + high[k]);
   }
   uint32_t wrong = 0, false_bounds = 0, inexact = 0;
-  const auto judge = [&](const Point& p, query::Hint& hint) {
+  const auto judge = [&](const Point& p, spline::Hint& hint) {
     const spline::Closest c = closest_point(view, tools::to_vec3(p), query::kUnlimited, hint);
     const spline_test::Interval d = exact.distance(tools::to_point(tools::to_vec3(p)));
     const double lo = static_cast<double>(d.lo), hi = static_cast<double>(d.hi);

@@ -15,8 +15,8 @@ namespace {
 
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
-using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
+using firmtouch::spline::Hint;
 using firmtouch::spline_test::BakedModel;
 using firmtouch::spline_test::bezier;
 using firmtouch::spline_test::circle;

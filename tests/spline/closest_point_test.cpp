@@ -153,6 +153,30 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
   }
 }
 
+// Words that are no parts of the model are not looked up, and nothing beside them is believed.
+TEST(AFrontOfRandomWordsIsNoFront) {
+  const SmallSpline model(true);
+  const View view = model.view();
+  Random random(7);
+  for (uint32_t i = 0; i < 100; ++i) {
+    const Vec3 p = about(random);
+    Hint cold;
+    const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
+    firmtouch::spline::Hint bent;
+    static_cast<Hint&>(bent) = cold;
+    bent.front.base_m = truth;
+    bent.front.unit_m = 1.0f;
+    bent.front.count = static_cast<uint8_t>(random.bits() >> 24);
+    bent.front.outside = 255;
+    for (uint32_t& word : bent.front.part) word = random.bits() | 0x4000u;
+    const Closest c = closest_point(view, p, kUnlimited, bent);
+    CHECK_EQ(c.certificate.exact, true);
+    CHECK_LE(c.distance_m, truth + 5e-7f * (truth + 3.9f));
+    CHECK_GE(c.distance_m, truth - 5e-7f * (truth + 3.9f));
+    CHECK_LE(bent.front.count, firmtouch::spline::Front::kMost);
+  }
+}
+
 TEST(AWarmQueryBesideItsLastPlaceTakesFewEvaluations) {
   const SmallSpline model(false);
   const View view = model.view();

@@ -16,7 +16,7 @@ namespace {
 
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
-using firmtouch::query::Hint;
+using firmtouch::spline::Hint;
 using firmtouch::spline_test::bezier;
 using firmtouch::spline_test::circle;
 using firmtouch::spline_test::ExactDistance;

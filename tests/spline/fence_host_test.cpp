@@ -12,8 +12,8 @@
 namespace {
 
 using firmtouch::math::Vec3;
-using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
+using firmtouch::spline::Hint;
 using firmtouch::spline_test::BakedModel;
 using firmtouch::spline_test::of;
 namespace query = firmtouch::query;
@@ -57,7 +57,8 @@ struct Path {
 
 // What queries along paths told, beside each of them asked without what the last one left.
 struct Told {
-  uint32_t wrong = 0, inexact = 0, passed_over = 0;  // the latter: by a fence that stayed
+  uint32_t wrong = 0, inexact = 0,
+           passed_over = 0;  // the latter: by a fence, or a front, that stayed
 };
 
 void follow(const BakedModel& baked, tools::Random& random, int positions, Told& told) {
@@ -68,6 +69,7 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
     for (int i = 0; i < positions; ++i) {
       const Vec3 p = path.next();
       const uint32_t fence = hint.fence;
+      const float unit_m = hint.front.unit_m;
       const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
       Hint cold;
       const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
@@ -77,7 +79,11 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
                         ? 0u
                         : 1u;
       told.inexact += warm.certificate.exact ? 0u : 1u;
-      told.passed_over += fence != query::kNowhere && hint.fence == fence ? 1u : 0u;
+      const bool is_kept =
+          baked.view.is_surface()
+              ? unit_m > 0.0f && !(hint.front.unit_m < unit_m) && !(hint.front.unit_m > unit_m)
+              : fence != query::kNowhere && hint.fence == fence;
+      told.passed_over += is_kept ? 1u : 0u;
     }
   }
 }
@@ -99,8 +105,8 @@ TEST(AlongAPathAFenceLeavesNothingOut) {
   CHECK(told.passed_over > 100000);
 }
 
-// Trees of one piece, of less than the 16 groups of a fence, and of many more.
-TEST(AlongAPathAFenceLeavesNothingOutOfSurfaces) {
+// Trees of one piece, of a few, and of many more than a front has parts.
+TEST(AlongAPathAFrontLeavesNothingOutOfSurfaces) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Told told;
   uint32_t most_pieces = 0;

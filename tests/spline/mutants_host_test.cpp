@@ -118,7 +118,7 @@ void count(const tools::SplineModel& model, uint32_t seed, int queries, Counts& 
   CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   const ExactDistance exact(model);
   tools::Random random(seed);
-  query::Hint hint;
+  spline::Hint hint;
   for (int i = 0; i < queries; ++i) {
     const Point p = tools::to_point(tools::to_vec3(
         {random.between(-1.3, 1.3), random.between(-1.3, 1.3), random.between(-1.3, 1.3)}));

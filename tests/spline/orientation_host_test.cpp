@@ -284,7 +284,7 @@ TEST(OfATurnedSurfaceTheFilesParametersAreTold) {
   spline::View view;
   CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
   tools::Random random(8);
-  query::Hint hint;
+  spline::Hint hint;
   for (int i = 0; i < 300; ++i) {
     const Point p{random.between(-1.5, 1.5), random.between(-1.5, 1.5), random.between(-1.5, 1.5)};
     const spline::Closest c = closest_point(view, tools::to_vec3(p), query::kUnlimited, hint);

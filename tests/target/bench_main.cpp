@@ -56,9 +56,18 @@ uint32_t empty_work() {
 }
 
 template <class View>
+struct HintOf {
+  using Hint = query::Hint;
+};
+template <>
+struct HintOf<firmtouch::spline::View> {
+  using Hint = firmtouch::spline::Hint;
+};
+
+template <class View>
 bool run(const View& view, const char* path, query::Budget budget, uint32_t rows, bool warm) {
   target::CsvPoints points(path);
-  query::Hint hint;
+  typename HintOf<View>::Hint hint;
   const uint32_t empty = empty_work();
   firmtouch::math::Vec3 p_m;
   uint32_t row = 0;

@@ -29,7 +29,7 @@ double work_of(const spline::View& model) {
                              static_cast<double>(head.high_m[k]) + 0.25 * extent_m);
     const Point from{at[0], at[1], at[2]}, way{random.bell(), random.bell(), random.bell()};
     const Point step = way * (kStep * extent_m / std::sqrt(dot(way, way)));
-    query::Hint hint;
+    spline::Hint hint;
     for (uint32_t i = 0; i <= kQueries; ++i) {
       const spline::Closest c = closest_point(model, to_vec3(from + step * i), kMost, hint);
       if (i > 0)

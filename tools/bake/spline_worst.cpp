@@ -23,7 +23,7 @@ class Finder {
 
   void ask(const Point& p) {
     const math::Vec3 at_m = to_vec3(p);
-    query::Hint hint;
+    spline::Hint hint;
     const spline::Closest c = spline::closest_point(model_, at_m, {kMostSteps}, hint);
     seen_.push_back({c.certificate.steps, c.evaluations, at_m});
   }

@@ -114,7 +114,7 @@ std::unique_ptr<Baked> baked_of(const Spline& spline) {
 // The global closest point with its certificate, led along the path; cold: each on its own.
 Contender certified(const Baked& baked, const std::vector<math::Vec3>& path, bool is_cold) {
   return median_of_passes(timed(path.size(), [&baked, &path, is_cold] {
-    query::Hint hint;
+    spline::Hint hint;
     double total = 0;
     for (const math::Vec3& p : path) {
       if (is_cold) hint = {};

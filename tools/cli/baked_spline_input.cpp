@@ -35,11 +35,11 @@ std::vector<math::Vec3> polyline_of(const tools::SplineModel& model) {
 }
 
 tools::StepFigures steps_of(const spline::View& view, const tools::SplineModel& model) {
-  query::Hint hint;
+  spline::Hint hint;
   return tools::measure_steps(
       view.head().low_m, view.head().high_m,
       tools::path_along(polyline_of(model), view.head().extent_m), [&](math::Vec3 p_m, bool cold) {
-        if (cold) hint = query::Hint{};
+        if (cold) hint = spline::Hint{};
         return spline::closest_point(view, p_m, query::kUnlimited, hint).certificate.steps;
       });
 }
@@ -83,6 +83,12 @@ std::string text_of(const tools::SplineGuideReport& guide) {
                 guide.length_m, guide.chains, guide.chains == 1 ? "chain" : "chains",
                 guide.closed_chains, guide.arc_error, static_cast<unsigned long long>(guide.bytes));
   return text;
+}
+
+std::string ram_of(bool is_surface) {
+  return is_surface
+             ? std::to_string(sizeof(spline::Hint)) + " bytes a tool that touches it (spline::Hint)"
+             : std::to_string(sizeof(query::Hint)) + " bytes a tool that it guides (query::Hint)";
 }
 
 std::string sentence(const char* format, double a, double b) {
@@ -138,8 +144,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
           std::to_string(bytes_of(baked.sections)) + " in all",
       sentence("distances good to %.2g m, the stored shape to %.2g m", report.loss_m,
                report.deviation_m),
-      "RAM " + std::to_string(sizeof(query::Hint)) +
-          " bytes a tool that it guides (query::Hint), " + std::to_string(sizeof(spline::View)) +
+      "RAM " + ram_of(report.is_surface) + ", " + std::to_string(sizeof(spline::View)) +
           " for the view here; the asset stays in flash",
       sentence("steps at 2000 random points, each on its own: mean %.1f, worst seen %.0f",
                steps.random_mean, steps.random_worst),

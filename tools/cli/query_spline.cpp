@@ -14,7 +14,7 @@ class Answers {
       : model_(model), budget_(budget_of(arguments)), cold_(arguments.has("--cold")) {}
 
   spline::Closest next(const float* row) {
-    if (cold_) hint_ = query::Hint{};
+    if (cold_) hint_ = spline::Hint{};
     return spline::closest_point(model_, {row[0], row[1], row[2]}, budget_, hint_);
   }
 
@@ -22,7 +22,7 @@ class Answers {
   const spline::View& model_;
   query::Budget budget_;
   bool cold_;
-  query::Hint hint_;
+  spline::Hint hint_;
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/query/certificate.hpp"
-#include "firmtouch/query/hint.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/local_model.hpp"
 #include "firmtouch/spline/closest_point.hpp"
@@ -25,7 +24,7 @@ struct SplineObject {
 /// What a (tool, object) pair remembers from tick to tick, and what its last query said. The caller
 /// owns one a pair.
 struct SplineTouch {
-  query::Hint hint;
+  spline::Hint hint;
   spline::Closest closest;  // the object's frame; certificate.sign is the side
   math::Vec3 normal;        // of the plane, device frame; 0 without a side
   float penetration_m = 0;  // of the sphere; 0 in free space, and where the side is unknown

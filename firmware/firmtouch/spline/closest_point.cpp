@@ -4,6 +4,7 @@
 
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/query/coherence.hpp"
+#include "firmtouch/query/motion.hpp"
 #include "firmtouch/spline/curve_search.hpp"
 #include "firmtouch/spline/surface_search.hpp"
 
@@ -15,8 +16,8 @@ using math::Vec3;
 // By how much a part may be nearer than the best and is not looked at, of the extent: what is left of
 // 4e-7 and 1e-6 when the losses are taken off.
 constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
-// A new fence stands this many of the last motions beyond the nearest point.
-constexpr float kFenceMotions = 4.0f;
+// A new front of a surface reaches this many of the last motions beyond the nearest point, or so much of the extent.
+constexpr float kFrontMotions = 8.0f, kLeastReach = 0x1p-10f;
 // Of a curve: so much of the extent beyond it. Of 0.01, 0.015, 0.02 and 0.03 ten planar cubics' paths of
 // 0.002 a query took 1,742, 1,726, 1,734 and 1,760 instructions.
 constexpr float kFenceReach = 0.015f;
@@ -125,20 +126,33 @@ Closest certified(const View& model, Vec3 p_m, const Search& search, const Best&
   return closest;
 }
 
-Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+// All of a front is nearer by the motion at most. Four roundings, of what is not larger than either.
+void move(const Vec3& p_m, const query::Hint& hint, Front& front) {
+  const float motion_m = query::motion_m(hint, p_m);
+  if (!(motion_m <= query::kMostMotion_m)) {
+    FrontUse(front).clear();
+    return;
+  }
+  const float lost_m = __builtin_fabsf(front.base_m) + motion_m;
+  front.base_m = front.base_m - motion_m - lost_m * (4.0f * kUnit);
+}
+
+Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint,
+                       Front& front) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
   SurfaceSearch search(model, p_m, budget.steps, best);
-  PieceFence fence{hint.fence & 0xFFFFu, hint.fence >> 16, carried.fence_m};
+  move(p_m, hint, front);
   uint32_t leaf;
   Rectangle range;
   const bool is_warm = search.resume(hint, leaf, range);
   if (is_warm) {
-    search.run_warm(leaf, range, kFenceMotions * carried.motion_m, fence);
+    const float least_m = kLeastReach * model.head().extent_m;
+    search.run_warm(leaf, range, math::larger(kFrontMotions * carried.motion_m, least_m), front);
   } else {
     begin_at_first(model, p_m, best);
     search.run_cold(outside_m(model.head(), p_m));
-    fence = {0xFFFFu, 0xFFFFu, 0.0f};
+    FrontUse(front).clear();
   }
   const bool is_first = best.node == query::kNowhere;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
@@ -146,8 +160,8 @@ Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query:
       certified(model, p_m, search, best, is_first ? 0 : search.piece_of(best.node), carried, hint);
   hint.place = query::kNowhere;
   if (!is_first) search.leave(motion_m, hint);
-  hint.fence = fence.node | fence.groups << 16;
-  hint.fence_m = fence.distance_m;
+  hint.fence = query::kNowhere;
+  hint.fence_m = 0.0f;
   return closest;
 }
 
@@ -201,14 +215,26 @@ Closest answer_nothing(const View& model, query::Hint& hint) {
   return closest;
 }
 
-}  // namespace
-
-Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
-  if (!is_near(model.head(), p_m))
+[[gnu::always_inline]] inline Closest answer(const View& model, Vec3 p_m, query::Budget budget,
+                                             query::Hint& hint, Front& front) {
+  if (!is_near(model.head(), p_m)) {
+    FrontUse(front).clear();
     return math::is_finite(p_m) ? answer_beyond(model, p_m, hint) : answer_nothing(model, hint);
-  if (model.is_surface()) return answer_surface(model, p_m, budget, hint);
+  }
+  if (model.is_surface()) return answer_surface(model, p_m, budget, hint, front);
   return model.is_flat() ? answer_curve<true>(model, p_m, budget, hint)
                          : answer_curve<false>(model, p_m, budget, hint);
+}
+
+}  // namespace
+
+Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, Hint& hint) {
+  return answer(model, p_m, budget, hint, hint.front);
+}
+
+Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+  Front front;
+  return answer(model, p_m, budget, hint, front);
 }
 
 namespace {

@@ -3,8 +3,8 @@
 
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/query/certificate.hpp"
-#include "firmtouch/query/hint.hpp"
 #include "firmtouch/query/probe.hpp"
+#include "firmtouch/spline/hint.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::spline {
@@ -33,6 +33,8 @@ struct Closest {
 ///         some point, at distance FLT_MAX, lower 0, not exact.
 /// Error:  distance and, where exact, lower bound within 4e-7 of the extent (rational: 1e-6) and 9e-7
 ///         of the distance of the truth (tests/spline/closest_point_host_test.cpp).
+Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, Hint& hint);
+/// The same without a front: of a surface more steps along a path.
 Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
 
 /// Probe queries one after the other with one hint, each in a slice of its own.

@@ -63,8 +63,10 @@ class SurfaceParts {
     hint.fine[1] = static_cast<uint8_t>(v & 255u);
   }
 
+  /// Whether the last expansion is the one that closed this leaf: no other one says what is about it.
+  bool was_closed_last(uint32_t leaf) const { return closed_ == leaf; }
   /// The largest part about a leaf, just closed, that the same expansion closes: at most its cell.
-  uint32_t closed_around(uint32_t leaf, const Best& best) const {
+  uint32_t closed_around(uint32_t leaf, const Best& best) {
     const Piece& piece = pieces_[leaf >> 16];
     const Halvings cell = cell_levels(piece, grids_[leaf >> 16]);
     PatchNode part = apart(piece, leaf);
@@ -81,24 +83,51 @@ class SurfaceParts {
   bool may_be_closed(uint32_t node, uint32_t left) const {
     return left <= kTried && (node ^ closed_) >> 16 == 0;
   }
-  /// Whether the expansion that closed the last leaf closes this part of its cell as well.
-  bool is_closed(uint32_t node, const Best& best) const {
+  /// Whether the expansion that closed the last leaf closes this part of its cell as well: not asked of large ones.
+  bool is_closed(uint32_t node, const Best& best) {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
+    const PatchNode part = apart(pieces_[node >> 16], node);
+    return part.left_u + part.left_v <= kTried && is_closed_in_cell(node, part, best);
+  }
+  bool is_closed_in_cell(uint32_t node, const Best& best) {
+    if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
+    return is_closed_in_cell(node, apart(pieces_[node >> 16], node), best);
+  }
+  /// How far what was closed last is at least.
+  float told_m() const {
+    return told2_ > 0.0f ? math::square_root(told2_) * (1.0f - 0x1p-21f) : 0.0f;
+  }
+
+  /// Whether a word of a hint is a node.
+  bool is_node(uint32_t node) const {
+    if (node >= kUpper) return node - kUpper < piece_count_ - 1;
+    const uint32_t u = (node >> 7) & 127u, v = node & 127u;
+    if (node >> 16 >= piece_count_ || (node & 0xC000u) != 0) return false;
     const Piece& piece = pieces_[node >> 16];
-    const PatchNode part = apart(piece, node);
-    if (part.left_u + part.left_v > kTried) return false;
-    const Halvings cell = cell_levels(piece, grids_[node >> 16]);
-    const uint32_t leaf_u = (closed_ >> 7) & 127u, leaf_v = closed_ & 127u;
-    if (part.made_u < cell.u || part.made_v < cell.v ||
-        part.u >> (part.made_u - cell.u) != leaf_u >> (piece.level_u - cell.u) ||
-        part.v >> (part.made_v - cell.v) != leaf_v >> (piece.level_v - cell.v))
-      return false;
-    return closes(part, best);
+    return u - 1 < (2u << piece.level_u) - 1 && v - 1 < (2u << piece.level_v) - 1;
+  }
+  /// Whether a node is a leaf's own, or above it.
+  bool holds(uint32_t node, uint32_t leaf) const {
+    if (node >= kUpper) {
+      const uint32_t top = node - kUpper;
+      uint32_t i = upper_of((leaf & 0xFFFF0000u) | kWholePiece);
+      while (i > top) i = parent_of(i);
+      return i == top;
+    }
+    if ((node ^ leaf) >> 16 != 0) return false;
+    const uint32_t u = (node >> 7) & 127u, v = node & 127u;
+    const uint32_t of_u = (leaf >> 7) & 127u, of_v = leaf & 127u;
+    const uint32_t made_u = digits_of(u), made_v = digits_of(v);
+    const uint32_t more_u = digits_of(of_u) - made_u, more_v = digits_of(of_v) - made_v;
+    return of_u >> more_u == u && of_v >> more_v == v;
   }
 
   Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
                 Half<Range> (&halves)[2]) {
-    if (best.limit_m <= 0.0f) return Outcome::kClosed;
+    if (best.limit_m <= 0.0f) {
+      told2_ = 0.0f;
+      return Outcome::kClosed;
+    }
     const float area = (range.high[0] - range.low[0]) * (range.high[1] - range.low[1]);
     const Piece& piece = pieces_[node >> 16];
     const float whole = math::float_of((129u - piece.level_u - piece.level_v) << 23);
@@ -145,8 +174,8 @@ class SurfaceParts {
       const bool has_arrived = !(moved > 0x1p-40f && gain > kRounding * base->distance2);
       if (!has_arrived && !best.seems_beyond(base->distance2 - (is_best ? kNearly : 2.0f) * gain))
         continue;
-      if (best.is_beyond(base->least2(range, best.enough2())) ||
-          best.is_beyond(base->least2_askew(range, best.enough2()))) {
+      if (best.is_beyond(told2_ = base->least2(range, best.enough2())) ||
+          best.is_beyond(told2_ = base->least2_askew(range, best.enough2()))) {
         closed_by_ = base;
         closed_ = is_small ? kNone : node;  // a rectangle's own bends are not those of the cell
         return Outcome::kClosed;
@@ -159,8 +188,9 @@ class SurfaceParts {
     return split(range, *base, lower_m, halves);
   }
 
-  bool closes(const PatchNode& part, const Best& best) const {
-    return best.is_beyond(closed_by_->least2(range_of(part, 0.0f, 0.0f), best.enough2()));
+  bool closes(const PatchNode& part, const Best& best) {
+    told2_ = closed_by_->least2(range_of(part, 0.0f, 0.0f), best.enough2());
+    return best.is_beyond(told2_);
   }
 
   /// A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the piece.
@@ -210,6 +240,17 @@ class SurfaceParts {
       --part.made_v, ++part.left_v, part.v >>= 1;
     }
     return true;
+  }
+
+  bool is_closed_in_cell(uint32_t node, const PatchNode& part, const Best& best) {
+    const Piece& piece = pieces_[node >> 16];
+    const Halvings cell = cell_levels(piece, grids_[node >> 16]);
+    const uint32_t leaf_u = (closed_ >> 7) & 127u, leaf_v = closed_ & 127u;
+    if (part.made_u < cell.u || part.made_v < cell.v ||
+        part.u >> (part.made_u - cell.u) != leaf_u >> (piece.level_u - cell.u) ||
+        part.v >> (part.made_v - cell.v) != leaf_v >> (piece.level_v - cell.v))
+      return false;
+    return closes(part, best);
   }
 
   void stored_bends(const Piece& piece, uint32_t leaf, SurfaceBends& bends) const {
@@ -295,6 +336,7 @@ class SurfaceParts {
   // The leaves that an expansion closed, or did not, last.
   const Quadratic *closed_by_ = expansions_, *halved_by_ = expansions_;
   uint32_t closed_ = kNone, halved_ = kNone;
+  float told2_ = 0.0f;  // the least D^2 of what was closed last
 };
 
 }  // namespace firmtouch::spline

@@ -2,49 +2,10 @@
 // Branch and bound over the parts of surfaces, for .cpp files of this room only.
 #include "firmtouch/spline/patch_bounds.hpp"
 #include "firmtouch/spline/search.hpp"
+#include "firmtouch/spline/surface_front.hpp"
 #include "firmtouch/spline/surface_parts.hpp"
 
 namespace firmtouch::spline {
-
-/// Of a tree over pieces: outside a node, and below it in those of its 16 groups that have no bit, everything
-/// is at least so far away. A group is what lies four levels below the node, or a piece above that for all of its own.
-struct PieceFence {
-  uint32_t node, groups;
-  float distance_m;
-
-  static uint32_t level_of(uint32_t i) { return digits_of(i + 1); }
-  bool holds(uint32_t i) const {
-    const uint32_t level = level_of(i), own = level_of(node);
-    return level >= own && (i + 1) >> (level - own) == node + 1;
-  }
-  static uint32_t groups_below(uint32_t node, uint32_t i) {
-    const uint32_t below = level_of(i) - level_of(node);
-    const uint32_t in_level = (i + 1) - ((node + 1) << below);
-    if (below >= 4) return 1u << (in_level >> (below - 4));
-    const uint32_t each = 16u >> below;
-    return ((1u << each) - 1u) << (in_level * each);
-  }
-  uint32_t groups_of(uint32_t i) const { return groups & groups_below(node, i); }
-  // At most `beside`.
-  uint32_t node_of(uint32_t group, uint32_t beside, uint32_t count) const {
-    uint32_t i = ((node + 1) << 4 | group) - 1;
-    if (i < beside) return beside;
-    while (i >= count) i = parent_of(i);
-    return i;
-  }
-  static PieceFence around(const uint16_t* marked, uint32_t count, float distance_m) {
-    uint32_t node = marked[0];
-    for (uint32_t k = 1; k < count; ++k)
-      for (uint32_t i = marked[k]; i != node;)
-        if (i > node)
-          i = parent_of(i);
-        else
-          node = parent_of(node);
-    PieceFence fence{node, 0, distance_m};
-    for (uint32_t k = 0; k < count; ++k) fence.groups |= groups_below(node, marked[k]);
-    return fence;
-  }
-};
 
 class SurfaceSearch : public Account {
  public:
@@ -59,46 +20,12 @@ class SurfaceSearch : public Account {
   void leave(math::Vec3 motion_m, query::Hint& hint) const { parts_.leave(best_, motion_m, hint); }
   uint32_t piece_of(uint32_t node) const { return node >> 16; }
 
-  /// From a leaf that may be near up the tree: where the fence is far enough away, of the rest only the groups within it,
-  /// else all, and a new fence is told, `margin_m` farther than the best.
-  void run_warm(uint32_t leaf, const Range& range, float margin_m, PieceFence& fence) {
-    if (!solve(leaf, 0.0f, range)) return stop();
-    uint32_t node = count_ == 0 ? parts_.closed_around(leaf, best_) : leaf;
-    if (!drain()) return stop();
-    is_complete_ = best_.limit_m <= 0.0f;
-    if (is_complete_) return;
-    while ((node & 0xFFFFu) != kWholePiece) {
-      if (left_ == 0) return stop();
-      const PatchNode part = apart(bounds_.come_near(node >> 16), node);
-      descend(node ^ (was_halved_u(part) ? kNextU : kNextV), 0.0f, nullptr, false);
-      if (!drain()) return stop();
-      node = whole_of(node, part);
-    }
-    const uint32_t own = parts_.upper_of(node);
-    const bool holds = best_.limit_m <= fence.distance_m && fence.holds(own);
-    const float reach_m = best_.distance_m + margin_m;
-    if (!holds) {
-      reach_m_ = reach_m;
-      mark(own);
-    }
-    for (uint32_t i = own; i != (holds ? fence.node : 0); i = parent_of(i)) {
-      const uint32_t beside = sibling_of(i);
-      if (!holds) {
-        if (left_ == 0) return stop();
-        visit_upper(beside, 0.0f, false);
-        if (!drain()) return stop();
-        continue;
-      }
-      for (uint32_t groups = fence.groups_of(beside); groups != 0;) {
-        const uint32_t group = fence.node_of(digits_of(groups), beside, parts_.upper_count());
-        groups &= ~PieceFence::groups_below(fence.node, group);
-        if (left_ == 0) return stop();
-        visit_upper(group, 0.0f, false);
-        if (!drain()) return stop();
-      }
-    }
-    is_complete_ = true;
-    if (!holds) fence = PieceFence::around(marked_, marked_count_, reach_m * (1.0f - 0x1p-22f));
+  /// From a leaf that may be near: where the front is far enough away only what of it may be within the limit, else
+  /// all, and a new front is told, to `margin_m` beyond the best.
+  void run_warm(uint32_t leaf, const Range& range, float margin_m, Front& front) {
+    FrontUse use(front);
+    run_from(leaf, range, margin_m, use, front);
+    if (!is_complete()) use.clear();
   }
 
   void run_cold(float outside_m) {
@@ -114,6 +41,86 @@ class SurfaceSearch : public Account {
   float pending_m(float outside_m) const { return least_pending_m(stack_, count_, outside_m); }
 
  private:
+  void run_from(uint32_t leaf, const Range& range, float margin_m, FrontUse& use, Front& front) {
+    if (!solve(leaf, 0.0f, range)) return stop();
+    const bool is_closed = count_ == 0;
+    if (!drain()) return stop();
+    uint32_t needed;
+    bool holds = best_.limit_m > 0.0f && use.needs(best_.limit_m, needed);
+    if (holds && !look(leaf, is_closed, needed, use, front, holds)) return stop();
+    if (!holds) {
+      const float reach_m = best_.distance_m + margin_m;
+      passed_.start(reach_m);
+      if (!climb(leaf, is_closed, parts_.root())) return stop();
+      use.renew(best_.limit_m, reach_m, passed_);
+    }
+    is_complete_ = true;
+  }
+
+  // At the parts of a front that may hold something nearer.
+  bool look(uint32_t leaf, bool is_closed, uint32_t needed, FrontUse& use, Front& front,
+            bool& holds) {
+    const float outside_m = use.outside_m();
+    bool is_less = false;
+    for (uint32_t k = 0, next; k < front.count; k = next) {
+      next = k + 1;
+      if (front.beyond[k] >= needed) continue;
+      const uint32_t marked = front.part[k];
+      const uint32_t node = marked < kUpper ? marked & ~kProvenMark : marked;
+      holds = parts_.is_node(node);
+      if (!holds) return true;  // no hint of this model
+      passed_.start(outside_m);
+      if (!look_at(node, leaf, is_closed, node != marked)) return false;
+      const uint32_t parts = use.replace(k, passed_);
+      if (parts == 0)
+        is_less = true;
+      else
+        next = k + parts;
+    }
+    if (is_less) use.close_up();
+    return true;
+  }
+  bool look_at(uint32_t node, uint32_t leaf, bool is_closed, bool was_proven) {
+    const bool is_about = parts_.holds(node, leaf);
+    if ((was_proven || (is_about && is_closed && node < kUpper)) &&
+        parts_.is_closed_in_cell(node, best_)) {
+      pass(node | kProvenMark, parts_.told_m());
+      return true;
+    }
+    if (is_about) return climb(leaf, is_closed, node);
+    if (left_ == 0) return false;
+    visit(node);
+    return drain();
+  }
+  void visit(uint32_t node) {
+    if (node < kUpper)
+      descend(node, 0.0f, nullptr, false);
+    else
+      visit_upper(node - kUpper, 0.0f, false);
+  }
+  // From a leaf that is done with up to a node that holds it: all that is beside the way.
+  bool climb(uint32_t leaf, bool is_closed, uint32_t top) {
+    uint32_t node =
+        is_closed && parts_.was_closed_last(leaf) ? parts_.closed_around(leaf, best_) : leaf;
+    if (top < kUpper && node <= top)
+      node = top;  // of two parts about a leaf the larger one has the lower number
+    pass(node | kProvenMark, best_.limit_m);
+    while (node != top && (node & 0xFFFFu) != kWholePiece) {
+      if (left_ == 0) return false;
+      const PatchNode part = apart(bounds_.come_near(node >> 16), node);
+      descend(node ^ (was_halved_u(part) ? kNextU : kNextV), 0.0f, nullptr, false);
+      if (!drain()) return false;
+      node = whole_of(node, part);
+    }
+    if (node == top) return true;
+    for (uint32_t i = parts_.upper_of(node); parts_.upper(i) != top; i = parent_of(i)) {
+      if (left_ == 0) return false;
+      visit_upper(sibling_of(i), 0.0f, false);
+      if (!drain()) return false;
+    }
+    return true;
+  }
+
   struct Halves {
     uint32_t far_half;
     float far_m;
@@ -131,24 +138,9 @@ class SurfaceSearch : public Account {
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and three.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 4;
 
-  static constexpr uint32_t kMostMarks = 16;
-
-  // A node over pieces below which something may be within reach.
-  void pass(uint32_t node, float lower_m) {
-    if (lower_m < reach_m_) mark(parts_.upper_of(node));
-  }
-  void mark(uint32_t i) {
-    if (i != last_marked_) mark_another(i);
-  }
-  [[gnu::noinline]] void mark_another(uint32_t i) {
-    last_marked_ = i;
-    for (uint32_t k = marked_count_; k-- > 0;)
-      if (marked_[k] == i) return;
-    if (marked_count_ < kMostMarks)
-      marked_[marked_count_++] = static_cast<uint16_t>(i);
-    else
-      marked_[0] = 0;
-  }
+  // A node, as it is on the stack, that need not be looked at.
+  void pass(uint32_t node, float lower_m) { passed_.pass(node, lower_m); }
+  void pass_closed(uint32_t node) { passed_.pass(node | kProvenMark, parts_.told_m()); }
 
   [[gnu::noinline]] void visit_upper(uint32_t i, float above_m, bool is_beside) {
     const uint32_t node = parts_.upper(i);
@@ -210,7 +202,7 @@ class SurfaceSearch : public Account {
         }
         if (!is_kept) return pass(node, lower_m);
         if (parts_.may_be_closed(node, left_u + left_v) && parts_.is_closed(node, best_))
-          return pass(node, 0.0f);
+          return pass_closed(node);
         if (is_leaf || lower_m > far_lower_m || left_ < 2 || is_beside) {
           keep(node, lower_m, told, is_leaf);
           if (lower_m > far_lower_m) order(count_ - 2);
@@ -227,7 +219,7 @@ class SurfaceSearch : public Account {
         --left_v;
       far_lower_m = FLT_MAX;
       if (told.far_m >= best_.limit_m) {
-        pass(node, told.far_m);
+        pass(told.far_half == 0 ? node : node + next, told.far_m);
         if (told.far_half == 0) node += next;
       } else if (told.far_half == 0) {
         near_node = node + next;
@@ -253,11 +245,11 @@ class SurfaceSearch : public Account {
       const uint32_t node = entry.node;
       const float lower_m = entry.lower_m;
       if (lower_m >= best_.limit_m) {
-        pass(node, lower_m);
+        pass(node < kUpper ? node & ~kLeafMark : node, lower_m);
         continue;
       }
       if (parts_.is_closed(node & ~kLeafMark, best_)) {
-        pass(node, 0.0f);
+        pass_closed(node & ~kLeafMark);
         continue;
       }
       if (node < kUpper && (node & kLeafMark) != 0) {
@@ -290,7 +282,7 @@ class SurfaceSearch : public Account {
     Half<Range> halves[2];
     Range range = in;
     const Outcome outcome = parts_.solve(node, range, lower_m, left_, best_, halves);
-    pass(node, 0.0f);
+    if (outcome == Outcome::kClosed) pass(node, parts_.told_m());
     if (outcome == Outcome::kStopped) put(node, lower_m, range);
     if (outcome == Outcome::kLost) lose(lower_m);
     if (outcome == Outcome::kSplit) {
@@ -309,10 +301,8 @@ class SurfaceSearch : public Account {
   SurfaceParts parts_;
   PatchBounds bounds_;
   Best& best_;
-  float reach_m_ = 0.0f;  // of a new fence
-  uint32_t marked_count_ = 0, last_marked_ = UINT32_MAX;
-  uint16_t marked_[kMostMarks];  // nodes over pieces that are not farther than that
-  bool is_cold_ = false;         // nothing is known yet: the nearer of two pieces comes first
+  FarParts passed_;
+  bool is_cold_ = false;  // nothing is known yet: the nearer of two pieces comes first
   uint32_t count_ = 0;
   Entry stack_[kCapacity];
 };

@@ -1,0 +1,28 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/query/hint.hpp"
+
+namespace firmtouch::spline {
+
+/// Parts of a surface's tree, each with how far it is at least, and how far all that is in none of them is: so many
+/// units beyond base_m, from where the last query was.
+struct Front {
+  // With 24, 32 and 48 twelve walks about a teapot took 10,896, 10,270 and 9,818 instructions a query.
+  static constexpr uint32_t kMost = 32;
+
+  float base_m = 0.0f;  // less all motion since it was told: may be below 0
+  float unit_m = 0.0f;  // 0: nothing is known
+  uint8_t count = 0;
+  uint8_t outside = 0;
+  uint8_t beyond[kMost] = {};
+  uint32_t part[kMost] = {};
+};
+
+/// What a query of splines leaves for the next one. A curve needs no more than a query::Hint, and a surface asked with one
+/// answers the same, with more steps.
+struct Hint : query::Hint {
+  Front front;
+};
+
+}  // namespace firmtouch::spline

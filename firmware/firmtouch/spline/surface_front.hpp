@@ -1,0 +1,153 @@
+#pragma once
+// What a search of surfaces passes over becomes the next one's front, for .cpp files of this room only.
+//
+// A front says: all of the model lies in its parts or is at least `outside` units beyond base_m away, and each part is as
+// far as it says. After a motion m everything is nearer by m at most, so that m taken off base_m keeps all of it true; what
+// is then still beyond the limit is not looked at. A part that is looked at is left in the front with its new bound, or
+// replaced by the parts of it that were passed over, which hold all of it. What a proof told, as every distance computed
+// here, may be off by what float32 loses of it, which certified() takes off: told_m() is rounded down by more than that
+// may differ from one query to the next.
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/spline/hint.hpp"
+#include "firmtouch/spline/patch_node.hpp"
+
+namespace firmtouch::spline {
+
+/// Of a part in a front: a proof closed it, and is tried first. No node below kUpper has that bit.
+constexpr uint32_t kProvenMark = 1u << 15;
+
+/// Parts that need not be looked at, each with a lower bound of its distance.
+class FarParts {
+ public:
+  struct Part {
+    uint32_t node;
+    float lower_m;
+  };
+  FarParts() {}  // by hand: else all is cleared
+
+  /// What is at least reach_m away is not kept.
+  void start(float reach_m) {
+    reach_m_ = around_m_ = reach_m;
+    least_m_ = FLT_MAX;
+    count_ = 0;
+  }
+  void pass(uint32_t node, float lower_m) {
+    if (lower_m < reach_m_) keep(node, lower_m);
+  }
+  uint32_t count() const { return count_; }
+  bool is_all() const { return around_m_ >= reach_m_; }
+  float least_m() const { return least_m_; }
+  float around_m() const { return around_m_; }
+  const Part* begin() const { return parts_; }
+  const Part* end() const { return parts_ + count_; }
+
+  static constexpr uint32_t kMost = 64;
+
+ private:
+  [[gnu::noinline]] void keep(uint32_t node, float lower_m) {
+    if (lower_m < least_m_) least_m_ = lower_m;
+    if (count_ < kMost)
+      parts_[count_++] = {node, lower_m};
+    else if (lower_m < around_m_)
+      around_m_ = lower_m;
+  }
+
+  float reach_m_ = 0.0f, around_m_ = 0.0f, least_m_ = 0.0f;
+  uint32_t count_ = 0;
+  Part parts_[kMost];
+};
+
+/// Of a front, as seen by one query.
+class FrontUse {
+ public:
+  static constexpr uint32_t kAll = 255;
+  static constexpr uint32_t kNoPart = 0;  // no node
+
+  explicit FrontUse(Front& front) : front_(front) {}
+
+  /// Of what is less beyond nothing is certain any more. Its quotient is rounded up by more than its three
+  /// roundings.
+  bool needs(float limit_m, uint32_t& needed) const {
+    const float units = (limit_m - front_.base_m) / front_.unit_m;
+    if (!(units < static_cast<float>(kAll) - 1.0f)) return false;
+    needed = units > 0.0f ? static_cast<uint32_t>(units * (1.0f + 0x1p-20f)) + 1 : 1;
+    return needed <= front_.outside && front_.count <= Front::kMost;
+  }
+  /// Rounded down.
+  float outside_m() const {
+    const float up_m = static_cast<float>(front_.outside) * front_.unit_m;
+    return front_.base_m + up_m * (1.0f - 0x1p-20f) - 0x1p-22f * __builtin_fabsf(front_.base_m);
+  }
+  /// By how many units a distance is beyond: rounded down.
+  uint8_t coded(float lower_m) const {
+    const float units = (lower_m - front_.base_m) / front_.unit_m * (1.0f - 0x1p-20f);
+    if (!(units > 0.0f)) return 0;
+    return static_cast<uint8_t>(units < static_cast<float>(kAll) ? units
+                                                                 : static_cast<float>(kAll));
+  }
+
+  void clear() {
+    front_.unit_m = 0.0f;
+    front_.count = front_.outside = 0;
+  }
+  void put(uint32_t k, const FarParts::Part& part) {
+    front_.part[k] = part.node;
+    front_.beyond[k] = coded(part.lower_m);
+  }
+  /// In the place of part k what was passed over of it, in that order: parts next to each other stay so. Result: how many
+  /// parts that are.
+  uint32_t replace(uint32_t k, const FarParts& passed) {
+    const uint32_t count = passed.count();
+    if (count == 0) front_.part[k] = kNoPart;
+    if (count > 1 && (!passed.is_all() || front_.count + count > Front::kMost + 1)) {
+      front_.beyond[k] = coded(passed.least_m());
+      return 1;
+    }
+    if (count > 1) {
+      for (uint32_t i = front_.count; --i > k;) {
+        front_.part[i + count - 1] = front_.part[i];
+        front_.beyond[i + count - 1] = front_.beyond[i];
+      }
+      front_.count = static_cast<uint8_t>(front_.count + count - 1);
+    }
+    for (const FarParts::Part& part : passed) put(k++, part);
+    return count;
+  }
+  /// Without the parts that are none any more.
+  void close_up() {
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < front_.count; ++k) {
+      if (front_.part[k] == kNoPart) continue;
+      front_.part[kept] = front_.part[k];
+      front_.beyond[kept++] = front_.beyond[k];
+    }
+    front_.count = static_cast<uint8_t>(kept);
+  }
+  /// All that was passed over, or as much as there is room for: what is farthest is left out.
+  void renew(float limit_m, float reach_m, const FarParts& passed) {
+    front_.base_m = limit_m;
+    front_.unit_m = (reach_m - limit_m) * (1.0f / 256.0f);
+    if (!(front_.unit_m > 0.0f)) return clear();
+    uint32_t outside = passed.is_all() ? kAll : coded(passed.around_m());
+    if (passed.count() > Front::kMost) outside = most_within(passed, outside);
+    front_.outside = static_cast<uint8_t>(outside);
+    front_.count = 0;
+    for (const FarParts::Part& part : passed)
+      if (coded(part.lower_m) < outside) put(front_.count++, part);
+  }
+
+ private:
+  // The most units that no more parts than there is room for are less beyond than.
+  uint32_t most_within(const FarParts& passed, uint32_t most) const {
+    constexpr uint32_t kWide = 4;
+    uint8_t counts[(kAll + 1) >> kWide] = {};
+    for (const FarParts::Part& part : passed) ++counts[coded(part.lower_m) >> kWide];
+    uint32_t within = 0, i = 0;
+    while (i < (most >> kWide) && within + counts[i] <= Front::kMost) within += counts[i++];
+    return i << kWide;
+  }
+
+  Front& front_;
+};
+
+}  // namespace firmtouch::spline
