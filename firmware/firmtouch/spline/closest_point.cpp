@@ -232,6 +232,13 @@ Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, Hint& h
   return answer(model, p_m, budget, hint, hint.front);
 }
 
+Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+  if (!is_near(model.head(), p_m))
+    return math::is_finite(p_m) ? answer_beyond(model, p_m, hint) : answer_nothing(model, hint);
+  return model.is_flat() ? answer_curve<true>(model, p_m, budget, hint)
+                         : answer_curve<false>(model, p_m, budget, hint);
+}
+
 Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
   Front front;
   return answer(model, p_m, budget, hint, front);

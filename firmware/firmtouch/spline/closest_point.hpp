@@ -37,6 +37,10 @@ Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, H
 /// The same without a front: of a surface more steps along a path.
 Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
 
+/// The same of curves alone, in less stack. Pre: `model` has no surfaces.
+Closest closest_on_curve(const View& model, math::Vec3 p_m, query::Budget budget,
+                         query::Hint& hint);
+
 /// Probe queries one after the other with one hint, each in a slice of its own.
 class ProbeRun {
  public:

@@ -216,7 +216,7 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
   followed.is_new = !was_following;
   const query::Budget first{is_penalty ? budget.steps - budget.steps / 2 : budget.steps,
                             budget.band_m};
-  followed.closest = closest_point(model, p_m, first, following.hint);
+  followed.closest = closest_on_curve(model, p_m, first, following.hint);
   Arcs arcs(guide);
   if (followed.closest.distance_m < kMostPolished_m) {
     const query::Certificate certificate = followed.closest.certificate;

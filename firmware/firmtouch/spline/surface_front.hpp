@@ -15,6 +15,7 @@ namespace firmtouch::spline {
 
 /// Of a part in a front: a proof closed it, and is tried first. No node below kUpper has that bit.
 constexpr uint32_t kProvenMark = 1u << 15;
+constexpr uint32_t kNoNode = UINT32_MAX;
 
 /// Parts that need not be looked at, each with a lower bound of its distance.
 class FarParts {
@@ -27,17 +28,33 @@ class FarParts {
 
   /// What is at least reach_m away is not kept.
   void start(float reach_m) {
-    reach_m_ = around_m_ = reach_m;
-    least_m_ = FLT_MAX;
+    reach_m_ = reach_m;
     count_ = 0;
+    is_all_ = true;
   }
   void pass(uint32_t node, float lower_m) {
     if (lower_m < reach_m_) keep(node, lower_m);
   }
   uint32_t count() const { return count_; }
-  bool is_all() const { return around_m_ >= reach_m_; }
-  float least_m() const { return least_m_; }
-  float around_m() const { return around_m_; }
+  bool is_all() const { return is_all_; }
+  /// What is not kept is at least so far away.
+  float around_m() const { return reach_m_; }
+  /// Of what is at least far_m away, halves next to each other become their whole.
+  template <class Parts>
+  void join(const Parts& tree, float far_m) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count_; ++i) {
+      Part part = parts_[i];
+      while (kept > 0 && part.lower_m >= far_m && parts_[kept - 1].lower_m >= far_m) {
+        const uint32_t whole = tree.whole_of(part.node, parts_[kept - 1].node);
+        if (whole == kNoNode) break;
+        part.node = whole;
+        part.lower_m = math::smaller(parts_[--kept].lower_m, part.lower_m);
+      }
+      parts_[kept++] = part;
+    }
+    count_ = kept;
+  }
   const Part* begin() const { return parts_; }
   const Part* end() const { return parts_ + count_; }
 
@@ -45,15 +62,17 @@ class FarParts {
 
  private:
   [[gnu::noinline]] void keep(uint32_t node, float lower_m) {
-    if (lower_m < least_m_) least_m_ = lower_m;
-    if (count_ < kMost)
+    if (count_ < kMost) {
       parts_[count_++] = {node, lower_m};
-    else if (lower_m < around_m_)
-      around_m_ = lower_m;
+    } else {
+      reach_m_ = lower_m;
+      is_all_ = false;
+    }
   }
 
-  float reach_m_ = 0.0f, around_m_ = 0.0f, least_m_ = 0.0f;
+  float reach_m_ = 0.0f;
   uint32_t count_ = 0;
+  bool is_all_ = true;
   Part parts_[kMost];
 };
 
@@ -61,7 +80,6 @@ class FarParts {
 class FrontUse {
  public:
   static constexpr uint32_t kAll = 255;
-  static constexpr uint32_t kNoPart = 0;  // no node
 
   explicit FrontUse(Front& front) : front_(front) {}
 
@@ -94,42 +112,30 @@ class FrontUse {
     front_.part[k] = part.node;
     front_.beyond[k] = coded(part.lower_m);
   }
-  /// In the place of part k what was passed over of it, in that order: parts next to each other stay so. Result: how many
-  /// parts that are.
-  uint32_t replace(uint32_t k, const FarParts& passed) {
-    const uint32_t count = passed.count();
-    if (count == 0) front_.part[k] = kNoPart;
-    if (count > 1 && (!passed.is_all() || front_.count + count > Front::kMost + 1)) {
-      front_.beyond[k] = coded(passed.least_m());
-      return 1;
-    }
-    if (count > 1) {
-      for (uint32_t i = front_.count; --i > k;) {
-        front_.part[i + count - 1] = front_.part[i];
-        front_.beyond[i + count - 1] = front_.beyond[i];
-      }
-      front_.count = static_cast<uint8_t>(front_.count + count - 1);
-    }
-    for (const FarParts::Part& part : passed) put(k++, part);
-    return count;
-  }
-  /// Without the parts that are none any more.
-  void close_up() {
-    uint32_t kept = 0;
-    for (uint32_t k = 0; k < front_.count; ++k) {
-      if (front_.part[k] == kNoPart) continue;
-      front_.part[kept] = front_.part[k];
-      front_.beyond[kept++] = front_.beyond[k];
-    }
-    front_.count = static_cast<uint8_t>(kept);
+  /// Beside the parts that are left all that was passed over, or as much as there is room for.
+  template <class Parts>
+  void add(FarParts& passed, const Parts& tree) {
+    uint32_t outside = front_.outside;
+    if (!passed.is_all()) outside = coded(passed.around_m());
+    if (front_.count + passed.count() > Front::kMost) passed.join(tree, 0.0f);
+    if (front_.count + passed.count() > Front::kMost)
+      outside = most_within(passed, outside, Front::kMost - front_.count);
+    front_.outside = static_cast<uint8_t>(outside);
+    for (const FarParts::Part& part : passed)
+      if (coded(part.lower_m) < outside) put(front_.count++, part);
   }
   /// All that was passed over, or as much as there is room for: what is farthest is left out.
-  void renew(float limit_m, float reach_m, const FarParts& passed) {
+  template <class Parts>
+  void renew(float limit_m, float reach_m, FarParts& passed, const Parts& tree) {
     front_.base_m = limit_m;
     front_.unit_m = (reach_m - limit_m) * (1.0f / 256.0f);
     if (!(front_.unit_m > 0.0f)) return clear();
     uint32_t outside = passed.is_all() ? kAll : coded(passed.around_m());
-    if (passed.count() > Front::kMost) outside = most_within(passed, outside);
+    if (passed.count() > Front::kMost && passed.is_all()) {
+      const uint32_t far = most_within(passed, outside, Front::kMost / 2);
+      passed.join(tree, limit_m + static_cast<float>(far) * front_.unit_m);
+    }
+    if (passed.count() > Front::kMost) outside = most_within(passed, outside, Front::kMost);
     front_.outside = static_cast<uint8_t>(outside);
     front_.count = 0;
     for (const FarParts::Part& part : passed)
@@ -138,12 +144,12 @@ class FrontUse {
 
  private:
   // The most units that no more parts than there is room for are less beyond than.
-  uint32_t most_within(const FarParts& passed, uint32_t most) const {
+  uint32_t most_within(const FarParts& passed, uint32_t most, uint32_t room) const {
     constexpr uint32_t kWide = 4;
     uint8_t counts[(kAll + 1) >> kWide] = {};
     for (const FarParts::Part& part : passed) ++counts[coded(part.lower_m) >> kWide];
     uint32_t within = 0, i = 0;
-    while (i < (most >> kWide) && within + counts[i] <= Front::kMost) within += counts[i++];
+    while (i < (most >> kWide) && within + counts[i] <= room) within += counts[i++];
     return i << kWide;
   }
 

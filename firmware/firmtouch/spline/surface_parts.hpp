@@ -81,16 +81,16 @@ class SurfaceParts {
   }
 
   bool may_be_closed(uint32_t node, uint32_t left) const {
-    return left <= kTried && (node ^ closed_) >> 16 == 0;
+    return left <= kTried && (node ^ closed_) >> 16 == 0 && node != failed_;
   }
   /// Whether the expansion that closed the last leaf closes this part of its cell as well: not asked of large ones.
   bool is_closed(uint32_t node, const Best& best) {
-    if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
+    if (closed_ == kNone || (node ^ closed_) >> 16 != 0 || node == failed_) return false;
     const PatchNode part = apart(pieces_[node >> 16], node);
     return part.left_u + part.left_v <= kTried && is_closed_in_cell(node, part, best);
   }
   bool is_closed_in_cell(uint32_t node, const Best& best) {
-    if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
+    if (closed_ == kNone || (node ^ closed_) >> 16 != 0 || node == failed_) return false;
     return is_closed_in_cell(node, apart(pieces_[node >> 16], node), best);
   }
   /// How far what was closed last is at least.
@@ -98,6 +98,20 @@ class SurfaceParts {
     return told2_ > 0.0f ? math::square_root(told2_) * (1.0f - 0x1p-21f) : 0.0f;
   }
 
+  /// What two nodes, with whatever marks, are the halves of; kNoNode where they are not.
+  uint32_t whole_of(uint32_t a, uint32_t b) const {
+    if (a < kUpper && b < kUpper && (a ^ b) >> 16 == 0) {
+      const uint32_t between = (a ^ b) & 0x3FFFu;
+      if (between != kNextU && between != kNextV) return kNoNode;
+      const uint32_t node = a & ~0xC000u;
+      const PatchNode part = apart(pieces_[a >> 16], node);
+      const bool is_last = was_halved_u(part) == (between == kNextU);
+      return is_last ? spline::whole_of(node, part) : kNoNode;
+    }
+    if (!is_upper(a & ~0xC000u) || !is_upper(b & ~0xC000u)) return kNoNode;
+    const uint32_t i = upper_of(a), k = upper_of(b);
+    return i != 0 && sibling_of(i) == k ? kUpper + parent_of(i) : kNoNode;
+  }
   /// Whether a word of a hint is a node.
   bool is_node(uint32_t node) const {
     if (node >= kUpper) return node - kUpper < piece_count_ - 1;
@@ -137,7 +151,7 @@ class SurfaceParts {
       --left;
       return split(range, *halved_by_, lower_m, halves);
     }
-    closed_ = halved_ = kNone;
+    closed_ = halved_ = failed_ = kNone;
     SurfaceBends bends;
     if (is_small) {
       left -= kDerivation;
@@ -188,6 +202,16 @@ class SurfaceParts {
     return split(range, *base, lower_m, halves);
   }
 
+  // What was halved last about a leaf, whether of the leaf alone the same expansion says enough.
+  bool closes_alone(uint32_t leaf, const Best& best) {
+    if (halved_ != leaf) return false;
+    told2_ = halved_by_->least2(range_of(leaf, 0.0f, 0.0f), best.enough2());
+    if (!best.is_beyond(told2_)) return false;
+    closed_ = leaf;
+    closed_by_ = halved_by_;
+    halved_ = kNone;
+    return true;
+  }
   bool closes(const PatchNode& part, const Best& best) {
     told2_ = closed_by_->least2(range_of(part, 0.0f, 0.0f), best.enough2());
     return best.is_beyond(told2_);
@@ -250,7 +274,9 @@ class SurfaceParts {
         part.u >> (part.made_u - cell.u) != leaf_u >> (piece.level_u - cell.u) ||
         part.v >> (part.made_v - cell.v) != leaf_v >> (piece.level_v - cell.v))
       return false;
-    return closes(part, best);
+    if (closes(part, best)) return true;
+    failed_ = node;
+    return false;
   }
 
   void stored_bends(const Piece& piece, uint32_t leaf, SurfaceBends& bends) const {
@@ -336,7 +362,8 @@ class SurfaceParts {
   // The leaves that an expansion closed, or did not, last.
   const Quadratic *closed_by_ = expansions_, *halved_by_ = expansions_;
   uint32_t closed_ = kNone, halved_ = kNone;
-  float told2_ = 0.0f;  // the least D^2 of what was closed last
+  uint32_t failed_ = kNone;  // the part that the last expansion did not close
+  float told2_ = 0.0f;       // the least D^2 of what was closed last
 };
 
 }  // namespace firmtouch::spline

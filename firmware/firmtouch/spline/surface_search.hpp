@@ -42,55 +42,90 @@ class SurfaceSearch : public Account {
 
  private:
   void run_from(uint32_t leaf, const Range& range, float margin_m, FrontUse& use, Front& front) {
-    if (!solve(leaf, 0.0f, range)) return stop();
-    const bool is_closed = count_ == 0;
-    if (!drain()) return stop();
+    uint32_t about = solve_about(leaf, range, front);
+    bool is_closed = about != kNoEntry;
+    if (!is_closed && best_.evaluations > 0) is_closed = parts_.closes_alone(leaf, best_);
+    if (!is_closed) {
+      if (!solve(leaf, 0.0f, range, false)) return stop();
+      is_closed = count_ == 0;
+      if (!drain()) return stop();
+    }
     uint32_t needed;
     bool holds = best_.limit_m > 0.0f && use.needs(best_.limit_m, needed);
-    if (holds && !look(leaf, is_closed, needed, use, front, holds)) return stop();
+    if (holds && about != kNoEntry) front.beyond[about] = use.coded(parts_.told_m());
+    if (holds && !look(leaf, is_closed, needed, use, front, about, holds)) return stop();
     if (!holds) {
       const float reach_m = best_.distance_m + margin_m;
       passed_.start(reach_m);
       if (!climb(leaf, is_closed, parts_.root())) return stop();
-      use.renew(best_.limit_m, reach_m, passed_);
+      use.renew(best_.limit_m, reach_m, passed_, parts_);
     }
     is_complete_ = true;
   }
 
-  // At the parts of a front that may hold something nearer.
+  static constexpr uint32_t kNoEntry = UINT32_MAX;
+  // The part of a front about a leaf that a proof closed last time, all at once. Result: which one.
+  uint32_t solve_about(uint32_t leaf, const Range& range, const Front& front) {
+    uint32_t k = 0;
+    const uint32_t count = front.count <= Front::kMost ? front.count : 0;
+    for (;; ++k) {
+      if (k == count) return kNoEntry;
+      const uint32_t part = front.part[k];
+      if ((part ^ leaf) >> 16 == 0 && (part & kProvenMark) != 0 &&
+          parts_.is_node(part & ~kProvenMark) && parts_.holds(part & ~kProvenMark, leaf))
+        break;
+    }
+    Range whole = parts_.range_of(front.part[k] & ~kProvenMark, 0.0f, 0.0f);
+    whole.start[0] = range.start[0];
+    whole.start[1] = range.start[1];
+    Half<Range> halves[2];
+    return parts_.solve(leaf, whole, 0.0f, left_, best_, halves) == Outcome::kClosed ? k : kNoEntry;
+  }
+  // At the parts of a front that may hold something nearer: all are read, and what then may still hold it is gone through
+  // nearest first, as below one node, so that what closes one part closes others about it.
   bool look(uint32_t leaf, bool is_closed, uint32_t needed, FrontUse& use, Front& front,
-            bool& holds) {
-    const float outside_m = use.outside_m();
-    bool is_less = false;
-    for (uint32_t k = 0, next; k < front.count; k = next) {
-      next = k + 1;
-      if (front.beyond[k] >= needed) continue;
+            uint32_t about, bool& holds) {
+    passed_.start(use.outside_m());
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < front.count; ++k) {
       const uint32_t marked = front.part[k];
+      if (front.beyond[k] >= needed || k == about) {
+        front.part[kept] = marked;
+        front.beyond[kept++] = front.beyond[k];
+        continue;
+      }
       const uint32_t node = marked < kUpper ? marked & ~kProvenMark : marked;
       holds = parts_.is_node(node);
-      if (!holds) return true;  // no hint of this model
-      passed_.start(outside_m);
+      if (!holds) break;  // no hint of this model
       if (!look_at(node, leaf, is_closed, node != marked)) return false;
-      const uint32_t parts = use.replace(k, passed_);
-      if (parts == 0)
-        is_less = true;
-      else
-        next = k + parts;
     }
-    if (is_less) use.close_up();
+    front.count = static_cast<uint8_t>(kept);
+    if (count_ > 1) sort();
+    if (!drain()) return false;
+    if (holds) use.add(passed_, parts_);
     return true;
   }
   bool look_at(uint32_t node, uint32_t leaf, bool is_closed, bool was_proven) {
-    const bool is_about = parts_.holds(node, leaf);
+    const bool is_about = (node >= kUpper || (node ^ leaf) >> 16 == 0) && parts_.holds(node, leaf);
     if ((was_proven || (is_about && is_closed && node < kUpper)) &&
         parts_.is_closed_in_cell(node, best_)) {
-      pass(node | kProvenMark, parts_.told_m());
+      pass_closed(node);
       return true;
     }
-    if (is_about) return climb(leaf, is_closed, node);
     if (left_ == 0) return false;
+    if (is_about) return climb(leaf, is_closed, node);
     visit(node);
-    return drain();
+    return count_ <= kMostWaiting || drain();
+  }
+  static constexpr uint32_t kMostWaiting = 6;
+  // The nearest on top.
+  void sort() {
+    for (uint32_t i = 1; i < count_; ++i) {
+      const Entry entry = stack_[i];
+      uint32_t k = i;
+      for (; k > 0 && stack_[k - 1].lower_m < entry.lower_m; --k) stack_[k] = stack_[k - 1];
+      stack_[k] = entry;
+    }
   }
   void visit(uint32_t node) {
     if (node < kUpper)
@@ -135,8 +170,10 @@ class SurfaceSearch : public Account {
     Entry() {}
     Entry(uint32_t of, float no_nearer_m) : node(of), lower_m(no_nearer_m) {}
   };
-  // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and three.
-  static constexpr uint32_t kCapacity = kMaxLevels + 24 + 4;
+  static constexpr uint32_t kHalfMark = 1u << 15;  // of a leaf: not all of it
+  // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), three,
+  // and what waits of a front.
+  static constexpr uint32_t kCapacity = kMaxLevels + 24 + 4 + 8;
 
   // A node, as it is on the stack, that need not be looked at.
   void pass(uint32_t node, float lower_m) { passed_.pass(node, lower_m); }
@@ -242,18 +279,19 @@ class SurfaceSearch : public Account {
   [[gnu::noinline]] bool drain_all() {
     while (count_ > 0) {
       const Entry& entry = stack_[--count_];
-      const uint32_t node = entry.node;
+      const bool is_half = entry.node < kUpper && (entry.node & kHalfMark) != 0;
+      const uint32_t node = is_half ? entry.node & ~kHalfMark : entry.node;
       const float lower_m = entry.lower_m;
       if (lower_m >= best_.limit_m) {
-        pass(node < kUpper ? node & ~kLeafMark : node, lower_m);
+        if (!is_half) pass(node < kUpper ? node & ~kLeafMark : node, lower_m);
         continue;
       }
       if (parts_.is_closed(node & ~kLeafMark, best_)) {
-        pass_closed(node & ~kLeafMark);
+        if (!is_half) pass_closed(node & ~kLeafMark);
         continue;
       }
       if (node < kUpper && (node & kLeafMark) != 0) {
-        if (!solve(node & ~kLeafMark, lower_m, entry.range)) return false;
+        if (!solve(node & ~kLeafMark, lower_m, entry.range, is_half)) return false;
         continue;
       }
       if (left_ < 2) {
@@ -278,17 +316,18 @@ class SurfaceSearch : public Account {
     return true;
   }
 
-  bool solve(uint32_t node, float lower_m, const Range& in) {
+  // Of a leaf that is halved its own bound is known; what its halves tell is not of it.
+  bool solve(uint32_t node, float lower_m, const Range& in, bool is_half) {
     Half<Range> halves[2];
     Range range = in;
     const Outcome outcome = parts_.solve(node, range, lower_m, left_, best_, halves);
-    if (outcome == Outcome::kClosed) pass(node, parts_.told_m());
+    if (!is_half) pass(node, outcome == Outcome::kClosed ? parts_.told_m() : lower_m);
     if (outcome == Outcome::kStopped) put(node, lower_m, range);
     if (outcome == Outcome::kLost) lose(lower_m);
     if (outcome == Outcome::kSplit) {
       const uint32_t near = halves[1].lower_m < halves[0].lower_m ? 1 : 0;
-      put(node, halves[1 - near].lower_m, halves[1 - near].range);
-      put(node, halves[near].lower_m, halves[near].range);
+      put(node | kHalfMark, halves[1 - near].lower_m, halves[1 - near].range);
+      put(node | kHalfMark, halves[near].lower_m, halves[near].range);
     }
     return outcome != Outcome::kStopped;
   }
