@@ -27,7 +27,7 @@ struct Closest {
 /// A part is done with when a second-order expansion at one of its points, with a bound of its third
 /// derivative, proves that no point of it is nearer; parts for which it does not are halved.
 /// Pre:    `model` is open.
-/// Bounds: <= budget steps, a step being a node read or a point evaluated; 5 KB of stack;
+/// Bounds: <= budget steps, a step being a node read or a point evaluated; 6 KB of stack;
 ///         re-entrant; callable from an interrupt.
 /// Result: always finite. Two points equally near: the one found first. A query that is not finite:
 ///         some point, at distance FLT_MAX, lower 0, not exact.
