@@ -135,6 +135,8 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   sections.edge_folds = copies.of(container.find(mesh::kEdgeFoldsSection, name));
   sections.rows = copies.of(container.find(mesh::kRowsSection, name));
   sections.directions = copies.of(container.find(mesh::kDirectionsSection, name));
+  sections.leaf_boxes = copies.of(container.find(mesh::kLeafBoxesSection, name));
+  sections.shapes = copies.of(container.find(mesh::kShapesSection, name));
   mesh::View view;
   const core::Verdict verdict = mesh::open(sections, view);
   CHECK_EQ(verdict.ok(), view.is_open());

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <stdint.h>
 
+#include "firmtouch/mesh/triangle_shape.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
@@ -204,6 +205,22 @@ void compare_what_may_be_nearer(uint32_t turn, Compared& wrong_and_left_out) {
   }
 }
 
+bool same(const mesh::Best& a, const mesh::Best& b) {
+  return same(a.offset_m, b.offset_m) && same(a.distance2_m2, b.distance2_m2) &&
+         a.triangle == b.triangle && a.place == b.place && a.feature == b.feature;
+}
+
+void put_shapes(const Leaf& leaf, float (&shapes)[kTriangles][mesh::kShapeFloats]) {
+  for (uint32_t t = 0; t < kTriangles; ++t) {
+    math::Vec3 at[3];
+    for (uint32_t k = 0; k < 3; ++k) {
+      const mesh::Vertex& v = leaf.vertices[leaf.triangles[t].corner[k]];
+      at[k] = {v.x_m, v.y_m, v.z_m};
+    }
+    mesh::shape_of(at[0], at[1], at[2], shapes[t]);
+  }
+}
+
 }  // namespace
 
 TEST(WhatCannotBeNearerIsToldFarther) {
@@ -229,7 +246,7 @@ TEST(TrianglesSideBySideHaveTheBitsOfTheOne) {
   for (const uint32_t times : compared.seen) CHECK(times > 200u);
 }
 
-// Without and with what is certainly no nearer left out, from the same bound.
+// Without and with what is certainly no nearer left out, from the same bound, by corners and by shapes.
 TEST(ALeafOfWhichSomeIsLeftOutTellsWhatTheWholeTells) {
   Compared compared;
   for (uint32_t turn = 0; turn < 20000; ++turn) {
@@ -253,13 +270,19 @@ TEST(ALeafOfWhichSomeIsLeftOutTellsWhatTheWholeTells) {
     mesh::Sought nearer = all;
     const uint32_t count = 1 + turn % 7;
     const uint32_t child = mesh::make_leaf(next_random() % (kTriangles - count + 1), count);
-    mesh::measure_in_turn<uint16_t, mesh::Everything>(child, 5, all);
-    mesh::measure_in_turn<uint16_t, mesh::Nearer>(child, 5, nearer);
-    const mesh::Best &a = all.best, &b = nearer.best;
-    if (!same(a.offset_m, b.offset_m) || !same(a.distance2_m2, b.distance2_m2) ||
-        a.triangle != b.triangle || a.place != b.place || a.feature != b.feature)
-      ++compared.differ;
-    compared.improved += a.place == 5 ? 1u : 0u;
+    mesh::Sought by_rows = all, nearer_by_rows = all;
+    float shapes[kTriangles][mesh::kShapeFloats];
+    put_shapes(leaf, shapes);
+    by_rows.shapes = nearer_by_rows.shapes = shapes[0];
+    by_rows.is_narrow = nearer_by_rows.is_narrow = true;
+    mesh::measure_in_turn<mesh::CornersInTurn<uint16_t>, mesh::Everything>(child, 5, all);
+    mesh::measure_in_turn<mesh::CornersInTurn<uint16_t>, mesh::Nearer>(child, 5, nearer);
+    mesh::measure_in_turn<mesh::RowsInTurn, mesh::Everything>(child, 5, by_rows);
+    mesh::measure_in_turn<mesh::RowsInTurn, mesh::Nearer>(child, 5, nearer_by_rows);
+    compared.differ += same(all.best, nearer.best) ? 0u : 1u;
+    compared.differ += same(all.best, by_rows.best) ? 0u : 1u;
+    compared.differ += same(all.best, nearer_by_rows.best) ? 0u : 1u;
+    compared.improved += all.best.place == 5 ? 1u : 0u;
   }
   CHECK_EQ(compared.differ, 0u);
   CHECK(compared.improved > 8000u);

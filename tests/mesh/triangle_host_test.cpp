@@ -74,11 +74,11 @@ LeftOut leave_out(float size, double height, double reach, float longest, uint64
     const Vec3 p = narrow(
         (y + along * random.between(-1, 2) + across * random.between(-2, 2) + off * reach) * size);
     mesh::Foot told, foot;
-    mesh::find_foot(p, t.a, t.b, t.c, mesh::Everything{}, told);
+    mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, mesh::Everything{}, told);
     const float ulp_nearer = std::nextafter(told.distance2_m2, INFINITY);
     const auto is_left_out = [&](float least2_m2) {
       const mesh::Nearer nearer = mesh::Nearer::than(least2_m2, slack_m2);
-      return !mesh::find_foot(p, t.a, t.b, t.c, nearer, foot);
+      return !mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, nearer, foot);
     };
     left_out.wrongly += is_left_out(ulp_nearer) ? 1u : 0u;
     left_out.at_twice += is_left_out(0.25f * told.distance2_m2) ? 1u : 0u;

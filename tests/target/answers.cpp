@@ -89,10 +89,12 @@ class Points {
 
 void add_mesh_answers(core::Hash& hash, const mesh::View& mesh, uint32_t count) {
   Points points(mesh.head().low_m, mesh.head().high_m);
+  const float band_m = mesh.head().diagonal_m * 0.0078125f;
   query::Hint hint;
   for (uint32_t i = 0; i < count; ++i) {
     if (i % 16 == 0) hint = {};
-    const query::Budget budget{kBudgets[i % 7]};
+    query::Budget budget{kBudgets[i % 7]};
+    if (i % 3 == 1) budget.band_m = band_m;
     const mesh::Closest c = mesh::closest_point(mesh, points.next(i), budget, hint);
     add(hash, c.distance_m);
     add(hash, c.point_m);

@@ -21,7 +21,7 @@ using firmtouch::math::Vec3;
 namespace {
 
 constexpr uint32_t kAnywhere = 4000, kAboutCentre = 3000, kBeside = 12000;
-constexpr uint32_t kClimbs = 24, kTries = 120;  // the dearest points, and moves of each
+constexpr uint32_t kClimbs = 72, kTries = 120;  // the dearest points, and moves of each
 
 class Random {
  public:

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/leaf_boxes.hpp"
 #include "bake/mesh_tree.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/direction.hpp"
+#include "firmtouch/mesh/triangle_shape.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -125,6 +127,17 @@ std::vector<float> make_rows(const Surface& surface, const MeshTree& tree) {
   return rows;
 }
 
+// What a measurement takes from each triangle alone (FORMAT.md, 0x100F).
+std::vector<float> make_shapes(const Surface& surface) {
+  std::vector<float> shapes;
+  for (const Face& f : surface.faces) {
+    float row[mesh::kShapeFloats];
+    mesh::shape_of(surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]], row);
+    shapes.insert(shapes.end(), row, row + mesh::kShapeFloats);
+  }
+  return shapes;
+}
+
 // As the firmware decodes them.
 std::vector<mesh::Vertex> make_directions(const mesh::View& mesh) {
   std::vector<mesh::Vertex> directions;
@@ -195,6 +208,11 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
   if (options.shape.is_for_desktop)
     sections.push_back(make_section(mesh::kRowsSection, name, make_rows(surface, tree)));
+  if (options.shape.is_steady) {
+    sections.push_back(
+        make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(surface, grid, tree)));
+    sections.push_back(make_section(mesh::kShapesSection, name, make_shapes(surface)));
+  }
   for (const Section& s : sections) report.shape_bytes += static_cast<uint32_t>(s.bytes.size());
   if (options.is_signed) {
     const Pseudonormals signs = bake_signs(input, report.signs, report.problem);
@@ -238,6 +256,8 @@ mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::st
   found.edge_folds = find(mesh::kEdgeFoldsSection);
   found.rows = find(mesh::kRowsSection);
   found.directions = find(mesh::kDirectionsSection);
+  found.leaf_boxes = find(mesh::kLeafBoxesSection);
+  found.shapes = find(mesh::kShapesSection);
   return found;
 }
 

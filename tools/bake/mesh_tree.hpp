@@ -31,13 +31,16 @@ struct TreeShape {
   uint32_t leaf_faces;  // at most; 1 to 7
   double empty_cost;  // of a leaf's place without a face, beside 1 for a face: more, fuller leaves
   bool is_for_desktop = false;  // rows of corners and unit directions, too
+  bool is_steady = false;       // boxes of leaves and shapes of triangles
   double node_cost = 0;  // of a node that splits a leaf, beside 1 for a face; 0: leaves stay whole
 };
 // Measured on spot, rocker-arm and horse (DESIGN.md, "Bytes and instructions").
-constexpr TreeShape kFastTree{3, 0, false, 0.53};
+constexpr TreeShape kFastTree{3, 0, false, false, 0.53};
 constexpr TreeShape kSmallTree{7, 0};
 // Leaves that fill the lanes of a desktop's processor (DESIGN.md, "Vector instructions").
 constexpr TreeShape kDesktopTree{7, 0.3, true};
+// Whose dearest query a controller answers in the fewest instructions (DESIGN.md, "Band queries").
+constexpr TreeShape kSteadyTree{3, 0, false, true};
 
 /// Surface area heuristic over widened boxes by a full sweep over the face centres of each axis,
 /// ties by face index: the same tree on every machine. Cost: O(n log^2 n), about 1 s for 100,000

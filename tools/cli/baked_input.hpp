@@ -17,6 +17,7 @@ struct BakeOptions {
   bool is_signed = true;
   bool close_holes = false;
   bool small = false;       // the smallest asset rather than the fastest on a controller
+  bool steady = false;      // the one whose dearest query costs a controller least
   bool desktop = false;     // the fastest one on a desktop's processor
   uint32_t map_cells = 0;   // along the long axis; 0: no distance map
   uint32_t hull_faces = 0;  // 0: no hull

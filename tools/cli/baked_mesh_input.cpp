@@ -136,7 +136,8 @@ std::vector<std::string> add_hull(const mesh::View& view, const std::string& nam
 bool is_of_tree(uint32_t type) {
   return type == mesh::kNodesSection || type == mesh::kParentsSection ||
          type == mesh::kVertexNormalsSection || type == mesh::kEdgeFoldsSection ||
-         type == mesh::kRowsSection || type == mesh::kDirectionsSection;
+         type == mesh::kRowsSection || type == mesh::kDirectionsSection ||
+         type == mesh::kLeafBoxesSection || type == mesh::kShapesSection;
 }
 
 // What is left of a mesh for hull queries alone.
@@ -184,6 +185,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = options.is_signed;
   if (options.small) mesh_options.shape = tools::kSmallTree;
+  if (options.steady) mesh_options.shape = tools::kSteadyTree;
   if (options.desktop) mesh_options.shape = tools::kDesktopTree;
   tools::MeshReport report;
   baked.sections = tools::bake_mesh(surface, name, mesh_options, report);

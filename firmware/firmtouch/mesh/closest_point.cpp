@@ -38,24 +38,32 @@ bool is_place(const View& mesh, uint32_t place) {
   return is_leaf(child) && leaf_count(child) != 0;
 }
 
-template <bool kCareful, class Bound, class Index>
+template <class Bound, class Index>
 void look_at(const View& mesh, const Bound& bound, Search& search) {
-  if constexpr (math::kHasLanes && !kCareful)
+  if constexpr (math::kHasLanes)
     if (search.start == query::kNowhere && search.budget == query::kUnlimited.steps)
       return search_ahead<Index>(mesh, bound, search);
-  search_nearest<kCareful, Bound, Index>(mesh, bound, search);
+  search_nearest<false, Bound, Index>(mesh, bound, search);
+}
+
+// What boxes leave out beyond a band is not told: where there are any they are asked on a desktop too.
+template <class Bound, class Index>
+void look_with(const View& mesh, const Bound& bound, Search& search) {
+  using Kind = Boxed<typename Choice<math::kHasLanes, Index, void>::Type>;  // in turn one for both
+  if (mesh.leaf_boxes() != nullptr) return look_at<Bound, Kind>(mesh, bound, search);
+  if constexpr (math::kHasLanes)
+    if (mesh.rows() != nullptr) return look_at<Bound, Rows>(mesh, bound, search);
+  look_at<Bound, Index>(mesh, bound, search);
 }
 
 template <bool kCareful, class Bound>
 void look(const View& mesh, const Bound& bound, Search& search) {
-  if constexpr (math::kHasLanes && !kCareful)
-    if (mesh.rows() != nullptr) return look_at<false, Bound, Rows>(mesh, bound, search);
   if constexpr (kCareful)
     search_nearest<true, Bound, void>(mesh, bound, search);
   else if (!mesh.triangles16().empty())
-    look_at<false, Bound, uint16_t>(mesh, bound, search);
+    look_with<Bound, uint16_t>(mesh, bound, search);
   else
-    look_at<false, Bound, uint32_t>(mesh, bound, search);
+    look_with<Bound, uint32_t>(mesh, bound, search);
 }
 
 // What a search found, and what it is worth.
@@ -156,8 +164,8 @@ int8_t side_of(const Found& found, Vec3 direction, float loss_m, float diagonal_
 }
 
 template <class Bound>
-Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m, const query::Budget& budget,
-               query::Hint& hint) {
+[[gnu::always_inline]] inline Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m,
+                                             const query::Budget& budget, query::Hint& hint) {
   const float moved_m = query::motion_m(hint, p_m);
   const bool has_moved = moved_m <= query::kMostMotion_m;  // else nothing is carried on
   const Loss loss(mesh.head());

@@ -2,6 +2,7 @@
 // Lower bounds of the distance to boxes on the mesh's 15-bit grid. For the library's own
 // translation units.
 
+#include "firmtouch/math/isa_oriented.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/mesh/triangle.hpp"
@@ -50,6 +51,8 @@ struct NearBound {
   float distance_m(uint32_t key) const {
     return math::square_root(static_cast<float>(key)) * cell_m * kRoundDown;
   }
+  /// For keys of oriented boxes, which open() has proven against the same roundings.
+  math::HalfCellPoint half_cells() const { return math::half_cell_point(point); }
   static constexpr bool kCareful = false;  // near: plain float32 is enough, or is tried first
   /// Whether the query is certainly outside, whatever is nearest.
   constexpr bool is_outside() const { return false; }

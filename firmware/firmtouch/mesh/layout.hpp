@@ -28,10 +28,25 @@ constexpr uint32_t kEdgeFoldsSection = 0x100B;
 constexpr uint32_t kRowsSection = 0x100C;
 // Vertex[7 * triangle_count]: the unit pseudonormals of a triangle's features, in their order.
 constexpr uint32_t kDirectionsSection = 0x100D;
+// Only in an asset whose dearest query is to cost little; a desktop's vector instructions do not read
+// it. uint32_t[4 * triangle_count + kLeafBoxesEnd]: of each leaf of two triangles or more an oriented
+// box, eight words at word 4 * first triangle (math::oriented_distance2(), tools/FORMAT.md).
+constexpr uint32_t kLeafBoxesSection = 0x100E;
+// There where the boxes are: float[12 * triangle_count]: of each triangle a b c what its measurement
+// (mesh/triangle.hpp) takes from it alone: a, b - a, c - a, 1 / |ab|^2, the part of ab at which c
+// stands, |h|^2.
+constexpr uint32_t kShapesSection = 0x100F;
 
 constexpr uint32_t kRowsOfLeaf = 9;
 constexpr uint32_t kRowsEnd = 8;  // zeros, so that eight floats may be read where a row begins
 constexpr uint32_t kFeatures = 7;
+
+constexpr uint32_t kShapeFloats = 12;
+constexpr uint32_t kLeafBoxWords = 8;
+constexpr uint32_t kLeafBoxStride = 4;  // words a triangle
+constexpr uint32_t kLeafBoxesEnd = 8;   // a box that tells nothing, for a last leaf of one triangle
+// Of a leaf without a box, words 0 and 1: nothing is farther out than this.
+constexpr uint32_t kNoLeafBox = 0xFFFFFFFFu;
 
 // A traversal keeps one entry a level. 2^24 triangles in pairs make 23 levels of a balanced tree;
 // the baker's SAH trees of up to 2e6 triangles were seen to need 26. The baker refuses a deeper

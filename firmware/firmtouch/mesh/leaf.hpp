@@ -158,12 +158,78 @@ struct Sought {
   Best best;               // in: no farther than this; out: the nearest
   const Vertex* vertices;  // the mesh's; here, where a leaf finds them by one pointer
   const void* triangles;   // with indices of its width
+  // For RowsInTurn alone:
+  const float* shapes;
+  bool is_narrow;  // the indices have 16 bits
+};
+
+/// A triangle whose shape a row tells (mesh/layout.hpp, kShapesSection); the corners b and c are rarely
+/// needed.
+struct OfRow {
+  math::Vec3 a_m, ab_m, ac_m;
+  float per_ab2_m2;
+  const float* row;
+  const Sought* sought;
+
+  math::Vec3 corner(size_t k) const {
+    const size_t at = static_cast<size_t>(row - sought->shapes) / kShapeFloats * 3 + k;
+    const Vertex& v =
+        sought->vertices[sought->is_narrow ? static_cast<const uint16_t*>(sought->triangles)[at]
+                                           : static_cast<const uint32_t*>(sought->triangles)[at]];
+    return {v.x_m, v.y_m, v.z_m};
+  }
+  math::Vec3 b() const { return corner(1); }
+  math::Vec3 c() const { return corner(2); }
+  math::Vec3 ab() const { return ab_m; }
+  math::Vec3 ac() const { return ac_m; }
+  float per_ab2(math::Vec3) const { return per_ab2_m2; }
+  float xc(math::Vec3, math::Vec3, float) const { return row[10]; }
+  float h2(math::Vec3) const { return row[11]; }
+};
+
+// The triangles of a leaf one after the other, by their corners.
+template <class Index>
+struct CornersInTurn {
+  using Shape = OfCorners;
+  const Vertex* vertices;
+  const Index* corner;
+  uint32_t stride;
+
+  CornersInTurn(const Sought& sought, uint32_t first)
+      : vertices(sought.vertices),
+        corner((static_cast<const Triangle<Index>*>(sought.triangles) + first)->corner),
+        stride(math::as_multiplier(sizeof(Vertex))) {}
+  [[gnu::always_inline]] void next(OfCorners& shape) {
+    load_corner<0>(vertices, math::next_of(corner), stride, shape.a_m);
+    load_corner<1>(vertices, math::next_of(corner), stride, shape.b_m);
+    load_corner<2>(vertices, math::next_of(corner), stride, shape.c_m);
+  }
+};
+
+// The same by rows, whatever the width of its indices.
+struct RowsInTurn {
+  using Shape = OfRow;
+  const Sought* sought;
+  const float* row;
+
+  RowsInTurn(const Sought& from, uint32_t first)
+      : sought(&from), row(from.shapes + size_t{kShapeFloats} * first) {}
+  [[gnu::always_inline]] void next(OfRow& shape) {
+    math::load_floats<0>(row, shape.a_m.x, shape.a_m.y, shape.a_m.z);
+    math::load_floats<1>(row + 3, shape.ab_m.x, shape.ab_m.y, shape.ab_m.z);
+    math::load_floats<2>(row + 6, shape.ac_m.x, shape.ac_m.y, shape.ac_m.z);
+    shape.per_ab2_m2 = row[9];
+    shape.row = row;
+    shape.sought = sought;
+    row += kShapeFloats;
+  }
 };
 
 /// Puts into sought.best what of the leaf `child`, which is at `place`, is nearer; of two equally
-/// near triangles the first. Wanted: Nearer or Everything, which tell the same; Everything in fewer
+/// near triangles the first. InTurn: CornersInTurn or
+/// RowsInTurn. Wanted: Nearer or Everything, which tell the same; Everything in fewer
 /// instructions where nothing is known yet.
-template <class Index, class Wanted>
+template <class InTurn, class Wanted>
 [[gnu::always_inline]] static inline void measure_in_turn(uint32_t child, uint32_t place,
                                                           Sought& sought) {
   using math::Vec3;
@@ -175,17 +241,12 @@ template <class Index, class Wanted>
   const float slack_m2 = in[3];
   float least2_m2 = in[4];
   Wanted wanted = Wanted::than(least2_m2, slack_m2);
-  const uint32_t stride = math::as_multiplier(sizeof(Vertex));
-  const Vertex* const vertices = sought.vertices;
-  const Index* corner =
-      (static_cast<const Triangle<Index>*>(sought.triangles) + leaf_first(child))->corner;
+  InTurn triangles(sought, leaf_first(child));
   for (uint32_t left = math::only_here(leaf_count(child)); left != 0; --left) {
-    Vec3 a_m, b_m, c_m;
-    load_corner<0>(vertices, math::next_of(corner), stride, a_m);
-    load_corner<1>(vertices, math::next_of(corner), stride, b_m);
-    load_corner<2>(vertices, math::next_of(corner), stride, c_m);
+    typename InTurn::Shape shape;
+    triangles.next(shape);
     Foot foot;
-    if (!find_foot(p_m, a_m, b_m, c_m, wanted, foot)) continue;
+    if (!find_foot(p_m, shape, wanted, foot)) continue;
     if (!(foot.distance2_m2 < least2_m2)) continue;
     least2_m2 = foot.distance2_m2;
     wanted = Wanted::than(least2_m2, slack_m2);

@@ -41,7 +41,7 @@ template <class Index>
   uint64_t again, last = last_of();
   math::family_distances2(boxes(0), boxes(0), bound.point, now.keys, again);
   search.complete = true;
-  begin_leaves<Index>(mesh, search);
+  begin_leaves<Index>(mesh, bound, search);
   uint32_t steps = 1;
   while (true) {
     while (true) {  // from inner node to inner node, without a branch
@@ -77,7 +77,9 @@ template <class Index>
       }
       const uint32_t child = static_cast<uint32_t>(now.child);
       if (!is_leaf(child)) break;
-      if (measure<false, Index, Which::kAny>(mesh, child, static_cast<uint32_t>(now.what), search))
+      const uint32_t prune = static_cast<uint32_t>((last + 1) >> 32);
+      if (measure<false, Index, Which::kAny>(mesh, prune, child, static_cast<uint32_t>(now.what),
+                                             search))
         last = last_of();
       now = *left--;
       steps += now.what <= last ? 1 : 0;

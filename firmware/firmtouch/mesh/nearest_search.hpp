@@ -37,6 +37,8 @@ struct Search : Sought {
   uint32_t steps;
   bool complete;    // nothing nearer can be left
   float pending_m;  // where it is not: certified distance to everything that was not looked at
+  math::HalfCellPoint half_cells;  // of p_m; for the boxes of leaves alone
+  const uint32_t* leaf_boxes;
 };
 
 template <bool kFirst, class First, class Second>
@@ -156,6 +158,27 @@ constexpr bool kIsRows = false;
 template <>
 constexpr bool kIsRows<Rows> = true;
 
+// In place of an index's type: a leaf has a box of its own, which is asked before its triangles are.
+// They are measured side by side by their corners, with indices of this type, or in turn by shapes.
+template <class Index>
+struct Boxed {};
+template <class Kind>
+constexpr bool kIsBoxed = false;
+template <class Index>
+constexpr bool kIsBoxed<Boxed<Index>> = true;
+
+// By what triangles are measured when a box does not leave them out.
+template <class Kind>
+struct Within {
+  using Type = Kind;
+  using InTurn = CornersInTurn<Kind>;
+};
+template <class Index>
+struct Within<Boxed<Index>> {
+  using Type = Index;
+  using InTurn = RowsInTurn;
+};
+
 template <class Index>
 inline core::Span<const Triangle<Index>> triangles_of(const View& mesh) {
   if constexpr (sizeof(Index) == sizeof(uint16_t))
@@ -168,9 +191,17 @@ template <class Index>
 constexpr bool kIsSideBySide = math::kHasLanes || kIsRows<Index>;
 
 // Where measure() without care finds the mesh.
-template <class Index>
-inline void begin_leaves(const View& mesh, Search& search) {
-  if constexpr (!kIsSideBySide<Index>) {
+template <class Index, class Bound>
+inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, Search& search) {
+  if constexpr (kIsBoxed<Index>) {
+    search.half_cells = bound.half_cells();
+    search.leaf_boxes = mesh.leaf_boxes();
+    search.shapes = mesh.shapes();
+    search.vertices = mesh.vertices().data();
+    search.is_narrow = !mesh.triangles16().empty();
+    search.triangles = search.is_narrow ? static_cast<const void*>(mesh.triangles16().data())
+                                        : mesh.triangles32().data();
+  } else if constexpr (!kIsSideBySide<Index>) {
     search.vertices = mesh.vertices().data();
     search.triangles = triangles_of<Index>(mesh).data();
   }
@@ -198,34 +229,53 @@ template <bool kCareful, class Index, Which kWhich>
     return measure_rows<math::FloatWide>(mesh.rows(), p_m, child, place, best.distance2_m2, best);
 }
 
-// A function of its own: in the loop it would take the registers of the descent.
+// Functions of their own: in the loop they would take the registers of the descent.
 // Result: 0 where one was nearer. A search measures no leaf twice.
-template <bool kCareful, class Index, class Wanted>
-[[gnu::noinline]] uint32_t measure_apart(const View& mesh, uint32_t child, uint32_t place,
+template <class Index>
+[[gnu::noinline]] uint32_t measure_careful(const View& mesh, uint32_t child, uint32_t place,
+                                           Search& search) {
+  measure_here<true, Index, Which::kAny>(mesh, child, place, search);
+  return search.best.place ^ place;
+}
+template <class InTurn, class Wanted>
+[[gnu::noinline]] uint32_t measure_plain(uint32_t, uint32_t child, uint32_t place, Search& search) {
+  measure_in_turn<InTurn, Wanted>(child, place, search);
+  return search.best.place ^ place;
+}
+// Whether its box tells that nothing in a leaf is below `prune`.
+[[gnu::always_inline]] inline bool is_beyond(uint32_t prune, uint32_t child, const Search& search) {
+  const uint32_t* const box = search.leaf_boxes + size_t{kLeafBoxStride} * leaf_first(child);
+  return math::oriented_distance2(box, search.half_cells) >= prune;
+}
+[[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t place,
                                          Search& search) {
-  if constexpr (kCareful)
-    measure_here<kCareful, Index, Which::kAny>(mesh, child, place, search);
-  else
-    measure_in_turn<Index, Wanted>(child, place, search);
+  if (is_beyond(prune, child, search)) return 1;
+  measure_in_turn<RowsInTurn, Nearer>(child, place, search);
   return search.best.place ^ place;
 }
 
 // Side by side so few instructions measure a leaf that a call would show. With care the width of the
 // indices is told at each leaf, where it does not show: one loop less a bound, 1.1 to 1.5 KB.
-// Result: whether one was nearer.
+// `prune`: the least key that is not looked at. Result: whether one was nearer.
 template <bool kCareful, class Index, Which kWhich>
-inline bool measure(const View& mesh, uint32_t child, uint32_t place, Search& search) {
+inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t child,
+                    uint32_t place, Search& search) {
   // Before the last leaf nothing is known that could leave a triangle out.
   using Wanted = typename Choice<kWhich == Which::kLast, Everything, Nearer>::Type;
   if constexpr (kCareful) {
     return (mesh.triangles16().empty()
-                ? measure_apart<true, uint32_t, Everything>(mesh, child, place, search)
-                : measure_apart<true, uint16_t, Everything>(mesh, child, place, search)) == 0;
+                ? measure_careful<uint32_t>(mesh, child, place, search)
+                : measure_careful<uint16_t>(mesh, child, place, search)) == 0;
   } else if constexpr (kIsSideBySide<Index>) {
+    if constexpr (kIsBoxed<Index> && kWhich != Which::kLast)
+      if (is_beyond(prune, child, search)) return false;
     const float before2_m2 = search.best.distance2_m2;
-    return measure_here<false, Index, kWhich>(mesh, child, place, search) < before2_m2;
+    return measure_here<false, typename Within<Index>::Type, kWhich>(mesh, child, place, search) <
+           before2_m2;
+  } else if constexpr (kIsBoxed<Index> && kWhich != Which::kLast) {
+    return measure_boxed(prune, child, place, search) == 0;
   } else {
-    return measure_apart<false, Index, Wanted>(mesh, child, place, search) == 0;
+    return measure_plain<typename Within<Index>::InTurn, Wanted>(prune, child, place, search) == 0;
   }
 }
 
@@ -271,10 +321,11 @@ template <bool kCareful, class Bound, class Index>
   const Pending* best_first = pending;
   uint32_t left = allowed, place = query::kNowhere, child = 0, prune;
   search.complete = true;
-  if constexpr (!kCareful) begin_leaves<Index>(mesh, search);
+  if constexpr (!kCareful) begin_leaves<Index>(mesh, bound, search);
   if (search.start != query::kNowhere) {
     --left;
-    measure<kCareful, Index, Which::kLast>(mesh, sides[search.start].child, search.start, search);
+    measure<kCareful, Index, Which::kLast>(mesh, 0, sides[search.start].child, search.start,
+                                           search);
     prune = prune_key(bound, search);
     if (!climb(mesh, bound, prune, left, top, search)) {
       search.complete = false;
@@ -296,7 +347,7 @@ template <bool kCareful, class Bound, class Index>
     if (!is_leaf(child)) {
       if (enter(sides, bound, prune, child, place, top)) continue;
     } else {
-      if (measure<kCareful, Index, Which::kBeside>(mesh, child, place, search))
+      if (measure<kCareful, Index, Which::kBeside>(mesh, prune, child, place, search))
         prune = prune_key(bound, search);
     }
     // Many, or warm: the last, whose order does not matter then and costs nothing.

@@ -51,6 +51,21 @@ struct Nearer {
   }
 };
 
+/// What of a triangle depends on nothing else, computed where it is used.
+struct OfCorners {
+  math::Vec3 a_m, b_m, c_m;
+
+  math::Vec3 b() const { return b_m; }
+  math::Vec3 c() const { return c_m; }
+  math::Vec3 ab() const { return b_m - a_m; }
+  math::Vec3 ac() const { return c_m - a_m; }
+  static float per_ab2(math::Vec3 ab) { return 1.0f / math::dot(ab, ab); }
+  static float xc(math::Vec3 ab, math::Vec3 ac, float per_ab2) {
+    return math::dot(ab, ac) * per_ab2;
+  }
+  static float h2(math::Vec3 h) { return math::dot(h, h); }
+};
+
 // One by one: a struct would be built aside.
 [[gnu::always_inline]] static inline bool put(Foot& foot, math::Vec3 offset_m, Feature feature) {
   foot.offset_m.x = offset_m.x;
@@ -61,7 +76,8 @@ struct Nearer {
   return true;
 }
 
-/// Closest point of the triangle a b c, whose edge a b is the longest, to p.
+/// Closest point of the triangle a b c, whose edge a b is the longest, to p. Shape: OfCorners, or what
+/// has the same values from memory (mesh/leaf.hpp).
 ///
 /// In the orthogonal frame of a b and the height vector h = ac - ab (ab . ac) / |ab|^2 the foot of
 /// p in the plane is a + ab x + h w; its barycentric coordinates are v = x - w xc (of b) and w (of
@@ -75,14 +91,13 @@ struct Nearer {
 /// component along ab. With d the distance and u = 2^-24 the foot is off in the plane by at most
 /// min(u d length / height, height) beside u length, which lengthens d by at most u length / 2.
 /// Result: false, and no foot, where `wanted` leaves the triangle out.
-template <class Wanted>
-[[gnu::always_inline]] static inline bool find_foot(math::Vec3 p, math::Vec3 a, math::Vec3 b,
-                                                    math::Vec3 c, const Wanted& wanted,
-                                                    Foot& foot) {
+template <class Shape, class Wanted>
+[[gnu::always_inline]] static inline bool find_foot(math::Vec3 p, const Shape& shape,
+                                                    const Wanted& wanted, Foot& foot) {
   using math::dot;
   using math::Vec3;
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const float per_ab2 = 1.0f / dot(ab, ab);
+  const Vec3 ab = shape.ab(), ac = shape.ac(), ap = p - shape.a_m;
+  const float per_ab2 = shape.per_ab2(ab);
   const float x = dot(ab, ap) * per_ab2;
   const Vec3 e = ap - ab * x;
   const float e2 = dot(e, e);
@@ -90,15 +105,15 @@ template <class Wanted>
     const float e_ac = dot(e, ac);
     if (wanted.is_corner_beyond(e2, e2 - e_ac)) return false;
   }
-  const float xc = dot(ab, ac) * per_ab2;
+  const float xc = shape.xc(ab, ac, per_ab2);
   const Vec3 h = ac - ab * xc;
   const float y = dot(e, h);
   if (y <= 0.0f) {
     if (x <= 0.0f) return put(foot, ap, Feature::kVertex0);
-    if (x >= 1.0f) return put(foot, p - b, Feature::kVertex1);
+    if (x >= 1.0f) return put(foot, p - shape.b(), Feature::kVertex1);
     return put(foot, e, Feature::kEdge0);
   }
-  const float h2 = dot(h, h);
+  const float h2 = shape.h2(h);
   const float w = y / h2;
   const float v = x - w * xc;
   // On a border too, so that a query at a corner is told the corner, not a face that meets there.
@@ -110,18 +125,18 @@ template <class Wanted>
     if (t < ac2) return put(foot, ap - ac * (t / ac2), Feature::kEdge2);
   }
   if (v + w >= 1.0f) {
-    const Vec3 bc = c - b, bp = p - b;
+    const Vec3 b = shape.b(), bc = shape.c() - b, bp = p - b;
     const float t = dot(bc, bp), bc2 = dot(bc, bc);
     if (t <= 0.0f) return put(foot, bp, Feature::kVertex1);
     if (t < bc2) return put(foot, bp - bc * (t / bc2), Feature::kEdge1);
   }
-  return put(foot, p - c, Feature::kVertex2);
+  return put(foot, p - shape.c(), Feature::kVertex2);
 }
 
 [[gnu::always_inline]] static inline Foot closest_on_triangle(math::Vec3 p, math::Vec3 a,
                                                               math::Vec3 b, math::Vec3 c) {
   Foot foot;
-  find_foot(p, a, b, c, Everything{}, foot);
+  find_foot(p, OfCorners{a, b, c}, Everything{}, foot);
   return foot;
 }
 

@@ -5,6 +5,8 @@
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/direction.hpp"
+#include "firmtouch/mesh/leaf_box.hpp"
+#include "firmtouch/mesh/triangle_shape.hpp"
 
 namespace firmtouch::mesh {
 namespace {
@@ -108,6 +110,7 @@ void Opening::open_head(const Sections& s) {
     return fail(105, 0);
   verdict_ = check_head(head);
   if (verdict_.ok()) verdict_ = open_desktop(s);
+  if (verdict_.ok()) verdict_ = open_steady(s);
   if (!verdict_.ok()) return;
   if (head.depth == 0 || head.depth > kMaxDepth) return fail(107, 0);
   view_.head_ = &head;
@@ -130,6 +133,27 @@ Verdict Opening::open_desktop(const Sections& s) {
   if (!s.directions.empty() && directions.size() != kFeatures * triangles) return reject(134, 0);
   view_.rows_ = rows.empty() ? nullptr : rows.data();
   view_.directions_ = directions.empty() ? nullptr : directions.data();
+  return kPassed;
+}
+
+bool tells_nothing(const uint32_t* words) {
+  return words[0] == kNoLeafBox && words[1] == kNoLeafBox;
+}
+
+// Where a search reads a box behind the last leaf's there is one that tells nothing.
+Verdict Opening::open_steady(const Sections& s) {
+  if (s.leaf_boxes.empty()) return s.shapes.empty() ? kPassed : reject(140, 0);
+  const uint32_t triangles = view_.triangles16_.size() + view_.triangles32_.size();
+  const uint32_t words = kLeafBoxStride * triangles;
+  const core::Span<const uint32_t> boxes = core::as_whole_array<uint32_t>(s.leaf_boxes);
+  if (boxes.size() != words + kLeafBoxesEnd) return reject(136, 0);
+  if (!tells_nothing(boxes.data() + words)) return reject(136, 1);
+  for (uint32_t i = 2; i < kLeafBoxesEnd; ++i)
+    if (boxes[words + i] != 0) return reject(136, 1);
+  const core::Span<const float> shapes = core::as_whole_array<float>(s.shapes);
+  if (shapes.size() != kShapeFloats * triangles) return reject(140, 0);
+  view_.leaf_boxes_ = boxes.data();
+  view_.shapes_ = shapes.data();
   return kPassed;
 }
 
@@ -251,6 +275,8 @@ Verdict Opening::check_leaf(uint32_t i, uint32_t slot) {
     const Verdict rows = check_rows(first, count, t);
     if (!rows.ok()) return rows;
   }
+  const Verdict box = check_leaf_box(first, count);
+  if (!box.ok()) return box;
   next_triangle_ += count;
   return kPassed;
 }
@@ -268,6 +294,39 @@ Verdict Opening::check_rows(uint32_t first, uint32_t count, uint32_t triangle) c
   return kPassed;
 }
 
+// Pre: the leaf's corners are vertices within the grid.
+Verdict Opening::check_leaf_box(uint32_t first, uint32_t count) const {
+  if (view_.leaf_boxes_ == nullptr || count == 0) return kPassed;
+  const uint32_t* const words = view_.leaf_boxes_ + size_t{kLeafBoxStride} * first;
+  const bool is_there = count > 1;
+  if (!is_there && !tells_nothing(words)) return reject(137, first);
+  for (uint32_t i = is_there ? kLeafBoxWords : 2; i < kLeafBoxStride * count; ++i)
+    if (words[i] != 0) return reject(137, first);
+  if (!is_there) return kPassed;
+  const LeafBox box(words);
+  if ((words[1] & 0xFFFFu) != 0xFFFFu) return reject(137, first);
+  if (!box.are_axes_sound()) return reject(138, first);
+  const Head& head = *view_.head_;
+  const float per_cell = 1.0f / head.cell_m;
+  const Vec3 low_m{head.grid_low_m[0], head.grid_low_m[1], head.grid_low_m[2]};
+  for (uint32_t t = first; t < first + count; ++t)
+    for (const uint32_t corner : view_.triangle(t).corner)
+      if (!box.holds((view_.vertex(corner) - low_m) * per_cell)) return reject(139, t);
+  return kPassed;
+}
+
+// The bits that a search would compute.
+Verdict Opening::check_shape(uint32_t i) const {
+  if (view_.shapes_ == nullptr) return kPassed;
+  const Triangle<uint32_t> t = view_.triangle(i);
+  float shape[kShapeFloats];
+  shape_of(view_.vertex(t.corner[0]), view_.vertex(t.corner[1]), view_.vertex(t.corner[2]), shape);
+  const float* const told = view_.shapes_ + size_t{kShapeFloats} * i;
+  for (uint32_t k = 0; k < kShapeFloats; ++k)
+    if (math::bits_of(told[k]) != math::bits_of(shape[k])) return reject(141, i);
+  return kPassed;
+}
+
 Verdict Opening::check_triangle(uint32_t i) const {
   const Triangle<uint32_t> t = view_.triangle(i);
   const Vec3 a = view_.vertex(t.corner[0]), b = view_.vertex(t.corner[1]),
@@ -280,6 +339,8 @@ Verdict Opening::check_triangle(uint32_t i) const {
   const Vec3 normal = cross(ab * per_ab, ca * per_ab);
   const Vec3 height = (c - a) - ab * (dot(ab, c - a) * (1.0f / ab2));  // as the solver has it
   if (!(dot(normal, normal) >= 1e-20f && dot(height, height) >= 1e-36f)) return reject(129, i);
+  const Verdict shape = check_shape(i);
+  if (!shape.ok()) return shape;
   if (view_.is_signed())
     for (const int8_t fold : view_.folds_[i].fold)
       if (fold < -kMostFold) return reject(130, i);
