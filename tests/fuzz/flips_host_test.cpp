@@ -79,7 +79,7 @@ TEST(TheVictimHoldsEverySectionTypeAndIsFelt) {
   for (uint32_t i = 0; i < container.section_count(); ++i) types.insert(container.type(i));
   for (uint32_t type = asset::kBoundsSection; type <= asset::kProvenanceSection; ++type)
     CHECK_EQ(types.count(type), 1u);
-  for (uint32_t type = mesh::kHeadSection; type <= mesh::kDirectionsSection; ++type)
+  for (uint32_t type = mesh::kHeadSection; type <= mesh::kShapesSection; ++type)
     CHECK_EQ(types.count(type), type == 0x1008u ? 0u : 1u);  // of an earlier layout
   for (uint32_t type = field::kHeadSection; type <= field::kSeedsSection; ++type)
     CHECK_EQ(types.count(type), 1u);

@@ -164,6 +164,7 @@ TEST(AFrontOfRandomWordsIsNoFront) {
     const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
     firmtouch::spline::Hint bent;
     static_cast<Hint&>(bent) = cold;
+    bent.fence = firmtouch::spline::kWithFront;
     bent.front.base_m = truth;
     bent.front.unit_m = 1.0f;
     bent.front.count = static_cast<uint8_t>(random.bits() >> 24);
@@ -175,6 +176,48 @@ TEST(AFrontOfRandomWordsIsNoFront) {
     CHECK_GE(c.distance_m, truth - 5e-7f * (truth + 3.9f));
     CHECK_LE(bent.front.count, firmtouch::spline::Front::kMost);
   }
+}
+
+// A front is a certificate: of another model's nothing is true, but nothing is read that is not there.
+TEST(AnyFrontGivesFiniteAnswersWithinTheBudget) {
+  const SmallSpline model(true);
+  const View view = model.view();
+  Random random(9);
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const Vec3 p = about(random);
+    firmtouch::spline::Hint bent;
+    closest_point(view, p, kUnlimited, bent);
+    bent.front.base_m = i % 3 == 0 ? -1.0f : 0.0f;
+    bent.front.unit_m = 1.0f / static_cast<float>(1 + random.bits() % 1000u);
+    bent.front.count = static_cast<uint8_t>(random.bits() >> 24);
+    bent.front.outside = 255;
+    for (uint32_t& word : bent.front.part)
+      word = i % 2 == 0 ? random.bits() & 0x8000FFFFu : random.bits();
+    const Closest c = closest_point(view, p, {200}, bent);
+    CHECK(c.distance_m >= 0.0f && c.distance_m < 1e6f);
+    CHECK_LE(c.certificate.steps, 200u);
+  }
+}
+
+// The two overloads in turn: a front is of where the last query that knows of fronts was.
+TEST(AFrontIsNotCarriedOnByAQueryThatKnowsOfNone) {
+  const SmallSpline model(true);
+  const View view = model.view();
+  Random random(11);
+  firmtouch::spline::Hint mixed;
+  Vec3 p = about(random);
+  uint32_t wrong = 0;
+  for (uint32_t i = 0; i < 600; ++i) {
+    const Vec3 q = about(random);
+    p = {p.x * 0.98f + q.x * 0.02f, p.y * 0.98f + q.y * 0.02f, p.z * 0.98f + q.z * 0.02f};
+    Hint cold;
+    const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
+    const Closest c = i % 3 == 1 ? closest_point(view, p, kUnlimited, static_cast<Hint&>(mixed))
+                                 : closest_point(view, p, kUnlimited, mixed);
+    if (c.certificate.lower_m > truth + 5e-7f * (truth + 3.9f)) ++wrong;
+    if (c.distance_m > truth + 5e-7f * (truth + 3.9f)) ++wrong;
+  }
+  CHECK_EQ(wrong, 0u);
 }
 
 TEST(AWarmQueryBesideItsLastPlaceTakesFewEvaluations) {

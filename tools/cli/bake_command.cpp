@@ -175,8 +175,9 @@ const Command& bake_command() {
        {"--fast", nullptr,
         "meshes: the fastest on a controller rather than the smallest (the default)"},
        {"--steady", nullptr,
-        "meshes: the dearest query takes a controller a sixth less or more, for nearly three times "
-        "the flash"},
+        "meshes: the dearest query near the surface takes a controller a fifth less, for nearly "
+        "three "
+        "times the flash"},
        {"--small", nullptr,
         "meshes: a third less flash, a third more work a query; splines: half the flash"},
        {"--desktop", nullptr,

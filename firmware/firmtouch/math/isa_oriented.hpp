@@ -49,7 +49,10 @@ static inline uint32_t portable_oriented_distance2(const uint32_t* box,
   const uint32_t half[3] = {box[0] & 0xFFFFu, box[0] >> 16, box[1] >> 16};
   uint32_t sum = 0;
   for (int k = 0; k < 3; ++k) {
-    const int32_t along = low(box[4 + k]) * x + high(box[4 + k]) * y + axis_z[k] * z;
+    // Modulo 2^32, as processors add: where no box is, axes are what lies behind (FORMAT.md).
+    const int32_t along = static_cast<int32_t>(static_cast<uint32_t>(low(box[4 + k]) * x) +
+                                               static_cast<uint32_t>(high(box[4 + k]) * y) +
+                                               static_cast<uint32_t>(axis_z[k] * z));
     const uint32_t off = static_cast<uint32_t>(along ^ (along >> 31)) >> 16;  // never above |along|
     const uint32_t gap = off > half[k] ? off - half[k] : 0;
     sum += gap * gap;

@@ -28,8 +28,7 @@ constexpr uint32_t kEdgeFoldsSection = 0x100B;
 constexpr uint32_t kRowsSection = 0x100C;
 // Vertex[7 * triangle_count]: the unit pseudonormals of a triangle's features, in their order.
 constexpr uint32_t kDirectionsSection = 0x100D;
-// Only in an asset whose dearest query is to cost little; a desktop's vector instructions do not read
-// it. uint32_t[4 * triangle_count + kLeafBoxesEnd]: of each leaf of two triangles or more an oriented
+// Only in an asset whose dearest query is to cost little: uint32_t[4 * triangle_count + kLeafBoxesEnd]: of each leaf of two triangles or more an oriented
 // box, eight words at word 4 * first triangle (math::oriented_distance2(), tools/FORMAT.md).
 constexpr uint32_t kLeafBoxesSection = 0x100E;
 // There where the boxes are: float[12 * triangle_count]: of each triangle a b c what its measurement

@@ -18,7 +18,8 @@ namespace firmtouch::mesh {
 /// the squares of all three sum to at most s^2 |t - (x - c)|^2 2^-32 with s the most by which the axes
 /// lengthen a vector. s^2 <= 2^30 (are_axes_sound(), by Gershgorin's circles), and half cells are half
 /// as long as cells: what is left is the squared distance in cells. No sum passes 2^31, for no axis
-/// is longer than 2^15 and no d than 2^15 sqrt(3).
+/// is longer than 2^15 and no d than 2^15 sqrt(3). (A leaf of one triangle has no box but halves that
+/// no offset exceeds: what is read behind them as axes does not matter.)
 struct LeafBox {
   int32_t axis[3][3];
   int32_t centre[3];

@@ -137,11 +137,13 @@ void move(const Vec3& p_m, const query::Hint& hint, Front& front) {
   front.base_m = front.base_m - motion_m - lost_m * (4.0f * kUnit);
 }
 
+// `fence`: what is left in the hint, kWithFront where the front is kept too.
 Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint,
-                       Front& front) {
+                       Front& front, uint32_t fence) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
   SurfaceSearch search(model, p_m, budget.steps, best);
+  if (hint.fence != kWithFront) FrontUse(front).clear();
   move(p_m, hint, front);
   uint32_t leaf;
   Rectangle range;
@@ -160,7 +162,7 @@ Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query:
       certified(model, p_m, search, best, is_first ? 0 : search.piece_of(best.node), carried, hint);
   hint.place = query::kNowhere;
   if (!is_first) search.leave(motion_m, hint);
-  hint.fence = query::kNowhere;
+  hint.fence = fence;
   hint.fence_m = 0.0f;
   return closest;
 }
@@ -211,17 +213,18 @@ Closest answer_nothing(const View& model, query::Hint& hint) {
   Closest closest = answer_at(model, best, 0);
   closest.distance_m = FLT_MAX;
   hint.lower_m = 0;
+  hint.fence = query::kNowhere;
   hint.fence_m = 0;
   return closest;
 }
 
 [[gnu::always_inline]] inline Closest answer(const View& model, Vec3 p_m, query::Budget budget,
-                                             query::Hint& hint, Front& front) {
+                                             query::Hint& hint, Front& front, uint32_t fence) {
   if (!is_near(model.head(), p_m)) {
     FrontUse(front).clear();
     return math::is_finite(p_m) ? answer_beyond(model, p_m, hint) : answer_nothing(model, hint);
   }
-  if (model.is_surface()) return answer_surface(model, p_m, budget, hint, front);
+  if (model.is_surface()) return answer_surface(model, p_m, budget, hint, front, fence);
   return model.is_flat() ? answer_curve<true>(model, p_m, budget, hint)
                          : answer_curve<false>(model, p_m, budget, hint);
 }
@@ -229,7 +232,7 @@ Closest answer_nothing(const View& model, query::Hint& hint) {
 }  // namespace
 
 Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, Hint& hint) {
-  return answer(model, p_m, budget, hint, hint.front);
+  return answer(model, p_m, budget, hint, hint.front, kWithFront);
 }
 
 Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
@@ -241,7 +244,7 @@ Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, quer
 
 Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
   Front front;
-  return answer(model, p_m, budget, hint, front);
+  return answer(model, p_m, budget, hint, front, query::kNowhere);
 }
 
 namespace {

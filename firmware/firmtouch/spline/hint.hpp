@@ -6,7 +6,8 @@
 namespace firmtouch::spline {
 
 /// Parts of a surface's tree, each with how far it is at least, and how far all that is in none of them is: so many
-/// units beyond base_m, from where the last query was.
+/// units beyond base_m, from where the last query was. A certificate, as lower_m is: what a query of another asset wrote
+/// makes answers wrong, though never reads what is not there.
 struct Front {
   // With 32, 48 and 64 twelve walks about a teapot took 10,030, 9,618 and 9,466 instructions a query.
   static constexpr uint32_t kMost = 64;
@@ -18,6 +19,9 @@ struct Front {
   uint8_t beyond[kMost] = {};
   uint32_t part[kMost] = {};
 };
+
+/// Hint::fence of a surface whose front is of position_m. A query that leaves no front leaves query::kNowhere.
+constexpr uint32_t kWithFront = 0;
 
 /// What a query of splines leaves for the next one. A curve needs no more than a query::Hint, and a surface asked with one
 /// answers the same, with more steps.

@@ -39,13 +39,13 @@ class FarParts {
   bool is_all() const { return is_all_; }
   /// What is not kept is at least so far away.
   float around_m() const { return reach_m_; }
-  /// Of what is at least far_m away, halves next to each other become their whole.
+  /// Halves next to each other become their whole.
   template <class Parts>
-  void join(const Parts& tree, float far_m) {
+  void join(const Parts& tree) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count_; ++i) {
       Part part = parts_[i];
-      while (kept > 0 && part.lower_m >= far_m && parts_[kept - 1].lower_m >= far_m) {
+      while (kept > 0) {
         const uint32_t whole = tree.whole_of(part.node, parts_[kept - 1].node);
         if (whole == kNoNode) break;
         part.node = whole;
@@ -91,10 +91,10 @@ class FrontUse {
     needed = units > 0.0f ? static_cast<uint32_t>(units * (1.0f + 0x1p-20f)) + 1 : 1;
     return needed <= front_.outside && front_.count <= Front::kMost;
   }
-  /// Rounded down.
+  /// What is so far away need not be kept. Rounded up, by more than its roundings.
   float outside_m() const {
     const float up_m = static_cast<float>(front_.outside) * front_.unit_m;
-    return front_.base_m + up_m * (1.0f - 0x1p-20f) - 0x1p-22f * __builtin_fabsf(front_.base_m);
+    return front_.base_m + up_m * (1.0f + 0x1p-20f) + 0x1p-21f * __builtin_fabsf(front_.base_m);
   }
   /// By how many units a distance is beyond: rounded down.
   uint8_t coded(float lower_m) const {
@@ -116,26 +116,21 @@ class FrontUse {
   template <class Parts>
   void add(FarParts& passed, const Parts& tree) {
     uint32_t outside = front_.outside;
-    if (!passed.is_all()) outside = coded(passed.around_m());
-    if (front_.count + passed.count() > Front::kMost) passed.join(tree, 0.0f);
+    if (!passed.is_all() && coded(passed.around_m()) < outside) outside = coded(passed.around_m());
+    if (front_.count + passed.count() > Front::kMost) passed.join(tree);
     if (front_.count + passed.count() > Front::kMost)
       outside = most_within(passed, outside, Front::kMost - front_.count);
     front_.outside = static_cast<uint8_t>(outside);
     for (const FarParts::Part& part : passed)
       if (coded(part.lower_m) < outside) put(front_.count++, part);
   }
-  /// All that was passed over, or as much as there is room for: what is farthest is left out.
-  template <class Parts>
-  void renew(float limit_m, float reach_m, FarParts& passed, const Parts& tree) {
+  /// All that was passed over, as far as it was kept.
+  void renew(float limit_m, float reach_m, const FarParts& passed) {
     front_.base_m = limit_m;
     front_.unit_m = (reach_m - limit_m) * (1.0f / 256.0f);
     if (!(front_.unit_m > 0.0f)) return clear();
-    uint32_t outside = passed.is_all() ? kAll : coded(passed.around_m());
-    if (passed.count() > Front::kMost && passed.is_all()) {
-      const uint32_t far = most_within(passed, outside, Front::kMost / 2);
-      passed.join(tree, limit_m + static_cast<float>(far) * front_.unit_m);
-    }
-    if (passed.count() > Front::kMost) outside = most_within(passed, outside, Front::kMost);
+    static_assert(FarParts::kMost <= Front::kMost);
+    const uint32_t outside = passed.is_all() ? kAll : coded(passed.around_m());
     front_.outside = static_cast<uint8_t>(outside);
     front_.count = 0;
     for (const FarParts::Part& part : passed)

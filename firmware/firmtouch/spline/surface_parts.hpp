@@ -31,8 +31,6 @@ class SurfaceParts {
     return node >= kUpper ? node - kUpper : (node >> 16) + piece_count_ - 1;
   }
 
-  uint32_t upper_count() const { return 2 * piece_count_ - 1; }
-
   /// The leaf of a hint, from where it was left: none for a hint that is none.
   bool resume(const query::Hint& hint, uint32_t& node, Range& range) const {
     const uint32_t place = hint.place;
@@ -115,10 +113,13 @@ class SurfaceParts {
   /// Whether a word of a hint is a node.
   bool is_node(uint32_t node) const {
     if (node >= kUpper) return node - kUpper < piece_count_ - 1;
-    const uint32_t u = (node >> 7) & 127u, v = node & 127u;
     if (node >> 16 >= piece_count_ || (node & 0xC000u) != 0) return false;
-    const Piece& piece = pieces_[node >> 16];
-    return u - 1 < (2u << piece.level_u) - 1 && v - 1 < (2u << piece.level_v) - 1;
+    if ((node & 0x3F80u) == 0 || (node & 127u) == 0) return false;
+    const PatchNode part = apart(pieces_[node >> 16], node);
+    if ((part.left_u | part.left_v) >> 31 != 0) return false;  // below a leaf
+    // In the order of halvings: the axis with more of them left first, then u and v in turn.
+    const uint32_t ahead = part.left_v - part.left_u;
+    return ahead <= 1 || (ahead >> 31 != 0 ? part.made_v : part.made_u) == 0;
   }
   /// Whether a node is a leaf's own, or above it.
   bool holds(uint32_t node, uint32_t leaf) const {

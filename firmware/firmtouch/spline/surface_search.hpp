@@ -58,7 +58,7 @@ class SurfaceSearch : public Account {
       const float reach_m = best_.distance_m + margin_m;
       passed_.start(reach_m);
       if (!climb(leaf, is_closed, parts_.root())) return stop();
-      use.renew(best_.limit_m, reach_m, passed_, parts_);
+      use.renew(best_.limit_m, reach_m, passed_);
     }
     is_complete_ = true;
   }
@@ -148,7 +148,7 @@ class SurfaceSearch : public Account {
       node = whole_of(node, part);
     }
     if (node == top) return true;
-    for (uint32_t i = parts_.upper_of(node); parts_.upper(i) != top; i = parent_of(i)) {
+    for (uint32_t i = parts_.upper_of(node); i != 0 && parts_.upper(i) != top; i = parent_of(i)) {
       if (left_ == 0) return false;
       visit_upper(sibling_of(i), 0.0f, false);
       if (!drain()) return false;
