@@ -58,7 +58,7 @@ class FarParts {
   const Part* begin() const { return parts_; }
   const Part* end() const { return parts_ + count_; }
 
-  static constexpr uint32_t kMost = 64;
+  static constexpr uint32_t kMost = Front::kMost;
 
  private:
   [[gnu::noinline]] void keep(uint32_t node, float lower_m) {
