@@ -134,6 +134,7 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   sections.vertex_normals = copies.of(container.find(mesh::kVertexNormalsSection, name));
   sections.edge_folds = copies.of(container.find(mesh::kEdgeFoldsSection, name));
   sections.rows = copies.of(container.find(mesh::kRowsSection, name));
+  sections.shape_rows = copies.of(container.find(mesh::kShapeRowsSection, name));
   sections.directions = copies.of(container.find(mesh::kDirectionsSection, name));
   sections.leaf_boxes = copies.of(container.find(mesh::kLeafBoxesSection, name));
   sections.shapes = copies.of(container.find(mesh::kShapesSection, name));

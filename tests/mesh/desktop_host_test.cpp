@@ -23,9 +23,10 @@ struct Baked {
     CHECK(report.problem.empty());
     mesh::Sections found = tools::mesh_sections(sections, "part");
     CHECK(!found.rows.empty());
+    CHECK(!found.shape_rows.empty());
     CHECK(!found.directions.empty());
     CHECK(mesh::open(found, with).ok());
-    found.rows = found.directions = {};
+    found.rows = found.shape_rows = found.directions = {};
     CHECK(mesh::open(found, without).ok());
   }
 };

@@ -1,5 +1,6 @@
 // The reject rules of what a mesh holds for a desktop, each condition tripped alone.
 #include "firmtouch/mesh/direction.hpp"
+#include "firmtouch/mesh/triangle_shape.hpp"
 #include "refusal.hpp"
 
 namespace {
@@ -12,14 +13,15 @@ using mesh_test::shorter;
 struct DesktopCube {
   static constexpr uint32_t kFloats = mesh::kRowsOfLeaf * Cube::kTriangles + mesh::kRowsEnd;
   Cube cube;
+  static constexpr uint32_t kShapeFloats = mesh::kRowsOfShapes * Cube::kTriangles + mesh::kRowsEnd;
   float rows[kFloats] = {};
+  float shape_rows[kShapeFloats] = {};
   mesh::Vertex directions[mesh::kFeatures * Cube::kTriangles];
 
   DesktopCube() {
-    uint32_t next = 0;
     for (const mesh::Node& node : cube.nodes)
       for (const mesh::Side& side : node.side)
-        if (mesh::is_leaf(side.child)) next = put_leaf(side.child, next);
+        if (mesh::is_leaf(side.child)) put_leaf(side.child);
     const mesh::View view = cube.view();
     for (uint32_t i = 0; i < mesh::kFeatures * Cube::kTriangles; ++i) {
       const math::Vec3 d = mesh::decoded_direction(view, i / mesh::kFeatures,
@@ -30,20 +32,28 @@ struct DesktopCube {
   mesh::Sections sections() const {
     mesh::Sections s = cube.sections();
     s.rows = {reinterpret_cast<const uint8_t*>(rows), sizeof rows};
+    s.shape_rows = {reinterpret_cast<const uint8_t*>(shape_rows), sizeof shape_rows};
     s.directions = {reinterpret_cast<const uint8_t*>(directions), sizeof directions};
     return s;
   }
 
  private:
-  uint32_t put_leaf(uint32_t leaf, uint32_t next) {
-    const uint32_t first = mesh::leaf_first(leaf), end = first + mesh::leaf_count(leaf);
-    for (uint32_t corner = 0; corner < 3; ++corner)
-      for (uint32_t axis = 0; axis < 3; ++axis)
-        for (uint32_t t = first; t < end; ++t) {
-          const mesh::Vertex& v = cube.vertices[cube.triangles[t].corner[corner]];
-          rows[next++] = axis == 0 ? v.x_m : axis == 1 ? v.y_m : v.z_m;
-        }
-    return next;
+  void put_leaf(uint32_t leaf) {
+    const uint32_t first = mesh::leaf_first(leaf), count = mesh::leaf_count(leaf);
+    for (uint32_t i = 0; i < count; ++i) {
+      math::Vec3 corner[3];
+      float* row = rows + mesh::kRowsOfLeaf * first + i;
+      for (uint32_t k = 0; k < 3; ++k) {
+        const mesh::Vertex& v = cube.vertices[cube.triangles[first + i].corner[k]];
+        corner[k] = {v.x_m, v.y_m, v.z_m};
+        const float axes[] = {v.x_m, v.y_m, v.z_m};
+        for (const float axis : axes) *row = axis, row += count;
+      }
+      float shape[mesh::kRowsOfShapes];
+      mesh::put_rows(mesh::shape_of(corner[0], corner[1], corner[2]), shape);
+      for (uint32_t k = 0; k < mesh::kRowsOfShapes; ++k)
+        shape_rows[mesh::kRowsOfShapes * first + k * count + i] = shape[k];
+    }
   }
 };
 
@@ -62,6 +72,7 @@ TEST(WhatIsThereForADesktopMayBeThereOrNot) {
   CHECK_EQ(refusal_of(cube.sections()), 0u);
   mesh::Sections s = cube.sections();
   s.rows = {};
+  s.shape_rows = {};
   CHECK_EQ(refusal_of(s), 0u);
   s.directions = {};
   CHECK_EQ(refusal_of(s), 0u);
@@ -94,6 +105,35 @@ TEST(R133RowThatIsNotOfTheCorners) {
   DesktopCube cube;
   cube.rows[0] = next_float(cube.rows[0]);
   CHECK_EQ(refusal_of(cube.sections()), 133'000u);
+}
+
+TEST(R142ShapesSideBySideNotThereWithTheRowsOrNotOfThisMesh) {
+  const DesktopCube cube;
+  mesh::Sections s = cube.sections();
+  s.rows = {};
+  CHECK_EQ(refusal_of(s), 142'000u);
+  const uint32_t cuts[] = {1, 4, 48, DesktopCube::kShapeFloats * 4};
+  for (const uint32_t cut : cuts) {
+    s = cube.sections();
+    s.shape_rows = shorter(s.shape_rows, cut);
+    CHECK_EQ(refusal_of(s), 142'000u);
+  }
+}
+
+TEST(R142ShapesSideBySideThatDoNotEndInZeros) {
+  for (uint32_t i = 1; i <= mesh::kRowsEnd; ++i) {
+    DesktopCube cube;
+    cube.shape_rows[DesktopCube::kShapeFloats - i] = -0.0f;
+    CHECK_EQ(refusal_of(cube.sections()), 142'001u);
+  }
+}
+
+TEST(R143ShapeSideBySideThatIsNotOfItsCorners) {
+  for (uint32_t i = 0; i < mesh::kRowsOfShapes * Cube::kTriangles; ++i) {
+    DesktopCube cube;
+    cube.shape_rows[i] = next_float(cube.shape_rows[i]);
+    CHECK_EQ(refusal_of(cube.sections()) / 1000, 143u);
+  }
 }
 
 TEST(R134DirectionsNotOfThisMesh) {

@@ -18,7 +18,7 @@ struct BoxedCube {
   static constexpr uint32_t kWords = mesh::kLeafBoxStride * Cube::kTriangles + mesh::kLeafBoxesEnd;
   Cube cube;
   uint32_t words[kWords] = {};
-  float shapes[Cube::kTriangles][mesh::kShapeFloats];
+  mesh::TriangleShape shapes[Cube::kTriangles];
 
   BoxedCube() {
     for (uint32_t t = 0; t < Cube::kTriangles; ++t) {
@@ -27,7 +27,7 @@ struct BoxedCube {
         const mesh::Vertex& v = cube.vertices[cube.triangles[t].corner[k]];
         corners[k] = {v.x_m, v.y_m, v.z_m};
       }
-      mesh::shape_of(corners[0], corners[1], corners[2], shapes[t]);
+      shapes[t] = mesh::shape_of(corners[0], corners[1], corners[2]);
     }
     for (uint32_t leaf = 0; leaf < kLeaves; ++leaf) put_box(leaf);
     words[kWords - mesh::kLeafBoxesEnd] = mesh::kNoLeafBox;
@@ -221,12 +221,10 @@ TEST(R140ShapesNotThereWithTheBoxesOrNotOfThisMesh) {
 
 TEST(R141ShapeThatIsNotOfItsCorners) {
   for (uint32_t t = 0; t < Cube::kTriangles; ++t)
-    for (uint32_t k = 0; k < mesh::kShapeFloats; ++k) {
+    for (uint32_t k = 0; k < mesh::kRowsOfShapes; ++k) {
       BoxedCube cube;
-      uint32_t bits;
-      __builtin_memcpy(&bits, &cube.shapes[t][k], sizeof bits);
-      bits ^= 1u;
-      __builtin_memcpy(&cube.shapes[t][k], &bits, sizeof bits);
+      uint8_t* const float_k = reinterpret_cast<uint8_t*>(&cube.shapes[t]) + k * sizeof(float);
+      *float_k ^= 1u;
       CHECK_EQ(refusal_of(cube.sections()), 141'000u + t);
     }
 }

@@ -57,6 +57,15 @@ mesh::Foot closest_on(const Leaf& leaf, uint32_t triangle) {
   return mesh::closest_on_triangle(leaf.p_m, at[0], at[1], at[2]);
 }
 
+mesh::TriangleShape shape_at(const Leaf& leaf, uint32_t triangle) {
+  math::Vec3 at[3];
+  for (uint32_t k = 0; k < 3; ++k) {
+    const mesh::Vertex& v = leaf.vertices[leaf.triangles[triangle].corner[k]];
+    at[k] = {v.x_m, v.y_m, v.z_m};
+  }
+  return mesh::shape_of(at[0], at[1], at[2]);
+}
+
 struct Compared {
   uint32_t differ = 0, improved = 0, seen[7] = {};
 };
@@ -94,7 +103,7 @@ float measured_in_turn(const Leaf& leaf, uint32_t child, float least2_m2, mesh::
   return least2_m2;
 }
 
-// The same leaf from rows of its corners, what lies behind them being no corner's.
+// The same leaf from rows of its corners and shapes, what lies behind them being no triangle's.
 template <class Float>
 void compare_rows(const Leaf& leaf, uint32_t child, float in_turn, const mesh::Best& a,
                   float bound2_m2, Compared& compared) {
@@ -107,6 +116,14 @@ void compare_rows(const Leaf& leaf, uint32_t child, float in_turn, const mesh::B
     const mesh::Vertex& v = leaf.vertices[corner];
     rows[mesh::kRowsOfLeaf * first + i] = row % 3 == 0 ? v.x_m : row % 3 == 1 ? v.y_m : v.z_m;
   }
+  float shapes[mesh::kRowsOfShapes * kTriangles + mesh::kRowsEnd];
+  for (float& f : shapes) f = coordinate(true);
+  for (uint32_t i = 0; i < count; ++i) {
+    float values[mesh::kRowsOfShapes];
+    mesh::put_rows(shape_at(leaf, first + i), values);
+    for (uint32_t row = 0; row < mesh::kRowsOfShapes; ++row)
+      shapes[mesh::kRowsOfShapes * first + row * count + i] = values[row];
+  }
   for (uint32_t way = 0; way < (bound2_m2 < FLT_MAX ? 2 : 4); ++way) {
     mesh::Best b;
     const uint32_t last = way == 2 ? a.triangle : next_random() & 0xFFFFu;
@@ -114,9 +131,9 @@ void compare_rows(const Leaf& leaf, uint32_t child, float in_turn, const mesh::B
     if (way == 0)
       told = mesh::measure_rows<Float>(rows, leaf.p_m, child, 5, bound2_m2, b);
     else if (way == 1)
-      told = mesh::measure_rows_beside<Float>(rows, leaf.p_m, child, 5, bound2_m2, b);
+      told = mesh::measure_rows_beside<Float>(rows, shapes, leaf.p_m, child, 5, bound2_m2, b);
     else
-      told = mesh::measure_last_rows<Float>(rows, leaf.p_m, child, 5, last, b);
+      told = mesh::measure_last_rows<Float>(rows, shapes, leaf.p_m, child, 5, last, b);
     if (!same(in_turn, told) || !same(a.offset_m, b.offset_m) ||
         !same(a.distance2_m2, b.distance2_m2) || a.triangle != b.triangle || a.place != b.place ||
         a.feature != b.feature)
@@ -188,14 +205,15 @@ void compare_what_may_be_nearer(uint32_t turn, Compared& wrong_and_left_out) {
   for (uint32_t k = 0; k < 3; ++k)
     corner[k] = {math::lanes_from<Float>(x[k][0]), math::lanes_from<Float>(x[k][1]),
                  math::lanes_from<Float>(x[k][2])};
-  const auto frames = mesh::frames_of<Float>(leaf.p_m, corner[0], corner[1], corner[2]);
+  const auto frames = mesh::frames_of<Float>(corner[0], corner[1], corner[2]);
+  const auto feet = mesh::plane_feet<Float>(frames, leaf.p_m);
   for (uint32_t other = 0; other < kLanes; ++other) {
     const float told2_m2 = closest_on(leaf, other).distance2_m2;
     if (!(told2_m2 <= FLT_MAX)) continue;
     const float scales[] = {1.0f, 1.0f + 0x1p-20f, 1.0f - 0x1p-20f, 0.9f};
     for (const float scale : scales) {
       const float least2_m2 = told2_m2 * scale;
-      const uint32_t may_be = mesh::may_be_nearer(frames, least2_m2);
+      const uint32_t may_be = mesh::may_be_nearer(frames, feet, least2_m2);
       for (uint32_t lane = 0; lane < kLanes; ++lane) {
         if ((may_be >> lane & 1u) != 0) continue;
         ++wrong_and_left_out.improved;
@@ -208,17 +226,6 @@ void compare_what_may_be_nearer(uint32_t turn, Compared& wrong_and_left_out) {
 bool same(const mesh::Best& a, const mesh::Best& b) {
   return same(a.offset_m, b.offset_m) && same(a.distance2_m2, b.distance2_m2) &&
          a.triangle == b.triangle && a.place == b.place && a.feature == b.feature;
-}
-
-void put_shapes(const Leaf& leaf, float (&shapes)[kTriangles][mesh::kShapeFloats]) {
-  for (uint32_t t = 0; t < kTriangles; ++t) {
-    math::Vec3 at[3];
-    for (uint32_t k = 0; k < 3; ++k) {
-      const mesh::Vertex& v = leaf.vertices[leaf.triangles[t].corner[k]];
-      at[k] = {v.x_m, v.y_m, v.z_m};
-    }
-    mesh::shape_of(at[0], at[1], at[2], shapes[t]);
-  }
 }
 
 }  // namespace
@@ -270,18 +277,22 @@ TEST(ALeafOfWhichSomeIsLeftOutTellsWhatTheWholeTells) {
     mesh::Sought nearer = all;
     const uint32_t count = 1 + turn % 7;
     const uint32_t child = mesh::make_leaf(next_random() % (kTriangles - count + 1), count);
-    mesh::Sought by_rows = all, nearer_by_rows = all;
-    float shapes[kTriangles][mesh::kShapeFloats];
-    put_shapes(leaf, shapes);
-    by_rows.shapes = nearer_by_rows.shapes = shapes[0];
-    by_rows.is_narrow = nearer_by_rows.is_narrow = true;
+    mesh::Sought by_shapes = all, nearer_by_shapes = all;
+    mesh::TriangleShape shapes[kTriangles];
+    for (uint32_t t = 0; t < kTriangles; ++t) shapes[t] = shape_at(leaf, t);
+    by_shapes.shapes = nearer_by_shapes.shapes = shapes;
+    mesh::Triangle<uint32_t> wide[kTriangles];
+    for (uint32_t t = 0; t < kTriangles; ++t)
+      for (uint32_t k = 0; k < 3; ++k) wide[t].corner[k] = leaf.triangles[t].corner[k];
+    by_shapes.is_narrow = nearer_by_shapes.is_narrow = turn % 2 == 0;
+    if (turn % 2 != 0) by_shapes.triangles = nearer_by_shapes.triangles = wide;
     mesh::measure_in_turn<mesh::CornersInTurn<uint16_t>, mesh::Everything>(child, 5, all);
     mesh::measure_in_turn<mesh::CornersInTurn<uint16_t>, mesh::Nearer>(child, 5, nearer);
-    mesh::measure_in_turn<mesh::RowsInTurn, mesh::Everything>(child, 5, by_rows);
-    mesh::measure_in_turn<mesh::RowsInTurn, mesh::Nearer>(child, 5, nearer_by_rows);
+    mesh::measure_in_turn<mesh::ShapesInTurn, mesh::Everything>(child, 5, by_shapes);
+    mesh::measure_in_turn<mesh::ShapesInTurn, mesh::Nearer>(child, 5, nearer_by_shapes);
     compared.differ += same(all.best, nearer.best) ? 0u : 1u;
-    compared.differ += same(all.best, by_rows.best) ? 0u : 1u;
-    compared.differ += same(all.best, nearer_by_rows.best) ? 0u : 1u;
+    compared.differ += same(all.best, by_shapes.best) ? 0u : 1u;
+    compared.differ += same(all.best, nearer_by_shapes.best) ? 0u : 1u;
     compared.improved += all.best.place == 5 ? 1u : 0u;
   }
   CHECK_EQ(compared.differ, 0u);

@@ -27,7 +27,7 @@ struct Baked {
     CHECK(report.problem.empty());
     mesh::Sections found = tools::mesh_sections(sections, "part");
     CHECK(mesh::open(found, view).ok());
-    found.rows = {};
+    found.rows = found.shape_rows = {};
     found.directions = {};
     CHECK(mesh::open(found, without_rows).ok());
   }

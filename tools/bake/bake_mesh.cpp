@@ -111,30 +111,45 @@ Reordered in_leaf_order(const Surface& surface, const std::vector<uint32_t>& ord
   return result;
 }
 
-// The corners of each leaf side by side (FORMAT.md, 0x100C).
-std::vector<float> make_rows(const Surface& surface, const MeshTree& tree) {
+// What `of` puts into an array of kRows floats for each face's corners, leaf by leaf side by side.
+template <size_t kRows, class Of>
+std::vector<float> make_rows(const Surface& surface, const MeshTree& tree, const Of& of) {
   std::vector<float> rows;
   for (const mesh::Node& node : tree.nodes)
     for (const mesh::Side& side : node.side) {
       if (!mesh::is_leaf(side.child)) continue;
       const uint32_t first = mesh::leaf_first(side.child), count = mesh::leaf_count(side.child);
-      for (size_t k = 0; k < 3; ++k)
-        for (const auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z})
-          for (uint32_t i = first; i < first + count; ++i)
-            rows.push_back(surface.vertices[surface.faces[i][k]].*axis);
+      const size_t begin = rows.size();
+      rows.resize(begin + kRows * count);
+      for (uint32_t i = 0; i < count; ++i) {
+        const Face& f = surface.faces[first + i];
+        float values[kRows];
+        of(surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]], values);
+        for (size_t row = 0; row < kRows; ++row) rows[begin + row * count + i] = values[row];
+      }
     }
   rows.insert(rows.end(), mesh::kRowsEnd, 0.0f);
   return rows;
 }
 
+void corners_of(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m, float (&row)[mesh::kRowsOfLeaf]) {
+  const math::Vec3 corners[] = {a_m, b_m, c_m};
+  float* next = row;
+  for (const math::Vec3& at : corners)
+    for (const float value : {at.x, at.y, at.z}) *next++ = value;
+}
+
+void shape_row_of(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m,
+                  float (&row)[mesh::kRowsOfShapes]) {
+  mesh::put_rows(mesh::shape_of(a_m, b_m, c_m), row);
+}
+
 // What a measurement takes from each triangle alone (FORMAT.md, 0x100F).
-std::vector<float> make_shapes(const Surface& surface) {
-  std::vector<float> shapes;
-  for (const Face& f : surface.faces) {
-    float row[mesh::kShapeFloats];
-    mesh::shape_of(surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]], row);
-    shapes.insert(shapes.end(), row, row + mesh::kShapeFloats);
-  }
+std::vector<mesh::TriangleShape> make_shapes(const Surface& surface) {
+  std::vector<mesh::TriangleShape> shapes;
+  for (const Face& f : surface.faces)
+    shapes.push_back(
+        mesh::shape_of(surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]]));
   return shapes;
 }
 
@@ -206,8 +221,12 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
         make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
   sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
-  if (options.shape.is_for_desktop)
-    sections.push_back(make_section(mesh::kRowsSection, name, make_rows(surface, tree)));
+  if (options.shape.is_for_desktop) {
+    sections.push_back(make_section(mesh::kRowsSection, name,
+                                    make_rows<mesh::kRowsOfLeaf>(surface, tree, corners_of)));
+    sections.push_back(make_section(mesh::kShapeRowsSection, name,
+                                    make_rows<mesh::kRowsOfShapes>(surface, tree, shape_row_of)));
+  }
   if (options.shape.is_steady) {
     sections.push_back(
         make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(surface, grid, tree)));
@@ -255,6 +274,7 @@ mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::st
   found.vertex_normals = find(mesh::kVertexNormalsSection);
   found.edge_folds = find(mesh::kEdgeFoldsSection);
   found.rows = find(mesh::kRowsSection);
+  found.shape_rows = find(mesh::kShapeRowsSection);
   found.directions = find(mesh::kDirectionsSection);
   found.leaf_boxes = find(mesh::kLeafBoxesSection);
   found.shapes = find(mesh::kShapesSection);

@@ -137,7 +137,8 @@ bool is_of_tree(uint32_t type) {
   return type == mesh::kNodesSection || type == mesh::kParentsSection ||
          type == mesh::kVertexNormalsSection || type == mesh::kEdgeFoldsSection ||
          type == mesh::kRowsSection || type == mesh::kDirectionsSection ||
-         type == mesh::kLeafBoxesSection || type == mesh::kShapesSection;
+         type == mesh::kLeafBoxesSection || type == mesh::kShapesSection ||
+         type == mesh::kShapeRowsSection;
 }
 
 // What is left of a mesh for hull queries alone.

@@ -28,19 +28,21 @@ constexpr uint32_t kEdgeFoldsSection = 0x100B;
 constexpr uint32_t kRowsSection = 0x100C;
 // Vertex[7 * triangle_count]: the unit pseudonormals of a triangle's features, in their order.
 constexpr uint32_t kDirectionsSection = 0x100D;
-// Only in an asset whose dearest query is to cost little: uint32_t[4 * triangle_count + kLeafBoxesEnd]: of each leaf of two triangles or more an oriented
-// box, eight words at word 4 * first triangle (math::oriented_distance2(), tools/FORMAT.md).
+// Only in an asset whose dearest query is to cost little: uint32_t[4 * triangle_count + kLeafBoxesEnd]:
+// of each leaf of two triangles or more an oriented box, eight words at word 4 * first triangle
+// (math::oriented_distance2(), tools/FORMAT.md).
 constexpr uint32_t kLeafBoxesSection = 0x100E;
-// There where the boxes are: float[12 * triangle_count]: of each triangle a b c what its measurement
-// (mesh/triangle.hpp) takes from it alone: a, b - a, c - a, 1 / |ab|^2, the part of ab at which c
-// stands, |h|^2.
+// There where the boxes are: TriangleShape[triangle_count].
 constexpr uint32_t kShapesSection = 0x100F;
+// There where the rows are: float[12 * triangle_count + kRowsEnd]: the same, of the count triangles of a
+// leaf twelve rows of count floats from float 12 * first triangle on.
+constexpr uint32_t kShapeRowsSection = 0x1010;
 
 constexpr uint32_t kRowsOfLeaf = 9;
+constexpr uint32_t kRowsOfShapes = 12;
 constexpr uint32_t kRowsEnd = 8;  // zeros, so that eight floats may be read where a row begins
 constexpr uint32_t kFeatures = 7;
 
-constexpr uint32_t kShapeFloats = 12;
 constexpr uint32_t kLeafBoxWords = 8;
 constexpr uint32_t kLeafBoxStride = 4;  // words a triangle
 constexpr uint32_t kLeafBoxesEnd = 8;   // a box that tells nothing, for a last leaf of one triangle
@@ -95,6 +97,16 @@ struct Triangle {
   Index corner[3];
 };
 static_assert(sizeof(Triangle<uint16_t>) == 6 && sizeof(Triangle<uint32_t>) == 12);
+
+/// What a measurement takes from a triangle a b c alone (mesh/triangle.hpp): corner a, b - a, the height
+/// vector from the line a b to c, 1 / |ab|^2, the part of ab at which c stands, |h|^2.
+struct TriangleShape {
+  Vertex a_m, ab_m, h_m;
+  float per_ab2_m2;
+  float xc;
+  float h2_m2;
+};
+static_assert(sizeof(TriangleShape) == 48);
 
 /// One side of an inner node: the box of a child, box[k] = low | (32767 - high) << 16, and where the
 /// child is.

@@ -70,6 +70,19 @@ template <class Float, class Index>
   return take_nearest(feet, asked, first, place, least2_m2, best);
 }
 
+// Three of the rows of `count` floats, side by side or one by one.
+template <class Float>
+[[gnu::always_inline]] static inline math::Lanes<Float> lanes_of_rows(const float* rows, size_t k,
+                                                                      size_t count) {
+  return {math::lanes_from<Float>(rows + k * count),
+          math::lanes_from<Float>(rows + (k + 1) * count),
+          math::lanes_from<Float>(rows + (k + 2) * count)};
+}
+[[gnu::always_inline]] static inline math::Vec3 one_of_rows(const float* rows, size_t k,
+                                                            size_t count) {
+  return {rows[k * count], rows[(k + 1) * count], rows[(k + 2) * count]};
+}
+
 /// A leaf whose corners lie side by side. Lanes that it leaves over hold what comes next.
 template <class Float>
 struct RowsOfLeaf {
@@ -81,15 +94,59 @@ struct RowsOfLeaf {
         first(leaf_first(child)),
         count(leaf_count(child)) {}
   uint32_t asked() const { return (1u << count) - 1u; }
-  math::Lanes<Float> corner(size_t k) const {
-    return {math::lanes_from<Float>(row + (3 * k) * count),
-            math::lanes_from<Float>(row + (3 * k + 1) * count),
-            math::lanes_from<Float>(row + (3 * k + 2) * count)};
+  math::Lanes<Float> corner(size_t k) const { return lanes_of_rows<Float>(row, 3 * k, count); }
+  math::Vec3 corner(size_t k, uint32_t lane) const { return one_of_rows(row + lane, 3 * k, count); }
+};
+
+// Where the members of a shape have their first row.
+constexpr size_t kAbRow = offsetof(TriangleShape, ab_m) / sizeof(float);
+constexpr size_t kHRow = offsetof(TriangleShape, h_m) / sizeof(float);
+constexpr size_t kPerAb2Row = offsetof(TriangleShape, per_ab2_m2) / sizeof(float);
+constexpr size_t kXcRow = offsetof(TriangleShape, xc) / sizeof(float);
+constexpr size_t kH2Row = offsetof(TriangleShape, h2_m2) / sizeof(float);
+
+/// The shapes of such a leaf.
+template <class Float>
+struct ShapesOfLeaf {
+  const float* row;
+  size_t count;
+
+  ShapesOfLeaf(const float* rows, uint32_t child)
+      : row(rows + size_t{kRowsOfShapes} * leaf_first(child)), count(leaf_count(child)) {}
+  Frames<Float> frames() const {
+    const auto lanes = [this](size_t k) { return math::lanes_from<Float>(row + k * count); };
+    return {lanes_of_rows<Float>(row, 0, count),
+            lanes_of_rows<Float>(row, kAbRow, count),
+            lanes_of_rows<Float>(row, kHRow, count),
+            lanes(kPerAb2Row),
+            lanes(kXcRow),
+            lanes(kH2Row)};
   }
-  math::Vec3 corner(size_t k, uint32_t lane) const {
-    return {row[(3 * k) * count + lane], row[(3 * k + 1) * count + lane],
-            row[(3 * k + 2) * count + lane]};
-  }
+};
+
+/// One triangle of them; its corners b and c are rarely needed.
+template <class Float>
+struct OfLane {
+  math::Vec3 a_m;
+  const float* row;  // of a.x
+  const RowsOfLeaf<Float>& leaf;
+  uint32_t lane;
+
+  OfLane(const ShapesOfLeaf<Float>& shapes, const RowsOfLeaf<Float>& of_leaf, uint32_t at)
+      : a_m(one_of_rows(shapes.row + at, 0, shapes.count)),
+        row(shapes.row + at),
+        leaf(of_leaf),
+        lane(at) {}
+  float value(size_t k) const { return row[k * leaf.count]; }
+  math::Vec3 b() const { return leaf.corner(1, lane); }
+  math::Vec3 c() const { return leaf.corner(2, lane); }
+  math::Vec3 ab() const { return one_of_rows(row, kAbRow, leaf.count); }
+  math::Vec3 ac() const { return c() - a_m; }
+  math::Vec3 across() const { return one_of_rows(row, kHRow, leaf.count); }
+  float per_ab2(math::Vec3) const { return value(kPerAb2Row); }
+  float xc(math::Vec3, float) const { return value(kXcRow); }
+  math::Vec3 h(math::Vec3, float) const { return across(); }
+  float h2(math::Vec3) const { return value(kH2Row); }
 };
 
 /// measure_side_by_side() of such a leaf.
@@ -105,32 +162,35 @@ template <class Float>
 
 /// The same in less time where mostly none is nearer.
 template <class Float>
-[[gnu::always_inline]] static inline float measure_rows_beside(const float* rows, math::Vec3 p_m,
+[[gnu::always_inline]] static inline float measure_rows_beside(const float* rows,
+                                                               const float* shapes, math::Vec3 p_m,
                                                                uint32_t child, uint32_t place,
                                                                float least2_m2, Best& best) {
   const RowsOfLeaf<Float> leaf(rows, child);
-  const math::Lanes<Float> b = leaf.corner(1), c = leaf.corner(2);
-  const Frames<Float> f = frames_of<Float>(p_m, leaf.corner(0), b, c);
-  if ((may_be_nearer(f, least2_m2) & leaf.asked()) == 0) return least2_m2;
-  const Feet<Float> feet = closest_in_frames(f, p_m, b, c);
+  const Frames<Float> f = ShapesOfLeaf<Float>(shapes, child).frames();
+  const PlaneFeet<Float> foot = plane_feet(f, p_m);
+  if ((may_be_nearer(f, foot, least2_m2) & leaf.asked()) == 0) return least2_m2;
+  const Feet<Float> feet = closest_in_frames(f, foot, p_m, leaf.corner(1), leaf.corner(2));
   return take_nearest(feet, leaf.asked(), leaf.first, place, least2_m2, best);
 }
 
 /// The same from nothing known, in less time where the nearest is that of the triangle whose lowest 16
 /// bits are `last`; which they are decides nothing else.
 template <class Float>
-[[gnu::always_inline]] static inline float measure_last_rows(const float* rows, math::Vec3 p_m,
-                                                             uint32_t child, uint32_t place,
-                                                             uint32_t last, Best& best) {
+[[gnu::always_inline]] static inline float measure_last_rows(const float* rows, const float* shapes,
+                                                             math::Vec3 p_m, uint32_t child,
+                                                             uint32_t place, uint32_t last,
+                                                             Best& best) {
   const RowsOfLeaf<Float> leaf(rows, child);
-  const math::Lanes<Float> b = leaf.corner(1), c = leaf.corner(2);
-  const Frames<Float> f = frames_of<Float>(p_m, leaf.corner(0), b, c);
+  const ShapesOfLeaf<Float> of_shapes(shapes, child);
+  const Frames<Float> f = of_shapes.frames();
+  const PlaneFeet<Float> plane = plane_feet(f, p_m);
   const uint32_t lane = (last - leaf.first) & 0xFFFFu;
   if (lane < leaf.count) {
-    const Foot foot =
-        closest_on_triangle(p_m, leaf.corner(0, lane), leaf.corner(1, lane), leaf.corner(2, lane));
+    Foot foot;
+    find_foot(p_m, OfLane<Float>(of_shapes, leaf, lane), Everything{}, foot);
     const uint32_t others = leaf.asked() & ~(1u << lane);
-    if ((may_be_nearer(f, foot.distance2_m2) & others) == 0 && foot.distance2_m2 < FLT_MAX) {
+    if ((may_be_nearer(f, plane, foot.distance2_m2) & others) == 0 && foot.distance2_m2 < FLT_MAX) {
       best.distance2_m2 = foot.distance2_m2;
       best.offset_m = foot.offset_m;
       best.triangle = leaf.first + lane;
@@ -139,7 +199,7 @@ template <class Float>
       return foot.distance2_m2;
     }
   }
-  const Feet<Float> feet = closest_in_frames(f, p_m, b, c);
+  const Feet<Float> feet = closest_in_frames(f, plane, p_m, leaf.corner(1), leaf.corner(2));
   return take_nearest(feet, leaf.asked(), leaf.first, place, FLT_MAX, best);
 }
 
@@ -158,21 +218,21 @@ struct Sought {
   Best best;               // in: no farther than this; out: the nearest
   const Vertex* vertices;  // the mesh's; here, where a leaf finds them by one pointer
   const void* triangles;   // with indices of its width
-  // For RowsInTurn alone:
-  const float* shapes;
+  // For ShapesInTurn alone:
+  const TriangleShape* shapes;
   bool is_narrow;  // the indices have 16 bits
 };
 
-/// A triangle whose shape a row tells (mesh/layout.hpp, kShapesSection); the corners b and c are rarely
+/// A triangle whose shape is stored (mesh/layout.hpp, kShapesSection); the corners b and c are rarely
 /// needed.
-struct OfRow {
-  math::Vec3 a_m, ab_m, ac_m;
+struct OfShape {
+  math::Vec3 a_m, ab_m, h_m;
   float per_ab2_m2;
-  const float* row;
+  const TriangleShape* shape;
   const Sought* sought;
 
   math::Vec3 corner(size_t k) const {
-    const size_t at = static_cast<size_t>(row - sought->shapes) / kShapeFloats * 3 + k;
+    const size_t at = static_cast<size_t>(shape - sought->shapes) * 3 + k;
     const Vertex& v =
         sought->vertices[sought->is_narrow ? static_cast<const uint16_t*>(sought->triangles)[at]
                                            : static_cast<const uint32_t*>(sought->triangles)[at]];
@@ -181,10 +241,12 @@ struct OfRow {
   math::Vec3 b() const { return corner(1); }
   math::Vec3 c() const { return corner(2); }
   math::Vec3 ab() const { return ab_m; }
-  math::Vec3 ac() const { return ac_m; }
+  math::Vec3 ac() const { return c() - a_m; }
+  math::Vec3 across() const { return h_m; }
   float per_ab2(math::Vec3) const { return per_ab2_m2; }
-  float xc(math::Vec3, math::Vec3, float) const { return row[10]; }
-  float h2(math::Vec3) const { return row[11]; }
+  float xc(math::Vec3, float) const { return shape->xc; }
+  math::Vec3 h(math::Vec3, float) const { return h_m; }
+  float h2(math::Vec3) const { return shape->h2_m2; }
 };
 
 // The triangles of a leaf one after the other, by their corners.
@@ -206,29 +268,26 @@ struct CornersInTurn {
   }
 };
 
-// The same by rows, whatever the width of its indices.
-struct RowsInTurn {
-  using Shape = OfRow;
+// The same by their shapes, whatever the width of their indices.
+struct ShapesInTurn {
+  using Shape = OfShape;
   const Sought* sought;
-  const float* row;
+  const TriangleShape* at;
 
-  RowsInTurn(const Sought& from, uint32_t first)
-      : sought(&from), row(from.shapes + size_t{kShapeFloats} * first) {}
-  [[gnu::always_inline]] void next(OfRow& shape) {
-    math::load_floats<0>(row, shape.a_m.x, shape.a_m.y, shape.a_m.z);
-    math::load_floats<1>(row + 3, shape.ab_m.x, shape.ab_m.y, shape.ab_m.z);
-    math::load_floats<2>(row + 6, shape.ac_m.x, shape.ac_m.y, shape.ac_m.z);
-    shape.per_ab2_m2 = row[9];
-    shape.row = row;
+  ShapesInTurn(const Sought& from, uint32_t first) : sought(&from), at(from.shapes + first) {}
+  [[gnu::always_inline]] void next(OfShape& shape) {
+    math::load_floats<0>(&at->a_m.x_m, shape.a_m.x, shape.a_m.y, shape.a_m.z);
+    math::load_floats<1>(&at->ab_m.x_m, shape.ab_m.x, shape.ab_m.y, shape.ab_m.z);
+    math::load_floats<2>(&at->h_m.x_m, shape.h_m.x, shape.h_m.y, shape.h_m.z);
+    shape.per_ab2_m2 = at->per_ab2_m2;
+    shape.shape = at++;
     shape.sought = sought;
-    row += kShapeFloats;
   }
 };
 
 /// Puts into sought.best what of the leaf `child`, which is at `place`, is nearer; of two equally
-/// near triangles the first. InTurn: CornersInTurn or
-/// RowsInTurn. Wanted: Nearer or Everything, which tell the same; Everything in fewer
-/// instructions where nothing is known yet.
+/// near triangles the first. InTurn: CornersInTurn or ShapesInTurn. Wanted: Nearer or Everything,
+/// which tell the same; Everything in fewer instructions where nothing is known yet.
 template <class InTurn, class Wanted>
 [[gnu::always_inline]] static inline void measure_in_turn(uint32_t child, uint32_t place,
                                                           Sought& sought) {

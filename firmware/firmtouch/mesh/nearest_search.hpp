@@ -176,7 +176,7 @@ struct Within {
 template <class Index>
 struct Within<Boxed<Index>> {
   using Type = Index;
-  using InTurn = RowsInTurn;
+  using InTurn = ShapesInTurn;
 };
 
 template <class Index>
@@ -221,10 +221,11 @@ template <bool kCareful, class Index, Which kWhich>
                                   Loss(mesh.head()), p_m, child, place, kWhich == Which::kLast,
                                   best.distance2_m2, best);
   else if constexpr (kWhich == Which::kLast)
-    return measure_last_rows<math::FloatWide>(mesh.rows(), p_m, child, place, search.last, best);
+    return measure_last_rows<math::FloatWide>(mesh.rows(), mesh.shape_rows(), p_m, child, place,
+                                              search.last, best);
   else if constexpr (kWhich == Which::kBeside)
-    return measure_rows_beside<math::FloatWide>(mesh.rows(), p_m, child, place, best.distance2_m2,
-                                                best);
+    return measure_rows_beside<math::FloatWide>(mesh.rows(), mesh.shape_rows(), p_m, child, place,
+                                                best.distance2_m2, best);
   else
     return measure_rows<math::FloatWide>(mesh.rows(), p_m, child, place, best.distance2_m2, best);
 }
@@ -237,8 +238,10 @@ template <class Index>
   measure_here<true, Index, Which::kAny>(mesh, child, place, search);
   return search.best.place ^ place;
 }
+// `prune`, which it does not need, is in the register in which measure_boxed() has it.
 template <class InTurn, class Wanted>
-[[gnu::noinline]] uint32_t measure_plain(uint32_t, uint32_t child, uint32_t place, Search& search) {
+[[gnu::noinline]] uint32_t measure_plain([[maybe_unused]] uint32_t prune, uint32_t child,
+                                         uint32_t place, Search& search) {
   measure_in_turn<InTurn, Wanted>(child, place, search);
   return search.best.place ^ place;
 }
@@ -250,7 +253,7 @@ template <class InTurn, class Wanted>
 [[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t place,
                                          Search& search) {
   if (is_beyond(prune, child, search)) return 1;
-  measure_in_turn<RowsInTurn, Nearer>(child, place, search);
+  measure_in_turn<ShapesInTurn, Nearer>(child, place, search);
   return search.best.place ^ place;
 }
 

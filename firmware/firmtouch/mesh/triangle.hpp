@@ -24,9 +24,9 @@ struct Everything {
 /// Leaves out triangles that are certainly told no nearer than the nearest so far, L away: two thirds
 /// of the work, or less.
 ///
-/// Let e be the offset of p from the line a b, square to ab. For each q of the triangle p - q is
-/// e - m ac and some multiple of ab, 0 <= m <= 1. So e . (p - q) = e^2 - m e . ac, and the distance d
-/// is at least (e^2 - e . ac) / |e|, or |e| where e . ac is below 0. And p - q is no shorter than e
+/// Let e be the offset of p from the line a b, square to ab, and g be ac, or less a multiple of ab. For
+/// each q of the triangle p - q is e - m g and some multiple of ab, 0 <= m <= 1. So e . (p - q) =
+/// e^2 - m e . g, and the distance d is at least (e^2 - e . g) / |e|, or |e| where e . g is below 0. And p - q is no shorter than e
 /// less its part along h, so that d^2 is at least e^2 - (e . h)^2 / h^2, for any h that is ac less a
 /// multiple of ab: also for a sliver's, which may be all rounding.
 ///
@@ -34,7 +34,7 @@ struct Everything {
 /// (mesh/loss.hpp; u = 2^-24, E the mesh's longest edge). Then no vector is longer than A + 2 E, and
 /// roundings move none of the squares and products by more than C = 32 u (A + 2 E)^2 <= 2^-18 A^2 +
 /// 2^-16 E^2. With S = A^2 + 2 C the triangle is not left out: e^2 - (e . h)^2 / h^2 <= A^2 + 2 C; and
-/// where s = e^2 - e . ac <= |e| A + C and |e| > sqrt(S), s^2 <= e^2 S, because C <= (S - A^2) / 2 <=
+/// where s = e^2 - e . g <= |e| A + C and |e| > sqrt(S), s^2 <= e^2 S, because C <= (S - A^2) / 2 <=
 /// sqrt(S) (sqrt(S) - A). A^2 is at most (1 + 2^-11 + 2^-19) L^2 + 2^-26 E^2.
 struct Nearer {
   float beyond_m2;  // S, or more
@@ -59,10 +59,10 @@ struct OfCorners {
   math::Vec3 c() const { return c_m; }
   math::Vec3 ab() const { return b_m - a_m; }
   math::Vec3 ac() const { return c_m - a_m; }
+  math::Vec3 across() const { return ac(); }
   static float per_ab2(math::Vec3 ab) { return 1.0f / math::dot(ab, ab); }
-  static float xc(math::Vec3 ab, math::Vec3 ac, float per_ab2) {
-    return math::dot(ab, ac) * per_ab2;
-  }
+  float xc(math::Vec3 ab, float per_ab2) const { return math::dot(ab, ac()) * per_ab2; }
+  math::Vec3 h(math::Vec3 ab, float xc) const { return ac() - ab * xc; }
   static float h2(math::Vec3 h) { return math::dot(h, h); }
 };
 
@@ -77,7 +77,8 @@ struct OfCorners {
 }
 
 /// Closest point of the triangle a b c, whose edge a b is the longest, to p. Shape: OfCorners, or what
-/// has the same values from memory (mesh/leaf.hpp).
+/// has the same values from memory (mesh/leaf.hpp), and in place of ac the height vector where only what
+/// leads across ab counts.
 ///
 /// In the orthogonal frame of a b and the height vector h = ac - ab (ab . ac) / |ab|^2 the foot of
 /// p in the plane is a + ab x + h w; its barycentric coordinates are v = x - w xc (of b) and w (of
@@ -96,17 +97,15 @@ template <class Shape, class Wanted>
                                                     const Wanted& wanted, Foot& foot) {
   using math::dot;
   using math::Vec3;
-  const Vec3 ab = shape.ab(), ac = shape.ac(), ap = p - shape.a_m;
+  const Vec3 ab = shape.ab(), ap = p - shape.a_m;
   const float per_ab2 = shape.per_ab2(ab);
   const float x = dot(ab, ap) * per_ab2;
   const Vec3 e = ap - ab * x;
   const float e2 = dot(e, e);
-  if (wanted.is_line_beyond(e2)) {
-    const float e_ac = dot(e, ac);
-    if (wanted.is_corner_beyond(e2, e2 - e_ac)) return false;
-  }
-  const float xc = shape.xc(ab, ac, per_ab2);
-  const Vec3 h = ac - ab * xc;
+  if (wanted.is_line_beyond(e2) && wanted.is_corner_beyond(e2, e2 - dot(e, shape.across())))
+    return false;
+  const float xc = shape.xc(ab, per_ab2);
+  const Vec3 h = shape.h(ab, xc);
   const float y = dot(e, h);
   if (y <= 0.0f) {
     if (x <= 0.0f) return put(foot, ap, Feature::kVertex0);
@@ -120,6 +119,7 @@ template <class Shape, class Wanted>
   if (!(v <= 0.0f || v + w >= 1.0f)) return put(foot, e - h * w, Feature::kFace);
   if (wanted.is_plane_beyond(e2 - y * w, h2)) return false;
   if (v <= 0.0f) {
+    const Vec3 ac = shape.ac();
     const float t = dot(ac, ap), ac2 = dot(ac, ac);
     if (t <= 0.0f) return put(foot, ap, Feature::kVertex0);
     if (t < ac2) return put(foot, ap - ac * (t / ac2), Feature::kEdge2);

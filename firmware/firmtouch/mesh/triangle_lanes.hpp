@@ -63,32 +63,48 @@ struct Feet {
   }
 };
 
-/// Of each lane what tells the plane's foot: as in find_foot().
+/// What of each lane's triangle depends on nothing else: as in find_foot().
 template <class Float>
 struct Frames {
-  math::Lanes<Float> ab, ac, ap, e, h;
-  Float ab2, x, xc, y, h2, w, v;
+  math::Lanes<Float> a, ab, h;
+  Float per_ab2, xc, h2;
 };
 
 template <class Float>
-[[gnu::always_inline]] static inline Frames<Float> frames_of(math::Vec3 p_m,
-                                                             const math::Lanes<Float>& a,
+[[gnu::always_inline]] static inline Frames<Float> frames_of(const math::Lanes<Float>& a,
                                                              const math::Lanes<Float>& b,
                                                              const math::Lanes<Float>& c) {
   using namespace lanes;
-  const Lanes<Float> p{all_of<Float>(p_m.x), all_of<Float>(p_m.y), all_of<Float>(p_m.z)};
   Frames<Float> f;
-  f.ab = b - a, f.ac = c - a, f.ap = p - a;
-  f.ab2 = dot(f.ab, f.ab);
-  const Float per_ab2 = all_of<Float>(1.0f) / f.ab2;
-  f.x = dot(f.ab, f.ap) * per_ab2;
-  f.xc = dot(f.ab, f.ac) * per_ab2;
-  f.e = f.ap - f.ab * f.x, f.h = f.ac - f.ab * f.xc;
-  f.y = dot(f.e, f.h);
+  f.a = a, f.ab = b - a;
+  const Lanes<Float> ac = c - a;
+  f.per_ab2 = all_of<Float>(1.0f) / dot(f.ab, f.ab);
+  f.xc = dot(f.ab, ac) * f.per_ab2;
+  f.h = ac - f.ab * f.xc;
   f.h2 = dot(f.h, f.h);
-  f.w = f.y / f.h2;
-  f.v = f.x - f.w * f.xc;
   return f;
+}
+
+/// Of each lane the foot in the triangle's plane.
+template <class Float>
+struct PlaneFeet {
+  math::Lanes<Float> ap, e;
+  Float x, y, w, v;
+};
+
+template <class Float>
+[[gnu::always_inline]] static inline PlaneFeet<Float> plane_feet(const Frames<Float>& f,
+                                                                 math::Vec3 p_m) {
+  using namespace lanes;
+  const Lanes<Float> p{all_of<Float>(p_m.x), all_of<Float>(p_m.y), all_of<Float>(p_m.z)};
+  PlaneFeet<Float> foot;
+  foot.ap = p - f.a;
+  foot.x = dot(f.ab, foot.ap) * f.per_ab2;
+  foot.e = foot.ap - f.ab * foot.x;
+  foot.y = dot(foot.e, f.h);
+  foot.w = foot.y / f.h2;
+  foot.v = foot.x - foot.w * f.xc;
+  return foot;
 }
 
 /// Lanes of which it is not certain that they are told farther than the nearest so far, D away; most
@@ -108,22 +124,25 @@ template <class Float>
 /// constants. A comparison with what is no number leaves its lane in.
 template <class Float>
 [[gnu::always_inline]] static inline uint32_t may_be_nearer(const Frames<Float>& f,
+                                                            const PlaneFeet<Float>& foot,
                                                             float least2_m2) {
   using namespace lanes;
   using math::larger;
-  const Float zero{};
-  const Float beyond = larger(zero - math::smaller(f.v, f.w), f.v + f.w - all_of<Float>(1.0f));
+  const Float zero{}, ab2 = dot(f.ab, f.ab);
+  const Float beyond =
+      larger(zero - math::smaller(foot.v, foot.w), foot.v + foot.w - all_of<Float>(1.0f));
   const Float o = larger(beyond, zero);
-  const Float least2 = dot(f.e, f.e) - f.y * f.w + f.h2 * o * o;
+  const Float least2 = dot(foot.e, foot.e) - foot.y * foot.w + f.h2 * o * o;
   const Float limit2 =
-      f.ab2 * all_of<Float>(0x1p-16f) + all_of<Float>(least2_m2 * (1.0f + 0x1p-11f) + 0x1p-100f);
-  const Float thin2 = f.ab2 * all_of<Float>(0x1p-10f) + all_of<Float>(0x1p-110f);
+      ab2 * all_of<Float>(0x1p-16f) + all_of<Float>(least2_m2 * (1.0f + 0x1p-11f) + 0x1p-100f);
+  const Float thin2 = ab2 * all_of<Float>(0x1p-10f) + all_of<Float>(0x1p-110f);
   return ~math::lanes_of(math::at_most(limit2, least2) & math::at_most(thin2, f.h2));
 }
 
-/// Pre: the frames are those of p_m, a, b and c.
+/// Pre: the frames are those of a, b and c, the feet those of p_m.
 template <class Float>
 [[gnu::always_inline]] static inline Feet<Float> closest_in_frames(const Frames<Float>& f,
+                                                                   const PlaneFeet<Float>& foot,
                                                                    math::Vec3 p_m,
                                                                    const math::Lanes<Float>& b,
                                                                    const math::Lanes<Float>& c) {
@@ -134,9 +153,9 @@ template <class Float>
   using Mask = lanes::Mask<Float>;
   const Float zero{}, one = all_of<Float>(1.0f);
   const Lanes<Float> p{all_of<Float>(p_m.x), all_of<Float>(p_m.y), all_of<Float>(p_m.z)};
-  const Lanes<Float> ac = f.ac, ap = f.ap, e = f.e, h = f.h;
+  const Lanes<Float> ac = c - f.a, ap = foot.ap, e = foot.e, h = f.h;
   const Lanes<Float> bc = c - b, bp = p - b, cp = p - c;
-  const Float x = f.x, y = f.y, w = f.w, v = f.v;
+  const Float x = foot.x, y = foot.y, w = foot.w, v = foot.v;
   const Float t_ac = dot(ac, ap), ac2 = dot(ac, ac), t_bc = dot(bc, bp), bc2 = dot(bc, bc);
   const Float part_ac = t_ac / ac2, part_bc = t_bc / bc2;
 
@@ -165,7 +184,8 @@ template <class Float>
                                                                       const math::Lanes<Float>& a,
                                                                       const math::Lanes<Float>& b,
                                                                       const math::Lanes<Float>& c) {
-  return closest_in_frames(frames_of(p_m, a, b, c), p_m, b, c);
+  const Frames<Float> f = frames_of(a, b, c);
+  return closest_in_frames(f, plane_feet(f, p_m), p_m, b, c);
 }
 
 }  // namespace firmtouch::mesh

@@ -7,16 +7,20 @@
 
 namespace firmtouch::mesh {
 
-/// A row of kShapesSection, by the operations of mesh/triangle.hpp in their order.
-inline void shape_of(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m, float (&row)[kShapeFloats]) {
+/// By the operations of mesh/triangle.hpp in their order.
+inline TriangleShape shape_of(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m) {
   const OfCorners shape{a_m, b_m, c_m};
-  const math::Vec3 ab = shape.ab(), ac = shape.ac();
+  const math::Vec3 ab = shape.ab();
   const float per_ab2 = shape.per_ab2(ab);
-  const float xc = shape.xc(ab, ac, per_ab2);
-  const float h2 = shape.h2(ac - ab * xc);
-  const float values[kShapeFloats] = {a_m.x, a_m.y, a_m.z, ab.x,    ab.y, ab.z,
-                                      ac.x,  ac.y,  ac.z,  per_ab2, xc,   h2};
-  for (uint32_t k = 0; k < kShapeFloats; ++k) row[k] = values[k];
+  const float xc = shape.xc(ab, per_ab2);
+  const math::Vec3 h = shape.h(ab, xc);
+  return {{a_m.x, a_m.y, a_m.z}, {ab.x, ab.y, ab.z}, {h.x, h.y, h.z}, per_ab2, xc, shape.h2(h)};
+}
+
+/// One float of a shape for each of its rows (kShapeRowsSection).
+inline void put_rows(const TriangleShape& shape, float (&row)[kRowsOfShapes]) {
+  static_assert(sizeof shape == sizeof row);
+  __builtin_memcpy(row, &shape, sizeof row);
 }
 
 }  // namespace firmtouch::mesh

@@ -129,9 +129,16 @@ Verdict Opening::open_desktop(const Sections& s) {
     for (uint32_t i = 0; i < kRowsEnd; ++i)
       if (math::bits_of(rows[floats + i]) != 0) return reject(132, 1);
   }
+  const uint32_t shape_floats = rows.empty() ? 0 : kRowsOfShapes * triangles + kRowsEnd;
+  const core::Span<const float> shape_rows = core::as_whole_array<float>(s.shape_rows);
+  if (shape_rows.size() != shape_floats || s.shape_rows.empty() != rows.empty())
+    return reject(142, 0);
+  for (uint32_t i = kRowsOfShapes * triangles; i < shape_floats; ++i)
+    if (math::bits_of(shape_rows[i]) != 0) return reject(142, 1);
   const core::Span<const Vertex> directions = core::as_whole_array<Vertex>(s.directions);
   if (!s.directions.empty() && directions.size() != kFeatures * triangles) return reject(134, 0);
   view_.rows_ = rows.empty() ? nullptr : rows.data();
+  view_.shape_rows_ = shape_rows.empty() ? nullptr : shape_rows.data();
   view_.directions_ = directions.empty() ? nullptr : directions.data();
   return kPassed;
 }
@@ -150,8 +157,8 @@ Verdict Opening::open_steady(const Sections& s) {
   if (!tells_nothing(boxes.data() + words)) return reject(136, 1);
   for (uint32_t i = 2; i < kLeafBoxesEnd; ++i)
     if (boxes[words + i] != 0) return reject(136, 1);
-  const core::Span<const float> shapes = core::as_whole_array<float>(s.shapes);
-  if (shapes.size() != kShapeFloats * triangles) return reject(140, 0);
+  const core::Span<const TriangleShape> shapes = core::as_whole_array<TriangleShape>(s.shapes);
+  if (shapes.size() != triangles) return reject(140, 0);
   view_.leaf_boxes_ = boxes.data();
   view_.shapes_ = shapes.data();
   return kPassed;
@@ -291,6 +298,13 @@ Verdict Opening::check_rows(uint32_t first, uint32_t count, uint32_t triangle) c
     const uint32_t at = kRowsOfLeaf * first + row * count + (triangle - first);
     if (math::bits_of(view_.rows_[at]) != math::bits_of(value)) return reject(133, triangle);
   }
+  float shape[kRowsOfShapes];
+  put_rows(shape_at(triangle), shape);
+  for (uint32_t row = 0; row < kRowsOfShapes; ++row) {
+    const uint32_t at = kRowsOfShapes * first + row * count + (triangle - first);
+    if (math::bits_of(view_.shape_rows_[at]) != math::bits_of(shape[row]))
+      return reject(143, triangle);
+  }
   return kPassed;
 }
 
@@ -316,13 +330,17 @@ Verdict Opening::check_leaf_box(uint32_t first, uint32_t count) const {
 }
 
 // The bits that a search would compute.
+TriangleShape Opening::shape_at(uint32_t triangle) const {
+  const Triangle<uint32_t> t = view_.triangle(triangle);
+  return shape_of(view_.vertex(t.corner[0]), view_.vertex(t.corner[1]), view_.vertex(t.corner[2]));
+}
+
 Verdict Opening::check_shape(uint32_t i) const {
   if (view_.shapes_ == nullptr) return kPassed;
-  const Triangle<uint32_t> t = view_.triangle(i);
-  float shape[kShapeFloats];
-  shape_of(view_.vertex(t.corner[0]), view_.vertex(t.corner[1]), view_.vertex(t.corner[2]), shape);
-  const float* const told = view_.shapes_ + size_t{kShapeFloats} * i;
-  for (uint32_t k = 0; k < kShapeFloats; ++k)
+  float told[kRowsOfShapes], shape[kRowsOfShapes];
+  put_rows(view_.shapes_[i], told);
+  put_rows(shape_at(i), shape);
+  for (uint32_t k = 0; k < kRowsOfShapes; ++k)
     if (math::bits_of(told[k]) != math::bits_of(shape[k])) return reject(141, i);
   return kPassed;
 }

@@ -9,11 +9,11 @@
 namespace firmtouch::mesh {
 
 /// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
-/// triangles32; the normals and folds are empty for an unsigned mesh, rows and directions but for a
-/// desktop, leaf_boxes and shapes where the baker was not asked for them; source is not read on a controller.
+/// triangles32; the normals and folds are empty for an unsigned mesh, rows, shape_rows and directions but
+/// for a desktop, leaf_boxes and shapes but for a steady bake.
 struct Sections {
   core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds,
-      rows, directions, leaf_boxes, shapes;
+      rows, directions, leaf_boxes, shapes, shape_rows;
 };
 
 /// A mesh that open() has proven: every index, box, depth and float. Immutable; share it between
@@ -34,9 +34,10 @@ class View {
   core::Span<const EdgeFolds> folds() const { return folds_; }
   /// Null where the asset has none: what they hold follows from the rest.
   const float* rows() const { return rows_; }
+  const float* shape_rows() const { return shape_rows_; }
   const Vertex* directions() const { return directions_; }
   const uint32_t* leaf_boxes() const { return leaf_boxes_; }
-  const float* shapes() const { return shapes_; }
+  const TriangleShape* shapes() const { return shapes_; }
   core::Span<const Triangle<uint16_t>> triangles16() const { return triangles16_; }
   core::Span<const Triangle<uint32_t>> triangles32() const { return triangles32_; }
 
@@ -63,13 +64,14 @@ class View {
   core::Span<const uint32_t> vertex_normals_;
   core::Span<const EdgeFolds> folds_;
   const float* rows_ = nullptr;
+  const float* shape_rows_ = nullptr;
   const Vertex* directions_ = nullptr;
   const uint32_t* leaf_boxes_ = nullptr;
-  const float* shapes_ = nullptr;
+  const TriangleShape* shapes_ = nullptr;
 };
 
 /// Proves a mesh in slices, so that a main loop stays alive while it opens a large one: rules R101
-/// to R141 of tools/FORMAT.md.
+/// to R143 of tools/FORMAT.md.
 ///
 ///     Opening opening(sections);
 ///     while (!opening.done()) opening.work(1000);
@@ -99,6 +101,7 @@ class Opening {
   core::Verdict check_leaf(uint32_t node, uint32_t slot);
   core::Verdict check_rows(uint32_t first, uint32_t count, uint32_t triangle) const;
   core::Verdict check_leaf_box(uint32_t first, uint32_t count) const;
+  TriangleShape shape_at(uint32_t triangle) const;
   core::Verdict check_shape(uint32_t i) const;
   core::Verdict check_triangle(uint32_t i) const;
 
