@@ -221,13 +221,13 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
         make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
   sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
-  if (options.shape.is_for_desktop) {
+  if (options.shape.beside == Beside::kRowsAndDirections) {
     sections.push_back(make_section(mesh::kRowsSection, name,
                                     make_rows<mesh::kRowsOfLeaf>(surface, tree, corners_of)));
     sections.push_back(make_section(mesh::kShapeRowsSection, name,
                                     make_rows<mesh::kRowsOfShapes>(surface, tree, shape_row_of)));
   }
-  if (options.shape.is_steady) {
+  if (options.shape.beside == Beside::kBoxesAndShapes) {
     sections.push_back(
         make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(surface, grid, tree)));
     sections.push_back(make_section(mesh::kShapesSection, name, make_shapes(surface)));
@@ -252,7 +252,7 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
     report.problem = proof_failure(verdict);
     return {};
   }
-  if (options.shape.is_for_desktop)
+  if (options.shape.beside == Beside::kRowsAndDirections)
     sections.push_back(make_section(mesh::kDirectionsSection, name, make_directions(view)));
   return sections;
 }

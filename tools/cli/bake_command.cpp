@@ -126,23 +126,27 @@ void write_source(const std::string& path, const std::vector<uint8_t>& asset,
 BakeOptions bake_options(const Arguments& arguments) {
   static const std::map<std::string, double> kUnits = {
       {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
+  static const std::map<std::string, Purpose> kPurposes = {{"--fast", Purpose::kFast},
+                                                           {"--steady", Purpose::kSteady},
+                                                           {"--small", Purpose::kSmall},
+                                                           {"--desktop", Purpose::kDesktop}};
   BakeOptions options;
   const std::string unit = arguments.choice("--unit", "m", {"m", "mm", "cm", "in"});
   options.unit_m = kUnits.at(unit);
   options.has_unit = arguments.has("--unit");
   options.is_signed = !arguments.has("--unsigned");
   options.close_holes = arguments.has("--close-holes");
-  options.small = arguments.has("--small");
-  options.desktop = arguments.has("--desktop");
-  options.steady = arguments.has("--steady");
-  int purposes = 0;
-  for (const char* const purpose : {"--fast", "--steady", "--small", "--desktop"})
-    purposes += arguments.has(purpose) ? 1 : 0;
-  if (purposes > 1)
-    fail_usage("bake: --fast, --steady, --small and --desktop contradict each other; give one");
+  std::string purpose;
+  for (const auto& [option, meant] : kPurposes) {
+    if (!arguments.has(option)) continue;
+    if (!purpose.empty())
+      fail_usage("bake: --fast, --steady, --small and --desktop contradict each other; give one");
+    purpose = option;
+    options.purpose = meant;
+  }
   options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
-                 (options.close_holes ? " --close-holes" : "") + (options.small ? " --small" : "") +
-                 (options.steady ? " --steady" : "") + (options.desktop ? " --desktop" : "");
+                 (options.close_holes ? " --close-holes" : "") +
+                 (options.purpose == Purpose::kFast ? "" : " " + purpose);
   options.map_cells = arguments.count("--distance-map", 0, 1, field::kMostCellsAnAxis - 2);
   if (options.map_cells != 0)
     options.text += " --distance-map " + std::to_string(options.map_cells);

@@ -11,14 +11,20 @@
 
 namespace firmtouch::cli {
 
+/// What an asset is made for.
+enum class Purpose {
+  kFast,    // the least work a query on a controller
+  kSteady,  // the least work of its dearest query
+  kSmall,   // the fewest bytes
+  kDesktop  // the least time on a desktop's processor
+};
+
 struct BakeOptions {
   double unit_m = 1;
   bool has_unit = false;  // said by the user: a file's own unit gives way to it
   bool is_signed = true;
   bool close_holes = false;
-  bool small = false;       // the smallest asset rather than the fastest on a controller
-  bool steady = false;      // the one whose dearest query costs a controller least
-  bool desktop = false;     // the fastest one on a desktop's processor
+  Purpose purpose = Purpose::kFast;
   uint32_t map_cells = 0;   // along the long axis; 0: no distance map
   uint32_t hull_faces = 0;  // 0: no hull
   bool has_tree = true;     // of the mesh; without it only a hull can be asked

@@ -141,6 +141,20 @@ bool is_of_tree(uint32_t type) {
          type == mesh::kShapeRowsSection;
 }
 
+const tools::TreeShape& tree_for(Purpose purpose) {
+  switch (purpose) {
+    case Purpose::kSteady:
+      return tools::kSteadyTree;
+    case Purpose::kSmall:
+      return tools::kSmallTree;
+    case Purpose::kDesktop:
+      return tools::kDesktopTree;
+    case Purpose::kFast:
+      break;
+  }
+  return tools::kFastTree;
+}
+
 // What is left of a mesh for hull queries alone.
 void drop_tree(BakedInput& baked) {
   auto& sections = baked.sections;
@@ -185,9 +199,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   progress.stage("building the tree of " + name);
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = options.is_signed;
-  if (options.small) mesh_options.shape = tools::kSmallTree;
-  if (options.steady) mesh_options.shape = tools::kSteadyTree;
-  if (options.desktop) mesh_options.shape = tools::kDesktopTree;
+  mesh_options.shape = tree_for(options.purpose);
   tools::MeshReport report;
   baked.sections = tools::bake_mesh(surface, name, mesh_options, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);

@@ -113,7 +113,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
 
   progress.stage("building the tree of " + name);
   tools::SplineReport report;
-  baked.sections = tools::bake_fast_spline(model, name, options.small, report);
+  baked.sections = tools::bake_fast_spline(model, name, options.purpose == Purpose::kSmall, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   spline::View view;
   const core::Verdict verdict = spline::open(tools::spline_sections(baked.sections, name), view);
