@@ -57,6 +57,18 @@ struct DesktopCube {
   }
 };
 
+// A section that is not whole, or not there: each time the same verdict.
+template <size_t kCuts>
+void check_cuts(firmtouch::core::Bytes mesh::Sections::*section, const uint32_t (&cuts)[kCuts],
+                uint32_t refusal) {
+  const DesktopCube cube;
+  for (const uint32_t cut : cuts) {
+    mesh::Sections s = cube.sections();
+    s.*section = shorter(s.*section, cut);
+    CHECK_EQ(refusal_of(s), refusal);
+  }
+}
+
 float next_float(float value) {
   uint32_t bits;
   __builtin_memcpy(&bits, &value, sizeof bits);
@@ -79,13 +91,7 @@ TEST(WhatIsThereForADesktopMayBeThereOrNot) {
 }
 
 TEST(R132RowsNotOfThisMesh) {
-  const DesktopCube cube;
-  mesh::Sections s = cube.sections();
-  const uint32_t cuts[] = {1, 4, DesktopCube::kFloats * 4 - 1};
-  for (const uint32_t cut : cuts) {
-    s.rows = shorter(cube.sections().rows, cut);
-    CHECK_EQ(refusal_of(s), 132'000u);
-  }
+  check_cuts(&mesh::Sections::rows, {1, 4, DesktopCube::kFloats * 4 - 1}, 132'000u);
 }
 
 TEST(R132RowsThatDoNotEndInZeros) {
@@ -112,12 +118,7 @@ TEST(R142ShapesSideBySideNotThereWithTheRowsOrNotOfThisMesh) {
   mesh::Sections s = cube.sections();
   s.rows = {};
   CHECK_EQ(refusal_of(s), 142'000u);
-  const uint32_t cuts[] = {1, 4, 48, DesktopCube::kShapeFloats * 4};
-  for (const uint32_t cut : cuts) {
-    s = cube.sections();
-    s.shape_rows = shorter(s.shape_rows, cut);
-    CHECK_EQ(refusal_of(s), 142'000u);
-  }
+  check_cuts(&mesh::Sections::shape_rows, {1, 4, 48, DesktopCube::kShapeFloats * 4}, 142'000u);
 }
 
 TEST(R142ShapesSideBySideThatDoNotEndInZeros) {
@@ -136,15 +137,7 @@ TEST(R143ShapeSideBySideThatIsNotOfItsCorners) {
   }
 }
 
-TEST(R134DirectionsNotOfThisMesh) {
-  const DesktopCube cube;
-  mesh::Sections s = cube.sections();
-  const uint32_t cuts[] = {1, 4, 12};
-  for (const uint32_t cut : cuts) {
-    s.directions = shorter(cube.sections().directions, cut);
-    CHECK_EQ(refusal_of(s), 134'000u);
-  }
-}
+TEST(R134DirectionsNotOfThisMesh) { check_cuts(&mesh::Sections::directions, {1, 4, 12}, 134'000u); }
 
 TEST(R135DirectionThatIsNotWhatIsStored) {
   for (uint32_t i = 0; i < mesh::kFeatures * Cube::kTriangles; ++i) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/surface_parts.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"
@@ -103,6 +105,39 @@ TEST(AlongAPathAFenceLeavesNothingOut) {
   CHECK_EQ(told.wrong, 0u);
   CHECK_EQ(told.inexact, 0u);
   CHECK(told.passed_over > 100000);
+}
+
+// Of all words none is a node but those that halving a whole piece comes to, in its order, and the tree's above.
+TEST(OnlyWhatHalvingComesToIsANodeOfAFront) {
+  for (uint32_t seed = 0; seed < 3; ++seed) {
+    tools::Random random(seed + 90);
+    const BakedModel baked(of({spline_test::random_surface(random, 3, most_of(seed), 1)}));
+    const spline::SurfaceParts parts(baked.view, Vec3{});
+    const uint32_t count = baked.view.pieces().size();
+    uint32_t wrong = 0, deepest = 0;
+    for (uint32_t piece = 0; piece <= count; ++piece) {
+      std::vector<bool> is_reached(1u << 16, false);
+      std::vector<uint32_t> next;
+      if (piece < count) next.push_back(piece << 16 | spline::kWholePiece);
+      while (!next.empty()) {
+        const uint32_t node = next.back();
+        next.pop_back();
+        is_reached[node & 0xFFFFu] = true;
+        const spline::PatchNode part = spline::apart(baked.view.pieces()[piece], node);
+        deepest = std::max(deepest, part.made_u + part.made_v);
+        if (part.left_u + part.left_v == 0) continue;
+        const uint32_t first = spline::first_half(node, part);
+        next.push_back(first);
+        next.push_back(first + (spline::is_halved_u(part) ? spline::kNextU : spline::kNextV));
+      }
+      for (uint32_t word = 0; word < 1u << 16; ++word)
+        wrong += parts.is_node(piece << 16 | word) == is_reached[word] ? 0u : 1u;
+    }
+    for (uint32_t i = 0; i < 1u << 16; ++i)
+      wrong += parts.is_node(spline::kUpper + i) == (i + 1 < count) ? 0u : 1u;
+    CHECK_EQ(wrong, 0u);
+    CHECK(deepest > 2);
+  }
 }
 
 // Trees of one piece, of a few, and of many more than a front has parts.

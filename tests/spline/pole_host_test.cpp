@@ -107,6 +107,37 @@ TEST(NoPointOfAPartAboutAPoleIsNearerThanItsBound) {
   CHECK(tight > 4000);
 }
 
+// An edge that is a point but for what is allowed: its own points are not nearer than the bound either.
+TEST(WhatAnEdgeIsMoreThanAPointIsTakenOffTheBound) {
+  constexpr float kOff = 0.02f;
+  tools::Random random(7);
+  int bounds = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Tapering piece(random, true);
+    for (uint32_t row = 1; row < 4; ++row)
+      for (uint32_t k = 0; k < 3; ++k)
+        piece.c[Tapering::place(piece.axis, 0, row) + k] +=
+            kOff / 16 * static_cast<float>(random.between(-1, 1));
+    const double end = piece.is_high ? 1 : -1;
+    const tools::Point pole = piece.at(end, 0);
+    const tools::Point q{pole.x + random.bell() * 0.1, pole.y + random.bell() * 0.1,
+                         pole.z + random.bell() * 0.1};
+    const Vec3 q_m = tools::to_vec3(q);
+    spline::Pole found;
+    CHECK(found.begin(piece.c, q_m, piece.axis, piece.is_high, kOff));
+    float foot;
+    const double told = wide(found.lower_m(-1, 1, 0x1p-10f, foot));
+    double least = HUGE_VAL;
+    for (int a = 0; a <= 64; ++a) {
+      const tools::Point off = piece.at(end, a / 32.0 - 1) - tools::to_point(q_m);
+      least = std::min(least, std::sqrt(dot(off, off)));
+    }
+    CHECK_LE(told, least);
+    bounds += told > 0 ? 1 : 0;
+  }
+  CHECK(bounds > 3000);
+}
+
 TEST(AnEdgeThatIsNoPointIsNoPole) {
   tools::Random random(6);
   for (int i = 0; i < 1000; ++i) {

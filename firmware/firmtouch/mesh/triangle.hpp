@@ -25,10 +25,10 @@ struct Everything {
 /// of the work, or less.
 ///
 /// Let e be the offset of p from the line a b, square to ab, and g be ac, or less a multiple of ab. For
-/// each q of the triangle p - q is e - m g and some multiple of ab, 0 <= m <= 1. So e . (p - q) =
-/// e^2 - m e . g, and the distance d is at least (e^2 - e . g) / |e|, or |e| where e . g is below 0. And p - q is no shorter than e
-/// less its part along h, so that d^2 is at least e^2 - (e . h)^2 / h^2, for any h that is ac less a
-/// multiple of ab: also for a sliver's, which may be all rounding.
+/// each q of the triangle p - q is e - m g and some multiple of ab, 0 <= m <= 1. So e . (p - q) = e^2 -
+/// m e . g, and the distance d is at least (e^2 - e . g) / |e|, or |e| where e . g is below 0. And p -
+/// q is no shorter than e less its part along h, so that d^2 is at least e^2 - (e . h)^2 / h^2, for any
+/// h that is ac less a multiple of ab: also for a sliver's, which may be all rounding.
 ///
 /// Suppose that d is below A = L (1 + 8 u) + 30 u E, beyond which no foot is told nearer than L
 /// (mesh/loss.hpp; u = 2^-24, E the mesh's longest edge). Then no vector is longer than A + 2 E, and

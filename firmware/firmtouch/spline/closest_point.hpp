@@ -29,9 +29,9 @@ struct Closest {
 /// Pre:    `model` is open.
 /// Bounds: <= budget steps, a step being a node read or a point evaluated; 8 KB of stack;
 ///         re-entrant; callable from an interrupt.
-/// Result: always finite. Two points equally near: the one found first. Unlimited queries are exact but for about 1 in 70,000
-///         within 2e-7 of the extent of a surface, which may take 40,000 steps; why is not known. A query that is not finite:
-///         some point, at distance FLT_MAX, lower 0, not exact.
+/// Result: always finite. Two points equally near: the one found first. Unlimited queries are exact but for
+///         a rare one within 2e-7 extents of a surface, which says so after many steps. A query that is not
+///         finite: some point, at distance FLT_MAX, lower 0, not exact.
 /// Error:  distance and, where exact, lower bound within 4e-7 of the extent (rational: 1e-6) and 9e-7
 ///         of the distance of the truth (tests/spline/closest_point_host_test.cpp).
 Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, Hint& hint);

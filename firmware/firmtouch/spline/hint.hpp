@@ -9,8 +9,7 @@ namespace firmtouch::spline {
 /// units beyond base_m, from where the last query was. A certificate, as lower_m is: what a query of another asset wrote
 /// makes answers wrong, though never reads what is not there.
 struct Front {
-  // With 32, 48 and 64 twelve walks about a teapot took 10,030, 9,618 and 9,466 instructions a query; later, with 64, 96
-  // and 128, 9,551, 9,490 and 9,485, and where most parts are about as near 104,519, 106,130 and 84,960.
+  // Where most of a model is about as near, 64 have no room for what is within reach (DESIGN.md, "Splines").
   static constexpr uint32_t kMost = 128;
 
   float base_m = 0.0f;  // less all motion since it was told: may be below 0
