@@ -6,6 +6,7 @@
 #include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/leaf_shape.hpp"
+#include "firmtouch/spline/part_radius.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::spline_test {
@@ -205,15 +206,17 @@ struct SmallSpline {
           patch_bends[p + i].turning[k] = byte(grid.turning_unit_m, needed.turning[k]);
         }
       }
-      const spline::Parallelogram whole = around({p, 0, 0, 0});
+      const spline::Patch whole{p, 0, 0, 0};
       for (uint32_t u = 0; u < 2; ++u) {
         const spline::LeafShape s = shape(2 * p + u);
-        const spline::Parallelogram leaf = around({p, 1, u, 0});
-        uint8_t& own = radii[3 * p + 1 + u];
-        own = byte(grid.radius_unit_m, spline::radius_for(s, leaf));
-        const uint8_t above =
-            byte(grid.radius_unit_m,
-                 spline::radius_above(spline::stored_value(grid.radius_unit_m, own), leaf, whole));
+        const spline::Patch leaf{p, 1, u, 0};
+        const auto needed = [&](const spline::Patch& part) {
+          const spline::PartOfQuad own = spline::own_of(pieces[p], part, leaf);
+          return byte(grid.radius_unit_m,
+                      spline::radius_for(s, spline::LeafCorners(s), around(part), own));
+        };
+        radii[3 * p + 1 + u] = needed(leaf);
+        const uint8_t above = needed(whole);
         if (u == 0 || above > radii[3 * p]) radii[3 * p] = above;
       }
       uint8_t& overlap = radii[6 + p];
@@ -222,18 +225,21 @@ struct SmallSpline {
     derive_box();
   }
   bool halves_hold(uint32_t p, uint32_t overlap) const {
-    const float unit = grids[p].radius_unit_m;
+    const spline::Patch whole{p, 0, 0, 0};
+    const float stored_m = spline::stored_value(grids[p].radius_unit_m, radii[3 * p]);
     for (uint32_t u = 0; u < 2; ++u) {
-      const spline::PartHalf half = spline::half_of(pieces[p], {p, 0, 0, 0}, {p, 1, u, 0}, overlap);
-      const float leaf_m = spline::stored_value(unit, radii[3 * p + 1 + u]);
+      const spline::Patch leaf{p, 1, u, 0};
+      const spline::PartOfQuad half = spline::half_of(pieces[p], whole, leaf, overlap);
+      const spline::PartOfQuad own = spline::own_of(pieces[p], whole, leaf);
+      const spline::LeafShape s = shape(2 * p + u);
       const float needed_m =
-          spline::radius_above(leaf_m, around({p, 1, u, 0}), around({p, 0, 0, 0}), half);
-      if (!(needed_m <= spline::stored_value(unit, radii[3 * p]))) return false;
+          spline::radius_for(s, spline::LeafCorners(s), around(whole), own, half);
+      if (!(needed_m <= stored_m)) return false;
     }
     return true;
   }
-  spline::Parallelogram around(const spline::Patch& p) const {
-    return spline::stored_parallelogram(pieces[p.piece], grids[p.piece], corners, p);
+  spline::Quad around(const spline::Patch& p) const {
+    return spline::stored_quad(pieces[p.piece], grids[p.piece], corners, p);
   }
   static uint8_t byte(float unit, float value) {
     return static_cast<uint8_t>(spline::byte_above(unit, value));

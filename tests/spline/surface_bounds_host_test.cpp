@@ -26,27 +26,41 @@ float of_byte(float unit, uint8_t byte) {
   return value;
 }
 
-// centre + u a + v b, u and v between these.
-struct Flat {
-  Plain centre, a, b;
+// centre + u a + v b + u v twist, u and v between these.
+struct Quad {
+  Plain centre, a, b, twist;
   Wide low[2] = {-1, -1}, high[2] = {1, 1};
 };
 
-bool is_in_parallelogram(const Vector& x, const Flat& flat, float radius) {
-  const Plain &centre = flat.centre, &a = flat.a, &b = flat.b;
-  const auto held_u = [&](Wide u) { return held(u, flat.low[0], flat.high[0]); };
-  const auto held_v = [&](Wide v) { return held(v, flat.low[1], flat.high[1]); };
+Plain sum_of(const Plain& a, const Plain& b, Wide times) {
+  Plain sum;
+  for (size_t k = 0; k < 3; ++k) sum[k] = a[k] + b[k] * times;
+  return sum;
+}
+
+// Where on it a point is nearest, about, by turns of one axis each from both ends; then the box about the point is measured from
+// there.
+bool is_about_quad(const Vector& x, const Quad& quad, float radius) {
   Plain off;
-  for (size_t k = 0; k < 3; ++k) off[k] = middle(x[k]) - centre[k];
-  const Wide aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
-  Wide v = held_v(det > 0 ? (aa * dot(b, off) - ab * dot(a, off)) / det : 0);
-  const Wide u = held_u(aa > 0 ? (dot(a, off) - ab * v) / aa : 0);
-  v = held_v(bb > 0 ? (dot(b, off) - ab * u) / bb : 0);
-  Vector rest;
-  for (size_t k = 0; k < 3; ++k)
-    rest[k] =
-        x[k] - (Interval(centre[k]) + Interval(a[k]) * Interval(u) + Interval(b[k]) * Interval(v));
-  return longest(rest) <= static_cast<Wide>(radius);
+  for (size_t k = 0; k < 3; ++k) off[k] = middle(x[k]) - quad.centre[k];
+  for (const Wide from : {quad.low[0], (quad.low[0] + quad.high[0]) / 2, quad.high[0]}) {
+    Wide u = from, v = 0;
+    for (int turn = 0; turn < 60; ++turn) {
+      const Plain b = sum_of(quad.b, quad.twist, u);
+      const Wide bb = dot(b, b);
+      v = held(bb > 0 ? dot(b, sum_of(off, quad.a, -u)) / bb : 0, quad.low[1], quad.high[1]);
+      const Plain a = sum_of(quad.a, quad.twist, v);
+      const Wide aa = dot(a, a);
+      u = held(aa > 0 ? dot(a, sum_of(off, quad.b, -v)) / aa : 0, quad.low[0], quad.high[0]);
+    }
+    Vector rest;
+    for (size_t k = 0; k < 3; ++k)
+      rest[k] = x[k] - (Interval(quad.centre[k]) + Interval(quad.a[k]) * Interval(u) +
+                        Interval(quad.b[k]) * Interval(v) +
+                        Interval(quad.twist[k]) * (Interval(u) * Interval(v)));
+    if (longest(rest) <= static_cast<Wide>(radius)) return true;
+  }
+  return false;
 }
 
 void check_parts(const spline::View& view, uint32_t index, const StoredPiece& stored) {
@@ -69,16 +83,17 @@ void check_parts(const spline::View& view, uint32_t index, const StoredPiece& st
           return made;
         };
         const Plain c00 = corner(0, 0), c10 = corner(1, 0), c01 = corner(0, 1), c11 = corner(1, 1);
-        Flat flat;
+        Quad quad;
         for (size_t k = 0; k < 3; ++k) {
-          flat.centre[k] = (c00[k] + c10[k] + c01[k] + c11[k]) / 4;
-          flat.a[k] = (c10[k] + c11[k] - c00[k] - c01[k]) / 4;
-          flat.b[k] = (c01[k] + c11[k] - c00[k] - c10[k]) / 4;
+          quad.centre[k] = (c00[k] + c10[k] + c01[k] + c11[k]) / 4;
+          quad.a[k] = (c10[k] + c11[k] - c00[k] - c01[k]) / 4;
+          quad.b[k] = (c01[k] + c11[k] - c00[k] - c10[k]) / 4;
+          quad.twist[k] = (c00[k] + c11[k] - c10[k] - c01[k]) / 4;
         }
         const float r = of_byte(grid.radius_unit_m, view.radii()[radius]);
         const auto holds_on = [&](const Area& area) {
           return holds(area, true, kFinest, [&](const Area& part) {
-            return is_in_parallelogram(stored.over(part, 0).of[0][0], flat, r);
+            return is_about_quad(stored.over(part, 0).of[0][0], quad, r);
           });
         };
         CHECK(holds_on(area_of(u, i, v, j, true)));
@@ -88,8 +103,8 @@ void check_parts(const spline::View& view, uint32_t index, const StoredPiece& st
         const Wide overlap = static_cast<Wide>(view.overlaps()[inner++]) / 128;
         for (uint32_t upper = 0; upper < 2; ++upper) {
           const size_t axis = is_u ? 0 : 1;
-          flat.low[axis] = upper == 1 ? -overlap : -1;
-          flat.high[axis] = upper == 1 ? 1 : overlap;
+          quad.low[axis] = upper == 1 ? -overlap : -1;
+          quad.high[axis] = upper == 1 ? 1 : overlap;
           CHECK(holds_on(is_u ? area_of(u + 1, 2 * i + upper, v, j, true)
                               : area_of(u, i, v + 1, 2 * j + upper, true)));
         }

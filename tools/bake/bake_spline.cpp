@@ -274,7 +274,7 @@ SplineDetail curve_detail(bool is_small) {
 
 SplineDetail surface_detail(bool is_small) {
   SplineDetail detail;
-  detail.thickness = is_small ? 0.1 : 0.0028;
+  detail.thickness = is_small ? 0.1 : 0.0034;
   detail.doubt = 100;
   detail.most_halvings = is_small ? 1 : 3;
   detail.cell_level = is_small ? 0 : 1;

@@ -6,6 +6,7 @@
 #include "bake/principal_axes.hpp"
 #include "bake/spline_tree.hpp"
 #include "firmtouch/math/isa.hpp"
+#include "firmtouch/spline/part_radius.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 struct Cut {
   StoredPiece stored;
   std::vector<spline::LeafShape> shapes;  // of its leaves, row by row
+  std::vector<spline::LeafCorners> corners;
   std::array<float, 3> middle_m;
   uint32_t order;  // in the file
 };
@@ -24,12 +26,14 @@ struct Range {
 std::vector<Cut> cuts_of(const std::vector<StoredPiece>& pieces) {
   std::vector<Cut> cuts;
   for (const StoredPiece& stored : pieces) {
-    Cut cut{stored, {}, {}, static_cast<uint32_t>(cuts.size())};
+    Cut cut{stored, {}, {}, {}, static_cast<uint32_t>(cuts.size())};
     const spline::Piece& piece = stored.piece;
     for (size_t k = 0; k < 3; ++k) cut.middle_m[k] = piece.origin_m[k];
     for (uint32_t v = 0; v < 1u << piece.level_v; ++v)
-      for (uint32_t u = 0; u < 1u << piece.level_u; ++u)
+      for (uint32_t u = 0; u < 1u << piece.level_u; ++u) {
         cut.shapes.push_back(shape_of(stored, piece.level_u, u, piece.level_v, v));
+        cut.corners.emplace_back(cut.shapes.back());
+      }
     cuts.push_back(std::move(cut));
   }
   return cuts;
@@ -140,8 +144,8 @@ std::vector<spline::Box> build_tree(std::vector<Cut>& cuts) {
   return boxes;
 }
 
-// Corners stand off the surface by half of what the leaves about them sag in the middle: so a leaf lies
-// on both sides of its parallelogram, half as far from it.
+// Corners stand off the surface, along its normal, by half of what the leaves about them sag in the middle: so a leaf
+// lies on both sides of its quad, half as far from it.
 void place_corners(const Cut& cut, spline::Grid& grid, std::vector<spline::Corner>& corners) {
   const uint32_t columns = 1u << cut.stored.piece.level_u, rows = 1u << cut.stored.piece.level_v;
   std::vector<Point> places;
@@ -157,6 +161,9 @@ void place_corners(const Cut& cut, spline::Grid& grid, std::vector<spline::Corne
           Point sag{};
           for (const double x : {-1.0, 1.0})
             for (const double y : {-1.0, 1.0}) sag = sag + at(shape, x, y) * 0.25;
+          const Point normal = cross(to_point(shape.c[1]), to_point(shape.c[shape.degree_u + 1]));
+          const double length2 = dot(normal, normal);
+          sag = length2 > 0 ? normal * (dot(normal, sag) / length2) : Point{};
           sum = sum + to_point(shape.local_m) + on - sag * 0.5;
           count += 1;
         }
@@ -224,72 +231,56 @@ struct Bounds {
   std::vector<uint8_t> radii, overlaps;
 };
 
-// The radii of all parts, those of the leaves first: the others stand on them as stored.
+// The radii of all parts: of each what the farthest of its leaves needs.
 void store_radii(const Cut& cut, uint32_t number, spline::Grid& grid,
                  const std::vector<spline::Corner>& corners, Bounds& bounds) {
-  std::vector<uint8_t>& radii = bounds.radii;
   const spline::Piece& piece = cut.stored.piece;
   const uint32_t depth = 0u + piece.level_u + piece.level_v, columns = 1u << piece.level_u;
-  const auto around = [&](const spline::Patch& p) {
-    return spline::stored_parallelogram(piece, grid, corners.data(), p);
-  };
-  std::vector<float> own(cut.shapes.size());
-  float most = 0;
+  const size_t first = bounds.radii.size();
+  std::vector<float> needed_m(2 * cut.shapes.size() - 1);
   for (uint32_t i = 0; i < cut.shapes.size(); ++i) {
     const spline::Patch leaf{number, depth, i % columns, i / columns};
-    own[i] = spline::radius_for(cut.shapes[i], around(leaf));
-    most = std::max(most, own[i]);
-  }
-  for (bool fits = false; !fits; most *= 1.125f) {  // until the unit reaches those of all parts
-    grid.radius_unit_m = unit_for(most);
-    radii.resize(2 * grid.first_leaf - number);
-    radii.resize(radii.size() + 2 * cut.shapes.size() - 1);
-    fits = true;
-    const auto raise = [&](const spline::Patch& p, float radius_m) {
-      uint8_t& stored = radii[radius_of(grid, p, spline::halvings_of(piece, p.depth))];
-      const uint32_t byte = spline::byte_above(grid.radius_unit_m, radius_m);
-      fits = fits && byte < 256;
-      if (byte > stored) stored = static_cast<uint8_t>(byte);
-      return spline::stored_value(grid.radius_unit_m, stored);
-    };
-    for (uint32_t i = 0; i < cut.shapes.size(); ++i) {
-      spline::Patch patch{number, depth, i % columns, i / columns};
-      const spline::Parallelogram leaf = around(patch);
-      const float leaf_m = raise(patch, own[i]);
-      while (patch.depth != 0) {
-        patch = spline::parent_of(piece, patch);
-        raise(patch, spline::radius_above(leaf_m, leaf, around(patch)));
-      }
+    for (spline::Patch part = leaf;; part = spline::parent_of(piece, part)) {
+      const spline::Quad quad = spline::stored_quad(piece, grid, corners.data(), part);
+      const float radius_m = spline::radius_for(cut.shapes[i], cut.corners[i], quad,
+                                                spline::own_of(piece, part, leaf));
+      float& most_m =
+          needed_m[radius_of(grid, part, spline::halvings_of(piece, part.depth)) - first];
+      most_m = std::max(most_m, radius_m);
+      if (part.depth == 0) break;
     }
   }
+  grid.radius_unit_m = unit_for(*std::max_element(needed_m.begin(), needed_m.end()));
+  for (const float radius_m : needed_m)
+    bounds.radii.push_back(static_cast<uint8_t>(spline::byte_above(grid.radius_unit_m, radius_m)));
 }
 
-// The least with which each leaf lies within the radii about its halves of the parts above it.
+// With which each leaf lies within the radii about its halves of the parts above it: about the least. What one leaf needs may
+// be too much for how another is seen to lie, so that all are asked until none needs more; halves that are the whole hold all.
 void store_overlaps(const Cut& cut, uint32_t number, const spline::Grid& grid,
                     const std::vector<spline::Corner>& corners, Bounds& bounds) {
-  constexpr uint32_t kWhole = 128;  // of that each half is the whole
+  constexpr uint32_t kWhole = 128;
   const spline::Piece& piece = cut.stored.piece;
   const uint32_t depth = 0u + piece.level_u + piece.level_v, columns = 1u << piece.level_u;
-  const auto around = [&](const spline::Patch& p) {
-    return spline::stored_parallelogram(piece, grid, corners.data(), p);
-  };
-  const auto radius_m = [&](const spline::Patch& p) {
-    const uint32_t at = radius_of(grid, p, spline::halvings_of(piece, p.depth));
-    return spline::stored_value(grid.radius_unit_m, bounds.radii[at]);
-  };
   bounds.overlaps.resize(bounds.overlaps.size() + cut.shapes.size() - 1);
-  for (uint32_t i = 0; i < cut.shapes.size(); ++i) {
-    const spline::Patch part{number, depth, i % columns, i / columns};
-    const spline::Parallelogram leaf = around(part);
-    for (spline::Patch above = part; above.depth != 0;) {
-      above = spline::parent_of(piece, above);
-      const spline::Parallelogram whole = around(above);
-      uint8_t& byte =
-          bounds.overlaps[overlap_of(grid, above, spline::halvings_of(piece, above.depth))];
-      while (byte < kWhole &&
-             !(spline::radius_above(radius_m(part), leaf, whole,
-                                    spline::half_of(piece, above, part, byte)) <= radius_m(above)))
-        ++byte;
+  const auto fits = [&](uint32_t i, const spline::Patch& leaf, const spline::Patch& above,
+                        uint32_t overlap) {
+    const uint32_t at = radius_of(grid, above, spline::halvings_of(piece, above.depth));
+    const float needed_m = spline::radius_for(
+        cut.shapes[i], cut.corners[i], spline::stored_quad(piece, grid, corners.data(), above),
+        spline::own_of(piece, above, leaf), spline::half_of(piece, above, leaf, overlap));
+    return needed_m <= spline::stored_value(grid.radius_unit_m, bounds.radii[at]);
+  };
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (uint32_t i = 0; i < cut.shapes.size(); ++i) {
+      const spline::Patch leaf{number, depth, i % columns, i / columns};
+      for (spline::Patch above = leaf; above.depth != 0;) {
+        above = spline::parent_of(piece, above);
+        uint8_t& byte =
+            bounds.overlaps[overlap_of(grid, above, spline::halvings_of(piece, above.depth))];
+        for (; byte < kWhole && !fits(i, leaf, above, byte); ++byte) has_changed = true;
+      }
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "firmtouch/spline/leaf_proof.hpp"
 
 #include "firmtouch/spline/bend_bounds.hpp"
+#include "firmtouch/spline/part_radius.hpp"
 #include "firmtouch/spline/patch_grid.hpp"
 
 namespace firmtouch::spline {
@@ -78,22 +79,21 @@ Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
   const Piece& piece = model.pieces()[place.piece];
   const Grid& grid = model.grids()[place.piece];
   Patch patch{place.piece, 0u + piece.level_u + piece.level_v, place.index_u, place.index_v};
-  const Parallelogram leaf =
-      parallelogram_of(piece, grid, model.corners().data(), patch, halvings_of(piece, patch.depth));
+  const auto quad = [&] { return stored_quad(piece, grid, model.corners().data(), patch); };
   const auto stored_m = [&] {
     return in_units(grid.radius_unit_m,
                     model.radii()[radius_of(grid, patch, halvings_of(piece, patch.depth))]);
   };
-  const float leaf_m = stored_m();
-  if (!(radius_for(shape, leaf) <= leaf_m)) return reject(623, i);
+  const Patch leaf = patch;
+  const LeafCorners corners(shape);
+  if (!(radius_for(shape, corners, quad(), {}) <= stored_m())) return reject(623, i);
   while (patch.depth != 0) {
     patch = parent_of(piece, patch);
-    const Parallelogram above = parallelogram_of(piece, grid, model.corners().data(), patch,
-                                                 halvings_of(piece, patch.depth));
     const uint32_t overlap =
         model.overlaps()[overlap_of(grid, patch, halvings_of(piece, patch.depth))];
-    const PartHalf half = half_of(piece, patch, {0, 0, place.index_u, place.index_v}, overlap);
-    if (!(radius_above(leaf_m, leaf, above, half) <= stored_m())) return reject(623, i);
+    const PartOfQuad half = half_of(piece, patch, leaf, overlap);
+    if (!(radius_for(shape, corners, quad(), own_of(piece, patch, leaf), half) <= stored_m()))
+      return reject(623, i);
   }
   for (uint32_t at = model.pieces().size() - 1 + place.piece; at != 0;) {
     at = parent_of(at);

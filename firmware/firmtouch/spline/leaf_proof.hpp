@@ -11,7 +11,7 @@ namespace firmtouch::spline {
 core::Verdict check_capsules(const View& model, uint32_t i, const LeafShape& shape);
 /// Of a curve's piece one of kFineParts after the other, and with the last of them its bend (R619, R620).
 core::Verdict check_bend(const View& model, uint32_t piece, uint32_t fine_part, CurveBends& needed);
-/// Of a surface's leaf the parallelograms with radii and the boxes that hold it (R623).
+/// Of a surface's leaf the quads with radii and the boxes that hold it (R623).
 core::Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
                           const LeafShape& shape);
 

@@ -78,44 +78,6 @@ float off_chord_m(const LeafShape& shape, Vec3 a_m, Vec3 b_m) {
          4.0f * kUnit * (math::length(a_m) + math::length(b_m));
 }
 
-// (point - centre - x a - y b) * weight, as a polynomial of one degree more on each axis.
-struct Residual {
-  static constexpr uint32_t kSide = kMaxDegree + 2;
-  Vec3 e[kSide][kSide] = {};  // [power of y][power of x]
-};
-void residual_of(const LeafShape& shape, const Parallelogram& around, Residual& r) {
-  const Vec3 off_m = around.centre - shape.local_m;
-  for (uint32_t j = 0; j <= shape.degree_v; ++j)
-    for (uint32_t i = 0; i <= shape.degree_u; ++i) {
-      const uint32_t at = j * (shape.degree_u + 1) + i;
-      const float w = shape.w[at];
-      r.e[j][i] = r.e[j][i] + shape.c[at] - off_m * w;
-      r.e[j][i + 1] = r.e[j][i + 1] - around.a * w;
-      r.e[j + 1][i] = r.e[j + 1][i] - around.b * w;
-    }
-}
-
-// The most of the terms that are even or odd alike: with x^2 and y^2 apart from a factor of at most 1,
-// the first four are linear in each, and longest in a corner; the others are added up.
-float most_of(const Residual& r, uint32_t odd_y, uint32_t odd_x) {
-  const Vec3 one = r.e[odd_y][odd_x], x2 = r.e[odd_y][odd_x + 2], y2 = r.e[odd_y + 2][odd_x],
-             both = r.e[odd_y + 2][odd_x + 2];
-  const float at_y0 = longest(one, x2), at_y1 = longest(one + y2, x2 + both);
-  float sum_m = at_y0 > at_y1 ? at_y0 : at_y1;
-  for (uint32_t j = odd_y; j < Residual::kSide; j += 2)
-    for (uint32_t i = odd_x; i < Residual::kSide; i += 2)
-      if (j > odd_y + 2 || i > odd_x + 2) sum_m += math::length(r.e[j][i]);
-  return sum_m;
-}
-
-float size_of(const Parallelogram& p) {
-  return math::length(p.centre) + math::length(p.a) + math::length(p.b);
-}
-
-float between(float value, float low, float high) {
-  return value > low ? value < high ? value : high : low;
-}
-
 // How far a point is from that line, rounded up.
 float off_line_m(Vec3 p_m, Vec3 a_m, Vec3 b_m) {
   const Vec3 along_m = b_m - a_m, from_m = p_m - a_m;
@@ -150,6 +112,7 @@ void derive(const Piece& piece, const float* coefficients, const Part& part, Lea
     shift(c + j * nu, piece.degree_u, 1, part.middle_u, part.half_u);
   for (uint32_t i = 0; i < nu; ++i) shift(c + i, piece.degree_v, nu, part.middle_v, part.half_v);
 
+  shape.is_rational = piece.is_rational != 0;
   shape.degree_u = piece.degree_u;
   shape.degree_v = piece.degree_v;
   const float weight = c[0].v[3], per_weight = 1.0f / weight;
@@ -215,56 +178,7 @@ float radius_above(float leaf_radius_m, Vec3 leaf_a_m, Vec3 leaf_b_m, Vec3 a_m, 
   return with_slack((first_m > last_m ? first_m : last_m) + leaf_radius_m, math::length(b_m - a_m));
 }
 
-Parallelogram stored_parallelogram(const Piece& piece, const Grid& grid, const Corner* corners,
-                                   const Patch& patch) {
-  return parallelogram_of(piece, grid, corners, patch, halvings_of(piece, patch.depth));
-}
-
 float stored_value(float unit, uint32_t byte) { return in_units(unit, byte); }
-
-float radius_for(const LeafShape& shape, const Parallelogram& around) {
-  Residual r;
-  residual_of(shape, around, r);
-  float off_m = 0;
-  for (uint32_t odd = 0; odd < 4; ++odd) off_m += most_of(r, odd >> 1, odd & 1u);
-  const float rounding_m = 16.0f * kUnit * (shape.reach_m + size_of(around));
-  return with_slack(off_m / shape.least_weight * kUp + shape.noise_m + rounding_m, size_of(around));
-}
-
-// The distance to what is convex is most at a corner, and parallelograms and their halves are.
-float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above) {
-  return radius_above(leaf_radius_m, leaf, above, {{-1.0f, -1.0f}, {1.0f, 1.0f}});
-}
-float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above,
-                   const PartHalf& half) {
-  float most_m = 0;
-  for (uint32_t corner = 0; corner < 4; ++corner) {
-    const Vec3 along_a = (corner & 1u) != 0 ? leaf.a : -leaf.a;
-    const Vec3 at_m = leaf.centre + along_a + ((corner & 2u) != 0 ? leaf.b : -leaf.b);
-    Seen seen;
-    see(above, at_m, seen);
-    float x = between(seen.of_a * seen.per_aa, half.low[0], half.high[0]);
-    const float y = between((seen.of_b - seen.ab * x) * seen.per_bb, half.low[1], half.high[1]);
-    x = between((seen.of_a - seen.ab * y) * seen.per_aa, half.low[0], half.high[0]);
-    const float off_m = math::length(seen.r - above.a * x - above.b * y);
-    if (off_m > most_m) most_m = off_m;
-  }
-  const float size_m = size_of(leaf) + size_of(above);
-  return with_slack(most_m * kUp + 8.0f * kUnit * size_m + leaf_radius_m, size_of(above));
-}
-
-PartHalf half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap) {
-  const Halvings made = halvings_of(piece, above.depth);
-  const uint32_t axis = halves_u(piece, made) ? 0 : 1;
-  const uint32_t left = (axis == 0 ? piece.level_u - made.u : piece.level_v - made.v) - 1;
-  const bool is_low = (((axis == 0 ? leaf.u : leaf.v) >> left) & 1u) == 0;
-  PartHalf half{{-1.0f, -1.0f}, {1.0f, 1.0f}};
-  if (is_low)
-    half.high[axis] = in_overlaps(overlap);
-  else
-    half.low[axis] = -in_overlaps(overlap);
-  return half;
-}
 
 void enlarge(const LeafShape& shape, Box& box) {
   const Vec3 a{box.axis[0][0], box.axis[0][1], box.axis[0][2]};

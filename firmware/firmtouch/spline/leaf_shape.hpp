@@ -21,6 +21,7 @@ Part part_of(const Halvings& made, uint32_t u, uint32_t v);
 /// fastest, point(x, y) = middle_m + (sum of c[i, j] x^i y^j) / (sum of w[i, j] x^i y^j).
 struct LeafShape {
   static constexpr uint32_t kMost = (kMaxDegree + 1) * (kMaxDegree + 1);
+  bool is_rational = false;
   uint32_t degree_u = 0, degree_v = 0;
   math::Vec3 middle_m, local_m;  // the latter from the piece's origin
   math::Vec3 c[kMost];           // c[0] is what float32 left of it, next to nothing
@@ -51,24 +52,9 @@ float radius_for(const LeafShape& shape, math::Vec3 a_m, math::Vec3 b_m);
 /// The same of a node above: the leaf's own capsule and the node's.
 float radius_above(float leaf_radius_m, math::Vec3 leaf_a_m, math::Vec3 leaf_b_m, math::Vec3 a_m,
                    math::Vec3 b_m);
-/// What is stored of a part of a surface: its parallelogram, and a byte of a unit.
-Parallelogram stored_parallelogram(const Piece& piece, const Grid& grid, const Corner* corners,
-                                   const Patch& patch);
+/// What is stored of a part of a surface: a byte of a unit.
 float stored_value(float unit, uint32_t byte);
 
-/// Of a part's parallelogram centre + x a + y b the x and y that belong to one of its halves.
-struct PartHalf {
-  float low[2], high[2];
-};
-
-/// What the radius of a part of a surface must at least be: of a leaf, and of a part above one.
-float radius_for(const LeafShape& shape, const Parallelogram& around);
-float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above);
-/// The same where the leaf has to lie about its half of the part: what it is of the half, by the part's
-/// overlap.
-float radius_above(float leaf_radius_m, const Parallelogram& leaf, const Parallelogram& above,
-                   const PartHalf& half);
-PartHalf half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap);
 /// Of a box with this centre and these axes, to hold the leaf: enlarges half_m.
 void enlarge(const LeafShape& shape, Box& box);
 

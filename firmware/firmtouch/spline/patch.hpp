@@ -59,9 +59,9 @@ inline uint32_t overlap_of(const Grid& grid, const Patch& p, const Halvings& mad
   return grid.first_leaf - p.piece + (1u << p.depth) - 1u + (p.v << made.u | p.u);
 }
 
-/// centre + x a + y b for x and y from -1 to 1, in metres from the piece's origin: without rounding.
-struct Parallelogram {
-  math::Vec3 centre, a, b;
+/// centre + x a + y b + x y twist for x and y from -1 to 1, in metres from the piece's origin: without rounding.
+struct Quad {
+  math::Vec3 centre, a, b, twist;
 };
 
 }  // namespace firmtouch::spline

@@ -48,8 +48,7 @@ class PatchBounds {
   [[gnu::always_inline]] bool is_beyond(uint32_t u, uint32_t v, uint32_t left_u, uint32_t left_v,
                                         bool next_u, float limit_m, PartBound& told) const {
     const uint32_t along = columns_ << left_v;
-    const Parallelogram p =
-        quarters_between(first_ + v * along + (u << left_u), 1u << left_u, along);
+    const Quad p = quarters_between(first_ + v * along + (u << left_u), 1u << left_u, along);
     Seen seen;
     see(p, q_, seen);
     Foot foot;
@@ -63,14 +62,14 @@ class PatchBounds {
       return false;
     }
     const float overlap = in_overlaps(piece_overlaps_[in_order]);
-    const Side at_x{foot.x, foot.slope_x, seen.aa, seen.per_aa};
-    const Side at_y{foot.y, foot.slope_y, seen.bb, seen.per_bb};
     const float on = next_u ? foot.x : foot.y, excess = __builtin_fabsf(on) - overlap;
     told.far_half = math::bits_of(on) >> 31;
     told.far_m = 0.0f;
     if (excess > 0.0f) {
-      const float off = next_u ? half_bound(foot.off2, at_x, at_y, seen.ab, excess, overlap)
-                               : half_bound(foot.off2, at_y, at_x, seen.ab, excess, overlap);
+      const Axis u_axis{p.a, foot.x}, v_axis{p.b, foot.y};
+      const float off =
+          next_u ? half_bound(foot, u_axis, v_axis, p.twist, seen.ab, seen.per_bb, excess)
+                 : half_bound(foot, v_axis, u_axis, p.twist, seen.ab, seen.per_aa, excess);
       told.far_m = off * quarter_m_ - radius_m;
     }
     return false;

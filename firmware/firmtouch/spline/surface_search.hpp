@@ -243,7 +243,7 @@ class SurfaceSearch : public Account {
           const float pole_m = poles_.lower_m(node, best_.gap_m, told.x, told.y);
           if (pole_m >= best_.limit_m) return pass(node, pole_m * (1.0f - 0x1p-21f));
         }
-        if (parts_.may_be_closed(node, left_u + left_v) && parts_.is_closed(node, best_))
+        if (parts_.may_be_closed(node, left_u + left_v, best_) && parts_.is_closed(node, best_))
           return pass_closed(node);
         if (is_leaf || lower_m > far_lower_m || left_ < 2 || is_beside) {
           keep(node, lower_m, told, is_leaf);
