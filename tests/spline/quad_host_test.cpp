@@ -54,7 +54,7 @@ double distance(const spline::Quad& quad, math::Vec3 q, Area in) {
 double size_of(math::Vec3 v) { return distance({{}, {}, {}, {}}, v, 0, 0); }
 // As much as stored radii hold beside.
 double slack(const spline::Quad& quad) {
-  return 0x1p-17 * (size_of(quad.centre) + size_of(quad.a) + size_of(quad.b) + size_of(quad.twist));
+  return 0x1p-18 * (size_of(quad.centre) + size_of(quad.a) + size_of(quad.b) + size_of(quad.twist));
 }
 
 spline::Corner corner(Random& random, double size) {
