@@ -38,29 +38,31 @@ Plain sum_of(const Plain& a, const Plain& b, Wide times) {
   return sum;
 }
 
-// Where on it a point is nearest, about, by turns of one axis each from both ends; then the box about the point is measured from
-// there.
+// Where on it a point is nearest, about, by turns of one axis each from three places; the box about the point is measured
+// from there.
 bool is_about_quad(const Vector& x, const Quad& quad, float radius) {
   Plain off;
   for (size_t k = 0; k < 3; ++k) off[k] = middle(x[k]) - quad.centre[k];
+  Wide u = 0, v = 0, least = HUGE_VALL;
   for (const Wide from : {quad.low[0], (quad.low[0] + quad.high[0]) / 2, quad.high[0]}) {
-    Wide u = from, v = 0;
-    for (int turn = 0; turn < 60; ++turn) {
-      const Plain b = sum_of(quad.b, quad.twist, u);
+    Wide on_u = from, on_v = 0;
+    for (int turn = 0; turn < 8; ++turn) {
+      const Plain b = sum_of(quad.b, quad.twist, on_u), by_b = sum_of(off, quad.a, -on_u);
       const Wide bb = dot(b, b);
-      v = held(bb > 0 ? dot(b, sum_of(off, quad.a, -u)) / bb : 0, quad.low[1], quad.high[1]);
-      const Plain a = sum_of(quad.a, quad.twist, v);
+      on_v = held(bb > 0 ? dot(b, by_b) / bb : 0, quad.low[1], quad.high[1]);
+      const Plain a = sum_of(quad.a, quad.twist, on_v), by_a = sum_of(off, quad.b, -on_v);
       const Wide aa = dot(a, a);
-      u = held(aa > 0 ? dot(a, sum_of(off, quad.b, -v)) / aa : 0, quad.low[0], quad.high[0]);
+      on_u = held(aa > 0 ? dot(a, by_a) / aa : 0, quad.low[0], quad.high[0]);
     }
-    Vector rest;
-    for (size_t k = 0; k < 3; ++k)
-      rest[k] = x[k] - (Interval(quad.centre[k]) + Interval(quad.a[k]) * Interval(u) +
-                        Interval(quad.b[k]) * Interval(v) +
-                        Interval(quad.twist[k]) * (Interval(u) * Interval(v)));
-    if (longest(rest) <= static_cast<Wide>(radius)) return true;
+    const Plain left = sum_of(sum_of(off, quad.a, -on_u), sum_of(quad.b, quad.twist, on_u), -on_v);
+    if (dot(left, left) < least) least = dot(left, left), u = on_u, v = on_v;
   }
-  return false;
+  Vector rest;
+  for (size_t k = 0; k < 3; ++k)
+    rest[k] = x[k] - (Interval(quad.centre[k]) + Interval(quad.a[k]) * Interval(u) +
+                      Interval(quad.b[k]) * Interval(v) +
+                      Interval(quad.twist[k]) * (Interval(u) * Interval(v)));
+  return longest(rest) <= static_cast<Wide>(radius);
 }
 
 void check_parts(const spline::View& view, uint32_t index, const StoredPiece& stored) {
