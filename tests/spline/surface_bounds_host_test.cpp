@@ -38,31 +38,70 @@ Plain sum_of(const Plain& a, const Plain& b, Wide times) {
   return sum;
 }
 
-// Where on it a point is nearest, about, by turns of one axis each from three places; the box about the point is measured
-// from there.
-bool is_about_quad(const Vector& x, const Quad& quad, float radius) {
-  Plain off;
-  for (size_t k = 0; k < 3; ++k) off[k] = middle(x[k]) - quad.centre[k];
-  Wide u = 0, v = 0, least = HUGE_VALL;
+// Where on it a point is nearest, about, by turns of one axis each from three places.
+struct OnQuad {
+  Wide u = 0, v = 0;
+};
+OnQuad nearest_on(const Quad& quad, const Plain& off) {
+  OnQuad best;
+  Wide least = HUGE_VALL;
   for (const Wide from : {quad.low[0], (quad.low[0] + quad.high[0]) / 2, quad.high[0]}) {
-    Wide on_u = from, on_v = 0;
+    OnQuad on{from, 0};
     for (int turn = 0; turn < 8; ++turn) {
-      const Plain b = sum_of(quad.b, quad.twist, on_u), by_b = sum_of(off, quad.a, -on_u);
+      const Plain b = sum_of(quad.b, quad.twist, on.u), by_b = sum_of(off, quad.a, -on.u);
       const Wide bb = dot(b, b);
-      on_v = held(bb > 0 ? dot(b, by_b) / bb : 0, quad.low[1], quad.high[1]);
-      const Plain a = sum_of(quad.a, quad.twist, on_v), by_a = sum_of(off, quad.b, -on_v);
+      on.v = held(bb > 0 ? dot(b, by_b) / bb : 0, quad.low[1], quad.high[1]);
+      const Plain a = sum_of(quad.a, quad.twist, on.v), by_a = sum_of(off, quad.b, -on.v);
       const Wide aa = dot(a, a);
-      on_u = held(aa > 0 ? dot(a, by_a) / aa : 0, quad.low[0], quad.high[0]);
+      on.u = held(aa > 0 ? dot(a, by_a) / aa : 0, quad.low[0], quad.high[0]);
     }
-    const Plain left = sum_of(sum_of(off, quad.a, -on_u), sum_of(quad.b, quad.twist, on_u), -on_v);
-    if (dot(left, left) < least) least = dot(left, left), u = on_u, v = on_v;
+    const Plain left = sum_of(sum_of(off, quad.a, -on.u), sum_of(quad.b, quad.twist, on.u), -on.v);
+    if (dot(left, left) < least) least = dot(left, left), best = on;
   }
+  return best;
+}
+
+Plain middle_of(const Vector& x) { return {middle(x[0]), middle(x[1]), middle(x[2])}; }
+Interval about(Wide by) { return {-raised(by), raised(by)}; }
+
+// Each point of an area is measured from one of the quad that moves with it, linearly, about the nearest to the area's middle: what
+// runs along the quad then counts as nothing. By the mean value theorem about the middle.
+bool is_about_quad(const StoredPiece& stored, const Area& area, const Quad& quad, Wide radius) {
+  const Wide s = middle({area.s0, area.s1}), t = middle({area.t0, area.t1});
+  const Jet there = stored.over({s, s, t, t}, 1), over = stored.over(area, 1);
+  const Vector of[2] = {over.of[1][0], over.of[0][1]};
+  const Wide half[2] = {raised((area.s1 - area.s0) / 2), raised((area.t1 - area.t0) / 2)};
+  OnQuad on = nearest_on(quad, sum_of(middle_of(there.of[0][0]), quad.centre, -1));
+  const Plain a = sum_of(quad.a, quad.twist, on.v), b = sum_of(quad.b, quad.twist, on.u);
+  const Wide aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
+  OnQuad by[2];  // of s and of t
+  for (size_t k = 0; k < 2; ++k) {
+    const Plain way = middle_of(k == 0 ? there.of[1][0] : there.of[0][1]);
+    if (det > 1e-6L * aa * bb)
+      by[k] = {(bb * dot(a, way) - ab * dot(b, way)) / det,
+               (aa * dot(b, way) - ab * dot(a, way)) / det};
+  }
+  // All of it on the quad: moved inward, or still where there is no room.
+  const auto keep = [&](Wide& at, Wide& by_s, Wide& by_t, size_t axis) {
+    const Wide spread = raised(std::fabs(by_s) * half[0] + std::fabs(by_t) * half[1]);
+    if (2 * spread > quad.high[axis] - quad.low[axis]) return void(by_s = by_t = 0);
+    at = held(at, quad.low[axis] + spread, quad.high[axis] - spread);
+  };
+  keep(on.u, by[0].u, by[1].u, 0);
+  keep(on.v, by[0].v, by[1].v, 1);
+  const Interval u(on.u), v(on.v);
+  const Interval all_u = u + about(std::fabs(by[0].u) * half[0] + std::fabs(by[1].u) * half[1]);
+  const Interval all_v = v + about(std::fabs(by[0].v) * half[0] + std::fabs(by[1].v) * half[1]);
   Vector rest;
-  for (size_t k = 0; k < 3; ++k)
-    rest[k] = x[k] - (Interval(quad.centre[k]) + Interval(quad.a[k]) * Interval(u) +
-                      Interval(quad.b[k]) * Interval(v) +
-                      Interval(quad.twist[k]) * (Interval(u) * Interval(v)));
-  return longest(rest) <= static_cast<Wide>(radius);
+  for (size_t k = 0; k < 3; ++k) {
+    const Interval qa(quad.a[k]), qb(quad.b[k]), twist(quad.twist[k]);
+    rest[k] = there.of[0][0][k] - (Interval(quad.centre[k]) + qa * u + qb * v + twist * (u * v));
+    for (size_t n = 0; n < 2; ++n)
+      rest[k] = rest[k] + (of[n][k] - (qa + twist * all_v) * Interval(by[n].u) -
+                           (qb + twist * all_u) * Interval(by[n].v)) *
+                              about(half[n]);
+  }
+  return longest(rest) <= radius;
 }
 
 void check_parts(const spline::View& view, uint32_t index, const StoredPiece& stored) {
@@ -95,7 +134,7 @@ void check_parts(const spline::View& view, uint32_t index, const StoredPiece& st
         const float r = of_byte(grid.radius_unit_m, view.radii()[radius]);
         const auto holds_on = [&](const Area& area) {
           return holds(area, true, kFinest, [&](const Area& part) {
-            return is_about_quad(stored.over(part, 0).of[0][0], quad, r);
+            return is_about_quad(stored, part, quad, static_cast<Wide>(r));
           });
         };
         CHECK(holds_on(area_of(u, i, v, j, true)));
