@@ -47,7 +47,7 @@ OnQuad nearest_on(const Quad& quad, const Plain& off) {
   Wide least = HUGE_VALL;
   for (const Wide from : {quad.low[0], (quad.low[0] + quad.high[0]) / 2, quad.high[0]}) {
     OnQuad on{from, 0};
-    for (int turn = 0; turn < 8; ++turn) {
+    for (int turn = 0; turn < 60; ++turn) {
       const Plain b = sum_of(quad.b, quad.twist, on.u), by_b = sum_of(off, quad.a, -on.u);
       const Wide bb = dot(b, b);
       on.v = held(bb > 0 ? dot(b, by_b) / bb : 0, quad.low[1], quad.high[1]);
