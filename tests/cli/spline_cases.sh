@@ -11,7 +11,7 @@ roof() {
 ASplineIsBakedToldAndAsked() {
   roof >roof.bpt
   bake roof.bpt -o a.fta
-  told 'spline surface, 1 entity' 'worst query that a search found'
+  told 'spline surface, 1 entity' 'worst query that a search found' 'instructions on a Cortex-M7'
   f info a.fta
   exits 0
   printf '%s\n' "$out" | grep -q 'spline pieces' || fail "info: $out"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bake/spline_worst.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "surface/random.hpp"
 
@@ -10,9 +11,7 @@ namespace {
 
 constexpr uint32_t kWalks = 60, kQueries = 50;  // each from anywhere
 constexpr double kStep = 0.002;                 // of the extent, a query
-// Instructions of a Cortex-M7: a point evaluated with its proof, and a node.
 constexpr query::Budget kMost{2000};
-constexpr double kEvaluation = 1700, kNode = 350;
 constexpr uint64_t kCurveBytes = 5000;
 constexpr double kMostDoubt = 8;
 
@@ -33,7 +32,7 @@ double work_of(const spline::View& model) {
     for (uint32_t i = 0; i <= kQueries; ++i) {
       const spline::Closest c = closest_point(model, to_vec3(from + step * i), kMost, hint);
       if (i > 0)
-        work += kEvaluation * c.evaluations + kNode * (c.certificate.steps - c.evaluations);
+        work += cortex_m7_instructions(model.is_surface(), c.certificate.steps, c.evaluations);
     }
   }
   return work;

@@ -137,4 +137,9 @@ WorstQuery find_worst(const spline::View& model) {
   return finder.climb();
 }
 
+double cortex_m7_instructions(bool is_surface, double steps, double evaluations) {
+  const double nodes = steps - evaluations;
+  return is_surface ? 400 + 2300 * evaluations + 350 * nodes : 650 + 350 * evaluations + 70 * nodes;
+}
+
 }  // namespace firmtouch::tools

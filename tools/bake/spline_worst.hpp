@@ -15,4 +15,8 @@ struct WorstQuery {
 /// the dearest points that it saw. Deterministic. A figure, never a bound.
 WorstQuery find_worst(const spline::View& model);
 
+/// About how many instructions a Cortex-M7 takes for a query of so many steps, `evaluations` of them leaves
+/// that are evaluated: fitted to counts (tools/bench/cortex-m7-spline), within a fifth of dear queries.
+double cortex_m7_instructions(bool is_surface, double steps, double evaluations);
+
 }  // namespace firmtouch::tools

@@ -127,6 +127,8 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   const tools::StepFigures steps = steps_of(view, model);
   const tools::WorstQuery worst = tools::find_worst(view);
   tools::set_worst_steps(baked.sections, name, worst.steps);
+  const double instructions =
+      tools::cortex_m7_instructions(report.is_surface, worst.steps, worst.evaluations);
   progress.stage("asking the probes of " + name);
   baked.sections.push_back(tools::spline_probes(view, name));
   baked.sections.push_back(
@@ -151,7 +153,9 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
       sentence("steps on a path of 2000 points beside it: mean %.1f, worst seen %.0f",
                steps.path_mean, steps.path_worst),
       sentence("worst query that a search found: %.0f steps, %.0f of them evaluations", worst.steps,
-               worst.evaluations)};
+               worst.evaluations) +
+          sentence(", about %.0f instructions on a Cortex-M7, %.0f a step", instructions,
+                   instructions / worst.steps)};
   if (!report.is_surface) baked.report.push_back(text_of(guide));
   for (const std::string& note : model.notes) baked.report.push_back(note);
   return baked;

@@ -56,9 +56,9 @@ static inline void see(const Quad& p, math::Vec3 q, Seen& seen) {
 }
 
 static inline float held(float value) { return math::smaller(math::larger(value, -1.0f), 1.0f); }
-/// With o a vector of square off2, and all of something at least off2 - left along it times its length: the root of off2 - 2 left,
-/// which is less than (off2 - left)^2 / off2, and so than its distance. What rounding does to it is less than 2^-20 of off2,
-/// and to the root than 2^-22 of itself.
+/// Of what along a vector of square off2, times its length, is at least off2 - left away: the root of
+/// off2 - 2 left. Its square is at most (off2 - left)^2 / off2, which is that distance's along the vector.
+/// What rounding does to it is less than 2^-20 of off2, and to the root than 2^-22 of itself.
 static inline float least_of(float off2, float left) {
   return math::square_root(math::larger(off2 * (1.0f - 0x1p-20f) - (left + left), 0.0f));
 }

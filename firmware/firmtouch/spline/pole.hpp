@@ -4,7 +4,7 @@
 
 namespace firmtouch::spline {
 
-/// About a pole every part is about as near as the pole is, and what a part bends is as much as it is farther. With t along
+/// About a pole every part is about as near as the pole is, farther by less than its radius. With t along
 /// the edge and y from it on, from 0 to 2, the piece is P + y w(t, y) with a polynomial w. From a query, with r = P - q,
 ///     |r + y w|^2 = r^2 + 2 y r . w + y^2 w^2 >= r^2 + 2 y g + y^2 l^2 / d^2,
 /// where g and l > 0 are the least of r . w and of w . d over a part that reaches to the pole, for any d: here w in the part's
