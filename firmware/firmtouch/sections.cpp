@@ -12,9 +12,6 @@ mesh::Sections mesh_sections(const asset::Container& container, const char* name
   sections.parents = container.find(mesh::kParentsSection, name);
   sections.vertex_normals = container.find(mesh::kVertexNormalsSection, name);
   sections.edge_folds = container.find(mesh::kEdgeFoldsSection, name);
-  sections.rows = container.find(mesh::kRowsSection, name);
-  sections.shape_rows = container.find(mesh::kShapeRowsSection, name);
-  sections.directions = container.find(mesh::kDirectionsSection, name);
   sections.leaf_boxes = container.find(mesh::kLeafBoxesSection, name);
   sections.shapes = container.find(mesh::kShapesSection, name);
   return sections;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "bake/mesh_ahead.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/nearest_constraint.hpp"
@@ -133,9 +134,6 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   sections.parents = copies.of(container.find(mesh::kParentsSection, name));
   sections.vertex_normals = copies.of(container.find(mesh::kVertexNormalsSection, name));
   sections.edge_folds = copies.of(container.find(mesh::kEdgeFoldsSection, name));
-  sections.rows = copies.of(container.find(mesh::kRowsSection, name));
-  sections.shape_rows = copies.of(container.find(mesh::kShapeRowsSection, name));
-  sections.directions = copies.of(container.find(mesh::kDirectionsSection, name));
   sections.leaf_boxes = copies.of(container.find(mesh::kLeafBoxesSection, name));
   sections.shapes = copies.of(container.find(mesh::kShapesSection, name));
   mesh::View view;
@@ -143,6 +141,8 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   CHECK_EQ(verdict.ok(), view.is_open());
   if (!verdict.ok()) return verdict;
   feel_mesh(view);
+  const tools::MeshAhead ahead(view);  // sound trees that no baker makes, too
+  feel_mesh(ahead.view());
   const query::Probes probes =
       query::read_probes(copies.of(container.find(mesh::kProbesSection, name)));
   (void)mesh::probe_hash(view, probes.points);

@@ -69,6 +69,8 @@ uint32_t leasts_that_differ() {
   uint32_t differ = math::least_lane(v, of, least) == expected ? 0u : 1u;
   if (math::portable_least_lane(v, of, portable_least) != expected) ++differ;
   if (math::bits_of(least) != math::bits_of(v[expected])) ++differ;
+  if (math::bits_of(math::least_of(v, of)) != math::bits_of(v[expected])) ++differ;
+  if (!(math::least_of(v, 0) >= math::kMostLeast)) ++differ;
   if (math::bits_of(portable_least) != math::bits_of(v[expected])) ++differ;
   return differ;
 }

@@ -17,8 +17,9 @@ struct Cube {
   uint32_t normals[kVertices];
   mesh::EdgeFolds folds[kTriangles];
 
-  /// Half a side from each face to the centre at the origin.
-  explicit Cube(float half_m = 1.0f) {
+  /// Half a side from each face to the centre at the origin. Nodes depth first, as the baker has them, or
+  /// breadth first.
+  explicit Cube(float half_m = 1.0f, bool is_breadth_first = false) {
     for (uint32_t v = 0; v < kVertices; ++v) {
       const float s[3] = {sign(v, 0), sign(v, 1), sign(v, 2)};
       vertices[v] = {s[0] * half_m, s[1] * half_m, s[2] * half_m};
@@ -26,7 +27,8 @@ struct Cube {
     }
     make_head(half_m);
     make_triangles();
-    make_tree();
+    is_breadth_first ? make_tree_breadth_first() : make_tree();
+    make_boxes();
   }
 
   mesh::Sections sections() const {
@@ -110,6 +112,23 @@ struct Cube {
     parents[3] = mesh::make_parent(0, 1, 1);
     parents[4] = mesh::make_parent(3, 1, 2);
     head.depth = 3;
+  }
+
+  void make_tree_breadth_first() {
+    nodes[0].side[0].child = 1, nodes[0].side[1].child = 2;
+    nodes[1].side[0].child = 3, nodes[1].side[1].child = mesh::make_leaf(0, 2);
+    nodes[2].side[0].child = mesh::make_leaf(2, 2), nodes[2].side[1].child = 4;
+    nodes[3].side[0].child = mesh::make_leaf(4, 2), nodes[3].side[1].child = mesh::make_leaf(6, 2);
+    nodes[4].side[0].child = mesh::make_leaf(8, 2), nodes[4].side[1].child = mesh::make_leaf(10, 2);
+    parents[0] = 0;
+    parents[1] = mesh::make_parent(0, 0, 1);
+    parents[2] = mesh::make_parent(0, 1, 1);
+    parents[3] = mesh::make_parent(1, 0, 2);
+    parents[4] = mesh::make_parent(2, 1, 2);
+    head.depth = 3;
+  }
+
+  void make_boxes() {
     for (uint32_t n = kNodes; n-- > 0;)
       for (uint32_t slot = 0; slot < 2; ++slot) make_box(n, slot);
   }

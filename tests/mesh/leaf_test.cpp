@@ -103,37 +103,46 @@ float measured_in_turn(const Leaf& leaf, uint32_t child, float least2_m2, mesh::
   return least2_m2;
 }
 
-// The same leaf from rows of its corners and shapes, what lies behind them being no triangle's.
+// The same leaf side by side, anywhere in a block, what lies about it being no triangle's.
 template <class Float>
-void compare_rows(const Leaf& leaf, uint32_t child, float in_turn, const mesh::Best& a,
-                  float bound2_m2, Compared& compared) {
-  constexpr uint32_t kFloats = mesh::kRowsOfLeaf * kTriangles + mesh::kRowsEnd;
-  float rows[kFloats];
-  for (float& f : rows) f = coordinate(true);
+void compare_lined(const Leaf& leaf, uint32_t child, float in_turn, const mesh::Best& a,
+                   float bound2_m2, Compared& compared) {
   const uint32_t first = mesh::leaf_first(child), count = mesh::leaf_count(child);
-  for (uint32_t i = 0; i < mesh::kRowsOfLeaf * count; ++i) {
-    const uint32_t row = i / count, corner = leaf.triangles[first + i % count].corner[row / 3];
-    const mesh::Vertex& v = leaf.vertices[corner];
-    rows[mesh::kRowsOfLeaf * first + i] = row % 3 == 0 ? v.x_m : row % 3 == 1 ? v.y_m : v.z_m;
-  }
-  float shapes[mesh::kRowsOfShapes * kTriangles + mesh::kRowsEnd];
+  uint32_t before = next_random() % (first + 1), behind = next_random() % 3;
+  if (before + count > mesh::kMostLanes) before = mesh::kMostLanes - count;
+  if (before + count + behind > mesh::kMostLanes) behind = mesh::kMostLanes - count - before;
+  const mesh::Block block{first - before, before + count + behind};
+  float corners[mesh::kRowsOfCorners * (kTriangles + 3) + mesh::kMostLanes];
+  for (float& f : corners) f = coordinate(true);
+  float shapes[mesh::kRowsOfShapes * kTriangles + mesh::kMostLanes];
   for (float& f : shapes) f = coordinate(true);
   for (uint32_t i = 0; i < count; ++i) {
     float values[mesh::kRowsOfShapes];
     mesh::put_rows(shape_at(leaf, first + i), values);
     for (uint32_t row = 0; row < mesh::kRowsOfShapes; ++row)
       shapes[mesh::kRowsOfShapes * first + row * count + i] = values[row];
+    for (uint32_t row = 0; row < mesh::kRowsOfCorners; ++row) {
+      const mesh::Vertex& v = leaf.vertices[leaf.triangles[first + i].corner[row / 3]];
+      corners[mesh::kRowsOfCorners * block.first + row * block.count + before + i] =
+          row % 3 == 0   ? v.x_m
+          : row % 3 == 1 ? v.y_m
+                         : v.z_m;
+    }
   }
+  mesh::Ahead ahead{};
+  ahead.corners = corners;
+  ahead.shapes = shapes;
+  const mesh::Lined lined(ahead, mesh::make_lined(child, block));
   for (uint32_t way = 0; way < (bound2_m2 < FLT_MAX ? 2 : 4); ++way) {
     mesh::Best b;
     const uint32_t last = way == 2 ? a.triangle : next_random() & 0xFFFFu;
     float told;
     if (way == 0)
-      told = mesh::measure_rows<Float>(rows, leaf.p_m, child, 5, bound2_m2, b);
+      told = mesh::measure_lined<Float>(lined, leaf.p_m, 5, bound2_m2, b);
     else if (way == 1)
-      told = mesh::measure_rows_beside<Float>(rows, shapes, leaf.p_m, child, 5, bound2_m2, b);
+      told = mesh::measure_lined_beside<Float>(lined, leaf.p_m, 5, bound2_m2, b);
     else
-      told = mesh::measure_last_rows<Float>(rows, shapes, leaf.p_m, child, 5, last, b);
+      told = mesh::measure_lined_last<Float>(lined, leaf.p_m, 5, last, b);
     if (!same(in_turn, told) || !same(a.offset_m, b.offset_m) ||
         !same(a.distance2_m2, b.distance2_m2) || a.triangle != b.triangle || a.place != b.place ||
         a.feature != b.feature)
@@ -167,7 +176,7 @@ void compare_leaves(const Leaf& leaf, uint32_t turn, Compared& compared) {
         a.place != other.place || a.feature != other.feature)
       ++compared.differ;
   }
-  compare_rows<Float>(leaf, child, in_turn, a, bound2_m2, compared);
+  compare_lined<Float>(leaf, child, in_turn, a, bound2_m2, compared);
   compared.improved += in_turn < bound2_m2 ? 1u : 0u;
 }
 

@@ -1,8 +1,9 @@
 // A search that looks ahead, with triangles side by side, tells to the bit what the one in turn
-// tells: crossings, t and steps, whatever the budget and with or without a desktop's rows.
+// tells: crossings, t and steps, whatever the budget, from the asset and from what is made of it.
 #include <cmath>
 
 #include "bake/bake_mesh.hpp"
+#include "bake/mesh_ahead.hpp"
 #include "firmtouch/mesh/crossing_takers.hpp"
 #include "firmtouch/mesh/segment_search.hpp"
 #include "harness/test.hpp"
@@ -17,7 +18,8 @@ using math::Vec3;
 struct Baked {
   tools::Surface surface = tools::make_part(3, 3000);
   std::vector<tools::Section> sections;
-  mesh::View view, without_rows;
+  tools::MeshAhead ahead;
+  mesh::View view, lined;
 
   explicit Baked(const tools::TreeShape& shape) {
     tools::MeshOptions options;
@@ -25,11 +27,9 @@ struct Baked {
     tools::MeshReport report;
     sections = tools::bake_mesh(surface, "part", options, report);
     CHECK(report.problem.empty());
-    mesh::Sections found = tools::mesh_sections(sections, "part");
-    CHECK(mesh::open(found, view).ok());
-    found.rows = found.shape_rows = {};
-    found.directions = {};
-    CHECK(mesh::open(found, without_rows).ok());
+    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    ahead = tools::MeshAhead(view);
+    lined = ahead.view();
   }
 };
 
@@ -69,6 +69,7 @@ bool is_same(const mesh::Hit& a, const mesh::Hit& b) {
          a.enters == b.enters;
 }
 
+template <bool kIsLined>
 size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget budget, size_t& hits) {
   mesh::First first, first_ahead;
   mesh::Any any, any_ahead;
@@ -78,7 +79,8 @@ size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget bud
   const auto same_way = [&](auto& in_turn, auto& ahead) {
     uint32_t steps = 0, steps_ahead = 0;
     const bool done = mesh::search_in_turn(view, a_m, b_m, budget, in_turn, steps);
-    const bool done_ahead = mesh::search_ahead(view, a_m, b_m, budget, ahead, steps_ahead);
+    const bool done_ahead =
+        mesh::search_ahead<kIsLined>(view, a_m, b_m, budget, ahead, steps_ahead);
     if (done != done_ahead || steps != steps_ahead) ++differ;
   };
   same_way(first, first_ahead);
@@ -102,9 +104,11 @@ void compare(const tools::TreeShape& shape, uint64_t seed) {
   size_t differ = 0, hits = 0;
   for (uint32_t i = 0; i < 2000; ++i) {
     const Vec3 a_m = ends.next(), b_m = ends.next();
-    for (const uint32_t steps : {UINT32_MAX, i % 40})
-      for (const mesh::View* view : {&baked.view, &baked.without_rows})
-        differ += differences(*view, a_m, b_m, {steps}, hits);
+    for (const uint32_t steps : {UINT32_MAX, i % 40}) {
+      differ += differences<false>(baked.view, a_m, b_m, {steps}, hits);
+      if constexpr (mesh::SegmentLanes::kHoldsLeaf)
+        differ += differences<true>(baked.lined, a_m, b_m, {steps}, hits);
+    }
   }
   CHECK_EQ(differ, size_t{0});
   CHECK(hits > 1000);

@@ -6,7 +6,6 @@
 #include "bake/leaf_boxes.hpp"
 #include "bake/mesh_tree.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/mesh/direction.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
 
 namespace firmtouch::tools {
@@ -111,39 +110,6 @@ Reordered in_leaf_order(const Surface& surface, const std::vector<uint32_t>& ord
   return result;
 }
 
-// What `of` puts into an array of kRows floats for each face's corners, leaf by leaf side by side.
-template <size_t kRows, class Of>
-std::vector<float> make_rows(const Surface& surface, const MeshTree& tree, const Of& of) {
-  std::vector<float> rows;
-  for (const mesh::Node& node : tree.nodes)
-    for (const mesh::Side& side : node.side) {
-      if (!mesh::is_leaf(side.child)) continue;
-      const uint32_t first = mesh::leaf_first(side.child), count = mesh::leaf_count(side.child);
-      const size_t begin = rows.size();
-      rows.resize(begin + kRows * count);
-      for (uint32_t i = 0; i < count; ++i) {
-        const Face& f = surface.faces[first + i];
-        float values[kRows];
-        of(surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]], values);
-        for (size_t row = 0; row < kRows; ++row) rows[begin + row * count + i] = values[row];
-      }
-    }
-  rows.insert(rows.end(), mesh::kRowsEnd, 0.0f);
-  return rows;
-}
-
-void corners_of(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m, float (&row)[mesh::kRowsOfLeaf]) {
-  const math::Vec3 corners[] = {a_m, b_m, c_m};
-  float* next = row;
-  for (const math::Vec3& at : corners)
-    for (const float value : {at.x, at.y, at.z}) *next++ = value;
-}
-
-void shape_row_of(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m,
-                  float (&row)[mesh::kRowsOfShapes]) {
-  mesh::put_rows(mesh::shape_of(a_m, b_m, c_m), row);
-}
-
 // What a measurement takes from each triangle alone (FORMAT.md, 0x100F).
 std::vector<mesh::TriangleShape> make_shapes(const Surface& surface) {
   std::vector<mesh::TriangleShape> shapes;
@@ -151,17 +117,6 @@ std::vector<mesh::TriangleShape> make_shapes(const Surface& surface) {
     shapes.push_back(
         mesh::shape_of(surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]]));
   return shapes;
-}
-
-// As the firmware decodes them.
-std::vector<mesh::Vertex> make_directions(const mesh::View& mesh) {
-  std::vector<mesh::Vertex> directions;
-  for (uint32_t i = 0; i < mesh.head().triangle_count; ++i)
-    for (uint32_t f = 0; f < mesh::kFeatures; ++f) {
-      const math::Vec3 d = mesh::decoded_direction(mesh, i, static_cast<mesh::Feature>(f));
-      directions.push_back({d.x, d.y, d.z});
-    }
-  return directions;
 }
 
 void add_signs(const Pseudonormals& signs, const std::vector<uint32_t>& vertex_from,
@@ -221,13 +176,7 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
         make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
   sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
-  if (options.shape.beside == Beside::kRowsAndDirections) {
-    sections.push_back(make_section(mesh::kRowsSection, name,
-                                    make_rows<mesh::kRowsOfLeaf>(surface, tree, corners_of)));
-    sections.push_back(make_section(mesh::kShapeRowsSection, name,
-                                    make_rows<mesh::kRowsOfShapes>(surface, tree, shape_row_of)));
-  }
-  if (options.shape.beside == Beside::kBoxesAndShapes) {
+  if (options.shape.has_boxes_and_shapes) {
     sections.push_back(
         make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(surface, grid, tree)));
     sections.push_back(make_section(mesh::kShapesSection, name, make_shapes(surface)));
@@ -252,8 +201,6 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
     report.problem = proof_failure(verdict);
     return {};
   }
-  if (options.shape.beside == Beside::kRowsAndDirections)
-    sections.push_back(make_section(mesh::kDirectionsSection, name, make_directions(view)));
   return sections;
 }
 
@@ -273,9 +220,6 @@ mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::st
   found.parents = find(mesh::kParentsSection);
   found.vertex_normals = find(mesh::kVertexNormalsSection);
   found.edge_folds = find(mesh::kEdgeFoldsSection);
-  found.rows = find(mesh::kRowsSection);
-  found.shape_rows = find(mesh::kShapeRowsSection);
-  found.directions = find(mesh::kDirectionsSection);
   found.leaf_boxes = find(mesh::kLeafBoxesSection);
   found.shapes = find(mesh::kShapesSection);
   return found;

@@ -26,24 +26,22 @@ struct MeshTree {
   uint32_t depth = 0;  // levels of nodes
 };
 
-/// What is stored beside a tree so that its queries take less.
-enum class Beside { kNothing, kBoxesAndShapes, kRowsAndDirections };
-
 /// What of bytes and speed a tree is for.
 struct TreeShape {
   uint32_t leaf_faces;  // at most; 1 to 7
   double empty_cost =
       0;  // of a leaf's place without a face, beside 1 for a face: more, fuller leaves
   double node_cost = 0;  // of a node that splits a leaf, beside 1 for a face; 0: leaves stay whole
-  Beside beside = Beside::kNothing;
+  // Stored beside the tree so that its dearest query takes less (FORMAT.md, 0x100E and 0x100F).
+  bool has_boxes_and_shapes = false;
 };
 // Measured on spot, rocker-arm and horse (DESIGN.md, "Bytes and instructions").
 constexpr TreeShape kFastTree{3, 0, 0.53};
 constexpr TreeShape kSmallTree{7};
 // Whose dearest query a controller answers in the fewest instructions (DESIGN.md, "Band queries").
-constexpr TreeShape kSteadyTree{3, 0, 0, Beside::kBoxesAndShapes};
+constexpr TreeShape kSteadyTree{3, 0, 0, true};
 // Leaves that fill the lanes of a desktop's processor (DESIGN.md, "Vector instructions").
-constexpr TreeShape kDesktopTree{7, 0.3, 0, Beside::kRowsAndDirections};
+constexpr TreeShape kDesktopTree{7, 0.3};
 
 /// Surface area heuristic over widened boxes by a full sweep over the face centres of each axis,
 /// ties by face index: the same tree on every machine. Cost: O(n log^2 n), about 1 s for 100,000

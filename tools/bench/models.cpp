@@ -60,6 +60,7 @@ Model model_of(tools::Surface surface, const std::string& name, const std::strin
       mesh::open(tools::mesh_sections(model.sections, "model"), model.view);
   if (!verdict.ok())
     throw Problem(where + ": its mesh breaks rule R" + std::to_string(verdict.rule));
+  model.view = tools::read_ahead(model.view, model.ahead);
   return model;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bake/bake_mesh.hpp"
+#include "bake/mesh_ahead.hpp"
 #include "bake/section.hpp"
 #include "bench/bench.hpp"
 #include "firmtouch/mesh/view.hpp"
@@ -39,6 +40,7 @@ struct Model {
   tools::Surface surface;  // sound; its faces are not in the order of the tree
   tools::MeshReport report;
   std::vector<tools::Section> sections;
+  tools::MeshAhead ahead;  // read by the view where this processor gains by it
   mesh::View view;
 
   double diagonal_m() const { return static_cast<double>(view.head().diagonal_m); }

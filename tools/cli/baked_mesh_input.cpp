@@ -136,9 +136,7 @@ std::vector<std::string> add_hull(const mesh::View& view, const std::string& nam
 bool is_of_tree(uint32_t type) {
   return type == mesh::kNodesSection || type == mesh::kParentsSection ||
          type == mesh::kVertexNormalsSection || type == mesh::kEdgeFoldsSection ||
-         type == mesh::kRowsSection || type == mesh::kDirectionsSection ||
-         type == mesh::kLeafBoxesSection || type == mesh::kShapesSection ||
-         type == mesh::kShapeRowsSection;
+         type == mesh::kLeafBoxesSection || type == mesh::kShapesSection;
 }
 
 const tools::TreeShape& tree_for(Purpose purpose) {

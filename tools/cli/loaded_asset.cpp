@@ -46,6 +46,7 @@ LoadedMesh LoadedAsset::mesh(const std::string& name) const {
   LoadedMesh loaded;
   const core::Verdict verdict = mesh::open(mesh_sections(container_, key), loaded.view);
   if (!verdict.ok()) fail_unsound("mesh '" + name + "': " + tools::rule_text(verdict));
+  loaded.view = tools::read_ahead(loaded.view, loaded.ahead);
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
   return loaded;
 }

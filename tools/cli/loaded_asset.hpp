@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/mesh_ahead.hpp"
 #include "firmtouch/asset/container.hpp"
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/hull/view.hpp"
@@ -12,6 +13,7 @@
 namespace firmtouch::cli {
 
 struct LoadedMesh {
+  tools::MeshAhead ahead;  // read by the view where this processor gains by it
   mesh::View view;
   core::Span<const uint32_t> source;  // of each triangle: its index in the imported file
 

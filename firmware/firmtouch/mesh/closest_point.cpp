@@ -38,22 +38,19 @@ bool is_place(const View& mesh, uint32_t place) {
   return is_leaf(child) && leaf_count(child) != 0;
 }
 
-template <class Bound, class Index>
-void look_at(const View& mesh, const Bound& bound, Search& search) {
-  if constexpr (math::kHasLanes)
-    if (search.start == query::kNowhere && search.budget == query::kUnlimited.steps)
-      return search_ahead<Index>(mesh, bound, search);
-  search_nearest<false, Bound, Index>(mesh, bound, search);
-}
-
 // What boxes leave out beyond a band is not told: where there are any they are asked on a desktop too.
 template <class Bound, class Index>
 void look_with(const View& mesh, const Bound& bound, Search& search) {
   using Kind = Boxed<typename Choice<math::kHasLanes, Index, void>::Type>;  // in turn one for both
-  if (mesh.leaf_boxes() != nullptr) return look_at<Bound, Kind>(mesh, bound, search);
-  if constexpr (math::kHasLanes)
-    if (mesh.rows() != nullptr) return look_at<Bound, Rows>(mesh, bound, search);
-  look_at<Bound, Index>(mesh, bound, search);
+  if (mesh.leaf_boxes() != nullptr) return search_nearest<false, Bound, Kind>(mesh, bound, search);
+  if constexpr (math::kHasLanes) {
+    if (mesh.ahead() != nullptr) {
+      if (search.start == query::kNowhere && search.budget == query::kUnlimited.steps)
+        return search_ahead(mesh, bound, search);
+      return search_nearest<false, Bound, SideBySide>(mesh, bound, search);
+    }
+  }
+  search_nearest<false, Bound, Index>(mesh, bound, search);
 }
 
 template <bool kCareful, class Bound>

@@ -26,14 +26,15 @@ math::Vec3 border_direction(const View& mesh, uint32_t triangle, Feature feature
   return {normal.x, normal.y, normal.z};  // one by one: see measure_leaf()
 }
 
-/// The same, looked up where the asset is for a desktop and this is one: which feature it is need not
-/// be foreseen then.
+/// The same, looked up where there is what to look it up in: which feature it is need not be foreseen
+/// then.
 [[gnu::always_inline]] static inline math::Vec3 feature_direction(const View& mesh,
                                                                   uint32_t triangle,
                                                                   Feature feature) {
   if constexpr (math::kHasLanes) {
-    if (mesh.directions() != nullptr) {
-      const Vertex& v = mesh.directions()[kFeatures * triangle + static_cast<uint32_t>(feature)];
+    if (mesh.ahead() != nullptr) {
+      const size_t at = size_t{kFeatures} * triangle + static_cast<uint32_t>(feature);
+      const Vertex& v = mesh.ahead()->directions[at];
       return {v.x_m, v.y_m, v.z_m};
     }
   }

@@ -22,26 +22,12 @@ constexpr uint32_t kSourceSection = 0x1009;
 constexpr uint32_t kProbesSection = 0x100A;  // query::ProbeHead and its points
 // EdgeFolds[triangle_count]; absent from an unsigned mesh.
 constexpr uint32_t kEdgeFoldsSection = 0x100B;
-// Only in an asset for a desktop, whose vector instructions alone read them (DESIGN.md):
-// float[9 * triangle_count + kRowsEnd]: the corners of each leaf's triangles side by side. Leaf by
-// leaf a row of x of all corners 0, a row of y, of z, then the rows of corners 1 and 2.
-constexpr uint32_t kRowsSection = 0x100C;
-// Vertex[7 * triangle_count]: the unit pseudonormals of a triangle's features, in their order.
-constexpr uint32_t kDirectionsSection = 0x100D;
 // Only in an asset whose dearest query is to cost little: uint32_t[4 * triangle_count + kLeafBoxesEnd]:
 // of each leaf of two triangles or more an oriented box, eight words at word 4 * first triangle
 // (math::oriented_distance2(), tools/FORMAT.md).
 constexpr uint32_t kLeafBoxesSection = 0x100E;
 // There where the boxes are: TriangleShape[triangle_count].
 constexpr uint32_t kShapesSection = 0x100F;
-// There where the rows are: float[12 * triangle_count + kRowsEnd]: the same, of the count triangles of a
-// leaf twelve rows of count floats from float 12 * first triangle on.
-constexpr uint32_t kShapeRowsSection = 0x1010;
-
-constexpr uint32_t kRowsOfLeaf = 9;
-constexpr uint32_t kRowsOfShapes = 12;
-constexpr uint32_t kRowsEnd = 8;  // zeros, so that eight floats may be read where a row begins
-constexpr uint32_t kFeatures = 7;
 
 constexpr uint32_t kLeafBoxWords = 8;
 constexpr uint32_t kLeafBoxStride = 4;  // words a triangle

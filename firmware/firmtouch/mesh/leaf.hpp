@@ -9,6 +9,7 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/careful_distance.hpp"
 #include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/mesh/lined.hpp"
 #include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/triangle.hpp"
 #include "firmtouch/mesh/triangle_lanes.hpp"
@@ -25,8 +26,21 @@ struct Best {
   Feature feature = Feature::kVertex0;
 };
 
-/// Puts into `best` the nearest of the lanes `asked` that is nearer than `least2_m2`; of two equally
-/// near ones the first. Lane 0 is triangle `first`.
+/// Puts into `best` the nearest of the lanes `of`, of two equally near ones the first. Lane 0 is triangle
+/// `first`. Pre: one lane or more.
+template <class Float>
+[[gnu::always_inline]] static inline void put_least(const Feet<Float>& feet, uint32_t of,
+                                                    uint32_t first, uint32_t place, Best& best) {
+  float least2_m2;
+  const uint32_t lane = math::least_lane(feet.distance2_m2, of, least2_m2);
+  best.distance2_m2 = least2_m2;
+  best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
+  best.triangle = first + lane;
+  best.place = place;
+  best.feature = static_cast<Feature>(feet.features()[lane]);
+}
+
+/// The same where one of the lanes `asked` is nearer than `least2_m2`.
 /// Result: the least squared distance so far.
 template <class Float>
 [[gnu::always_inline]] static inline float take_nearest(const Feet<Float>& feet, uint32_t asked,
@@ -35,13 +49,8 @@ template <class Float>
   const uint32_t nearer =
       math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(least2_m2))) & asked;
   if (nearer == 0) return least2_m2;
-  const uint32_t lane = math::least_lane(feet.distance2_m2, nearer, least2_m2);
-  best.distance2_m2 = least2_m2;
-  best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
-  best.triangle = first + lane;
-  best.place = place;
-  best.feature = static_cast<Feature>(feet.features()[lane]);
-  return least2_m2;
+  put_least(feet, nearer, first, place, best);
+  return best.distance2_m2;
 }
 
 /// measure_leaf() without care, side by side as many triangles as a Float holds.
@@ -70,34 +79,6 @@ template <class Float, class Index>
   return take_nearest(feet, asked, first, place, least2_m2, best);
 }
 
-// Three of the rows of `count` floats, side by side or one by one.
-template <class Float>
-[[gnu::always_inline]] static inline math::Lanes<Float> lanes_of_rows(const float* rows, size_t k,
-                                                                      size_t count) {
-  return {math::lanes_from<Float>(rows + k * count),
-          math::lanes_from<Float>(rows + (k + 1) * count),
-          math::lanes_from<Float>(rows + (k + 2) * count)};
-}
-[[gnu::always_inline]] static inline math::Vec3 one_of_rows(const float* rows, size_t k,
-                                                            size_t count) {
-  return {rows[k * count], rows[(k + 1) * count], rows[(k + 2) * count]};
-}
-
-/// A leaf whose corners lie side by side. Lanes that it leaves over hold what comes next.
-template <class Float>
-struct RowsOfLeaf {
-  const float* row;
-  uint32_t first, count;
-
-  RowsOfLeaf(const float* rows, uint32_t child)
-      : row(rows + size_t{kRowsOfLeaf} * leaf_first(child)),
-        first(leaf_first(child)),
-        count(leaf_count(child)) {}
-  uint32_t asked() const { return (1u << count) - 1u; }
-  math::Lanes<Float> corner(size_t k) const { return lanes_of_rows<Float>(row, 3 * k, count); }
-  math::Vec3 corner(size_t k, uint32_t lane) const { return one_of_rows(row + lane, 3 * k, count); }
-};
-
 // Where the members of a shape have their first row.
 constexpr size_t kAbRow = offsetof(TriangleShape, ab_m) / sizeof(float);
 constexpr size_t kHRow = offsetof(TriangleShape, h_m) / sizeof(float);
@@ -105,19 +86,19 @@ constexpr size_t kPerAb2Row = offsetof(TriangleShape, per_ab2_m2) / sizeof(float
 constexpr size_t kXcRow = offsetof(TriangleShape, xc) / sizeof(float);
 constexpr size_t kH2Row = offsetof(TriangleShape, h2_m2) / sizeof(float);
 
-/// The shapes of such a leaf.
+/// The shapes of a leaf of them, which have rows of their own.
 template <class Float>
-struct ShapesOfLeaf {
+struct LinedShapes {
   const float* row;
-  size_t count;
+  size_t stride;
 
-  ShapesOfLeaf(const float* rows, uint32_t child)
-      : row(rows + size_t{kRowsOfShapes} * leaf_first(child)), count(leaf_count(child)) {}
+  explicit LinedShapes(const Lined& lined)
+      : row(lined.ahead.shapes + size_t{kRowsOfShapes} * lined.first), stride(lined.count) {}
   Frames<Float> frames() const {
-    const auto lanes = [this](size_t k) { return math::lanes_from<Float>(row + k * count); };
-    return {lanes_of_rows<Float>(row, 0, count),
-            lanes_of_rows<Float>(row, kAbRow, count),
-            lanes_of_rows<Float>(row, kHRow, count),
+    const auto lanes = [this](size_t k) { return math::lanes_from<Float>(row + k * stride); };
+    return {lanes_of_rows<Float>(row, 0, stride),
+            lanes_of_rows<Float>(row, kAbRow, stride),
+            lanes_of_rows<Float>(row, kHRow, stride),
             lanes(kPerAb2Row),
             lanes(kXcRow),
             lanes(kH2Row)};
@@ -129,66 +110,68 @@ template <class Float>
 struct OfLane {
   math::Vec3 a_m;
   const float* row;  // of a.x
-  const RowsOfLeaf<Float>& leaf;
+  size_t stride;
+  const LinedCorners<Float>& corners;
   uint32_t lane;
 
-  OfLane(const ShapesOfLeaf<Float>& shapes, const RowsOfLeaf<Float>& of_leaf, uint32_t at)
-      : a_m(one_of_rows(shapes.row + at, 0, shapes.count)),
+  OfLane(const LinedShapes<Float>& shapes, const LinedCorners<Float>& of_corners, uint32_t at)
+      : a_m(one_of_rows(shapes.row + at, 0, shapes.stride)),
         row(shapes.row + at),
-        leaf(of_leaf),
+        stride(shapes.stride),
+        corners(of_corners),
         lane(at) {}
-  float value(size_t k) const { return row[k * leaf.count]; }
-  math::Vec3 b() const { return leaf.corner(1, lane); }
-  math::Vec3 c() const { return leaf.corner(2, lane); }
-  math::Vec3 ab() const { return one_of_rows(row, kAbRow, leaf.count); }
+  float value(size_t k) const { return row[k * stride]; }
+  math::Vec3 b() const { return corners.corner(1, lane); }
+  math::Vec3 c() const { return corners.corner(2, lane); }
+  math::Vec3 ab() const { return one_of_rows(row, kAbRow, stride); }
   math::Vec3 ac() const { return c() - a_m; }
-  math::Vec3 across() const { return one_of_rows(row, kHRow, leaf.count); }
+  math::Vec3 across() const { return one_of_rows(row, kHRow, stride); }
   float per_ab2(math::Vec3) const { return value(kPerAb2Row); }
   float xc(math::Vec3, float) const { return value(kXcRow); }
   math::Vec3 h(math::Vec3, float) const { return across(); }
   float h2(math::Vec3) const { return value(kH2Row); }
 };
 
-/// measure_side_by_side() of such a leaf.
+/// measure_side_by_side() of such a leaf, or of a block.
 template <class Float>
-[[gnu::always_inline]] static inline float measure_rows(const float* rows, math::Vec3 p_m,
-                                                        uint32_t child, uint32_t place,
-                                                        float least2_m2, Best& best) {
-  const RowsOfLeaf<Float> leaf(rows, child);
-  const Feet<Float> feet =
-      closest_on_triangles<Float>(p_m, leaf.corner(0), leaf.corner(1), leaf.corner(2));
-  return take_nearest(feet, leaf.asked(), leaf.first, place, least2_m2, best);
+[[gnu::always_inline]] static inline Feet<Float> feet_on(const Lined& lined, math::Vec3 p_m) {
+  const LinedCorners<Float> at(lined);
+  return closest_on_triangles<Float>(p_m, at.corner(0), at.corner(1), at.corner(2));
+}
+template <class Float>
+[[gnu::always_inline]] static inline float measure_lined(const Lined& leaf, math::Vec3 p_m,
+                                                         uint32_t place, float least2_m2,
+                                                         Best& best) {
+  return take_nearest(feet_on<Float>(leaf, p_m), leaf.asked(), leaf.first, place, least2_m2, best);
 }
 
 /// The same in less time where mostly none is nearer.
 template <class Float>
-[[gnu::always_inline]] static inline float measure_rows_beside(const float* rows,
-                                                               const float* shapes, math::Vec3 p_m,
-                                                               uint32_t child, uint32_t place,
-                                                               float least2_m2, Best& best) {
-  const RowsOfLeaf<Float> leaf(rows, child);
-  const Frames<Float> f = ShapesOfLeaf<Float>(shapes, child).frames();
+[[gnu::always_inline]] static inline float measure_lined_beside(const Lined& leaf, math::Vec3 p_m,
+                                                                uint32_t place, float least2_m2,
+                                                                Best& best) {
+  const Frames<Float> f = LinedShapes<Float>(leaf).frames();
   const PlaneFeet<Float> foot = plane_feet(f, p_m);
   if ((may_be_nearer(f, foot, least2_m2) & leaf.asked()) == 0) return least2_m2;
-  const Feet<Float> feet = closest_in_frames(f, foot, p_m, leaf.corner(1), leaf.corner(2));
+  const LinedCorners<Float> at(leaf);
+  const Feet<Float> feet = closest_in_frames(f, foot, p_m, at.corner(1), at.corner(2));
   return take_nearest(feet, leaf.asked(), leaf.first, place, least2_m2, best);
 }
 
 /// The same from nothing known, in less time where the nearest is that of the triangle whose lowest 16
 /// bits are `last`; which they are decides nothing else.
 template <class Float>
-[[gnu::always_inline]] static inline float measure_last_rows(const float* rows, const float* shapes,
-                                                             math::Vec3 p_m, uint32_t child,
-                                                             uint32_t place, uint32_t last,
-                                                             Best& best) {
-  const RowsOfLeaf<Float> leaf(rows, child);
-  const ShapesOfLeaf<Float> of_shapes(shapes, child);
-  const Frames<Float> f = of_shapes.frames();
+[[gnu::always_inline]] static inline float measure_lined_last(const Lined& leaf, math::Vec3 p_m,
+                                                              uint32_t place, uint32_t last,
+                                                              Best& best) {
+  const LinedCorners<Float> at(leaf);
+  const LinedShapes<Float> shapes(leaf);
+  const Frames<Float> f = shapes.frames();
   const PlaneFeet<Float> plane = plane_feet(f, p_m);
   const uint32_t lane = (last - leaf.first) & 0xFFFFu;
   if (lane < leaf.count) {
     Foot foot;
-    find_foot(p_m, OfLane<Float>(of_shapes, leaf, lane), Everything{}, foot);
+    find_foot(p_m, OfLane<Float>(shapes, at, lane), Everything{}, foot);
     const uint32_t others = leaf.asked() & ~(1u << lane);
     if ((may_be_nearer(f, plane, foot.distance2_m2) & others) == 0 && foot.distance2_m2 < FLT_MAX) {
       best.distance2_m2 = foot.distance2_m2;
@@ -199,7 +182,7 @@ template <class Float>
       return foot.distance2_m2;
     }
   }
-  const Feet<Float> feet = closest_in_frames(f, plane, p_m, leaf.corner(1), leaf.corner(2));
+  const Feet<Float> feet = closest_in_frames(f, plane, p_m, at.corner(1), at.corner(2));
   return take_nearest(feet, leaf.asked(), leaf.first, place, FLT_MAX, best);
 }
 

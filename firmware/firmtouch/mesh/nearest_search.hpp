@@ -151,12 +151,12 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t prune, uint32_t
   return false;
 }
 
-// In place of an index's type: a leaf's corners are taken from rows.
-struct Rows {};
+// In place of an index's type: triangles lie side by side (mesh/ahead.hpp).
+struct SideBySide {};
 template <class Index>
-constexpr bool kIsRows = false;
+constexpr bool kIsLined = false;
 template <>
-constexpr bool kIsRows<Rows> = true;
+constexpr bool kIsLined<SideBySide> = true;
 
 // In place of an index's type: a leaf has a box of its own, which is asked before its triangles are.
 // They are measured side by side by their corners, with indices of this type, or in turn by shapes.
@@ -188,7 +188,7 @@ inline core::Span<const Triangle<Index>> triangles_of(const View& mesh) {
 }
 
 template <class Index>
-constexpr bool kIsSideBySide = math::kHasLanes || kIsRows<Index>;
+constexpr bool kIsSideBySide = math::kHasLanes || kIsLined<Index>;
 
 // Where measure() without care finds the mesh.
 template <class Index, class Bound>
@@ -207,8 +207,8 @@ inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, 
   }
 }
 
-// Which leaf: that of the last answer, one beside it, or one of a search that knows none.
-enum class Which { kLast, kBeside, kAny };
+// Which leaf: that of the last answer, or one beside it.
+enum class Which { kLast, kBeside };
 
 // measure_leaf() of a leaf that is reached. Result: the least squared distance so far.
 template <bool kCareful, class Index, Which kWhich>
@@ -216,18 +216,16 @@ template <bool kCareful, class Index, Which kWhich>
                                                  Search& search) {
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};  // one by one: see measure_leaf()
   Best& best = search.best;
-  if constexpr (!kIsRows<Index>)
+  if constexpr (!kIsLined<Index>)
     return measure_leaf<kCareful>(mesh.vertices().data(), triangles_of<Index>(mesh),
                                   Loss(mesh.head()), p_m, child, place, kWhich == Which::kLast,
                                   best.distance2_m2, best);
   else if constexpr (kWhich == Which::kLast)
-    return measure_last_rows<math::FloatWide>(mesh.rows(), mesh.shape_rows(), p_m, child, place,
-                                              search.last, best);
-  else if constexpr (kWhich == Which::kBeside)
-    return measure_rows_beside<math::FloatWide>(mesh.rows(), mesh.shape_rows(), p_m, child, place,
-                                                best.distance2_m2, best);
+    return measure_lined_last<math::FloatWide>(Lined(*mesh.ahead(), child), p_m, place, search.last,
+                                               best);
   else
-    return measure_rows<math::FloatWide>(mesh.rows(), p_m, child, place, best.distance2_m2, best);
+    return measure_lined_beside<math::FloatWide>(Lined(*mesh.ahead(), child), p_m, place,
+                                                 best.distance2_m2, best);
 }
 
 // Functions of their own: in the loop they would take the registers of the descent.
@@ -235,7 +233,7 @@ template <bool kCareful, class Index, Which kWhich>
 template <class Index>
 [[gnu::noinline]] uint32_t measure_careful(const View& mesh, uint32_t child, uint32_t place,
                                            Search& search) {
-  measure_here<true, Index, Which::kAny>(mesh, child, place, search);
+  measure_here<true, Index, Which::kBeside>(mesh, child, place, search);
   return search.best.place ^ place;
 }
 // `prune`, which it does not need, is in the register in which measure_boxed() has it.
@@ -309,6 +307,14 @@ template <class Bound>
   return true;
 }
 
+template <class Index>
+inline const Side* sides_of(const View& mesh) {
+  if constexpr (kIsLined<Index>)
+    return mesh.ahead()->nodes->side;
+  else
+    return mesh.sides();
+}
+
 // One loop with its state in registers. A box is a place; a leaf that is reached is read, an inner
 // node is entered by its nearer child, the other left in `pending`. A warm search begins with the
 // last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
@@ -317,7 +323,7 @@ template <class Bound>
 template <bool kCareful, class Bound, class Index>
 [[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers
-  const Side* const sides = mesh.sides();
+  const Side* const sides = sides_of<Index>(mesh);
   const uint32_t allowed = search.budget == 0 ? 1 : search.budget;
   Pending pending[kCapacity];
   Pending* top = pending;  // behind the last

@@ -2,6 +2,7 @@
 // SegmentFrame's test of triangles side by side: the same formulas in the same order, so the same
 // bits. For the library's own translation units.
 
+#include "firmtouch/mesh/lined.hpp"
 #include "firmtouch/mesh/segment_frame.hpp"
 #include "firmtouch/mesh/triangle_lanes.hpp"
 #include "firmtouch/mesh/view.hpp"
@@ -38,8 +39,8 @@ class SegmentLanes : private SegmentFrame {
 
   // Whether all of a leaf stands side by side.
   static constexpr bool kHoldsLeaf = math::kLanesOf<math::FloatWide> >= kMaxLeafTriangles;
-  /// Of the triangles of a leaf whose corners lie side by side, in rows. Lanes that it leaves over
-  /// tell nothing.
+  /// Of the triangles of a leaf whose corners lie side by side, in rows of `count` floats. Lanes that it
+  /// leaves over tell nothing.
   /// Pre: kHoldsLeaf.
   [[gnu::always_inline]] inline Passes pass_rows(const float* rows, uint32_t count) const {
     using Float = math::FloatWide;
@@ -117,20 +118,21 @@ template <class Visitor, class Corners>
 }
 
 /// take_leaf() with triangles side by side.
-template <class Visitor>
+template <bool kIsLined, class Visitor>
 [[gnu::always_inline]] static inline bool take_leaf_in_lanes(const View& mesh,
                                                              const SegmentLanes& segment,
                                                              uint32_t leaf, Visitor& visitor) {
-  const uint32_t count = leaf_count(leaf), first = leaf_first(leaf);
-  if (SegmentLanes::kHoldsLeaf && mesh.rows() != nullptr) {
-    const float* const rows = mesh.rows() + size_t{kRowsOfLeaf} * first;
-    const auto corner = [&](uint32_t lane, uint32_t c) -> math::Vec3 {
-      const float* const row = rows + lane + 3 * c * count;
-      return {row[0], row[count], row[2 * count]};
+  if constexpr (kIsLined) {
+    const Lined lined(*mesh.ahead(), leaf);
+    const float* const rows = lined.row(lined.ahead.corners, kRowsOfCorners);
+    const size_t stride = lined.of.count;
+    const auto corner = [&](uint32_t lane, uint32_t c) {
+      return one_of_rows(rows + lane, 3 * c, stride);
     };
-    return take_passed(segment, segment.pass_rows(rows, count), (1u << count) - 1u, first, corner,
-                       visitor);
+    return take_passed(segment, segment.pass_rows(rows, lined.of.count), lined.asked(), lined.first,
+                       corner, visitor);
   }
+  const uint32_t count = leaf_count(leaf), first = leaf_first(leaf);
   for (uint32_t done = 0; done < count; done += 4) {
     const uint32_t left = count - done, asked = (1u << (left < 4 ? left : 4)) - 1u;
     Triangle<uint32_t> t[4];

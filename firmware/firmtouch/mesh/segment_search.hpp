@@ -86,7 +86,8 @@ static inline bool search_in_turn(const View& mesh, math::Vec3 a_m, math::Vec3 b
 /// The same search, for a processor that runs ahead: while it waits to know which child is nearer,
 /// it measures the boxes in both. A node's keys are those of its sides, measured when it was found;
 /// the limit may have come nearer since.
-template <class Visitor>
+/// `kIsLined`: from what is made of the mesh (mesh/ahead.hpp), where boxes wait for no child's index.
+template <bool kIsLined, class Visitor>
 [[gnu::always_inline]] static inline bool search_ahead(const View& mesh, math::Vec3 a_m,
                                                        math::Vec3 b_m, query::Budget budget,
                                                        Visitor& visitor, uint32_t& steps) {
@@ -95,7 +96,8 @@ template <class Visitor>
   if (!slabs.begin(a_m, b_m, mesh.head().grid_low_m, mesh.head().cell_m) &&
       !(math::is_finite(a_m) && math::is_finite(b_m)))
     return false;
-  const Node* const nodes = mesh.nodes().data();
+  const Node* const nodes = kIsLined ? mesh.ahead()->nodes : mesh.nodes().data();
+  const Node* const families = kIsLined ? mesh.ahead()->families : nullptr;
   const auto boxes = [nodes](uint32_t child) {  // of a leaf those of the root
     const uint32_t inner = child & ~static_cast<uint32_t>(static_cast<int32_t>(child) >> 31);
     return reinterpret_cast<const uint32_t*>(nodes + inner);
@@ -118,7 +120,14 @@ template <class Visitor>
       const Node& node = nodes[child_of(now.what)];
       Waiting nearer{pending_of(static_cast<uint32_t>(now.keys), node.side[0].child), 0};
       Waiting farther{(now.keys >> 32 << 32) | node.side[1].child, 0};
-      slabs.enter(boxes(node.side[0].child), boxes(node.side[1].child), nearer.keys, farther.keys);
+      if constexpr (kIsLined) {
+        const Node* const family = families + 2 * size_t{child_of(now.what)};
+        slabs.enter(reinterpret_cast<const uint32_t*>(family),
+                    reinterpret_cast<const uint32_t*>(family + 1), nearer.keys, farther.keys);
+      } else {
+        slabs.enter(boxes(node.side[0].child), boxes(node.side[1].child), nearer.keys,
+                    farther.keys);
+      }
       math::put_in_order(nearer, farther);
       const Waiting left_last = *left;
       left[1] = farther;
@@ -139,7 +148,7 @@ template <class Visitor>
       if (visited == allowed) return false;
       steps = ++visited;
       if (!is_leaf(child_of(now.what))) break;
-      if (!take_leaf_in_lanes(mesh, segment, child_of(now.what), visitor)) return true;
+      if (!take_leaf_in_lanes<kIsLined>(mesh, segment, child_of(now.what), visitor)) return true;
       last = pending_of(math::bits_of(visitor.limit), UINT32_MAX);
       now = *left--;
     }
@@ -151,7 +160,8 @@ template <class Visitor>
                                                  query::Budget budget, Visitor& visitor,
                                                  uint32_t& steps) {
   if constexpr (math::kHasLanes)
-    return search_ahead(mesh, a_m, b_m, budget, visitor, steps);
+    return mesh.ahead() != nullptr ? search_ahead<true>(mesh, a_m, b_m, budget, visitor, steps)
+                                   : search_ahead<false>(mesh, a_m, b_m, budget, visitor, steps);
   else
     return search_in_turn(mesh, a_m, b_m, budget, visitor, steps);
 }

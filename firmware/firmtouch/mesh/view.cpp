@@ -4,7 +4,6 @@
 
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/mesh/direction.hpp"
 #include "firmtouch/mesh/leaf_box.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
 
@@ -109,7 +108,6 @@ void Opening::open_head(const Sections& s) {
       s.vertex_normals.empty() == with_sign || s.edge_folds.empty() == with_sign)
     return fail(105, 0);
   verdict_ = check_head(head);
-  if (verdict_.ok()) verdict_ = open_desktop(s);
   if (verdict_.ok()) verdict_ = open_steady(s);
   if (!verdict_.ok()) return;
   if (head.depth == 0 || head.depth > kMaxDepth) return fail(107, 0);
@@ -117,30 +115,6 @@ void Opening::open_head(const Sections& s) {
   low_ = {FLT_MAX, FLT_MAX, FLT_MAX};
   high_ = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
   stage_ = Stage::kVertices;
-}
-
-// What is there for a desktop's sake is proven everywhere, so that an asset is sound or not.
-Verdict Opening::open_desktop(const Sections& s) {
-  const uint32_t triangles = view_.triangles16_.size() + view_.triangles32_.size();
-  const uint32_t floats = kRowsOfLeaf * triangles;
-  const core::Span<const float> rows = core::as_whole_array<float>(s.rows);
-  if (!s.rows.empty()) {
-    if (rows.size() != floats + kRowsEnd) return reject(132, 0);
-    for (uint32_t i = 0; i < kRowsEnd; ++i)
-      if (math::bits_of(rows[floats + i]) != 0) return reject(132, 1);
-  }
-  const uint32_t shape_floats = rows.empty() ? 0 : kRowsOfShapes * triangles + kRowsEnd;
-  const core::Span<const float> shape_rows = core::as_whole_array<float>(s.shape_rows);
-  if (shape_rows.size() != shape_floats || s.shape_rows.empty() != rows.empty())
-    return reject(142, 0);
-  for (uint32_t i = kRowsOfShapes * triangles; i < shape_floats; ++i)
-    if (math::bits_of(shape_rows[i]) != 0) return reject(142, 1);
-  const core::Span<const Vertex> directions = core::as_whole_array<Vertex>(s.directions);
-  if (!s.directions.empty() && directions.size() != kFeatures * triangles) return reject(134, 0);
-  view_.rows_ = rows.empty() ? nullptr : rows.data();
-  view_.shape_rows_ = shape_rows.empty() ? nullptr : shape_rows.data();
-  view_.directions_ = directions.empty() ? nullptr : directions.data();
-  return kPassed;
 }
 
 bool tells_nothing(const uint32_t* words) {
@@ -279,32 +253,10 @@ Verdict Opening::check_leaf(uint32_t i, uint32_t slot) {
           return reject(127, t);
       }
     }
-    const Verdict rows = check_rows(first, count, t);
-    if (!rows.ok()) return rows;
   }
   const Verdict box = check_leaf_box(first, count);
   if (!box.ok()) return box;
   next_triangle_ += count;
-  return kPassed;
-}
-
-// Of one triangle of the leaf.
-Verdict Opening::check_rows(uint32_t first, uint32_t count, uint32_t triangle) const {
-  if (view_.rows_ == nullptr) return kPassed;
-  const Triangle<uint32_t> t = view_.triangle(triangle);
-  for (uint32_t row = 0; row < kRowsOfLeaf; ++row) {
-    const Vertex& v = view_.vertices_[t.corner[row / 3]];
-    const float value = row % 3 == 0 ? v.x_m : row % 3 == 1 ? v.y_m : v.z_m;
-    const uint32_t at = kRowsOfLeaf * first + row * count + (triangle - first);
-    if (math::bits_of(view_.rows_[at]) != math::bits_of(value)) return reject(133, triangle);
-  }
-  float shape[kRowsOfShapes];
-  put_rows(shape_at(triangle), shape);
-  for (uint32_t row = 0; row < kRowsOfShapes; ++row) {
-    const uint32_t at = kRowsOfShapes * first + row * count + (triangle - first);
-    if (math::bits_of(view_.shape_rows_[at]) != math::bits_of(shape[row]))
-      return reject(143, triangle);
-  }
   return kPassed;
 }
 
@@ -362,14 +314,6 @@ Verdict Opening::check_triangle(uint32_t i) const {
   if (view_.is_signed())
     for (const int8_t fold : view_.folds_[i].fold)
       if (fold < -kMostFold) return reject(130, i);
-  for (uint32_t f = 0; f < kFeatures && view_.directions_ != nullptr; ++f) {
-    const Vec3 direction = decoded_direction(view_, i, static_cast<Feature>(f));
-    const Vertex& told = view_.directions_[kFeatures * i + f];
-    if (math::bits_of(told.x_m) != math::bits_of(direction.x) ||
-        math::bits_of(told.y_m) != math::bits_of(direction.y) ||
-        math::bits_of(told.z_m) != math::bits_of(direction.z))
-      return reject(135, i);
-  }
   return kPassed;
 }
 

@@ -4,16 +4,17 @@
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/math/vec3.hpp"
+#include "firmtouch/mesh/ahead.hpp"
 #include "firmtouch/mesh/layout.hpp"
 
 namespace firmtouch::mesh {
 
 /// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
-/// triangles32; the normals and folds are empty for an unsigned mesh, rows, shape_rows and directions but
-/// for a desktop, leaf_boxes and shapes but for a steady bake.
+/// triangles32; the normals and folds are empty for an unsigned mesh, leaf_boxes and shapes but for a
+/// steady bake.
 struct Sections {
   core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds,
-      rows, directions, leaf_boxes, shapes, shape_rows;
+      leaf_boxes, shapes;
 };
 
 /// A mesh that open() has proven: every index, box, depth and float. Immutable; share it between
@@ -33,9 +34,6 @@ class View {
   core::Span<const uint32_t> vertex_normals() const { return vertex_normals_; }
   core::Span<const EdgeFolds> folds() const { return folds_; }
   /// Null where the asset has none: what they hold follows from the rest.
-  const float* rows() const { return rows_; }
-  const float* shape_rows() const { return shape_rows_; }
-  const Vertex* directions() const { return directions_; }
   const uint32_t* leaf_boxes() const { return leaf_boxes_; }
   const TriangleShape* shapes() const { return shapes_; }
   core::Span<const Triangle<uint16_t>> triangles16() const { return triangles16_; }
@@ -53,6 +51,15 @@ class View {
     return {vertices_[i].x_m, vertices_[i].y_m, vertices_[i].z_m};
   }
 
+  /// The same mesh, read as `ahead` has it where the processor has vector instructions.
+  /// Pre: made of this mesh, and there as long as the result.
+  View with(const Ahead& ahead) const {
+    View view = *this;
+    view.ahead_ = &ahead;
+    return view;
+  }
+  const Ahead* ahead() const { return ahead_; }
+
  private:
   friend class Opening;
   const Head* head_ = nullptr;
@@ -63,15 +70,13 @@ class View {
   core::Span<const uint32_t> parents_;
   core::Span<const uint32_t> vertex_normals_;
   core::Span<const EdgeFolds> folds_;
-  const float* rows_ = nullptr;
-  const float* shape_rows_ = nullptr;
-  const Vertex* directions_ = nullptr;
   const uint32_t* leaf_boxes_ = nullptr;
   const TriangleShape* shapes_ = nullptr;
+  const Ahead* ahead_ = nullptr;
 };
 
 /// Proves a mesh in slices, so that a main loop stays alive while it opens a large one: rules R101
-/// to R143 of tools/FORMAT.md.
+/// to R141 of tools/FORMAT.md.
 ///
 ///     Opening opening(sections);
 ///     while (!opening.done()) opening.work(1000);
@@ -92,14 +97,12 @@ class Opening {
   enum class Stage : uint8_t { kVertices, kNormals, kNodes, kTriangles, kDone };
   void fail(uint16_t rule, uint32_t element);
   void open_head(const Sections& sections);
-  core::Verdict open_desktop(const Sections& sections);
   core::Verdict open_steady(const Sections& sections);
   void next_stage();
   core::Verdict check_vertex(uint32_t i);
   core::Verdict check_normal(uint32_t i) const;
   core::Verdict check_node(uint32_t i);
   core::Verdict check_leaf(uint32_t node, uint32_t slot);
-  core::Verdict check_rows(uint32_t first, uint32_t count, uint32_t triangle) const;
   core::Verdict check_leaf_box(uint32_t first, uint32_t count) const;
   TriangleShape shape_at(uint32_t triangle) const;
   core::Verdict check_shape(uint32_t i) const;

@@ -1,0 +1,62 @@
+#pragma once
+// What a processor with vector instructions reads in place of a tree and its triangles: the same values
+// in the order in which it wants them. No asset holds it: it is made in memory when one is opened
+// (tools/bake/mesh_ahead.hpp).
+
+#include <stddef.h>
+
+#include "firmtouch/mesh/layout.hpp"
+
+namespace firmtouch::mesh {
+
+constexpr uint32_t kMostLanes = 8;
+constexpr uint32_t kRowsOfCorners = 9;
+constexpr uint32_t kRowsOfShapes = sizeof(TriangleShape) / sizeof(float);
+constexpr uint32_t kFeatures = 7;
+
+/// Triangles that are measured side by side, one behind the other in the mesh: those of a node (but
+/// the root) that holds at most kMostLanes of them, in at most two leaves on either side; of the topmost
+/// such node. Or those of a leaf that is in none.
+struct Block {
+  uint32_t first, count;
+};
+
+/// The block of a node. Byte 2 slot + k of `lanes`: a bit for each triangle of leaf k on that side.
+struct NodeBlock {
+  Block of;
+  uint32_t lanes;
+};
+
+// A leaf, as a Side has it, and in the bits that meshes of so many triangles leave over: where its first
+// triangle stands in its block << 22, how many the block has, less 1, << 25.
+constexpr uint32_t kMostAhead = 1u << 22;
+constexpr uint32_t lined_first(uint32_t leaf) { return leaf & (kMostAhead - 1); }
+constexpr uint32_t lined_lane(uint32_t leaf) { return (leaf >> 22) & 7u; }
+constexpr Block lined_block(uint32_t leaf) {
+  return {lined_first(leaf) - lined_lane(leaf), ((leaf >> 25) & 7u) + 1};
+}
+constexpr uint32_t make_lined(uint32_t leaf, const Block& block) {
+  return leaf | (leaf_first(leaf) - block.first) << 22 | (block.count - 1) << 25;
+}
+
+// An inner node that has a block, in a family.
+constexpr uint32_t kBlockBit = 0x40000000u;
+constexpr uint32_t block_node(uint32_t child) { return child & ~kBlockBit; }
+
+/// Answers have the same bits with it and without, steps included.
+struct Ahead {
+  const Node* nodes;  // [node_count]: the mesh's, with leaves as above
+  // Node[2 * node_count + 1]: of the child at each place its two sides, so that those of both children of
+  // a node lie one behind the other; of a leaf those of the root, which are the last too.
+  const Node* families;
+  const NodeBlock* blocks;  // [node_count]; of no triangles where a node has none
+  // float[9 * (triangle_count + 1) + kMostLanes]: of each block nine rows of count floats, from float
+  // 9 first on: x of corners 0, y, z, then of corners 1 and 2.
+  const float* corners;
+  // float[12 * (triangle_count + 1) + kMostLanes]: so too of each leaf twelve rows of its shapes.
+  const float* shapes;
+  const Vertex*
+      directions;  // [7 * triangle_count]: each feature's, as feature_direction() tells it
+};
+
+}  // namespace firmtouch::mesh

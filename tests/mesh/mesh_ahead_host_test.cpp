@@ -1,0 +1,178 @@
+// What is made in memory of a mesh changes no bit of an answer. (Of weight where the tests are built for a
+// processor that reads it: preset host-native.)
+#include <cmath>
+
+#include "bake/bake_mesh.hpp"
+#include "bake/mesh_ahead.hpp"
+#include "cube.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/mesh/triangle_shape.hpp"
+#include "harness/test.hpp"
+#include "surface/make_part.hpp"
+#include "surface/random.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+
+struct Baked {
+  std::vector<tools::Section> sections;
+  mesh::View view;
+
+  explicit Baked(const tools::TreeShape& shape, bool is_signed = true) {
+    tools::MeshOptions options;
+    options.is_signed = is_signed;
+    options.shape = shape;
+    tools::MeshReport report;
+    sections = tools::bake_mesh(tools::make_part(3, 3000), "part", options, report);
+    CHECK(report.problem.empty());
+    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+  }
+};
+
+// Near the surface and far from it, one after the other in short steps and in long ones.
+std::vector<query::ProbePoint> points_about(const mesh::Head& head, uint64_t seed) {
+  tools::Random random(seed);
+  std::vector<query::ProbePoint> points;
+  const double size = static_cast<double>(head.diagonal_m);
+  double at[3] = {0, 0, 0};
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const double step = i % 50 == 0 ? 0.7 : 0.002;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const double low = static_cast<double>(head.low_m[k]);
+      const double high = static_cast<double>(head.high_m[k]);
+      at[k] += random.between(-step, step) * size;
+      if (at[k] < low - 0.1 * size || at[k] > high + 0.1 * size) at[k] = (low + high) / 2;
+    }
+    points.push_back(
+        {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
+  }
+  return points;
+}
+
+bool is_same(const mesh::Closest& a, const mesh::Closest& b) {
+  const auto same = [](float x, float y) { return math::bits_of(x) == math::bits_of(y); };
+  return same(a.distance_m, b.distance_m) && same(a.point_m.x, b.point_m.x) &&
+         same(a.point_m.y, b.point_m.y) && same(a.point_m.z, b.point_m.z) &&
+         same(a.direction.x, b.direction.x) && same(a.direction.y, b.direction.y) &&
+         same(a.direction.z, b.direction.z) && a.triangle == b.triangle && a.feature == b.feature &&
+         same(a.certificate.lower_m, b.certificate.lower_m) &&
+         a.certificate.steps == b.certificate.steps && a.certificate.exact == b.certificate.exact &&
+         a.certificate.sign == b.certificate.sign;
+}
+
+// One hint for both: what one leaves in it the other reads too.
+uint32_t differences(const mesh::View& view, const mesh::View& lined, query::Budget budget,
+                     uint64_t seed) {
+  query::Hint hint;
+  uint32_t differ = 0, turn = 0;
+  for (const query::ProbePoint& p : points_about(view.head(), seed)) {
+    const math::Vec3 p_m{p.x_m, p.y_m, p.z_m};
+    if (++turn % 3 == 0) hint = {};
+    query::Hint other = hint;
+    const mesh::Closest a = mesh::closest_point(view, p_m, budget, turn % 2 == 0 ? hint : other);
+    const mesh::Closest b = mesh::closest_point(lined, p_m, budget, turn % 2 == 0 ? other : hint);
+    differ += is_same(a, b) && hint.place == other.place && hint.fence == other.fence ? 0u : 1u;
+  }
+  return differ;
+}
+
+uint32_t triangles_in_blocks(const mesh::View& view) {
+  const tools::MeshAhead made(view);
+  const mesh::Ahead& ahead = *made.view().ahead();
+  uint32_t in_blocks = 0;
+  for (uint32_t node = 0; node < view.nodes().size(); ++node) {
+    const mesh::NodeBlock& block = ahead.blocks[node];
+    if (block.of.count == 0) continue;
+    in_blocks += block.of.count;
+    CHECK(node != 0 && block.of.count <= mesh::kMostLanes);
+    uint32_t lanes = 0;
+    for (uint32_t i = 0; i < 4; ++i) {
+      CHECK_EQ(lanes & (block.lanes >> (8 * i)) & 0xFFu, 0u);
+      lanes |= (block.lanes >> (8 * i)) & 0xFFu;
+    }
+    CHECK_EQ(lanes, (1u << block.of.count) - 1u);
+  }
+  return in_blocks;
+}
+
+}  // namespace
+
+TEST(WhatIsMadeOfAMeshChangesNoBitOfAnAnswer) {
+  const tools::TreeShape shapes[] = {
+      tools::kFastTree, tools::kSmallTree, tools::kSteadyTree, tools::kDesktopTree, {1}};
+  uint64_t seed = 9;
+  for (const tools::TreeShape& shape : shapes) {
+    const Baked baked(shape, shape.leaf_faces != 7);
+    const tools::MeshAhead made(baked.view);
+    for (const query::Budget budget :
+         {query::kUnlimited, query::Budget{12}, query::Budget{UINT32_MAX, 0.05f}})
+      CHECK_EQ(differences(baked.view, made.view(), budget, seed++), 0u);
+  }
+}
+
+TEST(WhatIsMadeOfAMeshOfOneTriangleChangesNoBit) {
+  tools::Surface surface;
+  surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  surface.faces = {{0, 1, 2}};
+  tools::MeshOptions options;
+  options.is_signed = false;
+  tools::MeshReport report;
+  const std::vector<tools::Section> sections = tools::bake_mesh(surface, "one", options, report);
+  mesh::View view;
+  CHECK(mesh::open(tools::mesh_sections(sections, "one"), view).ok());
+  const tools::MeshAhead made(view);
+  CHECK_EQ(differences(view, made.view(), query::kUnlimited, 3), 0u);
+}
+
+// Breadth first the triangles of a node do not lie one behind the other: then it makes no block.
+TEST(ATreeOfAnyOrderIsReadAhead) {
+  for (const bool is_breadth_first : {false, true}) {
+    const mesh_test::Cube cube(1.0f, is_breadth_first);
+    const mesh::View view = cube.view();
+    CHECK_EQ(triangles_in_blocks(view), is_breadth_first ? 8u : 12u);
+    const tools::MeshAhead made(view);
+    CHECK_EQ(differences(view, made.view(), query::kUnlimited, 4), 0u);
+  }
+}
+
+TEST(MostTrianglesOfABakedMeshLieInBlocks) {
+  for (const tools::TreeShape& shape : {tools::kFastTree, tools::TreeShape{1}}) {
+    const Baked baked(shape);
+    CHECK_LT(baked.view.head().triangle_count * 3 / 4, triangles_in_blocks(baked.view));
+  }
+}
+
+TEST(EachTriangleStandsSideBySideWhereItsLeafIsToldToBe) {
+  const Baked baked(tools::kFastTree);
+  const tools::MeshAhead made(baked.view);
+  const mesh::Ahead& ahead = *made.view().ahead();
+  uint32_t seen = 0, differ = 0;
+  for (uint32_t place = 0; place < 2 * baked.view.nodes().size(); ++place) {
+    const uint32_t leaf = ahead.nodes[place / 2].side[place % 2].child;
+    if (!mesh::is_leaf(leaf)) continue;
+    const mesh::Block block = mesh::lined_block(leaf);
+    for (uint32_t i = 0; i < mesh::leaf_count(leaf); ++i, ++seen) {
+      const uint32_t triangle = mesh::lined_first(leaf) + i;
+      const mesh::Triangle<uint32_t> t = baked.view.triangle(triangle);
+      const math::Vec3 corner[] = {baked.view.vertex(t.corner[0]), baked.view.vertex(t.corner[1]),
+                                   baked.view.vertex(t.corner[2])};
+      float shape[mesh::kRowsOfShapes];
+      mesh::put_rows(mesh::shape_of(corner[0], corner[1], corner[2]), shape);
+      for (uint32_t row = 0; row < mesh::kRowsOfCorners; ++row) {
+        const math::Vec3& c = corner[row / 3];
+        const float value = row % 3 == 0 ? c.x : row % 3 == 1 ? c.y : c.z;
+        const float told = ahead.corners[mesh::kRowsOfCorners * block.first + row * block.count +
+                                         (triangle - block.first)];
+        differ += math::bits_of(told) == math::bits_of(value) ? 0u : 1u;
+      }
+      for (uint32_t row = 0; row < mesh::kRowsOfShapes; ++row) {
+        const float told = ahead.shapes[mesh::kRowsOfShapes * mesh::lined_first(leaf) +
+                                        row * mesh::leaf_count(leaf) + i];
+        differ += math::bits_of(told) == math::bits_of(shape[row]) ? 0u : 1u;
+      }
+    }
+  }
+  CHECK_EQ(seen, baked.view.head().triangle_count);
+  CHECK_EQ(differ, 0u);
+}
