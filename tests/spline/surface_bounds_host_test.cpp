@@ -44,7 +44,7 @@ struct OnQuad {
   Wide u = 0, v = 0;
 };
 OnQuad nearest_on(const Quad& quad, const Plain& off) {
-  constexpr int kGrid = 16, kThirds = 40;
+  constexpr int kGrid = 48, kThirds = 26;
   OnQuad best;
   Wide least = HUGE_VALL;
   const auto ask = [&](Wide u) {

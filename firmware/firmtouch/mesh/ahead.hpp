@@ -27,8 +27,8 @@ struct NodeBlock {
   uint32_t lanes;
 };
 
-// A leaf, as a Side has it, and in the bits that meshes of so many triangles leave over: where its first
-// triangle stands in its block << 22, how many the block has, less 1, << 25.
+// A leaf, as a Side has it, and in the bits that a mesh of at most so many triangles leaves over: where
+// its first stands in its block << 22, how many the block has, less 1, << 25.
 constexpr uint32_t kMostAhead = 1u << 22;
 constexpr uint32_t lined_first(uint32_t leaf) { return leaf & (kMostAhead - 1); }
 constexpr uint32_t lined_lane(uint32_t leaf) { return (leaf >> 22) & 7u; }
@@ -55,8 +55,8 @@ struct Ahead {
   const float* corners;
   // float[12 * (triangle_count + 1) + kMostLanes]: so too of each leaf twelve rows of its shapes.
   const float* shapes;
-  const Vertex*
-      directions;  // [7 * triangle_count]: each feature's, as feature_direction() tells it
+  // [7 * triangle_count]: the unit pseudonormals of a triangle's features, in their order.
+  const Vertex* directions;
 };
 
 }  // namespace firmtouch::mesh
