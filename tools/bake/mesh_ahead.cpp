@@ -57,11 +57,32 @@ NodeBlock block_of(const mesh::View& mesh, uint32_t node) {
   return block;
 }
 
+// Nodes in order, two a cache line: a family is one.
+class LinesOfNodes {
+ public:
+  void push_back(const mesh::Node& node) {
+    if (count_ % 2 == 0) lines_.emplace_back();
+    lines_.back().node[count_++ % 2] = node;
+  }
+  size_t size() const { return count_; }
+  const mesh::Node& operator[](size_t i) const { return lines_[i / 2].node[i % 2]; }
+  mesh::Node& back() { return lines_.back().node[(count_ - 1) % 2]; }
+  const mesh::Node* data() const { return lines_.front().node; }
+
+ private:
+  struct alignas(64) Line {
+    mesh::Node node[2];
+  };
+  static_assert(sizeof(Line) == 2 * sizeof(mesh::Node));
+  std::vector<Line> lines_;
+  size_t count_ = 0;
+};
+
 }  // namespace
 
 struct MeshAhead::Stored {
   mesh::View mesh;
-  std::vector<mesh::Node> nodes, families;
+  LinesOfNodes nodes, families;
   std::vector<NodeBlock> blocks;
   std::vector<float> corners, shapes;
   std::vector<mesh::Vertex> directions;
@@ -129,7 +150,7 @@ struct MeshAhead::Stored {
     return family;
   }
   void put_families() {
-    for (const mesh::Node& node : nodes)
+    for (const mesh::Node& node : mesh.nodes())
       for (const mesh::Side& side : node.side)
         families.push_back(family_of(is_leaf(side.child) ? 0 : side.child));
     families.push_back(family_of(0));

@@ -155,13 +155,21 @@ template <bool kIsLined, class Visitor>
   }
 }
 
+// Whether a segment, which reads a few leaves, gains by what is made of the mesh: of more nodes that
+// does not stay near the processor, and only leaves of more than four triangles make up for it.
+inline bool gains_ahead(const View& mesh) {
+  constexpr uint32_t kMostNodes = 8192;
+  const uint32_t nodes = mesh.nodes().size();
+  return mesh.ahead() != nullptr && (nodes <= kMostNodes || mesh.head().triangle_count / 4 > nodes);
+}
+
 template <class Visitor>
 [[gnu::always_inline]] static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m,
                                                  query::Budget budget, Visitor& visitor,
                                                  uint32_t& steps) {
   if constexpr (math::kHasLanes)
-    return mesh.ahead() != nullptr ? search_ahead<true>(mesh, a_m, b_m, budget, visitor, steps)
-                                   : search_ahead<false>(mesh, a_m, b_m, budget, visitor, steps);
+    return gains_ahead(mesh) ? search_ahead<true>(mesh, a_m, b_m, budget, visitor, steps)
+                             : search_ahead<false>(mesh, a_m, b_m, budget, visitor, steps);
   else
     return search_in_turn(mesh, a_m, b_m, budget, visitor, steps);
 }
