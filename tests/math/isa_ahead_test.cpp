@@ -50,6 +50,21 @@ void compare() {
   CHECK_LT(200u, moved);
 }
 
+void put_random_pair(uint32_t (&pair)[8], bool is_whole) {
+  for (uint32_t& word : pair) {
+    const uint32_t a = next_random() & 0x7FFFu, b = next_random() & 0x7FFFu;
+    word = (a < b ? a : b) | (32767u - (a < b ? b : a)) << 16;
+    if (is_whole) word = 0;
+  }
+  pair[3] = pair[7] = next_random();  // children
+}
+void put_random_point(uint32_t (&at)[3]) {
+  for (uint32_t& word : at) {
+    const uint32_t x = next_random() & 0x7FFFu;
+    word = (x + (x < 32767u ? 1u : 0u)) | (32767u - x) << 16;
+  }
+}
+
 }  // namespace
 
 TEST(WhatWaitsIsOrderedAndReplacedWithWhatGoesWithIt) {
@@ -61,18 +76,9 @@ TEST(DistancesToFourBoxesAreThoseToEach) {
   uint32_t differ = 0, inside = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
     uint32_t boxes[2][8];
-    for (auto& two : boxes)
-      for (uint32_t& word : two) {
-        const uint32_t a = next_random() & 0x7FFFu, b = next_random() & 0x7FFFu;
-        word = (a < b ? a : b) | (32767u - (a < b ? b : a)) << 16;
-        if (i % 9 == 0) word = 0;
-      }
-    boxes[0][3] = boxes[0][7] = boxes[1][3] = boxes[1][7] = next_random();  // children
+    for (auto& pair : boxes) put_random_pair(pair, i % 9 == 0);
     uint32_t at[3];
-    for (uint32_t& word : at) {
-      const uint32_t x = next_random() & 0x7FFFu;
-      word = (x + (x < 32767u ? 1u : 0u)) | (32767u - x) << 16;
-    }
+    put_random_point(at);
     const math::BoxPoint point = math::box_point(at[0], at[1], at[2]);
     uint64_t told[2];
     math::family_distances2(boxes[0], boxes[1], point, told[0], told[1]);
@@ -85,4 +91,24 @@ TEST(DistancesToFourBoxesAreThoseToEach) {
   }
   CHECK_EQ(differ, 0u);
   CHECK_LT(4000u, inside);
+}
+
+TEST(WhichOfSixBoxesAreNearerIsToldOfEach) {
+  uint32_t differ = 0, nearer = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    uint32_t boxes[3][8], at[3];
+    for (auto& pair : boxes) put_random_pair(pair, i % 9 == 0);
+    put_random_point(at);
+    const uint32_t* const as = boxes[next_random() % 3] + 4 * (next_random() % 2);
+    const uint32_t below = math::portable_box_distance2(as, at) + next_random() % 3 - (i % 2);
+    const uint32_t told =
+        math::boxes_below(boxes[0], boxes[1], math::box_point(at[0], at[1], at[2]), below);
+    for (uint32_t k = 0; k < 6; ++k) {
+      const bool is = math::portable_box_distance2(boxes[k / 2] + 4 * (k % 2), at) < below;
+      differ += is == ((told >> (k / 2 + 4 * (k % 2)) & 1u) != 0) ? 0u : 1u;
+      nearer += is ? 1u : 0u;
+    }
+  }
+  CHECK_EQ(differ, 0u);
+  CHECK_LT(20000u, nearer);
 }

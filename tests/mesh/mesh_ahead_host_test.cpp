@@ -4,6 +4,7 @@
 
 #include "bake/bake_mesh.hpp"
 #include "bake/mesh_ahead.hpp"
+#include "bake/prism.hpp"
 #include "cube.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
@@ -165,6 +166,13 @@ TEST(EachTriangleStandsSideBySideWhereItsLeafIsToldToBe) {
         const float told = ahead.corners[mesh::kRowsOfCorners * block.first + row * block.count +
                                          (triangle - block.first)];
         differ += math::bits_of(told) == math::bits_of(value) ? 0u : 1u;
+      }
+      float prism[mesh::kRowsOfPrisms];
+      tools::put_prism(corner[0], corner[1], corner[2], prism);
+      for (uint32_t row = 0; row < mesh::kRowsOfPrisms; ++row) {
+        const float told = ahead.prisms[mesh::kRowsOfPrisms * block.first + row * block.count +
+                                        (triangle - block.first)];
+        differ += math::bits_of(told) == math::bits_of(prism[row]) ? 0u : 1u;
       }
       for (uint32_t row = 0; row < mesh::kRowsOfShapes; ++row) {
         const float told = ahead.shapes[mesh::kRowsOfShapes * mesh::lined_first(leaf) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "bake/prism.hpp"
 #include "firmtouch/math/isa_lanes.hpp"
 #include "firmtouch/mesh/direction.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
@@ -82,9 +83,9 @@ class LinesOfNodes {
 
 struct MeshAhead::Stored {
   mesh::View mesh;
-  LinesOfNodes nodes, families;
+  LinesOfNodes nodes, block_nodes, families;
   std::vector<NodeBlock> blocks;
-  std::vector<float> corners, shapes;
+  std::vector<float> corners, shapes, prisms;
   std::vector<mesh::Vertex> directions;
   mesh::Ahead ahead{};
 
@@ -92,11 +93,12 @@ struct MeshAhead::Stored {
     const size_t triangles = mesh.head().triangle_count;
     corners.resize(mesh::kRowsOfCorners * (triangles + 1) + mesh::kMostLanes);
     shapes.resize(mesh::kRowsOfShapes * (triangles + 1) + mesh::kMostLanes);
+    prisms.resize(mesh::kRowsOfPrisms * (triangles + 1) + mesh::kMostLanes);
     put_nodes();
-    put_families();
+    put_what_has_blocks();
     put_directions();
-    ahead = {nodes.data(),   families.data(), blocks.data(),
-             corners.data(), shapes.data(),   directions.data()};
+    ahead = {nodes.data(),   block_nodes.data(), families.data(), blocks.data(),
+             corners.data(), shapes.data(),      prisms.data(),   directions.data()};
   }
 
  private:
@@ -133,6 +135,9 @@ struct MeshAhead::Stored {
       float of_shape[mesh::kRowsOfShapes];
       mesh::put_rows(mesh::shape_of(a, b, c), of_shape);
       put_in_rows(of_shape, i, own, shapes);
+      float of_prism[mesh::kRowsOfPrisms];
+      put_prism(a, b, c, of_prism);
+      put_in_rows(of_prism, i, block, prisms);
     }
     return mesh::make_lined(leaf, block);
   }
@@ -143,17 +148,18 @@ struct MeshAhead::Stored {
     for (const float value : values) *at = value, at += block.count;
   }
 
-  mesh::Node family_of(uint32_t node) const {
-    mesh::Node family = nodes[node];
-    for (mesh::Side& side : family.side)
+  mesh::Node marked(uint32_t node) const {
+    mesh::Node marked = nodes[node];
+    for (mesh::Side& side : marked.side)
       if (!is_leaf(side.child) && blocks[side.child].of.count != 0) side.child |= mesh::kBlockBit;
-    return family;
+    return marked;
   }
-  void put_families() {
+  void put_what_has_blocks() {
     for (const mesh::Node& node : mesh.nodes())
       for (const mesh::Side& side : node.side)
-        families.push_back(family_of(is_leaf(side.child) ? 0 : side.child));
-    families.push_back(family_of(0));
+        families.push_back(marked(is_leaf(side.child) ? 0 : side.child));
+    families.push_back(marked(0));
+    for (uint32_t node = 0; node < nodes.size(); ++node) block_nodes.push_back(marked(node));
   }
 
   void put_directions() {

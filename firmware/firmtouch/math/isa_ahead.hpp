@@ -124,4 +124,40 @@ static inline void family_distances2(const uint32_t* ones, const uint32_t* other
 #endif
 }
 
+/// Of three pairs of boxes, of which the second and third lie one behind the other: bit k where the first
+/// of pair k is nearer than `below`, bit 4 + k where the second is. Others may be set too.
+static inline uint32_t portable_boxes_below(const uint32_t* pair, const uint32_t* pairs,
+                                            const BoxPoint& point, uint32_t below) {
+  uint32_t are = 0;
+  for (uint32_t k = 0; k < 6; ++k) {
+    const uint32_t* const box = k < 2 ? pair + 4 * k : pairs + 4 * (k - 2);
+    are |= box_distance2(box, point) < below ? 1u << (k / 2 + 4 * (k % 2)) : 0u;
+  }
+  return are;
+}
+static inline uint32_t boxes_below(const uint32_t* pair, const uint32_t* pairs,
+                                   const BoxPoint& point, uint32_t below) {
+#if FIRMTOUCH_ISA_MOVES
+  const __m256i at = _mm256_broadcastsi128_si256(point.words);
+  const auto squares = [at](const uint32_t* boxes) {
+    const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(boxes));
+    const __m256i gaps = _mm256_subs_epu16(words, at);
+    return _mm256_madd_epi16(gaps, gaps);
+  };
+  const __m256i a = squares(pair), b = squares(pairs), c = squares(pairs + 8);
+  // a0 b0 a1 b1, so too c: then a0 + a2, b0 + b2, ...
+  const __m256i ab = _mm256_add_epi32(_mm256_unpacklo_epi32(a, b), _mm256_unpackhi_epi32(a, b));
+  const __m256i cc = _mm256_add_epi32(_mm256_unpacklo_epi32(c, c), _mm256_unpackhi_epi32(c, c));
+  const __m256i sums =
+      _mm256_add_epi32(_mm256_unpacklo_epi64(ab, cc), _mm256_unpackhi_epi64(ab, cc));
+  // By halves: a b c c.
+  const __m256i least = _mm256_max_epu32(sums, _mm256_set1_epi32(static_cast<int32_t>(below)));
+  const uint32_t beyond = static_cast<uint32_t>(
+      _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(least, sums))));
+  return ~beyond;
+#else
+  return portable_boxes_below(pair, pairs, point, below);
+#endif
+}
+
 }  // namespace firmtouch::math

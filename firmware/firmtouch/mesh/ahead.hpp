@@ -12,6 +12,7 @@ namespace firmtouch::mesh {
 constexpr uint32_t kMostLanes = 8;
 constexpr uint32_t kRowsOfCorners = 9;
 constexpr uint32_t kRowsOfShapes = sizeof(TriangleShape) / sizeof(float);
+constexpr uint32_t kRowsOfPrisms = 16;
 constexpr uint32_t kFeatures = 7;
 
 /// Triangles that are measured side by side, one behind the other in the mesh: those of a node (but
@@ -25,6 +26,13 @@ struct Block {
 struct NodeBlock {
   Block of;
   uint32_t lanes;
+
+  /// The boxes in the node and below it: bit 0 and 4 its own, 1 and 5 those in its child of side 0, 2 and 6
+  /// of side 1, where these are no leaves.
+  uint32_t boxes() const {
+    return 0x11u | ((lanes & 0xFF00u) != 0 ? 0x22u : 0u) |
+           ((lanes & 0xFF000000u) != 0 ? 0x44u : 0u);
+  }
 };
 
 // A leaf, as a Side has it, and in the bits that a mesh of at most so many triangles leaves over: where
@@ -39,13 +47,14 @@ constexpr uint32_t make_lined(uint32_t leaf, const Block& block) {
   return leaf | (leaf_first(leaf) - block.first) << 22 | (block.count - 1) << 25;
 }
 
-// An inner node that has a block, in a family.
+// An inner node that has a block, where it is told.
 constexpr uint32_t kBlockBit = 0x40000000u;
 constexpr uint32_t block_node(uint32_t child) { return child & ~kBlockBit; }
 
 /// Answers have the same bits with it and without, steps included.
 struct Ahead {
-  const Node* nodes;  // [node_count]: the mesh's, with leaves as above
+  const Node* nodes;        // [node_count]: the mesh's, with leaves as above
+  const Node* block_nodes;  // [node_count]: the same, told which have a block
   // Node[2 * node_count + 1]: of the child at each place its two sides, so that those of both children of
   // a node lie one behind the other; of a leaf those of the root, which are the last too.
   const Node* families;
@@ -55,6 +64,8 @@ struct Ahead {
   const float* corners;
   // float[12 * (triangle_count + 1) + kMostLanes]: so too of each leaf twelve rows of its shapes.
   const float* shapes;
+  // float[16 * (triangle_count + 1) + kMostLanes]: of each block sixteen rows of its prisms (mesh/prism.hpp).
+  const float* prisms;
   // [7 * triangle_count]: the unit pseudonormals of a triangle's features, in their order.
   const Vertex* directions;
 };

@@ -44,10 +44,9 @@ void look_with(const View& mesh, const Bound& bound, Search& search) {
   using Kind = Boxed<typename Choice<math::kHasLanes, Index, void>::Type>;  // in turn one for both
   if (mesh.leaf_boxes() != nullptr) return search_nearest<false, Bound, Kind>(mesh, bound, search);
   if constexpr (math::kHasLanes) {
-    if (mesh.ahead() != nullptr) {
-      if (search.start == query::kNowhere && search.budget == query::kUnlimited.steps)
-        return search_ahead(mesh, bound, search);
-      return search_nearest<false, Bound, SideBySide>(mesh, bound, search);
+    if (mesh.ahead() != nullptr && search.budget == query::kUnlimited.steps) {
+      if (search.start == query::kNowhere) return search_ahead(mesh, bound, search);
+      return climb_ahead(mesh, bound, search);
     }
   }
   search_nearest<false, Bound, Index>(mesh, bound, search);

@@ -11,6 +11,7 @@
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/mesh/lined.hpp"
 #include "firmtouch/mesh/loss.hpp"
+#include "firmtouch/mesh/prism.hpp"
 #include "firmtouch/mesh/triangle.hpp"
 #include "firmtouch/mesh/triangle_lanes.hpp"
 #include "firmtouch/query/hint.hpp"
@@ -145,45 +146,51 @@ template <class Float>
   return take_nearest(feet_on<Float>(leaf, p_m), leaf.asked(), leaf.first, place, least2_m2, best);
 }
 
-/// The same in less time where mostly none is nearer.
+template <class Float>
+[[gnu::always_inline]] static inline Feet<Float> feet_by_shapes(const Lined& leaf, math::Vec3 p_m) {
+  const Frames<Float> f = LinedShapes<Float>(leaf).frames();
+  const LinedCorners<Float> at(leaf);
+  return closest_in_frames(f, plane_feet(f, p_m), p_m, at.corner(1), at.corner(2));
+}
+
+/// The same in less time where mostly none is nearer. `slack_m2`: Nearer::slack_m2().
 template <class Float>
 [[gnu::always_inline]] static inline float measure_lined_beside(const Lined& leaf, math::Vec3 p_m,
                                                                 uint32_t place, float least2_m2,
-                                                                Best& best) {
-  const Frames<Float> f = LinedShapes<Float>(leaf).frames();
-  const PlaneFeet<Float> foot = plane_feet(f, p_m);
-  if ((may_be_nearer(f, foot, least2_m2) & leaf.asked()) == 0) return least2_m2;
-  const LinedCorners<Float> at(leaf);
-  const Feet<Float> feet = closest_in_frames(f, foot, p_m, at.corner(1), at.corner(2));
-  return take_nearest(feet, leaf.asked(), leaf.first, place, least2_m2, best);
+                                                                float slack_m2, Best& best) {
+  if (may_be_nearer<Float>(leaf, p_m, least2_m2, slack_m2) == 0) return least2_m2;
+  return take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, place, least2_m2,
+                      best);
 }
 
 /// The same from nothing known, in less time where the nearest is that of the triangle whose lowest 16
 /// bits are `last`; which they are decides nothing else.
+/// Result: where the leaf's block begins if none of its other leaves has a nearer one; else kNowhere.
 template <class Float>
-[[gnu::always_inline]] static inline float measure_lined_last(const Lined& leaf, math::Vec3 p_m,
-                                                              uint32_t place, uint32_t last,
-                                                              Best& best) {
-  const LinedCorners<Float> at(leaf);
-  const LinedShapes<Float> shapes(leaf);
-  const Frames<Float> f = shapes.frames();
-  const PlaneFeet<Float> plane = plane_feet(f, p_m);
+[[gnu::always_inline]] static inline uint32_t measure_lined_last(const Lined& leaf, math::Vec3 p_m,
+                                                                 uint32_t place, uint32_t last,
+                                                                 float slack_m2, Best& best) {
+  uint32_t clear = query::kNowhere;
   const uint32_t lane = (last - leaf.first) & 0xFFFFu;
   if (lane < leaf.count) {
     Foot foot;
-    find_foot(p_m, OfLane<Float>(shapes, at, lane), Everything{}, foot);
-    const uint32_t others = leaf.asked() & ~(1u << lane);
-    if ((may_be_nearer(f, plane, foot.distance2_m2) & others) == 0 && foot.distance2_m2 < FLT_MAX) {
+    find_foot(p_m, OfLane<Float>(LinedShapes<Float>(leaf), LinedCorners<Float>(leaf), lane),
+              Everything{}, foot);
+    const Lined block(leaf.ahead, leaf.of);
+    const uint32_t nearer = may_be_nearer<Float>(block, p_m, foot.distance2_m2, slack_m2);
+    const uint32_t first = leaf.first - block.first, own = leaf.asked() << first;
+    if ((nearer & ~own) == 0) clear = block.first;
+    if ((nearer & own & ~(1u << (first + lane))) == 0 && foot.distance2_m2 < FLT_MAX) {
       best.distance2_m2 = foot.distance2_m2;
       best.offset_m = foot.offset_m;
       best.triangle = leaf.first + lane;
       best.place = place;
       best.feature = foot.feature;
-      return foot.distance2_m2;
+      return clear;
     }
   }
-  const Feet<Float> feet = closest_in_frames(f, plane, p_m, at.corner(1), at.corner(2));
-  return take_nearest(feet, leaf.asked(), leaf.first, place, FLT_MAX, best);
+  take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, place, FLT_MAX, best);
+  return clear;
 }
 
 // Pre: `stride` is that of vertices.

@@ -9,6 +9,14 @@
 namespace firmtouch::mesh {
 namespace {
 
+// Those of a block's triangles that are nearer.
+[[gnu::always_inline, maybe_unused]] inline uint32_t nearer_of(const Feet<math::FloatWide>& feet,
+                                                               const Block& block,
+                                                               float least2_m2) {
+  return math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<math::FloatWide>(least2_m2))) &
+         ((1u << block.count) - 1u);
+}
+
 /// search_nearest() of a query that knows no leaf to begin with and that no budget cuts short: the
 /// same leaves in the same order, the same steps. While the processor waits to know which of two
 /// children is nearer it measures the boxes in both; who is next is moved under a condition, not
@@ -79,9 +87,7 @@ namespace {
         const Feet<math::FloatWide> feet = feet_on<math::FloatWide>(Lined(ahead, block.of), p_m);
         uint32_t prune = high_half(last + 1);
         const BlockKeys keys(block.lanes, now.keys, a_keys, b_keys);
-        const uint32_t nearer = math::lanes_of(
-            math::less(feet.distance2_m2, lanes::all_of<math::FloatWide>(before2_m2)));
-        if ((nearer & ((1u << block.of.count) - 1u)) == 0) {
+        if (nearer_of(feet, block.of, before2_m2) == 0) {
           steps += keys.steps(prune);
         } else {
           steps += take_in_turn(feet, block, keys, bound, families[place].side, node, prune, best);
@@ -99,6 +105,70 @@ namespace {
       steps += now.what <= last ? 1 : 0;
     }
   }
+}
+
+// A block of which something may be nearer; its steps below the node. Mostly nothing may: a function of its own takes no registers from the loop.
+[[gnu::noinline, maybe_unused]] uint32_t measure_block(const Ahead& ahead, uint32_t node,
+                                                       const NearBound& bound, uint32_t& prune,
+                                                       Search& search) {
+  const Side* const sides = ahead.block_nodes[node].side;
+  const Node* const family = ahead.families + 2 * uint64_t{node};
+  uint32_t key0, key1, child0, child1;
+  bound.keys(sides, key0, key1, child0, child1);
+  uint64_t a_keys, b_keys;
+  math::family_distances2(family[0].side[0].box, family[1].side[0].box, bound.point, a_keys,
+                          b_keys);
+  const NodeBlock& block = ahead.blocks[node];
+  const BlockKeys keys(block.lanes, math::keys_of(key0, key1), a_keys, b_keys);
+  const Feet<math::FloatWide> feet =
+      feet_on<math::FloatWide>(Lined(ahead, block.of), {search.p_m.x, search.p_m.y, search.p_m.z});
+  if (nearer_of(feet, block.of, search.best.distance2_m2) == 0) return keys.steps(prune);
+  return take_in_turn(feet, block, keys, bound, sides, node, prune, search.best);
+}
+
+/// search_nearest() of a query that knows its last leaf and that no budget cuts short: what it reads, in
+/// its order, the same steps. Mostly a bound tells at once that nothing in a block is nearer.
+/// Pre: search.start != kNowhere; search.budget is not reached.
+[[gnu::noinline, gnu::flatten, maybe_unused]] void climb_ahead(const View& mesh,
+                                                               const NearBound& bound_at,
+                                                               Search& search) {
+  const NearBound bound = bound_at;  // in registers
+  const Ahead& ahead = *mesh.ahead();
+  const Side* const sides = ahead.block_nodes->side;
+  const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};
+  const float slack_m2 = search.slack_m2;
+  Best& best = search.best;
+  const uint32_t clear = measure_lined_last<math::FloatWide>(
+      Lined(ahead, sides[search.start].child), p_m, search.start, search.last, slack_m2, best);
+  uint32_t prune = prune_key(bound, search), left = UINT32_MAX - 1, place;
+  Pending pending[kCapacity];
+  Pending* top = pending;
+  climb(mesh, sides, bound, prune, left, top, search);
+  while (take_last(top, pending, prune, place)) {
+    uint32_t child = sides[place].child;
+    for (--left; child < kBlockBit; --left)
+      if (!enter(sides, bound, prune, child, place, top)) break;
+    if (child < kBlockBit) continue;
+    const float before2_m2 = best.distance2_m2;
+    if (!is_leaf(child)) {
+      const uint32_t node = block_node(child);
+      const NodeBlock& block = ahead.blocks[node];
+      const Lined lined(ahead, block.of);
+      if (may_be_nearer<math::FloatWide>(lined, p_m, before2_m2, slack_m2) == 0) {
+        const uint32_t* const below = ahead.families[2 * uint64_t{node}].side[0].box;
+        left -= static_cast<uint32_t>(__builtin_popcount(
+            math::boxes_below(sides[2 * node].box, below, bound.point, prune) & block.boxes()));
+      } else {
+        left -= measure_block(ahead, node, bound_at, prune, search);
+      }
+    } else if (lined_block(child).first != clear &&
+               measure_lined_beside<math::FloatWide>(Lined(ahead, child), p_m, place, before2_m2,
+                                                     slack_m2, best) < before2_m2) {
+      prune = prune_key(bound, search);
+    }
+  }
+  search.complete = true;
+  search.steps = UINT32_MAX - left;
 }
 
 }  // namespace

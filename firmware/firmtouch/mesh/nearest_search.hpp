@@ -111,9 +111,8 @@ inline uint32_t prune_key(const Bound& bound, const Search& search) {
 // else to the root, building the next fence: the highest node with a box beside the way that is
 // nearer than the fence should be. Result: false where the budget ends on the way.
 template <class Bound>
-inline bool climb(const View& mesh, const Bound& bound, uint32_t prune, uint32_t& left,
-                  Pending*& top, Search& search) {
-  const Side* const sides = mesh.sides();
+inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint32_t prune,
+                  uint32_t& left, Pending*& top, Search& search) {
   const uint32_t* const parents = mesh.parents().data();
   const float leaf_m = math::square_root(math::smaller(search.best.distance2_m2, search.band2_m2)) *
                        (1.0f + 0x1p-22f);
@@ -151,13 +150,6 @@ inline bool climb(const View& mesh, const Bound& bound, uint32_t prune, uint32_t
   return false;
 }
 
-// In place of an index's type: triangles lie side by side (mesh/ahead.hpp).
-struct SideBySide {};
-template <class Index>
-constexpr bool kIsLined = false;
-template <>
-constexpr bool kIsLined<SideBySide> = true;
-
 // In place of an index's type: a leaf has a box of its own, which is asked before its triangles are.
 // They are measured side by side by their corners, with indices of this type, or in turn by shapes.
 template <class Index>
@@ -187,9 +179,6 @@ inline core::Span<const Triangle<Index>> triangles_of(const View& mesh) {
     return mesh.triangles32();
 }
 
-template <class Index>
-constexpr bool kIsSideBySide = math::kHasLanes || kIsLined<Index>;
-
 // Where measure() without care finds the mesh.
 template <class Index, class Bound>
 inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, Search& search) {
@@ -201,7 +190,7 @@ inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, 
     search.is_narrow = !mesh.triangles16().empty();
     search.triangles = search.is_narrow ? static_cast<const void*>(mesh.triangles16().data())
                                         : mesh.triangles32().data();
-  } else if constexpr (!kIsSideBySide<Index>) {
+  } else if constexpr (!math::kHasLanes) {
     search.vertices = mesh.vertices().data();
     search.triangles = triangles_of<Index>(mesh).data();
   }
@@ -216,16 +205,9 @@ template <bool kCareful, class Index, Which kWhich>
                                                  Search& search) {
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};  // one by one: see measure_leaf()
   Best& best = search.best;
-  if constexpr (!kIsLined<Index>)
-    return measure_leaf<kCareful>(mesh.vertices().data(), triangles_of<Index>(mesh),
-                                  Loss(mesh.head()), p_m, child, place, kWhich == Which::kLast,
-                                  best.distance2_m2, best);
-  else if constexpr (kWhich == Which::kLast)
-    return measure_lined_last<math::FloatWide>(Lined(*mesh.ahead(), child), p_m, place, search.last,
-                                               best);
-  else
-    return measure_lined_beside<math::FloatWide>(Lined(*mesh.ahead(), child), p_m, place,
-                                                 best.distance2_m2, best);
+  return measure_leaf<kCareful>(mesh.vertices().data(), triangles_of<Index>(mesh),
+                                Loss(mesh.head()), p_m, child, place, kWhich == Which::kLast,
+                                best.distance2_m2, best);
 }
 
 // Functions of their own: in the loop they would take the registers of the descent.
@@ -267,7 +249,7 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
     return (mesh.triangles16().empty()
                 ? measure_careful<uint32_t>(mesh, child, place, search)
                 : measure_careful<uint16_t>(mesh, child, place, search)) == 0;
-  } else if constexpr (kIsSideBySide<Index>) {
+  } else if constexpr (math::kHasLanes) {
     if constexpr (kIsBoxed<Index> && kWhich != Which::kLast)
       if (is_beyond(prune, child, search)) return false;
     const float before2_m2 = search.best.distance2_m2;
@@ -307,14 +289,6 @@ template <class Bound>
   return true;
 }
 
-template <class Index>
-inline const Side* sides_of(const View& mesh) {
-  if constexpr (kIsLined<Index>)
-    return mesh.ahead()->nodes->side;
-  else
-    return mesh.sides();
-}
-
 // One loop with its state in registers. A box is a place; a leaf that is reached is read, an inner
 // node is entered by its nearer child, the other left in `pending`. A warm search begins with the
 // last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
@@ -323,7 +297,7 @@ inline const Side* sides_of(const View& mesh) {
 template <bool kCareful, class Bound, class Index>
 [[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers
-  const Side* const sides = sides_of<Index>(mesh);
+  const Side* const sides = mesh.sides();
   const uint32_t allowed = search.budget == 0 ? 1 : search.budget;
   Pending pending[kCapacity];
   Pending* top = pending;  // behind the last
@@ -336,7 +310,7 @@ template <bool kCareful, class Bound, class Index>
     measure<kCareful, Index, Which::kLast>(mesh, 0, sides[search.start].child, search.start,
                                            search);
     prune = prune_key(bound, search);
-    if (!climb(mesh, bound, prune, left, top, search)) {
+    if (!climb(mesh, mesh.sides(), bound, prune, left, top, search)) {
       search.complete = false;
       search.steps = allowed;
       search.pending_m = 0.0f;

@@ -107,38 +107,6 @@ template <class Float>
   return foot;
 }
 
-/// Lanes of which it is not certain that they are told farther than the nearest so far, D away; most
-/// of them by half of the work.
-///
-/// In the plane let o be how far the foot lies outside of one edge's line: at least -w |h|, -v |h| or
-/// (v + w - 1) |h|, since a b is the longest edge and |h| the least height. The distance d is at least
-/// sqrt(e^2 - (e . h)^2 / h^2 + o^2).
-///
-/// Suppose d < A = D (1 + 8 u) + 30 u E, E = |a b|, beyond which a foot is told more than D away
-/// (mesh/loss.hpp), and |h| >= E / 32. No vector is longer than A + E, |e| <= A + |h|. Square to a b,
-/// along which errors do not count, e is wrong by 4 u (A + E) and h by 4 u E; so (e . h) / |h| is by
-/// u (136 A + 12 E), its square by u (1187 A^2 + 80 E^2), where A E <= 2 A^2 + E^2 / 8; e^2 by
-/// u (60 A^2 + 15 E^2); v |h| and w |h| by u (830 A + 82 E), o^2 <= A^2 by u (2300 A^2 + 21 E^2); the
-/// sum by u (15 A^2 + 4 E^2). With A^2 <= D^2 (1 + 137 u) + 8 u E^2 what is computed is at most
-/// D^2 (1 + 3700 u) + 129 u E^2: half of what is added below. Squares that vanish are less than the
-/// constants. A comparison with what is no number leaves its lane in.
-template <class Float>
-[[gnu::always_inline]] static inline uint32_t may_be_nearer(const Frames<Float>& f,
-                                                            const PlaneFeet<Float>& foot,
-                                                            float least2_m2) {
-  using namespace lanes;
-  using math::larger;
-  const Float zero{}, ab2 = dot(f.ab, f.ab);
-  const Float beyond =
-      larger(zero - math::smaller(foot.v, foot.w), foot.v + foot.w - all_of<Float>(1.0f));
-  const Float o = larger(beyond, zero);
-  const Float least2 = dot(foot.e, foot.e) - foot.y * foot.w + f.h2 * o * o;
-  const Float limit2 =
-      ab2 * all_of<Float>(0x1p-16f) + all_of<Float>(least2_m2 * (1.0f + 0x1p-11f) + 0x1p-100f);
-  const Float thin2 = ab2 * all_of<Float>(0x1p-10f) + all_of<Float>(0x1p-110f);
-  return ~math::lanes_of(math::at_most(limit2, least2) & math::at_most(thin2, f.h2));
-}
-
 /// Pre: the frames are those of a, b and c, the feet those of p_m.
 template <class Float>
 [[gnu::always_inline]] static inline Feet<Float> closest_in_frames(const Frames<Float>& f,
