@@ -151,7 +151,7 @@ constexpr const char* kStandInPort =
     "to.error(new Error('The device has been lost.')); socket.close(); }; } }); port.writable = "
     "new "
     "WritableStream({ async write(bytes) { for (let at = 0; at < bytes.length; at += 32) { "
-    "socket.send(bytes.slice(at, at + 32)); await new Promise(done => setTimeout(done, 3)); } } "
+    "socket.send(bytes.slice(at, at + 32)); await new Promise(done => setTimeout(done, 25)); } } "
     "}); "
     "}, async close() { socket.close(); } }; return port; } } })";
 
@@ -176,6 +176,13 @@ void serial(Test& test) {
   test.check("it connects again",
              test.becomes(kConnected, kConnect_s) &&
                  test.becomes("$('mode').textContent !== 'motors: ?'", kPatience_s));
+  test.browser.evaluate("$('leave').click()");
+  test.browser.evaluate(
+      "(window.opened = 0, page.connect(async (take, ended) => window.opened++ > 0 ? await "
+      "openSocket($('address').value, take, ended) : { name: 'mute', decimation: 10, tries: 1, "
+      "reopens: 1, write() {}, close() {} }))");
+  test.check("where nothing answers a socket is opened anew",
+             test.becomes(kConnected, kConnect_s) && test.becomes("window.opened === 2", 1));
 }
 
 }  // namespace
