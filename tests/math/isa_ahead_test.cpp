@@ -27,20 +27,12 @@ bool is_same(const math::WaitingChild& a, const math::WaitingChild& b) {
 }
 
 template <class Any>
-void compare() {
+void compare_replaced() {
   uint32_t moved = 0;
   for (uint32_t i = 0; i < 4000; ++i) {
     Any a, b;
     fill(a);
     fill(b);
-    if (i % 7 == 0) b.what = a.what;
-    Any first = a, second = b, expected_first = a, expected_second = b;
-    math::put_in_order(first, second);
-    math::portable_put_in_order(expected_first, expected_second);
-    CHECK(is_same(first, expected_first) && is_same(second, expected_second));
-    CHECK(is_same(first, a) ? is_same(second, b) : is_same(first, b) && is_same(second, a));
-    CHECK(first.what <= second.what);
-    if (i % 7 == 0) CHECK(is_same(first, a));
     const uint64_t last = i % 3 == 0 ? a.what : any_word();
     Any now = a;
     math::replace_beyond(last, now, b);
@@ -67,9 +59,45 @@ void put_random_point(uint32_t (&at)[3]) {
 
 }  // namespace
 
-TEST(WhatWaitsIsOrderedAndReplacedWithWhatGoesWithIt) {
-  compare<math::Waiting>();
-  compare<math::WaitingChild>();
+TEST(WhatWaitsIsReplacedWithWhatGoesWithIt) {
+  compare_replaced<math::Waiting>();
+  compare_replaced<math::WaitingChild>();
+}
+
+TEST(WhatWaitsIsOrderedWithWhatGoesWithIt) {
+  uint32_t moved = 0;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    math::WaitingChild a, b;
+    fill(a);
+    fill(b);
+    if (i % 7 == 0) b.what = a.what;
+    math::WaitingChild first = a, second = b, expected_first = a, expected_second = b;
+    math::put_in_order(first, second);
+    math::portable_put_in_order(expected_first, expected_second);
+    CHECK(is_same(first, expected_first) && is_same(second, expected_second));
+    CHECK(is_same(first, a) ? is_same(second, b) : is_same(first, b) && is_same(second, a));
+    CHECK(first.what <= second.what);
+    if (i % 7 == 0) CHECK(is_same(first, a));
+    moved += is_same(first, a) ? 0u : 1u;
+  }
+  CHECK_LT(200u, moved);
+}
+
+TEST(TheNearerIsFirstAndOfEquallyNearOnesNoneMoves) {
+  uint32_t moved = 0;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    math::Waiting a, b;
+    fill(a);
+    fill(b);
+    const uint32_t key = next_random(), other = i % 7 == 0 ? key : next_random();
+    math::Waiting first = a, second = b, expected_first = a, expected_second = b;
+    math::put_nearer_first(math::keys_of(key, other), first, second);
+    math::portable_put_nearer_first(math::keys_of(key, other), expected_first, expected_second);
+    CHECK(is_same(first, expected_first) && is_same(second, expected_second));
+    CHECK(is_same(first, other < key ? b : a) && is_same(second, other < key ? a : b));
+    moved += is_same(first, a) ? 0u : 1u;
+  }
+  CHECK_LT(200u, moved);
 }
 
 TEST(DistancesToFourBoxesAreThoseToEach) {

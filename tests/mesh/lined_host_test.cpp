@@ -82,8 +82,8 @@ void compare_what_may_be_nearer(uint32_t turn, Told& told) {
     const float scales[] = {1.0f, 1.0f + 0x1p-20f, 1.0f - 0x1p-20f, 0.9f};
     for (const float scale : scales) {
       const float least2_m2 = told2_m2 * scale;
-      const uint32_t may_be =
-          mesh::may_be_nearer<Float>(mesh::Lined(rows.ahead, block), leaf.p_m, least2_m2, slack_m2);
+      const uint32_t may_be = mesh::may_be_nearer<Float>(mesh::Lined(rows.ahead, block), leaf.p_m,
+                                                         mesh::prism_limit2(least2_m2, slack_m2));
       for (uint32_t lane = 0; lane < block.count; ++lane) {
         const float at2_m2 = closest_on(leaf, block.first + lane).distance2_m2;
         told.farther += at2_m2 > least2_m2 * 1.1f + slack_m2 ? 1u : 0u;
@@ -126,7 +126,8 @@ void compare_leaves(uint32_t turn, Compared& compared) {
   mesh::Best at_once, beside;
   const float told2_m2[] = {
       mesh::measure_lined<Float>(lined, leaf.p_m, 5, bound2_m2, at_once),
-      mesh::measure_lined_beside<Float>(lined, leaf.p_m, 5, bound2_m2, slack_m2, beside)};
+      mesh::measure_lined_beside<Float>(lined, leaf.p_m, 5, bound2_m2,
+                                        mesh::prism_limit2(bound2_m2, slack_m2), beside)};
   compared.differ += same(told2_m2[0], least2_m2) && same(at_once, in_turn) ? 0u : 1u;
   compared.differ += same(told2_m2[1], least2_m2) && same(beside, in_turn) ? 0u : 1u;
   if (bound2_m2 < FLT_MAX) return;

@@ -93,6 +93,11 @@ uint32_t triangles_in_blocks(const mesh::View& view) {
       lanes |= (block.lanes >> (8 * i)) & 0xFFu;
     }
     CHECK_EQ(lanes, (1u << block.of.count) - 1u);
+    const mesh::Side* const sides = view.sides() + 2 * node;
+    uint32_t boxes = 0x11u;
+    if (!mesh::is_leaf(sides[0].child)) boxes |= 0x22u;
+    if (!mesh::is_leaf(sides[1].child)) boxes |= 0x44u;
+    CHECK_EQ(block.boxes, boxes);
   }
   return in_blocks;
 }

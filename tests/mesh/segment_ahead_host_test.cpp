@@ -1,5 +1,5 @@
-// A search that looks ahead, with triangles side by side, tells to the bit what the one in turn
-// tells: crossings, t and steps, whatever the budget, from the asset and from what is made of it.
+// A search that looks ahead, with triangles side by side and by blocks, tells to the bit what the one in
+// turn tells: crossings, t and steps, whatever the budget, from the asset and from what is made of it.
 #include <cmath>
 
 #include "bake/bake_mesh.hpp"
@@ -69,24 +69,23 @@ bool is_same(const mesh::Hit& a, const mesh::Hit& b) {
          a.enters == b.enters;
 }
 
-template <bool kIsLined>
 size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget budget, size_t& hits) {
-  mesh::First first, first_ahead;
-  mesh::Any any, any_ahead;
+  mesh::Hit of_first, of_first_ahead, of_any, of_any_ahead;
+  mesh::First first(of_first), first_ahead(of_first_ahead);
+  mesh::Any any(of_any), any_ahead(of_any_ahead);
   mesh::SurfaceCrossing room[64], room_ahead[64];
   mesh::All all{{room}}, all_ahead{{room_ahead}};
   size_t differ = 0;
   const auto same_way = [&](auto& in_turn, auto& ahead) {
     uint32_t steps = 0, steps_ahead = 0;
     const bool done = mesh::search_in_turn(view, a_m, b_m, budget, in_turn, steps);
-    const bool done_ahead =
-        mesh::search_ahead<kIsLined>(view, a_m, b_m, budget, ahead, steps_ahead);
+    const bool done_ahead = mesh::search_side_by_side(view, a_m, b_m, budget, ahead, steps_ahead);
     if (done != done_ahead || steps != steps_ahead) ++differ;
   };
   same_way(first, first_ahead);
   same_way(any, any_ahead);
   same_way(all, all_ahead);
-  if (!is_same(first.hit, first_ahead.hit) || !is_same(any.hit, any_ahead.hit)) ++differ;
+  if (!is_same(of_first, of_first_ahead) || !is_same(of_any, of_any_ahead)) ++differ;
   if (all.crossings.found != all_ahead.crossings.found ||
       all.crossings.told != all_ahead.crossings.told)
     return differ + 1;
@@ -94,7 +93,14 @@ size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget bud
     if (math::bits_of(room[i].t) != math::bits_of(room_ahead[i].t) ||
         room[i].triangle != room_ahead[i].triangle || room[i].enters != room_ahead[i].enters)
       ++differ;
-  hits += first.hit.hit ? 1 : 0;
+  hits += of_first.hit ? 1 : 0;
+  return differ;
+}
+
+size_t differences(const Baked& baked, Vec3 a_m, Vec3 b_m, query::Budget budget, size_t& hits) {
+  size_t differ = differences(baked.view, a_m, b_m, budget, hits);
+  if constexpr (mesh::SegmentLanes::kHoldsLeaf)
+    differ += differences(baked.lined, a_m, b_m, budget, hits);
   return differ;
 }
 
@@ -104,12 +110,33 @@ void compare(const tools::TreeShape& shape, uint64_t seed) {
   size_t differ = 0, hits = 0;
   for (uint32_t i = 0; i < 2000; ++i) {
     const Vec3 a_m = ends.next(), b_m = ends.next();
-    for (const uint32_t steps : {UINT32_MAX, i % 40}) {
-      differ += differences<false>(baked.view, a_m, b_m, {steps}, hits);
-      if constexpr (mesh::SegmentLanes::kHoldsLeaf)
-        differ += differences<true>(baked.lined, a_m, b_m, {steps}, hits);
-    }
+    for (const uint32_t steps : {UINT32_MAX, i % 40})
+      differ += differences(baked, a_m, b_m, {steps}, hits);
   }
+  CHECK_EQ(differ, size_t{0});
+  CHECK(hits > 1000);
+}
+
+// Segments from the grid's first plane that end where a box is entered, widened as boxes are: a key that
+// is the limit. Where the end is no float the segment ends beside it.
+void compare_at_limit(const tools::TreeShape& shape) {
+  const Baked baked(shape);
+  const mesh::Head& head = baked.view.head();
+  size_t differ = 0, hits = 0;
+  for (const mesh::Node& node : baked.view.nodes())
+    for (const mesh::Side& side : node.side)
+      for (uint32_t k = 0; k < 3; ++k) {
+        float a_m[3], b_m[3];
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+          const uint32_t low = side.box[axis] & 0xFFFFu, high = 32767u - (side.box[axis] >> 16);
+          const double end = axis == k ? low - 0x1p-6 : (low + high) / 2.0;
+          b_m[axis] =
+              head.grid_low_m[axis] + static_cast<float>(end * static_cast<double>(head.cell_m));
+          a_m[axis] = axis == k ? head.grid_low_m[axis] : b_m[axis];
+        }
+        differ += differences(baked, {a_m[0], a_m[1], a_m[2]}, {b_m[0], b_m[1], b_m[2]},
+                              query::kUnlimited, hits);
+      }
   CHECK_EQ(differ, size_t{0});
   CHECK(hits > 1000);
 }
@@ -120,4 +147,9 @@ TEST(LookingAheadTellsWhatTheSearchInTurnTells) {
   compare(tools::kFastTree, 1);
   compare(tools::kSmallTree, 2);
   compare(tools::kDesktopTree, 3);
+}
+
+TEST(LookingAheadEntersWhatIsEnteredAtTheVeryEnd) {
+  compare_at_limit(tools::kFastTree);
+  compare_at_limit(tools::kDesktopTree);
 }

@@ -52,10 +52,10 @@ NodeBlock block_of(const mesh::View& mesh, uint32_t node) {
   for (const uint32_t of : leaf)
     if (of != 0) leaves.add(of);
   if (!leaves.make_a_block()) return {};
-  NodeBlock block{{leaves.first, leaves.count}, 0};
+  uint32_t lanes = 0;
   for (uint32_t i = 0; i < 4; ++i)
-    if (leaf[i] != 0) block.lanes |= lanes_of(leaf[i], leaves.first) << (8 * i);
-  return block;
+    if (leaf[i] != 0) lanes |= lanes_of(leaf[i], leaves.first) << (8 * i);
+  return {{leaves.first, leaves.count}, lanes};
 }
 
 // Nodes in order, two a cache line: a family is one.

@@ -9,13 +9,16 @@ namespace firmtouch::cli {
 
 namespace {
 
+math::Vec3 point_of(const float* row) { return {row[0], row[1], row[2]}; }
+
 // Every row's crossings, in order of t. Counted first where there are more than usual, so that none
 // is left out.
 class AllCrossings {
  public:
   AllCrossings(const LoadedMesh& mesh, query::Budget budget) : mesh_(mesh), budget_(budget) {}
 
-  core::Span<const mesh::SurfaceCrossing> of(math::Vec3 a_m, math::Vec3 b_m) {
+  core::Span<const mesh::SurfaceCrossing> of(const float* row) {
+    const math::Vec3 a_m = point_of(row), b_m = point_of(row + 3);
     mesh::Crossings all = ask(a_m, b_m);
     if (all.found > room_.size()) {
       room_.resize(all.found);
@@ -35,33 +38,21 @@ class AllCrossings {
   std::vector<mesh::SurfaceCrossing> room_ = std::vector<mesh::SurfaceCrossing>(64);
 };
 
-struct Segment {
-  math::Vec3 a_m, b_m;
-};
-Segment segment_of(const CsvTable& table, size_t i) {
-  const float* row = table.row(i);
-  return {{row[0], row[1], row[2]}, {row[3], row[4], row[5]}};
-}
-
 void query_all(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
   AllCrossings crossings(mesh, budget_of(arguments));
   if (arguments.has("--time")) {
     print_time(table.rows(), [&] {
       float sum = 0;
-      for (size_t i = 0; i < table.rows(); ++i) {
-        const Segment segment = segment_of(table, i);
-        for (const mesh::SurfaceCrossing& c : crossings.of(segment.a_m, segment.b_m)) sum += c.t;
-      }
+      for (size_t i = 0; i < table.rows(); ++i)
+        for (const mesh::SurfaceCrossing& c : crossings.of(table.row(i))) sum += c.t;
       return sum;
     });
     return;
   }
   std::puts("segment,t,triangle");
-  for (size_t i = 0; i < table.rows(); ++i) {
-    const Segment segment = segment_of(table, i);
-    for (const mesh::SurfaceCrossing& c : crossings.of(segment.a_m, segment.b_m))
+  for (size_t i = 0; i < table.rows(); ++i)
+    for (const mesh::SurfaceCrossing& c : crossings.of(table.row(i)))
       std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t), mesh.source_of(c.triangle));
-  }
 }
 
 }  // namespace
@@ -70,8 +61,8 @@ void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Argument
   if (arguments.has("--all")) return query_all(mesh, table, arguments);
   const query::Budget budget = budget_of(arguments);
   const auto cast = [&](size_t i) {
-    const Segment segment = segment_of(table, i);
-    return mesh::cast_segment(mesh.view, segment.a_m, segment.b_m, budget);
+    const float* const row = table.row(i);
+    return mesh::cast_segment(mesh.view, point_of(row), point_of(row + 3), budget);
   };
   if (arguments.has("--time")) {
     print_time(table.rows(), [&] {

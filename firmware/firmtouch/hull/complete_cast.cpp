@@ -56,15 +56,17 @@ bool search(const View& hull, Vec3 a_m, Vec3 b_m, query::Budget budget, Taker& t
 }  // namespace
 
 mesh::Hit cast_segment(const View& hull, Vec3 a_m, Vec3 b_m, query::Budget budget) {
-  mesh::First first;
-  first.hit.exact = search(hull, a_m, b_m, budget, first, first.hit.steps);
-  return first.hit;
+  mesh::Hit hit;
+  mesh::First first(hit);
+  hit.exact = search(hull, a_m, b_m, budget, first, hit.steps);
+  return hit;
 }
 
 mesh::Hit any_crossing(const View& hull, Vec3 a_m, Vec3 b_m, query::Budget budget) {
-  mesh::Any any;
-  any.hit.exact = search(hull, a_m, b_m, budget, any, any.hit.steps);
-  return any.hit;
+  mesh::Hit hit;
+  mesh::Any any(hit);
+  hit.exact = search(hull, a_m, b_m, budget, any, hit.steps);
+  return hit;
 }
 
 mesh::Crossings all_crossings(const View& hull, Vec3 a_m, Vec3 b_m, query::Budget budget,

@@ -25,12 +25,17 @@ struct WaitingChild {
   uint64_t what, keys, child;
 };
 
-template <class Any>
-static inline void portable_put_in_order(Any& first, Any& second) {
+static inline void portable_put_in_order(WaitingChild& first, WaitingChild& second) {
   if (!(second.what < first.what)) return;
-  const Any lesser = second;
+  const WaitingChild lesser = second;
   second = first;
   first = lesser;
+}
+static inline void portable_put_nearer_first(uint64_t keys, Waiting& first, Waiting& second) {
+  if (!(static_cast<uint32_t>(keys >> 32) < static_cast<uint32_t>(keys))) return;
+  const Waiting nearer = second;
+  second = first;
+  first = nearer;
 }
 template <class Any>
 static inline void portable_replace_beyond(uint64_t last, Any& now, const Any& other) {
@@ -39,20 +44,6 @@ static inline void portable_replace_beyond(uint64_t last, Any& now, const Any& o
 
 /// Puts the lesser of two first; of equal ones none moves. Where the processor has moves under a
 /// condition by these: compilers make branches of it, which no processor could foresee.
-static inline void put_in_order(Waiting& first, Waiting& second) {
-#if FIRMTOUCH_ISA_MOVES
-  const Waiting a = first, b = second;
-  __asm__(
-      "cmpq %[a], %[b]\n\tcmovbq %[b], %[what]\n\tcmovbq %[b_keys], %[keys]\n\t"
-      "cmovbq %[a], %[later_what]\n\tcmovbq %[a_keys], %[later_keys]"
-      : [what] "+&r"(first.what), [keys] "+&r"(first.keys), [later_what] "+&r"(second.what),
-        [later_keys] "+&r"(second.keys)
-      : [a] "r"(a.what), [b] "r"(b.what), [a_keys] "r"(a.keys), [b_keys] "r"(b.keys)
-      : "cc");
-#else
-  portable_put_in_order(first, second);
-#endif
-}
 static inline void put_in_order(WaitingChild& first, WaitingChild& second) {
 #if FIRMTOUCH_ISA_MOVES
   const WaitingChild a = first, b = second;
@@ -68,6 +59,21 @@ static inline void put_in_order(WaitingChild& first, WaitingChild& second) {
       : "cc");
 #else
   portable_put_in_order(first, second);
+#endif
+}
+
+/// Puts the second first where its key, the high half of `keys`, is less than the first's, the low half. The
+/// second is what is left of both, so that fewer registers are taken.
+static inline void put_nearer_first(uint64_t keys, Waiting& first, Waiting& second) {
+#if FIRMTOUCH_ISA_MOVES
+  const uint64_t either_what = first.what ^ second.what, either_keys = first.keys ^ second.keys;
+  __asm__("cmpl %k[low], %k[high]\n\tcmovbq %[b], %[what]\n\tcmovbq %[b_keys], %[keys]"
+          : [what] "+r"(first.what), [keys] "+r"(first.keys)
+          : [b] "r"(second.what), [b_keys] "r"(second.keys), [low] "r"(keys), [high] "r"(keys >> 32)
+          : "cc");
+  second = {either_what ^ first.what, either_keys ^ first.keys};
+#else
+  portable_put_nearer_first(keys, first, second);
 #endif
 }
 

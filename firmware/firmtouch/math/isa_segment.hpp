@@ -110,7 +110,7 @@ class PortableFamilySlabs {
 /// in the low half, those where it leaves in the upper one, where out = -(high half - leave) * rate.
 class LaneFamilySlabs {
  public:
-  bool begin(Vec3 a_in, Vec3 b_in, const float* low_in, float cell) {
+  [[gnu::always_inline]] inline bool begin(Vec3 a_in, Vec3 b_in, const float* low_in, float cell) {
     const __m128 a = _mm_setr_ps(a_in.x, a_in.y, a_in.z, 0),
                  b = _mm_setr_ps(b_in.x, b_in.y, b_in.z, 0);
     const __m128 grid_low = _mm_maskload_ps(low_in, _mm_setr_epi32(-1, -1, -1, 0));

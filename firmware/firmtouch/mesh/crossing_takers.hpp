@@ -11,8 +11,9 @@ namespace firmtouch::mesh {
 
 class First {
  public:
+  explicit First(Hit& told) : hit(told) {}
   float limit = 1;
-  Hit hit;
+  Hit& hit;
 
   bool take(const Crossing& crossing, uint32_t triangle) {
     const bool is_first =
@@ -30,8 +31,9 @@ class First {
 
 class Any {
  public:
+  explicit Any(Hit& told) : hit(told) {}
   float limit = 1;
-  Hit hit;
+  Hit& hit;
 
   bool take(const Crossing& crossing, uint32_t triangle) {
     hit.hit = true;

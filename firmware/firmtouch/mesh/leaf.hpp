@@ -153,12 +153,12 @@ template <class Float>
   return closest_in_frames(f, plane_feet(f, p_m), p_m, at.corner(1), at.corner(2));
 }
 
-/// The same in less time where mostly none is nearer. `slack_m2`: Nearer::slack_m2().
+/// The same in less time where mostly none is nearer. `limit2_m2`: prism_limit2() of `least2_m2`.
 template <class Float>
 [[gnu::always_inline]] static inline float measure_lined_beside(const Lined& leaf, math::Vec3 p_m,
                                                                 uint32_t place, float least2_m2,
-                                                                float slack_m2, Best& best) {
-  if (may_be_nearer<Float>(leaf, p_m, least2_m2, slack_m2) == 0) return least2_m2;
+                                                                float limit2_m2, Best& best) {
+  if (may_be_nearer<Float>(leaf, p_m, limit2_m2) == 0) return least2_m2;
   return take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, place, least2_m2,
                       best);
 }
@@ -177,7 +177,8 @@ template <class Float>
     find_foot(p_m, OfLane<Float>(LinedShapes<Float>(leaf), LinedCorners<Float>(leaf), lane),
               Everything{}, foot);
     const Lined block(leaf.ahead, leaf.of);
-    const uint32_t nearer = may_be_nearer<Float>(block, p_m, foot.distance2_m2, slack_m2);
+    const uint32_t nearer =
+        may_be_nearer<Float>(block, p_m, prism_limit2(foot.distance2_m2, slack_m2));
     const uint32_t first = leaf.first - block.first, own = leaf.asked() << first;
     if ((nearer & ~own) == 0) clear = block.first;
     if ((nearer & own & ~(1u << (first + lane))) == 0 && foot.distance2_m2 < FLT_MAX) {

@@ -28,7 +28,7 @@ struct Lined {
   uint32_t first, count;
 
   Lined(const Ahead& from, const Block& block)
-      : ahead(from), of(block), first(block.first), count(block.count) {}
+      : ahead(from), of(block), first(of.first), count(of.count) {}
   Lined(const Ahead& from, uint32_t leaf)
       : ahead(from), of(lined_block(leaf)), first(lined_first(leaf)), count(leaf_count(leaf)) {}
   uint32_t asked() const { return (1u << count) - 1u; }

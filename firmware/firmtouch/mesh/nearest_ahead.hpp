@@ -17,6 +17,20 @@ namespace {
          ((1u << block.count) - 1u);
 }
 
+// Of more nodes a mesh does not stay in the second cache.
+constexpr uint32_t kMostNodesNear = 16384;
+
+// Has the processor fetch the corners of `child`, the next to be read: of its block, or where it has none
+// of that of `node`, which are there.
+[[gnu::always_inline, maybe_unused]] inline void fetch_corners(const Ahead& ahead, uint32_t child,
+                                                               uint32_t node) {
+  const bool has_block = (child & ~(kBlockBit - 1)) == kBlockBit;
+  const Block& block = ahead.blocks[chosen(has_block, block_node(child), node)].of;
+  const float* const first = ahead.corners + size_t{kRowsOfCorners} * block.first;
+  for (size_t i = 0; i < size_t{kRowsOfCorners} * block.count; i += 64 / sizeof(float))
+    __builtin_prefetch(first + i);
+}
+
 /// search_nearest() of a query that knows no leaf to begin with and that no budget cuts short: the
 /// same leaves in the same order, the same steps. While the processor waits to know which of two
 /// children is nearer it measures the boxes in both; who is next is moved under a condition, not
@@ -36,6 +50,7 @@ namespace {
                             b_keys);
   };
   const uint64_t root = 2 * uint64_t{mesh.nodes().size()};
+  const bool is_large = mesh.nodes().size() > kMostNodesNear;
   // The last of all that is below the key to prune by: the key above the place.
   uint64_t last = (uint64_t{prune_key(bound, search)} << 32) - 1;
   WaitingChild pending[kMaxDepth + 2];
@@ -52,6 +67,8 @@ namespace {
       const Side* const sides = families[low_half(now.what)].side;
       WaitingChild nearer{(now.keys << 32) | (2 * now.child), 0, sides[0].child};
       WaitingChild farther{(now.keys >> 32 << 32) | (2 * now.child + 1), 0, sides[1].child};
+      fetch(ahead, sides[0].child);
+      fetch(ahead, sides[1].child);
       family_keys(now.child, nearer.keys, farther.keys);
       math::put_in_order(nearer, farther);
       const WaitingChild left_last = *left;
@@ -83,6 +100,7 @@ namespace {
         const uint32_t node = block_node(child);
         const NodeBlock& block = ahead.blocks[node];
         uint64_t a_keys, b_keys;
+        if (is_large) fetch_corners(ahead, static_cast<uint32_t>(left->child), node);
         family_keys(node, a_keys, b_keys);
         const Feet<math::FloatWide> feet = feet_on<math::FloatWide>(Lined(ahead, block.of), p_m);
         uint32_t prune = high_half(last + 1);
@@ -141,6 +159,7 @@ namespace {
   const uint32_t clear = measure_lined_last<math::FloatWide>(
       Lined(ahead, sides[search.start].child), p_m, search.start, search.last, slack_m2, best);
   uint32_t prune = prune_key(bound, search), left = UINT32_MAX - 1, place;
+  float limit2_m2 = prism_limit2(best.distance2_m2, slack_m2);
   Pending pending[kCapacity];
   Pending* top = pending;
   climb(mesh, sides, bound, prune, left, top, search);
@@ -149,23 +168,26 @@ namespace {
     for (--left; child < kBlockBit; --left)
       if (!enter(sides, bound, prune, child, place, top)) break;
     if (child < kBlockBit) continue;
-    const float before2_m2 = best.distance2_m2;
     if (!is_leaf(child)) {
       const uint32_t node = block_node(child);
       const NodeBlock& block = ahead.blocks[node];
       const Lined lined(ahead, block.of);
-      if (may_be_nearer<math::FloatWide>(lined, p_m, before2_m2, slack_m2) == 0) {
+      if (may_be_nearer<math::FloatWide>(lined, p_m, limit2_m2) == 0) {
         const uint32_t* const below = ahead.families[2 * uint64_t{node}].side[0].box;
         left -= static_cast<uint32_t>(__builtin_popcount(
-            math::boxes_below(sides[2 * node].box, below, bound.point, prune) & block.boxes()));
-      } else {
-        left -= measure_block(ahead, node, bound_at, prune, search);
+            math::boxes_below(sides[2 * node].box, below, bound.point, prune) & block.boxes));
+        continue;
       }
-    } else if (lined_block(child).first != clear &&
-               measure_lined_beside<math::FloatWide>(Lined(ahead, child), p_m, place, before2_m2,
-                                                     slack_m2, best) < before2_m2) {
+      left -= measure_block(ahead, node, bound_at, prune, search);
+    } else {
+      const float before2_m2 = best.distance2_m2;
+      if (lined_block(child).first == clear ||
+          !(measure_lined_beside<math::FloatWide>(Lined(ahead, child), p_m, place, before2_m2,
+                                                  limit2_m2, best) < before2_m2))
+        continue;
       prune = prune_key(bound, search);
     }
+    limit2_m2 = prism_limit2(best.distance2_m2, slack_m2);
   }
   search.complete = true;
   search.steps = UINT32_MAX - left;

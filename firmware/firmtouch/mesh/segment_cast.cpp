@@ -8,15 +8,17 @@ namespace firmtouch::mesh {
 using math::Vec3;
 
 Hit cast_segment(const View& mesh, Vec3 a_m, Vec3 b_m, query::Budget budget) {
-  First first;
-  first.hit.exact = search(mesh, a_m, b_m, budget, first, first.hit.steps);
-  return first.hit;
+  Hit hit;
+  First first(hit);
+  hit.exact = search(mesh, a_m, b_m, budget, first, hit.steps);
+  return hit;
 }
 
 Hit any_crossing(const View& mesh, Vec3 a_m, Vec3 b_m, query::Budget budget) {
-  Any any;
-  any.hit.exact = search(mesh, a_m, b_m, budget, any, any.hit.steps);
-  return any.hit;
+  Hit hit;
+  Any any(hit);
+  hit.exact = search(mesh, a_m, b_m, budget, any, hit.steps);
+  return hit;
 }
 
 Crossings all_crossings(const View& mesh, Vec3 a_m, Vec3 b_m, query::Budget budget,

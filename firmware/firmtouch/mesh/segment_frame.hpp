@@ -18,6 +18,100 @@ static inline float smaller(float a, float b) { return a < b ? a : b; }
 // How a segment's line passes a triangle's three edges.
 enum class Pass { kMisses, kEnters, kLeaves, kUnsure };
 
+/// How a segment is sheared so that it runs along its longest axis k; i and j are the next two in turn.
+struct Shear {
+  uint32_t i, j, k;
+  float along_i, along_j;  // for each step along k
+  bool is_back;
+
+  [[gnu::always_inline]] inline explicit Shear(math::Vec3 along_m) {  // without a branch
+    const float x = absolute(along_m.x), y = absolute(along_m.y), z = absolute(along_m.z);
+    const uint32_t is_x = (x > y ? 1u : 0u) & (x > z ? 1u : 0u);
+    const uint32_t is_y = (y > z ? 1u : 0u) & (1u - is_x);
+    k = 2 - 2 * is_x - is_y, i = (0x09u >> (2 * k)) & 3u, j = (0x12u >> (2 * k)) & 3u;
+    const float along[3] = {along_m.x, along_m.y, along_m.z}, inverse = 1.0f / along[k];
+    along_i = -along[i] * inverse, along_j = -along[j] * inverse;
+    is_back = along[k] < 0.0f;
+  }
+};
+
+/// A segment, and of a triangle that its line is known to pass whether and when.
+class SegmentLine {
+ public:
+  SegmentLine() = default;
+  /// `low_m` and `high_m`: the box of all vertices.
+  [[gnu::always_inline]] inline SegmentLine(const float (&low_m)[3], const float (&high_m)[3],
+                                            math::Vec3 a_m, math::Vec3 b_m)
+      : a_m_(a_m), b_m_(b_m), along_m_(b_m - a_m) {
+    float reach_m = 0.0f;
+    const float at[3] = {a_m.x, a_m.y, a_m.z};
+    for (uint32_t n = 0; n < 3; ++n)
+      reach_m = larger(reach_m, larger(absolute(low_m[n] - at[n]), absolute(high_m[n] - at[n])));
+    coordinate_error_m_ = reach_m * (10.5f * 0x1p-24f);
+    side_error_m_ = reach_m * (53.0f * 0x1p-24f);
+    side_error_m2_ = side_error_m_ * (reach_m * 0x1p-21f) + kUnderflow;
+  }
+
+ protected:
+  /// Whether floats can tell of a triangle that the line is known to pass so: SegmentFrame::decides().
+  [[gnu::always_inline]] inline bool decides(Pass way, math::Vec3 p, math::Vec3 q, math::Vec3 r,
+                                             Crossing& told, float& early) const {
+    told = {};
+    early = 1.0f;
+    if (way == Pass::kMisses) return true;
+    float error;
+    bool is_steady;
+    const float t = time(p, q, r, error, is_steady);
+    const bool is_through = way != Pass::kUnsure;
+    if (is_through && error <= kTimeError && (t < -error || t > 1.0f + error)) return true;
+    const bool is_sure = is_through && error <= kTimeError && t > error && t < 1.0f - error;
+    if (is_through) told.direction = (way == Pass::kLeaves) != flips_ ? 1 : -1;
+    if (is_sure) told.t = t;
+    // Of a triangle that is no speck the plane is passed near it, and t is of the plane.
+    const bool is_speck = larger(largest(q - p), largest(r - p)) < coordinate_error_m_;
+    if (is_sure || !is_steady || is_speck) return is_sure;
+    // First order in what the rate is off by and all else; where a side is open, twice as far off.
+    const float wide = (is_through ? 1.5f : 3.0f) * error;
+    if (t < -wide || t > 1.0f + wide) {
+      told.direction = 0;
+      return true;
+    }
+    told.t = larger(t - wide, 0.0f);
+    if (is_through && t > wide && t < 1.0f - wide) early = 2.0f * wide;
+    return false;
+  }
+
+  // Products that vanish below the range of float lose this much and no more.
+  static constexpr float kUnderflow = 1e-36f;
+
+  // From the plane. What n is off by tells only as n . (p - hit), within the triangle: with L its
+  // longer edge at p, 9 u L^2 an axis times 3 L. Each sum of products is off by 5 u of the sum of
+  // their magnitudes.
+  float time(math::Vec3 p, math::Vec3 q, math::Vec3 r, float& error, bool& is_steady) const {
+    const math::Vec3 e = q - p, f = r - p, n = cross(e, f), to_p = p - a_m_;
+    const float depth = dot(n, to_p), rate = dot(n, along_m_);
+    const float t = depth / rate;
+    const float depth_size = sum_of_sizes(n, to_p), rate_size = sum_of_sizes(n, along_m_);
+    const float edge = larger(largest(e), largest(f));
+    const float lost = 6.0f * (depth_size + absolute(t) * rate_size) + 30.0f * edge * edge * edge;
+    // Where the products underflow or the quotient is of nothing, the bound is no bound.
+    const bool is_sound = absolute(rate) > 1e-30f;
+    is_steady = is_sound && rate_size * 0x1p-19f < absolute(rate);  // off by a quarter at most
+    error = is_sound ? lost / absolute(rate) * 0x1p-24f + 0x1p-24f * absolute(t) : 1e30f;
+    return t;
+  }
+  static float sum_of_sizes(math::Vec3 a, math::Vec3 b) {
+    return absolute(a.x * b.x) + absolute(a.y * b.y) + absolute(a.z * b.z);
+  }
+  static float largest(math::Vec3 a) {
+    return larger(absolute(a.x), larger(absolute(a.y), absolute(a.z)));
+  }
+
+  math::Vec3 a_m_, b_m_, along_m_;
+  bool flips_;
+  float coordinate_error_m_, side_error_m_, side_error_m2_;
+};
+
 /// The segment's own frame: the origin at a, sheared along its longest axis so that it runs along
 /// that axis. A line passes an edge on the side that the cross product of the edge's two sheared
 /// corners tells.
@@ -27,32 +121,23 @@ enum class Pass { kMisses, kEnters, kLeaves, kUnsure };
 /// coordinate by 7 u R and its own rounding, at most 2 u R: 10 u R with a unit to spare. With S the
 /// largest sheared coordinate of a triangle (at most 2 R), a cross product is then off by 40 u R S +
 /// 200 u^2 R^2 and its roundings by 4 u S^2 <= 8 u R S; told as 52 u R (S + 8 u R).
-class SegmentFrame {
+class SegmentFrame : private SegmentLine {
  public:
   SegmentFrame() = default;
   SegmentFrame(const Head& head, math::Vec3 a_m, math::Vec3 b_m)
       : SegmentFrame(head.low_m, head.high_m, a_m, b_m) {}
   /// `low_m` and `high_m`: the box of all vertices.
   SegmentFrame(const float (&low_m)[3], const float (&high_m)[3], math::Vec3 a_m, math::Vec3 b_m)
-      : a_m_(a_m), b_m_(b_m), along_m_(b_m - a_m) {
+      : SegmentLine(low_m, high_m, a_m, b_m) {
     // Rows of the shear: their zeros and ones multiply exactly.
-    const Axes axes = longest_axis(along_m_);
-    const uint32_t i = axes.i, j = axes.j, k = axes.k;
-    const float along[3] = {along_m_.x, along_m_.y, along_m_.z}, inverse = 1.0f / along[k];
-    flips_ = along[k] < 0.0f;
+    const Shear shear(along_m_);
+    flips_ = shear.is_back;
     float row[2][3] = {};
-    row[0][i] = row[1][j] = 1.0f;
-    row[0][k] = -along[i] * inverse;
-    row[1][k] = -along[j] * inverse;
+    row[0][shear.i] = row[1][shear.j] = 1.0f;
+    row[0][shear.k] = shear.along_i;
+    row[1][shear.k] = shear.along_j;
     row_[0] = {row[0][0], row[0][1], row[0][2]};
     row_[1] = {row[1][0], row[1][1], row[1][2]};
-    float reach_m = 0.0f;
-    const float at[3] = {a_m.x, a_m.y, a_m.z};
-    for (uint32_t n = 0; n < 3; ++n)
-      reach_m = larger(reach_m, larger(absolute(low_m[n] - at[n]), absolute(high_m[n] - at[n])));
-    coordinate_error_m_ = reach_m * (10.5f * 0x1p-24f);
-    side_error_m_ = reach_m * (53.0f * 0x1p-24f);
-    side_error_m2_ = side_error_m_ * (reach_m * 0x1p-21f) + kUnderflow;
   }
 
   /// A vertex in the frame, for who meets it in several triangles.
@@ -83,52 +168,10 @@ class SegmentFrame {
   /// 0 where floats are not sure that it is crossed at all, and otherwise told.t a time before which
   /// it is not, by `early` at most.
   bool decides(math::Vec3 p, math::Vec3 q, math::Vec3 r, Crossing& told, float& early) const {
-    return decides(pass(sheared(p), sheared(q), sheared(r)), p, q, r, told, early);
+    return SegmentLine::decides(pass(sheared(p), sheared(q), sheared(r)), p, q, r, told, early);
   }
 
- protected:
-  /// The same of a triangle that the line is known to pass so.
-  [[gnu::always_inline]] inline bool decides(Pass way, math::Vec3 p, math::Vec3 q, math::Vec3 r,
-                                             Crossing& told, float& early) const {
-    told = {};
-    early = 1.0f;
-    if (way == Pass::kMisses) return true;
-    float error;
-    bool is_steady;
-    const float t = time(p, q, r, error, is_steady);
-    const bool is_through = way != Pass::kUnsure;
-    if (is_through && error <= kTimeError && (t < -error || t > 1.0f + error)) return true;
-    const bool is_sure = is_through && error <= kTimeError && t > error && t < 1.0f - error;
-    if (is_through) told.direction = (way == Pass::kLeaves) != flips_ ? 1 : -1;
-    if (is_sure) told.t = t;
-    // Of a triangle that is no speck the plane is passed near it, and t is of the plane.
-    const bool is_speck = larger(largest(q - p), largest(r - p)) < coordinate_error_m_;
-    if (is_sure || !is_steady || is_speck) return is_sure;
-    // First order in what the rate is off by and all else; where a side is open, twice as far off.
-    const float wide = (is_through ? 1.5f : 3.0f) * error;
-    if (t < -wide || t > 1.0f + wide) {
-      told.direction = 0;
-      return true;
-    }
-    told.t = larger(t - wide, 0.0f);
-    if (is_through && t > wide && t < 1.0f - wide) early = 2.0f * wide;
-    return false;
-  }
-
-  // The longest axis k and the next two in turn, without a branch.
-  struct Axes {
-    uint32_t i, j, k;
-  };
-  static Axes longest_axis(math::Vec3 along_m) {
-    const float x = absolute(along_m.x), y = absolute(along_m.y), z = absolute(along_m.z);
-    const uint32_t is_x = (x > y ? 1u : 0u) & (x > z ? 1u : 0u);
-    const uint32_t is_y = (y > z ? 1u : 0u) & (1u - is_x), k = 2 - 2 * is_x - is_y;
-    return {(0x09u >> (2 * k)) & 3u, (0x12u >> (2 * k)) & 3u, k};
-  }
-
-  // Products that vanish below the range of float lose this much and no more.
-  static constexpr float kUnderflow = 1e-36f;
-
+ private:
   // NaN and infinities pass every comparison as unsure.
   Pass pass(Sheared p, Sheared q, Sheared r) const {
     const float high_x = larger(p.x, larger(q.x, r.x)), low_x = smaller(p.x, smaller(q.x, r.x));
@@ -145,33 +188,7 @@ class SegmentFrame {
     return Pass::kUnsure;
   }
 
-  // From the plane. What n is off by tells only as n . (p - hit), within the triangle: with L its
-  // longer edge at p, 9 u L^2 an axis times 3 L. Each sum of products is off by 5 u of the sum of
-  // their magnitudes.
-  float time(math::Vec3 p, math::Vec3 q, math::Vec3 r, float& error, bool& is_steady) const {
-    const math::Vec3 e = q - p, f = r - p, n = cross(e, f), to_p = p - a_m_;
-    const float depth = dot(n, to_p), rate = dot(n, along_m_);
-    const float t = depth / rate;
-    const float depth_size = sum_of_sizes(n, to_p), rate_size = sum_of_sizes(n, along_m_);
-    const float edge = larger(largest(e), largest(f));
-    const float lost = 6.0f * (depth_size + absolute(t) * rate_size) + 30.0f * edge * edge * edge;
-    // Where the products underflow or the quotient is of nothing, the bound is no bound.
-    const bool is_sound = absolute(rate) > 1e-30f;
-    is_steady = is_sound && rate_size * 0x1p-19f < absolute(rate);  // off by a quarter at most
-    error = is_sound ? lost / absolute(rate) * 0x1p-24f + 0x1p-24f * absolute(t) : 1e30f;
-    return t;
-  }
-  static float sum_of_sizes(math::Vec3 a, math::Vec3 b) {
-    return absolute(a.x * b.x) + absolute(a.y * b.y) + absolute(a.z * b.z);
-  }
-  static float largest(math::Vec3 a) {
-    return larger(absolute(a.x), larger(absolute(a.y), absolute(a.z)));
-  }
-
-  math::Vec3 a_m_, b_m_, along_m_;
   math::Vec3 row_[2];
-  bool flips_;
-  float coordinate_error_m_, side_error_m_, side_error_m2_;
 };
 
 }  // namespace firmtouch::mesh

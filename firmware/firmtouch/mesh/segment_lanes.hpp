@@ -9,15 +9,13 @@
 
 namespace firmtouch::mesh {
 
-class SegmentLanes : private SegmentFrame {
+class SegmentLanes : private SegmentLine {
  public:
   [[gnu::always_inline]] inline SegmentLanes(const Head& head, math::Vec3 a_m, math::Vec3 b_m)
-      : SegmentFrame(head, a_m, b_m), axes_(longest_axis(along_m_)) {
+      : SegmentLine(head.low_m, head.high_m, a_m, b_m), shear_(along_m_) {
+    flips_ = shear_.is_back;
     const float at_m[3] = {a_m.x, a_m.y, a_m.z};
-    at_i_m_ = at_m[axes_.i], at_j_m_ = at_m[axes_.j], at_k_m_ = at_m[axes_.k];
-    const float along_m[3] = {along_m_.x, along_m_.y, along_m_.z},
-                inverse = 1.0f / along_m[axes_.k];
-    shear_i_ = -along_m[axes_.i] * inverse, shear_j_ = -along_m[axes_.j] * inverse;
+    at_i_m_ = at_m[shear_.i], at_j_m_ = at_m[shear_.j], at_k_m_ = at_m[shear_.k];
   }
 
   /// SegmentFrame::crossing() of a triangle that the line is known to pass so.
@@ -45,8 +43,8 @@ class SegmentLanes : private SegmentFrame {
   [[gnu::always_inline]] inline Passes pass_rows(const float* rows, uint32_t count) const {
     using Float = math::FloatWide;
     const size_t stride = 3 * size_t{count};
-    const float *i = rows + axes_.i * count, *j = rows + axes_.j * count,
-                *k = rows + axes_.k * count;
+    const float *i = rows + shear_.i * count, *j = rows + shear_.j * count,
+                *k = rows + shear_.k * count;
     const auto corner = [&](size_t c) {
       return sheared(math::lanes_from<Float>(i + c * stride),
                      math::lanes_from<Float>(j + c * stride),
@@ -61,7 +59,7 @@ class SegmentLanes : private SegmentFrame {
       const auto at = [&](uint32_t lane) { return &vertices[triangles[lane].corner[c]].x_m; };
       const math::Lanes<math::Float4> v = math::gather(at(0), at(1), at(2), at(3));
       const math::Float4 axes[3] = {v.x, v.y, v.z};
-      return sheared(axes[axes_.i], axes[axes_.j], axes[axes_.k]);
+      return sheared(axes[shear_.i], axes[shear_.j], axes[shear_.k]);
     };
     return pass(corner(0), corner(1), corner(2));
   }
@@ -75,8 +73,8 @@ class SegmentLanes : private SegmentFrame {
   [[gnu::always_inline]] inline Sheared<Float> sheared(Float i, Float j, Float k) const {
     using lanes::all_of;
     const Float along = k - all_of<Float>(at_k_m_);
-    return {(i - all_of<Float>(at_i_m_)) + along * all_of<Float>(shear_i_),
-            (j - all_of<Float>(at_j_m_)) + along * all_of<Float>(shear_j_)};
+    return {(i - all_of<Float>(at_i_m_)) + along * all_of<Float>(shear_.along_i),
+            (j - all_of<Float>(at_j_m_)) + along * all_of<Float>(shear_.along_j)};
   }
   template <class Float>
   [[gnu::always_inline]] inline Passes pass(const Sheared<Float>& p, const Sheared<Float>& q,
@@ -98,8 +96,8 @@ class SegmentLanes : private SegmentFrame {
             lanes_of(less(high, -error)), lanes_of(less(error, low))};
   }
 
-  Axes axes_;
-  float at_i_m_, at_j_m_, at_k_m_, shear_i_, shear_j_;
+  Shear shear_;
+  float at_i_m_, at_j_m_, at_k_m_;
 };
 
 /// Takes of the triangles `asked`, from `first` on, what the segment crosses.
@@ -117,21 +115,25 @@ template <class Visitor, class Corners>
   return true;
 }
 
-/// take_leaf() with triangles side by side.
-template <bool kIsLined, class Visitor>
+/// take_leaf() with the triangles of a leaf that lie side by side.
+template <class Visitor>
+[[gnu::always_inline]] static inline bool take_lined_leaf(const Ahead& ahead,
+                                                          const SegmentLanes& segment,
+                                                          uint32_t leaf, Visitor& visitor) {
+  const Lined lined(ahead, leaf);
+  const float* const rows = lined.row(ahead.corners, kRowsOfCorners);
+  const auto corner = [&](uint32_t lane, uint32_t c) {
+    return one_of_rows(rows + lane, 3 * c, lined.of.count);
+  };
+  return take_passed(segment, segment.pass_rows(rows, lined.of.count), lined.asked(), lined.first,
+                     corner, visitor);
+}
+
+/// take_leaf() with triangles side by side, gathered by fours.
+template <class Visitor>
 [[gnu::always_inline]] static inline bool take_leaf_in_lanes(const View& mesh,
                                                              const SegmentLanes& segment,
                                                              uint32_t leaf, Visitor& visitor) {
-  if constexpr (kIsLined) {
-    const Lined lined(*mesh.ahead(), leaf);
-    const float* const rows = lined.row(lined.ahead.corners, kRowsOfCorners);
-    const size_t stride = lined.of.count;
-    const auto corner = [&](uint32_t lane, uint32_t c) {
-      return one_of_rows(rows + lane, 3 * c, stride);
-    };
-    return take_passed(segment, segment.pass_rows(rows, lined.of.count), lined.asked(), lined.first,
-                       corner, visitor);
-  }
   const uint32_t count = leaf_count(leaf), first = leaf_first(leaf);
   for (uint32_t done = 0; done < count; done += 4) {
     const uint32_t left = count - done, asked = (1u << (left < 4 ? left : 4)) - 1u;
