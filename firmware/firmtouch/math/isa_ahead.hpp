@@ -102,6 +102,19 @@ static inline void replace_beyond(uint64_t last, WaitingChild& now, const Waitin
 #endif
 }
 
+/// Result: who is next: `nearer`, or where it is beyond `last` what was left last, which is left no more.
+/// `farther` is left where it is not beyond. Who is left stands up to `left`, of whom the first is beyond all.
+template <class Any>
+[[gnu::always_inline]] static inline Any next_of(uint64_t last, Any nearer, const Any& farther,
+                                                 Any*& left) {
+  const Any left_last = *left;
+  left[1] = farther;
+  left += farther.what <= last ? 1 : 0;
+  left -= nearer.what <= last ? 0 : 1;
+  replace_beyond(last, nearer, left_last);
+  return nearer;
+}
+
 /// Keys of twice two boxes that lie one behind the other: box_distance2() of each.
 static inline void portable_family_distances2(const uint32_t* ones, const uint32_t* others,
                                               const BoxPoint& point, uint64_t& one_keys,

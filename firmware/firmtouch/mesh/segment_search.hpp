@@ -117,12 +117,7 @@ template <class Visitor>
       Waiting farther{(now.keys >> 32 << 32) | node.side[1].child, 0};
       slabs.enter(boxes(node.side[0].child), boxes(node.side[1].child), nearer.keys, farther.keys);
       math::put_nearer_first(now.keys, nearer, farther);
-      const Waiting& left_last = *left;
-      left[1] = farther;
-      left += farther.what <= last ? 1 : 0;
-      left -= nearer.what <= last ? 0 : 1;
-      math::replace_beyond(last, nearer, left_last);
-      now = nearer;
+      now = math::next_of(last, nearer, farther, left);
       if (now.what > last || is_leaf(child_of(now.what)) || visited == allowed) break;
       ++visited;
     }
@@ -176,8 +171,8 @@ template <class Visitor>
   return {steps, true};
 }
 
-/// The same from what is made of the mesh (mesh/ahead.hpp), where no budget cuts it short: boxes wait for no
-/// child's index, and a block is tested at once.
+/// search_ahead() from what is made of the mesh (mesh/ahead.hpp), where no budget cuts it short: boxes wait for
+/// no child's index, and a block is tested at once.
 template <class Visitor>
 [[gnu::noinline, gnu::flatten]] static bool search_lined(const View& mesh,
                                                          const math::FamilySlabs& slabs_at,
@@ -208,12 +203,7 @@ template <class Visitor>
       Waiting farther{(now.keys >> 32 << 32) | sides[1].child, 0};
       enter(child_of(now.what), nearer.keys, farther.keys);
       math::put_nearer_first(now.keys, nearer, farther);
-      const Waiting& left_last = *left;
-      left[1] = farther;
-      left += farther.what <= last ? 1 : 0;
-      left -= nearer.what <= last ? 0 : 1;
-      math::replace_beyond(last, nearer, left_last);
-      now = nearer;
+      now = math::next_of(last, nearer, farther, left);
       if (now.what > last) break;
       ++visited;
       if (child_of(now.what) >= kBlockBit) break;
