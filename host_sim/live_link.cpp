@@ -11,7 +11,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr int kAgain_ms = 1000;
 constexpr auto kAnswerTime = std::chrono::seconds(60);  // an asset is proven first
-constexpr uint16_t kMostRows = 1024;
+constexpr uint16_t kMaxRows = 1024;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ link::Description LiveLink::row(uint16_t what, uint16_t index) {
 
 void LiveLink::describe() {
   for (const uint16_t what : {link::kDescribeField, link::kDescribeBit, link::kDescribeParameter}) {
-    for (uint16_t i = 0, rows = 1; i < rows && i < kMostRows; ++i) {
+    for (uint16_t i = 0, rows = 1; i < rows && i < kMaxRows; ++i) {
       const link::Description found = row(what, i);
       rows = found.rows;
       if (what == link::kDescribeField) {

@@ -14,7 +14,7 @@ Vec wide(math::Vec3 v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-constexpr uint32_t kMostSteps = 20000;  // to where the hand leans: no need of the last digit
+constexpr uint32_t kMaxSteps = 20000;  // to where the hand leans: no need of the last digit
 
 }  // namespace
 
@@ -39,7 +39,7 @@ World::Surface World::nearest(Vec from_m) const {
         spline::closest_point(surface_,
                               {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y),
                                static_cast<float>(in_mesh.z)},
-                              {kMostSteps}, cold);
+                              {kMaxSteps}, cold);
     Vec normal = wide(found.direction) * (is_turned_ ? -1.0 : 1.0);
     const Vec off = in_mesh - wide(found.point_m);
     if (!(norm(normal) > 0.5)) normal = unit(off);  // at a pole

@@ -21,15 +21,15 @@ servo::Settings servo_settings(const Values& v) {
 }
 
 // The guard's ceilings are its own words, and mean the table's.
-static_assert(servo::kGuardMostForce_N >= params::kMostForceLimit_N &&
-              servo::kGuardMostForce_N <= servo::kMostForceLimit_N &&
-              servo::kMostForceLimit_N <= params::kMostForceLimit_N);
-static_assert(servo::kGuardMostSlew_N_per_s >= params::kMostSlewLimit_N_per_s &&
-              servo::kGuardMostSlew_N_per_s <= servo::kMostSlewLimit_N_per_s &&
-              servo::kMostSlewLimit_N_per_s <= params::kMostSlewLimit_N_per_s);
-static_assert(servo::kGuardMostPeriod_s >= params::kMostTickPeriod_s &&
-              servo::kGuardMostPeriod_s <= servo::kMostTickPeriod_s &&
-              servo::kMostTickPeriod_s <= params::kMostTickPeriod_s);
+static_assert(servo::kGuardMaxForce_N >= params::kMaxForceLimit_N &&
+              servo::kGuardMaxForce_N <= servo::kMaxForceLimit_N &&
+              servo::kMaxForceLimit_N <= params::kMaxForceLimit_N);
+static_assert(servo::kGuardMaxSlew_N_per_s >= params::kMaxSlewLimit_N_per_s &&
+              servo::kGuardMaxSlew_N_per_s <= servo::kMaxSlewLimit_N_per_s &&
+              servo::kMaxSlewLimit_N_per_s <= params::kMaxSlewLimit_N_per_s);
+static_assert(servo::kGuardMaxPeriod_s >= params::kMaxTickPeriod_s &&
+              servo::kGuardMaxPeriod_s <= servo::kMaxTickPeriod_s &&
+              servo::kMaxTickPeriod_s <= params::kMaxTickPeriod_s);
 
 // The guard takes the one limit that the command names, from the command: the parameters' memory is
 // what it guards against.
@@ -42,7 +42,7 @@ void tell_guard(servo::GuardState& guard, uint32_t row, float value) {
 }
 
 // A drive does not catch up with more than that: the tick counter was set otherwise.
-constexpr uint32_t kMostTicksOfAModel = 1000;
+constexpr uint32_t kMaxTicksOfAModel = 1000;
 
 query::Budget budget(const Values& v, params::Index row) { return {static_cast<uint32_t>(v[row])}; }
 
@@ -142,7 +142,7 @@ void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
   Geometry& g = live_.geometry;
   // The drive of a guide goes on by the time since the model before, at one rate a tick.
   const uint32_t passed = wish.tick - g.tick;
-  const uint32_t ticks = g.sequence != 0 && passed <= kMostTicksOfAModel ? passed : 1;
+  const uint32_t ticks = g.sequence != 0 && passed <= kMaxTicksOfAModel ? passed : 1;
   g.tick = wish.tick;
   felt.model.sequence = g.sequence;
   scene::begin_model(felt.model, wish.position_m, wish.tick,

@@ -11,7 +11,7 @@ namespace firmtouch {
 namespace {
 
 // The probes of one section are one slice, because their hash is one. The baker writes 64.
-constexpr uint32_t kMostProbes = 256;
+constexpr uint32_t kMaxProbes = 256;
 // To check a vertex, node or triangle costs up to this many times what a byte of a CRC does.
 constexpr uint32_t kBytesAnElement = 16;
 // And a cell of a map, which takes a query from its seed.
@@ -40,7 +40,7 @@ const char* choose_spline(const asset::Container& container, const char* wanted,
 }
 
 bool is_sensible(const query::Probes& probes) {
-  return !probes.points.empty() && probes.points.size() <= kMostProbes;
+  return !probes.points.empty() && probes.points.size() <= kMaxProbes;
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace firmtouch::hal {
 namespace {
 
-constexpr uint32_t kMostPath_bytes = 480;
+constexpr uint32_t kMaxPath_bytes = 480;
 constexpr uint32_t kReadBinary = 1, kWriteBinary = 5;
 constexpr int kCannotOpen = 71;  // exit status of the emulator
 
@@ -20,8 +20,8 @@ int32_t open_with_ending(char* prefix, uint32_t length, const char (&ending)[5],
 }  // namespace
 
 bool file_link_begin() {
-  static char line[kMostPath_bytes];
-  if (!semihosting_command_line(line, kMostPath_bytes - 5)) return false;
+  static char line[kMaxPath_bytes];
+  if (!semihosting_command_line(line, kMaxPath_bytes - 5)) return false;
   const char kWord[] = "link ";
   for (uint32_t i = 0; i < sizeof kWord - 1; ++i) {
     if (line[i] != kWord[i]) return false;

@@ -70,12 +70,12 @@ uint32_t board_stack_high_bytes() { return stack_used_bytes(); }
 // The independent watchdog resets the chip, and with it every pin of the power stage. Its own 32 kHz oscillator, divided
 // by 4, counts 125 us a tick, 12 bits. QEMU ignores it.
 void watchdog_begin(uint32_t timeout_us) {
-  constexpr uint32_t kTick_us = 125, kMostTicks = 4095;
+  constexpr uint32_t kTick_us = 125, kMaxTicks = 4095;
   const uint32_t ticks = timeout_us / kTick_us + 1;
   reg(kWatchdog + 0x0) = 0xCCCC;  // start
   reg(kWatchdog + 0x0) = 0x5555;  // unlock
   reg(kWatchdog + 0x4) = 0;
-  reg(kWatchdog + 0x8) = ticks < kMostTicks ? ticks : kMostTicks;
+  reg(kWatchdog + 0x8) = ticks < kMaxTicks ? ticks : kMaxTicks;
   watchdog_feed();
 }
 

@@ -108,19 +108,19 @@ TEST(AnOrientedBoxHoldsItsTrianglesAndFitsThemClosely) {
 TEST(CountersSayWhatWasRead) {
   const Contest contest(part().view);
   const std::vector<math::Vec3> points = random_points(part(), 50);
-  uint32_t least_steps[3] = {UINT32_MAX, UINT32_MAX, UINT32_MAX};
+  uint32_t min_steps[3] = {UINT32_MAX, UINT32_MAX, UINT32_MAX};
   for (const Entrant& e : contest.entrants()) {
     const Counters c = e.count(points);
     CHECK_GE(c.nodes, 50u * 3);
     CHECK_GE(c.triangles, 50u);
     CHECK_GE(c.boxes, c.nodes / 2);
-    CHECK(c.most_pending > 0);
+    CHECK(c.max_pending > 0);
     const size_t order = e.order == "depth-first" ? 0 : e.order == "best-first" ? 1 : 2;
-    if (e.kind == "16-bit AABB") least_steps[order] = std::min(least_steps[order], c.nodes);
+    if (e.kind == "16-bit AABB") min_steps[order] = std::min(min_steps[order], c.nodes);
   }
   // Best-first reads no box that could be left out; breadth-first finds its triangles last.
-  CHECK_LE(least_steps[1], least_steps[0]);
-  CHECK_LE(least_steps[0], least_steps[2]);
+  CHECK_LE(min_steps[1], min_steps[0]);
+  CHECK_LE(min_steps[0], min_steps[2]);
 }
 
 TEST(AFullQueueLosesNothing) {

@@ -45,9 +45,9 @@ double to_piece(const Place& p, math::Vec3 a, math::Vec3 b) {
 }  // namespace
 
 TEST(EveryPlaceOfARunLiesWithinTheDeviationOfItsOwnPiece) {
-  for (const double most_m : {1e-2, 1e-3, 1e-4, 1e-5, 1e-7}) {
+  for (const double max_m : {1e-2, 1e-3, 1e-4, 1e-5, 1e-7}) {
     const std::vector<Place> run = hand(20000, 7);
-    const tools::ThinnedRun thinned = tools::thin_run(run, most_m, "run");
+    const tools::ThinnedRun thinned = tools::thin_run(run, max_m, "run");
     CHECK(thinned.points.problem.empty());
     const auto& samples = thinned.points.samples_m;
     const auto& rows = thinned.points.rows;
@@ -58,11 +58,11 @@ TEST(EveryPlaceOfARunLiesWithinTheDeviationOfItsOwnPiece) {
         worst_m = std::max(worst_m, to_piece(run[i], samples[piece], samples[piece + 1]));
     for (size_t i = rows.back(); i < run.size(); ++i)
       worst_m = std::max(worst_m, to_piece(run[i], samples.back(), samples.back()));
-    CHECK_LE(worst_m, most_m);
-    CHECK_LE(worst_m, thinned.most_deviation_m * (1 + 1e-9) + 1e-12);
-    if (most_m >= 1e-4) {
+    CHECK_LE(worst_m, max_m);
+    CHECK_LE(worst_m, thinned.max_deviation_m * (1 + 1e-9) + 1e-12);
+    if (max_m >= 1e-4) {
       CHECK_LE(samples.size() * 20, run.size());  // thinned indeed
-      CHECK_GE(worst_m, 0.5 * most_m);            // and as far as that allows
+      CHECK_GE(worst_m, 0.5 * max_m);             // and as far as that allows
     }
   }
 }
@@ -80,20 +80,20 @@ TEST(TheGuideNeverLeavesTheRunByMoreThanTheDeviationEither) {
       const Place q{double{a.x} + t * (double{b.x} - double{a.x}),
                     double{a.y} + t * (double{b.y} - double{a.y}),
                     double{a.z} + t * (double{b.z} - double{a.z})};
-      double least_m = HUGE_VAL;
+      double min_m = HUGE_VAL;
       for (size_t i = rows[piece]; i < rows[piece + 1]; ++i) {
         const auto stored = [](const Place& p) { return curve_test::point(p.x_m, p.y_m, p.z_m); };
-        least_m = std::min(least_m, to_piece(q, stored(run[i]), stored(run[i + 1])));
+        min_m = std::min(min_m, to_piece(q, stored(run[i]), stored(run[i + 1])));
       }
-      worst_m = std::max(worst_m, least_m);
+      worst_m = std::max(worst_m, min_m);
     }
   }
   CHECK_LE(worst_m, 5e-4 + 2e-8);  // the judge joins places rounded to float32
 }
 
 TEST(RunsThatTeachNothingAreRefused) {
-  const auto problem = [](const std::vector<Place>& run, double most_m) {
-    return tools::thin_run(run, most_m, "run.ftl").points.problem;
+  const auto problem = [](const std::vector<Place>& run, double max_m) {
+    return tools::thin_run(run, max_m, "run.ftl").points.problem;
   };
   CHECK(problem({}, 1e-4).find("run.ftl: 0 recorded places") == 0);
   CHECK(problem({{0, 0, 0}}, 1e-4).find("1 recorded") != std::string::npos);

@@ -1,4 +1,4 @@
-// The host's main of every test program: `test_ROOM [--list | NAME]`.
+// The host's main of every test program: `test_MODULE [--list | NAME]`.
 #include <cstdio>
 #include <cstring>
 

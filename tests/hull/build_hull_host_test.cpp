@@ -130,11 +130,11 @@ TEST(AnUnreachableTargetStopsWithPlaceAndReason) {
   const Surface part = make_part(1, 2000);
   HullReport report;
   const ProgressiveHull hull = built(part, options_of(HullStrategy::kLazyVolume, 4), report);
-  CHECK(says(report.stalled, "stops at " + std::to_string(hull.least_faces()) + " faces of the 4"));
+  CHECK(says(report.stalled, "stops at " + std::to_string(hull.min_faces()) + " faces of the 4"));
   CHECK(says(report.stalled, "first the edge at vertex"));
   CHECK(says(report.stalled, "loosen"));
   CHECK(is_closed_and_alike(hull_level(hull, 4)));
-  CHECK_EQ(hull_level(hull, 4).faces.size(), hull.least_faces());
+  CHECK_EQ(hull_level(hull, 4).faces.size(), hull.min_faces());
 }
 
 TEST(ATetrahedronAndATargetAboveTheMeshChangeNothing) {

@@ -117,7 +117,7 @@ TEST(OnlyWhereTheHorseCrossesItselfMayAPointBeOutside) {
   const ProgressiveHull hull =
       hull_of(mesh, HullStrategy::kLazyVolume, 22, is_long() ? 200 : 20000);
   for (const uint32_t faces : {50000u, 20000u, 5000u, 2000u, 500u, 200u}) {
-    if (faces < hull.least_faces()) continue;
+    if (faces < hull.min_faces()) continue;
     const Outside found = outside(mesh, hull_level(hull, faces), is_long() ? 1000000 : 20000);
     for (const uint32_t f : found.faces) {
       test::note("face", f);

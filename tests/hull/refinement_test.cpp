@@ -12,7 +12,7 @@ using namespace firmtouch;  // NOLINT: a test file
 using hull_test::SmallHull;
 using math::Vec3;
 
-constexpr uint32_t kMost = 128;  // collapses, of the small hull fewer
+constexpr uint32_t kMax = 128;  // collapses, of the small hull fewer
 
 struct Opened {
   SmallHull small;
@@ -22,7 +22,7 @@ struct Opened {
 
 template <uint32_t kUndone, uint32_t kCandidates>
 struct Memory {
-  uint32_t bits[hull::bit_words(kMost)];
+  uint32_t bits[hull::bit_words(kMax)];
   uint32_t undone[kUndone];
   hull::Candidate candidates[kCandidates];
   hull::RefinementMemory spans() { return {{bits}, {undone}, {candidates}}; }
@@ -66,7 +66,7 @@ uint64_t mark(const uint32_t (&corner)[3]) {
 
 TEST(SplittingEverythingRestoresTheMeshFaceForFace) {
   const Opened opened;
-  Memory<kMost, 4> memory;
+  Memory<kMax, 4> memory;
   hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
   for (uint32_t k = 0; k < opened.view.collapse_count(); ++k) CHECK(refinement.split(k));
   CHECK_EQ(refinement.split_count(), opened.view.collapse_count());
@@ -86,7 +86,7 @@ TEST(SplittingEverythingRestoresTheMeshFaceForFace) {
 
 TEST(AnyClosureLeavesAHullOfTheRightSize) {
   const Opened opened;
-  Memory<kMost, 4> memory;
+  Memory<kMax, 4> memory;
   hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
   for (uint32_t k = 0; k < opened.view.collapse_count(); k += 3) {
     refinement.reset();
@@ -99,7 +99,7 @@ TEST(AnyClosureLeavesAHullOfTheRightSize) {
 
 TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
   const Opened opened;
-  Memory<kMost, 64> memory;
+  Memory<kMax, 64> memory;
   hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
   g_random = 7;
   uint32_t hits = 0, splits = 0;
@@ -126,7 +126,7 @@ TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
 
 TEST(FirstAndLastOfAllCrossingsAreTheMeshsAndNoneIsMadeUp) {
   const Opened opened;
-  Memory<kMost, 4> memory;
+  Memory<kMax, 4> memory;
   hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
   g_random = 9;
   for (uint32_t i = 0; i < 400; ++i) {
@@ -174,7 +174,7 @@ TEST(WhereMemoryOrStepsRunOutNothingOfTheMeshIsNearerThanTold) {
       ++conservative;
     }
   }
-  CHECK(refinement.most_splits() == 12u);
+  CHECK(refinement.max_splits() == 12u);
   CHECK(conservative > 50);
   CHECK(exact > 50);
 }
@@ -202,7 +202,7 @@ TEST(AClosureThatDoesNotFitIsTakenBackWhole) {
 
 TEST(HostileSegmentsAreAnsweredInFiniteNumbers) {
   const Opened opened;
-  Memory<kMost, 8> memory;
+  Memory<kMax, 8> memory;
   hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
   const uint32_t bits[] = {0x00000000, 0x80000001, 0x3F800000, 0xBF800000, 0x4E000000,
                            0x7149F2CA, 0xFF7FFFFF, 0x7F800000, 0x7FC00000, 0xFFFFFFFF};

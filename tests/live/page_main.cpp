@@ -26,8 +26,8 @@ struct Test {
   int passed = 0, failed = 0;
 
   // Whether `expression` becomes true in the page within the time.
-  bool becomes(const std::string& expression, double most_s) {
-    const auto end = Clock::now() + std::chrono::duration<double>(most_s);
+  bool becomes(const std::string& expression, double max_s) {
+    const auto end = Clock::now() + std::chrono::duration<double>(max_s);
     do {
       if (browser.evaluate(expression) == "true") return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -164,7 +164,7 @@ TEST(AtTenKilohertzADiskThatStallsCostsTheDefaultRingNothingAndASmallOneWhatItTe
   CHECK_EQ(read, made);
   CHECK_EQ(gaps.size(), 0u);
   CHECK_EQ(usual.ring->dropped(), 0u);
-  CHECK_GE(usual.recorder->totals().most_waiting, static_cast<uint32_t>(stall_ms) * 5);
+  CHECK_GE(usual.recorder->totals().max_waiting, static_cast<uint32_t>(stall_ms) * 5);
 
   CHECK_EQ(small.wrong(read, gaps), 0u);
   CHECK_EQ(read + small.ring->dropped(), made);

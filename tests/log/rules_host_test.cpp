@@ -71,7 +71,7 @@ TEST(RulesOfTheHead) {
                0, [](FileHead& h) { h.minor = 9; }, false),
            3u);
   CHECK_EQ(rule_when<FileHead>(0, [](FileHead& h) { h.reserved = 1; }), 6u);
-  for (const uint32_t bytes : {0u, 18u, log::kMostRecordBytes + 4})
+  for (const uint32_t bytes : {0u, 18u, log::kMaxRecordBytes + 4})
     CHECK_EQ(rule_when<FileHead>(0, [&](FileHead& h) { h.record_bytes = bytes; }), 7u);
 }
 

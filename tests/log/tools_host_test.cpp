@@ -82,9 +82,9 @@ TEST(StatisticsTellWhatWasPlanted) {
   CHECK_EQ(s.gaps[0].number, 400u);
   CHECK(near(s.seconds, 0.9997));
   CHECK_EQ(s.period.count, 948u);  // not across the gap
-  CHECK(near(s.period.median_us, 1000) && near(s.period.least_us, 1000));
-  CHECK(near(s.period.most_us, 1700));
-  CHECK_EQ(s.period.most_number, 600u);
+  CHECK(near(s.period.median_us, 1000) && near(s.period.min_us, 1000));
+  CHECK(near(s.period.max_us, 1700));
+  CHECK_EQ(s.period.max_number, 600u);
   CHECK(near(s.period.mean_us, 1000 + 700.0 / 948));
   CHECK(
       near(s.period.deviation_us, std::sqrt(700.0 * 700.0 / 948 - (700.0 / 948) * (700.0 / 948))));
@@ -93,8 +93,8 @@ TEST(StatisticsTellWhatWasPlanted) {
   CHECK_EQ(s.worst_steps[1].number, 456u);
   CHECK_EQ(s.worst_steps[1].steps, 777u);
   CHECK_EQ(s.worst_steps[2].number, 9u);
-  CHECK(near(s.most_force_N, 5));
-  CHECK_EQ(s.most_force_number, 700u);
+  CHECK(near(s.max_force_N, 5));
+  CHECK_EQ(s.max_force_number, 700u);
   CHECK_EQ(s.faults.size(), 2u);
   CHECK(s.faults[0].what == "deadline" && s.faults[0].first_number == 900 &&
         s.faults[0].records == 100);

@@ -52,7 +52,7 @@ uint32_t comparisons_that_differ(bool is_special) {
 
 // Of squares, some equal, of which every lane but one may be asked.
 template <class Float>
-uint32_t leasts_that_differ() {
+uint32_t minima_that_differ() {
   constexpr uint32_t kLanes = math::kLanesOf<Float>;
   Float v;
   for (uint32_t k = 0; k < kLanes; ++k)
@@ -66,11 +66,11 @@ uint32_t leasts_that_differ() {
   for (uint32_t k = kLanes; k-- > 0;)
     if (((of >> k) & 1u) != 0 && (expected == kLanes || v[k] <= v[expected])) expected = k;
   float least = -1, portable_least = -1;
-  uint32_t differ = math::least_lane(v, of, least) == expected ? 0u : 1u;
+  uint32_t differ = math::min_lane(v, of, least) == expected ? 0u : 1u;
   if (math::portable_least_lane(v, of, portable_least) != expected) ++differ;
   if (math::bits_of(least) != math::bits_of(v[expected])) ++differ;
   if (math::bits_of(math::least_of(v, of)) != math::bits_of(v[expected])) ++differ;
-  if (!(math::least_of(v, 0) >= math::kMostLeast)) ++differ;
+  if (!(math::least_of(v, 0) >= math::kMaxLeast)) ++differ;
   if (math::bits_of(portable_least) != math::bits_of(v[expected])) ++differ;
   return differ;
 }
@@ -120,8 +120,8 @@ TEST(LanesGatherThreeFloatsAndReadNoneBehind) {
 TEST(TheLeastOfLanesIsTheFirstThatHoldsIt) {
   uint32_t differ = 0;
   for (uint32_t i = 0; i < 8000; ++i) {
-    differ += leasts_that_differ<math::Float4>();
-    differ += leasts_that_differ<math::FloatWide>();
+    differ += minima_that_differ<math::Float4>();
+    differ += minima_that_differ<math::FloatWide>();
   }
   CHECK_EQ(differ, 0u);
 }

@@ -93,7 +93,7 @@ TEST(APartFarFromItsOriginAnswersForTheModelThatItsFileHas) {
   const float away = static_cast<float>(1.3 * diagonal(surface));
   for (Vec3& v : surface.vertices) v = {v.x - away, v.y + away, v.z + away};
   const BakedMesh baked(surface);
-  CHECK(baked.view.head().rounding_m > 0.5f * mesh::kMostRounding * baked.view.head().diagonal_m);
+  CHECK(baked.view.head().rounding_m > 0.5f * mesh::kMaxRounding * baked.view.head().diagonal_m);
   against_brute_force(baked, long_run() ? 40000 : 4000, 5);
 }
 TEST(PartAnswersLikeBruteForce) { against_brute_force(part(), 20000 / 4, 3); }

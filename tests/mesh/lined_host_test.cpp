@@ -13,9 +13,9 @@ using namespace mesh_test;  // NOLINT: a test file
 
 // The rows of a leaf's block, among values that are no triangle's.
 struct Rows {
-  float corners[mesh::kRowsOfCorners * kTriangles + mesh::kMostLanes];
-  float prisms[mesh::kRowsOfPrisms * kTriangles + mesh::kMostLanes];
-  float shapes[mesh::kRowsOfShapes * kTriangles + mesh::kMostLanes];
+  float corners[mesh::kRowsOfCorners * kTriangles + mesh::kMaxLanes];
+  float prisms[mesh::kRowsOfPrisms * kTriangles + mesh::kMaxLanes];
+  float shapes[mesh::kRowsOfShapes * kTriangles + mesh::kMaxLanes];
   mesh::Ahead ahead{};
 
   Rows(const Leaf& leaf, uint32_t child, const mesh::Block& block) {
@@ -81,26 +81,25 @@ void compare_what_may_be_nearer(uint32_t turn, Told& told) {
     if (!(told2_m2 <= FLT_MAX)) continue;
     const float scales[] = {1.0f, 1.0f + 0x1p-20f, 1.0f - 0x1p-20f, 0.9f};
     for (const float scale : scales) {
-      const float least2_m2 = told2_m2 * scale;
+      const float min2_m2 = told2_m2 * scale;
       const uint32_t may_be = mesh::may_be_nearer<Float>(mesh::Lined(rows.ahead, block), leaf.p_m,
-                                                         mesh::prism_limit2(least2_m2, slack_m2));
+                                                         mesh::prism_limit2(min2_m2, slack_m2));
       for (uint32_t lane = 0; lane < block.count; ++lane) {
         const float at2_m2 = closest_on(leaf, block.first + lane).distance2_m2;
-        told.farther += at2_m2 > least2_m2 * 1.1f + slack_m2 ? 1u : 0u;
+        told.farther += at2_m2 > min2_m2 * 1.1f + slack_m2 ? 1u : 0u;
         if ((may_be >> lane & 1u) != 0) continue;
         ++told.left_out;
-        if (at2_m2 <= least2_m2) ++told.wrong;  // a triangle that is a point is told no number
+        if (at2_m2 <= min2_m2) ++told.wrong;  // a triangle that is a point is told no number
       }
     }
   }
 }
 
-// Whether a triangle of the block that is none of the leaf is told nearer than `least2_m2`.
-bool has_nearer_beside(const Leaf& leaf, uint32_t child, const mesh::Block& block,
-                       float least2_m2) {
+// Whether a triangle of the block that is none of the leaf is told nearer than `min2_m2`.
+bool has_nearer_beside(const Leaf& leaf, uint32_t child, const mesh::Block& block, float min2_m2) {
   for (uint32_t i = block.first; i < block.first + block.count; ++i)
     if (i - mesh::leaf_first(child) >= mesh::leaf_count(child) &&
-        closest_on(leaf, i).distance2_m2 < least2_m2)
+        closest_on(leaf, i).distance2_m2 < min2_m2)
       return true;
   return false;
 }
@@ -121,15 +120,15 @@ void compare_leaves(uint32_t turn, Compared& compared) {
   const mesh::Lined lined(rows.ahead, mesh::make_lined(child, block));
   const float bound2_m2 = turn % 5 == 0 ? 0.25f : FLT_MAX;
   mesh::Best in_turn;
-  const float least2_m2 = measured_in_turn(leaf, child, bound2_m2, in_turn);
-  compared.improved += least2_m2 < bound2_m2 ? 1u : 0u;
+  const float min2_m2 = measured_in_turn(leaf, child, bound2_m2, in_turn);
+  compared.improved += min2_m2 < bound2_m2 ? 1u : 0u;
   mesh::Best at_once, beside;
   const float told2_m2[] = {
       mesh::measure_lined<Float>(lined, leaf.p_m, 5, bound2_m2, at_once),
       mesh::measure_lined_beside<Float>(lined, leaf.p_m, 5, bound2_m2,
                                         mesh::prism_limit2(bound2_m2, slack_m2), beside)};
-  compared.differ += same(told2_m2[0], least2_m2) && same(at_once, in_turn) ? 0u : 1u;
-  compared.differ += same(told2_m2[1], least2_m2) && same(beside, in_turn) ? 0u : 1u;
+  compared.differ += same(told2_m2[0], min2_m2) && same(at_once, in_turn) ? 0u : 1u;
+  compared.differ += same(told2_m2[1], min2_m2) && same(beside, in_turn) ? 0u : 1u;
   if (bound2_m2 < FLT_MAX) return;
   const uint32_t lasts[] = {in_turn.triangle, first, next_random()};
   for (const uint32_t last : lasts) {

@@ -86,7 +86,7 @@ uint32_t triangles_in_blocks(const mesh::View& view) {
     const mesh::NodeBlock& block = ahead.blocks[node];
     if (block.of.count == 0) continue;
     in_blocks += block.of.count;
-    CHECK(node != 0 && block.of.count <= mesh::kMostLanes);
+    CHECK(node != 0 && block.of.count <= mesh::kMaxLanes);
     uint32_t lanes = 0;
     for (uint32_t i = 0; i < 4; ++i) {
       CHECK_EQ(lanes & (block.lanes >> (8 * i)) & 0xFFu, 0u);

@@ -72,14 +72,14 @@ inline float longest_edge_m(const Leaf& leaf) {
   return longest_m;
 }
 
-inline float measured_in_turn(const Leaf& leaf, uint32_t child, float least2_m2, mesh::Best& best) {
+inline float measured_in_turn(const Leaf& leaf, uint32_t child, float min2_m2, mesh::Best& best) {
   for (uint32_t i = mesh::leaf_first(child), n = mesh::leaf_count(child); n-- > 0; ++i) {
     const mesh::Foot foot = closest_on(leaf, i);
-    if (!(foot.distance2_m2 < least2_m2)) continue;
-    least2_m2 = foot.distance2_m2;
-    best = {least2_m2, foot.offset_m, i, 5, foot.feature};
+    if (!(foot.distance2_m2 < min2_m2)) continue;
+    min2_m2 = foot.distance2_m2;
+    best = {min2_m2, foot.offset_m, i, 5, foot.feature};
   }
-  return least2_m2;
+  return min2_m2;
 }
 
 // Turned so that edge 0 is the longest, as the baker turns them.

@@ -14,12 +14,12 @@ constexpr uint32_t kHighUnit = 1u << 16;  // one cell less in the high half of a
 // A tree as deep as it has nodes: node k holds one triangle and node k + 1, the last one two
 // triangles. Every box is the whole grid, whose words are 0.
 struct Chain {
-  static constexpr uint32_t kMostNodes = mesh::kMaxDepth + 1;
+  static constexpr uint32_t kMaxNodes = mesh::kMaxDepth + 1;
   Cube cube;
-  mesh::Triangle<uint16_t> triangles[kMostNodes + 1];
-  mesh::Node nodes[kMostNodes];
-  uint32_t parents[kMostNodes];
-  mesh::EdgeFolds folds[kMostNodes + 1];
+  mesh::Triangle<uint16_t> triangles[kMaxNodes + 1];
+  mesh::Node nodes[kMaxNodes];
+  uint32_t parents[kMaxNodes];
+  mesh::EdgeFolds folds[kMaxNodes + 1];
 
   explicit Chain(uint32_t node_count) {
     for (uint32_t t = 0; t <= node_count; ++t) {

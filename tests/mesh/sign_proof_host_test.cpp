@@ -60,7 +60,7 @@ struct Proven {
   explicit Proven(tools::Surface from)
       : surface(std::move(from)), exact(surface), stored(make_pseudonormals(surface, exact)) {}
   tools::SignProof proof() const {
-    return prove_signs(surface, exact, stored, tools::kLeastMargin_rad, {});
+    return prove_signs(surface, exact, stored, tools::kMinMargin_rad, {});
   }
 };
 
@@ -293,5 +293,5 @@ TEST(TheHorsesDifferingFeaturesAllLieAtItsOnePlace) {
   CHECK(report.differing[0].vertices == (std::vector<uint32_t>{11890, 11891}));
   CHECK_GT(report.differing[0].count(), 3u);
   CHECK_EQ(report.differing[1].count(), 0u);
-  CHECK_GT(report.edge_margin_rad, tools::kLeastMargin_rad);
+  CHECK_GT(report.edge_margin_rad, tools::kMinMargin_rad);
 }

@@ -100,8 +100,8 @@ LeftOut leave_out(float size, double height, double reach, float longest, uint64
     mesh::Foot told, foot;
     mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, mesh::Everything{}, told);
     const float ulp_nearer = std::nextafter(told.distance2_m2, INFINITY);
-    const auto is_left_out = [&](float least2_m2) {
-      const mesh::Nearer nearer = mesh::Nearer::than(least2_m2, slack_m2);
+    const auto is_left_out = [&](float min2_m2) {
+      const mesh::Nearer nearer = mesh::Nearer::than(min2_m2, slack_m2);
       return is_stored ? !mesh::find_foot(p, Stored(t).read(), nearer, foot)
                        : !mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, nearer, foot);
     };

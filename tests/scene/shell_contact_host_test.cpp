@@ -78,7 +78,7 @@ std::vector<math::Vec3> way(int count) {
 }  // namespace
 
 TEST(WhereTheMeshsQueryIsCutOffTheShellIsFeltEarlyAndNeverLate) {
-  uint32_t of_shell = 0, touched = 0, early = 0, most_steps = 0;
+  uint32_t of_shell = 0, touched = 0, early = 0, max_steps = 0;
   for (const uint32_t steps : {1u, 2u, 4u, 8u, 16u, 64u}) {
     scene::MeshTouch touch;
     int i = 0;
@@ -92,7 +92,7 @@ TEST(WhereTheMeshsQueryIsCutOffTheShellIsFeltEarlyAndNeverLate) {
       const float depth_m = kRadius_m - truth.distance_m;
       if (depth_m > 1e-6f) CHECK_LE(depth_m - 2e-6f, touch.penetration_m);
       touched += depth_m > 0 ? 1u : 0u;
-      if (touch.shell_steps > most_steps) most_steps = touch.shell_steps;
+      if (touch.shell_steps > max_steps) max_steps = touch.shell_steps;
       if (!touch.is_of_shell) {
         CHECK_LE(touch.penetration_m, (depth_m > 0 ? depth_m : 0.0f) + 2e-6f);
         continue;
@@ -111,7 +111,7 @@ TEST(WhereTheMeshsQueryIsCutOffTheShellIsFeltEarlyAndNeverLate) {
   CHECK_LT(2000u, of_shell);
   CHECK_LT(1000u, touched);
   CHECK_LT(10u, early);
-  CHECK_LT(most_steps, 512u);
+  CHECK_LT(max_steps, 512u);
 }
 
 TEST(WithTimeForTheMeshAShellChangesNothing) {

@@ -65,12 +65,12 @@ TEST(WhereATickLeapsNoSideOfASheetIsKnown) {
 TEST(InAClosedLoopAHandThatPressesHardDoesNotComeThroughASheet) {
   const Surface surface = waves();
   Rig rig(surface, false);
-  float z_m = 0.02f, speed_mps = 0, deepest_m = 0, most_N = 0;
+  float z_m = 0.02f, speed_mps = 0, deepest_m = 0, max_N = 0;
   math::Vec3 held;
   int ticks_held = 0;
   const auto tick = [&](float x_m, float hand_m) {
     held = rig.force_N({x_m, 0.3f * x_m, z_m});
-    most_N = std::max(most_N, held.z);
+    max_N = std::max(max_N, held.z);
     const float hand_N = 400 * (hand_m - z_m) - 8 * speed_mps;
     speed_mps += (hand_N + held.z) / 0.075f * 1e-3f;
     z_m += speed_mps * 1e-3f;
@@ -89,7 +89,7 @@ TEST(InAClosedLoopAHandThatPressesHardDoesNotComeThroughASheet) {
   CHECK_EQ(rig.touch.penetration_m, 0.0f);  // and out again where it came in
   CHECK(rig.touch.is_ahead);
   CHECK_LE(std::fabs(z_m - 0.03f), 1e-3f);
-  CHECK_LE(most_N, 30);
+  CHECK_LE(max_N, 30);
 }
 
 TEST(UnderNoBudgetIsASheetPushedOnFromAnUnknownSide) {

@@ -141,9 +141,8 @@ TEST(GuardHoldsItsCeilingsWhateverLimitsItIsGiven) {
     CHECK(rig.is_zero());
   }
   Rig most;
-  CHECK(servo::guard_set_limits(
-      most.state,
-      {servo::kGuardMostForce_N, servo::kGuardMostSlew_N_per_s, servo::kGuardMostPeriod_s}));
+  CHECK(servo::guard_set_limits(most.state, {servo::kGuardMaxForce_N, servo::kGuardMaxSlew_N_per_s,
+                                             servo::kGuardMaxPeriod_s}));
   CHECK(most.pass(99.9f, 0, 0));
   CHECK(!most.pass(100.1f, 0, 0));
 }

@@ -174,7 +174,7 @@ TEST(AFrontOfRandomWordsIsNoFront) {
     CHECK_EQ(c.certificate.exact, true);
     CHECK_LE(c.distance_m, truth + 5e-7f * (truth + 3.9f));
     CHECK_GE(c.distance_m, truth - 5e-7f * (truth + 3.9f));
-    CHECK_LE(bent.front.count, firmtouch::spline::Front::kMost);
+    CHECK_LE(bent.front.count, firmtouch::spline::Front::kMax);
   }
 }
 

@@ -255,7 +255,7 @@ class ExactDistance {
       }
       const Wide enough =
           2e-9L * size_ * std::sqrt(best2) + 2e-16L * size_ * size_ + 1e-16L * best2;
-      if (low2 >= best2 - enough || cells_ > kMostCells) {
+      if (low2 >= best2 - enough || cells_ > kMaxCells) {
         floor2 = std::min(floor2, low2);
         continue;
       }
@@ -269,7 +269,7 @@ class ExactDistance {
     }
   }
 
-  static constexpr size_t kMostCells = 300000;  // of a query: beyond it the bounds stay apart
+  static constexpr size_t kMaxCells = 300000;  // of a query: beyond it the bounds stay apart
   std::vector<Net> nets_;
   Wide low_[3] = {HUGE_VALL, HUGE_VALL, HUGE_VALL}, high_[3] = {-HUGE_VALL, -HUGE_VALL, -HUGE_VALL};
   Wide size_ = 0;

@@ -144,7 +144,7 @@ TEST(OnlyWhatHalvingComesToIsANodeOfAFront) {
 TEST(AlongAPathAFrontLeavesNothingOutOfSurfaces) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Told told;
-  uint32_t most_pieces = 0;
+  uint32_t max_pieces = 0;
   for (uint32_t seed = 0; seed < (is_long ? 60u : 10u); ++seed) {
     tools::Random random(seed + 40);
     std::vector<tools::SplineSurface> surfaces;
@@ -152,12 +152,12 @@ TEST(AlongAPathAFrontLeavesNothingOutOfSurfaces) {
       surfaces.push_back(spline_test::random_surface(random, static_cast<int>(1 + random.below(3)),
                                                      static_cast<int>(1 + random.below(3)), 1));
     const BakedModel baked(of(surfaces));
-    most_pieces = std::max(most_pieces, baked.view.pieces().size());
+    max_pieces = std::max(max_pieces, baked.view.pieces().size());
     follow(baked, random, 1000, told);
   }
   CHECK_EQ(told.wrong, 0u);
   CHECK_EQ(told.inexact, 0u);
-  CHECK(most_pieces > 64);
+  CHECK(max_pieces > 64);
   CHECK(told.passed_over > 10000);
 }
 

@@ -6,7 +6,7 @@
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/spline/arc.hpp"
 #include "firmtouch/spline/guided_point.hpp"
-#include "firmtouch/spline/least_cost.hpp"
+#include "firmtouch/spline/min_cost.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_guide.hpp"
 #include "spline/random_splines.hpp"
@@ -180,7 +180,7 @@ TEST(ARidgeBetweenTwoLowPointsOfOnePieceIsNotCrossed) {
   }
 }
 
-// What least_cost() finds is where the guide is found from: from there to the point told the distance
+// What min_cost() finds is where the guide is found from: from there to the point told the distance
 // falls, and goes on falling no further.
 TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
   constexpr float kPerMetre[] = {0.01f, 0.1f, 0.5f, 2.0f};
@@ -204,7 +204,7 @@ TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
       if (!was.is_following) continue;
       const spline::Closest nearest = closest_point(g.view, p, kUnlimited, hint);
       const spline::LeastCost least =
-          least_cost(g.guide, p, {hold.weight_m, was.piece, was.s}, nearest, kUnlimited);
+          min_cost(g.guide, p, {hold.weight_m, was.piece, was.s}, nearest, kUnlimited);
       CHECK(told.closest.certificate.exact && least.certificate.exact);
       CHECK(told.is_held && !told.is_new);
       const auto along = [](uint32_t piece, float s) {

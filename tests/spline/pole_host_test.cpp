@@ -65,7 +65,7 @@ struct Tapering {
   }
 };
 
-constexpr float kMostOff = 1e-6f;
+constexpr float kMaxOff = 1e-6f;
 
 }  // namespace
 
@@ -82,7 +82,7 @@ TEST(NoPointOfAPartAboutAPoleIsNearerThanItsBound) {
                          pole.z + random.bell() * away};
     const Vec3 q_m = tools::to_vec3(q);
     spline::Pole found;
-    CHECK(found.begin(piece.c, q_m, piece.axis, piece.is_high, kMostOff));
+    CHECK(found.begin(piece.c, q_m, piece.axis, piece.is_high, kMaxOff));
     const double wide_t = std::ldexp(1.0, -static_cast<int>(random.below(5)));
     const double t_low = -1 + 2 * wide_t * random.below(static_cast<uint32_t>(1 / wide_t));
     const double deep = std::ldexp(2.0, -static_cast<int>(random.below(6)));
@@ -144,7 +144,7 @@ TEST(AnEdgeThatIsNoPointIsNoPole) {
     Tapering piece(random, true);
     spline::Pole found;
     const auto is_pole = [&](uint32_t edge) {
-      return found.begin(piece.c, Vec3{}, edge >> 1, (edge & 1u) != 0, kMostOff);
+      return found.begin(piece.c, Vec3{}, edge >> 1, (edge & 1u) != 0, kMaxOff);
     };
     const uint32_t own = piece.axis << 1 | (piece.is_high ? 1u : 0u);
     for (uint32_t edge = 0; edge < 4; ++edge) CHECK(is_pole(edge) == (edge == own));

@@ -40,9 +40,7 @@ struct Quartic {
 
 // Valleys and slopes of all sizes, steep beside flat.
 Quartic some_quartic(Random& random) {
-  const auto size = [&](double least_exponent) {
-    return std::exp2(random.between(least_exponent, 0));
-  };
+  const auto size = [&](double min_exponent) { return std::exp2(random.between(min_exponent, 0)); };
   Quartic q{};
   Quadratic& f = q.f;
   f.distance2 = 4.0f;
@@ -94,7 +92,7 @@ TEST(NoQuarticIsLowerThanItsExpansionProves) {
     const Quartic q = some_quartic(random);
     const Rectangle r = some_rectangle(random, q.f);
     const double straight = static_cast<double>(q.f.least2(r));
-    const double askew = static_cast<double>(q.f.least2_askew(r, FLT_MAX));
+    const double askew = static_cast<double>(q.f.min2_askew(r, FLT_MAX));
     const double bound = std::max(straight, askew);
     double least = 1e300;
     const auto at = [&](double x, double y) {
@@ -165,7 +163,7 @@ TEST(NoValleyAskewIsLowerThanItsExpansionProves) {
     r.low[k] = random.below(2) == 0 ? 0.0f : static_cast<float>(-wide * random.uniform());
     r.high[o] = static_cast<float>(wide * random.between(0, 4));
     r.low[o] = static_cast<float>(-wide * random.between(0, 4));
-    const double bound = static_cast<double>(f.least2_askew(r, FLT_MAX));
+    const double bound = static_cast<double>(f.min2_askew(r, FLT_MAX));
     double least = 4;
     for (int i = 0; i <= kSteps; ++i) {
       const double low = static_cast<double>(r.low[k]), high = static_cast<double>(r.high[k]);

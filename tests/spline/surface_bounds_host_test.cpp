@@ -248,10 +248,10 @@ Radii check(const tools::SplineModel& model, bool is_small = false) {
 
 // Looser ones hold too, and cost every query.
 void check_tight(const Radii& radii) {
-  constexpr Wide kMost = 1.65L;  // 1.62 and 1.52 were measured
+  constexpr Wide kMax = 1.65L;  // 1.62 and 1.52 were measured
   firmtouch::test::note("radii, of 1,000 of what is seen",
                         static_cast<int64_t>(1000 * radii.told / radii.seen));
-  CHECK(radii.told < kMost * radii.seen);
+  CHECK(radii.told < kMax * radii.seen);
 }
 
 bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }

@@ -22,12 +22,12 @@ namespace target = firmtouch::target;
 
 namespace {
 
-constexpr uint32_t kMostPoints = 256;
+constexpr uint32_t kMaxPoints = 256;
 constexpr uint32_t kEvery = 64;
 constexpr uint32_t kRing =
     1u << 15;  // breadth-first on a model of 20,000 triangles wants a third of it
 
-math::Vec3 g_points[kMostPoints];
+math::Vec3 g_points[kMaxPoints];
 orders::Pending g_waiting[kRing];
 uint32_t g_empty = 0;  // what reading the clock twice takes
 
@@ -98,7 +98,7 @@ bool plant_and_run(const char* kind, const mesh::View& view, orders::Workshop wo
 uint32_t read_points(const char* path) {
   target::CsvPoints file(path);
   uint32_t points = 0, row = 0;
-  for (math::Vec3 p_m; points < kMostPoints && file.next(p_m); ++row)
+  for (math::Vec3 p_m; points < kMaxPoints && file.next(p_m); ++row)
     if (row % kEvery == 0) g_points[points++] = p_m;
   return points;
 }

@@ -54,18 +54,18 @@ curve::Head make_head(const std::vector<curve::Sample>& samples, double length_m
 // How far the pieces' Bezier points lie beyond the samples' box, in its extents.
 float beyond_of(const std::vector<curve::Sample>& samples, const curve::Head& head) {
   const curve::Track track{samples.data(), head.sample_count, head.is_closed != 0};
-  float most_m = 0, extent_m = 0;
+  float max_m = 0, extent_m = 0;
   for (size_t k = 0; k < 3; ++k) {
     extent_m = std::max(extent_m, head.high_m[k] - head.low_m[k]);
     for (uint32_t s = 0; s + 1 < head.sample_count; ++s) {
       const curve::Cubic c = curve::cubic_of(track, s);
       for (const math::Vec3& off : {c.c1, c.c2}) {
         const float at_m = (&samples[s].x_m)[k] + (&off.x)[k];
-        most_m = std::max({most_m, head.low_m[k] - at_m, at_m - head.high_m[k]});
+        max_m = std::max({max_m, head.low_m[k] - at_m, at_m - head.high_m[k]});
       }
     }
   }
-  return most_m / extent_m;
+  return max_m / extent_m;
 }
 
 core::Bytes bytes_of(const std::vector<Section>& sections, const std::string& name, uint32_t type) {

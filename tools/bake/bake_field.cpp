@@ -38,11 +38,11 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
                                 FieldReport& report) {
   field::Head head = make_head(mesh, long_axis);
   const uint64_t count = uint64_t{head.count[0]} * head.count[1] * head.count[2];
-  if (*std::max_element(head.count, head.count + 3) > field::kMostCellsAnAxis ||
-      count > field::kMostCells) {
+  if (*std::max_element(head.count, head.count + 3) > field::kMaxCellsAnAxis ||
+      count > field::kMaxCells) {
     report.problem = "a distance map of " + std::to_string(long_axis) + " cells would have " +
-                     std::to_string(count) + ", more than the " +
-                     std::to_string(field::kMostCells) + " that fit; choose fewer";
+                     std::to_string(count) + ", more than the " + std::to_string(field::kMaxCells) +
+                     " that fit; choose fewer";
     return {};
   }
   std::vector<Cell> cells;
@@ -62,12 +62,12 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
         farthest_m = std::max(farthest_m, c.certificate.lower_m);
       }
   head.quantum_m = 0x1p-90f;
-  while (farthest_m > head.quantum_m * static_cast<float>(field::kMostQuanta)) head.quantum_m *= 2;
+  while (farthest_m > head.quantum_m * static_cast<float>(field::kMaxQuanta)) head.quantum_m *= 2;
   std::vector<int16_t> words;
   for (const Cell& cell : cells) {
     const uint32_t quanta = static_cast<uint32_t>(cell.lower_m / head.quantum_m);
-    const float most_m = cell.told_m + field::told_slack_m(cell.told_m, mesh.head().diagonal_m);
-    const bool fits = most_m <= static_cast<float>(quanta + field::kWide) * head.quantum_m &&
+    const float max_m = cell.told_m + field::told_slack_m(cell.told_m, mesh.head().diagonal_m);
+    const bool fits = max_m <= static_cast<float>(quanta + field::kWide) * head.quantum_m &&
                       (cell.sign != 0 || quanta == 0 || !mesh.is_signed());
     const int32_t word =
         cell.sign < 0 ? -1 - static_cast<int32_t>(quanta) : static_cast<int32_t>(quanta);

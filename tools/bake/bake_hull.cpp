@@ -31,7 +31,7 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
   HullReport built;
   const ProgressiveHull hull = build_hull(surface, options, built);
   report.stalled = built.stalled;
-  report.faces = hull.least_faces();
+  report.faces = hull.min_faces();
   report.collapses = static_cast<uint32_t>(hull.collapses.size());
   const double before = enclosed_volume_m3(surface),
                after = enclosed_volume_m3(hull_after(hull, report.collapses));
@@ -50,7 +50,7 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
   if (report.shell_bytes == 0) {
     report.problem = "a hull of " + std::to_string(report.faces) +
                      " faces is too fine for a shell, which numbers " +
-                     std::to_string(hull::kMostShellVertices) + " vertices: ask for fewer faces";
+                     std::to_string(hull::kMaxShellVertices) + " vertices: ask for fewer faces";
     return {};
   }
   std::vector<Section> all = sections;

@@ -65,7 +65,7 @@ mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& t
   }
   head.diagonal_m = static_cast<float>(std::sqrt(diagonal2) * (1 - 0x1p-21));
   head.cell_m = grid.cell_m;
-  head.rounding_m = std::min(import_rounding_m(surface), mesh::kMostRounding * head.diagonal_m);
+  head.rounding_m = std::min(import_rounding_m(surface), mesh::kMaxRounding * head.diagonal_m);
   for (const Face& f : surface.faces) {
     const float edge_m = math::length(surface.vertices[f[1]] - surface.vertices[f[0]]);
     head.longest_edge_m = std::max(head.longest_edge_m, edge_m);

@@ -17,7 +17,7 @@ class Encoder {
   std::vector<uint8_t> run() {
     order_faces();
     number_vertices();
-    if (ids_.size() > hull::kMostShellVertices) return {};
+    if (ids_.size() > hull::kMaxShellVertices) return {};
     hull::ShellHead head{};
     head.cut = source_.cut;
     head.face_count = static_cast<uint32_t>(source_.faces.size());

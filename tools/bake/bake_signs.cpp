@@ -104,7 +104,7 @@ Pseudonormals bake_signs(const Surface& surface, SignReport& report, std::string
   report.crossings = find_crossings(surface);
   const Places places(report.crossings);
   const SignProof proof =
-      prove_signs(surface, exact, stored, kLeastMargin_rad, places.excused(surface));
+      prove_signs(surface, exact, stored, kMinMargin_rad, places.excused(surface));
   report.face_margin_rad = proof.faces.smallest_rad;
   report.edge_margin_rad = proof.edges.smallest_rad;
   report.vertex_margin_rad = proof.vertices.smallest_rad;

@@ -10,9 +10,9 @@ namespace firmtouch::tools {
 namespace {
 
 // As open() asks (rule R607), less what rounding of the sum may take.
-constexpr double kMostLoss = 1.98 * 0x1p-24, kMostRationalLoss = 4.98 * 0x1p-24;
-constexpr size_t kMostPieces = 20000;
-constexpr int kMostCuts = 3;  // of a piece, for the sake of its weights
+constexpr double kMaxLoss = 1.98 * 0x1p-24, kMaxRationalLoss = 4.98 * 0x1p-24;
+constexpr size_t kMaxPieces = 20000;
+constexpr int kMaxCuts = 3;  // of a piece, for the sake of its weights
 
 struct Bounds {
   double low_m[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -78,7 +78,7 @@ bool is_fine(const StoredPiece& stored, uint32_t level_u, uint32_t level_v,
   for (uint32_t v = 0; v < 1u << level_v; ++v)
     for (uint32_t u = 0; u < 1u << level_u; ++u) {
       const spline::LeafShape shape = shape_of(stored, level_u, u, level_v, v);
-      if (!(shape.least_weight > 0.0f)) return false;
+      if (!(shape.min_weight > 0.0f)) return false;
       if (thickness_of(shape) > detail.thickness * extent_m) return false;
       if (doubt_of(shape, stored, level_u, level_v) > detail.doubt) return false;
     }
@@ -91,8 +91,8 @@ void choose_levels(StoredPiece& stored, const SplineDetail& detail, double exten
   while (!is_fine(stored, level_u, level_v, detail, extent_m)) {
     const spline::LeafShape shape =
         shape_of(stored, level_u, (1u << level_u) / 2, level_v, (1u << level_v) / 2);
-    const bool can_u = level_u < detail.most_halvings;
-    const bool can_v = stored.piece.degree_v != 0 && level_v < detail.most_halvings;
+    const bool can_u = level_u < detail.max_halvings;
+    const bool can_v = stored.piece.degree_v != 0 && level_v < detail.max_halvings;
     if (!can_u && !can_v) break;
     bool halve_v = !can_u;
     if (can_u && can_v)
@@ -110,7 +110,7 @@ double loss_of(const StoredPiece& stored) {
     for (uint32_t u = 0; u < 1u << stored.piece.level_u; ++u) {
       const spline::LeafShape shape =
           shape_of(stored, stored.piece.level_u, u, stored.piece.level_v, v);
-      if (!(shape.least_weight > 0.0f)) return HUGE_VAL;
+      if (!(shape.min_weight > 0.0f)) return HUGE_VAL;
       worst = std::max(worst, static_cast<double>(shape.loss_m));
     }
   return worst + stored.deviation_m;
@@ -130,20 +130,20 @@ double doubt_of(const StoredPiece& stored, double extent_m) {
 // Pieces short enough that float32 loses no more than is promised, and that a point tells much of those
 // about it.
 std::vector<StoredPiece> cut(std::vector<BezierPatch> patches, bool is_surface,
-                             const SplineDetail& detail, double extent_m, double most_m) {
+                             const SplineDetail& detail, double extent_m, double max_m) {
   std::vector<StoredPiece> pieces;
   std::reverse(patches.begin(), patches.end());  // a stack, its top the first
   std::vector<int> cuts(patches.size(), 0);
-  while (!patches.empty() && pieces.size() + patches.size() < kMostPieces) {
+  while (!patches.empty() && pieces.size() + patches.size() < kMaxPieces) {
     const BezierPatch patch = patches.back();
     const int made = cuts.back();
     patches.pop_back();
     cuts.pop_back();
     StoredPiece stored = store_piece(patch, is_surface);
     choose_levels(stored, detail, extent_m);
-    const bool is_doubtful = !is_surface && stored.piece.is_rational != 0 && made < kMostCuts &&
+    const bool is_doubtful = !is_surface && stored.piece.is_rational != 0 && made < kMaxCuts &&
                              !(doubt_of(stored, extent_m) <= detail.doubt);
-    if (loss_of(stored) <= most_m && !is_doubtful) {
+    if (loss_of(stored) <= max_m && !is_doubtful) {
       pieces.push_back(stored);
       continue;
     }
@@ -276,7 +276,7 @@ SplineDetail surface_detail(bool is_small) {
   SplineDetail detail;
   detail.thickness = is_small ? 0.1 : 0.0034;
   detail.doubt = 100;
-  detail.most_halvings = is_small ? 1 : 3;
+  detail.max_halvings = is_small ? 1 : 3;
   detail.cell_level = is_small ? 0 : 1;
   return detail;
 }
@@ -296,8 +296,8 @@ std::vector<Section> bake_spline(const SplineModel& model, const std::string& na
   for (const BezierPatch& patch : patches) report.is_rational |= is_rational(patch.points);
   report.extent_m = bounds.longest_m();
 
-  const double most_m = report.extent_m * (report.is_rational ? kMostRationalLoss : kMostLoss);
-  std::vector<StoredPiece> pieces = cut(patches, is_surface, detail, report.extent_m, most_m);
+  const double max_m = report.extent_m * (report.is_rational ? kMaxRationalLoss : kMaxLoss);
+  std::vector<StoredPiece> pieces = cut(patches, is_surface, detail, report.extent_m, max_m);
   size_t parts = 0;
   for (const StoredPiece& stored : pieces)
     parts += size_t{1} << (stored.piece.level_u + stored.piece.level_v);

@@ -28,8 +28,8 @@ struct SplineDetail {
   double thickness = 0.004;  // of a leaf about its chord or plane, of the extent
   double doubt =
       1;  // change of the second derivative across a leaf (rational curves: a piece), of itself
-  uint32_t most_halvings = 4;  // of a piece on an axis
-  uint32_t cell_level = 1;  // halvings of a surface's piece to a cell, a rational one.s: one more
+  uint32_t max_halvings = 4;  // of a piece on an axis
+  uint32_t cell_level = 1;    // halvings of a surface's piece to a cell, a rational one.s: one more
 };
 SplineDetail curve_detail(bool is_small);
 SplineDetail surface_detail(bool is_small);

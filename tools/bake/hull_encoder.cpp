@@ -52,8 +52,8 @@ void HullEncoder::make_head() {
 }
 
 std::string HullEncoder::problem() const {
-  if (uint64_t{head_.mesh_vertex_count} + head_.collapse_count > hull::kMostIds)
-    return "has too many vertices for a hull: at most " + std::to_string(hull::kMostIds) +
+  if (uint64_t{head_.mesh_vertex_count} + head_.collapse_count > hull::kMaxIds)
+    return "has too many vertices for a hull: at most " + std::to_string(hull::kMaxIds) +
            " with those of its hulls; simplify the model";
   return "";
 }
@@ -141,7 +141,7 @@ hull::StarBox HullEncoder::star_box(uint32_t collapse) const {
     for (uint32_t k = 0; k < 3; ++k) {
       const double below = std::ceil((at[k] - double{star.low_m[k]}) / unit),
                    above = std::ceil((double{star.high_m[k]} - at[k]) / unit);
-      fits = fits && below <= hull::kMostReach && above <= hull::kMostReach;
+      fits = fits && below <= hull::kMaxReach && above <= hull::kMaxReach;
       reach[2 * k] = fits ? static_cast<uint32_t>(std::max(below, 0.0)) : 0;
       reach[2 * k + 1] = fits ? static_cast<uint32_t>(std::max(above, 0.0)) : 0;
     }

@@ -26,7 +26,7 @@ struct Leaves {
     end = std::max(end, leaf_first(leaf) + leaf_count(leaf));
     count += leaf_count(leaf);
   }
-  bool make_a_block() const { return count <= mesh::kMostLanes && end - first == count; }
+  bool make_a_block() const { return count <= mesh::kMaxLanes && end - first == count; }
 };
 
 // A bit for each triangle of a leaf of the block.
@@ -91,9 +91,9 @@ struct MeshAhead::Stored {
 
   explicit Stored(const mesh::View& of) : mesh(of) {
     const size_t triangles = mesh.head().triangle_count;
-    corners.resize(mesh::kRowsOfCorners * (triangles + 1) + mesh::kMostLanes);
-    shapes.resize(mesh::kRowsOfShapes * (triangles + 1) + mesh::kMostLanes);
-    prisms.resize(mesh::kRowsOfPrisms * (triangles + 1) + mesh::kMostLanes);
+    corners.resize(mesh::kRowsOfCorners * (triangles + 1) + mesh::kMaxLanes);
+    shapes.resize(mesh::kRowsOfShapes * (triangles + 1) + mesh::kMaxLanes);
+    prisms.resize(mesh::kRowsOfPrisms * (triangles + 1) + mesh::kMaxLanes);
     put_nodes();
     put_what_has_blocks();
     put_directions();
@@ -178,7 +178,7 @@ MeshAhead& MeshAhead::operator=(MeshAhead&&) noexcept = default;
 MeshAhead::~MeshAhead() = default;
 
 mesh::View read_ahead(const mesh::View& mesh, MeshAhead& ahead) {
-  if (!math::kHasLanes || mesh.head().triangle_count > mesh::kMostAhead) return mesh;
+  if (!math::kHasLanes || mesh.head().triangle_count > mesh::kMaxAhead) return mesh;
   ahead = MeshAhead(mesh);
   return ahead.view();
 }

@@ -10,7 +10,7 @@ namespace firmtouch::tools {
 class MeshAhead {
  public:
   MeshAhead();
-  /// Pre: the mesh is open and has at most mesh::kMostAhead triangles. Cost: O(triangles).
+  /// Pre: the mesh is open and has at most mesh::kMaxAhead triangles. Cost: O(triangles).
   explicit MeshAhead(const mesh::View& mesh);
   MeshAhead(MeshAhead&&) noexcept;
   MeshAhead& operator=(MeshAhead&&) noexcept;

@@ -86,7 +86,7 @@ int8_t encode_fold(const Surface& surface, const ExactNormals& exact, uint32_t f
   double most = margin(code);
   if (most < kSmallMargin) {
     for (const int32_t fold :
-         {std::max(-mesh::kMostFold, code - 1), std::min(mesh::kMostFold, code + 1)}) {
+         {std::max(-mesh::kMaxFold, code - 1), std::min(mesh::kMaxFold, code + 1)}) {
       const double now = margin(fold);
       if (now > most) most = now, best = fold;
     }

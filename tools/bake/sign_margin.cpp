@@ -9,7 +9,7 @@ namespace {
 // Edges less askew than this are taken for one line; gaps short of a half turn by this and by the
 // rounding of what bounds them are taken for a half turn.
 constexpr double kOneLine = 1e-13, kGapSlack = 1e-12, kRounding = 1e-15;
-constexpr size_t kMostEdges = 1000;
+constexpr size_t kMaxEdges = 1000;
 
 // Grows with the angle from 0 to 4; a half turn is 2 everywhere. No arc tangent: what is chosen by
 // it goes into assets, and must be the same on every machine.
@@ -29,7 +29,7 @@ Point square_to(Point e) {
 // cone: the margin is never told too large.
 std::vector<StarEdge> thinned(const std::vector<StarEdge>& star) {
   std::vector<StarEdge> few;
-  const size_t step = (star.size() + kMostEdges - 1) / kMostEdges;
+  const size_t step = (star.size() + kMaxEdges - 1) / kMaxEdges;
   for (size_t k = 0; k < star.size(); k += step) few.push_back(star[k]);
   return few;
 }
@@ -43,7 +43,7 @@ std::vector<SideRay> extreme_rays(const std::vector<StarEdge>& whole) {
   };
   std::vector<SideRay> rays;
   std::vector<Bar> bars;
-  const std::vector<StarEdge> star = whole.size() > kMostEdges ? thinned(whole) : whole;
+  const std::vector<StarEdge> star = whole.size() > kMaxEdges ? thinned(whole) : whole;
   for (const StarEdge& edge : star) {
     const Point right = square_to(edge.direction), up = cross(edge.direction, right);
     bars.clear();

@@ -15,13 +15,13 @@ namespace {
 // far below the next sheet.
 constexpr double kBeside = 1e-7;
 
-void take(SignProof::Kind& kind, uint32_t feature, double sine, double least_rad,
+void take(SignProof::Kind& kind, uint32_t feature, double sine, double min_rad,
           const std::vector<bool>& excused) {
   if (!excused.empty() && excused[feature]) return;
   const double margin_rad = std::asin(std::max(-1.0, std::min(1.0, sine)));
   // Written so that what is not a number is weak.
   if (!(margin_rad >= kind.smallest_rad)) kind.smallest_rad = margin_rad;
-  if (!(sine >= least_rad)) kind.weak.push_back(feature);
+  if (!(sine >= min_rad)) kind.weak.push_back(feature);
 }
 
 math::Vec3 told_face_normal(const Surface& surface, uint32_t f) {
@@ -151,29 +151,29 @@ class Confusion {
 }  // namespace
 
 SignProof prove_signs(const Surface& surface, const ExactNormals& exact,
-                      const Pseudonormals& stored, double least_rad, const Excused& excused) {
+                      const Pseudonormals& stored, double min_rad, const Excused& excused) {
   SignProof proof;
   const Stars stars(surface, exact);
   const Confusion confusion(surface, exact, stored);
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {
     if (confusion.is_thin(f) && confusion.loses_height(f)) {
       // Not excused where it crosses others: its sides would reach far beyond the place.
-      take(proof.faces, f, confusion.thin_margin(f), least_rad, {});
+      take(proof.faces, f, confusion.thin_margin(f), min_rad, {});
     } else {
-      take(proof.faces, f, dot(to_point(told_face_normal(surface, f)), exact.faces[f]), least_rad,
+      take(proof.faces, f, dot(to_point(told_face_normal(surface, f)), exact.faces[f]), min_rad,
            excused.faces);
     }
     for (uint32_t h = 3 * f; h < 3 * f + 3; ++h)
       take(proof.edges, h,
            edge_margin(exact.faces[f], exact.faces[exact.mates[h] / 3],
                        told_edge_normal(surface, stored, h)),
-           least_rad, excused.edges);
+           min_rad, excused.edges);
   }
   for (uint32_t v = 0; v < surface.vertices.size(); ++v)
     take(proof.vertices, v,
          vertex_margin(extreme_rays(stars.around(v)),
                        to_point(mesh::decode_vertex_normal(stored.vertices[v]))),
-         least_rad, excused.vertices);
+         min_rad, excused.vertices);
   return proof;
 }
 

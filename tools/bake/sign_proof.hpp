@@ -11,7 +11,7 @@ namespace firmtouch::tools {
 
 /// The least margin of a stored normal that the baker takes. Less has a needle or a knife's edge so
 /// sharp that, near the surface, the rounding of the direction to the query could turn its side.
-constexpr double kLeastMargin_rad = 3e-4;
+constexpr double kMinMargin_rad = 3e-4;
 
 /// The margin by which each stored pseudonormal may still turn before it tells a wrong side for
 /// some point whose closest point lies on its feature (Baerentzen & Aanaes 2005, equation 15): what
@@ -38,7 +38,7 @@ struct Excused {
 /// Pre: as make_pseudonormals().
 /// Bounds: O(sum of valence^2 log valence).
 SignProof prove_signs(const Surface& surface, const ExactNormals& exact,
-                      const Pseudonormals& stored, double least_rad, const Excused& excused);
+                      const Pseudonormals& stored, double min_rad, const Excused& excused);
 
 /// Features whose stored side differs from the winding number beside them: where a surface crosses
 /// itself both are right in their way. Looked at: for each face its centroid, for each edge its

@@ -11,9 +11,9 @@ namespace {
 
 constexpr uint32_t kWalks = 60, kQueries = 50;  // each from anywhere
 constexpr double kStep = 0.002;                 // of the extent, a query
-constexpr query::Budget kMost{2000};
+constexpr query::Budget kMax{2000};
 constexpr uint64_t kCurveBytes = 5000;
-constexpr double kMostDoubt = 8;
+constexpr double kMaxDoubt = 8;
 
 // Of straight walks within a quarter of the extent about the model's box.
 double work_of(const spline::View& model) {
@@ -30,7 +30,7 @@ double work_of(const spline::View& model) {
     const Point step = way * (kStep * extent_m / std::sqrt(dot(way, way)));
     spline::Hint hint;
     for (uint32_t i = 0; i <= kQueries; ++i) {
-      const spline::Closest c = closest_point(model, to_vec3(from + step * i), kMost, hint);
+      const spline::Closest c = closest_point(model, to_vec3(from + step * i), kMax, hint);
       if (i > 0)
         work += cortex_m7_instructions(model.is_surface(), c.certificate.steps, c.evaluations);
     }
@@ -51,7 +51,7 @@ std::vector<Section> bake_fast_curve(const SplineModel& model, const std::string
   std::vector<Section> finest = bake_spline(model, name, detail, report);
   if (!report.problem.empty() || !report.is_rational || is_small) return finest;
   SplineReport coarser = report;
-  for (std::vector<Section> made = finest; coarser.problem.empty() && detail.doubt <= kMostDoubt;) {
+  for (std::vector<Section> made = finest; coarser.problem.empty() && detail.doubt <= kMaxDoubt;) {
     if (coarser.bytes <= kCurveBytes) {
       report = coarser;
       return made;

@@ -67,9 +67,9 @@ Point at(const spline::LeafShape& shape, double x, double y) {
   return sum * (1 / w);
 }
 
-double volume(const spline::Box& box, double least_m) {
+double volume(const spline::Box& box, double min_m) {
   double product = 1;
-  for (const float half_m : box.half_m) product *= static_cast<double>(half_m) + least_m;
+  for (const float half_m : box.half_m) product *= static_cast<double>(half_m) + min_m;
   return product;
 }
 
@@ -180,10 +180,10 @@ void place_corners(const Cut& cut, spline::Grid& grid, std::vector<spline::Corne
 
 // The largest unit whose bytes reach up to the value: so the least of its others is 2^-31 of it.
 float unit_for(float most) {
-  constexpr float kLeast = 0x1p-100f;
-  const uint32_t bits = math::bits_of(most) + 0xFFFFFu, least = math::bits_of(kLeast);
+  constexpr float kMin = 0x1p-100f;
+  const uint32_t bits = math::bits_of(most) + 0xFFFFFu, least = math::bits_of(kMin);
   const uint32_t below = bits >= (255u << 20) ? bits - (255u << 20) : 0;
-  return below < least ? kLeast : math::float_of(below & ~0xFFFFFu);
+  return below < least ? kMin : math::float_of(below & ~0xFFFFFu);
 }
 
 // Cells as large as may be, but for weights that vary too much on them.
@@ -244,9 +244,9 @@ void store_radii(const Cut& cut, uint32_t number, spline::Grid& grid,
       const spline::Quad quad = spline::stored_quad(piece, grid, corners.data(), part);
       const float radius_m = spline::radius_for(cut.shapes[i], cut.corners[i], quad,
                                                 spline::own_of(piece, part, leaf));
-      float& most_m =
+      float& max_m =
           needed_m[radius_of(grid, part, spline::halvings_of(piece, part.depth)) - first];
-      most_m = std::max(most_m, radius_m);
+      max_m = std::max(max_m, radius_m);
       if (part.depth == 0) break;
     }
   }

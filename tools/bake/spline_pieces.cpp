@@ -160,7 +160,7 @@ spline::LeafShape shape_of(const StoredPiece& stored, uint32_t level_u, uint32_t
   const spline::Part part = spline::part_of(piece, index_u, index_v);
   spline::LeafShape shape;
   spline::derive(piece, stored.coefficients.data(), part, shape);
-  if (shape.least_weight > 0.0f) spline::bound_bends(part, shape);
+  if (shape.min_weight > 0.0f) spline::bound_bends(part, shape);
   return shape;
 }
 

@@ -91,7 +91,7 @@ SplineTree build_spline_tree(const std::vector<StoredPiece>& pieces) {
     const spline::Piece& piece = pieces[p].piece;
     spline::CurveBend bend = curve_bend_of(pieces[p]);
     for (const float bound : {bend.fixed_m2, bend.turning_m, bend.noise_m2, bend.noise_turning_m})
-      if (!(bound <= spline::kMostBend)) return {};
+      if (!(bound <= spline::kMaxBend)) return {};
     for (uint32_t u = 0; u < 1u << piece.level_u; ++u) {
       Part part{};
       part.shape = shape_of(pieces[p], piece.level_u, u, piece.level_v, 0);

@@ -12,8 +12,8 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr uint32_t kAnywhere = 1500, kBetween = 1000, kMostCentres = 1500;
-constexpr uint32_t kMostSteps = 20000;  // of one query: what takes more is told as that
+constexpr uint32_t kAnywhere = 1500, kBetween = 1000, kMaxCentres = 1500;
+constexpr uint32_t kMaxSteps = 20000;  // of one query: what takes more is told as that
 constexpr size_t kClimbers = 12;
 constexpr int kClimbs = 120;
 
@@ -24,7 +24,7 @@ class Finder {
   void ask(const Point& p) {
     const math::Vec3 at_m = to_vec3(p);
     spline::Hint hint;
-    const spline::Closest c = spline::closest_point(model_, at_m, {kMostSteps}, hint);
+    const spline::Closest c = spline::closest_point(model_, at_m, {kMaxSteps}, hint);
     seen_.push_back({c.certificate.steps, c.evaluations, at_m});
   }
 
@@ -51,7 +51,7 @@ class Finder {
 
   // About the middles of leaves, along each of the two ways: x + n (x' . x') / (n . x'').
   void ask_centres() {
-    const uint32_t step = model_.leaf_count() / kMostCentres + 1;
+    const uint32_t step = model_.leaf_count() / kMaxCentres + 1;
     for (uint32_t i = 0; i < model_.leaf_count(); i += step) {
       if (!model_.is_leaf(i)) continue;
       const spline::View::Place leaf = model_.place_of(i);

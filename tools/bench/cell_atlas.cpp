@@ -201,7 +201,7 @@ void CellAtlas::fill(uint32_t at, const Square& s, std::vector<uint32_t> atoms) 
   const bool is_certain =
       std::all_of(entries.begin(), entries.end(), [](const Entry& e) { return e.is_certain; });
   const int level = cells_[at].level;
-  if ((is_certain && entries.size() <= options_.most_entries) || level == options_.levels) {
+  if ((is_certain && entries.size() <= options_.max_entries) || level == options_.levels) {
     cells_[at].first = static_cast<uint32_t>(entries_.size());
     cells_[at].count = static_cast<uint32_t>(entries.size());
     entries_.insert(entries_.end(), entries.begin(), entries.end());

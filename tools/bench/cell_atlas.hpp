@@ -12,9 +12,9 @@ namespace firmtouch::bench {
 class CellAtlas {
  public:
   struct Options {
-    int levels = 6;           // of the quadtree
-    size_t most_entries = 2;  // of a cell, if it need not be cut further
-    double margin = 0.25;     // beyond the control points, of the longest side
+    int levels = 6;          // of the quadtree
+    size_t max_entries = 2;  // of a cell, if it need not be cut further
+    double margin = 0.25;    // beyond the control points, of the longest side
   };
   /// Pre: the curve lies in a plane of one z; degree <= 5.
   CellAtlas(const tools::SplineCurve& curve, const Options& options);

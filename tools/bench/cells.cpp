@@ -25,17 +25,17 @@ constexpr double kLevel = 12, kEntry = 60;
 
 struct Sum {
   double entries = 0, evaluations = 0, steps = 0, cost = 0;
-  uint32_t most_entries = 0, most_evaluations = 0;
+  uint32_t max_entries = 0, max_evaluations = 0;
   double worst_cost = 0;
 
   void add(uint32_t listed, uint32_t evaluated, uint32_t nodes, double instructions) {
     entries += listed, evaluations += evaluated, steps += nodes, cost += instructions;
-    most_entries = std::max(most_entries, listed);
-    most_evaluations = std::max(most_evaluations, evaluated);
+    max_entries = std::max(max_entries, listed);
+    max_evaluations = std::max(max_evaluations, evaluated);
     worst_cost = std::max(worst_cost, instructions);
   }
   std::string evaluated(double queries) const {
-    return number_text(evaluations / queries) + " / " + std::to_string(most_evaluations);
+    return number_text(evaluations / queries) + " / " + std::to_string(max_evaluations);
   }
   std::string costs(double queries) const {
     return number_text(std::round(cost / queries)) + " / " + number_text(worst_cost);
@@ -89,7 +89,7 @@ std::vector<std::string> row_of(uint64_t seed, int levels, size_t positions, siz
           std::to_string(atlas.leaves()),
           percent(shares.one) + " / " + percent(shares.two) + " / " + percent(shares.more),
           percent(shares.uncertain),
-          number_text(cells.entries / queries) + " / " + std::to_string(cells.most_entries),
+          number_text(cells.entries / queries) + " / " + std::to_string(cells.max_entries),
           number_text(tree.steps / queries),
           tree.evaluated(queries),
           cells.evaluated(queries),

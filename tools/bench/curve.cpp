@@ -23,7 +23,7 @@ constexpr uint32_t kQueries = 20000;
 constexpr uint32_t kPublishedSamples = 2000;
 constexpr uint32_t kLongSamples = 2000000;
 constexpr double kPublished_us = 200;  // Morris 2006: 2,000 points, N = 100, a 1 GHz Pentium 4
-constexpr double kMostBytes = 24;      // a sample
+constexpr double kMaxBytes = 24;       // a sample
 constexpr double kBuildGoal = 3;       // of the peer's time
 constexpr double kWrongApart = 4e-7;   // of the diagonal
 
@@ -134,7 +134,7 @@ void run_case(const CurveCase& curve, const Peer& peer, Report& report) {
   report.figure("baked and proven", curve.name, curve.bake_s, "s");
   report.bar("bytes a sample that a tick reads", curve.name,
              static_cast<double>(curve.report.tick_bytes) / curve.report.samples, "bytes",
-             kMostBytes);
+             kMaxBytes);
   run_race({"hand led along, warm", walk, true,
             is_small   ? 0.5
             : is_large ? 0.05

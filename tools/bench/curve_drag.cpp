@@ -47,7 +47,7 @@ std::vector<math::Vec3> inside(const Corner& corner) {
 }
 
 struct Drag {
-  double mean_N = 0, most_N = 0, most_jump_N = 0;
+  double mean_N = 0, max_N = 0, max_jump_N = 0;
 };
 
 // The work that the hand does, over its way: it begins and ends at the same distance, so that a spring
@@ -67,9 +67,9 @@ Drag drag_of(const std::vector<math::Vec3>& points, Force force_N) {
     work_J += -(double{before.x} + double{now.x}) / 2 * step[0] -
               (double{before.y} + double{now.y}) / 2 * step[1];
     way_m += length_m;
-    drag.most_N = std::max(drag.most_N, against_J / length_m);
-    drag.most_jump_N = std::max(drag.most_jump_N, std::hypot(double{now.x} - double{before.x},
-                                                             double{now.y} - double{before.y}));
+    drag.max_N = std::max(drag.max_N, against_J / length_m);
+    drag.max_jump_N = std::max(drag.max_jump_N, std::hypot(double{now.x} - double{before.x},
+                                                           double{now.y} - double{before.y}));
     before = now;
   }
   drag.mean_N = work_J / way_m;
@@ -159,9 +159,9 @@ void run_drag(Report& report) {
       const float weight_m = static_cast<float>(share) * curve.view.head().length_m;
       const Drag ours = guide_drag(curve, points, static_cast<float>(share));
       const Drag published = published_drag(curve, points, weight_m);
-      rows.push_back({number_text(share), newtons(published.mean_N), newtons(published.most_N),
-                      newtons(published.most_jump_N), newtons(ours.mean_N), newtons(ours.most_N),
-                      newtons(ours.most_jump_N)});
+      rows.push_back({number_text(share), newtons(published.mean_N), newtons(published.max_N),
+                      newtons(published.max_jump_N), newtons(ours.mean_N), newtons(ours.max_N),
+                      newtons(ours.max_jump_N)});
     }
     report.table({"weight / length", "published: mean N", "most N", "most jump N", "ours: mean N",
                   "most N", "most jump N"},

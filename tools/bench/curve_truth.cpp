@@ -22,7 +22,7 @@ struct Place {
 Place place(const math::Vec3& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
 // The least cost of all segments, each at its own closest point, as the published problem has it.
-double least_cost(const curve::View& view, const math::Vec3& at, double weight_m, double arc) {
+double min_cost(const curve::View& view, const math::Vec3& at, double weight_m, double arc) {
   const Place p = place(at);
   double least = HUGE_VAL;
   for (uint32_t i = 0; i < view.segment_count(); ++i) {
@@ -49,13 +49,13 @@ void judge(const CurveCase& curve, const std::vector<math::Vec3>& points, Wrong&
   query::Hint hint, held;
   for (const math::Vec3& p : points) {
     const float told = closest_point(curve.view, p, query::kUnlimited, hint).distance_m;
-    const double truth = least_cost(curve.view, p, 0, 0);
+    const double truth = min_cost(curve.view, p, 0, 0);
     if (!(std::abs(double{told} - truth) <= kPromise * std::max(diagonal, truth))) ++wrong.closest;
     const double weight_m = diagonal * std::pow(10.0, random.between(-2, 1));
     const auto arc = static_cast<float>(random.uniform());
     const curve::ArcPenalty penalty{static_cast<float>(weight_m), arc, true};
     const float cost_m = guided_point(curve.view, p, penalty, query::kUnlimited, held).cost_m;
-    const double least = least_cost(curve.view, p, double{penalty.weight_m}, double{arc});
+    const double least = min_cost(curve.view, p, double{penalty.weight_m}, double{arc});
     const double slack = kPromise * std::max(diagonal, least) + kArcLoss * double{penalty.weight_m};
     if (!(std::abs(double{cost_m} - least) <= slack)) ++wrong.penalised;
   }

@@ -57,7 +57,7 @@ ProgressiveHull built(const Model& model, HullStrategy strategy, uint32_t faces,
 }
 
 double void_percent(const Model& model, const ProgressiveHull& hull, uint32_t faces) {
-  if (hull.least_faces() > faces) return NAN;
+  if (hull.min_faces() > faces) return NAN;
   const double before = tools::enclosed_volume_m3(model.surface);
   return 100 * (tools::enclosed_volume_m3(tools::hull_level(hull, faces)) - before) / before;
 }
@@ -168,7 +168,7 @@ void run_limits(const Model& model, Report& report) {
     HullReport built_report;
     const ProgressiveHull hull = tools::build_hull(model.surface, options, built_report);
     rows.push_back({limits.name, percent(void_percent(model, hull, 2000)),
-                    percent(void_percent(model, hull, 200)), std::to_string(hull.least_faces())});
+                    percent(void_percent(model, hull, 200)), std::to_string(hull.min_faces())});
   }
   report.table({"valence, compactness, turn", "void at 2,000 faces, %", "void at 200 faces, %",
                 "stalls at faces"},
@@ -239,7 +239,7 @@ void run_bases(const Model& model, HullStrategy strategy, Report& report) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& told : kHorse) {
     const uint32_t base = static_cast<uint32_t>(told[0]);
-    if (base < hull.least_faces() || base >= model.surface.faces.size()) continue;
+    if (base < hull.min_faces() || base >= model.surface.faces.size()) continue;
     tools::Refinement refinement(hull, base);
     tools::RefinementCounts counts;
     std::vector<std::vector<tools::SegmentHit>> answers;

@@ -8,7 +8,7 @@ namespace {
 
 using tools::Point;
 
-constexpr uint32_t kMostAxes = 13;
+constexpr uint32_t kMaxAxes = 13;
 
 // Of a 26-DOP: 3 sides, 4 corners, 6 edges. A 14-DOP has sides and corners, an 18-DOP sides and
 // edges.
@@ -116,8 +116,8 @@ bool KdopTree::clips(uint32_t node, const double* from, const double* rate) cons
 }
 
 uint32_t KdopTree::crossings(Point a, Point b, Test test, uint64_t& visits) const {
-  double from[kMostAxes], rate[kMostAxes];
-  float low[kMostAxes], high[kMostAxes];
+  double from[kMaxAxes], rate[kMaxAxes];
+  float low[kMaxAxes], high[kMaxAxes];
   for (uint32_t axis = 0; axis < axes_; ++axis) {
     const double p = along(axis_of(axes_, axis), a), q = along(axis_of(axes_, axis), b);
     from[axis] = p;

@@ -64,7 +64,7 @@ void tell(const Model& model, const PointSet& set, const std::vector<Entrant>& e
     rows.push_back({entrants[i].kind, entrants[i].order, entrants[i].upper,
                     fixed(c.nodes / queries, 1), fixed(c.boxes / queries, 1),
                     fixed(c.triangles / queries, 1), fixed(us[i + 1], 3),
-                    std::to_string(c.most_pending) + (c.overflows > 0 ? " (full)" : ""),
+                    std::to_string(c.max_pending) + (c.overflows > 0 ? " (full)" : ""),
                     fixed(entrants[i].tree_bytes / triangles, 1)});
   }
   report.heading(model.name + ", " + set.what + ", each query on its own, a query");

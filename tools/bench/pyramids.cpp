@@ -61,7 +61,7 @@ struct Spread {
     most = std::max(most, value);
     sum += value;
     negative += value > 0 ? 0u : 1u;
-    refused += value >= tools::kLeastMargin_rad ? 0u : 1u;
+    refused += value >= tools::kMinMargin_rad ? 0u : 1u;
   }
   void tell(std::vector<std::string>& row) const {
     for (const double value : {least, sum / kPyramids, most}) row.push_back(number_text(value));

@@ -41,7 +41,7 @@ Point hull_normal(const std::vector<Corner>& corners) {
   return nearest_of_hull(tips);
 }
 
-Point most_along(const std::vector<Corner>& corners, Point r) {
+Point max_along(const std::vector<Corner>& corners, Point r) {
   Point best;
   for (const Corner& c : corners) {
     const Point normal = unit(cross(c.next, c.last));
@@ -94,7 +94,7 @@ Point reference_normal(NormalKind kind, const std::vector<Corner>& corners, Poin
     case NormalKind::kGlassnerBall:
       return fitted(corners, true);
     case NormalKind::kHuang:
-      return most_along(corners, r);
+      return max_along(corners, r);
     case NormalKind::kMax:
       return crossed([](const Corner& c) { return dot(c.next, c.next) * dot(c.last, c.last); });
     case NormalKind::kMaxAsPrinted:

@@ -165,8 +165,8 @@ Contender contender(Entry& entry, uint32_t transfers) {
 }
 
 template <uint32_t Capacity>
-void race(const Peer* peer, uint32_t least_transfers, bool is_bar, Report& report) {
-  const uint32_t transfers = std::max(least_transfers, 4 * Capacity);
+void race(const Peer* peer, uint32_t min_transfers, bool is_bar, Report& report) {
+  const uint32_t transfers = std::max(min_transfers, 4 * Capacity);
   report.heading("Records of 128 B, thread to thread, " + std::to_string(transfers) +
                  " transfers, capacity " + std::to_string(Capacity));
   report.stage("transfers, capacity " + std::to_string(Capacity));
@@ -178,9 +178,9 @@ void race(const Peer* peer, uint32_t least_transfers, bool is_bar, Report& repor
   for (Entry& entry : entries) contenders.push_back(contender(entry, transfers));
   if (peer != nullptr)
     contenders.push_back(peer->contender("ring", "128", std::to_string(transfers)));
-  const std::vector<double> least_us = medians_us(contenders);
+  const std::vector<double> min_us = medians_us(contenders);
   for (size_t i = 0; i < 3; ++i) {
-    report.figure(entries[i].name, "", least_us[i] * 1e3, "ns a record", "least of 20 runs");
+    report.figure(entries[i].name, "", min_us[i] * 1e3, "ns a record", "least of 20 runs");
     report.figure("the same", "", middle(entries[i].medians_us) * 1e3, "ns a record",
                   "median of 20 runs");
   }
@@ -191,15 +191,15 @@ void race(const Peer* peer, uint32_t least_transfers, bool is_bar, Report& repor
     else
       report.figure(what, "", times, "x", "");
   };
-  against("throughput against the deque, least runs", least_us[1] / least_us[0]);
+  against("throughput against the deque, least runs", min_us[1] / min_us[0]);
   report.figure("the same, median runs", "", middle(entries[1].medians_us) / median_us, "x", "");
   report.figure("throughput against the deque taken under one lock, least runs", "",
-                least_us[2] / least_us[0], "x", "");
+                min_us[2] / min_us[0], "x", "");
   report.figure("the same, median runs", "", middle(entries[2].medians_us) / median_us, "x", "");
   if (peer != nullptr) {
-    report.figure("peer", "", least_us[3] * 1e3, "ns a record", "least of 20 runs");
-    report.bar_at_least("throughput against the peer, least runs", "", least_us[3] / least_us[0],
-                        "x", 1);
+    report.figure("peer", "", min_us[3] * 1e3, "ns a record", "least of 20 runs");
+    report.bar_at_least("throughput against the peer, least runs", "", min_us[3] / min_us[0], "x",
+                        1);
   }
 }
 

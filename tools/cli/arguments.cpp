@@ -58,9 +58,9 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
     }
     values_[name] = value;
   }
-  if (positionals_.size() < command.least_positionals) refuse("something is missing");
-  if (positionals_.size() > command.most_positionals) {
-    refuse("one word too many: '" + positionals_[command.most_positionals] + "'");
+  if (positionals_.size() < command.min_positionals) refuse("something is missing");
+  if (positionals_.size() > command.max_positionals) {
+    refuse("one word too many: '" + positionals_[command.max_positionals] + "'");
   }
 }
 

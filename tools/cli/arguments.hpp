@@ -21,8 +21,8 @@ struct Command {
   const char* summary;  // one line
   const char* details;  // further lines of --help, or ""
   std::vector<Option> options;
-  size_t least_positionals;
-  size_t most_positionals;
+  size_t min_positionals;
+  size_t max_positionals;
 };
 
 /// The words after a command's name, sorted into options and the rest. Takes `--name value` and

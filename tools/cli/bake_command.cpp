@@ -102,9 +102,9 @@ void add_hull(const Arguments& arguments, BakeOptions& options) {
   }
   if (options.hull_faces != 0 && !options.is_signed)
     fail_usage("bake: a hull needs an inside: leave out --unsigned or --hull-faces");
-  if (options.hull.limits.max_valence > hull::kMostLink)
+  if (options.hull.limits.max_valence > hull::kMaxLink)
     fail_usage("bake: --max-valence: a hull in an asset has at most " +
-               std::to_string(hull::kMostLink));
+               std::to_string(hull::kMaxLink));
   if (!options.has_tree && options.map_cells != 0)
     fail_usage("bake: --distance-map needs the tree: leave out --no-tree");
 }
@@ -147,18 +147,18 @@ BakeOptions bake_options(const Arguments& arguments) {
   options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
                  (options.close_holes ? " --close-holes" : "") +
                  (options.purpose == Purpose::kFast ? "" : " " + purpose);
-  options.map_cells = arguments.count("--distance-map", 0, 1, field::kMostCellsAnAxis - 2);
+  options.map_cells = arguments.count("--distance-map", 0, 1, field::kMaxCellsAnAxis - 2);
   if (options.map_cells != 0)
     options.text += " --distance-map " + std::to_string(options.map_cells);
   options.smooth = arguments.has("--smooth");
   if (options.smooth) options.text += " --smooth";
   options.teach = arguments.text("--teach", "");
-  options.most_deviation_m = arguments.number("--max-deviation", kUsualDeviation_m, 1e-9);
+  options.max_deviation_m = arguments.number("--max-deviation", kUsualDeviation_m, 1e-9);
   if (arguments.has("--max-deviation") && options.teach.empty())
     fail_usage("bake: --max-deviation is of a taught guide; give --teach NAME too");
   if (!options.teach.empty())
     options.text += " --teach " + options.teach + " --max-deviation " +
-                    tools::number_text(options.most_deviation_m);
+                    tools::number_text(options.max_deviation_m);
   return options;
 }
 

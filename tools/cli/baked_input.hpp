@@ -29,10 +29,10 @@ struct BakeOptions {
   uint32_t hull_faces = 0;  // 0: no hull
   bool has_tree = true;     // of the mesh; without it only a hull can be asked
   tools::HullOptions hull;
-  bool smooth = false;          // cubic pieces between a curve's samples
-  std::string teach;            // what a recorded run's guide is called
-  double most_deviation_m = 0;  // of the guide from the run
-  std::string text;             // as they stand in the provenance
+  bool smooth = false;         // cubic pieces between a curve's samples
+  std::string teach;           // what a recorded run's guide is called
+  double max_deviation_m = 0;  // of the guide from the run
+  std::string text;            // as they stand in the provenance
 };
 
 /// Of --unit, --unsigned and --close-holes.

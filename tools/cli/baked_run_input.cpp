@@ -18,7 +18,7 @@ namespace {
 constexpr uint32_t kEnable = 1u << 0,
                    kEncoderFault = 1u << 3;  // of input.lines, as every log has them
 
-constexpr int kMostTries = 8;
+constexpr int kMaxTries = 8;
 
 // What a record says of the tool.
 struct Tick {
@@ -79,8 +79,8 @@ Run run_of(const std::vector<Tick>& ticks, const log::Header& header) {
 }
 
 // The greatest distance of any place from the cubic pieces, as the firmware tells it.
-double most_off_m(const tools::CurvePoints& points, const std::vector<tools::Place>& places,
-                  const std::string& path) {
+double max_off_m(const tools::CurvePoints& points, const std::vector<tools::Place>& places,
+                 const std::string& path) {
   tools::CurvePoints smooth = points;
   smooth.is_smooth = true;
   tools::CurveReport report;
@@ -89,28 +89,28 @@ double most_off_m(const tools::CurvePoints& points, const std::vector<tools::Pla
   curve::View view;
   (void)curve::open(tools::curve_sections(sections, "smooth"), view);
   query::Hint hint;
-  double most_m = 0;
+  double max_m = 0;
   for (const tools::Place& p : places) {
     const math::Vec3 at{static_cast<float>(p.x_m), static_cast<float>(p.y_m),
                         static_cast<float>(p.z_m)};
-    most_m = std::max(
-        most_m,
+    max_m = std::max(
+        max_m,
         static_cast<double>(curve::closest_point(view, at, query::kUnlimited, hint).distance_m));
   }
-  return most_m;
+  return max_m;
 }
 
 // Cubic pieces leave the straight ones that were judged: thinned less, until they too keep near.
 tools::ThinnedRun thinned_for(const Run& run, const BakeOptions& options, const std::string& path) {
-  double most_m = options.most_deviation_m;
-  for (int tries = 0; tries < kMostTries; ++tries, most_m /= 2) {
-    tools::ThinnedRun thinned = tools::thin_run(run.places, most_m, path);
+  double max_m = options.max_deviation_m;
+  for (int tries = 0; tries < kMaxTries; ++tries, max_m /= 2) {
+    tools::ThinnedRun thinned = tools::thin_run(run.places, max_m, path);
     if (!thinned.points.problem.empty() || !options.smooth) return thinned;
-    thinned.most_deviation_m = most_off_m(thinned.points, run.places, path);
-    if (thinned.most_deviation_m <= options.most_deviation_m) return thinned;
+    thinned.max_deviation_m = max_off_m(thinned.points, run.places, path);
+    if (thinned.max_deviation_m <= options.max_deviation_m) return thinned;
   }
   fail_input(path + ": no smooth guide through its places keeps within " +
-             tools::number_text(options.most_deviation_m) +
+             tools::number_text(options.max_deviation_m) +
              " m of the run; allow more, or leave out --smooth");
 }
 
@@ -144,8 +144,8 @@ BakedInput bake_run_input(const std::string& path, const BakeOptions& options, P
         baked.report.begin() + 1,
         sentence("taught by %zu recorded places: %zu samples; no place is farther from the guide "
                  "than %.3g m (%.3g m allowed)",
-                 run.places.size(), thinned.points.samples_m.size(), thinned.most_deviation_m,
-                 options.most_deviation_m));
+                 run.places.size(), thinned.points.samples_m.size(), thinned.max_deviation_m,
+                 options.max_deviation_m));
     return baked;
   } catch (const log::Refused& refused) {
     fail_input(refused.what());

@@ -26,12 +26,12 @@ std::vector<uint8_t> read_file(const std::string& path) {
 }
 
 std::vector<uint8_t> read_model(const std::string& path) {
-  return taken(tools::load_file(path, tools::kMostLineBytes), path);
+  return taken(tools::load_file(path, tools::kMaxLineBytes), path);
 }
 
 std::string read_standard_input() {
   const std::vector<uint8_t> bytes =
-      taken(tools::load_stream(stdin, tools::kMostLineBytes), "standard input");
+      taken(tools::load_stream(stdin, tools::kMaxLineBytes), "standard input");
   return {bytes.begin(), bytes.end()};
 }
 

@@ -43,9 +43,9 @@ std::string json_of(const log::Statistics& s) {
   Json period;
   period.add("count", s.period.count).add("median_us", s.period.median_us);
   period.add("mean_us", s.period.mean_us).add("deviation_us", s.period.deviation_us);
-  period.add("least_us", s.period.least_us).add("p99_us", s.period.p99_us);
-  period.add("p999_us", s.period.p999_us).add("most_us", s.period.most_us);
-  period.add("most_number", s.period.most_number);
+  period.add("least_us", s.period.min_us).add("p99_us", s.period.p99_us);
+  period.add("p999_us", s.period.p999_us).add("most_us", s.period.max_us);
+  period.add("most_number", s.period.max_number);
   Json all;
   all.add("records", s.records).add("blocks", s.blocks).add("missing", s.missing);
   all.add("first_number", s.first_number).add("last_number", s.last_number);
@@ -67,7 +67,7 @@ std::string json_of(const log::Statistics& s) {
                               .add("first_number", s.not_finite.first_number)
                               .add("first_field", tools::json_text(s.not_finite.first_field))
                               .object());
-  all.add("most_force_N", s.most_force_N).add("most_force_number", s.most_force_number);
+  all.add("most_force_N", s.max_force_N).add("most_force_number", s.max_force_number);
   all.add("faults", json_list(s.faults, [](const log::Statistics::Fault& fault) {
             return Json()
                 .add("what", tools::json_text(fault.what))

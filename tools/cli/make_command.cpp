@@ -22,9 +22,9 @@ namespace {
 constexpr uint32_t kWalkPoints = 20000;
 constexpr uint32_t kPathPoints = 2000;
 constexpr uint32_t kPartTriangles = 20000;
-constexpr uint32_t kMostPoints = 100000000;
-constexpr uint32_t kControlPoints = 15, kMostControlPoints = 1000;  // of a spline, in one direction
-constexpr double kRise = 0.15;                                      // of a surface's hills
+constexpr uint32_t kMaxPoints = 100000000;
+constexpr uint32_t kControlPoints = 15, kMaxControlPoints = 1000;  // of a spline, in one direction
+constexpr double kRise = 0.15;                                     // of a surface's hills
 
 // Of what is made: the format it is written in (a name that says another would lie), and its own options.
 struct Kind {
@@ -49,13 +49,13 @@ std::string made_part(const Arguments& arguments, uint64_t seed) {
 
 std::string made_path(const Arguments& arguments, uint64_t seed) {
   return tools::to_csv(
-      tools::make_path(seed, arguments.count("--points", kPathPoints, 16, kMostPoints)));
+      tools::make_path(seed, arguments.count("--points", kPathPoints, 16, kMaxPoints)));
 }
 
 std::string made_curve(const Arguments& arguments, uint64_t seed) {
   tools::SplineModel model;
   model.curves.push_back(tools::winding_curve(
-      seed, arguments.count("--control-points", kControlPoints, 4, kMostControlPoints),
+      seed, arguments.count("--control-points", kControlPoints, 4, kMaxControlPoints),
       !arguments.has("--space"), arguments.has("--weights")));
   model.curves[0].is_planar = !arguments.has("--space");
   return tools::to_iges(model);
@@ -64,7 +64,7 @@ std::string made_curve(const Arguments& arguments, uint64_t seed) {
 std::string made_surface(const Arguments& arguments, uint64_t seed) {
   tools::SplineModel model;
   model.surfaces.push_back(
-      tools::hilly_surface(seed, arguments.count("--control-points", 8, 4, kMostControlPoints),
+      tools::hilly_surface(seed, arguments.count("--control-points", 8, 4, kMaxControlPoints),
                            kRise, arguments.has("--weights")));
   return tools::to_iges(model);
 }
@@ -79,7 +79,7 @@ std::string walk_about_spline(const std::string& path, uint64_t seed, uint32_t p
 std::string made_walk(const Arguments& arguments, uint64_t seed) {
   const std::string& model = arguments.positionals()[1];
   forbid_overwriting(arguments.text("-o", ""), model);
-  const uint32_t points = arguments.count("--points", kWalkPoints, 1, kMostPoints);
+  const uint32_t points = arguments.count("--points", kWalkPoints, 1, kMaxPoints);
   if (extension_of(model) == ".csv") {
     const tools::CurvePoints curve = tools::read_curve_csv(model, 1.0);
     if (!curve.problem.empty()) fail_input(curve.problem);

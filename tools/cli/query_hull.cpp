@@ -216,7 +216,7 @@ void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& 
   const std::vector<uint32_t> words = tools::cut_shell(hull.view, base);
   if (words.empty()) {
     fail_input("--base " + std::to_string(base) + " is too fine: a shell numbers " +
-               std::to_string(hull::kMostShellVertices) + " vertices; ask for fewer faces");
+               std::to_string(hull::kMaxShellVertices) + " vertices; ask for fewer faces");
   }
   hull::Shell shell;
   const core::Verdict verdict = hull::open_shell(

@@ -12,9 +12,9 @@
 namespace firmtouch::cli {
 namespace {
 
-constexpr uint32_t kMostCells = 4096;
+constexpr uint32_t kMaxCells = 4096;
 // About 60 bytes a voxel while it works, and 22 in the file.
-constexpr double kMostVoxels = 1 << 29;
+constexpr double kMaxVoxels = 1 << 29;
 constexpr size_t kShown = 20;
 
 void print_report(const std::string& name, const std::vector<std::string>& lines) {
@@ -80,7 +80,7 @@ int run_voxelize(const Arguments& arguments) {
   const std::vector<std::string>& inputs = arguments.positionals();
   const std::string output = arguments.text("-o", "");
   if (!arguments.has("-n")) fail_usage("voxelize: say how fine: -n LONG_AXIS_CELLS");
-  const uint32_t cells = arguments.count("-n", 1, 1, kMostCells);
+  const uint32_t cells = arguments.count("-n", 1, 1, kMaxCells);
   if (!output.empty() && extension_of(output) != ".vti")
     fail_usage("voxelize: -o " + output + ": name it .vti");
   if (inputs.size() > INT16_MAX)
@@ -106,7 +106,7 @@ int run_voxelize(const Arguments& arguments) {
     }
     for (const SoundSurface& each : sound) surfaces.push_back(&each.surface);
     const tools::VoxelGrid grid = tools::make_voxel_grid(surfaces, cells);
-    if (static_cast<double>(grid.count[0]) * grid.count[1] * grid.count[2] > kMostVoxels)
+    if (static_cast<double>(grid.count[0]) * grid.count[1] * grid.count[2] > kMaxVoxels)
       fail_usage("voxelize: -n " + std::to_string(cells) + " makes more than " +
                  std::to_string(1 << 29) + " voxels of these models; choose less");
     progress.stage("voxelizing");

@@ -160,7 +160,7 @@ CurvePoints read_curve_csv_bytes(std::string_view text, const std::string& name,
 
 CurvePoints read_curve_csv(const std::string& path, double unit_m) {
   CurvePoints failed;
-  const LoadedFile file = load_file(path, kMostLineBytes);
+  const LoadedFile file = load_file(path, kMaxLineBytes);
   if (!file.problem.empty()) {
     failed.problem = path + ": " + file.problem;
     return failed;

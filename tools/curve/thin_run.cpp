@@ -31,8 +31,8 @@ double distance2_to_piece(const Place& p, const Place& from, const Place& along)
 
 class Thinning {
  public:
-  Thinning(const std::vector<Place>& run, double most_m)
-      : run_(run), most2_m2_(most_m * most_m * (1 - kRounding)) {}
+  Thinning(const std::vector<Place>& run, double max_m)
+      : run_(run), max2_m2_(max_m * max_m * (1 - kRounding)) {}
 
   // Whether one piece stands for the places `from` to `to`; their greatest distance from it.
   bool fits(size_t from, size_t to, double& worst2_m2) const {
@@ -41,7 +41,7 @@ class Thinning {
     worst2_m2 = 0;
     for (size_t i = from; i <= to; ++i) {
       const double distance2_m2 = distance2_to_piece(run_[i], a, along);
-      if (!(distance2_m2 <= most2_m2_)) return false;  // NaN too
+      if (!(distance2_m2 <= max2_m2_)) return false;  // NaN too
       worst2_m2 = std::max(worst2_m2, distance2_m2);
     }
     return true;
@@ -78,19 +78,19 @@ class Thinning {
 
  private:
   const std::vector<Place>& run_;
-  double most2_m2_;
+  double max2_m2_;
 };
 
 }  // namespace
 
-ThinnedRun thin_run(const std::vector<Place>& run, double most_m, const std::string& name) {
+ThinnedRun thin_run(const std::vector<Place>& run, double max_m, const std::string& name) {
   ThinnedRun thinned;
   if (run.size() < 2) {
     thinned.points.problem = name + ": " + std::to_string(run.size()) +
                              " recorded places are no path; record a run of two at least";
     return thinned;
   }
-  const Thinning thinning(run, most_m);
+  const Thinning thinning(run, max_m);
   double worst2_m2 = 0;
   size_t at = 0;
   thinned.points.samples_m.push_back(stored(run[0]));
@@ -102,7 +102,7 @@ ThinnedRun thin_run(const std::vector<Place>& run, double most_m, const std::str
       char text[200];
       std::snprintf(text, sizeof text,
                     ": a deviation of %g m is finer than float32 holds at record %zu; allow more",
-                    most_m, at);
+                    max_m, at);
       thinned.points.problem = name + text;
       return thinned;
     }
@@ -111,7 +111,7 @@ ThinnedRun thin_run(const std::vector<Place>& run, double most_m, const std::str
     thinned.points.samples_m.push_back(stored(run[at]));
     thinned.points.rows.push_back(static_cast<uint32_t>(at));
   }
-  thinned.most_deviation_m = std::sqrt(worst2_m2);
+  thinned.max_deviation_m = std::sqrt(worst2_m2);
   mend_curve(thinned.points, name);
   return thinned;
 }

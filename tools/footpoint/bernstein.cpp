@@ -6,13 +6,13 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr int kMostDegree = 32;
+constexpr int kMaxDegree = 32;
 
 // Pascal's triangle.
-const std::array<double, kMostDegree + 1>& binomials(int n) {
+const std::array<double, kMaxDegree + 1>& binomials(int n) {
   static const auto rows = [] {
-    std::array<std::array<double, kMostDegree + 1>, kMostDegree + 1> all{};
-    for (size_t i = 0; i <= kMostDegree; ++i) {
+    std::array<std::array<double, kMaxDegree + 1>, kMaxDegree + 1> all{};
+    for (size_t i = 0; i <= kMaxDegree; ++i) {
       all[i][0] = 1;
       for (size_t k = 1; k <= i; ++k) all[i][k] = all[i - 1][k - 1] + (k < i ? all[i - 1][k] : 0);
     }
@@ -90,7 +90,7 @@ int variations(const std::vector<double>& f, double noise) {
 }
 
 double casteljau(const double* f, size_t count, double t) {
-  std::array<double, kMostDegree + 1> level{};
+  std::array<double, kMaxDegree + 1> level{};
   for (size_t i = 0; i < count; ++i) level[i] = f[i];
   for (size_t r = 1; r < count; ++r)
     for (size_t i = 0; i + r < count; ++i) level[i] = (1 - t) * level[i] + t * level[i + 1];
@@ -161,7 +161,7 @@ Scalars extended(const Scalars& f, double more) {
 }
 
 double value_at(const Scalars& f, double u, double v) {
-  std::array<double, kMostDegree + 1> column{};
+  std::array<double, kMaxDegree + 1> column{};
   for (size_t j = 0; j < f.high(); ++j) column[j] = casteljau(&f.c[j * f.wide()], f.wide(), u);
   return casteljau(column.data(), f.high(), v);
 }
@@ -179,7 +179,7 @@ int last_sign(const std::vector<double>& f, double noise) {
 }
 
 void roots_of(const std::vector<double>& f, double noise, std::vector<Root>& roots, bool& is_zero) {
-  constexpr double kLeast = 1e-11;  // narrower than that two roots are one
+  constexpr double kMin = 1e-11;  // narrower than that two roots are one
   is_zero = first_sign(f, noise) == 0;
   if (is_zero) return;
   std::vector<Part> parts{{f, 0, 1}};
@@ -193,7 +193,7 @@ void roots_of(const std::vector<double>& f, double noise, std::vector<Root>& roo
       roots.push_back({part.low + part.size * refine(part.f, before), before, after});
       continue;
     }
-    if (part.size < kLeast) {
+    if (part.size < kMin) {
       roots.push_back({part.low + 0.5 * part.size, before, after});
       continue;
     }

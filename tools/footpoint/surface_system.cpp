@@ -7,9 +7,9 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr double kRounding = 256 * 2.3e-16;
-constexpr size_t kMostBoxes = 20000;
-constexpr double kLeastBox = 1e-7;  // narrower than that roots are one
-constexpr double kOutside = 1e-9;   // of a box: a root on its edge belongs to it
+constexpr size_t kMaxBoxes = 20000;
+constexpr double kMinBox = 1e-7;   // narrower than that roots are one
+constexpr double kOutside = 1e-9;  // of a box: a root on its edge belongs to it
 
 bool is_zero(double x) { return !(x < 0) && !(x > 0); }
 bool is_zero(Point p) { return is_zero(p.x) && is_zero(p.y) && is_zero(p.z); }
@@ -247,7 +247,7 @@ void SurfaceSystem::solve(Point p_m, std::vector<SurfaceRoot>& roots, size_t& bo
     Box box = std::move(stack.back());
     stack.pop_back();
     ++boxes;
-    if (++looked_at > kMostBoxes) {
+    if (++looked_at > kMaxBoxes) {
       is_complete = false;
       return;
     }
@@ -255,7 +255,7 @@ void SurfaceSystem::solve(Point p_m, std::vector<SurfaceRoot>& roots, size_t& bo
     const Content content = content_of(box);
     if (content == Content::kNone) continue;
     if (content == Content::kOneAtMost && newton(box)) continue;
-    if (box.wide < kLeastBox && box.high < kLeastBox) {
+    if (box.wide < kMinBox && box.high < kMinBox) {
       add(std::clamp(box.u + 0.5 * box.wide, 0.0, 1.0),
           std::clamp(box.v + 0.5 * box.high, 0.0, 1.0));
       continue;

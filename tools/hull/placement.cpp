@@ -24,7 +24,7 @@ Placement::Placement(const CollapseMesh& mesh, const HullGrid& grid, const HullL
     : mesh_(mesh),
       grid_(grid),
       limits_(limits),
-      least_cosine_(cosine_of_turns(limits.max_deviation_deg / 360)),
+      min_cosine_(cosine_of_turns(limits.max_deviation_deg / 360)),
       counts_(counts) {}
 
 bool Placement::may_collapse(uint32_t edge) {
@@ -115,7 +115,7 @@ bool Placement::keeps_shape(Point to) {
     after = std::min(after, compactness_of(to, b, c));
     const Point old_normal = cross(b - a, c - a), new_normal = cross(b - to, c - to);
     const double most = length(old_normal) * length(new_normal);
-    if (!(dot(old_normal, new_normal) >= least_cosine_ * most && most > 0)) {
+    if (!(dot(old_normal, new_normal) >= min_cosine_ * most && most > 0)) {
       ++counts_.deviation;
       return false;
     }

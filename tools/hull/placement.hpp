@@ -55,7 +55,7 @@ class Placement {
   const CollapseMesh& mesh_;
   const HullGrid& grid_;
   const HullLimits limits_;
-  const double least_cosine_;
+  const double min_cosine_;
   HullCounts& counts_;
   LinearProgram program_;
   std::vector<HalfSpace> spaces_;

@@ -44,7 +44,7 @@ struct ProgressiveHull {
   std::vector<uint32_t> removed_by;  // of each vertex: the collapse that removes it, or kNone
   HullGrid grid;
 
-  uint32_t least_faces() const {
+  uint32_t min_faces() const {
     return static_cast<uint32_t>(mesh_faces.size() - 2 * collapses.size());
   }
 };

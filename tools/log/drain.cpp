@@ -78,7 +78,7 @@ bool Drain::write_some(double now_s) {
 
 bool Drain::step(double now_s) {
   const uint32_t waiting = records_.waiting();
-  totals_.most_waiting = std::max(totals_.most_waiting, waiting);
+  totals_.max_waiting = std::max(totals_.max_waiting, waiting);
   if (now_s < retry_at_s_) return false;
   const bool is_due =
       waiting >= options_.block_records || now_s - last_write_s_ >= options_.flush_s;

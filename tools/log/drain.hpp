@@ -65,7 +65,7 @@ struct DrainTotals {
   uint64_t bytes = 0;
   uint32_t files = 0;
   uint32_t failures = 0;  // of the disk
-  uint32_t most_waiting = 0;
+  uint32_t max_waiting = 0;
   std::string problem;  // of the last failure
 };
 

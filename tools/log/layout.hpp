@@ -9,9 +9,9 @@ namespace firmtouch::log {
 constexpr uint8_t kMagic[8] = {'F', 'T', 'L', 'O', 'G', '\r', '\n', 0x1A};
 constexpr uint16_t kMajor = 2;
 constexpr uint16_t kMinor = 0;
-constexpr uint32_t kMostTextBytes = 1u << 22;
-constexpr uint32_t kMostRecordBytes = 1u << 14;
-constexpr uint32_t kMostPayloadBytes = 1u << 24;
+constexpr uint32_t kMaxTextBytes = 1u << 22;
+constexpr uint32_t kMaxRecordBytes = 1u << 14;
+constexpr uint32_t kMaxPayloadBytes = 1u << 24;
 
 struct FileHead {
   uint8_t magic[8];

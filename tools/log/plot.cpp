@@ -16,7 +16,7 @@ namespace firmtouch::log {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMost = 1e30;  // what a chart can take
+constexpr double kMax = 1e30;   // what a chart can take
 constexpr size_t kBins = 2400;  // twice the pixels that a line has
 constexpr double kTop = 66, kHeight = 168, kHead = 30;
 constexpr double kMargin = 20;
@@ -28,7 +28,7 @@ class Line {
  public:
   Line(size_t bins, bool is_fine) : low_(bins, kNone), high_(is_fine ? 0 : bins, kNone) {}
   void add(size_t bin, double value) {
-    if (!(std::fabs(value) <= kMost)) return;
+    if (!(std::fabs(value) <= kMax)) return;
     if (!(low_[bin] <= value)) low_[bin] = value;
     if (!high_.empty() && !(high_[bin] >= value)) high_[bin] = value;
   }
@@ -181,7 +181,7 @@ std::string svg_of(const Drawn& drawn, const std::string& title, const std::stri
   return chart::with_colours(svg + "</svg>\n");
 }
 
-bool has_time(const Statistics& s) { return s.seconds > 0 && s.seconds <= kMost; }
+bool has_time(const Statistics& s) { return s.seconds > 0 && s.seconds <= kMax; }
 
 std::string note_of(const Statistics& s, const Header& header) {
   std::string note = chart::grouped(s.records) + (s.records == 1 ? " record, " : " records, ") +

@@ -44,11 +44,11 @@ FileHead read_head(Source& source, const std::string& name, std::string& text) {
   if (crc_of(&head, offsetof(FileHead, head_crc)) != head.head_crc)
     refuse(kRuleHeadCrc, name, "its head is damaged; take another copy of it");
   if (head.reserved != 0) refuse(kRuleReserved, name, "a reserved word of its head is not 0");
-  if (head.record_bytes == 0 || head.record_bytes > kMostRecordBytes || head.record_bytes % 4 != 0)
+  if (head.record_bytes == 0 || head.record_bytes > kMaxRecordBytes || head.record_bytes % 4 != 0)
     refuse(kRuleRecordBytes, name,
            "records of " + std::to_string(head.record_bytes) + " bytes: 4 to " +
-               std::to_string(kMostRecordBytes) + " in steps of 4 are possible");
-  if (head.text_bytes > kMostTextBytes || head.text_bytes > source.size() - sizeof head)
+               std::to_string(kMaxRecordBytes) + " in steps of 4 are possible");
+  if (head.text_bytes > kMaxTextBytes || head.text_bytes > source.size() - sizeof head)
     refuse(kRuleTextCut, name, "cut off inside its head; record the run again");
   text.resize(head.text_bytes);
   if (!source.read(sizeof head, text.data(), text.size()) ||
@@ -89,7 +89,7 @@ bool Reader::look(uint64_t at, BlockHead& head, uint32_t& rule) {
     if (reserved != 0) return refused(kRuleBlockReserved);
   if (head.kind != kRecordsBlock && head.kind != kEndBlock) return refused(kRuleKind);
   const uint64_t each = head.kind == kEndBlock ? sizeof(IndexEntry) : header_.record_bytes;
-  if (head.payload_bytes != head.count * each || head.payload_bytes > kMostPayloadBytes ||
+  if (head.payload_bytes != head.count * each || head.payload_bytes > kMaxPayloadBytes ||
       (head.kind == kRecordsBlock && head.count == 0))
     return refused(kRuleLength);
   if (head.sequence < next_sequence_) return refused(kRuleSequence);
@@ -177,7 +177,7 @@ void Reader::close(const BlockHead& head) {
 
 void Reader::add_gap(uint64_t number, uint64_t count, uint64_t of_blocks) {
   missing_ += count;
-  if (count > 0 && gaps_.size() < kMostGaps) gaps_.push_back({number, count, of_blocks});
+  if (count > 0 && gaps_.size() < kMaxGaps) gaps_.push_back({number, count, of_blocks});
 }
 
 void Reader::add_damage(uint64_t from, uint64_t to, uint32_t rule) {

@@ -59,7 +59,7 @@ class Reader {
   uint64_t records() const { return records_; }
   uint32_t blocks() const { return blocks_; }
   const std::vector<Damage>& damage() const { return damage_; }
-  /// In the order of the log. At most kMostGaps are kept; missing() counts all.
+  /// In the order of the log. At most kMaxGaps are kept; missing() counts all.
   const std::vector<Gap>& gaps() const { return gaps_; }
   uint64_t missing() const { return missing_; }
   /// Whether it was closed: its end is there. One without was cut off behind its last block.
@@ -68,7 +68,7 @@ class Reader {
   /// What befell the log beside dropped records, for a message; empty where nothing did.
   std::string troubles() const;
 
-  static constexpr size_t kMostGaps = 100000;
+  static constexpr size_t kMaxGaps = 100000;
 
  private:
   bool look(uint64_t at, BlockHead& head, uint32_t& rule);

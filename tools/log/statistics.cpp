@@ -52,7 +52,7 @@ class Collector {
       const uint32_t passed = clock - last_clock_;  // the clock wraps
       all_passed_ += passed;
       if (number - result_.last_number == header_.decimation) {
-        if (passed > longest_) longest_ = passed, result_.period.most_number = number;
+        if (passed > longest_) longest_ = passed, result_.period.max_number = number;
         passed_.push_back(passed);
       }
     }
@@ -82,8 +82,8 @@ class Collector {
     for (uint32_t k = 0; k < force_->count; ++k)
       square += value(*force_, k, record) * value(*force_, k, record);
     const double force_N = std::sqrt(square);
-    if (force_N > result_.most_force_N)
-      result_.most_force_N = force_N, result_.most_force_number = number;
+    if (force_N > result_.max_force_N)
+      result_.max_force_N = force_N, result_.max_force_number = number;
   }
 
   void take_floats(uint64_t number, const uint8_t* record) {
@@ -106,11 +106,11 @@ class Collector {
       const size_t i = static_cast<size_t>(share * static_cast<double>(passed_.size()));
       return passed_[std::min(i, passed_.size() - 1)] * us;
     };
-    period.least_us = at(0);
+    period.min_us = at(0);
     period.median_us = at(0.5);
     period.p99_us = at(0.99);
     period.p999_us = at(0.999);
-    period.most_us = at(1);
+    period.max_us = at(1);
     double sum = 0, squares = 0;
     for (const uint32_t passed : passed_) sum += passed * us;
     period.mean_us = sum / static_cast<double>(passed_.size());

@@ -19,8 +19,8 @@ struct Statistics {
   struct Period {
     uint64_t count = 0;
     double median_us = 0, mean_us = 0, deviation_us = 0;
-    double least_us = 0, p99_us = 0, p999_us = 0, most_us = 0;
-    uint64_t most_number = 0;  // of the record that came latest
+    double min_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
+    uint64_t max_number = 0;  // of the record that came latest
   } period;
 
   struct Steps {
@@ -42,8 +42,8 @@ struct Statistics {
     uint64_t first_number = 0;
     std::string first_field;
   } not_finite;
-  double most_force_N = 0;
-  uint64_t most_force_number = 0;
+  double max_force_N = 0;
+  uint64_t max_force_number = 0;
 };
 
 /// Reads the log through.

@@ -42,9 +42,9 @@ std::string text_of(const Statistics& s) {
     const Statistics::Period& p = s.period;
     text += row("period", "median " + number(p.median_us) + " us, mean " + number(p.mean_us) +
                               ", deviation " + number(p.deviation_us));
-    text += row("", "least " + number(p.least_us) + ", 99 % " + number(p.p99_us) + ", 99.9 % " +
-                        number(p.p999_us) + ", most " + number(p.most_us) + " at record " +
-                        std::to_string(p.most_number));
+    text += row("", "least " + number(p.min_us) + ", 99 % " + number(p.p99_us) + ", 99.9 % " +
+                        number(p.p999_us) + ", most " + number(p.max_us) + " at record " +
+                        std::to_string(p.max_number));
   }
   if (!s.worst_steps.empty()) {
     std::string worst;
@@ -53,9 +53,9 @@ std::string text_of(const Statistics& s) {
                std::to_string(at.number);
     text += row("steps", "mean " + number(s.mean_steps) + "; " + worst);
   }
-  if (s.most_force_N > 0)
-    text += row("force", "most " + number(s.most_force_N, "%.3f") + " N at record " +
-                             std::to_string(s.most_force_number));
+  if (s.max_force_N > 0)
+    text += row("force", "most " + number(s.max_force_N, "%.3f") + " N at record " +
+                             std::to_string(s.max_force_number));
   for (const Statistics::Fault& fault : s.faults)
     text += row("fault", fault.what + ": first at record " + std::to_string(fault.first_number) +
                              ", in " + std::to_string(fault.records) + " records");

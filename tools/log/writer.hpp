@@ -17,7 +17,7 @@ class Writer {
   Writer(Sink& sink, Header header);
 
   bool begin();
-  /// One block of `count` >= 1 records (at most kMostPayloadBytes), their numbers rising.
+  /// One block of `count` >= 1 records (at most kMaxPayloadBytes), their numbers rising.
   bool append(const uint8_t* records, uint32_t count);
   /// The end block and the tail. `produced`: how many records there were in all, so that those
   /// missing behind the last one are counted too; 0: not known.

@@ -3,7 +3,7 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr double kMostWeights = 1e6;  // the largest over the smallest; float32 keeps the rest
+constexpr double kMaxWeights = 1e6;  // the largest over the smallest; float32 keeps the rest
 
 std::string text_of(double value) {
   char text[40];
@@ -16,7 +16,7 @@ std::string text_of(double value) {
 SplineDefect check_knots(const std::vector<double>& knots, int degree, size_t points,
                          const char* which) {
   const std::string name(which);
-  if (degree < 1 || degree > kMostDegree)
+  if (degree < 1 || degree > kMaxDegree)
     return {"its degree is " + std::to_string(degree) +
                 ", but degrees from 1 to 5 are read: approximate it by a lower one at export",
             0};
@@ -64,7 +64,7 @@ SplineDefect check_weights(const std::vector<ControlPoint>& points) {
     least = w < least ? w : least;
     most = w > most ? w : most;
   }
-  if (!(most <= kMostWeights * least))
+  if (!(most <= kMaxWeights * least))
     return {"its weights differ by a factor of " + text_of(most / least) +
                 ", more than 1e6: insert knots or approximate it at export",
             0};

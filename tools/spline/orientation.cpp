@@ -8,7 +8,7 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr size_t kMostNamed = 4;
+constexpr size_t kMaxNamed = 4;
 
 constexpr int kFewVotes = 2;  // one may be a corner's
 
@@ -107,10 +107,10 @@ size_t turn_closed(SplineModel& model, Shells& shells) {
 
 std::string named(const SplineModel& model, const std::vector<size_t>& which) {
   std::string text;
-  for (size_t i = 0; i < which.size() && i < kMostNamed; ++i)
+  for (size_t i = 0; i < which.size() && i < kMaxNamed; ++i)
     text += (i > 0 ? ", " : "") + model.surfaces[which[i]].where;
-  if (which.size() > kMostNamed)
-    text += " and " + std::to_string(which.size() - kMostNamed) + " more";
+  if (which.size() > kMaxNamed)
+    text += " and " + std::to_string(which.size() - kMaxNamed) + " more";
   return text;
 }
 

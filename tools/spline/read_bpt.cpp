@@ -10,7 +10,7 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr int64_t kMostPatches = 1000000, kMostPoints = 16 * kMostPatches;
+constexpr int64_t kMaxPatches = 1000000, kMaxPoints = 16 * kMaxPatches;
 
 /// The numbers of a text, each with its line.
 class Numbers {
@@ -56,12 +56,12 @@ class Reader {
 
   void read() {
     int64_t patches = 0, points = 0, first = 0, second = 0;
-    if (!count("patches", kMostPatches, patches) || !integer("patch 0", first)) return;
+    if (!count("patches", kMaxPatches, patches) || !integer("patch 0", first)) return;
     const uint64_t line = numbers_.line();
     if (!integer("patch 0", second)) return;
     is_indexed_ = numbers_.line() != line || numbers_.more_in_line();
     if (is_indexed_ ? !read_patches(patches, line, first, second) ||
-                          !count("points", kMostPoints, points) || !read_points(points)
+                          !count("points", kMaxPoints, points) || !read_points(points)
                     : !read_each(patches, line, first, second))
       return;
     std::string_view word;
@@ -126,7 +126,7 @@ class Reader {
         line = numbers_.line();
         if (!integer(name, second)) return false;
       }
-      if (first < 1 || first > kMostDegree || second < 1 || second > kMostDegree)
+      if (first < 1 || first > kMaxDegree || second < 1 || second > kMaxDegree)
         return sink_.fail(line, name + " is of degrees " + std::to_string(first) + " and " +
                                     std::to_string(second) +
                                     ", but 1 to 5 are read: mend it, or lower them at export");

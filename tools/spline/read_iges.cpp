@@ -10,7 +10,7 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr int64_t kMostIndex = 100000;  // of a control point in one direction
+constexpr int64_t kMaxIndex = 100000;  // of a control point in one direction
 
 // Entities that say how others look, are named, grouped or shown, and hold no shape of their own.
 constexpr int64_t kWithoutShape[] = {0,   124, 302, 304, 310, 312, 314,
@@ -104,7 +104,7 @@ class Reader {
                 int64_t* values, size_t count) {
     for (size_t i = 0; i < count; ++i) {
       const char* wrong = record.needed_integer(values[i]);
-      if (wrong == nullptr && (values[i] < 0 || values[i] > kMostIndex))
+      if (wrong == nullptr && (values[i] < 0 || values[i] > kMaxIndex))
         wrong = "is not from 0 to 100000";
       if (wrong != nullptr) return bad_field(record, entry, names[i], wrong);
     }
@@ -134,7 +134,7 @@ class Reader {
     // A wrong degree or count is told before so many numbers are looked for.
     const SplineDefect shape = check_knots({}, static_cast<int>(degree), points, which);
     const bool is_unfit =
-        degree < 1 || degree > kMostDegree || points <= static_cast<size_t>(degree);
+        degree < 1 || degree > kMaxDegree || points <= static_cast<size_t>(degree);
     if (is_unfit) return bad(record.line(), entry, shape);
     if (!numbers(record, entry, which, points + static_cast<size_t>(degree) + 1, values, lines))
       return false;

@@ -35,7 +35,7 @@ SplineModel read_spline_bytes(std::string_view bytes, const std::string& path, d
 }
 
 SplineModel read_spline_file(const std::string& path, double unit_m) {
-  const LoadedFile file = load_file(path, kMostLineBytes);
+  const LoadedFile file = load_file(path, kMaxLineBytes);
   if (!file.problem.empty()) {
     SplineModel refused;
     refused.problem = path + ": " + file.problem;

@@ -6,8 +6,8 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr double kMostCoordinate_m = 1e9;
-constexpr double kLeastExtent_m = 1e-6;
+constexpr double kMaxCoordinate_m = 1e9;
+constexpr double kMinExtent_m = 1e-6;
 constexpr double kFlatness = 1e-9;  // of the extent
 
 Point place_of(const ControlPoint& p) { return {p.x, p.y, p.z}; }
@@ -84,7 +84,7 @@ void SplineSink::add(SplineCurve curve, uint64_t line) {
   curve.piece = pieces_;
   const size_t spans = spans_within(curve.knots, curve.t0, curve.t1);
   const std::vector<BezierCurve> pieces = bezier_pieces(curve);
-  if (pieces.empty() || !(extent_of(curve.points) >= kLeastExtent_m)) {
+  if (pieces.empty() || !(extent_of(curve.points) >= kMinExtent_m)) {
     defect(line, "length",
            curve.where +
                " has no length (less than a thousandth of a millimetre): remove it, or "
@@ -102,7 +102,7 @@ void SplineSink::add(SplineSurface surface, uint64_t line) {
   const size_t spans = spans_within(surface.knots_u, surface.u0, surface.u1) *
                        spans_within(surface.knots_v, surface.v0, surface.v1);
   const size_t kept = bezier_pieces(surface).size();
-  if (kept == 0 || !(extent_of(surface.points) >= kLeastExtent_m)) {
+  if (kept == 0 || !(extent_of(surface.points) >= kMinExtent_m)) {
     defect(line, "length",
            surface.where +
                " has no extent (less than a thousandth of a millimetre): remove it, "
@@ -133,8 +133,8 @@ SplineModel SplineSink::finish() {
 SplineDefect check_coordinates(const std::vector<ControlPoint>& points) {
   for (size_t i = 0; i < points.size(); ++i) {
     const ControlPoint& p = points[i];
-    if (std::abs(p.x) <= kMostCoordinate_m && std::abs(p.y) <= kMostCoordinate_m &&
-        std::abs(p.z) <= kMostCoordinate_m)
+    if (std::abs(p.x) <= kMaxCoordinate_m && std::abs(p.y) <= kMaxCoordinate_m &&
+        std::abs(p.z) <= kMaxCoordinate_m)
       continue;
     return {"control point " + std::to_string(i) +
                 " (from 0) lies more than 1e9 m from the origin: check its numbers and the unit",

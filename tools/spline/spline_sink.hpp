@@ -14,7 +14,7 @@ struct SplineDefect {
   size_t index = 0;
 };
 
-constexpr int kMostDegree = 5;
+constexpr int kMaxDegree = 5;
 
 /// Whether `knots` suit a B-spline of `degree` with `points` control points. `which`: "knot", "u
 /// knot", "v knot", for messages.

@@ -134,8 +134,8 @@ bool refuse_uncapped(const Surface& surface, const std::vector<Hole>& holes,
   const char* remedy = ": close it in a modelling program";
   for (size_t h = 0; h < holes.size(); ++h) {
     const std::string place = "has " + place_of(surface, holes[h]);
-    if (holes[h].border.size() > kMostHoleEdges) {
-      report.refused.push_back(place + ", more than the " + std::to_string(kMostHoleEdges) +
+    if (holes[h].border.size() > kMaxHoleEdges) {
+      report.refused.push_back(place + ", more than the " + std::to_string(kMaxHoleEdges) +
                                " that --close-holes takes on" + remedy);
     } else if (caps[h].empty()) {
       report.refused.push_back(place +
@@ -160,10 +160,10 @@ void close_holes(Surface& surface, uint32_t first_source, CheckReport& report) {
     return;
   }
   const Pairs taken = taken_edges(surface, edges, holes);
-  std::vector<CapRule> rules(holes.size(), CapRule::kLeastBend);
+  std::vector<CapRule> rules(holes.size(), CapRule::kMinBend);
   std::vector<std::vector<Face>> caps;
   for (const Hole& hole : holes)
-    if (hole.border.size() > kMostHoleEdges) caps.resize(holes.size());
+    if (hole.border.size() > kMaxHoleEdges) caps.resize(holes.size());
   if (caps.empty()) caps = make_caps(surface, holes, taken, rules);
   if (!refuse_uncapped(surface, holes, caps, report)) return;
 
@@ -171,7 +171,7 @@ void close_holes(Surface& surface, uint32_t first_source, CheckReport& report) {
   std::vector<bool> crosses = caps_that_cross(closed, surface.faces.size(), holes.size());
   if (std::find(crosses.begin(), crosses.end(), true) != crosses.end()) {
     for (size_t h = 0; h < holes.size(); ++h)
-      if (crosses[h]) rules[h] = CapRule::kLeastArea;
+      if (crosses[h]) rules[h] = CapRule::kMinArea;
     caps = make_caps(surface, holes, taken, rules);
     if (!refuse_uncapped(surface, holes, caps, report)) return;
     closed = with_caps(surface, caps, first_source);

@@ -6,7 +6,7 @@ namespace firmtouch::tools {
 
 /// A hole of more edges is not closed: the search for its cap takes the cube of them (1,000: about
 /// 3 s).
-constexpr uint32_t kMostHoleEdges = 1000;
+constexpr uint32_t kMaxHoleEdges = 1000;
 
 /// Closes the holes of a surface whose pieces are wound alike, each with a cap of triangles between
 /// the vertices of its border: of all such caps one whose worst bend is the least, of those one of

@@ -9,7 +9,7 @@ namespace firmtouch::tools {
 namespace {
 
 // A triangle lower than this share of its longest edge is a sliver.
-constexpr double kLeastHeight = 1e-4;
+constexpr double kMinHeight = 1e-4;
 // Two faces whose normals' cosine is below this lie on one another (2.6 degrees).
 constexpr double kFoldedBack = -0.999;
 
@@ -76,7 +76,7 @@ class Caps {
   }
 
   bool is_less(const Cost& a, const Cost& b) const {
-    if (rule_ == CapRule::kLeastArea) return a.area < b.area;
+    if (rule_ == CapRule::kMinArea) return a.area < b.area;
     return a.bend < b.bend || (!(b.bend < a.bend) && a.area < b.area);
   }
 
@@ -100,7 +100,7 @@ class Caps {
     const Point normal = cross(b - a, c - a);
     const double doubled = length(normal);
     const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
-    if (!(doubled > kLeastHeight * longest2)) return {};
+    if (!(doubled > kMinHeight * longest2)) return {};
     const Point unit = normal * (1 / doubled);
     double cosine = std::min(dot(unit, normal_of(i, m)), dot(unit, normal_of(m, j)));
     if (is_whole) cosine = std::min(cosine, dot(unit, beyond_[j]));

@@ -12,7 +12,7 @@ struct Hole {
   std::vector<uint32_t> border, beyond;
 };
 
-enum class CapRule { kLeastBend, kLeastArea };
+enum class CapRule { kMinBend, kMinArea };
 
 /// Faces between the vertices of the border, none a sliver, none folded back onto its neighbour,
 /// none along an edge that the surface already has between two other vertices of the border

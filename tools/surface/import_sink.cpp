@@ -169,7 +169,7 @@ void ImportSink::tell_rounding() {
   }
   const double moved_m = std::min(moved_m_, reach_m * 0x1p-24);  // vertices that no face uses apart
   const double diagonal_m = length(high - low);
-  if (!(moved_m > static_cast<double>(mesh::kMostRounding) * diagonal_m)) return;
+  if (!(moved_m > static_cast<double>(mesh::kMaxRounding) * diagonal_m)) return;
   char text[240];
   std::snprintf(text, sizeof text,
                 "rounded coordinates to 32 bits, which moved vertices by up to %.3g m (%.2g of the "

@@ -11,7 +11,7 @@ namespace {
 /// Watches the length of lines while a text comes in.
 class LineWatch {
  public:
-  explicit LineWatch(size_t most_bytes) : most_bytes_(most_bytes) {}
+  explicit LineWatch(size_t max_bytes) : max_bytes_(max_bytes) {}
 
   // Result: false where a line is too long.
   bool take(const uint8_t* bytes, size_t count) {
@@ -20,7 +20,7 @@ class LineWatch {
       if (bytes[i] == '\n' || bytes[i] == '\r') {
         if (bytes[i] == '\n' || !is_after_return_) ++line_;
         length_ = 0;
-      } else if (++length_ > most_bytes_) {
+      } else if (++length_ > max_bytes_) {
         return false;
       }
       is_after_return_ = bytes[i] == '\r';
@@ -30,7 +30,7 @@ class LineWatch {
   uint64_t line() const { return line_; }
 
  private:
-  size_t most_bytes_;
+  size_t max_bytes_;
   size_t length_ = 0;
   uint64_t line_ = 1;
   bool is_text_ = true, is_after_return_ = false;
@@ -38,21 +38,21 @@ class LineWatch {
 
 }  // namespace
 
-LoadedFile load_stream(std::FILE* stream, size_t most_line_bytes) {
+LoadedFile load_stream(std::FILE* stream, size_t max_line_bytes) {
   LoadedFile file;
-  LineWatch lines(most_line_bytes);
+  LineWatch lines(max_line_bytes);
   uint8_t block[65536];
   size_t count = 0;
   while ((count = std::fread(block, 1, sizeof block, stream)) > 0) {
     if (!lines.take(block, count)) {
       return {{},
               "line " + std::to_string(lines.line()) + " is longer than " +
-                  std::to_string(most_line_bytes) +
+                  std::to_string(max_line_bytes) +
                   " bytes: this is no text of that format; break its lines, or export it again"};
     }
-    if (file.bytes.size() + count > kMostFileBytes) {
+    if (file.bytes.size() + count > kMaxFileBytes) {
       return {{},
-              "is larger than " + std::to_string(kMostFileBytes) +
+              "is larger than " + std::to_string(kMaxFileBytes) +
                   " bytes, the most that is read: simplify or split it"};
     }
     file.bytes.insert(file.bytes.end(), block, block + count);
@@ -62,7 +62,7 @@ LoadedFile load_stream(std::FILE* stream, size_t most_line_bytes) {
   return file;
 }
 
-LoadedFile load_file(const std::string& path, size_t most_line_bytes) {
+LoadedFile load_file(const std::string& path, size_t max_line_bytes) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return {{}, "is a folder; name a file"};
   std::FILE* stream = std::fopen(path.c_str(), "rb");
@@ -71,7 +71,7 @@ LoadedFile load_file(const std::string& path, size_t most_line_bytes) {
             std::string("cannot be opened: ") + std::strerror(errno) +
                 "; check its name and that it may be read"};
   }
-  LoadedFile file = load_stream(stream, most_line_bytes);
+  LoadedFile file = load_stream(stream, max_line_bytes);
   std::fclose(stream);
   return file;
 }

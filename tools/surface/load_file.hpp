@@ -14,15 +14,15 @@ struct LoadedFile {
 
 /// No line of a model or table is longer; 200,000 corners of one face fit. A file that is one line
 /// (a dump, a minified export, a disk image) is refused before it fills the memory.
-constexpr size_t kMostLineBytes = size_t{1} << 24;
+constexpr size_t kMaxLineBytes = size_t{1} << 24;
 
 /// The largest asset's triangles, as text STL, the most verbose format, fit.
-constexpr size_t kMostFileBytes = 0xFFFFFFFF;
+constexpr size_t kMaxFileBytes = 0xFFFFFFFF;
 
-/// Reads a file. A text (no zero byte so far) with a line longer than `most_line_bytes`, and a file
-/// longer than kMostFileBytes, are refused where that is seen.
+/// Reads a file. A text (no zero byte so far) with a line longer than `max_line_bytes`, and a file
+/// longer than kMaxFileBytes, are refused where that is seen.
 /// Bounds: memory and time of what is taken.
-LoadedFile load_file(const std::string& path, size_t most_line_bytes);
-LoadedFile load_stream(std::FILE* stream, size_t most_line_bytes);
+LoadedFile load_file(const std::string& path, size_t max_line_bytes);
+LoadedFile load_stream(std::FILE* stream, size_t max_line_bytes);
 
 }  // namespace firmtouch::tools

@@ -45,7 +45,7 @@ Imported read_surface_bytes(std::string_view bytes, const std::string& path, dou
 }
 
 Imported read_surface(const std::string& path, double unit_m) {
-  const LoadedFile file = load_file(path, kMostLineBytes);
+  const LoadedFile file = load_file(path, kMaxLineBytes);
   if (!file.problem.empty()) return {{}, path + ": " + file.problem, {}};
   const char* bytes = reinterpret_cast<const char*>(file.bytes.data());
   return read_surface_bytes({bytes, file.bytes.size()}, path, unit_m);

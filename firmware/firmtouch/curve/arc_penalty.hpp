@@ -27,8 +27,8 @@ static inline float penalty_at_m(const ArcPenalty& penalty, float arc, bool is_c
 }
 
 /// Least penalty of a piece of the curve.
-static inline float least_penalty_m(const ArcPenalty& penalty, float first_arc, float last_arc,
-                                    bool is_closed) {
+static inline float min_penalty_m(const ArcPenalty& penalty, float first_arc, float last_arc,
+                                  bool is_closed) {
   if (penalty.previous_arc >= first_arc && penalty.previous_arc <= last_arc) return 0.0f;
   const float first_m = penalty_at_m(penalty, first_arc, is_closed);
   const float last_m = penalty_at_m(penalty, last_arc, is_closed);

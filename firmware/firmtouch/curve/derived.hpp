@@ -54,13 +54,13 @@ static inline float radius_m_of(uint16_t stored) {
 static inline uint16_t stored_radius(const Sample* samples, uint32_t first, uint32_t last) {
   if (last <= first) return 0;
   const math::Vec3 a = vec(samples[first]), b = vec(samples[last]);
-  float most2_m2 = 0;
+  float max2_m2 = 0;
   for (uint32_t i = first + 1; i < last; ++i) {
     const float distance2_m2 = chord_distance2(vec(samples[i]), a, b);
-    if (distance2_m2 > most2_m2) most2_m2 = distance2_m2;
+    if (distance2_m2 > max2_m2) max2_m2 = distance2_m2;
   }
   const float lost_m = math::length(b - a) * 0x1p-18f;
-  return rounded_radius(math::square_root(most2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
+  return rounded_radius(math::square_root(max2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
 }
 
 /// The same of a smooth curve: how far the Bezier points of the pieces between these two samples lie
@@ -68,17 +68,17 @@ static inline uint16_t stored_radius(const Sample* samples, uint32_t first, uint
 static inline uint16_t smooth_radius(const Track& track, uint32_t first, uint32_t last) {
   if (last <= first) return 0;
   const math::Vec3 a = vec(track.samples[first]), along = vec(track.samples[last]) - a;
-  float most2_m2 = 0;
+  float max2_m2 = 0;
   for (uint32_t i = first; i < last; ++i) {
     const math::Vec3 from = vec(track.samples[i]) - a;
     const Cubic c = cubic_of(track, i);
     const float at_m2[] = {line_distance2(from, along), line_distance2(from + c.c1, along),
                            line_distance2(from + c.c2, along)};
     for (uint32_t k = 0; k < 3; ++k)
-      if (at_m2[k] > most2_m2) most2_m2 = at_m2[k];
+      if (at_m2[k] > max2_m2) max2_m2 = at_m2[k];
   }
   const float lost_m = math::length(along) * 0x1p-18f;
-  return rounded_radius(math::square_root(most2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
+  return rounded_radius(math::square_root(max2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
 }
 static inline uint16_t part_radius(const Track& track, bool is_smooth, uint32_t first,
                                    uint32_t last) {
@@ -130,8 +130,8 @@ static inline uint32_t wrong_of_root(const Head& head, const Box& root) {
   }
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t below = root.side[k] & 0xFFFFu, above = root.side[k] >> 16;
-    const float least_m = static_cast<float>(below < above ? below : above) * head.cell_m;
-    if (!(least_m >= 0.12f * extent_m)) return 1 + k;
+    const float min_m = static_cast<float>(below < above ? below : above) * head.cell_m;
+    if (!(min_m >= 0.12f * extent_m)) return 1 + k;
   }
   return 0;
 }

@@ -36,8 +36,8 @@ struct NearBound {
   }
   // The bits of floats that are not negative order as they do; all others, NaN too, lie beyond.
   static bool put(float cells, uint32_t& word) {
-    constexpr uint32_t kOne = 0x3F800000u, kMost = 0x46FFFA00u;  // 1 and 32765
-    if (math::bits_of(cells) - kOne > kMost - kOne) return false;
+    constexpr uint32_t kOne = 0x3F800000u, kMax = 0x46FFFA00u;  // 1 and 32765
+    if (math::bits_of(cells) - kOne > kMax - kOne) return false;
     const uint32_t floor_cell = static_cast<uint32_t>(static_cast<int32_t>(cells - 0x1p-8f));
     const uint32_t ceil_cell =
         static_cast<uint32_t>(static_cast<int32_t>(cells + (1.0f + 0x1p-8f)));

@@ -1,6 +1,6 @@
 #include "firmtouch/curve/guided_point.hpp"
 
-#include "firmtouch/curve/least_cost.hpp"
+#include "firmtouch/curve/min_cost.hpp"
 #include "firmtouch/curve/smooth_point.hpp"
 
 namespace firmtouch::curve {
@@ -22,7 +22,7 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& clos
   if (!is_near(p_m)) return;
   const bool carefully = needs_care(curve.head(), p_m);
   Foot best = any_foot(curve, p_m, closest.segment, carefully);
-  const uint32_t most = curve.is_smooth() ? kMostSmoothSlides : kMostSlides;
+  const uint32_t most = curve.is_smooth() ? kMaxSmoothSlides : kMaxSlides;
   for (uint32_t i = 0; i < most; ++i) {
     const uint32_t segment = beyond(curve, best);
     if (segment == segment_of(best)) break;
@@ -33,8 +33,8 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& clos
   query::Certificate certificate = closest.certificate;
   // The cost of no point is less: at most this much of it is penalty.
   const float previous = penalty.previous_arc;
-  const float most_change = curve.is_closed() ? 0.5f : previous > 0.5f ? previous : 1.0f - previous;
-  const float lower_m = certificate.lower_m - penalty.weight_m * most_change * (1.0f + 0x1p-20f);
+  const float max_change = curve.is_closed() ? 0.5f : previous > 0.5f ? previous : 1.0f - previous;
+  const float lower_m = certificate.lower_m - penalty.weight_m * max_change * (1.0f + 0x1p-20f);
   certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   closest = any_answer(curve, best);
   closest.certificate = certificate;
@@ -49,12 +49,12 @@ Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
   NearBound near_bound;
   if (is_penalty(penalty) && penalty.weight_m <= 0x1p60f) {
     if (near_bound.begin(curve.head(), p_m))
-      return least_cost<false>(curve, near_bound, p_m, penalty, near_bound.needs_care(curve),
-                               budget, hint);
+      return min_cost<false>(curve, near_bound, p_m, penalty, near_bound.needs_care(curve), budget,
+                             hint);
     if (is_near(p_m)) {
       FarBound far_bound;
       far_bound.begin(curve.head(), p_m);
-      return least_cost<false>(curve, far_bound, p_m, penalty, true, budget, hint);
+      return min_cost<false>(curve, far_bound, p_m, penalty, true, budget, hint);
     }
   }
   Constraint found;

@@ -50,13 +50,13 @@ struct Followed {
 /// it is on, and the closest point of that part where it pulls to: a penalty alone would hold the
 /// guide back at every sample that it passes, and drag. Where the point is farther than release_m, or
 /// not a number, the guide lets go and finds itself again, by distance alone.
-/// Bounds: <= budget steps (2 at least, in the tick that lets go), and kMostSlides segments.
+/// Bounds: <= budget steps (2 at least, in the tick that lets go), and kMaxSlides segments.
 /// Result: a change of part never raises the distance: what a spring holds is not increased by it.
 Followed follow(const View& curve, math::Vec3 p_m, const Hold& hold, query::Budget budget,
                 Following& following);
 
 /// Segments that follow() goes along the curve in a tick; beyond them the next tick goes on.
-constexpr uint32_t kMostSlides = 32;
-constexpr uint32_t kMostSmoothSlides = 4;  // of cubic pieces
+constexpr uint32_t kMaxSlides = 32;
+constexpr uint32_t kMaxSmoothSlides = 4;  // of cubic pieces
 
 }  // namespace firmtouch::curve

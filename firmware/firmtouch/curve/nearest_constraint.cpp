@@ -89,7 +89,7 @@ class Choice {
   void look_at(uint32_t segment) {
     const Foot foot = foot_on(segment);
     const float cost_m = math::square_root(foot.distance2_m2) + penalty_m(curve_, foot, penalty_);
-    if (foot.distance2_m2 < least2_m2) least2_m2 = foot.distance2_m2;
+    if (foot.distance2_m2 < min2_m2) min2_m2 = foot.distance2_m2;
     if (candidates++ == 0 || cost_m < best_cost_m) best = foot, best_cost_m = cost_m;
   }
 
@@ -103,7 +103,7 @@ class Choice {
   float doubt_m = 0;  // of feet on cubic pieces
   Foot best{};
   float best_cost_m = 0;
-  float least2_m2 = FLT_MAX;  // of all candidates, whatever their penalty
+  float min2_m2 = FLT_MAX;  // of all candidates, whatever their penalty
   uint32_t candidates = 0;
 
  private:
@@ -144,19 +144,19 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
   // A piece's Bezier points lie within a third of its length of its ends.
   const float reach_m = is_smooth ? 2.0f * half_m : half_m;
   found.closest = any_answer(curve, choice.best);
-  const float least_m = math::square_root(choice.least2_m2);
-  float lower_m = is_smooth ? least_m - choice.doubt_m - piece_loss_m(least_m, half_m)
-                            : rounded_down(least_m, half_m, choice.carefully());
+  const float min_m = math::square_root(choice.min2_m2);
+  float lower_m = is_smooth ? min_m - choice.doubt_m - piece_loss_m(min_m, half_m)
+                            : rounded_down(min_m, half_m, choice.carefully());
   const float pending_m = search.pending_m();
   const bool by_budget = !complete && pending_m < farthest_m;
   const float unseen_m = (by_budget ? pending_m : farthest_m) * (1.0f - 0x1p-20f) - reach_m;
   if (nearest.size() < curve.samples().size() && unseen_m < lower_m) lower_m = unseen_m;
   found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   found.closest.certificate.steps = search.steps();
-  found.closest.certificate.exact =
-      complete && choice.doubt_m <= 2.0f * piece_slack_m(curve.head(), least_m) &&
-      !(choice.best.distance2_m2 > choice.least2_m2) &&
-      (nearest.size() == curve.samples().size() || unseen_m >= least_m);
+  found.closest.certificate.exact = complete &&
+                                    choice.doubt_m <= 2.0f * piece_slack_m(curve.head(), min_m) &&
+                                    !(choice.best.distance2_m2 > choice.min2_m2) &&
+                                    (nearest.size() == curve.samples().size() || unseen_m >= min_m);
   found.cost_m = choice.best_cost_m;
   found.candidates = choice.candidates;
   return found;

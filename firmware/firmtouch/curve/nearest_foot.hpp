@@ -87,16 +87,16 @@ class NearestFoot {
   void make_fence(uint32_t run, float motion_m, float spacing_m, float outside_m,
                   query::Hint& hint) const {
     const uint32_t segments = run_segments_of(levels_), run_first = run * segments;
-    const float least_m = kFenceMotions * motion_m;
+    const float min_m = kFenceMotions * motion_m;
     uint32_t size = kPartSegments, first = segment_of(best_);
-    for (float mean_m = 4.0f * spacing_m; mean_m < least_m && size < segments; mean_m *= 2.0f)
+    for (float mean_m = 4.0f * spacing_m; mean_m < min_m && size < segments; mean_m *= 2.0f)
       size *= 2;
     for (;; size *= 2) {
       if (size >= segments / 2) return;
       first -= (first - run_first) % size;
       if (first + size > segment_count_) return;
       const math::Vec3 along_m = vec(samples_[first + size]) - vec(samples_[first]);
-      if (dot(along_m, along_m) >= least_m * least_m) break;
+      if (dot(along_m, along_m) >= min_m * min_m) break;
     }
     const uint16_t* const radii = radii_ + (run << (levels_ + 1));
     const uint32_t at = first - run_first;
@@ -145,10 +145,9 @@ class NearestFoot {
     const math::Vec3 a_m = vec(samples_[first]), along_m = vec(samples_[last]) - a_m;
     const float length2 = dot(along_m, along_m);
     const float progress = dot(p_m_ - a_m, along_m) * static_cast<float>(last - first);
-    constexpr float kMost = 4194304.0f;  // samples that a curve may have
-    const float ahead = progress < kMost * length2
-                            ? progress > -kMost * length2 ? progress / length2 : 0.0f
-                            : kMost;
+    constexpr float kMax = 4194304.0f;  // samples that a curve may have
+    const float ahead =
+        progress < kMax * length2 ? progress > -kMax * length2 ? progress / length2 : 0.0f : kMax;
     return clamped(static_cast<int32_t>(first) + static_cast<int32_t>(ahead));
   }
 

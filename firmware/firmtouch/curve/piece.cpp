@@ -83,7 +83,7 @@ PieceFoot foot_on_piece(const View& curve, Vec3 p_m, uint32_t segment) {
   pending[0] = {-v, c.c1 - v, c.c2 - v, c.c3 - v, 0.0f, 1.0f, 0};
   refine(c, v, chord_of(pending[0]).t, best);
   float reach_m = math::square_root(best.distance2_m2), doubt_m = 0;
-  uint32_t left = kMostCuts;
+  uint32_t left = kMaxCuts;
   for (uint32_t count = 1; count > 0;) {
     const Cut cut = pending[--count];
     const Chord chord = chord_of(cut);

@@ -1,6 +1,6 @@
 #include "firmtouch/curve/smooth_point.hpp"
 
-#include "firmtouch/curve/least_cost.hpp"
+#include "firmtouch/curve/min_cost.hpp"
 
 namespace firmtouch::curve {
 
@@ -10,10 +10,10 @@ Constraint smooth_point(const View& curve, math::Vec3 p_m, const ArcPenalty& pen
   const ArcPenalty used = counts ? penalty : ArcPenalty{0.0f, 0.0f, true};
   NearBound near_bound;
   if (near_bound.begin(curve.head(), p_m))
-    return least_cost<true>(curve, near_bound, p_m, used, false, budget, hint);
+    return min_cost<true>(curve, near_bound, p_m, used, false, budget, hint);
   FarBound far_bound;
   far_bound.begin(curve.head(), p_m);
-  return least_cost<true>(curve, far_bound, p_m, used, false, budget, hint);
+  return min_cost<true>(curve, far_bound, p_m, used, false, budget, hint);
 }
 
 }  // namespace firmtouch::curve

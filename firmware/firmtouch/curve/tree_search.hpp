@@ -57,10 +57,10 @@ class TreeSearch {
 
   /// Certified distance to all that the budget left unseen.
   float pending_m() const {
-    float least_m = FLT_MAX;
+    float min_m = FLT_MAX;
     for (uint32_t i = 0; i < pending_count_; ++i)
-      least_m = pending_[i].bound_m < least_m ? pending_[i].bound_m : least_m;
-    return least_m;
+      min_m = pending_[i].bound_m < min_m ? pending_[i].bound_m : min_m;
+    return min_m;
   }
 
  private:

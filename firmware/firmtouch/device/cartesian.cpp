@@ -8,8 +8,8 @@ namespace {
 constexpr float kTwoPi = 6.2831853f;
 // A time step outside of this is a broken clock, which servo faults; here it must only not break
 // the arithmetic.
-constexpr float kLeastStep_s = 1e-6f;
-constexpr float kMostStep_s = 1.0f;
+constexpr float kMinStep_s = 1e-6f;
+constexpr float kMaxStep_s = 1.0f;
 
 float clamp(float value, float low, float high) {
   if (!(value >= low)) return low;  // NaN too
@@ -104,14 +104,14 @@ void start(State& state, const Settings& settings, const Sample& sample) {
 }  // namespace
 
 Reading read(State& state, const Settings& settings, const Sample& sample) {
-  const float dt_s = clamp(sample.dt_s, kLeastStep_s, kMostStep_s);
+  const float dt_s = clamp(sample.dt_s, kMinStep_s, kMaxStep_s);
   bool believed = sample.trusted;
   if (!state.started) {
     if (believed) start(state, settings, sample);
   } else {
     int32_t step[kAxes];
     for (uint32_t k = 0; k < kAxes; ++k) step[k] = difference(sample.counts[k], state.counts[k]);
-    state.since_believed_s = clamp(state.since_believed_s + dt_s, kLeastStep_s, kMostStep_s);
+    state.since_believed_s = clamp(state.since_believed_s + dt_s, kMinStep_s, kMaxStep_s);
     state.bad_history <<= 1;
     believed = believed && is_plausible(step, settings, state.since_believed_s);
     if (believed) {

@@ -12,8 +12,8 @@ constexpr uint32_t kHeadSection = 0x3001;
 constexpr uint32_t kDistancesSection = 0x3002;  // int16_t[cells], x fastest
 constexpr uint32_t kSeedsSection = 0x3003;      // uint32_t[cells]: query::Hint::place of the mesh
 
-constexpr uint32_t kMostCellsAnAxis = 1024;
-constexpr uint32_t kMostCells = 1u << 24;
+constexpr uint32_t kMaxCellsAnAxis = 1024;
+constexpr uint32_t kMaxCells = 1u << 24;
 
 struct Head {
   uint32_t count[3];     // cells on x, y, z
@@ -30,7 +30,7 @@ static_assert(offsetof(Head, low_m) == 16 && offsetof(Head, quantum_m) == 32);
 // -1 - word: m quanta <= d <= m + kWide quanta; and where m > 0 the side, inside where the word is
 // negative. kUnknown says nothing.
 constexpr int16_t kUnknown = -32768;
-constexpr uint32_t kMostQuanta = 32766;
+constexpr uint32_t kMaxQuanta = 32766;
 constexpr uint32_t kWide = 2;
 constexpr uint32_t quanta_of(int16_t word) {
   return static_cast<uint32_t>(word >= 0 ? word : -1 - word);

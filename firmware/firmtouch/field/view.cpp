@@ -50,10 +50,10 @@ Verdict Opening::open_head(const Sections& s) {
   const Head& head = heads[0];
   uint64_t cells = 1;
   for (uint32_t k = 0; k < 3; ++k) {
-    if (head.count[k] == 0 || head.count[k] > kMostCellsAnAxis) return reject(302, k);
+    if (head.count[k] == 0 || head.count[k] > kMaxCellsAnAxis) return reject(302, k);
     cells *= head.count[k];
   }
-  if (cells > kMostCells) return reject(302, 3);
+  if (cells > kMaxCells) return reject(302, 3);
   view_.distances_ = core::as_whole_array<int16_t>(s.distances);
   if (view_.distances_.size() != cells) return reject(303, view_.distances_.size());
   view_.seeds_ = core::as_whole_array<uint32_t>(s.seeds);
@@ -84,8 +84,8 @@ Verdict Opening::check_cell(uint32_t i) const {
   const uint32_t quanta = quanta_of(word);
   const float lower_m = static_cast<float>(static_cast<int32_t>(quanta)) * head.quantum_m;
   const float upper_m = static_cast<float>(static_cast<int32_t>(quanta + kWide)) * head.quantum_m;
-  const float most_m = told_m + told_slack_m(told_m, mesh_->head().diagonal_m);
-  if (!(lower_m <= truth.certificate.lower_m && upper_m >= most_m)) return reject(310, i);
+  const float max_m = told_m + told_slack_m(told_m, mesh_->head().diagonal_m);
+  if (!(lower_m <= truth.certificate.lower_m && upper_m >= max_m)) return reject(310, i);
   const int32_t side = word < 0 ? -1 : 1;
   if (!view_.is_signed()) return word < 0 ? reject(310, i) : kPassed;
   return quanta == 0 || truth.certificate.sign == side ? kPassed : reject(310, i);

@@ -91,7 +91,7 @@ bool descend(core::Span<const NodeBox> boxes, const Box& whole, const Region& re
     uint32_t node;
   };
   const FilledTree tree(boxes.size());
-  Pending pending[kMostTreeDepth + 1];
+  Pending pending[kMaxTreeDepth + 1];
   uint32_t count = 0;
   Pending now{child_box(whole, boxes[0]), 0.0f, 0};
   now.entry = region.enter(now.box, visitor.limit);

@@ -23,11 +23,11 @@ constexpr uint32_t kProbesSection = 0x5009;     // query::ProbeHead and its poin
 constexpr uint32_t removed_by(uint32_t id) { return id >> 1; }
 
 // Three bytes an id, at most.
-constexpr uint32_t kMostIds = 1u << 24;
+constexpr uint32_t kMaxIds = 1u << 24;
 constexpr uint32_t kRecordsAPlace = 8;
 // A star keeps its corners in an array.
-constexpr uint32_t kMostLink = 31;
-constexpr uint32_t kMostStarFaces = kMostLink + 2;
+constexpr uint32_t kMaxLink = 31;
+constexpr uint32_t kMaxStarFaces = kMaxLink + 2;
 
 struct Head {
   uint32_t mesh_vertex_count;
@@ -65,7 +65,7 @@ struct StarBox {
   uint8_t bits[6];
 };
 static_assert(sizeof(StarBox) == 6 && alignof(StarBox) == 1);
-constexpr uint32_t kMostReach = 127;
+constexpr uint32_t kMaxReach = 127;
 
 /// A box within its parent's, in 256ths of the parent's sides: from its low and from its high side.
 /// The tree's levels are filled from the left, children of node i are 2 i + 1 and 2 i + 2.
@@ -77,7 +77,7 @@ static_assert(sizeof(NodeBox) == 6 && alignof(NodeBox) == 1);
 // A leaf of the tree over the mesh holds so many triangles, of the tree over a shell so many faces.
 constexpr uint32_t kLeafTriangles = 4;
 constexpr uint32_t kLeafFaces = 4;
-constexpr uint32_t kMostTreeDepth = 24;
+constexpr uint32_t kMaxTreeDepth = 24;
 
 constexpr uint32_t leaves_for(uint32_t items, uint32_t a_leaf) {
   return items / a_leaf + (items % a_leaf != 0 ? 1u : 0u);
@@ -105,7 +105,7 @@ static_assert(sizeof(ShellHead) == 52 && alignof(ShellHead) == 4);
 /// Places of its three corners among those of its leaf in bits 0 to 3, 4 to 7, 8 to 11; in bits 12 to
 /// 15 how many those are.
 using ShellFace = uint16_t;
-constexpr uint32_t kMostLeafCorners = 3 * kLeafFaces;
+constexpr uint32_t kMaxLeafCorners = 3 * kLeafFaces;
 constexpr uint32_t corner_at(ShellFace face, uint32_t k) {
   return (uint32_t{face} >> (4 * k)) & 15u;
 }
@@ -122,7 +122,7 @@ struct ShellTriangle {
   uint32_t face, triangle;
 };
 static_assert(sizeof(ShellTriangle) == 8);
-constexpr uint32_t kMostShellVertices = 65536;
+constexpr uint32_t kMaxShellVertices = 65536;
 
 constexpr uint32_t padded(uint32_t bytes) { return (bytes + 3) & ~3u; }
 

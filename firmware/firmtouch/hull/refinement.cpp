@@ -85,7 +85,7 @@ class TriangleAsked {
     const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
                     {head.high_m[0], head.high_m[1], head.high_m[2]}};
     const FilledTree tree(shell.boxes().size());
-    uint32_t pending[kMostTreeDepth + 2] = {}, count = 1;
+    uint32_t pending[kMaxTreeDepth + 2] = {}, count = 1;
     while (count > 0) {
       const uint32_t node = pending[--count];
       if (region_.enter(child_box(whole, shell.boxes()[node]), 1.0f) > 1.0f) continue;
@@ -137,7 +137,7 @@ class Refinement::Search {
     if (!(asked_.enter(box, limit) <= limit)) return;
     const uint8_t* record = hull.record(collapse);
     const Star star(hull, collapse, record);
-    Vec3 at_m[2 + kMostLink];
+    Vec3 at_m[2 + kMaxLink];
     for (uint32_t i = 0; i < 2 + star.link; ++i) at_m[i] = vertex(hull, star.number[i]);
     const uint32_t mesh_vertices = hull.head().mesh_vertex_count;
     uint32_t triangle = 1 + star.link;

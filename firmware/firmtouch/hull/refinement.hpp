@@ -98,7 +98,7 @@ class Refinement {
 
   uint32_t split_count() const { return count_; }
   /// The most collapses undone by one query so far.
-  uint32_t most_splits() const { return most_; }
+  uint32_t max_splits() const { return most_; }
 
  private:
   template <class Asked>

@@ -97,8 +97,8 @@ Verdict ShellOpening::open_head(core::Bytes bytes, const View& hull) {
   if (head.cut > of.collapse_count) return reject(541, 0);
   if (head.face_count == 0 || head.face_count != of.mesh_triangle_count - 2 * head.cut)
     return reject(541, 1);
-  if (head.made_count > kMostShellVertices || head.kept_count > kMostShellVertices ||
-      head.made_count + head.kept_count > kMostShellVertices)
+  if (head.made_count > kMaxShellVertices || head.kept_count > kMaxShellVertices ||
+      head.made_count + head.kept_count > kMaxShellVertices)
     return reject(541, 2);
   if (head.triangle_count > head.face_count) return reject(541, 3);
   if (!shell_.point_into(bytes, of.coordinate_bytes)) return reject(540, 1);
@@ -163,7 +163,7 @@ Verdict ShellOpening::check_vertex(uint32_t i, const View& hull) const {
 Verdict ShellOpening::check_leaf(uint32_t leaf) {
   const uint32_t face = leaf * kLeafFaces, count = corners_of(shell_.faces_[face]);
   if (leaf % 2 == 0 && shell_.corner_places_[leaf / 2] != next_corner_) return reject(545, face);
-  if (count > kMostLeafCorners || count > shell_.head_->corner_count - next_corner_)
+  if (count > kMaxLeafCorners || count > shell_.head_->corner_count - next_corner_)
     return reject(545, face);
   next_corner_ += count;
   for (const uint16_t vertex : shell_.leaf(leaf).corners)

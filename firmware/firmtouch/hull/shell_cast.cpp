@@ -40,14 +40,14 @@ class First {
     hit.t = told.t;
     hit.face = face;
     hit.enters = told.direction <= 0;
-    hit.exact = is_decided || early <= kMostEarly;
+    hit.exact = is_decided || early <= kMaxEarly;
     // A box that is entered later in truth may hold a crossing that is told earlier.
     limit = mesh::smaller(told.t + 2.0f * mesh::kTimeError, 1.0f);
     return true;
   }
 
  private:
-  static constexpr float kMostEarly = 0x1p-12f;
+  static constexpr float kMaxEarly = 0x1p-12f;
   struct Range {
     float first, last;
   };

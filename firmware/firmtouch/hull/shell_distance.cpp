@@ -75,7 +75,7 @@ float search(const Shell& shell, Vec3 p_m, uint32_t allowed, uint32_t& steps, Ne
   const ShellHead& head = shell.head();
   const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
                   {head.high_m[0], head.high_m[1], head.high_m[2]}};
-  Pending pending[kMostTreeDepth + 2];
+  Pending pending[kMaxTreeDepth + 2];
   uint32_t count = 1;
   pending[0] = {child_box(whole, boxes[0]), 0.0f, 0};
   pending[0].distance2_m2 = distance2_to(pending[0].box, p_m);

@@ -42,10 +42,10 @@ class ShellSegment {
   /// The corners of a leaf as they lie beside the line, in two halves of 16 bits: along the two
   /// shorter axes, in eights of the grid's steps.
   struct Corners {
-    uint32_t beside[kMostLeafCorners];
+    uint32_t beside[kMaxLeafCorners];
     // Bits for where it certainly lies beyond and before the line on either axis. A face whose three
     // corners share a bit is not crossed.
-    uint32_t sides[kMostLeafCorners];
+    uint32_t sides[kMaxLeafCorners];
   };
   /// Result: the bits that all of them share.
   uint32_t place(const Shell& shell, const Shell::Leaf& leaf, Corners& corners) const {
@@ -151,7 +151,7 @@ bool walk(const Shell& shell, const ShellSegment& segment, uint32_t allowed, uin
   if (segment.misses()) return true;
   const NodeBox* boxes = shell.boxes().data();
   const FilledTree tree(shell.boxes().size());
-  Pending pending[kMostTreeDepth + 1];
+  Pending pending[kMaxTreeDepth + 1];
   uint32_t count = 0, node = 0;
   while (true) {
     if (steps >= allowed) return false;

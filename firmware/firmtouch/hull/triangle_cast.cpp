@@ -100,7 +100,7 @@ TriangleHit shell_crossed(const Shell& shell, const Vec3 (&corner_m)[3], query::
   int32_t winding = 0;
   hit.exact = wind_around(shell, corner_m[0], {allowed}, winding, hit.steps);
   hit.hit = !hit.exact || winding != 0;
-  uint32_t pending[kMostTreeDepth + 2] = {}, count = 1;
+  uint32_t pending[kMaxTreeDepth + 2] = {}, count = 1;
   while (count > 0 && !hit.hit) {
     const uint32_t node = pending[--count];
     if (region.enter(child_box(whole, shell.boxes()[node]), 1.0f) > 1.0f) continue;

@@ -60,8 +60,8 @@ static inline Box star_box_m(math::Vec3 about_m, float cell_m, const StarBox& st
   const float about[3] = {about_m.x, about_m.y, about_m.z};
   Box box;
   for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t low = static_cast<uint32_t>(bits >> (14 * k)) & kMostReach;
-    const uint32_t high = static_cast<uint32_t>(bits >> (14 * k + 7)) & kMostReach;
+    const uint32_t low = static_cast<uint32_t>(bits >> (14 * k)) & kMaxReach;
+    const uint32_t high = static_cast<uint32_t>(bits >> (14 * k + 7)) & kMaxReach;
     box.low_m[k] = about[k] - static_cast<float>(static_cast<int32_t>(low)) * unit_m;
     box.high_m[k] = about[k] + static_cast<float>(static_cast<int32_t>(high)) * unit_m;
   }
@@ -76,8 +76,8 @@ static inline bool holds(const Box& box, math::Vec3 p_m) {
 /// Corner numbers of a star's faces, in the order that a record tells.
 struct Star {
   uint32_t link, split;
-  uint32_t id[2 + kMostLink];      // of vertices 2 k and 2 k + 1, then of the link
-  uint32_t number[2 + kMostLink];  // of the same
+  uint32_t id[2 + kMaxLink];      // of vertices 2 k and 2 k + 1, then of the link
+  uint32_t number[2 + kMaxLink];  // of the same
 
   Star(const View& hull, uint32_t collapse, const uint8_t* record) {
     const uint32_t head = View::head_of(record);

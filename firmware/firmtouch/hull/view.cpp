@@ -81,7 +81,7 @@ Verdict Opening::open_head(const Sections& s) {
   if (head.id_bytes != 2 && head.id_bytes != 3) return reject(503, 0);
   if (head.coordinate_bytes != 2 && head.coordinate_bytes != 3) return reject(503, 1);
   const uint32_t ids = mesh.vertex_count + head.collapse_count;
-  const uint32_t most = head.id_bytes == 2 ? 65536u : kMostIds;
+  const uint32_t most = head.id_bytes == 2 ? 65536u : kMaxIds;
   if (ids > most || mesh.triangle_count > most) return reject(502, 3);
   view_.head_ = &head;
   view_.vertices_ = s.vertices;

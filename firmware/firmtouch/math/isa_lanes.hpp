@@ -115,8 +115,8 @@ static inline uint32_t lanes_of(Mask4 mask) {
 }
 
 /// The least of the lanes `of`, and the first that holds it.
-/// Pre: one lane or more, all below kMostLeast.
-constexpr float kMostLeast = 0x1.fffffep127f;
+/// Pre: one lane or more, all below kMaxLeast.
+constexpr float kMaxLeast = 0x1.fffffep127f;
 template <class Float>
 static inline uint32_t portable_least_lane(Float v, uint32_t of, float& least) {
   uint32_t lane = static_cast<uint32_t>(__builtin_ctz(of));
@@ -127,13 +127,13 @@ static inline uint32_t portable_least_lane(Float v, uint32_t of, float& least) {
   least = v[lane];
   return lane;
 }
-static inline uint32_t least_lane(Float4 v, uint32_t of, float& least) {
+static inline uint32_t min_lane(Float4 v, uint32_t of, float& least) {
   return portable_least_lane(v, of, least);
 }
-/// The least alone; of no lanes kMostLeast.
+/// The least alone; of no lanes kMaxLeast.
 template <class Float>
 static inline float portable_least_of(Float v, uint32_t of) {
-  float least = kMostLeast;
+  float least = kMaxLeast;
   for (uint32_t left = of; left != 0; left &= left - 1) {
     const uint32_t k = static_cast<uint32_t>(__builtin_ctz(left));
     least = v[k] < least ? v[k] : least;
@@ -171,26 +171,26 @@ static inline MaskWide select(MaskWide mask, MaskWide a, MaskWide b) {
   return reinterpret_cast<MaskWide>(
       select(mask, reinterpret_cast<FloatWide>(a), reinterpret_cast<FloatWide>(b)));
 }
-// In each lane the least of `of`; in `all` the lanes that are none hold kMostLeast.
-static inline __m256 least_everywhere(FloatWide v, uint32_t of, __m256& all) {
+// In each lane the least of `of`; in `all` the lanes that are none hold kMaxLeast.
+static inline __m256 min_everywhere(FloatWide v, uint32_t of, __m256& all) {
   const __m256i bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
   const __m256i is_of =
       _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(of)), bits), bits);
-  all = _mm256_blendv_ps(_mm256_set1_ps(kMostLeast), v, _mm256_castsi256_ps(is_of));
+  all = _mm256_blendv_ps(_mm256_set1_ps(kMaxLeast), v, _mm256_castsi256_ps(is_of));
   __m256 least = _mm256_min_ps(all, _mm256_permute_ps(all, 0x4E));
   least = _mm256_min_ps(least, _mm256_permute_ps(least, 0xB1));
   return _mm256_min_ps(least, _mm256_permute2f128_ps(least, least, 1));
 }
-static inline uint32_t least_lane(FloatWide v, uint32_t of, float& told) {
+static inline uint32_t min_lane(FloatWide v, uint32_t of, float& told) {
   __m256 all;
-  const __m256 least = least_everywhere(v, of, all);
+  const __m256 least = min_everywhere(v, of, all);
   told = _mm256_cvtss_f32(least);
   return static_cast<uint32_t>(__builtin_ctz(
       static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(all, least, _CMP_EQ_OQ)))));
 }
 static inline float least_of(FloatWide v, uint32_t of) {
   __m256 all;
-  return _mm256_cvtss_f32(least_everywhere(v, of, all));
+  return _mm256_cvtss_f32(min_everywhere(v, of, all));
 }
 static inline FloatWide larger(FloatWide a, FloatWide b) { return _mm256_max_ps(a, b); }
 static inline FloatWide smaller(FloatWide a, FloatWide b) { return _mm256_min_ps(a, b); }

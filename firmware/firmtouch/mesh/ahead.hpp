@@ -9,14 +9,14 @@
 
 namespace firmtouch::mesh {
 
-constexpr uint32_t kMostLanes = 8;
+constexpr uint32_t kMaxLanes = 8;
 constexpr uint32_t kRowsOfCorners = 9;
 constexpr uint32_t kRowsOfShapes = sizeof(TriangleShape) / sizeof(float);
 constexpr uint32_t kRowsOfPrisms = 16;
 constexpr uint32_t kFeatures = 7;
 
 /// Triangles that are measured side by side, one behind the other in the mesh: those of a node (but
-/// the root) that holds at most kMostLanes of them, in at most two leaves on either side; of the topmost
+/// the root) that holds at most kMaxLanes of them, in at most two leaves on either side; of the topmost
 /// such node. Or those of a leaf that is in none.
 struct Block {
   uint32_t first, count;
@@ -40,8 +40,8 @@ struct NodeBlock {
 
 // A leaf, as a Side has it, and in the bits that a mesh of at most so many triangles leaves over: where
 // its first stands in its block << 22, how many the block has, less 1, << 25.
-constexpr uint32_t kMostAhead = 1u << 22;
-constexpr uint32_t lined_first(uint32_t leaf) { return leaf & (kMostAhead - 1); }
+constexpr uint32_t kMaxAhead = 1u << 22;
+constexpr uint32_t lined_first(uint32_t leaf) { return leaf & (kMaxAhead - 1); }
 constexpr uint32_t lined_lane(uint32_t leaf) { return (leaf >> 22) & 7u; }
 constexpr Block lined_block(uint32_t leaf) {
   return {lined_first(leaf) - lined_lane(leaf), ((leaf >> 25) & 7u) + 1};
@@ -62,12 +62,12 @@ struct Ahead {
   // a node lie one behind the other; of a leaf those of the root, which are the last too.
   const Node* families;
   const NodeBlock* blocks;  // [node_count]; of no triangles where a node has none
-  // float[9 * (triangle_count + 1) + kMostLanes]: of each block nine rows of count floats, from float
+  // float[9 * (triangle_count + 1) + kMaxLanes]: of each block nine rows of count floats, from float
   // 9 first on: x of corners 0, y, z, then of corners 1 and 2.
   const float* corners;
-  // float[12 * (triangle_count + 1) + kMostLanes]: so too of each leaf twelve rows of its shapes.
+  // float[12 * (triangle_count + 1) + kMaxLanes]: so too of each leaf twelve rows of its shapes.
   const float* shapes;
-  // float[16 * (triangle_count + 1) + kMostLanes]: of each block sixteen rows of its prisms (mesh/prism.hpp).
+  // float[16 * (triangle_count + 1) + kMaxLanes]: of each block sixteen rows of its prisms (mesh/prism.hpp).
   const float* prisms;
   // [7 * triangle_count]: the unit pseudonormals of a triangle's features, in their order.
   const Vertex* directions;

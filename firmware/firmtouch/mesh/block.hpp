@@ -49,9 +49,9 @@ struct BlockKeys {
     const NearBound& bound, const Side* sides, uint32_t node, uint32_t& prune, Best& best) {
   uint32_t least[4], key_after[4];
   for (uint32_t i = 0; i < 4; ++i) {
-    const float least2_m2 = math::least_of(feet.distance2_m2, (block.lanes >> (8 * i)) & 0xFFu);
-    least[i] = math::bits_of(least2_m2);  // which order as the squares do: none is below 0
-    key_after[i] = bound.prune_key(least2_m2);
+    const float min2_m2 = math::least_of(feet.distance2_m2, (block.lanes >> (8 * i)) & 0xFFu);
+    least[i] = math::bits_of(min2_m2);  // which order as the squares do: none is below 0
+    key_after[i] = bound.prune_key(min2_m2);
   }
   uint32_t steps = 0, found = math::bits_of(best.distance2_m2), nearest = 4;
   for (uint32_t i = 0; i < 2; ++i) {

@@ -102,8 +102,8 @@ bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
                                        : careful_distance2(p_m, a_m, b_m, c_m));
   const float near_m = nearest_m(found.search);
   weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
-  const float most_m = distance_m + loss.careful_m(distance_m) + loss.rounding_m;
-  if (!(most_m - found.lower_m <= within_m)) return false;
+  const float max_m = distance_m + loss.careful_m(distance_m) + loss.rounding_m;
+  if (!(max_m - found.lower_m <= within_m)) return false;
   found.distance_m = distance_m;
   return true;
 }
@@ -163,7 +163,7 @@ template <class Bound>
 [[gnu::always_inline]] inline Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m,
                                              const query::Budget& budget, query::Hint& hint) {
   const float moved_m = query::motion_m(hint, p_m);
-  const bool has_moved = moved_m <= query::kMostMotion_m;  // else nothing is carried on
+  const bool has_moved = moved_m <= query::kMaxMotion_m;  // else nothing is carried on
   const Loss loss(mesh.head());
   const float fence_margin_m = has_moved ? kFenceMotions * moved_m : 0.0f;
   // FLT_MAX and what squares beyond it: no band.

@@ -50,7 +50,7 @@ constexpr uint32_t kGridMax = 32767;
 // The share of the diagonal up to which a lower bound also covers the rounding of the imported
 // coordinates to float32: a model about two diagonals from its origin. One farther off is certified
 // as it was rounded.
-constexpr float kMostRounding = 1.5e-7f;
+constexpr float kMaxRounding = 1.5e-7f;
 
 struct Head {
   uint32_t vertex_count;
@@ -65,7 +65,7 @@ struct Head {
   float grid_low_m[3];
   float cell_m;          // a power of two, so that metres to cells rounds only once
   float longest_edge_m;  // of all triangles, rounded up
-  // By how much importing it to float32 may have moved a vertex; at most kMostRounding diagonals.
+  // By how much importing it to float32 may have moved a vertex; at most kMaxRounding diagonals.
   float rounding_m;
 };
 static_assert(sizeof(Head) == 72 && alignof(Head) == 4);
@@ -138,7 +138,7 @@ struct EdgeFolds {
   int8_t fold[3];
 };
 static_assert(sizeof(EdgeFolds) == 3 && alignof(EdgeFolds) == 1);
-constexpr int32_t kMostFold = 127;
+constexpr int32_t kMaxFold = 127;
 constexpr float kFoldsPerUnit = 127.05f;
 
 // A vertex's pseudonormal: octahedral, u in the low and v in the high 16 bits, each (value + 32767)

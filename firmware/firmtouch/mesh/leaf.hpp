@@ -32,24 +32,24 @@ struct Best {
 template <class Float>
 [[gnu::always_inline]] static inline void put_least(const Feet<Float>& feet, uint32_t of,
                                                     uint32_t first, uint32_t place, Best& best) {
-  float least2_m2;
-  const uint32_t lane = math::least_lane(feet.distance2_m2, of, least2_m2);
-  best.distance2_m2 = least2_m2;
+  float min2_m2;
+  const uint32_t lane = math::min_lane(feet.distance2_m2, of, min2_m2);
+  best.distance2_m2 = min2_m2;
   best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
   best.triangle = first + lane;
   best.place = place;
   best.feature = static_cast<Feature>(feet.features()[lane]);
 }
 
-/// The same where one of the lanes `asked` is nearer than `least2_m2`.
+/// The same where one of the lanes `asked` is nearer than `min2_m2`.
 /// Result: the least squared distance so far.
 template <class Float>
 [[gnu::always_inline]] static inline float take_nearest(const Feet<Float>& feet, uint32_t asked,
                                                         uint32_t first, uint32_t place,
-                                                        float least2_m2, Best& best) {
+                                                        float min2_m2, Best& best) {
   const uint32_t nearer =
-      math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(least2_m2))) & asked;
-  if (nearer == 0) return least2_m2;
+      math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(min2_m2))) & asked;
+  if (nearer == 0) return min2_m2;
   put_least(feet, nearer, first, place, best);
   return best.distance2_m2;
 }
@@ -59,7 +59,7 @@ template <class Float>
 template <class Float, class Index>
 [[gnu::always_inline]] static inline float measure_side_by_side(
     const Vertex* vertices, core::Span<const Triangle<Index>> triangles, math::Vec3 p_m,
-    uint32_t child, uint32_t place, float least2_m2, Best& best) {
+    uint32_t child, uint32_t place, float min2_m2, Best& best) {
   constexpr uint32_t kLanes = math::kLanesOf<Float>;
   // Neighbours of the leaf fill what lanes are left, and are not asked.
   uint32_t first = leaf_first(child), asked = (1u << leaf_count(child)) - 1u;
@@ -77,7 +77,7 @@ template <class Float, class Index>
       return math::gather(at(0), at(1), at(2), at(3));
   };
   const Feet<Float> feet = closest_on_triangles<Float>(p_m, corner(0), corner(1), corner(2));
-  return take_nearest(feet, asked, first, place, least2_m2, best);
+  return take_nearest(feet, asked, first, place, min2_m2, best);
 }
 
 // Where the members of a shape have their first row.
@@ -141,9 +141,9 @@ template <class Float>
 }
 template <class Float>
 [[gnu::always_inline]] static inline float measure_lined(const Lined& leaf, math::Vec3 p_m,
-                                                         uint32_t place, float least2_m2,
+                                                         uint32_t place, float min2_m2,
                                                          Best& best) {
-  return take_nearest(feet_on<Float>(leaf, p_m), leaf.asked(), leaf.first, place, least2_m2, best);
+  return take_nearest(feet_on<Float>(leaf, p_m), leaf.asked(), leaf.first, place, min2_m2, best);
 }
 
 template <class Float>
@@ -153,13 +153,13 @@ template <class Float>
   return closest_in_frames(f, plane_feet(f, p_m), p_m, at.corner(1), at.corner(2));
 }
 
-/// The same in less time where mostly none is nearer. `limit2_m2`: prism_limit2() of `least2_m2`.
+/// The same in less time where mostly none is nearer. `limit2_m2`: prism_limit2() of `min2_m2`.
 template <class Float>
 [[gnu::always_inline]] static inline float measure_lined_beside(const Lined& leaf, math::Vec3 p_m,
-                                                                uint32_t place, float least2_m2,
+                                                                uint32_t place, float min2_m2,
                                                                 float limit2_m2, Best& best) {
-  if (may_be_nearer<Float>(leaf, p_m, limit2_m2) == 0) return least2_m2;
-  return take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, place, least2_m2,
+  if (may_be_nearer<Float>(leaf, p_m, limit2_m2) == 0) return min2_m2;
+  return take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, place, min2_m2,
                       best);
 }
 
@@ -289,19 +289,19 @@ template <class InTurn, class Wanted>
   math::load_kept(&sought.p_m.x, in);
   const Vec3 p_m{in[0], in[1], in[2]};
   const float slack_m2 = in[3];
-  float least2_m2 = in[4];
-  Wanted wanted = Wanted::than(least2_m2, slack_m2);
+  float min2_m2 = in[4];
+  Wanted wanted = Wanted::than(min2_m2, slack_m2);
   InTurn triangles(sought, leaf_first(child));
   for (uint32_t left = math::only_here(leaf_count(child)); left != 0; --left) {
     typename InTurn::Shape shape;
     triangles.next(shape);
     Foot foot;
     if (!find_foot(p_m, shape, wanted, foot)) continue;
-    if (!(foot.distance2_m2 < least2_m2)) continue;
-    least2_m2 = foot.distance2_m2;
-    wanted = Wanted::than(least2_m2, slack_m2);
+    if (!(foot.distance2_m2 < min2_m2)) continue;
+    min2_m2 = foot.distance2_m2;
+    wanted = Wanted::than(min2_m2, slack_m2);
     Best& best = sought.best;
-    best.distance2_m2 = least2_m2;  // one by one: an aggregate would be built aside first
+    best.distance2_m2 = min2_m2;  // one by one: an aggregate would be built aside first
     best.offset_m = foot.offset_m;
     const uint32_t word = math::only_here(child);
     best.triangle = leaf_first(word) + leaf_count(word) - left;
@@ -310,7 +310,7 @@ template <class InTurn, class Wanted>
   }
 }
 
-/// Puts into `best` what of the leaf `child`, which is at `place`, is nearer than `least2_m2`; of
+/// Puts into `best` what of the leaf `child`, which is at `place`, is nearer than `min2_m2`; of
 /// two equally near triangles the first. With care, a triangle that may be the nearest is measured
 /// again in pairs of floats.
 /// `is_last`: the leaf is that of the last answer, whose branches the processor foresees: where it
@@ -322,16 +322,15 @@ template <bool kCareful, class Index>
                                                         const Loss& loss, math::Vec3 p_m,
                                                         uint32_t child, uint32_t place,
                                                         [[maybe_unused]] bool is_last,
-                                                        float least2_m2, Best& best) {
+                                                        float min2_m2, Best& best) {
   if constexpr (math::kHasLanes && !kCareful) {
     using math::Float4;
     using math::FloatWide;
     const bool is_small = leaf_count(child) <= math::kLanesOf<Float4>;
     if (!is_small && triangles.size() >= math::kLanesOf<FloatWide>)
-      return measure_side_by_side<FloatWide>(vertices, triangles, p_m, child, place, least2_m2,
-                                             best);
+      return measure_side_by_side<FloatWide>(vertices, triangles, p_m, child, place, min2_m2, best);
     if (is_small && !is_last && triangles.size() >= math::kLanesOf<Float4>)
-      return measure_side_by_side<Float4>(vertices, triangles, p_m, child, place, least2_m2, best);
+      return measure_side_by_side<Float4>(vertices, triangles, p_m, child, place, min2_m2, best);
   }
   using math::Vec3;
   const uint32_t stride = math::as_multiplier(sizeof(Vertex));
@@ -344,20 +343,20 @@ template <bool kCareful, class Index>
     load_corner<2>(vertices, triangle->corner[2], stride, c_m);
     Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
     if constexpr (kCareful) {
-      if (!loss.may_be_less(foot.distance2_m2, least2_m2)) continue;
+      if (!loss.may_be_less(foot.distance2_m2, min2_m2)) continue;
       foot.distance2_m2 = loss.is_clear(foot.distance2_m2)
                               ? careful_distance2(p_m, a_m, b_m, c_m, foot.feature)
                               : careful_distance2(p_m, a_m, b_m, c_m);
     }
-    if (!(foot.distance2_m2 < least2_m2)) continue;
-    least2_m2 = foot.distance2_m2;
-    best.distance2_m2 = least2_m2;  // one by one: an aggregate would be built aside first
+    if (!(foot.distance2_m2 < min2_m2)) continue;
+    min2_m2 = foot.distance2_m2;
+    best.distance2_m2 = min2_m2;  // one by one: an aggregate would be built aside first
     best.offset_m = foot.offset_m;
     best.triangle = static_cast<uint32_t>(triangle - triangles.data());
     best.place = place;
     best.feature = foot.feature;
   }
-  return least2_m2;
+  return min2_m2;
 }
 
 }  // namespace firmtouch::mesh

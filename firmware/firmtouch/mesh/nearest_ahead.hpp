@@ -11,14 +11,13 @@ namespace {
 
 // Those of a block's triangles that are nearer.
 [[gnu::always_inline, maybe_unused]] inline uint32_t nearer_of(const Feet<math::FloatWide>& feet,
-                                                               const Block& block,
-                                                               float least2_m2) {
-  return math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<math::FloatWide>(least2_m2))) &
+                                                               const Block& block, float min2_m2) {
+  return math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<math::FloatWide>(min2_m2))) &
          ((1u << block.count) - 1u);
 }
 
 // Of more nodes a mesh does not stay in the second cache.
-constexpr uint32_t kMostNodesNear = 16384;
+constexpr uint32_t kMaxNodesNear = 16384;
 
 // Has the processor fetch the corners of `child`, the next to be read: of its block, or where it has none
 // of that of `node`, which are there.
@@ -50,7 +49,7 @@ constexpr uint32_t kMostNodesNear = 16384;
                             b_keys);
   };
   const uint64_t root = 2 * uint64_t{mesh.nodes().size()};
-  const bool is_large = mesh.nodes().size() > kMostNodesNear;
+  const bool is_large = mesh.nodes().size() > kMaxNodesNear;
   // The last of all that is below the key to prune by: the key above the place.
   uint64_t last = (uint64_t{prune_key(bound, search)} << 32) - 1;
   WaitingChild pending[kMaxDepth + 2];

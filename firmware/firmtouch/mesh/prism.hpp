@@ -9,8 +9,8 @@ namespace firmtouch::mesh {
 
 /// Beyond this a prism's lane is certainly told farther than the nearest so far. `slack_m2`:
 /// Nearer::slack_m2().
-static inline float prism_limit2(float least2_m2, float slack_m2) {
-  return least2_m2 * (1.0f + 0x1p-16f) + (slack_m2 * 0x1p-4f + 0x1p-100f);
+static inline float prism_limit2(float min2_m2, float slack_m2) {
+  return min2_m2 * (1.0f + 0x1p-16f) + (slack_m2 * 0x1p-4f + 0x1p-100f);
 }
 
 /// Lanes of which it is not certain that they are told farther than the nearest so far, D away.

@@ -67,7 +67,7 @@ Verdict check_head(const Head& head) {
     return reject(106, 5);
   if (!(head.longest_edge_m > 0.0f && head.longest_edge_m <= 1.001f * diagonal_m))
     return reject(106, 6);
-  if (!(head.rounding_m >= 0.0f && head.rounding_m <= kMostRounding * head.diagonal_m))
+  if (!(head.rounding_m >= 0.0f && head.rounding_m <= kMaxRounding * head.diagonal_m))
     return reject(106, 0);
   return kPassed;
 }
@@ -313,7 +313,7 @@ Verdict Opening::check_triangle(uint32_t i) const {
   if (!shape.ok()) return shape;
   if (view_.is_signed())
     for (const int8_t fold : view_.folds_[i].fold)
-      if (fold < -kMostFold) return reject(130, i);
+      if (fold < -kMaxFold) return reject(130, i);
   return kPassed;
 }
 

@@ -59,9 +59,9 @@ enum class When : uint8_t {
 };
 
 // Most that the rows of the same names take; servo and its guard hold these ceilings as well.
-constexpr float kMostForceLimit_N = 100.0f;
-constexpr float kMostSlewLimit_N_per_s = 1e6f;
-constexpr float kMostTickPeriod_s = 0.1f;
+constexpr float kMaxForceLimit_N = 100.0f;
+constexpr float kMaxSlewLimit_N_per_s = 1e6f;
+constexpr float kMaxTickPeriod_s = 0.1f;
 
 struct Entry {
   const char* name;  // ends in its unit

@@ -7,7 +7,7 @@ namespace firmtouch::query {
 Carried carry(const Hint& hint, math::Vec3 position_m) {
   const float moved_m = motion_m(hint, position_m);
   Carried carried;
-  if (!(moved_m <= kMostMotion_m)) return carried;
+  if (!(moved_m <= kMaxMotion_m)) return carried;
   carried.motion_m = moved_m;
   carried.lower_m = left_of(hint.lower_m, moved_m);
   carried.fence_m = left_of(hint.fence_m, moved_m);

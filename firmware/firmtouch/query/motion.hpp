@@ -12,7 +12,7 @@ static inline float motion_m(const Hint& hint, math::Vec3 position_m) {
   return math::length(position_m - hint.position_m) * (1.0f + 8.0f * 0x1p-24f);
 }
 
-constexpr float kMostMotion_m = 0x1p100f;
+constexpr float kMaxMotion_m = 0x1p100f;
 
 /// What is left of a certified radius after a motion, rounded down; 0 where nothing is.
 static inline float left_of(float radius_m, float motion_m) {

@@ -11,7 +11,7 @@ float depth_at(const servo::ContactPlane& plane, math::Vec3 position_m) {
   return plane.offset_m - math::dot(plane.normal, position_m);
 }
 
-uint32_t least_deep(const servo::LocalModel& model) {
+uint32_t min_deep(const servo::LocalModel& model) {
   uint32_t least = 0;
   for (uint32_t i = 1; i < servo::kMaxPlanes; ++i) {
     if (depth_at(model.plane[i], model.made_at_m) < depth_at(model.plane[least], model.made_at_m))
@@ -63,7 +63,7 @@ float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_
   plane.damping_N_s_per_m = material.damping_N_s_per_m;
   if (!math::is_finite(plane.offset_m)) return 0.0f;
   if (!add_plane(model, plane)) {
-    const uint32_t least = least_deep(model);
+    const uint32_t least = min_deep(model);
     if (!(depth_m > depth_at(model.plane[least], model.made_at_m))) return 0.0f;
     model.plane[least] = plane;
   }

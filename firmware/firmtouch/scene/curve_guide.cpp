@@ -8,10 +8,10 @@ namespace {
 using math::Vec3;
 
 // Shorter than this, a side says no direction: nobody means one by it.
-constexpr float kLeastSide = 1e-3f;
+constexpr float kMinSide = 1e-3f;
 
 // No device reaches farther, and no distance that is not a number is as near.
-constexpr float kMostReach_m = 1e4f;
+constexpr float kMaxReach_m = 1e4f;
 
 float positive(float value) { return value > 0.0f ? value : 0.0f; }  // NaN too
 
@@ -113,8 +113,8 @@ void lead(const CurveGuide& guide, const Found& found, float moved_m, float forc
   const Drive& drive = guide.drive;
   const float step_m = drive.speed_mps * drive.tick_period_s;
   float ahead_m = touch.ahead_m + (step_m <= 1.0f && step_m >= -1.0f ? step_m : 0.0f) - moved_m;
-  const float most_m = force_N / guide.material.stiffness_N_per_m;
-  float low_m = -most_m, high_m = most_m;
+  const float max_m = force_N / guide.material.stiffness_N_per_m;
+  float low_m = -max_m, high_m = max_m;
   if (!found.is_closed && guide.ends != Ends::kGoOn) {  // a carriage stops at the ends
     const float back_m = -found.behind_m, on_m = found.ahead_m;
     low_m = low_m > back_m ? low_m : back_m;
@@ -128,7 +128,7 @@ void put_drive(const CurveGuide& guide, const Found& found, float moved_m, bool 
                GuideTouch& touch, servo::GuideLine& line) {
   const Drive& drive = guide.drive;
   const float size_N = drive.force_N < 0.0f ? -drive.force_N : drive.force_N;
-  const float limit_N = size_N <= servo::kMostDriveLimit_N ? size_N : 0.0f;
+  const float limit_N = size_N <= servo::kMaxDriveLimit_N ? size_N : 0.0f;
   if (drive.kind == Drive::Kind::kLead && guide.material.stiffness_N_per_m > 0.0f &&
       limit_N > 0.0f) {
     lead(guide, found, moved_m, limit_N, touch);
@@ -155,7 +155,7 @@ void put_edge(const CurveGuide& guide, Vec3 tangent, const servo::GuideLine& lin
               servo::LocalModel& model) {
   const Vec3 normal = guide.free_side - tangent * math::dot(guide.free_side, tangent);
   const float size = math::length(normal);
-  if (!(size > kLeastSide)) return;  // the curve runs to the free side
+  if (!(size > kMinSide)) return;  // the curve runs to the free side
   servo::ContactPlane edge;
   edge.normal = normal * (1.0f / size);
   edge.offset_m = math::dot(edge.normal, line.point_m) - line.tunnel_m;
@@ -171,10 +171,10 @@ void put_line(const CurveGuide& guide, Vec3 p_m, const Found& found, float moved
   line.point_m = math::apply(guide.pose, touch.closest.point_m);
   line.direction = guide.pose.rotation * way.direction;
   const float tunnel_m = positive(guide.tunnel_m);
-  line.tunnel_m = tunnel_m < servo::kMostTunnel_m ? tunnel_m : servo::kMostTunnel_m;
+  line.tunnel_m = tunnel_m < servo::kMaxTunnel_m ? tunnel_m : servo::kMaxTunnel_m;
   put_drive(guide, found, moved_m, way.is_along, touch, line);
   const float side2 = math::dot(guide.free_side, guide.free_side);
-  if (side2 >= kLeastSide * kLeastSide && side2 <= 1e6f) {
+  if (side2 >= kMinSide * kMinSide && side2 <= 1e6f) {
     put_edge(guide, guide.pose.rotation * touch.closest.tangent, line, model);
     line.tunnel_m = 0;
   } else {
@@ -242,7 +242,7 @@ void follow_curve(const CurveGuide& guide, Vec3 position_m, query::Budget budget
   const Vec3 p_m = math::apply_inverse(guide.pose, position_m);
   const bool was_held = touch.is_held;
   const float farther_m = guide.release_m >= guide.snap_m ? guide.release_m : guide.snap_m;
-  const float release_m = farther_m < kMostReach_m ? farther_m : kMostReach_m;
+  const float release_m = farther_m < kMaxReach_m ? farther_m : kMaxReach_m;
   const Found found = is_sampled(guide) ? find_sampled(guide, p_m, release_m, budget, touch)
                                         : find_spline(guide, p_m, release_m, budget, touch);
   touch.is_held = take_hold(guide, found, touch);

@@ -18,14 +18,14 @@ bool is_unit(Vec3 a) {
 }
 
 bool is_near(Vec3 a) {
-  return is_between(a.x, -kMostPosition_m, kMostPosition_m) &&
-         is_between(a.y, -kMostPosition_m, kMostPosition_m) &&
-         is_between(a.z, -kMostPosition_m, kMostPosition_m);
+  return is_between(a.x, -kMaxPosition_m, kMaxPosition_m) &&
+         is_between(a.y, -kMaxPosition_m, kMaxPosition_m) &&
+         is_between(a.z, -kMaxPosition_m, kMaxPosition_m);
 }
 
 bool is_material(float stiffness_N_per_m, float damping_N_s_per_m) {
-  return is_between(stiffness_N_per_m, 0.0f, kMostStiffness_N_per_m) &&
-         is_between(damping_N_s_per_m, 0.0f, kMostDamping_N_s_per_m);
+  return is_between(stiffness_N_per_m, 0.0f, kMaxStiffness_N_per_m) &&
+         is_between(damping_N_s_per_m, 0.0f, kMaxDamping_N_s_per_m);
 }
 
 Vec3 across(Vec3 a, Vec3 direction) { return a - direction * dot(direction, a); }
@@ -44,12 +44,12 @@ Vec3 pull_N(const GuideLine& guide, Vec3 off_m, Vec3 velocity_mps) {
 }
 
 Vec3 drive_N(const GuideLine& guide, Vec3 off_m, Vec3 velocity_mps) {
-  const float most_N = guide.drive_limit_N;
-  if (!(most_N > 0.0f)) return {};
+  const float max_N = guide.drive_limit_N;
+  if (!(max_N > 0.0f)) return {};
   const float along_N = guide.drive_N -
                         guide.drive_stiffness_N_per_m * dot(guide.direction, off_m) -
                         guide.drive_damping_N_s_per_m * dot(guide.direction, velocity_mps);
-  return guide.direction * (along_N > most_N ? most_N : along_N < -most_N ? -most_N : along_N);
+  return guide.direction * (along_N > max_N ? max_N : along_N < -max_N ? -max_N : along_N);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ bool is_sound(const LocalModel& model) {
   if (!is_between(model.free_radius_m, 0.0f, FLT_MAX)) return false;
   for (uint32_t i = 0; i < model.plane_count; ++i) {
     const ContactPlane& plane = model.plane[i];
-    if (!is_unit(plane.normal) || !is_between(plane.offset_m, -kMostPosition_m, kMostPosition_m))
+    if (!is_unit(plane.normal) || !is_between(plane.offset_m, -kMaxPosition_m, kMaxPosition_m))
       return false;
     if (!is_material(plane.stiffness_N_per_m, plane.damping_N_s_per_m)) return false;
   }
@@ -67,10 +67,10 @@ bool is_sound(const LocalModel& model) {
   const GuideLine& guide = model.guide;
   return is_near(guide.point_m) && is_unit(guide.direction) &&
          is_material(guide.stiffness_N_per_m, guide.damping_N_s_per_m) &&
-         is_between(guide.tunnel_m, 0.0f, kMostTunnel_m) &&
-         is_between(guide.drive_N, -kMostDrive_N, kMostDrive_N) &&
+         is_between(guide.tunnel_m, 0.0f, kMaxTunnel_m) &&
+         is_between(guide.drive_N, -kMaxDrive_N, kMaxDrive_N) &&
          is_material(guide.drive_stiffness_N_per_m, guide.drive_damping_N_s_per_m) &&
-         is_between(guide.drive_limit_N, 0.0f, kMostDriveLimit_N);
+         is_between(guide.drive_limit_N, 0.0f, kMaxDriveLimit_N);
 }
 
 Vec3 evaluate(const LocalModel& model, Vec3 position_m, Vec3 velocity_mps) {

@@ -6,11 +6,11 @@ namespace firmtouch::servo {
 
 // What a local model may hold; far beyond every device, and small enough that no sum of its forces
 // overflows.
-constexpr float kMostStiffness_N_per_m = 1e6f;
-constexpr float kMostDamping_N_s_per_m = 1e4f;
-constexpr float kMostPosition_m = 1e4f;
-constexpr float kMostVelocity_mps = 1e4f;
-constexpr float kMostDrive_N = 1e9f;  // before its limit: stiffness and damping times the above
+constexpr float kMaxStiffness_N_per_m = 1e6f;
+constexpr float kMaxDamping_N_s_per_m = 1e4f;
+constexpr float kMaxPosition_m = 1e4f;
+constexpr float kMaxVelocity_mps = 1e4f;
+constexpr float kMaxDrive_N = 1e9f;  // before its limit: stiffness and damping times the above
 
 /// Whether every number of the model is finite and in range and its directions are unit to 1 %.
 bool is_sound(const LocalModel& model);

@@ -39,9 +39,9 @@ bool is_up_to(float value, float most, uint32_t fraction) {
 }
 
 bool are_sane(const GuardLimits& limits) {
-  return is_up_to(limits.force_limit_N, kGuardMostForce_N, 16) &&
-         is_up_to(limits.slew_limit_N_per_s, kGuardMostSlew_N_per_s, 16) &&
-         is_up_to(limits.tick_period_s, kGuardMostPeriod_s, 28);
+  return is_up_to(limits.force_limit_N, kGuardMaxForce_N, 16) &&
+         is_up_to(limits.slew_limit_N_per_s, kGuardMaxSlew_N_per_s, 16) &&
+         is_up_to(limits.tick_period_s, kGuardMaxPeriod_s, 28);
 }
 
 // Units of 2^-16 N that a force may grow by in a tick. Sane limits keep the product within 64 bits.

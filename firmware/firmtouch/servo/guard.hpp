@@ -14,9 +14,9 @@ constexpr uint32_t kGuardLimitCount = 3;
 
 // In flash, so that no flipped bit reaches them: limits beyond these let nothing pass, whoever set
 // them.
-constexpr float kGuardMostForce_N = 100.0f;
-constexpr float kGuardMostSlew_N_per_s = 1e6f;
-constexpr float kGuardMostPeriod_s = 0.1f;
+constexpr float kGuardMaxForce_N = 100.0f;
+constexpr float kGuardMaxSlew_N_per_s = 1e6f;
+constexpr float kGuardMaxPeriod_s = 0.1f;
 
 struct GuardLimits {
   float force_limit_N = 0;

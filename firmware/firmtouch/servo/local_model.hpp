@@ -9,8 +9,8 @@ constexpr uint32_t kMaxPlanes =
     3;  // a corner of three faces: more planes than that are one contact too many to feel apart
 
 // Far beyond every device.
-constexpr float kMostDriveLimit_N = 1e3f;
-constexpr float kMostTunnel_m = 1e3f;
+constexpr float kMaxDriveLimit_N = 1e3f;
+constexpr float kMaxTunnel_m = 1e3f;
 
 /// Free where dot(normal, x) >= offset_m (device frame); a spring and damper across it behind.
 struct ContactPlane {

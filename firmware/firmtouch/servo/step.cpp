@@ -11,15 +11,15 @@ using math::Vec3;
 
 constexpr float kRound = 0x1p-24f;
 // Less than anybody feels or any driver sets: below it, squares would lose digits to underflow.
-constexpr float kLeastLimit_N = 1e-9f;
+constexpr float kMinLimit_N = 1e-9f;
 
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 bool is_sound(const Settings& settings) {
-  return is_between(settings.force_limit_N, 0.0f, kMostForceLimit_N) &&
-         is_between(settings.slew_limit_N_per_s, 0.0f, kMostSlewLimit_N_per_s) &&
+  return is_between(settings.force_limit_N, 0.0f, kMaxForceLimit_N) &&
+         is_between(settings.slew_limit_N_per_s, 0.0f, kMaxSlewLimit_N_per_s) &&
          is_between(settings.ramp_in_s, 0.0f, 100.0f) &&
-         is_between(settings.tick_period_s, 1e-5f, kMostTickPeriod_s);
+         is_between(settings.tick_period_s, 1e-5f, kMaxTickPeriod_s);
 }
 
 bool is_within(Vec3 a, float most) {
@@ -30,7 +30,7 @@ bool is_within(Vec3 a, float most) {
 // Shortens a vector to `most`, rounding included: what comes out is not longer than that in exact
 // arithmetic.
 Vec3 shorten(Vec3 a, float most) {
-  if (!(most >= kLeastLimit_N)) return {};
+  if (!(most >= kMinLimit_N)) return {};
   const float kept = most * (1.0f - 8.0f * kRound);
   const float is = math::length(a);
   return is <= kept ? a : a * (kept / is);
@@ -40,8 +40,8 @@ uint32_t seen_faults(const State& state, const Settings& settings, const LocalMo
                      const StepInput& input) {
   uint32_t faults = input.reported;
   if (!is_sound(settings)) faults |= kFaultSettings;
-  if (!is_within(input.position_m, kMostPosition_m) ||
-      !is_within(input.velocity_mps, kMostVelocity_mps) || !math::is_finite(state.force_N)) {
+  if (!is_within(input.position_m, kMaxPosition_m) ||
+      !is_within(input.velocity_mps, kMaxVelocity_mps) || !math::is_finite(state.force_N)) {
     faults |= kFaultNotFinite;
   }
   if (!is_sound(model)) faults |= kFaultModel;

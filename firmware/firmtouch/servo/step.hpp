@@ -12,9 +12,9 @@ constexpr float kRampOut_s = 0.008f;
 
 // Settings beyond these are kFaultSettings: no device that a hand holds needs more, and a bit that
 // flips in a setting mostly ends there.
-constexpr float kMostForceLimit_N = 100.0f;
-constexpr float kMostSlewLimit_N_per_s = 1e6f;
-constexpr float kMostTickPeriod_s = 0.1f;
+constexpr float kMaxForceLimit_N = 100.0f;
+constexpr float kMaxSlewLimit_N_per_s = 1e6f;
+constexpr float kMaxTickPeriod_s = 0.1f;
 
 enum class Mode : uint8_t {
   kOff,     // not enabled: no force

@@ -56,7 +56,7 @@ void bound_sums(const LeafShape& shape, const Part& part, float noise_m, float n
 }
 
 // With numerator = point * weight, Leibniz' rule gives each derivative of the point by the lower ones.
-void quotient(Sizes& c, const Sizes& w, float least_weight) {
+void quotient(Sizes& c, const Sizes& w, float min_weight) {
   for (uint32_t order = 0; order < kOrders; ++order)
     for (uint32_t b = 0; b <= order; ++b) {
       const uint32_t a = order - b;
@@ -64,7 +64,7 @@ void quotient(Sizes& c, const Sizes& w, float least_weight) {
       for (uint32_t l = 0; l <= b; ++l)
         for (uint32_t k = 0; k <= a; ++k)
           if (k + l < order) sum += kChoose[a][k] * kChoose[b][l] * c.of[k][l] * w.of[a - k][b - l];
-      c.of[a][b] = sum / least_weight * kUp;
+      c.of[a][b] = sum / min_weight * kUp;
     }
 }
 
@@ -140,7 +140,7 @@ struct Products {
 void bound_bends(const Part& part, float span_m, LeafShape& shape) {
   Sizes c, w;
   bound_sums(shape, part, shape.numerator_noise_m, shape.weight_noise, c, w);
-  quotient(c, w, shape.least_weight);
+  quotient(c, w, shape.min_weight);
   Vectors x;
   middle_derivatives(shape, x);
   tighten(x, c);
@@ -170,7 +170,7 @@ float lowest_of(const Part& part, const LeafShape& shape, const Vectors& x, cons
   const float u = part.half_u;
   // Of a middle derivative: what its coefficients may be off, by Leibniz' rule.
   const float off_m =
-      16.0f * (shape.numerator_noise_m + shape.weight_noise * shape.reach_m) / shape.least_weight;
+      16.0f * (shape.numerator_noise_m + shape.weight_noise * shape.reach_m) / shape.min_weight;
   const float sizes = 4.0f * one * three + 3.0f * two * two;
   const float in_middle =
       4.0f * dot(x.of[1][0], x.of[3][0]) + 3.0f * dot(x.of[2][0], x.of[2][0]) - 0x1p-18f * sizes -
@@ -208,10 +208,10 @@ bool add_bends(const Piece& piece, const float* coefficients, uint32_t fine_part
   part.half_v = 1.0f;
   LeafShape shape;
   derive(piece, coefficients, part, shape);
-  if (!(shape.least_weight > 0.0f)) return false;
+  if (!(shape.min_weight > 0.0f)) return false;
   Sizes c, w;
   bound_sums(shape, part, shape.numerator_noise_m, shape.weight_noise, c, w);
-  quotient(c, w, shape.least_weight);
+  quotient(c, w, shape.min_weight);
   Vectors x;
   middle_derivatives(shape, x);
   tighten(x, c);
@@ -241,7 +241,7 @@ bool begin_bends(const Piece& piece, const float* coefficients, const Part& cell
   derive(piece, coefficients, cell, whole);
   bends = {};
   bends.span_m = 2.0f * whole.reach_m;
-  return whole.least_weight > 0.0f;
+  return whole.min_weight > 0.0f;
 }
 
 bool add_bends(const Piece& piece, const float* coefficients, const Part& cell, uint32_t fine_part,
@@ -256,7 +256,7 @@ bool add_bends(const Piece& piece, const float* coefficients, const Part& cell, 
       cell.middle_v + part.half_v * (2.0f * static_cast<float>(fine_part / kFineSide) - kFirst);
   LeafShape shape;
   derive(piece, coefficients, part, shape);
-  if (!(shape.least_weight > 0.0f)) return false;
+  if (!(shape.min_weight > 0.0f)) return false;
   bound_bends(part, bends.span_m, shape);
   for (uint32_t k = 0; k < 5; ++k) {  // one that is no number stays
     if (!(shape.fixed[k] <= bends.fixed[k])) bends.fixed[k] = shape.fixed[k];

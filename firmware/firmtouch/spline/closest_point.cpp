@@ -17,7 +17,7 @@ using math::Vec3;
 // 4e-7 and 1e-6 when the losses are taken off.
 constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
 // A new front of a surface reaches this many of the last motions beyond the nearest point, or so much of the extent.
-constexpr float kFrontMotions = 8.0f, kLeastReach = 0x1p-10f;
+constexpr float kFrontMotions = 8.0f, kMinReach = 0x1p-10f;
 // Of a curve: so much of the extent beyond it. Of 0.01, 0.015, 0.02 and 0.03 ten planar cubics' paths of
 // 0.002 a query took 1,742, 1,726, 1,734 and 1,760 instructions.
 constexpr float kFenceReach = 0.015f;
@@ -52,9 +52,9 @@ float size_of(float value) { return value < 0.0f ? -value : value; }
 
 // Not of what is no number.
 bool is_near(const Head& head, Vec3 p_m) {
-  const float most_m = head.extent_m * kBeyond;
-  return size_of(p_m.x - head.low_m[0]) <= most_m && size_of(p_m.y - head.low_m[1]) <= most_m &&
-         size_of(p_m.z - head.low_m[2]) <= most_m;
+  const float max_m = head.extent_m * kBeyond;
+  return size_of(p_m.x - head.low_m[0]) <= max_m && size_of(p_m.y - head.low_m[1]) <= max_m &&
+         size_of(p_m.z - head.low_m[2]) <= max_m;
 }
 
 Vec3 unit_of(Vec3 v) {
@@ -129,7 +129,7 @@ Closest certified(const View& model, Vec3 p_m, const Search& search, const Best&
 // All of a front is nearer by the motion at most. Four roundings, of what is not larger than either.
 void move(const Vec3& p_m, const query::Hint& hint, Front& front) {
   const float motion_m = query::motion_m(hint, p_m);
-  if (!(motion_m <= query::kMostMotion_m)) {
+  if (!(motion_m <= query::kMaxMotion_m)) {
     FrontUse(front).clear();
     return;
   }
@@ -149,8 +149,8 @@ Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query:
   Rectangle range;
   const bool is_warm = search.resume(hint, leaf, range);
   if (is_warm) {
-    const float least_m = kLeastReach * model.head().extent_m;
-    search.run_warm(leaf, range, math::larger(kFrontMotions * carried.motion_m, least_m), front);
+    const float min_m = kMinReach * model.head().extent_m;
+    search.run_warm(leaf, range, math::larger(kFrontMotions * carried.motion_m, min_m), front);
   } else {
     begin_at_first(model, p_m, best);
     search.run_cold(outside_m(model.head(), p_m));

@@ -29,7 +29,7 @@ class PassedParts {
   float reach_m() const { return reach_m_; }
   void pass(uint32_t node, float lower_m) {
     if (lower_m >= reach_m_) return;
-    if (count_ < kMost)
+    if (count_ < kMax)
       parts_[count_++] = {node, lower_m};
     else if (lower_m < around_m_)
       around_m_ = lower_m;
@@ -47,7 +47,7 @@ class PassedParts {
     uint32_t low = leaf > kBeside ? leaf - kBeside : 0, high = leaf + kBeside;
     if (row.first < low) low = row.first;
     if (row.last > high) high = row.last;
-    const uint32_t most = taken < kManySteps ? kMostOpened : 0;
+    const uint32_t most = taken < kManySteps ? kMaxOpened : 0;
     uint32_t opened = 0;
     for (uint32_t i = 0; i < count_; ++i) {
       const Part part = parts_[i];
@@ -72,8 +72,8 @@ class PassedParts {
   }
 
  private:
-  static constexpr uint32_t kMost = 8;
-  static constexpr uint32_t kMostOpened = 2, kManySteps = 32;
+  static constexpr uint32_t kMax = 8;
+  static constexpr uint32_t kMaxOpened = 2, kManySteps = 32;
   struct Part {
     uint32_t node;
     float lower_m;
@@ -87,7 +87,7 @@ class PassedParts {
 
   float reach_m_ = 0.0f, around_m_ = 0.0f;
   uint32_t count_ = 0;
-  Part parts_[kMost];
+  Part parts_[kMax];
 };
 
 }  // namespace firmtouch::spline

@@ -7,7 +7,7 @@ namespace firmtouch::spline {
 /// D^2 / 2 about a point: its slope, its bend as small as it may be, a third of its third derivative and a
 /// twelfth of how far the fourth may be below 0 on all of the piece.
 struct Expansion {
-  float distance2, slope, slope_noise, least_bend, noise, third_3, fourth_12;
+  float distance2, slope, slope_noise, min_bend, noise, third_3, fourth_12;
 
   /// The bend as far as it counts on one side, over a length: with the sign of the side in slope and third,
   ///     f(d) >= f + slope d + (bend + third d / 3 - fourth d^2 / 12) d^2 / 2,
@@ -15,12 +15,12 @@ struct Expansion {
   /// third derivative is off by is in the bend's noise already.
   float bend_over(float side, float length) const {
     const float change = side * third_3 - fourth_12 * length;
-    return change < 0.0f ? least_bend + change * length : least_bend;
+    return change < 0.0f ? min_bend + change * length : min_bend;
   }
   /// The same of the second derivative itself, bend + third d - fourth d^2 / 2.
-  float least_bend_over(float side, float length) const {
+  float min_bend_over(float side, float length) const {
     const float change = 3.0f * (side * third_3) - 6.0f * fourth_12 * length;
-    return least_bend - 2.0f * noise + (change < 0.0f ? change * length : 0.0f);
+    return min_bend - 2.0f * noise + (change < 0.0f ? change * length : 0.0f);
   }
   /// The least of D^2 on one side (1: rising s, -1: falling), over a length.
   float least2(float side, float length) const {
@@ -44,7 +44,7 @@ static inline Expansion expand(const CurvePoint& at, math::Vec3 r_m, float dista
   f.slope = slope;
   f.slope_noise = speed * (loss_m + 6.0f * kUnit * distance_m) + kSlopeNoise * loss_m * distance_m;
   f.noise = stored.noise_m2 + stored.noise_turning_m * distance_m;
-  f.least_bend = bend - f.noise;
+  f.min_bend = bend - f.noise;
   f.third_3 = dot_as<kFlat>(at.d1, at.d2) + 0.33333334f * dot_as<kFlat>(r_m, at.d3);
   f.fourth_12 = (stored.fixed_m2 + stored.turning_m * distance_m) * 0.083333343f;
   return f;

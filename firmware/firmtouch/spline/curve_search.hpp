@@ -64,10 +64,10 @@ class CurveSearch : public Account {
     is_complete_ = drain();
   }
 
-  float pending_m(float outside_m) const { return least_pending_m(stack_, count_, outside_m); }
+  float pending_m(float outside_m) const { return min_pending_m(stack_, count_, outside_m); }
 
  private:
-  static constexpr uint32_t kMostTurns = 5;
+  static constexpr uint32_t kMaxTurns = 5;
   static constexpr float kPlace = 2.0f / 65535.0f;  // 65,535 of them are 2 in float32 as well
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and two.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 3;
@@ -226,7 +226,7 @@ class CurveSearch : public Account {
     if (is_row_)
       is_row_ = false;
     else
-      passed_.pass(entry.node, outcome == Outcome::kClosed ? raised(lower_m, least2_m2_) : 0.0f);
+      passed_.pass(entry.node, outcome == Outcome::kClosed ? raised(lower_m, min2_m2_) : 0.0f);
     switch (outcome) {
       case Outcome::kClosed:
         return true;
@@ -257,7 +257,7 @@ class CurveSearch : public Account {
     const math::Vec3 q_m = tree_.query_from(piece);
     bool is_row = is_row_;
     float s = range.start;
-    for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
+    for (uint32_t turn = 0; turn < kMaxTurns; ++turn) {
       if (left_ == 0) {
         range.start = s;
         return Outcome::kStopped;
@@ -279,7 +279,7 @@ class CurveSearch : public Account {
       // Where Newton's step leads within the range, and what it would gain there is needed, no proof can
       // hold yet.
       float next = bend > 0.0f ? s - slope / bend : slope > 0.0f ? range.low : range.high;
-      if (next > range.low && next < range.high && turn + 1 < kMostTurns &&
+      if (next > range.low && next < range.high && turn + 1 < kMaxTurns &&
           !best_.seems_beyond(distance2_m2 + slope * (next - s))) {
         s = next;
         continue;
@@ -309,10 +309,10 @@ class CurveSearch : public Account {
         }
       }
       if (is_below_done && is_above_done) {
-        least2_m2_ = below2 < above2 ? below2 : above2;
+        min2_m2_ = below2 < above2 ? below2 : above2;
         const float limit2_m2 = best_.limit_m * best_.limit_m;  // so far are parts closed before
-        if (turn > 0 && limit2_m2 < least2_m2_) least2_m2_ = limit2_m2;
-        if (is_row_) closed2_m2_ = least2_m2_;
+        if (turn > 0 && limit2_m2 < min2_m2_) min2_m2_ = limit2_m2;
+        if (is_row_) closed2_m2_ = min2_m2_;
         if (passed_.reach_m() > 0.0f) remember(f, on, s);
         return Outcome::kClosed;
       }
@@ -340,7 +340,7 @@ class CurveSearch : public Account {
     last_.distance2 = f.distance2;
     last_.slope = f.slope;
     last_.slope_noise = f.slope_noise;
-    last_.least_bend = f.least_bend;
+    last_.min_bend = f.min_bend;
     last_.third_3 = f.third_3;
     last_.fourth_12 = f.fourth_12;
     last_piece_ = piece;
@@ -367,7 +367,7 @@ class CurveSearch : public Account {
   uint32_t last_piece_ = kNoLeaf;
   float last_s_ = 0.0f;
   LeafRow row_{1, 0}, closed_{1, 0};
-  float least2_m2_ = 0.0f, closed2_m2_ = 0.0f;  // of the last that was closed, and of those leaves
+  float min2_m2_ = 0.0f, closed2_m2_ = 0.0f;  // of the last that was closed, and of those leaves
   PassedParts<kFlat> passed_;
   uint32_t count_ = 0, base_ = 0;  // of the stack, and where a scan's begin
   Entry stack_[kCapacity];

@@ -47,7 +47,7 @@ uint32_t GuideParts::node_around(uint32_t node, float reach_m) const {
   return node;
 }
 
-float GuideParts::least_within(uint32_t piece, float low, float high) const {
+float GuideParts::min_within(uint32_t piece, float low, float high) const {
   const auto first = static_cast<uint32_t>(among_parts(guide_, low));
   const float end = among_parts(guide_, high);
   auto last = static_cast<uint32_t>(end);
@@ -253,7 +253,7 @@ Outcome GuideParts::solve(uint32_t node, Range& range, float lower_m, uint32_t& 
   Way ways[2];
   const uint32_t way_count = ways_of(on, range, ways);
   float s = range.start;
-  for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
+  for (uint32_t turn = 0; turn < kMaxTurns; ++turn) {
     Seen seen;
     if (!take_point(on, node, s, left, best, seen)) {
       range.start = s;
@@ -263,7 +263,7 @@ Outcome GuideParts::solve(uint32_t node, Range& range, float lower_m, uint32_t& 
     float next = s + step_from(seen, ways[0], gain_m2);
     const float room_m = best.limit_m - seen.penalty_m;
     const float shown_m2 = (seen.distance_m - room_m) * (seen.distance_m + room_m);
-    if (next > range.low && next < range.high && turn + 1 < kMostTurns && shown_m2 < gain_m2) {
+    if (next > range.low && next < range.high && turn + 1 < kMaxTurns && shown_m2 < gain_m2) {
       s = next;  // no proof can hold yet
       continue;
     }

@@ -21,15 +21,15 @@ struct Penalty {
   /// Of arcs between two; nothing is between them and less.
   float least(float low_m, float high_m) const {
     if (low_m <= at_m && at_m <= high_m) return 0.0f;
-    float least_m = low_m > at_m ? low_m - at_m : at_m - high_m;
+    float min_m = low_m > at_m ? low_m - at_m : at_m - high_m;
     if (round.is_closed && high_m >= round.first_m && low_m <= round.last_m) {
       const float first_m = low_m > round.first_m ? low_m : round.first_m;
       const float last_m = high_m < round.last_m ? high_m : round.last_m;
       const float way_m = first_m > at_m ? last_m - at_m : at_m - first_m;
       const float other_m = round.length_m() - way_m;
-      if (other_m < least_m) least_m = other_m;
+      if (other_m < min_m) min_m = other_m;
     }
-    return least_m > 0.0f ? per_m * least_m : 0.0f;
+    return min_m > 0.0f ? per_m * min_m : 0.0f;
   }
 };
 
@@ -82,8 +82,8 @@ class GuideParts {
     const CurveLevels::Leaves under = curve_.below(node);
     if (!is_any_of(under)) return FLT_MAX;
     const Stretch below = stretch_of(under, false);
-    const float least_m = penalty_.least(below.low_m, below.high_m);
-    const float by_arc_m = with_slack(nearest_m_, least_m);
+    const float min_m = penalty_.least(below.low_m, below.high_m);
+    const float by_arc_m = with_slack(nearest_m_, min_m);
     if (by_arc_m >= best_.limit_m) {  // no need to know how far off it is
       if (is_leaf(node)) range = curve_.range_of(curve_.leaf_of(node), 0.5f);
       return by_arc_m;
@@ -91,14 +91,14 @@ class GuideParts {
     const CurveTree<false>::Seen seen =
         curve_.see(curve_.off_m(under.first), curve_.off_m(under.end), curve_.radius_m(node));
     if (is_leaf(node)) range = curve_.range_of(curve_.leaf_of(node), seen.share);
-    return seen.lower_m > nearest_m_ ? with_slack(seen.lower_m, least_m) : by_arc_m;
+    return seen.lower_m > nearest_m_ ? with_slack(seen.lower_m, min_m) : by_arc_m;
   }
 
   Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
                 Half<Range> (&halves)[2]);
 
  private:
-  static constexpr uint32_t kMostTurns = 5;
+  static constexpr uint32_t kMaxTurns = 5;
 
   // A change of arc on one side of where there is none, and on a closed chain the other way round.
   struct Way {
@@ -142,9 +142,9 @@ class GuideParts {
   }
   Stretch stretch_of(const CurveLevels::Leaves& under, bool is_within) const;
   bool find_cut(uint32_t piece, const Range& range, float& at) const;
-  float least_within(uint32_t piece, float low, float high) const;
+  float min_within(uint32_t piece, float low, float high) const;
   Half<Range> half(uint32_t piece, float low, float high, float lower_m) const {
-    const float own_m = with_slack(nearest_m_, least_within(piece, low, high));
+    const float own_m = with_slack(nearest_m_, min_within(piece, low, high));
     return {{low, high, 0.5f * (low + high)}, own_m > lower_m ? own_m : lower_m};
   }
   Slopes slopes_at(float t) const;

@@ -24,7 +24,7 @@ class GuideSearch : public Account {
     is_complete_ = true;
   }
 
-  float pending_m(float outside_m) const { return least_pending_m(stack_, count_, outside_m); }
+  float pending_m(float outside_m) const { return min_pending_m(stack_, count_, outside_m); }
 
  private:
   struct Entry {

@@ -10,7 +10,7 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
-constexpr float kMostLength_m = 1e9f;
+constexpr float kMaxLength_m = 1e9f;
 constexpr float kJoint = 0x1p-19f;  // of the extent: what two ends of one place may differ by
 // A stored length against one by three points: a cusp inside a part costs that much.
 constexpr float kShare = 0.0625f, kBeside = 0x1p-18f;
@@ -28,7 +28,7 @@ Verdict GuideOpening::take_sections(const View& model, const GuideSections& sect
   view_.chains_ = core::as_whole_array<Chain>(sections.chains);
   const uint32_t pieces = model.pieces().size();
   uint32_t parts = 1;
-  while (parts < kMostArcParts && parts * pieces + 1 < view_.arcs_.size()) parts *= 2;
+  while (parts < kMaxArcParts && parts * pieces + 1 < view_.arcs_.size()) parts *= 2;
   if (model.is_surface() || parts * pieces + 1 != view_.arcs_.size()) return reject(641);
   view_.model_ = model;
   view_.parts_ = parts;
@@ -59,14 +59,14 @@ void GuideOpening::work(uint32_t elements) {
 Verdict GuideOpening::check_part(uint32_t i) const {
   const float from_m = view_.arcs_[i], to_m = view_.arcs_[i + 1];
   const bool is_first_sound = i > 0 || (from_m >= 0.0f && from_m <= 0.0f);
-  if (!is_first_sound || !(to_m >= from_m) || !(to_m <= kMostLength_m)) return reject(643, i);
+  if (!is_first_sound || !(to_m >= from_m) || !(to_m <= kMaxLength_m)) return reject(643, i);
   if (i + 2 == view_.arcs_.size() && !(to_m > 0.0f)) return reject(643, i);
   const float step = 2.0f / static_cast<float>(view_.parts_);
   const float low = step * static_cast<float>(i % view_.parts_) - 1.0f;
   const float by_points_m = part_length_m(view_.model_, i / view_.parts_, low, low + step);
   const float off_m = to_m - from_m - by_points_m;
-  const float most_m = kShare * by_points_m + kBeside * (to_m + view_.model_.head().extent_m);
-  return off_m <= most_m && -off_m <= most_m ? kPassed : reject(644, i);
+  const float max_m = kShare * by_points_m + kBeside * (to_m + view_.model_.head().extent_m);
+  return off_m <= max_m && -off_m <= max_m ? kPassed : reject(644, i);
 }
 
 // The end before a piece, of its own chain.

@@ -18,7 +18,7 @@ struct Chain {
 };
 static_assert(sizeof(Chain) == 4);
 
-constexpr uint32_t kMostArcParts = 64;  // of a piece
+constexpr uint32_t kMaxArcParts = 64;  // of a piece
 
 struct GuideSections {
   core::Bytes arcs, chains;

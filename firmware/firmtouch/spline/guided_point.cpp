@@ -6,7 +6,7 @@
 #include "firmtouch/spline/arc.hpp"
 #include "firmtouch/spline/chain.hpp"
 #include "firmtouch/spline/curve_proof.hpp"
-#include "firmtouch/spline/least_cost.hpp"
+#include "firmtouch/spline/min_cost.hpp"
 
 namespace firmtouch::spline {
 namespace {
@@ -14,9 +14,9 @@ namespace {
 using math::Vec3;
 
 // Fewer steps tell nothing of costs.
-constexpr uint32_t kLeastSteps = 16;
+constexpr uint32_t kMinSteps = 16;
 // Beyond that squares may overflow, and no guide holds.
-constexpr float kMostPolished_m = 1e9f;
+constexpr float kMaxPolished_m = 1e9f;
 // Steps along the curve shorter than that end a slide.
 constexpr float kStill = 0x1p-21f;
 
@@ -177,8 +177,8 @@ bool comes_to(const GuideView& guide, const Foot& nearest, float lower_m, float 
   const Expansion f = expand<false>(at, nearest.r_m, nearest.distance2_m2, nearest.slope, speed2,
                                     speed2 + dot(nearest.r_m, nearest.at.d2),
                                     model.curve_bends()[nearest.piece], model.head().loss_m);
-  return f.least_bend_over(-1.0f, nearest.s - low) > 0.0f &&
-         f.least_bend_over(1.0f, high - nearest.s) > 0.0f;
+  return f.min_bend_over(-1.0f, nearest.s - low) > 0.0f &&
+         f.min_bend_over(1.0f, high - nearest.s) > 0.0f;
 }
 
 // The part of the least cost, and on it where the distance falls no further.
@@ -186,9 +186,9 @@ void keep_to_part(const GuideView& guide, Vec3 p_m, const Hold& hold, uint32_t s
                   const Following& following, Followed& followed) {
   const View& model = guide.model();
   const Closest nearest = followed.closest;
-  const uint32_t third = steps / 3, most = third < kMostSlides ? third : kMostSlides;
-  const LeastCost least = least_cost(guide, p_m, {hold.weight_m, following.piece, following.s},
-                                     nearest, {steps - most});
+  const uint32_t third = steps / 3, most = third < kMaxSlides ? third : kMaxSlides;
+  const LeastCost least =
+      min_cost(guide, p_m, {hold.weight_m, following.piece, following.s}, nearest, {steps - most});
   query::Certificate& certificate = followed.closest.certificate;
   certificate.steps += least.certificate.steps;
   certificate.exact = certificate.exact && least.certificate.exact;
@@ -211,14 +211,14 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
   if (!(following.piece < model.pieces().size())) following.is_following = false;
   following.s = clamped(following.s);
   const bool was_following = following.is_following;
-  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.steps >= kLeastSteps;
+  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.steps >= kMinSteps;
   Followed followed;
   followed.is_new = !was_following;
   const query::Budget first{is_penalty ? budget.steps - budget.steps / 2 : budget.steps,
                             budget.band_m};
   followed.closest = closest_on_curve(model, p_m, first, following.hint);
   Arcs arcs(guide);
-  if (followed.closest.distance_m < kMostPolished_m) {
+  if (followed.closest.distance_m < kMaxPolished_m) {
     const query::Certificate certificate = followed.closest.certificate;
     const Foot foot =
         polished(model, p_m, foot_at(model, p_m, followed.closest.bezier, followed.closest.s));

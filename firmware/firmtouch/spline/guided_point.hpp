@@ -34,13 +34,13 @@ struct Followed {
 };
 
 /// One tick of a guide. The penalty says on which part of the curve it is: of all points the one of the
-/// least distance + penalty of the change of arc, least_cost(). Distance says where on it: from there
+/// least distance + penalty of the change of arc, min_cost(). Distance says where on it: from there
 /// the guide goes along the curve to where the distance falls no further. Without a penalty it is at the
 /// closest point of the whole curve. No lost tick, jump or reset can keep it on a wrong part. Where
 /// the point is farther than release_m, or not a number, the guide lets go and takes the closest.
 /// Pre:    `guide` is open.
 /// Bounds: <= budget steps (16 for a penalty), at most half of them for the closest point where there is one,
-///         kMostSlides for the way along; and 14 points evaluated for lengths and for the last
+///         kMaxSlides for the way along; and 14 points evaluated for lengths and for the last
 ///         digits of the place; stack and reentrancy as closest_point().
 /// Result: always finite. lower_m bounds the distance of the whole curve; `exact` says that it meets that of
 ///         the closest point, and that of no other part a point costs less.
@@ -48,7 +48,7 @@ Followed follow(const GuideView& guide, math::Vec3 p_m, const Hold& hold, query:
                 Following& following);
 
 /// Points evaluated along the curve in a tick; beyond them the next tick goes on.
-constexpr uint32_t kMostSlides = 24;
+constexpr uint32_t kMaxSlides = 24;
 
 /// Goes on at the other end of the open chain on which the guide is, where that is nearer.
 /// Pre: is_following, and `end` is the one that it is past.

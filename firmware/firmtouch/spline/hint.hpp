@@ -10,14 +10,14 @@ namespace firmtouch::spline {
 /// makes answers wrong, though never reads what is not there.
 struct Front {
   // Where most of a model is about as near, 64 have no room for what is within reach (DESIGN.md, "Splines").
-  static constexpr uint32_t kMost = 128;
+  static constexpr uint32_t kMax = 128;
 
   float base_m = 0.0f;  // less all motion since it was told: may be below 0
   float unit_m = 0.0f;  // 0: nothing is known
   uint8_t count = 0;
   uint8_t outside = 0;
-  uint8_t beyond[kMost] = {};
-  uint32_t part[kMost] = {};
+  uint8_t beyond[kMax] = {};
+  uint32_t part[kMax] = {};
 };
 
 /// Hint::fence of a surface whose front is of position_m. A query that leaves no front leaves query::kNowhere.

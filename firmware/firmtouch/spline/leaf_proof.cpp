@@ -50,7 +50,7 @@ Verdict check_bend(const View& model, uint32_t piece_index, uint32_t fine_part,
   if (fine_part + 1 < kFineParts) return kPassed;
   const CurveBend &stored = model.curve_bends()[piece_index], least = needed.stored();
   const auto holds = [](float value, float at_least) {
-    return value >= at_least && value <= kMostBend;
+    return value >= at_least && value <= kMaxBend;
   };
   return holds(stored.fixed_m2, least.fixed_m2) && holds(stored.turning_m, least.turning_m) &&
                  holds(stored.noise_m2, least.noise_m2) &&

@@ -74,7 +74,7 @@ float off_chord_m(const LeafShape& shape, Vec3 a_m, Vec3 b_m) {
   }
   float sum_m = longest(e[0], e[2]) + longest(e[1], e[3]);
   for (uint32_t k = 4; k <= kMaxDegree + 1; ++k) sum_m += math::length(e[k]);
-  return sum_m / shape.least_weight * kUp + shape.noise_m +
+  return sum_m / shape.min_weight * kUp + shape.noise_m +
          4.0f * kUnit * (math::length(a_m) + math::length(b_m));
 }
 
@@ -101,7 +101,7 @@ Part part_of(const Piece& piece, uint32_t index_u, uint32_t index_v) {
 
 void derive(const Piece& piece, const float* coefficients, const Part& part, LeafShape& shape) {
   const uint32_t nu = piece.degree_u + 1u, nv = piece.degree_v + 1u;
-  Four c[LeafShape::kMost];
+  Four c[LeafShape::kMax];
   for (uint32_t k = 0; k < nu * nv; ++k) {
     const float* from = coefficients + k * (piece.is_rational != 0 ? 4u : 3u);
     for (uint32_t d = 0; d < 3; ++d) c[k].v[d] = from[d];
@@ -130,18 +130,18 @@ void derive(const Piece& piece, const float* coefficients, const Part& part, Lea
   }
   const float noise_w = piece.is_rational != 0 ? kShiftNoise * sums.weights * per_weight : 0.0f;
   const float noise_m = kShiftNoise * sums.points_m * per_weight + noise_w * away_m;
-  shape.least_weight = piece.is_rational != 0 ? 1.0f - others * kUp - noise_w : 1.0f;
-  if (!(weight > 0.0f && shape.least_weight > 0.5f)) {
-    shape.least_weight = 0.0f;
+  shape.min_weight = piece.is_rational != 0 ? 1.0f - others * kUp - noise_w : 1.0f;
+  if (!(weight > 0.0f && shape.min_weight > 0.5f)) {
+    shape.min_weight = 0.0f;
     return;
   }
-  const float per_least = 1.0f / shape.least_weight;
+  const float per_least = 1.0f / shape.min_weight;
   const float origin_size_m = math::length(origin_m);
   shape.reach_m = (reach_m + noise_m) * per_least * kUp;
   shape.noise_m = noise_m * per_least * kUp + 2.0f * kUnit * (origin_size_m + away_m);
   const float point_m = away_m + shape.reach_m;
   const float lost_m = sums.lost_m + (piece.is_rational != 0 ? sums.lost_weight * point_m : 0.0f);
-  const float lowest = weight * shape.least_weight;
+  const float lowest = weight * shape.min_weight;
   shape.loss_m = kUnit * kUp * (lost_m / lowest + (piece.is_rational != 0 ? 5.0f : 2.0f) * point_m);
   shape.numerator_noise_m = noise_m;
   shape.weight_noise = noise_w;
@@ -163,8 +163,8 @@ Extent extent_along(const LeafShape& shape, Vec3 centre_m, Vec3 axis) {
   const float off = dot(off_m, axis);
   // Divided by the weight: the numerator by the least one where that leads outward.
   const float noise_m = shape.noise_m + 8.0f * kUnit * math::length(off_m);
-  low = low / shape.least_weight * kUp;
-  high = high / shape.least_weight * kUp;
+  low = low / shape.min_weight * kUp;
+  high = high / shape.min_weight * kUp;
   return {off + low - noise_m, off + high + noise_m};
 }
 

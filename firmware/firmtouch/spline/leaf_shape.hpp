@@ -20,13 +20,13 @@ Part part_of(const Halvings& made, uint32_t u, uint32_t v);
 /// A leaf about its middle, in leaf coordinates x (and y) from -1 to 1: with the powers of x
 /// fastest, point(x, y) = middle_m + (sum of c[i, j] x^i y^j) / (sum of w[i, j] x^i y^j).
 struct LeafShape {
-  static constexpr uint32_t kMost = (kMaxDegree + 1) * (kMaxDegree + 1);
+  static constexpr uint32_t kMax = (kMaxDegree + 1) * (kMaxDegree + 1);
   bool is_rational = false;
   uint32_t degree_u = 0, degree_v = 0;
   math::Vec3 middle_m, local_m;  // the latter from the piece's origin
-  math::Vec3 c[kMost];           // c[0] is what float32 left of it, next to nothing
-  float w[kMost];                // w[0] = 1
-  float least_weight = 0;        // on the leaf; where it is not above 1 / 2 nothing else is known
+  math::Vec3 c[kMax];            // c[0] is what float32 left of it, next to nothing
+  float w[kMax];                 // w[0] = 1
+  float min_weight = 0;          // on the leaf; where it is not above 1 / 2 nothing else is known
   float noise_m = 0;             // of any point of it, as computed here
   float reach_m = 0;             // no point of the leaf is farther from middle_m
   float loss_m = 0;  // of a point that evaluation.hpp computes, but for 5 units of its distance

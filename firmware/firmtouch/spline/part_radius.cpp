@@ -172,7 +172,7 @@ void residual_of(const LeafShape& shape, const Quad& quad, const Spread& on, Res
 float most_of(const Residual& r) {
   constexpr uint32_t kSteps = 6;
   constexpr float kStep = 2.0f / kSteps;
-  float most_m2 = 0.0f, bent_m = 0.0f;
+  float max_m2 = 0.0f, bent_m = 0.0f;
   for (uint32_t k = 0; k <= kSteps; ++k) {
     const float t = static_cast<float>(k) * kStep - 1.0f;
     Vec3 along[Residual::kSide];
@@ -184,7 +184,7 @@ float most_of(const Residual& r) {
       const float s = static_cast<float>(n) * kStep - 1.0f;
       Vec3 at = along[r.columns - 1];
       for (uint32_t i = r.columns - 1; i-- > 0;) at = at * s + along[i];
-      most_m2 = math::larger(most_m2, dot(at, at));
+      max_m2 = math::larger(max_m2, dot(at, at));
     }
   }
   const auto twice = [](uint32_t power) { return power < 2 ? 0u : power * (power - 1); };
@@ -192,7 +192,7 @@ float most_of(const Residual& r) {
     for (uint32_t i = 0; i < r.columns; ++i)
       if (i > 1 || j > 1)
         bent_m += static_cast<float>(twice(i) + twice(j)) * math::length(r.e[j][i]);
-  return math::square_root(most_m2) + bent_m * (kStep * kStep / 8.0f);
+  return math::square_root(max_m2) + bent_m * (kStep * kStep / 8.0f);
 }
 
 }  // namespace
@@ -240,7 +240,7 @@ float radius_for(const LeafShape& shape, const LeafCorners& corners, const Quad&
   spread_on(shape, corners, around, own, within, on);
   Residual r;
   residual_of(shape, around, on, r);
-  const float off_m = most_of(r) / shape.least_weight * kUp + shape.noise_m;
+  const float off_m = most_of(r) / shape.min_weight * kUp + shape.noise_m;
   const float rounding_m = 64.0f * kUnit * (shape.reach_m + 2.0f * size_of(around));
   return off_m * kUp + rounding_m;
 }

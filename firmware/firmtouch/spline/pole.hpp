@@ -16,8 +16,8 @@ class Pole {
  public:
   Pole() {}  // by hand: else all is cleared
 
-  /// Whether that edge of a piece is a pole, but for `most_m`. axis: 0 or 1, where u or v ends; is_high: at 1.
-  bool begin(const float* c, math::Vec3 q_m, uint32_t axis, bool is_high, float most_m) {
+  /// Whether that edge of a piece is a pole, but for `max_m`. axis: 0 or 1, where u or v ends; is_high: at 1.
+  bool begin(const float* c, math::Vec3 q_m, uint32_t axis, bool is_high, float max_m) {
     const uint32_t along = axis == 0 ? 12 : 3, across = axis == 0 ? 3 : 12;
     const float sign = is_high ? 1.0f : -1.0f;
     const auto end_of = [&](uint32_t i) {
@@ -27,11 +27,11 @@ class Pole {
     };
     const float* const last = c + 3 * along;  // mostly enough: one coordinate
     const float odd = last[across] + last[3 * across];
-    if (!(__builtin_fabsf(last[0] + last[2 * across] + odd * sign) <= most_m)) return false;
+    if (!(__builtin_fabsf(last[0] + last[2 * across] + odd * sign) <= max_m)) return false;
     off_m_ = 0.0f;
     for (uint32_t i = 3; i > 0; --i) {
       off_m_ += size_of(end_of(i));
-      if (!(off_m_ <= most_m)) return false;
+      if (!(off_m_ <= max_m)) return false;
     }
     float sizes_m = 0.0f;  // of all that is added up to the edge's points
     size_ = 0.0f;
@@ -131,10 +131,10 @@ class Poles {
   Poles(const View& model, math::Vec3 p_m)
       : pieces_(model.pieces().data()), coefficients_(model.coefficients().data()), p_m_(p_m) {}
 
-  /// Of a part at an edge of its piece that is a pole, but for most_m: a lower bound of its distance, else 0. x and y: where on
+  /// Of a part at an edge of its piece that is a pole, but for max_m: a lower bound of its distance, else 0. x and y: where on
   /// it, from -1 to 1, the foot is thought to be; as they were where nothing is known.
-  [[gnu::noinline]] float lower_m(uint32_t node, float most_m, float& x, float& y) {
-    if ((node ^ last_->node) >> 16 != 0) find(node, most_m);
+  [[gnu::noinline]] float lower_m(uint32_t node, float max_m, float& x, float& y) {
+    if ((node ^ last_->node) >> 16 != 0) find(node, max_m);
     const uint32_t edge = last_->edge, axis = edge >> 1, other = 1 - axis;
     if (edge == kNoEdge) return 0.0f;
     const PatchNode part = apart(pieces_[node >> 16], node);
@@ -144,10 +144,10 @@ class Poles {
     const Rectangle range = SurfaceParts::range_of(part, 0.0f, 0.0f);
     const float deep = range.high[axis] - range.low[axis];
     float foot;
-    const float least_m = last_->pole.lower_m(range.low[other], range.high[other], deep, foot);
+    const float min_m = last_->pole.lower_m(range.low[other], range.high[other], deep, foot);
     const float on = 2.0f * foot / deep - 1.0f;
     (axis == 0 ? x : y) = is_high ? -on : on;
-    return least_m;
+    return min_m;
   }
 
  private:
@@ -158,7 +158,7 @@ class Poles {
     uint32_t edge = kNoEdge;  // 0 and 1: where u ends, 2 and 3: where v does
   };
 
-  void find(uint32_t node, float most_m) {
+  void find(uint32_t node, float max_m) {
     last_ = last_ == found_ ? found_ + 1 : found_;
     if ((node ^ last_->node) >> 16 == 0) return;
     last_->node = node;
@@ -168,7 +168,7 @@ class Poles {
     const math::Vec3 q_m = p_m_ - vec3_at(piece.origin_m);
     const float* const c = coefficients_ + piece.coefficients;
     for (uint32_t edge = 0; edge < kNoEdge && last_->edge == kNoEdge; ++edge)
-      if (last_->pole.begin(c, q_m, edge >> 1, (edge & 1u) != 0, most_m)) last_->edge = edge;
+      if (last_->pole.begin(c, q_m, edge >> 1, (edge & 1u) != 0, max_m)) last_->edge = edge;
   }
 
   const Piece* pieces_;

@@ -102,8 +102,8 @@ struct Quadratic {
     float bound;
     if (strong > 0.0f) {
       const float b = across + 0.5f * (is_u_weak ? uuv : uvv);
-      bound = is_u_weak ? least_across(weak, b, strong, g[0], g[1])
-                        : least_across(weak, b, strong, g[1], g[0]);
+      bound = is_u_weak ? min_across(weak, b, strong, g[0], g[1])
+                        : min_across(weak, b, strong, g[1], g[0]);
     } else {
       bound = -0.5f * (risen(uuv - uu) + risen(uvv - vv)) - g[0] - g[1] - across;
     }
@@ -118,7 +118,7 @@ struct Quadratic {
       const float at_end = left + 0.5f * (own[k] - mixed_in[k]);
       const float slack = 0x1p-20f * (q[k] + across + uuv + uvv + __builtin_fabsf(own[k]));
       if (!(left > slack && at_end > slack)) continue;
-      bound = math::larger(least_along(0.5f * q[o], g[o], own[o]), bound);
+      bound = math::larger(min_along(0.5f * q[o], g[o], own[o]), bound);
     }
     return distance2 + 2.0f * (bound - sunk);
   }
@@ -126,7 +126,7 @@ struct Quadratic {
   /// The same for a valley askew: where the bend turns along it, in coordinates x and y - tilt x of the weaker and the
   /// stronger axis, in which it does not. Of third derivatives what counts along the valley is then one number, in which
   /// they mostly cancel. The rectangle becomes the one about what it is there. Result: 0 where no valley is seen.
-  [[gnu::noinline]] float least2_askew(const Rectangle& r, float enough2) const {
+  [[gnu::noinline]] float min2_askew(const Rectangle& r, float enough2) const {
     const float wide = r.high[0] - r.low[0], high = r.high[1] - r.low[1];
     const bool is_u_weak = bend[0] * (wide * wide) < bend[2] * (high * high);
     const uint32_t k = is_u_weak ? 0 : 1, o = 1 - k;
@@ -248,7 +248,7 @@ struct Quadratic {
   }
 
   /// At most the least of x rise - x fall + x^2 own / 2 over x from 0 to 1, of which rise or fall is 0.
-  static float least_along(float rise, float fall, float own) {
+  static float min_along(float rise, float fall, float own) {
     if (own > fall) return -0.5f * (fall * fall / own) * (1.0f + 0x1p-20f);
     const float end = rise + 0.5f * own - fall;
     return end > 0x1p-20f * rise ? 0.0f : end - 0x1p-22f * rise;
@@ -256,7 +256,7 @@ struct Quadratic {
 
   /// At most the least of -(g x + h y) + (a x^2 - 2 b x y + c y^2) / 2 over x and y from 0 to 1, where c > 0: of any y
   /// where that may be less than 1, else of y = 1.
-  static float least_across(float a, float b, float c, float g, float h) {
+  static float min_across(float a, float b, float c, float g, float h) {
     const bool is_within = h < c;
     const float turned = is_within ? b / c : 1.0f, own = is_within ? a - b * turned : a;
     const float sure = own - 0x1p-20f * (__builtin_fabsf(a) + b * turned);

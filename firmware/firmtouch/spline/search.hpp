@@ -92,12 +92,12 @@ class Account {
   /// Certified distance to all that was not looked at, before what float32 loses: what waits on a stack
   /// has lower bounds of its own, and nothing of the model is nearer than outside_m.
   template <class Entry>
-  float least_pending_m(const Entry* stack, uint32_t count, float outside_m) const {
-    float least_m = lost_m_;
-    if (is_cut_) least_m = outside_m;
+  float min_pending_m(const Entry* stack, uint32_t count, float outside_m) const {
+    float min_m = lost_m_;
+    if (is_cut_) min_m = outside_m;
     for (uint32_t i = 0; i < count; ++i)
-      if (stack[i].lower_m < least_m) least_m = stack[i].lower_m;
-    return least_m;
+      if (stack[i].lower_m < min_m) min_m = stack[i].lower_m;
+    return min_m;
   }
 
   uint32_t budget_, left_;

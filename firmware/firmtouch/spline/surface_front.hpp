@@ -58,11 +58,11 @@ class FarParts {
   const Part* begin() const { return parts_; }
   const Part* end() const { return parts_ + count_; }
 
-  static constexpr uint32_t kMost = Front::kMost;
+  static constexpr uint32_t kMax = Front::kMax;
 
  private:
   [[gnu::noinline]] void keep(uint32_t node, float lower_m) {
-    if (count_ < kMost) {
+    if (count_ < kMax) {
       parts_[count_++] = {node, lower_m};
     } else {
       reach_m_ = lower_m;
@@ -73,7 +73,7 @@ class FarParts {
   float reach_m_ = 0.0f;
   uint32_t count_ = 0;
   bool is_all_ = true;
-  Part parts_[kMost];
+  Part parts_[kMax];
 };
 
 /// Of a front, as seen by one query.
@@ -89,7 +89,7 @@ class FrontUse {
     const float units = (limit_m - front_.base_m) / front_.unit_m;
     if (!(units < static_cast<float>(kAll) - 1.0f)) return false;
     needed = units > 0.0f ? static_cast<uint32_t>(units * (1.0f + 0x1p-20f)) + 1 : 1;
-    return needed <= front_.outside && front_.count <= Front::kMost;
+    return needed <= front_.outside && front_.count <= Front::kMax;
   }
   /// What is so far away need not be kept. Rounded up, by more than its roundings.
   float outside_m() const {
@@ -117,9 +117,9 @@ class FrontUse {
   void add(FarParts& passed, const Parts& tree) {
     uint32_t outside = front_.outside;
     if (!passed.is_all() && coded(passed.around_m()) < outside) outside = coded(passed.around_m());
-    if (front_.count + passed.count() > Front::kMost) passed.join(tree);
-    if (front_.count + passed.count() > Front::kMost)
-      outside = most_within(passed, outside, Front::kMost - front_.count);
+    if (front_.count + passed.count() > Front::kMax) passed.join(tree);
+    if (front_.count + passed.count() > Front::kMax)
+      outside = max_within(passed, outside, Front::kMax - front_.count);
     front_.outside = static_cast<uint8_t>(outside);
     for (const FarParts::Part& part : passed)
       if (coded(part.lower_m) < outside) put(front_.count++, part);
@@ -129,7 +129,7 @@ class FrontUse {
     front_.base_m = limit_m;
     front_.unit_m = (reach_m - limit_m) * (1.0f / 256.0f);
     if (!(front_.unit_m > 0.0f)) return clear();
-    static_assert(FarParts::kMost <= Front::kMost);
+    static_assert(FarParts::kMax <= Front::kMax);
     const uint32_t outside = passed.is_all() ? kAll : coded(passed.around_m());
     front_.outside = static_cast<uint8_t>(outside);
     front_.count = 0;
@@ -139,7 +139,7 @@ class FrontUse {
 
  private:
   // The most units that no more parts than there is room for are less beyond than.
-  uint32_t most_within(const FarParts& passed, uint32_t most, uint32_t room) const {
+  uint32_t max_within(const FarParts& passed, uint32_t most, uint32_t room) const {
     constexpr uint32_t kWide = 4;
     uint8_t counts[(kAll + 1) >> kWide] = {};
     for (const FarParts::Part& part : passed) ++counts[coded(part.lower_m) >> kWide];

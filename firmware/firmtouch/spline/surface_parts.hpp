@@ -54,7 +54,7 @@ class SurfaceParts {
       const float step[2] = {(h[2] * u - h[1] * v) / determinant,
                              (h[0] * v - h[1] * u) / determinant};
       for (uint32_t k = 0; k < 2; ++k)
-        if (step[k] > -kMostStep && step[k] < kMostStep) to[k] += step[k];
+        if (step[k] > -kMaxStep && step[k] < kMaxStep) to[k] += step[k];
     }
     const uint32_t u = coded(0.5f * to[0] + 0.5f, 65535), v = coded(0.5f * to[1] + 0.5f, 65535);
     hint.place = (best.node & 0xFFFF0000u) | (u & 0xFF00u) | v >> 8;
@@ -165,7 +165,7 @@ class SurfaceParts {
     float at[2] = {range.start[0], range.start[1]};
     Quadratic *f = expansions_, *base = expansions_ + 1;
     base->distance2 = FLT_MAX;
-    for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
+    for (uint32_t turn = 0; turn < kMaxTurns; ++turn) {
       if (left == 0) {
         range.start[0] = at[0];
         range.start[1] = at[1];
@@ -191,7 +191,7 @@ class SurfaceParts {
       if (!has_arrived && !best.seems_beyond(base->distance2 - (is_best ? kNearly : 2.0f) * gain))
         continue;
       if (best.is_beyond(told2_ = base->least2(range, best.enough2())) ||
-          best.is_beyond(told2_ = base->least2_askew(range, best.enough2()))) {
+          best.is_beyond(told2_ = base->min2_askew(range, best.enough2()))) {
         closed_by_ = base;
         closed_ = is_small ? kNone : node;  // a rectangle's own bends are not those of the cell
         return Outcome::kClosed;
@@ -242,12 +242,12 @@ class SurfaceParts {
   static uint32_t tried(const Best& best) {
     return best.evaluations >= kSomeEvaluations ? 0 : kTried;
   }
-  static constexpr float kMostStep = 0.25f;  // of a half piece, that a foot is thought to go
+  static constexpr float kMaxStep = 0.25f;  // of a half piece, that a foot is thought to go
   // Where a point that would be bettered by so little of the gap (1 / 8 of it) has a proof, it is told.
   static constexpr float kNearly = 16.0f;
   // What Newton's step gains of D^2 / 2 is lost in rounding where it is less than this of D^2.
   static constexpr float kRounding = 0x1p-23f;
-  static constexpr uint32_t kMostTurns = 6;
+  static constexpr uint32_t kMaxTurns = 6;
   // A rectangle of so little of a leaf gets bends of its own, for the price of so many steps. The
   // leaf's are too wide where a row of control points is one point: there they shrink with the
   // rectangle, and without that some queries took millions of evaluations.

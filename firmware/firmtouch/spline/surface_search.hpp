@@ -39,7 +39,7 @@ class SurfaceSearch : public Account {
     is_complete_ = drain();
   }
 
-  float pending_m(float outside_m) const { return least_pending_m(stack_, count_, outside_m); }
+  float pending_m(float outside_m) const { return min_pending_m(stack_, count_, outside_m); }
 
  private:
   void run_from(uint32_t leaf, const Range& range, float margin_m, FrontUse& use, Front& front) {
@@ -68,7 +68,7 @@ class SurfaceSearch : public Account {
   // The part of a front about a leaf that a proof closed last time, all at once. Result: which one.
   uint32_t solve_about(uint32_t leaf, const Range& range, const Front& front) {
     uint32_t k = 0;
-    const uint32_t count = front.count <= Front::kMost ? front.count : 0;
+    const uint32_t count = front.count <= Front::kMax ? front.count : 0;
     for (;; ++k) {
       if (k == count) return kNoEntry;
       const uint32_t part = front.part[k];
@@ -116,9 +116,9 @@ class SurfaceSearch : public Account {
     if (left_ == 0) return false;
     if (is_about) return climb(leaf, is_closed, node);
     visit(node);
-    return count_ <= kMostWaiting || drain();
+    return count_ <= kMaxWaiting || drain();
   }
-  static constexpr uint32_t kMostWaiting = 6;
+  static constexpr uint32_t kMaxWaiting = 6;
   // The nearest on top.
   void sort() {
     for (uint32_t i = 1; i < count_; ++i) {

@@ -17,7 +17,7 @@ constexpr uint32_t kLeafElements = 64;
 constexpr uint32_t kMaxPieces = 65535;
 constexpr float kUnit = 0x1p-24f;
 // What `exact` promises less what closest_point() gives away leaves so much of the extent.
-constexpr float kMostLoss = 2.0f * kUnit, kMostRationalLoss = 5.0f * kUnit;
+constexpr float kMaxLoss = 2.0f * kUnit, kMaxRationalLoss = 5.0f * kUnit;
 
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 Vec3 vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
@@ -37,7 +37,7 @@ Verdict check_head(const Head& head) {
     if (side_m > longest_m) longest_m = side_m;
   }
   if (!(head.extent_m >= kMinExtent_m && head.extent_m <= longest_m)) return reject(606);
-  const float most = head.is_rational != 0 ? kMostRationalLoss : kMostLoss;
+  const float most = head.is_rational != 0 ? kMaxRationalLoss : kMaxLoss;
   if (!(head.loss_m >= 0.0f && head.loss_m <= head.extent_m * most)) return reject(607);
   if (head.worst_steps == 0) return reject(608);
   const bool is_unit =
@@ -303,7 +303,7 @@ Verdict Opening::check_leaf(uint32_t i) {
   LeafShape shape;
   derive(piece, view_.coefficients_.data() + piece.coefficients,
          part_of(piece, place.index_u, place.index_v), shape);
-  if (!(shape.least_weight > 0.0f)) return reject(619, i);
+  if (!(shape.min_weight > 0.0f)) return reject(619, i);
   const Head& head = *view_.head_;
   if (!(shape.loss_m <= head.loss_m)) return reject(621, i);
   for (uint32_t k = 0; k < 3; ++k) {

@@ -15,7 +15,7 @@ struct Entrant {
   std::function<Nearest(Vec3)> nearest;
   /// All points in turn; result: a sum of the distances.
   std::function<double(const std::vector<Vec3>&)> pass;
-  std::function<Counters(const std::vector<Vec3>&)> count;  // sums; most_pending: the most
+  std::function<Counters(const std::vector<Vec3>&)> count;  // sums; max_pending: the most
 };
 
 /// Every combination over one mesh, which must stay.

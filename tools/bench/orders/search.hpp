@@ -13,7 +13,7 @@ enum class Upper { kNone, kVertex, kFarCorner, kMinMax };
 struct Counters {
   uint32_t nodes = 0;  // read, leaves among them: steps
   uint32_t boxes = 0, triangles = 0;
-  uint32_t most_pending = 0;
+  uint32_t max_pending = 0;
   uint32_t overflows = 0;  // how often a queue was full
 };
 
@@ -82,7 +82,7 @@ class Search {
 
   void note_pending(uint32_t count) {
     if constexpr (kCount)
-      if (count > counters_.most_pending) counters_.most_pending = count;
+      if (count > counters_.max_pending) counters_.max_pending = count;
   }
   void note_overflow() {
     if constexpr (kCount) ++counters_.overflows;

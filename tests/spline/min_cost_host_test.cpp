@@ -1,6 +1,6 @@
 // The point of a guide of the least distance + penalty, against dense sampling with refinement in double:
 // of the file's own curve, and of the cost as it is told.
-#include "firmtouch/spline/least_cost.hpp"
+#include "firmtouch/spline/min_cost.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -234,7 +234,7 @@ TEST(TheLeastCostOfAGuideAgainstDenseSampling) {
       Hint cold;
       const spline::Closest nearest = closest_point(g.view, q, kUnlimited, cold);
       const spline::LeastCost found =
-          least_cost(g.guide, q, {weight_m, was.piece, was.s}, nearest, kUnlimited);
+          min_cost(g.guide, q, {weight_m, was.piece, was.s}, nearest, kUnlimited);
       CHECK(found.certificate.exact);
       const double told = static_cast<double>(found.cost_m),
                    lower = static_cast<double>(found.certificate.lower_m);
@@ -246,7 +246,7 @@ TEST(TheLeastCostOfAGuideAgainstDenseSampling) {
       CHECK_GE(lower, own - room);
       const uint32_t most = 2 + random.below(40);
       const spline::LeastCost cut =
-          least_cost(g.guide, q, {weight_m, was.piece, was.s}, nearest, Budget{most});
+          min_cost(g.guide, q, {weight_m, was.piece, was.s}, nearest, Budget{most});
       CHECK_LE(cut.certificate.steps, most);
       CHECK_LE(static_cast<double>(cut.certificate.lower_m), own + 1e-15);
       CHECK_GE(static_cast<double>(cut.cost_m), own - room);

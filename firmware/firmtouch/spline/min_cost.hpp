@@ -34,8 +34,8 @@ struct LeastCost {
 /// Result: always finite. Equal costs: where the guide was, the closest point, the one found first.
 ///         `exact` says that cost and bound are within 4e-7 (rational: 1e-6) of the extent, 1e-6 of the
 ///         weight and 2e-6 of the cost of the truth, by the lengths that are told.
-/// Error:  tests/spline/least_cost_host_test.cpp, against dense sampling in double.
-LeastCost least_cost(const GuideView& guide, math::Vec3 p_m, const ArcPenalty& penalty,
-                     const Closest& nearest, query::Budget budget);
+/// Error:  tests/spline/min_cost_host_test.cpp, against dense sampling in double.
+LeastCost min_cost(const GuideView& guide, math::Vec3 p_m, const ArcPenalty& penalty,
+                   const Closest& nearest, query::Budget budget);
 
 }  // namespace firmtouch::spline

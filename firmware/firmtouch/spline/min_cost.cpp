@@ -1,4 +1,4 @@
-#include "firmtouch/spline/least_cost.hpp"
+#include "firmtouch/spline/min_cost.hpp"
 
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/guide_search.hpp"
@@ -9,7 +9,7 @@ namespace {
 using math::Vec3;
 
 constexpr uint32_t kNoNode = UINT32_MAX;
-constexpr float kMostPerMetre = 0x1p20f;
+constexpr float kMaxPerMetre = 0x1p20f;
 // What float32 loses of a length along the curve, beside the whole of it.
 constexpr float kArcLoss = 0x1p-22f;
 // By how much a part may cost less than the best and is not looked at, of the extent: as in
@@ -19,7 +19,7 @@ constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
 Penalty penalty_of(const GuideView& guide, const ArcPenalty& asked, Arcs& arcs) {
   Penalty penalty;
   const float per_m = asked.weight_m / guide.length_m();
-  penalty.per_m = per_m < kMostPerMetre ? per_m : kMostPerMetre;
+  penalty.per_m = per_m < kMaxPerMetre ? per_m : kMaxPerMetre;
   penalty.piece = asked.piece;
   penalty.s = asked.s;
   penalty.at_m = arcs.at_m(asked.piece, asked.s);
@@ -29,8 +29,8 @@ Penalty penalty_of(const GuideView& guide, const ArcPenalty& asked, Arcs& arcs) 
 
 }  // namespace
 
-LeastCost least_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& asked,
-                     const Closest& nearest, query::Budget budget) {
+LeastCost min_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& asked,
+                   const Closest& nearest, query::Budget budget) {
   const View& model = guide.model();
   const Head& head = model.head();
   Arcs arcs(guide);

@@ -34,7 +34,7 @@ class LeastCost {
 
   /// Result: the segment of the least cost so far, having gone along the curve while that helped.
   uint32_t approach(uint32_t segment) {
-    for (uint32_t i = 0; i < kMostJumps; ++i) {
+    for (uint32_t i = 0; i < kMaxJumps; ++i) {
       const float before_m = cost_m_;
       const Foot foot = look_at(segment);
       if (!(cost_m_ < before_m)) break;
@@ -84,13 +84,13 @@ class LeastCost {
   }
 
  private:
-  static constexpr uint32_t kMostJumps = 8;
+  static constexpr uint32_t kMaxJumps = 8;
 
   bool may_hold(uint32_t first, uint32_t last, uint16_t radius) const {
-    const float least_m =
-        least_penalty_m(penalty_, curve_.arcs()[first], curve_.arcs()[last], curve_.is_closed());
+    const float min_m =
+        min_penalty_m(penalty_, curve_.arcs()[first], curve_.arcs()[last], curve_.is_closed());
     const float room_m =
-        (cost_m_ - least_m) + (cost_m_ + least_m + penalty_.weight_m * 0.125f) * kSlack;
+        (cost_m_ - min_m) + (cost_m_ + min_m + penalty_.weight_m * 0.125f) * kSlack;
     if (!(room_m > 0.0f)) return false;
     const float limit_m = room_m + radius_m_of(radius);
     const float distance2_m2 =
@@ -142,9 +142,9 @@ static inline uint32_t segment_at(const View& curve, float arc) {
 
 /// Pre: is_penalty(penalty), or one of no weight; the query is near.
 template <bool kSmooth, class Bound>
-static inline Constraint least_cost(const View& curve, const Bound& bound, math::Vec3 p_m,
-                                    const ArcPenalty& penalty, bool carefully, query::Budget budget,
-                                    query::Hint& hint) {
+static inline Constraint min_cost(const View& curve, const Bound& bound, math::Vec3 p_m,
+                                  const ArcPenalty& penalty, bool carefully, query::Budget budget,
+                                  query::Hint& hint) {
   LeastCost<kSmooth> least(curve, p_m, penalty, carefully);
   const uint32_t from =
       hint.place < curve.segment_count() ? hint.place : segment_at(curve, penalty.previous_arc);
