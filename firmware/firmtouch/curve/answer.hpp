@@ -30,10 +30,10 @@ constexpr float kUnit = 0x1p-24f;
 constexpr float kVanishing_m = 0x1p-58f;  // squares of less may underflow
 
 /// Lower bound of the true distance, where `distance_m` is the least that was computed.
-static inline float rounded_down(float distance_m, float half_m, bool carefully) {
+static inline float rounded_down(float distance_m, float half_m, bool compensated) {
   const float near_m = 10.5f * kUnit * half_m;
   const float far_m = 5.6f * kUnit * distance_m + 3.3f * kUnit * half_m;
-  const float lost_m = carefully ? 4.1f * kUnit * distance_m : near_m > far_m ? near_m : far_m;
+  const float lost_m = compensated ? 4.1f * kUnit * distance_m : near_m > far_m ? near_m : far_m;
   return distance_m - (lost_m + kVanishing_m);
 }
 

@@ -23,10 +23,10 @@ float spacing_m(const View& curve) {
 }
 
 // All but the fence.
-Closest finish(const View& curve, const Foot& best, const Walk& walk, bool carefully, Vec3 p_m,
+Closest finish(const View& curve, const Foot& best, const Walk& walk, bool compensated, Vec3 p_m,
                query::Hint& hint) {
   Closest closest = answer_at(curve, best);
-  float lower_m = rounded_down(closest.distance_m, curve.head().longest_half_m, carefully);
+  float lower_m = rounded_down(closest.distance_m, curve.head().longest_half_m, compensated);
   if (!walk.complete) {
     const float carried_m = query::carry(hint, p_m).lower_m;
     const float known_m = walk.pending_m > carried_m ? walk.pending_m : carried_m;
@@ -44,10 +44,10 @@ Closest finish(const View& curve, const Foot& best, const Walk& walk, bool caref
 
 // Without a fence. A warm search begins at the last segment; a cold one knows a point of the curve
 // at once: its first sample.
-template <bool kCareful, class Bound>
+template <bool kCompensated, class Bound>
 Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget budget,
                query::Hint& hint) {
-  NearestFoot<kCareful> nearest(curve, p_m);
+  NearestFoot<kCompensated> nearest(curve, p_m);
   uint32_t start = kNoRun;
   Steps steps(budget);
   bool has_begun = true;
@@ -59,7 +59,7 @@ Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget bu
   }
   const Walk walk = walk_runs(curve, bound, steps, start, has_begun, nearest);
   hint.fence = query::kNowhere;
-  return finish(curve, nearest.best(), walk, kCareful, p_m, hint);
+  return finish(curve, nearest.best(), walk, kCompensated, p_m, hint);
 }
 
 // From the last segment up to the last fence where that is far enough away, else to the root, making

@@ -20,13 +20,13 @@ uint32_t beyond(const View& curve, const Foot& foot) {
 void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& closest,
            query::Hint& hint) {
   if (!is_near(p_m)) return;
-  const bool carefully = needs_care(curve.head(), p_m);
-  Foot best = any_foot(curve, p_m, closest.segment, carefully);
+  const bool compensated = needs_care(curve.head(), p_m);
+  Foot best = any_foot(curve, p_m, closest.segment, compensated);
   const uint32_t most = curve.is_smooth() ? kMaxSmoothSlides : kMaxSlides;
   for (uint32_t i = 0; i < most; ++i) {
     const uint32_t segment = beyond(curve, best);
     if (segment == segment_of(best)) break;
-    const Foot foot = any_foot(curve, p_m, segment, carefully);
+    const Foot foot = any_foot(curve, p_m, segment, compensated);
     if (!(foot.distance2_m2 < best.distance2_m2)) break;
     best = foot;
   }

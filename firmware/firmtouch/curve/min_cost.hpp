@@ -21,8 +21,8 @@ constexpr float kFootLoss = 0x1p-21f;
 template <bool kSmooth>
 class LeastCost {
  public:
-  LeastCost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty, bool carefully)
-      : curve_(curve), p_m_(p_m), penalty_(penalty), carefully_(carefully) {}
+  LeastCost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty, bool compensated)
+      : curve_(curve), p_m_(p_m), penalty_(penalty), compensated_(compensated) {}
 
   const Foot& best() const { return best_; }
   float doubt_m() const { return doubt_m_; }
@@ -115,13 +115,13 @@ class LeastCost {
       if (found.doubt_m > doubt_m_) doubt_m_ = found.doubt_m;
       return found.foot;
     }
-    return foot_on_segment(curve_, p_m_, segment, carefully_);
+    return foot_on_segment(curve_, p_m_, segment, compensated_);
   }
 
   const View& curve_;
   math::Vec3 p_m_;
   const ArcPenalty penalty_;
-  bool carefully_;
+  bool compensated_;
   float doubt_m_ = 0;
   float cost_m_ = 0x1p62f;  // more than any cost that is told
   Foot best_{FLT_MAX, 0, 1, 0.0f};
@@ -143,9 +143,9 @@ static inline uint32_t segment_at(const View& curve, float arc) {
 /// Pre: is_penalty(penalty), or one of no weight; the query is near.
 template <bool kSmooth, class Bound>
 static inline Constraint min_cost(const View& curve, const Bound& bound, math::Vec3 p_m,
-                                  const ArcPenalty& penalty, bool carefully, query::Budget budget,
+                                  const ArcPenalty& penalty, bool compensated, query::Budget budget,
                                   query::Hint& hint) {
-  LeastCost<kSmooth> least(curve, p_m, penalty, carefully);
+  LeastCost<kSmooth> least(curve, p_m, penalty, compensated);
   const uint32_t from =
       hint.place < curve.segment_count() ? hint.place : segment_at(curve, penalty.previous_arc);
   const uint32_t start = run_of(least.approach(from), curve.run_levels());
@@ -159,7 +159,7 @@ static inline Constraint min_cost(const View& curve, const Bound& bound, math::V
   const float distance_m = found.closest.distance_m;
   const Head& head = curve.head();
   const float half_m = head.longest_half_m;
-  float lost_m = distance_m - rounded_down(distance_m, half_m, carefully);
+  float lost_m = distance_m - rounded_down(distance_m, half_m, compensated);
   // Where a foot is in doubt, so is its arc position, by its piece at most.
   if constexpr (kSmooth)
     lost_m = least.doubt_m() + piece_loss_m(distance_m, half_m) +

@@ -82,9 +82,9 @@ float penalty_m(const View& curve, const Foot& foot, const ArcPenalty& penalty) 
 class Choice {
  public:
   Choice(const View& curve, Vec3 p_m, const ArcPenalty& penalty)
-      : curve_(curve), p_m_(p_m), penalty_(penalty), carefully_(needs_care(curve.head(), p_m)) {}
+      : curve_(curve), p_m_(p_m), penalty_(penalty), compensated_(needs_care(curve.head(), p_m)) {}
 
-  bool carefully() const { return carefully_; }
+  bool compensated() const { return compensated_; }
 
   void look_at(uint32_t segment) {
     const Foot foot = foot_on(segment);
@@ -94,7 +94,7 @@ class Choice {
   }
 
   Foot foot_on(uint32_t segment) {
-    if (!curve_.is_smooth()) return foot_on_segment(curve_, p_m_, segment, carefully_);
+    if (!curve_.is_smooth()) return foot_on_segment(curve_, p_m_, segment, compensated_);
     const PieceFoot found = foot_on_piece(curve_, p_m_, segment);
     if (found.doubt_m > doubt_m) doubt_m = found.doubt_m;
     return found.foot;
@@ -110,7 +110,7 @@ class Choice {
   const View& curve_;
   Vec3 p_m_;
   const ArcPenalty& penalty_;
-  bool carefully_;
+  bool compensated_;
 };
 
 }  // namespace
@@ -146,7 +146,7 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
   found.closest = any_answer(curve, choice.best);
   const float min_m = math::square_root(choice.min2_m2);
   float lower_m = is_smooth ? min_m - choice.doubt_m - piece_loss_m(min_m, half_m)
-                            : rounded_down(min_m, half_m, choice.carefully());
+                            : rounded_down(min_m, half_m, choice.compensated());
   const float pending_m = search.pending_m();
   const bool by_budget = !complete && pending_m < farthest_m;
   const float unseen_m = (by_budget ? pending_m : farthest_m) * (1.0f - 0x1p-20f) - reach_m;

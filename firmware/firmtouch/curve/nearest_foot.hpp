@@ -11,7 +11,7 @@ namespace firmtouch::curve {
 enum class Climb : uint8_t { kSpent, kRun, kFence };
 
 /// Keeps the closest point of the runs that it is offered.
-template <bool kCareful>
+template <bool kCompensated>
 class NearestFoot {
  public:
   NearestFoot(const View& curve, math::Vec3 p_m)
@@ -28,8 +28,8 @@ class NearestFoot {
   void begin_at_first() {
     const math::Vec3 from_m = p_m_ - vec(samples_[0]);
     best_.distance2_m2 = dot(from_m, from_m);
-    if constexpr (kCareful)
-      best_.distance2_m2 = careful_distance2(p_m_, vec(samples_[0]), vec(samples_[0]), 0.0f);
+    if constexpr (kCompensated)
+      best_.distance2_m2 = compensated_distance2(p_m_, vec(samples_[0]), vec(samples_[0]), 0.0f);
     radius_m_ = math::square_root(best_.distance2_m2) * (1.0f + 0x1p-20f);
   }
 
@@ -257,11 +257,11 @@ class NearestFoot {
     math::Vec3 from_m = p_m_ - vec(samples_[first]);
     float from2_m2 = dot(from_m, from_m);
     for (uint32_t segment = first;; ++segment) {
-      if (!kCareful && from2_m2 < best_.distance2_m2) take_sample(segment, from2_m2);
+      if (!kCompensated && from2_m2 < best_.distance2_m2) take_sample(segment, from2_m2);
       if (segment == end) return;
       const math::Vec3 next_m = p_m_ - vec(samples_[segment + 1]);
       const float next2_m2 = dot(next_m, next_m);
-      if (segment != but && (kCareful || is_between(from_m, next_m, from2_m2, next2_m2)))
+      if (segment != but && (kCompensated || is_between(from_m, next_m, from2_m2, next2_m2)))
         (void)look_at(segment);
       from_m = next_m;
       from2_m2 = next2_m2;
@@ -293,10 +293,10 @@ class NearestFoot {
     if (!(t > 0.0f)) t = 0.0f;
     const math::Vec3 rest_m = is_back ? from_m + along_m * t : from_m - along_m * t;
     float distance2_m2 = dot(rest_m, rest_m);
-    if constexpr (kCareful) {
+    if constexpr (kCompensated) {
       if (!(distance2_m2 <= best_.distance2_m2 * (1.0f + 0x1p-16f))) return ahead;
-      distance2_m2 =
-          is_back ? careful_distance2(p_m_, b_m, a_m, t) : careful_distance2(p_m_, a_m, b_m, t);
+      distance2_m2 = is_back ? compensated_distance2(p_m_, b_m, a_m, t)
+                             : compensated_distance2(p_m_, a_m, b_m, t);
     }
     if (distance2_m2 < best_.distance2_m2) {
       best_.distance2_m2 = distance2_m2;  // one by one: an aggregate would be built aside first

@@ -43,9 +43,9 @@ static inline float piece_slack_m(const Head& head, float distance_m) {
   return near_m > far_m ? near_m : far_m;
 }
 
-static inline Foot any_foot(const View& curve, math::Vec3 p_m, uint32_t segment, bool carefully) {
+static inline Foot any_foot(const View& curve, math::Vec3 p_m, uint32_t segment, bool compensated) {
   if (curve.is_smooth()) return foot_on_piece(curve, p_m, segment).foot;
-  return foot_on_segment(curve, p_m, segment, carefully);
+  return foot_on_segment(curve, p_m, segment, compensated);
 }
 
 }  // namespace firmtouch::curve

@@ -18,11 +18,11 @@ float dropped_product(float a, float b, float product) {
 }
 
 /// One coordinate of p - (a + t (b - a)), and what float32 drops from it.
-struct Careful {
+struct Compensated {
   float value;
   float lost;
 };
-Careful careful_rest(float p, float a, float b, float t) {
+Compensated compensated_rest(float p, float a, float b, float t) {
   const float from = p - a, along = b - a, part = along * t, rest = from - part;
   const float lost_part = dropped_product(along, t, part) + dropped(b, a, along) * t;
   return {rest, dropped(p, a, from) + dropped(from, part, rest) - lost_part};
@@ -30,9 +30,9 @@ Careful careful_rest(float p, float a, float b, float t) {
 
 }  // namespace
 
-float careful_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, float t) {
-  const Careful x = careful_rest(p.x, a.x, b.x, t), y = careful_rest(p.y, a.y, b.y, t),
-                z = careful_rest(p.z, a.z, b.z, t);
+float compensated_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, float t) {
+  const Compensated x = compensated_rest(p.x, a.x, b.x, t), y = compensated_rest(p.y, a.y, b.y, t),
+                    z = compensated_rest(p.z, a.z, b.z, t);
   const math::Vec3 rest{x.value, y.value, z.value}, lost{x.lost, y.lost, z.lost};
   return dot(rest, rest) + 2.0f * dot(rest, lost);
 }

@@ -25,12 +25,12 @@ static inline float arc_of(const View& curve, const Foot& foot) {
 
 /// Squared distance to the point `t` of the way from sample a to b, with all roundings of the
 /// differences put back: what is left is the rounding of the sum of squares. About 130 operations.
-float careful_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, float t);
+float compensated_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, float t);
 
 /// Closest point of segment `segment`, reckoned from its nearer end: errors of float32 grow with
 /// the distance along the segment.
 static inline Foot foot_on_segment(const View& curve, math::Vec3 p_m, uint32_t segment,
-                                   bool carefully) {
+                                   bool compensated) {
   uint32_t sample = segment, neighbour = segment + 1;
   math::Vec3 from_m = p_m - curve.sample(sample);
   math::Vec3 along_m = curve.sample(neighbour) - curve.sample(sample);
@@ -45,8 +45,8 @@ static inline Foot foot_on_segment(const View& curve, math::Vec3 p_m, uint32_t s
   const float t = progress_m2 > 0.0f ? progress_m2 / length2_m2 : 0.0f;
   const math::Vec3 rest_m = from_m - along_m * t;
   const float distance2_m2 =
-      carefully ? careful_distance2(p_m, curve.sample(sample), curve.sample(neighbour), t)
-                : dot(rest_m, rest_m);
+      compensated ? compensated_distance2(p_m, curve.sample(sample), curve.sample(neighbour), t)
+                  : dot(rest_m, rest_m);
   return {distance2_m2, sample, neighbour, t};
 }
 

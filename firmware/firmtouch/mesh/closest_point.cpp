@@ -52,9 +52,9 @@ void look_with(const View& mesh, const Bound& bound, Search& search) {
   search_nearest<false, Bound, Index>(mesh, bound, search);
 }
 
-template <bool kCareful, class Bound>
+template <bool kCompensated, class Bound>
 void look(const View& mesh, const Bound& bound, Search& search) {
-  if constexpr (kCareful)
+  if constexpr (kCompensated)
     search_nearest<true, Bound, void>(mesh, bound, search);
   else if (!mesh.triangles16().empty())
     look_with<Bound, uint16_t>(mesh, bound, search);
@@ -98,11 +98,11 @@ bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
              c_m = mesh.vertex(t.corner[2]);
   const Loss loss(mesh.head());
   const float distance_m = math::square_root(
-      loss.is_clear(best.distance2_m2) ? careful_distance2(p_m, a_m, b_m, c_m, best.feature)
-                                       : careful_distance2(p_m, a_m, b_m, c_m));
+      loss.is_clear(best.distance2_m2) ? compensated_distance2(p_m, a_m, b_m, c_m, best.feature)
+                                       : compensated_distance2(p_m, a_m, b_m, c_m));
   const float near_m = nearest_m(found.search);
   weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
-  const float max_m = distance_m + loss.careful_m(distance_m) + loss.rounding_m;
+  const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
   if (!(max_m - found.lower_m <= within_m)) return false;
   found.distance_m = distance_m;
   return true;
@@ -129,7 +129,7 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
     if (again.search.complete) {
       found = again;
       const float near_m = nearest_m(found.search);
-      const float lower_m = less_m(near_m, loss.careful_m(near_m) + loss.rounding_m);
+      const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
       return weigh(found, lower_m, loss.rounding_m);
     }
     found.search.steps = again.search.steps;
@@ -138,8 +138,8 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
   found.search.complete = false;
   if (found.search.best.place == query::kNowhere) return;
   const Triangle<uint32_t> t = mesh.triangle(found.search.best.triangle);
-  const float distance2_m2 = careful_distance2(p_m, mesh.vertex(t.corner[0]),
-                                               mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
+  const float distance2_m2 = compensated_distance2(
+      p_m, mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
   found.distance_m = math::square_root(distance2_m2);
 }
 
@@ -192,18 +192,18 @@ template <class Bound>
     search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
     search.best.distance2_m2 = dot(search.best.offset_m, search.best.offset_m);
   }
-  look<Bound::kCareful>(mesh, bound, search);
+  look<Bound::kCompensated>(mesh, bound, search);
   const float plain_m = nearest_m(search);
   const float plain_loss_m = loss.told_m(plain_m);
   weigh(found,
-        Bound::kCareful ? less_m(plain_m, loss.careful_m(plain_m) + loss.rounding_m)
-                        : plain_m - (plain_loss_m + loss.rounding_m),
+        Bound::kCompensated ? less_m(plain_m, loss.compensated_m(plain_m) + loss.rounding_m)
+                            : plain_m - (plain_loss_m + loss.rounding_m),
         loss.rounding_m);
   const float diagonal_m = mesh.head().diagonal_m;
   const float scale_m = plain_m > diagonal_m ? plain_m : diagonal_m;
   const bool is_near = search.best.distance2_m2 <= search.band2_m2;
   const float promise_m = kPromise * scale_m;
-  if (!Bound::kCareful && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
+  if (!Bound::kCompensated && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
       !measure_again(mesh, p_m, promise_m, found))
     search_again(mesh, bound, p_m, budget.steps, found);
 

@@ -32,7 +32,7 @@ struct Closest {
 ///         grid the side is known under any budget. A query that is not finite: a vertex, at
 ///         distance FLT_MAX, lower 0, not exact, sign 0.
 /// Error:  where exact, |distance| and lower_m within 4e-7 max(diagonal, distance); lower_m never above
-///         the truth (mesh/loss.hpp; tests/mesh/careful_host_test.cpp attacks it). Where plain
+///         the truth (mesh/loss.hpp; tests/mesh/compensated_host_test.cpp attacks it). Where plain
 ///         float32 is not enough for that (far away, or few large triangles) the nearest triangle is
 ///         measured again with care, and where that is not enough either the search is made a second
 ///         time, which costs some thousand instructions and is counted in steps.

@@ -53,7 +53,7 @@ struct NearBound {
   }
   /// For keys of oriented boxes, which open() has proven against the same roundings.
   math::HalfCellPoint half_cells() const { return math::half_cell_point(point); }
-  static constexpr bool kCareful = false;  // near: plain float32 is enough, or is tried first
+  static constexpr bool kCompensated = false;  // near: plain float32 is enough, or is tried first
   /// Whether the query is certainly outside, whatever is nearest.
   constexpr bool is_outside() const { return false; }
   math::Vec3 foot_m(const View&, math::Vec3 p_m, math::Vec3 offset_m, uint32_t) const {
@@ -100,7 +100,7 @@ struct FarBound {
   float distance_m(uint32_t key) const {
     return math::square_root(math::float_of(key)) * kRoundDown;
   }
-  static constexpr bool kCareful = true;
+  static constexpr bool kCompensated = true;
   constexpr bool is_outside() const { return true; }
   /// p - offset has lost the low bits of a far p: put back on its triangle.
   math::Vec3 foot_m(const View& mesh, math::Vec3 p_m, math::Vec3 offset_m,

@@ -7,7 +7,7 @@
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/math/isa_loads.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/mesh/careful_distance.hpp"
+#include "firmtouch/mesh/compensated_distance.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/mesh/lined.hpp"
 #include "firmtouch/mesh/loss.hpp"
@@ -316,14 +316,14 @@ template <class InTurn, class Wanted>
 /// `is_last`: the leaf is that of the last answer, whose branches the processor foresees: where it
 /// is a small one, measured in turn there, a warm query costs a tenth less than side by side.
 /// Result: the least squared distance so far.
-template <bool kCareful, class Index>
+template <bool kCompensated, class Index>
 [[gnu::always_inline]] static inline float measure_leaf(const Vertex* vertices,
                                                         core::Span<const Triangle<Index>> triangles,
                                                         const Loss& loss, math::Vec3 p_m,
                                                         uint32_t child, uint32_t place,
                                                         [[maybe_unused]] bool is_last,
                                                         float min2_m2, Best& best) {
-  if constexpr (math::kHasLanes && !kCareful) {
+  if constexpr (math::kHasLanes && !kCompensated) {
     using math::Float4;
     using math::FloatWide;
     const bool is_small = leaf_count(child) <= math::kLanesOf<Float4>;
@@ -342,11 +342,11 @@ template <bool kCareful, class Index>
     load_corner<1>(vertices, triangle->corner[1], stride, b_m);
     load_corner<2>(vertices, triangle->corner[2], stride, c_m);
     Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
-    if constexpr (kCareful) {
+    if constexpr (kCompensated) {
       if (!loss.may_be_less(foot.distance2_m2, min2_m2)) continue;
       foot.distance2_m2 = loss.is_clear(foot.distance2_m2)
-                              ? careful_distance2(p_m, a_m, b_m, c_m, foot.feature)
-                              : careful_distance2(p_m, a_m, b_m, c_m);
+                              ? compensated_distance2(p_m, a_m, b_m, c_m, foot.feature)
+                              : compensated_distance2(p_m, a_m, b_m, c_m);
     }
     if (!(foot.distance2_m2 < min2_m2)) continue;
     min2_m2 = foot.distance2_m2;

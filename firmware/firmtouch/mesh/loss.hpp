@@ -30,8 +30,8 @@ struct Loss {
   float told_m(float distance_m) const {
     return 0x1p-24f * (6.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
-  /// Of careful_distance2() and its root: one rounding each, the first halved by the root.
-  float careful_m(float distance_m) const {
+  /// Of compensated_distance2() and its root: one rounding each, the first halved by the root.
+  float compensated_m(float distance_m) const {
     return 0x1p-24f * (1.6f * distance_m + 0x1p-4f * longest_edge_m) + kVanishing_m;
   }
   /// Whether the feature of a foot is good enough to measure its distance by.
@@ -39,9 +39,10 @@ struct Loss {
     return distance2_m2 > longest_edge_m * longest_edge_m * 0x1p-20f;
   }
   /// Whether a plain squared distance may in truth be below a careful one.
-  bool may_be_less(float plain2_m2, float careful2_m2) const {
+  bool may_be_less(float plain2_m2, float compensated2_m2) const {
     const float distance_m = math::square_root(plain2_m2);
-    return distance_m - plain_m(distance_m) <= math::square_root(careful2_m2) * (1.0f + 0x1p-23f);
+    return distance_m - plain_m(distance_m) <=
+           math::square_root(compensated2_m2) * (1.0f + 0x1p-23f);
   }
 
  private:

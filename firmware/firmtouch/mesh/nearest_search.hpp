@@ -200,21 +200,21 @@ inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, 
 enum class Which { kLast, kBeside };
 
 // measure_leaf() of a leaf that is reached. Result: the least squared distance so far.
-template <bool kCareful, class Index, Which kWhich>
+template <bool kCompensated, class Index, Which kWhich>
 [[gnu::always_inline]] inline float measure_here(const View& mesh, uint32_t child, uint32_t place,
                                                  Search& search) {
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};  // one by one: see measure_leaf()
   Best& best = search.best;
-  return measure_leaf<kCareful>(mesh.vertices().data(), triangles_of<Index>(mesh),
-                                Loss(mesh.head()), p_m, child, place, kWhich == Which::kLast,
-                                best.distance2_m2, best);
+  return measure_leaf<kCompensated>(mesh.vertices().data(), triangles_of<Index>(mesh),
+                                    Loss(mesh.head()), p_m, child, place, kWhich == Which::kLast,
+                                    best.distance2_m2, best);
 }
 
 // Functions of their own: in the loop they would take the registers of the descent.
 // Result: 0 where one was nearer. A search measures no leaf twice.
 template <class Index>
-[[gnu::noinline]] uint32_t measure_careful(const View& mesh, uint32_t child, uint32_t place,
-                                           Search& search) {
+[[gnu::noinline]] uint32_t measure_compensated(const View& mesh, uint32_t child, uint32_t place,
+                                               Search& search) {
   measure_here<true, Index, Which::kBeside>(mesh, child, place, search);
   return search.best.place ^ place;
 }
@@ -240,15 +240,15 @@ template <class InTurn, class Wanted>
 // Side by side so few instructions measure a leaf that a call would show. With care the width of the
 // indices is told at each leaf, where it does not show: one loop less a bound, 1.1 to 1.5 KB.
 // `prune`: the least key that is not looked at. Result: whether one was nearer.
-template <bool kCareful, class Index, Which kWhich>
+template <bool kCompensated, class Index, Which kWhich>
 inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t child,
                     uint32_t place, Search& search) {
   // Before the last leaf nothing is known that could leave a triangle out.
   using Wanted = typename Choice<kWhich == Which::kLast, Everything, Nearer>::Type;
-  if constexpr (kCareful) {
+  if constexpr (kCompensated) {
     return (mesh.triangles16().empty()
-                ? measure_careful<uint32_t>(mesh, child, place, search)
-                : measure_careful<uint16_t>(mesh, child, place, search)) == 0;
+                ? measure_compensated<uint32_t>(mesh, child, place, search)
+                : measure_compensated<uint16_t>(mesh, child, place, search)) == 0;
   } else if constexpr (math::kHasLanes) {
     if constexpr (kIsBoxed<Index> && kWhich != Which::kLast)
       if (is_beyond(prune, child, search)) return false;
@@ -294,7 +294,7 @@ template <class Bound>
 // last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
 // A function of its own: beside its caller's values the loop's do not stay in registers.
 // `Index`: of the triangles; with care of none.
-template <bool kCareful, class Bound, class Index>
+template <bool kCompensated, class Bound, class Index>
 [[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers
   const Side* const sides = mesh.sides();
@@ -304,11 +304,11 @@ template <bool kCareful, class Bound, class Index>
   const Pending* best_first = pending;
   uint32_t left = allowed, place = query::kNowhere, child = 0, prune;
   search.complete = true;
-  if constexpr (!kCareful) begin_leaves<Index>(mesh, bound, search);
+  if constexpr (!kCompensated) begin_leaves<Index>(mesh, bound, search);
   if (search.start != query::kNowhere) {
     --left;
-    measure<kCareful, Index, Which::kLast>(mesh, 0, sides[search.start].child, search.start,
-                                           search);
+    measure<kCompensated, Index, Which::kLast>(mesh, 0, sides[search.start].child, search.start,
+                                               search);
     prune = prune_key(bound, search);
     if (!climb(mesh, mesh.sides(), bound, prune, left, top, search)) {
       search.complete = false;
@@ -330,7 +330,7 @@ template <bool kCareful, class Bound, class Index>
     if (!is_leaf(child)) {
       if (enter(sides, bound, prune, child, place, top)) continue;
     } else {
-      if (measure<kCareful, Index, Which::kBeside>(mesh, prune, child, place, search))
+      if (measure<kCompensated, Index, Which::kBeside>(mesh, prune, child, place, search))
         prune = prune_key(bound, search);
     }
     // Many, or warm: the last, whose order does not matter then and costs nothing.

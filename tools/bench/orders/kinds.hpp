@@ -68,7 +68,7 @@ struct GridQueryOf {
     cells[0] = (p_m.x - head.grid_low_m[0]) * per_cell;
     cells[1] = (p_m.y - head.grid_low_m[1]) * per_cell;
     cells[2] = (p_m.z - head.grid_low_m[2]) * per_cell;
-    if constexpr (Bound::kCareful) {  // outside of the grid: in floats, for any query
+    if constexpr (Bound::kCompensated) {  // outside of the grid: in floats, for any query
       bound.begin(head, p_m);
       return true;
     } else {

@@ -1,4 +1,4 @@
-#include "firmtouch/mesh/careful_distance.hpp"
+#include "firmtouch/mesh/compensated_distance.hpp"
 
 namespace firmtouch::mesh {
 namespace {
@@ -74,7 +74,8 @@ Wide corner_distance2(math::Vec3 p, math::Vec3 a) {
 
 }  // namespace
 
-float careful_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, math::Vec3 c, Feature feature) {
+float compensated_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, math::Vec3 c,
+                            Feature feature) {
   switch (feature) {
     case Feature::kVertex0:
       return corner_distance2(p, a).high;
@@ -91,10 +92,10 @@ float careful_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, math::Vec3 c, 
     case Feature::kFace:
       break;
   }
-  return careful_distance2(p, a, b, c);
+  return compensated_distance2(p, a, b, c);
 }
 
-float careful_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, math::Vec3 c) {
+float compensated_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, math::Vec3 c) {
   Wide least = segment_distance2(p, a, b);
   const Wide bc = segment_distance2(p, b, c), ca = segment_distance2(p, c, a);
   if (bc < least) least = bc;
