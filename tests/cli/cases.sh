@@ -193,7 +193,7 @@ EveryBakeTellsTheSameDistances() {
   f query fast.fta p distance --cold <p.csv
   exits 0
   of_fast=$(printf '%s\n' "$out" | cut -d, -f1,2,13)
-  for option in --steady --small --desktop; do
+  for option in --bounded --small --desktop; do
     bake p.obj -o other.fta "$option"
     cmp -s fast.fta other.fta && fail "$option changed nothing"
     f query other.fta p distance --cold <p.csv
@@ -201,7 +201,7 @@ EveryBakeTellsTheSameDistances() {
     same "$(printf '%s\n' "$out" | cut -d, -f1,2,13)" "$of_fast"
   done
   f bake p.obj -o a.fta --small --desktop; exits 2; told contradict; absent a.fta
-  f bake p.obj -o a.fta --fast --steady; exits 2; told contradict; absent a.fta
+  f bake p.obj -o a.fta --fast --bounded; exits 2; told contradict; absent a.fta
 }
 
 TheUnitScalesTheModel() {

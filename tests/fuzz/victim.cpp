@@ -45,7 +45,7 @@ tools::Surface pebble() {
 void add_mesh(std::vector<Section>& sections, const std::string& name, bool is_signed, bool wide) {
   tools::MeshOptions options;
   options.is_signed = is_signed;
-  options.shape = wide ? tools::kDesktopTree : is_signed ? tools::kFastTree : tools::kSteadyTree;
+  options.shape = wide ? tools::kDesktopTree : is_signed ? tools::kFastTree : tools::kBoundedTree;
   tools::MeshReport report;
   std::vector<Section> mesh = tools::bake_mesh(pebble(), name, options, report);
   CHECK(report.problem.empty());

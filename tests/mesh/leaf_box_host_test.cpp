@@ -1,4 +1,4 @@
-// Boxes of leaves (bake --steady): never farther than the leaf they hold, near enough to be worth it,
+// Boxes of leaves (bake --bounded): never farther than the leaf they hold, near enough to be worth it,
 // and of no weight in any answer.
 #include "firmtouch/mesh/leaf_box.hpp"
 
@@ -22,9 +22,9 @@ using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
 using math::Vec3;
 
-tools::MeshOptions steady() {
+tools::MeshOptions bounded() {
   tools::MeshOptions options;
-  options.shape = tools::kSteadyTree;
+  options.shape = tools::kBoundedTree;
   return options;
 }
 
@@ -103,14 +103,14 @@ bool same(const mesh::Closest& a, const mesh::Closest& b) {
 }  // namespace
 
 TEST(BoxesOfLeavesTellNoMoreThanTheTrueDistance) {
-  const BakedMesh part(tools::make_part(3, 3000), steady());
+  const BakedMesh part(tools::make_part(3, 3000), bounded());
   const Told told = ask_leaves(part, 1);
   CHECK_LT(600u, told.leaves);
   CHECK_EQ(told.beyond, 0u);
   // What they are there for: without, leaves whose boxes lie within reach were measured in vain.
   CHECK_LT(0.93, told.of_truth / told.compared);
   CHECK_LT(told.of_box / told.compared + 0.05, told.of_truth / told.compared);
-  const BakedMesh large(tetrahedron(), steady());
+  const BakedMesh large(tetrahedron(), bounded());
   const Told of_large = ask_leaves(large, 1);
   CHECK_LT(0u, of_large.leaves);
   CHECK_EQ(of_large.beyond, 0u);
@@ -118,7 +118,7 @@ TEST(BoxesOfLeavesTellNoMoreThanTheTrueDistance) {
 
 // Without a band all of it; with one what is nearer, and beyond it the lower bound.
 TEST(BoxesOfLeavesChangeNoAnswer) {
-  const BakedMesh baked(tools::make_part(5, 3000), steady());
+  const BakedMesh baked(tools::make_part(5, 3000), bounded());
   mesh::Sections parts = baked.parts();
   CHECK(!parts.leaf_boxes.empty());
   parts.leaf_boxes = parts.shapes = {};
@@ -150,7 +150,7 @@ TEST(BoxesOfLeavesChangeNoAnswer) {
 }
 
 TEST(R137WordsBesideTheBoxes) {
-  BakedMesh baked(tools::make_part(3, 3000), steady());
+  BakedMesh baked(tools::make_part(3, 3000), bounded());
   mesh::Sections parts = baked.parts();
   uint32_t* const words =
       const_cast<uint32_t*>(reinterpret_cast<const uint32_t*>(parts.leaf_boxes.data()));

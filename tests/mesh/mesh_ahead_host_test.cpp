@@ -106,7 +106,7 @@ uint32_t triangles_in_blocks(const mesh::View& view) {
 
 TEST(WhatIsMadeOfAMeshChangesNoBitOfAnAnswer) {
   const tools::TreeShape shapes[] = {
-      tools::kFastTree, tools::kSmallTree, tools::kSteadyTree, tools::kDesktopTree, {1}};
+      tools::kFastTree, tools::kSmallTree, tools::kBoundedTree, tools::kDesktopTree, {1}};
   uint64_t seed = 9;
   for (const tools::TreeShape& shape : shapes) {
     const Baked baked(shape, shape.leaf_faces != 7);

@@ -39,7 +39,7 @@ struct TreeShape {
 constexpr TreeShape kFastTree{3, 0, 0.53};
 constexpr TreeShape kSmallTree{7};
 // Whose dearest query a controller answers in the fewest instructions (DESIGN.md, "Band queries").
-constexpr TreeShape kSteadyTree{3, 0, 0, true};
+constexpr TreeShape kBoundedTree{3, 0, 0, true};
 // Leaves that fill the lanes of a desktop's processor (DESIGN.md, "Vector instructions").
 constexpr TreeShape kDesktopTree{7, 0.3};
 

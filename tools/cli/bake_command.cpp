@@ -127,7 +127,7 @@ BakeOptions bake_options(const Arguments& arguments) {
   static const std::map<std::string, double> kUnits = {
       {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
   static const std::map<std::string, Purpose> kPurposes = {{"--fast", Purpose::kFast},
-                                                           {"--steady", Purpose::kSteady},
+                                                           {"--bounded", Purpose::kBounded},
                                                            {"--small", Purpose::kSmall},
                                                            {"--desktop", Purpose::kDesktop}};
   BakeOptions options;
@@ -140,7 +140,7 @@ BakeOptions bake_options(const Arguments& arguments) {
   for (const auto& [option, meant] : kPurposes) {
     if (!arguments.has(option)) continue;
     if (!purpose.empty())
-      fail_usage("bake: --fast, --steady, --small and --desktop contradict each other; give one");
+      fail_usage("bake: --fast, --bounded, --small and --desktop contradict each other; give one");
     purpose = option;
     options.purpose = meant;
   }
@@ -178,7 +178,7 @@ const Command& bake_command() {
        {"--close-holes", nullptr, "each hole of a mesh gets a cap of triangles, reported"},
        {"--fast", nullptr,
         "meshes: the fastest on a controller rather than the smallest (the default)"},
-       {"--steady", nullptr,
+       {"--bounded", nullptr,
         "meshes: the dearest query near the surface takes a controller a fifth less, for nearly "
         "three "
         "times the flash"},

@@ -13,10 +13,10 @@ namespace firmtouch::cli {
 
 /// What an asset is made for.
 enum class Purpose {
-  kFast,    // the least work a query on a controller
-  kSteady,  // the least work of its dearest query
-  kSmall,   // the fewest bytes
-  kDesktop  // the least time on a desktop's processor
+  kFast,     // the least work a query on a controller
+  kBounded,  // the least work of its dearest query
+  kSmall,    // the fewest bytes
+  kDesktop   // the least time on a desktop's processor
 };
 
 struct BakeOptions {

@@ -141,8 +141,8 @@ bool is_of_tree(uint32_t type) {
 
 const tools::TreeShape& tree_for(Purpose purpose) {
   switch (purpose) {
-    case Purpose::kSteady:
-      return tools::kSteadyTree;
+    case Purpose::kBounded:
+      return tools::kBoundedTree;
     case Purpose::kSmall:
       return tools::kSmallTree;
     case Purpose::kDesktop:

@@ -60,8 +60,8 @@ class SegmentLine {
     early = 1.0f;
     if (way == Pass::kMisses) return true;
     float error;
-    bool is_steady;
-    const float t = time(p, q, r, error, is_steady);
+    bool is_bounded;
+    const float t = time(p, q, r, error, is_bounded);
     const bool is_through = way != Pass::kUnsure;
     if (is_through && error <= kTimeError && (t < -error || t > 1.0f + error)) return true;
     const bool is_sure = is_through && error <= kTimeError && t > error && t < 1.0f - error;
@@ -69,7 +69,7 @@ class SegmentLine {
     if (is_sure) told.t = t;
     // Of a triangle that is no speck the plane is passed near it, and t is of the plane.
     const bool is_speck = larger(largest(q - p), largest(r - p)) < coordinate_error_m_;
-    if (is_sure || !is_steady || is_speck) return is_sure;
+    if (is_sure || !is_bounded || is_speck) return is_sure;
     // First order in what the rate is off by and all else; where a side is open, twice as far off.
     const float wide = (is_through ? 1.5f : 3.0f) * error;
     if (t < -wide || t > 1.0f + wide) {
@@ -87,7 +87,7 @@ class SegmentLine {
   // From the plane. What n is off by tells only as n . (p - hit), within the triangle: with L its
   // longer edge at p, 9 u L^2 an axis times 3 L. Each sum of products is off by 5 u of the sum of
   // their magnitudes.
-  float time(math::Vec3 p, math::Vec3 q, math::Vec3 r, float& error, bool& is_steady) const {
+  float time(math::Vec3 p, math::Vec3 q, math::Vec3 r, float& error, bool& is_bounded) const {
     const math::Vec3 e = q - p, f = r - p, n = cross(e, f), to_p = p - a_m_;
     const float depth = dot(n, to_p), rate = dot(n, along_m_);
     const float t = depth / rate;
@@ -96,7 +96,7 @@ class SegmentLine {
     const float lost = 6.0f * (depth_size + absolute(t) * rate_size) + 30.0f * edge * edge * edge;
     // Where the products underflow or the quotient is of nothing, the bound is no bound.
     const bool is_sound = absolute(rate) > 1e-30f;
-    is_steady = is_sound && rate_size * 0x1p-19f < absolute(rate);  // off by a quarter at most
+    is_bounded = is_sound && rate_size * 0x1p-19f < absolute(rate);  // off by a quarter at most
     error = is_sound ? lost / absolute(rate) * 0x1p-24f + 0x1p-24f * absolute(t) : 1e30f;
     return t;
   }

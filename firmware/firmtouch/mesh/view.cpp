@@ -108,7 +108,7 @@ void Opening::open_head(const Sections& s) {
       s.vertex_normals.empty() == with_sign || s.edge_folds.empty() == with_sign)
     return fail(105, 0);
   verdict_ = check_head(head);
-  if (verdict_.ok()) verdict_ = open_steady(s);
+  if (verdict_.ok()) verdict_ = open_bounded(s);
   if (!verdict_.ok()) return;
   if (head.depth == 0 || head.depth > kMaxDepth) return fail(107, 0);
   view_.head_ = &head;
@@ -122,7 +122,7 @@ bool tells_nothing(const uint32_t* words) {
 }
 
 // Where a search reads a box behind the last leaf's there is one that tells nothing.
-Verdict Opening::open_steady(const Sections& s) {
+Verdict Opening::open_bounded(const Sections& s) {
   if (s.leaf_boxes.empty()) return s.shapes.empty() ? kPassed : reject(140, 0);
   const uint32_t triangles = view_.triangles16_.size() + view_.triangles32_.size();
   const uint32_t words = kLeafBoxStride * triangles;

@@ -11,7 +11,7 @@ namespace firmtouch::mesh {
 
 /// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
 /// triangles32; the normals and folds are empty for an unsigned mesh, leaf_boxes and shapes but for a
-/// steady bake.
+/// bounded bake.
 struct Sections {
   core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds,
       leaf_boxes, shapes;
@@ -97,7 +97,7 @@ class Opening {
   enum class Stage : uint8_t { kVertices, kNormals, kNodes, kTriangles, kDone };
   void fail(uint16_t rule, uint32_t element);
   void open_head(const Sections& sections);
-  core::Verdict open_steady(const Sections& sections);
+  core::Verdict open_bounded(const Sections& sections);
   void next_stage();
   core::Verdict check_vertex(uint32_t i);
   core::Verdict check_normal(uint32_t i) const;
