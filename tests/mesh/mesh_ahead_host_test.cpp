@@ -73,7 +73,9 @@ uint32_t differences(const mesh::View& view, const mesh::View& lined, query::Bud
     query::Hint other = hint;
     const mesh::Closest a = mesh::closest_point(view, p_m, budget, turn % 2 == 0 ? hint : other);
     const mesh::Closest b = mesh::closest_point(lined, p_m, budget, turn % 2 == 0 ? other : hint);
-    differ += is_same(a, b) && hint.place == other.place && hint.fence == other.fence ? 0u : 1u;
+    differ += is_same(a, b) && hint.place == other.place && hint.safe_subtree == other.safe_subtree
+                  ? 0u
+                  : 1u;
   }
   return differ;
 }

@@ -28,7 +28,7 @@ bool is_same(const mesh::Search& a, const mesh::Search& b) {
          a.best.place == b.best.place && a.best.feature == b.best.feature &&
          same(a.best.distance2_m2, b.best.distance2_m2) &&
          same(a.best.offset_m.x, b.best.offset_m.x) && same(a.best.offset_m.y, b.best.offset_m.y) &&
-         same(a.best.offset_m.z, b.best.offset_m.z) && a.fence == b.fence;
+         same(a.best.offset_m.z, b.best.offset_m.z) && a.safe_subtree == b.safe_subtree;
 }
 
 // Points anywhere in the grid, on vertices, and on a coarse lattice, where keys are equal.

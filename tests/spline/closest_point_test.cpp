@@ -164,7 +164,7 @@ TEST(AFrontOfRandomWordsIsNoFront) {
     const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
     firmtouch::spline::Hint bent;
     static_cast<Hint&>(bent) = cold;
-    bent.fence = firmtouch::spline::kWithFront;
+    bent.safe_subtree = firmtouch::spline::kWithFront;
     bent.front.base_m = truth;
     bent.front.unit_m = 1.0f;
     bent.front.count = static_cast<uint8_t>(random.bits() >> 24);

@@ -58,7 +58,7 @@ Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget bu
     nearest.begin_at_first();
   }
   const Walk walk = walk_runs(curve, bound, steps, start, has_begun, nearest);
-  hint.fence = query::kNowhere;
+  hint.safe_subtree = query::kNowhere;
   return finish(curve, nearest.best(), walk, kCompensated, p_m, hint);
 }
 
@@ -72,22 +72,22 @@ bool search_near(const View& curve, Vec3 p_m, query::Budget budget, query::Hint&
   if (!(radius_m <= kPlain * curve.head().diagonal_m)) return false;
   // What the last certificate says of all outside its fence, rounded down as query::carry() does.
   const float motion_m = math::length(p_m - hint.position_m) * (1.0f + 8.0f * kUnit);
-  const float left_m = (hint.fence_m - motion_m) * (1.0f - 4.0f * kUnit);
+  const float left_m = (hint.safe_subtree_m - motion_m) * (1.0f - 4.0f * kUnit);
   Steps steps(budget);
-  const uint32_t fence = radius_m <= left_m ? hint.fence : kNoNode;
-  const Climb climb = nearest.begin(run, fence, steps.left);
+  const uint32_t safe_subtree = radius_m <= left_m ? hint.safe_subtree : kNoNode;
+  const Climb climb = nearest.begin(run, safe_subtree, steps.left);
   walk.steps = steps.allowed - steps.left;
-  walk.complete = climb == Climb::kFence;
-  hint.fence_m = left_m;
-  if (climb == Climb::kFence) return true;
-  hint.fence = kNoNode;
+  walk.complete = climb == Climb::kSafeSubtree;
+  hint.safe_subtree_m = left_m;
+  if (climb == Climb::kSafeSubtree) return true;
+  hint.safe_subtree = kNoNode;
   walk.pending_m = 0.0f;
   if (climb == Climb::kSpent) return true;
   NearBound bound;
   if (!bound.begin(curve.head(), p_m)) return false;
   walk = walk_runs(curve, bound, steps, run, true, nearest);
   if (walk.complete && walk.pending_m > nearest.radius_m() && motion_m <= kBeyond_m)
-    nearest.make_fence(run, motion_m, spacing_m(curve), walk.pending_m, hint);
+    nearest.make_safe_subtree(run, motion_m, spacing_m(curve), walk.pending_m, hint);
   return true;
 }
 
@@ -106,7 +106,7 @@ Closest answer_nothing(const View& curve, query::Hint& hint) {
   Closest closest = answer_at(curve, {0.0f, 0, 1, 0.0f});
   closest.distance_m = FLT_MAX;
   hint.lower_m = 0;
-  hint.fence = query::kNowhere;
+  hint.safe_subtree = query::kNowhere;
   return closest;
 }
 

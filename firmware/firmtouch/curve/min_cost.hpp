@@ -175,7 +175,7 @@ static inline Constraint min_cost(const View& curve, const Bound& bound, math::V
   hint.position_m = p_m;
   hint.lower_m = 0;  // a bound of the cost is none of the distance
   hint.sign = 0;
-  hint.fence = query::kNowhere;
+  hint.safe_subtree = query::kNowhere;
   return found;
 }
 

@@ -8,7 +8,7 @@
 namespace firmtouch::curve {
 
 /// What a climb from a segment came to: the budget's end, the top of the run, or the fence.
-enum class Climb : uint8_t { kSpent, kRun, kFence };
+enum class Climb : uint8_t { kSpent, kRun, kSafeSubtree };
 
 /// Keeps the closest point of the runs that it is offered.
 template <bool kCompensated>
@@ -59,9 +59,9 @@ class NearestFoot {
 
   /// The run of the best point so far: its part of the last level, then, level by level, what lies
   /// beside, up to the top; of a fence's part, up to that and its neighbours.
-  [[gnu::always_inline]] inline Climb begin(uint32_t run, uint32_t fence, uint32_t& left) {
+  [[gnu::always_inline]] inline Climb begin(uint32_t run, uint32_t safe_subtree, uint32_t& left) {
     const uint32_t found = segment_of(best_);
-    const uint32_t node = run << (levels_ + 1), stop = fence - node;
+    const uint32_t node = run << (levels_ + 1), stop = safe_subtree - node;
     const uint16_t* const radii = radii_ + node;
     const uint32_t least = (1u << levels_) - 1;  // the first part of the last level
     uint32_t first = found - found % kPartSegments, size = kPartSegments;
@@ -77,17 +77,17 @@ class NearestFoot {
     if (end != 0 && !take_beside(radii, part, first, size, true, left)) return Climb::kSpent;
     const bool is_inside = ((part + 1) & part) != 0;  // not the first part of its level
     if (is_inside && !take_beside(radii, part, first, size, false, left)) return Climb::kSpent;
-    return Climb::kFence;
+    return Climb::kSafeSubtree;
   }
 
   /// A fence about the run's part where the best point lies, whose ends are some motions apart: all that
   /// lies neither in that part nor in the parts of its size beside it in the run is certified to be at
   /// least so far from the query. None where the run is too short for one. Part k of run r is node r *
   /// (parts of a run + 1) + k. Pre: all other runs are at least `outside_m` away.
-  void make_fence(uint32_t run, float motion_m, float spacing_m, float outside_m,
-                  query::Hint& hint) const {
+  void make_safe_subtree(uint32_t run, float motion_m, float spacing_m, float outside_m,
+                         query::Hint& hint) const {
     const uint32_t segments = run_segments_of(levels_), run_first = run * segments;
-    const float min_m = kFenceMotions * motion_m;
+    const float min_m = kSafeSubtreeMotions * motion_m;
     uint32_t size = kPartSegments, first = segment_of(best_);
     for (float mean_m = 4.0f * spacing_m; mean_m < min_m && size < segments; mean_m *= 2.0f)
       size *= 2;
@@ -112,8 +112,8 @@ class NearestFoot {
       outside_m = smaller(outside_m, part_distance_m(radii, run_first + from, step, segments));
       from += step;
     }
-    hint.fence = (run << (levels_ + 1)) + level_first + at / size;
-    hint.fence_m = outside_m;
+    hint.safe_subtree = (run << (levels_ + 1)) + level_first + at / size;
+    hint.safe_subtree_m = outside_m;
   }
 
   /// Result: false where the budget ended.
@@ -131,7 +131,7 @@ class NearestFoot {
 
  private:
   static constexpr uint32_t kMaxJumps = 4;
-  static constexpr float kFenceMotions = 8.0f;
+  static constexpr float kSafeSubtreeMotions = 8.0f;
   static constexpr uint32_t kAbout = 8;  // segments on either side
 
   uint32_t clamped(int32_t segment) const {

@@ -13,8 +13,8 @@ void leave_hint(const Bounds& bounds, Vec3 p_m, query::Hint& hint) {
   hint.position_m = p_m;
   hint.lower_m = bounds.lower_m;
   hint.sign = bounds.sign;
-  hint.fence = query::kNowhere;
-  hint.fence_m = 0;
+  hint.safe_subtree = query::kNowhere;
+  hint.safe_subtree_m = 0;
 }
 
 // Where the last leaf is no help the cell's is; of what is certified the farther.

@@ -26,7 +26,7 @@ constexpr float kDoubt_rad = 6e-5f;
 // A new fence stands this many of the last motions beyond the nearest leaf: nearer, it must soon be
 // renewed; farther, more lies inside it. Of 6, 8, 12 and 16, 8 served the worst touching
 // walks (2 % apart).
-constexpr float kFenceMotions = 8.0f;
+constexpr float kSafeSubtreeMotions = 8.0f;
 
 // A query farther than this from the origin: squares overflow beyond 1e19, and no model is larger
 // than 1e6 m.
@@ -118,9 +118,9 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
     const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
     again.search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
     again.search.band2_m2 = found.search.band2_m2;
-    again.search.fence = found.search.fence;
-    again.search.fence_m = found.search.fence_m;
-    again.search.fence_margin_m = found.search.fence_margin_m;
+    again.search.safe_subtree = found.search.safe_subtree;
+    again.search.safe_subtree_m = found.search.safe_subtree_m;
+    again.search.safe_subtree_margin_m = found.search.safe_subtree_margin_m;
     again.search.p_m = p_m;
     again.search.start = found.search.best.place;
     again.search.budget = budget - found.search.steps;
@@ -165,12 +165,12 @@ template <class Bound>
   const float moved_m = query::motion_m(hint, p_m);
   const bool has_moved = moved_m <= query::kMaxMotion_m;  // else nothing is carried on
   const Loss loss(mesh.head());
-  const float fence_margin_m = has_moved ? kFenceMotions * moved_m : 0.0f;
+  const float safe_subtree_margin_m = has_moved ? kSafeSubtreeMotions * moved_m : 0.0f;
   // FLT_MAX and what squares beyond it: no band.
   const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
   // After a jump out of the band's reach the last leaf does not help.
-  const uint32_t place = hint.place, fence = hint.fence;
-  const bool is_warm = !(fence_margin_m > budget.band_m) && is_place(mesh, place);
+  const uint32_t place = hint.place, safe_subtree = hint.safe_subtree;
+  const bool is_warm = !(safe_subtree_margin_m > budget.band_m) && is_place(mesh, place);
   Found found;  // all at once, with nothing read between: else each of its defaults is stored too
   Search& search = found.search;
   search.p_m.x = p_m.x;
@@ -184,9 +184,9 @@ template <class Bound>
     search.last = last;
   }
   search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
-  search.fence_margin_m = fence_margin_m;
-  search.fence = fence;
-  search.fence_m = query::left_of(hint.fence_m, moved_m);
+  search.safe_subtree_margin_m = safe_subtree_margin_m;
+  search.safe_subtree = safe_subtree;
+  search.safe_subtree_m = query::left_of(hint.safe_subtree_m, moved_m);
   search.slack_m2 = Nearer::slack_m2(loss.longest_edge_m);
   if (!is_warm) {  // a stored vertex is a point of the surface before any triangle is reached
     search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
@@ -238,8 +238,8 @@ template <class Bound>
   hint.position_m.z = p_m.z;
   hint.lower_m = lower_m;
   hint.sign = lower_m > kEitherSide * diagonal_m ? sign : int8_t{0};
-  hint.fence = search.fence;
-  hint.fence_m = search.fence_m;
+  hint.safe_subtree = search.safe_subtree;
+  hint.safe_subtree_m = search.safe_subtree_m;
   return {sign < 0 ? -found.distance_m : found.distance_m,
           {point_m.x, point_m.y, point_m.z},
           {direction.x, direction.y, direction.z},
@@ -265,7 +265,7 @@ Closest answer_beyond(const View& mesh, Vec3 p_m, query::Hint& hint) {
   hint.position_m = p_m;
   hint.lower_m = closest.certificate.lower_m;
   hint.sign = closest.certificate.sign;
-  hint.fence = query::kNowhere;
+  hint.safe_subtree = query::kNowhere;
   return closest;
 }
 
@@ -277,7 +277,7 @@ Closest answer_nothing(const View& mesh, query::Hint& hint) {
   closest.feature = Feature::kVertex0;
   hint.lower_m = 0;
   hint.sign = 0;
-  hint.fence = query::kNowhere;
+  hint.safe_subtree = query::kNowhere;
   return closest;
 }
 

@@ -27,13 +27,14 @@ struct Pending {
 
 /// What is looked for, and what came of it.
 struct Search : Sought {
-  uint32_t start;        // a leaf's place, or kNowhere
-  uint32_t budget;       // in steps
-  uint32_t last;         // the lowest 16 bits of the last triangle; read side by side alone
-  float band2_m2;        // what is farther off need not be found
-  float fence_margin_m;  // how much farther than the first leaf a new fence should stand
-  uint32_t fence;        // in: the last fence, the subtree outside which everything is at least ...
-  float fence_m;         // ... this far away; out: the same, renewed
+  uint32_t start;               // a leaf's place, or kNowhere
+  uint32_t budget;              // in steps
+  uint32_t last;                // the lowest 16 bits of the last triangle; read side by side alone
+  float band2_m2;               // what is farther off need not be found
+  float safe_subtree_margin_m;  // how much farther than the first leaf a new fence should stand
+  uint32_t
+      safe_subtree;      // in: the last fence, the subtree outside which everything is at least ...
+  float safe_subtree_m;  // ... this far away; out: the same, renewed
   uint32_t steps;
   bool complete;    // nothing nearer can be left
   float pending_m;  // where it is not: certified distance to everything that was not looked at
@@ -116,28 +117,29 @@ inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint3
   const uint32_t* const parents = mesh.parents().data();
   const float leaf_m = math::square_root(math::smaller(search.best.distance2_m2, search.band2_m2)) *
                        (1.0f + 0x1p-22f);
-  const float reach_m = leaf_m + search.fence_margin_m;
+  const float reach_m = leaf_m + search.safe_subtree_margin_m;
   const uint32_t beyond = bound.prune_key(reach_m * reach_m);
   uint32_t place = search.start;
-  uint32_t stop = leaf_m <= search.fence_m ? search.fence : 0, fence = place >> 1;
+  uint32_t stop = leaf_m <= search.safe_subtree_m ? search.safe_subtree : 0,
+           safe_subtree = place >> 1;
   for (; left != 0; --left) {
     const uint32_t beside = place ^ 1u, index = place >> 1;
     const uint32_t key = bound.key(sides[beside].box);
     if constexpr (math::kHasLanes) {
       // While a desktop waits for the leaf's distance it runs ahead: a branch on that distance which
       // it has guessed wrong would throw all of this away.
-      fence = key < beyond ? index : fence;
+      safe_subtree = key < beyond ? index : safe_subtree;
       *top = {key, beside};
       top += key < prune ? 1 : 0;
     } else if (key < beyond) {
-      fence = index;
+      safe_subtree = index;
       if (key < prune) push(top, key, beside);
     }
     // Parents come before their children: at the fence, or past one that is no ancestor.
     if (index <= stop) {
       if (index == 0) {
-        search.fence = fence;
-        search.fence_m = reach_m * (1.0f - 0x1p-22f);
+        search.safe_subtree = safe_subtree;
+        search.safe_subtree_m = reach_m * (1.0f - 0x1p-22f);
       }
       if (index == 0 || index == stop) {
         --left;

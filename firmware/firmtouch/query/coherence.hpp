@@ -7,7 +7,7 @@ namespace firmtouch::query {
 /// What the last certificate still says after the motion to `position_m`: distance is 1-Lipschitz.
 struct Carried {
   float lower_m = 0;
-  float fence_m = 0;
+  float safe_subtree_m = 0;
   int8_t sign = 0;     // the last side, where the path stayed within certified free distance
   float motion_m = 0;  // rounded up
 };

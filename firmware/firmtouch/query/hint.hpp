@@ -17,8 +17,9 @@ struct Hint {
   float lower_m = 0;          // certified free radius about position_m
   int8_t sign = 0;            // certified side of position_m
   uint8_t fine[2] = {0, 0};   // more of `place`, where a room has more to say of it
-  uint32_t fence = kNowhere;  // a part of the shape (the room's own numbering), outside which ...
-  float fence_m = 0;          // ... everything is certified at least this far from position_m
+  uint32_t safe_subtree =
+      kNowhere;              // a part of the shape (the room's own numbering), outside which ...
+  float safe_subtree_m = 0;  // ... everything is certified at least this far from position_m
 };
 
 }  // namespace firmtouch::query

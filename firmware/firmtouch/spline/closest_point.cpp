@@ -20,7 +20,7 @@ constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
 constexpr float kFrontMotions = 8.0f, kMinReach = 0x1p-10f;
 // Of a curve: so much of the extent beyond it. Of 0.01, 0.015, 0.02 and 0.03 ten planar cubics' paths of
 // 0.002 a query took 1,742, 1,726, 1,734 and 1,760 instructions.
-constexpr float kFenceReach = 0.015f;
+constexpr float kSafeSubtreeReach = 0.015f;
 // Farther than so many extents all points of a model are as near as any other, to 2^-28.
 constexpr float kBeyond = 0x1p28f;
 
@@ -139,11 +139,11 @@ void move(const Vec3& p_m, const query::Hint& hint, Front& front) {
 
 // `fence`: what is left in the hint, kWithFront where the front is kept too.
 Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint,
-                       Front& front, uint32_t fence) {
+                       Front& front, uint32_t safe_subtree) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
   SurfaceSearch search(model, p_m, budget.steps, best);
-  if (hint.fence != kWithFront) FrontUse(front).clear();
+  if (hint.safe_subtree != kWithFront) FrontUse(front).clear();
   move(p_m, hint, front);
   uint32_t leaf;
   Rectangle range;
@@ -162,8 +162,8 @@ Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query:
       certified(model, p_m, search, best, is_first ? 0 : search.piece_of(best.node), carried, hint);
   hint.place = query::kNowhere;
   if (!is_first) search.leave(motion_m, hint);
-  hint.fence = fence;
-  hint.fence_m = 0.0f;
+  hint.safe_subtree = safe_subtree;
+  hint.safe_subtree_m = 0.0f;
   return closest;
 }
 
@@ -172,24 +172,25 @@ Closest answer_curve(const View& model, Vec3 p_m, query::Budget budget, query::H
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
   CurveSearch<kFlat> search(model, p_m, budget.steps, best);
-  LeafFence fence{{hint.fence & 0xFFFFu, hint.fence >> 16}, carried.fence_m};
+  LeafSafeSubtree safe_subtree{{hint.safe_subtree & 0xFFFFu, hint.safe_subtree >> 16},
+                               carried.safe_subtree_m};
   uint32_t piece;
   float s;
   const bool is_warm = search.resume(hint.place, piece, s);
   if (is_warm) {
-    search.run_warm(piece, s, kFenceReach * model.head().extent_m, fence);
+    search.run_warm(piece, s, kSafeSubtreeReach * model.head().extent_m, safe_subtree);
   } else {
     begin_at_first(model, p_m, best);
     search.run_cold(outside_m(model.head(), p_m));
-    fence = {{0xFFFFu, 0xFFFFu}, 0.0f};
+    safe_subtree = {{0xFFFFu, 0xFFFFu}, 0.0f};
   }
   const bool is_first = best.node == query::kNowhere;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
   const Closest closest =
       certified(model, p_m, search, best, is_first ? 0 : best.node, carried, hint);
   hint.place = is_first ? query::kNowhere : search.place_after(motion_m);
-  hint.fence = fence.row.first | fence.row.last << 16;
-  hint.fence_m = fence.distance_m;
+  hint.safe_subtree = safe_subtree.row.first | safe_subtree.row.last << 16;
+  hint.safe_subtree_m = safe_subtree.distance_m;
   return closest;
 }
 
@@ -213,18 +214,19 @@ Closest answer_nothing(const View& model, query::Hint& hint) {
   Closest closest = answer_at(model, best, 0);
   closest.distance_m = FLT_MAX;
   hint.lower_m = 0;
-  hint.fence = query::kNowhere;
-  hint.fence_m = 0;
+  hint.safe_subtree = query::kNowhere;
+  hint.safe_subtree_m = 0;
   return closest;
 }
 
 [[gnu::always_inline]] inline Closest answer(const View& model, Vec3 p_m, query::Budget budget,
-                                             query::Hint& hint, Front& front, uint32_t fence) {
+                                             query::Hint& hint, Front& front,
+                                             uint32_t safe_subtree) {
   if (!is_near(model.head(), p_m)) {
     FrontUse(front).clear();
     return math::is_finite(p_m) ? answer_beyond(model, p_m, hint) : answer_nothing(model, hint);
   }
-  if (model.is_surface()) return answer_surface(model, p_m, budget, hint, front, fence);
+  if (model.is_surface()) return answer_surface(model, p_m, budget, hint, front, safe_subtree);
   return model.is_flat() ? answer_curve<true>(model, p_m, budget, hint)
                          : answer_curve<false>(model, p_m, budget, hint);
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Branch and bound over the parts of curves, for .cpp files of this room only.
-#include "firmtouch/spline/curve_fence.hpp"
 #include "firmtouch/spline/curve_proof.hpp"
+#include "firmtouch/spline/curve_safe_subtree.hpp"
 #include "firmtouch/spline/search.hpp"
 
 namespace firmtouch::spline {
@@ -36,9 +36,9 @@ class CurveSearch : public Account {
   /// From a place that may be near to the leaves within the fence, where everything outside it is far enough
   /// away, else up the tree to the root: then a new fence is told, `margin_m` farther than the best
   /// where there is room for it.
-  void run_warm(uint32_t piece, float s, float margin_m, LeafFence& fence) {
+  void run_warm(uint32_t piece, float s, float margin_m, LeafSafeSubtree& safe_subtree) {
     const uint32_t leaf = tree_.leaf_at(piece, s);
-    LeafRow row = fence.row;
+    LeafRow row = safe_subtree.row;
     if (!(row.holds(leaf, leaf) && row.last <= tree_.last()))
       row = {leaf > kBeside ? leaf - kBeside : 0, leaf + kBeside};
     const uint32_t first = tree_.first_of(piece), last = tree_.last_of(piece);
@@ -51,10 +51,10 @@ class CurveSearch : public Account {
     if (!solve(all) || (count_ != 0 && !drain())) return stop();
     is_complete_ = best_.limit_m <= 0.0f;
     if (is_complete_) return;
-    if (best_.limit_m <= fence.distance_m && fence.row.last <= tree_.last())
-      is_complete_ = look_within(fence.row);
+    if (best_.limit_m <= safe_subtree.distance_m && safe_subtree.row.last <= tree_.last())
+      is_complete_ = look_within(safe_subtree.row);
     else
-      is_complete_ = look_everywhere(margin_m, fence);
+      is_complete_ = look_everywhere(margin_m, safe_subtree);
     if (!is_complete_) stop();
   }
 
@@ -94,7 +94,7 @@ class CurveSearch : public Account {
     return drain();
   }
 
-  bool look_everywhere(float margin_m, LeafFence& fence) {
+  bool look_everywhere(float margin_m, LeafSafeSubtree& safe_subtree) {
     passed_.begin(best_.limit_m + margin_m);
     if (lost_m_ < FLT_MAX) passed_.pass(0.0f);
     if (!tree_.is_leaf(1)) {
@@ -102,7 +102,7 @@ class CurveSearch : public Account {
       if (!drain()) return false;
     }
     if (steps() > kManySteps) {  // the next query makes one
-      fence = {{1, 0}, 0.0f};
+      safe_subtree = {{1, 0}, 0.0f};
       return true;
     }
     const uint32_t leaf = tree_.leaf_at(best_.node, best_.s);
@@ -111,7 +111,7 @@ class CurveSearch : public Account {
       row = closed_;
     else if (closed_.first <= closed_.last)
       passed_.pass(raised(0.0f, closed2_m2_));
-    fence = passed_.fence_about(tree_, leaf, row, steps(), left_);
+    safe_subtree = passed_.safe_subtree_about(tree_, leaf, row, steps(), left_);
     return true;
   }
 

@@ -70,7 +70,7 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
     Hint hint;
     for (int i = 0; i < positions; ++i) {
       const Vec3 p = path.next();
-      const uint32_t fence = hint.fence;
+      const uint32_t safe_subtree = hint.safe_subtree;
       const float unit_m = hint.front.unit_m;
       const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
       Hint cold;
@@ -84,7 +84,7 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
       const bool is_kept =
           baked.view.is_surface()
               ? unit_m > 0.0f && !(hint.front.unit_m < unit_m) && !(hint.front.unit_m > unit_m)
-              : fence != query::kNowhere && hint.fence == fence;
+              : safe_subtree != query::kNowhere && hint.safe_subtree == safe_subtree;
       told.passed_over += is_kept ? 1u : 0u;
     }
   }
@@ -92,7 +92,7 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
 
 }  // namespace
 
-TEST(AlongAPathAFenceLeavesNothingOut) {
+TEST(AlongAPathASafeSubtreeLeavesNothingOut) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Told told;
   for (uint32_t seed = 0; seed < (is_long ? 200u : 24u); ++seed) {

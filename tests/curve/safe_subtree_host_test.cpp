@@ -54,7 +54,7 @@ TEST(WhatWasCertifiedBeforeNeverHidesANearerPoint) {
         const math::Vec3 p = walker.at_m;
         const double truth = curve_test::brute_distance(baked.samples, p);
         const double scale = std::max(double{baked.view.head().diagonal_m}, truth);
-        const bool had_fence = hint.fence != query::kNowhere;
+        const bool had_safe_subtree = hint.safe_subtree != query::kNowhere;
         const curve::Closest found = closest_point(baked.view, p, query::kUnlimited, hint);
         CHECK(found.certificate.exact);
         CHECK_LE(std::abs(double{found.distance_m} - truth), kPromise * scale);
@@ -62,9 +62,9 @@ TEST(WhatWasCertifiedBeforeNeverHidesANearerPoint) {
         CHECK_GE(double{found.certificate.lower_m}, truth - kPromise * scale);
         ++queries;
         query::Hint without = hint;
-        without.fence = query::kNowhere;
+        without.safe_subtree = query::kNowhere;
         without.position_m = p;
-        if (had_fence &&
+        if (had_safe_subtree &&
             found.certificate.steps <
                 closest_point(baked.view, p, query::kUnlimited, without).certificate.steps)
           ++stopped_early;

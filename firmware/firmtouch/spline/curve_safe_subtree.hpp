@@ -10,7 +10,7 @@ struct LeafRow {
   bool holds(uint32_t from, uint32_t to) const { return first <= from && to <= last; }
 };
 /// Outside these leaves everything is at least so far away.
-struct LeafFence {
+struct LeafSafeSubtree {
   LeafRow row;
   float distance_m;
 };
@@ -42,8 +42,8 @@ class PassedParts {
   /// What was passed beside a leaf stands within the fence, with the row about it; of the rest is known how far
   /// it is. A part that is more than that is opened, and some of those farther along the curve where few
   /// steps were taken: their bounds were only as good as the search needed.
-  LeafFence fence_about(const Tree& tree, uint32_t leaf, LeafRow row, uint32_t taken,
-                        uint32_t& left) {
+  LeafSafeSubtree safe_subtree_about(const Tree& tree, uint32_t leaf, LeafRow row, uint32_t taken,
+                                     uint32_t& left) {
     uint32_t low = leaf > kBeside ? leaf - kBeside : 0, high = leaf + kBeside;
     if (row.first < low) low = row.first;
     if (row.last > high) high = row.last;
