@@ -154,7 +154,7 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
 }
 
 // Words that are no parts of the model are not looked up, and nothing beside them is believed.
-TEST(AFrontOfRandomWordsIsNoFront) {
+TEST(AFrontierOfRandomWordsIsNoFrontier) {
   const SmallSpline model(true);
   const View view = model.view();
   Random random(7);
@@ -164,22 +164,22 @@ TEST(AFrontOfRandomWordsIsNoFront) {
     const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
     firmtouch::spline::Hint bent;
     static_cast<Hint&>(bent) = cold;
-    bent.safe_subtree = firmtouch::spline::kWithFront;
-    bent.front.base_m = truth;
-    bent.front.unit_m = 1.0f;
-    bent.front.count = static_cast<uint8_t>(random.bits() >> 24);
-    bent.front.outside = 255;
-    for (uint32_t& word : bent.front.part) word = random.bits() | 0x4000u;
+    bent.safe_subtree = firmtouch::spline::kWithFrontier;
+    bent.frontier.base_m = truth;
+    bent.frontier.unit_m = 1.0f;
+    bent.frontier.count = static_cast<uint8_t>(random.bits() >> 24);
+    bent.frontier.outside = 255;
+    for (uint32_t& word : bent.frontier.part) word = random.bits() | 0x4000u;
     const Closest c = closest_point(view, p, kUnlimited, bent);
     CHECK_EQ(c.certificate.exact, true);
     CHECK_LE(c.distance_m, truth + 5e-7f * (truth + 3.9f));
     CHECK_GE(c.distance_m, truth - 5e-7f * (truth + 3.9f));
-    CHECK_LE(bent.front.count, firmtouch::spline::Front::kMax);
+    CHECK_LE(bent.frontier.count, firmtouch::spline::Frontier::kMax);
   }
 }
 
 // A front is a certificate: of another model's nothing is true, but nothing is read that is not there.
-TEST(AnyFrontGivesFiniteAnswersWithinTheBudget) {
+TEST(AnyFrontierGivesFiniteAnswersWithinTheBudget) {
   const SmallSpline model(true);
   const View view = model.view();
   Random random(9);
@@ -187,11 +187,11 @@ TEST(AnyFrontGivesFiniteAnswersWithinTheBudget) {
     const Vec3 p = about(random);
     firmtouch::spline::Hint bent;
     closest_point(view, p, kUnlimited, bent);
-    bent.front.base_m = i % 3 == 0 ? -1.0f : 0.0f;
-    bent.front.unit_m = 1.0f / static_cast<float>(1 + random.bits() % 1000u);
-    bent.front.count = static_cast<uint8_t>(random.bits() >> 24);
-    bent.front.outside = 255;
-    for (uint32_t& word : bent.front.part)
+    bent.frontier.base_m = i % 3 == 0 ? -1.0f : 0.0f;
+    bent.frontier.unit_m = 1.0f / static_cast<float>(1 + random.bits() % 1000u);
+    bent.frontier.count = static_cast<uint8_t>(random.bits() >> 24);
+    bent.frontier.outside = 255;
+    for (uint32_t& word : bent.frontier.part)
       word = i % 2 == 0 ? random.bits() & 0x8000FFFFu : random.bits();
     const Closest c = closest_point(view, p, {200}, bent);
     CHECK(c.distance_m >= 0.0f && c.distance_m < 1e6f);
@@ -200,7 +200,7 @@ TEST(AnyFrontGivesFiniteAnswersWithinTheBudget) {
 }
 
 // The two overloads in turn: a front is of where the last query that knows of fronts was.
-TEST(AFrontIsNotCarriedOnByAQueryThatKnowsOfNone) {
+TEST(AFrontierIsNotCarriedOnByAQueryThatKnowsOfNone) {
   const SmallSpline model(true);
   const View view = model.view();
   Random random(11);

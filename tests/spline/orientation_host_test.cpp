@@ -148,7 +148,7 @@ TEST(BordersAreSharedInPartsAndByOtherParameters) {
   const auto point = [&](double u, double v) { return point_at(top, u, v); };
   sides[5] = flat(point(0, 0), point(0.37, 0), point(0, 1), point(0.37, 1));
   sides.push_back(reversed(flat(point(0.37, 0), point(1, 0), point(0.37, 1), point(1, 1))));
-  const SplineSurface front = sides[0];
+  const SplineSurface frontier = sides[0];
   SplineSurface curved;
   curved.degree_u = 2, curved.degree_v = 3;
   curved.count_u = 3, curved.count_v = 4;
@@ -157,7 +157,7 @@ TEST(BordersAreSharedInPartsAndByOtherParameters) {
   curved.u0 = 2, curved.u1 = 5, curved.v0 = -1, curved.v1 = 4;
   for (size_t j = 0; j < 4; ++j)
     for (size_t i = 0; i < 3; ++i) {
-      const Point p = point_at(front, static_cast<double>(i) / 2, static_cast<double>(j) / 3);
+      const Point p = point_at(frontier, static_cast<double>(i) / 2, static_cast<double>(j) / 3);
       curved.points.push_back({p.x, p.y, p.z, 1.0 + static_cast<double>(i)});
     }
   sides[0] = swapped(curved);

@@ -71,7 +71,7 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
     for (int i = 0; i < positions; ++i) {
       const Vec3 p = path.next();
       const uint32_t safe_subtree = hint.safe_subtree;
-      const float unit_m = hint.front.unit_m;
+      const float unit_m = hint.frontier.unit_m;
       const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
       Hint cold;
       const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
@@ -83,7 +83,8 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
       told.inexact += warm.certificate.exact ? 0u : 1u;
       const bool is_kept =
           baked.view.is_surface()
-              ? unit_m > 0.0f && !(hint.front.unit_m < unit_m) && !(hint.front.unit_m > unit_m)
+              ? unit_m > 0.0f && !(hint.frontier.unit_m < unit_m) &&
+                    !(hint.frontier.unit_m > unit_m)
               : safe_subtree != query::kNowhere && hint.safe_subtree == safe_subtree;
       told.passed_over += is_kept ? 1u : 0u;
     }
@@ -108,7 +109,7 @@ TEST(AlongAPathASafeSubtreeLeavesNothingOut) {
 }
 
 // Of all words none is a node but those that halving a whole piece comes to, in its order, and the tree's above.
-TEST(OnlyWhatHalvingComesToIsANodeOfAFront) {
+TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
   for (uint32_t seed = 0; seed < 3; ++seed) {
     tools::Random random(seed + 90);
     const BakedModel baked(of({spline_test::random_surface(random, 3, most_of(seed), 1)}));
@@ -141,7 +142,7 @@ TEST(OnlyWhatHalvingComesToIsANodeOfAFront) {
 }
 
 // Trees of one piece, of a few, and of many more than a front has parts.
-TEST(AlongAPathAFrontLeavesNothingOutOfSurfaces) {
+TEST(AlongAPathAFrontierLeavesNothingOutOfSurfaces) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Told told;
   uint32_t max_pieces = 0;

@@ -17,7 +17,7 @@ using math::Vec3;
 // 4e-7 and 1e-6 when the losses are taken off.
 constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
 // A new front of a surface reaches this many of the last motions beyond the nearest point, or so much of the extent.
-constexpr float kFrontMotions = 8.0f, kMinReach = 0x1p-10f;
+constexpr float kFrontierMotions = 8.0f, kMinReach = 0x1p-10f;
 // Of a curve: so much of the extent beyond it. Of 0.01, 0.015, 0.02 and 0.03 ten planar cubics' paths of
 // 0.002 a query took 1,742, 1,726, 1,734 and 1,760 instructions.
 constexpr float kSafeSubtreeReach = 0.015f;
@@ -127,34 +127,35 @@ Closest certified(const View& model, Vec3 p_m, const Search& search, const Best&
 }
 
 // All of a front is nearer by the motion at most. Four roundings, of what is not larger than either.
-void move(const Vec3& p_m, const query::Hint& hint, Front& front) {
+void move(const Vec3& p_m, const query::Hint& hint, Frontier& frontier) {
   const float motion_m = query::motion_m(hint, p_m);
   if (!(motion_m <= query::kMaxMotion_m)) {
-    FrontUse(front).clear();
+    FrontierUse(frontier).clear();
     return;
   }
-  const float lost_m = __builtin_fabsf(front.base_m) + motion_m;
-  front.base_m = front.base_m - motion_m - lost_m * (4.0f * kUnit);
+  const float lost_m = __builtin_fabsf(frontier.base_m) + motion_m;
+  frontier.base_m = frontier.base_m - motion_m - lost_m * (4.0f * kUnit);
 }
 
-// `fence`: what is left in the hint, kWithFront where the front is kept too.
+// `fence`: what is left in the hint, kWithFrontier where the front is kept too.
 Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint,
-                       Front& front, uint32_t safe_subtree) {
+                       Frontier& frontier, uint32_t safe_subtree) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
   SurfaceSearch search(model, p_m, budget.steps, best);
-  if (hint.safe_subtree != kWithFront) FrontUse(front).clear();
-  move(p_m, hint, front);
+  if (hint.safe_subtree != kWithFrontier) FrontierUse(frontier).clear();
+  move(p_m, hint, frontier);
   uint32_t leaf;
   Rectangle range;
   const bool is_warm = search.resume(hint, leaf, range);
   if (is_warm) {
     const float min_m = kMinReach * model.head().extent_m;
-    search.run_warm(leaf, range, math::larger(kFrontMotions * carried.motion_m, min_m), front);
+    search.run_warm(leaf, range, math::larger(kFrontierMotions * carried.motion_m, min_m),
+                    frontier);
   } else {
     begin_at_first(model, p_m, best);
     search.run_cold(outside_m(model.head(), p_m));
-    FrontUse(front).clear();
+    FrontierUse(frontier).clear();
   }
   const bool is_first = best.node == query::kNowhere;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
@@ -220,13 +221,13 @@ Closest answer_nothing(const View& model, query::Hint& hint) {
 }
 
 [[gnu::always_inline]] inline Closest answer(const View& model, Vec3 p_m, query::Budget budget,
-                                             query::Hint& hint, Front& front,
+                                             query::Hint& hint, Frontier& frontier,
                                              uint32_t safe_subtree) {
   if (!is_near(model.head(), p_m)) {
-    FrontUse(front).clear();
+    FrontierUse(frontier).clear();
     return math::is_finite(p_m) ? answer_beyond(model, p_m, hint) : answer_nothing(model, hint);
   }
-  if (model.is_surface()) return answer_surface(model, p_m, budget, hint, front, safe_subtree);
+  if (model.is_surface()) return answer_surface(model, p_m, budget, hint, frontier, safe_subtree);
   return model.is_flat() ? answer_curve<true>(model, p_m, budget, hint)
                          : answer_curve<false>(model, p_m, budget, hint);
 }
@@ -234,7 +235,7 @@ Closest answer_nothing(const View& model, query::Hint& hint) {
 }  // namespace
 
 Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, Hint& hint) {
-  return answer(model, p_m, budget, hint, hint.front, kWithFront);
+  return answer(model, p_m, budget, hint, hint.frontier, kWithFrontier);
 }
 
 Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
@@ -245,8 +246,8 @@ Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, quer
 }
 
 Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
-  Front front;
-  return answer(model, p_m, budget, hint, front, query::kNowhere);
+  Frontier frontier;
+  return answer(model, p_m, budget, hint, frontier, query::kNowhere);
 }
 
 namespace {

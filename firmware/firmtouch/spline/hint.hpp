@@ -8,7 +8,7 @@ namespace firmtouch::spline {
 /// Parts of a surface's tree, each with how far it is at least, and how far all that is in none of them is: so many
 /// units beyond base_m, from where the last query was. A certificate, as lower_m is: what a query of another asset wrote
 /// makes answers wrong, though never reads what is not there.
-struct Front {
+struct Frontier {
   // Where most of a model is about as near, 64 have no room for what is within reach (DESIGN.md, "Splines").
   static constexpr uint32_t kMax = 128;
 
@@ -21,12 +21,12 @@ struct Front {
 };
 
 /// Hint::fence of a surface whose front is of position_m. A query that leaves no front leaves query::kNowhere.
-constexpr uint32_t kWithFront = 0;
+constexpr uint32_t kWithFrontier = 0;
 
 /// What a query of splines leaves for the next one. A curve needs no more than a query::Hint, and a surface asked with one
 /// answers the same, with more steps.
 struct Hint : query::Hint {
-  Front front;
+  Frontier frontier;
 };
 
 }  // namespace firmtouch::spline

@@ -6,7 +6,7 @@
 #include "firmtouch/spline/patch_grid.hpp"
 #include "firmtouch/spline/patch_node.hpp"
 #include "firmtouch/spline/surface_expansion.hpp"
-#include "firmtouch/spline/surface_front.hpp"
+#include "firmtouch/spline/surface_frontier.hpp"
 
 namespace firmtouch::spline {
 

@@ -3,7 +3,7 @@
 #include "firmtouch/spline/patch_bounds.hpp"
 #include "firmtouch/spline/pole.hpp"
 #include "firmtouch/spline/search.hpp"
-#include "firmtouch/spline/surface_front.hpp"
+#include "firmtouch/spline/surface_frontier.hpp"
 #include "firmtouch/spline/surface_parts.hpp"
 
 namespace firmtouch::spline {
@@ -23,9 +23,9 @@ class SurfaceSearch : public Account {
 
   /// From a leaf that may be near: where the front is far enough away only what of it may be within the limit, else
   /// all, and a new front is told, to `margin_m` beyond the best.
-  void run_warm(uint32_t leaf, const Range& range, float margin_m, Front& front) {
-    FrontUse use(front);
-    run_from(leaf, range, margin_m, use, front);
+  void run_warm(uint32_t leaf, const Range& range, float margin_m, Frontier& frontier) {
+    FrontierUse use(frontier);
+    run_from(leaf, range, margin_m, use, frontier);
     if (!is_complete()) use.clear();
   }
 
@@ -42,8 +42,9 @@ class SurfaceSearch : public Account {
   float pending_m(float outside_m) const { return min_pending_m(stack_, count_, outside_m); }
 
  private:
-  void run_from(uint32_t leaf, const Range& range, float margin_m, FrontUse& use, Front& front) {
-    uint32_t about = solve_about(leaf, range, front);
+  void run_from(uint32_t leaf, const Range& range, float margin_m, FrontierUse& use,
+                Frontier& frontier) {
+    uint32_t about = solve_about(leaf, range, frontier);
     bool is_closed = about != kNoEntry;
     if (!is_closed && best_.evaluations > 0) is_closed = parts_.closes_alone(leaf, best_);
     if (!is_closed) {
@@ -53,8 +54,8 @@ class SurfaceSearch : public Account {
     }
     uint32_t needed;
     bool holds = best_.limit_m > 0.0f && use.needs(best_.limit_m, needed);
-    if (holds && about != kNoEntry) front.beyond[about] = use.coded(parts_.told_m());
-    if (holds && !look(leaf, is_closed, needed, use, front, about, holds)) return stop();
+    if (holds && about != kNoEntry) frontier.beyond[about] = use.coded(parts_.told_m());
+    if (holds && !look(leaf, is_closed, needed, use, frontier, about, holds)) return stop();
     if (!holds) {
       const float reach_m = best_.distance_m + margin_m;
       passed_.start(reach_m);
@@ -66,17 +67,17 @@ class SurfaceSearch : public Account {
 
   static constexpr uint32_t kNoEntry = UINT32_MAX;
   // The part of a front about a leaf that a proof closed last time, all at once. Result: which one.
-  uint32_t solve_about(uint32_t leaf, const Range& range, const Front& front) {
+  uint32_t solve_about(uint32_t leaf, const Range& range, const Frontier& frontier) {
     uint32_t k = 0;
-    const uint32_t count = front.count <= Front::kMax ? front.count : 0;
+    const uint32_t count = frontier.count <= Frontier::kMax ? frontier.count : 0;
     for (;; ++k) {
       if (k == count) return kNoEntry;
-      const uint32_t part = front.part[k];
+      const uint32_t part = frontier.part[k];
       if ((part ^ leaf) >> 16 == 0 && (part & kProvenMark) != 0 &&
           parts_.is_node(part & ~kProvenMark) && parts_.holds(part & ~kProvenMark, leaf))
         break;
     }
-    Range whole = parts_.range_of(front.part[k] & ~kProvenMark, 0.0f, 0.0f);
+    Range whole = parts_.range_of(frontier.part[k] & ~kProvenMark, 0.0f, 0.0f);
     whole.start[0] = range.start[0];
     whole.start[1] = range.start[1];
     Half<Range> halves[2];
@@ -84,15 +85,15 @@ class SurfaceSearch : public Account {
   }
   // At the parts of a front that may hold something nearer: all are read, and what then may still hold it is gone through
   // nearest first, as below one node, so that what closes one part closes others about it.
-  bool look(uint32_t leaf, bool is_closed, uint32_t needed, FrontUse& use, Front& front,
+  bool look(uint32_t leaf, bool is_closed, uint32_t needed, FrontierUse& use, Frontier& frontier,
             uint32_t about, bool& holds) {
     passed_.start(use.outside_m());
     uint32_t kept = 0;
-    for (uint32_t k = 0; k < front.count; ++k) {
-      const uint32_t marked = front.part[k];
-      if (front.beyond[k] >= needed || k == about) {
-        front.part[kept] = marked;
-        front.beyond[kept++] = front.beyond[k];
+    for (uint32_t k = 0; k < frontier.count; ++k) {
+      const uint32_t marked = frontier.part[k];
+      if (frontier.beyond[k] >= needed || k == about) {
+        frontier.part[kept] = marked;
+        frontier.beyond[kept++] = frontier.beyond[k];
         continue;
       }
       const uint32_t node = marked < kUpper ? marked & ~kProvenMark : marked;
@@ -100,7 +101,7 @@ class SurfaceSearch : public Account {
       if (!holds) break;  // no hint of this model
       if (!look_at(node, leaf, is_closed, node != marked)) return false;
     }
-    front.count = static_cast<uint8_t>(kept);
+    frontier.count = static_cast<uint8_t>(kept);
     if (count_ > 1) sort();
     if (!drain()) return false;
     if (holds) use.add(passed_, parts_);

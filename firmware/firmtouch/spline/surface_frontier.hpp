@@ -58,7 +58,7 @@ class FarParts {
   const Part* begin() const { return parts_; }
   const Part* end() const { return parts_ + count_; }
 
-  static constexpr uint32_t kMax = Front::kMax;
+  static constexpr uint32_t kMax = Frontier::kMax;
 
  private:
   [[gnu::noinline]] void keep(uint32_t node, float lower_m) {
@@ -77,64 +77,65 @@ class FarParts {
 };
 
 /// Of a front, as seen by one query.
-class FrontUse {
+class FrontierUse {
  public:
   static constexpr uint32_t kAll = 255;
 
-  explicit FrontUse(Front& front) : front_(front) {}
+  explicit FrontierUse(Frontier& frontier) : frontier_(frontier) {}
 
   /// Of what is less beyond nothing is certain any more. Its quotient is rounded up by more than its three
   /// roundings.
   bool needs(float limit_m, uint32_t& needed) const {
-    const float units = (limit_m - front_.base_m) / front_.unit_m;
+    const float units = (limit_m - frontier_.base_m) / frontier_.unit_m;
     if (!(units < static_cast<float>(kAll) - 1.0f)) return false;
     needed = units > 0.0f ? static_cast<uint32_t>(units * (1.0f + 0x1p-20f)) + 1 : 1;
-    return needed <= front_.outside && front_.count <= Front::kMax;
+    return needed <= frontier_.outside && frontier_.count <= Frontier::kMax;
   }
   /// What is so far away need not be kept. Rounded up, by more than its roundings.
   float outside_m() const {
-    const float up_m = static_cast<float>(front_.outside) * front_.unit_m;
-    return front_.base_m + up_m * (1.0f + 0x1p-20f) + 0x1p-21f * __builtin_fabsf(front_.base_m);
+    const float up_m = static_cast<float>(frontier_.outside) * frontier_.unit_m;
+    return frontier_.base_m + up_m * (1.0f + 0x1p-20f) +
+           0x1p-21f * __builtin_fabsf(frontier_.base_m);
   }
   /// By how many units a distance is beyond: rounded down.
   uint8_t coded(float lower_m) const {
-    const float units = (lower_m - front_.base_m) / front_.unit_m * (1.0f - 0x1p-20f);
+    const float units = (lower_m - frontier_.base_m) / frontier_.unit_m * (1.0f - 0x1p-20f);
     if (!(units > 0.0f)) return 0;
     return static_cast<uint8_t>(units < static_cast<float>(kAll) ? units
                                                                  : static_cast<float>(kAll));
   }
 
   void clear() {
-    front_.unit_m = 0.0f;
-    front_.count = front_.outside = 0;
+    frontier_.unit_m = 0.0f;
+    frontier_.count = frontier_.outside = 0;
   }
   void put(uint32_t k, const FarParts::Part& part) {
-    front_.part[k] = part.node;
-    front_.beyond[k] = coded(part.lower_m);
+    frontier_.part[k] = part.node;
+    frontier_.beyond[k] = coded(part.lower_m);
   }
   /// Beside the parts that are left all that was passed over, or as much as there is room for.
   template <class Parts>
   void add(FarParts& passed, const Parts& tree) {
-    uint32_t outside = front_.outside;
+    uint32_t outside = frontier_.outside;
     if (!passed.is_all() && coded(passed.around_m()) < outside) outside = coded(passed.around_m());
-    if (front_.count + passed.count() > Front::kMax) passed.join(tree);
-    if (front_.count + passed.count() > Front::kMax)
-      outside = max_within(passed, outside, Front::kMax - front_.count);
-    front_.outside = static_cast<uint8_t>(outside);
+    if (frontier_.count + passed.count() > Frontier::kMax) passed.join(tree);
+    if (frontier_.count + passed.count() > Frontier::kMax)
+      outside = max_within(passed, outside, Frontier::kMax - frontier_.count);
+    frontier_.outside = static_cast<uint8_t>(outside);
     for (const FarParts::Part& part : passed)
-      if (coded(part.lower_m) < outside) put(front_.count++, part);
+      if (coded(part.lower_m) < outside) put(frontier_.count++, part);
   }
   /// All that was passed over, as far as it was kept.
   void renew(float limit_m, float reach_m, const FarParts& passed) {
-    front_.base_m = limit_m;
-    front_.unit_m = (reach_m - limit_m) * (1.0f / 256.0f);
-    if (!(front_.unit_m > 0.0f)) return clear();
-    static_assert(FarParts::kMax <= Front::kMax);
+    frontier_.base_m = limit_m;
+    frontier_.unit_m = (reach_m - limit_m) * (1.0f / 256.0f);
+    if (!(frontier_.unit_m > 0.0f)) return clear();
+    static_assert(FarParts::kMax <= Frontier::kMax);
     const uint32_t outside = passed.is_all() ? kAll : coded(passed.around_m());
-    front_.outside = static_cast<uint8_t>(outside);
-    front_.count = 0;
+    frontier_.outside = static_cast<uint8_t>(outside);
+    frontier_.count = 0;
     for (const FarParts::Part& part : passed)
-      if (coded(part.lower_m) < outside) put(front_.count++, part);
+      if (coded(part.lower_m) < outside) put(frontier_.count++, part);
   }
 
  private:
@@ -148,7 +149,7 @@ class FrontUse {
     return i << kWide;
   }
 
-  Front& front_;
+  Frontier& frontier_;
 };
 
 }  // namespace firmtouch::spline
