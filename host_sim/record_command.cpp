@@ -172,11 +172,11 @@ class Watch {
 
   void look(double now_s) {
     const std::string trouble = recorder_.trouble();
-    if (!trouble.empty() && trouble != told_) {
+    if (!trouble.empty() && trouble != reported_) {
       clear();
       std::cerr << "firmtouch-sim: " << trouble << "; it is tried again, "
                 << session_.records.capacity() << " records find room meanwhile\n";
-      told_ = trouble;
+      reported_ = trouble;
     }
     if (!is_terminal_ || now_s < next_s_) return;
     next_s_ = now_s + 0.5;
@@ -201,7 +201,7 @@ class Watch {
   const bool is_terminal_ = isatty(STDERR_FILENO) != 0;
   bool is_shown_ = false;
   double next_s_ = 0.5;
-  std::string told_;
+  std::string reported_;
 };
 
 }  // namespace

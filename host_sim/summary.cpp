@@ -59,9 +59,9 @@ void judge(Summary& summary, const World& world, const Trace& trace) {
     const double truth =
         is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(world.surface(), at);
     const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kOfSpline);
-    const double told = std::fabs(static_cast<double>(out.distance_m)),
+    const double reported = std::fabs(static_cast<double>(out.distance_m)),
                  lower = static_cast<double>(out.distance_lower_m);
-    if (!(lower <= truth + kBoundRounding * scale) || !(told >= truth - kRounding * scale))
+    if (!(lower <= truth + kBoundRounding * scale) || !(reported >= truth - kRounding * scale))
       ++summary.wrong_bounds;
     if (truth > kRounding * scale * 1000) ratios.push_back(lower / truth);
     ++summary.judged_ticks;

@@ -43,12 +43,12 @@ std::map<int, int> rules_of_page(const std::string& text) {
 }
 
 // Rules missing on either side, or told more than once by the page.
-std::set<int> differences(const std::map<int, int>& used, const std::map<int, int>& told) {
+std::set<int> differences(const std::map<int, int>& used, const std::map<int, int>& reported) {
   std::set<int> wrong;
   for (const auto& rule : used) {
-    if (told.count(rule.first) == 0) wrong.insert(rule.first);
+    if (reported.count(rule.first) == 0) wrong.insert(rule.first);
   }
-  for (const auto& rule : told) {
+  for (const auto& rule : reported) {
     if (used.count(rule.first) == 0 || rule.second != 1) wrong.insert(rule.first);
   }
   return wrong;
@@ -63,9 +63,9 @@ TEST(EveryRuleOfTheFirmwareStandsInTheFormatPageOnce) {
     if (extension == ".cpp" || extension == ".hpp") sources += text_of(entry.path());
   }
   const std::map<int, int> used = rules_of_sources(sources);
-  const std::map<int, int> told = rules_of_page(text_of(kRoot / "tools" / "FORMAT.md"));
+  const std::map<int, int> reported = rules_of_page(text_of(kRoot / "tools" / "FORMAT.md"));
   CHECK_GE(used.size(), 60u);
-  const std::set<int> wrong = differences(used, told);
+  const std::set<int> wrong = differences(used, reported);
   if (!wrong.empty()) firmtouch::test::note("first without its other half: rule", *wrong.begin());
   CHECK_EQ(wrong.size(), 0u);
 }

@@ -21,7 +21,7 @@ math::Vec3 point_in(tools::Random& random, double reach) {
 }
 
 // Closes in on each distance with the budget, and needs 40 steps.
-Told honest(double truth, uint32_t budget) {
+Reported honest(double truth, uint32_t budget) {
   const uint32_t steps = budget < 40 ? budget : 40;
   const double rest = 1 - static_cast<double>(steps) / 40;
   return {truth * (1 + rest), truth * (1 - rest), steps};
@@ -74,36 +74,40 @@ TEST(AnHonestCertificateIsCountedClean) {
 }
 
 TEST(EachLieIsCounted) {
-  const auto count = [](const std::function<void(Told&, size_t, uint32_t)>& lie) {
+  const auto count = [](const std::function<void(Reported&, size_t, uint32_t)>& lie) {
     return count_certificates(truths(), 10, [&](size_t i, uint32_t budget) {
-      Told told = honest(truths()[i], budget);
-      lie(told, i, budget);
-      return told;
+      Reported reported = honest(truths()[i], budget);
+      lie(reported, i, budget);
+      return reported;
     });
   };
-  CHECK_EQ(count([](Told& told, size_t i, uint32_t budget) {
-             if (i == 2 && budget == 4) told.lower_m = 3.0000001;
+  CHECK_EQ(count([](Reported& reported, size_t i, uint32_t budget) {
+             if (i == 2 && budget == 4) reported.lower_m = 3.0000001;
            }).lower_wrong,
            size_t{1});
-  CHECK_EQ(count([](Told& told, size_t i, uint32_t budget) {
-             if (i == 1 && budget == 8) told.upper_m = 2 - 5e-6;
+  CHECK_EQ(count([](Reported& reported, size_t i, uint32_t budget) {
+             if (i == 1 && budget == 8) reported.upper_m = 2 - 5e-6;
            }).upper_wrong,
            size_t{1});
-  CHECK_EQ(count([](Told& told, size_t i, uint32_t budget) {
-             if (i == 3 && budget == 16) told.upper_m = 9;
+  CHECK_EQ(count([](Reported& reported, size_t i, uint32_t budget) {
+             if (i == 3 && budget == 16) reported.upper_m = 9;
            }).gap_grew,
            size_t{1});
-  CHECK_EQ(count([](Told& told, size_t, uint32_t) { told.lower_m = std::nan(""); }).lower_wrong,
+  CHECK_EQ(count([](Reported& reported, size_t, uint32_t) {
+             reported.lower_m = std::nan("");
+           }).lower_wrong,
            size_t{40});
-  CHECK_EQ(count([](Told& told, size_t, uint32_t) { told.upper_m = std::nan(""); }).upper_wrong,
+  CHECK_EQ(count([](Reported& reported, size_t, uint32_t) {
+             reported.upper_m = std::nan("");
+           }).upper_wrong,
            size_t{40});
 }
 
 TEST(SharesOfTheTruthAreQuantiles) {
   const BoundShares shares = bound_shares(truths(), 20, [](size_t i, uint32_t budget) {
-    Told told = honest(truths()[i], budget);
-    if (i == 0) told.lower_m = 0.1;
-    return told;
+    Reported reported = honest(truths()[i], budget);
+    if (i == 0) reported.lower_m = 0.1;
+    return reported;
   });
   CHECK_LE(std::fabs(shares.lower_median - 0.5), 1e-12);
   CHECK_LE(std::fabs(shares.lower_p10 - 0.1), 1e-12);

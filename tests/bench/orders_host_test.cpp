@@ -41,8 +41,8 @@ void check_all(const Model& model, const std::vector<math::Vec3>& points) {
     const double truth_m = by_force(model.surface, p_m);
     for (size_t i = 0; i < contest.entrants().size(); ++i) {
       test::note("entrant", static_cast<int64_t>(i));
-      const double told_m = std::sqrt(double{contest.entrants()[i].nearest(p_m).distance2_m2});
-      CHECK_LE(std::fabs(told_m - truth_m), 4e-7 * std::fmax(model.diagonal_m(), truth_m));
+      const double reported_m = std::sqrt(double{contest.entrants()[i].nearest(p_m).distance2_m2});
+      CHECK_LE(std::fabs(reported_m - truth_m), 4e-7 * std::fmax(model.diagonal_m(), truth_m));
     }
   }
 }

@@ -26,7 +26,7 @@ mesh_test::Point same(Point p) { return {p.x, p.y, p.z}; }
 Point unit(Point a) { return a * (1 / length(a)); }
 
 // The height of the query over the plane across the normal of that kind at the apex.
-double told(NormalKind kind, const tools::Surface& surface, Point query) {
+double reported(NormalKind kind, const tools::Surface& surface, Point query) {
   const Point r = query - tools::to_point(surface.vertices[0]);
   return dot(bench::reference_normal(kind, bench::corners_of(surface)[0], r), r);
 }
@@ -37,7 +37,7 @@ void check_fails(NormalKind kind, const char* figure_name) {
     if (figure.name != std::string(figure_name)) continue;
     is_there = true;
     CHECK(figure.fails == kind);
-    CHECK_LT(told(kind, figure.surface, figure.query), 0.0);
+    CHECK_LT(reported(kind, figure.surface, figure.query), 0.0);
   }
   CHECK(is_there);
 }
@@ -122,14 +122,14 @@ TEST(CrossFailsOnTheFlatTentOfFigure6) { check_fails(NormalKind::kCross, "figure
 TEST(MaxFollowsTheTinyFaceOnlyWithTheProduct) {
   const bench::PaperFigure figure = bench::paper_figures()[4];
   CHECK(figure.fails == NormalKind::kMax);
-  CHECK_LT(told(NormalKind::kMax, figure.surface, figure.query), 0.0);
-  CHECK_GT(told(NormalKind::kMaxAsPrinted, figure.surface, figure.query), 0.0);
+  CHECK_LT(reported(NormalKind::kMax, figure.surface, figure.query), 0.0);
+  CHECK_GT(reported(NormalKind::kMaxAsPrinted, figure.surface, figure.query), 0.0);
 }
 
 TEST(AngleWeightedAndConvexHullHoldOnEveryFigure) {
   for (const bench::PaperFigure& figure : bench::paper_figures()) {
-    CHECK_GT(told(NormalKind::kAngleWeighted, figure.surface, figure.query), 0.0);
-    CHECK_GT(told(NormalKind::kConvexHull, figure.surface, figure.query), 0.0);
+    CHECK_GT(reported(NormalKind::kAngleWeighted, figure.surface, figure.query), 0.0);
+    CHECK_GT(reported(NormalKind::kConvexHull, figure.surface, figure.query), 0.0);
   }
 }
 

@@ -54,7 +54,7 @@ void fill_short(Ride& ride, uint32_t tick, float steps) {
 TEST(WhereABudgetRunsOutTheHullIsFeltAndTheRecordTells) {
   Ride cut_off(hulled()), exact;
   CHECK(cut_off.controller.hull().is_open() && !exact.controller.hull().is_open());
-  uint32_t of_shell = 0, contact = 0, late = 0, told_exact = 0;
+  uint32_t of_shell = 0, contact = 0, late = 0, reported_exact = 0;
   for (uint32_t tick = 0; tick < 6000; ++tick) {
     fill_short(cut_off, tick, 16);
     exact.fill(tick);
@@ -64,7 +64,8 @@ TEST(WhereABudgetRunsOutTheHullIsFeltAndTheRecordTells) {
     CHECK(all_finite(a));
     CHECK_LE(size_of(a.motor_N), 8.0);
     of_shell += (a.state & record::kStateOfShell) != 0 ? 1u : 0u;
-    told_exact += (a.state & record::kStateOfShell) != 0 && (a.state & record::kStateExact) != 0;
+    reported_exact +=
+        (a.state & record::kStateOfShell) != 0 && (a.state & record::kStateExact) != 0;
     CHECK_EQ(b.state & record::kStateOfShell, 0u);
     if (tick < 12 || (b.state & record::kStateExact) == 0) continue;
     contact += (b.state & record::kStateContact) != 0 ? 1u : 0u;
@@ -74,7 +75,7 @@ TEST(WhereABudgetRunsOutTheHullIsFeltAndTheRecordTells) {
   CHECK_LT(100u, of_shell);
   CHECK_LT(1000u, contact);
   CHECK_EQ(late, 0u);
-  CHECK_EQ(told_exact, 0u);
+  CHECK_EQ(reported_exact, 0u);
 }
 
 TEST(ARideByTheHullIsAFunctionOfItsInputs) {

@@ -52,11 +52,11 @@ void judge(const Baked& baked, math::Vec3 p, const curve::ArcPenalty& penalty,
            const curve::Constraint& found) {
   const Least truth = brute_cost(baked, p, penalty);
   const double most = room(baked, truth, penalty.weight_m);
-  const double told = double{found.cost_m}, lower = double{found.closest.certificate.lower_m};
+  const double reported = double{found.cost_m}, lower = double{found.closest.certificate.lower_m};
   CHECK_LE(lower, truth.cost * (1 + 1e-15));
-  CHECK_GE(told, truth.cost - most);
+  CHECK_GE(reported, truth.cost - most);
   if (!found.closest.certificate.exact) return;
-  CHECK_LE(told, truth.cost + most);
+  CHECK_LE(reported, truth.cost + most);
   CHECK_GE(lower, truth.cost - 2 * most);
 }
 

@@ -81,9 +81,9 @@ TEST(TheSameCostAsThePlainTextOnHardCurves) {
         const curve::Constraint found =
             nearest_constraint(baked.view, p, penalty, {memory, n}, query::kUnlimited);
         const Plain plain = plainly(baked, p, penalty, n);
-        const double told = double{found.cost_m}, slack = 1e-6 * (diagonal + told);
-        CHECK_GE(told, plain.least - slack);
-        CHECK_LE(told, plain.most + slack);
+        const double reported = double{found.cost_m}, slack = 1e-6 * (diagonal + reported);
+        CHECK_GE(reported, plain.least - slack);
+        CHECK_LE(reported, plain.most + slack);
         CHECK_LE(found.candidates, 2 * n);
         const double truth = curve_test::brute_distance(baked.samples, p);
         CHECK_LE(double{found.closest.certificate.lower_m}, truth * (1 + 1e-15));

@@ -146,19 +146,20 @@ TEST(TheClosestPointOfCubicPiecesIsThatOfAJudgeThatLooksEverywhere) {
       const auto alone = closest_point(baked.view, p, query::kUnlimited, cold);
       const auto next = closest_point(baked.view, p, query::kUnlimited, warm);
       for (const curve::Closest& found : {alone, next}) {
-        const double told = double{found.distance_m}, most = room(baked, truth);
+        const double reported = double{found.distance_m}, most = room(baked, truth);
         ++all;
         CHECK_LE(double{found.certificate.lower_m}, truth * (1 + 1e-9));
-        CHECK_GE(told, truth - most);
-        CHECK_LE(std::abs(size(wide(p) - wide(found.point_m)) - told), most + 2e-7 * size(wide(p)));
+        CHECK_GE(reported, truth - most);
+        CHECK_LE(std::abs(size(wide(p) - wide(found.point_m)) - reported),
+                 most + 2e-7 * size(wide(p)));
         if (!found.certificate.exact) {
           ++in_doubt;
           continue;
         }
-        CHECK_LE(told, truth + most);
+        CHECK_LE(reported, truth + most);
         CHECK_GE(double{found.certificate.lower_m}, truth - 2 * most);
-        worst =
-            std::max(worst, (told - truth) / std::max(double{baked.view.head().diagonal_m}, truth));
+        worst = std::max(
+            worst, (reported - truth) / std::max(double{baked.view.head().diagonal_m}, truth));
       }
     }
   }

@@ -63,7 +63,7 @@ TEST(InFreeSpaceTheMeshIsNotAskedAndNearItTheAnswerIsTheMeshs) {
 
 TEST(WhereTheBudgetEndsTheSearchTheMapsBoundAndSideStandInForIt) {
   const Opened o;
-  uint32_t state = 7, raised = 0, told = 0;
+  uint32_t state = 7, raised = 0, reported = 0;
   for (uint32_t i = 0; i < 2000; ++i) {
     const Vec3 p{coordinate(state, 1.4f), coordinate(state, 1.4f), coordinate(state, 1.4f)};
     query::Hint hint, alone;
@@ -72,18 +72,18 @@ TEST(WhereTheBudgetEndsTheSearchTheMapsBoundAndSideStandInForIt) {
     const mesh::Closest cut = mesh::closest_point(o.mesh, p, {1}, alone);
     const mesh::Closest c = field::closest_point(o.view, o.mesh, p, 10.0f, {1}, hint).closest;
     const float truth_m = truth.distance_m < 0 ? -truth.distance_m : truth.distance_m;
-    const float told_m = c.distance_m < 0 ? -c.distance_m : c.distance_m;
+    const float reported_m = c.distance_m < 0 ? -c.distance_m : c.distance_m;
     CHECK_LE(c.certificate.lower_m, truth_m * (1 + 1e-6f) + 1e-6f);
-    CHECK_GE(told_m, truth_m - 2e-6f);
+    CHECK_GE(reported_m, truth_m - 2e-6f);
     CHECK_EQ(hint.lower_m, c.certificate.lower_m);
     if (c.certificate.sign != 0) CHECK_EQ(c.certificate.sign, truth.certificate.sign);
     raised += c.certificate.lower_m > cut.certificate.lower_m ? 1u : 0u;
-    told += c.certificate.sign != 0 && cut.certificate.sign == 0 ? 1u : 0u;
-    if (told_m > 0.01f && c.certificate.sign != 0)
+    reported += c.certificate.sign != 0 && cut.certificate.sign == 0 ? 1u : 0u;
+    if (reported_m > 0.01f && c.certificate.sign != 0)
       CHECK_EQ(c.distance_m < 0, c.certificate.sign < 0);
   }
   CHECK_GT(raised, 300u);
-  CHECK_GT(told, 500u);
+  CHECK_GT(reported, 500u);
 }
 
 TEST(AfterAJumpTheSearchStartsAtTheSeed) {

@@ -38,7 +38,7 @@ void each_voxel(const VoxelGrid& grid, const Visit& visit) {
         visit(grid.index(x, y, z), grid.centre_m(x, y, z));
 }
 
-double told(const Nearest& n) { return std::fabs(static_cast<double>(n.distance_m)); }
+double reported(const Nearest& n) { return std::fabs(static_cast<double>(n.distance_m)); }
 
 bool same_values(const Nearest& a, const Nearest& b) {
   return !(a.distance_m < b.distance_m || a.distance_m > b.distance_m) && a.face == b.face &&
@@ -60,7 +60,7 @@ TEST(EveryVoxelOfAPartHasTheDistanceThatBruteForceFinds) {
   each_voxel(made.map.grid, [&](size_t v, Point p) {
     const Nearest& n = made.map.values[v];
     const double truth = judged_distance(made.surfaces[0], p);
-    if (std::fabs(told(n) - truth) > 1e-6 * std::max(diagonal, truth)) ++wrong;
+    if (std::fabs(reported(n) - truth) > 1e-6 * std::max(diagonal, truth)) ++wrong;
     const Face& f = made.surfaces[0].faces[n.face];  // the point told lies on the triangle told
     const double off = judged_triangle(
         to_point(n.closest_m), to_point(made.surfaces[0].vertices[f[0]]),
@@ -101,7 +101,8 @@ TEST(InteriorOnlyGivesTheSameValuesWithoutTheOutside) {
     if (!wanted) continue;
     ++computed;
     // Of two triangles equally near either may be told.
-    if (n.sign != all.map.values[v].sign || std::fabs(told(n) - told(all.map.values[v])) > 1e-8)
+    if (n.sign != all.map.values[v].sign ||
+        std::fabs(reported(n) - reported(all.map.values[v])) > 1e-8)
       ++wrong;
   }
   CHECK_EQ(wrong, 0u);
@@ -133,7 +134,7 @@ TEST(SeveralObjectsGiveTheNearestOfAnyAndTheInsideOfAny) {
     const auto in = [&](double c) {
       return std::max({std::fabs(p.x - c), std::fabs(p.y - c), std::fabs(p.z - c)}) < 1;
     };
-    if (std::fabs(told(n) - std::min(to_a, to_b)) > 1e-6) ++wrong;
+    if (std::fabs(reported(n) - std::min(to_a, to_b)) > 1e-6) ++wrong;
     if ((n.sign < 0) != (in(0) || in(1.25))) ++wrong;
     if (std::fabs(to_a - to_b) > 1e-6 && (n.object == 0) != (to_a < to_b)) ++wrong;
     second += n.object;
@@ -157,7 +158,7 @@ TEST(AListOfPointsIsAnsweredInAnyOrderLikeBruteForce) {
         std::min(judged_distance(surfaces[0], points[i]), judged_distance(surfaces[1], points[i]));
     const bool inside = winding_by_angles(surfaces[0], points[i]) > 0.5 ||
                         winding_by_angles(surfaces[1], points[i]) > 0.5;
-    if (std::fabs(told(found[i]) - truth) > 1e-6 * std::max(0.2, truth)) ++wrong;
+    if (std::fabs(reported(found[i]) - truth) > 1e-6 * std::max(0.2, truth)) ++wrong;
     if (inside != (found[i].sign < 0)) ++wrong;
   }
   CHECK_EQ(wrong, 0u);
@@ -171,7 +172,8 @@ TEST(AModelFarFromTheOriginAndOneOfAMillimetreAreAnsweredAlike) {
     size_t wrong = 0;
     each_voxel(made.map.grid, [&](size_t v, Point p) {
       const double truth = judged_distance(made.surfaces[0], p);
-      if (std::fabs(told(made.map.values[v]) - truth) > 4e-6 * static_cast<double>(scale)) ++wrong;
+      if (std::fabs(reported(made.map.values[v]) - truth) > 4e-6 * static_cast<double>(scale))
+        ++wrong;
     });
     CHECK_EQ(wrong, 0u);
   }
@@ -255,7 +257,8 @@ TEST(TheClosedBunnyHasTheVoxelsOfThePaperAndNoDisagreement) {
   each_voxel(made.map.grid, [&](size_t v, Point p) {
     if (made.map.values[v].sign == 0 || v % 61 != 0) return;
     ++checked;
-    if (std::fabs(told(made.map.values[v]) - judged_distance(made.surfaces[0], p)) > 2e-7) ++wrong;
+    if (std::fabs(reported(made.map.values[v]) - judged_distance(made.surfaces[0], p)) > 2e-7)
+      ++wrong;
   });
   CHECK_EQ(wrong, 0u);
   CHECK(checked > 50);

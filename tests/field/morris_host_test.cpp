@@ -81,8 +81,8 @@ size_t count_wrong(const Surface& surface, const TriangleTree& tree, const Dista
   size_t wrong = 0;
   for (const Point& p : points_of(tree)) {
     const double truth = judged_distance(surface, p);
-    const double told = std::sqrt(static_cast<double>(distance2(tree.local(p))));
-    if (!(std::fabs(told - truth) <= 1e-6)) ++wrong;
+    const double reported = std::sqrt(static_cast<double>(distance2(tree.local(p))));
+    if (!(std::fabs(reported - truth) <= 1e-6)) ++wrong;
   }
   return wrong;
 }

@@ -31,13 +31,13 @@ TEST(ATriangleMeetsTheBoxesThatAFineNetOfItsPointsMeets) {
     const std::array<Point, 3> t{point(), point(), point()};
     const Point centre = point();
     const double half = random.between(0.05, 0.4);
-    const bool told = triangle_meets_box(t, centre, {half, half, half});
+    const bool reported = triangle_meets_box(t, centre, {half, half, half});
     // The net may miss a corner cut off by less than its mesh.
     if (net_meets_box(t, centre, half)) {
-      CHECK(told);
+      CHECK(reported);
       ++met;
     } else if (!net_meets_box(t, centre, half + 0.02)) {
-      CHECK(!told);
+      CHECK(!reported);
       ++missed;
     }
   }

@@ -124,9 +124,9 @@ TEST(TheNearestFootPointIsTheNearestPointOfTheCurve) {
     double best = 1e300;
     for (int k = 0; k <= 3000; ++k)
       best = std::fmin(best, tools::length(point_at(c, c.t0 + (c.t1 - c.t0) * k / 3000) - p));
-    const double told = all(of_curve(c), p).front().distance_m;
-    CHECK_LE(told, best + 1e-12);
-    CHECK_GE(told, best - 2e-2 * best - 1e-3);
+    const double reported = all(of_curve(c), p).front().distance_m;
+    CHECK_LE(reported, best + 1e-12);
+    CHECK_GE(reported, best - 2e-2 * best - 1e-3);
   }
 }
 
@@ -194,9 +194,9 @@ TEST(TheNearestFootPointIsTheNearestPointOfTheSurface) {
     for (int k = 0; k < 6; ++k) {
       const Point p = {random.between(-0.2, 1.2), random.between(-0.2, 1.2),
                        random.between(-0.6, 0.6)};
-      const double sampled = nearest_sample(s, p, 150), told = all(feet, p).front().distance_m;
-      CHECK_LE(told, sampled + 1e-12);
-      CHECK_GE(told, sampled - 1e-6);
+      const double sampled = nearest_sample(s, p, 150), reported = all(feet, p).front().distance_m;
+      CHECK_LE(reported, sampled + 1e-12);
+      CHECK_GE(reported, sampled - 1e-6);
     }
   }
 }
@@ -272,9 +272,9 @@ TEST(TheTeapotsFootPointsHoldItsNearestPoint) {
     for (const tools::SplineSurface& s : model.surfaces)
       sampled = std::fmin(sampled, nearest_sample(s, p, 40));
     bool is_complete = false;
-    const double told = feet.all(p, is_complete).front().distance_m;
+    const double reported = feet.all(p, is_complete).front().distance_m;
     CHECK(is_complete);
-    CHECK_LE(told, sampled + 1e-12);
-    CHECK_GE(told, sampled - 1e-6);
+    CHECK_LE(reported, sampled + 1e-12);
+    CHECK_GE(reported, sampled - 1e-6);
   }
 }

@@ -133,7 +133,7 @@ void complete_against_force(const BakedHull& baked, uint32_t count) {
         hull::all_crossings(baked.view, line.a, line.b, query::kUnlimited, span(room));
     CHECK(all.exact);
     CHECK_EQ(all.found, wanted.size());
-    for (size_t k = 0; k < std::min<size_t>(all.told, wanted.size()); ++k)
+    for (size_t k = 0; k < std::min<size_t>(all.reported, wanted.size()); ++k)
       CHECK_LE(std::fabs(double{room[k].t} - wanted[k]), 4e-6);
     const mesh::Hit first = hull::cast_segment(baked.view, line.a, line.b, query::kUnlimited);
     CHECK_EQ(first.hit, !wanted.empty());
@@ -167,7 +167,7 @@ void refined_against_complete(const BakedHull& baked, uint32_t base, uint32_t co
     CHECK_LT(0u, found.found);
     if (found.found == 0) continue;
     CHECK_EQ(room[0].triangle, all_room[0].triangle);
-    CHECK_EQ(room[found.told - 1].triangle, all_room[all.told - 1].triangle);
+    CHECK_EQ(room[found.reported - 1].triangle, all_room[all.reported - 1].triangle);
   }
 }
 

@@ -132,20 +132,20 @@ TEST(FirstAndLastOfAllCrossingsAreTheMeshsAndNoneIsMadeUp) {
   for (uint32_t i = 0; i < 400; ++i) {
     test::note("segment", i);
     const Segment s = through();
-    mesh::SurfaceCrossing truth[16], told[16];
+    mesh::SurfaceCrossing truth[16], reported[16];
     const mesh::Crossings all =
         hull::all_crossings(opened.view, s.a, s.b, query::kUnlimited, {truth});
-    const hull::RefinedCrossings found = refinement.all(s.a, s.b, query::kUnlimited, {told});
+    const hull::RefinedCrossings found = refinement.all(s.a, s.b, query::kUnlimited, {reported});
     CHECK(found.exact);
     CHECK(found.found <= all.found);
     CHECK_EQ(found.found == 0, all.found == 0);
     if (all.found == 0 || found.found == 0) continue;
-    CHECK_EQ(told[0].triangle, truth[0].triangle);
-    CHECK_EQ(told[found.told - 1].triangle, truth[all.told - 1].triangle);
+    CHECK_EQ(reported[0].triangle, truth[0].triangle);
+    CHECK_EQ(reported[found.reported - 1].triangle, truth[all.reported - 1].triangle);
     uint32_t at = 0;
-    for (uint32_t k = 0; k < found.told; ++k) {
-      while (at < all.told && truth[at].triangle != told[k].triangle) ++at;
-      CHECK(at < all.told);
+    for (uint32_t k = 0; k < found.reported; ++k) {
+      while (at < all.reported && truth[at].triangle != reported[k].triangle) ++at;
+      CHECK(at < all.reported);
     }
   }
 }
@@ -252,7 +252,7 @@ TEST(HullAnswersHaveOneHashEverywhere) {
     const mesh::Crossings all = hull::all_crossings(opened.view, s.a, s.b, budget, {room});
     hash.add(all.found);
     hash.add(all.steps);
-    for (uint32_t k = 0; k < all.told; ++k) hash.add(bits_of(room[k].t));
+    for (uint32_t k = 0; k < all.reported; ++k) hash.add(bits_of(room[k].t));
   }
   CHECK_EQ(static_cast<uint32_t>(hash.value()), 3948381289u);
 }

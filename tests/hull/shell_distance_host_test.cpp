@@ -44,29 +44,29 @@ void judge(const BakedHull& baked, const hull::Shell& shell, int count) {
     const mesh_test::Truth to_mesh = mesh_test::brute_force(baked.surface, wide(p)),
                            to_shell = mesh_test::brute_force(of_shell, wide(p));
     for (const uint32_t steps : {UINT32_MAX, 40u, 12u, 3u, 1u}) {
-      const hull::ShellDistance told = hull::shell_distance(shell, p, {steps});
-      CHECK_LE(told.steps, steps);
-      if (told.side == hull::ShellSide::kOutside) {
+      const hull::ShellDistance reported = hull::shell_distance(shell, p, {steps});
+      CHECK_LE(reported.steps, steps);
+      if (reported.side == hull::ShellSide::kOutside) {
         CHECK(!to_shell.inside);
         CHECK(!to_mesh.inside);
-        CHECK_LE(double{told.lower_m}, to_shell.distance);
-        CHECK_LE(double{told.lower_m}, to_mesh.distance);
-        CHECK(!(told.deepest_m < FLT_MAX));
-      } else if (told.side == hull::ShellSide::kInside) {
+        CHECK_LE(double{reported.lower_m}, to_shell.distance);
+        CHECK_LE(double{reported.lower_m}, to_mesh.distance);
+        CHECK(!(reported.deepest_m < FLT_MAX));
+      } else if (reported.side == hull::ShellSide::kInside) {
         CHECK(to_shell.inside);
-        CHECK_EQ(told.lower_m, 0.0f);
-        CHECK_LE(to_shell.distance, double{told.deepest_m});
-        if (to_mesh.inside) CHECK_LE(to_mesh.distance, double{told.deepest_m});
+        CHECK_EQ(reported.lower_m, 0.0f);
+        CHECK_LE(to_shell.distance, double{reported.deepest_m});
+        if (to_mesh.inside) CHECK_LE(to_mesh.distance, double{reported.deepest_m});
       } else {
-        CHECK_EQ(told.lower_m, 0.0f);
+        CHECK_EQ(reported.lower_m, 0.0f);
       }
       if (steps != UINT32_MAX) continue;
-      CHECK(told.exact);
-      CHECK(told.side != hull::ShellSide::kUnknown);
-      if (told.side == hull::ShellSide::kOutside)
-        CHECK_LE(to_shell.distance - double{told.lower_m}, 1e-5);
-      CHECK_LE(std::fabs(length(wide(told.point_m) - wide(p)) - to_shell.distance), 1e-5);
-      outside += told.side == hull::ShellSide::kOutside ? 1 : 0;
+      CHECK(reported.exact);
+      CHECK(reported.side != hull::ShellSide::kUnknown);
+      if (reported.side == hull::ShellSide::kOutside)
+        CHECK_LE(to_shell.distance - double{reported.lower_m}, 1e-5);
+      CHECK_LE(std::fabs(length(wide(reported.point_m) - wide(p)) - to_shell.distance), 1e-5);
+      outside += reported.side == hull::ShellSide::kOutside ? 1 : 0;
       inside += to_mesh.inside ? 1 : 0;
       between += to_shell.inside && !to_mesh.inside ? 1 : 0;
     }
@@ -97,16 +97,16 @@ TEST(HostilePointsGetFiniteDistancesToAShell) {
   for (const float x : values)
     for (const float y : values)
       for (const float z : values) {
-        const hull::ShellDistance told =
+        const hull::ShellDistance reported =
             hull::shell_distance(ring.view.shell(), {x, y, z}, query::kUnlimited);
-        CHECK(told.lower_m >= 0 && told.lower_m <= FLT_MAX);
-        CHECK(told.deepest_m >= 0 && told.deepest_m <= FLT_MAX);
-        CHECK_LE(length(wide(told.point_m)), 10.0);
+        CHECK(reported.lower_m >= 0 && reported.lower_m <= FLT_MAX);
+        CHECK(reported.deepest_m >= 0 && reported.deepest_m <= FLT_MAX);
+        CHECK_LE(length(wide(reported.point_m)), 10.0);
         const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
         const double off = length({double{x}, double{y}, double{z}});
-        if (finite && off > 10) CHECK(told.side == hull::ShellSide::kOutside);
-        if (finite && off > 10) CHECK_LE(double{told.lower_m}, off + 10);
-        if (!finite) CHECK_EQ(told.lower_m, 0.0f);
+        if (finite && off > 10) CHECK(reported.side == hull::ShellSide::kOutside);
+        if (finite && off > 10) CHECK_LE(double{reported.lower_m}, off + 10);
+        if (!finite) CHECK_EQ(reported.lower_m, 0.0f);
       }
 }
 

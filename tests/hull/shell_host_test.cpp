@@ -87,10 +87,10 @@ TEST(AShellInFastMemoryAnswersWithTheAssetLocked) {
   const hull::Shell shell = view.shell().resident(copy);
   CHECK(shell.is_open());
   const std::vector<Line> lines = lines_about(baked.surface, 1000);
-  std::vector<hull::ShellHit> told;
+  std::vector<hull::ShellHit> reported;
   flash.lock();  // a read of the asset ends this program
   for (const Line& line : lines) {
-    told.push_back(hull::cast_shell(shell, line.a, line.b, query::kUnlimited));
+    reported.push_back(hull::cast_shell(shell, line.a, line.b, query::kUnlimited));
     const hull::ShellDistance distance = hull::shell_distance(shell, line.a, query::kUnlimited);
     CHECK(distance.side == hull::ShellSide::kOutside);
   }
@@ -99,12 +99,12 @@ TEST(AShellInFastMemoryAnswersWithTheAssetLocked) {
   for (size_t i = 0; i < lines.size(); ++i) {
     test::note("segment", static_cast<int64_t>(i));
     const mesh::Hit truth = hull::cast_segment(view, lines[i].a, lines[i].b, query::kUnlimited);
-    CHECK(told[i].exact || told[i].hit);
-    if (truth.hit) CHECK(told[i].hit && told[i].t <= truth.t + 0x1p-17f);
+    CHECK(reported[i].exact || reported[i].hit);
+    if (truth.hit) CHECK(reported[i].hit && reported[i].t <= truth.t + 0x1p-17f);
     hits += truth.hit ? 1u : 0u;
-    free_lines += told[i].hit ? 0u : 1u;
-    ghosts += told[i].hit && !truth.hit ? 1u : 0u;
-    unsure += told[i].exact ? 0u : 1u;
+    free_lines += reported[i].hit ? 0u : 1u;
+    ghosts += reported[i].hit && !truth.hit ? 1u : 0u;
+    unsure += reported[i].exact ? 0u : 1u;
   }
   CHECK_LT(100u, hits);
   CHECK_LT(300u, free_lines);
@@ -251,14 +251,14 @@ void judge_casts(const hull::Shell& shell, int count) {
   for (const Line& line : hard_lines(shell, count)) {
     test::note("segment", static_cast<int64_t>(hits + misses));
     const mesh::Hit truth = first_of_all_faces(shell, line);
-    const hull::ShellHit told = hull::cast_shell(shell, line.a, line.b, query::kUnlimited);
-    if (truth.hit) CHECK(told.hit && told.t <= truth.t + 0x1p-17f);
-    if (told.exact) {
-      CHECK_EQ(told.hit, truth.hit);
-      CHECK_LE(truth.t, told.t + 0x1p-12f + 0x1p-17f);
+    const hull::ShellHit reported = hull::cast_shell(shell, line.a, line.b, query::kUnlimited);
+    if (truth.hit) CHECK(reported.hit && reported.t <= truth.t + 0x1p-17f);
+    if (reported.exact) {
+      CHECK_EQ(reported.hit, truth.hit);
+      CHECK_LE(truth.t, reported.t + 0x1p-12f + 0x1p-17f);
     }
     (truth.hit ? hits : misses) += 1;
-    unsure += told.exact ? 0u : 1u;
+    unsure += reported.exact ? 0u : 1u;
   }
   CHECK_LT(static_cast<uint32_t>(count) / 5, hits);
   CHECK_LT(static_cast<uint32_t>(count) / 5, misses);

@@ -148,7 +148,7 @@ void judge_triangles(const BakedHull& baked, int count) {
         hull::all_crossed(view, three.corner, query::kUnlimited, {room.data(), faces});
     CHECK(all.exact);
     CHECK_EQ(all.found, truth.size());
-    CHECK(all.told == truth.size() && std::equal(truth.begin(), truth.end(), room.begin()));
+    CHECK(all.reported == truth.size() && std::equal(truth.begin(), truth.end(), room.begin()));
     const hull::TriangleHit any = hull::any_crossed(view, three.corner, query::kUnlimited),
                             first = hull::first_crossed(view, three.corner, query::kUnlimited);
     CHECK(any.exact && first.exact);
@@ -160,7 +160,7 @@ void judge_triangles(const BakedHull& baked, int count) {
     const hull::TriangleHits some =
         hull::all_crossed(view, three.corner, query::kUnlimited, {two, 2});
     CHECK_EQ(some.found, truth.size());
-    for (uint32_t k = 0; k < some.told; ++k) CHECK_EQ(two[k], truth[k]);
+    for (uint32_t k = 0; k < some.reported; ++k) CHECK_EQ(two[k], truth[k]);
     // The shell: where it tells none there is none; so does refinement, which makes none up.
     const hull::TriangleHit of_shell =
         hull::shell_crossed(view.shell(), three.corner, query::kUnlimited);
@@ -169,7 +169,7 @@ void judge_triangles(const BakedHull& baked, int count) {
     const hull::RefinedCrossings refined =
         refinement.all(three.corner, query::kUnlimited, {met.data(), faces});
     CHECK(refined.exact);
-    for (uint32_t k = 0; k < refined.told; ++k)
+    for (uint32_t k = 0; k < refined.reported; ++k)
       CHECK(std::binary_search(truth.begin(), truth.end(), met[k].triangle));
     const hull::RefinedHit refined_any = refinement.any(three.corner, query::kUnlimited);
     if (refined_any.hit)
@@ -240,10 +240,11 @@ TEST(TrianglesThatTouchAreAnsweredAsIfMoved) {
       }
       if (is_crossed) truth.push_back(f);
     }
-    const hull::TriangleHits told =
+    const hull::TriangleHits reported =
         hull::all_crossed(view, three.corner, query::kUnlimited, {room});
-    CHECK_EQ(told.found, truth.size());
-    for (uint32_t k = 0; k < told.told && k < truth.size(); ++k) CHECK_EQ(room[k], truth[k]);
+    CHECK_EQ(reported.found, truth.size());
+    for (uint32_t k = 0; k < reported.reported && k < truth.size(); ++k)
+      CHECK_EQ(room[k], truth[k]);
     crossed += truth.empty() ? 0u : 1u;
   }
   CHECK_LT(200u, crossed);
@@ -277,8 +278,8 @@ TEST(ARayIsTheSegmentToBeyondAllThatItMayMeet) {
     hits += hit.hit ? 1u : 0u;
     CHECK_EQ(hit.hit, least < 1e300);
     if (!hit.hit) continue;
-    const double told = double{hit.t} * double{ray.reach}, off = double{ray.reach} * 4e-6;
-    CHECK_LE(std::fabs(told - least), off);
+    const double reported = double{hit.t} * double{ray.reach}, off = double{ray.reach} * 4e-6;
+    CHECK_LE(std::fabs(reported - least), off);
   }
   CHECK_LT(900u, hits);
   hull::RaySegment none;

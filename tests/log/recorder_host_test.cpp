@@ -191,7 +191,7 @@ TEST(AFileThatCannotBeMadeIsToldAndHurtsNobody) {
 }
 
 // Writes without end, telling after each step how many records are on the disk.
-[[noreturn]] void write_until_killed(const std::string& path, std::atomic<uint64_t>& told) {
+[[noreturn]] void write_until_killed(const std::string& path, std::atomic<uint64_t>& reported) {
   auto ring = std::make_unique<Ring>();
   log::RingRecords<Ring> records(*ring);
   log::DrainOptions options;
@@ -206,7 +206,7 @@ TEST(AFileThatCannotBeMadeIsToldAndHurtsNobody) {
     ring->push(payload_of(i));
     while (drain.step(now_s += 1e-4)) {
     }
-    told.store(drain.totals().records, std::memory_order_release);
+    reported.store(drain.totals().records, std::memory_order_release);
   }
 }
 
@@ -219,17 +219,17 @@ TEST(AfterAKillEveryBlockThatWasWrittenIsReadable) {
   const uint32_t rounds = is_long() ? 200 : 12;
   for (uint32_t round = 0; round < rounds; ++round) {
     test::note("round", round);
-    auto* told = new (shared) std::atomic<uint64_t>(0);
+    auto* reported = new (shared) std::atomic<uint64_t>(0);
     const std::string path = folder.name + "/killed.ftl";
     const pid_t child = ::fork();
-    if (child == 0) write_until_killed(path, *told);
-    while (told->load(std::memory_order_acquire) == 0) ::usleep(200);
+    if (child == 0) write_until_killed(path, *reported);
+    while (reported->load(std::memory_order_acquire) == 0) ::usleep(200);
     ::usleep(static_cast<useconds_t>(random.below(20000)));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     log::Reader reader(log::open_file(path), path);
     CHECK_EQ(wrong_rows(path, reader), 0u);
-    CHECK_GE(reader.records(), told->load());
+    CHECK_GE(reader.records(), reported->load());
     CHECK_EQ(reader.missing(), 0u);
     CHECK(!reader.is_closed());
     // What was cut off can be closed again.

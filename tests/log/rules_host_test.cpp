@@ -173,9 +173,9 @@ TEST(EveryRuleOfTheReaderStandsInTheFormatPageOnce) {
   const std::filesystem::path root = FIRMTOUCH_ROOT;
   const std::map<int, int> used =
       counted(text_of(root / "tools/log/reader.cpp"), R"(\bkRule\w+\s*=\s*(\d+))");
-  const std::map<int, int> told = counted(text_of(root / "tools/FORMAT.md"), R"(\| L(\d+) \|)");
+  const std::map<int, int> reported = counted(text_of(root / "tools/FORMAT.md"), R"(\| L(\d+) \|)");
   CHECK_EQ(used.size(), 23u);
-  CHECK(used == told);
+  CHECK(used == reported);
 }
 
 }  // namespace

@@ -216,8 +216,8 @@ TEST(ARunThatStoodStillOrLostItsNumbersIsDrawnAndTold) {
   CHECK_EQ(count(svg, "nan") + count(svg, "inf"), 0u);
   CHECK_EQ(count(svg, "2 with values that are no numbers"), 1u);
   log::Reader reader(log::open_file(path), path);
-  const std::string told = log::text_of(log::statistics_of(reader));
-  CHECK_EQ(count(told, "output.force_N[1]: first at record 550, in 2 records"), 1u);
+  const std::string reported = log::text_of(log::statistics_of(reader));
+  CHECK_EQ(count(reported, "output.force_N[1]: first at record 550, in 2 records"), 1u);
 }
 
 }  // namespace

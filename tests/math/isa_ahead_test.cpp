@@ -108,12 +108,12 @@ TEST(DistancesToFourBoxesAreThoseToEach) {
     uint32_t at[3];
     put_random_point(at);
     const math::BoxPoint point = math::box_point(at[0], at[1], at[2]);
-    uint64_t told[2];
-    math::family_distances2(boxes[0], boxes[1], point, told[0], told[1]);
+    uint64_t reported[2];
+    math::family_distances2(boxes[0], boxes[1], point, reported[0], reported[1]);
     for (uint32_t pair = 0; pair < 2; ++pair) {
       const uint32_t first = math::portable_box_distance2(boxes[pair], at),
                      second = math::portable_box_distance2(boxes[pair] + 4, at);
-      if (told[pair] != math::keys_of(first, second)) ++differ;
+      if (reported[pair] != math::keys_of(first, second)) ++differ;
       inside += first == 0 ? 1 : 0;
     }
   }
@@ -129,11 +129,11 @@ TEST(WhichOfSixBoxesAreNearerIsToldOfEach) {
     put_random_point(at);
     const uint32_t* const as = boxes[next_random() % 3] + 4 * (next_random() % 2);
     const uint32_t below = math::portable_box_distance2(as, at) + next_random() % 3 - (i % 2);
-    const uint32_t told =
+    const uint32_t reported =
         math::boxes_below(boxes[0], boxes[1], math::box_point(at[0], at[1], at[2]), below);
     for (uint32_t k = 0; k < 6; ++k) {
       const bool is = math::portable_box_distance2(boxes[k / 2] + 4 * (k % 2), at) < below;
-      differ += is == ((told >> (k / 2 + 4 * (k % 2)) & 1u) != 0) ? 0u : 1u;
+      differ += is == ((reported >> (k / 2 + 4 * (k % 2)) & 1u) != 0) ? 0u : 1u;
       nearer += is ? 1u : 0u;
     }
   }

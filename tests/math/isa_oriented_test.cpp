@@ -73,15 +73,16 @@ TEST(OrientedBoxTellsTheSquaredGapsInCells) {
 }
 
 TEST(ABoxOfTheLongestHalvesTellsNothing) {
-  uint32_t told = 0;
+  uint32_t reported = 0;
   for (uint32_t i = 0; i < 1000; ++i) {
     Box box(i % 2 == 0);
     box.words[0] = box.words[1] = 0xFFFFFFFFu;
     if (i % 4 < 2)
       for (int k = 2; k < 8; ++k) box.words[k] = i % 4 == 0 ? next_random() : 0x80008000u;
-    if (math::oriented_distance2(box.words, {next_random(), next_random() & 0xFFFFu}) != 0) ++told;
+    if (math::oriented_distance2(box.words, {next_random(), next_random() & 0xFFFFu}) != 0)
+      ++reported;
   }
-  CHECK_EQ(told, 0u);
+  CHECK_EQ(reported, 0u);
 }
 
 TEST(HalfCellsAreWithinOneAndAHundredthOfThePoint) {
@@ -100,10 +101,10 @@ TEST(HalfCellsAreWithinOneAndAHundredthOfThePoint) {
     if (!math::grid_point(at[0], at[1], at[2], low, per_part, point)) continue;
     ++inside;
     const math::HalfCellPoint half = math::half_cell_point(point);
-    const uint32_t told[3] = {half.xy & 0xFFFFu, half.xy >> 16, half.z};
+    const uint32_t reported[3] = {half.xy & 0xFFFFu, half.xy >> 16, half.z};
     for (int k = 0; k < 3; ++k) {
       const float off =
-          static_cast<float>(static_cast<int16_t>(told[k])) - (2.0f * cells[k] - 32768.0f);
+          static_cast<float>(static_cast<int16_t>(reported[k])) - (2.0f * cells[k] - 32768.0f);
       if (!(__builtin_fabsf(off) <= 1.012f)) ++far;
     }
   }

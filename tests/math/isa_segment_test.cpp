@@ -58,14 +58,14 @@ TEST(BoxesEnteredByASegmentAreThePortableOnesToTheBit) {
     CHECK_EQ(is_near, i % 11 != 0 && i % 11 != 5);
     portable.set_limit(1.0f);
     uint32_t boxes[2][8];
-    uint64_t told[2];
+    uint64_t reported[2];
     for (uint32_t(&two)[8] : boxes) random_boxes(i % 4 == 0, two);
-    family.enter(boxes[0], boxes[1], told[0], told[1]);
-    CHECK_EQ(family.enter_two(boxes[0]), told[0]);
+    family.enter(boxes[0], boxes[1], reported[0], reported[1]);
+    CHECK_EQ(family.enter_two(boxes[0]), reported[0]);
     for (uint32_t pair = 0; pair < 2; ++pair) {
       uint32_t expected[2];
       portable.enter(boxes[pair], expected);
-      if (math::keys_of(expected[0], expected[1]) != told[pair]) ++differ;
+      if (math::keys_of(expected[0], expected[1]) != reported[pair]) ++differ;
       for (const uint32_t key : expected) {
         if (key != math::kNotEntered) ++entered;
         if (!is_near) CHECK_EQ(key, 0u);

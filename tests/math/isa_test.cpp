@@ -120,9 +120,9 @@ TEST(BoxDistanceVariantsAgree) {
     // As a node holds them: each with a word behind it.
     const uint32_t sides[8] = {boxes[0], boxes[1], boxes[2], next_random(),
                                boxes[3], boxes[4], boxes[5], next_random()};
-    uint32_t told_first, told_second, word0, word1;
-    math::side_distances2(sides, packed, told_first, told_second, word0, word1);
-    if (told_first != first || told_second != second) ++differ;
+    uint32_t reported_first, reported_second, word0, word1;
+    math::side_distances2(sides, packed, reported_first, reported_second, word0, word1);
+    if (reported_first != first || reported_second != second) ++differ;
     if (word0 != sides[3] || word1 != sides[7]) ++differ;
   }
   CHECK_EQ(differ, 0u);
@@ -167,13 +167,13 @@ TEST(PointsOnTheGridAreTheSameEverywhere) {
       if (i % 4 == 2) at[k] = low[k] + (k == i % 3 ? share * 0x1p-10f : 2047.9f + 0.2f * share);
       if (i % 8 == 7 && k == i % 3) at[k] = math::float_of(next_random());
     }
-    math::BoxPoint told, portable;
-    const bool is_inside = math::grid_point(at[0], at[1], at[2], low, 0x1p20f, told);
+    math::BoxPoint reported, portable;
+    const bool is_inside = math::grid_point(at[0], at[1], at[2], low, 0x1p20f, reported);
     if (is_inside != math::portable_grid_point(at[0], at[1], at[2], low, 0x1p20f, portable))
       ++differ;
     if (!is_inside) continue;
     ++inside;
-    if (__builtin_memcmp(&told, &portable, sizeof told) != 0) ++differ;
+    if (__builtin_memcmp(&reported, &portable, sizeof reported) != 0) ++differ;
   }
   CHECK_EQ(differ, 0u);
   CHECK_LT(8000u, inside);

@@ -19,14 +19,14 @@ const BakedMesh& part() {
 }
 
 void check_band(const mesh::Closest& c, const Truth& truth, double size, double band_m) {
-  const double told = std::fabs(double{c.distance_m}), scale = std::max(size, truth.distance);
-  CHECK_LE(truth.distance - told, 4e-7 * scale);
+  const double reported = std::fabs(double{c.distance_m}), scale = std::max(size, truth.distance);
+  CHECK_LE(truth.distance - reported, 4e-7 * scale);
   CHECK_LE(double{c.certificate.lower_m}, truth.distance + 1e-9 * scale);
   if (truth.distance > 2e-6 * size && c.certificate.sign != 0)
     CHECK_EQ(c.certificate.sign, truth.inside ? -1 : 1);
   if (truth.distance < band_m - 4e-7 * scale) {
     CHECK(c.certificate.exact);
-    CHECK_LE(told - truth.distance, 4e-7 * scale);
+    CHECK_LE(reported - truth.distance, 4e-7 * scale);
   } else if (truth.distance > band_m + 4e-7 * scale) {
     CHECK(!c.certificate.exact);
     CHECK_LE(band_m - 4e-7 * scale, double{c.certificate.lower_m});

@@ -37,14 +37,15 @@ std::vector<Truth> truths(const tools::Surface& surface, const std::vector<Vec3>
 // Of the model as its file has it: any vertex may be off by the rounding of its coordinates.
 void check_answer(const BakedMesh& baked, const mesh::Closest& c, const Truth& truth,
                   bool crosses_itself) {
-  const double scale = std::max(baked.size, truth.distance), told = std::fabs(double{c.distance_m});
-  CHECK_LE(truth.distance - told, 4e-7 * scale);
+  const double scale = std::max(baked.size, truth.distance),
+               reported = std::fabs(double{c.distance_m});
+  CHECK_LE(truth.distance - reported, 4e-7 * scale);
   const double rounding = double{baked.view.head().rounding_m};
   const double least = std::max(0.0, truth.distance - rounding), most = truth.distance + rounding;
   CHECK_LE(double{c.certificate.lower_m}, least + 1e-12 * scale);
   if (!c.certificate.exact) return;
-  CHECK_LE(told - least, 4e-7 * scale);
-  CHECK_LE(most - told, 4e-7 * scale);
+  CHECK_LE(reported - least, 4e-7 * scale);
+  CHECK_LE(most - reported, 4e-7 * scale);
   CHECK_LE(truth.distance - double{c.certificate.lower_m}, 4e-7 * scale);
   if (truth.distance > 2e-6 * baked.size && !crosses_itself)
     CHECK_EQ(c.certificate.sign, truth.inside ? -1 : 1);

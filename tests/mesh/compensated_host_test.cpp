@@ -78,8 +78,8 @@ double plain_share(const Case& c) {
   head.longest_edge_m = static_cast<float>(l);
   const double truth = truth_of(c);
   const mesh::Foot foot = mesh::closest_on_triangle(c.p, c.corner[0], c.corner[1], c.corner[2]);
-  const double told = std::sqrt(double{foot.distance2_m2});
-  return std::fabs(told - truth) / double{mesh::Loss(head).plain_m(static_cast<float>(truth))};
+  const double reported = std::sqrt(double{foot.distance2_m2});
+  return std::fabs(reported - truth) / double{mesh::Loss(head).plain_m(static_cast<float>(truth))};
 }
 
 double compensated_share(const Case& c) {
@@ -88,8 +88,8 @@ double compensated_share(const Case& c) {
   mesh::Head head{};
   head.longest_edge_m = static_cast<float>(l);
   const double truth = truth_of(c);
-  const float told2 = mesh::compensated_distance2(c.p, c.corner[0], c.corner[1], c.corner[2]);
-  return std::fabs(double{math::square_root(told2)} - truth) /
+  const float upper2 = mesh::compensated_distance2(c.p, c.corner[0], c.corner[1], c.corner[2]);
+  return std::fabs(double{math::square_root(upper2)} - truth) /
          double{mesh::Loss(head).compensated_m(static_cast<float>(truth))};
 }
 

@@ -101,8 +101,8 @@ void check_query(const Model& model, double size, Vec3 p, query::Hint& warm) {
     query::Hint cold;
     query::Hint& hint = budget == UINT32_MAX ? warm : cold;
     const mesh::Closest c = mesh::closest_point(model.view, p, query::Budget{budget}, hint);
-    const double told = std::fabs(double{c.distance_m}), lower = double{c.certificate.lower_m};
-    CHECK_LE(truth - told, 4e-7 * scale);
+    const double reported = std::fabs(double{c.distance_m}), lower = double{c.certificate.lower_m};
+    CHECK_LE(truth - reported, 4e-7 * scale);
     CHECK_LE(lower, truth + 1e-9 * scale);
     if (budget == UINT32_MAX && !c.certificate.exact) {
       // So near a mesh of few large triangles that float32 cannot tell the side: said, not guessed.
@@ -110,7 +110,7 @@ void check_query(const Model& model, double size, Vec3 p, query::Hint& warm) {
       CHECK_LE(truth, 6e-6 * size);
     }
     if (c.certificate.exact || budget == UINT32_MAX) {
-      CHECK_LE(told - truth, 4e-7 * scale);
+      CHECK_LE(reported - truth, 4e-7 * scale);
       CHECK_LE(truth - lower, 4e-7 * scale);
     }
     if (!model.view.is_signed()) {

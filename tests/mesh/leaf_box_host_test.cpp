@@ -36,7 +36,7 @@ tools::Surface tetrahedron() {
   return surface;
 }
 
-struct Told {
+struct Reported {
   uint32_t leaves = 0, queries = 0, beyond = 0;
   double of_truth =
       0;  // share of the true distance, on average, where the leaf is about its size away
@@ -47,8 +47,8 @@ struct Told {
 double root(uint32_t square) { return std::sqrt(static_cast<double>(square)); }
 
 // Each leaf against points about it, near by and anywhere in the grid.
-Told ask_leaves(const BakedMesh& baked, uint32_t every) {
-  Told told;
+Reported ask_leaves(const BakedMesh& baked, uint32_t every) {
+  Reported reported;
   tools::Random random(11);
   const mesh::View& view = baked.view;
   const double cell_m = double{view.head().cell_m};
@@ -57,7 +57,7 @@ Told ask_leaves(const BakedMesh& baked, uint32_t every) {
     for (const mesh::Side& side : node.side) {
       if (!mesh::is_leaf(side.child) || mesh::leaf_count(side.child) < 2) continue;
       if (number++ % every != 0) continue;
-      ++told.leaves;
+      ++reported.leaves;
       const uint32_t first = mesh::leaf_first(side.child), count = mesh::leaf_count(side.child);
       const auto corner = [&](uint32_t t, uint32_t k) {
         return tools::to_point(view.vertex(view.triangle(t).corner[k]));
@@ -79,15 +79,15 @@ Told ask_leaves(const BakedMesh& baked, uint32_t every) {
               truth, true_distance(tools::to_point(p_m), corner(t, 0), corner(t, 1), corner(t, 2)));
         const uint32_t* const box = view.leaf_boxes() + size_t{mesh::kLeafBoxStride} * first;
         const double lower = root(math::oriented_distance2(box, bound.half_cells()));
-        ++told.queries;
-        if (lower * cell_m > truth) ++told.beyond;
+        ++reported.queries;
+        if (lower * cell_m > truth) ++reported.beyond;
         if (i % 4 == 0 || truth < 0.5 * size) continue;
-        ++told.compared;
-        told.of_truth += lower * cell_m / truth;
-        told.of_box += root(bound.key(side.box)) * cell_m / truth;
+        ++reported.compared;
+        reported.of_truth += lower * cell_m / truth;
+        reported.of_box += root(bound.key(side.box)) * cell_m / truth;
       }
     }
-  return told;
+  return reported;
 }
 
 bool same(const mesh::Closest& a, const mesh::Closest& b) {
@@ -104,14 +104,14 @@ bool same(const mesh::Closest& a, const mesh::Closest& b) {
 
 TEST(BoxesOfLeavesTellNoMoreThanTheTrueDistance) {
   const BakedMesh part(tools::make_part(3, 3000), bounded());
-  const Told told = ask_leaves(part, 1);
-  CHECK_LT(600u, told.leaves);
-  CHECK_EQ(told.beyond, 0u);
+  const Reported reported = ask_leaves(part, 1);
+  CHECK_LT(600u, reported.leaves);
+  CHECK_EQ(reported.beyond, 0u);
   // What they are there for: without, leaves whose boxes lie within reach were measured in vain.
-  CHECK_LT(0.93, told.of_truth / told.compared);
-  CHECK_LT(told.of_box / told.compared + 0.05, told.of_truth / told.compared);
+  CHECK_LT(0.93, reported.of_truth / reported.compared);
+  CHECK_LT(reported.of_box / reported.compared + 0.05, reported.of_truth / reported.compared);
   const BakedMesh large(tetrahedron(), bounded());
-  const Told of_large = ask_leaves(large, 1);
+  const Reported of_large = ask_leaves(large, 1);
   CHECK_LT(0u, of_large.leaves);
   CHECK_EQ(of_large.beyond, 0u);
 }

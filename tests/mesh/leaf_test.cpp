@@ -47,7 +47,7 @@ void compare_leaves(const Leaf& leaf, uint32_t turn, Compared& compared) {
   const float bound2_m2 = turn % 5 == 0 ? 0.25f : FLT_MAX;
   mesh::Best a, b, c, d;
   const float in_turn = measured_in_turn(leaf, child, bound2_m2, a);
-  const float told[] = {
+  const float reported[] = {
       mesh::measure_side_by_side<Float>(leaf.vertices, triangles, leaf.p_m, child, 5, bound2_m2, b),
       mesh::measure_leaf<false>(leaf.vertices, triangles, loss, leaf.p_m, child, 5, false,
                                 bound2_m2, c),
@@ -56,7 +56,7 @@ void compare_leaves(const Leaf& leaf, uint32_t turn, Compared& compared) {
   const mesh::Best* const others[] = {&b, &c, &d};
   for (uint32_t k = 0; k < 3; ++k) {
     const mesh::Best& other = *others[k];
-    if (!same(in_turn, told[k]) || !same(a.offset_m, other.offset_m) ||
+    if (!same(in_turn, reported[k]) || !same(a.offset_m, other.offset_m) ||
         !same(a.distance2_m2, other.distance2_m2) || a.triangle != other.triangle ||
         a.place != other.place || a.feature != other.feature)
       ++compared.differ;

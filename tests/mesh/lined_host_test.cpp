@@ -65,31 +65,31 @@ Leaf flattened(uint32_t turn) {
   return leaf;
 }
 
-struct Told {
+struct Reported {
   uint32_t wrong = 0, left_out = 0, farther = 0;
 };
 
 // What is only just nearer than another or as near, too.
 template <class Float>
-void compare_what_may_be_nearer(uint32_t turn, Told& told) {
+void compare_what_may_be_nearer(uint32_t turn, Reported& reported) {
   const Leaf leaf = flattened(turn);
   const float slack_m2 = mesh::Nearer::slack_m2(longest_edge_m(leaf));
   const mesh::Block block = any_block<Float>();
   const Rows rows(leaf, mesh::make_leaf(block.first, 1), block);
   for (uint32_t other = 0; other < block.count; ++other) {
-    const float told2_m2 = closest_on(leaf, block.first + other).distance2_m2;
-    if (!(told2_m2 <= FLT_MAX)) continue;
+    const float upper2_m2 = closest_on(leaf, block.first + other).distance2_m2;
+    if (!(upper2_m2 <= FLT_MAX)) continue;
     const float scales[] = {1.0f, 1.0f + 0x1p-20f, 1.0f - 0x1p-20f, 0.9f};
     for (const float scale : scales) {
-      const float min2_m2 = told2_m2 * scale;
+      const float min2_m2 = upper2_m2 * scale;
       const uint32_t may_be = mesh::may_be_nearer<Float>(mesh::Lined(rows.ahead, block), leaf.p_m,
                                                          mesh::prism_limit2(min2_m2, slack_m2));
       for (uint32_t lane = 0; lane < block.count; ++lane) {
         const float at2_m2 = closest_on(leaf, block.first + lane).distance2_m2;
-        told.farther += at2_m2 > min2_m2 * 1.1f + slack_m2 ? 1u : 0u;
+        reported.farther += at2_m2 > min2_m2 * 1.1f + slack_m2 ? 1u : 0u;
         if ((may_be >> lane & 1u) != 0) continue;
-        ++told.left_out;
-        if (at2_m2 <= min2_m2) ++told.wrong;  // a triangle that is a point is told no number
+        ++reported.left_out;
+        if (at2_m2 <= min2_m2) ++reported.wrong;  // a triangle that is a point is told no number
       }
     }
   }
@@ -123,12 +123,12 @@ void compare_leaves(uint32_t turn, Compared& compared) {
   const float min2_m2 = measured_in_turn(leaf, child, bound2_m2, in_turn);
   compared.improved += min2_m2 < bound2_m2 ? 1u : 0u;
   mesh::Best at_once, beside;
-  const float told2_m2[] = {
+  const float upper2_m2[] = {
       mesh::measure_lined<Float>(lined, leaf.p_m, 5, bound2_m2, at_once),
       mesh::measure_lined_beside<Float>(lined, leaf.p_m, 5, bound2_m2,
                                         mesh::prism_limit2(bound2_m2, slack_m2), beside)};
-  compared.differ += same(told2_m2[0], min2_m2) && same(at_once, in_turn) ? 0u : 1u;
-  compared.differ += same(told2_m2[1], min2_m2) && same(beside, in_turn) ? 0u : 1u;
+  compared.differ += same(upper2_m2[0], min2_m2) && same(at_once, in_turn) ? 0u : 1u;
+  compared.differ += same(upper2_m2[1], min2_m2) && same(beside, in_turn) ? 0u : 1u;
   if (bound2_m2 < FLT_MAX) return;
   const uint32_t lasts[] = {in_turn.triangle, first, next_random()};
   for (const uint32_t last : lasts) {
@@ -146,7 +146,7 @@ void compare_leaves(uint32_t turn, Compared& compared) {
 // The units of 2^-24 that a stored prism is off by, at most: mesh/prism.hpp counts with 4, 8 and 4.
 struct Off {
   double longer = 0, skew = 0, beyond = 0;
-  uint32_t nothing_told = 0;  // of how many the normal is 0
+  uint32_t nothing_reported = 0;  // of how many the normal is 0
 
   void add(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m) {
     using namespace firmtouch::tools;  // NOLINT: its points
@@ -170,7 +170,7 @@ struct Off {
         if (longest > 0) most(beyond, along / longest * 0x1p24);
       }
     }
-    nothing_told += length(n) > 0 ? 0u : 1u;
+    nothing_reported += length(n) > 0 ? 0u : 1u;
   }
 
  private:
@@ -197,12 +197,12 @@ TEST(WhatIsStoredOfAPrismIsNoWorseThanCountedWith) {
     CHECK_LT(each.skew, 8.0);
     CHECK_LT(each.beyond, 4.0);
   }
-  CHECK_LT(500u, off_of_needles.nothing_told);
-  CHECK_LT(off_of_needles.nothing_told, 19500u);
+  CHECK_LT(500u, off_of_needles.nothing_reported);
+  CHECK_LT(off_of_needles.nothing_reported, 19500u);
 }
 
 TEST(WhatAPrismLeavesOutIsToldFarther) {
-  Told four, wide;
+  Reported four, wide;
   for (uint32_t turn = 0; turn < 20000; ++turn) {
     compare_what_may_be_nearer<math::Float4>(turn, four);
     compare_what_may_be_nearer<math::FloatWide>(turn, wide);

@@ -170,21 +170,21 @@ TEST(EachTriangleStandsSideBySideWhereItsLeafIsToldToBe) {
       for (uint32_t row = 0; row < mesh::kRowsOfCorners; ++row) {
         const math::Vec3& c = corner[row / 3];
         const float value = row % 3 == 0 ? c.x : row % 3 == 1 ? c.y : c.z;
-        const float told = ahead.corners[mesh::kRowsOfCorners * block.first + row * block.count +
-                                         (triangle - block.first)];
-        differ += math::bits_of(told) == math::bits_of(value) ? 0u : 1u;
+        const float reported = ahead.corners[mesh::kRowsOfCorners * block.first +
+                                             row * block.count + (triangle - block.first)];
+        differ += math::bits_of(reported) == math::bits_of(value) ? 0u : 1u;
       }
       float prism[mesh::kRowsOfPrisms];
       tools::put_prism(corner[0], corner[1], corner[2], prism);
       for (uint32_t row = 0; row < mesh::kRowsOfPrisms; ++row) {
-        const float told = ahead.prisms[mesh::kRowsOfPrisms * block.first + row * block.count +
-                                        (triangle - block.first)];
-        differ += math::bits_of(told) == math::bits_of(prism[row]) ? 0u : 1u;
+        const float reported = ahead.prisms[mesh::kRowsOfPrisms * block.first + row * block.count +
+                                            (triangle - block.first)];
+        differ += math::bits_of(reported) == math::bits_of(prism[row]) ? 0u : 1u;
       }
       for (uint32_t row = 0; row < mesh::kRowsOfShapes; ++row) {
-        const float told = ahead.shapes[mesh::kRowsOfShapes * mesh::lined_first(leaf) +
-                                        row * mesh::leaf_count(leaf) + i];
-        differ += math::bits_of(told) == math::bits_of(shape[row]) ? 0u : 1u;
+        const float reported = ahead.shapes[mesh::kRowsOfShapes * mesh::lined_first(leaf) +
+                                            row * mesh::leaf_count(leaf) + i];
+        differ += math::bits_of(reported) == math::bits_of(shape[row]) ? 0u : 1u;
       }
     }
   }

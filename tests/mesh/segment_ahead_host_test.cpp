@@ -87,9 +87,9 @@ size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget bud
   same_way(all, all_ahead);
   if (!is_same(of_first, of_first_ahead) || !is_same(of_any, of_any_ahead)) ++differ;
   if (all.crossings.found != all_ahead.crossings.found ||
-      all.crossings.told != all_ahead.crossings.told)
+      all.crossings.reported != all_ahead.crossings.reported)
     return differ + 1;
-  for (uint32_t i = 0; i < all.crossings.told; ++i)
+  for (uint32_t i = 0; i < all.crossings.reported; ++i)
     if (math::bits_of(room[i].t) != math::bits_of(room_ahead[i].t) ||
         room[i].triangle != room_ahead[i].triangle || room[i].enters != room_ahead[i].enters)
       ++differ;

@@ -76,9 +76,9 @@ int balance(const BakedMesh& baked, Vec3 a, Vec3 b, Room& room) {
   const mesh::Crossings all = mesh::all_crossings(
       baked.view, a, b, query::kUnlimited, {room.data(), static_cast<uint32_t>(room.size())});
   CHECK(all.exact);
-  CHECK_EQ(all.found, all.told);
+  CHECK_EQ(all.found, all.reported);
   int sum = 0;
-  for (uint32_t i = 0; i < all.told; ++i) {
+  for (uint32_t i = 0; i < all.reported; ++i) {
     sum += room[i].enters ? -1 : 1;
     if (i > 0) CHECK(room[i - 1].t <= room[i].t);
   }
@@ -305,10 +305,10 @@ TEST(AFullRoomKeepsTheFirstCrossingsAndCountsAll) {
       const mesh::Crossings some =
           mesh::all_crossings(baked.view, a, b, query::kUnlimited, {few.data(), size});
       CHECK_EQ(some.found, all.found);
-      CHECK_EQ(some.told, std::min(size, all.found));
+      CHECK_EQ(some.reported, std::min(size, all.found));
       CHECK_EQ(some.steps, all.steps);
       CHECK(some.exact);
-      for (uint32_t k = 0; k < some.told; ++k) {
+      for (uint32_t k = 0; k < some.reported; ++k) {
         CHECK_EQ(few[k].t, room[k].t);
         CHECK_EQ(few[k].triangle, room[k].triangle);
       }
@@ -336,9 +336,9 @@ TEST(EveryBudgetTellsOnlyTrueCrossingsAndSaysWhetherItIsDone) {
       const mesh::Crossings part_of = mesh::all_crossings(
           baked.view, a, b, {budget}, {some.data(), static_cast<uint32_t>(some.size())});
       CHECK_EQ(part_of.exact, budget >= all.steps);
-      for (uint32_t k = 0; k < part_of.told; ++k) {
+      for (uint32_t k = 0; k < part_of.reported; ++k) {
         const bool is_there =
-            std::any_of(room.begin(), room.begin() + all.told, [&](const auto& c) {
+            std::any_of(room.begin(), room.begin() + all.reported, [&](const auto& c) {
               return c.triangle == some[k].triangle && test::equal(c.t, some[k].t);
             });
         CHECK(is_there);

@@ -39,17 +39,17 @@ Vec3 aim(uint32_t i) {
   return {u, v, w};
 }
 
-struct Told {
+struct Reported {
   mesh::SurfaceCrossing room[16];
   mesh::Crossings all;
   int balance() const {
     int sum = 0;
-    for (uint32_t i = 0; i < all.told; ++i) sum += room[i].enters ? -1 : 1;
+    for (uint32_t i = 0; i < all.reported; ++i) sum += room[i].enters ? -1 : 1;
     return sum;
   }
 };
-Told told(const mesh::View& view, Vec3 a, Vec3 b) {
-  Told result;
+Reported reported(const mesh::View& view, Vec3 a, Vec3 b) {
+  Reported result;
   result.all = mesh::all_crossings(view, a, b, query::kUnlimited, {result.room});
   return result;
 }
@@ -65,12 +65,12 @@ TEST(ThroughACornerAnEdgeOrASidesDiagonalIsOneCrossingInAndOneOut) {
                  {{0, 0, -3}, {0, 0, 3}},   {{0.5f, 0.5f, 3}, {0.5f, 0.5f, -3}},
                  {{3, 0, 0}, {-3, 0, 0}},   {{-3, 1.5f, 0}, {1.5f, -3, 0}}};
   for (const auto& s : through) {
-    const Told there = told(view, s.a, s.b);
+    const Reported there = reported(view, s.a, s.b);
     CHECK_EQ(there.all.found, 2u);
     CHECK(there.room[0].enters);
     CHECK(!there.room[1].enters);
     CHECK(there.room[0].t < there.room[1].t);
-    CHECK_EQ(told(view, s.b, s.a).all.found, 2u);
+    CHECK_EQ(reported(view, s.b, s.a).all.found, 2u);
   }
 }
 
@@ -85,7 +85,7 @@ TEST(AlongAnEdgeOrWithinASideIsNothingOrInAndOut) {
                {{-3, -3, -1}, {3, 3, -1}},
                {{2, 0, 1}, {0, 2, 1}}};
   for (const auto& s : along) {
-    const Told there = told(view, s.a, s.b);
+    const Reported there = reported(view, s.a, s.b);
     CHECK(there.all.found == 0 || there.all.found == 2);
     CHECK_EQ(there.balance(), 0);
   }
@@ -97,7 +97,8 @@ TEST(AChainOfSegmentsComesInAsOftenAsItGoesOut) {
   for (uint32_t i = 0; i < 1500; ++i) {
     test::note("chain", i);
     const Vec3 a = aim(3 * i), b = aim(3 * i + 1), c = aim(3 * i + 2);
-    CHECK_EQ(told(view, a, b).balance() + told(view, b, c).balance() + told(view, c, a).balance(),
+    CHECK_EQ(reported(view, a, b).balance() + reported(view, b, c).balance() +
+                 reported(view, c, a).balance(),
              0);
   }
 }
@@ -118,7 +119,7 @@ TEST(HostileSegmentsGetFiniteAnswers) {
         const float sum =
             (a.x - a.x) + (a.y - a.y) + (a.z - a.z) + (b.x - b.x) + (b.y - b.y) + (b.z - b.z);
         const bool finite = sum <= 0;
-        const Told there = told(view, a, b);
+        const Reported there = reported(view, a, b);
         const mesh::Hit first = mesh::cast_segment(view, a, b, query::kUnlimited);
         const mesh::Hit any = mesh::any_crossing(view, a, b, query::kUnlimited);
         CHECK_EQ(there.all.exact, finite);
@@ -130,7 +131,9 @@ TEST(HostileSegmentsGetFiniteAnswers) {
         if (!finite) continue;
         // Round by a point that is certainly outside.
         const Vec3 out{5, 4, 3};
-        CHECK_EQ(there.balance() + told(view, b, out).balance() + told(view, out, a).balance(), 0);
+        CHECK_EQ(
+            there.balance() + reported(view, b, out).balance() + reported(view, out, a).balance(),
+            0);
       }
 }
 
@@ -138,11 +141,11 @@ TEST(AFarAwaySegmentIsStillExact) {
   const mesh_test::Cube cube;
   const mesh::View view = cube.view();
   for (float far = 10; far < 1e38f; far *= 9) {
-    const Told through = told(view, {-far, 0.25f, 0.5f}, {far, 0.25f, 0.5f});
+    const Reported through = reported(view, {-far, 0.25f, 0.5f}, {far, 0.25f, 0.5f});
     CHECK_EQ(through.all.found, 2u);
     CHECK_EQ(through.balance(), 0);
-    CHECK_EQ(told(view, {-far, 0.25f, 0.5f}, {0.5f, 0.25f, 0.5f}).balance(), -1);
-    CHECK_EQ(told(view, {-far, 1.0000001f, 0.5f}, {far, 1.0000001f, 0.5f}).all.found, 0u);
+    CHECK_EQ(reported(view, {-far, 0.25f, 0.5f}, {0.5f, 0.25f, 0.5f}).balance(), -1);
+    CHECK_EQ(reported(view, {-far, 1.0000001f, 0.5f}, {far, 1.0000001f, 0.5f}).all.found, 0u);
   }
 }
 
@@ -165,10 +168,10 @@ TEST(SegmentsHaveOneHashEverywhere) {
       hash.add(hit.steps);
       hash.add((hit.hit ? 1u : 0u) | (hit.exact ? 2u : 0u) | (hit.enters ? 4u : 0u));
     }
-    const Told there = told(view, a, b);
+    const Reported there = reported(view, a, b);
     hash.add(there.all.found);
     hash.add(there.all.steps);
-    for (uint32_t k = 0; k < there.all.told; ++k) {
+    for (uint32_t k = 0; k < there.all.reported; ++k) {
       hash.add(float_to_bits(there.room[k].t));
       hash.add(there.room[k].triangle);
     }

@@ -46,8 +46,8 @@ double worst_error(double height, double reach, uint64_t seed) {
         where + Point{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)} * reach);
     const mesh::Foot foot = mesh::closest_on_triangle(p, t.a, t.b, t.c);
     const double truth = true_distance(wide(p), wide(t.a), wide(t.b), wide(t.c));
-    const double told = std::sqrt(double{foot.distance2_m2});
-    worst = std::max(worst, std::fabs(told - truth) / std::max(1.0, truth));
+    const double reported = std::sqrt(double{foot.distance2_m2});
+    worst = std::max(worst, std::fabs(reported - truth) / std::max(1.0, truth));
   }
   return worst;
 }
@@ -97,16 +97,16 @@ LeftOut leave_out(float size, double height, double reach, float longest, uint64
                           random.between(0, 1);
     const Vec3 p = narrow(
         (y + along * random.between(-1, 2) + across * random.between(-2, 2) + off * reach) * size);
-    mesh::Foot told, foot;
-    mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, mesh::Everything{}, told);
-    const float ulp_nearer = std::nextafter(told.distance2_m2, INFINITY);
+    mesh::Foot reported, foot;
+    mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, mesh::Everything{}, reported);
+    const float ulp_nearer = std::nextafter(reported.distance2_m2, INFINITY);
     const auto is_left_out = [&](float min2_m2) {
       const mesh::Nearer nearer = mesh::Nearer::than(min2_m2, slack_m2);
       return is_stored ? !mesh::find_foot(p, Stored(t).read(), nearer, foot)
                        : !mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, nearer, foot);
     };
     left_out.wrongly += is_left_out(ulp_nearer) ? 1u : 0u;
-    left_out.at_twice += is_left_out(0.25f * told.distance2_m2) ? 1u : 0u;
+    left_out.at_twice += is_left_out(0.25f * reported.distance2_m2) ? 1u : 0u;
   }
   return left_out;
 }

@@ -57,11 +57,11 @@ Truth truth_of(const ExactDistance& exact, const tools_point& p) {
 void judge_answer(const Baked& baked, const Truth& truth, const spline::Closest& c) {
   const double unit = (baked.report.is_rational ? 1e-6 : 4e-7) * baked.report.extent_m;
   const double rounding = 9e-7 * truth.hi;
-  const double told = wide(c.distance_m), lower = wide(c.certificate.lower_m);
+  const double reported = wide(c.distance_m), lower = wide(c.certificate.lower_m);
   CHECK_LE(lower, truth.lo);
-  CHECK_GE(told, truth.lo - unit - rounding);
+  CHECK_GE(reported, truth.lo - unit - rounding);
   if (!c.certificate.exact) return;
-  CHECK_LE(told, truth.hi + unit + rounding);
+  CHECK_LE(reported, truth.hi + unit + rounding);
   CHECK_GE(lower, truth.lo - unit - rounding);
 }
 

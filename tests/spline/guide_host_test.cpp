@@ -200,18 +200,18 @@ TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
       p = {p.x + aside_m * std::sin(0.013f * static_cast<float>(i)), p.y + aside_m * 0.3f,
            p.z - aside_m * std::cos(0.017f * static_cast<float>(i))};
       const spline::Following was = following;
-      const spline::Followed told = follow(g.guide, p, hold, kUnlimited, following);
+      const spline::Followed reported = follow(g.guide, p, hold, kUnlimited, following);
       if (!was.is_following) continue;
       const spline::Closest nearest = closest_point(g.view, p, kUnlimited, hint);
       const spline::LeastCost least =
           min_cost(g.guide, p, {hold.weight_m, was.piece, was.s}, nearest, kUnlimited);
-      CHECK(told.closest.certificate.exact && least.certificate.exact);
-      CHECK(told.is_held && !told.is_new);
+      CHECK(reported.closest.certificate.exact && least.certificate.exact);
+      CHECK(reported.is_held && !reported.is_new);
       const auto along = [](uint32_t piece, float s) {
         return static_cast<float>(piece) + 0.5f * (s + 1);
       };
       const float from = along(least.piece, least.s),
-                  to = along(told.closest.bezier, told.closest.s);
+                  to = along(reported.closest.bezier, reported.closest.s);
       float before_m = least.distance_m;
       bool is_downhill = true;
       for (int k = 0; k <= 40; ++k) {
@@ -222,7 +222,7 @@ TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
         is_downhill = is_downhill && off_m <= before_m + 2e-6f * extent_m;
         before_m = off_m;
       }
-      CHECK_LE(told.closest.distance_m, least.distance_m + 1e-6f * extent_m);
+      CHECK_LE(reported.closest.distance_m, least.distance_m + 1e-6f * extent_m);
       ++moves;
       others += !is_downhill;
     }

@@ -137,7 +137,7 @@ double cost_by_file(const Guide& g, const Lengths& lengths, const tools::Point& 
 }
 
 // A stored piece in double, beside the lengths that are told.
-double cost_as_told(const Guide& g, const tools::Point& p, float per_m, const Was& was) {
+double cost_as_reported(const Guide& g, const tools::Point& p, float per_m, const Was& was) {
   const spline::Round round = spline::round_of(g.guide, was.piece);
   const float from_m = spline::arc_m_at(g.guide, was.piece, was.s);
   double least = HUGE_VAL;
@@ -236,12 +236,12 @@ TEST(TheLeastCostOfAGuideAgainstDenseSampling) {
       const spline::LeastCost found =
           min_cost(g.guide, q, {weight_m, was.piece, was.s}, nearest, kUnlimited);
       CHECK(found.certificate.exact);
-      const double told = static_cast<double>(found.cost_m),
+      const double reported = static_cast<double>(found.cost_m),
                    lower = static_cast<double>(found.certificate.lower_m);
-      const double own = cost_as_told(g, p, weight_m / g.guide.length_m(), was);
+      const double own = cost_as_reported(g, p, weight_m / g.guide.length_m(), was);
       const double room = (g.view.head().is_rational != 0 ? 1e-6 : 4e-7) * extent +
                           1e-6 * static_cast<double>(weight_m) + 2e-6 * own;
-      CHECK_LE(std::fabs(told - own), room);
+      CHECK_LE(std::fabs(reported - own), room);
       CHECK_LE(lower, own + 1e-15);
       CHECK_GE(lower, own - room);
       const uint32_t most = 2 + random.below(40);
@@ -252,8 +252,8 @@ TEST(TheLeastCostOfAGuideAgainstDenseSampling) {
       CHECK_GE(static_cast<double>(cut.cost_m), own - room);
       if (cut.certificate.exact) CHECK_LE(static_cast<double>(cut.cost_m), own + room);
       const double by_file = cost_by_file(g, lengths, p, per_m, was);
-      CHECK_LE(std::fabs(told - by_file), room + 4e-5 * static_cast<double>(weight_m));
-      worst = std::max(worst, std::fabs(told - own) / room);
+      CHECK_LE(std::fabs(reported - by_file), room + 4e-5 * static_cast<double>(weight_m));
+      worst = std::max(worst, std::fabs(reported - own) / room);
       steps += found.certificate.steps;
       worst_steps = std::max(worst_steps, found.certificate.steps);
       ++queries;

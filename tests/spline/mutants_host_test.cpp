@@ -103,8 +103,8 @@ struct Counts {
   int queries = 0, first = 0, second = 0, real = 0;
 };
 
-bool is_wrong(double told, double truth, double extent_m) {
-  return std::fabs(told - truth) > 1e-6 * extent_m + 6e-7 * truth;
+bool is_wrong(double reported, double truth, double extent_m) {
+  return std::fabs(reported - truth) > 1e-6 * extent_m + 6e-7 * truth;
 }
 
 template <class First, class Second>

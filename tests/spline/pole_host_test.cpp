@@ -87,7 +87,7 @@ TEST(NoPointOfAPartAboutAPoleIsNearerThanItsBound) {
     const double t_low = -1 + 2 * wide_t * random.below(static_cast<uint32_t>(1 / wide_t));
     const double deep = std::ldexp(2.0, -static_cast<int>(random.below(6)));
     float foot = -1;
-    const double told =
+    const double reported =
         wide(found.lower_m(static_cast<float>(t_low), static_cast<float>(t_low + 2 * wide_t),
                            static_cast<float>(deep), foot));
     CHECK(foot >= 0.0f && wide(foot) <= deep);
@@ -99,9 +99,9 @@ TEST(NoPointOfAPartAboutAPoleIsNearerThanItsBound) {
         least = std::min(least, std::sqrt(dot(off, off)));
         size = std::max(size, std::sqrt(dot(off, off)));
       }
-    CHECK_LE(told, least);
-    bounds += told > 0 ? 1 : 0;
-    tight += told > least * (1 - 1e-4) ? 1 : 0;
+    CHECK_LE(reported, least);
+    bounds += reported > 0 ? 1 : 0;
+    tight += reported > least * (1 - 1e-4) ? 1 : 0;
   }
   CHECK(bounds > 8000);
   CHECK(tight > 4000);
@@ -126,14 +126,14 @@ TEST(WhatAnEdgeIsMoreThanAPointIsTakenOffTheBound) {
     spline::Pole found;
     CHECK(found.begin(piece.c, q_m, piece.axis, piece.is_high, kOff));
     float foot;
-    const double told = wide(found.lower_m(-1, 1, 0x1p-10f, foot));
+    const double reported = wide(found.lower_m(-1, 1, 0x1p-10f, foot));
     double least = HUGE_VAL;
     for (int a = 0; a <= 64; ++a) {
       const tools::Point off = piece.at(end, a / 32.0 - 1) - tools::to_point(q_m);
       least = std::min(least, std::sqrt(dot(off, off)));
     }
-    CHECK_LE(told, least);
-    bounds += told > 0 ? 1 : 0;
+    CHECK_LE(reported, least);
+    bounds += reported > 0 ? 1 : 0;
   }
   CHECK(bounds > 3000);
 }

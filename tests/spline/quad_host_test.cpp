@@ -93,7 +93,7 @@ math::Vec3 any_query(Random& random, const spline::Quad& quad, int i) {
 
 TEST(NoPointOfAQuadIsNearerThanItsBoundNorOfItsHalvesThanTheirs) {
   Random random(77);
-  double told = 0, true_ = 0;
+  double reported = 0, true_ = 0;
   for (int i = 0; i < 4000; ++i) {
     firmtouch::test::note("quad", i);
     const spline::Quad quad = any_quad(random, i % 4);
@@ -103,9 +103,11 @@ TEST(NoPointOfAQuadIsNearerThanItsBoundNorOfItsHalvesThanTheirs) {
     spline::Foot foot;
     spline::foot_on(quad, seen, foot);
     const double least = distance(quad, q, Area{});
-    const auto lower = [](float told_of) { return static_cast<double>(told_of) * (1 - 0x1p-20); };
+    const auto lower = [](float reported_of) {
+      return static_cast<double>(reported_of) * (1 - 0x1p-20);
+    };
     CHECK(lower(foot.distance) <= least + slack(quad));
-    told += static_cast<double>(foot.distance);
+    reported += static_cast<double>(foot.distance);
     true_ += least;
     const double overlap = random.between(0, 0.25);
     const spline::Axis u{quad.a, foot.x}, v{quad.b, foot.y};
@@ -123,9 +125,9 @@ TEST(NoPointOfAQuadIsNearerThanItsBoundNorOfItsHalvesThanTheirs) {
                     : spline::half_bound(foot, v, u, quad.twist, seen.ab, seen.per_aa, excess);
       const double of_half = distance(quad, q, half);
       CHECK(lower(bound) <= of_half + slack(quad));
-      told += static_cast<double>(bound);
+      reported += static_cast<double>(bound);
       true_ += of_half;
     }
   }
-  CHECK(told > 0.8 * true_);  // a bound of next to nothing would hold too
+  CHECK(reported > 0.8 * true_);  // a bound of next to nothing would hold too
 }

@@ -58,12 +58,12 @@ struct Path {
 };
 
 // What queries along paths told, beside each of them asked without what the last one left.
-struct Told {
+struct Reported {
   uint32_t wrong = 0, inexact = 0,
            passed_over = 0;  // the latter: by a fence, or a front, that stayed
 };
 
-void follow(const BakedModel& baked, tools::Random& random, int positions, Told& told) {
+void follow(const BakedModel& baked, tools::Random& random, int positions, Reported& reported) {
   const double unit = 2.1e-6 * baked.report.extent_m;
   for (const double step : {0.0002, 0.002, 0.02}) {
     Path path{random, step, 1.3};
@@ -76,17 +76,17 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
       Hint cold;
       const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
       const double truth = wide(alone.distance_m);
-      told.wrong += std::fabs(wide(warm.distance_m) - truth) <= unit + 2e-6 * truth &&
-                            wide(warm.certificate.lower_m) <= truth
-                        ? 0u
-                        : 1u;
-      told.inexact += warm.certificate.exact ? 0u : 1u;
+      reported.wrong += std::fabs(wide(warm.distance_m) - truth) <= unit + 2e-6 * truth &&
+                                wide(warm.certificate.lower_m) <= truth
+                            ? 0u
+                            : 1u;
+      reported.inexact += warm.certificate.exact ? 0u : 1u;
       const bool is_kept =
           baked.view.is_surface()
               ? unit_m > 0.0f && !(hint.frontier.unit_m < unit_m) &&
                     !(hint.frontier.unit_m > unit_m)
               : safe_subtree != query::kNowhere && hint.safe_subtree == safe_subtree;
-      told.passed_over += is_kept ? 1u : 0u;
+      reported.passed_over += is_kept ? 1u : 0u;
     }
   }
 }
@@ -95,17 +95,17 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Told&
 
 TEST(AlongAPathASafeSubtreeLeavesNothingOut) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
-  Told told;
+  Reported reported;
   for (uint32_t seed = 0; seed < (is_long ? 200u : 24u); ++seed) {
     tools::Random random(seed + 90);
     const tools::SplineCurve curve =
         spline_test::random_curve(random, static_cast<int>(2 + seed % 4), most_of(seed));
     const BakedModel baked(of(seed % 2 == 0 ? flattened(curve) : curve));
-    follow(baked, random, 3000, told);
+    follow(baked, random, 3000, reported);
   }
-  CHECK_EQ(told.wrong, 0u);
-  CHECK_EQ(told.inexact, 0u);
-  CHECK(told.passed_over > 100000);
+  CHECK_EQ(reported.wrong, 0u);
+  CHECK_EQ(reported.inexact, 0u);
+  CHECK(reported.passed_over > 100000);
 }
 
 // Of all words none is a node but those that halving a whole piece comes to, in its order, and the tree's above.
@@ -144,7 +144,7 @@ TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
 // Trees of one piece, of a few, and of many more than a front has parts.
 TEST(AlongAPathAFrontierLeavesNothingOutOfSurfaces) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
-  Told told;
+  Reported reported;
   uint32_t max_pieces = 0;
   for (uint32_t seed = 0; seed < (is_long ? 60u : 10u); ++seed) {
     tools::Random random(seed + 40);
@@ -154,12 +154,12 @@ TEST(AlongAPathAFrontierLeavesNothingOutOfSurfaces) {
                                                      static_cast<int>(1 + random.below(3)), 1));
     const BakedModel baked(of(surfaces));
     max_pieces = std::max(max_pieces, baked.view.pieces().size());
-    follow(baked, random, 1000, told);
+    follow(baked, random, 1000, reported);
   }
-  CHECK_EQ(told.wrong, 0u);
-  CHECK_EQ(told.inexact, 0u);
+  CHECK_EQ(reported.wrong, 0u);
+  CHECK_EQ(reported.inexact, 0u);
   CHECK(max_pieces > 64);
-  CHECK(told.passed_over > 10000);
+  CHECK(reported.passed_over > 10000);
 }
 
 TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {

@@ -131,7 +131,7 @@ Wide seen_off(const StoredPiece& stored, const Area& area, const Quad& quad) {
 
 // Of all parts together: what their radii are, and what they are seen to need.
 struct Radii {
-  Wide told = 0, seen = 0;
+  Wide reported = 0, seen = 0;
 };
 
 void check_parts(const spline::View& view, uint32_t index, const StoredPiece& stored,
@@ -169,7 +169,7 @@ void check_parts(const spline::View& view, uint32_t index, const StoredPiece& st
           });
         };
         CHECK(holds_on(area_of(u, i, v, j, true)));
-        radii.told += static_cast<Wide>(r);
+        radii.reported += static_cast<Wide>(r);
         radii.seen += seen_off(stored, area_of(u, i, v, j, true), quad);
         if (across + along == 2) continue;
         // Each half about its own half, which goes on beyond the middle by the overlap.
@@ -250,8 +250,8 @@ Radii check(const tools::SplineModel& model, bool is_small = false) {
 void check_tight(const Radii& radii) {
   constexpr Wide kMax = 1.65L;  // 1.62 and 1.52 were measured
   firmtouch::test::note("radii, of 1,000 of what is seen",
-                        static_cast<int64_t>(1000 * radii.told / radii.seen));
-  CHECK(radii.told < kMax * radii.seen);
+                        static_cast<int64_t>(1000 * radii.reported / radii.seen));
+  CHECK(radii.reported < kMax * radii.seen);
 }
 
 bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }

@@ -28,7 +28,7 @@ field::Head make_head(const mesh::View& mesh, uint32_t long_axis) {
 }
 
 struct Cell {
-  float lower_m, told_m;
+  float lower_m, reported_m;
   int8_t sign;
 };
 
@@ -66,7 +66,8 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
   std::vector<int16_t> words;
   for (const Cell& cell : cells) {
     const uint32_t quanta = static_cast<uint32_t>(cell.lower_m / head.quantum_m);
-    const float max_m = cell.told_m + field::told_slack_m(cell.told_m, mesh.head().diagonal_m);
+    const float max_m =
+        cell.reported_m + field::reported_slack_m(cell.reported_m, mesh.head().diagonal_m);
     const bool fits = max_m <= static_cast<float>(quanta + field::kWide) * head.quantum_m &&
                       (cell.sign != 0 || quanta == 0 || !mesh.is_signed());
     const int32_t word =

@@ -176,10 +176,10 @@ std::vector<uint32_t> cut_shell(const hull::View& view, uint32_t faces) {
     }
   }
   const hull::Shell& shell = view.shell();
-  for (uint32_t i = 0, told = 0; i < shell.face_count(); ++i) {
+  for (uint32_t i = 0, reported = 0; i < shell.face_count(); ++i) {
     uint32_t triangle = kNone;
-    if (told < shell.triangles().size() && shell.triangles()[told].face == i)
-      triangle = shell.triangles()[told++].triangle;
+    if (reported < shell.triangles().size() && shell.triangles()[reported].face == i)
+      triangle = shell.triangles()[reported++].triangle;
     add({shell.id_of(shell.vertex_of(i, 0)), shell.id_of(shell.vertex_of(i, 1)),
          shell.id_of(shell.vertex_of(i, 2))},
         triangle);

@@ -11,7 +11,7 @@ namespace firmtouch::tools {
 namespace {
 
 // The largest step that keeps the child inside: guessed, then mended by the reader's own floats.
-hull::NodeBox told_within(const hull::Box& parent, const hull::Box& child) {
+hull::NodeBox reported_within(const hull::Box& parent, const hull::Box& child) {
   hull::NodeBox node{};
   for (uint32_t k = 0; k < 3; ++k) {
     const float side = parent.high_m[k] - parent.low_m[k];
@@ -167,7 +167,7 @@ std::vector<hull::NodeBox> filled_boxes(uint32_t items, uint32_t a_leaf, BoxesWi
   for (uint32_t node = 0; node < nodes; ++node) {
     const bool is_nested = node != 0 && within == BoxesWithin::kParent;
     const hull::Box& parent = is_nested ? stored[(node - 1) / 2] : whole;
-    boxes[node] = told_within(parent, exact[node]);
+    boxes[node] = reported_within(parent, exact[node]);
     stored[node] = hull::child_box(parent, boxes[node]);
   }
   return boxes;

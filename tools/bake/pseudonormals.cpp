@@ -68,7 +68,7 @@ uint32_t encode_vertex_normal(Point normal, const std::vector<SideRay>& rays) {
 
 // The same for edge k of a face whose normal the firmware reckons as `told`.
 int8_t encode_fold(const Surface& surface, const ExactNormals& exact, uint32_t f, uint32_t k,
-                   math::Vec3 told) {
+                   math::Vec3 reported) {
   const Face& face = surface.faces[f];
   const math::Vec3 from = surface.vertices[face[k]], to = surface.vertices[face[(k + 1) % 3]];
   const Point normal = exact.faces[f], other = exact.faces[exact.mates[3 * f + k] / 3],
@@ -80,7 +80,7 @@ int8_t encode_fold(const Surface& surface, const ExactNormals& exact, uint32_t f
   const auto margin = [&](int32_t fold) {
     return edge_margin(
         normal, other,
-        to_point(mesh::decode_edge_normal(told, to - from, static_cast<int8_t>(fold))));
+        to_point(mesh::decode_edge_normal(reported, to - from, static_cast<int8_t>(fold))));
   };
   int32_t best = code;
   double most = margin(code);
@@ -120,10 +120,10 @@ Pseudonormals make_pseudonormals(const Surface& surface, const ExactNormals& exa
         encode_vertex_normal(exact.vertices[v], extreme_rays(stars.around(v))));
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {
     const Face& face = surface.faces[f];
-    const math::Vec3 told = mesh::unit_normal(surface.vertices[face[0]], surface.vertices[face[1]],
-                                              surface.vertices[face[2]]);
+    const math::Vec3 reported = mesh::unit_normal(
+        surface.vertices[face[0]], surface.vertices[face[1]], surface.vertices[face[2]]);
     mesh::EdgeFolds folds{};
-    for (uint32_t k = 0; k < 3; ++k) folds.fold[k] = encode_fold(surface, exact, f, k, told);
+    for (uint32_t k = 0; k < 3; ++k) folds.fold[k] = encode_fold(surface, exact, f, k, reported);
     stored.edges.push_back(folds);
   }
   return stored;

@@ -24,17 +24,17 @@ void take(SignProof::Kind& kind, uint32_t feature, double sine, double min_rad,
   if (!(sine >= min_rad)) kind.weak.push_back(feature);
 }
 
-math::Vec3 told_face_normal(const Surface& surface, uint32_t f) {
+math::Vec3 reported_face_normal(const Surface& surface, uint32_t f) {
   const Face& face = surface.faces[f];
   return mesh::unit_normal(surface.vertices[face[0]], surface.vertices[face[1]],
                            surface.vertices[face[2]]);
 }
 
-Point told_edge_normal(const Surface& surface, const Pseudonormals& stored, uint32_t h) {
+Point reported_edge_normal(const Surface& surface, const Pseudonormals& stored, uint32_t h) {
   const Face& face = surface.faces[h / 3];
   const uint32_t k = h % 3;
   const math::Vec3 edge = surface.vertices[face[(k + 1) % 3]] - surface.vertices[face[k]];
-  return to_point(mesh::decode_edge_normal(told_face_normal(surface, h / 3), edge,
+  return to_point(mesh::decode_edge_normal(reported_face_normal(surface, h / 3), edge,
                                            stored.edges[h / 3].fold[k]));
 }
 
@@ -45,8 +45,8 @@ double shortest_edge(const Surface& surface, const Face& face) {
 }
 
 // Whether the surface winds around the point as often as `told` says: once inside, never outside.
-bool agrees(const WindingNumber& winding, Point at, bool told_outside) {
-  return winding.at(at) == (told_outside ? 0 : 1);
+bool agrees(const WindingNumber& winding, Point at, bool reported_outside) {
+  return winding.at(at) == (reported_outside ? 0 : 1);
 }
 
 // Of features that lie nearer together than this the firmware may take one for the other: what
@@ -87,8 +87,8 @@ class Confusion {
     const Point exact = side - base * (dot(side, base) / dot(base, base));
     const math::Vec3 a = surface_.vertices[face[0]], ab = surface_.vertices[face[1]] - a,
                      ac = surface_.vertices[face[2]] - a;
-    const Point told = to_point(ac - ab * (dot(ab, ac) * (1.0f / dot(ab, ab))));
-    return !(dot(told, exact) > 0.99 * length(told) * length(exact));
+    const Point reported = to_point(ac - ab * (dot(ab, ac) * (1.0f / dot(ab, ab))));
+    return !(dot(reported, exact) > 0.99 * length(reported) * length(exact));
   }
 
   // Around a thin face only directions across its length are in question; the surface turns there
@@ -99,15 +99,16 @@ class Confusion {
     std::vector<Point> sides;
     collect(f, along, sides);
     double least = 1;
-    const auto check = [&](Point told) {
-      for (const Point& normal : sides) least = std::min(least, edge_margin(normal, normal, told));
+    const auto check = [&](Point reported) {
+      for (const Point& normal : sides)
+        least = std::min(least, edge_margin(normal, normal, reported));
     };
-    check(to_point(told_face_normal(surface_, f)));
+    check(to_point(reported_face_normal(surface_, f)));
     for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
       const Point edge = corner(face, h % 3 + 1) - corner(face, h % 3);
       if (length(cross(edge, along)) > kAlong * length(edge)) continue;
-      check(told_edge_normal(surface_, stored_, h));
-      check(told_edge_normal(surface_, stored_, exact_.mates[h]));
+      check(reported_edge_normal(surface_, stored_, h));
+      check(reported_edge_normal(surface_, stored_, exact_.mates[h]));
     }
     const double at = dot(corner(face, 2) - corner(face, 0), along);
     if (at > within_m_ && at < length(base) - within_m_)
@@ -160,13 +161,13 @@ SignProof prove_signs(const Surface& surface, const ExactNormals& exact,
       // Not excused where it crosses others: its sides would reach far beyond the place.
       take(proof.faces, f, confusion.thin_margin(f), min_rad, {});
     } else {
-      take(proof.faces, f, dot(to_point(told_face_normal(surface, f)), exact.faces[f]), min_rad,
+      take(proof.faces, f, dot(to_point(reported_face_normal(surface, f)), exact.faces[f]), min_rad,
            excused.faces);
     }
     for (uint32_t h = 3 * f; h < 3 * f + 3; ++h)
       take(proof.edges, h,
            edge_margin(exact.faces[f], exact.faces[exact.mates[h] / 3],
-                       told_edge_normal(surface, stored, h)),
+                       reported_edge_normal(surface, stored, h)),
            min_rad, excused.edges);
   }
   for (uint32_t v = 0; v < surface.vertices.size(); ++v)
@@ -187,14 +188,14 @@ DifferingSides compare_with_winding(const Surface& surface, const ExactNormals& 
     const double shortest = shortest_edge(surface, face), lift = kBeside * shortest;
     const auto corner = [&](uint32_t k) { return to_point(surface.vertices[face[k % 3]]); };
     for (const uint32_t v : face) reach[v] = std::min(reach[v], kBeside * shortest);
-    const auto both_sides_agree = [&](Point spot, Point normal, Point told) {
-      const bool is_up = dot(normal, told) >= 0;
+    const auto both_sides_agree = [&](Point spot, Point normal, Point reported) {
+      const bool is_up = dot(normal, reported) >= 0;
       return agrees(winding, spot + normal * lift, is_up) &&
              agrees(winding, spot - normal * lift, !is_up);
     };
     ++differing.compared;
     if (!both_sides_agree((corner(0) + corner(1) + corner(2)) * (1.0 / 3), exact.faces[f],
-                          to_point(told_face_normal(surface, f))))
+                          to_point(reported_face_normal(surface, f))))
       differing.faces.push_back(f);
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t h = 3 * f + k;
@@ -209,7 +210,7 @@ DifferingSides compare_with_winding(const Surface& surface, const ExactNormals& 
       const Point ray = normal * (is_convex ? 1.0 : -1.0);
       ++differing.compared;
       if (!agrees(winding, (corner(k) + corner(k + 1)) * 0.5 + ray * lift,
-                  dot(ray, told_edge_normal(surface, stored, h)) >= 0))
+                  dot(ray, reported_edge_normal(surface, stored, h)) >= 0))
         differing.edges.push_back(h);
     }
   }
@@ -217,11 +218,11 @@ DifferingSides compare_with_winding(const Surface& surface, const ExactNormals& 
   for (uint32_t v = 0; v < surface.vertices.size(); ++v) {
     const std::vector<SideRay> rays = extreme_rays(stars.around(v));
     const Point at = to_point(surface.vertices[v]),
-                told = to_point(mesh::decode_vertex_normal(stored.vertices[v]));
+                reported = to_point(mesh::decode_vertex_normal(stored.vertices[v]));
     if (!rays.empty()) ++differing.compared;
     // The rays of a flat vertex have no inside between them: each is looked at by itself.
     const bool all_agree = std::all_of(rays.begin(), rays.end(), [&](const SideRay& ray) {
-      return agrees(winding, at + ray.direction * reach[v], dot(told, ray.direction) >= 0);
+      return agrees(winding, at + ray.direction * reach[v], dot(reported, ray.direction) >= 0);
     });
     if (!all_agree) differing.vertices.push_back(v);
   }

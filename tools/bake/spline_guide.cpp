@@ -61,9 +61,9 @@ double error_of(const spline::GuideView& guide, const std::vector<double>& fines
     const double s =
         2.0 * static_cast<double>(i - size_t{piece} * spline::kMaxArcParts) / spline::kMaxArcParts -
         1;
-    const double told_m =
+    const double reported_m =
         static_cast<double>(spline::arc_m_at(guide, piece, static_cast<float>(s)));
-    worst_m = std::max(worst_m, std::abs(told_m - finest[i]));
+    worst_m = std::max(worst_m, std::abs(reported_m - finest[i]));
   }
   return worst_m / finest.back();
 }

@@ -51,12 +51,12 @@ std::vector<BruteTruth> truths(const Model& model, const std::vector<math::Vec3>
   std::vector<BruteTruth> result(points.size());
   std::atomic<size_t> next{0};
   const auto work = [&](bool tells) {
-    size_t told = 0;
+    size_t reported = 0;
     for (size_t i = next++; i < points.size(); i = next++) {
       result[i] = force.at(tools::to_point(points[i]));
-      if (tells && on_progress && i * 20 / points.size() > told) {
-        told = i * 20 / points.size();
-        on_progress("brute force on " + model.name + ", " + std::to_string(5 * told) + " %");
+      if (tells && on_progress && i * 20 / points.size() > reported) {
+        reported = i * 20 / points.size();
+        on_progress("brute force on " + model.name + ", " + std::to_string(5 * reported) + " %");
       }
     }
   };
@@ -167,9 +167,9 @@ TruthReport measure_truth(const Model& model, size_t count,
   for (size_t i = 0; i < points.size(); ++i) {
     const mesh::Closest c = mesh::closest_point(model.view, points[i], query::kUnlimited, hint);
     const double scale = std::max(model.diagonal_m(), truth[i].distance_m),
-                 told = std::fabs(static_cast<double>(c.distance_m));
+                 reported = std::fabs(static_cast<double>(c.distance_m));
     report.worst_error =
-        std::max(report.worst_error, std::fabs(told - truth[i].distance_m) / scale);
+        std::max(report.worst_error, std::fabs(reported - truth[i].distance_m) / scale);
     report.not_exact += c.certificate.exact ? 0u : 1u;
     if (!(static_cast<double>(c.certificate.lower_m) <= truth[i].distance_m + 1e-12 * scale))
       ++report.bounds_above_truth;

@@ -34,20 +34,20 @@ CertificateCounts count_certificates(const std::vector<double>& truths_m, double
     const double truth_m = truths_m[i];
     double gap_m = std::numeric_limits<double>::infinity();
     for (const uint32_t budget : budgets) {
-      const Told told = ask(i, budget);
+      const Reported reported = ask(i, budget);
       ++counts.asked;
-      if (!(told.lower_m <= truth_m * (1 + kJudge))) ++counts.lower_wrong;
+      if (!(reported.lower_m <= truth_m * (1 + kJudge))) ++counts.lower_wrong;
       const double slack_m = kUpperSlack * std::max(diagonal_m, truth_m);
-      if (!(told.upper_m >= truth_m - slack_m)) ++counts.upper_wrong;
-      const double now_m = told.upper_m - told.lower_m;
-      if (!(now_m <= gap_m + kGapRounding * told.upper_m)) ++counts.gap_grew;
+      if (!(reported.upper_m >= truth_m - slack_m)) ++counts.upper_wrong;
+      const double now_m = reported.upper_m - reported.lower_m;
+      if (!(now_m <= gap_m + kGapRounding * reported.upper_m)) ++counts.gap_grew;
       gap_m = now_m;
     }
   }
   std::vector<double> gaps_m;
   for (size_t i = 0; i < truths_m.size(); ++i) {
-    const Told told = ask(i, std::max(1u, counts.worst_steps / 2));
-    gaps_m.push_back(told.upper_m - told.lower_m);
+    const Reported reported = ask(i, std::max(1u, counts.worst_steps / 2));
+    gaps_m.push_back(reported.upper_m - reported.lower_m);
   }
   counts.half_gap_m = quantile(gaps_m, 0.5);
   return counts;
@@ -58,10 +58,10 @@ BoundShares bound_shares(const std::vector<double>& truths_m, uint32_t budget,
   std::vector<double> lower, upper;
   size_t done = 0;
   for (size_t i = 0; i < truths_m.size(); ++i) {
-    const Told told = ask(i, budget);
+    const Reported reported = ask(i, budget);
     const double truth_m = std::max(truths_m[i], 1e-300);
-    lower.push_back(told.lower_m / truth_m);
-    upper.push_back(told.upper_m / truth_m);
+    lower.push_back(reported.lower_m / truth_m);
+    upper.push_back(reported.upper_m / truth_m);
     if (ask(i, kUnlimited).steps <= budget) ++done;
   }
   return {quantile(lower, 0.5), quantile(lower, 0.1), quantile(upper, 0.9),

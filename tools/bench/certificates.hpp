@@ -6,13 +6,13 @@
 namespace firmtouch::bench {
 
 /// What a query told: |distance| (an upper bound of the truth), certified lower bound, steps taken.
-struct Told {
+struct Reported {
   double upper_m = 0, lower_m = 0;
   uint32_t steps = 0;
 };
 
 /// The query number `i` under a budget of so many steps.
-using AskBudget = std::function<Told(size_t i, uint32_t budget)>;
+using AskBudget = std::function<Reported(size_t i, uint32_t budget)>;
 
 struct CertificateCounts {
   size_t asked = 0;        // answers looked at

@@ -184,12 +184,12 @@ void run_published(const Options& options, Report& report) {
     for (const math::Vec3& p : astray) {
       query::Hint hint;
       curve::Neighbour memory[curve::kMaxNearest];
-      const float told =
+      const float reported =
           nearest_constraint(uneven.view, p, {}, core::Span<curve::Neighbour>(memory, count),
                              query::kUnlimited)
               .closest.distance_m;
       const float truth = closest_point(uneven.view, p, query::kUnlimited, hint).distance_m;
-      if (static_cast<double>(told - truth) >
+      if (static_cast<double>(reported - truth) >
           kWrongApart * static_cast<double>(uneven.view.head().diagonal_m))
         ++wrong;
     }

@@ -48,9 +48,10 @@ void judge(const CurveCase& curve, const std::vector<math::Vec3>& points, Wrong&
   tools::Random random(3);
   query::Hint hint, held;
   for (const math::Vec3& p : points) {
-    const float told = closest_point(curve.view, p, query::kUnlimited, hint).distance_m;
+    const float reported = closest_point(curve.view, p, query::kUnlimited, hint).distance_m;
     const double truth = min_cost(curve.view, p, 0, 0);
-    if (!(std::abs(double{told} - truth) <= kPromise * std::max(diagonal, truth))) ++wrong.closest;
+    if (!(std::abs(double{reported} - truth) <= kPromise * std::max(diagonal, truth)))
+      ++wrong.closest;
     const double weight_m = diagonal * std::pow(10.0, random.between(-2, 1));
     const auto arc = static_cast<float>(random.uniform());
     const curve::ArcPenalty penalty{static_cast<float>(weight_m), arc, true};

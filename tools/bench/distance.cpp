@@ -99,8 +99,8 @@ AskBudget cold_ask(const mesh::View& view, const std::vector<math::Vec3>& points
   return [&view, &points](size_t i, uint32_t budget) {
     query::Hint hint;
     const mesh::Closest c = mesh::closest_point(view, points[i], {budget}, hint);
-    return Told{std::fabs(static_cast<double>(c.distance_m)),
-                static_cast<double>(c.certificate.lower_m), c.certificate.steps};
+    return Reported{std::fabs(static_cast<double>(c.distance_m)),
+                    static_cast<double>(c.certificate.lower_m), c.certificate.steps};
   };
 }
 

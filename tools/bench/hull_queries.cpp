@@ -47,7 +47,7 @@ void run_truth(const Model& model, const Baked& baked, bool is_long, Report& rep
       if (is_none != truth.empty() ||
           (!is_none &&
            (std::fabs(truth.front() - static_cast<double>(found[0].t)) > 1e-5 ||
-            std::fabs(truth.back() - static_cast<double>(found[of_hull.told - 1].t)) > 1e-5)))
+            std::fabs(truth.back() - static_cast<double>(found[of_hull.reported - 1].t)) > 1e-5)))
         ++wrong_ends;
     }
     const std::string from = from_outside ? ", from outside" : ", from anywhere";
@@ -201,7 +201,7 @@ class Table4 {
 
   void judge(Report& report) const {
     const std::string& name = model_.name;
-    const bool is_horse = name == "horse", is_told = is_horse || name == "rocker-arm";
+    const bool is_horse = name == "horse", is_reported = is_horse || name == "rocker-arm";
     const double published = us_[kOf26] / std::min(us_[kPublished], us_[kPublished + 1]),
                  complete = us_[kOf26] / us_[kComplete],
                  over_tree = us_[kComplete] / us_[kComplete + 2];
@@ -211,7 +211,7 @@ class Table4 {
     if (is_horse)
       report.bar("26-DOPs: nodes a segment off 3,386", name, 100 * std::fabs(visits_26_ / 3386 - 1),
                  "%", 5);
-    if (is_told) {
+    if (is_reported) {
       report.bar_at_least(kWhats[0], name, published, "x", is_horse ? 1.8 : 1.2,
                           is_horse ? "the paper's: 2.5" : "the paper's: 1.3");
       report.bar_at_least(kWhats[1], name, complete, "x", is_horse ? 40 : 25);

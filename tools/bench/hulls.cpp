@@ -20,20 +20,20 @@ using tools::ProgressiveHull;
 using tools::QueueKind;
 
 // What the paper tells of the models that are at hand (Platis & Theoharis 2003, tables 1 and 2).
-struct Told {
+struct Reported {
   const char* model;
   double seconds[2];  // strategies 1 and 2
   double void_2000[2], void_200[2];
   // The project's bars: strategy 1 and lazy.
   double most_2000[2], most_200[2];
 };
-constexpr Told kTold[] = {
+constexpr Reported kReported[] = {
     {"rocker-arm", {54, 8}, {2.87, 5.72}, {28.90, 62.91}, {2.95, 3.1}, {30, 33}},
     {"horse", {298, 45}, {4.11, 6.86}, {65.06, 65.60}, {4.2, 4.3}, {65, 52}},
 };
-const Told* told_of(const Model& model) {
-  for (const Told& told : kTold) {
-    if (model.name == told.model) return &told;
+const Reported* reported_of(const Model& model) {
+  for (const Reported& reported : kReported) {
+    if (model.name == reported.model) return &reported;
   }
   return nullptr;
 }
@@ -75,7 +75,7 @@ double seconds_of(const Model& model, HullStrategy strategy, QueueKind queue) {
 
 // Table 1. Times in turn, medians; the counts are exact.
 void run_times(const Model& model, bool is_long, Report& report) {
-  const Told* told = told_of(model);
+  const Reported* reported = reported_of(model);
   std::vector<double> seconds[3], heap;
   for (int pass = 0; pass < (is_long ? 5 : 3); ++pass) {
     report.stage("hulls of 2,000 faces, " + model.name);
@@ -92,7 +92,7 @@ void run_times(const Model& model, bool is_long, Report& report) {
   for (int s = 0; s < 3; ++s) {
     (void)built(model, kStrategies[s], 2000, reports[s]);
     rows.push_back({kNames[s], number_text(median(seconds[s])),
-                    told != nullptr && s < 2 ? number_text(told->seconds[s]) : "-",
+                    reported != nullptr && s < 2 ? number_text(reported->seconds[s]) : "-",
                     std::to_string(reports[s].counts.programs),
                     std::to_string(reports[s].counts.evaluations),
                     std::to_string(reports[s].counts.comparisons)});
@@ -105,9 +105,11 @@ void run_times(const Model& model, bool is_long, Report& report) {
   report.table({"strategy", "seconds to 2,000 faces", "the paper's", "linear programs",
                 "edges looked at", "comparisons of keys"},
                rows);
-  report.figure(
-      "time, strategy 1 over strategy 2", model.name, median(seconds[0]) / median(seconds[1]), "x",
-      told != nullptr ? "the paper's: " + number_text(told->seconds[0] / told->seconds[1]) : "");
+  report.figure("time, strategy 1 over strategy 2", model.name,
+                median(seconds[0]) / median(seconds[1]), "x",
+                reported != nullptr
+                    ? "the paper's: " + number_text(reported->seconds[0] / reported->seconds[1])
+                    : "");
   report.figure("time, binary heap over ordered tree, strategy 1", model.name,
                 median(heap) / median(seconds[0]), "x");
   report.bar("time, lazy over strategy 1", model.name, median(seconds[2]) / median(seconds[0]), "x",
@@ -120,20 +122,21 @@ void run_times(const Model& model, bool is_long, Report& report) {
 
 // Table 2.
 void run_voids(const Model& model, Report& report) {
-  const Told* told = told_of(model);
+  const Reported* reported = reported_of(model);
   std::vector<std::vector<std::string>> rows;
   for (int s = 0; s < 3; ++s) {
     report.stage(std::string("void, strategy ") + kNames[s] + ", " + model.name);
     HullReport ignored;
     const ProgressiveHull hull = built(model, kStrategies[s], 200, ignored);
     const double at_2000 = void_percent(model, hull, 2000), at_200 = void_percent(model, hull, 200);
-    const bool is_told = told != nullptr && s < 2;
-    rows.push_back({kNames[s], percent(at_2000), is_told ? number_text(told->void_2000[s]) : "-",
-                    percent(at_200), is_told ? number_text(told->void_200[s]) : "-"});
-    if (told == nullptr || s == 1) continue;
+    const bool is_reported = reported != nullptr && s < 2;
+    rows.push_back({kNames[s], percent(at_2000),
+                    is_reported ? number_text(reported->void_2000[s]) : "-", percent(at_200),
+                    is_reported ? number_text(reported->void_200[s]) : "-"});
+    if (reported == nullptr || s == 1) continue;
     const std::string name = std::string(", strategy ") + kNames[s];
-    report.bar("void at 2,000 faces" + name, model.name, at_2000, "%", told->most_2000[s / 2]);
-    report.bar("void at 200 faces" + name, model.name, at_200, "%", told->most_200[s / 2]);
+    report.bar("void at 2,000 faces" + name, model.name, at_2000, "%", reported->most_2000[s / 2]);
+    report.bar("void at 200 faces" + name, model.name, at_200, "%", reported->most_200[s / 2]);
   }
   report.table(
       {"strategy", "void at 2,000 faces, %", "the paper's", "void at 200 faces, %", "the paper's"},
@@ -216,14 +219,14 @@ void compare(const Model& model, const tools::Segment& segment,
   misses.crossings += truth.found;
   misses.missed += truth.found > found.size() ? truth.found - found.size() : 0;
   misses.extra += found.size() > truth.found ? found.size() - truth.found : 0;
-  if (truth.told == 0 || found.empty()) {
-    misses.wrong_ends += (truth.told == 0) == found.empty() ? 0u : 1u;
+  if (truth.reported == 0 || found.empty()) {
+    misses.wrong_ends += (truth.reported == 0) == found.empty() ? 0u : 1u;
     return;
   }
   const auto differ = [](double t, float u) {
     return std::fabs(t - static_cast<double>(u)) > 1e-5;
   };
-  if (differ(found.front().t, room[0].t) || differ(found.back().t, room[truth.told - 1].t))
+  if (differ(found.front().t, room[0].t) || differ(found.back().t, room[truth.reported - 1].t))
     ++misses.wrong_ends;
 }
 
@@ -237,8 +240,8 @@ void run_bases(const Model& model, HullStrategy strategy, Report& report) {
   const bool is_horse = model.name == "horse" && strategy == HullStrategy::kVolume;
   size_t wrong_ends = 0;
   std::vector<std::vector<std::string>> rows;
-  for (const auto& told : kHorse) {
-    const uint32_t base = static_cast<uint32_t>(told[0]);
+  for (const auto& reported : kHorse) {
+    const uint32_t base = static_cast<uint32_t>(reported[0]);
     if (base < hull.min_faces() || base >= model.surface.faces.size()) continue;
     tools::Refinement refinement(hull, base);
     tools::RefinementCounts counts;
@@ -254,10 +257,10 @@ void run_bases(const Model& model, HullStrategy strategy, Report& report) {
     const double tests = static_cast<double>(counts.tests) / static_cast<double>(all.size());
     const double splits = static_cast<double>(counts.splits) / static_cast<double>(all.size());
     rows.push_back({std::to_string(refinement.base_face_count()), number_text(us),
-                    number_text(tests), is_horse ? number_text(told[1]) : "-", number_text(splits),
-                    is_horse ? number_text(told[2]) : "-", std::to_string(misses.crossings),
-                    std::to_string(misses.missed), std::to_string(misses.extra),
-                    std::to_string(misses.wrong_ends)});
+                    number_text(tests), is_horse ? number_text(reported[1]) : "-",
+                    number_text(splits), is_horse ? number_text(reported[2]) : "-",
+                    std::to_string(misses.crossings), std::to_string(misses.missed),
+                    std::to_string(misses.extra), std::to_string(misses.wrong_ends)});
     wrong_ends += misses.wrong_ends;
     if (!is_horse || base != 1000) continue;
     report.bar("tests at base 1,000 off the paper's 939", model.name,

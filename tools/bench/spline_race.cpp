@@ -102,10 +102,10 @@ std::unique_ptr<Baked> baked_of(const Spline& spline) {
     model.curves.push_back(spline);
   else
     model.surfaces.push_back(spline);
-  tools::SplineReport told;
+  tools::SplineReport reported;
   auto baked = std::make_unique<Baked>();
-  baked->sections = tools::bake_fast_spline(model, "spline", false, told);
-  if (!told.problem.empty()) throw Problem(told.problem);
+  baked->sections = tools::bake_fast_spline(model, "spline", false, reported);
+  if (!reported.problem.empty()) throw Problem(reported.problem);
   if (!spline::open(tools::spline_sections(baked->sections, "spline"), baked->view).ok())
     throw Problem("a baked spline does not open");
   return baked;

@@ -66,7 +66,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
 struct SoundSurface {
   tools::Surface surface;
   std::vector<uint32_t> vertex_source;  // of each vertex: its index in the file
-  std::vector<std::string> told;        // a sentence for each thing mended or let through
+  std::vector<std::string> reported;    // a sentence for each thing mended or let through
 };
 
 /// Fails (bad input) as above.

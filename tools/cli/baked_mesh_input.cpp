@@ -118,7 +118,7 @@ std::vector<std::string> add_hull(const mesh::View& view, const std::string& nam
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   baked.sections.insert(baked.sections.end(), sections.begin(), sections.end());
   const double triangles = view.head().triangle_count;
-  std::vector<std::string> told{
+  std::vector<std::string> reported{
       "progressive hull down to " + std::to_string(report.faces) + " faces, void " +
           sentence("%.3g %% of the volume, grid of %.0f bits", report.void_percent,
                    options.hull.grid_bits) +
@@ -129,8 +129,8 @@ std::vector<std::string> add_hull(const mesh::View& view, const std::string& nam
                    report.box_bytes / triangles, report.shell_bytes),
       "RAM of a refinement: " + std::to_string(4 * hull::bit_words(report.collapses)) +
           " bytes (a bit a collapse), 4 for each that may be undone, 8 for each crossing kept"};
-  if (!report.stalled.empty()) told.push_back("hull " + report.stalled);
-  return told;
+  if (!report.stalled.empty()) reported.push_back("hull " + report.stalled);
+  return reported;
 }
 
 bool is_of_tree(uint32_t type) {
@@ -179,9 +179,9 @@ SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& 
     fail_input(all);
   }
   SoundSurface sound{std::move(imported.surface), report.vertex_source, {}};
-  for (const std::string& line : imported.notes) sound.told.push_back("read: " + line);
-  for (const std::string& line : report.mended) sound.told.push_back("mended: " + line);
-  for (const std::string& line : report.kept) sound.told.push_back("kept: " + line);
+  for (const std::string& line : imported.notes) sound.reported.push_back("read: " + line);
+  for (const std::string& line : report.mended) sound.reported.push_back("mended: " + line);
+  for (const std::string& line : report.kept) sound.reported.push_back("kept: " + line);
   return sound;
 }
 
@@ -205,11 +205,12 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   const core::Verdict verdict = mesh::open(tools::mesh_sections(baked.sections, name), view);
   if (!verdict.ok()) fail_input(path + ": its mesh breaks rule R" + std::to_string(verdict.rule));
 
-  std::string told_of_map;
-  if (options.map_cells != 0) told_of_map = add_map(view, name, options.map_cells, path, baked);
+  std::string reported_of_map;
+  if (options.map_cells != 0) reported_of_map = add_map(view, name, options.map_cells, path, baked);
 
-  std::vector<std::string> told_of_hull;
-  if (options.hull_faces != 0) told_of_hull = add_hull(view, name, options, path, progress, baked);
+  std::vector<std::string> reported_of_hull;
+  if (options.hull_faces != 0)
+    reported_of_hull = add_hull(view, name, options, path, progress, baked);
   const auto add_facts = [&](const tools::Facts& facts) {
     baked.sections.push_back(tools::text_section(asset::kBoundsSection, name, facts));
     baked.sections.push_back(tools::text_section(
@@ -224,8 +225,8 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
     baked.report = {"mesh without a tree, " + std::to_string(report.triangles) + " triangles, " +
                     std::to_string(bytes_of(baked.sections)) +
                     " bytes: no distances, no touch, only queries of its hull"};
-    baked.report.insert(baked.report.end(), told_of_hull.begin(), told_of_hull.end());
-    baked.report.insert(baked.report.end(), sound.told.begin(), sound.told.end());
+    baked.report.insert(baked.report.end(), reported_of_hull.begin(), reported_of_hull.end());
+    baked.report.insert(baked.report.end(), sound.reported.begin(), sound.reported.end());
     return baked;
   }
   progress.stage("counting steps on " + name);
@@ -234,9 +235,9 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   baked.sections.push_back(tools::mesh_probes(view, name));
   add_facts(facts_of(view, steps));
   baked.report = report_of(report, steps, bytes_of(baked.sections), options.is_signed);
-  if (!told_of_map.empty()) baked.report.push_back(told_of_map);
-  baked.report.insert(baked.report.end(), told_of_hull.begin(), told_of_hull.end());
-  baked.report.insert(baked.report.end(), sound.told.begin(), sound.told.end());
+  if (!reported_of_map.empty()) baked.report.push_back(reported_of_map);
+  baked.report.insert(baked.report.end(), reported_of_hull.begin(), reported_of_hull.end());
+  baked.report.insert(baked.report.end(), sound.reported.begin(), sound.reported.end());
   // Where a surface crosses itself no side is wrong; who touches it there should know.
   for (const std::string& line : tools::describe(report.signs, surface, sound.vertex_source))
     baked.report.push_back(line);

@@ -114,7 +114,7 @@ int run_hull(const Arguments& arguments) {
   const tools::Surface level = tools::hull_level(hull, options.target_faces);
   const std::string text = tools::to_obj(level);
   write_file(output, text.data(), text.size());
-  for (const std::string& line : sound.told) tell(name, line);
+  for (const std::string& line : sound.reported) tell(name, line);
   tell_crossings(name, sound);
   if (sound.surface.faces.size() <= options.target_faces) {
     tell(name, "has " + std::to_string(sound.surface.faces.size()) + " faces, not more than the " +

@@ -59,7 +59,7 @@ std::vector<std::string> list_of(const std::string& text) {
 }
 
 // What befell the log goes to stderr, and the answer is no.
-int told(const std::string& path, const std::string& troubles) {
+int reported(const std::string& path, const std::string& troubles) {
   if (troubles.empty()) return kDone;
   std::fprintf(stderr, "firmtouch: %s: %s\n", path.c_str(), troubles.c_str());
   return kAnswerIsNo;
@@ -95,7 +95,7 @@ int info(const std::string& path) {
     field = bit.field;
     std::printf("    %2u  %s\n", bit.bit, bit.what.c_str());
   }
-  return told(path, reader.troubles());
+  return reported(path, reader.troubles());
 }
 
 std::vector<log::Column> columns_of(const std::string& path, const log::Header& header,
@@ -136,7 +136,7 @@ int csv(const std::string& path, const Arguments& arguments) {
     out.add(text);
   }
   out.close();
-  return told(path, reader.troubles());
+  return reported(path, reader.troubles());
 }
 
 int plot(const std::string& path, const Arguments& arguments) {
@@ -148,7 +148,7 @@ int plot(const std::string& path, const Arguments& arguments) {
   const std::string text =
       log::plot(path, list_of(arguments.text("--fields", "")), extension == ".html", &troubles);
   write_file(output, text.data(), text.size());
-  return told(path, troubles);
+  return reported(path, troubles);
 }
 
 // A record's number, or a time as "2.5s".
@@ -172,7 +172,7 @@ int cut(const std::string& path, const Arguments& arguments, const std::string& 
   const uint64_t records = log::cut(path, from, to, output, &troubles);
   std::fprintf(stderr, "%s: %llu records\n", output.c_str(),
                static_cast<unsigned long long>(records));
-  return told(path, troubles);
+  return reported(path, troubles);
 }
 
 int join(const std::vector<std::string>& words, const std::string& output) {

@@ -196,10 +196,10 @@ void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& 
   if (is_triangle && !is_refined(arguments)) {
     return answer_triangles(hull, table, arguments, [&](const Corners& c, auto& met) {
       met.resize(triangles);
-      const hull::TriangleHits told =
+      const hull::TriangleHits reported =
           hull::all_crossed(hull.view, c.at_m, budget, {met.data(), triangles});
-      met.resize(told.told);
-      return told.steps;
+      met.resize(reported.reported);
+      return reported.steps;
     });
   }
   if (!is_refined(arguments)) {
@@ -229,10 +229,10 @@ void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& 
   if (is_triangle) {
     std::vector<mesh::SurfaceCrossing> room(triangles);
     return answer_triangles(hull, table, arguments, [&](const Corners& c, auto& met) {
-      const hull::RefinedCrossings told = refined.crossed(c.at_m, {room.data(), triangles});
+      const hull::RefinedCrossings reported = refined.crossed(c.at_m, {room.data(), triangles});
       met.clear();
-      for (uint32_t i = 0; i < told.told; ++i) met.push_back(room[i].triangle);
-      return told.steps;
+      for (uint32_t i = 0; i < reported.reported; ++i) met.push_back(room[i].triangle);
+      return reported.steps;
     });
   }
   answer(refined, hull, table, arguments);

@@ -24,7 +24,7 @@ class AllCrossings {
       room_.resize(all.found);
       all = ask(a_m, b_m);
     }
-    return {room_.data(), all.told};
+    return {room_.data(), all.reported};
   }
 
  private:

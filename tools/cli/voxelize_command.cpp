@@ -113,9 +113,9 @@ int run_voxelize(const Arguments& arguments) {
     std::vector<tools::Solid> solids;
     solids.reserve(sound.size());
     for (const SoundSurface& each : sound) solids.emplace_back(each.surface);
-    size_t told = 0;
+    size_t reported = 0;
     options.on_progress = [&](size_t done, size_t all) {
-      for (; told * all < done * kParts; ++told) progress.stage("distances");
+      for (; reported * all < done * kParts; ++reported) progress.stage("distances");
     };
     map = tools::make_distance_map(solids, grid, options);
     if (!output.empty()) {
@@ -124,7 +124,7 @@ int run_voxelize(const Arguments& arguments) {
       write_file(output, file.data(), file.size());
     }
   }
-  for (size_t i = 0; i < inputs.size(); ++i) print_report(inputs[i], sound[i].told);
+  for (size_t i = 0; i < inputs.size(); ++i) print_report(inputs[i], sound[i].reported);
   print_map(map, inputs, options.threads);
   if (!output.empty()) std::fprintf(stderr, "%s: %zu bytes\n", output.c_str(), file.size());
   return kDone;

@@ -49,7 +49,7 @@ std::array<Point, 3> corners_of(const Surface& surface, uint32_t face) {
 }
 
 // What the nearest triangle says, in double.
-Nearest told_by(const Solid& solid, uint32_t triangle, Point p, uint16_t object) {
+Nearest reported_by(const Solid& solid, uint32_t triangle, Point p, uint16_t object) {
   Nearest nearest;
   nearest.face = solid.tree.face_of(triangle);
   const Foot foot = foot_on(p, corners_of(solid.surface, nearest.face));
@@ -151,7 +151,7 @@ class BlockWork {
     each(cube, [&](uint32_t x, uint32_t y, uint32_t z) {
       const Point p = map_.grid.centre_m(x, y, z);
       const uint32_t triangle = search_.nearest(of_small_, solid_.tree.local(p));
-      const Nearest nearest = told_by(solid_, triangle, p, object_);
+      const Nearest nearest = reported_by(solid_, triangle, p, object_);
       const size_t voxel = map_.grid.index(x, y, z);
       own_sign_[voxel] = nearest.sign;
       join(map_.values[voxel], nearest);
@@ -233,7 +233,7 @@ std::vector<Nearest> nearest_to_points(const std::vector<Solid>& solids,
         uint32_t seed = kNoFace;
         for (size_t i = chunk * kPointsAChunk; i < end; ++i) {
           seed = solids[s].tree.nearest(solids[s].tree.local(points[i]), seed);
-          join(values[i], told_by(solids[s], seed, points[i], static_cast<uint16_t>(s)));
+          join(values[i], reported_by(solids[s], seed, points[i], static_cast<uint16_t>(s)));
         }
       }
     };

@@ -38,14 +38,14 @@ Value energy_mJ(const Field* force, const Field* velocity) {
 
 // Told and certified distance. What is told of a query that was not exact is no more than an upper
 // bound, up to the size of the model: it would hide all else.
-Panel distances(const Header& header, const Field* told, const Field* lower) {
-  Value exact = scaled(told, 0, 1e3);
+Panel distances(const Header& header, const Field* reported, const Field* lower) {
+  Value exact = scaled(reported, 0, 1e3);
   std::string label = "told, negative inside";
   for (const Bit& bit : header.bits) {
     const Field* state = header.find(bit.field);
     if (bit.field != "output.state" || bit.what != "exact" || state == nullptr) continue;
     exact = [=](const uint8_t* record, double) {
-      return (word(record, state->offset) >> bit.bit & 1u) != 0 ? value(*told, 0, record) * 1e3
+      return (word(record, state->offset) >> bit.bit & 1u) != 0 ? value(*reported, 0, record) * 1e3
                                                                 : kNone;
     };
     label = "exact, negative inside";
@@ -54,7 +54,7 @@ Panel distances(const Header& header, const Field* told, const Field* lower) {
           "mm",
           {{"certified lower bound",
             [=](const uint8_t* record, double) {
-              return std::copysign(value(*lower, 0, record), value(*told, 0, record)) * 1e3;
+              return std::copysign(value(*lower, 0, record), value(*reported, 0, record)) * 1e3;
             }},
            {label, exact}}};  // the last is drawn over the others
 }

@@ -55,12 +55,12 @@ Recorder::~Recorder() { stop(); }
 void Recorder::run() {
   lower_priority();
   const auto begin = std::chrono::steady_clock::now();
-  uint32_t told = 0;
+  uint32_t reported = 0;
   while (!is_stopping_.load(std::memory_order_acquire)) {
     const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begin;
     const bool is_more = drain_.step(now.count());
-    if (drain_.totals().failures != told) {
-      told = drain_.totals().failures;
+    if (drain_.totals().failures != reported) {
+      reported = drain_.totals().failures;
       const std::lock_guard<std::mutex> lock(mutex_);
       trouble_ = drain_.totals().problem;
     }

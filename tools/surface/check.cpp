@@ -97,8 +97,8 @@ CheckReport check_and_mend(Surface& surface, const CheckOptions& options) {
   if (!defects.empty() && !options.allow_unsigned) {
     defects.back() += "; or bake with --unsigned: distances without inside and outside";
   }
-  std::vector<std::string>& told = options.allow_unsigned ? report.kept : report.refused;
-  told.insert(told.end(), defects.begin(), defects.end());
+  std::vector<std::string>& reported = options.allow_unsigned ? report.kept : report.refused;
+  reported.insert(reported.end(), defects.begin(), defects.end());
 
   if (report.is_closed && report.usable() && !options.allow_unsigned)
     refuse_contacts(surface, report);

@@ -190,8 +190,8 @@ Verdict Opening::check_length(uint32_t i) {
   if (half_m > longest_half_m_) longest_half_m_ = half_m;
   const float fraction = spacing_m / view_.head_->length_m;
   travelled_ += fraction < 1.0f ? as_fixed(fraction) : kWhole;
-  const uint64_t told = as_fixed(arc);
-  const uint64_t apart = travelled_ > told ? travelled_ - told : told - travelled_;
+  const uint64_t reported = as_fixed(arc);
+  const uint64_t apart = travelled_ > reported ? travelled_ - reported : reported - travelled_;
   if (apart > kArcSlack) return reject(217, i);
   if (i + 1 == view_.samples_.size() && arc < 1.0f) return reject(214, i);
   return kPassed;

@@ -21,7 +21,7 @@ static inline float high_on_axis(const Head& head, uint32_t axis) {
 }
 
 /// What a told distance may fall short of the truth (mesh/closest_point.hpp), and a little more.
-static inline float told_slack_m(float distance_m, float diagonal_m) {
+static inline float reported_slack_m(float distance_m, float diagonal_m) {
   return 5e-7f * (distance_m > diagonal_m ? distance_m : diagonal_m);
 }
 

@@ -80,11 +80,11 @@ Verdict Opening::check_cell(uint32_t i) const {
   query::Hint hint;
   hint.place = view_.seeds_[i];
   const mesh::Closest truth = mesh::closest_point(*mesh_, centre_m, query::kUnlimited, hint);
-  const float told_m = truth.distance_m < 0.0f ? -truth.distance_m : truth.distance_m;
+  const float reported_m = truth.distance_m < 0.0f ? -truth.distance_m : truth.distance_m;
   const uint32_t quanta = quanta_of(word);
   const float lower_m = static_cast<float>(static_cast<int32_t>(quanta)) * head.quantum_m;
   const float upper_m = static_cast<float>(static_cast<int32_t>(quanta + kWide)) * head.quantum_m;
-  const float max_m = told_m + told_slack_m(told_m, mesh_->head().diagonal_m);
+  const float max_m = reported_m + reported_slack_m(reported_m, mesh_->head().diagonal_m);
   if (!(lower_m <= truth.certificate.lower_m && upper_m >= max_m)) return reject(310, i);
   const int32_t side = word < 0 ? -1 : 1;
   if (!view_.is_signed()) return word < 0 ? reject(310, i) : kPassed;

@@ -341,7 +341,7 @@ RefinedCrossings Refinement::every(const Asked& asked, query::Budget budget,
   }
   result.exact = result.exact && fits;
   result.found = all.crossings.found;
-  result.told = all.crossings.told;
+  result.reported = all.crossings.reported;
   result.steps = search.steps;
   result.tests = search.tests;
   result.splits = count_;

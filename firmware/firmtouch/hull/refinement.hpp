@@ -40,7 +40,7 @@ struct RefinedHit {
 };
 
 struct RefinedCrossings {
-  uint32_t found = 0, told = 0;  // as mesh::Crossings
+  uint32_t found = 0, reported = 0;  // as mesh::Crossings
   uint32_t steps = 0, splits = 0, tests = 0;
   bool exact = false;  // false: budget or memory ran out; there may be more
 };

@@ -195,9 +195,10 @@ Verdict ShellOpening::check_face(uint32_t i, const View& hull) {
   const Verdict boxed = check_box(i);
   if (!boxed.ok() || !is_triangle) return boxed;
   if (next_triangle_ == shell_.head_->triangle_count) return reject(546, i);
-  const ShellTriangle& told = shell_.triangles_[next_triangle_++];
-  if (told.face != i || told.triangle >= hull.head().mesh_triangle_count) return reject(546, i);
-  const mesh::Triangle<uint32_t> t = hull.triangle(told.triangle);
+  const ShellTriangle& reported = shell_.triangles_[next_triangle_++];
+  if (reported.face != i || reported.triangle >= hull.head().mesh_triangle_count)
+    return reject(546, i);
+  const mesh::Triangle<uint32_t> t = hull.triangle(reported.triangle);
   return face_hash(t.corner[0], t.corner[1], t.corner[2]) ==
                  face_hash(number[0], number[1], number[2])
              ? kPassed

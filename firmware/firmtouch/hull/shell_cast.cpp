@@ -23,26 +23,27 @@ class First {
   }
 
   bool take(const mesh::SegmentFrame& frame, Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t face) {
-    mesh::Crossing told;
+    mesh::Crossing reported;
     float early;
-    bool is_decided = frame.decides(p_m, q_m, r_m, told, early);
+    bool is_decided = frame.decides(p_m, q_m, r_m, reported, early);
     if (!is_decided) {
       const Range feet = feet_of(p_m, q_m, r_m);
       if (feet.last < 0.0f || feet.first > 1.0f) return true;
-      is_decided = !(told.t > 0.0f);  // where the plane tells nothing at all
-      told.t = mesh::larger(feet.first, told.t);
-      if (is_decided) told = mesh::exact_crossing(a_m_, b_m_, p_m, q_m, r_m);
+      is_decided = !(reported.t > 0.0f);  // where the plane tells nothing at all
+      reported.t = mesh::larger(feet.first, reported.t);
+      if (is_decided) reported = mesh::exact_crossing(a_m_, b_m_, p_m, q_m, r_m);
     }
-    if (is_decided && told.direction == 0) return true;
-    const bool is_first = !hit.hit || told.t < hit.t || (told.t <= hit.t && face < hit.face);
+    if (is_decided && reported.direction == 0) return true;
+    const bool is_first =
+        !hit.hit || reported.t < hit.t || (reported.t <= hit.t && face < hit.face);
     if (!is_first) return true;
     hit.hit = true;
-    hit.t = told.t;
+    hit.t = reported.t;
     hit.face = face;
-    hit.enters = told.direction <= 0;
+    hit.enters = reported.direction <= 0;
     hit.exact = is_decided || early <= kMaxEarly;
     // A box that is entered later in truth may hold a crossing that is told earlier.
-    limit = mesh::smaller(told.t + 2.0f * mesh::kTimeError, 1.0f);
+    limit = mesh::smaller(reported.t + 2.0f * mesh::kTimeError, 1.0f);
     return true;
   }
 

@@ -132,13 +132,13 @@ ShellDistance shell_distance(const Shell& shell, Vec3 p_m, query::Budget budget)
                    head.high_m[2] - head.low_m[2]};
   const float diagonal_m = math::length(sides);
   if (result.side == ShellSide::kInside) {
-    const float told_m = math::square_root(nearest.distance2_m2);
-    const float deepest_m = told_m + loss_m(told_m, diagonal_m);
+    const float reported_m = math::square_root(nearest.distance2_m2);
+    const float deepest_m = reported_m + loss_m(reported_m, diagonal_m);
     if (!is_far) result.deepest_m = deepest_m;
   } else if (result.side == ShellSide::kOutside) {
     const float least2 = rest2 < nearest.distance2_m2 ? rest2 : nearest.distance2_m2;
-    const float told_m = least2 < FLT_MAX ? math::square_root(least2) : kBeyond_m;
-    const float lower_m = told_m - loss_m(told_m, diagonal_m);
+    const float reported_m = least2 < FLT_MAX ? math::square_root(least2) : kBeyond_m;
+    const float lower_m = reported_m - loss_m(reported_m, diagonal_m);
     result.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   }
   return result;

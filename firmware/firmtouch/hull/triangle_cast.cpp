@@ -73,9 +73,9 @@ TriangleHits all_crossed(const View& hull, const Vec3 (&corner_m)[3], query::Bud
   TriangleHits hits;
   hits.exact = search(hull, corner_m, budget, hits.steps, [&](uint32_t i) {
     ++hits.found;
-    uint32_t at = hits.told;
+    uint32_t at = hits.reported;
     if (at < room.size()) {
-      ++hits.told;
+      ++hits.reported;
     } else if (at == 0 || room[at - 1] < i) {
       return true;
     } else {

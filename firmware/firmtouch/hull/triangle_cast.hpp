@@ -18,8 +18,8 @@ struct TriangleHit {
 };
 
 struct TriangleHits {
-  uint32_t found = 0;  // all of them, also those for which there was no room
-  uint32_t told = 0;   // in the caller's span: the smaller of `found` and its size
+  uint32_t found = 0;     // all of them, also those for which there was no room
+  uint32_t reported = 0;  // in the caller's span: the smaller of `found` and its size
   uint32_t steps = 0;
   bool exact = false;
 };

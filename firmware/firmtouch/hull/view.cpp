@@ -219,7 +219,7 @@ Verdict Opening::check_star(uint32_t collapse, const uint8_t* record) {
   for (uint32_t i = 0; i < 2 + star.link; ++i)
     if (!holds(box, vertex(view_, star.number[i]))) return reject(530, collapse);
   const uint32_t triangles = triangles_of(View::head_of(record));
-  uint32_t told = 0;
+  uint32_t reported = 0;
   for (uint32_t i = 0; i < star.face_count(); ++i) {
     uint32_t corner[3];
     star.face(i, corner);
@@ -227,15 +227,15 @@ Verdict Opening::check_star(uint32_t collapse, const uint8_t* record) {
                                 star.number[corner[2]]};
     faces_ -= face_hash(number[0], number[1], number[2]);
     if (star.youngest(corner) >= mesh_vertices) continue;
-    if (told == triangles) return reject(528, collapse);
-    const uint32_t triangle = view_.id_in(record, 1 + star.link + told++);
+    if (reported == triangles) return reject(528, collapse);
+    const uint32_t triangle = view_.id_in(record, 1 + star.link + reported++);
     if (triangle >= head.mesh_triangle_count ||
         !is_same_face(number, view_.triangle(triangle).corner))
       return reject(528, collapse);
   }
   for (uint32_t i = 0; i < star.link; ++i)
     faces_ += face_hash(made, star.number[2 + i], star.number[i + 1 == star.link ? 2 : 3 + i]);
-  return told == triangles ? kPassed : reject(528, collapse);
+  return reported == triangles ? kPassed : reject(528, collapse);
 }
 
 Verdict Opening::check_triangle(uint32_t i) {

@@ -181,10 +181,10 @@ static inline __m256 min_everywhere(FloatWide v, uint32_t of, __m256& all) {
   least = _mm256_min_ps(least, _mm256_permute_ps(least, 0xB1));
   return _mm256_min_ps(least, _mm256_permute2f128_ps(least, least, 1));
 }
-static inline uint32_t min_lane(FloatWide v, uint32_t of, float& told) {
+static inline uint32_t min_lane(FloatWide v, uint32_t of, float& reported) {
   __m256 all;
   const __m256 least = min_everywhere(v, of, all);
-  told = _mm256_cvtss_f32(least);
+  reported = _mm256_cvtss_f32(least);
   return static_cast<uint32_t>(__builtin_ctz(
       static_cast<uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(all, least, _CMP_EQ_OQ)))));
 }

@@ -194,7 +194,7 @@ template <class Bound>
   }
   look<Bound::kCompensated>(mesh, bound, search);
   const float plain_m = nearest_m(search);
-  const float plain_loss_m = loss.told_m(plain_m);
+  const float plain_loss_m = loss.reported_m(plain_m);
   weigh(found,
         Bound::kCompensated ? less_m(plain_m, loss.compensated_m(plain_m) + loss.rounding_m)
                             : plain_m - (plain_loss_m + loss.rounding_m),

@@ -11,7 +11,7 @@ namespace firmtouch::mesh {
 
 class First {
  public:
-  explicit First(Hit& told) : hit(told) {}
+  explicit First(Hit& reported) : hit(reported) {}
   float limit = 1;
   Hit& hit;
 
@@ -31,7 +31,7 @@ class First {
 
 class Any {
  public:
-  explicit Any(Hit& told) : hit(told) {}
+  explicit Any(Hit& reported) : hit(reported) {}
   float limit = 1;
   Hit& hit;
 
@@ -52,9 +52,9 @@ class All {
 
   bool take(const Crossing& crossing, uint32_t triangle) {
     ++crossings.found;
-    uint32_t at = crossings.told;
+    uint32_t at = crossings.reported;
     if (at < room_.size()) {
-      ++crossings.told;
+      ++crossings.reported;
     } else if (at == 0 || !is_before(crossing.t, triangle, room_[at - 1])) {
       return true;
     } else {

@@ -27,7 +27,7 @@ struct Loss {
     return 0x1p-24f * (5.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
   /// plain_m() and what the difference of distance and loss is rounded by.
-  float told_m(float distance_m) const {
+  float reported_m(float distance_m) const {
     return 0x1p-24f * (6.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
   /// Of compensated_distance2() and its root: one rounding each, the first halved by the root.

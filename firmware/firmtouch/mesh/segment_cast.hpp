@@ -44,8 +44,8 @@ struct SurfaceCrossing {
 };
 
 struct Crossings {
-  uint32_t found = 0;  // all crossings, also those for which there was no room
-  uint32_t told = 0;   // in the caller's span: the smaller of `found` and its size
+  uint32_t found = 0;     // all crossings, also those for which there was no room
+  uint32_t reported = 0;  // in the caller's span: the smaller of `found` and its size
   uint32_t steps = 0;
   bool exact = false;  // false: the budget ran out; there may be more
 };

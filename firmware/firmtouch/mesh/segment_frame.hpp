@@ -55,8 +55,8 @@ class SegmentLine {
  protected:
   /// Whether floats can tell of a triangle that the line is known to pass so: SegmentFrame::decides().
   [[gnu::always_inline]] inline bool decides(Pass way, math::Vec3 p, math::Vec3 q, math::Vec3 r,
-                                             Crossing& told, float& early) const {
-    told = {};
+                                             Crossing& reported, float& early) const {
+    reported = {};
     early = 1.0f;
     if (way == Pass::kMisses) return true;
     float error;
@@ -65,18 +65,18 @@ class SegmentLine {
     const bool is_through = way != Pass::kUnsure;
     if (is_through && error <= kTimeError && (t < -error || t > 1.0f + error)) return true;
     const bool is_sure = is_through && error <= kTimeError && t > error && t < 1.0f - error;
-    if (is_through) told.direction = (way == Pass::kLeaves) != flips_ ? 1 : -1;
-    if (is_sure) told.t = t;
+    if (is_through) reported.direction = (way == Pass::kLeaves) != flips_ ? 1 : -1;
+    if (is_sure) reported.t = t;
     // Of a triangle that is no speck the plane is passed near it, and t is of the plane.
     const bool is_speck = larger(largest(q - p), largest(r - p)) < coordinate_error_m_;
     if (is_sure || !is_bounded || is_speck) return is_sure;
     // First order in what the rate is off by and all else; where a side is open, twice as far off.
     const float wide = (is_through ? 1.5f : 3.0f) * error;
     if (t < -wide || t > 1.0f + wide) {
-      told.direction = 0;
+      reported.direction = 0;
       return true;
     }
-    told.t = larger(t - wide, 0.0f);
+    reported.t = larger(t - wide, 0.0f);
     if (is_through && t > wide && t < 1.0f - wide) early = 2.0f * wide;
     return false;
   }
@@ -159,16 +159,16 @@ class SegmentFrame : private SegmentLine {
   /// Result: as exact_crossing(), with |t - exact| <= kTimeError. The same bits whatever decided
   /// which side of which edge: where floats decide, they decide as integers would.
   Crossing crossing(math::Vec3 p, math::Vec3 q, math::Vec3 r) const {
-    Crossing told;
+    Crossing reported;
     float early;
-    return decides(p, q, r, told, early) ? told : exact_crossing(a_m_, b_m_, p, q, r);
+    return decides(p, q, r, reported, early) ? reported : exact_crossing(a_m_, b_m_, p, q, r);
   }
 
   /// Whether floats can tell: then `told` is what crossing() tells. Else told.direction is the way,
   /// 0 where floats are not sure that it is crossed at all, and otherwise told.t a time before which
   /// it is not, by `early` at most.
-  bool decides(math::Vec3 p, math::Vec3 q, math::Vec3 r, Crossing& told, float& early) const {
-    return SegmentLine::decides(pass(sheared(p), sheared(q), sheared(r)), p, q, r, told, early);
+  bool decides(math::Vec3 p, math::Vec3 q, math::Vec3 r, Crossing& reported, float& early) const {
+    return SegmentLine::decides(pass(sheared(p), sheared(q), sheared(r)), p, q, r, reported, early);
   }
 
  private:

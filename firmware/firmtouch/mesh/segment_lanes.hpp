@@ -20,9 +20,9 @@ class SegmentLanes : private SegmentLine {
 
   /// SegmentFrame::crossing() of a triangle that the line is known to pass so.
   Crossing crossing(Pass way, math::Vec3 p, math::Vec3 q, math::Vec3 r) const {
-    Crossing told;
+    Crossing reported;
     float early;
-    return decides(way, p, q, r, told, early) ? told : exact_crossing(a_m_, b_m_, p, q, r);
+    return decides(way, p, q, r, reported, early) ? reported : exact_crossing(a_m_, b_m_, p, q, r);
   }
 
   /// One bit a triangle.

@@ -168,8 +168,8 @@ void Opening::next_stage() {
   if (stage_ == Stage::kVertices && next_ == head.vertex_count) {
     const float bounds[6] = {low_.x_m, low_.y_m, low_.z_m, high_.x_m, high_.y_m, high_.z_m};
     for (uint32_t k = 0; k < 6; ++k) {
-      const float told = k < 3 ? head.low_m[k] : head.high_m[k - 3];
-      if (bounds[k] < told || bounds[k] > told) return fail(111, k);
+      const float reported = k < 3 ? head.low_m[k] : head.high_m[k - 3];
+      if (bounds[k] < reported || bounds[k] > reported) return fail(111, k);
     }
     stage_ = view_.is_signed() ? Stage::kNormals : Stage::kNodes;
     next_ = 0;
@@ -289,11 +289,11 @@ TriangleShape Opening::shape_at(uint32_t triangle) const {
 
 Verdict Opening::check_shape(uint32_t i) const {
   if (view_.shapes_ == nullptr) return kPassed;
-  float told[kRowsOfShapes], shape[kRowsOfShapes];
-  put_rows(view_.shapes_[i], told);
+  float reported[kRowsOfShapes], shape[kRowsOfShapes];
+  put_rows(view_.shapes_[i], reported);
   put_rows(shape_at(i), shape);
   for (uint32_t k = 0; k < kRowsOfShapes; ++k)
-    if (math::bits_of(told[k]) != math::bits_of(shape[k])) return reject(141, i);
+    if (math::bits_of(reported[k]) != math::bits_of(shape[k])) return reject(141, i);
   return kPassed;
 }
 

@@ -58,19 +58,19 @@ bool ask_shell(const MeshObject& object, Vec3 p_m, query::Budget budget, MeshTou
                SurfacePoint& surface, Nearest& nearest) {
   if (object.shell == nullptr || !object.shell->is_open()) return false;
   const query::Budget own{budget.steps > kShellSteps ? budget.steps : kShellSteps};
-  const hull::ShellDistance told = hull::shell_distance(*object.shell, p_m, own);
-  touch.shell_steps = told.steps;
-  if (told.side == hull::ShellSide::kUnknown) return false;
-  const bool is_outside = told.side == hull::ShellSide::kOutside;
-  if (!is_outside && !told.exact) return false;
+  const hull::ShellDistance reported = hull::shell_distance(*object.shell, p_m, own);
+  touch.shell_steps = reported.steps;
+  if (reported.side == hull::ShellSide::kUnknown) return false;
+  const bool is_outside = reported.side == hull::ShellSide::kOutside;
+  if (!is_outside && !reported.exact) return false;
   const query::Certificate& certificate = touch.closest.certificate;
-  const float off_m = is_outside ? told.lower_m : -math::length(p_m - told.point_m);
-  nearest = {told.point_m, told.normal, is_outside ? int8_t{1} : int8_t{-1}};
+  const float off_m = is_outside ? reported.lower_m : -math::length(p_m - reported.point_m);
+  nearest = {reported.point_m, reported.normal, is_outside ? int8_t{1} : int8_t{-1}};
   surface.sign = nearest.sign;
   surface.distance_m = off_m;
   // What the mesh's own query has proven holds as well.
   if (certificate.sign > 0 && certificate.lower_m > off_m) surface.distance_m = certificate.lower_m;
-  if (is_outside && told.lower_m > surface.lower_m) surface.lower_m = told.lower_m;
+  if (is_outside && reported.lower_m > surface.lower_m) surface.lower_m = reported.lower_m;
   return true;
 }
 

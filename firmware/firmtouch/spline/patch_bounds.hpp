@@ -46,7 +46,7 @@ class PatchBounds {
   /// Whether a part of that piece is beyond the limit. u and v: with a 1 before their digits; left: halvings to a
   /// leaf; next_u: its halves are of u.
   [[gnu::always_inline]] bool is_beyond(uint32_t u, uint32_t v, uint32_t left_u, uint32_t left_v,
-                                        bool next_u, float limit_m, PartBound& told) const {
+                                        bool next_u, float limit_m, PartBound& reported) const {
     const uint32_t along = columns_ << left_v;
     const Quad p = quarters_between(first_ + v * along + (u << left_u), 1u << left_u, along);
     Seen seen;
@@ -55,22 +55,22 @@ class PatchBounds {
     foot_on(p, seen, foot);
     const uint32_t in_order = ((v - 1) << (of_->level_u - left_u)) + u - 1;
     const float radius_m = in_units(radius_unit_m_, piece_radii_[in_order]);
-    told.lower_m = foot.distance * quarter_m_ - radius_m;
-    if (told.lower_m >= limit_m) return true;
+    reported.lower_m = foot.distance * quarter_m_ - radius_m;
+    if (reported.lower_m >= limit_m) return true;
     if (left_u + left_v == 0) {
-      told.x = foot.x, told.y = foot.y;
+      reported.x = foot.x, reported.y = foot.y;
       return false;
     }
     const float overlap = in_overlaps(piece_overlaps_[in_order]);
     const float on = next_u ? foot.x : foot.y, excess = __builtin_fabsf(on) - overlap;
-    told.far_half = math::bits_of(on) >> 31;
-    told.far_m = 0.0f;
+    reported.far_half = math::bits_of(on) >> 31;
+    reported.far_m = 0.0f;
     if (excess > 0.0f) {
       const Axis u_axis{p.a, foot.x}, v_axis{p.b, foot.y};
       const float off =
           next_u ? half_bound(foot, u_axis, v_axis, p.twist, seen.ab, seen.per_bb, excess)
                  : half_bound(foot, v_axis, u_axis, p.twist, seen.ab, seen.per_aa, excess);
-      told.far_m = off * quarter_m_ - radius_m;
+      reported.far_m = off * quarter_m_ - radius_m;
     }
     return false;
   }

@@ -5,7 +5,7 @@
 // far as it says. After a motion m everything is nearer by m at most, so that m taken off base_m keeps all of it true; what
 // is then still beyond the limit is not looked at. A part that is looked at is left in the front with its new bound, or
 // replaced by the parts of it that were passed over, which hold all of it. What a proof told, as every distance computed
-// here, may be off by what float32 loses of it, which certified() takes off: told_m() is rounded down by more than that
+// here, may be off by what float32 loses of it, which certified() takes off: reported_m() is rounded down by more than that
 // may differ from one query to the next.
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/hint.hpp"

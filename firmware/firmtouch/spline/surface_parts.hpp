@@ -93,8 +93,8 @@ class SurfaceParts {
     return is_closed_in_cell(node, apart(pieces_[node >> 16], node), best);
   }
   /// How far what was closed last is at least.
-  float told_m() const {
-    return told2_ > 0.0f ? math::square_root(told2_) * (1.0f - 0x1p-21f) : 0.0f;
+  float reported_m() const {
+    return upper2_ > 0.0f ? math::square_root(upper2_) * (1.0f - 0x1p-21f) : 0.0f;
   }
 
   /// What two nodes, with whatever marks, are the halves of; kNoNode where they are not.
@@ -141,7 +141,7 @@ class SurfaceParts {
   Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
                 Half<Range> (&halves)[2]) {
     if (best.limit_m <= 0.0f) {
-      told2_ = 0.0f;
+      upper2_ = 0.0f;
       return Outcome::kClosed;
     }
     const float area = (range.high[0] - range.low[0]) * (range.high[1] - range.low[1]);
@@ -190,8 +190,8 @@ class SurfaceParts {
       const bool has_arrived = !(moved > 0x1p-40f && gain > kRounding * base->distance2);
       if (!has_arrived && !best.seems_beyond(base->distance2 - (is_best ? kNearly : 2.0f) * gain))
         continue;
-      if (best.is_beyond(told2_ = base->least2(range, best.enough2())) ||
-          best.is_beyond(told2_ = base->min2_askew(range, best.enough2()))) {
+      if (best.is_beyond(upper2_ = base->least2(range, best.enough2())) ||
+          best.is_beyond(upper2_ = base->min2_askew(range, best.enough2()))) {
         closed_by_ = base;
         closed_ = is_small ? kNone : node;  // a rectangle's own bends are not those of the cell
         return Outcome::kClosed;
@@ -207,16 +207,16 @@ class SurfaceParts {
   // What was halved last about a leaf, whether of the leaf alone the same expansion says enough.
   bool closes_alone(uint32_t leaf, const Best& best) {
     if (halved_ != leaf) return false;
-    told2_ = halved_by_->least2(range_of(leaf, 0.0f, 0.0f), best.enough2());
-    if (!best.is_beyond(told2_)) return false;
+    upper2_ = halved_by_->least2(range_of(leaf, 0.0f, 0.0f), best.enough2());
+    if (!best.is_beyond(upper2_)) return false;
     closed_ = leaf;
     closed_by_ = halved_by_;
     halved_ = kNone;
     return true;
   }
   bool closes(const PatchNode& part, const Best& best) {
-    told2_ = closed_by_->least2(range_of(part, 0.0f, 0.0f), best.enough2());
-    return best.is_beyond(told2_);
+    upper2_ = closed_by_->least2(range_of(part, 0.0f, 0.0f), best.enough2());
+    return best.is_beyond(upper2_);
   }
 
   /// A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the piece.
@@ -369,7 +369,7 @@ class SurfaceParts {
   const Quadratic *closed_by_ = expansions_, *halved_by_ = expansions_;
   uint32_t closed_ = kNone, halved_ = kNone;
   uint32_t failed_ = kNone;  // the part that the last expansion did not close
-  float told2_ = 0.0f;       // the least D^2 of what was closed last
+  float upper2_ = 0.0f;      // the least D^2 of what was closed last
 };
 
 }  // namespace firmtouch::spline

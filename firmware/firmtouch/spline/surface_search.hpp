@@ -54,7 +54,7 @@ class SurfaceSearch : public Account {
     }
     uint32_t needed;
     bool holds = best_.limit_m > 0.0f && use.needs(best_.limit_m, needed);
-    if (holds && about != kNoEntry) frontier.beyond[about] = use.coded(parts_.told_m());
+    if (holds && about != kNoEntry) frontier.beyond[about] = use.coded(parts_.reported_m());
     if (holds && !look(leaf, is_closed, needed, use, frontier, about, holds)) return stop();
     if (!holds) {
       const float reach_m = best_.distance_m + margin_m;
@@ -179,7 +179,7 @@ class SurfaceSearch : public Account {
 
   // A node, as it is on the stack, that need not be looked at.
   void pass(uint32_t node, float lower_m) { passed_.pass(node, lower_m); }
-  void pass_closed(uint32_t node) { passed_.pass(node | kProvenMark, parts_.told_m()); }
+  void pass_closed(uint32_t node) { passed_.pass(node | kProvenMark, parts_.reported_m()); }
 
   [[gnu::noinline]] void visit_upper(uint32_t i, float above_m, bool is_beside) {
     const uint32_t node = parts_.upper(i);
@@ -192,17 +192,17 @@ class SurfaceSearch : public Account {
     stack_[count_++].lower_m = lower_m;
   }
 
-  void keep(uint32_t node, float lower_m, const PartBound& told, bool is_leaf) {
+  void keep(uint32_t node, float lower_m, const PartBound& reported, bool is_leaf) {
     if (count_ >= kCapacity) return lose(lower_m);
     Entry& entry = stack_[count_++];
     entry.lower_m = lower_m;
     if (is_leaf) {
       entry.node = node | kLeafMark;
-      entry.range = parts_.range_of(node, told.x, told.y);
+      entry.range = parts_.range_of(node, reported.x, reported.y);
     } else {
       entry.node = node;
-      entry.halves.far_half = told.far_half;
-      entry.halves.far_m = told.far_m;
+      entry.halves.far_half = reported.far_half;
+      entry.halves.far_m = reported.far_m;
     }
   }
 
@@ -212,11 +212,11 @@ class SurfaceSearch : public Account {
     const Piece& piece = bounds_.come_near(node >> 16);
     uint32_t u = (node >> 7) & 127u, v = node & 127u;
     uint32_t left_u = piece.level_u - digits_of(u), left_v = piece.level_v - digits_of(v);
-    PartBound told{};
+    PartBound reported{};
     bool is_known = known != nullptr;
     if (is_known) {
-      told.far_half = known->halves.far_half;
-      told.far_m = known->halves.far_m;
+      reported.far_half = known->halves.far_half;
+      reported.far_m = known->halves.far_m;
     }
     uint32_t near_node = 0;       // where the farther half is read: the nearer one is read after it
     float far_lower_m = FLT_MAX;  // of the farther half, where it is kept
@@ -225,12 +225,13 @@ class SurfaceSearch : public Account {
       if (!is_known) {
         --left_;
         const bool is_leaf = left_u + left_v == 0;
-        const bool is_kept = !bounds_.is_beyond(u, v, left_u, left_v, next_u, best_.limit_m, told);
-        const float lower_m = math::larger(told.lower_m, above_m);
+        const bool is_kept =
+            !bounds_.is_beyond(u, v, left_u, left_v, next_u, best_.limit_m, reported);
+        const float lower_m = math::larger(reported.lower_m, above_m);
         if (near_node != 0) {
           if (is_kept) {
             far_lower_m = lower_m;
-            keep(node, lower_m, told, is_leaf);
+            keep(node, lower_m, reported, is_leaf);
           } else {
             pass(node, lower_m);
           }
@@ -241,13 +242,13 @@ class SurfaceSearch : public Account {
         }
         if (!is_kept) return pass(node, lower_m);
         if (may_be_at_pole(node, left_u + left_v)) {
-          const float pole_m = poles_.lower_m(node, best_.gap_m, told.x, told.y);
+          const float pole_m = poles_.lower_m(node, best_.gap_m, reported.x, reported.y);
           if (pole_m >= best_.limit_m) return pass(node, pole_m * (1.0f - 0x1p-21f));
         }
         if (parts_.may_be_closed(node, left_u + left_v, best_) && parts_.is_closed(node, best_))
           return pass_closed(node);
         if (is_leaf || lower_m > far_lower_m || left_ < 2 || is_beside) {
-          keep(node, lower_m, told, is_leaf);
+          keep(node, lower_m, reported, is_leaf);
           if (lower_m > far_lower_m) order(count_ - 2);
           return;
         }
@@ -261,10 +262,10 @@ class SurfaceSearch : public Account {
       else
         --left_v;
       far_lower_m = FLT_MAX;
-      if (told.far_m >= best_.limit_m) {
-        pass(told.far_half == 0 ? node : node + next, told.far_m);
-        if (told.far_half == 0) node += next;
-      } else if (told.far_half == 0) {
+      if (reported.far_m >= best_.limit_m) {
+        pass(reported.far_half == 0 ? node : node + next, reported.far_m);
+        if (reported.far_half == 0) node += next;
+      } else if (reported.far_half == 0) {
         near_node = node + next;
       } else {
         near_node = node;
@@ -334,7 +335,7 @@ class SurfaceSearch : public Account {
     Half<Range> halves[2];
     Range range = in;
     const Outcome outcome = parts_.solve(node, range, lower_m, left_, best_, halves);
-    if (!is_half) pass(node, outcome == Outcome::kClosed ? parts_.told_m() : lower_m);
+    if (!is_half) pass(node, outcome == Outcome::kClosed ? parts_.reported_m() : lower_m);
     if (outcome == Outcome::kStopped) put(node, lower_m, range);
     if (outcome == Outcome::kLost) lose(lower_m);
     if (outcome == Outcome::kSplit) {
