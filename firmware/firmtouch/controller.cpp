@@ -129,13 +129,13 @@ Controller::Surface Controller::touch(const Wish& wish, const Values& v, servo::
   scene::MeshObject object;
   object.mesh = &opener_.mesh();
   object.map = &opener_.map();
-  object.shell = &opener_.hull().shell();
+  object.base_hull = &opener_.hull().base_hull();
   object.pose = scene_pose(v);
   object.material = material;
   scene::touch_mesh(object, v[params::kToolRadius], wish.position_m, budget(v, params::kMeshSteps),
                     g.touch, model);
   return {g.touch.closest.distance_m, g.touch.penetration_m, g.touch.closest.certificate,
-          g.touch.closest.certificate.steps + g.touch.shell_steps, g.touch.is_of_shell};
+          g.touch.closest.certificate.steps + g.touch.base_hull_steps, g.touch.is_of_base_hull};
 }
 
 void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
@@ -179,7 +179,7 @@ void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
   felt.guide_steps = line.certificate.steps;
   felt.state = static_cast<uint32_t>(surface.certificate.sign + 1) << record::kStateSignShift;
   if (surface.penetration_m > 0) felt.state |= record::kStateContact;
-  if (surface.is_of_shell) felt.state |= record::kStateOfShell;
+  if (surface.is_of_base_hull) felt.state |= record::kStateOfBaseHull;
   if (g.guide.is_held) felt.state |= record::kStateOnGuide;
   if (surface.certificate.exact) felt.state |= record::kStateExact;
   if (line.certificate.exact) felt.state |= record::kStateGuideExact;

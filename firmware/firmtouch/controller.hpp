@@ -119,7 +119,7 @@ class Controller {
     float distance_m = 0, penetration_m = 0;  // the first signed
     query::Certificate certificate;
     uint32_t steps = 0;
-    bool is_of_shell = false;
+    bool is_of_base_hull = false;
   };
   Surface touch(const Wish& wish, const params::Values& values, servo::LocalModel& model);
   bool take_parameter(const record::TickInput& input);

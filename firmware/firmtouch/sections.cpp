@@ -34,7 +34,7 @@ hull::Sections hull_sections(const asset::Container& container, const char* name
   sections.places = container.find(hull::kPlacesSection, name);
   sections.star_boxes = container.find(hull::kStarBoxesSection, name);
   sections.boxes = container.find(hull::kBoxesSection, name);
-  sections.shell = container.find(hull::kShellSection, name);
+  sections.base_hull = container.find(hull::kBaseHullSection, name);
   sections.mesh_head = container.find(mesh::kHeadSection, name);
   sections.mesh_vertices = container.find(mesh::kVerticesSection, name);
   sections.triangles16 = container.find(mesh::kTriangles16Section, name);

@@ -54,7 +54,7 @@ void fill_short(Ride& ride, uint32_t tick, float steps) {
 TEST(WhereABudgetRunsOutTheHullIsFeltAndTheRecordTells) {
   Ride cut_off(hulled()), exact;
   CHECK(cut_off.controller.hull().is_open() && !exact.controller.hull().is_open());
-  uint32_t of_shell = 0, contact = 0, late = 0, reported_exact = 0;
+  uint32_t of_base_hull = 0, contact = 0, late = 0, reported_exact = 0;
   for (uint32_t tick = 0; tick < 6000; ++tick) {
     fill_short(cut_off, tick, 16);
     exact.fill(tick);
@@ -63,16 +63,16 @@ TEST(WhereABudgetRunsOutTheHullIsFeltAndTheRecordTells) {
     const record::TickOutput &a = cut_off.output, &b = exact.output;
     CHECK(all_finite(a));
     CHECK_LE(size_of(a.motor_N), 8.0);
-    of_shell += (a.state & record::kStateOfShell) != 0 ? 1u : 0u;
+    of_base_hull += (a.state & record::kStateOfBaseHull) != 0 ? 1u : 0u;
     reported_exact +=
-        (a.state & record::kStateOfShell) != 0 && (a.state & record::kStateExact) != 0;
-    CHECK_EQ(b.state & record::kStateOfShell, 0u);
+        (a.state & record::kStateOfBaseHull) != 0 && (a.state & record::kStateExact) != 0;
+    CHECK_EQ(b.state & record::kStateOfBaseHull, 0u);
     if (tick < 12 || (b.state & record::kStateExact) == 0) continue;
     contact += (b.state & record::kStateContact) != 0 ? 1u : 0u;
     late += a.penetration_m < b.penetration_m - 2e-6f ? 1u : 0u;
   }
   CHECK_EQ(cut_off.output.faults, 0u);
-  CHECK_LT(100u, of_shell);
+  CHECK_LT(100u, of_base_hull);
   CHECK_LT(1000u, contact);
   CHECK_EQ(late, 0u);
   CHECK_EQ(reported_exact, 0u);
@@ -92,7 +92,7 @@ TEST(ARideByTheHullIsAFunctionOfItsInputs) {
 }
 
 TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
-  for (const uint32_t type : {hull::kProbesSection, hull::kShellSection}) {
+  for (const uint32_t type : {hull::kProbesSection, hull::kBaseHullSection}) {
     std::vector<tools::Section> sections = hulled_sections();
     for (tools::Section& section : sections) {
       if (section.type != type) continue;

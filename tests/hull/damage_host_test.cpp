@@ -4,11 +4,11 @@
 #include <cstring>
 #include <vector>
 
-#include "bake/bake_shell.hpp"
+#include "bake/bake_base_hull.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
+#include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/refinement.hpp"
-#include "firmtouch/hull/shell_cast.hpp"
-#include "firmtouch/hull/shell_distance.hpp"
 #include "small_hull.hpp"
 #include "surface/random.hpp"
 
@@ -29,7 +29,7 @@ struct Apart {
     };
     sections = {copy(from.head),          copy(from.vertices),    copy(from.origins),
                 copy(from.records),       copy(from.places),      copy(from.star_boxes),
-                copy(from.boxes),         copy(from.shell),       copy(from.mesh_head),
+                copy(from.boxes),         copy(from.base_hull),   copy(from.mesh_head),
                 copy(from.mesh_vertices), copy(from.triangles16), {}};
   }
 };
@@ -37,7 +37,7 @@ struct Apart {
 void use(const hull::View& view, Random& random) {
   uint32_t bits[hull::bit_words(128)], undone[20];
   hull::Candidate candidates[8];
-  hull::Refinement refinement(view, view.shell(), {{bits}, {undone}, {candidates}});
+  hull::Refinement refinement(view, view.base_hull(), {{bits}, {undone}, {candidates}});
   for (int i = 0; i < 10; ++i) {
     const auto in = [&] { return static_cast<float>(random.between(-2, 2)); };
     const float v[6] = {in(), in(), in(), in(), in(), in()};
@@ -50,9 +50,9 @@ void use(const hull::View& view, Random& random) {
     CHECK_LE(all.steps, 100u);
     (void)refinement.all(a, b, {100}, {room});
     CHECK_EQ(refinement.split_count(), 0u);
-    const hull::ShellHit shell = hull::cast_shell(view.shell(), a, b, {100});
-    CHECK(shell.t >= 0 && shell.t <= 1);
-    const hull::ShellDistance near = hull::shell_distance(view.shell(), a, {100});
+    const hull::BaseHullHit base_hull = hull::cast_base_hull(view.base_hull(), a, b, {100});
+    CHECK(base_hull.t >= 0 && base_hull.t <= 1);
+    const hull::BaseHullDistance near = hull::base_hull_distance(view.base_hull(), a, {100});
     CHECK(std::isfinite(near.lower_m) && std::isfinite(near.deepest_m));
     CHECK_LE(near.steps, 100u);
   }
@@ -92,7 +92,7 @@ TEST(ATruncatedHullIsRefused) {
   core::Bytes* const kAll[] = {
       &small.sections.head,          &small.sections.vertices,   &small.sections.origins,
       &small.sections.records,       &small.sections.places,     &small.sections.star_boxes,
-      &small.sections.boxes,         &small.sections.shell,      &small.sections.mesh_head,
+      &small.sections.boxes,         &small.sections.base_hull,  &small.sections.mesh_head,
       &small.sections.mesh_vertices, &small.sections.triangles16};
   for (core::Bytes* section : kAll) {
     const core::Bytes whole = *section;

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "../surface/shapes.hpp"
-#include "bake/bake_shell.hpp"
+#include "bake/bake_base_hull.hpp"
 #include "bumpy_ring.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/refinement.hpp"
@@ -145,11 +145,11 @@ void complete_against_force(const BakedHull& baked, uint32_t count) {
 }
 
 void refined_against_complete(const BakedHull& baked, uint32_t base, uint32_t count) {
-  const std::vector<uint32_t> words = cut_shell(baked.view, base);
-  hull::Shell shell;
-  CHECK_EQ(hull::open_shell(bytes_of_words(words), baked.view, shell).rule, 0);
+  const std::vector<uint32_t> words = cut_base_hull(baked.view, base);
+  hull::BaseHull base_hull;
+  CHECK_EQ(hull::open_base_hull(bytes_of_words(words), baked.view, base_hull).rule, 0);
   Memory memory(baked.view, baked.view.collapse_count(), 64);
-  hull::Refinement refinement(baked.view, shell, memory.spans());
+  hull::Refinement refinement(baked.view, base_hull, memory.spans());
   Lines lines(baked.surface, 17);
   std::vector<mesh::SurfaceCrossing> all_room(256), room(256);
   for (uint32_t i = 0; i < count; ++i) {
@@ -173,13 +173,13 @@ void refined_against_complete(const BakedHull& baked, uint32_t base, uint32_t co
 
 void restores(const BakedHull& baked, uint32_t base) {
   test::note("base", base);
-  const std::vector<uint32_t> words = cut_shell(baked.view, base);
-  hull::Shell shell;
-  CHECK_EQ(hull::open_shell(bytes_of_words(words), baked.view, shell).rule, 0);
-  CHECK_LE(shell.face_count(), std::max(base, baked.view.shell().face_count()));
-  Memory memory(baked.view, shell.head().cut + 1, 4);
-  hull::Refinement refinement(baked.view, shell, memory.spans());
-  for (uint32_t k = 0; k < shell.head().cut; ++k) CHECK(refinement.split(k));
+  const std::vector<uint32_t> words = cut_base_hull(baked.view, base);
+  hull::BaseHull base_hull;
+  CHECK_EQ(hull::open_base_hull(bytes_of_words(words), baked.view, base_hull).rule, 0);
+  CHECK_LE(base_hull.face_count(), std::max(base, baked.view.base_hull().face_count()));
+  Memory memory(baked.view, base_hull.head().cut + 1, 4);
+  hull::Refinement refinement(baked.view, base_hull, memory.spans());
+  for (uint32_t k = 0; k < base_hull.head().cut; ++k) CHECK(refinement.split(k));
   std::vector<Face> found, wanted = baked.surface.faces;
   for (hull::Refinement::Faces faces(refinement); faces.next();)
     found.push_back({faces.number[0], faces.number[1], faces.number[2]});
@@ -206,24 +206,24 @@ TEST(FromEveryBaseFirstAndLastCrossingAreTheMeshs) {
   }
 }
 
-TEST(SplittingEverythingRestoresTheMeshFromEveryShell) {
+TEST(SplittingEverythingRestoresTheMeshFromEveryBaseHull) {
   const BakedHull baked(make_part(1, 3000), 200, 22);
   for (const uint32_t base : {4u, 200u, 700u, 1501u, 2500u, 1000000u}) restores(baked, base);
 }
 
-TEST(AShellOfTheAssetIsTheCoarsestAndCutAgainTheSameBytes) {
+TEST(ABaseHullOfTheAssetIsTheCoarsestAndCutAgainTheSameBytes) {
   const BakedHull baked(bumpy_ring(8, 4), 100, 16);
-  const std::vector<uint32_t> words = cut_shell(baked.view, 4);
-  const core::Bytes stored = hull_sections(baked.sections, "model").shell;
+  const std::vector<uint32_t> words = cut_base_hull(baked.view, 4);
+  const core::Bytes stored = hull_sections(baked.sections, "model").base_hull;
   CHECK_EQ(stored.size(), 4 * words.size());
   CHECK(std::memcmp(stored.data(), words.data(), stored.size()) == 0);
 }
 
-TEST(R549AHullsOwnShellIsTheCoarsest) {
+TEST(R549AHullsOwnBaseHullIsTheCoarsest) {
   const BakedHull baked(bumpy_ring(8, 4), 100, 16);
-  const std::vector<uint32_t> finer = cut_shell(baked.view, 300);
+  const std::vector<uint32_t> finer = cut_base_hull(baked.view, 300);
   hull::Sections sections = hull_sections(baked.sections, "model");
-  sections.shell = bytes_of_words(finer);
+  sections.base_hull = bytes_of_words(finer);
   hull::View view;
   CHECK_EQ(hull::open(sections, view).rule, 549);
 }
@@ -250,9 +250,9 @@ TEST(StoredVerticesAreTheProvenOnes) {
 TEST(AMeshWithFewerFacesThanAskedForIsItsOwnHull) {
   const BakedHull baked(cube(), 1000, 22);
   CHECK_EQ(baked.view.collapse_count(), 0u);
-  CHECK_EQ(baked.view.shell().face_count(), 12u);
+  CHECK_EQ(baked.view.base_hull().face_count(), 12u);
   Memory memory(baked.view, 1, 8);
-  hull::Refinement refinement(baked.view, baked.view.shell(), memory.spans());
+  hull::Refinement refinement(baked.view, baked.view.base_hull(), memory.spans());
   const hull::RefinedHit hit =
       refinement.first({-3, 0.1f, 0.2f}, {3, 0.1f, 0.2f}, query::kUnlimited);
   CHECK(hit.exact && hit.is_of_mesh);

@@ -1,9 +1,9 @@
 // Refinement of a small hull: on the host and on the controller, with the same bits.
 #include "firmtouch/hull/refinement.hpp"
 #include "firmtouch/core/hash.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
+#include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
-#include "firmtouch/hull/shell_cast.hpp"
-#include "firmtouch/hull/shell_distance.hpp"
 #include "small_hull.hpp"
 
 namespace {
@@ -67,7 +67,7 @@ uint64_t mark(const uint32_t (&corner)[3]) {
 TEST(SplittingEverythingRestoresTheMeshFaceForFace) {
   const Opened opened;
   Memory<kMax, 4> memory;
-  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
   for (uint32_t k = 0; k < opened.view.collapse_count(); ++k) CHECK(refinement.split(k));
   CHECK_EQ(refinement.split_count(), opened.view.collapse_count());
   uint64_t wanted = 0, found = 0;
@@ -81,26 +81,26 @@ TEST(SplittingEverythingRestoresTheMeshFaceForFace) {
   refinement.reset();
   count = 0;
   for (hull::Refinement::Faces faces(refinement); faces.next();) ++count;
-  CHECK_EQ(count, opened.view.shell().face_count());
+  CHECK_EQ(count, opened.view.base_hull().face_count());
 }
 
 TEST(AnyClosureLeavesAHullOfTheRightSize) {
   const Opened opened;
   Memory<kMax, 4> memory;
-  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
   for (uint32_t k = 0; k < opened.view.collapse_count(); k += 3) {
     refinement.reset();
     CHECK(refinement.split(k));
     uint32_t count = 0;
     for (hull::Refinement::Faces faces(refinement); faces.next();) ++count;
-    CHECK_EQ(count, opened.view.shell().face_count() + 2 * refinement.split_count());
+    CHECK_EQ(count, opened.view.base_hull().face_count() + 2 * refinement.split_count());
   }
 }
 
 TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
   const Opened opened;
   Memory<kMax, 64> memory;
-  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
   g_random = 7;
   uint32_t hits = 0, splits = 0;
   for (uint32_t i = 0; i < 400; ++i) {
@@ -127,7 +127,7 @@ TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
 TEST(FirstAndLastOfAllCrossingsAreTheMeshsAndNoneIsMadeUp) {
   const Opened opened;
   Memory<kMax, 4> memory;
-  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
   g_random = 9;
   for (uint32_t i = 0; i < 400; ++i) {
     test::note("segment", i);
@@ -154,7 +154,7 @@ TEST(FirstAndLastOfAllCrossingsAreTheMeshsAndNoneIsMadeUp) {
 TEST(WhereMemoryOrStepsRunOutNothingOfTheMeshIsNearerThanTold) {
   const Opened opened;
   Memory<12, 3> memory;
-  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
   g_random = 11;
   uint32_t conservative = 0, exact = 0;
   for (uint32_t i = 0; i < 600; ++i) {
@@ -182,7 +182,7 @@ TEST(WhereMemoryOrStepsRunOutNothingOfTheMeshIsNearerThanTold) {
 TEST(AClosureThatDoesNotFitIsTakenBackWhole) {
   const Opened opened;
   Memory<12, 4> memory;
-  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
   uint32_t refused = 0;
   for (uint32_t turn = 0; turn < 2; ++turn) {
     for (uint32_t k = opened.view.collapse_count(); k-- > 0;) {
@@ -192,7 +192,7 @@ TEST(AClosureThatDoesNotFitIsTakenBackWhole) {
       if (!fits) CHECK_EQ(refinement.split_count(), before);
       uint32_t count = 0;
       for (hull::Refinement::Faces faces(refinement); faces.next();) ++count;
-      CHECK_EQ(count, opened.view.shell().face_count() + 2 * refinement.split_count());
+      CHECK_EQ(count, opened.view.base_hull().face_count() + 2 * refinement.split_count());
       if (turn == 1) refinement.reset();
     }
     refinement.reset();
@@ -203,7 +203,7 @@ TEST(AClosureThatDoesNotFitIsTakenBackWhole) {
 TEST(HostileSegmentsAreAnsweredInFiniteNumbers) {
   const Opened opened;
   Memory<kMax, 8> memory;
-  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
   const uint32_t bits[] = {0x00000000, 0x80000001, 0x3F800000, 0xBF800000, 0x4E000000,
                            0x7149F2CA, 0xFF7FFFFF, 0x7F800000, 0x7FC00000, 0xFFFFFFFF};
   for (uint32_t i = 0; i < 1000; ++i) {
@@ -229,7 +229,7 @@ TEST(HostileSegmentsAreAnsweredInFiniteNumbers) {
 TEST(HullAnswersHaveOneHashEverywhere) {
   const Opened opened;
   Memory<40, 6> memory;
-  hull::Refinement refinement(opened.view, opened.view.shell(), memory.spans());
+  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
   core::Hash hash;
   g_random = 5;
   for (uint32_t i = 0; i < 1000; ++i) {
@@ -242,10 +242,12 @@ TEST(HullAnswersHaveOneHashEverywhere) {
     hash.add(hit.splits << 4 | (hit.hit ? 1u : 0u) | (hit.exact ? 2u : 0u) |
              (hit.is_of_mesh ? 4u : 0u));
     mesh::SurfaceCrossing room[8];
-    const hull::ShellHit shell = hull::cast_shell(opened.view.shell(), s.a, s.b, budget);
-    const hull::ShellDistance near = hull::shell_distance(opened.view.shell(), s.a, budget);
-    hash.add(bits_of(shell.t));
-    hash.add(shell.face << 1 | (shell.exact ? 1u : 0u));
+    const hull::BaseHullHit base_hull =
+        hull::cast_base_hull(opened.view.base_hull(), s.a, s.b, budget);
+    const hull::BaseHullDistance near =
+        hull::base_hull_distance(opened.view.base_hull(), s.a, budget);
+    hash.add(bits_of(base_hull.t));
+    hash.add(base_hull.face << 1 | (base_hull.exact ? 1u : 0u));
     hash.add(bits_of(near.lower_m));
     hash.add(bits_of(near.point_m.x));
     hash.add(near.steps << 2 | static_cast<uint32_t>(near.side));

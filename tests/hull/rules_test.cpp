@@ -43,7 +43,7 @@ TEST(WholeHullPasses) {
   SmallHull small;
   CHECK_EQ(refusal_of(small.sections), 0u);
   CHECK(small.head().collapse_count >= 50);
-  CHECK(small.shell_head().kept_count > 0);
+  CHECK(small.base_hull_head().kept_count > 0);
 }
 
 TEST(R501HeadOfTheWrongSize) {

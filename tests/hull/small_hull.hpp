@@ -21,7 +21,7 @@ struct SmallHull {
         all.find(hull::kHeadSection, kName),        all.find(hull::kVerticesSection, kName),
         all.find(hull::kOriginsSection, kName),     all.find(hull::kRecordsSection, kName),
         all.find(hull::kPlacesSection, kName),      all.find(hull::kStarBoxesSection, kName),
-        all.find(hull::kBoxesSection, kName),       all.find(hull::kShellSection, kName),
+        all.find(hull::kBoxesSection, kName),       all.find(hull::kBaseHullSection, kName),
         all.find(mesh::kHeadSection, kName),        all.find(mesh::kVerticesSection, kName),
         all.find(mesh::kTriangles16Section, kName), {}};
   }
@@ -29,8 +29,8 @@ struct SmallHull {
   static uint8_t* open_up(core::Bytes bytes_of) { return bytes + (bytes_of.data() - bytes); }
   hull::Head& head() { return *reinterpret_cast<hull::Head*>(open_up(sections.head)); }
   mesh::Head& mesh_head() { return *reinterpret_cast<mesh::Head*>(open_up(sections.mesh_head)); }
-  hull::ShellHead& shell_head() {
-    return *reinterpret_cast<hull::ShellHead*>(open_up(sections.shell));
+  hull::BaseHullHead& base_hull_head() {
+    return *reinterpret_cast<hull::BaseHullHead*>(open_up(sections.base_hull));
   }
   float& mesh_coordinate(uint32_t i) {
     return reinterpret_cast<float*>(open_up(sections.mesh_vertices))[i];
@@ -53,34 +53,36 @@ struct SmallHull {
   }
 
   // Parts of the shell, by the layout's own order.
-  uint8_t* shell_boxes() { return open_up(sections.shell) + sizeof(hull::ShellHead); }
-  uint32_t shell_leaves() { return hull::leaves_for(shell_head().face_count, hull::kLeafFaces); }
-  uint32_t* shell_corner_places() {
-    return reinterpret_cast<uint32_t*>(shell_boxes() +
-                                       hull::padded(6 * hull::nodes_for(shell_leaves())));
+  uint8_t* base_hull_boxes() { return open_up(sections.base_hull) + sizeof(hull::BaseHullHead); }
+  uint32_t base_hull_leaves() {
+    return hull::leaves_for(base_hull_head().face_count, hull::kLeafFaces);
   }
-  hull::ShellFace* shell_faces() {
-    return reinterpret_cast<hull::ShellFace*>(shell_corner_places() +
-                                              hull::corner_places_for(shell_leaves()));
+  uint32_t* base_hull_corner_places() {
+    return reinterpret_cast<uint32_t*>(base_hull_boxes() +
+                                       hull::padded(6 * hull::nodes_for(base_hull_leaves())));
   }
-  uint16_t* shell_corners() {
-    return reinterpret_cast<uint16_t*>(reinterpret_cast<uint8_t*>(shell_faces()) +
-                                       hull::padded(2 * shell_head().face_count));
+  hull::BaseHullFace* base_hull_faces() {
+    return reinterpret_cast<hull::BaseHullFace*>(base_hull_corner_places() +
+                                                 hull::corner_places_for(base_hull_leaves()));
   }
-  uint8_t* shell_coordinates() {
-    return reinterpret_cast<uint8_t*>(shell_corners()) +
-           hull::padded(2 * shell_head().corner_count);
+  uint16_t* base_hull_corners() {
+    return reinterpret_cast<uint16_t*>(reinterpret_cast<uint8_t*>(base_hull_faces()) +
+                                       hull::padded(2 * base_hull_head().face_count));
   }
-  hull::ShellVertex* shell_kept() {
-    return reinterpret_cast<hull::ShellVertex*>(shell_coordinates() +
-                                                hull::padded(6 * shell_head().made_count));
+  uint8_t* base_hull_coordinates() {
+    return reinterpret_cast<uint8_t*>(base_hull_corners()) +
+           hull::padded(2 * base_hull_head().corner_count);
   }
-  uint8_t* shell_ids() {
-    return reinterpret_cast<uint8_t*>(shell_kept() + shell_head().kept_count);
+  hull::BaseHullVertex* base_hull_kept() {
+    return reinterpret_cast<hull::BaseHullVertex*>(base_hull_coordinates() +
+                                                   hull::padded(6 * base_hull_head().made_count));
   }
-  hull::ShellTriangle* shell_triangles() {
-    return reinterpret_cast<hull::ShellTriangle*>(shell_ids() +
-                                                  hull::padded(2 * shell_head().made_count));
+  uint8_t* base_hull_ids() {
+    return reinterpret_cast<uint8_t*>(base_hull_kept() + base_hull_head().kept_count);
+  }
+  hull::BaseHullTriangle* base_hull_triangles() {
+    return reinterpret_cast<hull::BaseHullTriangle*>(base_hull_ids() +
+                                                     hull::padded(2 * base_hull_head().made_count));
   }
 };
 

@@ -127,7 +127,7 @@ void judge_triangles(const BakedHull& baked, int count) {
       undone(view.collapse_count() + 1);
   std::vector<hull::Candidate> candidates(8192);
   const auto size = [](const auto& items) { return static_cast<uint32_t>(items.size()); };
-  hull::Refinement refinement(view, view.shell(),
+  hull::Refinement refinement(view, view.base_hull(),
                               {{bits.data(), size(bits)},
                                {undone.data(), size(undone)},
                                {candidates.data(), size(candidates)}});
@@ -162,10 +162,10 @@ void judge_triangles(const BakedHull& baked, int count) {
     CHECK_EQ(some.found, truth.size());
     for (uint32_t k = 0; k < some.reported; ++k) CHECK_EQ(two[k], truth[k]);
     // The shell: where it tells none there is none; so does refinement, which makes none up.
-    const hull::TriangleHit of_shell =
-        hull::shell_crossed(view.shell(), three.corner, query::kUnlimited);
-    CHECK(of_shell.exact);
-    if (!of_shell.hit) CHECK(truth.empty());
+    const hull::TriangleHit of_base_hull =
+        hull::base_hull_crossed(view.base_hull(), three.corner, query::kUnlimited);
+    CHECK(of_base_hull.exact);
+    if (!of_base_hull.hit) CHECK(truth.empty());
     const hull::RefinedCrossings refined =
         refinement.all(three.corner, query::kUnlimited, {met.data(), faces});
     CHECK(refined.exact);
@@ -175,7 +175,7 @@ void judge_triangles(const BakedHull& baked, int count) {
     if (refined_any.hit)
       CHECK(std::binary_search(truth.begin(), truth.end(), refined_any.triangle));
     (truth.empty() ? free_of_it : crossed) += 1;
-    sure_of_it += of_shell.hit ? 0u : 1u;
+    sure_of_it += of_base_hull.hit ? 0u : 1u;
   }
   CHECK_LT(unclear * 20, static_cast<uint32_t>(count));
   CHECK_LT(static_cast<uint32_t>(count) / 8, crossed);
@@ -185,7 +185,7 @@ void judge_triangles(const BakedHull& baked, int count) {
 
 }  // namespace
 
-TEST(TrianglesCrossWhatBruteForceSaysAndTheShellRulesOutNone) {
+TEST(TrianglesCrossWhatBruteForceSaysAndTheBaseHullRulesOutNone) {
   judge_triangles(BakedHull(make_part(1, 2000), 300, 16), 260);
   judge_triangles(BakedHull(bumpy_ring(16, 8, 0.2), 120, 22), 260);
 }
@@ -293,7 +293,7 @@ TEST(ARayIsTheSegmentToBeyondAllThatItMayMeet) {
   CHECK(refuses({3e38f, 3e38f, 0}, {0, 0, 1}));
   const math::Vec3 hostile[3] = {{0, 0, 0}, {0, nan, 0}, {1, 1, 1}};
   CHECK(!hull::any_crossed(view, hostile, query::kUnlimited).exact);
-  CHECK(!hull::shell_crossed(view.shell(), hostile, query::kUnlimited).exact);
+  CHECK(!hull::base_hull_crossed(view.base_hull(), hostile, query::kUnlimited).exact);
 }
 
 }  // namespace firmtouch::tools

@@ -9,9 +9,9 @@
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/refinement.hpp"
-#include "firmtouch/hull/shell_cast.hpp"
 #include "firmtouch/sections.hpp"
 #include "target/text.hpp"
 
@@ -27,7 +27,7 @@ namespace target = firmtouch::target;
 namespace {
 
 constexpr uint32_t kSegments = 2000;
-uint32_t g_shell[8192];
+uint32_t g_base_hull[8192];
 uint32_t g_bits[hull::bit_words(65536)];
 uint32_t g_undone[256];
 hull::Candidate g_candidates[64];
@@ -62,25 +62,26 @@ void print(uint32_t value, const char* behind) {
   hal::board_print(behind);
 }
 
-void run(const hull::View& view, const hull::Shell& shell) {
-  hull::Refinement refinement(view, shell, {{g_bits}, {g_undone}, {g_candidates}});
+void run(const hull::View& view, const hull::BaseHull& base_hull) {
+  hull::Refinement refinement(view, base_hull, {{g_bits}, {g_undone}, {g_candidates}});
   const uint32_t empty = empty_work();
   for (uint32_t i = 0; i < kSegments; ++i) {
     const uint32_t from = (g_random >> 12) % 6;
     const math::Vec3 a_m = on_side(view.mesh_head(), from);
     const math::Vec3 b_m = on_side(view.mesh_head(), (from + 1 + (g_random >> 12) % 5) % 6);
     const uint32_t begin = hal::clock_work();
-    const hull::ShellHit of_shell = hull::cast_shell(shell, a_m, b_m, query::kUnlimited);
-    const uint32_t shell_end = hal::clock_work();
+    const hull::BaseHullHit of_base_hull =
+        hull::cast_base_hull(base_hull, a_m, b_m, query::kUnlimited);
+    const uint32_t base_hull_end = hal::clock_work();
     const hull::RefinedHit first = refinement.first(a_m, b_m, query::kUnlimited);
     const uint32_t first_end = hal::clock_work();
     const mesh::Hit hit = hull::cast_segment(view, a_m, b_m, query::kUnlimited);
     const uint32_t end = hal::clock_work();
-    print(instructions(shell_end - begin - empty), " ");
-    print(instructions(first_end - shell_end - empty), " ");
+    print(instructions(base_hull_end - begin - empty), " ");
+    print(instructions(first_end - base_hull_end - empty), " ");
     print(instructions(end - first_end - empty), " ");
-    print(of_shell.steps, " ");
-    print(first.splits, of_shell.hit ? " 1" : " 0");
+    print(of_base_hull.steps, " ");
+    print(first.splits, of_base_hull.hit ? " 1" : " 0");
     hal::board_print(hit.hit ? " 1\n" : " 0\n");
   }
 }
@@ -93,24 +94,25 @@ int main() {
   const uint32_t bytes = asset::stated_bytes(region);
   asset::Container file;
   hull::View view;
-  hull::Shell shell;
+  hull::BaseHull base_hull;
   bool is_sound = asset::open({region.data(), bytes != 0 ? bytes : region.size()}, file).ok();
   const uint32_t at = is_sound ? file.next_of_type(hull::kHeadSection) : asset::kNoSection;
   is_sound = at != asset::kNoSection &&
              hull::open(firmtouch::hull_sections(file, file.name(at)), view).ok() &&
              hull::bit_words(view.collapse_count()) <= sizeof g_bits / 4;
   if (is_sound) {
-    const uint32_t resident = view.shell().resident_bytes();
-    is_sound = resident <= sizeof g_shell;
-    const core::Bytes stored = file.find(hull::kShellSection, file.name(at));
-    if (is_sound) __builtin_memcpy(g_shell, stored.data(), resident);
-    shell = view.shell().resident({reinterpret_cast<const uint8_t*>(g_shell), resident});
-    is_sound = is_sound && shell.is_open();
+    const uint32_t resident = view.base_hull().resident_bytes();
+    is_sound = resident <= sizeof g_base_hull;
+    const core::Bytes stored = file.find(hull::kBaseHullSection, file.name(at));
+    if (is_sound) __builtin_memcpy(g_base_hull, stored.data(), resident);
+    base_hull =
+        view.base_hull().resident({reinterpret_cast<const uint8_t*>(g_base_hull), resident});
+    is_sound = is_sound && base_hull.is_open();
   }
   if (!is_sound) {
     hal::board_print("no hull in the asset, or a rule rejects it, or it is too large\n");
     return 1;
   }
-  run(view, shell);
+  run(view, base_hull);
   return 0;
 }

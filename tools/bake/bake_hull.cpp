@@ -42,15 +42,15 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
   std::vector<Section> baked = encoder.run(name);
   for (const Section& s : baked) {
     const uint32_t bytes = static_cast<uint32_t>(s.bytes.size());
-    (s.type == hull::kStarBoxesSection ? report.star_bytes
-     : s.type == hull::kBoxesSection   ? report.box_bytes
-     : s.type == hull::kShellSection   ? report.shell_bytes
-                                       : report.other_bytes) += bytes;
+    (s.type == hull::kStarBoxesSection  ? report.star_bytes
+     : s.type == hull::kBoxesSection    ? report.box_bytes
+     : s.type == hull::kBaseHullSection ? report.base_hull_bytes
+                                        : report.other_bytes) += bytes;
   }
-  if (report.shell_bytes == 0) {
+  if (report.base_hull_bytes == 0) {
     report.problem = "a hull of " + std::to_string(report.faces) +
                      " faces is too fine for a shell, which numbers " +
-                     std::to_string(hull::kMaxShellVertices) + " vertices: ask for fewer faces";
+                     std::to_string(hull::kMaxBaseHullVertices) + " vertices: ask for fewer faces";
     return {};
   }
   std::vector<Section> all = sections;
@@ -77,7 +77,7 @@ hull::Sections hull_sections(const std::vector<Section>& sections, const std::st
   return {find(hull::kHeadSection),        find(hull::kVerticesSection),
           find(hull::kOriginsSection),     find(hull::kRecordsSection),
           find(hull::kPlacesSection),      find(hull::kStarBoxesSection),
-          find(hull::kBoxesSection),       find(hull::kShellSection),
+          find(hull::kBoxesSection),       find(hull::kBaseHullSection),
           find(mesh::kHeadSection),        find(mesh::kVerticesSection),
           find(mesh::kTriangles16Section), find(mesh::kTriangles32Section)};
 }

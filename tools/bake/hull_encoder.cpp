@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/bake_shell.hpp"
+#include "bake/bake_base_hull.hpp"
 #include "bake/filled_boxes.hpp"
 #include "surface/edges.hpp"
 
@@ -170,7 +170,7 @@ std::vector<hull::NodeBox> HullEncoder::triangle_boxes() const {
 }
 
 std::vector<uint8_t> HullEncoder::coarsest() const {
-  ShellSource source;
+  BaseHullSource source;
   source.head = head_;
   source.cut = head_.collapse_count;
   for (const Face& face : hull_after(hull_, source.cut).faces) {
@@ -181,7 +181,7 @@ std::vector<uint8_t> HullEncoder::coarsest() const {
   source.numbers = numbers_;
   source.vertices_m = hull_.vertices_m;
   source.coordinates = vertices_.data();
-  return encode_shell(source);
+  return encode_base_hull(source);
 }
 
 std::vector<Section> HullEncoder::run(const std::string& name) {
@@ -198,7 +198,7 @@ std::vector<Section> HullEncoder::run(const std::string& name) {
   add(hull::kPlacesSection, places_);
   add(hull::kStarBoxesSection, star_boxes_);
   add(hull::kBoxesSection, triangle_boxes());
-  add(hull::kShellSection, coarsest());
+  add(hull::kBaseHullSection, coarsest());
   return sections;
 }
 

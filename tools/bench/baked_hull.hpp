@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "bake/bake_base_hull.hpp"
 #include "bake/bake_hull.hpp"
-#include "bake/bake_shell.hpp"
 #include "bench/models.hpp"
 #include "firmtouch/hull/refinement.hpp"
 
@@ -45,19 +45,19 @@ struct Baked {
 struct Refined {
   std::vector<uint32_t> words, bits, undone;
   std::vector<hull::Candidate> candidates;
-  hull::Shell shell;
+  hull::BaseHull base_hull;
   std::unique_ptr<hull::Refinement> refinement;
 
   Refined(const hull::View& view, uint32_t base, uint32_t splits, uint32_t crossings)
-      : words(tools::cut_shell(view, base)),
+      : words(tools::cut_base_hull(view, base)),
         bits(hull::bit_words(view.collapse_count())),
         undone(splits),
         candidates(crossings) {
-    (void)hull::open_shell(
+    (void)hull::open_base_hull(
         {reinterpret_cast<const uint8_t*>(words.data()), static_cast<uint32_t>(4 * words.size())},
-        view, shell);
+        view, base_hull);
     refinement = std::make_unique<hull::Refinement>(
-        view, shell, hull::RefinementMemory{span(bits), span(undone), span(candidates)});
+        view, base_hull, hull::RefinementMemory{span(bits), span(undone), span(candidates)});
   }
 };
 

@@ -2,8 +2,8 @@
 
 #include "bench/segments.hpp"
 #include "bench/timing.hpp"
-#include "firmtouch/hull/shell_cast.hpp"
-#include "firmtouch/hull/shell_distance.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
+#include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "hull/refinement.hpp"
 
@@ -13,7 +13,7 @@ void run_memory(const Model& model, const Baked& baked, Report& report) {
   const std::vector<FloatSegment> segments = across_box(model, 10000, 7);
   std::vector<std::vector<std::string>> rows;
   for (const uint32_t base : {500u, 2000u}) {
-    if (base < baked.view.shell().face_count() || base >= model.surface.faces.size()) continue;
+    if (base < baked.view.base_hull().face_count() || base >= model.surface.faces.size()) continue;
     for (const uint32_t entries : {32u, 64u, 128u, 256u, 512u, 1024u}) {
       report.stage("memory of " + std::to_string(entries) + " entries, " + model.name);
       Refined refined(baked.view, base, entries, 64);
@@ -54,7 +54,7 @@ void run_memory(const Model& model, const Baked& baked, Report& report) {
 namespace {
 
 // A path of short moves that stays off the shell: none of them may read flash.
-void run_path(const Model& model, const hull::Shell& shell, Report& report) {
+void run_path(const Model& model, const hull::BaseHull& base_hull, Report& report) {
   const double off_m = 0.02 * model.diagonal_m();
   size_t moves = 0, reads = 0;
   math::Vec3 last{};
@@ -64,11 +64,12 @@ void run_path(const Model& model, const hull::Shell& shell, Report& report) {
     has_last = false;
     for (int i = 0; i <= 200; ++i) {
       const math::Vec3 here = tools::to_vec3(a + way * (i / 200.0));
-      const hull::ShellDistance near = hull::shell_distance(shell, here, query::kUnlimited);
+      const hull::BaseHullDistance near =
+          hull::base_hull_distance(base_hull, here, query::kUnlimited);
       const bool is_off = static_cast<double>(near.lower_m) > off_m;
       if (is_off && has_last) {
         ++moves;
-        reads += hull::cast_shell(shell, last, here, query::kUnlimited).hit ? 1u : 0u;
+        reads += hull::cast_base_hull(base_hull, last, here, query::kUnlimited).hit ? 1u : 0u;
       }
       last = here;
       has_last = is_off;
@@ -80,17 +81,19 @@ void run_path(const Model& model, const hull::Shell& shell, Report& report) {
 
 }  // namespace
 
-void run_shells(const Model& model, const Baked& baked, Report& report) {
+void run_base_hulls(const Model& model, const Baked& baked, Report& report) {
   const std::vector<FloatSegment> segments = across_box(model, 10000, 7);
   std::vector<std::vector<std::string>> rows;
   for (const uint32_t faces : {500u, 1000u, 2000u}) {
-    if (faces < baked.view.shell().face_count() || faces >= model.surface.faces.size()) continue;
+    if (faces < baked.view.base_hull().face_count() || faces >= model.surface.faces.size())
+      continue;
     const Refined refined(baked.view, faces, 1, 1);
     size_t free_segments = 0, read = 0, late = 0, hits = 0;
     double error = 0, steps = 0;
     for (const FloatSegment& s : segments) {
       const mesh::Hit truth = mesh::cast_segment(model.view, s.a_m, s.b_m, query::kUnlimited);
-      const hull::ShellHit hit = hull::cast_shell(refined.shell, s.a_m, s.b_m, query::kUnlimited);
+      const hull::BaseHullHit hit =
+          hull::cast_base_hull(refined.base_hull, s.a_m, s.b_m, query::kUnlimited);
       steps += hit.steps / static_cast<double>(segments.size());
       late += truth.hit && (!hit.hit || hit.t > truth.t + 0x1p-17f) ? 1 : 0;
       free_segments += truth.hit ? 0 : 1;
@@ -101,17 +104,17 @@ void run_shells(const Model& model, const Baked& baked, Report& report) {
                static_cast<double>(truth.t - hit.t) / model.diagonal_m();
     }
     const double share = 100 * static_cast<double>(read) / static_cast<double>(free_segments);
-    rows.push_back({std::to_string(refined.shell.face_count()),
-                    std::to_string(refined.shell.resident_bytes()), number_text(steps),
+    rows.push_back({std::to_string(refined.base_hull.face_count()),
+                    std::to_string(refined.base_hull.resident_bytes()), number_text(steps),
                     number_text(share), number_text(100 * error / static_cast<double>(hits)),
                     std::to_string(late)});
     if (faces != 1000) continue;
     report.bar("bytes of a shell of 1,000 faces with boxes", model.name,
-               refined.shell.resident_bytes(), "bytes", 12288);
+               refined.base_hull.resident_bytes(), "bytes", 12288);
     report.bar("segments without a hit that read flash, shell of 1,000", model.name, share, "%",
                1.5);
     report.bar("shell hits later than the mesh", model.name, static_cast<double>(late), "", 0);
-    run_path(model, refined.shell, report);
+    run_path(model, refined.base_hull, report);
   }
   report.table({"shell, faces", "bytes", "boxes a segment", "free segments that read flash, %",
                 "mean depth error, % of the diagonal", "late"},

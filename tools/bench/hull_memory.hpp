@@ -7,7 +7,7 @@ namespace firmtouch::bench {
 /// What fixed memory costs: first hits by how many collapses may be undone.
 void run_memory(const Model& model, const Baked& baked, Report& report);
 /// Shells, what they are for: a segment that misses one reads nothing else.
-void run_shells(const Model& model, const Baked& baked, Report& report);
+void run_base_hulls(const Model& model, const Baked& baked, Report& report);
 /// Between two queries: undone at once, or kept for some.
 void run_keeping(const Model& model, Report& report);
 

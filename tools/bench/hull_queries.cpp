@@ -242,7 +242,7 @@ void run_bases(const Model& model, const Baked& baked, Report& report) {
   const std::vector<FloatSegment> segments = across_box(model, 10000, 7);
   std::vector<std::vector<std::string>> rows;
   for (const uint32_t base : {500u, 1000u, 2000u, 4000u, 10000u}) {
-    if (base < baked.view.shell().face_count() || base >= model.surface.faces.size()) continue;
+    if (base < baked.view.base_hull().face_count() || base >= model.surface.faces.size()) continue;
     report.stage("boxes of stars, base " + std::to_string(base) + ", " + model.name);
     Refined refined(baked.view, base, baked.view.collapse_count() + 1, 4096);
     double counts[2][3] = {};
@@ -260,7 +260,7 @@ void run_bases(const Model& model, const Baked& baked, Report& report) {
           counts[kind][i] += each[kind][i] / static_cast<double>(segments.size());
       }
     }
-    std::vector<std::string> row{std::to_string(refined.shell.face_count())};
+    std::vector<std::string> row{std::to_string(refined.base_hull.face_count())};
     for (int kind = 0; kind < 2; ++kind) {
       for (const double value : counts[kind]) row.push_back(number_text(value));
       row.push_back(std::to_string(most[kind]));
@@ -298,7 +298,7 @@ void run_hull_queries(const Options& options, Report& report) {
     report.heading("first hits in fixed memory: " + model.name);
     run_memory(model, baked, report);
     report.heading("resident shells: " + model.name);
-    run_shells(model, baked, report);
+    run_base_hulls(model, baked, report);
     report.heading("undone at once or kept between queries, as published, base 1,000: " +
                    model.name);
     run_keeping(model, report);

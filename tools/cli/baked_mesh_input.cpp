@@ -126,7 +126,7 @@ std::vector<std::string> add_hull(const mesh::View& view, const std::string& nam
       sentence("hull: a triangle %.1f bytes, and %.1f for boxes of stars,",
                report.other_bytes / triangles, report.star_bytes / triangles) +
           sentence(" %.1f for boxes over the triangles; coarsest hull %.0f bytes",
-                   report.box_bytes / triangles, report.shell_bytes),
+                   report.box_bytes / triangles, report.base_hull_bytes),
       "RAM of a refinement: " + std::to_string(4 * hull::bit_words(report.collapses)) +
           " bytes (a bit a collapse), 4 for each that may be undone, 8 for each crossing kept"};
   if (!report.stalled.empty()) reported.push_back("hull " + report.stalled);

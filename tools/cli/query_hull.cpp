@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "bake/bake_shell.hpp"
+#include "bake/bake_base_hull.hpp"
 #include "cli/failure.hpp"
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
@@ -62,11 +62,11 @@ class Complete : public Asked {
 
 class Refined : public Asked {
  public:
-  Refined(const hull::View& view, const hull::Shell& shell, query::Budget budget)
+  Refined(const hull::View& view, const hull::BaseHull& base_hull, query::Budget budget)
       : bits_(hull::bit_words(view.collapse_count())),
         undone_(view.collapse_count() + 1),
         candidates_(4096),
-        refinement_(view, shell, {span(bits_), span(undone_), span(candidates_)}),
+        refinement_(view, base_hull, {span(bits_), span(undone_), span(candidates_)}),
         budget_(budget) {}
   mesh::Hit first(math::Vec3 a_m, math::Vec3 b_m) override {
     const hull::RefinedHit hit = refinement_.first(a_m, b_m, budget_);
@@ -206,26 +206,26 @@ void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& 
     Complete complete(hull.view, budget);
     return answer(complete, hull, table, arguments);
   }
-  const hull::Shell& coarsest = hull.view.shell();
+  const hull::BaseHull& coarsest = hull.view.base_hull();
   const uint32_t base = arguments.count("--base", coarsest.face_count(), 4, UINT32_MAX);
   if (base < coarsest.face_count()) {
     fail_input("the hull is baked down to " + std::to_string(coarsest.face_count()) +
                " faces, and --base asks for " + std::to_string(base) +
                ": ask for more, or bake with a lower --hull-faces");
   }
-  const std::vector<uint32_t> words = tools::cut_shell(hull.view, base);
+  const std::vector<uint32_t> words = tools::cut_base_hull(hull.view, base);
   if (words.empty()) {
     fail_input("--base " + std::to_string(base) + " is too fine: a shell numbers " +
-               std::to_string(hull::kMaxShellVertices) + " vertices; ask for fewer faces");
+               std::to_string(hull::kMaxBaseHullVertices) + " vertices; ask for fewer faces");
   }
-  hull::Shell shell;
-  const core::Verdict verdict = hull::open_shell(
+  hull::BaseHull base_hull;
+  const core::Verdict verdict = hull::open_base_hull(
       {reinterpret_cast<const uint8_t*>(words.data()), static_cast<uint32_t>(4 * words.size())},
-      hull.view, shell);
+      hull.view, base_hull);
   if (!verdict.ok())
     fail_input("the hull of " + std::to_string(base) + " faces breaks rule R" +
                std::to_string(verdict.rule));
-  Refined refined(hull.view, shell, budget);
+  Refined refined(hull.view, base_hull, budget);
   if (is_triangle) {
     std::vector<mesh::SurfaceCrossing> room(triangles);
     return answer_triangles(hull, table, arguments, [&](const Corners& c, auto& met) {

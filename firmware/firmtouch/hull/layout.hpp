@@ -14,7 +14,7 @@ constexpr uint32_t kRecordsSection = 0x5004;    // of collapse k: its star
 constexpr uint32_t kPlacesSection = 0x5005;     // uint32_t: where every eighth record begins
 constexpr uint32_t kStarBoxesSection = 0x5006;  // StarBox[collapse_count]
 constexpr uint32_t kBoxesSection = 0x5007;      // NodeBox: a tree over the mesh's triangles
-constexpr uint32_t kShellSection = 0x5008;      // the coarsest hull (hull/shell.hpp)
+constexpr uint32_t kBaseHullSection = 0x5008;   // the coarsest hull (hull/shell.hpp)
 constexpr uint32_t kProbesSection = 0x5009;     // query::ProbeHead and its points
 
 // Numbers: 0 to mesh_vertex_count - 1 are the mesh's vertices, mesh_vertex_count + k is the new one
@@ -86,12 +86,12 @@ constexpr uint32_t nodes_for(uint32_t leaves) { return 2 * leaves - 1; }
 
 /// A hull as a block of bytes that needs no neighbours to be tested: head, then in this order, each
 /// beginning at a multiple of 4: NodeBox of the tree over the faces, each within the head's box;
-/// uint32_t for every second leaf, where its corners begin; ShellFace[face_count]; corners, the
+/// uint32_t for every second leaf, where its corners begin; BaseHullFace[face_count]; corners, the
 /// shell's own uint16_t numbers of its vertices, leaf by leaf; coordinates of the made vertices (3 x
-/// coordinate_bytes each); ShellVertex[kept_count]. Up to here it is *resident*, what a test of the
+/// coordinate_bytes each); BaseHullVertex[kept_count]. Up to here it is *resident*, what a test of the
 /// shell reads; what ties it to the hull comes behind: ids of the made vertices (id_bytes each);
-/// ShellTriangle[triangle_count].
-struct ShellHead {
+/// BaseHullTriangle[triangle_count].
+struct BaseHullHead {
   uint32_t bytes;  // of the whole block
   uint32_t cut;    // the hull after so many collapses
   uint32_t face_count;
@@ -101,28 +101,28 @@ struct ShellHead {
   uint32_t corner_count;    // of all leaves
   float low_m[3], high_m[3];
 };
-static_assert(sizeof(ShellHead) == 52 && alignof(ShellHead) == 4);
+static_assert(sizeof(BaseHullHead) == 52 && alignof(BaseHullHead) == 4);
 /// Places of its three corners among those of its leaf in bits 0 to 3, 4 to 7, 8 to 11; in bits 12 to
 /// 15 how many those are.
-using ShellFace = uint16_t;
+using BaseHullFace = uint16_t;
 constexpr uint32_t kMaxLeafCorners = 3 * kLeafFaces;
-constexpr uint32_t corner_at(ShellFace face, uint32_t k) {
+constexpr uint32_t corner_at(BaseHullFace face, uint32_t k) {
   return (uint32_t{face} >> (4 * k)) & 15u;
 }
-constexpr uint32_t corners_of(ShellFace face) { return uint32_t{face} >> 12; }
+constexpr uint32_t corners_of(BaseHullFace face) { return uint32_t{face} >> 12; }
 constexpr uint32_t corner_places_for(uint32_t leaves) { return (leaves + 1) / 2; }
 
-struct ShellVertex {
+struct BaseHullVertex {
   uint32_t id;
   float x_m, y_m, z_m;
 };
-static_assert(sizeof(ShellVertex) == 16);
+static_assert(sizeof(BaseHullVertex) == 16);
 /// In rising order of face.
-struct ShellTriangle {
+struct BaseHullTriangle {
   uint32_t face, triangle;
 };
-static_assert(sizeof(ShellTriangle) == 8);
-constexpr uint32_t kMaxShellVertices = 65536;
+static_assert(sizeof(BaseHullTriangle) == 8);
+constexpr uint32_t kMaxBaseHullVertices = 65536;
 
 constexpr uint32_t padded(uint32_t bytes) { return (bytes + 3) & ~3u; }
 

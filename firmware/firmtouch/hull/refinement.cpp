@@ -1,8 +1,8 @@
 #include "firmtouch/hull/refinement.hpp"
 
+#include "firmtouch/hull/base_hull_segment.hpp"
 #include "firmtouch/hull/box_descent.hpp"
 #include "firmtouch/hull/nearest_candidates.hpp"
-#include "firmtouch/hull/shell_segment.hpp"
 #include "firmtouch/hull/triangle_region.hpp"
 #include "firmtouch/mesh/crossing_takers.hpp"
 
@@ -11,8 +11,8 @@ namespace {
 
 using math::Vec3;
 
-uint32_t triangle_of(const Shell& shell, uint32_t face) {
-  const core::Span<const ShellTriangle> all = shell.triangles();
+uint32_t triangle_of(const BaseHull& base_hull, uint32_t face) {
+  const core::Span<const BaseHullTriangle> all = base_hull.triangles();
   uint32_t low = 0, high = all.size();
   while (high - low > 1) {
     const uint32_t middle = (low + high) / 2;
@@ -30,7 +30,7 @@ uint32_t triangle_of(const Shell& shell, uint32_t face) {
 namespace {
 
 // What a refinement is asked with. enter(): when a box is met, beyond `limit` where not; crossing() of
-// a face; shell_faces(): faces of a shell that may be crossed, one by one.
+// a face; base_hull_faces(): faces of a shell that may be crossed, one by one.
 class SegmentAsked {
  public:
   SegmentAsked(const Head& head, Vec3 a_m, Vec3 b_m)
@@ -41,24 +41,24 @@ class SegmentAsked {
     return frame_.crossing(p_m, q_m, r_m);
   }
   template <class Face>
-  bool shell_faces(const Shell& shell, float limit, uint32_t allowed, uint32_t& steps,
-                   Face face) const {
-    const ShellSegment segment(shell, a_m_, b_m_);
-    Faces<Face> faces{segment.until(limit), shell, segment, face};
-    return walk(shell, segment, allowed, steps, faces);
+  bool base_hull_faces(const BaseHull& base_hull, float limit, uint32_t allowed, uint32_t& steps,
+                       Face face) const {
+    const BaseHullSegment segment(base_hull, a_m_, b_m_);
+    Faces<Face> faces{segment.until(limit), base_hull, segment, face};
+    return walk(base_hull, segment, allowed, steps, faces);
   }
 
  private:
   template <class Face>
   struct Faces {
     int32_t limit;
-    const Shell& shell;
-    const ShellSegment& segment;
+    const BaseHull& base_hull;
+    const BaseHullSegment& segment;
     Face& face;
     bool leaf(uint32_t i) {
-      const Shell::Leaf leaf = shell.leaf(i);
-      ShellSegment::Corners corners;
-      if (segment.place(shell, leaf, corners) != 0) return true;
+      const BaseHull::Leaf leaf = base_hull.leaf(i);
+      BaseHullSegment::Corners corners;
+      if (segment.place(base_hull, leaf, corners) != 0) return true;
       for (uint32_t n = 0; n < leaf.faces.size(); ++n)
         if (!segment.passes(corners, leaf.faces[n])) face(leaf.first_face + n);
       return true;
@@ -80,15 +80,16 @@ class TriangleAsked {
     return {region_.crosses(p_m, q_m, r_m) ? int8_t{1} : int8_t{0}, 0.0f};
   }
   template <class Face>
-  bool shell_faces(const Shell& shell, float, uint32_t allowed, uint32_t& steps, Face face) const {
-    const ShellHead& head = shell.head();
+  bool base_hull_faces(const BaseHull& base_hull, float, uint32_t allowed, uint32_t& steps,
+                       Face face) const {
+    const BaseHullHead& head = base_hull.head();
     const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
                     {head.high_m[0], head.high_m[1], head.high_m[2]}};
-    const FilledTree tree(shell.boxes().size());
+    const FilledTree tree(base_hull.boxes().size());
     uint32_t pending[kMaxTreeDepth + 2] = {}, count = 1;
     while (count > 0) {
       const uint32_t node = pending[--count];
-      if (region_.enter(child_box(whole, shell.boxes()[node]), 1.0f) > 1.0f) continue;
+      if (region_.enter(child_box(whole, base_hull.boxes()[node]), 1.0f) > 1.0f) continue;
       if (steps >= allowed) return false;
       ++steps;
       if (!tree.is_leaf(node)) {
@@ -96,7 +97,7 @@ class TriangleAsked {
         pending[count++] = 2 * node + 1;
         continue;
       }
-      const Shell::Leaf leaf = shell.leaf(tree.leaf(node));
+      const BaseHull::Leaf leaf = base_hull.leaf(tree.leaf(node));
       for (uint32_t n = 0; n < leaf.faces.size(); ++n) face(leaf.first_face + n);
     }
     return true;
@@ -122,9 +123,9 @@ class Refinement::Search {
 
   /// Of the shell's faces. Result: false where the budget ran out.
   template <class Use>
-  bool shell(Use use) {
-    return asked_.shell_faces(of_.shell_, limit, allowed_, steps,
-                              [&](uint32_t face) { shell_face(face, use); });
+  bool base_hull(Use use) {
+    return asked_.base_hull_faces(of_.base_hull_, limit, allowed_, steps,
+                                  [&](uint32_t face) { base_hull_face(face, use); });
   }
 
   /// Of the star of an undone collapse, those that are there.
@@ -157,25 +158,26 @@ class Refinement::Search {
 
  private:
   template <class Use>
-  void shell_face(uint32_t i, Use& use) {
-    const Shell& shell = of_.shell_;
+  void base_hull_face(uint32_t i, Use& use) {
+    const BaseHull& base_hull = of_.base_hull_;
     uint32_t corner[3];
     bool is_made = false;
     for (uint32_t k = 0; k < 3; ++k) {
-      corner[k] = shell.vertex_of(i, k);
-      is_made = is_made || shell.is_made(corner[k]);
+      corner[k] = base_hull.vertex_of(i, k);
+      is_made = is_made || base_hull.is_made(corner[k]);
     }
-    if (!is_made) return mesh_triangle(triangle_of(shell, i), use);
+    if (!is_made) return mesh_triangle(triangle_of(base_hull, i), use);
     const auto of_face = [&](const Candidate& candidate) {
       uint32_t youngest = 0;
       for (const uint32_t vertex : corner) {
-        const uint32_t number = of_.hull_.number_of(shell.id_of(vertex));
+        const uint32_t number = of_.hull_.number_of(base_hull.id_of(vertex));
         youngest = number > youngest ? number : youngest;
       }
       const uint32_t maker = youngest - of_.hull_.head().mesh_vertex_count;
       use(Candidate{candidate.t, candidate.what | maker});
     };
-    test(vertex(shell, corner[0]), vertex(shell, corner[1]), vertex(shell, corner[2]), 0, of_face);
+    test(vertex(base_hull, corner[0]), vertex(base_hull, corner[1]), vertex(base_hull, corner[2]),
+         0, of_face);
   }
 
   // With the mesh's own order of corners: to the bit what the mesh answers.
@@ -199,14 +201,14 @@ class Refinement::Search {
   uint32_t allowed_;
 };
 
-Refinement::Refinement(const View& hull, const Shell& shell, const RefinementMemory& memory)
-    : hull_(hull), shell_(shell), memory_(memory) {
+Refinement::Refinement(const View& hull, const BaseHull& base_hull, const RefinementMemory& memory)
+    : hull_(hull), base_hull_(base_hull), memory_(memory) {
   for (uint32_t& word : memory_.is_undone) word = 0;
 }
 
 // False: no room for one more.
 bool Refinement::add(uint32_t collapse) {
-  if (collapse >= shell_.head().cut || is_undone(collapse)) return true;
+  if (collapse >= base_hull_.head().cut || is_undone(collapse)) return true;
   if (count_ == memory_.undone.size()) return false;
   memory_.is_undone[collapse / 32] |= 1u << (collapse % 32);
   memory_.undone[count_++] = collapse;
@@ -278,7 +280,7 @@ RefinedHit Refinement::nearest(const Asked& asked, query::Budget budget, bool is
     hit.t = candidate.t;
     hit.enters = (candidate.what & kEnters) != 0;
   };
-  hit.exact = search.shell(keep);
+  hit.exact = search.base_hull(keep);
   if (!hit.exact) tell({0.0f, kEnters});  // a face that was not looked at may be crossed at once
   while (hit.exact && !queue.is_empty()) {
     const Candidate now = queue.pop();
@@ -331,7 +333,7 @@ RefinedCrossings Refinement::every(const Asked& asked, query::Budget budget,
     const int8_t direction = (candidate.what & kEnters) != 0 ? int8_t{-1} : int8_t{1};
     (void)all.take({direction, candidate.t}, index);
   };
-  result.exact = search.shell(use);
+  result.exact = search.base_hull(use);
   for (uint32_t at = 0; at < count_; ++at) {
     if (!search.has_steps()) {
       result.exact = false;

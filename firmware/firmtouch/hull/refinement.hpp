@@ -64,7 +64,7 @@ class Refinement {
  public:
   /// Pre: `shell` was opened against `hull`; memory.is_undone holds bit_words(collapse_count()), the
   ///      others at least one each. Hull, shell and memory outlive this.
-  Refinement(const View& hull, const Shell& shell, const RefinementMemory& memory);
+  Refinement(const View& hull, const BaseHull& base_hull, const RefinementMemory& memory);
 
   /// First crossing of the segment from `a_m` to `b_m` (mesh frame), either way.
   /// Bounds: <= budget steps but for the closure of the last; 5 KB of stack; not re-entrant.
@@ -114,7 +114,7 @@ class Refinement {
                          core::Span<mesh::SurfaceCrossing> room);
 
   const View& hull_;
-  const Shell& shell_;
+  const BaseHull& base_hull_;
   RefinementMemory memory_;
   uint32_t count_ = 0, most_ = 0;
 };

@@ -10,13 +10,13 @@ bool Refinement::Faces::next() {
   while (at_ <= of_.count_) {
     const uint32_t face = face_++;
     if (at_ == 0) {
-      if (face == of_.shell_.face_count()) {
+      if (face == of_.base_hull_.face_count()) {
         face_ = 0;
         ++at_;
         continue;
       }
       for (uint32_t k = 0; k < 3; ++k)
-        number[k] = hull.number_of(of_.shell_.id_of(of_.shell_.vertex_of(face, k)));
+        number[k] = hull.number_of(of_.base_hull_.id_of(of_.base_hull_.vertex_of(face, k)));
     } else {
       const uint32_t collapse = of_.memory_.undone[at_ - 1];
       const Star star(hull, collapse, hull.record(collapse));

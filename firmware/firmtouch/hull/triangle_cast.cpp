@@ -1,6 +1,6 @@
 #include "firmtouch/hull/triangle_cast.hpp"
 
-#include "firmtouch/hull/shell_cast.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/triangle_region.hpp"
 
 namespace firmtouch::hull {
@@ -88,22 +88,23 @@ TriangleHits all_crossed(const View& hull, const Vec3 (&corner_m)[3], query::Bud
   return hits;
 }
 
-TriangleHit shell_crossed(const Shell& shell, const Vec3 (&corner_m)[3], query::Budget budget) {
+TriangleHit base_hull_crossed(const BaseHull& base_hull, const Vec3 (&corner_m)[3],
+                              query::Budget budget) {
   TriangleHit hit;
   if (!is_finite(corner_m)) return hit;
-  const ShellHead& head = shell.head();
+  const BaseHullHead& head = base_hull.head();
   const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
                   {head.high_m[0], head.high_m[1], head.high_m[2]}};
   const TriangleRegion region(head.low_m, head.high_m, corner_m);
-  const FilledTree tree(shell.boxes().size());
+  const FilledTree tree(base_hull.boxes().size());
   const uint32_t allowed = budget.steps == 0 ? 1 : budget.steps;
   int32_t winding = 0;
-  hit.exact = wind_around(shell, corner_m[0], {allowed}, winding, hit.steps);
+  hit.exact = wind_around(base_hull, corner_m[0], {allowed}, winding, hit.steps);
   hit.hit = !hit.exact || winding != 0;
   uint32_t pending[kMaxTreeDepth + 2] = {}, count = 1;
   while (count > 0 && !hit.hit) {
     const uint32_t node = pending[--count];
-    if (region.enter(child_box(whole, shell.boxes()[node]), 1.0f) > 1.0f) continue;
+    if (region.enter(child_box(whole, base_hull.boxes()[node]), 1.0f) > 1.0f) continue;
     if (hit.steps >= allowed) {
       hit.hit = true;
       hit.exact = false;
@@ -115,11 +116,11 @@ TriangleHit shell_crossed(const Shell& shell, const Vec3 (&corner_m)[3], query::
       pending[count++] = 2 * node + 1;
       continue;
     }
-    const Shell::Leaf leaf = shell.leaf(tree.leaf(node));
+    const BaseHull::Leaf leaf = base_hull.leaf(tree.leaf(node));
     for (uint32_t i = 0; i < leaf.faces.size() && !hit.hit; ++i) {
-      hit.hit = region.crosses(vertex(shell, leaf.corners[corner_at(leaf.faces[i], 0)]),
-                               vertex(shell, leaf.corners[corner_at(leaf.faces[i], 1)]),
-                               vertex(shell, leaf.corners[corner_at(leaf.faces[i], 2)]));
+      hit.hit = region.crosses(vertex(base_hull, leaf.corners[corner_at(leaf.faces[i], 0)]),
+                               vertex(base_hull, leaf.corners[corner_at(leaf.faces[i], 1)]),
+                               vertex(base_hull, leaf.corners[corner_at(leaf.faces[i], 2)]));
       hit.triangle = leaf.first_face + i;
     }
   }

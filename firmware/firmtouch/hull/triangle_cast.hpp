@@ -43,7 +43,7 @@ TriangleHits all_crossed(const View& hull, const math::Vec3 (&corner_m)[3], quer
 /// Bounds: <= budget steps; 5 KB of stack; re-entrant; callable from an interrupt.
 /// Result: no hit and exact: it meets nothing of the mesh, and lies outside of it. `triangle` is a face
 ///         of the shell. A budget that runs out tells a hit that is not exact.
-TriangleHit shell_crossed(const Shell& shell, const math::Vec3 (&corner_m)[3],
-                          query::Budget budget);
+TriangleHit base_hull_crossed(const BaseHull& base_hull, const math::Vec3 (&corner_m)[3],
+                              query::Budget budget);
 
 }  // namespace firmtouch::hull

@@ -30,10 +30,11 @@ static inline math::Vec3 vertex(const View& hull, uint32_t number) {
                                 : made_vertex(hull, number - mesh_vertices);
 }
 /// By the shell's own number.
-static inline math::Vec3 vertex(const Shell& shell, uint32_t i) {
-  if (!shell.is_made(i)) return {shell.kept(i).x_m, shell.kept(i).y_m, shell.kept(i).z_m};
-  return on_grid(shell.coordinates(i), shell.coordinate_bytes(), shell.grid_low_m(),
-                 shell.cell_m());
+static inline math::Vec3 vertex(const BaseHull& base_hull, uint32_t i) {
+  if (!base_hull.is_made(i))
+    return {base_hull.kept(i).x_m, base_hull.kept(i).y_m, base_hull.kept(i).z_m};
+  return on_grid(base_hull.coordinates(i), base_hull.coordinate_bytes(), base_hull.grid_low_m(),
+                 base_hull.cell_m());
 }
 
 struct Box {

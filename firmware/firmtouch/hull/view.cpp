@@ -108,7 +108,7 @@ Verdict Opening::open_head(const Sections& s) {
   if (!holds(box, {mesh.low_m[0], mesh.low_m[1], mesh.low_m[2]}) ||
       !holds(box, {mesh.high_m[0], mesh.high_m[1], mesh.high_m[2]}))
     return reject(511, 1);
-  shell_bytes_ = s.shell;
+  base_hull_bytes_ = s.base_hull;
   return kPassed;
 }
 
@@ -128,9 +128,9 @@ void Opening::work(uint32_t elements) {
       case Stage::kTriangles:
         found = check_triangle(next_);
         break;
-      case Stage::kShell:
-        shell_opening_.work(1, view_);
-        found = shell_opening_.verdict();
+      case Stage::kBaseHull:
+        base_hull_opening_.work(1, view_);
+        found = base_hull_opening_.verdict();
         break;
       case Stage::kDone:
         break;
@@ -158,15 +158,15 @@ void Opening::next_stage() {
     next_ = 0;
   }
   if (stage_ == Stage::kTriangles && next_ == head.mesh_triangle_count) {
-    shell_opening_ = ShellOpening(shell_bytes_, view_);
-    if (!shell_opening_.verdict().ok()) return fail(shell_opening_.verdict());
-    stage_ = Stage::kShell;
+    base_hull_opening_ = BaseHullOpening(base_hull_bytes_, view_);
+    if (!base_hull_opening_.verdict().ok()) return fail(base_hull_opening_.verdict());
+    stage_ = Stage::kBaseHull;
     next_ = 0;
   }
-  if (stage_ == Stage::kShell && shell_opening_.done()) {
-    view_.shell_ = shell_opening_.shell();
-    if (view_.shell_.head().cut != head.collapse_count) return fail(reject(549));
-    if (faces_ != shell_opening_.faces()) return fail(reject(534));
+  if (stage_ == Stage::kBaseHull && base_hull_opening_.done()) {
+    view_.base_hull_ = base_hull_opening_.base_hull();
+    if (view_.base_hull_.head().cut != head.collapse_count) return fail(reject(549));
+    if (faces_ != base_hull_opening_.faces()) return fail(reject(534));
     stage_ = Stage::kDone;
   }
 }

@@ -3,8 +3,8 @@
 
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
+#include "firmtouch/hull/base_hull.hpp"
 #include "firmtouch/hull/layout.hpp"
-#include "firmtouch/hull/shell.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/layout.hpp"
 
@@ -13,7 +13,7 @@ namespace firmtouch::hull {
 /// The bytes of a hull's sections, as the container hands them out, and of its mesh those that a
 /// hull reads: never the mesh's tree. One of triangles16 and triangles32.
 struct Sections {
-  core::Bytes head, vertices, origins, records, places, star_boxes, boxes, shell;
+  core::Bytes head, vertices, origins, records, places, star_boxes, boxes, base_hull;
   core::Bytes mesh_head, mesh_vertices, triangles16, triangles32;
 };
 
@@ -28,7 +28,7 @@ class View {
   uint32_t collapse_count() const { return head_->collapse_count; }
   uint32_t id_count() const { return head_->mesh_vertex_count + head_->collapse_count; }
   /// The coarsest hull.
-  const Shell& shell() const { return shell_; }
+  const BaseHull& base_hull() const { return base_hull_; }
 
   /// Of an id: a vertex of the mesh, or mesh_vertex_count + the collapse that makes it.
   uint32_t number_of(uint32_t id) const { return read_id(&origins_[id * head_->id_bytes]); }
@@ -78,7 +78,7 @@ class View {
   core::Span<const mesh::Vertex> mesh_vertices_;
   core::Span<const mesh::Triangle<uint16_t>> triangles16_;
   core::Span<const mesh::Triangle<uint32_t>> triangles32_;
-  Shell shell_;
+  BaseHull base_hull_;
 };
 
 /// Proves a hull in slices, as mesh::Opening does its mesh: rules R501 to R549 of tools/FORMAT.md.
@@ -97,7 +97,7 @@ class Opening {
   View view() const { return done() && verdict_.ok() ? view_ : View{}; }
 
  private:
-  enum class Stage : uint8_t { kMeshVertices, kIds, kRecords, kTriangles, kShell, kDone };
+  enum class Stage : uint8_t { kMeshVertices, kIds, kRecords, kTriangles, kBaseHull, kDone };
   void fail(core::Verdict verdict);
   core::Verdict open_head(const Sections& sections);
   core::Verdict open_mesh(const Sections& sections);
@@ -109,14 +109,14 @@ class Opening {
   core::Verdict check_triangle(uint32_t i);
 
   View view_;
-  core::Bytes shell_bytes_;
+  core::Bytes base_hull_bytes_;
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0, record_at_ = 0;
   // Sums of hashes, which tell without memory that the same things stand on both sides: each number
   // has one id; each face that is there or is made is replaced or left once.
   uint64_t numbers_ = 0, faces_ = 0;
-  ShellOpening shell_opening_;
+  BaseHullOpening base_hull_opening_;
 };
 
 /// All at once.

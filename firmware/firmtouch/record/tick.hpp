@@ -34,7 +34,7 @@ constexpr uint32_t kStateCommandTaken = 1u << 11;    // this tick's command took
 constexpr uint32_t kStateCommandRefused = 1u << 12;  // it did not
 constexpr uint32_t kStateReady = 1u << 13;           // an asset is open and proven
 constexpr uint32_t kStateGuideExact = 1u << 14;      // the guide query was exact
-constexpr uint32_t kStateOfShell = 1u << 15;  // the mesh query was not done: its hull was felt
+constexpr uint32_t kStateOfBaseHull = 1u << 15;  // the mesh query was not done: its hull was felt
 // 2 bits: sign + 1; 1 = unknown: not pushed on but by the hull
 constexpr uint32_t kStateSignShift = 16;
 

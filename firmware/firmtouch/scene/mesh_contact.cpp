@@ -1,7 +1,7 @@
 #include "firmtouch/scene/mesh_contact.hpp"
 
 #include "firmtouch/field/closest_point.hpp"
-#include "firmtouch/hull/shell_distance.hpp"
+#include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::scene {
@@ -41,9 +41,9 @@ Vec3 contact_normal(const Nearest& c, Vec3 p_m, float diagonal_m) {
 // many times what a hand moves while a model lives.
 constexpr float kAhead = 0.02f;
 
-// A shell of some 1,000 faces is done in a fifth of it (tests/scene/shell_contact_host_test.cpp): it is
+// A shell of some 1,000 faces is done in a fifth of it (tests/scene/base_hull_contact_host_test.cpp): it is
 // there for ticks whose own budget is too small.
-constexpr uint32_t kShellSteps = 512;
+constexpr uint32_t kBaseHullSteps = 512;
 
 mesh::Closest ask(const MeshObject& object, Vec3 p_m, float reach_m, query::Budget budget,
                   query::Hint& hint) {
@@ -54,14 +54,14 @@ mesh::Closest ask(const MeshObject& object, Vec3 p_m, float reach_m, query::Budg
 
 // Of the shell in place of the mesh: no farther than the mesh is outside, no less deep inside.
 // Result: whether the shell tells.
-bool ask_shell(const MeshObject& object, Vec3 p_m, query::Budget budget, MeshTouch& touch,
-               SurfacePoint& surface, Nearest& nearest) {
-  if (object.shell == nullptr || !object.shell->is_open()) return false;
-  const query::Budget own{budget.steps > kShellSteps ? budget.steps : kShellSteps};
-  const hull::ShellDistance reported = hull::shell_distance(*object.shell, p_m, own);
-  touch.shell_steps = reported.steps;
-  if (reported.side == hull::ShellSide::kUnknown) return false;
-  const bool is_outside = reported.side == hull::ShellSide::kOutside;
+bool ask_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, MeshTouch& touch,
+                   SurfacePoint& surface, Nearest& nearest) {
+  if (object.base_hull == nullptr || !object.base_hull->is_open()) return false;
+  const query::Budget own{budget.steps > kBaseHullSteps ? budget.steps : kBaseHullSteps};
+  const hull::BaseHullDistance reported = hull::base_hull_distance(*object.base_hull, p_m, own);
+  touch.base_hull_steps = reported.steps;
+  if (reported.side == hull::BaseHullSide::kUnknown) return false;
+  const bool is_outside = reported.side == hull::BaseHullSide::kOutside;
   if (!is_outside && !reported.exact) return false;
   const query::Certificate& certificate = touch.closest.certificate;
   const float off_m = is_outside ? reported.lower_m : -math::length(p_m - reported.point_m);
@@ -81,8 +81,8 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   touch.penetration_m = 0;
   touch.normal = {};
   touch.closest = {};
-  touch.is_of_shell = false;
-  touch.shell_steps = 0;
+  touch.is_of_base_hull = false;
+  touch.base_hull_steps = 0;
   if (object.mesh == nullptr || !object.mesh->is_open()) return;
   const Vec3 p_m = math::apply_inverse(object.pose, position_m);
   // Certainly outside a moment ago: what is farther off than the sphere may reach need not be known.
@@ -101,7 +101,7 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   if (is_beyond) surface.sign = 0;
   Nearest nearest{touch.closest.point_m, touch.closest.direction, certificate.sign};
   if (!certificate.exact && !(is_beyond && certificate.sign > 0))
-    touch.is_of_shell = ask_shell(object, p_m, budget, touch, surface, nearest);
+    touch.is_of_base_hull = ask_base_hull(object, p_m, budget, touch, surface, nearest);
   if (surface.sign != 0)
     touch.normal =
         object.pose.rotation * contact_normal(nearest, p_m, object.mesh->head().diagonal_m);

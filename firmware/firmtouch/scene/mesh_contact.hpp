@@ -2,7 +2,7 @@
 #include <stdint.h>
 
 #include "firmtouch/field/view.hpp"
-#include "firmtouch/hull/shell.hpp"
+#include "firmtouch/hull/base_hull.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/query/certificate.hpp"
@@ -18,19 +18,20 @@ struct MeshObject {
   const mesh::View* mesh = nullptr;
   math::RigidTransform pose;
   Material material;
-  const field::View* map = nullptr;    // proven against the mesh; or none, or one that is not open
-  const hull::Shell* shell = nullptr;  // that encloses the mesh; likewise
+  const field::View* map = nullptr;  // proven against the mesh; or none, or one that is not open
+  const hull::BaseHull* base_hull = nullptr;  // that encloses the mesh; likewise
 };
 
 /// What a (tool, object) pair remembers from tick to tick, and what its last query said. The caller
 /// owns one a pair.
 struct MeshTouch {
   query::Hint hint;
-  mesh::Closest closest;     // mesh frame; without a point where only the map was asked
-  math::Vec3 normal;         // of the plane, device frame
-  float penetration_m = 0;   // of the sphere; 0 in free space, and where the side is unknown
-  bool is_of_shell = false;  // the mesh's query was not done, so the shell was touched in its place
-  uint32_t shell_steps = 0;
+  mesh::Closest closest;    // mesh frame; without a point where only the map was asked
+  math::Vec3 normal;        // of the plane, device frame
+  float penetration_m = 0;  // of the sphere; 0 in free space, and where the side is unknown
+  bool is_of_base_hull =
+      false;  // the mesh's query was not done, so the shell was touched in its place
+  uint32_t base_hull_steps = 0;
 };
 
 /// Penalty contact of a sphere of `radius_m` at `position_m` (device frame) with the object, by the

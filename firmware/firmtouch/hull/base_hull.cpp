@@ -1,4 +1,4 @@
-#include "firmtouch/hull/shell.hpp"
+#include "firmtouch/hull/base_hull.hpp"
 
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/hull/box_descent.hpp"
@@ -38,7 +38,7 @@ class Rest {
   bool is_whole_ = true;
 };
 
-Box box_of(const ShellHead& head) {
+Box box_of(const BaseHullHead& head) {
   return {{head.low_m[0], head.low_m[1], head.low_m[2]},
           {head.high_m[0], head.high_m[1], head.high_m[2]}};
 }
@@ -46,82 +46,82 @@ Box box_of(const ShellHead& head) {
 }  // namespace
 
 // Everything but what ties it to the hull. Result: false where the bytes do not hold it.
-bool Shell::point_into(core::Bytes resident, uint32_t coordinate_bytes) {
-  const core::Span<const ShellHead> heads = core::as_array<ShellHead>(resident, 1);
+bool BaseHull::point_into(core::Bytes resident, uint32_t coordinate_bytes) {
+  const core::Span<const BaseHullHead> heads = core::as_array<BaseHullHead>(resident, 1);
   if (heads.empty()) return false;
   head_ = &heads[0];
   coordinate_bytes_ = coordinate_bytes;
   const uint32_t leaves = leaves_for(head_->face_count, kLeafFaces);
   Rest rest(resident);
-  (void)rest.take(sizeof(ShellHead));
+  (void)rest.take(sizeof(BaseHullHead));
   boxes_ = rest.take_array<NodeBox>(nodes_for(leaves));
   corner_places_ = rest.take_array<uint32_t>(corner_places_for(leaves));
-  faces_ = rest.take_array<ShellFace>(head_->face_count);
+  faces_ = rest.take_array<BaseHullFace>(head_->face_count);
   corners_ = rest.take_array<uint16_t>(head_->corner_count);
   coordinates_ = rest.take(uint64_t{head_->made_count} * 3 * coordinate_bytes);
-  kept_ = rest.take_array<ShellVertex>(head_->kept_count);
+  kept_ = rest.take_array<BaseHullVertex>(head_->kept_count);
   return rest.is_whole();
 }
 
-uint32_t Shell::resident_bytes() const {
+uint32_t BaseHull::resident_bytes() const {
   const uint8_t* end = reinterpret_cast<const uint8_t*>(kept_.data() + kept_.size());
   if (kept_.empty()) end = coordinates_.data() + padded(coordinates_.size());
   return static_cast<uint32_t>(end - reinterpret_cast<const uint8_t*>(head_));
 }
 
-Shell Shell::resident(core::Bytes copy) const {
+BaseHull BaseHull::resident(core::Bytes copy) const {
   if (!is_open() || copy.size() < resident_bytes()) return {};
   const uint8_t* own = reinterpret_cast<const uint8_t*>(head_);
   for (uint32_t i = 0; i < resident_bytes(); ++i)
     if (copy[i] != own[i]) return {};
-  Shell shell = *this;
-  return shell.point_into(copy, coordinate_bytes_) ? shell : Shell{};
+  BaseHull base_hull = *this;
+  return base_hull.point_into(copy, coordinate_bytes_) ? base_hull : BaseHull{};
 }
 
-ShellOpening::ShellOpening(core::Bytes bytes, const View& hull) {
+BaseHullOpening::BaseHullOpening(core::Bytes bytes, const View& hull) {
   stage_ = Stage::kVertices;
   verdict_ = open_head(bytes, hull);
   if (!verdict_.ok()) fail(verdict_);
 }
 
-void ShellOpening::fail(Verdict verdict) {
+void BaseHullOpening::fail(Verdict verdict) {
   verdict_ = verdict;
   stage_ = Stage::kDone;
 }
 
-Verdict ShellOpening::open_head(core::Bytes bytes, const View& hull) {
-  const core::Span<const ShellHead> heads = core::as_array<ShellHead>(bytes, 1);
+Verdict BaseHullOpening::open_head(core::Bytes bytes, const View& hull) {
+  const core::Span<const BaseHullHead> heads = core::as_array<BaseHullHead>(bytes, 1);
   if (heads.empty() || heads[0].bytes != bytes.size()) return reject(540);
-  const ShellHead& head = heads[0];
+  const BaseHullHead& head = heads[0];
   const Head& of = hull.head();
   if (head.cut > of.collapse_count) return reject(541, 0);
   if (head.face_count == 0 || head.face_count != of.mesh_triangle_count - 2 * head.cut)
     return reject(541, 1);
-  if (head.made_count > kMaxShellVertices || head.kept_count > kMaxShellVertices ||
-      head.made_count + head.kept_count > kMaxShellVertices)
+  if (head.made_count > kMaxBaseHullVertices || head.kept_count > kMaxBaseHullVertices ||
+      head.made_count + head.kept_count > kMaxBaseHullVertices)
     return reject(541, 2);
   if (head.triangle_count > head.face_count) return reject(541, 3);
-  if (!shell_.point_into(bytes, of.coordinate_bytes)) return reject(540, 1);
-  const uint32_t resident = shell_.resident_bytes();
+  if (!base_hull_.point_into(bytes, of.coordinate_bytes)) return reject(540, 1);
+  const uint32_t resident = base_hull_.resident_bytes();
   Rest rest({bytes.data() + resident, bytes.size() - resident});
-  shell_.ids_ = rest.take(uint64_t{head.made_count} * of.id_bytes);
-  shell_.triangles_ = rest.take_array<ShellTriangle>(head.triangle_count);
+  base_hull_.ids_ = rest.take(uint64_t{head.made_count} * of.id_bytes);
+  base_hull_.triangles_ = rest.take_array<BaseHullTriangle>(head.triangle_count);
   if (!rest.is_used_up()) return reject(540, 1);
-  shell_.id_bytes_ = of.id_bytes;
+  base_hull_.id_bytes_ = of.id_bytes;
   for (uint32_t k = 0; k < 3; ++k) {
-    shell_.grid_low_m_[k] = of.grid_low_m[k];
+    base_hull_.grid_low_m_[k] = of.grid_low_m[k];
     if (!(head.low_m[k] >= of.low_m[k] && head.low_m[k] <= head.high_m[k] &&
           head.high_m[k] <= of.high_m[k]))
       return reject(542, k);
   }
-  shell_.cell_m_ = of.cell_m;
+  base_hull_.cell_m_ = of.cell_m;
   return kPassed;
 }
 
-void ShellOpening::work(uint32_t elements, const View& hull) {
+void BaseHullOpening::work(uint32_t elements, const View& hull) {
   for (; elements > 0 && stage_ != Stage::kDone; --elements) {
     const bool of_vertices = stage_ == Stage::kVertices;
-    const uint32_t vertices = shell_.head_->made_count + shell_.head_->kept_count;
+    const uint32_t vertices = base_hull_.head_->made_count + base_hull_.head_->kept_count;
     Verdict found = kPassed;
     if (!of_vertices) {
       found = check_face(next_, hull);
@@ -129,14 +129,14 @@ void ShellOpening::work(uint32_t elements, const View& hull) {
       found = check_vertex(next_, hull);
     }
     if (!found.ok()) return fail(found);
-    if (++next_ < (of_vertices ? vertices : shell_.head_->face_count)) continue;
+    if (++next_ < (of_vertices ? vertices : base_hull_.head_->face_count)) continue;
     next_ = 0;
     if (of_vertices) {
       stage_ = Stage::kFaces;
-    } else if (next_triangle_ != shell_.head_->triangle_count) {
+    } else if (next_triangle_ != base_hull_.head_->triangle_count) {
       return fail(reject(546, next_triangle_));
-    } else if (next_corner_ != shell_.head_->corner_count) {
-      return fail(reject(545, shell_.head_->face_count));
+    } else if (next_corner_ != base_hull_.head_->corner_count) {
+      return fail(reject(545, base_hull_.head_->face_count));
     } else if (edges_ != 0) {
       return fail(reject(548));
     } else {
@@ -145,13 +145,14 @@ void ShellOpening::work(uint32_t elements, const View& hull) {
   }
 }
 
-Verdict ShellOpening::check_vertex(uint32_t i, const View& hull) const {
-  const uint32_t id = shell_.id_of(i), mesh_vertices = hull.head().mesh_vertex_count;
-  if (id >= hull.id_count() || (removed_by(id) < shell_.head_->cut)) return reject(543, i);
+Verdict BaseHullOpening::check_vertex(uint32_t i, const View& hull) const {
+  const uint32_t id = base_hull_.id_of(i), mesh_vertices = hull.head().mesh_vertex_count;
+  if (id >= hull.id_count() || (removed_by(id) < base_hull_.head_->cut)) return reject(543, i);
   const uint32_t number = hull.number_of(id);
-  if (shell_.is_made(i) != (number >= mesh_vertices) || number >= mesh_vertices + shell_.head_->cut)
+  if (base_hull_.is_made(i) != (number >= mesh_vertices) ||
+      number >= mesh_vertices + base_hull_.head_->cut)
     return reject(543, i);
-  const math::Vec3 here_m = vertex(shell_, i), there_m = hull::vertex(hull, number);
+  const math::Vec3 here_m = vertex(base_hull_, i), there_m = hull::vertex(hull, number);
   if (math::bits_of(here_m.x) != math::bits_of(there_m.x) ||
       math::bits_of(here_m.y) != math::bits_of(there_m.y) ||
       math::bits_of(here_m.z) != math::bits_of(there_m.z))
@@ -160,32 +161,34 @@ Verdict ShellOpening::check_vertex(uint32_t i, const View& hull) const {
 }
 
 // Its corners follow those of the leaf before, and all are there.
-Verdict ShellOpening::check_leaf(uint32_t leaf) {
-  const uint32_t face = leaf * kLeafFaces, count = corners_of(shell_.faces_[face]);
-  if (leaf % 2 == 0 && shell_.corner_places_[leaf / 2] != next_corner_) return reject(545, face);
-  if (count > kMaxLeafCorners || count > shell_.head_->corner_count - next_corner_)
+Verdict BaseHullOpening::check_leaf(uint32_t leaf) {
+  const uint32_t face = leaf * kLeafFaces, count = corners_of(base_hull_.faces_[face]);
+  if (leaf % 2 == 0 && base_hull_.corner_places_[leaf / 2] != next_corner_)
+    return reject(545, face);
+  if (count > kMaxLeafCorners || count > base_hull_.head_->corner_count - next_corner_)
     return reject(545, face);
   next_corner_ += count;
-  for (const uint16_t vertex : shell_.leaf(leaf).corners)
-    if (vertex >= shell_.head_->made_count + shell_.head_->kept_count) return reject(545, face);
+  for (const uint16_t vertex : base_hull_.leaf(leaf).corners)
+    if (vertex >= base_hull_.head_->made_count + base_hull_.head_->kept_count)
+      return reject(545, face);
   return kPassed;
 }
 
-Verdict ShellOpening::check_face(uint32_t i, const View& hull) {
+Verdict BaseHullOpening::check_face(uint32_t i, const View& hull) {
   if (i % kLeafFaces == 0) {
     const Verdict found = check_leaf(i / kLeafFaces);
     if (!found.ok()) return found;
   }
-  const ShellFace face = shell_.faces_[i];
-  const Shell::Leaf leaf = shell_.leaf(i / kLeafFaces);
+  const BaseHullFace face = base_hull_.faces_[i];
+  const BaseHull::Leaf leaf = base_hull_.leaf(i / kLeafFaces);
   if (corners_of(face) != leaf.corners.size()) return reject(545, i);
   uint32_t number[3];
   bool is_triangle = true;
   for (uint32_t k = 0; k < 3; ++k) {
     if (corner_at(face, k) >= leaf.corners.size()) return reject(545, i);
     const uint32_t vertex = leaf.corners[corner_at(face, k)];
-    number[k] = hull.number_of(shell_.id_of(vertex));
-    is_triangle = is_triangle && !shell_.is_made(vertex);
+    number[k] = hull.number_of(base_hull_.id_of(vertex));
+    is_triangle = is_triangle && !base_hull_.is_made(vertex);
   }
   faces_ += face_hash(number[0], number[1], number[2]);
   for (uint32_t k = 0; k < 3; ++k) {
@@ -194,8 +197,8 @@ Verdict ShellOpening::check_face(uint32_t i, const View& hull) {
   }
   const Verdict boxed = check_box(i);
   if (!boxed.ok() || !is_triangle) return boxed;
-  if (next_triangle_ == shell_.head_->triangle_count) return reject(546, i);
-  const ShellTriangle& reported = shell_.triangles_[next_triangle_++];
+  if (next_triangle_ == base_hull_.head_->triangle_count) return reject(546, i);
+  const BaseHullTriangle& reported = base_hull_.triangles_[next_triangle_++];
   if (reported.face != i || reported.triangle >= hull.head().mesh_triangle_count)
     return reject(546, i);
   const mesh::Triangle<uint32_t> t = hull.triangle(reported.triangle);
@@ -205,22 +208,22 @@ Verdict ShellOpening::check_face(uint32_t i, const View& hull) {
              : reject(546, i);
 }
 
-Verdict ShellOpening::check_box(uint32_t face) const {
-  const FilledTree tree(shell_.boxes_.size());
-  const Box whole = box_of(*shell_.head_);
+Verdict BaseHullOpening::check_box(uint32_t face) const {
+  const FilledTree tree(base_hull_.boxes_.size());
+  const Box whole = box_of(*base_hull_.head_);
   uint32_t node = tree.node(face / kLeafFaces) + 1;  // counted from 1, a node's parent is its half
   for (; node != 0; node /= 2) {
-    const Box box = child_box(whole, shell_.boxes_[node - 1]);
+    const Box box = child_box(whole, base_hull_.boxes_[node - 1]);
     for (uint32_t k = 0; k < 3; ++k)
-      if (!holds(box, vertex(shell_, shell_.vertex_of(face, k)))) return reject(547, face);
+      if (!holds(box, vertex(base_hull_, base_hull_.vertex_of(face, k)))) return reject(547, face);
   }
   return kPassed;
 }
 
-Verdict open_shell(core::Bytes bytes, const View& hull, Shell& shell) {
-  ShellOpening opening(bytes, hull);
+Verdict open_base_hull(core::Bytes bytes, const View& hull, BaseHull& base_hull) {
+  BaseHullOpening opening(bytes, hull);
   while (!opening.done()) opening.work(UINT32_MAX, hull);
-  shell = opening.shell();
+  base_hull = opening.base_hull();
   return opening.verdict();
 }
 

@@ -1,4 +1,4 @@
-#include "bake/bake_shell.hpp"
+#include "bake/bake_base_hull.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -11,14 +11,14 @@ namespace {
 
 class Encoder {
  public:
-  explicit Encoder(const ShellSource& source)
+  explicit Encoder(const BaseHullSource& source)
       : source_(source), mesh_vertices_(source.head.mesh_vertex_count) {}
 
   std::vector<uint8_t> run() {
     order_faces();
     number_vertices();
-    if (ids_.size() > hull::kMaxShellVertices) return {};
-    hull::ShellHead head{};
+    if (ids_.size() > hull::kMaxBaseHullVertices) return {};
+    hull::BaseHullHead head{};
     head.cut = source_.cut;
     head.face_count = static_cast<uint32_t>(source_.faces.size());
     head.made_count = made_;
@@ -32,14 +32,14 @@ class Encoder {
                      [&](uint32_t i) { return boxes_[order_[i]]; }));
     put_faces(head);
     put(coordinates_of_made());
-    std::vector<hull::ShellVertex> kept;
+    std::vector<hull::BaseHullVertex> kept;
     for (size_t i = made_; i < ids_.size(); ++i) {
       const math::Vec3 v = at(ids_[i]);
       kept.push_back({ids_[i], v.x, v.y, v.z});
     }
     put(kept);
     put(ids_of_made());
-    std::vector<hull::ShellTriangle> triangles;
+    std::vector<hull::BaseHullTriangle> triangles;
     for (uint32_t i = 0; i < order_.size(); ++i)
       if (source_.triangles[order_[i]] != kNone)
         triangles.push_back({i, source_.triangles[order_[i]]});
@@ -81,10 +81,10 @@ class Encoder {
   }
 
   // Each leaf's corners as its faces meet them.
-  void put_faces(hull::ShellHead& head) {
+  void put_faces(hull::BaseHullHead& head) {
     std::vector<uint32_t> places;
     std::vector<uint16_t> corners;
-    std::vector<hull::ShellFace> faces;
+    std::vector<hull::BaseHullFace> faces;
     for (uint32_t first = 0; first < order_.size(); first += hull::kLeafFaces) {
       const size_t begin = corners.size(),
                    end = std::min<size_t>(first + hull::kLeafFaces, order_.size());
@@ -98,10 +98,10 @@ class Encoder {
           face |= static_cast<uint32_t>(found - from) << (4 * k);
           if (found == corners.end()) corners.push_back(vertex);
         }
-        faces.push_back(static_cast<hull::ShellFace>(face));
+        faces.push_back(static_cast<hull::BaseHullFace>(face));
       }
       for (size_t i = first; i < end; ++i)
-        faces[i] = static_cast<hull::ShellFace>(faces[i] | (corners.size() - begin) << 12);
+        faces[i] = static_cast<hull::BaseHullFace>(faces[i] | (corners.size() - begin) << 12);
     }
     head.corner_count = static_cast<uint32_t>(corners.size());
     put(places);
@@ -134,7 +134,7 @@ class Encoder {
     if (size != 0) std::memcpy(bytes_.data() + at, items.data(), size);
   }
 
-  const ShellSource& source_;
+  const BaseHullSource& source_;
   const uint32_t mesh_vertices_;
   std::vector<hull::Box> boxes_;  // of the faces as they came
   std::vector<uint32_t> ids_, local_, order_;
@@ -144,11 +144,13 @@ class Encoder {
 
 }  // namespace
 
-std::vector<uint8_t> encode_shell(const ShellSource& source) { return Encoder(source).run(); }
+std::vector<uint8_t> encode_base_hull(const BaseHullSource& source) {
+  return Encoder(source).run();
+}
 
-std::vector<uint32_t> cut_shell(const hull::View& view, uint32_t faces) {
+std::vector<uint32_t> cut_base_hull(const hull::View& view, uint32_t faces) {
   const hull::Head& head = view.head();
-  ShellSource source;
+  BaseHullSource source;
   source.head = head;
   const uint32_t all = head.mesh_triangle_count;
   source.cut = std::min(faces >= all ? 0 : (all - faces + 1) / 2, head.collapse_count);
@@ -175,16 +177,16 @@ std::vector<uint32_t> cut_shell(const hull::View& view, uint32_t faces) {
           is_of_mesh ? view.id_in(record, triangle++) : kNone);
     }
   }
-  const hull::Shell& shell = view.shell();
-  for (uint32_t i = 0, reported = 0; i < shell.face_count(); ++i) {
+  const hull::BaseHull& base_hull = view.base_hull();
+  for (uint32_t i = 0, reported = 0; i < base_hull.face_count(); ++i) {
     uint32_t triangle = kNone;
-    if (reported < shell.triangles().size() && shell.triangles()[reported].face == i)
-      triangle = shell.triangles()[reported++].triangle;
-    add({shell.id_of(shell.vertex_of(i, 0)), shell.id_of(shell.vertex_of(i, 1)),
-         shell.id_of(shell.vertex_of(i, 2))},
+    if (reported < base_hull.triangles().size() && base_hull.triangles()[reported].face == i)
+      triangle = base_hull.triangles()[reported++].triangle;
+    add({base_hull.id_of(base_hull.vertex_of(i, 0)), base_hull.id_of(base_hull.vertex_of(i, 1)),
+         base_hull.id_of(base_hull.vertex_of(i, 2))},
         triangle);
   }
-  const std::vector<uint8_t> bytes = encode_shell(source);
+  const std::vector<uint8_t> bytes = encode_base_hull(source);
   std::vector<uint32_t> words(bytes.size() / 4);
   if (!bytes.empty()) std::memcpy(words.data(), bytes.data(), bytes.size());
   return words;

@@ -1,7 +1,7 @@
 #pragma once
 #include <float.h>
 
-#include "firmtouch/hull/shell.hpp"
+#include "firmtouch/hull/base_hull.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/query/certificate.hpp"
 
@@ -9,10 +9,10 @@ namespace firmtouch::hull {
 
 /// Where a point lies to a shell. Inside a shell is not inside the mesh: between the two a shell says
 /// nothing of the mesh.
-enum class ShellSide : uint8_t { kUnknown, kOutside, kInside };
+enum class BaseHullSide : uint8_t { kUnknown, kOutside, kInside };
 
-struct ShellDistance {
-  ShellSide side = ShellSide::kUnknown;
+struct BaseHullDistance {
+  BaseHullSide side = BaseHullSide::kUnknown;
   // Certified, outside: no point of the mesh is nearer. Else 0: nothing is promised.
   float lower_m = 0;
   // Certified, inside: if the point is inside the mesh too, it is no deeper than this. Else FLT_MAX.
@@ -30,6 +30,7 @@ struct ShellDistance {
 /// Result: always finite. A point that is not finite: nothing is known. A budget that runs out
 ///         lowers lower_m and never makes it wrong.
 /// Error:  lower_m is at most 3e-6 diagonals of the shell below the distance to it where exact.
-ShellDistance shell_distance(const Shell& shell, math::Vec3 p_m, query::Budget budget);
+BaseHullDistance base_hull_distance(const BaseHull& base_hull, math::Vec3 p_m,
+                                    query::Budget budget);
 
 }  // namespace firmtouch::hull

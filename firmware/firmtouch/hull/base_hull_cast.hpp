@@ -1,11 +1,11 @@
 #pragma once
-#include "firmtouch/hull/shell.hpp"
+#include "firmtouch/hull/base_hull.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/query/certificate.hpp"
 
 namespace firmtouch::hull {
 
-struct ShellHit {
+struct BaseHullHit {
   bool hit = false;
   float t = 1;
   uint32_t face = 0;
@@ -23,14 +23,15 @@ struct ShellHit {
 ///         is passed at its very edge or almost along it, and t is the earliest that it may be; or the
 ///         budget ran out, and t is 0.
 /// Error:  exact: t is at most 2^-12 early, and late by no more than mesh::cast_segment() may be.
-ShellHit cast_shell(const Shell& shell, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget);
+BaseHullHit cast_base_hull(const BaseHull& base_hull, math::Vec3 a_m, math::Vec3 b_m,
+                           query::Budget budget);
 
 /// How often the shell winds around a point, told by the crossings of a segment to a point outside
 /// its box: 0 is outside, 1 or more inside. Exact; reads the shell's own block.
 /// Bounds: <= budget steps, with those that `steps` holds already; 4 KB of stack; re-entrant;
 ///         callable from an interrupt.
 /// Result: false where the budget ran out or the point is not finite.
-bool wind_around(const Shell& shell, math::Vec3 p_m, query::Budget budget, int32_t& winding,
+bool wind_around(const BaseHull& base_hull, math::Vec3 p_m, query::Budget budget, int32_t& winding,
                  uint32_t& steps);
 
 }  // namespace firmtouch::hull

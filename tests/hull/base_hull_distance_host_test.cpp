@@ -2,20 +2,20 @@
 #include <cfloat>
 
 #include "../mesh/brute_force.hpp"
-#include "bake/bake_shell.hpp"
+#include "bake/bake_base_hull.hpp"
 #include "bumpy_ring.hpp"
-#include "firmtouch/hull/shell_distance.hpp"
+#include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "surface/make_part.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
-Surface surface_of(const hull::Shell& shell) {
+Surface surface_of(const hull::BaseHull& base_hull) {
   Surface surface;
-  for (uint32_t i = 0; i < shell.face_count(); ++i) {
+  for (uint32_t i = 0; i < base_hull.face_count(); ++i) {
     for (uint32_t k = 0; k < 3; ++k)
-      surface.vertices.push_back(hull::vertex(shell, shell.vertex_of(i, k)));
+      surface.vertices.push_back(hull::vertex(base_hull, base_hull.vertex_of(i, k)));
     surface.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return surface;
@@ -34,41 +34,41 @@ math::Vec3 some_point(const Surface& mesh, Random& random, int i) {
   return {x, y, z};
 }
 
-void judge(const BakedHull& baked, const hull::Shell& shell, int count) {
-  const Surface of_shell = surface_of(shell);
+void judge(const BakedHull& baked, const hull::BaseHull& base_hull, int count) {
+  const Surface of_base_hull = surface_of(base_hull);
   Random random(31);
   int outside = 0, inside = 0, between = 0;
   for (int i = 0; i < count; ++i) {
     test::note("point", i);
     const math::Vec3 p = some_point(baked.surface, random, i);
     const mesh_test::Truth to_mesh = mesh_test::brute_force(baked.surface, wide(p)),
-                           to_shell = mesh_test::brute_force(of_shell, wide(p));
+                           to_base_hull = mesh_test::brute_force(of_base_hull, wide(p));
     for (const uint32_t steps : {UINT32_MAX, 40u, 12u, 3u, 1u}) {
-      const hull::ShellDistance reported = hull::shell_distance(shell, p, {steps});
+      const hull::BaseHullDistance reported = hull::base_hull_distance(base_hull, p, {steps});
       CHECK_LE(reported.steps, steps);
-      if (reported.side == hull::ShellSide::kOutside) {
-        CHECK(!to_shell.inside);
+      if (reported.side == hull::BaseHullSide::kOutside) {
+        CHECK(!to_base_hull.inside);
         CHECK(!to_mesh.inside);
-        CHECK_LE(double{reported.lower_m}, to_shell.distance);
+        CHECK_LE(double{reported.lower_m}, to_base_hull.distance);
         CHECK_LE(double{reported.lower_m}, to_mesh.distance);
         CHECK(!(reported.deepest_m < FLT_MAX));
-      } else if (reported.side == hull::ShellSide::kInside) {
-        CHECK(to_shell.inside);
+      } else if (reported.side == hull::BaseHullSide::kInside) {
+        CHECK(to_base_hull.inside);
         CHECK_EQ(reported.lower_m, 0.0f);
-        CHECK_LE(to_shell.distance, double{reported.deepest_m});
+        CHECK_LE(to_base_hull.distance, double{reported.deepest_m});
         if (to_mesh.inside) CHECK_LE(to_mesh.distance, double{reported.deepest_m});
       } else {
         CHECK_EQ(reported.lower_m, 0.0f);
       }
       if (steps != UINT32_MAX) continue;
       CHECK(reported.exact);
-      CHECK(reported.side != hull::ShellSide::kUnknown);
-      if (reported.side == hull::ShellSide::kOutside)
-        CHECK_LE(to_shell.distance - double{reported.lower_m}, 1e-5);
-      CHECK_LE(std::fabs(length(wide(reported.point_m) - wide(p)) - to_shell.distance), 1e-5);
-      outside += reported.side == hull::ShellSide::kOutside ? 1 : 0;
+      CHECK(reported.side != hull::BaseHullSide::kUnknown);
+      if (reported.side == hull::BaseHullSide::kOutside)
+        CHECK_LE(to_base_hull.distance - double{reported.lower_m}, 1e-5);
+      CHECK_LE(std::fabs(length(wide(reported.point_m) - wide(p)) - to_base_hull.distance), 1e-5);
+      outside += reported.side == hull::BaseHullSide::kOutside ? 1 : 0;
       inside += to_mesh.inside ? 1 : 0;
-      between += to_shell.inside && !to_mesh.inside ? 1 : 0;
+      between += to_base_hull.inside && !to_mesh.inside ? 1 : 0;
     }
   }
   CHECK_LT(count / 10, outside);
@@ -78,33 +78,33 @@ void judge(const BakedHull& baked, const hull::Shell& shell, int count) {
 
 }  // namespace
 
-TEST(WhatAShellCertifiesOfTheMeshIsTrueUnderEveryBudget) {
+TEST(WhatABaseHullCertifiesOfTheMeshIsTrueUnderEveryBudget) {
   const BakedHull ring(bumpy_ring(8, 4, 0.2), 150, 16);
-  judge(ring, ring.view.shell(), 600);
-  const std::vector<uint32_t> words = cut_shell(ring.view, 400);
-  hull::Shell finer;
-  CHECK_EQ(hull::open_shell({reinterpret_cast<const uint8_t*>(words.data()),
-                             static_cast<uint32_t>(4 * words.size())},
-                            ring.view, finer)
+  judge(ring, ring.view.base_hull(), 600);
+  const std::vector<uint32_t> words = cut_base_hull(ring.view, 400);
+  hull::BaseHull finer;
+  CHECK_EQ(hull::open_base_hull({reinterpret_cast<const uint8_t*>(words.data()),
+                                 static_cast<uint32_t>(4 * words.size())},
+                                ring.view, finer)
                .rule,
            0);
   judge(ring, finer, 300);
 }
 
-TEST(HostilePointsGetFiniteDistancesToAShell) {
+TEST(HostilePointsGetFiniteDistancesToABaseHull) {
   const BakedHull ring(bumpy_ring(4, 2), 100, 22);
   const float values[] = {0, -0.0f, 1e-42f, 1, 1e7f, 3e18f, -3e19f, 3e38f, FLT_MAX, NAN, INFINITY};
   for (const float x : values)
     for (const float y : values)
       for (const float z : values) {
-        const hull::ShellDistance reported =
-            hull::shell_distance(ring.view.shell(), {x, y, z}, query::kUnlimited);
+        const hull::BaseHullDistance reported =
+            hull::base_hull_distance(ring.view.base_hull(), {x, y, z}, query::kUnlimited);
         CHECK(reported.lower_m >= 0 && reported.lower_m <= FLT_MAX);
         CHECK(reported.deepest_m >= 0 && reported.deepest_m <= FLT_MAX);
         CHECK_LE(length(wide(reported.point_m)), 10.0);
         const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
         const double off = length({double{x}, double{y}, double{z}});
-        if (finite && off > 10) CHECK(reported.side == hull::ShellSide::kOutside);
+        if (finite && off > 10) CHECK(reported.side == hull::BaseHullSide::kOutside);
         if (finite && off > 10) CHECK_LE(double{reported.lower_m}, off + 10);
         if (!finite) CHECK_EQ(reported.lower_m, 0.0f);
       }

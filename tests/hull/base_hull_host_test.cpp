@@ -8,9 +8,9 @@
 #include "bake/asset_writer.hpp"
 #include "bumpy_ring.hpp"
 #include "firmtouch/asset/opening.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
+#include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
-#include "firmtouch/hull/shell_cast.hpp"
-#include "firmtouch/hull/shell_distance.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/mesh/exact_crossing.hpp"
 #include "firmtouch/sections.hpp"
@@ -71,7 +71,7 @@ std::vector<Line> lines_about(const Surface& surface, int count) {
 
 }  // namespace
 
-TEST(AShellInFastMemoryAnswersWithTheAssetLocked) {
+TEST(ABaseHullInFastMemoryAnswersWithTheAssetLocked) {
   const BakedHull baked(make_part(1, 3000), 300, 16);
   const AssetFile file = write_asset(baked.sections);
   CHECK(file.problem.empty());
@@ -80,19 +80,20 @@ TEST(AShellInFastMemoryAnswersWithTheAssetLocked) {
   CHECK(asset::open(flash.bytes(), container).ok());
   hull::View view;
   CHECK_EQ(hull::open(firmtouch::hull_sections(container, "model"), view).rule, 0);
-  const uint32_t resident = view.shell().resident_bytes();
+  const uint32_t resident = view.base_hull().resident_bytes();
   std::vector<uint32_t> fast(resident / 4);
-  std::memcpy(fast.data(), container.find(hull::kShellSection, "model").data(), resident);
+  std::memcpy(fast.data(), container.find(hull::kBaseHullSection, "model").data(), resident);
   const core::Bytes copy{reinterpret_cast<const uint8_t*>(fast.data()), resident};
-  const hull::Shell shell = view.shell().resident(copy);
-  CHECK(shell.is_open());
+  const hull::BaseHull base_hull = view.base_hull().resident(copy);
+  CHECK(base_hull.is_open());
   const std::vector<Line> lines = lines_about(baked.surface, 1000);
-  std::vector<hull::ShellHit> reported;
+  std::vector<hull::BaseHullHit> reported;
   flash.lock();  // a read of the asset ends this program
   for (const Line& line : lines) {
-    reported.push_back(hull::cast_shell(shell, line.a, line.b, query::kUnlimited));
-    const hull::ShellDistance distance = hull::shell_distance(shell, line.a, query::kUnlimited);
-    CHECK(distance.side == hull::ShellSide::kOutside);
+    reported.push_back(hull::cast_base_hull(base_hull, line.a, line.b, query::kUnlimited));
+    const hull::BaseHullDistance distance =
+        hull::base_hull_distance(base_hull, line.a, query::kUnlimited);
+    CHECK(distance.side == hull::BaseHullSide::kOutside);
   }
   flash.unlock();
   uint32_t free_lines = 0, hits = 0, ghosts = 0, unsure = 0;
@@ -113,42 +114,42 @@ TEST(AShellInFastMemoryAnswersWithTheAssetLocked) {
 }
 
 // In the planes of faces too, where floats cannot tell when a face is crossed.
-TEST(AMoveThatStaysOffTheShellMeetsNothing) {
+TEST(AMoveThatStaysOffTheBaseHullMeetsNothing) {
   const BakedHull baked(make_part(1, 3000), 300, 16);
-  const hull::Shell& shell = baked.view.shell();
+  const hull::BaseHull& base_hull = baked.view.base_hull();
   const float off_m = 0.02f * baked.view.mesh_head().diagonal_m;
   Random random(5);
   uint32_t moves = 0;
   for (int i = 0; i < 6000; ++i) {
-    const uint32_t face = random.below(shell.face_count());
-    const math::Vec3 p = hull::vertex(shell, shell.vertex_of(face, 0)),
-                     q = hull::vertex(shell, shell.vertex_of(face, 1));
+    const uint32_t face = random.below(base_hull.face_count());
+    const math::Vec3 p = hull::vertex(base_hull, base_hull.vertex_of(face, 0)),
+                     q = hull::vertex(base_hull, base_hull.vertex_of(face, 1));
     const float along = static_cast<float>(random.between(-3, 3)),
                 step = static_cast<float>(random.between(0.01, 0.3));
     const auto at = [&](float t) {
       return math::Vec3{p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, p.z + (q.z - p.z) * t};
     };
     const math::Vec3 a = at(along), b = at(along + step);
-    if (!(hull::shell_distance(shell, a, query::kUnlimited).lower_m > off_m)) continue;
+    if (!(hull::base_hull_distance(base_hull, a, query::kUnlimited).lower_m > off_m)) continue;
     const math::Vec3 way{b.x - a.x, b.y - a.y, b.z - a.z};
     if (way.x * way.x + way.y * way.y + way.z * way.z > off_m * off_m) continue;
     test::note("move", i);
     ++moves;
-    const hull::ShellHit hit = hull::cast_shell(shell, a, b, query::kUnlimited);
+    const hull::BaseHullHit hit = hull::cast_base_hull(base_hull, a, b, query::kUnlimited);
     CHECK(hit.exact && !hit.hit);
   }
   CHECK_LT(500u, moves);
 }
 
-TEST(ACopyThatIsNotTheShellIsNotTaken) {
+TEST(ACopyThatIsNotTheBaseHullIsNotTaken) {
   const BakedHull baked(make_part(1, 2000), 300, 16);
-  const hull::Shell& stored = baked.view.shell();
+  const hull::BaseHull& stored = baked.view.base_hull();
   std::vector<uint32_t> fast(stored.resident_bytes() / 4);
   std::memcpy(fast.data(), &stored.head(), stored.resident_bytes());
   const uint8_t* bytes = reinterpret_cast<const uint8_t*>(fast.data());
   CHECK(stored.resident({bytes, stored.resident_bytes()}).is_open());
   CHECK(!stored.resident({bytes, stored.resident_bytes() - 1}).is_open());
-  CHECK(!hull::Shell().resident({bytes, stored.resident_bytes()}).is_open());
+  CHECK(!hull::BaseHull().resident({bytes, stored.resident_bytes()}).is_open());
   for (size_t i = 0; i < fast.size(); i += 97) {
     fast[i] ^= 0x100;
     CHECK(!stored.resident({bytes, stored.resident_bytes()}).is_open());
@@ -156,7 +157,7 @@ TEST(ACopyThatIsNotTheShellIsNotTaken) {
   }
 }
 
-TEST(AShellWindsAroundEveryPointOfTheMesh) {
+TEST(ABaseHullWindsAroundEveryPointOfTheMesh) {
   const BakedHull baked(bumpy_ring(8, 4, 0.2), 200, 16);
   uint32_t inside = 0;
   for (const Face& face : baked.surface.faces) {
@@ -167,23 +168,24 @@ TEST(AShellWindsAroundEveryPointOfTheMesh) {
     ++inside;
     int32_t winding;
     uint32_t steps = 0;
-    CHECK(hull::wind_around(baked.view.shell(), middle, query::kUnlimited, winding, steps));
+    CHECK(hull::wind_around(baked.view.base_hull(), middle, query::kUnlimited, winding, steps));
     CHECK_LE(1, winding);
   }
   CHECK_LT(100u, inside);
   int32_t winding = 9;
   uint32_t steps = 0;
-  CHECK(hull::wind_around(baked.view.shell(), {0, 0, 0}, query::kUnlimited, winding, steps));
+  CHECK(hull::wind_around(baked.view.base_hull(), {0, 0, 0}, query::kUnlimited, winding, steps));
   CHECK_EQ(winding, 0);  // the hole of the ring
 }
 
 // Every face asked, in integers.
-mesh::Hit first_of_all_faces(const hull::Shell& shell, const Line& line) {
+mesh::Hit first_of_all_faces(const hull::BaseHull& base_hull, const Line& line) {
   mesh::Hit first;
-  for (uint32_t i = 0; i < shell.face_count(); ++i) {
-    const mesh::Crossing crossing = mesh::exact_crossing(
-        line.a, line.b, hull::vertex(shell, shell.vertex_of(i, 0)),
-        hull::vertex(shell, shell.vertex_of(i, 1)), hull::vertex(shell, shell.vertex_of(i, 2)));
+  for (uint32_t i = 0; i < base_hull.face_count(); ++i) {
+    const mesh::Crossing crossing =
+        mesh::exact_crossing(line.a, line.b, hull::vertex(base_hull, base_hull.vertex_of(i, 0)),
+                             hull::vertex(base_hull, base_hull.vertex_of(i, 1)),
+                             hull::vertex(base_hull, base_hull.vertex_of(i, 2)));
     if (crossing.direction == 0 || (first.hit && first.t <= crossing.t)) continue;
     first = {true, crossing.t, i, crossing.direction < 0, 0, true};
   }
@@ -192,9 +194,9 @@ mesh::Hit first_of_all_faces(const hull::Shell& shell, const Line& line) {
 
 // Segments that try the whole numbers: along the axes, in planes of vertices, short, far too long, from
 // afar, of almost no length.
-std::vector<Line> hard_lines(const hull::Shell& shell, int count) {
+std::vector<Line> hard_lines(const hull::BaseHull& base_hull, int count) {
   Random random(8);
-  const hull::ShellHead& head = shell.head();
+  const hull::BaseHullHead& head = base_hull.head();
   const uint32_t vertices = head.made_count + head.kept_count;
   std::vector<Line> lines;
   for (int i = 0; i < count; ++i) {
@@ -208,8 +210,8 @@ std::vector<Line> hard_lines(const hull::Shell& shell, int count) {
       return math::Vec3{p[0], p[1], p[2]};
     };
     Line line{some(0.6), some(0.6)};
-    const math::Vec3 v = hull::vertex(shell, random.below(vertices));
-    const math::Vec3 w = hull::vertex(shell, random.below(vertices));
+    const math::Vec3 v = hull::vertex(base_hull, random.below(vertices));
+    const math::Vec3 w = hull::vertex(base_hull, random.below(vertices));
     switch (i % 9) {
       case 0:
         line.b = {line.a.x, line.a.y, line.b.z};
@@ -246,12 +248,13 @@ std::vector<Line> hard_lines(const hull::Shell& shell, int count) {
 }
 
 // What the shell itself is crossed by, first: never told later, none missed; exact where it says so.
-void judge_casts(const hull::Shell& shell, int count) {
+void judge_casts(const hull::BaseHull& base_hull, int count) {
   uint32_t hits = 0, misses = 0, unsure = 0;
-  for (const Line& line : hard_lines(shell, count)) {
+  for (const Line& line : hard_lines(base_hull, count)) {
     test::note("segment", static_cast<int64_t>(hits + misses));
-    const mesh::Hit truth = first_of_all_faces(shell, line);
-    const hull::ShellHit reported = hull::cast_shell(shell, line.a, line.b, query::kUnlimited);
+    const mesh::Hit truth = first_of_all_faces(base_hull, line);
+    const hull::BaseHullHit reported =
+        hull::cast_base_hull(base_hull, line.a, line.b, query::kUnlimited);
     if (truth.hit) CHECK(reported.hit && reported.t <= truth.t + 0x1p-17f);
     if (reported.exact) {
       CHECK_EQ(reported.hit, truth.hit);
@@ -265,20 +268,22 @@ void judge_casts(const hull::Shell& shell, int count) {
   CHECK_LT(unsure * 2, static_cast<uint32_t>(count));  // four in nine are laid to be hard
 }
 
-TEST(AShellsFirstCrossingIsThatOfAllItsFaces) {
-  judge_casts(BakedHull(make_part(1, 3000), 300, 16).view.shell(), 900);
-  judge_casts(BakedHull(bumpy_ring(16, 8, 0.2), 200, 22).view.shell(), 900);
-  judge_casts(BakedHull(bumpy_ring(8, 4), 100000, 16).view.shell(), 900);  // kept vertices alone
+TEST(ABaseHullsFirstCrossingIsThatOfAllItsFaces) {
+  judge_casts(BakedHull(make_part(1, 3000), 300, 16).view.base_hull(), 900);
+  judge_casts(BakedHull(bumpy_ring(16, 8, 0.2), 200, 22).view.base_hull(), 900);
+  judge_casts(BakedHull(bumpy_ring(8, 4), 100000, 16).view.base_hull(),
+              900);  // kept vertices alone
 }
 
-TEST(AShellWhoseBudgetRunsOutTellsAHitAtOnce) {
+TEST(ABaseHullWhoseBudgetRunsOutTellsAHitAtOnce) {
   const BakedHull baked(bumpy_ring(8, 4), 200, 16);
-  const hull::ShellHit hit = hull::cast_shell(baked.view.shell(), {-3, 0, 0}, {3, 0.1f, 0.2f}, {1});
+  const hull::BaseHullHit hit =
+      hull::cast_base_hull(baked.view.base_hull(), {-3, 0, 0}, {3, 0.1f, 0.2f}, {1});
   CHECK(hit.hit && !hit.exact);
   CHECK_EQ(hit.t, 0.0f);
   int32_t winding;
   uint32_t steps = 0;
-  CHECK(!hull::wind_around(baked.view.shell(), {0, 0, 0}, {1}, winding, steps));
+  CHECK(!hull::wind_around(baked.view.base_hull(), {0, 0, 0}, {1}, winding, steps));
 }
 
 }  // namespace firmtouch::tools

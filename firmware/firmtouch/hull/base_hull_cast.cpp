@@ -1,6 +1,6 @@
-#include "firmtouch/hull/shell_cast.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
 
-#include "firmtouch/hull/shell_segment.hpp"
+#include "firmtouch/hull/base_hull_segment.hpp"
 #include "firmtouch/mesh/segment_frame.hpp"
 
 namespace firmtouch::hull {
@@ -15,7 +15,7 @@ using math::Vec3;
 class First {
  public:
   float limit = 1;
-  ShellHit hit;
+  BaseHullHit hit;
 
   First(Vec3 a_m, Vec3 b_m) : a_m_(a_m), b_m_(b_m), along_m_(b_m - a_m) {
     const float length2_m2 = dot(along_m_, along_m_);
@@ -86,9 +86,10 @@ class Turns {
 template <class Taker>
 class Leaves {
  public:
-  Leaves(const Shell& shell, const ShellSegment& segment, Vec3 a_m, Vec3 b_m, Taker& taker)
+  Leaves(const BaseHull& base_hull, const BaseHullSegment& segment, Vec3 a_m, Vec3 b_m,
+         Taker& taker)
       : limit(segment.until(taker.limit)),
-        shell_(shell),
+        base_hull_(base_hull),
         segment_(segment),
         a_m_(a_m),
         b_m_(b_m),
@@ -96,18 +97,18 @@ class Leaves {
   int32_t limit;
 
   bool leaf(uint32_t i) {
-    const Shell::Leaf leaf = shell_.leaf(i);
-    ShellSegment::Corners corners;
-    if (segment_.place(shell_, leaf, corners) != 0) return true;
+    const BaseHull::Leaf leaf = base_hull_.leaf(i);
+    BaseHullSegment::Corners corners;
+    if (segment_.place(base_hull_, leaf, corners) != 0) return true;
     for (uint32_t n = 0; n < leaf.faces.size(); ++n) {
-      const ShellFace face = leaf.faces[n];
+      const BaseHullFace face = leaf.faces[n];
       if (segment_.passes(corners, face)) continue;
       if (!has_frame_)
-        frame_ = mesh::SegmentFrame(shell_.head().low_m, shell_.head().high_m, a_m_, b_m_);
+        frame_ = mesh::SegmentFrame(base_hull_.head().low_m, base_hull_.head().high_m, a_m_, b_m_);
       has_frame_ = true;
-      if (!taker_.take(frame_, vertex(shell_, leaf.corners[corner_at(face, 0)]),
-                       vertex(shell_, leaf.corners[corner_at(face, 1)]),
-                       vertex(shell_, leaf.corners[corner_at(face, 2)]), leaf.first_face + n))
+      if (!taker_.take(frame_, vertex(base_hull_, leaf.corners[corner_at(face, 0)]),
+                       vertex(base_hull_, leaf.corners[corner_at(face, 1)]),
+                       vertex(base_hull_, leaf.corners[corner_at(face, 2)]), leaf.first_face + n))
         return false;
       limit = segment_.until(taker_.limit);
     }
@@ -115,8 +116,8 @@ class Leaves {
   }
 
  private:
-  const Shell& shell_;
-  const ShellSegment& segment_;
+  const BaseHull& base_hull_;
+  const BaseHullSegment& segment_;
   Vec3 a_m_, b_m_;
   mesh::SegmentFrame frame_;
   bool has_frame_ = false;  // most segments come near no face
@@ -124,22 +125,22 @@ class Leaves {
 };
 
 template <class Taker>
-bool search(const Shell& shell, Vec3 a_m, Vec3 b_m, query::Budget budget, uint32_t& steps,
+bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget, uint32_t& steps,
             Taker& taker) {
-  const ShellSegment segment(shell, a_m, b_m);
+  const BaseHullSegment segment(base_hull, a_m, b_m);
   if (segment.misses()) return true;
-  Leaves<Taker> leaves(shell, segment, a_m, b_m, taker);
-  return walk(shell, segment, budget.steps == 0 ? 1 : budget.steps, steps, leaves);
+  Leaves<Taker> leaves(base_hull, segment, a_m, b_m, taker);
+  return walk(base_hull, segment, budget.steps == 0 ? 1 : budget.steps, steps, leaves);
 }
 
 }  // namespace
 
-ShellHit cast_shell(const Shell& shell, Vec3 a_m, Vec3 b_m, query::Budget budget) {
+BaseHullHit cast_base_hull(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget) {
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
   First first(a_m, b_m);
   uint32_t steps = 0;
-  const bool is_done = search(shell, a_m, b_m, budget, steps, first);
-  ShellHit hit = first.hit;
+  const bool is_done = search(base_hull, a_m, b_m, budget, steps, first);
+  BaseHullHit hit = first.hit;
   if (!is_done) {
     hit.hit = true;
     hit.t = 0.0f;
@@ -149,11 +150,11 @@ ShellHit cast_shell(const Shell& shell, Vec3 a_m, Vec3 b_m, query::Budget budget
   return hit;
 }
 
-bool wind_around(const Shell& shell, Vec3 p_m, query::Budget budget, int32_t& winding,
+bool wind_around(const BaseHull& base_hull, Vec3 p_m, query::Budget budget, int32_t& winding,
                  uint32_t& steps) {
   winding = 0;
   if (!math::is_finite(p_m)) return false;
-  const ShellHead& head = shell.head();
+  const BaseHullHead& head = base_hull.head();
   // Out by the nearer side along x.
   const float middle = head.low_m[0] * 0.5f + head.high_m[0] * 0.5f,
               side = head.high_m[0] - head.low_m[0];
@@ -161,7 +162,7 @@ bool wind_around(const Shell& shell, Vec3 p_m, query::Budget budget, int32_t& wi
   const bool is_beyond = p_m.x < head.low_m[0] || p_m.x > head.high_m[0];
   if (is_beyond) return true;
   Turns turns;
-  const bool is_done = search(shell, p_m, {out, p_m.y, p_m.z}, budget, steps, turns);
+  const bool is_done = search(base_hull, p_m, {out, p_m.y, p_m.z}, budget, steps, turns);
   winding = is_done ? turns.sum : 0;
   return is_done;
 }

@@ -1,7 +1,7 @@
-#include "firmtouch/hull/shell_distance.hpp"
+#include "firmtouch/hull/base_hull_distance.hpp"
 
+#include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/box_descent.hpp"
-#include "firmtouch/hull/shell_cast.hpp"
 #include "firmtouch/mesh/triangle.hpp"
 
 namespace firmtouch::hull {
@@ -32,17 +32,18 @@ struct Nearest {
 };
 
 // Of a face of no area: none.
-Vec3 normal_of(const Shell& shell, uint32_t face) {
-  const Vec3 a = vertex(shell, shell.vertex_of(face, 0));
-  const Vec3 n = cross(vertex(shell, shell.vertex_of(face, 1)) - a,
-                       vertex(shell, shell.vertex_of(face, 2)) - a);
+Vec3 normal_of(const BaseHull& base_hull, uint32_t face) {
+  const Vec3 a = vertex(base_hull, base_hull.vertex_of(face, 0));
+  const Vec3 n = cross(vertex(base_hull, base_hull.vertex_of(face, 1)) - a,
+                       vertex(base_hull, base_hull.vertex_of(face, 2)) - a);
   const float size = math::length(n);
   return size > 0.0f ? n * (1.0f / size) : Vec3{};
 }
 
-void look_at(const Shell& shell, uint32_t i, Vec3 p_m, Nearest& nearest) {
-  Vec3 a = vertex(shell, shell.vertex_of(i, 0)), b = vertex(shell, shell.vertex_of(i, 1)),
-       c = vertex(shell, shell.vertex_of(i, 2));
+void look_at(const BaseHull& base_hull, uint32_t i, Vec3 p_m, Nearest& nearest) {
+  Vec3 a = vertex(base_hull, base_hull.vertex_of(i, 0)),
+       b = vertex(base_hull, base_hull.vertex_of(i, 1)),
+       c = vertex(base_hull, base_hull.vertex_of(i, 2));
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const float ab2 = dot(ab, ab), bc2 = dot(bc, bc), ca2 = dot(ca, ca);
   if (bc2 > ab2 && bc2 >= ca2) {  // the solver wants the longest edge first
@@ -69,10 +70,11 @@ struct Pending {
 };
 
 // Result: a lower bound of the squared distance to what was not looked at.
-float search(const Shell& shell, Vec3 p_m, uint32_t allowed, uint32_t& steps, Nearest& nearest) {
-  const core::Span<const NodeBox> boxes = shell.boxes();
+float search(const BaseHull& base_hull, Vec3 p_m, uint32_t allowed, uint32_t& steps,
+             Nearest& nearest) {
+  const core::Span<const NodeBox> boxes = base_hull.boxes();
   const FilledTree tree(boxes.size());
-  const ShellHead& head = shell.head();
+  const BaseHullHead& head = base_hull.head();
   const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
                   {head.high_m[0], head.high_m[1], head.high_m[2]}};
   Pending pending[kMaxTreeDepth + 2];
@@ -85,9 +87,9 @@ float search(const Shell& shell, Vec3 p_m, uint32_t allowed, uint32_t& steps, Ne
     if (now.distance2_m2 >= nearest.distance2_m2) continue;
     ++steps;
     if (tree.is_leaf(now.node)) {
-      const uint32_t first = tree.leaf(now.node) * kLeafFaces, all = shell.face_count();
+      const uint32_t first = tree.leaf(now.node) * kLeafFaces, all = base_hull.face_count();
       const uint32_t end = first + kLeafFaces < all ? first + kLeafFaces : all;
-      for (uint32_t i = first; i < end; ++i) look_at(shell, i, p_m, nearest);
+      for (uint32_t i = first; i < end; ++i) look_at(base_hull, i, p_m, nearest);
       continue;
     }
     const uint32_t left = 2 * now.node + 1;
@@ -112,30 +114,30 @@ float loss_m(float distance_m, float diagonal_m) {
 
 }  // namespace
 
-ShellDistance shell_distance(const Shell& shell, Vec3 p_m, query::Budget budget) {
-  ShellDistance result;
-  const ShellHead& head = shell.head();
-  result.point_m = vertex(shell, 0);
+BaseHullDistance base_hull_distance(const BaseHull& base_hull, Vec3 p_m, query::Budget budget) {
+  BaseHullDistance result;
+  const BaseHullHead& head = base_hull.head();
+  result.point_m = vertex(base_hull, 0);
   if (!math::is_finite(p_m)) return result;
   int32_t winding = 0;
   const uint32_t allowed = budget.steps == 0 ? 1 : budget.steps;
-  if (wind_around(shell, p_m, {allowed}, winding, result.steps))
-    result.side = winding == 0 ? ShellSide::kOutside : ShellSide::kInside;
+  if (wind_around(base_hull, p_m, {allowed}, winding, result.steps))
+    result.side = winding == 0 ? BaseHullSide::kOutside : BaseHullSide::kInside;
   Nearest nearest;
   nearest.point_m = result.point_m;
-  const float rest2 = search(shell, p_m, allowed, result.steps, nearest);
+  const float rest2 = search(base_hull, p_m, allowed, result.steps, nearest);
   const bool is_far = !(nearest.distance2_m2 < FLT_MAX);
   result.exact = rest2 >= nearest.distance2_m2 && !is_far;
   result.point_m = nearest.point_m;
-  if (nearest.face != UINT32_MAX) result.normal = normal_of(shell, nearest.face);
+  if (nearest.face != UINT32_MAX) result.normal = normal_of(base_hull, nearest.face);
   const Vec3 sides{head.high_m[0] - head.low_m[0], head.high_m[1] - head.low_m[1],
                    head.high_m[2] - head.low_m[2]};
   const float diagonal_m = math::length(sides);
-  if (result.side == ShellSide::kInside) {
+  if (result.side == BaseHullSide::kInside) {
     const float reported_m = math::square_root(nearest.distance2_m2);
     const float deepest_m = reported_m + loss_m(reported_m, diagonal_m);
     if (!is_far) result.deepest_m = deepest_m;
-  } else if (result.side == ShellSide::kOutside) {
+  } else if (result.side == BaseHullSide::kOutside) {
     const float least2 = rest2 < nearest.distance2_m2 ? rest2 : nearest.distance2_m2;
     const float reported_m = least2 < FLT_MAX ? math::square_root(least2) : kBeyond_m;
     const float lower_m = reported_m - loss_m(reported_m, diagonal_m);

@@ -12,18 +12,18 @@ class View;
 /// A hull of one size in a block of bytes that open() has proven: the coarsest lies in the asset,
 /// others are cut by tools. Its resident part, copied to fast memory, is tested without a read of the
 /// asset.
-class Shell {
+class BaseHull {
  public:
-  Shell() = default;
+  BaseHull() = default;
 
   bool is_open() const { return head_ != nullptr; }
-  const ShellHead& head() const { return *head_; }
+  const BaseHullHead& head() const { return *head_; }
   uint32_t face_count() const { return head_->face_count; }
   core::Span<const NodeBox> boxes() const { return boxes_; }
   /// Of a leaf: its faces, and the vertices that are their corners, each once.
   struct Leaf {
     uint32_t first_face;
-    core::Span<const ShellFace> faces;
+    core::Span<const BaseHullFace> faces;
     core::Span<const uint16_t> corners;
   };
   Leaf leaf(uint32_t i) const {
@@ -44,51 +44,51 @@ class Shell {
   /// The upper two bytes of each coordinate.
   const uint8_t* upper_coordinates() const { return coordinates_.data() + coordinate_bytes_ - 2; }
   uint32_t coordinate_bytes() const { return coordinate_bytes_; }
-  const ShellVertex& kept(uint32_t vertex) const { return kept_[vertex - head_->made_count]; }
+  const BaseHullVertex& kept(uint32_t vertex) const { return kept_[vertex - head_->made_count]; }
   uint32_t id_of(uint32_t vertex) const {
     if (!is_made(vertex)) return kept(vertex).id;
     const uint8_t* at = &ids_[vertex * id_bytes_];
     const uint32_t low = at[0] | static_cast<uint32_t>(at[1]) << 8;
     return id_bytes_ == 2 ? low : low | static_cast<uint32_t>(at[2]) << 16;
   }
-  core::Span<const ShellTriangle> triangles() const { return triangles_; }
+  core::Span<const BaseHullTriangle> triangles() const { return triangles_; }
   /// Bytes of the block from its front that a test of the shell reads.
   uint32_t resident_bytes() const;
   /// The same shell, whose tested part is read from `copy`: the block's first resident_bytes(), in
   /// fast memory.
   /// Result: a shell that is not open where the copy is none, or lies at no multiple of 4.
-  Shell resident(core::Bytes copy) const;
+  BaseHull resident(core::Bytes copy) const;
 
   // Of the grid, kept here so that a test reads nothing else.
   const float* grid_low_m() const { return grid_low_m_; }
   float cell_m() const { return cell_m_; }
 
  private:
-  friend class ShellOpening;
+  friend class BaseHullOpening;
   bool point_into(core::Bytes resident, uint32_t coordinate_bytes);
-  const ShellHead* head_ = nullptr;
+  const BaseHullHead* head_ = nullptr;
   core::Span<const NodeBox> boxes_;
   core::Span<const uint32_t> corner_places_;
-  core::Span<const ShellFace> faces_;
+  core::Span<const BaseHullFace> faces_;
   core::Span<const uint16_t> corners_;
   core::Bytes coordinates_, ids_;
-  core::Span<const ShellVertex> kept_;
-  core::Span<const ShellTriangle> triangles_;
+  core::Span<const BaseHullVertex> kept_;
+  core::Span<const BaseHullTriangle> triangles_;
   uint32_t coordinate_bytes_ = 0, id_bytes_ = 0;
   float grid_low_m_[3] = {}, cell_m_ = 0;
 };
 
 /// Proves a shell against its hull (whose ids and vertices must be proven): rules R540 to R549.
-class ShellOpening {
+class BaseHullOpening {
  public:
-  ShellOpening() = default;
-  ShellOpening(core::Bytes bytes, const View& hull);
+  BaseHullOpening() = default;
+  BaseHullOpening(core::Bytes bytes, const View& hull);
 
   /// Checks up to `elements` vertices or faces more.
   void work(uint32_t elements, const View& hull);
   bool done() const { return stage_ == Stage::kDone; }
   core::Verdict verdict() const { return verdict_; }
-  Shell shell() const { return done() && verdict_.ok() ? shell_ : Shell{}; }
+  BaseHull base_hull() const { return done() && verdict_.ok() ? base_hull_ : BaseHull{}; }
   /// Sum of the hashes of its faces' vertex numbers.
   uint64_t faces() const { return faces_; }
 
@@ -101,7 +101,7 @@ class ShellOpening {
   core::Verdict check_face(uint32_t i, const View& hull);
   core::Verdict check_box(uint32_t face) const;
 
-  Shell shell_;
+  BaseHull base_hull_;
   core::Verdict verdict_;
   Stage stage_ = Stage::kDone;
   uint32_t next_ = 0, next_triangle_ = 0, next_corner_ = 0;
@@ -109,6 +109,6 @@ class ShellOpening {
 };
 
 /// All at once.
-core::Verdict open_shell(core::Bytes bytes, const View& hull, Shell& shell);
+core::Verdict open_base_hull(core::Bytes bytes, const View& hull, BaseHull& base_hull);
 
 }  // namespace firmtouch::hull

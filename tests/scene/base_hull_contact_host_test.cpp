@@ -26,7 +26,7 @@ namespace {
 constexpr float kRadius_m = 0.002f;
 
 struct Rig {
-  tools::Surface surface = tools::make_part(1, 3000), of_shell;
+  tools::Surface surface = tools::make_part(1, 3000), of_base_hull;
   std::vector<tools::Section> sections;
   mesh::View view;
   hull::View hull_view;
@@ -45,14 +45,14 @@ struct Rig {
     CHECK(of_hull.problem.empty());
     CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
     CHECK(hull::open(tools::hull_sections(sections, "part"), hull_view).ok());
-    const hull::Shell& shell = hull_view.shell();
-    for (uint32_t i = 0; i < shell.face_count(); ++i) {
+    const hull::BaseHull& base_hull = hull_view.base_hull();
+    for (uint32_t i = 0; i < base_hull.face_count(); ++i) {
       for (uint32_t k = 0; k < 3; ++k)
-        of_shell.vertices.push_back(hull::vertex(shell, shell.vertex_of(i, k)));
-      of_shell.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        of_base_hull.vertices.push_back(hull::vertex(base_hull, base_hull.vertex_of(i, k)));
+      of_base_hull.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     object.mesh = &view;
-    object.shell = &shell;
+    object.base_hull = &base_hull;
     object.material = {1000.0f, 0.0f};
   }
 };
@@ -77,8 +77,8 @@ std::vector<math::Vec3> way(int count) {
 
 }  // namespace
 
-TEST(WhereTheMeshsQueryIsCutOffTheShellIsFeltEarlyAndNeverLate) {
-  uint32_t of_shell = 0, touched = 0, early = 0, max_steps = 0;
+TEST(WhereTheMeshsQueryIsCutOffTheBaseHullIsFeltEarlyAndNeverLate) {
+  uint32_t of_base_hull = 0, touched = 0, early = 0, max_steps = 0;
   for (const uint32_t steps : {1u, 2u, 4u, 8u, 16u, 64u}) {
     scene::MeshTouch touch;
     int i = 0;
@@ -92,31 +92,31 @@ TEST(WhereTheMeshsQueryIsCutOffTheShellIsFeltEarlyAndNeverLate) {
       const float depth_m = kRadius_m - truth.distance_m;
       if (depth_m > 1e-6f) CHECK_LE(depth_m - 2e-6f, touch.penetration_m);
       touched += depth_m > 0 ? 1u : 0u;
-      if (touch.shell_steps > max_steps) max_steps = touch.shell_steps;
-      if (!touch.is_of_shell) {
+      if (touch.base_hull_steps > max_steps) max_steps = touch.base_hull_steps;
+      if (!touch.is_of_base_hull) {
         CHECK_LE(touch.penetration_m, (depth_m > 0 ? depth_m : 0.0f) + 2e-6f);
         continue;
       }
-      ++of_shell;
+      ++of_base_hull;
       early += touch.penetration_m > 0 && depth_m <= 0 ? 1u : 0u;
-      const mesh_test::Truth to_shell =
-          mesh_test::brute_force(rig().of_shell, mesh_test::wide(p_m));
-      const double off_m = to_shell.inside ? -to_shell.distance : to_shell.distance;
+      const mesh_test::Truth to_base_hull =
+          mesh_test::brute_force(rig().of_base_hull, mesh_test::wide(p_m));
+      const double off_m = to_base_hull.inside ? -to_base_hull.distance : to_base_hull.distance;
       CHECK_LE(double{touch.penetration_m}, std::max(0.0, double{kRadius_m} - off_m) + 2e-6);
       if (model.plane_count == 0) continue;
       const math::Vec3 n = model.plane[0].normal;
       CHECK_LE(std::fabs(n.x * n.x + n.y * n.y + n.z * n.z - 1.0f), 1e-4f);
     }
   }
-  CHECK_LT(2000u, of_shell);
+  CHECK_LT(2000u, of_base_hull);
   CHECK_LT(1000u, touched);
   CHECK_LT(10u, early);
   CHECK_LT(max_steps, 512u);
 }
 
-TEST(WithTimeForTheMeshAShellChangesNothing) {
+TEST(WithTimeForTheMeshABaseHullChangesNothing) {
   scene::MeshObject alone = rig().object;
-  alone.shell = nullptr;
+  alone.base_hull = nullptr;
   scene::MeshTouch with_it, without;
   int i = 0;
   for (const math::Vec3 p_m : way(800)) {
@@ -126,7 +126,7 @@ TEST(WithTimeForTheMeshAShellChangesNothing) {
     scene::begin_model(b, p_m, 0, 3);
     scene::touch_mesh(rig().object, kRadius_m, p_m, query::kUnlimited, with_it, a);
     scene::touch_mesh(alone, kRadius_m, p_m, query::kUnlimited, without, b);
-    CHECK(!with_it.is_of_shell);
+    CHECK(!with_it.is_of_base_hull);
     CHECK_EQ(with_it.penetration_m, without.penetration_m);
     CHECK_EQ(a.free_radius_m, b.free_radius_m);
     CHECK_EQ(a.plane_count, b.plane_count);

@@ -14,12 +14,12 @@ namespace firmtouch::hull {
 /// plane at byte b is passed at b * rate from the segment's own base; the low planes are met first on
 /// an axis along which the segment rises, the high planes (told from the far side, so bytes again)
 /// where it falls.
-class ShellSegment {
+class BaseHullSegment {
  public:
   static constexpr int32_t kEnd = 1 << 20, kNever = INT32_MAX;
 
   /// Pre: both finite.
-  ShellSegment(const Shell& shell, math::Vec3 a_m, math::Vec3 b_m);
+  BaseHullSegment(const BaseHull& base_hull, math::Vec3 a_m, math::Vec3 b_m);
 
   /// Whether it passes by the whole shell.
   bool misses() const { return misses_; }
@@ -48,7 +48,7 @@ class ShellSegment {
     uint32_t sides[kMaxLeafCorners];
   };
   /// Result: the bits that all of them share.
-  uint32_t place(const Shell& shell, const Shell::Leaf& leaf, Corners& corners) const {
+  uint32_t place(const BaseHull& base_hull, const BaseHull::Leaf& leaf, Corners& corners) const {
     const Line line = line_;  // a copy, which the writing below cannot change
     const uint8_t *x = coordinates_ + at_[0], *y = coordinates_ + at_[1],
                   *along = coordinates_ + at_[2];
@@ -59,7 +59,7 @@ class ShellSegment {
       const uint32_t beside =
           vertex < made_count
               ? line.beside(upper_half(x + at), upper_half(y + at), upper_half(along + at))
-              : beside_of_kept(shell.kept(vertex));
+              : beside_of_kept(base_hull.kept(vertex));
       const uint32_t sides = line.sides(beside);
       corners.beside[i] = beside;
       corners.sides[i] = sides;
@@ -69,7 +69,7 @@ class ShellSegment {
   }
   /// Whether the line certainly passes beside the face: all of it on one side, or edges on either
   /// hand.
-  bool passes(const Corners& corners, ShellFace face) const {
+  bool passes(const Corners& corners, BaseHullFace face) const {
     const uint32_t p = corner_at(face, 0), q = corner_at(face, 1), r = corner_at(face, 2);
     if ((corners.sides[p] & corners.sides[q] & corners.sides[r]) != 0) return true;
     const int32_t pu = lower(corners.beside[p]), pv = upper(corners.beside[p]);
@@ -121,8 +121,8 @@ class ShellSegment {
   static int32_t lower(uint32_t word) { return static_cast<int16_t>(word & 0xFFFFu); }
   static int32_t upper(uint32_t word) { return static_cast<int32_t>(word) >> 16; }
   static int32_t size_of(int32_t v) { return v < 0 ? -v : v; }
-  uint32_t beside_of_kept(const ShellVertex& kept) const;
-  void open_axes(const ShellHead& head, const float (&from_m)[3], const float (&to_m)[3],
+  uint32_t beside_of_kept(const BaseHullVertex& kept) const;
+  void open_axes(const BaseHullHead& head, const float (&from_m)[3], const float (&to_m)[3],
                  const float (&error_m)[3]);
   void open_line(const float (&from_m)[3], const float (&step_m)[3], const float (&error_m)[3]);
 
@@ -142,15 +142,15 @@ class ShellSegment {
 /// Visitor::leaf(i) answers whether it wants more.
 /// Result: whether the search came to its end within `allowed` steps in all.
 template <class Visitor>
-bool walk(const Shell& shell, const ShellSegment& segment, uint32_t allowed, uint32_t& steps,
-          Visitor& visitor) {
+bool walk(const BaseHull& base_hull, const BaseHullSegment& segment, uint32_t allowed,
+          uint32_t& steps, Visitor& visitor) {
   struct Pending {
     int32_t entry;
     uint32_t node;
   };
   if (segment.misses()) return true;
-  const NodeBox* boxes = shell.boxes().data();
-  const FilledTree tree(shell.boxes().size());
+  const NodeBox* boxes = base_hull.boxes().data();
+  const FilledTree tree(base_hull.boxes().size());
   Pending pending[kMaxTreeDepth + 1];
   uint32_t count = 0, node = 0;
   while (true) {
@@ -164,8 +164,8 @@ bool walk(const Shell& shell, const ShellSegment& segment, uint32_t allowed, uin
       const int32_t other = segment.enter(boxes[left + 1], visitor.limit);
       const uint32_t nearer = other < one ? left + 1 : left;
       const int32_t entry = other < one ? other : one, later = other < one ? one : other;
-      if (later != ShellSegment::kNever) pending[count++] = {later, left + left + 1 - nearer};
-      if (entry != ShellSegment::kNever) {
+      if (later != BaseHullSegment::kNever) pending[count++] = {later, left + left + 1 - nearer};
+      if (entry != BaseHullSegment::kNever) {
         node = nearer;
         continue;
       }

@@ -8,7 +8,7 @@
 namespace firmtouch::tools {
 
 /// What a shell is made of.
-struct ShellSource {
+struct BaseHullSource {
   hull::Head head{};
   uint32_t cut = 0;
   std::vector<std::array<uint32_t, 3>> faces;  // of ids
@@ -19,10 +19,10 @@ struct ShellSource {
 };
 
 /// Empty where it has more vertices than a shell can number.
-std::vector<uint8_t> encode_shell(const ShellSource& source);
+std::vector<uint8_t> encode_base_hull(const BaseHullSource& source);
 
 /// The hull of at most `faces` faces of a proven hull, or its coarsest, as a shell's bytes: 4-byte
 /// aligned words. Empty as above.
-std::vector<uint32_t> cut_shell(const hull::View& view, uint32_t faces);
+std::vector<uint32_t> cut_base_hull(const hull::View& view, uint32_t faces);
 
 }  // namespace firmtouch::tools

@@ -1,4 +1,4 @@
-#include "firmtouch/hull/shell_segment.hpp"
+#include "firmtouch/hull/base_hull_segment.hpp"
 
 namespace firmtouch::hull {
 namespace {
@@ -22,19 +22,20 @@ constexpr float kFirstStep = -8192.0f, kLastStep = 73728.0f;
 
 }  // namespace
 
-ShellSegment::ShellSegment(const Shell& shell, math::Vec3 a_m, math::Vec3 b_m)
-    : coordinates_(shell.upper_coordinates()),
-      made_count_(shell.head().made_count),
-      bytes_(3 * shell.coordinate_bytes()) {
-  const ShellHead& head = shell.head();
+BaseHullSegment::BaseHullSegment(const BaseHull& base_hull, math::Vec3 a_m, math::Vec3 b_m)
+    : coordinates_(base_hull.upper_coordinates()),
+      made_count_(base_hull.head().made_count),
+      bytes_(3 * base_hull.coordinate_bytes()) {
+  const BaseHullHead& head = base_hull.head();
   const math::Vec3 along_m = b_m - a_m;
   const float a[3] = {a_m.x, a_m.y, a_m.z}, step[3] = {along_m.x, along_m.y, along_m.z};
   for (uint32_t k = 0; k < 3; ++k) {
-    grid_low_m_[k] = shell.grid_low_m()[k];
+    grid_low_m_[k] = base_hull.grid_low_m()[k];
     axis_[k] = {0, 0, kEnd, k, 3 + k};
-    at_[k] = k * shell.coordinate_bytes();
+    at_[k] = k * base_hull.coordinate_bytes();
   }
-  steps_per_m_ = 1.0f / (shell.coordinate_bytes() == 2 ? shell.cell_m() : shell.cell_m() * 256.0f);
+  steps_per_m_ =
+      1.0f / (base_hull.coordinate_bytes() == 2 ? base_hull.cell_m() : base_hull.cell_m() * 256.0f);
   float first = 0.0f, last = 1.0f;
   for (uint32_t k = 0; k < 3; ++k) {
     const float size = absolute(step[k]);
@@ -67,8 +68,8 @@ ShellSegment::ShellSegment(const Shell& shell, math::Vec3 a_m, math::Vec3 b_m)
 
 // An axis along which the part moves less than half a 256th is taken to move so much; its planes are
 // padded by as much.
-void ShellSegment::open_axes(const ShellHead& head, const float (&from_m)[3],
-                             const float (&to_m)[3], const float (&error_m)[3]) {
+void BaseHullSegment::open_axes(const BaseHullHead& head, const float (&from_m)[3],
+                                const float (&to_m)[3], const float (&error_m)[3]) {
   for (uint32_t k = 0; k < 3; ++k) {
     const float side_m = head.high_m[k] - head.low_m[k];
     if (!(side_m > kStill_m)) continue;  // no plane of it tells anything
@@ -90,8 +91,8 @@ void ShellSegment::open_axes(const ShellHead& head, const float (&from_m)[3],
   }
 }
 
-void ShellSegment::open_line(const float (&from_m)[3], const float (&step_m)[3],
-                             const float (&error_m)[3]) {
+void BaseHullSegment::open_line(const float (&from_m)[3], const float (&step_m)[3],
+                                const float (&error_m)[3]) {
   const float x = absolute(step_m[0]), y = absolute(step_m[1]), z = absolute(step_m[2]);
   longest_ = x > y && x > z ? 0 : y > z ? 1 : 2;
   const uint32_t k = longest_, i = k == 2 ? 0 : k + 1, j = i == 2 ? 0 : i + 1;
@@ -120,7 +121,7 @@ void ShellSegment::open_line(const float (&from_m)[3], const float (&step_m)[3],
   line_.margin = eights << 16 | eights;
 }
 
-uint32_t ShellSegment::beside_of_kept(const ShellVertex& kept) const {
+uint32_t BaseHullSegment::beside_of_kept(const BaseHullVertex& kept) const {
   const float at_m[3] = {kept.x_m, kept.y_m, kept.z_m};
   uint32_t step[3];
   for (uint32_t n = 0; n < 3; ++n) {
