@@ -128,7 +128,7 @@ Controller::Surface Controller::touch(const Wish& wish, const Values& v, servo::
   }
   scene::MeshObject object;
   object.mesh = &opener_.mesh();
-  object.map = &opener_.map();
+  object.distance_field = &opener_.distance_field();
   object.base_hull = &opener_.hull().base_hull();
   object.pose = scene_pose(v);
   object.material = material;

@@ -69,7 +69,7 @@ class Controller {
   const params::Values& values() const { return live_.values; }
   const mesh::View& mesh() const { return opener_.mesh(); }
   const hull::View& hull() const { return opener_.hull(); }
-  const field::View& map() const { return opener_.map(); }
+  const field::View& distance_field() const { return opener_.distance_field(); }
   const curve::View& curve() const { return opener_.curve(); }
   const spline::View& spline_surface() const { return opener_.spline_surface(); }
   const spline::GuideView& spline_guide() const { return opener_.spline_guide(); }

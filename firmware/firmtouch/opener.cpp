@@ -52,7 +52,7 @@ void Opener::begin(core::Bytes asset, Selection selection) {
   container_ = {};
   mesh_ = {};
   curve_ = {};
-  map_ = {};
+  field_ = {};
   hull_ = {};
   spline_surface_ = {};
   spline_guide_ = {};
@@ -111,14 +111,14 @@ bool Opener::work(uint32_t budget) {
     take_spline_guide(budget);
   } else if (stage_ == Stage::kMeshProbes) {
     run_mesh_probes();
-  } else if (stage_ == Stage::kMap) {
-    map_opening_.work(budget / kBytesACell + 1);
-    if (!map_opening_.done()) return false;
-    map_ = map_opening_.view();
-    if (map_opening_.verdict().ok()) {
+  } else if (stage_ == Stage::kField) {
+    field_opening_.work(budget / kBytesACell + 1);
+    if (!field_opening_.done()) return false;
+    field_ = field_opening_.view();
+    if (field_opening_.verdict().ok()) {
       start_hull();
     } else {
-      refuse(map_opening_.verdict());
+      refuse(field_opening_.verdict());
     }
   } else if (stage_ == Stage::kHull) {
     take_hull(budget);
@@ -198,15 +198,15 @@ void Opener::run_mesh_probes() {
       return refuse(core::reject(kRuleMeshProbes));
     }
   }
-  start_map();
+  start_field();
 }
 
-void Opener::start_map() {
+void Opener::start_field() {
   if (!mesh_.is_open()) return set_stage(Stage::kCurveProbes);
-  const field::Sections sections = map_sections(container_, selection_.mesh);
+  const field::Sections sections = distance_field_sections(container_, selection_.mesh);
   if (sections.head.empty()) return start_hull();
-  map_opening_ = field::Opening(sections, mesh_);
-  set_stage(Stage::kMap);
+  field_opening_ = field::Opening(sections, mesh_);
+  set_stage(Stage::kField);
 }
 
 void Opener::start_hull() {

@@ -64,7 +64,7 @@ class Opener {
   const mesh::View& mesh() const { return mesh_; }
   const curve::View& curve() const { return curve_; }
   /// Of the mesh; one that is not open where the asset has none.
-  const field::View& map() const { return map_; }
+  const field::View& distance_field() const { return field_; }
   const hull::View& hull() const { return hull_; }
   const spline::View& spline_surface() const { return spline_surface_; }
   const spline::GuideView& spline_guide() const { return spline_guide_; }
@@ -80,7 +80,7 @@ class Opener {
     kSplineCurve,
     kSplineGuide,
     kMeshProbes,
-    kMap,
+    kField,
     kHull,
     kHullProbes,
     kCurveProbes,
@@ -95,7 +95,7 @@ class Opener {
   void start_mesh();
   void start_spline_surface();
   void start_curve();
-  void start_map();
+  void start_field();
   void start_hull();
   void take_hull(uint32_t budget);
   void run_hull_probe();
@@ -113,14 +113,14 @@ class Opener {
   asset::Container container_;
   mesh::View mesh_;
   curve::View curve_;
-  field::View map_;
+  field::View field_;
   hull::View hull_;
   spline::View spline_surface_;
   spline::GuideView spline_guide_;
   asset::Opening asset_opening_{core::Bytes{}};
   mesh::Opening mesh_opening_{mesh::Sections{}};
   curve::Opening curve_opening_{curve::Sections{}};
-  field::Opening map_opening_{field::Sections{}, mesh_};
+  field::Opening field_opening_{field::Sections{}, mesh_};
   hull::Opening hull_opening_{hull::Sections{}};
   hull::ProbeRun hull_probes_;
   spline::Opening spline_opening_{spline::Sections{}};  // of the surface, then of the curve

@@ -17,7 +17,7 @@ mesh::Sections mesh_sections(const asset::Container& container, const char* name
   return sections;
 }
 
-field::Sections map_sections(const asset::Container& container, const char* name) {
+field::Sections distance_field_sections(const asset::Container& container, const char* name) {
   field::Sections sections;
   sections.head = container.find(field::kHeadSection, name);
   sections.distances = container.find(field::kDistancesSection, name);

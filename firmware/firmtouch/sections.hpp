@@ -14,7 +14,7 @@ namespace firmtouch {
 // Errors: a section that the asset lacks is empty, which open() refuses by its rule.
 // Bounds: a search of the section table each (asset::Container::find); no memory is copied.
 mesh::Sections mesh_sections(const asset::Container& container, const char* name);
-field::Sections map_sections(const asset::Container& container, const char* name);
+field::Sections distance_field_sections(const asset::Container& container, const char* name);
 hull::Sections hull_sections(const asset::Container& container, const char* name);
 curve::Sections curve_sections(const asset::Container& container, const char* name);
 spline::Sections spline_sections(const asset::Container& container, const char* name);

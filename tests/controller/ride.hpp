@@ -62,7 +62,8 @@ inline std::vector<tools::Section> path_sections() {
 }
 
 // Of the part: proven against `part`, which holds its sections.
-inline std::vector<tools::Section> map_sections(const std::vector<tools::Section>& part) {
+inline std::vector<tools::Section> distance_field_sections(
+    const std::vector<tools::Section>& part) {
   mesh::View view;
   CHECK(mesh::open(tools::mesh_sections(part, "part"), view).ok());
   tools::FieldReport report;

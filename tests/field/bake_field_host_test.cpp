@@ -15,9 +15,9 @@ namespace {
 
 struct Baked {
   Surface surface;
-  std::vector<Section> mesh_sections_, map_sections_;
+  std::vector<Section> mesh_sections_, field_sections_;
   mesh::View mesh;
-  field::View map;
+  field::View distance_field;
   FieldReport report;
 };
 
@@ -30,14 +30,15 @@ Baked bake(Surface surface, uint32_t cells, bool is_signed = true) {
   baked.mesh_sections_ = bake_mesh(baked.surface, "m", options, report);
   CHECK(report.problem.empty());
   CHECK(mesh::open(mesh_sections(baked.mesh_sections_, "m"), baked.mesh).ok());
-  baked.map_sections_ = bake_field(baked.mesh, "m", cells, baked.report);
+  baked.field_sections_ = bake_field(baked.mesh, "m", cells, baked.report);
   CHECK(baked.report.problem.empty());
-  CHECK(field::open(field_sections(baked.map_sections_, "m"), baked.mesh, baked.map).ok());
+  CHECK(field::open(field_sections(baked.field_sections_, "m"), baked.mesh, baked.distance_field)
+            .ok());
   return baked;
 }
 
 void check_point(const Baked& baked, math::Vec3 p, bool check_side) {
-  const field::Bounds b = field::distance_bounds(baked.map, p);
+  const field::Bounds b = field::distance_bounds(baked.distance_field, p);
   const double truth = judged_distance(baked.surface, to_point(p));
   CHECK_LE(static_cast<double>(b.lower_m), truth);
   CHECK_GE(static_cast<double>(b.upper_m), truth);
@@ -50,7 +51,7 @@ void check_point(const Baked& baked, math::Vec3 p, bool check_side) {
 
 TEST(BoundsHoldAgainstBruteForceAtCentresCornersAndAnywhere) {
   const Baked baked = bake(make_part(1, 1500), 16);
-  const field::Head& head = baked.map.head();
+  const field::Head& head = baked.distance_field.head();
   for (uint32_t z = 0; z < head.count[2]; z += 2)
     for (uint32_t y = 0; y < head.count[1]; y += 2)
       for (uint32_t x = 0; x < head.count[0]; x += 3) {
@@ -76,8 +77,8 @@ TEST(BoundsGrowCloserWithMoreCells) {
   for (int i = 0; i < 2000; ++i) {
     const auto at = [&] { return static_cast<float>(random.between(-size, size)); };
     const math::Vec3 p{at(), at(), at()};
-    const field::Bounds a = field::distance_bounds(coarse.map, p);
-    const field::Bounds b = field::distance_bounds(fine.map, p);
+    const field::Bounds a = field::distance_bounds(coarse.distance_field, p);
+    const field::Bounds b = field::distance_bounds(fine.distance_field, p);
     gap_coarse += static_cast<double>(a.upper_m - a.lower_m);
     gap_fine += static_cast<double>(b.upper_m - b.lower_m);
   }
@@ -90,8 +91,8 @@ TEST(AnUnsignedMeshHasAMapWithoutSides) {
   open.faces.pop_back();
   open.source.pop_back();
   const Baked baked = bake(open, 12, false);
-  for (const int16_t word : baked.map.distances()) CHECK(word >= 0);
-  CHECK_EQ(static_cast<int>(field::distance_bounds(baked.map, {9, 9, 9}).sign), 0);
+  for (const int16_t word : baked.distance_field.distances()) CHECK(word >= 0);
+  CHECK_EQ(static_cast<int>(field::distance_bounds(baked.distance_field, {9, 9, 9}).sign), 0);
   check_point(baked, {9, 9, 9}, false);
   check_point(baked, {0.001f, 0.002f, 0.003f}, false);
 }
@@ -105,8 +106,8 @@ TEST(AMapOfTooManyCellsIsRefused) {
 
 TEST(TheSameMeshGivesTheSameMap) {
   const Baked one = bake(make_part(1, 1500), 12), two = bake(make_part(1, 1500), 12);
-  for (size_t i = 0; i < one.map_sections_.size(); ++i)
-    CHECK(one.map_sections_[i].bytes == two.map_sections_[i].bytes);
+  for (size_t i = 0; i < one.field_sections_.size(); ++i)
+    CHECK(one.field_sections_[i].bytes == two.field_sections_[i].bytes);
 }
 
 }  // namespace firmtouch::tools

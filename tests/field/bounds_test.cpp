@@ -8,14 +8,14 @@
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
-using field_test::CubeMap;
+using field_test::CubeField;
 using math::Vec3;
 
 struct Opened {
-  CubeMap map;
-  mesh::View mesh = map.cube.view();
+  CubeField distance_field;
+  mesh::View mesh = distance_field.cube.view();
   field::View view;
-  Opened() { CHECK(field::open(map.sections(), mesh, view).ok()); }
+  Opened() { CHECK(field::open(distance_field.sections(), mesh, view).ok()); }
 };
 
 // Signed distance to the cube from -1 to 1, negative inside.
@@ -55,10 +55,10 @@ TEST(BoundsHoldTheCubesDistanceAndSideInTheGridAndBesideIt) {
 
 TEST(AtACentreTheBoundsAreTwoQuantaApartButForRounding) {
   const Opened o;
-  for (uint32_t i = 0; i < CubeMap::kCells; ++i) {
-    const field::Bounds b = field::distance_bounds(o.view, o.map.centre_of(i));
-    CHECK_LE(b.upper_m - b.lower_m, 2.0f * o.map.head.quantum_m + 2e-6f);
-    CHECK_EQ(b.seed, o.map.seeds[i]);
+  for (uint32_t i = 0; i < CubeField::kCells; ++i) {
+    const field::Bounds b = field::distance_bounds(o.view, o.distance_field.centre_of(i));
+    CHECK_LE(b.upper_m - b.lower_m, 2.0f * o.distance_field.head.quantum_m + 2e-6f);
+    CHECK_EQ(b.seed, o.distance_field.seeds[i]);
   }
 }
 
@@ -85,11 +85,11 @@ TEST(HostilePointsGiveFiniteBoundsThatAreTrue) {
 }
 
 TEST(AnUnknownCellStillTellsWhatTheGridsBoxDoes) {
-  CubeMap map;
-  for (int16_t& word : map.words) word = field::kUnknown;
+  CubeField distance_field;
+  for (int16_t& word : distance_field.words) word = field::kUnknown;
   field::View view;
-  const mesh::View mesh = map.cube.view();
-  CHECK(field::open(map.sections(), mesh, view).ok());
+  const mesh::View mesh = distance_field.cube.view();
+  CHECK(field::open(distance_field.sections(), mesh, view).ok());
   const field::Bounds in = field::distance_bounds(view, {0, 0, 0});
   CHECK(in.lower_m <= 0 && in.upper_m >= FLT_MAX && in.sign == 0);
   const field::Bounds out = field::distance_bounds(view, {4, 0, 0});

@@ -10,14 +10,14 @@
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
-using field_test::CubeMap;
+using field_test::CubeField;
 using math::Vec3;
 
 struct Opened {
-  CubeMap map;
-  mesh::View mesh = map.cube.view();
+  CubeField distance_field;
+  mesh::View mesh = distance_field.cube.view();
   field::View view;
-  Opened() { CHECK(field::open(map.sections(), mesh, view).ok()); }
+  Opened() { CHECK(field::open(distance_field.sections(), mesh, view).ok()); }
 };
 
 float coordinate(uint32_t& state, float reach) {

@@ -7,14 +7,14 @@
 
 namespace firmtouch::field_test {
 
-struct CubeMap {
+struct CubeField {
   static constexpr uint32_t kSide = 8, kCells = kSide * kSide * kSide;
   mesh_test::Cube cube;
   field::Head head{};
   int16_t words[kCells];
   uint32_t seeds[kCells];
 
-  CubeMap() {
+  CubeField() {
     for (uint32_t k = 0; k < 3; ++k) head.count[k] = kSide;
     for (float& low_m : head.low_m) low_m = -1.375f;
     head.is_signed = 1;

@@ -5,7 +5,7 @@
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
-using field_test::CubeMap;
+using field_test::CubeField;
 
 uint32_t refusal_of(const field::Sections& sections, const mesh::View& mesh) {
   field::View view;
@@ -13,13 +13,15 @@ uint32_t refusal_of(const field::Sections& sections, const mesh::View& mesh) {
   CHECK_EQ(verdict.ok(), view.is_open());
   return verdict.rule * 1000u + verdict.element;
 }
-uint32_t refusal_of(const CubeMap& map) { return refusal_of(map.sections(), map.cube.view()); }
+uint32_t refusal_of(const CubeField& distance_field) {
+  return refusal_of(distance_field.sections(), distance_field.cube.view());
+}
 
 template <class Change>
 uint32_t refusal_with(Change change) {
-  CubeMap map;
-  change(map);
-  return refusal_of(map);
+  CubeField distance_field;
+  change(distance_field);
+  return refusal_of(distance_field);
 }
 
 float not_a_number() {
@@ -33,86 +35,86 @@ core::Bytes shorter(core::Bytes bytes, uint32_t by) { return {bytes.data(), byte
 
 }  // namespace
 
-TEST(WholeMapPasses) { CHECK_EQ(refusal_of(CubeMap()), 0u); }
+TEST(WholeMapPasses) { CHECK_EQ(refusal_of(CubeField()), 0u); }
 
 TEST(R301HeadOfTheWrongSize) {
-  const CubeMap map;
-  field::Sections s = map.sections();
+  const CubeField distance_field;
+  field::Sections s = distance_field.sections();
   s.head = shorter(s.head, 4);
-  CHECK_EQ(refusal_of(s, map.cube.view()), 301'000u);
+  CHECK_EQ(refusal_of(s, distance_field.cube.view()), 301'000u);
   s.head = {};
-  CHECK_EQ(refusal_of(s, map.cube.view()), 301'000u);
+  CHECK_EQ(refusal_of(s, distance_field.cube.view()), 301'000u);
 }
 
 TEST(R302CountsOutOfRange) {
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.count[1] = 0; }), 302'001u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.count[2] = 1025; }), 302'002u);
-  CHECK_EQ(
-      refusal_with([](CubeMap& m) { m.head.count[0] = m.head.count[1] = m.head.count[2] = 1024; }),
-      302'003u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.count[1] = 0; }), 302'001u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.count[2] = 1025; }), 302'002u);
+  CHECK_EQ(refusal_with(
+               [](CubeField& m) { m.head.count[0] = m.head.count[1] = m.head.count[2] = 1024; }),
+           302'003u);
 }
 
 TEST(R303DistancesDoNotMatchTheCells) {
-  const CubeMap map;
-  field::Sections s = map.sections();
+  const CubeField distance_field;
+  field::Sections s = distance_field.sections();
   s.distances = shorter(s.distances, 2);
-  CHECK_EQ(refusal_of(s, map.cube.view()), 303'511u);
+  CHECK_EQ(refusal_of(s, distance_field.cube.view()), 303'511u);
 }
 
 TEST(R304SeedsDoNotMatchTheCells) {
-  const CubeMap map;
-  field::Sections s = map.sections();
+  const CubeField distance_field;
+  field::Sections s = distance_field.sections();
   s.seeds = shorter(s.seeds, 4);
-  CHECK_EQ(refusal_of(s, map.cube.view()), 304'511u);
+  CHECK_EQ(refusal_of(s, distance_field.cube.view()), 304'511u);
 }
 
 TEST(R305SidesThatAreNotTheMeshs) {
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.is_signed = 0; }), 305'000u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.is_signed = 2; }), 305'000u);
-  const CubeMap map;
-  CHECK_EQ(refusal_of(map.sections(), mesh::View()), 305'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.is_signed = 0; }), 305'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.is_signed = 2; }), 305'000u);
+  const CubeField distance_field;
+  CHECK_EQ(refusal_of(distance_field.sections(), mesh::View()), 305'000u);
 }
 
 TEST(R306ReservedWordsAreZero) {
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.reserved[2] = 1; }), 306'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.reserved[2] = 1; }), 306'000u);
 }
 
 TEST(R307GridThatDoesNotHoldTheMesh) {
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.low_m[1] = -0.99f; }), 307'001u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.low_m[2] = -1.8f; }), 307'002u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.low_m[0] = -2e8f; }), 307'000u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.low_m[0] = not_a_number(); }), 307'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[1] = -0.99f; }), 307'001u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[2] = -1.8f; }), 307'002u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[0] = -2e8f; }), 307'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[0] = not_a_number(); }), 307'000u);
 }
 
 TEST(R308CellsOfNoSize) {
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.cell_m = 0; }), 308'000u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.cell_m = -0.4f; }), 308'000u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.cell_m = not_a_number(); }), 308'000u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.cell_m = 2e8f; }), 308'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = 0; }), 308'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = -0.4f; }), 308'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = not_a_number(); }), 308'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = 2e8f; }), 308'000u);
 }
 
 TEST(R309QuantumThatIsNoPowerOfTwo) {
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.quantum_m = 3.0f; }), 309'000u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.quantum_m = -0.5f; }), 309'000u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.quantum_m = not_a_number(); }), 309'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.quantum_m = 3.0f; }), 309'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.quantum_m = -0.5f; }), 309'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.quantum_m = not_a_number(); }), 309'000u);
 }
 
 TEST(R310BoundsAndSidesThatTheMeshDoesNotAnswer) {
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.words[7] = static_cast<int16_t>(m.words[7] + 2); }),
+  CHECK_EQ(refusal_with([](CubeField& m) { m.words[7] = static_cast<int16_t>(m.words[7] + 2); }),
            310'007u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.words[7] = static_cast<int16_t>(m.words[7] - 2); }),
+  CHECK_EQ(refusal_with([](CubeField& m) { m.words[7] = static_cast<int16_t>(m.words[7] - 2); }),
            310'007u);
-  const auto other_side = [](CubeMap& m) {
+  const auto other_side = [](CubeField& m) {
     m.words[300] = static_cast<int16_t>(-1 - m.words[300]);
   };
   CHECK_EQ(refusal_with(other_side), 310'300u);
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.head.quantum_m *= 2; }), 310'000u);
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.quantum_m *= 2; }), 310'000u);
 }
 
 TEST(ACellMaySayNothingAndASeedAnything) {
-  CHECK_EQ(refusal_with([](CubeMap& m) { m.words[9] = field::kUnknown; }), 0u);
-  CHECK_EQ(refusal_with([](CubeMap& m) {
-             for (uint32_t i = 0; i < CubeMap::kCells; ++i) m.seeds[i] = i * 2654435761u;
+  CHECK_EQ(refusal_with([](CubeField& m) { m.words[9] = field::kUnknown; }), 0u);
+  CHECK_EQ(refusal_with([](CubeField& m) {
+             for (uint32_t i = 0; i < CubeField::kCells; ++i) m.seeds[i] = i * 2654435761u;
            }),
            0u);
 }

@@ -95,21 +95,21 @@ void feel_curve(const curve::View& view) {
   }
 }
 
-void feel_map(const field::View& map, const mesh::View& mesh) {
+void feel_field(const field::View& distance_field, const mesh::View& mesh) {
   query::Hint hint;
   for (const Vec3 p : kPoints) {
-    const field::Bounds bounds = field::distance_bounds(map, p);
+    const field::Bounds bounds = field::distance_bounds(distance_field, p);
     CHECK(is_finite(bounds.lower_m) && bounds.lower_m >= 0);
     CHECK(is_finite(bounds.upper_m) && bounds.upper_m >= bounds.lower_m);
     CHECK(bounds.sign >= -1 && bounds.sign <= 1);
-    const field::Felt felt = field::closest_point(map, mesh, p, 0.1f, {7}, hint);
+    const field::Felt felt = field::closest_point(distance_field, mesh, p, 0.1f, {7}, hint);
     check_certificate(felt.closest.certificate, 7, is_finite(p));
     CHECK(is_finite(felt.closest.distance_m));
   }
 }
 
-core::Verdict open_map(const asset::Container& container, const char* name,
-                       const mesh::View& mesh) {
+core::Verdict open_field(const asset::Container& container, const char* name,
+                         const mesh::View& mesh) {
   Copies copies;
   field::Sections sections;
   sections.head = copies.of(container.find(field::kHeadSection, name));
@@ -119,7 +119,7 @@ core::Verdict open_map(const asset::Container& container, const char* name,
   field::View view;
   const core::Verdict verdict = field::open(sections, mesh, view);
   CHECK_EQ(verdict.ok(), view.is_open());
-  if (verdict.ok()) feel_map(view, mesh);
+  if (verdict.ok()) feel_field(view, mesh);
   return verdict;
 }
 
@@ -146,7 +146,7 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   const query::Probes probes =
       query::read_probes(copies.of(container.find(mesh::kProbesSection, name)));
   (void)mesh::probe_hash(view, probes.points);
-  return open_map(container, name, view);
+  return open_field(container, name, view);
 }
 
 core::Verdict open_curve(const asset::Container& container, const char* name) {

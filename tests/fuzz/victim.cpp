@@ -63,14 +63,15 @@ void add_mesh(std::vector<Section>& sections, const std::string& name, bool is_s
   CHECK(mesh::open(tools::mesh_sections(mesh, name), view).ok());
   if (is_signed &&
       !wide) {  // a map of three cells a side: each proof asks the mesh for all of them
-    tools::FieldReport of_map;
-    std::vector<Section> map = tools::bake_field(view, name, 1, of_map);
-    CHECK(of_map.problem.empty());
-    for (size_t i = 8; i < map[1].bytes.size(); i += 2) {  // four cells are proven, the others
-      map[1].bytes[i] = 0;                                 // say nothing: that takes no query
-      map[1].bytes[i + 1] = 0x80;
+    tools::FieldReport of_field;
+    std::vector<Section> distance_field = tools::bake_field(view, name, 1, of_field);
+    CHECK(of_field.problem.empty());
+    for (size_t i = 8; i < distance_field[1].bytes.size();
+         i += 2) {                     // four cells are proven, the others
+      distance_field[1].bytes[i] = 0;  // say nothing: that takes no query
+      distance_field[1].bytes[i + 1] = 0x80;
     }
-    mesh.insert(mesh.end(), map.begin(), map.end());
+    mesh.insert(mesh.end(), distance_field.begin(), distance_field.end());
   }
   mesh.push_back(tools::mesh_probes(view, name));
   mesh.push_back(tools::text_section(asset::kBoundsSection, name, {{"kind", "mesh"}}));

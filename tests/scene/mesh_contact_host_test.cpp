@@ -89,14 +89,15 @@ struct Rig {
 
 // The same with a distance map of the cube.
 struct MappedRig : Rig {
-  std::vector<tools::Section> map_sections;
-  field::View map;
+  std::vector<tools::Section> distance_field_sections;
+  field::View distance_field;
   explicit MappedRig(uint32_t n, bool is_signed = true) : Rig(n, is_signed) {
     tools::FieldReport report;
-    map_sections = tools::bake_field(view, "cube", 24, report);
+    distance_field_sections = tools::bake_field(view, "cube", 24, report);
     CHECK(report.problem.empty());
-    CHECK(field::open(tools::field_sections(map_sections, "cube"), view, map).ok());
-    object.map = &map;
+    CHECK(field::open(tools::field_sections(distance_field_sections, "cube"), view, distance_field)
+              .ok());
+    object.distance_field = &distance_field;
   }
 };
 
@@ -271,8 +272,8 @@ TEST(InFreeSpaceOnlyWhatMayBeTouchedIsLookedFor) {
 TEST(WithAMapFreeSpaceTakesOneLookUpATickAndTouchIsTheSame) {
   const MappedRig rig(12);
   scene::MeshObject plain = rig.object;
-  plain.map = nullptr;
-  const float cell_m = rig.map.head().cell_m;
+  plain.distance_field = nullptr;
+  const float cell_m = rig.distance_field.head().cell_m;
   const float reach_m = 0.003f + 0.02f * rig.view.head().diagonal_m;
   Tool tool, without;
   uint32_t free_ticks = 0, contacts = 0;

@@ -25,11 +25,11 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
   mesh::View view;
   const core::Verdict verdict = mesh::open(mesh_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "mesh '" + name + "': " + rule_text(verdict);
-  field::View map;
-  const field::Sections sections = map_sections(container, name.c_str());
-  const core::Verdict of_map =
-      sections.head.empty() ? core::kPassed : field::open(sections, view, map);
-  if (!of_map.ok()) return "distance map '" + name + "': " + rule_text(of_map);
+  field::View distance_field;
+  const field::Sections sections = distance_field_sections(container, name.c_str());
+  const core::Verdict of_field =
+      sections.head.empty() ? core::kPassed : field::open(sections, view, distance_field);
+  if (!of_field.ok()) return "distance map '" + name + "': " + rule_text(of_field);
   const core::Bytes probes = container.find(mesh::kProbesSection, name.c_str());
   if (probes.empty() || mesh_probes_agree(view, probes)) return "";
   return "mesh '" + name +

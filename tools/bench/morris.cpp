@@ -8,7 +8,7 @@
 #include "bench/peer.hpp"
 #include "bench/problem.hpp"
 #include "bench/timing.hpp"
-#include "field/distance_map.hpp"
+#include "field/distance_field.hpp"
 #include "field/morris_search.hpp"
 #include "surface/check.hpp"
 #include "surface/make_part.hpp"
@@ -59,21 +59,21 @@ Subject load(const std::string& path) {
   return subject_of(std::move(imported.surface), std::filesystem::path(path).stem().string());
 }
 
-tools::DistanceMap map_of(const Subject& subject, uint32_t cells) {
+tools::DistanceField field_of(const Subject& subject, uint32_t cells) {
   tools::MapOptions options;
   options.interior_only = true;
-  return tools::make_distance_map(subject.solids,
-                                  tools::make_voxel_grid({subject.surface.get()}, cells), options);
+  return tools::make_distance_field(
+      subject.solids, tools::make_voxel_grid({subject.surface.get()}, cells), options);
 }
 
 // Centres of what the map computed, in the grid's order; `inside_only`: of those inside.
-std::vector<tools::Point> centres_of(const tools::DistanceMap& map, bool inside_only) {
+std::vector<tools::Point> centres_of(const tools::DistanceField& distance_field, bool inside_only) {
   std::vector<tools::Point> points;
-  const tools::VoxelGrid& grid = map.grid;
+  const tools::VoxelGrid& grid = distance_field.grid;
   for (uint32_t z = 0; z < grid.count[2]; ++z)
     for (uint32_t y = 0; y < grid.count[1]; ++y)
       for (uint32_t x = 0; x < grid.count[0]; ++x) {
-        const int8_t sign = map.values[grid.index(x, y, z)].sign;
+        const int8_t sign = distance_field.values[grid.index(x, y, z)].sign;
         if (inside_only ? sign < 0 : sign != 0) points.push_back(grid.centre_m(x, y, z));
       }
   return points;
@@ -97,14 +97,15 @@ void table_1(const Subject& subject, Report& report) {
   double shares = 0;
   for (const Row& paper : kPaper) {
     report.stage(subject.name + ", " + std::to_string(paper.cells) + " cells");
-    const tools::DistanceMap map = map_of(subject, paper.cells);
-    const double total_s = map.voxelize_s + map.distance_s, share = map.distance_s / total_s;
-    const double voxels = static_cast<double>(map.computed);
+    const tools::DistanceField distance_field = field_of(subject, paper.cells);
+    const double total_s = distance_field.voxelize_s + distance_field.distance_s,
+                 share = distance_field.distance_s / total_s;
+    const double voxels = static_cast<double>(distance_field.computed);
     shares += share / 4;
     std::vector<std::string> row{
-        std::to_string(paper.cells), std::to_string(map.computed),
-        fixed(total_s, 3),           fixed(map.distance_s, 3),
-        fixed(100 * share, 0),       fixed(map.distance_s * 1e6 / voxels, 2)};
+        std::to_string(paper.cells), std::to_string(distance_field.computed),
+        fixed(total_s, 3),           fixed(distance_field.distance_s, 3),
+        fixed(100 * share, 0),       fixed(distance_field.distance_s * 1e6 / voxels, 2)};
     if (subject.is_bunny) {
       row.push_back(std::to_string(paper.voxels));
       row.push_back(fixed(voxels / static_cast<double>(paper.voxels), 3));
@@ -114,7 +115,7 @@ void table_1(const Subject& subject, Report& report) {
     }
     rows.push_back(row);
     report.figure("voxels where flood and pseudonormal differ, " + std::to_string(paper.cells),
-                  subject.name, static_cast<double>(map.disagreements.size()), "");
+                  subject.name, static_cast<double>(distance_field.disagreements.size()), "");
   }
   report.table(heads, rows);
   report.figure("share of the time spent on distance, mean", subject.name, 100 * shares, "%",
@@ -124,7 +125,7 @@ void table_1(const Subject& subject, Report& report) {
 void variants(const Subject& subject, const Options& options, Report& report) {
   const uint32_t cells = options.is_long ? 75 : 30;
   report.stage(subject.name + ", the published search");
-  const std::vector<tools::Point> points = centres_of(map_of(subject, cells), false);
+  const std::vector<tools::Point> points = centres_of(field_of(subject, cells), false);
   const tools::TriangleTree tree(*subject.surface, 1);
   std::vector<std::vector<std::string>> rows;
   const auto run = [&](const std::string& name, const tools::MorrisSearch::Options& how) {
@@ -153,13 +154,13 @@ void variants(const Subject& subject, const Options& options, Report& report) {
 void bar(const Subject& subject, const Peer& peer, Report& report) {
   const std::string what = "interior field at " + std::to_string(kBarCells) + " cells";
   report.stage(subject.name + ", " + what);
-  const std::vector<tools::Point> inside = centres_of(map_of(subject, kBarCells), true);
+  const std::vector<tools::Point> inside = centres_of(field_of(subject, kBarCells), true);
   const double count = static_cast<double>(inside.size());
   report.figure("voxels whose centre is inside", subject.name, count, "");
   // Voxelizing, filling and the voxels on the surface are ours alone; they are counted to ours.
   std::vector<Contender> contenders{[&] {
-    const tools::DistanceMap map = map_of(subject, kBarCells);
-    return (map.voxelize_s + map.distance_s) * 1e6 / count;
+    const tools::DistanceField distance_field = field_of(subject, kBarCells);
+    return (distance_field.voxelize_s + distance_field.distance_s) * 1e6 / count;
   }};
   const TemporaryFolder folder;
   if (peer.is_present()) {

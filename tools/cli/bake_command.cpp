@@ -105,7 +105,7 @@ void add_hull(const Arguments& arguments, BakeOptions& options) {
   if (options.hull.limits.max_valence > hull::kMaxLink)
     fail_usage("bake: --max-valence: a hull in an asset has at most " +
                std::to_string(hull::kMaxLink));
-  if (!options.has_tree && options.map_cells != 0)
+  if (!options.has_tree && options.field_cells != 0)
     fail_usage("bake: --distance-map needs the tree: leave out --no-tree");
 }
 
@@ -147,9 +147,9 @@ BakeOptions bake_options(const Arguments& arguments) {
   options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
                  (options.close_holes ? " --close-holes" : "") +
                  (options.purpose == Purpose::kFast ? "" : " " + purpose);
-  options.map_cells = arguments.count("--distance-map", 0, 1, field::kMaxCellsAnAxis - 2);
-  if (options.map_cells != 0)
-    options.text += " --distance-map " + std::to_string(options.map_cells);
+  options.field_cells = arguments.count("--distance-map", 0, 1, field::kMaxCellsAnAxis - 2);
+  if (options.field_cells != 0)
+    options.text += " --distance-map " + std::to_string(options.field_cells);
   options.smooth = arguments.has("--smooth");
   if (options.smooth) options.text += " --smooth";
   options.teach = arguments.text("--teach", "");

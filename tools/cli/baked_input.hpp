@@ -25,9 +25,9 @@ struct BakeOptions {
   bool is_signed = true;
   bool close_holes = false;
   Purpose purpose = Purpose::kFast;
-  uint32_t map_cells = 0;   // along the long axis; 0: no distance map
-  uint32_t hull_faces = 0;  // 0: no hull
-  bool has_tree = true;     // of the mesh; without it only a hull can be asked
+  uint32_t field_cells = 0;  // along the long axis; 0: no distance map
+  uint32_t hull_faces = 0;   // 0: no hull
+  bool has_tree = true;      // of the mesh; without it only a hull can be asked
   tools::HullOptions hull;
   bool smooth = false;         // cubic pieces between a curve's samples
   std::string teach;           // what a recorded run's guide is called

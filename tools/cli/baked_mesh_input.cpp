@@ -86,8 +86,8 @@ std::vector<std::string> report_of(const tools::MeshReport& report, const tools:
 }
 
 // Adds the sections of a distance map. Result: what to tell of it.
-std::string add_map(const mesh::View& view, const std::string& name, uint32_t cells,
-                    const std::string& path, BakedInput& baked) {
+std::string add_field(const mesh::View& view, const std::string& name, uint32_t cells,
+                      const std::string& path, BakedInput& baked) {
   tools::FieldReport report;
   const std::vector<tools::Section> sections = tools::bake_field(view, name, cells, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
@@ -205,8 +205,9 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   const core::Verdict verdict = mesh::open(tools::mesh_sections(baked.sections, name), view);
   if (!verdict.ok()) fail_input(path + ": its mesh breaks rule R" + std::to_string(verdict.rule));
 
-  std::string reported_of_map;
-  if (options.map_cells != 0) reported_of_map = add_map(view, name, options.map_cells, path, baked);
+  std::string reported_of_field;
+  if (options.field_cells != 0)
+    reported_of_field = add_field(view, name, options.field_cells, path, baked);
 
   std::vector<std::string> reported_of_hull;
   if (options.hull_faces != 0)
@@ -235,7 +236,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   baked.sections.push_back(tools::mesh_probes(view, name));
   add_facts(facts_of(view, steps));
   baked.report = report_of(report, steps, bytes_of(baked.sections), options.is_signed);
-  if (!reported_of_map.empty()) baked.report.push_back(reported_of_map);
+  if (!reported_of_field.empty()) baked.report.push_back(reported_of_field);
   baked.report.insert(baked.report.end(), reported_of_hull.begin(), reported_of_hull.end());
   baked.report.insert(baked.report.end(), sound.reported.begin(), sound.reported.end());
   // Where a surface crosses itself no side is wrong; who touches it there should know.

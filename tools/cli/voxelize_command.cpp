@@ -6,7 +6,7 @@
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "cli/progress.hpp"
-#include "field/distance_map.hpp"
+#include "field/distance_field.hpp"
 #include "field/write_vti.hpp"
 
 namespace firmtouch::cli {
@@ -22,25 +22,27 @@ void print_report(const std::string& name, const std::vector<std::string>& lines
     std::fprintf(stderr, "%s: %s\n", name.c_str(), line.c_str());
 }
 
-void print_map(const tools::DistanceMap& map, const std::vector<std::string>& inputs,
-               uint32_t threads) {
-  const auto& grid = map.grid;
+void print_field(const tools::DistanceField& distance_field, const std::vector<std::string>& inputs,
+                 uint32_t threads) {
+  const auto& grid = distance_field.grid;
   std::fprintf(stderr, "%u x %u x %u voxels of %.6g m: %zu on a surface, %zu inside, %zu outside\n",
-               grid.count[0], grid.count[1], grid.count[2], grid.size_m, map.surface, map.inside,
-               map.outside);
-  std::fprintf(
-      stderr, "voxelized and filled in %.3f s; %zu distances in %.3f s by %u %s, %.3f us each\n",
-      map.voxelize_s, map.computed, map.distance_s, threads, threads == 1 ? "thread" : "threads",
-      map.distance_s * 1e6 / static_cast<double>(map.computed));
-  if (map.disagreements.empty()) {
+               grid.count[0], grid.count[1], grid.count[2], grid.size_m, distance_field.surface,
+               distance_field.inside, distance_field.outside);
+  std::fprintf(stderr,
+               "voxelized and filled in %.3f s; %zu distances in %.3f s by %u %s, %.3f us each\n",
+               distance_field.voxelize_s, distance_field.computed, distance_field.distance_s,
+               threads, threads == 1 ? "thread" : "threads",
+               distance_field.distance_s * 1e6 / static_cast<double>(distance_field.computed));
+  if (distance_field.disagreements.empty()) {
     std::fputs("flood fill and pseudonormals tell the same side of every voxel off the surface\n",
                stderr);
     return;
   }
   std::fprintf(stderr, "flood fill and pseudonormals differ at %zu %s off the surface:\n",
-               map.disagreements.size(), map.disagreements.size() == 1 ? "voxel" : "voxels");
-  for (size_t i = 0; i < map.disagreements.size() && i < kShown; ++i) {
-    const auto& each = map.disagreements[i];
+               distance_field.disagreements.size(),
+               distance_field.disagreements.size() == 1 ? "voxel" : "voxels");
+  for (size_t i = 0; i < distance_field.disagreements.size() && i < kShown; ++i) {
+    const auto& each = distance_field.disagreements[i];
     const size_t x = each.voxel % grid.count[0], y = each.voxel / grid.count[0] % grid.count[1],
                  z = each.voxel / grid.count[0] / grid.count[1];
     const tools::Point p =
@@ -49,8 +51,8 @@ void print_map(const tools::DistanceMap& map, const std::vector<std::string>& in
                  inputs[each.object].c_str(), x, y, z, p.x, p.y, p.z,
                  each.flood_says_inside ? "inside" : "outside");
   }
-  if (map.disagreements.size() > kShown)
-    std::fprintf(stderr, "    and %zu more\n", map.disagreements.size() - kShown);
+  if (distance_field.disagreements.size() > kShown)
+    std::fprintf(stderr, "    and %zu more\n", distance_field.disagreements.size() - kShown);
 }
 
 }  // namespace
@@ -93,7 +95,7 @@ int run_voxelize(const Arguments& arguments) {
   BakeOptions read;
   read.close_holes = arguments.has("--close-holes");
 
-  tools::DistanceMap map;
+  tools::DistanceField distance_field;
   std::vector<SoundSurface> sound;
   std::string file;
   {
@@ -117,15 +119,15 @@ int run_voxelize(const Arguments& arguments) {
     options.on_progress = [&](size_t done, size_t all) {
       for (; reported * all < done * kParts; ++reported) progress.stage("distances");
     };
-    map = tools::make_distance_map(solids, grid, options);
+    distance_field = tools::make_distance_field(solids, grid, options);
     if (!output.empty()) {
       progress.stage("writing " + file_name_of(output));
-      file = tools::to_vti(map, solids);
+      file = tools::to_vti(distance_field, solids);
       write_file(output, file.data(), file.size());
     }
   }
   for (size_t i = 0; i < inputs.size(); ++i) print_report(inputs[i], sound[i].reported);
-  print_map(map, inputs, options.threads);
+  print_field(distance_field, inputs, options.threads);
   if (!output.empty()) std::fprintf(stderr, "%s: %zu bytes\n", output.c_str(), file.size());
   return kDone;
 }

@@ -56,9 +56,9 @@ float coordinate(const math::Vec3& v, uint32_t k) { return k == 0 ? v.x : k == 1
 
 }  // namespace
 
-std::string to_vti(const DistanceMap& map, const std::vector<Solid>& solids) {
+std::string to_vti(const DistanceField& distance_field, const std::vector<Solid>& solids) {
   const float nothing = std::numeric_limits<float>::quiet_NaN();
-  const auto& values = map.values;
+  const auto& values = distance_field.values;
   const size_t count = values.size();
   VtiText text;
   text.add<float>("Float32", "distance", 1, count, [&](size_t i, uint32_t) {
@@ -75,9 +75,10 @@ std::string to_vti(const DistanceMap& map, const std::vector<Solid>& solids) {
     return values[i].sign == 0 ? -1 : static_cast<int>(values[i].object);
   });
   text.add<int8_t>("Int8", "side", 1, count, [&](size_t i, uint32_t) { return values[i].sign; });
-  text.add<uint8_t>("UInt8", "kind", 1, count,
-                    [&](size_t i, uint32_t) { return static_cast<uint8_t>(map.kinds[i]); });
-  return text.whole(map.grid);
+  text.add<uint8_t>("UInt8", "kind", 1, count, [&](size_t i, uint32_t) {
+    return static_cast<uint8_t>(distance_field.kinds[i]);
+  });
+  return text.whole(distance_field.grid);
 }
 
 }  // namespace firmtouch::tools

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "field/distance_map.hpp"
+#include "field/distance_field.hpp"
 
 namespace firmtouch::tools {
 
@@ -10,6 +10,6 @@ namespace firmtouch::tools {
 /// the arrays distance (signed), closest_point, triangle (index in its file), object (index of the
 /// model), side (-1 inside, 1 outside) and kind (0 outside, 1 surface, 2 inside by the flood). What was
 /// not computed is NaN, triangle and object -1, side 0.
-std::string to_vti(const DistanceMap& map, const std::vector<Solid>& solids);
+std::string to_vti(const DistanceField& distance_field, const std::vector<Solid>& solids);
 
 }  // namespace firmtouch::tools

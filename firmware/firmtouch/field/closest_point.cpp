@@ -39,9 +39,9 @@ void stand_in(const Bounds& bounds, mesh::Closest& closest, query::Hint& hint) {
 
 }  // namespace
 
-Felt closest_point(const View& map, const mesh::View& mesh, Vec3 p_m, float band_m,
+Felt closest_point(const View& distance_field, const mesh::View& mesh, Vec3 p_m, float band_m,
                    query::Budget budget, query::Hint& hint) {
-  const Bounds bounds = distance_bounds(map, p_m);
+  const Bounds bounds = distance_bounds(distance_field, p_m);
   Felt felt;
   if (bounds.lower_m > band_m && bounds.sign >= 0) {
     leave_hint(bounds, p_m, hint);
@@ -52,7 +52,7 @@ Felt closest_point(const View& map, const mesh::View& mesh, Vec3 p_m, float band
     felt.closest.certificate.steps = 1;
     return felt;
   }
-  start_at_seed(bounds, map.head().cell_m, p_m, hint);
+  start_at_seed(bounds, distance_field.head().cell_m, p_m, hint);
   felt.closest = mesh::closest_point(mesh, p_m, budget, hint);
   if (!felt.closest.certificate.exact) stand_in(bounds, felt.closest, hint);
   return felt;

@@ -30,8 +30,8 @@ float beside(float low, float high, float x) {
 
 }  // namespace
 
-Bounds distance_bounds(const View& map, Vec3 p_m) {
-  const Head& head = map.head();
+Bounds distance_bounds(const View& distance_field, Vec3 p_m) {
+  const Head& head = distance_field.head();
   const float per_cell = 1.0f / head.cell_m;
   const uint32_t x = cell_on_axis((p_m.x - head.low_m[0]) * per_cell, head.count[0]);
   const uint32_t y = cell_on_axis((p_m.y - head.low_m[1]) * per_cell, head.count[1]);
@@ -44,9 +44,9 @@ Bounds distance_bounds(const View& map, Vec3 p_m) {
   const float box_m = math::length(off) * kDown;
 
   Bounds bounds;
-  bounds.seed = map.seeds()[cell];
+  bounds.seed = distance_field.seeds()[cell];
   bounds.upper_m = FLT_MAX;
-  const int16_t word = map.distances()[cell];
+  const int16_t word = distance_field.distances()[cell];
   if (word != kUnknown) {
     const float quanta = static_cast<float>(static_cast<int32_t>(quanta_of(word)));
     const float lower_m = (quanta * head.quantum_m - way_m) * kDown;
@@ -54,19 +54,20 @@ Bounds distance_bounds(const View& map, Vec3 p_m) {
         ((quanta + static_cast<float>(static_cast<int32_t>(kWide))) * head.quantum_m + way_m) * kUp;
     if (lower_m > 0.0f) bounds.lower_m = lower_m;
     if (upper_m <= FLT_MAX) bounds.upper_m = upper_m;
-    if (lower_m > 0.0f && map.is_signed()) bounds.sign = word < 0 ? int8_t{-1} : int8_t{1};
+    if (lower_m > 0.0f && distance_field.is_signed())
+      bounds.sign = word < 0 ? int8_t{-1} : int8_t{1};
   }
   if (box_m > 0.0f) {
-    if (map.is_signed()) bounds.sign = 1;
+    if (distance_field.is_signed()) bounds.sign = 1;
     if (box_m > bounds.lower_m) bounds.lower_m = box_m <= FLT_MAX ? box_m : FLT_MAX;
   }
   return math::is_finite(p_m) ? bounds : Bounds{0, FLT_MAX, 0, query::kNowhere};
 }
 
-uint64_t probe_hash(const View& map, core::Span<const query::ProbePoint> points) {
+uint64_t probe_hash(const View& distance_field, core::Span<const query::ProbePoint> points) {
   core::Hash hash;
   for (const query::ProbePoint& p : points) {
-    const Bounds bounds = distance_bounds(map, {p.x_m, p.y_m, p.z_m});
+    const Bounds bounds = distance_bounds(distance_field, {p.x_m, p.y_m, p.z_m});
     hash.add(math::bits_of(bounds.lower_m));
     hash.add(math::bits_of(bounds.upper_m));
     hash.add(static_cast<uint32_t>(bounds.sign + 1));

@@ -47,9 +47,10 @@ constexpr uint32_t kBaseHullSteps = 512;
 
 mesh::Closest ask(const MeshObject& object, Vec3 p_m, float reach_m, query::Budget budget,
                   query::Hint& hint) {
-  if (object.map == nullptr || !object.map->is_open())
+  if (object.distance_field == nullptr || !object.distance_field->is_open())
     return mesh::closest_point(*object.mesh, p_m, budget, hint);
-  return field::closest_point(*object.map, *object.mesh, p_m, reach_m, budget, hint).closest;
+  return field::closest_point(*object.distance_field, *object.mesh, p_m, reach_m, budget, hint)
+      .closest;
 }
 
 // Of the shell in place of the mesh: no farther than the mesh is outside, no less deep inside.

@@ -18,7 +18,8 @@ struct MeshObject {
   const mesh::View* mesh = nullptr;
   math::RigidTransform pose;
   Material material;
-  const field::View* map = nullptr;  // proven against the mesh; or none, or one that is not open
+  const field::View* distance_field =
+      nullptr;  // proven against the mesh; or none, or one that is not open
   const hull::BaseHull* base_hull = nullptr;  // that encloses the mesh; likewise
 };
 

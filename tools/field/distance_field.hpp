@@ -35,7 +35,7 @@ struct MapOptions {
   std::function<void(size_t done, size_t all)> on_progress;
 };
 
-struct DistanceMap {
+struct DistanceField {
   VoxelGrid grid;
   std::vector<Voxel> kinds;  // inside any, else surface of any, else outside
   std::vector<Nearest> values;
@@ -56,8 +56,8 @@ struct DistanceMap {
 /// Error: the triangle told is nearest but for 1e-6 of the diagonal; its distance is computed in
 ///        double.
 /// Source: Morris 2006, section 3.
-DistanceMap make_distance_map(const std::vector<Solid>& solids, const VoxelGrid& grid,
-                              const MapOptions& options);
+DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelGrid& grid,
+                                  const MapOptions& options);
 
 /// The same for any list of points: each begins with the triangle of the point before it, so that a
 /// list whose neighbours lie together is answered faster. Points: computed, all of them.

@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "field/distance_map.hpp"
+#include "field/distance_field.hpp"
 #include "field/judge.hpp"
 #include "field/write_vti.hpp"
 #include "surface/check.hpp"
@@ -15,7 +15,7 @@ namespace {
 struct Made {
   std::vector<Surface> surfaces;
   std::vector<Solid> solids;
-  DistanceMap map;
+  DistanceField distance_field;
 };
 
 Made make(std::vector<Surface> surfaces, uint32_t cells, const MapOptions& options = {}) {
@@ -26,7 +26,7 @@ Made make(std::vector<Surface> surfaces, uint32_t cells, const MapOptions& optio
     made.solids.emplace_back(s);
     all.push_back(&s);
   }
-  made.map = make_distance_map(made.solids, make_voxel_grid(all, cells), options);
+  made.distance_field = make_distance_field(made.solids, make_voxel_grid(all, cells), options);
   return made;
 }
 
@@ -57,8 +57,8 @@ TEST(EveryVoxelOfAPartHasTheDistanceThatBruteForceFinds) {
   const Made made = make({make_part(1, 1500)}, 24);
   const double diagonal = length(to_point(math::Vec3{0.1f, 0.1f, 0.1f}));
   size_t wrong = 0;
-  each_voxel(made.map.grid, [&](size_t v, Point p) {
-    const Nearest& n = made.map.values[v];
+  each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
+    const Nearest& n = made.distance_field.values[v];
     const double truth = judged_distance(made.surfaces[0], p);
     if (std::fabs(reported(n) - truth) > 1e-6 * std::max(diagonal, truth)) ++wrong;
     const Face& f = made.surfaces[0].faces[n.face];  // the point told lies on the triangle told
@@ -70,17 +70,18 @@ TEST(EveryVoxelOfAPartHasTheDistanceThatBruteForceFinds) {
       ++wrong;
   });
   CHECK_EQ(wrong, 0u);
-  CHECK(made.map.disagreements.empty());
+  CHECK(made.distance_field.disagreements.empty());
 }
 
 TEST(SidesAreThoseOfTheWindingNumber) {
   const Made made = make({make_part(2, 1500)}, 20);
   size_t wrong = 0;
-  each_voxel(made.map.grid, [&](size_t v, Point p) {
+  each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
     const bool inside = winding_by_angles(made.surfaces[0], p) > 0.5;
-    if (inside != (made.map.values[v].sign < 0)) ++wrong;
-    if (inside != (made.map.values[v].distance_m < 0)) ++wrong;
-    if (made.map.kinds[v] != Voxel::kSurface && inside != (made.map.kinds[v] == Voxel::kInside))
+    if (inside != (made.distance_field.values[v].sign < 0)) ++wrong;
+    if (inside != (made.distance_field.values[v].distance_m < 0)) ++wrong;
+    if (made.distance_field.kinds[v] != Voxel::kSurface &&
+        inside != (made.distance_field.kinds[v] == Voxel::kInside))
       ++wrong;
   });
   CHECK_EQ(wrong, 0u);
@@ -91,22 +92,22 @@ TEST(InteriorOnlyGivesTheSameValuesWithoutTheOutside) {
   MapOptions options;
   options.interior_only = true;
   const Made some = make({make_part(1, 1500)}, 30, options);
-  CHECK_EQ(some.map.computed, some.map.surface + some.map.inside);
-  CHECK_EQ(all.map.computed, all.map.grid.voxels());
+  CHECK_EQ(some.distance_field.computed, some.distance_field.surface + some.distance_field.inside);
+  CHECK_EQ(all.distance_field.computed, all.distance_field.grid.voxels());
   size_t wrong = 0, computed = 0;
-  for (size_t v = 0; v < all.map.values.size(); ++v) {
-    const bool wanted = all.map.kinds[v] != Voxel::kOutside;
-    const Nearest& n = some.map.values[v];
+  for (size_t v = 0; v < all.distance_field.values.size(); ++v) {
+    const bool wanted = all.distance_field.kinds[v] != Voxel::kOutside;
+    const Nearest& n = some.distance_field.values[v];
     if (wanted != (n.sign != 0)) ++wrong;
     if (!wanted) continue;
     ++computed;
     // Of two triangles equally near either may be told.
-    if (n.sign != all.map.values[v].sign ||
-        std::fabs(reported(n) - reported(all.map.values[v])) > 1e-8)
+    if (n.sign != all.distance_field.values[v].sign ||
+        std::fabs(reported(n) - reported(all.distance_field.values[v])) > 1e-8)
       ++wrong;
   }
   CHECK_EQ(wrong, 0u);
-  CHECK_EQ(computed, some.map.computed);
+  CHECK_EQ(computed, some.distance_field.computed);
 }
 
 TEST(AnyNumberOfThreadsGivesTheSameBits) {
@@ -117,8 +118,9 @@ TEST(AnyNumberOfThreadsGivesTheSameBits) {
   options.on_progress = [&](size_t done, size_t all) { calls += done <= all ? 1u : 1000000u; };
   const Made three = make({make_part(1, 3000)}, 40, options);
   size_t different = 0;
-  for (size_t v = 0; v < one.map.values.size(); ++v)
-    different += same_values(one.map.values[v], three.map.values[v]) ? 0u : 1u;
+  for (size_t v = 0; v < one.distance_field.values.size(); ++v)
+    different +=
+        same_values(one.distance_field.values[v], three.distance_field.values[v]) ? 0u : 1u;
   CHECK_EQ(different, 0u);
   CHECK(calls >= 1 && calls < 1000);
 }
@@ -127,8 +129,8 @@ TEST(SeveralObjectsGiveTheNearestOfAnyAndTheInsideOfAny) {
   // Two cubes that overlap: a corner of each lies in the other.
   const Made made = make({cube({0, 0, 0}, 1), cube({1.25f, 1.25f, 1.25f}, 1)}, 26);
   size_t wrong = 0, second = 0;
-  each_voxel(made.map.grid, [&](size_t v, Point p) {
-    const Nearest& n = made.map.values[v];
+  each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
+    const Nearest& n = made.distance_field.values[v];
     const double to_a = judged_distance(made.surfaces[0], p),
                  to_b = judged_distance(made.surfaces[1], p);
     const auto in = [&](double c) {
@@ -170,9 +172,10 @@ TEST(AModelFarFromTheOriginAndOneOfAMillimetreAreAnsweredAlike) {
     for (math::Vec3& v : surface.vertices) v = {v.x * scale, v.y * scale, v.z * scale};
     const Made made = make({surface}, 10);
     size_t wrong = 0;
-    each_voxel(made.map.grid, [&](size_t v, Point p) {
+    each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
       const double truth = judged_distance(made.surfaces[0], p);
-      if (std::fabs(reported(made.map.values[v]) - truth) > 4e-6 * static_cast<double>(scale))
+      if (std::fabs(reported(made.distance_field.values[v]) - truth) >
+          4e-6 * static_cast<double>(scale))
         ++wrong;
     });
     CHECK_EQ(wrong, 0u);
@@ -186,14 +189,15 @@ TEST(WhatFloodAndPseudonormalTellApartIsListedByPlace) {
   append(surface, cube({0, 0, 0}, 1));
   const Made made = make({surface}, 20);
   size_t found = 0, wrong = 0;
-  each_voxel(made.map.grid, [&](size_t v, Point p) {
+  each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
     const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     const double to_outer = 2 - size, to_inner = judged_distance(cube(), p);
     if (std::fabs(to_outer - to_inner) < 1e-6) return;  // either may be told
-    const bool listed =
-        std::any_of(made.map.disagreements.begin(), made.map.disagreements.end(),
-                    [&](const auto& d) { return d.voxel == v && d.flood_says_inside; });
-    const bool expected = made.map.kinds[v] != Voxel::kSurface && size > 1 && to_inner < to_outer;
+    const bool listed = std::any_of(
+        made.distance_field.disagreements.begin(), made.distance_field.disagreements.end(),
+        [&](const auto& d) { return d.voxel == v && d.flood_says_inside; });
+    const bool expected =
+        made.distance_field.kinds[v] != Voxel::kSurface && size > 1 && to_inner < to_outer;
     found += listed ? 1u : 0u;
     wrong += listed != expected ? 1u : 0u;
   });
@@ -205,8 +209,8 @@ TEST(TheVtiHoldsWhatTheMapHolds) {
   MapOptions options;
   options.interior_only = true;
   const Made made = make({tetrahedron()}, 6, options);
-  const std::string text = to_vti(made.map, made.solids);
-  const size_t count = made.map.grid.voxels();
+  const std::string text = to_vti(made.distance_field, made.solids);
+  const size_t count = made.distance_field.grid.voxels();
   CHECK(says(text,
              "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
              "header_type=\"UInt64\">"));
@@ -232,7 +236,7 @@ TEST(TheVtiHoldsWhatTheMapHolds) {
   for (size_t v = 0; v < count; ++v) {
     float distance = 0;
     std::memcpy(&distance, text.data() + data + 8 + 4 * v, sizeof distance);
-    const Nearest& n = made.map.values[v];
+    const Nearest& n = made.distance_field.values[v];
     if (n.sign == 0 ? distance <= distance : distance < n.distance_m || distance > n.distance_m)
       ++wrong;
   }
@@ -250,14 +254,16 @@ TEST(TheClosedBunnyHasTheVoxelsOfThePaperAndNoDisagreement) {
   options.interior_only = true;
   const Made made = make({read.surface}, 30, options);
   // The paper: 7,168 at 30 (another orientation or border of its boxes).
-  CHECK_LE(std::fabs(static_cast<double>(made.map.computed) / 7168 - 1), 0.05);
-  CHECK(made.map.disagreements.empty());
-  const std::vector<size_t> probes{made.map.values.size() / 2, made.map.values.size() / 3};
+  CHECK_LE(std::fabs(static_cast<double>(made.distance_field.computed) / 7168 - 1), 0.05);
+  CHECK(made.distance_field.disagreements.empty());
+  const std::vector<size_t> probes{made.distance_field.values.size() / 2,
+                                   made.distance_field.values.size() / 3};
   size_t wrong = 0, checked = 0;
-  each_voxel(made.map.grid, [&](size_t v, Point p) {
-    if (made.map.values[v].sign == 0 || v % 61 != 0) return;
+  each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
+    if (made.distance_field.values[v].sign == 0 || v % 61 != 0) return;
     ++checked;
-    if (std::fabs(reported(made.map.values[v]) - judged_distance(made.surfaces[0], p)) > 2e-7)
+    if (std::fabs(reported(made.distance_field.values[v]) - judged_distance(made.surfaces[0], p)) >
+        2e-7)
       ++wrong;
   });
   CHECK_EQ(wrong, 0u);

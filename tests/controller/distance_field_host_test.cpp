@@ -21,7 +21,8 @@ namespace {
 
 std::vector<tools::Section> mapped_sections() {
   std::vector<tools::Section> sections = part_sections();
-  for (tools::Section& section : map_sections(sections)) sections.push_back(std::move(section));
+  for (tools::Section& section : distance_field_sections(sections))
+    sections.push_back(std::move(section));
   for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
   return sections;
 }
@@ -42,7 +43,8 @@ void fill_far(Ride& ride, uint32_t tick) {
 
 TEST(WithAMapATickInFreeSpaceReadsOneCellAndTouchIsFeltTheSame) {
   Ride with(mapped()), without;
-  CHECK(with.controller.map().is_open() && !without.controller.map().is_open());
+  CHECK(with.controller.distance_field().is_open() &&
+        !without.controller.distance_field().is_open());
   uint32_t far = 0, contact = 0;
   uint64_t steps_with = 0, steps_without = 0;
   double free_with_m = 0, free_without_m = 0;
@@ -97,7 +99,7 @@ TEST(AMapThatItsMeshDoesNotProveIsRefusedAndNothingIsPushed) {
   const Asset bent(file_of(std::move(sections)));
   Controller controller;
   CHECK_EQ(controller.open(bent.bytes()).rule, uint16_t{310});
-  CHECK(!controller.map().is_open());
+  CHECK(!controller.distance_field().is_open());
   record::TickInput input{};
   input.lines = record::kLineEnable;
   record::TickOutput output;
@@ -115,7 +117,7 @@ TEST(AMapOfAnotherNameIsNotTheMeshs) {
   }
   const Asset other(file_of(std::move(sections)));
   Ride ride(other);
-  CHECK(ride.controller.is_ready() && !ride.controller.map().is_open());
+  CHECK(ride.controller.is_ready() && !ride.controller.distance_field().is_open());
 }
 
 TEST(AMapIsProvenInSlicesOfTheBudget) {
@@ -123,13 +125,13 @@ TEST(AMapIsProvenInSlicesOfTheBudget) {
   controller.begin(mapped().bytes());
   uint32_t slices = 0;  // with the curve proven, the map not yet
   while (!controller.work(2048))
-    slices += controller.curve().is_open() && !controller.map().is_open() ? 1u : 0u;
-  CHECK(controller.verdict().ok() && controller.map().is_open());
-  const field::Head& head = controller.map().head();
+    slices += controller.curve().is_open() && !controller.distance_field().is_open() ? 1u : 0u;
+  CHECK(controller.verdict().ok() && controller.distance_field().is_open());
+  const field::Head& head = controller.distance_field().head();
   CHECK_GE(slices, head.count[0] * head.count[1] * head.count[2] / 9);
   controller.begin(both().bytes());  // and is forgotten with its asset
-  CHECK(!controller.map().is_open());
+  CHECK(!controller.distance_field().is_open());
   while (!controller.work(1u << 20)) {
   }
-  CHECK(controller.is_ready() && !controller.map().is_open());
+  CHECK(controller.is_ready() && !controller.distance_field().is_open());
 }

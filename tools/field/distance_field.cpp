@@ -1,4 +1,4 @@
-#include "field/distance_map.hpp"
+#include "field/distance_field.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -75,17 +75,17 @@ void join(Nearest& to, const Nearest& more) {
 // The blocks of one solid, one after another.
 class BlockWork {
  public:
-  BlockWork(const Solid& solid, uint16_t object, DistanceMap& map, const std::vector<bool>& wanted,
-            std::vector<int8_t>& own_sign)
+  BlockWork(const Solid& solid, uint16_t object, DistanceField& distance_field,
+            const std::vector<bool>& wanted, std::vector<int8_t>& own_sign)
       : solid_(solid),
         object_(object),
-        map_(map),
+        field_(distance_field),
         wanted_(wanted),
         own_sign_(own_sign),
         search_(solid.tree) {}
 
   void operator()(size_t block) {
-    const auto& count = map_.grid.count;
+    const auto& count = field_.grid.count;
     const uint32_t nx = blocks(count[0]), ny = blocks(count[1]);
     const Cube whole{static_cast<uint32_t>(block % nx) * kBlock,
                      static_cast<uint32_t>(block / nx % ny) * kBlock,
@@ -127,11 +127,11 @@ class BlockWork {
 
   template <class Visit>
   void each(const Cube& cube, const Visit& visit) const {
-    const auto& count = map_.grid.count;
+    const auto& count = field_.grid.count;
     for (uint32_t z = cube.z; z < std::min(cube.z + cube.side, count[2]); ++z)
       for (uint32_t y = cube.y; y < std::min(cube.y + cube.side, count[1]); ++y)
         for (uint32_t x = cube.x; x < std::min(cube.x + cube.side, count[0]); ++x)
-          if (wanted_[map_.grid.index(x, y, z)] && visit(x, y, z)) return;
+          if (wanted_[field_.grid.index(x, y, z)] && visit(x, y, z)) return;
   }
 
   bool any_wanted(const Cube& cube) const {
@@ -143,25 +143,25 @@ class BlockWork {
   // Of the centres of its voxels.
   Bounds bounds_of(const Cube& cube) const {
     const double more = cube.side - 1.0;
-    return {solid_.tree.local(map_.grid.centre_m(cube.x, cube.y, cube.z)),
-            solid_.tree.local(map_.grid.centre_m(cube.x + more, cube.y + more, cube.z + more))};
+    return {solid_.tree.local(field_.grid.centre_m(cube.x, cube.y, cube.z)),
+            solid_.tree.local(field_.grid.centre_m(cube.x + more, cube.y + more, cube.z + more))};
   }
 
   void answer(const Cube& cube) {
     each(cube, [&](uint32_t x, uint32_t y, uint32_t z) {
-      const Point p = map_.grid.centre_m(x, y, z);
+      const Point p = field_.grid.centre_m(x, y, z);
       const uint32_t triangle = search_.nearest(of_small_, solid_.tree.local(p));
       const Nearest nearest = reported_by(solid_, triangle, p, object_);
-      const size_t voxel = map_.grid.index(x, y, z);
+      const size_t voxel = field_.grid.index(x, y, z);
       own_sign_[voxel] = nearest.sign;
-      join(map_.values[voxel], nearest);
+      join(field_.values[voxel], nearest);
       return false;
     });
   }
 
   const Solid& solid_;
   uint16_t object_;
-  DistanceMap& map_;
+  DistanceField& field_;
   const std::vector<bool>& wanted_;
   std::vector<int8_t>& own_sign_;
   BlockSearch search_;
@@ -170,11 +170,11 @@ class BlockWork {
 };
 
 void compare(const std::vector<Voxel>& flood, const std::vector<int8_t>& signs, uint16_t object,
-             DistanceMap& map) {
+             DistanceField& distance_field) {
   for (size_t v = 0; v < flood.size(); ++v) {
     if (flood[v] == Voxel::kSurface || signs[v] == 0) continue;
     const bool is_inside = flood[v] == Voxel::kInside;
-    if (is_inside != (signs[v] < 0)) map.disagreements.push_back({v, object, is_inside});
+    if (is_inside != (signs[v] < 0)) distance_field.disagreements.push_back({v, object, is_inside});
   }
 }
 
@@ -184,28 +184,29 @@ void join_kinds(std::vector<Voxel>& to, const std::vector<Voxel>& more) {
 
 }  // namespace
 
-DistanceMap make_distance_map(const std::vector<Solid>& solids, const VoxelGrid& grid,
-                              const MapOptions& options) {
-  DistanceMap map;
-  map.grid = grid;
+DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelGrid& grid,
+                                  const MapOptions& options) {
+  DistanceField distance_field;
+  distance_field.grid = grid;
   const auto begin = Clock::now();
   std::vector<std::vector<Voxel>> floods;
   for (const Solid& solid : solids) floods.push_back(voxelize(solid.surface, grid));
-  map.kinds = floods[0];
-  for (const auto& flood : floods) join_kinds(map.kinds, flood);
+  distance_field.kinds = floods[0];
+  for (const auto& flood : floods) join_kinds(distance_field.kinds, flood);
   std::vector<bool> wanted(grid.voxels(), true);
   for (size_t v = 0; v < wanted.size(); ++v) {
-    size_t& counter = map.kinds[v] == Voxel::kOutside   ? map.outside
-                      : map.kinds[v] == Voxel::kSurface ? map.surface
-                                                        : map.inside;
+    size_t& counter = distance_field.kinds[v] == Voxel::kOutside   ? distance_field.outside
+                      : distance_field.kinds[v] == Voxel::kSurface ? distance_field.surface
+                                                                   : distance_field.inside;
     ++counter;
-    if (options.interior_only && map.kinds[v] == Voxel::kOutside) wanted[v] = false;
+    if (options.interior_only && distance_field.kinds[v] == Voxel::kOutside) wanted[v] = false;
   }
-  map.computed = options.interior_only ? map.surface + map.inside : wanted.size();
-  map.voxelize_s = since(begin);
+  distance_field.computed =
+      options.interior_only ? distance_field.surface + distance_field.inside : wanted.size();
+  distance_field.voxelize_s = since(begin);
 
   const auto middle = Clock::now();
-  map.values.resize(wanted.size());
+  distance_field.values.resize(wanted.size());
   const size_t blocks = size_t{BlockWork::blocks(grid.count[0])} *
                         BlockWork::blocks(grid.count[1]) * BlockWork::blocks(grid.count[2]);
   for (size_t s = 0; s < solids.size(); ++s) {
@@ -215,12 +216,14 @@ DistanceMap make_distance_map(const std::vector<Solid>& solids, const VoxelGrid&
     };
     in_parallel(
         blocks, options.threads,
-        [&] { return BlockWork(solids[s], static_cast<uint16_t>(s), map, wanted, own_sign); },
+        [&] {
+          return BlockWork(solids[s], static_cast<uint16_t>(s), distance_field, wanted, own_sign);
+        },
         tell);
-    compare(floods[s], own_sign, static_cast<uint16_t>(s), map);
+    compare(floods[s], own_sign, static_cast<uint16_t>(s), distance_field);
   }
-  map.distance_s = since(middle);
-  return map;
+  distance_field.distance_s = since(middle);
+  return distance_field;
 }
 
 std::vector<Nearest> nearest_to_points(const std::vector<Solid>& solids,
