@@ -130,12 +130,12 @@ struct Cube {
 
   void make_boxes() {
     for (uint32_t n = kNodes; n-- > 0;)
-      for (uint32_t slot = 0; slot < 2; ++slot) make_box(n, slot);
+      for (uint32_t which = 0; which < 2; ++which) make_box(n, which);
   }
 
-  void make_box(uint32_t n, uint32_t slot) {
+  void make_box(uint32_t n, uint32_t which) {
     uint32_t low[3] = {40000, 40000, 40000}, high[3] = {0, 0, 0};
-    const uint32_t child = nodes[n].side[slot].child;
+    const uint32_t child = nodes[n].side[which].child;
     const auto grow = [&](uint32_t k, uint32_t from, uint32_t to) {
       low[k] = from < low[k] ? from : low[k];
       high[k] = to > high[k] ? to : high[k];
@@ -154,7 +154,7 @@ struct Cube {
         }
     }
     for (uint32_t k = 0; k < 3; ++k)
-      nodes[n].side[slot].box[k] = low[k] | (mesh::kGridMax - high[k]) << 16;
+      nodes[n].side[which].box[k] = low[k] | (mesh::kGridMax - high[k]) << 16;
   }
 };
 

@@ -58,7 +58,7 @@ void compare_leaves(const Leaf& leaf, uint32_t turn, Compared& compared) {
     const mesh::Best& other = *others[k];
     if (!same(in_turn, reported[k]) || !same(a.offset_m, other.offset_m) ||
         !same(a.distance2_m2, other.distance2_m2) || a.triangle != other.triangle ||
-        a.place != other.place || a.feature != other.feature)
+        a.slot != other.slot || a.feature != other.feature)
       ++compared.differ;
   }
   compared.improved += in_turn < bound2_m2 ? 1u : 0u;
@@ -108,7 +108,7 @@ TEST(ALeafOfWhichSomeIsLeftOutTellsWhatTheWholeTells) {
     compared.differ += same(all.best, nearer.best) ? 0u : 1u;
     compared.differ += same(all.best, by_shapes.best) ? 0u : 1u;
     compared.differ += same(all.best, nearer_by_shapes.best) ? 0u : 1u;
-    compared.improved += all.best.place == 5 ? 1u : 0u;
+    compared.improved += all.best.slot == 5 ? 1u : 0u;
   }
   CHECK_EQ(compared.differ, 0u);
   CHECK(compared.improved > 8000u);

@@ -156,8 +156,8 @@ TEST(EachTriangleStandsSideBySideWhereItsLeafIsToldToBe) {
   const tools::MeshAhead made(baked.view);
   const mesh::Ahead& ahead = *made.view().ahead();
   uint32_t seen = 0, differ = 0;
-  for (uint32_t place = 0; place < 2 * baked.view.nodes().size(); ++place) {
-    const uint32_t leaf = ahead.nodes[place / 2].side[place % 2].child;
+  for (uint32_t slot = 0; slot < 2 * baked.view.nodes().size(); ++slot) {
+    const uint32_t leaf = ahead.nodes[slot / 2].side[slot % 2].child;
     if (!mesh::is_leaf(leaf)) continue;
     const mesh::Block block = mesh::lined_block(leaf);
     for (uint32_t i = 0; i < mesh::leaf_count(leaf); ++i, ++seen) {

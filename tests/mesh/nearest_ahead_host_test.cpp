@@ -25,7 +25,7 @@ mesh::Search begun(const mesh::View& view, Vec3 p_m, float band_m) {
 bool is_same(const mesh::Search& a, const mesh::Search& b) {
   const auto same = [](float x, float y) { return math::bits_of(x) == math::bits_of(y); };
   return a.steps == b.steps && a.complete == b.complete && a.best.triangle == b.best.triangle &&
-         a.best.place == b.best.place && a.best.feature == b.best.feature &&
+         a.best.slot == b.best.slot && a.best.feature == b.best.feature &&
          same(a.best.distance2_m2, b.best.distance2_m2) &&
          same(a.best.offset_m.x, b.best.offset_m.x) && same(a.best.offset_m.y, b.best.offset_m.y) &&
          same(a.best.offset_m.z, b.best.offset_m.z) && a.safe_subtree == b.safe_subtree;
@@ -69,7 +69,7 @@ void compare(const tools::TreeShape& shape, uint64_t seed) {
     mesh::search_nearest<false, mesh::NearBound, uint16_t>(view, bound, in_turn);
     mesh::search_ahead(lined, bound, ahead);
     if (!is_same(in_turn, ahead)) ++differ;
-    found += ahead.best.place != query::kNowhere ? 1 : 0;
+    found += ahead.best.slot != query::kNowhere ? 1 : 0;
   }
   CHECK_EQ(differ, 0u);
   CHECK_LT(2000u, found);

@@ -100,7 +100,7 @@ inline void turn_longest_first(Leaf& leaf) {
 
 inline bool same(const mesh::Best& a, const mesh::Best& b) {
   return same(a.offset_m, b.offset_m) && same(a.distance2_m2, b.distance2_m2) &&
-         a.triangle == b.triangle && a.place == b.place && a.feature == b.feature;
+         a.triangle == b.triangle && a.slot == b.slot && a.feature == b.feature;
 }
 
 }  // namespace mesh_test

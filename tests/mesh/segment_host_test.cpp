@@ -190,9 +190,9 @@ TEST(FloatsDecideAsIntegersDo) {
   double worst = 0;
   for (int i = 0; i < (long_run() ? 20000000 : 200000); ++i) {
     const double scale = std::pow(10.0, random.between(-8, 6)), far = i % 3 == 0 ? 1000.0 : 1.0;
-    const Point place = point(far * scale);
+    const Point slot = point(far * scale);
     Vec3 corner[3];
-    for (Vec3& c : corner) c = narrow(place + point(scale));
+    for (Vec3& c : corner) c = narrow(slot + point(scale));
     // Through the triangle, one of its edges or one of its corners, all but rounding.
     const double u = i % 4 == 1 ? 0 : random.between(0, 1),
                  v = i % 4 == 2 ? 0 : random.between(0, 1 - u);

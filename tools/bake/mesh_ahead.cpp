@@ -38,15 +38,15 @@ uint32_t lanes_of(uint32_t leaf, uint32_t first) {
 NodeBlock block_of(const mesh::View& mesh, uint32_t node) {
   Leaves leaves;
   uint32_t leaf[4] = {};
-  for (uint32_t slot = 0; slot < 2; ++slot) {
-    const uint32_t child = mesh.sides()[2 * node + slot].child;
+  for (uint32_t which = 0; which < 2; ++which) {
+    const uint32_t child = mesh.sides()[2 * node + which].child;
     if (is_leaf(child)) {
-      leaf[2 * slot] = child;
+      leaf[2 * which] = child;
       continue;
     }
     for (uint32_t k = 0; k < 2; ++k) {
-      leaf[2 * slot + k] = mesh.sides()[2 * child + k].child;
-      if (!is_leaf(leaf[2 * slot + k])) return {};
+      leaf[2 * which + k] = mesh.sides()[2 * child + k].child;
+      if (!is_leaf(leaf[2 * which + k])) return {};
     }
   }
   for (const uint32_t of : leaf)

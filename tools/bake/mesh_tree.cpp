@@ -86,7 +86,7 @@ class Builder {
 
   MeshTree build() {
     struct Task {
-      uint32_t begin, end, parent, slot, depth;
+      uint32_t begin, end, parent, which, depth;
     };
     std::vector<Task> tasks{{0, static_cast<uint32_t>(faces_.size()), 0, 2, 0}};
     while (!tasks.empty()) {
@@ -96,18 +96,18 @@ class Builder {
       tree_.nodes.push_back({});
       ranges_.push_back({});
       tree_.parents.push_back(
-          task.slot == 2 ? 0 : mesh::make_parent(task.parent, task.slot, task.depth));
-      if (task.slot != 2) tree_.nodes[task.parent].side[task.slot].child = index;
+          task.which == 2 ? 0 : mesh::make_parent(task.parent, task.which, task.depth));
+      if (task.which != 2) tree_.nodes[task.parent].side[task.which].child = index;
       tree_.depth = std::max(tree_.depth, task.depth + 1);
       const uint32_t middle = split(task.begin, task.end);
       const uint32_t ends[3] = {task.begin, middle, task.end};
-      for (uint32_t slot = 2;
-           slot-- > 0;) {  // the first child is taken off the stack first: depth-first numbering
-        store_box(box_of(ends[slot], ends[slot + 1]), grid_, tree_.nodes[index].side[slot].box);
-        if (is_best_whole(ends[slot], ends[slot + 1]))
-          ranges_[index][slot] = {ends[slot], ends[slot + 1]};
+      for (uint32_t which = 2;
+           which-- > 0;) {  // the first child is taken off the stack first: depth-first numbering
+        store_box(box_of(ends[which], ends[which + 1]), grid_, tree_.nodes[index].side[which].box);
+        if (is_best_whole(ends[which], ends[which + 1]))
+          ranges_[index][which] = {ends[which], ends[which + 1]};
         else
-          tasks.push_back({ends[slot], ends[slot + 1], index, slot, task.depth + 1});
+          tasks.push_back({ends[which], ends[which + 1], index, which, task.depth + 1});
       }
     }
     number_leaves();
@@ -188,11 +188,11 @@ class Builder {
 
   void number_leaves() {
     for (size_t n = 0; n < tree_.nodes.size(); ++n)
-      for (uint32_t slot = 0; slot < 2; ++slot) {
-        const Range range = ranges_[n][slot];
+      for (uint32_t which = 0; which < 2; ++which) {
+        const Range range = ranges_[n][which];
         if (range.end == std::numeric_limits<uint32_t>::max()) continue;
         const uint32_t first = static_cast<uint32_t>(tree_.order.size());
-        tree_.nodes[n].side[slot].child = mesh::make_leaf(first, range.end - range.begin);
+        tree_.nodes[n].side[which].child = mesh::make_leaf(first, range.end - range.begin);
         std::vector<uint32_t> leaf(faces_.begin() + range.begin, faces_.begin() + range.end);
         std::sort(leaf.begin(), leaf.end());
         tree_.order.insert(tree_.order.end(), leaf.begin(), leaf.end());
@@ -202,7 +202,7 @@ class Builder {
     for (size_t n = tree_.nodes.size(); n-- > 1;) {
       const mesh::Node& node = tree_.nodes[n];
       const uint32_t word = tree_.parents[n];
-      uint32_t* box = tree_.nodes[mesh::parent_of(word)].side[mesh::slot_of(word)].box;
+      uint32_t* box = tree_.nodes[mesh::parent_of(word)].side[mesh::which_of(word)].box;
       for (size_t k = 0; k < 3; ++k)
         box[k] = std::min(node.side[0].box[k] & 0xFFFFu, node.side[1].box[k] & 0xFFFFu) |
                  std::min(node.side[0].box[k] >> 16, node.side[1].box[k] >> 16) << 16;

@@ -68,9 +68,9 @@ struct BlockKeys {
     }
   }
   if (nearest == 4) return steps;
-  const uint32_t slot = nearest >> 1, child = sides[slot].child;
-  const uint32_t place = is_leaf(child) ? 2 * node + slot : 2 * child + (nearest & 1);
-  put_least(feet, (block.lanes >> (8 * nearest)) & 0xFFu, block.of.first, place, best);
+  const uint32_t which = nearest >> 1, child = sides[which].child;
+  const uint32_t slot = is_leaf(child) ? 2 * node + which : 2 * child + (nearest & 1);
+  put_least(feet, (block.lanes >> (8 * nearest)) & 0xFFu, block.of.first, slot, best);
   return steps;
 }
 

@@ -32,9 +32,9 @@ constexpr float kSafeSubtreeMotions = 8.0f;
 // than 1e6 m.
 constexpr float kBeyond_m = 1e15f;
 
-bool is_place(const View& mesh, uint32_t place) {
-  if ((place >> 1) >= mesh.nodes().size()) return false;
-  const uint32_t child = mesh.sides()[place].child;
+bool is_slot(const View& mesh, uint32_t slot) {
+  if ((slot >> 1) >= mesh.nodes().size()) return false;
+  const uint32_t child = mesh.sides()[slot].child;
   return is_leaf(child) && leaf_count(child) != 0;
 }
 
@@ -122,7 +122,7 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
     again.search.safe_subtree_m = found.search.safe_subtree_m;
     again.search.safe_subtree_margin_m = found.search.safe_subtree_margin_m;
     again.search.p_m = p_m;
-    again.search.start = found.search.best.place;
+    again.search.start = found.search.best.slot;
     again.search.budget = budget - found.search.steps;
     look<true>(mesh, bound, again.search);
     again.search.steps += found.search.steps;
@@ -136,7 +136,7 @@ void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budge
   }
   // No budget left for it: what is told is the true distance of the triangle that was found.
   found.search.complete = false;
-  if (found.search.best.place == query::kNowhere) return;
+  if (found.search.best.slot == query::kNowhere) return;
   const Triangle<uint32_t> t = mesh.triangle(found.search.best.triangle);
   const float distance2_m2 = compensated_distance2(
       p_m, mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
@@ -169,14 +169,14 @@ template <class Bound>
   // FLT_MAX and what squares beyond it: no band.
   const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
   // After a jump out of the band's reach the last leaf does not help.
-  const uint32_t place = hint.place, safe_subtree = hint.safe_subtree;
-  const bool is_warm = !(safe_subtree_margin_m > budget.band_m) && is_place(mesh, place);
+  const uint32_t slot = hint.place, safe_subtree = hint.safe_subtree;
+  const bool is_warm = !(safe_subtree_margin_m > budget.band_m) && is_slot(mesh, slot);
   Found found;  // all at once, with nothing read between: else each of its defaults is stored too
   Search& search = found.search;
   search.p_m.x = p_m.x;
   search.p_m.y = p_m.y;
   search.p_m.z = p_m.z;
-  search.start = is_warm ? place : query::kNowhere;
+  search.start = is_warm ? slot : query::kNowhere;
   search.budget = budget.steps;
   if constexpr (math::kHasLanes) {
     uint16_t last;
@@ -228,7 +228,7 @@ template <class Bound>
       exact = exact && sign != 0;
     }
   }
-  if (best.place != query::kNowhere) hint.place = best.place;
+  if (best.slot != query::kNowhere) hint.place = best.slot;
   if constexpr (math::kHasLanes) {
     const uint16_t last = static_cast<uint16_t>(best.triangle);
     __builtin_memcpy(hint.fine, &last, sizeof last);

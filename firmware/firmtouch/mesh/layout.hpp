@@ -120,12 +120,12 @@ constexpr uint32_t make_leaf(uint32_t first, uint32_t count) {
 }
 
 // parents[i]: depth of node i (root 0) << 25 | its parent's index << 1 | which child of it. Root: 0.
-constexpr uint32_t place_of(uint32_t word) { return word & 0x01FFFFFFu; }  // parent << 1 | slot
-constexpr uint32_t parent_of(uint32_t word) { return place_of(word) >> 1; }
-constexpr uint32_t slot_of(uint32_t word) { return word & 1u; }
+constexpr uint32_t slot_of(uint32_t word) { return word & 0x01FFFFFFu; }  // parent << 1 | slot
+constexpr uint32_t parent_of(uint32_t word) { return slot_of(word) >> 1; }
+constexpr uint32_t which_of(uint32_t word) { return word & 1u; }
 constexpr uint32_t depth_of(uint32_t word) { return word >> 25; }
-constexpr uint32_t make_parent(uint32_t parent, uint32_t slot, uint32_t depth) {
-  return (depth << 25) | (parent << 1) | slot;
+constexpr uint32_t make_parent(uint32_t parent, uint32_t which, uint32_t depth) {
+  return (depth << 25) | (parent << 1) | which;
 }
 
 /// The pseudonormal of each edge (edge k runs from corner k to k + 1), in the triangle's own frame:

@@ -23,7 +23,7 @@ struct Best {
   float distance2_m2 = FLT_MAX;
   math::Vec3 offset_m;
   uint32_t triangle = 0;
-  uint32_t place = query::kNowhere;  // of its leaf: node << 1 | slot
+  uint32_t slot = query::kNowhere;  // of its leaf: node << 1 | slot
   Feature feature = Feature::kVertex0;
 };
 
@@ -31,13 +31,13 @@ struct Best {
 /// `first`. Pre: one lane or more.
 template <class Float>
 [[gnu::always_inline]] static inline void put_least(const Feet<Float>& feet, uint32_t of,
-                                                    uint32_t first, uint32_t place, Best& best) {
+                                                    uint32_t first, uint32_t slot, Best& best) {
   float min2_m2;
   const uint32_t lane = math::min_lane(feet.distance2_m2, of, min2_m2);
   best.distance2_m2 = min2_m2;
   best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
   best.triangle = first + lane;
-  best.place = place;
+  best.slot = slot;
   best.feature = static_cast<Feature>(feet.features()[lane]);
 }
 
@@ -45,12 +45,12 @@ template <class Float>
 /// Result: the least squared distance so far.
 template <class Float>
 [[gnu::always_inline]] static inline float take_nearest(const Feet<Float>& feet, uint32_t asked,
-                                                        uint32_t first, uint32_t place,
+                                                        uint32_t first, uint32_t slot,
                                                         float min2_m2, Best& best) {
   const uint32_t nearer =
       math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(min2_m2))) & asked;
   if (nearer == 0) return min2_m2;
-  put_least(feet, nearer, first, place, best);
+  put_least(feet, nearer, first, slot, best);
   return best.distance2_m2;
 }
 
@@ -59,7 +59,7 @@ template <class Float>
 template <class Float, class Index>
 [[gnu::always_inline]] static inline float measure_side_by_side(
     const Vertex* vertices, core::Span<const Triangle<Index>> triangles, math::Vec3 p_m,
-    uint32_t child, uint32_t place, float min2_m2, Best& best) {
+    uint32_t child, uint32_t slot, float min2_m2, Best& best) {
   constexpr uint32_t kLanes = math::kLanesOf<Float>;
   // Neighbours of the leaf fill what lanes are left, and are not asked.
   uint32_t first = leaf_first(child), asked = (1u << leaf_count(child)) - 1u;
@@ -77,7 +77,7 @@ template <class Float, class Index>
       return math::gather(at(0), at(1), at(2), at(3));
   };
   const Feet<Float> feet = closest_on_triangles<Float>(p_m, corner(0), corner(1), corner(2));
-  return take_nearest(feet, asked, first, place, min2_m2, best);
+  return take_nearest(feet, asked, first, slot, min2_m2, best);
 }
 
 // Where the members of a shape have their first row.
@@ -141,9 +141,8 @@ template <class Float>
 }
 template <class Float>
 [[gnu::always_inline]] static inline float measure_lined(const Lined& leaf, math::Vec3 p_m,
-                                                         uint32_t place, float min2_m2,
-                                                         Best& best) {
-  return take_nearest(feet_on<Float>(leaf, p_m), leaf.asked(), leaf.first, place, min2_m2, best);
+                                                         uint32_t slot, float min2_m2, Best& best) {
+  return take_nearest(feet_on<Float>(leaf, p_m), leaf.asked(), leaf.first, slot, min2_m2, best);
 }
 
 template <class Float>
@@ -156,10 +155,10 @@ template <class Float>
 /// The same in less time where mostly none is nearer. `limit2_m2`: prism_limit2() of `min2_m2`.
 template <class Float>
 [[gnu::always_inline]] static inline float measure_lined_beside(const Lined& leaf, math::Vec3 p_m,
-                                                                uint32_t place, float min2_m2,
+                                                                uint32_t slot, float min2_m2,
                                                                 float limit2_m2, Best& best) {
   if (may_be_nearer<Float>(leaf, p_m, limit2_m2) == 0) return min2_m2;
-  return take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, place, min2_m2,
+  return take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, slot, min2_m2,
                       best);
 }
 
@@ -168,7 +167,7 @@ template <class Float>
 /// Result: where the leaf's block begins if none of its other leaves has a nearer one; else kNowhere.
 template <class Float>
 [[gnu::always_inline]] static inline uint32_t measure_lined_last(const Lined& leaf, math::Vec3 p_m,
-                                                                 uint32_t place, uint32_t last,
+                                                                 uint32_t slot, uint32_t last,
                                                                  float slack_m2, Best& best) {
   uint32_t clear = query::kNowhere;
   const uint32_t lane = (last - leaf.first) & 0xFFFFu;
@@ -185,12 +184,12 @@ template <class Float>
       best.distance2_m2 = foot.distance2_m2;
       best.offset_m = foot.offset_m;
       best.triangle = leaf.first + lane;
-      best.place = place;
+      best.slot = slot;
       best.feature = foot.feature;
       return clear;
     }
   }
-  take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, place, FLT_MAX, best);
+  take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, slot, FLT_MAX, best);
   return clear;
 }
 
@@ -280,7 +279,7 @@ struct ShapesInTurn {
 /// near triangles the first. InTurn: CornersInTurn or ShapesInTurn. Wanted: Nearer or Everything,
 /// which tell the same; Everything in fewer instructions where nothing is known yet.
 template <class InTurn, class Wanted>
-[[gnu::always_inline]] static inline void measure_in_turn(uint32_t child, uint32_t place,
+[[gnu::always_inline]] static inline void measure_in_turn(uint32_t child, uint32_t slot,
                                                           Sought& sought) {
   using math::Vec3;
   static_assert(offsetof(Sought, slack_m2) == 12 && offsetof(Sought, best) == 16);
@@ -305,7 +304,7 @@ template <class InTurn, class Wanted>
     best.offset_m = foot.offset_m;
     const uint32_t word = math::only_here(child);
     best.triangle = leaf_first(word) + leaf_count(word) - left;
-    best.place = place;
+    best.slot = slot;
     best.feature = foot.feature;
   }
 }
@@ -320,7 +319,7 @@ template <bool kCompensated, class Index>
 [[gnu::always_inline]] static inline float measure_leaf(const Vertex* vertices,
                                                         core::Span<const Triangle<Index>> triangles,
                                                         const Loss& loss, math::Vec3 p_m,
-                                                        uint32_t child, uint32_t place,
+                                                        uint32_t child, uint32_t slot,
                                                         [[maybe_unused]] bool is_last,
                                                         float min2_m2, Best& best) {
   if constexpr (math::kHasLanes && !kCompensated) {
@@ -328,9 +327,9 @@ template <bool kCompensated, class Index>
     using math::FloatWide;
     const bool is_small = leaf_count(child) <= math::kLanesOf<Float4>;
     if (!is_small && triangles.size() >= math::kLanesOf<FloatWide>)
-      return measure_side_by_side<FloatWide>(vertices, triangles, p_m, child, place, min2_m2, best);
+      return measure_side_by_side<FloatWide>(vertices, triangles, p_m, child, slot, min2_m2, best);
     if (is_small && !is_last && triangles.size() >= math::kLanesOf<Float4>)
-      return measure_side_by_side<Float4>(vertices, triangles, p_m, child, place, min2_m2, best);
+      return measure_side_by_side<Float4>(vertices, triangles, p_m, child, slot, min2_m2, best);
   }
   using math::Vec3;
   const uint32_t stride = math::as_multiplier(sizeof(Vertex));
@@ -353,7 +352,7 @@ template <bool kCompensated, class Index>
     best.distance2_m2 = min2_m2;  // one by one: an aggregate would be built aside first
     best.offset_m = foot.offset_m;
     best.triangle = static_cast<uint32_t>(triangle - triangles.data());
-    best.place = place;
+    best.slot = slot;
     best.feature = foot.feature;
   }
   return min2_m2;

@@ -85,7 +85,7 @@ constexpr uint32_t kMaxNodesNear = 16384;
         steps += now.what <= last ? 1 : 0;
         continue;
       }
-      const uint32_t child = static_cast<uint32_t>(now.child), place = low_half(now.what);
+      const uint32_t child = static_cast<uint32_t>(now.child), slot = low_half(now.what);
       if (child < kBlockBit) break;
       const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};
       Best& best = search.best;
@@ -102,10 +102,10 @@ constexpr uint32_t kMaxNodesNear = 16384;
         if (nearer_of(feet, block.of, before2_m2) == 0) {
           steps += keys.steps(prune);
         } else {
-          steps += take_in_turn(feet, block, keys, bound, families[place].side, node, prune, best);
+          steps += take_in_turn(feet, block, keys, bound, families[slot].side, node, prune, best);
           last = (uint64_t{prune} << 32) - 1;
         }
-      } else if (measure_lined<math::FloatWide>(Lined(ahead, child), p_m, place, before2_m2, best) <
+      } else if (measure_lined<math::FloatWide>(Lined(ahead, child), p_m, slot, before2_m2, best) <
                  before2_m2) {
         last = (uint64_t{prune_key(bound, search)} << 32) - 1;
       }
@@ -152,15 +152,15 @@ constexpr uint32_t kMaxNodesNear = 16384;
   Best& best = search.best;
   const uint32_t clear = measure_lined_last<math::FloatWide>(
       Lined(ahead, sides[search.start].child), p_m, search.start, search.last, slack_m2, best);
-  uint32_t prune = prune_key(bound, search), left = UINT32_MAX - 1, place;
+  uint32_t prune = prune_key(bound, search), left = UINT32_MAX - 1, slot;
   float limit2_m2 = prism_limit2(best.distance2_m2, slack_m2);
   Pending pending[kCapacity];
   Pending* top = pending;
   climb(mesh, sides, bound, prune, left, top, search);
-  while (take_last(top, pending, prune, place)) {
-    uint32_t child = sides[place].child;
+  while (take_last(top, pending, prune, slot)) {
+    uint32_t child = sides[slot].child;
     for (--left; child < kBlockBit; --left)
-      if (!enter(sides, bound, prune, child, place, top)) break;
+      if (!enter(sides, bound, prune, child, slot, top)) break;
     if (child < kBlockBit) continue;
     if (!is_leaf(child)) {
       const uint32_t node = block_node(child);
@@ -176,7 +176,7 @@ constexpr uint32_t kMaxNodesNear = 16384;
     } else {
       const float before2_m2 = best.distance2_m2;
       if (lined_block(child).first == clear ||
-          !(measure_lined_beside<math::FloatWide>(Lined(ahead, child), p_m, place, before2_m2,
+          !(measure_lined_beside<math::FloatWide>(Lined(ahead, child), p_m, slot, before2_m2,
                                                   limit2_m2, best) < before2_m2))
         continue;
       prune = prune_key(bound, search);

@@ -22,7 +22,7 @@ constexpr uint32_t kCapacity = kBestFirst + kMaxDepth;
 // A place is a box: node << 1 | which of its two.
 struct Pending {
   uint32_t key;
-  uint32_t place;
+  uint32_t slot;
 };
 
 /// What is looked for, and what came of it.
@@ -53,7 +53,7 @@ struct Choice<false, First, Second> {
 
 // What take_smallest() leaves.
 struct Taken {
-  uint32_t place;
+  uint32_t slot;
   uint32_t count;  // still pending
   uint32_t left;   // of the budget
   bool found;
@@ -73,8 +73,8 @@ template <class Bound>
     const Pending taken = pending[at];
     pending[at] = pending[--count];
     if (taken.key >= prune) break;
-    const uint32_t child = sides[taken.place].child;
-    if (is_leaf(child) || left == 0 || count >= kBestFirst) return {taken.place, count, left, true};
+    const uint32_t child = sides[taken.slot].child;
+    if (is_leaf(child) || left == 0 || count >= kBestFirst) return {taken.slot, count, left, true};
     --left;
     uint32_t key0, key1, child0, child1;
     bound.keys(sides + 2 * child, key0, key1, child0, child1);
@@ -84,18 +84,18 @@ template <class Bound>
   return {0, 0, left, false};
 }
 
-[[gnu::always_inline]] inline void push(Pending*& top, uint32_t key, uint32_t place) {
+[[gnu::always_inline]] inline void push(Pending*& top, uint32_t key, uint32_t slot) {
   uint32_t* word = &top->key;
-  math::push_pair(word, key, place);
+  math::push_pair(word, key, slot);
   top = reinterpret_cast<Pending*>(word);
 }
 
 // Takes the last place of a key below `prune`.
 // Result: false when none is left above `best_first`.
-inline bool take_last(Pending*& top, const Pending* best_first, uint32_t prune, uint32_t& place) {
+inline bool take_last(Pending*& top, const Pending* best_first, uint32_t prune, uint32_t& slot) {
   while (top > best_first) {
     --top;
-    place = top->place;
+    slot = top->slot;
     if (top->key < prune) return true;
   }
   return false;
@@ -119,11 +119,11 @@ inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint3
                        (1.0f + 0x1p-22f);
   const float reach_m = leaf_m + search.safe_subtree_margin_m;
   const uint32_t beyond = bound.prune_key(reach_m * reach_m);
-  uint32_t place = search.start;
+  uint32_t slot = search.start;
   uint32_t stop = leaf_m <= search.safe_subtree_m ? search.safe_subtree : 0,
-           safe_subtree = place >> 1;
+           safe_subtree = slot >> 1;
   for (; left != 0; --left) {
-    const uint32_t beside = place ^ 1u, index = place >> 1;
+    const uint32_t beside = slot ^ 1u, index = slot >> 1;
     const uint32_t key = bound.key(sides[beside].box);
     if constexpr (math::kHasLanes) {
       // While a desktop waits for the leaf's distance it runs ahead: a branch on that distance which
@@ -147,7 +147,7 @@ inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint3
       }
       stop = 0;
     }
-    place = place_of(parents[index]);
+    slot = slot_of(parents[index]);
   }
   return false;
 }
@@ -203,40 +203,40 @@ enum class Which { kLast, kBeside };
 
 // measure_leaf() of a leaf that is reached. Result: the least squared distance so far.
 template <bool kCompensated, class Index, Which kWhich>
-[[gnu::always_inline]] inline float measure_here(const View& mesh, uint32_t child, uint32_t place,
+[[gnu::always_inline]] inline float measure_here(const View& mesh, uint32_t child, uint32_t slot,
                                                  Search& search) {
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};  // one by one: see measure_leaf()
   Best& best = search.best;
   return measure_leaf<kCompensated>(mesh.vertices().data(), triangles_of<Index>(mesh),
-                                    Loss(mesh.head()), p_m, child, place, kWhich == Which::kLast,
+                                    Loss(mesh.head()), p_m, child, slot, kWhich == Which::kLast,
                                     best.distance2_m2, best);
 }
 
 // Functions of their own: in the loop they would take the registers of the descent.
 // Result: 0 where one was nearer. A search measures no leaf twice.
 template <class Index>
-[[gnu::noinline]] uint32_t measure_compensated(const View& mesh, uint32_t child, uint32_t place,
+[[gnu::noinline]] uint32_t measure_compensated(const View& mesh, uint32_t child, uint32_t slot,
                                                Search& search) {
-  measure_here<true, Index, Which::kBeside>(mesh, child, place, search);
-  return search.best.place ^ place;
+  measure_here<true, Index, Which::kBeside>(mesh, child, slot, search);
+  return search.best.slot ^ slot;
 }
 // `prune`, which it does not need, is in the register in which measure_boxed() has it.
 template <class InTurn, class Wanted>
 [[gnu::noinline]] uint32_t measure_plain([[maybe_unused]] uint32_t prune, uint32_t child,
-                                         uint32_t place, Search& search) {
-  measure_in_turn<InTurn, Wanted>(child, place, search);
-  return search.best.place ^ place;
+                                         uint32_t slot, Search& search) {
+  measure_in_turn<InTurn, Wanted>(child, slot, search);
+  return search.best.slot ^ slot;
 }
 // Whether its box tells that nothing in a leaf is below `prune`.
 [[gnu::always_inline]] inline bool is_beyond(uint32_t prune, uint32_t child, const Search& search) {
   const uint32_t* const box = search.leaf_boxes + size_t{kLeafBoxStride} * leaf_first(child);
   return math::oriented_distance2(box, search.half_cells) >= prune;
 }
-[[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t place,
+[[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t slot,
                                          Search& search) {
   if (is_beyond(prune, child, search)) return 1;
-  measure_in_turn<ShapesInTurn, Nearer>(child, place, search);
-  return search.best.place ^ place;
+  measure_in_turn<ShapesInTurn, Nearer>(child, slot, search);
+  return search.best.slot ^ slot;
 }
 
 // Side by side so few instructions measure a leaf that a call would show. With care the width of the
@@ -244,23 +244,23 @@ template <class InTurn, class Wanted>
 // `prune`: the least key that is not looked at. Result: whether one was nearer.
 template <bool kCompensated, class Index, Which kWhich>
 inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t child,
-                    uint32_t place, Search& search) {
+                    uint32_t slot, Search& search) {
   // Before the last leaf nothing is known that could leave a triangle out.
   using Wanted = typename Choice<kWhich == Which::kLast, Everything, Nearer>::Type;
   if constexpr (kCompensated) {
     return (mesh.triangles16().empty()
-                ? measure_compensated<uint32_t>(mesh, child, place, search)
-                : measure_compensated<uint16_t>(mesh, child, place, search)) == 0;
+                ? measure_compensated<uint32_t>(mesh, child, slot, search)
+                : measure_compensated<uint16_t>(mesh, child, slot, search)) == 0;
   } else if constexpr (math::kHasLanes) {
     if constexpr (kIsBoxed<Index> && kWhich != Which::kLast)
       if (is_beyond(prune, child, search)) return false;
     const float before2_m2 = search.best.distance2_m2;
-    return measure_here<false, typename Within<Index>::Type, kWhich>(mesh, child, place, search) <
+    return measure_here<false, typename Within<Index>::Type, kWhich>(mesh, child, slot, search) <
            before2_m2;
   } else if constexpr (kIsBoxed<Index> && kWhich != Which::kLast) {
-    return measure_boxed(prune, child, place, search) == 0;
+    return measure_boxed(prune, child, slot, search) == 0;
   } else {
-    return measure_plain<typename Within<Index>::InTurn, Wanted>(prune, child, place, search) == 0;
+    return measure_plain<typename Within<Index>::InTurn, Wanted>(prune, child, slot, search) == 0;
   }
 }
 
@@ -268,25 +268,25 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
 // too, is left pending. Result: false where neither is below it.
 template <class Bound>
 [[gnu::always_inline]] inline bool enter(const Side* sides, const Bound& bound, uint32_t prune,
-                                         uint32_t& child, uint32_t& place, Pending*& top) {
-  place = 2 * child;
+                                         uint32_t& child, uint32_t& slot, Pending*& top) {
+  slot = 2 * child;
   uint32_t key0, key1, child0, child1;
-  bound.keys(sides + place, key0, key1, child0, child1);
+  bound.keys(sides + slot, key0, key1, child0, child1);
   if (key0 < prune) {
     if (key1 < prune) {
       if (key1 < key0) {
-        push(top, key0, place);
-        place |= 1u;
+        push(top, key0, slot);
+        slot |= 1u;
         child = child1;
         return true;
       }
-      push(top, key1, place | 1u);
+      push(top, key1, slot | 1u);
     }
     child = child0;
     return true;
   }
   if (key1 >= prune) return false;
-  place |= 1u;
+  slot |= 1u;
   child = child1;
   return true;
 }
@@ -304,7 +304,7 @@ template <bool kCompensated, class Bound, class Index>
   Pending pending[kCapacity];
   Pending* top = pending;  // behind the last
   const Pending* best_first = pending;
-  uint32_t left = allowed, place = query::kNowhere, child = 0, prune;
+  uint32_t left = allowed, slot = query::kNowhere, child = 0, prune;
   search.complete = true;
   if constexpr (!kCompensated) begin_leaves<Index>(mesh, bound, search);
   if (search.start != query::kNowhere) {
@@ -318,11 +318,11 @@ template <bool kCompensated, class Bound, class Index>
       search.pending_m = 0.0f;
       return;
     }
-    if (!take_last(top, best_first, prune, place)) {
+    if (!take_last(top, best_first, prune, slot)) {
       search.steps = allowed - left;
       return;
     }
-    child = sides[place].child;
+    child = sides[slot].child;
   } else {
     prune = prune_key(bound, search);
     // Where nothing cuts a search short no lower bound is told on the way.
@@ -330,13 +330,13 @@ template <bool kCompensated, class Bound, class Index>
   }
   for (bool is_left = left != 0; is_left; is_left = math::count_down(left)) {
     if (!is_leaf(child)) {
-      if (enter(sides, bound, prune, child, place, top)) continue;
+      if (enter(sides, bound, prune, child, slot, top)) continue;
     } else {
-      if (measure<kCompensated, Index, Which::kBeside>(mesh, prune, child, place, search))
+      if (measure<kCompensated, Index, Which::kBeside>(mesh, prune, child, slot, search))
         prune = prune_key(bound, search);
     }
     // Many, or warm: the last, whose order does not matter then and costs nothing.
-    if (!take_last(top, best_first, prune, place)) {
+    if (!take_last(top, best_first, prune, slot)) {
       const uint32_t count = static_cast<uint32_t>(top - pending);
       Taken taken{0, 0, left - 1, false};
       if (count != 0) taken = take_smallest(sides, bound_at, pending, count, prune, left - 1);
@@ -344,16 +344,16 @@ template <bool kCompensated, class Bound, class Index>
         search.steps = allowed - taken.left;
         return;
       }
-      place = taken.place;
+      slot = taken.slot;
       top = pending + taken.count;
       left = taken.left + 1;
     }
-    child = sides[place].child;
+    child = sides[slot].child;
   }
   // The budget ran out: what was about to be read is left too.
   search.complete = false;
   search.steps = allowed;
-  uint32_t least = bound.key(sides[place].box);
+  uint32_t least = bound.key(sides[slot].box);
   for (const Pending* p = pending; p != top; ++p) least = p->key < least ? p->key : least;
   search.pending_m = bound.distance_m(least);
 }

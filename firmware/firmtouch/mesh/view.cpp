@@ -208,38 +208,39 @@ Verdict Opening::check_normal(uint32_t i) const {
 Verdict Opening::check_node(uint32_t i) {
   const Node& node = view_.nodes_[i];
   const uint32_t word = view_.parents_[i];
-  if (i == 0 ? word != 0
-             : parent_of(word) >= i || view_.nodes_[parent_of(word)].side[slot_of(word)].child != i)
+  if (i == 0
+          ? word != 0
+          : parent_of(word) >= i || view_.nodes_[parent_of(word)].side[which_of(word)].child != i)
     return reject(123, i);
   if (depth_of(word) > deepest_) deepest_ = depth_of(word);
   if (deepest_ >= kMaxDepth) return reject(107, i);
-  for (uint32_t slot = 0; slot < 2; ++slot) {
-    const uint32_t child = node.side[slot].child;
+  for (uint32_t which = 0; which < 2; ++which) {
+    const uint32_t child = node.side[which].child;
     if (is_leaf(child)) {
-      const Verdict leaf = check_leaf(i, slot);
+      const Verdict leaf = check_leaf(i, which);
       if (!leaf.ok()) return leaf;
       continue;
     }
-    if (!is_box(node.side[slot].box)) return reject(120, i);
+    if (!is_box(node.side[which].box)) return reject(120, i);
     if (child <= i || child >= view_.nodes_.size() ||
-        view_.parents_[child] != make_parent(i, slot, depth_of(word) + 1))
+        view_.parents_[child] != make_parent(i, which, depth_of(word) + 1))
       return reject(122, i);
     const Node& inner = view_.nodes_[child];
     for (uint32_t grandchild = 0; grandchild < 2; ++grandchild)
-      if (!holds(node.side[slot].box, inner.side[grandchild].box)) return reject(121, child);
+      if (!holds(node.side[which].box, inner.side[grandchild].box)) return reject(121, child);
   }
   return kPassed;
 }
 
-Verdict Opening::check_leaf(uint32_t i, uint32_t slot) {
+Verdict Opening::check_leaf(uint32_t i, uint32_t which) {
   const Node& node = view_.nodes_[i];
-  const uint32_t first = leaf_first(node.side[slot].child),
-                 count = leaf_count(node.side[slot].child);
+  const uint32_t first = leaf_first(node.side[which].child),
+                 count = leaf_count(node.side[which].child);
   // Only the second child of the one node of a mesh of one leaf may be empty.
-  if (first != next_triangle_ || (count == 0 && !(slot == 1 && view_.nodes_.size() == 1)))
+  if (first != next_triangle_ || (count == 0 && !(which == 1 && view_.nodes_.size() == 1)))
     return reject(124, i);
   if (count > view_.head_->triangle_count - first) return reject(124, i);
-  if (!is_box(node.side[slot].box)) return reject(120, i);
+  if (!is_box(node.side[which].box)) return reject(120, i);
   const float per_cell = 1.0f / view_.head_->cell_m;
   for (uint32_t t = first; t < first + count; ++t) {
     const Triangle<uint32_t> triangle = view_.triangle(t);
@@ -249,7 +250,8 @@ Verdict Opening::check_leaf(uint32_t i, uint32_t slot) {
       const float values[3] = {v.x_m, v.y_m, v.z_m};
       for (int k = 0; k < 3; ++k) {  // with the rounding that NearBound allows for
         const float cells = (values[k] - view_.head_->grid_low_m[k]) * per_cell;
-        if (!(low_of(node.side[slot].box[k]) <= cells && cells <= high_of(node.side[slot].box[k])))
+        if (!(low_of(node.side[which].box[k]) <= cells &&
+              cells <= high_of(node.side[which].box[k])))
           return reject(127, t);
       }
     }

@@ -102,7 +102,7 @@ class Opening {
   core::Verdict check_vertex(uint32_t i);
   core::Verdict check_normal(uint32_t i) const;
   core::Verdict check_node(uint32_t i);
-  core::Verdict check_leaf(uint32_t node, uint32_t slot);
+  core::Verdict check_leaf(uint32_t node, uint32_t which);
   core::Verdict check_leaf_box(uint32_t first, uint32_t count) const;
   TriangleShape shape_at(uint32_t triangle) const;
   core::Verdict check_shape(uint32_t i) const;

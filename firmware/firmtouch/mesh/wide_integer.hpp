@@ -23,7 +23,7 @@ class Scale {
   void cover(float value) {
     const uint32_t bits = math::bits_of(value) & 0x7FFFFFFFu;
     if (bits == 0) return;
-    const int32_t at = place(bits);
+    const int32_t at = slot(bits);
     const int32_t low = at + __builtin_ctz(mantissa(bits));
     const int32_t high = at + 32 - __builtin_clz(mantissa(bits));
     low_ = low < low_ ? low : low_;
@@ -53,14 +53,14 @@ class Scale {
   static uint32_t mantissa(uint32_t bits) {
     return bits < 0x800000u ? bits : (bits & 0x7FFFFFu) | 0x800000u;
   }
-  static int32_t place(uint32_t bits) {  // of the mantissa's last bit, from 2^-149
+  static int32_t slot(uint32_t bits) {  // of the mantissa's last bit, from 2^-149
     return bits < 0x800000u ? 0 : static_cast<int32_t>(bits >> 23) - 1;
   }
   void put(uint32_t bits, uint32_t* limb, uint32_t n) const {
     for (uint32_t i = 0; i < n; ++i) limb[i] = 0;
     if (bits == 0) return;
     // Zeros below the lowest bit of all: shifted out where the mantissa's place is below it.
-    const int32_t up = place(bits) - low_;
+    const int32_t up = slot(bits) - low_;
     const uint64_t value = up < 0 ? uint64_t{mantissa(bits)} >> -up : mantissa(bits);
     const uint32_t shift = up < 0 ? 0 : static_cast<uint32_t>(up);
     const uint64_t moved = value << (shift % 32);
