@@ -40,25 +40,25 @@ foreach(flags WARNING ARITHMETIC ROUNDING NATIVE FREESTANDING)
   set(FIRMTOUCH_${flags}_FLAGS "${FIRMTOUCH_${flags}_FLAGS}" CACHE INTERNAL "")
 endforeach()
 
-# firmtouch_room(NAME [LINKS ROOM...]): one library a room of the firmware, libfirmtouch_NAME.a, from the *.cpp of its
-# folder. It may include only the rooms that it links (tests/check holds it to that). A room of headers alone has no
+# firmtouch_module(NAME [LINKS MODULE...]): one library a module of the firmware, libfirmtouch_NAME.a, from the *.cpp of its
+# folder. It may include only the modules that it links (tests/check holds it to that). A module of headers alone has no
 # archive.
-function(firmtouch_room name)
-  cmake_parse_arguments(room "" "" "LINKS" ${ARGN})
-  list(TRANSFORM room_LINKS PREPEND firmtouch_)
+function(firmtouch_module name)
+  cmake_parse_arguments(module "" "" "LINKS" ${ARGN})
+  list(TRANSFORM module_LINKS PREPEND firmtouch_)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${name}/*.cpp)
   set(target firmtouch_${name})
   if(sources)
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/firmware)
     target_compile_features(${target} PUBLIC cxx_std_17)
-    target_link_libraries(${target} PUBLIC ${room_LINKS})
+    target_link_libraries(${target} PUBLIC ${module_LINKS})
     firmtouch_freestanding(${target})
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/firmware)
     target_compile_features(${target} INTERFACE cxx_std_17)
-    target_link_libraries(${target} INTERFACE ${room_LINKS})
+    target_link_libraries(${target} INTERFACE ${module_LINKS})
   endif()
   add_library(firmtouch::${name} ALIAS ${target})
 endfunction()

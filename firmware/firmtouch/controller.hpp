@@ -17,7 +17,7 @@
 
 namespace firmtouch {
 
-/// One composition of the rooms among possible ones: a Cartesian device of three axes feels one
+/// One composition of the modules among possible ones: a Cartesian device of three axes feels one
 /// surface, a mesh or splines, by the sphere at its tip (beyond reach of a mesh by its distance map,
 /// where the asset has one; where time runs out its hull, if there is one), and is guided along one curve, of samples or splines. Its size is the RAM
 /// that it takes: no heap, nothing static. Controllers are independent of each other and may share an

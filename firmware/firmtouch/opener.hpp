@@ -14,7 +14,7 @@
 
 namespace firmtouch {
 
-// What verdict() says beyond the rules of the asset's rooms (tools/FORMAT.md).
+// What verdict() says beyond the rules of the asset's modules (tools/FORMAT.md).
 constexpr uint16_t kRuleNoSuchMesh = 901;     // no mesh or spline surface of the name asked for
 constexpr uint16_t kRuleNoSuchCurve = 902;    // no curve, of samples or splines, of the name
 constexpr uint16_t kRuleNothingToFeel = 903;  // neither surface nor curve in the asset

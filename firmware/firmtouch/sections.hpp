@@ -9,7 +9,7 @@
 
 namespace firmtouch {
 
-// The sections of one named geometry of an asset, as its room's open() takes them. The rooms know no
+// The sections of one named geometry of an asset, as its module's open() takes them. The modules know no
 // container, and the container no geometry: whoever composes them finds the sections here.
 // Errors: a section that the asset lacks is empty, which open() refuses by its rule.
 // Bounds: a search of the section table each (asset::Container::find); no memory is copied.

@@ -1,15 +1,15 @@
 # Reads file names, and the includes of each file; prints those that run the wrong way (tests/check/includes.sh).
 BEGIN {
-  rooms = split(arrows, entry, ";") - 1
-  for (i = 1; i <= rooms; ++i) {
+  modules = split(arrows, entry, ";") - 1
+  for (i = 1; i <= modules; ++i) {
     split(entry[i], part, ":")
-    room = part[1]
-    known[room] = 1
+    module = part[1]
+    known[module] = 1
     n = split(part[2], link, " ")
-    for (k = 1; k <= n; ++k) may[room, link[k]] = 1
+    for (k = 1; k <= n; ++k) may[module, link[k]] = 1
   }
-  if (rooms < 3) complain("firmware/CMakeLists.txt: no list of rooms found")
-  # A circle shows as a room that reaches itself.
+  if (modules < 3) complain("firmware/CMakeLists.txt: no list of modules found")
+  # A circle shows as a module that reaches itself.
   for (a in known) for (b in known) reach[a, b] = ((a, b) in may)
   for (k in known) for (a in known) for (b in known) if (reach[a, k] && reach[k, b]) reach[a, b] = 1
   for (a in known) if (reach[a, a]) complain("firmware/CMakeLists.txt: " a " links itself through what it links")
@@ -26,23 +26,23 @@ function freestanding(file, header) {
 }
 
 # Of the firmware and of hal: which folder of `firmtouch/...` a file may take.
-function room_may(file, room, header,    of) {
+function room_may(file, module, header,    of) {
   of = header
   sub(/^firmtouch\//, "", of)
-  if (of !~ /\//) {  # a composition of rooms, above them all
+  if (of !~ /\//) {  # a composition of modules, above them all
     sub(/\.hpp$/, "", of)
-    return room == "app" || room == "controller" ? 1 : of
+    return module == "app" || module == "controller" ? 1 : of
   }
   sub(/\/.*/, "", of)
-  if (room == "app") return 1
-  if (room == "controller") return of in known ? 1 : of
-  if (room == "hal") return (of == "hal" || of == "core") ? 1 : of
-  if (of == room || (room, of) in may) return 1
-  if (room == "scene" && header == "firmtouch/servo/local_model.hpp") return 1
+  if (module == "app") return 1
+  if (module == "controller") return of in known ? 1 : of
+  if (module == "hal") return (of == "hal" || of == "core") ? 1 : of
+  if (of == module || (module, of) in may) return 1
+  if (module == "scene" && header == "firmtouch/servo/local_model.hpp") return 1
   return of
 }
 
-function judge(file, line, header, quoted,    where, top, room, answer) {
+function judge(file, line, header, quoted,    where, top, module, answer) {
   where = file ":" line ": "
   split(file, folder, "/")
   top = folder[1]
@@ -58,15 +58,15 @@ function judge(file, line, header, quoted,    where, top, room, answer) {
   }
   if (!quoted && top != "tests") return
   if (top == "firmware") {
-    room = folder[2] == "app" ? "app" : folder[3] ~ /\./ ? "controller" : folder[3]
+    module = folder[2] == "app" ? "app" : folder[3] ~ /\./ ? "controller" : folder[3]
     if (header !~ /^firmtouch\// || header ~ /\.\./) {
       # The program may take headers of its own folder, and the one that the build makes.
-      if (room == "app" && header !~ /\.\./ && header !~ /^(host_sim|tests|tools|harness|bake|surface|cli)\//) return
+      if (module == "app" && header !~ /\.\./ && header !~ /^(host_sim|tests|tools|harness|bake|surface|cli)\//) return
       complain(where "firmware may not include \"" header "\"")
     } else {
-      if (room != "app" && room != "controller" && !(room in known)) complain(where room " is no room of firmware/CMakeLists.txt")
-      answer = room_may(file, room, header)
-      if (answer != 1) complain(where room " may not include " answer)
+      if (module != "app" && module != "controller" && !(module in known)) complain(where module " is no module of firmware/CMakeLists.txt")
+      answer = room_may(file, module, header)
+      if (answer != 1) complain(where module " may not include " answer)
     }
   } else if (top == "hal") {
     if (header ~ /^firmtouch\//) {

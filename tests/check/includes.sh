@@ -3,13 +3,13 @@
 
 check() {
   find firmware hal host_sim tools tests -type f \( -name '*.hpp' -o -name '*.cpp' -o -name '*.h' \) |
-    LC_ALL=C sort | awk -v arrows="$(room_arrows)" -f "$here/includes.awk"
+    LC_ALL=C sort | awk -v arrows="$(module_arrows)" -f "$here/includes.awk"
 }
 
-# room_arrows: `room:link link ...;` for every firmtouch_room(room LINKS link ...)
-room_arrows() {
-  sed 's/#.*//' firmware/CMakeLists.txt | tr '\n' ' ' | grep -o 'firmtouch_room([^)]*)' |
-    sed 's/firmtouch_room( *\([a-z_]*\) *\(LINKS\)\{0,1\} *\(.*\))/\1:\3;/' | tr -d '\n'
+# module_arrows: `module:link link ...;` for every firmtouch_module(module LINKS link ...)
+module_arrows() {
+  sed 's/#.*//' firmware/CMakeLists.txt | tr '\n' ' ' | grep -o 'firmtouch_module([^)]*)' |
+    sed 's/firmtouch_module( *\([a-z_]*\) *\(LINKS\)\{0,1\} *\(.*\))/\1:\3;/' | tr -d '\n'
 }
 
 add() {  # add FILE LINE
@@ -81,7 +81,7 @@ plant_hosted_header_behind_a_test() {
   expect='core/planted.hpp:1: <string.h> is not freestanding'
 }
 plant_circle_of_rooms() {
-  sed 's/firmtouch_room(core)/firmtouch_room(core LINKS mesh)/' firmware/CMakeLists.txt >CMakeLists.new
+  sed 's/firmtouch_module(core)/firmtouch_module(core LINKS mesh)/' firmware/CMakeLists.txt >CMakeLists.new
   mv CMakeLists.new firmware/CMakeLists.txt
   expect='firmware/CMakeLists.txt: core links itself'
 }

@@ -1,13 +1,13 @@
 # The promise table of DESIGN.md names only what exists. Its columns: promise | mechanism (file) | attack (test) |
-# figure (command). In backquotes stand files of the tree, tests as CTest names them (room.Test, check.name, target.name)
+# figure (command). In backquotes stand files of the tree, tests as CTest names them (module.Test, check.name, target.name)
 # and commands. Read by tests/check/run.
 
 check() {
   names=$(
     grep -rhoE '^TEST\([A-Za-z0-9_]+' tests --include='*.cpp' | sed 's/TEST(/any./'
     for file in $(grep -rlE '^TEST\(' tests --include='*.cpp'); do
-      room=${file#tests/}
-      sed -n "s/^TEST(\([A-Za-z0-9_]*\).*/${room%%/*}.\1/p" "$file"
+      module=${file#tests/}
+      sed -n "s/^TEST(\([A-Za-z0-9_]*\).*/${module%%/*}.\1/p" "$file"
     done
     for file in tests/*/*cases.sh; do  # shell functions, one a test
       sed -n "s/^\([A-Z][A-Za-z0-9]*\)() *{.*/$(basename "$(dirname "$file")").\1/p" "$file"

@@ -9,10 +9,10 @@ programs=0
 for program in "$2"/tests/test_*; do
   [ -x "$program" ] && [ -f "$program" ] || continue
   programs=$((programs + 1))
-  room=${program##*/test_}
+  module=${program##*/test_}
   for name in $("$program" --list); do
     if ! grep -q "\.$name\$" "$known"; then
-      echo "$room.$name is in the program but not in CTest: write TEST($name) at the start of a line"
+      echo "$module.$name is in the program but not in CTest: write TEST($name) at the start of a line"
       failed=1
     fi
   done

@@ -6,7 +6,7 @@
 //
 //     TEST(SliverTriangleAnswersItsLongestEdge) { CHECK(x); CHECK_EQ(a, b); CHECK_LE(a, b); }
 //
-// A name states a claim and is unique in its room. Files: *_test.cpp run everywhere;
+// A name states a claim and is unique in its module. Files: *_test.cpp run everywhere;
 // *_host_test.cpp on the host only.
 namespace firmtouch::test {
 

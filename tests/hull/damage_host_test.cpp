@@ -45,10 +45,10 @@ void use(const hull::View& view, Random& random) {
     const hull::RefinedHit hit = refinement.first(a, b, {100});
     CHECK(hit.t >= 0 && hit.t <= 1);
     CHECK(!hit.is_of_mesh || hit.triangle < view.head().mesh_triangle_count);
-    mesh::SurfaceCrossing room[8];
-    const mesh::Crossings all = hull::all_crossings(view, a, b, {100}, {room});
+    mesh::SurfaceCrossing buffer[8];
+    const mesh::Crossings all = hull::all_crossings(view, a, b, {100}, {buffer});
     CHECK_LE(all.steps, 100u);
-    (void)refinement.all(a, b, {100}, {room});
+    (void)refinement.all(a, b, {100}, {buffer});
     CHECK_EQ(refinement.split_count(), 0u);
     const hull::BaseHullHit base_hull = hull::cast_base_hull(view.base_hull(), a, b, {100});
     CHECK(base_hull.t >= 0 && base_hull.t <= 1);

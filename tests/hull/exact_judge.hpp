@@ -71,11 +71,11 @@ class LongSum {
     const size_t first = static_cast<size_t>(shift) / 32;
     const unsigned by = static_cast<unsigned>(shift) % 32;
     for (size_t k = first; size != 0; ++k) {
-      const unsigned room = k == first ? 32 - by : 32;
-      const uint64_t part = size & ((uint64_t{1} << room) - 1);
+      const unsigned buffer = k == first ? 32 - by : 32;
+      const uint64_t part = size & ((uint64_t{1} << buffer) - 1);
       const int64_t digit = static_cast<int64_t>(k == first ? part << by : part);
       digit_[k] += minus ? -digit : digit;
-      size >>= room;
+      size >>= buffer;
     }
   }
   std::array<int64_t, 22> digit_{};

@@ -120,7 +120,7 @@ core::Bytes bytes_of_words(const std::vector<uint32_t>& words) {
 // Complete answers from outside and from anywhere: none missed, none made up.
 void complete_against_force(const BakedHull& baked, uint32_t count) {
   Lines lines(baked.surface, 3);
-  std::vector<mesh::SurfaceCrossing> room(256);
+  std::vector<mesh::SurfaceCrossing> buffer(256);
   size_t hits = 0, unclear = 0;
   for (uint32_t i = 0; i < count; ++i) {
     test::note("segment", i);
@@ -130,14 +130,14 @@ void complete_against_force(const BakedHull& baked, uint32_t count) {
     unclear += is_clear ? 0 : 1;
     if (!is_clear) continue;
     const mesh::Crossings all =
-        hull::all_crossings(baked.view, line.a, line.b, query::kUnlimited, span(room));
+        hull::all_crossings(baked.view, line.a, line.b, query::kUnlimited, span(buffer));
     CHECK(all.exact);
     CHECK_EQ(all.found, wanted.size());
     for (size_t k = 0; k < std::min<size_t>(all.reported, wanted.size()); ++k)
-      CHECK_LE(std::fabs(double{room[k].t} - wanted[k]), 4e-6);
+      CHECK_LE(std::fabs(double{buffer[k].t} - wanted[k]), 4e-6);
     const mesh::Hit first = hull::cast_segment(baked.view, line.a, line.b, query::kUnlimited);
     CHECK_EQ(first.hit, !wanted.empty());
-    if (first.hit) CHECK_EQ(first.triangle, room[0].triangle);
+    if (first.hit) CHECK_EQ(first.triangle, buffer[0].triangle);
     hits += wanted.size();
   }
   CHECK_LT(count / 4, hits);
@@ -151,7 +151,7 @@ void refined_against_complete(const BakedHull& baked, uint32_t base, uint32_t co
   Memory memory(baked.view, baked.view.collapse_count(), 64);
   hull::Refinement refinement(baked.view, base_hull, memory.spans());
   Lines lines(baked.surface, 17);
-  std::vector<mesh::SurfaceCrossing> all_room(256), room(256);
+  std::vector<mesh::SurfaceCrossing> all_room(256), buffer(256);
   for (uint32_t i = 0; i < count; ++i) {
     test::note("segment", i);
     const Line line = lines.from_outside();
@@ -163,11 +163,11 @@ void refined_against_complete(const BakedHull& baked, uint32_t base, uint32_t co
     if (all.found == 0) continue;
     CHECK_EQ(hit.triangle, all_room[0].triangle);
     const hull::RefinedCrossings found =
-        refinement.all(line.a, line.b, query::kUnlimited, span(room));
+        refinement.all(line.a, line.b, query::kUnlimited, span(buffer));
     CHECK_LT(0u, found.found);
     if (found.found == 0) continue;
-    CHECK_EQ(room[0].triangle, all_room[0].triangle);
-    CHECK_EQ(room[found.reported - 1].triangle, all_room[all.reported - 1].triangle);
+    CHECK_EQ(buffer[0].triangle, all_room[0].triangle);
+    CHECK_EQ(buffer[found.reported - 1].triangle, all_room[all.reported - 1].triangle);
   }
 }
 

@@ -215,8 +215,8 @@ TEST(HostileSegmentsAreAnsweredInFiniteNumbers) {
     const Vec3 a{value[0], value[1], value[2]}, b{value[3], value[4], value[5]};
     const hull::RefinedHit hit = refinement.first(a, b, query::kUnlimited);
     const mesh::Hit truth = hull::cast_segment(opened.view, a, b, query::kUnlimited);
-    mesh::SurfaceCrossing room[4];
-    const mesh::Crossings all = hull::all_crossings(opened.view, a, b, query::kUnlimited, {room});
+    mesh::SurfaceCrossing buffer[4];
+    const mesh::Crossings all = hull::all_crossings(opened.view, a, b, query::kUnlimited, {buffer});
     CHECK(hit.t >= 0 && hit.t <= 1);
     CHECK(truth.t >= 0 && truth.t <= 1);
     CHECK_EQ(truth.hit, all.found > 0);
@@ -241,7 +241,7 @@ TEST(HullAnswersHaveOneHashEverywhere) {
     hash.add(hit.steps);
     hash.add(hit.splits << 4 | (hit.hit ? 1u : 0u) | (hit.exact ? 2u : 0u) |
              (hit.is_of_mesh ? 4u : 0u));
-    mesh::SurfaceCrossing room[8];
+    mesh::SurfaceCrossing buffer[8];
     const hull::BaseHullHit base_hull =
         hull::cast_base_hull(opened.view.base_hull(), s.a, s.b, budget);
     const hull::BaseHullDistance near =
@@ -251,10 +251,10 @@ TEST(HullAnswersHaveOneHashEverywhere) {
     hash.add(bits_of(near.lower_m));
     hash.add(bits_of(near.point_m.x));
     hash.add(near.steps << 2 | static_cast<uint32_t>(near.side));
-    const mesh::Crossings all = hull::all_crossings(opened.view, s.a, s.b, budget, {room});
+    const mesh::Crossings all = hull::all_crossings(opened.view, s.a, s.b, budget, {buffer});
     hash.add(all.found);
     hash.add(all.steps);
-    for (uint32_t k = 0; k < all.reported; ++k) hash.add(bits_of(room[k].t));
+    for (uint32_t k = 0; k < all.reported; ++k) hash.add(bits_of(buffer[k].t));
   }
   CHECK_EQ(static_cast<uint32_t>(hash.value()), 3948381289u);
 }

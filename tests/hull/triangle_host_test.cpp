@@ -123,7 +123,7 @@ void judge_triangles(const BakedHull& baked, int count) {
   const hull::View& view = baked.view;
   const uint32_t faces = view.head().mesh_triangle_count;
   Threes threes(view.mesh_head(), 17);
-  std::vector<uint32_t> room(faces), bits(hull::bit_words(view.collapse_count())),
+  std::vector<uint32_t> buffer(faces), bits(hull::bit_words(view.collapse_count())),
       undone(view.collapse_count() + 1);
   std::vector<hull::Candidate> candidates(8192);
   const auto size = [](const auto& items) { return static_cast<uint32_t>(items.size()); };
@@ -145,10 +145,10 @@ void judge_triangles(const BakedHull& baked, int count) {
       continue;
     }
     const hull::TriangleHits all =
-        hull::all_crossed(view, three.corner, query::kUnlimited, {room.data(), faces});
+        hull::all_crossed(view, three.corner, query::kUnlimited, {buffer.data(), faces});
     CHECK(all.exact);
     CHECK_EQ(all.found, truth.size());
-    CHECK(all.reported == truth.size() && std::equal(truth.begin(), truth.end(), room.begin()));
+    CHECK(all.reported == truth.size() && std::equal(truth.begin(), truth.end(), buffer.begin()));
     const hull::TriangleHit any = hull::any_crossed(view, three.corner, query::kUnlimited),
                             first = hull::first_crossed(view, three.corner, query::kUnlimited);
     CHECK(any.exact && first.exact);
@@ -216,7 +216,7 @@ TEST(TrianglesThatTouchAreAnsweredAsIfMoved) {
   const BakedHull baked(grid_cube(), 60, 16);
   const hull::View& view = baked.view;
   Random random(3);
-  uint32_t crossed = 0, room[1024];
+  uint32_t crossed = 0, buffer[1024];
   for (int i = 0; i < 500; ++i) {
     test::note("triangle", i);
     Three three;
@@ -241,10 +241,10 @@ TEST(TrianglesThatTouchAreAnsweredAsIfMoved) {
       if (is_crossed) truth.push_back(f);
     }
     const hull::TriangleHits reported =
-        hull::all_crossed(view, three.corner, query::kUnlimited, {room});
+        hull::all_crossed(view, three.corner, query::kUnlimited, {buffer});
     CHECK_EQ(reported.found, truth.size());
     for (uint32_t k = 0; k < reported.reported && k < truth.size(); ++k)
-      CHECK_EQ(room[k], truth[k]);
+      CHECK_EQ(buffer[k], truth[k]);
     crossed += truth.empty() ? 0u : 1u;
   }
   CHECK_LT(200u, crossed);

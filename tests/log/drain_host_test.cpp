@@ -153,7 +153,7 @@ TEST(ASmallRingLosesExactlyWhatDoesNotFitAndTheLogSaysWhere) {
   scene->disk.stall_s = 5;
   uint32_t made = 0, dropped = 0;
   const Counts counts = outcome(std::move(scene), 15, made, dropped);
-  // Of the 50,000 records of the stall as many find room as the ring had free.
+  // Of the 50,000 records of the stall as many find module as the ring had free.
   CHECK_GE(dropped, 50000u - kSmall);
   CHECK_LE(dropped, 50000u - kSmall + 1024u);
   CHECK_EQ(counts.missing, dropped);

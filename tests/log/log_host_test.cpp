@@ -97,7 +97,7 @@ TEST(ALogCutOffAnywhereGivesEveryWholeBlock) {
     CHECK_EQ(found.blocks.size(), expected);
     for (size_t i = 0; i < found.blocks.size(); ++i)
       CHECK(found.blocks[i].payload == blocks[i].payload);
-    // With the room that the recorder had put aside behind it.
+    // With the module that the recorder had put aside behind it.
     Bytes padded(whole.begin(), whole.begin() + static_cast<long>(length));
     padded.resize(padded.size() + 5000);
     CHECK_EQ(read(padded).blocks.size(), expected);

@@ -73,8 +73,8 @@ size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget bud
   mesh::Hit of_first, of_first_ahead, of_any, of_any_ahead;
   mesh::First first(of_first), first_ahead(of_first_ahead);
   mesh::Any any(of_any), any_ahead(of_any_ahead);
-  mesh::SurfaceCrossing room[64], room_ahead[64];
-  mesh::All all{{room}}, all_ahead{{room_ahead}};
+  mesh::SurfaceCrossing buffer[64], buffer_wide[64];
+  mesh::All all{{buffer}}, all_ahead{{buffer_wide}};
   size_t differ = 0;
   const auto same_way = [&](auto& in_turn, auto& ahead) {
     uint32_t steps = 0, steps_ahead = 0;
@@ -90,8 +90,8 @@ size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget bud
       all.crossings.reported != all_ahead.crossings.reported)
     return differ + 1;
   for (uint32_t i = 0; i < all.crossings.reported; ++i)
-    if (math::bits_of(room[i].t) != math::bits_of(room_ahead[i].t) ||
-        room[i].triangle != room_ahead[i].triangle || room[i].enters != room_ahead[i].enters)
+    if (math::bits_of(buffer[i].t) != math::bits_of(buffer_wide[i].t) ||
+        buffer[i].triangle != buffer_wide[i].triangle || buffer[i].enters != buffer_wide[i].enters)
       ++differ;
   hits += of_first.hit ? 1 : 0;
   return differ;

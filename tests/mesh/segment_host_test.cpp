@@ -72,15 +72,15 @@ class Aims {
 };
 
 // Crossings outward less crossings inward.
-int balance(const BakedMesh& baked, Vec3 a, Vec3 b, Room& room) {
+int balance(const BakedMesh& baked, Vec3 a, Vec3 b, Room& buffer) {
   const mesh::Crossings all = mesh::all_crossings(
-      baked.view, a, b, query::kUnlimited, {room.data(), static_cast<uint32_t>(room.size())});
+      baked.view, a, b, query::kUnlimited, {buffer.data(), static_cast<uint32_t>(buffer.size())});
   CHECK(all.exact);
   CHECK_EQ(all.found, all.reported);
   int sum = 0;
   for (uint32_t i = 0; i < all.reported; ++i) {
-    sum += room[i].enters ? -1 : 1;
-    if (i > 0) CHECK(room[i - 1].t <= room[i].t);
+    sum += buffer[i].enters ? -1 : 1;
+    if (i > 0) CHECK(buffer[i - 1].t <= buffer[i].t);
   }
   return sum;
 }
@@ -89,12 +89,12 @@ int balance(const BakedMesh& baked, Vec3 a, Vec3 b, Room& room) {
 // passes through and wherever its joints lie.
 void no_leaks(const BakedMesh& baked, size_t segments, uint64_t seed) {
   Aims aims(baked, seed);
-  Room room(4096);
+  Room buffer(4096);
   size_t leaks = 0;
   for (size_t i = 0; i + 4 <= segments; i += 4) {
     const Vec3 a = aims.next(), b = aims.next(), c = Aims::beyond(a, b), d = aims.next();
-    const int sum = balance(baked, a, b, room) + balance(baked, b, c, room) +
-                    balance(baked, c, d, room) + balance(baked, d, a, room);
+    const int sum = balance(baked, a, b, buffer) + balance(baked, b, c, buffer) +
+                    balance(baked, c, d, buffer) + balance(baked, d, a, buffer);
     if (sum != 0 && leaks++ == 0) test::note("first leak at segment", static_cast<int64_t>(i));
   }
   CHECK_EQ(leaks, size_t{0});
@@ -231,7 +231,7 @@ TEST(NothingLeaksThroughTinyHugeOrFarModels) {
 TEST(CrossingsAreThoseOfBruteForceInDouble) {
   const BakedMesh& baked = part();
   Aims aims(baked, 40);
-  Room room(4096);
+  Room buffer(4096);
   size_t compared = 0, missed = 0;
   double worst = 0;
   for (int i = 0; i < (long_run() ? 40000 : 2000); ++i) {
@@ -252,23 +252,23 @@ TEST(CrossingsAreThoseOfBruteForceInDouble) {
     if (grazes) continue;
     std::sort(truth.begin(), truth.end());
     const mesh::Crossings all = mesh::all_crossings(
-        baked.view, a, b, query::kUnlimited, {room.data(), static_cast<uint32_t>(room.size())});
+        baked.view, a, b, query::kUnlimited, {buffer.data(), static_cast<uint32_t>(buffer.size())});
     if (all.found != truth.size()) {
       ++missed;
       continue;
     }
     ++compared;
     for (size_t k = 0; k < truth.size(); ++k)
-      worst = std::max(worst, std::fabs(truth[k] - double{room[k].t}));
+      worst = std::max(worst, std::fabs(truth[k] - double{buffer[k].t}));
     const mesh::Hit first = mesh::cast_segment(baked.view, a, b, query::kUnlimited);
     const mesh::Hit any = mesh::any_crossing(baked.view, a, b, query::kUnlimited);
     CHECK_EQ(first.hit, !truth.empty());
     CHECK_EQ(any.hit, !truth.empty());
     CHECK(first.exact && any.exact);
     if (!first.hit) continue;
-    CHECK_EQ(first.t, room[0].t);
-    CHECK_EQ(first.triangle, room[0].triangle);
-    CHECK_EQ(first.enters, room[0].enters);
+    CHECK_EQ(first.t, buffer[0].t);
+    CHECK_EQ(first.triangle, buffer[0].triangle);
+    CHECK_EQ(first.enters, buffer[0].enters);
     CHECK(any.steps <= first.steps);
   }
   CHECK_EQ(missed, size_t{0});
@@ -280,26 +280,26 @@ TEST(CrossingsTellInsideFromOutside) {
   const BakedMesh& baked = part();
   Random random(50);
   Aims aims(baked, 50);
-  Room room(4096);
+  Room buffer(4096);
   for (int i = 0; i < 3000; ++i) {
     const Vec3 a = aims.anywhere(), b = aims.anywhere();
     query::Hint cold, other;
     const int at_a = mesh::closest_point(baked.view, a, query::kUnlimited, cold).certificate.sign;
     const int at_b = mesh::closest_point(baked.view, b, query::kUnlimited, other).certificate.sign;
     if (at_a == 0 || at_b == 0) continue;
-    CHECK_EQ(2 * balance(baked, a, b, room), at_b - at_a);
+    CHECK_EQ(2 * balance(baked, a, b, buffer), at_b - at_a);
   }
 }
 
 TEST(AFullRoomKeepsTheFirstCrossingsAndCountsAll) {
   const BakedMesh& baked = part();
   Aims aims(baked, 60);
-  Room room(4096), few(4096);
+  Room buffer(4096), few(4096);
   size_t several = 0;
   for (int i = 0; i < 3000; ++i) {
     const Vec3 a = aims.anywhere(), b = aims.anywhere();
     const mesh::Crossings all = mesh::all_crossings(
-        baked.view, a, b, query::kUnlimited, {room.data(), static_cast<uint32_t>(room.size())});
+        baked.view, a, b, query::kUnlimited, {buffer.data(), static_cast<uint32_t>(buffer.size())});
     several += all.found > 1 ? 1 : 0;
     for (uint32_t size = 0; size < 4; ++size) {
       const mesh::Crossings some =
@@ -309,8 +309,8 @@ TEST(AFullRoomKeepsTheFirstCrossingsAndCountsAll) {
       CHECK_EQ(some.steps, all.steps);
       CHECK(some.exact);
       for (uint32_t k = 0; k < some.reported; ++k) {
-        CHECK_EQ(few[k].t, room[k].t);
-        CHECK_EQ(few[k].triangle, room[k].triangle);
+        CHECK_EQ(few[k].t, buffer[k].t);
+        CHECK_EQ(few[k].triangle, buffer[k].triangle);
       }
     }
   }
@@ -320,11 +320,11 @@ TEST(AFullRoomKeepsTheFirstCrossingsAndCountsAll) {
 TEST(EveryBudgetTellsOnlyTrueCrossingsAndSaysWhetherItIsDone) {
   const BakedMesh& baked = part();
   Aims aims(baked, 70);
-  Room room(4096), some(4096);
+  Room buffer(4096), some(4096);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 a = aims.next(), b = aims.next();
     const mesh::Crossings all = mesh::all_crossings(
-        baked.view, a, b, query::kUnlimited, {room.data(), static_cast<uint32_t>(room.size())});
+        baked.view, a, b, query::kUnlimited, {buffer.data(), static_cast<uint32_t>(buffer.size())});
     const mesh::Hit truth = mesh::cast_segment(baked.view, a, b, query::kUnlimited);
     float last = 2;
     for (uint32_t budget = 1; budget < 2 * all.steps; budget *= 2) {
@@ -338,7 +338,7 @@ TEST(EveryBudgetTellsOnlyTrueCrossingsAndSaysWhetherItIsDone) {
       CHECK_EQ(part_of.exact, budget >= all.steps);
       for (uint32_t k = 0; k < part_of.reported; ++k) {
         const bool is_there =
-            std::any_of(room.begin(), room.begin() + all.reported, [&](const auto& c) {
+            std::any_of(buffer.begin(), buffer.begin() + all.reported, [&](const auto& c) {
               return c.triangle == some[k].triangle && test::equal(c.t, some[k].t);
             });
         CHECK(is_there);

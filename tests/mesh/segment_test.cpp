@@ -40,17 +40,17 @@ Vec3 aim(uint32_t i) {
 }
 
 struct Reported {
-  mesh::SurfaceCrossing room[16];
+  mesh::SurfaceCrossing buffer[16];
   mesh::Crossings all;
   int balance() const {
     int sum = 0;
-    for (uint32_t i = 0; i < all.reported; ++i) sum += room[i].enters ? -1 : 1;
+    for (uint32_t i = 0; i < all.reported; ++i) sum += buffer[i].enters ? -1 : 1;
     return sum;
   }
 };
 Reported reported(const mesh::View& view, Vec3 a, Vec3 b) {
   Reported result;
-  result.all = mesh::all_crossings(view, a, b, query::kUnlimited, {result.room});
+  result.all = mesh::all_crossings(view, a, b, query::kUnlimited, {result.buffer});
   return result;
 }
 
@@ -67,9 +67,9 @@ TEST(ThroughACornerAnEdgeOrASidesDiagonalIsOneCrossingInAndOneOut) {
   for (const auto& s : through) {
     const Reported there = reported(view, s.a, s.b);
     CHECK_EQ(there.all.found, 2u);
-    CHECK(there.room[0].enters);
-    CHECK(!there.room[1].enters);
-    CHECK(there.room[0].t < there.room[1].t);
+    CHECK(there.buffer[0].enters);
+    CHECK(!there.buffer[1].enters);
+    CHECK(there.buffer[0].t < there.buffer[1].t);
     CHECK_EQ(reported(view, s.b, s.a).all.found, 2u);
   }
 }
@@ -172,8 +172,8 @@ TEST(SegmentsHaveOneHashEverywhere) {
     hash.add(there.all.found);
     hash.add(there.all.steps);
     for (uint32_t k = 0; k < there.all.reported; ++k) {
-      hash.add(float_to_bits(there.room[k].t));
-      hash.add(there.room[k].triangle);
+      hash.add(float_to_bits(there.buffer[k].t));
+      hash.add(there.buffer[k].triangle);
     }
   }
   CHECK_EQ(static_cast<uint32_t>(hash.value()), 3601469350u);

@@ -8,7 +8,7 @@ namespace firmtouch::asset {
 
 constexpr uint32_t kNoSection = UINT32_MAX;
 
-/// An asset file whose frame Opening has proven; the sections' contents are for their rooms to
+/// An asset file whose frame Opening has proven; the sections' contents are for their modules to
 /// prove. Immutable; reads nothing but the file's own bytes, which must stay where they are.
 /// Resolve names once, at start, never in a tick.
 class Container {

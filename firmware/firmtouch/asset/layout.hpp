@@ -16,7 +16,7 @@ constexpr uint16_t kMinor = 0;                // a later minor only adds section
 constexpr uint32_t kAlignment = 16;  // of the file's first byte and of every section
 constexpr uint32_t kNameBytes = 32;  // up to 31 bytes of UTF-8 and at least one zero
 
-// Section types. A room owns the types that share its upper digits: 0x0001.. this container,
+// Section types. A module owns the types that share its upper digits: 0x0001.. this container,
 // 0x1001.. mesh/layout.hpp, 0x2001.. curve/layout.hpp. A reader skips the types that it does not
 // know.
 constexpr uint32_t kBoundsSection = 0x0001;      // text: what the baker measured and proved

@@ -1,5 +1,5 @@
 #pragma once
-// From a foot to an answer, for .cpp files of this room only.
+// From a foot to an answer, for .cpp files of this module only.
 
 #include <float.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a change of arc position costs, for .cpp files of this room only.
+// What a change of arc position costs, for .cpp files of this module only.
 
 #include "firmtouch/curve/nearest_constraint.hpp"
 #include "firmtouch/curve/segment.hpp"

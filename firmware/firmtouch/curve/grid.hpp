@@ -1,6 +1,6 @@
 #pragma once
-// Lower bounds of the distance to boxes on the curve's 15-bit grid, for .cpp files of this room
-// only. The twin of mesh/grid.hpp: neither room may know the other.
+// Lower bounds of the distance to boxes on the curve's 15-bit grid, for .cpp files of this module
+// only. The twin of mesh/grid.hpp: neither module may know the other.
 
 #include "firmtouch/curve/derived.hpp"
 #include "firmtouch/curve/view.hpp"

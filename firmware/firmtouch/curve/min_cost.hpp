@@ -1,5 +1,5 @@
 #pragma once
-// The search for the segment or piece of the least cost, for .cpp files of this room only.
+// The search for the segment or piece of the least cost, for .cpp files of this module only.
 
 #include "firmtouch/curve/answer.hpp"
 #include "firmtouch/curve/arc_penalty.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The search for the closest point of straight segments: the room's inner loop, for .cpp files of
+// The search for the closest point of straight segments: the module's inner loop, for .cpp files of
 // this room only.
 
 #include "firmtouch/curve/run_search.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Closest point of one cubic piece, for .cpp files of this room only.
+// Closest point of one cubic piece, for .cpp files of this module only.
 
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/segment.hpp"

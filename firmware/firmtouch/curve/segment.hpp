@@ -1,5 +1,5 @@
 #pragma once
-// Closest point of one segment, for .cpp files of this room only.
+// Closest point of one segment, for .cpp files of this module only.
 
 #include "firmtouch/curve/derived.hpp"
 #include "firmtouch/curve/view.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The walk through a curve's k-d tree, for .cpp files of this room only.
+// The walk through a curve's k-d tree, for .cpp files of this module only.
 
 #include <float.h>
 

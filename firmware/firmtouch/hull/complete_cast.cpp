@@ -70,8 +70,8 @@ mesh::Hit any_crossing(const View& hull, Vec3 a_m, Vec3 b_m, query::Budget budge
 }
 
 mesh::Crossings all_crossings(const View& hull, Vec3 a_m, Vec3 b_m, query::Budget budget,
-                              core::Span<mesh::SurfaceCrossing> room) {
-  mesh::All all(room);
+                              core::Span<mesh::SurfaceCrossing> buffer) {
+  mesh::All all(buffer);
   all.crossings.exact = search(hull, a_m, b_m, budget, all, all.crossings.steps);
   return all.crossings;
 }

@@ -20,8 +20,8 @@ mesh::Hit cast_segment(const View& hull, math::Vec3 a_m, math::Vec3 b_m, query::
 mesh::Hit any_crossing(const View& hull, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget);
 
 /// Every crossing, in order of t (equal t: of triangles in leaf order).
-/// Bounds: as above, and found * told moves in `room`.
+/// Bounds: as above, and found * told moves in `buffer`.
 mesh::Crossings all_crossings(const View& hull, math::Vec3 a_m, math::Vec3 b_m,
-                              query::Budget budget, core::Span<mesh::SurfaceCrossing> room);
+                              query::Budget budget, core::Span<mesh::SurfaceCrossing> buffer);
 
 }  // namespace firmtouch::hull

@@ -18,17 +18,17 @@ static inline bool is_before(const Candidate& a, const Candidate& b) {
 // the nearest of those was.
 class Nearest {
  public:
-  explicit Nearest(core::Span<Candidate> room) : room_(room) {}
+  explicit Nearest(core::Span<Candidate> buffer) : buffer_(buffer) {}
   float horizon = Slabs::kNever;
 
   bool is_empty() const { return count_ == 0; }
   void push(const Candidate& candidate) {
-    if (count_ == room_.size()) {
+    if (count_ == buffer_.size()) {
       uint32_t farthest = 0;
       for (uint32_t i = 1; i < count_; ++i)
-        if (is_before(room_[farthest], room_[i])) farthest = i;
-      const bool gives_way = is_before(candidate, room_[farthest]);
-      const float lost = gives_way ? room_[farthest].t : candidate.t;
+        if (is_before(buffer_[farthest], buffer_[i])) farthest = i;
+      const bool gives_way = is_before(candidate, buffer_[farthest]);
+      const float lost = gives_way ? buffer_[farthest].t : candidate.t;
       if (lost < horizon) horizon = lost;
       if (gives_way) rise(farthest, candidate);
       return;
@@ -36,26 +36,26 @@ class Nearest {
     rise(count_++, candidate);
   }
   Candidate pop() {
-    const Candidate top = room_[0], last = room_[--count_];
+    const Candidate top = buffer_[0], last = buffer_[--count_];
     uint32_t at = 0;
     while (2 * at + 1 < count_) {
       uint32_t child = 2 * at + 1;
-      if (child + 1 < count_ && is_before(room_[child + 1], room_[child])) ++child;
-      if (!is_before(room_[child], last)) break;
-      room_[at] = room_[child];
+      if (child + 1 < count_ && is_before(buffer_[child + 1], buffer_[child])) ++child;
+      if (!is_before(buffer_[child], last)) break;
+      buffer_[at] = buffer_[child];
       at = child;
     }
-    if (count_ != 0) room_[at] = last;
+    if (count_ != 0) buffer_[at] = last;
     return top;
   }
 
  private:
   void rise(uint32_t at, const Candidate& candidate) {
-    for (; at > 0 && is_before(candidate, room_[(at - 1) / 2]); at = (at - 1) / 2)
-      room_[at] = room_[(at - 1) / 2];
-    room_[at] = candidate;
+    for (; at > 0 && is_before(candidate, buffer_[(at - 1) / 2]); at = (at - 1) / 2)
+      buffer_[at] = buffer_[(at - 1) / 2];
+    buffer_[at] = candidate;
   }
-  core::Span<Candidate> room_;
+  core::Span<Candidate> buffer_;
   uint32_t count_ = 0;
 };
 

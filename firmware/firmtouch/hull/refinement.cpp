@@ -245,9 +245,9 @@ RefinedHit Refinement::any(Vec3 a_m, Vec3 b_m, query::Budget budget) {
   return nearest(SegmentAsked(hull_.head(), a_m, b_m), budget, true);
 }
 RefinedCrossings Refinement::all(Vec3 a_m, Vec3 b_m, query::Budget budget,
-                                 core::Span<mesh::SurfaceCrossing> room) {
+                                 core::Span<mesh::SurfaceCrossing> buffer) {
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
-  return every(SegmentAsked(hull_.head(), a_m, b_m), budget, room);
+  return every(SegmentAsked(hull_.head(), a_m, b_m), budget, buffer);
 }
 
 RefinedHit Refinement::any(const Vec3 (&corner_m)[3], query::Budget budget) {
@@ -256,10 +256,10 @@ RefinedHit Refinement::any(const Vec3 (&corner_m)[3], query::Budget budget) {
   return nearest(TriangleAsked(hull_.head(), corner_m), budget, true);
 }
 RefinedCrossings Refinement::all(const Vec3 (&corner_m)[3], query::Budget budget,
-                                 core::Span<mesh::SurfaceCrossing> room) {
+                                 core::Span<mesh::SurfaceCrossing> buffer) {
   for (const Vec3& corner : corner_m)
     if (!math::is_finite(corner)) return {};
-  return every(TriangleAsked(hull_.head(), corner_m), budget, room);
+  return every(TriangleAsked(hull_.head(), corner_m), budget, buffer);
 }
 
 // The nearest crossing of the hull as it is can never lie behind the mesh's: where it is one of the
@@ -317,11 +317,11 @@ RefinedHit Refinement::nearest(const Asked& asked, query::Budget budget, bool is
 
 template <class Asked>
 RefinedCrossings Refinement::every(const Asked& asked, query::Budget budget,
-                                   core::Span<mesh::SurfaceCrossing> room) {
+                                   core::Span<mesh::SurfaceCrossing> buffer) {
   RefinedCrossings result;
   reset();
   Search<Asked> search(*this, asked, budget);
-  mesh::All all(room);
+  mesh::All all(buffer);
   bool fits = true;
   // What an earlier one has replaced meanwhile is left out.
   const auto use = [&](const Candidate& candidate) {

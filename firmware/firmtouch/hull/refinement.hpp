@@ -76,7 +76,7 @@ class Refinement {
 
   /// Every crossing that the refinement finds, in order of t.
   RefinedCrossings all(math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
-                       core::Span<mesh::SurfaceCrossing> room);
+                       core::Span<mesh::SurfaceCrossing> buffer);
 
   /// The same with a triangle: crossings of triangles are told at t = 0, which way is not told. One
   /// that has a corner outside the shell and crosses none of its faces meets nothing of the mesh; of
@@ -84,7 +84,7 @@ class Refinement {
   /// none).
   RefinedHit any(const math::Vec3 (&corner_m)[3], query::Budget budget);
   RefinedCrossings all(const math::Vec3 (&corner_m)[3], query::Budget budget,
-                       core::Span<mesh::SurfaceCrossing> room);
+                       core::Span<mesh::SurfaceCrossing> buffer);
 
   /// Undoes one collapse and what it needs, and keeps it until reset() or the next query: a hull
   /// finer where wanted.
@@ -111,7 +111,7 @@ class Refinement {
   RefinedHit nearest(const Asked& asked, query::Budget budget, bool is_any);
   template <class Asked>
   RefinedCrossings every(const Asked& asked, query::Budget budget,
-                         core::Span<mesh::SurfaceCrossing> room);
+                         core::Span<mesh::SurfaceCrossing> buffer);
 
   const View& hull_;
   const BaseHull& base_hull_;

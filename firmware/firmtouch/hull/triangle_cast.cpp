@@ -69,20 +69,20 @@ TriangleHit first_crossed(const View& hull, const Vec3 (&corner_m)[3], query::Bu
 }
 
 TriangleHits all_crossed(const View& hull, const Vec3 (&corner_m)[3], query::Budget budget,
-                         core::Span<uint32_t> room) {
+                         core::Span<uint32_t> buffer) {
   TriangleHits hits;
   hits.exact = search(hull, corner_m, budget, hits.steps, [&](uint32_t i) {
     ++hits.found;
     uint32_t at = hits.reported;
-    if (at < room.size()) {
+    if (at < buffer.size()) {
       ++hits.reported;
-    } else if (at == 0 || room[at - 1] < i) {
+    } else if (at == 0 || buffer[at - 1] < i) {
       return true;
     } else {
       --at;  // the last one gives way
     }
-    for (; at > 0 && room[at - 1] > i; --at) room[at] = room[at - 1];
-    room[at] = i;
+    for (; at > 0 && buffer[at - 1] > i; --at) buffer[at] = buffer[at - 1];
+    buffer[at] = i;
     return true;
   });
   return hits;

@@ -33,10 +33,10 @@ TriangleHit any_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query
 /// Bounds: as above.
 TriangleHit first_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget);
 
-/// All of them, in leaf order; where there are more than `room` holds, the first ones.
-/// Bounds: as above, and found * told moves in `room`.
+/// All of them, in leaf order; where there are more than `buffer` holds, the first ones.
+/// Bounds: as above, and found * told moves in `buffer`.
 TriangleHits all_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget,
-                         core::Span<uint32_t> room);
+                         core::Span<uint32_t> buffer);
 
 /// Whether a triangle may meet anything of the mesh, by a shell alone: it crosses a face of the shell,
 /// or begins inside. Reads the shell's own block and nothing else.

@@ -46,23 +46,23 @@ class Any {
 
 class All {
  public:
-  explicit All(core::Span<SurfaceCrossing> room) : room_(room) {}
+  explicit All(core::Span<SurfaceCrossing> buffer) : buffer_(buffer) {}
   float limit = 1;
   Crossings crossings;
 
   bool take(const Crossing& crossing, uint32_t triangle) {
     ++crossings.found;
     uint32_t at = crossings.reported;
-    if (at < room_.size()) {
+    if (at < buffer_.size()) {
       ++crossings.reported;
-    } else if (at == 0 || !is_before(crossing.t, triangle, room_[at - 1])) {
+    } else if (at == 0 || !is_before(crossing.t, triangle, buffer_[at - 1])) {
       return true;
     } else {
       --at;  // the last one gives way
     }
-    for (; at > 0 && is_before(crossing.t, triangle, room_[at - 1]); --at)
-      room_[at] = room_[at - 1];
-    room_[at] = {crossing.t, triangle, crossing.direction < 0};
+    for (; at > 0 && is_before(crossing.t, triangle, buffer_[at - 1]); --at)
+      buffer_[at] = buffer_[at - 1];
+    buffer_[at] = {crossing.t, triangle, crossing.direction < 0};
     return true;
   }
 
@@ -70,7 +70,7 @@ class All {
   static bool is_before(float t, uint32_t triangle, const SurfaceCrossing& other) {
     return t < other.t || (t <= other.t && triangle < other.triangle);
   }
-  core::Span<SurfaceCrossing> room_;
+  core::Span<SurfaceCrossing> buffer_;
 };
 
 }  // namespace firmtouch::mesh

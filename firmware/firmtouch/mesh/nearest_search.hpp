@@ -1,5 +1,5 @@
 #pragma once
-// The search for the nearest triangle: the room's inner loop. For closest_point.cpp alone.
+// The search for the nearest triangle: the module's inner loop. For closest_point.cpp alone.
 
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/grid.hpp"

@@ -22,8 +22,8 @@ Hit any_crossing(const View& mesh, Vec3 a_m, Vec3 b_m, query::Budget budget) {
 }
 
 Crossings all_crossings(const View& mesh, Vec3 a_m, Vec3 b_m, query::Budget budget,
-                        core::Span<SurfaceCrossing> room) {
-  All all(room);
+                        core::Span<SurfaceCrossing> buffer) {
+  All all(buffer);
   all.crossings.exact = search(mesh, a_m, b_m, budget, all, all.crossings.steps);
   return all.crossings;
 }

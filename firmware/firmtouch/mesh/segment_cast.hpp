@@ -52,9 +52,9 @@ struct Crossings {
 
 /// Every crossing, in order of t (equal t: of triangles in leaf order). Where there are more than
 /// `room` holds, the first ones are kept and all are counted; no room at all counts them.
-/// Bounds: <= budget steps and found * told moves in `room`; 2.8 KB of stack; re-entrant; callable
+/// Bounds: <= budget steps and found * told moves in `buffer`; 2.8 KB of stack; re-entrant; callable
 ///         from an interrupt.
 Crossings all_crossings(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
-                        core::Span<SurfaceCrossing> room);
+                        core::Span<SurfaceCrossing> buffer);
 
 }  // namespace firmtouch::mesh

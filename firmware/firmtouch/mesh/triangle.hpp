@@ -1,5 +1,5 @@
 #pragma once
-// Closest point of one triangle: the inner loop of the room. For the library's own translation
+// Closest point of one triangle: the inner loop of the module. For the library's own translation
 // units.
 
 #include "firmtouch/math/vec3_ops.hpp"

@@ -12,13 +12,13 @@ constexpr uint32_t kNowhere = UINT32_MAX;
 /// cannot make an answer wrong; nor can any value of `place`. The rest is a certificate: what a
 /// query of another asset wrote must not be passed on.
 struct Hint {
-  uint32_t place = kNowhere;  // where the last answer was found (the room's own numbering)
+  uint32_t place = kNowhere;  // where the last answer was found (the module's own numbering)
   math::Vec3 position_m;      // where the last query was
   float lower_m = 0;          // certified free radius about position_m
   int8_t sign = 0;            // certified side of position_m
-  uint8_t fine[2] = {0, 0};   // more of `place`, where a room has more to say of it
+  uint8_t fine[2] = {0, 0};   // more of `place`, where a module has more to say of it
   uint32_t safe_subtree =
-      kNowhere;              // a part of the shape (the room's own numbering), outside which ...
+      kNowhere;              // a part of the shape (the module's own numbering), outside which ...
   float safe_subtree_m = 0;  // ... everything is certified at least this far from position_m
 };
 

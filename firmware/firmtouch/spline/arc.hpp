@@ -1,5 +1,5 @@
 #pragma once
-// Lengths along the pieces of a guide, for .cpp files of this room only.
+// Lengths along the pieces of a guide, for .cpp files of this module only.
 #include "firmtouch/spline/evaluation.hpp"
 #include "firmtouch/spline/guide_view.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which pieces of a guide follow each other, for .cpp files of this room only.
+// Which pieces of a guide follow each other, for .cpp files of this module only.
 #include "firmtouch/spline/guide_view.hpp"
 
 namespace firmtouch::spline {

@@ -1,5 +1,5 @@
 #pragma once
-// What the derivatives at a point of a curve prove of the points about it, for .cpp files of this room only.
+// What the derivatives at a point of a curve prove of the points about it, for .cpp files of this module only.
 #include "firmtouch/spline/curve_tree.hpp"
 
 namespace firmtouch::spline {

@@ -1,5 +1,5 @@
 #pragma once
-// What a search passes over becomes the next one's fence, for .cpp files of this room only.
+// What a search passes over becomes the next one's fence, for .cpp files of this module only.
 #include "firmtouch/spline/curve_tree.hpp"
 
 namespace firmtouch::spline {

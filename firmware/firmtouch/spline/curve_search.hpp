@@ -1,5 +1,5 @@
 #pragma once
-// Branch and bound over the parts of curves, for .cpp files of this room only.
+// Branch and bound over the parts of curves, for .cpp files of this module only.
 #include "firmtouch/spline/curve_proof.hpp"
 #include "firmtouch/spline/curve_safe_subtree.hpp"
 #include "firmtouch/spline/search.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The leaves and capsules of curves as a query sees them, for .cpp files of this room only.
+// The leaves and capsules of curves as a query sees them, for .cpp files of this module only.
 #include "firmtouch/spline/evaluation.hpp"
 #include "firmtouch/spline/search.hpp"
 

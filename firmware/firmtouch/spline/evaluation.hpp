@@ -1,5 +1,5 @@
 #pragma once
-// Points of a piece with their derivatives, for .cpp files of this room only. The order of
+// Points of a piece with their derivatives, for .cpp files of this module only. The order of
 // operations is part of the result; what it loses is reckoned in leaf_shape.cpp.
 #include "firmtouch/math/isa_lanes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"

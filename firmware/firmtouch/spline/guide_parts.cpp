@@ -127,9 +127,9 @@ GuideParts::Room GuideParts::room_of(const Slopes& arc, const Way& way, float li
 }
 
 // No point has a cost below the limit if its squared distance is at least the square of what the
-// penalty leaves of it. D^2 >= D0^2 + 2 g d + q d^2 there (curve_proof.hpp), and with room m0 + m1 d + m2 d^2
-//     D^2 - room^2 >= (D0^2 - m0^2) + 2 (g - m0 m1) d + (q - m1^2 - 2 m0 m2 - 2 m1 m2 l - m2^2 l^2) d^2
-// over a length l, the third but last term where it takes away. Beyond where the room ends nothing is
+// penalty leaves of it. D^2 >= D0^2 + 2 g d + q d^2 there (curve_proof.hpp), and with slack m0 + m1 d + m2 d^2
+//     D^2 - slack^2 >= (D0^2 - m0^2) + 2 (g - m0 m1) d + (q - m1^2 - 2 m0 m2 - 2 m1 m2 l - m2^2 l^2) d^2
+// over a length l, the third but last term where it takes away. Beyond where the slack ends nothing is
 // to be shown. The limit is 16 units of the cost below the best, which is more than what is rounded
 // of D0^2 - m0^2; what is rounded of the other terms is taken off them.
 bool GuideParts::is_side_done(const Expansion& f, float distance_m, float side, const Room& room,

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a guide, by distance and penalty together, for .cpp files of this room only.
+// The parts of a guide, by distance and penalty together, for .cpp files of this module only.
 #include "firmtouch/spline/arc.hpp"
 #include "firmtouch/spline/chain.hpp"
 #include "firmtouch/spline/curve_proof.hpp"

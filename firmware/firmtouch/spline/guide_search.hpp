@@ -1,5 +1,5 @@
 #pragma once
-// The search for the point of a guide that costs least, for .cpp files of this room only.
+// The search for the point of a guide that costs least, for .cpp files of this module only.
 #include "firmtouch/spline/guide_parts.hpp"
 
 namespace firmtouch::spline {

@@ -95,7 +95,7 @@ void spread_between(const float (&corner)[4], float (&of)[3][3]) {
   of[1][1] = 0.25f * (high_turn - low_turn);
 }
 // And by_s (1 - s^2) + by_t (1 - t^2) added, as much as leaves all between low and high: half of the change along s at most, with
-// which all along s is still between its ends, or half of what room there is.
+// which all along s is still between its ends, or half of what slack there is.
 void bend_spread(float (&of)[3][3], float by_s, float by_t, float low, float high) {
   const float sides = sized(of[0][1]) + sized(of[1][0]) + sized(of[1][1]);
   const float below = 0.5f * (of[0][0] - sides - low), above = 0.5f * (high - of[0][0] - sides);

@@ -1,5 +1,5 @@
 #pragma once
-// How near the parts of surfaces may be, for .cpp files of this room only.
+// How near the parts of surfaces may be, for .cpp files of this module only.
 #include "firmtouch/spline/evaluation.hpp"
 #include "firmtouch/spline/patch_grid.hpp"
 #include "firmtouch/spline/patch_node.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Where the parts of a surface's piece lie, for .cpp files of this room only.
+// Where the parts of a surface's piece lie, for .cpp files of this module only.
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/patch.hpp"
 

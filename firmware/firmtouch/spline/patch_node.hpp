@@ -1,5 +1,5 @@
 #pragma once
-// Nodes of a surface's tree, for .cpp files of this room only.
+// Nodes of a surface's tree, for .cpp files of this module only.
 #include "firmtouch/spline/patch.hpp"
 
 namespace firmtouch::spline {

@@ -1,5 +1,5 @@
 #pragma once
-// How near the parts of a piece may be that has a pole, an edge that is one point: for .cpp files of this room only.
+// How near the parts of a piece may be that has a pole, an edge that is one point: for .cpp files of this module only.
 #include "firmtouch/spline/surface_parts.hpp"
 
 namespace firmtouch::spline {

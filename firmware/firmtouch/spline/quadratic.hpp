@@ -1,6 +1,6 @@
 #pragma once
 // Half the squared distance to a surface about one of its points, with what it may be off: for .cpp
-// files of this room only.
+// files of this module only.
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/search.hpp"
 

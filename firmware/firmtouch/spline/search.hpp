@@ -1,5 +1,5 @@
 #pragma once
-// What the searches of this room share, for .cpp files of this room only.
+// What the searches of this module share, for .cpp files of this module only.
 #include <float.h>
 
 #include "firmtouch/math/vec3_ops.hpp"

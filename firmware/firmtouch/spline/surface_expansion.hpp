@@ -1,6 +1,6 @@
 #pragma once
 // Half the squared distance about a point of a surface with all that bounds its rest, for .cpp files of this
-// room only.
+// module only.
 #include "firmtouch/spline/evaluation.hpp"
 #include "firmtouch/spline/quadratic.hpp"
 

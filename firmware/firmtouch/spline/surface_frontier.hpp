@@ -1,5 +1,5 @@
 #pragma once
-// What a search of surfaces passes over becomes the next one's front, for .cpp files of this room only.
+// What a search of surfaces passes over becomes the next one's front, for .cpp files of this module only.
 //
 // A front says: all of the model lies in its parts or is at least `outside` units beyond base_m away, and each part is as
 // far as it says. After a motion m everything is nearer by m at most, so that m taken off base_m keeps all of it true; what

@@ -1,5 +1,5 @@
 #pragma once
-// How the parts of surfaces are numbered, and what closes them, for .cpp files of this room only.
+// How the parts of surfaces are numbered, and what closes them, for .cpp files of this module only.
 #include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/evaluation.hpp"
 #include "firmtouch/spline/leaf_shape.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Branch and bound over the parts of surfaces, for .cpp files of this room only.
+// Branch and bound over the parts of surfaces, for .cpp files of this module only.
 #include "firmtouch/spline/patch_bounds.hpp"
 #include "firmtouch/spline/pole.hpp"
 #include "firmtouch/spline/search.hpp"

@@ -3,7 +3,7 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
   target_include_directories(firmtouch_test_part PUBLIC ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(firmtouch_test_part PUBLIC firmtouch_host_sim firmtouch_tools_bake firmtouch_tools_surface)
   firmtouch_hosted(firmtouch_test_part)
-  firmtouch_test_room(host_sim LINKS firmtouch_test_part)
+  firmtouch_test_module(host_sim LINKS firmtouch_test_part)
   add_test(NAME host_sim.outputs
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_outputs $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.splines

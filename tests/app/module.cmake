@@ -1,7 +1,7 @@
 # The controller program as a process, against a controller in this one.
 if(TARGET firmtouch AND TARGET firmtouch-app-posix)
   firmtouch_bake(TARGET app_test_asset INPUTS app/cube.obj app/guide.csv OUTPUT app_test.fta)
-  firmtouch_test_room(app LINKS firmtouch_controller firmtouch_link firmtouch_params firmtouch_hal)
+  firmtouch_test_module(app LINKS firmtouch_controller firmtouch_link firmtouch_params firmtouch_hal)
   # The program's own servo interrupt, over joints of the test's (logging_host_test.cpp).
   target_sources(test_app PRIVATE app/app_process.cpp ${PROJECT_SOURCE_DIR}/firmware/app/servo_interrupt.cpp
                                   ${PROJECT_SOURCE_DIR}/firmware/app/servo.cpp)

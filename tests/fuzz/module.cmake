@@ -1,4 +1,4 @@
-# The decoders under the address and undefined-behaviour sanitizers, where the compiler has them: the rooms that read an
+# The decoders under the address and undefined-behaviour sanitizers, where the compiler has them: the modules that read an
 # asset are compiled once more, into this program alone. FIRMTOUCH_LONG=1 in the environment tries
 # more odd words.
 include(CheckCXXSourceCompiles)
@@ -9,7 +9,7 @@ check_cxx_source_compiles("int main() { return 0; }" FIRMTOUCH_HAS_SANITIZERS)
 unset(CMAKE_REQUIRED_FLAGS)
 unset(CMAKE_REQUIRED_LINK_OPTIONS)
 
-firmtouch_test_room(fuzz LINKS firmtouch_tools_bake)
+firmtouch_test_module(fuzz LINKS firmtouch_tools_bake)
 target_sources(test_fuzz PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/victim.cpp ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/feel.cpp)
 if(FIRMTOUCH_HAS_SANITIZERS)
   foreach(part core math query mesh field curve asset)

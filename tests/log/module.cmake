@@ -1,6 +1,6 @@
 if(TARGET firmtouch_tools_log)
   find_package(Threads REQUIRED)
-  firmtouch_test_room(log LINKS firmtouch_tools_log firmtouch_record Threads::Threads)
+  firmtouch_test_module(log LINKS firmtouch_tools_log firmtouch_record Threads::Threads)
   target_sources(test_log PRIVATE log/folder.cpp)
   target_include_directories(test_log PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(test_log PRIVATE FIRMTOUCH_ROOT="${PROJECT_SOURCE_DIR}")

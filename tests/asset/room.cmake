@@ -1,2 +1,0 @@
-firmtouch_test_room(asset LINKS firmtouch_tools_bake firmtouch_asset firmtouch_core)
-target_compile_definitions(test_asset PRIVATE FIRMTOUCH_ROOT="${PROJECT_SOURCE_DIR}")

@@ -1,4 +1,0 @@
-if(TARGET firmtouch_tools_bake)
-  find_package(Threads REQUIRED)
-  firmtouch_test_room(controller LINKS Threads::Threads firmtouch_tools_bake firmtouch_tools_surface firmtouch_controller)
-endif()

@@ -1,0 +1,1 @@
+firmtouch_test_module(curve LINKS firmtouch_tools_bake firmtouch_tools_curve firmtouch_curve)

@@ -1,1 +1,0 @@
-firmtouch_test_room(curve LINKS firmtouch_tools_bake firmtouch_tools_curve firmtouch_curve)

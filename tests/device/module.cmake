@@ -1,0 +1,1 @@
+firmtouch_test_module(device LINKS firmtouch_device firmtouch_math firmtouch_core)

@@ -1,1 +1,0 @@
-firmtouch_test_room(device LINKS firmtouch_device firmtouch_math firmtouch_core)

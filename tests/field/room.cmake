@@ -1,3 +1,0 @@
-if(TARGET firmtouch_tools_field)
-  firmtouch_test_room(field LINKS firmtouch_tools_field firmtouch_tools_bake firmtouch_field)
-endif()

@@ -1,0 +1,1 @@
+firmtouch_test_module(math LINKS firmtouch_math firmtouch_core)

@@ -1,1 +1,0 @@
-firmtouch_test_room(math LINKS firmtouch_math firmtouch_core)

@@ -1,0 +1,1 @@
+firmtouch_test_module(mesh LINKS firmtouch_tools_bake firmtouch_tools_surface firmtouch_mesh)

@@ -1,1 +1,0 @@
-firmtouch_test_room(mesh LINKS firmtouch_tools_bake firmtouch_tools_surface firmtouch_mesh)

@@ -1,0 +1,1 @@
+firmtouch_test_module(params LINKS firmtouch_params firmtouch_core)

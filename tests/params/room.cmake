@@ -1,1 +1,0 @@
-firmtouch_test_room(params LINKS firmtouch_params firmtouch_core)

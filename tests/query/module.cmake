@@ -1,0 +1,1 @@
+firmtouch_test_module(query LINKS firmtouch_query firmtouch_math firmtouch_core)

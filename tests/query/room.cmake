@@ -1,1 +1,0 @@
-firmtouch_test_room(query LINKS firmtouch_query firmtouch_math firmtouch_core)

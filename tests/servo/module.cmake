@@ -1,0 +1,1 @@
+firmtouch_test_module(servo LINKS firmtouch_servo firmtouch_math firmtouch_core)

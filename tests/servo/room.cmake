@@ -1,1 +1,0 @@
-firmtouch_test_room(servo LINKS firmtouch_servo firmtouch_math firmtouch_core)
