@@ -1,10 +1,10 @@
 #pragma once
 #include <string>
 
-#include "host_sim/run.hpp"
-#include "host_sim/scenario.hpp"
-#include "host_sim/summary.hpp"
-#include "host_sim/world.hpp"
+#include "host_sim/plant/environment.hpp"
+#include "host_sim/report/summary.hpp"
+#include "host_sim/scenario/scenario.hpp"
+#include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/plant/environment.hpp"
+#include "host_sim/plant/vec.hpp"
 #include "host_sim/report/image.hpp"
-#include "host_sim/run.hpp"
-#include "host_sim/vec.hpp"
-#include "host_sim/world.hpp"
+#include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
 

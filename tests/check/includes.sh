@@ -48,8 +48,8 @@ plant_geometry_in_hal() {
   expect='clock.hpp:[0-9]+: hal may not include math'
 }
 plant_host_sim_in_hal() {
-  add hal/firmtouch/hal/clock.hpp '#include "host_sim/device.hpp"'
-  expect='clock.hpp:[0-9]+: hal may not include "host_sim/device.hpp"'
+  add hal/firmtouch/hal/clock.hpp '#include "host_sim/plant/device.hpp"'
+  expect='clock.hpp:[0-9]+: hal may not include "host_sim/plant/device.hpp"'
 }
 plant_hosted_header() {
   add firmware/firmtouch/math/planted.cpp '#include <cmath>'

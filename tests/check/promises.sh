@@ -16,7 +16,7 @@ check() {
     find tests \( -name CMakeLists.txt -o -name '*.cmake' \) -exec sed -n 's/.*NAME \([a-z_]*\.[A-Za-z0-9_.]*\).*/\1/p' {} +
   )
   # Words that the programs know as their first argument.
-  words=$(grep -ohE '"[a-z]+"' tools/cli/*.cpp host_sim/*.cpp 2>/dev/null | tr -d '"' | sort -u)
+  words=$(grep -ohE '"[a-z]+"' tools/cli/*.cpp host_sim/*/*.cpp 2>/dev/null | tr -d '"' | sort -u)
   files=$(find . \( -name build -o -name .git \) -prune -o -type f -print | sed 's/^\.\///')
   { printf '%s\n' "$names" | sed 's/^/test /'
     printf '%s\n' "$words" | sed 's/^/word /'

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "harness/test.hpp"
-#include "host_sim/device.hpp"
+#include "host_sim/plant/device.hpp"
 
 using firmtouch::host_sim::Axis;
 using firmtouch::host_sim::Device;

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "harness/test.hpp"
+#include "host_sim/controllers/session.hpp"
 #include "host_sim/part_asset.hpp"
-#include "host_sim/session.hpp"
 
 namespace host_sim = firmtouch::host_sim;
 namespace record = firmtouch::record;

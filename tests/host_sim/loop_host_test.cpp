@@ -7,13 +7,13 @@
 
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
-#include "host_sim/brute_force.hpp"
-#include "host_sim/hand.hpp"
-#include "host_sim/log.hpp"
+#include "host_sim/controllers/session.hpp"
+#include "host_sim/hand/hand.hpp"
 #include "host_sim/part_asset.hpp"
-#include "host_sim/replay.hpp"
-#include "host_sim/session.hpp"
-#include "host_sim/summary.hpp"
+#include "host_sim/plant/brute_force.hpp"
+#include "host_sim/report/summary.hpp"
+#include "host_sim/trace/log.hpp"
+#include "host_sim/trace/replay.hpp"
 
 namespace host_sim = firmtouch::host_sim;
 namespace record = firmtouch::record;

@@ -9,9 +9,9 @@
 #include "bake/bake_curve.hpp"
 #include "bake/bake_mesh.hpp"
 #include "bake/probes.hpp"
-#include "host_sim/log.hpp"
-#include "host_sim/plan.hpp"
-#include "host_sim/session.hpp"
+#include "host_sim/controllers/session.hpp"
+#include "host_sim/scenario/plan.hpp"
+#include "host_sim/trace/log.hpp"
 #include "surface/make_part.hpp"
 
 namespace firmtouch::test {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "firmtouch/controller.hpp"
-#include "host_sim/asset_file.hpp"
-#include "host_sim/run.hpp"
+#include "host_sim/controllers/asset_file.hpp"
+#include "host_sim/trace/run.hpp"
 
 namespace firmtouch::test {
 

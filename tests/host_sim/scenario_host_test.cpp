@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "harness/test.hpp"
-#include "host_sim/run.hpp"
-#include "host_sim/scenario.hpp"
-#include "host_sim/scenario_words.hpp"
-#include "host_sim/units.hpp"
+#include "host_sim/scenario/scenario.hpp"
+#include "host_sim/scenario/units.hpp"
+#include "host_sim/scenario/words.hpp"
+#include "host_sim/trace/run.hpp"
 
 namespace host_sim = firmtouch::host_sim;
 using host_sim::Event;

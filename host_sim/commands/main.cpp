@@ -1,0 +1,31 @@
+// firmtouch-sim: the world around a controller. Exit codes: 0 done; 1 it ran and the answer is no;
+// 2 usage; 3 bad input.
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/scenario/scenario.hpp"
+
+int main(int argc, char** argv) {
+  using namespace firmtouch::host_sim;
+  std::signal(SIGPIPE, SIG_IGN);  // a controller that goes away is told of, not died of
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  try {
+    return run_command(words);
+  } catch (const Usage& usage) {
+    std::cerr << "firmtouch-sim: " << usage.what()
+              << "\n`firmtouch-sim --help` says what there is.\n";
+    return 2;
+  } catch (const Refused& refused) {
+    std::cerr << "firmtouch-sim: " << refused.what() << "\n";
+    return 3;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "firmtouch-sim: out of memory; shorten the run\n";
+    return 3;
+  } catch (const std::exception& error) {
+    std::cerr << "firmtouch-sim: " << error.what() << "\n";
+    return 3;
+  }
+}

@@ -1,0 +1,103 @@
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+#include "firmtouch/params/table.hpp"
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/commands/progress.hpp"
+#include "host_sim/controllers/port.hpp"
+#include "host_sim/controllers/session.hpp"
+#include "host_sim/trace/replay.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr const char* kHelp =
+    "firmtouch-sim replay LOG [--asset FILE] [--controller WHAT [--image FILE]]\n"
+    "Feeds the inputs of a log to a controller and compares every bit of every output.\n"
+    "  --asset FILE        the asset, where it is no longer where the log says\n"
+    "  --controller WHAT   inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE "
+    "(serial)\n"
+    "  --image FILE        the program for qemu:BOARD (default: "
+    "build/BOARD/bin/firmtouch_app.elf)\n"
+    "Exit codes: 0 all the same; 1 they differ, and the first difference is named by tick and "
+    "field; or the log was cut off, and all before that is the same.\n";
+
+const std::string& entry(const Log& log, const std::string& path, const std::string& key) {
+  const auto found = log.text.find(key);
+  if (found == log.text.end())
+    throw Refused(path + ": its header does not name " + key + "; record the run again");
+  return found->second;
+}
+
+void check_same(const std::string& path, const char* what, uint64_t logged, uint64_t here,
+                int digits, const char* remedy) {
+  if (logged == here) return;
+  char text[96];
+  std::snprintf(text, sizeof text, ": recorded with %0*llx, here %0*llx; ", digits,
+                static_cast<unsigned long long>(logged), digits,
+                static_cast<unsigned long long>(here));
+  throw Refused(path + ": " + what + text + remedy);
+}
+
+// A replay begins where the controller did, and needs every tick.
+void check_complete(const std::string& path, const Log& log) {
+  if (log.records.empty())
+    throw Refused(path + ": it holds no tick" +
+                  (log.why_not_whole.empty() ? "" : ": " + log.why_not_whole));
+  if (log.decimation != 1)
+    throw Refused(path + ": it keeps every " + std::to_string(log.decimation) +
+                  "th tick only; record with --decimate 1 to replay");
+  if (log.first_number != 0)
+    throw Refused(path + ": it begins at record " + std::to_string(log.first_number) +
+                  ", and what the controller did before that is not in it; replay the log that it "
+                  "was cut from");
+}
+
+}  // namespace
+
+int replay_log(const std::vector<std::string>& words) {
+  const Options options(words, {"--asset", "--controller", "--image"});
+  if (options.help()) {
+    std::cout << kHelp;
+    return 0;
+  }
+  if (options.operands().size() != 1) throw Usage("replay wants one log");
+  const std::string path = options.operands()[0];
+  const Log log = read_log(path);
+  check_same(path, "parameter table",
+             std::strtoull(entry(log, path, "parameter_table").c_str(), nullptr, 16),
+             params::table_hash(), 16, "use the version that recorded it");
+  const std::string named = options.value("--asset");
+  const Session session(named.empty() ? path_beside(path, entry(log, path, "asset")) : named);
+  check_same(path, ("asset CRC of " + session.asset.path()).c_str(),
+             std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16),
+             session.controller->asset_crc(), 8, "name the asset of that time with --asset");
+  check_complete(path, log);
+  if (!log.is_whole)
+    std::cerr << path << ": " << log.why_not_whole << "; the " << log.records.size()
+              << " ticks before that are replayed\n";
+  for (const std::string& name : log.without)
+    std::cerr << path << ": it has no " << name << "; that is not compared\n";
+  const std::unique_ptr<Port> port =
+      open_port(options.value("--controller"), options.value("--image"), session.asset.path(),
+                session.controller->asset_crc());
+  const std::string by = port ? port->name() : "in-process";
+  const Tick tick = [&](const record::TickInput& input, record::TickOutput& output) {
+    if (port)
+      port->tick(input, output);
+    else
+      session.controller->tick(input, output), session.controller->make_model();
+  };
+  if (const std::optional<Difference> d = replay(log, tick, progress_bar("replaying"))) {
+    std::cerr << "firmtouch-sim: " << path << ": first difference at tick " << d->tick << " in "
+              << d->field << ": recorded " << d->expected << ", replayed (" << by << ") "
+              << d->found << "\n";
+    return 1;
+  }
+  std::cerr << path << ": " << log.records.size() << " ticks replayed (" << by
+            << "), every output bit the same\n";
+  return log.is_whole ? 0 : 1;
+}
+
+}  // namespace firmtouch::host_sim

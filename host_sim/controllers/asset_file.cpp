@@ -1,0 +1,20 @@
+#include "host_sim/controllers/asset_file.hpp"
+
+#include <cstring>
+
+#include "host_sim/scenario/scenario.hpp"
+#include "host_sim/trace/log.hpp"
+
+namespace firmtouch::host_sim {
+
+AssetFile::AssetFile(const std::string& path) : path_(path) {
+  const std::string bytes = read_file(path);
+  if (bytes.size() > UINT32_MAX) throw Refused(path + ": more than 4 GB is no asset");
+  size_ = static_cast<uint32_t>(bytes.size());
+  blocks_.resize(bytes.size() / sizeof(Block) + 1);
+  std::memcpy(blocks_.data(), bytes.data(), bytes.size());
+}
+
+core::Bytes AssetFile::bytes() const { return {blocks_.front().bytes, size_}; }
+
+}  // namespace firmtouch::host_sim

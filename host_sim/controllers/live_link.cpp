@@ -1,0 +1,126 @@
+#include "host_sim/controllers/live_link.hpp"
+
+#include <chrono>
+
+#include "firmtouch/link/handshake.hpp"
+#include "host_sim/scenario/scenario.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int kAgain_ms = 1000;
+constexpr auto kAnswerTime = std::chrono::seconds(60);  // an asset is proven first
+constexpr uint16_t kMaxRows = 1024;
+
+}  // namespace
+
+void LiveLink::refuse(const std::string& what) const {
+  throw Refused(stream_->name() + ": " + what);
+}
+
+template <class T>
+void LiveLink::send(uint8_t type, const T& payload) {
+  uint8_t bytes[link::kMaxFrameBytes];
+  const uint32_t count = link::encode(type, ++sequence_, link::bytes_of(payload), bytes);
+  stream_->write(bytes, count);
+}
+
+uint32_t LiveLink::poll(int timeout_ms, const std::function<void(const link::Frame&)>& take) {
+  uint8_t bytes[4096];
+  const uint32_t count = stream_->read(bytes, sizeof bytes, timeout_ms);
+  for (uint32_t i = 0; i < count; ++i) {
+    decoder_.push(bytes[i]);
+    link::Frame frame;
+    while (decoder_.next(frame)) take(frame);
+  }
+  return count;
+}
+
+link::Description LiveLink::row(uint16_t what, uint16_t index) {
+  for (const auto begin = Clock::now(); Clock::now() - begin < kAnswerTime;) {
+    link::Describe wanted;
+    wanted.what = what;
+    wanted.index = index;
+    send(link::kDescribe, wanted);
+    link::Description row;
+    bool is_there = false;
+    for (const auto asked = Clock::now();
+         !is_there && Clock::now() - asked < std::chrono::milliseconds(kAgain_ms);)
+      poll(kAgain_ms, [&](const link::Frame& frame) {
+        link::Description came;
+        if (frame.type == link::kText)
+          refuse("it does not describe its records: it is of another release");
+        if (frame.type != link::kDescription || !link::take(frame, came)) return;
+        if (came.what == what && came.index == index) row = came, is_there = true;
+      });
+    if (is_there) return row;
+  }
+  refuse("no answer in 60 s; is this firmtouch_app, and the line at 1 Mbaud?");
+}
+
+void LiveLink::describe() {
+  for (const uint16_t what : {link::kDescribeField, link::kDescribeBit, link::kDescribeParameter}) {
+    for (uint16_t i = 0, rows = 1; i < rows && i < kMaxRows; ++i) {
+      const link::Description found = row(what, i);
+      rows = found.rows;
+      if (what == link::kDescribeField) {
+        log::Field field;
+        field.name = text_in(found.name);
+        field.unit = text_in(found.unit);
+        field.scale = log::decimal_of(found.number[0]);
+        field.zero = log::decimal_of(found.number[1]);
+        field.type = static_cast<log::Type>(found.kind % 3);
+        field.count = found.count;
+        header_.fields.push_back(field);
+      } else if (what == link::kDescribeBit) {
+        header_.bits.push_back({text_in(found.unit), found.kind, text_in(found.name)});
+      } else {
+        parameters_.push_back(found);
+      }
+    }
+  }
+  header_.record_bytes = log::place(header_.fields);
+}
+
+// Result: its answer, once its asset is proven.
+link::HelloReply LiveLink::hello(const link::Hello& hello) {
+  for (const auto begin = Clock::now(); Clock::now() - begin < kAnswerTime;) {
+    send(link::kHello, hello);
+    link::HelloReply reply;
+    bool is_there = false;
+    for (const auto asked = Clock::now();
+         !is_there && Clock::now() - asked < std::chrono::milliseconds(kAgain_ms);)
+      poll(kAgain_ms, [&](const link::Frame& frame) {
+        is_there |= frame.type == link::kHelloReply && link::take(frame, reply);
+      });
+    if (is_there && (reply.refused & link::kRefusedNotReady) == 0) return reply;
+  }
+  refuse("no answer to the handshake in 60 s; is this firmtouch_app?");
+}
+
+void LiveLink::begin(uint32_t decimation) {
+  link::Hello first;
+  first.mode = link::kModeAsk;
+  reply_ = hello(first);
+  if ((reply_.refused & (link::kRefusedProtocol | link::kRefusedAssetRejected)) != 0) {
+    char text[1200];
+    const uint32_t count = link::explain(first.host, reply_, text);
+    refuse("the controller refuses:\n" + std::string(text, count));
+  }
+  link::Hello second;
+  second.host = reply_.controller;
+  second.decimation = decimation;
+  send(link::kHello, second);  // its answer stands before the first record
+}
+
+void LiveLink::set_parameter(uint32_t index, float value) {
+  link::SetParam wanted;
+  wanted.index = index;
+  wanted.value = value;
+  send(link::kSetParam, wanted);
+}
+
+void LiveLink::leave() { send(link::kBye, link::Bye{}); }
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,148 @@
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "firmtouch/link/build_id.hpp"
+#include "firmtouch/link/decoder.hpp"
+#include "firmtouch/link/handshake.hpp"
+#include "firmtouch/link/protocol.hpp"
+#include "firmtouch/params/table.hpp"
+#include "host_sim/controllers/byte_stream.hpp"
+#include "host_sim/controllers/port.hpp"
+#include "host_sim/scenario/scenario.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int kHelloAgain_ms = 1000;  // a Hello may fall into a controller's start
+constexpr auto kHandshakeTime =
+    std::chrono::seconds(60);  // an asset of megabytes is proven in emulation first
+constexpr int kReplyTime_ms = 20000;
+
+class Remote : public Port {
+ public:
+  Remote(std::unique_ptr<ByteStream> stream, uint32_t asset_crc) : stream_(std::move(stream)) {
+    shake_hands(asset_crc);
+  }
+  ~Remote() override {
+    try {
+      link::Bye bye;
+      bye.what = link::kByeExit;
+      send(link::kBye, link::bytes_of(bye));
+    } catch (const Refused&) {  // it is gone already, which is what was wanted
+    }
+  }
+  TickCost tick(const record::TickInput& input, record::TickOutput& output) override;
+  std::string name() const override { return board_ + " (" + stream_->name() + ")"; }
+
+ private:
+  void send(uint8_t type, core::Bytes payload);
+  bool receive(link::Frame& frame, int timeout_ms);
+  void shake_hands(uint32_t asset_crc);
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Refused(stream_->name() + ": " + what);
+  }
+
+  std::unique_ptr<ByteStream> stream_;
+  link::Decoder decoder_;
+  std::string board_;
+  uint8_t bytes_[link::kMaxFrameBytes] = {};
+  uint32_t count_ = 0, next_ = 0;
+  uint16_t sequence_ = 0;
+};
+
+void Remote::send(uint8_t type, core::Bytes payload) {
+  uint8_t frame[link::kMaxFrameBytes];
+  const uint32_t count =
+      link::encode(type, ++sequence_, payload, core::Span<uint8_t>(frame, sizeof frame));
+  stream_->write(frame, count);
+}
+
+// Result: false where no whole frame came in time.
+bool Remote::receive(link::Frame& frame, int timeout_ms) {
+  for (;;) {
+    if (decoder_.next(frame)) return true;
+    if (next_ == count_) {
+      next_ = 0;
+      count_ = stream_->read(bytes_, sizeof bytes_, timeout_ms);
+      if (count_ == 0) return false;
+    }
+    decoder_.push(bytes_[next_++]);
+  }
+}
+
+void Remote::shake_hands(uint32_t asset_crc) {
+  link::Hello hello;
+  hello.host.asset_crc = asset_crc;
+  hello.host.parameter_table_hash = params::table_hash();
+  hello.host.build_id = link::build_id();
+  hello.mode = link::kModeLockStep;
+  link::HelloReply reply;
+  for (const auto begin = Clock::now();;) {
+    if (Clock::now() - begin > kHandshakeTime)
+      refuse("no answer to the handshake in 60 s; is this firmtouch_app, and the line at 1 Mbaud?");
+    send(link::kHello, link::bytes_of(hello));
+    link::Frame frame;
+    bool replied = false;
+    while (!replied && receive(frame, kHelloAgain_ms))
+      replied = frame.type == link::kHelloReply && link::take(frame, reply);
+    if (replied && (reply.refused & link::kRefusedNotReady) == 0) break;
+  }
+  if (reply.refused != 0) {
+    char text[1200];
+    const uint32_t count = link::explain(hello.host, reply, core::Span<char>(text, sizeof text));
+    refuse("the controller refuses:\n" + std::string(text, count));
+  }
+  board_ = std::string(reply.board, strnlen(reply.board, sizeof reply.board));
+}
+
+TickCost Remote::tick(const record::TickInput& input, record::TickOutput& output) {
+  link::Step step;
+  step.input = input;
+  send(link::kStep, link::bytes_of(step));
+  link::Frame frame;
+  while (receive(frame, kReplyTime_ms)) {
+    link::StepReply reply;
+    if (frame.type == link::kText)
+      refuse(
+          "tick " + std::to_string(input.tick) + ": " +
+          std::string(reinterpret_cast<const char*>(frame.payload.data()), frame.payload.size()));
+    if (frame.type != link::kStepReply || !link::take(frame, reply) || reply.tick != input.tick)
+      continue;
+    output = reply.output;
+    TickCost cost;
+    if (reply.work_per_1000 > 0)
+      cost.instructions = static_cast<uint32_t>(
+          (uint64_t{reply.work} * 1000 + reply.work_per_1000 / 2) / reply.work_per_1000);
+    cost.stack_high_bytes = reply.stack_high_bytes;
+    return cost;
+  }
+  refuse("no answer to tick " + std::to_string(input.tick) + " in " +
+         std::to_string(kReplyTime_ms / 1000) + " s");
+}
+
+// build/<board>/bin/firmtouch_app.elf beside this program's build/host/bin.
+std::string image_of(const std::string& board) {
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return (self.parent_path().parent_path().parent_path() / board / "bin/firmtouch_app.elf")
+      .string();
+}
+
+}  // namespace
+
+std::unique_ptr<Port> open_port(const std::string& controller, const std::string& image,
+                                const std::string& asset_path, uint32_t asset_crc) {
+  if (controller.empty() || controller == "inproc") return nullptr;
+  if (controller.compare(0, 5, "qemu:") == 0) {
+    const std::string board = controller.substr(5);
+    return std::make_unique<Remote>(
+        start_emulator(board, image.empty() ? image_of(board) : image, asset_path), asset_crc);
+  }
+  return std::make_unique<Remote>(connect_stream(controller), asset_crc);
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,70 @@
+#include "host_sim/plant/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/spline/closest_point.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+Vec wide(math::Vec3 v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
+constexpr uint32_t kMaxSteps = 20000;  // to where the hand leans: no need of the last digit
+
+}  // namespace
+
+World::World(const mesh::View& mesh, const spline::View& surface, std::vector<Vec> guide_m,
+             Vec origin_m)
+    : mesh_(mesh), surface_(surface), origin_m_(origin_m), guide_m_(std::move(guide_m)) {
+  if (surface_.is_open()) shell_ = shell_of(surface_);
+  double arc = 0;
+  for (size_t i = 0; i < guide_m_.size(); ++i) {
+    guide_m_[i] = guide_m_[i] + origin_m_;
+    if (i > 0) arc += norm(guide_m_[i] - guide_m_[i - 1]);
+    arc_m_.push_back(arc);
+  }
+  closed_ = has_guide() && !(norm(guide_m_.front() - guide_m_.back()) > 0);
+}
+
+World::Surface World::nearest(Vec from_m) const {
+  const Vec in_mesh = from_m - origin_m_;
+  query::Hint cold;
+  if (!mesh_.is_open()) {
+    const spline::Closest found =
+        spline::closest_point(surface_,
+                              {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y),
+                               static_cast<float>(in_mesh.z)},
+                              {kMaxSteps}, cold);
+    Vec normal = wide(found.direction) * (is_turned_ ? -1.0 : 1.0);
+    const Vec off = in_mesh - wide(found.point_m);
+    if (!(norm(normal) > 0.5)) normal = unit(off);  // at a pole
+    const double distance_m = static_cast<double>(found.distance_m);
+    return {wide(found.point_m) + origin_m_, normal,
+            dot(off, normal) < 0 ? -distance_m : distance_m};
+  }
+  const mesh::Closest found = mesh::closest_point(
+      mesh_,
+      {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y), static_cast<float>(in_mesh.z)},
+      query::kUnlimited, cold);
+  return {wide(found.point_m) + origin_m_, wide(found.direction),
+          static_cast<double>(found.distance_m)};
+}
+
+Vec World::guide_at(double arc_m) const {
+  const double length = guide_length_m();
+  double arc = std::fmod(arc_m, closed_ ? length : 2 * length);
+  if (arc > length) arc = 2 * length - arc;
+  const auto above = std::upper_bound(arc_m_.begin(), arc_m_.end(), arc);
+  const size_t i =
+      std::clamp<size_t>(static_cast<size_t>(above - arc_m_.begin()), 1, arc_m_.size() - 1);
+  const double span = arc_m_[i] - arc_m_[i - 1];
+  return guide_m_[i - 1] +
+         (guide_m_[i] - guide_m_[i - 1]) * (span > 0 ? (arc - arc_m_[i - 1]) / span : 0);
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,148 @@
+#include "host_sim/plant/spline_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr int kCells = 12;      // of a piece on an axis, of samples
+constexpr int kShownCells = 8;  // and of triangles
+constexpr double kPi = 3.14159265358979323846;
+
+double at(int i, int cells) { return 2.0 * i / cells - 1; }
+
+// Down from a sample by halving steps on the two axes.
+double refined2(const spline::View& model, uint32_t piece, double s, double t, Vec p_m) {
+  const auto distance2 = [&](double at_s, double at_t) {
+    const Vec off = spline_point(model, piece, at_s, at_t) - p_m;
+    return dot(off, off);
+  };
+  double best = distance2(s, t);
+  for (double step = 2.0 / kCells; step > 1e-9;) {
+    double next = best, next_s = s, next_t = t;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) {
+        const double to_s = std::clamp(s + i * step, -1.0, 1.0);
+        const double to_t = std::clamp(t + j * step, -1.0, 1.0);
+        const double d2 = distance2(to_s, to_t);
+        if (d2 < next) next = d2, next_s = to_s, next_t = to_t;
+      }
+    if (next < best) {
+      best = next, s = next_s, t = next_t;
+    } else {
+      step *= 0.5;
+    }
+  }
+  return best;
+}
+
+// Of a triangle as seen from `p`, signed (Van Oosterom and Strackee).
+double solid_angle(Vec p, Vec a, Vec b, Vec c) {
+  a = a - p, b = b - p, c = c - p;
+  const double la = norm(a), lb = norm(b), lc = norm(c);
+  const double below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return 2 * std::atan2(dot(a, cross(b, c)), below);
+}
+
+double winding(const Shell& shell, Vec p) {
+  double sum = 0;
+  for (const auto& t : shell.triangles)
+    sum += solid_angle(p, shell.vertices[t[0]], shell.vertices[t[1]], shell.vertices[t[2]]);
+  return sum / (4 * kPi);
+}
+
+}  // namespace
+
+Vec spline_point(const spline::View& model, uint32_t index, double s, double t) {
+  const spline::Piece& piece = model.pieces()[index];
+  const uint32_t stride = piece.is_rational != 0 ? 4 : 3, columns = piece.degree_u + 1u;
+  double sum[4] = {0, 0, 0, piece.is_rational != 0 ? 0.0 : 1.0};
+  for (uint32_t k = 0; k < stride; ++k)
+    for (uint32_t j = piece.degree_v + 1u; j-- > 0;) {
+      double row = 0;
+      for (uint32_t i = columns; i-- > 0;)
+        row = row * s +
+              static_cast<double>(
+                  model.coefficients()[piece.coefficients + (j * columns + i) * stride + k]);
+      sum[k] = sum[k] * t + row;
+    }
+  const double per = 1 / sum[3];
+  return {static_cast<double>(piece.origin_m[0]) + sum[0] * per,
+          static_cast<double>(piece.origin_m[1]) + sum[1] * per,
+          static_cast<double>(piece.origin_m[2]) + sum[2] * per};
+}
+
+double spline_distance_m(const spline::View& surface, Vec p_m) {
+  struct Start {
+    double distance2, s, t;
+    uint32_t piece;
+  };
+  std::vector<Start> starts;
+  for (uint32_t piece = 0; piece < surface.pieces().size(); ++piece) {
+    Start best{HUGE_VAL, 0, 0, piece};  // of a quarter of the piece
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      best.distance2 = HUGE_VAL;
+      for (int j = 0; j <= kCells / 2; ++j)
+        for (int i = 0; i <= kCells / 2; ++i) {
+          const double s = at(i + (quarter % 2) * kCells / 2, kCells);
+          const double t = at(j + (quarter / 2) * kCells / 2, kCells);
+          const Vec off = spline_point(surface, piece, s, t) - p_m;
+          if (dot(off, off) < best.distance2) best = {dot(off, off), s, t, piece};
+        }
+      starts.push_back(best);
+    }
+  }
+  std::sort(starts.begin(), starts.end(),
+            [](const Start& a, const Start& b) { return a.distance2 < b.distance2; });
+  double least2 = HUGE_VAL;
+  for (size_t i = 0; i < std::min<size_t>(starts.size(), 6); ++i)
+    least2 = std::min(least2, refined2(surface, starts[i].piece, starts[i].s, starts[i].t, p_m));
+  return std::sqrt(least2);
+}
+
+Shell shell_of(const spline::View& surface) {
+  Shell shell;
+  for (uint32_t piece = 0; piece < surface.pieces().size(); ++piece) {
+    const uint32_t first = static_cast<uint32_t>(shell.vertices.size());
+    for (int j = 0; j <= kShownCells; ++j)
+      for (int i = 0; i <= kShownCells; ++i)
+        shell.vertices.push_back(
+            spline_point(surface, piece, at(i, kShownCells), at(j, kShownCells)));
+    const uint32_t row = kShownCells + 1;
+    for (uint32_t j = 0; j < kShownCells; ++j)
+      for (uint32_t i = 0; i < kShownCells; ++i) {
+        const uint32_t a = first + j * row + i;
+        shell.triangles.push_back({a, a + 1, a + row + 1});
+        shell.triangles.push_back({a, a + row + 1, a + row});
+      }
+  }
+  return shell;
+}
+
+Sides sides_of(const Shell& shell) {
+  Vec low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (const Vec& p : shell.vertices) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double aside_m = 0.02 * norm(high - low);
+  size_t looks = 0, whole = 0, turned = 0;
+  const size_t stride = std::max<size_t>(1, shell.triangles.size() / 64);
+  for (size_t i = stride / 2; i < shell.triangles.size(); i += stride) {
+    const auto& t = shell.triangles[i];
+    const Vec a = shell.vertices[t[0]], b = shell.vertices[t[1]], c = shell.vertices[t[2]];
+    const Vec n = cross(b - a, c - a);
+    if (!(norm(n) > 0)) continue;
+    const Vec aside = unit(n) * aside_m, middle = (a + b + c) * (1.0 / 3);
+    const double before = winding(shell, middle + aside), behind = winding(shell, middle - aside);
+    ++looks;
+    if (std::abs(before - std::round(before)) < 0.03 &&
+        std::abs(behind - std::round(behind)) < 0.03)
+      ++whole;
+    if (std::abs(before) > std::abs(behind)) ++turned;
+  }
+  return {looks > 0 && whole == looks, 2 * turned > looks};
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,171 @@
+#include "host_sim/report/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "firmtouch/params/table.hpp"
+#include "firmtouch/servo/fault.hpp"
+#include "firmtouch/servo/step.hpp"
+#include "host_sim/plant/brute_force.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr double kJudgedTriangles = 4e7;  // looked at by brute force in all: about half a second
+constexpr double kRounding =
+    4e-7;  // of max(diagonal, distance): what a float32 answer may be off by
+constexpr double kOfSpline = 2.5;        // that promises 1e-6, rational
+constexpr double kSplineSamples = 4e2;   // of a piece
+constexpr double kBoundRounding = 1e-7;  // of the same: what the judge's own position may be off by
+
+Vec wide(const float (&v)[3]) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+// Of each tick: the one whose position its local model was made from.
+std::vector<size_t> model_ticks(const Trace& trace) {
+  std::vector<size_t> made(trace.records.size());
+  size_t used = 0, wanted = 0;
+  for (size_t i = 0; i < trace.records.size(); ++i) {
+    const uint32_t lines = trace.records[i].input.lines;
+    if ((lines & record::kLineModelTaken) != 0) used = wanted;
+    if ((lines & record::kLineModelWanted) != 0) wanted = i;
+    if ((lines & record::kLineModelApart) == 0) used = wanted = i;
+    made[i] = used;
+  }
+  return made;
+}
+
+void judge(Summary& summary, const World& world, const Trace& trace) {
+  const mesh::View& mesh = world.mesh();
+  const bool is_mesh = world.has_mesh();
+  const double size_m =
+      static_cast<double>(is_mesh ? mesh.head().diagonal_m : world.surface().head().extent_m);
+  // A sample of a spline takes about as long as ten triangles.
+  const double work =
+      is_mesh ? mesh.head().triangle_count : 10 * kSplineSamples * world.surface().pieces().size();
+  const size_t count = static_cast<size_t>(
+      std::clamp(kJudgedTriangles / work, 20.0, static_cast<double>(trace.records.size())));
+  const size_t stride = std::max<size_t>(1, trace.records.size() / count);
+  const std::vector<size_t> made = model_ticks(trace);
+  std::vector<double> ratios;
+  for (size_t i = 0; i < trace.records.size(); i += stride) {
+    const record::TickOutput& out = trace.records[i].output;
+    if ((out.state & record::kStateReady) == 0) continue;
+    const record::TickOutput& asked = trace.records[made[i]].output;
+    if ((asked.state & record::kStateReady) == 0 || out.model_sequence == 0) continue;
+    const Vec at = wide(asked.position_m) - world.origin_m();
+    const double truth =
+        is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(world.surface(), at);
+    const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kOfSpline);
+    const double reported = std::fabs(static_cast<double>(out.distance_m)),
+                 lower = static_cast<double>(out.distance_lower_m);
+    if (!(lower <= truth + kBoundRounding * scale) || !(reported >= truth - kRounding * scale))
+      ++summary.wrong_bounds;
+    if (truth > kRounding * scale * 1000) ratios.push_back(lower / truth);
+    ++summary.judged_ticks;
+  }
+  if (ratios.empty()) return;
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
+                   ratios.end());
+  summary.median_ratio = ratios[ratios.size() / 2];
+}
+
+void count(Summary& summary, const record::TickOutput& out, double time_s, uint64_t& steps,
+           double& deviation) {
+  const bool is_on = motors_are_on(out);
+  if (is_on && (out.state & record::kStateContact) != 0) ++summary.contact_ticks;
+  if ((out.state & record::kStateExact) != 0) ++summary.exact_ticks;
+  if (is_on && (out.state & record::kStateOnGuide) != 0) {
+    ++summary.guide_ticks;
+    deviation += static_cast<double>(out.guide_deviation_m);
+    summary.worst_guide_deviation_m =
+        std::max(summary.worst_guide_deviation_m, static_cast<double>(out.guide_deviation_m));
+  }
+  summary.peak_force_N = std::max(summary.peak_force_N, norm(wide(out.force_N)));
+  if (is_on)
+    summary.worst_penetration_m =
+        std::max(summary.worst_penetration_m, static_cast<double>(out.penetration_m));
+  summary.worst_gap_m =
+      std::max(summary.worst_gap_m, std::fabs(static_cast<double>(out.distance_m)) -
+                                        static_cast<double>(out.distance_lower_m));
+  summary.worst_steps = std::max(summary.worst_steps, out.steps);
+  steps += out.steps;
+  if (out.faults != 0 && summary.fault_s < 0) summary.fault_s = time_s;
+  summary.faults |= out.faults;
+}
+
+}  // namespace
+
+Summary summarise(const Scenario& scenario, const World& world, const Trace& trace) {
+  Summary summary;
+  summary.ticks = trace.records.size();
+  summary.rate_Hz = trace.rate_Hz;
+  summary.seconds = static_cast<double>(summary.ticks) / trace.rate_Hz;
+  summary.has_surface = world.has_surface();
+  summary.has_guide = world.has_guide();
+  summary.force_limit_N = parameter_value(scenario, params::kForceLimit);
+  summary.budget_steps = static_cast<uint32_t>(
+      (world.has_surface() ? parameter_value(scenario, params::kMeshSteps) : 0) +
+      (world.has_guide() ? parameter_value(scenario, params::kCurveSteps) : 0));
+  uint64_t steps = 0, instructions = 0;
+  double deviation = 0;
+  for (size_t i = 0; i < trace.records.size(); ++i)
+    count(summary, trace.records[i].output, static_cast<double>(i) / trace.rate_Hz, steps,
+          deviation);
+  const double ticks = static_cast<double>(std::max<size_t>(summary.ticks, 1));
+  summary.mean_steps = static_cast<double>(steps) / ticks;
+  if (summary.guide_ticks > 0)
+    summary.mean_guide_deviation_m = deviation / static_cast<double>(summary.guide_ticks);
+  for (const uint32_t n : trace.instructions) {
+    instructions += n;
+    summary.worst_instructions = std::max(summary.worst_instructions, n);
+  }
+  summary.mean_instructions = static_cast<double>(instructions) / ticks;
+  summary.stack_high_bytes = trace.stack_high_bytes;
+  for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
+    if ((summary.faults >> bit & 1u) != 0)
+      summary.fault_names +=
+          (summary.fault_names.empty() ? "" : ", ") + std::string(servo::fault_name(bit));
+  if (summary.has_surface) judge(summary, world, trace);
+  return summary;
+}
+
+std::string text_of(const Summary& s, const Trace& trace) {
+  std::string text;
+  const auto line = [&](const char* format, auto... values) {
+    char buffer[256];
+    std::snprintf(buffer, sizeof buffer, format, values...);
+    text += buffer;
+  };
+  line("  ticks          %zu at %g Hz (%.4g s), controller: %s\n", s.ticks, s.rate_Hz, s.seconds,
+       trace.controller.c_str());
+  line(
+      "  contact        %zu ticks with the motors on; penalty contact of a sphere; peak force %.2f "
+      "N of %.2f N; "
+      "deepest %.2f mm\n",
+      s.contact_ticks, s.peak_force_N, s.force_limit_N, s.worst_penetration_m * 1e3);
+  if (s.has_guide)
+    line("  guide          %zu ticks on it; mean deviation %.2f mm, worst %.2f mm\n", s.guide_ticks,
+         s.mean_guide_deviation_m * 1e3, s.worst_guide_deviation_m * 1e3);
+  line("  steps a tick   mean %.1f, worst %u, budget %u\n", s.mean_steps, s.worst_steps,
+       s.budget_steps);
+  if (s.has_surface)
+    line(
+        "  certificate    lower bound <= true distance <= told: %zu of %zu ticks judged by brute "
+        "force in double\n",
+        s.judged_ticks - s.wrong_bounds, s.judged_ticks);
+  if (s.worst_instructions > 0)
+    line("  instructions   mean %.0f a tick, worst %u; stack %u bytes\n", s.mean_instructions,
+         s.worst_instructions, s.stack_high_bytes);
+  if (trace.compared)
+    text += trace.difference ? "  same bits      NO: see below\n"
+                             : "  same bits      yes: every output bit of every tick equals the "
+                               "in-process controller's\n";
+  if (s.fault_s >= 0)
+    line("  fault          %s, latched at %.3f s\n", s.fault_names.c_str(), s.fault_s);
+  return text;
+}
+
+}  // namespace firmtouch::host_sim

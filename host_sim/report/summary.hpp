@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host_sim/plant/environment.hpp"
+#include "host_sim/scenario/scenario.hpp"
+#include "host_sim/trace/run.hpp"
+
+namespace firmtouch::host_sim {
+
+/// The numbers of a run that matter.
+struct Summary {
+  size_t ticks = 0, exact_ticks = 0;
+  size_t contact_ticks = 0, guide_ticks = 0;  // while the motors were on
+  double seconds = 0, rate_Hz = 0;
+  double peak_force_N = 0, force_limit_N = 0;
+  double worst_penetration_m = 0;  // while the motors were on
+  double mean_guide_deviation_m = 0, worst_guide_deviation_m = 0;
+  double mean_steps = 0;
+  uint32_t worst_steps = 0, budget_steps = 0;
+  size_t surface_ticks = 0;  // ticks whose distance answer could be judged
+  size_t judged_ticks = 0;   // of these, judged against brute force over every triangle, in double
+  // Lower bound above the truth, or distance below it, beyond float32 rounding.
+  size_t wrong_bounds = 0;
+  double worst_gap_m = 0;   // distance - lower bound
+  double median_ratio = 0;  // of lower bound to truth
+  bool has_surface = false, has_guide = false;
+  double mean_instructions = 0;
+  uint32_t worst_instructions = 0, stack_high_bytes = 0;
+  uint32_t faults = 0;
+  double fault_s = -1;  // when the first one was latched; -1: none
+  std::string fault_names;
+};
+
+Summary summarise(const Scenario& scenario, const World& world, const Trace& trace);
+
+/// A few lines for a person.
+std::string text_of(const Summary& summary, const Trace& trace);
+
+}  // namespace firmtouch::host_sim

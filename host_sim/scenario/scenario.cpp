@@ -1,0 +1,227 @@
+#include "host_sim/scenario/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "host_sim/scenario/units.hpp"
+#include "host_sim/scenario/words.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+struct Key {
+  const char* name;
+  const char* unit;
+  double low, high;
+  double& (*place)(Scenario&);
+  const char* meaning;
+};
+
+// The simulator's own keys. Every other key must be a row of the controller's parameter table.
+const Key kKeys[] = {
+    {"rate", "Hz", 50, 20000, [](Scenario& s) -> double& { return s.rate_Hz; },
+     "servo ticks a second"},
+    {"geometry_rate", "Hz", 1, 20000, [](Scenario& s) -> double& { return s.geometry_rate_Hz; },
+     "local models a second; without it, one in every tick"},
+    {"duration", "s", 0.001, 3600, [](Scenario& s) -> double& { return s.duration_s; },
+     "of the run; without it, until the hand's script ends"},
+    {"mass", "kg", 1e-4, 100, [](Scenario& s) -> double& { return s.device.mass_kg; },
+     "moving mass of the device at the tool"},
+    {"viscous_friction", "N*s/m", 0, 1000,
+     [](Scenario& s) -> double& { return s.device.viscous_N_s_per_m; }, "of each axis"},
+    {"coulomb_friction", "N", 0, 100, [](Scenario& s) -> double& { return s.device.coulomb_N; },
+     "of each axis"},
+    {"encoder_quantum", "m", 1e-9, 0.01,
+     [](Scenario& s) -> double& { return s.device.encoder_quantum_m; },
+     "true metres a count; without it, what the controller believes"},
+    {"motor_limit", "N", 0, 1000, [](Scenario& s) -> double& { return s.device.force_limit_N; },
+     "what a motor can give at most"},
+    {"hand_stiffness", "N/m", 0, 100000,
+     [](Scenario& s) -> double& { return s.hand.stiffness_N_per_m; }, "of the grip"},
+    {"hand_damping", "N*s/m", 0, 1000,
+     [](Scenario& s) -> double& { return s.hand.damping_N_s_per_m; }, "of the grip"},
+};
+constexpr double kMaxDelaySamples = 64;  // of a motor path: more than 64 ms is no force feedback
+
+struct Reader {
+  const std::vector<ParameterRow>& parameters;
+  Scenario out{};
+  std::vector<std::string> given{};
+
+  void statement(Words& words);
+  bool own_key(const std::string& name, Words& words);
+  bool parameter(const std::string& name, Words& words);
+  void event(Words& words);
+  void once(const std::string& name, Words& words);
+};
+
+uint32_t row_of(const std::vector<ParameterRow>& rows, const std::string& name) {
+  for (uint32_t i = 0; i < rows.size(); ++i)
+    if (rows[i].name == name || rows[i].short_name == name) return i;
+  return UINT32_MAX;
+}
+
+double value_of(const ParameterRow& row, Words& words) {
+  return words.quantity(row.short_name, row.unit, row.low, row.high);
+}
+
+void Reader::once(const std::string& name, Words& words) {
+  if (std::find(given.begin(), given.end(), name) != given.end() && !words.overrides())
+    words.refuse("`" + name + "` is given twice; keep one of the two lines");
+  given.push_back(name);
+}
+
+bool Reader::own_key(const std::string& name, Words& words) {
+  for (const Key& key : kKeys) {
+    if (name != key.name) continue;
+    once(name, words);
+    key.place(out) = words.quantity(name, key.unit, key.low, key.high);
+    return true;
+  }
+  if (name != "output_delay") return false;
+  once(name, words);
+  const double samples = words.quantity(name, "samples", 0, kMaxDelaySamples);
+  if (samples > std::floor(samples)) words.refuse("`output_delay` is a whole number of samples");
+  out.device.output_delay_samples = static_cast<uint32_t>(samples);
+  return true;
+}
+
+bool Reader::parameter(const std::string& name, Words& words) {
+  const uint32_t row = row_of(parameters, name);
+  if (row == UINT32_MAX) return false;
+  once(parameters[row].name, words);
+  const double value = value_of(parameters[row], words);
+  for (Setting& setting : out.settings)
+    if (setting.parameter == row) return setting.value = value, true;
+  out.settings.push_back({row, value});
+  return true;
+}
+
+// at 9.5 s emergency_stop | drive_fault | encoder_fault | disable | enable | release |
+// clear_faults | set KEY VALUE UNIT
+void Reader::event(Words& words) {
+  struct Name {
+    const char* name;
+    Event::Kind kind;
+  };
+  constexpr Name kNames[] = {{"emergency_stop", Event::Kind::kEmergencyStop},
+                             {"drive_fault", Event::Kind::kDriveFault},
+                             {"encoder_fault", Event::Kind::kEncoderFault},
+                             {"disable", Event::Kind::kDisable},
+                             {"enable", Event::Kind::kEnable},
+                             {"release", Event::Kind::kRelease},
+                             {"clear_faults", Event::Kind::kClearFaults},
+                             {"set", Event::Kind::kSet}};
+  Event event;
+  event.time_s = words.quantity("at", "s", 0, 3600);
+  const std::string what = words.next("what happens then");
+  const Name* found = nullptr;
+  for (const Name& name : kNames)
+    if (what == name.name) found = &name;
+  if (found == nullptr)
+    words.refuse("nothing called `" + what +
+                 "` can happen; known: emergency_stop, drive_fault, encoder_fault, disable, "
+                 "enable, release, "
+                 "clear_faults, set");
+  event.kind = found->kind;
+  if (event.kind == Event::Kind::kSet) {
+    const std::string name = words.next("a parameter's name");
+    event.parameter = row_of(parameters, name);
+    if (event.parameter == UINT32_MAX) words.refuse_unknown("parameter", name);
+    event.value = value_of(parameters[event.parameter], words);
+  }
+  out.events.push_back(event);
+}
+
+void Reader::statement(Words& words) {
+  const std::string name = words.next("a statement");
+  if (name == "asset") {
+    once(name, words);
+    out.asset = words.path();
+  } else if (name == "start") {
+    once(name, words);
+    out.start_m = words.point("start");
+    out.has_start = true;
+  } else if (name == "at") {
+    event(words);
+  } else if (is_move(name)) {
+    out.moves.push_back(read_move(name, words));
+  } else if (!own_key(name, words) && !parameter(name, words)) {
+    words.refuse_unknown("key or statement", name);
+  }
+  words.end();
+}
+
+void check_whole(const Scenario& scenario) {
+  if (scenario.asset.empty())
+    throw Refused(scenario.file + ": no asset is named; add a line such as `asset part.fta`");
+  if (scenario.moves.empty() && !(scenario.duration_s > 0))
+    throw Refused(scenario.file + ": no `duration` and no hand script, so no end; add one of them");
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::string& file, const std::string& text,
+                       const std::vector<std::string>& sets,
+                       const std::vector<ParameterRow>& parameters) {
+  Reader reader{parameters};
+  reader.out.file = file;
+  reader.out.text = text;
+  std::vector<std::string> names;
+  for (const Key& key : kKeys) names.emplace_back(key.name);
+  for (const char* name :
+       {"output_delay", "asset", "start", "at", "move", "hold", "press", "follow"})
+    names.emplace_back(name);
+  for (const ParameterRow& row : parameters) names.push_back(row.short_name);
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    Words words(line, file + ":" + std::to_string(number), names, false);
+    if (!words.empty()) reader.statement(words);
+  }
+  for (const std::string& set : sets) {
+    Words words(set, "--set " + set, names, true);
+    if (words.empty()) words.refuse("nothing to set; write --set key=value");
+    reader.statement(words);
+    if (!reader.out.text.empty() && reader.out.text.back() != '\n') reader.out.text += '\n';
+    reader.out.text += set + "\n";
+  }
+  check_whole(reader.out);
+  std::stable_sort(reader.out.events.begin(), reader.out.events.end(),
+                   [](const Event& a, const Event& b) { return a.time_s < b.time_s; });
+  return reader.out;
+}
+
+std::string scenario_help() {
+  std::ostringstream help;
+  help << "A scenario is a text file, one statement a line; # begins a comment; every quantity has "
+          "its unit.\n\n"
+          "  asset PATH                        what is felt; relative to the scenario's folder;\n"
+          "                                    in \"quotes\" where it holds a # after a blank\n"
+          "  start X Y Z m                     where device and hand begin\n";
+  Scenario defaults;
+  for (const Key& key : kKeys) {
+    std::string left = std::string("  ") + key.name + " VALUE " + key.unit;
+    left.resize(std::max<size_t>(left.size() + 1, 36), ' ');
+    help << left << key.meaning;
+    const double value = key.place(defaults);
+    if (value > 0) help << " (" << value << ")";
+    help << "\n";
+  }
+  help << "  output_delay VALUE samples        between a force computed and felt (0)\n"
+          "  PARAMETER VALUE UNIT              any parameter of the controller, listed below\n\n"
+          "The hand's script, in order:\n"
+          "  move to X Y Z m at V m/s\n"
+          "  hold for T s\n"
+          "  press X Y Z m for T s             there and back, the middle half of the time there\n"
+          "  follow guide at V m/s for T s [pressing D m]\n"
+          "                                    D: how far behind the surface the hand aims\n"
+          "Happenings:\n"
+          "  at T s emergency_stop | drive_fault | encoder_fault | disable | enable |\n"
+          "         release (emergency stop and drive fault are no longer held) |\n"
+          "         clear_faults (taken only while disabled) | set PARAMETER VALUE UNIT\n";
+  return help.str();
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,210 @@
+#include "host_sim/scenario/words.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "host_sim/scenario/units.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr double kMaxReach_m = 100;  // no coordinate of a device is farther; a slip of the unit is
+constexpr double kMaxSpeed_mps = 10;
+constexpr double kMaxTime_s = 3600;
+
+std::string short_number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+// Levenshtein distance, for "did you mean".
+size_t edits(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t swap = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({swap, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+constexpr const char* kBlank = " \t\r";
+
+bool is_blank(char c) { return std::string(kBlank).find(c) != std::string::npos; }
+
+// Just behind the quote that closes the one at `begin`; npos where none does.
+size_t quote_end(const std::string& line, size_t begin) {
+  for (size_t i = begin + 1; i < line.size(); ++i) {
+    if (line[i] == '"') return i + 1;
+    if (line[i] == '\\') ++i;
+  }
+  return std::string::npos;
+}
+
+// A # at the line's start or after a blank, and not in quotes; npos: there is none.
+size_t comment_begin(const std::string& line) {
+  for (size_t i = 0; i < line.size(); ++i) {
+    const bool begins_word = i == 0 || is_blank(line[i - 1]);
+    if (begins_word && line[i] == '#') return i;
+    if (begins_word && line[i] == '"') {
+      const size_t end = quote_end(line, i);
+      if (end == std::string::npos) return end;
+      i = end - 1;
+    }
+  }
+  return std::string::npos;
+}
+
+}  // namespace
+
+std::string path_word(const std::string& path) {
+  if (!path.empty() && path.find_first_of(" \t\r\n#\"\\") == std::string::npos) return path;
+  std::string text = "\"";
+  for (const char c : path)
+    text += c == '\n' ? "\\n" : (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
+  return text + "\"";
+}
+
+Words::Words(const std::string& line, std::string place, const std::vector<std::string>& names,
+             bool overrides)
+    : line_(line.substr(0, comment_begin(line))),
+      place_(std::move(place)),
+      names_(names),
+      overrides_(overrides) {
+  for (size_t i = line_.find_first_not_of(kBlank); i != std::string::npos;) {
+    const size_t end = line_.find_first_of(kBlank, i);
+    words_.push_back(line_.substr(i, end - i));
+    offsets_.push_back(i);
+    i = end == std::string::npos ? end : line_.find_first_not_of(kBlank, end);
+  }
+}
+
+void Words::refuse(const std::string& what) const { throw Refused(place_ + ": " + what); }
+
+void Words::refuse_unknown(const std::string& kind, const std::string& name) const {
+  std::string nearest, containing;
+  size_t fewest = name.size() / 3 + 2;
+  for (const std::string& known : names_) {
+    const size_t count = edits(name, known);
+    if (count < fewest) fewest = count, nearest = "`" + known + "`";
+    // "stiffness" alone could be the hand's, the contact's or the guide's.
+    if (name.size() > 3 && known.find(name) != std::string::npos)
+      containing += (containing.empty() ? "`" : ", `") + known + "`";
+  }
+  if (nearest.empty()) nearest = containing;
+  refuse("unknown " + kind + " `" + name + "`" +
+         (nearest.empty() ? "; `firmtouch-sim run --help` lists the known ones"
+                          : "; did you mean " + nearest + "?"));
+}
+
+std::string Words::next(const std::string& wanted) {
+  if (!more()) refuse("the line ends where " + wanted + " should stand");
+  return words_[at_++];
+}
+
+bool Words::take(const std::string& word) {
+  if (!more() || words_[at_] != word) return false;
+  ++at_;
+  return true;
+}
+
+void Words::expect(const std::string& word) {
+  const std::string found = next("`" + word + "`");
+  if (found != word) refuse("`" + word + "` is expected where `" + found + "` stands");
+}
+
+std::string Words::path() {
+  if (!more()) refuse("the line ends where a path should stand");
+  const size_t begin = offsets_[at_];
+  at_ = words_.size();
+  const size_t end = line_.find_last_not_of(kBlank) + 1;
+  if (line_[begin] != '"') return line_.substr(begin, end - begin);
+  if (quote_end(line_, begin) != end) refuse("a quoted path ends with its quote and the line");
+  std::string text;
+  for (size_t i = begin + 1; i + 1 < end; ++i) {
+    const bool escapes = line_[i] == '\\';
+    if (escapes) ++i;
+    text += escapes && line_[i] == 'n' ? '\n' : line_[i];
+  }
+  return text;
+}
+
+void Words::end() {
+  if (more()) refuse("`" + words_[at_] + "` is more than this statement takes");
+}
+
+double Words::number(const std::string& name) {
+  const std::string text = next("the value of `" + name + "`");
+  const std::optional<double> value = read_number(text);
+  if (!value) refuse("`" + text + "` is no number for `" + name + "`");
+  return *value;
+}
+
+double Words::in_si(const std::string& name, double value, const std::string& unit) {
+  const std::string text = next("the unit of `" + name + "` (" + units_like(unit) + ")");
+  const std::optional<double> si = to_si(value, text, unit);
+  if (!si)
+    refuse("`" + text + "` is no unit for `" + name + "`; write one of: " + units_like(unit));
+  return *si;
+}
+
+double Words::ranged(const std::string& name, double value, const std::string& unit, double low,
+                     double high) const {
+  if (!(value >= low && value <= high))
+    refuse("`" + name + "` = " + short_number(value) + " " + unit + " is outside " +
+           short_number(low) + " to " + short_number(high) + " " + unit);
+  return value;
+}
+
+double Words::quantity(const std::string& name, const std::string& unit, double low, double high) {
+  const double value = number(name);
+  return ranged(name, unit.empty() ? value : in_si(name, value, unit), unit, low, high);
+}
+
+Vec Words::point(const std::string& name) {
+  const double x = number(name), y = number(name), z = number(name);
+  const double scale = in_si(name, 1, "m");
+  const auto coordinate = [&](double value) {
+    return ranged(name, value * scale, "m", -kMaxReach_m, kMaxReach_m);
+  };
+  return {coordinate(x), coordinate(y), coordinate(z)};
+}
+
+bool is_move(const std::string& name) {
+  return name == "move" || name == "hold" || name == "press" || name == "follow";
+}
+
+Move read_move(const std::string& name, Words& words) {
+  Move move;
+  if (name == "move") {
+    move.kind = Move::Kind::kMove;
+    words.expect("to");
+    move.to_m = words.point("move");
+    words.expect("at");
+    move.speed_mps = words.quantity("move ... at", "m/s", 1e-6, kMaxSpeed_mps);
+    return move;
+  }
+  if (name == "press") {
+    move.kind = Move::Kind::kPress;
+    move.to_m = words.point("press");
+  } else if (name == "follow") {
+    move.kind = Move::Kind::kFollow;
+    words.expect("guide");
+    words.expect("at");
+    move.speed_mps = words.quantity("follow ... at", "m/s", 1e-6, kMaxSpeed_mps);
+  }
+  words.expect("for");
+  move.time_s = words.quantity(name + " ... for", "s", 0.001, kMaxTime_s);
+  if (move.kind == Move::Kind::kFollow && words.take("pressing"))
+    move.press_m = words.quantity("pressing", "m", 0, 1);
+  return move;
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,58 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host_sim/scenario/scenario.hpp"
+
+namespace firmtouch::host_sim {
+
+/// The words of one line of a scenario, taken from left to right. Every way to be wrong ends in
+/// Refused with the place.
+class Words {
+ public:
+  /// `names`: every key and statement, to suggest the nearest of them. `overrides`: from the
+  /// command line, where a later value replaces an earlier one.
+  Words(const std::string& line, std::string place, const std::vector<std::string>& names,
+        bool overrides);
+
+  bool empty() const { return words_.empty(); }
+  bool overrides() const { return overrides_; }
+  bool more() const { return at_ < words_.size(); }
+  std::string next(const std::string& wanted);
+  /// Takes the next word if it is this one.
+  bool take(const std::string& word);
+  void expect(const std::string& word);
+  /// The rest of the line: as it stands (a path may hold blanks), or what path_word() quoted.
+  std::string path();
+  /// A number and its unit, in SI. `unit` empty: a plain number.
+  double quantity(const std::string& name, const std::string& unit, double low, double high);
+  /// Three numbers and one unit of length.
+  Vec point(const std::string& name);
+  void end();
+
+  [[noreturn]] void refuse(const std::string& what) const;
+  [[noreturn]] void refuse_unknown(const std::string& kind, const std::string& name) const;
+
+ private:
+  double number(const std::string& name);
+  double in_si(const std::string& name, double value, const std::string& unit);
+  double ranged(const std::string& name, double value, const std::string& unit, double low,
+                double high) const;
+
+  std::string line_;
+  std::string place_;
+  const std::vector<std::string>& names_;
+  bool overrides_;
+  std::vector<std::string> words_;
+  std::vector<size_t> offsets_;
+  size_t at_ = 0;
+};
+
+/// A path as Words::path() reads it: in quotes where a blank, #, quote or backslash is in it.
+std::string path_word(const std::string& path);
+
+bool is_move(const std::string& name);
+/// The rest of a line of the hand's script that begins with `name`.
+Move read_move(const std::string& name, Words& words);
+
+}  // namespace firmtouch::host_sim

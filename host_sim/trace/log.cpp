@@ -1,0 +1,128 @@
+#include "host_sim/trace/log.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "firmtouch/record/schema.hpp"
+#include "firmtouch/servo/fault.hpp"
+#include "host_sim/scenario/scenario.hpp"
+#include "log/memory_sink.hpp"
+#include "log/reader.hpp"
+#include "log/writer.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+using Slot = record::Numbered<record::TickRecord>;
+constexpr uint32_t kBlockRecords = 512;
+
+// From a word of the log's record to a word of ours.
+struct WordMove {
+  uint32_t from, to;
+};
+
+// Throws where an input is missing; outputs that are missing are named in `log`.
+std::vector<WordMove> moves(const std::string& path, const log::Header& header, Log& log) {
+  const log::Header ours = tick_header();
+  std::vector<WordMove> list;
+  const std::vector<log::Column> theirs = header.columns();
+  for (const log::Column& column : ours.columns()) {
+    const auto found = std::find_if(theirs.begin(), theirs.end(), [&](const log::Column& c) {
+      return c.name == column.name && c.field->type == column.field->type;
+    });
+    if (found != theirs.end()) {
+      list.push_back({found->offset, column.offset});
+    } else if (column.name.compare(0, 6, "input.") == 0) {
+      throw Refused(path + ": its records have no " + column.name +
+                    ", which a tick depends on; use the version that recorded it");
+    } else {
+      log.without.insert(column.name);
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+log::Header tick_header() {
+  log::Header header;
+  for (const record::Field& field : record::kFields) {
+    log::Field row;
+    row.name = field.name;
+    row.unit = field.unit;
+    row.scale = log::decimal_of(field.scale);
+    row.zero = log::decimal_of(field.zero);
+    row.type = static_cast<log::Type>(field.type);
+    row.count = field.count;
+    header.fields.push_back(row);
+  }
+  header.record_bytes = log::place(header.fields);
+  for (const record::Bit& bit : record::kBits)
+    header.bits.push_back({bit.field, bit.bit, bit.what});
+  for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
+    header.bits.push_back({"output.faults", bit, servo::fault_name(bit)});
+  return header;
+}
+
+void write_log(const std::string& path, const Log& log) {
+  log::Header header = tick_header();
+  header.text = log.text;
+  header.decimation = log.decimation;
+  log::MemorySink sink;
+  log::Writer writer(sink, header);
+  writer.begin();
+  std::vector<Slot> slots;
+  for (size_t first = 0; first < log.records.size(); first += slots.size()) {
+    slots.resize(std::min<size_t>(kBlockRecords, log.records.size() - first));
+    for (size_t i = 0; i < slots.size(); ++i)
+      slots[i] = {static_cast<uint32_t>(log.first_number + first + i), log.records[first + i]};
+    writer.append(reinterpret_cast<const uint8_t*>(slots.data()),
+                  static_cast<uint32_t>(slots.size()));
+  }
+  writer.finish();
+  write_file(path, {sink.bytes().begin(), sink.bytes().end()});
+}
+
+Log read_log(const std::string& path) try {
+  log::Reader reader(log::open_file(path), path);
+  Log log;
+  log.text = reader.header().text;
+  log.decimation = reader.header().decimation;
+  const std::vector<WordMove> list = moves(path, reader.header(), log);
+  log::Block block;
+  uint64_t next = 0;
+  while (reader.next(block)) {
+    uint64_t number = block.first_number;
+    for (uint32_t i = 0; i < block.count; ++i) {
+      const uint8_t* record = block.record(i);
+      number += log::word(record, 0) - static_cast<uint32_t>(number);
+      if (log.records.empty()) next = log.first_number = number;
+      if (number != next && log.is_whole) {
+        log.is_whole = false;
+        log.why_not_whole = "record " + std::to_string(next) + " is missing, and " +
+                            std::to_string((number - next) / log.decimation) +
+                            " of them before the next";
+      }
+      next = number + log.decimation;
+      if (!log.is_whole) continue;
+      Slot slot{};
+      for (const WordMove& move : list)
+        std::memcpy(reinterpret_cast<uint8_t*>(&slot) + move.to, record + move.from, 4);
+      log.records.push_back(slot.value);
+    }
+  }
+  const std::string troubles = reader.troubles();
+  if (!troubles.empty()) {
+    log.is_whole = false;
+    log.why_not_whole = troubles;
+  }
+  return log;
+} catch (const log::Refused& refused) {
+  throw Refused(refused.what());
+} catch (const Refused&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  throw Refused(error.what());
+}
+
+}  // namespace firmtouch::host_sim

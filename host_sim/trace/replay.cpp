@@ -1,0 +1,27 @@
+#include "host_sim/trace/replay.hpp"
+
+namespace firmtouch::host_sim {
+
+std::optional<Difference> replay(const Log& log, const Tick& tick,
+                                 const std::function<void(double)>& progress) {
+  const size_t ticks = log.records.size();
+  for (size_t i = 0; i < ticks; ++i) {
+    const record::TickRecord& recorded = log.records[i];
+    record::TickOutput output{};
+    tick(recorded.input, output);
+    if (std::optional<Difference> difference = first_difference(recorded, output, log.without))
+      return difference;
+    if (progress && i % 1024 == 0) progress(static_cast<double>(i) / static_cast<double>(ticks));
+  }
+  if (progress) progress(1);
+  return {};
+}
+
+std::optional<Difference> replay(const Log& log, Controller& controller) {
+  return replay(log, [&](const record::TickInput& input, record::TickOutput& output) {
+    controller.tick(input, output);
+    controller.make_model();
+  });
+}
+
+}  // namespace firmtouch::host_sim

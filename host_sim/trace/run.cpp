@@ -1,0 +1,283 @@
+#include "host_sim/trace/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <sstream>
+
+#include "firmtouch/params/table.hpp"
+#include "firmtouch/servo/step.hpp"
+#include "host_sim/hand/hand.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+// Steps of the device and hand within a tick: with a grip of 2,000 N/m on 75 g the hand's force,
+// held over one of these, differs from a continuous one by less than 1e-3 at 1 kHz.
+constexpr uint32_t kSubsteps = 16;
+constexpr uint32_t kMaxTicks = 5000000;  // 250 B each in memory
+constexpr uint32_t kSettlingTicks = 5;   // between the last initial parameter and the enable line
+constexpr double kArmLag_s = 0.012;      // an arm's own lag, twice: it rounds the script's corners
+
+constexpr params::Index kCountsPerMetre[3] = {params::kCountsPerMetreX, params::kCountsPerMetreY,
+                                              params::kCountsPerMetreZ};
+constexpr params::Index kOrigin[3] = {params::kOriginX, params::kOriginY, params::kOriginZ};
+
+bool is_set(const Scenario& scenario, uint32_t parameter) {
+  return std::any_of(scenario.settings.begin(), scenario.settings.end(),
+                     [&](const Setting& s) { return s.parameter == parameter; });
+}
+
+// Ticks from one local model to the next; 0: each makes its own.
+uint32_t model_ticks(const Scenario& scenario) {
+  return scenario.geometry_rate_Hz > 0
+             ? static_cast<uint32_t>(
+                   std::max(1.0, std::round(scenario.rate_Hz / scenario.geometry_rate_Hz)))
+             : 0;
+}
+
+// Parameters are set one a tick; the models made before do not know them yet.
+size_t setup_ticks(const Scenario& scenario) {
+  return scenario.settings.size() + kSettlingTicks + 3 * size_t{model_ticks(scenario)};
+}
+
+// The arm between the script and the hand's spring: two equal first-order lags.
+class Arm {
+ public:
+  explicit Arm(Vec start_m) : first_m_(start_m), second_m_(start_m) {}
+  void advance(Vec script_m, double time_s) {
+    const double share = -std::expm1(-time_s / kArmLag_s);
+    first_m_ = first_m_ + (script_m - first_m_) * share;
+    const Vec before = second_m_;
+    second_m_ = second_m_ + (first_m_ - second_m_) * share;
+    velocity_mps_ = (second_m_ - before) * (1 / time_s);
+  }
+  Vec position_m() const { return second_m_; }
+  Vec velocity_mps() const { return velocity_mps_; }
+
+ private:
+  Vec first_m_, second_m_, velocity_mps_;
+};
+
+// The lines and the commands of each tick, from the scenario's settings and events.
+class Operator {
+ public:
+  explicit Operator(const Scenario& scenario) : scenario_(scenario) {
+    for (const Setting& setting : scenario.settings) commands_.push_back(setting);
+    enable_tick_ = static_cast<uint32_t>(setup_ticks(scenario));
+  }
+  void fill(record::TickInput& input, double time_s) {
+    uint32_t once = 0;
+    for (; next_ < scenario_.events.size() && scenario_.events[next_].time_s <= time_s; ++next_)
+      once |= happen(scenario_.events[next_]);
+    const bool enabled = enabled_ && input.tick >= enable_tick_;
+    input.lines = held_ | once | (enabled ? record::kLineEnable : 0);
+    if (commands_.empty()) return;
+    input.command = 1 + commands_.front().parameter;
+    input.command_value = static_cast<float>(commands_.front().value);
+    commands_.pop_front();
+  }
+
+ private:
+  // Result: lines of this tick alone.
+  uint32_t happen(const Event& event) {
+    switch (event.kind) {
+      case Event::Kind::kEmergencyStop:
+        held_ |= record::kLineEmergencyStop;
+        return 0;
+      case Event::Kind::kDriveFault:
+        held_ |= record::kLineDriveFault;
+        return 0;
+      case Event::Kind::kEncoderFault:
+        return record::kLineEncoderFault;
+      case Event::Kind::kDisable:
+        enabled_ = false;
+        return 0;
+      case Event::Kind::kEnable:
+        enabled_ = true;
+        return 0;
+      case Event::Kind::kRelease:
+        held_ = 0;
+        return 0;
+      case Event::Kind::kClearFaults:
+        commands_.push_back({record::kCommandClearFaults - 1, 0});
+        return 0;
+      case Event::Kind::kSet:
+        commands_.push_back({event.parameter, event.value});
+        return 0;
+    }
+    return 0;
+  }
+
+  const Scenario& scenario_;
+  std::deque<Setting> commands_;
+  uint32_t enable_tick_ = 0;
+  size_t next_ = 0;
+  uint32_t held_ = 0;
+  bool enabled_ = true;
+};
+
+// A parameter's name without the unit that ends it.
+std::string short_name(const std::string& name) {
+  for (const char* suffix :
+       {"_N_s_per_m", "_N_per_m", "_N_per_s", "_mps", "_Hz", "_N", "_s", "_m"}) {
+    const std::string end = suffix;
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
+      return name.substr(0, name.size() - end.size());
+  }
+  return name;
+}
+
+void check_command(const Scenario& scenario, const record::TickRecord& record) {
+  if ((record.output.state & record::kStateCommandRefused) == 0) return;
+  if (record.input.command == record::kCommandClearFaults)
+    throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) +
+                  " the controller refuses clear_faults, which it takes only while disabled; put "
+                  "`at T s disable` before it");
+  const params::Entry& row = params::kTable[record.input.command - 1];
+  std::ostringstream value;
+  value << record.input.command_value;
+  throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) +
+                " the controller refuses " + row.name + " = " + value.str() + " " + row.unit +
+                (row.when == params::When::kMotorsOff
+                     ? "; this one may change only while the motors are off"
+                 : row.when == params::When::kMayFall
+                     ? "; it is out of range, or a raise while the motors are on"
+                     : "; it is out of range"));
+}
+
+// At two rates: each model is there when the next one is asked for.
+uint32_t model_lines(const Scenario& scenario, uint32_t tick) {
+  const uint32_t every = model_ticks(scenario);
+  if (every == 0) return 0;
+  if (tick % every != 0) return record::kLineModelApart;
+  return record::kLineModelApart | record::kLineModelTaken | record::kLineModelWanted;
+}
+
+uint32_t tick_count(const Scenario& scenario, const Hand& hand) {
+  const double seconds = scenario.duration_s > 0 ? scenario.duration_s : hand.end_s();
+  const double ticks = std::round(seconds * scenario.rate_Hz);
+  if (ticks > kMaxTicks)
+    throw Refused(scenario.file + ": " + std::to_string(static_cast<uint64_t>(ticks)) +
+                  " ticks are more than " + std::to_string(kMaxTicks) +
+                  "; shorten the duration or lower the rate");
+  return static_cast<uint32_t>(std::max(ticks, 1.0));
+}
+
+}  // namespace
+
+bool motors_are_on(const record::TickOutput& output) {
+  const uint32_t mode = output.state & record::kStateServoMask;
+  return mode == static_cast<uint32_t>(servo::Mode::kRampIn) ||
+         mode == static_cast<uint32_t>(servo::Mode::kOn);
+}
+
+std::vector<ParameterRow> parameter_rows() {
+  std::vector<ParameterRow> rows;
+  for (const params::Entry& entry : params::kTable) {
+    const std::string unit = entry.unit;
+    rows.push_back({entry.name, short_name(entry.name), unit == "1" ? "" : unit,
+                    static_cast<double>(entry.low), static_cast<double>(entry.high),
+                    static_cast<double>(entry.initial)});
+  }
+  return rows;
+}
+
+std::string parameter_help() {
+  std::ostringstream help;
+  help << "\nParameters of the controller, each with its range and what it begins with:\n";
+  for (const params::Entry& entry : params::kTable) {
+    const std::string unit = entry.unit;
+    std::string left = "  " + short_name(entry.name) + " VALUE" + (unit == "1" ? "" : " " + unit);
+    left.resize(std::max<size_t>(left.size() + 1, 36), ' ');
+    help << left << entry.low << " to " << entry.high << " (" << entry.initial
+         << "): " << entry.what << "\n";
+  }
+  return help.str();
+}
+
+double parameter_value(const Scenario& scenario, uint32_t parameter) {
+  for (const Setting& setting : scenario.settings)
+    if (setting.parameter == parameter) return setting.value;
+  return static_cast<double>(params::kTable[parameter].initial);
+}
+
+Vec scene_origin_m(const Scenario& scenario) {
+  return {parameter_value(scenario, params::kSceneX), parameter_value(scenario, params::kSceneY),
+          parameter_value(scenario, params::kSceneZ)};
+}
+
+void complete(Scenario& scenario) {
+  if (!is_set(scenario, params::kTickPeriod))
+    scenario.settings.push_back({params::kTickPeriod, 1 / scenario.rate_Hz});
+  // A model is used until the next one, which is made from that moment, is there.
+  const uint32_t every = model_ticks(scenario);
+  if (every > 1 && !is_set(scenario, params::kModelAge))
+    scenario.settings.push_back({params::kModelAge, 2.0 * every + 1});
+  if (scenario.device.encoder_quantum_m > 0) {
+    for (const params::Index axis : kCountsPerMetre)
+      if (!is_set(scenario, axis))
+        scenario.settings.push_back({axis, 1 / scenario.device.encoder_quantum_m});
+  } else {
+    scenario.device.encoder_quantum_m = 1 / parameter_value(scenario, params::kCountsPerMetreX);
+  }
+}
+
+Trace run(const Scenario& scenario, Controller& controller, const World& world, Port* remote,
+          const std::function<void(double)>& progress) {
+  const Hand hand(scenario, world, parameter_value(scenario, params::kToolRadius));
+  const uint32_t ticks = tick_count(scenario, hand);
+  const double period_s = 1 / scenario.rate_Hz, substep_s = period_s / kSubsteps;
+  const Vec zero_m = {parameter_value(scenario, kOrigin[0]), parameter_value(scenario, kOrigin[1]),
+                      parameter_value(scenario, kOrigin[2])};  // where the encoders count 0
+  Device device(scenario.device, hand.start_m() - zero_m);
+  Arm arm(hand.start_m());
+  Operator panel(scenario);
+  Trace trace;
+  trace.events = scenario.events;
+  trace.rate_Hz = scenario.rate_Hz;
+  trace.setup_ticks = std::min<size_t>(setup_ticks(scenario), ticks - 1);
+  trace.records.reserve(ticks);
+  if (remote != nullptr) trace.controller = remote->name(), trace.compared = true;
+
+  for (uint32_t tick = 0; tick < ticks; ++tick) {
+    const double now_s = tick * period_s;
+    record::TickRecord record{};
+    record.input.tick = tick;
+    record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
+    for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = device.count(axis);
+    panel.fill(record.input, now_s);
+    record.input.lines |= model_lines(scenario, tick);
+    controller.tick(record.input, record.output);
+    controller.make_model();
+    if (remote != nullptr) {
+      const record::TickRecord expected = record;
+      const TickCost cost = remote->tick(record.input, record.output);
+      trace.instructions.push_back(cost.instructions);
+      trace.stack_high_bytes = std::max(trace.stack_high_bytes, cost.stack_high_bytes);
+      trace.difference = first_difference(expected, record.output);
+    }
+    check_command(scenario, record);
+    const float(&motor)[3] = record.output.motor_N;
+    device.command({static_cast<double>(motor[0]), static_cast<double>(motor[1]),
+                    static_cast<double>(motor[2])});
+    trace.records.push_back(record);
+    trace.device_m.push_back(device.position_m() + zero_m);
+    trace.target_m.push_back(arm.position_m());
+    trace.hand_N.push_back(hand.force_N(arm.position_m(), arm.velocity_mps(),
+                                        device.position_m() + zero_m, device.velocity_mps()));
+    if (trace.difference) break;
+    const Vec script_m = hand.target_m(now_s);
+    for (uint32_t k = 0; k < kSubsteps; ++k) {
+      arm.advance(script_m, substep_s);
+      device.advance(hand.force_N(arm.position_m(), arm.velocity_mps(),
+                                  device.position_m() + zero_m, device.velocity_mps()),
+                     substep_s);
+    }
+    if (progress && tick % 256 == 0) progress(static_cast<double>(tick) / ticks);
+  }
+  if (progress) progress(1);
+  return trace;
+}
+
+}  // namespace firmtouch::host_sim
