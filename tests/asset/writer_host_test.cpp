@@ -1,9 +1,9 @@
 #include <cstring>
 
 #include "asset/small_file.hpp"
-#include "bake/asset_writer.hpp"
-#include "bake/probes.hpp"
-#include "bake/provenance.hpp"
+#include "bake/asset/asset_writer.hpp"
+#include "bake/asset/probes.hpp"
+#include "bake/asset/provenance.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "harness/test.hpp"
 

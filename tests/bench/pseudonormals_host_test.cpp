@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/sign_margin.hpp"
+#include "bake/mesh/sign_margin.hpp"
 #include "bench/models.hpp"
 #include "bench/paper_figures.hpp"
 #include "bench/reference_normals.hpp"

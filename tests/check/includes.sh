@@ -36,8 +36,8 @@ plant_controller_in_a_room() {
   expect='planted.cpp:1: servo may not include controller'
 }
 plant_tools_in_firmware() {
-  add firmware/firmtouch/mesh/planted.cpp '#include "bake/section.hpp"'
-  expect='planted.cpp:1: firmware may not include "bake/section.hpp"'
+  add firmware/firmtouch/mesh/planted.cpp '#include "bake/asset/section.hpp"'
+  expect='planted.cpp:1: firmware may not include "bake/asset/section.hpp"'
 }
 plant_tests_in_firmware() {
   add firmware/firmtouch/mesh/planted.cpp '#include "../../../tests/harness/test.hpp"'

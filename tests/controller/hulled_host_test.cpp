@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "bake/bake_hull.hpp"
+#include "bake/hull/bake_hull.hpp"
 #include "controller/ride.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "harness/test.hpp"

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "bake/asset_writer.hpp"
-#include "bake/bake_curve.hpp"
-#include "bake/bake_field.hpp"
-#include "bake/bake_mesh.hpp"
-#include "bake/probes.hpp"
+#include "bake/asset/asset_writer.hpp"
+#include "bake/asset/probes.hpp"
+#include "bake/curve/bake_curve.hpp"
+#include "bake/field/bake_field.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/controller.hpp"
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/servo/fault.hpp"

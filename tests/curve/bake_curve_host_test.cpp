@@ -1,5 +1,5 @@
 // The baker of curves: what it stores is proven, the same on every run, and small.
-#include "bake/bake_curve.hpp"
+#include "bake/curve/bake_curve.hpp"
 
 #include <chrono>
 #include <cstdio>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_curve.hpp"
+#include "bake/curve/bake_curve.hpp"
 #include "firmtouch/curve/view.hpp"
 
 namespace firmtouch::curve_test {

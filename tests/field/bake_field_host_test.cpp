@@ -1,6 +1,6 @@
-#include "bake/bake_field.hpp"
+#include "bake/field/bake_field.hpp"
 
-#include "bake/bake_mesh.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "field/judge.hpp"
 #include "firmtouch/field/centre.hpp"
 #include "firmtouch/field/distance_bounds.hpp"

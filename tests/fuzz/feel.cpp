@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "bake/mesh_ahead.hpp"
+#include "bake/mesh/mesh_ahead.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/nearest_constraint.hpp"

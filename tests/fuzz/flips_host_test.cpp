@@ -5,7 +5,7 @@
 #include <cstring>
 #include <set>
 
-#include "bake/asset_writer.hpp"
+#include "bake/asset/asset_writer.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/field/layout.hpp"

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <string>
 
-#include "bake/asset_writer.hpp"
-#include "bake/bake_curve.hpp"
-#include "bake/bake_field.hpp"
-#include "bake/bake_mesh.hpp"
-#include "bake/probes.hpp"
-#include "bake/provenance.hpp"
+#include "bake/asset/asset_writer.hpp"
+#include "bake/asset/probes.hpp"
+#include "bake/asset/provenance.hpp"
+#include "bake/curve/bake_curve.hpp"
+#include "bake/field/bake_field.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/asset/layout.hpp"
 #include "harness/test.hpp"
 

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "bake/asset_writer.hpp"
-#include "bake/bake_curve.hpp"
-#include "bake/bake_mesh.hpp"
-#include "bake/probes.hpp"
+#include "bake/asset/asset_writer.hpp"
+#include "bake/asset/probes.hpp"
+#include "bake/curve/bake_curve.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "host_sim/controllers/session.hpp"
 #include "host_sim/scenario/plan.hpp"
 #include "host_sim/trace/log.hpp"

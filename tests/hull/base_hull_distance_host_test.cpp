@@ -2,7 +2,7 @@
 #include <cfloat>
 
 #include "../mesh/brute_force.hpp"
-#include "bake/bake_base_hull.hpp"
+#include "bake/hull/bake_base_hull.hpp"
 #include "bumpy_ring.hpp"
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/vertices.hpp"

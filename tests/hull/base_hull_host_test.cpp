@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "../surface/shapes.hpp"
-#include "bake/asset_views.hpp"
-#include "bake/asset_writer.hpp"
+#include "bake/asset/asset_views.hpp"
+#include "bake/asset/asset_writer.hpp"
 #include "bumpy_ring.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/hull/base_hull_cast.hpp"

@@ -2,8 +2,8 @@
 // Shapes baked with their hulls, for host tests.
 #include <cstring>
 
-#include "bake/bake_hull.hpp"
-#include "bake/bake_mesh.hpp"
+#include "bake/hull/bake_hull.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "harness/test.hpp"
 #include "surface/random.hpp"
 #include "surface/surface.hpp"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "bake/bake_base_hull.hpp"
+#include "bake/hull/bake_base_hull.hpp"
 #include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/complete_cast.hpp"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "../surface/shapes.hpp"
-#include "bake/bake_base_hull.hpp"
+#include "bake/hull/bake_base_hull.hpp"
 #include "bumpy_ring.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/refinement.hpp"

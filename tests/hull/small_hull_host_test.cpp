@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bake/asset_writer.hpp"
+#include "bake/asset/asset_writer.hpp"
 #include "bumpy_ring.hpp"
 #include "harness/test.hpp"
 #include "small_hull_words.hpp"

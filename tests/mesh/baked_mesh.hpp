@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/bake_mesh.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "brute_force.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "harness/test.hpp"

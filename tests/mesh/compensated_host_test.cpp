@@ -2,7 +2,7 @@
 // queries where plain float32 is not enough.
 #include <cmath>
 
-#include "bake/bake_mesh.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "brute_force.hpp"
 #include "firmtouch/mesh/compensated_distance.hpp"
 #include "firmtouch/mesh/loss.hpp"

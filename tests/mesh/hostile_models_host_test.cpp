@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "bake/bake_mesh.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "brute_force.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "bake/mesh_tree.hpp"
+#include "bake/mesh/mesh_tree.hpp"
 #include "baked_mesh.hpp"
 #include "firmtouch/math/isa_oriented.hpp"
 #include "firmtouch/mesh/closest_point.hpp"

@@ -2,7 +2,7 @@
 // leaves out is told farther.
 #include <cmath>
 
-#include "bake/prism.hpp"
+#include "bake/mesh/prism.hpp"
 #include "harness/test.hpp"
 #include "random_leaf.hpp"
 #include "surface/point.hpp"

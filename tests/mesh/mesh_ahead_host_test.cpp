@@ -2,9 +2,9 @@
 // processor that reads it: preset host-native.)
 #include <cmath>
 
-#include "bake/bake_mesh.hpp"
-#include "bake/mesh_ahead.hpp"
-#include "bake/prism.hpp"
+#include "bake/mesh/bake_mesh.hpp"
+#include "bake/mesh/mesh_ahead.hpp"
+#include "bake/mesh/prism.hpp"
 #include "cube.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"

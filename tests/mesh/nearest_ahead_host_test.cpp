@@ -1,6 +1,6 @@
 // The search that looks ahead finds what the one in turn finds, in as many steps.
-#include "bake/bake_mesh.hpp"
-#include "bake/mesh_ahead.hpp"
+#include "bake/mesh/bake_mesh.hpp"
+#include "bake/mesh/mesh_ahead.hpp"
 #include "firmtouch/mesh/nearest_ahead.hpp"
 #include "harness/test.hpp"
 #include "surface/make_part.hpp"

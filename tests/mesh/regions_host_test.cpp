@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/bake_mesh.hpp"
-#include "bake/sign_margin.hpp"
-#include "bake/stars.hpp"
+#include "bake/mesh/bake_mesh.hpp"
+#include "bake/mesh/sign_margin.hpp"
+#include "bake/mesh/stars.hpp"
 #include "brute_force.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"

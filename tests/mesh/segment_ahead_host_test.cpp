@@ -2,8 +2,8 @@
 // turn tells: crossings, t and steps, whatever the budget, from the asset and from what is made of it.
 #include <cmath>
 
-#include "bake/bake_mesh.hpp"
-#include "bake/mesh_ahead.hpp"
+#include "bake/mesh/bake_mesh.hpp"
+#include "bake/mesh/mesh_ahead.hpp"
 #include "firmtouch/mesh/crossing_takers.hpp"
 #include "firmtouch/mesh/segment_search.hpp"
 #include "harness/test.hpp"

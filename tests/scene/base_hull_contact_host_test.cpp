@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bake/bake_hull.hpp"
-#include "bake/bake_mesh.hpp"
+#include "bake/hull/bake_hull.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/hull/view.hpp"
 #include "firmtouch/scene/mesh_contact.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_field.hpp"
-#include "bake/bake_mesh.hpp"
+#include "bake/field/bake_field.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "harness/test.hpp"
 #include "surface/surface.hpp"

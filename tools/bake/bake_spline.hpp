@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/section.hpp"
+#include "bake/asset/section.hpp"
 #include "bake/spline_pieces.hpp"
 #include "firmtouch/spline/view.hpp"
 #include "spline/spline.hpp"

@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 
-#include "bake/left_filled.hpp"
-#include "bake/principal_axes.hpp"
 #include "bake/spline_tree.hpp"
+#include "bake/tree/left_filled.hpp"
+#include "bake/tree/principal_axes.hpp"
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/spline/part_radius.hpp"
 

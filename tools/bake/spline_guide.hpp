@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/section.hpp"
+#include "bake/asset/section.hpp"
 #include "firmtouch/spline/guide_view.hpp"
 
 namespace firmtouch::tools {

@@ -1,4 +1,4 @@
-#include "bake/probes.hpp"
+#include "bake/asset/probes.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 
 namespace firmtouch::tools {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "bake/bake_base_hull.hpp"
-#include "bake/bake_hull.hpp"
+#include "bake/hull/bake_base_hull.hpp"
+#include "bake/hull/bake_hull.hpp"
 #include "bench/models.hpp"
 #include "firmtouch/hull/refinement.hpp"
 

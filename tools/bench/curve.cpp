@@ -1,8 +1,8 @@
 #include <cmath>
 #include <functional>
 
-#include "bake/curve_runs.hpp"
-#include "bake/curve_tree.hpp"
+#include "bake/curve/curve_runs.hpp"
+#include "bake/curve/curve_tree.hpp"
 #include "bench/all_benches.hpp"
 #include "bench/curve_cases.hpp"
 #include "bench/curve_drag.hpp"

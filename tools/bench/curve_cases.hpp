@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_curve.hpp"
-#include "bake/section.hpp"
+#include "bake/asset/section.hpp"
+#include "bake/curve/bake_curve.hpp"
 #include "firmtouch/curve/view.hpp"
 
 namespace firmtouch::bench {

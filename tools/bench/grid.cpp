@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "bake/mesh_tree.hpp"
-#include "bake/pseudonormals.hpp"
+#include "bake/mesh/mesh_tree.hpp"
+#include "bake/mesh/pseudonormals.hpp"
 #include "bench/all_benches.hpp"
 #include "bench/orders/orders.hpp"
 #include "bench/problem.hpp"

@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_mesh.hpp"
-#include "bake/mesh_ahead.hpp"
-#include "bake/section.hpp"
+#include "bake/asset/section.hpp"
+#include "bake/mesh/bake_mesh.hpp"
+#include "bake/mesh/mesh_ahead.hpp"
 #include "bench/bench.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "surface/surface.hpp"

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "bake/sign_margin.hpp"
-#include "bake/stars.hpp"
+#include "bake/mesh/sign_margin.hpp"
+#include "bake/mesh/stars.hpp"
 #include "bench/all_benches.hpp"
 #include "bench/models.hpp"
 #include "bench/paper_figures.hpp"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/pseudonormals.hpp"
-#include "bake/sign_proof.hpp"
-#include "bake/stars.hpp"
+#include "bake/mesh/pseudonormals.hpp"
+#include "bake/mesh/sign_proof.hpp"
+#include "bake/mesh/stars.hpp"
 #include "bench/all_benches.hpp"
 #include "bench/reference_normals.hpp"
 #include "firmtouch/mesh/pseudonormal.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "bake/sign_margin.hpp"
+#include "bake/mesh/sign_margin.hpp"
 #include "surface/random.hpp"
 #include "surface/surface.hpp"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "bake/json_text.hpp"
+#include "bake/asset/json_text.hpp"
 #include "bench/report.hpp"
 
 namespace firmtouch::bench {

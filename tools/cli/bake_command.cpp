@@ -1,9 +1,9 @@
 #include <cstdio>
 #include <map>
 
-#include "bake/asset_views.hpp"
-#include "bake/asset_writer.hpp"
-#include "bake/provenance.hpp"
+#include "bake/asset/asset_views.hpp"
+#include "bake/asset/asset_writer.hpp"
+#include "bake/asset/provenance.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/commands.hpp"
 #include "cli/cpp_source.hpp"

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "bake/bake_curve.hpp"
-#include "bake/probes.hpp"
-#include "bake/provenance.hpp"
-#include "bake/step_figures.hpp"
+#include "bake/asset/probes.hpp"
+#include "bake/asset/provenance.hpp"
+#include "bake/asset/step_figures.hpp"
+#include "bake/curve/bake_curve.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"

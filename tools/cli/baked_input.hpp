@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/section.hpp"
+#include "bake/asset/section.hpp"
 #include "cli/arguments.hpp"
 #include "cli/progress.hpp"
 #include "curve/curve_points.hpp"

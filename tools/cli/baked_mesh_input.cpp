@@ -2,12 +2,12 @@
 #include <cstdio>
 #include <utility>
 
-#include "bake/bake_field.hpp"
-#include "bake/bake_hull.hpp"
-#include "bake/bake_mesh.hpp"
-#include "bake/probes.hpp"
-#include "bake/provenance.hpp"
-#include "bake/step_figures.hpp"
+#include "bake/asset/probes.hpp"
+#include "bake/asset/provenance.hpp"
+#include "bake/asset/step_figures.hpp"
+#include "bake/field/bake_field.hpp"
+#include "bake/hull/bake_hull.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bake/bake_curve.hpp"
-#include "bake/provenance.hpp"
+#include "bake/asset/provenance.hpp"
+#include "bake/curve/bake_curve.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"

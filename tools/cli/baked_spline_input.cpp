@@ -1,11 +1,11 @@
 #include <cstdio>
 
-#include "bake/probes.hpp"
-#include "bake/provenance.hpp"
+#include "bake/asset/probes.hpp"
+#include "bake/asset/provenance.hpp"
+#include "bake/asset/step_figures.hpp"
 #include "bake/spline_choice.hpp"
 #include "bake/spline_guide.hpp"
 #include "bake/spline_worst.hpp"
-#include "bake/step_figures.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"

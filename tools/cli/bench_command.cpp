@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "bake/json_text.hpp"
+#include "bake/asset/json_text.hpp"
 #include "bench/bench.hpp"
 #include "bench/problem.hpp"
 #include "cli/commands.hpp"

@@ -3,9 +3,9 @@
 #include <map>
 #include "firmtouch/field/layout.hpp"
 
-#include "bake/asset_views.hpp"
-#include "bake/json_text.hpp"
-#include "bake/provenance.hpp"
+#include "bake/asset/asset_views.hpp"
+#include "bake/asset/json_text.hpp"
+#include "bake/asset/provenance.hpp"
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
 #include "cli/loaded_asset.hpp"

@@ -1,6 +1,6 @@
 #include "cli/loaded_asset.hpp"
 
-#include "bake/asset_views.hpp"
+#include "bake/asset/asset_views.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "firmtouch/asset/opening.hpp"

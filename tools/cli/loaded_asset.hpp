@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/mesh_ahead.hpp"
+#include "bake/mesh/mesh_ahead.hpp"
 #include "firmtouch/asset/container.hpp"
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/hull/view.hpp"

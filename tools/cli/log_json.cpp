@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "bake/json_text.hpp"
+#include "bake/asset/json_text.hpp"
 
 namespace firmtouch::cli {
 namespace {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "bake/bake_mesh.hpp"
+#include "bake/mesh/bake_mesh.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "bake/bake_base_hull.hpp"
+#include "bake/hull/bake_base_hull.hpp"
 #include "cli/failure.hpp"
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"

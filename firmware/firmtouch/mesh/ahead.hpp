@@ -1,7 +1,7 @@
 #pragma once
 // What a processor with vector instructions reads in place of a tree and its triangles: the same values
 // in the order in which it wants them. No asset holds it: it is made in memory when one is opened
-// (tools/bake/mesh_ahead.hpp).
+// (tools/bake/mesh/mesh_ahead.hpp).
 
 #include <stddef.h>
 

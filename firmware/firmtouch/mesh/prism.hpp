@@ -18,7 +18,7 @@ static inline float prism_limit2(float min2_m2, float slack_m2) {
 /// normals s of its edges a b, c a and b c in its plane, and how far outward b c lies.
 ///
 /// Let q be the triangle's point nearest to p, d away. As stored n and s are no longer than 1 + 4 u, n . s
-/// is at most 8 u, and of q - a no more than 4 u E lies along n or outward of an edge (tools/bake/prism.cpp
+/// is at most 8 u, and of q - a no more than 4 u E lies along n or outward of an edge (tools/bake/mesh/prism.cpp
 /// proves that or stores 0, which tells nothing; u = 2^-24, E the mesh's longest edge). So with z = n . (p -
 /// a) and o = s . (p - a), less what b c lies outward, or 0 if that is more, (z, o) is longer by no more
 /// than 6 u E than a vector whose square is d^2 (1 + 17 u).

@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bake/asset/section.hpp"
+#include "firmtouch/curve/view.hpp"
+#include "firmtouch/hull/view.hpp"
+#include "firmtouch/mesh/view.hpp"
+#include "firmtouch/query/probe.hpp"
+#include "firmtouch/spline/view.hpp"
+
+namespace firmtouch::tools {
+
+constexpr uint32_t kProbesAGeometry = 64;
+
+/// Points that between them take every way through a query: vertices themselves, near the surface,
+/// inside the box, about the box and far from it. Deterministic.
+std::vector<query::ProbePoint> probe_points(const float (&low_m)[3], const float (&high_m)[3],
+                                            const std::vector<math::Vec3>& anchors_m,
+                                            uint32_t count);
+
+/// Up to about a thousand of a geometry's points, evenly spread over their order.
+template <class Point>
+std::vector<math::Vec3> anchors_of(core::Span<const Point> points) {
+  std::vector<math::Vec3> anchors;
+  const uint32_t step = points.size() / 1024 + 1;
+  for (uint32_t i = 0; i < points.size(); i += step) {
+    anchors.push_back({points[i].x_m, points[i].y_m, points[i].z_m});
+  }
+  return anchors;
+}
+
+Section probe_section(uint32_t type, const std::string& name,
+                      const std::vector<query::ProbePoint>& points, uint64_t hash);
+
+/// What this machine answers to probe_points() of a proven mesh, hull or curve, as the section that a
+/// controller's begin() compares with its own answers.
+Section mesh_probes(const mesh::View& mesh, const std::string& name);
+Section curve_probes(const curve::View& curve, const std::string& name);
+Section hull_probes(const hull::View& hull, const std::string& name);
+Section spline_probes(const spline::View& model, const std::string& name);
+
+/// Whether this machine answers a probe section of the geometry as it says. Result: false where
+/// `bytes` is no such section.
+bool mesh_probes_agree(const mesh::View& mesh, core::Bytes bytes);
+bool curve_probes_agree(const curve::View& curve, core::Bytes bytes);
+bool hull_probes_agree(const hull::View& hull, core::Bytes bytes);
+bool spline_probes_agree(const spline::View& model, core::Bytes bytes);
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,228 @@
+#include "bake/mesh/bake_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/mesh/leaf_boxes.hpp"
+#include "bake/mesh/mesh_tree.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/triangle_shape.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+// The longest edge first, by the firmware's own arithmetic, which open() repeats.
+void longest_edge_first(Surface& surface) {
+  for (Face& face : surface.faces) {
+    float longest2 = -1;
+    size_t longest = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const math::Vec3 edge = surface.vertices[face[(k + 1) % 3]] - surface.vertices[face[k]];
+      const float length2 = dot(edge, edge);
+      if (length2 > longest2) longest2 = length2, longest = k;
+    }
+    std::rotate(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(longest), face.end());
+  }
+}
+
+// Half a unit in the last place of every coordinate: what reading them as float32 can have lost.
+float import_rounding_m(const Surface& surface) {
+  double largest2 = 0;
+  for (const math::Vec3& v : surface.vertices) {
+    double sum = 0;
+    for (const float x : {v.x, v.y, v.z}) {
+      if (!(std::fabs(x) > 0)) continue;
+      int exponent = 0;
+      std::frexp(x, &exponent);
+      const double half = std::ldexp(1.0, exponent - 25);
+      sum += half * half;
+    }
+    largest2 = std::max(largest2, sum);
+  }
+  return static_cast<float>(std::sqrt(largest2) * (1 + 0x1p-20));
+}
+
+mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& tree,
+                     bool is_signed) {
+  mesh::Head head{};
+  head.vertex_count = static_cast<uint32_t>(surface.vertices.size());
+  head.triangle_count = static_cast<uint32_t>(surface.faces.size());
+  head.node_count = static_cast<uint32_t>(tree.nodes.size());
+  head.depth = tree.depth;
+  head.is_signed = is_signed ? 1 : 0;
+  double diagonal2 = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    float low = surface.vertices[0].x, high = low;
+    for (size_t v = 0; v < surface.vertices.size(); ++v) {
+      const float values[3] = {surface.vertices[v].x, surface.vertices[v].y, surface.vertices[v].z};
+      low = v == 0 ? values[k] : std::min(low, values[k]);
+      high = v == 0 ? values[k] : std::max(high, values[k]);
+    }
+    head.low_m[k] = low;
+    head.high_m[k] = high;
+    head.grid_low_m[k] = grid.low_m[k];
+    diagonal2 += (double{high} - double{low}) * (double{high} - double{low});
+  }
+  head.diagonal_m = static_cast<float>(std::sqrt(diagonal2) * (1 - 0x1p-21));
+  head.cell_m = grid.cell_m;
+  head.rounding_m = std::min(import_rounding_m(surface), mesh::kMaxRounding * head.diagonal_m);
+  for (const Face& f : surface.faces) {
+    const float edge_m = math::length(surface.vertices[f[1]] - surface.vertices[f[0]]);
+    head.longest_edge_m = std::max(head.longest_edge_m, edge_m);
+  }
+  return head;
+}
+
+template <class Index>
+std::vector<mesh::Triangle<Index>> make_triangles(const Surface& surface) {
+  std::vector<mesh::Triangle<Index>> triangles;
+  for (const Face& f : surface.faces)
+    triangles.push_back(
+        {{static_cast<Index>(f[0]), static_cast<Index>(f[1]), static_cast<Index>(f[2])}});
+  return triangles;
+}
+
+// Faces in the order of the leaves, vertices in the order in which the faces first use them: what
+// is near lies near.
+struct Reordered {
+  Surface surface;
+  std::vector<uint32_t> vertex_from;  // of each vertex: its index before
+};
+
+Reordered in_leaf_order(const Surface& surface, const std::vector<uint32_t>& order) {
+  constexpr uint32_t kUnseen = UINT32_MAX;
+  Reordered result;
+  Surface& sorted = result.surface;
+  std::vector<uint32_t> renamed(surface.vertices.size(), kUnseen);
+  for (const uint32_t f : order) {
+    Face face = surface.faces[f];
+    for (uint32_t& corner : face) {
+      if (renamed[corner] == kUnseen) {
+        renamed[corner] = static_cast<uint32_t>(sorted.vertices.size());
+        sorted.vertices.push_back(surface.vertices[corner]);
+        result.vertex_from.push_back(corner);
+      }
+      corner = renamed[corner];
+    }
+    sorted.faces.push_back(face);
+    sorted.source.push_back(f < surface.source.size() ? surface.source[f] : f);
+  }
+  return result;
+}
+
+// What a measurement takes from each triangle alone (FORMAT.md, 0x100F).
+std::vector<mesh::TriangleShape> make_shapes(const Surface& surface) {
+  std::vector<mesh::TriangleShape> shapes;
+  for (const Face& f : surface.faces)
+    shapes.push_back(
+        mesh::shape_of(surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]]));
+  return shapes;
+}
+
+void add_signs(const Pseudonormals& signs, const std::vector<uint32_t>& vertex_from,
+               const std::vector<uint32_t>& face_from, const std::string& name,
+               std::vector<Section>& sections) {
+  std::vector<uint32_t> vertices;
+  std::vector<mesh::EdgeFolds> edges;
+  for (const uint32_t v : vertex_from) vertices.push_back(signs.vertices[v]);
+  for (const uint32_t f : face_from) edges.push_back(signs.edges[f]);
+  sections.push_back(make_section(mesh::kVertexNormalsSection, name, vertices));
+  sections.push_back(make_section(mesh::kEdgeFoldsSection, name, edges));
+}
+
+std::string proof_failure(const core::Verdict& verdict) {
+  if (verdict.rule == 128 || verdict.rule == 129)
+    return "a triangle is too thin for float32; remove slivers with sides shorter than 1e-15 m or "
+           "heights below 1e-10 of "
+           "their length (rule R" +
+           std::to_string(verdict.rule) + ")";
+  return "the baked mesh fails its own proof, rule R" + std::to_string(verdict.rule) +
+         " at element " + std::to_string(verdict.element) + "; please report this model";
+}
+
+}  // namespace
+
+std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
+                               const MeshOptions& options, MeshReport& report) {
+  if (given.faces.size() > mesh::kMaxTriangles) {
+    report.problem = std::to_string(given.faces.size()) + " triangles; at most " +
+                     std::to_string(mesh::kMaxTriangles) + " fit an asset: simplify the model";
+    return {};
+  }
+  Surface input = given;
+  longest_edge_first(input);
+  const Grid grid = make_grid(input);
+  const MeshTree tree = build_mesh_tree(input, grid, options.shape);
+  if (tree.depth > mesh::kMaxDepth) {
+    report.problem = "the tree is " + std::to_string(tree.depth) + " levels deep, more than the " +
+                     std::to_string(mesh::kMaxDepth) +
+                     " that a query can hold: many triangles lie on one spot";
+    return {};
+  }
+  const Reordered reordered = in_leaf_order(input, tree.order);
+  const Surface& surface = reordered.surface;
+
+  std::vector<Section> sections;
+  const mesh::Head head = make_head(surface, grid, tree, options.is_signed);
+  std::vector<mesh::Vertex> vertices;
+  for (const math::Vec3& v : surface.vertices) vertices.push_back({v.x, v.y, v.z});
+  sections.push_back(make_section(mesh::kHeadSection, name, &head, 1));
+  sections.push_back(make_section(mesh::kVerticesSection, name, vertices));
+  if (vertices.size() <= 65536)
+    sections.push_back(
+        make_section(mesh::kTriangles16Section, name, make_triangles<uint16_t>(surface)));
+  else
+    sections.push_back(
+        make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
+  sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
+  sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
+  if (options.shape.has_boxes_and_shapes) {
+    sections.push_back(
+        make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(surface, grid, tree)));
+    sections.push_back(make_section(mesh::kShapesSection, name, make_shapes(surface)));
+  }
+  for (const Section& s : sections) report.shape_bytes += static_cast<uint32_t>(s.bytes.size());
+  if (options.is_signed) {
+    const Pseudonormals signs = bake_signs(input, report.signs, report.problem);
+    if (!report.problem.empty()) return {};
+    add_signs(signs, reordered.vertex_from, tree.order, name, sections);
+  }
+  for (const Section& s : sections) report.sign_bytes += static_cast<uint32_t>(s.bytes.size());
+  report.sign_bytes -= report.shape_bytes;
+  sections.push_back(make_section(mesh::kSourceSection, name, surface.source));
+  report.triangles = head.triangle_count;
+  report.vertices = head.vertex_count;
+  report.nodes = head.node_count;
+  report.depth = head.depth;
+
+  mesh::View view;
+  const core::Verdict verdict = mesh::open(mesh_sections(sections, name), view);
+  if (!verdict.ok()) {
+    report.problem = proof_failure(verdict);
+    return {};
+  }
+  return sections;
+}
+
+mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::string& name) {
+  const auto find = [&](uint32_t type) {
+    for (const Section& s : sections)
+      if (s.type == type && s.name == name)
+        return core::Bytes(s.bytes.data(), static_cast<uint32_t>(s.bytes.size()));
+    return core::Bytes();
+  };
+  mesh::Sections found;
+  found.head = find(mesh::kHeadSection);
+  found.vertices = find(mesh::kVerticesSection);
+  found.triangles16 = find(mesh::kTriangles16Section);
+  found.triangles32 = find(mesh::kTriangles32Section);
+  found.nodes = find(mesh::kNodesSection);
+  found.parents = find(mesh::kParentsSection);
+  found.vertex_normals = find(mesh::kVertexNormalsSection);
+  found.edge_folds = find(mesh::kEdgeFoldsSection);
+  found.leaf_boxes = find(mesh::kLeafBoxesSection);
+  found.shapes = find(mesh::kShapesSection);
+  return found;
+}
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bake/asset/section.hpp"
+#include "bake/mesh/bake_signs.hpp"
+#include "bake/mesh/mesh_tree.hpp"
+#include "firmtouch/mesh/view.hpp"
+#include "surface/surface.hpp"
+
+namespace firmtouch::tools {
+
+struct MeshOptions {
+  bool is_signed = true;
+  TreeShape shape = kFastTree;
+};
+
+struct MeshReport {
+  uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0;
+  // Of what a query reads: tree, indices and vertices, and what tells the side.
+  uint32_t shape_bytes = 0, sign_bytes = 0;
+  SignReport signs;     // of a signed mesh
+  std::string problem;  // empty: baked and proven; else what, where and how to mend
+};
+
+/// Builds tree, pseudonormals and arrays of a checked surface and proves them with the firmware's
+/// own open().
+std::vector<Section> bake_mesh(const Surface& surface, const std::string& name,
+                               const MeshOptions& options, MeshReport& report);
+
+/// The baked sections as the firmware sees them (`sections` must stay alive and 4-byte aligned).
+mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::string& name);
+
+}  // namespace firmtouch::tools
