@@ -37,28 +37,30 @@ TEST(Rule1RefusesAMisalignedBase) {
   for (uint32_t shift = 1; shift < 16; ++shift) {
     file = SmallFile();
     __builtin_memmove(file.bytes + shift, file.bytes, SmallFile::kTotal);
-    CHECK_EQ(verdict_of({file.bytes + shift, SmallFile::kTotal}).rule, 1);
+    CHECK_EQ(verdict_of({file.bytes + shift, SmallFile::kTotal}).rule,
+             firmtouch::asset::kRuleAlignment);
   }
 }
 
 TEST(Rule2RefusesLessThanAHeader) {
   SmallFile file;
-  for (uint32_t size = 0; size < 32; ++size) CHECK_EQ(verdict_of({file.bytes, size}).rule, 2);
-  CHECK_EQ(verdict_of({}).rule, 2);
+  for (uint32_t size = 0; size < 32; ++size)
+    CHECK_EQ(verdict_of({file.bytes, size}).rule, firmtouch::asset::kRuleTooShort);
+  CHECK_EQ(verdict_of({}).rule, firmtouch::asset::kRuleTooShort);
 }
 
 TEST(Rule3RefusesAnotherMagic) {
   SmallFile file;
   file.word(0, 0x1A415447u);
   file.repair();
-  expect(file, 3);
+  expect(file, firmtouch::asset::kRuleMagic);
 }
 
 TEST(Rule4RefusesTheOtherByteOrder) {
   SmallFile file;
   file.word(4, 0x04030201u);
   file.repair();
-  expect(file, 4);
+  expect(file, firmtouch::asset::kRuleByteOrder);
 }
 
 TEST(Rule5RefusesAnotherMajorVersion) {
@@ -67,7 +69,7 @@ TEST(Rule5RefusesAnotherMajorVersion) {
   for (const uint32_t major : majors) {
     file.word(8, major);
     file.repair();
-    expect(file, 5);
+    expect(file, firmtouch::asset::kRuleMajor);
   }
 }
 
@@ -81,25 +83,26 @@ TEST(ALaterMinorVersionIsTaken) {
 TEST(Rule6RefusesAHeaderThatItsCrcDoesNotFit) {
   SmallFile file;
   file.word(28, file.word(28) ^ 1u);
-  expect(file, 6);
+  expect(file, firmtouch::asset::kRuleHeaderCrc);
 }
 
 TEST(Rule7RefusesAReservedWordThatIsNotZero) {
   SmallFile file;
   file.word(24, 1);
   file.repair();
-  expect(file, 7);
+  expect(file, firmtouch::asset::kRuleReserved);
 }
 
 TEST(Rule8RefusesATruncatedFile) {
   SmallFile file;
-  for (file.size = 32; file.size < SmallFile::kTotal; ++file.size) expect(file, 8);
+  for (file.size = 32; file.size < SmallFile::kTotal; ++file.size)
+    expect(file, firmtouch::asset::kRuleTruncated);
 }
 
 TEST(Rule9RefusesAnExtendedFile) {
   SmallFile file;
   for (file.size = SmallFile::kTotal + 1; file.size <= SmallFile::kTotal + 64; ++file.size) {
-    expect(file, 9);
+    expect(file, firmtouch::asset::kRuleExtended);
   }
 }
 
@@ -108,7 +111,7 @@ TEST(Rule10RefusesALengthThatIsNoMultipleOf16) {
   file.size = SmallFile::kTotal + 8;
   file.word(12, file.size);
   file.repair();
-  expect(file, 10);
+  expect(file, firmtouch::asset::kRuleTotalBytes);
 }
 
 TEST(Rule11RefusesATableThatLeavesTheFile) {
@@ -117,7 +120,7 @@ TEST(Rule11RefusesATableThatLeavesTheFile) {
   for (const uint32_t count : counts) {  // 48 times the second wraps to 32
     file.word(16, count);
     file.repair_header();
-    expect(file, 11);
+    expect(file, firmtouch::asset::kRuleTableSize);
   }
 }
 
@@ -125,28 +128,28 @@ TEST(Rule12RefusesATableThatItsCrcDoesNotFit) {
   SmallFile file;
   file.word(20, file.word(20) ^ 0x80000000u);
   file.repair_header();
-  expect(file, 12);
+  expect(file, firmtouch::asset::kRuleTableCrc);
 }
 
 TEST(Rule13RefusesAnEmptyName) {
   SmallFile file;
   file.entry(0, 0x1001, "", kData, 5);
   file.repair();
-  expect(file, 13, 0);
+  expect(file, firmtouch::asset::kRuleNameEmpty, 0);
 }
 
 TEST(Rule14RefusesANameWithoutAnEnd) {
   SmallFile file;
   __builtin_memset(file.bytes + kThird + kName, 'x', 32);
   file.repair();
-  expect(file, 14, 2);
+  expect(file, firmtouch::asset::kRuleNameEnd, 2);
 }
 
 TEST(Rule15RefusesBytesBehindANamesEnd) {
   SmallFile file;
   file.bytes[kSecond + kName + 31] = 'x';
   file.repair();
-  expect(file, 15, 1);
+  expect(file, firmtouch::asset::kRuleNamePadding, 1);
 }
 
 TEST(Rule16RefusesControlCharactersInANameAndTakesUtf8) {
@@ -155,7 +158,7 @@ TEST(Rule16RefusesControlCharactersInANameAndTakesUtf8) {
   for (const uint8_t letter : letters) {
     file.bytes[kThird + kName + 1] = letter;
     file.repair();
-    expect(file, 16, 2);
+    expect(file, firmtouch::asset::kRuleNameControl, 2);
   }
   file.bytes[kThird + kName] = 0xC3;
   file.bytes[kThird + kName + 1] = 0xA4;
@@ -167,32 +170,32 @@ TEST(Rule17RefusesEntriesOutOfOrder) {
   SmallFile by_name;
   by_name.entry(2, 0x1001, "ball", kData + 48, 16);
   by_name.repair();
-  expect(by_name, 17, 2);
+  expect(by_name, firmtouch::asset::kRuleEntryOrder, 2);
   SmallFile by_type;
   by_type.word(kSecond, 0x1000);
   by_type.repair();
-  expect(by_type, 17, 1);
+  expect(by_type, firmtouch::asset::kRuleEntryOrder, 1);
 }
 
 TEST(Rule18RefusesTheSameNameAndTypeTwice) {
   SmallFile file;
   file.word(kSecond, 0x1001);
   file.repair();
-  expect(file, 18, 1);
+  expect(file, firmtouch::asset::kRuleEntryTwice, 1);
 }
 
 TEST(Rule19RefusesAnEmptySection) {
   SmallFile file;
   file.word(kThird + kBytes, 0);
   file.repair();
-  expect(file, 19, 2);
+  expect(file, firmtouch::asset::kRuleSectionEmpty, 2);
 }
 
 TEST(Rule20RefusesAnUnalignedSection) {
   SmallFile file;
   file.word(kSecond + kOffset, kData + 20);
   file.repair();
-  expect(file, 20, 1);
+  expect(file, firmtouch::asset::kRuleSectionAlignment, 1);
 }
 
 TEST(Rule21RefusesASectionThatOverlapsAnother) {
@@ -201,7 +204,7 @@ TEST(Rule21RefusesASectionThatOverlapsAnother) {
   for (const uint32_t offset : offsets) {  // header, table, first, second section
     file.word(kThird + kOffset, offset);
     file.repair();
-    expect(file, 21, 2);
+    expect(file, firmtouch::asset::kRuleSectionOverlap, 2);
   }
 }
 
@@ -211,7 +214,7 @@ TEST(Rule22RefusesAGapBetweenSections) {
   for (const uint32_t offset : offsets) {
     file.word(kThird + kOffset, offset);
     file.repair();
-    expect(file, 22, 2);
+    expect(file, firmtouch::asset::kRuleSectionGap, 2);
   }
 }
 
@@ -221,7 +224,7 @@ TEST(Rule23RefusesASectionThatLeavesTheFile) {
   for (const uint32_t count : counts) {
     file.word(kThird + kBytes, count);
     file.repair();
-    expect(file, 23, 2);
+    expect(file, firmtouch::asset::kRuleSectionOutside, 2);
   }
 }
 
@@ -230,7 +233,7 @@ TEST(Rule24RefusesBytesBehindTheLastSection) {
   file.size = SmallFile::kTotal + 16;
   file.word(12, file.size);
   file.repair();
-  expect(file, 24, 3);
+  expect(file, firmtouch::asset::kRuleTrailingBytes, 3);
 }
 
 TEST(Rule25RefusesASectionThatItsCrcDoesNotFit) {
@@ -238,14 +241,14 @@ TEST(Rule25RefusesASectionThatItsCrcDoesNotFit) {
   file.word(kSecond + kCrc, file.word(kSecond + kCrc) ^ 4u);
   file.repair_table();
   file.repair_header();
-  expect(file, 25, 1);
+  expect(file, firmtouch::asset::kRuleSectionCrc, 1);
 }
 
 TEST(Rule26RefusesPaddingThatIsNotZero) {
   SmallFile file;
   for (uint32_t at = kData + 5; at < kData + 16; ++at) {
     file.bytes[at] = 1;
-    expect(file, 26, 0);
+    expect(file, firmtouch::asset::kRuleSectionPadding, 0);
     file.bytes[at] = 0;
   }
 }

@@ -57,10 +57,10 @@ TEST(Rule201RefusesAMissingHead) {
   const SmallCurve c(kHook);
   Sections s = c.sections();
   s.head = {};
-  CHECK_EQ(verdict_of(s).rule, 201);
+  CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleHeadSize);
   s.head = {c.sections().head.data(), 44};
-  CHECK_EQ(verdict_of(s).rule, 201);
-  CHECK_EQ(verdict_of({}).rule, 201);
+  CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleHeadSize);
+  CHECK_EQ(verdict_of({}).rule, firmtouch::curve::kRuleHeadSize);
 }
 
 TEST(Rule202RefusesFewerThanTwoSamplesAndTooMany) {
@@ -70,20 +70,20 @@ TEST(Rule202RefusesFewerThanTwoSamplesAndTooMany) {
     c.head.sample_count = count;
     Sections s = SmallCurve(kHook).sections();
     s.head = {reinterpret_cast<const uint8_t*>(&c.head), sizeof c.head};
-    CHECK_EQ(verdict_of(s).rule, 202);
+    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleSampleCount);
   }
 }
 
 TEST(Rule203RefusesAKindOfPiecesBeyondOne) {
   SmallCurve c(kHook);
   c.head.is_smooth = 2;
-  expect(c, 203, 0);
+  expect(c, firmtouch::curve::kRuleSmoothFlag, 0);
 }
 
 TEST(Rule204RefusesAClosednessBeyondOne) {
   SmallCurve c(kRing);
   c.head.is_closed = 2;
-  expect(c, 204, 0);
+  expect(c, firmtouch::curve::kRuleClosedFlag, 0);
 }
 
 TEST(Rules205To207RefuseSectionsOfAnotherLength) {
@@ -91,13 +91,13 @@ TEST(Rules205To207RefuseSectionsOfAnotherLength) {
   for (uint32_t less = 0; less < 2; ++less) {
     Sections s = c.sections();
     s.samples = {s.samples.data(), less ? s.samples.size() - 12 : s.samples.size() + 12};
-    CHECK_EQ(verdict_of(s).rule, 205);
+    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleSamplesSize);
     s = c.sections();
     s.arcs = {s.arcs.data(), less ? s.arcs.size() - 4 : s.arcs.size() + 1};
-    CHECK_EQ(verdict_of(s).rule, 206);
+    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleArcsSize);
     s = c.sections();
     s.places = {s.places.data(), less ? s.places.size() - 4 : s.places.size() + 4};
-    CHECK_EQ(verdict_of(s).rule, 207);
+    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleTreeSize);
   }
 }
 
@@ -107,25 +107,25 @@ TEST(Rule208RefusesABoxThatIsNotOneOrTooFarAway) {
     for (const float value : wrong) {
       SmallCurve c(kHook);
       c.head.high_m[k] = value;
-      expect(c, 208, k);
+      expect(c, firmtouch::curve::kRuleHeadBox, k);
       c.head.high_m[k] = SmallCurve(kHook).head.high_m[k];
       c.head.low_m[k] = -value;
-      expect(c, 208, k);
+      expect(c, firmtouch::curve::kRuleHeadBox, k);
     }
     SmallCurve c(kHook);
     c.head.low_m[k] = c.head.high_m[k] + 1.0f;
-    expect(c, 208, k);
+    expect(c, firmtouch::curve::kRuleHeadBox, k);
   }
 }
 
 TEST(Rule209RefusesAnotherDiagonalAndACurveOfNoSize) {
   SmallCurve c(kHook);
   c.head.diagonal_m *= 1.0f + 0x1p-23f;
-  expect(c, 209, 0);
+  expect(c, firmtouch::curve::kRuleDiagonal, 0);
   c.head.diagonal_m = nan_value();
-  expect(c, 209, 0);
+  expect(c, firmtouch::curve::kRuleDiagonal, 0);
   const Sample dust[] = {{0, 0, 0}, {0x1p-22f, 0, 0}};
-  expect(SmallCurve(dust), 209, 0);
+  expect(SmallCurve(dust), firmtouch::curve::kRuleDiagonal, 0);
 }
 
 TEST(Rule210RefusesALengthShorterThanTheBoxAllowsOrEndless) {
@@ -133,7 +133,7 @@ TEST(Rule210RefusesALengthShorterThanTheBoxAllowsOrEndless) {
   for (const float value : wrong) {
     SmallCurve c(kHook);
     c.head.length_m = value;
-    expect(c, 210, 0);
+    expect(c, firmtouch::curve::kRuleLength, 0);
   }
 }
 
@@ -141,9 +141,9 @@ TEST(Rule211RefusesSamplesOutsideTheBoxAndNaN) {
   for (uint32_t k = 0; k < 3; ++k) {
     SmallCurve c(kHook);
     (&c.samples[2].x_m)[k] = 0.75f;
-    expect(c, 211, 2);
+    expect(c, firmtouch::curve::kRuleSampleOutside, 2);
     (&c.samples[2].x_m)[k] = nan_value();
-    expect(c, 211, 2);
+    expect(c, firmtouch::curve::kRuleSampleOutside, 2);
   }
 }
 
@@ -153,63 +153,63 @@ TEST(Rule212RefusesABoxWiderThanTheSamples) {
     c.head.high_m[k] += 0.25f;
     c.head.diagonal_m = firmtouch::curve::diagonal_m(c.head);
     c.derive_runs();
-    expect(c, 212, k);
+    expect(c, firmtouch::curve::kRuleLooseBox, k);
   }
 }
 
 TEST(Rule213RefusesAClosednessThatTheSamplesDeny) {
   SmallCurve c(kHook);
   c.head.is_closed = 1;
-  expect(c, 213, 0);
+  expect(c, firmtouch::curve::kRuleClosure, 0);
   SmallCurve ring(kRing);
   ring.head.is_closed = 0;
-  expect(ring, 213, 0);
+  expect(ring, firmtouch::curve::kRuleClosure, 0);
 }
 
 TEST(Rule214RefusesArcPositionsOutsideZeroToOneAndLooseEnds) {
   SmallCurve c(kHook);
   c.arcs[2] = nan_value();
-  expect(c, 214, 2);
+  expect(c, firmtouch::curve::kRuleArcRange, 2);
   c.arcs[2] = -0x1p-30f;
-  expect(c, 214, 2);
+  expect(c, firmtouch::curve::kRuleArcRange, 2);
   c = SmallCurve(kHook);
   c.arcs[5] = 1.0f + 0x1p-23f;
-  expect(c, 214, 5);
+  expect(c, firmtouch::curve::kRuleArcRange, 5);
   c.arcs[5] = 1.0f - 0x1p-24f;
-  expect(c, 214, 5);
+  expect(c, firmtouch::curve::kRuleArcRange, 5);
   c = SmallCurve(kHook);
   c.arcs[0] = 0x1p-30f;
-  expect(c, 214, 0);
+  expect(c, firmtouch::curve::kRuleArcRange, 0);
 }
 
 TEST(Rule215RefusesASampleThatRepeatsTheOneBefore) {
   const Sample repeated[] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0x1p-41f}, {2, 0, 0}};
-  expect(SmallCurve(repeated), 215, 2);
+  expect(SmallCurve(repeated), firmtouch::curve::kRuleSpacing, 2);
 }
 
 TEST(Rule216RefusesArcPositionsThatRunBackwards) {
   const Sample close[] = {{0, 0, 0}, {1, 0, 0}, {1, 0x1p-30f, 0}, {2, 0, 0}};
   SmallCurve c(close);
   c.arcs[2] = c.arcs[1] - 0x1p-24f;  // less than what rule 217 would notice
-  expect(c, 216, 2);
+  expect(c, firmtouch::curve::kRuleArcOrder, 2);
 }
 
 TEST(Rule217RefusesArcPositionsThatTheSamplesDeny) {
   SmallCurve c(kHook);
   c.arcs[3] += 0x1p-19f;
-  expect(c, 217, 3);
+  expect(c, firmtouch::curve::kRuleArcValue, 3);
   c = SmallCurve(kHook);
   c.head.length_m *= 1.0f + 0x1p-10f;
-  expect(c, 217, 1);
+  expect(c, firmtouch::curve::kRuleArcValue, 1);
 }
 
 TEST(Rule218RefusesNodesThatNameNoSampleOrNoAxis) {
   SmallCurve c(kHook);
   c.places[5] = firmtouch::curve::make_place(6, 0);
-  expect(c, 218, 5);
+  expect(c, firmtouch::curve::kRuleTreeNode, 5);
   c = SmallCurve(kHook);
   c.places[5] |= 3u << 30;
-  expect(c, 218, 5);
+  expect(c, firmtouch::curve::kRuleTreeNode, 5);
 }
 
 TEST(Rule219RefusesASampleOnTheWrongSideOfANodeAbove) {
@@ -217,7 +217,7 @@ TEST(Rule219RefusesASampleOnTheWrongSideOfANodeAbove) {
   const uint32_t moved = c.places[3];
   c.places[3] = c.places[5];  // one stands below the first child, one below the second
   c.places[5] = moved;
-  expect(c, 219, 3);
+  expect(c, firmtouch::curve::kRuleTreeOrder, 3);
 }
 
 TEST(Rule219RefusesASampleThatStandsInTwoNodes) {
@@ -228,7 +228,7 @@ TEST(Rule219RefusesASampleThatStandsInTwoNodes) {
       const uint32_t axis = firmtouch::curve::axis_of(c.places[to]);
       c.places[to] =
           firmtouch::curve::make_place(firmtouch::curve::sample_of(c.places[from]), axis);
-      CHECK_EQ(verdict_of(c.sections()).rule, 219);
+      CHECK_EQ(verdict_of(c.sections()).rule, firmtouch::curve::kRuleTreeOrder);
     }
   }
 }
@@ -238,13 +238,13 @@ TEST(Rule221RefusesBoxesAndRunsThatAreNotAsManyAsTheSamplesAsk) {
   for (uint32_t less = 0; less < 2; ++less) {
     Sections s = c.sections();
     s.boxes = {s.boxes.data(), less ? s.boxes.size() - 12 : s.boxes.size() + 12};
-    CHECK_EQ(verdict_of(s).rule, 221);
+    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleRunsSize);
     s = c.sections();
     s.runs = {s.runs.data(), less ? s.runs.size() - 8 : s.runs.size() + 8};
-    CHECK_EQ(verdict_of(s).rule, 221);
+    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleRunsSize);
     s = c.sections();
     s.radii = {s.radii.data(), less ? s.radii.size() - 2 : s.radii.size() + 2};
-    CHECK_EQ(verdict_of(s).rule, 221);
+    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleRunsSize);
   }
 }
 
@@ -253,17 +253,17 @@ TEST(Rule222RefusesAGridThatItsBoundsDoNotHoldOn) {
   for (const float cell_m : cells) {
     SmallCurve c(kHook);
     c.head.cell_m = cell_m;
-    expect(c, 222, 0);
+    expect(c, firmtouch::curve::kRuleGrid, 0);
   }
   SmallCurve c(kHook);
   c.head.cell_m *= 4.0f;
-  expect(c, 222, 1);
+  expect(c, firmtouch::curve::kRuleGrid, 1);
   for (uint32_t k = 0; k < 3; ++k) {
     const float moves[] = {nan_value(), 0.01f, -0.8f};
     for (const float move_m : moves) {
       c = SmallCurve(kHook);
       c.head.grid_low_m[k] += move_m;
-      expect(c, 222, 2 + k);
+      expect(c, firmtouch::curve::kRuleGrid, 2 + k);
     }
   }
 }
@@ -273,17 +273,17 @@ TEST(Rule223RefusesAnotherLongestSegment) {
   const float wrong[] = {nan_value(), 0.0f, c.head.longest_half_m * (1.0f + 0x1p-23f)};
   for (const float value : wrong) {
     c.head.longest_half_m = value;
-    expect(c, 223, 0);
+    expect(c, firmtouch::curve::kRuleLongestHalf, 0);
   }
 }
 
 TEST(Rule224RefusesABoxThatIsInvertedOrOffTheGrid) {
   LongCurve c = long_hook();
   c.boxes[4].side[1] = firmtouch::curve::make_side(700, 699);
-  expect(c, 224, 4);
+  expect(c, firmtouch::curve::kRuleBoxRange, 4);
   c = long_hook();
   c.boxes[4].side[2] |= 0x80000000u;
-  expect(c, 224, 4);
+  expect(c, firmtouch::curve::kRuleBoxRange, 4);
 }
 
 TEST(Rule225RefusesABoxThatLeavesTheOneAbove) {
@@ -291,7 +291,7 @@ TEST(Rule225RefusesABoxThatLeavesTheOneAbove) {
     for (uint32_t side = 0; side < 2; ++side) {
       LongCurve c = long_hook();
       c.boxes[2].side[k] = c.boxes[0].side[k] - (side == 0 ? 1u : 0x10000u);
-      expect(c, 225, 2);
+      expect(c, firmtouch::curve::kRuleBoxNesting, 2);
     }
   }
 }
@@ -301,10 +301,10 @@ TEST(Rule226RefusesRunsAndLeavesThatAreNotOneToOne) {
   for (const uint32_t other : wrong) {
     LongCurve c = long_hook();
     c.runs[0].leaf = other;
-    CHECK_EQ(verdict_of(c.sections()).rule, 226);
+    CHECK_EQ(verdict_of(c.sections()).rule, firmtouch::curve::kRuleRunOrder);
     c = long_hook();
     c.runs[0].run = other;
-    CHECK_EQ(verdict_of(c.sections()).rule, 226);
+    CHECK_EQ(verdict_of(c.sections()).rule, firmtouch::curve::kRuleRunOrder);
   }
 }
 
@@ -313,7 +313,7 @@ TEST(Rule227RefusesASampleThatLeavesTheBoxOfItsRun) {
     for (uint32_t side = 0; side < 2; ++side) {
       LongCurve c = long_hook();
       c.boxes[2 * (c.run_count() - 1)].side[k] += side == 0 ? 1u : 0x10000u;  // run 0
-      CHECK_EQ(verdict_of(c.sections()).rule, 227);
+      CHECK_EQ(verdict_of(c.sections()).rule, firmtouch::curve::kRuleRunBox);
     }
   }
 }
@@ -323,7 +323,7 @@ TEST(Rule228RefusesAnyOtherRadius) {
     for (uint32_t k = 0; k < 31; ++k) {
       LongCurve c = long_hook();
       c.radii[32 * i + k] ^= 1;
-      expect(c, 228, i);
+      expect(c, firmtouch::curve::kRuleRadius, i);
     }
   }
 }
@@ -331,7 +331,7 @@ TEST(Rule228RefusesAnyOtherRadius) {
 TEST(Rule229RefusesARadiusBeyondThePartsOfARun) {
   LongCurve c = long_hook();
   c.radii[32 + 31] = 1;
-  expect(c, 229, 1);
+  expect(c, firmtouch::curve::kRuleRadiusPadding, 1);
 }
 
 TEST(Rule231RefusesRunsTooShortOrTooLong) {
@@ -340,7 +340,8 @@ TEST(Rule231RefusesRunsTooShortOrTooLong) {
     LongCurve c = long_hook();
     c.head.run_levels = levels;
     Sections s = c.sections();
-    CHECK_EQ(verdict_of({s.head, s.samples, s.arcs, s.places, {}, {}, {}}).rule, 231);
+    CHECK_EQ(verdict_of({s.head, s.samples, s.arcs, s.places, {}, {}, {}}).rule,
+             firmtouch::curve::kRuleRunLevels);
   }
 }
 
@@ -352,7 +353,7 @@ TEST(RunsOfEveryLengthAreGood) {
     expect(c, 0, 0);
     CHECK_EQ(c.view().run_levels(), levels);
     c.radii[0] ^= 1;
-    expect(c, 228, 0);
+    expect(c, firmtouch::curve::kRuleRadius, 0);
   }
 }
 

@@ -27,7 +27,7 @@ TEST(Rule227RefusesACubicPieceThatLeavesTheBoxOfItsRun) {
   for (uint32_t k = 0; k < 3; ++k) {
     LongCurve c = smooth_hook();
     c.boxes[2 * (c.run_count() - 1)].side[k] += 2u + 0x20000u;
-    CHECK_EQ(verdict_of(c.sections()).rule, 227);
+    CHECK_EQ(verdict_of(c.sections()).rule, firmtouch::curve::kRuleRunBox);
   }
 }
 
@@ -35,15 +35,15 @@ TEST(Rule228RefusesTheRadiusOfStraightPiecesForCubicOnes) {
   LongCurve c = smooth_hook();
   const LongCurve& straight = long_hook();
   for (uint32_t k = 0; k < 31; ++k) c.radii[k] = straight.radii[k];
-  expect(c, 228, 0);
+  expect(c, firmtouch::curve::kRuleRadius, 0);
 }
 
 TEST(Rule230RefusesASmoothCurveThatReachesTheEndsOfItsGrid) {
   for (uint32_t k = 0; k < 3; ++k) {
     LongCurve c = smooth_hook();
     c.boxes[0].side[k] &= 0xFFFF0000u;
-    expect(c, 230, k);
+    expect(c, firmtouch::curve::kRuleSmoothMargin, k);
     c.head.is_smooth = 0;  // is no concern of straight pieces
-    CHECK_NE(verdict_of(c.sections()).rule, 230);
+    CHECK_NE(verdict_of(c.sections()).rule, firmtouch::curve::kRuleSmoothMargin);
   }
 }

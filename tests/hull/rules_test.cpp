@@ -48,65 +48,79 @@ TEST(WholeHullPasses) {
 
 TEST(R501HeadOfTheWrongSize) {
   CHECK_EQ(refusal_with([](SmallHull& h) { h.sections.head = shorter(h.sections.head, 4); }),
-           501'000u);
+           hull::kRuleHeadSize * 1000u);
 }
 
 TEST(R502CountsThatAreNotTheMeshs) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { ++h.head().mesh_vertex_count; }), 502'000u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { ++h.head().mesh_triangle_count; }), 502'001u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().collapse_count = 129; }), 502'002u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().collapse_count = UINT32_MAX; }), 502'002u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { ++h.head().mesh_vertex_count; }),
+           hull::kRuleCounts * 1000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { ++h.head().mesh_triangle_count; }),
+           hull::kRuleCounts * 1000u + 1u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().collapse_count = 129; }),
+           hull::kRuleCounts * 1000u + 2u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().collapse_count = UINT32_MAX; }),
+           hull::kRuleCounts * 1000u + 2u);
 }
 
 TEST(R503WidthsThatAreNeitherTwoNorThree) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().id_bytes = 4; }), 503'000u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().coordinate_bytes = 1; }), 503'001u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().id_bytes = 4; }), hull::kRuleWidths * 1000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().coordinate_bytes = 1; }),
+           hull::kRuleWidths * 1000u + 1u);
 }
 
 TEST(R504To509SectionsOfTheWrongSize) {
   CHECK_EQ(rule_with([](SmallHull& h) { h.sections.vertices = shorter(h.sections.vertices, 6); }),
-           504u);
+           hull::kRuleVerticesSize);
   CHECK_EQ(rule_with([](SmallHull& h) { h.sections.origins = shorter(h.sections.origins, 2); }),
-           505u);
+           hull::kRuleOriginsSize);
   CHECK_EQ(rule_with([](SmallHull& h) { h.sections.records = shorter(h.sections.records, 2); }),
-           506u);
+           hull::kRuleRecordsSize);
   CHECK_EQ(rule_with([](SmallHull& h) { h.sections.places = shorter(h.sections.places, 4); }),
-           507u);
+           hull::kRuleRecordOffsetsSize);
   CHECK_EQ(
       rule_with([](SmallHull& h) { h.sections.star_boxes = shorter(h.sections.star_boxes, 6); }),
-      508u);
-  CHECK_EQ(rule_with([](SmallHull& h) { h.sections.boxes = shorter(h.sections.boxes, 6); }), 509u);
+      hull::kRuleStarBoxesSize);
+  CHECK_EQ(rule_with([](SmallHull& h) { h.sections.boxes = shorter(h.sections.boxes, 6); }),
+           hull::kRuleBoxesSize);
 }
 
 TEST(R510GridThatIsNone) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[1] = not_a_number(); }), 510'001u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[2] = 2e8f; }), 510'002u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().cell_m *= 1.5f; }), 510'003u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[1] = not_a_number(); }),
+           hull::kRuleGrid * 1000u + 1u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[2] = 2e8f; }),
+           hull::kRuleGrid * 1000u + 2u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().cell_m *= 1.5f; }),
+           hull::kRuleGrid * 1000u + 3u);
 }
 
 TEST(R511BoxThatDoesNotHoldTheMesh) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().low_m[0] = not_a_number(); }), 511'000u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().high_m[2] = h.head().low_m[2]; }), 511'001u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().low_m[0] = not_a_number(); }),
+           hull::kRuleHeadBox * 1000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().high_m[2] = h.head().low_m[2]; }),
+           hull::kRuleHeadBox * 1000u + 1u);
 }
 
 TEST(R512To515AMeshThatIsNone) {
-  CHECK_EQ(rule_with([](SmallHull& h) { h.sections.mesh_head = {}; }), 512u);
+  CHECK_EQ(rule_with([](SmallHull& h) { h.sections.mesh_head = {}; }), hull::kRuleMeshHead);
   CHECK_EQ(rule_with([](SmallHull& h) {
              h.sections.mesh_vertices = shorter(h.sections.mesh_vertices, 12);
            }),
-           513u);
-  CHECK_EQ(rule_with([](SmallHull& h) { h.sections.triangles16 = {}; }), 514u);
-  CHECK_EQ(rule_with([](SmallHull& h) { h.mesh_head().high_m[1] = 2e8f; }), 515u);
+           hull::kRuleMeshVerticesSize);
+  CHECK_EQ(rule_with([](SmallHull& h) { h.sections.triangles16 = {}; }),
+           hull::kRuleMeshTrianglesSize);
+  CHECK_EQ(rule_with([](SmallHull& h) { h.mesh_head().high_m[1] = 2e8f; }), hull::kRuleMeshBox);
 }
 
 TEST(R520VertexOutsideTheMeshsBox) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.mesh_coordinate(7) = 50.0f; }), 520'002u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.mesh_coordinate(0) = not_a_number(); }), 520'000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.mesh_coordinate(7) = 50.0f; }),
+           hull::kRuleMeshVertex * 1000u + 2u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.mesh_coordinate(0) = not_a_number(); }),
+           hull::kRuleMeshVertex * 1000u);
 }
 
 TEST(R521NumberOutOfRange) {
   CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::open_up(h.sections.origins)[11] = 0xFF; }),
-           521'005u);
+           hull::kRuleOriginRange * 1000u + 5u);
 }
 
 TEST(R523NumbersThatTwoIdsShare) {
@@ -114,17 +128,17 @@ TEST(R523NumbersThatTwoIdsShare) {
     uint8_t* origins = SmallHull::open_up(h.sections.origins);
     __builtin_memcpy(origins, origins + 2, 2);
   };
-  CHECK_EQ(rule_with(twice), 523u);
+  CHECK_EQ(rule_with(twice), hull::kRuleOriginTwice);
 }
 
 TEST(R524RecordsThatDoNotStandWhereTheyShould) {
   CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::open_up(h.sections.places)[4] += 2; }),
-           524'008u);
+           hull::kRuleRecordOffset * 1000u + 8u);
   const auto long_last = [](SmallHull& h) {
     uint8_t* last = h.record(h.head().collapse_count - 1);
     last[1] = static_cast<uint8_t>(last[1] | 0xFC);
   };
-  CHECK_EQ(rule_with(long_last), 524u);
+  CHECK_EQ(rule_with(long_last), hull::kRuleRecordOffset);
 }
 
 TEST(R525StarsThatAreNone) {
@@ -133,23 +147,25 @@ TEST(R525StarsThatAreNone) {
              record[0] = static_cast<uint8_t>(record[0] & 0x1F);
              record[1] = static_cast<uint8_t>(record[1] & 0xFC);
            }),
-           525'003u);
+           hull::kRuleLink * 1000u + 3u);
 }
 
 TEST(R526CornersThatAreGoneOrNotYetThere) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::set_id(h.record(9), 1, 4); }), 526'009u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::set_id(h.record(9), 1, 65535); }), 526'009u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::set_id(h.record(9), 1, 4); }),
+           hull::kRuleLinkCorner * 1000u + 9u);
+  CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::set_id(h.record(9), 1, 65535); }),
+           hull::kRuleLinkCorner * 1000u + 9u);
   const auto too_young = [](SmallHull& h) {
     SmallHull::set_id(h.record(9), 1, SmallHull::get_id(h.record(20), 0));
   };
-  CHECK_EQ(refusal_with(too_young), 526'009u);
+  CHECK_EQ(refusal_with(too_young), hull::kRuleLinkCorner * 1000u + 9u);
 }
 
 TEST(R527NewVertexThatIsAnother) {
   const auto other = [](SmallHull& h) {
     SmallHull::set_id(h.record(5), 0, SmallHull::get_id(h.record(6), 0));
   };
-  CHECK_EQ(refusal_with(other), 527'005u);
+  CHECK_EQ(refusal_with(other), hull::kRuleNewVertex * 1000u + 5u);
 }
 
 TEST(R528TrianglesThatAreNotTheStars) {
@@ -158,7 +174,7 @@ TEST(R528TrianglesThatAreNotTheStars) {
     const uint32_t at = 1 + hull::link_of(hull::View::head_of(record));
     SmallHull::set_id(record, at, SmallHull::get_id(record, at + 1));
   };
-  CHECK_EQ(refusal_with(other), 528'000u);
+  CHECK_EQ(refusal_with(other), hull::kRuleStarTriangles * 1000u);
 }
 
 TEST(R529VertexOutsideTheHullsBox) {
@@ -166,14 +182,14 @@ TEST(R529VertexOutsideTheHullsBox) {
     for (uint32_t k = 0; k < 3; ++k)
       if (h.head().low_m[k] < h.mesh_head().low_m[k]) h.head().low_m[k] = h.mesh_head().low_m[k];
   };
-  CHECK_EQ(rule_with(outside), 529u);
+  CHECK_EQ(rule_with(outside), hull::kRuleNewVertexOutside);
 }
 
 TEST(R530StarBoxThatDoesNotHoldItsStar) {
   const auto small = [](SmallHull& h) {
     __builtin_memset(SmallHull::open_up(h.sections.star_boxes) + 6 * 4, 0, 6);
   };
-  CHECK_EQ(refusal_with(small), 530'004u);
+  CHECK_EQ(refusal_with(small), hull::kRuleStarBox * 1000u + 4u);
 }
 
 TEST(R531BytesBehindTheLastRecord) {
@@ -183,7 +199,7 @@ TEST(R531BytesBehindTheLastRecord) {
     h.head().record_bytes = bytes;
     h.sections.records = {h.sections.records.data(), bytes};
   };
-  CHECK_EQ(rule_with(fewer), 531u);
+  CHECK_EQ(rule_with(fewer), hull::kRuleRecordsEnd);
 }
 
 TEST(R532CornerOutOfRange) {
@@ -200,16 +216,17 @@ TEST(R532CornerOutOfRange) {
              }
              h.mesh_corner(4) = 60000;
            }),
-           532u);
+           hull::kRuleTriangleCorner);
 }
 
 TEST(R533TriangleOutsideItsLeaf) {
-  CHECK_EQ(rule_with([](SmallHull& h) { SmallHull::open_up(h.sections.boxes)[0] = 200; }), 533u);
+  CHECK_EQ(rule_with([](SmallHull& h) { SmallHull::open_up(h.sections.boxes)[0] = 200; }),
+           hull::kRuleLeafBox);
   const auto small_leaf = [](SmallHull& h) {
     uint8_t* last = SmallHull::open_up(h.sections.boxes) + h.sections.boxes.size() - 6;
     for (uint32_t k = 0; k < 3; ++k) last[k] = 255;
   };
-  CHECK_EQ(rule_with(small_leaf), 533u);
+  CHECK_EQ(rule_with(small_leaf), hull::kRuleLeafBox);
 }
 
 TEST(R534AFaceThatNobodyReplaces) {
@@ -227,5 +244,5 @@ TEST(R534AFaceThatNobodyReplaces) {
       return;
     }
   };
-  CHECK_EQ(rule_with(turned), 534u);
+  CHECK_EQ(rule_with(turned), hull::kRuleFaces);
 }

@@ -48,4 +48,60 @@ struct Entry {
 static_assert(sizeof(Entry) == 48 && offsetof(Entry, name) == 16);
 static_assert(sizeof(Header) % kAlignment == 0 && sizeof(Entry) % kAlignment == 0);
 
+/// Why opening rejects; the numbers never change. tools/FORMAT.md prints the same text.
+enum Rule : uint16_t {
+  // The address of the file's first byte is not a multiple of 16.
+  kRuleAlignment = 1,
+  // The file is shorter than a header.
+  kRuleTooShort = 2,
+  // The magic is another.
+  kRuleMagic = 3,
+  // The byte order is another.
+  kRuleByteOrder = 4,
+  // The major version is not 1.
+  kRuleMajor = 5,
+  // The header does not match its CRC.
+  kRuleHeaderCrc = 6,
+  // A reserved word is not 0.
+  kRuleReserved = 7,
+  // The file is truncated: total_bytes exceeds its length.
+  kRuleTruncated = 8,
+  // The file is extended: total_bytes is less than its length.
+  kRuleExtended = 9,
+  // total_bytes is not a multiple of 16.
+  kRuleTotalBytes = 10,
+  // The table does not fit into the file.
+  kRuleTableSize = 11,
+  // The table does not match its CRC.
+  kRuleTableCrc = 12,
+  // A name is empty.
+  kRuleNameEmpty = 13,
+  // A name does not end with a zero.
+  kRuleNameEnd = 14,
+  // A byte behind the end of a name is not zero.
+  kRuleNamePadding = 15,
+  // A name contains a control character (below 0x20, or 0x7F).
+  kRuleNameControl = 16,
+  // An entry must stand before the previous one.
+  kRuleEntryOrder = 17,
+  // Two entries have the same name and type.
+  kRuleEntryTwice = 18,
+  // A section is empty.
+  kRuleSectionEmpty = 19,
+  // A section does not begin at a multiple of 16.
+  kRuleSectionAlignment = 20,
+  // A section begins before the end of the previous one (the first: of the table).
+  kRuleSectionOverlap = 21,
+  // A section begins later than it must.
+  kRuleSectionGap = 22,
+  // A section extends beyond the file.
+  kRuleSectionOutside = 23,
+  // Bytes follow the padding of the last section.
+  kRuleTrailingBytes = 24,
+  // A section does not match its CRC.
+  kRuleSectionCrc = 25,
+  // The padding behind a section is not zero.
+  kRuleSectionPadding = 26,
+};
+
 }  // namespace firmtouch::asset

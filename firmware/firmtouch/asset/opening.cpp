@@ -17,16 +17,16 @@ core::Bytes part(core::Bytes bytes, uint32_t offset, uint32_t count) {
 }
 
 Verdict check_name(const char (&name)[kNameBytes], uint32_t i) {
-  if (name[0] == 0) return reject(13, i);
+  if (name[0] == 0) return reject(kRuleNameEmpty, i);
   uint32_t end = 0;
   while (end < kNameBytes && name[end] != 0) {
     const unsigned char letter = static_cast<unsigned char>(name[end]);
-    if (letter < 0x20 || letter == 0x7F) return reject(16, i);
+    if (letter < 0x20 || letter == 0x7F) return reject(kRuleNameControl, i);
     ++end;
   }
-  if (end == kNameBytes) return reject(14, i);
+  if (end == kNameBytes) return reject(kRuleNameEnd, i);
   for (; end < kNameBytes; ++end) {
-    if (name[end] != 0) return reject(15, i);
+    if (name[end] != 0) return reject(kRuleNamePadding, i);
   }
   return kPassed;
 }
@@ -55,22 +55,22 @@ void Opening::settle(Verdict verdict) {
 }
 
 Verdict Opening::check_header(core::Bytes file) {
-  if (reinterpret_cast<uintptr_t>(file.data()) % kAlignment != 0) return reject(1);
+  if (reinterpret_cast<uintptr_t>(file.data()) % kAlignment != 0) return reject(kRuleAlignment);
   const core::Span<const Header> found = core::as_array<Header>(file, 1);
-  if (found.empty()) return reject(2);
+  if (found.empty()) return reject(kRuleTooShort);
   const Header& header = found[0];
-  if (header.magic != kMagic) return reject(3);
-  if (header.byte_order != kByteOrder) return reject(4);
-  if (header.major != kMajor) return reject(5);
+  if (header.magic != kMagic) return reject(kRuleMagic);
+  if (header.byte_order != kByteOrder) return reject(kRuleByteOrder);
+  if (header.major != kMajor) return reject(kRuleMajor);
   if (core::crc32(part(file, 0, offsetof(Header, header_crc))) != header.header_crc) {
-    return reject(6);
+    return reject(kRuleHeaderCrc);
   }
-  if (header.reserved != 0) return reject(7);
-  if (header.total_bytes > file.size()) return reject(8);
-  if (header.total_bytes < file.size()) return reject(9);
-  if (header.total_bytes % kAlignment != 0) return reject(10);
+  if (header.reserved != 0) return reject(kRuleReserved);
+  if (header.total_bytes > file.size()) return reject(kRuleTruncated);
+  if (header.total_bytes < file.size()) return reject(kRuleExtended);
+  if (header.total_bytes % kAlignment != 0) return reject(kRuleTotalBytes);
   const uint32_t rest = header.total_bytes - static_cast<uint32_t>(sizeof(Header));
-  if (header.section_count > rest / sizeof(Entry)) return reject(11);
+  if (header.section_count > rest / sizeof(Entry)) return reject(kRuleTableSize);
   container_.file_ = file;
   container_.entries_ =
       core::as_array<Entry>(part(file, sizeof(Header), rest), header.section_count);
@@ -84,8 +84,8 @@ Verdict Opening::check_entry(uint32_t i) {
   if (!name.ok()) return name;
   if (i > 0) {
     const int order = compare(container_.entries_[i - 1], entry);
-    if (order > 0) return reject(17, i);
-    if (order == 0) return reject(18, i);
+    if (order > 0) return reject(kRuleEntryOrder, i);
+    if (order == 0) return reject(kRuleEntryTwice, i);
   }
   return check_place(i);
 }
@@ -95,11 +95,11 @@ Verdict Opening::check_entry(uint32_t i) {
 Verdict Opening::check_place(uint32_t i) {
   const Entry& entry = container_.entries_[i];
   const uint32_t total = container_.file_.size();
-  if (entry.bytes == 0) return reject(19, i);
-  if (entry.offset % kAlignment != 0) return reject(20, i);
-  if (entry.offset < free_) return reject(21, i);
-  if (entry.offset > free_) return reject(22, i);
-  if (entry.bytes > total - free_) return reject(23, i);
+  if (entry.bytes == 0) return reject(kRuleSectionEmpty, i);
+  if (entry.offset % kAlignment != 0) return reject(kRuleSectionAlignment, i);
+  if (entry.offset < free_) return reject(kRuleSectionOverlap, i);
+  if (entry.offset > free_) return reject(kRuleSectionGap, i);
+  if (entry.bytes > total - free_) return reject(kRuleSectionOutside, i);
   // At most the total, which is a multiple of the alignment: rounding up cannot overflow or pass
   // it.
   free_ += entry.bytes;
@@ -109,10 +109,10 @@ Verdict Opening::check_place(uint32_t i) {
 
 Verdict Opening::check_section_end(uint32_t i) const {
   const Entry& entry = container_.entries_[i];
-  if (crc_ != entry.crc) return reject(25, i);
+  if (crc_ != entry.crc) return reject(kRuleSectionCrc, i);
   const uint8_t* bytes = container_.file_.data();
   for (uint32_t at = entry.offset + entry.bytes; at % kAlignment != 0; ++at) {
-    if (bytes[at] != 0) return reject(26, i);
+    if (bytes[at] != 0) return reject(kRuleSectionPadding, i);
   }
   return kPassed;
 }
@@ -126,7 +126,7 @@ uint32_t Opening::work_table_crc(uint32_t bytes) {
   if (offset_ == table) {
     const Header& header = core::as_array<Header>(container_.file_, 1)[0];
     if (crc_ != header.table_crc) {
-      settle(reject(12));
+      settle(reject(kRuleTableCrc));
     } else {
       stage_ = Stage::kEntries;
     }
@@ -138,7 +138,8 @@ uint32_t Opening::work_entry() {
   if (index_ == container_.entries_.size()) {
     index_ = offset_ = crc_ = 0;
     stage_ = Stage::kSections;
-    if (free_ != container_.file_.size()) settle(reject(24, container_.entries_.size()));
+    if (free_ != container_.file_.size())
+      settle(reject(kRuleTrailingBytes, container_.entries_.size()));
     return 0;
   }
   const Verdict verdict = check_entry(index_);

@@ -94,4 +94,72 @@ static_assert(sizeof(Run) == 8);
 // up; 0 for a part that is empty, and for the last entry of each run. Parts 2 k + 1 and 2 k + 2 are the
 // halves of part k.
 
+/// Why opening rejects; the numbers never change. tools/FORMAT.md prints the same text.
+enum Rule : uint16_t {
+  // The head is absent or not 68 bytes long.
+  kRuleHeadSize = 201,
+  // There are fewer than 2 samples or more than 2^22 - 1.
+  kRuleSampleCount = 202,
+  // is_smooth is neither 0 nor 1.
+  kRuleSmoothFlag = 203,
+  // is_closed is neither 0 nor 1.
+  kRuleClosedFlag = 204,
+  // The sample section does not hold sample_count samples.
+  kRuleSamplesSize = 205,
+  // The arc section does not hold sample_count values.
+  kRuleArcsSize = 206,
+  // The k-d tree does not hold sample_count nodes.
+  kRuleTreeSize = 207,
+  // The head's box is inverted or reaches beyond 1e9 m.
+  kRuleHeadBox = 208,
+  // The diagonal is not that of the box, to the bit, or is below 2^-20 m.
+  kRuleDiagonal = 209,
+  // The length is below half the diagonal or above 2^60 m.
+  kRuleLength = 210,
+  // A sample is NaN or lies outside the head's box.
+  kRuleSampleOutside = 211,
+  // The head's box has a side that no sample touches.
+  kRuleLooseBox = 212,
+  // The ends meet although is_closed is 0, or do not meet although it is 1.
+  kRuleClosure = 213,
+  // An arc position is outside 0 to 1, or is not 0 at the first sample or not 1 at the last.
+  kRuleArcRange = 214,
+  // A sample is less than 2^-40 m from the previous one.
+  kRuleSpacing = 215,
+  // An arc position is less than the previous one.
+  kRuleArcOrder = 216,
+  // An arc position differs by more than a millionth of the length from the one computed from the
+  // samples.
+  kRuleArcValue = 217,
+  // A node of the k-d tree names no sample or no axis.
+  kRuleTreeNode = 218,
+  // A sample is on the wrong side of the plane of an ancestor in the k-d tree.
+  kRuleTreeOrder = 219,
+  // The box, run or radius section does not hold as many entries as sample_count and run_levels
+  // require.
+  kRuleRunsSize = 221,
+  // The grid does not meet the conditions of its bounds: the cell is no power of two from 2^-60
+  // to 2^60 (0); the grid spans more than 4 extents (1); it leaves less than 0.124 extents free
+  // about the box, or more than one below it (2 to 4).
+  kRuleGrid = 222,
+  // longest_half_m is not, to the bit, that of the samples.
+  kRuleLongestHalf = 223,
+  // A box is inverted or off the grid.
+  kRuleBoxRange = 224,
+  // A box is not inside its parent's.
+  kRuleBoxNesting = 225,
+  // Runs and leaves do not correspond one to one.
+  kRuleRunOrder = 226,
+  // A sample or a cubic piece is not inside the box of its run.
+  kRuleRunBox = 227,
+  // A radius is not, to the bit, the derived one.
+  kRuleRadius = 228,
+  // The last radius of a run is not 0.
+  kRuleRadiusPadding = 229,
+  // The boxes of a smooth curve leave less than 0.12 of the extent free at an end of the grid.
+  kRuleSmoothMargin = 230,
+  // run_levels is below 2 or above 8.
+  kRuleRunLevels = 231,
+};
+
 }  // namespace firmtouch::curve

@@ -30,18 +30,20 @@ uint64_t as_fixed(float fraction) {
 }
 
 Verdict check_head(const Head& head) {
-  if (head.is_smooth > 1) return reject(203);
-  if (head.is_closed > 1) return reject(204);
+  if (head.is_smooth > 1) return reject(kRuleSmoothFlag);
+  if (head.is_closed > 1) return reject(kRuleClosedFlag);
   for (uint32_t k = 0; k < 3; ++k)
     if (!(head.low_m[k] >= -kMaxCoordinate_m && head.low_m[k] <= head.high_m[k] &&
           head.high_m[k] <= kMaxCoordinate_m))
-      return reject(208, k);
+      return reject(kRuleHeadBox, k);
   if (!same_bits(head.diagonal_m, diagonal_m(head)) || !(head.diagonal_m >= kMinDiagonal_m))
-    return reject(209);
-  if (!(head.length_m >= head.diagonal_m * 0.5f && head.length_m <= 0x1p60f)) return reject(210);
-  if (head.run_levels < kMinRunLevels || head.run_levels > kMaxRunLevels) return reject(231);
+    return reject(kRuleDiagonal);
+  if (!(head.length_m >= head.diagonal_m * 0.5f && head.length_m <= 0x1p60f))
+    return reject(kRuleLength);
+  if (head.run_levels < kMinRunLevels || head.run_levels > kMaxRunLevels)
+    return reject(kRuleRunLevels);
   const uint32_t grid = wrong_of_grid(head);
-  return grid == 0 ? kPassed : reject(222, grid - 1);
+  return grid == 0 ? kPassed : reject(kRuleGrid, grid - 1);
 }
 
 // Whether a run's box holds the inner Bezier points of a piece.
@@ -71,24 +73,26 @@ void Opening::fail(uint16_t rule, uint32_t element) {
 
 void Opening::open_head(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
-  if (heads.size() != 1) return fail(201, 0);
+  if (heads.size() != 1) return fail(kRuleHeadSize, 0);
   const Head& head = heads[0];
-  if (head.sample_count < 2 || head.sample_count > kMaxSamples) return fail(202, 0);
+  if (head.sample_count < 2 || head.sample_count > kMaxSamples) return fail(kRuleSampleCount, 0);
   view_.samples_ = core::as_whole_array<Sample>(s.samples);
-  if (view_.samples_.size() != head.sample_count) return fail(205, view_.samples_.size());
+  if (view_.samples_.size() != head.sample_count)
+    return fail(kRuleSamplesSize, view_.samples_.size());
   view_.arcs_ = core::as_whole_array<float>(s.arcs);
-  if (view_.arcs_.size() != head.sample_count) return fail(206, view_.arcs_.size());
+  if (view_.arcs_.size() != head.sample_count) return fail(kRuleArcsSize, view_.arcs_.size());
   view_.places_ = core::as_whole_array<uint32_t>(s.places);
-  if (view_.places_.size() != head.sample_count) return fail(207, view_.places_.size());
+  if (view_.places_.size() != head.sample_count) return fail(kRuleTreeSize, view_.places_.size());
   verdict_ = check_head(head);
   if (!verdict_.ok()) return;
   const uint32_t runs = run_count_of(head.sample_count, head.run_levels);
   view_.boxes_ = core::as_whole_array<Box>(s.boxes);
-  if (view_.boxes_.size() != 2 * runs - 1) return fail(221, view_.boxes_.size());
+  if (view_.boxes_.size() != 2 * runs - 1) return fail(kRuleRunsSize, view_.boxes_.size());
   view_.runs_ = core::as_whole_array<Run>(s.runs);
-  if (view_.runs_.size() != runs) return fail(221, view_.runs_.size());
+  if (view_.runs_.size() != runs) return fail(kRuleRunsSize, view_.runs_.size());
   const core::Span<const uint16_t> radii = core::as_whole_array<uint16_t>(s.radii);
-  if (radii.size() != runs * (parts_of(head.run_levels) + 1)) return fail(221, radii.size());
+  if (radii.size() != runs * (parts_of(head.run_levels) + 1))
+    return fail(kRuleRunsSize, radii.size());
   view_.radii_ = radii.data();
   view_.head_ = &head;
   low_ = {FLT_MAX, FLT_MAX, FLT_MAX};
@@ -147,7 +151,7 @@ void Opening::next_stage() {
     if (!ends.ok()) return fail(ends.rule, ends.element);
   }
   if (stage_ == Stage::kLength && !same_bits(longest_half_m_, view_.head_->longest_half_m))
-    return fail(223, 0);
+    return fail(kRuleLongestHalf, 0);
   stage_ = static_cast<Stage>(static_cast<uint8_t>(stage_) + 1);
 }
 
@@ -157,7 +161,7 @@ Verdict Opening::check_sample(uint32_t i) {
   float* high = &high_.x_m;
   for (uint32_t k = 0; k < 3; ++k) {
     if (!(values[k] >= view_.head_->low_m[k] && values[k] <= view_.head_->high_m[k]))
-      return reject(211, i);
+      return reject(kRuleSampleOutside, i);
     if (values[k] < low[k]) low[k] = values[k];
     if (values[k] > high[k]) high[k] = values[k];
   }
@@ -169,31 +173,31 @@ Verdict Opening::check_ends() const {
   const float* low = &low_.x_m;
   const float* high = &high_.x_m;
   for (uint32_t k = 0; k < 3; ++k)
-    if (low[k] > head.low_m[k] || high[k] < head.high_m[k]) return reject(212, k);
+    if (low[k] > head.low_m[k] || high[k] < head.high_m[k]) return reject(kRuleLooseBox, k);
   const float* first = &view_.samples_[0].x_m;
   const float* last = &view_.samples_[head.sample_count - 1].x_m;
   bool meet = true;
   for (uint32_t k = 0; k < 3; ++k)
     if (first[k] < last[k] || first[k] > last[k]) meet = false;
-  return meet == view_.is_closed() ? kPassed : reject(213);
+  return meet == view_.is_closed() ? kPassed : reject(kRuleClosure);
 }
 
 Verdict Opening::check_length(uint32_t i) {
   const float arc = view_.arcs_[i];
-  if (!(arc >= 0.0f && arc <= 1.0f)) return reject(214, i);
-  if (i == 0) return arc > 0.0f ? reject(214, i) : kPassed;
+  if (!(arc >= 0.0f && arc <= 1.0f)) return reject(kRuleArcRange, i);
+  if (i == 0) return arc > 0.0f ? reject(kRuleArcRange, i) : kPassed;
   const Sample& from = view_.samples_[i - 1];
   const float spacing_m = math::length(vec(view_.samples_[i]) - vec(from));
-  if (!(spacing_m >= kMinSpacing_m)) return reject(215, i);
-  if (!(arc >= view_.arcs_[i - 1])) return reject(216, i);
+  if (!(spacing_m >= kMinSpacing_m)) return reject(kRuleSpacing, i);
+  if (!(arc >= view_.arcs_[i - 1])) return reject(kRuleArcOrder, i);
   const float half_m = half_segment_m(from, view_.samples_[i]);
   if (half_m > longest_half_m_) longest_half_m_ = half_m;
   const float fraction = spacing_m / view_.head_->length_m;
   travelled_ += fraction < 1.0f ? as_fixed(fraction) : kWhole;
   const uint64_t reported = as_fixed(arc);
   const uint64_t apart = travelled_ > reported ? travelled_ - reported : reported - travelled_;
-  if (apart > kArcSlack) return reject(217, i);
-  if (i + 1 == view_.samples_.size() && arc < 1.0f) return reject(214, i);
+  if (apart > kArcSlack) return reject(kRuleArcValue, i);
+  if (i + 1 == view_.samples_.size() && arc < 1.0f) return reject(kRuleArcRange, i);
   return kPassed;
 }
 
@@ -202,13 +206,13 @@ Verdict Opening::check_length(uint32_t i) {
 Verdict Opening::check_place(uint32_t i) const {
   const uint32_t count = view_.samples_.size(), place = view_.places_[i];
   const Sample* samples = view_.samples_.data();
-  if (sample_of(place) >= count || axis_of(place) > 2) return reject(218, i);
+  if (sample_of(place) >= count || axis_of(place) > 2) return reject(kRuleTreeNode, i);
   for (uint32_t at = i; at != 0; at = parent_of(at)) {  // ancestors have passed the line above
     const uint32_t above = view_.places_[parent_of(at)];
     const bool is_first = (at & 1u) != 0;
     const uint32_t first = is_first ? place : above, second = is_first ? above : place;
     if (!comes_before(samples, axis_of(above), sample_of(first), sample_of(second)))
-      return reject(219, i);
+      return reject(kRuleTreeOrder, i);
   }
   return kPassed;
 }
@@ -218,20 +222,21 @@ Verdict Opening::check_box(uint32_t i) const {
   const Box& around = view_.boxes_[i == 0 ? 0 : parent_of(i)];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t side = box.side[k], low = low_of(side), high = high_of(side);
-    if ((side >> 16) > kGridMax || low > high) return reject(224, i);
-    if (low < low_of(around.side[k]) || high > high_of(around.side[k])) return reject(225, i);
+    if ((side >> 16) > kGridMax || low > high) return reject(kRuleBoxRange, i);
+    if (low < low_of(around.side[k]) || high > high_of(around.side[k]))
+      return reject(kRuleBoxNesting, i);
   }
   if (i > 0 || !view_.is_smooth()) return kPassed;
   const uint32_t wrong = wrong_of_root(*view_.head_, box);
-  return wrong == 0 ? kPassed : reject(230, wrong - 1);
+  return wrong == 0 ? kPassed : reject(kRuleSmoothMargin, wrong - 1);
 }
 
 // leaf -> run is undone by run -> leaf, so each run is one leaf.
 Verdict Opening::check_run(uint32_t i) const {
   const core::Span<const Run> runs = view_.runs_;
   const Run& run = runs[i];
-  if (run.run >= runs.size() || runs[run.run].leaf != i) return reject(226, i);
-  if (run.leaf >= runs.size() || runs[run.leaf].run != i) return reject(226, i);
+  if (run.run >= runs.size() || runs[run.run].leaf != i) return reject(kRuleRunOrder, i);
+  if (run.leaf >= runs.size() || runs[run.leaf].run != i) return reject(kRuleRunOrder, i);
   const uint32_t segments = view_.segment_count();
   const Part whole = part_of(view_.run_levels(), i, 0, segments);
   const Box& box = view_.boxes_[runs.size() - 1 + run.leaf];
@@ -241,23 +246,23 @@ Verdict Opening::check_run(uint32_t i) const {
       const float cells = cells_of(*view_.head_, at_m[k], k);
       if (!(cells >= static_cast<float>(low_of(box.side[k])) &&
             cells <= static_cast<float>(high_of(box.side[k]))))
-        return reject(227, s);
+        return reject(kRuleRunBox, s);
     }
   }
   const Track track{view_.samples_.data(), view_.samples_.size(), view_.is_closed()};
   for (uint32_t s = whole.first; view_.is_smooth() && s < whole.last; ++s)
-    if (!holds_piece(*view_.head_, track, s, box)) return reject(227, s);
+    if (!holds_piece(*view_.head_, track, s, box)) return reject(kRuleRunBox, s);
   return kPassed;
 }
 
 Verdict Opening::check_part(uint32_t i) const {
   const uint32_t levels = view_.run_levels(), parts = parts_of(levels);
   const uint32_t run = i >> (levels + 1), k = i & parts;
-  if (k == parts) return view_.radii_[i] == 0 ? kPassed : reject(229, run);
+  if (k == parts) return view_.radii_[i] == 0 ? kPassed : reject(kRuleRadiusPadding, run);
   const Part part = part_of(levels, run, k, view_.segment_count());
   const Track track{view_.samples_.data(), view_.samples_.size(), view_.is_closed()};
   const uint16_t radius = part_radius(track, view_.is_smooth(), part.first, part.last);
-  return view_.radii_[i] == radius ? kPassed : reject(228, run);
+  return view_.radii_[i] == radius ? kPassed : reject(kRuleRadius, run);
 }
 
 Verdict open(const Sections& sections, View& view) {

@@ -36,4 +36,28 @@ constexpr uint32_t quanta_of(int16_t word) {
   return static_cast<uint32_t>(word >= 0 ? word : -1 - word);
 }
 
+/// Why opening rejects; the numbers never change. tools/FORMAT.md prints the same text.
+enum Rule : uint16_t {
+  // The head is absent or not 48 bytes long.
+  kRuleHeadSize = 301,
+  // An axis has no cells or more than 1024 (0 to 2), or there are more than 2^24 cells (3).
+  kRuleCellCount = 302,
+  // The bounds section does not hold one word a cell.
+  kRuleDistancesSize = 303,
+  // The seed section does not hold one word a cell.
+  kRuleSeedsSize = 304,
+  // No mesh has this name, or is_signed differs from the mesh's.
+  kRuleMesh = 305,
+  // A reserved word is not 0.
+  kRuleReserved = 306,
+  // The grid begins beyond 1e8 m or does not contain the mesh's box.
+  kRuleGrid = 307,
+  // The cell is smaller than 1e-12 m or larger than 1e8 m.
+  kRuleCell = 308,
+  // The quantum is no power of two from 2^-95 to 2^65.
+  kRuleQuantum = 309,
+  // A query of the mesh at the cell's centre contradicts the cell's bounds or sign.
+  kRuleDistance = 310,
+};
+
 }  // namespace firmtouch::field

@@ -20,15 +20,16 @@ bool is_power_of_two(float value) {
 
 Verdict check_head(const Head& head, const mesh::View& mesh) {
   for (const uint32_t word : head.reserved)
-    if (word != 0) return reject(306);
-  if (head.is_signed > 1 || (head.is_signed == 1) != mesh.is_signed()) return reject(305);
+    if (word != 0) return reject(kRuleReserved);
+  if (head.is_signed > 1 || (head.is_signed == 1) != mesh.is_signed()) return reject(kRuleMesh);
   for (uint32_t k = 0; k < 3; ++k)
-    if (!(head.low_m[k] >= -kFarthest_m && head.low_m[k] <= kFarthest_m)) return reject(307, k);
-  if (!(head.cell_m >= 1e-12f && head.cell_m <= kFarthest_m)) return reject(308);
-  if (!is_power_of_two(head.quantum_m)) return reject(309);
+    if (!(head.low_m[k] >= -kFarthest_m && head.low_m[k] <= kFarthest_m))
+      return reject(kRuleGrid, k);
+  if (!(head.cell_m >= 1e-12f && head.cell_m <= kFarthest_m)) return reject(kRuleCell);
+  if (!is_power_of_two(head.quantum_m)) return reject(kRuleQuantum);
   for (uint32_t k = 0; k < 3; ++k)
     if (!(head.low_m[k] <= mesh.head().low_m[k] && high_on_axis(head, k) >= mesh.head().high_m[k]))
-      return reject(307, k);
+      return reject(kRuleGrid, k);
   return kPassed;
 }
 
@@ -46,19 +47,19 @@ void Opening::fail(uint16_t rule, uint32_t element) {
 
 Verdict Opening::open_head(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
-  if (heads.size() != 1) return reject(301);
+  if (heads.size() != 1) return reject(kRuleHeadSize);
   const Head& head = heads[0];
   uint64_t cells = 1;
   for (uint32_t k = 0; k < 3; ++k) {
-    if (head.count[k] == 0 || head.count[k] > kMaxCellsAnAxis) return reject(302, k);
+    if (head.count[k] == 0 || head.count[k] > kMaxCellsAnAxis) return reject(kRuleCellCount, k);
     cells *= head.count[k];
   }
-  if (cells > kMaxCells) return reject(302, 3);
+  if (cells > kMaxCells) return reject(kRuleCellCount, 3);
   view_.distances_ = core::as_whole_array<int16_t>(s.distances);
-  if (view_.distances_.size() != cells) return reject(303, view_.distances_.size());
+  if (view_.distances_.size() != cells) return reject(kRuleDistancesSize, view_.distances_.size());
   view_.seeds_ = core::as_whole_array<uint32_t>(s.seeds);
-  if (view_.seeds_.size() != cells) return reject(304, view_.seeds_.size());
-  if (!mesh_->is_open()) return reject(305);
+  if (view_.seeds_.size() != cells) return reject(kRuleSeedsSize, view_.seeds_.size());
+  if (!mesh_->is_open()) return reject(kRuleMesh);
   view_.head_ = &head;
   return check_head(head, *mesh_);
 }
@@ -85,10 +86,10 @@ Verdict Opening::check_cell(uint32_t i) const {
   const float lower_m = static_cast<float>(static_cast<int32_t>(quanta)) * head.quantum_m;
   const float upper_m = static_cast<float>(static_cast<int32_t>(quanta + kWide)) * head.quantum_m;
   const float max_m = reported_m + reported_slack_m(reported_m, mesh_->head().diagonal_m);
-  if (!(lower_m <= truth.certificate.lower_m && upper_m >= max_m)) return reject(310, i);
+  if (!(lower_m <= truth.certificate.lower_m && upper_m >= max_m)) return reject(kRuleDistance, i);
   const int32_t side = word < 0 ? -1 : 1;
-  if (!view_.is_signed()) return word < 0 ? reject(310, i) : kPassed;
-  return quanta == 0 || truth.certificate.sign == side ? kPassed : reject(310, i);
+  if (!view_.is_signed()) return word < 0 ? reject(kRuleDistance, i) : kPassed;
+  return quanta == 0 || truth.certificate.sign == side ? kPassed : reject(kRuleDistance, i);
 }
 
 Verdict open(const Sections& sections, const mesh::View& mesh, View& view) {

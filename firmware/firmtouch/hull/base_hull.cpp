@@ -91,28 +91,28 @@ void BaseHullOpening::fail(Verdict verdict) {
 
 Verdict BaseHullOpening::open_head(core::Bytes bytes, const View& hull) {
   const core::Span<const BaseHullHead> heads = core::as_array<BaseHullHead>(bytes, 1);
-  if (heads.empty() || heads[0].bytes != bytes.size()) return reject(540);
+  if (heads.empty() || heads[0].bytes != bytes.size()) return reject(kRuleBaseHullSize);
   const BaseHullHead& head = heads[0];
   const Head& of = hull.head();
-  if (head.cut > of.collapse_count) return reject(541, 0);
+  if (head.cut > of.collapse_count) return reject(kRuleBaseHullCounts, 0);
   if (head.face_count == 0 || head.face_count != of.mesh_triangle_count - 2 * head.cut)
-    return reject(541, 1);
+    return reject(kRuleBaseHullCounts, 1);
   if (head.made_count > kMaxBaseHullVertices || head.kept_count > kMaxBaseHullVertices ||
       head.made_count + head.kept_count > kMaxBaseHullVertices)
-    return reject(541, 2);
-  if (head.triangle_count > head.face_count) return reject(541, 3);
-  if (!base_hull_.point_into(bytes, of.coordinate_bytes)) return reject(540, 1);
+    return reject(kRuleBaseHullCounts, 2);
+  if (head.triangle_count > head.face_count) return reject(kRuleBaseHullCounts, 3);
+  if (!base_hull_.point_into(bytes, of.coordinate_bytes)) return reject(kRuleBaseHullSize, 1);
   const uint32_t resident = base_hull_.resident_bytes();
   Rest rest({bytes.data() + resident, bytes.size() - resident});
   base_hull_.ids_ = rest.take(uint64_t{head.made_count} * of.id_bytes);
   base_hull_.triangles_ = rest.take_array<BaseHullTriangle>(head.triangle_count);
-  if (!rest.is_used_up()) return reject(540, 1);
+  if (!rest.is_used_up()) return reject(kRuleBaseHullSize, 1);
   base_hull_.id_bytes_ = of.id_bytes;
   for (uint32_t k = 0; k < 3; ++k) {
     base_hull_.grid_low_m_[k] = of.grid_low_m[k];
     if (!(head.low_m[k] >= of.low_m[k] && head.low_m[k] <= head.high_m[k] &&
           head.high_m[k] <= of.high_m[k]))
-      return reject(542, k);
+      return reject(kRuleBaseHullBox, k);
   }
   base_hull_.cell_m_ = of.cell_m;
   return kPassed;
@@ -134,11 +134,11 @@ void BaseHullOpening::work(uint32_t elements, const View& hull) {
     if (of_vertices) {
       stage_ = Stage::kFaces;
     } else if (next_triangle_ != base_hull_.head_->triangle_count) {
-      return fail(reject(546, next_triangle_));
+      return fail(reject(kRuleBaseHullTriangles, next_triangle_));
     } else if (next_corner_ != base_hull_.head_->corner_count) {
-      return fail(reject(545, base_hull_.head_->face_count));
+      return fail(reject(kRuleBaseHullCorners, base_hull_.head_->face_count));
     } else if (edges_ != 0) {
-      return fail(reject(548));
+      return fail(reject(kRuleBaseHullOpen));
     } else {
       stage_ = Stage::kDone;
     }
@@ -147,16 +147,17 @@ void BaseHullOpening::work(uint32_t elements, const View& hull) {
 
 Verdict BaseHullOpening::check_vertex(uint32_t i, const View& hull) const {
   const uint32_t id = base_hull_.id_of(i), mesh_vertices = hull.head().mesh_vertex_count;
-  if (id >= hull.id_count() || (removed_by(id) < base_hull_.head_->cut)) return reject(543, i);
+  if (id >= hull.id_count() || (removed_by(id) < base_hull_.head_->cut))
+    return reject(kRuleBaseHullVertex, i);
   const uint32_t number = hull.number_of(id);
   if (base_hull_.is_made(i) != (number >= mesh_vertices) ||
       number >= mesh_vertices + base_hull_.head_->cut)
-    return reject(543, i);
+    return reject(kRuleBaseHullVertex, i);
   const math::Vec3 here_m = vertex(base_hull_, i), there_m = hull::vertex(hull, number);
   if (math::bits_of(here_m.x) != math::bits_of(there_m.x) ||
       math::bits_of(here_m.y) != math::bits_of(there_m.y) ||
       math::bits_of(here_m.z) != math::bits_of(there_m.z))
-    return reject(544, i);
+    return reject(kRuleBaseHullPosition, i);
   return kPassed;
 }
 
@@ -164,13 +165,13 @@ Verdict BaseHullOpening::check_vertex(uint32_t i, const View& hull) const {
 Verdict BaseHullOpening::check_leaf(uint32_t leaf) {
   const uint32_t face = leaf * kLeafFaces, count = corners_of(base_hull_.faces_[face]);
   if (leaf % 2 == 0 && base_hull_.corner_places_[leaf / 2] != next_corner_)
-    return reject(545, face);
+    return reject(kRuleBaseHullCorners, face);
   if (count > kMaxLeafCorners || count > base_hull_.head_->corner_count - next_corner_)
-    return reject(545, face);
+    return reject(kRuleBaseHullCorners, face);
   next_corner_ += count;
   for (const uint16_t vertex : base_hull_.leaf(leaf).corners)
     if (vertex >= base_hull_.head_->made_count + base_hull_.head_->kept_count)
-      return reject(545, face);
+      return reject(kRuleBaseHullCorners, face);
   return kPassed;
 }
 
@@ -181,11 +182,11 @@ Verdict BaseHullOpening::check_face(uint32_t i, const View& hull) {
   }
   const BaseHullFace face = base_hull_.faces_[i];
   const BaseHull::Leaf leaf = base_hull_.leaf(i / kLeafFaces);
-  if (corners_of(face) != leaf.corners.size()) return reject(545, i);
+  if (corners_of(face) != leaf.corners.size()) return reject(kRuleBaseHullCorners, i);
   uint32_t number[3];
   bool is_triangle = true;
   for (uint32_t k = 0; k < 3; ++k) {
-    if (corner_at(face, k) >= leaf.corners.size()) return reject(545, i);
+    if (corner_at(face, k) >= leaf.corners.size()) return reject(kRuleBaseHullCorners, i);
     const uint32_t vertex = leaf.corners[corner_at(face, k)];
     number[k] = hull.number_of(base_hull_.id_of(vertex));
     is_triangle = is_triangle && !base_hull_.is_made(vertex);
@@ -197,15 +198,15 @@ Verdict BaseHullOpening::check_face(uint32_t i, const View& hull) {
   }
   const Verdict boxed = check_box(i);
   if (!boxed.ok() || !is_triangle) return boxed;
-  if (next_triangle_ == base_hull_.head_->triangle_count) return reject(546, i);
+  if (next_triangle_ == base_hull_.head_->triangle_count) return reject(kRuleBaseHullTriangles, i);
   const BaseHullTriangle& reported = base_hull_.triangles_[next_triangle_++];
   if (reported.face != i || reported.triangle >= hull.head().mesh_triangle_count)
-    return reject(546, i);
+    return reject(kRuleBaseHullTriangles, i);
   const mesh::Triangle<uint32_t> t = hull.triangle(reported.triangle);
   return face_hash(t.corner[0], t.corner[1], t.corner[2]) ==
                  face_hash(number[0], number[1], number[2])
              ? kPassed
-             : reject(546, i);
+             : reject(kRuleBaseHullTriangles, i);
 }
 
 Verdict BaseHullOpening::check_box(uint32_t face) const {
@@ -215,7 +216,8 @@ Verdict BaseHullOpening::check_box(uint32_t face) const {
   for (; node != 0; node /= 2) {
     const Box box = child_box(whole, base_hull_.boxes_[node - 1]);
     for (uint32_t k = 0; k < 3; ++k)
-      if (!holds(box, vertex(base_hull_, base_hull_.vertex_of(face, k)))) return reject(547, face);
+      if (!holds(box, vertex(base_hull_, base_hull_.vertex_of(face, k))))
+        return reject(kRuleBaseHullLeafBox, face);
   }
   return kPassed;
 }

@@ -126,4 +126,94 @@ constexpr uint32_t kMaxBaseHullVertices = 65536;
 
 constexpr uint32_t padded(uint32_t bytes) { return (bytes + 3) & ~3u; }
 
+/// Why opening rejects; the numbers never change. tools/FORMAT.md prints the same text.
+enum Rule : uint16_t {
+  // The head is absent or not 64 bytes long.
+  kRuleHeadSize = 501,
+  // The vertex count (0) or triangle count (1) is not the mesh's; there are more collapses than
+  // faces allow (2), or more ids or triangles than id_bytes can express or 2^24 (3).
+  kRuleCounts = 502,
+  // id_bytes (0) or coordinate_bytes (1) is neither 2 nor 3.
+  kRuleWidths = 503,
+  // The vertex section does not hold one vertex a collapse.
+  kRuleVerticesSize = 504,
+  // The origin section does not hold one number an id.
+  kRuleOriginsSize = 505,
+  // The record section is not record_bytes long.
+  kRuleRecordsSize = 506,
+  // The record offset section does not hold one offset for every eight collapses.
+  kRuleRecordOffsetsSize = 507,
+  // The star box section does not hold one box a collapse.
+  kRuleStarBoxesSize = 508,
+  // The box section does not hold the tree over the triangles.
+  kRuleBoxesSize = 509,
+  // The grid begins beyond 1e8 m (axis), or the cell is no power of two from 2^-95 to 1e8 m (3).
+  kRuleGrid = 510,
+  // The head's box is inverted or reaches beyond 1e8 m (0), or does not contain the mesh's box
+  // (1).
+  kRuleHeadBox = 511,
+  // No mesh head has this name.
+  kRuleMeshHead = 512,
+  // The mesh's vertex section does not hold vertex_count vertices.
+  kRuleMeshVerticesSize = 513,
+  // The mesh's triangle section does not hold triangle_count triangles.
+  kRuleMeshTrianglesSize = 514,
+  // The box of the mesh's head is inverted or reaches beyond 1e8 m.
+  kRuleMeshBox = 515,
+  // A vertex of the mesh is NaN or lies outside its head's box.
+  kRuleMeshVertex = 520,
+  // The number of an id is beyond all vertices.
+  kRuleOriginRange = 521,
+  // Two ids have the same number (checked by a sum of hashes).
+  kRuleOriginTwice = 523,
+  // A record does not begin at its stored offset, or extends beyond the section.
+  kRuleRecordOffset = 524,
+  // A link has fewer than 3 corners or is not split in two.
+  kRuleLink = 525,
+  // A corner of the link is no id, is removed before or by this collapse, or is made by it or
+  // later.
+  kRuleLinkCorner = 526,
+  // The new vertex is no id, is not this collapse's, or is removed before or by it.
+  kRuleNewVertex = 527,
+  // The triangles of the star are not, one by one, the mesh's.
+  kRuleStarTriangles = 528,
+  // The new vertex lies outside the head's box.
+  kRuleNewVertexOutside = 529,
+  // The star is not inside its box, as float32 computes it.
+  kRuleStarBox = 530,
+  // The records end before their section does.
+  kRuleRecordsEnd = 531,
+  // A triangle of the mesh has a corner that is no vertex of it.
+  kRuleTriangleCorner = 532,
+  // A triangle is not inside the box of its leaf, as float32 computes it, or a box above that
+  // leaf is inverted.
+  kRuleLeafBox = 533,
+  // The faces do not balance: each face of the mesh and each face made must be replaced by one
+  // collapse or belong to the coarsest hull (checked by a sum of hashes).
+  kRuleFaces = 534,
+  // The base hull is absent or not as long as it states (0), or not as long as its counts require
+  // (1).
+  kRuleBaseHullSize = 540,
+  // The base hull follows more collapses than there are (0), has another face count than they
+  // leave (1), more than 65,536 vertices (2), or more triangles than faces (3).
+  kRuleBaseHullCounts = 541,
+  // The base hull's box is inverted or outside the hull's.
+  kRuleBaseHullBox = 542,
+  // A vertex is no id, does not exist after that many collapses, or is among the wrong kind.
+  kRuleBaseHullVertex = 543,
+  // The coordinates of a vertex are not, to the bit, the hull's or the mesh's.
+  kRuleBaseHullPosition = 544,
+  // The corners of a leaf do not follow those of the previous leaf or are no vertices; a face
+  // states another corner count or names a corner beyond it; or a corner belongs to no leaf.
+  kRuleBaseHullCorners = 545,
+  // The triangles are not, in rising order, those faces that are triangles of the mesh.
+  kRuleBaseHullTriangles = 546,
+  // A face is not inside the box of its leaf or of a node above it, as float32 computes it.
+  kRuleBaseHullLeafBox = 547,
+  // An edge of the base hull has no opposite (checked by a sum of hashes).
+  kRuleBaseHullOpen = 548,
+  // The base hull in the asset is not the coarsest hull.
+  kRuleBaseHullCut = 549,
+};
+
 }  // namespace firmtouch::hull

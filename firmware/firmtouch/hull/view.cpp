@@ -51,19 +51,19 @@ void Opening::fail(Verdict verdict) {
 
 Verdict Opening::open_mesh(const Sections& s) {
   const core::Span<const mesh::Head> heads = core::as_whole_array<mesh::Head>(s.mesh_head);
-  if (heads.size() != 1) return reject(512);
+  if (heads.size() != 1) return reject(kRuleMeshHead);
   view_.mesh_head_ = &heads[0];
   view_.mesh_vertices_ = core::as_whole_array<mesh::Vertex>(s.mesh_vertices);
   if (heads[0].vertex_count == 0 || view_.mesh_vertices_.size() != heads[0].vertex_count)
-    return reject(513, view_.mesh_vertices_.size());
+    return reject(kRuleMeshVerticesSize, view_.mesh_vertices_.size());
   view_.triangles16_ = core::as_whole_array<mesh::Triangle<uint16_t>>(s.triangles16);
   view_.triangles32_ = core::as_whole_array<mesh::Triangle<uint32_t>>(s.triangles32);
   const uint32_t triangles =
       s.triangles32.empty() ? view_.triangles16_.size() : view_.triangles32_.size();
   if (s.triangles16.empty() == s.triangles32.empty() || heads[0].triangle_count == 0 ||
       heads[0].triangle_count > mesh::kMaxTriangles || triangles != heads[0].triangle_count)
-    return reject(514, triangles);
-  return is_box(heads[0].low_m, heads[0].high_m) ? kPassed : reject(515);
+    return reject(kRuleMeshTrianglesSize, triangles);
+  return is_box(heads[0].low_m, heads[0].high_m) ? kPassed : reject(kRuleMeshBox);
 }
 
 Verdict Opening::open_head(const Sections& s) {
@@ -71,43 +71,44 @@ Verdict Opening::open_head(const Sections& s) {
   if (!of_mesh.ok()) return of_mesh;
   const mesh::Head& mesh = *view_.mesh_head_;
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
-  if (heads.size() != 1) return reject(501);
+  if (heads.size() != 1) return reject(kRuleHeadSize);
   const Head& head = heads[0];
-  if (head.mesh_vertex_count != mesh.vertex_count) return reject(502, 0);
-  if (head.mesh_triangle_count != mesh.triangle_count) return reject(502, 1);
+  if (head.mesh_vertex_count != mesh.vertex_count) return reject(kRuleCounts, 0);
+  if (head.mesh_triangle_count != mesh.triangle_count) return reject(kRuleCounts, 1);
   if (head.collapse_count > mesh.triangle_count / 2 ||
       2 * head.collapse_count > mesh.vertex_count + head.collapse_count)
-    return reject(502, 2);
-  if (head.id_bytes != 2 && head.id_bytes != 3) return reject(503, 0);
-  if (head.coordinate_bytes != 2 && head.coordinate_bytes != 3) return reject(503, 1);
+    return reject(kRuleCounts, 2);
+  if (head.id_bytes != 2 && head.id_bytes != 3) return reject(kRuleWidths, 0);
+  if (head.coordinate_bytes != 2 && head.coordinate_bytes != 3) return reject(kRuleWidths, 1);
   const uint32_t ids = mesh.vertex_count + head.collapse_count;
   const uint32_t most = head.id_bytes == 2 ? 65536u : kMaxIds;
-  if (ids > most || mesh.triangle_count > most) return reject(502, 3);
+  if (ids > most || mesh.triangle_count > most) return reject(kRuleCounts, 3);
   view_.head_ = &head;
   view_.vertices_ = s.vertices;
   if (s.vertices.size() != head.collapse_count * 3 * head.coordinate_bytes)
-    return reject(504, s.vertices.size());
+    return reject(kRuleVerticesSize, s.vertices.size());
   view_.origins_ = s.origins;
-  if (s.origins.size() != ids * head.id_bytes) return reject(505, s.origins.size());
+  if (s.origins.size() != ids * head.id_bytes) return reject(kRuleOriginsSize, s.origins.size());
   view_.records_ = s.records;
-  if (s.records.size() != head.record_bytes) return reject(506, s.records.size());
+  if (s.records.size() != head.record_bytes) return reject(kRuleRecordsSize, s.records.size());
   view_.places_ = core::as_whole_array<uint32_t>(s.places);
   if (view_.places_.size() != leaves_for(head.collapse_count, kRecordsAPlace))
-    return reject(507, view_.places_.size());
+    return reject(kRuleRecordOffsetsSize, view_.places_.size());
   view_.star_boxes_ = core::as_whole_array<StarBox>(s.star_boxes);
-  if (view_.star_boxes_.size() != head.collapse_count) return reject(508, view_.star_boxes_.size());
+  if (view_.star_boxes_.size() != head.collapse_count)
+    return reject(kRuleStarBoxesSize, view_.star_boxes_.size());
   view_.boxes_ = core::as_whole_array<NodeBox>(s.boxes);
   if (view_.boxes_.size() != nodes_for(leaves_for(mesh.triangle_count, kLeafTriangles)))
-    return reject(509, view_.boxes_.size());
+    return reject(kRuleBoxesSize, view_.boxes_.size());
   for (uint32_t k = 0; k < 3; ++k)
     if (!(head.grid_low_m[k] >= -kFarthest_m && head.grid_low_m[k] <= kFarthest_m))
-      return reject(510, k);
-  if (!is_power_of_two(head.cell_m) || !(head.cell_m <= kFarthest_m)) return reject(510, 3);
-  if (!is_box(head.low_m, head.high_m)) return reject(511, 0);
+      return reject(kRuleGrid, k);
+  if (!is_power_of_two(head.cell_m) || !(head.cell_m <= kFarthest_m)) return reject(kRuleGrid, 3);
+  if (!is_box(head.low_m, head.high_m)) return reject(kRuleHeadBox, 0);
   const Box box = box_of(head.low_m, head.high_m);
   if (!holds(box, {mesh.low_m[0], mesh.low_m[1], mesh.low_m[2]}) ||
       !holds(box, {mesh.high_m[0], mesh.high_m[1], mesh.high_m[2]}))
-    return reject(511, 1);
+    return reject(kRuleHeadBox, 1);
   base_hull_bytes_ = s.base_hull;
   return kPassed;
 }
@@ -148,12 +149,12 @@ void Opening::next_stage() {
     next_ = 0;
   }
   if (stage_ == Stage::kIds && next_ == view_.id_count()) {
-    if (numbers_ != 0) return fail(reject(523));
+    if (numbers_ != 0) return fail(reject(kRuleOriginTwice));
     stage_ = Stage::kRecords;
     next_ = 0;
   }
   if (stage_ == Stage::kRecords && next_ == head.collapse_count) {
-    if (record_at_ != head.record_bytes) return fail(reject(531, record_at_));
+    if (record_at_ != head.record_bytes) return fail(reject(kRuleRecordsEnd, record_at_));
     stage_ = Stage::kTriangles;
     next_ = 0;
   }
@@ -165,21 +166,22 @@ void Opening::next_stage() {
   }
   if (stage_ == Stage::kBaseHull && base_hull_opening_.done()) {
     view_.base_hull_ = base_hull_opening_.base_hull();
-    if (view_.base_hull_.head().cut != head.collapse_count) return fail(reject(549));
-    if (faces_ != base_hull_opening_.faces()) return fail(reject(534));
+    if (view_.base_hull_.head().cut != head.collapse_count) return fail(reject(kRuleBaseHullCut));
+    if (faces_ != base_hull_opening_.faces()) return fail(reject(kRuleFaces));
     stage_ = Stage::kDone;
   }
 }
 
 Verdict Opening::check_mesh_vertex(uint32_t i) const {
   const Vec3 v = view_.mesh_vertex(i);
-  return holds(box_of(view_.mesh_head().low_m, view_.mesh_head().high_m), v) ? kPassed
-                                                                             : reject(520, i);
+  return holds(box_of(view_.mesh_head().low_m, view_.mesh_head().high_m), v)
+             ? kPassed
+             : reject(kRuleMeshVertex, i);
 }
 
 Verdict Opening::check_id(uint32_t id) {
   const uint32_t number = view_.number_of(id);
-  if (number >= view_.id_count()) return reject(521, id);
+  if (number >= view_.id_count()) return reject(kRuleOriginRange, id);
   numbers_ += scattered(number) - scattered(id);
   return kPassed;
 }
@@ -187,14 +189,14 @@ Verdict Opening::check_id(uint32_t id) {
 Verdict Opening::check_record(uint32_t collapse) {
   const Head& head = view_.head();
   if (collapse % kRecordsAPlace == 0 && view_.places_[collapse / kRecordsAPlace] != record_at_)
-    return reject(524, collapse);
+    return reject(kRuleRecordOffset, collapse);
   const uint32_t left = head.record_bytes - record_at_;
   const uint8_t* record = view_.records_.data() + record_at_;
-  if (left < 2) return reject(524, collapse);
+  if (left < 2) return reject(kRuleRecordOffset, collapse);
   const uint32_t word = View::head_of(record), size = record_size(word, head.id_bytes);
-  if (size > left) return reject(524, collapse);
+  if (size > left) return reject(kRuleRecordOffset, collapse);
   if (link_of(word) < 3 || split_of(word) == 0 || split_of(word) >= link_of(word))
-    return reject(525, collapse);
+    return reject(kRuleLink, collapse);
   record_at_ += size;
   return check_star(collapse, record);
 }
@@ -205,19 +207,21 @@ Verdict Opening::check_star(uint32_t collapse, const uint8_t* record) {
   const uint32_t new_id = view_.id_in(record, 0);
   if (new_id >= view_.id_count() || view_.number_of(new_id) != made ||
       removed_by(new_id) <= collapse)
-    return reject(527, collapse);
+    return reject(kRuleNewVertex, collapse);
   for (uint32_t i = 0; i < link_of(View::head_of(record)); ++i) {
     const uint32_t id = view_.id_in(record, 1 + i);
-    if (id >= view_.id_count() || removed_by(id) <= collapse) return reject(526, collapse);
+    if (id >= view_.id_count() || removed_by(id) <= collapse)
+      return reject(kRuleLinkCorner, collapse);
   }
   const Star star(view_, collapse, record);
   for (uint32_t i = 0; i < 2 + star.link; ++i)
-    if (star.number[i] >= made) return reject(526, collapse);
+    if (star.number[i] >= made) return reject(kRuleLinkCorner, collapse);
   const Vec3 vertex_m = made_vertex(view_, collapse);
-  if (!holds(box_of(head.low_m, head.high_m), vertex_m)) return reject(529, collapse);
+  if (!holds(box_of(head.low_m, head.high_m), vertex_m))
+    return reject(kRuleNewVertexOutside, collapse);
   const Box box = star_box_m(vertex_m, head.cell_m, view_.star_box(collapse));
   for (uint32_t i = 0; i < 2 + star.link; ++i)
-    if (!holds(box, vertex(view_, star.number[i]))) return reject(530, collapse);
+    if (!holds(box, vertex(view_, star.number[i]))) return reject(kRuleStarBox, collapse);
   const uint32_t triangles = triangles_of(View::head_of(record));
   uint32_t reported = 0;
   for (uint32_t i = 0; i < star.face_count(); ++i) {
@@ -227,28 +231,28 @@ Verdict Opening::check_star(uint32_t collapse, const uint8_t* record) {
                                 star.number[corner[2]]};
     faces_ -= face_hash(number[0], number[1], number[2]);
     if (star.youngest(corner) >= mesh_vertices) continue;
-    if (reported == triangles) return reject(528, collapse);
+    if (reported == triangles) return reject(kRuleStarTriangles, collapse);
     const uint32_t triangle = view_.id_in(record, 1 + star.link + reported++);
     if (triangle >= head.mesh_triangle_count ||
         !is_same_face(number, view_.triangle(triangle).corner))
-      return reject(528, collapse);
+      return reject(kRuleStarTriangles, collapse);
   }
   for (uint32_t i = 0; i < star.link; ++i)
     faces_ += face_hash(made, star.number[2 + i], star.number[i + 1 == star.link ? 2 : 3 + i]);
-  return reported == triangles ? kPassed : reject(528, collapse);
+  return reported == triangles ? kPassed : reject(kRuleStarTriangles, collapse);
 }
 
 Verdict Opening::check_triangle(uint32_t i) {
   const mesh::Triangle<uint32_t> t = view_.triangle(i);
   for (const uint32_t corner : t.corner)
-    if (corner >= view_.head().mesh_vertex_count) return reject(532, i);
+    if (corner >= view_.head().mesh_vertex_count) return reject(kRuleTriangleCorner, i);
   const FilledTree tree(view_.boxes_.size());
   Box box;
   if (!tree.box_of(view_.boxes_, box_of(view_.mesh_head().low_m, view_.mesh_head().high_m),
                    tree.node(i / kLeafTriangles), box))
-    return reject(533, i);
+    return reject(kRuleLeafBox, i);
   for (const uint32_t corner : t.corner)
-    if (!holds(box, view_.mesh_vertex(corner))) return reject(533, i);
+    if (!holds(box, view_.mesh_vertex(corner))) return reject(kRuleLeafBox, i);
   faces_ += face_hash(t.corner[0], t.corner[1], t.corner[2]);
   return kPassed;
 }
