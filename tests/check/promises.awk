@@ -1,7 +1,7 @@
-# Judges the promise table of DESIGN.md (tests/check/promises.sh): `test NAME`, `word WORD` and `file PATH` say what there
-# is, `text ...` are the lines of DESIGN.md.
+# Judges the promise table of VERIFICATION.md (tests/check/promises.sh): `test NAME`, `word WORD` and `file PATH` say what there
+# is, `text ...` are the lines of VERIFICATION.md.
 function complain(what) {
-  print "DESIGN.md: " promise ": " what
+  print "VERIFICATION.md: " promise ": " what
   bad = 1
 }
 
@@ -73,7 +73,7 @@ line ~ /^\| *[Pp]romise *\| *[Mm]echanism/ { in_table = 1; next }
 
 END {
   if (rows < 5) {
-    print "DESIGN.md: no promise table"
+    print "VERIFICATION.md: no promise table"
     bad = 1
   }
   exit bad

@@ -1,4 +1,4 @@
-# The promise table of DESIGN.md names only what exists. Its columns: promise | mechanism (file) | attack (test) |
+# The promise table of VERIFICATION.md names only what exists. Its columns: promise | mechanism (file) | attack (test) |
 # figure (command). In backquotes stand files of the tree, tests as CTest names them (module.Test, check.name, target.name)
 # and commands. Read by tests/check/run.
 
@@ -21,14 +21,14 @@ check() {
   { printf '%s\n' "$names" | sed 's/^/test /'
     printf '%s\n' "$words" | sed 's/^/word /'
     printf '%s\n' "$files" | sed 's/^/file /'
-    sed 's/^/text /' DESIGN.md
+    sed 's/^/text /' VERIFICATION.md
   } | awk -f "$here/promises.awk"
 }
 
 row() {  # row CELL...: puts a row of four cells after the table's head
   awk -v row="| $1 | $2 | $3 | $4 |" '
-    { print } /^\| promise \| mechanism/ { table = 1 } table && /^\|---/ && !done { print row; done = 1 }' DESIGN.md >new.md
-  mv new.md DESIGN.md
+    { print } /^\| promise \| mechanism/ { table = 1 } table && /^\|---/ && !done { print row; done = 1 }' VERIFICATION.md >new.md
+  mv new.md VERIFICATION.md
 }
 plant_missing_file() {
   row 'planted' '`firmware/firmtouch/mesh/nowhere.cpp`' '`check.words`' '`tools/test`'
@@ -59,7 +59,7 @@ plant_row_without_an_attack() {
   expect='planted: names no attack'
 }
 plant_no_table() {
-  grep -v '^|' DESIGN.md >new.md
-  mv new.md DESIGN.md
+  grep -v '^|' VERIFICATION.md >new.md
+  mv new.md VERIFICATION.md
   expect='no promise table'
 }
