@@ -160,7 +160,7 @@ uint32_t motors_lines() {
     g_is_closed = false;
     g_switched_us = now_us;
   }
-  return g_is_closed ? record::kLineEnable : 0u;
+  return g_is_closed ? record::kFlagEnable : 0u;
 }
 
 }  // namespace firmtouch::hal

@@ -37,14 +37,14 @@ uint32_t servo_lines() {
   const uint32_t lines = hal::motors_lines();
   if (!g_show_enable_low) return lines;
   g_show_enable_low = false;
-  return lines & ~record::kLineEnable;
+  return lines & ~record::kFlagEnable;
 }
 
 bool servo_is_running() { return g_running; }
 
 void start_servo_when_enabled() {
   if (g_running) return;
-  if ((hal::motors_lines() & record::kLineEnable) == 0) {
+  if ((hal::motors_lines() & record::kFlagEnable) == 0) {
     g_saw_enable_low = true;
   } else if (g_saw_enable_low) {
     g_show_enable_low = true;

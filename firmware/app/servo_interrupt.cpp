@@ -18,9 +18,9 @@ void servo_interrupt() {
 
   now.input.tick = next_tick++;
   now.input.clock_us = hal::clock_us();
-  now.input.lines = servo_lines();
-  if (!hal::encoders_read(now.input.encoder_counts)) now.input.lines |= record::kLineEncoderFault;
-  if (kTwoRates) now.input.lines |= controller.model_lines();
+  now.input.flags = servo_lines();
+  if (!hal::encoders_read(now.input.encoder_counts)) now.input.flags |= record::kFlagEncoderFault;
+  if (kTwoRates) now.input.flags |= controller.model_flags();
   commands.take(now.input);  // at most one parameter a tick
 
   controller.tick(now.input, now.output);  // calls no hardware: replay calls it with the same input

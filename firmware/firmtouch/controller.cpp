@@ -56,8 +56,8 @@ uint32_t device_faults(uint32_t faults) {
 }
 
 uint32_t line_faults(uint32_t lines) {
-  return ((lines & record::kLineDriveFault) != 0 ? servo::kFaultDrive : 0u) |
-         ((lines & record::kLineEmergencyStop) != 0 ? servo::kFaultEmergencyStop : 0u);
+  return ((lines & record::kFlagDriveFault) != 0 ? servo::kFaultDrive : 0u) |
+         ((lines & record::kFlagEmergencyStop) != 0 ? servo::kFaultEmergencyStop : 0u);
 }
 
 uint32_t asset_faults(const Opener& opener) {
@@ -97,7 +97,7 @@ bool Controller::take_parameter(const record::TickInput& input) {
   if (row >= params::kCount) return false;
   const bool motors_off =
       live_.servo.mode == servo::Mode::kOff || live_.servo.mode == servo::Mode::kFault;
-  const bool enable = (input.lines & record::kLineEnable) != 0;
+  const bool enable = (input.flags & record::kFlagEnable) != 0;
   if (enable || !motors_off) {
     const params::When when = params::kTable[row].when;
     if (when == params::When::kMotorsOff) return false;
@@ -187,19 +187,19 @@ void Controller::feel(const Wish& wish, const Values& v, Felt& felt) {
 
 // The model of this tick, made in it or elsewhere.
 const Controller::Felt& Controller::felt_in(const Wish& wish, uint32_t lines) {
-  if ((lines & record::kLineModelApart) == 0) {
+  if ((lines & record::kFlagModelApart) == 0) {
     feel(wish, live_.values, live_.models.answer());
     return live_.models.answer();
   }
-  if ((lines & record::kLineModelTaken) != 0) live_.models.take();
-  if ((lines & record::kLineModelWanted) != 0) live_.models.ask({wish, live_.values});
+  if ((lines & record::kFlagModelTaken) != 0) live_.models.take();
+  if ((lines & record::kFlagModelWanted) != 0) live_.models.ask({wish, live_.values});
   return live_.models.answer();
 }
 
-uint32_t Controller::model_lines() const {
-  uint32_t lines = record::kLineModelApart;
-  if (live_.models.is_made()) lines |= record::kLineModelTaken | record::kLineModelWanted;
-  if (live_.models.is_idle()) lines |= record::kLineModelWanted;
+uint32_t Controller::model_flags() const {
+  uint32_t lines = record::kFlagModelApart;
+  if (live_.models.is_made()) lines |= record::kFlagModelTaken | record::kFlagModelWanted;
+  if (live_.models.is_idle()) lines |= record::kFlagModelWanted;
   return lines;
 }
 
@@ -225,7 +225,7 @@ void Controller::tell(const Felt& felt, record::TickOutput& output) {
 
 void Controller::tick(const record::TickInput& input, record::TickOutput& output) {
   const bool ready = opener_.is_ready();
-  const bool enable = (input.lines & record::kLineEnable) != 0;
+  const bool enable = (input.flags & record::kFlagEnable) != 0;
   if (!enable && ready) live_.enable_was_low = true;
   const bool clear = input.command == record::kCommandClearFaults && !enable;
   output = {};
@@ -244,11 +244,11 @@ void Controller::tick(const record::TickInput& input, record::TickOutput& output
       watch_clock(live_.clock, input.clock_us, v[params::kTickPeriod], v[params::kLateRatio]);
   const device::Sample sample{
       {input.encoder_counts[0], input.encoder_counts[1], input.encoder_counts[2]},
-      (input.lines & record::kLineEncoderFault) == 0,
+      (input.flags & record::kFlagEncoderFault) == 0,
       clock.dt_s};
   const device::Reading tool = read(live_.device, device_settings(v), sample);
 
-  const Felt& felt = felt_in({tool.position_m, input.tick, ready && tool.started}, input.lines);
+  const Felt& felt = felt_in({tool.position_m, input.tick, ready && tool.started}, input.flags);
 
   servo::StepInput step;
   step.position_m = tool.position_m;
@@ -256,14 +256,14 @@ void Controller::tick(const record::TickInput& input, record::TickOutput& output
   step.tick = input.tick;
   step.enable = enable && ready && live_.enable_was_low;
   step.clear_faults = clear;
-  step.reported = clock.faults | device_faults(tool.faults) | line_faults(input.lines);
+  step.reported = clock.faults | device_faults(tool.faults) | line_faults(input.flags);
   if (enable) step.reported |= asset_faults(opener_);
   const servo::StepOutput wanted = servo::step(live_.servo, servo_settings(v), felt.model, step);
 
   // A Cartesian device's joints are its axes: the force of each motor is the tool's.
   float motor_N[record::kAxes];
   put(motor_N, wanted.force_N);
-  const bool cut = line_faults(input.lines) != 0 || (wanted.faults & servo::kCutAtOnce) != 0;
+  const bool cut = line_faults(input.flags) != 0 || (wanted.faults & servo::kCutAtOnce) != 0;
   if (!guard(live_.guard, step.enable && wanted.faults == 0, cut, motor_N)) {
     live_.servo.faults |= servo::kFaultGuard;
     live_.servo.mode = servo::Mode::kFault;

@@ -47,19 +47,19 @@ class Controller {
   /// A function of the controller's state and `input` alone: calls no HAL, reads no clock. Every
   /// field of `output` is set and finite. A parameter changes only by `input.command`, so that the
   /// record holds all that a replay needs.
-  /// The motors come on only after kLineEnable was seen low in a tick since reset() with the asset
+  /// The motors come on only after kFlagEnable was seen low in a tick since reset() with the asset
   /// ready: a line that stands high from the beginning, as after a watchdog's reset, enables
   /// nothing.
-  /// At one rate the local model is made in the tick. At two, where input.lines holds
-  /// kLineModelApart, make_model() makes it elsewhere: this tick asks for one from its own position
-  /// where kLineModelWanted says so, begins to use the one that was made where kLineModelTaken does,
+  /// At one rate the local model is made in the tick. At two, where input.flags holds
+  /// kFlagModelApart, make_model() makes it elsewhere: this tick asks for one from its own position
+  /// where kFlagModelWanted says so, begins to use the one that was made where kFlagModelTaken does,
   /// and goes on with the last one else. Since these are inputs, a log replays at two rates too.
   /// Bounds: two queries of at most mesh_steps and curve_steps, with a hull of the mesh
   /// another one of mesh_steps or 512, at two rates none; callable from an interrupt; not re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output);
 
   /// Servo interrupt, at two rates: the lines of the tick that comes, by what make_model() has done.
-  uint32_t model_lines() const;
+  uint32_t model_flags() const;
 
   /// Below the servo interrupt, which may interrupt it anywhere; in lock-step and on replay after
   /// each tick. Makes the model that a tick asked for; nothing where none was.

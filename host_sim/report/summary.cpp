@@ -28,10 +28,10 @@ std::vector<size_t> model_ticks(const Trace& trace) {
   std::vector<size_t> made(trace.records.size());
   size_t used = 0, wanted = 0;
   for (size_t i = 0; i < trace.records.size(); ++i) {
-    const uint32_t lines = trace.records[i].input.lines;
-    if ((lines & record::kLineModelTaken) != 0) used = wanted;
-    if ((lines & record::kLineModelWanted) != 0) wanted = i;
-    if ((lines & record::kLineModelApart) == 0) used = wanted = i;
+    const uint32_t lines = trace.records[i].input.flags;
+    if ((lines & record::kFlagModelTaken) != 0) used = wanted;
+    if ((lines & record::kFlagModelWanted) != 0) wanted = i;
+    if ((lines & record::kFlagModelApart) == 0) used = wanted = i;
     made[i] = used;
   }
   return made;

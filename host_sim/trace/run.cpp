@@ -71,7 +71,7 @@ class Operator {
     for (; next_ < scenario_.events.size() && scenario_.events[next_].time_s <= time_s; ++next_)
       once |= happen(scenario_.events[next_]);
     const bool enabled = enabled_ && input.tick >= enable_tick_;
-    input.lines = held_ | once | (enabled ? record::kLineEnable : 0);
+    input.flags = held_ | once | (enabled ? record::kFlagEnable : 0);
     if (commands_.empty()) return;
     input.command = 1 + commands_.front().parameter;
     input.command_value = static_cast<float>(commands_.front().value);
@@ -83,13 +83,13 @@ class Operator {
   uint32_t happen(const Event& event) {
     switch (event.kind) {
       case Event::Kind::kEmergencyStop:
-        held_ |= record::kLineEmergencyStop;
+        held_ |= record::kFlagEmergencyStop;
         return 0;
       case Event::Kind::kDriveFault:
-        held_ |= record::kLineDriveFault;
+        held_ |= record::kFlagDriveFault;
         return 0;
       case Event::Kind::kEncoderFault:
-        return record::kLineEncoderFault;
+        return record::kFlagEncoderFault;
       case Event::Kind::kDisable:
         enabled_ = false;
         return 0;
@@ -147,11 +147,11 @@ void check_command(const Scenario& scenario, const record::TickRecord& record) {
 }
 
 // At two rates: each model is there when the next one is asked for.
-uint32_t model_lines(const Scenario& scenario, uint32_t tick) {
+uint32_t model_flags(const Scenario& scenario, uint32_t tick) {
   const uint32_t every = model_ticks(scenario);
   if (every == 0) return 0;
-  if (tick % every != 0) return record::kLineModelApart;
-  return record::kLineModelApart | record::kLineModelTaken | record::kLineModelWanted;
+  if (tick % every != 0) return record::kFlagModelApart;
+  return record::kFlagModelApart | record::kFlagModelTaken | record::kFlagModelWanted;
 }
 
 uint32_t tick_count(const Scenario& scenario, const Hand& hand) {
@@ -247,7 +247,7 @@ Trace run(const Scenario& scenario, Controller& controller, const World& world, 
     record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
     for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = device.count(axis);
     panel.fill(record.input, now_s);
-    record.input.lines |= model_lines(scenario, tick);
+    record.input.flags |= model_flags(scenario, tick);
     controller.tick(record.input, record.output);
     controller.make_model();
     if (remote != nullptr) {

@@ -38,7 +38,7 @@ void motors_write_N(const float (&motor_N)[3]) {
   std::memcpy(g_motors + size_t{3} * g_tick, motor_N, sizeof motor_N);
 }
 void motors_off() {}
-uint32_t motors_lines() { return app_test::input_of(g_tick).lines; }
+uint32_t motors_lines() { return app_test::input_of(g_tick).flags; }
 void watchdog_begin(uint32_t) {}
 void watchdog_feed() {}
 

@@ -61,7 +61,7 @@ TEST(LiveTicksComeFromTheTimerNumberedAndCounted) {
     CHECK_EQ(log.record.number - before.record.number, 1 + log.dropped - before.dropped);
     const record::TickRecord& tick = log.record.value;
     CHECK_EQ(tick.input.tick, log.record.number);
-    CHECK_EQ(tick.input.lines, record::kLineEncoderFault);  // a process has no joints
+    CHECK_EQ(tick.input.flags, record::kFlagEncoderFault);  // a process has no joints
     for (const float force_N : tick.output.motor_N) CHECK_EQ(force_N, 0.0f);
     before = log;
   }

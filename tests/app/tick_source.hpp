@@ -44,7 +44,7 @@ inline record::TickInput input_of(uint32_t i) {
   input.encoder_counts[0] = i < kDown ? wobble : static_cast<int32_t>(i - kDown) + wobble;
   input.encoder_counts[1] = 100 + wobble;
   input.encoder_counts[2] = z + wobble;
-  input.lines = i >= 10 ? record::kLineEnable : 0;
+  input.flags = i >= 10 ? record::kFlagEnable : 0;
   if (i == 600) {
     input.command = 1 + params::kContactStiffness;
     input.command_value = 650.0f;

@@ -131,7 +131,7 @@ TEST(OtherProbeAnswersKeepTheMotorsOff) {
     CHECK_EQ(controller.open(bent.bytes()).rule,
              is_mesh ? firmtouch::kRuleMeshProbes : firmtouch::kRuleCurveProbes);
     record::TickInput input{};
-    input.lines = record::kLineEnable;
+    input.flags = record::kFlagEnable;
     record::TickOutput output;
     controller.tick(input, output);
     CHECK_EQ(output.faults, servo::kFaultProbes);
@@ -177,7 +177,7 @@ TEST(OpeningInSmallSlicesWhileTicksRunEndsTheSame) {
   while (!controller.work(257)) {
     ++slices;
     ride.fill(slices);
-    ride.input.lines = record::kLineEnable;
+    ride.input.flags = record::kFlagEnable;
     controller.tick(ride.input, output);
     CHECK_EQ(size_of(output.motor_N), 0.0);
     CHECK_EQ(output.faults, 0u);

@@ -48,7 +48,7 @@ TEST(ControllerWithoutAnAssetMeasuresAndStaysStill) {
   record::TickOutput output;
   for (uint32_t tick = 0; tick < 50; ++tick) {
     record::TickInput input = at(tick, static_cast<int32_t>(20 * tick));
-    input.lines = record::kLineEnable;
+    input.flags = record::kFlagEnable;
     g_controller.tick(input, output);
     CHECK(is_still(output));
     CHECK_EQ(output.faults, 0u);
@@ -69,7 +69,7 @@ TEST(BrokenAssetIsRefusedByItsRuleAndLatchesAFaultWhenEnabled) {
   g_controller.tick(input, output);
   CHECK_EQ(output.faults, 0u);  // whoever does not enable it is not told off
   input = at(1, 0);
-  input.lines = record::kLineEnable;
+  input.flags = record::kFlagEnable;
   g_controller.tick(input, output);
   CHECK_EQ(output.faults, servo::kFaultAsset);
   CHECK(is_still(output));
@@ -110,7 +110,7 @@ TEST(WhatBendsPositionOrTimeCannotChangeWhileEnabled) {
   record::TickOutput output;
   for (uint32_t row = 0; row < params::kCount; ++row) {
     record::TickInput input = at(row, 0);
-    input.lines = record::kLineEnable;
+    input.flags = record::kFlagEnable;
     input.command = 1 + row;
     input.command_value = params::kTable[row].low;
     g_controller.tick(input, output);
@@ -126,7 +126,7 @@ TEST(WhereTheSceneLiesCannotChangeAndLimitsOnlyFallWhileEnabled) {
   uint32_t tick = 0;
   const auto takes = [&](uint32_t row, float value, uint32_t lines) {
     record::TickInput input = at(tick++, 0);
-    input.lines = lines;
+    input.flags = lines;
     input.command = 1 + row;
     input.command_value = value;
     g_controller.tick(input, output);
@@ -134,17 +134,17 @@ TEST(WhereTheSceneLiesCannotChangeAndLimitsOnlyFallWhileEnabled) {
   };
   const uint32_t scene[] = {params::kSceneX, params::kSceneY, params::kSceneZ};
   for (const uint32_t row : scene) {
-    CHECK(!takes(row, 0.01f, record::kLineEnable));
+    CHECK(!takes(row, 0.01f, record::kFlagEnable));
     CHECK(takes(row, 0.01f, 0));
   }
   const uint32_t limits[] = {params::kForceLimit, params::kSlewLimit};
   for (const uint32_t row : limits) {
     const float now = params::kTable[row].initial;
-    CHECK(!takes(row, 1.001f * now, record::kLineEnable));
+    CHECK(!takes(row, 1.001f * now, record::kFlagEnable));
     CHECK_EQ(g_controller.values().value[row], now);
-    CHECK(takes(row, now, record::kLineEnable));
-    CHECK(takes(row, 0.5f * now, record::kLineEnable));
-    CHECK(!takes(row, now, record::kLineEnable));
+    CHECK(takes(row, now, record::kFlagEnable));
+    CHECK(takes(row, 0.5f * now, record::kFlagEnable));
+    CHECK(!takes(row, now, record::kFlagEnable));
     CHECK_EQ(g_controller.values().value[row], 0.5f * now);
     CHECK(takes(row, 1.5f * now, 0));
   }

@@ -101,7 +101,7 @@ TEST(AMapThatItsMeshDoesNotProveIsRefusedAndNothingIsPushed) {
   CHECK_EQ(controller.open(bent.bytes()).rule, uint16_t{310});
   CHECK(!controller.distance_field().is_open());
   record::TickInput input{};
-  input.lines = record::kLineEnable;
+  input.flags = record::kFlagEnable;
   record::TickOutput output;
   controller.tick(input, output);
   CHECK_EQ(output.faults, servo::kFaultAsset);

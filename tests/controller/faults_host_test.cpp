@@ -31,14 +31,14 @@ TEST(EachLineAndEachBrokenInputLatchesItsFaultInTime) {
   const Plan plans[] = {
       {"emergency stop", servo::kFaultEmergencyStop, 1,
        [](record::TickInput& i, uint32_t since) {
-         if (since == 0) i.lines |= record::kLineEmergencyStop;
+         if (since == 0) i.flags |= record::kFlagEmergencyStop;
        }},
       {"drive", servo::kFaultDrive, 1,
        [](record::TickInput& i, uint32_t since) {
-         if (since == 0) i.lines |= record::kLineDriveFault;
+         if (since == 0) i.flags |= record::kFlagDriveFault;
        }},
       {"encoder lost", servo::kFaultEncoder, 3,
-       [](record::TickInput& i, uint32_t) { i.lines |= record::kLineEncoderFault; }},
+       [](record::TickInput& i, uint32_t) { i.flags |= record::kFlagEncoderFault; }},
       {"encoder jump", servo::kFaultEncoder, 3,
        [](record::TickInput& i, uint32_t since) {
          i.encoder_counts[1] += since % 2 == 0 ? 200000 : -200000;
@@ -84,7 +84,7 @@ TEST(ClearedFaultsLetItGoOn) {
   Ride ride;
   ride.run(0, 400);
   ride.fill(400);
-  ride.input.lines |= record::kLineEmergencyStop;
+  ride.input.flags |= record::kFlagEmergencyStop;
   ride.step();
   ride.run(401, 500);
   CHECK_EQ(ride.output.faults, servo::kFaultEmergencyStop);
@@ -94,7 +94,7 @@ TEST(ClearedFaultsLetItGoOn) {
   CHECK_NE(ride.output.state & record::kStateCommandRefused, 0u);
   CHECK_NE(ride.output.faults, 0u);
   ride.fill(501);
-  ride.input.lines = 0;
+  ride.input.flags = 0;
   ride.input.command = record::kCommandClearFaults;
   ride.step();
   CHECK_EQ(ride.output.faults, 0u);
@@ -115,13 +115,13 @@ TEST(ClearedTimingAndEncoderFaultsDoNotComeBackByThemselves) {
     for (uint32_t tick = 400; tick < 408; ++tick) {
       ride.fill(tick);
       if (kind == 0) ride.input.clock_us += (tick - 400) * 1000u;
-      if (kind == 1) ride.input.lines |= record::kLineEncoderFault;
+      if (kind == 1) ride.input.flags |= record::kFlagEncoderFault;
       ride.step();
     }
     CHECK_NE(ride.output.faults, 0u);
     ride.fill(408);
     ride.input.clock_us += kind == 0 ? 8000u : 0u;
-    ride.input.lines = 0;
+    ride.input.flags = 0;
     ride.input.command = record::kCommandClearFaults;
     ride.step();
     for (uint32_t tick = 409; tick < 500; ++tick) {
@@ -150,7 +150,7 @@ TEST(TrippedGuardIsAFaultThatStaysUntilItIsCleared) {
   CHECK_EQ(ride.output.faults, servo::kFaultGuard);
   CHECK_EQ(size_of(ride.output.motor_N), 0.0);
   ride.fill(420);
-  ride.input.lines = 0;
+  ride.input.flags = 0;
   ride.input.command = record::kCommandClearFaults;
   ride.step();
   CHECK_EQ(ride.output.faults, 0u);
@@ -164,7 +164,7 @@ TEST(EnableThatStandsSinceTheBeginningPushesOnlyOnceItWasLow) {
     ride.input.encoder_counts[2] -= 300;
     ride.input.tick = tick;
     ride.input.clock_us = tick * 1000u;
-    ride.input.lines = enable ? record::kLineEnable : 0;
+    ride.input.flags = enable ? record::kFlagEnable : 0;
     ride.step();
   };
   Ride ride;
@@ -200,7 +200,7 @@ TEST(DeviceThatNeverReadASampleIsNotFeltAndFaultsWhenEnabled) {
   Ride ride;
   const auto step = [&](uint32_t tick, uint32_t lines, uint32_t row, float value) {
     ride.fill(tick);
-    ride.input.lines = lines | record::kLineEncoderFault;
+    ride.input.flags = lines | record::kFlagEncoderFault;
     ride.input.command = row == params::kCount ? 0 : 1 + row;
     ride.input.command_value = value;
     ride.step();
@@ -212,7 +212,7 @@ TEST(DeviceThatNeverReadASampleIsNotFeltAndFaultsWhenEnabled) {
   step(4, 0, params::kGuideSnap, 1);
   step(5, 0, params::kGuideStiffness, 20000);
   for (uint32_t tick = 6; tick < 40; ++tick) {
-    const uint32_t lines = tick < 10 ? 0 : record::kLineEnable;
+    const uint32_t lines = tick < 10 ? 0 : record::kFlagEnable;
     step(tick, lines, params::kCount, 0);
     CHECK_EQ(ride.output.steps, 0u);
     CHECK_EQ(ride.output.distance_m, 0.0f);
@@ -232,7 +232,7 @@ TEST(FlippedBitsInTheParametersDoNotPassTheGuard) {
         ride.fill(400);
         ride.input.tick = tick;
         ride.input.clock_us = tick * 1000u;
-        ride.input.lines = tick < 10 ? 0 : record::kLineEnable;
+        ride.input.flags = tick < 10 ? 0 : record::kFlagEnable;
         // 30 mm further in, 0.5 mm a tick: 800 N/m would like to push with far more than 8 N.
         const uint32_t pressed = tick < 250 ? 0 : tick < 310 ? tick - 250 : 60;
         ride.input.encoder_counts[2] -= 50 * static_cast<int32_t>(pressed);
@@ -278,7 +278,7 @@ TEST(RandomInputsNeverBreakTheOutput) {
     const uint32_t what = ride.output.faults != 0 && random() % 4 == 0 ? 6 : random() % 200;
     if (what == 0) ride.input.encoder_counts[random() % 3] = static_cast<int32_t>(random());
     if (what == 1) ride.input.clock_us = random();
-    if (what == 2) ride.input.lines = random() & 0xFu;
+    if (what == 2) ride.input.flags = random() & 0xFu;
     if (what == 3) ride.input.tick = random();
     if (tick % 2000 == 0)
       ride.controller.reset();  // else the random parameters end as a device that feels nothing
@@ -287,7 +287,7 @@ TEST(RandomInputsNeverBreakTheOutput) {
       const uint32_t bits = random();
       std::memcpy(&ride.input.command_value, &bits, 4);
     }
-    if (what == 6) ride.input.command = record::kCommandClearFaults, ride.input.lines = 0;
+    if (what == 6) ride.input.command = record::kCommandClearFaults, ride.input.flags = 0;
     const double slew_N = static_cast<double>(ride.controller.values()[params::kSlewLimit]) *
                           static_cast<double>(ride.controller.values()[params::kTickPeriod]);
     ride.step();

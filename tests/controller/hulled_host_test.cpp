@@ -108,7 +108,7 @@ TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
       CHECK(rule >= 540 && rule <= 549);
     }
     record::TickInput input{};
-    input.lines = record::kLineEnable;
+    input.flags = record::kFlagEnable;
     record::TickOutput output;
     controller.tick(input, output);
     CHECK_NE(output.faults, 0u);

@@ -111,7 +111,7 @@ struct Ride {
     input = {};
     input.tick = tick;
     input.clock_us = 4294900000u + tick * 1000u;  // wraps early on
-    input.lines = tick < 10 ? 0 : record::kLineEnable;
+    input.flags = tick < 10 ? 0 : record::kFlagEnable;
     for (int k = 0; k < 3; ++k)
       input.encoder_counts[k] = static_cast<int32_t>(std::lround(p_m[k] * 100000));
   }

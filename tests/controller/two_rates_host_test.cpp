@@ -22,10 +22,10 @@ Run ride_with(uint32_t (*late)(uint32_t)) {
   bool is_due = false;
   for (uint32_t tick = 0; tick < kTicks; ++tick) {
     ride.fill(tick);
-    ride.input.lines |= ride.controller.model_lines();
-    if ((ride.input.lines & record::kLineModelTaken) != 0) ++run.models;
+    ride.input.flags |= ride.controller.model_flags();
+    if ((ride.input.flags & record::kFlagModelTaken) != 0) ++run.models;
     ride.step();
-    if ((ride.input.lines & record::kLineModelWanted) != 0) due = tick + late(tick), is_due = true;
+    if ((ride.input.flags & record::kFlagModelWanted) != 0) due = tick + late(tick), is_due = true;
     if (is_due && tick >= due) ride.controller.make_model(), is_due = false;
     run.records.push_back({ride.input, ride.output});
   }
@@ -61,8 +61,8 @@ TEST(WhenAModelIsMadeChangesNoBitOnlyWhenItIsTakenDoes) {
   // It is an input: with one line taken away the replay differs.
   Run run = ride_with(at_once);
   for (uint32_t i = 500; i < kTicks; ++i) {
-    if ((run.records[i].input.lines & record::kLineModelTaken) == 0) continue;
-    run.records[i].input.lines &= ~record::kLineModelTaken;
+    if ((run.records[i].input.flags & record::kFlagModelTaken) == 0) continue;
+    run.records[i].input.flags &= ~record::kFlagModelTaken;
     break;
   }
   CHECK_NE(differing_on_replay(run), 0u);
@@ -72,7 +72,7 @@ TEST(TheRecordKeepsWhichModelEachTickUsed) {
   const Run run = ride_with(now_and_then);
   uint32_t sequence = 0;
   for (const record::TickRecord& one : run.records) {
-    if ((one.input.lines & record::kLineModelTaken) != 0) ++sequence;
+    if ((one.input.flags & record::kFlagModelTaken) != 0) ++sequence;
     CHECK_EQ(one.output.model_sequence, sequence);
   }
 }
@@ -89,7 +89,7 @@ TEST(AThreadBelowTheServoMakesTheModelsAndTheLogReplays) {
   Run run;
   for (uint32_t tick = 0; tick < kTicks; ++tick) {
     ride.fill(tick);
-    ride.input.lines |= ride.controller.model_lines();
+    ride.input.flags |= ride.controller.model_flags();
     ride.step();
     run.records.push_back({ride.input, ride.output});
     if (tick % 2 == 0) std::this_thread::yield();
@@ -103,7 +103,7 @@ TEST(AGeometryThatNeverAnswersIsAStaleModelAndNoForceIsLeft) {
   Ride ride;
   for (uint32_t tick = 0; tick < 1000; ++tick) {
     ride.fill(tick);
-    ride.input.lines |= ride.controller.model_lines();
+    ride.input.flags |= ride.controller.model_flags();
     ride.step();
     ride.controller.make_model();
   }
@@ -111,7 +111,7 @@ TEST(AGeometryThatNeverAnswersIsAStaleModelAndNoForceIsLeft) {
   uint32_t latched = 0;
   for (uint32_t tick = 1000; tick < 1030; ++tick) {
     ride.fill(tick);
-    ride.input.lines |= ride.controller.model_lines();
+    ride.input.flags |= ride.controller.model_flags();
     ride.step();
     if (ride.output.faults == 0) ++latched;
   }

@@ -47,7 +47,7 @@ constexpr uint32_t words_of_fields() {
 }
 static_assert(words_of_fields() * 4 == sizeof(Numbered<TickRecord>),
               "a field of the record has no row, or a row no field");
-static_assert(kLineEncoderFault == 1u << 3 && kLineModelWanted == 1u << 6 &&
+static_assert(kFlagEncoderFault == 1u << 3 && kFlagModelWanted == 1u << 6 &&
                   kStateContact == 1u << 8 && kStateGuideExact == 1u << 14 &&
                   kStateOfBaseHull == 1u << 15,
               "the bits are those of tick.hpp");

@@ -10,20 +10,20 @@ namespace firmtouch::record {
 
 constexpr uint32_t kAxes = 3;
 
-// Lines of TickInput::lines.
-constexpr uint32_t kLineEnable = 1u << 0;  // the operator's enable; falling: ramp out, motors off
-constexpr uint32_t kLineEmergencyStop = 1u << 1;  // latched fault
-constexpr uint32_t kLineDriveFault = 1u << 2;     // the motor driver reports a fault: latched fault
-constexpr uint32_t kLineEncoderFault = 1u << 3;   // a count of this tick is not to be trusted
+// Bits of TickInput::flags (the field is called `lines` in logs and CSV).
+constexpr uint32_t kFlagEnable = 1u << 0;  // the operator's enable; falling: ramp out, motors off
+constexpr uint32_t kFlagEmergencyStop = 1u << 1;  // latched fault
+constexpr uint32_t kFlagDriveFault = 1u << 2;     // the motor driver reports a fault: latched fault
+constexpr uint32_t kFlagEncoderFault = 1u << 3;   // a count of this tick is not to be trusted
 // The local model, where geometry and servo run at two rates (controller.hpp).
-constexpr uint32_t kLineModelApart = 1u << 4;   // it is not made in this tick
-constexpr uint32_t kLineModelTaken = 1u << 5;   // from this tick on the one that was made is used
-constexpr uint32_t kLineModelWanted = 1u << 6;  // the next one is made from this tick's position
+constexpr uint32_t kFlagModelApart = 1u << 4;   // it is not made in this tick
+constexpr uint32_t kFlagModelTaken = 1u << 5;   // from this tick on the one that was made is used
+constexpr uint32_t kFlagModelWanted = 1u << 6;  // the next one is made from this tick's position
 
 // TickInput::command. A parameter of the wrong value, or one that may not change while the motors
 // are on, is refused: it stays as it was and TickOutput::state says so.
 constexpr uint32_t kCommandNone = 0;
-constexpr uint32_t kCommandClearFaults = UINT32_MAX;  // taken only while kLineEnable is low
+constexpr uint32_t kCommandClearFaults = UINT32_MAX;  // taken only while kFlagEnable is low
 
 // TickOutput::state.
 constexpr uint32_t kStateServoMask = 0xFFu;          // servo::Mode
@@ -44,7 +44,7 @@ struct TickInput {
   uint32_t tick;      // number of this tick, from 0
   uint32_t clock_us;  // free-running, wraps
   int32_t encoder_counts[kAxes];
-  uint32_t lines;
+  uint32_t flags;
   // 0: none; 1 + a parameter's index: set it to command_value at this tick; or below.
   uint32_t command;
   float command_value;
