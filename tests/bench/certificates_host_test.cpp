@@ -5,7 +5,7 @@
 #include "bench/certificates.hpp"
 #include "bench/true_distance.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
 namespace {

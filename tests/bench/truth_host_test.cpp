@@ -8,7 +8,7 @@
 #include "bench/problem.hpp"
 #include "harness/test.hpp"
 #include "mesh/brute_force.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace {
 

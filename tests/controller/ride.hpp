@@ -18,7 +18,7 @@
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace firmtouch::controller_test {
 

@@ -4,7 +4,7 @@
 #include "field/judge.hpp"
 #include "firmtouch/field/centre.hpp"
 #include "firmtouch/field/distance_bounds.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 #include "surface/shapes.hpp"
 

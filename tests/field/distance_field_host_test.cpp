@@ -3,10 +3,10 @@
 #include "field/distance_field.hpp"
 #include "field/judge.hpp"
 #include "field/write_vti.hpp"
-#include "surface/check.hpp"
-#include "surface/make_part.hpp"
+#include "surface/check/check.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/read/read_surface.hpp"
 #include "surface/shapes.hpp"
 
 namespace firmtouch::tools {

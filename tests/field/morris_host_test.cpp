@@ -1,6 +1,6 @@
 #include "field/judge.hpp"
 #include "field/morris_search.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 #include "surface/shapes.hpp"
 

@@ -1,6 +1,6 @@
 #include "field/judge.hpp"
 #include "field/voxel_grid.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 #include "surface/shapes.hpp"
 

@@ -12,7 +12,7 @@
 #include "host_sim/controllers/session.hpp"
 #include "host_sim/scenario/plan.hpp"
 #include "host_sim/trace/log.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace firmtouch::test {
 namespace {

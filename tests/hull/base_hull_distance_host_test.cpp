@@ -6,7 +6,7 @@
 #include "bumpy_ring.hpp"
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/vertices.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace firmtouch::tools {
 namespace {

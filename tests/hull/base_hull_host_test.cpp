@@ -14,7 +14,7 @@
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/mesh/exact_crossing.hpp"
 #include "firmtouch/sections.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "harness/test.hpp"
 #include "hull/build_hull.hpp"
-#include "surface/check.hpp"
-#include "surface/make_part.hpp"
+#include "surface/check/check.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -6,11 +6,11 @@
 #include "exact_judge.hpp"
 #include "harness/test.hpp"
 #include "hull/build_hull.hpp"
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 #include "surface/crossings.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/read/read_surface.hpp"
 
 // No point of the mesh lies outside any stored hull: all vertices, and points of faces drawn evenly
 // over the faces.

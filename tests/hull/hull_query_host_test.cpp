@@ -11,7 +11,7 @@
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace firmtouch::tools {
 namespace {

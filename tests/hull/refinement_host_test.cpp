@@ -5,7 +5,7 @@
 #include "harness/test.hpp"
 #include "hull/build_hull.hpp"
 #include "hull/refinement.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
 namespace firmtouch::tools {

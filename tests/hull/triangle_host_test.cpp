@@ -9,7 +9,7 @@
 #include "firmtouch/hull/ray.hpp"
 #include "firmtouch/hull/refinement.hpp"
 #include "firmtouch/hull/triangle_cast.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace firmtouch::tools {
 namespace {

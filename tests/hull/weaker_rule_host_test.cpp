@@ -9,7 +9,7 @@
 #include "hull/build_hull.hpp"
 #include "hull/refinement.hpp"
 #include "surface/edges.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
 namespace firmtouch::tools {

@@ -5,7 +5,7 @@
 #include "baked_mesh.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace {
 

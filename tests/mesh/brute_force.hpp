@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 #include "surface/closest_by_force.hpp"
 #include "surface/random.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/read/read_surface.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::mesh_test {

@@ -8,7 +8,7 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
 #include "surface/crossings.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace {
 

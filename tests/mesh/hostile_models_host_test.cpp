@@ -9,7 +9,7 @@
 #include "brute_force.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/write_surface.hpp"
 #include "true_distance.hpp"
 

@@ -12,7 +12,7 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/grid.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 #include "true_distance.hpp"
 

@@ -9,7 +9,7 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
 namespace {

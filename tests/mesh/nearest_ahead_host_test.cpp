@@ -3,7 +3,7 @@
 #include "bake/mesh/mesh_ahead.hpp"
 #include "firmtouch/mesh/nearest_ahead.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
 namespace {

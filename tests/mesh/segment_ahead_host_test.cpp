@@ -7,7 +7,7 @@
 #include "firmtouch/mesh/crossing_takers.hpp"
 #include "firmtouch/mesh/segment_search.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "firmtouch/mesh/segment_frame.hpp"
 #include "harness/test.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace {
 

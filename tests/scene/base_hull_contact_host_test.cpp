@@ -10,7 +10,7 @@
 #include "firmtouch/scene/mesh_contact.hpp"
 #include "harness/test.hpp"
 #include "mesh/brute_force.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace hull = firmtouch::hull;
 namespace math = firmtouch::math;

@@ -1,6 +1,6 @@
 #include "shapes.hpp"
-#include "surface/check.hpp"
-#include "surface/make_part.hpp"
+#include "surface/check/check.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
 // One planted defect a test: mended without a trace but the report, or refused with its place.

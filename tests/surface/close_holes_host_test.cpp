@@ -1,9 +1,9 @@
 #include "shapes.hpp"
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 #include "surface/crossings.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/read/read_surface.hpp"
 
 // --close-holes: what was open is closed, outward and does not cross itself, or is refused.
 

@@ -2,7 +2,7 @@
 
 #include "shapes.hpp"
 #include "surface/crossings.hpp"
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 #include "surface/winding_number.hpp"
 

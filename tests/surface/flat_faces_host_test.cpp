@@ -1,6 +1,6 @@
 #include "shapes.hpp"
-#include "surface/check.hpp"
-#include "surface/make_part.hpp"
+#include "surface/check/check.hpp"
+#include "surface/make/make_part.hpp"
 
 // Faces without area go, the surface stays closed, no vertex moves.
 

@@ -1,7 +1,7 @@
 #include "shapes.hpp"
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 #include "surface/crossings.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/read/read_surface.hpp"
 
 // Real models, where FIRMTOUCH_MODELS names their folder.
 

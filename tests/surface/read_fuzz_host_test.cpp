@@ -1,9 +1,9 @@
 #include "formats.hpp"
 #include "shapes.hpp"
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 #include "surface/crossings.hpp"
 #include "surface/random.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/read/read_surface.hpp"
 
 // Damaged files: a problem or a surface that may be used, never a crash (the suite runs these under
 // ASan and UBSan).

@@ -3,8 +3,8 @@
 
 #include "formats.hpp"
 #include "shapes.hpp"
-#include "surface/make_part.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/make/make_part.hpp"
+#include "surface/read/read_surface.hpp"
 #include "surface/write_surface.hpp"
 
 namespace firmtouch::tools {

@@ -7,10 +7,10 @@
 
 #include "formats.hpp"
 #include "shapes.hpp"
-#include "surface/check.hpp"
-#include "surface/make_part.hpp"
-#include "surface/read_surface.hpp"
-#include "surface/weld.hpp"
+#include "surface/check/check.hpp"
+#include "surface/make/make_part.hpp"
+#include "surface/read/read_surface.hpp"
+#include "surface/read/weld.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -1,7 +1,7 @@
 // Corners, edges and faces that touch the surface elsewhere: found exactly, refused where the side of
 // a nearest point could be told by the wrong sheet, and let through where only convex ones meet.
 #include "shapes.hpp"
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 
 namespace firmtouch::tools {
 namespace {

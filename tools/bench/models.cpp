@@ -10,10 +10,10 @@
 #include "bench/points_about.hpp"
 #include "bench/problem.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
-#include "surface/check.hpp"
-#include "surface/make_part.hpp"
-#include "surface/make_walk.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/check/check.hpp"
+#include "surface/make/make_part.hpp"
+#include "surface/make/make_walk.hpp"
+#include "surface/read/read_surface.hpp"
 #include "surface/write_surface.hpp"
 
 namespace firmtouch::bench {

@@ -10,9 +10,9 @@
 #include "bench/timing.hpp"
 #include "field/distance_field.hpp"
 #include "field/morris_search.hpp"
-#include "surface/check.hpp"
-#include "surface/make_part.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/check/check.hpp"
+#include "surface/make/make_part.hpp"
+#include "surface/read/read_surface.hpp"
 #include "surface/write_surface.hpp"
 
 namespace firmtouch::bench {

@@ -15,9 +15,9 @@
 #include "firmtouch/asset/layout.hpp"
 #include "firmtouch/hull/refinement.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
-#include "surface/check.hpp"
-#include "surface/make_walk.hpp"
-#include "surface/read_surface.hpp"
+#include "surface/check/check.hpp"
+#include "surface/make/make_walk.hpp"
+#include "surface/read/read_surface.hpp"
 
 namespace firmtouch::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "cli/failure.hpp"
-#include "surface/load_file.hpp"
+#include "surface/read/load_file.hpp"
 
 namespace firmtouch::cli {
 namespace {

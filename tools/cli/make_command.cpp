@@ -12,8 +12,8 @@
 #include "spline/read_spline.hpp"
 #include "spline/sample_splines.hpp"
 #include "spline/write_iges.hpp"
-#include "surface/make_part.hpp"
-#include "surface/make_walk.hpp"
+#include "surface/make/make_part.hpp"
+#include "surface/make/make_walk.hpp"
 #include "surface/write_surface.hpp"
 
 namespace firmtouch::cli {

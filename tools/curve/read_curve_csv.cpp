@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "surface/load_file.hpp"
-#include "surface/text_scan.hpp"
+#include "surface/read/load_file.hpp"
+#include "surface/read/text_scan.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "surface/check/mending.hpp"
 #include "surface/edges.hpp"
-#include "surface/mending.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "surface/text_scan.hpp"
+#include "surface/read/text_scan.hpp"
 
 namespace firmtouch::tools {
 namespace {

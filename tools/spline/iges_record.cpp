@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "surface/text_scan.hpp"
+#include "surface/read/text_scan.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -1,7 +1,7 @@
 #include <cstdint>
 
 #include "spline/spline_sink.hpp"
-#include "surface/text_scan.hpp"
+#include "surface/read/text_scan.hpp"
 
 // Patches, how many first. Newell's: sixteen point numbers a patch, from 1, u fastest, in a line; how
 // many points; x, y and z of each. Or each patch by itself: its two degrees, then its points, u

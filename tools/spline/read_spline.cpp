@@ -1,7 +1,7 @@
 #include "spline/read_spline.hpp"
 
 #include "spline/spline_sink.hpp"
-#include "surface/load_file.hpp"
+#include "surface/read/load_file.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "bake/mesh/sign_proof.hpp"
-#include "surface/mending.hpp"
+#include "surface/check/mending.hpp"
 
 namespace firmtouch::tools {
 namespace {

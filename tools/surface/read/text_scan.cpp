@@ -1,4 +1,4 @@
-#include "surface/text_scan.hpp"
+#include "surface/read/text_scan.hpp"
 
 #include <charconv>
 

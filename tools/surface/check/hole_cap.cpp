@@ -1,4 +1,4 @@
-#include "surface/hole_cap.hpp"
+#include "surface/check/hole_cap.hpp"
 
 #include <algorithm>
 #include <limits>

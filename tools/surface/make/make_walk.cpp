@@ -1,4 +1,4 @@
-#include "surface/make_walk.hpp"
+#include "surface/make/make_walk.hpp"
 
 #include <algorithm>
 

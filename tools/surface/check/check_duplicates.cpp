@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "surface/mending.hpp"
+#include "surface/check/mending.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/import_sink.hpp"
+#include "surface/read/import_sink.hpp"
 
 #include <algorithm>
 #include <cstdio>

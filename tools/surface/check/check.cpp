@@ -1,10 +1,10 @@
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "surface/close_holes.hpp"
-#include "surface/mending.hpp"
+#include "surface/check/close_holes.hpp"
+#include "surface/check/mending.hpp"
 #include "surface/point.hpp"
 
 namespace firmtouch::tools {

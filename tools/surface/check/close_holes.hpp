@@ -1,5 +1,5 @@
 #pragma once
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::tools {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "surface/box_tree.hpp"
-#include "surface/mending.hpp"
+#include "surface/check/mending.hpp"
 #include "surface/point.hpp"
 #include "surface/winding_number.hpp"
 

@@ -1,9 +1,9 @@
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 
 #include <array>
 #include <cmath>
 
-#include "surface/part_shape.hpp"
+#include "surface/make/part_shape.hpp"
 #include "surface/random.hpp"
 #include "surface/turns.hpp"
 

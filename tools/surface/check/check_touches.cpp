@@ -6,9 +6,9 @@
 #include <set>
 
 #include "surface/box_tree.hpp"
+#include "surface/check/mending.hpp"
 #include "surface/edges.hpp"
 #include "surface/exact_side.hpp"
-#include "surface/mending.hpp"
 #include "surface/point.hpp"
 
 // A corner or an edge that touches the surface elsewhere, decided without rounding. What is inside

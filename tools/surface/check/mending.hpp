@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/check.hpp"
+#include "surface/check/check.hpp"
 #include "surface/edges.hpp"
 #include "surface/surface.hpp"
 

@@ -1,4 +1,4 @@
-#include "surface/load_file.hpp"
+#include "surface/read/load_file.hpp"
 
 #include <cerrno>
 #include <cstring>

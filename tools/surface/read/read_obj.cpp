@@ -1,6 +1,6 @@
 #include "firmtouch/mesh/layout.hpp"
-#include "surface/import_sink.hpp"
-#include "surface/text_scan.hpp"
+#include "surface/read/import_sink.hpp"
+#include "surface/read/text_scan.hpp"
 
 // Wavefront OBJ: `v x y z [w or colours]` and `f a b c ...`, where a corner is a, a/b, a//c or
 // a/b/c and a negative index counts back from the last vertex read. All else that OBJ knows is

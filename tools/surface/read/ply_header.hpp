@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "surface/import_sink.hpp"
+#include "surface/read/import_sink.hpp"
 
 namespace firmtouch::tools {
 

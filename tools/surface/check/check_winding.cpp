@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "surface/mending.hpp"
+#include "surface/check/mending.hpp"
 #include "surface/point.hpp"
 #include "surface/winding_number.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "surface/import_sink.hpp"
 #include "surface/point.hpp"
+#include "surface/read/import_sink.hpp"
 
 namespace firmtouch::tools {
 

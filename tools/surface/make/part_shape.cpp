@@ -1,6 +1,6 @@
-#include "surface/part_shape.hpp"
+#include "surface/make/part_shape.hpp"
 
-#include "surface/make_part.hpp"
+#include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 #include "surface/turns.hpp"
 

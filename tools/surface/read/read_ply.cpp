@@ -1,9 +1,9 @@
 #include <cstring>
 
 #include "firmtouch/mesh/layout.hpp"
-#include "surface/import_sink.hpp"
-#include "surface/ply_header.hpp"
-#include "surface/text_scan.hpp"
+#include "surface/read/import_sink.hpp"
+#include "surface/read/ply_header.hpp"
+#include "surface/read/text_scan.hpp"
 
 // PLY: a header that names elements and their properties, then the values, as text or binary of
 // either byte order. Elements other than `vertex` and `face`, and properties other than x, y, z and

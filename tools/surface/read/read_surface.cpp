@@ -1,7 +1,7 @@
-#include "surface/read_surface.hpp"
+#include "surface/read/read_surface.hpp"
 
-#include "surface/import_sink.hpp"
-#include "surface/load_file.hpp"
+#include "surface/read/import_sink.hpp"
+#include "surface/read/load_file.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -1,8 +1,8 @@
-#include "surface/ply_header.hpp"
+#include "surface/read/ply_header.hpp"
 
 #include <array>
 
-#include "surface/text_scan.hpp"
+#include "surface/read/text_scan.hpp"
 
 namespace firmtouch::tools {
 namespace {

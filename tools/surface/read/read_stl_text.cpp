@@ -1,8 +1,8 @@
 #include <cctype>
 #include <string>
 
-#include "surface/stl_facets.hpp"
-#include "surface/text_scan.hpp"
+#include "surface/read/stl_facets.hpp"
+#include "surface/read/text_scan.hpp"
 
 // The text form of STL: words, whatever the lines; but a solid's name runs to the end of its line.
 // Several solids in one file are read as one surface.

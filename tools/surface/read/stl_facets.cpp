@@ -1,10 +1,10 @@
-#include "surface/stl_facets.hpp"
+#include "surface/read/stl_facets.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "surface/weld.hpp"
+#include "surface/read/weld.hpp"
 
 namespace firmtouch::tools {
 namespace {

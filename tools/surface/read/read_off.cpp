@@ -1,6 +1,6 @@
 #include "firmtouch/mesh/layout.hpp"
-#include "surface/import_sink.hpp"
-#include "surface/text_scan.hpp"
+#include "surface/read/import_sink.hpp"
+#include "surface/read/text_scan.hpp"
 
 // OFF: the word OFF, the counts of vertices, faces and edges, the vertices, the faces. Numbers
 // after the third of a vertex's line and after the corners of a face's line are colours and passed

@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "surface/stl_facets.hpp"
+#include "surface/read/stl_facets.hpp"
 
 // STL, which has two forms. Binary: 80 bytes of any content, the number of facets, then 50 bytes a
 // facet. Text: `solid NAME`, facets, `endsolid NAME`. Many binary files begin with the word `solid`,

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "surface/mending.hpp"
+#include "surface/check/mending.hpp"
 #include "surface/point.hpp"
 
 namespace firmtouch::tools {

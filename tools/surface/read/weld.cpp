@@ -1,10 +1,10 @@
-#include "surface/weld.hpp"
+#include "surface/read/weld.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 
-#include "surface/mending.hpp"
+#include "surface/check/mending.hpp"
 
 namespace firmtouch::tools {
 namespace {

@@ -1,12 +1,12 @@
-#include "surface/close_holes.hpp"
+#include "surface/check/close_holes.hpp"
 
 #include <algorithm>
 #include <cstdio>
 
+#include "surface/check/hole_cap.hpp"
+#include "surface/check/mending.hpp"
 #include "surface/crossings.hpp"
 #include "surface/edges.hpp"
-#include "surface/hole_cap.hpp"
-#include "surface/mending.hpp"
 #include "surface/point.hpp"
 
 namespace firmtouch::tools {

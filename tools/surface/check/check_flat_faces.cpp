@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "surface/mending.hpp"
+#include "surface/check/mending.hpp"
 #include "surface/point.hpp"
 
 // A face without area has no normal, and dropping it would leave a crack. Two cases, after Botsch
