@@ -1,0 +1,53 @@
+# Retired terms do not come back: no name, comment, message or page says one of tests/check/vocabulary.txt, where also
+# stands what to write instead. The field's terms open DESIGN.md. Read by tests/check/run.
+
+check() {
+  find README.md DESIGN.md SAFETY.md VERIFICATION.md CMakeLists.txt firmware hal host_sim tests tools -type f \
+    \( -name '*.md' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.h' -o -name '*.html' -o -name '*.sh' -o -name '*.awk' \
+    -o -name '*.cmake' -o -name CMakeLists.txt -o ! -name '*.*' \) ! -path 'tests/check/vocabulary.*' |
+    LC_ALL=C sort | LC_ALL=C awk -v list=tests/check/vocabulary.txt -f "$here/vocabulary.awk"
+}
+
+plant_name() {
+  echo 'int told_distance_m();' >>firmware/firmtouch/core/crc32.cpp
+  expect='core/crc32.cpp:[0-9]+: name: told'
+}
+plant_name_in_capitals() {
+  echo 'constexpr int kMostPlanes = 3;' >>tests/core/crc32_test.cpp
+  expect='crc32_test.cpp:[0-9]+: name: k most'
+}
+plant_file_name() {
+  echo '#pragma once' >firmware/firmtouch/mesh/nearest_ahead_again.hpp
+  expect='nearest_ahead_again.hpp:0: name: ahead'
+}
+plant_comment() {
+  echo '// The dearest query of all.' >>firmware/firmtouch/core/crc32.cpp
+  expect='core/crc32.cpp:[0-9]+: comment: dearest'
+}
+plant_comment_over_two_lines() {
+  printf '// A list in place\n// of a tree.\n' >>firmware/firmtouch/core/crc32.cpp
+  expect='core/crc32.cpp:[0-9]+: comment: in place of'
+}
+plant_message() {
+  echo 'const char* text = "the mesh tells another side";' >>tools/cli/main.cpp
+  expect='main.cpp:[0-9]+: message: tells'
+}
+plant_page() {
+  echo 'It is asked for the undone collapses.' >>README.md
+  expect='README.md:[0-9]+: page: undone'
+}
+plant_script_comment() {
+  echo '# judges the answers' >>tests/check/run
+  expect='tests/check/run:[0-9]+: comment: judges'
+}
+plant_everyday_english() {  # only the last line is a retired term
+  cat >>tests/core/crc32_test.cpp <<'EOF'
+// In front of the task: std::steady_clock, a place in a file, a machined part, v.front(), the masked half,
+// `told` as quoted code, a memory fence.
+int steady_clock_ns(), v_front = list.front();
+// He forgives.
+EOF
+  text=$(check)
+  [ "$(printf '%s\n' "$text" | grep -c 'crc32_test.cpp')" = 1 ] || return 1
+  expect='crc32_test.cpp:[0-9]+: comment: forgives'
+}
