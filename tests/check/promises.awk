@@ -1,7 +1,12 @@
-# Judges the promise table of VERIFICATION.md (tests/check/promises.sh): `test NAME`, `word WORD` and `file PATH` say what there
-# is, `text ...` are the lines of VERIFICATION.md.
+# Checks the promise table of VERIFICATION.md (tests/check/promises.sh): `test NAME`, `word WORD` and `file PATH` say what
+# exists, `text ...` are the lines of VERIFICATION.md, `page PATH ...` those of the other pages.
 function complain(what) {
   print "VERIFICATION.md: " promise ": " what
+  bad = 1
+}
+
+function report(what) {
+  print page ": " what
   bad = 1
 }
 
@@ -11,7 +16,7 @@ function has_file(path,    f) {
   return path in folder
 }
 
-function judge_name(token) {
+function check_name(token) {
   if (token ~ /^[a-z_]+\.[A-Za-z0-9_.]+$/ && token !~ /\.(cpp|hpp|md|sh|cmake|awk|txt|ld)$/) {
     if (!(token in test)) complain("there is no test " token)
   } else if (token ~ /^[A-Za-z0-9_.\/-]+$/ && token ~ /[\/.]/) {
@@ -21,7 +26,7 @@ function judge_name(token) {
   }
 }
 
-function judge_command(token,    part) {
+function check_command(token,    part) {
   split(token, part, " ")
   if (token ~ / (--help|-h)( |$)/) { complain("`" token "` prints no figure"); return }
   # Without its rows a query waits for them.
@@ -36,13 +41,13 @@ function judge_command(token,    part) {
 }
 
 # Every backquoted word of a cell; returns how many.
-function judge_cell(cell, kind,    count, token) {
+function check_cell(cell, kind,    count, token) {
   while (match(cell, /`[^`]+`/)) {
     token = substr(cell, RSTART + 1, RLENGTH - 2)
     cell = substr(cell, RSTART + RLENGTH)
     ++count
-    if (kind == "command") judge_command(token)
-    else judge_name(token)
+    if (kind == "command") check_command(token)
+    else check_name(token)
   }
   return count + 0
 }
@@ -56,6 +61,24 @@ $1 == "file" {
   next
 }
 
+# A line of another page: a test or a file that it names in backquotes exists.
+$1 == "page" {
+  page = $2
+  folder_of = page
+  if (!sub(/[^\/]*$/, "", folder_of)) folder_of = ""
+  rest = substr($0, length($1) + length($2) + 3)
+  while (match(rest, /`[^`]+`/)) {
+    token = substr(rest, RSTART + 1, RLENGTH - 2)
+    rest = substr(rest, RSTART + RLENGTH)
+    sub(/ .*/, "", token)
+    if (token ~ /^[a-z_]+\.[A-Z][A-Za-z0-9_]*$/ && !(token in test)) report("there is no test " token)
+    if (token ~ /^[A-Za-z0-9_.\/-]+\.(hpp|cpp|sh|md|awk|cmake|ld|svg|pml|obj|igs)$/ || token ~ /^(firmware|hal|tools|tests|host_sim)\//) {
+      if (!has_file(token) && !has_file(folder_of token) && !has_file("firmware/firmtouch/" token)) report("there is no " token)
+    }
+  }
+  next
+}
+
 { line = substr($0, 6) }
 line !~ /^\|/ { in_table = 0; next }
 line ~ /^\| *[Pp]romise *\| *[Mm]echanism/ { in_table = 1; next }
@@ -66,9 +89,9 @@ line ~ /^\| *[Pp]romise *\| *[Mm]echanism/ { in_table = 1; next }
   gsub(/^ +| +$/, "", promise)
   if (cells != 6) { complain("a row has four cells"); next }
   ++rows
-  if (!judge_cell(cell[3], "name")) complain("names no mechanism")
-  if (!judge_cell(cell[4], "name")) complain("names no attack")
-  if (!judge_cell(cell[5], "command")) complain("names no command for its figure")
+  if (!check_cell(cell[3], "name")) complain("names no mechanism")
+  if (!check_cell(cell[4], "name")) complain("names no attack")
+  if (!check_cell(cell[5], "command")) complain("names no command for its figure")
 }
 
 END {

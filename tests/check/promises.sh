@@ -22,6 +22,9 @@ check() {
     printf '%s\n' "$words" | sed 's/^/word /'
     printf '%s\n' "$files" | sed 's/^/file /'
     sed 's/^/text /' VERIFICATION.md
+    for page in SAFETY.md $(find firmware tools hal -name README.md); do
+      [ ! -f "$page" ] || sed "s|^|page $page |" "$page"
+    done
   } | awk -f "$here/promises.awk"
 }
 
@@ -62,4 +65,12 @@ plant_no_table() {
   grep -v '^|' VERIFICATION.md >new.md
   mv new.md VERIFICATION.md
   expect='no promise table'
+}
+plant_missing_test_on_another_page() {
+  echo 'See `servo.NobodyWroteThis`.' >>SAFETY.md
+  expect='^SAFETY.md: there is no test servo.NobodyWroteThis'
+}
+plant_missing_file_in_a_module() {
+  echo 'See `nowhere.hpp`.' >firmware/firmtouch/core/README.md
+  expect='^firmware/firmtouch/core/README.md: there is no nowhere.hpp'
 }

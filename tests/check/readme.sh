@@ -41,9 +41,11 @@ check() {
         ;;
     esac
   done
-  # Links and pictures.
-  for target in $(grep -oE '\]\([^)#]+\)' README.md DESIGN.md | sed 's/.*](\(.*\))/\1/' | grep -vE '^(https?|mailto):' | sort -u); do
-    [ -e "$target" ] || { echo "README.md or DESIGN.md: the link to $target leads nowhere"; bad=1; }
+  # Links and pictures of every page, from the page's folder.
+  for page in *.md $(find firmware tools hal -name '*.md'); do
+    for target in $(grep -oE '\]\([^)#]+\)' "$page" | sed 's/.*](\(.*\))/\1/' | grep -vE '^(https?|mailto):' | sort -u); do
+      [ -e "$(dirname "$page")/$target" ] || { echo "$page: the link to $target leads nowhere"; bad=1; }
+    done
   done
   # Commands: the scripts exist, and the two of the README come before all others.
   for command in $(grep -oE '(^|[ `(])(\./)?(tools|hal|tests)/[A-Za-z0-9_/.-]+' README.md | tr -d ' `(' | sed 's/[.,:]*$//' | sort -u); do
