@@ -279,7 +279,7 @@ TEST(Rule223RefusesAnotherLongestSegment) {
 
 TEST(Rule224RefusesABoxThatIsInvertedOrOffTheGrid) {
   LongCurve c = long_hook();
-  c.boxes[4].side[1] = firmtouch::curve::make_side(700, 699);
+  c.boxes[4].side[1] = firmtouch::query::make_axis(700, 699);
   expect(c, firmtouch::curve::kRuleBoxRange, 4);
   c = long_hook();
   c.boxes[4].side[2] |= 0x80000000u;

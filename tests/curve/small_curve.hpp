@@ -90,10 +90,10 @@ struct CurveOf {
     for (uint32_t i = count - 1; i-- > 0;) {
       const curve::Box &a = boxes[2 * i + 1], &b = boxes[2 * i + 2];
       for (uint32_t k = 0; k < 3; ++k) {
-        const uint32_t low_a = curve::low_of(a.side[k]), low_b = curve::low_of(b.side[k]);
-        const uint32_t high_a = curve::high_of(a.side[k]), high_b = curve::high_of(b.side[k]);
+        const uint32_t low_a = query::low_of(a.side[k]), low_b = query::low_of(b.side[k]);
+        const uint32_t high_a = query::high_of(a.side[k]), high_b = query::high_of(b.side[k]);
         boxes[i].side[k] =
-            curve::make_side(low_a < low_b ? low_a : low_b, high_a > high_b ? high_a : high_b);
+            query::make_axis(low_a < low_b ? low_a : low_b, high_a > high_b ? high_a : high_b);
       }
     }
   }
@@ -150,7 +150,7 @@ struct CurveOf {
           high = cell + 2 > high ? cell + 2 : high;
         }
       }
-      box.side[k] = curve::make_side(low, high);
+      box.side[k] = query::make_axis(low, high);
     }
   }
   // Axes in turn, by insertion sort: another tree than the baker's, as good to open().

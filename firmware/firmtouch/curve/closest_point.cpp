@@ -116,7 +116,8 @@ Closest answer_nothing(const View& curve, query::Hint& hint) {
   if (curve.is_smooth() && is_near(p_m)) return smooth_point(curve, p_m, {}, budget, hint).closest;
   NearBound near_bound;
   if (near_bound.begin(curve.head(), p_m)) {
-    if (!near_bound.needs_care(curve)) return answer<false>(curve, near_bound, p_m, budget, hint);
+    if (!near_bound.is_compensated(curve))
+      return answer<false>(curve, near_bound, p_m, budget, hint);
     return answer<true>(curve, near_bound, p_m, budget, hint);
   }
   if (!math::is_finite(p_m)) return answer_nothing(curve, hint);

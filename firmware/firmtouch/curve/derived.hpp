@@ -8,6 +8,9 @@
 
 namespace firmtouch::curve {
 
+using query::high_of;
+using query::low_of;
+
 static inline math::Vec3 vec(const Sample& s) { return {s.x_m, s.y_m, s.z_m}; }
 
 /// Half of a segment, rounded up by more than length() loses (5 operations).
@@ -145,12 +148,6 @@ static inline float cells_of(const Head& head, float at_m, uint32_t axis) {
 constexpr float kPointSlack_cells = 0x1p-7f;
 static inline float cells_of(const Head& head, float at_m, float off_m, uint32_t axis) {
   return ((at_m - head.grid_low_m[axis]) + off_m) * (1.0f / head.cell_m);
-}
-
-constexpr uint32_t low_of(uint32_t side) { return side & 0xFFFFu; }
-constexpr uint32_t high_of(uint32_t side) { return kGridMax - (side >> 16); }
-constexpr uint32_t make_side(uint32_t low, uint32_t high) {
-  return low | ((kGridMax - high) << 16);
 }
 
 }  // namespace firmtouch::curve

@@ -20,7 +20,7 @@ uint32_t beyond(const View& curve, const Foot& foot) {
 void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& closest,
            query::Hint& hint) {
   if (!is_near(p_m)) return;
-  const bool compensated = needs_care(curve.head(), p_m);
+  const bool compensated = is_compensated(curve.head(), p_m);
   Foot best = any_foot(curve, p_m, closest.segment, compensated);
   const uint32_t most = curve.is_smooth() ? kMaxSmoothSlides : kMaxSlides;
   for (uint32_t i = 0; i < most; ++i) {
@@ -49,8 +49,8 @@ Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
   NearBound near_bound;
   if (is_penalty(penalty) && penalty.weight_m <= 0x1p60f) {
     if (near_bound.begin(curve.head(), p_m))
-      return min_cost<false>(curve, near_bound, p_m, penalty, near_bound.needs_care(curve), budget,
-                             hint);
+      return min_cost<false>(curve, near_bound, p_m, penalty, near_bound.is_compensated(curve),
+                             budget, hint);
     if (is_near(p_m)) {
       FarBound far_bound;
       far_bound.begin(curve.head(), p_m);

@@ -2,6 +2,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "firmtouch/query/box_grid.hpp"
+
 // How a curve lies in an asset, byte for byte (tools/FORMAT.md says it in words). The baker writes
 // these structs, the firmware reads them in place: 21 bytes a sample of a fine curve.
 
@@ -72,9 +74,7 @@ constexpr uint32_t run_count_of(uint32_t sample_count, uint32_t levels) {
   return (sample_count - 2 + run_segments_of(levels)) >> (levels + 2);
 }
 
-// Boxes lie on a grid of 15-bit coordinates, so that two of them fit a word and squares of
-// differences fit 32 bits.
-constexpr uint32_t kGridMax = 32767;
+using query::kGridMax;  // boxes lie on a grid of 15-bit coordinates
 
 /// Box i of the tree of runs: node i for i < run_count - 1, else leaf i - (run_count - 1). Children
 /// as above, so the sibling of box i is box i + 1 (i odd) or i - 1.

@@ -82,7 +82,10 @@ float penalty_m(const View& curve, const Foot& foot, const ArcPenalty& penalty) 
 class Choice {
  public:
   Choice(const View& curve, Vec3 p_m, const ArcPenalty& penalty)
-      : curve_(curve), p_m_(p_m), penalty_(penalty), compensated_(needs_care(curve.head(), p_m)) {}
+      : curve_(curve),
+        p_m_(p_m),
+        penalty_(penalty),
+        compensated_(is_compensated(curve.head(), p_m)) {}
 
   bool compensated() const { return compensated_; }
 

@@ -99,7 +99,7 @@ static inline Walk walk_runs(const View& curve, const Bound& bound_at, Steps ste
     for (uint32_t box = leaves + runs[start].leaf; box != 0; box = parent_of(box), --left) {
       if (left == 0) return {allowed, false, 0.0f};  // nothing is known of the rest of the way
       const uint32_t beside = ((box - 1) ^ 1u) + 1;
-      const uint32_t key = bound.key(boxes[beside]);
+      const uint32_t key = bound.key(boxes[beside].side);
       if (key < prune)
         pending[count++] = {key, beside};
       else
@@ -116,7 +116,7 @@ static inline Walk walk_runs(const View& curve, const Bound& bound_at, Steps ste
     --left;
     if (now.box < leaves) {
       const uint32_t first = first_child(now.box);
-      const uint32_t key0 = bound.key(boxes[first]), key1 = bound.key(boxes[first + 1]);
+      const uint32_t key0 = bound.key(boxes[first].side), key1 = bound.key(boxes[first + 1].side);
       const uint32_t slot = key1 < key0 ? 1 : 0, far_key = slot ? key0 : key1;
       now = {slot ? key1 : key0, first + slot};
       if (far_key < prune) {  // and so is the nearer

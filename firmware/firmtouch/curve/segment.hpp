@@ -52,7 +52,7 @@ static inline Foot foot_on_segment(const View& curve, math::Vec3 p_m, uint32_t s
 
 /// Outside the box of the curve by a 32nd of its diagonal distances may exceed the diagonal, and
 /// the promise of 4e-7 of the distance asks for more care than within.
-static inline bool needs_care(const Head& head, math::Vec3 p_m) {
+static inline bool is_compensated(const Head& head, math::Vec3 p_m) {
   const float at_m[3] = {p_m.x, p_m.y, p_m.z};
   const float margin_m = head.diagonal_m * 0x1p-5f;
   for (uint32_t k = 0; k < 3; ++k)

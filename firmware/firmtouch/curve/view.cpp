@@ -221,10 +221,8 @@ Verdict Opening::check_box(uint32_t i) const {
   const Box& box = view_.boxes_[i];
   const Box& around = view_.boxes_[i == 0 ? 0 : parent_of(i)];
   for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t side = box.side[k], low = low_of(side), high = high_of(side);
-    if ((side >> 16) > kGridMax || low > high) return reject(kRuleBoxRange, i);
-    if (low < low_of(around.side[k]) || high > high_of(around.side[k]))
-      return reject(kRuleBoxNesting, i);
+    if (!query::is_axis(box.side[k])) return reject(kRuleBoxRange, i);
+    if (!query::holds(around.side[k], box.side[k])) return reject(kRuleBoxNesting, i);
   }
   if (i > 0 || !view_.is_smooth()) return kPassed;
   const uint32_t wrong = wrong_of_root(*view_.head_, box);

@@ -2,6 +2,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "firmtouch/query/box_grid.hpp"
+
 // How a mesh lies in an asset, byte for byte (tools/FORMAT.md says it in words). The baker writes
 // these structs, the firmware reads them in place.
 
@@ -43,9 +45,7 @@ constexpr uint32_t kMaxLeafTriangles = 7;
 constexpr uint32_t kMaxTriangles = 1u << 24;
 constexpr uint32_t kMaxNodes = 1u << 24;
 
-// Boxes lie on a grid of 15-bit coordinates, so that two of them fit a word and squares of
-// differences fit 32 bits.
-constexpr uint32_t kGridMax = 32767;
+using query::kGridMax;  // boxes lie on a grid of 15-bit coordinates
 
 // The share of the diagonal up to which a lower bound also covers the rounding of the imported
 // coordinates to float32: a model about two diagonals from its origin. One farther off is certified

@@ -24,22 +24,16 @@ bool is_power_of_two(float value) {
   return (bits & 0x807FFFFFu) == 0 && bits >= 0x10000000u && bits <= 0x60000000u;
 }
 
-float low_of(uint32_t box) { return static_cast<float>(box & 0xFFFFu); }
-float high_of(uint32_t box) {
-  return static_cast<float>(static_cast<int32_t>(kGridMax) - static_cast<int32_t>(box >> 16));
-}
+float low_of(uint32_t axis) { return static_cast<float>(query::low_of(axis)); }
+float high_of(uint32_t axis) { return static_cast<float>(query::high_of(axis)); }
 
 bool is_box(const uint32_t* box) {
-  for (int k = 0; k < 3; ++k)
-    if ((box[k] & 0xFFFFu) > kGridMax || (box[k] >> 16) > kGridMax ||
-        low_of(box[k]) > high_of(box[k]))
-      return false;
-  return true;
+  return query::is_axis(box[0]) && query::is_axis(box[1]) && query::is_axis(box[2]);
 }
 
 bool holds(const uint32_t* outer, const uint32_t* inner) {
   for (int k = 0; k < 3; ++k)
-    if (low_of(inner[k]) < low_of(outer[k]) || high_of(inner[k]) > high_of(outer[k])) return false;
+    if (!query::holds(outer[k], inner[k])) return false;
   return true;
 }
 

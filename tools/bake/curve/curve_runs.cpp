@@ -44,7 +44,7 @@ curve::Box box_of(const std::vector<curve::Sample>& samples, const curve::Head& 
       }
     }
     if (!(low >= 0 && high <= static_cast<float>(curve::kGridMax))) return {};
-    box.side[k] = curve::make_side(static_cast<uint32_t>(std::floor(low)),
+    box.side[k] = query::make_axis(static_cast<uint32_t>(std::floor(low)),
                                    static_cast<uint32_t>(std::ceil(high)));
   }
   return box;
@@ -53,8 +53,8 @@ curve::Box box_of(const std::vector<curve::Sample>& samples, const curve::Head& 
 curve::Box around(const curve::Box& a, const curve::Box& b) {
   curve::Box box;
   for (uint32_t k = 0; k < 3; ++k)
-    box.side[k] = curve::make_side(std::min(curve::low_of(a.side[k]), curve::low_of(b.side[k])),
-                                   std::max(curve::high_of(a.side[k]), curve::high_of(b.side[k])));
+    box.side[k] = query::make_axis(std::min(query::low_of(a.side[k]), query::low_of(b.side[k])),
+                                   std::max(query::high_of(a.side[k]), query::high_of(b.side[k])));
   return box;
 }
 
@@ -133,7 +133,7 @@ CurveRuns build_curve_runs(const std::vector<curve::Sample>& samples, const curv
   for (uint32_t r = 0; r < count; ++r) {
     boxes[r] = box_of(samples, head, curve::part_of(levels, r, 0, sample_count - 1));
     for (size_t k = 0; k < 3; ++k)
-      items[r].middle[k] = curve::low_of(boxes[r].side[k]) + curve::high_of(boxes[r].side[k]);
+      items[r].middle[k] = query::low_of(boxes[r].side[k]) + query::high_of(boxes[r].side[k]);
     items[r].run = r;
     for (uint32_t k = 0; k < parts; ++k) {
       const curve::Part part = curve::part_of(levels, r, k, sample_count - 1);

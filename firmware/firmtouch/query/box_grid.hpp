@@ -1,0 +1,26 @@
+#pragma once
+#include <stdint.h>
+
+namespace firmtouch::query {
+
+// Boxes lie on a grid of 15-bit coordinates, so that two of them fit a word and squares of
+// differences fit 32 bits. One axis of a box is a word: low | (kGridMax - high) << 16.
+constexpr uint32_t kGridMax = 32767;
+
+constexpr uint32_t low_of(uint32_t axis) { return axis & 0xFFFFu; }
+/// Pre: is_axis().
+constexpr uint32_t high_of(uint32_t axis) { return kGridMax - (axis >> 16); }
+constexpr uint32_t make_axis(uint32_t low, uint32_t high) {
+  return low | ((kGridMax - high) << 16);
+}
+
+/// Whether a word is an axis of a box: on the grid and not inverted.
+constexpr bool is_axis(uint32_t axis) {
+  return (axis >> 16) <= kGridMax && low_of(axis) <= high_of(axis);
+}
+/// Pre: is_axis() of both.
+constexpr bool holds(uint32_t outer, uint32_t inner) {
+  return low_of(inner) >= low_of(outer) && high_of(inner) <= high_of(outer);
+}
+
+}  // namespace firmtouch::query
