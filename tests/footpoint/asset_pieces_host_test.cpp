@@ -1,6 +1,7 @@
 // A baked spline's foot-points are those of the file, but for the rounding of its coefficients.
 #include "footpoint/asset_pieces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bake/bake_spline.hpp"
@@ -64,4 +65,50 @@ TEST(BakedSurfacesHaveTheFootPointsOfTheirFile) {
     model.surfaces.push_back(tools::hilly_surface(seed, 5, 0.2, seed % 2 == 0));
     same_as_baked(model, {{}, tools::bezier_pieces(model.surfaces[0])}, seed);
   }
+}
+
+// Four patches around a pole, cubic about it: of each the edge v = 1 is one point.
+tools::SplineModel dome() {
+  constexpr double kBend = 0.5523;  // of a quarter circle's inner control points
+  tools::SplineModel model;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double ux = quarter == 0 ? 1 : (quarter == 2 ? -1 : 0),
+                 uy = quarter % 2 == 0 ? 0 : 2 - quarter;
+    const double arc[4][2] = {{1, 0}, {1, kBend}, {kBend, 1}, {0, 1}};
+    tools::SplineSurface s;
+    s.degree_u = 3, s.degree_v = 2;
+    s.count_u = 4, s.count_v = 3;
+    s.knots_u = {0, 0, 0, 0, 1, 1, 1, 1};
+    s.knots_v = {0, 0, 0, 1, 1, 1};
+    s.u0 = s.v0 = 0;
+    s.u1 = s.v1 = 1;
+    s.piece = quarter;
+    for (int row = 0; row < 3; ++row)
+      for (const double* a : arc) {
+        const double radius = row < 2 ? 0.5 : 0;
+        s.points.push_back({0.3 + radius * (a[0] * ux - a[1] * uy),
+                            0.7 + radius * (a[0] * uy + a[1] * ux), row == 0 ? 0.1 : 0.37, 1});
+      }
+    model.surfaces.push_back(s);
+  }
+  return model;
+}
+
+// Rounding of the baked coefficients makes a curve of about 1e-8 of the edge at the pole.
+TEST(PatchesAtAPole_AreCutOnlyWhereTheirNeighboursAre) {
+  const tools::SplineModel model = dome();
+  tools::SplineReport report;
+  const auto sections = tools::bake_spline(model, "a", tools::surface_detail(true), report);
+  CHECK(report.problem.empty());
+  spline::View view;
+  CHECK(spline::open(tools::spline_sections(sections, "a"), view).ok());
+  std::vector<tools::BezierCurve> curves;
+  std::vector<tools::BezierPatch> patches;
+  tools::asset_pieces(view, curves, patches);
+  double narrowest = 1;
+  for (const spline::Piece& piece : view.pieces())
+    narrowest = std::min(narrowest, 2 * static_cast<double>(piece.half_u));
+  for (const tools::BezierPatch& patch : patches) CHECK_GE(patch.u1 - patch.u0, narrowest * 0.999);
+  bool is_complete = false;
+  CHECK(!Footpoints(curves, patches, tools::kAssetGap).all({0.2, 0.6, 1}, is_complete).empty());
 }

@@ -64,10 +64,17 @@ BezierPatch part_of(const BezierPatch& patch, bool of_v, double from, double to)
   return bezier_pieces(s)[0];
 }
 
-// Where `at` lies on an edge's inside, from 0 to 1; NaN: it does not.
-double place_on(const CurveSystem& edge, Point at, double tolerance) {
+bool is_near(const ControlPoint& p, Point at, double tolerance) {
+  return length(Point{p.x, p.y, p.z} - at) <= tolerance;
+}
+
+// Parameter at which `at` lies inside an edge, from 0 to 1; NaN where it does not. An end of the
+// edge is not inside it, and a pole, an edge that is one point, has no inside.
+double inner_parameter(const CurveSystem& edge, Point at, double tolerance) {
+  const std::vector<ControlPoint>& points = edge.piece.points;
+  if (is_near(points.front(), at, tolerance) || is_near(points.back(), at, tolerance)) return NAN;
   bool beside[6] = {true, true, true, true, true, true};
-  for (const ControlPoint& p : edge.piece.points) {
+  for (const ControlPoint& p : points) {
     beside[0] &= p.x > at.x + tolerance, beside[1] &= p.x < at.x - tolerance;
     beside[2] &= p.y > at.y + tolerance, beside[3] &= p.y < at.y - tolerance;
     beside[4] &= p.z > at.z + tolerance, beside[5] &= p.z < at.z - tolerance;
@@ -103,7 +110,7 @@ bool cut_at_corners(std::vector<BezierPatch>& patches, double tolerance) {
         edge.points.push_back(p.points[of_v ? k * wide + fixed : fixed * wide + k]);
       const CurveSystem system(edge);
       for (size_t k = 0; k < corners.size() && std::isnan(at); ++k)
-        at = place_on(system, corners[k], tolerance);
+        at = inner_parameter(system, corners[k], tolerance);
     }
     if (std::isnan(at)) {
       cut.push_back(p);
