@@ -22,7 +22,7 @@ check() {
     printf '%s\n' "$words" | sed 's/^/word /'
     printf '%s\n' "$files" | sed 's/^/file /'
     sed 's/^/text /' VERIFICATION.md
-    for page in SAFETY.md $(find firmware tools hal -name README.md); do
+    for page in SAFETY.md DESIGN.md $(find firmware tools hal -name README.md); do
       [ ! -f "$page" ] || sed "s|^|page $page |" "$page"
     done
   } | awk -f "$here/promises.awk"
