@@ -11,7 +11,7 @@ struct CurveRuns {
   std::vector<uint16_t> radii;
 };
 
-/// How often runs are halved, by what was measured (DESIGN.md).
+/// How often runs are halved, as measured (firmware/firmtouch/curve/README.md, Cost).
 uint32_t choose_run_levels(uint32_t sample_count);
 
 /// Sets grid_low_m and cell_m from the head's box: the finest grid that open() takes. `beyond`: how far

@@ -35,12 +35,12 @@ struct TreeShape {
   // Stored beside the tree so that its dearest query takes less (FORMAT.md, 0x100E and 0x100F).
   bool has_boxes_and_shapes = false;
 };
-// Measured on spot, rocker-arm and horse (DESIGN.md, "Bytes and instructions").
+// Measured on spot, rocker-arm and horse (firmware/firmtouch/mesh/README.md, Cost).
 constexpr TreeShape kFastTree{3, 0, 0.53};
 constexpr TreeShape kSmallTree{7};
-// Whose dearest query a controller answers in the fewest instructions (DESIGN.md, "Band queries").
+// Smallest worst case of a query on a controller (firmware/firmtouch/mesh/README.md, Cost).
 constexpr TreeShape kBoundedTree{3, 0, 0, true};
-// Leaves that fill the lanes of a desktop's processor (DESIGN.md, "Vector instructions").
+// Leaves that fill the lanes of a desktop's processor.
 constexpr TreeShape kDesktopTree{7, 0.3};
 
 /// Surface area heuristic over widened boxes by a full sweep over the face centres of each axis,
