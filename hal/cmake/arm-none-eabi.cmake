@@ -26,7 +26,7 @@ if(NOT FIRMTOUCH_CPU_FLAGS)
   message(FATAL_ERROR "Which controller? Give FIRMTOUCH_BOARD, FIRMTOUCH_BOARD_DIR or FIRMTOUCH_CPU_FLAGS.")
 endif()
 
-# Beside each object its call graph with stack sizes: tools/check/stack.cpp joins them.
+# Writes a call graph with stack sizes next to each object; tools/check/stack.cpp joins them.
 set(CMAKE_CXX_FLAGS_INIT "${FIRMTOUCH_CPU_FLAGS} -fcallgraph-info=su,da")
 set(CMAKE_ASM_FLAGS_INIT "${FIRMTOUCH_CPU_FLAGS}")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostdlib -Wl,--gc-sections")

@@ -3,13 +3,13 @@
 
 namespace firmtouch::hal {
 
-/// Received bytes on their way from an interrupt (push) to the main loop (pop): one writer, one reader, no lock.
+/// Lock-free queue of received bytes: one writer (interrupt, push), one reader (main loop, pop).
 class ByteRing {
  public:
-  // 8 ms of 1 Mbaud, several of the largest frames.
+  // 10 ms at 1 Mbaud, or several of the largest frames.
   static constexpr uint32_t kCapacity_bytes = 1024;
 
-  /// Result: false where it is full; the byte is lost, and the frame's CRC will say so.
+  /// Result: false if the ring is full. The byte is lost; the CRC of its frame reports that.
   bool push(uint8_t byte) {
     const uint32_t in = in_;
     if (in - out_ >= kCapacity_bytes) return false;
@@ -28,7 +28,8 @@ class ByteRing {
   bool empty() const { return in_ == out_; }
 
  private:
-  // Volatile keeps the compiler from moving the byte behind its index; a single core sees its own writes in order.
+  // volatile: the compiler stores the byte before its index. A single core sees its own writes in
+  // order.
   volatile uint8_t bytes_[kCapacity_bytes] = {};
   volatile uint32_t in_ = 0, out_ = 0;
 };

@@ -20,8 +20,8 @@ constexpr uint32_t kFaultStatus = 0xE000ED28;
 constexpr uint32_t kMpuType = 0xE000ED90, kMpuControl = 0xE000ED94, kMpuRegion = 0xE000ED98;
 constexpr uint32_t kMpuBase = 0xE000ED9C, kMpuSize = 0xE000EDA0;
 
-// Lower is more urgent. A received byte waits in a register for one byte's time only (10 us at 1 Mbaud), so that its
-// handler, 20 instructions long, comes before the servo's.
+// Lower is more urgent. A received byte is overwritten after 10 us at 1 Mbaud, so its handler (20
+// instructions) preempts the servo's.
 constexpr uint32_t kReceivePriority = 0x40;
 constexpr uint32_t kServoPriority = 0x80;
 
@@ -31,13 +31,13 @@ inline void enable_interrupt(uint32_t number, uint32_t priority) {
   reg(kNvicEnable + 4 * (number / 32)) = 1u << (number % 32);
 }
 
-/// Interrupts off for the life of this object, as they were afterwards.
-class Uninterrupted {
+/// Masks interrupts during the life of this object; the destructor restores the previous state.
+class CriticalSection {
  public:
-  Uninterrupted() { asm volatile("mrs %0, primask\n cpsid i" : "=r"(before_)::"memory"); }
-  ~Uninterrupted() { asm volatile("msr primask, %0" ::"r"(before_) : "memory"); }
-  Uninterrupted(const Uninterrupted&) = delete;
-  Uninterrupted& operator=(const Uninterrupted&) = delete;
+  CriticalSection() { asm volatile("mrs %0, primask\n cpsid i" : "=r"(before_)::"memory"); }
+  ~CriticalSection() { asm volatile("msr primask, %0" ::"r"(before_) : "memory"); }
+  CriticalSection(const CriticalSection&) = delete;
+  CriticalSection& operator=(const CriticalSection&) = delete;
 
  private:
   uint32_t before_;

@@ -4,17 +4,17 @@
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/motors.hpp"
 
-// The core gave up on an instruction: motors off first, then say where.
+// HardFault and NMI: motors off first, then a report, then stop.
 
 namespace firmtouch::hal {
 namespace {
 
-constexpr uint32_t kFromDebugEvent =
-    1u << 31;  // of the HardFault status: a breakpoint with no debugger attached
+// HardFault status: a breakpoint was reached with no debugger attached.
+constexpr uint32_t kFromDebugEvent = 1u << 31;
 constexpr uint16_t kSemihostingCall = 0xBEAB;  // bkpt 0xAB
-constexpr int kExitStatus = 70;                // what an emulator's process ends with
+constexpr int kExitStatus = 70;                // exit code of an emulator's process
 
-struct Frame {  // what the core pushes (ARM DDI 0403, B1.5.6)
+struct Frame {  // pushed by the core (ARM DDI 0403, B1.5.6)
   uint32_t r[4], r12, lr, pc, status;
 };
 
@@ -25,8 +25,8 @@ void print_hex(const char* name, uint32_t value) {
   board_print(text);
 }
 
-// Nobody listens to semihosting on a board without a debugger: then the call answers -1, and the caller does without.
-bool skip_unheard_semihosting(Frame& frame) {
+// Without a debugger a semihosting call faults: it then returns -1 and the program goes on.
+bool skip_unattached_semihosting(Frame& frame) {
   if ((reg(kHardFaultStatus) & kFromDebugEvent) == 0) return false;
   if (*reinterpret_cast<const uint16_t*>(static_cast<uintptr_t>(frame.pc)) != kSemihostingCall)
     return false;
@@ -40,10 +40,10 @@ bool skip_unheard_semihosting(Frame& frame) {
 
 extern "C" {
 
-/// `frame` is null where the stack itself ran out.
+/// `frame` is null after a stack overflow.
 [[gnu::used]] void hard_fault(Frame* frame) {
   motors_off();
-  if (frame != nullptr && skip_unheard_semihosting(*frame)) return;
+  if (frame != nullptr && skip_unattached_semihosting(*frame)) return;
   board_print("\nFault: motors are off. ");
   print_hex("status ", reg(kFaultStatus));
   if (frame != nullptr) {

@@ -3,20 +3,19 @@
 
 #include "cortex-m/byte_ring.hpp"
 
-// The link of an emulated board over two FIFOs of the machine that the emulator runs on, instead of its UART: one trap a
-// frame instead of one a byte, 24,000 and more round trips a second instead of 1,000 (measured with QEMU 7.2). Asked for
-// with the emulator's option
+// The link of an emulated board over two host FIFOs instead of its UART: one trap a frame instead
+// of one a byte, 24,000 round trips a second instead of 1,000 (QEMU 7.2). QEMU's option:
 //     -semihosting-config enable=on,target=native,arg=link,arg=PREFIX
-// where PREFIX.in and PREFIX.out are FIFOs. The board opens PREFIX.in (to read) first, then PREFIX.out (to write): so
-// must the other side. When that side closes PREFIX.in, the emulator ends. For lock-step: while the board waits for
-// bytes, its clock stands still.
+// Both sides open PREFIX.in (host to board) first, then PREFIX.out. When the host closes PREFIX.in,
+// the emulator exits. The board's clock stands still while it waits for bytes (lock-step).
 namespace firmtouch::hal {
 
-/// Result: whether the link goes over files. False on hardware and where the option is not given.
+/// Opens the FIFOs. Result: false on hardware and without the option above.
 bool file_link_begin();
 bool file_link_is_open();
-/// Blocks until bytes came, and puts them into `ring`.
+/// If `ring` is empty: blocks until bytes arrive and pushes them into it.
 void file_link_wait(ByteRing& ring);
+/// Result: bytes written.
 uint32_t file_link_write(const uint8_t* from, uint32_t count);
 
 }  // namespace firmtouch::hal

@@ -10,8 +10,8 @@ constexpr uint32_t kReadText = 0;
 
 }  // namespace
 
-// The emulator's standard input is the clock: a byte of it is worth 20 ticks. At its end, or where
-// there is none, nothing is waited for.
+// The emulator's standard input is the clock: one byte releases 20 ticks. After its end, or without
+// an input, the call never waits.
 void pace_tick() {
   static int32_t clock = -1;
   static uint32_t tick = 0;

@@ -41,7 +41,7 @@ void semihosting_close(int32_t file) {
 
 uint32_t semihosting_read(int32_t file, uint8_t* to, uint32_t capacity) {
   uint32_t arguments[] = {static_cast<uint32_t>(file), address(to), capacity};
-  const uint32_t missing = call(kRead, arguments);  // the call answers how many bytes were NOT read
+  const uint32_t missing = call(kRead, arguments);  // number of bytes NOT read
   return missing <= capacity ? capacity - missing : 0;
 }
 

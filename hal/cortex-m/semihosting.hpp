@@ -1,14 +1,15 @@
 #pragma once
 #include <stdint.h>
 
-// Calls to the debugger or emulator that the core runs under (ARM "Semihosting for AArch32 and AArch64"). On a board
-// with neither, every call answers -1 (fault.cpp).
+// Calls to the attached debugger or emulator (ARM "Semihosting for AArch32 and AArch64"). Without
+// one, every call returns -1 (fault.cpp).
 namespace firmtouch::hal {
 
-/// Ends an emulator's process with `status`. Returns where nobody listens.
+/// Ends an emulator's process with `status`. Returns if no debugger or emulator is attached.
 void semihosting_exit(int status);
 
-/// Opens a file of the machine that the emulator runs on. Mode 1: read binary; 5: write binary. Result: -1 on failure.
+/// Opens a file on the machine that runs the emulator. Mode 1: read binary; 5: write binary.
+/// Result: a file handle; -1 on failure.
 int32_t semihosting_open(const char* path, uint32_t mode);
 void semihosting_close(int32_t file);
 /// Blocks until there is something to read. Result: bytes read; 0 at the end or on failure.
@@ -16,7 +17,7 @@ uint32_t semihosting_read(int32_t file, uint8_t* to, uint32_t capacity);
 /// Result: bytes written.
 uint32_t semihosting_write(int32_t file, const uint8_t* from, uint32_t count);
 
-/// The words of `-semihosting-config arg=...`, with spaces between them. Result: false where there are none.
+/// The words of `-semihosting-config arg=...`, joined by spaces. Result: false if there are none.
 bool semihosting_command_line(char* text, uint32_t capacity);
 
 }  // namespace firmtouch::hal

@@ -3,7 +3,8 @@
 
 namespace firmtouch::hal {
 
-/// The servo interrupt on SysTick, which runs at the core's clock. Longer periods than 24 bits hold are shortened.
+/// Starts the servo interrupt on SysTick, clocked by the core. A period beyond SysTick's 24 bits is
+/// shortened to the longest possible one.
 void start_servo_timer(uint32_t period_us, uint32_t core_MHz, void (*tick)());
 
 }  // namespace firmtouch::hal

@@ -28,7 +28,8 @@ void servo_timer_handler();
   firmtouch::hal::board_exit(main());
 }
 
-/// Naked, and the FPU first: a compiler may save floating-point registers in the prologue of whatever comes next.
+/// Naked, and the FPU first: the next function's prologue may already save floating-point
+/// registers.
 [[gnu::naked, noreturn]] void reset_handler() {
   asm volatile(
       "ldr r0, =0xE000ED88 \n"  // CPACR: full access to coprocessors 10 and 11
@@ -52,7 +53,7 @@ void servo_timer_handler();
     nullptr,
     nullptr,
     nullptr,
-    hard_fault_handler,  // SVC, debug monitor, PendSV: nobody calls them
+    hard_fault_handler,  // SVC, debug monitor, PendSV: not used
     hard_fault_handler,
     nullptr,
     hard_fault_handler,

@@ -5,7 +5,7 @@
 namespace firmtouch::hal {
 namespace {
 
-// Two instructions a turn. Aligned, so that no fetch effect changes with the rest of the image.
+// Two instructions a turn. Aligned: fetch effects do not depend on the rest of the image.
 [[gnu::noinline, gnu::aligned(16)]] uint32_t ticks_of(uint32_t turns) {
   const uint32_t before = clock_work();
   asm volatile("1: subs %0, #1\n bne 1b" : "+r"(turns)::"cc");
@@ -15,8 +15,8 @@ namespace {
 }  // namespace
 
 uint32_t measure_work_per_1000() {
-  constexpr uint32_t kThousands =
-      200;  // instructions of the loop: one tick of doubt is 1 in 300,000
+  // Thousands of instructions in the loop: one tick of error is 1 in 300,000.
+  constexpr uint32_t kThousands = 200;
   const uint32_t ticks = ticks_of(kThousands * 500 + 1) - ticks_of(1);
   return (ticks + kThousands / 2) / kThousands;
 }

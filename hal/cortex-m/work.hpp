@@ -3,9 +3,10 @@
 
 namespace firmtouch::hal {
 
-/// Ticks of clock_work() per 1,000 instructions, measured with a loop of known length: an emulator's virtual clock
-/// advances by 2^shift ns an instruction (-icount shift=N), and nobody tells the guest what N is. On a real core the
-/// loop runs from cache at one or two cycles a turn, and the figure is that core's own.
+/// Measures ticks of clock_work() per 1,000 instructions with a loop of known length. On an
+/// emulator the virtual clock advances 2^N ns an instruction (-icount shift=N), and the guest
+/// cannot read N. On a real core the loop takes one or two cycles a turn; the result is valid for
+/// that core only.
 uint32_t measure_work_per_1000();
 
 }  // namespace firmtouch::hal

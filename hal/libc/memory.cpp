@@ -1,12 +1,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The four functions that a freestanding compiler may call on its own. Words where both ends are aligned, else bytes:
-// the firmware copies small structs, and an asset is used in place.
+// The four functions that a freestanding compiler may call by itself. They copy words
+// if both ends are aligned, else bytes; the firmware copies only small structs.
 
 namespace {
 
-using Word = uint32_t __attribute__((__may_alias__));  // copies any type
+using Word = uint32_t __attribute__((__may_alias__));
 
 bool aligned(const void* a, const void* b) {
   return ((reinterpret_cast<uintptr_t>(a) | reinterpret_cast<uintptr_t>(b)) & 3u) == 0;
@@ -32,7 +32,7 @@ void* memmove(void* to, const void* from, size_t count) {
   uint8_t* out = static_cast<uint8_t*>(to);
   const uint8_t* in = static_cast<const uint8_t*>(from);
   if (reinterpret_cast<uintptr_t>(out) - reinterpret_cast<uintptr_t>(in) >= count) {
-    for (; count != 0; --count) *out++ = *in++;  // does not run into what is still to be read
+    for (; count != 0; --count) *out++ = *in++;  // never overwrites a byte that is still unread
   } else {
     while (count != 0) --count, out[count] = in[count];
   }

@@ -1,6 +1,6 @@
 #include "firmtouch/hal/board.hpp"
 
-#include "cortex-m/asset_place.hpp"
+#include "cortex-m/asset_region.hpp"
 #include "cortex-m/semihosting.hpp"
 #include "cortex-m/stack.hpp"
 #include "firmtouch/hal/motors.hpp"
@@ -52,13 +52,12 @@ void board_exit(int status) {
 
 uint32_t board_stack_high_bytes() { return stack_used_bytes(); }
 
-// The watchdog interrupts at the first time-out (as NMI: fault.cpp switches the motors off and stops) and resets the
-// chip at the second.
+// At the first time-out the watchdog raises the NMI (fault.cpp switches the motors off and stops);
+// at the second it resets the chip.
 void watchdog_begin(uint32_t timeout_us) {
   const uint32_t longest_us = UINT32_MAX / kCore_MHz;
   reg(kWatchdog + 0x0) = (timeout_us < longest_us ? timeout_us : longest_us) * kCore_MHz;
-  reg(kWatchdog + 0xC) =
-      1;  // it may have counted down since the reset, unheard: not the servo's time-out
+  reg(kWatchdog + 0xC) = 1;  // clears a time-out from before the servo ran
   reg(kWatchdog + 0x8) = 3;
 }
 

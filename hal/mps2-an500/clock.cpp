@@ -4,8 +4,8 @@
 #include "cortex-m/work.hpp"
 #include "registers.hpp"
 
-// TIMER0 counts down at the core's clock. Under an emulator's -icount shift=N an instruction takes 2^N ns, so its ticks
-// of 40 ns count instructions: at shift=6 exactly 1.6 an instruction.
+// TIMER0 counts down at the core's clock, 40 ns a tick. Under -icount shift=N an instruction takes
+// 2^N ns, so the ticks count instructions: at shift=6 exactly 1.6 ticks each.
 
 namespace firmtouch::hal {
 namespace {
@@ -25,9 +25,10 @@ void clock_begin() {
   g_work_per_1000 = measure_work_per_1000();
 }
 
-// The counter wraps every 171 s, the microseconds must not: whoever asks carries them on. The servo asks every tick.
+// The tick counter wraps every 171 s, long before the microseconds do, so each call accumulates
+// them. The servo calls this every tick, often enough.
 uint32_t clock_us() {
-  const Uninterrupted here;
+  const CriticalSection critical;
   const uint32_t now_ticks = clock_work();
   const uint32_t passed_ticks = now_ticks - g_last_ticks;
   g_last_ticks = now_ticks;

@@ -1,6 +1,6 @@
 #include "firmtouch/hal/board.hpp"
 
-#include "cortex-m/asset_place.hpp"
+#include "cortex-m/asset_region.hpp"
 #include "cortex-m/semihosting.hpp"
 #include "cortex-m/stack.hpp"
 #include "firmtouch/hal/motors.hpp"
@@ -67,8 +67,8 @@ void board_exit(int status) {
 
 uint32_t board_stack_high_bytes() { return stack_used_bytes(); }
 
-// The independent watchdog resets the chip, and with it every pin of the power stage. Its own 32 kHz oscillator, divided
-// by 4, counts 125 us a tick, 12 bits. QEMU ignores it.
+// The independent watchdog resets the chip, and with it every pin of the power stage. It counts 12
+// bits at 125 us a tick (its own 32 kHz oscillator, divided by 4). QEMU ignores it.
 void watchdog_begin(uint32_t timeout_us) {
   constexpr uint32_t kTick_us = 125, kMaxTicks = 4095;
   const uint32_t ticks = timeout_us / kTick_us + 1;

@@ -4,7 +4,8 @@
 #include "cortex-m/work.hpp"
 #include "registers.hpp"
 
-// TIM5 counts microseconds, TIM2 counts work. In QEMU TIM2 runs at 1 GHz: under -icount shift=0 one tick an instruction.
+// TIM5 counts microseconds, TIM2 counts work. In QEMU TIM2 runs at 1 GHz: under -icount shift=0 it
+// counts one tick an instruction.
 
 namespace firmtouch::hal {
 namespace {
@@ -14,7 +15,7 @@ uint32_t g_work_per_1000 = 0;
 void start_timer(uint32_t timer, uint32_t divider) {
   reg(timer + 0x28) = divider - 1;
   reg(timer + 0x2C) = UINT32_MAX;
-  reg(timer + 0x14) = 1;  // take the prescaler over now
+  reg(timer + 0x14) = 1;  // load the prescaler now
   reg(timer + 0x00) = 1;
 }
 

@@ -4,7 +4,7 @@
 #include "cortex-m/file_link.hpp"
 #include "registers.hpp"
 
-// USART2 at 1 Mbaud, or files of the emulator's machine.
+// USART2 at 1 Mbaud, or two FIFOs on the machine that runs the emulator (file_link.hpp).
 
 namespace firmtouch::hal {
 namespace {
@@ -39,8 +39,8 @@ uint32_t link_write(const uint8_t* from, uint32_t count) {
   return sent;
 }
 
-// Over the UART it does not sleep: the main loop watches the enable switch too, which interrupts nobody. (And an
-// emulator's virtual time would jump while the core sleeps, over ticks and the watchdog's time-outs.)
+// Over the UART it returns at once: the main loop also polls the enable switch, which raises no
+// interrupt. (During WFI an emulator's virtual time jumps over ticks and watchdog time-outs.)
 void link_wait() {
   if (file_link_is_open()) file_link_wait(g_received);
 }

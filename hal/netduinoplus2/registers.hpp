@@ -3,8 +3,8 @@
 
 #include "cortex-m/cortex_m.hpp"
 
-// STM32F405 (RM0090). The chip is left on its 16 MHz internal oscillator, as reset leaves it: a product starts its PLL
-// in board_begin() and says so in core_MHz() and timer_MHz().
+// STM32F405 (RM0090). The chip runs on its 16 MHz internal oscillator, as after reset. A product
+// starts the PLL in board_begin() and changes core_MHz() and timer_MHz().
 namespace firmtouch::hal {
 
 constexpr uint32_t kRccControl = 0x40023800;     // b0 internal oscillator on: reads 1 on the chip

@@ -1,9 +1,9 @@
 #include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
 
-// A board with nothing moving on it, as every emulated one, or a process. Its counts are never to be trusted and its
-// enable line is never on, so that a free-running controller stays in its safe state; a simulator gives and takes whole
-// ticks over the link instead.
+// Encoders and motors of a board without joints (emulated boards, processes). Counts are always
+// invalid and the enable line is always off, so a free-running controller stays in its safe state.
+// A simulator exchanges whole ticks over the link instead.
 namespace firmtouch::hal {
 
 bool encoders_read(int32_t (&counts)[3]) {

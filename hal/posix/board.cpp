@@ -46,7 +46,7 @@ core::Bytes map_asset(const char* path) {
 }  // namespace
 
 void board_begin() {
-  std::signal(SIGPIPE, SIG_IGN);  // a host that went away is an ended link, not an ended process
+  std::signal(SIGPIPE, SIG_IGN);  // a closed link is reported by write(), not by a signal
   link_open(options().link);
 }
 
@@ -61,7 +61,7 @@ void board_print(const char* text) { std::fputs(text, stderr); }
 
 void board_exit(int status) {
   link_drain();
-  std::_Exit(status);  // the servo's thread may be in a tick: no destructors under it
+  std::_Exit(status);  // no destructors: the servo thread may be in a tick
 }
 
 uint32_t board_stack_high_bytes() { return 0; }

@@ -19,13 +19,12 @@ uint64_t now_ns() {
 
 uint32_t clock_us() { return static_cast<uint32_t>(now_ns() / 1000); }
 
-// A process has no counter that tells its own instructions: 0 ticks per 1,000 says that work()
-// means nothing here.
+// A process cannot count its own instructions: 0 ticks per 1,000 marks clock_work() as unusable.
 uint32_t clock_work() { return 0; }
 uint32_t clock_work_per_1000() { return 0; }
 
-// A thread stands for the timer's interrupt. As with an interrupt the next tick is never early, and
-// one that came late does not move those after it.
+// A thread replaces the timer interrupt. Deadlines are absolute: a late tick does not delay the
+// next ones.
 void clock_start_servo(uint32_t period_us, void (*tick)()) {
   std::thread([period_us, tick] {
     uint64_t next_ns = now_ns();

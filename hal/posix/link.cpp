@@ -23,13 +23,14 @@ namespace firmtouch::hal {
 namespace {
 
 constexpr int kBadInput = 3;
-// The main loop looks at the enable switch and the records meanwhile: 20 of them at 10 kHz.
+// Short, because the main loop also polls the enable switch and the record ring (20 records at
+// 10 kHz).
 constexpr int kWait_ms = 2;
 
 int g_link = -1;
 bool g_is_socket = false;
 
-[[noreturn]] void give_up(const std::string& address, const char* what) {
+[[noreturn]] void exit_with_error(const std::string& address, const char* what) {
   std::fprintf(stderr, "link %s: %s: %s\n", address.c_str(), what, std::strerror(errno));
   std::exit(kBadInput);
 }
@@ -39,7 +40,7 @@ sockaddr_un unix_address(const std::string& address, const std::string& path) {
   where.sun_family = AF_UNIX;
   if (path.empty() || path.size() >= sizeof where.sun_path) {
     errno = ENAMETOOLONG;
-    give_up(address, "a socket's path has 1 to 107 bytes");
+    exit_with_error(address, "a socket's path has 1 to 107 bytes");
   }
   std::memcpy(where.sun_path, path.c_str(), path.size() + 1);
   return where;
@@ -49,39 +50,42 @@ int connect_unix(const std::string& address, const std::string& path) {
   const sockaddr_un where = unix_address(address, path);
   const int link = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (link < 0 || ::connect(link, reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0) {
-    give_up(address, "nobody answers: start the host first, or listen:PATH");
+    exit_with_error(address,
+                    "no program accepts connections there: start the host first, or use "
+                    "listen:PATH");
   }
   return link;
 }
 
 int listen_unix(const std::string& address, const std::string& path) {
   const sockaddr_un where = unix_address(address, path);
-  const int door = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (door < 0 || ::bind(door, reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0 ||
-      ::listen(door, 1) != 0) {
-    give_up(address, "cannot listen there: remove the old socket, or name another path");
+  const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (listener < 0 ||
+      ::bind(listener, reinterpret_cast<const sockaddr*>(&where), sizeof where) != 0 ||
+      ::listen(listener, 1) != 0) {
+    exit_with_error(address, "cannot listen there: remove the old socket, or choose another path");
   }
-  const int link = ::accept4(door, nullptr, nullptr, SOCK_CLOEXEC);
-  if (link < 0) give_up(address, "accept");
-  ::close(door);
+  const int link = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
+  if (link < 0) exit_with_error(address, "no connection could be accepted");
+  ::close(listener);
   ::unlink(path.c_str());
   return link;
 }
 
-int connect_tcp(const std::string& address, const std::string& place) {
-  const size_t colon = place.rfind(':');
+int connect_tcp(const std::string& address, const std::string& host_and_port) {
+  const size_t colon = host_and_port.rfind(':');
   if (colon == std::string::npos) {
     errno = EINVAL;
-    give_up(address, "wanted tcp:HOST:PORT");
+    exit_with_error(address, "write tcp:HOST:PORT");
   }
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  const std::string host = place.substr(0, colon);
-  const std::string port = place.substr(colon + 1);
+  const std::string host = host_and_port.substr(0, colon);
+  const std::string port = host_and_port.substr(colon + 1);
   if (::getaddrinfo(host.c_str(), port.c_str(), &hints, &found) != 0) {
     errno = EADDRNOTAVAIL;
-    give_up(address, "unknown host or port");
+    exit_with_error(address, "unknown host or port");
   }
   int link = -1;
   for (const addrinfo* at = found; at != nullptr && link < 0; at = at->ai_next) {
@@ -92,31 +96,31 @@ int connect_tcp(const std::string& address, const std::string& place) {
     }
   }
   ::freeaddrinfo(found);
-  if (link < 0) give_up(address, "nobody answers");
-  const int on =
-      1;  // a frame waits for its answer: holding it back for more bytes would cost 40 ms each
+  if (link < 0) exit_with_error(address, "no program accepts connections there");
+  const int on = 1;  // send at once: Nagle's algorithm delays each frame by up to 40 ms
   ::setsockopt(link, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   return link;
 }
 
-// Bytes as they are: no echo, no line editing, no signals from the keyboard.
+// Raw mode: no echo, no line editing, no signals from the keyboard.
 void make_raw(const std::string& address, int link, speed_t baud) {
   termios line{};
-  if (::tcgetattr(link, &line) != 0) give_up(address, "not a serial device");
+  if (::tcgetattr(link, &line) != 0) exit_with_error(address, "not a serial device");
   ::cfmakeraw(&line);
   ::cfsetspeed(&line, baud);
-  if (::tcsetattr(link, TCSANOW, &line) != 0) give_up(address, "cannot be set to raw bytes");
+  if (::tcsetattr(link, TCSANOW, &line) != 0)
+    exit_with_error(address, "cannot be set to raw bytes");
 }
 
 int open_pty(const std::string& address) {
   const int link = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (link < 0 || ::grantpt(link) != 0 || ::unlockpt(link) != 0)
-    give_up(address, "no pseudo-terminal");
+    exit_with_error(address, "no pseudo-terminal is available");
   const char* name = ::ptsname(link);
-  if (name == nullptr) give_up(address, "a pseudo-terminal without a name");
-  // Kept open by us as well: bytes and settings stay where the host opens it late or twice.
+  if (name == nullptr) exit_with_error(address, "the pseudo-terminal has no name");
+  // Stays open here too: bytes and settings survive a host that opens it late or twice.
   const int other = ::open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (other < 0) give_up(address, name);
+  if (other < 0) exit_with_error(address, name);
   make_raw(address, other, B1000000);
   std::printf("%s\n", name);
   std::fflush(stdout);
@@ -132,14 +136,14 @@ int open_address(const std::string& address) {
   if (begins(address, "fd:")) return std::atoi(address.c_str() + 3);
   if (address == "pty") return open_pty(address);
   const int link = ::open(address.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (link < 0) give_up(address, "cannot be opened");
+  if (link < 0) exit_with_error(address, "cannot be opened");
   make_raw(address, link, B1000000);
   return link;
 }
 
-// The link is gone for good: so is the reason to run.
-[[noreturn]] void host_is_gone() {
-  board_print("link: the host closed it\n");
+// Without a link this process has nothing to do.
+[[noreturn]] void exit_at_end_of_link() {
+  board_print("link: the host closed the connection\n");
   board_exit(0);
 }
 
@@ -151,7 +155,7 @@ void link_open(const char* address) {
   g_link = open_address(address);
   const int flags = ::fcntl(g_link, F_GETFL);
   if (flags < 0 || ::fcntl(g_link, F_SETFL, flags | O_NONBLOCK) != 0)
-    give_up(address, "not an open descriptor");
+    exit_with_error(address, "not an open descriptor");
   int type = 0;
   socklen_t bytes = sizeof type;
   g_is_socket = ::getsockopt(g_link, SOL_SOCKET, SO_TYPE, &type, &bytes) == 0;
@@ -164,16 +168,16 @@ void link_drain() {
 uint32_t link_read(uint8_t* to, uint32_t capacity) {
   const ssize_t got = ::read(g_link, to, capacity);
   if (got > 0) return static_cast<uint32_t>(got);
-  if (got == 0 && capacity > 0) host_is_gone();
-  if (got < 0 && !would_block()) host_is_gone();
+  if (got == 0 && capacity > 0) exit_at_end_of_link();
+  if (got < 0 && !would_block()) exit_at_end_of_link();
   return 0;
 }
 
 uint32_t link_write(const uint8_t* from, uint32_t count) {
   const ssize_t sent = ::write(g_link, from, count);
   if (sent >= 0) return static_cast<uint32_t>(sent);
-  if (!would_block()) host_is_gone();
-  pollfd link{g_link, POLLOUT, 0};  // a host that does not read: do not spin on it
+  if (!would_block()) exit_at_end_of_link();
+  pollfd link{g_link, POLLOUT, 0};  // the host does not read: wait 1 ms instead of spinning
   ::poll(&link, 1, 1);
   return 0;
 }

@@ -2,10 +2,10 @@
 
 namespace firmtouch::hal {
 
-/// Opens what `--link` names. Ends the process with a message where it cannot.
+/// Opens the link that `--link` names. On failure, ends the process with a message (status 3).
 void link_open(const char* address);
 
-/// Waits until every byte that link_write() took has left (a serial line's are still on their way).
+/// Waits until a serial device has sent every byte that link_write() accepted.
 void link_drain();
 
 }  // namespace firmtouch::hal

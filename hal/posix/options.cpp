@@ -13,13 +13,13 @@ namespace {
 
 constexpr const char* kUsage =
     "usage: firmtouch-app-posix --asset FILE.fta --link LINK\n"
-    "The controller program as a process: no motors, no encoders; a host drives it in lock-step "
-    "over its link.\n"
+    "Runs the controller program as a process, without motors and encoders. A host sends one tick\n"
+    "at a time over the link (firmtouch-sim run --controller).\n"
     "LINK: unix:PATH       connect to a unix socket\n"
-    "      listen:PATH     make a unix socket and wait for one host\n"
+    "      listen:PATH     create a unix socket and wait for one host\n"
     "      tcp:HOST:PORT   connect\n"
     "      fd:N            an open file descriptor (a socket pair)\n"
-    "      pty             make a pseudo-terminal and print its name\n"
+    "      pty             create a pseudo-terminal and print its name\n"
     "      /dev/...        a serial device, 1 Mbaud, raw\n";
 
 [[noreturn]] void leave(int status, const std::string& message) {
@@ -28,8 +28,7 @@ constexpr const char* kUsage =
   std::exit(status);
 }
 
-// main() belongs to the program, which is the same on every board and takes no arguments: the board
-// asks the system.
+// main() is the same on every board and has no arguments, so the command line comes from /proc.
 std::vector<std::string> command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   const std::string all{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -50,11 +49,12 @@ Options read() {
     } else if (words[i] == "--asset" && has_value) {
       found.asset = words[++i].c_str();
     } else {
-      leave(2, "firmtouch-app-posix: `" + words[i] + "` is no option, or its value is missing\n");
+      leave(2,
+            "firmtouch-app-posix: `" + words[i] + "` is not an option, or its value is missing\n");
     }
   }
   if (found.link == nullptr || found.asset == nullptr) {
-    leave(2, "firmtouch-app-posix: --asset and --link are needed\n");
+    leave(2, "firmtouch-app-posix: give --asset and --link\n");
   }
   return found;
 }

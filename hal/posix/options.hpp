@@ -5,11 +5,10 @@ namespace firmtouch::hal {
 struct Options {
   // unix:PATH, tcp:HOST:PORT, listen:PATH, fd:N, pty, or a serial device.
   const char* link = nullptr;
-  const char* asset = nullptr;  // file
+  const char* asset = nullptr;  // path of an .fta file
 };
 
-/// The command line, read once. Ends the process with a message where it makes no sense (status 2)
-/// or was --help (0).
+/// The command line, parsed once. Ends the process after a usage error (status 2) or --help (0).
 const Options& options();
 
 }  // namespace firmtouch::hal

@@ -1,6 +1,6 @@
 #include "firmtouch/hal/watchdog.hpp"
 
-// A process has no power stage to switch off (no_joints).
+// A process has no power stage to switch off.
 namespace firmtouch::hal {
 
 void watchdog_begin(uint32_t) {}

@@ -3,16 +3,22 @@
 
 namespace firmtouch::hal {
 
-/// Microseconds since board_begin(), wraps after 71 minutes. Interrupt-safe.
+/// Microseconds since board_begin(); wraps after 71 minutes.
+/// Context: servo interrupt and main loop; the definition protects its own state.
 uint32_t clock_us();
 
-/// A counter for measuring work: processor cycles where the core counts them, instructions under -icount. Wraps.
+/// Counter that measures work: processor cycles if the core counts them, instructions under
+/// -icount. Wraps.
+/// Context: any, after board_begin().
 uint32_t clock_work();
-/// Counter ticks of clock_work() per 1,000 instructions or cycles.
+
+/// Ticks of clock_work() per 1,000 cycles or instructions; 0 if the board cannot measure work.
+/// Context: any, after board_begin().
 uint32_t clock_work_per_1000();
 
-/// Calls `tick` every `period_us` from the servo interrupt.
-/// Pre: called once, period_us >= 50.
+/// Starts the servo interrupt: it calls `tick` every `period_us`.
+/// Pre: called once; period_us >= 50.
+/// Context: main loop.
 void clock_start_servo(uint32_t period_us, void (*tick)());
 
 }  // namespace firmtouch::hal

@@ -3,8 +3,10 @@
 
 namespace firmtouch::hal {
 
-/// Latches and reads the three joint encoders, all of the same instant. Called from the servo interrupt.
-/// Result: false where a count is not to be trusted (index lost, CRC error): the tick is told, the counts are ignored.
+/// Latches the three joint encoders at one instant and reads their counts.
+/// Result: false if a count is invalid (index lost, CRC error). The tick then carries
+/// record::kFlagEncoderFault, and the controller ignores the counts.
+/// Context: servo interrupt.
 bool encoders_read(int32_t (&counts)[3]);
 
 }  // namespace firmtouch::hal

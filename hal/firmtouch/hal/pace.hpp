@@ -2,8 +2,9 @@
 
 namespace firmtouch::hal {
 
-/// An emulator's virtual time runs as fast as it can. Waits so that what a person looks at does not.
-/// For a demonstration's servo interrupt, once a tick; nothing else calls it.
+/// Slows an emulator down to real time: its virtual time otherwise runs as fast as it can, and a
+/// person watches. May block.
+/// Context: servo interrupt of the simulated hand (firmware/app), once a tick.
 void pace_tick();
 
 }  // namespace firmtouch::hal

@@ -3,9 +3,13 @@
 
 namespace firmtouch::hal {
 
-/// Switches the motors off in hardware unless watchdog_feed() comes at least every `timeout_us`.
+/// Arms the hardware that switches the motors off if watchdog_feed() does not come within
+/// `timeout_us`. It cannot be disarmed.
+/// Context: main loop, once, just before clock_start_servo().
 void watchdog_begin(uint32_t timeout_us);
-/// Called at the end of a good tick, from the servo interrupt.
+
+/// Restarts the watchdog's time-out.
+/// Context: servo interrupt, at the end of a tick, after the motors were written.
 void watchdog_feed();
 
 }  // namespace firmtouch::hal

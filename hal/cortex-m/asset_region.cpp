@@ -1,4 +1,4 @@
-#include "cortex-m/asset_place.hpp"
+#include "cortex-m/asset_region.hpp"
 
 #include "firmtouch/hal/board.hpp"
 
