@@ -7,14 +7,15 @@ namespace firmtouch::host_sim {
 namespace {
 
 constexpr const char* kHelp =
-    "firmtouch-sim runs a controller against a simulated device and hand.\n\n"
-    "  firmtouch-sim run SCENARIO [options]      run it (run --help: the options, and how a "
-    "scenario is written)\n"
-    "  firmtouch-sim replay LOG [options]        re-run a log's inputs and compare every output "
-    "bit\n"
+    "firmtouch-sim runs a controller with a simulated device and a simulated hand.\n\n"
+    "  firmtouch-sim run SCENARIO [options]      simulate a scenario (run --help: options, and "
+    "the scenario's syntax)\n"
+    "  firmtouch-sim replay LOG [options]        recompute a log from its inputs and compare "
+    "every output bit\n"
     "  firmtouch-sim record CONTROLLER -o FILE   record a running controller over its link\n"
-    "  firmtouch-sim scenario ASSET -o FILE      write a scenario that suits an asset: follow its "
-    "guide, press on it\n\n"
+    "  firmtouch-sim scenario ASSET -o FILE      write a scenario for an asset: press on the "
+    "surface, follow the guide\n\n"
+    "`firmtouch-sim COMMAND --help` lists a command's options.\n"
     "Exit codes: 0 done; 1 it ran and the answer is no; 2 usage; 3 bad input.\n";
 
 }  // namespace
@@ -33,7 +34,7 @@ Options::Options(const std::vector<std::string>& words,
       if (std::find(with_value.begin(), with_value.end(), name) == with_value.end())
         throw Usage("unknown option " + name);
       if (equals == std::string::npos && i + 1 == words.size())
-        throw Usage(name + " wants a value");
+        throw Usage(name + " needs a value");
       given_.emplace_back(name, equals != std::string::npos ? word.substr(equals + 1) : words[++i]);
     }
   }
@@ -52,7 +53,7 @@ std::vector<std::string> Options::values(const std::string& name) const {
 }
 
 int run_command(const std::vector<std::string>& words) {
-  if (words.empty()) throw Usage("say what to do: run, replay, record or scenario");
+  if (words.empty()) throw Usage("name a command: run, replay, record or scenario");
   const std::vector<std::string> rest(words.begin() + 1, words.end());
   if (words[0] == "run") return run_scenario(rest);
   if (words[0] == "replay") return replay_log(rest);
@@ -62,7 +63,7 @@ int run_command(const std::vector<std::string>& words) {
     std::cout << kHelp;
     return 0;
   }
-  throw Usage("no command `" + words[0] + "`: run, replay, record or scenario");
+  throw Usage("unknown command `" + words[0] + "`; known: run, replay, record, scenario");
 }
 
 }  // namespace firmtouch::host_sim

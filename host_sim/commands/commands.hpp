@@ -5,13 +5,13 @@
 
 namespace firmtouch::host_sim {
 
-/// Wrong words on the command line.
+/// Wrong command line.
 struct Usage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `run ...`, `replay ...`, `record ...`, `scenario ...`, `--help`. Result: the exit code; throws Usage or
-/// Refused.
+/// Runs `run ...`, `replay ...`, `record ...`, `scenario ...` or `--help`.
+/// Result: the exit code. Throws Usage or Refused.
 int run_command(const std::vector<std::string>& words);
 
 int run_scenario(const std::vector<std::string>& words);
@@ -19,12 +19,12 @@ int replay_log(const std::vector<std::string>& words);
 int record_live(const std::vector<std::string>& words);
 int make_scenario(const std::vector<std::string>& words);
 
-/// Options after a command: takes `--name VALUE` and `--name=VALUE`, collects the rest.
+/// Parses the arguments of a command: `--name VALUE`, `--name=VALUE`, and operands.
 class Options {
  public:
-  /// `with_value`: the options that exist. Throws Usage for another one, or one without its value.
+  /// `with_value`: the known options. Throws Usage for an unknown one or a missing value.
   Options(const std::vector<std::string>& words, const std::vector<std::string>& with_value);
-  /// The last value given; empty where there is none.
+  /// The last value given; empty if there is none.
   std::string value(const std::string& name) const;
   std::vector<std::string> values(const std::string& name) const;
   bool help() const { return help_; }

@@ -1,5 +1,4 @@
-// firmtouch-sim: the world around a controller. Exit codes: 0 done; 1 it ran and the answer is no;
-// 2 usage; 3 bad input.
+// firmtouch-sim. Exit codes: 0 done; 1 it ran and the answer is no; 2 usage; 3 bad input.
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -10,13 +9,13 @@
 
 int main(int argc, char** argv) {
   using namespace firmtouch::host_sim;
-  std::signal(SIGPIPE, SIG_IGN);  // a controller that goes away is told of, not died of
+  std::signal(SIGPIPE, SIG_IGN);  // a closed link is an error message, not a signal
   const std::vector<std::string> words(argv + 1, argv + argc);
   try {
     return run_command(words);
   } catch (const Usage& usage) {
     std::cerr << "firmtouch-sim: " << usage.what()
-              << "\n`firmtouch-sim --help` says what there is.\n";
+              << "\n`firmtouch-sim --help` lists the commands.\n";
     return 2;
   } catch (const Refused& refused) {
     std::cerr << "firmtouch-sim: " << refused.what() << "\n";

@@ -5,12 +5,11 @@
 
 namespace firmtouch::host_sim {
 
-/// Files of a command: as the command line calls each ("--log", "the scenario"), and its path.
-/// Empty paths were not given.
+/// Files of a command: name for messages ("--log", "the scenario") and path; empty: not given.
 using NamedFiles = std::vector<std::pair<std::string, std::string>>;
 
-/// Before any work: throws Usage where an output is one of the inputs, or another output, by
-/// whatever path; Refused where an output cannot be written.
+/// Checks the outputs before any work. Throws Usage if an output is the same file as an input or
+/// another output, Refused if an output cannot be written.
 void check_outputs(const NamedFiles& inputs, const NamedFiles& outputs);
 
 }  // namespace firmtouch::host_sim

@@ -4,7 +4,7 @@
 
 namespace firmtouch::host_sim {
 
-/// A bar on stderr where that is a terminal; elsewhere one that says nothing.
+/// Progress bar on stderr; an empty function if stderr is not a terminal.
 std::function<void(double)> progress_bar(const std::string& what);
 
 }  // namespace firmtouch::host_sim

@@ -25,24 +25,25 @@ constexpr const char* kHelp =
     "firmtouch-sim record CONTROLLER -o FILE.ftl [options]\n"
     "Records a running controller over its link until Ctrl-C, or for a given time.\n"
     "  CONTROLLER            unix:PATH | tcp:HOST:PORT | DEVICE (serial, 1 Mbaud)\n"
-    "  --seconds S           how long\n"
+    "  --seconds S           duration\n"
     "  --decimate N          every N-th tick only (1 Mbaud carries about 690 records a second)\n"
-    "  --set NAME=VALUE      a parameter, in its SI unit, set while it records; may be repeated\n"
-    "  --asset FILE          the asset that the controller feels: named in the log for a replay\n"
-    "  --file-megabytes N    the next file begins behind so many; --keep N: so many are kept\n"
-    "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was refused.\n";
+    "  --set NAME=VALUE      set a parameter, in its SI unit, while recording; may be repeated\n"
+    "  --asset FILE          the controller's asset; the log then names it for a replay\n"
+    "  --file-megabytes N    start a new file after N megabytes\n"
+    "  --keep N              keep the newest N files\n"
+    "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.\n";
 
 volatile std::sig_atomic_t g_stop = 0;
 void on_signal(int) { g_stop = 1; }
 
-double number_of(const Options& options, const char* name, double otherwise, double least) {
+double number_of(const Options& options, const char* name, double fallback, double minimum) {
   const std::string text = options.value(name);
-  if (text.empty()) return otherwise;
+  if (text.empty()) return fallback;
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
-  if (*end != 0 || !(number >= least))
-    throw Usage(std::string(name) + " " + text + ": wanted a number of at least " +
-                std::to_string(static_cast<int>(least)));
+  if (*end != 0 || !(number >= minimum))
+    throw Usage(std::string(name) + " " + text + ": give a number of at least " +
+                std::to_string(static_cast<int>(minimum)));
   return number;
 }
 
@@ -58,14 +59,15 @@ std::string number_text(float value) {
   return text;
 }
 
-struct Wish {
+struct ParameterRequest {
   uint32_t index;
   float value;
   std::string name;
 };
 
-std::vector<Wish> wishes_of(const Options& options, const LiveLink& controller) {
-  std::vector<Wish> wishes;
+std::vector<ParameterRequest> parameter_requests(const Options& options,
+                                                 const LiveLink& controller) {
+  std::vector<ParameterRequest> requests;
   for (const std::string& set : options.values("--set")) {
     const size_t equals = set.find('=');
     if (equals == std::string::npos) throw Usage("--set " + set + ": write --set NAME=VALUE");
@@ -73,16 +75,16 @@ std::vector<Wish> wishes_of(const Options& options, const LiveLink& controller) 
     char* end = nullptr;
     const float value = std::strtof(set.c_str() + equals + 1, &end);
     if (*end != 0 || end == set.c_str() + equals + 1)
-      throw Usage("--set " + set + ": its value is no number");
+      throw Usage("--set " + set + ": its value is not a number");
     uint32_t index = 0;
     while (index < controller.parameters().size() &&
            text_in(controller.parameters()[index].name) != name)
       ++index;
     if (index == controller.parameters().size())
       throw Usage("--set " + set + ": the controller has no parameter " + name);
-    wishes.push_back({index, value, name});
+    requests.push_back({index, value, name});
   }
-  return wishes;
+  return requests;
 }
 
 log::Header header_of(const LiveLink& controller, uint32_t decimation, const std::string& asset,
@@ -105,27 +107,27 @@ log::Header header_of(const LiveLink& controller, uint32_t decimation, const std
   return header;
 }
 
-// A parameter's Ack in words; empty where it was taken.
-std::string complaint(const Wish& wish, uint32_t result) {
+// A parameter's Ack in words; empty if the value was accepted.
+std::string rejection(const ParameterRequest& request, uint32_t result) {
   switch (result) {
     case link::kAckTaken:
       return "";
     case link::kAckOutOfRange:
-      return wish.name + ": " + number_text(wish.value) + " is out of its range";
+      return request.name + ": " + number_text(request.value) + " is out of its range";
     case link::kAckTimerRuns:
-      return wish.name + ": the board's timer keeps its own";
+      return request.name + ": the board's timer is running and keeps its period";
     default:
-      return wish.name + ": refused with code " + std::to_string(result);
+      return request.name + ": rejected with code " + std::to_string(result);
   }
 }
 
 struct Recording {
   LiveLink& controller;
   QueuedRecords& records;
-  std::vector<Wish> wishes;
-  uint32_t asked = 0, answered = 0;
-  bool is_refused = false;
-  uint64_t came = 0;
+  std::vector<ParameterRequest> requests;
+  uint32_t sent = 0, answered = 0;
+  bool is_rejected = false;
+  uint64_t received = 0;
   uint32_t first = 0, last = 0;  // numbers
 
   void take(const link::Frame& frame) {
@@ -133,18 +135,19 @@ struct Recording {
     if (frame.type == link::kLog && frame.payload.size() == 4 + records.record_bytes()) {
       records.push(frame.payload.data() + 4);
       last = log::word(frame.payload.data() + 4, 0);
-      if (came++ == 0) first = last;
-    } else if (frame.type == link::kAck && link::take(frame, ack) && answered < asked) {
-      const Wish& wish = wishes[answered];
+      if (received++ == 0) first = last;
+    } else if (frame.type == link::kAck && link::take(frame, ack) && answered < sent) {
+      const ParameterRequest& request = requests[answered];
       if (ack.result == link::kAckBusy) {
-        controller.set_parameter(wish.index, wish.value);  // the mailbox is empty a tick later
+        controller.set_parameter(request.index,
+                                 request.value);  // the mailbox is empty a tick later
         return;
       }
       ++answered;
-      const std::string problem = complaint(wish, ack.result);
+      const std::string problem = rejection(request, ack.result);
       if (problem.empty()) return;
       std::cerr << "firmtouch-sim: " << problem << "\n";
-      is_refused = true;
+      is_rejected = true;
     } else if (frame.type == link::kText) {
       std::cerr << "controller: "
                 << std::string(reinterpret_cast<const char*>(frame.payload.data()),
@@ -152,16 +155,15 @@ struct Recording {
                 << "\n";
     }
   }
-  // One at a time, between the records.
-  void wish() {
-    if (asked != answered || asked == wishes.size()) return;
-    controller.set_parameter(wishes[asked].index, wishes[asked].value);
-    ++asked;
+  // One at a time: the controller's mailbox holds one command.
+  void send_next_request() {
+    if (sent != answered || sent == requests.size()) return;
+    controller.set_parameter(requests[sent].index, requests[sent].value);
+    ++sent;
   }
 };
 
-// What is being recorded, twice a second where stderr is a terminal; what the disk refuses,
-// everywhere and once.
+// Prints progress twice a second if stderr is a terminal, and each disk error once.
 class Watch {
  public:
   Watch(const Recording& session, log::Recorder& recorder, uint32_t decimation)
@@ -170,22 +172,23 @@ class Watch {
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  void look(double now_s) {
+  void update(double now_s) {
     const std::string trouble = recorder_.trouble();
     if (!trouble.empty() && trouble != reported_) {
       clear();
-      std::cerr << "firmtouch-sim: " << trouble << "; it is tried again, "
-                << session_.records.capacity() << " records find room meanwhile\n";
+      std::cerr << "firmtouch-sim: " << trouble << "; retrying; memory holds "
+                << session_.records.capacity() << " records meanwhile\n";
       reported_ = trouble;
     }
     if (!is_terminal_ || now_s < next_s_) return;
     next_s_ = now_s + 0.5;
     const uint64_t due =
-        session_.came > 0 ? (session_.last - session_.first) / decimation_ + uint64_t{1} : 0;
-    std::fprintf(stderr, "\r\033[K%.1f s, %llu records, %llu missing, %u wait for the disk", now_s,
-                 static_cast<unsigned long long>(session_.came),
-                 static_cast<unsigned long long>(due - session_.came + session_.records.dropped()),
-                 session_.records.waiting());
+        session_.received > 0 ? (session_.last - session_.first) / decimation_ + uint64_t{1} : 0;
+    std::fprintf(
+        stderr, "\r\033[K%.1f s, %llu records, %llu missing, %u not yet on disk", now_s,
+        static_cast<unsigned long long>(session_.received),
+        static_cast<unsigned long long>(due - session_.received + session_.records.dropped()),
+        session_.records.waiting());
     std::fflush(stderr);
     is_shown_ = true;
   }
@@ -214,12 +217,12 @@ int record_live(const std::vector<std::string>& words) {
     return 0;
   }
   const std::string path = options.value("-o"), asset = options.value("--asset");
-  if (options.operands().size() != 1) throw Usage("record wants one controller");
-  if (path.empty()) throw Usage("record wants -o FILE.ftl");
+  if (options.operands().size() != 1) throw Usage("record needs one controller");
+  if (path.empty()) throw Usage("record needs -o FILE.ftl");
   const std::string where = options.operands()[0];
   if (where.compare(0, 5, "qemu:") == 0)
     throw Usage(where +
-                ": in lock-step no time passes by itself; start the emulator with "
+                ": a lock-step controller has no clock of its own; start the emulator with "
                 "-serial null -serial unix:PATH,server=on,wait=off and record unix:PATH");
   const double seconds = number_of(options, "--seconds", 1e9, 0);
   const uint32_t decimation = static_cast<uint32_t>(number_of(options, "--decimate", 1, 1));
@@ -227,11 +230,11 @@ int record_live(const std::vector<std::string>& words) {
 
   LiveLink controller(connect_stream(where));
   controller.describe();
-  std::vector<Wish> wishes = wishes_of(options, controller);
+  std::vector<ParameterRequest> requests = parameter_requests(options, controller);
   controller.begin(decimation);
   const uint32_t crc = controller.reply().controller.asset_crc;
   if (!asset.empty() && Session(asset).controller->asset_crc() != crc)
-    throw Refused(asset + ": the controller feels another asset, of CRC " + hex(crc, 8));
+    throw Refused(asset + ": the controller has another asset, with CRC " + hex(crc, 8));
 
   constexpr uint32_t kRingBytes = 8u << 20;
   log::Header header = header_of(controller, decimation, asset, path);
@@ -241,35 +244,35 @@ int record_live(const std::vector<std::string>& words) {
       static_cast<uint64_t>(number_of(options, "--file-megabytes", 0, 0) * (1 << 20));
   drain.keep_files = static_cast<uint32_t>(number_of(options, "--keep", 0, 0));
   log::Recorder recorder(records, header, drain, path);
-  Recording session{controller, records, std::move(wishes)};
+  Recording session{controller, records, std::move(requests)};
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   const auto begin = std::chrono::steady_clock::now();
-  std::string gone;
+  std::string link_error;
   try {
     Watch watch(session, recorder, decimation);
     for (double now_s = 0; g_stop == 0 && now_s < seconds;
          now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) {
-      session.wish();
+      session.send_next_request();
       controller.poll(50, [&](const link::Frame& frame) { session.take(frame); });
-      watch.look(now_s);
+      watch.update(now_s);
     }
     controller.leave();
   } catch (const Refused& refused) {
-    gone = refused.what();  // what came until then is kept
+    link_error = refused.what();  // the records received before are kept
   }
   const bool is_closed = recorder.stop();
   const log::DrainTotals& totals = recorder.totals();
-  if (!gone.empty()) std::cerr << "firmtouch-sim: " << gone << "\n";
+  if (!link_error.empty()) std::cerr << "firmtouch-sim: " << link_error << "\n";
   if (!is_closed)
     std::cerr << "firmtouch-sim: " << totals.problem << "; " << records.waiting()
-              << " records that came could not be written\n";
+              << " received records could not be written\n";
   std::cerr << path << ": " << totals.records << " records, " << totals.missing << " missing, "
             << totals.bytes << " bytes in " << totals.files
             << (totals.files == 1 ? " file" : " files")
             << "; damaged frames: " << controller.rejects() << "\n";
-  if (!gone.empty() || !is_closed) return 3;
-  return totals.missing > 0 || session.is_refused ? 1 : 0;
+  if (!link_error.empty() || !is_closed) return 3;
+  return totals.missing > 0 || session.is_rejected ? 1 : 0;
 }
 
 }  // namespace firmtouch::host_sim

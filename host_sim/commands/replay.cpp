@@ -5,7 +5,7 @@
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/progress.hpp"
-#include "host_sim/controllers/port.hpp"
+#include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/controllers/session.hpp"
 #include "host_sim/trace/replay.hpp"
 
@@ -15,18 +15,18 @@ namespace {
 constexpr const char* kHelp =
     "firmtouch-sim replay LOG [--asset FILE] [--controller WHAT [--image FILE]]\n"
     "Feeds the inputs of a log to a controller and compares every bit of every output.\n"
-    "  --asset FILE        the asset, where it is no longer where the log says\n"
+    "  --asset FILE        the asset, if it is not at the path in the log\n"
     "  --controller WHAT   inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE "
     "(serial)\n"
     "  --image FILE        the program for qemu:BOARD (default: "
     "build/BOARD/bin/firmtouch_app.elf)\n"
-    "Exit codes: 0 all the same; 1 they differ, and the first difference is named by tick and "
-    "field; or the log was cut off, and all before that is the same.\n";
+    "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), or "
+    "the log\nis incomplete and all outputs before the gap are equal.\n";
 
 const std::string& entry(const Log& log, const std::string& path, const std::string& key) {
   const auto found = log.text.find(key);
   if (found == log.text.end())
-    throw Refused(path + ": its header does not name " + key + "; record the run again");
+    throw Refused(path + ": its header has no entry `" + key + "`; record the run again");
   return found->second;
 }
 
@@ -40,18 +40,16 @@ void check_same(const std::string& path, const char* what, uint64_t logged, uint
   throw Refused(path + ": " + what + text + remedy);
 }
 
-// A replay begins where the controller did, and needs every tick.
+// A replay starts with a fresh controller, so it needs every tick from the first one on.
 void check_complete(const std::string& path, const Log& log) {
   if (log.records.empty())
-    throw Refused(path + ": it holds no tick" +
-                  (log.why_not_whole.empty() ? "" : ": " + log.why_not_whole));
+    throw Refused(path + ": it contains no tick" + (log.damage.empty() ? "" : ": " + log.damage));
   if (log.decimation != 1)
-    throw Refused(path + ": it keeps every " + std::to_string(log.decimation) +
+    throw Refused(path + ": it contains every " + std::to_string(log.decimation) +
                   "th tick only; record with --decimate 1 to replay");
   if (log.first_number != 0)
     throw Refused(path + ": it begins at record " + std::to_string(log.first_number) +
-                  ", and what the controller did before that is not in it; replay the log that it "
-                  "was cut from");
+                  "; a replay needs all ticks from 0 on: replay the log that it was cut from");
 }
 
 }  // namespace
@@ -62,7 +60,7 @@ int replay_log(const std::vector<std::string>& words) {
     std::cout << kHelp;
     return 0;
   }
-  if (options.operands().size() != 1) throw Usage("replay wants one log");
+  if (options.operands().size() != 1) throw Usage("replay needs one log");
   const std::string path = options.operands()[0];
   const Log log = read_log(path);
   check_same(path, "parameter table",
@@ -72,16 +70,16 @@ int replay_log(const std::vector<std::string>& words) {
   const Session session(named.empty() ? path_beside(path, entry(log, path, "asset")) : named);
   check_same(path, ("asset CRC of " + session.asset.path()).c_str(),
              std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16),
-             session.controller->asset_crc(), 8, "name the asset of that time with --asset");
+             session.controller->asset_crc(), 8, "give the recorded asset with --asset");
   check_complete(path, log);
-  if (!log.is_whole)
-    std::cerr << path << ": " << log.why_not_whole << "; the " << log.records.size()
-              << " ticks before that are replayed\n";
-  for (const std::string& name : log.without)
-    std::cerr << path << ": it has no " << name << "; that is not compared\n";
-  const std::unique_ptr<Port> port =
-      open_port(options.value("--controller"), options.value("--image"), session.asset.path(),
-                session.controller->asset_crc());
+  if (!log.is_complete)
+    std::cerr << path << ": " << log.damage << "; the " << log.records.size()
+              << " ticks before them are replayed\n";
+  for (const std::string& name : log.missing_outputs)
+    std::cerr << path << ": it has no field " << name << "; that field is not compared\n";
+  const std::unique_ptr<LockStepController> port =
+      open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
+                      session.controller->asset_crc());
   const std::string by = port ? port->name() : "in-process";
   const Tick tick = [&](const record::TickInput& input, record::TickOutput& output) {
     if (port)
@@ -97,7 +95,7 @@ int replay_log(const std::vector<std::string>& words) {
   }
   std::cerr << path << ": " << log.records.size() << " ticks replayed (" << by
             << "), every output bit the same\n";
-  return log.is_whole ? 0 : 1;
+  return log.is_complete ? 0 : 1;
 }
 
 }  // namespace firmtouch::host_sim

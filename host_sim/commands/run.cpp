@@ -18,16 +18,17 @@ namespace {
 
 constexpr const char* kHelp =
     "firmtouch-sim run SCENARIO [options]\n"
-    "  --set KEY=VALUE          a line of the scenario, set from here, with its unit: "
-    "--set \"mass=60 g\"\n"
+    "  --set KEY=VALUE          override a line of the scenario, with unit: "
+    "--set \"mass=60 g\"; may be repeated\n"
     "  --controller WHAT        inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE "
     "(serial)\n"
-    "                           every controller but inproc is compared with it, bit for bit\n"
+    "                           every other controller is compared with the in-process one, bit "
+    "for bit\n"
     "  --image FILE             the program for qemu:BOARD (default: "
     "build/BOARD/bin/firmtouch_app.elf)\n"
-    "  --report FILE.html       a page with pictures and numbers, complete in itself\n"
-    "  --picture FILE.svg       its first picture\n"
-    "  --log FILE.ftl           every tick's input and output, for `firmtouch-sim replay`\n"
+    "  --report FILE.html       report: 3D view, charts and figures in one file\n"
+    "  --picture FILE.svg       the report's 3D view and force chart\n"
+    "  --log FILE.ftl           input and output of every tick, for `firmtouch-sim replay`\n"
     "  --csv FILE.csv           the same as text\n\n";
 
 std::string hex(uint64_t value, int digits) {
@@ -40,7 +41,7 @@ std::string line_of(std::string set) {
   const size_t equals = set.find('=');
   if (equals == std::string::npos) throw Usage("--set " + set + ": write --set key=value");
   set[equals] = ' ';
-  // "1N" and "1 N" both: the number ends where the unit begins.
+  // "1N" is accepted as "1 N".
   const size_t unit = set.find_first_not_of("0123456789.+-eE", equals + 1);
   if (set.compare(0, equals, "asset") != 0 && unit != std::string::npos && unit > equals + 1 &&
       set[unit] != ' ' && set.find(' ', equals + 1) == std::string::npos)
@@ -84,7 +85,7 @@ int run_scenario(const std::vector<std::string>& words) {
     std::cout << kHelp << scenario_help() << parameter_help();
     return 0;
   }
-  if (options.operands().size() != 1) throw Usage("run wants one scenario");
+  if (options.operands().size() != 1) throw Usage("run needs one scenario");
   const std::string file = options.operands()[0];
   std::vector<std::string> sets;
   for (const std::string& set : options.values("--set")) sets.push_back(line_of(set));
@@ -98,23 +99,23 @@ int run_scenario(const std::vector<std::string>& words) {
                  {"--image", options.value("--image")}},
                 outputs);
   const Session session(path_beside(file, scenario.asset));
-  World world = world_of(*session.controller, scene_origin_m(scenario));
-  world.turn(parameter_value(scenario, params::kSurfaceTurned) >= 0.5);
-  const std::unique_ptr<Port> port =
-      open_port(options.value("--controller"), options.value("--image"), session.asset.path(),
-                session.controller->asset_crc());
+  Environment environment = environment_of(*session.controller, scene_origin_m(scenario));
+  environment.turn(parameter_value(scenario, params::kSurfaceTurned) >= 0.5);
+  const std::unique_ptr<LockStepController> port =
+      open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
+                      session.controller->asset_crc());
   const Trace trace =
-      run(scenario, *session.controller, world, port.get(), progress_bar("simulating"));
-  const Summary summary = summarise(scenario, world, trace);
+      run(scenario, *session.controller, environment, port.get(), progress_bar("simulating"));
+  const Summary summary = summarise(scenario, environment, trace);
 
   if (const std::string path = options.value("--csv"); !path.empty())
     write_file(path, csv_of(trace));
   if (const std::string path = options.value("--log"); !path.empty())
     write_log(path, log_of(scenario, session, trace, path));
   if (!options.value("--report").empty() || !options.value("--picture").empty()) {
-    const Report report{
-        scenario,         world, trace, summary, session.asset.path(), session.asset.bytes().size(),
-        command_of(words)};
+    const Report report{scenario,         environment,          trace,
+                        summary,          session.asset.path(), session.asset.bytes().size(),
+                        command_of(words)};
     if (const std::string path = options.value("--report"); !path.empty())
       write_file(path, page_of(report));
     if (const std::string path = options.value("--picture"); !path.empty())
@@ -131,7 +132,7 @@ int run_scenario(const std::vector<std::string>& words) {
   }
   if (summary.wrong_bounds > 0) {
     std::cerr << "firmtouch-sim: " << summary.wrong_bounds
-              << " certificates do not hold; this is a defect, please report it\n";
+              << " certificates are wrong; this is a defect, please report it\n";
     return 1;
   }
   return 0;

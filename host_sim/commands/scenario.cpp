@@ -10,14 +10,14 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kOutlineHeight =
-    0.016;  // diagonals above the surface: a tool of the plan's radius just touches it
+// In diagonals above the surface: the planned tool just touches it.
+constexpr double kOutlineHeight = 0.016;
 
 constexpr const char* kHelp =
     "firmtouch-sim scenario ASSET -o FILE [--outline FILE.csv]\n"
-    "Writes a scenario that suits an asset, from its bounding box: press on the part, follow its "
-    "guide, stop.\n"
-    "  --outline FILE.csv   instead: a line around the part, to be baked as its guide\n";
+    "Writes a scenario for an asset, scaled by its bounding box: press on the surface, follow the "
+    "guide,\nemergency stop.\n"
+    "  --outline FILE.csv   write a closed line around the mesh, to be baked as its guide\n";
 
 std::string csv_of(const std::vector<Vec>& line) {
   std::string text = "x,y,z\n";
@@ -37,22 +37,23 @@ int make_scenario(const std::vector<std::string>& words) {
     std::cout << kHelp;
     return 0;
   }
-  if (options.operands().size() != 1) throw Usage("scenario wants one asset");
+  if (options.operands().size() != 1) throw Usage("scenario needs one asset");
   const std::string path = options.operands()[0], to = options.value("-o"),
                     outline_path = options.value("--outline");
   if (to.empty() && outline_path.empty())
-    throw Usage("scenario wants -o FILE or --outline FILE.csv");
+    throw Usage("scenario needs -o FILE or --outline FILE.csv");
   check_outputs({{"the asset", path}}, {{"-o", to}, {"--outline", outline_path}});
   const Session session(path);
-  World world = world_of(*session.controller, {});
-  if (world.has_surface() && !world.has_mesh()) world.turn(sides_of(world.shell()).is_turned);
+  Environment environment = environment_of(*session.controller, {});
+  if (environment.has_surface() && !environment.has_mesh())
+    environment.turn(orientation_of(environment.tessellation()).normals_inward);
   if (!outline_path.empty()) {
-    const std::vector<Vec> line = outline(world, kOutlineHeight * diagonal_m(world));
+    const std::vector<Vec> line = outline(environment, kOutlineHeight * diagonal_m(environment));
     if (line.empty())
-      throw Refused(path + ": no closed line around the part was found; give a path of your own");
+      throw Refused(path + ": no closed line around the mesh was found; draw a guide of your own");
     write_file(outline_path, csv_of(line));
   }
-  if (!to.empty()) write_file(to, plan_scenario(world, path_from(to, path)));
+  if (!to.empty()) write_file(to, plan_scenario(environment, path_from(to, path)));
   return 0;
 }
 

@@ -9,7 +9,7 @@ namespace firmtouch::host_sim {
 
 AssetFile::AssetFile(const std::string& path) : path_(path) {
   const std::string bytes = read_file(path);
-  if (bytes.size() > UINT32_MAX) throw Refused(path + ": more than 4 GB is no asset");
+  if (bytes.size() > UINT32_MAX) throw Refused(path + ": an asset has less than 4 GB");
   size_ = static_cast<uint32_t>(bytes.size());
   blocks_.resize(bytes.size() / sizeof(Block) + 1);
   std::memcpy(blocks_.data(), bytes.data(), bytes.size());

@@ -26,8 +26,8 @@ int connect_unix(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof address.sun_path)
-    throw Refused("unix:" + path + ": the path is longer than a socket's may be (" +
-                  std::to_string(sizeof address.sun_path - 1) + " bytes)");
+    throw Refused("unix:" + path + ": a socket's path has at most " +
+                  std::to_string(sizeof address.sun_path - 1) + " bytes");
   std::memcpy(address.sun_path, path.data(), path.size());
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (fd >= 0 && connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
@@ -73,7 +73,7 @@ int open_serial(const std::string& device) {
   if (tcgetattr(fd, &settings) != 0) {
     close(fd);
     throw Refused(device +
-                  ": this is no serial device; a controller is inproc, qemu:BOARD, unix:PATH, "
+                  ": not a serial device; a controller is inproc, qemu:BOARD, unix:PATH, "
                   "tcp:HOST:PORT or a serial device");
   }
   cfmakeraw(&settings);
@@ -95,10 +95,10 @@ void ByteStream::write(const uint8_t* from, uint32_t count) {
   while (count > 0) {
     pollfd ready{out_, POLLOUT, 0};
     if (poll(&ready, 1, kWriteTimeout_ms) == 0)
-      throw Refused(name_ + ": the controller takes no more bytes; is it halted?");
+      throw Refused(name_ + ": the controller accepts no more bytes; is it halted?");
     const ssize_t sent = ::write(out_, from, count);
     if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-    if (sent <= 0) throw Refused(name_ + ": the controller is gone" + why_gone());
+    if (sent <= 0) throw Refused(name_ + ": the controller closed the link" + reason_closed());
     from += sent;
     count -= static_cast<uint32_t>(sent);
   }
@@ -112,7 +112,7 @@ uint32_t ByteStream::read(uint8_t* to, uint32_t capacity, int timeout_ms) {
   if (status == 0) return 0;
   const ssize_t got = ::read(in_, to, capacity);
   if (got < 0 && (errno == EINTR || errno == EAGAIN)) return 0;
-  if (got <= 0) throw Refused(name_ + ": the controller is gone" + why_gone());
+  if (got <= 0) throw Refused(name_ + ": the controller closed the link" + reason_closed());
   return static_cast<uint32_t>(got);
 }
 

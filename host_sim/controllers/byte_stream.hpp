@@ -5,7 +5,8 @@
 
 namespace firmtouch::host_sim {
 
-/// Bytes to and from a controller. Throws Refused, naming it, where the far end is gone or silent.
+/// Byte stream to and from a controller. Throws Refused with its name if the far end closed the
+/// stream or accepts no bytes.
 class ByteStream {
  public:
   ByteStream(int in, int out, std::string name) : in_(in), out_(out), name_(std::move(name)) {}
@@ -14,13 +15,13 @@ class ByteStream {
   virtual ~ByteStream();
 
   void write(const uint8_t* from, uint32_t count);
-  /// Waits up to `timeout_ms` for at least one byte. Result: bytes read, 0 for none in that time.
+  /// Waits up to `timeout_ms` for at least one byte. Result: bytes read; 0 after the time-out.
   uint32_t read(uint8_t* to, uint32_t capacity, int timeout_ms);
   const std::string& name() const { return name_; }
 
  protected:
-  /// Why it may be gone, for the message: " (exit status 71)".
-  virtual std::string why_gone() { return ""; }
+  /// Why the stream was closed, for the message: " (exit status 71)".
+  virtual std::string reason_closed() { return ""; }
   int in_, out_;
   std::string name_;
 };
@@ -28,9 +29,8 @@ class ByteStream {
 /// unix:PATH, tcp:HOST:PORT, or a serial device (raw, 1 Mbaud).
 std::unique_ptr<ByteStream> connect_stream(const std::string& where);
 
-/// A board of ours in QEMU, `image` its program, the asset loaded where the board looks for it. It
-/// speaks over two FIFOs of this machine, one trap a frame (hal/cortex-m/file_link.hpp): some
-/// 20,000 ticks a second, where its emulated UART makes 1,000.
+/// Starts QEMU with `image` and the asset in the board's slot. The link uses two FIFOs, one trap a
+/// frame (hal/cortex-m/file_link.hpp): 20,000 ticks a second; the emulated UART carries 1,000.
 std::unique_ptr<ByteStream> start_emulator(const std::string& board, const std::string& image,
                                            const std::string& asset_path);
 

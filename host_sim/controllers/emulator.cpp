@@ -16,17 +16,16 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr int kStartPolls = 2000;  // of 10 ms: a loaded machine takes seconds to start an emulator
+constexpr int kStartPolls = 2000;  // 20 s: a loaded machine takes seconds to start an emulator
 constexpr useconds_t kPoll_us = 10000;
 
 struct Board {
   const char* name;
-  const char* asset_address;  // where its program looks for an asset that was not linked in
-                              // (hal/BOARD/link.ld)
+  const char* asset_address;  // of a flashed asset's slot (hal/BOARD/link.ld)
 };
 constexpr Board kBoards[] = {{"mps2-an500", "0x60000000"}, {"netduinoplus2", "0x08040000"}};
 
-// The emulator's process and the folder of its link's files; both end with it.
+// Owns the emulator's process and the folder of its FIFOs.
 class Emulator : public ByteStream {
  public:
   Emulator(std::string name, std::string folder, pid_t process)
@@ -45,8 +44,8 @@ class Emulator : public ByteStream {
   void open_files();
 
  private:
-  // What the emulator said, for the message.
-  std::string why_gone() override {
+  // Exit status and output of the emulator, for the message.
+  std::string reason_closed() override {
     int status = 0;
     for (int i = 0; i < 50 && process_ > 0; ++i, usleep(kPoll_us))
       if (waitpid(process_, &status, WNOHANG) == process_) process_ = -1;
@@ -64,7 +63,7 @@ class Emulator : public ByteStream {
   void wait_a_little(const char* for_what) {
     if (process_ <= 0 || waitpid(process_, nullptr, WNOHANG) != 0) {
       process_ = -1;
-      throw Refused(name_ + ": the emulator ended before " + for_what + why_gone());
+      throw Refused(name_ + ": the emulator ended before " + for_what + reason_closed());
     }
     usleep(kPoll_us);
   }
@@ -73,7 +72,7 @@ class Emulator : public ByteStream {
   pid_t process_;
 };
 
-// The board opens link.in to read first, then link.out to write.
+// Same order as the board: link.in first, then link.out (hal/cortex-m/file_link.hpp).
 void Emulator::open_files() {
   in_ = open((folder_ + "/link.out").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   for (int i = 0; i < kStartPolls && out_ < 0; ++i) {
@@ -83,7 +82,7 @@ void Emulator::open_files() {
   if (out_ < 0) throw Refused(name_ + ": the program does not open its link; is it firmtouch_app?");
 }
 
-std::string doubled_commas(const std::string& path) {
+std::string escape_commas(const std::string& path) {
   std::string text;
   for (const char c : path) text += c == ',' ? ",," : std::string(1, c);
   return text;
@@ -131,8 +130,8 @@ std::unique_ptr<ByteStream> start_emulator(const std::string& board, const std::
   const pid_t process = start(
       {"qemu-system-arm", "-M", board, "-kernel", image, "-display", "none", "-monitor", "none",
        "-serial", "null", "-icount", "shift=10,sleep=off,align=off", "-semihosting-config",
-       "enable=on,target=native,arg=link,arg=" + doubled_commas(folder + "/link"), "-device",
-       "loader,file=" + doubled_commas(asset_path) + ",addr=" + found->asset_address +
+       "enable=on,target=native,arg=link,arg=" + escape_commas(folder + "/link"), "-device",
+       "loader,file=" + escape_commas(asset_path) + ",addr=" + found->asset_address +
            ",force-raw=on"},
       folder + "/log");
   auto emulator = std::make_unique<Emulator>("qemu:" + board, folder, process);

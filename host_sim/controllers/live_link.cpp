@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int kAgain_ms = 1000;
-constexpr auto kAnswerTime = std::chrono::seconds(60);  // an asset is proven first
+constexpr auto kAnswerTime = std::chrono::seconds(60);  // the controller proves its asset first
 constexpr uint16_t kMaxRows = 1024;
 
 }  // namespace
@@ -39,24 +39,24 @@ uint32_t LiveLink::poll(int timeout_ms, const std::function<void(const link::Fra
 
 link::Description LiveLink::row(uint16_t what, uint16_t index) {
   for (const auto begin = Clock::now(); Clock::now() - begin < kAnswerTime;) {
-    link::Describe wanted;
-    wanted.what = what;
-    wanted.index = index;
-    send(link::kDescribe, wanted);
+    link::Describe query;
+    query.what = what;
+    query.index = index;
+    send(link::kDescribe, query);
     link::Description row;
-    bool is_there = false;
-    for (const auto asked = Clock::now();
-         !is_there && Clock::now() - asked < std::chrono::milliseconds(kAgain_ms);)
+    bool received = false;
+    for (const auto sent = Clock::now();
+         !received && Clock::now() - sent < std::chrono::milliseconds(kAgain_ms);)
       poll(kAgain_ms, [&](const link::Frame& frame) {
-        link::Description came;
+        link::Description reply;
         if (frame.type == link::kText)
-          refuse("it does not describe its records: it is of another release");
-        if (frame.type != link::kDescription || !link::take(frame, came)) return;
-        if (came.what == what && came.index == index) row = came, is_there = true;
+          refuse("the controller does not describe its records: it is of another release");
+        if (frame.type != link::kDescription || !link::take(frame, reply)) return;
+        if (reply.what == what && reply.index == index) row = reply, received = true;
       });
-    if (is_there) return row;
+    if (received) return row;
   }
-  refuse("no answer in 60 s; is this firmtouch_app, and the line at 1 Mbaud?");
+  refuse("no answer in 60 s; does the controller run firmtouch_app, and the serial line 1 Mbaud?");
 }
 
 void LiveLink::describe() {
@@ -83,20 +83,20 @@ void LiveLink::describe() {
   header_.record_bytes = log::place(header_.fields);
 }
 
-// Result: its answer, once its asset is proven.
+// Result: the controller's reply, after it has proven its asset.
 link::HelloReply LiveLink::hello(const link::Hello& hello) {
   for (const auto begin = Clock::now(); Clock::now() - begin < kAnswerTime;) {
     send(link::kHello, hello);
     link::HelloReply reply;
-    bool is_there = false;
-    for (const auto asked = Clock::now();
-         !is_there && Clock::now() - asked < std::chrono::milliseconds(kAgain_ms);)
+    bool received = false;
+    for (const auto sent = Clock::now();
+         !received && Clock::now() - sent < std::chrono::milliseconds(kAgain_ms);)
       poll(kAgain_ms, [&](const link::Frame& frame) {
-        is_there |= frame.type == link::kHelloReply && link::take(frame, reply);
+        received |= frame.type == link::kHelloReply && link::take(frame, reply);
       });
-    if (is_there && (reply.refused & link::kRefusedNotReady) == 0) return reply;
+    if (received && (reply.refused & link::kRefusedNotReady) == 0) return reply;
   }
-  refuse("no answer to the handshake in 60 s; is this firmtouch_app?");
+  refuse("no answer to the handshake in 60 s; does the controller run firmtouch_app?");
 }
 
 void LiveLink::begin(uint32_t decimation) {
@@ -106,19 +106,19 @@ void LiveLink::begin(uint32_t decimation) {
   if ((reply_.refused & (link::kRefusedProtocol | link::kRefusedAssetRejected)) != 0) {
     char text[1200];
     const uint32_t count = link::explain(first.host, reply_, text);
-    refuse("the controller refuses:\n" + std::string(text, count));
+    refuse("the controller rejects the session:\n" + std::string(text, count));
   }
   link::Hello second;
   second.host = reply_.controller;
   second.decimation = decimation;
-  send(link::kHello, second);  // its answer stands before the first record
+  send(link::kHello, second);  // its reply precedes the first record
 }
 
 void LiveLink::set_parameter(uint32_t index, float value) {
-  link::SetParam wanted;
-  wanted.index = index;
-  wanted.value = value;
-  send(link::kSetParam, wanted);
+  link::SetParam request;
+  request.index = index;
+  request.value = value;
+  send(link::kSetParam, request);
 }
 
 void LiveLink::leave() { send(link::kBye, link::Bye{}); }

@@ -11,25 +11,25 @@
 
 namespace firmtouch::host_sim {
 
-/// A controller that runs by itself, as a recorder hears it. What its records are it tells itself,
-/// so it may be of other sources than this program, if only its protocol is ours.
+/// Link to a free-running controller, for recording. The controller describes its own records, so
+/// it may be of another release as long as the protocol is the same.
 class LiveLink {
  public:
   explicit LiveLink(std::unique_ptr<ByteStream> stream) : stream_(std::move(stream)) {}
 
-  /// Asks what its records, bits and parameters are. Throws Refused where it does not answer.
+  /// Reads the descriptions of records, bits and parameters. Throws Refused without an answer.
   void describe();
   const log::Header& header() const { return header_; }
   /// In the order of its table.
   const std::vector<link::Description>& parameters() const { return parameters_; }
 
-  /// Begins the stream of every `decimation`-th record; the servo starts, if it did not run.
+  /// Starts the stream of every `decimation`-th record; starts the servo if it does not run.
   void begin(uint32_t decimation);
   const link::HelloReply& reply() const { return reply_; }
 
   void set_parameter(uint32_t index, float value);
-  /// Hands over what comes within `timeout_ms`: Log, Ack and Text frames. Result: how many bytes
-  /// came.
+  /// Waits up to `timeout_ms` and passes each received frame (Log, Ack, Text) to `take`.
+  /// Result: number of bytes received.
   uint32_t poll(int timeout_ms, const std::function<void(const link::Frame&)>& take);
   uint32_t rejects() const { return decoder_.rejects(); }
   void leave();
@@ -49,12 +49,12 @@ class LiveLink {
   uint16_t sequence_ = 0;
 };
 
-/// A text of a Description, whose zeros may be missing.
+/// Text of a fixed-size field, with or without a final zero.
 template <size_t N>
-std::string text_in(const char (&place)[N]) {
+std::string text_in(const char (&field)[N]) {
   size_t length = 0;
-  while (length < N && place[length] != 0) ++length;
-  return {place, length};
+  while (length < N && field[length] != 0) ++length;
+  return {field, length};
 }
 
 }  // namespace firmtouch::host_sim

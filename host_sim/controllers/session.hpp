@@ -10,17 +10,17 @@ namespace firmtouch::host_sim {
 
 /// An asset and the in-process controller that opened it.
 struct Session {
-  /// Throws Refused naming the file and the rule that refuses it.
+  /// Throws Refused with the file and the rule that rejects it.
   explicit Session(const std::string& asset_path);
 
   AssetFile asset;
   std::unique_ptr<Controller> controller;
 };
 
-/// A path as a log names it: relative to the log's folder where that is possible, so that both can
-/// move together.
+/// `path` relative to the folder of `folder_of` if possible, so that log and asset can be moved
+/// together.
 std::string path_from(const std::string& folder_of, const std::string& path);
-/// The other way round.
+/// The inverse: `relative` as seen from the folder of `file`.
 std::string path_beside(const std::string& file, const std::string& relative);
 
 }  // namespace firmtouch::host_sim

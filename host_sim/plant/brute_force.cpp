@@ -35,14 +35,13 @@ double triangle_distance2(Vec p, Vec a, Vec b, Vec c) {
 }  // namespace
 
 double brute_force_distance_m(const mesh::View& mesh, Vec p_m) {
-  double least = std::numeric_limits<double>::infinity();
+  double best = std::numeric_limits<double>::infinity();
   for (uint32_t i = 0; i < mesh.head().triangle_count; ++i) {
     const mesh::Triangle<uint32_t> t = mesh.triangle(i);
-    least =
-        std::min(least, triangle_distance2(p_m, corner(mesh, t.corner[0]),
-                                           corner(mesh, t.corner[1]), corner(mesh, t.corner[2])));
+    best = std::min(best, triangle_distance2(p_m, corner(mesh, t.corner[0]),
+                                             corner(mesh, t.corner[1]), corner(mesh, t.corner[2])));
   }
-  return std::sqrt(least);
+  return std::sqrt(best);
 }
 
 }  // namespace firmtouch::host_sim

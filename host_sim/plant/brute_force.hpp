@@ -4,8 +4,8 @@
 
 namespace firmtouch::host_sim {
 
-/// Distance of `p_m` (mesh frame) to the surface by looking at every triangle, in double: the judge
-/// of what the controller answered. Shares no code with it.
+/// Unsigned distance of `p_m` (mesh frame) to the surface, over every triangle, in double.
+/// An oracle for the controller's answers; shares no code with its search.
 double brute_force_distance_m(const mesh::View& mesh, Vec p_m);
 
 }  // namespace firmtouch::host_sim

@@ -3,7 +3,7 @@
 
 namespace firmtouch::host_sim {
 
-World world_of(const Controller& controller, Vec origin_m) {
+Environment environment_of(const Controller& controller, Vec origin_m) {
   std::vector<Vec> guide;
   if (controller.curve().is_open())
     for (const curve::Sample& s : controller.curve().samples())
@@ -17,7 +17,7 @@ World world_of(const Controller& controller, Vec origin_m) {
       guide.push_back(
           {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
     }
-  // A closed one meets itself to the last digit, for the hand to go on round.
+  // Makes the last point equal to the first in every bit, so that the guide counts as closed.
   const bool is_closed = controller.spline_guide().is_open() && !controller.curve().is_open() &&
                          controller.spline_guide().chains().size() == 1 &&
                          controller.spline_guide().chains()[0].is_closed != 0;

@@ -6,11 +6,10 @@
 namespace firmtouch::host_sim {
 namespace {
 
-// Below this many time constants the exponentials lose their digits; the series is exact to
-// rounding there.
+// Below this many time constants the exponentials cancel; the series is exact to rounding there.
 constexpr double kShort = 1e-5;
 
-// m dv/dt = F - b v over `time_s`.
+// Solves m dv/dt = F - b v over `time_s`.
 void glide(const DeviceModel& model, double force_N, double time_s, double& x, double& v) {
   const double rate = model.viscous_N_s_per_m / model.mass_kg * time_s;
   if (rate < kShort) {
@@ -20,8 +19,7 @@ void glide(const DeviceModel& model, double force_N, double time_s, double& x, d
     return;
   }
   const double terminal = force_N / model.viscous_N_s_per_m;
-  const double lost =
-      -std::expm1(-rate);  // share of the difference to the terminal velocity lost in this time
+  const double lost = -std::expm1(-rate);  // decayed share of the difference to terminal velocity
   x += terminal * time_s + (v - terminal) * lost * time_s / rate;
   v += (terminal - v) * lost;
 }
@@ -43,7 +41,7 @@ void Axis::advance(const DeviceModel& model, double force_N, double time_s) {
   const double start = position_m;
   const double friction = coulomb > 0 ? std::copysign(coulomb, before) : 0;
   glide(model, force_N - friction, time_s, position_m, velocity_mps);
-  if (coulomb > 0 && before * velocity_mps < 0) {  // friction stopped it somewhere in this stretch
+  if (coulomb > 0 && before * velocity_mps < 0) {  // friction stopped the axis during `time_s`
     const double share = before / (before - velocity_mps);
     position_m = start + 0.5 * before * share * time_s;
     velocity_mps = 0;

@@ -14,14 +14,14 @@ Vec wide(math::Vec3 v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-constexpr uint32_t kMaxSteps = 20000;  // to where the hand leans: no need of the last digit
+constexpr uint32_t kMaxVisits = 20000;  // the hand's aim does not need an exact answer
 
 }  // namespace
 
-World::World(const mesh::View& mesh, const spline::View& surface, std::vector<Vec> guide_m,
-             Vec origin_m)
+Environment::Environment(const mesh::View& mesh, const spline::View& surface,
+                         std::vector<Vec> guide_m, Vec origin_m)
     : mesh_(mesh), surface_(surface), origin_m_(origin_m), guide_m_(std::move(guide_m)) {
-  if (surface_.is_open()) shell_ = shell_of(surface_);
+  if (surface_.is_open()) tessellation_ = tessellate(surface_);
   double arc = 0;
   for (size_t i = 0; i < guide_m_.size(); ++i) {
     guide_m_[i] = guide_m_[i] + origin_m_;
@@ -31,7 +31,7 @@ World::World(const mesh::View& mesh, const spline::View& surface, std::vector<Ve
   closed_ = has_guide() && !(norm(guide_m_.front() - guide_m_.back()) > 0);
 }
 
-World::Surface World::nearest(Vec from_m) const {
+Environment::Surface Environment::nearest(Vec from_m) const {
   const Vec in_mesh = from_m - origin_m_;
   query::Hint cold;
   if (!mesh_.is_open()) {
@@ -39,10 +39,10 @@ World::Surface World::nearest(Vec from_m) const {
         spline::closest_point(surface_,
                               {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y),
                                static_cast<float>(in_mesh.z)},
-                              {kMaxSteps}, cold);
-    Vec normal = wide(found.direction) * (is_turned_ ? -1.0 : 1.0);
+                              {kMaxVisits}, cold);
+    Vec normal = wide(found.direction) * (normals_inward_ ? -1.0 : 1.0);
     const Vec off = in_mesh - wide(found.point_m);
-    if (!(norm(normal) > 0.5)) normal = unit(off);  // at a pole
+    if (!(norm(normal) > 0.5)) normal = unit(off);  // no normal at a pole
     const double distance_m = static_cast<double>(found.distance_m);
     return {wide(found.point_m) + origin_m_, normal,
             dot(off, normal) < 0 ? -distance_m : distance_m};
@@ -55,7 +55,7 @@ World::Surface World::nearest(Vec from_m) const {
           static_cast<double>(found.distance_m)};
 }
 
-Vec World::guide_at(double arc_m) const {
+Vec Environment::guide_at(double arc_m) const {
   const double length = guide_length_m();
   double arc = std::fmod(arc_m, closed_ ? length : 2 * length);
   if (arc > length) arc = 2 * length - arc;

@@ -6,13 +6,13 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr int kCells = 12;      // of a piece on an axis, of samples
-constexpr int kShownCells = 8;  // and of triangles
+constexpr int kCells = 12;      // sample cells per parameter of a piece
+constexpr int kShownCells = 8;  // cells of two triangles per parameter of a piece
 constexpr double kPi = 3.14159265358979323846;
 
 double at(int i, int cells) { return 2.0 * i / cells - 1; }
 
-// Down from a sample by halving steps on the two axes.
+// Squared distance after pattern search from (s, t), halving the step where no neighbour is nearer.
 double refined2(const spline::View& model, uint32_t piece, double s, double t, Vec p_m) {
   const auto distance2 = [&](double at_s, double at_t) {
     const Vec off = spline_point(model, piece, at_s, at_t) - p_m;
@@ -37,7 +37,7 @@ double refined2(const spline::View& model, uint32_t piece, double s, double t, V
   return best;
 }
 
-// Of a triangle as seen from `p`, signed (Van Oosterom and Strackee).
+// Signed solid angle of a triangle seen from `p` (Van Oosterom and Strackee 1983).
 double solid_angle(Vec p, Vec a, Vec b, Vec c) {
   a = a - p, b = b - p, c = c - p;
   const double la = norm(a), lb = norm(b), lc = norm(c);
@@ -45,10 +45,11 @@ double solid_angle(Vec p, Vec a, Vec b, Vec c) {
   return 2 * std::atan2(dot(a, cross(b, c)), below);
 }
 
-double winding(const Shell& shell, Vec p) {
+double winding(const Tessellation& tessellation, Vec p) {
   double sum = 0;
-  for (const auto& t : shell.triangles)
-    sum += solid_angle(p, shell.vertices[t[0]], shell.vertices[t[1]], shell.vertices[t[2]]);
+  for (const auto& t : tessellation.triangles)
+    sum += solid_angle(p, tessellation.vertices[t[0]], tessellation.vertices[t[1]],
+                       tessellation.vertices[t[2]]);
   return sum / (4 * kPi);
 }
 
@@ -80,7 +81,7 @@ double spline_distance_m(const spline::View& surface, Vec p_m) {
   };
   std::vector<Start> starts;
   for (uint32_t piece = 0; piece < surface.pieces().size(); ++piece) {
-    Start best{HUGE_VAL, 0, 0, piece};  // of a quarter of the piece
+    Start best{HUGE_VAL, 0, 0, piece};  // in one quarter of the piece
     for (int quarter = 0; quarter < 4; ++quarter) {
       best.distance2 = HUGE_VAL;
       for (int j = 0; j <= kCells / 2; ++j)
@@ -95,47 +96,49 @@ double spline_distance_m(const spline::View& surface, Vec p_m) {
   }
   std::sort(starts.begin(), starts.end(),
             [](const Start& a, const Start& b) { return a.distance2 < b.distance2; });
-  double least2 = HUGE_VAL;
+  double best2 = HUGE_VAL;
   for (size_t i = 0; i < std::min<size_t>(starts.size(), 6); ++i)
-    least2 = std::min(least2, refined2(surface, starts[i].piece, starts[i].s, starts[i].t, p_m));
-  return std::sqrt(least2);
+    best2 = std::min(best2, refined2(surface, starts[i].piece, starts[i].s, starts[i].t, p_m));
+  return std::sqrt(best2);
 }
 
-Shell shell_of(const spline::View& surface) {
-  Shell shell;
+Tessellation tessellate(const spline::View& surface) {
+  Tessellation tessellation;
   for (uint32_t piece = 0; piece < surface.pieces().size(); ++piece) {
-    const uint32_t first = static_cast<uint32_t>(shell.vertices.size());
+    const uint32_t first = static_cast<uint32_t>(tessellation.vertices.size());
     for (int j = 0; j <= kShownCells; ++j)
       for (int i = 0; i <= kShownCells; ++i)
-        shell.vertices.push_back(
+        tessellation.vertices.push_back(
             spline_point(surface, piece, at(i, kShownCells), at(j, kShownCells)));
     const uint32_t row = kShownCells + 1;
     for (uint32_t j = 0; j < kShownCells; ++j)
       for (uint32_t i = 0; i < kShownCells; ++i) {
         const uint32_t a = first + j * row + i;
-        shell.triangles.push_back({a, a + 1, a + row + 1});
-        shell.triangles.push_back({a, a + row + 1, a + row});
+        tessellation.triangles.push_back({a, a + 1, a + row + 1});
+        tessellation.triangles.push_back({a, a + row + 1, a + row});
       }
   }
-  return shell;
+  return tessellation;
 }
 
-Sides sides_of(const Shell& shell) {
+Orientation orientation_of(const Tessellation& tessellation) {
   Vec low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  for (const Vec& p : shell.vertices) {
+  for (const Vec& p : tessellation.vertices) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const double aside_m = 0.02 * norm(high - low);
   size_t looks = 0, whole = 0, turned = 0;
-  const size_t stride = std::max<size_t>(1, shell.triangles.size() / 64);
-  for (size_t i = stride / 2; i < shell.triangles.size(); i += stride) {
-    const auto& t = shell.triangles[i];
-    const Vec a = shell.vertices[t[0]], b = shell.vertices[t[1]], c = shell.vertices[t[2]];
+  const size_t stride = std::max<size_t>(1, tessellation.triangles.size() / 64);
+  for (size_t i = stride / 2; i < tessellation.triangles.size(); i += stride) {
+    const auto& t = tessellation.triangles[i];
+    const Vec a = tessellation.vertices[t[0]], b = tessellation.vertices[t[1]],
+              c = tessellation.vertices[t[2]];
     const Vec n = cross(b - a, c - a);
     if (!(norm(n) > 0)) continue;
     const Vec aside = unit(n) * aside_m, middle = (a + b + c) * (1.0 / 3);
-    const double before = winding(shell, middle + aside), behind = winding(shell, middle - aside);
+    const double before = winding(tessellation, middle + aside),
+                 behind = winding(tessellation, middle - aside);
     ++looks;
     if (std::abs(before - std::round(before)) < 0.03 &&
         std::abs(behind - std::round(behind)) < 0.03)

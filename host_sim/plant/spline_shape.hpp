@@ -8,26 +8,25 @@
 
 namespace firmtouch::host_sim {
 
-/// A point of a stored piece, s and t from -1 to 1, in double.
+/// Point of a stored piece at (s, t), both in [-1, 1], in double.
 Vec spline_point(const spline::View& model, uint32_t piece, double s, double t);
 
-/// Distance of the nearest point by dense samples and refinement from the best of them: a judge that
-/// shares nothing with the search.
+/// Distance of `p_m` to the surface: dense sampling, then refinement of the six best samples.
+/// An oracle for the controller's answers; shares no code with its search.
 double spline_distance_m(const spline::View& surface, Vec p_m);
 
-/// Triangles over the pieces: to be drawn, and to find out what they bound.
-struct Shell {
+/// Triangles that approximate the pieces, for drawing and for winding numbers.
+struct Tessellation {
   std::vector<Vec> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
 };
-Shell shell_of(const spline::View& surface);
+Tessellation tessellate(const spline::View& surface);
 
-/// How a hand is to take the surfaces: whether they enclose a space, and whether their normals point
-/// into it.
-struct Sides {
+/// Whether the surfaces enclose a volume, and whether their normals point into it.
+struct Orientation {
   bool is_closed = false;
-  bool is_turned = false;
+  bool normals_inward = false;
 };
-Sides sides_of(const Shell& shell);
+Orientation orientation_of(const Tessellation& tessellation);
 
 }  // namespace firmtouch::host_sim

@@ -1,8 +1,7 @@
 #pragma once
 #include <cmath>
 
-// The simulated world is computed in double: it is the physics around the controller, not the
-// controller.
+// Double precision: this is the physics around the controller, not the controller.
 namespace firmtouch::host_sim {
 
 struct Vec {

@@ -2,16 +2,15 @@
 #include <cmath>
 #include <limits>
 
-#include "host_sim/report/stage.hpp"
+#include "host_sim/report/scene3d.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kAzimuth_rad = 0.72,
-                 kElevation_rad = 0.52;  // the same first sight as the viewer's
-constexpr double kMargin = 0.93;         // of each side, for what is shown
-constexpr double kSmoothBelow =
-    0.82;  // cosine: a face that bends less from its vertex normal is shaded smoothly
+constexpr double kAzimuth_rad = 0.72, kElevation_rad = 0.52;  // the viewer's initial view
+constexpr double kMargin = 0.93;  // share of the image that the scene fills
+// Cosine between face and vertex normal above which a corner is shaded smoothly.
+constexpr double kSmoothBelow = 0.82;
 constexpr Colour kPart{176, 186, 201};
 
 struct Screen {
@@ -44,7 +43,7 @@ uint8_t channel(double value) {
   return static_cast<uint8_t>(std::clamp(std::lround(value), 0l, 255l));
 }
 
-// Two lights fixed to the eye and a soft rim, so that every side of the part reads.
+// Two lights fixed to the camera and a soft rim, so that every face is readable.
 Colour lit(const Canvas& canvas, Vec normal, Colour base) {
   const Vec key = unit(canvas.eye * 0.62 + canvas.up * 0.62 - canvas.right * 0.48);
   const Vec fill = unit(canvas.eye * 0.5 - canvas.up * 0.3 + canvas.right * 0.8);
@@ -56,11 +55,11 @@ Colour lit(const Canvas& canvas, Vec normal, Colour base) {
           channel(base.b * light + shine)};
 }
 
-std::vector<Vec> vertex_normals(const Stage& stage) {
-  std::vector<Vec> normals(stage.vertices.size());
-  for (const auto& t : stage.triangles) {
-    const Vec n = cross(stage.vertices[t[1]] - stage.vertices[t[0]],
-                        stage.vertices[t[2]] - stage.vertices[t[0]]);
+std::vector<Vec> vertex_normals(const Scene3d& scene3d) {
+  std::vector<Vec> normals(scene3d.vertices.size());
+  for (const auto& t : scene3d.triangles) {
+    const Vec n = cross(scene3d.vertices[t[1]] - scene3d.vertices[t[0]],
+                        scene3d.vertices[t[2]] - scene3d.vertices[t[0]]);
     for (const uint32_t corner : t) normals[corner] = normals[corner] + n;
   }
   for (Vec& n : normals) n = unit(n);
@@ -94,23 +93,23 @@ void fill_triangle(Canvas& canvas, const Screen (&p)[3], const Vec (&normal)[3])
     }
 }
 
-void draw_mesh(Canvas& canvas, const Stage& stage) {
-  const std::vector<Vec> normals = vertex_normals(stage);
-  for (const auto& t : stage.triangles) {
-    const Vec face = unit(cross(stage.vertices[t[1]] - stage.vertices[t[0]],
-                                stage.vertices[t[2]] - stage.vertices[t[0]]));
+void draw_mesh(Canvas& canvas, const Scene3d& scene3d) {
+  const std::vector<Vec> normals = vertex_normals(scene3d);
+  for (const auto& t : scene3d.triangles) {
+    const Vec face = unit(cross(scene3d.vertices[t[1]] - scene3d.vertices[t[0]],
+                                scene3d.vertices[t[2]] - scene3d.vertices[t[0]]));
     const double side = dot(face, canvas.eye) < 0 ? -1 : 1;  // an open surface shows its back too
     Screen p[3];
     Vec n[3];
     for (size_t k = 0; k < 3; ++k) {
-      p[k] = canvas.see(stage.vertices[t[k]]);
+      p[k] = canvas.see(scene3d.vertices[t[k]]);
       n[k] = (dot(face, normals[t[k]]) > kSmoothBelow ? normals[t[k]] : face) * side;
     }
     fill_triangle(canvas, p, n);
   }
 }
 
-// A line is a row of discs a little in front of what it lies on.
+// A line is a row of discs, slightly in front of the surface.
 void draw_path(Canvas& canvas, const Path& path, double scale) {
   const double radius = path.width * scale / 2;
   const int reach = static_cast<int>(std::ceil(radius));
@@ -148,22 +147,22 @@ void draw_tool(Canvas& canvas, Vec centre_m, double radius_m) {
     }
 }
 
-double fitted(const Canvas& canvas, const Stage& stage) {
+double fitted(const Canvas& canvas, const Scene3d& scene3d) {
   double x = 1e-9, y = 1e-9;
   const auto take = [&](Vec p) {
     if (std::isnan(p.x)) return;
     x = std::max(x, std::fabs(dot(p - canvas.centre, canvas.right)));
     y = std::max(y, std::fabs(dot(p - canvas.centre, canvas.up)));
   };
-  for (const Vec& v : stage.vertices) take(v);
-  for (const Path& path : stage.paths)
+  for (const Vec& v : scene3d.vertices) take(v);
+  for (const Path& path : scene3d.paths)
     for (const Vec& v : path.points) take(v);
   return kMargin / 2 * std::min(canvas.image.width / x, canvas.image.height / y);
 }
 
 }  // namespace
 
-Image draw(const Stage& stage, uint32_t width, uint32_t height, Colour background, Vec tool_m) {
+Image draw(const Scene3d& scene3d, uint32_t width, uint32_t height, Colour background, Vec tool_m) {
   constexpr uint32_t kOver = 2;  // drawn at twice the size and halved: smooth edges
   const double ca = std::cos(kAzimuth_rad), sa = std::sin(kAzimuth_rad);
   const double ce = std::cos(kElevation_rad), se = std::sin(kElevation_rad);
@@ -173,13 +172,13 @@ Image draw(const Stage& stage, uint32_t width, uint32_t height, Colour backgroun
                 {ca, sa, 0},
                 {},
                 {sa * ce, -ca * ce, se},
-                stage.centre,
+                scene3d.centre,
                 1};
   canvas.up = cross(canvas.eye, canvas.right);
-  canvas.pixels_per_m = fitted(canvas, stage);
-  draw_mesh(canvas, stage);
-  for (const Path& path : stage.paths) draw_path(canvas, path, kOver);
-  if (std::isfinite(tool_m.x)) draw_tool(canvas, tool_m, stage.tool_radius_m);
+  canvas.pixels_per_m = fitted(canvas, scene3d);
+  draw_mesh(canvas, scene3d);
+  for (const Path& path : scene3d.paths) draw_path(canvas, path, kOver);
+  if (std::isfinite(tool_m.x)) draw_tool(canvas, tool_m, scene3d.tool_radius_m);
   return halved(canvas.image);
 }
 

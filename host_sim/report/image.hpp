@@ -18,10 +18,10 @@ struct Image {
   std::vector<Colour> pixels;
 };
 
-/// Every 2 x 2 pixels averaged to one.
+/// Half the width and height: averages 2 x 2 pixels.
 Image halved(const Image& image);
 
-/// A PNG of at most 256 colours: the most frequent ones, the rest as the nearest of them.
+/// PNG with a palette of the 256 most frequent colours; other pixels take the nearest of them.
 std::string png_of(const Image& image);
 
 std::string base64_of(const void* bytes, size_t count);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -6,7 +8,7 @@
 #include "host_sim/report/page_parts.hpp"
 #include "host_sim/report/report.hpp"
 #include "host_sim/report/run_charts.hpp"
-#include "host_sim/report/stage.hpp"
+#include "host_sim/report/scene3d.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -23,25 +25,25 @@ std::string claim(const std::string& name, const std::string& big, const std::st
 std::string certificate_claim(const Summary& s) {
   if (!s.has_surface)
     return claim("Certificate", "<span class=\"open\">no surface</span>",
-                 "This asset has no mesh to keep a distance to.");
+                 "This asset has no surface, so there is no distance to check.");
   const bool holds = s.wrong_bounds == 0;
   return claim("Certificate",
                std::string("<span class=\"") + (holds ? "yes" : "no") + "\">" +
-                   (holds ? "holds" : grouped(s.wrong_bounds) + " wrong") + "</span> <small>on " +
-                   grouped(s.judged_ticks) + " ticks</small>",
-               "Every answer carries a certified lower bound. Judged in this run against brute "
-               "force over all triangles, in double: "
-               "lower &le; truth &le; told. Median bound: " +
-                   fixed(s.median_ratio * 100, 2) + " % of the truth.");
+                   (holds ? "valid" : grouped(s.wrong_bounds) + " wrong") + "</span> <small>on " +
+                   grouped(s.checked_ticks) + " checked ticks</small>",
+               "Every distance comes with a certified lower bound. This run checked lower bound "
+               "&le; true distance &le; reported distance against an oracle in double precision. "
+               "The median lower bound is " +
+                   fixed(s.median_ratio * 100, 2) + " % of the true distance.");
 }
 
-std::string steps_claim(const Summary& s) {
-  return claim("Steps",
-               std::to_string(s.worst_steps) + " <small>of " + std::to_string(s.budget_steps) +
-                   " at worst</small>",
-               "A tick reads at most its budget of tree nodes, whatever the shape: fixed memory, "
-               "no heap, a bound known beforehand. Mean: " +
-                   fixed(s.mean_steps, 1) + ".");
+std::string visits_claim(const Summary& s) {
+  return claim("Visits",
+               std::to_string(s.worst_visits) + " <small>of " + std::to_string(s.budget_visits) +
+                   " in the worst tick</small>",
+               "A visit is one tree node read by a query. The visit budget bounds the time of a "
+               "tick for every shape. Mean: " +
+                   fixed(s.mean_visits, 1) + " visits.");
 }
 
 std::string core_of(const std::string& controller) {
@@ -56,75 +58,86 @@ std::string bits_claim(const Report& report) {
     return claim("Same bits" + core_of(trace.controller),
                  "<span class=\"yes\">all equal</span> <small>" + grouped(trace.records.size()) +
                      " ticks</small>",
-                 "Verified in this run: every output bit of every tick from " +
-                     html_of(trace.controller) + " equals the in-process controller&rsquo;s.");
+                 "In this run every output bit of every tick of " + html_of(trace.controller) +
+                     " was equal to the in-process controller&rsquo;s.");
   if (trace.difference)
-    return claim("Same bits", "<span class=\"no\">they differ</span>",
-                 "First at tick " + std::to_string(trace.difference->tick) + " in " +
+    return claim("Same bits", "<span class=\"no\">different</span>",
+                 "First difference: tick " + std::to_string(trace.difference->tick) + ", field " +
                      html_of(trace.difference->field) + ".");
-  return claim(
-      "Same bits on the Cortex-M7", "<span class=\"open\">not compared</span>",
-      "This run was in-process. <code>tools/test</code> compares every bit with an emulated "
-      "Cortex-M7; so does <code>--controller qemu:mps2-an500</code> here.");
+  return claim("Same bits on the Cortex-M7", "<span class=\"open\">not compared</span>",
+               "This run used the in-process controller only. Add <code>--controller "
+               "qemu:mps2-an500</code> to compare every output bit with an emulated Cortex-M7.");
 }
 
 std::string contact_claim(const Summary& s) {
-  return claim("Contact", "penalty <small>up to " + fixed(s.peak_force_N, 2) + " N</small>",
-               "A spring on the depth of the tool&rsquo;s sphere, from the signed distance; no "
-               "proxy yet. Deepest while the motors were on: " +
+  return claim("Contact", fixed(s.peak_force_N, 2) + " N <small>peak force</small>",
+               "Penalty contact: a spring on the penetration depth of the tool&rsquo;s sphere, "
+               "without a proxy. Deepest penetration with motors on: " +
                    fixed(s.worst_penetration_m * 1e3, 2) +
-                   " mm. A wall thinner than twice that could be pushed through.");
+                   " mm. The tool could pass through a wall thinner than twice that.");
 }
 
 std::string row(const std::string& name, const std::string& value) {
   return "<tr><th scope=\"row\">" + name + "</th><td>" + value + "</td></tr>";
 }
 
-std::string table(const Report& report, const Stage& stage) {
+// "emergency stop at 11.430 s (in the scenario)"
+std::string faults_text(const Report& report) {
+  const Summary& s = report.summary;
+  if (s.fault_s < 0) return "none";
+  const bool is_scripted =
+      std::any_of(report.trace.events.begin(), report.trace.events.end(), [&](const Event& event) {
+        return event.kind <= Event::Kind::kEncoderFault &&
+               std::fabs(event.time_s - s.fault_s) < 1.5 / s.rate_Hz;
+      });
+  return html_of(s.fault_names) + " at " + fixed(s.fault_s, 3) + " s" +
+         (is_scripted ? " (in the scenario)" : "");
+}
+
+std::string table(const Report& report, const Scene3d& scene3d) {
   const Summary& s = report.summary;
   const Scenario& scenario = report.scenario;
   const auto value = [&](uint32_t parameter, int decimals) {
     return fixed(parameter_value(scenario, parameter), decimals);
   };
   std::string rows;
-  if (s.has_surface) rows += row("Part", grouped(stage.source_triangles) + " triangles");
+  if (s.has_surface) rows += row("Part", grouped(scene3d.source_triangles) + " triangles");
   if (s.has_guide)
-    rows += row("Guide", grouped(report.world.guide_m().size()) + " points, " +
-                             fixed(report.world.guide_length_m() * 1e3, 1) + " mm");
+    rows += row("Guide", grouped(report.environment.guide_m().size()) + " points, " +
+                             fixed(report.environment.guide_length_m() * 1e3, 1) + " mm");
   rows += row("Asset in flash", grouped(report.asset_bytes) + " bytes");
   rows += row("Controller state in RAM", grouped(sizeof(Controller)) + " bytes");
   rows += row("Ticks", grouped(s.ticks) + " at " + fixed(s.rate_Hz, 0) + " Hz");
-  rows += row("in contact, motors on", grouped(s.contact_ticks));
-  if (s.has_guide) rows += row("on the guide, motors on", grouped(s.guide_ticks));
-  rows += row("Peak force", fixed(s.peak_force_N, 2) + " N of " + fixed(s.force_limit_N, 1) + " N");
+  rows += row("Ticks in contact, motors on", grouped(s.contact_ticks));
+  if (s.has_guide) rows += row("Ticks on the guide, motors on", grouped(s.guide_ticks));
+  rows += row("Peak force, limit",
+              fixed(s.peak_force_N, 2) + " N, " + fixed(s.force_limit_N, 1) + " N");
   rows += row("Deepest penetration, motors on", fixed(s.worst_penetration_m * 1e3, 2) + " mm");
   if (s.has_guide)
-    rows +=
-        row("Mean distance to the guide, on it", fixed(s.mean_guide_deviation_m * 1e3, 2) + " mm");
-  rows += row("Steps a tick: mean, worst, budget", fixed(s.mean_steps, 1) + ", " +
-                                                       std::to_string(s.worst_steps) + ", " +
-                                                       std::to_string(s.budget_steps));
+    rows += row("Mean deviation on the guide", fixed(s.mean_guide_deviation_m * 1e3, 2) + " mm");
+  rows += row("Visits a tick: mean, worst, budget", fixed(s.mean_visits, 1) + ", " +
+                                                        std::to_string(s.worst_visits) + ", " +
+                                                        std::to_string(s.budget_visits));
   if (s.worst_instructions > 0) {
     rows += row(
         "Instructions a tick: mean, worst",
         grouped(static_cast<uint64_t>(s.mean_instructions)) + ", " + grouped(s.worst_instructions));
     rows += row("Deepest stack", grouped(s.stack_high_bytes) + " bytes");
   }
-  rows += row("Stiffness, damping", value(params::kContactStiffness, 0) + " N/m, " +
-                                        value(params::kContactDamping, 1) + " N&middot;s/m");
-  rows += row("Tool radius", fixed(stage.tool_radius_m * 1e3, 2) + " mm");
+  rows +=
+      row("Contact stiffness, damping", value(params::kContactStiffness, 0) + " N/m, " +
+                                            value(params::kContactDamping, 1) + " N&middot;s/m");
+  rows += row("Tool radius", fixed(scene3d.tool_radius_m * 1e3, 2) + " mm");
   rows +=
       row("Device", fixed(scenario.device.mass_kg * 1e3, 0) + " g, " +
-                        fixed(scenario.device.encoder_quantum_m * 1e6, 0) + " &micro;m a count");
-  rows +=
-      row("Faults latched",
-          s.fault_s < 0 ? "none" : html_of(s.fault_names) + " at " + fixed(s.fault_s, 3) + " s");
+                        fixed(scenario.device.encoder_quantum_m * 1e6, 0) + " &micro;m per count");
+  rows += row("Faults latched", faults_text(report));
   return "<table>" + rows + "</table>";
 }
 
-std::string legend(const Stage& stage) {
+std::string legend(const Scene3d& scene3d) {
   std::string html = "<div class=\"legend\">";
-  for (const Path& path : stage.paths)
+  for (const Path& path : scene3d.paths)
     html += "<label><input type=\"checkbox\" checked data-path=\"" + path.key +
             "\"><i style=\"background:" +
             (path.values.empty() ? hex_of(path.colour)
@@ -158,21 +171,20 @@ std::string plots(const RunCharts& run) {
 
 std::string lede(const Report& report) {
   const Summary& s = report.summary;
-  std::string text = "A simulated hand explores <b>" + html_of(file_name(report.asset_path)) +
-                     "</b> for " + fixed(s.seconds, 1) + " s: " + grouped(s.ticks) +
-                     " ticks of the controller that runs on the board. ";
-  text +=
-      "Every distance comes with a <b>certificate</b>, every tick keeps its <b>step budget</b>, "
-      "and the outputs are made to be "
-      "<b>the same bits</b> on every machine. ";
-  return text + "What is felt is <b>penalty contact</b>" +
-         (s.has_guide ? " and a guide&rsquo;s virtual spring." : ".");
+  std::string text = "A simulated hand touches <b>" + html_of(file_name(report.asset_path)) +
+                     "</b> for " + fixed(s.seconds, 1) +
+                     " s. The controller, the same program as "
+                     "on a board, computed " +
+                     grouped(s.ticks) + " ticks. ";
+  return text + "The hand feels <b>penalty contact</b> with the surface" +
+         (s.has_guide ? " and the spring of the <b>guide</b> (virtual fixture)." : ".") +
+         " All figures below are from this run.";
 }
 
-// For readers without scripts.
-std::string noscript(const Stage& stage) {
+// Picture for browsers without JavaScript.
+std::string noscript(const Scene3d& scene3d) {
   const std::string png = png_of(
-      draw(stage, 720, 500, {238, 241, 245}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+      draw(scene3d, 720, 500, {238, 241, 245}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
   return "<noscript><img alt=\"the part with its paths\" style=\"width:100%\" "
          "src=\"data:image/png;base64," +
          base64_of(png.data(), png.size()) + "\"></noscript>";
@@ -181,8 +193,8 @@ std::string noscript(const Stage& stage) {
 }  // namespace
 
 std::string page_of(const Report& report) {
-  const Stage stage =
-      make_stage(report.world, report.trace, parameter_value(report.scenario, params::kToolRadius));
+  const Scene3d scene3d = make_scene3d(report.environment, report.trace,
+                                       parameter_value(report.scenario, params::kToolRadius));
   const RunCharts run = make_charts(report);
   const std::string name = html_of(file_name(report.asset_path));
   std::string html =
@@ -194,24 +206,23 @@ std::string page_of(const Report& report) {
   html += "<p class=\"brand\"><b>Firmtouch</b> run report</p><h1>Touching " + name +
           "</h1><p class=\"lede\">" + lede(report) + "</p>";
   html += "<ul class=\"claims\">" + certificate_claim(report.summary) +
-          steps_claim(report.summary) + bits_claim(report) + contact_claim(report.summary) +
+          visits_claim(report.summary) + bits_claim(report) + contact_claim(report.summary) +
           "</ul>\n";
   html +=
       "<div class=\"top\"><section class=\"card stage\"><div class=\"title\"><h2>The part, the "
       "guide and the tool</h2><span class=\"now\"></span></div>"
-      "<p class=\"hint\">drag to turn, click and scroll to zoom, double-click to reset</p>"
+      "<p class=\"hint\">drag: rotate; click, then scroll: zoom; double-click: reset</p>"
       "<div class=\"sight\"><canvas id=\"stage\" tabindex=\"0\" role=\"img\" aria-label=\"the part "
       "in 3D with the device's and the tool's paths\"></canvas></div>" +
-      noscript(stage) + legend(stage) +
-      "</section><section class=\"card\"><h2>The numbers that matter</h2>" + table(report, stage) +
+      noscript(scene3d) + legend(scene3d) +
+      "</section><section class=\"card\"><h2>Key figures</h2>" + table(report, scene3d) +
       "</section></div>\n";
   html += plots(run);
-  html +=
-      "<footer><p>Made by <code>" + html_of(report.command) +
-      "</code>. The distances are the controller&rsquo;s own; the judge is independent of it.</p>"
-      "<details><summary>The scenario</summary><pre>" +
-      html_of(report.scenario.text) + "</pre></details></footer></main>\n";
-  html += "<script type=\"application/json\" id=\"run-data\">" + data_of(report, stage, run) +
+  html += "<footer><p>Written by <code>" + html_of(report.command) +
+          "</code>. The oracle that checks the distances shares no code with the controller.</p>"
+          "<details><summary>The scenario</summary><pre>" +
+          html_of(report.scenario.text) + "</pre></details></footer></main>\n";
+  html += "<script type=\"application/json\" id=\"run-data\">" + data_of(report, scene3d, run) +
           "</script>\n<script>\n" + std::string(kViewerJs) + "</script></body></html>\n";
   return html;
 }

@@ -2,7 +2,7 @@
 
 namespace firmtouch::host_sim {
 
-// report.css and viewer.js, put into the program by the build.
+// Contents of report.css and viewer.js, embedded by the build.
 extern const char* const kReportCss;
 extern const char* const kViewerJs;
 

@@ -4,7 +4,7 @@
 #include "firmtouch/params/table.hpp"
 #include "host_sim/report/report.hpp"
 #include "host_sim/report/run_charts.hpp"
-#include "host_sim/report/stage.hpp"
+#include "host_sim/report/scene3d.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -21,7 +21,7 @@ std::string text_at(double x, double y, int size, const std::string& colour,
          colour + "\">" + text + "</text>";
 }
 
-// The tool where it presses hardest.
+// Position of the tool at the largest force.
 Vec tool_at_peak(const Trace& trace) {
   size_t best = 0;
   double most = -1;
@@ -37,11 +37,11 @@ Vec tool_at_peak(const Trace& trace) {
 }  // namespace
 
 std::string picture_of(const Report& report) {
-  Stage stage =
-      make_stage(report.world, report.trace, parameter_value(report.scenario, params::kToolRadius));
+  Scene3d scene3d = make_scene3d(report.environment, report.trace,
+                                 parameter_value(report.scenario, params::kToolRadius));
   std::string key;
   double at = 24;
-  for (Path& path : stage.paths) {
+  for (Path& path : scene3d.paths) {
     if (path.key == "tool" || path.key == "hand") {
       path.points.clear();
       continue;
@@ -55,7 +55,7 @@ std::string picture_of(const Report& report) {
     at += 52 + 7.0 * static_cast<double>(path.label.size());
   }
   const std::string png =
-      png_of(draw(stage, kImageWidth, kImageHeight, kPaper, tool_at_peak(report.trace)));
+      png_of(draw(scene3d, kImageWidth, kImageHeight, kPaper, tool_at_peak(report.trace)));
   const RunCharts run = make_charts(report);
   const Summary& s = report.summary;
   const double charts_top = kImageTop + kImageShown + 34;
@@ -67,17 +67,16 @@ std::string picture_of(const Report& report) {
                     "\" font-family=\"system-ui,Segoe UI,Roboto,Helvetica,Arial,sans-serif\"><rect "
                     "width=\"100%\" height=\"100%\" "
                     "rx=\"12\" fill=\"#ffffff\"/>";
-  svg += text_at(
-      24, 36, 19, "#16202e",
-      (stage.source_triangles > 0 ? grouped(stage.source_triangles) + " triangles" : "A guide") +
-          ", felt at " + fixed(s.rate_Hz, 0) + " Hz",
-      650);
-  svg +=
-      text_at(24, 57, 13, "#566175",
-              "penalty contact, up to " + fixed(s.peak_force_N, 2) + " N; at worst " +
-                  std::to_string(s.worst_steps) + " of " + std::to_string(s.budget_steps) +
-                  " steps a tick; certificates judged on " + grouped(s.judged_ticks) + " ticks, " +
-                  (s.wrong_bounds == 0 ? "all hold" : grouped(s.wrong_bounds) + " wrong"));
+  svg += text_at(24, 36, 19, "#16202e",
+                 (scene3d.source_triangles > 0 ? grouped(scene3d.source_triangles) + " triangles"
+                                               : "A guide") +
+                     ", servo at " + fixed(s.rate_Hz, 0) + " Hz",
+                 650);
+  svg += text_at(24, 57, 13, "#566175",
+                 "penalty contact, peak force " + fixed(s.peak_force_N, 2) + " N; worst tick: " +
+                     std::to_string(s.worst_visits) + " of " + std::to_string(s.budget_visits) +
+                     " visits; certificates checked on " + grouped(s.checked_ticks) + " ticks, " +
+                     (s.wrong_bounds == 0 ? "all valid" : grouped(s.wrong_bounds) + " wrong"));
   const double shown_width = kImageShown * kImageWidth / kImageHeight;
   svg += "<image x=\"" + fixed((kWidth - shown_width) / 2, 0) + "\" y=\"" + fixed(kImageTop, 0) +
          "\" width=\"" + fixed(shown_width, 0) + "\" height=\"" + fixed(kImageShown, 0) +

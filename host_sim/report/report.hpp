@@ -8,21 +8,21 @@
 
 namespace firmtouch::host_sim {
 
-/// All that a report tells of. Refers to its parts; they must outlive it.
+/// Input of a report. Holds references, which must outlive it.
 struct Report {
   const Scenario& scenario;
-  const World& world;
+  const Environment& environment;
   const Trace& trace;
   const Summary& summary;
   std::string asset_path;
   uint32_t asset_bytes;
-  std::string command;  // that made it
+  std::string command;  // command line of the run
 };
 
-/// One HTML file, complete in itself: no network, any browser; charts as SVG, the part on a canvas.
+/// The report as one HTML file that needs no network: charts as SVG, the 3D view on a canvas.
 std::string page_of(const Report& report);
 
-/// Its first picture, part and force, as one SVG (for a README).
+/// The 3D view and the first charts as one SVG (for a README).
 std::string picture_of(const Report& report);
 
 }  // namespace firmtouch::host_sim

@@ -24,7 +24,7 @@ std::vector<double> values(const Trace& trace, const std::function<double(const 
   std::vector<double> list;
   list.reserve(trace.records.size());
   for (const record::TickRecord& r : trace.records) list.push_back(of(r.output));
-  // While the parameters are being set, the controller does not know yet where it is.
+  // Before its parameters are set, the controller's outputs are meaningless.
   const size_t setup = std::min(trace.setup_ticks, list.size() - 1);
   std::fill(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(setup), list[setup]);
   return list;
@@ -41,7 +41,7 @@ TimeAxis::Spans spans(const Trace& trace, const std::function<bool(const Output&
   for (size_t i = 0; i < trace.records.size(); ++i) {
     if (!holds(trace.records[i].output)) continue;
     const double from = static_cast<double>(i) / trace.rate_Hz, to = from + 1 / trace.rate_Hz;
-    // Gaps of a few ticks are not to be seen at this scale.
+    // Gaps of a few ticks are invisible at this scale.
     if (!list.empty() && from - list.back().second < 0.004)
       list.back().second = to;
     else
@@ -50,7 +50,7 @@ TimeAxis::Spans spans(const Trace& trace, const std::function<bool(const Output&
   return list;
 }
 
-std::vector<std::pair<double, std::string>> happenings(const Trace& trace) {
+std::vector<std::pair<double, std::string>> fault_events(const Trace& trace) {
   std::vector<std::pair<double, std::string>> list;
   uint32_t before = 0;
   for (size_t i = 0; i < trace.records.size(); ++i) {
@@ -66,7 +66,8 @@ std::vector<std::pair<double, std::string>> happenings(const Trace& trace) {
 
 Chart force_chart(const Report& report) {
   Chart chart{"Force", "N", {}, false, 0, "", 2};
-  chart.series.push_back({"of the hand", kGrey, lengths(report.trace.hand_N), false, 1.1});
+  chart.series.push_back(
+      {"of the simulated hand", kGrey, lengths(report.trace.hand_N), false, 1.1});
   chart.series.push_back(
       {"at the tool", kBlue,
        values(report.trace, [](const Output& o) { return norm(wide(o.force_N)); }), true, 1.7});
@@ -76,11 +77,11 @@ Chart force_chart(const Report& report) {
 Chart distance_chart(const Report& report) {
   Chart chart{"Distance of the tool's centre to the surface", "mm", {}, false, 0, "", 3};
   chart.series.push_back(
-      {"told, negative inside", kBlue,
+      {"reported (upper bound), negative inside", kBlue,
        values(report.trace,
               [](const Output& o) { return static_cast<double>(o.distance_m) * 1e3; }),
        false, 2.6});
-  chart.series.push_back({"certified bound towards the surface", kOrange,
+  chart.series.push_back({"certified lower bound", kOrange,
                           values(report.trace,
                                  [](const Output& o) {
                                    return std::copysign(static_cast<double>(o.distance_lower_m),
@@ -91,10 +92,15 @@ Chart distance_chart(const Report& report) {
   return chart;
 }
 
-Chart steps_chart(const Report& report) {
-  Chart chart{
-      "Steps a tick", "steps", {}, true, static_cast<double>(report.summary.budget_steps), "", 0};
-  chart.limit_label = "budget " + std::to_string(report.summary.budget_steps);
+Chart visits_chart(const Report& report) {
+  Chart chart{"Visits a tick",
+              "visits",
+              {},
+              true,
+              static_cast<double>(report.summary.budget_visits),
+              "",
+              0};
+  chart.limit_label = "budget " + std::to_string(report.summary.budget_visits);
   chart.series.push_back(
       {"tree nodes read", kBlue,
        values(report.trace, [](const Output& o) { return static_cast<double>(o.steps); }), true,
@@ -104,11 +110,11 @@ Chart steps_chart(const Report& report) {
 
 std::string note_of_distance(const Summary& s) {
   std::string note =
-      "The truth lies between the two lines. Judged against brute force over every triangle, in "
-      "double, on " +
-      grouped(s.judged_ticks) + " ticks: " +
-      (s.wrong_bounds == 0 ? "never outside." : grouped(s.wrong_bounds) + " times outside.");
-  return note + " Exact answers: " + grouped(s.exact_ticks) + " of " + grouped(s.ticks) + ".";
+      "The true distance lies between the two lines. Checked against an oracle in double on " +
+      grouped(s.checked_ticks) + " ticks: " +
+      (s.wrong_bounds == 0 ? "always between." : grouped(s.wrong_bounds) + " times outside.");
+  return note + " Exact answers: " + grouped(s.exact_ticks) + " of " + grouped(s.ticks) +
+         " ticks; far from the surface a query stops early, and its bound is looser.";
 }
 
 }  // namespace
@@ -117,19 +123,20 @@ RunCharts make_charts(const Report& report) {
   const Trace& trace = report.trace;
   RunCharts run;
   run.axis.seconds = report.summary.seconds;
-  const auto felt = [](uint32_t bit) {
+  const auto with_motors_on = [](uint32_t bit) {
     return [bit](const Output& o) { return motors_are_on(o) && (o.state & bit) != 0; };
   };
-  run.axis.contact_s = spans(trace, felt(record::kStateContact));
-  run.axis.guide_s = spans(trace, felt(record::kStateOnGuide));
+  run.axis.contact_s = spans(trace, with_motors_on(record::kStateContact));
+  run.axis.guide_s = spans(trace, with_motors_on(record::kStateOnGuide));
   run.axis.off_s = spans(trace, [](const Output& o) { return o.faults != 0; });
-  run.axis.events = happenings(trace);
+  run.axis.events = fault_events(trace);
   const auto add = [&](Chart chart, std::string note) {
     run.charts.push_back(std::move(chart));
     run.notes.push_back(std::move(note));
   };
-  add(force_chart(report),
-      "After every limit; the limit is " + fixed(report.summary.force_limit_N, 1) + " N.");
+  add(force_chart(report), "Force at the tool after all limits; the force limit is " +
+                               fixed(report.summary.force_limit_N, 1) +
+                               " N. Grey background: after a fault the motors are off.");
   if (report.summary.has_surface) {
     Chart depth{"Penetration of the tool's sphere", "mm", {}, false, 0, "", 2};
     depth.series.push_back(
@@ -137,13 +144,12 @@ RunCharts make_charts(const Report& report) {
          values(trace, [](const Output& o) { return static_cast<double>(o.penetration_m) * 1e3; }),
          true, 1.6});
     add(std::move(depth),
-        "Penalty contact: the force comes from this depth, so a softer surface lets the tool in "
-        "farther. Grey: after a fault the motors are off, and nothing holds the hand.");
+        "Penalty contact: the contact force is a function of this depth, so the tool penetrates a "
+        "softer surface farther. With the motors off (grey) nothing holds the hand.");
     add(distance_chart(report), note_of_distance(report.summary));
   }
-  add(steps_chart(report),
-      "Both queries of a tick together; the scale is logarithmic. A tick never takes more than its "
-      "budget.");
+  add(visits_chart(report),
+      "Surface and guide query together, logarithmic scale. A tick never exceeds its budget.");
   if (report.summary.has_guide) {
     Chart off{"Distance to the guide", "mm", {}, false, 0, "", 2};
     off.series.push_back(
@@ -152,7 +158,7 @@ RunCharts make_charts(const Report& report) {
                 [](const Output& o) { return static_cast<double>(o.guide_deviation_m) * 1e3; }),
          true, 1.6});
     add(std::move(off),
-        "A virtual spring and damper pulls across the guide; along it the hand is free.");
+        "A virtual spring and damper acts across the guide; along it the hand is free.");
   }
   Chart speed{"Speed", "mm/s", {}, false, 0, "", 1};
   speed.series.push_back(
@@ -166,7 +172,7 @@ RunCharts make_charts(const Report& report) {
         {"counted on " + trace.controller, kBlue,
          std::vector<double>(trace.instructions.begin(), trace.instructions.end()), false, 1.2});
     add(std::move(work),
-        "Of the whole tick. An emulator counts instructions, it does not show cycles.");
+        "Instructions of the whole tick. An emulator counts instructions, not cycles.");
   }
   return run;
 }

@@ -15,11 +15,11 @@ using chart::html_of;
 using chart::Series;
 using chart::TimeAxis;
 
-/// The charts of a run, the most telling first: force, penetration, distance and its bound, steps,
-/// guide, speed, and instructions where they were counted.
+/// The charts of a run, most important first: force, penetration, distance with its bound, visits,
+/// guide, speed, and instructions if they were counted.
 struct RunCharts {
   std::vector<Chart> charts;
-  std::vector<std::string> notes;  // one a chart: what to look at
+  std::vector<std::string> notes;  // explanation of each chart
   TimeAxis axis;
 };
 

@@ -12,59 +12,60 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kJudgedTriangles = 4e7;  // looked at by brute force in all: about half a second
-constexpr double kRounding =
-    4e-7;  // of max(diagonal, distance): what a float32 answer may be off by
-constexpr double kOfSpline = 2.5;        // that promises 1e-6, rational
-constexpr double kSplineSamples = 4e2;   // of a piece
-constexpr double kBoundRounding = 1e-7;  // of the same: what the judge's own position may be off by
+constexpr double kCheckedTriangles = 4e7;  // read by the oracle in total: about half a second
+// Tolerances, relative to max(diagonal, distance): of a float32 distance, and of the tool position
+// in the record.
+constexpr double kRounding = 4e-7;
+constexpr double kBoundRounding = 1e-7;
+constexpr double kSplineFactor = 2.5;   // rational splines promise 1e-6 instead of 4e-7
+constexpr double kSplineSamples = 4e2;  // of the oracle, per piece
 
 Vec wide(const float (&v)[3]) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-// Of each tick: the one whose position its local model was made from.
+// For each tick, the tick whose position its local model was made from.
 std::vector<size_t> model_ticks(const Trace& trace) {
   std::vector<size_t> made(trace.records.size());
-  size_t used = 0, wanted = 0;
+  size_t used = 0, requested = 0;
   for (size_t i = 0; i < trace.records.size(); ++i) {
-    const uint32_t lines = trace.records[i].input.flags;
-    if ((lines & record::kFlagModelTaken) != 0) used = wanted;
-    if ((lines & record::kFlagModelWanted) != 0) wanted = i;
-    if ((lines & record::kFlagModelApart) == 0) used = wanted = i;
+    const uint32_t flags = trace.records[i].input.flags;
+    if ((flags & record::kFlagModelTaken) != 0) used = requested;
+    if ((flags & record::kFlagModelWanted) != 0) requested = i;
+    if ((flags & record::kFlagModelApart) == 0) used = requested = i;
     made[i] = used;
   }
   return made;
 }
 
-void judge(Summary& summary, const World& world, const Trace& trace) {
-  const mesh::View& mesh = world.mesh();
-  const bool is_mesh = world.has_mesh();
+void check_certificates(Summary& summary, const Environment& environment, const Trace& trace) {
+  const mesh::View& mesh = environment.mesh();
+  const bool is_mesh = environment.has_mesh();
   const double size_m =
-      static_cast<double>(is_mesh ? mesh.head().diagonal_m : world.surface().head().extent_m);
-  // A sample of a spline takes about as long as ten triangles.
-  const double work =
-      is_mesh ? mesh.head().triangle_count : 10 * kSplineSamples * world.surface().pieces().size();
+      static_cast<double>(is_mesh ? mesh.head().diagonal_m : environment.surface().head().extent_m);
+  // A spline sample costs about as much as ten triangles.
+  const double work = is_mesh ? mesh.head().triangle_count
+                              : 10 * kSplineSamples * environment.surface().pieces().size();
   const size_t count = static_cast<size_t>(
-      std::clamp(kJudgedTriangles / work, 20.0, static_cast<double>(trace.records.size())));
+      std::clamp(kCheckedTriangles / work, 20.0, static_cast<double>(trace.records.size())));
   const size_t stride = std::max<size_t>(1, trace.records.size() / count);
   const std::vector<size_t> made = model_ticks(trace);
   std::vector<double> ratios;
   for (size_t i = 0; i < trace.records.size(); i += stride) {
     const record::TickOutput& out = trace.records[i].output;
     if ((out.state & record::kStateReady) == 0) continue;
-    const record::TickOutput& asked = trace.records[made[i]].output;
-    if ((asked.state & record::kStateReady) == 0 || out.model_sequence == 0) continue;
-    const Vec at = wide(asked.position_m) - world.origin_m();
+    const record::TickOutput& model = trace.records[made[i]].output;
+    if ((model.state & record::kStateReady) == 0 || out.model_sequence == 0) continue;
+    const Vec at = wide(model.position_m) - environment.origin_m();
     const double truth =
-        is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(world.surface(), at);
-    const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kOfSpline);
+        is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(environment.surface(), at);
+    const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kSplineFactor);
     const double reported = std::fabs(static_cast<double>(out.distance_m)),
                  lower = static_cast<double>(out.distance_lower_m);
     if (!(lower <= truth + kBoundRounding * scale) || !(reported >= truth - kRounding * scale))
       ++summary.wrong_bounds;
     if (truth > kRounding * scale * 1000) ratios.push_back(lower / truth);
-    ++summary.judged_ticks;
+    ++summary.checked_ticks;
   }
   if (ratios.empty()) return;
   std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
@@ -72,7 +73,7 @@ void judge(Summary& summary, const World& world, const Trace& trace) {
   summary.median_ratio = ratios[ratios.size() / 2];
 }
 
-void count(Summary& summary, const record::TickOutput& out, double time_s, uint64_t& steps,
+void count(Summary& summary, const record::TickOutput& out, double time_s, uint64_t& visits,
            double& deviation) {
   const bool is_on = motors_are_on(out);
   if (is_on && (out.state & record::kStateContact) != 0) ++summary.contact_ticks;
@@ -90,32 +91,32 @@ void count(Summary& summary, const record::TickOutput& out, double time_s, uint6
   summary.worst_gap_m =
       std::max(summary.worst_gap_m, std::fabs(static_cast<double>(out.distance_m)) -
                                         static_cast<double>(out.distance_lower_m));
-  summary.worst_steps = std::max(summary.worst_steps, out.steps);
-  steps += out.steps;
+  summary.worst_visits = std::max(summary.worst_visits, out.steps);
+  visits += out.steps;
   if (out.faults != 0 && summary.fault_s < 0) summary.fault_s = time_s;
   summary.faults |= out.faults;
 }
 
 }  // namespace
 
-Summary summarise(const Scenario& scenario, const World& world, const Trace& trace) {
+Summary summarise(const Scenario& scenario, const Environment& environment, const Trace& trace) {
   Summary summary;
   summary.ticks = trace.records.size();
   summary.rate_Hz = trace.rate_Hz;
   summary.seconds = static_cast<double>(summary.ticks) / trace.rate_Hz;
-  summary.has_surface = world.has_surface();
-  summary.has_guide = world.has_guide();
+  summary.has_surface = environment.has_surface();
+  summary.has_guide = environment.has_guide();
   summary.force_limit_N = parameter_value(scenario, params::kForceLimit);
-  summary.budget_steps = static_cast<uint32_t>(
-      (world.has_surface() ? parameter_value(scenario, params::kMeshSteps) : 0) +
-      (world.has_guide() ? parameter_value(scenario, params::kCurveSteps) : 0));
-  uint64_t steps = 0, instructions = 0;
+  summary.budget_visits = static_cast<uint32_t>(
+      (environment.has_surface() ? parameter_value(scenario, params::kMeshSteps) : 0) +
+      (environment.has_guide() ? parameter_value(scenario, params::kCurveSteps) : 0));
+  uint64_t visits = 0, instructions = 0;
   double deviation = 0;
   for (size_t i = 0; i < trace.records.size(); ++i)
-    count(summary, trace.records[i].output, static_cast<double>(i) / trace.rate_Hz, steps,
+    count(summary, trace.records[i].output, static_cast<double>(i) / trace.rate_Hz, visits,
           deviation);
   const double ticks = static_cast<double>(std::max<size_t>(summary.ticks, 1));
-  summary.mean_steps = static_cast<double>(steps) / ticks;
+  summary.mean_visits = static_cast<double>(visits) / ticks;
   if (summary.guide_ticks > 0)
     summary.mean_guide_deviation_m = deviation / static_cast<double>(summary.guide_ticks);
   for (const uint32_t n : trace.instructions) {
@@ -128,7 +129,7 @@ Summary summarise(const Scenario& scenario, const World& world, const Trace& tra
     if ((summary.faults >> bit & 1u) != 0)
       summary.fault_names +=
           (summary.fault_names.empty() ? "" : ", ") + std::string(servo::fault_name(bit));
-  if (summary.has_surface) judge(summary, world, trace);
+  if (summary.has_surface) check_certificates(summary, environment, trace);
   return summary;
 }
 
@@ -142,27 +143,26 @@ std::string text_of(const Summary& s, const Trace& trace) {
   line("  ticks          %zu at %g Hz (%.4g s), controller: %s\n", s.ticks, s.rate_Hz, s.seconds,
        trace.controller.c_str());
   line(
-      "  contact        %zu ticks with the motors on; penalty contact of a sphere; peak force %.2f "
-      "N of %.2f N; "
-      "deepest %.2f mm\n",
+      "  contact        %zu ticks with the motors on; peak force %.2f N (limit %.2f N); deepest "
+      "penetration %.2f mm\n",
       s.contact_ticks, s.peak_force_N, s.force_limit_N, s.worst_penetration_m * 1e3);
   if (s.has_guide)
     line("  guide          %zu ticks on it; mean deviation %.2f mm, worst %.2f mm\n", s.guide_ticks,
          s.mean_guide_deviation_m * 1e3, s.worst_guide_deviation_m * 1e3);
-  line("  steps a tick   mean %.1f, worst %u, budget %u\n", s.mean_steps, s.worst_steps,
-       s.budget_steps);
+  line("  visits a tick  mean %.1f, worst %u, budget %u (tree nodes read)\n", s.mean_visits,
+       s.worst_visits, s.budget_visits);
   if (s.has_surface)
     line(
-        "  certificate    lower bound <= true distance <= told: %zu of %zu ticks judged by brute "
-        "force in double\n",
-        s.judged_ticks - s.wrong_bounds, s.judged_ticks);
+        "  certificate    lower <= true distance <= upper bound: %zu of %zu checked ticks (oracle "
+        "in double)\n",
+        s.checked_ticks - s.wrong_bounds, s.checked_ticks);
   if (s.worst_instructions > 0)
     line("  instructions   mean %.0f a tick, worst %u; stack %u bytes\n", s.mean_instructions,
          s.worst_instructions, s.stack_high_bytes);
   if (trace.compared)
     text += trace.difference ? "  same bits      NO: see below\n"
-                             : "  same bits      yes: every output bit of every tick equals the "
-                               "in-process controller's\n";
+                             : "  same bits      yes: every output bit of every tick is equal to "
+                               "the in-process controller's\n";
   if (s.fault_s >= 0)
     line("  fault          %s, latched at %.3f s\n", s.fault_names.c_str(), s.fault_s);
   return text;

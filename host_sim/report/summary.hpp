@@ -9,7 +9,7 @@
 
 namespace firmtouch::host_sim {
 
-/// The numbers of a run that matter.
+/// Key figures of a run.
 struct Summary {
   size_t ticks = 0, exact_ticks = 0;
   size_t contact_ticks = 0, guide_ticks = 0;  // while the motors were on
@@ -17,11 +17,12 @@ struct Summary {
   double peak_force_N = 0, force_limit_N = 0;
   double worst_penetration_m = 0;  // while the motors were on
   double mean_guide_deviation_m = 0, worst_guide_deviation_m = 0;
-  double mean_steps = 0;
-  uint32_t worst_steps = 0, budget_steps = 0;
-  size_t surface_ticks = 0;  // ticks whose distance answer could be judged
-  size_t judged_ticks = 0;   // of these, judged against brute force over every triangle, in double
-  // Lower bound above the truth, or distance below it, beyond float32 rounding.
+  double mean_visits = 0;
+  uint32_t worst_visits = 0, budget_visits = 0;
+  // Ticks whose distance was checked against an oracle in double (every triangle; for splines dense
+  // samples).
+  size_t checked_ticks = 0;
+  // Of these: lower bound above the truth, or distance below it, beyond float32 rounding.
   size_t wrong_bounds = 0;
   double worst_gap_m = 0;   // distance - lower bound
   double median_ratio = 0;  // of lower bound to truth
@@ -29,13 +30,13 @@ struct Summary {
   double mean_instructions = 0;
   uint32_t worst_instructions = 0, stack_high_bytes = 0;
   uint32_t faults = 0;
-  double fault_s = -1;  // when the first one was latched; -1: none
+  double fault_s = -1;  // time of the first latched fault; -1: none
   std::string fault_names;
 };
 
-Summary summarise(const Scenario& scenario, const World& world, const Trace& trace);
+Summary summarise(const Scenario& scenario, const Environment& environment, const Trace& trace);
 
-/// A few lines for a person.
+/// The figures as text for a terminal.
 std::string text_of(const Summary& summary, const Trace& trace);
 
 }  // namespace firmtouch::host_sim

@@ -1,10 +1,10 @@
 'use strict';
-// The part in 3D, drawn by a small rasteriser on a 2D canvas (no WebGL: it works wherever a browser does), and the
-// charts' common cursor, whose time the tool in the picture follows.
+// 3D view, drawn by a small rasterizer on a 2D canvas (works without WebGL), and the charts' common time cursor, which
+// also moves the tool in the 3D view.
 (() => {
   const data = JSON.parse(document.getElementById('run-data').textContent);
   const canvas = document.getElementById('stage');
-  const first = {azimuth: 0.72, elevation: 0.52, zoom: 1, yUp: false};  // as the drawn picture has it
+  const first = {azimuth: 0.72, elevation: 0.52, zoom: 1, yUp: false};  // as in report/draw.cpp
   const view = {...first};
   const hidden = new Set(['tool', 'hand']);
   let cursor = data.series.start, dragging = false, queued = false;
@@ -15,7 +15,7 @@
   const vertexCount = packed.length / 3, triangleCount = corners.length / 3;
   const points = Float32Array.from(packed, v => v / 32767);
 
-  // Normals of faces and vertices; a corner that bends sharply is shaded flat.
+  // Normals of faces and vertices; sharp corners are shaded flat.
   const faceNormals = new Float32Array(triangleCount * 3), vertexNormals = new Float32Array(vertexCount * 3);
   for (let t = 0; t < triangleCount; ++t) {
     const a = corners[3 * t] * 3, b = corners[3 * t + 1] * 3, c = corners[3 * t + 2] * 3;
@@ -40,12 +40,12 @@
   function frame() {
     const ca = Math.cos(view.azimuth), sa = Math.sin(view.azimuth);
     const ce = Math.cos(view.elevation), se = Math.sin(view.elevation);
-    const stood = v => view.yUp ? [v[0], v[2], -v[1]] : v;  // many models are made with y upwards
+    const stood = v => view.yUp ? [v[0], v[2], -v[1]] : v;  // many models have y up
     const right = stood([ca, sa, 0]), eye = stood([sa * ce, -ca * ce, se]), up = stood([-sa * se, ca * se, ce]);
     const key = unit(sum(eye, 0.62, up, 0.62, right, -0.48)), fill = unit(sum(eye, 0.5, up, -0.3, right, 0.8));
     return {right, up, eye, key, fill, half: unit(sum(key, 1, eye, 1, eye, 0))};
   }
-  // Brightness of a surface of this normal, 0 to 1.5; above 1 it shines.
+  // Brightness for a normal, 0 to 1.5; a highlight above 1.
   function light(f, x, y, z) {
     const at = v => x * v[0] + y * v[1] + z * v[2];
     const facing = Math.max(0, at(f.eye)), rim = 1 - facing, shine = Math.max(0, at(f.half));
@@ -151,7 +151,7 @@
     }
   }
 
-  // Pixels a unit so that all that is shown fits at the first sight.
+  // Pixels per unit at which the whole scene fits into the initial view.
   function fitted(w, h) {
     const now = {...view};
     Object.assign(view, first, {yUp: now.yUp});
@@ -173,7 +173,7 @@
     const box = canvas.getBoundingClientRect(), ratio = Math.min(2, window.devicePixelRatio || 1);
     const width = Math.round(box.width * ratio), height = Math.round(box.height * ratio);
     if (width < 2 || height < 2) return;
-    const over = dragging || width * height > 2.5e6 ? 1 : 2;  // smooth edges when it rests
+    const over = dragging || width * height > 2.5e6 ? 1 : 2;  // antialiasing at rest
     const w = width * over, h = height * over;
     if (off.width !== w || off.height !== h || !image) {
       off.width = w;
@@ -215,7 +215,7 @@
     fit = fitted(1000, 700);
     draw();
   });
-  // The wheel scrolls the page until the picture was clicked.
+  // The wheel scrolls the page unless the view has the focus.
   canvas.addEventListener('wheel', e => {
     if (document.activeElement !== canvas) return;
     e.preventDefault();
@@ -237,7 +237,7 @@
     box.addEventListener('change', () => { hidden[box.checked ? 'delete' : 'add'](box.dataset.path); draw(); });
   }
 
-  // One cursor for all charts: a line at the pointer's time, values beside the titles, the tool in the picture.
+  // One time cursor for all charts: vertical line, values in the legends, position of the tool in the 3D view.
   const charts = [...document.querySelectorAll('svg.chart')];
   function show(index) {
     cursor = Math.max(0, Math.min(data.series.device.length - 1, index));

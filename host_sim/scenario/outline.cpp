@@ -8,8 +8,8 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr size_t kPoints = 800;  // of the line that comes out
-constexpr int kSmoothings = 6;   // of neighbours, so that single triangles do not shake the hand
+constexpr size_t kPoints = 800;  // of the resulting line
+constexpr int kSmoothings = 6;   // averaging passes, so that single triangles do not shake the hand
 
 using EdgeKey = std::array<uint32_t, 2>;
 EdgeKey key_of(uint32_t a, uint32_t b) { return a < b ? EdgeKey{a, b} : EdgeKey{b, a}; }
@@ -24,8 +24,7 @@ Vec vertex(const mesh::View& mesh, uint32_t i) {
   return {static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)};
 }
 
-// A vertex on the plane itself counts as above it, so that every triangle has none or two
-// crossings.
+// A vertex on the plane counts as above it, so that every triangle has no or two crossings.
 Cut cut_by(const mesh::View& mesh, Vec normal, double offset) {
   Cut cut;
   for (uint32_t i = 0; i < mesh.head().triangle_count; ++i) {
@@ -54,7 +53,7 @@ double length_of(const std::vector<Vec>& line) {
 
 std::vector<Vec> longest_loop(Cut& cut) {
   std::vector<Vec> best;
-  double most = 0;
+  double max_length = 0;
   std::map<EdgeKey, bool> seen;
   for (const auto& [first, at] : cut.point) {
     if (seen[first]) continue;
@@ -70,47 +69,47 @@ std::vector<Vec> longest_loop(Cut& cut) {
     }
     loop.push_back(loop.front());
     const double length = length_of(loop);
-    if (length > most) most = length, best = std::move(loop);
+    if (length > max_length) max_length = length, best = std::move(loop);
   }
   return best;
 }
 
-std::vector<Vec> evenly(const std::vector<Vec>& line, size_t count) {
+std::vector<Vec> resample(const std::vector<Vec>& line, size_t count) {
   const double step = length_of(line) / static_cast<double>(count);
   std::vector<Vec> even{line.front()};
-  double walked = 0;
+  double length_so_far = 0;
   for (size_t i = 1; i < line.size(); ++i) {
     const double span = norm(line[i] - line[i - 1]);
-    while (span > 0 && walked + span >= step * static_cast<double>(even.size()) &&
+    while (span > 0 && length_so_far + span >= step * static_cast<double>(even.size()) &&
            even.size() < count)
-      even.push_back(line[i - 1] + (line[i] - line[i - 1]) *
-                                       ((step * static_cast<double>(even.size()) - walked) / span));
-    walked += span;
+      even.push_back(line[i - 1] +
+                     (line[i] - line[i - 1]) *
+                         ((step * static_cast<double>(even.size()) - length_so_far) / span));
+    length_so_far += span;
   }
   return even;
 }
 
 }  // namespace
 
-std::vector<Vec> outline(const World& world, double height_m) {
-  if (!world.has_mesh()) return {};
-  const mesh::Head& head = world.mesh().head();
+std::vector<Vec> outline(const Environment& environment, double height_m) {
+  if (!environment.has_mesh()) return {};
+  const mesh::Head& head = environment.mesh().head();
   double extent[3], middle[3];
   for (size_t k = 0; k < 3; ++k) {
     extent[k] = static_cast<double>(head.high_m[k]) - static_cast<double>(head.low_m[k]);
     middle[k] = (static_cast<double>(head.high_m[k]) + static_cast<double>(head.low_m[k])) / 2;
   }
-  // The plane holds the longest side and stands on the shortest: across it the part is thinnest,
-  // and the loop longest.
+  // Across the shortest side: that plane gives the longest loop.
   const size_t thin = static_cast<size_t>(std::min_element(extent, extent + 3) - extent);
   const Vec normal = {thin == 0 ? 1.0 : 0.0, thin == 1 ? 1.0 : 0.0, thin == 2 ? 1.0 : 0.0};
-  Cut cut = cut_by(world.mesh(), normal, middle[thin]);
+  Cut cut = cut_by(environment.mesh(), normal, middle[thin]);
   std::vector<Vec> loop = longest_loop(cut);
   if (loop.size() < 4) return {};
-  loop = evenly(loop, kPoints);
+  loop = resample(loop, kPoints);
   for (Vec& p : loop) {
-    const World::Surface surface = world.nearest(p + world.origin_m());
-    p = surface.point_m - world.origin_m() + surface.normal * height_m;
+    const Environment::Surface surface = environment.nearest(p + environment.origin_m());
+    p = surface.point_m - environment.origin_m() + surface.normal * height_m;
   }
   for (int round = 0; round < kSmoothings; ++round) {
     std::vector<Vec> smooth(loop.size());

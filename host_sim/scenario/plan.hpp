@@ -6,18 +6,16 @@
 
 namespace firmtouch::host_sim {
 
-/// A scenario that suits what is there, whatever its size: press on the part, follow the guide once
-/// freely and once pressing, then an emergency stop while touching. `asset`: as the scenario shall
-/// name it.
-std::string plan_scenario(const World& world, const std::string& asset);
+/// Text of a scenario scaled to the asset: press on the surface, follow the guide once without and
+/// once with pressing, emergency stop in contact. `asset`: path to write into the scenario.
+std::string plan_scenario(const Environment& environment, const std::string& asset);
 
-/// A closed line around the part for parts without a guide of their own: where a plane through the
-/// middle of its bounding box, across its longest side, cuts it (the longest loop), a little above
-/// the surface. Evenly spaced points, the last repeats the first. Result: nothing where no such
-/// loop is found.
-std::vector<Vec> outline(const World& world, double height_m);
+/// A closed line around the mesh, to be baked as a guide: the longest loop in which the mid plane
+/// across the bounding box's shortest side cuts the mesh, raised by `height_m`.
+/// Result: evenly spaced points, the last equals the first; empty if there is no such loop.
+std::vector<Vec> outline(const Environment& environment, double height_m);
 
-/// Diagonal of the bounding box of what there is.
-double diagonal_m(const World& world);
+/// Diagonal of the bounding box of surface and guide.
+double diagonal_m(const Environment& environment);
 
 }  // namespace firmtouch::host_sim

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "host_sim/scenario/line_reader.hpp"
 #include "host_sim/scenario/units.hpp"
-#include "host_sim/scenario/words.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -14,18 +14,18 @@ struct Key {
   const char* name;
   const char* unit;
   double low, high;
-  double& (*place)(Scenario&);
+  double& (*member)(Scenario&);
   const char* meaning;
 };
 
 // The simulator's own keys. Every other key must be a row of the controller's parameter table.
 const Key kKeys[] = {
     {"rate", "Hz", 50, 20000, [](Scenario& s) -> double& { return s.rate_Hz; },
-     "servo ticks a second"},
+     "servo ticks per second"},
     {"geometry_rate", "Hz", 1, 20000, [](Scenario& s) -> double& { return s.geometry_rate_Hz; },
-     "local models a second; without it, one in every tick"},
+     "local models per second; default: one in every tick"},
     {"duration", "s", 0.001, 3600, [](Scenario& s) -> double& { return s.duration_s; },
-     "of the run; without it, until the hand's script ends"},
+     "of the run; default: until the hand's script ends"},
     {"mass", "kg", 1e-4, 100, [](Scenario& s) -> double& { return s.device.mass_kg; },
      "moving mass of the device at the tool"},
     {"viscous_friction", "N*s/m", 0, 1000,
@@ -34,26 +34,26 @@ const Key kKeys[] = {
      "of each axis"},
     {"encoder_quantum", "m", 1e-9, 0.01,
      [](Scenario& s) -> double& { return s.device.encoder_quantum_m; },
-     "true metres a count; without it, what the controller believes"},
+     "true metres per count; default: the controller's parameter"},
     {"motor_limit", "N", 0, 1000, [](Scenario& s) -> double& { return s.device.force_limit_N; },
-     "what a motor can give at most"},
+     "largest force of each motor"},
     {"hand_stiffness", "N/m", 0, 100000,
      [](Scenario& s) -> double& { return s.hand.stiffness_N_per_m; }, "of the grip"},
     {"hand_damping", "N*s/m", 0, 1000,
      [](Scenario& s) -> double& { return s.hand.damping_N_s_per_m; }, "of the grip"},
 };
-constexpr double kMaxDelaySamples = 64;  // of a motor path: more than 64 ms is no force feedback
+constexpr double kMaxDelaySamples = 64;  // force feedback is impossible with more than 64 ms
 
 struct Reader {
   const std::vector<ParameterRow>& parameters;
   Scenario out{};
   std::vector<std::string> given{};
 
-  void statement(Words& words);
-  bool own_key(const std::string& name, Words& words);
-  bool parameter(const std::string& name, Words& words);
-  void event(Words& words);
-  void once(const std::string& name, Words& words);
+  void statement(LineReader& words);
+  bool own_key(const std::string& name, LineReader& words);
+  bool parameter(const std::string& name, LineReader& words);
+  void event(LineReader& words);
+  void once(const std::string& name, LineReader& words);
 };
 
 uint32_t row_of(const std::vector<ParameterRow>& rows, const std::string& name) {
@@ -62,21 +62,21 @@ uint32_t row_of(const std::vector<ParameterRow>& rows, const std::string& name) 
   return UINT32_MAX;
 }
 
-double value_of(const ParameterRow& row, Words& words) {
+double value_of(const ParameterRow& row, LineReader& words) {
   return words.quantity(row.short_name, row.unit, row.low, row.high);
 }
 
-void Reader::once(const std::string& name, Words& words) {
+void Reader::once(const std::string& name, LineReader& words) {
   if (std::find(given.begin(), given.end(), name) != given.end() && !words.overrides())
     words.refuse("`" + name + "` is given twice; keep one of the two lines");
   given.push_back(name);
 }
 
-bool Reader::own_key(const std::string& name, Words& words) {
+bool Reader::own_key(const std::string& name, LineReader& words) {
   for (const Key& key : kKeys) {
     if (name != key.name) continue;
     once(name, words);
-    key.place(out) = words.quantity(name, key.unit, key.low, key.high);
+    key.member(out) = words.quantity(name, key.unit, key.low, key.high);
     return true;
   }
   if (name != "output_delay") return false;
@@ -87,7 +87,7 @@ bool Reader::own_key(const std::string& name, Words& words) {
   return true;
 }
 
-bool Reader::parameter(const std::string& name, Words& words) {
+bool Reader::parameter(const std::string& name, LineReader& words) {
   const uint32_t row = row_of(parameters, name);
   if (row == UINT32_MAX) return false;
   once(parameters[row].name, words);
@@ -100,7 +100,7 @@ bool Reader::parameter(const std::string& name, Words& words) {
 
 // at 9.5 s emergency_stop | drive_fault | encoder_fault | disable | enable | release |
 // clear_faults | set KEY VALUE UNIT
-void Reader::event(Words& words) {
+void Reader::event(LineReader& words) {
   struct Name {
     const char* name;
     Event::Kind kind;
@@ -115,14 +115,13 @@ void Reader::event(Words& words) {
                              {"set", Event::Kind::kSet}};
   Event event;
   event.time_s = words.quantity("at", "s", 0, 3600);
-  const std::string what = words.next("what happens then");
+  const std::string what = words.next("an event");
   const Name* found = nullptr;
   for (const Name& name : kNames)
     if (what == name.name) found = &name;
   if (found == nullptr)
-    words.refuse("nothing called `" + what +
-                 "` can happen; known: emergency_stop, drive_fault, encoder_fault, disable, "
-                 "enable, release, "
+    words.refuse("unknown event `" + what +
+                 "`; known: emergency_stop, drive_fault, encoder_fault, disable, enable, release, "
                  "clear_faults, set");
   event.kind = found->kind;
   if (event.kind == Event::Kind::kSet) {
@@ -134,7 +133,7 @@ void Reader::event(Words& words) {
   out.events.push_back(event);
 }
 
-void Reader::statement(Words& words) {
+void Reader::statement(LineReader& words) {
   const std::string name = words.next("a statement");
   if (name == "asset") {
     once(name, words);
@@ -155,9 +154,10 @@ void Reader::statement(Words& words) {
 
 void check_whole(const Scenario& scenario) {
   if (scenario.asset.empty())
-    throw Refused(scenario.file + ": no asset is named; add a line such as `asset part.fta`");
+    throw Refused(scenario.file + ": it has no asset; add a line such as `asset part.fta`");
   if (scenario.moves.empty() && !(scenario.duration_s > 0))
-    throw Refused(scenario.file + ": no `duration` and no hand script, so no end; add one of them");
+    throw Refused(scenario.file +
+                  ": it has neither a `duration` nor a hand script, so no end; add one of them");
 }
 
 }  // namespace
@@ -177,11 +177,11 @@ Scenario read_scenario(const std::string& file, const std::string& text,
   std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
-    Words words(line, file + ":" + std::to_string(number), names, false);
+    LineReader words(line, file + ":" + std::to_string(number), names, false);
     if (!words.empty()) reader.statement(words);
   }
   for (const std::string& set : sets) {
-    Words words(set, "--set " + set, names, true);
+    LineReader words(set, "--set " + set, names, true);
     if (words.empty()) words.refuse("nothing to set; write --set key=value");
     reader.statement(words);
     if (!reader.out.text.empty() && reader.out.text.back() != '\n') reader.out.text += '\n';
@@ -195,32 +195,32 @@ Scenario read_scenario(const std::string& file, const std::string& text,
 
 std::string scenario_help() {
   std::ostringstream help;
-  help << "A scenario is a text file, one statement a line; # begins a comment; every quantity has "
-          "its unit.\n\n"
-          "  asset PATH                        what is felt; relative to the scenario's folder;\n"
-          "                                    in \"quotes\" where it holds a # after a blank\n"
-          "  start X Y Z m                     where device and hand begin\n";
+  help << "A scenario is a text file with one statement a line. # begins a comment. Every quantity "
+          "has a unit.\n\n"
+          "  asset PATH                        baked asset, relative to the scenario's folder;\n"
+          "                                    in \"quotes\" if it contains a # after a blank\n"
+          "  start X Y Z m                     initial position of device and hand\n";
   Scenario defaults;
   for (const Key& key : kKeys) {
     std::string left = std::string("  ") + key.name + " VALUE " + key.unit;
     left.resize(std::max<size_t>(left.size() + 1, 36), ' ');
     help << left << key.meaning;
-    const double value = key.place(defaults);
+    const double value = key.member(defaults);
     if (value > 0) help << " (" << value << ")";
     help << "\n";
   }
-  help << "  output_delay VALUE samples        between a force computed and felt (0)\n"
+  help << "  output_delay VALUE samples        from the computed force to the motor's (0)\n"
           "  PARAMETER VALUE UNIT              any parameter of the controller, listed below\n\n"
-          "The hand's script, in order:\n"
+          "The hand's script; the lines run one after the other:\n"
           "  move to X Y Z m at V m/s\n"
           "  hold for T s\n"
-          "  press X Y Z m for T s             there and back, the middle half of the time there\n"
+          "  press X Y Z m for T s             go there, stay for half the time, and return\n"
           "  follow guide at V m/s for T s [pressing D m]\n"
-          "                                    D: how far behind the surface the hand aims\n"
-          "Happenings:\n"
+          "                                    D: depth of the hand's aim below the surface\n\n"
+          "Events, independent of the script:\n"
           "  at T s emergency_stop | drive_fault | encoder_fault | disable | enable |\n"
-          "         release (emergency stop and drive fault are no longer held) |\n"
-          "         clear_faults (taken only while disabled) | set PARAMETER VALUE UNIT\n";
+          "         release (of emergency stop and drive fault) |\n"
+          "         clear_faults (accepted only while disabled) | set PARAMETER VALUE UNIT\n";
   return help.str();
 }
 

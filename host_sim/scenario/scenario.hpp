@@ -9,7 +9,7 @@
 
 namespace firmtouch::host_sim {
 
-/// What a reader must be told: file and line, what is wrong, how to mend it.
+/// Bad input. The message names file and place, what is wrong, and how to mend it.
 struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -19,18 +19,18 @@ struct HandModel {
   double damping_N_s_per_m = 4;
 };
 
-/// One line of the hand's script; they follow each other in time.
+/// One line of the hand's script; the lines run one after the other.
 struct Move {
   enum class Kind { kHold, kMove, kPress, kFollow };
   Kind kind = Kind::kHold;
   Vec to_m;              // kMove, kPress
   double speed_mps = 0;  // kMove, kFollow
   double time_s = 0;     // kHold, kPress, kFollow
-  // kFollow: how far behind the surface the hand aims; 0: it follows the guide itself.
+  // kFollow: depth of the hand's aim below the surface; 0: it follows the guide itself.
   double press_m = 0;
 };
 
-/// Something that happens at a stated time, whatever the hand does.
+/// An event at a stated time, independent of the hand's script.
 struct Event {
   enum class Kind {
     kEmergencyStop,
@@ -53,21 +53,20 @@ struct Setting {
   double value = 0;        // SI
 };
 
-/// A row of the controller's parameter table, as the scenario's reader needs it.
+/// The columns of the controller's parameter table that a scenario needs.
 struct ParameterRow {
   std::string name;
-  std::string short_name;  // without its unit, "tool_radius" for "tool_radius_m": the unit stands
-                           // beside the value
-  std::string unit;        // SI; empty: a plain number
+  std::string short_name;  // without unit: "tool_radius" for "tool_radius_m"
+  std::string unit;        // SI; empty: dimensionless
   double low = 0, high = 0, initial = 0;
 };
 
 struct Scenario {
-  std::string file;   // where it was read from
-  std::string text;   // as read, --set lines added: goes into the log
-  std::string asset;  // path, made relative to the scenario's folder by the reader
+  std::string file;   // path of the scenario
+  std::string text;   // as read, plus the --set lines; stored in logs
+  std::string asset;  // path, relative to the scenario's folder
   double rate_Hz = 1000;
-  double geometry_rate_Hz = 0;  // 0: a local model in every tick
+  double geometry_rate_Hz = 0;  // 0: every tick makes a local model
   double duration_s = 0;
   DeviceModel device;
   HandModel hand;
@@ -78,9 +77,10 @@ struct Scenario {
   std::vector<Event> events;  // in order of time
 };
 
-/// Reads a scenario: one statement a line, `#` after a blank begins a comment, every quantity carries its unit
-/// (docs: scenario_help()). `sets` are further `key value unit` lines, from the command line. Throws Refused naming file and line for an unknown key,
-/// statement or unit, a value out of range, a key given twice.
+/// Parses a scenario: one statement a line, `#` after a blank begins a comment, every quantity has
+/// a unit (syntax: scenario_help()). `sets`: further `key value unit` lines from the command line.
+/// Throws Refused with file and line: unknown key, statement or unit, value out of range, key given
+/// twice.
 Scenario read_scenario(const std::string& file, const std::string& text,
                        const std::vector<std::string>& sets,
                        const std::vector<ParameterRow>& parameters);

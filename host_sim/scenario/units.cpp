@@ -12,8 +12,8 @@ struct Unit {
   double si;
 };
 
-// A damping is written N*s/m; the other spellings are what people type. A name with a blank is of
-// the parameter table and cannot be typed.
+// Damping is printed as N*s/m; the other spellings are accepted. A name with a blank occurs in the
+// parameter table only; a scenario cannot contain it.
 constexpr Unit kUnits[] = {
     {"m", "length", 1},
     {"mm", "length", 1e-3},
@@ -45,6 +45,7 @@ constexpr Unit kUnits[] = {
     {"rad", "angle", 1},
     {"deg", "angle", 0.017453292519943295},
     {"steps", "steps", 1},
+    {"visits", "steps", 1},
     {"1/m", "count density", 1},
     {"counts/m", "count density", 1},
     {"counts/mm", "count density", 1e3},

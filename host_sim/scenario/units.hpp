@@ -4,15 +4,14 @@
 
 namespace firmtouch::host_sim {
 
-/// `value` of `unit` in the SI unit of the same dimension as `wanted` ("mm" where "m" is wanted:
-/// 0.001 value). Result: nothing where either unit is not known or the two measure different
-/// things.
+/// Converts `value` from `unit` to SI: 1 "mm" for "m" gives 0.001.
+/// Result: nullopt if a unit is unknown or `unit` and `wanted` have different dimensions.
 std::optional<double> to_si(double value, const std::string& unit, const std::string& wanted);
 
-/// The units that may stand where `wanted` is wanted, for a message: "m, mm, um, cm, in".
+/// The accepted units of the same dimension, for a message: "m, mm, um, cm, in".
 std::string units_like(const std::string& wanted);
 
-/// Reads a number; the whole of `text` must be one, and finite.
+/// Parses a finite number; nullopt if `text` contains anything else.
 std::optional<double> read_number(const std::string& text);
 
 }  // namespace firmtouch::host_sim

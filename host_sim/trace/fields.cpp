@@ -17,7 +17,7 @@ const std::vector<Field>& fields() {
   static const std::vector<Field> all = [] {
     std::vector<Field> list;
     for (const record::Field& row : record::kFields) {
-      if (row.name == std::string("number")) continue;  // the ring's, not the tick's
+      if (row.name == std::string("number")) continue;  // belongs to the ring, not to the tick
       for (uint32_t k = 0; k < row.count; ++k) {
         const std::string index = row.count > 1 ? "[" + std::to_string(k) + "]" : "";
         list.push_back({row.name + index, static_cast<uint32_t>(list.size() * 4),
@@ -47,14 +47,15 @@ std::string text_of(const Field& field, const record::TickRecord& record) {
 
 std::optional<Difference> first_difference(const record::TickRecord& expected,
                                            const record::TickOutput& found,
-                                           const std::set<std::string>& without) {
+                                           const std::set<std::string>& missing_outputs) {
   if (std::memcmp(&expected.output, &found, sizeof found) == 0) return {};
   const record::TickRecord other{expected.input, found};
   for (const Field& field : fields()) {
     const auto at = [&](const record::TickRecord& r) {
       return reinterpret_cast<const char*>(&r) + field.offset;
     };
-    if (std::memcmp(at(expected), at(other), 4) == 0 || without.count(field.name) != 0) continue;
+    if (std::memcmp(at(expected), at(other), 4) == 0 || missing_outputs.count(field.name) != 0)
+      continue;
     uint32_t bits[2];
     std::memcpy(&bits[0], at(expected), 4);
     std::memcpy(&bits[1], at(other), 4);

@@ -8,8 +8,7 @@
 
 namespace firmtouch::host_sim {
 
-/// One 4-byte word of a tick's record, under the name that a log's schema, a CSV's header and a
-/// message give it.
+/// One 4-byte word of a tick's record, with its name in logs, CSV headers and messages.
 struct Field {
   enum class Kind { kUnsigned, kSigned, kFloat };
   std::string name;  // "input.encoder_counts[1]"
@@ -20,7 +19,7 @@ struct Field {
 /// Every word of TickRecord, in order, from record::kFields.
 const std::vector<Field>& fields();
 
-/// A field's value as text: floats with the digits that tell all of them apart.
+/// A field's value as text; floats with nine digits, so that different values print differently.
 std::string text_of(const Field& field, const record::TickRecord& record);
 
 struct Difference {
@@ -29,10 +28,10 @@ struct Difference {
   std::string expected, found;
 };
 
-/// The first word of the output that differs in any bit; those named in `without` are not compared.
-/// Result: nothing where all are the same.
+/// The first word of the output that differs in any bit; fields in `missing_outputs` are skipped.
+/// Result: nullopt if all are equal.
 std::optional<Difference> first_difference(const record::TickRecord& expected,
                                            const record::TickOutput& found,
-                                           const std::set<std::string>& without = {});
+                                           const std::set<std::string>& missing_outputs = {});
 
 }  // namespace firmtouch::host_sim

@@ -16,12 +16,12 @@ namespace {
 using Slot = record::Numbered<record::TickRecord>;
 constexpr uint32_t kBlockRecords = 512;
 
-// From a word of the log's record to a word of ours.
+// Copies a word of the log's record to its offset in ours.
 struct WordMove {
   uint32_t from, to;
 };
 
-// Throws where an input is missing; outputs that are missing are named in `log`.
+// Throws Refused if an input is missing; adds missing outputs to `log.missing_outputs`.
 std::vector<WordMove> moves(const std::string& path, const log::Header& header, Log& log) {
   const log::Header ours = tick_header();
   std::vector<WordMove> list;
@@ -33,10 +33,10 @@ std::vector<WordMove> moves(const std::string& path, const log::Header& header, 
     if (found != theirs.end()) {
       list.push_back({found->offset, column.offset});
     } else if (column.name.compare(0, 6, "input.") == 0) {
-      throw Refused(path + ": its records have no " + column.name +
-                    ", which a tick depends on; use the version that recorded it");
+      throw Refused(path + ": its records have no field " + column.name +
+                    ", which every tick needs; use the version that recorded it");
     } else {
-      log.without.insert(column.name);
+      log.missing_outputs.insert(column.name);
     }
   }
   return list;
@@ -97,14 +97,13 @@ Log read_log(const std::string& path) try {
       const uint8_t* record = block.record(i);
       number += log::word(record, 0) - static_cast<uint32_t>(number);
       if (log.records.empty()) next = log.first_number = number;
-      if (number != next && log.is_whole) {
-        log.is_whole = false;
-        log.why_not_whole = "record " + std::to_string(next) + " is missing, and " +
-                            std::to_string((number - next) / log.decimation) +
-                            " of them before the next";
+      if (number != next && log.is_complete) {
+        log.is_complete = false;
+        log.damage = std::to_string((number - next) / log.decimation) +
+                     " records are missing from number " + std::to_string(next) + " on";
       }
       next = number + log.decimation;
-      if (!log.is_whole) continue;
+      if (!log.is_complete) continue;
       Slot slot{};
       for (const WordMove& move : list)
         std::memcpy(reinterpret_cast<uint8_t*>(&slot) + move.to, record + move.from, 4);
@@ -113,8 +112,8 @@ Log read_log(const std::string& path) try {
   }
   const std::string troubles = reader.troubles();
   if (!troubles.empty()) {
-    log.is_whole = false;
-    log.why_not_whole = troubles;
+    log.is_complete = false;
+    log.damage = troubles;
   }
   return log;
 } catch (const log::Refused& refused) {

@@ -6,14 +6,14 @@
 
 namespace firmtouch::host_sim {
 
-/// Records of a size that is known only at run time, from a thread that reads a link to the one that
-/// writes the log. That thread may wait: it is no servo, and the controller's own ring is behind it.
+/// Bounded queue of records between the thread that reads a link and the one that writes the log.
+/// The record size is known at run time only. A mutex is allowed: neither thread is a servo.
 class QueuedRecords : public log::Records {
  public:
   QueuedRecords(uint32_t record_bytes, uint32_t capacity)
       : record_bytes_(record_bytes), capacity_(capacity), bytes_(size_t{record_bytes} * capacity) {}
 
-  /// Drops it, counted, where there is no room.
+  /// Appends a record; if the queue is full, drops and counts it.
   void push(const uint8_t* record) {
     const std::lock_guard<std::mutex> lock(mutex_);
     number_ = log::word(record, 0) + 1;

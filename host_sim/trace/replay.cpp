@@ -9,7 +9,8 @@ std::optional<Difference> replay(const Log& log, const Tick& tick,
     const record::TickRecord& recorded = log.records[i];
     record::TickOutput output{};
     tick(recorded.input, output);
-    if (std::optional<Difference> difference = first_difference(recorded, output, log.without))
+    if (std::optional<Difference> difference =
+            first_difference(recorded, output, log.missing_outputs))
       return difference;
     if (progress && i % 1024 == 0) progress(static_cast<double>(i) / static_cast<double>(ticks));
   }

@@ -8,12 +8,13 @@
 
 namespace firmtouch::host_sim {
 
-/// Computes a tick: a controller of this process, or one at the far end of a Port.
+/// Computes a tick: the in-process controller, or a LockStepController.
 using Tick = std::function<void(const record::TickInput&, record::TickOutput&)>;
 
-/// Feeds a log's inputs to `tick` (of a controller that is ready and fresh) and compares every bit
-/// of its outputs with the recorded ones, but for those that the log does not have. Result: the
-/// first difference; nothing where all ticks agree. "expected" is what the log holds.
+/// Feeds a log's inputs to `tick` and compares every bit of its outputs with the recorded ones.
+/// Outputs that the log does not have are skipped.
+/// Pre: the controller is ready and has run no tick.
+/// Result: the first difference, with the recorded value as `expected`; nullopt if there is none.
 std::optional<Difference> replay(const Log& log, const Tick& tick,
                                  const std::function<void(double)>& progress = {});
 std::optional<Difference> replay(const Log& log, Controller& controller);

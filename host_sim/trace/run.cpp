@@ -12,12 +12,12 @@
 namespace firmtouch::host_sim {
 namespace {
 
-// Steps of the device and hand within a tick: with a grip of 2,000 N/m on 75 g the hand's force,
-// held over one of these, differs from a continuous one by less than 1e-3 at 1 kHz.
+// Integration steps of device and hand within a tick. With a grip of 2,000 N/m on 75 g at 1 kHz the
+// hand's piecewise constant force differs from a continuous one by less than 1e-3.
 constexpr uint32_t kSubsteps = 16;
 constexpr uint32_t kMaxTicks = 5000000;  // 250 B each in memory
 constexpr uint32_t kSettlingTicks = 5;   // between the last initial parameter and the enable line
-constexpr double kArmLag_s = 0.012;      // an arm's own lag, twice: it rounds the script's corners
+constexpr double kArmLag_s = 0.012;      // of each of the arm's two lags
 
 constexpr params::Index kCountsPerMetre[3] = {params::kCountsPerMetreX, params::kCountsPerMetreY,
                                               params::kCountsPerMetreZ};
@@ -28,7 +28,7 @@ bool is_set(const Scenario& scenario, uint32_t parameter) {
                      [&](const Setting& s) { return s.parameter == parameter; });
 }
 
-// Ticks from one local model to the next; 0: each makes its own.
+// Ticks from one local model to the next; 0: every tick makes its own.
 uint32_t model_ticks(const Scenario& scenario) {
   return scenario.geometry_rate_Hz > 0
              ? static_cast<uint32_t>(
@@ -36,12 +36,13 @@ uint32_t model_ticks(const Scenario& scenario) {
              : 0;
 }
 
-// Parameters are set one a tick; the models made before do not know them yet.
+// One parameter is set per tick; models in progress still use the previous values.
 size_t setup_ticks(const Scenario& scenario) {
   return scenario.settings.size() + kSettlingTicks + 3 * size_t{model_ticks(scenario)};
 }
 
-// The arm between the script and the hand's spring: two equal first-order lags.
+// Low-pass filter between the script and the hand's spring: two equal first-order lags. It rounds
+// the script's corners as an arm does.
 class Arm {
  public:
   explicit Arm(Vec start_m) : first_m_(start_m), second_m_(start_m) {}
@@ -59,7 +60,7 @@ class Arm {
   Vec first_m_, second_m_, velocity_mps_;
 };
 
-// The lines and the commands of each tick, from the scenario's settings and events.
+// Flags and command of each tick, from the scenario's settings and events.
 class Operator {
  public:
   explicit Operator(const Scenario& scenario) : scenario_(scenario) {
@@ -69,7 +70,7 @@ class Operator {
   void fill(record::TickInput& input, double time_s) {
     uint32_t once = 0;
     for (; next_ < scenario_.events.size() && scenario_.events[next_].time_s <= time_s; ++next_)
-      once |= happen(scenario_.events[next_]);
+      once |= apply(scenario_.events[next_]);
     const bool enabled = enabled_ && input.tick >= enable_tick_;
     input.flags = held_ | once | (enabled ? record::kFlagEnable : 0);
     if (commands_.empty()) return;
@@ -79,8 +80,8 @@ class Operator {
   }
 
  private:
-  // Result: lines of this tick alone.
-  uint32_t happen(const Event& event) {
+  // Result: flags of this tick only.
+  uint32_t apply(const Event& event) {
     switch (event.kind) {
       case Event::Kind::kEmergencyStop:
         held_ |= record::kFlagEmergencyStop;
@@ -132,21 +133,21 @@ void check_command(const Scenario& scenario, const record::TickRecord& record) {
   if ((record.output.state & record::kStateCommandRefused) == 0) return;
   if (record.input.command == record::kCommandClearFaults)
     throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) +
-                  " the controller refuses clear_faults, which it takes only while disabled; put "
+                  " the controller rejects clear_faults, which it accepts only while disabled; put "
                   "`at T s disable` before it");
   const params::Entry& row = params::kTable[record.input.command - 1];
   std::ostringstream value;
   value << record.input.command_value;
   throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) +
-                " the controller refuses " + row.name + " = " + value.str() + " " + row.unit +
+                " the controller rejects " + row.name + " = " + value.str() + " " + row.unit +
                 (row.when == params::When::kMotorsOff
-                     ? "; this one may change only while the motors are off"
+                     ? "; this parameter may change only while the motors are off"
                  : row.when == params::When::kMayFall
                      ? "; it is out of range, or a raise while the motors are on"
                      : "; it is out of range"));
 }
 
-// At two rates: each model is there when the next one is asked for.
+// At two rates: each model is complete when the next one is requested.
 uint32_t model_flags(const Scenario& scenario, uint32_t tick) {
   const uint32_t every = model_ticks(scenario);
   if (every == 0) return 0;
@@ -185,7 +186,7 @@ std::vector<ParameterRow> parameter_rows() {
 
 std::string parameter_help() {
   std::ostringstream help;
-  help << "\nParameters of the controller, each with its range and what it begins with:\n";
+  help << "\nParameters of the controller: range (initial value): meaning\n";
   for (const params::Entry& entry : params::kTable) {
     const std::string unit = entry.unit;
     std::string left = "  " + short_name(entry.name) + " VALUE" + (unit == "1" ? "" : " " + unit);
@@ -210,7 +211,7 @@ Vec scene_origin_m(const Scenario& scenario) {
 void complete(Scenario& scenario) {
   if (!is_set(scenario, params::kTickPeriod))
     scenario.settings.push_back({params::kTickPeriod, 1 / scenario.rate_Hz});
-  // A model is used until the next one, which is made from that moment, is there.
+  // A model is one period old when it is first used, and two when the next one replaces it.
   const uint32_t every = model_ticks(scenario);
   if (every > 1 && !is_set(scenario, params::kModelAge))
     scenario.settings.push_back({params::kModelAge, 2.0 * every + 1});
@@ -223,9 +224,9 @@ void complete(Scenario& scenario) {
   }
 }
 
-Trace run(const Scenario& scenario, Controller& controller, const World& world, Port* remote,
-          const std::function<void(double)>& progress) {
-  const Hand hand(scenario, world, parameter_value(scenario, params::kToolRadius));
+Trace run(const Scenario& scenario, Controller& controller, const Environment& environment,
+          LockStepController* remote, const std::function<void(double)>& progress) {
+  const Hand hand(scenario, environment, parameter_value(scenario, params::kToolRadius));
   const uint32_t ticks = tick_count(scenario, hand);
   const double period_s = 1 / scenario.rate_Hz, substep_s = period_s / kSubsteps;
   const Vec zero_m = {parameter_value(scenario, kOrigin[0]), parameter_value(scenario, kOrigin[1]),

@@ -16,8 +16,8 @@ namespace {
 // A hand of `grip` rests where the guide begins.
 host_sim::Trace led(const std::string& grip, const std::string& lines) {
   const host_sim::Session session(part_asset());
-  const host_sim::World world = host_sim::world_of(*session.controller, {});
-  const host_sim::Vec at = world.guide_at(0);
+  const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
+  const host_sim::Vec at = environment.guide_at(0);
   const std::string start =
       std::to_string(at.x) + " " + std::to_string(at.y) + " " + std::to_string(at.z);
   host_sim::Scenario scenario = host_sim::read_scenario(
@@ -27,7 +27,7 @@ host_sim::Trace led(const std::string& grip, const std::string& lines) {
           grip + "\nstart " + start + " m\n" + lines,
       {}, host_sim::parameter_rows());
   host_sim::complete(scenario);
-  return host_sim::run(scenario, *session.controller, world, nullptr, {});
+  return host_sim::run(scenario, *session.controller, environment, nullptr, {});
 }
 
 double size_of(const float (&v)[3]) {

@@ -31,8 +31,9 @@ namespace {
 struct Run {
   host_sim::Scenario scenario = loop_scenario();
   Session session{part_asset()};
-  host_sim::World world = host_sim::world_of(*session.controller, scene_origin_m(scenario));
-  Trace trace = host_sim::run(scenario, *session.controller, world, nullptr, {});
+  host_sim::Environment environment =
+      host_sim::environment_of(*session.controller, scene_origin_m(scenario));
+  Trace trace = host_sim::run(scenario, *session.controller, environment, nullptr, {});
 };
 
 const Run& the_run() {
@@ -60,21 +61,22 @@ std::string refusal_of(const std::string& path) {
 }  // namespace
 
 TEST(LoopTouchesFollowsAndLatchesItsFault) {
-  const host_sim::Summary s = summarise(the_run().scenario, the_run().world, the_run().trace);
+  const host_sim::Summary s = summarise(the_run().scenario, the_run().environment, the_run().trace);
   CHECK_GE(s.ticks, 10000u);
   CHECK_GE(s.contact_ticks, 2000u);
   CHECK_GE(s.guide_ticks, 2000u);
   CHECK_EQ(s.faults, servo::kFaultEmergencyStop);
   CHECK_LT(0.5, s.peak_force_N);
   CHECK_LE(s.peak_force_N, s.force_limit_N * (1 + 1e-6));
-  CHECK_LE(s.worst_steps, s.budget_steps);
+  CHECK_LE(s.worst_visits, s.budget_visits);
   CHECK_EQ(s.wrong_bounds, 0u);
-  CHECK_GE(s.judged_ticks, 1000u);
+  CHECK_GE(s.checked_ticks, 1000u);
 }
 
-// After the emergency stop the hand sinks into the part: nobody feels that, and no figure tells of it.
+// After the emergency stop the hand sinks into the part: nobody feels that, and no figure tells of
+// it.
 TEST(ContactIsToldOfTicksWithTheMotorsOnAlone) {
-  const host_sim::Summary s = summarise(the_run().scenario, the_run().world, the_run().trace);
+  const host_sim::Summary s = summarise(the_run().scenario, the_run().environment, the_run().trace);
   size_t contact = 0, later = 0;
   double deepest_m = 0, deepest_later_m = 0;
   for (const record::TickRecord& r : the_run().trace.records) {
@@ -101,7 +103,7 @@ TEST(ReplayOfTheLogGivesEveryBitAgain) {
   const std::string path = scratch() + "/run.ftl";
   write_log(path, log_of(the_run().trace));
   const Log log = host_sim::read_log(path);
-  CHECK(log.is_whole);
+  CHECK(log.is_complete);
   CHECK(log.text.at("scenario") == "two\nlines \\ and a backslash");
   CHECK_EQ(log.records.size(), the_run().trace.records.size());
   const Session session(part_asset());
@@ -140,7 +142,7 @@ TEST(EveryDamagedByteOfALogIsRefused) {
     bytes[i] = static_cast<char>(bytes[i] ^ 0x10);
     host_sim::write_file(path, bytes);
     // Its head refuses the whole log; a block only itself.
-    if (refusal_of(path).empty()) CHECK(!host_sim::read_log(path).is_whole);
+    if (refusal_of(path).empty()) CHECK(!host_sim::read_log(path).is_complete);
   }
 }
 
@@ -150,7 +152,7 @@ TEST(LogThatWasCutOffKeepsItsWholeBlocks) {
   const std::string whole = host_sim::read_file(path);
   host_sim::write_file(path, whole.substr(0, whole.size() - 300000));
   const Log log = host_sim::read_log(path);
-  CHECK(!log.is_whole);
+  CHECK(!log.is_complete);
   CHECK_LT(5000u, log.records.size());
   CHECK_EQ(log.records.size() % 512, 0u);
   host_sim::write_file(path, "no log at all");
@@ -167,27 +169,28 @@ TEST(RefusedParameterEndsTheRunNamingIt) {
       break;
     }
   const Session session(part_asset());
-  const host_sim::World world = host_sim::world_of(*session.controller, {});
+  const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
   std::string message;
   try {
-    host_sim::run(scenario, *session.controller, world, nullptr, {});
+    host_sim::run(scenario, *session.controller, environment, nullptr, {});
   } catch (const host_sim::Refused& refused) {
     message = refused.what();
   }
-  CHECK(message.find("refuses tick_period_s") != std::string::npos);
+  CHECK(message.find("rejects tick_period_s") != std::string::npos);
   CHECK(message.find("only while the motors are off") != std::string::npos);
 }
 
-// A fault of a moment and a held line; both are cleared as an operator does it, and the loop goes on.
+// A fault of a moment and a held line; both are cleared as an operator does it, and the loop goes
+// on.
 TEST(FaultsAreClearedByTheScenarioWhileDisabled) {
   const auto run_with = [](const std::string& events) {
     const Session session(part_asset());
-    const host_sim::World world = host_sim::world_of(*session.controller, {});
+    const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
     host_sim::Scenario scenario =
         host_sim::read_scenario("clear.scenario", "asset part.fta\nduration 1 s\n" + events, {},
                                 host_sim::parameter_rows());
     host_sim::complete(scenario);
-    return host_sim::run(scenario, *session.controller, world, nullptr, {});
+    return host_sim::run(scenario, *session.controller, environment, nullptr, {});
   };
   const std::string stop = "at 0.3 s emergency_stop\nat 0.4 s release\n";
   const std::string clear = stop + "at 0.5 s disable\nat 0.6 s clear_faults\nat 0.7 s enable\n";

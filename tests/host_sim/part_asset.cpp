@@ -68,9 +68,10 @@ const std::string& part_asset() {
 
 host_sim::Scenario loop_scenario() {
   const host_sim::Session session(part_asset());
-  const host_sim::World world = host_sim::world_of(*session.controller, {});
-  host_sim::Scenario scenario = host_sim::read_scenario(
-      "loop.scenario", host_sim::plan_scenario(world, "part.fta"), {}, host_sim::parameter_rows());
+  const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
+  host_sim::Scenario scenario =
+      host_sim::read_scenario("loop.scenario", host_sim::plan_scenario(environment, "part.fta"), {},
+                              host_sim::parameter_rows());
   host_sim::complete(scenario);
   return scenario;
 }

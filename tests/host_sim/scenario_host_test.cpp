@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "harness/test.hpp"
+#include "host_sim/scenario/line_reader.hpp"
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/scenario/units.hpp"
-#include "host_sim/scenario/words.hpp"
 #include "host_sim/trace/run.hpp"
 
 namespace host_sim = firmtouch::host_sim;
@@ -76,19 +76,19 @@ TEST(MistakesAreRefusedWithTheirLine) {
       {"masss 1 kg", "did you mean `mass`"},
       {"stiffness 800 N/m",
        "did you mean `hand_stiffness`, `contact_stiffness`, `guide_stiffness`?"},
-      {"mass 1 m", "`m` is no unit for `mass`; write one of: kg, g"},
-      {"mass 1 pound", "`pound` is no unit"},
+      {"mass 1 m", "`m` is not a unit for `mass`; write one of: kg, g"},
+      {"mass 1 pound", "`pound` is not a unit"},
       {"mass 1", "the unit of `mass`"},
       {"mass", "the value of `mass`"},
-      {"mass one kg", "`one` is no number"},
-      {"mass nan kg", "`nan` is no number"},
-      {"mass inf kg", "`inf` is no number"},
+      {"mass one kg", "`one` is not a number"},
+      {"mass nan kg", "`nan` is not a number"},
+      {"mass inf kg", "`inf` is not a number"},
       {"mass -1 kg", "outside"},
-      {"mass 1 kg 2", "`2` is more than"},
+      {"mass 1 kg 2", "unexpected `2`"},
       {"contact_stiffness 1e9 N/m", "outside"},
-      {"mesh_steps 3 m", "`m` is more than"},
+      {"mesh_steps 3 m", "unexpected `m`"},
       {"output_delay 1.5 samples", "whole number"},
-      {"start 1 2 m", "is no number"},
+      {"start 1 2 m", "is not a number"},
       {"start 1 2 3", "the unit of `start`"},
       {"start 1 2 1e9 m", "outside"},
       {"move 1 2 3 m at 1 m/s", "`to` is expected"},
@@ -96,8 +96,8 @@ TEST(MistakesAreRefusedWithTheirLine) {
       {"move to 1 2 3 m at 0 m/s", "outside"},
       {"follow guide at 1 m/s", "`for`"},
       {"follow path at 1 m/s for 1 s", "`guide` is expected"},
-      {"at 1 s explode", "nothing called `explode`"},
-      {"at 1 m emergency_stop", "`m` is no unit"},
+      {"at 1 s explode", "unknown event `explode`"},
+      {"at 1 m emergency_stop", "`m` is not a unit"},
       {"at 1 s set nothing 1", "unknown parameter `nothing`"},
       {"duration 2 s", "`duration` is given twice"},
   };
@@ -109,7 +109,7 @@ TEST(MistakesAreRefusedWithTheirLine) {
 }
 
 TEST(ScenarioWithoutAnAssetOrAnEndIsRefused) {
-  CHECK(says(refusal("duration 1 s\n"), "no asset is named"));
+  CHECK(says(refusal("duration 1 s\n"), "it has no asset"));
   CHECK(says(refusal("asset a.fta\n"), "no end"));
 }
 
@@ -133,8 +133,8 @@ TEST(AnyPathComesBackFromItsWord) {
     CHECK(read(line + "  # \"a\" comment\nduration 1 s\n").asset == path);
   }
   CHECK(read("asset gear#2.fta # comment\nduration 1 s\n").asset == "gear#2.fta");
-  CHECK(says(refusal("asset \"a.fta\n"), "a quoted path ends with its quote"));
-  CHECK(says(refusal("asset \"a.fta\" b\n"), "a quoted path ends with its quote"));
+  CHECK(says(refusal("asset \"a.fta\n"), "a quoted path must end with a quote"));
+  CHECK(says(refusal("asset \"a.fta\" b\n"), "a quoted path must end with a quote"));
 }
 
 TEST(UnitsOfOtherDimensionsDoNotConvert) {

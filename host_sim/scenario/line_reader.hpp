@@ -6,25 +6,24 @@
 
 namespace firmtouch::host_sim {
 
-/// The words of one line of a scenario, taken from left to right. Every way to be wrong ends in
-/// Refused with the place.
-class Words {
+/// Reads one line of a scenario from left to right. Every error throws Refused with the place.
+class LineReader {
  public:
-  /// `names`: every key and statement, to suggest the nearest of them. `overrides`: from the
-  /// command line, where a later value replaces an earlier one.
-  Words(const std::string& line, std::string place, const std::vector<std::string>& names,
-        bool overrides);
+  /// `names`: all keys and statements, for suggestions. `overrides`: a line from the command line,
+  /// where a later value replaces an earlier one.
+  LineReader(const std::string& line, std::string place, const std::vector<std::string>& names,
+             bool overrides);
 
   bool empty() const { return words_.empty(); }
   bool overrides() const { return overrides_; }
   bool more() const { return at_ < words_.size(); }
   std::string next(const std::string& wanted);
-  /// Takes the next word if it is this one.
+  /// Consumes the next word if it equals `word`.
   bool take(const std::string& word);
   void expect(const std::string& word);
-  /// The rest of the line: as it stands (a path may hold blanks), or what path_word() quoted.
+  /// The rest of the line as a path: unquoted, blanks included, or quoted by path_word().
   std::string path();
-  /// A number and its unit, in SI. `unit` empty: a plain number.
+  /// A number and its unit, converted to SI. `unit` empty: dimensionless.
   double quantity(const std::string& name, const std::string& unit, double low, double high);
   /// Three numbers and one unit of length.
   Vec point(const std::string& name);
@@ -48,11 +47,11 @@ class Words {
   size_t at_ = 0;
 };
 
-/// A path as Words::path() reads it: in quotes where a blank, #, quote or backslash is in it.
+/// A path as LineReader::path() reads it; quoted if it contains a blank, #, quote or backslash.
 std::string path_word(const std::string& path);
 
 bool is_move(const std::string& name);
 /// The rest of a line of the hand's script that begins with `name`.
-Move read_move(const std::string& name, Words& words);
+Move read_move(const std::string& name, LineReader& words);
 
 }  // namespace firmtouch::host_sim

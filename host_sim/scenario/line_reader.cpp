@@ -1,4 +1,4 @@
-#include "host_sim/scenario/words.hpp"
+#include "host_sim/scenario/line_reader.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -9,7 +9,7 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kMaxReach_m = 100;  // no coordinate of a device is farther; a slip of the unit is
+constexpr double kMaxReach_m = 100;  // larger coordinates are a wrong unit, not a device
 constexpr double kMaxSpeed_mps = 10;
 constexpr double kMaxTime_s = 3600;
 
@@ -39,7 +39,7 @@ constexpr const char* kBlank = " \t\r";
 
 bool is_blank(char c) { return std::string(kBlank).find(c) != std::string::npos; }
 
-// Just behind the quote that closes the one at `begin`; npos where none does.
+// Index after the quote that closes the one at `begin`; npos if none does.
 size_t quote_end(const std::string& line, size_t begin) {
   for (size_t i = begin + 1; i < line.size(); ++i) {
     if (line[i] == '"') return i + 1;
@@ -48,7 +48,7 @@ size_t quote_end(const std::string& line, size_t begin) {
   return std::string::npos;
 }
 
-// A # at the line's start or after a blank, and not in quotes; npos: there is none.
+// Index of the first # at the line's start or after a blank, outside quotes; npos: none.
 size_t comment_begin(const std::string& line) {
   for (size_t i = 0; i < line.size(); ++i) {
     const bool begins_word = i == 0 || is_blank(line[i - 1]);
@@ -72,8 +72,8 @@ std::string path_word(const std::string& path) {
   return text + "\"";
 }
 
-Words::Words(const std::string& line, std::string place, const std::vector<std::string>& names,
-             bool overrides)
+LineReader::LineReader(const std::string& line, std::string place,
+                       const std::vector<std::string>& names, bool overrides)
     : line_(line.substr(0, comment_begin(line))),
       place_(std::move(place)),
       names_(names),
@@ -86,15 +86,15 @@ Words::Words(const std::string& line, std::string place, const std::vector<std::
   }
 }
 
-void Words::refuse(const std::string& what) const { throw Refused(place_ + ": " + what); }
+void LineReader::refuse(const std::string& what) const { throw Refused(place_ + ": " + what); }
 
-void Words::refuse_unknown(const std::string& kind, const std::string& name) const {
+void LineReader::refuse_unknown(const std::string& kind, const std::string& name) const {
   std::string nearest, containing;
   size_t fewest = name.size() / 3 + 2;
   for (const std::string& known : names_) {
     const size_t count = edits(name, known);
     if (count < fewest) fewest = count, nearest = "`" + known + "`";
-    // "stiffness" alone could be the hand's, the contact's or the guide's.
+    // Names that contain the word: "stiffness" occurs in hand, contact and guide.
     if (name.size() > 3 && known.find(name) != std::string::npos)
       containing += (containing.empty() ? "`" : ", `") + known + "`";
   }
@@ -104,29 +104,30 @@ void Words::refuse_unknown(const std::string& kind, const std::string& name) con
                           : "; did you mean " + nearest + "?"));
 }
 
-std::string Words::next(const std::string& wanted) {
-  if (!more()) refuse("the line ends where " + wanted + " should stand");
+std::string LineReader::next(const std::string& wanted) {
+  if (!more()) refuse("the line ends where " + wanted + " is expected");
   return words_[at_++];
 }
 
-bool Words::take(const std::string& word) {
+bool LineReader::take(const std::string& word) {
   if (!more() || words_[at_] != word) return false;
   ++at_;
   return true;
 }
 
-void Words::expect(const std::string& word) {
+void LineReader::expect(const std::string& word) {
   const std::string found = next("`" + word + "`");
-  if (found != word) refuse("`" + word + "` is expected where `" + found + "` stands");
+  if (found != word) refuse("`" + word + "` is expected instead of `" + found + "`");
 }
 
-std::string Words::path() {
-  if (!more()) refuse("the line ends where a path should stand");
+std::string LineReader::path() {
+  if (!more()) refuse("the line ends where a path is expected");
   const size_t begin = offsets_[at_];
   at_ = words_.size();
   const size_t end = line_.find_last_not_of(kBlank) + 1;
   if (line_[begin] != '"') return line_.substr(begin, end - begin);
-  if (quote_end(line_, begin) != end) refuse("a quoted path ends with its quote and the line");
+  if (quote_end(line_, begin) != end)
+    refuse("a quoted path must end with a quote at the line's end");
   std::string text;
   for (size_t i = begin + 1; i + 1 < end; ++i) {
     const bool escapes = line_[i] == '\\';
@@ -136,39 +137,40 @@ std::string Words::path() {
   return text;
 }
 
-void Words::end() {
-  if (more()) refuse("`" + words_[at_] + "` is more than this statement takes");
+void LineReader::end() {
+  if (more()) refuse("unexpected `" + words_[at_] + "` at the end of the statement");
 }
 
-double Words::number(const std::string& name) {
+double LineReader::number(const std::string& name) {
   const std::string text = next("the value of `" + name + "`");
   const std::optional<double> value = read_number(text);
-  if (!value) refuse("`" + text + "` is no number for `" + name + "`");
+  if (!value) refuse("`" + text + "` is not a number for `" + name + "`");
   return *value;
 }
 
-double Words::in_si(const std::string& name, double value, const std::string& unit) {
+double LineReader::in_si(const std::string& name, double value, const std::string& unit) {
   const std::string text = next("the unit of `" + name + "` (" + units_like(unit) + ")");
   const std::optional<double> si = to_si(value, text, unit);
   if (!si)
-    refuse("`" + text + "` is no unit for `" + name + "`; write one of: " + units_like(unit));
+    refuse("`" + text + "` is not a unit for `" + name + "`; write one of: " + units_like(unit));
   return *si;
 }
 
-double Words::ranged(const std::string& name, double value, const std::string& unit, double low,
-                     double high) const {
+double LineReader::ranged(const std::string& name, double value, const std::string& unit,
+                          double low, double high) const {
   if (!(value >= low && value <= high))
     refuse("`" + name + "` = " + short_number(value) + " " + unit + " is outside " +
            short_number(low) + " to " + short_number(high) + " " + unit);
   return value;
 }
 
-double Words::quantity(const std::string& name, const std::string& unit, double low, double high) {
+double LineReader::quantity(const std::string& name, const std::string& unit, double low,
+                            double high) {
   const double value = number(name);
   return ranged(name, unit.empty() ? value : in_si(name, value, unit), unit, low, high);
 }
 
-Vec Words::point(const std::string& name) {
+Vec LineReader::point(const std::string& name) {
   const double x = number(name), y = number(name), z = number(name);
   const double scale = in_si(name, 1, "m");
   const auto coordinate = [&](double value) {
@@ -181,7 +183,7 @@ bool is_move(const std::string& name) {
   return name == "move" || name == "hold" || name == "press" || name == "follow";
 }
 
-Move read_move(const std::string& name, Words& words) {
+Move read_move(const std::string& name, LineReader& words) {
   Move move;
   if (name == "move") {
     move.kind = Move::Kind::kMove;

@@ -10,29 +10,29 @@
 #include "firmtouch/link/protocol.hpp"
 #include "firmtouch/params/table.hpp"
 #include "host_sim/controllers/byte_stream.hpp"
-#include "host_sim/controllers/port.hpp"
+#include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/scenario/scenario.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int kHelloAgain_ms = 1000;  // a Hello may fall into a controller's start
-constexpr auto kHandshakeTime =
-    std::chrono::seconds(60);  // an asset of megabytes is proven in emulation first
+constexpr int kHelloAgain_ms = 1000;  // a Hello is lost if the controller is still starting
+// Long: an emulated board proves an asset of megabytes before it answers.
+constexpr auto kHandshakeTime = std::chrono::seconds(60);
 constexpr int kReplyTime_ms = 20000;
 
-class Remote : public Port {
+class Remote : public LockStepController {
  public:
   Remote(std::unique_ptr<ByteStream> stream, uint32_t asset_crc) : stream_(std::move(stream)) {
-    shake_hands(asset_crc);
+    handshake(asset_crc);
   }
   ~Remote() override {
     try {
       link::Bye bye;
       bye.what = link::kByeExit;
       send(link::kBye, link::bytes_of(bye));
-    } catch (const Refused&) {  // it is gone already, which is what was wanted
+    } catch (const Refused&) {  // it ended already
     }
   }
   TickCost tick(const record::TickInput& input, record::TickOutput& output) override;
@@ -41,7 +41,7 @@ class Remote : public Port {
  private:
   void send(uint8_t type, core::Bytes payload);
   bool receive(link::Frame& frame, int timeout_ms);
-  void shake_hands(uint32_t asset_crc);
+  void handshake(uint32_t asset_crc);
   [[noreturn]] void refuse(const std::string& what) const {
     throw Refused(stream_->name() + ": " + what);
   }
@@ -61,7 +61,7 @@ void Remote::send(uint8_t type, core::Bytes payload) {
   stream_->write(frame, count);
 }
 
-// Result: false where no whole frame came in time.
+// Result: false if no complete frame arrived in time.
 bool Remote::receive(link::Frame& frame, int timeout_ms) {
   for (;;) {
     if (decoder_.next(frame)) return true;
@@ -74,7 +74,7 @@ bool Remote::receive(link::Frame& frame, int timeout_ms) {
   }
 }
 
-void Remote::shake_hands(uint32_t asset_crc) {
+void Remote::handshake(uint32_t asset_crc) {
   link::Hello hello;
   hello.host.asset_crc = asset_crc;
   hello.host.parameter_table_hash = params::table_hash();
@@ -83,7 +83,9 @@ void Remote::shake_hands(uint32_t asset_crc) {
   link::HelloReply reply;
   for (const auto begin = Clock::now();;) {
     if (Clock::now() - begin > kHandshakeTime)
-      refuse("no answer to the handshake in 60 s; is this firmtouch_app, and the line at 1 Mbaud?");
+      refuse(
+          "no answer to the handshake in 60 s; does the controller run firmtouch_app, and the "
+          "serial line 1 Mbaud?");
     send(link::kHello, link::bytes_of(hello));
     link::Frame frame;
     bool replied = false;
@@ -94,7 +96,7 @@ void Remote::shake_hands(uint32_t asset_crc) {
   if (reply.refused != 0) {
     char text[1200];
     const uint32_t count = link::explain(hello.host, reply, core::Span<char>(text, sizeof text));
-    refuse("the controller refuses:\n" + std::string(text, count));
+    refuse("the controller rejects the session:\n" + std::string(text, count));
   }
   board_ = std::string(reply.board, strnlen(reply.board, sizeof reply.board));
 }
@@ -124,7 +126,7 @@ TickCost Remote::tick(const record::TickInput& input, record::TickOutput& output
          std::to_string(kReplyTime_ms / 1000) + " s");
 }
 
-// build/<board>/bin/firmtouch_app.elf beside this program's build/host/bin.
+// build/<board>/bin/firmtouch_app.elf, next to this program's build/host/bin.
 std::string image_of(const std::string& board) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -134,8 +136,10 @@ std::string image_of(const std::string& board) {
 
 }  // namespace
 
-std::unique_ptr<Port> open_port(const std::string& controller, const std::string& image,
-                                const std::string& asset_path, uint32_t asset_crc) {
+std::unique_ptr<LockStepController> open_controller(const std::string& controller,
+                                                    const std::string& image,
+                                                    const std::string& asset_path,
+                                                    uint32_t asset_crc) {
   if (controller.empty() || controller == "inproc") return nullptr;
   if (controller.compare(0, 5, "qemu:") == 0) {
     const std::string board = controller.substr(5);

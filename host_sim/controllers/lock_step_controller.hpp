@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "firmtouch/record/tick.hpp"
+
+namespace firmtouch::host_sim {
+
+/// Cost of a tick, as the controller reported it.
+struct TickCost {
+  uint32_t instructions = 0;      // of Controller::tick(); 0: not counted
+  uint32_t stack_high_bytes = 0;  // highest stack use so far; 0: not measured
+};
+
+/// A controller outside this process, driven in lock-step: one input sent, one output received.
+class LockStepController {
+ public:
+  LockStepController() = default;
+  LockStepController(const LockStepController&) = delete;
+  LockStepController& operator=(const LockStepController&) = delete;
+  virtual ~LockStepController() = default;
+  /// Throws Refused if the controller does not answer, or answers with an error.
+  virtual TickCost tick(const record::TickInput& input, record::TickOutput& output) = 0;
+  /// Name for messages and the report: "mps2-an500 (qemu)".
+  virtual std::string name() const = 0;
+};
+
+/// Opens the controller that --controller names: unix:PATH, tcp:HOST:PORT, qemu:BOARD or a serial
+/// DEVICE; nullptr for inproc. `image`: the program for qemu:BOARD; empty: that of the board's own
+/// build. `asset_crc`: Controller::asset_crc(). Throws Refused if it cannot be opened, or if asset,
+/// parameter table or protocol differ.
+std::unique_ptr<LockStepController> open_controller(const std::string& controller,
+                                                    const std::string& image,
+                                                    const std::string& asset_path,
+                                                    uint32_t asset_crc);
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,137 @@
+#include "host_sim/report/scene3d.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace firmtouch::host_sim {
+namespace {
+
+// A browser rotates this many smoothly without a graphics card.
+constexpr uint32_t kMaxShownTriangles = 120000;
+constexpr size_t kMaxPathPoints = 3000;
+constexpr double kMinShownForce = 0.04;  // of the largest force; weaker contact is not drawn
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+constexpr Colour kGuideColour{31, 138, 91}, kDeviceColour{37, 99, 235}, kHandColour{138, 147, 166},
+    kTouchColour{232, 93, 38};
+
+Vec narrow(const float (&v)[3]) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+// Vertex clustering: vertices in one grid cell are merged; degenerate triangles are removed.
+void simplify(Scene3d& scene3d, Vec low, double cell_m) {
+  std::map<std::array<int64_t, 3>, uint32_t> cells;
+  std::vector<uint32_t> cell_of(scene3d.vertices.size());
+  std::vector<Vec> merged;
+  std::vector<double> weight;
+  for (size_t i = 0; i < scene3d.vertices.size(); ++i) {
+    const Vec at = (scene3d.vertices[i] - low) * (1 / cell_m);
+    const std::array<int64_t, 3> key = {std::llround(at.x), std::llround(at.y), std::llround(at.z)};
+    const auto [place, is_new] = cells.try_emplace(key, static_cast<uint32_t>(merged.size()));
+    if (is_new) merged.push_back({}), weight.push_back(0);
+    cell_of[i] = place->second;
+    merged[place->second] = merged[place->second] + scene3d.vertices[i];
+    weight[place->second] += 1;
+  }
+  for (size_t i = 0; i < merged.size(); ++i) merged[i] = merged[i] * (1 / weight[i]);
+  std::vector<std::array<uint32_t, 3>> kept;
+  for (const auto& t : scene3d.triangles) {
+    const std::array<uint32_t, 3> k = {cell_of[t[0]], cell_of[t[1]], cell_of[t[2]]};
+    if (k[0] != k[1] && k[1] != k[2] && k[2] != k[0]) kept.push_back(k);
+  }
+  scene3d.vertices = std::move(merged);
+  scene3d.triangles = std::move(kept);
+}
+
+void add_surface(Scene3d& scene3d, const Environment& environment) {
+  const mesh::View& mesh = environment.mesh();
+  if (!environment.has_surface()) return;
+  Vec low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  scene3d.vertices = environment.tessellation().vertices;
+  scene3d.triangles = environment.tessellation().triangles;
+  if (environment.has_mesh())
+    for (const mesh::Vertex& v : mesh.vertices())
+      scene3d.vertices.push_back(
+          {static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)});
+  for (Vec& p : scene3d.vertices) {
+    p = p + environment.origin_m();
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  for (uint32_t i = 0; environment.has_mesh() && i < mesh.head().triangle_count; ++i) {
+    const mesh::Triangle<uint32_t> t = mesh.triangle(i);
+    scene3d.triangles.push_back({t.corner[0], t.corner[1], t.corner[2]});
+  }
+  scene3d.source_triangles = static_cast<uint32_t>(scene3d.triangles.size());
+  scene3d.centre = (low + high) * 0.5;
+  scene3d.radius_m = norm(high - low) / 2;
+  for (double cells = 300; scene3d.triangles.size() > kMaxShownTriangles; cells *= 0.8)
+    simplify(scene3d, low, 2 * scene3d.radius_m / cells);
+}
+
+// Ticks between two points of a path.
+size_t stride_of(const Trace& trace) {
+  return std::max<size_t>(1, trace.records.size() / kMaxPathPoints);
+}
+
+Path touch_path(const Environment& environment, const Trace& trace) {
+  Path path{"touch", "contact points, coloured by force", kTouchColour, 6.5, {}, {}};
+  double most = 1e-9;
+  for (const record::TickRecord& r : trace.records)
+    most = std::max(most, norm(narrow(r.output.force_N)));
+  for (size_t i = 0; i < trace.records.size(); i += stride_of(trace)) {
+    const record::TickOutput& out = trace.records[i].output;
+    const bool touches = (out.state & record::kStateContact) != 0 &&
+                         norm(narrow(out.force_N)) > kMinShownForce * most;
+    if (!touches && (path.points.empty() || std::isnan(path.points.back().x))) continue;
+    path.points.push_back(touches ? environment.nearest(narrow(out.position_m)).point_m
+                                  : Vec{kNone, 0, 0});
+    path.values.push_back(norm(narrow(out.force_N)) / most);
+  }
+  return path;
+}
+
+}  // namespace
+
+Colour heat(double share) {
+  // Amber to deep red: visible on grey in both themes.
+  constexpr double kStops[4][3] = {{255, 214, 102}, {250, 150, 50}, {226, 60, 40}, {140, 10, 50}};
+  const double at = std::clamp(share, 0.0, 1.0) * 3;
+  const size_t k = std::min<size_t>(2, static_cast<size_t>(at));
+  const double f = at - static_cast<double>(k);
+  const auto channel = [&](size_t c) {
+    return static_cast<uint8_t>(std::lround(kStops[k][c] + (kStops[k + 1][c] - kStops[k][c]) * f));
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+Scene3d make_scene3d(const Environment& environment, const Trace& trace, double tool_radius_m) {
+  Scene3d scene3d;
+  scene3d.tool_radius_m = tool_radius_m;
+  add_surface(scene3d, environment);
+  if (environment.has_guide())
+    scene3d.paths.push_back({"guide", "guide", kGuideColour, 2.4, environment.guide_m(), {}});
+  Path device{"device", "tool centre, true path", kDeviceColour, 2, {}, {}};
+  Path tool{"tool", "tool centre, from the encoders", {14, 165, 190}, 1.2, {}, {}};
+  Path hand{"hand", "target of the simulated hand", kHandColour, 1.4, {}, {}};
+  for (size_t i = trace.setup_ticks; i < trace.records.size(); i += stride_of(trace)) {
+    device.points.push_back(trace.device_m[i]);
+    tool.points.push_back(narrow(trace.records[i].output.position_m));
+    hand.points.push_back(trace.target_m[i]);
+  }
+  if (scene3d.triangles.empty() && !device.points.empty()) {
+    scene3d.centre = device.points.front();
+    for (const Vec& p : device.points)
+      scene3d.radius_m = std::max(scene3d.radius_m, norm(p - scene3d.centre));
+  }
+  scene3d.paths.push_back(std::move(hand));
+  scene3d.paths.push_back(std::move(device));
+  scene3d.paths.push_back(std::move(tool));
+  if (environment.has_surface()) scene3d.paths.push_back(touch_path(environment, trace));
+  return scene3d;
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,44 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host_sim/plant/environment.hpp"
+#include "host_sim/plant/vec.hpp"
+#include "host_sim/report/image.hpp"
+#include "host_sim/trace/run.hpp"
+
+namespace firmtouch::host_sim {
+
+/// A polyline of the 3D view. `values` (optional): one per point, 0 to 1, to colour it by force.
+struct Path {
+  std::string key;  // names its colour in the style sheet and its check box in the legend
+  std::string label;
+  Colour colour;
+  double width = 2;         // pixels
+  std::vector<Vec> points;  // NaN in x: the line is interrupted
+  std::vector<double> values;
+};
+
+/// Content of the 3D view: surface and paths, for the report's viewer and the drawn picture.
+struct Scene3d {
+  std::vector<Vec> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  uint32_t source_triangles = 0;  // before simplification for display
+  std::vector<Path> paths;
+  Vec centre;
+  double radius_m = 0.1;  // of the bounding sphere about `centre`
+  double tool_radius_m = 0;
+};
+
+Scene3d make_scene3d(const Environment& environment, const Trace& trace, double tool_radius_m);
+
+/// Colours a force from none (0) to the run's largest (1).
+Colour heat(double share);
+
+/// Draws the scene in the viewer's initial view: orthographic, z up, with depth test.
+/// The tool is drawn at `tool_m` if its x is finite.
+Image draw(const Scene3d& scene3d, uint32_t width, uint32_t height, Colour background, Vec tool_m);
+
+}  // namespace firmtouch::host_sim
