@@ -15,7 +15,7 @@ files == 1 {
   if (/warm queries/) model = /^the demo part:/ ? "demo part" : /rocker-arm/ ? "rocker-arm" : "other"
   if (/the whole controller program/) { board = $1; sub(/,$/, "", board) }
   if ($1 == "instructions" && $4 == "p99.9") measured[model] = "mean " commas($3) ", worst " commas($7)
-  if ($1 == "steps") measured[model " steps"] = "mean " $3 ", worst " $7
+  if ($1 == "steps" || $1 == "visits") measured[model " steps"] = "mean " $3 ", worst " $7
   if ($1 == "tick") measured["tick " $2] = "mean " commas($3) ", worst " commas($4)
   if ($1 == "flash") measured[board] = commas($2) " B, "
   if ($1 == "RAM") measured[board] = measured[board] commas($2) " B, "
@@ -26,7 +26,7 @@ files == 1 {
 !/^\|/ { next }
 {
   key = ""
-  if (/`tools\/bench\/cortex-m7`/) key = /^\| steps/ ? "demo part steps" : "demo part"
+  if (/`tools\/bench\/cortex-m7`/) key = /^\| (steps|visits)/ ? "demo part steps" : "demo part"
   if (/`tools\/bench\/cortex-m7 MODEL`/ && /rocker-arm/) key = "rocker-arm"
   if (/^\| a whole tick/) key = "tick mps2-an500"
   if (match($0, /`tools\/check\/image [a-z0-9-]+`/)) key = substr($0, RSTART + 19, RLENGTH - 20)

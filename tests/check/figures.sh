@@ -14,7 +14,7 @@ check() { awk -f "$here/figures.awk" "$table" README.md; }
 plant_wrong_number() {
   sed '/`tools\/bench\/cortex-m7` |$/s/worst [0-9,]*/worst 1,234/' README.md >new.md
   mv new.md README.md
-  expect='^\| demo part .*\| mean [0-9,]+, worst [0-9,]+ \| `tools/bench/cortex-m7` \|$'
+  expect='^\| query with sign .*\| mean [0-9,]+, worst [0-9,]+ \| `tools/bench/cortex-m7` \|$'
 }
 plant_wrong_flash() {
   sed '/`tools\/check\/image netduinoplus2`/s/| [0-9,]* B,/| 12,345 B,/' README.md >new.md
