@@ -67,18 +67,7 @@ BenchNamesAPeerThatFails() {
   unset TMPDIR
 }
 
-BenchComparesQueryOrders() {
-  f make part --triangles 2000 -o part.obj
-  f bench orders part.obj
-  exits 0
-  same "$(printf '%s\n' "$out" | grep -cE '^  (16-bit AABB|float AABB|4-wide 16-bit|oriented) ')" 96
-}
-
-BenchFillsAGridAsThePaperDid() {
-  f make part --triangles 2000 -o part.obj
-  f bench grid part.obj --json
-  exits 0
-  well_formed
-  printf '%s\n' "$out" | grep -qF '"what": "sides that the firmware tells otherwise", "model": "part", "value": 0' || fail "$out"
-  printf '%s\n' "$out" | grep -qF '"grid, oriented / aligned, with signs"' || fail "$out"
+BenchNamesTheLabForItsTrials() {
+  f bench orders part.obj; exits 2; told "'orders' is now run as \`firmtouch-lab orders\`" FIRMTOUCH_LAB
+  same "$out" ''
 }

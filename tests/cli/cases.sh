@@ -204,6 +204,14 @@ EveryBakeTellsTheSameDistances() {
   f bake p.obj -o a.fta --fast --bounded; exits 2; told contradict; absent a.fta
 }
 
+AFormerOptionNameIsAcceptedWithANote() {
+  f make part --triangles 2000 -o p.obj; exits 0
+  bake p.obj -o now.fta --bounded
+  bake p.obj -o former.fta --steady; told '--steady is called --bounded now'
+  cmp -s now.fta former.fta || fail 'the former name bakes other bytes'
+  f bake p.obj -o a.fta --steady --bounded; exits 2; told '--bounded is given twice'; absent a.fta
+}
+
 TheUnitScalesTheModel() {
   box >box.obj
   bake box.obj -o a.fta --unit cm

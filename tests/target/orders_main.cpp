@@ -1,14 +1,14 @@
-// How many instructions the query orders of `firmtouch bench orders` take: `orders WALK.csv` on the emulator's
+// How many instructions the query orders of `firmtouch-lab orders` take: `orders WALK.csv` on the emulator's
 // command line. Builds the trees in the memory behind the board's asset, asks every 64th row, each on its own, and prints a row a combination:  BOXES | ORDER | UPPER | MEAN INSTRUCTIONS | WORST
 // tools/bench/cortex-m7 --orders runs it.
 #include <stdint.h>
 
-#include "bench/orders/build.hpp"
-#include "bench/orders/names.hpp"
 #include "cortex-m/semihosting.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
+#include "lab/orders/build.hpp"
+#include "lab/orders/names.hpp"
 #include "target/csv_points.hpp"
 #include "target/scene_views.hpp"
 #include "target/text.hpp"
@@ -17,7 +17,7 @@ namespace core = firmtouch::core;
 namespace hal = firmtouch::hal;
 namespace math = firmtouch::math;
 namespace mesh = firmtouch::mesh;
-namespace orders = firmtouch::bench::orders;
+namespace orders = firmtouch::lab::orders;
 namespace target = firmtouch::target;
 
 namespace {

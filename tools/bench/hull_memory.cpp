@@ -1,11 +1,9 @@
 #include "bench/hull_memory.hpp"
 
 #include "bench/segments.hpp"
-#include "bench/timing.hpp"
 #include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
-#include "hull/refinement.hpp"
 
 namespace firmtouch::bench {
 
@@ -119,51 +117,6 @@ void run_base_hulls(const Model& model, const Baked& baked, Report& report) {
   report.table({"shell, faces", "bytes", "boxes a segment", "free segments that read flash, %",
                 "mean depth error, % of the diagonal", "late"},
                rows);
-}
-
-void run_keeping(const Model& model, Report& report) {
-  report.stage("keeping between queries, " + model.name);
-  tools::HullReport ignored;
-  tools::HullOptions options;
-  options.target_faces = 1000;
-  const tools::ProgressiveHull built = tools::build_hull(model.surface, options, ignored);
-  const std::vector<FloatSegment> segments = across_box(model, 2000, 7);
-  // Rays side by side, as a scan casts them.
-  std::vector<FloatSegment> scan = segments;
-  for (size_t i = 0; i < scan.size(); ++i) {
-    const FloatSegment& from = segments[i / 20];
-    const float shift = 0.0005f * model.view.head().diagonal_m * static_cast<float>(i % 20);
-    scan[i] = {{from.a_m.x + shift, from.a_m.y, from.a_m.z},
-               {from.b_m.x + shift, from.b_m.y, from.b_m.z}};
-  }
-  std::vector<std::vector<std::string>> rows;
-  constexpr uint32_t kCoarsened = 0;
-  for (const uint32_t keep : {1u, 2u, 5u, 20u, kCoarsened}) {
-    std::vector<std::string> row{keep == kCoarsened ? "coarsened where not crossed"
-                                                    : std::to_string(keep)};
-    for (const auto* all :
-         std::initializer_list<const std::vector<FloatSegment>*>{&segments, &scan}) {
-      tools::Refinement refinement(built, 1000);
-      refinement.keep_for(keep);
-      refinement.coarsen_between(keep == kCoarsened);
-      tools::RefinementCounts counts;
-      const auto pass = [&] {
-        double sum = 0;
-        for (const FloatSegment& s : *all)
-          sum += static_cast<double>(
-              refinement.hits({tools::to_point(s.a_m), tools::to_point(s.b_m)}, counts).size());
-        return sum;
-      };
-      (void)pass();
-      row.push_back(number_text(static_cast<double>(counts.tests) / 2000));
-      row.push_back(number_text(static_cast<double>(counts.splits) / 2000));
-      row.push_back(number_text(medians_us({timed(all->size(), pass, Clock::kProcessor)})[0]));
-    }
-    rows.push_back(row);
-  }
-  report.table(
-      {"kept for queries", "random: tests", "splits", "us", "side by side: tests", "splits", "us"},
-      rows);
 }
 
 }  // namespace firmtouch::bench

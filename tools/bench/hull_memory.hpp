@@ -8,7 +8,5 @@ namespace firmtouch::bench {
 void run_memory(const Model& model, const Baked& baked, Report& report);
 /// Shells, what they are for: a segment that misses one reads nothing else.
 void run_base_hulls(const Model& model, const Baked& baked, Report& report);
-/// Between two queries: undone at once, or kept for some.
-void run_keeping(const Model& model, Report& report);
 
 }  // namespace firmtouch::bench

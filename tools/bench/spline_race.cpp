@@ -1,4 +1,4 @@
-#include "bench/spline_race.hpp"
+#include "bench/all_benches.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -153,7 +153,7 @@ void race(const char* what, const Spline& spline, const std::vector<Point>& path
 
 }  // namespace
 
-void race_splines(const Options& options, Report& report) {
+void run_spline_race(const Options& options, Report& report) {
   const Peer peer(options.peer);
   report.heading("against another library's global routine");
   race("planar cubic", tools::winding_curve(1, 15, true, false),

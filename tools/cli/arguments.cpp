@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "cli/failure.hpp"
 
@@ -18,6 +19,25 @@ const Option* find(const Command& command, const std::string& name) {
   return nullptr;
 }
 
+// Former names of options: accepted in this version and dropped in the next one.
+struct RenamedOption {
+  const char* command;
+  const char* former;
+  const char* name;
+};
+constexpr RenamedOption kRenamed[] = {{"bake", "--steady", "--bounded"}};
+
+std::string current_name(const std::string& command, const std::string& given) {
+  for (const RenamedOption& renamed : kRenamed) {
+    if (command != renamed.command || given != renamed.former) continue;
+    std::fprintf(stderr,
+                 "firmtouch: %s: %s is called %s now; the former name goes with the next version\n",
+                 renamed.command, renamed.former, renamed.name);
+    return renamed.name;
+  }
+  return given;
+}
+
 bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "-"; }
 
 template <class Number>
@@ -29,7 +49,8 @@ bool parse(const std::string& text, Number& value) {
 }  // namespace
 
 Arguments::Arguments(const Command& command, const std::vector<std::string>& words)
-    : command_(command.name) {
+    : command_(command.name[0] != 0 ? std::string(command.name) + ": " : ""),
+      full_name_(command.full_name()) {
   for (const std::string& word : words) {
     if (word == "--help" || word == "-h") wants_help_ = true;
   }
@@ -40,7 +61,7 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
       continue;
     }
     const size_t equals = words[i].find('=');
-    const std::string name = words[i].substr(0, equals);
+    const std::string name = current_name(command.name, words[i].substr(0, equals));
     const Option* option = find(command, name);
     if (option == nullptr) refuse("unknown option " + name);
     if (option->help == nullptr)
@@ -65,7 +86,7 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
 }
 
 void Arguments::refuse(const std::string& what) const {
-  fail_usage(command_ + ": " + what + " (see firmtouch " + command_ + " --help)");
+  fail_usage(command_ + what + " (see " + full_name_ + " --help)");
 }
 
 std::string Arguments::text(const std::string& option, const std::string& otherwise) const {
@@ -103,9 +124,13 @@ std::string Arguments::choice(const std::string& option, const std::string& othe
   refuse(option + " " + value + ": one of " + listed + " is needed");
 }
 
+std::string Command::full_name() const {
+  return name[0] == 0 ? program : std::string(program) + " " + name;
+}
+
 std::string help_of(const Command& command) {
-  std::string text = std::string("usage: firmtouch ") + command.name + " " + command.usage + "\n" +
-                     command.summary + "\n";
+  std::string text =
+      "usage: " + command.full_name() + " " + command.usage + "\n" + command.summary + "\n";
   if (command.details[0] != 0) text += std::string("\n") + command.details + "\n";
   text += "\noptions\n";
   std::string later;

@@ -23,10 +23,14 @@ struct Command {
   std::vector<Option> options;
   size_t min_positionals;
   size_t max_positionals;
+  const char* program = "firmtouch";
+
+  /// "firmtouch bake", or the program alone where it has no commands (`name` is "").
+  std::string full_name() const;
 };
 
 /// The words after a command's name, sorted into options and the rest. Takes `--name value` and
-/// `--name=value`.
+/// `--name=value`. An option's former name is accepted for one version, with a note on stderr.
 class Arguments {
  public:
   /// Fails (usage) on an unknown, repeated or not yet available option, a missing value, or too few
@@ -49,7 +53,7 @@ class Arguments {
  private:
   [[noreturn]] void refuse(const std::string& what) const;
 
-  std::string command_;
+  std::string command_, full_name_;
   std::map<std::string, std::string> values_;
   std::vector<std::string> positionals_;
   bool wants_help_ = false;

@@ -1,11 +1,10 @@
 #include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
+#include "cli/program.hpp"
 #include "cli/version.hpp"
 
 namespace firmtouch::cli {
@@ -63,23 +62,5 @@ int run(const std::vector<std::string>& words) {
 }  // namespace firmtouch::cli
 
 int main(int argc, char** argv) {
-  using namespace firmtouch::cli;
-  try {
-    const int code = run({argv + 1, argv + argc});
-    // A full disk or a closed pipe must not pass for success.
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-    std::fputs("firmtouch: standard output: cannot be written\n", stderr);
-    return kBadInput;
-  } catch (const Failure& failure) {
-    std::fprintf(stderr, "firmtouch: %s\n", failure.message.c_str());
-    return failure.exit_code;
-  } catch (const std::bad_alloc&) {
-    std::fputs(
-        "firmtouch: not enough memory for this input; bake fewer or smaller inputs at once\n",
-        stderr);
-    return kBadInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "firmtouch: %s\n", error.what());
-    return kBadInput;
-  }
+  return firmtouch::cli::run_program("firmtouch", firmtouch::cli::run, argc, argv);
 }

@@ -1,0 +1,96 @@
+#include "cli/run_benches.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "bake/asset/json_text.hpp"
+#include "bench/problem.hpp"
+#include "cli/failure.hpp"
+#include "cli/progress.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+using Benches = std::vector<bench::Bench>;
+
+constexpr size_t kNameWidth = 20;
+
+std::string list_text(const Benches& all) {
+  std::string text;
+  for (const bench::Bench& each : all) {
+    std::string line = std::string("  ") + each.name;
+    line.resize(std::max(line.size() + 2, kNameWidth), ' ');
+    text += line + each.summary + "\n";
+  }
+  return text;
+}
+
+std::string head_json(const bench::Bench& each) {
+  return "{\"name\": " + tools::json_text(each.name) +
+         ", \"summary\": " + tools::json_text(each.summary);
+}
+
+int list_benches(const Benches& all, bool is_json) {
+  if (!is_json) {
+    std::fputs(list_text(all).c_str(), stdout);
+    return kDone;
+  }
+  std::string text;
+  for (const bench::Bench& each : all)
+    text += (text.empty() ? "\n  " : ",\n  ") + head_json(each) + "}";
+  std::printf("{\"benches\": [%s\n]}\n", text.c_str());
+  return kDone;
+}
+
+Benches chosen(const Benches& all, const std::string& name) {
+  if (name == "all") return all;
+  for (const bench::Bench& each : all)
+    if (name == each.name) return {each};
+  fail_usage("bench: '" + name + "' is no bench; there are\n" + list_text(all));
+}
+
+bench::Report report_of(const bench::Bench& each, const bench::Options& options) {
+  bench::Report report;
+  Progress progress(0);
+  report.on_stage = [&](const std::string& what) { progress.stage(what); };
+  try {
+    each.run(options, report);
+  } catch (const bench::Problem& problem) {
+    fail_input(std::string("bench ") + each.name + ": " + problem.what());
+  }
+  report.on_stage = nullptr;
+  return report;
+}
+
+}  // namespace
+
+int run_benches(const std::vector<bench::Bench>& all, const Arguments& arguments) {
+  const std::vector<std::string>& words = arguments.positionals();
+  const bool is_json = arguments.has("--json");
+  if (words.empty()) return list_benches(all, is_json);
+  bench::Options options;
+  options.models.assign(words.begin() + 1, words.end());
+  options.peer = arguments.text("--peer", "");
+  options.figures = arguments.text("--figures", "");
+  options.is_long = arguments.has("--long");
+  size_t not_met = 0;
+  std::string text;
+  for (const bench::Bench& each : chosen(all, words[0])) {
+    const bench::Report report = report_of(each, options);
+    not_met += report.bars_not_met();
+    if (is_json) {
+      text += (text.empty() ? "\n  " : ",\n  ") + head_json(each) + ",\n   " +
+              bench::to_json_members(report) + "}";
+    } else {
+      std::fputs(bench::to_text(report).c_str(), stdout);
+    }
+  }
+  if (is_json) std::printf("{\"benches\": [%s\n]}\n", text.c_str());
+  if (not_met == 0 || !arguments.has("--bar")) return kDone;
+  std::fflush(stdout);
+  std::fprintf(stderr, "firmtouch: bench: %zu %s not met\n", not_met,
+               not_met == 1 ? "bar" : "bars");
+  return kAnswerIsNo;
+}
+
+}  // namespace firmtouch::cli
