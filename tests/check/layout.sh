@@ -15,9 +15,25 @@ check() {
       *) complain "$entry/: the top level has only firmware, hal, host_sim, tests and tools" ;;
     esac
   done
-  for file in CMakeLists.txt CMakePresets.json LICENSE README.md DESIGN.md tools/demo tools/test .ci/run \
+  for file in CMakeLists.txt CMakePresets.json LICENSE README.md DESIGN.md SAFETY.md VERIFICATION.md tools/demo tools/test .ci/run \
     tools/FORMAT.md hal/PORTING.md .clang-format .clang-tidy; do
     [ -e "$file" ] || complain "$file is missing"
+  done
+  # Pages: their largest size in bytes; a module's page has at least 3,000.
+  while read -r most page; do
+    bytes=$(wc -c <"$page" 2>/dev/null) || { complain "$page is missing"; continue; }
+    [ "$bytes" -le "$most" ] || complain "$page: $bytes bytes; $most is the most: say less, or say it in a module's README.md"
+  done <<EOF
+8000 README.md
+20000 DESIGN.md
+8000 SAFETY.md
+20000 VERIFICATION.md
+EOF
+  for module in firmware/firmtouch/*/; do
+    case $module in */arch/) continue ;; esac
+    page=${module}README.md
+    bytes=$(wc -c <"$page" 2>/dev/null) || { complain "$page is missing: figure, algorithm, errors, cost, how to change it"; continue; }
+    [ "$bytes" -le 10000 ] && [ "$bytes" -ge 3000 ] || complain "$page: $bytes bytes; 3,000 to 10,000 are a page"
   done
   for file in tools/demo tools/test .ci/run; do
     [ ! -e "$file" ] || [ -x "$file" ] || complain "$file is not executable: chmod +x"
@@ -100,4 +116,12 @@ plant_blanks() {
 plant_script_nobody_can_run() {
   chmod -x tools/test
   expect='tools/test is not executable'
+}
+plant_long_page() {
+  yes 'One more sentence.' | head -n 500 >>SAFETY.md
+  expect='^SAFETY.md: [0-9]* bytes; 8000 is the most'
+}
+plant_module_without_a_page() {
+  rm firmware/firmtouch/mesh/README.md
+  expect='^firmware/firmtouch/mesh/README.md is missing'
 }
