@@ -33,8 +33,8 @@ Environment::Environment(const mesh::View& mesh, const spline::View& surface,
 
 Environment::Surface Environment::nearest(Vec from_m) const {
   const Vec in_mesh = from_m - origin_m_;
-  query::Hint cold;
   if (!mesh_.is_open()) {
+    spline::CurveHint cold;
     const spline::Closest found =
         spline::closest_point(surface_,
                               {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y),
@@ -47,6 +47,7 @@ Environment::Surface Environment::nearest(Vec from_m) const {
     return {wide(found.point_m) + origin_m_, normal,
             dot(off, normal) < 0 ? -distance_m : distance_m};
   }
+  mesh::Hint cold;
   const mesh::Closest found = mesh::closest_point(
       mesh_,
       {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y), static_cast<float>(in_mesh.z)},

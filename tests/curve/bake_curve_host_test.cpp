@@ -81,7 +81,7 @@ TEST(TwoHundredThousandSamplesBakeInHalfASecondAndStayExact) {
   std::printf("      200,000 samples baked and opened in %.2f s\n", seconds);
   CHECK(baked.report.problem.empty());
   CHECK_LE(seconds, 5.0);
-  query::Hint warm;
+  curve::Hint warm;
   for (const math::Vec3& p : curve_test::queries(baked.samples, 40, 13)) {
     const double truth = curve_test::brute_distance(baked.samples, p);
     const curve::Closest found = closest_point(baked.view, p, query::kUnlimited, warm);

@@ -61,10 +61,10 @@ TEST(ExactOnHardCurvesColdAndWarm) {
     const Baked baked(named.points);
     CHECK(baked.report.problem.empty());
     test::note(named.name.c_str(), 0);
-    query::Hint warm;
+    curve::Hint warm;
     for (const math::Vec3& p : curve_test::queries(baked.samples, kQueries, 17)) {
       const double truth = curve_test::brute_distance(baked.samples, p);
-      query::Hint cold;
+      curve::Hint cold;
       const curve::Closest alone = closest_point(baked.view, p, query::kUnlimited, cold);
       const curve::Closest next = closest_point(baked.view, p, query::kUnlimited, warm);
       CHECK(alone.certificate.exact && next.certificate.exact);
@@ -81,15 +81,15 @@ TEST(EveryBudgetBracketsTheTruthColdAndWarmAndNeverWidens) {
   for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {
     const Baked baked(named.points);
     test::note(named.name.c_str(), 0);
-    query::Hint warm[7];
-    query::Hint before;  // the same for every budget: warm gaps can be compared
+    curve::Hint warm[7];
+    curve::Hint before;  // the same for every budget: warm gaps can be compared
     for (const math::Vec3& p : curve_test::queries(baked.samples, kQueries / 5, 23)) {
       const double truth = curve_test::brute_distance(baked.samples, p);
       Judged judged;
       float cold_gap_m = HUGE_VALF, warm_gap_m = HUGE_VALF;
-      query::Hint after;
+      curve::Hint after;
       for (uint32_t b = 0; b < 7; ++b) {
-        query::Hint cold, same = before;
+        curve::Hint cold, same = before;
         const curve::Closest alone = closest_point(baked.view, p, {budgets[b]}, cold);
         const curve::Closest one = closest_point(baked.view, p, {budgets[b]}, same);
         judge(baked, p, truth, alone, judged);
@@ -116,7 +116,7 @@ TEST(SixtyFourStepsKnowMostOfTheDistance) {
     for (uint32_t i = 0; i < 1000; ++i) {
       const double x = next(), y = next(), z = next();
       const math::Vec3 p = curve_test::point(x, y, z);
-      query::Hint cold, whole;
+      curve::Hint cold, whole;
       const curve::Closest quick = closest_point(baked.view, p, {64}, cold);
       const curve::Closest exact = closest_point(baked.view, p, query::kUnlimited, whole);
       parts.push_back(double{quick.certificate.lower_m} / double{exact.distance_m});

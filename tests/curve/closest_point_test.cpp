@@ -11,13 +11,13 @@ namespace {
 
 using firmtouch::curve::Closest;
 using firmtouch::curve::closest_point;
+using firmtouch::curve::Hint;
 using firmtouch::curve::Sample;
 using firmtouch::curve::View;
 using firmtouch::curve_test::LongCurve;
 using firmtouch::curve_test::SmallCurve;
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
-using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
 
 constexpr Sample kCorner[] = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}};
@@ -217,7 +217,7 @@ TEST(AForeignHintCostsStepsAndNothingElse) {
   const uint32_t places[] = {0u, 62u, 63u, 64u, 0x7FFFFFFFu, 0xFFFFFFFEu};
   for (const uint32_t place : places) {
     Hint hint;
-    hint.place = place;
+    hint.segment = place;
     const Closest found = closest_point(c.view(), p, kUnlimited, hint);
     CHECK_LE(found.distance_m, fresh.distance_m * (1 + 1e-6f));
     CHECK_GE(found.distance_m, fresh.distance_m * (1 - 1e-6f));
@@ -258,7 +258,7 @@ TEST(OneHashOfAWalkThatStopsEarlyOnEveryTarget) {
     c.derive_runs();
     Random random(9);
     Vec3 at_m = {c.samples[100].x_m, c.samples[100].y_m, c.samples[100].z_m};
-    firmtouch::query::Hint hint;
+    firmtouch::curve::Hint hint;
     for (firmtouch::query::ProbePoint& p : points) {
       at_m.x += random.between(-0.001f, 0.001f);
       at_m.y += random.between(-0.001f, 0.001f);

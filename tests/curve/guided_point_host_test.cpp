@@ -107,7 +107,7 @@ TEST(TheLeastCostOfAllSegmentsOnHardCurves) {
     const Baked baked(named.points);
     test::note(named.name.c_str(), 0);
     std::mt19937 random(3);
-    query::Hint warm;
+    curve::Hint warm;
     float last_arc = 0.5f;
     const auto places = curve_test::queries(baked.samples, queries_a_curve(), 29);
     for (size_t i = 0; i < places.size(); ++i) {
@@ -116,7 +116,7 @@ TEST(TheLeastCostOfAllSegmentsOnHardCurves) {
       penalty.previous_arc =
           i % 3 == 0 ? static_cast<float>(curve_test::uniform(random)) : last_arc;
       penalty.has_previous = true;
-      query::Hint cold;
+      curve::Hint cold;
       const auto alone = guided_point(baked.view, places[i], penalty, query::kUnlimited, cold);
       const auto next = guided_point(baked.view, places[i], penalty, query::kUnlimited, warm);
       CHECK(alone.closest.certificate.exact && next.closest.certificate.exact);
@@ -131,11 +131,11 @@ TEST(EveryBudgetBracketsTheCost) {
   for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {
     const Baked baked(named.points);
     test::note(named.name.c_str(), 0);
-    query::Hint warm;
+    curve::Hint warm;
     for (const math::Vec3& p : curve_test::queries(baked.samples, 100, 31)) {
       for (const uint32_t steps : {1u, 2u, 4u, 8u, 16u, 64u}) {
         const curve::ArcPenalty penalty{baked.view.head().diagonal_m, 0.3f, true};
-        query::Hint cold;
+        curve::Hint cold;
         const auto alone = guided_point(baked.view, p, penalty, {steps}, cold);
         CHECK_LE(alone.closest.certificate.steps, steps);
         judge(baked, p, penalty, alone);
@@ -147,7 +147,7 @@ TEST(EveryBudgetBracketsTheCost) {
 
 TEST(WithoutAPenaltyItIsTheClosestPointBitForBit) {
   const Baked baked(curve_test::knot(1000, 6, 1));
-  query::Hint plain, stale, fresh;
+  curve::Hint plain, stale, fresh;
   for (const math::Vec3& p : curve_test::queries(baked.samples, 500, 37)) {
     const auto wanted = closest_point(baked.view, p, query::kUnlimited, plain);
     const auto at_zero = guided_point(baked.view, p, {0.0f, 0.7f, true}, query::kUnlimited, stale);

@@ -14,13 +14,13 @@ using firmtouch::curve::Constraint;
 using firmtouch::curve::Followed;
 using firmtouch::curve::Following;
 using firmtouch::curve::guided_point;
+using firmtouch::curve::Hint;
 using firmtouch::curve::Hold;
 using firmtouch::curve::Sample;
 using firmtouch::curve::View;
 using firmtouch::curve_test::LongCurve;
 using firmtouch::curve_test::SmallCurve;
 using firmtouch::math::Vec3;
-using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
 
 // The published figure 2: vertex 4 lies on the way from vertex 1 to vertex 2.

@@ -100,7 +100,7 @@ TEST(TenNearestSamplesMissWhereSpacingVariesAndTheExactWayDoesNot) {
   uint32_t missed = 0, wrong = 0;
   const auto points = curve_test::queries(baked.samples, 1000, 37);
   for (const math::Vec3& p : points) {
-    query::Hint cold;
+    curve::Hint cold;
     const float exact = closest_point(baked.view, p, query::kUnlimited, cold).distance_m;
     const float nearest =
         nearest_constraint(baked.view, p, {}, {memory, 10}, query::kUnlimited).closest.distance_m;

@@ -10,13 +10,13 @@ using firmtouch::core::Span;
 using firmtouch::curve::ArcPenalty;
 using firmtouch::curve::closest_point;
 using firmtouch::curve::Constraint;
+using firmtouch::curve::Hint;
 using firmtouch::curve::nearest_constraint;
 using firmtouch::curve::Neighbour;
 using firmtouch::curve::Sample;
 using firmtouch::curve::View;
 using firmtouch::curve_test::SmallCurve;
 using firmtouch::math::Vec3;
-using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
 
 // Figures 1 and 2: a long segment from vertex 1 to 2 (here samples 1 and 2), and the curve coming

@@ -380,7 +380,7 @@ TEST(AnyFlippedBitIsRefusedByARuleOrLeavesAQueryWithinBounds) {
       }
       ++kept;
       byte = flipped;
-      firmtouch::query::Hint hint;
+      firmtouch::curve::Hint hint;
       const firmtouch::curve::Closest found =
           firmtouch::curve::closest_point(view, {0.3f, -0.2f, 0.1f}, {6}, hint);
       byte = before;

@@ -48,7 +48,7 @@ TEST(WhatWasCertifiedBeforeNeverHidesANearerPoint) {
       CHECK(baked.report.problem.empty());
       test::note(named.name.c_str(), levels);
       Walker walker{std::mt19937(levels), baked.samples[0]};
-      query::Hint hint, rested;
+      curve::Hint hint, rested;
       for (uint32_t i = 0; i < kSteps; ++i) {
         walker.step(baked);
         const math::Vec3 p = walker.at_m;
@@ -61,7 +61,7 @@ TEST(WhatWasCertifiedBeforeNeverHidesANearerPoint) {
         CHECK_LE(double{found.certificate.lower_m}, truth * (1 + 1e-15));
         CHECK_GE(double{found.certificate.lower_m}, truth - kPromise * scale);
         ++queries;
-        query::Hint without = hint;
+        curve::Hint without = hint;
         without.safe_subtree = query::kNowhere;
         without.position_m = p;
         if (had_safe_subtree &&

@@ -139,10 +139,10 @@ TEST(TheClosestPointOfCubicPiecesIsThatOfAJudgeThatLooksEverywhere) {
     const Baked baked(named.points, true);
     const Judge judge(baked);
     test::note(named.name.c_str(), 0);
-    query::Hint warm;
+    curve::Hint warm;
     for (const math::Vec3& p : curve_test::queries(baked.samples, queries_a_curve(), 41)) {
       const double truth = judge.distance(p);
-      query::Hint cold;
+      curve::Hint cold;
       const auto alone = closest_point(baked.view, p, query::kUnlimited, cold);
       const auto next = closest_point(baked.view, p, query::kUnlimited, warm);
       for (const curve::Closest& found : {alone, next}) {
@@ -173,12 +173,12 @@ TEST(EveryBudgetOfASmoothCurveIsCertified) {
     const Baked baked(named.points, true);
     const Judge judge(baked);
     test::note(named.name.c_str(), 0);
-    query::Hint warm;
+    curve::Hint warm;
     for (const math::Vec3& p : curve_test::queries(baked.samples, 24, 43)) {
       const double truth = judge.distance(p);
       for (const uint32_t steps : {1u, 3u, 9u}) {
         const curve::ArcPenalty penalty{0.1f * baked.view.head().diagonal_m, 0.4f, true};
-        query::Hint cold, held;
+        curve::Hint cold, held;
         const auto found = closest_point(baked.view, p, {steps}, cold);
         const auto next = closest_point(baked.view, p, {steps}, warm);
         const auto guided = guided_point(baked.view, p, penalty, {steps}, held);
@@ -226,7 +226,7 @@ TEST(AGuideOfCubicPiecesHasNoCornersAndOneOfStraightPiecesHas) {
 
 TEST(TheTangentDoesNotTurnAtASample) {
   const Baked baked(ring(40), true);
-  query::Hint hint;
+  curve::Hint hint;
   for (uint32_t i = 1; i + 1 < baked.samples.size(); ++i) {
     const Judge judge(baked);
     const Wide a = judge.at(i - 1, 0.9999), b = judge.at(i, 0.0001);

@@ -29,7 +29,7 @@ float coordinate(uint32_t& state, float reach) {
 
 TEST(InFreeSpaceTheMeshIsNotAskedAndNearItTheAnswerIsTheMeshs) {
   const Opened o;
-  query::Hint hint, alone;
+  mesh::Hint hint, alone;
   uint32_t state = 5, far = 0, near = 0, inside = 0;
   Vec3 p{1.3f, 0.2f, 0.1f};
   for (uint32_t i = 0; i < 4000; ++i) {
@@ -66,7 +66,7 @@ TEST(WhereTheBudgetEndsTheSearchTheMapsBoundAndSideStandInForIt) {
   uint32_t state = 7, raised = 0, reported = 0;
   for (uint32_t i = 0; i < 2000; ++i) {
     const Vec3 p{coordinate(state, 1.4f), coordinate(state, 1.4f), coordinate(state, 1.4f)};
-    query::Hint hint, alone;
+    mesh::Hint hint, alone;
     const mesh::Closest truth = mesh::closest_point(o.mesh, p, query::kUnlimited, alone);
     alone = {};
     const mesh::Closest cut = mesh::closest_point(o.mesh, p, {1}, alone);
@@ -89,7 +89,7 @@ TEST(WhereTheBudgetEndsTheSearchTheMapsBoundAndSideStandInForIt) {
 TEST(AfterAJumpTheSearchStartsAtTheSeed) {
   const Opened o;
   uint32_t state = 11, fewer = 0;
-  query::Hint hint, alone;
+  mesh::Hint hint, alone;
   for (uint32_t i = 0; i < 500; ++i) {
     const Vec3 p{coordinate(state, 1.2f), coordinate(state, 1.2f), coordinate(state, 1.2f)};
     const field::Felt felt =
@@ -103,7 +103,7 @@ TEST(AfterAJumpTheSearchStartsAtTheSeed) {
 
 TEST(HostilePointsAreAnsweredByMapAndMesh) {
   const Opened o;
-  query::Hint hint;
+  mesh::Hint hint;
   const float bads[] = {
       __builtin_nanf(""), __builtin_inff(), -__builtin_inff(), 1e30f, FLT_MAX, 1e-42f};
   for (uint32_t round = 0; round < 3; ++round) {
@@ -123,7 +123,7 @@ TEST(HostilePointsAreAnsweredByMapAndMesh) {
 TEST(AnswersByMapAndMeshHaveOneHashEverywhere) {
   const Opened o;
   core::Hash hash;
-  query::Hint hint;
+  mesh::Hint hint;
   uint32_t state = 13;
   Vec3 p{1.3f, 0.2f, 0.1f};
   for (uint32_t i = 0; i < 2000; ++i) {

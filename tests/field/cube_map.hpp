@@ -21,12 +21,12 @@ struct CubeField {
     head.cell_m = 0.34375f;
     head.quantum_m = 0x1p-12f;
     const mesh::View view = cube.view();
-    query::Hint hint;
+    mesh::Hint hint;
     for (uint32_t i = 0; i < kCells; ++i) {
       const mesh::Closest c = mesh::closest_point(view, centre_of(i), query::kUnlimited, hint);
       const int32_t quanta = static_cast<int32_t>(c.certificate.lower_m / head.quantum_m);
       words[i] = static_cast<int16_t>(c.certificate.sign < 0 ? -1 - quanta : quanta);
-      seeds[i] = hint.place;
+      seeds[i] = hint.leaf_slot;
     }
   }
   math::Vec3 centre_of(uint32_t i) const {

@@ -53,7 +53,7 @@ void check_certificate(const query::Certificate& certificate, uint32_t budget, b
 }
 
 void feel_mesh(const mesh::View& view) {
-  query::Hint warm;
+  mesh::Hint warm;
   for (const uint32_t budget : kBudgets) {
     for (const Vec3 p : kPoints) {
       const mesh::Closest closest = mesh::closest_point(view, p, {budget}, warm);
@@ -82,7 +82,7 @@ void check_curve_answer(const curve::View& view, const curve::Closest& closest, 
 }
 
 void feel_curve(const curve::View& view) {
-  query::Hint warm;
+  curve::Hint warm;
   curve::Neighbour memory[3];
   for (const uint32_t budget : kBudgets) {
     for (const Vec3 p : kPoints) {
@@ -96,7 +96,7 @@ void feel_curve(const curve::View& view) {
 }
 
 void feel_field(const field::View& distance_field, const mesh::View& mesh) {
-  query::Hint hint;
+  mesh::Hint hint;
   for (const Vec3 p : kPoints) {
     const field::Bounds bounds = field::distance_bounds(distance_field, p);
     CHECK(is_finite(bounds.lower_m) && bounds.lower_m >= 0);

@@ -41,7 +41,7 @@ TEST(RaysPseudonormalsAndTheFirmwareTellTheSameSides) {
   std::vector<orders::Pending> waiting(orders::kQueueBoxes + orders::kStackBoxes);
   size_t inside_count = 0;
   for (const math::Vec3& p_m : voxels(part(), 12)) {
-    query::Hint hint;
+    mesh::Hint hint;
     const bool inside =
         mesh::closest_point(part().view, p_m, query::kUnlimited, hint).certificate.sign < 0;
     inside_count += inside;

@@ -137,7 +137,7 @@ TEST(TheFirmwareTellsOutsideOnEveryFigure) {
   for (const lab::PaperFigure& figure : lab::paper_figures()) {
     const bench::Model model =
         bench::model_of(figure.surface, figure.name, "", bench::Sides::kSigned);
-    query::Hint hint;
+    mesh::Hint hint;
     const mesh::Closest c =
         mesh::closest_point(model.view, tools::to_vec3(figure.query), query::kUnlimited, hint);
     CHECK_EQ(c.certificate.sign, 1);

@@ -38,12 +38,12 @@ TEST(WithinTheBandExactBeyondItCertified) {
   uint32_t inside_band = 0;
   const std::vector<Vec3> queries = hard_queries(part().surface, 600, 3);
   for (const double share : {0.0, 0.002, 0.02, 0.3}) {
-    query::Hint warm;
+    mesh::Hint warm;
     for (const Vec3 p : queries) {
       const Truth truth = brute_force(part().surface, wide(p));
       query::Budget budget;
       budget.band_m = static_cast<float>(share * size);
-      query::Hint cold;
+      mesh::Hint cold;
       check_band(mesh::closest_point(part().view, p, budget, cold), truth, size, share * size);
       check_band(mesh::closest_point(part().view, p, budget, warm), truth, size, share * size);
       inside_band += truth.distance < share * size ? 1u : 0u;
@@ -58,7 +58,7 @@ TEST(FarAwayABandCostsLittle) {
   budget.band_m = static_cast<float>(0.01 * size);
   for (const Vec3 p : hard_queries(part().surface, 200, 4)) {
     if (brute_force(part().surface, wide(p)).distance < 0.2 * size) continue;
-    query::Hint hint;
+    mesh::Hint hint;
     CHECK_LE(mesh::closest_point(part().view, p, budget, hint).certificate.steps, 40u);
   }
 }
@@ -68,14 +68,14 @@ TEST(NoNumberForABandIsNone) {
   for (const float band_m : {std::nanf(""), -1.0f, 0.0f}) {
     query::Budget budget;
     budget.band_m = band_m;
-    query::Hint hint;
+    mesh::Hint hint;
     const mesh::Closest c = mesh::closest_point(part().view, p, budget, hint);
     CHECK(std::isfinite(c.distance_m));
     CHECK_LE(c.certificate.lower_m, std::fabs(c.distance_m));
   }
   query::Budget unbounded;
   unbounded.band_m = INFINITY;
-  query::Hint hint, other;
+  mesh::Hint hint, other;
   const mesh::Closest c = mesh::closest_point(part().view, p, unbounded, hint);
   CHECK(c.certificate.exact);
   const mesh::Closest d = mesh::closest_point(part().view, p, query::kUnlimited, other);

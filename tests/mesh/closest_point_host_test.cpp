@@ -66,11 +66,11 @@ void against_brute_force(const BakedMesh& baked, size_t count, uint64_t seed) {
   const std::vector<Vec3> queries = hard_queries(baked.surface, count, seed);
   const std::vector<Truth> truth = truths(baked.surface, queries);
   const tools::Crossings crossings = tools::find_crossings(baked.surface);
-  query::Hint warm;
+  mesh::Hint warm;
   for (size_t i = 0; i < queries.size(); ++i) {
     test::note("query", static_cast<int64_t>(i));
-    query::Hint cold;
-    for (query::Hint* hint : {&warm, &cold}) {
+    mesh::Hint cold;
+    for (mesh::Hint* hint : {&warm, &cold}) {
       const mesh::Closest c = mesh::closest_point(baked.view, queries[i], query::kUnlimited, *hint);
       CHECK(c.certificate.exact);
       check_answer(baked, c, truth[i], at_crossing(baked, crossings, c.point_m));
@@ -107,12 +107,12 @@ TEST(EveryBudgetIsCertifiedColdAndWarm) {
   const BakedMesh& baked = part();
   const std::vector<Vec3> queries = hard_queries(baked.surface, 600, 5);
   const std::vector<Truth> truth = truths(baked.surface, queries);
-  std::map<uint32_t, query::Hint> warm;
+  std::map<uint32_t, mesh::Hint> warm;
   for (size_t i = 0; i < queries.size(); ++i) {
     test::note("query", static_cast<int64_t>(i));
     float gap = 3e38f;
     for (const uint32_t budget : {1u, 2u, 4u, 8u, 16u, 32u, 64u, 128u, 256u, 0xFFFFFFFFu}) {
-      query::Hint cold;
+      mesh::Hint cold;
       const mesh::Closest c = mesh::closest_point(baked.view, queries[i], {budget}, cold);
       CHECK_LE(c.certificate.steps, budget);
       check_answer(baked, c, truth[i], false);
@@ -135,7 +135,7 @@ TEST(SixtyFourStepsGiveAGoodLowerBound) {
     const Vec3 p{static_cast<float>(random.between(-0.075, 0.075)),
                  static_cast<float>(random.between(-0.075, 0.075)),
                  static_cast<float>(random.between(-0.05, 0.05))};
-    query::Hint cold, whole;
+    mesh::Hint cold, whole;
     const mesh::Closest c = mesh::closest_point(baked.view, p, {64}, cold);
     const mesh::Closest truth = mesh::closest_point(baked.view, p, query::kUnlimited, whole);
     share.push_back(double{c.certificate.lower_m} /
@@ -149,7 +149,7 @@ TEST(TwoToolsShareOneMesh) {
   const BakedMesh& baked = part();
   const std::vector<Vec3> a = hard_queries(baked.surface, 200, 1),
                           b = hard_queries(baked.surface, 200, 2);
-  query::Hint hint_a, hint_b, alone;
+  mesh::Hint hint_a, hint_b, alone;
   for (size_t i = 0; i < a.size(); ++i) {
     const mesh::Closest together = mesh::closest_point(baked.view, a[i], query::kUnlimited, hint_a);
     (void)mesh::closest_point(baked.view, b[i], query::kUnlimited, hint_b);

@@ -110,7 +110,7 @@ void check_certificate(const Case& c) {
   std::vector<tools::Section> sections;
   const mesh::View view = one_triangle(c, sections);
   if (!view.is_open()) return;
-  query::Hint hint;
+  mesh::Hint hint;
   const mesh::Closest answer = mesh::closest_point(view, c.p, query::kUnlimited, hint);
   const double truth = truth_of(c), scale = std::max(double{view.head().diagonal_m}, truth);
   CHECK(answer.certificate.exact);

@@ -34,7 +34,7 @@ float cube_outside2(Vec3 p) {
 }
 float cube_depth(Vec3 p) { return 1 - larger(larger(absolute(p.x), absolute(p.y)), absolute(p.z)); }
 
-mesh::Closest ask(const mesh::View& view, Vec3 p, query::Hint& hint, uint32_t steps = UINT32_MAX) {
+mesh::Closest ask(const mesh::View& view, Vec3 p, mesh::Hint& hint, uint32_t steps = UINT32_MAX) {
   return mesh::closest_point(view, p, {steps}, hint);
 }
 
@@ -52,12 +52,12 @@ TEST(CubeOpens) { CHECK(mesh_test::Cube().view().is_open()); }
 TEST(CubeDistancesHaveTheirClosedForm) {
   const mesh_test::Cube cube;
   const mesh::View view = cube.view();
-  query::Hint warm;
+  mesh::Hint warm;
   for (int i = 0; i < 3000; ++i) {
     test::note("query", i);
     const float reach = i % 3 == 0 ? 1.2f : 3.0f;
     const Vec3 p{random_in(-reach, reach), random_in(-reach, reach), random_in(-reach, reach)};
-    query::Hint cold;
+    mesh::Hint cold;
     const mesh::Closest answers[] = {ask(view, p, warm), ask(view, p, cold)};
     for (const mesh::Closest& c : answers) {
       const float outside2 = cube_outside2(p), depth = cube_depth(p);
@@ -88,7 +88,7 @@ TEST(CubeNormalsPointOutward) {
                {{2, 2, 2}, {0.57735f, 0.57735f, 0.57735f}, fine},
                {{-2, 3, -2}, {-0.57735f, 0.57735f, -0.57735f}, fine}};
   for (const auto& a_case : cases) {
-    query::Hint hint;
+    mesh::Hint hint;
     const Vec3 n = ask(view, a_case.query, hint).direction;
     CHECK_LE(absolute(n.x - a_case.normal.x), a_case.error);
     CHECK_LE(absolute(n.y - a_case.normal.y), a_case.error);
@@ -101,11 +101,11 @@ TEST(EveryBudgetKeepsItsPromise) {
   const mesh::View view = cube.view();
   for (int i = 0; i < 500; ++i) {
     const Vec3 p{random_in(-2, 2), random_in(-2, 2), random_in(-2, 2)};
-    query::Hint cold;
+    mesh::Hint cold;
     const float truth = absolute(ask(view, p, cold).distance_m);
     float gap = FLT_MAX;
     for (uint32_t budget = 0; budget < 12; ++budget) {
-      query::Hint hint;
+      mesh::Hint hint;
       const mesh::Closest c = ask(view, p, hint, budget);
       CHECK_LE(c.certificate.steps, budget == 0 ? 1u : budget);
       CHECK_LE(c.certificate.lower_m, truth);
@@ -120,7 +120,7 @@ TEST(EveryBudgetKeepsItsPromise) {
 TEST(SignGoesOnByContinuityWithinCertifiedFreeDistance) {
   const mesh_test::Cube cube;
   const mesh::View view = cube.view();
-  query::Hint hint;
+  mesh::Hint hint;
   CHECK_EQ(ask(view, {0, 0, 1.8f}, hint).certificate.sign, 1);
   CHECK_EQ(ask(view, {0.4f, 0, 1.8f}, hint, 1).certificate.sign, 1);  // half of the free distance
   CHECK_EQ(ask(view, {0, 0.9f, 1.8f}, hint, 1).certificate.sign, 0);  // more than is left: unknown
@@ -133,12 +133,12 @@ TEST(HostileQueriesGiveFiniteAnswers) {
                            0x3F800000, 0x3F800001, 0xBF800000, 0x4E000000, 0x58635FA9,
                            0x58635FAA, 0x5F000000, 0x7149F2CA, 0x7F7FFFFF, 0x7F800000,
                            0xFF800000, 0x7FC00000, 0xFFFFFFFF, 0x7F800001};
-  query::Hint warm;
+  mesh::Hint warm;
   for (const uint32_t x : bits)
     for (const uint32_t y : bits)
       for (const uint32_t z : bits) {
         const Vec3 p{bits_to_float(x), bits_to_float(y), bits_to_float(z)};
-        query::Hint cold;
+        mesh::Hint cold;
         const mesh::Closest answers[] = {ask(view, p, warm), ask(view, p, cold)};
         for (const mesh::Closest& c : answers) {
           check_finite(c);
@@ -155,7 +155,7 @@ TEST(FarAwayIsExactToo) {
   const mesh_test::Cube cube;
   const mesh::View view = cube.view();
   for (float r = 10; r < 1e37f; r *= 7) {
-    query::Hint hint;
+    mesh::Hint hint;
     const mesh::Closest c = ask(view, {r, 0.25f, 0.5f}, hint);
     CHECK(c.certificate.exact);
     CHECK_EQ(c.certificate.sign, 1);
@@ -168,11 +168,11 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
   const mesh_test::Cube cube;
   const mesh::View view = cube.view();
   for (uint32_t i = 0; i < 4000; ++i) {
-    query::Hint hint;
-    hint.place = i < 64 ? i : i * 2654435761u;
+    mesh::Hint hint;
+    hint.leaf_slot = i < 64 ? i : i * 2654435761u;
     const Vec3 p{random_in(-2, 2), random_in(-2, 2), random_in(-2, 2)};
     const mesh::Closest c = ask(view, p, hint);
-    query::Hint cold;
+    mesh::Hint cold;
     CHECK_LE(absolute(c.distance_m - ask(view, p, cold).distance_m), 1e-6f);
     CHECK(c.certificate.exact);
   }

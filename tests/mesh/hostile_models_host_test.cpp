@@ -94,12 +94,12 @@ double truth_of(const tools::Surface& surface, Vec3 p) {
   return least;
 }
 
-void check_query(const Model& model, double size, Vec3 p, query::Hint& warm) {
+void check_query(const Model& model, double size, Vec3 p, mesh::Hint& warm) {
   const double truth = truth_of(model.surface, p), scale = std::max(size, truth);
   const bool inside = brute_force(model.surface, wide(p)).inside;
   for (const uint32_t budget : {1u, 5u, 40u, UINT32_MAX, UINT32_MAX}) {
-    query::Hint cold;
-    query::Hint& hint = budget == UINT32_MAX ? warm : cold;
+    mesh::Hint cold;
+    mesh::Hint& hint = budget == UINT32_MAX ? warm : cold;
     const mesh::Closest c = mesh::closest_point(model.view, p, query::Budget{budget}, hint);
     const double reported = std::fabs(double{c.distance_m}), lower = double{c.certificate.lower_m};
     CHECK_LE(truth - reported, 4e-7 * scale);
@@ -126,7 +126,7 @@ void answers_like_brute_force(const Model& model, size_t queries) {
   CHECK(model.problem.empty());
   if (!model.problem.empty()) return;
   const double size = diagonal(model.surface);
-  query::Hint warm;
+  mesh::Hint warm;
   size_t number = 0;
   for (const Vec3 p : hard_queries(model.surface, long_run() ? 20 * queries : queries, 5)) {
     test::note("query", static_cast<int64_t>(number++));

@@ -128,7 +128,7 @@ TEST(BoxesOfLeavesChangeNoAnswer) {
   const std::vector<Vec3> queries = hard_queries(baked.surface, 2000, 8);
   for (const uint32_t steps : {1u, 8u, 64u, query::kUnlimited.steps}) {
     const query::Budget budget{steps};
-    query::Hint hint, other;
+    mesh::Hint hint, other;
     for (const Vec3 p : queries)
       if (!same(mesh::closest_point(baked.view, p, budget, hint),
                 mesh::closest_point(without, p, budget, other)))
@@ -137,7 +137,7 @@ TEST(BoxesOfLeavesChangeNoAnswer) {
   query::Budget budget;
   budget.band_m = static_cast<float>(0.01 * baked.size);
   for (const Vec3 p : queries) {
-    query::Hint hint, other;
+    mesh::Hint hint, other;
     const mesh::Closest a = mesh::closest_point(baked.view, p, budget, hint),
                         b = mesh::closest_point(without, p, budget, other);
     CHECK_EQ(a.certificate.exact, b.certificate.exact);

@@ -65,15 +65,16 @@ bool is_same(const mesh::Closest& a, const mesh::Closest& b) {
 // One hint for both: what one leaves in it the other reads too.
 uint32_t differences(const mesh::View& view, const mesh::View& lined, query::Budget budget,
                      uint64_t seed) {
-  query::Hint hint;
+  mesh::Hint hint;
   uint32_t differ = 0, turn = 0;
   for (const query::ProbePoint& p : points_about(view.head(), seed)) {
     const math::Vec3 p_m{p.x_m, p.y_m, p.z_m};
     if (++turn % 3 == 0) hint = {};
-    query::Hint other = hint;
+    mesh::Hint other = hint;
     const mesh::Closest a = mesh::closest_point(view, p_m, budget, turn % 2 == 0 ? hint : other);
     const mesh::Closest b = mesh::closest_point(lined, p_m, budget, turn % 2 == 0 ? other : hint);
-    differ += is_same(a, b) && hint.place == other.place && hint.safe_subtree == other.safe_subtree
+    differ += is_same(a, b) && hint.leaf_slot == other.leaf_slot &&
+                      hint.safe_subtree == other.safe_subtree
                   ? 0u
                   : 1u;
   }

@@ -45,7 +45,7 @@ struct Solid {
 Point unit(Point a) { return a * (1 / length(a)); }
 
 // The sides of the point and of its 26 neighbours an ulp away.
-uint32_t check_around(const Solid& solid, Point at, query::Hint& hint) {
+uint32_t check_around(const Solid& solid, Point at, mesh::Hint& hint) {
   const Vec3 p = tools::to_vec3(at);
   uint32_t checked = 0;
   for (int i = 0; i < 27; ++i) {
@@ -65,7 +65,7 @@ uint32_t check_around(const Solid& solid, Point at, query::Hint& hint) {
 // Borders of face and edge: above the middle of the edge along each face's normal. Of edge and
 // vertex: from the vertex within the wedge of the edge. Of all three: the extreme rays.
 void check_borders(const Solid& solid, uint32_t every) {
-  query::Hint hint;
+  mesh::Hint hint;
   uint32_t checked = 0;
   for (const double reach : {1e-5, 1e-3, 0.02}) {
     const double t = reach * solid.size;
@@ -117,7 +117,7 @@ Ties ties_of(const Solid& solid, Point p) {
 // What the firmware tells of the side of `p` when the foot `q` is the nearest: from a point so near
 // to it on the way to `p` that no other is, along which the side is the same.
 int side_by_foot(const Solid& solid, Point p, Point q) {
-  query::Hint hint;
+  mesh::Hint hint;
   const mesh::Closest c =
       mesh::closest_point(solid.view, tools::to_vec3(q + (p - q) * 0.5), query::kUnlimited, hint);
   CHECK_LE(length(tools::to_point(c.point_m) - q), 1e-3 * solid.size);
@@ -167,7 +167,7 @@ TEST(OnTheMedialAxisAllTiedFeaturesTellOneSide) {
     ++found;
     const int side = solid.winding.at(axis) != 0 ? -1 : 1;
     for (const Point& q : ties.points) CHECK_EQ(side_by_foot(solid, axis, q), side);
-    query::Hint hint;
+    mesh::Hint hint;
     CHECK_EQ(mesh::closest_point(solid.view, tools::to_vec3(axis), query::kUnlimited, hint)
                  .certificate.sign,
              side);
@@ -183,7 +183,7 @@ TEST(OnTheMedialAxisOfACubeEveryNearestFaceTellsInside) {
   cube.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                 {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   const Solid solid(cube);
-  query::Hint hint;
+  mesh::Hint hint;
   for (const float t : {0.0f, 0.25f, 0.5f, 0.875f, 0.9375f})
     for (const float x : {t, -t})
       for (const float y : {t, -t})
@@ -196,7 +196,7 @@ TEST(OnTheMedialAxisOfACubeEveryNearestFaceTellsInside) {
 TEST(FeatureAndOutwardDirectionAreToldOnTheSurfaceToo) {
   const Solid solid(tools::make_part(1, 2000));
   const tools::Stars stars(solid.surface, solid.exact);
-  query::Hint hint;
+  mesh::Hint hint;
   uint32_t edges = 0;
   const auto check = [&](Vec3 at) {
     const mesh::Closest c = mesh::closest_point(solid.view, at, query::kUnlimited, hint);

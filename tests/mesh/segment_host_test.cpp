@@ -283,7 +283,7 @@ TEST(CrossingsTellInsideFromOutside) {
   Room buffer(4096);
   for (int i = 0; i < 3000; ++i) {
     const Vec3 a = aims.anywhere(), b = aims.anywhere();
-    query::Hint cold, other;
+    mesh::Hint cold, other;
     const int at_a = mesh::closest_point(baked.view, a, query::kUnlimited, cold).certificate.sign;
     const int at_b = mesh::closest_point(baked.view, b, query::kUnlimited, other).certificate.sign;
     if (at_a == 0 || at_b == 0) continue;

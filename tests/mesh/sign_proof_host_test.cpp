@@ -231,7 +231,7 @@ TEST(ASliverIsRefusedOrItsSideIsRight) {
       const double reach = std::pow(10.0, random.between(-5, 0));
       const math::Vec3 p =
           tools::to_vec3(along + Point{random.bell(), random.bell(), random.bell()} * reach);
-      query::Hint hint;
+      mesh::Hint hint;
       const mesh::Closest c = mesh::closest_point(view, p, query::kUnlimited, hint);
       const mesh_test::Truth truth = mesh_test::brute_force(surface, mesh_test::wide(p));
       if (truth.distance > 2e-6 * double{view.head().diagonal_m} && c.certificate.sign != 0)

@@ -14,8 +14,8 @@ namespace query = firmtouch::query;
 
 namespace {
 
-query::Hint hint_at(math::Vec3 position_m, float lower_m, int8_t sign) {
-  query::Hint hint;
+query::HintBase hint_at(math::Vec3 position_m, float lower_m, int8_t sign) {
+  query::HintBase hint;
   hint.position_m = position_m;
   hint.lower_m = lower_m;
   hint.sign = sign;
@@ -85,7 +85,7 @@ TEST(JumpBeyondTheFreeRadiusLeavesNothing) {
 }
 
 TEST(ColdHintKnowsNothing) {
-  const query::Carried carried = query::carry(query::Hint{}, {0, 0, 0});
+  const query::Carried carried = query::carry(query::HintBase{}, {0, 0, 0});
   CHECK_EQ(carried.lower_m, 0.0f);
   CHECK_EQ(carried.sign, 0);
 }

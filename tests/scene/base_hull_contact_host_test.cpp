@@ -84,7 +84,7 @@ TEST(WhereTheMeshsQueryIsCutOffTheBaseHullIsFeltEarlyAndNeverLate) {
     int i = 0;
     for (const math::Vec3 p_m : way(1200)) {
       firmtouch::test::note("point", ++i);
-      query::Hint none;
+      mesh::Hint none;
       const mesh::Closest truth = mesh::closest_point(rig().view, p_m, query::kUnlimited, none);
       servo::LocalModel model;
       scene::begin_model(model, p_m, 0, 3);

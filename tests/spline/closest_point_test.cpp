@@ -10,10 +10,10 @@ namespace {
 
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
-using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
 using firmtouch::spline::Closest;
 using firmtouch::spline::closest_point;
+using firmtouch::spline::CurveHint;
 using firmtouch::spline::View;
 using firmtouch::spline_test::sampled_distance;
 using firmtouch::spline_test::SmallSpline;
@@ -53,15 +53,15 @@ TEST(EveryKindAnswersTheGlobalMinimumColdAndWarm) {
     const View view = model.view();
     CHECK_EQ(view.is_open(), true);
     Random random(kind + 1);
-    Hint warm;
+    CurveHint warm;
     for (uint32_t i = 0; i < 20; ++i) {
       firmtouch::test::note("kind * 100 + query", kind * 100 + i);
       const Vec3 p = about(random);
       const double truth = sampled_distance(model, p);
       const double slack = 1e-6 * (static_cast<double>(view.head().extent_m) + truth);
-      Hint cold;
-      Hint* const hints[] = {&cold, &warm};
-      for (Hint* hint : hints) {
+      CurveHint cold;
+      CurveHint* const hints[] = {&cold, &warm};
+      for (CurveHint* hint : hints) {
         const Closest c = closest_point(view, p, kUnlimited, *hint);
         CHECK_EQ(c.certificate.exact, true);
         CHECK_LE(static_cast<double>(c.distance_m), truth + slack);
@@ -83,10 +83,10 @@ TEST(EveryBudgetBracketsTheTruth) {
     for (uint32_t i = 0; i < 12; ++i) {
       const Vec3 p = about(random);
       const double truth = sampled_distance(model, p);
-      Hint warm;
+      CurveHint warm;
       for (uint32_t steps = 0; steps < 40; ++steps) {
         firmtouch::test::note("query * 100 + steps", i * 100 + steps);
-        Hint cold;
+        CurveHint cold;
         const Closest c = closest_point(view, p, Budget{steps}, (steps & 1u) != 0 ? warm : cold);
         CHECK_LE(c.certificate.steps, steps == 0 ? 1u : steps);
         CHECK_LE(static_cast<double>(c.certificate.lower_m), truth);
@@ -115,7 +115,7 @@ TEST(HostileQueriesGiveFiniteAnswers) {
   for (uint32_t kind = 0; kind < 4; ++kind) {
     const SmallSpline model((kind & 1u) != 0, (kind & 2u) != 0);
     const View view = model.view();
-    Hint hint;
+    CurveHint hint;
     for (uint32_t i = 0; i < kCount * kCount; ++i) {
       const Vec3 p{kValues[i % kCount], kValues[i / kCount], kValues[(i * 5 + 3) % kCount]};
       const Closest c = closest_point(view, p, Budget{200}, hint);
@@ -128,7 +128,7 @@ TEST(HostileQueriesGiveFiniteAnswers) {
 
 TEST(AQueryThatIsNoNumberKnowsNothing) {
   const SmallSpline model(false);
-  Hint hint;
+  CurveHint hint;
   const Closest c = closest_point(model.view(), {0, __builtin_nanf(""), 0}, kUnlimited, hint);
   CHECK_EQ(c.distance_m, FLT_MAX);
   CHECK_EQ(c.certificate.lower_m, 0.0f);
@@ -142,7 +142,7 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
     Random random(99);
     for (uint32_t i = 0; i < 100; ++i) {
       const Vec3 p = about(random);
-      Hint cold, bent;
+      CurveHint cold, bent;
       bent.place = random.bits();
       const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
       const Closest c = closest_point(view, p, kUnlimited, bent);
@@ -160,10 +160,10 @@ TEST(AFrontierOfRandomWordsIsNoFrontier) {
   Random random(7);
   for (uint32_t i = 0; i < 100; ++i) {
     const Vec3 p = about(random);
-    Hint cold;
+    CurveHint cold;
     const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
     firmtouch::spline::Hint bent;
-    static_cast<Hint&>(bent) = cold;
+    static_cast<CurveHint&>(bent) = cold;
     bent.safe_subtree = firmtouch::spline::kWithFrontier;
     bent.frontier.base_m = truth;
     bent.frontier.unit_m = 1.0f;
@@ -212,10 +212,11 @@ TEST(AFrontierIsNotCarriedOnByAQueryThatKnowsOfNone) {
     const bool knows_of_none = i % 5 == 2 || i % 5 == 3;
     const float far = knows_of_none ? 0.5f : 0.08f;
     p = {p.x + (q.x - p.x) * far, p.y + (q.y - p.y) * far, p.z + (q.z - p.z) * far};
-    Hint cold;
+    CurveHint cold;
     const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
-    const Closest c = knows_of_none ? closest_point(view, p, kUnlimited, static_cast<Hint&>(mixed))
-                                    : closest_point(view, p, kUnlimited, mixed);
+    const Closest c = knows_of_none
+                          ? closest_point(view, p, kUnlimited, static_cast<CurveHint&>(mixed))
+                          : closest_point(view, p, kUnlimited, mixed);
     if (c.certificate.lower_m > truth + 5e-7f * (truth + 3.9f)) ++wrong;
     if (c.distance_m > truth + 5e-7f * (truth + 3.9f)) ++wrong;
   }
@@ -225,7 +226,7 @@ TEST(AFrontierIsNotCarriedOnByAQueryThatKnowsOfNone) {
 TEST(AWarmQueryBesideItsLastPlaceTakesFewEvaluations) {
   const SmallSpline model(false);
   const View view = model.view();
-  Hint hint;
+  CurveHint hint;
   uint32_t evaluations = 0;
   for (uint32_t i = 0; i < 200; ++i) {
     const float x = static_cast<float>(i) * 0.01f - 0.5f;
@@ -236,7 +237,7 @@ TEST(AWarmQueryBesideItsLastPlaceTakesFewEvaluations) {
 
 TEST(AnEmptyModelSpaceFarAwayIsAsNearAsAnyPoint) {
   const SmallSpline model(true);
-  Hint hint;
+  CurveHint hint;
   const Closest c = closest_point(model.view(), {1e12f, 0, 0}, kUnlimited, hint);
   CHECK_EQ(c.certificate.exact, true);
   CHECK_GE(c.distance_m, 0.9999999e12f);

@@ -16,8 +16,8 @@ namespace {
 
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
-using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
+using firmtouch::spline::CurveHint;
 namespace core = firmtouch::core;
 namespace spline = firmtouch::spline;
 namespace spline_test = firmtouch::spline_test;
@@ -92,7 +92,7 @@ TEST(WithoutAPenaltyTheGuideIsAtTheClosestPoint) {
   tools::Random random(5);
   const Guide g({spline_test::random_curve(random, 3, 2)});
   spline::Following following;
-  Hint hint;
+  CurveHint hint;
   for (int i = 0; i < 200; ++i) {
     const Vec3 p =
         tools::to_vec3({random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)});
@@ -190,7 +190,7 @@ TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
     const Guide g({spline_test::random_curve(random, 1 + static_cast<int>(seed % 5), 1)});
     const float extent_m = g.view.head().extent_m;
     spline::Following following;
-    Hint hint;
+    CurveHint hint;
     const spline::Hold hold{kPerMetre[seed % 4] * g.guide.length_m(), 1e3f};
     for (int i = 0; i < 1500; ++i) {
       firmtouch::test::note("tick", i);
@@ -265,7 +265,7 @@ TEST(NoStateMakesTheGuidesAnswerWorseThanTheClosestPoints) {
     const bool is_sound = following.piece < g.view.pieces().size();
     const spline::Hold hold{0.1f * g.guide.length_m(), 1e3f};
     const spline::Followed f = follow(g.guide, p, hold, Budget{steps}, following);
-    Hint cold;
+    CurveHint cold;
     const spline::Closest c = closest_point(g.view, p, kUnlimited, cold);
     CHECK_LE(f.closest.certificate.steps, steps);
     CHECK_LE(f.closest.certificate.lower_m, c.distance_m);

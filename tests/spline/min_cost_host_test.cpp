@@ -19,8 +19,8 @@ namespace {
 
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
-using firmtouch::query::Hint;
 using firmtouch::query::kUnlimited;
+using firmtouch::spline::CurveHint;
 namespace spline = firmtouch::spline;
 namespace spline_test = firmtouch::spline_test;
 namespace tools = firmtouch::tools;
@@ -231,7 +231,7 @@ TEST(TheLeastCostOfAGuideAgainstDenseSampling) {
       const Vec3 q = tools::to_vec3(p);
       p = {static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z)};
       const auto weight_m = static_cast<float>(per_m * static_cast<double>(g.guide.length_m()));
-      Hint cold;
+      CurveHint cold;
       const spline::Closest nearest = closest_point(g.view, q, kUnlimited, cold);
       const spline::LeastCost found =
           min_cost(g.guide, q, {weight_m, was.piece, was.s}, nearest, kUnlimited);

@@ -90,7 +90,7 @@ class Points {
 void add_mesh_answers(core::Hash& hash, const mesh::View& mesh, uint32_t count) {
   Points points(mesh.head().low_m, mesh.head().high_m);
   const float band_m = mesh.head().diagonal_m * 0.0078125f;
-  query::Hint hint;
+  mesh::Hint hint;
   for (uint32_t i = 0; i < count; ++i) {
     if (i % 16 == 0) hint = {};
     query::Budget budget{kBudgets[i % 7]};
@@ -107,7 +107,7 @@ void add_mesh_answers(core::Hash& hash, const mesh::View& mesh, uint32_t count) 
 
 void add_curve_answers(core::Hash& hash, const curve::View& curve, uint32_t count) {
   Points points(curve.head().low_m, curve.head().high_m);
-  query::Hint hint;
+  curve::Hint hint;
   for (uint32_t i = 0; i < count; ++i) {
     if (i % 16 == 0) hint = {};
     const query::Budget budget{kBudgets[i % 7]};

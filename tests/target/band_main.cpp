@@ -88,7 +88,7 @@ class Bench {
            normal * (1.3f * random_.sign() * budget_.band_m / firmtouch::math::length(normal));
   }
 
-  uint32_t ask(Vec3 p_m, query::Hint& hint) const {
+  uint32_t ask(Vec3 p_m, mesh::Hint& hint) const {
     const uint32_t before = hal::clock_work();
     const mesh::Closest closest = mesh::closest_point(mesh_, p_m, budget_, hint);
     const uint32_t work = hal::clock_work() - before - empty_;
@@ -98,7 +98,7 @@ class Bench {
   }
 
   uint32_t print(uint32_t kind, Vec3 p_m) {
-    query::Hint hint;
+    mesh::Hint hint;
     const uint32_t cold = ask(p_m, hint);
     const uint32_t warm = ask(p_m + random_.cube() * (0.03f * budget_.band_m), hint);
     hal::board_print(target::decimal(kind).text);

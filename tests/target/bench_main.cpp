@@ -57,7 +57,11 @@ uint32_t empty_work() {
 
 template <class View>
 struct HintOf {
-  using Hint = query::Hint;
+  using Hint = mesh::Hint;
+};
+template <>
+struct HintOf<firmtouch::curve::View> {
+  using Hint = firmtouch::curve::Hint;
 };
 template <>
 struct HintOf<firmtouch::spline::View> {

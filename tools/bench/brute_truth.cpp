@@ -163,7 +163,7 @@ TruthReport measure_truth(const Model& model, size_t count,
   const std::set<uint32_t> crossing = crossing_faces(model);
   TruthReport report;
   report.points = points.size();
-  query::Hint hint;
+  mesh::Hint hint;
   for (size_t i = 0; i < points.size(); ++i) {
     const mesh::Closest c = mesh::closest_point(model.view, points[i], query::kUnlimited, hint);
     const double scale = std::max(model.diagonal_m(), truth[i].distance_m),

@@ -26,8 +26,8 @@ constexpr double kBuildGoal = 3;  // of the peer's time
 
 std::function<Query()> exact(const curve::View& view, bool is_warm) {
   return [&view, is_warm]() -> Query {
-    return [&view, is_warm, hint = query::Hint{}](math::Vec3 p) mutable {
-      if (!is_warm) hint = query::Hint{};
+    return [&view, is_warm, hint = curve::Hint{}](math::Vec3 p) mutable {
+      if (!is_warm) hint = curve::Hint{};
       return static_cast<double>(closest_point(view, p, query::kUnlimited, hint).distance_m);
     };
   };

@@ -46,7 +46,7 @@ struct Wrong {
 void judge(const CurveCase& curve, const std::vector<math::Vec3>& points, Wrong& wrong) {
   const double diagonal = double{curve.view.head().diagonal_m};
   tools::Random random(3);
-  query::Hint hint, held;
+  curve::Hint hint, held;
   for (const math::Vec3& p : points) {
     const float reported = closest_point(curve.view, p, query::kUnlimited, hint).distance_m;
     const double truth = min_cost(curve.view, p, 0, 0);

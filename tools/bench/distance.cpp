@@ -26,9 +26,9 @@ Contender ours(const mesh::View& view, const std::vector<math::Vec3>& points, bo
                Clock clock = Clock::kWall) {
   const auto pass = [&view, &points, is_warm] {
     double sum = 0;
-    query::Hint hint;
+    mesh::Hint hint;
     for (const math::Vec3& p : points) {
-      if (!is_warm) hint = query::Hint{};
+      if (!is_warm) hint = mesh::Hint{};
       sum += static_cast<double>(mesh::closest_point(view, p, query::kUnlimited, hint).distance_m);
     }
     return sum;
@@ -97,7 +97,7 @@ void race_sides(const Model& model, const std::vector<math::Vec3>& points, Repor
 
 AskBudget cold_ask(const mesh::View& view, const std::vector<math::Vec3>& points) {
   return [&view, &points](size_t i, uint32_t budget) {
-    query::Hint hint;
+    mesh::Hint hint;
     const mesh::Closest c = mesh::closest_point(view, points[i], {budget}, hint);
     return Reported{std::fabs(static_cast<double>(c.distance_m)),
                     static_cast<double>(c.certificate.lower_m), c.certificate.steps};

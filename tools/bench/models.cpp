@@ -104,7 +104,7 @@ std::vector<math::Vec3> random_points(const Model& model, size_t count, uint64_t
 }
 
 std::vector<math::Vec3> walk(const Model& model, uint32_t count, uint64_t seed) {
-  query::Hint hint;
+  mesh::Hint hint;
   return tools::make_walk(model.surface, seed, count, [&](math::Vec3 p_m) {
     return mesh::closest_point(model.view, p_m, query::kUnlimited, hint).point_m;
   });

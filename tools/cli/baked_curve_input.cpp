@@ -17,11 +17,11 @@ namespace firmtouch::cli {
 namespace {
 
 tools::StepFigures steps_of(const curve::View& view, const std::vector<math::Vec3>& samples_m) {
-  query::Hint hint;
+  curve::Hint hint;
   return tools::measure_steps(
       view.head().low_m, view.head().high_m, tools::path_along(samples_m, view.head().diagonal_m),
       [&](math::Vec3 p_m, bool cold) {
-        if (cold) hint = query::Hint{};
+        if (cold) hint = curve::Hint{};
         return curve::closest_point(view, p_m, query::kUnlimited, hint).certificate.steps;
       });
 }
@@ -101,8 +101,8 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
       std::to_string(bytes) + sentence(" bytes, %.1f a sample; tree of %.0f levels",
                                        static_cast<double>(bytes) / report.samples,
                                        static_cast<double>(report.levels)),
-      "RAM " + std::to_string(sizeof(query::Hint)) +
-          " bytes a tool that it guides (query::Hint), " + std::to_string(sizeof(curve::View)) +
+      "RAM " + std::to_string(sizeof(curve::Hint)) +
+          " bytes a tool that it guides (curve::Hint), " + std::to_string(sizeof(curve::View)) +
           " for the view here; the asset stays in flash",
       sentence("steps at 2000 random points, each on its own: mean %.1f, worst seen %.0f",
                steps.random_mean, steps.random_worst),

@@ -25,9 +25,9 @@ namespace {
 constexpr uint64_t kWalkSeed = 1;
 
 tools::StepFigures steps_of(const mesh::View& view, const tools::Surface& surface) {
-  query::Hint hint;
+  mesh::Hint hint;
   const auto ask = [&](math::Vec3 p_m, bool cold) {
-    if (cold) hint = query::Hint{};
+    if (cold) hint = mesh::Hint{};
     return mesh::closest_point(view, p_m, query::kUnlimited, hint);
   };
   const auto walk = tools::make_walk(surface, kWalkSeed, tools::kFigureQueries,
@@ -71,9 +71,8 @@ std::vector<std::string> report_of(const tools::MeshReport& report, const tools:
                    report.shape_bytes / triangles, report.sign_bytes / triangles),
       sentence("tree of depth %.0f (at most %.0f)", static_cast<double>(report.depth),
                static_cast<double>(mesh::kMaxDepth)),
-      "RAM " + std::to_string(sizeof(query::Hint)) +
-          " bytes a tool that touches it (query::Hint), " + std::to_string(sizeof(mesh::View)) +
-          " for the view here; the asset stays in flash",
+      "RAM " + std::to_string(sizeof(mesh::Hint)) + " bytes a tool that touches it (mesh::Hint), " +
+          std::to_string(sizeof(mesh::View)) + " for the view here; the asset stays in flash",
       is_signed
           ? sentence("every side proven on the stored normals: each could turn by "
                      "%.3g degrees more at edges, %.3g at vertices",

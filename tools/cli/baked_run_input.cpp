@@ -88,7 +88,7 @@ double max_off_m(const tools::CurvePoints& points, const std::vector<tools::Plac
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   curve::View view;
   (void)curve::open(tools::curve_sections(sections, "smooth"), view);
-  query::Hint hint;
+  curve::Hint hint;
   double max_m = 0;
   for (const tools::Place& p : places) {
     const math::Vec3 at{static_cast<float>(p.x_m), static_cast<float>(p.y_m),

@@ -88,7 +88,8 @@ std::string text_of(const tools::SplineGuideReport& guide) {
 std::string ram_of(bool is_surface) {
   return is_surface
              ? std::to_string(sizeof(spline::Hint)) + " bytes a tool that touches it (spline::Hint)"
-             : std::to_string(sizeof(query::Hint)) + " bytes a tool that it guides (query::Hint)";
+             : std::to_string(sizeof(spline::CurveHint)) +
+                   " bytes a tool that it guides (spline::CurveHint)";
 }
 
 std::string sentence(const char* format, double a, double b) {

@@ -100,7 +100,7 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
   mesh::View view;
   const core::Verdict verdict = mesh::open(tools::mesh_sections(sections, "walk"), view);
   if (!verdict.ok()) fail_input(model + ": its mesh breaks rule R" + std::to_string(verdict.rule));
-  query::Hint hint;
+  mesh::Hint hint;
   return tools::to_csv(tools::make_walk(surface, seed, points, [&](math::Vec3 p_m) {
     return mesh::closest_point(view, p_m, query::kUnlimited, hint).point_m;
   }));

@@ -28,7 +28,7 @@ class Answers {
   curve::Closest next(const float* row) {
     const math::Vec3 p_m{row[0], row[1], row[2]};
     if (cold_) {
-      hint_ = query::Hint{};
+      hint_ = curve::Hint{};
       penalty_.has_previous = false;
     }
     if (options_.is_exact)
@@ -51,7 +51,7 @@ class Answers {
   CurveOptions options_;
   std::vector<curve::Neighbour> nearest_;
   curve::ArcPenalty penalty_;
-  query::Hint hint_;
+  curve::Hint hint_;
 };
 
 }  // namespace

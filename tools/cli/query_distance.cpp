@@ -25,7 +25,7 @@ class Answers {
   }
 
   mesh::Closest next(const float* row) {
-    if (cold_) hint_ = query::Hint{};
+    if (cold_) hint_ = mesh::Hint{};
     return mesh::closest_point(view_, {row[0], row[1], row[2]}, budget_, hint_);
   }
 
@@ -33,7 +33,7 @@ class Answers {
   const mesh::View& view_;
   query::Budget budget_;
   bool cold_;
-  query::Hint hint_;
+  mesh::Hint hint_;
 };
 
 void print_row(const LoadedMesh& mesh, const mesh::Closest& a) {

@@ -63,7 +63,7 @@ std::vector<std::string> row_of(uint64_t seed, int levels, size_t positions, siz
   const double each = baked.is_rational ? kRationalEvaluation : kEvaluation;
   Sum cells, tree;
   double queries = 0;
-  query::Hint hint;
+  spline::CurveHint hint;
   CellAtlas::Last last;
   for (const tools::Point& p :
        tools::path_about(tools::wandering_path(seed, positions, kStep, 0.5, 0.5),

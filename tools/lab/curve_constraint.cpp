@@ -60,7 +60,7 @@ void run_curve_constraint(const Options& options, Report& report) {
         medians_us({ours(walk, nearest(curve.view, count), Clock::kProcessor)});
     size_t wrong = 0;
     for (const math::Vec3& p : astray) {
-      query::Hint hint;
+      curve::Hint hint;
       curve::Neighbour memory[curve::kMaxNearest];
       const float reported =
           nearest_constraint(uneven.view, p, {}, core::Span<curve::Neighbour>(memory, count),

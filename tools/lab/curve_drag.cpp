@@ -90,7 +90,7 @@ Drag guide_drag(const CurveCase& curve, const std::vector<math::Vec3>& points, f
 }
 
 Drag published_drag(const CurveCase& curve, const std::vector<math::Vec3>& points, float weight_m) {
-  query::Hint hint;
+  curve::Hint hint;
   curve::ArcPenalty penalty{weight_m, 0.0f, false};
   return drag_of(points, [&](math::Vec3 p_m) {
     const curve::Constraint found = guided_point(curve.view, p_m, penalty, query::kUnlimited, hint);

@@ -47,7 +47,7 @@ double paper_pass(const orders::Tree<K>& tree, const Points& points, bool is_sig
 double firmware_pass(const mesh::View& view, const Points& points) {
   double sum = 0;
   for (const math::Vec3& p_m : points) {
-    query::Hint hint;
+    mesh::Hint hint;
     sum += static_cast<double>(mesh::closest_point(view, p_m, query::kUnlimited, hint).distance_m);
   }
   return sum;
@@ -161,7 +161,7 @@ void tell_signs(const Model& model, const Grown<orders::FloatKind>& aligned, con
     const bool inside =
         orders::is_inside(model.view, nearest_of(aligned.tree(), p_m, waiting.data()));
     const bool odd = (orders::crossings(aligned.tree(), {p_m, kRayAlong}) & 1u) != 0;
-    query::Hint hint;
+    mesh::Hint hint;
     const mesh::Closest c = mesh::closest_point(model.view, p_m, query::kUnlimited, hint);
     if (odd != inside) ++rays_differ;
     if ((c.certificate.sign < 0) != inside) ++firmware_differs;

@@ -33,7 +33,7 @@ double firmware_pass(const mesh::View& view, const std::vector<math::Vec3>& poin
   double sum = 0;
   steps = 0;
   for (const math::Vec3& p : points) {
-    query::Hint hint;
+    mesh::Hint hint;
     const mesh::Closest c = mesh::closest_point(view, p, query::kUnlimited, hint);
     sum += static_cast<double>(c.distance_m);
     steps += c.certificate.steps;

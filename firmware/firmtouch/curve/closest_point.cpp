@@ -24,7 +24,7 @@ float spacing_m(const View& curve) {
 
 // All but the fence.
 Closest finish(const View& curve, const Foot& best, const Walk& walk, bool compensated, Vec3 p_m,
-               query::Hint& hint) {
+               Hint& hint) {
   Closest closest = answer_at(curve, best);
   float lower_m = rounded_down(closest.distance_m, curve.head().longest_half_m, compensated);
   if (!walk.complete) {
@@ -35,7 +35,7 @@ Closest finish(const View& curve, const Foot& best, const Walk& walk, bool compe
   closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   closest.certificate.steps = walk.steps;
   closest.certificate.exact = walk.complete;
-  hint.place = closest.segment;
+  hint.segment = closest.segment;
   hint.position_m = p_m;
   hint.lower_m = closest.certificate.lower_m;
   hint.sign = 0;
@@ -45,14 +45,13 @@ Closest finish(const View& curve, const Foot& best, const Walk& walk, bool compe
 // Without a fence. A warm search begins at the last segment; a cold one knows a point of the curve
 // at once: its first sample.
 template <bool kCompensated, class Bound>
-Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget budget,
-               query::Hint& hint) {
+Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget budget, Hint& hint) {
   NearestFoot<kCompensated> nearest(curve, p_m);
   uint32_t start = kNoRun;
   Steps steps(budget);
   bool has_begun = true;
-  if (hint.place < curve.segment_count()) {
-    start = run_of(nearest.follow(hint.place), curve.run_levels());
+  if (hint.segment < curve.segment_count()) {
+    start = run_of(nearest.follow(hint.segment), curve.run_levels());
     has_begun = nearest.begin(start, kNoNode, steps.left) == Climb::kRun;
   } else {
     nearest.begin_at_first();
@@ -65,9 +64,9 @@ Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget bu
 // From the last segment up to the last fence where that is far enough away, else to the root, making
 // the next fence.
 // Result: false where plain floats do not do, or the query is not near.
-bool search_near(const View& curve, Vec3 p_m, query::Budget budget, query::Hint& hint,
+bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
                  NearestFoot<false>& nearest, Walk& walk) {
-  const uint32_t run = run_of(nearest.follow(hint.place), curve.run_levels());
+  const uint32_t run = run_of(nearest.follow(hint.segment), curve.run_levels());
   const float radius_m = nearest.radius_m();
   if (!(radius_m <= kPlain * curve.head().diagonal_m)) return false;
   // What the last certificate says of all outside its fence, rounded down as query::carry() does.
@@ -92,17 +91,17 @@ bool search_near(const View& curve, Vec3 p_m, query::Budget budget, query::Hint&
 }
 
 // So far away that the first sample is as near as any other point, to 2^-28.
-Closest answer_beyond(const View& curve, Vec3 p_m, query::Hint& hint) {
+Closest answer_beyond(const View& curve, Vec3 p_m, Hint& hint) {
   Closest closest = answer_at(curve, {0.0f, 0, 1, 0.0f});
   const float scaled = math::length((p_m - closest.point_m) * 0x1p-70f);
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
   closest.certificate = {closest.distance_m * (1.0f - 6.0f * kUnit), 1, fits, 0};
-  hint = {0, p_m, closest.certificate.lower_m, 0, {0, 0}, query::kNowhere, 0};
+  hint = {{p_m, closest.certificate.lower_m, 0}, 0, query::kNowhere, 0};
   return closest;
 }
 
-Closest answer_nothing(const View& curve, query::Hint& hint) {
+Closest answer_nothing(const View& curve, Hint& hint) {
   Closest closest = answer_at(curve, {0.0f, 0, 1, 0.0f});
   closest.distance_m = FLT_MAX;
   hint.lower_m = 0;
@@ -112,7 +111,7 @@ Closest answer_nothing(const View& curve, query::Hint& hint) {
 
 // A function of its own: its frame is larger than what a warm query needs.
 [[gnu::noinline]] Closest answer_anywhere(const View& curve, Vec3 p_m, query::Budget budget,
-                                          query::Hint& hint) {
+                                          Hint& hint) {
   if (curve.is_smooth() && is_near(p_m)) return smooth_point(curve, p_m, {}, budget, hint).closest;
   NearBound near_bound;
   if (near_bound.begin(curve.head(), p_m)) {
@@ -129,8 +128,8 @@ Closest answer_nothing(const View& curve, query::Hint& hint) {
 
 }  // namespace
 
-Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, query::Hint& hint) {
-  if (!curve.is_smooth() && hint.place < curve.segment_count()) {
+Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint) {
+  if (!curve.is_smooth() && hint.segment < curve.segment_count()) {
     NearestFoot<false> nearest(curve, p_m);
     Walk walk;
     if (search_near(curve, p_m, budget, hint, nearest, walk))
@@ -141,7 +140,7 @@ Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, query::
 
 uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points) {
   core::Hash hash;
-  query::Hint hint;
+  Hint hint;
   for (const query::ProbePoint& p : points) {
     const Closest c = closest_point(curve, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint);
     const float values[] = {c.distance_m, c.point_m.x, c.point_m.y,

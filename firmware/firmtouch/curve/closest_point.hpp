@@ -1,9 +1,9 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/curve/hint.hpp"
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/query/certificate.hpp"
-#include "firmtouch/query/hint.hpp"
 #include "firmtouch/query/probe.hpp"
 
 namespace firmtouch::curve {
@@ -28,7 +28,7 @@ struct Closest {
 ///         (tests/curve/closest_point_host_test.cpp).
 /// Source: Morris 2006, section 2.2; a tree of all segments instead of N nearest samples, which can
 ///         miss (tests/curve/paper_test.cpp). Ballard 1981 (strips about chords).
-Closest closest_point(const View& curve, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
+Closest closest_point(const View& curve, math::Vec3 p_m, query::Budget budget, Hint& hint);
 
 /// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.
 uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points);

@@ -17,8 +17,7 @@ uint32_t beyond(const View& curve, const Foot& foot) {
 }
 
 // Along the curve from the point found, while the distance falls.
-void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& closest,
-           query::Hint& hint) {
+void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& closest, Hint& hint) {
   if (!is_near(p_m)) return;
   const bool compensated = is_compensated(curve.head(), p_m);
   Foot best = any_foot(curve, p_m, closest.segment, compensated);
@@ -38,13 +37,13 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& clos
   certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   closest = any_answer(curve, best);
   closest.certificate = certificate;
-  hint.place = closest.segment;
+  hint.segment = closest.segment;
 }
 
 }  // namespace
 
 Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
-                        query::Budget budget, query::Hint& hint) {
+                        query::Budget budget, Hint& hint) {
   if (curve.is_smooth() && is_near(p_m)) return smooth_point(curve, p_m, penalty, budget, hint);
   NearBound near_bound;
   if (is_penalty(penalty) && penalty.weight_m <= 0x1p60f) {

@@ -20,7 +20,7 @@ namespace firmtouch::curve {
 /// Error:  tests/curve/guided_point_host_test.cpp, against every segment in double.
 /// Source: Morris 2006, section 2.2, over all segments instead of those at N samples.
 Constraint guided_point(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
-                        query::Budget budget, query::Hint& hint);
+                        query::Budget budget, Hint& hint);
 
 /// How a guide holds on to a curve.
 struct Hold {
@@ -31,7 +31,7 @@ struct Hold {
 /// What one (tool, guide) pair remembers from tick to tick; the caller owns it. A default one has no
 /// previous state: its first query is not penalised.
 struct Following {
-  query::Hint hint;
+  Hint hint;
   float arc = 0;  // of the last point, where is_following
   bool is_following = false;
 };

@@ -144,10 +144,10 @@ static inline uint32_t segment_at(const View& curve, float arc) {
 template <bool kSmooth, class Bound>
 static inline Constraint min_cost(const View& curve, const Bound& bound, math::Vec3 p_m,
                                   const ArcPenalty& penalty, bool compensated, query::Budget budget,
-                                  query::Hint& hint) {
+                                  Hint& hint) {
   LeastCost<kSmooth> least(curve, p_m, penalty, compensated);
   const uint32_t from =
-      hint.place < curve.segment_count() ? hint.place : segment_at(curve, penalty.previous_arc);
+      hint.segment < curve.segment_count() ? hint.segment : segment_at(curve, penalty.previous_arc);
   const uint32_t start = run_of(least.approach(from), curve.run_levels());
   Steps steps(budget);
   const bool begun = least.take(start, steps.left);
@@ -171,7 +171,7 @@ static inline Constraint min_cost(const View& curve, const Bound& bound, math::V
   found.closest.certificate.steps = walk.steps;
   found.closest.certificate.exact =
       walk.complete && least.doubt_m() <= 2.0f * piece_slack_m(head, distance_m);
-  hint.place = found.closest.segment;
+  hint.segment = found.closest.segment;
   hint.position_m = p_m;
   hint.lower_m = 0;  // a bound of the cost is none of the distance
   hint.sign = 0;

@@ -85,7 +85,7 @@ class NearestFoot {
   /// least so far from the query. None where the run is too short for one. Part k of run r is node r *
   /// (parts of a run + 1) + k. Pre: all other runs are at least `outside_m` away.
   void make_safe_subtree(uint32_t run, float motion_m, float spacing_m, float outside_m,
-                         query::Hint& hint) const {
+                         Hint& hint) const {
     const uint32_t segments = run_segments_of(levels_), run_first = run * segments;
     const float min_m = kSafeSubtreeMotions * motion_m;
     uint32_t size = kPartSegments, first = segment_of(best_);

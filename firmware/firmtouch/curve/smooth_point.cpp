@@ -5,7 +5,7 @@
 namespace firmtouch::curve {
 
 Constraint smooth_point(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
-                        query::Budget budget, query::Hint& hint) {
+                        query::Budget budget, Hint& hint) {
   const bool counts = is_penalty(penalty) && penalty.weight_m <= 0x1p60f;
   const ArcPenalty used = counts ? penalty : ArcPenalty{0.0f, 0.0f, true};
   NearBound near_bound;

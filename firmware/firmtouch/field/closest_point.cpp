@@ -8,8 +8,8 @@ namespace {
 using math::Vec3;
 
 // What the map knows about p, as if a query had left it.
-void leave_hint(const Bounds& bounds, Vec3 p_m, query::Hint& hint) {
-  hint.place = bounds.seed;
+void leave_hint(const Bounds& bounds, Vec3 p_m, mesh::Hint& hint) {
+  hint.leaf_slot = bounds.seed;
   hint.position_m = p_m;
   hint.lower_m = bounds.lower_m;
   hint.sign = bounds.sign;
@@ -18,9 +18,9 @@ void leave_hint(const Bounds& bounds, Vec3 p_m, query::Hint& hint) {
 }
 
 // Where the last leaf is no help the cell's is; of what is certified the farther.
-void start_at_seed(const Bounds& bounds, float cell_m, Vec3 p_m, query::Hint& hint) {
+void start_at_seed(const Bounds& bounds, float cell_m, Vec3 p_m, mesh::Hint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
-  if (hint.place != query::kNowhere && carried.motion_m <= cell_m) return;
+  if (hint.leaf_slot != query::kNowhere && carried.motion_m <= cell_m) return;
   leave_hint(bounds, p_m, hint);
   if (carried.lower_m > bounds.lower_m) {
     hint.lower_m = carried.lower_m;
@@ -29,7 +29,7 @@ void start_at_seed(const Bounds& bounds, float cell_m, Vec3 p_m, query::Hint& hi
 }
 
 // What a search that its budget ended, or its band, left open.
-void stand_in(const Bounds& bounds, mesh::Closest& closest, query::Hint& hint) {
+void stand_in(const Bounds& bounds, mesh::Closest& closest, mesh::Hint& hint) {
   query::Certificate& certificate = closest.certificate;
   if (bounds.lower_m > certificate.lower_m) certificate.lower_m = hint.lower_m = bounds.lower_m;
   if (certificate.sign != 0 || bounds.sign == 0) return;
@@ -40,7 +40,7 @@ void stand_in(const Bounds& bounds, mesh::Closest& closest, query::Hint& hint) {
 }  // namespace
 
 Felt closest_point(const View& distance_field, const mesh::View& mesh, Vec3 p_m, float band_m,
-                   query::Budget budget, query::Hint& hint) {
+                   query::Budget budget, mesh::Hint& hint) {
   const Bounds bounds = distance_bounds(distance_field, p_m);
   Felt felt;
   if (bounds.lower_m > band_m && bounds.sign >= 0) {

@@ -21,6 +21,6 @@ struct Felt {
 /// Result: always finite. is_far only where the lower bound is above band_m and the side is not
 ///         inside. Else as mesh::closest_point() says.
 Felt closest_point(const View& distance_field, const mesh::View& mesh, math::Vec3 p_m, float band_m,
-                   query::Budget budget, query::Hint& hint);
+                   query::Budget budget, mesh::Hint& hint);
 
 }  // namespace firmtouch::field

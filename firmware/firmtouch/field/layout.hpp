@@ -10,7 +10,7 @@ namespace firmtouch::field {
 // Section types of one map; it shares the name of its mesh.
 constexpr uint32_t kHeadSection = 0x3001;
 constexpr uint32_t kDistancesSection = 0x3002;  // int16_t[cells], x fastest
-constexpr uint32_t kSeedsSection = 0x3003;      // uint32_t[cells]: query::Hint::place of the mesh
+constexpr uint32_t kSeedsSection = 0x3003;      // uint32_t[cells]: mesh::Hint::place of the mesh
 
 constexpr uint32_t kMaxCellsAnAxis = 1024;
 constexpr uint32_t kMaxCells = 1u << 24;

@@ -78,8 +78,8 @@ Verdict Opening::check_cell(uint32_t i) const {
   if (word == kUnknown) return kPassed;
   const uint32_t x = i % head.count[0], yz = i / head.count[0];
   const math::Vec3 centre_m = centre_of(head, x, yz % head.count[1], yz / head.count[1]);
-  query::Hint hint;
-  hint.place = view_.seeds_[i];
+  mesh::Hint hint;
+  hint.leaf_slot = view_.seeds_[i];
   const mesh::Closest truth = mesh::closest_point(*mesh_, centre_m, query::kUnlimited, hint);
   const float reported_m = truth.distance_m < 0.0f ? -truth.distance_m : truth.distance_m;
   const uint32_t quanta = quanta_of(word);

@@ -4,8 +4,8 @@
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/field/layout.hpp"
+#include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/view.hpp"
-#include "firmtouch/query/hint.hpp"
 
 namespace firmtouch::field {
 

@@ -161,7 +161,7 @@ int8_t side_of(const Found& found, Vec3 direction, float loss_m, float diagonal_
 
 template <class Bound>
 [[gnu::always_inline]] inline Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m,
-                                             const query::Budget& budget, query::Hint& hint) {
+                                             const query::Budget& budget, Hint& hint) {
   const float moved_m = query::motion_m(hint, p_m);
   const bool has_moved = moved_m <= query::kMaxMotion_m;  // else nothing is carried on
   const Loss loss(mesh.head());
@@ -169,7 +169,7 @@ template <class Bound>
   // FLT_MAX and what squares beyond it: no band.
   const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
   // After a jump out of the band's reach the last leaf does not help.
-  const uint32_t slot = hint.place, safe_subtree = hint.safe_subtree;
+  const uint32_t slot = hint.leaf_slot, safe_subtree = hint.safe_subtree;
   const bool is_warm = !(safe_subtree_margin_m > budget.band_m) && is_slot(mesh, slot);
   Found found;  // all at once, with nothing read between: else each of its defaults is stored too
   Search& search = found.search;
@@ -179,9 +179,7 @@ template <class Bound>
   search.start = is_warm ? slot : query::kNowhere;
   search.budget = budget.steps;
   if constexpr (math::kHasLanes) {
-    uint16_t last;
-    __builtin_memcpy(&last, hint.fine, sizeof last);
-    search.last = last;
+    search.last = hint.triangle_low;
   }
   search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
   search.safe_subtree_margin_m = safe_subtree_margin_m;
@@ -228,10 +226,9 @@ template <class Bound>
       exact = exact && sign != 0;
     }
   }
-  if (best.slot != query::kNowhere) hint.place = best.slot;
+  if (best.slot != query::kNowhere) hint.leaf_slot = best.slot;
   if constexpr (math::kHasLanes) {
-    const uint16_t last = static_cast<uint16_t>(best.triangle);
-    __builtin_memcpy(hint.fine, &last, sizeof last);
+    hint.triangle_low = static_cast<uint16_t>(best.triangle);
   }
   hint.position_m.x = p_m.x;
   hint.position_m.y = p_m.y;
@@ -250,7 +247,7 @@ template <class Bound>
 
 // So far away that every vertex is as near as any other to 4e-8: no square of such a distance fits
 // a float.
-Closest answer_beyond(const View& mesh, Vec3 p_m, query::Hint& hint) {
+Closest answer_beyond(const View& mesh, Vec3 p_m, Hint& hint) {
   Closest closest;
   closest.point_m = mesh.vertex(mesh.triangle(0).corner[0]);
   closest.direction = unit(Vec3{p_m.x * 0x1p-100f, p_m.y * 0x1p-100f, p_m.z * 0x1p-100f});
@@ -269,7 +266,7 @@ Closest answer_beyond(const View& mesh, Vec3 p_m, query::Hint& hint) {
   return closest;
 }
 
-Closest answer_nothing(const View& mesh, query::Hint& hint) {
+Closest answer_nothing(const View& mesh, Hint& hint) {
   Closest closest;
   closest.point_m = mesh.vertex(mesh.triangle(0).corner[0]);
   closest.direction = {0, 0, 1};
@@ -283,7 +280,7 @@ Closest answer_nothing(const View& mesh, query::Hint& hint) {
 
 }  // namespace
 
-Closest closest_point(const View& mesh, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+Closest closest_point(const View& mesh, Vec3 p_m, query::Budget budget, Hint& hint) {
   NearBound near_bound;
   if (near_bound.begin(mesh.head(), p_m)) return answer(mesh, near_bound, p_m, budget, hint);
   if (!math::is_finite(p_m)) return answer_nothing(mesh, hint);
@@ -296,7 +293,7 @@ Closest closest_point(const View& mesh, Vec3 p_m, query::Budget budget, query::H
 
 uint64_t probe_hash(const View& mesh, core::Span<const query::ProbePoint> points) {
   core::Hash hash;
-  query::Hint hint;
+  Hint hint;
   for (const query::ProbePoint& p : points) {
     const Closest c = closest_point(mesh, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint);
     const float values[] = {c.distance_m,  c.point_m.x,   c.point_m.y,   c.point_m.z,

@@ -1,9 +1,9 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/query/certificate.hpp"
-#include "firmtouch/query/hint.hpp"
 #include "firmtouch/query/probe.hpp"
 
 namespace firmtouch::mesh {
@@ -38,7 +38,7 @@ struct Closest {
 ///         time, which costs some thousand instructions and is counted in steps.
 /// Source: Baerentzen & Aanaes 2005, sections 3 and 4; Morris 2006, 3.3 (ascend from the last
 ///         leaf).
-Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
+Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, Hint& hint);
 
 /// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.
 uint64_t probe_hash(const View& mesh, core::Span<const query::ProbePoint> points);

@@ -8,13 +8,13 @@
 #include "firmtouch/math/isa_loads.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/compensated_distance.hpp"
+#include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/mesh/lined.hpp"
 #include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/prism.hpp"
 #include "firmtouch/mesh/triangle.hpp"
 #include "firmtouch/mesh/triangle_lanes.hpp"
-#include "firmtouch/query/hint.hpp"
 
 namespace firmtouch::mesh {
 

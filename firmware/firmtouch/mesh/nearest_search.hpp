@@ -3,10 +3,10 @@
 
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/grid.hpp"
+#include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/leaf.hpp"
 #include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/view.hpp"
-#include "firmtouch/query/hint.hpp"
 
 namespace firmtouch::mesh {
 namespace {

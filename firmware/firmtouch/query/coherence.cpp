@@ -4,13 +4,13 @@
 
 namespace firmtouch::query {
 
-Carried carry(const Hint& hint, math::Vec3 position_m) {
+Carried carry(const HintBase& hint, math::Vec3 position_m) {
   const float moved_m = motion_m(hint, position_m);
   Carried carried;
   if (!(moved_m <= kMaxMotion_m)) return carried;
+  carried.is_finite = true;
   carried.motion_m = moved_m;
   carried.lower_m = left_of(hint.lower_m, moved_m);
-  carried.safe_subtree_m = left_of(hint.safe_subtree_m, moved_m);
   if (carried.lower_m > 0.0f) carried.sign = hint.sign;
   return carried;
 }

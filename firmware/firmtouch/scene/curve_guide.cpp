@@ -84,7 +84,7 @@ void go_on_at_other_end(const CurveGuide& guide, int end, Vec3 p_m, GuideTouch& 
   const float there_m = math::length(p_m - curve.sample(end > 0 ? 0 : last));
   if (!(there_m < touch.closest.distance_m)) return;
   touch.following.arc = end > 0 ? 0.0f : 1.0f;
-  touch.following.hint.place = end > 0 ? 0 : last - 1;
+  touch.following.hint.segment = end > 0 ? 0 : last - 1;
 }
 
 // Whether the guide holds the tool in this tick.

@@ -46,7 +46,7 @@ constexpr float kAhead = 0.02f;
 constexpr uint32_t kBaseHullSteps = 512;
 
 mesh::Closest ask(const MeshObject& object, Vec3 p_m, float reach_m, query::Budget budget,
-                  query::Hint& hint) {
+                  mesh::Hint& hint) {
   if (object.distance_field == nullptr || !object.distance_field->is_open())
     return mesh::closest_point(*object.mesh, p_m, budget, hint);
   return field::closest_point(*object.distance_field, *object.mesh, p_m, reach_m, budget, hint)

@@ -5,8 +5,8 @@
 #include "firmtouch/hull/base_hull.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/query/certificate.hpp"
-#include "firmtouch/query/hint.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/local_model.hpp"
 
@@ -26,7 +26,7 @@ struct MeshObject {
 /// What a (tool, object) pair remembers from tick to tick, and what its last query said. The caller
 /// owns one a pair.
 struct MeshTouch {
-  query::Hint hint;
+  mesh::Hint hint;
   mesh::Closest closest;    // mesh frame; without a point where only the map was asked
   math::Vec3 normal;        // of the plane, device frame
   float penetration_m = 0;  // of the sphere; 0 in free space, and where the side is unknown

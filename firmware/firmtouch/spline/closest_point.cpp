@@ -106,7 +106,7 @@ Best best_of(const Head& head) {
 // What a search leaves: the answer with its certificate, and the hint but for place and fence.
 template <class Search>
 Closest certified(const View& model, Vec3 p_m, const Search& search, const Best& best,
-                  uint32_t piece, const query::Carried& carried, query::Hint& hint) {
+                  uint32_t piece, const query::Carried& carried, CurveHint& hint) {
   const Head& head = model.head();
   Closest closest = answer_at(model, best, piece);
   float lower_m = best.limit_m < closest.distance_m ? best.limit_m : closest.distance_m;
@@ -127,7 +127,7 @@ Closest certified(const View& model, Vec3 p_m, const Search& search, const Best&
 }
 
 // All of a front is nearer by the motion at most. Four roundings, of what is not larger than either.
-void move(const Vec3& p_m, const query::Hint& hint, Frontier& frontier) {
+void move(const Vec3& p_m, const CurveHint& hint, Frontier& frontier) {
   const float motion_m = query::motion_m(hint, p_m);
   if (!(motion_m <= query::kMaxMotion_m)) {
     FrontierUse(frontier).clear();
@@ -138,7 +138,7 @@ void move(const Vec3& p_m, const query::Hint& hint, Frontier& frontier) {
 }
 
 // `fence`: what is left in the hint, kWithFrontier where the front is kept too.
-Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint,
+Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint,
                        Frontier& frontier, uint32_t safe_subtree) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
@@ -169,12 +169,13 @@ Closest answer_surface(const View& model, Vec3 p_m, query::Budget budget, query:
 }
 
 template <bool kFlat>
-Closest answer_curve(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+Closest answer_curve(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best = best_of(model.head());
   CurveSearch<kFlat> search(model, p_m, budget.steps, best);
-  LeafSafeSubtree safe_subtree{{hint.safe_subtree & 0xFFFFu, hint.safe_subtree >> 16},
-                               carried.safe_subtree_m};
+  LeafSafeSubtree safe_subtree{
+      {hint.safe_subtree & 0xFFFFu, hint.safe_subtree >> 16},
+      carried.is_finite ? query::left_of(hint.safe_subtree_m, carried.motion_m) : 0.0f};
   uint32_t piece;
   float s;
   const bool is_warm = search.resume(hint.place, piece, s);
@@ -195,7 +196,7 @@ Closest answer_curve(const View& model, Vec3 p_m, query::Budget budget, query::H
   return closest;
 }
 
-Closest answer_beyond(const View& model, Vec3 p_m, query::Hint& hint) {
+Closest answer_beyond(const View& model, Vec3 p_m, CurveHint& hint) {
   Best best;
   begin_at_first(model, p_m, best);
   Closest closest = answer_at(model, best, 0);
@@ -203,13 +204,13 @@ Closest answer_beyond(const View& model, Vec3 p_m, query::Hint& hint) {
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
   closest.certificate = {closest.distance_m * (1.0f - 8.0f * kUnit), 1, fits, 0};
-  hint = query::Hint{};
+  hint = CurveHint{};
   hint.position_m = p_m;
   hint.lower_m = closest.certificate.lower_m;
   return closest;
 }
 
-Closest answer_nothing(const View& model, query::Hint& hint) {
+Closest answer_nothing(const View& model, CurveHint& hint) {
   Best best;
   begin_at_first(model, {}, best);
   Closest closest = answer_at(model, best, 0);
@@ -221,7 +222,7 @@ Closest answer_nothing(const View& model, query::Hint& hint) {
 }
 
 [[gnu::always_inline]] inline Closest answer(const View& model, Vec3 p_m, query::Budget budget,
-                                             query::Hint& hint, Frontier& frontier,
+                                             CurveHint& hint, Frontier& frontier,
                                              uint32_t safe_subtree) {
   if (!is_near(model.head(), p_m)) {
     FrontierUse(frontier).clear();
@@ -238,22 +239,21 @@ Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, Hint& h
   return answer(model, p_m, budget, hint, hint.frontier, kWithFrontier);
 }
 
-Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint) {
   if (!is_near(model.head(), p_m))
     return math::is_finite(p_m) ? answer_beyond(model, p_m, hint) : answer_nothing(model, hint);
   return model.is_flat() ? answer_curve<true>(model, p_m, budget, hint)
                          : answer_curve<false>(model, p_m, budget, hint);
 }
 
-Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, query::Hint& hint) {
+Closest closest_point(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint) {
   Frontier frontier;
   return answer(model, p_m, budget, hint, frontier, query::kNowhere);
 }
 
 namespace {
 
-void add_answer(const View& model, const query::ProbePoint& p, query::Hint& hint,
-                core::Hash& hash) {
+void add_answer(const View& model, const query::ProbePoint& p, CurveHint& hint, core::Hash& hash) {
   const Closest c = closest_point(model, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint);
   const float values[] = {c.distance_m,  c.point_m.x,          c.point_m.y,   c.point_m.z,
                           c.direction.x, c.direction.y,        c.direction.z, c.u,
@@ -271,7 +271,7 @@ void ProbeRun::work(const View& model) {
 
 uint64_t probe_hash(const View& model, core::Span<const query::ProbePoint> points) {
   core::Hash hash;
-  query::Hint hint;
+  CurveHint hint;
   for (const query::ProbePoint& p : points) add_answer(model, p, hint, hash);
   return hash.value();
 }

@@ -36,11 +36,10 @@ struct Closest {
 ///         of the distance of the truth (tests/spline/closest_point_host_test.cpp).
 Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, Hint& hint);
 /// The same without a front: of a surface more steps along a path.
-Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, query::Hint& hint);
+Closest closest_point(const View& model, math::Vec3 p_m, query::Budget budget, CurveHint& hint);
 
 /// The same of curves alone, in less stack. Pre: `model` has no surfaces.
-Closest closest_on_curve(const View& model, math::Vec3 p_m, query::Budget budget,
-                         query::Hint& hint);
+Closest closest_on_curve(const View& model, math::Vec3 p_m, query::Budget budget, CurveHint& hint);
 
 /// Probe queries one after the other with one hint, each in a slice of its own.
 class ProbeRun {
@@ -55,7 +54,7 @@ class ProbeRun {
  private:
   query::Probes probes_;
   core::Hash hash_;
-  query::Hint hint_;
+  CurveHint hint_;
   uint32_t next_ = 0;
 };
 

@@ -15,7 +15,7 @@ struct Hold {
 /// What one (tool, guide) pair remembers from tick to tick; the caller owns it. A default one has no
 /// previous state.
 struct Following {
-  query::Hint hint;
+  CurveHint hint;
   uint32_t piece = 0;  // where on the curve the guide is, where is_following
   float s = 0;
   bool is_following = false;

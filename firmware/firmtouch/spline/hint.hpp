@@ -23,9 +23,17 @@ struct Frontier {
 /// Hint::fence of a surface whose front is of position_m. A query that leaves no front leaves query::kNowhere.
 constexpr uint32_t kWithFrontier = 0;
 
-/// What a query of splines leaves for the next one. A curve needs no more than a query::Hint, and a surface asked with one
-/// answers the same, with more steps.
-struct Hint : query::Hint {
+/// What a query of a spline curve leaves for the next one (query/hint.hpp). A surface queried with it
+/// returns the same, with more visits. No value of the place can make an answer wrong.
+struct CurveHint : query::HintBase {
+  uint32_t place = query::kNowhere;         // piece and parameter of the last answer
+  uint8_t fine[2] = {0, 0};                 // lower bits of a surface's two parameters
+  uint32_t safe_subtree = query::kNowhere;  // leaves; all outside them is ...
+  float safe_subtree_m = 0;                 // ... certified at least this far from position_m
+};
+
+/// The same of a surface.
+struct Hint : CurveHint {
   Frontier frontier;
 };
 

@@ -3,7 +3,7 @@
 #include <float.h>
 
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/query/hint.hpp"
+#include "firmtouch/spline/hint.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::spline {

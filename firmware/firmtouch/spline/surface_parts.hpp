@@ -33,7 +33,7 @@ class SurfaceParts {
   }
 
   /// The leaf of a hint, from where it was left: none for a hint that is none.
-  bool resume(const query::Hint& hint, uint32_t& node, Range& range) const {
+  bool resume(const CurveHint& hint, uint32_t& node, Range& range) const {
     const uint32_t place = hint.place;
     const uint32_t piece = place >> 16, u = (place >> 8) & 255u, v = place & 255u;
     if (piece >= piece_count_) return false;
@@ -45,7 +45,7 @@ class SurfaceParts {
     return true;
   }
   /// Where the next query, after the same motion once more, will have its foot.
-  void leave(const Best& best, math::Vec3 motion_m, query::Hint& hint) const {
+  void leave(const Best& best, math::Vec3 motion_m, CurveHint& hint) const {
     const float(&h)[3] = best.bend;
     const float determinant = h[0] * h[2] - h[1] * h[1];
     float to[2] = {best.s, best.t};

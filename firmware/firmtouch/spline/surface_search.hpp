@@ -15,10 +15,10 @@ class SurfaceSearch : public Account {
   SurfaceSearch(const View& model, math::Vec3 p_m, uint32_t budget, Best& best)
       : Account(budget), parts_(model, p_m), bounds_(model, p_m), poles_(model, p_m), best_(best) {}
 
-  bool resume(const query::Hint& hint, uint32_t& leaf, Range& range) const {
+  bool resume(const CurveHint& hint, uint32_t& leaf, Range& range) const {
     return parts_.resume(hint, leaf, range);
   }
-  void leave(math::Vec3 motion_m, query::Hint& hint) const { parts_.leave(best_, motion_m, hint); }
+  void leave(math::Vec3 motion_m, CurveHint& hint) const { parts_.leave(best_, motion_m, hint); }
   uint32_t piece_of(uint32_t node) const { return node >> 16; }
 
   /// From a leaf that may be near: where the front is far enough away only what of it may be within the limit, else

@@ -47,18 +47,18 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
   }
   std::vector<Cell> cells;
   std::vector<uint32_t> seeds;
-  query::Hint hint;
+  mesh::Hint hint;
   float farthest_m = 0;
   for (uint32_t z = 0; z < head.count[2]; ++z)
     for (uint32_t y = 0; y < head.count[1]; ++y)
       for (uint32_t x = 0; x < head.count[0]; ++x) {
         const math::Vec3 centre_m = field::centre_of(head, x, y, z);
         (void)mesh::closest_point(mesh, centre_m, query::kUnlimited, hint);
-        query::Hint from_seed;  // as the proof asks
-        from_seed.place = hint.place;
+        mesh::Hint from_seed;  // as the proof asks
+        from_seed.leaf_slot = hint.leaf_slot;
         const mesh::Closest c = mesh::closest_point(mesh, centre_m, query::kUnlimited, from_seed);
         cells.push_back({c.certificate.lower_m, std::fabs(c.distance_m), c.certificate.sign});
-        seeds.push_back(hint.place);
+        seeds.push_back(hint.leaf_slot);
         farthest_m = std::max(farthest_m, c.certificate.lower_m);
       }
   head.quantum_m = 0x1p-90f;
