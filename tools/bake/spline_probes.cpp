@@ -9,14 +9,7 @@ Section spline_probes(const spline::View& model, const std::string& name) {
     anchors_m.push_back({piece.origin_m[0], piece.origin_m[1], piece.origin_m[2]});
   const auto points =
       probe_points(model.head().low_m, model.head().high_m, anchors_m, kProbesAGeometry);
-  const core::Span<const query::ProbePoint> span(points.data(),
-                                                 static_cast<uint32_t>(points.size()));
-  return probe_section(spline::kProbesSection, name, points, spline::probe_hash(model, span));
-}
-
-bool spline_probes_agree(const spline::View& model, core::Bytes bytes) {
-  const query::Probes probes = query::read_probes(bytes);
-  return !probes.points.empty() && spline::probe_hash(model, probes.points) == probes.hash;
+  return answered_probes(spline::kProbesSection, name, model, points);
 }
 
 }  // namespace firmtouch::tools

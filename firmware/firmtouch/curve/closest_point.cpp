@@ -2,7 +2,6 @@
 
 #include <float.h>
 
-#include "firmtouch/core/hash.hpp"
 #include "firmtouch/curve/answer.hpp"
 #include "firmtouch/curve/nearest_foot.hpp"
 #include "firmtouch/curve/smooth_point.hpp"
@@ -138,19 +137,17 @@ Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, Hint& h
   return answer_anywhere(curve, p_m, budget, hint);
 }
 
+void Prober::answer(const View& curve, Vec3 p_m, core::Hash& hash) {
+  const Closest c = closest_point(curve, p_m, query::kUnlimited, hint);
+  const float values[] = {c.distance_m, c.point_m.x, c.point_m.y, c.point_m.z,          c.tangent.x,
+                          c.tangent.y,  c.tangent.z, c.arc,       c.certificate.lower_m};
+  for (const float value : values) hash.add(math::bits_of(value));
+  hash.add(c.segment);
+  hash.add(c.certificate.steps);
+}
+
 uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points) {
-  core::Hash hash;
-  Hint hint;
-  for (const query::ProbePoint& p : points) {
-    const Closest c = closest_point(curve, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint);
-    const float values[] = {c.distance_m, c.point_m.x, c.point_m.y,
-                            c.point_m.z,  c.tangent.x, c.tangent.y,
-                            c.tangent.z,  c.arc,       c.certificate.lower_m};
-    for (const float value : values) hash.add(math::bits_of(value));
-    hash.add(c.segment);
-    hash.add(c.certificate.steps);
-  }
-  return hash.value();
+  return query::hash_of_run<ProbeRun>(curve, points);
 }
 
 }  // namespace firmtouch::curve

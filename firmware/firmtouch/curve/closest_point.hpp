@@ -4,7 +4,7 @@
 #include "firmtouch/curve/hint.hpp"
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/query/certificate.hpp"
-#include "firmtouch/query/probe.hpp"
+#include "firmtouch/query/probe_run.hpp"
 
 namespace firmtouch::curve {
 
@@ -30,7 +30,14 @@ struct Closest {
 ///         miss (tests/curve/paper_test.cpp). Ballard 1981 (strips about chords).
 Closest closest_point(const View& curve, math::Vec3 p_m, query::Budget budget, Hint& hint);
 
-/// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.
+/// Probe queries, one after the other with one hint.
+struct Prober {
+  void answer(const View& curve, math::Vec3 p_m, core::Hash& hash);
+  Hint hint;
+};
+using ProbeRun = query::ProbeRun<Prober>;
+
+/// Hash of the bits of the answers to `points`.
 uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points);
 
 }  // namespace firmtouch::curve

@@ -1,7 +1,5 @@
 #include "firmtouch/curve/view.hpp"
 
-#include <float.h>
-
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/curve/derived.hpp"
 
@@ -64,116 +62,67 @@ bool holds_piece(const Head& head, const Track& track, uint32_t segment, const B
 
 }  // namespace
 
-Opening::Opening(const Sections& sections) { open_head(sections); }
+const query::CheckStage<Opening> Opening::kStages[6] = {
+    {&Opening::sample_count, &Opening::check_sample, &Opening::finish_samples},
+    {&Opening::sample_count, &Opening::check_length, &Opening::finish_length},
+    {&Opening::sample_count, &Opening::check_tree},
+    {&Opening::box_count, &Opening::check_box},
+    {&Opening::run_count, &Opening::check_run, nullptr, &Opening::run_cost},
+    {&Opening::radius_count, &Opening::check_part, nullptr, &Opening::part_cost}};
 
-void Opening::fail(uint16_t rule, uint32_t element) {
-  verdict_ = reject(rule, element);
-  stage_ = Stage::kDone;
-}
+Opening::Opening(const Sections& sections) { check_.begin(open_head(sections)); }
 
-void Opening::open_head(const Sections& s) {
+void Opening::work(uint32_t elements) { check_.work(*this, kStages, elements); }
+
+Verdict Opening::open_head(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
-  if (heads.size() != 1) return fail(kRuleHeadSize, 0);
+  if (heads.size() != 1) return reject(kRuleHeadSize);
   const Head& head = heads[0];
-  if (head.sample_count < 2 || head.sample_count > kMaxSamples) return fail(kRuleSampleCount, 0);
+  if (head.sample_count < 2 || head.sample_count > kMaxSamples) return reject(kRuleSampleCount);
   view_.samples_ = core::as_whole_array<Sample>(s.samples);
   if (view_.samples_.size() != head.sample_count)
-    return fail(kRuleSamplesSize, view_.samples_.size());
+    return reject(kRuleSamplesSize, view_.samples_.size());
   view_.arcs_ = core::as_whole_array<float>(s.arcs);
-  if (view_.arcs_.size() != head.sample_count) return fail(kRuleArcsSize, view_.arcs_.size());
+  if (view_.arcs_.size() != head.sample_count) return reject(kRuleArcsSize, view_.arcs_.size());
   view_.places_ = core::as_whole_array<uint32_t>(s.places);
-  if (view_.places_.size() != head.sample_count) return fail(kRuleTreeSize, view_.places_.size());
-  verdict_ = check_head(head);
-  if (!verdict_.ok()) return;
+  if (view_.places_.size() != head.sample_count) return reject(kRuleTreeSize, view_.places_.size());
+  const Verdict of_head = check_head(head);
+  if (!of_head.ok()) return of_head;
   const uint32_t runs = run_count_of(head.sample_count, head.run_levels);
   view_.boxes_ = core::as_whole_array<Box>(s.boxes);
-  if (view_.boxes_.size() != 2 * runs - 1) return fail(kRuleRunsSize, view_.boxes_.size());
+  if (view_.boxes_.size() != 2 * runs - 1) return reject(kRuleRunsSize, view_.boxes_.size());
   view_.runs_ = core::as_whole_array<Run>(s.runs);
-  if (view_.runs_.size() != runs) return fail(kRuleRunsSize, view_.runs_.size());
+  if (view_.runs_.size() != runs) return reject(kRuleRunsSize, view_.runs_.size());
   const core::Span<const uint16_t> radii = core::as_whole_array<uint16_t>(s.radii);
   if (radii.size() != runs * (parts_of(head.run_levels) + 1))
-    return fail(kRuleRunsSize, radii.size());
+    return reject(kRuleRunsSize, radii.size());
   view_.radii_ = radii.data();
   view_.head_ = &head;
-  low_ = {FLT_MAX, FLT_MAX, FLT_MAX};
-  high_ = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
-  stage_ = Stage::kSamples;
-}
-
-void Opening::work(uint32_t elements) {
-  for (uint32_t used = 0; used < elements && stage_ != Stage::kDone;) {
-    used += cost(next_);
-    const Verdict found = check(next_);
-    if (!found.ok()) return fail(found.rule, found.element);
-    if (++next_ == this->elements()) next_stage();
-  }
-}
-
-Verdict Opening::check(uint32_t i) {
-  switch (stage_) {
-    case Stage::kSamples:
-      return check_sample(i);
-    case Stage::kLength:
-      return check_length(i);
-    case Stage::kPlaces:
-      return check_place(i);
-    case Stage::kBoxes:
-      return check_box(i);
-    case Stage::kRuns:
-      return check_run(i);
-    case Stage::kParts:
-      return check_part(i);
-    case Stage::kDone:
-      break;
-  }
   return kPassed;
 }
 
-uint32_t Opening::cost(uint32_t i) const {
-  if (stage_ != Stage::kRuns && stage_ != Stage::kParts) return 1;
-  const uint32_t levels = view_.run_levels(), k = i & parts_of(levels);
+uint32_t Opening::run_cost(uint32_t) const { return part_cost(0); }
+
+// Its segments; a cubic piece costs as much as four straight ones.
+uint32_t Opening::part_cost(uint32_t i) const {
+  const uint32_t levels = view_.run_levels();
   uint32_t size = run_segments_of(levels);
-  for (uint32_t above = k; stage_ == Stage::kParts && above != 0; above = parent_of(above))
-    size /= 2;
+  for (uint32_t above = i & parts_of(levels); above != 0; above = parent_of(above)) size /= 2;
   return view_.is_smooth() ? 4 * size : size;
 }
 
-uint32_t Opening::elements() const {
-  if (stage_ == Stage::kParts) return view_.radii().size();
-  if (stage_ == Stage::kBoxes) return view_.boxes_.size();
-  return stage_ == Stage::kRuns ? view_.runs_.size() : view_.samples_.size();
-}
-
-void Opening::next_stage() {
-  next_ = 0;
-  if (stage_ == Stage::kSamples) {
-    const Verdict ends = check_ends();
-    if (!ends.ok()) return fail(ends.rule, ends.element);
-  }
-  if (stage_ == Stage::kLength && !same_bits(longest_half_m_, view_.head_->longest_half_m))
-    return fail(kRuleLongestHalf, 0);
-  stage_ = static_cast<Stage>(static_cast<uint8_t>(stage_) + 1);
-}
-
 Verdict Opening::check_sample(uint32_t i) {
-  const float* values = &view_.samples_[i].x_m;
-  float* low = &low_.x_m;
-  float* high = &high_.x_m;
-  for (uint32_t k = 0; k < 3; ++k) {
-    if (!(values[k] >= view_.head_->low_m[k] && values[k] <= view_.head_->high_m[k]))
-      return reject(kRuleSampleOutside, i);
-    if (values[k] < low[k]) low[k] = values[k];
-    if (values[k] > high[k]) high[k] = values[k];
-  }
-  return kPassed;
+  const Head& head = view_.head();
+  return seen_.take(&view_.samples_[i].x_m, head.low_m, head.high_m)
+             ? kPassed
+             : reject(kRuleSampleOutside, i);
 }
 
-Verdict Opening::check_ends() const {
-  const Head& head = *view_.head_;
-  const float* low = &low_.x_m;
-  const float* high = &high_.x_m;
+Verdict Opening::finish_samples() {
+  const Head& head = view_.head();
   for (uint32_t k = 0; k < 3; ++k)
-    if (low[k] > head.low_m[k] || high[k] < head.high_m[k]) return reject(kRuleLooseBox, k);
+    if (!seen_.touches_low(k, head.low_m[k]) || !seen_.touches_high(k, head.high_m[k]))
+      return reject(kRuleLooseBox, k);
   const float* first = &view_.samples_[0].x_m;
   const float* last = &view_.samples_[head.sample_count - 1].x_m;
   bool meet = true;
@@ -201,9 +150,14 @@ Verdict Opening::check_length(uint32_t i) {
   return kPassed;
 }
 
+Verdict Opening::finish_length() {
+  return same_bits(longest_half_m_, view_.head_->longest_half_m) ? kPassed
+                                                                 : reject(kRuleLongestHalf);
+}
+
 // The order by (coordinate, sample) is strict: a sample that stood in two nodes would have to come
 // before itself where their ways part. So nodes in order, as many as samples, hold each once.
-Verdict Opening::check_place(uint32_t i) const {
+Verdict Opening::check_tree(uint32_t i) {
   const uint32_t count = view_.samples_.size(), place = view_.places_[i];
   const Sample* samples = view_.samples_.data();
   if (sample_of(place) >= count || axis_of(place) > 2) return reject(kRuleTreeNode, i);
@@ -217,7 +171,7 @@ Verdict Opening::check_place(uint32_t i) const {
   return kPassed;
 }
 
-Verdict Opening::check_box(uint32_t i) const {
+Verdict Opening::check_box(uint32_t i) {
   const Box& box = view_.boxes_[i];
   const Box& around = view_.boxes_[i == 0 ? 0 : parent_of(i)];
   for (uint32_t k = 0; k < 3; ++k) {
@@ -230,7 +184,7 @@ Verdict Opening::check_box(uint32_t i) const {
 }
 
 // leaf -> run is undone by run -> leaf, so each run is one leaf.
-Verdict Opening::check_run(uint32_t i) const {
+Verdict Opening::check_run(uint32_t i) {
   const core::Span<const Run> runs = view_.runs_;
   const Run& run = runs[i];
   if (run.run >= runs.size() || runs[run.run].leaf != i) return reject(kRuleRunOrder, i);
@@ -253,7 +207,7 @@ Verdict Opening::check_run(uint32_t i) const {
   return kPassed;
 }
 
-Verdict Opening::check_part(uint32_t i) const {
+Verdict Opening::check_part(uint32_t i) {
   const uint32_t levels = view_.run_levels(), parts = parts_of(levels);
   const uint32_t run = i >> (levels + 1), k = i & parts;
   if (k == parts) return view_.radii_[i] == 0 ? kPassed : reject(kRuleRadiusPadding, run);
@@ -265,9 +219,7 @@ Verdict Opening::check_part(uint32_t i) const {
 
 Verdict open(const Sections& sections, View& view) {
   Opening opening(sections);
-  while (!opening.done()) opening.work(UINT32_MAX);
-  view = opening.view();
-  return opening.verdict();
+  return query::open_at_once(opening, view);
 }
 
 }  // namespace firmtouch::curve

@@ -5,6 +5,7 @@
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/math/vec3.hpp"
+#include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::curve {
 
@@ -64,34 +65,34 @@ class Opening {
   /// Bounds: at most kMaxLevels reads an element; at most a run, 1,024 segments, at once; no recursion;
   /// reads only inside the sections.
   void work(uint32_t elements);
-  bool done() const { return stage_ == Stage::kDone; }
-  core::Verdict verdict() const { return verdict_; }
+  bool done() const { return check_.done(); }
+  core::Verdict verdict() const { return check_.verdict(); }
   /// The proven curve; one that is not open unless done() and verdict().ok().
-  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+  View view() const { return check_.has_passed() ? view_ : View{}; }
 
  private:
-  enum class Stage : uint8_t { kSamples, kLength, kPlaces, kBoxes, kRuns, kParts, kDone };
-  void fail(uint16_t rule, uint32_t element);
-  void open_head(const Sections& sections);
-  core::Verdict check(uint32_t i);
-  uint32_t elements() const;
-  void next_stage();
+  static const query::CheckStage<Opening> kStages[6];
+  core::Verdict open_head(const Sections& sections);
+  uint32_t sample_count() const { return view_.samples_.size(); }
+  uint32_t box_count() const { return view_.boxes_.size(); }
+  uint32_t run_count() const { return view_.runs_.size(); }
+  uint32_t radius_count() const { return view_.radii().size(); }
   core::Verdict check_sample(uint32_t i);
-  core::Verdict check_ends() const;
+  core::Verdict finish_samples();
   core::Verdict check_length(uint32_t i);
-  core::Verdict check_place(uint32_t i) const;
-  core::Verdict check_box(uint32_t i) const;
-  core::Verdict check_run(uint32_t i) const;
-  core::Verdict check_part(uint32_t i) const;
-  uint32_t cost(uint32_t i) const;
+  core::Verdict finish_length();
+  core::Verdict check_tree(uint32_t i);
+  core::Verdict check_box(uint32_t i);
+  core::Verdict check_run(uint32_t i);
+  core::Verdict check_part(uint32_t i);
+  uint32_t run_cost(uint32_t) const;
+  uint32_t part_cost(uint32_t i) const;
 
   View view_;
-  core::Verdict verdict_;
-  Stage stage_ = Stage::kDone;
-  uint32_t next_ = 0;
+  query::StagedCheck check_;
+  query::SeenBox seen_;
   uint64_t travelled_ = 0;  // along the curve, in 2^-62 of its length
   float longest_half_m_ = 0;
-  Sample low_{}, high_{};
 };
 
 /// All at once.

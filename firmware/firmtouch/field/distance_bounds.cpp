@@ -2,7 +2,6 @@
 
 #include <float.h>
 
-#include "firmtouch/core/hash.hpp"
 #include "firmtouch/field/centre.hpp"
 
 namespace firmtouch::field {
@@ -62,18 +61,6 @@ Bounds distance_bounds(const View& distance_field, Vec3 p_m) {
     if (box_m > bounds.lower_m) bounds.lower_m = box_m <= FLT_MAX ? box_m : FLT_MAX;
   }
   return math::is_finite(p_m) ? bounds : Bounds{0, FLT_MAX, 0, query::kNowhere};
-}
-
-uint64_t probe_hash(const View& distance_field, core::Span<const query::ProbePoint> points) {
-  core::Hash hash;
-  for (const query::ProbePoint& p : points) {
-    const Bounds bounds = distance_bounds(distance_field, {p.x_m, p.y_m, p.z_m});
-    hash.add(math::bits_of(bounds.lower_m));
-    hash.add(math::bits_of(bounds.upper_m));
-    hash.add(static_cast<uint32_t>(bounds.sign + 1));
-    hash.add(bounds.seed);
-  }
-  return hash.value();
 }
 
 }  // namespace firmtouch::field

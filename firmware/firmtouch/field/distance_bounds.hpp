@@ -3,7 +3,7 @@
 
 #include "firmtouch/field/view.hpp"
 #include "firmtouch/math/vec3.hpp"
-#include "firmtouch/query/probe.hpp"
+#include "firmtouch/query/hint.hpp"
 
 namespace firmtouch::field {
 
@@ -24,8 +24,5 @@ struct Bounds {
 /// Result: lower_m >= 0 and both finite for every input; a query that is not finite: 0, FLT_MAX, 0.
 /// Error:  bounds are rounded outward through all float32 error (tests/field/bake_field_host_test.cpp).
 Bounds distance_bounds(const View& distance_field, math::Vec3 p_m);
-
-/// Hash of the bits of distance_bounds() of `points`.
-uint64_t probe_hash(const View& distance_field, core::Span<const query::ProbePoint> points);
 
 }  // namespace firmtouch::field

@@ -13,11 +13,6 @@ using core::Verdict;
 
 constexpr float kFarthest_m = 1e8f;  // a model ends at 1e7 m, its map not much later
 
-bool is_power_of_two(float value) {
-  const uint32_t bits = math::bits_of(value);
-  return (bits & 0x807FFFFFu) == 0 && bits >= 0x10000000u && bits <= 0x60000000u;
-}
-
 Verdict check_head(const Head& head, const mesh::View& mesh) {
   for (const uint32_t word : head.reserved)
     if (word != 0) return reject(kRuleReserved);
@@ -26,7 +21,7 @@ Verdict check_head(const Head& head, const mesh::View& mesh) {
     if (!(head.low_m[k] >= -kFarthest_m && head.low_m[k] <= kFarthest_m))
       return reject(kRuleGrid, k);
   if (!(head.cell_m >= 1e-12f && head.cell_m <= kFarthest_m)) return reject(kRuleCell);
-  if (!is_power_of_two(head.quantum_m)) return reject(kRuleQuantum);
+  if (!query::is_power_of_two(head.quantum_m)) return reject(kRuleQuantum);
   for (uint32_t k = 0; k < 3; ++k)
     if (!(head.low_m[k] <= mesh.head().low_m[k] && high_on_axis(head, k) >= mesh.head().high_m[k]))
       return reject(kRuleGrid, k);
@@ -35,15 +30,14 @@ Verdict check_head(const Head& head, const mesh::View& mesh) {
 
 }  // namespace
 
+const query::CheckStage<Opening> Opening::kStages[1] = {
+    {&Opening::cell_count, &Opening::check_cell}};
+
 Opening::Opening(const Sections& sections, const mesh::View& mesh) : mesh_(&mesh) {
-  verdict_ = open_head(sections);
-  done_ = !verdict_.ok();
+  check_.begin(open_head(sections));
 }
 
-void Opening::fail(uint16_t rule, uint32_t element) {
-  verdict_ = reject(rule, element);
-  done_ = true;
-}
+void Opening::work(uint32_t cells) { check_.work(*this, kStages, cells); }
 
 Verdict Opening::open_head(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
@@ -64,15 +58,7 @@ Verdict Opening::open_head(const Sections& s) {
   return check_head(head, *mesh_);
 }
 
-void Opening::work(uint32_t cells) {
-  for (; cells > 0 && !done_; --cells) {
-    const Verdict found = check_cell(next_);
-    if (!found.ok()) return fail(found.rule, found.element);
-    if (++next_ == view_.distances_.size()) done_ = true;
-  }
-}
-
-Verdict Opening::check_cell(uint32_t i) const {
+Verdict Opening::check_cell(uint32_t i) {
   const Head& head = view_.head();
   const int16_t word = view_.distances_[i];
   if (word == kUnknown) return kPassed;
@@ -94,9 +80,7 @@ Verdict Opening::check_cell(uint32_t i) const {
 
 Verdict open(const Sections& sections, const mesh::View& mesh, View& view) {
   Opening opening(sections, mesh);
-  while (!opening.done()) opening.work(UINT32_MAX);
-  view = opening.view();
-  return opening.verdict();
+  return query::open_at_once(opening, view);
 }
 
 }  // namespace firmtouch::field

@@ -6,6 +6,7 @@
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/view.hpp"
+#include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::field {
 
@@ -45,21 +46,20 @@ class Opening {
   /// Bounds: one query of the mesh a cell (some thousand instructions where the seed is right); no
   ///         recursion; reads only inside the sections.
   void work(uint32_t cells);
-  bool done() const { return done_; }
-  core::Verdict verdict() const { return verdict_; }
+  bool done() const { return check_.done(); }
+  core::Verdict verdict() const { return check_.verdict(); }
   /// The proven map; one that is not open unless done() and verdict().ok().
-  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+  View view() const { return check_.has_passed() ? view_ : View{}; }
 
  private:
-  void fail(uint16_t rule, uint32_t element);
+  static const query::CheckStage<Opening> kStages[1];
   core::Verdict open_head(const Sections& sections);
-  core::Verdict check_cell(uint32_t i) const;
+  uint32_t cell_count() const { return view_.distances_.size(); }
+  core::Verdict check_cell(uint32_t i);
 
   View view_;
   const mesh::View* mesh_;
-  core::Verdict verdict_;
-  bool done_ = false;
-  uint32_t next_ = 0;
+  query::StagedCheck check_;
 };
 
 /// All at once.

@@ -78,18 +78,7 @@ BaseHull BaseHull::resident(core::Bytes copy) const {
   return base_hull.point_into(copy, coordinate_bytes_) ? base_hull : BaseHull{};
 }
 
-BaseHullOpening::BaseHullOpening(core::Bytes bytes, const View& hull) {
-  stage_ = Stage::kVertices;
-  verdict_ = open_head(bytes, hull);
-  if (!verdict_.ok()) fail(verdict_);
-}
-
-void BaseHullOpening::fail(Verdict verdict) {
-  verdict_ = verdict;
-  stage_ = Stage::kDone;
-}
-
-Verdict BaseHullOpening::open_head(core::Bytes bytes, const View& hull) {
+Verdict BaseHullProof::begin(core::Bytes bytes, const View& hull) {
   const core::Span<const BaseHullHead> heads = core::as_array<BaseHullHead>(bytes, 1);
   if (heads.empty() || heads[0].bytes != bytes.size()) return reject(kRuleBaseHullSize);
   const BaseHullHead& head = heads[0];
@@ -118,34 +107,18 @@ Verdict BaseHullOpening::open_head(core::Bytes bytes, const View& hull) {
   return kPassed;
 }
 
-void BaseHullOpening::work(uint32_t elements, const View& hull) {
-  for (; elements > 0 && stage_ != Stage::kDone; --elements) {
-    const bool of_vertices = stage_ == Stage::kVertices;
-    const uint32_t vertices = base_hull_.head_->made_count + base_hull_.head_->kept_count;
-    Verdict found = kPassed;
-    if (!of_vertices) {
-      found = check_face(next_, hull);
-    } else if (next_ < vertices) {
-      found = check_vertex(next_, hull);
-    }
-    if (!found.ok()) return fail(found);
-    if (++next_ < (of_vertices ? vertices : base_hull_.head_->face_count)) continue;
-    next_ = 0;
-    if (of_vertices) {
-      stage_ = Stage::kFaces;
-    } else if (next_triangle_ != base_hull_.head_->triangle_count) {
-      return fail(reject(kRuleBaseHullTriangles, next_triangle_));
-    } else if (next_corner_ != base_hull_.head_->corner_count) {
-      return fail(reject(kRuleBaseHullCorners, base_hull_.head_->face_count));
-    } else if (edges_ != 0) {
-      return fail(reject(kRuleBaseHullOpen));
-    } else {
-      stage_ = Stage::kDone;
-    }
-  }
+uint32_t BaseHullProof::vertex_count() const {
+  return base_hull_.head_->made_count + base_hull_.head_->kept_count;
 }
 
-Verdict BaseHullOpening::check_vertex(uint32_t i, const View& hull) const {
+Verdict BaseHullProof::finish() const {
+  const BaseHullHead& head = *base_hull_.head_;
+  if (next_triangle_ != head.triangle_count) return reject(kRuleBaseHullTriangles, next_triangle_);
+  if (next_corner_ != head.corner_count) return reject(kRuleBaseHullCorners, head.face_count);
+  return edges_ == 0 ? kPassed : reject(kRuleBaseHullOpen);
+}
+
+Verdict BaseHullProof::check_vertex(uint32_t i, const View& hull) const {
   const uint32_t id = base_hull_.id_of(i), mesh_vertices = hull.head().mesh_vertex_count;
   if (id >= hull.id_count() || (removed_by(id) < base_hull_.head_->cut))
     return reject(kRuleBaseHullVertex, i);
@@ -162,7 +135,7 @@ Verdict BaseHullOpening::check_vertex(uint32_t i, const View& hull) const {
 }
 
 // Its corners follow those of the leaf before, and all are there.
-Verdict BaseHullOpening::check_leaf(uint32_t leaf) {
+Verdict BaseHullProof::check_leaf(uint32_t leaf) {
   const uint32_t face = leaf * kLeafFaces, count = corners_of(base_hull_.faces_[face]);
   if (leaf % 2 == 0 && base_hull_.corner_places_[leaf / 2] != next_corner_)
     return reject(kRuleBaseHullCorners, face);
@@ -170,12 +143,11 @@ Verdict BaseHullOpening::check_leaf(uint32_t leaf) {
     return reject(kRuleBaseHullCorners, face);
   next_corner_ += count;
   for (const uint16_t vertex : base_hull_.leaf(leaf).corners)
-    if (vertex >= base_hull_.head_->made_count + base_hull_.head_->kept_count)
-      return reject(kRuleBaseHullCorners, face);
+    if (vertex >= vertex_count()) return reject(kRuleBaseHullCorners, face);
   return kPassed;
 }
 
-Verdict BaseHullOpening::check_face(uint32_t i, const View& hull) {
+Verdict BaseHullProof::check_face(uint32_t i, const View& hull) {
   if (i % kLeafFaces == 0) {
     const Verdict found = check_leaf(i / kLeafFaces);
     if (!found.ok()) return found;
@@ -209,7 +181,7 @@ Verdict BaseHullOpening::check_face(uint32_t i, const View& hull) {
              : reject(kRuleBaseHullTriangles, i);
 }
 
-Verdict BaseHullOpening::check_box(uint32_t face) const {
+Verdict BaseHullProof::check_box(uint32_t face) const {
   const FilledTree tree(base_hull_.boxes_.size());
   const Box whole = box_of(*base_hull_.head_);
   uint32_t node = tree.node(face / kLeafFaces) + 1;  // counted from 1, a node's parent is its half
@@ -223,10 +195,15 @@ Verdict BaseHullOpening::check_box(uint32_t face) const {
 }
 
 Verdict open_base_hull(core::Bytes bytes, const View& hull, BaseHull& base_hull) {
-  BaseHullOpening opening(bytes, hull);
-  while (!opening.done()) opening.work(UINT32_MAX, hull);
-  base_hull = opening.base_hull();
-  return opening.verdict();
+  base_hull = {};
+  BaseHullProof proof;
+  Verdict found = proof.begin(bytes, hull);
+  for (uint32_t i = 0; found.ok() && i < proof.vertex_count(); ++i)
+    found = proof.check_vertex(i, hull);
+  for (uint32_t i = 0; found.ok() && i < proof.face_count(); ++i) found = proof.check_face(i, hull);
+  if (found.ok()) found = proof.finish();
+  if (found.ok()) base_hull = proof.base_hull();
+  return found;
 }
 
 }  // namespace firmtouch::hull

@@ -64,7 +64,7 @@ class BaseHull {
   float cell_m() const { return cell_m_; }
 
  private:
-  friend class BaseHullOpening;
+  friend class BaseHullProof;
   bool point_into(core::Bytes resident, uint32_t coordinate_bytes);
   const BaseHullHead* head_ = nullptr;
   core::Span<const NodeBox> boxes_;
@@ -78,33 +78,27 @@ class BaseHull {
   float grid_low_m_[3] = {}, cell_m_ = 0;
 };
 
-/// Proves a shell against its hull (whose ids and vertices must be proven): rules R540 to R549.
-class BaseHullOpening {
+/// Proves a base hull against its hull (whose ids and vertices must be proven), element by element:
+/// rules R540 to R548. begin(), then every vertex, then every face in rising order, then finish().
+class BaseHullProof {
  public:
-  BaseHullOpening() = default;
-  BaseHullOpening(core::Bytes bytes, const View& hull);
-
-  /// Checks up to `elements` vertices or faces more.
-  void work(uint32_t elements, const View& hull);
-  bool done() const { return stage_ == Stage::kDone; }
-  core::Verdict verdict() const { return verdict_; }
-  BaseHull base_hull() const { return done() && verdict_.ok() ? base_hull_ : BaseHull{}; }
+  core::Verdict begin(core::Bytes bytes, const View& hull);
+  uint32_t vertex_count() const;
+  uint32_t face_count() const { return base_hull_.head_->face_count; }
+  core::Verdict check_vertex(uint32_t i, const View& hull) const;
+  core::Verdict check_face(uint32_t i, const View& hull);
+  core::Verdict finish() const;
+  /// Pre: everything has passed.
+  const BaseHull& base_hull() const { return base_hull_; }
   /// Sum of the hashes of its faces' vertex numbers.
   uint64_t faces() const { return faces_; }
 
  private:
-  enum class Stage : uint8_t { kVertices, kFaces, kDone };
-  void fail(core::Verdict verdict);
-  core::Verdict open_head(core::Bytes bytes, const View& hull);
-  core::Verdict check_vertex(uint32_t i, const View& hull) const;
   core::Verdict check_leaf(uint32_t leaf);
-  core::Verdict check_face(uint32_t i, const View& hull);
   core::Verdict check_box(uint32_t face) const;
 
   BaseHull base_hull_;
-  core::Verdict verdict_;
-  Stage stage_ = Stage::kDone;
-  uint32_t next_ = 0, next_triangle_ = 0, next_corner_ = 0;
+  uint32_t next_triangle_ = 0, next_corner_ = 0;
   uint64_t faces_ = 0, edges_ = 0;
 };
 

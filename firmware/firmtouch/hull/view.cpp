@@ -13,11 +13,6 @@ using math::Vec3;
 
 constexpr float kFarthest_m = 1e8f;  // a model ends at 1e7 m, its hull not much later
 
-bool is_power_of_two(float value) {
-  const uint32_t bits = math::bits_of(value);
-  return (bits & 0x807FFFFFu) == 0 && bits >= 0x10000000u && bits <= 0x60000000u;
-}
-
 bool is_box(const float* low_m, const float* high_m) {
   for (uint32_t k = 0; k < 3; ++k)
     if (!(low_m[k] >= -kFarthest_m && low_m[k] <= high_m[k] && high_m[k] <= kFarthest_m))
@@ -38,16 +33,17 @@ bool is_same_face(const uint32_t (&a)[3], const uint32_t (&b)[3]) {
 
 }  // namespace
 
-Opening::Opening(const Sections& sections) {
-  stage_ = Stage::kMeshVertices;
-  verdict_ = open_head(sections);
-  if (!verdict_.ok()) fail(verdict_);
-}
+const query::CheckStage<Opening> Opening::kStages[6] = {
+    {&Opening::vertex_count, &Opening::check_mesh_vertex},
+    {&Opening::id_count, &Opening::check_id, &Opening::finish_ids},
+    {&Opening::record_count, &Opening::check_record, &Opening::finish_records},
+    {&Opening::triangle_count, &Opening::check_triangle, &Opening::finish_triangles},
+    {&Opening::base_vertex_count, &Opening::check_base_vertex},
+    {&Opening::base_face_count, &Opening::check_base_face, &Opening::finish_base_hull}};
 
-void Opening::fail(Verdict verdict) {
-  verdict_ = verdict;
-  stage_ = Stage::kDone;
-}
+Opening::Opening(const Sections& sections) { check_.begin(open_head(sections)); }
+
+void Opening::work(uint32_t elements) { check_.work(*this, kStages, elements); }
 
 Verdict Opening::open_mesh(const Sections& s) {
   const core::Span<const mesh::Head> heads = core::as_whole_array<mesh::Head>(s.mesh_head);
@@ -103,7 +99,8 @@ Verdict Opening::open_head(const Sections& s) {
   for (uint32_t k = 0; k < 3; ++k)
     if (!(head.grid_low_m[k] >= -kFarthest_m && head.grid_low_m[k] <= kFarthest_m))
       return reject(kRuleGrid, k);
-  if (!is_power_of_two(head.cell_m) || !(head.cell_m <= kFarthest_m)) return reject(kRuleGrid, 3);
+  if (!query::is_power_of_two(head.cell_m) || !(head.cell_m <= kFarthest_m))
+    return reject(kRuleGrid, 3);
   if (!is_box(head.low_m, head.high_m)) return reject(kRuleHeadBox, 0);
   const Box box = box_of(head.low_m, head.high_m);
   if (!holds(box, {mesh.low_m[0], mesh.low_m[1], mesh.low_m[2]}) ||
@@ -113,66 +110,7 @@ Verdict Opening::open_head(const Sections& s) {
   return kPassed;
 }
 
-void Opening::work(uint32_t elements) {
-  for (; elements > 0 && stage_ != Stage::kDone; --elements) {
-    Verdict found = kPassed;
-    switch (stage_) {
-      case Stage::kMeshVertices:
-        found = check_mesh_vertex(next_);
-        break;
-      case Stage::kIds:
-        found = check_id(next_);
-        break;
-      case Stage::kRecords:
-        found = check_record(next_);
-        break;
-      case Stage::kTriangles:
-        found = check_triangle(next_);
-        break;
-      case Stage::kBaseHull:
-        base_hull_opening_.work(1, view_);
-        found = base_hull_opening_.verdict();
-        break;
-      case Stage::kDone:
-        break;
-    }
-    if (!found.ok()) return fail(found);
-    ++next_;
-    next_stage();
-  }
-}
-
-void Opening::next_stage() {
-  const Head& head = view_.head();
-  if (stage_ == Stage::kMeshVertices && next_ == head.mesh_vertex_count) {
-    stage_ = Stage::kIds;
-    next_ = 0;
-  }
-  if (stage_ == Stage::kIds && next_ == view_.id_count()) {
-    if (numbers_ != 0) return fail(reject(kRuleOriginTwice));
-    stage_ = Stage::kRecords;
-    next_ = 0;
-  }
-  if (stage_ == Stage::kRecords && next_ == head.collapse_count) {
-    if (record_at_ != head.record_bytes) return fail(reject(kRuleRecordsEnd, record_at_));
-    stage_ = Stage::kTriangles;
-    next_ = 0;
-  }
-  if (stage_ == Stage::kTriangles && next_ == head.mesh_triangle_count) {
-    base_hull_opening_ = BaseHullOpening(base_hull_bytes_, view_);
-    if (!base_hull_opening_.verdict().ok()) return fail(base_hull_opening_.verdict());
-    stage_ = Stage::kBaseHull;
-    next_ = 0;
-  }
-  if (stage_ == Stage::kBaseHull && base_hull_opening_.done()) {
-    view_.base_hull_ = base_hull_opening_.base_hull();
-    if (view_.base_hull_.head().cut != head.collapse_count) return fail(reject(kRuleBaseHullCut));
-    if (faces_ != base_hull_opening_.faces()) return fail(reject(kRuleFaces));
-    stage_ = Stage::kDone;
-  }
-}
-
-Verdict Opening::check_mesh_vertex(uint32_t i) const {
+Verdict Opening::check_mesh_vertex(uint32_t i) {
   const Vec3 v = view_.mesh_vertex(i);
   return holds(box_of(view_.mesh_head().low_m, view_.mesh_head().high_m), v)
              ? kPassed
@@ -185,6 +123,8 @@ Verdict Opening::check_id(uint32_t id) {
   numbers_ += scattered(number) - scattered(id);
   return kPassed;
 }
+
+Verdict Opening::finish_ids() { return numbers_ == 0 ? kPassed : reject(kRuleOriginTwice); }
 
 Verdict Opening::check_record(uint32_t collapse) {
   const Head& head = view_.head();
@@ -199,6 +139,10 @@ Verdict Opening::check_record(uint32_t collapse) {
     return reject(kRuleLink, collapse);
   record_at_ += size;
   return check_star(collapse, record);
+}
+
+Verdict Opening::finish_records() {
+  return record_at_ == view_.head().record_bytes ? kPassed : reject(kRuleRecordsEnd, record_at_);
 }
 
 Verdict Opening::check_star(uint32_t collapse, const uint8_t* record) {
@@ -257,11 +201,23 @@ Verdict Opening::check_triangle(uint32_t i) {
   return kPassed;
 }
 
+Verdict Opening::finish_triangles() { return base_hull_.begin(base_hull_bytes_, view_); }
+
+Verdict Opening::check_base_vertex(uint32_t i) { return base_hull_.check_vertex(i, view_); }
+
+Verdict Opening::check_base_face(uint32_t i) { return base_hull_.check_face(i, view_); }
+
+Verdict Opening::finish_base_hull() {
+  const Verdict found = base_hull_.finish();
+  if (!found.ok()) return found;
+  view_.base_hull_ = base_hull_.base_hull();
+  if (view_.base_hull_.head().cut != view_.collapse_count()) return reject(kRuleBaseHullCut);
+  return faces_ == base_hull_.faces() ? kPassed : reject(kRuleFaces);
+}
+
 Verdict open(const Sections& sections, View& view) {
   Opening opening(sections);
-  while (!opening.done()) opening.work(UINT32_MAX);
-  view = opening.view();
-  return opening.verdict();
+  return query::open_at_once(opening, view);
 }
 
 }  // namespace firmtouch::hull

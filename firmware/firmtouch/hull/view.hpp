@@ -7,6 +7,7 @@
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::hull {
 
@@ -91,32 +92,41 @@ class Opening {
   /// Bounds: O(elements), a triangle as often as its tree is deep; no recursion; reads only inside
   ///         the sections.
   void work(uint32_t elements);
-  bool done() const { return stage_ == Stage::kDone; }
-  core::Verdict verdict() const { return verdict_; }
+  bool done() const { return check_.done(); }
+  core::Verdict verdict() const { return check_.verdict(); }
   /// The proven hull; one that is not open unless done() and verdict().ok().
-  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+  View view() const { return check_.has_passed() ? view_ : View{}; }
 
  private:
-  enum class Stage : uint8_t { kMeshVertices, kIds, kRecords, kTriangles, kBaseHull, kDone };
-  void fail(core::Verdict verdict);
+  static const query::CheckStage<Opening> kStages[6];
   core::Verdict open_head(const Sections& sections);
   core::Verdict open_mesh(const Sections& sections);
-  void next_stage();
-  core::Verdict check_mesh_vertex(uint32_t i) const;
+  uint32_t vertex_count() const { return view_.mesh_head().vertex_count; }
+  uint32_t id_count() const { return view_.id_count(); }
+  uint32_t record_count() const { return view_.collapse_count(); }
+  uint32_t triangle_count() const { return view_.mesh_head().triangle_count; }
+  uint32_t base_vertex_count() const { return base_hull_.vertex_count(); }
+  uint32_t base_face_count() const { return base_hull_.face_count(); }
+  core::Verdict check_mesh_vertex(uint32_t i);
   core::Verdict check_id(uint32_t id);
+  core::Verdict finish_ids();
   core::Verdict check_record(uint32_t collapse);
+  core::Verdict finish_records();
   core::Verdict check_star(uint32_t collapse, const uint8_t* record);
   core::Verdict check_triangle(uint32_t i);
+  core::Verdict finish_triangles();
+  core::Verdict check_base_vertex(uint32_t i);
+  core::Verdict check_base_face(uint32_t i);
+  core::Verdict finish_base_hull();
 
   View view_;
   core::Bytes base_hull_bytes_;
-  core::Verdict verdict_;
-  Stage stage_ = Stage::kDone;
-  uint32_t next_ = 0, record_at_ = 0;
+  query::StagedCheck check_;
+  uint32_t record_at_ = 0;
   // Sums of hashes, which tell without memory that the same things stand on both sides: each number
   // has one id; each face that is there or is made is replaced or left once.
   uint64_t numbers_ = 0, faces_ = 0;
-  BaseHullOpening base_hull_opening_;
+  BaseHullProof base_hull_;
 };
 
 /// All at once.

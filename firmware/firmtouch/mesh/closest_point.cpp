@@ -2,7 +2,6 @@
 
 #include <float.h>
 
-#include "firmtouch/core/hash.hpp"
 #include "firmtouch/mesh/direction.hpp"
 #include "firmtouch/mesh/nearest_ahead.hpp"
 #include "firmtouch/mesh/pseudonormal.hpp"
@@ -291,19 +290,18 @@ Closest closest_point(const View& mesh, Vec3 p_m, query::Budget budget, Hint& hi
   return answer(mesh, far_bound, p_m, budget, hint);
 }
 
+void Prober::answer(const View& mesh, math::Vec3 p_m, core::Hash& hash) {
+  const Closest c = closest_point(mesh, p_m, query::kUnlimited, hint);
+  const float values[] = {c.distance_m,  c.point_m.x,   c.point_m.y,   c.point_m.z,
+                          c.direction.x, c.direction.y, c.direction.z, c.certificate.lower_m};
+  for (const float value : values) hash.add(math::bits_of(value));
+  hash.add(c.triangle);
+  hash.add(static_cast<uint32_t>(c.feature));
+  hash.add(c.certificate.steps);
+}
+
 uint64_t probe_hash(const View& mesh, core::Span<const query::ProbePoint> points) {
-  core::Hash hash;
-  Hint hint;
-  for (const query::ProbePoint& p : points) {
-    const Closest c = closest_point(mesh, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint);
-    const float values[] = {c.distance_m,  c.point_m.x,   c.point_m.y,   c.point_m.z,
-                            c.direction.x, c.direction.y, c.direction.z, c.certificate.lower_m};
-    for (const float value : values) hash.add(math::bits_of(value));
-    hash.add(c.triangle);
-    hash.add(static_cast<uint32_t>(c.feature));
-    hash.add(c.certificate.steps);
-  }
-  return hash.value();
+  return query::hash_of_run<ProbeRun>(mesh, points);
 }
 
 }  // namespace firmtouch::mesh

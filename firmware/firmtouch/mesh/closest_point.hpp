@@ -4,7 +4,7 @@
 #include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/query/certificate.hpp"
-#include "firmtouch/query/probe.hpp"
+#include "firmtouch/query/probe_run.hpp"
 
 namespace firmtouch::mesh {
 
@@ -40,7 +40,14 @@ struct Closest {
 ///         leaf).
 Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, Hint& hint);
 
-/// Hash of the bits of what closest_point() answers to `points`, one after the other with one hint.
+/// Probe queries, one after the other with one hint.
+struct Prober {
+  void answer(const View& mesh, math::Vec3 p_m, core::Hash& hash);
+  Hint hint;
+};
+using ProbeRun = query::ProbeRun<Prober>;
+
+/// Hash of the bits of the answers to `points`.
 uint64_t probe_hash(const View& mesh, core::Span<const query::ProbePoint> points);
 
 }  // namespace firmtouch::mesh

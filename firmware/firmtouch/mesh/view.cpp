@@ -1,7 +1,5 @@
 #include "firmtouch/mesh/view.hpp"
 
-#include <float.h>
-
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/leaf_box.hpp"
@@ -19,11 +17,6 @@ using math::Vec3;
 // for queries beyond the range where squares fit.
 constexpr float kFarthest_m = 1e7f;
 
-bool is_power_of_two(float value) {
-  const uint32_t bits = math::bits_of(value);
-  return (bits & 0x807FFFFFu) == 0 && bits >= 0x10000000u && bits <= 0x60000000u;
-}
-
 float low_of(uint32_t axis) { return static_cast<float>(query::low_of(axis)); }
 float high_of(uint32_t axis) { return static_cast<float>(query::high_of(axis)); }
 
@@ -38,7 +31,7 @@ bool holds(const uint32_t* outer, const uint32_t* inner) {
 }
 
 Verdict check_head(const Head& head) {
-  if (!is_power_of_two(head.cell_m)) return reject(106, 1);
+  if (!query::is_power_of_two(head.cell_m)) return reject(106, 1);
   const float reach_m = static_cast<float>(kGridMax) * head.cell_m;
   float extent_m = 0;
   for (int k = 0; k < 3; ++k) {
@@ -68,47 +61,49 @@ Verdict check_head(const Head& head) {
 
 }  // namespace
 
-Opening::Opening(const Sections& sections) { open_head(sections); }
+const query::CheckStage<Opening> Opening::kStages[4] = {
+    {&Opening::vertex_count, &Opening::check_vertex, &Opening::finish_vertices},
+    {&Opening::normal_count, &Opening::check_normal},
+    {&Opening::node_count, &Opening::check_node, &Opening::finish_nodes},
+    {&Opening::triangle_count, &Opening::check_triangle}};
 
-void Opening::fail(uint16_t rule, uint32_t element) {
-  verdict_ = reject(rule, element);
-  stage_ = Stage::kDone;
-}
+Opening::Opening(const Sections& sections) { check_.begin(open_head(sections)); }
 
-void Opening::open_head(const Sections& s) {
+void Opening::work(uint32_t elements) { check_.work(*this, kStages, elements); }
+
+Verdict Opening::open_head(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
-  if (heads.size() != 1) return fail(101, 0);
+  if (heads.size() != 1) return reject(101, 0);
   const Head& head = heads[0];
   view_.vertices_ = core::as_whole_array<Vertex>(s.vertices);
-  if (head.vertex_count == 0 || view_.vertices_.size() != head.vertex_count) return fail(102, 0);
+  if (head.vertex_count == 0 || view_.vertices_.size() != head.vertex_count) return reject(102, 0);
   view_.triangles16_ = core::as_whole_array<Triangle<uint16_t>>(s.triangles16);
   view_.triangles32_ = core::as_whole_array<Triangle<uint32_t>>(s.triangles32);
-  if (s.triangles16.empty() == s.triangles32.empty()) return fail(103, 0);
+  if (s.triangles16.empty() == s.triangles32.empty()) return reject(103, 0);
   const uint32_t triangles =
       s.triangles32.empty() ? view_.triangles16_.size() : view_.triangles32_.size();
   if (head.triangle_count == 0 || head.triangle_count > kMaxTriangles ||
       triangles != head.triangle_count)
-    return fail(103, 1);
+    return reject(103, 1);
   view_.nodes_ = core::as_whole_array<Node>(s.nodes);
   view_.parents_ = core::as_whole_array<uint32_t>(s.parents);
   if (head.node_count == 0 || head.node_count > kMaxNodes ||
       view_.nodes_.size() != head.node_count || view_.parents_.size() != head.node_count)
-    return fail(104, 0);
+    return reject(104, 0);
   view_.vertex_normals_ = core::as_whole_array<uint32_t>(s.vertex_normals);
   view_.folds_ = core::as_whole_array<EdgeFolds>(s.edge_folds);
   const bool with_sign = head.is_signed == 1;
   if (head.is_signed > 1 || view_.vertex_normals_.size() != (with_sign ? head.vertex_count : 0) ||
       view_.folds_.size() != (with_sign ? head.triangle_count : 0) ||
       s.vertex_normals.empty() == with_sign || s.edge_folds.empty() == with_sign)
-    return fail(105, 0);
-  verdict_ = check_head(head);
-  if (verdict_.ok()) verdict_ = open_bounded(s);
-  if (!verdict_.ok()) return;
-  if (head.depth == 0 || head.depth > kMaxDepth) return fail(107, 0);
+    return reject(105, 0);
+  const Verdict of_head = check_head(head);
+  if (!of_head.ok()) return of_head;
+  const Verdict of_bounds = open_bounded(s);
+  if (!of_bounds.ok()) return of_bounds;
+  if (head.depth == 0 || head.depth > kMaxDepth) return reject(107, 0);
   view_.head_ = &head;
-  low_ = {FLT_MAX, FLT_MAX, FLT_MAX};
-  high_ = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
-  stage_ = Stage::kVertices;
+  return kPassed;
 }
 
 bool tells_nothing(const uint32_t* words) {
@@ -132,69 +127,26 @@ Verdict Opening::open_bounded(const Sections& s) {
   return kPassed;
 }
 
-void Opening::work(uint32_t elements) {
-  for (; elements > 0 && stage_ != Stage::kDone; --elements) {
-    Verdict found = kPassed;
-    switch (stage_) {
-      case Stage::kVertices:
-        found = check_vertex(next_);
-        break;
-      case Stage::kNormals:
-        found = check_normal(next_);
-        break;
-      case Stage::kNodes:
-        found = check_node(next_);
-        break;
-      case Stage::kTriangles:
-        found = check_triangle(next_);
-        break;
-      case Stage::kDone:
-        break;
-    }
-    if (!found.ok()) return fail(found.rule, found.element);
-    ++next_;
-    next_stage();
-  }
-}
-
-void Opening::next_stage() {
-  const Head& head = *view_.head_;
-  if (stage_ == Stage::kVertices && next_ == head.vertex_count) {
-    const float bounds[6] = {low_.x_m, low_.y_m, low_.z_m, high_.x_m, high_.y_m, high_.z_m};
-    for (uint32_t k = 0; k < 6; ++k) {
-      const float reported = k < 3 ? head.low_m[k] : head.high_m[k - 3];
-      if (bounds[k] < reported || bounds[k] > reported) return fail(111, k);
-    }
-    stage_ = view_.is_signed() ? Stage::kNormals : Stage::kNodes;
-    next_ = 0;
-  } else if (stage_ == Stage::kNormals && next_ == head.vertex_count) {
-    stage_ = Stage::kNodes;
-    next_ = 0;
-  } else if (stage_ == Stage::kNodes && next_ == head.node_count) {
-    if (next_triangle_ != head.triangle_count) return fail(125, next_triangle_);
-    if (deepest_ + 1 != head.depth) return fail(107, deepest_);
-    stage_ = Stage::kTriangles;
-    next_ = 0;
-  } else if (stage_ == Stage::kTriangles && next_ == head.triangle_count) {
-    stage_ = Stage::kDone;
-  }
-}
-
 Verdict Opening::check_vertex(uint32_t i) {
-  const Vertex& v = view_.vertices_[i];
-  const float values[3] = {v.x_m, v.y_m, v.z_m};
-  float* low = &low_.x_m;
-  float* high = &high_.x_m;
-  for (uint32_t k = 0; k < 3; ++k) {
-    if (!(values[k] >= view_.head_->low_m[k] && values[k] <= view_.head_->high_m[k]))
-      return reject(110, i);
-    if (values[k] < low[k]) low[k] = values[k];
-    if (values[k] > high[k]) high[k] = values[k];
-  }
+  const Head& head = view_.head();
+  return seen_.take(&view_.vertices_[i].x_m, head.low_m, head.high_m) ? kPassed : reject(110, i);
+}
+
+Verdict Opening::finish_vertices() {
+  const Head& head = view_.head();
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!seen_.touches_low(k, head.low_m[k])) return reject(111, k);
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!seen_.touches_high(k, head.high_m[k])) return reject(111, 3 + k);
   return kPassed;
 }
 
-Verdict Opening::check_normal(uint32_t i) const {
+Verdict Opening::finish_nodes() {
+  if (next_triangle_ != view_.head().triangle_count) return reject(125, next_triangle_);
+  return deepest_ + 1 == view_.head().depth ? kPassed : reject(107, deepest_);
+}
+
+Verdict Opening::check_normal(uint32_t i) {
   const uint32_t code = view_.vertex_normals_[i];
   return (code & 0xFFFFu) <= 65534u && (code >> 16) <= 65534u ? kPassed : reject(112, i);
 }
@@ -293,7 +245,7 @@ Verdict Opening::check_shape(uint32_t i) const {
   return kPassed;
 }
 
-Verdict Opening::check_triangle(uint32_t i) const {
+Verdict Opening::check_triangle(uint32_t i) {
   const Triangle<uint32_t> t = view_.triangle(i);
   const Vec3 a = view_.vertex(t.corner[0]), b = view_.vertex(t.corner[1]),
              c = view_.vertex(t.corner[2]);
@@ -315,9 +267,7 @@ Verdict Opening::check_triangle(uint32_t i) const {
 
 Verdict open(const Sections& sections, View& view) {
   Opening opening(sections);
-  while (!opening.done()) opening.work(UINT32_MAX);
-  view = opening.view();
-  return opening.verdict();
+  return query::open_at_once(opening, view);
 }
 
 }  // namespace firmtouch::mesh

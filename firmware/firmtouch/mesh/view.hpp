@@ -6,6 +6,7 @@
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/ahead.hpp"
 #include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::mesh {
 
@@ -88,34 +89,36 @@ class Opening {
   /// Checks up to `elements` vertices, nodes or triangles more.
   /// Bounds: O(elements); no recursion; reads only inside the sections.
   void work(uint32_t elements);
-  bool done() const { return stage_ == Stage::kDone; }
-  core::Verdict verdict() const { return verdict_; }
+  bool done() const { return check_.done(); }
+  core::Verdict verdict() const { return check_.verdict(); }
   /// The proven mesh; one that is not open unless done() and verdict().ok().
-  View view() const { return done() && verdict_.ok() ? view_ : View{}; }
+  View view() const { return check_.has_passed() ? view_ : View{}; }
 
  private:
-  enum class Stage : uint8_t { kVertices, kNormals, kNodes, kTriangles, kDone };
-  void fail(uint16_t rule, uint32_t element);
-  void open_head(const Sections& sections);
+  static const query::CheckStage<Opening> kStages[4];
+  core::Verdict open_head(const Sections& sections);
   core::Verdict open_bounded(const Sections& sections);
-  void next_stage();
+  uint32_t vertex_count() const { return view_.vertices_.size(); }
+  uint32_t normal_count() const { return view_.vertex_normals_.size(); }
+  uint32_t node_count() const { return view_.nodes_.size(); }
+  uint32_t triangle_count() const { return view_.head_->triangle_count; }
   core::Verdict check_vertex(uint32_t i);
-  core::Verdict check_normal(uint32_t i) const;
+  core::Verdict finish_vertices();
+  core::Verdict check_normal(uint32_t i);
   core::Verdict check_node(uint32_t i);
+  core::Verdict finish_nodes();
   core::Verdict check_leaf(uint32_t node, uint32_t which);
   core::Verdict check_leaf_box(uint32_t first, uint32_t count) const;
   TriangleShape shape_at(uint32_t triangle) const;
   core::Verdict check_shape(uint32_t i) const;
-  core::Verdict check_triangle(uint32_t i) const;
+  core::Verdict check_triangle(uint32_t i);
 
   View view_;
-  core::Verdict verdict_;
-  Stage stage_ = Stage::kDone;
-  uint32_t next_ = 0;
+  query::StagedCheck check_;
   // Leaves hold the triangles in the order of their nodes: none twice, none left out.
   uint32_t next_triangle_ = 0;
   uint32_t deepest_ = 0;
-  Vertex low_{}, high_{};
+  query::SeenBox seen_;
 };
 
 /// All at once.

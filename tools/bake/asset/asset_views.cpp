@@ -2,7 +2,11 @@
 
 #include "bake/asset/probes.hpp"
 #include "firmtouch/asset/opening.hpp"
+#include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/hull/probes.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/sections.hpp"
+#include "firmtouch/spline/closest_point.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -12,7 +16,7 @@ std::string prove_hull(const asset::Container& container, const std::string& nam
   const core::Verdict verdict = hull::open(hull_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "hull '" + name + "': " + rule_text(verdict);
   const core::Bytes probes = container.find(hull::kProbesSection, name.c_str());
-  if (probes.empty() || hull_probes_agree(view, probes)) return "";
+  if (probes.empty() || probes_agree(view, probes)) return "";
   return "hull '" + name +
          "': its probe queries are answered otherwise here than where it was baked";
 }
@@ -31,7 +35,7 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
       sections.head.empty() ? core::kPassed : field::open(sections, view, distance_field);
   if (!of_field.ok()) return "distance map '" + name + "': " + rule_text(of_field);
   const core::Bytes probes = container.find(mesh::kProbesSection, name.c_str());
-  if (probes.empty() || mesh_probes_agree(view, probes)) return "";
+  if (probes.empty() || probes_agree(view, probes)) return "";
   return "mesh '" + name +
          "': its probe queries are answered otherwise here than where it was baked";
 }
@@ -41,7 +45,7 @@ std::string prove_curve(const asset::Container& container, const std::string& na
   const core::Verdict verdict = curve::open(curve_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "curve '" + name + "': " + rule_text(verdict);
   const core::Bytes probes = container.find(curve::kProbesSection, name.c_str());
-  if (probes.empty() || curve_probes_agree(view, probes)) return "";
+  if (probes.empty() || probes_agree(view, probes)) return "";
   return "curve '" + name +
          "': its probe queries are answered otherwise here than where it was baked";
 }
@@ -57,7 +61,7 @@ std::string prove_spline(const asset::Container& container, const std::string& n
     if (!of_guide.ok()) return "guide along spline '" + name + "': " + rule_text(of_guide);
   }
   const core::Bytes probes = container.find(spline::kProbesSection, name.c_str());
-  if (probes.empty() || spline_probes_agree(view, probes)) return "";
+  if (probes.empty() || probes_agree(view, probes)) return "";
   return "spline '" + name +
          "': its probe queries are answered otherwise here than where it was baked";
 }

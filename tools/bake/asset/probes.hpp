@@ -34,6 +34,15 @@ std::vector<math::Vec3> anchors_of(core::Span<const Point> points) {
 Section probe_section(uint32_t type, const std::string& name,
                       const std::vector<query::ProbePoint>& points, uint64_t hash);
 
+/// The section of `points` with the answers of this machine.
+template <class View>
+Section answered_probes(uint32_t type, const std::string& name, const View& view,
+                        const std::vector<query::ProbePoint>& points) {
+  const core::Span<const query::ProbePoint> span(points.data(),
+                                                 static_cast<uint32_t>(points.size()));
+  return probe_section(type, name, points, probe_hash(view, span));
+}
+
 /// What this machine answers to probe_points() of a proven mesh, hull or curve, as the section that a
 /// controller's begin() compares with its own answers.
 Section mesh_probes(const mesh::View& mesh, const std::string& name);
@@ -41,11 +50,12 @@ Section curve_probes(const curve::View& curve, const std::string& name);
 Section hull_probes(const hull::View& hull, const std::string& name);
 Section spline_probes(const spline::View& model, const std::string& name);
 
-/// Whether this machine answers a probe section of the geometry as it says. Result: false where
-/// `bytes` is no such section.
-bool mesh_probes_agree(const mesh::View& mesh, core::Bytes bytes);
-bool curve_probes_agree(const curve::View& curve, core::Bytes bytes);
-bool hull_probes_agree(const hull::View& hull, core::Bytes bytes);
-bool spline_probes_agree(const spline::View& model, core::Bytes bytes);
+/// Whether this machine answers a probe section of `view`, of whatever geometry, as stated.
+/// Result: false where `bytes` is no such section.
+template <class View>
+bool probes_agree(const View& view, core::Bytes bytes) {
+  const query::Probes probes = query::read_probes(bytes);
+  return !probes.points.empty() && probe_hash(view, probes.points) == probes.hash;
+}
 
 }  // namespace firmtouch::tools
