@@ -11,7 +11,7 @@ float depth_at(const servo::ContactPlane& plane, math::Vec3 position_m) {
   return plane.offset_m - math::dot(plane.normal, position_m);
 }
 
-uint32_t min_deep(const servo::LocalModel& model) {
+uint32_t shallowest(const servo::LocalModel& model) {
   uint32_t least = 0;
   for (uint32_t i = 1; i < servo::kMaxPlanes; ++i) {
     if (depth_at(model.plane[i], model.made_at_m) < depth_at(model.plane[least], model.made_at_m))
@@ -27,7 +27,7 @@ void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick,
   const uint32_t sequence = model.sequence + 1;
   model = servo::LocalModel{};
   model.made_at_m = position_m;
-  model.free_radius_m = FLT_MAX;  // nothing is near until a shape says so
+  model.free_radius_m = FLT_MAX;  // until a shape lowers it
   model.sequence = sequence;
   model.made_tick = tick;
   model.expires_tick = tick + age_ticks;
@@ -56,14 +56,13 @@ float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_
   const float depth_m = radius_m - surface.distance_m;
   servo::ContactPlane plane;
   plane.normal = surface.normal;
-  // Through the tool's own position rather than the surface's: the depth at this position keeps its
-  // last digits.
+  // Computed from the tool's position, not the surface's, so that the depth keeps its last digits.
   plane.offset_m = math::dot(surface.normal, position_m) + depth_m;
   plane.stiffness_N_per_m = material.stiffness_N_per_m;
   plane.damping_N_s_per_m = material.damping_N_s_per_m;
   if (!math::is_finite(plane.offset_m)) return 0.0f;
   if (!add_plane(model, plane)) {
-    const uint32_t least = min_deep(model);
+    const uint32_t least = shallowest(model);
     if (!(depth_m > depth_at(model.plane[least], model.made_at_m))) return 0.0f;
     model.plane[least] = plane;
   }

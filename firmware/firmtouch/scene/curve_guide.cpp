@@ -7,15 +7,16 @@ namespace {
 
 using math::Vec3;
 
-// Shorter than this, a side says no direction: nobody means one by it.
+// A shorter free_side counts as none.
 constexpr float kMinSide = 1e-3f;
 
-// No device reaches farther, and no distance that is not a number is as near.
+// No device reaches farther; NaN fails the comparison.
 constexpr float kMaxReach_m = 1e4f;
 
 float positive(float value) { return value > 0.0f ? value : 0.0f; }  // NaN too
 
-// Some unit vector at right angles to the unit vector `u`: across the axis that it leans on least.
+// A unit vector perpendicular to the unit vector `u`: its cross product with the axis that it is
+// least aligned with.
 Vec3 any_across(Vec3 u) {
   const float x = u.x < 0.0f ? -u.x : u.x, y = u.y < 0.0f ? -u.y : u.y, z = u.z < 0.0f ? -u.z : u.z;
   const Vec3 axis = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
@@ -23,19 +24,19 @@ Vec3 any_across(Vec3 u) {
   return side * (1.0f / math::length(side));
 }
 
-// The way along which the tool is not pulled, and whether it leads along the curve.
+// Direction in which the tool is not pulled, and whether it runs along the curve.
 struct Way {
   Vec3 direction;
   bool is_along = true;
 };
 
-// The tangent, turned to be across the line from the closest point to the tool. On a segment it is so
-// already; at a corner or past an end this is what makes the whole distance count.
+// The tangent, made perpendicular to the line from the closest point to the tool. Inside a segment
+// it is so already; at a corner or beyond an end this makes the spring act on the whole distance.
 Way free_way(const curve::Closest& c, Vec3 p_m, float diagonal_m) {
   const Vec3 off = p_m - c.point_m;
   const float size_m = math::length(off);
   if (!(size_m > 1e-5f * diagonal_m))
-    return {c.tangent, true};  // too near for a direction, and for a force
+    return {c.tangent, true};  // too near for a direction; the force is next to 0
   const Vec3 u = off * (1.0f / size_m);
   const Vec3 turned = c.tangent - u * math::dot(c.tangent, u);
   const float turned_size = math::length(turned);
@@ -47,18 +48,18 @@ bool is_sampled(const CurveGuide& guide) {
   return guide.curve != nullptr && guide.curve->is_open();
 }
 
-// A tick's query of a curve of either kind.
+// A tick's answer of a curve of either kind.
 struct Found {
   bool is_new = false, is_held = false;
   bool is_closed = false;
   float moved_m = 0;                // since the last tick
-  float length_m = 0;               // of the way from end to end
+  float length_m = 0;               // from end to end
   float behind_m = 0, ahead_m = 0;  // to the ends
-  float size_m = 0;                 // of the curve: what float32 loses goes by it
-  int end = 0;  // past the first end of an open curve: -1, past the last: 1, beside it: 0
+  float size_m = 0;                 // of the curve; float32 errors are relative to it
+  int end = 0;                      // as past_end()
 };
 
-// -1: past the first end of an open curve, 1: past the last one, 0: beside the curve.
+// -1: beyond the first end of an open curve, 1: beyond the last one, 0: neither.
 int past_end(const curve::View& curve, const curve::Closest& c, Vec3 p_m) {
   if (curve.is_closed()) return 0;
   const float beyond_m = math::dot(p_m - c.point_m, c.tangent);
@@ -66,15 +67,15 @@ int past_end(const curve::View& curve, const curve::Closest& c, Vec3 p_m) {
   return c.segment + 1 == curve.segment_count() && c.arc >= 1.0f && beyond_m > 0.0f ? 1 : 0;
 }
 
-// A tool that let go at an end is taken hold of again once it was clear of the guide, or came a way
-// back along it.
+// After a release at an end the guide takes hold again once the tool was clear of it, or came some
+// way back along it.
 bool stays_off(const CurveGuide& guide, const Found& found, float distance_m) {
   const float back_m = found.behind_m < found.ahead_m ? found.behind_m : found.ahead_m;
   return distance_m <= guide.snap_m &&
          !(back_m >= guide.snap_m || back_m >= 0.25f * found.length_m);
 }
 
-// Which end is nearer goes by their samples alone; from the next tick on the guide is there.
+// Moves the guide to the other end if its sample is nearer; it acts there from the next tick on.
 void go_on_at_other_end(const CurveGuide& guide, int end, Vec3 p_m, GuideTouch& touch) {
   if (!is_sampled(guide))
     return spline::go_on_at_other_end(*guide.spline, end, p_m, touch.closest.distance_m,
@@ -89,8 +90,7 @@ void go_on_at_other_end(const CurveGuide& guide, int end, Vec3 p_m, GuideTouch& 
 
 // Whether the guide holds the tool in this tick.
 bool take_hold(const CurveGuide& guide, const Found& found, GuideTouch& touch) {
-  // Written so that NaN lets go. A release nearer than the snap would chatter: the farther of the
-  // two counts.
+  // NaN releases. The larger of snap and release counts, since a smaller release would chatter.
   const float distance_m = touch.closest.distance_m;
   const bool is_near = found.is_held && distance_m <= guide.snap_m;
   const bool was_held = touch.is_held && !found.is_new && found.is_held;
@@ -107,7 +107,8 @@ bool take_hold(const CurveGuide& guide, const Found& found, GuideTouch& touch) {
   return is_near || was_held;
 }
 
-// Moves the carriage on, and with it as far from the tool as the most force stretches the spring.
+// Moves the carriage by a tick, at most as far from the tool as the largest force stretches the
+// spring.
 void lead(const CurveGuide& guide, const Found& found, float moved_m, float force_N,
           GuideTouch& touch) {
   const Drive& drive = guide.drive;
@@ -150,12 +151,12 @@ void put_drive(const CurveGuide& guide, const Found& found, float moved_m, bool 
   line.drive_limit_N = limit_N;
 }
 
-// The edge of a ruler: a plane through the closest point, free on one side.
+// One-sided guide: a contact plane through the closest point, like the edge of a ruler.
 void put_edge(const CurveGuide& guide, Vec3 tangent, const servo::GuideLine& line,
               servo::LocalModel& model) {
   const Vec3 normal = guide.free_side - tangent * math::dot(guide.free_side, tangent);
   const float size = math::length(normal);
-  if (!(size > kMinSide)) return;  // the curve runs to the free side
+  if (!(size > kMinSide)) return;  // the curve runs toward the free side
   servo::ContactPlane edge;
   edge.normal = normal * (1.0f / size);
   edge.offset_m = math::dot(edge.normal, line.point_m) - line.tunnel_m;

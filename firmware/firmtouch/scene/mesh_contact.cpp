@@ -9,20 +9,20 @@ namespace {
 
 using math::Vec3;
 
-// A closest point is good to 3.5e-7 of the diagonal. At 1e-4 of the diagonal the direction to it is
-// good to 4e-3 rad; at 1e-5 it is not worth having. In between the two are mixed, so that no step
-// is felt.
+// A closest point is within 3.5e-7 of the diagonal. At 1e-4 of the diagonal the direction to it is
+// within 4e-3 rad; at 1e-5 it is useless. In between, direction and pseudonormal are mixed, so that
+// the normal turns without a step.
 constexpr float kOwnDirection = 1e-4f;
 constexpr float kPseudonormal = 1e-5f;
 
-// Where a surface is nearest, and which way is out there.
+// Closest point of a surface, with its outward normal and the sign of the query.
 struct Nearest {
   Vec3 point_m, normal;
   int8_t sign;
 };
 
 // Outward unit normal at the closest point `c`, mesh frame. Both candidates lie in the normal cone
-// of one feature, less than a right angle apart, so that their mix has a length.
+// of one feature, less than a right angle apart, so their mix is never zero.
 Vec3 contact_normal(const Nearest& c, Vec3 p_m, float diagonal_m) {
   const Vec3 off = p_m - c.point_m;
   const float size_m = math::length(off);
@@ -37,26 +37,26 @@ Vec3 contact_normal(const Nearest& c, Vec3 p_m, float diagonal_m) {
   return mix_size > 0.1f ? mix * (1.0f / mix_size) : c.normal;
 }
 
-// How far beyond the sphere the surface is looked for while the tool is free, beside the diagonal:
-// many times what a hand moves while a model lives.
-constexpr float kAhead = 0.02f;
+// Band beyond the sphere while the tool is outside, in diagonals: many times what a hand moves
+// while a local model lives.
+constexpr float kBand = 0.02f;
 
-// A shell of some 1,000 faces is done in a fifth of it (tests/scene/base_hull_contact_host_test.cpp): it is
-// there for ticks whose own budget is too small.
+// Visits that the base hull may take if the tick's own budget is smaller. 1,000 faces need a fifth
+// of them (tests/scene/base_hull_contact_host_test.cpp).
 constexpr uint32_t kBaseHullSteps = 512;
 
-mesh::Closest ask(const MeshObject& object, Vec3 p_m, float reach_m, query::Budget budget,
-                  mesh::Hint& hint) {
+mesh::Closest query_surface(const MeshObject& object, Vec3 p_m, float reach_m, query::Budget budget,
+                            mesh::Hint& hint) {
   if (object.distance_field == nullptr || !object.distance_field->is_open())
     return mesh::closest_point(*object.mesh, p_m, budget, hint);
   return field::closest_point(*object.distance_field, *object.mesh, p_m, reach_m, budget, hint)
       .closest;
 }
 
-// Of the shell in place of the mesh: no farther than the mesh is outside, no less deep inside.
-// Result: whether the shell tells.
-bool ask_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, MeshTouch& touch,
-                   SurfacePoint& surface, Nearest& nearest) {
+// Distance of the base hull instead of the mesh's: outside never more, inside never less deep.
+// Result: false if the hull gives no bound here (between hull and mesh, or its budget ran out).
+bool query_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, MeshTouch& touch,
+                     SurfacePoint& surface, Nearest& nearest) {
   if (object.base_hull == nullptr || !object.base_hull->is_open()) return false;
   const query::Budget own{budget.steps > kBaseHullSteps ? budget.steps : kBaseHullSteps};
   const hull::BaseHullDistance reported = hull::base_hull_distance(*object.base_hull, p_m, own);
@@ -69,7 +69,7 @@ bool ask_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, Mes
   nearest = {reported.point_m, reported.normal, is_outside ? int8_t{1} : int8_t{-1}};
   surface.sign = nearest.sign;
   surface.distance_m = off_m;
-  // What the mesh's own query has proven holds as well.
+  // The lower bound of the mesh's own query holds too.
   if (certificate.sign > 0 && certificate.lower_m > off_m) surface.distance_m = certificate.lower_m;
   if (is_outside && reported.lower_m > surface.lower_m) surface.lower_m = reported.lower_m;
   return true;
@@ -86,10 +86,10 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   touch.base_hull_steps = 0;
   if (object.mesh == nullptr || !object.mesh->is_open()) return;
   const Vec3 p_m = math::apply_inverse(object.pose, position_m);
-  // Certainly outside a moment ago: what is farther off than the sphere may reach need not be known.
-  const float reach_m = radius_m + kAhead * object.mesh->head().diagonal_m;
+  // Outside at the last query: an exact answer is needed only within the sphere's reach.
+  const float reach_m = radius_m + kBand * object.mesh->head().diagonal_m;
   if (touch.hint.sign > 0 && reach_m < budget.band_m) budget.band_m = reach_m;
-  touch.closest = ask(object, p_m, reach_m, budget, touch.hint);
+  touch.closest = query_surface(object, p_m, reach_m, budget, touch.hint);
   const query::Certificate& certificate = touch.closest.certificate;
 
   SurfacePoint surface;
@@ -97,12 +97,12 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
   surface.lower_m = certificate.lower_m;
   surface.distance_m = touch.closest.distance_m;
   if (certificate.sign < 0 && !certificate.exact) surface.distance_m = -certificate.lower_m;
-  // Nothing within reach: which way the surface lies is not known, and not needed.
+  // Nothing within reach: no plane is made, so the direction to the surface is not needed.
   const bool is_beyond = !certificate.exact && certificate.lower_m >= 0.99f * reach_m;
   if (is_beyond) surface.sign = 0;
   Nearest nearest{touch.closest.point_m, touch.closest.direction, certificate.sign};
   if (!certificate.exact && !(is_beyond && certificate.sign > 0))
-    touch.is_of_base_hull = ask_base_hull(object, p_m, budget, touch, surface, nearest);
+    touch.is_of_base_hull = query_base_hull(object, p_m, budget, touch, surface, nearest);
   if (surface.sign != 0)
     touch.normal =
         object.pose.rotation * contact_normal(nearest, p_m, object.mesh->head().diagonal_m);
