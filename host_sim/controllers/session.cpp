@@ -7,7 +7,7 @@ namespace {
 
 std::string remedy_of(uint16_t rule) {
   switch (rule) {
-    case kRuleNothingToFeel:
+    case kRuleEmptyScene:
       return "it holds neither a surface nor a curve; bake one into it";
     case kRuleArithmetic:
       return "this machine's floating-point mode differs from what the library needs";
@@ -25,7 +25,7 @@ std::string remedy_of(uint16_t rule) {
 }  // namespace
 
 Session::Session(const std::string& asset_path)
-    : asset(asset_path), controller(std::make_unique<Controller>()) {
+    : asset(asset_path), controller(std::make_unique<FullController>()) {
   const core::Verdict verdict = controller->open(asset.bytes());
   if (verdict.ok()) return;
   throw Refused(asset_path + ": refused by rule R" + std::to_string(verdict.rule) + " at element " +

@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 #include "host_sim/controllers/asset_file.hpp"
 #include "host_sim/trace/run.hpp"
 
@@ -14,7 +14,7 @@ struct Session {
   explicit Session(const std::string& asset_path);
 
   AssetFile asset;
-  std::unique_ptr<Controller> controller;
+  std::unique_ptr<FullController> controller;
 };
 
 /// `path` relative to the folder of `folder_of` if possible, so that log and asset can be moved

@@ -2,7 +2,7 @@
 #include <functional>
 #include <optional>
 
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 #include "host_sim/trace/fields.hpp"
 #include "host_sim/trace/log.hpp"
 
@@ -17,6 +17,6 @@ using Tick = std::function<void(const record::TickInput&, record::TickOutput&)>;
 /// Result: the first difference, with the recorded value as `expected`; nullopt if there is none.
 std::optional<Difference> replay(const Log& log, const Tick& tick,
                                  const std::function<void(double)>& progress = {});
-std::optional<Difference> replay(const Log& log, Controller& controller);
+std::optional<Difference> replay(const Log& log, FullController& controller);
 
 }  // namespace firmtouch::host_sim

@@ -224,7 +224,7 @@ void complete(Scenario& scenario) {
   }
 }
 
-Trace run(const Scenario& scenario, Controller& controller, const Environment& environment,
+Trace run(const Scenario& scenario, FullController& controller, const Environment& environment,
           LockStepController* remote, const std::function<void(double)>& progress) {
   const Hand hand(scenario, environment, parameter_value(scenario, params::kToolRadius));
   const uint32_t ticks = tick_count(scenario, hand);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 #include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/scenario/scenario.hpp"
@@ -49,7 +49,7 @@ Vec scene_origin_m(const Scenario& scenario);
 /// Runs `scenario` on `controller`. If `remote` is given, it drives the device, and every bit of
 /// its outputs is compared with the in-process controller's. Pre: `controller` is ready and has run
 /// no tick. Result: deterministic; the same scenario and controller give the same records.
-Trace run(const Scenario& scenario, Controller& controller, const Environment& environment,
+Trace run(const Scenario& scenario, FullController& controller, const Environment& environment,
           LockStepController* remote, const std::function<void(double)>& progress);
 
 }  // namespace firmtouch::host_sim

@@ -2,7 +2,7 @@
 
 #include "app/app_process.hpp"
 #include "app/tick_source.hpp"
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 #include "firmtouch/link/handshake.hpp"
 #include "harness/test.hpp"
 
@@ -17,7 +17,7 @@ constexpr uint32_t kOnGuide = 1u << 9;
 struct Inproc {
   Inproc() : asset(FIRMTOUCH_TEST_ASSET) { CHECK(controller.open(asset.bytes()).ok()); }
   AssetFile asset;
-  Controller controller;
+  FullController controller;
 };
 
 link::HelloReply greet(AppProcess& app, const link::Identity& host, uint32_t mode) {

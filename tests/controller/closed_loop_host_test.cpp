@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "controller/ride.hpp"
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
@@ -18,7 +18,7 @@ namespace record = firmtouch::record;
 namespace servo = firmtouch::servo;
 namespace tools = firmtouch::tools;
 
-using firmtouch::Controller;
+using firmtouch::FullController;
 using firmtouch::Selection;
 
 using namespace firmtouch::controller_test;
@@ -110,11 +110,11 @@ TEST(AssetOfAMeshAloneOrACurveAloneWorks) {
 TEST(AssetsAreChosenByNameAndMissingOnesRefused) {
   Ride named(both(), {"part", "path"});
   CHECK(named.controller.is_ready());
-  Controller controller;
-  CHECK_EQ(controller.open(both().bytes(), {"pat", nullptr}).rule, firmtouch::kRuleNoSuchMesh);
-  CHECK_EQ(controller.open(both().bytes(), {nullptr, "part"}).rule, firmtouch::kRuleNoSuchCurve);
+  FullController controller;
+  CHECK_EQ(controller.open(both().bytes(), {"pat", nullptr}).rule, firmtouch::kRuleNoSuchSurface);
+  CHECK_EQ(controller.open(both().bytes(), {nullptr, "part"}).rule, firmtouch::kRuleNoSuchGuide);
   const Asset empty(file_of({{asset::kProvenanceSection, "x", {'y'}}}));
-  CHECK_EQ(controller.open(empty.bytes()).rule, firmtouch::kRuleNothingToFeel);
+  CHECK_EQ(controller.open(empty.bytes()).rule, firmtouch::kRuleEmptyScene);
 }
 
 TEST(OtherProbeAnswersKeepTheMotorsOff) {
@@ -126,7 +126,7 @@ TEST(OtherProbeAnswersKeepTheMotorsOff) {
         section.bytes[8] = static_cast<uint8_t>(section.bytes[8] ^ 1u);  // the hash
     }
     const Asset bent(file_of(std::move(sections)));
-    Controller controller;
+    FullController controller;
     const bool is_mesh = type == mesh::kProbesSection;
     CHECK_EQ(controller.open(bent.bytes()).rule,
              is_mesh ? firmtouch::kRuleMeshProbes : firmtouch::kRuleCurveProbes);
@@ -151,13 +151,13 @@ TEST(MoreProbesThanASliceMayRunAreRefused) {
     const uint64_t hash = mesh::probe_hash(view, {points.data(), count});
     sections.push_back(tools::probe_section(mesh::kProbesSection, "part", points, hash));
     const Asset many(file_of(std::move(sections)));
-    Controller controller;
+    FullController controller;
     CHECK_EQ(controller.open(many.bytes()).rule, count == 256 ? 0u : firmtouch::kRuleMeshProbes);
   }
 }
 
 TEST(SlicesOfOpeningStaySmallAlsoWhereElementsAreChecked) {
-  Controller controller;
+  FullController controller;
   controller.begin(both().bytes());
   uint32_t slices = 0;
   while (!controller.work(4096)) {
@@ -169,7 +169,7 @@ TEST(SlicesOfOpeningStaySmallAlsoWhereElementsAreChecked) {
 }
 
 TEST(OpeningInSmallSlicesWhileTicksRunEndsTheSame) {
-  Controller controller;
+  FullController controller;
   controller.begin(both().bytes());
   uint32_t slices = 0;
   Ride ride;

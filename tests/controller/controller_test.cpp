@@ -1,6 +1,6 @@
 // The controller without an asset, as it is between power-on and the end of begin(): it measures,
 // and pushes nothing.
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 
 #include <stdint.h>
 
@@ -11,11 +11,11 @@ namespace params = firmtouch::params;
 namespace record = firmtouch::record;
 namespace servo = firmtouch::servo;
 
-using firmtouch::Controller;
+using firmtouch::FullController;
 
 namespace {
 
-Controller g_controller;
+FullController g_controller;
 
 record::TickInput at(uint32_t tick, int32_t counts) {
   record::TickInput input{};
@@ -40,7 +40,7 @@ bool is_still(const record::TickOutput& output) {
 
 // The RAM of a controller: a release that grows it says so here. (Pointers are twice as wide on a
 // 64-bit host.)
-static_assert(sizeof(Controller) <= (sizeof(void*) == 8 ? 4752 : 3616),
+static_assert(sizeof(FullController) <= (sizeof(void*) == 8 ? 4752 : 3616),
               "the controller outgrew its RAM budget");
 
 TEST(ControllerWithoutAnAssetMeasuresAndStaysStill) {

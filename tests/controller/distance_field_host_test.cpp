@@ -13,7 +13,7 @@ namespace record = firmtouch::record;
 namespace servo = firmtouch::servo;
 namespace tools = firmtouch::tools;
 
-using firmtouch::Controller;
+using firmtouch::FullController;
 
 using namespace firmtouch::controller_test;
 
@@ -97,7 +97,7 @@ TEST(AMapThatItsMeshDoesNotProveIsRefusedAndNothingIsPushed) {
           static_cast<uint8_t>(section.bytes[section.bytes.size() / 2] + 40);
   }
   const Asset bent(file_of(std::move(sections)));
-  Controller controller;
+  FullController controller;
   CHECK_EQ(controller.open(bent.bytes()).rule, uint16_t{310});
   CHECK(!controller.distance_field().is_open());
   record::TickInput input{};
@@ -121,7 +121,7 @@ TEST(AMapOfAnotherNameIsNotTheMeshs) {
 }
 
 TEST(AMapIsProvenInSlicesOfTheBudget) {
-  Controller controller;
+  FullController controller;
   controller.begin(mapped().bytes());
   uint32_t slices = 0;  // with the curve proven, the map not yet
   while (!controller.work(2048))

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "controller/ride.hpp"
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
 
@@ -17,7 +17,7 @@ namespace record = firmtouch::record;
 namespace servo = firmtouch::servo;
 namespace tools = firmtouch::tools;
 
-using firmtouch::Controller;
+using firmtouch::FullController;
 using firmtouch::Selection;
 
 using namespace firmtouch::controller_test;

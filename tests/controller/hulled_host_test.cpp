@@ -15,7 +15,7 @@ namespace record = firmtouch::record;
 namespace servo = firmtouch::servo;
 namespace tools = firmtouch::tools;
 
-using firmtouch::Controller;
+using firmtouch::FullController;
 
 using namespace firmtouch::controller_test;
 
@@ -100,7 +100,7 @@ TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
       section.bytes[at] = static_cast<uint8_t>(section.bytes[at] ^ 1u);
     }
     const Asset bent(file_of(std::move(sections)));
-    Controller controller;
+    FullController controller;
     const uint16_t rule = controller.open(bent.bytes()).rule;
     if (type == hull::kProbesSection) {
       CHECK_EQ(rule, firmtouch::kRuleHullProbes);
@@ -117,7 +117,7 @@ TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
 }
 
 TEST(AHullIsProvenInSlicesOfTheBudget) {
-  Controller controller;
+  FullController controller;
   controller.begin(hulled().bytes());
   uint32_t slices = 0;  // with the curve proven, the hull not yet
   while (!controller.work(2048))

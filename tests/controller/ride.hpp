@@ -14,7 +14,7 @@
 #include "bake/curve/bake_curve.hpp"
 #include "bake/field/bake_field.hpp"
 #include "bake/mesh/bake_mesh.hpp"
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
@@ -90,7 +90,7 @@ inline const Asset& both() {
 // A tool that follows the guide's samples while it bobs up and down, so that it is in contact, on
 // the guide, and free.
 struct Ride {
-  Controller controller;
+  FullController controller;
   record::TickInput input{};
   record::TickOutput output{};
   std::vector<math::Vec3> path = tools::make_path(1, 400);

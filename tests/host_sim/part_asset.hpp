@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "firmtouch/controller.hpp"
+#include "firmtouch/controller/full_controller.hpp"
 #include "host_sim/controllers/asset_file.hpp"
 #include "host_sim/trace/run.hpp"
 

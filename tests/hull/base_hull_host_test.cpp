@@ -11,9 +11,9 @@
 #include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
+#include "firmtouch/hull/loader.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/mesh/exact_crossing.hpp"
-#include "firmtouch/sections.hpp"
 #include "surface/make/make_part.hpp"
 
 namespace firmtouch::tools {
@@ -79,7 +79,7 @@ TEST(ABaseHullInFastMemoryAnswersWithTheAssetLocked) {
   asset::Container container;
   CHECK(asset::open(flash.bytes(), container).ok());
   hull::View view;
-  CHECK_EQ(hull::open(firmtouch::hull_sections(container, "model"), view).rule, 0);
+  CHECK_EQ(hull::open(hull::find_sections(container, "model"), view).rule, 0);
   const uint32_t resident = view.base_hull().resident_bytes();
   std::vector<uint32_t> fast(resident / 4);
   std::memcpy(fast.data(), container.find(hull::kBaseHullSection, "model").data(), resident);

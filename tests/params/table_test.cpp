@@ -63,13 +63,13 @@ TEST(NamesSitWhereTheIndexSaysTheyDo) {
 }
 
 TEST(ValuesBeginAsTheTableSays) {
-  const params::Values values;
+  const params::Values values = params::initial_values();
   for (uint32_t i = 0; i < params::kCount; ++i)
     CHECK_EQ(values.value[i], params::kTable[i].initial);
 }
 
 TEST(NothingOutOfRangeIsEverTaken) {
-  params::Values values;
+  params::Values values = params::initial_values();
   for (uint32_t i = 0; i < params::kCount; ++i) {
     const params::Entry& row = params::kTable[i];
     const float bad[] = {float_of(0x7FC00000u),
@@ -93,7 +93,7 @@ TEST(NothingOutOfRangeIsEverTaken) {
 }
 
 TEST(IndicesOutsideTheTableAreRefused) {
-  params::Values values;
+  params::Values values = params::initial_values();
   const float usual[] = {0.0f, 1.0f, -1.0f, 1e-3f, 1e3f};
   for (const float value : usual) {
     CHECK(!params::set(values, params::kCount, value));

@@ -1,5 +1,5 @@
 #pragma once
-// A guide along an L, and what a tool feels of it; runs on the controller too.
+// A guide along an L, and its force on a tool; runs on the controller too.
 #include <stdint.h>
 
 #include "curve/small_curve.hpp"
@@ -17,7 +17,7 @@ inline curve_test::SmallCurve g_small{kL};  // too large for a controller's stac
 struct Rig {
   curve::View view = g_small.view();
   scene::CurveGuide guide;
-  scene::GuideTouch touch;
+  scene::CurveGuideTouch touch;
   servo::LocalModel model;
   Rig() {
     guide.curve = &view;

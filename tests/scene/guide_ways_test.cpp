@@ -89,7 +89,7 @@ TEST(AGuideThatLetsGoAtItsEndsTakesHoldOnlyAfterTheToolWasClearOrCameBack) {
 }
 
 TEST(AnOpenRingThatGoesOnIsFollowedRoundAfterRound) {
-  const scene::Ends both[] = {scene::Ends::kGoOn, scene::Ends::kHold};
+  const scene::Ends both[] = {scene::Ends::kContinue, scene::Ends::kHold};
   for (const scene::Ends ends : both) {
     Rig rig;
     rig.view = g_open_ring.view();
@@ -101,7 +101,7 @@ TEST(AnOpenRingThatGoesOnIsFollowedRoundAfterRound) {
       if (rig.touch.closest.distance_m > worst_m) worst_m = rig.touch.closest.distance_m;
     }
     CHECK(rig.touch.is_held);
-    if (ends == scene::Ends::kGoOn) {
+    if (ends == scene::Ends::kContinue) {
       CHECK_LE(worst_m, 0.004f);
       CHECK(is_about(rig.touch.progress_m, 3 * 0.4f));
     } else {

@@ -7,6 +7,7 @@
 #include "bake/spline_guide.hpp"
 #include "curve/small_curve.hpp"
 #include "firmtouch/scene/curve_guide.hpp"
+#include "firmtouch/scene/spline_guide.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "harness/test.hpp"
 
@@ -68,20 +69,34 @@ constexpr curve::Sample kHairpin[] = {{0, 0, 0}, {0.2f, 0, 0}, {0.2f, 0.004f, 0}
 constexpr curve::Sample kThree[] = {{0, 0, 0},     {0.2f, 0, 0},  {0.2f, 0.01f, 0},
                                     {0, 0.01f, 0}, {0, 0.02f, 0}, {0.2f, 0.02f, 0}};
 
+void follow(const scene::CurveGuide& guide, math::Vec3 p_m, scene::CurveGuideTouch& touch,
+            servo::LocalModel& model) {
+  scene::follow_curve(guide, p_m, query::kUnlimited, touch, model);
+}
+void follow(const scene::SplineGuide& guide, math::Vec3 p_m, scene::SplineGuideTouch& touch,
+            servo::LocalModel& model) {
+  scene::follow_spline(guide, p_m, query::kUnlimited, touch, model);
+}
+
+template <class Guide, class Touch>
 struct Rig {
-  scene::CurveGuide guide;
-  scene::GuideTouch touch;
+  Guide guide;
+  Touch touch;
   servo::LocalModel model;
+  void set(const scene::Guide& settings) { static_cast<scene::Guide&>(guide) = settings; }
   math::Vec3 force_N(math::Vec3 p_m, math::Vec3 speed_mps = {}) {
     scene::begin_model(model, p_m, 0, 3);
-    scene::follow_curve(guide, p_m, query::kUnlimited, touch, model);
+    follow(guide, p_m, touch, model);
     CHECK(servo::is_sound(model));
     return servo::evaluate(model, p_m, speed_mps);
   }
 };
 
-scene::CurveGuide settings() {
-  scene::CurveGuide guide;
+using CurveRig = Rig<scene::CurveGuide, scene::CurveGuideTouch>;
+using SplineRig = Rig<scene::SplineGuide, scene::SplineGuideTouch>;
+
+scene::Guide settings() {
+  scene::Guide guide;
   guide.pose.translation_m = {0, 0, 0.5f};
   guide.material = {100.0f, 2.0f};
   guide.snap_m = 0.01f;
@@ -110,12 +125,14 @@ bool is_at_corner(const curve::Sample (&corners)[N], math::Vec3 p) {
 }
 
 template <size_t N>
-void compare(const curve::Sample (&corners)[N], const scene::CurveGuide& with) {
+void compare(const curve::Sample (&corners)[N], const scene::Guide& with) {
   const SmallCurve small{corners};
   const curve::View sampled = small.view();
   const Splines splines(corners);
-  Rig a, b;
-  a.guide = b.guide = with;
+  CurveRig a;
+  SplineRig b;
+  a.set(with);
+  b.set(with);
   a.guide.curve = &sampled;
   b.guide.spline = &splines.guide;
   int held = 0, others = 0;
@@ -155,7 +172,7 @@ TEST(ASplineOfStraightPiecesFeelsLikeTheSampledCurveOfTheSameCorners) {
 }
 
 TEST(TheSameWithTunnelSideEndsAndDrive) {
-  scene::CurveGuide guide = settings();
+  scene::Guide guide = settings();
   guide.tunnel_m = 0.003f;
   compare(kL, guide);
   guide = settings();
@@ -164,7 +181,7 @@ TEST(TheSameWithTunnelSideEndsAndDrive) {
   guide = settings();
   guide.ends = scene::Ends::kRelease;
   compare(kL, guide);
-  guide.ends = scene::Ends::kGoOn;
+  guide.ends = scene::Ends::kContinue;
   compare(kHairpin, guide);
   guide = settings();
   guide.drive = {scene::Drive::Kind::kPush, 0.5f, 0, 0.001f};
@@ -177,8 +194,8 @@ TEST(TheSameWithTunnelSideEndsAndDrive) {
 TEST(ASplineGuideKeepsToItsStrandByThePenalty) {
   const Splines splines(kHairpin);
   for (const float penalty : {0.0f, 0.25f}) {
-    Rig rig;
-    rig.guide = settings();
+    SplineRig rig;
+    rig.set(settings());
     rig.guide.material.damping_N_s_per_m = 0;
     rig.guide.spline = &splines.guide;
     rig.guide.arc_penalty = penalty;
@@ -197,11 +214,11 @@ TEST(AroundASplineCircleTheForceHasNoCornerAndAnOpenRingGoesOn) {
   c.knots = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
   c.t1 = 4;
   const Splines splines(c);
-  Rig rig;
-  rig.guide = settings();
+  SplineRig rig;
+  rig.set(settings());
   rig.guide.spline = &splines.guide;
   rig.guide.arc_penalty = 2;
-  rig.guide.ends = scene::Ends::kGoOn;
+  rig.guide.ends = scene::Ends::kContinue;
   float worst = 0;
   math::Vec3 before;
   for (int i = 0; i <= 3 * 2000; ++i) {

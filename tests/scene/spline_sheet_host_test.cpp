@@ -87,7 +87,7 @@ TEST(InAClosedLoopAHandThatPressesHardDoesNotComeThroughASheet) {
   for (int i = 0; i < 500; ++i) tick(0, -0.04f + 0.07f * static_cast<float>(i) / 500);
   for (int i = 0; i < 300; ++i) tick(0, 0.03f);
   CHECK_EQ(rig.touch.penetration_m, 0.0f);  // and out again where it came in
-  CHECK(rig.touch.came_from_free_side);
+  CHECK(rig.touch.is_from_outside);
   CHECK_LE(std::fabs(z_m - 0.03f), 1e-3f);
   CHECK_LE(max_N, 30);
 }

@@ -12,7 +12,7 @@
 #include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/refinement.hpp"
-#include "firmtouch/sections.hpp"
+#include "firmtouch/hull/loader.hpp"
 #include "target/text.hpp"
 
 namespace asset = firmtouch::asset;
@@ -98,7 +98,7 @@ int main() {
   bool is_sound = asset::open({region.data(), bytes != 0 ? bytes : region.size()}, file).ok();
   const uint32_t at = is_sound ? file.next_of_type(hull::kHeadSection) : asset::kNoSection;
   is_sound = at != asset::kNoSection &&
-             hull::open(firmtouch::hull_sections(file, file.name(at)), view).ok() &&
+             hull::open(hull::find_sections(file, file.name(at)), view).ok() &&
              hull::bit_words(view.collapse_count()) <= sizeof g_bits / 4;
   if (is_sound) {
     const uint32_t resident = view.base_hull().resident_bytes();

@@ -5,7 +5,10 @@
 #include "cli/files.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/core/bytes.hpp"
-#include "firmtouch/sections.hpp"
+#include "firmtouch/curve/loader.hpp"
+#include "firmtouch/hull/loader.hpp"
+#include "firmtouch/mesh/loader.hpp"
+#include "firmtouch/spline/loader.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -44,7 +47,7 @@ LoadedMesh LoadedAsset::mesh(const std::string& name) const {
                "' was baked with --no-tree: only its hull can be asked; bake it without for more");
   }
   LoadedMesh loaded;
-  const core::Verdict verdict = mesh::open(mesh_sections(container_, key), loaded.view);
+  const core::Verdict verdict = mesh::open(mesh::find_sections(container_, key), loaded.view);
   if (!verdict.ok()) fail_unsound("mesh '" + name + "': " + tools::rule_text(verdict));
   loaded.view = tools::read_ahead(loaded.view, loaded.ahead);
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
@@ -59,7 +62,7 @@ LoadedHull LoadedAsset::hull(const std::string& name) const {
                "' has no hull; bake it with --hull-faces N, or ask for segment");
   }
   LoadedHull loaded;
-  const core::Verdict verdict = hull::open(hull_sections(container_, key), loaded.view);
+  const core::Verdict verdict = hull::open(hull::find_sections(container_, key), loaded.view);
   if (!verdict.ok()) fail_unsound("hull '" + name + "': " + tools::rule_text(verdict));
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
   return loaded;
@@ -69,7 +72,7 @@ LoadedCurve LoadedAsset::curve(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(curve::kHeadSection, key).empty()) fail_absent("curve", name);
   LoadedCurve loaded;
-  const core::Verdict verdict = curve::open(curve_sections(container_, key), loaded.view);
+  const core::Verdict verdict = curve::open(curve::find_sections(container_, key), loaded.view);
   if (!verdict.ok()) fail_unsound("curve '" + name + "': " + tools::rule_text(verdict));
   loaded.rows = core::as_whole_array<uint32_t>(container_.find(curve::kRowsSection, key));
   return loaded;
@@ -79,7 +82,7 @@ spline::View LoadedAsset::spline(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(spline::kHeadSection, key).empty()) fail_absent("spline", name);
   spline::View view;
-  const core::Verdict verdict = spline::open(spline_sections(container_, key), view);
+  const core::Verdict verdict = spline::open(spline::find_sections(container_, key), view);
   if (!verdict.ok()) fail_unsound("spline '" + name + "': " + tools::rule_text(verdict));
   return view;
 }

@@ -80,7 +80,7 @@ Drag guide_drag(const CurveCase& curve, const std::vector<math::Vec3>& points, f
   guide.material = {kStiffness_N_per_m, 0.0f};
   guide.snap_m = guide.release_m = kRelease_m;
   guide.arc_penalty = share;
-  scene::GuideTouch touch;
+  scene::CurveGuideTouch touch;
   servo::LocalModel model;
   return drag_of(points, [&](math::Vec3 p_m) {
     scene::begin_model(model, p_m, 0, 1);

@@ -27,6 +27,13 @@ struct Probes {
   uint64_t hash = 0;
 };
 
+/// At most so many points run in one slice; the baker writes 64.
+constexpr uint32_t kMaxProbes = 256;
+
+constexpr bool is_sensible(const Probes& probes) {
+  return !probes.points.empty() && probes.points.size() <= kMaxProbes;
+}
+
 /// Result: no points where the bytes are not such a section.
 inline Probes read_probes(core::Bytes bytes) {
   const core::Span<const ProbeHead> head = core::as_array<ProbeHead>(bytes, 1);

@@ -27,7 +27,7 @@ void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick,
   const uint32_t sequence = model.sequence + 1;
   model = servo::LocalModel{};
   model.made_at_m = position_m;
-  model.free_radius_m = FLT_MAX;  // until a shape lowers it
+  model.free_radius_m = FLT_MAX;  // until a shape is added
   model.sequence = sequence;
   model.made_tick = tick;
   model.expires_tick = tick + age_ticks;
@@ -56,7 +56,8 @@ float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_
   const float depth_m = radius_m - surface.distance_m;
   servo::ContactPlane plane;
   plane.normal = surface.normal;
-  // Computed from the tool's position, not the surface's, so that the depth keeps its last digits.
+  // From the tool's own position, not the surface's: the depth at this position keeps its last
+  // digits.
   plane.offset_m = math::dot(surface.normal, position_m) + depth_m;
   plane.stiffness_N_per_m = material.stiffness_N_per_m;
   plane.damping_N_s_per_m = material.damping_N_s_per_m;

@@ -4,14 +4,14 @@
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/servo/local_model.hpp"
 
-// Effects add to a local model. An effect is a free function that reads the tool's position and
-// adds planes or a guide; a tick is a sequence of such calls, the library's and your own. Nothing
-// is registered.
+// How effects, the library's and a user's own alike, fill a local model: an effect is a free function
+// that reads the tool's position and adds to the model. A user calls the effects of a tick one after
+// the other; nothing is registered.
 //
 //     scene::begin_model(model, position_m, tick, age_ticks);
 //     scene::touch_mesh(object, tool_radius_m, position_m, budget, touch, model);
-//     my_wall(position_m, model);            // your own shape: add_contact() inside
-//     my_spring_to_home(position_m, model);  // your own effect: add_plane(), add_guide()
+//     my_wall(position_m, model);            // your own shape: calls add_contact()
+//     my_spring_to_home(position_m, model);  // your own effect: calls add_plane() or add_guide()
 namespace firmtouch::scene {
 
 /// Spring and damper of a surface or a guide.
@@ -20,8 +20,7 @@ struct Material {
   float damping_N_s_per_m = 0;
 };
 
-/// What a shape reports about the tool's centre: signed distance, outward normal, and what of it is
-/// certain.
+/// Closest point of a shape to the tool's centre.
 struct SurfacePoint {
   float distance_m = 0;  // signed: negative inside
   math::Vec3 normal;     // unit, outward, device frame
@@ -29,24 +28,23 @@ struct SurfacePoint {
   float lower_m = 0;     // certified: no point of the surface is nearer
 };
 
-/// Makes an empty model about `position_m` (device frame), with the next sequence number, that
+/// Empties the model. It is about `position_m` (device frame), has the next sequence number, and
 /// expires `age_ticks` after `tick`.
 void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick,
                  uint32_t age_ticks);
 
-/// Adds a contact plane.
-/// Result: false and no change if the model has kMaxPlanes already.
+/// Result: false, and the model unchanged, if it has kMaxPlanes.
 bool add_plane(servo::LocalModel& model, const servo::ContactPlane& plane);
 
-/// Sets the guide of the model.
-/// Result: false and no change if the model has one: it holds a single guide.
+/// Result: false, and the model unchanged, if it has a guide: two at once cannot be told apart by
+/// touch.
 bool add_guide(servo::LocalModel& model, const servo::GuideLine& guide);
 
-/// Adds penalty contact of a sphere about `position_m` with a shape: the tangent plane, moved
-/// outward by the radius. Shrinks the model's free radius to the shape's lower bound. Of more than
-/// kMaxPlanes contacts the deepest are kept.
-/// Result: penetration depth, 0 in free space. No plane and 0 if the sign is unknown, the normal is
-/// not a unit vector, or the model is full of deeper contacts.
+/// Penalty contact of a sphere about `position_m` with a shape: a plane tangent to the shape, moved out
+/// by the radius. The model's free radius shrinks to the shape's `lower_m`.
+/// Of more than kMaxPlanes contacts the deepest are kept.
+/// Result: the penetration, 0 in free space. No plane, and 0, if the sign is unknown, the normal is not
+/// a unit vector, or the model is full of deeper contacts.
 float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_m,
                   const SurfacePoint& surface, const Material& material);
 

@@ -12,48 +12,57 @@
 
 namespace firmtouch::scene {
 
-/// A mesh, its pose (mesh frame to device frame) and its material. Any number of objects may share
-/// a mesh.
+/// A mesh, its pose (mesh frame to device frame) and its material. Objects may share a mesh. The last
+/// two are read only by the functions that are named after them, and may be null or not open.
 struct MeshObject {
   const mesh::View* mesh = nullptr;
   math::RigidTransform pose;
   Material material;
-  // Optional, may be null or not open: a distance field that was proven against the mesh, and a
-  // base hull that encloses it.
-  const field::View* distance_field = nullptr;
-  const hull::BaseHull* base_hull = nullptr;
+  const field::View* distance_field = nullptr;  // proven against the mesh
+  const hull::BaseHull* base_hull = nullptr;    // encloses the mesh
 };
 
-/// State of a (tool, object) pair between ticks, and its last answer. The caller owns one a pair.
+/// State of a (tool, object) pair from tick to tick, and the result of its last query. The caller
+/// owns one a pair.
 struct MeshTouch {
   mesh::Hint hint;
-  mesh::Closest closest;         // mesh frame; without a point if only the distance field was read
+  mesh::Closest closest;         // mesh frame; has no point if only the distance field was read
   math::Vec3 normal;             // of the plane, device frame
-  float penetration_m = 0;       // of the sphere; 0 in free space and with an unknown sign
-  bool is_of_base_hull = false;  // the mesh's budget ran out, so the base hull was touched instead
+  float penetration_m = 0;       // of the sphere; 0 in free space, and if the sign is unknown
+  bool is_of_base_hull = false;  // the mesh query ran out of budget: contact with the base hull
   uint32_t base_hull_steps = 0;
 };
 
-/// Penalty contact of a sphere of `radius_m` at `position_m` (device frame) with the object, by the
-/// signed distance of its centre.
-///
-/// Normal: the direction from the closest point to the centre, reversed inside. It turns without a
-/// jump over edges and vertices. Close to the surface it fades into the pseudonormal.
-/// Sign unknown (certificate.sign == 0): no plane. Query not exact: no more depth than the
-/// certificate proves.
-/// Band: while the tool is outside, the query is exact only within the radius and 2 % of the
-/// diagonal. Farther away there is no plane, and the free radius is at least the band; with a
-/// distance field it is what the field certifies, for one visit.
-/// Base hull: if the query was not exact and the sphere may be in contact, the hull is touched
-/// instead, less what the mesh's certificate excludes. Contact then begins early, never late, and
-/// is never less deep than the mesh's.
-///
-/// Pre: radius and material are within the ranges of the parameter table.
-/// Bounds: one query of at most `budget`, with a base hull a second one of as many visits or 512,
-///         and about 200 instructions; re-entrant for different touches.
-/// Result: `touch` and the planes and free radius of `model`.
-/// Limit: the tool can be pushed in; a wall thinner than twice the penetration is pushed through.
+/// Penalty contact of a sphere of `radius_m` at `position_m` (device frame) with the mesh.
+/// The depth is the signed distance of the centre; without an exact query, no more than its
+/// certificate proves. No plane is made for an unknown sign.
+/// The normal points from the closest point to the centre (inside: the other way). It turns without
+/// a jump over edges and vertices. Near the surface, where that direction is lost to rounding, it
+/// fades into the pseudonormal.
+/// While the tool is certainly outside, the query is a band query of 2 % of the diagonal beyond the
+/// sphere. Farther off no plane is made, and the free radius is at least that.
+/// Known limit of penalty contact: a wall thinner than twice the penetration is pushed through.
+/// Bounds: one query of at most `budget` visits and about 200 instructions; re-entrant for different
+/// touches.
 void touch_mesh(const MeshObject& object, float radius_m, math::Vec3 position_m,
                 query::Budget budget, MeshTouch& touch, servo::LocalModel& model);
+
+/// As touch_mesh(). In free space one look-up in the distance field replaces the query; the free
+/// radius is then all that the field certifies.
+void touch_mesh_with_field(const MeshObject& object, float radius_m, math::Vec3 position_m,
+                           query::Budget budget, MeshTouch& touch, servo::LocalModel& model);
+
+/// As touch_mesh(). If the query is not exact and the sphere may be in contact, it renders contact
+/// with the base hull, as deep as the mesh's certificate allows. Force then begins early by the gap
+/// between hull and mesh, never late, and is never less deep than contact with the mesh. If the base
+/// hull's own query has no result either, it is as touch_mesh().
+/// Bounds: another query of as many visits, or 512 if that is more.
+void touch_mesh_with_base_hull(const MeshObject& object, float radius_m, math::Vec3 position_m,
+                               query::Budget budget, MeshTouch& touch, servo::LocalModel& model);
+
+/// Both.
+void touch_mesh_with_field_and_base_hull(const MeshObject& object, float radius_m,
+                                         math::Vec3 position_m, query::Budget budget,
+                                         MeshTouch& touch, servo::LocalModel& model);
 
 }  // namespace firmtouch::scene

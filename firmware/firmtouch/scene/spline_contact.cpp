@@ -8,13 +8,12 @@ namespace {
 
 using math::Vec3;
 
-// Cosine of 11 degrees. At a foot-point inside a surface the line to it is along the normal; within
-// this angle the normal gives the sign.
+// At a foot-point inside a surface the line to the tool is along the normal. From this cosine on the
+// normal gives the sign.
 constexpr float kAlong = 0.98f;
-constexpr float kOnSurface = 2e-6f;  // of the extent: the sign is unknown
-// A tick that moves the tool by this share of the extent, plus the radius, may have gone round a
-// border.
-constexpr float kLeap = 0.02f;
+constexpr float kOnSurface = 2e-6f;  // of the extent: no sign nearer than this
+constexpr float kLeap =
+    0.02f;  // of the extent, added to the radius: a tick that moves farther leaps
 
 struct Offset {
   Vec3 normal;  // to the free side, or 0
@@ -32,42 +31,42 @@ Offset offset_of(const SplineObject& object, const spline::Closest& c, Vec3 p_m)
   return offset;
 }
 
-// Sign by the normal; 0 if the line to the closest point is not along it.
-int8_t sign_by_normal(const Offset& offset) {
+// The side that the normal gives; 0 if it is not certain.
+int8_t side_by_normal(const Offset& offset) {
   if (offset.along_m >= kAlong * offset.size_m) return 1;
   return offset.along_m <= -kAlong * offset.size_m ? -1 : 0;
 }
 
-int8_t sign_of_solid(const Offset& offset, bool is_exact, int8_t carried, float extent_m) {
+int8_t side_of_solid(const Offset& offset, bool is_exact, int8_t carried, float extent_m) {
   if (!is_exact) return carried;
   if (!(offset.size_m > kOnSurface * extent_m)) return carried;
-  const int8_t side = sign_by_normal(offset);
+  const int8_t side = side_by_normal(offset);
   return side != 0 ? side : carried;
 }
 
-// A sheet has no inside. A tool on its free side gets contact from borders too. A tool is behind
-// the sheet if it came through it, tick by tick, and no border was nearest since then; depth does
-// not matter, because a wall does not let go of a hand that presses harder. After a leap the side
-// is unknown.
-int8_t sign_of_sheet(const Offset& offset, bool is_exact, const query::Carried& carried,
+// A sheet has no inside: a path round its border gives no sign. From its free side a border is in
+// contact, too. A tool is behind the sheet if it came through it and no border was nearest since then,
+// however deep it is: a wall does not let go of a hand that presses harder. After a leap the path is
+// unknown.
+int8_t side_of_sheet(const Offset& offset, bool is_exact, const query::Carried& carried,
                      float radius_m, float extent_m, SplineTouch& touch) {
   const bool is_before = offset.along_m > 0.0f;
-  const int8_t by_normal = sign_by_normal(offset);
+  const int8_t by_normal = side_by_normal(offset);
   if (!is_exact) {
-    if (!touch.came_from_free_side) return 0;
+    if (!touch.is_from_outside) return 0;
     return is_before ? 1 : by_normal < 0 ? carried.sign : int8_t{0};
   }
-  if (is_before && offset.size_m >= radius_m && by_normal > 0) touch.came_from_free_side = true;
+  if (is_before && offset.size_m >= radius_m && by_normal > 0) touch.is_from_outside = true;
   const bool is_behind = !is_before && offset.size_m > kOnSurface * extent_m;
   const bool is_leap = !(carried.motion_m <= radius_m + kLeap * extent_m);
-  if (is_behind && (by_normal == 0 || is_leap)) touch.came_from_free_side = false;
-  if (!touch.came_from_free_side) return 0;
+  if (is_behind && (by_normal == 0 || is_leap)) touch.is_from_outside = false;
+  if (!touch.is_from_outside) return 0;
   return is_behind ? -1 : 1;
 }
 
-// Unit normal of the plane; 0 if there is none. Inside a surface it is the surface's own: the
-// closest point may slide along the surface within its error, so the line to it would shake. At a
-// crease or a border it is that line, which turns from one normal to the next.
+// Unit normal of the plane; 0 if there is none. The surface's normal where the line to the closest
+// point is along it: the position of that point along the surface is ill-conditioned there, and the
+// line would shake. At a crease or a border the line, which turns from one normal to the next.
 Vec3 contact_normal(const Offset& offset, int8_t side, float extent_m) {
   if (!(offset.size_m > kOnSurface * extent_m)) return offset.normal;
   const float size_m = side > 0 ? offset.size_m : -offset.size_m;
@@ -98,10 +97,10 @@ void touch_spline(const SplineObject& object, float radius_m, Vec3 position_m, q
   surface.lower_m = certificate.lower_m;
   surface.distance_m = touch.closest.distance_m;
   if (object.is_closed) {
-    touch.came_from_free_side = false;
-    surface.sign = sign_of_solid(offset, certificate.exact, carried.sign, extent_m);
+    touch.is_from_outside = false;
+    surface.sign = side_of_solid(offset, certificate.exact, carried.sign, extent_m);
   } else {
-    surface.sign = sign_of_sheet(offset, certificate.exact, carried, radius_m, extent_m, touch);
+    surface.sign = side_of_sheet(offset, certificate.exact, carried, radius_m, extent_m, touch);
   }
   touch.hint.sign = surface.sign;
   certificate.sign = surface.sign;

@@ -14,33 +14,31 @@ struct SplineObject {
   const spline::View* surface = nullptr;
   math::RigidTransform pose;
   Material material;
-  // False: the normals point to the free side; true: away from it.
-  bool is_turned = false;
-  // True: the surfaces enclose a solid, and a tool inside is pushed out. False: they are sheets, and
-  // push only a tool that came from their free side.
+  bool is_turned = false;  // false: the free side is where the normals point; true: the other one
+  // true: the surfaces enclose a solid, and a tool inside is pushed out. false: they are sheets, with
+  // no force from behind.
   bool is_closed = false;
 };
 
-/// State of a (tool, object) pair between ticks, and its last answer. The caller owns one a pair.
+/// State of a (tool, object) pair from tick to tick, and the result of its last query. The caller
+/// owns one a pair.
 struct SplineTouch {
   spline::Hint hint;
-  spline::Closest closest;           // the object's frame; certificate.sign is set here
-  math::Vec3 normal;                 // of the plane, device frame; 0 with an unknown sign
-  float penetration_m = 0;           // of the sphere; 0 in free space and with an unknown sign
-  bool came_from_free_side = false;  // of a sheet
+  spline::Closest closest;       // the object's frame; certificate.sign is the side
+  math::Vec3 normal;             // of the plane, device frame; 0 if the sign is unknown
+  float penetration_m = 0;       // of the sphere; 0 in free space, and if the sign is unknown
+  bool is_from_outside = false;  // of a sheet: the tool was clear of it on its free side
 };
 
 /// Penalty contact of a sphere of `radius_m` at `position_m` (device frame), as touch_mesh().
-///
-/// Sign: from the normal if the line to the closest point is within 11 degrees of it. Elsewhere (at
-/// a crease, a border or a pole) it is carried on through certified free distance only. No plane is
-/// made from an unknown sign.
-/// Sheet: pushes a tool that was clear of it on its free side, however deep it is pressed through.
-/// Contact ends when a border (or a crease that points to the tool) is nearest behind the sheet, or
-/// when a tick moves the tool by more than the radius and 2 % of the extent.
-///
-/// Bounds: one query of at most `budget`, and about 250 instructions; re-entrant for different
-///         touches.
+/// The sign comes from the normal if the line to the closest point is along it. Elsewhere (at a
+/// crease, a border or a pole) the last sign holds, through certified free distance alone. No plane
+/// is made for an unknown sign.
+/// A sheet pushes a tool that was clear of it on its free side, however deep the tool is pressed. It
+/// stops when a border, or a crease that points to the tool, is nearest behind it, or when a tick
+/// jumps farther than the radius plus 2 % of the extent.
+/// Bounds: one query of at most `budget` visits, and about 250 instructions; re-entrant for
+/// different touches.
 void touch_spline(const SplineObject& object, float radius_m, math::Vec3 position_m,
                   query::Budget budget, SplineTouch& touch, servo::LocalModel& model);
 

@@ -3,17 +3,21 @@
 #include "bake/asset/probes.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/curve/loader.hpp"
+#include "firmtouch/field/loader.hpp"
+#include "firmtouch/hull/loader.hpp"
 #include "firmtouch/hull/probes.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
-#include "firmtouch/sections.hpp"
+#include "firmtouch/mesh/loader.hpp"
 #include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/loader.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
 std::string prove_hull(const asset::Container& container, const std::string& name) {
   hull::View view;
-  const core::Verdict verdict = hull::open(hull_sections(container, name.c_str()), view);
+  const core::Verdict verdict = hull::open(hull::find_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "hull '" + name + "': " + rule_text(verdict);
   const core::Bytes probes = container.find(hull::kProbesSection, name.c_str());
   if (probes.empty() || probes_agree(view, probes)) return "";
@@ -27,10 +31,10 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
     if (!problem.empty() || !has_tree(container, name.c_str())) return problem;
   }
   mesh::View view;
-  const core::Verdict verdict = mesh::open(mesh_sections(container, name.c_str()), view);
+  const core::Verdict verdict = mesh::open(mesh::find_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "mesh '" + name + "': " + rule_text(verdict);
   field::View distance_field;
-  const field::Sections sections = distance_field_sections(container, name.c_str());
+  const field::Sections sections = field::find_sections(container, name.c_str());
   const core::Verdict of_field =
       sections.head.empty() ? core::kPassed : field::open(sections, view, distance_field);
   if (!of_field.ok()) return "distance map '" + name + "': " + rule_text(of_field);
@@ -42,7 +46,7 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
 
 std::string prove_curve(const asset::Container& container, const std::string& name) {
   curve::View view;
-  const core::Verdict verdict = curve::open(curve_sections(container, name.c_str()), view);
+  const core::Verdict verdict = curve::open(curve::find_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "curve '" + name + "': " + rule_text(verdict);
   const core::Bytes probes = container.find(curve::kProbesSection, name.c_str());
   if (probes.empty() || probes_agree(view, probes)) return "";
@@ -52,12 +56,12 @@ std::string prove_curve(const asset::Container& container, const std::string& na
 
 std::string prove_spline(const asset::Container& container, const std::string& name) {
   spline::View view;
-  const core::Verdict verdict = spline::open(spline_sections(container, name.c_str()), view);
+  const core::Verdict verdict = spline::open(spline::find_sections(container, name.c_str()), view);
   if (!verdict.ok()) return "spline '" + name + "': " + rule_text(verdict);
   if (!container.find(spline::kArcsSection, name.c_str()).empty()) {
     spline::GuideView guide;
     const core::Verdict of_guide =
-        spline::open_guide(view, guide_sections(container, name.c_str()), guide);
+        spline::open_guide(view, spline::find_guide_sections(container, name.c_str()), guide);
     if (!of_guide.ok()) return "guide along spline '" + name + "': " + rule_text(of_guide);
   }
   const core::Bytes probes = container.find(spline::kProbesSection, name.c_str());

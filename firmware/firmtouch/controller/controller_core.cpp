@@ -1,0 +1,188 @@
+#include "firmtouch/controller/controller_core.hpp"
+
+#include "firmtouch/scene/compose.hpp"
+#include "firmtouch/servo/fault.hpp"
+
+namespace firmtouch {
+namespace {
+
+using params::Values;
+
+device::Settings device_settings(const Values& v) {
+  return {{v[params::kCountsPerMetreX], v[params::kCountsPerMetreY], v[params::kCountsPerMetreZ]},
+          {v[params::kOriginX], v[params::kOriginY], v[params::kOriginZ]},
+          {v[params::kWorkspaceHalfX], v[params::kWorkspaceHalfY], v[params::kWorkspaceHalfZ]},
+          v[params::kMaxSpeed],
+          v[params::kVelocityFilter]};
+}
+
+servo::Settings servo_settings(const Values& v) {
+  return {v[params::kForceLimit], v[params::kSlewLimit], v[params::kRampIn],
+          v[params::kTickPeriod]};
+}
+
+// The guard has its own constants for the table's ceilings.
+static_assert(servo::kGuardMaxForce_N >= params::kMaxForceLimit_N &&
+              servo::kGuardMaxForce_N <= servo::kMaxForceLimit_N &&
+              servo::kMaxForceLimit_N <= params::kMaxForceLimit_N);
+static_assert(servo::kGuardMaxSlew_N_per_s >= params::kMaxSlewLimit_N_per_s &&
+              servo::kGuardMaxSlew_N_per_s <= servo::kMaxSlewLimit_N_per_s &&
+              servo::kMaxSlewLimit_N_per_s <= params::kMaxSlewLimit_N_per_s);
+static_assert(servo::kGuardMaxPeriod_s >= params::kMaxTickPeriod_s &&
+              servo::kGuardMaxPeriod_s <= servo::kMaxTickPeriod_s &&
+              servo::kMaxTickPeriod_s <= params::kMaxTickPeriod_s);
+
+// The guard takes a limit from the command that changes it, not from the parameters' memory, which it
+// guards against.
+void set_guard_limit(servo::GuardState& guard, uint32_t number, float value) {
+  servo::GuardLimits limits = guard_limits(guard);
+  if (number == params::kForceLimit) limits.force_limit_N = value;
+  if (number == params::kSlewLimit) limits.slew_limit_N_per_s = value;
+  if (number == params::kTickPeriod) limits.tick_period_s = value;
+  guard_set_limits(guard, limits);
+}
+
+// A longer pause between two models is a jump of the tick counter: a drive does not catch up.
+constexpr uint32_t kMaxTicksOfAModel = 1000;
+
+uint32_t device_faults(uint32_t faults) {
+  return ((faults & device::kEncoderFault) != 0 ? servo::kFaultEncoder : 0u) |
+         ((faults & device::kWorkspaceFault) != 0 ? servo::kFaultWorkspace : 0u);
+}
+
+uint32_t flag_faults(uint32_t flags) {
+  return ((flags & record::kFlagDriveFault) != 0 ? servo::kFaultDrive : 0u) |
+         ((flags & record::kFlagEmergencyStop) != 0 ? servo::kFaultEmergencyStop : 0u);
+}
+
+void put(float (&to)[record::kAxes], math::Vec3 from) {
+  to[0] = from.x;
+  to[1] = from.y;
+  to[2] = from.z;
+}
+
+}  // namespace
+
+void ControllerCore::reset() {
+  live_ = Live{};
+  live_.values = params::initial_values(table_);
+  models_ = {};
+  const Values& v = live_.values;
+  guard_set_limits(live_.guard,
+                   {v[params::kForceLimit], v[params::kSlewLimit], v[params::kTickPeriod]});
+}
+
+bool ControllerCore::set_parameter(const record::TickInput& input) {
+  const uint32_t row = input.command - 1;
+  if (row >= table_.size()) return false;
+  const params::Entry& entry = table_[row];
+  const bool motors_off =
+      live_.servo.mode == servo::Mode::kOff || live_.servo.mode == servo::Mode::kFault;
+  const bool enable = (input.flags & record::kFlagEnable) != 0;
+  if (enable || !motors_off) {
+    if (entry.when == params::When::kMotorsOff) return false;
+    if (entry.when == params::When::kMayFall &&
+        !(input.command_value <= live_.values[entry.number]))
+      return false;
+  }
+  if (!params::set(live_.values, table_, row, input.command_value)) return false;
+  set_guard_limit(live_.guard, entry.number, input.command_value);
+  return true;
+}
+
+ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
+                                                const AssetStatus& asset,
+                                                record::TickOutput& output) {
+  const bool enable = (input.flags & record::kFlagEnable) != 0;
+  if (!enable && asset.is_ready) live_.enable_was_low = true;
+  const bool clear = input.command == record::kCommandClearFaults && !enable;
+  output = {};
+  if (clear) {
+    forgive(live_.clock);
+    forgive(live_.device);
+    guard_clear(live_.guard);
+  }
+  if (input.command != record::kCommandNone) {
+    const bool taken = clear || set_parameter(input);
+    output.state |= taken ? record::kStateCommandTaken : record::kStateCommandRefused;
+  }
+  const Values& v = live_.values;
+
+  const servo::ClockReading clock =
+      watch_clock(live_.clock, input.clock_us, v[params::kTickPeriod], v[params::kLateRatio]);
+  const device::Sample sample{
+      {input.encoder_counts[0], input.encoder_counts[1], input.encoder_counts[2]},
+      (input.flags & record::kFlagEncoderFault) == 0,
+      clock.dt_s};
+  const device::Reading tool = read(live_.device, device_settings(v), sample);
+
+  Tick tick;
+  tick.request = {tool.position_m, input.tick, asset.is_ready && tool.started};
+  tick.step.position_m = tool.position_m;
+  tick.step.velocity_mps = tool.velocity_mps;
+  tick.step.tick = input.tick;
+  tick.step.enable = enable && asset.is_ready && live_.enable_was_low;
+  tick.step.clear_faults = clear;
+  tick.step.reported = clock.faults | device_faults(tool.faults) | flag_faults(input.flags);
+  if (enable) tick.step.reported |= asset.faults;
+  return tick;
+}
+
+uint32_t ControllerCore::begin_model(const ModelRequest& request, const Values& v,
+                                     ModelResult& result) {
+  const uint32_t passed = request.tick - live_.model_tick;
+  const uint32_t ticks = live_.model_sequence != 0 && passed <= kMaxTicksOfAModel ? passed : 1;
+  live_.model_tick = request.tick;
+  result.model.sequence = live_.model_sequence;
+  scene::begin_model(result.model, request.position_m, request.tick,
+                     static_cast<uint32_t>(v[params::kModelAge]));
+  live_.model_sequence = result.model.sequence;
+  return ticks;
+}
+
+ModelResult* ControllerCore::result_of_tick(const Tick& tick, uint32_t flags) {
+  if ((flags & record::kFlagModelApart) == 0) return &models_.answer();
+  if ((flags & record::kFlagModelTaken) != 0) models_.take();
+  if ((flags & record::kFlagModelWanted) != 0) models_.ask({tick.request, live_.values});
+  return nullptr;
+}
+
+uint32_t ControllerCore::model_flags() const {
+  uint32_t flags = record::kFlagModelApart;
+  if (models_.is_made()) flags |= record::kFlagModelTaken | record::kFlagModelWanted;
+  if (models_.is_idle()) flags |= record::kFlagModelWanted;
+  return flags;
+}
+
+void ControllerCore::end_tick(const record::TickInput& input, const AssetStatus& asset,
+                              const Tick& tick, record::TickOutput& output) {
+  const ModelResult& result = models_.answer();
+  const servo::StepOutput wanted =
+      servo::step(live_.servo, servo_settings(live_.values), result.model, tick.step);
+
+  // The joints of a Cartesian device are its axes: each motor's force is the tool's.
+  float motor_N[record::kAxes];
+  put(motor_N, wanted.force_N);
+  const bool cut = flag_faults(input.flags) != 0 || (wanted.faults & servo::kCutAtOnce) != 0;
+  if (!guard(live_.guard, tick.step.enable && wanted.faults == 0, cut, motor_N)) {
+    live_.servo.faults |= servo::kFaultGuard;
+    live_.servo.mode = servo::Mode::kFault;
+  }
+  for (uint32_t k = 0; k < record::kAxes; ++k) output.motor_N[k] = output.force_N[k] = motor_N[k];
+  put(output.position_m, tick.step.position_m);
+  put(output.velocity_mps, tick.step.velocity_mps);
+  output.faults = live_.servo.faults;
+  output.state |= result.state | static_cast<uint32_t>(live_.servo.mode) |
+                  (asset.is_ready ? record::kStateReady : 0u);
+  output.distance_m = result.distance_m;
+  output.distance_lower_m = result.distance_lower_m;
+  output.penetration_m = result.penetration_m;
+  output.guide_deviation_m = result.guide_deviation_m;
+  output.guide_lower_m = result.guide_lower_m;
+  output.guide_arc = result.guide_arc;
+  output.steps = result.steps;
+  output.guide_steps = result.guide_steps;
+  output.model_sequence = result.model.sequence;
+}
+
+}  // namespace firmtouch

@@ -1,0 +1,87 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/controller/model.hpp"
+#include "firmtouch/core/handoff.hpp"
+#include "firmtouch/device/cartesian.hpp"
+#include "firmtouch/params/compose.hpp"
+#include "firmtouch/params/rows.hpp"
+#include "firmtouch/record/tick.hpp"
+#include "firmtouch/servo/clock_watch.hpp"
+#include "firmtouch/servo/guard.hpp"
+#include "firmtouch/servo/step.hpp"
+
+namespace firmtouch {
+
+/// What a tick depends on of the asset.
+struct AssetStatus {
+  bool is_ready = false;
+  uint32_t faults = 0;  // latched in a tick that enables
+};
+
+/// The part of a controller that is the same for every composition: parameters, clock, a Cartesian
+/// device of three axes, servo, guard, record output, and the hand-over of local models at two rates.
+class ControllerCore {
+ public:
+  using Parameters = params::Groups<params::SafetyRows, params::DeviceRows, params::SceneRows>;
+
+  /// A tick between its two halves.
+  struct Tick {
+    ModelRequest request;
+    servo::StepInput step;
+  };
+  struct ModelTask {
+    ModelRequest request;
+    params::Values values;  // of that tick
+  };
+
+  explicit ControllerCore(params::Table table) : table_(table) { reset(); }
+
+  params::Table table() const { return table_; }
+  const params::Values& values() const { return live_.values; }
+
+  /// Initial parameters, no faults. Not while a tick may interrupt.
+  void reset();
+
+  /// The first half of a tick: command, clock, encoders.
+  Tick begin_tick(const record::TickInput& input, const AssetStatus& asset,
+                  record::TickOutput& output);
+  /// Between the halves.
+  /// Result: the result to make of tick.request now; null at two rates.
+  ModelResult* result_of_tick(const Tick& tick, uint32_t flags);
+  /// The second half: servo, guard, record output.
+  void end_tick(const record::TickInput& input, const AssetStatus& asset, const Tick& tick,
+                record::TickOutput& output);
+
+  /// At two rates: the flags of the next tick.
+  uint32_t model_flags() const;
+  /// At two rates, below the servo interrupt: the model to make; null if none was requested.
+  const ModelTask* task() const { return models_.asked(); }
+  ModelResult& task_result() { return models_.draft(); }
+  void finish_task() { models_.made(); }
+
+  /// Begins the model of a request. Of the tick, or of the task, never of both.
+  /// Result: ticks since the last model, for the drive of a guide.
+  uint32_t begin_model(const ModelRequest& request, const params::Values& values,
+                       ModelResult& result);
+
+ private:
+  // All state from tick to tick but the models.
+  struct Live {
+    params::Values values;
+    servo::ClockState clock;
+    device::State device;
+    servo::State servo;
+    servo::GuardState guard;
+    uint32_t model_sequence = 0;
+    uint32_t model_tick = 0;
+    bool enable_was_low = false;  // in a tick with the asset ready
+  };
+  bool set_parameter(const record::TickInput& input);
+
+  params::Table table_;
+  Live live_;
+  core::Handoff<ModelTask, ModelResult> models_;
+};
+
+}  // namespace firmtouch

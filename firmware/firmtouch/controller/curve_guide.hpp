@@ -1,0 +1,34 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/controller/model.hpp"
+#include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/curve/loader.hpp"
+#include "firmtouch/params/compose.hpp"
+#include "firmtouch/params/rows.hpp"
+#include "firmtouch/scene/curve_guide.hpp"
+
+namespace firmtouch {
+
+/// Fills a guide's settings from the parameters. `ticks`: since the last model.
+void set_guide(const params::Values& values, uint32_t ticks, scene::Guide& guide);
+GuideReport report(const scene::GuideTouch& touch);
+
+/// A guide policy: a sampled curve.
+class CurveGuide : public curve::Loader {
+ public:
+  using Parameters = params::Groups<params::GuideRows>;
+  static constexpr bool kIsGuide = true;
+  static constexpr uint32_t kParts = kPartGuide;
+
+  const curve::View& curve() const { return view(); }
+  bool is_open() const { return curve().is_open(); }
+  void reset() { touch_ = {}; }
+  GuideReport follow(const params::Values& values, uint32_t ticks, math::Vec3 position_m,
+                     servo::LocalModel& model);
+
+ private:
+  scene::CurveGuideTouch touch_;
+};
+
+}  // namespace firmtouch

@@ -1,0 +1,124 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/asset/loading.hpp"
+#include "firmtouch/controller/model.hpp"
+#include "firmtouch/core/one_of.hpp"
+#include "firmtouch/params/compose.hpp"
+
+namespace firmtouch {
+
+/// Several policies of one kind, all surfaces or all guides, of which the first that the asset has is
+/// used. It has the shape of a policy itself.
+template <class... Policies>
+class FirstOf : private Policies... {
+  static_assert(sizeof...(Policies) > 0, "name a policy");
+
+ public:
+  using State = core::OneOf<typename Policies::State...>;
+  static constexpr uint32_t kParts = (Policies::kParts | ... | 0u);
+
+  template <class P>
+  P& get() {
+    return *this;
+  }
+  template <class P>
+  const P& get() const {
+    return *this;
+  }
+  void reset() { (Policies::reset(), ...); }
+  void close() { (Policies::close(), ...); }
+  bool is_open() const { return (Policies::is_open() || ...); }
+
+  static const char* find(const asset::Container& asset, const char* wanted) {
+    const char* name = nullptr;
+    (void)(((name = Policies::find(asset, wanted)) != nullptr) || ...);
+    return name;
+  }
+  void begin(const asset::Container& asset, const char* name, State& state) {
+    at_ = 0;
+    (void)(begin_if<Policies>(asset, name, state) || ...);
+  }
+  asset::Progress work(State& state, uint32_t budget) {
+    asset::Progress progress;
+    uint8_t i = 0;
+    (void)((i++ == at_ &&
+            (progress = Policies::work(state.template get<typename Policies::State>(), budget),
+             true)) ||
+           ...);
+    return progress;
+  }
+
+ protected:
+  /// Calls `use` with the policy that is open.
+  /// Result: false if none is.
+  template <class Use>
+  bool use_open(const Use& use) {
+    return ((Policies::is_open() && (use(static_cast<Policies&>(*this)), true)) || ...);
+  }
+
+ private:
+  template <class P>
+  bool begin_if(const asset::Container& asset, const char* name, State& state) {
+    if (P::find(asset, name) == nullptr) {
+      ++at_;
+      return false;
+    }
+    P::begin(asset, name, state.template begin<typename P::State>());
+    return true;
+  }
+
+  uint8_t at_ = 0;
+};
+
+/// The surfaces of a controller. For now the first that the asset has is touched.
+template <class... Policies>
+class Surfaces : public FirstOf<Policies...> {
+  static_assert((!Policies::kIsGuide && ...), "guides are the controller's second argument");
+
+ public:
+  static constexpr bool kIsGuide = false;
+  using Parameters = params::Joined<typename Policies::Parameters...>;
+
+  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
+                      servo::LocalModel& model) {
+    SurfaceReport report;
+    this->use_open([&](auto& surface) { report = surface.touch(values, position_m, model); });
+    return report;
+  }
+};
+
+/// A guide policy of several: the first that the asset has is followed.
+template <class... Policies>
+class Guides : public FirstOf<Policies...> {
+  static_assert((Policies::kIsGuide && ...), "surfaces are the controller's first argument");
+
+ public:
+  static constexpr bool kIsGuide = true;
+  using Parameters = params::Joined<typename Policies::Parameters...>;
+
+  GuideReport follow(const params::Values& values, uint32_t ticks, math::Vec3 position_m,
+                     servo::LocalModel& model) {
+    GuideReport report;
+    this->use_open([&](auto& guide) { report = guide.follow(values, ticks, position_m, model); });
+    return report;
+  }
+};
+
+/// The guide policy of a controller without a guide.
+class NoGuide {
+ public:
+  using Parameters = params::Groups<>;
+  using State = core::OneOf<uint32_t>;
+  static constexpr bool kIsGuide = true;
+  static constexpr uint32_t kParts = 0;
+
+  static const char* find(const asset::Container&, const char*) { return nullptr; }
+  void reset() {}
+  void close() {}
+  void begin(const asset::Container&, const char*, State&) {}
+  asset::Progress work(State&, uint32_t) { return {true, core::kPassed}; }
+  GuideReport follow(const params::Values&, uint32_t, math::Vec3, servo::LocalModel&) { return {}; }
+};
+
+}  // namespace firmtouch

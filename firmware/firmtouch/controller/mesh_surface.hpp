@@ -1,0 +1,77 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/controller/loaders.hpp"
+#include "firmtouch/controller/model.hpp"
+#include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/field/loader.hpp"
+#include "firmtouch/hull/loader.hpp"
+#include "firmtouch/mesh/loader.hpp"
+#include "firmtouch/params/compose.hpp"
+#include "firmtouch/params/rows.hpp"
+#include "firmtouch/scene/mesh_contact.hpp"
+
+namespace firmtouch {
+
+/// What the surfaces of meshes share: the state of the (tool, mesh) pair, and the object.
+class MeshContact {
+ public:
+  using Parameters = params::Groups<params::ContactRows>;
+  static constexpr bool kIsGuide = false;
+
+  void reset() { touch_ = {}; }
+
+ protected:
+  scene::MeshObject object(const mesh::View& mesh, const params::Values& values) const;
+  SurfaceReport report() const;
+
+  scene::MeshTouch touch_;
+};
+
+/// A surface policy: a mesh alone.
+class MeshSurface : public MeshContact, public mesh::Loader {
+ public:
+  static constexpr uint32_t kParts = kPartMesh;
+  const mesh::View& mesh() const { return view(); }
+  bool is_open() const { return mesh().is_open(); }
+  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
+                      servo::LocalModel& model);
+};
+
+/// A mesh with its distance field, if the asset has one.
+class FieldMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Loader> {
+ public:
+  static constexpr uint32_t kParts = kPartMesh | kPartField;
+  const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
+  const field::View& distance_field() const { return get<field::Loader>().view(); }
+  bool is_open() const { return mesh().is_open(); }
+  void begin(const asset::Container& asset, const char* name, State& state);
+  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
+                      servo::LocalModel& model);
+};
+
+/// A mesh with its base hull, if the asset has one.
+class HulledMesh : public MeshContact, public LoaderChain<mesh::Loader, hull::Loader> {
+ public:
+  static constexpr uint32_t kParts = kPartMesh | kPartHull;
+  const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
+  const hull::View& hull() const { return get<hull::Loader>().view(); }
+  bool is_open() const { return mesh().is_open(); }
+  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
+                      servo::LocalModel& model);
+};
+
+/// A mesh with its distance field and its base hull, if the asset has them.
+class FullMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Loader, hull::Loader> {
+ public:
+  static constexpr uint32_t kParts = kPartMesh | kPartField | kPartHull;
+  const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
+  const field::View& distance_field() const { return get<field::Loader>().view(); }
+  const hull::View& hull() const { return get<hull::Loader>().view(); }
+  bool is_open() const { return mesh().is_open(); }
+  void begin(const asset::Container& asset, const char* name, State& state);
+  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
+                      servo::LocalModel& model);
+};
+
+}  // namespace firmtouch

@@ -1,0 +1,71 @@
+#include "firmtouch/controller/needed_parts.hpp"
+
+#include "firmtouch/asset/loading.hpp"
+#include "firmtouch/controller/asset_loading.hpp"
+#include "firmtouch/core/bytes.hpp"
+#include "firmtouch/curve/layout.hpp"
+#include "firmtouch/field/layout.hpp"
+#include "firmtouch/hull/layout.hpp"
+#include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/spline/guide_view.hpp"
+#include "firmtouch/spline/layout.hpp"
+
+namespace firmtouch {
+namespace {
+
+static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsSplineGuide, "a rule a part, in order");
+
+bool same(const char* a, const char* b) {
+  while (*a != 0 && *a == *b) ++a, ++b;
+  return *a == *b;
+}
+
+// Curves without lengths make no guide, and need nothing.
+uint32_t spline_part(const asset::Container& asset, uint32_t i) {
+  const core::Span<const spline::Head> head = core::as_whole_array<spline::Head>(asset.section(i));
+  if (head.size() != 1) return 0;
+  if (head[0].is_surface != 0) return kPartSpline;
+  return asset.find(spline::kArcsSection, asset.name(i)).empty() ? 0 : kPartSplineGuide;
+}
+
+}  // namespace
+
+uint32_t part_of_section(const asset::Container& asset, uint32_t i) {
+  switch (asset.type(i)) {
+    case mesh::kHeadSection:
+      return kPartMesh;
+    case field::kHeadSection:
+      return kPartField;
+    case hull::kHeadSection:
+      return kPartHull;
+    case curve::kHeadSection:
+      return kPartGuide;
+    case spline::kHeadSection:
+      return spline_part(asset, i);
+    default:
+      return 0;
+  }
+}
+
+uint32_t needed_parts(const asset::Container& asset) {
+  uint32_t parts = 0;
+  for (uint32_t i = 0; i < asset.section_count(); ++i) parts |= part_of_section(asset, i);
+  return parts;
+}
+
+core::Verdict missing_part(const asset::Container& asset, const Selection& selection,
+                           uint32_t linked) {
+  for (uint32_t i = 0; i < asset.section_count(); ++i) {
+    const uint32_t part = part_of_section(asset, i);
+    if ((part & ~linked) == 0) continue;
+    const bool is_guide = (part & (kPartGuide | kPartSplineGuide)) != 0;
+    const char* wanted = is_guide ? selection.guide : selection.surface;
+    if (wanted != nullptr && !same(wanted, asset.name(i))) continue;
+    uint32_t number = 0;
+    while (part >> number != 1) ++number;
+    return core::reject(static_cast<uint16_t>(kRuleNeedsMesh + number), i);
+  }
+  return core::kPassed;
+}
+
+}  // namespace firmtouch

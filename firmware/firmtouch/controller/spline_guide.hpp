@@ -1,0 +1,27 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/controller/curve_guide.hpp"
+#include "firmtouch/scene/spline_guide.hpp"
+#include "firmtouch/spline/loader.hpp"
+
+namespace firmtouch {
+
+/// A guide policy: spline curves.
+class SplineGuide : public spline::GuideLoader {
+ public:
+  using Parameters = params::Groups<params::GuideRows>;
+  static constexpr bool kIsGuide = true;
+  static constexpr uint32_t kParts = kPartSplineGuide;
+
+  const spline::GuideView& guide() const { return view(); }
+  bool is_open() const { return guide().is_open(); }
+  void reset() { touch_ = {}; }
+  GuideReport follow(const params::Values& values, uint32_t ticks, math::Vec3 position_m,
+                     servo::LocalModel& model);
+
+ private:
+  scene::SplineGuideTouch touch_;
+};
+
+}  // namespace firmtouch

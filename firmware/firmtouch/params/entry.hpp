@@ -1,0 +1,104 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+
+// One parameter that a person may set, and tables of them. A controller's table is composed from the
+// rows of its parts (params/compose.hpp); scenario files, the link and the record name a parameter
+// by its row.
+namespace firmtouch::params {
+
+/// When a parameter may change.
+enum class When : uint8_t {
+  kAnytime,    // at any tick
+  kMotorsOff,  // it changes what position or time means: only while the motors are off
+  kMayFall,    // a limit: while the motors are on it may only fall
+};
+
+struct Entry {
+  uint16_t number;   // where its value stands in Values; tables are sorted by it
+  const char* name;  // ends in its unit
+  const char* unit;  // SI; "1" for a plain number
+  float low;         // both ends belong to the range
+  float high;
+  float initial;
+  When when;
+  const char* what;
+};
+
+/// Sorted by number, each once.
+using Table = core::Span<const Entry>;
+
+/// Numbers of the library's own rows, in the order in which they were added: append-only. In the
+/// table of the full controller a number is the row, which is in every log.
+enum Index : uint16_t {
+  kToolRadius,
+  kContactStiffness,
+  kContactDamping,
+  kGuideStiffness,
+  kGuideDamping,
+  kGuideSnap,
+  kGuideRelease,
+  kForceLimit,
+  kSlewLimit,
+  kRampIn,
+  kVelocityFilter,
+  kTickPeriod,
+  kLateRatio,
+  kMaxSpeed,
+  kCountsPerMetreX,
+  kCountsPerMetreY,
+  kCountsPerMetreZ,
+  kOriginX,
+  kOriginY,
+  kOriginZ,
+  kWorkspaceHalfX,
+  kWorkspaceHalfY,
+  kWorkspaceHalfZ,
+  kSceneX,
+  kSceneY,
+  kSceneZ,
+  kMeshSteps,
+  kCurveSteps,
+  kModelAge,
+  kGuideArcPenalty,
+  kGuideTunnel,
+  kGuideSideX,
+  kGuideSideY,
+  kGuideSideZ,
+  kGuideEnds,
+  kGuideDrive,
+  kGuideDriveForce,
+  kGuideDriveSpeed,
+  kSurfaceClosed,
+  kSurfaceTurned,
+  kCount
+};
+
+/// From here on the numbers of your own parts' rows.
+constexpr uint16_t kFirstOwn = 56;
+constexpr uint16_t kMaxOwn = 8;
+static_assert(kCount <= kFirstOwn);
+
+/// A value for every number; 0 where the table has no row.
+struct Values {
+  float value[kFirstOwn + kMaxOwn] = {};
+  float operator[](uint32_t number) const { return value[number]; }
+};
+
+Values initial_values(Table table);
+
+/// Sets the value of one row.
+/// Result: false, and nothing changed, for a row outside the table, NaN, or a value out of range.
+bool set(Values& values, Table table, uint32_t row, float value);
+
+/// Row of a name that ends with a zero.
+/// Result: the table's size where there is none.
+uint32_t find(Table table, const char* name);
+
+/// One number for names, units, ranges, defaults and their order: two programs with the same one
+/// mean the same by a row.
+/// Bounds: about 4,000 table steps; not for a tick.
+uint64_t table_hash(Table table);
+
+}  // namespace firmtouch::params

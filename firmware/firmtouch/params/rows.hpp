@@ -1,0 +1,132 @@
+#pragma once
+#include "firmtouch/params/entry.hpp"
+
+// The rows of the library's own parts. The initial values are of a table-top device that a hand can
+// stop: 8 N, 1 kHz. With 75 g and 0.5 N s/m of its own, such a device is stable to 1,000 N/m without
+// virtual damping (Colgate & Schenkel 1994: b > K T / 2).
+namespace firmtouch::params {
+
+// Upper ends of these rows; servo and its guard have the same ceilings.
+constexpr float kMaxForceLimit_N = 100.0f;
+constexpr float kMaxSlewLimit_N_per_s = 1e6f;
+constexpr float kMaxTickPeriod_s = 0.1f;
+
+constexpr float kInitialTickPeriod_s = 0.001f;
+
+/// Limits of force and time: servo, guard and clock.
+struct SafetyRows {
+  static constexpr Entry kRows[] = {
+      {kForceLimit, "force_limit_N", "N", 0.0f, kMaxForceLimit_N, 8.0f, When::kMayFall,
+       "largest force at the tool"},
+      {kSlewLimit, "slew_limit_N_per_s", "N/s", 1.0f, kMaxSlewLimit_N_per_s, 5000.0f,
+       When::kMayFall, "fastest change of the force"},
+      {kRampIn, "ramp_in_s", "s", 0.0f, 10.0f, 0.2f, When::kAnytime,
+       "time from enable to full force"},
+      {kTickPeriod, "tick_period_s", "s", 0.00005f, kMaxTickPeriod_s, kInitialTickPeriod_s,
+       When::kMotorsOff, "nominal time between ticks; a board's timer keeps the initial one"},
+      {kLateRatio, "late_ratio", "1", 1.05f, 4.0f, 1.5f, When::kAnytime,
+       "a tick that takes more periods than this is late"},
+      {kModelAge, "model_age", "1", 1.0f, 1000.0f, 3.0f, When::kAnytime,
+       "ticks for which a local model is valid"},
+  };
+};
+
+/// A Cartesian device of three axes.
+struct DeviceRows {
+  static constexpr Entry kRows[] = {
+      {kVelocityFilter, "velocity_filter_Hz", "Hz", 1.0f, 10000.0f, 150.0f, When::kAnytime,
+       "cut-off frequency of the velocity estimate"},
+      {kMaxSpeed, "max_speed_mps", "m/s", 0.01f, 100.0f, 5.0f, When::kAnytime,
+       "an encoder that jumps faster than this is rejected"},
+      {kCountsPerMetreX, "counts_per_metre_x", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
+       "encoder of the x axis"},
+      {kCountsPerMetreY, "counts_per_metre_y", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
+       "encoder of the y axis"},
+      {kCountsPerMetreZ, "counts_per_metre_z", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
+       "encoder of the z axis"},
+      {kOriginX, "origin_x_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
+       "position at a count of 0"},
+      {kOriginY, "origin_y_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
+       "position at a count of 0"},
+      {kOriginZ, "origin_z_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
+       "position at a count of 0"},
+      {kWorkspaceHalfX, "workspace_half_x_m", "m", 0.001f, 10.0f, 0.5f, When::kMotorsOff,
+       "reach about the origin"},
+      {kWorkspaceHalfY, "workspace_half_y_m", "m", 0.001f, 10.0f, 0.5f, When::kMotorsOff,
+       "reach about the origin"},
+      {kWorkspaceHalfZ, "workspace_half_z_m", "m", 0.001f, 10.0f, 0.5f, When::kMotorsOff,
+       "reach about the origin"},
+  };
+};
+
+/// Where the scene is in the device frame.
+struct SceneRows {
+  static constexpr Entry kRows[] = {
+      {kSceneX, "scene_x_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
+       "position of the asset's origin"},
+      {kSceneY, "scene_y_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
+       "position of the asset's origin"},
+      {kSceneZ, "scene_z_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
+       "position of the asset's origin"},
+  };
+};
+
+/// Contact with a surface of any kind.
+struct ContactRows {
+  static constexpr Entry kRows[] = {
+      {kToolRadius, "tool_radius_m", "m", 0.0f, 0.1f, 0.003f, When::kAnytime,
+       "radius of the sphere at the tool's tip"},
+      {kContactStiffness, "contact_stiffness_N_per_m", "N/m", 0.0f, 20000.0f, 800.0f,
+       When::kAnytime, "stiffness of the surface"},
+      {kContactDamping, "contact_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime,
+       "damping of the surface"},
+      {kMeshSteps, "mesh_steps", "1", 1.0f, 65536.0f, 256.0f, When::kAnytime,
+       "visit budget of the surface query"},
+  };
+};
+
+/// Spline surfaces.
+struct SheetRows {
+  static constexpr Entry kRows[] = {
+      {kSurfaceClosed, "surface_closed", "1", 0.0f, 1.0f, 0.0f, When::kAnytime,
+       "spline surfaces: 0: sheets, rendered from their free side, 1: they enclose a solid"},
+      {kSurfaceTurned, "surface_turned", "1", 0.0f, 1.0f, 0.0f, When::kAnytime,
+       "free side of spline surfaces: 0: where their normals point, 1: the other one"},
+  };
+};
+
+/// A guide along a curve of any kind.
+struct GuideRows {
+  static constexpr Entry kRows[] = {
+      {kGuideStiffness, "guide_stiffness_N_per_m", "N/m", 0.0f, 20000.0f, 400.0f, When::kAnytime,
+       "stiffness across the guide"},
+      {kGuideDamping, "guide_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime,
+       "damping across the guide"},
+      {kGuideSnap, "guide_snap_m", "m", 0.0f, 1.0f, 0.005f, When::kAnytime,
+       "the guide holds a tool that comes nearer than this"},
+      {kGuideRelease, "guide_release_m", "m", 0.0f, 1.0f, 0.015f, When::kAnytime,
+       "the guide releases a tool that is farther than this"},
+      {kGuideArcPenalty, "guide_arc_penalty", "1", 0.0f, 100.0f, 0.1f, When::kAnytime,
+       "distance that a jump along the guide costs, per metre; 0: always the nearest part"},
+      {kGuideTunnel, "guide_tunnel_m", "m", 0.0f, 1.0f, 0.0f, When::kAnytime,
+       "no force nearer to the guide than this"},
+      {kGuideSideX, "guide_side_x", "1", -1.0f, 1.0f, 0.0f, When::kAnytime,
+       "free side of a one-sided guide, x; 0, 0, 0: the guide pulls from all sides"},
+      {kGuideSideY, "guide_side_y", "1", -1.0f, 1.0f, 0.0f, When::kAnytime,
+       "free side of a one-sided guide, y"},
+      {kGuideSideZ, "guide_side_z", "1", -1.0f, 1.0f, 0.0f, When::kAnytime,
+       "free side of a one-sided guide, z"},
+      {kGuideEnds, "guide_ends", "1", 0.0f, 2.0f, 0.0f, When::kAnytime,
+       "at the ends of the guide: 0: hold, 1: release, 2: continue at the other end"},
+      {kGuideDrive, "guide_drive", "1", 0.0f, 2.0f, 0.0f, When::kAnytime,
+       "along the guide: 0: free, 1: push with guide_drive_force, 2: lead at guide_drive_speed"},
+      {kGuideDriveForce, "guide_drive_force_N", "N", -20.0f, 20.0f, 1.0f, When::kAnytime,
+       "force of a push along the guide; largest force of a lead"},
+      {kGuideDriveSpeed, "guide_drive_speed_mps", "m/s", -1.0f, 1.0f, 0.0f, When::kAnytime,
+       "speed of a lead along the guide; 0: hold"},
+      {kCurveSteps, "curve_steps", "1", 1.0f, 65536.0f, 256.0f, When::kAnytime,
+       "visit budget of the guide query"},
+  };
+};
+
+}  // namespace firmtouch::params
