@@ -1,6 +1,5 @@
 #include "describe.hpp"
 
-#include "firmtouch/params/table.hpp"
 #include "firmtouch/record/schema.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "servo_interrupt.hpp"
@@ -42,15 +41,15 @@ void put_bit(link::Description& row) {
 }
 
 void put_parameter(link::Description& row) {
-  row.rows = params::kCount;
+  row.rows = static_cast<uint16_t>(controller.kTable.size());
   if (row.index >= row.rows) return;
-  const params::Entry& entry = params::kTable[row.index];
+  const params::Entry& entry = controller.kTable[row.index];
   row.kind = static_cast<uint8_t>(entry.when);
   row.number[0] = entry.low;
   row.number[1] = entry.high;
   row.number[2] = entry.initial;
-  // One word, which the interrupt changes as a whole.
-  row.number[3] = controller.values()[static_cast<params::Index>(row.index)];
+  // One word: the interrupt changes it as a whole.
+  row.number[3] = controller.values()[entry.number];
   put(row.name, entry.name);
   put(row.unit, entry.unit);
   put(row.text, entry.what);

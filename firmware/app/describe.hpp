@@ -3,8 +3,8 @@
 
 namespace firmtouch::app {
 
-/// A row of what the controller tells about itself: so a host or a page of another version can read
-/// its records and offer its parameters. Main loop only.
+/// One row of the controller's description of itself: a host or a page of another version reads
+/// records and sets parameters by it. Main loop only.
 link::Description describe_row(const link::Describe& wanted);
 
 }  // namespace firmtouch::app

@@ -7,20 +7,19 @@
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/link/build_id.hpp"
 #include "firmtouch/link/handshake.hpp"
-#include "firmtouch/params/table.hpp"
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
 
 namespace firmtouch::app {
 namespace {
 
-// A look at the painted stack reads all of it that was never used: thousands of words.
+// Measuring the painted stack reads all that was never used: thousands of words.
 constexpr uint32_t kTicksPerStackLook = 64;
 
 link::HelloReply describe() {
   link::HelloReply reply;
   reply.controller.asset_crc = controller.asset_crc();
-  reply.controller.parameter_table_hash = params::table_hash();
+  reply.controller.parameter_table_hash = params::table_hash(controller.kTable);
   reply.controller.build_id = link::build_id();
   reply.asset_rule = controller.verdict().rule;
   reply.asset_element = controller.verdict().element;
@@ -34,7 +33,7 @@ link::HelloReply describe() {
 
 void HostSession::poll() {
   uint8_t bytes[64];
-  // Answers come before questions: a host that asks without listening waits, and nothing is lost.
+  // Replies are sent before requests are read: a host that does not read waits, and nothing is lost.
   while (outbox_.has_room_to_stream()) {
     const uint32_t count = hal::link_read(bytes, sizeof bytes);
     if (count == 0) break;
@@ -48,7 +47,7 @@ void HostSession::poll() {
   if (is_live()) {
     stream_records();
   } else {
-    records.release(records.ready().size());  // nobody listens: keep the ring fresh for who comes
+    records.release(records.ready().size());  // no host: keep the latest records for the next one
   }
   outbox_.flush();
 }
@@ -121,7 +120,7 @@ uint32_t HostSession::reasons_to_refuse(const link::Hello& hello,
   if (refused == link::kRefusedProtocol) return refused;
   if (!controller.is_ready()) {
     if (controller.verdict().ok()) return link::kRefusedNotReady;
-    // The CRC of an asset that is not open says nothing; the rule that rejected it does.
+    // The rule that rejected the asset says more than its CRC.
     refused = (refused & ~link::kRefusedAsset) | link::kRefusedAssetRejected;
   }
   if (hello.mode != link::kModeLive && hello.mode != link::kModeLockStep)
@@ -134,12 +133,12 @@ void HostSession::answer_step(const link::Frame& frame) {
   link::Step step;
   if (!is_lock_step()) return complain(frame, "a Step before an accepted Hello in lock-step");
   if (!link::take(frame, step)) return complain(frame, "a Step of another length");
-  // The same step again: its answer was lost on the way. The tick is not repeated.
+  // The same step again: its reply was lost. The tick is not repeated.
   if (!has_stepped_ || step.input.tick != last_reply_.tick) {
     const uint32_t before = hal::clock_work();
     controller.tick(step.input, last_reply_.output);
     last_reply_.work = hal::clock_work() - before;
-    controller.make_model();  // where this tick wants one made beside it
+    controller.make_model();  // if this tick requested one
     last_reply_.work_per_1000 = hal::clock_work_per_1000();
     if (step.input.tick % kTicksPerStackLook == 0)
       last_reply_.stack_high_bytes = hal::board_stack_high_bytes();
@@ -157,12 +156,12 @@ void HostSession::answer_set_param(const link::Frame& frame) {
   ack.index = wanted.index;
   if (is_lock_step()) {
     ack.result = link::kAckInLockStep;
-  } else if (wanted.index >= params::kCount) {
+  } else if (wanted.index >= controller.kTable.size()) {
     ack.result = link::kAckNoSuchParameter;
-  } else if (wanted.index == params::kTickPeriod) {
+  } else if (controller.kTable[wanted.index].number == params::kTickPeriod) {
     ack.result = link::kAckTimerRuns;  // programmed once, when the session began
   } else {
-    const params::Entry& row = params::kTable[wanted.index];
+    const params::Entry& row = controller.kTable[wanted.index];
     if (!(wanted.value >= row.low) || !(wanted.value <= row.high)) {
       ack.result = link::kAckOutOfRange;
     } else if (!commands.put(wanted.index, wanted.value)) {

@@ -7,16 +7,15 @@
 
 namespace firmtouch::app {
 
-/// The controller's side of what link/protocol.hpp describes. Main loop only.
+/// The controller's side of link/protocol.hpp. Main loop only.
 class HostSession {
  public:
-  /// Reads what has come, answers it, streams records while the session is live, hands the link
-  /// what waits.
+  /// Reads and answers messages, streams records while the session is live, and writes to the link.
   void poll();
 
   bool is_live() const { return phase_ == Phase::kLive; }
   bool is_lock_step() const { return phase_ == Phase::kLockStep; }
-  /// Whether nothing waits for the link, so that the main loop may sleep until more comes.
+  /// Nothing waits for the link: the main loop may sleep.
   bool is_idle() const;
 
  private:
@@ -38,7 +37,7 @@ class HostSession {
   Outbox outbox_;
   Phase phase_ = Phase::kStranger;
   uint16_t log_sequence_ = 0;
-  uint32_t decimation_ = 0;  // as the Hello says; 0, so that all of this begins as zeros
+  uint32_t decimation_ = 0;  // of the Hello; 0 at first, so that the object is all zeros
   bool has_stepped_ = false;
   link::StepReply last_reply_;
 };

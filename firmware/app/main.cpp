@@ -7,31 +7,39 @@
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
 
-// The controller program, the same source for every board: proves the asset, answers the host, runs
-// the servo.
+// The controller program, the same source for every board and composition: proves the asset, answers
+// the host, runs the servo.
 
 namespace firmtouch::app {
 namespace {
 
-// Of opening between two looks at the link: well below 1 ms on a Cortex-M7. The two slices of probe
-// queries at its end take longer, some ms each for an asset as baked (opener.hpp): the board's ring
-// of received bytes must last so long. No servo runs yet.
+// Opening between two polls of the link: well below 1 ms on a Cortex-M7. A slice of probe queries takes
+// some ms (controller/loaders.hpp): the board's ring of received bytes must last so long. No servo
+// runs yet.
 constexpr uint32_t kSliceBytes = 4096;
 
 HostSession session;
 
-// Exactly the asset where the board keeps one in a larger slot; all of the slot where none begins
-// there, so that opening names the rule.
+// The asset in the board's slot; the whole slot if none begins there, so that opening names the rule.
 core::Bytes asset() {
   const core::Bytes region = hal::board_asset();
   const uint32_t bytes = asset::stated_bytes(region);
   return bytes == 0 ? region : core::Bytes{region.data(), bytes};
 }
 
-void say_verdict() {
+void print_verdict() {
   if (controller.is_ready()) return;
   char text[160];
   link::TextWriter out(text);
+  const uint32_t part = controller.verdict().rule - uint32_t{kRuleNeedsMesh};
+  if (part < kPartCount) {
+    out.text("asset rejected by rule R")
+        .decimal(controller.verdict().rule)
+        .text(": it needs part `");
+    out.text(part_name(part))
+        .text("`. Build the program with it (FIRMTOUCH_APP). The motors stay off.\n");
+    return hal::board_print(text);
+  }
   out.text("asset rejected by rule R").decimal(controller.verdict().rule).text(" at element ");
   out.decimal(controller.verdict().element);
   out.text(" (tools/FORMAT.md): bake it again and load it anew. The motors stay off.\n");
@@ -43,7 +51,7 @@ void say_verdict() {
   hal::motors_off();
   controller.begin(asset());
   while (!controller.work(kSliceBytes)) session.poll();
-  say_verdict();
+  print_verdict();
   for (;;) {
     session.poll();
     if (controller.is_ready() && !session.is_lock_step()) start_servo_when_enabled();

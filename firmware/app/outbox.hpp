@@ -6,17 +6,17 @@
 
 namespace firmtouch::app {
 
-/// Frames on their way to the host: kept here until the link has taken every byte. Main loop only.
+/// Frames for the host, kept until the link has taken every byte. Main loop only.
 class Outbox {
  public:
   /// Adds one frame.
-  /// Result: false, nothing added, where it does not fit before flush() made room.
+  /// Result: false, nothing added, if it does not fit before a flush().
   bool send(uint8_t type, uint16_t sequence, core::Bytes payload);
   bool send_text(uint16_t sequence, const char* text);
-  /// Hands the link as many bytes as it takes at once.
+  /// Writes as many bytes as the link takes at once.
   void flush();
   bool empty() const { return count_ == 0; }
-  /// Whether a frame of any size fits, beside the answer to one more message.
+  /// A frame of any size fits, and the reply to one more message.
   bool has_room_to_stream() const { return kBytes - count_ >= 2 * link::kMaxFrameBytes; }
 
  private:

@@ -3,17 +3,21 @@
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
-#include "firmtouch/params/table.hpp"
+#include "firmtouch/params/rows.hpp"
 #include "firmtouch/record/tick.hpp"
 #include "servo_interrupt.hpp"
 
 namespace firmtouch::app {
 namespace {
 
-// Ticks that may be missing before the watchdog takes the motors' power: late enough for one that
-// is merely late (which the controller sees and latches by itself), early enough that a hand moves
-// millimetres.
+// Ticks that may be missing before the watchdog cuts the motors' power. A late tick passes (the
+// controller latches it by itself); a hand moves millimetres in that time.
 constexpr uint32_t kWatchdogTicks = 4;
+
+// The lines of the motors are flags of a tick.
+static_assert(hal::kMotorsEnable == record::kFlagEnable &&
+              hal::kMotorsEmergencyStop == record::kFlagEmergencyStop &&
+              hal::kMotorsDriveFault == record::kFlagDriveFault);
 
 bool g_running = false;
 bool g_saw_enable_low = false;
@@ -22,29 +26,29 @@ bool g_show_enable_low = false;
 }  // namespace
 
 uint32_t servo_period_us() {
-  return static_cast<uint32_t>(params::kTable[params::kTickPeriod].initial * 1e6f + 0.5f);
+  return static_cast<uint32_t>(params::kInitialTickPeriod_s * 1e6f + 0.5f);
 }
 
 void start_servo() {
   if (g_running) return;
   g_running = true;
-  controller.reset();  // nothing of a lock-step before is left
+  controller.reset();  // forgets a lock-step
   hal::watchdog_begin(kWatchdogTicks * servo_period_us());
   hal::clock_start_servo(servo_period_us(), servo_interrupt);
 }
 
-uint32_t servo_lines() {
-  const uint32_t lines = hal::motors_lines();
-  if (!g_show_enable_low) return lines;
+uint32_t servo_flags() {
+  const uint32_t flags = hal::motors_lines();
+  if (!g_show_enable_low) return flags;
   g_show_enable_low = false;
-  return lines & ~record::kFlagEnable;
+  return flags & ~record::kFlagEnable;
 }
 
 bool servo_is_running() { return g_running; }
 
 void start_servo_when_enabled() {
   if (g_running) return;
-  if ((hal::motors_lines() & record::kFlagEnable) == 0) {
+  if ((hal::motors_lines() & hal::kMotorsEnable) == 0) {
     g_saw_enable_low = true;
   } else if (g_saw_enable_low) {
     g_show_enable_low = true;

@@ -3,7 +3,7 @@
 
 namespace firmtouch::app {
 
-/// Nominal time between two ticks, as the parameter table has it.
+/// Nominal time between two ticks: the initial value of tick_period_s.
 uint32_t servo_period_us();
 
 /// Starts the timer that calls servo_interrupt(), and the watchdog over it. Later calls do nothing.
@@ -11,15 +11,14 @@ uint32_t servo_period_us();
 void start_servo();
 bool servo_is_running();
 
-/// hal::motors_lines() as a tick is to see them: in the first tick after start_servo_when_enabled()
-/// the enable line is low, as the main loop saw it, else the switch whose closing starts the servo
-/// would have to be closed twice. Servo interrupt only.
-uint32_t servo_lines();
+/// hal::motors_lines() as flags of a tick. In the first tick after start_servo_when_enabled() enable is
+/// low, as the main loop saw it: else the switch that starts the servo had to be closed twice. Servo
+/// interrupt only.
+uint32_t servo_flags();
 
-/// Starts the servo when the operator closes the enable switch for the first time. One that is
-/// closed since the reset must be opened first: nobody may be holding the device now. Until then
-/// nothing needs a tick, and a host may take the controller into lock-step without the timer in
-/// between.
+/// Starts the servo when the operator closes the enable switch for the first time. A switch that is
+/// closed since the reset must be opened first: nobody may be holding the device. Until then no tick
+/// runs, and a host may take the controller into lock-step.
 void start_servo_when_enabled();
 
 }  // namespace firmtouch::app

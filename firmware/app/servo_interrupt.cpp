@@ -1,5 +1,6 @@
 #include "servo_interrupt.hpp"
 
+#include "demo/hand.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
@@ -8,7 +9,7 @@
 
 namespace firmtouch::app {
 
-Controller controller;
+AppController controller;
 link::CommandMailbox commands;
 Records records;
 
@@ -18,16 +19,17 @@ void servo_interrupt() {
 
   now.input.tick = next_tick++;
   now.input.clock_us = hal::clock_us();
-  now.input.flags = servo_lines();
+  if constexpr (kDemo) demo::move_hand();
+  now.input.flags = servo_flags();
   if (!hal::encoders_read(now.input.encoder_counts)) now.input.flags |= record::kFlagEncoderFault;
   if (kTwoRates) now.input.flags |= controller.model_flags();
   commands.take(now.input);  // at most one parameter a tick
 
-  controller.tick(now.input, now.output);  // calls no hardware: replay calls it with the same input
+  controller.tick(now.input, now.output);  // calls no HAL: a replay calls it with the same input
 
   hal::motors_write_N(now.output.motor_N);
   hal::watchdog_feed();
-  records.push(now);  // never waits: where the ring is full the record is dropped and counted
+  records.push(now);  // never waits: if the ring is full the record is dropped and counted
 }
 
 }  // namespace firmtouch::app

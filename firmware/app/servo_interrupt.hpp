@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-#include "firmtouch/controller.hpp"
+#include "composition.hpp"
 #include "firmtouch/link/command_mailbox.hpp"
 #include "firmtouch/record/ring.hpp"
 #include "firmtouch/record/tick.hpp"
@@ -12,22 +12,27 @@ namespace firmtouch::app {
 // opening, a frame).
 using Records = record::Ring<record::TickRecord, 64>;
 
-// What the servo interrupt and the main loop share. Each is safe between the two by its own
-// contract.
-extern Controller controller;
+// Shared by the servo interrupt and the main loop. Each is safe between the two by its own contract.
+extern AppController controller;
 extern link::CommandMailbox commands;  // main loop -> interrupt
 extern Records records;                // interrupt -> main loop
 
-// At two rates the interrupt renders the last local model, and the main loop below it makes the
-// next one: for a servo that is faster than a query.
+// At two rates the interrupt renders the last local model while the main loop makes the next one: for
+// a servo that is faster than a query.
 #ifdef FIRMTOUCH_APP_TWO_RATES
 constexpr bool kTwoRates = true;
 #else
 constexpr bool kTwoRates = false;
 #endif
 
-/// One turn of the force loop: everything from the encoders to the motors. Called by the board's
-/// timer.
+// With simulated joints (demo/joints.hpp).
+#ifdef FIRMTOUCH_APP_DEMO
+constexpr bool kDemo = true;
+#else
+constexpr bool kDemo = false;
+#endif
+
+/// One tick: from the encoders to the motors. Called by the board's timer.
 void servo_interrupt();
 
 }  // namespace firmtouch::app

@@ -2,9 +2,10 @@
 if(TARGET firmtouch AND TARGET firmtouch-app-posix)
   firmtouch_bake(TARGET app_test_asset INPUTS app/cube.obj app/guide.csv OUTPUT app_test.fta)
   firmtouch_test_module(app LINKS firmtouch_controller firmtouch_link firmtouch_params firmtouch_hal)
-  # The program's own servo interrupt, over joints of the test's (logging_host_test.cpp).
+  # The program's own servo interrupt, over joints of the test (logging_host_test.cpp).
   target_sources(test_app PRIVATE app/app_process.cpp ${PROJECT_SOURCE_DIR}/firmware/app/servo_interrupt.cpp
                                   ${PROJECT_SOURCE_DIR}/firmware/app/servo.cpp)
+  firmtouch_compose(test_app all)
   target_include_directories(test_app PRIVATE ${PROJECT_SOURCE_DIR}/firmware/app)
   target_compile_definitions(
     test_app PRIVATE FIRMTOUCH_APP_PROGRAM="$<TARGET_FILE:firmtouch-app-posix>"

@@ -29,13 +29,8 @@ function freestanding(file, header) {
 function room_may(file, module, header,    of) {
   of = header
   sub(/^firmtouch\//, "", of)
-  if (of !~ /\//) {  # a composition of modules, above them all
-    sub(/\.hpp$/, "", of)
-    return module == "app" || module == "controller" ? 1 : of
-  }
   sub(/\/.*/, "", of)
   if (module == "app") return 1
-  if (module == "controller") return of in known ? 1 : of
   if (module == "hal") return (of == "hal" || of == "core") ? 1 : of
   if (of == module || (module, of) in may) return 1
   if (module == "scene" && header == "firmtouch/servo/local_model.hpp") return 1
@@ -58,13 +53,13 @@ function judge(file, line, header, quoted,    where, top, module, answer) {
   }
   if (!quoted && top != "tests") return
   if (top == "firmware") {
-    module = folder[2] == "app" ? "app" : folder[3] ~ /\./ ? "controller" : folder[3]
+    module = folder[2] == "app" ? "app" : folder[3]
     if (header !~ /^firmtouch\// || header ~ /\.\./) {
       # The program may take headers of its own folder, and the one that the build makes.
       if (module == "app" && header !~ /\.\./ && header !~ /^(host_sim|tests|tools|harness|bake|surface|cli)\//) return
       complain(where "firmware may not include \"" header "\"")
     } else {
-      if (module != "app" && module != "controller" && !(module in known)) complain(where module " is no module of firmware/CMakeLists.txt")
+      if (module != "app" && !(module in known)) complain(where module " is no module of firmware/CMakeLists.txt")
       answer = room_may(file, module, header)
       if (answer != 1) complain(where module " may not include " answer)
     }

@@ -32,7 +32,7 @@ plant_hal_in_firmware() {
   expect='certificate.hpp:[0-9]+: query may not include hal'
 }
 plant_controller_in_a_room() {
-  add firmware/firmtouch/servo/planted.cpp '#include "firmtouch/controller.hpp"'
+  add firmware/firmtouch/servo/planted.cpp '#include "firmtouch/controller/controller.hpp"'
   expect='planted.cpp:1: servo may not include controller'
 }
 plant_tools_in_firmware() {

@@ -152,7 +152,8 @@ TEST(MoreProbesThanASliceMayRunAreRefused) {
     sections.push_back(tools::probe_section(mesh::kProbesSection, "part", points, hash));
     const Asset many(file_of(std::move(sections)));
     FullController controller;
-    CHECK_EQ(controller.open(many.bytes()).rule, count == 256 ? 0u : firmtouch::kRuleMeshProbes);
+    CHECK_EQ(controller.open(many.bytes()).rule,
+             count == 256 ? 0u : uint32_t{firmtouch::kRuleMeshProbes});
   }
 }
 

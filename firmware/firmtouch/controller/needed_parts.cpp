@@ -25,7 +25,7 @@ uint32_t spline_part(const asset::Container& asset, uint32_t i) {
   const core::Span<const spline::Head> head = core::as_whole_array<spline::Head>(asset.section(i));
   if (head.size() != 1) return 0;
   if (head[0].is_surface != 0) return kPartSpline;
-  return asset.find(spline::kArcsSection, asset.name(i)).empty() ? 0 : kPartSplineGuide;
+  return asset.find(spline::kArcsSection, asset.name(i)).empty() ? 0u : uint32_t{kPartSplineGuide};
 }
 
 }  // namespace

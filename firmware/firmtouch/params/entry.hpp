@@ -31,7 +31,7 @@ using Table = core::Span<const Entry>;
 
 /// Numbers of the library's own rows, in the order in which they were added: append-only. In the
 /// table of the full controller a number is the row, which is in every log.
-enum Index : uint16_t {
+enum Index : uint32_t {
   kToolRadius,
   kContactStiffness,
   kContactDamping,

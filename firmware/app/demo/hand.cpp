@@ -1,20 +1,21 @@
+#include "demo/hand.hpp"
+
+#include "demo/joints.hpp"
 #include "firmtouch/hal/clock.hpp"
-#include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
-#include "firmtouch/hal/pace.hpp"
 #include "firmtouch/math/elementary.hpp"
+#include "firmtouch/spline/guided_point.hpp"
 #include "servo_interrupt.hpp"
 
-// For who has no device yet: joints that a hand made of numbers moves, instead of the board's. It
-// follows the asset's curve (a circle about its surface where there is none), presses and lifts, and
-// holds the enable switch. What the motors push moves it, so that a change of a parameter is felt.
-// Everything else is the controller program as it is.
+// A scripted hand for simulated joints. It follows the asset's guide (without one, a circle about the
+// surface), presses and lifts, and closes the enable switch. The motors' forces move it, so that a
+// change of a parameter is visible. The rest of the controller program is unchanged.
 
-namespace firmtouch::hal {
+namespace firmtouch::demo {
 namespace {
 
 constexpr float kTwoPi_rad = 6.2831853f;
-constexpr float kStep_s = 0.001f;  // of the servo (params::kTickPeriod)
+constexpr float kStep_s = 0.001f;  // of the servo
 // A table-top device in a relaxed hand.
 constexpr float kMass_kg = 0.075f;
 constexpr float kHandStiffness_N_per_m = 400.0f;
@@ -23,14 +24,13 @@ constexpr float kRound_s = 12.0f;     // once along the curve
 constexpr float kPress_s = 2.0f;      // from one press to the next
 constexpr float kPressDepth = 0.12f;  // of the way from the curve to the middle of the mesh
 constexpr float kLiftHeight = 0.06f;
-constexpr uint32_t kCloses_us = 500000;    // after the start
-constexpr uint32_t kGivesUp_us = 3000000;  // without a force in that time the switch is let go
-constexpr uint32_t kRests_us = 3000000;
+constexpr uint32_t kClose_us = 500000;  // after the start
+constexpr uint32_t kOpen_us = 3000000;  // after so long without a force the switch is opened
+constexpr uint32_t kRest_us = 3000000;
 
 struct Axis {
   float position_m = 0;
   float velocity_mps = 0;
-  float motor_N = 0;
 };
 
 Axis g_axis[3];
@@ -38,7 +38,6 @@ uint32_t g_ticks = 0;
 bool g_is_closed = false;
 bool g_has_switched = false;
 uint32_t g_switched_us = 0;
-uint32_t g_pushed_us = 0;
 
 float share_of(float period_s) {
   const uint32_t period = static_cast<uint32_t>(period_s / kStep_s);
@@ -49,8 +48,8 @@ struct Box {
   float low_m[3] = {}, high_m[3] = {};
 };
 
-// Of the surface, of whichever kind; else of the splines that lead.
-bool find_box(const Controller& seen, Box& box) {
+// Of the surface, of any kind; else of the spline guide.
+bool find_box(const app::AppController& seen, Box& box) {
   const auto take = [&](const auto& head) {
     for (uint32_t k = 0; k < 3; ++k) {
       box.low_m[k] = head.low_m[k];
@@ -63,7 +62,7 @@ bool find_box(const Controller& seen, Box& box) {
   return seen.spline_guide().is_open() && take(seen.spline_guide().model().head());
 }
 
-math::Vec3 on_a_circle(const Box& head) {
+math::Vec3 on_circle(const Box& head) {
   const float angle_rad = kTwoPi_rad * share_of(kRound_s);
   return {0.5f * (head.low_m[0] + head.high_m[0]) +
               0.5f * (head.high_m[0] - head.low_m[0]) * math::cosine(angle_rad),
@@ -72,7 +71,7 @@ math::Vec3 on_a_circle(const Box& head) {
           0.5f * (head.low_m[2] + head.high_m[2])};
 }
 
-math::Vec3 along_the_curve(const curve::View& curve) {
+math::Vec3 along_curve(const curve::View& curve) {
   const core::Span<const curve::Sample> samples = curve.samples();
   const float at = share_of(kRound_s) * static_cast<float>(samples.size() - 1);
   const uint32_t first = static_cast<uint32_t>(at);
@@ -83,15 +82,15 @@ math::Vec3 along_the_curve(const curve::View& curve) {
           a.z_m + (b.z_m - a.z_m) * rest};
 }
 
-// Where the hand wants the tool: on its way, and now deeper, now farther out.
-math::Vec3 wanted_m() {
-  const Controller& seen = app::controller;
+// The hand's goal: a point of its path, moved in and out.
+math::Vec3 goal_m() {
+  const app::AppController& seen = app::controller;
   Box head;
   if (!seen.is_ready() || !find_box(seen, head)) return {};
-  const math::Vec3 way = seen.curve().is_open() ? along_the_curve(seen.curve())
+  const math::Vec3 way = seen.curve().is_open() ? along_curve(seen.curve())
                          : seen.spline_guide().is_open()
                              ? spline::point_at_arc(seen.spline_guide(), share_of(kRound_s))
-                             : on_a_circle(head);
+                             : on_circle(head);
   const float swing = math::sine(kTwoPi_rad * share_of(kPress_s));
   const float in = swing > 0 ? kPressDepth * swing : kLiftHeight * swing;
   const math::Vec3 middle{0.5f * (head.low_m[0] + head.high_m[0]),
@@ -101,16 +100,16 @@ math::Vec3 wanted_m() {
           way.z + (middle.z - way.z) * in};
 }
 
-void move(Axis& axis, float wanted_m) {
-  if (g_ticks == 0) axis.position_m = wanted_m;
-  const float force_N = axis.motor_N + kHandStiffness_N_per_m * (wanted_m - axis.position_m) -
+void move(Axis& axis, float motor_N, float goal_m) {
+  if (g_ticks == 0) axis.position_m = goal_m;
+  const float force_N = motor_N + kHandStiffness_N_per_m * (goal_m - axis.position_m) -
                         kDamping_N_s_per_m * axis.velocity_mps;
   axis.velocity_mps += force_N / kMass_kg * kStep_s;
   axis.position_m += axis.velocity_mps * kStep_s;
 }
 
-// As an encoder of this scene's parameters counts. What is no number, or beyond the counts of an
-// encoder, is not to be trusted.
+// Counts of an encoder with the controller's parameters.
+// Result: false for NaN, and beyond the range of an encoder.
 bool count(const Axis& axis, uint32_t k, int32_t& counts) {
   const params::Values& v = app::controller.values();
   const float scale = v.value[params::kCountsPerMetreX + k];
@@ -121,46 +120,36 @@ bool count(const Axis& axis, uint32_t k, int32_t& counts) {
   return true;
 }
 
-}  // namespace
-
-bool encoders_read(int32_t (&counts)[3]) {
-  pace_tick();
-  const math::Vec3 to = wanted_m();
-  move(g_axis[0], to.x);
-  move(g_axis[1], to.y);
-  move(g_axis[2], to.z);
-  if (app::controller.is_ready()) ++g_ticks;
-  bool good = true;
-  for (uint32_t k = 0; k < 3; ++k) good = count(g_axis[k], k, counts[k]) && good;
-  return good;
-}
-
-void motors_write_N(const float (&motor_N)[3]) {
-  for (uint32_t k = 0; k < 3; ++k) {
-    g_axis[k].motor_N = motor_N[k];
-    if (motor_N[k] > 0 || motor_N[k] < 0) g_pushed_us = clock_us();
-  }
-}
-
-void motors_off() {}
-
-// The operator closes the switch soon after somebody began to look. Where nothing pushes any more, as after a
-// fault, he opens it for a while, so that faults can be cleared, and tries again.
-uint32_t motors_lines() {
-  if (g_ticks == 0) return 0;
-  const uint32_t now_us = clock_us();
+// The switch closes soon after the servo began. Where nothing has pushed for a while, as after a fault,
+// it opens, so that faults can be cleared, and closes again.
+void work_switch() {
+  if (g_ticks == 0) return;
+  const uint32_t now_us = hal::clock_us();
   const uint32_t since_us = now_us - g_switched_us;
   if (!g_has_switched) {
     g_has_switched = true;
     g_switched_us = now_us;
-  } else if (!g_is_closed && since_us > (g_pushed_us == 0 ? kCloses_us : kRests_us)) {
+  } else if (!g_is_closed && since_us > (joints.pushed_us == 0 ? kClose_us : kRest_us)) {
     g_is_closed = true;
     g_switched_us = now_us;
-  } else if (g_is_closed && since_us > kGivesUp_us && now_us - g_pushed_us > kGivesUp_us) {
+  } else if (g_is_closed && since_us > kOpen_us && now_us - joints.pushed_us > kOpen_us) {
     g_is_closed = false;
     g_switched_us = now_us;
   }
-  return g_is_closed ? record::kFlagEnable : 0u;
+  joints.lines = g_is_closed ? hal::kMotorsEnable : 0u;
 }
 
-}  // namespace firmtouch::hal
+}  // namespace
+
+void move_hand() {
+  work_switch();
+  const math::Vec3 goal = goal_m();
+  const float goals_m[3] = {goal.x, goal.y, goal.z};
+  for (uint32_t k = 0; k < 3; ++k) move(g_axis[k], joints.motor_N[k], goals_m[k]);
+  if (app::controller.is_ready()) ++g_ticks;
+  joints.are_valid = true;
+  for (uint32_t k = 0; k < 3; ++k)
+    joints.are_valid = count(g_axis[k], k, joints.counts[k]) && joints.are_valid;
+}
+
+}  // namespace firmtouch::demo
