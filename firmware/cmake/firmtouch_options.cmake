@@ -40,11 +40,12 @@ foreach(flags WARNING ARITHMETIC ROUNDING NATIVE FREESTANDING)
   set(FIRMTOUCH_${flags}_FLAGS "${FIRMTOUCH_${flags}_FLAGS}" CACHE INTERNAL "")
 endforeach()
 
-# firmtouch_module(NAME [LINKS MODULE...]): one library a module of the firmware, libfirmtouch_NAME.a, from the *.cpp of its
-# folder. It may include only the modules that it links (tests/check holds it to that). A module of headers alone has no
-# archive.
+# firmtouch_module(NAME [LINKS MODULE...] [HOT FILE...]): one library a module of the firmware, libfirmtouch_NAME.a, from the
+# *.cpp of its folder. It may include only the modules that it links (check.includes). A module of headers alone has no
+# archive. On a controller only HOT files are compiled for speed (-O2): those that a tick runs, and of these only the ones
+# that are measurably faster by it. All others are compiled for size (-Os). On this machine all are compiled for speed.
 function(firmtouch_module name)
-  cmake_parse_arguments(module "" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(module "" "" "LINKS;HOT" ${ARGN})
   list(TRANSFORM module_LINKS PREPEND firmtouch_)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${name}/*.cpp)
   set(target firmtouch_${name})
@@ -54,6 +55,16 @@ function(firmtouch_module name)
     target_compile_features(${target} PUBLIC cxx_std_17)
     target_link_libraries(${target} PUBLIC ${module_LINKS})
     firmtouch_freestanding(${target})
+    if(CMAKE_CROSSCOMPILING)
+      target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-Os>)
+      foreach(file ${module_HOT})
+        if(NOT ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${name}/${file} IN_LIST sources)
+          message(FATAL_ERROR "firmtouch_module(${name}): there is no ${file}")
+        endif()
+        set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${name}/${file}
+                                    PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:-O2>")
+      endforeach()
+    endif()
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/firmware)
