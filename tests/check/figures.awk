@@ -13,7 +13,11 @@ function commas(number,    text, out) {
 FNR == 1 { ++files }
 files == 1 {
   if (/warm queries/) model = /^the demo part:/ ? "demo part" : /rocker-arm/ ? "rocker-arm" : "other"
-  if (/the whole controller program/) { board = $1; sub(/,$/, "", board) }
+  if (/the whole controller program/) {
+    board = $1
+    sub(/,$/, "", board)
+    if (!/: all\)/) board = board " " $NF  # of another composition than the full one
+  }
   if ($1 == "instructions" && $4 == "p99.9") measured[model] = "mean " commas($3) ", worst " commas($7)
   if ($1 == "steps" || $1 == "visits") measured[model " steps"] = "mean " $3 ", worst " $7
   if ($1 == "tick") measured["tick " $2] = "mean " commas($3) ", worst " commas($4)

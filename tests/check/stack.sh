@@ -1,5 +1,6 @@
-# The worst stack of the controller program on every board, and what must not be in its call graph (tools/check/image,
-# which joins the compiler's call graphs). Needs the boards' presets built. Read by tests/check/run.
+# Size and worst stack of every composition of the controller program on every board, and what must not be in its call
+# graph (tools/check/image, which joins the compiler's call graphs). Needs the boards' presets built. Read by
+# tests/check/run.
 
 boards='mps2-an500 netduinoplus2'
 
@@ -16,7 +17,7 @@ work_tools=$root/build/host/bin
 copy_tree() {
   for board in $boards; do
     (cd "$root" && find "build/$board/firmware" "build/$board/hal" -name '*.ci') >"$1/files"
-    (cd "$root" && tar cf - -T "$1/files" "build/$board/bin/firmtouch_app.elf") | (cd "$1" && tar xf -)
+    (cd "$root" && tar cf - -T "$1/files" build/$board/bin/firmtouch_app*.elf) | (cd "$1" && tar xf -)
   done
 }
 # plant SOURCE: a call graph of this source beside those of the Cortex-M7's controller
@@ -56,4 +57,8 @@ plant_too_much_stack() {
   printf '#!/bin/sh\nfor word; do shift; case $last in --limit) word=64 ;; esac; last=$word; set -- "$@" "$word"; done\nexec "%s/build/host/bin/firmtouch-stack" "$@"\n' "$root" >firmtouch-stack
   chmod +x firmtouch-stack
   expect='64|more than|limit'
+}
+plant_program_over_its_budget() {
+  cp "build/mps2-an500/bin/firmtouch_app.elf" build/mps2-an500/bin/firmtouch_app_mesh.elf
+  expect='over the budget of'
 }

@@ -1,6 +1,5 @@
-// Worst-case stack of a program, from the call graphs that the compiler writes beside its object files
-// (gcc -fcallgraph-info=su,da), and what may not be in it: recursion, frames without a bound, indirect calls that nobody
-// has named. `stack --help` says how to use it.
+// Worst-case stack of a program, from the call graphs that the compiler writes next to its object files (gcc
+// -fcallgraph-info=su,da). Rejects recursion, frames without a bound and indirect calls without a name. See `stack --help`.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -20,14 +19,14 @@ const char kHelp[] =
     "them; there a\n"
     "* at the end stands for any rest (_GLOBAL__sub_I_* are the constructors of a file's "
     "variables).\n"
-    "  --root NAME            a function that something else than a call begins: main, reset. "
-    "Default: no path is\n"
-    "                         printed, all functions are checked\n"
+    "  --root NAME            a function that is not begun by a call: main, reset. Default: all functions are checked,\n"
+    "                         no path is printed\n"
     "  --interrupt NAME       a root that may come on top of the others; its exception frame is "
     "added (108 bytes)\n"
+    "  --without NAME         a function that is not called in this phase of the program\n"
     "  --calls CALLER=CALLEE  what the indirect calls of CALLER reach (again for several)\n"
     "  --size NAME=BYTES      stack of a function without a graph (libgcc, assembly)\n"
-    "  --limit BYTES          the stack there is: exit 1 where the sum of all roots is more\n"
+    "  --limit BYTES          size of the stack: exit 1 if the sum of all roots is larger\n"
     "Exit 1: recursion, a frame of unknown size (alloca, variable-length array), an indirect call "
     "without --calls,\n"
     "a function without a size, more than --limit. Exit 2: usage. Exit 3: a file that cannot be "
@@ -129,10 +128,10 @@ std::string shown(const Graph& graph, const std::string& title) {
   return name.substr(name.rfind(' ') == std::string::npos ? 0 : name.rfind(' ') + 1);
 }
 
-/// Worst path below each function: depth first, with a stack of its own, each function once.
-class Walk {
+/// Worst path below each function: depth first, with an explicit stack, each function once.
+class Traversal {
  public:
-  Walk(const Graph& graph, Problems& problems) : graph_(graph), problems_(problems) {}
+  Traversal(const Graph& graph, Problems& problems) : graph_(graph), problems_(problems) {}
 
   uint32_t worst_bytes(const std::string& title) {
     if (done_.count(title) == 0) visit(title);
@@ -176,7 +175,7 @@ class Walk {
       if (callee == kIndirect) {
         ++top.call;
       } else if (on_path.count(callee) != 0) {
-        tell_cycle(open, callee);
+        report_cycle(open, callee);
         ++top.call;
       } else if (done_.count(callee) == 0) {
         enter(callee);
@@ -188,7 +187,7 @@ class Walk {
     }
   }
 
-  void tell_cycle(const std::vector<Open>& open, const std::string& callee) {
+  void report_cycle(const std::vector<Open>& open, const std::string& callee) {
     std::string text = "recursion: ";
     bool inside = false;
     for (const Open& frame : open) {
@@ -204,7 +203,7 @@ class Walk {
 };
 
 struct Options {
-  std::vector<std::string> roots, interrupts, files;
+  std::vector<std::string> roots, interrupts, without, files;
   std::vector<std::pair<std::string, std::string>> calls, sizes;
   uint32_t limit_bytes = UINT32_MAX;
 };
@@ -229,6 +228,8 @@ bool parse(int argc, char** argv, Options& options) {
       options.roots.push_back(value);
     } else if (word == "--interrupt") {
       options.interrupts.push_back(value);
+    } else if (word == "--without") {
+      options.without.push_back(value);
     } else if (word == "--limit") {
       options.limit_bytes = static_cast<uint32_t>(std::strtoul(argv[i], nullptr, 10));
     } else if (word == "--calls" || word == "--size") {
@@ -288,6 +289,17 @@ void bind_weak(Graph& graph) {
   }
 }
 
+void leave_out(Graph& graph, const Options& options, Problems& problems) {
+  for (const std::string& name : options.without) {
+    const std::vector<std::string> titles = find(graph, name);
+    if (titles.empty()) problems.say("--without " + name + ": no such function: mend the name");
+    for (const std::string& title : titles) {
+      graph[title].calls.clear();
+      graph[title].own_bytes = 0;
+    }
+  }
+}
+
 void bind_sizes(Graph& graph, const Options& options) {
   for (auto& [title, function] : graph) {
     if (function.is_defined) continue;
@@ -307,7 +319,7 @@ void check_functions(const Graph& graph, Problems& problems) {
     const std::string name = shown(graph, title);
     if (!function.is_defined) {
       problems.say(name +
-                   ": called, but no file says what stack it takes: give its .ci file, or --size");
+                   ": called, but its stack is unknown: give its .ci file, or --size");
     }
     if (function.is_unbounded) {
       problems.say(name + " at " + function.place +
@@ -315,22 +327,22 @@ void check_functions(const Graph& graph, Problems& problems) {
     }
     if (function.calls.count(kIndirect) != 0) {
       problems.say(name + " at " + function.place +
-                   ": an indirect call: say whom it reaches with --calls");
+                   ": an indirect call: name its callees with --calls");
     }
   }
 }
 
-uint32_t print_root(const Graph& graph, Walk& walk, const std::string& name, uint32_t extra_bytes,
+uint32_t print_root(const Graph& graph, Traversal& paths, const std::string& name, uint32_t extra_bytes,
                     Problems& problems) {
   const std::vector<std::string> titles = find(graph, name);
   if (titles.empty()) problems.say("no function " + name + ": mend the name of the root");
   uint32_t worst_bytes = 0;
   for (const std::string& title : titles) {
-    const uint32_t bytes = walk.worst_bytes(title) + extra_bytes;
+    const uint32_t bytes = paths.worst_bytes(title) + extra_bytes;
     worst_bytes = std::max(worst_bytes, bytes);
     std::printf("%8u  from %s%s\n", bytes, name.c_str(),
                 extra_bytes != 0 ? ", exception frame included" : "");
-    walk.print_path(title);
+    paths.print_path(title);
   }
   return worst_bytes;
 }
@@ -351,20 +363,21 @@ int main(int argc, char** argv) {
   bind_constructors(graph);
   bind_weak(graph);
   bind_calls(graph, options, problems);
+  leave_out(graph, options, problems);
   bind_sizes(graph, options);
   check_functions(graph, problems);
-  Walk walk(graph, problems);
-  for (const auto& [title, function] : graph) walk.worst_bytes(title);
+  Traversal paths(graph, problems);
+  for (const auto& [title, function] : graph) paths.worst_bytes(title);
 
   uint32_t sum_bytes = 0;
   for (const std::string& name : options.roots)
-    sum_bytes += print_root(graph, walk, name, 0, problems);
+    sum_bytes += print_root(graph, paths, name, 0, problems);
   for (const std::string& name : options.interrupts) {
-    sum_bytes += print_root(graph, walk, name, kExceptionFrame_bytes, problems);
+    sum_bytes += print_root(graph, paths, name, kExceptionFrame_bytes, problems);
   }
   if (!options.roots.empty()) std::printf("%8u  bytes of stack at worst\n", sum_bytes);
   if (sum_bytes > options.limit_bytes) {
-    problems.say("more than the " + std::to_string(options.limit_bytes) + " bytes there are");
+    problems.say("more than the limit of " + std::to_string(options.limit_bytes) + " bytes");
   }
   return problems.count == 0 ? 0 : 1;
 }
