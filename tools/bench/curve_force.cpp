@@ -33,7 +33,7 @@ double force_step(const CurveCase& curve, double aside_m) {
   guide.material = {kStiffness_N_per_m, 0.0f};
   guide.snap_m = guide.release_m = kRelease_m;
   guide.arc_penalty = 0.1f;
-  scene::GuideTouch touch;
+  scene::CurveGuideTouch touch;
   servo::LocalModel model;
   math::Vec3 before;
   double worst = 0;
