@@ -20,6 +20,8 @@ check() {
     inside { if (out != "") print >out; next }
     /./ { path = "" }
     END { exit bad }' README.md || bad=1
+  # A block of the controller program sees a composition as CMake makes it.
+  printf '#pragma once\n#include "firmtouch/controller/full_controller.hpp"\nnamespace firmtouch::app { using AppController = FullController; }\n' >"$work/composition.hpp"
   for list in "$work"/*.path; do
     [ -e "$list" ] || { echo 'README.md: no block is extracted from a source'; bad=1; break; }
     path=$(cat "$list")
@@ -36,7 +38,7 @@ check() {
     case $path in
       *.cpp)
         ${CXX:-g++} -std=c++17 -ffreestanding -fno-exceptions -fno-rtti -Wall -Wextra -Werror -Ifirmware -Ihal \
-          -I"$(dirname "$path")" -x c++ -fsyntax-only "${list%.path}" ||
+          -I"$(dirname "$path")" -I"$work" -x c++ -fsyntax-only "${list%.path}" ||
           { echo "README.md: the block of $path does not compile"; bad=1; }
         ;;
     esac
