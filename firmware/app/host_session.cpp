@@ -99,7 +99,7 @@ void HostSession::answer_hello(const link::Frame& frame) {
     char text[640];
     link::explain(hello.host, reply, text);
     const bool is_question =
-        hello.mode == link::kModeAsk || reply.refused == link::kRefusedNotReady;
+        hello.mode == link::kModeIdentify || reply.refused == link::kRefusedNotReady;
     if (!is_question) hal::board_print(text);
   } else if (hello.mode == link::kModeLockStep) {
     hal::motors_off();

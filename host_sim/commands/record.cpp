@@ -75,7 +75,7 @@ std::vector<ParameterRequest> parameter_requests(const Options& options,
     char* end = nullptr;
     const float value = std::strtof(set.c_str() + equals + 1, &end);
     if (*end != 0 || end == set.c_str() + equals + 1)
-      throw Usage("--set " + set + ": its value is not a number");
+      throw Usage("--set " + set + ": write a number after the =");
     uint32_t index = 0;
     while (index < controller.parameters().size() &&
            text_in(controller.parameters()[index].name) != name)

@@ -101,7 +101,7 @@ link::HelloReply LiveLink::hello(const link::Hello& hello) {
 
 void LiveLink::begin(uint32_t decimation) {
   link::Hello first;
-  first.mode = link::kModeAsk;
+  first.mode = link::kModeIdentify;
   reply_ = hello(first);
   if ((reply_.refused & (link::kRefusedProtocol | link::kRefusedAssetRejected)) != 0) {
     char text[1200];

@@ -144,7 +144,7 @@ void LineReader::end() {
 double LineReader::number(const std::string& name) {
   const std::string text = next("the value of `" + name + "`");
   const std::optional<double> value = read_number(text);
-  if (!value) refuse("`" + text + "` is not a number for `" + name + "`");
+  if (!value) refuse("`" + name + "` needs a number instead of `" + text + "`");
   return *value;
 }
 

@@ -18,7 +18,7 @@ Container opened(const SmallFile& file) {
 
 }  // namespace
 
-TEST(ASectionIsFoundByTypeAndNameInPlace) {
+TEST(Container_FindsSectionByTypeAndName_InPlace) {
   const SmallFile file;
   const Container container = opened(file);
   const Bytes bump = container.find(0x1001, "bump");
@@ -30,7 +30,7 @@ TEST(ASectionIsFoundByTypeAndNameInPlace) {
   CHECK_EQ(wall[0], 255);
 }
 
-TEST(WhatIsNotThereIsNotFound) {
+TEST(Container_MissingSection_IsNotFound) {
   const SmallFile file;
   const Container container = opened(file);
   static const char* const names[] = {
@@ -49,7 +49,7 @@ TEST(WhatIsNotThereIsNotFound) {
   CHECK(container.find(0x1000, "wall").empty());
 }
 
-TEST(TheFirstSectionOfATypeIsFoundWhateverItsName) {
+TEST(Container_NextOfType_IgnoresNames) {
   const SmallFile file;
   const Container container = opened(file);
   CHECK_EQ(container.next_of_type(0x1001), 0u);
@@ -60,7 +60,7 @@ TEST(TheFirstSectionOfATypeIsFoundWhateverItsName) {
   CHECK_EQ(container.section(2).size(), 16u);
 }
 
-TEST(UnknownTypesAreSkippedAndCounted) {
+TEST(Container_UnknownTypes_AreSkippedAndCounted) {
   const SmallFile file;
   const Container container = opened(file);
   static const uint32_t known[] = {0x1001, 0x2001};
@@ -68,7 +68,7 @@ TEST(UnknownTypesAreSkippedAndCounted) {
   CHECK_EQ(container.count_unknown({}), 3u);
 }
 
-TEST(AClosedContainerHasNothing) {
+TEST(Container_Closed_IsEmpty) {
   const Container container;
   CHECK(!container.is_open());
   CHECK_EQ(container.section_count(), 0u);
@@ -77,7 +77,7 @@ TEST(AClosedContainerHasNothing) {
   CHECK_EQ(container.crc(), 0u);
 }
 
-TEST(AnyBudgetComesToTheSameVerdict) {
+TEST(Opening_AnySliceSize_SameVerdict) {
   SmallFile file;
   for (uint32_t broken = 0; broken < 2; ++broken) {
     if (broken == 1) file.bytes[SmallFile::kTotal - 1] ^= 1;
@@ -98,7 +98,7 @@ TEST(AnyBudgetComesToTheSameVerdict) {
   }
 }
 
-TEST(AnAssetWithoutSectionsIsGood) {
+TEST(Opening_NoSections_Passes) {
   SmallFile file;
   file.size = 32;
   file.word(12, 32);
@@ -111,7 +111,7 @@ TEST(AnAssetWithoutSectionsIsGood) {
   CHECK_EQ(container.section_count(), 0u);
 }
 
-TEST(TheLengthIsReadFromTheStartOfALongerRegion) {
+TEST(StatedBytes_LongerRegion_GivesAssetLength) {
   SmallFile file;
   CHECK_EQ(firmtouch::asset::stated_bytes({file.bytes, sizeof(file.bytes)}), SmallFile::kTotal);
   CHECK_EQ(firmtouch::asset::stated_bytes({file.bytes, SmallFile::kTotal - 1}), 0u);
@@ -120,7 +120,7 @@ TEST(TheLengthIsReadFromTheStartOfALongerRegion) {
   CHECK_EQ(firmtouch::asset::stated_bytes(file.all()), 0u);
 }
 
-TEST(EveryBitAndEveryLengthCounts) {
+TEST(Opening_AnyFlippedBitOrLength_IsRejected) {
   SmallFile file;
   Container container;
   for (uint32_t bit = 0; bit < SmallFile::kTotal * 8; ++bit) {

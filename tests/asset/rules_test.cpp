@@ -30,9 +30,9 @@ void expect(const SmallFile& file, uint32_t rule, uint32_t element = 0) {
 
 }  // namespace
 
-TEST(TheFileThatTheRulesAreTriedOnIsGood) { expect(SmallFile(), 0); }
+TEST(UnchangedFile_Passes) { expect(SmallFile(), 0); }
 
-TEST(Rule1RefusesAMisalignedBase) {
+TEST(Rule1_RejectsMisalignedBase) {
   SmallFile file;
   for (uint32_t shift = 1; shift < 16; ++shift) {
     file = SmallFile();
@@ -42,28 +42,28 @@ TEST(Rule1RefusesAMisalignedBase) {
   }
 }
 
-TEST(Rule2RefusesLessThanAHeader) {
+TEST(Rule2_RejectsLessThanAHeader) {
   SmallFile file;
   for (uint32_t size = 0; size < 32; ++size)
     CHECK_EQ(verdict_of({file.bytes, size}).rule, firmtouch::asset::kRuleTooShort);
   CHECK_EQ(verdict_of({}).rule, firmtouch::asset::kRuleTooShort);
 }
 
-TEST(Rule3RefusesAnotherMagic) {
+TEST(Rule3_RejectsOtherMagic) {
   SmallFile file;
   file.word(0, 0x1A415447u);
   file.repair();
   expect(file, firmtouch::asset::kRuleMagic);
 }
 
-TEST(Rule4RefusesTheOtherByteOrder) {
+TEST(Rule4_RejectsOtherByteOrder) {
   SmallFile file;
   file.word(4, 0x04030201u);
   file.repair();
   expect(file, firmtouch::asset::kRuleByteOrder);
 }
 
-TEST(Rule5RefusesAnotherMajorVersion) {
+TEST(Rule5_RejectsOtherMajorVersion) {
   SmallFile file;
   static const uint32_t majors[] = {0u, 2u, 0xFFFFu};
   for (const uint32_t major : majors) {
@@ -73,40 +73,40 @@ TEST(Rule5RefusesAnotherMajorVersion) {
   }
 }
 
-TEST(ALaterMinorVersionIsTaken) {
+TEST(LaterMinorVersion_Passes) {
   SmallFile file;
   file.word(8, 1u | (9u << 16));
   file.repair();
   expect(file, 0);
 }
 
-TEST(Rule6RefusesAHeaderThatItsCrcDoesNotFit) {
+TEST(Rule6_RejectsWrongHeaderCrc) {
   SmallFile file;
   file.word(28, file.word(28) ^ 1u);
   expect(file, firmtouch::asset::kRuleHeaderCrc);
 }
 
-TEST(Rule7RefusesAReservedWordThatIsNotZero) {
+TEST(Rule7_RejectsNonzeroReservedWord) {
   SmallFile file;
   file.word(24, 1);
   file.repair();
   expect(file, firmtouch::asset::kRuleReserved);
 }
 
-TEST(Rule8RefusesATruncatedFile) {
+TEST(Rule8_RejectsTruncatedFile) {
   SmallFile file;
   for (file.size = 32; file.size < SmallFile::kTotal; ++file.size)
     expect(file, firmtouch::asset::kRuleTruncated);
 }
 
-TEST(Rule9RefusesAnExtendedFile) {
+TEST(Rule9_RejectsExtendedFile) {
   SmallFile file;
   for (file.size = SmallFile::kTotal + 1; file.size <= SmallFile::kTotal + 64; ++file.size) {
     expect(file, firmtouch::asset::kRuleExtended);
   }
 }
 
-TEST(Rule10RefusesALengthThatIsNoMultipleOf16) {
+TEST(Rule10_RejectsLengthNotMultipleOf16) {
   SmallFile file;
   file.size = SmallFile::kTotal + 8;
   file.word(12, file.size);
@@ -114,7 +114,7 @@ TEST(Rule10RefusesALengthThatIsNoMultipleOf16) {
   expect(file, firmtouch::asset::kRuleTotalBytes);
 }
 
-TEST(Rule11RefusesATableThatLeavesTheFile) {
+TEST(Rule11_RejectsTableBeyondFile) {
   SmallFile file;
   static const uint32_t counts[] = {5u, 0x05555556u, 0xFFFFFFFFu};
   for (const uint32_t count : counts) {  // 48 times the second wraps to 32
@@ -124,35 +124,35 @@ TEST(Rule11RefusesATableThatLeavesTheFile) {
   }
 }
 
-TEST(Rule12RefusesATableThatItsCrcDoesNotFit) {
+TEST(Rule12_RejectsWrongTableCrc) {
   SmallFile file;
   file.word(20, file.word(20) ^ 0x80000000u);
   file.repair_header();
   expect(file, firmtouch::asset::kRuleTableCrc);
 }
 
-TEST(Rule13RefusesAnEmptyName) {
+TEST(Rule13_RejectsEmptyName) {
   SmallFile file;
   file.entry(0, 0x1001, "", kData, 5);
   file.repair();
   expect(file, firmtouch::asset::kRuleNameEmpty, 0);
 }
 
-TEST(Rule14RefusesANameWithoutAnEnd) {
+TEST(Rule14_RejectsUnterminatedName) {
   SmallFile file;
   __builtin_memset(file.bytes + kThird + kName, 'x', 32);
   file.repair();
   expect(file, firmtouch::asset::kRuleNameEnd, 2);
 }
 
-TEST(Rule15RefusesBytesBehindANamesEnd) {
+TEST(Rule15_RejectsBytesAfterName) {
   SmallFile file;
   file.bytes[kSecond + kName + 31] = 'x';
   file.repair();
   expect(file, firmtouch::asset::kRuleNamePadding, 1);
 }
 
-TEST(Rule16RefusesControlCharactersInANameAndTakesUtf8) {
+TEST(Rule16_RejectsControlCharacters_AcceptsUtf8) {
   SmallFile file;
   static const uint8_t letters[] = {1, 10, 0x1F, 0x7F};
   for (const uint8_t letter : letters) {
@@ -166,7 +166,7 @@ TEST(Rule16RefusesControlCharactersInANameAndTakesUtf8) {
   expect(file, 0);
 }
 
-TEST(Rule17RefusesEntriesOutOfOrder) {
+TEST(Rule17_RejectsEntriesOutOfOrder) {
   SmallFile by_name;
   by_name.entry(2, 0x1001, "ball", kData + 48, 16);
   by_name.repair();
@@ -177,28 +177,28 @@ TEST(Rule17RefusesEntriesOutOfOrder) {
   expect(by_type, firmtouch::asset::kRuleEntryOrder, 1);
 }
 
-TEST(Rule18RefusesTheSameNameAndTypeTwice) {
+TEST(Rule18_RejectsDuplicateNameAndType) {
   SmallFile file;
   file.word(kSecond, 0x1001);
   file.repair();
   expect(file, firmtouch::asset::kRuleEntryTwice, 1);
 }
 
-TEST(Rule19RefusesAnEmptySection) {
+TEST(Rule19_RejectsEmptySection) {
   SmallFile file;
   file.word(kThird + kBytes, 0);
   file.repair();
   expect(file, firmtouch::asset::kRuleSectionEmpty, 2);
 }
 
-TEST(Rule20RefusesAnUnalignedSection) {
+TEST(Rule20_RejectsUnalignedSection) {
   SmallFile file;
   file.word(kSecond + kOffset, kData + 20);
   file.repair();
   expect(file, firmtouch::asset::kRuleSectionAlignment, 1);
 }
 
-TEST(Rule21RefusesASectionThatOverlapsAnother) {
+TEST(Rule21_RejectsOverlappingSection) {
   SmallFile file;
   static const uint32_t offsets[] = {0u, 32u, kData, kData + 16};
   for (const uint32_t offset : offsets) {  // header, table, first, second section
@@ -208,7 +208,7 @@ TEST(Rule21RefusesASectionThatOverlapsAnother) {
   }
 }
 
-TEST(Rule22RefusesAGapBetweenSections) {
+TEST(Rule22_RejectsGapBetweenSections) {
   SmallFile file;
   static const uint32_t offsets[] = {kData + 64, 0xFFFFFFF0u};
   for (const uint32_t offset : offsets) {
@@ -218,7 +218,7 @@ TEST(Rule22RefusesAGapBetweenSections) {
   }
 }
 
-TEST(Rule23RefusesASectionThatLeavesTheFile) {
+TEST(Rule23_RejectsSectionBeyondFile) {
   SmallFile file;
   static const uint32_t counts[] = {17u, 0xFFFFFFFFu, 0xFFFFFF00u};
   for (const uint32_t count : counts) {
@@ -228,7 +228,7 @@ TEST(Rule23RefusesASectionThatLeavesTheFile) {
   }
 }
 
-TEST(Rule24RefusesBytesBehindTheLastSection) {
+TEST(Rule24_RejectsBytesAfterLastSection) {
   SmallFile file;
   file.size = SmallFile::kTotal + 16;
   file.word(12, file.size);
@@ -236,7 +236,7 @@ TEST(Rule24RefusesBytesBehindTheLastSection) {
   expect(file, firmtouch::asset::kRuleTrailingBytes, 3);
 }
 
-TEST(Rule25RefusesASectionThatItsCrcDoesNotFit) {
+TEST(Rule25_RejectsWrongSectionCrc) {
   SmallFile file;
   file.word(kSecond + kCrc, file.word(kSecond + kCrc) ^ 4u);
   file.repair_table();
@@ -244,7 +244,7 @@ TEST(Rule25RefusesASectionThatItsCrcDoesNotFit) {
   expect(file, firmtouch::asset::kRuleSectionCrc, 1);
 }
 
-TEST(Rule26RefusesPaddingThatIsNotZero) {
+TEST(Rule26_RejectsNonzeroPadding) {
   SmallFile file;
   for (uint32_t at = kData + 5; at < kData + 16; ++at) {
     file.bytes[at] = 1;

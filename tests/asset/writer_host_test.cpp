@@ -22,7 +22,7 @@ core::Bytes span_of(const std::vector<uint8_t>& bytes) {
 
 }  // namespace
 
-TEST(TheWriterMakesTheBytesOfTheFileWrittenByHand) {
+TEST(Writer_GivesTheBytesWrittenByHand) {
   const asset_test::SmallFile by_hand;
   std::vector<Section> sections = {section(0x1001, "wall", {}), section(0x7777, "bump", {}),
                                    section(0x1001, "bump", {0xA0, 0xA1, 0xA2, 0xA3, 0xA4})};
@@ -35,7 +35,7 @@ TEST(TheWriterMakesTheBytesOfTheFileWrittenByHand) {
         memcmp(file.bytes.data(), by_hand.bytes, by_hand.size) == 0);
 }
 
-TEST(TheOrderOfSectionsDoesNotChangeTheFile) {
+TEST(Writer_SectionOrder_DoesNotChangeTheFile) {
   const Section a = section(0x1001, "a", {1}), b = section(0x1002, "a", {2}),
                 c = section(0x1001, "\xC3\xA4", {3});
   const std::vector<uint8_t> bytes = tools::write_asset({a, b, c}).bytes;
@@ -45,7 +45,7 @@ TEST(TheOrderOfSectionsDoesNotChangeTheFile) {
   CHECK_EQ(container.find(0x1001, "\xC3\xA4")[0], 3);
 }
 
-TEST(WhatNoReaderWouldTakeIsNotWritten) {
+TEST(Writer_InvalidInput_IsRejected) {
   const std::string longest(31, 'n');
   CHECK(tools::write_asset({section(1, longest, {1})}).problem.empty());
   CHECK(!tools::write_asset({section(1, longest + "n", {1})}).problem.empty());
@@ -55,7 +55,7 @@ TEST(WhatNoReaderWouldTakeIsNotWritten) {
   CHECK(!tools::write_asset({section(1, "a", {1}), section(1, "a", {2})}).problem.empty());
 }
 
-TEST(TextSectionsComeBack) {
+TEST(TextSections_RoundTrip) {
   const tools::Facts facts = {{"source", "my part.obj"}, {"empty", ""}};
   const Section text = tools::text_section(2, "x", facts);
   CHECK(tools::read_facts(text.bytes.data(), text.bytes.size()) == facts);
@@ -65,14 +65,14 @@ TEST(TextSectionsComeBack) {
   CHECK(tools::read_facts(keyless, sizeof(keyless)).empty());
 }
 
-TEST(ProvenanceNamesTheSourceAndItsKnownHash) {
+TEST(Provenance_HasSourceAndKnownHash) {
   const std::vector<uint8_t> source = {'a'};
   const tools::Facts facts = tools::provenance("a.obj", source, "", "tool 1");
   CHECK(facts[2] ==
         (tools::Facts::value_type{"source_fnv1a64", "af63dc4c8601ec8c"}));  // as published
 }
 
-TEST(ProbePointsAreTheSameTwiceAndLieWhereTheyShould) {
+TEST(ProbePoints_AreDeterministicAndInRange) {
   const float low[3] = {-1, 0, 2}, high[3] = {1, 4, 3};
   const std::vector<math::Vec3> anchors = {{-1, 0, 2}, {1, 4, 3}, {0, 2, 2.5f}};
   const auto points = tools::probe_points(low, high, anchors, 64);

@@ -3,7 +3,7 @@
 # shellcheck source=/dev/null
 . "$here/spin_model.sh"
 
-# All atomic steps of the class: the load of the state that all of them make, then the stores of ask(), take() and made().
+# All atomic steps of the class: the load of the state that all of them make, then the stores of request(), take() and made().
 code() {
   for step in load store; do
     grep -o "__atomic_${step}_n([^;]*__ATOMIC_[A-Z]*)" firmware/firmtouch/core/handoff.hpp
@@ -12,15 +12,15 @@ code() {
 check() { check_model tests/core/handoff.pml firmware/firmtouch/core/handoff.hpp 400000; }
 
 bug() { plant_in_model tests/core/handoff.pml "$1"; }
-plant_asked_not_release() { bug BUG_ASKED_NOT_RELEASE; }
+plant_requested_not_release() { bug BUG_REQUESTED_NOT_RELEASE; }
 plant_made_not_release() { bug BUG_MADE_NOT_RELEASE; }
 plant_fast_not_acquire() { bug BUG_FAST_NOT_ACQUIRE; }
 plant_slow_not_acquire() { bug BUG_SLOW_NOT_ACQUIRE; }
 plant_no_swap() { bug BUG_NO_SWAP; }
 plant_draft_in_use() { bug BUG_DRAFT_IN_USE; }
 plant_made_too_early() { bug BUG_MADE_TOO_EARLY; }
-plant_asks_untaken() { bug BUG_ASKS_UNTAKEN; }
-plant_asks_unanswered() { bug BUG_ASKS_UNANSWERED; }
+plant_requests_untaken() { bug BUG_REQUESTS_UNTAKEN; }
+plant_requests_unanswered() { bug BUG_REQUESTS_UNANSWERED; }
 plant_order_in_the_code() {
   sed 's/__atomic_store_n(&state_, kMade, __ATOMIC_RELEASE)/__atomic_store_n(\&state_, kMade, __ATOMIC_RELAXED)/' \
     firmware/firmtouch/core/handoff.hpp >handoff.new && mv handoff.new firmware/firmtouch/core/handoff.hpp

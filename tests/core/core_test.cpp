@@ -41,18 +41,18 @@ void fill() {
 
 }  // namespace
 
-TEST(CrcGivesThePublishedCheckValue) {
+TEST(Crc_GivesPublishedCheckValue) {
   CHECK_EQ(core::crc32(kCheck), 0xCBF43926u);
   CHECK_EQ(core::crc32(core::Bytes{}), 0u);
 }
 
-TEST(CrcIsThatOfTheDefinitionForEveryLength) {
+TEST(Crc_EqualsBitwiseDefinition_ForEveryLength) {
   fill();
   for (uint32_t n = 0; n <= sizeof g_bytes; ++n)
     CHECK_EQ(core::crc32({g_bytes, n}), bitwise_crc({g_bytes, n}));
 }
 
-TEST(CrcGoesOnWhereItStopped) {
+TEST(Crc_ContinuesAcrossCalls) {
   fill();
   const uint32_t whole = core::crc32(g_bytes);
   for (uint32_t cut = 0; cut <= sizeof g_bytes; ++cut) {
@@ -61,7 +61,7 @@ TEST(CrcGoesOnWhereItStopped) {
   }
 }
 
-TEST(CrcSeesEverySingleBit) {
+TEST(Crc_DetectsEverySingleBit) {
   fill();
   const uint32_t good = core::crc32(g_bytes);
   uint32_t missed = 0;
@@ -74,7 +74,7 @@ TEST(CrcSeesEverySingleBit) {
   CHECK_EQ(missed, 0u);
 }
 
-TEST(StructsAreSeenOnlyWhereTheyAreAligned) {
+TEST(AsArray_Misaligned_IsEmpty) {
   for (uint32_t shift = 0; shift < 16; ++shift) {
     const core::Bytes bytes(g_bytes + shift, 64);
     CHECK_EQ(core::as_array<uint32_t>(bytes, 4).empty(), shift % alignof(uint32_t) != 0);
@@ -83,7 +83,7 @@ TEST(StructsAreSeenOnlyWhereTheyAreAligned) {
   }
 }
 
-TEST(StructsAreSeenOnlyWhereTheyFit) {
+TEST(AsArray_TooFewBytes_IsEmpty) {
   for (uint32_t bytes = 0; bytes <= 64; ++bytes) {
     const uint32_t whole = bytes / static_cast<uint32_t>(sizeof(Pair));
     for (uint32_t count = 1; count < 12; ++count) {
@@ -97,7 +97,7 @@ TEST(StructsAreSeenOnlyWhereTheyFit) {
   CHECK(core::as_array<Pair>({g_bytes, 64}, UINT32_MAX).empty());
 }
 
-TEST(StructsAreTheBytesInPlace) {
+TEST(AsArray_ReadsInPlace) {
   fill();
   const core::Span<const uint32_t> words = core::as_array<uint32_t>(g_bytes, 2);
   CHECK_EQ(words[1], static_cast<uint32_t>(g_bytes[4]) | static_cast<uint32_t>(g_bytes[5]) << 8 |
@@ -106,7 +106,7 @@ TEST(StructsAreTheBytesInPlace) {
   CHECK(reinterpret_cast<const uint8_t*>(words.data()) == g_bytes);
 }
 
-TEST(HashIsFnv1aOfTheLittleEndianBytes) {
+TEST(Hash_IsFnv1aOfLittleEndianBytes) {
   core::Hash hash;
   CHECK(hash.value() == 0xCBF29CE484222325ull);
   hash.add(0x64636261u);  // "abcd"; its FNV-1a as published
@@ -116,7 +116,7 @@ TEST(HashIsFnv1aOfTheLittleEndianBytes) {
   CHECK(other.value() != hash.value());
 }
 
-TEST(VerdictOfRuleZeroIsPassed) {
+TEST(Verdict_RuleZero_IsPassed) {
   CHECK(core::kPassed.ok());
   CHECK(!core::reject(3, 9).ok());
   CHECK_EQ(core::reject(3, 9).rule, 3u);

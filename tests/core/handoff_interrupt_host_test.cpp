@@ -4,14 +4,14 @@
 #include "harness/single_step.hpp"
 #include "harness/test.hpp"
 
-// The real machine code of the slow side, with a whole servo interrupt between any two of its
+// Single-steps the slow side's machine code, with a whole servo interrupt between any two
 // instructions.
 #if defined(FIRMTOUCH_SINGLE_STEP)
 
 namespace firmtouch::core {
 namespace {
 
-// As large as a local model; every word tells whose it is, so that a torn one shows.
+// As large as a local model; all words are equal, so that a torn copy is visible.
 struct Words {
   uint32_t word[48] = {};
 };
@@ -30,21 +30,21 @@ bool is_all(const Words& words, uint32_t value) {
 
 Models* g_models;
 volatile uint32_t g_torn;
-uint32_t g_used, g_asked, g_interrupts;
+uint32_t g_used, g_requested, g_interrupts;
 
-// One turn of the servo: takes what is made, asks for the next, renders what it has.
+// One servo tick: takes a finished result, requests the next one, reads the current one.
 void servo() {
-  if (g_models->take()) g_used = g_asked;
-  if (g_models->is_idle() && g_models->ask(all(g_asked + 1))) ++g_asked;
-  if (!is_all(g_models->answer(), 2 * g_used)) g_torn = g_torn + 1;
+  if (g_models->take()) g_used = g_requested;
+  if (g_models->is_idle() && g_models->request(all(g_requested + 1))) ++g_requested;
+  if (!is_all(g_models->result(), 2 * g_used)) g_torn = g_torn + 1;
 }
 
-// One turn below it: the answer to a question is twice the question.
+// One turn of the geometry: the result is twice the request.
 [[gnu::noinline]] void geometry(Models& models) {
-  const Words* question = models.asked();
-  if (question == nullptr) return;
+  const Words* request = models.requested();
+  if (request == nullptr) return;
   Words& draft = models.draft();
-  for (uint32_t i = 0; i < 48; ++i) draft.word[i] = 2 * question->word[i];
+  for (uint32_t i = 0; i < 48; ++i) draft.word[i] = 2 * request->word[i];
   models.made();
 }
 
@@ -52,19 +52,19 @@ void interrupt() {
   for (uint32_t i = 0; i < g_interrupts; ++i) servo();
 }
 
-// Result: false where the interrupt's place lies behind the end.
+// Result: false if the interrupt's position is beyond the end.
 bool try_one(test::SingleStep& step, uint32_t before, uint32_t place, uint32_t interrupts) {
   Models models;
   g_models = &models;
-  g_used = g_asked = 0;
-  for (uint32_t i = 0; i < before; ++i) {  // so that either of the two answers is in use
+  g_used = g_requested = 0;
+  for (uint32_t i = 0; i < before; ++i) {  // so that each of the two results is in use once
     servo();
     geometry(models);
   }
   servo();
   g_interrupts = interrupts;
   const bool happened = step.run(place, interrupt, [&models] { geometry(models); });
-  // Whatever came between, nothing is lost: the next turns take what was asked.
+  // Nothing is lost: the next turns take the result of every request.
   const uint32_t used = g_used;
   servo();
   geometry(models);
@@ -74,7 +74,7 @@ bool try_one(test::SingleStep& step, uint32_t before, uint32_t place, uint32_t i
   return happened;
 }
 
-TEST(AWholeServoTickBetweenAnyTwoInstructionsOfTheGeometryTearsNothing) {
+TEST(Handoff_ServoTickBetweenAnyGeometryInstructions_TearsNothing) {
   test::SingleStep step;
   CHECK(step.is_ready());
   g_torn = 0;
@@ -83,7 +83,7 @@ TEST(AWholeServoTickBetweenAnyTwoInstructionsOfTheGeometryTearsNothing) {
     for (uint32_t interrupts = 1; interrupts <= 3; ++interrupts) {
       uint32_t place = 0;
       while (try_one(step, turns, place, interrupts)) {
-        // All places of optimised code; samples of what sanitizers make of it, which is longer.
+        // Every position of optimised code; samples of the longer sanitizer code.
         place += place < 400 ? 1 : place / 8;
         ++places;
       }

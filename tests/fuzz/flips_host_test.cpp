@@ -1,6 +1,6 @@
-// An asset that holds every section type, damaged by a flipped bit, a cut or an odd word: with the
-// CRCs as they were it is always refused; with the CRCs made to fit it is refused by a numbered
-// rule, or every answer stays in range, finite and within its budget.
+// An asset with every section type, damaged by a flipped bit, a truncation or a special word. With
+// the old CRCs it is always rejected. With repaired CRCs a numbered rule rejects it, or every
+// answer stays in range, finite and within its budget.
 #include <cstdlib>
 #include <cstring>
 #include <set>
@@ -14,7 +14,7 @@
 #include "harness/test.hpp"
 #include "surface/random.hpp"
 
-// Vectors pass between instrumented and plain code here: their unused capacity is not the prey.
+// Vectors pass between instrumented and plain code, so their unused capacity is not checked.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "detect_container_overflow=0"; }
 
@@ -46,8 +46,8 @@ const char* asset_at(const asset::Container& container, size_t byte) {
   return nullptr;
 }
 
-// Two bits of every byte, `first` and the next: a quarter of all, so that processors share them. The
-// daily suite asks only the asset that was changed.
+// Two bits of every byte, `first` and the next: a quarter of all, to run in parallel. The daily
+// suite runs only the queries of the changed asset.
 void flip_repaired(size_t first) {
   asset::Container whole;
   CHECK(asset::open({victim().data(), static_cast<uint32_t>(victim().size())}, whole).ok());
@@ -59,7 +59,7 @@ void flip_repaired(size_t first) {
     tools::repair_crcs(file);
     test::note("bit", static_cast<int64_t>(bit));
     const char* const only = is_long() ? nullptr : asset_at(whole, bit / 8);
-    ++(fuzz::feel(file, only).ok() ? harmless : refused);
+    ++(fuzz::exercise(file, only).ok() ? harmless : refused);
   }
   CHECK_EQ(refused + harmless, static_cast<int64_t>(victim().size()) * 2);
   // Text, probes and the low bits of normals are harmless; indices, boxes, trees and lengths are
@@ -70,9 +70,9 @@ void flip_repaired(size_t first) {
 
 }  // namespace
 
-TEST(TheVictimHoldsEverySectionTypeAndIsFelt) {
+TEST(Victim_HasEverySectionType_AndRuns) {
   CHECK_LE(victim().size(), 65536u);
-  CHECK(fuzz::feel(victim()).ok());
+  CHECK(fuzz::exercise(victim()).ok());
   asset::Container container;
   CHECK(asset::open({victim().data(), static_cast<uint32_t>(victim().size())}, container).ok());
   std::set<uint32_t> types;
@@ -89,32 +89,32 @@ TEST(TheVictimHoldsEverySectionTypeAndIsFelt) {
     CHECK_EQ(types.count(type), type == 0x2004u || type == 0x2009u ? 0u : 1u);  // of earlier ones
 }
 
-TEST(EveryFlippedBitIsRefused) {
+TEST(FlippedBit_IsRejected) {
   std::vector<uint8_t> file = victim();
   for (size_t bit = 0; bit < file.size() * 8; ++bit) {
     flip(file, bit);
     test::note("bit", static_cast<int64_t>(bit));
-    CHECK(!fuzz::feel(file).ok());
+    CHECK(!fuzz::exercise(file).ok());
     flip(file, bit);
   }
 }
 
-TEST(EveryTruncationIsRefusedAlsoWithTheCrcsRepaired) {
+TEST(Truncation_IsRejected_WithRepairedCrcsToo) {
   for (size_t size = 0; size < victim().size(); ++size) {
     std::vector<uint8_t> file(victim().begin(),
                               victim().begin() + static_cast<std::ptrdiff_t>(size));
-    CHECK(!fuzz::feel(file).ok());
+    CHECK(!fuzz::exercise(file).ok());
     tools::repair_crcs(file);
-    CHECK(!fuzz::feel(file).ok());
+    CHECK(!fuzz::exercise(file).ok());
   }
 }
 
-TEST(AFlippedBitWithRepairedCrcsIsRefusedByARuleOrHarmless) { flip_repaired(0); }
-TEST(AFlippedBitWithRepairedCrcsIsRefusedByARuleOrHarmlessBits2And3) { flip_repaired(2); }
-TEST(AFlippedBitWithRepairedCrcsIsRefusedByARuleOrHarmlessBits4And5) { flip_repaired(4); }
-TEST(AFlippedBitWithRepairedCrcsIsRefusedByARuleOrHarmlessBits6And7) { flip_repaired(6); }
+TEST(FlippedBit_WithRepairedCrcs_IsRejectedOrHarmless) { flip_repaired(0); }
+TEST(FlippedBit_WithRepairedCrcs_IsRejectedOrHarmless_Bits2And3) { flip_repaired(2); }
+TEST(FlippedBit_WithRepairedCrcs_IsRejectedOrHarmless_Bits4And5) { flip_repaired(4); }
+TEST(FlippedBit_WithRepairedCrcs_IsRejectedOrHarmless_Bits6And7) { flip_repaired(6); }
 
-TEST(AnOddWordWithRepairedCrcsIsRefusedByARuleOrHarmless) {
+TEST(SpecialWord_WithRepairedCrcs_IsRejectedOrHarmless) {
   const uint32_t odd[] = {0,           1,           0xFFFFFFFFu, 0x7FFFFFFFu,
                           0x80000000u, 0x7FC00000u, 0x7F800000u, 0xFF800000u,
                           0x00000001u, 0x7F7FFFFFu, 0x3F800000u, 0xFFFFFFF0u};
@@ -132,12 +132,12 @@ TEST(AnOddWordWithRepairedCrcsIsRefusedByARuleOrHarmless) {
     }
     tools::repair_crcs(file);
     test::note("case", i);
-    (void)fuzz::feel(file);
+    (void)fuzz::exercise(file);
   }
 }
 
 // Once undefined: a curve's second arc position as -0, which passes `>= 0`.
-TEST(AMinusZeroForAnyWordIsRefusedByARuleOrHarmless) {
+TEST(MinusZero_ForAnyWord_IsRejectedOrHarmless) {
   std::vector<uint8_t> file;
   const uint32_t minus_zero = 0x80000000u;
   for (size_t at = 0; at + 4 <= victim().size(); at += 4) {
@@ -145,6 +145,6 @@ TEST(AMinusZeroForAnyWordIsRefusedByARuleOrHarmless) {
     std::memcpy(&file[at], &minus_zero, 4);
     tools::repair_crcs(file);
     test::note("byte", static_cast<int64_t>(at));
-    (void)fuzz::feel(file);
+    (void)fuzz::exercise(file);
   }
 }

@@ -1,6 +1,5 @@
-# The decoders under the address and undefined-behaviour sanitizers, where the compiler has them: the modules that read an
-# asset are compiled once more, into this program alone. FIRMTOUCH_LONG=1 in the environment tries
-# more odd words.
+# Decoders under the address and undefined-behaviour sanitizers, if the compiler has them: the modules that read an asset
+# are compiled again for this program. FIRMTOUCH_LONG=1 in the environment tries more special words.
 include(CheckCXXSourceCompiles)
 set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all)
 set(CMAKE_REQUIRED_FLAGS "-fsanitize=address,undefined")
@@ -10,10 +9,10 @@ unset(CMAKE_REQUIRED_FLAGS)
 unset(CMAKE_REQUIRED_LINK_OPTIONS)
 
 firmtouch_test_module(fuzz LINKS firmtouch_tools_bake)
-target_sources(test_fuzz PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/victim.cpp ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/feel.cpp)
+target_sources(test_fuzz PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/victim.cpp ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/exercise.cpp)
 if(FIRMTOUCH_HAS_SANITIZERS)
-  foreach(part core math query mesh field curve asset)
-    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/firmware/firmtouch/${part}/*.cpp)
+  foreach(module core math query mesh field curve asset)
+    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/firmware/firmtouch/${module}/*.cpp)
     target_sources(test_fuzz PRIVATE ${sources})
   endforeach()
   target_compile_options(test_fuzz PRIVATE ${sanitize} -g1)

@@ -3,7 +3,8 @@
 
 #include "harness/test.hpp"
 
-// The four functions that a compiler calls on its own: ours on a board, the C library's on the host.
+// The four functions that compilers call by themselves: ours on a board, the C library's on the
+// host.
 
 extern "C" {
 void* memcpy(void* __restrict to, const void* __restrict from, size_t count);
@@ -34,7 +35,7 @@ int (*volatile compare)(const void*, const void*, size_t) = memcmp;
 
 }  // namespace
 
-TEST(CopyOfEveryAlignmentAndLengthWritesExactlyThatManyBytes) {
+TEST(Memcpy_EveryAlignmentAndLength_WritesExactlyThatManyBytes) {
   for (uint32_t to = 0; to < 5; ++to) {
     for (uint32_t from = 0; from < 5; ++from) {
       for (uint32_t count = 0; count < 20; ++count) {
@@ -50,7 +51,7 @@ TEST(CopyOfEveryAlignmentAndLengthWritesExactlyThatManyBytes) {
   }
 }
 
-TEST(MoveWithinOneArrayIsRightInBothDirections) {
+TEST(Memmove_Overlapping_IsCorrectInBothDirections) {
   for (uint32_t to = 0; to < 12; ++to) {
     for (uint32_t count = 0; count < 20; ++count) {
       constexpr uint32_t kFrom = 6;
@@ -64,7 +65,7 @@ TEST(MoveWithinOneArrayIsRightInBothDirections) {
   }
 }
 
-TEST(FillWritesTheLowByteAndNothingBeside) {
+TEST(Memset_WritesLowByte_AndNothingElse) {
   for (uint32_t to = 0; to < 5; ++to) {
     for (uint32_t count = 0; count < 20; ++count) {
       Bytes bytes = counted(0);
@@ -76,7 +77,7 @@ TEST(FillWritesTheLowByteAndNothingBeside) {
   }
 }
 
-TEST(CompareOrdersByTheFirstDifferentByteUnsigned) {
+TEST(Memcmp_OrdersByFirstDifferentByte_Unsigned) {
   const uint8_t low[] = {1, 2, 0x7F, 9};
   const uint8_t high[] = {1, 2, 0x80, 0};
   CHECK_LT(compare(low, high, 4), 0);

@@ -3,7 +3,7 @@
 namespace firmtouch::test {
 namespace {
 
-constexpr uint32_t kShownFailures = 5;  // of one test: the first ones tell, thousands of them hide
+constexpr uint32_t kShownFailures = 5;  // per test; the first ones are enough for a diagnosis
 
 Case* g_first = nullptr;
 Case* g_last = nullptr;
@@ -35,7 +35,7 @@ void print_int(int64_t value) {
   print_unsigned(value < 0 ? 0 - static_cast<uint64_t>(value) : static_cast<uint64_t>(value));
 }
 
-// Nine significant digits, d.ddddddddex: they tell two floats apart, and need no C library.
+// Nine significant digits, d.ddddddddex, so that different floats print differently; no C library.
 void print_double(double value) {
   if (!(value - value <= 0)) return print(value > 0 ? "inf" : value < 0 ? "-inf" : "nan");
   if (value < 0) print("-"), value = -value;

@@ -21,8 +21,7 @@ struct Case {
 extern void (*print)(const char* text);
 
 /// Runs the cases whose name is `only` (nullptr: all) and closes with `N passed, N failed`.
-/// Result: 0 if at least one passed and none failed; kSkipped if all that ran asked to be skipped;
-/// else 1.
+/// Result: 0 if at least one passed and none failed; kSkipped if all were skipped; else 1.
 int run(const char* only);
 void list();
 
@@ -52,7 +51,7 @@ Value value_of(T value) {
             0};
   }
 }
-/// Equality that NaN fails, meant where -Wfloat-equal cannot know that it is.
+/// Exact equality, also of floats (-Wfloat-equal warns about ==). NaN is equal to nothing.
 template <class A, class B>
 bool equal(A a, B b) {
   if constexpr (kIsFloat<A> || kIsFloat<B>) {
@@ -62,13 +61,13 @@ bool equal(A a, B b) {
   }
 }
 void fail_values(const char* file, int line, const char* what, Value a, Value b);
-/// Text that helps to rerun a random case, printed with the failures of the running test (a seed, a
-/// model's name).
+/// Text printed with the failures of the running test, to rerun a random case: a seed, a model's
+/// name.
 void note(const char* text, int64_t value);
-/// The running test cannot run here (a real model is not given): it counts as neither passed nor
-/// failed. Return after it.
+/// Marks the running test as skipped, neither passed nor failed (no real model is given). Return
+/// after it.
 void skip(const char* reason);
-constexpr int kSkipped = 77;  // what run() returns then; CTest shows it as "Skipped"
+constexpr int kSkipped = 77;  // result of run(); CTest shows it as "Skipped"
 
 }  // namespace firmtouch::test
 

@@ -1,5 +1,4 @@
-// The simulated device against closed forms, and against the stability limits of sampled walls: the
-// simulator is judged before it judges a controller.
+// The simulated device against closed forms and against the stability limits of sampled walls.
 #include <cmath>
 #include <vector>
 
@@ -23,9 +22,8 @@ DeviceModel free_mass(double mass_kg, double viscous) {
   return model;
 }
 
-// A sampled wall, F = -K x - B (x - previous x) / T, felt through the device for `ticks` ticks.
-// Result: by how much the motion has grown over the second half, as log of the ratio of its largest
-// excursions.
+// Simulates the device against a sampled wall, F = -K x - B (x - previous x) / T, for `ticks`
+// ticks. Result: log of the growth of the largest excursion from the first to the second half.
 double growth(const DeviceModel& model, double period_s, double stiffness, double damping,
               int ticks) {
   Device device(model, {1e-3, 0, 0});
@@ -44,7 +42,7 @@ double growth(const DeviceModel& model, double period_s, double stiffness, doubl
   return std::log(second / first);
 }
 
-// The stiffness at which the motion neither grows nor dies, by bisection.
+// Stiffness at the stability limit, by bisection.
 double stable_limit(const DeviceModel& model, double period_s, double damping) {
   double low = 1, high = 1e6;
   while (high / low > 1.0005) {
@@ -58,7 +56,7 @@ struct Row {
   double mass_kg, viscous, period_s, damping, no_delay, one_sample;
 };
 
-// Spectral radius of the exact discrete model, computed elsewhere.
+// Stability limits from the spectral radius of the exact discrete model.
 constexpr Row kTable[] = {
     {.050, .2, 1e-3, 0, 400, 133},       {.050, .2, 1e-3, .1, 599, 200},
     {.050, .2, 1e-3, 2, 4231, 1403},     {.050, .2, .25e-3, 0, 1600, 533},
@@ -83,12 +81,12 @@ void check_table(uint32_t delay_samples, double Row::*column) {
 
 }  // namespace
 
-TEST(StiffestStableWallIsThatOfTheExactModelWithoutDelay) { check_table(0, &Row::no_delay); }
+TEST(StiffestStableWall_EqualsExactModel_WithoutDelay) { check_table(0, &Row::no_delay); }
 
-TEST(OneSampleOfDelayCostsThreeTimesTheStiffness) { check_table(1, &Row::one_sample); }
+TEST(StiffestStableWall_EqualsExactModel_WithOneSampleDelay) { check_table(1, &Row::one_sample); }
 
 // K < (b + B) / (T/2 + delay), Gil, Hulin, Diaz: holds for small B.
-TEST(StiffestStableWallFollowsTheClosedFormForSmallDamping) {
+TEST(StiffestStableWall_EqualsClosedForm_ForSmallDamping) {
   for (const uint32_t delay : {0u, 1u, 2u}) {
     for (const double damping : {0.0, 0.05}) {
       DeviceModel model = free_mass(0.1, 0.3);
@@ -100,7 +98,7 @@ TEST(StiffestStableWallFollowsTheClosedFormForSmallDamping) {
   }
 }
 
-TEST(FreeMotionUnderConstantForceIsExactForAnyStep) {
+TEST(FreeMotion_ConstantForce_IsExactForAnyStep) {
   for (const double viscous : {0.0, 1e-6, 0.5, 40.0}) {
     const DeviceModel model = free_mass(0.075, viscous);
     for (const int steps : {1, 7, 1000}) {
@@ -122,7 +120,7 @@ TEST(FreeMotionUnderConstantForceIsExactForAnyStep) {
   }
 }
 
-TEST(CoulombFrictionHoldsWhatIsPushedLess) {
+TEST(CoulombFriction_SmallerForce_DoesNotMove) {
   DeviceModel model = free_mass(0.075, 0.5);
   model.coulomb_N = 0.1;
   Axis axis;
@@ -132,7 +130,7 @@ TEST(CoulombFrictionHoldsWhatIsPushedLess) {
   CHECK_LT(1e-4, axis.position_m);
 }
 
-TEST(CoulombFrictionStopsAfterTheClosedFormDistance) {
+TEST(CoulombFriction_StopsAfterClosedFormDistance) {
   DeviceModel model = free_mass(0.1, 0);
   model.coulomb_N = 0.5;
   Axis axis;
@@ -142,7 +140,7 @@ TEST(CoulombFrictionStopsAfterTheClosedFormDistance) {
   CHECK_LE(std::fabs(axis.position_m - 0.1 * 0.3 * 0.3 / (2 * 0.5)), 2e-6);  // m v^2 / 2 f
 }
 
-TEST(EncoderCountsWholeQuantaDownwards) {
+TEST(Encoder_RoundsDownToWholeQuanta) {
   DeviceModel model = free_mass(1, 0);
   model.encoder_quantum_m = 1e-3;
   CHECK_EQ(Device(model, {0.00199, -0.0001, 0}).count(0), 1);
@@ -150,15 +148,15 @@ TEST(EncoderCountsWholeQuantaDownwards) {
   CHECK_EQ(Device(model, {1e12, 0, 0}).count(0), 2147483647);
 }
 
-TEST(MotorForceArrivesAfterItsDelayAndWithinItsLimit) {
+TEST(MotorForce_IsDelayedAndLimited) {
   DeviceModel model = free_mass(1, 0);
   model.force_limit_N = 4;
   model.output_delay_samples = 2;
   Device device(model, {});
   const double commands[] = {9, -9, std::nan(""), 1, 2};
-  const double felt[] = {0, 0, 4, -4, 0};
+  const double expected_N[] = {0, 0, 4, -4, 0};
   for (int i = 0; i < 5; ++i) {
     device.command({commands[i], 0, 0});
-    CHECK(!(std::fabs(device.motor_N().x - felt[i]) > 0));
+    CHECK(!(std::fabs(device.motor_N().x - expected_N[i]) > 0));
   }
 }

@@ -1,4 +1,4 @@
-// Guides in the closed loop: a drive that leads a hand round, and one that holds it.
+// Guides in the closed loop: guide_drive moves a loose hand, or holds it.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,7 +13,7 @@ using firmtouch::test::part_asset;
 
 namespace {
 
-// A hand of `grip` rests where the guide begins.
+// A resting hand with the grip `grip`, at the start of the guide.
 host_sim::Trace led(const std::string& grip, const std::string& lines) {
   const host_sim::Session session(part_asset());
   const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
@@ -37,7 +37,7 @@ double size_of(const float (&v)[3]) {
 
 }  // namespace
 
-TEST(ALeadTakesALooseHandRoundAtItsSpeed) {
+TEST(GuideDrive_LooseHand_MovesAtDriveSpeed) {
   const host_sim::Session session(part_asset());
   const double length_m = static_cast<double>(session.controller->curve().head().length_m);
   const double round_s = length_m / 0.06;
@@ -68,7 +68,7 @@ TEST(ALeadTakesALooseHandRoundAtItsSpeed) {
   CHECK_LE(worst_N, 8.0);
 }
 
-TEST(AHoldKeepsThePlaceAgainstAHandThatPullsLessThanItsForce) {
+TEST(GuideHold_WeakerHand_DoesNotMove) {
   const host_sim::Trace trace =
       led("hand_stiffness 200 N/m",
           "guide_drive 2\nguide_drive_force 3 N\nguide_drive_speed 0 m/s\nhold for 1 s\n"

@@ -1,4 +1,4 @@
-// The closed loop in this process, its log, and the replay.
+// The closed loop in this process, its log and its replay.
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -60,7 +60,7 @@ std::string refusal_of(const std::string& path) {
 
 }  // namespace
 
-TEST(LoopTouchesFollowsAndLatchesItsFault) {
+TEST(ClosedLoop_TouchesFollowsAndLatchesEmergencyStop) {
   const host_sim::Summary s = summarise(the_run().scenario, the_run().environment, the_run().trace);
   CHECK_GE(s.ticks, 10000u);
   CHECK_GE(s.contact_ticks, 2000u);
@@ -73,9 +73,8 @@ TEST(LoopTouchesFollowsAndLatchesItsFault) {
   CHECK_GE(s.checked_ticks, 1000u);
 }
 
-// After the emergency stop the hand sinks into the part: nobody feels that, and no figure tells of
-// it.
-TEST(ContactIsToldOfTicksWithTheMotorsOnAlone) {
+// After the emergency stop the hand sinks into the part; no figure includes that.
+TEST(Summary_CountsContactOnlyWithMotorsOn) {
   const host_sim::Summary s = summarise(the_run().scenario, the_run().environment, the_run().trace);
   size_t contact = 0, later = 0;
   double deepest_m = 0, deepest_later_m = 0;
@@ -92,14 +91,14 @@ TEST(ContactIsToldOfTicksWithTheMotorsOnAlone) {
   CHECK(!(s.worst_penetration_m < deepest_m) && !(s.worst_penetration_m > deepest_m));
 }
 
-TEST(SameScenarioGivesTheSameRecords) {
+TEST(Run_SameScenario_SameRecords) {
   const Run again;
   CHECK_EQ(again.trace.records.size(), the_run().trace.records.size());
   CHECK(std::memcmp(again.trace.records.data(), the_run().trace.records.data(),
                     again.trace.records.size() * sizeof(record::TickRecord)) == 0);
 }
 
-TEST(ReplayOfTheLogGivesEveryBitAgain) {
+TEST(Replay_ReproducesEveryBit) {
   const std::string path = scratch() + "/run.ftl";
   write_log(path, log_of(the_run().trace));
   const Log log = host_sim::read_log(path);
@@ -110,7 +109,7 @@ TEST(ReplayOfTheLogGivesEveryBitAgain) {
   CHECK(!replay(log, *session.controller));
 }
 
-TEST(PlantedDifferenceIsNamedByTickAndField) {
+TEST(Replay_PlantedDifference_ReportsTickAndField) {
   for (const host_sim::Field& field : host_sim::fields()) {
     if (field.name.compare(0, 7, "output.") != 0) continue;
     Log log = log_of(the_run().trace);
@@ -123,7 +122,7 @@ TEST(PlantedDifferenceIsNamedByTickAndField) {
   }
 }
 
-TEST(ReplayOnOtherInputsDiffers) {
+TEST(Replay_OtherInputs_Differs) {
   Log log = log_of(the_run().trace);
   log.records[5000].input.encoder_counts[2] += 3;
   const Session session(part_asset());
@@ -131,7 +130,7 @@ TEST(ReplayOnOtherInputsDiffers) {
   CHECK(found && found->tick >= 5000);
 }
 
-TEST(EveryDamagedByteOfALogIsRefused) {
+TEST(Log_AnyDamagedByte_IsDetected) {
   Log log = log_of(the_run().trace);
   log.records.resize(3);
   const std::string path = scratch() + "/damaged.ftl";
@@ -141,12 +140,12 @@ TEST(EveryDamagedByteOfALogIsRefused) {
     std::string bytes = whole;
     bytes[i] = static_cast<char>(bytes[i] ^ 0x10);
     host_sim::write_file(path, bytes);
-    // Its head refuses the whole log; a block only itself.
+    // A damaged header rejects the whole log, a damaged block only itself.
     if (refusal_of(path).empty()) CHECK(!host_sim::read_log(path).is_complete);
   }
 }
 
-TEST(LogThatWasCutOffKeepsItsWholeBlocks) {
+TEST(Log_CutOff_KeepsCompleteBlocks) {
   const std::string path = scratch() + "/cut.ftl";
   write_log(path, log_of(the_run().trace));
   const std::string whole = host_sim::read_file(path);
@@ -159,7 +158,7 @@ TEST(LogThatWasCutOffKeepsItsWholeBlocks) {
   CHECK(refusal_of(path).find("this is no log") != std::string::npos);
 }
 
-TEST(RefusedParameterEndsTheRunNamingIt) {
+TEST(Run_RejectedParameter_EndsWithItsName) {
   host_sim::Scenario scenario = loop_scenario();
   for (uint32_t i = 0; i < firmtouch::params::kCount; ++i)
     if (firmtouch::params::kTable[i].when == firmtouch::params::When::kMotorsOff) {
@@ -180,9 +179,8 @@ TEST(RefusedParameterEndsTheRunNamingIt) {
   CHECK(message.find("only while the motors are off") != std::string::npos);
 }
 
-// A fault of a moment and a held line; both are cleared as an operator does it, and the loop goes
-// on.
-TEST(FaultsAreClearedByTheScenarioWhileDisabled) {
+// A momentary fault and a held emergency stop; the scenario clears both, and the loop continues.
+TEST(Scenario_ClearsFaults_WhileDisabled) {
   const auto run_with = [](const std::string& events) {
     const Session session(part_asset());
     const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
@@ -210,7 +208,7 @@ TEST(FaultsAreClearedByTheScenarioWhileDisabled) {
   CHECK(message.find("only while disabled") != std::string::npos);
 }
 
-TEST(AssetOfOtherBytesIsRefusedByItsRule) {
+TEST(Session_DamagedAsset_ReportsRule) {
   std::string bytes = host_sim::read_file(part_asset());
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   const std::string path = scratch() + "/bent.fta";

@@ -1,4 +1,4 @@
-// Scenario files: what is read, and that every kind of mistake is refused with its line.
+// Scenario files: every statement, and every kind of mistake with its line.
 #include <string>
 #include <vector>
 
@@ -40,7 +40,7 @@ const std::string kHead = "asset a.fta\nduration 1 s\n";
 
 }  // namespace
 
-TEST(EveryStatementIsReadInSi) {
+TEST(Scenario_EveryStatement_ConvertsToSi) {
   const Scenario s = read(
       "# a comment\nasset my part.fta  # with a blank\nrate 4 kHz\nduration 2500 ms\nmass 75 "
       "g\nviscous_friction 0.5 N.s/m\n"
@@ -67,7 +67,7 @@ TEST(EveryStatementIsReadInSi) {
   CHECK(s.events[0].kind == Event::Kind::kEmergencyStop && s.events[1].kind == Event::Kind::kSet);
 }
 
-TEST(MistakesAreRefusedWithTheirLine) {
+TEST(Scenario_EveryMistake_ReportsItsLine) {
   struct Case {
     const char* line;
     const char* says;
@@ -80,15 +80,15 @@ TEST(MistakesAreRefusedWithTheirLine) {
       {"mass 1 pound", "`pound` is not a unit"},
       {"mass 1", "the unit of `mass`"},
       {"mass", "the value of `mass`"},
-      {"mass one kg", "`one` is not a number"},
-      {"mass nan kg", "`nan` is not a number"},
-      {"mass inf kg", "`inf` is not a number"},
+      {"mass one kg", "needs a number instead of `one`"},
+      {"mass nan kg", "needs a number instead of `nan`"},
+      {"mass inf kg", "needs a number instead of `inf`"},
       {"mass -1 kg", "outside"},
       {"mass 1 kg 2", "unexpected `2`"},
       {"contact_stiffness 1e9 N/m", "outside"},
       {"mesh_steps 3 m", "unexpected `m`"},
       {"output_delay 1.5 samples", "whole number"},
-      {"start 1 2 m", "is not a number"},
+      {"start 1 2 m", "needs a number"},
       {"start 1 2 3", "the unit of `start`"},
       {"start 1 2 1e9 m", "outside"},
       {"move 1 2 3 m at 1 m/s", "`to` is expected"},
@@ -108,12 +108,12 @@ TEST(MistakesAreRefusedWithTheirLine) {
   }
 }
 
-TEST(ScenarioWithoutAnAssetOrAnEndIsRefused) {
+TEST(Scenario_WithoutAssetOrEnd_IsRejected) {
   CHECK(says(refusal("duration 1 s\n"), "it has no asset"));
   CHECK(says(refusal("asset a.fta\n"), "no end"));
 }
 
-TEST(SetReplacesAValueAndWantsItsUnit) {
+TEST(Set_ReplacesValue_NeedsUnit) {
   const Scenario s =
       read(kHead + "mass 1 kg\ntool_radius 1 mm\n", {"mass 80 g", "tool_radius 4 mm"});
   CHECK(near(s.device.mass_kg, 0.08));
@@ -124,7 +124,7 @@ TEST(SetReplacesAValueAndWantsItsUnit) {
   CHECK(says(refusal(kHead, {"tool_radius 0.004"}), "the unit of `tool_radius`"));
 }
 
-TEST(AnyPathComesBackFromItsWord) {
+TEST(QuotedPath_RoundTrips_ForAnyPath) {
   for (const std::string path :
        {"a.fta", "gear #2.fta", "#1", " leading", "trailing ", "a#b", "a\"b\"", "back\\slash",
         "back\\", "two\nlines", "\ttab", "\"", "\\n"}) {
@@ -137,15 +137,15 @@ TEST(AnyPathComesBackFromItsWord) {
   CHECK(says(refusal("asset \"a.fta\" b\n"), "a quoted path must end with a quote"));
 }
 
-TEST(UnitsOfOtherDimensionsDoNotConvert) {
+TEST(Units_OtherDimension_DoNotConvert) {
   CHECK(near(*host_sim::to_si(2, "N/mm", "N/m"), 2000));
   CHECK(near(*host_sim::to_si(2, "N*s/m", "N s/m"), 2));
   CHECK(!host_sim::to_si(2, "N", "N/m"));
   CHECK(!host_sim::to_si(2, "", "m"));
 }
 
-// The table is the controller's; its names must stay writable in a scenario.
-TEST(EveryParameterOfTheTableCanBeSetByName) {
+// A new parameter of the controller must be writable in a scenario.
+TEST(Scenario_EveryParameter_CanBeSetByName) {
   for (const host_sim::ParameterRow& row : host_sim::parameter_rows()) {
     const Scenario s =
         read(kHead, {row.short_name + " " + std::to_string(row.initial) +
@@ -158,7 +158,7 @@ TEST(EveryParameterOfTheTableCanBeSetByName) {
   }
 }
 
-TEST(TheHelpTellsEveryParameterOfTheTable) {
+TEST(Help_ListsEveryParameter) {
   const std::string help = host_sim::parameter_help();
   for (const host_sim::ParameterRow& row : host_sim::parameter_rows())
     CHECK(help.find("\n  " + row.short_name + " VALUE") != std::string::npos);

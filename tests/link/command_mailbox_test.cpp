@@ -5,7 +5,7 @@
 namespace firmtouch::link {
 namespace {
 
-TEST(CommandsAreTakenOneATickInTheirOrder) {
+TEST(CommandMailbox_OneCommandPerTick_InOrder) {
   CommandMailbox mailbox;
   record::TickInput input{};
   input.command = 99;
@@ -24,7 +24,7 @@ TEST(CommandsAreTakenOneATickInTheirOrder) {
   CHECK_EQ(input.command_value, 0.0f);
 }
 
-TEST(ClearFaultsTakesItsTurnAmongParameters) {
+TEST(CommandMailbox_ClearFaults_KeepsOrder) {
   CommandMailbox mailbox;
   record::TickInput input{};
   CHECK(mailbox.put(3, 1.5f));
@@ -37,7 +37,7 @@ TEST(ClearFaultsTakesItsTurnAmongParameters) {
   CHECK_EQ(input.command, record::kCommandNone);
 }
 
-TEST(AFullMailboxRefusesAndKeepsWhatItHas) {
+TEST(CommandMailbox_Full_RejectsAndKeepsItsCommands) {
   CommandMailbox mailbox;
   for (uint32_t i = 0; i < CommandMailbox::kCapacity; ++i) CHECK(mailbox.put(i, 0));
   CHECK(!mailbox.put(100, 0));

@@ -34,8 +34,7 @@ void remove(Wire& wire, uint32_t from, uint32_t count) {
   wire.count -= count;
 }
 
-// Flips, a cut, bytes lost in the middle (which splices the frames), bytes written over, bytes
-// doubled.
+// Flipped bits, truncation, lost bytes (which splices frames), overwritten bytes, repeated bytes.
 void damage(Random& random, Wire& wire) {
   switch (random.below(5)) {
     case 0:
@@ -77,7 +76,7 @@ bool was_sent(const Frame& frame, const Sent (&sent)[kFrames]) {
   return false;
 }
 
-TEST(DamagedStreamsGiveNoFrameThatWasNotSent) {
+TEST(Decoder_DamagedStream_ReturnsOnlySentFrames) {
   const uint32_t tries = std::getenv("FIRMTOUCH_LONG") != nullptr ? 100000000 : 200000;
   Random random(20260101);
   const uint8_t silence[kMaxFrameBytes] = {};
@@ -96,13 +95,13 @@ TEST(DamagedStreamsGiveNoFrameThatWasNotSent) {
       wire.frame(one.type, one.sequence, {one.payload, one.length});
     }
     damage(random, wire);
-    const auto judge = [&](const Frame& frame) {
+    const auto check_stream = [&](const Frame& frame) {
       if (!was_sent(frame, sent)) ++accepted;
     };
     Decoder decoder;
-    given += feed(decoder, {wire.bytes, wire.count}, judge);
+    given += feed(decoder, {wire.bytes, wire.count}, check_stream);
     given += feed(decoder, silence,
-                  judge);  // so that what a false length still waits for is looked through
+                  check_stream);  // completes a frame whose length is false
   }
   CHECK_EQ(accepted, 0u);
   CHECK_GE(given, tries / 4);  // the undamaged neighbours got through

@@ -25,7 +25,7 @@ struct Payload {
   core::Bytes first(uint32_t count) const { return {bytes, count}; }
 };
 
-TEST(AFrameOfEveryLengthComesBackAsItWas) {
+TEST(Frame_EveryLength_RoundTrips) {
   const Payload payload(1);
   Decoder decoder;
   for (uint32_t length = 0; length <= kMaxPayloadBytes; ++length) {
@@ -44,7 +44,7 @@ TEST(AFrameOfEveryLengthComesBackAsItWas) {
   CHECK_EQ(decoder.skipped_bytes(), 0u);
 }
 
-TEST(TheBytesOfAFrameAreWhatTheHeaderFileSays) {
+TEST(Frame_Bytes_MatchTheDocumentedLayout) {
   const uint8_t payload[2] = {0x11, 0x22};
   uint8_t out[14] = {};
   CHECK_EQ(encode(0x42, 0x0304, payload, out), 14u);
@@ -58,7 +58,7 @@ TEST(TheBytesOfAFrameAreWhatTheHeaderFileSays) {
   CHECK_EQ(core::crc32(out), 0x2144DF1Cu);
 }
 
-TEST(WhatDoesNotFitIsNotWritten) {
+TEST(Encode_TooLarge_WritesNothing) {
   const Payload payload(2);
   uint8_t out[kMaxFrameBytes + 8];
   for (uint8_t& byte : out) byte = 0xEE;
@@ -70,7 +70,7 @@ TEST(WhatDoesNotFitIsNotWritten) {
            kHeaderBytes + 5 + kCrcBytes);
 }
 
-TEST(GarbageBeforeAFrameIsSkippedAndCounted) {
+TEST(Decoder_GarbageBeforeFrame_IsSkippedAndCounted) {
   for (uint32_t seed = 1; seed <= 200; ++seed) {
     firmtouch::test::note("seed", seed);
     Random random(seed);
@@ -89,7 +89,7 @@ TEST(GarbageBeforeAFrameIsSkippedAndCounted) {
   }
 }
 
-TEST(AFalseFrameDoesNotSwallowTheTrueOnesBehindIt) {
+TEST(Decoder_FalseSync_DoesNotHideLaterFrames) {
   const Payload payload(3);
   Wire wire;
   wire.frame(kLog, 1, payload.first(200));
@@ -106,7 +106,7 @@ TEST(AFalseFrameDoesNotSwallowTheTrueOnesBehindIt) {
   CHECK_EQ(decoder.skipped_bytes(), 60u);
 }
 
-TEST(ADamagedLengthIsSeenBeforeItIsWaitedFor) {
+TEST(Decoder_DamagedLength_IsRejectedAtOnce) {
   const Payload payload(4);
   for (uint32_t bit = 0; bit < 16; ++bit) {
     firmtouch::test::note("bit", bit);
@@ -122,7 +122,7 @@ TEST(ADamagedLengthIsSeenBeforeItIsWaitedFor) {
   }
 }
 
-TEST(ALengthBeyondTheMemoryIsRejectedEvenWithARightCheck) {
+TEST(Decoder_LengthBeyondBuffer_IsRejected) {
   Wire wire;
   const uint8_t header[7] = {0xF7, 0x5A, 0, 0, 0xF5, 0, kText};  // 245: one more than fits
   for (const uint8_t byte : header) wire.byte(byte);
@@ -135,7 +135,7 @@ TEST(ALengthBeyondTheMemoryIsRejectedEvenWithARightCheck) {
   CHECK_EQ(decoder.rejects(), 1u);
 }
 
-TEST(EverySingleAndDoubleBitErrorOfAShortFrameIsRejected) {
+TEST(Decoder_EverySingleAndDoubleBitError_IsRejected) {
   const Payload payload(5);
   Wire clean;
   clean.frame(kAck, 0x5AF7, payload.first(8));
@@ -153,7 +153,7 @@ TEST(EverySingleAndDoubleBitErrorOfAShortFrameIsRejected) {
   }
 }
 
-TEST(AStreamOfNothingButSyncsEndsAndCostsNoFrame) {
+TEST(Decoder_StreamOfSyncs_LosesNoFrame) {
   Decoder decoder;
   const Payload payload(6);
   for (uint32_t i = 0; i < 2000; ++i) {
@@ -168,7 +168,7 @@ TEST(AStreamOfNothingButSyncsEndsAndCostsNoFrame) {
   CHECK_EQ(found, 1u);
 }
 
-TEST(BytesPushedWithoutAskingAreRefusedWhenTheMemoryIsFull) {
+TEST(Decoder_PushIntoFullBuffer_IsRejected) {
   Decoder decoder;
   for (uint32_t i = 0; i < kMaxFrameBytes; ++i) CHECK(decoder.push(0));
   CHECK(!decoder.push(0));
@@ -177,7 +177,7 @@ TEST(BytesPushedWithoutAskingAreRefusedWhenTheMemoryIsFull) {
   CHECK(decoder.push(0));
 }
 
-TEST(TakeGivesAStructOnlyForItsOwnLength) {
+TEST(Take_OtherLength_Fails) {
   const SetParam sent{3, 2.5f};
   Frame frame;
   frame.payload = bytes_of(sent);

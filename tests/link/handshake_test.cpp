@@ -25,14 +25,14 @@ Identity identity() {
   return made;
 }
 
-TEST(EqualIdentitiesAreAccepted) {
+TEST(Handshake_EqualIdentities_AreAccepted) {
   CHECK_EQ(compare(identity(), identity()), 0u);
   char text[64];
   CHECK_EQ(explain(identity(), HelloReply{}, text), 0u);
   CHECK_EQ(text[0], '\0');
 }
 
-TEST(EachDifferenceIsRefusedByItsOwnBit) {
+TEST(Handshake_EachDifference_HasItsOwnBit) {
   Identity other = identity();
   other.asset_crc ^= 0x80000000u;
   CHECK_EQ(compare(identity(), other), kRefusedAsset);
@@ -46,7 +46,7 @@ TEST(EachDifferenceIsRefusedByItsOwnBit) {
   CHECK_EQ(compare(identity(), other), kRefusedBuild | kRefusedAsset);
 }
 
-TEST(AnotherProtocolIsRefusedBeforeFieldsThatMayMeanSomethingElse) {
+TEST(Handshake_OtherProtocol_IsTheOnlyReason) {
   Identity other = identity();
   other.protocol = kProtocolVersion + 1;
   other.asset_crc = 0;
@@ -60,7 +60,7 @@ TEST(AnotherProtocolIsRefusedBeforeFieldsThatMayMeanSomethingElse) {
   CHECK(!contains(text, "asset"));
 }
 
-TEST(ARefusalNamesBothValuesAndTheRemedy) {
+TEST(Handshake_RejectionText_HasBothValuesAndRemedy) {
   HelloReply reply;
   reply.controller = identity();
   Identity host = identity();
@@ -77,7 +77,7 @@ TEST(ARefusalNamesBothValuesAndTheRemedy) {
   CHECK(contains(text, "build id: host 0x0000000000000001, controller 0x777788889999aaaa: build"));
 }
 
-TEST(ARejectedAssetIsNamedByItsRule) {
+TEST(Handshake_RejectedAsset_ReportsRule) {
   HelloReply reply;
   reply.refused = kRefusedAssetRejected;
   reply.asset_rule = 17;
@@ -87,7 +87,7 @@ TEST(ARejectedAssetIsNamedByItsRule) {
   CHECK(contains(text, "rule R17 at element 4294967295"));
 }
 
-TEST(EveryReasonHasWordsAndAllOfThemFit) {
+TEST(Handshake_EveryReason_HasTextThatFits) {
   char text[1200];
   for (uint32_t bit = 0; bit < 8; ++bit) {
     HelloReply reply;
@@ -99,7 +99,7 @@ TEST(EveryReasonHasWordsAndAllOfThemFit) {
   CHECK_LT(explain(identity(), all, text), sizeof text - 1);
 }
 
-TEST(TextThatDoesNotFitIsCutAndClosed) {
+TEST(TextWriter_TooLong_IsTruncatedAndTerminated) {
   char text[8] = {1, 1, 1, 1, 1, 1, 1, 1};
   TextWriter out({text, 7});
   out.text("abc").decimal(4000000000u);
@@ -109,7 +109,7 @@ TEST(TextThatDoesNotFitIsCutAndClosed) {
   CHECK_EQ(text[7], 1);
 }
 
-TEST(TheBuildIdIsSet) {
+TEST(BuildId_IsSet) {
   CHECK_NE(build_id(), 0ull);
   CHECK_EQ(build_id(), build_id());
 }

@@ -1,3 +1,3 @@
 firmtouch_test_module(link LINKS firmtouch_link firmtouch_record firmtouch_core)
 # A hundred million tries (--long).
-set_tests_properties(link.DamagedStreamsGiveNoFrameThatWasNotSent PROPERTIES TIMEOUT 7200)
+set_tests_properties(link.Decoder_DamagedStream_ReturnsOnlySentFrames PROPERTIES TIMEOUT 7200)

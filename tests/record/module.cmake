@@ -1,6 +1,6 @@
 find_package(Threads REQUIRED)
 firmtouch_test_module(record LINKS firmtouch_record firmtouch_core Threads::Threads)
-set_tests_properties(record.SmallRecordsInTheirMillions PROPERTIES TIMEOUT 7200)  # a thousand million (--long)
+set_tests_properties(record.Ring_TwoThreads_MillionsOfSmallRecordsArriveComplete PROPERTIES TIMEOUT 7200)  # a thousand million (--long)
 
 # The same tests under ThreadSanitizer, where the compiler has it: it knows the memory model, the machine that runs the
 # plain test shows only its own.

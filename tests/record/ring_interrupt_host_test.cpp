@@ -2,7 +2,7 @@
 #include "harness/single_step.hpp"
 #include "harness/test.hpp"
 
-// The real machine code of pop() with a whole interrupt between any two of its instructions.
+// Single-steps the machine code of pop(), with a whole interrupt between any two instructions.
 #if defined(FIRMTOUCH_SINGLE_STEP)
 
 namespace firmtouch::record {
@@ -27,7 +27,7 @@ void interrupt() {
   for (uint32_t i = 0; i < g_interrupt_pushes; ++i) push_next();
 }
 
-// Result: false where the interrupt's place lies behind the end of pop().
+// Result: false if the interrupt's position is beyond the end of pop().
 bool try_one(test::SingleStep& step, uint32_t waiting, uint32_t turned, uint32_t place,
              uint32_t pushes) {
   SmallRing ring;
@@ -60,7 +60,7 @@ bool try_one(test::SingleStep& step, uint32_t waiting, uint32_t turned, uint32_t
   return happened;
 }
 
-TEST(AWholeInterruptBetweenAnyTwoInstructionsOfPopIsHarmless) {
+TEST(Pop_InterruptBetweenAnyInstructions_LosesNothing) {
   test::SingleStep step;
   CHECK(step.is_ready());
   uint32_t places = 0;

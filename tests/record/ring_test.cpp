@@ -12,7 +12,7 @@ struct Item {
 Item item(uint32_t value) { return {value, ~value}; }
 bool is_whole(const Item& item) { return item.inverse == ~item.value; }
 
-TEST(RecordsComeOutWholeAndInOrder) {
+TEST(Ring_RecordsComeOutCompleteAndInOrder) {
   Ring<Item, 8> ring;
   Numbered<Item> out[8];
   uint32_t next = 0;
@@ -30,7 +30,7 @@ TEST(RecordsComeOutWholeAndInOrder) {
   CHECK_EQ(ring.pop(out), 0u);
 }
 
-TEST(AFullRingDropsTheNewestAndCountsIt) {
+TEST(Ring_Full_DropsAndCountsTheNewest) {
   Ring<Item, 4> ring;
   for (uint32_t i = 0; i < 4; ++i) CHECK(ring.push(item(i)));
   for (uint32_t i = 4; i < 11; ++i) CHECK(!ring.push(item(i)));
@@ -42,7 +42,7 @@ TEST(AFullRingDropsTheNewestAndCountsIt) {
   CHECK_EQ(ring.produced(), ring.consumed() + ring.waiting() + ring.dropped());
 }
 
-TEST(TheNumbersSayWhereAndHowManyAreMissing) {
+TEST(Ring_Numbers_ShowWhereRecordsAreMissing) {
   Ring<Item, 2> ring;
   Numbered<Item> out[2];
   for (uint32_t i = 0; i < 5; ++i) ring.push(item(i));  // 2, 3, 4 are lost
@@ -57,7 +57,7 @@ TEST(TheNumbersSayWhereAndHowManyAreMissing) {
   CHECK_EQ(out[0].number, 7u);
 }
 
-TEST(IndicesThatWrapLoseNothing) {
+TEST(Ring_WrappedIndices_LoseNothing) {
   Ring<Item, 4> ring(0xFFFFFFFDu);
   Numbered<Item> out[4];
   for (uint32_t i = 0; i < 4; ++i) CHECK(ring.push(item(i)));
@@ -72,7 +72,7 @@ TEST(IndicesThatWrapLoseNothing) {
   }
 }
 
-TEST(ReadInPlaceStaysUntilItIsGivenBack) {
+TEST(Ring_ReadyRecords_StayUntilRelease) {
   Ring<Item, 4> ring;
   for (uint32_t i = 0; i < 3; ++i) ring.push(item(i));
   CHECK_EQ(ring.ready().size(), 3u);
@@ -87,8 +87,8 @@ TEST(ReadInPlaceStaysUntilItIsGivenBack) {
   CHECK_EQ(ring.ready()[0].value.value, 4u);
 }
 
-// The reader's steps with every number of interrupts, 0 to 5 whole pushes, in every gap between two
-// of them, against a plain list.
+// Oracle: a plain list. The reader's steps, with 0 to 5 whole pushes in every gap between two
+// steps.
 struct Enumeration {
   Ring<Item, 4> ring;
   uint32_t pushed = 0;
@@ -108,10 +108,10 @@ struct Enumeration {
       }
     }
   }
-  void check_read(const Numbered<Item>& got, uint32_t ahead) {
-    CHECK(read_count + ahead < kept_count);
-    CHECK_EQ(got.value.value, kept[read_count + ahead]);
-    CHECK_EQ(got.number, kept[read_count + ahead]);
+  void check_read(const Numbered<Item>& got, uint32_t offset) {
+    CHECK(read_count + offset < kept_count);
+    CHECK_EQ(got.value.value, kept[read_count + offset]);
+    CHECK_EQ(got.number, kept[read_count + offset]);
     CHECK(is_whole(got.value));
   }
 };
@@ -146,7 +146,7 @@ void enumerate(uint32_t code) {
   }
 }
 
-TEST(AWholeInterruptBetweenAnyTwoStepsOfTheReaderIsHarmless) {
+TEST(Ring_InterruptBetweenAnyReaderSteps_LosesNothing) {
   for (uint32_t code = 0; code < 6 * 6 * 6 * 6 * 6 * 6; ++code) {
     test::note("code", code);
     enumerate(code);

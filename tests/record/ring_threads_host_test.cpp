@@ -18,8 +18,7 @@ TickRecord filled(uint32_t number) {
   return made;
 }
 
-// `pace`: how many records the producer makes before it lets the reader run; large paces overrun
-// the ring.
+// `pace`: records that the producer makes before the reader runs; a large pace overruns the ring.
 void stream(uint32_t pace) {
   static Ring<TickRecord, 64> ring;
   const uint32_t begin_produced = ring.produced();
@@ -65,8 +64,8 @@ void stream(uint32_t pace) {
   CHECK_EQ(ring.produced(), ring.consumed() + ring.dropped());
 }
 
-// Small ones, many: a transfer is a record that was read.
-TEST(SmallRecordsInTheirMillions) {
+// Many small records.
+TEST(Ring_TwoThreads_MillionsOfSmallRecordsArriveComplete) {
   struct Small {
     uint32_t value = 0, inverse = 0;
   };
@@ -102,7 +101,7 @@ TEST(SmallRecordsInTheirMillions) {
   CHECK_EQ(missing + (ring.produced() - next), ring.dropped());
 }
 
-TEST(ThreadToThreadEveryRecordIsWholeOrCountedAsDropped) {
+TEST(Ring_TwoThreads_EveryRecordIsCompleteOrCountedAsDropped) {
   constexpr uint32_t kPaces[] = {16, 64, 1000, kTransfers + 1};
   for (const uint32_t pace : kPaces) {
     test::note("pace", pace);

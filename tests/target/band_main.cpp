@@ -1,8 +1,9 @@
-// What a band query takes wherever its point is: over the mesh of the board's asset, with a band of 1 % of its extent.
-// Prints a row a point:
-//     KIND COLD WARM      instructions of a query on its own, and of one after a motion of a twentieth of the band
-// KIND 0: anywhere in 1.5 boxes. 1: the centre and about it. 2: up to 1.3 bands beside the middle of a face. 3: climbed
-// from the dearest of those before to the dearest nearby. tools/bench/cortex-m7 --band runs it and adds up.
+// Instructions of band queries (band: 1 % of the extent) on the mesh of the board's asset. A row a
+// point:
+//     KIND COLD WARM      cold query; warm-started query after a motion of a twentieth of the band
+// KIND 0: anywhere in 1.5 boxes. 1: at and near the centre. 2: up to 1.3 bands from the middle of a
+// face. 3: hill climbing from the most expensive of these. tools/bench/cortex-m7 --band runs it and
+// adds up.
 #include <stdint.h>
 
 #include "firmtouch/hal/board.hpp"
@@ -21,11 +22,11 @@ using firmtouch::math::Vec3;
 namespace {
 
 constexpr uint32_t kAnywhere = 4000, kAboutCentre = 3000, kBeside = 12000;
-constexpr uint32_t kClimbs = 72, kTries = 120;  // the dearest points, and moves of each
+constexpr uint32_t kStarts = 72, kTries = 120;  // starting points of hill climbing, moves of each
 
 class Random {
  public:
-  /// Evenly spread over -1 to 1.
+  /// Uniform in [-1, 1].
   float sign() {
     state_ ^= state_ << 13;
     state_ ^= state_ >> 17;
@@ -44,7 +45,7 @@ class Random {
   uint32_t state_ = 1;
 };
 
-struct Dear {
+struct Start {
   Vec3 point_m;
   uint32_t taken = 0;
 };
@@ -73,7 +74,7 @@ class Bench {
     for (uint32_t i = 0; i < kAboutCentre; ++i, reach_m *= 0.996f)
       print(1, centre_m_ + random_.cube() * reach_m);
     for (uint32_t i = 0; i < kBeside; ++i) print(2, beside());
-    for (const Dear& from : dear_) climb(from);
+    for (const Start& from : starts_) hill_climb(from);
   }
 
  private:
@@ -88,7 +89,7 @@ class Bench {
            normal * (1.3f * random_.sign() * budget_.band_m / firmtouch::math::length(normal));
   }
 
-  uint32_t ask(Vec3 p_m, mesh::Hint& hint) const {
+  uint32_t measure(Vec3 p_m, mesh::Hint& hint) const {
     const uint32_t before = hal::clock_work();
     const mesh::Closest closest = mesh::closest_point(mesh_, p_m, budget_, hint);
     const uint32_t work = hal::clock_work() - before - empty_;
@@ -99,8 +100,8 @@ class Bench {
 
   uint32_t print(uint32_t kind, Vec3 p_m) {
     mesh::Hint hint;
-    const uint32_t cold = ask(p_m, hint);
-    const uint32_t warm = ask(p_m + random_.cube() * (0.03f * budget_.band_m), hint);
+    const uint32_t cold = measure(p_m, hint);
+    const uint32_t warm = measure(p_m + random_.cube() * (0.03f * budget_.band_m), hint);
     hal::board_print(target::decimal(kind).text);
     hal::board_print(" ");
     hal::board_print(target::decimal(cold).text);
@@ -111,15 +112,15 @@ class Bench {
     return cold;
   }
 
-  // The dearest, each in the place of the least dear one so far.
+  // Keeps the kStarts most expensive points.
   void keep(Vec3 p_m, uint32_t taken) {
-    uint32_t least = 0;
-    for (uint32_t i = 1; i < kClimbs; ++i)
-      if (dear_[i].taken < dear_[least].taken) least = i;
-    if (taken > dear_[least].taken) dear_[least] = {p_m, taken};
+    uint32_t cheapest = 0;
+    for (uint32_t i = 1; i < kStarts; ++i)
+      if (starts_[i].taken < starts_[cheapest].taken) cheapest = i;
+    if (taken > starts_[cheapest].taken) starts_[cheapest] = {p_m, taken};
   }
 
-  void climb(Dear from) {
+  void hill_climb(Start from) {
     float reach_m = 0.5f * budget_.band_m;
     for (uint32_t i = 0; i < kTries; ++i, reach_m *= 0.97f) {
       const Vec3 p_m = from.point_m + random_.cube() * reach_m;
@@ -134,7 +135,7 @@ class Bench {
   float extent_m_ = 0;
   uint32_t empty_ = 0;
   Random random_;
-  Dear dear_[kClimbs];
+  Start starts_[kStarts];
 };
 
 }  // namespace

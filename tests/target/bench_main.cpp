@@ -1,7 +1,8 @@
-// How many instructions a closest-point query takes: `bench WALK.csv` on the emulator's command line. Queries the mesh of
-// the board's asset (or, where it has none, the curve, or the spline) at every row, each warm-started by the one before, and prints a
-// row a query:
-//     BUDGET INSTRUCTIONS STEPS SIGN EVALUATIONS     (BUDGET 0: unlimited; EVALUATIONS: points evaluated of a spline)
+// Instructions of closest-point queries: `bench POINTS.csv` on the emulator's command line. Queries
+// the mesh of the board's asset (without a mesh: the curve, or the spline) at every row,
+// warm-started by the row before. A row a query:
+//     BUDGET INSTRUCTIONS STEPS SIGN EVALUATIONS     (BUDGET 0: unlimited; EVALUATIONS: points
+//     evaluated of a spline)
 // tools/bench/cortex-m7 runs it and adds up.
 #include <stdint.h>
 
@@ -23,7 +24,7 @@ namespace target = firmtouch::target;
 namespace {
 
 constexpr uint32_t kBudgets[] = {1, 2, 4, 8, 16, 32, 64, 128};
-constexpr uint32_t kBudgetedRows = 1000;  // of each budget: they tell the cost of a step
+constexpr uint32_t kBudgetedRows = 1000;  // per budget; they give the cost of a visit
 
 uint32_t instructions(uint32_t work) {
   const uint32_t per_1000 = hal::clock_work_per_1000();

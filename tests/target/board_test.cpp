@@ -6,7 +6,7 @@
 #include "firmtouch/hal/motors.hpp"
 #include "harness/test.hpp"
 
-// What a board promises in firmtouch/hal, on the board itself. Runs under a virtual clock that advances by a fixed time
+// The contracts of firmtouch/hal, on the board itself. The virtual clock advances by a fixed time
 // an instruction, so that counts are exact.
 
 using namespace firmtouch;
@@ -33,7 +33,7 @@ uint32_t instructions_of_loop(uint32_t turns) {
 
 }  // namespace
 
-TEST(WorkCountsInstructionsExactly) {
+TEST(Work_CountsInstructionsExactly) {
   const uint32_t short_one = instructions_of_loop(1000);
   const uint32_t long_one = instructions_of_loop(51000);
   CHECK_GE(short_one, 2000u);
@@ -42,7 +42,7 @@ TEST(WorkCountsInstructionsExactly) {
   CHECK_LE(long_one - short_one, 100001u);
 }
 
-TEST(ServoInterruptComesOnceAPeriodAndMicrosecondsRunOn) {
+TEST(ServoInterrupt_OncePerPeriod_MicrosecondsContinue) {
   constexpr uint32_t kPeriod_us = 100, kPeriods = 50;
   hal::clock_start_servo(kPeriod_us, count_tick);
   const uint32_t start_us = hal::clock_us();
@@ -54,18 +54,18 @@ TEST(ServoInterruptComesOnceAPeriodAndMicrosecondsRunOn) {
   CHECK_LE(took_us, (kPeriods + 1) * kPeriod_us);
 }
 
-TEST(StackHighWaterSeesADeepCall) {
+TEST(StackHighWater_IncludesDeepCall) {
   const uint32_t before_bytes = hal::board_stack_high_bytes();
   CHECK_GT(before_bytes, 0u);
   deep(2048);
   CHECK_GE(hal::board_stack_high_bytes(), 2048u);
 }
 
-TEST(AssetPlaceIsAlignedForUseInPlace) {
+TEST(BoardAsset_IsAligned) {
   CHECK_EQ(reinterpret_cast<uintptr_t>(hal::board_asset().data()) % 16, 0u);
 }
 
-TEST(BoardWithoutJointsNeverEnablesMotors) {
+TEST(NoJoints_NeverEnablesMotors) {
   int32_t counts[3] = {1, 2, 3};
   CHECK(!hal::encoders_read(counts));
   CHECK_EQ(hal::motors_lines(), 0u);

@@ -5,7 +5,7 @@
 namespace firmtouch::target {
 namespace {
 
-// Decimal to float through double: exact to the last bit but for digits beyond the 18th.
+// Decimal to float through double: exact to the last bit, except for digits beyond the 18th.
 bool parse(const char*& at, float& value) {
   const bool negative = *at == '-';
   if (*at == '-' || *at == '+') ++at;

@@ -5,7 +5,8 @@
 
 namespace firmtouch::target {
 
-/// Rows x,y,z of a file on the emulator's machine, one at a time. Lines that hold no three numbers are passed over.
+/// Rows x,y,z of a file on the emulator's machine, one at a time. Skips lines without three
+/// numbers.
 class CsvPoints {
  public:
   explicit CsvPoints(const char* path);
@@ -13,7 +14,7 @@ class CsvPoints {
   CsvPoints(const CsvPoints&) = delete;
   CsvPoints& operator=(const CsvPoints&) = delete;
 
-  /// Result: false at the end of the file, or where it cannot be read.
+  /// Result: false at the end of the file, or if it cannot be read.
   bool next(math::Vec3& point_m);
 
  private:

@@ -1,4 +1,5 @@
-// Breaks on purpose, as the emulator's command line says: tests/target/run_faults holds what must come of it.
+// Causes the fault that the emulator's command line names; tests/target/run_faults checks the
+// reaction.
 #include <stdint.h>
 
 #include "cortex-m/semihosting.hpp"
@@ -24,7 +25,7 @@ bool wants(const char* line, const char* word) {
 
 }  // namespace
 
-/// The board under test has no motors of its own: these tell when they are switched off.
+/// Replaces the board's motors: prints when they are switched off.
 namespace firmtouch::hal {
 void motors_off() { board_print("motors off\n"); }
 }  // namespace firmtouch::hal

@@ -1,8 +1,8 @@
-// How many instructions a query of a hull takes. Segments from one side to another of a box twice the mesh's, over the hull
-// of the board's asset, whose coarsest is copied to RAM first; a row a segment:
-//     SHELL FIRST COMPLETE STEPS_SHELL SPLITS HIT_SHELL HIT
-// (instructions of a shell's first crossing, of a refinement's in 256 entries, of the complete first crossing).
-// tools/bench/cortex-m7-hull runs it and adds up.
+// Instructions of segment casts against the hull of the board's asset; its base hull is copied to
+// RAM first. Segments join two sides of a box twice the mesh's. A row a segment:
+//     BASE FIRST COMPLETE VISITS_BASE SPLITS HIT_BASE HIT
+// (instructions of the first crossing of the base hull, of the refinement with 256 entries, of the
+// complete hull). tools/bench/cortex-m7-hull runs it and adds up.
 #include <stdint.h>
 
 #include "firmtouch/asset/container.hpp"
@@ -29,7 +29,7 @@ namespace {
 constexpr uint32_t kSegments = 2000;
 uint32_t g_base_hull[8192];
 uint32_t g_bits[hull::bit_words(65536)];
-uint32_t g_undone[256];
+uint32_t g_split[256];
 hull::Candidate g_candidates[64];
 
 uint32_t instructions(uint32_t work) {
@@ -44,8 +44,8 @@ uint32_t empty_work() {
 uint32_t g_random = 7;
 float random_in(float low, float high) {
   g_random = g_random * 1664525u + 1013904223u;
-  const volatile float part = (high - low) * static_cast<float>(g_random >> 8) * 0x1p-24f;
-  return low + part;
+  const volatile float share = (high - low) * static_cast<float>(g_random >> 8) * 0x1p-24f;
+  return low + share;
 }
 math::Vec3 on_side(const mesh::Head& head, uint32_t side) {
   float p[3];
@@ -63,7 +63,7 @@ void print(uint32_t value, const char* behind) {
 }
 
 void run(const hull::View& view, const hull::BaseHull& base_hull) {
-  hull::Refinement refinement(view, base_hull, {{g_bits}, {g_undone}, {g_candidates}});
+  hull::Refinement refinement(view, base_hull, {{g_bits}, {g_split}, {g_candidates}});
   const uint32_t empty = empty_work();
   for (uint32_t i = 0; i < kSegments; ++i) {
     const uint32_t from = (g_random >> 12) % 6;

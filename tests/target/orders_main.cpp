@@ -1,5 +1,7 @@
-// How many instructions the query orders of `firmtouch-lab orders` take: `orders WALK.csv` on the emulator's
-// command line. Builds the trees in the memory behind the board's asset, asks every 64th row, each on its own, and prints a row a combination:  BOXES | ORDER | UPPER | MEAN INSTRUCTIONS | WORST
+// Instructions of the query orders of `firmtouch-lab orders`: `orders POINTS.csv` on the
+// emulator's command line. Builds the trees in the memory behind the board's asset and queries
+// every 64th row cold. A row a combination:
+//     BOXES | ORDER | UPPER | MEAN INSTRUCTIONS | WORST
 // tools/bench/cortex-m7 --orders runs it.
 #include <stdint.h>
 
@@ -24,14 +26,13 @@ namespace {
 
 constexpr uint32_t kMaxPoints = 256;
 constexpr uint32_t kEvery = 64;
-constexpr uint32_t kRing =
-    1u << 15;  // breadth-first on a model of 20,000 triangles wants a third of it
+constexpr uint32_t kRing = 1u << 15;  // breadth-first with 20,000 triangles needs a third of it
 
 math::Vec3 g_points[kMaxPoints];
 orders::Pending g_waiting[kRing];
-uint32_t g_empty = 0;  // what reading the clock twice takes
+uint32_t g_empty = 0;  // cost of reading the clock twice
 
-// The emulated external memory behind the asset, handed out from its front.
+// Bump allocator in the emulated external memory behind the asset.
 struct Arena {
   uint8_t* next;
   uint8_t* end;

@@ -1,6 +1,6 @@
-// How many instructions the producer's side of the record ring takes: pushes a tick's record into a ring that is empty,
-// partly full, full, just emptied, or whose reader is dead, and prints a row a state:
-//     STATE LEAST MOST      instructions of the whole push()
+// Instructions of push() of the record ring: a tick's record into a ring that is empty, partly
+// full, full, just emptied, or never read. A row a state:
+//     STATE MIN MAX      instructions of the whole push()
 // `copy` is the copy of the record alone. tools/bench/ring-cortex-m7 runs it.
 #include <stdint.h>
 

@@ -8,13 +8,13 @@
 namespace firmtouch::target {
 
 struct Views {
-  mesh::View mesh;    // the asset's first, if it has one
-  curve::View curve;  // the same
+  mesh::View mesh;    // first mesh of the asset, if any
+  curve::View curve;  // first curve
   spline::View spline;
   core::Verdict verdict;
 };
 
-/// Opens the asset that begins at `region`, which may be longer.
+/// Opens the asset at the start of `region`, which may be longer.
 Views open_views(core::Bytes region);
 
 }  // namespace firmtouch::target

@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-// Numbers as text, without a C library.
+// Integers as text, without a C library.
 namespace firmtouch::target {
 
 struct Text {

@@ -5,7 +5,7 @@
 namespace firmtouch::asset {
 namespace {
 
-// <0, 0, >0 as strcmp; `a` is an entry's name, proven to end with a zero.
+// Result: <0, 0 or >0, as strcmp. `a`: an entry's name, proven to be zero-terminated.
 int compare(const char* a, const char* b) {
   for (uint32_t i = 0; i < kNameBytes; ++i) {
     const int left = static_cast<unsigned char>(a[i]);

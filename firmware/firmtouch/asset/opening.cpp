@@ -10,9 +10,9 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
-uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
+uint32_t min(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-core::Bytes part(core::Bytes bytes, uint32_t offset, uint32_t count) {
+core::Bytes slice(core::Bytes bytes, uint32_t offset, uint32_t count) {
   return {bytes.data() + offset, count};
 }
 
@@ -62,7 +62,7 @@ Verdict Opening::check_header(core::Bytes file) {
   if (header.magic != kMagic) return reject(kRuleMagic);
   if (header.byte_order != kByteOrder) return reject(kRuleByteOrder);
   if (header.major != kMajor) return reject(kRuleMajor);
-  if (core::crc32(part(file, 0, offsetof(Header, header_crc))) != header.header_crc) {
+  if (core::crc32(slice(file, 0, offsetof(Header, header_crc))) != header.header_crc) {
     return reject(kRuleHeaderCrc);
   }
   if (header.reserved != 0) return reject(kRuleReserved);
@@ -73,7 +73,7 @@ Verdict Opening::check_header(core::Bytes file) {
   if (header.section_count > rest / sizeof(Entry)) return reject(kRuleTableSize);
   container_.file_ = file;
   container_.entries_ =
-      core::as_array<Entry>(part(file, sizeof(Header), rest), header.section_count);
+      core::as_array<Entry>(slice(file, sizeof(Header), rest), header.section_count);
   free_ = static_cast<uint32_t>(sizeof(Header) + header.section_count * sizeof(Entry));
   return kPassed;
 }
@@ -87,12 +87,12 @@ Verdict Opening::check_entry(uint32_t i) {
     if (order > 0) return reject(kRuleEntryOrder, i);
     if (order == 0) return reject(kRuleEntryTwice, i);
   }
-  return check_place(i);
+  return check_extent(i);
 }
 
 // Sections fill the file in the table's order, so one running end proves that none overlaps
 // another.
-Verdict Opening::check_place(uint32_t i) {
+Verdict Opening::check_extent(uint32_t i) {
   const Entry& entry = container_.entries_[i];
   const uint32_t total = container_.file_.size();
   if (entry.bytes == 0) return reject(kRuleSectionEmpty, i);
@@ -119,8 +119,8 @@ Verdict Opening::check_section_end(uint32_t i) const {
 
 uint32_t Opening::work_table_crc(uint32_t bytes) {
   const uint32_t table = static_cast<uint32_t>(container_.entries_.size() * sizeof(Entry));
-  const uint32_t now = least(bytes, table - offset_);
-  crc_ = core::crc32(part(container_.file_, static_cast<uint32_t>(sizeof(Header)) + offset_, now),
+  const uint32_t now = min(bytes, table - offset_);
+  crc_ = core::crc32(slice(container_.file_, static_cast<uint32_t>(sizeof(Header)) + offset_, now),
                      crc_);
   offset_ += now;
   if (offset_ == table) {
@@ -154,8 +154,8 @@ uint32_t Opening::work_section(uint32_t bytes) {
     return 0;
   }
   const core::Bytes section = container_.section(index_);
-  const uint32_t now = least(bytes, section.size() - offset_);
-  crc_ = core::crc32(part(section, offset_, now), crc_);
+  const uint32_t now = min(bytes, section.size() - offset_);
+  crc_ = core::crc32(slice(section, offset_, now), crc_);
   offset_ += now;
   if (offset_ == section.size()) {
     const Verdict verdict = check_section_end(index_);
@@ -177,7 +177,7 @@ void Opening::work(uint32_t bytes) {
     } else {
       used = work_section(left);
     }
-    left -= least(used, left);
+    left -= min(used, left);
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace firmtouch::asset {
 
-/// Proves the frame of an asset file in slices, so that a main loop stays alive while a large one
-/// is checked: rules R1 to R26 of tools/FORMAT.md. A verdict's element is the section's index in
+/// Checks header, table and section CRCs of an asset file in slices, so that a main loop stays
+/// responsive: rules R1 to R26 of tools/FORMAT.md. A verdict's element is the section's index in
 /// the table (rules of the header: 0).
 ///
 ///     Opening opening(file);
@@ -20,12 +20,12 @@ class Opening {
   /// container.
   explicit Opening(core::Bytes file);
 
-  /// Checks about `bytes` more (0 counts as 1; a table entry and a section's padding are checked
-  /// whole). Bounds: O(bytes), two table steps a byte; no recursion; reads only inside the file.
+  /// Checks about `bytes` more; 0 counts as 1. Table entries and padding are checked as a whole.
+  /// Bounds: O(bytes), two table look-ups a byte; no recursion; reads only inside the file.
   void work(uint32_t bytes);
   bool done() const { return stage_ == Stage::kDone; }
   core::Verdict verdict() const { return verdict_; }
-  /// The proven file; one that is not open unless done() and verdict().ok().
+  /// The proven file. Result: a closed container unless done() and verdict().ok().
   Container container() const { return done() && verdict_.ok() ? container_ : Container{}; }
 
  private:
@@ -33,7 +33,7 @@ class Opening {
   void settle(core::Verdict verdict);
   core::Verdict check_header(core::Bytes file);
   core::Verdict check_entry(uint32_t i);
-  core::Verdict check_place(uint32_t i);
+  core::Verdict check_extent(uint32_t i);
   core::Verdict check_section_end(uint32_t i) const;
   uint32_t work_table_crc(uint32_t bytes);
   uint32_t work_entry();
@@ -42,13 +42,13 @@ class Opening {
   Container container_;
   core::Verdict verdict_;
   Stage stage_ = Stage::kTableCrc;
-  uint32_t index_ = 0;   // of the entry or section in work
+  uint32_t index_ = 0;   // of the current entry or section
   uint32_t offset_ = 0;  // bytes of the table or section already in crc_
   uint32_t crc_ = 0;
   uint32_t free_ = 0;  // where the next section must begin
 };
 
-/// All at once.
+/// Checks the whole file in one call.
 core::Verdict open(core::Bytes file, Container& container);
 
 }  // namespace firmtouch::asset

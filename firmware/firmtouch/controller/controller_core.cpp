@@ -141,9 +141,9 @@ uint32_t ControllerCore::begin_model(const ModelRequest& request, const Values& 
 }
 
 ModelResult* ControllerCore::result_of_tick(const Tick& tick, uint32_t flags) {
-  if ((flags & record::kFlagModelApart) == 0) return &models_.answer();
+  if ((flags & record::kFlagModelApart) == 0) return &models_.result();
   if ((flags & record::kFlagModelTaken) != 0) models_.take();
-  if ((flags & record::kFlagModelWanted) != 0) models_.ask({tick.request, live_.values});
+  if ((flags & record::kFlagModelWanted) != 0) models_.request({tick.request, live_.values});
   return nullptr;
 }
 
@@ -156,7 +156,7 @@ uint32_t ControllerCore::model_flags() const {
 
 void ControllerCore::end_tick(const record::TickInput& input, const AssetStatus& asset,
                               const Tick& tick, record::TickOutput& output) {
-  const ModelResult& result = models_.answer();
+  const ModelResult& result = models_.result();
   const servo::StepOutput wanted =
       servo::step(live_.servo, servo_settings(live_.values), result.model, tick.step);
 

@@ -56,7 +56,7 @@ class ControllerCore {
   /// At two rates: the flags of the next tick.
   uint32_t model_flags() const;
   /// At two rates, below the servo interrupt: the model to make; null if none was requested.
-  const ModelTask* task() const { return models_.asked(); }
+  const ModelTask* task() const { return models_.requested(); }
   ModelResult& task_result() { return models_.draft(); }
   void finish_task() { models_.made(); }
 

@@ -9,9 +9,9 @@ namespace firmtouch::core {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
               "an asset is used in place: little-endian targets only");
 
-/// The one place where bytes become structs. A span of `count` T at the start of `bytes`, or an
-/// empty one where the bytes are too few or not aligned for T. T is a plain struct of the asset
-/// format, whose every bit pattern is a value.
+/// View of `count` T at the start of `bytes`, without a copy; the only cast from bytes to structs.
+/// Pre: T is a plain struct of the asset format; every bit pattern of it is a value.
+/// Result: empty if the bytes are too few or not aligned for T.
 template <class T>
 Span<const T> as_array(Bytes bytes, uint32_t count) {
   static_assert(__is_trivially_copyable(T), "only plain structs live in an asset");
@@ -20,7 +20,7 @@ Span<const T> as_array(Bytes bytes, uint32_t count) {
   return {reinterpret_cast<const T*>(bytes.data()), count};
 }
 
-/// As many whole T as `bytes` holds; empty where a part of a T would be left over.
+/// View of all of `bytes` as T. Result: empty if the size is not a multiple of sizeof(T).
 template <class T>
 Span<const T> as_whole_array(Bytes bytes) {
   if (bytes.size() % sizeof(T) != 0) return {};

@@ -3,8 +3,8 @@
 namespace firmtouch::core {
 namespace {
 
-// One entry a nibble: 64 bytes of flash instead of 1 KiB, for half the speed. Opening an asset is
-// not the tick.
+// One entry per nibble: 64 bytes of flash instead of 1 KiB, at half the speed. A tick computes
+// none.
 constexpr uint32_t kNibble[16] = {0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D930ACu,
                                   0x76DC4190u, 0x6B6B51F4u, 0x4DB26158u, 0x5005713Cu,
                                   0xEDB88320u, 0xF00F9344u, 0xD6D6A3E8u, 0xCB61B38Cu,

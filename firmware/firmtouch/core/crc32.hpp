@@ -5,9 +5,9 @@
 
 namespace firmtouch::core {
 
-/// CRC-32 (ISO-HDLC, reflected 0xEDB88320, as zip and Ethernet) of `bytes`, going on from `crc` (0
-/// to begin). Bounds: two table steps a byte, 64 B of table; re-entrant. Detects every burst of up
-/// to 32 bits.
+/// CRC-32 (ISO-HDLC, reflected 0xEDB88320, as zip and Ethernet) of `bytes`, continued from `crc`
+/// (0 for the first bytes). Detects every burst of up to 32 bits.
+/// Bounds: two table look-ups a byte, 64 B of table; re-entrant.
 uint32_t crc32(Bytes bytes, uint32_t crc = 0);
 
 }  // namespace firmtouch::core

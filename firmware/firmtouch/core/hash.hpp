@@ -5,8 +5,7 @@
 
 namespace firmtouch::core {
 
-/// FNV-1a, 64 bits: one number for many answers' bits, to compare them across machines. Not for
-/// security.
+/// FNV-1a, 64 bits, of a sequence of words. Compares results between machines; not for security.
 class Hash {
  public:
   void add(uint32_t word) {

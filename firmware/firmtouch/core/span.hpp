@@ -3,8 +3,7 @@
 
 namespace firmtouch::core {
 
-/// `count` elements that somebody else owns. Indexing is not checked: indices are proven once, by
-/// open().
+/// Non-owning view of `count` elements. Indexing is unchecked: open() proves all indices once.
 template <class T>
 class Span {
  public:

@@ -3,9 +3,9 @@
 
 namespace firmtouch::core {
 
-/// What a check of untrusted bytes found. Rule 0: nothing wrong. Otherwise the number of the rule
-/// that failed (every rule R<n> stands in tools/FORMAT.md) and the element it failed at, counted
-/// from 0 in the array that the rule names.
+/// Result of a check of untrusted bytes. Rule 0: passed. Otherwise the number of the failed rule
+/// (tools/FORMAT.md) and the index of the element where it failed, in the array that the rule
+/// names.
 struct [[nodiscard]] Verdict {
   uint16_t rule = 0;
   uint32_t element = 0;

@@ -6,26 +6,25 @@
 
 namespace firmtouch::link {
 
-/// Parameters and the operator's wish to clear faults on their way from the main loop to the tick: accepted there, taken one a tick at its
-/// beginning, so that every tick sees a whole set of parameters and the record shows which tick
-/// changed which.
+/// Queue of commands (set a parameter, clear faults) from the main loop to the tick. A tick takes
+/// at most one, at its beginning, so that its record shows which command changed what.
 class CommandMailbox {
  public:
-  static constexpr uint32_t kCapacity = 8;  // a burst of sliders; the ninth is told to come again
+  static constexpr uint32_t kCapacity = 8;  // a burst of sliders; a ninth gets kAckBusy
 
-  /// Main loop.
+  /// Main loop: queues a new value of a parameter.
   /// Bounds: wait-free.
-  /// Result: false where the mailbox is full.
+  /// Result: false if the mailbox is full.
   bool put(uint32_t parameter_index, float value) {
     return ring_.push({parameter_index + 1, value});
   }
 
-  /// Main loop: the latched faults are to be forgotten.
+  /// Main loop: queues the command that clears the latched faults.
   /// Bounds: wait-free.
-  /// Result: false where the mailbox is full.
+  /// Result: false if the mailbox is full.
   bool put_clear_faults() { return ring_.push({record::kCommandClearFaults, 0}); }
 
-  /// Servo interrupt: fills the command of this tick, 0 where there is none.
+  /// Servo interrupt: moves the oldest command into `input`; kCommandNone if there is none.
   /// Bounds: wait-free.
   void take(record::TickInput& input) {
     record::Numbered<Command> next[1];
@@ -39,7 +38,7 @@ class CommandMailbox {
     uint32_t command = 0;  // as TickInput::command
     float value = 0;
   };
-  record::Ring<Command, kCapacity, 4> ring_;  // on a controller both sides share a core
+  record::Ring<Command, kCapacity, 4> ring_;  // 4: both sides share a core
 };
 
 }  // namespace firmtouch::link

@@ -3,14 +3,14 @@
 
 #include "firmtouch/core/span.hpp"
 
-// The frame that carries every message between the controller and a host, little-endian:
+// Frame of every message between controller and host, little-endian:
 //
 //     offset 0  sync      u16  kSync
-//            2  sequence  u16  the sender's count; an answer carries the count of what it answers
+//            2  sequence  u16  the sender's count; a reply has the count of its request
 //            4  length    u16  of the payload, 0 to kMaxPayloadBytes
 //            6  type      u8   link::Type
-//            7  check     u8   low byte of the CRC-32 of bytes 0 to 6: a damaged length is seen
-//                              before it is waited for
+//            7  check     u8   low byte of the CRC-32 of bytes 0 to 6: detects a damaged length
+//                              before the decoder waits for that many bytes
 //            8  payload
 //     8+length  crc       u32  CRC-32 of everything before it
 namespace firmtouch::link {
@@ -18,7 +18,7 @@ namespace firmtouch::link {
 constexpr uint16_t kSync = 0x5AF7;
 constexpr uint32_t kHeaderBytes = 8;
 constexpr uint32_t kCrcBytes = 4;
-// One record a frame, with room to grow; also the decoder's whole memory.
+// One record a frame, with a reserve; also the decoder's buffer.
 constexpr uint32_t kMaxFrameBytes = 256;
 constexpr uint32_t kMaxPayloadBytes = kMaxFrameBytes - kHeaderBytes - kCrcBytes;
 
@@ -28,9 +28,9 @@ struct Frame {
   core::Bytes payload;
 };
 
-/// Writes one frame to the start of `to`.
+/// Encodes one frame into `to`.
 /// Bounds: one pass over the payload; re-entrant; interrupt-safe.
-/// Result: bytes written; 0 where payload or frame are larger than kMaxPayloadBytes or `to`.
+/// Result: bytes written; 0 if the payload exceeds kMaxPayloadBytes or the frame exceeds `to`.
 uint32_t encode(uint8_t type, uint16_t sequence, core::Bytes payload, core::Span<uint8_t> to);
 
 /// The bytes of a plain payload struct.
@@ -41,8 +41,8 @@ core::Bytes bytes_of(const T& value) {
   return {reinterpret_cast<const uint8_t*>(&value), sizeof(T)};
 }
 
-/// A frame's payload as T.
-/// Result: false, `value` untouched, unless the length is T's own.
+/// Copies a frame's payload into `value`.
+/// Result: false, and `value` unchanged, if the length is not sizeof(T).
 template <class T>
 bool take(const Frame& frame, T& value) {
   static_assert(__is_trivially_copyable(T), "a payload is a plain struct");

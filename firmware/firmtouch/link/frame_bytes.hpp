@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-// Little-endian numbers at any alignment: what encode() and Decoder share.
+// Unaligned little-endian numbers, for encode() and Decoder.
 namespace firmtouch::link {
 
 inline void put_u16(uint8_t* to, uint16_t value) {

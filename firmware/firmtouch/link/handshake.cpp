@@ -5,8 +5,8 @@
 namespace firmtouch::link {
 namespace {
 
-void both(TextWriter& out, const char* what, uint64_t host, uint64_t controller, uint32_t digits,
-          const char* remedy) {
+void add_difference(TextWriter& out, const char* what, uint64_t host, uint64_t controller,
+                    uint32_t digits, const char* remedy) {
   out.text(what).text(": host ").hex(host, digits).text(", controller ").hex(controller, digits);
   out.text(": ").text(remedy).text("\n");
 }
@@ -25,13 +25,13 @@ uint32_t compare(const Identity& host, const Identity& controller) {
 
 uint32_t explain(const Identity& host, const HelloReply& reply, core::Span<char> to) {
   TextWriter out(to);
-  const Identity& mine = reply.controller;
+  const Identity& controller = reply.controller;
   if ((reply.refused & kRefusedProtocol) != 0) {
     out.text("protocol version: host ").decimal(host.protocol).text(", controller ");
-    out.decimal(mine.protocol).text(": build both from the same release\n");
+    out.decimal(controller.protocol).text(": build both from the same release\n");
   }
   if ((reply.refused & kRefusedNotReady) != 0) {
-    out.text("asset: the controller is still checking it: ask again\n");
+    out.text("asset: the controller is still checking it: try again\n");
   }
   if ((reply.refused & kRefusedAssetRejected) != 0) {
     out.text("asset: the controller rejects it by rule R").decimal(reply.asset_rule);
@@ -39,17 +39,19 @@ uint32_t explain(const Identity& host, const HelloReply& reply, core::Span<char>
     out.text(" (tools/FORMAT.md): bake it again and load it anew\n");
   }
   if ((reply.refused & kRefusedAsset) != 0) {
-    both(out, "asset CRC", host.asset_crc, mine.asset_crc, 8, "load the same .fta file on both");
+    add_difference(out, "asset CRC", host.asset_crc, controller.asset_crc, 8,
+                   "load the same .fta file on both");
   }
   if ((reply.refused & kRefusedParameterTable) != 0) {
-    both(out, "parameter table hash", host.parameter_table_hash, mine.parameter_table_hash, 16,
-         "build both from the same sources");
+    add_difference(out, "parameter table hash", host.parameter_table_hash,
+                   controller.parameter_table_hash, 16, "build both from the same sources");
   }
   if ((reply.refused & kRefusedBuild) != 0) {
-    both(out, "build id", host.build_id, mine.build_id, 16, "build both from the same sources");
+    add_difference(out, "build id", host.build_id, controller.build_id, 16,
+                   "build both from the same sources");
   }
   if ((reply.refused & kRefusedMode) != 0) {
-    out.text("mode: the controller does not know it: build both from the same release\n");
+    out.text("mode: unknown to the controller: build both from the same release\n");
   }
   if ((reply.refused & kRefusedBusy) != 0) {
     out.text(

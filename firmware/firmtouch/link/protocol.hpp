@@ -5,24 +5,24 @@
 #include "firmtouch/record/ring.hpp"
 #include "firmtouch/record/tick.hpp"
 
-// What is said over the link: the payload of each frame type, plain structs without padding,
-// little-endian. A host (simulator, live page) begins with Hello; until it is accepted every other
-// frame is answered by Text.
+// Messages of the link: the payload of each frame type, as plain structs without padding,
+// little-endian. A host (simulator, live page) starts with Hello. Until the controller accepts it,
+// it answers every other frame with Text, except Describe.
 //
 //   lock-step   Hello(kModeLockStep) -> HelloReply, then Step -> StepReply, one at a time, until
-//               Bye. Every tick is the host's: the timer does not run, the motors stay off. An
-//               accepted Hello resets the controller; a Step that comes twice is answered twice,
-//               but ticked once.
-//   live        Hello(kModeLive) -> HelloReply. Ticks are the timer's; their Log frames flow, every
-//               one or every so many-th (Hello, Stream -> Ack), and SetParam -> Ack,
-//               ClearFaults -> Ack go between them.
-//   both        Describe -> Description: what a record, its bits and the parameters are, from the
-//               controller itself. Answered to a stranger too.
+//               Bye. The host makes every tick: the timer does not run, the motors stay off. An
+//               accepted Hello resets the controller. A repeated Step is answered again without a
+//               second tick.
+//   live        Hello(kModeLive) -> HelloReply. The timer makes the ticks. The controller sends a
+//               Log frame for every n-th tick (Hello, Stream -> Ack). SetParam -> Ack and
+//               ClearFaults -> Ack are possible at any time.
+//   both        Describe -> Description: fields of a record, their bits, and parameters. Answered
+//               without Hello too.
 namespace firmtouch::link {
 
 constexpr uint32_t kProtocolVersion = 4;
 
-// Append-only. The high bit marks what the controller says.
+// Append-only. The high bit marks frames of the controller.
 enum Type : uint8_t {
   kHello = 0x01,
   kStep = 0x02,
@@ -41,12 +41,13 @@ enum Type : uint8_t {
 
 constexpr uint32_t kModeLive = 0;
 constexpr uint32_t kModeLockStep = 1;
-constexpr uint32_t kModeAsk = UINT32_MAX;  // always refused: the answer says what the controller is
+// Always rejected: the reply contains the controller's identity.
+constexpr uint32_t kModeIdentify = UINT32_MAX;
 
-/// What must be the same on both sides, or the figures of one are not those of the other.
+/// Must be equal on both sides, so that both compute the same bits.
 struct Identity {
   uint32_t protocol = kProtocolVersion;
-  uint32_t asset_crc = 0;             // asset::Container::crc(); 0 where no asset is open
+  uint32_t asset_crc = 0;             // asset::Container::crc(); 0 if no asset is open
   uint64_t parameter_table_hash = 0;  // params::table_hash()
   uint64_t build_id = 0;              // link::build_id(): hash of the firmware's sources
 };
@@ -64,16 +65,16 @@ constexpr uint32_t kRefusedProtocol = 1u << 0;
 constexpr uint32_t kRefusedAsset = 1u << 1;
 constexpr uint32_t kRefusedParameterTable = 1u << 2;
 constexpr uint32_t kRefusedBuild = 1u << 3;
-constexpr uint32_t kRefusedMode = 1u << 4;           // a mode that this controller does not know
+constexpr uint32_t kRefusedMode = 1u << 4;           // unknown mode
 constexpr uint32_t kRefusedAssetRejected = 1u << 5;  // by asset_rule: bake it again
-constexpr uint32_t kRefusedNotReady = 1u << 6;       // the asset is still being opened: ask again
-constexpr uint32_t kRefusedBusy = 1u << 7;           // lock-step: the servo's timer runs already
+constexpr uint32_t kRefusedNotReady = 1u << 6;       // the asset is still being checked: try again
+constexpr uint32_t kRefusedBusy = 1u << 7;           // lock-step: the servo's timer already runs
 
 struct HelloReply {
   Identity controller;
   uint32_t refused = 0;
-  uint32_t asset_rule = 0;     // 0, or the numbered rule that rejected the asset (tools/FORMAT.md)
-  uint32_t asset_element = 0;  // where that rule failed
+  uint32_t asset_rule = 0;     // 0, or the rule that rejected the asset (tools/FORMAT.md)
+  uint32_t asset_element = 0;  // element at which that rule failed
   uint32_t servo_period_us = 0;
   char board[16] = {};  // zero-padded
 };
@@ -85,10 +86,10 @@ struct Step {
 static_assert(sizeof(Step) == 32);
 
 struct StepReply {
-  uint32_t tick = 0;              // of the Step that this answers
-  uint32_t work = 0;              // hal::clock_work() ticks that Controller::tick() took
+  uint32_t tick = 0;              // of the Step
+  uint32_t work = 0;              // of Controller::tick(), in ticks of hal::clock_work()
   uint32_t work_per_1000 = 0;     // such ticks per 1,000 instructions; 0: the board cannot count
-  uint32_t stack_high_bytes = 0;  // deepest stack, looked at every 64 ticks; 0: not painted
+  uint32_t stack_high_bytes = 0;  // most stack in use, measured every 64 ticks; 0: not painted
   record::TickOutput output{};
 };
 static_assert(sizeof(StepReply) == 108);
@@ -99,8 +100,8 @@ struct SetParam {
 };
 static_assert(sizeof(SetParam) == 8);
 
-/// Forgets the latched faults at the next tick, if the enable switch is open then; the record of that
-/// tick says whether (record::kStateCommandTaken).
+/// Clears the latched faults at the next tick if the enable switch is open then. That tick's record
+/// has the result (record::kStateCommandTaken).
 struct ClearFaults {
   uint32_t reserved = 0;
 };
@@ -110,11 +111,11 @@ static_assert(sizeof(ClearFaults) == 4);
 constexpr uint32_t kAckTaken = 0;
 constexpr uint32_t kAckNoSuchParameter = 1;
 constexpr uint32_t kAckOutOfRange = 2;
-constexpr uint32_t kAckBusy = 3;  // the command before it has not reached its tick: send again
-constexpr uint32_t kAckInLockStep = 4;  // there a command travels in its Step: TickInput::command
-constexpr uint32_t kAckTimerRuns = 5;   // tick_period_s: the board's timer keeps its own
+constexpr uint32_t kAckBusy = 3;        // the mailbox is full: send again
+constexpr uint32_t kAckInLockStep = 4;  // rejected in lock-step: use TickInput::command of a Step
+constexpr uint32_t kAckTimerRuns = 5;   // tick_period_s: the board's running timer keeps its period
 
-// Ack::index, where no parameter was meant.
+// Ack::index of other requests than SetParam.
 constexpr uint32_t kAckOfClearFaults = UINT32_MAX;
 constexpr uint32_t kAckOfStream = UINT32_MAX - 1;
 
@@ -124,18 +125,17 @@ struct Ack {
 };
 static_assert(sizeof(Ack) == 8);
 
-/// Which records are sent from now on: those whose number is a multiple of `decimation`; 0: none.
-/// A line of 1 Mbaud carries about 690 records a second; what it cannot carry is dropped and
-/// counted.
+/// Selects the records to send: those whose number is a multiple of `decimation`; 0: none.
+/// A line of 1 Mbaud carries about 690 records a second; the rest is dropped and counted.
 struct Stream {
   uint32_t decimation = 1;
 };
 static_assert(sizeof(Stream) == 4);
 
-/// One tick's record. A jump of its number by more than the decimation says that records are
-/// missing before it: number, dropped and the frames that came tell where they were lost.
+/// One tick's record. If its number exceeds the last one's by more than the decimation, records are
+/// missing; `dropped` shows how many of them the ring lost, the link lost the others.
 struct Log {
-  uint32_t dropped = 0;  // in all, before this one: the ring was full
+  uint32_t dropped = 0;  // total before this record, because the ring was full
   record::Numbered<record::TickRecord> record;
 };
 static_assert(sizeof(Log) == 132);
@@ -152,25 +152,24 @@ struct Describe {
 };
 static_assert(sizeof(Describe) == 4);
 
-/// One row. Texts are padded with zeros; one that fills its place has none behind it.
+/// One row. Texts are padded with zeros; a text of full length has no terminating zero.
 struct Description {
   uint16_t what = 0;
   uint16_t index = 0;
-  uint16_t rows = 0;     // of this table; index >= rows: there is no such row, and the rest is 0
+  uint16_t rows = 0;     // of this table; if index >= rows, the rest is 0
   uint8_t kind = 0;      // field: record::Type; bit: its number; parameter: params::When
   uint8_t count = 0;     // field: values of four bytes
   float number[4] = {};  // field: scale, zero; parameter: low, high, initial, present value
-  char name[32] = {};    // bit: what it says
-  char unit[24] = {};    // bit: the field that it is of
-  char text[96] =
-      {};  // for a person: what a parameter does; what makes a fault, and what governs it
+  char name[32] = {};    // bit: its meaning
+  char unit[24] = {};    // bit: the field that contains it
+  char text[96] = {};    // explanation: effect of a parameter; cause of a fault and its parameter
 };
 static_assert(sizeof(Description) == 176);
 static_assert(sizeof(Description) <= kMaxPayloadBytes);
 
 // Bye::what
 constexpr uint32_t kByeLeave = 0;  // the controller waits for the next Hello
-constexpr uint32_t kByeExit = 1;   // hal::board_exit(): an emulator's or process's end
+constexpr uint32_t kByeExit = 1;   // hal::board_exit(): ends an emulator or process
 
 struct Bye {
   uint32_t what = kByeLeave;

@@ -5,8 +5,7 @@
 
 namespace firmtouch::link {
 
-/// Builds a message in memory of the caller's, always closed by a zero; what does not fit is cut
-/// off.
+/// Writes a message into the caller's buffer; always zero-terminated, truncated if it does not fit.
 class TextWriter {
  public:
   /// Pre: to.size() >= 1.

@@ -5,40 +5,34 @@
 
 namespace firmtouch::record {
 
-/// A record and its number among all that were produced, dropped ones counted: a jump of more than
-/// one says that, and how many, records are missing just before it. Wraps after 2^32.
+/// A record and its number among all produced ones, dropped ones included: a gap in the numbers is
+/// the number of records missing before it. Wraps after 2^32.
 template <class T>
 struct Numbered {
   uint32_t number = 0;
   T value{};
 };
 
-/// Streams records from one producer (the servo interrupt, a thread) to one consumer (the main
-/// loop, another thread). Lock-free; the producer never waits: where the ring is full the new
-/// record is dropped and counted. At every moment produced == consumed + waiting + dropped.
+/// Single-producer, single-consumer ring of records, e.g. from the servo interrupt to the main
+/// loop. Lock-free; the producer never waits: if the ring is full, the new record is dropped and
+/// counted. Always produced == consumed + waiting + dropped.
 ///
-/// Two indices that only rise (modulo 2^32), each written by one side alone: `kept_` by the
-/// producer, `taken_` by the consumer; their difference is the number waiting, so full and empty
-/// need no flag and no spare slot. A slot belongs to the producer until kept_ passes it and to the
-/// consumer until taken_ passes it.
+/// Two indices increase modulo 2^32. The producer writes `kept_`, the consumer `taken_`; their
+/// difference is the number of waiting records, so no slot is wasted. A slot belongs to the
+/// producer until kept_ passes it, then to the consumer until taken_ passes it.
 ///
-/// Memory order, and why. On one core the interrupt sees its own program order and all that is
-/// needed is that the compiler keeps it; between cores, and towards DMA, the same marks become the
-/// barriers:
-///   kept_   release store: the slot is written before the index says so.
-///           acquire load:  the slot is read after the index said so.
-///   taken_  release store: the slot has been read before it is given back.
+/// Memory order. On one core it only stops the compiler from reordering; between cores, and towards
+/// DMA, it becomes the barriers:
+///   kept_   release store: the slot is written before the index is.
+///           acquire load:  the slot is read after the index was.
+///   taken_  release store: the slot was read before it is given back.
 ///           acquire load:  the slot is overwritten after it was given back.
-///   dropped_ and a side's loads of its own index: relaxed; nothing else hangs on them.
-/// tests/record/ring.pml is a model of these steps with store buffers and early loads; each of the
-/// four marks is shown to be needed there. (DMA from cached memory: the board cleans the lines of
-/// what ready() shows before it starts the transfer; slots begin at a line.)
-/// Compiler builtins, since a freestanding toolchain need not have <atomic>; 32 bits are lock-free
-/// on every target.
+///   dropped_, and each side's loads of its own index: relaxed.
+/// Model: tests/record/ring.pml shows that each of the four is needed.
+/// Compiler builtins, because a freestanding toolchain may lack <atomic>.
 ///
-/// `LineBytes`: each side's words and the slots begin at a multiple of it, so that no line is
-/// written by both sides: it would travel between the cores with every record. 64 B on the hosts, 32
-/// B on a Cortex-M7; where both sides share a core 4 saves the padding.
+/// `LineBytes`: alignment of each side's words and of the slots, so that the two sides never write
+/// the same cache line. 64 B on hosts, 32 B on a Cortex-M7; 4 if both sides share a core.
 template <class T, uint32_t Capacity, uint32_t LineBytes = 64>
 class Ring {
   static_assert(__is_trivially_copyable(T), "records are copied as bytes");
@@ -54,11 +48,10 @@ class Ring {
   /// Empty. The first record gets the number `first`.
   constexpr explicit Ring(uint32_t first = 0) : kept_(first), taken_seen_(first), taken_(first) {}
 
-  /// Producer. Keeps a copy of `value`, or drops it where the ring is full.
-  /// Bounds: wait-free: a few instructions and one copy, whatever the reader does: with
-  /// a tick's record 74 instructions on a Cortex-M7, 19 where it is dropped
-  /// (tools/bench/ring-cortex-m7). Interrupt-safe.
-  /// Result: false where it was dropped.
+  /// Producer. Appends a copy of `value`, or drops it if the ring is full.
+  /// Bounds: wait-free; interrupt-safe. A tick's record takes 74 instructions on a Cortex-M7, 19 if
+  /// it is dropped (tools/bench/ring-cortex-m7).
+  /// Result: false if it was dropped.
   bool push(const T& value) {
     const uint32_t kept = __atomic_load_n(&kept_, __ATOMIC_RELAXED);
     const uint32_t dropped = __atomic_load_n(&dropped_, __ATOMIC_RELAXED);
@@ -74,9 +67,9 @@ class Ring {
     return true;
   }
 
-  /// Consumer. The records that wait and lie together in memory, oldest first, to be read in place
-  /// (or sent by DMA); they stay until release(). What wraps round comes with the next call.
-  /// Bounds: wait-free.
+  /// Consumer. The waiting records up to the end of the buffer, oldest first, to be read in place
+  /// or sent by DMA. They stay until release(); those after the wrap come with the next call. For
+  /// DMA from cached memory the board cleans their cache lines first. Bounds: wait-free.
   core::Span<const Numbered<T>> ready() const {
     const uint32_t taken = __atomic_load_n(&taken_, __ATOMIC_RELAXED);
     const uint32_t waiting = __atomic_load_n(&kept_, __ATOMIC_ACQUIRE) - taken;
@@ -85,7 +78,7 @@ class Ring {
     return {slots_ + first, waiting < together ? waiting : together};
   }
 
-  /// Consumer. Gives back the oldest `count` of the records that ready() showed.
+  /// Consumer. Gives back the oldest `count` records of ready().
   /// Pre: count <= ready().size().
   void release(uint32_t count) {
     const uint32_t taken = __atomic_load_n(&taken_, __ATOMIC_RELAXED);
@@ -93,14 +86,14 @@ class Ring {
   }
 
   /// Consumer. Copies up to to.size() of the oldest records and gives them back.
-  /// Bounds: O(records copied); a batch costs two barriers, or four where it wraps.
-  /// Result: how many.
+  /// Bounds: O(records copied); two barriers a batch, four if it wraps.
+  /// Result: number of records copied.
   uint32_t pop(core::Span<Numbered<T>> to) {
     uint32_t copied = 0;
-    for (uint32_t part = 0; part < 2 && copied < to.size(); ++part) {
+    for (uint32_t batch = 0; batch < 2 && copied < to.size(); ++batch) {
       const core::Span<const Numbered<T>> from = ready();
-      const uint32_t room = to.size() - copied;
-      const uint32_t count = from.size() < room ? from.size() : room;
+      const uint32_t free = to.size() - copied;
+      const uint32_t count = from.size() < free ? from.size() : free;
       if (count == 0) break;
       for (uint32_t i = 0; i < count; ++i) to[copied + i] = from[i];
       release(count);
@@ -109,21 +102,21 @@ class Ring {
     return copied;
   }
 
-  /// Any context: a moment's value. With both sides at rest, produced() == consumed() + waiting() +
+  /// Any context: a snapshot. With both sides at rest, produced() == consumed() + waiting() +
   /// dropped().
   uint32_t produced() const { return __atomic_load_n(&kept_, __ATOMIC_RELAXED) + dropped(); }
   uint32_t consumed() const { return __atomic_load_n(&taken_, __ATOMIC_RELAXED); }
   uint32_t dropped() const { return __atomic_load_n(&dropped_, __ATOMIC_RELAXED); }
   uint32_t waiting() const {
-    // taken_ first: the other order could see the consumer overtake an old kept_.
+    // taken_ first: otherwise the consumer could overtake an older kept_.
     const uint32_t taken = __atomic_load_n(&taken_, __ATOMIC_ACQUIRE);
     return __atomic_load_n(&kept_, __ATOMIC_ACQUIRE) - taken;
   }
 
  private:
-  // In blocks that a compiler turns into a few wide moves. For a whole record it calls memcpy, or
-  // takes a string instruction, whose start alone costs as much (measured: a third of push() on
-  // x86-64, half of it on a Cortex-M7).
+  // Copies in blocks that the compiler turns into wide moves. For a whole record it would call
+  // memcpy or use a string instruction, which costs a third of push() on x86-64, half on a
+  // Cortex-M7.
   static void copy(const T& from, T& to) {
     constexpr uint32_t kBlock = 16;
     const auto* in = reinterpret_cast<const uint8_t*>(&from);

@@ -35,7 +35,7 @@ extern constexpr Bit kBits[kBitCount] = {
     {"output.state", "on guide", 9},       {"output.state", "exact", 10},
     {"output.state", "command taken", 11}, {"output.state", "command refused", 12},
     {"output.state", "ready", 13},         {"output.state", "guide exact", 14},
-    {"output.state", "of shell", 15},
+    {"output.state", "base hull", 15},
 };
 
 namespace {

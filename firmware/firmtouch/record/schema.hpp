@@ -4,24 +4,24 @@
 #include "firmtouch/record/ring.hpp"
 #include "firmtouch/record/tick.hpp"
 
-// What a record is made of, as a table: a log's header and the link tell it to readers of other
-// versions. Adding a field is adding its row; a reader finds fields by name.
+// Description of a record, as a table: log headers and the link carry it, so that readers of other
+// versions find fields by name. A new field needs a row here.
 namespace firmtouch::record {
 
 enum class Type : uint8_t { kU32, kI32, kF32 };
 constexpr uint32_t kTypeCount = 3;
 
-/// One field of a record: `count` values of four bytes each, one behind the other.
+/// One field of a record: `count` consecutive values of four bytes each.
 struct Field {
   const char* name;  // "output.force_N"
-  const char* unit;  // of value * scale + zero; "1" for a plain number, "bits" for a set of them
+  const char* unit;  // of value * scale + zero; "1": dimensionless; "bits": a set of flags
   float scale;
   float zero;
   Type type;
   uint8_t count;
 };
 
-/// What one bit of a field of unit "bits" says.
+/// Meaning of one bit of a field of unit "bits".
 struct Bit {
   const char* field;
   const char* what;
@@ -33,10 +33,10 @@ constexpr uint32_t kBitCount = 15;
 
 /// The fields of Numbered<TickRecord> in their order, without gaps (schema.cpp asserts it).
 extern const Field kFields[kFieldCount];
-/// All but the faults', which servo names (servo/fault.hpp).
+/// Except those of the faults, whose names are in servo/fault.hpp.
 extern const Bit kBits[kBitCount];
 
-// As it lies in the ring, on the disk and, behind a header, in a frame: two cache lines of 64 B.
+// The same bytes in the ring, in a log and in a frame: two cache lines of 64 B.
 static_assert(sizeof(Numbered<TickRecord>) == 128);
 
 }  // namespace firmtouch::record

@@ -2,8 +2,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// What one tick takes and gives, as plain values: the controller computes the second from its state
-// and the first, the record keeps both, replay compares them bit for bit. Little-endian, no
+// Input and output of one tick as plain structs. The controller computes the output from its state
+// and the input; the record keeps both; replay compares them bit for bit. Little-endian, no
 // padding.
 
 namespace firmtouch::record {
@@ -14,38 +14,37 @@ constexpr uint32_t kAxes = 3;
 constexpr uint32_t kFlagEnable = 1u << 0;  // the operator's enable; falling: ramp out, motors off
 constexpr uint32_t kFlagEmergencyStop = 1u << 1;  // latched fault
 constexpr uint32_t kFlagDriveFault = 1u << 2;     // the motor driver reports a fault: latched fault
-constexpr uint32_t kFlagEncoderFault = 1u << 3;   // a count of this tick is not to be trusted
-// The local model, where geometry and servo run at two rates (controller.hpp).
-constexpr uint32_t kFlagModelApart = 1u << 4;   // it is not made in this tick
-constexpr uint32_t kFlagModelTaken = 1u << 5;   // from this tick on the one that was made is used
-constexpr uint32_t kFlagModelWanted = 1u << 6;  // the next one is made from this tick's position
+constexpr uint32_t kFlagEncoderFault = 1u << 3;   // a count of this tick is invalid
+// The local model, if geometry and servo run at two rates (controller.hpp).
+constexpr uint32_t kFlagModelApart = 1u << 4;   // this tick does not compute the local model
+constexpr uint32_t kFlagModelTaken = 1u << 5;   // this tick starts to use the finished model
+constexpr uint32_t kFlagModelWanted = 1u << 6;  // the next model is made from this tick's position
 
-// TickInput::command. A parameter of the wrong value, or one that may not change while the motors
-// are on, is refused: it stays as it was and TickOutput::state says so.
+// TickInput::command. A value out of range, or a parameter that may not change while the motors are
+// on, is rejected: the parameter keeps its value, and kStateCommandRefused is set.
 constexpr uint32_t kCommandNone = 0;
-constexpr uint32_t kCommandClearFaults = UINT32_MAX;  // taken only while kFlagEnable is low
+constexpr uint32_t kCommandClearFaults = UINT32_MAX;  // accepted only while kFlagEnable is low
 
 // TickOutput::state.
 constexpr uint32_t kStateServoMask = 0xFFu;          // servo::Mode
-constexpr uint32_t kStateContact = 1u << 8;          // the tool's sphere reaches into the surface
-constexpr uint32_t kStateOnGuide = 1u << 9;          // snapped on to the guide
+constexpr uint32_t kStateContact = 1u << 8;          // the tool's sphere penetrates the surface
+constexpr uint32_t kStateOnGuide = 1u << 9;          // the guide holds the tool
 constexpr uint32_t kStateExact = 1u << 10;           // the mesh query was exact
 constexpr uint32_t kStateCommandTaken = 1u << 11;    // this tick's command took effect
-constexpr uint32_t kStateCommandRefused = 1u << 12;  // it did not
+constexpr uint32_t kStateCommandRefused = 1u << 12;  // this tick's command was rejected
 constexpr uint32_t kStateReady = 1u << 13;           // an asset is open and proven
 constexpr uint32_t kStateGuideExact = 1u << 14;      // the guide query was exact
-constexpr uint32_t kStateOfBaseHull = 1u << 15;  // the mesh query was not done: its hull was felt
-// 2 bits: sign + 1; 1 = unknown: not pushed on but by the hull
+constexpr uint32_t kStateOfBaseHull = 1u << 15;  // the base hull was rendered instead of the mesh
+// Two bits: sign of the distance + 1. 1: unknown; then only the base hull makes a force.
 constexpr uint32_t kStateSignShift = 16;
 
-/// Everything that a tick depends on besides the controller's state. Nothing else may be read in a
-/// tick.
+/// Everything that a tick depends on, except the controller's state.
 struct TickInput {
   uint32_t tick;      // number of this tick, from 0
   uint32_t clock_us;  // free-running, wraps
   int32_t encoder_counts[kAxes];
   uint32_t flags;
-  // 0: none; 1 + a parameter's index: set it to command_value at this tick; or below.
+  // kCommandNone, kCommandClearFaults, or 1 + index of the parameter to set to command_value.
   uint32_t command;
   float command_value;
 };
@@ -59,12 +58,12 @@ struct TickOutput {
   float distance_m;         // signed distance of the tool's centre to the nearest surface
   float distance_lower_m;   // its certified lower bound (unsigned)
   float penetration_m;      // of the tool's sphere; 0 in free space
-  float guide_deviation_m;  // distance to the guide; 0 where there is none
+  float guide_deviation_m;  // distance to the guide; 0 without a guide
   float guide_lower_m;      // certified lower bound of that distance
   float guide_arc;          // 0 to 1 along the guide
-  uint32_t steps;           // all tree nodes read in this tick
-  uint32_t guide_steps;     // those of the guide query among them
-  uint32_t faults;          // latched, one bit a fault (servo/fault.hpp)
+  uint32_t steps;           // visits: tree nodes read in this tick by all queries
+  uint32_t guide_steps;     // of these, by the guide query
+  uint32_t faults;          // latched; one bit per fault (servo/fault.hpp)
   uint32_t state;           // kState... above
   uint32_t model_sequence;  // of the local model that this tick used
 };

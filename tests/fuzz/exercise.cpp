@@ -27,7 +27,7 @@ constexpr Vec3 kPoints[] = {
 constexpr uint32_t kBudgets[] = {1, 7, UINT32_MAX};
 constexpr uint32_t kStepLimit = 4096;  // far above the nodes of the victim: an unlimited query ends
 
-// Heap copies, each as long as its section to the byte.
+// Heap copies, each exactly as long as its section.
 class Copies {
  public:
   core::Bytes of(core::Bytes bytes) {
@@ -52,7 +52,7 @@ void check_certificate(const query::Certificate& certificate, uint32_t budget, b
   CHECK(finite_point || !certificate.exact);
 }
 
-void feel_mesh(const mesh::View& view) {
+void exercise_mesh(const mesh::View& view) {
   mesh::Hint warm;
   for (const uint32_t budget : kBudgets) {
     for (const Vec3 p : kPoints) {
@@ -81,7 +81,7 @@ void check_curve_answer(const curve::View& view, const curve::Closest& closest, 
   check_certificate(closest.certificate, budget, is_finite(p));
 }
 
-void feel_curve(const curve::View& view) {
+void exercise_curve(const curve::View& view) {
   curve::Hint warm;
   curve::Neighbour memory[3];
   for (const uint32_t budget : kBudgets) {
@@ -95,16 +95,16 @@ void feel_curve(const curve::View& view) {
   }
 }
 
-void feel_field(const field::View& distance_field, const mesh::View& mesh) {
+void exercise_field(const field::View& distance_field, const mesh::View& mesh) {
   mesh::Hint hint;
   for (const Vec3 p : kPoints) {
     const field::Bounds bounds = field::distance_bounds(distance_field, p);
     CHECK(is_finite(bounds.lower_m) && bounds.lower_m >= 0);
     CHECK(is_finite(bounds.upper_m) && bounds.upper_m >= bounds.lower_m);
     CHECK(bounds.sign >= -1 && bounds.sign <= 1);
-    const field::Felt felt = field::closest_point(distance_field, mesh, p, 0.1f, {7}, hint);
-    check_certificate(felt.closest.certificate, 7, is_finite(p));
-    CHECK(is_finite(felt.closest.distance_m));
+    const field::Felt result = field::closest_point(distance_field, mesh, p, 0.1f, {7}, hint);
+    check_certificate(result.closest.certificate, 7, is_finite(p));
+    CHECK(is_finite(result.closest.distance_m));
   }
 }
 
@@ -119,7 +119,7 @@ core::Verdict open_field(const asset::Container& container, const char* name,
   field::View view;
   const core::Verdict verdict = field::open(sections, mesh, view);
   CHECK_EQ(verdict.ok(), view.is_open());
-  if (verdict.ok()) feel_field(view, mesh);
+  if (verdict.ok()) exercise_field(view, mesh);
   return verdict;
 }
 
@@ -140,9 +140,9 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   const core::Verdict verdict = mesh::open(sections, view);
   CHECK_EQ(verdict.ok(), view.is_open());
   if (!verdict.ok()) return verdict;
-  feel_mesh(view);
+  exercise_mesh(view);
   const tools::MeshAhead ahead(view);  // sound trees that no baker makes, too
-  feel_mesh(ahead.view());
+  exercise_mesh(ahead.view());
   const query::Probes probes =
       query::read_probes(copies.of(container.find(mesh::kProbesSection, name)));
   (void)mesh::probe_hash(view, probes.points);
@@ -163,7 +163,7 @@ core::Verdict open_curve(const asset::Container& container, const char* name) {
   const core::Verdict verdict = curve::open(sections, view);
   CHECK_EQ(verdict.ok(), view.is_open());
   if (!verdict.ok()) return verdict;
-  feel_curve(view);
+  exercise_curve(view);
   const query::Probes probes =
       query::read_probes(copies.of(container.find(curve::kProbesSection, name)));
   (void)curve::probe_hash(view, probes.points);
@@ -172,7 +172,7 @@ core::Verdict open_curve(const asset::Container& container, const char* name) {
 
 }  // namespace
 
-core::Verdict feel(const std::vector<uint8_t>& file, const char* only) {
+core::Verdict exercise(const std::vector<uint8_t>& file, const char* only) {
   asset::Container container;
   const core::Verdict verdict =
       asset::open({file.data(), static_cast<uint32_t>(file.size())}, container);
