@@ -9,19 +9,8 @@
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
 
-namespace asset = firmtouch::asset;
-namespace core = firmtouch::core;
-namespace curve = firmtouch::curve;
-namespace mesh = firmtouch::mesh;
-namespace params = firmtouch::params;
-namespace record = firmtouch::record;
-namespace servo = firmtouch::servo;
-namespace tools = firmtouch::tools;
-
-using firmtouch::FullController;
-using firmtouch::Selection;
-
-using namespace firmtouch::controller_test;
+using namespace firmtouch;  // NOLINT: a test file
+using namespace controller_test;
 
 TEST(RideOnThePartIsFeltAndKeepsEveryLimit) {
   Ride ride;

@@ -7,12 +7,7 @@
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
 
-namespace params = firmtouch::params;
-namespace record = firmtouch::record;
-namespace servo = firmtouch::servo;
-
-using firmtouch::FullController;
-
+using namespace firmtouch;  // NOLINT: a test file
 namespace {
 
 FullController g_controller;

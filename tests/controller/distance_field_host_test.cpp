@@ -7,15 +7,8 @@
 #include "firmtouch/field/layout.hpp"
 #include "harness/test.hpp"
 
-namespace field = firmtouch::field;
-namespace mesh = firmtouch::mesh;
-namespace record = firmtouch::record;
-namespace servo = firmtouch::servo;
-namespace tools = firmtouch::tools;
-
-using firmtouch::FullController;
-
-using namespace firmtouch::controller_test;
+using namespace firmtouch;  // NOLINT: a test file
+using namespace controller_test;
 
 namespace {
 

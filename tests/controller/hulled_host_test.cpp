@@ -8,16 +8,8 @@
 #include "firmtouch/hull/layout.hpp"
 #include "harness/test.hpp"
 
-namespace hull = firmtouch::hull;
-namespace mesh = firmtouch::mesh;
-namespace params = firmtouch::params;
-namespace record = firmtouch::record;
-namespace servo = firmtouch::servo;
-namespace tools = firmtouch::tools;
-
-using firmtouch::FullController;
-
-using namespace firmtouch::controller_test;
+using namespace firmtouch;  // NOLINT: a test file
+using namespace controller_test;
 
 namespace {
 

@@ -1,17 +1,14 @@
 // What a search that looks ahead takes without a branch is what branches would give.
 #include "firmtouch/math/isa_ahead.hpp"
 
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
 
 namespace {
 
-uint32_t g_seed = 11;
-uint32_t next_random() {
-  g_seed ^= g_seed << 13, g_seed ^= g_seed >> 17, g_seed ^= g_seed << 5;
-  return g_seed;
-}
+firmtouch::test::Xorshift next_random(11);
 uint64_t any_word() {
   const uint64_t low = next_random();
   return next_random() % 5 == 0 ? UINT64_MAX : uint64_t{next_random()} << 32 | low;

@@ -3,17 +3,14 @@
 
 #include <stdint.h>
 
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
 
 namespace {
 
-uint32_t g_seed = 3;
-uint32_t next_random() {
-  g_seed ^= g_seed << 13, g_seed ^= g_seed >> 17, g_seed ^= g_seed << 5;
-  return g_seed;
-}
+firmtouch::test::Xorshift next_random(3);
 
 constexpr uint32_t kSpecials[] = {0x00000000u, 0x80000000u, 0x00000001u, 0x807FFFFFu, 0x3F7FFFFFu,
                                   0x3F800000u, 0x3F800001u, 0xBF800000u, 0x7F7FFFFFu, 0x7F800000u,

@@ -3,17 +3,14 @@
 
 #include <stdint.h>
 
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
 
 namespace {
 
-uint32_t g_seed = 5;
-uint32_t next_random() {
-  g_seed ^= g_seed << 13, g_seed ^= g_seed >> 17, g_seed ^= g_seed << 5;
-  return g_seed;
-}
+firmtouch::test::Xorshift next_random(5);
 
 uint32_t pair_of(int32_t low, int32_t high) {
   return (static_cast<uint32_t>(low) & 0xFFFFu) | static_cast<uint32_t>(high) << 16;

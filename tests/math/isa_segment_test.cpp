@@ -1,17 +1,14 @@
 // The variants of a segment against boxes give the bits of the portable definition.
 #include "firmtouch/math/isa_segment.hpp"
 
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
 
 namespace {
 
-uint32_t g_seed = 7;
-uint32_t next_random() {
-  g_seed ^= g_seed << 13, g_seed ^= g_seed >> 17, g_seed ^= g_seed << 5;
-  return g_seed;
-}
+firmtouch::test::Xorshift next_random(7);
 float unit() { return static_cast<float>(next_random() >> 8) * 0x1p-24f; }
 
 struct Segment {

@@ -10,17 +10,14 @@
 #include "firmtouch/math/arithmetic_check.hpp"
 #include "firmtouch/math/elementary.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
 
 namespace {
 
-uint32_t g_seed = 1;
-uint32_t next_random() {
-  g_seed ^= g_seed << 13, g_seed ^= g_seed >> 17, g_seed ^= g_seed << 5;
-  return g_seed;
-}
+firmtouch::test::Xorshift next_random(1);
 
 bool is_nan(float value) { return (math::bits_of(value) & 0x7FFFFFFFu) > 0x7F800000u; }
 

@@ -12,15 +12,7 @@
 #include "mesh/brute_force.hpp"
 #include "surface/make/make_part.hpp"
 
-namespace hull = firmtouch::hull;
-namespace math = firmtouch::math;
-namespace mesh = firmtouch::mesh;
-namespace query = firmtouch::query;
-namespace scene = firmtouch::scene;
-namespace servo = firmtouch::servo;
-namespace tools = firmtouch::tools;
-namespace mesh_test = firmtouch::mesh_test;
-
+using namespace firmtouch;  // NOLINT: a test file
 namespace {
 
 constexpr float kRadius_m = 0.002f;

@@ -8,12 +8,9 @@
 #include "harness/test.hpp"
 #include "scene/guide_rig.hpp"
 
-namespace curve = firmtouch::curve;
-namespace math = firmtouch::math;
-namespace servo = firmtouch::servo;
-
-using firmtouch::scene_test::is_near;
-using firmtouch::scene_test::Rig;
+using namespace firmtouch;  // NOLINT: a test file
+using scene_test::is_near;
+using scene_test::Rig;
 
 TEST(GuideTakesHoldWithinItsSnapAndLetsGoBeyondItsRelease) {
   Rig rig;

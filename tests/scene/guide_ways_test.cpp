@@ -8,14 +8,10 @@
 #include "harness/test.hpp"
 #include "scene/guide_rig.hpp"
 
-namespace curve = firmtouch::curve;
-namespace math = firmtouch::math;
-namespace scene = firmtouch::scene;
-namespace servo = firmtouch::servo;
-
-using firmtouch::curve_test::SmallCurve;
-using firmtouch::scene_test::is_near;
-using firmtouch::scene_test::Rig;
+using namespace firmtouch;  // NOLINT: a test file
+using curve_test::SmallCurve;
+using scene_test::is_near;
+using scene_test::Rig;
 
 namespace {
 

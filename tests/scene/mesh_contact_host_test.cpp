@@ -14,14 +14,7 @@
 #include "harness/test.hpp"
 #include "surface/surface.hpp"
 
-namespace field = firmtouch::field;
-namespace math = firmtouch::math;
-namespace mesh = firmtouch::mesh;
-namespace query = firmtouch::query;
-namespace scene = firmtouch::scene;
-namespace servo = firmtouch::servo;
-namespace tools = firmtouch::tools;
-
+using namespace firmtouch;  // NOLINT: a test file
 namespace {
 
 constexpr float kHalf = 0.05f;  // of the cube's side, m

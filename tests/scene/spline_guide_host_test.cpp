@@ -13,15 +13,8 @@
 
 namespace {
 
-namespace curve = firmtouch::curve;
-namespace math = firmtouch::math;
-namespace query = firmtouch::query;
-namespace scene = firmtouch::scene;
-namespace servo = firmtouch::servo;
-namespace spline = firmtouch::spline;
-namespace tools = firmtouch::tools;
-
-using firmtouch::curve_test::SmallCurve;
+using namespace firmtouch;  // NOLINT: a test file
+using curve_test::SmallCurve;
 
 // The corners as a spline of degree 1.
 struct Splines {

@@ -13,11 +13,8 @@
 
 namespace {
 
-using firmtouch::tools::Point;
-namespace query = firmtouch::query;
-namespace spline = firmtouch::spline;
-namespace spline_test = firmtouch::spline_test;
-namespace tools = firmtouch::tools;
+using namespace firmtouch;  // NOLINT: a test file
+using tools::Point;
 
 bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
 double wide(float value) { return static_cast<double>(value); }

@@ -13,18 +13,12 @@
 
 namespace {
 
-using firmtouch::math::Vec3;
-using firmtouch::query::Budget;
-using firmtouch::query::kUnlimited;
-using firmtouch::spline::Hint;
-using firmtouch::spline_test::BakedModel;
-using firmtouch::spline_test::bezier;
-using firmtouch::spline_test::circle;
-using firmtouch::spline_test::of;
-using firmtouch::spline_test::SampledTruth;
-namespace spline = firmtouch::spline;
-namespace spline_test = firmtouch::spline_test;
-namespace tools = firmtouch::tools;
+using namespace firmtouch;  // NOLINT: a test file
+using namespace spline_test;
+using math::Vec3;
+using query::Budget;
+using query::kUnlimited;
+using spline::Hint;
 
 bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
 

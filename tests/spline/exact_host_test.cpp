@@ -14,17 +14,12 @@
 
 namespace {
 
-using firmtouch::math::Vec3;
-using firmtouch::query::Budget;
-using firmtouch::spline::Hint;
-using firmtouch::spline_test::bezier;
-using firmtouch::spline_test::circle;
-using firmtouch::spline_test::ExactDistance;
-using firmtouch::spline_test::of;
+using namespace firmtouch;  // NOLINT: a test file
+using namespace spline_test;
+using math::Vec3;
+using query::Budget;
+using spline::Hint;
 using tools_point = firmtouch::tools::Point;  // in double
-namespace spline = firmtouch::spline;
-namespace spline_test = firmtouch::spline_test;
-namespace tools = firmtouch::tools;
 
 bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
 // No query here needs as many; one that went on for ever would say so.

@@ -14,14 +14,11 @@
 
 namespace {
 
-using firmtouch::math::Vec3;
-using firmtouch::query::Budget;
-using firmtouch::query::kUnlimited;
-using firmtouch::spline::CurveHint;
-namespace core = firmtouch::core;
-namespace spline = firmtouch::spline;
-namespace spline_test = firmtouch::spline_test;
-namespace tools = firmtouch::tools;
+using namespace firmtouch;  // NOLINT: a test file
+using math::Vec3;
+using query::Budget;
+using query::kUnlimited;
+using spline::CurveHint;
 using spline_test::eight;
 using spline_test::Guide;
 using spline_test::hairpin;

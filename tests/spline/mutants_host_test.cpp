@@ -11,12 +11,9 @@
 
 namespace {
 
-using firmtouch::spline_test::ExactDistance;
-using firmtouch::tools::Point;
-namespace query = firmtouch::query;
-namespace spline = firmtouch::spline;
-namespace spline_test = firmtouch::spline_test;
-namespace tools = firmtouch::tools;
+using namespace firmtouch;  // NOLINT: a test file
+using spline_test::ExactDistance;
+using tools::Point;
 
 // Newton from the middle of each of `leaves` parts of a piece, ended where it stands still.
 double by_convergence(const std::vector<tools::BezierCurve>& pieces, const Point& p, int leaves) {

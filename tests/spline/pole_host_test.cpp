@@ -11,12 +11,10 @@
 
 namespace {
 
-using firmtouch::math::Vec3;
-using firmtouch::query::kUnlimited;
-using firmtouch::spline_test::BakedModel;
-using firmtouch::spline_test::of;
-namespace spline = firmtouch::spline;
-namespace tools = firmtouch::tools;
+using namespace firmtouch;  // NOLINT: a test file
+using namespace spline_test;
+using math::Vec3;
+using query::kUnlimited;
 
 double wide(float value) { return static_cast<double>(value); }
 

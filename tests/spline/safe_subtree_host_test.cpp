@@ -13,15 +13,12 @@
 
 namespace {
 
-using firmtouch::math::Vec3;
-using firmtouch::query::kUnlimited;
-using firmtouch::spline::Hint;
-using firmtouch::spline_test::BakedModel;
-using firmtouch::spline_test::of;
-namespace query = firmtouch::query;
-namespace spline = firmtouch::spline;
-namespace spline_test = firmtouch::spline_test;
-namespace tools = firmtouch::tools;
+using namespace firmtouch;  // NOLINT: a test file
+using math::Vec3;
+using query::kUnlimited;
+using spline::Hint;
+using spline_test::BakedModel;
+using spline_test::of;
 
 int most_of(uint32_t seed) { return static_cast<int>(1 + seed % 3); }
 double wide(float value) { return static_cast<double>(value); }

@@ -94,12 +94,7 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
 }
 
 field::Sections field_sections(const std::vector<Section>& sections, const std::string& name) {
-  const auto find = [&](uint32_t type) {
-    for (const Section& s : sections)
-      if (s.type == type && s.name == name)
-        return core::Bytes(s.bytes.data(), static_cast<uint32_t>(s.bytes.size()));
-    return core::Bytes();
-  };
+  const auto find = [&](uint32_t type) { return find_section(sections, name, type); };
   return {find(field::kHeadSection), find(field::kDistancesSection), find(field::kSeedsSection)};
 }
 

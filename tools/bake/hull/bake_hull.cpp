@@ -68,12 +68,7 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
 }
 
 hull::Sections hull_sections(const std::vector<Section>& sections, const std::string& name) {
-  const auto find = [&](uint32_t type) {
-    for (const Section& s : sections)
-      if (s.type == type && s.name == name)
-        return core::Bytes(s.bytes.data(), static_cast<uint32_t>(s.bytes.size()));
-    return core::Bytes();
-  };
+  const auto find = [&](uint32_t type) { return find_section(sections, name, type); };
   return {find(hull::kHeadSection),        find(hull::kVerticesSection),
           find(hull::kOriginsSection),     find(hull::kRecordsSection),
           find(hull::kPlacesSection),      find(hull::kStarBoxesSection),

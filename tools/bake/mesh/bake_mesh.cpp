@@ -205,12 +205,7 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
 }
 
 mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::string& name) {
-  const auto find = [&](uint32_t type) {
-    for (const Section& s : sections)
-      if (s.type == type && s.name == name)
-        return core::Bytes(s.bytes.data(), static_cast<uint32_t>(s.bytes.size()));
-    return core::Bytes();
-  };
+  const auto find = [&](uint32_t type) { return find_section(sections, name, type); };
   mesh::Sections found;
   found.head = find(mesh::kHeadSection);
   found.vertices = find(mesh::kVerticesSection);
