@@ -1,10 +1,10 @@
-#include "lab/spline_pictures.hpp"
+#include "lab/pictures.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "bench/problem.hpp"
 #include "footpoint/tracker.hpp"
+#include "lab/picture.hpp"
 #include "spline/read_spline.hpp"
 #include "spline/sample_splines.hpp"
 
@@ -15,83 +15,6 @@ using tools::Footpoints;
 using tools::Point;
 
 constexpr size_t kPositions = 200;
-constexpr double kSize = 720;  // of a picture, pixels
-
-/// A picture seen from above (of the plane) or askew (of space); y and z point up.
-class Picture {
- public:
-  Picture(Point low, Point high, bool is_askew) : is_askew_(is_askew) {
-    double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
-    for (int k = 0; k < 8; ++k) {
-      double x = 0, y = 0;
-      seen({k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z}, x, y);
-      left = std::fmin(left, x), right = std::fmax(right, x);
-      bottom = std::fmin(bottom, y), top = std::fmax(top, y);
-    }
-    scale_ = kSize / std::fmax(right - left, top - bottom);
-    left_ = left, top_ = top;
-    width_ = (right - left) * scale_, height_ = (top - bottom) * scale_;
-  }
-
-  void line(const std::vector<Point>& points, const char* style) {
-    body_ += "<polyline fill=\"none\" " + std::string(style) + " points=\"";
-    char text[40];
-    for (const Point& p : points) {
-      double x = 0, y = 0;
-      place(p, x, y);
-      std::snprintf(text, sizeof(text), "%.1f,%.1f ", x, y);
-      body_ += text;
-    }
-    body_ += "\"/>\n";
-  }
-  void dot(Point p, double radius, const char* style) {
-    double x = 0, y = 0;
-    place(p, x, y);
-    char text[160];
-    std::snprintf(text, sizeof(text), "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" %s/>\n", x, y,
-                  radius, style);
-    body_ += text;
-  }
-  std::string svg() const {
-    char head[240];
-    std::snprintf(head, sizeof(head),
-                  "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-10 -10 %.0f %.0f\">\n"
-                  "<rect x=\"-10\" y=\"-10\" width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-                  width_ + 20, height_ + 20);
-    return head + body_ + "</svg>\n";
-  }
-
- private:
-  void seen(Point p, double& x, double& y) const {
-    x = is_askew_ ? 0.87 * p.x - 0.5 * p.y : p.x;
-    y = is_askew_ ? 0.25 * p.x + 0.43 * p.y + 0.87 * p.z : p.y;
-  }
-  void place(Point p, double& x, double& y) const {
-    seen(p, x, y);
-    x = (x - left_) * scale_, y = (top_ - y) * scale_;
-  }
-  bool is_askew_;
-  double scale_ = 1, left_ = 0, top_ = 0, width_ = 0, height_ = 0;
-  std::string body_;
-};
-
-constexpr char kShape[] = "stroke=\"black\" stroke-width=\"2.5\"";
-constexpr char kNet[] = "stroke=\"black\" stroke-width=\"0.7\"";
-constexpr char kPath[] = "stroke=\"#888\" stroke-width=\"1.6\"";
-constexpr char kJoin[] = "stroke=\"#36c\" stroke-width=\"0.6\"";
-constexpr char kZero[] = "stroke=\"#c33\" stroke-width=\"0.5\" stroke-opacity=\"0.6\"";
-constexpr char kFound[] = "fill=\"#fc0\" stroke=\"#850\" stroke-width=\"0.5\"";
-
-void write(const Options& options, const std::string& name, const Picture& picture,
-           Report& report) {
-  const std::string path = options.figures + "/" + name + ".svg", text = picture.svg();
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool written =
-      file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (file == nullptr || std::fclose(file) != 0 || !written)
-    throw Problem(path + ": cannot be written: give --figures a folder that exists");
-  report.figure("drawn: " + name + ".svg", "", static_cast<double>(text.size()), "bytes");
-}
 
 std::vector<Point> samples_of(const tools::SplineCurve& c, size_t count) {
   std::vector<Point> points;
@@ -136,7 +59,7 @@ void draw_curve(const Options& options, const std::string& name, uint64_t seed, 
   Picture plane(low, high, false);
   draw_joins(plane, path, found);
   plane.line(samples_of(curve, 600), kShape);
-  write(options, with_zero_set ? name + "a" : name, plane, report);
+  write_picture(options, with_zero_set ? name + "a" : name, plane, report);
   if (!with_zero_set) return;
   Picture space(low, high + Point{0, 0, 1}, true);
   for (int k = 0; k <= 150; ++k) {
@@ -165,7 +88,7 @@ void draw_curve(const Options& options, const std::string& name, uint64_t seed, 
   std::vector<Point> lifted = samples_of(curve, 600);
   for (size_t k = 0; k < lifted.size(); ++k) lifted[k].z = static_cast<double>(k) / 600;
   space.line(lifted, kShape);
-  write(options, name + "b", space, report);
+  write_picture(options, name + "b", space, report);
 }
 
 void draw_net(Picture& picture, const tools::SplineSurface& s, int lines) {
@@ -199,7 +122,7 @@ void draw_surfaces(const Options& options, const std::string& name,
   Picture picture(middle - reach, middle + reach, true);
   draw_joins(picture, path, nearest(feet, 4, path));
   for (const tools::SplineSurface& s : surfaces) draw_net(picture, s, lines);
-  write(options, name, picture, report);
+  write_picture(options, name, picture, report);
 }
 
 }  // namespace
