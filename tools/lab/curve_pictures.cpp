@@ -33,11 +33,11 @@ Point on_curve(double share) {
   return Point{kStrand_m / 2 + kHalfGap_m * std::cos(angle), kHalfGap_m * std::sin(angle), 0};
 }
 
-// A hand that is led along and three times strays 6.5 mm toward the other strand.
+// A hand that is led along and twice on each strand strays 6.5 mm toward the other strand.
 Point of_device(double share) {
   const Point p = on_curve(share);
   const double side = share < 0.5 ? -1 : 1;
-  const double astray_m = 0.0065 * std::pow(std::sin(kTurn * 1.5 * share), 2);
+  const double astray_m = 0.0065 * std::pow(std::sin(kTurn * 2 * share), 2);
   return p + Point{0, side * astray_m, 0};
 }
 
