@@ -1,4 +1,4 @@
-# What the firmware's archives (build/PRESET/firmware/libfirmtouch_*.a) ask of the world, and what is in them. On every
+# What the firmware's archives (build/PRESET/firmware/libfirmtouch_*.a) need from outside, and what is in them. On every
 # target: memcpy and its three kin, and of libgcc only what is listed here by name; no static constructors; no double;
 # no fused multiply-add. Needs the presets built. Read by tests/check/run.
 
@@ -23,7 +23,7 @@ allowed() {
   printf '%s\n' memcpy memset memmove memcmp
   case $1 in
     host)
-      echo _GLOBAL_OFFSET_TABLE_  # position-independent code asks for it, the linker makes it
+      echo _GLOBAL_OFFSET_TABLE_  # position-independent code needs it, the linker makes it
       echo __stack_chk_fail       # distributions that protect every stack (not Debian)
       ;;
     mps2-an500 | netduinoplus2)

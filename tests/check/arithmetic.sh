@@ -36,7 +36,7 @@ with_flags() {
     esac
     [ "$(built_with "$flags,$no_errors")" = unsound ] || complain "$flags goes unnoticed at run time"
   done
-  for flags in -ffast-math -ffinite-math-only; do  # of these every compiler tells
+  for flags in -ffast-math -ffinite-math-only; do  # every compiler reports these
     [ "$(built_with "$flags")" = refused ] || complain "$flags is not refused by math/isa.hpp"
   done
 }

@@ -1,5 +1,5 @@
-# clang-format over every source that is there (found, not asked of git). Read by tests/check/run.
-# Version 14 (Debian 12) is the judge: others lay out a few things differently.
+# clang-format over every source that is there (found in the tree, not listed by git). Read by tests/check/run.
+# Version 14 (Debian 12) decides: others lay out a few things differently.
 
 formatter() {
   for name in clang-format-14 clang-format; do

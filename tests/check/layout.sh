@@ -30,7 +30,7 @@ check() {
 20000 VERIFICATION.md
 EOF
   for module in firmware/firmtouch/*/; do
-    case $module in */arch/) continue ;; esac
+    case $module in */arch/) continue ;; esac  # primitives of math
     page=${module}README.md
     bytes=$(wc -c <"$page" 2>/dev/null) || { complain "$page is missing: figure, algorithm, errors, cost, how to change it"; continue; }
     [ "$bytes" -le 10000 ] && [ "$bytes" -ge 3000 ] || complain "$page: $bytes bytes; 3,000 to 10,000 are a page"

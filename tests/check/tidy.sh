@@ -1,6 +1,6 @@
 # clang-tidy over every source of the firmware that the host build compiles (.clang-tidy says by which rules). Needs
-# build/host/compile_commands.json, which tools/test makes. Version 14 (Debian 12) is the judge: others know other rules.
-# Read by tests/check/run; takes a minute, so only tools/test --long asks for it.
+# build/host/compile_commands.json, which tools/test makes. Version 14 (Debian 12) decides: others know other rules.
+# Read by tests/check/run; takes a minute, so only tools/test --long runs it.
 
 judge() {
   for name in clang-tidy-14 clang-tidy; do

@@ -20,7 +20,7 @@ BadModelsAreRefusedWithPlaceCountAndRemedy() {
   box | sed 's/^v 1/v 1,5/' >comma.obj; refused comma.obj ':2:' 'with a point' '4 times' 'last at line 7'
   printf 'solid x\n facet normal 0 0 1\n' >cut.stl; refused cut.stl ':2:' 'cut short' 'export'
   { printf '%080d' 0; printf '\002\0\0\0'; printf '%050d' 0; } >cut.stl
-  refused cut.stl 'byte 80' 'tells of 2 facets' 'holds 1 whole' 'export'
+  refused cut.stl 'byte 80' 'states 2 facets' 'holds 1 whole' 'export'
   printf 'PK\003\004zip' >x.stl; refused x.stl 'zip archive'
   printf 'ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\nend_header\nabcd' >cut.ply
   refused cut.ply 'byte ' 'vertex 0' 'cut short' 'export'

@@ -8,9 +8,8 @@
 
 #include "live/browser.hpp"
 
-// The live page in a browser, against the controller program in an emulator whose joints a hand of
-// numbers moves. What a person does is done to the page's own buttons and inputs, and what he would
-// read is read from it.
+// The live page in a browser, against the controller program in an emulator whose joints a
+// simulated hand moves. The test uses the page's own buttons and inputs, and reads what it shows.
 
 namespace {
 
@@ -96,7 +95,7 @@ void stiffness(Test& test) {
   const double before_N = test.peak("output.force_N", kPressTicks);
   test.type("contact_stiffness_N_per_m", "0");
   test.type("guide_stiffness_N_per_m", "0");
-  test.check("a stiffness is changed, acknowledged, and told as the controller has it",
+  test.check("a stiffness is changed, acknowledged, and shown as the controller has it",
              test.said("contact_stiffness_N_per_m", "acknowledged: 800 ") &&
                  test.said("guide_stiffness_N_per_m", "acknowledged: 400 "));
   test.type("contact_damping_N_s_per_m", "0");
@@ -115,7 +114,7 @@ void stiffness(Test& test) {
 
 void refusals(Test& test) {
   test.type("contact_stiffness_N_per_m", "1e9");
-  test.check("a value out of range is not sent, and the range told",
+  test.check("a value out of range is not sent, and the range is shown",
              test.said("contact_stiffness_N_per_m", "0 to 20000 N/m"));
   test.check("the controller refuses it by itself",
              test.becomes("page.session.set(1, 1e9).then(r => r.why.includes('out of range'))",
@@ -130,7 +129,7 @@ void refusals(Test& test) {
 
 void faults(Test& test) {
   test.type("max_speed_mps", "0.01");
-  test.check("a fault is told in words, with what governs it",
+  test.check("a fault is shown in words, with what governs it",
              test.becomes("/encoder.*max_speed_mps/.test($('faults').textContent)", kPatience_s));
   test.type("max_speed_mps", "5");
   test.said("max_speed_mps", "acknowledged");
@@ -157,12 +156,12 @@ constexpr const char* kStandInPort =
 
 void serial(Test& test) {
   test.browser.evaluate("$('leave').click()");
-  test.check("told to, it leaves: what is shown is called the last that was told",
+  test.check("on request it leaves: what is shown is called the last that was reported",
              test.becomes("$('banner').textContent === 'Disconnected.'", 5) &&
-                 test.becomes("$('state').textContent.startsWith('State, as last told')", 1) &&
+                 test.becomes("$('state').textContent.startsWith('State, as last reported')", 1) &&
                  test.becomes("$('flow').textContent === 'no records'", 1));
   test.browser.evaluate(kStandInPort);
-  // What its button does, but for every 100th record: each byte of the emulator's is a message here.
+  // As its button does, but with every 100th record: each byte of the emulator is a message here.
   test.browser.evaluate(
       "page.connect(async (take, ended) => ({ ...await openSerial(take, ended), decimation: 100 "
       "}))");
@@ -219,7 +218,7 @@ int main(int count, char** words) {
   ::kill(static_cast<pid_t>(std::atoi(words[3])), SIGKILL);
   test.check("the plug is pulled: it says so",
              test.becomes("$('banner').textContent.includes('The link is gone')", 5) &&
-                 test.becomes("$('state').textContent.startsWith('State, as last told')", 1));
+                 test.becomes("$('state').textContent.startsWith('State, as last reported')", 1));
   picture("gone");
   std::printf("      a second at 10 kHz, %s\n", browser.evaluate(kCostOf10kHz).c_str());
   browser.resize(390, 844);

@@ -98,7 +98,7 @@ bool is_done(Work work) {
   }
 }
 
-TEST(AForgedLogIsToldDrawnAndCutWithoutHarm) {
+TEST(ForgedLog_IsSummarizedDrawnAndCutWithoutHarm) {
   const Folder folder;
   const std::string path = folder.name + "/wild.ftl", cut = folder.name + "/cut.ftl";
   Random random(17);

@@ -78,7 +78,7 @@ Bytes damaged(Random& random, const Pair& pair) {
   return bytes;
 }
 
-// A splice may have put all of the other log's head in place of this one's: then it is that log.
+// A splice may have replaced this log's head by the other's: then it is that log.
 bool is_other(const Bytes& bytes, const Pair& pair) {
   const auto behind_head = static_cast<long>(first_block(pair.other));
   return bytes.size() >= first_block(pair.other) &&

@@ -35,7 +35,7 @@ TEST(TheHeadSaysWhatTheRecordsAre) {
         }()));
 }
 
-TEST(MissingRecordsAreToldWhereTheyAreMissing) {
+TEST(MissingRecords_AreReportedWhereTheyAreMissing) {
   // 2 lost inside a block, 3 between blocks, 4 at the very end.
   log::MemorySink sink;
   log::Writer writer(sink, header());

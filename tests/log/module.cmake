@@ -7,7 +7,7 @@ if(TARGET firmtouch_tools_log)
   # A hundred million tries (--long).
   set_tests_properties(log.ADamagedLogGivesNoBlockThatWasNotWritten PROPERTIES TIMEOUT 7200)
   # Ten minutes of real time (--long).
-  set_tests_properties(log.AtTenKilohertzADiskThatStallsCostsTheDefaultRingNothingAndASmallOneWhatItTells
+  set_tests_properties(log.Stall_DefaultRingLosesNothing_At10kHz
     PROPERTIES TIMEOUT 1800)
   if(TARGET firmtouch-sim AND TARGET firmtouch-app-posix)
     add_test(NAME log.commands COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_commands $<TARGET_FILE_DIR:firmtouch-sim>)

@@ -127,7 +127,7 @@ struct Lane {
 
 // In real time: ten minutes and a stall of 5 s (FIRMTOUCH_LONG), else a second and half of one. One
 // ring of the default size, and one that holds 0.1 s.
-TEST(AtTenKilohertzADiskThatStallsCostsTheDefaultRingNothingAndASmallOneWhatItTells) {
+TEST(Stall_DefaultRingLosesNothing_At10kHz) {
   const Folder folder;
   Lane<65536> usual(folder.name + "/usual.ftl");
   Lane<1024> small(folder.name + "/small.ftl");
@@ -176,12 +176,12 @@ TEST(AtTenKilohertzADiskThatStallsCostsTheDefaultRingNothingAndASmallOneWhatItTe
   }
 }
 
-TEST(AFileThatCannotBeMadeIsToldAndHurtsNobody) {
+TEST(FileThatCannotBeMade_IsReportedWithoutHarm) {
   auto ring = std::make_unique<Ring>();
   log::RingRecords<Ring> records(*ring);
   log::Recorder recorder(records, header(), {}, "/nowhere/run.ftl");
   for (uint32_t i = 0; i < 10000; ++i) ring->push(payload_of(i));
-  std::string trouble;  // told while it goes on
+  std::string trouble;  // reported while recording continues
   for (int i = 0; i < 1000 && trouble.empty(); ++i, trouble = recorder.trouble())
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   CHECK(trouble.find("/nowhere/run.ftl") != std::string::npos);
@@ -190,7 +190,7 @@ TEST(AFileThatCannotBeMadeIsToldAndHurtsNobody) {
   CHECK_EQ(ring->dropped(), 10000u - 4096u);
 }
 
-// Writes without end, telling after each step how many records are on the disk.
+// Writes without end, reporting after each step how many records are on the disk.
 [[noreturn]] void write_until_killed(const std::string& path, std::atomic<uint64_t>& reported) {
   auto ring = std::make_unique<Ring>();
   log::RingRecords<Ring> records(*ring);

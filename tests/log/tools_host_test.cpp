@@ -70,7 +70,7 @@ std::vector<Tick> sample_ticks() {
 
 bool near(double a, double b) { return std::fabs(a - b) <= 1e-9 * std::fabs(b) + 1e-12; }
 
-TEST(StatisticsTellWhatWasPlanted) {
+TEST(StatisticsReportWhatWasPlanted) {
   Folder folder;
   const std::string path = folder.name + "/a.ftl";
   write(path, sample_ticks());
@@ -197,7 +197,7 @@ TEST(APlotShowsItsLinesBrokenWhereRecordsAreMissing) {
         }).find("no field output.colour") != std::string::npos);
 }
 
-TEST(ARunThatStoodStillOrLostItsNumbersIsDrawnAndTold) {
+TEST(RunThatStoodStillOrLostItsNumbers_IsDrawnWithANote) {
   Folder folder;
   const std::string path = folder.name + "/a.ftl";
   std::vector<Tick> ticks = sample_ticks();
@@ -214,7 +214,7 @@ TEST(ARunThatStoodStillOrLostItsNumbersIsDrawnAndTold) {
   write(path, ticks);
   const std::string svg = log::plot(path, {}, false);
   CHECK_EQ(count(svg, "nan") + count(svg, "inf"), 0u);
-  CHECK_EQ(count(svg, "2 with values that are no numbers"), 1u);
+  CHECK_EQ(count(svg, "2 with values that are not finite"), 1u);
   log::Reader reader(log::open_file(path), path);
   const std::string reported = log::text_of(log::statistics_of(reader));
   CHECK_EQ(count(reported, "output.force_N[1]: first at record 550, in 2 records"), 1u);

@@ -74,7 +74,7 @@ TEST(CrossingPairsAreThoseOfBruteForce) {
       if (k % 3 == 2) soup.faces.push_back({k - 2, k - 1, k});
     }
     soup.vertices[299] = soup.vertices[0];
-    // Soup does not close: only the pairs are asked for here, the sides mean nothing.
+    // Soup does not close: only the pairs matter here, the signs mean nothing.
     const Crossings found = find_crossings(soup);
     CHECK(found.pairs == pairs_by_force(soup));
     CHECK_LT(100, found.pairs.size());

@@ -164,7 +164,7 @@ TEST(PlyProblemsAreNamedWithTheirPlace) {
   CHECK(refuses(nan, "a.ply", "vertex 7", "not finite"));
 }
 
-TEST(TheFirstProblemIsToldWithHowOftenAndWhereLast) {
+TEST(FirstProblem_IsReportedWithCountAndLastPosition) {
   CHECK(refuses("v 0 nan 0\nv 0 0 inf\nv 1 1 1\nv 2 x nan\nf 1 2 3\n", "a.obj", ":1:",
                 "`nan` is not finite: mend it, or export the model again (3 times, last at line 4; "
                 "problems of other kinds: 1)"));

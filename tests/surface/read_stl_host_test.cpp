@@ -202,14 +202,14 @@ TEST(StlBinaryProblemsAreNamedWithTheirByte) {
   wrong_count[80] = 0;
   CHECK(refuses(wrong_count, " byte 80:", "600 bytes too many"));
   wrong_count.replace(80, 4, "\xFF\xFF\xFF\xFF");
-  CHECK(refuses(wrong_count, " byte 80:", "tells of 4294967295 facets"));
+  CHECK(refuses(wrong_count, " byte 80:", "states 4294967295 facets"));
   CHECK(refuses(bytes.substr(0, 80) + std::string(4, '\0'), "", "no vertices"));
   const float nan = std::numeric_limits<float>::quiet_NaN();
   CHECK(refuses(with_float(bytes, 84 + 50 * 3 + 16, nan),
                 " byte 234, facet 3 (from 0):", "not a finite 32-bit number of metres"));
   CHECK(refuses(with_float(with_float(bytes, 84 + 12, nan), 84 + 50 * 3 + 16, nan),
                 "(2 times, last at facet 3 (from 0), byte 234)", "not a finite"));
-  CHECK(refuses(cube_obj(), "", "tells of"));
+  CHECK(refuses(cube_obj(), "", "states"));
   CHECK(refuses(cube_ply_ascii(), "", "is a PLY file by its content, not STL"));
   CHECK(refuses("v 0 0 0\n", "", "neither begins with the word `solid`"));
 }

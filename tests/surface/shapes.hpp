@@ -1,5 +1,5 @@
 #pragma once
-// Small surfaces made by hand, and judges of surfaces that share no code with the tools.
+// Small surfaces made by hand, and oracles for surfaces that share no code with the tools.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Corners, edges and faces that touch the surface elsewhere: found exactly, refused where the side of
-// a nearest point could be told by the wrong sheet, and let through where only convex ones meet.
+// Corners, edges and faces that touch the surface elsewhere: found exactly, rejected if the sign
+// of a nearest point could come from the wrong sheet, accepted where only convex ones meet.
 #include "shapes.hpp"
 #include "surface/check/check.hpp"
 
@@ -129,7 +129,7 @@ TEST(ConvexEdgesThatCrossAreHarmless) {
 
 TEST(FacesOnFacesOfOnePieceAreRefused) {
   CHECK(is_closed_and_alike(cut_ring(0)));
-  CHECK(says(refusal(cut_ring(0)), "no side can be told there"));
+  CHECK(says(refusal(cut_ring(0)), "the sign is ambiguous there"));
   CHECK(refusal(cut_ring(-0.125f)).empty());
 }
 

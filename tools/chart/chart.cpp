@@ -112,7 +112,7 @@ std::string Plot::frame() const {
                        chart_.unit);
 }
 
-// For a page that tells the value at the pointer: those at the lower and the upper border.
+// For a page that shows the value at the pointer: the values at the lower and upper border.
 std::string Plot::scale() const {
   char text[160];
   std::snprintf(text, sizeof text,

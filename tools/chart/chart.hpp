@@ -23,7 +23,7 @@ struct Chart {
   bool is_logarithmic = false;  // values of at least 1
   double limit = 0;             // a dashed line at this value, named; 0: none
   std::string limit_label;
-  int decimals = 2;  // of the values told
+  int decimals = 2;  // of the values shown
 };
 
 /// What all charts of a run share.
@@ -48,7 +48,7 @@ std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& si
 /// Round numbers from `low` to `high`, about `count` of them.
 std::vector<double> round_numbers(double low, double high, int count);
 
-/// The same SVG with the light theme's colours in place of the style sheet's variables: for a picture
+/// The same SVG with the light theme's colours instead of the style sheet's variables: for a picture
 /// that has no style sheet.
 std::string with_colours(std::string svg);
 

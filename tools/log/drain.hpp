@@ -61,7 +61,7 @@ struct DrainOptions {
 
 struct DrainTotals {
   uint64_t records = 0;
-  uint64_t missing = 0;  // as the log tells it
+  uint64_t missing = 0;  // as stated in the log
   uint64_t bytes = 0;
   uint32_t files = 0;
   uint32_t failures = 0;  // of the disk

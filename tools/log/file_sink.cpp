@@ -32,8 +32,8 @@ class FileSink : public Sink {
   }
   void reserve(uint64_t bytes) override {
 #if defined(__linux__)
-    // Keeps the size of the file as it is: a log that was not closed ends behind its last block. A
-    // file system that cannot is no worse than one that was not asked.
+    // Keeps the file's size: a log that was not closed ends behind its last block. If the file system
+    // cannot reserve, writing goes on without.
     if (::fallocate(file_, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) != 0) return;
 #else
     (void)bytes;

@@ -51,7 +51,7 @@ void Lanes::add(const std::string& label, const chart::TimeAxis::Spans& spans) {
   lanes_.insert(lanes_.begin(), Lane{label, "var(--bad)", 0, 0, {}, true, spans});
 }
 
-void Lanes::tell(const std::string& fault, const std::string& more) {
+void Lanes::annotate(const std::string& fault, const std::string& more) {
   for (Lane& lane : lanes_)
     if (lane.label == "fault: " + fault) lane.label += more;
 }

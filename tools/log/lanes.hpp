@@ -19,8 +19,8 @@ class Lanes {
   /// A lane of the caller's: set over these spans of the axis' time.
   void add(const std::string& label, const chart::TimeAxis::Spans& spans);
 
-  /// Says more of a fault behind its name.
-  void tell(const std::string& fault, const std::string& more);
+  /// Adds a remark behind the name of a fault.
+  void annotate(const std::string& fault, const std::string& more);
 
   double height() const;
   /// Drawn as high as height() says, over the time axis of the charts below.

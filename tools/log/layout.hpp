@@ -21,7 +21,7 @@ struct FileHead {
   uint32_t record_bytes;  // of one record
   uint32_t reserved;
   uint32_t text_crc;
-  uint32_t head_crc;  // of the 28 bytes before: tells logs apart, each block repeats it
+  uint32_t head_crc;  // of the 28 bytes before: identifies the log; each block repeats it
 };
 static_assert(sizeof(FileHead) == 32);
 

@@ -36,11 +36,11 @@ Value energy_mJ(const Field* force, const Field* velocity) {
   };
 }
 
-// Told and certified distance. What is told of a query that was not exact is no more than an upper
-// bound, up to the size of the model: it would hide all else.
+// Distance found and certified lower bound. The distance of a query that was not exact is only an
+// upper bound, up to the size of the model; drawn, it would hide all else.
 Panel distances(const Header& header, const Field* reported, const Field* lower) {
   Value exact = scaled(reported, 0, 1e3);
-  std::string label = "told, negative inside";
+  std::string label = "found, negative inside";
   for (const Bit& bit : header.bits) {
     const Field* state = header.find(bit.field);
     if (bit.field != "output.state" || bit.what != "exact" || state == nullptr) continue;

@@ -191,7 +191,7 @@ std::string note_of(const Statistics& s, const Header& header) {
   if (controller != header.text.end()) note += ", " + controller->second;
   if (header.decimation > 1) note += ", every " + std::to_string(header.decimation) + "th tick";
   if (s.not_finite.records > 0)
-    note += ", " + chart::grouped(s.not_finite.records) + " with values that are no numbers";
+    note += ", " + chart::grouped(s.not_finite.records) + " with values that are not finite";
   return note;
 }
 
@@ -221,9 +221,9 @@ std::string plot(const std::string& path, const std::vector<std::string>& fields
   for (const Statistics::Fault& fault : s.faults) {
     const double share = slots.of(fault.first_number) / std::max(1.0, slots.count() - 1);
     drawn.axis.events.emplace_back(drawn.axis.seconds * share, "");
-    drawn.lanes.tell(fault.what, has_time(s)
-                                     ? ", from " + chart::fixed(s.seconds * share, 3) + " s"
-                                     : ", from record " + std::to_string(fault.first_number));
+    drawn.lanes.annotate(fault.what, has_time(s)
+                                         ? ", from " + chart::fixed(s.seconds * share, 3) + " s"
+                                         : ", from record " + std::to_string(fault.first_number));
   }
   drawn.lanes.add(chart::grouped(s.missing) + " missing in " + chart::grouped(s.gaps.size()) +
                       (s.gaps.size() == 1 ? " place" : " places"),

@@ -28,7 +28,7 @@ uint32_t crc_of(const void* data, uint64_t bytes) {
   throw Refused(rule, name + ": " + what + " (rule L" + std::to_string(rule) + ")");
 }
 
-// The head of the file, judged; the text in `text`.
+// Reads and checks the head of the file; its text goes into `text`.
 FileHead read_head(Source& source, const std::string& name, std::string& text) {
   FileHead head{};
   if (source.size() < sizeof head || !source.read(0, &head, sizeof head) ||
@@ -100,9 +100,9 @@ bool Reader::look(uint64_t at, BlockHead& head, uint32_t& rule) {
 }
 
 // Result: the rule that refuses it; 0 for none.
-uint32_t Reader::judge_payload(const BlockHead& head, const std::vector<uint8_t>& payload) const {
+uint32_t Reader::check_payload(const BlockHead& head, const std::vector<uint8_t>& payload) const {
   if (crc_of(payload.data(), payload.size()) != head.payload_crc) return kRulePayloadCrc;
-  if (head.kind == kEndBlock) return judge_end(head, payload);
+  if (head.kind == kEndBlock) return check_end(head, payload);
   if (word(payload.data(), 0) != static_cast<uint32_t>(head.first_number)) return kRuleNumbers;
   if (records_ > 0 && head.first_number < next_number_) return kRuleNumbers;
   for (uint32_t i = 1; i < head.count; ++i) {
@@ -119,7 +119,7 @@ uint32_t Reader::judge_payload(const BlockHead& head, const std::vector<uint8_t>
   return 0;
 }
 
-uint32_t Reader::judge_end(const BlockHead& head, const std::vector<uint8_t>& payload) const {
+uint32_t Reader::check_end(const BlockHead& head, const std::vector<uint8_t>& payload) const {
   if (head.missing < dropped_ || head.first_number < next_number_) return kRuleMissing;
   // Every block that was read must stand in the index, and those that were not are lost.
   size_t next = 0;
@@ -212,7 +212,7 @@ bool Reader::next(Block& block) {
       if (!source_->read(at_ + sizeof head, block.payload.data(), head.payload_bytes)) {
         rule = kRuleCut;
       } else {
-        rule = judge_payload(head, block.payload);
+        rule = check_payload(head, block.payload);
       }
       // The head is whole, so its length is to be trusted: no search inside this block.
       behind = at_ + sizeof head + head.payload_bytes;

@@ -44,7 +44,7 @@ struct Gap {
   uint64_t of_blocks = 0;  // of these, in blocks that are lost or damaged; the others were dropped
 };
 
-/// Reads a log block by block. A block that any rule refuses is passed over and told; what follows
+/// Reads a log block by block. A block that a rule rejects is skipped and reported; what follows
 /// is searched for the next whole one, so a damaged or cut-off log gives every whole block it has.
 class Reader {
  public:
@@ -72,8 +72,8 @@ class Reader {
 
  private:
   bool look(uint64_t at, BlockHead& head, uint32_t& rule);
-  uint32_t judge_payload(const BlockHead& head, const std::vector<uint8_t>& payload) const;
-  uint32_t judge_end(const BlockHead& head, const std::vector<uint8_t>& payload) const;
+  uint32_t check_payload(const BlockHead& head, const std::vector<uint8_t>& payload) const;
+  uint32_t check_end(const BlockHead& head, const std::vector<uint8_t>& payload) const;
   void take(const BlockHead& head, Block& block);
   void close(const BlockHead& head);
   void add_gap(uint64_t number, uint64_t count, uint64_t of_blocks);
@@ -87,7 +87,7 @@ class Reader {
   uint32_t next_sequence_ = 0;
   uint32_t previous_crc_ = 0;
   uint64_t next_number_ = 0;
-  uint64_t dropped_ = 0;  // as the blocks tell it
+  uint64_t dropped_ = 0;  // as stated in the blocks
   uint64_t missing_ = 0;
   uint64_t records_ = 0;
   uint32_t blocks_ = 0;
@@ -98,7 +98,7 @@ class Reader {
   std::vector<Gap> gaps_;
 };
 
-/// Reads the whole log through; what next() would have told stands in the reader afterwards.
+/// Reads the whole log; afterwards the reader holds what next() reported.
 void read_through(Reader& reader);
 
 }  // namespace firmtouch::log

@@ -26,8 +26,8 @@ class Recorder {
   /// Writes what is left and closes the log. Result: false where the disk refused; totals() says
   /// why.
   bool stop();
-  /// What the disk refused since this was asked last, while the records wait in the ring and it is
-  /// tried again; empty where nothing was.
+  /// What the disk refused since the last call; the records wait in the ring and the write is
+  /// repeated. Empty if nothing was refused.
   std::string trouble();
   /// After stop().
   const DrainTotals& totals() const { return drain_.totals(); }

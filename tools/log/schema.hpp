@@ -58,7 +58,7 @@ std::string parse(const std::string& text, uint32_t record_bytes, Header& header
 /// Sets the fields' offsets one behind the other. Result: bytes of a record.
 uint32_t place(std::vector<Field>& fields);
 
-/// The stored value as text, bit for bit: floats with the digits that tell all of them apart.
+/// The stored value as text, bit for bit: floats with enough digits to distinguish them all.
 std::string stored_text(const Column& column, const uint8_t* record);
 /// The value in the field's unit.
 double value(const Field& field, uint32_t index, const uint8_t* record);

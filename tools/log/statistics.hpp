@@ -7,7 +7,7 @@
 
 namespace firmtouch::log {
 
-/// What a log tells of how its run went. Parts whose fields the log does not have are empty.
+/// Summary of a run from its log. Parts whose fields the log does not have are empty.
 struct Statistics {
   uint64_t records = 0, missing = 0, blocks = 0;
   uint64_t first_number = 0, last_number = 0;
@@ -36,7 +36,7 @@ struct Statistics {
     uint64_t records = 0;  // that show it
   };
   std::vector<Fault> faults;  // in the order of their bits
-  // Records that hold an infinity or no number at all, and where that is seen first.
+  // Records that hold an infinity or NaN, and the first of them.
   struct NotFinite {
     uint64_t records = 0;
     uint64_t first_number = 0;

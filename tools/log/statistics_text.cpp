@@ -60,7 +60,7 @@ std::string text_of(const Statistics& s) {
     text += row("fault", fault.what + ": first at record " + std::to_string(fault.first_number) +
                              ", in " + std::to_string(fault.records) + " records");
   if (s.not_finite.records > 0)
-    text += row("no numbers", s.not_finite.first_field + ": first at record " +
+    text += row("not finite", s.not_finite.first_field + ": first at record " +
                                   std::to_string(s.not_finite.first_number) + ", in " +
                                   std::to_string(s.not_finite.records) +
                                   " records some value is not finite");

@@ -264,7 +264,7 @@ std::vector<std::string> describe(const Crossings& crossings, const Surface& sur
     const Crossings::Place& place = crossings.places[p];
     std::string line =
         "place " + std::to_string(p + 1) + " of " + std::to_string(crossings.places.size()) +
-        ": the side may be told either way near vertices " + some(place.vertices, vertex_source) +
+        ": the sign may be either one near vertices " + some(place.vertices, vertex_source) +
         "; faces " + some(place.faces, surface.source) + "; edges ";
     for (size_t e = 0; e < place.edges.size() && e < 40; ++e) {
       line += (e == 0 ? "" : ", ") + some({place.edges[e].first}, vertex_source) + "-" +

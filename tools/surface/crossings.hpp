@@ -8,8 +8,8 @@
 
 namespace firmtouch::tools {
 
-/// Where a closed surface crosses itself. There the side told by the pseudonormal of the nearest
-/// feature and the side told by the winding number can differ, and neither is wrong. Indices are
+/// Where a closed surface crosses itself. There the sign by the pseudonormal of the nearest
+/// feature and the sign by the winding number can differ, and neither is wrong. Indices are
 /// those of the surface given.
 struct Crossings {
   std::vector<std::pair<uint32_t, uint32_t>> pairs;  // of faces that cross, lower first, in order

@@ -15,8 +15,8 @@ inline uint32_t end_of(const std::vector<Face>& faces, uint32_t h) {
   return start_of(faces, next_half(h));
 }
 
-/// The edges of a mesh: every half-edge sorted by its two vertices, so that those of one edge lie
-/// side by side.
+/// The edges of a mesh: every half-edge sorted by its two vertices, so that those of one edge are
+/// neighbours.
 class Edges {
  public:
   explicit Edges(const std::vector<Face>& faces);

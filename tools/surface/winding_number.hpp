@@ -18,7 +18,7 @@ class WindingNumber {
   /// as in the other.
   WindingNumber(const Surface& surface, const std::vector<bool>& chosen);
 
-  /// Exact but for points nearer to a triangle than 1e-13 of the surface's size.
+  /// Exact except for points nearer to a triangle than 1e-13 of the surface's size.
   int at(Point p) const;
 
  private:

@@ -17,7 +17,7 @@ std::string coordinates(const math::Vec3& v) {
   return text;
 }
 
-// Who has asked for it already need not be told of it.
+// The option was given already, so it is not recommended again.
 void leave_out_close_holes(std::vector<std::string>& defects) {
   const std::string remedy = ", or with --close-holes";
   for (std::string& line : defects) {

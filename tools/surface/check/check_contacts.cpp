@@ -7,9 +7,9 @@
 #include "surface/point.hpp"
 #include "surface/winding_number.hpp"
 
-// Where bodies touch, one nearest point belongs to both, and each tells its own side of it. That
-// harms no one where convex corners meet: nothing inside a body is nearest to such a corner. Faces on
-// faces, and corners in pits, would tell wrong sides at any depth.
+// Where bodies touch, one nearest point belongs to both, and each gives its own sign. That
+// does no harm where convex corners meet: nothing inside a body is nearest to such a corner. Faces on
+// faces, and corners in pits, would give wrong signs at any depth.
 
 namespace firmtouch::tools {
 namespace {
@@ -69,9 +69,10 @@ void refuse_faces_on_faces(const Surface& surface, CheckReport& report) {
     if (count++ == 0) first = f;
   }
   if (count == 0) return;
-  report.refused.push_back("has " + counted(count, "face", "faces") +
-                           " on the face of another piece, first " + named_face(surface, first) +
-                           ": no side can be told there; unite the pieces in a modelling program");
+  report.refused.push_back(
+      "has " + counted(count, "face", "faces") + " on the face of another piece, first " +
+      named_face(surface, first) +
+      ": the sign is ambiguous there; unite the pieces in a modelling program");
 }
 
 using Neighbours = std::vector<std::pair<uint32_t, uint32_t>>;  // vertex, one of its faces
@@ -124,7 +125,7 @@ void refuse_corners_in_pits(const Surface& surface, CheckReport& report) {
   report.refused.push_back("has " + counted(count, "vertex", "vertices") +
                            " in a pit or a notch where another sheet touches, first " +
                            named_vertex(surface, first) +
-                           ": no side can be told there; unite or part the sheets in a modelling "
+                           ": the sign is ambiguous there; unite or part the sheets in a modelling "
                            "program");
 }
 

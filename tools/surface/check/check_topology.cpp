@@ -53,8 +53,8 @@ void find_crowded_edges(const Surface& surface, const Edges& edges,
                     "): separate the sheets or delete inner faces in a modelling program");
 }
 
-// Vertices where more than one fan of faces meets; those on an edge of more than two faces are told
-// of with that edge.
+// Vertices where more than one fan of faces meets; those on an edge of more than two faces are
+// reported with that edge.
 void find_pinched_vertices(const Surface& surface, const Edges& edges,
                            std::vector<std::string>& defects) {
   Sets fans = corner_fans(surface.faces, edges.mates());

@@ -11,9 +11,9 @@
 #include "surface/exact_side.hpp"
 #include "surface/point.hpp"
 
-// A corner or an edge that touches the surface elsewhere, decided without rounding. What is inside
-// and nearest to the place of the touch may be told the side of either sheet. Nothing inside is
-// nearest to a convex corner or edge: where only such meet no one is harmed.
+// A corner or an edge that touches the surface elsewhere, decided without rounding. A point
+// inside whose nearest point is the contact may get the sign of either sheet. Nothing inside is
+// nearest to a convex corner or edge: where only such meet there is no harm.
 
 namespace firmtouch::tools {
 namespace {
@@ -235,10 +235,11 @@ void refuse_touches(const Surface& surface, CheckReport& report) {
   touches.find();
   const size_t corners = touches.corners.size(), edges = touches.edges.size();
   if (!touches.faces.empty()) {
-    report.refused.push_back("has " + counted(touches.faces.size(), "face", "faces") +
-                             " on another face with the same corners, first " +
-                             named_face(surface, *touches.faces.begin()) +
-                             ": no side can be told there; unite the parts in a modelling program");
+    report.refused.push_back(
+        "has " + counted(touches.faces.size(), "face", "faces") +
+        " on another face with the same corners, first " +
+        named_face(surface, *touches.faces.begin()) +
+        ": the sign is ambiguous there; unite the parts in a modelling program");
   }
   if (corners + edges == 0) return;
   const auto edge = touches.edges.cbegin();
@@ -249,7 +250,7 @@ void refuse_touches(const Surface& surface, CheckReport& report) {
   report.refused.push_back(
       "has " + counted(corners, "vertex", "vertices") + " and " + counted(edges, "edge", "edges") +
       " that touch a face or an edge elsewhere, first " + first + " on " + named_face(surface, on) +
-      ": no side can be told there; unite or part the sheets in a modelling "
+      ": the sign is ambiguous there; unite or part the sheets in a modelling "
       "program");
 }
 

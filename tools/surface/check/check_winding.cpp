@@ -49,7 +49,7 @@ bool within(const Box& a, const Box& b) {
          a.high.y < b.high.y && a.high.z < b.high.z;
 }
 
-// The faces of one shell with their own vertices, so that what is asked of it costs what it is large.
+// The faces of one shell with their own vertices, so that a query costs by its own size.
 class ShellsAlone {
  public:
   ShellsAlone(const Surface& surface, const std::vector<uint32_t>& component, size_t shells)
@@ -153,7 +153,7 @@ uint32_t wind_alike(Surface& surface, std::vector<uint32_t>& component, std::vec
     if (has_one_side) ++one_sided;
     const bool keep_as_is = has_one_side;
     const bool turn_the_rest =
-        turns > queue.size() - turns;  // the majority is right, until the volume tells
+        turns > queue.size() - turns;  // the majority is right, until the volume decides
     for (const uint32_t f : queue) turned[f] = !keep_as_is && turned[f] != turn_the_rest;
     ++components;
   }

@@ -30,13 +30,13 @@ void drop_duplicate_faces(Surface& surface, CheckReport& report);
 /// refused (or kept).
 uint32_t wind_alike(Surface& surface, std::vector<uint32_t>& component, std::vector<bool>& turned,
                     std::vector<std::string>& defects);
-/// Turns whole components so that solids lie inside; then tells of all that was turned.
+/// Turns whole components so that solids lie inside; then reports all that was turned.
 void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint32_t components,
                   bool is_closed, std::vector<bool>& turned, CheckReport& report);
 void remove_flat_faces(Surface& surface, const CheckOptions& options, CheckReport& report);
 /// Open edges, edges of more than two faces, vertices of more than one fan.
 void find_topology_defects(const Surface& surface, std::vector<std::string>& defects);
-/// Pieces that touch so that the nearest point would not tell the side. Pre: closed and outward.
+/// Rejects pieces that touch so that the nearest point does not determine the sign. Pre: closed and outward.
 void refuse_contacts(const Surface& surface, CheckReport& report);
 /// Of these, corners and edges that touch the surface elsewhere, of one piece too, without rounding.
 /// Pre: coordinates are finite and below 2^24 m.

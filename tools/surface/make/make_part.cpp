@@ -8,7 +8,7 @@
 #include "surface/turns.hpp"
 
 // The section is cut into rows, each a ring of vertices around the axis with as many as its length
-// asks for; every other ring is turned by half a step. Two rings are joined like a zip: whatever
+// requires; every other ring is turned by half a step. Two rings are joined like a zip: whatever
 // their counts, each of their edges gets one triangle of the strip, so the surface is a closed
 // manifold by construction, a torus of rings.
 
@@ -65,9 +65,9 @@ std::vector<Row> cut(const PartShape& shape, const Lengths& lengths_m, double st
     for (uint32_t k = 0; k < pieces; ++k) {
       const double along = static_cast<double>(k) / pieces;
       const double around_m = 6.283185307179586 * shape.at(piece, along, 0).radius_m;
-      const double wish =
+      const double wanted =
           around_m / (1.1547 * (k == 0 && row_m > step_m ? step_m : row_m));  // equal sides
-      const uint32_t count = wish < 12 ? 12 : static_cast<uint32_t>(wish);
+      const uint32_t count = wanted < 12 ? 12 : static_cast<uint32_t>(wanted);
       rows.push_back({piece, along, count, static_cast<uint32_t>(rows.size() & 1), vertices});
       vertices += count;
     }

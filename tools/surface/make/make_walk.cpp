@@ -8,8 +8,8 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr double kStep = 0.0005;   // of the diagonal
-constexpr uint32_t kAskEvery = 2;  // steps, in which the distance grows by 0.001 at most
+constexpr double kStep = 0.0005;     // of the diagonal
+constexpr uint32_t kQueryEvery = 2;  // steps, in which the distance grows by 0.001 at most
 // Of the diagonal: beyond it the surface draws the walk back, as a hand that touches a part of 0.1 m
 // keeps within tenths of a millimetre of its surface. Seen: mean 0.001 from the surface.
 constexpr double kPullFrom = 0.0005;
@@ -39,7 +39,7 @@ std::vector<math::Vec3> make_walk(const Surface& surface, uint64_t seed, uint32_
   double distance = 0;
   for (uint32_t k = 0; k < points; ++k) {
     walk.push_back(to_vec3(p));
-    if (k % kAskEvery == 0) {
+    if (k % kQueryEvery == 0) {
       back = to_point(closest(walk.back())) - p;
       distance = length(back);
     }

@@ -60,7 +60,7 @@ bool ImportSink::defect(const Place& place, std::string_view kind, const std::st
   const auto is_before = [](const Place& a, const Place& b) {
     return a.line != b.line ? a.line < b.line : a.byte < b.byte;
   };
-  if (is_first || is_before(place, first_)) {  // indices are checked last, and tell of any line
+  if (is_first || is_before(place, first_)) {  // indices are checked last, and may name any line
     problem_ = where(place) + what;
     first_ = place;
   }
@@ -150,13 +150,13 @@ bool ImportSink::finish() {
   if (count == 0) return fail("has no vertices: is it a mesh? Export it again with its geometry");
   if (surface_.faces.empty())
     return fail("has no faces: export it as a mesh, not as points or lines");
-  tell_rounding();
+  report_rounding();
   return true;
 }
 
 // Far from the origin 32-bit coordinates are coarse. The asset then holds another surface than the
 // file, by more than its certificates cover.
-void ImportSink::tell_rounding() {
+void ImportSink::report_rounding() {
   Point low = to_point(surface_.vertices[surface_.faces[0][0]]), high = low;
   double reach_m = 0;
   for (const Face& face : surface_.faces) {

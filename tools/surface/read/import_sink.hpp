@@ -31,7 +31,7 @@ class ImportSink {
   bool defect(const Place& place, std::string_view kind, const std::string& what);
   /// A word that read_number() or read_integer() found `wrong`.
   bool bad_word(const Place& place, std::string_view word, const char* wrong);
-  /// Something that the report of a bake should tell; the surface is taken.
+  /// A remark for the report of a bake; the surface is accepted.
   void note(const std::string& what) { notes_.push_back(what); }
 
   /// Coordinates in the file's unit: scaled in double, rounded once. A vertex that is refused still
@@ -58,7 +58,7 @@ class ImportSink {
   };
 
   std::string where(const Place& place) const;
-  void tell_rounding();
+  void report_rounding();
 
   std::string path_;
   double unit_m_;
@@ -76,7 +76,7 @@ class ImportSink {
 /// "`word`", cut short where it is long.
 std::string quoted(std::string_view word);
 
-/// What a file is by its first bytes ("an STL file", ...), or nullptr where they do not tell.
+/// What a file is by its first bytes ("an STL file", ...), or nullptr if unknown.
 const char* known_by_content(std::string_view bytes);
 
 // One a format: each takes the whole file and fills the sink, whose problem says what is wrong.

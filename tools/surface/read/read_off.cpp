@@ -51,7 +51,7 @@ bool read_vertices(TextScan& scan, ImportSink& sink, int64_t count) {
       const bool found = scan.find_word(word);
       place = {scan.line(), 0, "vertex", static_cast<uint64_t>(i)};
       if (!found)
-        return sink.fail(place, "the file ends here; it tells of " + std::to_string(count) +
+        return sink.fail(place, "the file ends here; it states " + std::to_string(count) +
                                     " vertices: it is cut short, export it again");
       const char* wrong = read_number(word, xyz[k]);
       if (wrong != nullptr) sink.bad_word(place, word, wrong);
@@ -73,7 +73,7 @@ bool read_faces(TextScan& scan, ImportSink& sink, int64_t count) {
       const bool found = scan.find_word(word);
       place = {scan.line(), 0, "face", static_cast<uint64_t>(i)};
       if (!found)
-        return sink.fail(place, "the file ends here; it tells of " + std::to_string(count) +
+        return sink.fail(place, "the file ends here; it states " + std::to_string(count) +
                                     " faces: it is cut short, export it again");
       int64_t value = 0;
       const char* wrong = read_integer(word, value);

@@ -55,8 +55,8 @@ class PlyValues {
   }
 
   bool is_text() const { return format_ == PlyFormat::kAscii; }
-  /// Tells what is wrong with the last value. Result: whether reading can go on.
-  bool tell(ImportSink& sink, const Place& place, const char* wrong) const {
+  /// Reports what is wrong with the last value. Result: whether reading can go on.
+  bool report(ImportSink& sink, const Place& place, const char* wrong) const {
     if (wrong == kEnds) return sink.fail(place, wrong);
     return is_text() ? sink.bad_word(place, word_, wrong) : sink.defect(place, wrong, wrong);
   }
@@ -163,7 +163,7 @@ bool read_list(PlyValues& values, const PlyProperty& property, const PlyElement&
     }
   }
   // Where a list ends is not known then: what follows it would be read wrongly.
-  return wrong == nullptr || (values.tell(sink, values.place(element, index), wrong) &&
+  return wrong == nullptr || (values.report(sink, values.place(element, index), wrong) &&
                               sink.fail("a list that cannot be read"));
 }
 
@@ -187,7 +187,7 @@ bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wa
       wrong = "a coordinate is not finite: mend the model";
     // Colours and normals are passed over, whatever stands there.
     if (wrong == kEnds || (wrong != nullptr && is_coordinate)) {
-      if (!values.tell(sink, values.place(element, index), wrong)) return false;
+      if (!values.report(sink, values.place(element, index), wrong)) return false;
       value = 0;
     }
     for (int k = 0; k < 3; ++k) {
@@ -196,7 +196,7 @@ bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wa
   }
   const Place place = values.place(element, index);
   if (!element.properties.empty() && !values.ends_element()) {
-    return sink.fail(place, "more values on the line than the header tells of: mend the header");
+    return sink.fail(place, "more values on the line than the header states: mend the header");
   }
   if (is_vertex) return sink.add_vertex(xyz, place);
   return !is_face || sink.add_polygon(corners, place);

@@ -63,7 +63,7 @@ void refuse(std::string_view bytes, ImportSink& sink) {
   }
   const uint64_t count = u32_at(bytes, 80), wanted = kHeaderBytes + kFacetBytes * count,
                  whole = (bytes.size() - kHeaderBytes) / kFacetBytes;
-  const std::string said = "the header tells of " + std::to_string(count) + " facets, " +
+  const std::string said = "the header states " + std::to_string(count) + " facets, " +
                            std::to_string(wanted) + " bytes in all, but the file has " +
                            std::to_string(bytes.size()) + ": ";
   if (count > whole) {

@@ -7,14 +7,14 @@
 
 namespace firmtouch::tools {
 
-/// A surface as its file says it, unchecked but for indices and numbers; or the problem.
+/// A surface as in its file, unchecked except indices and numbers; or the problem.
 struct Imported {
   Surface surface;
   std::string problem;  // empty: read; else file, place, what is wrong, how often, how to mend
-  std::vector<std::string> notes;  // what the report of a bake should tell of the reading
+  std::vector<std::string> notes;  // remarks for the report of a bake
 };
 
-/// Reads .obj, .off, .ply or .stl (the last two as text and binary), told apart by the extension in either case.
+/// Reads .obj, .off, .ply or .stl (the last two as text and binary), distinguished by the extension in either case.
 /// Coordinates are read as double, multiplied by `unit_m` and rounded once to float. Polygons are
 /// fanned from their first corner; `source` counts the triangles in the file's order.
 Imported read_surface(const std::string& path, double unit_m);

@@ -9,7 +9,7 @@
 namespace firmtouch::tools {
 namespace {
 
-// A stored normal farther than 60 degrees from the winding's is told of: rounding alone does that
+// A stored normal more than 60 degrees from the winding's is reported: rounding alone does that
 // only to needles that have hardly a direction, and a mirrored or turned part shows all of them.
 constexpr double kOdd = 0.5;
 
