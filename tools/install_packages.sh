@@ -1,7 +1,7 @@
 #!/bin/sh
 # Sees to it that commands are there, and installs the Debian or Ubuntu packages of those that are not.
 #     sh tools/install_packages.sh COMMAND=PACKAGE...
-# COMMAND is a command, or `/path/a|/path/b`: a file that one of these paths must name. Asks nothing. Exit codes: 0
+# COMMAND is a command, or `/path/a|/path/b`: a file that one of these paths must name. Never prompts. Exit codes: 0
 # everything is there; 1 something is missing and could not be installed (what and how is printed).
 set -eu
 
@@ -39,7 +39,7 @@ as_root=
 if [ "$(id -u)" != 0 ]; then as_root=sudo; fi
 command -v apt-get >/dev/null 2>&1 ||
   fail "Install these with your system's package manager (on Debian:$packages), then run this again."
-# On a terminal sudo may ask for the password; elsewhere nothing is asked.
+# On a terminal sudo may prompt for the password; elsewhere there is no prompt.
 if [ -n "$as_root" ] && ! sudo -n true 2>/dev/null && ! { [ -t 0 ] && sudo -v; }; then
   fail "Run as root:  apt-get install$packages  and then run this again."
 fi

@@ -10,7 +10,7 @@ endif()
 # The same bits everywhere: no contraction to fused multiply-add, no fast-math nor any part of it. A target's options
 # follow CMAKE_CXX_FLAGS and add_compile_options, so these win over what the project around Firmtouch sets. What comes later
 # still is refused by math/isa.hpp and math/arithmetic_check.cpp (check.arithmetic). Not -fno-fast-math: it brings
-# contraction back and errno with it, and the flags here are all that it would undo.
+# contraction back and errno with it, and it would cancel only the flags set here.
 set(FIRMTOUCH_ARITHMETIC_FLAGS
     -fno-unsafe-math-optimizations -fno-finite-math-only -fno-associative-math -fno-reciprocal-math
     -fsigned-zeros -fno-rounding-math -ffp-contract=off -fno-math-errno)
@@ -23,8 +23,8 @@ set(FIRMTOUCH_NATIVE_FLAGS "$<$<BOOL:${FIRMTOUCH_NATIVE}>:-march=native;-mtune=g
 # (tests/math/rounding_host_test.cpp sees it). Freestanding code has no doubles and keeps its vectors.
 set(FIRMTOUCH_ROUNDING_FLAGS $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 
-# The smaller and the larger of two floats by one instruction (math/isa.hpp). No compiler's macro tells of it, and the GNU
-# assembler takes it for a Cortex-M4 too, which has it not: only where the flags name a unit that has.
+# The smaller and the larger of two floats by one instruction (math/isa.hpp). No compiler defines a macro for it, and the GNU
+# assembler accepts it for a Cortex-M4 too, which lacks it: so it is used only if the flags name a unit that has it.
 set(FIRMTOUCH_HAS_VMAXNM OFF)
 if(CMAKE_CXX_FLAGS MATCHES "-mfpu=(fpv5|fp-armv8)")
   set(FIRMTOUCH_HAS_VMAXNM ON)

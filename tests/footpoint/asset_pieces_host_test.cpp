@@ -1,4 +1,4 @@
-// A baked spline's foot-points are those of the file, but for the rounding of its coefficients.
+// A baked spline's foot-points are those of the file, except for the rounding of its coefficients.
 #include "footpoint/asset_pieces.hpp"
 
 #include <algorithm>

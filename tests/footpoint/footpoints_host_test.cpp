@@ -152,7 +152,7 @@ TEST(AParabolaHasOneFootPointBelowItsEvoluteAndThreeAbove) {
   }
 }
 
-TEST(TheCentreOfACircleIsToldAsIncomplete) {
+TEST(CentreOfACircle_IsReportedAsIncomplete) {
   const tools::SplineModel model =
       tools::read_spline_file(std::string(FIRMTOUCH_CAD_FILES) + "/circle-and-ellipse.igs", 0);
   CHECK(model.problem.empty());

@@ -1,4 +1,4 @@
-// Morse theory as a judge of completeness: over a surface like a disc minima - saddles + maxima, with
+// Morse theory as an oracle of completeness: over a surface like a disc minima - saddles + maxima, with
 // the border's foot-points and the corners from which the distance grows inwards, add up to one.
 #include <cmath>
 

@@ -7,7 +7,7 @@
 namespace firmtouch::tools {
 namespace {
 
-// A little above what open() asks for, because it reckons in float32.
+// A little above what opening requires, because it computes in float32.
 constexpr double kMinSpacing_m = double{curve::kMinSpacing_m} * (1 + 1e-6);
 constexpr double kMinDiagonal_m = double{curve::kMinDiagonal_m} * (1 + 2e-6);
 

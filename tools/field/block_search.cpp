@@ -26,8 +26,8 @@ Point3 middle_of(const Point3& low, const Point3& high) {
   return sum;
 }
 
-// Eight squared lower bounds of the distance to triangles: to the disk about each. Towards a wall of
-// small triangles a disk tells its neighbours apart, a box does not.
+// Eight squared lower bounds of the distance to triangles: to the disk about each. Toward a wall of
+// small triangles the disks differ in distance, the boxes do not.
 [[gnu::always_inline]] inline Lanes disk_gaps2(const float* disks, const Lanes3& p) {
   const Lanes3 centre{Lanes(disks), Lanes(disks + kLanes), Lanes(disks + 2 * kLanes)};
   const Lanes3 normal{Lanes(disks + 3 * kLanes), Lanes(disks + 4 * kLanes),

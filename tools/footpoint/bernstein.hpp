@@ -34,7 +34,7 @@ Scalars derivative_v(const Scalars& f);
 Points derivative_v(const Points& f);
 Points difference(const Points& f, const Points& g);  // of equal degrees
 
-/// Both halves in u, in place and into `right`; likewise in v.
+/// Both halves in u, in place and into `right`. split_v(): the same in v.
 void split_u(Scalars& left, Scalars& right);
 void split_v(Scalars& low, Scalars& high);
 

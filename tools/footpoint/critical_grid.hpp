@@ -10,7 +10,7 @@ namespace firmtouch::tools {
 /// the pieces whose foot-points appear or disappear where a point crosses the cell: those with a
 /// place where equation (1) and its derivative by t, (2), vanish for a point of the cell; of patches
 /// (3), (4) and their Jacobian's determinant, (5). Certified: where no bound of the Bernstein
-/// coefficients over the cell tells that one of them cannot vanish, the piece is listed. Smooth
+/// coefficients over the cell proves that one of them cannot vanish, the piece is listed. Smooth
 /// joints where curvature jumps are listed with both pieces.
 /// Source: Seong, Johnson, Cohen, sections 3.4 and 4.3.
 class CriticalGrid {

@@ -24,11 +24,11 @@ struct Footpoint {
   double u = 0, v = 0;  // of the entity's own parameters; v = 0 on curves
 };
 
-/// All foot-points of a point, from scratch: no state, no budget. For listings, benches and judges;
+/// All foot-points of a point, from scratch: no state, no budget. For listings, benches and oracles;
 /// nothing of it runs on a controller.
 /// Source: Seong, Johnson, Cohen, "A higher dimensional formulation for robust and interactive
 /// distance queries", equations (1), (3) and (4), by subdivision of their Bernstein coefficients.
-/// The ends, corners and borders that it leaves out are told besides.
+/// The ends, corners and borders that it leaves out are reported too.
 class Footpoints {
  public:
   /// Pieces of a curve stand in the order of its parameter. `gap`: what rounding has left open
@@ -37,7 +37,7 @@ class Footpoints {
              double gap = 1e-12);
 
   /// Sorted by distance. `is_complete` is cleared where whole lines are foot-points (about the
-  /// centre of a circle or on the axis of a surface of revolution): then some of them are told.
+  /// centre of a circle or on the axis of a surface of revolution): then only some of them are reported.
   std::vector<Footpoint> all(Point p_m, bool& is_complete) const;
 
   const std::vector<CurveSystem>& curves() const { return curves_; }

@@ -49,7 +49,7 @@ struct ProgressiveHull {
   }
 };
 
-/// The hull after the first `collapses` collapses, each of its faces in place of the mesh's face
+/// The hull after the first `collapses` collapses, each of its faces at the index of the mesh's face
 /// that it grew from (`source`). Vertices keep their numbers; those not used are left in.
 Surface hull_after(const ProgressiveHull& hull, uint32_t collapses);
 

@@ -86,7 +86,7 @@ class Splitter {
       const auto found = static_cast<int64_t>(sections_[k]->size());
       if (field[0] != kSections[k] ||
           read_integer(without_blanks(field.substr(1)), count) != nullptr || count != found)
-        return sink_.fail(last_[0].number, std::string("the last line tells of `") +
+        return sink_.fail(last_[0].number, std::string("the last line states `") +
                                                std::string(field) + "` where section " +
                                                kSections[k] + " has " + std::to_string(found) +
                                                " lines: lines are missing, export it again");

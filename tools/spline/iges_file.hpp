@@ -31,7 +31,7 @@ struct IgesFile {
 };
 
 /// Takes lines apart: 80 columns each, sections in order, sequence numbers without a gap, as many
-/// lines as the last one tells.
+/// lines as the last one states.
 bool split_iges(std::string_view bytes, SplineSink& sink, IgesFile& file);
 
 /// Delimiters and unit.

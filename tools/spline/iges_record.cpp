@@ -88,7 +88,7 @@ const char* IgesRecord::next() {
   }
   if (at_ >= text_.size()) return kCut;
   if (text_[at_] != delimiters_.field && text_[at_] != delimiters_.record)
-    return "is longer than it tells";
+    return "is longer than it states";
   ended_ = text_[at_] == delimiters_.record;
   ++at_;
   return nullptr;

@@ -12,7 +12,7 @@ struct IgesDelimiters {
   char record = ';';
 };
 
-/// Fields of one free-format record of an IGES file: numbers, and strings that tell their length
+/// Fields of one free-format record of an IGES file: numbers, and strings that state their length
 /// (5HWIDTH), between delimiters. A field may run on over the end of a line.
 class IgesRecord {
  public:

@@ -7,9 +7,10 @@
 
 namespace firmtouch::tools {
 
-/// A walk to ask splines along, in even steps of 0.002 of the extent of their box: all through it and a
-/// fifth of its extent beyond, so near the middle of a shape, where much of it is about as near, as often
-/// as beside it. About curves in a plane of one z it stays there. The same for a seed on every machine.
+/// A path of query points for splines, in even steps of 0.002 of the extent of their box. It runs
+/// through the box and a fifth of its extent beyond, so it is as often near the middle of a shape,
+/// where many pieces are equally near, as outside. For curves in a plane of one z it stays in it. The
+/// same points for a seed on every machine.
 /// Pre: the model is usable.
 std::vector<math::Vec3> make_walk_about(const SplineModel& model, uint64_t seed, uint32_t points);
 

@@ -131,7 +131,7 @@ class Reader {
   bool knots(IgesRecord& record, const IgesEntry& entry, const char* which, int64_t degree,
              size_t points, std::vector<double>& values) {
     std::vector<uint64_t> lines;
-    // A wrong degree or count is told before so many numbers are looked for.
+    // A wrong degree or count is reported before so many numbers are searched.
     const SplineDefect shape = check_knots({}, static_cast<int>(degree), points, which);
     const bool is_unfit =
         degree < 1 || degree > kMaxDegree || points <= static_cast<size_t>(degree);

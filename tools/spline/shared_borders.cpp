@@ -48,16 +48,16 @@ class Neighbours {
     measure();
     for (size_t i = 0; i < segments_.size(); ++i) put(i);
     std::sort(cells_.begin(), cells_.end());
-    asked_.assign(borders_.size(), 0);
-    shared_ = asked_;
-    for (const Segment& segment : segments_) ask(segment);
+    counted_.assign(borders_.size(), 0);
+    shared_ = counted_;
+    for (const Segment& segment : segments_) count_shared(segment);
   }
   /// By the two surfaces, the lower first.
   const std::map<std::pair<size_t, size_t>, BorderVotes>& votes() const { return votes_; }
   /// More than a quarter of a border of the surface is shared with none, or with two: one place may be crossed.
   bool is_open(size_t surface) const {
     for (size_t b = 4 * surface; b < 4 * surface + 4; ++b)
-      if (4 * (asked_[b] - shared_[b]) > asked_[b]) return true;
+      if (4 * (counted_[b] - shared_[b]) > counted_[b]) return true;
     return false;
   }
 
@@ -151,9 +151,9 @@ class Neighbours {
     return borders_[s.border].side < 2 ? way : way * -1;
   }
 
-  void ask(const Segment& own) {
+  void count_shared(const Segment& own) {
     if (length(own.last - own.first) < 4 * near_) return;  // a pole has no direction
-    ++asked_[own.border];
+    ++counted_[own.border];
     shared_[own.border] += is_shared(own);
   }
 
@@ -182,7 +182,7 @@ class Neighbours {
   std::vector<Segment> segments_;
   std::vector<std::pair<uint64_t, size_t>> cells_;
   std::map<std::pair<size_t, size_t>, BorderVotes> votes_;
-  std::vector<size_t> asked_, shared_;  // segments of a border
+  std::vector<size_t> counted_, shared_;  // segments of a border
   Point low_;
   double near_ = 0, cell_ = 0;
 };

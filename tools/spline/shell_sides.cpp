@@ -10,8 +10,8 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr int kCuts = 6;        // of a surface between two knots
-constexpr size_t kPlaces = 24;  // of a shell, where it is asked for
-constexpr double kDoubt = 0.2;  // a number of turns that is farther from a whole one tells nothing
+constexpr size_t kPlaces = 24;  // of a shell, where it is evaluated
+constexpr double kDoubt = 0.2;  // a winding number farther from an integer decides nothing
 constexpr double kPi = 3.14159265358979324;
 
 struct Triangle {

@@ -42,7 +42,7 @@ struct SplineSurface {
 struct SplineModel {
   std::vector<SplineCurve> curves;      // their `piece` rises
   std::vector<SplineSurface> surfaces;  // theirs too
-  std::vector<std::string> notes;       // what the report of a bake should tell
+  std::vector<std::string> notes;       // remarks for the report of a bake
   std::string problem;  // empty: usable; else file, entity, line, what is wrong, how to mend it
 };
 
@@ -75,8 +75,8 @@ std::vector<BezierCurve> bezier_pieces(const SplineCurve& curve);
 /// of whose points coincide is left out.
 std::vector<BezierPatch> bezier_pieces(const SplineSurface& surface);
 
-/// Where the parameter points to, by de Boor's algorithm on the knots; shares nothing with the
-/// pieces, to judge them and what is baked of them. `t` (u, v) is taken into the range used.
+/// Where the parameter points to, by de Boor's algorithm on the knots; shares no code with the
+/// pieces, as an oracle for them and their bake. `t` (u, v) is taken into the range used.
 Point point_at(const SplineCurve& curve, double t);
 Point point_at(const SplineSurface& surface, double u, double v);
 

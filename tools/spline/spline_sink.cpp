@@ -73,7 +73,7 @@ bool SplineSink::defect(uint64_t line, const std::string& kind, const std::strin
   return false;
 }
 
-void SplineSink::tell_dropped(const std::string& where, size_t dropped, const char* what) {
+void SplineSink::report_dropped(const std::string& where, size_t dropped, const char* what) {
   if (dropped == 0) return;
   note(where + ": left out " + std::to_string(dropped) +
        (dropped == 1 ? " piece that has" : " pieces that have") + " no " + what +
@@ -91,7 +91,7 @@ void SplineSink::add(SplineCurve curve, uint64_t line) {
                "check the unit");
     return;
   }
-  tell_dropped(curve.where, spans - pieces.size(), "length");
+  report_dropped(curve.where, spans - pieces.size(), "length");
   curve.is_planar = lies_in_a_plane(curve.points);
   model_.curves.push_back(std::move(curve));
   ++pieces_;
@@ -109,7 +109,7 @@ void SplineSink::add(SplineSurface surface, uint64_t line) {
                "or check the unit");
     return;
   }
-  tell_dropped(surface.where, spans - kept, "extent");
+  report_dropped(surface.where, spans - kept, "extent");
   model_.surfaces.push_back(std::move(surface));
   ++pieces_;
 }

@@ -39,8 +39,8 @@ class SplineSink {
   void note(const std::string& what) { model_.notes.push_back(what); }
   bool failed() const { return !problem_.empty(); }
 
-  /// Checked knots, weights and coordinates. Tells of pieces without length and of planar curves;
-  /// refuses what has no length at all.
+  /// Checked knots, weights and coordinates. Notes pieces without length and planar curves;
+  /// rejects what has no length at all.
   void add(SplineCurve curve, uint64_t line);
   void add(SplineSurface surface, uint64_t line);
   /// The number of the next entity that is added.
@@ -49,7 +49,7 @@ class SplineSink {
   SplineModel finish();
 
  private:
-  void tell_dropped(const std::string& where, size_t dropped, const char* what);
+  void report_dropped(const std::string& where, size_t dropped, const char* what);
 
   std::string path_;
   SplineModel model_;
