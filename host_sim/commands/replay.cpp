@@ -23,6 +23,11 @@ constexpr const char* kHelp =
     "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), or "
     "the log\nis incomplete and all outputs before the gap are equal.\n";
 
+std::string entry_or_empty(const Log& log, const std::string& key) {
+  const auto found = log.text.find(key);
+  return found == log.text.end() ? "" : found->second;
+}
+
 const std::string& entry(const Log& log, const std::string& path, const std::string& key) {
   const auto found = log.text.find(key);
   if (found == log.text.end())
@@ -67,7 +72,8 @@ int replay_log(const std::vector<std::string>& words) {
              std::strtoull(entry(log, path, "parameter_table").c_str(), nullptr, 16),
              params::table_hash(), 16, "use the version that recorded it");
   const std::string named = options.value("--asset");
-  const Session session(named.empty() ? path_beside(path, entry(log, path, "asset")) : named);
+  const Session session(named.empty() ? path_beside(path, entry(log, path, "asset")) : named,
+                        {entry_or_empty(log, "surface"), entry_or_empty(log, "guide")});
   check_same(path, ("asset CRC of " + session.asset.path()).c_str(),
              std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16),
              session.controller->asset_crc(), 8, "give the recorded asset with --asset");
@@ -80,6 +86,7 @@ int replay_log(const std::vector<std::string>& words) {
   const std::unique_ptr<LockStepController> port =
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
                       session.controller->asset_crc());
+  check_scene(session, port != nullptr);
   const std::string by = port ? port->name() : "in-process";
   const Tick tick = [&](const record::TickInput& input, record::TickOutput& output) {
     if (port)

@@ -43,8 +43,10 @@ std::string line_of(std::string set) {
   set[equals] = ' ';
   // "1N" is accepted as "1 N".
   const size_t unit = set.find_first_not_of("0123456789.+-eE", equals + 1);
-  if (set.compare(0, equals, "asset") != 0 && unit != std::string::npos && unit > equals + 1 &&
-      set[unit] != ' ' && set.find(' ', equals + 1) == std::string::npos)
+  const std::string key = set.substr(0, equals);
+  const bool is_text = key == "asset" || key == "mesh" || key == "guide";
+  if (!is_text && unit != std::string::npos && unit > equals + 1 && set[unit] != ' ' &&
+      set.find(' ', equals + 1) == std::string::npos)
     set.insert(unit, " ");
   return set;
 }
@@ -58,6 +60,8 @@ Log log_of(const Scenario& scenario, const Session& session, const Trace& trace,
   log.text["parameter_table"] = hex(params::table_hash(), 16);
   log.text["build"] = hex(link::build_id(), 16);
   log.text["controller"] = trace.controller;
+  if (!session.used.surface.empty()) log.text["surface"] = session.used.surface;
+  if (!session.used.guide.empty()) log.text["guide"] = session.used.guide;
   log.text["scenario"] = scenario.text;
   for (uint32_t i = 0; i < params::kCount; ++i) {
     char value[32];
@@ -98,12 +102,13 @@ int run_scenario(const std::vector<std::string>& words) {
                  {"the asset", path_beside(file, scenario.asset)},
                  {"--image", options.value("--image")}},
                 outputs);
-  const Session session(path_beside(file, scenario.asset));
+  const Session session(path_beside(file, scenario.asset), scenario.scene);
   Environment environment = environment_of(*session.controller, scene_origin_m(scenario));
   environment.turn(parameter_value(scenario, params::kSurfaceTurned) >= 0.5);
   const std::unique_ptr<LockStepController> port =
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
                       session.controller->asset_crc());
+  check_scene(session, port != nullptr);
   const Trace trace =
       run(scenario, *session.controller, environment, port.get(), progress_bar("simulating"));
   const Summary summary = summarise(scenario, environment, trace);
@@ -113,15 +118,20 @@ int run_scenario(const std::vector<std::string>& words) {
   if (const std::string path = options.value("--log"); !path.empty())
     write_log(path, log_of(scenario, session, trace, path));
   if (!options.value("--report").empty() || !options.value("--picture").empty()) {
-    const Report report{scenario,         environment,          trace,
-                        summary,          session.asset.path(), session.asset.bytes().size(),
+    const Report report{scenario,
+                        environment,
+                        trace,
+                        summary,
+                        session.asset.path(),
+                        session.asset.bytes().size(),
+                        session.scene_text(),
                         command_of(words)};
     if (const std::string path = options.value("--report"); !path.empty())
       write_file(path, page_of(report));
     if (const std::string path = options.value("--picture"); !path.empty())
       write_file(path, picture_of(report));
   }
-  std::cerr << text_of(summary, trace);
+  std::cerr << "  scene          " << session.scene_text() << "\n" << text_of(summary, trace);
   if (trace.difference) {
     const Difference& d = *trace.difference;
     std::cerr << "firmtouch-sim: " << trace.controller

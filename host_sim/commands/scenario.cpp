@@ -44,6 +44,7 @@ int make_scenario(const std::vector<std::string>& words) {
     throw Usage("scenario needs -o FILE or --outline FILE.csv");
   check_outputs({{"the asset", path}}, {{"-o", to}, {"--outline", outline_path}});
   const Session session(path);
+  if (!session.unused.empty()) std::cerr << path << ": " << session.scene_text() << "\n";
   Environment environment = environment_of(*session.controller, {});
   if (environment.has_surface() && !environment.has_mesh())
     environment.turn(orientation_of(environment.tessellation()).normals_inward);

@@ -1,6 +1,10 @@
 #include "host_sim/controllers/session.hpp"
 
 #include <filesystem>
+#include <utility>
+
+#include "firmtouch/asset/opening.hpp"
+#include "firmtouch/controller/needed_parts.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -8,28 +12,100 @@ namespace {
 std::string remedy_of(uint16_t rule) {
   switch (rule) {
     case kRuleEmptyScene:
-      return "it holds neither a surface nor a curve; bake one into it";
+      return "it has neither a surface nor a guide; bake one into it";
     case kRuleArithmetic:
       return "this machine's floating-point mode differs from what the library needs";
     case kRuleMeshProbes:
     case kRuleCurveProbes:
     case kRuleSplineProbes:
     case kRuleHullProbes:
-      return "this program answers its probe queries with other bits; bake it with the same "
+      return "this program answers the asset's probe queries with other bits; bake it with the "
+             "same "
              "version";
     default:
       return "it is damaged or of another version; bake it again";
   }
 }
 
+std::string text_or_empty(const char* text) { return text == nullptr ? "" : text; }
+const char* text_or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
+
+SceneNames names_in(const asset::Container& asset, const SceneNames& wanted) {
+  using SurfaceList = Surfaces<FullMesh, SplineSurface>;
+  using GuideList = Guides<CurveGuide, SplineGuide>;
+  return {text_or_empty(SurfaceList::find(asset, text_or_null(wanted.surface))),
+          text_or_empty(GuideList::find(asset, text_or_null(wanted.guide)))};
+}
+
+struct SceneEntry {
+  bool is_guide;
+  std::string name;
+};
+
+// Surfaces and guides of the asset, in the order of its table.
+std::vector<SceneEntry> scene_entries(const asset::Container& asset) {
+  std::vector<SceneEntry> entries;
+  for (uint32_t i = 0; i < asset.section_count(); ++i) {
+    const uint32_t part = part_of_section(asset, i);
+    const bool is_guide = (part & (kPartGuide | kPartSplineGuide)) != 0;
+    if (is_guide || (part & (kPartMesh | kPartSpline)) != 0)
+      entries.push_back({is_guide, asset.name(i)});
+  }
+  return entries;
+}
+
+void check_name(const std::string& path, const std::vector<SceneEntry>& entries, bool is_guide,
+                const std::string& wanted, const std::string& found) {
+  if (wanted.empty() || !found.empty()) return;
+  std::string list;
+  for (const SceneEntry& entry : entries)
+    if (entry.is_guide == is_guide) list += (list.empty() ? "`" : ", `") + entry.name + "`";
+  const std::string kind = is_guide ? "guide" : "surface";
+  throw Refused(path + ": it has no " + kind + " `" + wanted + "`" +
+                (list.empty() ? "; it has no " + kind + " at all" : "; it has: " + list));
+}
+
 }  // namespace
 
-Session::Session(const std::string& asset_path)
-    : asset(asset_path), controller(std::make_unique<FullController>()) {
-  const core::Verdict verdict = controller->open(asset.bytes());
+Session::Session(const std::string& asset_path, SceneNames wanted_names)
+    : asset(asset_path),
+      wanted(std::move(wanted_names)),
+      controller(std::make_unique<FullController>()) {
+  asset::Container container;
+  if (asset::open(asset.bytes(), container).ok()) {
+    const std::vector<SceneEntry> entries = scene_entries(container);
+    used = names_in(container, wanted);
+    default_ = names_in(container, {});
+    check_name(asset_path, entries, false, wanted.surface, used.surface);
+    check_name(asset_path, entries, true, wanted.guide, used.guide);
+    for (const SceneEntry& entry : entries)
+      if (entry.name != (entry.is_guide ? used.guide : used.surface))
+        unused.push_back((entry.is_guide ? "guide `" : "surface `") + entry.name + "`");
+  }
+  const core::Verdict verdict =
+      controller->open(asset.bytes(), {text_or_null(wanted.surface), text_or_null(wanted.guide)});
   if (verdict.ok()) return;
-  throw Refused(asset_path + ": refused by rule R" + std::to_string(verdict.rule) + " at element " +
-                std::to_string(verdict.element) + ": " + remedy_of(verdict.rule));
+  throw Refused(asset_path + ": rejected by rule R" + std::to_string(verdict.rule) +
+                " at element " + std::to_string(verdict.element) + ": " + remedy_of(verdict.rule));
+}
+
+std::string Session::scene_text() const {
+  std::string text;
+  if (!used.surface.empty()) text += "surface `" + used.surface + "`";
+  if (!used.guide.empty()) text += (text.empty() ? "guide `" : ", guide `") + used.guide + "`";
+  for (size_t i = 0; i < unused.size(); ++i) text += (i == 0 ? "; not used: " : ", ") + unused[i];
+  return text;
+}
+
+bool Session::is_default() const {
+  return used.surface == default_.surface && used.guide == default_.guide;
+}
+
+void check_scene(const Session& session, bool has_remote) {
+  if (!has_remote || session.is_default()) return;
+  throw Refused(session.asset.path() + ": " + session.scene_text() +
+                ": a controller outside this process always uses the asset's first surface and "
+                "guide; run in-process, or bake these alone");
 }
 
 std::string path_from(const std::string& folder_of, const std::string& path) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "firmtouch/controller/full_controller.hpp"
 #include "host_sim/controllers/asset_file.hpp"
@@ -10,12 +11,31 @@ namespace firmtouch::host_sim {
 
 /// An asset and the in-process controller that opened it.
 struct Session {
-  /// Throws Refused with the file and the rule that rejects it.
-  explicit Session(const std::string& asset_path);
+  /// `wanted`: the surface and the guide to use; an empty name stands for the asset's first.
+  /// Throws Refused with the file and the rule that rejects it, or with the names that the asset
+  /// has.
+  explicit Session(const std::string& asset_path, SceneNames wanted = {});
+  Session(const Session&) = delete;  // the controller refers to `wanted`
+  Session& operator=(const Session&) = delete;
+
+  /// "surface `part`, guide `path`; not used: surface `lid`".
+  std::string scene_text() const;
+  /// Whether a controller that uses the asset's first surface and guide has the same scene.
+  bool is_default() const;
 
   AssetFile asset;
+  SceneNames wanted;
+  SceneNames used;                  // empty: the asset has none
+  std::vector<std::string> unused;  // "surface `lid`"
   std::unique_ptr<FullController> controller;
+
+ private:
+  SceneNames default_;
 };
+
+/// Throws Refused if a controller outside this process would use another scene: it always opens the
+/// asset's first surface and guide.
+void check_scene(const Session& session, bool has_remote);
 
 /// `path` relative to the folder of `folder_of` if possible, so that log and asset can be moved
 /// together.

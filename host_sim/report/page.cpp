@@ -105,6 +105,7 @@ std::string table(const Report& report, const Scene3d& scene3d) {
   if (s.has_guide)
     rows += row("Guide", grouped(report.environment.guide_m().size()) + " points, " +
                              fixed(report.environment.guide_length_m() * 1e3, 1) + " mm");
+  rows += row("Scene", html_of(report.scene));
   rows += row("Asset in flash", grouped(report.asset_bytes) + " bytes");
   rows += row("Controller state in RAM", grouped(sizeof(FullController)) + " bytes");
   rows += row("Ticks", grouped(s.ticks) + " at " + fixed(s.rate_Hz, 0) + " Hz");

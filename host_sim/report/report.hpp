@@ -16,6 +16,7 @@ struct Report {
   const Summary& summary;
   std::string asset_path;
   uint32_t asset_bytes;
+  std::string scene;    // Session::scene_text()
   std::string command;  // command line of the run
 };
 

@@ -138,6 +138,9 @@ void Reader::statement(LineReader& words) {
   if (name == "asset") {
     once(name, words);
     out.asset = words.path();
+  } else if (name == "mesh" || name == "guide") {
+    once(name, words);
+    (name == "mesh" ? out.scene.surface : out.scene.guide) = words.path();
   } else if (name == "start") {
     once(name, words);
     out.start_m = words.point("start");
@@ -171,7 +174,7 @@ Scenario read_scenario(const std::string& file, const std::string& text,
   std::vector<std::string> names;
   for (const Key& key : kKeys) names.emplace_back(key.name);
   for (const char* name :
-       {"output_delay", "asset", "start", "at", "move", "hold", "press", "follow"})
+       {"output_delay", "asset", "mesh", "guide", "start", "at", "move", "hold", "press", "follow"})
     names.emplace_back(name);
   for (const ParameterRow& row : parameters) names.push_back(row.short_name);
   std::istringstream lines(text);
@@ -199,6 +202,9 @@ std::string scenario_help() {
           "has a unit.\n\n"
           "  asset PATH                        baked asset, relative to the scenario's folder;\n"
           "                                    in \"quotes\" if it contains a # after a blank\n"
+          "  mesh NAME                         mesh or spline surface to touch; default: the "
+          "asset's first\n"
+          "  guide NAME                        curve to use as guide; default: the asset's first\n"
           "  start X Y Z m                     initial position of device and hand\n";
   Scenario defaults;
   for (const Key& key : kKeys) {

@@ -61,10 +61,16 @@ struct ParameterRow {
   double low = 0, high = 0, initial = 0;
 };
 
+/// Names of a surface (mesh or spline surface) and a guide of an asset; empty: the first one.
+struct SceneNames {
+  std::string surface, guide;
+};
+
 struct Scenario {
   std::string file;   // path of the scenario
   std::string text;   // as read, plus the --set lines; stored in logs
   std::string asset;  // path, relative to the scenario's folder
+  SceneNames scene;
   double rate_Hz = 1000;
   double geometry_rate_Hz = 0;  // 0: every tick makes a local model
   double duration_s = 0;

@@ -219,5 +219,5 @@ TEST(Session_DamagedAsset_ReportsRule) {
   } catch (const host_sim::Refused& refused) {
     message = refused.what();
   }
-  CHECK(message.find("bent.fta: refused by rule R") != std::string::npos);
+  CHECK(message.find("bent.fta: rejected by rule R") != std::string::npos);
 }

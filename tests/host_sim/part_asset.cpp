@@ -17,24 +17,33 @@
 namespace firmtouch::test {
 namespace {
 
-std::vector<uint8_t> baked() {
-  tools::MeshReport mesh_report;
-  std::vector<tools::Section> sections =
-      tools::bake_mesh(tools::make_part(1, 5000), "part", {}, mesh_report);
+using Sections = std::vector<tools::Section>;
+
+void add_mesh(Sections& to, uint32_t seed, uint32_t triangles, const std::string& name) {
+  tools::MeshReport report;
+  Sections sections = tools::bake_mesh(tools::make_part(seed, triangles), name, {}, report);
   mesh::View mesh;
+  if (!mesh::open(tools::mesh_sections(sections, name), mesh).ok()) std::abort();
+  sections.push_back(tools::mesh_probes(mesh, name));
+  to.insert(to.end(), sections.begin(), sections.end());
+}
+
+void add_path(Sections& to, uint32_t seed, const std::string& name) {
   tools::CurvePoints points;
-  points.samples_m = tools::make_path(1, 600);
+  points.samples_m = tools::make_path(seed, 600);
   for (uint32_t i = 0; i < points.samples_m.size(); ++i) points.rows.push_back(i);
-  tools::CurveReport curve_report;
-  std::vector<tools::Section> path = tools::bake_curve(points, "path", curve_report);
+  tools::CurveReport report;
+  Sections sections = tools::bake_curve(points, name, report);
   curve::View curve;
-  if (!mesh::open(tools::mesh_sections(sections, "part"), mesh).ok() ||
-      !curve::open(tools::curve_sections(path, "path"), curve).ok())
-    return {};
-  sections.push_back(tools::mesh_probes(mesh, "part"));
-  path.push_back(tools::curve_probes(curve, "path"));
-  sections.insert(sections.end(), path.begin(), path.end());
-  return tools::write_asset(std::move(sections)).bytes;
+  if (!curve::open(tools::curve_sections(sections, name), curve).ok()) std::abort();
+  sections.push_back(tools::curve_probes(curve, name));
+  to.insert(to.end(), sections.begin(), sections.end());
+}
+
+std::string write(Sections sections, const std::string& name) {
+  const std::vector<uint8_t> bytes = tools::write_asset(std::move(sections)).bytes;
+  host_sim::write_file(scratch() + "/" + name, std::string(bytes.begin(), bytes.end()));
+  return scratch() + "/" + name;
 }
 
 struct Folder {
@@ -59,9 +68,22 @@ const std::string& scratch() {
 
 const std::string& part_asset() {
   static const std::string path = [] {
-    const std::vector<uint8_t> bytes = baked();
-    host_sim::write_file(scratch() + "/part.fta", std::string(bytes.begin(), bytes.end()));
-    return scratch() + "/part.fta";
+    Sections sections;
+    add_mesh(sections, 1, 5000, "part");
+    add_path(sections, 1, "path");
+    return write(std::move(sections), "part.fta");
+  }();
+  return path;
+}
+
+const std::string& two_part_asset() {
+  static const std::string path = [] {
+    Sections sections;
+    add_mesh(sections, 1, 5000, "part");
+    add_mesh(sections, 2, 2000, "lid");
+    add_path(sections, 1, "path");
+    add_path(sections, 2, "rim");
+    return write(std::move(sections), "two.fta");
   }();
   return path;
 }

@@ -8,14 +8,17 @@
 
 namespace firmtouch::test {
 
-/// A folder of this process's own, gone when it ends.
+/// A temporary folder; removed when the process ends.
 const std::string& scratch();
 
-/// The demo's part in 5,000 triangles and its path, baked into scratch(): the asset's path.
+/// Path of a baked asset: the demo's part in 5,000 triangles (`part`) and its guide (`path`).
 const std::string& part_asset();
 
-/// The closed loop of the tests over that asset: 10,000 ticks of pressing, following and an
-/// emergency stop.
+/// Path of the same asset with a second mesh (`lid`) and a second guide (`rim`). The first ones in
+/// the table's order are `lid` and `path`.
+const std::string& two_part_asset();
+
+/// Scenario for part_asset(): 10,000 ticks of pressing, following the guide and an emergency stop.
 host_sim::Scenario loop_scenario();
 
 }  // namespace firmtouch::test
