@@ -71,7 +71,7 @@ TEST(WrapOfTheCounterIsNoMotion) {
       (void)device::read(state, wide, sample);
       sample.counts[0] = static_cast<int32_t>(next);
       const device::Reading reading = device::read(state, wide, sample);
-      CHECK(reading.believed);
+      CHECK(reading.accepted);
       CHECK_EQ(state.total[0] - static_cast<int64_t>(static_cast<int32_t>(start)),
                static_cast<int64_t>(step));
     }
@@ -102,7 +102,7 @@ TEST(VelocityIsTakenOverTheMeasuredTime) {
   CHECK(is_near(reading.velocity_mps.x, 0.2f, 1e-5f));
 }
 
-TEST(JumpFasterThanTheDeviceIsNotBelievedInTheSameTick) {
+TEST(JumpFasterThanTheDevice_IsRejectedInTheSameTick) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int direction = -1; direction <= 1; direction += 2) {
       device::State state;
@@ -111,16 +111,16 @@ TEST(JumpFasterThanTheDeviceIsNotBelievedInTheSameTick) {
       // 5 m/s over 1 ms at 100,000, 50,000 and 8,192 counts a metre, and one count of flicker.
       const int32_t most[3] = {501, 251, 41};
       jump.counts[axis] = direction * (most[axis] + 1);
-      CHECK(!read(state, jump).believed);
+      CHECK(!read(state, jump).accepted);
       device::State fresh;
       (void)read(fresh, at(0, 0, 0));
       jump.counts[axis] = direction * (most[axis] - 1);
-      CHECK(read(fresh, jump).believed);
+      CHECK(read(fresh, jump).accepted);
     }
   }
 }
 
-TEST(LostSamplesAreBridgedTwiceAndThenAreAFault) {
+TEST(LostSamples_AreExtrapolatedTwiceThenAFault) {
   device::State state;
   int32_t k = 0;
   for (; k < 60; ++k) (void)read(state, at(20 * k, 0, 0));
@@ -139,7 +139,7 @@ TEST(LostSamplesAreBridgedTwiceAndThenAreAFault) {
   CHECK_EQ(reading.velocity_mps.x, 0.0f);
 }
 
-TEST(AfterABridgeTheTrueMotionIsBelieved) {
+TEST(AfterExtrapolation_TrueMotionIsAccepted) {
   device::State state;
   int32_t k = 0;
   for (; k < 60; ++k) (void)read(state, at(300 * k % 40000, 0, 0));
@@ -150,7 +150,7 @@ TEST(AfterABridgeTheTrueMotionIsBelieved) {
   (void)read(state, lost);
   (void)read(state, lost);
   const device::Reading reading = read(state, at(1400, 0, 0));  // 4.7 m/s over the three periods
-  CHECK(reading.believed);
+  CHECK(reading.accepted);
   CHECK(is_near(reading.position_m.x, 0.114f, 1e-7f));
 }
 
@@ -164,11 +164,11 @@ TEST(EverySecondSampleLostIsAFaultToo) {
     if (read(state, sample).faults != 0) break;
   }
   CHECK_EQ(ticks, 10u);  // the sixth bad one
-  device::forgive(state);
+  device::clear(state);
   CHECK_EQ(read(state, at(0, 0, 0)).faults, 0u);
 }
 
-TEST(PlaceOutsideTheWorkspaceIsClampedAndToldOf) {
+TEST(PositionOutsideTheWorkspace_IsClampedWithAFault) {
   device::State state;
   const device::Reading reading = read(state, at(60000, 0, -2000000000));
   CHECK_EQ(reading.faults, device::kWorkspaceFault);

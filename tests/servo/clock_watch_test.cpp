@@ -27,7 +27,7 @@ bool is_near(float a, float b) { return a - b < 1e-9f && b - a < 1e-9f; }
 
 }  // namespace
 
-TEST(SteadyClockTellsItsPeriodWithinTenPercent) {
+TEST(RegularClock_MeasuresItsPeriodWithinTenPercent) {
   for (uint32_t period = 900; period <= 1100; period += 50) {
     Clock clock;
     (void)clock.after(0);
@@ -53,7 +53,7 @@ TEST(WrapOfTheClockIsNoEventAtAnyPhase) {
   }
 }
 
-TEST(OneLateTickIsMeasuredAndForgiven) {
+TEST(OneLateTick_IsMeasuredWithoutAFault) {
   Clock clock;
   (void)clock.after(0);
   for (int i = 0; i < 50; ++i) {
@@ -106,12 +106,12 @@ TEST(ClockThatStandsIsABrokenClockAtTheThirdTick) {
   CHECK(is_near(reading.dt_s, 0.5f * kPeriod_s));
 }
 
-TEST(ForgivenMissesDoNotComeBack) {
+TEST(ClearedMisses_DoNotComeBack) {
   Clock clock;
   (void)clock.after(0);
   for (int i = 0; i < 3; ++i) (void)clock.after(2000);
   CHECK_NE(clock.after(1000).faults, 0u);
-  servo::forgive(clock.state);
+  servo::clear(clock.state);
   CHECK_EQ(clock.after(1000).faults, 0u);
 }
 

@@ -66,7 +66,7 @@ TEST(GuardStopsAForceThatGrowsTooFast) {
   CHECK(down.pass(0.01f, 0, 0));  // towards zero as fast as you like
 }
 
-TEST(GuardStopsEverythingThatIsNotANumber) {
+TEST(Guard_StopsNaNAndInfinity) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const uint32_t bits : test::kSpecialBits) {
       Rig rig;
@@ -81,7 +81,7 @@ TEST(GuardStopsEverythingThatIsNotANumber) {
   }
 }
 
-TEST(GuardStopsWhereItsLimitsAreNotNumbers) {
+TEST(Guard_StopsWithNaNLimits) {
   const uint32_t bad[] = {0x7FC00000u, 0x7F800000u, 0xFF800000u,
                           0xBF800000u, 0x7F7FFFFFu, 0xFFC00001u};
   for (int field = 0; field < 3; ++field) {

@@ -94,10 +94,9 @@ TEST(EverySpecialInEveryFieldKeepsTheForceFiniteLimitedAndSlow) {
         all.input.velocity_mps = {-swing * 30, 0, swing * 10};
         if (tick >= 20 && tick < 23) put(all, offset, bits);
         const servo::StepOutput output = servo::step(state, all.settings, all.model, all.input);
-        // A fault that stands cannot be called a promise of the settings that were bent: judged by
-        // the usual ones.
-        const servo::Settings& judge = output.faults != 0 ? usual().settings : all.settings;
-        if (!keeps_promise(before, output.force_N, judge)) ++broken;
+        // With a fault, the usual settings are the promise to check, not the corrupted ones.
+        const servo::Settings& promised = output.faults != 0 ? usual().settings : all.settings;
+        if (!keeps_promise(before, output.force_N, promised)) ++broken;
         before = output.force_N;
       }
       if (state.faults != 0) ++faulted;
@@ -108,7 +107,7 @@ TEST(EverySpecialInEveryFieldKeepsTheForceFiniteLimitedAndSlow) {
   CHECK_GE(faulted, 45u * 4u);
 }
 
-TEST(NotANumberIsAFaultInItsTickInEveryField) {
+TEST(NaN_IsAFaultInItsTick_InEveryField) {
   for_each_float([](size_t offset) {
     servo::State state;
     Everything all = usual();

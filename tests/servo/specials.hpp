@@ -4,7 +4,7 @@
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/vec3.hpp"
 
-// What hostile input is made of, and how forces are judged: in double, by their exact values.
+// Hostile input values, and checks of forces in double, by their exact values.
 namespace firmtouch::test {
 
 constexpr uint32_t kSpecialBits[] = {

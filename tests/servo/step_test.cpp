@@ -228,7 +228,7 @@ TEST(LoweredLimitTakesForceAwayAtOnce) {
   CHECK_EQ(servo::step(state, low, floor_model(), at(-0.001f, 101)).force_N.z, 0.0f);
 }
 
-TEST(FreeRadiusIsToldOf) {
+TEST(FreeRadius_IsReported) {
   servo::State state;
   CHECK(servo::step(state, kSettings, floor_model(), at(0.009f, 0)).in_free_radius);
   CHECK(!servo::step(state, kSettings, floor_model(), at(0.011f, 1)).in_free_radius);

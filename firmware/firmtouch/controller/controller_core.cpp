@@ -98,8 +98,8 @@ ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
   const bool clear = input.command == record::kCommandClearFaults && !enable;
   output = {};
   if (clear) {
-    forgive(live_.clock);
-    forgive(live_.device);
+    servo::clear(live_.clock);
+    device::clear(live_.device);
     guard_clear(live_.guard);
   }
   if (input.command != record::kCommandNone) {

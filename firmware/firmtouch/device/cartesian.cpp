@@ -72,21 +72,21 @@ bool clamp_to_workspace(math::Vec3& position_m, const Settings& settings) {
   return was_inside;
 }
 
-void believe(State& state, const Settings& settings, const Sample& sample,
-             const int32_t (&step)[kAxes]) {
+void accept(State& state, const Settings& settings, const Sample& sample,
+            const int32_t (&step)[kAxes]) {
   for (uint32_t k = 0; k < kAxes; ++k) {
     state.counts[k] = sample.counts[k];
     state.total[k] += step[k];
   }
-  filter_velocity(state, settings, step, state.since_believed_s);
+  filter_velocity(state, settings, step, state.since_accepted_s);
   state.position_m = position_of(state, settings);
-  state.since_believed_s = 0;
+  state.since_accepted_s = 0;
   state.bad_in_a_row = 0;
 }
 
-void bridge(State& state, float dt_s) {
+void extrapolate(State& state, float dt_s) {
   if (state.bad_in_a_row < kBadInARow) ++state.bad_in_a_row;
-  if (state.bad_in_a_row <= kBridgedSamples) {
+  if (state.bad_in_a_row <= kExtrapolatedSamples) {
     state.position_m = state.position_m + state.velocity_mps * dt_s;
   } else {
     state.velocity_mps = {};
@@ -105,23 +105,23 @@ void start(State& state, const Settings& settings, const Sample& sample) {
 
 Reading read(State& state, const Settings& settings, const Sample& sample) {
   const float dt_s = clamp(sample.dt_s, kMinStep_s, kMaxStep_s);
-  bool believed = sample.trusted;
+  bool accepted = sample.trusted;
   if (!state.started) {
-    if (believed) start(state, settings, sample);
+    if (accepted) start(state, settings, sample);
   } else {
     int32_t step[kAxes];
     for (uint32_t k = 0; k < kAxes; ++k) step[k] = difference(sample.counts[k], state.counts[k]);
-    state.since_believed_s = clamp(state.since_believed_s + dt_s, kMinStep_s, kMaxStep_s);
+    state.since_accepted_s = clamp(state.since_accepted_s + dt_s, kMinStep_s, kMaxStep_s);
     state.bad_history <<= 1;
-    believed = believed && is_plausible(step, settings, state.since_believed_s);
-    if (believed) {
-      believe(state, settings, sample, step);
+    accepted = accepted && is_plausible(step, settings, state.since_accepted_s);
+    if (accepted) {
+      accept(state, settings, sample, step);
     } else {
-      bridge(state, dt_s);
+      extrapolate(state, dt_s);
     }
   }
   Reading reading;
-  reading.believed = believed;
+  reading.accepted = accepted;
   reading.started = state.started;
   if (state.bad_in_a_row >= kBadInARow || count_bits(state.bad_history) >= kBadOf32 ||
       !state.started) {
@@ -133,7 +133,7 @@ Reading read(State& state, const Settings& settings, const Sample& sample) {
   return reading;
 }
 
-void forgive(State& state) {
+void clear(State& state) {
   state.bad_in_a_row = 0;
   state.bad_history = 0;
 }

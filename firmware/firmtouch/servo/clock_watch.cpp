@@ -6,8 +6,7 @@ namespace firmtouch::servo {
 namespace {
 
 constexpr uint32_t kJump_us = 1000000;
-constexpr float kStall =
-    4.0f;  // periods: the force of one tick was held for longer than a hand forgives
+constexpr float kStall = 4.0f;  // periods: the force of one tick was held for too long
 constexpr float kEarly = 0.5f;  // periods
 constexpr uint32_t kWindowMask = (1u << kTimingWindow) - 1;
 
@@ -44,7 +43,7 @@ ClockReading watch_clock(ClockState& state, uint32_t clock_us, float period_s, f
   return reading;
 }
 
-void forgive(ClockState& state) {
+void clear(ClockState& state) {
   state.late_history = 0;
   state.early_history = 0;
 }

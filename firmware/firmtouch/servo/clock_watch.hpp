@@ -3,8 +3,8 @@
 
 namespace firmtouch::servo {
 
-// Of the last 10 ticks, so many may be late (or early) before the loop counts as lost. One late
-// tick is a hiccup: the measured time is used and nothing is said.
+// So many late (or early) ticks of the last 10 are a fault. After a single late tick the measured
+// time is used, without a fault.
 constexpr uint32_t kTimingWindow = 10;
 constexpr uint32_t kTimingMisses = 3;
 
@@ -21,18 +21,18 @@ struct ClockReading {
   uint32_t faults = 0;  // kFaultDeadline, kFaultClock
 };
 
-/// Measured time since the tick before, on a clock that wraps at 32 bits, and whether the loop
-/// keeps its period.
-///   late:  more than late_ratio periods. 3 of 10: kFaultDeadline. Four periods at once: at once.
+/// Measures the time since the last tick, on a clock that wraps at 32 bits, and checks that the
+/// loop keeps its period.
+///   late:  more than late_ratio periods. 3 of 10: kFaultDeadline. Four periods or more: at once.
 ///   early: less than half a period (a tick that came twice, a clock that stands).
 ///          3 of 10: kFaultClock.
-///   a second or more, as a clock that is set back looks too: kFaultClock at once.
+///   a second or more, which a clock set back also looks like: kFaultClock at once.
 /// Pre: period_s and late_ratio within their ranges of params; others give finite results too.
 /// Bounds: constant; re-entrant.
-/// Result: the first tick, and one with a broken clock, is given a period.
+/// Result: the first tick, and one with a broken clock, gets the nominal period.
 ClockReading watch_clock(ClockState& state, uint32_t clock_us, float period_s, float late_ratio);
 
-/// Forgets past misses, so that a fault which was cleared does not come back by itself.
-void forgive(ClockState& state);
+/// Forgets past misses, so that a cleared fault does not come back by itself.
+void clear(ClockState& state);
 
 }  // namespace firmtouch::servo

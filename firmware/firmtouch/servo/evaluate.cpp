@@ -30,8 +30,8 @@ bool is_material(float stiffness_N_per_m, float damping_N_s_per_m) {
 
 Vec3 across(Vec3 a, Vec3 direction) { return a - direction * dot(direction, a); }
 
-// Spring and damper across the line. Within a tunnel there is nothing; beyond it both grow in with
-// the share of the way that lies outside.
+// Spring and damper across the line. None within a tunnel; beyond it both grow with the share of
+// the distance that lies outside.
 Vec3 pull_N(const GuideLine& guide, Vec3 off_m, Vec3 velocity_mps) {
   Vec3 pull = across(off_m, guide.direction) * -guide.stiffness_N_per_m -
               across(velocity_mps, guide.direction) * guide.damping_N_s_per_m;

@@ -4,21 +4,21 @@
 
 namespace firmtouch::servo {
 
-// What a local model may hold; far beyond every device, and small enough that no sum of its forces
+// Limits of a local model: far beyond every device, and small enough that no sum of its forces
 // overflows.
 constexpr float kMaxStiffness_N_per_m = 1e6f;
 constexpr float kMaxDamping_N_s_per_m = 1e4f;
 constexpr float kMaxPosition_m = 1e4f;
 constexpr float kMaxVelocity_mps = 1e4f;
-constexpr float kMaxDrive_N = 1e9f;  // before its limit: stiffness and damping times the above
+constexpr float kMaxDrive_N = 1e9f;  // before drive_limit_N
 
 /// Whether every number of the model is finite and in range and its directions are unit to 1 %.
 bool is_sound(const LocalModel& model);
 
 /// Force of the model on the tool at this position and velocity (device frame). A plane pushes
-/// along its normal or not at all: its damper never pulls the tool into the surface. The guide acts
-/// across its line beyond its tunnel, without a jump where that begins, and along it by its drive.
-/// Planes add up.
+/// along its normal or not at all, so its damper never pulls the tool into the surface. Planes add
+/// up. The guide acts across its line beyond its tunnel, without a jump at the wall, and along it
+/// by its drive.
 /// Pre: is_sound(model), position and velocity finite and within the bounds above.
 /// Result: finite.
 math::Vec3 evaluate(const LocalModel& model, math::Vec3 position_m, math::Vec3 velocity_mps);

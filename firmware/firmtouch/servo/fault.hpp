@@ -2,32 +2,32 @@
 #include <stdint.h>
 
 // What switches the motors off. Numbered, append-only, latched: one bit each in
-// record::TickOutput::faults, until a clear command while the enable line is low. The setting that
-// governs a fault stands beside it.
+// record::TickOutput::faults, until a clear command while the enable line is low. The parameter
+// that governs a fault stands behind it.
 namespace firmtouch::servo {
 
-constexpr uint32_t kFaultNotFinite = 1u << 0;      // position, velocity, or what became of them
+constexpr uint32_t kFaultNotFinite = 1u << 0;      // position, velocity or force
 constexpr uint32_t kFaultModel = 1u << 1;          // a local model with NaN or out of range
 constexpr uint32_t kFaultStaleModel = 1u << 2;     // model_age
 constexpr uint32_t kFaultDeadline = 1u << 3;       // late_ratio, tick_period_s (clock_watch.hpp)
-constexpr uint32_t kFaultClock = 1u << 4;          // it jumped or stood still; tick_period_s
+constexpr uint32_t kFaultClock = 1u << 4;          // jumped or stood still; tick_period_s
 constexpr uint32_t kFaultEncoder = 1u << 5;        // lost, or faster than max_speed_mps
 constexpr uint32_t kFaultWorkspace = 1u << 6;      // outside of workspace_half_{x,y,z}_m
 constexpr uint32_t kFaultDrive = 1u << 7;          // the motor driver's line
 constexpr uint32_t kFaultEmergencyStop = 1u << 8;  // the operator's line
-constexpr uint32_t kFaultAsset = 1u << 9;          // enabled over an asset that was refused
-constexpr uint32_t kFaultProbes = 1u << 10;        // enabled over other arithmetic than the baker's
+constexpr uint32_t kFaultAsset = 1u << 9;          // enabled with a rejected asset
+constexpr uint32_t kFaultProbes = 1u << 10;        // enabled with other arithmetic than the baker's
 constexpr uint32_t kFaultSettings = 1u << 11;      // servo settings out of range
-constexpr uint32_t kFaultGuard = 1u << 12;         // the last guard stopped what servo wanted
+constexpr uint32_t kFaultGuard = 1u << 12;         // the guard stopped a force
 constexpr uint32_t kFaultCount = 13;
 
-// These cut the force within the same tick; the others let it down over kRampOut_s, since a sudden
-// loss of support is felt as a blow. force_limit_N holds all the while.
+// These cut the force in the same tick. The others ramp it down over kRampOut_s, because a sudden
+// loss of support hits the hand; force_limit_N holds meanwhile.
 constexpr uint32_t kCutAtOnce = kFaultNotFinite | kFaultModel | kFaultDrive | kFaultEmergencyStop |
                                 kFaultAsset | kFaultProbes | kFaultSettings | kFaultGuard;
-// These are latched only while the motors are on: whoever plugs in an encoder or halts in a
-// debugger with the motors off has done no harm. A cause that still stands in the tick that enables
-// is latched then, and the motors stay off.
+// These are latched only while the motors are on: plugging in an encoder or halting in a debugger
+// with the motors off does no harm. A cause that is present in the tick that enables is latched
+// then, and the motors stay off.
 constexpr uint32_t kOnlyWhileOn =
     kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder | kFaultWorkspace;
 
@@ -40,7 +40,7 @@ constexpr const char* fault_name(uint32_t number) {
   return number < kFaultCount ? kName[number] : "unknown";
 }
 
-/// What made fault `number`, and the parameter that governs it: a line for a person, short enough
+/// Cause of fault `number` and the parameter that governs it: one line for a person, short enough
 /// for link::Description.
 /// Result: empty beyond the last.
 constexpr const char* fault_text(uint32_t number) {

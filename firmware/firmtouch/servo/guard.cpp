@@ -4,7 +4,7 @@ namespace firmtouch::servo {
 namespace {
 
 constexpr uint32_t kTripped = 0;
-constexpr uint64_t kNotANumber = UINT64_MAX;
+constexpr uint64_t kNaN = UINT64_MAX;
 
 uint32_t word_of(float value) {
   uint32_t word;
@@ -18,7 +18,7 @@ float float_of(uint32_t word) {
   return value;
 }
 
-// |value| in units of 2^-fraction, digits below cut off; kNotANumber from 2^(62 - fraction) on, and
+// |value| in units of 2^-fraction, digits below cut off; kNaN from 2^(62 - fraction) on, and
 // for NaN.
 uint64_t fixed_point(float value, uint32_t fraction) {
   const uint32_t word = word_of(value) & 0x7FFFFFFFu;
@@ -27,7 +27,7 @@ uint64_t fixed_point(float value, uint32_t fraction) {
   const uint64_t mantissa = (word & 0x7FFFFFu) | 0x800000u;
   // value = mantissa * 2^(exponent - 150)
   const int32_t shift = static_cast<int32_t>(exponent + fraction) - 150;
-  if (shift >= 39) return kNotANumber;
+  if (shift >= 39) return kNaN;
   if (shift >= 0) return mantissa << shift;
   return shift > -24 ? mantissa >> -shift : 0;
 }

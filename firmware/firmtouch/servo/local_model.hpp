@@ -5,14 +5,14 @@
 
 namespace firmtouch::servo {
 
-constexpr uint32_t kMaxPlanes =
-    3;  // a corner of three faces: more planes than that are one contact too many to feel apart
+constexpr uint32_t kMaxPlanes = 3;  // a corner of three faces
 
 // Far beyond every device.
 constexpr float kMaxDriveLimit_N = 1e3f;
 constexpr float kMaxTunnel_m = 1e3f;
 
-/// Free where dot(normal, x) >= offset_m (device frame); a spring and damper across it behind.
+/// Free where dot(normal, x) >= offset_m (device frame); behind it a spring and damper along the
+/// normal.
 struct ContactPlane {
   math::Vec3 normal;  // unit, outward
   float offset_m = 0;
@@ -20,23 +20,23 @@ struct ContactPlane {
   float damping_N_s_per_m = 0;
 };
 
-/// A straight piece of a guide: pulls towards the line, across it only. Along it the tool is free,
+/// A straight piece of a guide: pulls toward the line, across it only. Along it the tool is free,
 /// or driven.
 struct GuideLine {
   math::Vec3 point_m;
   math::Vec3 direction;  // unit
   float stiffness_N_per_m = 0;
   float damping_N_s_per_m = 0;
-  float tunnel_m = 0;  // nearer to the line than this nothing is felt across it
-  // Along the line: drive_N where the tool is at the point and at rest, less spring and damper.
+  float tunnel_m = 0;  // nearer to the line than this there is no force across it
+  // Along the line: drive_N at the point and at rest, less spring and damper.
   float drive_N = 0;
   float drive_stiffness_N_per_m = 0;
   float drive_damping_N_s_per_m = 0;
-  float drive_limit_N = 0;  // the most along the line, either way; 0: free
+  float drive_limit_N = 0;  // largest force along the line, either way; 0: free
 };
 
-/// What scene gives servo: not a force, but what the force is made of, so that servo can evaluate
-/// it at the fresh position, at its own rate. Device frame.
+/// What scene passes to servo: not a force, but planes and a line, so that servo can evaluate the
+/// force at the fresh position, at its own rate. Device frame.
 struct LocalModel {
   ContactPlane plane[kMaxPlanes];
   uint32_t plane_count = 0;
@@ -46,7 +46,7 @@ struct LocalModel {
   float free_radius_m = 0;  // certified: no surface nearer to made_at_m than this
   uint32_t sequence = 0;
   uint32_t made_tick = 0;
-  uint32_t expires_tick = 0;  // servo lets go of a model that is older
+  uint32_t expires_tick = 0;  // after it the model is stale, and the force is ramped down
 };
 
 }  // namespace firmtouch::servo

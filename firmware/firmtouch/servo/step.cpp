@@ -10,7 +10,7 @@ namespace {
 using math::Vec3;
 
 constexpr float kRound = 0x1p-24f;
-// Less than anybody feels or any driver sets: below it, squares would lose digits to underflow.
+// Far below what a motor driver resolves; below it, squares would lose digits to underflow.
 constexpr float kMinLimit_N = 1e-9f;
 
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
@@ -27,8 +27,7 @@ bool is_within(Vec3 a, float most) {
          is_between(a.z, -most, most);
 }
 
-// Shortens a vector to `most`, rounding included: what comes out is not longer than that in exact
-// arithmetic.
+// Shortens a vector to `most`: in exact arithmetic the result is not longer.
 Vec3 shorten(Vec3 a, float most) {
   if (!(most >= kMinLimit_N)) return {};
   const float kept = most * (1.0f - 8.0f * kRound);
@@ -75,7 +74,7 @@ void change_mode(State& state, const Settings& settings, bool enable) {
   } else if (state.mode == Mode::kOff && enable) {
     state.mode = Mode::kRampIn;
     state.ticks_on = 0;
-  } else if (state.mode > Mode::kFault) {  // no such mode: memory was hit
+  } else if (state.mode > Mode::kFault) {  // no such mode: memory was corrupted
     state.mode = Mode::kFault;
   }
 }
@@ -100,8 +99,8 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   }
   const Vec3 wanted_N = shorten(evaluate(model, input.position_m, input.velocity_mps) * share,
                                 settings.force_limit_N);
-  // The sum below rounds by half an ulp of an axis of at most the limit: taken off the step
-  // beforehand.
+  // The sum below rounds by half an ulp of an axis, at most the limit; subtracted from the step
+  // here.
   const float step_N = settings.slew_limit_N_per_s * settings.tick_period_s -
                        settings.force_limit_N * (4.0f * kRound);
   return shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);

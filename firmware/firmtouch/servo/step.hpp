@@ -6,12 +6,12 @@
 
 namespace firmtouch::servo {
 
-// From a fault that lets the force down to no force: 10 ms at most, without a blow. In ticks:
-// rounded down, at least 1.
+// Ramp from a fault that does not cut to no force: at most 10 ms. In ticks: rounded down, at
+// least 1.
 constexpr float kRampOut_s = 0.008f;
 
-// Settings beyond these are kFaultSettings: no device that a hand holds needs more, and a bit that
-// flips in a setting mostly ends there.
+// Settings beyond these are kFaultSettings: no device that a hand holds needs more, and most
+// flipped bits of a setting exceed them.
 constexpr float kMaxForceLimit_N = 100.0f;
 constexpr float kMaxSlewLimit_N_per_s = 1e6f;
 constexpr float kMaxTickPeriod_s = 0.1f;
@@ -20,7 +20,7 @@ enum class Mode : uint8_t {
   kOff,     // not enabled: no force
   kRampIn,  // enabled a moment ago: the force grows in over ramp_in_s
   kOn,
-  kRampOut,  // disabled, or a fault: the last force dies away
+  kRampOut,  // disabled, or a fault: the last force falls to 0
   kFault,    // latched: no force
 };
 
@@ -37,7 +37,7 @@ struct StepInput {
   uint32_t tick = 0;
   bool enable = false;
   bool clear_faults = false;  // taken only while enable is false
-  uint32_t reported = 0;      // faults that others saw in this tick
+  uint32_t reported = 0;      // faults that other modules detected in this tick
 };
 
 struct StepOutput {
@@ -52,19 +52,19 @@ struct State {
   uint32_t faults = 0;
   uint32_t ticks_on = 0;
   uint32_t ramp_out_left = 0;
-  math::Vec3 force_N;      // of the tick before
-  math::Vec3 ramp_from_N;  // where the ramp out began
+  math::Vec3 force_N;      // of the last tick
+  math::Vec3 ramp_from_N;  // at the start of the ramp out
 };
 
-/// The force of this tick: the local model evaluated at the fresh position, ramped in, limited in
-/// size and in its change, or none. A function of its arguments.
+/// Force of this tick: the local model evaluated at the fresh position, ramped in, limited in size
+/// and in its change; or none. A function of its arguments.
 /// Bounds: constant; re-entrant.
 /// Result, for every input, NaN in any field included:
 ///   force finite and |force| <= force_limit_N;
-///   |change| <= slew_limit_N_per_s * tick_period_s, except towards zero: faults and a lowered
-///   limit take force away faster, those of kCutAtOnce at once;
-///   a fault is latched in the tick that shows it, and no force is left 10 ms later; enabling over
-///   one that stands gives no force at all.
+///   |change| <= slew_limit_N_per_s * tick_period_s, except toward zero: faults and a lowered limit
+///   reduce the force faster, those of kCutAtOnce at once;
+///   a fault is latched in the tick that shows it, and no force is left 10 ms later;
+///   enabling while a fault is present gives no force.
 StepOutput step(State& state, const Settings& settings, const LocalModel& model,
                 const StepInput& input);
 
