@@ -61,8 +61,8 @@ void add_mesh(std::vector<Section>& sections, const std::string& name, bool is_s
   }
   mesh::View view;
   CHECK(mesh::open(tools::mesh_sections(mesh, name), view).ok());
-  if (is_signed &&
-      !wide) {  // a map of three cells a side: each proof asks the mesh for all of them
+  // Only three cells a side: each proof queries the mesh for all of them.
+  if (is_signed && !wide) {
     tools::FieldReport of_field;
     std::vector<Section> distance_field = tools::bake_field(view, name, 1, of_field);
     CHECK(of_field.problem.empty());

@@ -216,8 +216,8 @@ int main(int count, char** words) {
     test.check("no frame was damaged", browser.evaluate("page.session.decoder.rejects") == "0");
   }
   ::kill(static_cast<pid_t>(std::atoi(words[3])), SIGKILL);
-  test.check("the plug is pulled: it says so",
-             test.becomes("$('banner').textContent.includes('The link is gone')", 5) &&
+  test.check("the page reports a closed link",
+             test.becomes("$('banner').textContent.includes('Disconnected')", 5) &&
                  test.becomes("$('state').textContent.startsWith('State, as last reported')", 1));
   picture("gone");
   std::printf("      a second at 10 kHz, %s\n", browser.evaluate(kCostOf10kHz).c_str());

@@ -11,7 +11,7 @@ class OneOf {
   static_assert((__is_trivially_copyable(Ts) && ...), "nothing is destroyed here");
 
  public:
-  /// Constructs a T in place of what was here; no copy of it stands on the stack.
+  /// Replaces the held value by a new T, constructed in place without a copy on the stack.
   template <class T, class... Arguments>
   T& begin(const Arguments&... arguments) {
     static_assert(sizeof(T) <= kBytes, "T is not of this memory");

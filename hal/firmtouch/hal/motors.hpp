@@ -3,10 +3,12 @@
 
 namespace firmtouch::hal {
 
-/// Force (torque) of each joint's motor, already limited. Called from the servo interrupt.
+/// Applies force (torque) to each joint's motor. All limits are applied already.
+/// Context: servo interrupt.
 void motors_write_N(const float (&motor_N)[3]);
 
-/// Power stage off, at once, from any context, before anything else was set up.
+/// Switches the power stage off at once. Must work before board_begin().
+/// Context: any, the fault handler included.
 void motors_off();
 
 // Bits of motors_lines(). The controller program checks that they are the record's.
@@ -14,8 +16,8 @@ constexpr uint32_t kMotorsEnable = 1u << 0;         // the operator's enable swi
 constexpr uint32_t kMotorsEmergencyStop = 1u << 1;  // the emergency stop is pressed
 constexpr uint32_t kMotorsDriveFault = 1u << 2;     // a motor driver reports a fault
 
-/// The lines of the power stage. Called from the servo interrupt, and before it runs from the main
-/// loop.
+/// Reads the input lines of the power stage. Result: the bits above.
+/// Context: main loop until the servo runs, then servo interrupt.
 uint32_t motors_lines();
 
 }  // namespace firmtouch::hal
