@@ -37,26 +37,41 @@ uint32_t LiveLink::poll(int timeout_ms, const std::function<void(const link::Fra
   return count;
 }
 
-link::Description LiveLink::row(uint16_t what, uint16_t index) {
+// Sends a request once a second, for 60 s, until `is_reply` accepts a frame.
+// Result: false after that time.
+bool LiveLink::exchange(const std::function<void()>& send_request,
+                        const std::function<bool(const link::Frame&)>& is_reply) {
   for (const auto begin = Clock::now(); Clock::now() - begin < kAnswerTime;) {
-    link::Describe query;
-    query.what = what;
-    query.index = index;
-    send(link::kDescribe, query);
-    link::Description row;
+    send_request();
     bool received = false;
     for (const auto sent = Clock::now();
          !received && Clock::now() - sent < std::chrono::milliseconds(kAgain_ms);)
-      poll(kAgain_ms, [&](const link::Frame& frame) {
-        link::Description reply;
-        if (frame.type == link::kText)
-          refuse("the controller does not describe its records: it is of another release");
-        if (frame.type != link::kDescription || !link::take(frame, reply)) return;
-        if (reply.what == what && reply.index == index) row = reply, received = true;
-      });
-    if (received) return row;
+      poll(kAgain_ms, [&](const link::Frame& frame) { received |= is_reply(frame); });
+    if (received) return true;
   }
-  refuse("no answer in 60 s; does the controller run firmtouch_app, and the serial line 1 Mbaud?");
+  return false;
+}
+
+link::Description LiveLink::row(uint16_t what, uint16_t index) {
+  link::Describe query;
+  query.what = what;
+  query.index = index;
+  link::Description row;
+  const bool received =
+      exchange([&] { send(link::kDescribe, query); },
+               [&](const link::Frame& frame) {
+                 link::Description reply;
+                 if (frame.type == link::kText)
+                   refuse("the controller does not describe its records: it is of another release");
+                 if (frame.type != link::kDescription || !link::take(frame, reply)) return false;
+                 if (reply.what != what || reply.index != index) return false;
+                 row = reply;
+                 return true;
+               });
+  if (!received)
+    refuse(
+        "no answer in 60 s; does the controller run firmtouch_app, and the serial line 1 Mbaud?");
+  return row;
 }
 
 void LiveLink::describe() {
@@ -85,18 +100,16 @@ void LiveLink::describe() {
 
 // Result: the controller's reply, after it has proven its asset.
 link::HelloReply LiveLink::hello(const link::Hello& hello) {
-  for (const auto begin = Clock::now(); Clock::now() - begin < kAnswerTime;) {
-    send(link::kHello, hello);
-    link::HelloReply reply;
-    bool received = false;
-    for (const auto sent = Clock::now();
-         !received && Clock::now() - sent < std::chrono::milliseconds(kAgain_ms);)
-      poll(kAgain_ms, [&](const link::Frame& frame) {
-        received |= frame.type == link::kHelloReply && link::take(frame, reply);
-      });
-    if (received && (reply.refused & link::kRefusedNotReady) == 0) return reply;
-  }
-  refuse("no answer to the handshake in 60 s; does the controller run firmtouch_app?");
+  link::HelloReply reply;
+  const bool received = exchange([&] { send(link::kHello, hello); },
+                                 [&](const link::Frame& frame) {
+                                   return frame.type == link::kHelloReply &&
+                                          link::take(frame, reply) &&
+                                          (reply.refused & link::kRefusedNotReady) == 0;
+                                 });
+  if (!received)
+    refuse("no answer to the handshake in 60 s; does the controller run firmtouch_app?");
+  return reply;
 }
 
 void LiveLink::begin(uint32_t decimation) {

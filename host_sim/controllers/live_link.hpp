@@ -37,6 +37,8 @@ class LiveLink {
  private:
   template <class T>
   void send(uint8_t type, const T& payload);
+  bool exchange(const std::function<void()>& send_request,
+                const std::function<bool(const link::Frame&)>& is_reply);
   link::Description row(uint16_t what, uint16_t index);
   link::HelloReply hello(const link::Hello& hello);
   [[noreturn]] void refuse(const std::string& what) const;
