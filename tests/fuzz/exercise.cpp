@@ -4,7 +4,6 @@
 #include <limits>
 #include <memory>
 
-#include "bake/mesh/mesh_ahead.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/nearest_constraint.hpp"
@@ -13,6 +12,7 @@
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "fuzz/victim.hpp"
 #include "harness/test.hpp"
+#include "simd/wide_mesh.hpp"
 
 namespace firmtouch::fuzz {
 namespace {
@@ -52,11 +52,12 @@ void check_certificate(const query::Certificate& certificate, uint32_t budget, b
   CHECK(finite_point || !certificate.exact);
 }
 
-void exercise_mesh(const mesh::View& view) {
+void exercise_mesh(const simd::WideMesh& wide) {
+  const mesh::View& view = wide.view();
   mesh::Hint warm;
   for (const uint32_t budget : kBudgets) {
     for (const Vec3 p : kPoints) {
-      const mesh::Closest closest = mesh::closest_point(view, p, {budget}, warm);
+      const mesh::Closest closest = wide.closest_point(p, {budget}, warm);
       CHECK(is_finite(closest.distance_m) && is_finite(closest.point_m) &&
             is_finite(closest.direction));
       CHECK_LT(closest.triangle, view.head().triangle_count);
@@ -64,7 +65,7 @@ void exercise_mesh(const mesh::View& view) {
       check_certificate(closest.certificate, budget, is_finite(p));
     }
     for (uint32_t i = 0; i + 1 < sizeof(kPoints) / sizeof(kPoints[0]); ++i) {
-      const mesh::Hit hit = mesh::cast_segment(view, kPoints[i], kPoints[i + 1], {budget});
+      const mesh::Hit hit = wide.cast_segment(kPoints[i], kPoints[i + 1], {budget});
       CHECK(hit.t >= 0 && hit.t <= 1);
       CHECK_LT(hit.triangle, view.head().triangle_count);
       CHECK_LE(hit.steps, budget);
@@ -140,9 +141,8 @@ core::Verdict open_mesh(const asset::Container& container, const char* name) {
   const core::Verdict verdict = mesh::open(sections, view);
   CHECK_EQ(verdict.ok(), view.is_open());
   if (!verdict.ok()) return verdict;
-  exercise_mesh(view);
-  const tools::MeshAhead ahead(view);  // sound trees that no baker makes, too
-  exercise_mesh(ahead.view());
+  for (const firmtouch_simd::Level& level : firmtouch_simd::levels())
+    exercise_mesh(simd::WideMesh(view, level));  // sound trees that no baker makes, too
   const query::Probes probes =
       query::read_probes(copies.of(container.find(mesh::kProbesSection, name)));
   (void)mesh::probe_hash(view, probes.points);

@@ -8,7 +8,7 @@ check_cxx_source_compiles("int main() { return 0; }" FIRMTOUCH_HAS_SANITIZERS)
 unset(CMAKE_REQUIRED_FLAGS)
 unset(CMAKE_REQUIRED_LINK_OPTIONS)
 
-firmtouch_test_module(fuzz LINKS firmtouch_tools_bake)
+firmtouch_test_module(fuzz LINKS firmtouch_tools_simd firmtouch_tools_bake)
 target_sources(test_fuzz PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/victim.cpp ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/exercise.cpp)
 if(FIRMTOUCH_HAS_SANITIZERS)
   foreach(module core math query mesh field curve asset)

@@ -221,7 +221,7 @@ TEST(R140ShapesNotThereWithTheBoxesOrNotOfThisMesh) {
 
 TEST(R141ShapeThatIsNotOfItsCorners) {
   for (uint32_t t = 0; t < Cube::kTriangles; ++t)
-    for (uint32_t k = 0; k < mesh::kRowsOfShapes; ++k) {
+    for (uint32_t k = 0; k < mesh::kShapeFloats; ++k) {
       BoxedCube cube;
       uint8_t* const float_k = reinterpret_cast<uint8_t*>(&cube.shapes[t]) + k * sizeof(float);
       *float_k ^= 1u;

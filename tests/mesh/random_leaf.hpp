@@ -1,5 +1,5 @@
 #pragma once
-// Triangles of a leaf at random, few values among them, and what the search in turn tells of them.
+// Random triangles of a leaf, with few distinct values, and their closest points one by one.
 
 #include <float.h>
 #include <stdint.h>
@@ -72,7 +72,8 @@ inline float longest_edge_m(const Leaf& leaf) {
   return longest_m;
 }
 
-inline float measured_in_turn(const Leaf& leaf, uint32_t child, float min2_m2, mesh::Best& best) {
+inline float measured_one_by_one(const Leaf& leaf, uint32_t child, float min2_m2,
+                                 mesh::Best& best) {
   for (uint32_t i = mesh::leaf_first(child), n = mesh::leaf_count(child); n-- > 0; ++i) {
     const mesh::Foot foot = closest_on(leaf, i);
     if (!(foot.distance2_m2 < min2_m2)) continue;

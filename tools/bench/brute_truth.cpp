@@ -165,7 +165,7 @@ TruthReport measure_truth(const Model& model, size_t count,
   report.points = points.size();
   mesh::Hint hint;
   for (size_t i = 0; i < points.size(); ++i) {
-    const mesh::Closest c = mesh::closest_point(model.view, points[i], query::kUnlimited, hint);
+    const mesh::Closest c = model.wide.closest_point(points[i], query::kUnlimited, hint);
     const double scale = std::max(model.diagonal_m(), truth[i].distance_m),
                  reported = std::fabs(static_cast<double>(c.distance_m));
     report.worst_error =

@@ -12,7 +12,6 @@
 namespace firmtouch::bench {
 namespace {
 
-// The goals are for this machine's own instruction set (the preset host-native).
 constexpr double kWalkGoal = 0.25;
 constexpr double kRandomGoal = 0.35;
 constexpr double kBytesGoal = 36;
@@ -22,14 +21,14 @@ constexpr size_t kBudgetQueries = 1500;
 constexpr uint64_t kBudgetSeed = 2;
 
 // All points in order; warm: each starts where the one before ended.
-Contender ours(const mesh::View& view, const std::vector<math::Vec3>& points, bool is_warm,
+Contender ours(const simd::WideMesh& mesh, const std::vector<math::Vec3>& points, bool is_warm,
                Clock clock = Clock::kWall) {
-  const auto pass = [&view, &points, is_warm] {
+  const auto pass = [&mesh, &points, is_warm] {
     double sum = 0;
     mesh::Hint hint;
     for (const math::Vec3& p : points) {
       if (!is_warm) hint = mesh::Hint{};
-      sum += static_cast<double>(mesh::closest_point(view, p, query::kUnlimited, hint).distance_m);
+      sum += static_cast<double>(mesh.closest_point(p, query::kUnlimited, hint).distance_m);
     }
     return sum;
   };
@@ -49,8 +48,8 @@ void run_race(const Race& race, const Model& model, const Model& desktop, const 
   report.stage(std::string(race.what) + ", " + model.name);
   const TemporaryFolder folder;
   std::vector<Contender> contenders{
-      median_of_passes(ours(model.view, race.points, race.is_warm)),
-      median_of_passes(ours(desktop.view, race.points, race.is_warm))};
+      median_of_passes(ours(model.wide, race.points, race.is_warm)),
+      median_of_passes(ours(desktop.wide, race.points, race.is_warm))};
   if (peer.is_present()) {
     contenders.push_back(peer.contender("closest", file_for_peer(model, folder),
                                         folder.write("points.csv", tools::to_csv(race.points))));
@@ -89,16 +88,16 @@ void tell_bytes(const Model& model, Report& report) {
 void race_sides(const Model& model, const std::vector<math::Vec3>& points, Report& report) {
   report.stage("with and without sides, " + model.name);
   const Model plain = baked_again(model, Sides::kUnsigned);
-  const std::vector<double> us = medians_us({ours(model.view, points, true, Clock::kProcessor),
-                                             ours(plain.view, points, true, Clock::kProcessor)});
+  const std::vector<double> us = medians_us({ours(model.wide, points, true, Clock::kProcessor),
+                                             ours(plain.wide, points, true, Clock::kProcessor)});
   report.figure("time for inside and outside, touching path", model.name, 100 * (us[0] / us[1] - 1),
                 "%", "instructions: tools/bench/cortex-m7 --unsigned");
 }
 
-AskBudget cold_ask(const mesh::View& view, const std::vector<math::Vec3>& points) {
-  return [&view, &points](size_t i, uint32_t budget) {
+AskBudget cold_ask(const simd::WideMesh& mesh, const std::vector<math::Vec3>& points) {
+  return [&mesh, &points](size_t i, uint32_t budget) {
     mesh::Hint hint;
-    const mesh::Closest c = mesh::closest_point(view, points[i], {budget}, hint);
+    const mesh::Closest c = mesh.closest_point(points[i], {budget}, hint);
     return Reported{std::fabs(static_cast<double>(c.distance_m)),
                     static_cast<double>(c.certificate.lower_m), c.certificate.steps};
   };
@@ -110,7 +109,7 @@ void tell_certificates(const Model& model, Report& report) {
   const std::vector<math::Vec3> points = random_points(model, kBudgetQueries, kBudgetSeed);
   std::vector<double> truths_m;
   for (const math::Vec3& p : points) truths_m.push_back(truth(p));
-  const AskBudget ask = cold_ask(model.view, points);
+  const AskBudget ask = cold_ask(model.wide, points);
 
   const BoundShares shares = bound_shares(truths_m, kBudget, ask);
   const std::string cold = "64 steps, cold: ";

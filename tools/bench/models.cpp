@@ -60,7 +60,7 @@ Model model_of(tools::Surface surface, const std::string& name, const std::strin
       mesh::open(tools::mesh_sections(model.sections, "model"), model.view);
   if (!verdict.ok())
     throw Problem(where + ": its mesh breaks rule R" + std::to_string(verdict.rule));
-  model.view = tools::read_ahead(model.view, model.ahead);
+  model.wide = simd::WideMesh(model.view);
   return model;
 }
 
@@ -106,7 +106,7 @@ std::vector<math::Vec3> random_points(const Model& model, size_t count, uint64_t
 std::vector<math::Vec3> walk(const Model& model, uint32_t count, uint64_t seed) {
   mesh::Hint hint;
   return tools::make_walk(model.surface, seed, count, [&](math::Vec3 p_m) {
-    return mesh::closest_point(model.view, p_m, query::kUnlimited, hint).point_m;
+    return model.wide.closest_point(p_m, query::kUnlimited, hint).point_m;
   });
 }
 

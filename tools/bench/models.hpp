@@ -4,9 +4,9 @@
 
 #include "bake/asset/section.hpp"
 #include "bake/mesh/bake_mesh.hpp"
-#include "bake/mesh/mesh_ahead.hpp"
 #include "bench/bench.hpp"
 #include "firmtouch/mesh/view.hpp"
+#include "simd/wide_mesh.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::bench {
@@ -40,8 +40,8 @@ struct Model {
   tools::Surface surface;  // sound; its faces are not in the order of the tree
   tools::MeshReport report;
   std::vector<tools::Section> sections;
-  tools::MeshAhead ahead;  // read by the view where this processor gains by it
   mesh::View view;
+  simd::WideMesh wide;  // the same mesh with the search of this processor
 
   double diagonal_m() const { return static_cast<double>(view.head().diagonal_m); }
 };

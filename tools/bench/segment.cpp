@@ -55,23 +55,23 @@ std::string csv_of(const std::vector<Segment>& segments) {
   return text;
 }
 
-using Answer = double (*)(const mesh::View& view, const Segment& segment);
+using Answer = double (*)(const simd::WideMesh& mesh, const Segment& segment);
 
-double first_of(const mesh::View& view, const Segment& s) {
-  return static_cast<double>(mesh::cast_segment(view, s.a_m, s.b_m, query::kUnlimited).t);
+double first_of(const simd::WideMesh& mesh, const Segment& s) {
+  return static_cast<double>(mesh.cast_segment(s.a_m, s.b_m, query::kUnlimited).t);
 }
-double any_of(const mesh::View& view, const Segment& s) {
-  return static_cast<double>(mesh::any_crossing(view, s.a_m, s.b_m, query::kUnlimited).t);
+double any_of(const simd::WideMesh& mesh, const Segment& s) {
+  return static_cast<double>(mesh.any_crossing(s.a_m, s.b_m, query::kUnlimited).t);
 }
-double all_of(const mesh::View& view, const Segment& s) {
+double all_of(const simd::WideMesh& mesh, const Segment& s) {
   mesh::SurfaceCrossing room[256];
-  return mesh::all_crossings(view, s.a_m, s.b_m, query::kUnlimited, {room}).found;
+  return mesh.all_crossings(s.a_m, s.b_m, query::kUnlimited, {room}).found;
 }
 
-Contender ours(const mesh::View& view, const std::vector<Segment>& segments, Answer answer) {
-  const auto pass = [&view, &segments, answer] {
+Contender ours(const simd::WideMesh& mesh, const std::vector<Segment>& segments, Answer answer) {
+  const auto pass = [&mesh, &segments, answer] {
     double sum = 0;
-    for (const Segment& s : segments) sum += answer(view, s);
+    for (const Segment& s : segments) sum += answer(mesh, s);
     return sum;
   };
   return median_of_passes(timed(segments.size(), pass));
@@ -80,10 +80,10 @@ Contender ours(const mesh::View& view, const std::vector<Segment>& segments, Ans
 void count(const Model& model, const std::vector<Segment>& segments, Report& report) {
   double steps = 0, hits = 0, crossings = 0;
   for (const Segment& s : segments) {
-    const mesh::Hit hit = mesh::cast_segment(model.view, s.a_m, s.b_m, query::kUnlimited);
+    const mesh::Hit hit = model.wide.cast_segment(s.a_m, s.b_m, query::kUnlimited);
     steps += hit.steps;
     hits += hit.hit ? 1 : 0;
-    crossings += all_of(model.view, s);
+    crossings += all_of(model.wide, s);
   }
   report.figure("segments that hit", model.name, hits, "of 10000");
   report.figure("crossings in all", model.name, crossings, "");
@@ -101,9 +101,9 @@ void run_segment(const Options& options, Report& report) {
     const std::vector<Segment> segments = across(model);
     const TemporaryFolder folder;
     const Model desktop = baked_for_desktop(model);
-    std::vector<Contender> contenders{ours(desktop.view, segments, first_of)};
+    std::vector<Contender> contenders{ours(desktop.wide, segments, first_of)};
     for (const Answer answer : {first_of, any_of, all_of})
-      contenders.push_back(ours(model.view, segments, answer));
+      contenders.push_back(ours(model.wide, segments, answer));
     if (peer.is_present()) {
       contenders.push_back(peer.contender("segment", file_for_peer(model, folder),
                                           folder.write("segments.csv", csv_of(segments))));

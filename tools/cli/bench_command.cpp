@@ -2,6 +2,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
+#include "cli/queries.hpp"
 #include "cli/run_benches.hpp"
 
 namespace firmtouch::cli {
@@ -26,6 +27,7 @@ const Command& bench_command() {
       "    COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`",
       {{"--peer", "COMMAND", "what to race against (default: none)"},
        {"--bar", nullptr, "exit code 1 where a bar is not met"},
+       {"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"},
        {"--json", nullptr, "for programs"},
        {"--long", nullptr, "the full sizes"}},
       0,
@@ -39,6 +41,7 @@ int run_bench(const Arguments& arguments) {
     fail_usage("bench: '" + name + "' is now run as `firmtouch-lab " + name +
                "`; build it with cmake --preset host -DFIRMTOUCH_LAB=ON");
   }
+  choose_isa(arguments);
   return run_benches(bench::benches(), arguments);
 }
 

@@ -47,9 +47,10 @@ LoadedMesh LoadedAsset::mesh(const std::string& name) const {
                "' was baked with --no-tree: only its hull can be asked; bake it without for more");
   }
   LoadedMesh loaded;
-  const core::Verdict verdict = mesh::open(mesh::find_sections(container_, key), loaded.view);
+  mesh::View view;
+  const core::Verdict verdict = mesh::open(mesh::find_sections(container_, key), view);
   if (!verdict.ok()) fail_unsound("mesh '" + name + "': " + tools::rule_text(verdict));
-  loaded.view = tools::read_ahead(loaded.view, loaded.ahead);
+  loaded.wide = simd::WideMesh(view);
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
   return loaded;
 }

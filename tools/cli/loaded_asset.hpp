@@ -3,18 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "bake/mesh/mesh_ahead.hpp"
 #include "firmtouch/asset/container.hpp"
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/spline/view.hpp"
+#include "simd/wide_mesh.hpp"
 
 namespace firmtouch::cli {
 
 struct LoadedMesh {
-  tools::MeshAhead ahead;  // read by the view where this processor gains by it
-  mesh::View view;
+  simd::WideMesh wide;  // the answers of the controller, to the bit
   core::Span<const uint32_t> source;  // of each triangle: its index in the imported file
 
   uint32_t source_of(uint32_t triangle) const {

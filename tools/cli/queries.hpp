@@ -25,6 +25,9 @@ void check_hull_options(const Arguments& arguments);
 std::string primitive_of(const Arguments& arguments);
 
 // One a kind of query: answers every row of `table` on standard output, or times them.
+/// Applies --isa. Fails (usage) where this processor has no such level.
+void choose_isa(const Arguments& arguments);
+
 void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
 void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
 void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments);

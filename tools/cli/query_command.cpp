@@ -80,6 +80,9 @@ const Command& query_command() {
       {{"--cold", nullptr, "each row on its own"},
        {"--budget", "N", "at most N steps a query (default: unlimited, so exact)"},
        {"--time", nullptr, "no CSV: the median time a query over 5 passes"},
+       {"--isa", "LEVEL",
+        "distance, segment: instruction set: scalar, x86-64-v2, -v3, -v4 or neon (default: the "
+        "fastest here); the answers are the same"},
        {"--mode", "MODE",
         "curve: exact (default) or nearest, of the N nearest samples; hull: complete (default): "
         "misses nothing, or refine: splits the hull where it is crossed"},
@@ -112,7 +115,9 @@ int run_query(const Arguments& arguments) {
   if (kind == "curve" && arguments.text("--mode", "exact") == "exact") {
     forbid(arguments, "--mode exact", {"--n"});
   }
+  if (kind != "distance" && kind != "segment") forbid(arguments, kind, {"--isa"});
   check_options(arguments, kind);
+  choose_isa(arguments);
   const LoadedAsset asset(path);
   if (kind == "curve") {
     const LoadedCurve curve = asset.curve(name);

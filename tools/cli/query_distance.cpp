@@ -2,9 +2,9 @@
 #include <cfloat>
 #include <cstdio>
 
+#include "cli/failure.hpp"
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
-#include "firmtouch/mesh/closest_point.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -17,8 +17,8 @@ const char* feature_text(mesh::Feature feature) {
 // Rows in order, each warm-started by the one before unless `cold`.
 class Answers {
  public:
-  Answers(const mesh::View& view, const Arguments& arguments)
-      : view_(view), budget_(budget_of(arguments)), cold_(arguments.has("--cold")) {
+  Answers(const simd::WideMesh& mesh, const Arguments& arguments)
+      : mesh_(mesh), budget_(budget_of(arguments)), cold_(arguments.has("--cold")) {
     if (arguments.has("--band"))
       budget_.band_m =
           static_cast<float>(std::min(arguments.number("--band", 0, 0), double{FLT_MAX}));
@@ -26,11 +26,11 @@ class Answers {
 
   mesh::Closest next(const float* row) {
     if (cold_) hint_ = mesh::Hint{};
-    return mesh::closest_point(view_, {row[0], row[1], row[2]}, budget_, hint_);
+    return mesh_.closest_point({row[0], row[1], row[2]}, budget_, hint_);
   }
 
  private:
-  const mesh::View& view_;
+  const simd::WideMesh& mesh_;
   query::Budget budget_;
   bool cold_;
   mesh::Hint hint_;
@@ -47,6 +47,12 @@ void print_row(const LoadedMesh& mesh, const mesh::Closest& a) {
 
 }  // namespace
 
+void choose_isa(const Arguments& arguments) {
+  if (!arguments.has("--isa")) return;
+  const std::string problem = firmtouch_simd::use_level(arguments.text("--isa", ""));
+  if (!problem.empty()) fail_usage(problem);
+}
+
 query::Budget budget_of(const Arguments& arguments) {
   query::Budget budget;
   budget.steps = arguments.count("--budget", UINT32_MAX, 1, UINT32_MAX);
@@ -56,7 +62,7 @@ query::Budget budget_of(const Arguments& arguments) {
 void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
   if (arguments.has("--time")) {
     print_time(table.rows(), [&] {
-      Answers answers(mesh.view, arguments);
+      Answers answers(mesh.wide, arguments);
       float sum = 0;
       for (size_t i = 0; i < table.rows(); ++i) sum += answers.next(table.row(i)).distance_m;
       return sum;
@@ -64,7 +70,7 @@ void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Argumen
     return;
   }
   std::puts("distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact");
-  Answers answers(mesh.view, arguments);
+  Answers answers(mesh.wide, arguments);
   for (size_t i = 0; i < table.rows(); ++i) print_row(mesh, answers.next(table.row(i)));
 }
 

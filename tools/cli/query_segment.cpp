@@ -3,7 +3,6 @@
 
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
-#include "firmtouch/mesh/segment_cast.hpp"
 
 namespace firmtouch::cli {
 
@@ -11,31 +10,31 @@ namespace {
 
 math::Vec3 point_of(const float* row) { return {row[0], row[1], row[2]}; }
 
-// Every row's crossings, in order of t. Counted first where there are more than usual, so that none
-// is left out.
+// Every row's crossings, in order of t. If the buffer is too small for all, it grows and the row is
+// queried again.
 class AllCrossings {
  public:
   AllCrossings(const LoadedMesh& mesh, query::Budget budget) : mesh_(mesh), budget_(budget) {}
 
   core::Span<const mesh::SurfaceCrossing> of(const float* row) {
     const math::Vec3 a_m = point_of(row), b_m = point_of(row + 3);
-    mesh::Crossings all = ask(a_m, b_m);
-    if (all.found > room_.size()) {
-      room_.resize(all.found);
-      all = ask(a_m, b_m);
+    mesh::Crossings all = find(a_m, b_m);
+    if (all.found > buffer_.size()) {
+      buffer_.resize(all.found);
+      all = find(a_m, b_m);
     }
-    return {room_.data(), all.reported};
+    return {buffer_.data(), all.reported};
   }
 
  private:
-  mesh::Crossings ask(math::Vec3 a_m, math::Vec3 b_m) {
-    return mesh::all_crossings(mesh_.view, a_m, b_m, budget_,
-                               {room_.data(), static_cast<uint32_t>(room_.size())});
+  mesh::Crossings find(math::Vec3 a_m, math::Vec3 b_m) {
+    return mesh_.wide.all_crossings(a_m, b_m, budget_,
+                                    {buffer_.data(), static_cast<uint32_t>(buffer_.size())});
   }
 
   const LoadedMesh& mesh_;
   query::Budget budget_;
-  std::vector<mesh::SurfaceCrossing> room_ = std::vector<mesh::SurfaceCrossing>(64);
+  std::vector<mesh::SurfaceCrossing> buffer_ = std::vector<mesh::SurfaceCrossing>(64);
 };
 
 void query_all(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
@@ -62,7 +61,7 @@ void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Argument
   const query::Budget budget = budget_of(arguments);
   const auto cast = [&](size_t i) {
     const float* const row = table.row(i);
-    return mesh::cast_segment(mesh.view, point_of(row), point_of(row + 3), budget);
+    return mesh.wide.cast_segment(point_of(row), point_of(row + 3), budget);
   };
   if (arguments.has("--time")) {
     print_time(table.rows(), [&] {

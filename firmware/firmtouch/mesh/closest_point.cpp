@@ -1,293 +1,38 @@
 #include "firmtouch/mesh/closest_point.hpp"
 
-#include <float.h>
-
 #include "firmtouch/mesh/direction.hpp"
-#include "firmtouch/mesh/nearest_ahead.hpp"
-#include "firmtouch/mesh/pseudonormal.hpp"
-#include "firmtouch/query/motion.hpp"
+#include "firmtouch/mesh/nearest_answer.hpp"
 
 namespace firmtouch::mesh {
 namespace {
 
-// What an exact answer promises of told distance and lower bound, beside max(diagonal, distance), a
-// little inside of 4e-7.
-constexpr float kPromise = 3.9e-7f;
+struct ScalarFinder {
+  const View& mesh;
 
-// Below this distance, beside the diagonal, either side is right; what is nearer is not carried on.
-constexpr float kEitherSide = 2e-6f;
-
-// A height above the plane of a pseudonormal that is less, beside the distance, tells no side: far
-// above what decoding loses. The baker refuses features whose margin, as stored, is not five times
-// this.
-constexpr float kDoubt_rad = 6e-5f;
-
-// A new fence stands this many of the last motions beyond the nearest leaf: nearer, it must soon be
-// renewed; farther, more lies inside it. Of 6, 8, 12 and 16, 8 served the worst touching
-// walks (2 % apart).
-constexpr float kSafeSubtreeMotions = 8.0f;
-
-// A query farther than this from the origin: squares overflow beyond 1e19, and no model is larger
-// than 1e6 m.
-constexpr float kBeyond_m = 1e15f;
-
-bool is_slot(const View& mesh, uint32_t slot) {
-  if ((slot >> 1) >= mesh.nodes().size()) return false;
-  const uint32_t child = mesh.sides()[slot].child;
-  return is_leaf(child) && leaf_count(child) != 0;
-}
-
-// What boxes leave out beyond a band is not told: where there are any they are asked on a desktop too.
-template <class Bound, class Index>
-void look_with(const View& mesh, const Bound& bound, Search& search) {
-  using Kind = Boxed<typename Choice<math::kHasLanes, Index, void>::Type>;  // in turn one for both
-  if (mesh.leaf_boxes() != nullptr) return search_nearest<false, Bound, Kind>(mesh, bound, search);
-  if constexpr (math::kHasLanes) {
-    if (mesh.ahead() != nullptr && search.budget == query::kUnlimited.steps) {
-      if (search.start == query::kNowhere) return search_ahead(mesh, bound, search);
-      return climb_ahead(mesh, bound, search);
-    }
+  template <bool kCompensated, class Bound>
+  void find(const Bound& bound, Search& search) const {
+    if constexpr (kCompensated)
+      search_nearest<true, Bound, void>(mesh, bound, search);
+    else if (mesh.leaf_boxes() != nullptr)
+      search_nearest<false, Bound, Boxed>(mesh, bound, search);
+    else if (!mesh.triangles16().empty())
+      search_nearest<false, Bound, uint16_t>(mesh, bound, search);
+    else
+      search_nearest<false, Bound, uint32_t>(mesh, bound, search);
   }
-  search_nearest<false, Bound, Index>(mesh, bound, search);
-}
-
-template <bool kCompensated, class Bound>
-void look(const View& mesh, const Bound& bound, Search& search) {
-  if constexpr (kCompensated)
-    search_nearest<true, Bound, void>(mesh, bound, search);
-  else if (!mesh.triangles16().empty())
-    look_with<Bound, uint16_t>(mesh, bound, search);
-  else
-    look_with<Bound, uint32_t>(mesh, bound, search);
-}
-
-// What a search found, and what it is worth.
-struct Found {
-  Search search;
-  float distance_m;
-  float lower_m;  // certified by this search alone
-};
-
-// How near something may be: beyond the band nothing was looked for.
-float nearest_m(const Search& search) {
-  return math::square_root(math::smaller(search.best.distance2_m2, search.band2_m2));
-}
-
-// a - b rounded down: a - s is exact where b is the smaller part.
-float less_m(float a_m, float b_m) {
-  const float s_m = a_m - b_m;
-  return a_m - s_m < b_m ? s_m * (1.0f - 0x1p-23f) : s_m;
-}
-
-void weigh(Found& found, float lower_m, float rounding_m) {
-  found.distance_m = math::square_root(found.search.best.distance2_m2);
-  found.lower_m = lower_m;
-  const float pending_m = found.search.pending_m - rounding_m;
-  if (!found.search.complete && pending_m < found.lower_m) found.lower_m = pending_m;
-  if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
-}
-
-// Measures the nearest triangle alone with care: mostly float32 lost far less than it may lose.
-// Result: whether what it is told to be and the lower bound now keep the promise, `within_m`.
-bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
-  if (!found.search.complete) return false;
-  const Best& best = found.search.best;
-  const Triangle<uint32_t> t = mesh.triangle(best.triangle);
-  const Vec3 a_m = mesh.vertex(t.corner[0]), b_m = mesh.vertex(t.corner[1]),
-             c_m = mesh.vertex(t.corner[2]);
-  const Loss loss(mesh.head());
-  const float distance_m = math::square_root(
-      loss.is_clear(best.distance2_m2) ? compensated_distance2(p_m, a_m, b_m, c_m, best.feature)
-                                       : compensated_distance2(p_m, a_m, b_m, c_m));
-  const float near_m = nearest_m(found.search);
-  weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
-  const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
-  if (!(max_m - found.lower_m <= within_m)) return false;
-  found.distance_m = distance_m;
-  return true;
-}
-
-// That was not enough: once more with care, from where the nearest was.
-template <class Bound>
-void search_again(const View& mesh, const Bound& bound, Vec3 p_m, uint32_t budget, Found& found) {
-  const Loss loss(mesh.head());
-  if (found.search.complete && budget > found.search.steps) {
-    Found again{};
-    // The nearest one is no farther than this, so that in its leaf too only what ties is measured.
-    const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
-    again.search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
-    again.search.band2_m2 = found.search.band2_m2;
-    again.search.safe_subtree = found.search.safe_subtree;
-    again.search.safe_subtree_m = found.search.safe_subtree_m;
-    again.search.safe_subtree_margin_m = found.search.safe_subtree_margin_m;
-    again.search.p_m = p_m;
-    again.search.start = found.search.best.slot;
-    again.search.budget = budget - found.search.steps;
-    look<true>(mesh, bound, again.search);
-    again.search.steps += found.search.steps;
-    if (again.search.complete) {
-      found = again;
-      const float near_m = nearest_m(found.search);
-      const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
-      return weigh(found, lower_m, loss.rounding_m);
-    }
-    found.search.steps = again.search.steps;
+  Vec3 direction(const Best& best) const {
+    return feature_direction(mesh, best.triangle, best.feature);
   }
-  // No budget left for it: what is told is the true distance of the triangle that was found.
-  found.search.complete = false;
-  if (found.search.best.slot == query::kNowhere) return;
-  const Triangle<uint32_t> t = mesh.triangle(found.search.best.triangle);
-  const float distance2_m2 = compensated_distance2(
-      p_m, mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
-  found.distance_m = math::square_root(distance2_m2);
-}
-
-// The side of the offset, or 0 where the roundings of offset, `loss_m`, and pseudonormal could turn
-// it.
-int8_t side_of(const Found& found, Vec3 direction, float loss_m, float diagonal_m) {
-  const float height_m = dot(found.search.best.offset_m, direction);
-  const float doubt_m = kDoubt_rad * found.distance_m + loss_m;
-  if constexpr (math::kHasLanes) {  // no processor foresees when a hand passes through the surface
-    const int side = static_cast<int>(height_m > doubt_m) - static_cast<int>(height_m < -doubt_m);
-    if (side != 0) return static_cast<int8_t>(side);
-  } else {
+  static int sign(float height_m, float doubt_m) {
     if (height_m > doubt_m) return 1;
-    if (height_m < -doubt_m) return -1;
+    return height_m < -doubt_m ? -1 : 0;
   }
-  if (found.distance_m > kEitherSide * diagonal_m) return 0;
-  return height_m >= 0.0f ? 1 : -1;
-}
-
-template <class Bound>
-[[gnu::always_inline]] inline Closest answer(const View& mesh, const Bound& bound, const Vec3& p_m,
-                                             const query::Budget& budget, Hint& hint) {
-  const float moved_m = query::motion_m(hint, p_m);
-  const bool has_moved = moved_m <= query::kMaxMotion_m;  // else nothing is carried on
-  const Loss loss(mesh.head());
-  const float safe_subtree_margin_m = has_moved ? kSafeSubtreeMotions * moved_m : 0.0f;
-  // FLT_MAX and what squares beyond it: no band.
-  const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
-  // After a jump out of the band's reach the last leaf does not help.
-  const uint32_t slot = hint.leaf_slot, safe_subtree = hint.safe_subtree;
-  const bool is_warm = !(safe_subtree_margin_m > budget.band_m) && is_slot(mesh, slot);
-  Found found;  // all at once, with nothing read between: else each of its defaults is stored too
-  Search& search = found.search;
-  search.p_m.x = p_m.x;
-  search.p_m.y = p_m.y;
-  search.p_m.z = p_m.z;
-  search.start = is_warm ? slot : query::kNowhere;
-  search.budget = budget.steps;
-  if constexpr (math::kHasLanes) {
-    search.last = hint.triangle_low;
-  }
-  search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
-  search.safe_subtree_margin_m = safe_subtree_margin_m;
-  search.safe_subtree = safe_subtree;
-  search.safe_subtree_m = query::left_of(hint.safe_subtree_m, moved_m);
-  search.slack_m2 = Nearer::slack_m2(loss.longest_edge_m);
-  if (!is_warm) {  // a stored vertex is a point of the surface before any triangle is reached
-    search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
-    search.best.distance2_m2 = dot(search.best.offset_m, search.best.offset_m);
-  }
-  look<Bound::kCompensated>(mesh, bound, search);
-  const float plain_m = nearest_m(search);
-  const float plain_loss_m = loss.reported_m(plain_m);
-  weigh(found,
-        Bound::kCompensated ? less_m(plain_m, loss.compensated_m(plain_m) + loss.rounding_m)
-                            : plain_m - (plain_loss_m + loss.rounding_m),
-        loss.rounding_m);
-  const float diagonal_m = mesh.head().diagonal_m;
-  const float scale_m = plain_m > diagonal_m ? plain_m : diagonal_m;
-  const bool is_near = search.best.distance2_m2 <= search.band2_m2;
-  const float promise_m = kPromise * scale_m;
-  if (!Bound::kCompensated && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
-      !measure_again(mesh, p_m, promise_m, found))
-    search_again(mesh, bound, p_m, budget.steps, found);
-
-  const Best& best = search.best;
-  const Vec3 point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);
-  const Vec3 direction = feature_direction(mesh, best.triangle, best.feature);
-  // The carried bound is worth keeping where the search was cut short; else it can only be older.
-  float lower_m = found.lower_m;
-  bool exact = search.complete && is_near;
-  if (!exact) {
-    const float carried_m = query::left_of(hint.lower_m, moved_m);
-    if (carried_m > lower_m) lower_m = carried_m;
-  }
-  int8_t sign = 0;
-  if (mesh.is_signed()) {
-    if (bound.is_outside())
-      sign = 1;
-    else if (exact)
-      sign = side_of(found, direction, plain_loss_m, diagonal_m);
-    if (sign == 0) {  // the last side, where the path stayed within certified free distance
-      if (query::left_of(hint.lower_m, moved_m) > 0.0f) sign = hint.sign;
-      exact = exact && sign != 0;
-    }
-  }
-  if (best.slot != query::kNowhere) hint.leaf_slot = best.slot;
-  if constexpr (math::kHasLanes) {
-    hint.triangle_low = static_cast<uint16_t>(best.triangle);
-  }
-  hint.position_m.x = p_m.x;
-  hint.position_m.y = p_m.y;
-  hint.position_m.z = p_m.z;
-  hint.lower_m = lower_m;
-  hint.sign = lower_m > kEitherSide * diagonal_m ? sign : int8_t{0};
-  hint.safe_subtree = search.safe_subtree;
-  hint.safe_subtree_m = search.safe_subtree_m;
-  return {sign < 0 ? -found.distance_m : found.distance_m,
-          {point_m.x, point_m.y, point_m.z},
-          {direction.x, direction.y, direction.z},
-          best.triangle,
-          best.feature,
-          {lower_m, search.steps, exact, sign}};
-}
-
-// So far away that every vertex is as near as any other to 4e-8: no square of such a distance fits
-// a float.
-Closest answer_beyond(const View& mesh, Vec3 p_m, Hint& hint) {
-  Closest closest;
-  closest.point_m = mesh.vertex(mesh.triangle(0).corner[0]);
-  closest.direction = unit(Vec3{p_m.x * 0x1p-100f, p_m.y * 0x1p-100f, p_m.z * 0x1p-100f});
-  closest.feature = Feature::kVertex0;
-  closest.certificate.steps = 1;
-  const float scaled = math::length((p_m - closest.point_m) * 0x1p-70f);
-  const bool fits = scaled < 0x1.ffffp57f;
-  closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
-  closest.certificate.lower_m = fits ? closest.distance_m * (1.0f - 0x1p-22f) : 0x1.fff0p127f;
-  closest.certificate.exact = fits;
-  closest.certificate.sign = mesh.is_signed() ? 1 : 0;
-  hint.position_m = p_m;
-  hint.lower_m = closest.certificate.lower_m;
-  hint.sign = closest.certificate.sign;
-  hint.safe_subtree = query::kNowhere;
-  return closest;
-}
-
-Closest answer_nothing(const View& mesh, Hint& hint) {
-  Closest closest;
-  closest.point_m = mesh.vertex(mesh.triangle(0).corner[0]);
-  closest.direction = {0, 0, 1};
-  closest.distance_m = FLT_MAX;
-  closest.feature = Feature::kVertex0;
-  hint.lower_m = 0;
-  hint.sign = 0;
-  hint.safe_subtree = query::kNowhere;
-  return closest;
-}
+};
 
 }  // namespace
 
 Closest closest_point(const View& mesh, Vec3 p_m, query::Budget budget, Hint& hint) {
-  NearBound near_bound;
-  if (near_bound.begin(mesh.head(), p_m)) return answer(mesh, near_bound, p_m, budget, hint);
-  if (!math::is_finite(p_m)) return answer_nothing(mesh, hint);
-  if (!(math::dot(p_m * (1.0f / kBeyond_m), p_m * (1.0f / kBeyond_m)) <= 1.0f))
-    return answer_beyond(mesh, p_m, hint);
-  FarBound far_bound;
-  far_bound.begin(mesh.head(), p_m);
-  return answer(mesh, far_bound, p_m, budget, hint);
+  return closest_by(mesh, ScalarFinder{mesh}, p_m, budget, hint);
 }
 
 void Prober::answer(const View& mesh, math::Vec3 p_m, core::Hash& hash) {

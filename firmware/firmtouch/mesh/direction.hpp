@@ -1,7 +1,6 @@
 #pragma once
 // Which way is out. For the library's own translation units and the baker.
 
-#include "firmtouch/math/isa_lanes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/pseudonormal.hpp"
@@ -15,7 +14,7 @@ math::Vec3 border_direction(const View& mesh, uint32_t triangle, Feature feature
 
 /// Unit pseudonormal of a feature of a triangle, from what the mesh stores of it; of an unsigned mesh
 /// the face's normal.
-[[gnu::always_inline]] static inline math::Vec3 decoded_direction(const View& mesh,
+[[gnu::always_inline]] static inline math::Vec3 feature_direction(const View& mesh,
                                                                   uint32_t triangle,
                                                                   Feature feature) {
   const Triangle<uint32_t> t = mesh.triangle(triangle);
@@ -23,22 +22,7 @@ math::Vec3 border_direction(const View& mesh, uint32_t triangle, Feature feature
       unit_normal(mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
   if (feature != Feature::kFace && mesh.is_signed())
     return border_direction(mesh, triangle, feature, normal);
-  return {normal.x, normal.y, normal.z};  // one by one: see measure_leaf()
-}
-
-/// The same, looked up where there is what to look it up in: which feature it is need not be foreseen
-/// then.
-[[gnu::always_inline]] static inline math::Vec3 feature_direction(const View& mesh,
-                                                                  uint32_t triangle,
-                                                                  Feature feature) {
-  if constexpr (math::kHasLanes) {
-    if (mesh.ahead() != nullptr) {
-      const size_t at = size_t{kFeatures} * triangle + static_cast<uint32_t>(feature);
-      const Vertex& v = mesh.ahead()->directions[at];
-      return {v.x_m, v.y_m, v.z_m};
-    }
-  }
-  return decoded_direction(mesh, triangle, feature);
+  return {normal.x, normal.y, normal.z};  // one by one: an aggregate is built on the stack
 }
 
 }  // namespace firmtouch::mesh

@@ -10,11 +10,8 @@
 #include "firmtouch/mesh/compensated_distance.hpp"
 #include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/layout.hpp"
-#include "firmtouch/mesh/lined.hpp"
 #include "firmtouch/mesh/loss.hpp"
-#include "firmtouch/mesh/prism.hpp"
 #include "firmtouch/mesh/triangle.hpp"
-#include "firmtouch/mesh/triangle_lanes.hpp"
 
 namespace firmtouch::mesh {
 
@@ -26,172 +23,6 @@ struct Best {
   uint32_t slot = query::kNowhere;  // of its leaf: node << 1 | slot
   Feature feature = Feature::kVertex0;
 };
-
-/// Puts into `best` the nearest of the lanes `of`, of two equally near ones the first. Lane 0 is triangle
-/// `first`. Pre: one lane or more.
-template <class Float>
-[[gnu::always_inline]] static inline void put_least(const Feet<Float>& feet, uint32_t of,
-                                                    uint32_t first, uint32_t slot, Best& best) {
-  float min2_m2;
-  const uint32_t lane = math::min_lane(feet.distance2_m2, of, min2_m2);
-  best.distance2_m2 = min2_m2;
-  best.offset_m = {feet.offset_m.x[lane], feet.offset_m.y[lane], feet.offset_m.z[lane]};
-  best.triangle = first + lane;
-  best.slot = slot;
-  best.feature = static_cast<Feature>(feet.features()[lane]);
-}
-
-/// The same where one of the lanes `asked` is nearer than `min2_m2`.
-/// Result: the least squared distance so far.
-template <class Float>
-[[gnu::always_inline]] static inline float take_nearest(const Feet<Float>& feet, uint32_t asked,
-                                                        uint32_t first, uint32_t slot,
-                                                        float min2_m2, Best& best) {
-  const uint32_t nearer =
-      math::lanes_of(math::less(feet.distance2_m2, lanes::all_of<Float>(min2_m2))) & asked;
-  if (nearer == 0) return min2_m2;
-  put_least(feet, nearer, first, slot, best);
-  return best.distance2_m2;
-}
-
-/// measure_leaf() without care, side by side as many triangles as a Float holds.
-/// Pre: the leaf holds no more, the mesh no fewer.
-template <class Float, class Index>
-[[gnu::always_inline]] static inline float measure_side_by_side(
-    const Vertex* vertices, core::Span<const Triangle<Index>> triangles, math::Vec3 p_m,
-    uint32_t child, uint32_t slot, float min2_m2, Best& best) {
-  constexpr uint32_t kLanes = math::kLanesOf<Float>;
-  // Neighbours of the leaf fill what lanes are left, and are not asked.
-  uint32_t first = leaf_first(child), asked = (1u << leaf_count(child)) - 1u;
-  const uint32_t last = triangles.size() - kLanes;
-  if (first > last) {
-    asked <<= first - last;
-    first = last;
-  }
-  const Triangle<Index>* const t = triangles.data() + first;
-  const auto corner = [&](uint32_t k) {
-    const auto at = [&](uint32_t lane) { return &vertices[t[lane].corner[k]].x_m; };
-    if constexpr (kLanes == 8)
-      return math::gather(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7));
-    else
-      return math::gather(at(0), at(1), at(2), at(3));
-  };
-  const Feet<Float> feet = closest_on_triangles<Float>(p_m, corner(0), corner(1), corner(2));
-  return take_nearest(feet, asked, first, slot, min2_m2, best);
-}
-
-// Where the members of a shape have their first row.
-constexpr size_t kAbRow = offsetof(TriangleShape, ab_m) / sizeof(float);
-constexpr size_t kHRow = offsetof(TriangleShape, h_m) / sizeof(float);
-constexpr size_t kPerAb2Row = offsetof(TriangleShape, per_ab2_m2) / sizeof(float);
-constexpr size_t kXcRow = offsetof(TriangleShape, xc) / sizeof(float);
-constexpr size_t kH2Row = offsetof(TriangleShape, h2_m2) / sizeof(float);
-
-/// The shapes of a leaf of them, which have rows of their own.
-template <class Float>
-struct LinedShapes {
-  const float* row;
-  size_t stride;
-
-  explicit LinedShapes(const Lined& lined)
-      : row(lined.ahead.shapes + size_t{kRowsOfShapes} * lined.first), stride(lined.count) {}
-  Frames<Float> frames() const {
-    const auto lanes = [this](size_t k) { return math::lanes_from<Float>(row + k * stride); };
-    return {lanes_of_rows<Float>(row, 0, stride),
-            lanes_of_rows<Float>(row, kAbRow, stride),
-            lanes_of_rows<Float>(row, kHRow, stride),
-            lanes(kPerAb2Row),
-            lanes(kXcRow),
-            lanes(kH2Row)};
-  }
-};
-
-/// One triangle of them; its corners b and c are rarely needed.
-template <class Float>
-struct OfLane {
-  math::Vec3 a_m;
-  const float* row;  // of a.x
-  size_t stride;
-  const LinedCorners<Float>& corners;
-  uint32_t lane;
-
-  OfLane(const LinedShapes<Float>& shapes, const LinedCorners<Float>& of_corners, uint32_t at)
-      : a_m(one_of_rows(shapes.row + at, 0, shapes.stride)),
-        row(shapes.row + at),
-        stride(shapes.stride),
-        corners(of_corners),
-        lane(at) {}
-  float value(size_t k) const { return row[k * stride]; }
-  math::Vec3 b() const { return corners.corner(1, lane); }
-  math::Vec3 c() const { return corners.corner(2, lane); }
-  math::Vec3 ab() const { return one_of_rows(row, kAbRow, stride); }
-  math::Vec3 ac() const { return c() - a_m; }
-  math::Vec3 across() const { return one_of_rows(row, kHRow, stride); }
-  float per_ab2(math::Vec3) const { return value(kPerAb2Row); }
-  float xc(math::Vec3, float) const { return value(kXcRow); }
-  math::Vec3 h(math::Vec3, float) const { return across(); }
-  float h2(math::Vec3) const { return value(kH2Row); }
-};
-
-/// measure_side_by_side() of such a leaf, or of a block.
-template <class Float>
-[[gnu::always_inline]] static inline Feet<Float> feet_on(const Lined& lined, math::Vec3 p_m) {
-  const LinedCorners<Float> at(lined);
-  return closest_on_triangles<Float>(p_m, at.corner(0), at.corner(1), at.corner(2));
-}
-template <class Float>
-[[gnu::always_inline]] static inline float measure_lined(const Lined& leaf, math::Vec3 p_m,
-                                                         uint32_t slot, float min2_m2, Best& best) {
-  return take_nearest(feet_on<Float>(leaf, p_m), leaf.asked(), leaf.first, slot, min2_m2, best);
-}
-
-template <class Float>
-[[gnu::always_inline]] static inline Feet<Float> feet_by_shapes(const Lined& leaf, math::Vec3 p_m) {
-  const Frames<Float> f = LinedShapes<Float>(leaf).frames();
-  const LinedCorners<Float> at(leaf);
-  return closest_in_frames(f, plane_feet(f, p_m), p_m, at.corner(1), at.corner(2));
-}
-
-/// The same in less time where mostly none is nearer. `limit2_m2`: prism_limit2() of `min2_m2`.
-template <class Float>
-[[gnu::always_inline]] static inline float measure_lined_beside(const Lined& leaf, math::Vec3 p_m,
-                                                                uint32_t slot, float min2_m2,
-                                                                float limit2_m2, Best& best) {
-  if (may_be_nearer<Float>(leaf, p_m, limit2_m2) == 0) return min2_m2;
-  return take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, slot, min2_m2,
-                      best);
-}
-
-/// The same from nothing known, in less time where the nearest is that of the triangle whose lowest 16
-/// bits are `last`; which they are decides nothing else.
-/// Result: where the leaf's block begins if none of its other leaves has a nearer one; else kNowhere.
-template <class Float>
-[[gnu::always_inline]] static inline uint32_t measure_lined_last(const Lined& leaf, math::Vec3 p_m,
-                                                                 uint32_t slot, uint32_t last,
-                                                                 float slack_m2, Best& best) {
-  uint32_t clear = query::kNowhere;
-  const uint32_t lane = (last - leaf.first) & 0xFFFFu;
-  if (lane < leaf.count) {
-    Foot foot;
-    find_foot(p_m, OfLane<Float>(LinedShapes<Float>(leaf), LinedCorners<Float>(leaf), lane),
-              Everything{}, foot);
-    const Lined block(leaf.ahead, leaf.of);
-    const uint32_t nearer =
-        may_be_nearer<Float>(block, p_m, prism_limit2(foot.distance2_m2, slack_m2));
-    const uint32_t first = leaf.first - block.first, own = leaf.asked() << first;
-    if ((nearer & ~own) == 0) clear = block.first;
-    if ((nearer & own & ~(1u << (first + lane))) == 0 && foot.distance2_m2 < FLT_MAX) {
-      best.distance2_m2 = foot.distance2_m2;
-      best.offset_m = foot.offset_m;
-      best.triangle = leaf.first + lane;
-      best.slot = slot;
-      best.feature = foot.feature;
-      return clear;
-    }
-  }
-  take_nearest(feet_by_shapes<Float>(leaf, p_m), leaf.asked(), leaf.first, slot, FLT_MAX, best);
-  return clear;
-}
 
 // Pre: `stride` is that of vertices.
 template <int kBlock>
@@ -309,31 +140,16 @@ template <class InTurn, class Wanted>
   }
 }
 
-/// Puts into `best` what of the leaf `child`, which is at `place`, is nearer than `min2_m2`; of
-/// two equally near triangles the first. With care, a triangle that may be the nearest is measured
-/// again in pairs of floats.
-/// `is_last`: the leaf is that of the last answer, whose branches the processor foresees: where it
-/// is a small one, measured in turn there, a warm query costs a tenth less than side by side.
-/// Result: the least squared distance so far.
-template <bool kCompensated, class Index>
-[[gnu::always_inline]] static inline float measure_leaf(const Vertex* vertices,
-                                                        core::Span<const Triangle<Index>> triangles,
-                                                        const Loss& loss, math::Vec3 p_m,
-                                                        uint32_t child, uint32_t slot,
-                                                        [[maybe_unused]] bool is_last,
-                                                        float min2_m2, Best& best) {
-  if constexpr (math::kHasLanes && !kCompensated) {
-    using math::Float4;
-    using math::FloatWide;
-    const bool is_small = leaf_count(child) <= math::kLanesOf<Float4>;
-    if (!is_small && triangles.size() >= math::kLanesOf<FloatWide>)
-      return measure_side_by_side<FloatWide>(vertices, triangles, p_m, child, slot, min2_m2, best);
-    if (is_small && !is_last && triangles.size() >= math::kLanesOf<Float4>)
-      return measure_side_by_side<Float4>(vertices, triangles, p_m, child, slot, min2_m2, best);
-  }
+/// Puts into `best` the first nearest triangle of the leaf `child`, in slot `slot`, if it is nearer than
+/// best.distance2_m2. Triangles that may be the nearest are measured again in double-float.
+template <class Index>
+[[gnu::always_inline]] static inline void measure_compensated_leaf(
+    const Vertex* vertices, core::Span<const Triangle<Index>> triangles, const Loss& loss,
+    math::Vec3 p_m, uint32_t child, uint32_t slot, Best& best) {
   using math::Vec3;
   const uint32_t stride = math::as_multiplier(sizeof(Vertex));
   const Triangle<Index>* triangle = triangles.data() + leaf_first(child);
+  float min2_m2 = best.distance2_m2;
   for (const Triangle<Index>* const end = triangle + leaf_count(child); triangle != end;
        ++triangle) {
     Vec3 a_m, b_m, c_m;
@@ -341,21 +157,18 @@ template <bool kCompensated, class Index>
     load_corner<1>(vertices, triangle->corner[1], stride, b_m);
     load_corner<2>(vertices, triangle->corner[2], stride, c_m);
     Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
-    if constexpr (kCompensated) {
-      if (!loss.may_be_less(foot.distance2_m2, min2_m2)) continue;
-      foot.distance2_m2 = loss.is_clear(foot.distance2_m2)
-                              ? compensated_distance2(p_m, a_m, b_m, c_m, foot.feature)
-                              : compensated_distance2(p_m, a_m, b_m, c_m);
-    }
+    if (!loss.may_be_less(foot.distance2_m2, min2_m2)) continue;
+    foot.distance2_m2 = loss.is_clear(foot.distance2_m2)
+                            ? compensated_distance2(p_m, a_m, b_m, c_m, foot.feature)
+                            : compensated_distance2(p_m, a_m, b_m, c_m);
     if (!(foot.distance2_m2 < min2_m2)) continue;
     min2_m2 = foot.distance2_m2;
-    best.distance2_m2 = min2_m2;  // one by one: an aggregate would be built aside first
+    best.distance2_m2 = min2_m2;  // one by one: an aggregate is built on the stack first
     best.offset_m = foot.offset_m;
     best.triangle = static_cast<uint32_t>(triangle - triangles.data());
     best.slot = slot;
     best.feature = foot.feature;
   }
-  return min2_m2;
 }
 
 }  // namespace firmtouch::mesh

@@ -29,7 +29,7 @@ struct Pending {
 struct Search : Sought {
   uint32_t start;               // a leaf's place, or kNowhere
   uint32_t budget;              // in steps
-  uint32_t last;                // the lowest 16 bits of the last triangle; read side by side alone
+  uint32_t triangle_low;        // Hint::triangle_low; the wide search reads it
   float band2_m2;               // what is farther off need not be found
   float safe_subtree_margin_m;  // how much farther than the first leaf a new fence should stand
   uint32_t
@@ -125,13 +125,7 @@ inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint3
   for (; left != 0; --left) {
     const uint32_t beside = slot ^ 1u, index = slot >> 1;
     const uint32_t key = bound.key(sides[beside].box);
-    if constexpr (math::kHasLanes) {
-      // While a desktop waits for the leaf's distance it runs ahead: a branch on that distance which
-      // it has guessed wrong would throw all of this away.
-      safe_subtree = key < beyond ? index : safe_subtree;
-      *top = {key, beside};
-      top += key < prune ? 1 : 0;
-    } else if (key < beyond) {
+    if (key < beyond) {
       safe_subtree = index;
       if (key < prune) push(top, key, beside);
     }
@@ -152,24 +146,20 @@ inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint3
   return false;
 }
 
-// In place of an index's type: a leaf has a box of its own, which is asked before its triangles are.
-// They are measured side by side by their corners, with indices of this type, or in turn by shapes.
-template <class Index>
+// Instead of an index type: each leaf has an oriented box, which is tested before its triangles, and these
+// are measured by their stored shapes.
 struct Boxed {};
 template <class Kind>
 constexpr bool kIsBoxed = false;
-template <class Index>
-constexpr bool kIsBoxed<Boxed<Index>> = true;
+template <>
+constexpr bool kIsBoxed<Boxed> = true;
 
-// By what triangles are measured when a box does not leave them out.
 template <class Kind>
-struct Within {
-  using Type = Kind;
+struct Triangles {
   using InTurn = CornersInTurn<Kind>;
 };
-template <class Index>
-struct Within<Boxed<Index>> {
-  using Type = Index;
+template <>
+struct Triangles<Boxed> {
   using InTurn = ShapesInTurn;
 };
 
@@ -192,7 +182,7 @@ inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, 
     search.is_narrow = !mesh.triangles16().empty();
     search.triangles = search.is_narrow ? static_cast<const void*>(mesh.triangles16().data())
                                         : mesh.triangles32().data();
-  } else if constexpr (!math::kHasLanes) {
+  } else {
     search.vertices = mesh.vertices().data();
     search.triangles = triangles_of<Index>(mesh).data();
   }
@@ -201,23 +191,15 @@ inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, 
 // Which leaf: that of the last answer, or one beside it.
 enum class Which { kLast, kBeside };
 
-// measure_leaf() of a leaf that is reached. Result: the least squared distance so far.
-template <bool kCompensated, class Index, Which kWhich>
-[[gnu::always_inline]] inline float measure_here(const View& mesh, uint32_t child, uint32_t slot,
-                                                 Search& search) {
-  const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};  // one by one: see measure_leaf()
-  Best& best = search.best;
-  return measure_leaf<kCompensated>(mesh.vertices().data(), triangles_of<Index>(mesh),
-                                    Loss(mesh.head()), p_m, child, slot, kWhich == Which::kLast,
-                                    best.distance2_m2, best);
-}
-
-// Functions of their own: in the loop they would take the registers of the descent.
-// Result: 0 where one was nearer. A search measures no leaf twice.
+// Functions of their own: inlined they take the registers of the descent.
+// Result: 0 where a triangle was nearer. A search measures no leaf twice.
 template <class Index>
 [[gnu::noinline]] uint32_t measure_compensated(const View& mesh, uint32_t child, uint32_t slot,
                                                Search& search) {
-  measure_here<true, Index, Which::kBeside>(mesh, child, slot, search);
+  const Vec3 p_m{search.p_m.x, search.p_m.y,
+                 search.p_m.z};  // one by one: see measure_compensated_leaf()
+  measure_compensated_leaf(mesh.vertices().data(), triangles_of<Index>(mesh), Loss(mesh.head()),
+                           p_m, child, slot, search.best);
   return search.best.slot ^ slot;
 }
 // `prune`, which it does not need, is in the register in which measure_boxed() has it.
@@ -251,16 +233,11 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
     return (mesh.triangles16().empty()
                 ? measure_compensated<uint32_t>(mesh, child, slot, search)
                 : measure_compensated<uint16_t>(mesh, child, slot, search)) == 0;
-  } else if constexpr (math::kHasLanes) {
-    if constexpr (kIsBoxed<Index> && kWhich != Which::kLast)
-      if (is_beyond(prune, child, search)) return false;
-    const float before2_m2 = search.best.distance2_m2;
-    return measure_here<false, typename Within<Index>::Type, kWhich>(mesh, child, slot, search) <
-           before2_m2;
   } else if constexpr (kIsBoxed<Index> && kWhich != Which::kLast) {
     return measure_boxed(prune, child, slot, search) == 0;
   } else {
-    return measure_plain<typename Within<Index>::InTurn, Wanted>(prune, child, slot, search) == 0;
+    return measure_plain<typename Triangles<Index>::InTurn, Wanted>(prune, child, slot, search) ==
+           0;
   }
 }
 

@@ -2,7 +2,6 @@
 // What a measurement takes from the triangle alone, as the baker stores it and open() proves it. For
 // the library's own translation units and the baker.
 
-#include "firmtouch/mesh/ahead.hpp"
 #include "firmtouch/mesh/triangle.hpp"
 
 namespace firmtouch::mesh {
@@ -17,10 +16,11 @@ inline TriangleShape shape_of(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m) {
   return {{a_m.x, a_m.y, a_m.z}, {ab.x, ab.y, ab.z}, {h.x, h.y, h.z}, per_ab2, xc, shape.h2(h)};
 }
 
-/// One float of a shape for each of its rows (mesh/ahead.hpp).
-inline void put_rows(const TriangleShape& shape, float (&row)[kRowsOfShapes]) {
-  static_assert(sizeof shape == sizeof row);
-  __builtin_memcpy(row, &shape, sizeof row);
+/// The floats of a shape, in the order of its members.
+constexpr uint32_t kShapeFloats = sizeof(TriangleShape) / sizeof(float);
+inline void put_floats(const TriangleShape& shape, float (&to)[kShapeFloats]) {
+  static_assert(sizeof shape == sizeof to);
+  __builtin_memcpy(to, &shape, sizeof to);
 }
 
 }  // namespace firmtouch::mesh

@@ -237,10 +237,10 @@ TriangleShape Opening::shape_at(uint32_t triangle) const {
 
 Verdict Opening::check_shape(uint32_t i) const {
   if (view_.shapes_ == nullptr) return kPassed;
-  float reported[kRowsOfShapes], shape[kRowsOfShapes];
-  put_rows(view_.shapes_[i], reported);
-  put_rows(shape_at(i), shape);
-  for (uint32_t k = 0; k < kRowsOfShapes; ++k)
+  float reported[kShapeFloats], shape[kShapeFloats];
+  put_floats(view_.shapes_[i], reported);
+  put_floats(shape_at(i), shape);
+  for (uint32_t k = 0; k < kShapeFloats; ++k)
     if (math::bits_of(reported[k]) != math::bits_of(shape[k])) return reject(141, i);
   return kPassed;
 }

@@ -4,7 +4,6 @@
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/math/vec3.hpp"
-#include "firmtouch/mesh/ahead.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/query/staged_check.hpp"
 
@@ -52,15 +51,6 @@ class View {
     return {vertices_[i].x_m, vertices_[i].y_m, vertices_[i].z_m};
   }
 
-  /// The same mesh, read as `ahead` has it where the processor has vector instructions.
-  /// Pre: made of this mesh, and there as long as the result.
-  View with(const Ahead& ahead) const {
-    View view = *this;
-    view.ahead_ = &ahead;
-    return view;
-  }
-  const Ahead* ahead() const { return ahead_; }
-
  private:
   friend class Opening;
   const Head* head_ = nullptr;
@@ -73,7 +63,6 @@ class View {
   core::Span<const EdgeFolds> folds_;
   const uint32_t* leaf_boxes_ = nullptr;
   const TriangleShape* shapes_ = nullptr;
-  const Ahead* ahead_ = nullptr;
 };
 
 /// Proves a mesh in slices, so that a main loop stays alive while it opens a large one: rules R101

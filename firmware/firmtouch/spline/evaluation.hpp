@@ -1,7 +1,7 @@
 #pragma once
 // Points of a piece with their derivatives, for .cpp files of this module only. The order of
 // operations is part of the result; what it loses is reckoned in leaf_shape.cpp.
-#include "firmtouch/math/isa_lanes.hpp"
+#include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/view.hpp"
 
@@ -225,8 +225,8 @@ static inline bool is_bicubic(const Piece& piece) {
 }
 
 /// One coordinate after the other.
-static inline void evaluate_each(const Piece& piece, const float* coefficients, float s, float t,
-                                 SurfacePoint& point) {
+static inline void evaluate(const Piece& piece, const float* coefficients, float s, float t,
+                            SurfacePoint& point) {
   const float* const c = coefficients + piece.coefficients;
   const uint32_t stride = piece.is_rational != 0 ? 4 : 3;
   float* const to = &point.x.x;  // ten vectors in a row
@@ -251,45 +251,6 @@ static inline void evaluate_each(const Piece& piece, const float* coefficients, 
   if (piece.is_rational == 0) return;
   find(3);
   divide(point, r.derivatives());
-}
-
-/// The same bits: all coordinates, and the weight, side by side.
-static inline void evaluate_together(const Piece& piece, const float* coefficients, float s,
-                                     float t, SurfacePoint& point) {
-  using math::Float4;
-  const float* const c = coefficients + piece.coefficients;
-  const bool is_rational = piece.is_rational != 0;
-  const auto plain = [c](uint32_t i) { return Float4{c[3 * i], c[3 * i + 1], c[3 * i + 2], 0.0f}; };
-  const auto weighted = [c](uint32_t i) { return math::lanes_from<Float4>(c + 4 * i); };
-  Rows<Float4> r;
-  if (is_bicubic(piece)) {
-    if (is_rational)
-      cubic_rows(weighted, s, t, r);
-    else
-      cubic_rows(plain, s, t, r);
-  } else if (is_rational) {
-    any_rows(piece, weighted, s, t, r);
-  } else {
-    any_rows(piece, plain, s, t, r);
-  }
-  Derivatives<Float4> found = r.derivatives();
-  if (is_rational)
-    divide(found, Derivatives<float>{found.x[3], found.du[3], found.dv[3], found.duu[3],
-                                     found.duv[3], found.dvv[3], found.uuu[3], found.uuv[3],
-                                     found.uvv[3], found.vvv[3]});
-  const auto put = [](Float4 from, math::Vec3& to) { to = {from[0], from[1], from[2]}; };
-  put(found.x, point.x), put(found.du, point.du), put(found.dv, point.dv);
-  put(found.duu, point.duu), put(found.duv, point.duv), put(found.dvv, point.dvv);
-  put(found.uuu, point.uuu), put(found.uuv, point.uuv);
-  put(found.uvv, point.uvv), put(found.vvv, point.vvv);
-}
-
-static inline void evaluate(const Piece& piece, const float* coefficients, float s, float t,
-                            SurfacePoint& point) {
-  if (math::kHasLanes)
-    evaluate_together(piece, coefficients, s, t, point);
-  else
-    evaluate_each(piece, coefficients, s, t, point);
 }
 
 }  // namespace firmtouch::spline

@@ -1,11 +1,15 @@
-#include "bake/mesh/prism.hpp"
+#include "simd/prism.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "surface/point.hpp"
 
-namespace firmtouch::tools {
+namespace firmtouch::simd {
+using tools::Point;
+using tools::to_point;
+using tools::to_vec3;
+
 namespace {
 
 // A little less than mesh/prism.hpp counts with: what is proven here is computed in double.
@@ -24,7 +28,7 @@ float rounded_up(double v) {
 
 }  // namespace
 
-void put_prism(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m, float (&row)[mesh::kRowsOfPrisms]) {
+void put_prism(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m, float (&row)[kPrismArrays]) {
   const Point a = to_point(a_m), b = to_point(b_m), c = to_point(c_m);
   const Point ab = b - a, ac = c - a, bc = c - b;
   const double max_beyond = kMaxBeyond * std::max({length(ab), length(ac), length(bc)});
@@ -49,4 +53,4 @@ void put_prism(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m, float (&row)[mesh
   }
 }
 
-}  // namespace firmtouch::tools
+}  // namespace firmtouch::simd

@@ -1,14 +1,14 @@
-// What is made in memory of a mesh changes no bit of an answer. (Of weight where the tests are built for a
-// processor that reads it: preset host-native.)
+// The wide search of every level that this processor has gives the scalar search's answers, visits and hints, to
+// the bit.
 #include <cmath>
 
+#include "../mesh/cube.hpp"
 #include "bake/mesh/bake_mesh.hpp"
-#include "bake/mesh/mesh_ahead.hpp"
-#include "bake/mesh/prism.hpp"
-#include "cube.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
 #include "harness/test.hpp"
+#include "simd/prism.hpp"
+#include "simd/wide_mesh.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
@@ -62,8 +62,8 @@ bool is_same(const mesh::Closest& a, const mesh::Closest& b) {
          a.certificate.sign == b.certificate.sign;
 }
 
-// One hint for both: what one leaves in it the other reads too.
-uint32_t differences(const mesh::View& view, const mesh::View& lined, query::Budget budget,
+// They take turns with one hint: each reads what the other left.
+uint32_t differences(const mesh::View& view, const simd::WideMesh& wide, query::Budget budget,
                      uint64_t seed) {
   mesh::Hint hint;
   uint32_t differ = 0, turn = 0;
@@ -72,24 +72,32 @@ uint32_t differences(const mesh::View& view, const mesh::View& lined, query::Bud
     if (++turn % 3 == 0) hint = {};
     mesh::Hint other = hint;
     const mesh::Closest a = mesh::closest_point(view, p_m, budget, turn % 2 == 0 ? hint : other);
-    const mesh::Closest b = mesh::closest_point(lined, p_m, budget, turn % 2 == 0 ? other : hint);
+    const mesh::Closest b = wide.closest_point(p_m, budget, turn % 2 == 0 ? other : hint);
     differ += is_same(a, b) && hint.leaf_slot == other.leaf_slot &&
-                      hint.safe_subtree == other.safe_subtree
+                      hint.safe_subtree == other.safe_subtree &&
+                      hint.triangle_low == other.triangle_low
                   ? 0u
                   : 1u;
   }
   return differ;
 }
 
+uint32_t differences_at_levels(const mesh::View& view, query::Budget budget, uint64_t seed) {
+  uint32_t differ = 0;
+  for (const firmtouch_simd::Level& level : firmtouch_simd::levels())
+    differ += differences(view, simd::WideMesh(view, level), budget, seed);
+  return differ;
+}
+
 uint32_t triangles_in_blocks(const mesh::View& view) {
-  const tools::MeshAhead made(view);
-  const mesh::Ahead& ahead = *made.view().ahead();
+  const simd::OwnedTree owned(view);
+  const simd::WideTree& tree = owned.tree();
   uint32_t in_blocks = 0;
   for (uint32_t node = 0; node < view.nodes().size(); ++node) {
-    const mesh::NodeBlock& block = ahead.blocks[node];
+    const simd::NodeBlock& block = tree.blocks[node];
     if (block.of.count == 0) continue;
     in_blocks += block.of.count;
-    CHECK(node != 0 && block.of.count <= mesh::kMaxLanes);
+    CHECK(node != 0 && block.of.count <= simd::kLanes);
     uint32_t lanes = 0;
     for (uint32_t i = 0; i < 4; ++i) {
       CHECK_EQ(lanes & (block.lanes >> (8 * i)) & 0xFFu, 0u);
@@ -107,20 +115,19 @@ uint32_t triangles_in_blocks(const mesh::View& view) {
 
 }  // namespace
 
-TEST(WhatIsMadeOfAMeshChangesNoBitOfAnAnswer) {
+TEST(EveryLevel_HasTheBitsOfTheScalarSearch) {
   const tools::TreeShape shapes[] = {
       tools::kFastTree, tools::kSmallTree, tools::kBoundedTree, tools::kDesktopTree, {1}};
   uint64_t seed = 9;
   for (const tools::TreeShape& shape : shapes) {
     const Baked baked(shape, shape.leaf_faces != 7);
-    const tools::MeshAhead made(baked.view);
     for (const query::Budget budget :
          {query::kUnlimited, query::Budget{12}, query::Budget{UINT32_MAX, 0.05f}})
-      CHECK_EQ(differences(baked.view, made.view(), budget, seed++), 0u);
+      CHECK_EQ(differences_at_levels(baked.view, budget, seed++), 0u);
   }
 }
 
-TEST(WhatIsMadeOfAMeshOfOneTriangleChangesNoBit) {
+TEST(EveryLevel_HasTheBitsOfTheScalarSearch_OneTriangle) {
   tools::Surface surface;
   surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   surface.faces = {{0, 1, 2}};
@@ -130,61 +137,59 @@ TEST(WhatIsMadeOfAMeshOfOneTriangleChangesNoBit) {
   const std::vector<tools::Section> sections = tools::bake_mesh(surface, "one", options, report);
   mesh::View view;
   CHECK(mesh::open(tools::mesh_sections(sections, "one"), view).ok());
-  const tools::MeshAhead made(view);
-  CHECK_EQ(differences(view, made.view(), query::kUnlimited, 3), 0u);
+  CHECK_EQ(differences_at_levels(view, query::kUnlimited, 3), 0u);
 }
 
-// Breadth first the triangles of a node do not lie one behind the other: then it makes no block.
-TEST(ATreeOfAnyOrderIsReadAhead) {
+// Breadth first, the triangles of a node are not consecutive: then it has no block.
+TEST(EveryLevel_HasTheBitsOfTheScalarSearch_AnyTreeOrder) {
   for (const bool is_breadth_first : {false, true}) {
     const mesh_test::Cube cube(1.0f, is_breadth_first);
     const mesh::View view = cube.view();
     CHECK_EQ(triangles_in_blocks(view), is_breadth_first ? 8u : 12u);
-    const tools::MeshAhead made(view);
-    CHECK_EQ(differences(view, made.view(), query::kUnlimited, 4), 0u);
+    CHECK_EQ(differences_at_levels(view, query::kUnlimited, 4), 0u);
   }
 }
 
-TEST(MostTrianglesOfABakedMeshLieInBlocks) {
+TEST(MostTrianglesOfABake_LieInBlocks) {
   for (const tools::TreeShape& shape : {tools::kFastTree, tools::TreeShape{1}}) {
     const Baked baked(shape);
     CHECK_LT(baked.view.head().triangle_count * 3 / 4, triangles_in_blocks(baked.view));
   }
 }
 
-TEST(EachTriangleStandsSideBySideWhereItsLeafIsToldToBe) {
+TEST(EveryTriangle_IsStoredWhereItsLeafSays) {
   const Baked baked(tools::kFastTree);
-  const tools::MeshAhead made(baked.view);
-  const mesh::Ahead& ahead = *made.view().ahead();
+  const simd::OwnedTree owned(baked.view);
+  const simd::WideTree& tree = owned.tree();
   uint32_t seen = 0, differ = 0;
   for (uint32_t slot = 0; slot < 2 * baked.view.nodes().size(); ++slot) {
-    const uint32_t leaf = ahead.nodes[slot / 2].side[slot % 2].child;
+    const uint32_t leaf = tree.nodes[slot / 2].side[slot % 2].child;
     if (!mesh::is_leaf(leaf)) continue;
-    const mesh::Block block = mesh::lined_block(leaf);
+    const simd::Block block = simd::wide_leaf_block(leaf);
     for (uint32_t i = 0; i < mesh::leaf_count(leaf); ++i, ++seen) {
-      const uint32_t triangle = mesh::lined_first(leaf) + i;
+      const uint32_t triangle = simd::wide_leaf_first(leaf) + i;
       const mesh::Triangle<uint32_t> t = baked.view.triangle(triangle);
       const math::Vec3 corner[] = {baked.view.vertex(t.corner[0]), baked.view.vertex(t.corner[1]),
                                    baked.view.vertex(t.corner[2])};
-      float shape[mesh::kRowsOfShapes];
-      mesh::put_rows(mesh::shape_of(corner[0], corner[1], corner[2]), shape);
-      for (uint32_t row = 0; row < mesh::kRowsOfCorners; ++row) {
+      float shape[simd::kShapeArrays];
+      mesh::put_floats(mesh::shape_of(corner[0], corner[1], corner[2]), shape);
+      for (uint32_t row = 0; row < simd::kCornerArrays; ++row) {
         const math::Vec3& c = corner[row / 3];
         const float value = row % 3 == 0 ? c.x : row % 3 == 1 ? c.y : c.z;
-        const float reported = ahead.corners[mesh::kRowsOfCorners * block.first +
-                                             row * block.count + (triangle - block.first)];
+        const float reported = tree.corners[simd::kCornerArrays * block.first + row * block.count +
+                                            (triangle - block.first)];
         differ += math::bits_of(reported) == math::bits_of(value) ? 0u : 1u;
       }
-      float prism[mesh::kRowsOfPrisms];
-      tools::put_prism(corner[0], corner[1], corner[2], prism);
-      for (uint32_t row = 0; row < mesh::kRowsOfPrisms; ++row) {
-        const float reported = ahead.prisms[mesh::kRowsOfPrisms * block.first + row * block.count +
-                                            (triangle - block.first)];
+      float prism[simd::kPrismArrays];
+      simd::put_prism(corner[0], corner[1], corner[2], prism);
+      for (uint32_t row = 0; row < simd::kPrismArrays; ++row) {
+        const float reported = tree.prisms[simd::kPrismArrays * block.first + row * block.count +
+                                           (triangle - block.first)];
         differ += math::bits_of(reported) == math::bits_of(prism[row]) ? 0u : 1u;
       }
-      for (uint32_t row = 0; row < mesh::kRowsOfShapes; ++row) {
-        const float reported = ahead.shapes[mesh::kRowsOfShapes * mesh::lined_first(leaf) +
-                                            row * mesh::leaf_count(leaf) + i];
+      for (uint32_t row = 0; row < simd::kShapeArrays; ++row) {
+        const float reported = tree.shapes[simd::kShapeArrays * simd::wide_leaf_first(leaf) +
+                                           row * mesh::leaf_count(leaf) + i];
         differ += math::bits_of(reported) == math::bits_of(shape[row]) ? 0u : 1u;
       }
     }

@@ -1,12 +1,12 @@
-// A search that looks ahead, with triangles side by side and by blocks, tells to the bit what the one in
-// turn tells: crossings, t and steps, whatever the budget, from the asset and from what is made of it.
+// The wide segment search of every level that this processor has gives the scalar search's crossings, t and
+// visits, to the bit, within any budget.
 #include <cmath>
 
 #include "bake/mesh/bake_mesh.hpp"
-#include "bake/mesh/mesh_ahead.hpp"
-#include "firmtouch/mesh/crossing_takers.hpp"
-#include "firmtouch/mesh/segment_search.hpp"
+#include "firmtouch/math/isa.hpp"
+#include "firmtouch/mesh/segment_cast.hpp"
 #include "harness/test.hpp"
+#include "simd/wide_mesh.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
@@ -18,8 +18,8 @@ using math::Vec3;
 struct Baked {
   tools::Surface surface = tools::make_part(3, 3000);
   std::vector<tools::Section> sections;
-  tools::MeshAhead ahead;
-  mesh::View view, lined;
+  mesh::View view;
+  std::vector<simd::WideMesh> wide;  // of each level
 
   explicit Baked(const tools::TreeShape& shape) {
     tools::MeshOptions options;
@@ -28,8 +28,8 @@ struct Baked {
     sections = tools::bake_mesh(surface, "part", options, report);
     CHECK(report.problem.empty());
     CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
-    ahead = tools::MeshAhead(view);
-    lined = ahead.view();
+    for (const firmtouch_simd::Level& level : firmtouch_simd::levels())
+      wide.emplace_back(view, level);
   }
 };
 
@@ -57,50 +57,35 @@ class Ends {
   tools::Random random_;
 };
 
-template <class Visitor>
-struct Found {
-  Visitor visitor;
-  uint32_t steps = 0;
-  bool is_done = false;
-};
-
 bool is_same(const mesh::Hit& a, const mesh::Hit& b) {
   return a.hit == b.hit && math::bits_of(a.t) == math::bits_of(b.t) && a.triangle == b.triangle &&
-         a.enters == b.enters;
+         a.enters == b.enters && a.steps == b.steps && a.exact == b.exact;
 }
 
-size_t differences(const mesh::View& view, Vec3 a_m, Vec3 b_m, query::Budget budget, size_t& hits) {
-  mesh::Hit of_first, of_first_ahead, of_any, of_any_ahead;
-  mesh::First first(of_first), first_ahead(of_first_ahead);
-  mesh::Any any(of_any), any_ahead(of_any_ahead);
-  mesh::SurfaceCrossing buffer[64], buffer_wide[64];
-  mesh::All all{{buffer}}, all_ahead{{buffer_wide}};
+size_t differences(const simd::WideMesh& wide, Vec3 a_m, Vec3 b_m, query::Budget budget) {
+  const mesh::View& view = wide.view();
   size_t differ = 0;
-  const auto same_way = [&](auto& in_turn, auto& ahead) {
-    uint32_t steps = 0, steps_ahead = 0;
-    const bool done = mesh::search_in_turn(view, a_m, b_m, budget, in_turn, steps);
-    const bool done_ahead = mesh::search_side_by_side(view, a_m, b_m, budget, ahead, steps_ahead);
-    if (done != done_ahead || steps != steps_ahead) ++differ;
-  };
-  same_way(first, first_ahead);
-  same_way(any, any_ahead);
-  same_way(all, all_ahead);
-  if (!is_same(of_first, of_first_ahead) || !is_same(of_any, of_any_ahead)) ++differ;
-  if (all.crossings.found != all_ahead.crossings.found ||
-      all.crossings.reported != all_ahead.crossings.reported)
+  if (!is_same(mesh::cast_segment(view, a_m, b_m, budget), wide.cast_segment(a_m, b_m, budget)))
+    ++differ;
+  if (!is_same(mesh::any_crossing(view, a_m, b_m, budget), wide.any_crossing(a_m, b_m, budget)))
+    ++differ;
+  mesh::SurfaceCrossing buffer[64], buffer_wide[64];
+  const mesh::Crossings all = mesh::all_crossings(view, a_m, b_m, budget, {buffer});
+  const mesh::Crossings all_wide = wide.all_crossings(a_m, b_m, budget, {buffer_wide});
+  if (all.found != all_wide.found || all.reported != all_wide.reported ||
+      all.steps != all_wide.steps || all.exact != all_wide.exact)
     return differ + 1;
-  for (uint32_t i = 0; i < all.crossings.reported; ++i)
+  for (uint32_t i = 0; i < all.reported; ++i)
     if (math::bits_of(buffer[i].t) != math::bits_of(buffer_wide[i].t) ||
         buffer[i].triangle != buffer_wide[i].triangle || buffer[i].enters != buffer_wide[i].enters)
       ++differ;
-  hits += of_first.hit ? 1 : 0;
   return differ;
 }
 
 size_t differences(const Baked& baked, Vec3 a_m, Vec3 b_m, query::Budget budget, size_t& hits) {
-  size_t differ = differences(baked.view, a_m, b_m, budget, hits);
-  if constexpr (mesh::SegmentLanes::kHoldsLeaf)
-    differ += differences(baked.lined, a_m, b_m, budget, hits);
+  size_t differ = 0;
+  for (const simd::WideMesh& wide : baked.wide) differ += differences(wide, a_m, b_m, budget);
+  hits += mesh::cast_segment(baked.view, a_m, b_m, budget).hit ? 1u : 0u;
   return differ;
 }
 
@@ -117,8 +102,8 @@ void compare(const tools::TreeShape& shape, uint64_t seed) {
   CHECK(hits > 1000);
 }
 
-// Segments from the grid's first plane that end where a box is entered, widened as boxes are: a key that
-// is the limit. Where the end is no float the segment ends beside it.
+// Segments from the grid's first plane that end where a widened box is entered, so that its key is the limit, or
+// at the next float.
 void compare_at_limit(const tools::TreeShape& shape) {
   const Baked baked(shape);
   const mesh::Head& head = baked.view.head();
@@ -143,13 +128,13 @@ void compare_at_limit(const tools::TreeShape& shape) {
 
 }  // namespace
 
-TEST(LookingAheadTellsWhatTheSearchInTurnTells) {
+TEST(EveryLevel_HasTheCrossingsOfTheScalarSearch) {
   compare(tools::kFastTree, 1);
   compare(tools::kSmallTree, 2);
   compare(tools::kDesktopTree, 3);
 }
 
-TEST(LookingAheadEntersWhatIsEnteredAtTheVeryEnd) {
+TEST(EveryLevel_EntersBoxesAtTheEndOfTheSegment) {
   compare_at_limit(tools::kFastTree);
   compare_at_limit(tools::kDesktopTree);
 }

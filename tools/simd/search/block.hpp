@@ -1,25 +1,28 @@
 #pragma once
-// A block whose triangles are measured at once, told as a search in turn tells it that reads one leaf
-// after the other. For the library's own translation units.
+// A block's triangles are measured at once. Best, cutoff and visits are then those of the scalar search,
+// which reads one leaf after the other.
 
 #include "firmtouch/mesh/grid.hpp"
-#include "firmtouch/mesh/leaf.hpp"
+#include "simd/search/leaf.hpp"
 
-namespace firmtouch::mesh {
+namespace firmtouch::simd {
+
+using mesh::kFarthest;
+using mesh::NearBound;
 
 constexpr uint32_t low_half(uint64_t both) { return static_cast<uint32_t>(both); }
 constexpr uint32_t high_half(uint64_t both) { return static_cast<uint32_t>(both >> 32); }
-// Without a branch, which no processor could foresee: compilers make one of a condition.
+// Without a branch: no predictor can learn it, and compilers make one of a condition.
 constexpr uint32_t chosen(bool is, uint32_t one, uint32_t other) {
   const uint32_t mask = 0u - static_cast<uint32_t>(is);
   return (one & mask) | (other & ~mask);
 }
 
-/// The keys of the boxes below a block's node. A child that is a leaf counts as a leaf 0 of its own:
-/// what else it has not is never below a key to prune by.
+/// The keys of the boxes below a block's node. A child that is a leaf counts as its own leaf 0. Boxes that
+/// are not there have a key that no cutoff exceeds.
 struct BlockKeys {
   uint32_t child[2], leaf[4];
-  uint32_t is_later_first, are_leaves_turned[2];  // of two the nearer is first, else that of side 0
+  uint32_t is_later_first, are_leaves_swapped[2];  // the nearer of two first; equal: side 0
 
   /// `keys`: of both children; `a_keys`, `b_keys`: of those in each.
   BlockKeys(uint32_t lanes, uint64_t keys, uint64_t a_keys, uint64_t b_keys) {
@@ -31,26 +34,27 @@ struct BlockKeys {
     leaf[2] = has_b ? low_half(b_keys) : high_half(keys);
     leaf[3] = has_b ? high_half(b_keys) : kFarthest;
     is_later_first = high_half(keys) < low_half(keys) ? 1 : 0;
-    are_leaves_turned[0] = leaf[1] < leaf[0] ? 1 : 0;
-    are_leaves_turned[1] = leaf[3] < leaf[2] ? 1 : 0;
+    are_leaves_swapped[0] = leaf[1] < leaf[0] ? 1 : 0;
+    are_leaves_swapped[1] = leaf[3] < leaf[2] ? 1 : 0;
   }
-  /// How many are read where nothing is nearer: those below `prune`, for a box lies in its parent's.
+  /// Visits if nothing is nearer: the boxes below `prune`, for a box lies in its parent's.
   uint32_t steps(uint32_t prune) const {
     const auto is = [prune](uint32_t key) { return key < prune ? 1u : 0u; };
     return is(child[0]) + is(child[1]) + is(leaf[0]) + is(leaf[1]) + is(leaf[2]) + is(leaf[3]);
   }
 };
 
-/// Puts into `best` what a search in turn would, and into `prune` the key that it would prune by then.
-/// `feet`: of the block's triangles; `sides`: of its node.
-/// Result: the steps below the node.
-[[gnu::always_inline]] static inline uint32_t take_in_turn(
-    const Feet<math::FloatWide>& feet, const NodeBlock& block, const BlockKeys& keys,
-    const NearBound& bound, const Side* sides, uint32_t node, uint32_t& prune, Best& best) {
+/// Sets `best` and `prune` as the scalar search does. `feet`: of the block's triangles; `sides`: of its
+/// node. Result: the visits below the node.
+[[gnu::always_inline]] static inline uint32_t take_block(const Feet& feet, const NodeBlock& block,
+                                                         const BlockKeys& keys,
+                                                         const NearBound& bound, const Side* sides,
+                                                         uint32_t node, uint32_t& prune,
+                                                         Best& best) {
   uint32_t least[4], key_after[4];
   for (uint32_t i = 0; i < 4; ++i) {
-    const float min2_m2 = math::least_of(feet.distance2_m2, (block.lanes >> (8 * i)) & 0xFFu);
-    least[i] = math::bits_of(min2_m2);  // which order as the squares do: none is below 0
+    const float min2_m2 = minimum_of(feet.distance2_m2, (block.lanes >> (8 * i)) & 0xFFu);
+    least[i] = math::bits_of(min2_m2);  // these order as the squares do: none is below 0
     key_after[i] = bound.prune_key(min2_m2);
   }
   uint32_t steps = 0, found = math::bits_of(best.distance2_m2), nearest = 4;
@@ -58,7 +62,7 @@ struct BlockKeys {
     const uint32_t child = i ^ keys.is_later_first;
     steps += keys.child[child] < prune ? 1 : 0;
     for (uint32_t k = 0; k < 2; ++k) {
-      const uint32_t leaf = 2 * child + (k ^ keys.are_leaves_turned[child]);
+      const uint32_t leaf = 2 * child + (k ^ keys.are_leaves_swapped[child]);
       const bool is_read = keys.leaf[leaf] < prune;
       const bool is_nearer = is_read & (least[leaf] < found);
       steps += is_read ? 1 : 0;
@@ -70,8 +74,8 @@ struct BlockKeys {
   if (nearest == 4) return steps;
   const uint32_t which = nearest >> 1, child = sides[which].child;
   const uint32_t slot = is_leaf(child) ? 2 * node + which : 2 * child + (nearest & 1);
-  put_least(feet, (block.lanes >> (8 * nearest)) & 0xFFu, block.of.first, slot, best);
+  put_nearest(feet, (block.lanes >> (8 * nearest)) & 0xFFu, block.of.first, slot, best);
   return steps;
 }
 
-}  // namespace firmtouch::mesh
+}  // namespace firmtouch::simd

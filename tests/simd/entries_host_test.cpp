@@ -1,10 +1,13 @@
-// What a search that looks ahead takes without a branch is what branches would give.
-#include "firmtouch/math/isa_ahead.hpp"
+// Entries of the wide search are ordered and replaced without branches, and boxes measured by fours and sixes,
+// as the portable definitions do.
+#include "simd/search/entries.hpp"
 
 #include "harness/random.hpp"
 #include "harness/test.hpp"
+#include "simd/search/boxes.hpp"
 
 namespace math = firmtouch::math;
+namespace simd = firmtouch::simd;
 
 namespace {
 
@@ -14,13 +17,13 @@ uint64_t any_word() {
   return next_random() % 5 == 0 ? UINT64_MAX : uint64_t{next_random()} << 32 | low;
 }
 
-void fill(math::Waiting& w) { w = {any_word(), any_word()}; }
-void fill(math::WaitingChild& w) { w = {any_word(), any_word(), any_word()}; }
-bool is_same(const math::Waiting& a, const math::Waiting& b) {
-  return a.what == b.what && a.keys == b.keys;
+void fill(simd::Entry& w) { w = {any_word(), any_word()}; }
+void fill(simd::ChildEntry& w) { w = {any_word(), any_word(), any_word()}; }
+bool is_same(const simd::Entry& a, const simd::Entry& b) {
+  return a.key == b.key && a.keys == b.keys;
 }
-bool is_same(const math::WaitingChild& a, const math::WaitingChild& b) {
-  return a.what == b.what && a.keys == b.keys && a.child == b.child;
+bool is_same(const simd::ChildEntry& a, const simd::ChildEntry& b) {
+  return a.key == b.key && a.keys == b.keys && a.child == b.child;
 }
 
 template <class Any>
@@ -30,10 +33,10 @@ void compare_replaced() {
     Any a, b;
     fill(a);
     fill(b);
-    const uint64_t last = i % 3 == 0 ? a.what : any_word();
+    const uint64_t cutoff = i % 3 == 0 ? a.key : any_word();
     Any now = a;
-    math::replace_beyond(last, now, b);
-    CHECK(is_same(now, a.what > last ? b : a));
+    simd::replace_beyond(cutoff, now, b);
+    CHECK(is_same(now, a.key > cutoff ? b : a));
     moved += is_same(now, a) ? 0u : 1u;
   }
   CHECK_LT(200u, moved);
@@ -56,40 +59,40 @@ void put_random_point(uint32_t (&at)[3]) {
 
 }  // namespace
 
-TEST(WhatWaitsIsReplacedWithWhatGoesWithIt) {
-  compare_replaced<math::Waiting>();
-  compare_replaced<math::WaitingChild>();
+TEST(ReplacedEntry_KeepsItsKeysAndChild) {
+  compare_replaced<simd::Entry>();
+  compare_replaced<simd::ChildEntry>();
 }
 
-TEST(WhatWaitsIsOrderedWithWhatGoesWithIt) {
+TEST(OrderedEntries_KeepTheirKeysAndChildren) {
   uint32_t moved = 0;
   for (uint32_t i = 0; i < 4000; ++i) {
-    math::WaitingChild a, b;
+    simd::ChildEntry a, b;
     fill(a);
     fill(b);
-    if (i % 7 == 0) b.what = a.what;
-    math::WaitingChild first = a, second = b, expected_first = a, expected_second = b;
-    math::put_in_order(first, second);
-    math::portable_put_in_order(expected_first, expected_second);
+    if (i % 7 == 0) b.key = a.key;
+    simd::ChildEntry first = a, second = b, expected_first = a, expected_second = b;
+    simd::order(first, second);
+    simd::portable_order(expected_first, expected_second);
     CHECK(is_same(first, expected_first) && is_same(second, expected_second));
     CHECK(is_same(first, a) ? is_same(second, b) : is_same(first, b) && is_same(second, a));
-    CHECK(first.what <= second.what);
+    CHECK(first.key <= second.key);
     if (i % 7 == 0) CHECK(is_same(first, a));
     moved += is_same(first, a) ? 0u : 1u;
   }
   CHECK_LT(200u, moved);
 }
 
-TEST(TheNearerIsFirstAndOfEquallyNearOnesNoneMoves) {
+TEST(NearerEntryFirst_EqualOnesKeepTheirOrder) {
   uint32_t moved = 0;
   for (uint32_t i = 0; i < 4000; ++i) {
-    math::Waiting a, b;
+    simd::Entry a, b;
     fill(a);
     fill(b);
     const uint32_t key = next_random(), other = i % 7 == 0 ? key : next_random();
-    math::Waiting first = a, second = b, expected_first = a, expected_second = b;
-    math::put_nearer_first(math::keys_of(key, other), first, second);
-    math::portable_put_nearer_first(math::keys_of(key, other), expected_first, expected_second);
+    simd::Entry first = a, second = b, expected_first = a, expected_second = b;
+    simd::put_nearer_first(simd::keys_of(key, other), first, second);
+    simd::portable_put_nearer_first(simd::keys_of(key, other), expected_first, expected_second);
     CHECK(is_same(first, expected_first) && is_same(second, expected_second));
     CHECK(is_same(first, other < key ? b : a) && is_same(second, other < key ? a : b));
     moved += is_same(first, a) ? 0u : 1u;
@@ -97,7 +100,7 @@ TEST(TheNearerIsFirstAndOfEquallyNearOnesNoneMoves) {
   CHECK_LT(200u, moved);
 }
 
-TEST(DistancesToFourBoxesAreThoseToEach) {
+TEST(FourBoxDistances_EqualThoseOfEachBox) {
   uint32_t differ = 0, inside = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
     uint32_t boxes[2][8];
@@ -106,11 +109,11 @@ TEST(DistancesToFourBoxesAreThoseToEach) {
     put_random_point(at);
     const math::BoxPoint point = math::box_point(at[0], at[1], at[2]);
     uint64_t reported[2];
-    math::family_distances2(boxes[0], boxes[1], point, reported[0], reported[1]);
+    simd::sibling_distances2(boxes[0], boxes[1], point, reported[0], reported[1]);
     for (uint32_t pair = 0; pair < 2; ++pair) {
       const uint32_t first = math::portable_box_distance2(boxes[pair], at),
                      second = math::portable_box_distance2(boxes[pair] + 4, at);
-      if (reported[pair] != math::keys_of(first, second)) ++differ;
+      if (reported[pair] != simd::keys_of(first, second)) ++differ;
       inside += first == 0 ? 1 : 0;
     }
   }
@@ -118,7 +121,7 @@ TEST(DistancesToFourBoxesAreThoseToEach) {
   CHECK_LT(4000u, inside);
 }
 
-TEST(WhichOfSixBoxesAreNearerIsToldOfEach) {
+TEST(SixBoxesBelow_EqualTheComparisonOfEachBox) {
   uint32_t differ = 0, nearer = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
     uint32_t boxes[3][8], at[3];
@@ -127,7 +130,7 @@ TEST(WhichOfSixBoxesAreNearerIsToldOfEach) {
     const uint32_t* const as = boxes[next_random() % 3] + 4 * (next_random() % 2);
     const uint32_t below = math::portable_box_distance2(as, at) + next_random() % 3 - (i % 2);
     const uint32_t reported =
-        math::boxes_below(boxes[0], boxes[1], math::box_point(at[0], at[1], at[2]), below);
+        simd::boxes_below(boxes[0], boxes[1], math::box_point(at[0], at[1], at[2]), below);
     for (uint32_t k = 0; k < 6; ++k) {
       const bool is = math::portable_box_distance2(boxes[k / 2] + 4 * (k % 2), at) < below;
       differ += is == ((reported >> (k / 2 + 4 * (k % 2)) & 1u) != 0) ? 0u : 1u;

@@ -1,10 +1,11 @@
-// The variants of a segment against boxes give the bits of the portable definition.
-#include "firmtouch/math/isa_segment.hpp"
+// Four boxes at once against a segment have the bits of math::Slabs.
+#include "simd/search/slabs.hpp"
 
 #include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
+namespace simd = firmtouch::simd;
 
 namespace {
 
@@ -44,25 +45,25 @@ void random_boxes(bool is_all, uint32_t (&boxes)[8]) {  // the fourth words: any
 
 }  // namespace
 
-TEST(BoxesEnteredByASegmentAreThePortableOnesToTheBit) {
+TEST(FourBoxesAgainstASegment_HaveTheBitsOfEach) {
   uint32_t differ = 0, entered = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
     const Segment segment = random_segment(i);
-    math::PortableSlabs portable;
-    math::FamilySlabs family;
+    math::Slabs portable;
+    simd::SiblingSlabs siblings;
     const bool is_near = portable.begin(math::on_grid(segment.from(), segment.to(), kLow, kCell));
-    CHECK_EQ(family.begin(segment.from(), segment.to(), kLow, kCell), is_near);
+    CHECK_EQ(siblings.begin(segment.from(), segment.to(), kLow, kCell), is_near);
     CHECK_EQ(is_near, i % 11 != 0 && i % 11 != 5);
     portable.set_limit(1.0f);
     uint32_t boxes[2][8];
     uint64_t reported[2];
     for (uint32_t(&two)[8] : boxes) random_boxes(i % 4 == 0, two);
-    family.enter(boxes[0], boxes[1], reported[0], reported[1]);
-    CHECK_EQ(family.enter_two(boxes[0]), reported[0]);
+    siblings.enter(boxes[0], boxes[1], reported[0], reported[1]);
+    CHECK_EQ(siblings.enter_two(boxes[0]), reported[0]);
     for (uint32_t pair = 0; pair < 2; ++pair) {
       uint32_t expected[2];
       portable.enter(boxes[pair], expected);
-      if (math::keys_of(expected[0], expected[1]) != reported[pair]) ++differ;
+      if (simd::keys_of(expected[0], expected[1]) != reported[pair]) ++differ;
       for (const uint32_t key : expected) {
         if (key != math::kNotEntered) ++entered;
         if (!is_near) CHECK_EQ(key, 0u);
@@ -74,12 +75,12 @@ TEST(BoxesEnteredByASegmentAreThePortableOnesToTheBit) {
   CHECK_LT(entered, 72000u);
 }
 
-// What a search that looks ahead relies on: it measures boxes once, with a limit of 1.
-TEST(ALimitOnlyTakesAwayBoxesThatAreEnteredLater) {
+// The wide search measures each box once, with a limit of 1.
+TEST(LowerLimit_OnlyRemovesBoxesEnteredLater) {
   uint32_t taken = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
     const Segment segment = random_segment(i);
-    math::PortableSlabs slabs;
+    math::Slabs slabs;
     slabs.begin(math::on_grid(segment.from(), segment.to(), kLow, kCell));
     uint32_t boxes[8], whole[2], limited[2];
     random_boxes(i % 4 == 0, boxes);

@@ -1,23 +1,16 @@
-#include "bake/mesh/mesh_ahead.hpp"
+#include "simd/build_tree.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include "bake/mesh/prism.hpp"
-#include "firmtouch/math/isa_lanes.hpp"
 #include "firmtouch/mesh/direction.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
+#include "simd/prism.hpp"
 
-namespace firmtouch::tools {
+namespace firmtouch::simd {
 namespace {
 
-using mesh::Block;
-using mesh::is_leaf;
-using mesh::leaf_count;
-using mesh::leaf_first;
-using mesh::NodeBlock;
-
-// The triangles of up to four leaves: where they begin and end, and how many they are.
+// The range of the triangles of up to four leaves, and their number.
 struct Leaves {
   uint32_t first = UINT32_MAX, end = 0, count = 0;
 
@@ -26,15 +19,15 @@ struct Leaves {
     end = std::max(end, leaf_first(leaf) + leaf_count(leaf));
     count += leaf_count(leaf);
   }
-  bool make_a_block() const { return count <= mesh::kMaxLanes && end - first == count; }
+  bool make_a_block() const { return count <= kLanes && end - first == count; }
 };
 
 // A bit for each triangle of a leaf of the block.
-uint32_t lanes_of(uint32_t leaf, uint32_t first) {
+uint32_t lane_bits(uint32_t leaf, uint32_t first) {
   return ((1u << leaf_count(leaf)) - 1u) << (leaf_first(leaf) - first);
 }
 
-// The block that a node's triangles would make; of none where they do not.
+// The block of a node's triangles; an empty one if they make none.
 NodeBlock block_of(const mesh::View& mesh, uint32_t node) {
   Leaves leaves;
   uint32_t leaf[4] = {};
@@ -54,11 +47,11 @@ NodeBlock block_of(const mesh::View& mesh, uint32_t node) {
   if (!leaves.make_a_block()) return {};
   uint32_t lanes = 0;
   for (uint32_t i = 0; i < 4; ++i)
-    if (leaf[i] != 0) lanes |= lanes_of(leaf[i], leaves.first) << (8 * i);
+    if (leaf[i] != 0) lanes |= lane_bits(leaf[i], leaves.first) << (8 * i);
   return {{leaves.first, leaves.count}, lanes};
 }
 
-// Nodes in order, two a cache line: a family is one.
+// Nodes in order, two in each cache line: both children of a node share one.
 class LinesOfNodes {
  public:
   void push_back(const mesh::Node& node) {
@@ -81,33 +74,33 @@ class LinesOfNodes {
 
 }  // namespace
 
-struct MeshAhead::Stored {
+struct OwnedTree::Arrays {
   mesh::View mesh;
-  LinesOfNodes nodes, block_nodes, families;
+  LinesOfNodes nodes, block_nodes, children;
   std::vector<NodeBlock> blocks;
   std::vector<float> corners, shapes, prisms;
   std::vector<mesh::Vertex> directions;
-  mesh::Ahead ahead{};
+  WideTree tree{};
 
-  explicit Stored(const mesh::View& of) : mesh(of) {
+  explicit Arrays(const mesh::View& of) : mesh(of) {
     const size_t triangles = mesh.head().triangle_count;
-    corners.resize(mesh::kRowsOfCorners * (triangles + 1) + mesh::kMaxLanes);
-    shapes.resize(mesh::kRowsOfShapes * (triangles + 1) + mesh::kMaxLanes);
-    prisms.resize(mesh::kRowsOfPrisms * (triangles + 1) + mesh::kMaxLanes);
+    corners.resize(kCornerArrays * (triangles + 1) + kLanes);
+    shapes.resize(kShapeArrays * (triangles + 1) + kLanes);
+    prisms.resize(kPrismArrays * (triangles + 1) + kLanes);
     put_nodes();
-    put_what_has_blocks();
+    put_marked_nodes();
     put_directions();
-    ahead = {nodes.data(),   block_nodes.data(), families.data(), blocks.data(),
-             corners.data(), shapes.data(),      prisms.data(),   directions.data()};
+    tree = {nodes.data(),   block_nodes.data(), children.data(), blocks.data(),
+            corners.data(), shapes.data(),      prisms.data(),   directions.data()};
   }
 
  private:
-  // Parents come before their children: the topmost node that makes a block has it.
+  // Parents come before their children: the topmost node that can has the block.
   void put_nodes() {
-    std::vector<Block> block_about(mesh.nodes().size());  // the node's own, or that about it
+    std::vector<Block> block_of_node(mesh.nodes().size());  // the node's own, or an ancestor's
     blocks.resize(mesh.nodes().size());
     for (uint32_t node = 0; node < blocks.size(); ++node) {
-      Block& block = block_about[node];
+      Block& block = block_of_node[node];
       if (node != 0 && block.count == 0) {
         blocks[node] = block_of(mesh, node);
         block = blocks[node].of;
@@ -117,72 +110,65 @@ struct MeshAhead::Stored {
         if (is_leaf(side.child))
           side.child = put_leaf(side.child, block);
         else
-          block_about[side.child] = block;
+          block_of_node[side.child] = block;
       }
     }
   }
-  // Result: the leaf in its block, which it is itself where there is none about it.
-  uint32_t put_leaf(uint32_t leaf, const Block& about) {
-    // One lane of nothing where the other leaf has the mesh's one triangle.
+  // Result: the leaf with its place in its block: an ancestor's, or its own.
+  uint32_t put_leaf(uint32_t leaf, const Block& ancestor) {
+    // The empty leaf of a mesh of one triangle has one unused lane.
     const Block own{leaf_first(leaf), std::max(leaf_count(leaf), 1u)};
-    const Block& block = about.count != 0 ? about : own;
+    const Block& block = ancestor.count != 0 ? ancestor : own;
     for (uint32_t i = own.first; i < own.first + leaf_count(leaf); ++i) {
       const mesh::Triangle<uint32_t> t = mesh.triangle(i);
       const math::Vec3 a = mesh.vertex(t.corner[0]), b = mesh.vertex(t.corner[1]),
                        c = mesh.vertex(t.corner[2]);
-      const float of_corners[mesh::kRowsOfCorners] = {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
-      put_in_rows(of_corners, i, block, corners);
-      float of_shape[mesh::kRowsOfShapes];
-      mesh::put_rows(mesh::shape_of(a, b, c), of_shape);
-      put_in_rows(of_shape, i, own, shapes);
-      float of_prism[mesh::kRowsOfPrisms];
+      const float of_corners[kCornerArrays] = {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
+      put_in_arrays(of_corners, i, block, corners);
+      float of_shape[kShapeArrays];
+      mesh::put_floats(mesh::shape_of(a, b, c), of_shape);
+      put_in_arrays(of_shape, i, own, shapes);
+      float of_prism[kPrismArrays];
       put_prism(a, b, c, of_prism);
-      put_in_rows(of_prism, i, block, prisms);
+      put_in_arrays(of_prism, i, block, prisms);
     }
-    return mesh::make_lined(leaf, block);
+    return make_wide_leaf(leaf, block);
   }
-  template <size_t kRows>
-  static void put_in_rows(const float (&values)[kRows], uint32_t triangle, const Block& block,
-                          std::vector<float>& rows) {
-    float* at = rows.data() + kRows * block.first + (triangle - block.first);
+  template <size_t kCount>
+  static void put_in_arrays(const float (&values)[kCount], uint32_t triangle, const Block& block,
+                            std::vector<float>& rows) {
+    float* at = rows.data() + kCount * block.first + (triangle - block.first);
     for (const float value : values) *at = value, at += block.count;
   }
 
   mesh::Node marked(uint32_t node) const {
     mesh::Node marked = nodes[node];
     for (mesh::Side& side : marked.side)
-      if (!is_leaf(side.child) && blocks[side.child].of.count != 0) side.child |= mesh::kBlockBit;
+      if (!is_leaf(side.child) && blocks[side.child].of.count != 0) side.child |= kBlockBit;
     return marked;
   }
-  void put_what_has_blocks() {
+  void put_marked_nodes() {
     for (const mesh::Node& node : mesh.nodes())
       for (const mesh::Side& side : node.side)
-        families.push_back(marked(is_leaf(side.child) ? 0 : side.child));
-    families.push_back(marked(0));
+        children.push_back(marked(is_leaf(side.child) ? 0 : side.child));
+    children.push_back(marked(0));
     for (uint32_t node = 0; node < nodes.size(); ++node) block_nodes.push_back(marked(node));
   }
 
   void put_directions() {
     for (uint32_t i = 0; i < mesh.head().triangle_count; ++i)
-      for (uint32_t f = 0; f < mesh::kFeatures; ++f) {
-        const math::Vec3 d = mesh::decoded_direction(mesh, i, static_cast<mesh::Feature>(f));
+      for (uint32_t f = 0; f < kFeatures; ++f) {
+        const math::Vec3 d = mesh::feature_direction(mesh, i, static_cast<mesh::Feature>(f));
         directions.push_back({d.x, d.y, d.z});
       }
   }
 };
 
-MeshAhead::MeshAhead() = default;
-MeshAhead::MeshAhead(const mesh::View& mesh) : stored_(new Stored(mesh)) {}
-MeshAhead::MeshAhead(MeshAhead&&) noexcept = default;
-MeshAhead& MeshAhead::operator=(MeshAhead&&) noexcept = default;
-MeshAhead::~MeshAhead() = default;
+OwnedTree::OwnedTree(const mesh::View& mesh) : arrays_(new Arrays(mesh)) {}
+OwnedTree::OwnedTree(OwnedTree&&) noexcept = default;
+OwnedTree& OwnedTree::operator=(OwnedTree&&) noexcept = default;
+OwnedTree::~OwnedTree() = default;
 
-mesh::View read_ahead(const mesh::View& mesh, MeshAhead& ahead) {
-  if (!math::kHasLanes || mesh.head().triangle_count > mesh::kMaxAhead) return mesh;
-  ahead = MeshAhead(mesh);
-  return ahead.view();
-}
+const WideTree& OwnedTree::tree() const { return arrays_->tree; }
 
-mesh::View MeshAhead::view() const { return stored_->mesh.with(stored_->ahead); }
-
-}  // namespace firmtouch::tools
+}  // namespace firmtouch::simd

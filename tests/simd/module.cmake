@@ -1,0 +1,1 @@
+firmtouch_test_module(simd LINKS firmtouch_tools_simd firmtouch_tools_bake firmtouch_tools_surface firmtouch_mesh)

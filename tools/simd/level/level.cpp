@@ -1,0 +1,94 @@
+// The wide search, compiled once per level with -Dfirmtouch=... and -DFIRMTOUCH_LEVEL=... (levels.hpp).
+
+#include <new>
+
+#include "firmtouch/mesh/crossing_takers.hpp"
+#include "firmtouch/mesh/direction.hpp"
+#include "firmtouch/mesh/nearest_answer.hpp"
+#include "simd/levels.hpp"
+#include "simd/search/nearest.hpp"
+#include "simd/search/segment.hpp"
+
+// The rest of the search that is not inline.
+#include "../../../firmware/firmtouch/mesh/compensated_distance.cpp"  // NOLINT
+#include "../../../firmware/firmtouch/mesh/direction.cpp"             // NOLINT
+#include "../../../firmware/firmtouch/mesh/exact_crossing.cpp"        // NOLINT
+
+namespace firmtouch::simd {
+namespace {
+
+struct WideFinder {
+  const View& mesh;
+  const WideTree& tree;
+
+  template <bool kCompensated, class Bound>
+  void find(const Bound& bound, Search& search) const {
+    if constexpr (kCompensated) {
+      mesh::search_nearest<true, Bound, void>(mesh, bound, search);
+    } else {
+      if (mesh.leaf_boxes() != nullptr)
+        return mesh::search_nearest<false, Bound, mesh::Boxed>(mesh, bound, search);
+      if (search.budget != query::kUnlimited.steps) return find_within_budget(bound, search);
+      if (search.start == query::kNowhere) return search_cold(mesh, tree, bound, search);
+      return search_warm(mesh, tree, bound, search);
+    }
+  }
+  Vec3 direction(const Best& best) const {
+    const Vertex& v =
+        tree.directions[size_t{kFeatures} * best.triangle + static_cast<uint32_t>(best.feature)];
+    return {v.x_m, v.y_m, v.z_m};
+  }
+  // Branchless: no predictor learns when a path passes through the surface.
+  static int sign(float height_m, float doubt_m) {
+    return static_cast<int>(height_m > doubt_m) - static_cast<int>(height_m < -doubt_m);
+  }
+
+ private:
+  template <class Bound>
+  void find_within_budget(const Bound& bound, Search& search) const {
+    if (!mesh.triangles16().empty())
+      return mesh::search_nearest<false, Bound, uint16_t>(mesh, bound, search);
+    mesh::search_nearest<false, Bound, uint32_t>(mesh, bound, search);
+  }
+};
+
+Vec3 vector(const float* v) { return {v[0], v[1], v[2]}; }
+template <class Type>
+const Type& as(const void* object) {
+  return *static_cast<const Type*>(object);
+}
+
+void closest_point(const void* mesh, const void* tree, const float* p_m, const void* budget,
+                   void* hint, void* closest) {
+  const View& view = as<View>(mesh);
+  new (closest)
+      mesh::Closest(mesh::closest_by(view, WideFinder{view, as<WideTree>(tree)}, vector(p_m),
+                                     as<query::Budget>(budget), *static_cast<mesh::Hint*>(hint)));
+}
+
+template <class Visitor>
+void find_hit(const void* mesh, const void* tree, const float* a_m, const float* b_m,
+              const void* budget, void* to) {
+  mesh::Hit& hit = *static_cast<mesh::Hit*>(to);  // in place: a copy waits for its stores
+  Visitor visitor(hit);
+  hit.exact = search_segment(as<View>(mesh), as<WideTree>(tree), vector(a_m), vector(b_m),
+                             as<query::Budget>(budget), visitor, hit.steps);
+}
+
+void all_crossings(const void* mesh, const void* tree, const float* a_m, const float* b_m,
+                   const void* budget, void* buffer, uint32_t size, void* to) {
+  mesh::All all({static_cast<mesh::SurfaceCrossing*>(buffer), size});
+  all.crossings.exact = search_segment(as<View>(mesh), as<WideTree>(tree), vector(a_m), vector(b_m),
+                                       as<query::Budget>(budget), all, all.crossings.steps);
+  *static_cast<mesh::Crossings*>(to) = all.crossings;
+}
+
+}  // namespace
+}  // namespace firmtouch::simd
+
+namespace firmtouch_simd {
+extern const Searches FIRMTOUCH_LEVEL;
+const Searches FIRMTOUCH_LEVEL{
+    firmtouch::simd::closest_point, firmtouch::simd::find_hit<firmtouch::mesh::First>,
+    firmtouch::simd::find_hit<firmtouch::mesh::Any>, firmtouch::simd::all_crossings};
+}  // namespace firmtouch_simd

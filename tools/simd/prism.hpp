@@ -1,0 +1,11 @@
+#pragma once
+#include "firmtouch/math/vec3.hpp"
+#include "simd/wide_tree.hpp"
+
+namespace firmtouch::simd {
+
+/// The prism of a triangle (mesh/prism.hpp), a float for each of its rows. What rounding would make wrong,
+/// as a needle's, is 0.
+void put_prism(math::Vec3 a_m, math::Vec3 b_m, math::Vec3 c_m, float (&row)[kPrismArrays]);
+
+}  // namespace firmtouch::simd

@@ -1,0 +1,159 @@
+#pragma once
+// The search for what a segment crosses, eight triangles at once. Compiled once per level.
+
+#include "firmtouch/mesh/segment_search.hpp"
+#include "simd/search/nearest.hpp"
+#include "simd/search/segment_lanes.hpp"
+#include "simd/search/slabs.hpp"
+
+namespace firmtouch::simd {
+
+using mesh::child_of;
+using mesh::kEnd;
+using mesh::key_of;
+using mesh::pending_of;
+using mesh::PendingNode;
+
+// Of a block: the visits below its node, and whether the visitor wants more.
+struct Taken {
+  uint32_t steps;
+  bool wants_more;
+};
+
+// Gives the visitor the crossings of the lanes `of`, in the order of the scalar search.
+template <class Visitor>
+[[gnu::noinline]] static Taken take_crossings(const SegmentLanes& segment,
+                                              const SegmentLanes::Passes& passes, uint32_t of,
+                                              const NodeBlock& block, const float* arrays,
+                                              const BlockKeys& keys, Visitor& visitor) {
+  uint32_t steps = 0, prune = math::bits_of(visitor.limit) + 1;
+  const auto corner = [&](uint32_t lane, uint32_t c) {
+    return vector_of(arrays + lane, 3 * c, block.of.count);
+  };
+  for (uint32_t i = 0; i < 2; ++i) {
+    const uint32_t child = i ^ keys.is_later_first;
+    steps += keys.child[child] < prune ? 1 : 0;
+    for (uint32_t k = 0; k < 2; ++k) {
+      const uint32_t leaf = 2 * child + (k ^ keys.are_leaves_swapped[child]);
+      if (!(keys.leaf[leaf] < prune)) continue;
+      ++steps;
+      const uint32_t of_leaf = of & (block.lanes >> (8 * leaf));
+      if (of_leaf == 0) continue;
+      if (!take_passed(segment, passes, of_leaf, block.of.first, corner, visitor))
+        return {steps, false};
+      prune = math::bits_of(visitor.limit) + 1;
+    }
+  }
+  return {steps, true};
+}
+
+/// mesh::search() below the root without budget, by blocks: the same visits and crossings.
+/// `root_keys`: of the root's sides.
+template <class Visitor>
+[[gnu::noinline, gnu::flatten]] static bool search_blocks(const View& mesh, const WideTree& tree,
+                                                          const SiblingSlabs& slabs_at,
+                                                          uint64_t root_keys, math::Vec3 a_m,
+                                                          math::Vec3 b_m, Visitor& visitor,
+                                                          uint32_t& steps) {
+  const SiblingSlabs slabs = slabs_at;  // in registers
+  const Node *const nodes = tree.block_nodes, *const children = tree.children;
+  const auto enter = [&](uint32_t node, uint64_t& a_keys, uint64_t& b_keys) {
+    const Node* const siblings = children + 2 * size_t{node};
+    slabs.enter(siblings[0].side[0].box, siblings[1].side[0].box, a_keys, b_keys);
+  };
+  const SegmentLanes segment(mesh.head(), a_m, b_m);
+  uint32_t visited = 1;
+  PendingNode cutoff = pending_of(math::bits_of(visitor.limit), UINT32_MAX);
+  Entry pending[kMaxDepth + 2];
+  Entry* top = pending;
+  *top = {kEnd, 0};
+  Entry now{pending_of(0, 0), root_keys};
+  while (true) {
+    while (true) {  // from inner node to inner node, branchless
+      const Side* const sides = nodes[child_of(now.key)].side;
+      fetch(tree, sides[0].child);
+      fetch(tree, sides[1].child);
+      Entry nearer{pending_of(static_cast<uint32_t>(now.keys), sides[0].child), 0};
+      Entry farther{(now.keys >> 32 << 32) | sides[1].child, 0};
+      enter(child_of(now.key), nearer.keys, farther.keys);
+      put_nearer_first(now.keys, nearer, farther);
+      now = next_of(cutoff, nearer, farther, top);
+      if (now.key > cutoff) break;
+      ++visited;
+      if (child_of(now.key) >= kBlockBit) break;
+    }
+    while (true) {  // until an inner node is next
+      if (now.key > cutoff) {
+        if (now.key == kEnd) {
+          steps = visited;
+          return true;
+        }
+        now = *top--;
+        visited += now.key <= cutoff ? 1 : 0;
+        continue;
+      }
+      const uint32_t child = child_of(now.key);
+      if (child < kBlockBit) break;
+      bool wants_more = true;
+      if (is_leaf(child)) {
+        wants_more = take_wide_leaf(tree, segment, child, visitor);
+      } else {
+        const uint32_t node = block_node(child);
+        const NodeBlock& block = tree.blocks[node];
+        uint64_t a_keys, b_keys;
+        enter(node, a_keys, b_keys);
+        const BlockTriangles triangles(tree, block.of);
+        const float* const arrays = triangles.begin(tree.corners, kCornerArrays);
+        const SegmentLanes::Passes passes = segment.passes(arrays, block.of.count);
+        const uint32_t crossed = triangles.lanes() & ~passes.misses;
+        const BlockKeys keys(block.lanes, now.keys, a_keys, b_keys);
+        if (crossed == 0) {
+          visited += keys.steps(key_of(cutoff) + 1);
+        } else {
+          const Taken taken =
+              take_crossings(segment, passes, crossed, block, arrays, keys, visitor);
+          visited += taken.steps;
+          wants_more = taken.wants_more;
+        }
+      }
+      if (!wants_more) {
+        steps = visited;
+        return true;
+      }
+      cutoff = pending_of(math::bits_of(visitor.limit), UINT32_MAX);
+      now = *top--;
+      visited += now.key <= cutoff ? 1 : 0;
+    }
+  }
+}
+
+// noinline: rare, and its stack would be the caller's.
+template <class Visitor>
+[[gnu::noinline]] static bool search_within_budget(const View& mesh, math::Vec3 a_m, math::Vec3 b_m,
+                                                   query::Budget budget, Visitor& visitor,
+                                                   uint32_t& steps) {
+  return mesh::search(mesh, a_m, b_m, budget, visitor, steps);
+}
+
+/// mesh::search().
+template <class Visitor>
+[[gnu::always_inline]] static inline bool search_segment(const View& mesh, const WideTree& tree,
+                                                         math::Vec3 a_m, math::Vec3 b_m,
+                                                         query::Budget budget, Visitor& visitor,
+                                                         uint32_t& steps) {
+  if (budget.steps != query::kUnlimited.steps)
+    return search_within_budget(mesh, a_m, b_m, budget, visitor, steps);
+  SiblingSlabs slabs;
+  if (!slabs.begin(a_m, b_m, mesh.head().grid_low_m, mesh.head().cell_m) &&
+      !(math::is_finite(a_m) && math::is_finite(b_m)))
+    return false;
+  const uint64_t keys = slabs.enter_two(mesh.nodes()[0].side[0].box);
+  if (keys == keys_of(math::kNotEntered, math::kNotEntered)) {
+    steps = 1;
+    return true;
+  }
+  const SiblingSlabs kept = slabs;  // most segments end above: nothing of theirs is stored
+  return search_blocks(mesh, tree, kept, keys, a_m, b_m, visitor, steps);
+}
+
+}  // namespace firmtouch::simd

@@ -1,0 +1,81 @@
+#pragma once
+// SIMD copy of a mesh's tree and triangles for hosts. No asset holds it: WideMesh builds it when a mesh
+// is opened.
+
+#include <stddef.h>
+
+#include "firmtouch/mesh/layout.hpp"
+
+namespace firmtouch::simd {
+
+using mesh::is_leaf;
+using mesh::leaf_count;
+using mesh::leaf_first;
+using mesh::Node;
+using mesh::Side;
+using mesh::Vertex;
+
+constexpr uint32_t kLanes = 8;
+constexpr uint32_t kCornerArrays = 9;
+constexpr uint32_t kShapeArrays = sizeof(mesh::TriangleShape) / sizeof(float);
+constexpr uint32_t kPrismArrays = 16;
+constexpr uint32_t kFeatures = 7;
+
+/// Consecutive triangles that are measured at once. A node (except the root) with at most kLanes
+/// triangles, in at most two leaves on either side, has a block, unless an ancestor has one. A leaf below
+/// no such node is a block of its own.
+struct Block {
+  uint32_t first, count;
+};
+
+/// The block of a node. Byte 2 side + k of `lanes`: a bit for each triangle of leaf k on that side.
+struct NodeBlock {
+  Block of;
+  uint32_t lanes;
+  // The boxes in the node and below it: bits 0 and 4 its own; bits 1 and 5 those in its child of side 0,
+  // bits 2 and 6 of side 1, unless these are leaves.
+  uint32_t boxes;
+
+  NodeBlock() = default;
+  NodeBlock(const Block& block, uint32_t of_leaves)
+      : of(block),
+        lanes(of_leaves),
+        boxes(0x11u | ((lanes & 0xFF00u) != 0 ? 0x22u : 0u) |
+              ((lanes & 0xFF000000u) != 0 ? 0x44u : 0u)) {}
+};
+
+// A leaf as in mesh::Side::child. Bits that a mesh of at most kMaxWideTriangles leaves free hold its
+// first lane in its block << 22, and the count of the block less 1 << 25.
+constexpr uint32_t kMaxWideTriangles = 1u << 22;
+constexpr uint32_t wide_leaf_first(uint32_t leaf) { return leaf & (kMaxWideTriangles - 1); }
+constexpr uint32_t wide_leaf_lane(uint32_t leaf) { return (leaf >> 22) & 7u; }
+constexpr Block wide_leaf_block(uint32_t leaf) {
+  return {wide_leaf_first(leaf) - wide_leaf_lane(leaf), ((leaf >> 25) & 7u) + 1};
+}
+constexpr uint32_t make_wide_leaf(uint32_t leaf, const Block& block) {
+  return leaf | (leaf_first(leaf) - block.first) << 22 | (block.count - 1) << 25;
+}
+
+// Marks the index of an inner node that has a block.
+constexpr uint32_t kBlockBit = 0x40000000u;
+constexpr uint32_t block_node(uint32_t child) { return child & ~kBlockBit; }
+
+struct WideTree {
+  const Node* nodes;        // [node_count]: the mesh's, with leaves as above
+  const Node* block_nodes;  // [node_count]: the same, with kBlockBit
+  // Node[2 * node_count + 1]: at each slot a copy of the child there, so that both children of a node are
+  // adjacent. At the slot of a leaf, and last, a copy of the root.
+  const Node* children;
+  const NodeBlock* blocks;  // [node_count]; of no triangles where a node has none
+  // float[9 * (triangle_count + 1) + kLanes]: of each block nine arrays of `count` floats, from float
+  // 9 * first on: x, y, z of corner 0, then of corners 1 and 2.
+  const float* corners;
+  // float[12 * (triangle_count + 1) + kLanes]: of each leaf twelve arrays, the floats of its shapes.
+  const float* shapes;
+  // float[16 * (triangle_count + 1) + kLanes]: of each block sixteen arrays of prisms (prism.hpp).
+  const float* prisms;
+  const Vertex*
+      directions;  // [7 * triangle_count]: the unit pseudonormals of a triangle's features
+};
+
+}  // namespace firmtouch::simd
