@@ -13,12 +13,12 @@ plant_name() {
   expect='core/crc32.cpp:[0-9]+: name: told'
 }
 plant_name_in_capitals() {
-  echo 'constexpr int kMostPlanes = 3;' >>tests/core/crc32_test.cpp
-  expect='crc32_test.cpp:[0-9]+: name: k most'
+  echo 'constexpr int kMostPlanes = 3;' >>tests/core/status_test.cpp
+  expect='status_test.cpp:[0-9]+: name: k most'
 }
 plant_file_name() {
-  echo '#pragma once' >firmware/firmtouch/mesh/nearest_ahead_again.hpp
-  expect='nearest_ahead_again.hpp:0: name: ahead'
+  echo '#pragma once' >firmware/firmtouch/core/told_again.hpp
+  expect='told_again.hpp:0: name: told'
 }
 plant_comment() {
   echo '// The dearest query of all.' >>firmware/firmtouch/core/crc32.cpp
@@ -29,8 +29,8 @@ plant_comment_over_two_lines() {
   expect='core/crc32.cpp:[0-9]+: comment: in place of'
 }
 plant_message() {
-  echo 'const char* text = "the mesh tells another side";' >>tools/cli/main.cpp
-  expect='main.cpp:[0-9]+: message: tells'
+  echo 'const char* text = "the mesh tells another side";' >>tools/log/plot.cpp
+  expect='plot.cpp:[0-9]+: message: tells'
 }
 plant_page() {
   echo 'It is asked for the undone collapses.' >>README.md
@@ -41,13 +41,13 @@ plant_script_comment() {
   expect='tests/check/run:[0-9]+: comment: judges'
 }
 plant_everyday_english() {  # only the last line is a retired term
-  cat >>tests/core/crc32_test.cpp <<'EOF'
+  cat >>tests/core/status_test.cpp <<'EOF'
 // In front of the task: std::steady_clock, a place in a file, a machined part, v.front(), the masked half,
 // `told` as quoted code, a memory fence.
 int steady_clock_ns(), v_front = list.front();
 // He forgives.
 EOF
   text=$(check)
-  [ "$(printf '%s\n' "$text" | grep -c 'crc32_test.cpp')" = 1 ] || return 1
-  expect='crc32_test.cpp:[0-9]+: comment: forgives'
+  [ "$(printf '%s\n' "$text" | grep -c 'status_test.cpp')" = 1 ] || return 1
+  expect='status_test.cpp:[0-9]+: comment: forgives'
 }
