@@ -84,6 +84,9 @@ std::string picture_of(const Report& report) {
   for (size_t i = 0; i < shown; ++i) {
     const double top = charts_top + static_cast<double>(i) * 166;
     svg += text_at(24, top + 14, 14, "#16202e", html_of(run.charts[i].title), 620);
+    if (i == 0)
+      svg += text_at(84, top + 14, 13, "#566175",
+                     "bars: orange in contact, green on the guide; grey: motors off");
     svg += "<svg x=\"24\" y=\"" + fixed(top + 20, 0) + "\" width=\"" + fixed(size.width, 0) +
            "\" height=\"" + fixed(size.height, 0) + "\">" +
            svg_of(run.charts[i], run.axis, size, 0) + "</svg>";
