@@ -98,9 +98,9 @@ void HostSession::answer_hello(const link::Frame& frame) {
   if (reply.refused != 0) {
     char text[640];
     link::explain(hello.host, reply, text);
-    const bool is_question =
+    const bool is_query =
         hello.mode == link::kModeIdentify || reply.refused == link::kRefusedNotReady;
-    if (!is_question) hal::board_print(text);
+    if (!is_query) hal::board_print(text);
   } else if (hello.mode == link::kModeLockStep) {
     hal::motors_off();
     controller.reset();

@@ -99,7 +99,7 @@ std::string AppProcess::first_line() {
 void AppProcess::send_bytes(const std::vector<uint8_t>& bytes) {
   for (size_t sent = 0; sent < bytes.size();) {
     const ssize_t count = ::write(link_, bytes.data() + sent, bytes.size() - sent);
-    if (count <= 0) return;  // the answer that does not come tells it
+    if (count <= 0) return;  // the missing answer shows it
     sent += static_cast<size_t>(count);
   }
 }

@@ -64,7 +64,7 @@ class AppProcess {
   std::vector<uint8_t> waiting_;
 };
 
-/// What this program is, as a host tells it.
+/// Identity of this program, as a host sends it.
 link::Identity identity(uint32_t asset_crc);
 
 }  // namespace firmtouch::app_test

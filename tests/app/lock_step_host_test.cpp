@@ -25,7 +25,7 @@ link::HelloReply greet(AppProcess& app, const link::Identity& host, uint32_t mod
   hello.host = host;
   hello.mode = mode;
   link::HelloReply reply;
-  for (;;) {  // asked again while the asset is being proven
+  for (;;) {  // repeated while the asset is being proven
     const uint16_t sequence = app.send(link::kHello, hello);
     const Message message = app.receive(link::kHelloReply);
     CHECK_EQ(message.sequence, sequence);

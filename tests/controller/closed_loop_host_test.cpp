@@ -12,7 +12,7 @@
 using namespace firmtouch;  // NOLINT: a test file
 using namespace controller_test;
 
-TEST(RideOnThePartIsFeltAndKeepsEveryLimit) {
+TEST(RideOnThePart_GivesForceAndKeepsEveryLimit) {
   Ride ride;
   uint32_t contact = 0, guide = 0, late_steps = 0;
   double before[3] = {};

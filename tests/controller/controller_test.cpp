@@ -62,7 +62,7 @@ TEST(BrokenAssetIsRefusedByItsRuleAndLatchesAFaultWhenEnabled) {
   record::TickOutput output;
   record::TickInput input = at(0, 0);
   g_controller.tick(input, output);
-  CHECK_EQ(output.faults, 0u);  // whoever does not enable it is not told off
+  CHECK_EQ(output.faults, 0u);  // no fault before it is enabled
   input = at(1, 0);
   input.flags = record::kFlagEnable;
   g_controller.tick(input, output);

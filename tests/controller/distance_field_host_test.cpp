@@ -1,4 +1,4 @@
-// A controller whose asset carries a distance map of its mesh.
+// A controller whose asset has a distance field of its mesh.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -12,7 +12,7 @@ using namespace controller_test;
 
 namespace {
 
-std::vector<tools::Section> mapped_sections() {
+std::vector<tools::Section> sections_with_field() {
   std::vector<tools::Section> sections = part_sections();
   for (tools::Section& section : distance_field_sections(sections))
     sections.push_back(std::move(section));
@@ -20,8 +20,8 @@ std::vector<tools::Section> mapped_sections() {
   return sections;
 }
 
-const Asset& mapped() {
-  static const Asset made(file_of(mapped_sections()));
+const Asset& asset_with_field() {
+  static const Asset made(file_of(sections_with_field()));
   return made;
 }
 
@@ -34,8 +34,8 @@ void fill_far(Ride& ride, uint32_t tick) {
 
 }  // namespace
 
-TEST(WithAMapATickInFreeSpaceReadsOneCellAndTouchIsFeltTheSame) {
-  Ride with(mapped()), without;
+TEST(Field_OneCellATickInFreeSpace_SameContact) {
+  Ride with(asset_with_field()), without;
   CHECK(with.controller.distance_field().is_open() &&
         !without.controller.distance_field().is_open());
   uint32_t far = 0, contact = 0;
@@ -69,8 +69,8 @@ TEST(WithAMapATickInFreeSpaceReadsOneCellAndTouchIsFeltTheSame) {
   CHECK_GT(free_with_m, 5 * free_without_m);
 }
 
-TEST(AMappedRideIsAFunctionOfItsInputs) {
-  Ride a(mapped()), b(mapped());
+TEST(RideWithAField_IsAFunctionOfItsInputs) {
+  Ride a(asset_with_field()), b(asset_with_field());
   uint32_t differ = 0;
   for (uint32_t tick = 0; tick < 2000; ++tick) {
     fill_far(a, tick);
@@ -82,8 +82,8 @@ TEST(AMappedRideIsAFunctionOfItsInputs) {
   CHECK_EQ(differ, 0u);
 }
 
-TEST(AMapThatItsMeshDoesNotProveIsRefusedAndNothingIsPushed) {
-  std::vector<tools::Section> sections = mapped_sections();
+TEST(FieldThatItsMeshDoesNotProve_IsRejected_NoForce) {
+  std::vector<tools::Section> sections = sections_with_field();
   for (tools::Section& section : sections) {
     if (section.type == field::kDistancesSection)  // a cell in the middle: farther than it is
       section.bytes[section.bytes.size() / 2] =
@@ -101,8 +101,8 @@ TEST(AMapThatItsMeshDoesNotProveIsRefusedAndNothingIsPushed) {
   CHECK_EQ(size_of(output.motor_N), 0.0);
 }
 
-TEST(AMapOfAnotherNameIsNotTheMeshs) {
-  std::vector<tools::Section> sections = mapped_sections();
+TEST(FieldOfAnotherName_IsNotTheMeshs) {
+  std::vector<tools::Section> sections = sections_with_field();
   for (tools::Section& section : sections) {
     if (section.type == field::kHeadSection || section.type == field::kDistancesSection ||
         section.type == field::kSeedsSection)
@@ -113,9 +113,9 @@ TEST(AMapOfAnotherNameIsNotTheMeshs) {
   CHECK(ride.controller.is_ready() && !ride.controller.distance_field().is_open());
 }
 
-TEST(AMapIsProvenInSlicesOfTheBudget) {
+TEST(Field_IsProvenInSlicesOfTheBudget) {
   FullController controller;
-  controller.begin(mapped().bytes());
+  controller.begin(asset_with_field().bytes());
   uint32_t slices = 0;  // with the curve proven, the map not yet
   while (!controller.work(2048))
     slices += controller.curve().is_open() && !controller.distance_field().is_open() ? 1u : 0u;

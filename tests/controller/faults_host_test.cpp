@@ -185,7 +185,7 @@ TEST(EnableThatStandsSinceTheBeginningPushesOnlyOnceItWasLow) {
   }
 }
 
-TEST(DeviceThatNeverReadASampleIsNotFeltAndFaultsWhenEnabled) {
+TEST(DeviceWithoutASample_GivesNoForceAndFaultsWhenEnabled) {
   Ride ride;
   const auto step = [&](uint32_t tick, uint32_t lines, uint32_t row, float value) {
     ride.fill(tick);

@@ -43,7 +43,7 @@ void fill_short(Ride& ride, uint32_t tick, float steps) {
 
 }  // namespace
 
-TEST(WhereABudgetRunsOutTheHullIsFeltAndTheRecordTells) {
+TEST(BudgetExhausted_BaseHullIsTouchedAndRecorded) {
   Ride cut_off(hulled()), exact;
   CHECK(cut_off.controller.hull().is_open() && !exact.controller.hull().is_open());
   uint32_t of_base_hull = 0, contact = 0, late = 0, reported_exact = 0;

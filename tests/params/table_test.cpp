@@ -103,7 +103,7 @@ TEST(IndicesOutsideTheTableAreRefused) {
     CHECK_EQ(values.value[i], params::kTable[i].initial);
 }
 
-// Logs and hosts tell tables apart by this. A row that is added changes it; so does a range.
+// Logs and hosts distinguish tables by this. A row that is added changes it; so does a range.
 TEST(TableHashIsTheSameEachTime) {
   CHECK(params::table_hash() == params::table_hash());
   CHECK(params::table_hash() != 0);

@@ -48,7 +48,7 @@ TEST(RestKeepsAlmostAll) {
 }
 
 // In exact arithmetic: (lower + left)^2 is compared by squares in double, whose 53 bits hold
-// products of floats exactly but for the sum of three; the margin of 2^-48 is far below the 2^-24
+// products of floats exactly, except the sum of three; the margin of 2^-48 is far below the 2^-24
 // that would matter.
 TEST(CarriedBoundIsNeverMoreThanTheTruth) {
   uint32_t too_much = 0;
@@ -90,7 +90,7 @@ TEST(ColdHintKnowsNothing) {
   CHECK_EQ(carried.sign, 0);
 }
 
-TEST(NotANumberKnowsNothing) {
+TEST(NaN_CarriesNothing) {
   const float bad[] = {kNan, kInf, -kInf};
   for (const float value : bad) {
     const math::Vec3 places[] = {{value, 0, 0}, {0, value, 0}, {0, 0, value}};

@@ -69,7 +69,7 @@ std::vector<math::Vec3> way(int count) {
 
 }  // namespace
 
-TEST(WhereTheMeshsQueryIsCutOffTheBaseHullIsFeltEarlyAndNeverLate) {
+TEST(BudgetExhausted_BaseHullContactIsEarlyNeverLate) {
   uint32_t of_base_hull = 0, touched = 0, early = 0, max_steps = 0;
   for (const uint32_t steps : {1u, 2u, 4u, 8u, 16u, 64u}) {
     scene::MeshTouch touch;

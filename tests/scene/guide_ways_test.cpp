@@ -23,7 +23,7 @@ constexpr curve::Sample kRing[] = {
 // The same, recorded without coming quite home.
 constexpr curve::Sample kOpenRing[] = {
     {0, 0, 0}, {0.1f, 0, 0}, {0.1f, 0.1f, 0}, {0, 0.1f, 0}, {0, 0.001f, 0}};
-// Two strands side by side, 4 mm apart, joined 0.2 m away.
+// Two parallel strands, 4 mm apart, joined 0.2 m away.
 constexpr curve::Sample kHairpin[] = {{0, 0, 0}, {0.2f, 0, 0}, {0.2f, 0.004f, 0}, {0, 0.004f, 0}};
 
 SmallCurve g_ring{kRing}, g_open_ring{kOpenRing}, g_hairpin{kHairpin};
@@ -47,7 +47,7 @@ scene::Drive drive(scene::Drive::Kind kind, float force_N, float speed_mps) {
 
 }  // namespace
 
-TEST(WithinItsTunnelNothingIsFeltAndItsWallHasNoJump) {
+TEST(Tunnel_NoForceInsideAndNoJumpAtItsWall) {
   Rig rig;
   rig.guide.tunnel_m = 0.002f;
   rig.guide.material.damping_N_s_per_m = 5.0f;

@@ -1,4 +1,4 @@
-// Contact of a sphere with a baked mesh, judged by closed forms.
+// Contact of a sphere with a baked mesh, checked against closed forms.
 #include "firmtouch/scene/mesh_contact.hpp"
 
 #include <algorithm>
@@ -80,11 +80,11 @@ struct Rig {
   }
 };
 
-// The same with a distance map of the cube.
-struct MappedRig : Rig {
+// The same with a distance field of the cube.
+struct FieldRig : Rig {
   std::vector<tools::Section> distance_field_sections;
   field::View distance_field;
-  explicit MappedRig(uint32_t n, bool is_signed = true) : Rig(n, is_signed) {
+  explicit FieldRig(uint32_t n, bool is_signed = true) : Rig(n, is_signed) {
     tools::FieldReport report;
     distance_field_sections = tools::bake_field(view, "cube", 24, report);
     CHECK(report.problem.empty());
@@ -173,7 +173,7 @@ TEST(ForceIsContinuousThroughTheSurface) {
   CHECK_LE(worst, 0.002);
 }
 
-TEST(PoseMovesAndTurnsWhatIsFelt) {
+TEST(Pose_MovesAndTurnsTheContact) {
   Rig rig;
   rig.object.pose.translation_m = {1.0f, 2.0f, -0.5f};
   rig.object.pose.rotation.row[0] = {0, -1, 0};  // a quarter turn about z
@@ -261,9 +261,10 @@ TEST(InFreeSpaceOnlyWhatMayBeTouchedIsLookedFor) {
   CHECK_GT(near_steps, 0u);
 }
 
-// With a map a tick in free space is one look-up, from the first on, and what is felt is the same.
-TEST(WithAMapFreeSpaceTakesOneLookUpATickAndTouchIsTheSame) {
-  const MappedRig rig(12);
+// With a distance field a tick in free space is one look-up, from the first on, and contact is the
+// same.
+TEST(Field_OneLookUpATickInFreeSpace_SameContact) {
+  const FieldRig rig(12);
   scene::MeshObject plain = rig.object;
   plain.distance_field = nullptr;
   const float cell_m = rig.distance_field.head().cell_m;
@@ -293,8 +294,8 @@ TEST(WithAMapFreeSpaceTakesOneLookUpATickAndTouchIsTheSame) {
   CHECK_GT(contacts, 500u);
 }
 
-TEST(InsideAMapDoesNotStandInForTheDepth) {
-  const MappedRig rig(12);
+TEST(Field_DoesNotReplaceTheDepthInside) {
+  const FieldRig rig(12);
   Tool tool;
   for (int i = 0; i <= 100; ++i) {
     const float depth_m = 0.0004f * static_cast<float>(i);
@@ -303,8 +304,8 @@ TEST(InsideAMapDoesNotStandInForTheDepth) {
   }
 }
 
-TEST(AnUnsignedMapIsOfFreeSpaceAloneAndNothingIsPushedOn) {
-  const MappedRig rig(4, false);
+TEST(UnsignedField_BoundsFreeSpaceOnly_NoForce) {
+  const FieldRig rig(4, false);
   Tool tool;
   (void)tool.force_N(rig.object, {0, 0, 3 * kHalf});
   CHECK_EQ(tool.touch.closest.certificate.steps, 1u);
@@ -313,7 +314,7 @@ TEST(AnUnsignedMapIsOfFreeSpaceAloneAndNothingIsPushedOn) {
   CHECK_EQ(tool.touch.closest.certificate.sign, 0);
 }
 
-TEST(TwoToolsOnOneObjectDoNotFeelEachOther) {
+TEST(TwoToolsOnOneObject_DoNotInfluenceEachOther) {
   const Rig rig;
   Tool a, b, alone;
   for (int i = 0; i < 500; ++i) {

@@ -76,7 +76,7 @@ TEST(OverTheCreasesOfASolidTheForceTurnsWithoutAJump) {
   CHECK_LE(worst, 0.06f);
 }
 
-TEST(ASolidWhoseNormalsPointToBothSidesFeelsAsIfTheyPointedToOne) {
+TEST(SolidWithMixedNormals_GivesTheContactOfATurnedOne) {
   for (const uint32_t inward : {0x01u, 0x02u, 0x18u, 0x24u}) {
     const Surface sound = cube(), mixed = cube(inward);
     Rig a(sound, true), b(mixed, true);
@@ -92,13 +92,13 @@ TEST(ASolidWhoseNormalsPointToBothSidesFeelsAsIfTheyPointedToOne) {
   }
 }
 
-TEST(ASideIsToldInsideAConvexAndAConcaveCornerOfASolid) {
+TEST(Sign_IsKnownInConvexAndConcaveCornersOfASolid) {
   const Surface surface = cube();
   Rig rig(surface, true);
   const math::Vec3 in = rig.go({0, 0, 0.03f}, {0.019f, 0.019f, 0.0185f});
   CHECK_EQ(rig.touch.closest.certificate.sign, -1);
   CHECK_GE(in.x + in.y + in.z, 3.0f);  // out, by the nearest side
-  Rig cold(surface, true);             // without a past the sides of its faces are told as well
+  Rig cold(surface, true);             // without a past the sign is known too
   (void)cold.force_N({0.01f, 0.005f, 0.019f});
   CHECK_EQ(cold.touch.closest.certificate.sign, -1);
 }

@@ -157,7 +157,7 @@ void compare(const curve::Sample (&corners)[N], const scene::Guide& with) {
 
 }  // namespace
 
-TEST(ASplineOfStraightPiecesFeelsLikeTheSampledCurveOfTheSameCorners) {
+TEST(SplineOfStraightPieces_GuidesLikeTheSampledCurve) {
   compare(kL, settings());
   compare(kRing, settings());
   compare(kHairpin, settings());

@@ -1,4 +1,4 @@
-// Sheets of splines: felt from their free side, however deep they are pressed, and never from behind.
+// Spline sheets: contact from their free side, however deep they are pressed, never from behind.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ using namespace firmtouch::spline_touch;
 
 }  // namespace
 
-TEST(ASheetIsFeltFromItsFreeSideOnly) {
+TEST(Sheet_PushesFromItsFreeSideOnly) {
   const Surface surface = sheet();
   Rig rig(surface, false);
   CHECK_LE(apart(rig.go({0, 0, 0.01f}, {0, 0, 0.001f}), {0, 0, 2}), 2e-3f);
@@ -37,7 +37,7 @@ TEST(ASheetHoldsHoweverDeepItIsPressedTillItsBorderIsTheNearest) {
   CHECK_LE(apart(rig.go({0, 0, 0.001f}, {0.01f, 0, -0.03f}), {0, 0, 33}), 0.04f);
   CHECK_LE(apart(rig.go({0.01f, 0, -0.03f}, {-0.03f, 0.02f, -0.05f}), {0, 0, 53}), 0.06f);
   CHECK_LE(apart(rig.go({-0.03f, 0.02f, -0.05f}, {-0.03f, 0.02f, 0.002f}), {0, 0, 1}), 2e-3f);
-  // Round the border it lets go, and from behind nothing is felt.
+  // Round the border contact ends, and from behind there is none.
   (void)rig.go({-0.03f, 0.02f, 0.002f}, {0, 0, -0.02f});
   CHECK_GE(rig.touch.penetration_m, 0.0229f);
   CHECK_LE(apart(rig.go({0, 0, -0.02f}, {0.06f, 0, -0.02f}), {}), 0.0f);
@@ -116,7 +116,7 @@ TEST(UnderNoBudgetIsASheetPushedOnFromAnUnknownSide) {
   }
 }
 
-TEST(OverTheBorderOfASheetTheForceFallsOffAndRoundItNothingIsFelt) {
+TEST(SheetBorder_ForceFallsOffAndEndsBehindIt) {
   const Surface surface = sheet();
   Rig rig(surface, false);
   (void)rig.go({0, 0, 0.01f}, {0, 0, 0.001f});

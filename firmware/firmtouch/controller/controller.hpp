@@ -95,7 +95,7 @@ class Controller {
     return surfaces_.template get<P>();
   }
   const Guide& guide() const { return guide_; }
-  /// Tells assets apart; 0 before the asset's frame is proven.
+  /// Identifies the asset; 0 before the asset's frame is proven.
   uint32_t asset_crc() const { return loaders_.container().crc(); }
 
  private:

@@ -36,7 +36,7 @@ void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick,
 /// Result: false, and the model unchanged, if it has kMaxPlanes.
 bool add_plane(servo::LocalModel& model, const servo::ContactPlane& plane);
 
-/// Result: false, and the model unchanged, if it has a guide: two at once cannot be told apart by
+/// Result: false, and the model unchanged, if it has a guide: two at once cannot be distinguished by
 /// touch.
 bool add_guide(servo::LocalModel& model, const servo::GuideLine& guide);
 
