@@ -26,7 +26,7 @@ TEST(EveryHardCurveIsBakedAndProven) {
     const uint64_t segments = 4u << levels, parts = 2u << levels;
     const uint64_t runs = (baked.report.samples - 1 + segments - 1) / segments;
     CHECK_EQ(baked.report.tick_bytes,
-             68 + 20ull * baked.report.samples + (32 + 2 * parts) * runs - 12);
+             68 + 16ull * baked.report.samples + (32 + 2 * parts) * runs - 12);
   }
 }
 
@@ -47,10 +47,10 @@ TEST(EveryCountFromTwoToSixtyFillsTheTreeFromTheLeft) {
   }
 }
 
-TEST(AFineCurveTakesNoMoreThanTwentyFourBytesASample) {
+TEST(TickReads_AtMostTwentyBytesASample_OfFineCurve) {
   for (const uint32_t count : {2000u, 20000u}) {
     const Baked baked(curve_test::knot(count, 1, 3));
-    CHECK_LE(baked.report.tick_bytes, 24ull * count);
+    CHECK_LE(baked.report.tick_bytes, 20ull * count);
   }
 }
 
@@ -59,7 +59,7 @@ TEST(DroppedRowsAreToldToTools) {
   points.samples_m = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   tools::CurveReport report;
   const auto sections = tools::bake_curve(points, "path", report);
-  CHECK_EQ(sections.size(), 8u);
+  CHECK_EQ(sections.size(), 7u);
   CHECK_EQ(sections.back().type, curve::kRowsSection);
   const std::vector<uint32_t> rows{0, 1, 3};
   CHECK(sections.back().bytes == tools::make_section(0, "", rows).bytes);

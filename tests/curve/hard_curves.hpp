@@ -25,6 +25,7 @@ struct Baked {
     given.samples_m = points;
     given.is_smooth = is_smooth;
     given.run_levels = run_levels;
+    given.with_tree = true;
     sections = tools::bake_curve(given, "curve", report);
     if (report.problem.empty() && !curve::open(tools::curve_sections(sections, "curve"), view).ok())
       report.problem = "refused";

@@ -111,3 +111,22 @@ TEST(TenNearestSamplesMissWhereSpacingVariesAndTheExactWayDoesNot) {
   CHECK_GE(missed, 50u);
   CHECK_EQ(wrong, 0u);
 }
+
+TEST(NearestConstraint_WithoutTree_AnswersAsClosestPoint) {
+  tools::CurvePoints points;
+  points.samples_m = curve_test::knot(500, 1, 3);
+  tools::CurveReport report;
+  const auto sections = tools::bake_curve(points, "curve", report);
+  curve::View view;
+  CHECK(curve::open(tools::curve_sections(sections, "curve"), view).ok());
+  CHECK(view.tree().empty());
+  curve::Neighbour memory[10];
+  for (const math::Vec3& p : curve_test::queries(points.samples_m, 40, 21)) {
+    curve::Hint cold;
+    const curve::Closest closest = closest_point(view, p, query::kUnlimited, cold);
+    const curve::Constraint found = nearest_constraint(view, p, {}, memory, query::kUnlimited);
+    CHECK_EQ(found.closest.distance_m, closest.distance_m);
+    CHECK_EQ(found.closest.segment, closest.segment);
+    CHECK(found.closest.certificate.exact);
+  }
+}

@@ -96,7 +96,7 @@ TEST(Rules205To207RefuseSectionsOfAnotherLength) {
     s.arcs = {s.arcs.data(), less ? s.arcs.size() - 4 : s.arcs.size() + 1};
     CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleArcsSize);
     s = c.sections();
-    s.places = {s.places.data(), less ? s.places.size() - 4 : s.places.size() + 4};
+    s.tree = {s.tree.data(), less ? s.tree.size() - 4 : s.tree.size() + 4};
     CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleTreeSize);
   }
 }
@@ -205,18 +205,18 @@ TEST(Rule217RefusesArcPositionsThatTheSamplesDeny) {
 
 TEST(Rule218RefusesNodesThatNameNoSampleOrNoAxis) {
   SmallCurve c(kHook);
-  c.places[5] = firmtouch::curve::make_place(6, 0);
+  c.tree[5] = firmtouch::curve::make_node(6, 0);
   expect(c, firmtouch::curve::kRuleTreeNode, 5);
   c = SmallCurve(kHook);
-  c.places[5] |= 3u << 30;
+  c.tree[5] |= 3u << 30;
   expect(c, firmtouch::curve::kRuleTreeNode, 5);
 }
 
 TEST(Rule219RefusesASampleOnTheWrongSideOfANodeAbove) {
   SmallCurve c(kHook);
-  const uint32_t moved = c.places[3];
-  c.places[3] = c.places[5];  // one stands below the first child, one below the second
-  c.places[5] = moved;
+  const uint32_t moved = c.tree[3];
+  c.tree[3] = c.tree[5];  // one stands below the first child, one below the second
+  c.tree[5] = moved;
   expect(c, firmtouch::curve::kRuleTreeOrder, 3);
 }
 
@@ -225,9 +225,8 @@ TEST(Rule219RefusesASampleThatStandsInTwoNodes) {
     for (uint32_t from = 0; from < 6; ++from) {
       if (to == from) continue;
       SmallCurve c(kHook);
-      const uint32_t axis = firmtouch::curve::axis_of(c.places[to]);
-      c.places[to] =
-          firmtouch::curve::make_place(firmtouch::curve::sample_of(c.places[from]), axis);
+      const uint32_t axis = firmtouch::curve::axis_of(c.tree[to]);
+      c.tree[to] = firmtouch::curve::make_node(firmtouch::curve::sample_of(c.tree[from]), axis);
       CHECK_EQ(verdict_of(c.sections()).rule, firmtouch::curve::kRuleTreeOrder);
     }
   }
@@ -340,7 +339,7 @@ TEST(Rule231RefusesRunsTooShortOrTooLong) {
     LongCurve c = long_hook();
     c.head.run_levels = levels;
     Sections s = c.sections();
-    CHECK_EQ(verdict_of({s.head, s.samples, s.arcs, s.places, {}, {}, {}}).rule,
+    CHECK_EQ(verdict_of({s.head, s.samples, s.arcs, s.tree, {}, {}, {}}).rule,
              firmtouch::curve::kRuleRunLevels);
   }
 }
@@ -362,7 +361,7 @@ TEST(AnyFlippedBitIsRefusedByARuleOrLeavesAQueryWithinBounds) {
   uint32_t refused = 0, kept = 0;
   uint8_t* const parts[] = {
       reinterpret_cast<uint8_t*>(&c.head), reinterpret_cast<uint8_t*>(c.samples),
-      reinterpret_cast<uint8_t*>(c.arcs),  reinterpret_cast<uint8_t*>(c.places),
+      reinterpret_cast<uint8_t*>(c.arcs),  reinterpret_cast<uint8_t*>(c.tree),
       reinterpret_cast<uint8_t*>(c.boxes), reinterpret_cast<uint8_t*>(c.runs),
       reinterpret_cast<uint8_t*>(c.radii)};
   const uint32_t sizes[] = {68, 72, 24, 24, 12, 8, 64};

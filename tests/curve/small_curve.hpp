@@ -15,7 +15,7 @@ struct CurveOf {
   curve::Head head{};
   curve::Sample samples[Most];
   float arcs[Most];
-  uint32_t places[Most];
+  uint32_t tree[Most];
   curve::Run runs[curve::run_count_of(Most, curve::kMinRunLevels)];
   uint16_t radii[Most / 2 + curve::parts_of(curve::kMaxRunLevels) + 1];  // of any levels
   curve::Box boxes[2 * curve::run_count_of(Most, curve::kMinRunLevels) - 1];
@@ -32,7 +32,7 @@ struct CurveOf {
     return {bytes(&head, sizeof head),
             bytes(samples, n * 12),
             bytes(arcs, n * 4),
-            bytes(places, n * 4),
+            bytes(tree, n * 4),
             bytes(boxes, (2 * run_count() - 1) * 12),
             bytes(runs, run_count() * uint32_t{sizeof(curve::Run)}),
             bytes(radii, run_count() * (curve::parts_of(head.run_levels) + 1) * 2)};
@@ -174,7 +174,7 @@ struct CurveOf {
       uint32_t first = 0;  // nodes below the first child: those whose way up passes it
       for (uint32_t i = 0; i < n; ++i) first += is_below(i, 2 * r.node + 1) ? 1u : 0u;
       const uint32_t middle = r.begin + first;
-      places[r.node] = curve::make_place(order_[middle], axis);
+      tree[r.node] = curve::make_node(order_[middle], axis);
       if (middle > r.begin) open[count++] = {2 * r.node + 1, r.begin, middle};
       if (middle + 1 < r.end) open[count++] = {2 * r.node + 2, middle + 1, r.end};
     }

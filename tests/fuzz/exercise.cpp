@@ -155,7 +155,7 @@ core::Verdict open_curve(const asset::Container& container, const char* name) {
   sections.head = copies.of(container.find(curve::kHeadSection, name));
   sections.samples = copies.of(container.find(curve::kSamplesSection, name));
   sections.arcs = copies.of(container.find(curve::kArcsSection, name));
-  sections.places = copies.of(container.find(curve::kPlacesSection, name));
+  sections.tree = copies.of(container.find(curve::kTreeSection, name));
   sections.boxes = copies.of(container.find(curve::kBoxesSection, name));
   sections.runs = copies.of(container.find(curve::kRunsSection, name));
   sections.radii = copies.of(container.find(curve::kRadiiSection, name));

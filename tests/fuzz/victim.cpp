@@ -89,6 +89,7 @@ void add_curve(std::vector<Section>& sections, const std::string& name, bool clo
     points.samples_m.push_back(points.samples_m[0]);
     points.rows.push_back(13);
   }
+  points.with_tree = true;
   tools::CurveReport report;
   std::vector<Section> curve = tools::bake_curve(points, name, report);
   CHECK(report.problem.empty());

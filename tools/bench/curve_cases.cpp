@@ -37,6 +37,7 @@ CurveCase bake_case(std::vector<math::Vec3> samples_m, const std::string& name, 
   tools::CurvePoints points;
   points.samples_m = std::move(samples_m);
   points.is_smooth = is_smooth;
+  points.with_tree = true;
   const auto start = std::chrono::steady_clock::now();
   made.sections = tools::bake_curve(points, "curve", made.report);
   made.bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -152,6 +152,8 @@ BakeOptions bake_options(const Arguments& arguments) {
     options.text += " --distance-map " + std::to_string(options.field_cells);
   options.smooth = arguments.has("--smooth");
   if (options.smooth) options.text += " --smooth";
+  options.curve_tree = arguments.has("--curve-tree");
+  if (options.curve_tree) options.text += " --curve-tree";
   options.teach = arguments.text("--teach", "");
   options.max_deviation_m = arguments.number("--max-deviation", kUsualDeviation_m, 1e-9);
   if (arguments.has("--max-deviation") && options.teach.empty())
@@ -199,6 +201,8 @@ const Command& bake_command() {
        {"--no-tree", nullptr,
         "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
        {"--smooth", nullptr, "curves and runs: cubic pieces through the samples, without corners"},
+       {"--curve-tree", nullptr,
+        "curves and runs: also the k-d tree of the samples, for nearest_constraint()"},
        {"--teach", "NAME", "what the guide is called that a recorded run gives"},
        {"--max-deviation", "METRES",
         "no place of the run is farther from its guide (default 0.0001)"}},

@@ -74,6 +74,7 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
   BakedInput baked;
   tools::CurvePoints points = given;
   points.is_smooth = options.smooth;
+  points.with_tree = options.curve_tree;
   progress.stage("building the tree of " + name);
   tools::CurveReport report;
   baked.sections = tools::bake_curve(points, name, report);

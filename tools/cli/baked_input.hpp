@@ -30,6 +30,7 @@ struct BakeOptions {
   bool has_tree = true;      // of the mesh; without it only a hull can be asked
   tools::HullOptions hull;
   bool smooth = false;         // cubic pieces between a curve's samples
+  bool curve_tree = false;     // also bake the k-d tree of a curve
   std::string teach;           // what a recorded run's guide is called
   double max_deviation_m = 0;  // of the guide from the run
   std::string text;            // as they stand in the provenance

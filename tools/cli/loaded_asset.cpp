@@ -73,7 +73,8 @@ LoadedCurve LoadedAsset::curve(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(curve::kHeadSection, key).empty()) fail_absent("curve", name);
   LoadedCurve loaded;
-  const core::Verdict verdict = curve::open(curve::find_sections(container_, key), loaded.view);
+  loaded.sections = curve::find_sections(container_, key);
+  const core::Verdict verdict = curve::open(loaded.sections, loaded.view);
   if (!verdict.ok()) fail_unsound("curve '" + name + "': " + tools::rule_text(verdict));
   loaded.rows = core::as_whole_array<uint32_t>(container_.find(curve::kRowsSection, key));
   return loaded;

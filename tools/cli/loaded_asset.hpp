@@ -31,6 +31,7 @@ struct LoadedHull {
 };
 
 struct LoadedCurve {
+  curve::Sections sections;
   curve::View view;
   core::Span<const uint32_t> rows;  // of each sample: its row in the imported file
 

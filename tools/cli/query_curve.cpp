@@ -1,6 +1,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "bake/curve/curve_tree.hpp"
+#include "cli/failure.hpp"
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
 #include "firmtouch/curve/guided_point.hpp"
@@ -64,7 +66,16 @@ CurveOptions curve_options_of(const Arguments& arguments) {
   return options;
 }
 
-void query_curve(const LoadedCurve& curve, const CsvTable& table, const Arguments& arguments) {
+void query_curve(const LoadedCurve& given, const CsvTable& table, const Arguments& arguments) {
+  LoadedCurve curve = given;
+  std::vector<uint32_t> tree;
+  if (!curve_options_of(arguments).is_exact && curve.view.tree().empty()) {
+    const core::Span<const curve::Sample> samples = curve.view.samples();
+    tree = tools::build_curve_tree({samples.begin(), samples.end()});
+    curve.sections.tree = {reinterpret_cast<const uint8_t*>(tree.data()),
+                           static_cast<uint32_t>(tree.size() * sizeof(tree[0]))};
+    if (!curve::open(curve.sections, curve.view).ok()) fail_input("the curve has no k-d tree");
+  }
   if (arguments.has("--time")) {
     print_time(table.rows(), [&] {
       Answers answers(curve.view, arguments);

@@ -13,6 +13,7 @@ struct CurvePoints {
   std::vector<math::Vec3> samples_m;
   std::vector<uint32_t> rows;      // of each sample: its row in the file from 0, the header apart
   bool is_smooth = false;          // cubic pieces between the samples rather than straight ones
+  bool with_tree = false;          // bake the k-d tree, which nearest_constraint() reads
   uint32_t run_levels = 0;         // how often a run is halved; 0: as the baker chooses
   std::vector<std::string> notes;  // what was mended or passed over, for the report
   std::string problem;             // empty: usable; else file, line, what is wrong, how to mend it

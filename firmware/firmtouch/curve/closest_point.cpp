@@ -108,21 +108,31 @@ Closest answer_nothing(const View& curve, Hint& hint) {
   return closest;
 }
 
-// A function of its own: its frame is larger than what a warm query needs.
-[[gnu::noinline]] Closest answer_anywhere(const View& curve, Vec3 p_m, query::Budget budget,
+// Functions of their own: a query needs the frame of one of them only.
+[[gnu::noinline]] Closest answer_smooth(const View& curve, Vec3 p_m, query::Budget budget,
+                                        Hint& hint) {
+  return smooth_point(curve, p_m, {}, budget, hint).closest;
+}
+
+[[gnu::noinline]] Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget,
                                           Hint& hint) {
-  if (curve.is_smooth() && is_near(p_m)) return smooth_point(curve, p_m, {}, budget, hint).closest;
   NearBound near_bound;
   if (near_bound.begin(curve.head(), p_m)) {
     if (!near_bound.is_compensated(curve))
       return answer<false>(curve, near_bound, p_m, budget, hint);
     return answer<true>(curve, near_bound, p_m, budget, hint);
   }
-  if (!math::is_finite(p_m)) return answer_nothing(curve, hint);
-  if (!is_near(p_m)) return answer_beyond(curve, p_m, hint);
   FarBound far_bound;
   far_bound.begin(curve.head(), p_m);
   return answer<true>(curve, far_bound, p_m, budget, hint);
+}
+
+[[gnu::noinline]] Closest answer_anywhere(const View& curve, Vec3 p_m, query::Budget budget,
+                                          Hint& hint) {
+  if (!math::is_finite(p_m)) return answer_nothing(curve, hint);
+  if (!is_near(p_m)) return answer_beyond(curve, p_m, hint);
+  return curve.is_smooth() ? answer_smooth(curve, p_m, budget, hint)
+                           : answer_straight(curve, p_m, budget, hint);
 }
 
 }  // namespace

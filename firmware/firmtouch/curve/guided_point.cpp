@@ -40,26 +40,36 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& clos
   hint.segment = closest.segment;
 }
 
-}  // namespace
-
-Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
-                        query::Budget budget, Hint& hint) {
-  if (curve.is_smooth() && is_near(p_m)) return smooth_point(curve, p_m, penalty, budget, hint);
+// A function of its own: other queries of a guide do not need its frame.
+[[gnu::noinline]] Constraint penalised_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
+                                             query::Budget budget, Hint& hint) {
   NearBound near_bound;
-  if (is_penalty(penalty) && penalty.weight_m <= 0x1p60f) {
-    if (near_bound.begin(curve.head(), p_m))
-      return min_cost<false>(curve, near_bound, p_m, penalty, near_bound.is_compensated(curve),
-                             budget, hint);
-    if (is_near(p_m)) {
-      FarBound far_bound;
-      far_bound.begin(curve.head(), p_m);
-      return min_cost<false>(curve, far_bound, p_m, penalty, true, budget, hint);
-    }
-  }
+  if (near_bound.begin(curve.head(), p_m))
+    return min_cost<false>(curve, near_bound, p_m, penalty, near_bound.is_compensated(curve),
+                           budget, hint);
+  FarBound far_bound;
+  far_bound.begin(curve.head(), p_m);
+  return min_cost<false>(curve, far_bound, p_m, penalty, true, budget, hint);
+}
+
+// The point of least distance, without a penalty.
+[[gnu::noinline]] Constraint nearest_point(const View& curve, Vec3 p_m, query::Budget budget,
+                                           Hint& hint) {
   Constraint found;
   found.closest = closest_point(curve, p_m, budget, hint);
   found.cost_m = found.closest.distance_m;
   return found;
+}
+
+}  // namespace
+
+Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
+                        query::Budget budget, Hint& hint) {
+  const bool near = is_near(p_m);
+  if (curve.is_smooth() && near) return smooth_point(curve, p_m, penalty, budget, hint);
+  if (is_penalty(penalty) && penalty.weight_m <= 0x1p60f && near)
+    return penalised_point(curve, p_m, penalty, budget, hint);
+  return nearest_point(curve, p_m, budget, hint);
 }
 
 Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget budget,

@@ -5,7 +5,7 @@
 #include "firmtouch/query/box_grid.hpp"
 
 // How a curve lies in an asset, byte for byte (tools/FORMAT.md says it in words). The baker writes
-// these structs, the firmware reads them in place: 21 bytes a sample of a fine curve.
+// these structs, the firmware reads them in place: 17 bytes a sample of a fine curve.
 
 namespace firmtouch::curve {
 
@@ -15,10 +15,11 @@ constexpr uint32_t kSamplesSection = 0x2002;  // Sample[sample_count], in the or
 constexpr uint32_t kArcsSection = 0x2003;     // float[sample_count]: fraction of the length, 0 to 1
 constexpr uint32_t kRowsSection = 0x2005;     // uint32_t[sample_count]: row in the file; for tools
 constexpr uint32_t kProbesSection = 0x2006;   // query::ProbeHead and its points
-constexpr uint32_t kPlacesSection = 0x2007;   // uint32_t[sample_count], an implicit k-d tree
-constexpr uint32_t kBoxesSection = 0x2008;    // Box[2 * run_count - 1], an implicit tree of runs
-constexpr uint32_t kRunsSection = 0x200A;     // Run[run_count], in the order of the curve
-constexpr uint32_t kRadiiSection = 0x200B;    // uint16_t[run_count][parts of a run + 1]
+// uint32_t[sample_count], an implicit k-d tree; optional, only nearest_constraint() reads it.
+constexpr uint32_t kTreeSection = 0x2007;
+constexpr uint32_t kBoxesSection = 0x2008;  // Box[2 * run_count - 1], an implicit tree of runs
+constexpr uint32_t kRunsSection = 0x200A;   // Run[run_count], in the order of the curve
+constexpr uint32_t kRadiiSection = 0x200B;  // uint16_t[run_count][parts of a run + 1]
 
 // A balanced tree of kMaxSamples has this many levels; a search keeps one entry a level.
 constexpr uint32_t kMaxLevels = 22;
@@ -51,13 +52,13 @@ struct Sample {
 static_assert(sizeof(Sample) == 12);
 
 // The k-d tree of samples, for the N nearest. The children of node i are nodes 2 i + 1 and 2 i + 2;
-// levels are filled from the left, so that no node says where its children are. Node i is a word,
-// sample | axis << 30: below the first child lie the samples that come before this one by
-// (coordinate on the node's axis, index), below the second those after.
+// levels are filled from the left, so that no node stores where its children are. Node i is a word,
+// sample | axis << 30. Below the first child lie the samples that precede this one by (coordinate on
+// the node's axis, index), below the second those that follow.
 constexpr uint32_t kSampleMask = 0x3FFFFFFFu;
-constexpr uint32_t sample_of(uint32_t place) { return place & kSampleMask; }
-constexpr uint32_t axis_of(uint32_t place) { return place >> 30; }
-constexpr uint32_t make_place(uint32_t sample, uint32_t axis) { return sample | (axis << 30); }
+constexpr uint32_t sample_of(uint32_t node) { return node & kSampleMask; }
+constexpr uint32_t axis_of(uint32_t node) { return node >> 30; }
+constexpr uint32_t make_node(uint32_t sample, uint32_t axis) { return sample | (axis << 30); }
 constexpr uint32_t first_child(uint32_t node) { return 2 * node + 1; }
 constexpr uint32_t parent_of(uint32_t node) { return (node - 1) / 2; }
 
@@ -108,7 +109,7 @@ enum Rule : uint16_t {
   kRuleSamplesSize = 205,
   // The arc section does not hold sample_count values.
   kRuleArcsSize = 206,
-  // The k-d tree does not hold sample_count nodes.
+  // There is a k-d tree, and it does not hold sample_count nodes.
   kRuleTreeSize = 207,
   // The head's box is inverted or reaches beyond 1e9 m.
   kRuleHeadBox = 208,

@@ -10,7 +10,7 @@ Sections find_sections(const asset::Container& asset, const char* name) {
   sections.head = asset.find(kHeadSection, name);
   sections.samples = asset.find(kSamplesSection, name);
   sections.arcs = asset.find(kArcsSection, name);
-  sections.places = asset.find(kPlacesSection, name);
+  sections.tree = asset.find(kTreeSection, name);
   sections.boxes = asset.find(kBoxesSection, name);
   sections.runs = asset.find(kRunsSection, name);
   sections.radii = asset.find(kRadiiSection, name);

@@ -121,7 +121,7 @@ class Choice {
 Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
                               core::Span<Neighbour> memory, query::Budget budget) {
   Hint none;
-  if (!is_near(p_m) || memory.empty()) {
+  if (!is_near(p_m) || memory.empty() || curve.tree().empty()) {
     const Closest far = closest_point(curve, p_m, budget, none);
     return {far, far.distance_m, 0};
   }

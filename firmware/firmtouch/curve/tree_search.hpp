@@ -26,7 +26,7 @@ template <class Visitor>
 class TreeSearch {
  public:
   TreeSearch(const View& curve, math::Vec3 p_m, uint32_t budget, Visitor& visitor)
-      : places_(curve.places().data()),
+      : tree_(curve.tree().data()),
         samples_(curve.samples().data()),
         count_(curve.samples().size()),
         budget_(budget == 0 ? 1 : budget),
@@ -94,9 +94,9 @@ class TreeSearch {
         return false;
       }
       --left_;
-      const uint32_t place = places_[node];
+      const uint32_t word = tree_[node];
       if (cell2 >= limit2) return true;
-      const uint32_t sample = sample_of(place), axis = axis_of(place);
+      const uint32_t sample = sample_of(word), axis = axis_of(word);
       const float* at_m = &samples_[sample].x_m;
       const math::Vec3 from_m{p_m.x - at_m[0], p_m.y - at_m[1], p_m.z - at_m[2]};
       const float distance2_m2 = dot(from_m, from_m);
@@ -160,7 +160,7 @@ class TreeSearch {
     return taken.node;
   }
 
-  const uint32_t* places_;
+  const uint32_t* tree_;
   const Sample* samples_;
   uint32_t count_;
   uint32_t budget_;

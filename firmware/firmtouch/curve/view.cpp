@@ -65,7 +65,7 @@ bool holds_piece(const Head& head, const Track& track, uint32_t segment, const B
 const query::CheckStage<Opening> Opening::kStages[6] = {
     {&Opening::sample_count, &Opening::check_sample, &Opening::finish_samples},
     {&Opening::sample_count, &Opening::check_length, &Opening::finish_length},
-    {&Opening::sample_count, &Opening::check_tree},
+    {&Opening::tree_count, &Opening::check_tree},
     {&Opening::box_count, &Opening::check_box},
     {&Opening::run_count, &Opening::check_run, nullptr, &Opening::run_cost},
     {&Opening::radius_count, &Opening::check_part, nullptr, &Opening::part_cost}};
@@ -84,8 +84,9 @@ Verdict Opening::open_head(const Sections& s) {
     return reject(kRuleSamplesSize, view_.samples_.size());
   view_.arcs_ = core::as_whole_array<float>(s.arcs);
   if (view_.arcs_.size() != head.sample_count) return reject(kRuleArcsSize, view_.arcs_.size());
-  view_.places_ = core::as_whole_array<uint32_t>(s.places);
-  if (view_.places_.size() != head.sample_count) return reject(kRuleTreeSize, view_.places_.size());
+  view_.tree_ = core::as_whole_array<uint32_t>(s.tree);
+  if (!s.tree.empty() && view_.tree_.size() != head.sample_count)
+    return reject(kRuleTreeSize, view_.tree_.size());
   const Verdict of_head = check_head(head);
   if (!of_head.ok()) return of_head;
   const uint32_t runs = run_count_of(head.sample_count, head.run_levels);
@@ -158,13 +159,13 @@ Verdict Opening::finish_length() {
 // The order by (coordinate, sample) is strict: a sample that stood in two nodes would have to come
 // before itself where their ways part. So nodes in order, as many as samples, hold each once.
 Verdict Opening::check_tree(uint32_t i) {
-  const uint32_t count = view_.samples_.size(), place = view_.places_[i];
+  const uint32_t count = view_.samples_.size(), node = view_.tree_[i];
   const Sample* samples = view_.samples_.data();
-  if (sample_of(place) >= count || axis_of(place) > 2) return reject(kRuleTreeNode, i);
+  if (sample_of(node) >= count || axis_of(node) > 2) return reject(kRuleTreeNode, i);
   for (uint32_t at = i; at != 0; at = parent_of(at)) {  // ancestors have passed the line above
-    const uint32_t above = view_.places_[parent_of(at)];
+    const uint32_t above = view_.tree_[parent_of(at)];
     const bool is_first = (at & 1u) != 0;
-    const uint32_t first = is_first ? place : above, second = is_first ? above : place;
+    const uint32_t first = is_first ? node : above, second = is_first ? above : node;
     if (!comes_before(samples, axis_of(above), sample_of(first), sample_of(second)))
       return reject(kRuleTreeOrder, i);
   }

@@ -9,9 +9,9 @@
 
 namespace firmtouch::curve {
 
-/// The bytes of a curve's sections, as the container hands them out.
+/// The bytes of a curve's sections, as the container returns them; `tree` may be empty.
 struct Sections {
-  core::Bytes head, samples, arcs, places, boxes, runs, radii;
+  core::Bytes head, samples, arcs, tree, boxes, runs, radii;
 };
 
 /// A curve that open() has proven: every index, order, box, radius and float. Immutable; share it between
@@ -26,7 +26,8 @@ class View {
   const Head& head() const { return *head_; }
   core::Span<const Sample> samples() const { return samples_; }
   core::Span<const float> arcs() const { return arcs_; }
-  core::Span<const uint32_t> places() const { return places_; }
+  /// The k-d tree of samples; empty where the asset has none. Only nearest_constraint() reads it.
+  core::Span<const uint32_t> tree() const { return tree_; }
   core::Span<const Box> boxes() const { return boxes_; }
   core::Span<const Run> runs() const { return runs_; }
   core::Span<const uint16_t> radii() const {
@@ -44,7 +45,7 @@ class View {
   const Head* head_ = nullptr;
   core::Span<const Sample> samples_;
   core::Span<const float> arcs_;
-  core::Span<const uint32_t> places_;
+  core::Span<const uint32_t> tree_;
   core::Span<const Box> boxes_;
   core::Span<const Run> runs_;
   const uint16_t* radii_ = nullptr;  // as many as the runs have
@@ -74,6 +75,7 @@ class Opening {
   static const query::CheckStage<Opening> kStages[6];
   core::Verdict open_head(const Sections& sections);
   uint32_t sample_count() const { return view_.samples_.size(); }
+  uint32_t tree_count() const { return view_.tree_.size(); }
   uint32_t box_count() const { return view_.boxes_.size(); }
   uint32_t run_count() const { return view_.runs_.size(); }
   uint32_t radius_count() const { return view_.radii().size(); }

@@ -120,13 +120,16 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
   sections.push_back(make_section(curve::kHeadSection, name, &head, 1));
   sections.push_back(make_section(curve::kSamplesSection, name, samples));
   sections.push_back(make_section(curve::kArcsSection, name, arcs));
-  sections.push_back(make_section(curve::kPlacesSection, name, build_curve_tree(samples)));
   const CurveRuns runs = build_curve_runs(samples, head);
   sections.push_back(make_section(curve::kBoxesSection, name, runs.boxes));
   sections.push_back(make_section(curve::kRunsSection, name, runs.runs));
   sections.push_back(make_section(curve::kRadiiSection, name, runs.radii));
   for (const Section& section : sections) report.tick_bytes += section.bytes.size();
   report.bytes = report.tick_bytes;
+  if (mended.with_tree) {
+    sections.push_back(make_section(curve::kTreeSection, name, build_curve_tree(samples)));
+    report.bytes += sections.back().bytes.size();
+  }
   if (has_gaps(mended.rows)) {
     sections.push_back(make_section(curve::kRowsSection, name, mended.rows));
     report.bytes += sections.back().bytes.size();
@@ -150,7 +153,7 @@ curve::Sections curve_sections(const std::vector<Section>& sections, const std::
   return {bytes_of(sections, name, curve::kHeadSection),
           bytes_of(sections, name, curve::kSamplesSection),
           bytes_of(sections, name, curve::kArcsSection),
-          bytes_of(sections, name, curve::kPlacesSection),
+          bytes_of(sections, name, curve::kTreeSection),
           bytes_of(sections, name, curve::kBoxesSection),
           bytes_of(sections, name, curve::kRunsSection),
           bytes_of(sections, name, curve::kRadiiSection)};

@@ -34,7 +34,7 @@ uint32_t widest_axis(const std::vector<Item>& items, uint32_t begin, uint32_t en
   return static_cast<uint32_t>(widest);
 }
 
-void place_samples(std::vector<Item>& items, std::vector<uint32_t>& places) {
+void place_samples(std::vector<Item>& items, std::vector<uint32_t>& tree) {
   std::vector<Range> open{{0, 0, static_cast<uint32_t>(items.size())}};
   while (!open.empty()) {
     const Range range = open.back();
@@ -47,7 +47,7 @@ void place_samples(std::vector<Item>& items, std::vector<uint32_t>& places) {
                        if (b.at_m[axis] < a.at_m[axis]) return false;
                        return a.sample < b.sample;
                      });
-    places[range.node] = curve::make_place(items[middle].sample, axis);
+    tree[range.node] = curve::make_node(items[middle].sample, axis);
     const uint32_t child = curve::first_child(range.node);
     if (middle > range.begin) open.push_back({child, range.begin, middle});
     if (middle + 1 < range.end) open.push_back({child + 1, middle + 1, range.end});
@@ -61,9 +61,9 @@ std::vector<uint32_t> build_curve_tree(const std::vector<curve::Sample>& samples
   std::vector<Item> items(count);
   for (uint32_t i = 0; i < count; ++i)
     items[i] = {{samples[i].x_m, samples[i].y_m, samples[i].z_m}, i};
-  std::vector<uint32_t> places(count);
-  place_samples(items, places);
-  return places;
+  std::vector<uint32_t> tree(count);
+  place_samples(items, tree);
+  return tree;
 }
 
 }  // namespace firmtouch::tools
