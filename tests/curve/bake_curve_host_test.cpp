@@ -54,7 +54,7 @@ TEST(TickReads_AtMostTwentyBytesASample_OfFineCurve) {
   }
 }
 
-TEST(DroppedRowsAreToldToTools) {
+TEST(DroppedRows_AreListedForTools) {
   tools::CurvePoints points;
   points.samples_m = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   tools::CurveReport report;

@@ -16,13 +16,13 @@ using curve_test::Baked;
 const uint32_t kQueries = std::getenv("FIRMTOUCH_LONG") != nullptr ? 100000 : 2500;  // a curve
 constexpr double kPromise = 4e-7;  // of max(diagonal, distance)
 
-struct Judged {
+struct Findings {
   double worst_error = 0, worst_lower = 0;  // of max(diagonal, distance)
   uint64_t steps = 0;
 };
 
-void judge(const Baked& baked, math::Vec3 p, double truth, const curve::Closest& found,
-           Judged& judged) {
+void check(const Baked& baked, math::Vec3 p, double truth, const curve::Closest& found,
+           Findings& findings) {
   const double diagonal = double{baked.view.head().diagonal_m};
   const double scale = std::max(diagonal, truth);
   const double upper = double{found.distance_m}, lower = double{found.certificate.lower_m};
@@ -31,8 +31,8 @@ void judge(const Baked& baked, math::Vec3 p, double truth, const curve::Closest&
   if (found.certificate.exact) {
     CHECK_LE(upper, truth + kPromise * scale);
     CHECK_GE(lower, truth - kPromise * scale);
-    judged.worst_error = std::max(judged.worst_error, std::abs(upper - truth) / scale);
-    judged.worst_lower = std::max(judged.worst_lower, (truth - lower) / scale);
+    findings.worst_error = std::max(findings.worst_error, std::abs(upper - truth) / scale);
+    findings.worst_lower = std::max(findings.worst_lower, (truth - lower) / scale);
   }
   // What else is told belongs to the point that is told.
   CHECK_LT(found.segment, baked.view.segment_count());
@@ -50,13 +50,13 @@ void judge(const Baked& baked, math::Vec3 p, double truth, const curve::Closest&
                                double{found.tangent.z}) -
                     1),
            1e-6);
-  judged.steps += found.certificate.steps;
+  findings.steps += found.certificate.steps;
 }
 
 }  // namespace
 
 TEST(ExactOnHardCurvesColdAndWarm) {
-  Judged all;
+  Findings all;
   for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {
     const Baked baked(named.points);
     CHECK(baked.report.problem.empty());
@@ -68,8 +68,8 @@ TEST(ExactOnHardCurvesColdAndWarm) {
       const curve::Closest alone = closest_point(baked.view, p, query::kUnlimited, cold);
       const curve::Closest next = closest_point(baked.view, p, query::kUnlimited, warm);
       CHECK(alone.certificate.exact && next.certificate.exact);
-      judge(baked, p, truth, alone, all);
-      judge(baked, p, truth, next, all);
+      check(baked, p, truth, alone, all);
+      check(baked, p, truth, next, all);
     }
   }
   std::printf("      worst error %.2e, worst lower bound %.2e of max(diagonal, distance)\n",
@@ -85,16 +85,16 @@ TEST(EveryBudgetBracketsTheTruthColdAndWarmAndNeverWidens) {
     curve::Hint before;  // the same for every budget: warm gaps can be compared
     for (const math::Vec3& p : curve_test::queries(baked.samples, kQueries / 5, 23)) {
       const double truth = curve_test::brute_distance(baked.samples, p);
-      Judged judged;
+      Findings findings;
       float cold_gap_m = HUGE_VALF, warm_gap_m = HUGE_VALF;
       curve::Hint after;
       for (uint32_t b = 0; b < 7; ++b) {
         curve::Hint cold, same = before;
         const curve::Closest alone = closest_point(baked.view, p, {budgets[b]}, cold);
         const curve::Closest one = closest_point(baked.view, p, {budgets[b]}, same);
-        judge(baked, p, truth, alone, judged);
-        judge(baked, p, truth, one, judged);
-        judge(baked, p, truth, closest_point(baked.view, p, {budgets[b]}, warm[b]), judged);
+        check(baked, p, truth, alone, findings);
+        check(baked, p, truth, one, findings);
+        check(baked, p, truth, closest_point(baked.view, p, {budgets[b]}, warm[b]), findings);
         CHECK_LE(alone.certificate.steps, budgets[b]);
         CHECK_LE(alone.distance_m - alone.certificate.lower_m, cold_gap_m);
         CHECK_LE(one.distance_m - one.certificate.lower_m, warm_gap_m);

@@ -48,7 +48,7 @@ double room(const Baked& baked, const Least& truth, float weight_m) {
   return 4e-7 * scale + 1e-6 * double{weight_m} * (1 + truth.cost / baked.report.length_m);
 }
 
-void judge(const Baked& baked, math::Vec3 p, const curve::ArcPenalty& penalty,
+void check(const Baked& baked, math::Vec3 p, const curve::ArcPenalty& penalty,
            const curve::Constraint& found) {
   const Least truth = brute_cost(baked, p, penalty);
   const double most = room(baked, truth, penalty.weight_m);
@@ -120,8 +120,8 @@ TEST(TheLeastCostOfAllSegmentsOnHardCurves) {
       const auto alone = guided_point(baked.view, places[i], penalty, query::kUnlimited, cold);
       const auto next = guided_point(baked.view, places[i], penalty, query::kUnlimited, warm);
       CHECK(alone.closest.certificate.exact && next.closest.certificate.exact);
-      judge(baked, places[i], penalty, alone);
-      judge(baked, places[i], penalty, next);
+      check(baked, places[i], penalty, alone);
+      check(baked, places[i], penalty, next);
       last_arc = next.closest.arc;
     }
   }
@@ -138,8 +138,8 @@ TEST(EveryBudgetBracketsTheCost) {
         curve::Hint cold;
         const auto alone = guided_point(baked.view, p, penalty, {steps}, cold);
         CHECK_LE(alone.closest.certificate.steps, steps);
-        judge(baked, p, penalty, alone);
-        judge(baked, p, penalty, guided_point(baked.view, p, penalty, {steps}, warm));
+        check(baked, p, penalty, alone);
+        check(baked, p, penalty, guided_point(baked.view, p, penalty, {steps}, warm));
       }
     }
   }

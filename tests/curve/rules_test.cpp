@@ -232,7 +232,7 @@ TEST(Rule219RefusesASampleThatStandsInTwoNodes) {
   }
 }
 
-TEST(Rule221RefusesBoxesAndRunsThatAreNotAsManyAsTheSamplesAsk) {
+TEST(Rule221RefusesBoxesAndRunsOfAnotherCount) {
   const LongCurve& c = long_hook();
   for (uint32_t less = 0; less < 2; ++less) {
     Sections s = c.sections();

@@ -1,4 +1,4 @@
-// Smooth curves: the closest point of cubic pieces against a judge that looks everywhere in double, and
+// Smooth curves: the closest point of cubic pieces against a oracle that looks everywhere in double, and
 // what a hand feels that goes along one.
 #include <cmath>
 #include <cstdio>
@@ -25,9 +25,9 @@ Wide operator*(Wide a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 double size(Wide a) { return std::hypot(a.x, a.y, a.z); }
 
 // The pieces as FORMAT.md has them, in double, from the samples alone.
-class Judge {
+class Oracle {
  public:
-  explicit Judge(const Baked& baked) {
+  explicit Oracle(const Baked& baked) {
     const Points& s = baked.samples;
     const size_t last = s.size() - 1;
     std::vector<Wide> slope(s.size());
@@ -132,16 +132,16 @@ TEST(SmoothCurvesAreBakedAndProven) {
   CHECK_LE(refused, 1u);
 }
 
-TEST(TheClosestPointOfCubicPiecesIsThatOfAJudgeThatLooksEverywhere) {
+TEST(ClosestPoint_OfCubicPieces_EqualsDenseOracle) {
   double worst = 0;
   size_t in_doubt = 0, all = 0;
   for (const curve_test::NamedCurve& named : curves()) {
     const Baked baked(named.points, true);
-    const Judge judge(baked);
+    const Oracle oracle(baked);
     test::note(named.name.c_str(), 0);
     curve::Hint warm;
     for (const math::Vec3& p : curve_test::queries(baked.samples, queries_a_curve(), 41)) {
-      const double truth = judge.distance(p);
+      const double truth = oracle.distance(p);
       curve::Hint cold;
       const auto alone = closest_point(baked.view, p, query::kUnlimited, cold);
       const auto next = closest_point(baked.view, p, query::kUnlimited, warm);
@@ -171,11 +171,11 @@ TEST(TheClosestPointOfCubicPiecesIsThatOfAJudgeThatLooksEverywhere) {
 TEST(EveryBudgetOfASmoothCurveIsCertified) {
   for (const curve_test::NamedCurve& named : curves()) {
     const Baked baked(named.points, true);
-    const Judge judge(baked);
+    const Oracle oracle(baked);
     test::note(named.name.c_str(), 0);
     curve::Hint warm;
     for (const math::Vec3& p : curve_test::queries(baked.samples, 24, 43)) {
-      const double truth = judge.distance(p);
+      const double truth = oracle.distance(p);
       for (const uint32_t steps : {1u, 3u, 9u}) {
         const curve::ArcPenalty penalty{0.1f * baked.view.head().diagonal_m, 0.4f, true};
         curve::Hint cold, held;
@@ -228,8 +228,8 @@ TEST(TheTangentDoesNotTurnAtASample) {
   const Baked baked(ring(40), true);
   curve::Hint hint;
   for (uint32_t i = 1; i + 1 < baked.samples.size(); ++i) {
-    const Judge judge(baked);
-    const Wide a = judge.at(i - 1, 0.9999), b = judge.at(i, 0.0001);
+    const Oracle oracle(baked);
+    const Wide a = oracle.at(i - 1, 0.9999), b = oracle.at(i, 0.0001);
     const auto before = closest_point(baked.view, point(a.x, a.y, a.z), query::kUnlimited, hint);
     const auto after = closest_point(baked.view, point(b.x, b.y, b.z), query::kUnlimited, hint);
     CHECK_LE(size(wide(before.tangent) - wide(after.tangent)), 1e-3);

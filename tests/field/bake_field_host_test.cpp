@@ -1,7 +1,7 @@
 #include "bake/field/bake_field.hpp"
 
 #include "bake/mesh/bake_mesh.hpp"
-#include "field/judge.hpp"
+#include "field/oracle.hpp"
 #include "firmtouch/field/centre.hpp"
 #include "firmtouch/field/distance_bounds.hpp"
 #include "surface/make/make_part.hpp"
@@ -39,7 +39,7 @@ Baked bake(Surface surface, uint32_t cells, bool is_signed = true) {
 
 void check_point(const Baked& baked, math::Vec3 p, bool check_side) {
   const field::Bounds b = field::distance_bounds(baked.distance_field, p);
-  const double truth = judged_distance(baked.surface, to_point(p));
+  const double truth = oracle_distance(baked.surface, to_point(p));
   CHECK_LE(static_cast<double>(b.lower_m), truth);
   CHECK_GE(static_cast<double>(b.upper_m), truth);
   if (!check_side || !(b.lower_m > 0)) return;
@@ -86,7 +86,7 @@ TEST(BoundsGrowCloserWithMoreCells) {
   CHECK_EQ(coarse.report.unknown + fine.report.unknown, 0u);
 }
 
-TEST(AnUnsignedMeshHasAMapWithoutSides) {
+TEST(UnsignedMesh_GivesUnsignedField) {
   Surface open = make_part(1, 1500);
   open.faces.pop_back();
   open.source.pop_back();
@@ -97,14 +97,14 @@ TEST(AnUnsignedMeshHasAMapWithoutSides) {
   check_point(baked, {0.001f, 0.002f, 0.003f}, false);
 }
 
-TEST(AMapOfTooManyCellsIsRefused) {
+TEST(Bake_TooManyCells_IsRefused) {
   Baked baked = bake(make_part(1, 1500), 4);
   FieldReport report;
   CHECK(bake_field(baked.mesh, "m", 4000, report).empty());
   CHECK(says(report.problem, "choose fewer"));
 }
 
-TEST(TheSameMeshGivesTheSameMap) {
+TEST(SameMesh_GivesSameField) {
   const Baked one = bake(make_part(1, 1500), 12), two = bake(make_part(1, 1500), 12);
   for (size_t i = 0; i < one.field_sections_.size(); ++i)
     CHECK(one.field_sections_[i].bytes == two.field_sections_[i].bytes);

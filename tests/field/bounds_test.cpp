@@ -2,7 +2,7 @@
 
 #include <float.h>
 
-#include "cube_map.hpp"
+#include "cube_field.hpp"
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "harness/test.hpp"
@@ -86,7 +86,7 @@ TEST(HostilePointsGiveFiniteBoundsThatAreTrue) {
   CHECK(tiny.lower_m > 0.5f && tiny.sign == -1);
 }
 
-TEST(AnUnknownCellStillTellsWhatTheGridsBoxDoes) {
+TEST(UnknownCell_IsBoundedByTheGridsBox) {
   CubeField distance_field;
   for (int16_t& word : distance_field.words) word = field::kUnknown;
   field::View view;

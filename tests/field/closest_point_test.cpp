@@ -2,7 +2,7 @@
 
 #include <float.h>
 
-#include "cube_map.hpp"
+#include "cube_field.hpp"
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/math/isa.hpp"
 #include "harness/test.hpp"
@@ -27,7 +27,7 @@ float coordinate(uint32_t& state, float reach) {
 
 }  // namespace
 
-TEST(InFreeSpaceTheMeshIsNotAskedAndNearItTheAnswerIsTheMeshs) {
+TEST(FreeSpace_NeedsNoMeshQuery_NearMesh_AnswerIsTheMeshs) {
   const Opened o;
   mesh::Hint hint, alone;
   uint32_t state = 5, far = 0, near = 0, inside = 0;
@@ -36,32 +36,32 @@ TEST(InFreeSpaceTheMeshIsNotAskedAndNearItTheAnswerIsTheMeshs) {
     if (i % 200 == 0) p = {coordinate(state, 2.5f), coordinate(state, 2.5f), 0.3f};  // a jump
     p = {p.x * 0.99f + coordinate(state, 0.1f), p.y * 0.99f + coordinate(state, 0.1f),
          p.z * 0.99f + coordinate(state, 0.1f)};
-    const field::Felt felt =
+    const field::Answer answer =
         field::closest_point(o.view, o.mesh, p, 0.05f, query::kUnlimited, hint);
     const mesh::Closest truth = mesh::closest_point(o.mesh, p, query::kUnlimited, alone);
-    const query::Certificate& certificate = felt.closest.certificate;
+    const query::Certificate& certificate = answer.closest.certificate;
     CHECK_EQ(static_cast<int>(certificate.sign), static_cast<int>(truth.certificate.sign));
-    if (felt.is_far) {
+    if (answer.is_far) {
       ++far;
       CHECK_EQ(certificate.steps, 1u);
       CHECK(!certificate.exact && certificate.sign > 0);
       CHECK_GT(certificate.lower_m, 0.05f);
       CHECK_LE(certificate.lower_m, truth.distance_m);
-      CHECK_GE(felt.closest.distance_m * (1 + 1e-6f), truth.certificate.lower_m);
+      CHECK_GE(answer.closest.distance_m * (1 + 1e-6f), truth.certificate.lower_m);
       continue;
     }
     ++near;
     inside += certificate.sign < 0 ? 1u : 0u;
     CHECK(certificate.exact);
-    CHECK_LE(felt.closest.distance_m - truth.distance_m, 1e-6f);
-    CHECK_GE(felt.closest.distance_m - truth.distance_m, -1e-6f);
+    CHECK_LE(answer.closest.distance_m - truth.distance_m, 1e-6f);
+    CHECK_GE(answer.closest.distance_m - truth.distance_m, -1e-6f);
   }
   CHECK_GT(far, 300u);
   CHECK_GT(near, 300u);
   CHECK_GT(inside, 300u);
 }
 
-TEST(WhereTheBudgetEndsTheSearchTheMapsBoundAndSideStandInForIt) {
+TEST(OutOfBudget_FieldsBoundAndSignReplaceTheSearchs) {
   const Opened o;
   uint32_t state = 7, raised = 0, reported = 0;
   for (uint32_t i = 0; i < 2000; ++i) {
@@ -92,16 +92,16 @@ TEST(AfterAJumpTheSearchStartsAtTheSeed) {
   mesh::Hint hint, alone;
   for (uint32_t i = 0; i < 500; ++i) {
     const Vec3 p{coordinate(state, 1.2f), coordinate(state, 1.2f), coordinate(state, 1.2f)};
-    const field::Felt felt =
+    const field::Answer answer =
         field::closest_point(o.view, o.mesh, p, 10.0f, query::kUnlimited, hint);
     const mesh::Closest c = mesh::closest_point(o.mesh, p, query::kUnlimited, alone);
-    CHECK(felt.closest.certificate.exact);
-    fewer += felt.closest.certificate.steps < c.certificate.steps ? 1u : 0u;
+    CHECK(answer.closest.certificate.exact);
+    fewer += answer.closest.certificate.steps < c.certificate.steps ? 1u : 0u;
   }
   CHECK_GT(fewer, 100u);
 }
 
-TEST(HostilePointsAreAnsweredByMapAndMesh) {
+TEST(HostilePoints_GiveFiniteAnswers) {
   const Opened o;
   mesh::Hint hint;
   const float bads[] = {
@@ -110,17 +110,18 @@ TEST(HostilePointsAreAnsweredByMapAndMesh) {
     for (const float bad : bads) {
       Vec3 p{0.9f, 0.8f, 1.1f};
       (&p.x)[round] = bad;
-      const field::Felt felt = field::closest_point(o.view, o.mesh, p, 0.1f, {4}, hint);
-      CHECK(felt.closest.distance_m >= -FLT_MAX && felt.closest.distance_m <= FLT_MAX);
-      CHECK(felt.closest.certificate.lower_m >= 0 && felt.closest.certificate.lower_m <= FLT_MAX);
-      const field::Felt next =
+      const field::Answer answer = field::closest_point(o.view, o.mesh, p, 0.1f, {4}, hint);
+      CHECK(answer.closest.distance_m >= -FLT_MAX && answer.closest.distance_m <= FLT_MAX);
+      CHECK(answer.closest.certificate.lower_m >= 0 &&
+            answer.closest.certificate.lower_m <= FLT_MAX);
+      const field::Answer next =
           field::closest_point(o.view, o.mesh, {0.9f, 0.8f, 1.1f}, 0.3f, query::kUnlimited, hint);
       CHECK(next.closest.certificate.exact);
     }
   }
 }
 
-TEST(AnswersByMapAndMeshHaveOneHashEverywhere) {
+TEST(Answers_HaveOneHashEverywhere) {
   const Opened o;
   core::Hash hash;
   mesh::Hint hint;

@@ -1,7 +1,7 @@
 #include <cstring>
 
 #include "field/distance_field.hpp"
-#include "field/judge.hpp"
+#include "field/oracle.hpp"
 #include "field/write_vti.hpp"
 #include "surface/check/check.hpp"
 #include "surface/make/make_part.hpp"
@@ -18,7 +18,7 @@ struct Made {
   DistanceField distance_field;
 };
 
-Made make(std::vector<Surface> surfaces, uint32_t cells, const MapOptions& options = {}) {
+Made make(std::vector<Surface> surfaces, uint32_t cells, const FieldOptions& options = {}) {
   Made made;
   made.surfaces = std::move(surfaces);
   std::vector<const Surface*> all;
@@ -59,10 +59,10 @@ TEST(EveryVoxelOfAPartHasTheDistanceThatBruteForceFinds) {
   size_t wrong = 0;
   each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
     const Nearest& n = made.distance_field.values[v];
-    const double truth = judged_distance(made.surfaces[0], p);
+    const double truth = oracle_distance(made.surfaces[0], p);
     if (std::fabs(reported(n) - truth) > 1e-6 * std::max(diagonal, truth)) ++wrong;
     const Face& f = made.surfaces[0].faces[n.face];  // the point told lies on the triangle told
-    const double off = judged_triangle(
+    const double off = oracle_triangle(
         to_point(n.closest_m), to_point(made.surfaces[0].vertices[f[0]]),
         to_point(made.surfaces[0].vertices[f[1]]), to_point(made.surfaces[0].vertices[f[2]]));
     if (off > 1e-7 * diagonal ||
@@ -89,7 +89,7 @@ TEST(SidesAreThoseOfTheWindingNumber) {
 
 TEST(InteriorOnlyGivesTheSameValuesWithoutTheOutside) {
   const Made all = make({make_part(1, 1500)}, 30);
-  MapOptions options;
+  FieldOptions options;
   options.interior_only = true;
   const Made some = make({make_part(1, 1500)}, 30, options);
   CHECK_EQ(some.distance_field.computed, some.distance_field.surface + some.distance_field.inside);
@@ -112,7 +112,7 @@ TEST(InteriorOnlyGivesTheSameValuesWithoutTheOutside) {
 
 TEST(AnyNumberOfThreadsGivesTheSameBits) {
   const Made one = make({make_part(1, 3000)}, 40);
-  MapOptions options;
+  FieldOptions options;
   options.threads = 3;
   size_t calls = 0;
   options.on_progress = [&](size_t done, size_t all) { calls += done <= all ? 1u : 1000000u; };
@@ -131,8 +131,8 @@ TEST(SeveralObjectsGiveTheNearestOfAnyAndTheInsideOfAny) {
   size_t wrong = 0, second = 0;
   each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
     const Nearest& n = made.distance_field.values[v];
-    const double to_a = judged_distance(made.surfaces[0], p),
-                 to_b = judged_distance(made.surfaces[1], p);
+    const double to_a = oracle_distance(made.surfaces[0], p),
+                 to_b = oracle_distance(made.surfaces[1], p);
     const auto in = [&](double c) {
       return std::max({std::fabs(p.x - c), std::fabs(p.y - c), std::fabs(p.z - c)}) < 1;
     };
@@ -157,7 +157,7 @@ TEST(AListOfPointsIsAnsweredInAnyOrderLikeBruteForce) {
   size_t wrong = 0;
   for (size_t i = 0; i < points.size(); ++i) {
     const double truth =
-        std::min(judged_distance(surfaces[0], points[i]), judged_distance(surfaces[1], points[i]));
+        std::min(oracle_distance(surfaces[0], points[i]), oracle_distance(surfaces[1], points[i]));
     const bool inside = winding_by_angles(surfaces[0], points[i]) > 0.5 ||
                         winding_by_angles(surfaces[1], points[i]) > 0.5;
     if (std::fabs(reported(found[i]) - truth) > 1e-6 * std::max(0.2, truth)) ++wrong;
@@ -173,7 +173,7 @@ TEST(AModelFarFromTheOriginAndOneOfAMillimetreAreAnsweredAlike) {
     const Made made = make({surface}, 10);
     size_t wrong = 0;
     each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
-      const double truth = judged_distance(made.surfaces[0], p);
+      const double truth = oracle_distance(made.surfaces[0], p);
       if (std::fabs(reported(made.distance_field.values[v]) - truth) >
           4e-6 * static_cast<double>(scale))
         ++wrong;
@@ -182,7 +182,7 @@ TEST(AModelFarFromTheOriginAndOneOfAMillimetreAreAnsweredAlike) {
   }
 }
 
-TEST(WhatFloodAndPseudonormalTellApartIsListedByPlace) {
+TEST(SignsThatFloodAndPseudonormalDispute_AreListed) {
   // A cube with another inside it, wound outward too: between them the flood cannot come, and at the
   // inner one the pseudonormal says that its inside is inside and the space between is outside.
   Surface surface = cube({0, 0, 0}, 2);
@@ -191,7 +191,7 @@ TEST(WhatFloodAndPseudonormalTellApartIsListedByPlace) {
   size_t found = 0, wrong = 0;
   each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
     const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    const double to_outer = 2 - size, to_inner = judged_distance(cube(), p);
+    const double to_outer = 2 - size, to_inner = oracle_distance(cube(), p);
     if (std::fabs(to_outer - to_inner) < 1e-6) return;  // either may be told
     const bool listed = std::any_of(
         made.distance_field.disagreements.begin(), made.distance_field.disagreements.end(),
@@ -205,8 +205,8 @@ TEST(WhatFloodAndPseudonormalTellApartIsListedByPlace) {
   CHECK(found > 100);
 }
 
-TEST(TheVtiHoldsWhatTheMapHolds) {
-  MapOptions options;
+TEST(Vti_HoldsTheFieldsValues) {
+  FieldOptions options;
   options.interior_only = true;
   const Made made = make({tetrahedron()}, 6, options);
   const std::string text = to_vti(made.distance_field, made.solids);
@@ -250,7 +250,7 @@ TEST(TheClosedBunnyHasTheVoxelsOfThePaperAndNoDisagreement) {
   CheckOptions checks;
   checks.close_holes = true;
   CHECK(check_and_mend(read.surface, checks).usable());
-  MapOptions options;
+  FieldOptions options;
   options.interior_only = true;
   const Made made = make({read.surface}, 30, options);
   // The paper: 7,168 at 30 (another orientation or border of its boxes).
@@ -262,7 +262,7 @@ TEST(TheClosedBunnyHasTheVoxelsOfThePaperAndNoDisagreement) {
   each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
     if (made.distance_field.values[v].sign == 0 || v % 61 != 0) return;
     ++checked;
-    if (std::fabs(reported(made.distance_field.values[v]) - judged_distance(made.surfaces[0], p)) >
+    if (std::fabs(reported(made.distance_field.values[v]) - oracle_distance(made.surfaces[0], p)) >
         2e-7)
       ++wrong;
   });

@@ -1,5 +1,5 @@
 // The reject rules of a distance map, each condition tripped alone.
-#include "cube_map.hpp"
+#include "cube_field.hpp"
 #include "harness/test.hpp"
 
 namespace {
@@ -24,7 +24,7 @@ uint32_t refusal_with(Change change) {
   return refusal_of(distance_field);
 }
 
-float not_a_number() {
+float nan_value() {
   const uint32_t bits = 0x7FC00000;
   float value;
   __builtin_memcpy(&value, &bits, sizeof value);
@@ -35,7 +35,7 @@ core::Bytes shorter(core::Bytes bytes, uint32_t by) { return {bytes.data(), byte
 
 }  // namespace
 
-TEST(WholeMapPasses) { CHECK_EQ(refusal_of(CubeField()), 0u); }
+TEST(SoundField_Passes) { CHECK_EQ(refusal_of(CubeField()), 0u); }
 
 TEST(R301HeadOfTheWrongSize) {
   const CubeField distance_field;
@@ -88,14 +88,14 @@ TEST(R307GridThatDoesNotHoldTheMesh) {
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[2] = -1.8f; }),
            field::kRuleGrid * 1000u + 2u);
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[0] = -2e8f; }), field::kRuleGrid * 1000u);
-  CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[0] = not_a_number(); }),
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[0] = nan_value(); }),
            field::kRuleGrid * 1000u);
 }
 
 TEST(R308CellsOfNoSize) {
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = 0; }), field::kRuleCell * 1000u);
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = -0.4f; }), field::kRuleCell * 1000u);
-  CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = not_a_number(); }),
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = nan_value(); }),
            field::kRuleCell * 1000u);
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.cell_m = 2e8f; }), field::kRuleCell * 1000u);
 }
@@ -105,7 +105,7 @@ TEST(R309QuantumThatIsNoPowerOfTwo) {
            field::kRuleQuantum * 1000u);
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.quantum_m = -0.5f; }),
            field::kRuleQuantum * 1000u);
-  CHECK_EQ(refusal_with([](CubeField& m) { m.head.quantum_m = not_a_number(); }),
+  CHECK_EQ(refusal_with([](CubeField& m) { m.head.quantum_m = nan_value(); }),
            field::kRuleQuantum * 1000u);
 }
 

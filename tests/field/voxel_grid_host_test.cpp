@@ -1,4 +1,4 @@
-#include "field/judge.hpp"
+#include "field/oracle.hpp"
 #include "field/voxel_grid.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
@@ -60,7 +60,7 @@ TEST(AVoxelOffTheSurfaceHoldsNoPointOfIt) {
   for (uint32_t z = 0; z < grid.count[2]; ++z)
     for (uint32_t y = 0; y < grid.count[1]; ++y)
       for (uint32_t x = 0; x < grid.count[0]; ++x) {
-        const double d = judged_distance(part, grid.centre_m(x, y, z));
+        const double d = oracle_distance(part, grid.centre_m(x, y, z));
         const bool on = voxels[grid.index(x, y, z)] == Voxel::kSurface;
         if (d < 0.4999 * grid.size_m && !on) ++wrong;  // the ball inside the voxel
         if (d > 0.8661 * grid.size_m && on) ++wrong;   // the ball about it

@@ -103,7 +103,7 @@ void exercise_field(const field::View& distance_field, const mesh::View& mesh) {
     CHECK(is_finite(bounds.lower_m) && bounds.lower_m >= 0);
     CHECK(is_finite(bounds.upper_m) && bounds.upper_m >= bounds.lower_m);
     CHECK(bounds.sign >= -1 && bounds.sign <= 1);
-    const field::Felt result = field::closest_point(distance_field, mesh, p, 0.1f, {7}, hint);
+    const field::Answer result = field::closest_point(distance_field, mesh, p, 0.1f, {7}, hint);
     check_certificate(result.closest.certificate, 7, is_finite(p));
     CHECK(is_finite(result.closest.distance_m));
   }

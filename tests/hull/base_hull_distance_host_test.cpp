@@ -34,7 +34,7 @@ math::Vec3 some_point(const Surface& mesh, Random& random, int i) {
   return {x, y, z};
 }
 
-void judge(const BakedHull& baked, const hull::BaseHull& base_hull, int count) {
+void check_distances(const BakedHull& baked, const hull::BaseHull& base_hull, int count) {
   const Surface of_base_hull = surface_of(base_hull);
   Random random(31);
   int outside = 0, inside = 0, between = 0;
@@ -80,7 +80,7 @@ void judge(const BakedHull& baked, const hull::BaseHull& base_hull, int count) {
 
 TEST(WhatABaseHullCertifiesOfTheMeshIsTrueUnderEveryBudget) {
   const BakedHull ring(bumpy_ring(8, 4, 0.2), 150, 16);
-  judge(ring, ring.view.base_hull(), 600);
+  check_distances(ring, ring.view.base_hull(), 600);
   const std::vector<uint32_t> words = cut_base_hull(ring.view, 400);
   hull::BaseHull finer;
   CHECK_EQ(hull::open_base_hull({reinterpret_cast<const uint8_t*>(words.data()),
@@ -88,7 +88,7 @@ TEST(WhatABaseHullCertifiesOfTheMeshIsTrueUnderEveryBudget) {
                                 ring.view, finer)
                .rule,
            0);
-  judge(ring, finer, 300);
+  check_distances(ring, finer, 300);
 }
 
 TEST(HostilePointsGetFiniteDistancesToABaseHull) {

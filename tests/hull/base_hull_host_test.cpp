@@ -248,7 +248,7 @@ std::vector<Line> hard_lines(const hull::BaseHull& base_hull, int count) {
 }
 
 // What the shell itself is crossed by, first: never told later, none missed; exact where it says so.
-void judge_casts(const hull::BaseHull& base_hull, int count) {
+void check_casts(const hull::BaseHull& base_hull, int count) {
   uint32_t hits = 0, misses = 0, unsure = 0;
   for (const Line& line : hard_lines(base_hull, count)) {
     test::note("segment", static_cast<int64_t>(hits + misses));
@@ -269,13 +269,13 @@ void judge_casts(const hull::BaseHull& base_hull, int count) {
 }
 
 TEST(ABaseHullsFirstCrossingIsThatOfAllItsFaces) {
-  judge_casts(BakedHull(make_part(1, 3000), 300, 16).view.base_hull(), 900);
-  judge_casts(BakedHull(bumpy_ring(16, 8, 0.2), 200, 22).view.base_hull(), 900);
-  judge_casts(BakedHull(bumpy_ring(8, 4), 100000, 16).view.base_hull(),
+  check_casts(BakedHull(make_part(1, 3000), 300, 16).view.base_hull(), 900);
+  check_casts(BakedHull(bumpy_ring(16, 8, 0.2), 200, 22).view.base_hull(), 900);
+  check_casts(BakedHull(bumpy_ring(8, 4), 100000, 16).view.base_hull(),
               900);  // kept vertices alone
 }
 
-TEST(ABaseHullWhoseBudgetRunsOutTellsAHitAtOnce) {
+TEST(BaseHullCast_OutOfBudget_ReportsHitAtStart) {
   const BakedHull baked(bumpy_ring(8, 4), 200, 16);
   const hull::BaseHullHit hit =
       hull::cast_base_hull(baked.view.base_hull(), {-3, 0, 0}, {3, 0.1f, 0.2f}, {1});

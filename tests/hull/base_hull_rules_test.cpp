@@ -85,7 +85,7 @@ TEST(R545CornerOutOfRange) {
            hull::kRuleBaseHullCorners * 1000u + 3u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.base_hull_faces()[4] |= 0xF000; }),
            hull::kRuleBaseHullCorners * 1000u + 4u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { ++h.base_hull_corner_places()[1]; }),
+  CHECK_EQ(refusal_with([](SmallHull& h) { ++h.base_hull_corner_offsets()[1]; }),
            hull::kRuleBaseHullCorners * 1000u + 8u);
   SmallHull whole;
   const uint32_t last = (whole.base_hull_leaves() - 1) * hull::kLeafFaces;

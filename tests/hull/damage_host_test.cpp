@@ -28,16 +28,16 @@ struct Apart {
       return core::Bytes(reinterpret_cast<const uint8_t*>(blocks.back().data()), bytes.size());
     };
     sections = {copy(from.head),          copy(from.vertices),    copy(from.origins),
-                copy(from.records),       copy(from.places),      copy(from.star_boxes),
+                copy(from.records),       copy(from.record_offsets),      copy(from.star_boxes),
                 copy(from.boxes),         copy(from.base_hull),   copy(from.mesh_head),
                 copy(from.mesh_vertices), copy(from.triangles16), {}};
   }
 };
 
 void use(const hull::View& view, Random& random) {
-  uint32_t bits[hull::bit_words(128)], undone[20];
+  uint32_t bits[hull::bit_words(128)], splits[20];
   hull::Candidate candidates[8];
-  hull::Refinement refinement(view, view.base_hull(), {{bits}, {undone}, {candidates}});
+  hull::Refinement refinement(view, view.base_hull(), {{bits}, {splits}, {candidates}});
   for (int i = 0; i < 10; ++i) {
     const auto in = [&] { return static_cast<float>(random.between(-2, 2)); };
     const float v[6] = {in(), in(), in(), in(), in(), in()};
@@ -90,9 +90,9 @@ TEST(AChangedHullIsRefusedByARuleOrHarmless) {
 TEST(ATruncatedHullIsRefused) {
   hull_test::SmallHull small;
   core::Bytes* const kAll[] = {
-      &small.sections.head,          &small.sections.vertices,   &small.sections.origins,
-      &small.sections.records,       &small.sections.places,     &small.sections.star_boxes,
-      &small.sections.boxes,         &small.sections.base_hull,  &small.sections.mesh_head,
+      &small.sections.head,          &small.sections.vertices,       &small.sections.origins,
+      &small.sections.records,       &small.sections.record_offsets, &small.sections.star_boxes,
+      &small.sections.boxes,         &small.sections.base_hull,      &small.sections.mesh_head,
       &small.sections.mesh_vertices, &small.sections.triangles16};
   for (core::Bytes* section : kAll) {
     const core::Bytes whole = *section;

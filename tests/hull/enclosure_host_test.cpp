@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "exact_judge.hpp"
+#include "exact_oracle.hpp"
 #include "harness/test.hpp"
 #include "hull/build_hull.hpp"
 #include "surface/check/check.hpp"
@@ -29,11 +29,11 @@ struct Outside {
 };
 
 Outside outside(const Surface& mesh, const Surface& level, uint32_t samples) {
-  const Judge judge(level);
+  const Oracle oracle(level);
   Outside found;
   std::set<uint32_t> vertices;
   for (uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (judge.where(spot_at(mesh.vertices[v])) == Judge::Where::kOutside) vertices.insert(v);
+    if (oracle.where(spot_at(mesh.vertices[v])) == Oracle::Where::kOutside) vertices.insert(v);
   }
   found.points = vertices.size();
   for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -49,7 +49,7 @@ Outside outside(const Surface& mesh, const Surface& level, uint32_t samples) {
     const int second = static_cast<int>(random.below(static_cast<uint32_t>(17 - first)));
     const Spot spot{{mesh.vertices[face[0]], mesh.vertices[face[1]], mesh.vertices[face[2]]},
                     {first, second, 16 - first - second}};
-    if (judge.where(spot) != Judge::Where::kOutside) continue;
+    if (oracle.where(spot) != Oracle::Where::kOutside) continue;
     ++found.points;
     found.faces.insert(f);
   }
@@ -141,24 +141,24 @@ TEST(CarelessRoundingLeavesVerticesOutside) {
   CHECK_LT(100, outside(mesh, hull_level(build_hull(mesh, options, report), 10000), 0).points);
 }
 
-TEST(TheJudgeKnowsInsideOnAndOutside) {
+TEST(Oracle_SeparatesInsideOnAndOutside) {
   const Surface body = cube();
-  const Judge judge(body);
-  using Where = Judge::Where;
+  const Oracle oracle(body);
+  using Where = Oracle::Where;
   const Face& f = body.faces[0];
   const Spot middle{{body.vertices[f[0]], body.vertices[f[1]], body.vertices[f[2]]}, {5, 5, 6}};
-  CHECK(judge.where(middle) == Where::kOn);
+  CHECK(oracle.where(middle) == Where::kOn);
   for (const math::Vec3& v : body.vertices) {
-    CHECK(judge.where(spot_at(v)) == Where::kOn);
+    CHECK(oracle.where(spot_at(v)) == Where::kOn);
     const float out = 1 + 0x1p-23f, in = 1 - 0x1p-24f;
-    CHECK(judge.where(spot_at({v.x * out, v.y, v.z})) == Where::kOutside);
-    CHECK(judge.where(spot_at({v.x, v.y, v.z * out})) == Where::kOutside);
-    CHECK(judge.where(spot_at({v.x * in, v.y, v.z})) == Where::kOn);
-    CHECK(judge.where(spot_at({v.x * in, v.y * in, v.z * in})) == Where::kInside);
+    CHECK(oracle.where(spot_at({v.x * out, v.y, v.z})) == Where::kOutside);
+    CHECK(oracle.where(spot_at({v.x, v.y, v.z * out})) == Where::kOutside);
+    CHECK(oracle.where(spot_at({v.x * in, v.y, v.z})) == Where::kOn);
+    CHECK(oracle.where(spot_at({v.x * in, v.y * in, v.z * in})) == Where::kInside);
   }
   Random random(9);
   const Surface part = make_part(1, 2000);
-  const Judge of_part(part);
+  const Oracle of_part(part);
   for (int k = 0; k < 1000; ++k) {
     const math::Vec3 p = to_vec3(
         {random.between(-0.06, 0.06), random.between(-0.06, 0.06), random.between(-0.01, 0.03)});

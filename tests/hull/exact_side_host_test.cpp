@@ -1,4 +1,4 @@
-#include "exact_judge.hpp"
+#include "exact_oracle.hpp"
 #include "harness/test.hpp"
 #include "surface/exact_side.hpp"
 #include "surface/random.hpp"

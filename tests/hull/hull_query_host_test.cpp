@@ -106,11 +106,11 @@ core::Span<T> span(std::vector<T>& items) {
 }
 
 struct Memory {
-  std::vector<uint32_t> bits, undone;
+  std::vector<uint32_t> bits, splits;
   std::vector<hull::Candidate> candidates;
   Memory(const hull::View& view, uint32_t most, uint32_t crossings)
-      : bits(hull::bit_words(view.collapse_count())), undone(most), candidates(crossings) {}
-  hull::RefinementMemory spans() { return {span(bits), span(undone), span(candidates)}; }
+      : bits(hull::bit_words(view.collapse_count())), splits(most), candidates(crossings) {}
+  hull::RefinementMemory spans() { return {span(bits), span(splits), span(candidates)}; }
 };
 
 core::Bytes bytes_of_words(const std::vector<uint32_t>& words) {
@@ -247,7 +247,7 @@ TEST(StoredVerticesAreTheProvenOnes) {
   }
 }
 
-TEST(AMeshWithFewerFacesThanAskedForIsItsOwnHull) {
+TEST(MeshWithFewerFacesThanTarget_IsItsOwnHull) {
   const BakedHull baked(cube(), 1000, 22);
   CHECK_EQ(baked.view.collapse_count(), 0u);
   CHECK_EQ(baked.view.base_hull().face_count(), 12u);

@@ -20,12 +20,12 @@ struct Opened {
   Opened() { CHECK(hull::open(small.sections, view).ok()); }
 };
 
-template <uint32_t kUndone, uint32_t kCandidates>
+template <uint32_t kSplits, uint32_t kCandidates>
 struct Memory {
   uint32_t bits[hull::bit_words(kMax)];
-  uint32_t undone[kUndone];
+  uint32_t splits[kSplits];
   hull::Candidate candidates[kCandidates];
-  hull::RefinementMemory spans() { return {{bits}, {undone}, {candidates}}; }
+  hull::RefinementMemory spans() { return {{bits}, {splits}, {candidates}}; }
 };
 
 uint32_t g_random = 1;
@@ -151,7 +151,7 @@ TEST(FirstAndLastOfAllCrossingsAreTheMeshsAndNoneIsMadeUp) {
 }
 
 // Half a closure is no hull: what does not fit is taken back, and the hull's crossing is told.
-TEST(WhereMemoryOrStepsRunOutNothingOfTheMeshIsNearerThanTold) {
+TEST(OutOfMemoryOrBudget_NoMeshCrossingBeforeReportedOne) {
   const Opened opened;
   Memory<12, 3> memory;
   hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());

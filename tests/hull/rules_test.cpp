@@ -28,7 +28,7 @@ uint32_t rule_with(Change change) {
   return hull::open(small.sections, view).rule;
 }
 
-float not_a_number() {
+float nan_value() {
   const uint32_t bits = 0x7FC00000;
   float value;
   __builtin_memcpy(&value, &bits, sizeof value);
@@ -75,7 +75,9 @@ TEST(R504To509SectionsOfTheWrongSize) {
            hull::kRuleOriginsSize);
   CHECK_EQ(rule_with([](SmallHull& h) { h.sections.records = shorter(h.sections.records, 2); }),
            hull::kRuleRecordsSize);
-  CHECK_EQ(rule_with([](SmallHull& h) { h.sections.places = shorter(h.sections.places, 4); }),
+  CHECK_EQ(rule_with([](SmallHull& h) {
+             h.sections.record_offsets = shorter(h.sections.record_offsets, 4);
+           }),
            hull::kRuleRecordOffsetsSize);
   CHECK_EQ(
       rule_with([](SmallHull& h) { h.sections.star_boxes = shorter(h.sections.star_boxes, 6); }),
@@ -85,7 +87,7 @@ TEST(R504To509SectionsOfTheWrongSize) {
 }
 
 TEST(R510GridThatIsNone) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[1] = not_a_number(); }),
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[1] = nan_value(); }),
            hull::kRuleGrid * 1000u + 1u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[2] = 2e8f; }),
            hull::kRuleGrid * 1000u + 2u);
@@ -94,7 +96,7 @@ TEST(R510GridThatIsNone) {
 }
 
 TEST(R511BoxThatDoesNotHoldTheMesh) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().low_m[0] = not_a_number(); }),
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().low_m[0] = nan_value(); }),
            hull::kRuleHeadBox * 1000u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.head().high_m[2] = h.head().low_m[2]; }),
            hull::kRuleHeadBox * 1000u + 1u);
@@ -114,7 +116,7 @@ TEST(R512To515AMeshThatIsNone) {
 TEST(R520VertexOutsideTheMeshsBox) {
   CHECK_EQ(refusal_with([](SmallHull& h) { h.mesh_coordinate(7) = 50.0f; }),
            hull::kRuleMeshVertex * 1000u + 2u);
-  CHECK_EQ(refusal_with([](SmallHull& h) { h.mesh_coordinate(0) = not_a_number(); }),
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.mesh_coordinate(0) = nan_value(); }),
            hull::kRuleMeshVertex * 1000u);
 }
 
@@ -132,8 +134,9 @@ TEST(R523NumbersThatTwoIdsShare) {
 }
 
 TEST(R524RecordsThatDoNotStandWhereTheyShould) {
-  CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::open_up(h.sections.places)[4] += 2; }),
-           hull::kRuleRecordOffset * 1000u + 8u);
+  CHECK_EQ(
+      refusal_with([](SmallHull& h) { SmallHull::open_up(h.sections.record_offsets)[4] += 2; }),
+      hull::kRuleRecordOffset * 1000u + 8u);
   const auto long_last = [](SmallHull& h) {
     uint8_t* last = h.record(h.head().collapse_count - 1);
     last[1] = static_cast<uint8_t>(last[1] | 0xFC);
@@ -206,7 +209,7 @@ TEST(R532CornerOutOfRange) {
   CHECK_EQ(rule_with([](SmallHull& h) {
              h.head().collapse_count = 0;
              h.head().record_bytes = 0;
-             h.sections.vertices = h.sections.records = h.sections.places = {};
+             h.sections.vertices = h.sections.records = h.sections.record_offsets = {};
              h.sections.star_boxes = {};
              h.sections.origins = {h.sections.origins.data(), 2 * h.head().mesh_vertex_count};
              for (uint32_t i = 0; i < h.head().mesh_vertex_count; ++i) {

@@ -18,12 +18,12 @@ struct SmallHull {
     asset::Container all;
     CHECK(asset::open({bytes, sizeof bytes}, all).ok());
     sections = {
-        all.find(hull::kHeadSection, kName),        all.find(hull::kVerticesSection, kName),
-        all.find(hull::kOriginsSection, kName),     all.find(hull::kRecordsSection, kName),
-        all.find(hull::kPlacesSection, kName),      all.find(hull::kStarBoxesSection, kName),
-        all.find(hull::kBoxesSection, kName),       all.find(hull::kBaseHullSection, kName),
-        all.find(mesh::kHeadSection, kName),        all.find(mesh::kVerticesSection, kName),
-        all.find(mesh::kTriangles16Section, kName), {}};
+        all.find(hull::kHeadSection, kName),          all.find(hull::kVerticesSection, kName),
+        all.find(hull::kOriginsSection, kName),       all.find(hull::kRecordsSection, kName),
+        all.find(hull::kRecordOffsetsSection, kName), all.find(hull::kStarBoxesSection, kName),
+        all.find(hull::kBoxesSection, kName),         all.find(hull::kBaseHullSection, kName),
+        all.find(mesh::kHeadSection, kName),          all.find(mesh::kVerticesSection, kName),
+        all.find(mesh::kTriangles16Section, kName),   {}};
   }
   /// The same bytes, to be changed.
   static uint8_t* open_up(core::Bytes bytes_of) { return bytes + (bytes_of.data() - bytes); }
@@ -57,13 +57,13 @@ struct SmallHull {
   uint32_t base_hull_leaves() {
     return hull::leaves_for(base_hull_head().face_count, hull::kLeafFaces);
   }
-  uint32_t* base_hull_corner_places() {
+  uint32_t* base_hull_corner_offsets() {
     return reinterpret_cast<uint32_t*>(base_hull_boxes() +
                                        hull::padded(6 * hull::nodes_for(base_hull_leaves())));
   }
   hull::BaseHullFace* base_hull_faces() {
-    return reinterpret_cast<hull::BaseHullFace*>(base_hull_corner_places() +
-                                                 hull::corner_places_for(base_hull_leaves()));
+    return reinterpret_cast<hull::BaseHullFace*>(base_hull_corner_offsets() +
+                                                 hull::corner_offsets_for(base_hull_leaves()));
   }
   uint16_t* base_hull_corners() {
     return reinterpret_cast<uint16_t*>(reinterpret_cast<uint8_t*>(base_hull_faces()) +

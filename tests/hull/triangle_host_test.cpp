@@ -119,17 +119,17 @@ Surface grid_cube() {
   return surface;
 }
 
-void judge_triangles(const BakedHull& baked, int count) {
+void check_triangles(const BakedHull& baked, int count) {
   const hull::View& view = baked.view;
   const uint32_t faces = view.head().mesh_triangle_count;
   Threes threes(view.mesh_head(), 17);
   std::vector<uint32_t> buffer(faces), bits(hull::bit_words(view.collapse_count())),
-      undone(view.collapse_count() + 1);
+      splits(view.collapse_count() + 1);
   std::vector<hull::Candidate> candidates(8192);
   const auto size = [](const auto& items) { return static_cast<uint32_t>(items.size()); };
   hull::Refinement refinement(view, view.base_hull(),
                               {{bits.data(), size(bits)},
-                               {undone.data(), size(undone)},
+                               {splits.data(), size(splits)},
                                {candidates.data(), size(candidates)}});
   std::vector<mesh::SurfaceCrossing> met(faces);
   uint32_t unclear = 0, crossed = 0, free_of_it = 0, sure_of_it = 0;
@@ -186,8 +186,8 @@ void judge_triangles(const BakedHull& baked, int count) {
 }  // namespace
 
 TEST(TrianglesCrossWhatBruteForceSaysAndTheBaseHullRulesOutNone) {
-  judge_triangles(BakedHull(make_part(1, 2000), 300, 16), 260);
-  judge_triangles(BakedHull(bumpy_ring(16, 8, 0.2), 120, 22), 260);
+  check_triangles(BakedHull(make_part(1, 2000), 300, 16), 260);
+  check_triangles(BakedHull(bumpy_ring(16, 8, 0.2), 120, 22), 260);
 }
 
 // Quarters, moved by so little that no sign changes but of what is 0: in whole numbers.

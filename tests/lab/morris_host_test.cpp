@@ -1,4 +1,4 @@
-#include "field/judge.hpp"
+#include "field/oracle.hpp"
 #include "lab/morris_search.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
@@ -80,7 +80,7 @@ template <class Distance2>
 size_t count_wrong(const Surface& surface, const TriangleTree& tree, const Distance2& distance2) {
   size_t wrong = 0;
   for (const Point& p : points_of(tree)) {
-    const double truth = judged_distance(surface, p);
+    const double truth = oracle_distance(surface, p);
     const double reported = std::sqrt(static_cast<double>(distance2(tree.local(p))));
     if (!(std::fabs(reported - truth) <= 1e-6)) ++wrong;
   }

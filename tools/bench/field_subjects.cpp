@@ -40,7 +40,7 @@ std::vector<Subject> field_subjects(const Options& options) {
 }
 
 tools::DistanceField field_of(const Subject& subject, uint32_t cells) {
-  tools::MapOptions options;
+  tools::FieldOptions options;
   options.interior_only = true;
   return tools::make_distance_field(
       subject.solids, tools::make_voxel_grid({subject.surface.get()}, cells), options);

@@ -18,28 +18,28 @@ std::string sentence(const char* format, double a, double b) {
   return text;
 }
 
-void tell(const std::string& name, const std::string& line) {
+void print_line(const std::string& name, const std::string& line) {
   std::fprintf(stderr, "%s: %s\n", name.c_str(), line.c_str());
 }
 
 // Where the surface crosses itself it may wind around a point less than once, and such points are
 // not promised to stay inside.
-void tell_crossings(const std::string& name, const SoundSurface& sound) {
+void print_crossings(const std::string& name, const SoundSurface& sound) {
   const tools::Crossings crossings = tools::find_crossings(sound.surface);
   for (const std::string& line : tools::describe(crossings, sound.surface, sound.vertex_source))
-    tell(name, line);
+    print_line(name, line);
 }
 
-void tell_result(const std::string& name, const tools::Surface& mesh, const tools::Surface& level,
-                 const tools::ProgressiveHull& hull, const tools::HullReport& report) {
+void print_result(const std::string& name, const tools::Surface& mesh, const tools::Surface& level,
+                  const tools::ProgressiveHull& hull, const tools::HullReport& report) {
   const double before = tools::enclosed_volume_m3(mesh), after = tools::enclosed_volume_m3(level);
-  tell(name, std::to_string(level.faces.size()) + " faces enclose " +
-                 std::to_string(mesh.faces.size()) + ": void " +
-                 sentence("%.3g %% of the volume, grid of %.3g m", 100 * (after - before) / before,
-                          hull.grid.cell_m));
-  tell(name, std::to_string(hull.collapses.size()) + " collapses, " +
-                 std::to_string(report.counts.programs) +
-                 " linear programs; every new vertex proven outside in exact arithmetic");
+  print_line(name, std::to_string(level.faces.size()) + " faces enclose " +
+                       std::to_string(mesh.faces.size()) + ": void " +
+                       sentence("%.3g %% of the volume, grid of %.3g m",
+                                100 * (after - before) / before, hull.grid.cell_m));
+  print_line(name, std::to_string(hull.collapses.size()) + " collapses, " +
+                       std::to_string(report.counts.programs) +
+                       " linear programs; every new vertex proven outside in exact arithmetic");
 }
 
 }  // namespace
@@ -114,14 +114,15 @@ int run_hull(const Arguments& arguments) {
   const tools::Surface level = tools::hull_level(hull, options.target_faces);
   const std::string text = tools::to_obj(level);
   write_file(output, text.data(), text.size());
-  for (const std::string& line : sound.reported) tell(name, line);
-  tell_crossings(name, sound);
+  for (const std::string& line : sound.reported) print_line(name, line);
+  print_crossings(name, sound);
   if (sound.surface.faces.size() <= options.target_faces) {
-    tell(name, "has " + std::to_string(sound.surface.faces.size()) + " faces, not more than the " +
-                   std::to_string(options.target_faces) + " asked for: written as it is");
+    print_line(name, "has " + std::to_string(sound.surface.faces.size()) +
+                         " faces, not more than the " + std::to_string(options.target_faces) +
+                         " asked for: written as it is");
   }
-  if (!report.stalled.empty()) tell(name, report.stalled);
-  tell_result(name, sound.surface, level, hull, report);
+  if (!report.stalled.empty()) print_line(name, report.stalled);
+  print_result(name, sound.surface, level, hull, report);
   return kDone;
 }
 

@@ -19,22 +19,22 @@ struct Corners {
 };
 
 // How a segment is answered.
-class Asked {
+class HullQuery {
  public:
-  virtual ~Asked() = default;
+  virtual ~HullQuery() = default;
   virtual mesh::Hit first(math::Vec3 a_m, math::Vec3 b_m) = 0;
   /// Every crossing in order of t, none left out for want of room.
   core::Span<const mesh::SurfaceCrossing> all(math::Vec3 a_m, math::Vec3 b_m) {
-    uint32_t found = ask(a_m, b_m);
+    uint32_t found = cross(a_m, b_m);
     if (found > room_.size()) {
       room_.resize(found);
-      found = ask(a_m, b_m);
+      found = cross(a_m, b_m);
     }
     return {room_.data(), found};
   }
 
  protected:
-  virtual uint32_t ask(math::Vec3 a_m, math::Vec3 b_m) = 0;
+  virtual uint32_t cross(math::Vec3 a_m, math::Vec3 b_m) = 0;
   core::Span<mesh::SurfaceCrossing> room() {
     return {room_.data(), static_cast<uint32_t>(room_.size())};
   }
@@ -43,7 +43,7 @@ class Asked {
   std::vector<mesh::SurfaceCrossing> room_ = std::vector<mesh::SurfaceCrossing>(64);
 };
 
-class Complete : public Asked {
+class Complete : public HullQuery {
  public:
   Complete(const hull::View& view, query::Budget budget) : view_(view), budget_(budget) {}
   mesh::Hit first(math::Vec3 a_m, math::Vec3 b_m) override {
@@ -51,7 +51,7 @@ class Complete : public Asked {
   }
 
  protected:
-  uint32_t ask(math::Vec3 a_m, math::Vec3 b_m) override {
+  uint32_t cross(math::Vec3 a_m, math::Vec3 b_m) override {
     return hull::all_crossings(view_, a_m, b_m, budget_, room()).found;
   }
 
@@ -60,13 +60,13 @@ class Complete : public Asked {
   query::Budget budget_;
 };
 
-class Refined : public Asked {
+class Refined : public HullQuery {
  public:
   Refined(const hull::View& view, const hull::BaseHull& base_hull, query::Budget budget)
       : bits_(hull::bit_words(view.collapse_count())),
-        undone_(view.collapse_count() + 1),
+        splits_(view.collapse_count() + 1),
         candidates_(4096),
-        refinement_(view, base_hull, {span(bits_), span(undone_), span(candidates_)}),
+        refinement_(view, base_hull, {span(bits_), span(splits_), span(candidates_)}),
         budget_(budget) {}
   mesh::Hit first(math::Vec3 a_m, math::Vec3 b_m) override {
     const hull::RefinedHit hit = refinement_.first(a_m, b_m, budget_);
@@ -80,7 +80,7 @@ class Refined : public Asked {
   }
 
  protected:
-  uint32_t ask(math::Vec3 a_m, math::Vec3 b_m) override {
+  uint32_t cross(math::Vec3 a_m, math::Vec3 b_m) override {
     return refinement_.all(a_m, b_m, budget_, room()).found;
   }
 
@@ -89,13 +89,13 @@ class Refined : public Asked {
   static core::Span<T> span(std::vector<T>& items) {
     return {items.data(), static_cast<uint32_t>(items.size())};
   }
-  std::vector<uint32_t> bits_, undone_;
+  std::vector<uint32_t> bits_, splits_;
   std::vector<hull::Candidate> candidates_;
   hull::Refinement refinement_;
   query::Budget budget_;
 };
 
-void answer(Asked& asked, const LoadedHull& hull, const CsvTable& table,
+void answer(HullQuery& hull_query, const LoadedHull& hull, const CsvTable& table,
             const Arguments& arguments) {
   const bool is_ray = primitive_of(arguments) == "ray";
   const hull::Head& head = hull.view.head();
@@ -115,9 +115,9 @@ void answer(Asked& asked, const LoadedHull& hull, const CsvTable& table,
     print_time(table.rows(), [&] {
       float sum = 0;
       for (size_t i = 0; i < table.rows(); ++i) {
-        if (!all) sum += asked.first(from(i), to(i)).t;
+        if (!all) sum += hull_query.first(from(i), to(i)).t;
         if (all)
-          for (const mesh::SurfaceCrossing& c : asked.all(from(i), to(i))) sum += c.t;
+          for (const mesh::SurfaceCrossing& c : hull_query.all(from(i), to(i))) sum += c.t;
       }
       return sum;
     });
@@ -126,12 +126,12 @@ void answer(Asked& asked, const LoadedHull& hull, const CsvTable& table,
   std::puts(all ? "segment,t,triangle" : "hit,t,triangle,steps");
   for (size_t i = 0; i < table.rows(); ++i) {
     if (all) {
-      for (const mesh::SurfaceCrossing& c : asked.all(from(i), to(i)))
+      for (const mesh::SurfaceCrossing& c : hull_query.all(from(i), to(i)))
         std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t * lines[i].reach),
                     hull.source_of(c.triangle));
       continue;
     }
-    const mesh::Hit hit = asked.first(from(i), to(i));
+    const mesh::Hit hit = hull_query.first(from(i), to(i));
     const bool is_of_mesh = hit.hit && hit.triangle != UINT32_MAX;
     const int64_t triangle = is_of_mesh ? int64_t{hull.source_of(hit.triangle)} : -1;
     std::printf("%d,%.9g,%lld,%u\n", hit.hit ? 1 : 0, static_cast<double>(hit.t * lines[i].reach),
@@ -140,9 +140,9 @@ void answer(Asked& asked, const LoadedHull& hull, const CsvTable& table,
 }
 
 // The lowest triangle that each row's crosses, or all of them.
-template <class Ask>
+template <class Query>
 void answer_triangles(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments,
-                      Ask ask) {
+                      Query query_one) {
   const auto corners = [&](size_t i) {
     const float* row = table.row(i);
     return Corners{{{row[0], row[1], row[2]}, {row[3], row[4], row[5]}, {row[6], row[7], row[8]}}};
@@ -152,7 +152,7 @@ void answer_triangles(const LoadedHull& hull, const CsvTable& table, const Argum
     print_time(table.rows(), [&] {
       float sum = 0;
       for (size_t i = 0; i < table.rows(); ++i) {
-        (void)ask(corners(i), met);
+        (void)query_one(corners(i), met);
         sum += static_cast<float>(met.size());
       }
       return sum;
@@ -162,7 +162,7 @@ void answer_triangles(const LoadedHull& hull, const CsvTable& table, const Argum
   const bool all = arguments.has("--all");
   std::puts(all ? "asked,triangle" : "hit,triangle,steps");
   for (size_t i = 0; i < table.rows(); ++i) {
-    const uint32_t steps = ask(corners(i), met);
+    const uint32_t steps = query_one(corners(i), met);
     if (all) {
       for (const uint32_t triangle : met) std::printf("%zu,%u\n", i, hull.source_of(triangle));
       continue;

@@ -88,7 +88,7 @@ int run_voxelize(const Arguments& arguments) {
   if (inputs.size() > INT16_MAX)
     fail_usage("voxelize: at most " + std::to_string(INT16_MAX) + " models at once");
   for (const std::string& input : inputs) forbid_overwriting(output, input);
-  tools::MapOptions options;
+  tools::FieldOptions options;
   options.interior_only = arguments.has("--interior");
   const uint32_t processors = std::max(1u, std::thread::hardware_concurrency());
   options.threads = arguments.count("--threads", std::min(processors, 256u), 1, 256);

@@ -25,14 +25,14 @@ template <class MakeWork>
 void in_parallel(size_t count, uint32_t threads, const MakeWork& make_work,
                  const std::function<void(size_t, size_t)>& on_progress) {
   std::atomic<size_t> next{0}, done{0};
-  std::mutex telling;
+  std::mutex reporting;
   const auto run = [&] {
     auto work = make_work();
     for (size_t item; (item = next.fetch_add(1)) < count;) {
       work(item);
       const size_t so_far = done.fetch_add(1) + 1;
       if (!on_progress || so_far % 16 != 0) continue;
-      const std::lock_guard<std::mutex> lock(telling);
+      const std::lock_guard<std::mutex> lock(reporting);
       on_progress(so_far, count);
     }
   };
@@ -185,7 +185,7 @@ void join_kinds(std::vector<Voxel>& to, const std::vector<Voxel>& more) {
 }  // namespace
 
 DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelGrid& grid,
-                                  const MapOptions& options) {
+                                  const FieldOptions& options) {
   DistanceField distance_field;
   distance_field.grid = grid;
   const auto begin = Clock::now();
@@ -211,7 +211,7 @@ DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelG
                         BlockWork::blocks(grid.count[1]) * BlockWork::blocks(grid.count[2]);
   for (size_t s = 0; s < solids.size(); ++s) {
     std::vector<int8_t> own_sign(wanted.size(), 0);
-    const auto tell = [&](size_t done, size_t all) {
+    const auto report = [&](size_t done, size_t all) {
       if (options.on_progress) options.on_progress(s * all + done, solids.size() * all);
     };
     in_parallel(
@@ -219,7 +219,7 @@ DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelG
         [&] {
           return BlockWork(solids[s], static_cast<uint16_t>(s), distance_field, wanted, own_sign);
         },
-        tell);
+        report);
     compare(floods[s], own_sign, static_cast<uint16_t>(s), distance_field);
   }
   distance_field.distance_s = since(middle);

@@ -28,7 +28,7 @@ struct Nearest {
   int8_t sign = 0;  // -1 inside, +1 outside, 0: not computed
 };
 
-struct MapOptions {
+struct FieldOptions {
   bool interior_only = false;  // voxels that a surface meets or that lie inside
   uint32_t threads = 1;
   // Told now and then how much is done, from any thread, one at a time.
@@ -57,7 +57,7 @@ struct DistanceField {
 ///        double.
 /// Source: Morris 2006, section 3.
 DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelGrid& grid,
-                                  const MapOptions& options);
+                                  const FieldOptions& options);
 
 /// The same for any list of points: each begins with the triangle of the point before it, so that a
 /// list whose neighbours lie together is answered faster. Points: computed, all of them.

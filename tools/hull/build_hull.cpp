@@ -36,7 +36,7 @@ class Builder {
       if (placement_.may_collapse(edge) && is_placed(edge)) collapse(edge);
     }
     report_.counts.comparisons = queue_->comparisons;
-    if (mesh_.face_count() > options_.target_faces) tell_stall();
+    if (mesh_.face_count() > options_.target_faces) report_stall();
     hull_.vertices_m = mesh_.vertices();
     return std::move(hull_);
   }
@@ -104,7 +104,7 @@ class Builder {
   }
 
   // All edges that are left may not collapse: for how many is which test the reason?
-  void tell_stall() {
+  void report_stall() {
     HullCounts why;
     Placement placement(mesh_, hull_.grid, options_.limits, why);
     uint32_t edges = 0, first = kNone;

@@ -22,18 +22,18 @@ float spacing_m(const View& curve) {
 }
 
 // All but the fence.
-Closest finish(const View& curve, const Foot& best, const Walk& walk, bool compensated, Vec3 p_m,
-               Hint& hint) {
+Closest finish(const View& curve, const Foot& best, const Traversal& traversal, bool compensated,
+               Vec3 p_m, Hint& hint) {
   Closest closest = answer_at(curve, best);
   float lower_m = rounded_down(closest.distance_m, curve.head().longest_half_m, compensated);
-  if (!walk.complete) {
+  if (!traversal.complete) {
     const float carried_m = query::carry(hint, p_m).lower_m;
-    const float known_m = walk.pending_m > carried_m ? walk.pending_m : carried_m;
+    const float known_m = traversal.pending_m > carried_m ? traversal.pending_m : carried_m;
     if (known_m < lower_m) lower_m = known_m;
   }
   closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
-  closest.certificate.steps = walk.steps;
-  closest.certificate.exact = walk.complete;
+  closest.certificate.steps = traversal.steps;
+  closest.certificate.exact = traversal.complete;
   hint.segment = closest.segment;
   hint.position_m = p_m;
   hint.lower_m = closest.certificate.lower_m;
@@ -51,20 +51,20 @@ Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget bu
   bool has_begun = true;
   if (hint.segment < curve.segment_count()) {
     start = run_of(nearest.follow(hint.segment), curve.run_levels());
-    has_begun = nearest.begin(start, kNoNode, steps.left) == Climb::kRun;
+    has_begun = nearest.begin(start, kNoNode, steps.left) == Ascent::kRun;
   } else {
     nearest.begin_at_first();
   }
-  const Walk walk = walk_runs(curve, bound, steps, start, has_begun, nearest);
+  const Traversal traversal = traverse_runs(curve, bound, steps, start, has_begun, nearest);
   hint.safe_subtree = query::kNowhere;
-  return finish(curve, nearest.best(), walk, kCompensated, p_m, hint);
+  return finish(curve, nearest.best(), traversal, kCompensated, p_m, hint);
 }
 
 // From the last segment up to the last fence where that is far enough away, else to the root, making
 // the next fence.
 // Result: false where plain floats do not do, or the query is not near.
 bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
-                 NearestFoot<false>& nearest, Walk& walk) {
+                 NearestFoot<false>& nearest, Traversal& traversal) {
   const uint32_t run = run_of(nearest.follow(hint.segment), curve.run_levels());
   const float radius_m = nearest.radius_m();
   if (!(radius_m <= kPlain * curve.head().diagonal_m)) return false;
@@ -73,19 +73,19 @@ bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
   const float left_m = (hint.safe_subtree_m - motion_m) * (1.0f - 4.0f * kUnit);
   Steps steps(budget);
   const uint32_t safe_subtree = radius_m <= left_m ? hint.safe_subtree : kNoNode;
-  const Climb climb = nearest.begin(run, safe_subtree, steps.left);
-  walk.steps = steps.allowed - steps.left;
-  walk.complete = climb == Climb::kSafeSubtree;
+  const Ascent ascent = nearest.begin(run, safe_subtree, steps.left);
+  traversal.steps = steps.allowed - steps.left;
+  traversal.complete = ascent == Ascent::kSafeSubtree;
   hint.safe_subtree_m = left_m;
-  if (climb == Climb::kSafeSubtree) return true;
+  if (ascent == Ascent::kSafeSubtree) return true;
   hint.safe_subtree = kNoNode;
-  walk.pending_m = 0.0f;
-  if (climb == Climb::kSpent) return true;
+  traversal.pending_m = 0.0f;
+  if (ascent == Ascent::kSpent) return true;
   NearBound bound;
   if (!bound.begin(curve.head(), p_m)) return false;
-  walk = walk_runs(curve, bound, steps, run, true, nearest);
-  if (walk.complete && walk.pending_m > nearest.radius_m() && motion_m <= kBeyond_m)
-    nearest.make_safe_subtree(run, motion_m, spacing_m(curve), walk.pending_m, hint);
+  traversal = traverse_runs(curve, bound, steps, run, true, nearest);
+  if (traversal.complete && traversal.pending_m > nearest.radius_m() && motion_m <= kBeyond_m)
+    nearest.make_safe_subtree(run, motion_m, spacing_m(curve), traversal.pending_m, hint);
   return true;
 }
 
@@ -140,9 +140,9 @@ Closest answer_nothing(const View& curve, Hint& hint) {
 Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint) {
   if (!curve.is_smooth() && hint.segment < curve.segment_count()) {
     NearestFoot<false> nearest(curve, p_m);
-    Walk walk;
-    if (search_near(curve, p_m, budget, hint, nearest, walk))
-      return finish(curve, nearest.best(), walk, false, p_m, hint);
+    Traversal traversal;
+    if (search_near(curve, p_m, budget, hint, nearest, traversal))
+      return finish(curve, nearest.best(), traversal, false, p_m, hint);
   }
   return answer_anywhere(curve, p_m, budget, hint);
 }

@@ -151,7 +151,7 @@ static inline Constraint min_cost(const View& curve, const Bound& bound, math::V
   const uint32_t start = run_of(least.approach(from), curve.run_levels());
   Steps steps(budget);
   const bool begun = least.take(start, steps.left);
-  const Walk walk = walk_runs(curve, bound, steps, start, begun, least);
+  const Traversal traversal = traverse_runs(curve, bound, steps, start, begun, least);
 
   Constraint found;
   found.closest = kSmooth ? answer_on_piece(curve, least.best()) : answer_at(curve, least.best());
@@ -166,11 +166,11 @@ static inline Constraint min_cost(const View& curve, const Bound& bound, math::V
              penalty.weight_m * (2.0f + 0x1p-18f) * half_m / head.length_m;
   const float along = kFootLoss * (found.cost_m + head.longest_half_m) / head.length_m;
   float lower_m = found.cost_m * (1.0f - 0x1p-23f) - lost_m - penalty.weight_m * (kArcLoss + along);
-  if (!walk.complete && walk.pending_m < lower_m) lower_m = walk.pending_m;
+  if (!traversal.complete && traversal.pending_m < lower_m) lower_m = traversal.pending_m;
   found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
-  found.closest.certificate.steps = walk.steps;
+  found.closest.certificate.steps = traversal.steps;
   found.closest.certificate.exact =
-      walk.complete && least.doubt_m() <= 2.0f * piece_slack_m(head, distance_m);
+      traversal.complete && least.doubt_m() <= 2.0f * piece_slack_m(head, distance_m);
   hint.segment = found.closest.segment;
   hint.position_m = p_m;
   hint.lower_m = 0;  // a bound of the cost is none of the distance

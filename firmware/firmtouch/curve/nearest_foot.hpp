@@ -8,7 +8,7 @@
 namespace firmtouch::curve {
 
 /// What a climb from a segment came to: the budget's end, the top of the run, or the fence.
-enum class Climb : uint8_t { kSpent, kRun, kSafeSubtree };
+enum class Ascent : uint8_t { kSpent, kRun, kSafeSubtree };
 
 /// Keeps the closest point of the runs that it is offered.
 template <bool kCompensated>
@@ -38,17 +38,17 @@ class NearestFoot {
   /// the segments about it, whose spacing is evener. A few are looked at, whatever the curve.
   /// Result: the segment of the best point.
   uint32_t follow(uint32_t segment) {
-    float ahead = look_at(segment), before_m2 = FLT_MAX;
+    float offset = look_at(segment), before_m2 = FLT_MAX;
     for (uint32_t i = 1; i < kMaxJumps; ++i) {
-      if ((ahead >= 0.0f && ahead < 1.0f) || !(best_.distance2_m2 < before_m2)) break;
-      const uint32_t to = ahead >= -2.0f && ahead <= 3.0f
+      if ((offset >= 0.0f && offset < 1.0f) || !(best_.distance2_m2 < before_m2)) break;
+      const uint32_t to = offset >= -2.0f && offset <= 3.0f
                               ? clamped(static_cast<int32_t>(segment) +
-                                        static_cast<int32_t>(ahead) - (ahead < 0.0f ? 1 : 0))
+                                        static_cast<int32_t>(offset) - (offset < 0.0f ? 1 : 0))
                               : beside(segment);
       if (to == segment) break;
       segment = to;
       before_m2 = best_.distance2_m2;
-      ahead = look_at(segment);
+      offset = look_at(segment);
     }
     return segment_of(best_);
   }
@@ -59,7 +59,7 @@ class NearestFoot {
 
   /// The run of the best point so far: its part of the last level, then, level by level, what lies
   /// beside, up to the top; of a fence's part, up to that and its neighbours.
-  [[gnu::always_inline]] inline Climb begin(uint32_t run, uint32_t safe_subtree, uint32_t& left) {
+  [[gnu::always_inline]] inline Ascent begin(uint32_t run, uint32_t safe_subtree, uint32_t& left) {
     const uint32_t found = segment_of(best_);
     const uint32_t node = run << (levels_ + 1), stop = safe_subtree - node;
     const uint16_t* const radii = radii_ + node;
@@ -68,16 +68,16 @@ class NearestFoot {
     uint32_t part = (found / kPartSegments & least) + least;
     take_segments(first, found);
     for (; part != stop; size *= 2) {
-      if (part == 0) return Climb::kRun;
-      if (!take_beside(radii, part, first, size, (part & 1u) != 0, left)) return Climb::kSpent;
+      if (part == 0) return Ascent::kRun;
+      if (!take_beside(radii, part, first, size, (part & 1u) != 0, left)) return Ascent::kSpent;
       if ((part & 1u) == 0) first -= size;
       part = parent_of(part);
     }
     const uint32_t end = (part + 2) & (part + 1);  // 0 for the last part of its level
-    if (end != 0 && !take_beside(radii, part, first, size, true, left)) return Climb::kSpent;
+    if (end != 0 && !take_beside(radii, part, first, size, true, left)) return Ascent::kSpent;
     const bool is_inside = ((part + 1) & part) != 0;  // not the first part of its level
-    if (is_inside && !take_beside(radii, part, first, size, false, left)) return Climb::kSpent;
-    return Climb::kSafeSubtree;
+    if (is_inside && !take_beside(radii, part, first, size, false, left)) return Ascent::kSpent;
+    return Ascent::kSafeSubtree;
   }
 
   /// A fence about the run's part where the best point lies, whose ends are some motions apart: all that
@@ -146,9 +146,9 @@ class NearestFoot {
     const float length2 = dot(along_m, along_m);
     const float progress = dot(p_m_ - a_m, along_m) * static_cast<float>(last - first);
     constexpr float kMax = 4194304.0f;  // samples that a curve may have
-    const float ahead =
+    const float offset =
         progress < kMax * length2 ? progress > -kMax * length2 ? progress / length2 : 0.0f : kMax;
-    return clamped(static_cast<int32_t>(first) + static_cast<int32_t>(ahead));
+    return clamped(static_cast<int32_t>(first) + static_cast<int32_t>(offset));
   }
 
   /// A part of a run and its first segment.
@@ -282,10 +282,10 @@ class NearestFoot {
     const math::Vec3 along_m = b_m - a_m;
     math::Vec3 from_m = p_m_ - a_m;
     const float length2_m2 = dot(along_m, along_m);
-    const float ahead = dot(from_m, along_m) / length2_m2;
-    float t = ahead;
+    const float offset = dot(from_m, along_m) / length2_m2;
+    float t = offset;
     bool is_back = false;
-    if (ahead > 0.5f) {
+    if (offset > 0.5f) {
       from_m = p_m_ - b_m;
       t = -dot(from_m, along_m) / length2_m2;
       is_back = true;
@@ -294,7 +294,7 @@ class NearestFoot {
     const math::Vec3 rest_m = is_back ? from_m + along_m * t : from_m - along_m * t;
     float distance2_m2 = dot(rest_m, rest_m);
     if constexpr (kCompensated) {
-      if (!(distance2_m2 <= best_.distance2_m2 * (1.0f + 0x1p-16f))) return ahead;
+      if (!(distance2_m2 <= best_.distance2_m2 * (1.0f + 0x1p-16f))) return offset;
       distance2_m2 = is_back ? compensated_distance2(p_m_, b_m, a_m, t)
                              : compensated_distance2(p_m_, a_m, b_m, t);
     }
@@ -306,7 +306,7 @@ class NearestFoot {
       // Rounded up by more than the search loses in comparing squares.
       radius_m_ = math::square_root(distance2_m2) * (1.0f + 0x1p-20f);
     }
-    return ahead;
+    return offset;
   }
 
   const Sample* samples_;

@@ -44,7 +44,7 @@ struct Pending {
 };
 
 /// What a walk came to.
-struct Walk {
+struct Traversal {
   uint32_t steps;
   bool complete;  // nothing is left that the visitor would take
   float
@@ -80,8 +80,8 @@ static inline bool take_next(Pending* pending, uint32_t& count, uint32_t best_fi
 /// certificate. A cold walk takes the nearest box, for the sake of its lower bound; a warm one knows
 /// its upper bound so well that the order no longer matters, and saves the comparisons.
 template <class Bound, class Visitor>
-static inline Walk walk_runs(const View& curve, const Bound& bound_at, Steps steps, uint32_t start,
-                             bool has_begun, Visitor& visitor) {
+static inline Traversal traverse_runs(const View& curve, const Bound& bound_at, Steps steps,
+                                      uint32_t start, bool has_begun, Visitor& visitor) {
   if (!has_begun) return {steps.allowed, false, 0.0f};
   const Bound bound = bound_at;  // in registers
   const Box* const boxes = curve.boxes().data();

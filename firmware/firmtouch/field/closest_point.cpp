@@ -39,23 +39,23 @@ void stand_in(const Bounds& bounds, mesh::Closest& closest, mesh::Hint& hint) {
 
 }  // namespace
 
-Felt closest_point(const View& distance_field, const mesh::View& mesh, Vec3 p_m, float band_m,
-                   query::Budget budget, mesh::Hint& hint) {
+Answer closest_point(const View& distance_field, const mesh::View& mesh, Vec3 p_m, float band_m,
+                     query::Budget budget, mesh::Hint& hint) {
   const Bounds bounds = distance_bounds(distance_field, p_m);
-  Felt felt;
+  Answer answer;
   if (bounds.lower_m > band_m && bounds.sign >= 0) {
     leave_hint(bounds, p_m, hint);
-    felt.is_far = true;
-    felt.closest.distance_m = bounds.upper_m;
-    felt.closest.certificate.lower_m = bounds.lower_m;
-    felt.closest.certificate.sign = bounds.sign;
-    felt.closest.certificate.steps = 1;
-    return felt;
+    answer.is_far = true;
+    answer.closest.distance_m = bounds.upper_m;
+    answer.closest.certificate.lower_m = bounds.lower_m;
+    answer.closest.certificate.sign = bounds.sign;
+    answer.closest.certificate.steps = 1;
+    return answer;
   }
   start_at_seed(bounds, distance_field.head().cell_m, p_m, hint);
-  felt.closest = mesh::closest_point(mesh, p_m, budget, hint);
-  if (!felt.closest.certificate.exact) stand_in(bounds, felt.closest, hint);
-  return felt;
+  answer.closest = mesh::closest_point(mesh, p_m, budget, hint);
+  if (!answer.closest.certificate.exact) stand_in(bounds, answer.closest, hint);
+  return answer;
 }
 
 }  // namespace firmtouch::field

@@ -5,7 +5,7 @@
 namespace firmtouch::field {
 
 /// An answer by map and mesh.
-struct Felt {
+struct Answer {
   // Certainly not inside and farther than the band: the mesh was not asked.
   bool is_far = false;
   // Far: the certificate, of one step, and the map's upper bound as the distance; no point.
@@ -20,7 +20,7 @@ struct Felt {
 /// Bounds: those of distance_bounds(), and of one mesh::closest_point() where it is not far.
 /// Result: always finite. is_far only where the lower bound is above band_m and the side is not
 ///         inside. Else as mesh::closest_point() says.
-Felt closest_point(const View& distance_field, const mesh::View& mesh, math::Vec3 p_m, float band_m,
-                   query::Budget budget, mesh::Hint& hint);
+Answer closest_point(const View& distance_field, const mesh::View& mesh, math::Vec3 p_m,
+                     float band_m, query::Budget budget, mesh::Hint& hint);
 
 }  // namespace firmtouch::field

@@ -55,7 +55,7 @@ bool BaseHull::point_into(core::Bytes resident, uint32_t coordinate_bytes) {
   Rest rest(resident);
   (void)rest.take(sizeof(BaseHullHead));
   boxes_ = rest.take_array<NodeBox>(nodes_for(leaves));
-  corner_places_ = rest.take_array<uint32_t>(corner_places_for(leaves));
+  corner_offsets_ = rest.take_array<uint32_t>(corner_offsets_for(leaves));
   faces_ = rest.take_array<BaseHullFace>(head_->face_count);
   corners_ = rest.take_array<uint16_t>(head_->corner_count);
   coordinates_ = rest.take(uint64_t{head_->made_count} * 3 * coordinate_bytes);
@@ -137,7 +137,7 @@ Verdict BaseHullProof::check_vertex(uint32_t i, const View& hull) const {
 // Its corners follow those of the leaf before, and all are there.
 Verdict BaseHullProof::check_leaf(uint32_t leaf) {
   const uint32_t face = leaf * kLeafFaces, count = corners_of(base_hull_.faces_[face]);
-  if (leaf % 2 == 0 && base_hull_.corner_places_[leaf / 2] != next_corner_)
+  if (leaf % 2 == 0 && base_hull_.corner_offsets_[leaf / 2] != next_corner_)
     return reject(kRuleBaseHullCorners, face);
   if (count > kMaxLeafCorners || count > base_hull_.head_->corner_count - next_corner_)
     return reject(kRuleBaseHullCorners, face);

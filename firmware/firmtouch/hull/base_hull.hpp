@@ -31,7 +31,7 @@ class BaseHull {
     const uint32_t before = i % 2 == 0 ? 0 : corners_of(faces_[first - kLeafFaces]);
     return {first,
             {&faces_[first], left < kLeafFaces ? left : kLeafFaces},
-            {&corners_[corner_places_[i / 2] + before], corners_of(faces_[first])}};
+            {&corners_[corner_offsets_[i / 2] + before], corners_of(faces_[first])}};
   }
   /// The shell's own number of a face's corner.
   uint32_t vertex_of(uint32_t face, uint32_t k) const {
@@ -68,7 +68,7 @@ class BaseHull {
   bool point_into(core::Bytes resident, uint32_t coordinate_bytes);
   const BaseHullHead* head_ = nullptr;
   core::Span<const NodeBox> boxes_;
-  core::Span<const uint32_t> corner_places_;
+  core::Span<const uint32_t> corner_offsets_;
   core::Span<const BaseHullFace> faces_;
   core::Span<const uint16_t> corners_;
   core::Bytes coordinates_, ids_;

@@ -99,7 +99,7 @@ class Leaves {
   bool leaf(uint32_t i) {
     const BaseHull::Leaf leaf = base_hull_.leaf(i);
     BaseHullSegment::Corners corners;
-    if (segment_.place(base_hull_, leaf, corners) != 0) return true;
+    if (segment_.locate(base_hull_, leaf, corners) != 0) return true;
     for (uint32_t n = 0; n < leaf.faces.size(); ++n) {
       const BaseHullFace face = leaf.faces[n];
       if (segment_.passes(corners, face)) continue;
@@ -130,7 +130,7 @@ bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget,
   const BaseHullSegment segment(base_hull, a_m, b_m);
   if (segment.misses()) return true;
   Leaves<Taker> leaves(base_hull, segment, a_m, b_m, taker);
-  return walk(base_hull, segment, budget.steps == 0 ? 1 : budget.steps, steps, leaves);
+  return traverse(base_hull, segment, budget.steps == 0 ? 1 : budget.steps, steps, leaves);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ float within(float v, float low, float high) { return !(v > low) ? low : v < hig
 
 // Distances along an axis that floats hold with room for products, as hull::Slabs.
 constexpr float kStill_m = 1e-30f, kFar_m = 1e30f, kPad_m = 4e-30f;
-// Of a place on the axis, in 256ths of the box: what the quotient loses.
-constexpr float kPlaceError = 0x1p-10f;
+// Of a position on the axis, in 256ths of the box: what the quotient loses.
+constexpr float kPositionError = 0x1p-10f;
 // Of a time, in units of 1 / kEnd: 255 times a rate that is less than 1.25 off, and sums of up to
 // 2^30 in floats, 64 each.
 constexpr float kTimeSlack = 1024.0f;
@@ -79,13 +79,13 @@ void BaseHullSegment::open_axes(const BaseHullHead& head, const float (&from_m)[
     const bool falls = to < from;
     const float moved = absolute(to - from);
     const bool stands = !(moved > 0.5f);
-    const float wide = error_m[k] * per_m + kPlaceError + (stands ? 0.5f : 0.0f);
+    const float wide = error_m[k] * per_m + kPositionError + (stands ? 0.5f : 0.0f);
     const float pad = wide < 256.0f ? wide : 256.0f;
     const float rate = static_cast<float>(kEnd) / (stands ? 0.5f : moved);
-    const float place = falls ? 256.0f - from : from;
+    const float position = falls ? 256.0f - from : from;
     axis_[k].rate = static_cast<int32_t>(rate);
-    axis_[k].near = static_cast<int32_t>(-(place + pad) * rate - kTimeSlack);
-    axis_[k].far = static_cast<int32_t>((256.0f + pad - place) * rate + kTimeSlack);
+    axis_[k].near = static_cast<int32_t>(-(position + pad) * rate - kTimeSlack);
+    axis_[k].far = static_cast<int32_t>((256.0f + pad - position) * rate + kTimeSlack);
     axis_[k].first = falls ? 3 + k : k;
     axis_[k].last = falls ? k : 3 + k;
   }
@@ -96,10 +96,10 @@ void BaseHullSegment::open_line(const float (&from_m)[3], const float (&step_m)[
   const float x = absolute(step_m[0]), y = absolute(step_m[1]), z = absolute(step_m[2]);
   longest_ = x > y && x > z ? 0 : y > z ? 1 : 2;
   const uint32_t k = longest_, i = k == 2 ? 0 : k + 1, j = i == 2 ? 0 : i + 1;
-  float place[3], error = 0.0f;
+  float position[3], error = 0.0f;
   for (uint32_t n = 0; n < 3; ++n) {
-    place[n] = (from_m[n] - grid_low_m_[n]) * steps_per_m_;
-    if (!(place[n] >= kFirstStep && place[n] <= kLastStep)) return;
+    position[n] = (from_m[n] - grid_low_m_[n]) * steps_per_m_;
+    if (!(position[n] >= kFirstStep && position[n] <= kLastStep)) return;
     if (!(error_m[n] * steps_per_m_ <= error)) error = error_m[n] * steps_per_m_;
   }
   const float margin = kCornerError + 2.0f * error;
@@ -111,11 +111,11 @@ void BaseHullSegment::open_line(const float (&from_m)[3], const float (&step_m)[
   at_[2] = k * bytes;
   const float scale = static_cast<float>(1 << kShearBits);
   const float shear[2] = {step_m[i] * inverse * scale, step_m[j] * inverse * scale};
-  const float beside[2] = {place[i], place[j]};
+  const float beside[2] = {position[i], position[j]};
   for (uint32_t n = 0; n < 2; ++n) {
     line_.shear[n] = static_cast<uint32_t>(static_cast<int32_t>(shear[n]));
     line_.from[n] = (static_cast<uint32_t>(static_cast<int32_t>(beside[n])) << kShearBits) -
-                    static_cast<uint32_t>(static_cast<int32_t>(place[k])) * line_.shear[n];
+                    static_cast<uint32_t>(static_cast<int32_t>(position[k])) * line_.shear[n];
   }
   const uint32_t eights = (static_cast<uint32_t>(margin) >> (16 - kShearBits)) + 3;
   line_.margin = eights << 16 | eights;
@@ -125,9 +125,9 @@ uint32_t BaseHullSegment::beside_of_kept(const BaseHullVertex& kept) const {
   const float at_m[3] = {kept.x_m, kept.y_m, kept.z_m};
   uint32_t step[3];
   for (uint32_t n = 0; n < 3; ++n) {
-    const float place = (at_m[n] - grid_low_m_[n]) * steps_per_m_;
-    if (!(place >= kFirstStep && place <= kLastStep)) return 0;  // on the line: on no side
-    step[n] = static_cast<uint32_t>(static_cast<int32_t>(place));
+    const float position = (at_m[n] - grid_low_m_[n]) * steps_per_m_;
+    if (!(position >= kFirstStep && position <= kLastStep)) return 0;  // on the line: on no side
+    step[n] = static_cast<uint32_t>(static_cast<int32_t>(position));
   }
   const uint32_t k = longest_, i = k == 2 ? 0 : k + 1, j = i == 2 ? 0 : i + 1;
   return line_.beside(step[i], step[j], step[k]);

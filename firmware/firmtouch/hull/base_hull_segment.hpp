@@ -48,7 +48,7 @@ class BaseHullSegment {
     uint32_t sides[kMaxLeafCorners];
   };
   /// Result: the bits that all of them share.
-  uint32_t place(const BaseHull& base_hull, const BaseHull::Leaf& leaf, Corners& corners) const {
+  uint32_t locate(const BaseHull& base_hull, const BaseHull::Leaf& leaf, Corners& corners) const {
     const Line line = line_;  // a copy, which the writing below cannot change
     const uint8_t *x = coordinates_ + at_[0], *y = coordinates_ + at_[1],
                   *along = coordinates_ + at_[2];
@@ -142,8 +142,8 @@ class BaseHullSegment {
 /// Visitor::leaf(i) answers whether it wants more.
 /// Result: whether the search came to its end within `allowed` steps in all.
 template <class Visitor>
-bool walk(const BaseHull& base_hull, const BaseHullSegment& segment, uint32_t allowed,
-          uint32_t& steps, Visitor& visitor) {
+bool traverse(const BaseHull& base_hull, const BaseHullSegment& segment, uint32_t allowed,
+              uint32_t& steps, Visitor& visitor) {
   struct Pending {
     int32_t entry;
     uint32_t node;

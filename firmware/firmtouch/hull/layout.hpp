@@ -8,14 +8,14 @@
 namespace firmtouch::hull {
 
 constexpr uint32_t kHeadSection = 0x5001;
-constexpr uint32_t kVerticesSection = 0x5002;   // of collapse k: its new vertex, on the grid
-constexpr uint32_t kOriginsSection = 0x5003;    // of each id: the number of its vertex
-constexpr uint32_t kRecordsSection = 0x5004;    // of collapse k: its star
-constexpr uint32_t kPlacesSection = 0x5005;     // uint32_t: where every eighth record begins
-constexpr uint32_t kStarBoxesSection = 0x5006;  // StarBox[collapse_count]
-constexpr uint32_t kBoxesSection = 0x5007;      // NodeBox: a tree over the mesh's triangles
-constexpr uint32_t kBaseHullSection = 0x5008;   // the coarsest hull (hull/shell.hpp)
-constexpr uint32_t kProbesSection = 0x5009;     // query::ProbeHead and its points
+constexpr uint32_t kVerticesSection = 0x5002;       // of collapse k: its new vertex, on the grid
+constexpr uint32_t kOriginsSection = 0x5003;        // of each id: the number of its vertex
+constexpr uint32_t kRecordsSection = 0x5004;        // of collapse k: its star
+constexpr uint32_t kRecordOffsetsSection = 0x5005;  // uint32_t: where every eighth record begins
+constexpr uint32_t kStarBoxesSection = 0x5006;      // StarBox[collapse_count]
+constexpr uint32_t kBoxesSection = 0x5007;          // NodeBox: a tree over the mesh's triangles
+constexpr uint32_t kBaseHullSection = 0x5008;       // the coarsest hull (hull/shell.hpp)
+constexpr uint32_t kProbesSection = 0x5009;         // query::ProbeHead and its points
 
 // Numbers: 0 to mesh_vertex_count - 1 are the mesh's vertices, mesh_vertex_count + k is the new one
 // of collapse k. Ids: the two vertices that collapse k removes have the ids 2 k and 2 k + 1, those
@@ -24,7 +24,7 @@ constexpr uint32_t removed_by(uint32_t id) { return id >> 1; }
 
 // Three bytes an id, at most.
 constexpr uint32_t kMaxIds = 1u << 24;
-constexpr uint32_t kRecordsAPlace = 8;
+constexpr uint32_t kRecordsPerOffset = 8;
 // A star keeps its corners in an array.
 constexpr uint32_t kMaxLink = 31;
 constexpr uint32_t kMaxStarFaces = kMaxLink + 2;
@@ -110,7 +110,7 @@ constexpr uint32_t corner_at(BaseHullFace face, uint32_t k) {
   return (uint32_t{face} >> (4 * k)) & 15u;
 }
 constexpr uint32_t corners_of(BaseHullFace face) { return uint32_t{face} >> 12; }
-constexpr uint32_t corner_places_for(uint32_t leaves) { return (leaves + 1) / 2; }
+constexpr uint32_t corner_offsets_for(uint32_t leaves) { return (leaves + 1) / 2; }
 
 struct BaseHullVertex {
   uint32_t id;

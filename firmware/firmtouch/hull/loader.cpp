@@ -10,7 +10,7 @@ Sections find_sections(const asset::Container& asset, const char* name) {
   sections.vertices = asset.find(kVerticesSection, name);
   sections.origins = asset.find(kOriginsSection, name);
   sections.records = asset.find(kRecordsSection, name);
-  sections.places = asset.find(kPlacesSection, name);
+  sections.record_offsets = asset.find(kRecordOffsetsSection, name);
   sections.star_boxes = asset.find(kStarBoxesSection, name);
   sections.boxes = asset.find(kBoxesSection, name);
   sections.base_hull = asset.find(kBaseHullSection, name);

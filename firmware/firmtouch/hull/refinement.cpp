@@ -31,9 +31,9 @@ namespace {
 
 // What a refinement is asked with. enter(): when a box is met, beyond `limit` where not; crossing() of
 // a face; base_hull_faces(): faces of a shell that may be crossed, one by one.
-class SegmentAsked {
+class SegmentQuery {
  public:
-  SegmentAsked(const Head& head, Vec3 a_m, Vec3 b_m)
+  SegmentQuery(const Head& head, Vec3 a_m, Vec3 b_m)
       : a_m_(a_m), b_m_(b_m), slabs_(a_m, b_m), frame_(head.low_m, head.high_m, a_m, b_m) {}
 
   float enter(const Box& box, float limit) const { return slabs_.enter(box, limit); }
@@ -45,7 +45,7 @@ class SegmentAsked {
                        Face face) const {
     const BaseHullSegment segment(base_hull, a_m_, b_m_);
     Faces<Face> faces{segment.until(limit), base_hull, segment, face};
-    return walk(base_hull, segment, allowed, steps, faces);
+    return traverse(base_hull, segment, allowed, steps, faces);
   }
 
  private:
@@ -58,7 +58,7 @@ class SegmentAsked {
     bool leaf(uint32_t i) {
       const BaseHull::Leaf leaf = base_hull.leaf(i);
       BaseHullSegment::Corners corners;
-      if (segment.place(base_hull, leaf, corners) != 0) return true;
+      if (segment.locate(base_hull, leaf, corners) != 0) return true;
       for (uint32_t n = 0; n < leaf.faces.size(); ++n)
         if (!segment.passes(corners, leaf.faces[n])) face(leaf.first_face + n);
       return true;
@@ -70,9 +70,9 @@ class SegmentAsked {
 };
 
 // All that a triangle crosses is told at t = 0.
-class TriangleAsked {
+class TriangleQuery {
  public:
-  TriangleAsked(const Head& head, const Vec3 (&corner_m)[3])
+  TriangleQuery(const Head& head, const Vec3 (&corner_m)[3])
       : region_(head.low_m, head.high_m, corner_m) {}
 
   float enter(const Box& box, float limit) const { return region_.enter(box, limit); }
@@ -110,21 +110,21 @@ class TriangleAsked {
 }  // namespace
 
 /// What is asked and the faces that it crosses, handed on as candidates.
-template <class Asked>
+template <class Shape>
 class Refinement::Search {
  public:
   float limit = 1;
   uint32_t steps = 0, tests = 0;
 
-  Search(Refinement& of, const Asked& asked, query::Budget budget)
-      : of_(of), asked_(asked), allowed_(budget.steps == 0 ? 1 : budget.steps) {}
+  Search(Refinement& of, const Shape& shape, query::Budget budget)
+      : of_(of), shape_(shape), allowed_(budget.steps == 0 ? 1 : budget.steps) {}
 
   bool has_steps() const { return steps < allowed_; }
 
   /// Of the shell's faces. Result: false where the budget ran out.
   template <class Use>
   bool base_hull(Use use) {
-    return asked_.base_hull_faces(of_.base_hull_, limit, allowed_, steps,
+    return shape_.base_hull_faces(of_.base_hull_, limit, allowed_, steps,
                                   [&](uint32_t face) { base_hull_face(face, use); });
   }
 
@@ -135,7 +135,7 @@ class Refinement::Search {
     ++steps;
     const Vec3 about_m = made_vertex(hull, collapse);
     const Box box = star_box_m(about_m, hull.head().cell_m, hull.star_box(collapse));
-    if (!(asked_.enter(box, limit) <= limit)) return;
+    if (!(shape_.enter(box, limit) <= limit)) return;
     const uint8_t* record = hull.record(collapse);
     const Star star(hull, collapse, record);
     Vec3 at_m[2 + kMaxLink];
@@ -151,7 +151,7 @@ class Refinement::Search {
         mesh_triangle(hull.id_in(record, triangle++), use);
         continue;
       }
-      if (of_.is_undone(youngest - mesh_vertices)) continue;
+      if (of_.is_split(youngest - mesh_vertices)) continue;
       test(at_m[corner[0]], at_m[corner[1]], at_m[corner[2]], youngest - mesh_vertices, use);
     }
   }
@@ -191,27 +191,27 @@ class Refinement::Search {
   template <class Use>
   void test(Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t what, Use& use) {
     ++tests;
-    const mesh::Crossing crossing = asked_.crossing(p_m, q_m, r_m);
+    const mesh::Crossing crossing = shape_.crossing(p_m, q_m, r_m);
     if (crossing.direction == 0) return;
     use(Candidate{crossing.t, what | (crossing.direction < 0 ? kEnters : 0u)});
   }
 
   Refinement& of_;
-  const Asked& asked_;
+  const Shape& shape_;
   uint32_t allowed_;
 };
 
 Refinement::Refinement(const View& hull, const BaseHull& base_hull, const RefinementMemory& memory)
     : hull_(hull), base_hull_(base_hull), memory_(memory) {
-  for (uint32_t& word : memory_.is_undone) word = 0;
+  for (uint32_t& word : memory_.is_split) word = 0;
 }
 
 // False: no room for one more.
 bool Refinement::add(uint32_t collapse) {
-  if (collapse >= base_hull_.head().cut || is_undone(collapse)) return true;
-  if (count_ == memory_.undone.size()) return false;
-  memory_.is_undone[collapse / 32] |= 1u << (collapse % 32);
-  memory_.undone[count_++] = collapse;
+  if (collapse >= base_hull_.head().cut || is_split(collapse)) return true;
+  if (count_ == memory_.splits.size()) return false;
+  memory_.is_split[collapse / 32] |= 1u << (collapse % 32);
+  memory_.splits[count_++] = collapse;
   return true;
 }
 
@@ -219,61 +219,61 @@ bool Refinement::split(uint32_t collapse) {
   const uint32_t before = count_;
   bool fits = add(collapse);
   for (uint32_t at = before; fits && at < count_; ++at) {
-    const uint8_t* record = hull_.record(memory_.undone[at]);
+    const uint8_t* record = hull_.record(memory_.splits[at]);
     const uint32_t ids = 1 + link_of(View::head_of(record));
     for (uint32_t i = 0; fits && i < ids; ++i) fits = add(removed_by(hull_.id_in(record, i)));
   }
-  if (count_ > most_) most_ = count_;
+  if (count_ > max_) max_ = count_;
   while (!fits && count_ > before) {
-    const uint32_t undone = memory_.undone[--count_];
-    memory_.is_undone[undone / 32] &= ~(1u << (undone % 32));
+    const uint32_t last = memory_.splits[--count_];
+    memory_.is_split[last / 32] &= ~(1u << (last % 32));
   }
   return fits;
 }
 
 void Refinement::reset() {
-  for (uint32_t i = 0; i < count_; ++i) memory_.is_undone[memory_.undone[i] / 32] = 0;
+  for (uint32_t i = 0; i < count_; ++i) memory_.is_split[memory_.splits[i] / 32] = 0;
   count_ = 0;
 }
 
 RefinedHit Refinement::first(Vec3 a_m, Vec3 b_m, query::Budget budget) {
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
-  return nearest(SegmentAsked(hull_.head(), a_m, b_m), budget, false);
+  return nearest(SegmentQuery(hull_.head(), a_m, b_m), budget, false);
 }
 RefinedHit Refinement::any(Vec3 a_m, Vec3 b_m, query::Budget budget) {
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
-  return nearest(SegmentAsked(hull_.head(), a_m, b_m), budget, true);
+  return nearest(SegmentQuery(hull_.head(), a_m, b_m), budget, true);
 }
 RefinedCrossings Refinement::all(Vec3 a_m, Vec3 b_m, query::Budget budget,
                                  core::Span<mesh::SurfaceCrossing> buffer) {
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
-  return every(SegmentAsked(hull_.head(), a_m, b_m), budget, buffer);
+  return every(SegmentQuery(hull_.head(), a_m, b_m), budget, buffer);
 }
 
 RefinedHit Refinement::any(const Vec3 (&corner_m)[3], query::Budget budget) {
   for (const Vec3& corner : corner_m)
     if (!math::is_finite(corner)) return {};
-  return nearest(TriangleAsked(hull_.head(), corner_m), budget, true);
+  return nearest(TriangleQuery(hull_.head(), corner_m), budget, true);
 }
 RefinedCrossings Refinement::all(const Vec3 (&corner_m)[3], query::Budget budget,
                                  core::Span<mesh::SurfaceCrossing> buffer) {
   for (const Vec3& corner : corner_m)
     if (!math::is_finite(corner)) return {};
-  return every(TriangleAsked(hull_.head(), corner_m), budget, buffer);
+  return every(TriangleQuery(hull_.head(), corner_m), budget, buffer);
 }
 
 // The nearest crossing of the hull as it is can never lie behind the mesh's: where it is one of the
 // mesh, that is the answer; else its face is replaced.
-template <class Asked>
-RefinedHit Refinement::nearest(const Asked& asked, query::Budget budget, bool is_any) {
+template <class Shape>
+RefinedHit Refinement::nearest(const Shape& shape, query::Budget budget, bool is_any) {
   RefinedHit hit;
   reset();
-  Search<Asked> search(*this, asked, budget);
+  Search<Shape> search(*this, shape, budget);
   Nearest queue(memory_.candidates);
   const auto keep = [&](const Candidate& candidate) {
     if (candidate.t <= search.limit) queue.push(candidate);
   };
-  const auto tell = [&](const Candidate& candidate) {
+  const auto report = [&](const Candidate& candidate) {
     hit.hit = true;
     hit.is_of_mesh = (candidate.what & kOfMesh) != 0;
     hit.triangle = hit.is_of_mesh ? candidate.what & kIndex : 0;
@@ -281,7 +281,7 @@ RefinedHit Refinement::nearest(const Asked& asked, query::Budget budget, bool is
     hit.enters = (candidate.what & kEnters) != 0;
   };
   hit.exact = search.base_hull(keep);
-  if (!hit.exact) tell({0.0f, kEnters});  // a face that was not looked at may be crossed at once
+  if (!hit.exact) report({0.0f, kEnters});  // a face that was not looked at may be crossed at once
   while (hit.exact && !queue.is_empty()) {
     const Candidate now = queue.pop();
     if (now.t > search.limit) break;
@@ -289,23 +289,23 @@ RefinedHit Refinement::nearest(const Asked& asked, query::Budget budget, bool is
     const uint32_t index = now.what & kIndex;
     if ((now.what & kOfMesh) != 0) {
       const bool is_first = !hit.hit || now.t < hit.t || (now.t <= hit.t && index < hit.triangle);
-      if (is_first) tell(now);
+      if (is_first) report(now);
       if (is_any) break;
       // A face that is crossed later in truth may be told earlier.
       search.limit = mesh::smaller(hit.t + 2.0f * mesh::kTimeError, search.limit);
       continue;
     }
-    if (is_undone(index)) continue;
+    if (is_split(index)) continue;
     const uint32_t before = count_;
     if (!search.has_steps() || !split(index)) {
-      if (!hit.hit) tell(now);
+      if (!hit.hit) report(now);
       hit.exact = false;
       break;
     }
-    for (uint32_t at = before; at < count_; ++at) search.star(memory_.undone[at], keep);
+    for (uint32_t at = before; at < count_; ++at) search.star(memory_.splits[at], keep);
   }
   if (queue.horizon <= search.limit) {  // one that had to give way may have been nearer
-    if (!hit.hit) tell({queue.horizon, kEnters});
+    if (!hit.hit) report({queue.horizon, kEnters});
     hit.exact = false;
   }
   hit.steps = search.steps;
@@ -315,12 +315,12 @@ RefinedHit Refinement::nearest(const Asked& asked, query::Budget budget, bool is
   return hit;
 }
 
-template <class Asked>
-RefinedCrossings Refinement::every(const Asked& asked, query::Budget budget,
+template <class Shape>
+RefinedCrossings Refinement::every(const Shape& shape, query::Budget budget,
                                    core::Span<mesh::SurfaceCrossing> buffer) {
   RefinedCrossings result;
   reset();
-  Search<Asked> search(*this, asked, budget);
+  Search<Shape> search(*this, shape, budget);
   mesh::All all(buffer);
   bool fits = true;
   // What an earlier one has replaced meanwhile is left out.
@@ -339,7 +339,7 @@ RefinedCrossings Refinement::every(const Asked& asked, query::Budget budget,
       result.exact = false;
       break;
     }
-    search.star(memory_.undone[at], use);
+    search.star(memory_.splits[at], use);
   }
   result.exact = result.exact && fits;
   result.found = all.crossings.found;

@@ -16,11 +16,11 @@ struct Candidate {
 /// The memory of a refinement, the caller's.
 struct RefinementMemory {
   // One bit a collapse (hull::bit_words() of them): the hull between two queries has none undone.
-  core::Span<uint32_t> is_undone;
+  core::Span<uint32_t> is_split;
   // What is undone: queue of the closure, queue of what is to be tested, and list of what is to be
   // done again, in one. As many as collapses never run out; where they do, the answer is
   // conservative.
-  core::Span<uint32_t> undone;
+  core::Span<uint32_t> splits;
   // Crossings in order of t; 40 were the most seen. Where they run out, the answer is conservative.
   core::Span<Candidate> candidates;
 };
@@ -62,7 +62,7 @@ struct RefinedCrossings {
 /// Source: Platis & Theoharis 2003, section 3.2.
 class Refinement {
  public:
-  /// Pre: `shell` was opened against `hull`; memory.is_undone holds bit_words(collapse_count()), the
+  /// Pre: `shell` was opened against `hull`; memory.is_split holds bit_words(collapse_count()), the
   ///      others at least one each. Hull, shell and memory outlive this.
   Refinement(const View& hull, const BaseHull& base_hull, const RefinementMemory& memory);
 
@@ -98,25 +98,25 @@ class Refinement {
 
   uint32_t split_count() const { return count_; }
   /// The most collapses undone by one query so far.
-  uint32_t max_splits() const { return most_; }
+  uint32_t max_splits() const { return max_; }
 
  private:
-  template <class Asked>
+  template <class Shape>
   class Search;
-  bool is_undone(uint32_t collapse) const {
-    return (memory_.is_undone[collapse / 32] >> (collapse % 32) & 1u) != 0;
+  bool is_split(uint32_t collapse) const {
+    return (memory_.is_split[collapse / 32] >> (collapse % 32) & 1u) != 0;
   }
   bool add(uint32_t collapse);
-  template <class Asked>
-  RefinedHit nearest(const Asked& asked, query::Budget budget, bool is_any);
-  template <class Asked>
-  RefinedCrossings every(const Asked& asked, query::Budget budget,
+  template <class Shape>
+  RefinedHit nearest(const Shape& shape, query::Budget budget, bool is_any);
+  template <class Shape>
+  RefinedCrossings every(const Shape& shape, query::Budget budget,
                          core::Span<mesh::SurfaceCrossing> buffer);
 
   const View& hull_;
   const BaseHull& base_hull_;
   RefinementMemory memory_;
-  uint32_t count_ = 0, most_ = 0;
+  uint32_t count_ = 0, max_ = 0;
 };
 
 /// The faces of a refinement's hull, one by one.

@@ -18,7 +18,7 @@ bool Refinement::Faces::next() {
       for (uint32_t k = 0; k < 3; ++k)
         number[k] = hull.number_of(of_.base_hull_.id_of(of_.base_hull_.vertex_of(face, k)));
     } else {
-      const uint32_t collapse = of_.memory_.undone[at_ - 1];
+      const uint32_t collapse = of_.memory_.splits[at_ - 1];
       const Star star(hull, collapse, hull.record(collapse));
       if (face == star.face_count()) {
         face_ = 0;
@@ -32,7 +32,7 @@ bool Refinement::Faces::next() {
     uint32_t youngest = number[0];
     if (number[1] > youngest) youngest = number[1];
     if (number[2] > youngest) youngest = number[2];
-    if (youngest < mesh_vertices || !of_.is_undone(youngest - mesh_vertices)) return true;
+    if (youngest < mesh_vertices || !of_.is_split(youngest - mesh_vertices)) return true;
   }
   return false;
 }

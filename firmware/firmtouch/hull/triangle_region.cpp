@@ -11,11 +11,11 @@ float largest(Vec3 v) {
 
 // On one side of the plane through `of`, surely: with u = 2^-24 and S the largest coordinate of any
 // corner seen from of[0], a product of three is off by less than 32 u S^3 where it is summed.
-bool is_aside(const Vec3 (&of)[3], const Vec3 (&asked)[3]) {
+bool is_aside(const Vec3 (&of)[3], const Vec3 (&other)[3]) {
   const Vec3 e = of[1] - of[0], f = of[2] - of[0], n = cross(e, f);
   float side[3], size = 0.0f;
   for (uint32_t i = 0; i < 3; ++i) {
-    const Vec3 v = asked[i] - of[0];
+    const Vec3 v = other[i] - of[0];
     side[i] = dot(n, v);
     size = mesh::larger(size, largest(v));
   }

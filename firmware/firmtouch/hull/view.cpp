@@ -87,9 +87,9 @@ Verdict Opening::open_head(const Sections& s) {
   if (s.origins.size() != ids * head.id_bytes) return reject(kRuleOriginsSize, s.origins.size());
   view_.records_ = s.records;
   if (s.records.size() != head.record_bytes) return reject(kRuleRecordsSize, s.records.size());
-  view_.places_ = core::as_whole_array<uint32_t>(s.places);
-  if (view_.places_.size() != leaves_for(head.collapse_count, kRecordsAPlace))
-    return reject(kRuleRecordOffsetsSize, view_.places_.size());
+  view_.record_offsets_ = core::as_whole_array<uint32_t>(s.record_offsets);
+  if (view_.record_offsets_.size() != leaves_for(head.collapse_count, kRecordsPerOffset))
+    return reject(kRuleRecordOffsetsSize, view_.record_offsets_.size());
   view_.star_boxes_ = core::as_whole_array<StarBox>(s.star_boxes);
   if (view_.star_boxes_.size() != head.collapse_count)
     return reject(kRuleStarBoxesSize, view_.star_boxes_.size());
@@ -128,7 +128,8 @@ Verdict Opening::finish_ids() { return numbers_ == 0 ? kPassed : reject(kRuleOri
 
 Verdict Opening::check_record(uint32_t collapse) {
   const Head& head = view_.head();
-  if (collapse % kRecordsAPlace == 0 && view_.places_[collapse / kRecordsAPlace] != record_at_)
+  if (collapse % kRecordsPerOffset == 0 &&
+      view_.record_offsets_[collapse / kRecordsPerOffset] != record_at_)
     return reject(kRuleRecordOffset, collapse);
   const uint32_t left = head.record_bytes - record_at_;
   const uint8_t* record = view_.records_.data() + record_at_;

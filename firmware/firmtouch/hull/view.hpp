@@ -14,7 +14,7 @@ namespace firmtouch::hull {
 /// The bytes of a hull's sections, as the container hands them out, and of its mesh those that a
 /// hull reads: never the mesh's tree. One of triangles16 and triangles32.
 struct Sections {
-  core::Bytes head, vertices, origins, records, places, star_boxes, boxes, base_hull;
+  core::Bytes head, vertices, origins, records, record_offsets, star_boxes, boxes, base_hull;
   core::Bytes mesh_head, mesh_vertices, triangles16, triangles32;
 };
 
@@ -45,8 +45,8 @@ class View {
   }
   /// The record of a collapse, at its head.
   const uint8_t* record(uint32_t collapse) const {
-    const uint8_t* at = records_.data() + places_[collapse / kRecordsAPlace];
-    for (uint32_t skip = collapse % kRecordsAPlace; skip > 0; --skip)
+    const uint8_t* at = records_.data() + record_offsets_[collapse / kRecordsPerOffset];
+    for (uint32_t skip = collapse % kRecordsPerOffset; skip > 0; --skip)
       at += record_size(head_of(at), head_->id_bytes);
     return at;
   }
@@ -73,7 +73,7 @@ class View {
   const Head* head_ = nullptr;
   const mesh::Head* mesh_head_ = nullptr;
   core::Bytes vertices_, origins_, records_;
-  core::Span<const uint32_t> places_;
+  core::Span<const uint32_t> record_offsets_;
   core::Span<const StarBox> star_boxes_;
   core::Span<const NodeBox> boxes_;
   core::Span<const mesh::Vertex> mesh_vertices_;

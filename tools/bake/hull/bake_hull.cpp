@@ -69,12 +69,12 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
 
 hull::Sections hull_sections(const std::vector<Section>& sections, const std::string& name) {
   const auto find = [&](uint32_t type) { return find_section(sections, name, type); };
-  return {find(hull::kHeadSection),        find(hull::kVerticesSection),
-          find(hull::kOriginsSection),     find(hull::kRecordsSection),
-          find(hull::kPlacesSection),      find(hull::kStarBoxesSection),
-          find(hull::kBoxesSection),       find(hull::kBaseHullSection),
-          find(mesh::kHeadSection),        find(mesh::kVerticesSection),
-          find(mesh::kTriangles16Section), find(mesh::kTriangles32Section)};
+  return {find(hull::kHeadSection),          find(hull::kVerticesSection),
+          find(hull::kOriginsSection),       find(hull::kRecordsSection),
+          find(hull::kRecordOffsetsSection), find(hull::kStarBoxesSection),
+          find(hull::kBoxesSection),         find(hull::kBaseHullSection),
+          find(mesh::kHeadSection),          find(mesh::kVerticesSection),
+          find(mesh::kTriangles16Section),   find(mesh::kTriangles32Section)};
 }
 
 }  // namespace firmtouch::tools

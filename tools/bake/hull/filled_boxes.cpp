@@ -75,7 +75,7 @@ class Parter {
   // The two sides of a tree may hold unequal numbers, so each direction is tried both ways. Looks one
   // cut ahead: of parts of many items that would take long and tell little.
   void cut(uint32_t first, uint32_t middle, uint32_t end, uint32_t leaves) {
-    constexpr uint32_t kMaxAhead = 4096;
+    constexpr uint32_t kMaxWindow = 4096;
     Order tried(order_.begin() + first, order_.begin() + end), best;
     double least = 0;
     for (const int(&direction)[3] : kDirections) {
@@ -83,7 +83,7 @@ class Parter {
         sort(tried, direction, sign);
         const auto border = tried.begin() + (middle - first);
         double cost = cost_of(tried.begin(), border) + cost_of(border, tried.end());
-        if (end - first <= kMaxAhead) {
+        if (end - first <= kMaxWindow) {
           const uint32_t left = left_of(leaves);
           cost += min_below({tried.begin(), border}, left) +
                   min_below({border, tried.end()}, leaves - left);

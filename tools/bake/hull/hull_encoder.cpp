@@ -107,7 +107,7 @@ uint32_t HullEncoder::triangle_of(const Face& numbers) const {
 
 void HullEncoder::put_records() {
   for (uint32_t k = 0; k < head_.collapse_count; ++k) {
-    if (k % hull::kRecordsAPlace == 0) places_.push_back(static_cast<uint32_t>(records_.size()));
+    if (k % hull::kRecordsPerOffset == 0) places_.push_back(static_cast<uint32_t>(records_.size()));
     const Collapse& c = hull_.collapses[k];
     std::vector<uint32_t> triangles;
     for (const Face& face : star_faces(k))
@@ -195,7 +195,7 @@ std::vector<Section> HullEncoder::run(const std::string& name) {
   add(hull::kVerticesSection, vertices_);
   add(hull::kOriginsSection, origins_);
   add(hull::kRecordsSection, records_);
-  add(hull::kPlacesSection, places_);
+  add(hull::kRecordOffsetsSection, places_);
   add(hull::kStarBoxesSection, star_boxes_);
   add(hull::kBoxesSection, triangle_boxes());
   add(hull::kBaseHullSection, coarsest());

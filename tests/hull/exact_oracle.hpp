@@ -103,9 +103,9 @@ inline int exact_sign(math::Vec3 a, math::Vec3 b, math::Vec3 c, const Spot& p) {
   return sum.sign();
 }
 
-class Judge {
+class Oracle {
  public:
-  explicit Judge(const Surface& surface) : surface_(surface), tree_(boxes_of(surface)) {}
+  explicit Oracle(const Surface& surface) : surface_(surface), tree_(boxes_of(surface)) {}
 
   enum class Where { kInside, kOn, kOutside };
 
