@@ -87,7 +87,7 @@ constexpr const char* kCostOf10kHz =
     "plot.draw(page.columnOf(n)); return records + ' records of ' + page.session.recordBytes + ' "
     "bytes: ' + Math.round(performance.now() - begin) + ' ms to read and plot'; })()";
 
-constexpr const char* kConnected = "$('banner').textContent.includes('records flow')";
+constexpr const char* kConnected = "$('banner').textContent.includes('receiving records')";
 constexpr const char* kNoFault = "$('faults').textContent.includes('No faults')";
 constexpr int kPressTicks = 2100;  // a press and a lift of the hand's
 
