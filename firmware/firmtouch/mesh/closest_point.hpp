@@ -15,7 +15,7 @@ constexpr bool is_edge(Feature f) { return f >= Feature::kEdge0 && f <= Feature:
 constexpr bool is_vertex(Feature f) { return f >= Feature::kVertex0; }
 
 struct Closest {
-  float distance_m = 0;  // signed: negative inside; positive where the sign is unknown
+  float distance_m = 0;  // signed: negative inside; positive if the sign is unknown
   math::Vec3 point_m;    // on the surface
   math::Vec3
       direction;  // unit pseudonormal of the feature, outward (unsigned mesh: the face's normal)
@@ -24,18 +24,18 @@ struct Closest {
   query::Certificate certificate;
 };
 
-/// Closest point of the surface to `p_m` (mesh frame), its side, and a certificate.
-/// Cold: one descent to a leaf, nearer child first, then best box first. Warm: from the last leaf
-/// upwards, as far as the last certificate does not already exclude the rest.
+/// Closest point of the surface to `p_m` (mesh frame), with sign and certificate.
+/// Cold: one descent to a leaf, nearer child first, then the box with the least bound first. Warm:
+/// from the last leaf upward, until the last certificate excludes the rest.
 /// Bounds: <= budget steps; 2.5 KB of stack; re-entrant; callable from an interrupt.
 /// Result: always finite. Two triangles equally near: the one visited first. Outside the mesh's
-///         grid the side is known under any budget. A query that is not finite: a vertex, at
+///         grid the sign is known under any budget. A query that is not finite: a vertex, at
 ///         distance FLT_MAX, lower 0, not exact, sign 0.
-/// Error:  where exact, |distance| and lower_m within 4e-7 max(diagonal, distance); lower_m never above
-///         the truth (mesh/loss.hpp; tests/mesh/compensated_host_test.cpp attacks it). Where plain
-///         float32 is not enough for that (far away, or few large triangles) the nearest triangle is
-///         measured again with care, and where that is not enough either the search is made a second
-///         time, which costs some thousand instructions and is counted in steps.
+/// Error:  if exact, |distance| and lower_m within 4e-7 max(diagonal, distance); lower_m never above
+///         the truth (mesh/loss.hpp; tests/mesh/compensated_host_test.cpp). If float32 is not enough
+///         (far away, or few large triangles), the nearest triangle is measured in compensated
+///         arithmetic. If that is not enough either, the search runs a second time: some thousand
+///         instructions more, counted in steps.
 /// Source: Baerentzen & Aanaes 2005, sections 3 and 4; Morris 2006, 3.3 (ascend from the last
 ///         leaf).
 Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, Hint& hint);

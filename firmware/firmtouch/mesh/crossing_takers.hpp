@@ -1,6 +1,5 @@
 #pragma once
-// What a search along a segment keeps of the crossings that it finds. For the library's own
-// translation units.
+// Policies of a segment search: which crossings it keeps. For the library's own translation units.
 
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "firmtouch/mesh/segment_frame.hpp"
@@ -23,7 +22,7 @@ class First {
     hit.t = crossing.t;
     hit.triangle = triangle;
     hit.enters = crossing.direction < 0;
-    // A box that is entered later in truth may hold a crossing that is told earlier.
+    // t has an error, so a box that is entered later may hold a crossing with a smaller t.
     limit = smaller(crossing.t + 2.0f * kTimeError, 1.0f);
     return true;
   }
@@ -58,7 +57,7 @@ class All {
     } else if (at == 0 || !is_before(crossing.t, triangle, buffer_[at - 1])) {
       return true;
     } else {
-      --at;  // the last one gives way
+      --at;  // the last one is dropped
     }
     for (; at > 0 && is_before(crossing.t, triangle, buffer_[at - 1]); --at)
       buffer_[at] = buffer_[at - 1];

@@ -1,5 +1,5 @@
 #pragma once
-// What float32 loses in a distance to a triangle. For the library's own translation units.
+// Error bounds of a float32 distance to a triangle. For the library's own translation units.
 
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/mesh/layout.hpp"
@@ -9,7 +9,7 @@ namespace firmtouch::mesh {
 /// Bounds of the error of closest_on_triangle(), with u = 2^-24, d the distance and L the mesh's
 /// longest edge (first order; 2 % are added for the rest).
 ///
-/// The offset is p - q rounded, q a point of the triangle but for h's own error. Roundings of the
+/// The offset is p - q rounded, with q a point of the triangle except for the error of h. Roundings of the
 /// vector: ap by u |ap| <= u (d + L); ab x by 2 u L; e by u (d + 0.9 L); h w by u (4.9 L) for h and
 /// its product; the last difference by u d. Squares, their sum and the root lose 2.5 u d. Together
 /// u (5.5 d + 8.8 L). Of x the error is 5 u (d + L) / L + 6.5 u, of w (d + L + 2 L) u / |h| + 7 u (d +
@@ -18,7 +18,7 @@ namespace firmtouch::mesh {
 /// 13 u d is nothing, and by its square over 2 d, nothing, where d is larger: u 18 L at most.
 struct Loss {
   float longest_edge_m;
-  float rounding_m;  // of the model's coordinates: a lower bound is told for the model as imported
+  float rounding_m;  // of the model's coordinates: a lower bound holds for the model as imported
 
   explicit Loss(const Head& head)
       : longest_edge_m(head.longest_edge_m), rounding_m(head.rounding_m) {}
@@ -26,7 +26,7 @@ struct Loss {
   float plain_m(float distance_m) const {
     return 0x1p-24f * (5.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
-  /// plain_m() and what the difference of distance and loss is rounded by.
+  /// plain_m() plus the rounding of distance - loss.
   float reported_m(float distance_m) const {
     return 0x1p-24f * (6.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
@@ -38,7 +38,7 @@ struct Loss {
   bool is_clear(float distance2_m2) const {
     return distance2_m2 > longest_edge_m * longest_edge_m * 0x1p-20f;
   }
-  /// Whether a plain squared distance may in truth be below a careful one.
+  /// Whether the true value of a plain squared distance may be below a compensated one.
   bool may_be_less(float plain2_m2, float compensated2_m2) const {
     const float distance_m = math::square_root(plain2_m2);
     return distance_m - plain_m(distance_m) <=

@@ -6,16 +6,15 @@
 
 namespace firmtouch::mesh {
 
-// Which triangles a segment crosses is decided without any rounding, also where it passes through
-// an edge or a corner, runs within a face or ends on one: as if the whole segment had been moved by
-// (e, e^2, e^3) for an infinitely small e > 0. So there is no tolerance and nothing leaks: through an
-// edge or a corner that the surface crosses over it is one crossing, where it only touches two or
-// none, and along a chain of segments none is told twice or lost at the joints. What a segment
-// crosses is the same in both directions.
+// Crossings are decided without rounding, also if the segment passes through an edge or a corner,
+// runs within a face or ends on one: as if the whole segment had been moved by (e, e^2, e^3) for an
+// infinitely small e > 0. There is no tolerance and no leak. A segment through an edge or a corner
+// has one crossing if the surface passes there from one side to the other, else two or none. Along a
+// chain of segments no crossing is reported twice or lost at the joints, in either direction.
 //
-// Of all three: a segment that is not finite crosses nothing and is not exact; one of no length
-// crosses nothing. t is within 2^-18 of the truth, mostly within 2^-22; crossings nearer to each
-// other may be told in the other order (tests/mesh/segment_host_test.cpp).
+// All three functions: a segment that is not finite crosses nothing and is not exact; one without
+// length crosses nothing. t is within 2^-18 of the truth, mostly within 2^-22. Crossings closer than
+// that may be reported in the other order (tests/mesh/segment_host_test.cpp).
 
 struct Hit {
   bool hit = false;
@@ -28,13 +27,13 @@ struct Hit {
 
 /// First crossing of the segment from `a_m` to `b_m` (mesh frame) with the surface, either way.
 /// Bounds: <= budget steps; 2.8 KB of stack; re-entrant; callable from an interrupt.
-/// Result: least t; equal t: the lowest triangle in leaf order. Not exact: a crossing may be nearer
-///         than the one told, or there where none is told.
+/// Result: least t; equal t: the lowest triangle in leaf order. Not exact: there may be a nearer
+///         crossing, or one although none is reported.
 Hit cast_segment(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget);
 
-/// Any crossing, the first that turns up: for whether something is in the way.
+/// Any crossing, the first that is found: to test for an obstacle.
 /// Bounds: <= budget steps; 2.8 KB of stack; re-entrant; callable from an interrupt.
-/// Result: exact where a crossing is told, and where there is certainly none.
+/// Result: exact if a crossing is reported, and if there is certainly none.
 Hit any_crossing(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget);
 
 struct SurfaceCrossing {
@@ -50,10 +49,10 @@ struct Crossings {
   bool exact = false;  // false: the budget ran out; there may be more
 };
 
-/// Every crossing, in order of t (equal t: of triangles in leaf order). Where there are more than
-/// `room` holds, the first ones are kept and all are counted; no room at all counts them.
-/// Bounds: <= budget steps and found * told moves in `buffer`; 2.8 KB of stack; re-entrant; callable
-///         from an interrupt.
+/// Every crossing, in order of t (equal t: of triangles in leaf order). If there are more than the
+/// span holds, the first ones are kept and all are counted; an empty span counts them.
+/// Bounds: <= budget steps and found * reported moves; 2.8 KB of stack; re-entrant; callable from an
+///         interrupt.
 Crossings all_crossings(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
                         core::Span<SurfaceCrossing> buffer);
 

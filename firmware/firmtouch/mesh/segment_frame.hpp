@@ -1,5 +1,5 @@
 #pragma once
-// A segment against triangles, in floats wherever floats can decide. For the library's own
+// A segment against triangles, in floats where their error bound decides. For the library's own
 // translation units.
 
 #include "firmtouch/math/vec3_ops.hpp"
@@ -8,7 +8,7 @@
 
 namespace firmtouch::mesh {
 
-// By how much a crossing's t may be off. Floats that promise less give way to integers.
+// Largest error of a crossing's t. If the bound of the floats is larger, integers compute it.
 constexpr float kTimeError = 0x1p-18f;
 
 static inline float absolute(float v) { return __builtin_fabsf(v); }
@@ -18,7 +18,7 @@ static inline float smaller(float a, float b) { return a < b ? a : b; }
 // How a segment's line passes a triangle's three edges.
 enum class Pass { kMisses, kEnters, kLeaves, kUnsure };
 
-/// How a segment is sheared so that it runs along its longest axis k; i and j are the next two in turn.
+/// How a segment is sheared so that it runs along its longest axis k; i and j are the next two axes, cyclically.
 struct Shear {
   uint32_t i, j, k;
   float along_i, along_j;  // for each step along k
@@ -35,7 +35,7 @@ struct Shear {
   }
 };
 
-/// A segment, and of a triangle that its line is known to pass whether and when.
+/// A segment against a triangle that its line is known to pass: whether and where it crosses.
 class SegmentLine {
  public:
   SegmentLine() = default;
@@ -53,7 +53,7 @@ class SegmentLine {
   }
 
  protected:
-  /// Whether floats can tell of a triangle that the line is known to pass so: SegmentFrame::decides().
+  /// As SegmentFrame::decides(), for a triangle that the line is known to pass.
   [[gnu::always_inline]] inline bool decides(Pass way, math::Vec3 p, math::Vec3 q, math::Vec3 r,
                                              Crossing& reported, float& early) const {
     reported = {};
@@ -67,10 +67,10 @@ class SegmentLine {
     const bool is_sure = is_through && error <= kTimeError && t > error && t < 1.0f - error;
     if (is_through) reported.direction = (way == Pass::kLeaves) != flips_ ? 1 : -1;
     if (is_sure) reported.t = t;
-    // Of a triangle that is no speck the plane is passed near it, and t is of the plane.
+    // Unless the triangle is tiny, the line passes its plane near it, and t is the plane's.
     const bool is_speck = larger(largest(q - p), largest(r - p)) < coordinate_error_m_;
     if (is_sure || !is_bounded || is_speck) return is_sure;
-    // First order in what the rate is off by and all else; where a side is open, twice as far off.
+    // First order in the error of the rate and of all else; twice that if a side is undecided.
     const float wide = (is_through ? 1.5f : 3.0f) * error;
     if (t < -wide || t > 1.0f + wide) {
       reported.direction = 0;
@@ -81,10 +81,10 @@ class SegmentLine {
     return false;
   }
 
-  // Products that vanish below the range of float lose this much and no more.
+  // Products that underflow lose at most this much.
   static constexpr float kUnderflow = 1e-36f;
 
-  // From the plane. What n is off by tells only as n . (p - hit), within the triangle: with L its
+  // From the plane. The error of n matters only as n . (p - hit), within the triangle: with L its
   // longer edge at p, 9 u L^2 an axis times 3 L. Each sum of products is off by 5 u of the sum of
   // their magnitudes.
   float time(math::Vec3 p, math::Vec3 q, math::Vec3 r, float& error, bool& is_bounded) const {
@@ -94,7 +94,7 @@ class SegmentLine {
     const float depth_size = sum_of_sizes(n, to_p), rate_size = sum_of_sizes(n, along_m_);
     const float edge = larger(largest(e), largest(f));
     const float lost = 6.0f * (depth_size + absolute(t) * rate_size) + 30.0f * edge * edge * edge;
-    // Where the products underflow or the quotient is of nothing, the bound is no bound.
+    // If the products underflow or the divisor vanishes, there is no bound.
     const bool is_sound = absolute(rate) > 1e-30f;
     is_bounded = is_sound && rate_size * 0x1p-19f < absolute(rate);  // off by a quarter at most
     error = is_sound ? lost / absolute(rate) * 0x1p-24f + 0x1p-24f * absolute(t) : 1e30f;
@@ -113,14 +113,14 @@ class SegmentLine {
 };
 
 /// The segment's own frame: the origin at a, sheared along its longest axis so that it runs along
-/// that axis. A line passes an edge on the side that the cross product of the edge's two sheared
-/// corners tells.
+/// that axis. The sign of the cross product of an edge's two sheared corners says on which side the
+/// line passes the edge.
 ///
 /// With u = 2^-24, R the largest coordinate of any vertex as seen from a, and a direction whose
 /// shears are at most 1 and off by 4 u: a difference is off by u R, its shear by 6 u R, the sheared
 /// coordinate by 7 u R and its own rounding, at most 2 u R: 10 u R with a unit to spare. With S the
 /// largest sheared coordinate of a triangle (at most 2 R), a cross product is then off by 40 u R S +
-/// 200 u^2 R^2 and its roundings by 4 u S^2 <= 8 u R S; told as 52 u R (S + 8 u R).
+/// 200 u^2 R^2 and its roundings by 4 u S^2 <= 8 u R S; rounded up to 52 u R (S + 8 u R).
 class SegmentFrame : private SegmentLine {
  public:
   SegmentFrame() = default;
@@ -140,7 +140,7 @@ class SegmentFrame : private SegmentLine {
     row_[1] = {row[1][0], row[1][1], row[1][2]};
   }
 
-  /// A vertex in the frame, for who meets it in several triangles.
+  /// A vertex in the frame; several triangles may share it.
   struct Sheared {
     float x, y;
   };
@@ -148,7 +148,7 @@ class SegmentFrame : private SegmentLine {
     const math::Vec3 v = vertex_m - a_m_;
     return {math::dot(row_[0], v), math::dot(row_[1], v)};
   }
-  /// Whether floats are sure that the triangle is not crossed: crossing() would tell none.
+  /// Whether floats prove that the triangle is not crossed.
   bool misses(Sheared p, Sheared q, Sheared r) const {
     const float e = coordinate_error_m_;  // most lie to one side
     if (p.x > e ? q.x > e && r.x > e : p.x < -e && q.x < -e && r.x < -e) return true;
@@ -156,23 +156,22 @@ class SegmentFrame : private SegmentLine {
     return pass(p, q, r) == Pass::kMisses;
   }
 
-  /// Result: as exact_crossing(), with |t - exact| <= kTimeError. The same bits whatever decided
-  /// which side of which edge: where floats decide, they decide as integers would.
+  /// Result: as exact_crossing(), with |t - exact| <= kTimeError. The same bits whether floats or
+  /// integers decided: a decision of the floats is that of the integers.
   Crossing crossing(math::Vec3 p, math::Vec3 q, math::Vec3 r) const {
     Crossing reported;
     float early;
     return decides(p, q, r, reported, early) ? reported : exact_crossing(a_m_, b_m_, p, q, r);
   }
 
-  /// Whether floats can tell: then `told` is what crossing() tells. Else told.direction is the way,
-  /// 0 where floats are not sure that it is crossed at all, and otherwise told.t a time before which
-  /// it is not, by `early` at most.
+  /// Whether floats decide: then the crossing is that of crossing(). Else its direction is 0 if floats
+  /// cannot prove that the triangle is crossed, and otherwise its t is early, by at most `early`.
   bool decides(math::Vec3 p, math::Vec3 q, math::Vec3 r, Crossing& reported, float& early) const {
     return SegmentLine::decides(pass(sheared(p), sheared(q), sheared(r)), p, q, r, reported, early);
   }
 
  private:
-  // NaN and infinities pass every comparison as unsure.
+  // With NaN and infinities every comparison ends as undecided.
   Pass pass(Sheared p, Sheared q, Sheared r) const {
     const float high_x = larger(p.x, larger(q.x, r.x)), low_x = smaller(p.x, smaller(q.x, r.x));
     const float high_y = larger(p.y, larger(q.y, r.y)), low_y = smaller(p.y, smaller(q.y, r.y));

@@ -15,7 +15,9 @@ using PendingNode = uint64_t;
 constexpr PendingNode kEnd = UINT64_MAX;
 constexpr uint32_t child_of(PendingNode pending) { return static_cast<uint32_t>(pending); }
 constexpr uint32_t key_of(PendingNode pending) { return static_cast<uint32_t>(pending >> 32); }
-constexpr PendingNode pending_of(uint32_t key, uint32_t child) { return PendingNode{key} << 32 | child; }
+constexpr PendingNode pending_of(uint32_t key, uint32_t child) {
+  return PendingNode{key} << 32 | child;
+}
 
 template <class Visitor>
 static inline bool take_leaf(const View& mesh, const SegmentFrame& frame, uint32_t leaf,
@@ -75,7 +77,7 @@ static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, quer
     slabs.enter(reinterpret_cast<const uint32_t*>(&node), key);
     const bool is_later_first = key[1] < key[0];
     const PendingNode one = pending_of(key[0], node.side[0].child),
-                  other = pending_of(key[1], node.side[1].child);
+                      other = pending_of(key[1], node.side[1].child);
     const PendingNode nearer = is_later_first ? other : one, farther = is_later_first ? one : other;
     const PendingNode left = pending[count - 1];
     const bool any = key_of(nearer) != math::kNotEntered;

@@ -13,7 +13,7 @@ struct Foot {
   Feature feature;
 };
 
-/// Leaves no triangle out.
+/// Skips no triangle.
 struct Everything {
   static Everything than(float, float) { return {}; }
   constexpr bool is_line_beyond(float) const { return false; }
@@ -21,19 +21,19 @@ struct Everything {
   constexpr bool is_plane_beyond(float, float) const { return false; }
 };
 
-/// Leaves out triangles that are certainly told no nearer than the nearest so far, L away: two thirds
-/// of the work, or less.
+/// Skips triangles whose computed distance is certainly not below that of the nearest so far, L. A
+/// skipped triangle takes two thirds of the work, or less.
 ///
-/// Let e be the offset of p from the line a b, square to ab, and g be ac, or less a multiple of ab. For
+/// Let e be the offset of p from the line a b, perpendicular to ab, and g be ac, or less a multiple of ab. For
 /// each q of the triangle p - q is e - m g and some multiple of ab, 0 <= m <= 1. So e . (p - q) = e^2 -
 /// m e . g, and the distance d is at least (e^2 - e . g) / |e|, or |e| where e . g is below 0. And p -
 /// q is no shorter than e less its part along h, so that d^2 is at least e^2 - (e . h)^2 / h^2, for any
 /// h that is ac less a multiple of ab: also for a sliver's, which may be all rounding.
 ///
-/// Suppose that d is below A = L (1 + 8 u) + 30 u E, beyond which no foot is told nearer than L
+/// Suppose that d is below A = L (1 + 8 u) + 30 u E, beyond which no computed distance is below L
 /// (mesh/loss.hpp; u = 2^-24, E the mesh's longest edge). Then no vector is longer than A + 2 E, and
 /// roundings move none of the squares and products by more than C = 32 u (A + 2 E)^2 <= 2^-18 A^2 +
-/// 2^-16 E^2. With S = A^2 + 2 C the triangle is not left out: e^2 - (e . h)^2 / h^2 <= A^2 + 2 C; and
+/// 2^-16 E^2. With S = A^2 + 2 C the triangle is not skipped: e^2 - (e . h)^2 / h^2 <= A^2 + 2 C; and
 /// where s = e^2 - e . g <= |e| A + C and |e| > sqrt(S), s^2 <= e^2 S, because C <= (S - A^2) / 2 <=
 /// sqrt(S) (sqrt(S) - A). A^2 is at most (1 + 2^-11 + 2^-19) L^2 + 2^-26 E^2.
 struct Nearer {
@@ -45,13 +45,13 @@ struct Nearer {
   }
   bool is_line_beyond(float e2) const { return e2 > beyond_m2; }
   bool is_corner_beyond(float e2, float s) const { return s * __builtin_fabsf(s) > e2 * beyond_m2; }
-  // Where the square of h^2 vanishes, h^2 may be no normal float.
+  // If the square of h^2 underflows, h^2 may be denormal.
   bool is_plane_beyond(float plane2, float h2) const {
     return plane2 > beyond_m2 && h2 * h2 > 0.0f;
   }
 };
 
-/// What of a triangle depends on nothing else, computed where it is used.
+/// The part of a measurement that depends on the triangle alone, computed when it is used.
 struct OfCorners {
   math::Vec3 a_m, b_m, c_m;
 
@@ -66,7 +66,7 @@ struct OfCorners {
   static float h2(math::Vec3 h) { return math::dot(h, h); }
 };
 
-// One by one: a struct would be built aside.
+// Member by member: a struct would be built on the stack and copied.
 [[gnu::always_inline]] static inline bool put(Foot& foot, math::Vec3 offset_m, Feature feature) {
   foot.offset_m.x = offset_m.x;
   foot.offset_m.y = offset_m.y;
@@ -76,22 +76,21 @@ struct OfCorners {
   return true;
 }
 
-/// Closest point of the triangle a b c, whose edge a b is the longest, to p. Shape: OfCorners, or what
-/// has the same values from memory (mesh/leaf.hpp), and in place of ac the height vector where only what
-/// leads across ab counts.
+/// Closest point of the triangle a b c, whose edge a b is the longest, to p. Shape: OfCorners, or a
+/// type with the same values from memory (mesh/leaf.hpp), which may hold the height vector instead of ac.
 ///
 /// In the orthogonal frame of a b and the height vector h = ac - ab (ab . ac) / |ab|^2 the foot of
 /// p in the plane is a + ab x + h w; its barycentric coordinates are v = x - w xc (of b) and w (of
 /// c). Because a b is the longest edge, the angles at a and b are acute: a point beyond a b has its
 /// closest point on a b, one beyond a c or b c on that edge, and only beyond the corner c must both
-/// be asked.
+/// be tested.
 ///
 /// Why not the book's form (Ericson 2005, 5.1.5): it takes v and w from differences of
 /// fourth-degree products and loses them on slivers, by 2^-24 (length / height)^2. Here w is taken
 /// from what ab x leaves of ap, e, so that h being skew to ab by a rounding, 2^-24 length, meets no
 /// component along ab. With d the distance and u = 2^-24 the foot is off in the plane by at most
 /// min(u d length / height, height) beside u length, which lengthens d by at most u length / 2.
-/// Result: false, and no foot, where `wanted` leaves the triangle out.
+/// Result: false, and no foot, if `wanted` skips the triangle.
 template <class Shape, class Wanted>
 [[gnu::always_inline]] static inline bool find_foot(math::Vec3 p, const Shape& shape,
                                                     const Wanted& wanted, Foot& foot) {
@@ -115,7 +114,7 @@ template <class Shape, class Wanted>
   const float h2 = shape.h2(h);
   const float w = y / h2;
   const float v = x - w * xc;
-  // On a border too, so that a query at a corner is told the corner, not a face that meets there.
+  // Includes the border, so that a query at a corner gets the corner, not a face that meets there.
   if (!(v <= 0.0f || v + w >= 1.0f)) return put(foot, e - h * w, Feature::kFace);
   if (wanted.is_plane_beyond(e2 - y * w, h2)) return false;
   if (v <= 0.0f) {
