@@ -17,7 +17,7 @@ HolesAreClosedWhenAskedFor() {
 VoxelizeTellsCountsAndWritesAFileThatParaViewOpens() {
   f make part --triangles 2000 -o part.obj; exits 0
   f voxelize part.obj -n 24 --interior -o part.vti; exits 0
-  told '24 x ' 'tell the same side of every voxel' 'part.vti:'
+  told '24 x ' 'agree on the sign of every voxel' 'part.vti:'
   head -c 400 part.vti | grep -q 'VTKFile type="ImageData"' || fail 'no ImageData'
   cp part.vti one.vti
   f voxelize part.obj -n 24 --interior -o part.vti --threads 3; exits 0; told 'by 3 threads'

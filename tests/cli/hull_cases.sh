@@ -32,7 +32,7 @@ BadModelsAreNoHulls() {
 AHullThatCannotBeCoarserSaysWhereAndWhy() {
   f make part -o part.obj --triangles 2000; exits 0
   f hull part.obj --faces 4 -o h.obj; exits 0
-  told 'stops at' 'of the 4 asked for' 'may collapse' 'first the edge at vertex' '--compactness'
+  told 'stops at' 'of the 4 requested' 'may collapse' 'first the edge at vertex' '--compactness'
   [ -s h.obj ] || fail 'the best was not kept'
   f hull part.obj --faces 100000 -o h.obj; exits 0; told 'written as it is'
 }

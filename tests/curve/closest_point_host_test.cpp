@@ -34,7 +34,7 @@ void check(const Baked& baked, math::Vec3 p, double truth, const curve::Closest&
     findings.worst_error = std::max(findings.worst_error, std::abs(upper - truth) / scale);
     findings.worst_lower = std::max(findings.worst_lower, (truth - lower) / scale);
   }
-  // What else is told belongs to the point that is told.
+  // The other fields belong to the same point.
   CHECK_LT(found.segment, baked.view.segment_count());
   const float from = baked.view.arcs()[found.segment], to = baked.view.arcs()[found.segment + 1];
   CHECK_GE(found.arc, from - 1e-7f);

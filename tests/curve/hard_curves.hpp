@@ -1,5 +1,5 @@
 #pragma once
-// Curves that an inexact search gets wrong, and a judge in double that tries every segment.
+// Curves that an inexact search gets wrong, and an oracle in double that tries every segment.
 #include <algorithm>
 #include <cmath>
 #include <random>

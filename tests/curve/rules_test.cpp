@@ -391,5 +391,5 @@ TEST(AnyFlippedBitIsRefusedByARuleOrLeavesAQueryWithinBounds) {
     }
   }
   CHECK_GE(refused, 1200u);
-  CHECK_GE(kept, 1u);  // the last bits of a coordinate move a sample by less than any rule asks for
+  CHECK_GE(kept, 1u);  // the last bits of a coordinate move a sample by less than any rule detects
 }

@@ -1,4 +1,4 @@
-// The rules of open() that ask more, or otherwise, of cubic pieces.
+// The rules of open() that are stricter for cubic pieces, or differ.
 #include "curve/rule_curves.hpp"
 
 namespace {

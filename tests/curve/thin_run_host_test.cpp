@@ -1,5 +1,5 @@
-// A recorded run, thinned: what is left out lies within the stated deviation, judged place by place
-// against every piece.
+// A recorded run, thinned: removed positions lie within the stated deviation, each checked against
+// every piece.
 #include "curve/thin_run.hpp"
 
 #include <algorithm>
@@ -88,7 +88,7 @@ TEST(TheGuideNeverLeavesTheRunByMoreThanTheDeviationEither) {
       worst_m = std::max(worst_m, min_m);
     }
   }
-  CHECK_LE(worst_m, 5e-4 + 2e-8);  // the judge joins places rounded to float32
+  CHECK_LE(worst_m, 5e-4 + 2e-8);  // the oracle joins positions rounded to float32
 }
 
 TEST(RunsThatTeachNothingAreRefused) {

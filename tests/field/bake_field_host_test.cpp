@@ -8,7 +8,7 @@
 #include "surface/random.hpp"
 #include "surface/shapes.hpp"
 
-// A baked distance map of a real shape against brute force in double.
+// A baked distance field of a real shape against brute force in double.
 
 namespace firmtouch::tools {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// A distance map of the cube of tests/mesh, made by hand without the baker and without heap.
+// A distance field of the cube of tests/mesh, made by hand without the baker and without heap.
 #include "firmtouch/field/centre.hpp"
 #include "firmtouch/field/view.hpp"
 #include "firmtouch/mesh/closest_point.hpp"

@@ -61,7 +61,7 @@ TEST(EveryVoxelOfAPartHasTheDistanceThatBruteForceFinds) {
     const Nearest& n = made.distance_field.values[v];
     const double truth = oracle_distance(made.surfaces[0], p);
     if (std::fabs(reported(n) - truth) > 1e-6 * std::max(diagonal, truth)) ++wrong;
-    const Face& f = made.surfaces[0].faces[n.face];  // the point told lies on the triangle told
+    const Face& f = made.surfaces[0].faces[n.face];  // the point lies on the triangle
     const double off = oracle_triangle(
         to_point(n.closest_m), to_point(made.surfaces[0].vertices[f[0]]),
         to_point(made.surfaces[0].vertices[f[1]]), to_point(made.surfaces[0].vertices[f[2]]));
@@ -101,7 +101,7 @@ TEST(InteriorOnlyGivesTheSameValuesWithoutTheOutside) {
     if (wanted != (n.sign != 0)) ++wrong;
     if (!wanted) continue;
     ++computed;
-    // Of two triangles equally near either may be told.
+    // Of two triangles equally near either may be returned.
     if (n.sign != all.distance_field.values[v].sign ||
         std::fabs(reported(n) - reported(all.distance_field.values[v])) > 1e-8)
       ++wrong;
@@ -183,8 +183,8 @@ TEST(AModelFarFromTheOriginAndOneOfAMillimetreAreAnsweredAlike) {
 }
 
 TEST(SignsThatFloodAndPseudonormalDispute_AreListed) {
-  // A cube with another inside it, wound outward too: between them the flood cannot come, and at the
-  // inner one the pseudonormal says that its inside is inside and the space between is outside.
+  // A cube with another inside it, wound outward too: between them the flood cannot come, and at
+  // the inner one the pseudonormal says that its inside is inside and the space between is outside.
   Surface surface = cube({0, 0, 0}, 2);
   append(surface, cube({0, 0, 0}, 1));
   const Made made = make({surface}, 20);
@@ -192,7 +192,7 @@ TEST(SignsThatFloodAndPseudonormalDispute_AreListed) {
   each_voxel(made.distance_field.grid, [&](size_t v, Point p) {
     const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     const double to_outer = 2 - size, to_inner = oracle_distance(cube(), p);
-    if (std::fabs(to_outer - to_inner) < 1e-6) return;  // either may be told
+    if (std::fabs(to_outer - to_inner) < 1e-6) return;  // either may be returned
     const bool listed = std::any_of(
         made.distance_field.disagreements.begin(), made.distance_field.disagreements.end(),
         [&](const auto& d) { return d.voxel == v && d.flood_says_inside; });

@@ -1,4 +1,4 @@
-// The reject rules of a distance map, each condition tripped alone.
+// The reject rules of a distance field, each condition tripped alone.
 #include "cube_field.hpp"
 #include "harness/test.hpp"
 

@@ -1,4 +1,4 @@
-// What a shell certifies of the mesh's distance, against brute force in double.
+// Bounds of the mesh's distance from the base hull, checked against brute force in double.
 #include <cfloat>
 
 #include "../mesh/brute_force.hpp"
@@ -23,7 +23,7 @@ Surface surface_of(const hull::BaseHull& base_hull) {
 
 mesh_test::Point wide(math::Vec3 v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
-// Half the points near the surface, where shell and mesh are told apart.
+// Half the points near the surface, where base hull and mesh differ.
 math::Vec3 some_point(const Surface& mesh, Random& random, int i) {
   const math::Vec3& v = mesh.vertices[random.below(static_cast<uint32_t>(mesh.vertices.size()))];
   const double reach = i % 2 == 0 ? 0.02 : 0.8;

@@ -1,4 +1,4 @@
-// A shell answers from its own block: the asset may be out of reach.
+// A base hull is queried from its resident part alone: the asset may be unreadable.
 #include <sys/mman.h>
 
 #include <cstring>
@@ -113,7 +113,7 @@ TEST(ABaseHullInFastMemoryAnswersWithTheAssetLocked) {
   CHECK_LE(unsure, 3u);
 }
 
-// In the planes of faces too, where floats cannot tell when a face is crossed.
+// In the planes of faces too, where floats cannot decide when a face is crossed.
 TEST(AMoveThatStaysOffTheBaseHullMeetsNothing) {
   const BakedHull baked(make_part(1, 3000), 300, 16);
   const hull::BaseHull& base_hull = baked.view.base_hull();
@@ -178,7 +178,7 @@ TEST(ABaseHullWindsAroundEveryPointOfTheMesh) {
   CHECK_EQ(winding, 0);  // the hole of the ring
 }
 
-// Every face asked, in integers.
+// Brute force over every face, in integers.
 mesh::Hit first_of_all_faces(const hull::BaseHull& base_hull, const Line& line) {
   mesh::Hit first;
   for (uint32_t i = 0; i < base_hull.face_count(); ++i) {
@@ -192,8 +192,8 @@ mesh::Hit first_of_all_faces(const hull::BaseHull& base_hull, const Line& line) 
   return first;
 }
 
-// Segments that try the whole numbers: along the axes, in planes of vertices, short, far too long, from
-// afar, of almost no length.
+// Segments that try the whole numbers: along the axes, in planes of vertices, short, far too long,
+// from afar, of almost no length.
 std::vector<Line> hard_lines(const hull::BaseHull& base_hull, int count) {
   Random random(8);
   const hull::BaseHullHead& head = base_hull.head();
@@ -247,7 +247,8 @@ std::vector<Line> hard_lines(const hull::BaseHull& base_hull, int count) {
   return lines;
 }
 
-// What the shell itself is crossed by, first: never told later, none missed; exact where it says so.
+// First crossing of the base hull itself: never later than the true one, none missed; exact if
+// stated.
 void check_casts(const hull::BaseHull& base_hull, int count) {
   uint32_t hits = 0, misses = 0, unsure = 0;
   for (const Line& line : hard_lines(base_hull, count)) {

@@ -1,4 +1,4 @@
-// The reject rules of a shell, each condition tripped alone.
+// The reject rules of a base hull, each condition tripped alone.
 #include "small_hull.hpp"
 
 namespace {

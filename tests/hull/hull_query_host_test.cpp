@@ -1,4 +1,4 @@
-// Queries of baked hulls against brute force in extended precision, and shells of every size.
+// Queries of baked hulls against brute force in extended precision, and base hulls of every size.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -31,7 +31,7 @@ Real volume(const Real (&u)[3], const Real (&v)[3], const Real (&w)[3]) {
          u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-// Every crossing's t, sorted; `is_clear` is false where one is too near an edge or end to tell.
+// Every crossing's t, sorted; `is_clear` is false where one is too near an edge or end to decide.
 std::vector<double> by_force(const Surface& mesh, const Line& line, bool& is_clear) {
   std::vector<double> found;
   is_clear = true;

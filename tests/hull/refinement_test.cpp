@@ -150,7 +150,7 @@ TEST(FirstAndLastOfAllCrossingsAreTheMeshsAndNoneIsMadeUp) {
   }
 }
 
-// Half a closure is no hull: what does not fit is taken back, and the hull's crossing is told.
+// Half a closure is no hull: one that does not fit is taken back, and the hull's crossing reported.
 TEST(OutOfMemoryOrBudget_NoMeshCrossingBeforeReportedOne) {
   const Opened opened;
   Memory<12, 3> memory;

@@ -52,7 +52,7 @@ struct SmallHull {
     return record[2 + 2 * i] | static_cast<uint32_t>(record[3 + 2 * i]) << 8;
   }
 
-  // Parts of the shell, by the layout's own order.
+  // Parts of the base hull, in the layout's order.
   uint8_t* base_hull_boxes() { return open_up(sections.base_hull) + sizeof(hull::BaseHullHead); }
   uint32_t base_hull_leaves() {
     return hull::leaves_for(base_hull_head().face_count, hull::kLeafFaces);

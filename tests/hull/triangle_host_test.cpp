@@ -29,7 +29,8 @@ struct Three {
   math::Vec3 corner[3];
 };
 
-// Whether a segment passes through a triangle; `is_clear` is false where that is near an edge or end.
+// Whether a segment passes through a triangle; `is_clear` is false where that is near an edge or
+// end.
 bool passes(At a, At b, At p, At q, At r, bool& is_clear) {
   const At way = b - a;
   const Real x = volume(way, p - a, q - a), y = volume(way, q - a, r - a),
@@ -161,7 +162,7 @@ void check_triangles(const BakedHull& baked, int count) {
         hull::all_crossed(view, three.corner, query::kUnlimited, {two, 2});
     CHECK_EQ(some.found, truth.size());
     for (uint32_t k = 0; k < some.reported; ++k) CHECK_EQ(two[k], truth[k]);
-    // The shell: where it tells none there is none; so does refinement, which makes none up.
+    // If the base hull reports none there is none. Refinement reports no crossing that is none.
     const hull::TriangleHit of_base_hull =
         hull::base_hull_crossed(view.base_hull(), three.corner, query::kUnlimited);
     CHECK(of_base_hull.exact);

@@ -4,7 +4,7 @@
 
 namespace firmtouch::cli {
 
-/// The limits and the grid that the options of a command ask for. Fails (usage) on what has no
+/// The limits and the grid that the options of a command request. Fails (usage) on a value without
 /// meaning.
 tools::HullOptions hull_options(const Arguments& arguments);
 

@@ -65,7 +65,7 @@ const Command& hull_command() {
       "The model is checked and mended as for bake, and must be closed. Each piece coarsens by "
       "itself.\n"
       "Where no edge may collapse any more, the coarsest hull reached is written and the reason "
-      "told.",
+      "printed.",
       {{"-o", "FILE", "the hull (.obj)"},
        {"--faces", "N", "at most so many, even (4 and more)"},
        {"--strategy", "1|2|lazy",
@@ -119,7 +119,7 @@ int run_hull(const Arguments& arguments) {
   if (sound.surface.faces.size() <= options.target_faces) {
     print_line(name, "has " + std::to_string(sound.surface.faces.size()) +
                          " faces, not more than the " + std::to_string(options.target_faces) +
-                         " asked for: written as it is");
+                         " requested: written as it is");
   }
   if (!report.stalled.empty()) print_line(name, report.stalled);
   print_result(name, sound.surface, level, hull, report);

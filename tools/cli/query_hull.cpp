@@ -210,13 +210,13 @@ void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& 
   const uint32_t base = arguments.count("--base", coarsest.face_count(), 4, UINT32_MAX);
   if (base < coarsest.face_count()) {
     fail_input("the hull is baked down to " + std::to_string(coarsest.face_count()) +
-               " faces, and --base asks for " + std::to_string(base) +
-               ": ask for more, or bake with a lower --hull-faces");
+               " faces, and --base requests " + std::to_string(base) +
+               ": request more, or bake with a lower --hull-faces");
   }
   const std::vector<uint32_t> words = tools::cut_base_hull(hull.view, base);
   if (words.empty()) {
     fail_input("--base " + std::to_string(base) + " is too fine: a shell numbers " +
-               std::to_string(hull::kMaxBaseHullVertices) + " vertices; ask for fewer faces");
+               std::to_string(hull::kMaxBaseHullVertices) + " vertices; request fewer faces");
   }
   hull::BaseHull base_hull;
   const core::Verdict verdict = hull::open_base_hull(

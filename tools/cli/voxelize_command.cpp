@@ -34,7 +34,7 @@ void print_field(const tools::DistanceField& distance_field, const std::vector<s
                threads, threads == 1 ? "thread" : "threads",
                distance_field.distance_s * 1e6 / static_cast<double>(distance_field.computed));
   if (distance_field.disagreements.empty()) {
-    std::fputs("flood fill and pseudonormals tell the same side of every voxel off the surface\n",
+    std::fputs("flood fill and pseudonormals agree on the sign of every voxel off the surface\n",
                stderr);
     return;
   }

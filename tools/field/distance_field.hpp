@@ -18,8 +18,8 @@ struct Solid {
   SideTeller sides;
 };
 
-/// The nearest point of one or several solids. Distance is that to the nearest surface of any; inside
-/// is what lies inside any.
+/// The nearest point of one or several solids. Distance is that to the nearest surface of any;
+/// inside is what lies inside any.
 struct Nearest {
   float distance_m = 0;  // negative inside
   math::Vec3 closest_m;
@@ -31,7 +31,7 @@ struct Nearest {
 struct FieldOptions {
   bool interior_only = false;  // voxels that a surface meets or that lie inside
   uint32_t threads = 1;
-  // Told now and then how much is done, from any thread, one at a time.
+  // Called now and then with the progress, from any thread, one at a time.
   std::function<void(size_t done, size_t all)> on_progress;
 };
 
@@ -42,7 +42,7 @@ struct DistanceField {
   size_t outside = 0, surface = 0, inside = 0, computed = 0;
   double voxelize_s = 0, distance_s = 0;
 
-  /// Voxels off every surface where the flood and a pseudonormal tell different sides.
+  /// Voxels off every surface where flood fill and pseudonormal give different signs.
   struct Disagreement {
     size_t voxel;
     uint16_t object;
@@ -53,7 +53,8 @@ struct DistanceField {
 
 /// Kind, distance, closest point, triangle and side of every voxel's centre.
 /// Result: the same for any number of threads.
-/// Error: the triangle told is nearest but for 1e-6 of the diagonal; its distance is computed in
+/// Error: the returned triangle is nearest to within 1e-6 of the diagonal; its distance is computed
+/// in
 ///        double.
 /// Source: Morris 2006, section 3.
 DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelGrid& grid,

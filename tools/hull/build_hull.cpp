@@ -115,7 +115,7 @@ class Builder {
       if (placement.may_collapse(edge)) (void)placement.place(ignored.at_m, ignored.volume_m3);
     }
     report_.stalled = "stops at " + counted(mesh_.face_count(), "face", "faces") + " of the " +
-                      std::to_string(options_.target_faces) + " asked for: none of " +
+                      std::to_string(options_.target_faces) + " requested: none of " +
                       counted(edges, "edge", "edges") + " may collapse (";
     const struct {
       uint64_t count;
@@ -135,7 +135,7 @@ class Builder {
     }
     report_.stalled += "); first " + place_of(first) +
                        ": loosen --compactness or --max-deviation-deg, raise --max-valence, or "
-                       "ask for more faces";
+                       "request more faces";
   }
 
   std::string place_of(uint32_t edge) const {

@@ -1,5 +1,5 @@
 #pragma once
-// From a foot to an answer, for .cpp files of this module only.
+// Answer and certificate from a foot-point, for .cpp files of this module only.
 
 #include <float.h>
 
@@ -18,14 +18,14 @@ static inline bool is_near(math::Vec3 p_m) {
 }
 
 // What float32 loses in a distance, u = 2^-24, h half the longest segment, d the distance. A foot
-// is reckoned from the nearer end of its segment, so v = p - end and t e (e along the segment) are
+// is computed from the nearer end of its segment, so v = p - end and t e (e along the segment) are
 // at most d + h and h long. Rounding of v, e and t e moves the foot by u (|v| + 2 |t e|) <= u (d +
 // 3 h); the last difference, the sum of squares, the root and the subtraction below lose 4.5 u d.
 // Rounding of t moves it along the segment by x <= 7 u h + 3 u d, which adds sqrt(d^2 + x^2) - d:
 // at most x where d vanishes, nothing where d is of the size of h. Together: 10 u h where d is
-// small, 5.5 u d and 3 u h where it is not. With care the differences lose nothing and the sum of
-// squares one rounding more: 4 u d. The loss told must not fall with d: else a better answer could
-// widen the certificate.
+// small, 5.5 u d and 3 u h where it is not. Compensated differences lose nothing and the sum of
+// squares one rounding more: 4 u d. The loss must not fall with d, else a better answer could widen
+// the certificate.
 constexpr float kUnit = 0x1p-24f;
 constexpr float kVanishing_m = 0x1p-58f;  // squares of less may underflow
 

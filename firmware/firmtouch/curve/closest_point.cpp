@@ -12,8 +12,8 @@ namespace {
 
 using math::Vec3;
 
-// Nearer than this share of the diagonal plain floats lose no more than near the curve (answer.hpp: at
-// most 5.6 u d + 3.3 u h against 10.5 u h, h half a segment: half the diagonal at most).
+// Nearer than this share of the diagonal plain floats lose no more than near the curve (answer.hpp:
+// at most 5.6 u d + 3.3 u h against 10.5 u h, h half a segment: half the diagonal at most).
 constexpr float kPlain = 0.25f;
 
 // On average, between samples.
@@ -21,7 +21,7 @@ float spacing_m(const View& curve) {
   return curve.head().length_m / static_cast<float>(curve.segment_count());
 }
 
-// All but the fence.
+// Everything except the safe subtree.
 Closest finish(const View& curve, const Foot& best, const Traversal& traversal, bool compensated,
                Vec3 p_m, Hint& hint) {
   Closest closest = answer_at(curve, best);
@@ -41,8 +41,8 @@ Closest finish(const View& curve, const Foot& best, const Traversal& traversal, 
   return closest;
 }
 
-// Without a fence. A warm search begins at the last segment; a cold one knows a point of the curve
-// at once: its first sample.
+// Without a safe subtree. A warm search begins at the last segment, a cold one with the first
+// sample.
 template <bool kCompensated, class Bound>
 Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget budget, Hint& hint) {
   NearestFoot<kCompensated> nearest(curve, p_m);
@@ -60,15 +60,15 @@ Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget bu
   return finish(curve, nearest.best(), traversal, kCompensated, p_m, hint);
 }
 
-// From the last segment up to the last fence where that is far enough away, else to the root, making
-// the next fence.
-// Result: false where plain floats do not do, or the query is not near.
+// From the last segment up to the last safe subtree if its bound still holds, else to the root,
+// which yields the next safe subtree. Result: false if plain floats do not suffice or the query is
+// not near.
 bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
                  NearestFoot<false>& nearest, Traversal& traversal) {
   const uint32_t run = run_of(nearest.follow(hint.segment), curve.run_levels());
   const float radius_m = nearest.radius_m();
   if (!(radius_m <= kPlain * curve.head().diagonal_m)) return false;
-  // What the last certificate says of all outside its fence, rounded down as query::carry() does.
+  // The certified distance outside the safe subtree, rounded down as in query::carry().
   const float motion_m = math::length(p_m - hint.position_m) * (1.0f + 8.0f * kUnit);
   const float left_m = (hint.safe_subtree_m - motion_m) * (1.0f - 4.0f * kUnit);
   Steps steps(budget);

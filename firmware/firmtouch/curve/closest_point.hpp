@@ -11,17 +11,18 @@ namespace firmtouch::curve {
 struct Closest {
   float distance_m = 0;
   math::Vec3 point_m;              // on the curve
-  math::Vec3 tangent;              // unit, along the segment, the way that the samples run
+  math::Vec3 tangent;              // unit, along the segment, in the order of the samples
   uint32_t segment = 0;            // from sample `segment` to the next
   float arc = 0;                   // of the point: fraction of the curve's length, 0 to 1
-  query::Certificate certificate;  // sign: always 0, a curve has no sides
+  query::Certificate certificate;  // sign: always 0, a curve has no inside
 };
 
 /// Closest point of the polyline (not of its samples) to `p_m` (curve frame), with a certificate:
 /// from the segment of the hint where it is warm and up the tree of runs, else down it, nearest box
 /// first.
 /// Pre:    `curve` is open.
-/// Bounds: <= budget visits; 1.5 KB of stack, of a smooth curve 2.9 KB; re-entrant; callable from an
+/// Bounds: <= budget visits; 1.5 KB of stack, of a smooth curve 2.9 KB; re-entrant; callable from
+/// an
 ///         interrupt.
 /// Result: always finite. Two points equally near: the one found first. A query that is not finite:
 ///         the first sample, at distance FLT_MAX, lower 0, not exact.

@@ -1,14 +1,14 @@
 #pragma once
-// The cubic pieces of a smooth curve, for .cpp files of the library and the baker only: what the baker
-// derives from the samples, open() and every query derive again, to the bit.
+// The cubic pieces of a smooth curve, for .cpp files of the library and the baker only: what the
+// baker derives from the samples, open() and every query derive again, to the bit.
 
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::curve {
 
-/// A piece as its Bezier points, from its first sample, which is the zeroth: no digit of it depends on
-/// where the curve lies.
+/// A piece as its Bezier points, from its first sample, which is the zeroth: no digit of it depends
+/// on where the curve lies.
 struct Cubic {
   math::Vec3 c1, c2, c3;
 };
@@ -25,8 +25,8 @@ static inline math::Vec3 step_m(const Track& track, uint32_t from) {
   return math::Vec3{b.x_m - a.x_m, b.y_m - a.y_m, b.z_m - a.z_m};
 }
 
-/// The curve's direction at sample `i`, that of the parabola through it and the samples beside it, by
-/// chord length; not longer than 1. At an open end: of the one piece there.
+/// The curve's direction at sample `i`, that of the parabola through it and the samples beside it,
+/// by chord length; not longer than 1. At an open end: of the one piece there.
 static inline math::Vec3 slope_at(const Track& track, uint32_t i) {
   const uint32_t last = track.count - 1;
   const bool is_end = i == 0 || i == last;

@@ -33,7 +33,7 @@ static inline bool comes_before(const Sample* samples, uint32_t axis, uint32_t a
   return a < b;
 }
 
-/// Squared distance from p to the straight line from a to b, reckoned from a.
+/// Squared distance from p to the straight line from a to b, computed from a.
 static inline float chord_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b) {
   const math::Vec3 from = p - a, along = b - a;
   const float progress = dot(from, along), length2 = dot(along, along);
@@ -52,8 +52,8 @@ static inline float radius_m_of(uint16_t stored) {
 
 /// How far the samples from `first` to `last` lie from the straight line between these two. What
 /// chord_distance2() loses is at most 20 u of the line's length and 6 u of the distance, here and
-/// again in the search (u = 2^-24; derived as in answer.hpp, which reckons from the nearer end); the
-/// latter's share of the distance is in the search's own radius.
+/// again in the search (u = 2^-24; derived as in answer.hpp, which computes from the nearer end);
+/// the latter's share of the distance is in the search's own radius.
 static inline uint16_t stored_radius(const Sample* samples, uint32_t first, uint32_t last) {
   if (last <= first) return 0;
   const math::Vec3 a = vec(samples[first]), b = vec(samples[last]);
@@ -66,8 +66,8 @@ static inline uint16_t stored_radius(const Sample* samples, uint32_t first, uint
   return rounded_radius(math::square_root(max2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
 }
 
-/// The same of a smooth curve: how far the Bezier points of the pieces between these two samples lie
-/// from that line. A piece lies within its points' hull, and distance to a line is convex.
+/// The same of a smooth curve: how far the Bezier points of the pieces between these two samples
+/// lie from that line. A piece lies within its points' hull, and distance to a line is convex.
 static inline uint16_t smooth_radius(const Track& track, uint32_t first, uint32_t last) {
   if (last <= first) return 0;
   const math::Vec3 a = vec(track.samples[first]), along = vec(track.samples[last]) - a;
@@ -123,8 +123,8 @@ static inline uint32_t wrong_of_grid(const Head& head) {
   return 0;
 }
 
-/// The bounds need as much room about the boxes of a smooth curve, which may lie beyond its samples.
-/// Result: 0 where there is, else 1 to 3 for an axis.
+/// The bounds need as much room about the boxes of a smooth curve, which may lie beyond its
+/// samples. Result: 0 where there is, else 1 to 3 for an axis.
 static inline uint32_t wrong_of_root(const Head& head, const Box& root) {
   float extent_m = 0;
   for (uint32_t k = 0; k < 3; ++k) {

@@ -29,9 +29,9 @@ struct NearBound : query::NearBoxBound<kBoundUnits> {
 ///
 /// Each axis has an error of at most u (|x| + d) with u = 2^-24, x = p - grid_low and |x| <= d + 2
 /// extents <= 17.2 d (open() lets the grid begin at most an extent below the box), so 18.2 u d an
-/// axis, 32 u d for the three, 64 u in the square and 4 for its sum. The boxes' slack of 2^-10 cells
-/// an axis is, with a grid of at most four extents, 2^-10 * 4 / 32768 * 8.1 d = 17 u d, 29 u d for
-/// the three, 58 u in the square: 126 of the 256 units that kRoundDown takes.
+/// axis, 32 u d for the three, 64 u in the square and 4 for its sum. The boxes' slack of 2^-10
+/// cells an axis is, with a grid of at most four extents, 2^-10 * 4 / 32768 * 8.1 d = 17 u d, 29 u
+/// d for the three, 58 u in the square: 126 of the 256 units that kRoundDown takes.
 struct FarBound : query::FarBoxBound<kBoundUnits> {
   void begin(const Head& head, math::Vec3 p_m) {
     FarBoxBound::begin(head.grid_low_m, head.cell_m, p_m);

@@ -6,11 +6,10 @@
 
 namespace firmtouch::curve {
 
-/// The point of the curve that a haptic device is tied to: of the closest points of all segments the
-/// one of the least distance + penalty, with a certificate. nearest_constraint() looks
-/// at the segments of the N nearest samples only.
-/// Pre:    `curve` is open.
-/// Bounds: <= budget visits; 1.7 KB of stack, of a smooth curve 2.7 KB; re-entrant; callable from an
+/// The point of the curve that a haptic device is tied to: of the closest points of all segments
+/// the one of the least distance + penalty, with a certificate. nearest_constraint() looks at the
+/// segments of the N nearest samples only. Pre:    `curve` is open. Bounds: <= budget visits; 1.7
+/// KB of stack, of a smooth curve 2.7 KB; re-entrant; callable from an
 ///         interrupt.
 /// Result: always finite. Equal costs: the one found first. On a closed curve the change of arc is
 ///         taken the shorter way round. Without a penalty (no previous arc, one outside 0 to 1, a
@@ -23,14 +22,14 @@ namespace firmtouch::curve {
 Constraint guided_point(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
                         query::Budget budget, Hint& hint);
 
-/// How a guide holds on to a curve.
+/// Settings of a guide.
 struct Hold {
   float weight_m = 0;   // metres of distance for the whole length's change of arc; 0: none
   float release_m = 0;  // a deviation beyond this lets go
 };
 
-/// What one (tool, guide) pair remembers from tick to tick; the caller owns it. A default one has no
-/// previous state: its first query is not penalised.
+/// State of one (tool, guide) pair between ticks; the caller owns it. The first query of a default
+/// one is not penalised.
 struct Following {
   Hint hint;
   float arc = 0;  // of the last point, where is_following
@@ -49,8 +48,8 @@ struct Followed {
 
 /// One tick of a guide. guided_point() from the previous arc position says which part of the curve
 /// it is on, and the closest point of that part where it pulls to: a penalty alone would hold the
-/// guide back at every sample that it passes, and drag. Where the point is farther than release_m, or
-/// not a number, the guide lets go and finds itself again, by distance alone.
+/// guide back at every sample that it passes, and drag. If the point is farther than release_m or
+/// NaN, the guide lets go and searches again by distance alone.
 /// Bounds: <= budget steps (2 at least, in the tick that lets go), and kMaxSlides segments.
 /// Result: a change of part never raises the distance: what a spring holds is not increased by it.
 Followed follow(const View& curve, math::Vec3 p_m, const Hold& hold, query::Budget budget,

@@ -53,8 +53,8 @@ static_assert(sizeof(Sample) == 12);
 
 // The k-d tree of samples, for the N nearest. The children of node i are nodes 2 i + 1 and 2 i + 2;
 // levels are filled from the left, so that no node stores where its children are. Node i is a word,
-// sample | axis << 30. Below the first child lie the samples that precede this one by (coordinate on
-// the node's axis, index), below the second those that follow.
+// sample | axis << 30. Below the first child lie the samples that precede this one by (coordinate
+// on the node's axis, index), below the second those that follow.
 constexpr uint32_t kSampleMask = 0x3FFFFFFFu;
 constexpr uint32_t sample_of(uint32_t node) { return node & kSampleMask; }
 constexpr uint32_t axis_of(uint32_t node) { return node >> 30; }
@@ -62,10 +62,10 @@ constexpr uint32_t make_node(uint32_t sample, uint32_t axis) { return sample | (
 constexpr uint32_t first_child(uint32_t node) { return 2 * node + 1; }
 constexpr uint32_t parent_of(uint32_t node) { return (node - 1) / 2; }
 
-// Runs of consecutive segments, for everything exact: run r holds the segments from r * run_segments
-// on, the last run what is left. A run is halved again and again down to parts of kPartSegments; each
-// part lies within a stored radius of the straight line between its ends: near a curve of fine samples
-// that is far tighter than any box. Where samples are few a box is cheaper.
+// Runs of consecutive segments, for everything exact: run r holds the segments from r *
+// run_segments on, the last run what is left. A run is halved again and again down to parts of
+// kPartSegments; each part lies within a stored radius of the straight line between its ends: near
+// a curve of fine samples that is far tighter than any box. Where samples are few a box is cheaper.
 constexpr uint32_t kPartSegments = 4;
 constexpr uint32_t kMinRunLevels = 2, kMaxRunLevels = 8;
 constexpr uint32_t run_segments_of(uint32_t levels) { return kPartSegments << levels; }
@@ -91,9 +91,9 @@ struct Run {
 };
 static_assert(sizeof(Run) == 8);
 
-// Radii of part k of run r: entry r * (parts + 1) + k, the upper half of a float32 in metres, rounded
-// up; 0 for a part that is empty, and for the last entry of each run. Parts 2 k + 1 and 2 k + 2 are the
-// halves of part k.
+// Radii of part k of run r: entry r * (parts + 1) + k, the upper half of a float32 in metres,
+// rounded up; 0 for a part that is empty, and for the last entry of each run. Parts 2 k + 1 and 2 k
+// + 2 are the halves of part k.
 
 /// Why opening rejects; the numbers never change. tools/FORMAT.md prints the same text.
 enum Rule : uint16_t {

@@ -11,7 +11,7 @@ namespace firmtouch::curve {
 
 // What comparing and pruning lose beside a cost, and what arc positions lose beside the weight: a
 // stored one 2^-25, one between two 2^-24 more, their difference 2^-25. A foot lies within 7 u h +
-// 3 u d of where it is told along its segment (answer.hpp).
+// 3 u d of its computed position along the segment (answer.hpp).
 constexpr float kSlack = 0x1p-19f;
 constexpr float kArcLoss = 0x1p-22f;
 constexpr float kFootLoss = 0x1p-21f;
@@ -123,7 +123,7 @@ class LeastCost {
   const ArcPenalty penalty_;
   bool compensated_;
   float doubt_m_ = 0;
-  float cost_m_ = 0x1p62f;  // more than any cost that is told
+  float cost_m_ = 0x1p62f;  // more than any cost
   Foot best_{FLT_MAX, 0, 1, 0.0f};
 };
 

@@ -30,16 +30,17 @@ struct Constraint {
   uint32_t candidates = 0;  // segments looked at, at most twice the samples found
 };
 
-/// Point of the curve that a haptic device is tied to, as published: of the segments at the N nearest
-/// samples the one of least distance + penalty. Reads the k-d tree of samples (bake --curve-tree).
-/// It can miss the closest point where samples lie unevenly: closest_point() cannot.
+/// Point of the curve that a haptic device is tied to, as published: of the segments at the N
+/// nearest samples the one of least distance + penalty. Reads the k-d tree of samples (bake
+/// --curve-tree). It can miss the closest point where samples lie unevenly: closest_point() cannot.
 /// Pre:    `curve` is open. `nearest` is memory for N samples (at most kMaxNearest are used); what
 ///         it holds is overwritten.
 /// Bounds: <= budget visits, and 2 N segments; 2.9 KB of stack; re-entrant; interrupt-safe.
 /// Result: always finite. Equal costs: the first segment. On a closed curve the change of arc is
 ///         taken the shorter way round. No penalty for a weight that is not positive or a previous
-///         arc position outside 0 to 1. As closest_point() without a k-d tree or memory, and for a query
-///         that is not finite or beyond 2^60 m. The certificate is that of the distance, not of the cost.
+///         arc position outside 0 to 1. As closest_point() without a k-d tree or memory, and for a
+///         query that is not finite or beyond 2^60 m. The certificate is that of the distance, not
+///         of the cost.
 /// Source: Morris 2006, section 2.2. Its printed code swaps the weights of the arc position, which
 ///         is a (1 - t) + b t.
 Constraint nearest_constraint(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,

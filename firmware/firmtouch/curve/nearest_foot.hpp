@@ -7,7 +7,7 @@
 
 namespace firmtouch::curve {
 
-/// What a climb from a segment came to: the budget's end, the top of the run, or the fence.
+/// How an ascent from a segment ended: budget spent, top of the run, or safe subtree.
 enum class Ascent : uint8_t { kSpent, kRun, kSafeSubtree };
 
 /// Keeps the closest point of the runs that it is offered.
@@ -57,8 +57,8 @@ class NearestFoot {
   float radius_m() const { return radius_m_; }
   float others_m() const { return others_m_; }
 
-  /// The run of the best point so far: its part of the last level, then, level by level, what lies
-  /// beside, up to the top; of a fence's part, up to that and its neighbours.
+  /// The run of the best point so far: its part of the last level, then the sibling on each level
+  /// up to the top, or up to the safe subtree and its neighbours.
   [[gnu::always_inline]] inline Ascent begin(uint32_t run, uint32_t safe_subtree, uint32_t& left) {
     const uint32_t found = segment_of(best_);
     const uint32_t node = run << (levels_ + 1), stop = safe_subtree - node;
@@ -80,9 +80,9 @@ class NearestFoot {
     return Ascent::kSafeSubtree;
   }
 
-  /// A fence about the run's part where the best point lies, whose ends are some motions apart: all that
-  /// lies neither in that part nor in the parts of its size beside it in the run is certified to be at
-  /// least so far from the query. None where the run is too short for one. Part k of run r is node r *
+  /// Safe subtree: the part of the run around the best point whose ends are some motions apart.
+  /// Everything except it and its two neighbours of the same size is certified to be at least
+  /// safe_subtree_m from the query. None if the run is too short. Part k of run r is node r *
   /// (parts of a run + 1) + k. Pre: all other runs are at least `outside_m` away.
   void make_safe_subtree(uint32_t run, float motion_m, float spacing_m, float outside_m,
                          Hint& hint) const {
@@ -216,8 +216,8 @@ class NearestFoot {
     }
   }
 
-  /// Whether a part of a run may hold a point nearer than the best. Reckoned from the end where the
-  /// query is expected to lie beyond: most parts are left out without a division.
+  /// Whether a part of a run may hold a point nearer than the best. Computed from the end beyond
+  /// which the query is expected: most parts are pruned without a division.
   bool may_hold(const uint16_t* radii, Cut cut, uint32_t size, bool from_last) {
     if (cut.first >= segment_count_) return false;
     const uint32_t end = cut.first + size, last = end < segment_count_ ? end : segment_count_;
@@ -250,7 +250,7 @@ class NearestFoot {
     return across_m2 < from2_m2 && across_m2 < next2_m2;
   }
 
-  /// The segments of a part of the last level, but for one that is known.
+  /// The segments of a part of the last level, except one that is known.
   void take_segments(uint32_t first, uint32_t but) {
     const uint32_t after = first + kPartSegments;
     const uint32_t end = after < segment_count_ ? after : segment_count_;

@@ -14,8 +14,8 @@ struct PieceFoot {
 /// Cuts of a piece that a query may look at.
 constexpr uint32_t kMaxCuts = 96;
 
-/// Closest point of piece `segment`: Newton's method for a point, then halves of the piece, each within
-/// a stated distance of its chord, until none can be nearer by more than piece_slack_m().
+/// Closest point of piece `segment`: Newton's method for a point, then halves of the piece, each
+/// within a stated distance of its chord, until none can be nearer by more than piece_slack_m().
 /// Bounds: kMaxCuts cuts of about 250 instructions, 0.8 KB of stack.
 /// Result: doubt_m <= piece_slack_m() unless cuts ran out, as about the centre of an arc.
 PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment);
@@ -31,8 +31,8 @@ static inline Track track_of(const View& curve) {
 }
 
 /// What a distance to a piece may be off by beside doubt_m, u = 2^-24: the difference of two places
-/// rounds by u d on each axis, and the sum of squares and its root by 3 u d more; Bezier points, halves
-/// of halves and polynomials move a point of the piece by at most 30 u of its length.
+/// rounds by u d on each axis, and the sum of squares and its root by 3 u d more; Bezier points,
+/// halves of halves and polynomials move a point of the piece by at most 30 u of its length.
 static inline float piece_loss_m(float distance_m, float half_m) {
   return 0x1p-24f * (7.5f * distance_m + 64.0f * half_m) + 0x1p-58f;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The walk through a curve's tree of runs, for .cpp files of this module only.
+// Traversal of a curve's tree of runs, for .cpp files of this module only.
 
 #include <float.h>
 
@@ -22,8 +22,8 @@ constexpr uint32_t kMaxPending = kBestFirst + kMaxTreeLevels + 1;
 // Within a run a part of this many segments or more is a node of its own: a step.
 constexpr uint32_t kStepSegments = 64;
 
-/// A budget: how many steps it has and how many are left. The root, or the run where a warm walk
-/// starts, is one.
+/// A budget: how many steps it has and how many are left. The root, or the run where a warm
+/// traversal starts, is one.
 struct Steps {
   explicit Steps(query::Budget budget)
       : allowed(budget.steps == 0 ? 1 : budget.steps), left(allowed - 1) {}
@@ -43,13 +43,12 @@ struct Pending {
   uint32_t box;
 };
 
-/// What a walk came to.
+/// Result of a traversal.
 struct Traversal {
   uint32_t steps;
-  bool complete;  // nothing is left that the visitor would take
-  float
-      pending_m;  // where it is not: certified distance to everything that was not looked at; where
-                  // it is: to all runs but the first, if that is beyond the visitor's reach
+  bool complete;    // nothing is left that the visitor would accept
+  float pending_m;  // where it is not: certified distance to everything that was not looked at;
+                    // where it is: to all runs but the first, if that is beyond the visitor's reach
 };
 
 // Takes a key below `prune`: while there are more than `best_first`, the last, else the smallest.
@@ -68,17 +67,17 @@ static inline bool take_next(Pending* pending, uint32_t& count, uint32_t best_fi
   return taken.key < prune;
 }
 
-/// Offers every run that may matter to a visitor: from `start`, which it has begun with, up to the root
-/// and into what lies beside the way; from the root where `start` is kNoRun.
+/// Offers every run that may matter to a visitor: from `start`, which it has begun with, up to the
+/// root and into what lies beside the way; from the root where `start` is kNoRun.
 ///
 /// The visitor has
 ///     float reach2_m2() const;       squared: what lies farther has nothing for it; never grows
 ///     bool take(uint32_t run, uint32_t& left);      false: no step was left
 ///     float others_m() const;                       certified distance to all runs so taken
 ///
-/// Boxes nest to the bit, so the bound of the nearest box left never falls: more steps never widen a
-/// certificate. A cold walk takes the nearest box, for the sake of its lower bound; a warm one knows
-/// its upper bound so well that the order no longer matters, and saves the comparisons.
+/// Boxes nest to the bit, so the bound of the nearest box left never falls: more steps never widen
+/// a certificate. A cold traversal takes the nearest box for its lower bound. A warm one has so
+/// good an upper bound that the order does not matter, and saves the comparisons.
 template <class Bound, class Visitor>
 static inline Traversal traverse_runs(const View& curve, const Bound& bound_at, Steps steps,
                                       uint32_t start, bool has_begun, Visitor& visitor) {

@@ -24,10 +24,10 @@ static inline float arc_of(const View& curve, const Foot& foot) {
 }
 
 /// Squared distance to the point `t` of the way from sample a to b, with all roundings of the
-/// differences put back: what is left is the rounding of the sum of squares. About 130 operations.
+/// differences compensated: only the rounding of the sum of squares remains. About 130 operations.
 float compensated_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b, float t);
 
-/// Closest point of segment `segment`, reckoned from its nearer end: errors of float32 grow with
+/// Closest point of segment `segment`, computed from its nearer end: errors of float32 grow with
 /// the distance along the segment.
 static inline Foot foot_on_segment(const View& curve, math::Vec3 p_m, uint32_t segment,
                                    bool compensated) {
@@ -51,7 +51,7 @@ static inline Foot foot_on_segment(const View& curve, math::Vec3 p_m, uint32_t s
 }
 
 /// Outside the box of the curve by a 32nd of its diagonal distances may exceed the diagonal, and
-/// the promise of 4e-7 of the distance asks for more care than within.
+/// the promise of 4e-7 of the distance needs compensation there.
 static inline bool is_compensated(const Head& head, math::Vec3 p_m) {
   const float at_m[3] = {p_m.x, p_m.y, p_m.z};
   const float margin_m = head.diagonal_m * 0x1p-5f;

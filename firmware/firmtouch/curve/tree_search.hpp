@@ -1,5 +1,5 @@
 #pragma once
-// The walk through a curve's k-d tree, for .cpp files of this module only.
+// Traversal of a curve's k-d tree, for .cpp files of this module only.
 
 #include <float.h>
 
@@ -14,12 +14,12 @@ namespace firmtouch::curve {
 /// The visitor has
 ///     float radius_m() const;   what lies farther has nothing for it
 ///     void take(uint32_t sample, math::Vec3 from_sample_m, float distance2_m2);
-/// Its radius never grows and is rounded up by a millionth: what is farther in squares of float32 is
-/// farther in truth.
+/// Its radius never grows and is rounded up by a millionth: what is farther in squares of float32
+/// is farther in truth.
 ///
-/// A cell is the part of space that the planes above a node leave to it. Along a branch cells shrink,
-/// so the bound of the nearest cell left never falls: more steps never widen a certificate, and the
-/// order of steps does not depend on the budget.
+/// A cell is the part of space that the planes above a node leave to it. Along a branch cells
+/// shrink, so the bound of the nearest cell left never falls: more steps never widen a certificate,
+/// and the order of steps does not depend on the budget.
 ///
 /// Source: Arya & Mount 1993 (distance to cells, kept axis by axis).
 template <class Visitor>
@@ -75,15 +75,16 @@ class TreeSearch {
     float outside2_m2[3];  // squared distance to the cell, axis by axis
   };
 
-  // Distance to a cell, rounded down: the sum of squares loses 5 roundings, the root halves them and
-  // adds one.
+  // Distance to a cell, rounded down: the sum of squares loses 5 roundings, the root halves them
+  // and adds one.
   static float bound_m(const float* outside2_m2) {
     const float distance2_m2 = outside2_m2[0] + outside2_m2[1] + outside2_m2[2];
     return math::square_root(distance2_m2) * (1.0f - 0x1p-21f);
   }
 
   // From a node for which there is budget to a leaf, the nearer child first. Squares of lengths are
-  // compared as integers: of two that are not negative the order is the same, in fewer instructions.
+  // compared as integers: of two that are not negative the order is the same, in fewer
+  // instructions.
   bool descend(uint32_t node) {
     const math::Vec3 p_m{p_m_[0], p_m_[1], p_m_[2]};
     const uint32_t cell2 = math::bits_of(outside2_m2_[0] + outside2_m2_[1] + outside2_m2_[2]);

@@ -184,7 +184,7 @@ Verdict Opening::check_box(uint32_t i) {
   return wrong == 0 ? kPassed : reject(kRuleSmoothMargin, wrong - 1);
 }
 
-// leaf -> run is undone by run -> leaf, so each run is one leaf.
+// leaf -> run inverts run -> leaf, so each run is one leaf.
 Verdict Opening::check_run(uint32_t i) {
   const core::Span<const Run> runs = view_.runs_;
   const Run& run = runs[i];

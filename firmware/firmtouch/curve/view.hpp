@@ -14,8 +14,8 @@ struct Sections {
   core::Bytes head, samples, arcs, tree, boxes, runs, radii;
 };
 
-/// A curve that open() has proven: every index, order, box, radius and float. Immutable; share it between
-/// any number of tools.
+/// A curve that open() has proven: every index, order, box, radius and float. Immutable; share it
+/// between any number of tools.
 class View {
  public:
   View() = default;
@@ -61,10 +61,9 @@ class Opening {
  public:
   explicit Opening(const Sections& sections);
 
-  /// Checks up to `elements` samples or boxes more; a run, and a part of one, counts as an element a
-  /// segment, one of cubic pieces as four.
-  /// Bounds: at most kMaxLevels reads an element; at most a run, 1,024 segments, at once; no recursion;
-  /// reads only inside the sections.
+  /// Checks up to `elements` samples or boxes more; a run, and a part of one, counts as an element
+  /// a segment, one of cubic pieces as four. Bounds: at most kMaxLevels reads an element; at most a
+  /// run, 1,024 segments, at once; no recursion; reads only inside the sections.
   void work(uint32_t elements);
   bool done() const { return check_.done(); }
   core::Verdict verdict() const { return check_.verdict(); }

@@ -1,6 +1,6 @@
 #pragma once
-// Where a cell's centre is, to the bit: what baker, proof and query mean by it. For the library's own
-// translation units.
+// Centre of a cell, to the bit, for baker, proof and query. For the library's own translation
+// units.
 
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
@@ -20,7 +20,7 @@ static inline float high_on_axis(const Head& head, uint32_t axis) {
          static_cast<float>(static_cast<int32_t>(head.count[axis])) * head.cell_m;
 }
 
-/// What a told distance may fall short of the truth (mesh/closest_point.hpp), and a little more.
+/// How much a returned distance may fall short of the truth (mesh/closest_point.hpp), rounded up.
 static inline float reported_slack_m(float distance_m, float diagonal_m) {
   return 5e-7f * (distance_m > diagonal_m ? distance_m : diagonal_m);
 }

@@ -7,7 +7,7 @@ namespace {
 
 using math::Vec3;
 
-// What the map knows about p, as if a query had left it.
+// The field's bounds of p, as if a query had left them.
 void leave_hint(const Bounds& bounds, Vec3 p_m, mesh::Hint& hint) {
   hint.leaf_slot = bounds.seed;
   hint.position_m = p_m;
@@ -17,7 +17,7 @@ void leave_hint(const Bounds& bounds, Vec3 p_m, mesh::Hint& hint) {
   hint.safe_subtree_m = 0;
 }
 
-// Where the last leaf is no help the cell's is; of what is certified the farther.
+// The cell's seed if the last leaf is too far; the larger of the certified bounds.
 void start_at_seed(const Bounds& bounds, float cell_m, Vec3 p_m, mesh::Hint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
   if (hint.leaf_slot != query::kNowhere && carried.motion_m <= cell_m) return;
@@ -28,7 +28,7 @@ void start_at_seed(const Bounds& bounds, float cell_m, Vec3 p_m, mesh::Hint& hin
   }
 }
 
-// What a search that its budget ended, or its band, left open.
+// Bound and sign that a search left open at the end of its budget or band.
 void stand_in(const Bounds& bounds, mesh::Closest& closest, mesh::Hint& hint) {
   query::Certificate& certificate = closest.certificate;
   if (bounds.lower_m > certificate.lower_m) certificate.lower_m = hint.lower_m = bounds.lower_m;

@@ -9,12 +9,12 @@ namespace {
 
 using math::Vec3;
 
-// Relative roundings: a difference has one, a square two of its own, sums two, the root half of all and
-// one: below 4 units of 2^-24. Products and differences of the bounds take as many again.
+// Relative roundings: a difference has one, a square two of its own, sums two, the root half of all
+// and one: below 4 units of 2^-24. Products and differences of the bounds take as many again.
 constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 constexpr float kDown = 1.0f - 8.0f * 0x1p-24f;
 
-// The cell on one axis; the nearest one where p is beside the grid or no number.
+// The cell on one axis; the nearest one if p is outside the grid or NaN.
 uint32_t cell_on_axis(float cells, uint32_t count) {
   if (!(cells >= 1.0f)) return 0;
   if (cells >= static_cast<float>(static_cast<int32_t>(count))) return count - 1;

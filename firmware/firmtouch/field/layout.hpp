@@ -2,15 +2,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// How a distance map lies in an asset, byte for byte (tools/FORMAT.md says it in words). The baker
-// writes these structs, the firmware reads them in place: 6 bytes a cell.
+// How a distance field lies in an asset, byte for byte (tools/FORMAT.md says it in words). The
+// baker writes these structs, the firmware reads them in place: 6 bytes a cell.
 
 namespace firmtouch::field {
 
-// Section types of one map; it shares the name of its mesh.
+// Section types of one field; it shares the name of its mesh.
 constexpr uint32_t kHeadSection = 0x3001;
 constexpr uint32_t kDistancesSection = 0x3002;  // int16_t[cells], x fastest
-constexpr uint32_t kSeedsSection = 0x3003;      // uint32_t[cells]: mesh::Hint::place of the mesh
+constexpr uint32_t kSeedsSection = 0x3003;      // uint32_t[cells]: mesh::Hint::leaf_slot
 
 constexpr uint32_t kMaxCellsAnAxis = 1024;
 constexpr uint32_t kMaxCells = 1u << 24;
@@ -28,7 +28,7 @@ static_assert(offsetof(Head, low_m) == 16 && offsetof(Head, quantum_m) == 32);
 
 // A cell's word says of the distance d at its centre, with m = word where it is not negative, else
 // -1 - word: m quanta <= d <= m + kWide quanta; and where m > 0 the side, inside where the word is
-// negative. kUnknown says nothing.
+// negative. kUnknown states nothing.
 constexpr int16_t kUnknown = -32768;
 constexpr uint32_t kMaxQuanta = 32766;
 constexpr uint32_t kWide = 2;

@@ -11,7 +11,7 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
-constexpr float kFarthest_m = 1e8f;  // a model ends at 1e7 m, its map not much later
+constexpr float kFarthest_m = 1e8f;  // a model ends at 1e7 m, its field not much later
 
 Verdict check_head(const Head& head, const mesh::View& mesh) {
   for (const uint32_t word : head.reserved)

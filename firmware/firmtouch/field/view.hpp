@@ -10,13 +10,13 @@
 
 namespace firmtouch::field {
 
-/// The bytes of a distance map's sections, as the container hands them out.
+/// The bytes of a distance field's sections, as the container returns them.
 struct Sections {
   core::Bytes head, distances, seeds;
 };
 
-/// A distance map that Opening has proven against its mesh: every cell's bounds and side. Immutable;
-/// share it between any number of tools.
+/// A distance field that Opening has proven against its mesh: every cell's bounds and sign.
+/// Immutable; share it between any number of tools.
 class View {
  public:
   View() = default;
@@ -34,9 +34,9 @@ class View {
   core::Span<const uint32_t> seeds_;
 };
 
-/// Proves a distance map in slices: rules R301 to R310 of tools/FORMAT.md. Each cell's bounds are
-/// compared with what the proven mesh answers at its centre, one query a cell, which starts at the
-/// cell's own seed: a map that passes is as true as its mesh.
+/// Proves a distance field in slices: rules R301 to R310 of tools/FORMAT.md. Each cell's bounds are
+/// compared with a query of the proven mesh at its centre, which starts at the cell's seed. A field
+/// that passes is as accurate as its mesh.
 class Opening {
  public:
   /// `mesh` is open and outlives the opening; else rule R305.
@@ -48,7 +48,7 @@ class Opening {
   void work(uint32_t cells);
   bool done() const { return check_.done(); }
   core::Verdict verdict() const { return check_.verdict(); }
-  /// The proven map; one that is not open unless done() and verdict().ok().
+  /// The proven field; one that is not open unless done() and verdict().ok().
   View view() const { return check_.has_passed() ? view_ : View{}; }
 
  private:

@@ -10,7 +10,7 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
-// What is left of a block, taken from its front.
+// The rest of a block, read from its first byte on.
 class Rest {
  public:
   explicit Rest(core::Bytes bytes) : bytes_(bytes) {}

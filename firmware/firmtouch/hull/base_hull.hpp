@@ -9,9 +9,9 @@ namespace firmtouch::hull {
 
 class View;
 
-/// A hull of one size in a block of bytes that open() has proven: the coarsest lies in the asset,
-/// others are cut by tools. Its resident part, copied to fast memory, is tested without a read of the
-/// asset.
+/// One level of a progressive hull, as a proven block of bytes. The asset holds the coarsest; tools
+/// cut finer ones. A query reads only the block's resident part, which may be copied to fast
+/// memory.
 class BaseHull {
  public:
   BaseHull() = default;
@@ -20,7 +20,7 @@ class BaseHull {
   const BaseHullHead& head() const { return *head_; }
   uint32_t face_count() const { return head_->face_count; }
   core::Span<const NodeBox> boxes() const { return boxes_; }
-  /// Of a leaf: its faces, and the vertices that are their corners, each once.
+  /// A leaf: its faces, and the vertices at their corners, each once.
   struct Leaf {
     uint32_t first_face;
     core::Span<const BaseHullFace> faces;
@@ -33,7 +33,7 @@ class BaseHull {
             {&faces_[first], left < kLeafFaces ? left : kLeafFaces},
             {&corners_[corner_offsets_[i / 2] + before], corners_of(faces_[first])}};
   }
-  /// The shell's own number of a face's corner.
+  /// The base hull's own number of a face's corner.
   uint32_t vertex_of(uint32_t face, uint32_t k) const {
     return leaf(face / kLeafFaces).corners[corner_at(faces_[face], k)];
   }
@@ -52,11 +52,10 @@ class BaseHull {
     return id_bytes_ == 2 ? low : low | static_cast<uint32_t>(at[2]) << 16;
   }
   core::Span<const BaseHullTriangle> triangles() const { return triangles_; }
-  /// Bytes of the block from its front that a test of the shell reads.
+  /// Length of the resident part: the block's first bytes, all that a query reads.
   uint32_t resident_bytes() const;
-  /// The same shell, whose tested part is read from `copy`: the block's first resident_bytes(), in
-  /// fast memory.
-  /// Result: a shell that is not open where the copy is none, or lies at no multiple of 4.
+  /// The same base hull with its resident part in `copy`: the first resident_bytes() of the block.
+  /// Result: not open if `copy` differs, or is not at a multiple of 4.
   BaseHull resident(core::Bytes copy) const;
 
   // Of the grid, kept here so that a test reads nothing else.

@@ -8,10 +8,9 @@ namespace {
 
 using math::Vec3;
 
-// The first crossing, or a time before which there is none: who asks a shell asks where it is safe, so
-// a face that floats are not sure of counts as crossed, no later than its plane. Integers tell it
-// exactly, at 10,000 instructions; they are left what lies along the segment, where the plane tells
-// nothing.
+// The first crossing, or a time before which there is none. A face that floats cannot decide counts
+// as crossed, no later than its plane: that is safe. The exact test takes 10,000 instructions; it
+// decides only faces along the segment, whose plane gives no time.
 class First {
  public:
   float limit = 1;
@@ -29,7 +28,7 @@ class First {
     if (!is_decided) {
       const Range feet = feet_of(p_m, q_m, r_m);
       if (feet.last < 0.0f || feet.first > 1.0f) return true;
-      is_decided = !(reported.t > 0.0f);  // where the plane tells nothing at all
+      is_decided = !(reported.t > 0.0f);  // the plane gives no time
       reported.t = mesh::larger(feet.first, reported.t);
       if (is_decided) reported = mesh::exact_crossing(a_m_, b_m_, p_m, q_m, r_m);
     }
@@ -42,7 +41,7 @@ class First {
     hit.face = face;
     hit.enters = reported.direction <= 0;
     hit.exact = is_decided || early <= kMaxEarly;
-    // A box that is entered later in truth may hold a crossing that is told earlier.
+    // A box that is entered later in truth may hold a crossing with an earlier computed time.
     limit = mesh::smaller(reported.t + 2.0f * mesh::kTimeError, 1.0f);
     return true;
   }
@@ -52,8 +51,8 @@ class First {
   struct Range {
     float first, last;
   };
-  // A crossing lies between the corners' feet on the line. With u = 2^-24 a foot is off by 6 u of the
-  // magnitudes summed.
+  // A crossing lies between the corners' feet on the line. With u = 2^-24 a foot is off by 6 u of
+  // the magnitudes summed.
   Range feet_of(Vec3 p_m, Vec3 q_m, Vec3 r_m) const {
     const Range p = foot_of(p_m), q = foot_of(q_m), r = foot_of(r_m);
     return {mesh::smaller(p.first, mesh::smaller(q.first, r.first)),

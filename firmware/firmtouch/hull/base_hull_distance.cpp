@@ -10,7 +10,7 @@ namespace {
 using math::Vec3;
 
 // A squared distance to a box is off by 7 units of 2^-24 (a difference, its square, two sums);
-// told lower by more than that.
+// lowered by more than that.
 constexpr float kDown = 1.0f - 0x1p-20f;
 constexpr float kBeyond_m = 1e19f;  // squares of more are no floats
 

@@ -7,29 +7,31 @@
 
 namespace firmtouch::hull {
 
-/// Where a point lies to a shell. Inside a shell is not inside the mesh: between the two a shell says
-/// nothing of the mesh.
+/// Position of a point relative to a base hull. Inside the base hull is not inside the mesh:
+/// between the two nothing is known about the mesh.
 enum class BaseHullSide : uint8_t { kUnknown, kOutside, kInside };
 
 struct BaseHullDistance {
   BaseHullSide side = BaseHullSide::kUnknown;
-  // Certified, outside: no point of the mesh is nearer. Else 0: nothing is promised.
+  // Outside: certified, no point of the mesh is nearer. Else 0.
   float lower_m = 0;
-  // Certified, inside: if the point is inside the mesh too, it is no deeper than this. Else FLT_MAX.
+  // Inside: certified, a point inside the mesh too is no deeper than this. Else FLT_MAX.
   float deepest_m = FLT_MAX;
-  math::Vec3 point_m{};  // of the shell, the nearest that was found
-  math::Vec3 normal{};   // unit, outward, of a face that it is on; 0 where none was found
+  math::Vec3 point_m{};  // of the base hull, the nearest found
+  math::Vec3 normal{};   // unit, outward, of a face at point_m; 0 if none was found
   uint32_t steps = 0;
-  bool exact = false;  // point_m is the nearest of the shell, but for rounding
+  bool exact = false;  // point_m is the nearest of the base hull, except for rounding
 };
 
-/// Closest point of a shell to `p_m` (mesh frame), and what it certifies of the mesh: for contact
-/// that must not begin late when there is no time for the mesh. Reads the shell's own block only.
-/// Bounds: <= budget steps (boxes read, for the side and then for the point); 4 KB of stack;
+/// Closest point of a base hull to `p_m` (mesh frame), and the bounds that it certifies for the
+/// mesh: contact begins in time although there is no time for the mesh. Reads only the resident
+/// part. Bounds: <= budget visits (boxes read, first for the sign, then for the point); 4 KB of
+/// stack;
 ///         re-entrant; callable from an interrupt.
-/// Result: always finite. A point that is not finite: nothing is known. A budget that runs out
-///         lowers lower_m and never makes it wrong.
-/// Error:  lower_m is at most 3e-6 diagonals of the shell below the distance to it where exact.
+/// Result: always finite. A query that is not finite: unknown, zeros. A budget that runs out lowers
+///         lower_m and never makes it wrong.
+/// Error:  where exact, lower_m is at most 3e-6 diagonals of the base hull below the distance to
+/// it.
 BaseHullDistance base_hull_distance(const BaseHull& base_hull, math::Vec3 p_m,
                                     query::Budget budget);
 

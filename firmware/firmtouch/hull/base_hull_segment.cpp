@@ -4,7 +4,7 @@ namespace firmtouch::hull {
 namespace {
 
 float absolute(float v) { return v < 0.0f ? -v : v; }
-// Not a number: the lower end.
+// NaN: the lower end.
 float within(float v, float low, float high) { return !(v > low) ? low : v < high ? v : high; }
 
 // Distances along an axis that floats hold with room for products, as hull::Slabs.
@@ -14,8 +14,8 @@ constexpr float kPositionError = 0x1p-10f;
 // Of a time, in units of 1 / kEnd: 255 times a rate that is less than 1.25 off, and sums of up to
 // 2^30 in floats, 64 each.
 constexpr float kTimeSlack = 1024.0f;
-// Of a corner beside the line, in steps of the grid's upper 16 bits: 2^-13 of the shear over at most
-// 73,728 steps, the corner's lower bits, the line's own rounding.
+// Of a corner beside the line, in steps of the grid's upper 16 bits: 2^-13 of the shear over at
+// most 73,728 steps, the corner's lower bits, the line's own rounding.
 constexpr float kCornerError = 16.0f;
 // A grid of 65,536 steps and a half of a quarter beyond each end: sheared it ends within 31 bits.
 constexpr float kFirstStep = -8192.0f, kLastStep = 73728.0f;
@@ -66,13 +66,13 @@ BaseHullSegment::BaseHullSegment(const BaseHull& base_hull, math::Vec3 a_m, math
   open_line(from_m, step, error_m);
 }
 
-// An axis along which the part moves less than half a 256th is taken to move so much; its planes are
-// padded by as much.
+// An axis along which the part moves less than half a 256th is taken to move so much; its planes
+// are padded by as much.
 void BaseHullSegment::open_axes(const BaseHullHead& head, const float (&from_m)[3],
                                 const float (&to_m)[3], const float (&error_m)[3]) {
   for (uint32_t k = 0; k < 3; ++k) {
     const float side_m = head.high_m[k] - head.low_m[k];
-    if (!(side_m > kStill_m)) continue;  // no plane of it tells anything
+    if (!(side_m > kStill_m)) continue;  // no plane of it gives anything
     const float per_m = 256.0f / side_m;
     const float from = within((from_m[k] - head.low_m[k]) * per_m, -1.0f, 257.0f);
     const float to = within((to_m[k] - head.low_m[k]) * per_m, -1.0f, 257.0f);

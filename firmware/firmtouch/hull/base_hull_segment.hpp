@@ -1,19 +1,19 @@
 #pragma once
-// A segment against the boxes and corners of a shell, in whole numbers. For the library's own
+// A segment against the boxes and corners of a base hull, in integers. For the library's own
 // translation units.
 
 #include "firmtouch/hull/box_descent.hpp"
 
 namespace firmtouch::hull {
 
-/// What of a segment lies within a shell's box, as the shell's bytes are compared with it: a box
-/// costs twelve loads and multiplications of integers, a corner two. Both are sure when they say no:
-/// every rounding is told as a margin, in floats once for the segment.
+/// The part of a segment within the base hull's box, prepared for comparison with stored bytes: a
+/// box costs twelve integer loads and multiplications, a corner two. A negative test is certain: a
+/// margin, computed in floats once a segment, covers every rounding.
 ///
 /// Times run from 0 to kEnd along the part within the box. With c in 256ths of the box's side, a
-/// plane at byte b is passed at b * rate from the segment's own base; the low planes are met first on
-/// an axis along which the segment rises, the high planes (told from the far side, so bytes again)
-/// where it falls.
+/// plane at byte b is passed at b * rate from the segment's own base; the low planes are met first
+/// on an axis along which the segment rises, the high planes (stored from the far side, so bytes
+/// again) where it falls.
 class BaseHullSegment {
  public:
   static constexpr int32_t kEnd = 1 << 20, kNever = INT32_MAX;
@@ -21,7 +21,7 @@ class BaseHullSegment {
   /// Pre: both finite.
   BaseHullSegment(const BaseHull& base_hull, math::Vec3 a_m, math::Vec3 b_m);
 
-  /// Whether it passes by the whole shell.
+  /// Whether it misses the box of the base hull.
   bool misses() const { return misses_; }
 
   /// When it enters a box, at the earliest; kNever where not until `limit`.
@@ -33,7 +33,7 @@ class BaseHullSegment {
     return near <= far ? near : kNever;
   }
 
-  /// The latest time at which something told at `t` may be met. Pre: t is 0 to 1.
+  /// Latest time of a crossing whose computed time is `t`. Pre: t is 0 to 1.
   int32_t until(float t) const {
     const float end = (t - begin_) * times_ + 64.0f;
     return end < static_cast<float>(kEnd) ? static_cast<int32_t>(end > 0.0f ? end : 0.0f) : kEnd;
@@ -43,8 +43,8 @@ class BaseHullSegment {
   /// shorter axes, in eights of the grid's steps.
   struct Corners {
     uint32_t beside[kMaxLeafCorners];
-    // Bits for where it certainly lies beyond and before the line on either axis. A face whose three
-    // corners share a bit is not crossed.
+    // Bits for where it certainly lies beyond and before the line on either axis. A face whose
+    // three corners share a bit is not crossed.
     uint32_t sides[kMaxLeafCorners];
   };
   /// Result: the bits that all of them share.
@@ -101,8 +101,8 @@ class BaseHullSegment {
     __builtin_memcpy(&two, at, 2);
     return two;
   }
-  // Both halves of a word at once. Sums wrap on the way and end within 15 bits; what one half borrows
-  // from the other is less than the margin counts.
+  // Both halves of a word at once. Sums wrap on the way and end within 15 bits; what one half
+  // borrows from the other is less than the margin counts.
   struct Line {
     uint32_t shear[2] = {}, from[2] = {};
     uint32_t margin = kBlind;
@@ -137,7 +137,7 @@ class BaseHullSegment {
   float grid_low_m_[3], steps_per_m_ = 0.0f;
 };
 
-/// Visits the leaves of a shell's tree whose boxes the segment enters, nearest box first, until
+/// Visits the leaves of a base hull's tree whose boxes the segment enters, nearest box first, until
 /// `visitor` has enough. Visitor::limit is the largest time that is still of interest;
 /// Visitor::leaf(i) answers whether it wants more.
 /// Result: whether the search came to its end within `allowed` steps in all.

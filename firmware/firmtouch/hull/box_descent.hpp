@@ -8,10 +8,11 @@ namespace firmtouch::hull {
 
 /// The slabs of boxes as a segment meets them.
 ///
-/// Box and origin are floats, so a plane's difference is off by one rounding, as are the step and its
-/// inverse, and their product once more: 4 units of 2^-24 of the time told. The exit is stretched by
-/// four times that, and by an absolute 2^-100 for what vanishes below the range of float. Boxes are
-/// padded by what a segment may move along an axis on which it is said to stand still.
+/// Box and origin are floats, so a plane's difference is off by one rounding, as are the step and
+/// its inverse, and their product once more: 4 units of 2^-24 of the computed time. The exit is
+/// stretched by four times that, and by an absolute 2^-100 for what vanishes below the range of
+/// float. Boxes are padded by what a segment may move along an axis on which it is said to stand
+/// still.
 struct Slabs {
   float origin[3], rate[3];
 
@@ -77,11 +78,10 @@ struct FilledTree {
   }
 };
 
-/// Visits the leaves whose boxes the region (Slabs of a segment, or a TriangleRegion) enters, nearest
-/// box first, until `visitor` has enough.
-/// Visitor::limit is the largest t that is still of interest; Visitor::leaf(i) answers whether it
-/// wants more.
-/// Result: whether the search came to its end within `allowed` steps in all.
+/// Visits the leaves whose boxes the region (Slabs of a segment, or a TriangleRegion) enters,
+/// nearest box first, until `visitor` has enough. Visitor::limit is the largest t that is still of
+/// interest; Visitor::leaf(i) answers whether it wants more. Result: whether the search came to its
+/// end within `allowed` steps in all.
 template <class Region, class Visitor>
 bool descend(core::Span<const NodeBox> boxes, const Box& whole, const Region& region,
              uint32_t allowed, uint32_t& steps, Visitor& visitor) {

@@ -14,12 +14,13 @@ constexpr uint32_t kRecordsSection = 0x5004;        // of collapse k: its star
 constexpr uint32_t kRecordOffsetsSection = 0x5005;  // uint32_t: where every eighth record begins
 constexpr uint32_t kStarBoxesSection = 0x5006;      // StarBox[collapse_count]
 constexpr uint32_t kBoxesSection = 0x5007;          // NodeBox: a tree over the mesh's triangles
-constexpr uint32_t kBaseHullSection = 0x5008;       // the coarsest hull (hull/shell.hpp)
+constexpr uint32_t kBaseHullSection = 0x5008;       // the coarsest hull (hull/base_hull.hpp)
 constexpr uint32_t kProbesSection = 0x5009;         // query::ProbeHead and its points
 
 // Numbers: 0 to mesh_vertex_count - 1 are the mesh's vertices, mesh_vertex_count + k is the new one
 // of collapse k. Ids: the two vertices that collapse k removes have the ids 2 k and 2 k + 1, those
-// that stay to the end the others. So an id tells what removes its vertex, with no table.
+// that stay to the end the others. So the id of a vertex gives the collapse that removes it,
+// without a table.
 constexpr uint32_t removed_by(uint32_t id) { return id >> 1; }
 
 // Three bytes an id, at most.
@@ -45,8 +46,8 @@ static_assert(sizeof(Head) == 64 && alignof(Head) == 4);
 
 // A record: u16 head, then ids of id_bytes each: the new vertex, the link counter-clockwise from
 // outside, and the mesh's triangles in the star in the star's order.
-//   head: faces of the link in bits 0 to 4, of them opposite vertex 2 k in bits 5 to 9, triangles of
-//   the mesh in bits 10 to 15.
+//   head: faces of the link in bits 0 to 4, of them opposite vertex 2 k in bits 5 to 9, triangles
+//   of the mesh in bits 10 to 15.
 // The star: face i of the link has its corners i and i + 1 and, before `split`, vertex 2 k, else
 // 2 k + 1; then (2 k, 2 k + 1, corner 0) and (2 k + 1, 2 k, corner `split`).
 constexpr uint32_t record_head(uint32_t link, uint32_t split, uint32_t triangles) {
@@ -59,8 +60,8 @@ constexpr uint32_t record_size(uint32_t head, uint32_t id_bytes) {
   return 2 + id_bytes * (1 + link_of(head) + triangles_of(head));
 }
 
-/// A box about a star, as it lies from the new vertex: 6 reaches of 7 bits (below and above on x, y,
-/// z) in units of the grid's cell times two to the power of the last 6 bits.
+/// A box about a star, as it lies from the new vertex: 6 reaches of 7 bits (below and above on x,
+/// y, z) in units of the grid's cell times two to the power of the last 6 bits.
 struct StarBox {
   uint8_t bits[6];
 };
@@ -74,7 +75,8 @@ struct NodeBox {
 };
 static_assert(sizeof(NodeBox) == 6 && alignof(NodeBox) == 1);
 
-// A leaf of the tree over the mesh holds so many triangles, of the tree over a shell so many faces.
+// A leaf of the tree over the mesh holds so many triangles, of the tree over a base hull so many
+// faces.
 constexpr uint32_t kLeafTriangles = 4;
 constexpr uint32_t kLeafFaces = 4;
 constexpr uint32_t kMaxTreeDepth = 24;
@@ -84,13 +86,12 @@ constexpr uint32_t leaves_for(uint32_t items, uint32_t a_leaf) {
 }
 constexpr uint32_t nodes_for(uint32_t leaves) { return 2 * leaves - 1; }
 
-/// A hull as a block of bytes that needs no neighbours to be tested: head, then in this order, each
-/// beginning at a multiple of 4: NodeBox of the tree over the faces, each within the head's box;
-/// uint32_t for every second leaf, where its corners begin; BaseHullFace[face_count]; corners, the
-/// shell's own uint16_t numbers of its vertices, leaf by leaf; coordinates of the made vertices (3 x
-/// coordinate_bytes each); BaseHullVertex[kept_count]. Up to here it is *resident*, what a test of the
-/// shell reads; what ties it to the hull comes behind: ids of the made vertices (id_bytes each);
-/// BaseHullTriangle[triangle_count].
+/// A base hull as one block of bytes: head, then in this order, each beginning at a multiple of 4:
+/// NodeBox of the tree over the faces, each within the head's box; uint32_t for every second leaf,
+/// where its corners begin; BaseHullFace[face_count]; corners, the base hull's own uint16_t numbers
+/// of its vertices, leaf by leaf; coordinates of the made vertices (3 x coordinate_bytes each);
+/// BaseHullVertex[kept_count]. Up to here it is *resident*: all that a query reads. Links to the
+/// hull follow: ids of the made vertices (id_bytes each); BaseHullTriangle[triangle_count].
 struct BaseHullHead {
   uint32_t bytes;  // of the whole block
   uint32_t cut;    // the hull after so many collapses
@@ -102,8 +103,8 @@ struct BaseHullHead {
   float low_m[3], high_m[3];
 };
 static_assert(sizeof(BaseHullHead) == 52 && alignof(BaseHullHead) == 4);
-/// Places of its three corners among those of its leaf in bits 0 to 3, 4 to 7, 8 to 11; in bits 12 to
-/// 15 how many those are.
+/// Indices of its three corners among those of its leaf in bits 0 to 3, 4 to 7 and 8 to 11; the
+/// count of these in bits 12 to 15.
 using BaseHullFace = uint16_t;
 constexpr uint32_t kMaxLeafCorners = 3 * kLeafFaces;
 constexpr uint32_t corner_at(BaseHullFace face, uint32_t k) {

@@ -1,21 +1,21 @@
 #pragma once
-// What a refinement has yet to look at, the nearest first. For the library's own translation units.
+// Pending crossings of a refinement, nearest first. For the library's own translation units.
 
 #include "firmtouch/hull/box_descent.hpp"
 #include "firmtouch/hull/refinement.hpp"
 
 namespace firmtouch::hull {
 
-// Candidate::what: bit 31, a triangle of the mesh; bit 30, the segment enters there; the triangle or
-// the collapse that made the face.
+// Candidate::what: bit 31, a triangle of the mesh; bit 30, the segment enters there; the triangle
+// or the collapse that made the face.
 constexpr uint32_t kOfMesh = 0x80000000u, kEnters = 0x40000000u, kIndex = 0x3FFFFFFFu;
 
 static inline bool is_before(const Candidate& a, const Candidate& b) {
   return a.t < b.t || (a.t <= b.t && (a.what & kIndex) < (b.what & kIndex));
 }
 
-// The nearest candidate on top. Where it is full the farthest gives way, and `horizon` tells how near
-// the nearest of those was.
+// Heap with the nearest candidate on top. If it is full, the farthest is dropped; `horizon` is the
+// time of the nearest one dropped.
 class Nearest {
  public:
   explicit Nearest(core::Span<Candidate> buffer) : buffer_(buffer) {}

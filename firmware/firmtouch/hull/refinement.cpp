@@ -29,8 +29,8 @@ uint32_t triangle_of(const BaseHull& base_hull, uint32_t face) {
 
 namespace {
 
-// What a refinement is asked with. enter(): when a box is met, beyond `limit` where not; crossing() of
-// a face; base_hull_faces(): faces of a shell that may be crossed, one by one.
+// Shape that a refinement is queried with. enter(): time at which it meets a box, above `limit` if
+// it does not. crossing(): of a face. base_hull_faces(): faces of the base hull that it may cross.
 class SegmentQuery {
  public:
   SegmentQuery(const Head& head, Vec3 a_m, Vec3 b_m)
@@ -69,7 +69,7 @@ class SegmentQuery {
   mesh::SegmentFrame frame_;
 };
 
-// All that a triangle crosses is told at t = 0.
+// Everything that a triangle crosses is reported at t = 0.
 class TriangleQuery {
  public:
   TriangleQuery(const Head& head, const Vec3 (&corner_m)[3])
@@ -109,7 +109,7 @@ class TriangleQuery {
 
 }  // namespace
 
-/// What is asked and the faces that it crosses, handed on as candidates.
+/// The faces that the shape of a query crosses, passed on as candidates.
 template <class Shape>
 class Refinement::Search {
  public:
@@ -121,14 +121,14 @@ class Refinement::Search {
 
   bool has_steps() const { return steps < allowed_; }
 
-  /// Of the shell's faces. Result: false where the budget ran out.
+  /// Faces of the base hull. Result: false if the budget ran out.
   template <class Use>
   bool base_hull(Use use) {
     return shape_.base_hull_faces(of_.base_hull_, limit, allowed_, steps,
                                   [&](uint32_t face) { base_hull_face(face, use); });
   }
 
-  /// Of the star of an undone collapse, those that are there.
+  /// Faces in the star of a collapse that was split back, as far as they exist.
   template <class Use>
   void star(uint32_t collapse, Use use) {
     const View& hull = of_.hull_;
@@ -291,7 +291,7 @@ RefinedHit Refinement::nearest(const Shape& shape, query::Budget budget, bool is
       const bool is_first = !hit.hit || now.t < hit.t || (now.t <= hit.t && index < hit.triangle);
       if (is_first) report(now);
       if (is_any) break;
-      // A face that is crossed later in truth may be told earlier.
+      // A face that is crossed later in truth may have an earlier computed time.
       search.limit = mesh::smaller(hit.t + 2.0f * mesh::kTimeError, search.limit);
       continue;
     }

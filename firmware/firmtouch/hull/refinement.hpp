@@ -6,7 +6,7 @@
 
 namespace firmtouch::hull {
 
-/// A crossing that a refinement has found, or has yet to look at.
+/// A crossing that a refinement has found and may have to refine.
 struct Candidate {
   float t;
   uint32_t
@@ -15,13 +15,13 @@ struct Candidate {
 
 /// The memory of a refinement, the caller's.
 struct RefinementMemory {
-  // One bit a collapse (hull::bit_words() of them): the hull between two queries has none undone.
+  // One bit a collapse (hull::bit_words() words): set while it is split back; clear between
+  // queries.
   core::Span<uint32_t> is_split;
-  // What is undone: queue of the closure, queue of what is to be tested, and list of what is to be
-  // done again, in one. As many as collapses never run out; where they do, the answer is
-  // conservative.
+  // Collapses that are split back, in order: queue of the closure, queue of the stars to test, and
+  // list to reset. One a collapse always suffices; with fewer the answer may be conservative.
   core::Span<uint32_t> splits;
-  // Crossings in order of t; 40 were the most seen. Where they run out, the answer is conservative.
+  // Pending crossings; at most 40 were seen. If they run out, the answer is conservative.
   core::Span<Candidate> candidates;
 };
 
@@ -34,8 +34,8 @@ struct RefinedHit {
   float t = 1;
   uint32_t triangle = 0;  // in leaf order, where is_of_mesh
   bool enters = false;
-  uint32_t steps = 0;   // boxes and stars looked at
-  uint32_t splits = 0;  // collapses undone
+  uint32_t steps = 0;   // visits: boxes and stars read
+  uint32_t splits = 0;  // collapses split back
   uint32_t tests = 0;   // of a face
 };
 
@@ -45,29 +45,31 @@ struct RefinedCrossings {
   bool exact = false;  // false: budget or memory ran out; there may be more
 };
 
-/// Selective refinement of a progressive hull by segments: where one crosses the hull, the collapse
-/// that made the face is undone, until only triangles of the mesh are crossed. Nothing is mutated
-/// but one bit a collapse.
+/// Selective refinement of a progressive hull along a segment or triangle: where it crosses a face,
+/// the collapse that made the face is split back, until it crosses only triangles of the mesh. The
+/// only state is one bit a collapse.
 ///
-/// A face was made by the collapse of its youngest vertex and is replaced by the first collapse that
-/// removes a vertex of it. It is there if the one is not undone, and the other is (or comes after the
-/// shell's). To undo a collapse, its new vertex and its link must be there, so the collapses that
-/// removed them are undone first: the closure. If that does not fit the memory, it is taken back: half
-/// of one would be no hull.
+/// A face is made by the collapse of its youngest vertex and replaced by the first collapse that
+/// removes one of its vertices. It exists if the former is not split back and the latter is, or
+/// comes after the base hull. A split needs the new vertex and its link, so the collapses that
+/// removed those are split back first: the closure. A closure that exceeds the memory is taken back
+/// as a whole.
 ///
-/// Result: for segments that begin outside the shell the first crossing is the mesh's, and of all
-///         crossings the first and the last. Those between, and those of a segment that begins between
-///         hull and mesh, may be missed: hull/complete_cast.hpp misses none. With a budget or memory
-///         that runs out: no crossing of the mesh is nearer than what is told (from outside).
+/// Result: for a segment that begins outside the base hull, the first crossing is the mesh's; of
+/// all
+///         crossings the first and the last are found. Others, and those of a segment that begins
+///         between hull and mesh, may be missed (hull/complete_cast.hpp finds all). If budget or
+///         memory runs out, no crossing of the mesh is nearer than the reported one (from outside).
 /// Source: Platis & Theoharis 2003, section 3.2.
 class Refinement {
  public:
-  /// Pre: `shell` was opened against `hull`; memory.is_split holds bit_words(collapse_count()), the
-  ///      others at least one each. Hull, shell and memory outlive this.
+  /// Pre: `base_hull` was opened against `hull`; memory.is_split holds bit_words(collapse_count()),
+  /// the
+  ///      others at least one each. All outlive this.
   Refinement(const View& hull, const BaseHull& base_hull, const RefinementMemory& memory);
 
   /// First crossing of the segment from `a_m` to `b_m` (mesh frame), either way.
-  /// Bounds: <= budget steps but for the closure of the last; 5 KB of stack; not re-entrant.
+  /// Bounds: <= budget visits plus the closure of the last; 5 KB of stack; not re-entrant.
   /// Result: least t; equal t: the lowest triangle in leaf order.
   RefinedHit first(math::Vec3 a_m, math::Vec3 b_m, query::Budget budget);
 
@@ -78,26 +80,24 @@ class Refinement {
   RefinedCrossings all(math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
                        core::Span<mesh::SurfaceCrossing> buffer);
 
-  /// The same with a triangle: crossings of triangles are told at t = 0, which way is not told. One
-  /// that has a corner outside the shell and crosses none of its faces meets nothing of the mesh; of
-  /// those that cross the mesh inside the hull alone some may be missed (hull/triangle_cast.hpp misses
-  /// none).
+  /// The same for a triangle: crossings have t = 0 and no direction. A triangle with a corner
+  /// outside the base hull that crosses none of its faces does not meet the mesh. One that crosses
+  /// the mesh only inside the hull may be missed (hull/triangle_cast.hpp finds all).
   RefinedHit any(const math::Vec3 (&corner_m)[3], query::Budget budget);
   RefinedCrossings all(const math::Vec3 (&corner_m)[3], query::Budget budget,
                        core::Span<mesh::SurfaceCrossing> buffer);
 
-  /// Undoes one collapse and what it needs, and keeps it until reset() or the next query: a hull
-  /// finer where wanted.
-  /// Result: false where the memory does not hold it; then nothing has changed.
+  /// Splits one collapse and its closure back until reset() or the next query: a locally finer
+  /// hull. Result: false if the memory does not suffice; then nothing has changed.
   bool split(uint32_t collapse);
-  /// Does everything again: the shell's own hull.
+  /// Back to the base hull.
   void reset();
-  /// Of the hull as it is now: faces of it are told one by one as vertex numbers.
+  /// The faces of the hull as it is now, one by one, as vertex numbers.
   ///     for (Faces f(refinement); f.next();) use(f.number)
   class Faces;
 
   uint32_t split_count() const { return count_; }
-  /// The most collapses undone by one query so far.
+  /// The most collapses that one query split back so far.
   uint32_t max_splits() const { return max_; }
 
  private:

@@ -6,7 +6,7 @@ namespace firmtouch::hull {
 bool Refinement::Faces::next() {
   const View& hull = of_.hull_;
   const uint32_t mesh_vertices = hull.head().mesh_vertex_count;
-  // The shell's faces first (at_ == 0), then the stars of what is undone.
+  // The base hull's faces first (at_ == 0), then the stars of what is split back.
   while (at_ <= of_.count_) {
     const uint32_t face = face_++;
     if (at_ == 0) {

@@ -5,10 +5,10 @@
 
 namespace firmtouch::hull {
 
-// Triangles of the mesh that a triangle crosses, by the hull's own sections and the mesh's vertices
-// and triangles, as hull/complete_cast.hpp: nothing is missed, wherever it lies. Decided without any
-// rounding, also where triangles touch or lie in one plane: as if the one that asks had been moved by
-// (e, e^2, e^3) for an infinitely small e > 0. A triangle that lies all inside the mesh crosses nothing.
+// Triangles of the mesh that a triangle crosses, from the hull's sections and the mesh's vertices
+// and triangles, as in hull/complete_cast.hpp: all are found. Decided without rounding, also where
+// triangles touch or share a plane: as if the queried triangle were moved by (e, e^2, e^3) for an
+// infinitely small e > 0. A triangle inside the mesh crosses nothing.
 
 struct TriangleHit {
   bool hit = false;
@@ -24,25 +24,25 @@ struct TriangleHits {
   bool exact = false;
 };
 
-/// One of them, the first that turns up: for whether something is in the way.
-/// Bounds: <= budget steps (boxes of the tree read); 5 KB of stack; re-entrant; callable from an
+/// Any of them: whether something is in the way.
+/// Bounds: <= budget visits (boxes of the tree read); 5 KB of stack; re-entrant; callable from an
 ///         interrupt.
 TriangleHit any_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget);
 
-/// The one that is first in leaf order.
+/// The first one in leaf order.
 /// Bounds: as above.
 TriangleHit first_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget);
 
 /// All of them, in leaf order; where there are more than `buffer` holds, the first ones.
-/// Bounds: as above, and found * told moves in `buffer`.
+/// Bounds: as above, and found * reported moves in `buffer`.
 TriangleHits all_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget,
                          core::Span<uint32_t> buffer);
 
-/// Whether a triangle may meet anything of the mesh, by a shell alone: it crosses a face of the shell,
-/// or begins inside. Reads the shell's own block and nothing else.
-/// Bounds: <= budget steps; 5 KB of stack; re-entrant; callable from an interrupt.
-/// Result: no hit and exact: it meets nothing of the mesh, and lies outside of it. `triangle` is a face
-///         of the shell. A budget that runs out tells a hit that is not exact.
+/// Whether a triangle may meet the mesh, from the base hull alone: it crosses a face of it, or
+/// begins inside. Reads only the resident part. Bounds: <= budget visits; 5 KB of stack;
+/// re-entrant; callable from an interrupt. Result: no hit and exact: it lies outside the mesh and
+/// does not meet it. `triangle` is a face of the
+///         base hull. If the budget runs out: a hit that is not exact.
 TriangleHit base_hull_crossed(const BaseHull& base_hull, const math::Vec3 (&corner_m)[3],
                               query::Budget budget);
 

@@ -7,13 +7,13 @@
 
 namespace firmtouch::hull {
 
-/// Whether two triangles cross is decided without any rounding, also where they touch, share an edge
-/// or lie in one plane: as if all of this one had been moved by (e, e^2, e^3) for an infinitely small
-/// e > 0. Then one crosses the other where an edge of either passes through the other's inside, and
-/// nothing is only touched.
+/// Whether two triangles cross is decided without any rounding, also where they touch, share an
+/// edge or lie in one plane: as if all of this one had been moved by (e, e^2, e^3) for an
+/// infinitely small e > 0. Then one crosses the other where an edge of either passes through the
+/// other's inside, and nothing is only touched.
 class TriangleRegion {
  public:
-  /// `low_m`, `high_m`: the box of all vertices that will be asked.
+  /// `low_m`, `high_m`: the box of all vertices of later calls.
   TriangleRegion(const float (&low_m)[3], const float (&high_m)[3],
                  const math::Vec3 (&corner_m)[3]);
 

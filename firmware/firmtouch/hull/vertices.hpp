@@ -29,7 +29,7 @@ static inline math::Vec3 vertex(const View& hull, uint32_t number) {
   return number < mesh_vertices ? hull.mesh_vertex(number)
                                 : made_vertex(hull, number - mesh_vertices);
 }
-/// By the shell's own number.
+/// By the base hull's own number.
 static inline math::Vec3 vertex(const BaseHull& base_hull, uint32_t i) {
   if (!base_hull.is_made(i))
     return {base_hull.kept(i).x_m, base_hull.kept(i).y_m, base_hull.kept(i).z_m};
@@ -74,7 +74,7 @@ static inline bool holds(const Box& box, math::Vec3 p_m) {
          p_m.y <= box.high_m[1] && box.low_m[2] <= p_m.z && p_m.z <= box.high_m[2];
 }
 
-/// Corner numbers of a star's faces, in the order that a record tells.
+/// Corner numbers of a star's faces, in the order of a record.
 struct Star {
   uint32_t link, split;
   uint32_t id[2 + kMaxLink];      // of vertices 2 k and 2 k + 1, then of the link
@@ -90,7 +90,7 @@ struct Star {
     for (uint32_t i = 0; i < 2 + link; ++i) number[i] = hull.number_of(id[i]);
   }
   uint32_t face_count() const { return link + 2; }
-  /// Places in `id` and `number` of the corners of a face.
+  /// Indices in `id` and `number` of the corners of a face.
   void face(uint32_t i, uint32_t (&corner)[3]) const {
     if (i < link) {
       corner[0] = i < split ? 0 : 1;
@@ -102,8 +102,8 @@ struct Star {
       corner[2] = i == link ? 2 : 2 + split;
     }
   }
-  /// The youngest corner's number: below mesh_vertex_count a triangle of the mesh, else made by that
-  /// vertex's collapse.
+  /// The youngest corner's number: below mesh_vertex_count a triangle of the mesh, else made by
+  /// that vertex's collapse.
   uint32_t youngest(const uint32_t (&corner)[3]) const {
     uint32_t most = number[corner[0]];
     if (number[corner[1]] > most) most = number[corner[1]];

@@ -11,8 +11,8 @@
 
 namespace firmtouch::hull {
 
-/// The bytes of a hull's sections, as the container hands them out, and of its mesh those that a
-/// hull reads: never the mesh's tree. One of triangles16 and triangles32.
+/// The bytes of a hull's sections and of those of its mesh that a hull reads (not the mesh's tree).
+/// One of triangles16 and triangles32 is empty.
 struct Sections {
   core::Bytes head, vertices, origins, records, record_offsets, star_boxes, boxes, base_hull;
   core::Bytes mesh_head, mesh_vertices, triangles16, triangles32;
@@ -123,8 +123,8 @@ class Opening {
   core::Bytes base_hull_bytes_;
   query::StagedCheck check_;
   uint32_t record_at_ = 0;
-  // Sums of hashes, which tell without memory that the same things stand on both sides: each number
-  // has one id; each face that is there or is made is replaced or left once.
+  // Sums of hashes, which compare two multisets without memory: each number has one id; each face
+  // of the mesh or made is replaced once or left.
   uint64_t numbers_ = 0, faces_ = 0;
   BaseHullProof base_hull_;
 };

@@ -7,7 +7,7 @@
 namespace firmtouch::query {
 
 /// How far `position_m` is from the last query, rounded up (five operations of relative error 2^-24
-/// each); no number where it is not finite.
+/// each); NaN where it is not finite.
 static inline float motion_m(const HintBase& hint, math::Vec3 position_m) {
   return math::length(position_m - hint.position_m) * (1.0f + 8.0f * 0x1p-24f);
 }

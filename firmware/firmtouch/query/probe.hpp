@@ -6,9 +6,9 @@
 
 namespace firmtouch::query {
 
-/// A section of probe queries: what the baker's machine answered, so that the controller can tell
-/// before it enables a motor whether it computes the same bits (floating-point mode, flags, a
-/// broken FPU, a bent asset).
+/// A section of probe queries with the hash of the baker's answers. A controller that computes
+/// other bits (floating-point mode, compiler flags, broken FPU, damaged asset) finds out before it
+/// enables a motor.
 struct ProbeHead {
   uint32_t count;     // points that follow
   uint32_t reserved;  // 0

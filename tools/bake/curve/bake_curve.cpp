@@ -112,8 +112,8 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
   if (!choose_grid(head, mended.is_smooth ? beyond_of(samples, head) : 0)) {
     report.problem = name +
                      (mended.is_smooth ? ": too few samples for smooth pieces, or the" : ": the") +
-                     " curve lies too far from the origin for its size: float32 cannot tell its "
-                     "points apart; move it nearer to the origin";
+                     " curve lies too far from the origin for its size: float32 does not separate "
+                     "its points; move it nearer to the origin";
     return {};
   }
   std::vector<Section> sections;

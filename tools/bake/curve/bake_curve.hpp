@@ -21,7 +21,7 @@ struct CurveReport {
 };
 
 /// Builds tree and arc positions of a mended curve and proves them with the firmware's own open().
-/// Where rows were dropped, a section tells tools the row of each sample.
+/// If rows were dropped, a section lists the row of each sample, for tools.
 std::vector<Section> bake_curve(const CurvePoints& points, const std::string& name,
                                 CurveReport& report);
 

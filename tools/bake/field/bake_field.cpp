@@ -40,7 +40,7 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
   const uint64_t count = uint64_t{head.count[0]} * head.count[1] * head.count[2];
   if (*std::max_element(head.count, head.count + 3) > field::kMaxCellsAnAxis ||
       count > field::kMaxCells) {
-    report.problem = "a distance map of " + std::to_string(long_axis) + " cells would have " +
+    report.problem = "a distance field of " + std::to_string(long_axis) + " cells would have " +
                      std::to_string(count) + ", more than the " + std::to_string(field::kMaxCells) +
                      " that fit; choose fewer";
     return {};
@@ -54,7 +54,7 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
       for (uint32_t x = 0; x < head.count[0]; ++x) {
         const math::Vec3 centre_m = field::centre_of(head, x, y, z);
         (void)mesh::closest_point(mesh, centre_m, query::kUnlimited, hint);
-        mesh::Hint from_seed;  // as the proof asks
+        mesh::Hint from_seed;  // as the proof queries
         from_seed.leaf_slot = hint.leaf_slot;
         const mesh::Closest c = mesh::closest_point(mesh, centre_m, query::kUnlimited, from_seed);
         cells.push_back({c.certificate.lower_m, std::fabs(c.distance_m), c.certificate.sign});
@@ -85,9 +85,9 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
   field::View view;
   const core::Verdict verdict = field::open(field_sections(sections, name), mesh, view);
   if (!verdict.ok()) {
-    report.problem = "the distance map fails its own proof, rule R" + std::to_string(verdict.rule) +
-                     " at element " + std::to_string(verdict.element) +
-                     "; please report this model";
+    report.problem = "the distance field fails its own proof, rule R" +
+                     std::to_string(verdict.rule) + " at element " +
+                     std::to_string(verdict.element) + "; please report this model";
     return {};
   }
   return sections;

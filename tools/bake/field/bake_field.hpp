@@ -16,8 +16,8 @@ struct FieldReport {
   std::string problem;   // empty: baked and proven; else what and how to mend it
 };
 
-/// The distance map of a proven mesh: `long_axis` cells along its longest side and one more on every
-/// side, each asked of the mesh by the firmware's own query; proven with the firmware's own Opening.
+/// The distance field of a proven mesh: `long_axis` cells along its longest side and one more on
+/// every side, each from a query of the firmware; proven with the firmware's Opening.
 std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name, uint32_t long_axis,
                                 FieldReport& report);
 

@@ -7,7 +7,7 @@
 
 namespace firmtouch::tools {
 
-/// What a shell is made of.
+/// Source of a base hull.
 struct BaseHullSource {
   hull::Head head{};
   uint32_t cut = 0;
@@ -18,11 +18,11 @@ struct BaseHullSource {
   const uint8_t* coordinates = nullptr;  // of all collapses
 };
 
-/// Empty where it has more vertices than a shell can number.
+/// Empty if it has more vertices than a base hull can number.
 std::vector<uint8_t> encode_base_hull(const BaseHullSource& source);
 
-/// The hull of at most `faces` faces of a proven hull, or its coarsest, as a shell's bytes: 4-byte
-/// aligned words. Empty as above.
+/// The hull of at most `faces` faces of a proven hull, or its coarsest, as the bytes of a base
+/// hull: 4-byte aligned words. Empty as above.
 std::vector<uint32_t> cut_base_hull(const hull::View& view, uint32_t faces);
 
 }  // namespace firmtouch::tools

@@ -50,7 +50,7 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
   if (report.base_hull_bytes == 0) {
     report.problem = "a hull of " + std::to_string(report.faces) +
                      " faces is too fine for a shell, which numbers " +
-                     std::to_string(hull::kMaxBaseHullVertices) + " vertices: ask for fewer faces";
+                     std::to_string(hull::kMaxBaseHullVertices) + " vertices: request fewer faces";
     return {};
   }
   std::vector<Section> all = sections;

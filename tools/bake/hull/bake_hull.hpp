@@ -16,7 +16,7 @@ struct HullBakeReport {
   uint32_t star_bytes = 0;            // boxes of stars
   uint32_t box_bytes = 0;             // boxes over the mesh's triangles
   uint32_t base_hull_bytes = 0, other_bytes = 0;
-  std::string stalled;  // empty: as coarse as asked for; else why not
+  std::string stalled;  // empty: as coarse as requested; else why not
   std::string problem;  // empty: baked and proven; else what and how to mend it
 };
 

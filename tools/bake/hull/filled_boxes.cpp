@@ -72,8 +72,8 @@ class Parter {
 
   static uint32_t left_of(uint32_t leaves) { return (first_size(hull::nodes_for(leaves)) + 1) / 2; }
 
-  // The two sides of a tree may hold unequal numbers, so each direction is tried both ways. Looks one
-  // cut ahead: of parts of many items that would take long and tell little.
+  // The two sides of a tree may hold unequal numbers, so each direction is tried both ways. Looks
+  // one cut ahead: of parts of many items that would take long and gain little.
   void cut(uint32_t first, uint32_t middle, uint32_t end, uint32_t leaves) {
     constexpr uint32_t kMaxWindow = 4096;
     Order tried(order_.begin() + first, order_.begin() + end), best;

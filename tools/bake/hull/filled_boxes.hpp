@@ -6,7 +6,7 @@
 
 namespace firmtouch::tools {
 
-/// What a node's box is told in 256ths of: its parent's, or that of all.
+/// The box whose 256ths are the unit of a node's box: its parent's, or the whole.
 enum class BoxesWithin { kParent, kWhole };
 
 /// The boxes of a tree whose levels are filled from the left, `a_leaf` items a leaf in their order,
@@ -15,8 +15,8 @@ std::vector<hull::NodeBox> filled_boxes(uint32_t items, uint32_t a_leaf, BoxesWi
                                         const hull::Box& whole,
                                         const std::function<hull::Box(uint32_t item)>& box_of);
 
-/// An order of items in which those that such a tree puts together lie together: parted across one of
-/// thirteen directions, that which leaves the two boxes the least surface. Deterministic.
+/// An order of items in which those that such a tree puts together lie together: parted across one
+/// of thirteen directions, that which leaves the two boxes the least surface. Deterministic.
 std::vector<uint32_t> filled_order(const std::vector<hull::Box>& items, uint32_t a_leaf);
 
 /// `into` grown by `box`.
