@@ -20,7 +20,7 @@ struct ScalarFinder {
     else
       search_nearest<false, Bound, uint32_t>(mesh, bound, search);
   }
-  Vec3 direction(const Best& best) const {
+  [[gnu::always_inline]] inline Vec3 direction(const Best& best) const {
     return feature_direction(mesh, best.triangle, best.feature);
   }
   static int sign(float height_m, float doubt_m) {

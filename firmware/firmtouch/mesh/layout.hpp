@@ -144,4 +144,75 @@ constexpr float kFoldsPerUnit = 127.05f;
 // A vertex's pseudonormal: octahedral, u in the low and v in the high 16 bits, each (value + 32767)
 // of -32767..32767.
 
+/// Why opening rejects; the numbers never change. tools/FORMAT.md prints the same text.
+enum Rule : uint16_t {
+  // The head is absent or not 72 bytes long.
+  kRuleHeadSize = 101,
+  // There are no vertices, or the vertex section does not hold vertex_count of them.
+  kRuleVertices = 102,
+  // There is not exactly one triangle section (0). It holds no triangles, more than 2^24, or not
+  // triangle_count of them (1).
+  kRuleTriangles = 103,
+  // There are no nodes or more than 2^24, or the sections of nodes and parents do not hold
+  // node_count of them.
+  kRuleNodes = 104,
+  // is_signed is above 1, or there are not one pseudonormal a vertex and three folds a triangle
+  // exactly if it is 1.
+  kRuleSigned = 105,
+  // The head is not sound: rounding below 0 or above 1.5e-7 of the diagonal (0); cell no power of
+  // two from 2^-95 to 2^65 (1); box inverted or beyond 1e7 m (2); grid with less than 0.124
+  // extents free about the box (3); grid over more than 2.6 extents, or extent below 1e-9 m (4);
+  // diagonal above the box's, or more than 2^-20 of it below (5); longest edge not above 0, or
+  // above 1.001 diagonals (6).
+  kRuleHead = 106,
+  // The depth is 0, above 40 or not the tree's.
+  kRuleDepth = 107,
+  // A vertex is outside the head's box, or NaN.
+  kRuleVertexOutsideBox = 110,
+  // No vertex touches a side of the head's box.
+  kRuleBoxNotTouched = 111,
+  // The code of a vertex pseudonormal is above 65534.
+  kRuleVertexNormal = 112,
+  // The box of a child is inverted or off the grid.
+  kRuleNodeBox = 120,
+  // The boxes in a node are not inside the box of the node.
+  kRuleBoxOutsideParent = 121,
+  // A child is not a later node, or its parent word names another node.
+  kRuleChild = 122,
+  // A parent word names no node with this child; the root's is not 0.
+  kRuleParent = 123,
+  // A leaf is empty, does not begin where the previous one ended, or exceeds the triangles. Only
+  // the second child of the only node may be empty.
+  kRuleLeaf = 124,
+  // No leaf holds some of the triangles.
+  kRuleTrianglesLeft = 125,
+  // A corner is not a vertex.
+  kRuleCorner = 126,
+  // A triangle is not inside the box of its leaf.
+  kRuleTriangleOutsideLeaf = 127,
+  // Edge 0 of a triangle is not its longest, or is shorter than 1e-12 m.
+  kRuleLongestEdgeFirst = 128,
+  // A triangle is thinner than 1e-10 of its longest edge, or lower than 1e-18 m.
+  kRuleThinTriangle = 129,
+  // An edge fold is -128.
+  kRuleFold = 130,
+  // Edge 0 of a triangle is longer than the head's longest_edge_m.
+  kRuleEdgeAboveLongest = 131,
+  // The leaf boxes are not 16 bytes a triangle and 32 (0), or the last eight words are not those
+  // of no box (1).
+  kRuleLeafBoxesSize = 136,
+  // The words after a leaf's box, or instead of one, are not as they must be.
+  kRuleLeafBoxWords = 137,
+  // The axes of a box may lengthen a vector: the sizes of one axis' products with all three add
+  // up to more than 2^30.
+  kRuleLeafBoxAxes = 138,
+  // A triangle is not inside its leaf box, or more than 32,766 half cells from its centre on an
+  // axis.
+  kRuleTriangleOutsideLeafBox = 139,
+  // There are not 48 bytes of shapes a triangle exactly if there are leaf boxes.
+  kRuleShapesSize = 140,
+  // A shape does not have the bits that its corners give.
+  kRuleShape = 141,
+};
+
 }  // namespace firmtouch::mesh

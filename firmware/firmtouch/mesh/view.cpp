@@ -31,31 +31,32 @@ bool holds(const uint32_t* outer, const uint32_t* inner) {
 }
 
 Verdict check_head(const Head& head) {
-  if (!query::is_power_of_two(head.cell_m)) return reject(106, 1);
+  if (!query::is_power_of_two(head.cell_m)) return reject(kRuleHead, 1);
   const float reach_m = static_cast<float>(kGridMax) * head.cell_m;
   float extent_m = 0;
   for (int k = 0; k < 3; ++k) {
     if (!(head.low_m[k] <= head.high_m[k]) ||
         !(head.low_m[k] >= -kFarthest_m && head.high_m[k] <= kFarthest_m))
-      return reject(106, 2);
+      return reject(kRuleHead, 2);
     const float side_m = head.high_m[k] - head.low_m[k];
     if (side_m > extent_m) extent_m = side_m;
   }
   for (int k = 0; k < 3; ++k) {  // an eighth of the extent free on each side: FarBound relies on it
     const float below_m = head.low_m[k] - head.grid_low_m[k];
     const float above_m = head.grid_low_m[k] + reach_m - head.high_m[k];
-    if (!(below_m >= 0.124f * extent_m && above_m >= 0.124f * extent_m)) return reject(106, 3);
+    if (!(below_m >= 0.124f * extent_m && above_m >= 0.124f * extent_m))
+      return reject(kRuleHead, 3);
   }
-  if (!(extent_m >= 1e-9f && reach_m <= 2.6f * extent_m)) return reject(106, 4);
+  if (!(extent_m >= 1e-9f && reach_m <= 2.6f * extent_m)) return reject(kRuleHead, 4);
   const Vec3 sides{head.high_m[0] - head.low_m[0], head.high_m[1] - head.low_m[1],
                    head.high_m[2] - head.low_m[2]};
   const float diagonal_m = math::length(sides);
   if (!(head.diagonal_m <= diagonal_m && head.diagonal_m >= diagonal_m * (1.0f - 0x1p-20f)))
-    return reject(106, 5);
+    return reject(kRuleHead, 5);
   if (!(head.longest_edge_m > 0.0f && head.longest_edge_m <= 1.001f * diagonal_m))
-    return reject(106, 6);
+    return reject(kRuleHead, 6);
   if (!(head.rounding_m >= 0.0f && head.rounding_m <= kMaxRounding * head.diagonal_m))
-    return reject(106, 0);
+    return reject(kRuleHead, 0);
   return kPassed;
 }
 
@@ -73,35 +74,36 @@ void Opening::work(uint32_t elements) { check_.work(*this, kStages, elements); }
 
 Verdict Opening::open_head(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
-  if (heads.size() != 1) return reject(101, 0);
+  if (heads.size() != 1) return reject(kRuleHeadSize, 0);
   const Head& head = heads[0];
   view_.vertices_ = core::as_whole_array<Vertex>(s.vertices);
-  if (head.vertex_count == 0 || view_.vertices_.size() != head.vertex_count) return reject(102, 0);
+  if (head.vertex_count == 0 || view_.vertices_.size() != head.vertex_count)
+    return reject(kRuleVertices, 0);
   view_.triangles16_ = core::as_whole_array<Triangle<uint16_t>>(s.triangles16);
   view_.triangles32_ = core::as_whole_array<Triangle<uint32_t>>(s.triangles32);
-  if (s.triangles16.empty() == s.triangles32.empty()) return reject(103, 0);
+  if (s.triangles16.empty() == s.triangles32.empty()) return reject(kRuleTriangles, 0);
   const uint32_t triangles =
       s.triangles32.empty() ? view_.triangles16_.size() : view_.triangles32_.size();
   if (head.triangle_count == 0 || head.triangle_count > kMaxTriangles ||
       triangles != head.triangle_count)
-    return reject(103, 1);
+    return reject(kRuleTriangles, 1);
   view_.nodes_ = core::as_whole_array<Node>(s.nodes);
   view_.parents_ = core::as_whole_array<uint32_t>(s.parents);
   if (head.node_count == 0 || head.node_count > kMaxNodes ||
       view_.nodes_.size() != head.node_count || view_.parents_.size() != head.node_count)
-    return reject(104, 0);
+    return reject(kRuleNodes, 0);
   view_.vertex_normals_ = core::as_whole_array<uint32_t>(s.vertex_normals);
   view_.folds_ = core::as_whole_array<EdgeFolds>(s.edge_folds);
   const bool with_sign = head.is_signed == 1;
   if (head.is_signed > 1 || view_.vertex_normals_.size() != (with_sign ? head.vertex_count : 0) ||
       view_.folds_.size() != (with_sign ? head.triangle_count : 0) ||
       s.vertex_normals.empty() == with_sign || s.edge_folds.empty() == with_sign)
-    return reject(105, 0);
+    return reject(kRuleSigned, 0);
   const Verdict of_head = check_head(head);
   if (!of_head.ok()) return of_head;
   const Verdict of_bounds = open_bounded(s);
   if (!of_bounds.ok()) return of_bounds;
-  if (head.depth == 0 || head.depth > kMaxDepth) return reject(107, 0);
+  if (head.depth == 0 || head.depth > kMaxDepth) return reject(kRuleDepth, 0);
   view_.head_ = &head;
   return kPassed;
 }
@@ -112,16 +114,16 @@ bool tells_nothing(const uint32_t* words) {
 
 // Where a search reads a box behind the last leaf's there is one that tells nothing.
 Verdict Opening::open_bounded(const Sections& s) {
-  if (s.leaf_boxes.empty()) return s.shapes.empty() ? kPassed : reject(140, 0);
+  if (s.leaf_boxes.empty()) return s.shapes.empty() ? kPassed : reject(kRuleShapesSize, 0);
   const uint32_t triangles = view_.triangles16_.size() + view_.triangles32_.size();
   const uint32_t words = kLeafBoxStride * triangles;
   const core::Span<const uint32_t> boxes = core::as_whole_array<uint32_t>(s.leaf_boxes);
-  if (boxes.size() != words + kLeafBoxesEnd) return reject(136, 0);
-  if (!tells_nothing(boxes.data() + words)) return reject(136, 1);
+  if (boxes.size() != words + kLeafBoxesEnd) return reject(kRuleLeafBoxesSize, 0);
+  if (!tells_nothing(boxes.data() + words)) return reject(kRuleLeafBoxesSize, 1);
   for (uint32_t i = 2; i < kLeafBoxesEnd; ++i)
-    if (boxes[words + i] != 0) return reject(136, 1);
+    if (boxes[words + i] != 0) return reject(kRuleLeafBoxesSize, 1);
   const core::Span<const TriangleShape> shapes = core::as_whole_array<TriangleShape>(s.shapes);
-  if (shapes.size() != triangles) return reject(140, 0);
+  if (shapes.size() != triangles) return reject(kRuleShapesSize, 0);
   view_.leaf_boxes_ = boxes.data();
   view_.shapes_ = shapes.data();
   return kPassed;
@@ -129,26 +131,30 @@ Verdict Opening::open_bounded(const Sections& s) {
 
 Verdict Opening::check_vertex(uint32_t i) {
   const Head& head = view_.head();
-  return seen_.take(&view_.vertices_[i].x_m, head.low_m, head.high_m) ? kPassed : reject(110, i);
+  return seen_.take(&view_.vertices_[i].x_m, head.low_m, head.high_m)
+             ? kPassed
+             : reject(kRuleVertexOutsideBox, i);
 }
 
 Verdict Opening::finish_vertices() {
   const Head& head = view_.head();
   for (uint32_t k = 0; k < 3; ++k)
-    if (!seen_.touches_low(k, head.low_m[k])) return reject(111, k);
+    if (!seen_.touches_low(k, head.low_m[k])) return reject(kRuleBoxNotTouched, k);
   for (uint32_t k = 0; k < 3; ++k)
-    if (!seen_.touches_high(k, head.high_m[k])) return reject(111, 3 + k);
+    if (!seen_.touches_high(k, head.high_m[k])) return reject(kRuleBoxNotTouched, 3 + k);
   return kPassed;
 }
 
 Verdict Opening::finish_nodes() {
-  if (next_triangle_ != view_.head().triangle_count) return reject(125, next_triangle_);
-  return deepest_ + 1 == view_.head().depth ? kPassed : reject(107, deepest_);
+  if (next_triangle_ != view_.head().triangle_count)
+    return reject(kRuleTrianglesLeft, next_triangle_);
+  return deepest_ + 1 == view_.head().depth ? kPassed : reject(kRuleDepth, deepest_);
 }
 
 Verdict Opening::check_normal(uint32_t i) {
   const uint32_t code = view_.vertex_normals_[i];
-  return (code & 0xFFFFu) <= 65534u && (code >> 16) <= 65534u ? kPassed : reject(112, i);
+  return (code & 0xFFFFu) <= 65534u && (code >> 16) <= 65534u ? kPassed
+                                                              : reject(kRuleVertexNormal, i);
 }
 
 Verdict Opening::check_node(uint32_t i) {
@@ -157,9 +163,9 @@ Verdict Opening::check_node(uint32_t i) {
   if (i == 0
           ? word != 0
           : parent_of(word) >= i || view_.nodes_[parent_of(word)].side[which_of(word)].child != i)
-    return reject(123, i);
+    return reject(kRuleParent, i);
   if (depth_of(word) > deepest_) deepest_ = depth_of(word);
-  if (deepest_ >= kMaxDepth) return reject(107, i);
+  if (deepest_ >= kMaxDepth) return reject(kRuleDepth, i);
   for (uint32_t which = 0; which < 2; ++which) {
     const uint32_t child = node.side[which].child;
     if (is_leaf(child)) {
@@ -167,13 +173,14 @@ Verdict Opening::check_node(uint32_t i) {
       if (!leaf.ok()) return leaf;
       continue;
     }
-    if (!is_box(node.side[which].box)) return reject(120, i);
+    if (!is_box(node.side[which].box)) return reject(kRuleNodeBox, i);
     if (child <= i || child >= view_.nodes_.size() ||
         view_.parents_[child] != make_parent(i, which, depth_of(word) + 1))
-      return reject(122, i);
+      return reject(kRuleChild, i);
     const Node& inner = view_.nodes_[child];
     for (uint32_t grandchild = 0; grandchild < 2; ++grandchild)
-      if (!holds(node.side[which].box, inner.side[grandchild].box)) return reject(121, child);
+      if (!holds(node.side[which].box, inner.side[grandchild].box))
+        return reject(kRuleBoxOutsideParent, child);
   }
   return kPassed;
 }
@@ -184,21 +191,21 @@ Verdict Opening::check_leaf(uint32_t i, uint32_t which) {
                  count = leaf_count(node.side[which].child);
   // Only the second child of the one node of a mesh of one leaf may be empty.
   if (first != next_triangle_ || (count == 0 && !(which == 1 && view_.nodes_.size() == 1)))
-    return reject(124, i);
-  if (count > view_.head_->triangle_count - first) return reject(124, i);
-  if (!is_box(node.side[which].box)) return reject(120, i);
+    return reject(kRuleLeaf, i);
+  if (count > view_.head_->triangle_count - first) return reject(kRuleLeaf, i);
+  if (!is_box(node.side[which].box)) return reject(kRuleNodeBox, i);
   const float per_cell = 1.0f / view_.head_->cell_m;
   for (uint32_t t = first; t < first + count; ++t) {
     const Triangle<uint32_t> triangle = view_.triangle(t);
     for (const uint32_t corner : triangle.corner) {
-      if (corner >= view_.vertices_.size()) return reject(126, t);
+      if (corner >= view_.vertices_.size()) return reject(kRuleCorner, t);
       const Vertex& v = view_.vertices_[corner];
       const float values[3] = {v.x_m, v.y_m, v.z_m};
       for (int k = 0; k < 3; ++k) {  // with the rounding that NearBound allows for
         const float cells = (values[k] - view_.head_->grid_low_m[k]) * per_cell;
         if (!(low_of(node.side[which].box[k]) <= cells &&
               cells <= high_of(node.side[which].box[k])))
-          return reject(127, t);
+          return reject(kRuleTriangleOutsideLeaf, t);
       }
     }
   }
@@ -213,19 +220,20 @@ Verdict Opening::check_leaf_box(uint32_t first, uint32_t count) const {
   if (view_.leaf_boxes_ == nullptr || count == 0) return kPassed;
   const uint32_t* const words = view_.leaf_boxes_ + size_t{kLeafBoxStride} * first;
   const bool is_there = count > 1;
-  if (!is_there && !tells_nothing(words)) return reject(137, first);
+  if (!is_there && !tells_nothing(words)) return reject(kRuleLeafBoxWords, first);
   for (uint32_t i = is_there ? kLeafBoxWords : 2; i < kLeafBoxStride * count; ++i)
-    if (words[i] != 0) return reject(137, first);
+    if (words[i] != 0) return reject(kRuleLeafBoxWords, first);
   if (!is_there) return kPassed;
   const LeafBox box(words);
-  if ((words[1] & 0xFFFFu) != 0xFFFFu) return reject(137, first);
-  if (!box.are_axes_sound()) return reject(138, first);
+  if ((words[1] & 0xFFFFu) != 0xFFFFu) return reject(kRuleLeafBoxWords, first);
+  if (!box.are_axes_sound()) return reject(kRuleLeafBoxAxes, first);
   const Head& head = *view_.head_;
   const float per_cell = 1.0f / head.cell_m;
   const Vec3 low_m{head.grid_low_m[0], head.grid_low_m[1], head.grid_low_m[2]};
   for (uint32_t t = first; t < first + count; ++t)
     for (const uint32_t corner : view_.triangle(t).corner)
-      if (!box.holds((view_.vertex(corner) - low_m) * per_cell)) return reject(139, t);
+      if (!box.holds((view_.vertex(corner) - low_m) * per_cell))
+        return reject(kRuleTriangleOutsideLeafBox, t);
   return kPassed;
 }
 
@@ -241,7 +249,7 @@ Verdict Opening::check_shape(uint32_t i) const {
   put_floats(view_.shapes_[i], reported);
   put_floats(shape_at(i), shape);
   for (uint32_t k = 0; k < kShapeFloats; ++k)
-    if (math::bits_of(reported[k]) != math::bits_of(shape[k])) return reject(141, i);
+    if (math::bits_of(reported[k]) != math::bits_of(shape[k])) return reject(kRuleShape, i);
   return kPassed;
 }
 
@@ -251,17 +259,19 @@ Verdict Opening::check_triangle(uint32_t i) {
              c = view_.vertex(t.corner[2]);
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const float ab2 = dot(ab, ab);
-  if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ca, ca))) return reject(128, i);
-  if (!(math::length(ab) <= view_.head_->longest_edge_m)) return reject(131, i);
+  if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ca, ca)))
+    return reject(kRuleLongestEdgeFirst, i);
+  if (!(math::length(ab) <= view_.head_->longest_edge_m)) return reject(kRuleEdgeAboveLongest, i);
   const float per_ab = 1.0f / math::length(ab);
   const Vec3 normal = cross(ab * per_ab, ca * per_ab);
   const Vec3 height = (c - a) - ab * (dot(ab, c - a) * (1.0f / ab2));  // as the solver has it
-  if (!(dot(normal, normal) >= 1e-20f && dot(height, height) >= 1e-36f)) return reject(129, i);
+  if (!(dot(normal, normal) >= 1e-20f && dot(height, height) >= 1e-36f))
+    return reject(kRuleThinTriangle, i);
   const Verdict shape = check_shape(i);
   if (!shape.ok()) return shape;
   if (view_.is_signed())
     for (const int8_t fold : view_.folds_[i].fold)
-      if (fold < -kMaxFold) return reject(130, i);
+      if (fold < -kMaxFold) return reject(kRuleFold, i);
   return kPassed;
 }
 
