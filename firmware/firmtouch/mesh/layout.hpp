@@ -24,7 +24,7 @@ constexpr uint32_t kSourceSection = 0x1009;
 constexpr uint32_t kProbesSection = 0x100A;  // query::ProbeHead and its points
 // EdgeFolds[triangle_count]; absent from an unsigned mesh.
 constexpr uint32_t kEdgeFoldsSection = 0x100B;
-// Only in an asset whose dearest query is to cost little: uint32_t[4 * triangle_count + kLeafBoxesEnd]:
+// Only in a bounded bake: uint32_t[4 * triangle_count + kLeafBoxesEnd]:
 // of each leaf of two triangles or more an oriented box, eight words at word 4 * first triangle
 // (math::oriented_distance2(), tools/FORMAT.md).
 constexpr uint32_t kLeafBoxesSection = 0x100E;
@@ -33,7 +33,8 @@ constexpr uint32_t kShapesSection = 0x100F;
 
 constexpr uint32_t kLeafBoxWords = 8;
 constexpr uint32_t kLeafBoxStride = 4;  // words a triangle
-constexpr uint32_t kLeafBoxesEnd = 8;   // a box that tells nothing, for a last leaf of one triangle
+constexpr uint32_t kLeafBoxesEnd =
+    8;  // a box that excludes nothing, for a last leaf of one triangle
 // Of a leaf without a box, words 0 and 1: nothing is farther out than this.
 constexpr uint32_t kNoLeafBox = 0xFFFFFFFFu;
 
@@ -132,8 +133,8 @@ constexpr uint32_t make_parent(uint32_t parent, uint32_t which, uint32_t depth) 
 /// with n the face's unit normal, m the unit vector in its plane, across the edge and outward, s =
 /// fold / 127.05: n (1 - |s|) + m s.
 ///
-/// The last codes, +-127, stand 3.9e-4 rad short of m. A normal square to its own face would tell no
-/// side; theirs still tell it of a face that is folded back to within 7e-4 rad.
+/// The last codes, +-127, are 3.9e-4 rad short of m. A normal perpendicular to its own face would decide
+/// no sign; these still decide it for a face that is folded back to within 7e-4 rad.
 struct EdgeFolds {
   int8_t fold[3];
 };

@@ -32,7 +32,7 @@ template <int kBlock>
   math::load_floats<kBlock>(reinterpret_cast<const float*>(at), corner_m.x, corner_m.y, corner_m.z);
 }
 
-/// What is looked for, and what came of it; its first five floats lie in a row.
+/// Input and result of measuring leaves. Its first five floats are consecutive.
 struct Sought {
   math::Vec3 p_m;
   float slack_m2;          // of the mesh, for Nearer
@@ -44,8 +44,7 @@ struct Sought {
   bool is_narrow;  // the indices have 16 bits
 };
 
-/// A triangle whose shape is stored (mesh/layout.hpp, kShapesSection); the corners b and c are rarely
-/// needed.
+/// A triangle whose shape is stored (mesh/layout.hpp, kShapesSection). Corners b and c are rarely needed.
 struct OfShape {
   math::Vec3 a_m, ab_m, h_m;
   float per_ab2_m2;
@@ -70,7 +69,7 @@ struct OfShape {
   float h2(math::Vec3) const { return shape->h2_m2; }
 };
 
-// The triangles of a leaf one after the other, by their corners.
+// The triangles of a leaf by their corners.
 template <class Index>
 struct CornersInTurn {
   using Shape = OfCorners;
@@ -89,7 +88,7 @@ struct CornersInTurn {
   }
 };
 
-// The same by their shapes, whatever the width of their indices.
+// The same by their stored shapes, with indices of either width.
 struct ShapesInTurn {
   using Shape = OfShape;
   const Sought* sought;
@@ -106,9 +105,8 @@ struct ShapesInTurn {
   }
 };
 
-/// Puts into sought.best what of the leaf `child`, which is at `place`, is nearer; of two equally
-/// near triangles the first. InTurn: CornersInTurn or ShapesInTurn. Wanted: Nearer or Everything,
-/// which tell the same; Everything in fewer instructions where nothing is known yet.
+/// Puts into sought.best the first nearest triangle of the leaf `child`, in slot `slot`, if it is nearer.
+/// Wanted: Nearer or Everything, with the same result; Everything is faster without a bound.
 template <class InTurn, class Wanted>
 [[gnu::always_inline]] static inline void measure_in_turn(uint32_t child, uint32_t slot,
                                                           Sought& sought) {
@@ -131,7 +129,7 @@ template <class InTurn, class Wanted>
     min2_m2 = foot.distance2_m2;
     wanted = Wanted::than(min2_m2, slack_m2);
     Best& best = sought.best;
-    best.distance2_m2 = min2_m2;  // one by one: an aggregate would be built aside first
+    best.distance2_m2 = min2_m2;  // one by one: an aggregate is built on the stack first
     best.offset_m = foot.offset_m;
     const uint32_t word = math::only_here(child);
     best.triangle = leaf_first(word) + leaf_count(word) - left;

@@ -14,21 +14,21 @@
 namespace firmtouch::mesh {
 namespace {
 
-// What an exact answer promises of told distance and lower bound, beside max(diagonal, distance), a
-// little inside of 4e-7.
+// Bound of an exact answer's error in distance and lower bound, relative to max(diagonal, distance):
+// a little inside of 4e-7.
 constexpr float kPromise = 3.9e-7f;
 
-// Below this distance, beside the diagonal, either side is right; what is nearer is not carried on.
+// Below this distance, relative to the diagonal, either sign is right, and none is carried on.
 constexpr float kEitherSide = 2e-6f;
 
-// A height above the plane of a pseudonormal that is less, beside the distance, tells no side: far
-// above what decoding loses. The baker refuses features whose margin, as stored, is not five times
+// A lower height above the plane of a pseudonormal, relative to the distance, decides no sign: far
+// above the loss of decoding. The baker refuses features whose margin, as stored, is not five times
 // this.
 constexpr float kDoubt_rad = 6e-5f;
 
-// A new fence stands this many of the last motions beyond the nearest leaf: nearer, it must soon be
-// renewed; farther, more lies inside it. Of 6, 8, 12 and 16, 8 served the worst touching
-// walks (2 % apart).
+// Margin of a new safe subtree beyond the nearest leaf, in last motions: a smaller one must soon be
+// renewed, a larger one holds more triangles. 8 is best of 6, 8, 12 and 16 on the worst touching
+// paths (2 % apart).
 constexpr float kSafeSubtreeMotions = 8.0f;
 
 // A query farther than this from the origin: squares overflow beyond 1e19, and no model is larger
@@ -41,14 +41,14 @@ bool is_slot(const View& mesh, uint32_t slot) {
   return is_leaf(child) && leaf_count(child) != 0;
 }
 
-// What a search found, and what it is worth.
+// The result of a search and its certified bounds.
 struct Found {
   Search search;
   float distance_m;
   float lower_m;  // certified by this search alone
 };
 
-// How near something may be: beyond the band nothing was looked for.
+// Lower bound of all distances before rounding: beyond the band nothing was searched.
 float nearest_m(const Search& search) {
   return math::square_root(math::smaller(search.best.distance2_m2, search.band2_m2));
 }
@@ -67,8 +67,8 @@ void weigh(Found& found, float lower_m, float rounding_m) {
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
 }
 
-// Measures the nearest triangle alone with care: mostly float32 lost far less than it may lose.
-// Result: whether what it is told to be and the lower bound now keep the promise, `within_m`.
+// Measures the nearest triangle alone in double-float: usually float32 lost far less than its bound.
+// Result: whether distance and lower bound are now within `within_m` of each other.
 bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
   if (!found.search.complete) return false;
   const Best& best = found.search.best;
@@ -87,14 +87,14 @@ bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
   return true;
 }
 
-// That was not enough: once more with care, from where the nearest was.
+// If that is not enough: searches again in double-float, from the nearest leaf.
 template <class Finder, class Bound>
 void search_again(const View& mesh, const Finder& finder, const Bound& bound, Vec3 p_m,
                   uint32_t budget, Found& found) {
   const Loss loss(mesh.head());
   if (found.search.complete && budget > found.search.steps) {
     Found again{};
-    // The nearest one is no farther than this, so that in its leaf too only what ties is measured.
+    // The nearest triangle is no farther than this: in its leaf only near ties are measured again.
     const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
     again.search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
     again.search.band2_m2 = found.search.band2_m2;
@@ -114,7 +114,7 @@ void search_again(const View& mesh, const Finder& finder, const Bound& bound, Ve
     }
     found.search.steps = again.search.steps;
   }
-  // No budget left for it: what is told is the true distance of the triangle that was found.
+  // No budget left for it: return the true distance of the triangle that was found.
   found.search.complete = false;
   if (found.search.best.slot == query::kNowhere) return;
   const Triangle<uint32_t> t = mesh.triangle(found.search.best.triangle);
@@ -123,8 +123,7 @@ void search_again(const View& mesh, const Finder& finder, const Bound& bound, Ve
   found.distance_m = math::square_root(distance2_m2);
 }
 
-// The side of the offset, or 0 where the roundings of offset, `loss_m`, and pseudonormal could turn
-// it.
+// The sign of the offset, or 0 if the roundings of offset, `loss_m`, and pseudonormal could change it.
 template <class Finder>
 int8_t sign_of(const Finder& finder, const Found& found, Vec3 direction, float loss_m,
                float diagonal_m) {
@@ -144,12 +143,12 @@ template <class Finder, class Bound>
   const bool has_moved = moved_m <= query::kMaxMotion_m;  // else nothing is carried on
   const Loss loss(mesh.head());
   const float safe_subtree_margin_m = has_moved ? kSafeSubtreeMotions * moved_m : 0.0f;
-  // FLT_MAX and what squares beyond it: no band.
+  // FLT_MAX, or a square beyond it: no band.
   const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
-  // After a jump out of the band's reach the last leaf does not help.
+  // After a jump farther than the band the last leaf does not help.
   const uint32_t slot = hint.leaf_slot, safe_subtree = hint.safe_subtree;
   const bool is_warm = !(safe_subtree_margin_m > budget.band_m) && is_slot(mesh, slot);
-  Found found;  // all at once, with nothing read between: else each of its defaults is stored too
+  Found found;  // set without reads between, else its defaults are stored too
   Search& search = found.search;
   search.p_m.x = p_m.x;
   search.p_m.y = p_m.y;
@@ -184,7 +183,7 @@ template <class Finder, class Bound>
   const Best& best = search.best;
   const Vec3 point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);
   const Vec3 direction = finder.direction(best);
-  // The carried bound is worth keeping where the search was cut short; else it can only be older.
+  // The carried bound may be higher only if the search was cut short.
   float lower_m = found.lower_m;
   bool exact = search.complete && is_near;
   if (!exact) {
@@ -197,7 +196,7 @@ template <class Finder, class Bound>
       sign = 1;
     else if (exact)
       sign = sign_of(finder, found, direction, plain_loss_m, diagonal_m);
-    if (sign == 0) {  // the last side, where the path stayed within certified free distance
+    if (sign == 0) {  // the last sign, if the path stayed within certified free distance
       if (query::left_of(hint.lower_m, moved_m) > 0.0f) sign = hint.sign;
       exact = exact && sign != 0;
     }

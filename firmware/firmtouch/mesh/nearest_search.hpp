@@ -13,31 +13,29 @@ namespace {
 
 using math::Vec3;
 
-// Boxes still to be looked at. Smallest key first while there is room for a whole descent, last in
-// first out beyond, which needs kMaxDepth entries at most. 64 entries for smallest first: within
-// the 64 steps of a tick's budget it never overflows.
+// Pending boxes: smallest key first while a whole descent fits, else last in first out, which needs at
+// most kMaxDepth entries. 64 entries for smallest first never overflow within 64 visits.
 constexpr uint32_t kBestFirst = 64;
 constexpr uint32_t kCapacity = kBestFirst + kMaxDepth;
 
-// A place is a box: node << 1 | which of its two.
+// A slot is a box: node << 1 | which of its two.
 struct Pending {
   uint32_t key;
   uint32_t slot;
 };
 
-/// What is looked for, and what came of it.
+/// Input and result of a search.
 struct Search : Sought {
-  uint32_t start;               // a leaf's place, or kNowhere
-  uint32_t budget;              // in steps
+  uint32_t start;               // a leaf's slot, or kNowhere
+  uint32_t budget;              // in visits
   uint32_t triangle_low;        // Hint::triangle_low; the wide search reads it
-  float band2_m2;               // what is farther off need not be found
-  float safe_subtree_margin_m;  // how much farther than the first leaf a new fence should stand
-  uint32_t
-      safe_subtree;      // in: the last fence, the subtree outside which everything is at least ...
-  float safe_subtree_m;  // ... this far away; out: the same, renewed
+  float band2_m2;               // triangles farther away need not be found
+  float safe_subtree_margin_m;  // margin of a new safe subtree beyond the first leaf
+  uint32_t safe_subtree;        // in: the last one; all triangles outside it are at least ...
+  float safe_subtree_m;         // ... this far away; out: the same, renewed
   uint32_t steps;
-  bool complete;    // nothing nearer can be left
-  float pending_m;  // where it is not: certified distance to everything that was not looked at
+  bool complete;    // no nearer triangle can be left
+  float pending_m;  // if not complete: certified distance to all that was not visited
   math::HalfCellPoint half_cells;  // of p_m; for the boxes of leaves alone
   const uint32_t* leaf_boxes;
 };
@@ -51,7 +49,7 @@ struct Choice<false, First, Second> {
   using Type = Second;
 };
 
-// What take_smallest() leaves.
+// Result of take_smallest().
 struct Taken {
   uint32_t slot;
   uint32_t count;  // still pending
@@ -59,11 +57,10 @@ struct Taken {
   bool found;
 };
 
-// Takes the leaf of the smallest key, which is below `prune`: where the smallest is an inner node's,
-// both of its boxes take its place first. So the lower bound of a search that is cut short rises
-// fastest. Where kBestFirst or more are pending or nothing is `left`, what was about to be read.
-// A function of its own: in the loop it would take the registers of the warm search, which does
-// not use it.
+// Pops the leaf of the smallest key below `prune`; inner nodes of the smallest key are replaced by their
+// boxes. So the lower bound of a search that is cut short rises fastest. With kBestFirst or more
+// pending, or nothing `left`, it returns the box that is next, inner node or not.
+// noinline: inlined it takes registers of the warm search, which does not use it.
 template <class Bound>
 [[gnu::noinline]] Taken take_smallest(const Side* sides, const Bound& bound, Pending* pending,
                                       uint32_t count, uint32_t prune, uint32_t left) {
@@ -90,8 +87,7 @@ template <class Bound>
   top = reinterpret_cast<Pending*>(word);
 }
 
-// Takes the last place of a key below `prune`.
-// Result: false when none is left above `best_first`.
+// Pops the last slot with a key below `prune`. Result: false if none is left above `best_first`.
 inline bool take_last(Pending*& top, const Pending* best_first, uint32_t prune, uint32_t& slot) {
   while (top > best_first) {
     --top;
@@ -101,16 +97,15 @@ inline bool take_last(Pending*& top, const Pending* best_first, uint32_t prune, 
   return false;
 }
 
-// What the nearest so far, or the band, leaves to be looked at. A square is no -0, so that a band of 0
-// may be the limit.
+// The cutoff by the nearest so far, or by the band. A square is never -0, so a band of 0 works.
 template <class Bound>
 inline uint32_t prune_key(const Bound& bound, const Search& search) {
   return bound.prune_key(math::smaller(search.best.distance2_m2, search.band2_m2));
 }
 
-// From the leaf at search.start, which has been read, up to the fence where that is far enough away,
-// else to the root, building the next fence: the highest node with a box beside the way that is
-// nearer than the fence should be. Result: false where the budget ends on the way.
+// From the leaf at search.start, which has been visited, up to the safe subtree if its certificate is
+// still far enough, else to the root. Pushes sibling boxes that are near. The next safe subtree is the
+// highest node on the path with a sibling nearer than the margin. Result: false if the budget ends.
 template <class Bound>
 inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint32_t prune,
                   uint32_t& left, Pending*& top, Search& search) {
@@ -129,7 +124,7 @@ inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint3
       safe_subtree = index;
       if (key < prune) push(top, key, beside);
     }
-    // Parents come before their children: at the fence, or past one that is no ancestor.
+    // Parents come before their children: at the safe subtree, or past one that is no ancestor.
     if (index <= stop) {
       if (index == 0) {
         search.safe_subtree = safe_subtree;
@@ -171,7 +166,7 @@ inline core::Span<const Triangle<Index>> triangles_of(const View& mesh) {
     return mesh.triangles32();
 }
 
-// Where measure() without care finds the mesh.
+// Pointers to the mesh for measure().
 template <class Index, class Bound>
 inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, Search& search) {
   if constexpr (kIsBoxed<Index>) {
@@ -188,7 +183,7 @@ inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, 
   }
 }
 
-// Which leaf: that of the last answer, or one beside it.
+// Which leaf: that of the last answer, or another one.
 enum class Which { kLast, kBeside };
 
 // Functions of their own: inlined they take the registers of the descent.
@@ -209,7 +204,7 @@ template <class InTurn, class Wanted>
   measure_in_turn<InTurn, Wanted>(child, slot, search);
   return search.best.slot ^ slot;
 }
-// Whether its box tells that nothing in a leaf is below `prune`.
+// Whether the box of a leaf excludes all of its triangles.
 [[gnu::always_inline]] inline bool is_beyond(uint32_t prune, uint32_t child, const Search& search) {
   const uint32_t* const box = search.leaf_boxes + size_t{kLeafBoxStride} * leaf_first(child);
   return math::oriented_distance2(box, search.half_cells) >= prune;
@@ -221,13 +216,13 @@ template <class InTurn, class Wanted>
   return search.best.slot ^ slot;
 }
 
-// Side by side so few instructions measure a leaf that a call would show. With care the width of the
-// indices is told at each leaf, where it does not show: one loop less a bound, 1.1 to 1.5 KB.
-// `prune`: the least key that is not looked at. Result: whether one was nearer.
+// A compensated search tests the index width at each leaf, which costs nothing there and saves one copy
+// of the loop a bound, 1.1 to 1.5 KB. `prune`: the lowest key that is not visited. Result: whether a
+// triangle was nearer.
 template <bool kCompensated, class Index, Which kWhich>
 inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t child,
                     uint32_t slot, Search& search) {
-  // Before the last leaf nothing is known that could leave a triangle out.
+  // Before the last leaf there is no bound that could exclude a triangle.
   using Wanted = typename Choice<kWhich == Which::kLast, Everything, Nearer>::Type;
   if constexpr (kCompensated) {
     return (mesh.triangles16().empty()
@@ -241,8 +236,8 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
   }
 }
 
-// Of an inner node's boxes the nearer one below `prune` becomes child and place; the other, below it
-// too, is left pending. Result: false where neither is below it.
+// Descends to the nearer box below `prune` of an inner node; pushes the other one if it is below too.
+// Result: false if neither is below.
 template <class Bound>
 [[gnu::always_inline]] inline bool enter(const Side* sides, const Bound& bound, uint32_t prune,
                                          uint32_t& child, uint32_t& slot, Pending*& top) {
@@ -268,11 +263,10 @@ template <class Bound>
   return true;
 }
 
-// One loop with its state in registers. A box is a place; a leaf that is reached is read, an inner
-// node is entered by its nearer child, the other left in `pending`. A warm search begins with the
-// last leaf and climbs from there to the root, leaving in `pending` what lies beside the way.
-// A function of its own: beside its caller's values the loop's do not stay in registers.
-// `Index`: of the triangles; with care of none.
+// One loop with its state in registers. It measures leaves and descends inner nodes to the nearer child;
+// the other child goes to `pending`. A warm search begins at the last leaf and ascends first, pushing
+// the sibling boxes. noinline: with its caller's values the loop's do not stay in registers.
+// `Index`: of the triangles; void if compensated.
 template <bool kCompensated, class Bound, class Index>
 [[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers
@@ -302,7 +296,7 @@ template <bool kCompensated, class Bound, class Index>
     child = sides[slot].child;
   } else {
     prune = prune_key(bound, search);
-    // Where nothing cuts a search short no lower bound is told on the way.
+    // Without a budget no lower bound is needed on the way.
     if (allowed != UINT32_MAX) best_first += kBestFirst;
   }
   for (bool is_left = left != 0; is_left; is_left = math::count_down(left)) {
@@ -312,7 +306,7 @@ template <bool kCompensated, class Bound, class Index>
       if (measure<kCompensated, Index, Which::kBeside>(mesh, prune, child, slot, search))
         prune = prune_key(bound, search);
     }
-    // Many, or warm: the last, whose order does not matter then and costs nothing.
+    // Many pending, or warm: last in first out, where the order does not matter and costs nothing.
     if (!take_last(top, best_first, prune, slot)) {
       const uint32_t count = static_cast<uint32_t>(top - pending);
       Taken taken{0, 0, left - 1, false};
@@ -327,7 +321,7 @@ template <bool kCompensated, class Bound, class Index>
     }
     child = sides[slot].child;
   }
-  // The budget ran out: what was about to be read is left too.
+  // The budget ran out before the next box, which counts as pending too.
   search.complete = false;
   search.steps = allowed;
   uint32_t least = bound.key(sides[slot].box);
