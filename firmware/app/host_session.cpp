@@ -29,6 +29,13 @@ link::HelloReply describe() {
   return reply;
 }
 
+// A function of its own: its text is not on the stack of the paths that start something.
+[[gnu::noinline]] void print_refusal(const link::Hello& hello, const link::HelloReply& reply) {
+  char text[640];
+  link::explain(hello.host, reply, text);
+  hal::board_print(text);
+}
+
 }  // namespace
 
 void HostSession::poll() {
@@ -96,11 +103,9 @@ void HostSession::answer_hello(const link::Frame& frame) {
 
   phase_ = Phase::kStranger;
   if (reply.refused != 0) {
-    char text[640];
-    link::explain(hello.host, reply, text);
     const bool is_query =
         hello.mode == link::kModeIdentify || reply.refused == link::kRefusedNotReady;
-    if (!is_query) hal::board_print(text);
+    if (!is_query) print_refusal(hello, reply);
   } else if (hello.mode == link::kModeLockStep) {
     hal::motors_off();
     controller.reset();

@@ -17,14 +17,15 @@ const char kHelp[] =
     "bytes of stack.\n"
     "Functions are named as in the source (firmtouch::mesh::closest_point) or as the linker names "
     "them; there a\n"
-    "* at the end stands for any rest (_GLOBAL__sub_I_* are the constructors of a file's "
-    "variables).\n"
+    "* stands for any text (_GLOBAL__sub_I_* are the constructors of a file's variables).\n"
     "  --root NAME            a function that is not begun by a call: main, reset. Default: all functions are checked,\n"
     "                         no path is printed\n"
     "  --interrupt NAME       a root that may come on top of the others; its exception frame is "
     "added (108 bytes)\n"
     "  --without NAME         a function that is not called in this phase of the program\n"
-    "  --calls CALLER=CALLEE  what the indirect calls of CALLER reach (again for several)\n"
+    "  --calls CALLER=CALLEE  what the indirect calls of CALLER reach (again for several); a pattern of "
+    "callees leaves out\n"
+    "                         those that call CALLER\n"
     "  --size NAME=BYTES      stack of a function without a graph (libgcc, assembly)\n"
     "  --limit BYTES          size of the stack: exit 1 if the sum of all roots is larger\n"
     "Exit 1: recursion, a frame of unknown size (alloca, variable-length array), an indirect call "
@@ -96,13 +97,16 @@ bool read(Graph& graph, const char* path) {
   return true;
 }
 
+bool matches(const char* text, const char* pattern) {
+  if (*pattern == '*') return matches(text, pattern + 1) || (*text != 0 && matches(text + 1, pattern));
+  return *text == *pattern && (*text == 0 || matches(text + 1, pattern + 1));
+}
+
 // By the linker's name, or by the source's up to its parameters.
 bool is_named(const std::string& title, const Function& function, const std::string& name) {
   if (title == name) return true;
-  if (!name.empty() && name.back() == '*') {  // a local function's title is `file:name`
-    const std::string linked = title.substr(title.rfind(':') + 1);
-    return linked.compare(0, name.size() - 1, name, 0, name.size() - 1) == 0;
-  }
+  if (name.find('*') != std::string::npos)  // a local function's title is `file:name`
+    return matches(title.c_str() + title.rfind(':') + 1, name.c_str());
   const std::string& text = function.source_name;
   for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
     const size_t end = at + name.size();
@@ -244,12 +248,14 @@ bool parse(int argc, char** argv, Options& options) {
 void bind_calls(Graph& graph, const Options& options, Problems& problems) {
   for (const auto& [caller, callee] : options.calls) {
     const std::vector<std::string> callers = find(graph, caller), callees = find(graph, callee);
+    const bool is_pattern = callee.find('*') != std::string::npos;
     if (callers.empty() || callees.empty()) {
       problems.say("--calls " + caller + "=" + callee + ": no such function: mend the name");
     }
     for (const std::string& from : callers) {
       graph[from].calls.erase(kIndirect);
-      graph[from].calls.insert(callees.begin(), callees.end());
+      for (const std::string& to : callees)  // a pattern may match the caller's own caller
+        if (!is_pattern || graph[to].calls.count(from) == 0) graph[from].calls.insert(to);
     }
   }
 }

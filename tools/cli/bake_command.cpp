@@ -3,6 +3,7 @@
 
 #include "bake/asset/asset_views.hpp"
 #include "bake/asset/asset_writer.hpp"
+#include "bake/asset/part_names.hpp"
 #include "bake/asset/provenance.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/commands.hpp"
@@ -249,6 +250,8 @@ int run_bake(const Arguments& arguments) {
   std::fprintf(stderr, "%s: %zu bytes, %zu %s, CRC %08x, proven with the firmware's decoder\n",
                output.c_str(), file.bytes.size(), inputs.size(),
                inputs.size() == 1 ? "asset" : "assets", container.crc());
+  std::fprintf(stderr, "needs parts: %s (FIRMTOUCH_APP)\n",
+               tools::needed_parts_text(container).c_str());
   return kDone;
 }
 

@@ -5,6 +5,7 @@
 
 #include "bake/asset/asset_views.hpp"
 #include "bake/asset/json_text.hpp"
+#include "bake/asset/part_names.hpp"
 #include "bake/asset/provenance.hpp"
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
@@ -137,9 +138,15 @@ std::string json_fact(const std::string& fact, const std::string& value) {
 void print_json(const LoadedAsset& loaded) {
   const asset::Container& container = loaded.container();
   std::printf(
-      "{\"file\": %s, \"version\": \"%u.%u\", \"bytes\": %u, \"crc\": \"%08x\", \"assets\": [",
+      "{\"file\": %s, \"version\": \"%u.%u\", \"bytes\": %u, \"crc\": \"%08x\", \"parts\": [",
       tools::json_text(loaded.path()).c_str(), asset::kMajor, asset::kMinor,
       container.bytes().size(), container.crc());
+  const char* after = "";
+  for (const std::string& part : tools::needed_part_names(container)) {
+    std::printf("%s%s", after, tools::json_text(part).c_str());
+    after = ", ";
+  }
+  std::printf("], \"assets\": [");
   const char* between = "\n";
   for (const NamedAsset& named : assets_of(container)) {
     std::printf("%s  {\"name\": %s, \"bytes\": %llu, \"facts\": {", between,
@@ -168,6 +175,7 @@ void print_text(const LoadedAsset& loaded) {
   const asset::Container& container = loaded.container();
   std::printf("%s: %u bytes, %u sections, CRC %08x\n", loaded.path().c_str(),
               container.bytes().size(), container.section_count(), container.crc());
+  std::printf("needs parts: %s (FIRMTOUCH_APP)\n", tools::needed_parts_text(container).c_str());
   for (const NamedAsset& named : assets_of(container)) {
     std::printf("\n%s: %llu bytes\n", named.name.c_str(),
                 static_cast<unsigned long long>(named.bytes));

@@ -102,13 +102,9 @@ class Controller {
   void make_local_model(const ModelRequest& request, const params::Values& values,
                         ModelResult& result) {
     const uint32_t ticks = core_.begin_model(request, values, result);
-    SurfaceReport surface;
-    GuideReport guide;
-    if (request.can_touch) {
-      surface = surfaces_.touch(values, request.position_m, result.model);
-      guide = guide_.follow(values, ticks, request.position_m, result.model);
-    }
-    report(surface, guide, result);
+    if (!request.can_touch) return;
+    surfaces_.touch(request, values, result);
+    guide_.follow(request, values, ticks, result);
   }
 
   Loaders<Guide, SurfaceList> loaders_;

@@ -65,9 +65,9 @@ void put(float (&to)[record::kAxes], math::Vec3 from) {
 
 void ControllerCore::reset() {
   live_ = Live{};
-  live_.values = params::initial_values(table_);
-  models_ = {};
-  const Values& v = live_.values;
+  params::set_initial(values_, table_);
+  models_.reset();
+  const Values& v = values_;
   guard_set_limits(live_.guard,
                    {v[params::kForceLimit], v[params::kSlewLimit], v[params::kTickPeriod]});
 }
@@ -81,11 +81,10 @@ bool ControllerCore::set_parameter(const record::TickInput& input) {
   const bool enable = (input.flags & record::kFlagEnable) != 0;
   if (enable || !motors_off) {
     if (entry.when == params::When::kMotorsOff) return false;
-    if (entry.when == params::When::kMayFall &&
-        !(input.command_value <= live_.values[entry.number]))
+    if (entry.when == params::When::kMayFall && !(input.command_value <= values_[entry.number]))
       return false;
   }
-  if (!params::set(live_.values, table_, row, input.command_value)) return false;
+  if (!params::set(values_, table_, row, input.command_value)) return false;
   set_guard_limit(live_.guard, entry.number, input.command_value);
   return true;
 }
@@ -106,7 +105,7 @@ ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
     const bool taken = clear || set_parameter(input);
     output.state |= taken ? record::kStateCommandTaken : record::kStateCommandRefused;
   }
-  const Values& v = live_.values;
+  const Values& v = values_;
 
   const servo::ClockReading clock =
       watch_clock(live_.clock, input.clock_us, v[params::kTickPeriod], v[params::kLateRatio]);
@@ -133,6 +132,10 @@ uint32_t ControllerCore::begin_model(const ModelRequest& request, const Values& 
   const uint32_t passed = request.tick - live_.model_tick;
   const uint32_t ticks = live_.model_sequence != 0 && passed <= kMaxTicksOfAModel ? passed : 1;
   live_.model_tick = request.tick;
+  result.distance_m = result.distance_lower_m = result.penetration_m = 0;
+  result.guide_deviation_m = result.guide_lower_m = result.guide_arc = 0;
+  result.steps = result.guide_steps = 0;
+  result.state = 1u << record::kStateSignShift;
   result.model.sequence = live_.model_sequence;
   scene::begin_model(result.model, request.position_m, request.tick,
                      static_cast<uint32_t>(v[params::kModelAge]));
@@ -143,7 +146,7 @@ uint32_t ControllerCore::begin_model(const ModelRequest& request, const Values& 
 ModelResult* ControllerCore::result_of_tick(const Tick& tick, uint32_t flags) {
   if ((flags & record::kFlagModelApart) == 0) return &models_.result();
   if ((flags & record::kFlagModelTaken) != 0) models_.take();
-  if ((flags & record::kFlagModelWanted) != 0) models_.request({tick.request, live_.values});
+  if ((flags & record::kFlagModelWanted) != 0) models_.request({tick.request, values_});
   return nullptr;
 }
 
@@ -158,7 +161,7 @@ void ControllerCore::end_tick(const record::TickInput& input, const AssetStatus&
                               const Tick& tick, record::TickOutput& output) {
   const ModelResult& result = models_.result();
   const servo::StepOutput wanted =
-      servo::step(live_.servo, servo_settings(live_.values), result.model, tick.step);
+      servo::step(live_.servo, servo_settings(values_), result.model, tick.step);
 
   // The joints of a Cartesian device are its axes: each motor's force is the tool's.
   float motor_N[record::kAxes];

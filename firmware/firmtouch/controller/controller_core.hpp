@@ -38,7 +38,7 @@ class ControllerCore {
   explicit ControllerCore(params::Table table) : table_(table) { reset(); }
 
   params::Table table() const { return table_; }
-  const params::Values& values() const { return live_.values; }
+  const params::Values& values() const { return values_; }
 
   /// Initial parameters, no faults. Not while a tick may interrupt.
   void reset();
@@ -66,9 +66,8 @@ class ControllerCore {
                        ModelResult& result);
 
  private:
-  // All state from tick to tick but the models.
+  // State from tick to tick, except parameters and models.
   struct Live {
-    params::Values values;
     servo::ClockState clock;
     device::State device;
     servo::State servo;
@@ -80,6 +79,7 @@ class ControllerCore {
   bool set_parameter(const record::TickInput& input);
 
   params::Table table_;
+  params::Values values_;
   Live live_;
   core::Handoff<ModelTask, ModelResult> models_;
 };

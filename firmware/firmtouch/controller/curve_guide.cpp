@@ -3,7 +3,7 @@
 namespace firmtouch {
 
 void set_guide(const params::Values& v, uint32_t ticks, scene::Guide& guide) {
-  guide.pose = scene_pose(v);
+  guide.pose.translation_m = scene_origin_m(v);
   guide.material = {v[params::kGuideStiffness], v[params::kGuideDamping]};
   guide.snap_m = v[params::kGuideSnap];
   guide.release_m = v[params::kGuideRelease];
@@ -16,18 +16,19 @@ void set_guide(const params::Values& v, uint32_t ticks, scene::Guide& guide) {
                  static_cast<float>(ticks) * v[params::kTickPeriod]};
 }
 
-GuideReport report(const scene::GuideTouch& touch) {
+void report_guide(const scene::GuideTouch& touch, ModelResult& result) {
   const curve::Closest& closest = touch.closest;
-  return {closest.distance_m, closest.arc, closest.certificate, touch.is_held};
+  report_guide(closest.certificate, closest.distance_m, closest.arc, touch.is_held, result);
 }
 
-GuideReport CurveGuide::follow(const params::Values& v, uint32_t ticks, math::Vec3 position_m,
-                               servo::LocalModel& model) {
+void CurveGuide::follow(const ModelRequest& request, const params::Values& v, uint32_t ticks,
+                        ModelResult& result) {
   scene::CurveGuide guide;
   set_guide(v, ticks, guide);
   guide.curve = &curve();
-  scene::follow_curve(guide, position_m, visit_budget(v, params::kCurveSteps), touch_, model);
-  return report(touch_);
+  scene::follow_curve(guide, request.position_m, visit_budget(v, params::kCurveSteps), touch_,
+                      result.model);
+  report_guide(touch_, result);
 }
 
 }  // namespace firmtouch

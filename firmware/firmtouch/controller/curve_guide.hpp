@@ -12,7 +12,7 @@ namespace firmtouch {
 
 /// Fills a guide's settings from the parameters. `ticks`: since the last model.
 void set_guide(const params::Values& values, uint32_t ticks, scene::Guide& guide);
-GuideReport report(const scene::GuideTouch& touch);
+void report_guide(const scene::GuideTouch& touch, ModelResult& result);
 
 /// A guide policy: a sampled curve.
 class CurveGuide : public curve::Loader {
@@ -24,8 +24,8 @@ class CurveGuide : public curve::Loader {
   const curve::View& curve() const { return view(); }
   bool is_open() const { return curve().is_open(); }
   void reset() { touch_ = {}; }
-  GuideReport follow(const params::Values& values, uint32_t ticks, math::Vec3 position_m,
-                     servo::LocalModel& model);
+  void follow(const ModelRequest& request, const params::Values& values, uint32_t ticks,
+              ModelResult& result);
 
  private:
   scene::CurveGuideTouch touch_;

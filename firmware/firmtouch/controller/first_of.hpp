@@ -80,11 +80,8 @@ class Surfaces : public FirstOf<Policies...> {
   static constexpr bool kIsGuide = false;
   using Parameters = params::Joined<typename Policies::Parameters...>;
 
-  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
-                      servo::LocalModel& model) {
-    SurfaceReport report;
-    this->use_open([&](auto& surface) { report = surface.touch(values, position_m, model); });
-    return report;
+  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result) {
+    this->use_open([&](auto& surface) { surface.touch(request, values, result); });
   }
 };
 
@@ -97,11 +94,9 @@ class Guides : public FirstOf<Policies...> {
   static constexpr bool kIsGuide = true;
   using Parameters = params::Joined<typename Policies::Parameters...>;
 
-  GuideReport follow(const params::Values& values, uint32_t ticks, math::Vec3 position_m,
-                     servo::LocalModel& model) {
-    GuideReport report;
-    this->use_open([&](auto& guide) { report = guide.follow(values, ticks, position_m, model); });
-    return report;
+  void follow(const ModelRequest& request, const params::Values& values, uint32_t ticks,
+              ModelResult& result) {
+    this->use_open([&](auto& guide) { guide.follow(request, values, ticks, result); });
   }
 };
 
@@ -118,7 +113,7 @@ class NoGuide {
   void close() {}
   void begin(const asset::Container&, const char*, State&) {}
   asset::Progress work(State&, uint32_t) { return {true, core::kPassed}; }
-  GuideReport follow(const params::Values&, uint32_t, math::Vec3, servo::LocalModel&) { return {}; }
+  void follow(const ModelRequest&, const params::Values&, uint32_t, ModelResult&) {}
 };
 
 }  // namespace firmtouch

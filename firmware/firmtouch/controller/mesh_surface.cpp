@@ -5,22 +5,22 @@ namespace firmtouch {
 scene::MeshObject MeshContact::object(const mesh::View& mesh, const params::Values& v) const {
   scene::MeshObject object;
   object.mesh = &mesh;
-  object.pose = scene_pose(v);
+  object.pose.translation_m = scene_origin_m(v);
   object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
   return object;
 }
 
-SurfaceReport MeshContact::report() const {
-  const mesh::Closest& closest = touch_.closest;
-  return {closest.distance_m, touch_.penetration_m, closest.certificate,
-          closest.certificate.steps + touch_.base_hull_steps, touch_.is_of_base_hull};
+void MeshContact::report(ModelResult& result) const {
+  report_surface(touch_.closest.certificate, touch_.closest.distance_m, touch_.penetration_m,
+                 result);
+  result.steps += touch_.base_hull_steps;
+  if (touch_.is_of_base_hull) result.state |= record::kStateOfBaseHull;
 }
 
-SurfaceReport MeshSurface::touch(const params::Values& v, math::Vec3 position_m,
-                                 servo::LocalModel& model) {
-  scene::touch_mesh(object(mesh(), v), v[params::kToolRadius], position_m,
-                    visit_budget(v, params::kMeshSteps), touch_, model);
-  return report();
+void MeshSurface::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
+  scene::touch_mesh(object(mesh(), v), v[params::kToolRadius], request.position_m,
+                    visit_budget(v, params::kMeshSteps), touch_, result.model);
+  report(result);
 }
 
 void FieldMesh::begin(const asset::Container& asset, const char* name, State& state) {
@@ -28,22 +28,20 @@ void FieldMesh::begin(const asset::Container& asset, const char* name, State& st
   LoaderChain::begin(asset, name, state);
 }
 
-SurfaceReport FieldMesh::touch(const params::Values& v, math::Vec3 position_m,
-                               servo::LocalModel& model) {
+void FieldMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::MeshObject with_field = object(mesh(), v);
   with_field.distance_field = &distance_field();
-  scene::touch_mesh_with_field(with_field, v[params::kToolRadius], position_m,
-                               visit_budget(v, params::kMeshSteps), touch_, model);
-  return report();
+  scene::touch_mesh_with_field(with_field, v[params::kToolRadius], request.position_m,
+                               visit_budget(v, params::kMeshSteps), touch_, result.model);
+  report(result);
 }
 
-SurfaceReport HulledMesh::touch(const params::Values& v, math::Vec3 position_m,
-                                servo::LocalModel& model) {
+void HulledMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::MeshObject with_hull = object(mesh(), v);
   with_hull.base_hull = &hull().base_hull();
-  scene::touch_mesh_with_base_hull(with_hull, v[params::kToolRadius], position_m,
-                                   visit_budget(v, params::kMeshSteps), touch_, model);
-  return report();
+  scene::touch_mesh_with_base_hull(with_hull, v[params::kToolRadius], request.position_m,
+                                   visit_budget(v, params::kMeshSteps), touch_, result.model);
+  report(result);
 }
 
 void FullMesh::begin(const asset::Container& asset, const char* name, State& state) {
@@ -51,14 +49,14 @@ void FullMesh::begin(const asset::Container& asset, const char* name, State& sta
   LoaderChain::begin(asset, name, state);
 }
 
-SurfaceReport FullMesh::touch(const params::Values& v, math::Vec3 position_m,
-                              servo::LocalModel& model) {
+void FullMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::MeshObject with_both = object(mesh(), v);
   with_both.distance_field = &distance_field();
   with_both.base_hull = &hull().base_hull();
-  scene::touch_mesh_with_field_and_base_hull(with_both, v[params::kToolRadius], position_m,
-                                             visit_budget(v, params::kMeshSteps), touch_, model);
-  return report();
+  scene::touch_mesh_with_field_and_base_hull(with_both, v[params::kToolRadius], request.position_m,
+                                             visit_budget(v, params::kMeshSteps), touch_,
+                                             result.model);
+  report(result);
 }
 
 }  // namespace firmtouch

@@ -23,7 +23,7 @@ class MeshContact {
 
  protected:
   scene::MeshObject object(const mesh::View& mesh, const params::Values& values) const;
-  SurfaceReport report() const;
+  void report(ModelResult& result) const;
 
   scene::MeshTouch touch_;
 };
@@ -34,8 +34,7 @@ class MeshSurface : public MeshContact, public mesh::Loader {
   static constexpr uint32_t kParts = kPartMesh;
   const mesh::View& mesh() const { return view(); }
   bool is_open() const { return mesh().is_open(); }
-  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
-                      servo::LocalModel& model);
+  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
 };
 
 /// A mesh with its distance field, if the asset has one.
@@ -46,8 +45,7 @@ class FieldMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Lo
   const field::View& distance_field() const { return get<field::Loader>().view(); }
   bool is_open() const { return mesh().is_open(); }
   void begin(const asset::Container& asset, const char* name, State& state);
-  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
-                      servo::LocalModel& model);
+  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
 };
 
 /// A mesh with its base hull, if the asset has one.
@@ -57,8 +55,7 @@ class HulledMesh : public MeshContact, public LoaderChain<mesh::Loader, hull::Lo
   const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
   const hull::View& hull() const { return get<hull::Loader>().view(); }
   bool is_open() const { return mesh().is_open(); }
-  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
-                      servo::LocalModel& model);
+  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
 };
 
 /// A mesh with its distance field and its base hull, if the asset has them.
@@ -70,8 +67,7 @@ class FullMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Loa
   const hull::View& hull() const { return get<hull::Loader>().view(); }
   bool is_open() const { return mesh().is_open(); }
   void begin(const asset::Container& asset, const char* name, State& state);
-  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
-                      servo::LocalModel& model);
+  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
 };
 
 }  // namespace firmtouch

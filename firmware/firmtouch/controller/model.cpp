@@ -2,29 +2,27 @@
 
 namespace firmtouch {
 
-void report(const SurfaceReport& surface, const GuideReport& guide, ModelResult& result) {
-  result.distance_m = surface.distance_m;
-  result.distance_lower_m = surface.certificate.lower_m;
-  result.penetration_m = surface.penetration_m;
-  result.guide_deviation_m = guide.deviation_m;
-  result.guide_lower_m = guide.certificate.lower_m;
-  result.guide_arc = guide.arc;
-  result.steps = surface.steps + guide.certificate.steps;
-  result.guide_steps = guide.certificate.steps;
-  result.state = static_cast<uint32_t>(surface.certificate.sign + 1) << record::kStateSignShift;
-  if (surface.penetration_m > 0) result.state |= record::kStateContact;
-  if (surface.is_of_base_hull) result.state |= record::kStateOfBaseHull;
-  if (guide.is_held) result.state |= record::kStateOnGuide;
-  if (surface.certificate.exact) result.state |= record::kStateExact;
-  if (guide.certificate.exact) result.state |= record::kStateGuideExact;
+void report_surface(const query::Certificate& certificate, float distance_m, float penetration_m,
+                    ModelResult& result) {
+  result.distance_m = distance_m;
+  result.distance_lower_m = certificate.lower_m;
+  result.penetration_m = penetration_m;
+  result.steps += certificate.steps;
+  result.state &= ~(3u << record::kStateSignShift);
+  result.state |= static_cast<uint32_t>(certificate.sign + 1) << record::kStateSignShift;
+  if (penetration_m > 0) result.state |= record::kStateContact;
+  if (certificate.exact) result.state |= record::kStateExact;
 }
 
-math::RigidTransform scene_pose(const params::Values& values) {
-  return {{}, {values[params::kSceneX], values[params::kSceneY], values[params::kSceneZ]}};
-}
-
-query::Budget visit_budget(const params::Values& values, params::Index row) {
-  return {static_cast<uint32_t>(values[row])};
+void report_guide(const query::Certificate& certificate, float deviation_m, float arc, bool is_held,
+                  ModelResult& result) {
+  result.guide_deviation_m = deviation_m;
+  result.guide_lower_m = certificate.lower_m;
+  result.guide_arc = arc;
+  result.steps += certificate.steps;
+  result.guide_steps = certificate.steps;
+  if (is_held) result.state |= record::kStateOnGuide;
+  if (certificate.exact) result.state |= record::kStateGuideExact;
 }
 
 }  // namespace firmtouch

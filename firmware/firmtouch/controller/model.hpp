@@ -16,24 +16,7 @@ struct ModelRequest {
   bool can_touch = false;  // the asset is ready and the position known
 };
 
-/// What a surface reports of its query.
-struct SurfaceReport {
-  float distance_m = 0;  // signed
-  float penetration_m = 0;
-  query::Certificate certificate;
-  uint32_t steps = 0;
-  bool is_of_base_hull = false;
-};
-
-/// What a guide reports of its query.
-struct GuideReport {
-  float deviation_m = 0;
-  float arc = 0;  // 0 to 1 along the guide
-  query::Certificate certificate;
-  bool is_held = false;
-};
-
-/// A local model, and what the record says of how it was made.
+/// A local model, and what the record says of how it was made. Surfaces and guides add to both.
 struct ModelResult {
   servo::LocalModel model;
   float distance_m = 0, distance_lower_m = 0, penetration_m = 0;
@@ -42,11 +25,19 @@ struct ModelResult {
   uint32_t state = 1u << record::kStateSignShift;  // sign unknown
 };
 
-/// Fills all but the model.
-void report(const SurfaceReport& surface, const GuideReport& guide, ModelResult& result);
+/// Adds a surface's query to the record's part. `distance_m` is signed.
+void report_surface(const query::Certificate& certificate, float distance_m, float penetration_m,
+                    ModelResult& result);
+/// Adds a guide's query to the record's part. `arc`: 0 to 1 along the guide.
+void report_guide(const query::Certificate& certificate, float deviation_m, float arc, bool is_held,
+                  ModelResult& result);
 
-/// The scene's pose, and the visit budget of a row.
-math::RigidTransform scene_pose(const params::Values& values);
-query::Budget visit_budget(const params::Values& values, params::Index row);
+/// Origin of the scene in the device frame, and the visit budget of a row.
+inline math::Vec3 scene_origin_m(const params::Values& values) {
+  return {values[params::kSceneX], values[params::kSceneY], values[params::kSceneZ]};
+}
+inline query::Budget visit_budget(const params::Values& values, params::Index row) {
+  return {static_cast<uint32_t>(values[row])};
+}
 
 }  // namespace firmtouch

@@ -2,13 +2,14 @@
 
 namespace firmtouch {
 
-GuideReport SplineGuide::follow(const params::Values& v, uint32_t ticks, math::Vec3 position_m,
-                                servo::LocalModel& model) {
+void SplineGuide::follow(const ModelRequest& request, const params::Values& v, uint32_t ticks,
+                         ModelResult& result) {
   scene::SplineGuide settings;
   set_guide(v, ticks, settings);
   settings.spline = &guide();
-  scene::follow_spline(settings, position_m, visit_budget(v, params::kCurveSteps), touch_, model);
-  return report(touch_);
+  scene::follow_spline(settings, request.position_m, visit_budget(v, params::kCurveSteps), touch_,
+                       result.model);
+  report_guide(touch_, result);
 }
 
 }  // namespace firmtouch

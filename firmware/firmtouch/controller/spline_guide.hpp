@@ -17,8 +17,8 @@ class SplineGuide : public spline::GuideLoader {
   const spline::GuideView& guide() const { return view(); }
   bool is_open() const { return guide().is_open(); }
   void reset() { touch_ = {}; }
-  GuideReport follow(const params::Values& values, uint32_t ticks, math::Vec3 position_m,
-                     servo::LocalModel& model);
+  void follow(const ModelRequest& request, const params::Values& values, uint32_t ticks,
+              ModelResult& result);
 
  private:
   scene::SplineGuideTouch touch_;

@@ -20,8 +20,7 @@ class SplineSurface : public spline::SurfaceLoader {
   const spline::View& surface() const { return view(); }
   bool is_open() const { return surface().is_open(); }
   void reset() { touch_ = {}; }
-  SurfaceReport touch(const params::Values& values, math::Vec3 position_m,
-                      servo::LocalModel& model);
+  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
 
  private:
   scene::SplineTouch touch_;

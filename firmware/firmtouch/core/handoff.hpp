@@ -57,6 +57,13 @@ class Handoff {
   Result& draft() { return results_[current_ ^ 1u]; }
   void made() { __atomic_store_n(&state_, kMade, __ATOMIC_RELEASE); }
 
+  /// As constructed, except the request. Not while either side may run.
+  void reset() {
+    for (Result& result : results_) result = Result{};
+    current_ = 0;
+    state_ = kIdle;
+  }
+
  private:
   static constexpr uint32_t kIdle = 0, kRequested = 1, kMade = 2;
 

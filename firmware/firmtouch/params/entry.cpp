@@ -23,9 +23,14 @@ bool same(const char* a, const char* b) {
 
 }  // namespace
 
+void set_initial(Values& values, Table table) {
+  for (float& value : values.value) value = 0;
+  for (const Entry& row : table) values.value[row.number] = row.initial;
+}
+
 Values initial_values(Table table) {
   Values values;
-  for (const Entry& row : table) values.value[row.number] = row.initial;
+  set_initial(values, table);
   return values;
 }
 

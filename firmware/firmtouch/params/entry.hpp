@@ -86,6 +86,8 @@ struct Values {
   float operator[](uint32_t number) const { return value[number]; }
 };
 
+/// In place: no copy of the values stands on the stack.
+void set_initial(Values& values, Table table);
 Values initial_values(Table table);
 
 /// Sets the value of one row.

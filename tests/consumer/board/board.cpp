@@ -1,9 +1,7 @@
-// A board of its own: start-up, console, servo timer, and joints that a scripted hand moves.
+// A board of its own: start-up, console, servo timer.
 #include "firmtouch/hal/board.hpp"
 
-#include "../hand.hpp"
 #include "firmtouch/hal/clock.hpp"
-#include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
 
 using Handler = void (*)();
@@ -21,7 +19,6 @@ namespace {
 constexpr uint32_t kCore_MHz = 25;
 void (*on_tick)() = nullptr;
 uint32_t ticks = 0;
-float motor_N[3] = {};
 
 volatile uint32_t& at(uint32_t address) { return *reinterpret_cast<volatile uint32_t*>(address); }
 
@@ -102,20 +99,5 @@ void clock_start_servo(uint32_t period_us, void (*tick)()) {
   at(0xE000E018) = 0;
   at(0xE000E010) = 7;
 }
-
-bool encoders_read(int32_t (&counts)[3]) {
-  hand_counts(ticks, counts);
-  return true;
-}
-
-void motors_write_N(const float (&force_N)[3]) {
-  for (int k = 0; k < 3; ++k) motor_N[k] = force_N[k];
-}
-
-void motors_off() {
-  for (float& force : motor_N) force = 0;
-}
-
-uint32_t motors_lines() { return 1; }  // the enable switch is on
 
 }  // namespace firmtouch::hal

@@ -1,7 +1,7 @@
 #pragma once
 #include "firmtouch/scene/compose.hpp"
 
-/// A shape of this project's own: a torus about the z axis through `centre_m`, in closed form.
+/// A shape of this project: a torus about the z axis through `centre_m`, in closed form.
 struct Torus {
   firmtouch::math::Vec3 centre_m;
   float ring_radius_m;

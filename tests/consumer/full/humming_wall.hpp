@@ -3,8 +3,8 @@
 
 #include "firmtouch/servo/local_model.hpp"
 
-/// An effect of this project's own: a floor at `height_m` that shakes up and down by `amplitude_m`, 125 times a second at
-/// 1 kHz. A finger on it feels it hum. The sphere's centre is held off by `radius_m`.
+/// An effect of this project: a floor at `height_m` that moves up and down by `amplitude_m`, 125 times a second at 1 kHz, so
+/// that it hums under a finger. The sphere's centre stays `radius_m` above it.
 struct HummingWall {
   float height_m;
   float amplitude_m;

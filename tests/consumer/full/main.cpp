@@ -1,16 +1,17 @@
-// A device of this project's own: the library's baked mesh beside a shape and an effect that the library does not know.
-// The scripted hand rests on each in turn; the program checks what it felt and ends with 0, or says what was wrong.
+// The library's parts without its controller: a baked mesh, a shape and an effect of this project's own. The scripted hand
+// rests on each in turn; the program checks the forces and exits with 0, or prints what is wrong.
+#include "../hand.hpp"
+#include "firmtouch/controller/loaders.hpp"
+#include "firmtouch/controller/mesh_surface.hpp"
 #include "firmtouch/device/cartesian.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
-#include "firmtouch/opener.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/scene/mesh_contact.hpp"
 #include "firmtouch/servo/guard.hpp"
 #include "firmtouch/servo/step.hpp"
-#include "hand.hpp"
 #include "humming_wall.hpp"
 #include "torus.hpp"
 
@@ -29,18 +30,19 @@ constexpr device::Settings kDevice{
 constexpr servo::Settings kServo{5.0f, 1000.0f, 0.02f, 0.001f};
 constexpr servo::GuardLimits kGuard{5.0f, 1000.0f, 0.001f};
 
-Opener opener;
+Loaders<MeshSurface> loaders;
+MeshSurface gem_mesh;
 device::State joints;
 scene::MeshTouch gem_touch;
 servo::LocalModel model;
 servo::State servo_state;
 servo::GuardState guard_state;
 
-struct Felt {
+struct Range {
   float low_N = 1e9f, high_N = -1e9f;  // upwards
   bool sideways = false;
 };
-Felt felt[4];
+Range forces[4];
 volatile bool done = false;
 
 void keep(uint32_t tick, const float (&force_N)[3]) {
@@ -48,7 +50,7 @@ void keep(uint32_t tick, const float (&force_N)[3]) {
   const Place place = hand_place(tick, settled);
   if (place == Place::kEnd) done = true;
   if (!settled || place == Place::kEnd) return;
-  Felt& here = felt[static_cast<int>(place)];
+  Range& here = forces[static_cast<int>(place)];
   if (force_N[2] < here.low_N) here.low_N = force_N[2];
   if (force_N[2] > here.high_N) here.high_N = force_N[2];
   if (force_N[0] * force_N[0] + force_N[1] * force_N[1] > 0.0025f) here.sideways = true;
@@ -61,7 +63,9 @@ void servo_interrupt() {
   const device::Reading tool = device::read(joints, kDevice, sample);
 
   scene::begin_model(model, tool.position_m, tick, 2);
-  const scene::MeshObject gem{&opener.mesh(), {}, {kStiffness_N_per_m, 0}};
+  scene::MeshObject gem;
+  gem.mesh = &gem_mesh.mesh();
+  gem.material = {kStiffness_N_per_m, 0};
   scene::touch_mesh(gem, kRadius_m, tool.position_m, kBudget, gem_touch, model);
   scene::add_contact(model, tool.position_m, kRadius_m, closest_on(kTorus, tool.position_m),
                      {kStiffness_N_per_m, 0});
@@ -71,7 +75,7 @@ void servo_interrupt() {
   input.position_m = tool.position_m;
   input.velocity_mps = tool.velocity_mps;
   input.tick = tick;
-  input.enable = hal::motors_lines() != 0;
+  input.enable = (hal::motors_lines() & hal::kMotorsEnable) != 0;
   input.reported = tool.faults;
   const servo::StepOutput output = servo::step(servo_state, kServo, model, input);
   float motor_N[3] = {output.force_N.x, output.force_N.y, output.force_N.z};
@@ -91,7 +95,7 @@ bool check(bool holds, const char* text) {
 }
 
 bool between(Place place, float low_N, float high_N) {
-  const Felt& here = felt[static_cast<int>(place)];
+  const Range& here = forces[static_cast<int>(place)];
   return here.low_N >= low_N && here.high_N <= high_N && !here.sideways;
 }
 
@@ -99,25 +103,24 @@ bool between(Place place, float low_N, float high_N) {
 
 int main() {
   hal::board_begin();
-  opener.begin(hal::board_asset(), {});
-  while (!opener.work(4096)) {
+  loaders.begin(hal::board_asset(), {}, gem_mesh);
+  while (!loaders.work(4096, gem_mesh)) {
   }
-  if (!check(opener.is_ready(), "ConsumerAssetOpensAndItsProbesAnswerTheSameBits"))
-    return opener.verdict().rule % 256;
+  if (!check(loaders.is_ready(), "Asset_LoadsAndItsProbesHaveTheSameBits"))
+    return loaders.verdict().rule % 256;
   servo::guard_set_limits(guard_state, kGuard);
   hal::clock_start_servo(kPeriod_us, servo_interrupt);
   while (!done) asm volatile("wfi");
 
-  bool good = check(servo_state.faults == 0 && guard_state.armed == servo::kGuardArmed,
-                    "ConsumerRunsWithoutAFault");
-  good &= check(between(Place::kFree, 0, 0), "ConsumerFeelsNothingInFreeSpace");
+  bool good =
+      check(servo_state.faults == 0 && guard_state.armed == servo::kGuardArmed, "Full_HasNoFault");
+  good &= check(between(Place::kFree, 0, 0), "FreeSpace_HasNoForce");
   good &= check(between(Place::kOnTorus, 2.45f, 2.55f),
-                "ConsumerFeelsItsOwnShape");  // 500 N/m, 5 mm deep
-  good &= check(between(Place::kOnGem, 1.45f, 1.55f), "ConsumerFeelsTheBakedMesh");  // 3 mm deep
-  good &=
-      check(between(Place::kOnWall, 0.24f, 0.76f), "ConsumerFeelsItsOwnEffect");  // 1 mm, +- 0.5 mm
-  const Felt& wall = felt[static_cast<int>(Place::kOnWall)];
-  good &= check(wall.high_N - wall.low_N > 0.45f, "ConsumerFeelsItsOwnEffectHum");
+                "OwnShape_IsRendered");  // 500 N/m, 5 mm deep
+  good &= check(between(Place::kOnGem, 1.45f, 1.55f), "BakedMesh_IsRendered");   // 3 mm deep
+  good &= check(between(Place::kOnWall, 0.24f, 0.76f), "OwnEffect_IsRendered");  // 1 mm, +- 0.5 mm
+  const Range& wall = forces[static_cast<int>(Place::kOnWall)];
+  good &= check(wall.high_N - wall.low_N > 0.45f, "OwnEffect_Hums");
   char totals[] = "0 passed, 0 failed\n";
   totals[0] = static_cast<char>('0' + passed);
   totals[10] = static_cast<char>('0' + failed);

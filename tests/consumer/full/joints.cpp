@@ -1,0 +1,20 @@
+// Joints that the scripted hand moves.
+#include "../hand.hpp"
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hal/encoders.hpp"
+#include "firmtouch/hal/motors.hpp"
+
+namespace firmtouch::hal {
+
+bool encoders_read(int32_t (&counts)[3]) {
+  hand_counts(clock_us() / 1000, counts);
+  return true;
+}
+
+void motors_write_N(const float (&)[3]) {}
+
+void motors_off() {}
+
+uint32_t motors_lines() { return kMotorsEnable; }
+
+}  // namespace firmtouch::hal
