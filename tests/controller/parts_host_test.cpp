@@ -1,0 +1,115 @@
+// Compositions of a controller: the rules that name a missing part, and the same bits from fewer parts.
+#include <cstring>
+#include <vector>
+
+#include "controller/ride.hpp"
+#include "firmtouch/asset/opening.hpp"
+#include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/field/layout.hpp"
+#include "firmtouch/hull/layout.hpp"
+#include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/spline/guide_view.hpp"
+#include "harness/test.hpp"
+
+using namespace firmtouch::controller_test;
+using namespace firmtouch;
+
+namespace {
+
+using MeshController = Controller<Surfaces<MeshSurface>>;
+using MeshAndGuide = Controller<Surfaces<MeshSurface>, CurveGuide>;
+
+constexpr uint32_t kAll = (1u << kPartCount) - 1;
+
+tools::Section spline_head(bool is_surface) {
+  spline::Head head{};
+  head.is_surface = is_surface ? 1 : 0;
+  std::vector<uint8_t> bytes(sizeof head);
+  std::memcpy(bytes.data(), &head, sizeof head);
+  return {spline::kHeadSection, "x", bytes};
+}
+
+core::Verdict missing(const std::vector<tools::Section>& sections, const Selection& selection,
+                      uint32_t linked) {
+  const Asset asset(file_of(sections));
+  asset::Container container;
+  CHECK(asset::open(asset.bytes(), container).ok());
+  return missing_part(container, selection, linked);
+}
+
+template <class C>
+record::TickOutput last_of_ride(const Asset& asset) {
+  static C controller;
+  CHECK_EQ(controller.open(asset.bytes()).rule, 0u);
+  Ride ride;
+  record::TickOutput output{};
+  uint32_t contacts = 0;
+  for (uint32_t tick = 0; tick < 1500; ++tick) {
+    ride.fill(tick);
+    controller.tick(ride.input, output);
+    contacts += (output.state & record::kStateContact) != 0 ? 1u : 0u;
+  }
+  CHECK_GE(contacts, 100u);
+  return output;
+}
+
+}  // namespace
+
+TEST(MissingPart_IsNamedByItsRule) {
+  const std::vector<std::vector<tools::Section>> needs = {
+      {{mesh::kHeadSection, "x", {1}}},
+      {{field::kHeadSection, "x", {1}}},
+      {{hull::kHeadSection, "x", {1}}},
+      {{curve::kHeadSection, "x", {1}}},
+      {spline_head(true)},
+      {spline_head(false), {spline::kArcsSection, "x", {1, 2, 3, 4}}}};
+  for (uint32_t part = 0; part < kPartCount; ++part) {
+    CHECK_EQ(missing(needs[part], {}, kAll & ~(1u << part)).rule, kRuleNeedsMesh + part);
+    CHECK_EQ(missing(needs[part], {}, 1u << part).rule, 0u);
+  }
+}
+
+TEST(SplineCurveWithoutLengths_NeedsNoPart) {
+  CHECK_EQ(missing({spline_head(false)}, {}, 0).rule, 0u);
+}
+
+TEST(SelectedGeometry_OthersDoNotCount) {
+  std::vector<tools::Section> sections = {{mesh::kHeadSection, "wanted", {1}}, spline_head(true)};
+  CHECK_EQ(missing(sections, {}, kPartMesh).rule, uint16_t{kRuleNeedsSpline});
+  CHECK_EQ(missing(sections, {"wanted", nullptr}, kPartMesh).rule, 0u);
+}
+
+TEST(MeshController_RejectsAnAssetWithAGuide_AndKeepsTheMotorsOff) {
+  static MeshController controller;
+  CHECK_EQ(controller.open(both().bytes()).rule, uint16_t{kRuleNeedsGuide});
+  record::TickInput input{};
+  input.flags = record::kFlagEnable;
+  record::TickOutput output;
+  controller.tick(input, output);
+  CHECK_EQ(output.faults, servo::kFaultAsset);
+  CHECK_EQ(size_of(output.motor_N), 0.0);
+}
+
+TEST(MeshController_HasTheSameBitsAsTheFullOne) {
+  const Asset part(file_of(part_sections()));
+  const record::TickOutput full = last_of_ride<FullController>(part);
+  const record::TickOutput mesh = last_of_ride<MeshController>(part);
+  CHECK_EQ(std::memcmp(&full, &mesh, sizeof full), 0);
+}
+
+TEST(MeshAndGuide_HasTheSameBitsAsTheFullOne) {
+  const record::TickOutput full = last_of_ride<FullController>(both());
+  const record::TickOutput some = last_of_ride<MeshAndGuide>(both());
+  CHECK_EQ(std::memcmp(&full, &some, sizeof full), 0);
+}
+
+TEST(PartialTable_HasTheRowsOfItsPartsInTheFullTablesOrder) {
+  CHECK_EQ(FullController::kTable.size(), uint32_t{params::kCount});
+  CHECK_LE(MeshController::kTable.size(), params::kCount - 15u);
+  uint32_t row = 0;
+  for (const params::Entry& entry : MeshController::kTable) {
+    while (row < params::kCount && params::kTable[row].number != entry.number) ++row;
+    CHECK_LE(row + 1, uint32_t{params::kCount});
+    CHECK_EQ(std::strcmp(params::kTable[row].name, entry.name), 0);
+  }
+}
