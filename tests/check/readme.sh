@@ -60,18 +60,18 @@ check() {
 }
 
 plant_changed_block() {
-  sed 's/hal::watchdog_feed();/hal::watchdog_feed(1);/' README.md >new.md
+  sed 's/hal::board_begin();/hal::board_begin(1);/' README.md >new.md
   mv new.md README.md
-  expect='the block of .*servo_interrupt.cpp is not what the file says'
+  expect='the block of .*minimal/main.cpp is not what the file says'
 }
 plant_changed_source() {
-  echo '// one more line' >>firmware/app/servo_interrupt.cpp
-  expect='the block of .*servo_interrupt.cpp is not what the file says'
+  echo '// one more line' >>tests/consumer/minimal/main.cpp
+  expect='the block of .*minimal/main.cpp is not what the file says'
 }
 plant_interface_that_moved_on() {
   sed 's/clock_us()/clock_microseconds()/' hal/firmtouch/hal/clock.hpp >new.hpp
   mv new.hpp hal/firmtouch/hal/clock.hpp
-  expect='the block of .*servo_interrupt.cpp does not compile'
+  expect='the block of .*minimal/main.cpp does not compile'
 }
 plant_loose_code() {
   printf '\n```cpp\nint nobody_compiles_this;\n```\n' >>README.md
