@@ -52,7 +52,7 @@ TEST(OrientedBoxVariantsAgree) {
   CHECK_EQ(differ, 0u);
 }
 
-TEST(OrientedBoxTellsTheSquaredGapsInCells) {
+TEST(OrientedBox_SumsSquaredGapsInCells) {
   // Turned by a right angle about z: axis 0 along y, axis 1 against x, axis 2 along z.
   const uint32_t box[8] = {pair_of(100, 20),    pair_of(-1, 5),    pair_of(1000, -2000),
                            pair_of(300, 32000), pair_of(0, 32000), pair_of(-32000, 0),
@@ -69,7 +69,7 @@ TEST(OrientedBoxTellsTheSquaredGapsInCells) {
   CHECK_EQ(at(-400, 400, -400), 175u * 175u + 95u * 95u + 190u * 190u);
 }
 
-TEST(ABoxOfTheLongestHalvesTellsNothing) {
+TEST(BoxOfLongestHalves_ExcludesNothing) {
   uint32_t reported = 0;
   for (uint32_t i = 0; i < 1000; ++i) {
     Box box(i % 2 == 0);

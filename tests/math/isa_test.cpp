@@ -69,7 +69,7 @@ TEST(PortableSquareRootIsTheNearestFloat) {
   CHECK_EQ(wrong, 0u);
 }
 
-TEST(CountingDownTellsWhetherSomethingIsLeft) {
+TEST(CountDown_ReturnsWhetherNotZero) {
   uint32_t count = 3;
   CHECK(math::count_down(count));
   CHECK_EQ(count, 2u);

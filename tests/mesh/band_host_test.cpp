@@ -63,7 +63,7 @@ TEST(FarAwayABandCostsLittle) {
   }
 }
 
-TEST(NoNumberForABandIsNone) {
+TEST(NanBand_IsABandOfZero) {
   const Vec3 p{0.01f, 0.02f, 0.03f};
   for (const float band_m : {std::nanf(""), -1.0f, 0.0f}) {
     query::Budget budget;

@@ -153,7 +153,7 @@ TEST(CertificatesOfSingleTrianglesHold) {
 }
 
 // So thin that its pseudonormals, as they are stored, told the wrong side near its tip.
-TEST(ANeedleIsRefusedRatherThanToldWrong) {
+TEST(Needle_IsRejected) {
   tools::Surface needle;
   needle.vertices = {{0, 0, 0}, {1, 0, 0}, {0.3f, 2e-4f, 5e-5f}, {0.31f, -1e-4f, 3e-4f}};
   needle.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};

@@ -34,7 +34,8 @@ float cube_outside2(Vec3 p) {
 }
 float cube_depth(Vec3 p) { return 1 - larger(larger(absolute(p.x), absolute(p.y)), absolute(p.z)); }
 
-mesh::Closest ask(const mesh::View& view, Vec3 p, mesh::Hint& hint, uint32_t steps = UINT32_MAX) {
+mesh::Closest query_at(const mesh::View& view, Vec3 p, mesh::Hint& hint,
+                       uint32_t steps = UINT32_MAX) {
   return mesh::closest_point(view, p, {steps}, hint);
 }
 
@@ -58,7 +59,7 @@ TEST(CubeDistancesHaveTheirClosedForm) {
     const float reach = i % 3 == 0 ? 1.2f : 3.0f;
     const Vec3 p{random_in(-reach, reach), random_in(-reach, reach), random_in(-reach, reach)};
     mesh::Hint cold;
-    const mesh::Closest answers[] = {ask(view, p, warm), ask(view, p, cold)};
+    const mesh::Closest answers[] = {query_at(view, p, warm), query_at(view, p, cold)};
     for (const mesh::Closest& c : answers) {
       const float outside2 = cube_outside2(p), depth = cube_depth(p);
       const float scale = 3.5f + absolute(p.x) + absolute(p.y) + absolute(p.z);
@@ -89,7 +90,7 @@ TEST(CubeNormalsPointOutward) {
                {{-2, 3, -2}, {-0.57735f, 0.57735f, -0.57735f}, fine}};
   for (const auto& a_case : cases) {
     mesh::Hint hint;
-    const Vec3 n = ask(view, a_case.query, hint).direction;
+    const Vec3 n = query_at(view, a_case.query, hint).direction;
     CHECK_LE(absolute(n.x - a_case.normal.x), a_case.error);
     CHECK_LE(absolute(n.y - a_case.normal.y), a_case.error);
     CHECK_LE(absolute(n.z - a_case.normal.z), a_case.error);
@@ -102,11 +103,11 @@ TEST(EveryBudgetKeepsItsPromise) {
   for (int i = 0; i < 500; ++i) {
     const Vec3 p{random_in(-2, 2), random_in(-2, 2), random_in(-2, 2)};
     mesh::Hint cold;
-    const float truth = absolute(ask(view, p, cold).distance_m);
+    const float truth = absolute(query_at(view, p, cold).distance_m);
     float gap = FLT_MAX;
     for (uint32_t budget = 0; budget < 12; ++budget) {
       mesh::Hint hint;
-      const mesh::Closest c = ask(view, p, hint, budget);
+      const mesh::Closest c = query_at(view, p, hint, budget);
       CHECK_LE(c.certificate.steps, budget == 0 ? 1u : budget);
       CHECK_LE(c.certificate.lower_m, truth);
       CHECK_LE(truth, absolute(c.distance_m) + 2e-6f);
@@ -121,9 +122,11 @@ TEST(SignGoesOnByContinuityWithinCertifiedFreeDistance) {
   const mesh_test::Cube cube;
   const mesh::View view = cube.view();
   mesh::Hint hint;
-  CHECK_EQ(ask(view, {0, 0, 1.8f}, hint).certificate.sign, 1);
-  CHECK_EQ(ask(view, {0.4f, 0, 1.8f}, hint, 1).certificate.sign, 1);  // half of the free distance
-  CHECK_EQ(ask(view, {0, 0.9f, 1.8f}, hint, 1).certificate.sign, 0);  // more than is left: unknown
+  CHECK_EQ(query_at(view, {0, 0, 1.8f}, hint).certificate.sign, 1);
+  CHECK_EQ(query_at(view, {0.4f, 0, 1.8f}, hint, 1).certificate.sign,
+           1);  // half of the free distance
+  CHECK_EQ(query_at(view, {0, 0.9f, 1.8f}, hint, 1).certificate.sign,
+           0);  // more than is left: unknown
 }
 
 TEST(HostileQueriesGiveFiniteAnswers) {
@@ -139,7 +142,7 @@ TEST(HostileQueriesGiveFiniteAnswers) {
       for (const uint32_t z : bits) {
         const Vec3 p{bits_to_float(x), bits_to_float(y), bits_to_float(z)};
         mesh::Hint cold;
-        const mesh::Closest answers[] = {ask(view, p, warm), ask(view, p, cold)};
+        const mesh::Closest answers[] = {query_at(view, p, warm), query_at(view, p, cold)};
         for (const mesh::Closest& c : answers) {
           check_finite(c);
           if (!(p.x - p.x <= 0) || !(p.y - p.y <= 0) || !(p.z - p.z <= 0)) {
@@ -156,7 +159,7 @@ TEST(FarAwayIsExactToo) {
   const mesh::View view = cube.view();
   for (float r = 10; r < 1e37f; r *= 7) {
     mesh::Hint hint;
-    const mesh::Closest c = ask(view, {r, 0.25f, 0.5f}, hint);
+    const mesh::Closest c = query_at(view, {r, 0.25f, 0.5f}, hint);
     CHECK(c.certificate.exact);
     CHECK_EQ(c.certificate.sign, 1);
     CHECK_LE(absolute(c.distance_m - (r - 1)), 4e-7f * r);
@@ -171,9 +174,9 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
     mesh::Hint hint;
     hint.leaf_slot = i < 64 ? i : i * 2654435761u;
     const Vec3 p{random_in(-2, 2), random_in(-2, 2), random_in(-2, 2)};
-    const mesh::Closest c = ask(view, p, hint);
+    const mesh::Closest c = query_at(view, p, hint);
     mesh::Hint cold;
-    CHECK_LE(absolute(c.distance_m - ask(view, p, cold).distance_m), 1e-6f);
+    CHECK_LE(absolute(c.distance_m - query_at(view, p, cold).distance_m), 1e-6f);
     CHECK(c.certificate.exact);
   }
 }

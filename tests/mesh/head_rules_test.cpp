@@ -5,7 +5,7 @@ namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
 using mesh_test::Cube;
-using mesh_test::not_a_number;
+using mesh_test::quiet_nan;
 using mesh_test::refusal_of;
 using mesh_test::shorter;
 
@@ -126,8 +126,8 @@ TEST(R106ReservedWordAndCell) {
 }
 
 TEST(R106BoxInvertedOrTooFar) {
-  CHECK_EQ(refusal_with([](mesh::Head& h) { h.low_m[1] = not_a_number(); }), 106'002u);
-  CHECK_EQ(refusal_with([](mesh::Head& h) { h.high_m[2] = not_a_number(); }), 106'002u);
+  CHECK_EQ(refusal_with([](mesh::Head& h) { h.low_m[1] = quiet_nan(); }), 106'002u);
+  CHECK_EQ(refusal_with([](mesh::Head& h) { h.high_m[2] = quiet_nan(); }), 106'002u);
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.low_m[1] = 1, h.high_m[1] = -1; }), 106'002u);
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.low_m[0] = -1.01e7f; }), 106'002u);
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.high_m[2] = 1.01e7f; }), 106'002u);
@@ -136,7 +136,7 @@ TEST(R106BoxInvertedOrTooFar) {
 TEST(R106GridLeavesTooLittleFree) {
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.grid_low_m[2] += 0.9f; }), 106'003u);
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.grid_low_m[0] -= 0.9f; }), 106'003u);
-  CHECK_EQ(refusal_with([](mesh::Head& h) { h.grid_low_m[1] = not_a_number(); }), 106'003u);
+  CHECK_EQ(refusal_with([](mesh::Head& h) { h.grid_low_m[1] = quiet_nan(); }), 106'003u);
 }
 
 TEST(R106GridTooWideOrExtentTooSmall) {
@@ -154,13 +154,13 @@ TEST(R106GridTooWideOrExtentTooSmall) {
 TEST(R106DiagonalNotTheBoxs) {
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.diagonal_m *= 1.000001f; }), 106'005u);
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.diagonal_m *= 0.999999f; }), 106'005u);
-  CHECK_EQ(refusal_with([](mesh::Head& h) { h.diagonal_m = not_a_number(); }), 106'005u);
+  CHECK_EQ(refusal_with([](mesh::Head& h) { h.diagonal_m = quiet_nan(); }), 106'005u);
 }
 
 TEST(R106LongestEdgeOutOfRange) {
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.longest_edge_m = 0; }), 106'006u);
   CHECK_EQ(refusal_with([](mesh::Head& h) { h.longest_edge_m = 1.002f * 3.4642f; }), 106'006u);
-  CHECK_EQ(refusal_with([](mesh::Head& h) { h.longest_edge_m = not_a_number(); }), 106'006u);
+  CHECK_EQ(refusal_with([](mesh::Head& h) { h.longest_edge_m = quiet_nan(); }), 106'006u);
 }
 
 TEST(R107DepthOutOfRange) {

@@ -218,7 +218,7 @@ TEST(BodiesThatTouchAtACornerAnswerLikeBruteForce) {
 
 // One point of a pit, touched by the tip of another body: below it the nearest point belongs to both,
 // and each would tell another side.
-TEST(ATipInThePitOfAnotherBodyIsRefusedRatherThanToldWrong) {
+TEST(TipInThePitOfAnotherBody_IsRejected) {
   const std::string tip =
       "v 0 0 0\nv -0.2 -0.2 1\nv 0.2 -0.2 1\nv 0.2 0.2 1\nv -0.2 0.2 1\nf -4 -3 -2 -1\n"
       "f -5 -3 -4\nf -5 -2 -3\nf -5 -1 -2\nf -5 -4 -1\n";
@@ -236,7 +236,7 @@ TEST(ATipInThePitOfAnotherBodyIsRefusedRatherThanToldWrong) {
 }
 
 // Inside the upper box the nearest point lies on both, and the lower one would tell outside.
-TEST(FacesOnFacesAreRefusedRatherThanToldWrong) {
+TEST(FacesOnFaces_AreRejected) {
   const std::string lower = obj_of(box({0, 0, 0}, {1, 1, 1}));
   for (const Corners& upper : {box({0, 0, 1}, {1, 1, 2}), box({0.25, 0.25, 1}, {0.5, 0.75, 2}),
                                box({0.4, 0.3, 1}, {1.7, 1.6, 2})}) {

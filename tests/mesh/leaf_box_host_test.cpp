@@ -47,7 +47,7 @@ struct Reported {
 double root(uint32_t square) { return std::sqrt(static_cast<double>(square)); }
 
 // Each leaf against points about it, near by and anywhere in the grid.
-Reported ask_leaves(const BakedMesh& baked, uint32_t every) {
+Reported query_leaves(const BakedMesh& baked, uint32_t every) {
   Reported reported;
   tools::Random random(11);
   const mesh::View& view = baked.view;
@@ -102,22 +102,22 @@ bool same(const mesh::Closest& a, const mesh::Closest& b) {
 
 }  // namespace
 
-TEST(BoxesOfLeavesTellNoMoreThanTheTrueDistance) {
+TEST(LeafBoxBound_IsAtMostTheTrueDistance) {
   const BakedMesh part(tools::make_part(3, 3000), bounded());
-  const Reported reported = ask_leaves(part, 1);
+  const Reported reported = query_leaves(part, 1);
   CHECK_LT(600u, reported.leaves);
   CHECK_EQ(reported.beyond, 0u);
   // What they are there for: without, leaves whose boxes lie within reach were measured in vain.
   CHECK_LT(0.93, reported.of_truth / reported.compared);
   CHECK_LT(reported.of_box / reported.compared + 0.05, reported.of_truth / reported.compared);
   const BakedMesh large(tetrahedron(), bounded());
-  const Reported of_large = ask_leaves(large, 1);
+  const Reported of_large = query_leaves(large, 1);
   CHECK_LT(0u, of_large.leaves);
   CHECK_EQ(of_large.beyond, 0u);
 }
 
 // Without a band all of it; with one what is nearer, and beyond it the lower bound.
-TEST(BoxesOfLeavesChangeNoAnswer) {
+TEST(LeafBoxes_ChangeNoAnswer) {
   const BakedMesh baked(tools::make_part(5, 3000), bounded());
   mesh::Sections parts = baked.parts();
   CHECK(!parts.leaf_boxes.empty());

@@ -148,7 +148,7 @@ TEST(R136BoxesNotOfThisMesh) {
   }
 }
 
-TEST(R136BoxesThatDoNotEndInOneThatTellsNothing) {
+TEST(R136_BoxesWithoutTheLastEmptyOne) {
   for (uint32_t i = 1; i <= mesh::kLeafBoxesEnd; ++i) {
     BoxedCube cube;
     cube.words[BoxedCube::kWords - i] ^= 1u;
@@ -156,7 +156,7 @@ TEST(R136BoxesThatDoNotEndInOneThatTellsNothing) {
   }
 }
 
-TEST(R137HalfAWordThatTellsNothing) {
+TEST(R137_HalfAnEmptyBox) {
   for (uint32_t leaf = 0; leaf < kLeaves; ++leaf) {
     BoxedCube cube;
     cube.box(leaf)[1] ^= 0x0100u;

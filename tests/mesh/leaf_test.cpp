@@ -38,10 +38,10 @@ TEST(ExcludedTrianglesAndShapes_ChangeNoBitOfALeaf) {
       for (uint32_t k = 0; k < 3; ++k) wide[t].corner[k] = leaf.triangles[t].corner[k];
     by_shapes.is_narrow = nearer_by_shapes.is_narrow = turn % 2 == 0;
     if (turn % 2 != 0) by_shapes.triangles = nearer_by_shapes.triangles = wide;
-    mesh::measure_in_turn<mesh::CornersInTurn<uint16_t>, mesh::Everything>(child, 5, all);
-    mesh::measure_in_turn<mesh::CornersInTurn<uint16_t>, mesh::Nearer>(child, 5, nearer);
-    mesh::measure_in_turn<mesh::ShapesInTurn, mesh::Everything>(child, 5, by_shapes);
-    mesh::measure_in_turn<mesh::ShapesInTurn, mesh::Nearer>(child, 5, nearer_by_shapes);
+    mesh::measure_triangles<mesh::LeafCorners<uint16_t>, mesh::Everything>(child, 5, all);
+    mesh::measure_triangles<mesh::LeafCorners<uint16_t>, mesh::Nearer>(child, 5, nearer);
+    mesh::measure_triangles<mesh::LeafShapes, mesh::Everything>(child, 5, by_shapes);
+    mesh::measure_triangles<mesh::LeafShapes, mesh::Nearer>(child, 5, nearer_by_shapes);
     compared.differ += same(all.best, nearer.best) ? 0u : 1u;
     compared.differ += same(all.best, by_shapes.best) ? 0u : 1u;
     compared.differ += same(all.best, nearer_by_shapes.best) ? 0u : 1u;

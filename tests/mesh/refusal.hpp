@@ -18,7 +18,7 @@ inline core::Bytes shorter(core::Bytes bytes, uint32_t by) {
   return {bytes.data(), bytes.size() - by};
 }
 
-inline float not_a_number() {
+inline float quiet_nan() {
   const uint32_t bits = 0x7FC00000;
   float value;
   __builtin_memcpy(&value, &bits, sizeof value);

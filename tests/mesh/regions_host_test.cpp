@@ -141,7 +141,7 @@ TEST(AnUlpToEitherSideOfBordersOfRealModelsTheSideIsRight) {
 
 // From a foot along its offset until another foot is as near: there every nearest feature must tell
 // the same side.
-TEST(OnTheMedialAxisAllTiedFeaturesTellOneSide) {
+TEST(MedialAxis_AllTiedFeaturesGiveOneSign) {
   const Solid solid(tools::make_part(1, 1000));
   tools::Random random(12);
   uint32_t found = 0;
@@ -176,7 +176,7 @@ TEST(OnTheMedialAxisAllTiedFeaturesTellOneSide) {
 }
 
 // At the centre of a cube six faces tie, on its diagonals three; the distances are exact.
-TEST(OnTheMedialAxisOfACubeEveryNearestFaceTellsInside) {
+TEST(CubeMedialAxis_EveryNearestFaceGivesInside) {
   tools::Surface cube;
   for (uint32_t v = 0; v < 8; ++v)
     cube.vertices.push_back({v & 1 ? 1.0f : -1.0f, v & 2 ? 1.0f : -1.0f, v & 4 ? 1.0f : -1.0f});
@@ -193,7 +193,7 @@ TEST(OnTheMedialAxisOfACubeEveryNearestFaceTellsInside) {
 // On the surface no side is asked, but feature and direction are told: a step along the direction
 // leads out, a step back leads in. A query at a corner is told the corner; one that float32 puts
 // beside the middle of an edge may be told a face of it.
-TEST(FeatureAndOutwardDirectionAreToldOnTheSurfaceToo) {
+TEST(OnTheSurface_FeatureAndDirectionAreRight) {
   const Solid solid(tools::make_part(1, 2000));
   const tools::Stars stars(solid.surface, solid.exact);
   mesh::Hint hint;

@@ -5,7 +5,7 @@ namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
 using mesh_test::Cube;
-using mesh_test::not_a_number;
+using mesh_test::quiet_nan;
 using mesh_test::refusal_of;
 using mesh_test::shorter;
 
@@ -100,7 +100,7 @@ TEST(R107NodeTooDeep) {
 }
 
 TEST(R110VertexOutsideTheBox) {
-  const float outside[] = {not_a_number(), 1.5f, -1.5f};
+  const float outside[] = {quiet_nan(), 1.5f, -1.5f};
   for (const float y_m : outside) {
     Cube cube;
     cube.vertices[3].y_m = y_m;

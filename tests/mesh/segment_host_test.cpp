@@ -276,7 +276,7 @@ TEST(CrossingsAreThoseOfBruteForceInDouble) {
   CHECK_LE(worst, double{mesh::kTimeError});
 }
 
-TEST(CrossingsTellInsideFromOutside) {
+TEST(CrossingParity_IsTheSign) {
   const BakedMesh& baked = part();
   Random random(50);
   Aims aims(baked, 50);
@@ -317,7 +317,7 @@ TEST(AFullRoomKeepsTheFirstCrossingsAndCountsAll) {
   CHECK(several > 100);
 }
 
-TEST(EveryBudgetTellsOnlyTrueCrossingsAndSaysWhetherItIsDone) {
+TEST(EveryBudget_ReturnsTrueCrossingsAndWhetherComplete) {
   const BakedMesh& baked = part();
   Aims aims(baked, 70);
   Room buffer(4096), some(4096);

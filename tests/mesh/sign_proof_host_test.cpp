@@ -145,7 +145,7 @@ TEST(AFinelyCutConeIsProven) {
   CHECK_GT(proof.vertices.smallest_rad, 0.4);  // atan(0.5) at the tip, less what thinning takes
 }
 
-TEST(AMarginOfNoNumberIsTheWorst) {
+TEST(NanMargin_IsTheWorst) {
   const double nan = std::nan("");
   CHECK_LE(tools::vertex_margin({{{0, 0, 1}, 1}}, {0, 0, nan}), -1.0);
   CHECK_LE(tools::edge_margin({0, 0, 1}, {0, 1, 0}, {nan, 0, 0}), -1.0);
@@ -184,7 +184,7 @@ TEST(EveryWrongCodeIsFound) {
 }
 
 // The codes of 8 bits end so that a blade's edge keeps a margin on both of its sides.
-TEST(ABladesEdgeIsToldDownToSevenTenThousandths) {
+TEST(BladeEdge_IsSignedDownTo7e4Rad) {
   for (const auto& [opening_rad, weak] : std::vector<std::pair<double, bool>>{
            {0.01, false}, {0.001, false}, {7e-4, false}, {6e-4, true}}) {
     test::note("opening in millionths", static_cast<int64_t>(opening_rad * 1e6));

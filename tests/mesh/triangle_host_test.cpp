@@ -73,7 +73,7 @@ struct Stored {
   }
   mesh::OfShape read() const {
     mesh::OfShape from{};
-    mesh::ShapesInTurn(sought, 0).next(from);
+    mesh::LeafShapes(sought, 0).next(from);
     return from;
   }
 };
@@ -150,7 +150,7 @@ TEST(TheDegenerateTriangleAnswersItsLongestEdge) {
   CHECK_EQ(static_cast<int>(foot.feature), static_cast<int>(mesh::Feature::kEdge0));
 }
 
-TEST(EachRegionTellsItsFeature) {
+TEST(EachRegion_HasItsFeature) {
   const Vec3 a{0, 0, 0}, b{4, 0, 0},
       c{3, 1, 0};  // obtuse at c: beyond c both short edges must be asked
   const struct {

@@ -60,7 +60,7 @@ bool refuses_nan() {
   for (const uint32_t bits : outside)
     if (is_inside(-limit, run_time(bits), limit)) return false;
   const float nan = run_time(0x7FC00000u);
-  volatile bool finite = nan - nan <= 0.0f;  // as is_finite() asks
+  volatile bool finite = nan - nan <= 0.0f;  // as is_finite() has it
   volatile bool above = !(nan <= limit);
   volatile bool below = !(nan >= -limit);
   return !finite && above && below && is_inside(-limit, limit, limit);

@@ -1,12 +1,12 @@
 #pragma once
 // The few places where the instruction set matters. Each has one portable definition, which says
 // what it computes, and variants that give the same bits (tests/math/isa_test.cpp). No other file
-// of the firmware asks what the target is. For the library's own translation units: a user's flags
+// of the firmware depends on the target. For the library's own translation units: a user's flags
 // must not decide what is computed here.
 
 #include <stdint.h>
 
-// Not every compiler tells of each of these flags: arithmetic_is_sound() looks at what they do.
+// Not every compiler defines these macros: arithmetic_is_sound() checks the effect of the flags.
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "Firmtouch promises the same bits everywhere: build it without -ffast-math and its parts"
 #endif
@@ -37,8 +37,8 @@
 #define FIRMTOUCH_ISA_BLOCKS 0
 #endif
 
-// No compiler's macro tells the FPv5 of a Cortex-M7 from the FPv4 of a Cortex-M4: cmake/firmtouch_options.cmake asks the
-// assembler.
+// No compiler macro separates the FPv5 of a Cortex-M7 from the FPv4 of a Cortex-M4:
+// cmake/firmtouch_options.cmake reads it from the flags.
 #if defined(FIRMTOUCH_HAS_VMAXNM) && defined(__ARM_FP) && (__ARM_FP & 4)
 #define FIRMTOUCH_ISA_MAXNM 1
 #else
@@ -114,8 +114,8 @@ static inline float square_root(float value) {
 #endif
 }
 
-/// The larger and the smaller of two; the limit where the value is no number.
-/// Pre: the limit is a number, of larger() not -0, of smaller() no zero; the value is no signalling NaN (no operation makes one).
+/// The larger and the smaller of two; the limit if the value is NaN.
+/// Pre: the limit is finite, for larger() not -0, for smaller() no zero; no signalling NaN.
 static inline float portable_larger(float value, float limit) {
   return value > limit ? value : limit;
 }
@@ -193,7 +193,7 @@ static inline BoxPoint box_point(uint32_t x, uint32_t y, uint32_t z) {
 /// A coordinate in 65536ths of a cell as a word of a point, 2^-8 cells wider to either side and then
 /// to whole cells. The top bit of `outside` is set where it is not inside the grid.
 static inline uint32_t portable_grid_word(float parts, uint32_t& outside) {
-  // Exact but for the fraction that is cut off. 256 less, rounded down to cells, and 256 more than
+  // Exact except for the fraction that is cut off. 256 less, rounded down to cells, and 256 more than
   // what may have been cut off, rounded up.
   const uint32_t whole = saturated(parts);
   const uint32_t below = 0x7FFFFFFFu - (whole - 256), above = whole + 0x10100u;

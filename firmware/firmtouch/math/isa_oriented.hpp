@@ -14,7 +14,7 @@ struct HalfCellPoint {
 
 /// The middles of the cells into which the point of box_distance2() was widened: off by at most 1.012
 /// half cells on each axis.
-/// Pre: grid_point() made the point and told that it is inside.
+/// Pre: grid_point() made the point and returned true.
 static inline HalfCellPoint half_cell_point(const BoxPoint& point) {
 #if FIRMTOUCH_ISA_AVX2
   const uint32_t words[3] = {static_cast<uint32_t>(_mm_extract_epi32(point.words, 0)),

@@ -24,7 +24,7 @@ static inline GridSegment on_grid(Vec3 a, Vec3 b, const float* low, float cell) 
 }
 
 // An axis along which the segment stands still (less than this in cells) has so high a rate that the
-// whole segment is inside a slab, or outside. One beyond kFarCells is not reckoned with.
+// whole segment is inside a slab, or outside. A segment beyond kFarCells is not bounded.
 constexpr float kStillCells = 1e-30f;
 constexpr float kFarCells = 0x1p60f;
 constexpr uint32_t kNotEntered = UINT32_MAX;

@@ -39,7 +39,7 @@ struct Sought {
   Best best;               // in: no farther than this; out: the nearest
   const Vertex* vertices;  // the mesh's; here, where a leaf finds them by one pointer
   const void* triangles;   // with indices of its width
-  // For ShapesInTurn alone:
+  // For LeafShapes alone:
   const TriangleShape* shapes;
   bool is_narrow;  // the indices have 16 bits
 };
@@ -71,13 +71,13 @@ struct OfShape {
 
 // The triangles of a leaf by their corners.
 template <class Index>
-struct CornersInTurn {
+struct LeafCorners {
   using Shape = OfCorners;
   const Vertex* vertices;
   const Index* corner;
   uint32_t stride;
 
-  CornersInTurn(const Sought& sought, uint32_t first)
+  LeafCorners(const Sought& sought, uint32_t first)
       : vertices(sought.vertices),
         corner((static_cast<const Triangle<Index>*>(sought.triangles) + first)->corner),
         stride(math::as_multiplier(sizeof(Vertex))) {}
@@ -89,12 +89,12 @@ struct CornersInTurn {
 };
 
 // The same by their stored shapes, with indices of either width.
-struct ShapesInTurn {
+struct LeafShapes {
   using Shape = OfShape;
   const Sought* sought;
   const TriangleShape* at;
 
-  ShapesInTurn(const Sought& from, uint32_t first) : sought(&from), at(from.shapes + first) {}
+  LeafShapes(const Sought& from, uint32_t first) : sought(&from), at(from.shapes + first) {}
   [[gnu::always_inline]] void next(OfShape& shape) {
     math::load_floats<0>(&at->a_m.x_m, shape.a_m.x, shape.a_m.y, shape.a_m.z);
     math::load_floats<1>(&at->ab_m.x_m, shape.ab_m.x, shape.ab_m.y, shape.ab_m.z);
@@ -107,9 +107,9 @@ struct ShapesInTurn {
 
 /// Puts into sought.best the first nearest triangle of the leaf `child`, in slot `slot`, if it is nearer.
 /// Wanted: Nearer or Everything, with the same result; Everything is faster without a bound.
-template <class InTurn, class Wanted>
-[[gnu::always_inline]] static inline void measure_in_turn(uint32_t child, uint32_t slot,
-                                                          Sought& sought) {
+template <class Source, class Wanted>
+[[gnu::always_inline]] static inline void measure_triangles(uint32_t child, uint32_t slot,
+                                                            Sought& sought) {
   using math::Vec3;
   static_assert(offsetof(Sought, slack_m2) == 12 && offsetof(Sought, best) == 16);
   static_assert(offsetof(Best, distance2_m2) == 0);
@@ -119,9 +119,9 @@ template <class InTurn, class Wanted>
   const float slack_m2 = in[3];
   float min2_m2 = in[4];
   Wanted wanted = Wanted::than(min2_m2, slack_m2);
-  InTurn triangles(sought, leaf_first(child));
+  Source triangles(sought, leaf_first(child));
   for (uint32_t left = math::only_here(leaf_count(child)); left != 0; --left) {
-    typename InTurn::Shape shape;
+    typename Source::Shape shape;
     triangles.next(shape);
     Foot foot;
     if (!find_foot(p_m, shape, wanted, foot)) continue;

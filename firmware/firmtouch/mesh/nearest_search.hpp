@@ -107,8 +107,8 @@ inline uint32_t prune_key(const Bound& bound, const Search& search) {
 // still far enough, else to the root. Pushes sibling boxes that are near. The next safe subtree is the
 // highest node on the path with a sibling nearer than the margin. Result: false if the budget ends.
 template <class Bound>
-inline bool climb(const View& mesh, const Side* sides, const Bound& bound, uint32_t prune,
-                  uint32_t& left, Pending*& top, Search& search) {
+inline bool ascend(const View& mesh, const Side* sides, const Bound& bound, uint32_t prune,
+                   uint32_t& left, Pending*& top, Search& search) {
   const uint32_t* const parents = mesh.parents().data();
   const float leaf_m = math::square_root(math::smaller(search.best.distance2_m2, search.band2_m2)) *
                        (1.0f + 0x1p-22f);
@@ -151,11 +151,11 @@ constexpr bool kIsBoxed<Boxed> = true;
 
 template <class Kind>
 struct Triangles {
-  using InTurn = CornersInTurn<Kind>;
+  using Source = LeafCorners<Kind>;
 };
 template <>
 struct Triangles<Boxed> {
-  using InTurn = ShapesInTurn;
+  using Source = LeafShapes;
 };
 
 template <class Index>
@@ -198,10 +198,10 @@ template <class Index>
   return search.best.slot ^ slot;
 }
 // `prune`, which it does not need, is in the register in which measure_boxed() has it.
-template <class InTurn, class Wanted>
+template <class Source, class Wanted>
 [[gnu::noinline]] uint32_t measure_plain([[maybe_unused]] uint32_t prune, uint32_t child,
                                          uint32_t slot, Search& search) {
-  measure_in_turn<InTurn, Wanted>(child, slot, search);
+  measure_triangles<Source, Wanted>(child, slot, search);
   return search.best.slot ^ slot;
 }
 // Whether the box of a leaf excludes all of its triangles.
@@ -212,7 +212,7 @@ template <class InTurn, class Wanted>
 [[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t slot,
                                          Search& search) {
   if (is_beyond(prune, child, search)) return 1;
-  measure_in_turn<ShapesInTurn, Nearer>(child, slot, search);
+  measure_triangles<LeafShapes, Nearer>(child, slot, search);
   return search.best.slot ^ slot;
 }
 
@@ -231,7 +231,7 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
   } else if constexpr (kIsBoxed<Index> && kWhich != Which::kLast) {
     return measure_boxed(prune, child, slot, search) == 0;
   } else {
-    return measure_plain<typename Triangles<Index>::InTurn, Wanted>(prune, child, slot, search) ==
+    return measure_plain<typename Triangles<Index>::Source, Wanted>(prune, child, slot, search) ==
            0;
   }
 }
@@ -283,7 +283,7 @@ template <bool kCompensated, class Bound, class Index>
     measure<kCompensated, Index, Which::kLast>(mesh, 0, sides[search.start].child, search.start,
                                                search);
     prune = prune_key(bound, search);
-    if (!climb(mesh, mesh.sides(), bound, prune, left, top, search)) {
+    if (!ascend(mesh, mesh.sides(), bound, prune, left, top, search)) {
       search.complete = false;
       search.steps = allowed;
       search.pending_m = 0.0f;

@@ -108,18 +108,18 @@ Verdict Opening::open_head(const Sections& s) {
   return kPassed;
 }
 
-bool tells_nothing(const uint32_t* words) {
+bool excludes_nothing(const uint32_t* words) {
   return words[0] == kNoLeafBox && words[1] == kNoLeafBox;
 }
 
-// Where a search reads a box behind the last leaf's there is one that tells nothing.
+// The box that a search reads behind the last leaf's excludes nothing.
 Verdict Opening::open_bounded(const Sections& s) {
   if (s.leaf_boxes.empty()) return s.shapes.empty() ? kPassed : reject(kRuleShapesSize, 0);
   const uint32_t triangles = view_.triangles16_.size() + view_.triangles32_.size();
   const uint32_t words = kLeafBoxStride * triangles;
   const core::Span<const uint32_t> boxes = core::as_whole_array<uint32_t>(s.leaf_boxes);
   if (boxes.size() != words + kLeafBoxesEnd) return reject(kRuleLeafBoxesSize, 0);
-  if (!tells_nothing(boxes.data() + words)) return reject(kRuleLeafBoxesSize, 1);
+  if (!excludes_nothing(boxes.data() + words)) return reject(kRuleLeafBoxesSize, 1);
   for (uint32_t i = 2; i < kLeafBoxesEnd; ++i)
     if (boxes[words + i] != 0) return reject(kRuleLeafBoxesSize, 1);
   const core::Span<const TriangleShape> shapes = core::as_whole_array<TriangleShape>(s.shapes);
@@ -220,7 +220,7 @@ Verdict Opening::check_leaf_box(uint32_t first, uint32_t count) const {
   if (view_.leaf_boxes_ == nullptr || count == 0) return kPassed;
   const uint32_t* const words = view_.leaf_boxes_ + size_t{kLeafBoxStride} * first;
   const bool is_there = count > 1;
-  if (!is_there && !tells_nothing(words)) return reject(kRuleLeafBoxWords, first);
+  if (!is_there && !excludes_nothing(words)) return reject(kRuleLeafBoxWords, first);
   for (uint32_t i = is_there ? kLeafBoxWords : 2; i < kLeafBoxStride * count; ++i)
     if (words[i] != 0) return reject(kRuleLeafBoxWords, first);
   if (!is_there) return kPassed;

@@ -147,9 +147,9 @@ constexpr uint32_t kMaxNodesNear = 16384;
   return take_block(feet, block, keys, bound, sides, node, prune, search.best);
 }
 
-// mesh::climb() without branches on the leaf's distance: the processor goes on while it waits for it.
-inline void climb(const View& mesh, const Side* sides, const NearBound& bound, uint32_t prune,
-                  uint32_t& left, mesh::Pending*& top, Search& search) {
+// mesh::ascend() without branches on the leaf's distance: the processor goes on while it waits for it.
+inline void ascend(const View& mesh, const Side* sides, const NearBound& bound, uint32_t prune,
+                   uint32_t& left, mesh::Pending*& top, Search& search) {
   const uint32_t* const parents = mesh.parents().data();
   const float leaf_m = math::square_root(math::smaller(search.best.distance2_m2, search.band2_m2)) *
                        (1.0f + 0x1p-22f);
@@ -197,7 +197,7 @@ inline void climb(const View& mesh, const Side* sides, const NearBound& bound, u
   float limit2_m2 = prism_limit2(best.distance2_m2, slack_m2);
   mesh::Pending pending[mesh::kCapacity];
   mesh::Pending* top = pending;
-  climb(mesh, sides, bound, prune, left, top, search);
+  ascend(mesh, sides, bound, prune, left, top, search);
   while (mesh::take_last(top, pending, prune, slot)) {
     uint32_t child = sides[slot].child;
     for (--left; child < kBlockBit; --left)
