@@ -1,4 +1,4 @@
-// The judge is right, and what it judges cannot pass by luck.
+// The oracle is right, and what it checks cannot pass by luck.
 #include <cmath>
 #include <vector>
 
@@ -68,7 +68,7 @@ TEST(AnHonestCertificateIsCountedClean) {
   const CertificateCounts counts = count_certificates(
       truths(), 10, [](size_t i, uint32_t budget) { return honest(truths()[i], budget); });
   CHECK_EQ(counts.worst_steps, 40u);
-  CHECK_EQ(counts.asked, size_t{5 * 8});  // 1 2 4 8 16 32 40 and unlimited
+  CHECK_EQ(counts.queried, size_t{5 * 8});  // 1 2 4 8 16 32 40 and unlimited
   CHECK_EQ(counts.lower_wrong + counts.upper_wrong + counts.gap_grew, size_t{0});
   CHECK_LE(std::fabs(counts.half_gap_m - 3), 1e-12);
 }

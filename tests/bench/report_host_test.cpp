@@ -55,7 +55,7 @@ TEST(ABarIsMetUpToItsGoal) {
   CHECK(holds(text, "goal >= 0.9800  NOT MET"));
 }
 
-TEST(NotANumberMeetsNoBar) {
+TEST(Nan_MeetsNoBar) {
   Report report;
   report.bar("a", "m", std::numeric_limits<double>::quiet_NaN(), "x", 1);
   report.bar_at_least("b", "m", std::numeric_limits<double>::quiet_NaN(), "x", 1);

@@ -27,7 +27,7 @@ bool holds(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST(ContendersRunInTurnAndTheMedianStands) {
+TEST(ContendersAlternate_MedianIsReported) {
   std::string order;
   double a = 0;
   const double b[] = {5, 1, 100, 3, 2};
@@ -54,7 +54,7 @@ TEST(TimeIsOfOneQuery) {
   CHECK(us[1] < us[0] / 50);  // a thousandth; the machine may be busy
 }
 
-TEST(APeerIsAskedWithKindFileAndPoints) {
+TEST(PeerGetsKindFileAndPoints) {
   CHECK(!Peer("").is_present());
   CHECK(Peer("true").is_present());
   const Peer echo(

@@ -1,4 +1,4 @@
-// The judge of `firmtouch bench truth`: it is right, it finds a wrong side, and the library passes.
+// The oracle of `firmtouch bench truth`: it is right, it finds a wrong sign, and the library passes.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -30,12 +30,12 @@ bench::Model small_part() {
 
 }  // namespace
 
-TEST(PartIsToldAsItIs) {
+TEST(Part_HasTrueDistancesAndSigns) {
   check_truth(mesh_test::long_run() ? bench::demo_part() : small_part(),
               mesh_test::long_run() ? 100000 : 4000);
 }
 
-TEST(EveryRealModelIsToldAsItIs) {
+TEST(EveryRealModel_HasTrueDistancesAndSigns) {
   if (mesh_test::models_folder().empty())
     return test::skip("FIRMTOUCH_MODELS names no folder of real models");
   for (const char* name : {"spot.obj", "rocker-arm.off", "fandisk.obj", "horse.ply"}) {

@@ -1,4 +1,4 @@
-# Cases of tests/cli/run about closed holes, voxels and distance maps.
+# Cases of tests/cli/run about closed holes, voxels and distance fields.
 
 HolesAreClosedWhenAskedFor() {
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >open.obj

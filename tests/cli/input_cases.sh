@@ -29,7 +29,7 @@ BadModelsAreRefusedWithPlaceCountAndRemedy() {
   box | sed '/^v/s/[123]/&e30/g' >big.obj; refused big.obj 'large' '--unit'
 }
 
-# 1 GB where FIRMTOUCH_LONG asks for it; never more than a little of it is held.
+# 1 GB if FIRMTOUCH_LONG is set; never more than a little of it is held.
 ALineThatDoesNotEndIsRefusedInBoundedMemory() {
   megabytes=40
   [ -n "${FIRMTOUCH_LONG:-}" ] && megabytes=1024

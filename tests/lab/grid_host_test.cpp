@@ -35,7 +35,7 @@ TEST(VoxelsFillTheCubeAboutTheModel) {
   }
 }
 
-TEST(RaysPseudonormalsAndTheFirmwareTellTheSameSides) {
+TEST(RaysPseudonormalsAndFirmware_GiveTheSameSigns) {
   const Grown<orders::FloatKind> aligned(part().view);
   const Grown<orders::OrientedKind> oriented(part().view);
   std::vector<orders::Pending> waiting(orders::kQueueBoxes + orders::kStackBoxes);

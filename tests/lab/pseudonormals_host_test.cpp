@@ -1,5 +1,5 @@
 // The pseudonormals that have been proposed, on the counterexamples of Baerentzen & Aanaes 2005,
-// section 2.1, built as closed meshes: each fails where the paper says, but for one slip of the
+// section 2.1, built as closed meshes: each fails where the paper says, except one slip of the
 // paper and one corner that its appendix overlooks.
 #include <algorithm>
 #include <cmath>
@@ -133,7 +133,7 @@ TEST(AngleWeightedAndConvexHullHoldOnEveryFigure) {
   }
 }
 
-TEST(TheFirmwareTellsOutsideOnEveryFigure) {
+TEST(Firmware_ReturnsOutside_OnEveryFigure) {
   for (const lab::PaperFigure& figure : lab::paper_figures()) {
     const bench::Model model =
         bench::model_of(figure.surface, figure.name, "", bench::Sides::kSigned);

@@ -43,7 +43,7 @@ TEST(OrdersPrintsEveryCombination) {
 TEST(GridFindsNoSignThatTheFirmwareReturnsOtherwise) {
   const std::string text = to_json_members(report_of("grid", SmallPart().options));
   CHECK(lines_with(text,
-                   "\"what\": \"sides that the firmware tells otherwise\", \"model\": "
+                   "\"what\": \"signs on which the firmware differs\", \"model\": "
                    "\"part\", \"value\": 0") == 1);
   CHECK(lines_with(text, "\"grid, oriented / aligned, with signs\"") == 1);
 }

@@ -1,4 +1,4 @@
-// Splits that ask only for the two side faces (Hoppe 1997) lose crossings; those that ask for the
+// Splits that require only the two side faces (Hoppe 1997) lose crossings; those that require the
 // whole link do not. Both by a refinement that maps every face of the mesh, so without the graph's
 // own shortcuts.
 #include <algorithm>
@@ -23,10 +23,10 @@ class Mapped {
 
   /// Faces of the mesh that the refined hull is crossed at.
   std::set<uint32_t> crossed(const Segment& s) {
-    is_undone_.assign(hull_.collapses.size(), false);
+    is_split_.assign(hull_.collapses.size(), false);
     while (true) {
       map_vertices();
-      std::set<uint32_t> found, asked;
+      std::set<uint32_t> found, requested;
       for (uint32_t f = 0; f < hull_.mesh_faces.size(); ++f) {
         const Face& mesh = hull_.mesh_faces[f];
         const Face face{stands_for_[mesh[0]], stands_for_[mesh[1]], stands_for_[mesh[2]]};
@@ -36,12 +36,12 @@ class Mapped {
         for (const uint32_t corner : face) {
           if (corner < hull_.mesh_vertices) continue;
           is_of_mesh = false;
-          asked.insert(corner - hull_.mesh_vertices);
+          requested.insert(corner - hull_.mesh_vertices);
         }
         if (is_of_mesh) found.insert(f);
       }
-      if (asked.empty()) return found;
-      for (const uint32_t k : asked) undo(k);
+      if (requested.empty()) return found;
+      for (const uint32_t k : requested) split(k);
     }
   }
 
@@ -50,15 +50,15 @@ class Mapped {
     stands_for_.resize(hull_.vertices_m.size());
     for (uint32_t v = static_cast<uint32_t>(stands_for_.size()); v-- > 0;) {
       const uint32_t by = hull_.removed_by[v];
-      stands_for_[v] = by == kNone || is_undone_[by] ? v : stands_for_[hull_.mesh_vertices + by];
+      stands_for_[v] = by == kNone || is_split_[by] ? v : stands_for_[hull_.mesh_vertices + by];
     }
   }
-  void undo(uint32_t collapse) {
+  void split(uint32_t collapse) {
     std::vector<uint32_t> queue{collapse};
     for (size_t at = 0; at < queue.size(); ++at) {
       const uint32_t k = queue[at];
-      if (k == kNone || is_undone_[k]) continue;
-      is_undone_[k] = true;
+      if (k == kNone || is_split_[k]) continue;
+      is_split_[k] = true;
       const Collapse& c = hull_.collapses[k];
       queue.push_back(hull_.removed_by[hull_.mesh_vertices + k]);
       for (uint32_t i = 0; i < c.link_count; ++i) {
@@ -81,13 +81,13 @@ class Mapped {
 
   const ProgressiveHull& hull_;
   Needs needs_;
-  std::vector<bool> is_undone_;
+  std::vector<bool> is_split_;
   std::vector<uint32_t> stands_for_;
 };
 
 }  // namespace
 
-TEST(AskingOnlyForTheSideFacesLosesCrossingsThatTheWholeLinkFinds) {
+TEST(SplittingSideFacesOnly_LosesCrossings_WholeLinkDoesNot) {
   const Surface part = make_part(1, 2000);
   HullOptions options;
   options.target_faces = 100;

@@ -43,7 +43,7 @@ struct Baked {
 
 /// A shell of one size and a refinement from it, with memory of their own.
 struct Refined {
-  std::vector<uint32_t> words, bits, undone;
+  std::vector<uint32_t> words, bits, splits_made;
   std::vector<hull::Candidate> candidates;
   hull::BaseHull base_hull;
   std::unique_ptr<hull::Refinement> refinement;
@@ -51,13 +51,13 @@ struct Refined {
   Refined(const hull::View& view, uint32_t base, uint32_t splits, uint32_t crossings)
       : words(tools::cut_base_hull(view, base)),
         bits(hull::bit_words(view.collapse_count())),
-        undone(splits),
+        splits_made(splits),
         candidates(crossings) {
     (void)hull::open_base_hull(
         {reinterpret_cast<const uint8_t*>(words.data()), static_cast<uint32_t>(4 * words.size())},
         view, base_hull);
     refinement = std::make_unique<hull::Refinement>(
-        view, base_hull, hull::RefinementMemory{span(bits), span(undone), span(candidates)});
+        view, base_hull, hull::RefinementMemory{span(bits), span(splits_made), span(candidates)});
   }
 };
 

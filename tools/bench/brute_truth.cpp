@@ -50,11 +50,11 @@ std::vector<BruteTruth> truths(const Model& model, const std::vector<math::Vec3>
   const BruteForce force(model.surface, model.view.is_signed());
   std::vector<BruteTruth> result(points.size());
   std::atomic<size_t> next{0};
-  const auto work = [&](bool tells) {
+  const auto work = [&](bool is_reporting) {
     size_t reported = 0;
     for (size_t i = next++; i < points.size(); i = next++) {
       result[i] = force.at(tools::to_point(points[i]));
-      if (tells && on_progress && i * 20 / points.size() > reported) {
+      if (is_reporting && on_progress && i * 20 / points.size() > reported) {
         reported = i * 20 / points.size();
         on_progress("brute force on " + model.name + ", " + std::to_string(5 * reported) + " %");
       }
@@ -68,7 +68,7 @@ std::vector<BruteTruth> truths(const Model& model, const std::vector<math::Vec3>
   return result;
 }
 
-// Faces of the file at which the surface crosses itself, or whose corners tell another side there.
+// Faces of the file at which the surface crosses itself, or where the corners give another sign.
 std::set<uint32_t> crossing_faces(const Model& model) {
   std::set<uint32_t> vertices, faces;
   for (const tools::Crossings::Place& place : model.report.signs.crossings.places) {
@@ -96,7 +96,7 @@ uint32_t file_face(const Model& model, uint32_t triangle) {
 
 std::string place_of(const mesh::Closest& c, math::Vec3 p, uint32_t face) {
   char text[200];
-  std::snprintf(text, sizeof(text), "(%.9g, %.9g, %.9g m), told %.3g m from face %u",
+  std::snprintf(text, sizeof(text), "(%.9g, %.9g, %.9g m), returned %.3g m from face %u",
                 static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z),
                 static_cast<double>(c.distance_m), face);
   return text;

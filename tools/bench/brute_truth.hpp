@@ -32,14 +32,14 @@ class BruteForce {
 /// 0.1 diagonals, and one in ten up to 1e4 diagonals away.
 std::vector<math::Vec3> truth_points(const Model& model, size_t count, uint64_t seed = 1);
 
-/// What the firmware tells of `count` points, warm, against brute force on all threads.
+/// What the firmware returns for `count` points, warm, against brute force on all threads.
 struct TruthReport {
   size_t points = 0;
-  double worst_error = 0;  // |told - truth| over max(diagonal, truth)
+  double worst_error = 0;  // |returned - truth| over max(diagonal, truth)
   size_t bounds_above_truth = 0;
   size_t not_exact = 0;
   size_t unknown_sides = 0;                // at more than 2e-6 diagonals from the surface
-  size_t wrong_sides = 0;                  // likewise
+  size_t wrong_sides = 0;                  // among those queried
   std::vector<std::string> wrong_places;   // the first few
   size_t either_side = 0;                  // differ where the surface crosses itself
   std::vector<std::string> either_places;  // the first few

@@ -8,9 +8,9 @@ namespace {
 
 constexpr uint32_t kUnlimited = std::numeric_limits<uint32_t>::max();
 constexpr double kUpperSlack =
-    4e-7;                         // of max(diagonal, truth): what float32 may lose of a distance
-constexpr double kJudge = 1e-12;  // relative rounding of the judge itself
-constexpr double kGapRounding = 0x1p-23;  // of the distance: a gap is a difference of two floats
+    4e-7;  // of max(diagonal, truth): what float32 may lose of a distance
+constexpr double kOracleRounding = 1e-12;  // relative
+constexpr double kGapRounding = 0x1p-23;   // of the distance: a gap is a difference of two floats
 
 }  // namespace
 
@@ -22,10 +22,10 @@ double quantile(std::vector<double> values, double share) {
 }
 
 CertificateCounts count_certificates(const std::vector<double>& truths_m, double diagonal_m,
-                                     const AskBudget& ask) {
+                                     const BudgetQuery& query) {
   CertificateCounts counts;
   for (size_t i = 0; i < truths_m.size(); ++i)
-    counts.worst_steps = std::max(counts.worst_steps, ask(i, kUnlimited).steps);
+    counts.worst_steps = std::max(counts.worst_steps, query(i, kUnlimited).steps);
   std::vector<uint32_t> budgets;
   for (uint32_t budget = 1; budget < counts.worst_steps; budget *= 2) budgets.push_back(budget);
   budgets.push_back(counts.worst_steps);
@@ -34,9 +34,9 @@ CertificateCounts count_certificates(const std::vector<double>& truths_m, double
     const double truth_m = truths_m[i];
     double gap_m = std::numeric_limits<double>::infinity();
     for (const uint32_t budget : budgets) {
-      const Reported reported = ask(i, budget);
-      ++counts.asked;
-      if (!(reported.lower_m <= truth_m * (1 + kJudge))) ++counts.lower_wrong;
+      const Reported reported = query(i, budget);
+      ++counts.queried;
+      if (!(reported.lower_m <= truth_m * (1 + kOracleRounding))) ++counts.lower_wrong;
       const double slack_m = kUpperSlack * std::max(diagonal_m, truth_m);
       if (!(reported.upper_m >= truth_m - slack_m)) ++counts.upper_wrong;
       const double now_m = reported.upper_m - reported.lower_m;
@@ -46,7 +46,7 @@ CertificateCounts count_certificates(const std::vector<double>& truths_m, double
   }
   std::vector<double> gaps_m;
   for (size_t i = 0; i < truths_m.size(); ++i) {
-    const Reported reported = ask(i, std::max(1u, counts.worst_steps / 2));
+    const Reported reported = query(i, std::max(1u, counts.worst_steps / 2));
     gaps_m.push_back(reported.upper_m - reported.lower_m);
   }
   counts.half_gap_m = quantile(gaps_m, 0.5);
@@ -54,15 +54,15 @@ CertificateCounts count_certificates(const std::vector<double>& truths_m, double
 }
 
 BoundShares bound_shares(const std::vector<double>& truths_m, uint32_t budget,
-                         const AskBudget& ask) {
+                         const BudgetQuery& query) {
   std::vector<double> lower, upper;
   size_t done = 0;
   for (size_t i = 0; i < truths_m.size(); ++i) {
-    const Reported reported = ask(i, budget);
+    const Reported reported = query(i, budget);
     const double truth_m = std::max(truths_m[i], 1e-300);
     lower.push_back(reported.lower_m / truth_m);
     upper.push_back(reported.upper_m / truth_m);
-    if (ask(i, kUnlimited).steps <= budget) ++done;
+    if (query(i, kUnlimited).steps <= budget) ++done;
   }
   return {quantile(lower, 0.5), quantile(lower, 0.1), quantile(upper, 0.9),
           static_cast<double>(done) / static_cast<double>(truths_m.size())};

@@ -43,7 +43,7 @@ struct Wrong {
   uint64_t closest = 0, penalised = 0;
 };
 
-void judge(const CurveCase& curve, const std::vector<math::Vec3>& points, Wrong& wrong) {
+void compare(const CurveCase& curve, const std::vector<math::Vec3>& points, Wrong& wrong) {
   const double diagonal = double{curve.view.head().diagonal_m};
   tools::Random random(3);
   curve::Hint hint, held;
@@ -98,11 +98,11 @@ void run_curve_truth(const Options& options, Report& report) {
     std::vector<math::Vec3> points = random_points(curve, queries / 2);
     const auto walk = tools::make_hand_walk(curve.samples_m, i, queries - queries / 2);
     points.insert(points.end(), walk.begin(), walk.end());
-    judge(curve, points, wrong);
+    compare(curve, points, wrong);
   }
-  const std::string asked = std::to_string(kCurves * queries) + " queries";
-  report.bar("wrong closest points", asked, static_cast<double>(wrong.closest), "", 0);
-  report.bar("wrong penalised points", asked, static_cast<double>(wrong.penalised), "", 0);
+  const std::string queries_text = std::to_string(kCurves * queries) + " queries";
+  report.bar("wrong closest points", queries_text, static_cast<double>(wrong.closest), "", 0);
+  report.bar("wrong penalised points", queries_text, static_cast<double>(wrong.penalised), "", 0);
   report.heading("jumps where a track passes itself: 5,001 ticks of a hand that wanders across");
   const CurveCase track = bake_case(hairpin(), "hairpin");
   for (const double weight : {0.01, 0.1, 1.0, 10.0}) {

@@ -94,7 +94,7 @@ void race_sides(const Model& model, const std::vector<math::Vec3>& points, Repor
                 "%", "instructions: tools/bench/cortex-m7 --unsigned");
 }
 
-AskBudget cold_ask(const simd::WideMesh& mesh, const std::vector<math::Vec3>& points) {
+BudgetQuery cold_query(const simd::WideMesh& mesh, const std::vector<math::Vec3>& points) {
   return [&mesh, &points](size_t i, uint32_t budget) {
     mesh::Hint hint;
     const mesh::Closest c = mesh.closest_point(points[i], {budget}, hint);
@@ -109,24 +109,25 @@ void tell_certificates(const Model& model, Report& report) {
   const std::vector<math::Vec3> points = random_points(model, kBudgetQueries, kBudgetSeed);
   std::vector<double> truths_m;
   for (const math::Vec3& p : points) truths_m.push_back(truth(p));
-  const AskBudget ask = cold_ask(model.wide, points);
+  const BudgetQuery query = cold_query(model.wide, points);
 
-  const BoundShares shares = bound_shares(truths_m, kBudget, ask);
+  const BoundShares shares = bound_shares(truths_m, kBudget, query);
   const std::string cold = "64 steps, cold: ";
   report.bar_at_least(cold + "lower / truth, median", model.name, shares.lower_median, "", 0.98);
   report.bar_at_least(cold + "lower / truth, 10 %", model.name, shares.lower_p10, "", 0.94);
   report.bar(cold + "upper / truth, 90 %", model.name, shares.upper_p90, "", 1.05);
   report.figure(cold + "done within them", model.name, 100 * shares.exact, "%");
 
-  const CertificateCounts counts = count_certificates(truths_m, model.diagonal_m(), ask);
-  const std::string asked = "of " + std::to_string(counts.asked) +
-                            " answers, budgets 1, 2, 4, ... " + std::to_string(counts.worst_steps);
+  const CertificateCounts counts = count_certificates(truths_m, model.diagonal_m(), query);
+  const std::string queried = "of " + std::to_string(counts.queried) +
+                              " answers, budgets 1, 2, 4, ... " +
+                              std::to_string(counts.worst_steps);
   report.bar("lower bounds above the truth", model.name, static_cast<double>(counts.lower_wrong),
-             "", 0, asked);
+             "", 0, queried);
   report.bar("told distances below the truth", model.name, static_cast<double>(counts.upper_wrong),
-             "", 0, asked);
+             "", 0, queried);
   report.bar("gaps that a larger budget widened", model.name, static_cast<double>(counts.gap_grew),
-             "", 0, asked);
+             "", 0, queried);
   report.figure("median gap at half the worst", model.name,
                 100 * counts.half_gap_m / model.diagonal_m(), "% of the diagonal");
 }

@@ -44,7 +44,7 @@ void run_memory(const Model& model, const Baked& baked, Report& report) {
                  static_cast<double>(wrong), "", 0);
     }
   }
-  report.table({"base, faces", "entries", "of 10,000 cut off", "of them told without a hit",
+  report.table({"base, faces", "entries", "of 10,000 cut off", "of them reported without a hit",
                 "mean depth error, % of the diagonal", "late or wrong"},
                rows);
 }

@@ -14,7 +14,7 @@ using math::Vec3;
 using Room = std::vector<mesh::SurfaceCrossing>;
 
 // Against brute force in double: none missed, none made up. A segment that grazes an edge or an end
-// is one of which doubles cannot tell, and is left out.
+// is undecided in doubles and is left out.
 void run_truth(const Model& model, const Baked& baked, bool is_long, Report& report) {
   Refined refined(baked.view, 1000, baked.view.collapse_count() + 1, 4096);
   const size_t count = is_long ? 10000 : 2000;

@@ -46,7 +46,7 @@ struct Model {
   double diagonal_m() const { return static_cast<double>(view.head().diagonal_m); }
 };
 
-/// Whether a bake keeps what tells inside from outside.
+/// Whether a bake stores what the sign needs.
 enum class Sides { kSigned, kUnsigned };
 
 /// What is named, or the demo part (seed 1) where nothing is: throws a Problem with the file, what is

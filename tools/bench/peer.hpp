@@ -17,7 +17,7 @@ class Peer {
   /// time.
   double us_per_query(const std::string& kind, const std::string& file,
                       const std::string& csv) const;
-  /// The same program's `build_s X`: what building its tree took, in microseconds; NaN where it tells
+  /// The same program's `build_s X`: what building its tree took, in microseconds; NaN where it prints
   /// none.
   double build_us(const std::string& kind, const std::string& file, const std::string& csv) const;
   /// us_per_query() for medians_us().

@@ -7,7 +7,7 @@
 
 namespace firmtouch::bench {
 
-/// Points spread evenly in 1.5 times the box that a head tells.
+/// Points spread evenly in 1.5 times the box of a head.
 template <class Head>
 std::vector<math::Vec3> points_about(const Head& head, size_t count, uint64_t seed) {
   tools::Random random(seed);

@@ -8,7 +8,7 @@ namespace firmtouch::bench {
 /// A number as a bench prints it: as many digits as mean something; "nan" where it is none.
 std::string number_text(double value);
 
-/// What a bench has measured, in the order in which it was told.
+/// What a bench has measured, in the order of the report.
 class Report {
  public:
   enum class Goal { kNone, kAtMost, kAtLeast };

@@ -15,7 +15,7 @@ std::vector<FloatSegment> across_box(const Model& model, size_t count, uint64_t 
 std::vector<FloatSegment> anywhere(const Model& model, size_t count, uint64_t seed);
 
 /// Every crossing in double, sorted. Result: false where one grazes an edge or an end, so that
-/// doubles cannot tell.
+/// doubles do not decide.
 bool all_crossings_in_double(const tools::Surface& surface, const FloatSegment& segment,
                              std::vector<double>& t);
 

@@ -11,7 +11,7 @@ constexpr size_t kPasses = 5;
 /// took, in microseconds a query.
 using Contender = std::function<double()>;
 
-/// Wall time is what a peer tells of itself; processor time of this thread is what to take where all
+/// A peer reports wall time; processor time of this thread is what to take where all
 /// contenders are ours, since a busy machine does not count in it.
 enum class Clock { kWall, kProcessor };
 
@@ -19,7 +19,7 @@ enum class Clock { kWall, kProcessor };
 /// optimised away.
 Contender timed(size_t queries, const std::function<double()>& pass, Clock clock = Clock::kWall);
 
-/// The median of kPasses passes in a row: what a peer tells of itself in one turn. One pass alone
+/// The median of kPasses passes in a row: what a peer reports of itself in one turn. One pass alone
 /// would begin where the other's process has left the caches.
 Contender median_of_passes(const Contender& contender);
 

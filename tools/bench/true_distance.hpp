@@ -12,7 +12,7 @@ namespace firmtouch::bench {
 /// foot lies inside, its plane. Holds for slivers and triangles without area.
 double triangle_distance(tools::Point p, tools::Point a, tools::Point b, tools::Point c);
 
-/// The judge of the benches: true distances to a surface, in double, over a tree of its own that
+/// The oracle of the benches: true distances to a surface, in double, over a tree of its own that
 /// shares nothing with the baker's and the firmware's.
 class TrueDistance {
  public:

@@ -8,7 +8,7 @@ namespace {
 constexpr size_t kQuick = 2000, kWhole = 100000;
 constexpr double kErrorGoal = 4e-7;
 
-void tell(const Model& model, const TruthReport& truth, Report& report) {
+void report_truth(const Model& model, const TruthReport& truth, Report& report) {
   const std::string& name = model.name;
   report.bar("worst error over max(diagonal, distance)", name, truth.worst_error, "", kErrorGoal);
   const auto none = [&](const char* what, size_t count, const std::string& remark) {
@@ -27,8 +27,9 @@ void tell(const Model& model, const TruthReport& truth, Report& report) {
 // Solids with their sides; what is none, distances only; what is no mesh is said to be.
 void run_model(const std::string& path, size_t count, Report& report) {
   const auto measure = [&](const Model& model) {
-    tell(model, measure_truth(model, count, [&](const std::string& at) { report.stage(at); }),
-         report);
+    report_truth(model,
+                 measure_truth(model, count, [&](const std::string& at) { report.stage(at); }),
+                 report);
   };
   std::string why;
   try {
@@ -55,7 +56,8 @@ void run_truth(const Options& options, Report& report) {
   for (const std::string& path : options.models) run_model(path, count, report);
   if (!options.models.empty()) return;
   const Model part = demo_part();
-  tell(part, measure_truth(part, count, [&](const std::string& at) { report.stage(at); }), report);
+  report_truth(part, measure_truth(part, count, [&](const std::string& at) { report.stage(at); }),
+               report);
 }
 
 }  // namespace firmtouch::bench

@@ -182,7 +182,7 @@ const Command& bake_command() {
        {"--fast", nullptr,
         "meshes: the fastest on a controller rather than the smallest (the default)"},
        {"--bounded", nullptr,
-        "meshes: the dearest query near the surface takes a controller a fifth less, for nearly "
+        "meshes: the worst query near the surface takes a controller a fifth less, for nearly "
         "three "
         "times the flash"},
        {"--small", nullptr,

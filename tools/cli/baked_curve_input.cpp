@@ -85,7 +85,7 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
 
   progress.stage("counting steps on " + name);
   const tools::StepFigures steps = steps_of(view, points.samples_m);
-  progress.stage("asking the probes of " + name);
+  progress.stage("running the probes of " + name);
   baked.sections.push_back(tools::curve_probes(view, name));
   baked.sections.push_back(
       tools::text_section(asset::kBoundsSection, name, facts_of(view, report, steps)));

@@ -14,7 +14,7 @@ namespace firmtouch::cli {
 /// What an asset is made for.
 enum class Purpose {
   kFast,     // the least work a query on a controller
-  kBounded,  // the least work of its dearest query
+  kBounded,  // the least work of its worst query
   kSmall,    // the fewest bytes
   kDesktop   // the least time on a desktop's processor
 };
@@ -25,9 +25,9 @@ struct BakeOptions {
   bool is_signed = true;
   bool close_holes = false;
   Purpose purpose = Purpose::kFast;
-  uint32_t field_cells = 0;  // along the long axis; 0: no distance map
+  uint32_t field_cells = 0;  // along the long axis; 0: no distance field
   uint32_t hull_faces = 0;   // 0: no hull
-  bool has_tree = true;      // of the mesh; without it only a hull can be asked
+  bool has_tree = true;      // of the mesh; without it only a hull can be queried
   tools::HullOptions hull;
   bool smooth = false;         // cubic pieces between a curve's samples
   bool curve_tree = false;     // also bake the k-d tree of a curve
@@ -39,7 +39,7 @@ struct BakeOptions {
 /// Of --unit, --unsigned and --close-holes.
 BakeOptions bake_options(const Arguments& arguments);
 
-/// One input as sections of an asset, proven, with its probes and provenance, and what to tell
+/// One input as sections of an asset, proven, with its probes and provenance, and what to report
 /// about it.
 struct BakedInput {
   std::vector<tools::Section> sections;

@@ -26,15 +26,15 @@ constexpr uint64_t kWalkSeed = 1;
 
 tools::StepFigures steps_of(const mesh::View& view, const tools::Surface& surface) {
   mesh::Hint hint;
-  const auto ask = [&](math::Vec3 p_m, bool cold) {
+  const auto query = [&](math::Vec3 p_m, bool cold) {
     if (cold) hint = mesh::Hint{};
     return mesh::closest_point(view, p_m, query::kUnlimited, hint);
   };
   const auto walk = tools::make_walk(surface, kWalkSeed, tools::kFigureQueries,
-                                     [&](math::Vec3 p_m) { return ask(p_m, false).point_m; });
+                                     [&](math::Vec3 p_m) { return query(p_m, false).point_m; });
   return tools::measure_steps(
       view.head().low_m, view.head().high_m, walk,
-      [&](math::Vec3 p_m, bool cold) { return ask(p_m, cold).certificate.steps; });
+      [&](math::Vec3 p_m, bool cold) { return query(p_m, cold).certificate.steps; });
 }
 
 tools::Facts facts_of(const mesh::View& view, const tools::StepFigures& steps) {
@@ -84,7 +84,7 @@ std::vector<std::string> report_of(const tools::MeshReport& report, const tools:
                steps.path_mean, steps.path_worst)};
 }
 
-// Adds the sections of a distance map. Result: what to tell of it.
+// Adds the sections of a distance field. Result: its line of the report.
 std::string add_field(const mesh::View& view, const std::string& name, uint32_t cells,
                       const std::string& path, BakedInput& baked) {
   tools::FieldReport report;
@@ -94,14 +94,14 @@ std::string add_field(const mesh::View& view, const std::string& name, uint32_t 
   const std::string grid = std::to_string(report.count[0]) + " x " +
                            std::to_string(report.count[1]) + " x " +
                            std::to_string(report.count[2]);
-  return "distance map of " + grid + " cells" +
+  return "distance field of " + grid + " cells" +
          sentence(" of %.4g m, bounds %.2g m apart at their centres", report.cell_m,
                   2 * report.quantum_m) +
          ", " + std::to_string(report.bytes) + " bytes" +
          (report.unknown == 0 ? "" : ", " + std::to_string(report.unknown) + " cells unknown");
 }
 
-// Adds the sections of a hull. Result: what to tell of it.
+// Adds the sections of a hull. Result: its line of the report.
 std::vector<std::string> add_hull(const mesh::View& view, const std::string& name,
                                   const BakeOptions& options, const std::string& path,
                                   Progress& progress, BakedInput& baked) {
@@ -127,7 +127,7 @@ std::vector<std::string> add_hull(const mesh::View& view, const std::string& nam
           sentence(" %.1f for boxes over the triangles; coarsest hull %.0f bytes",
                    report.box_bytes / triangles, report.base_hull_bytes),
       "RAM of a refinement: " + std::to_string(4 * hull::bit_words(report.collapses)) +
-          " bytes (a bit a collapse), 4 for each that may be undone, 8 for each crossing kept"};
+          " bytes (a bit a collapse), 4 for each that may be split, 8 for each crossing kept"};
   if (!report.stalled.empty()) reported.push_back("hull " + report.stalled);
   return reported;
 }
@@ -231,7 +231,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   }
   progress.stage("counting steps on " + name);
   const tools::StepFigures steps = steps_of(view, surface);
-  progress.stage("asking the probes of " + name);
+  progress.stage("running the probes of " + name);
   baked.sections.push_back(tools::mesh_probes(view, name));
   add_facts(facts_of(view, steps));
   baked.report = report_of(report, steps, bytes_of(baked.sections), options.is_signed);

@@ -53,7 +53,7 @@ bool is_place(const tools::Place& p) {
 }
 
 struct Run {
-  std::vector<tools::Place> places;  // in the frame of the asset that the run felt
+  std::vector<tools::Place> places;  // in the frame of the asset that the run touched
   size_t left_out = 0;               // ticks whose position is not to be trusted
 };
 
@@ -78,7 +78,7 @@ Run run_of(const std::vector<Tick>& ticks, const log::Header& header) {
   return run;
 }
 
-// The greatest distance of any place from the cubic pieces, as the firmware tells it.
+// The greatest distance of any place from the cubic pieces, as the firmware computes it.
 double max_off_m(const tools::CurvePoints& points, const std::vector<tools::Place>& places,
                  const std::string& path) {
   tools::CurvePoints smooth = points;
@@ -100,7 +100,7 @@ double max_off_m(const tools::CurvePoints& points, const std::vector<tools::Plac
   return max_m;
 }
 
-// Cubic pieces leave the straight ones that were judged: thinned less, until they too keep near.
+// Cubic pieces leave the straight ones that were checked: thinned less, until they too keep near.
 tools::ThinnedRun thinned_for(const Run& run, const BakeOptions& options, const std::string& path) {
   double max_m = options.max_deviation_m;
   for (int tries = 0; tries < kMaxTries; ++tries, max_m /= 2) {

@@ -130,7 +130,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   tools::set_worst_steps(baked.sections, name, worst.steps);
   const double instructions =
       tools::cortex_m7_instructions(report.is_surface, worst.steps, worst.evaluations);
-  progress.stage("asking the probes of " + name);
+  progress.stage("running the probes of " + name);
   baked.sections.push_back(tools::spline_probes(view, name));
   baked.sections.push_back(
       tools::text_section(asset::kBoundsSection, name, facts_of(report, steps, worst, guide)));

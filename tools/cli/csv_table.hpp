@@ -5,7 +5,7 @@
 
 namespace firmtouch::cli {
 
-/// The columns asked for, row by row, as the nearest float32.
+/// The columns given, row by row, as the nearest float32.
 struct CsvTable {
   std::vector<float> values;      // rows() * columns
   std::vector<uint32_t> line_of;  // of each row, from 1

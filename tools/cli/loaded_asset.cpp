@@ -43,8 +43,9 @@ LoadedMesh LoadedAsset::mesh(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(mesh::kHeadSection, key).empty()) fail_absent("mesh", name);
   if (!tools::has_tree(container_, key)) {
-    fail_input(path_ + ": '" + name +
-               "' was baked with --no-tree: only its hull can be asked; bake it without for more");
+    fail_input(
+        path_ + ": '" + name +
+        "' was baked with --no-tree: only its hull can be queried; bake it without for more");
   }
   LoadedMesh loaded;
   mesh::View view;
@@ -60,7 +61,7 @@ LoadedHull LoadedAsset::hull(const std::string& name) const {
   if (container_.find(mesh::kHeadSection, key).empty()) fail_absent("mesh", name);
   if (container_.find(hull::kHeadSection, key).empty()) {
     fail_input(path_ + ": mesh '" + name +
-               "' has no hull; bake it with --hull-faces N, or ask for segment");
+               "' has no hull; bake it with --hull-faces N, or query segment");
   }
   LoadedHull loaded;
   const core::Verdict verdict = hull::open(hull::find_sections(container_, key), loaded.view);

@@ -231,7 +231,7 @@ const Command& log_command() {
   static const Command command{
       "log",
       "LOG.ftl info|csv|plot|cut|join|stats [LOG.ftl...]",
-      "Tells what a recorded run holds, draws it, cuts and joins.",
+      "Prints what a recorded run holds, draws it, cuts and joins.",
       "  info    the head of the log and its fields     csv    every record as a row, as stored\n"
       "  stats   period, steps, faults, missing records  plot   force, position, deviation, "
       "energy, "

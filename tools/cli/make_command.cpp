@@ -134,7 +134,8 @@ const Command& make_command() {
   static const Command command{
       "make",
       "part|path|curve|surface|walk MODEL -o FILE [options]",
-      "Makes the demo's part and guide path, splines, and walks to ask a model along; the same on "
+      "Makes the demo's part and guide path, splines, and paths to query a model along; the same "
+      "on "
       "every machine.",
       "part     a closed mesh (.obj)\n"
       "path     the guide that runs in the groove of the part of the same seed (.csv)\n"
@@ -142,7 +143,8 @@ const Command& make_command() {
       "surface  a bicubic spline surface of hills (.igs)\n"
       "walk     of a mesh: a random walk that stays within 2 % of the diagonal of its surface, "
       "0.0005\n"
-      "         diagonals a step (.csv): what a touching hand asks; of a path (.csv): a hand led "
+      "         diagonals a step (.csv): what a touching hand queries; of a path (.csv): a hand "
+      "led "
       "along\n"
       "         it once, up to 1 % of its diagonal aside; of splines (.igs, .iges, .bpt): all "
       "through\n"

@@ -32,7 +32,7 @@ void check_kind(const std::string& kind) {
     if (kind == known) return;
   }
   fail_usage("query: '" + kind +
-             "' is no kind of query; ask distance, segment, hull, curve, spline or footpoints");
+             "' is no kind of query; give distance, segment, hull, curve, spline or footpoints");
 }
 
 // Before anything is read: a bad option is a usage error whatever the files are.
@@ -42,7 +42,7 @@ void check_options(const Arguments& arguments, const std::string& kind) {
   if (kind == "hull") check_hull_options(arguments);
 }
 
-CsvTable asked_rows(const std::vector<std::string>& columns, const Arguments& arguments) {
+CsvTable query_rows(const std::vector<std::string>& columns, const Arguments& arguments) {
   CsvTable table = read_csv(read_standard_input(), "standard input", columns);
   if (arguments.has("--time") && table.rows() == 0)
     fail_input("standard input: no rows after the header, so there is nothing to time; add some");
@@ -121,27 +121,27 @@ int run_query(const Arguments& arguments) {
   const LoadedAsset asset(path);
   if (kind == "curve") {
     const LoadedCurve curve = asset.curve(name);
-    query_curve(curve, asked_rows(kPoint, arguments), arguments);
+    query_curve(curve, query_rows(kPoint, arguments), arguments);
     return kDone;
   }
   if (kind == "hull") {
     const LoadedHull hull = asset.hull(name);
-    query_hull(hull, asked_rows(columns_of(arguments), arguments), arguments);
+    query_hull(hull, query_rows(columns_of(arguments), arguments), arguments);
     return kDone;
   }
   if (kind == "footpoints") {
-    query_footpoints(asset.spline(name), asked_rows(kPoint, arguments), arguments);
+    query_footpoints(asset.spline(name), query_rows(kPoint, arguments), arguments);
     return kDone;
   }
   if (kind == "spline") {
-    query_spline(asset.spline(name), asked_rows(kPoint, arguments), arguments);
+    query_spline(asset.spline(name), query_rows(kPoint, arguments), arguments);
     return kDone;
   }
   const LoadedMesh mesh = asset.mesh(name);
   if (kind == "distance") {
-    query_distance(mesh, asked_rows(kPoint, arguments), arguments);
+    query_distance(mesh, query_rows(kPoint, arguments), arguments);
   } else {
-    query_segment(mesh, asked_rows(kSegment, arguments), arguments);
+    query_segment(mesh, query_rows(kSegment, arguments), arguments);
   }
   return kDone;
 }

@@ -117,7 +117,7 @@ void run_cells(const Options& options, Report& report) {
                  rows);
     report.bar("answers that differ", "", static_cast<double>(wrong), "", 0);
   }
-  report.figure("instructions are reckoned: a query", "", kQuery, "",
+  report.figure("instructions assumed: a query", "", kQuery, "",
                 "an evaluation with its proof " + number_text(kEvaluation) + ", with weights " +
                     number_text(kRationalEvaluation) + ", a node " + number_text(kNode) +
                     ", a level of cells " + number_text(kLevel) + ", an entry " +

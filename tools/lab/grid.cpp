@@ -130,7 +130,7 @@ std::vector<std::string> row_of(const char* boxes, const Column& c) {
 }
 
 // Their table, as ratios: the range over its eight models, and its horse of 60,680 triangles.
-void tell_ratios(const Columns& c, Report& report) {
+void report_ratios(const Columns& c, Report& report) {
   const Column &obb = c.oriented, &aabb = c.aligned;
   report.table(
       {"ratio", "here", "paper, eight models", "paper's horse"},
@@ -153,8 +153,8 @@ void tell_ratios(const Columns& c, Report& report) {
         ratio(c.firmware.grid_signed_s / aabb.grid_signed_s), "", ""}});
 }
 
-void tell_signs(const Model& model, const Grown<orders::FloatKind>& aligned, const Points& points,
-                Report& report) {
+void report_signs(const Model& model, const Grown<orders::FloatKind>& aligned, const Points& points,
+                  Report& report) {
   std::vector<orders::Pending> waiting(kWaiting);
   size_t rays_differ = 0, firmware_differs = 0;
   for (const math::Vec3& p_m : points) {
@@ -167,9 +167,9 @@ void tell_signs(const Model& model, const Grown<orders::FloatKind>& aligned, con
     if ((c.certificate.sign < 0) != inside) ++firmware_differs;
   }
   const std::string of = "of " + std::to_string(points.size()) + " voxels";
-  report.figure("sides that rays, not cast robustly, tell otherwise", model.name,
+  report.figure("signs on which rays, not cast robustly, differ", model.name,
                 static_cast<double>(rays_differ), "", of);
-  report.figure("sides that the firmware tells otherwise", model.name,
+  report.figure("signs on which the firmware differs", model.name,
                 static_cast<double>(firmware_differs), "", of);
 }
 
@@ -210,8 +210,8 @@ void run_grid(const Options& options, Report& report) {
     report.table({"boxes", "build", "with signs", "+ %", "grid", "with signs", "+ %", "rays"},
                  {row_of("oriented", c.oriented), row_of("float AABB", c.aligned),
                   row_of("the firmware's", c.firmware)});
-    tell_ratios(c, report);
-    tell_signs(model, aligned, points, report);
+    report_ratios(c, report);
+    report_signs(model, aligned, points, report);
   }
 }
 

@@ -34,7 +34,7 @@ class Table4 {
     for (const Row& row : rows_) contenders.push_back(row.contender);
     us_ = medians_us(contenders);
     print(report);
-    judge(report);
+    compare(report);
   }
 
  private:
@@ -150,7 +150,7 @@ class Table4 {
         table);
   }
 
-  void judge(Report& report) const {
+  void compare(Report& report) const {
     const std::string& name = model_.name;
     const bool is_horse = name == "horse", is_reported = is_horse || name == "rocker-arm";
     const double published = us_[kOf26] / std::min(us_[kPublished], us_[kPublished + 1]),
@@ -223,7 +223,7 @@ void run_bases(const Model& model, const Baked& baked, Report& report) {
                rows);
 }
 
-// Between two queries: splits undone at once, or kept for some.
+// Between two queries: vertices collapsed again at once, or kept split for some.
 void run_keeping(const Model& model, Report& report) {
   report.stage("keeping between queries, " + model.name);
   tools::HullReport ignored;
@@ -231,7 +231,7 @@ void run_keeping(const Model& model, Report& report) {
   options.target_faces = 1000;
   const tools::ProgressiveHull built = tools::build_hull(model.surface, options, ignored);
   const std::vector<FloatSegment> segments = across_box(model, 2000, 7);
-  // Rays side by side, as a scan casts them.
+  // Neighbouring rays, as a scan casts them.
   std::vector<FloatSegment> scan = segments;
   for (size_t i = 0; i < scan.size(); ++i) {
     const FloatSegment& from = segments[i / 20];
@@ -265,7 +265,7 @@ void run_keeping(const Model& model, Report& report) {
     rows.push_back(row);
   }
   report.table(
-      {"kept for queries", "random: tests", "splits", "us", "side by side: tests", "splits", "us"},
+      {"kept for queries", "random: tests", "splits", "us", "neighbouring: tests", "splits", "us"},
       rows);
 }
 
@@ -281,8 +281,10 @@ void run_hull_tables(const Options& options, Report& report) {
     Table4(model, baked, options.is_long ? 10000 : 2000).run(report);
     report.heading("by base size with boxes of stars (as table 3): " + model.name);
     run_bases(model, baked, report);
-    report.heading("splits undone at once or kept between queries, as published, base 1,000: " +
-                   model.name);
+    report.heading(
+        "vertices collapsed again at once or kept split between queries, as published, base "
+        "1,000: " +
+        model.name);
     run_keeping(model, report);
   }
 }

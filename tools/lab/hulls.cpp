@@ -19,7 +19,7 @@ using tools::HullStrategy;
 using tools::ProgressiveHull;
 using tools::QueueKind;
 
-// What the paper tells of the models that are at hand (Platis & Theoharis 2003, tables 1 and 2).
+// What the paper reports of the models that are at hand (Platis & Theoharis 2003, tables 1 and 2).
 struct Reported {
   const char* model;
   double seconds[2];  // strategies 1 and 2
@@ -199,7 +199,7 @@ std::vector<tools::Segment> segments(const Model& model, size_t count) {
     const uint32_t side = random.below(6), other = (side + 1 + random.below(5)) % 6;
     const tools::Point from = on_side(side);
     const tools::Point to = on_side(other);
-    // Floats, so that the mesh can be asked for the truth.
+    // Floats, so that the mesh can be queried for the truth.
     all.push_back({tools::to_point(tools::to_vec3(from)), tools::to_point(tools::to_vec3(to))});
   }
   return all;
@@ -209,7 +209,7 @@ struct Misses {
   size_t crossings = 0, missed = 0, extra = 0, wrong_ends = 0;
 };
 
-// What the refinement told of a segment, against all that the segment crosses.
+// What the refinement returned for a segment, against all that the segment crosses.
 void compare(const Model& model, const tools::Segment& segment,
              const std::vector<tools::SegmentHit>& found, Misses& misses) {
   mesh::SurfaceCrossing room[256];

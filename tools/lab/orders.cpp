@@ -41,8 +41,8 @@ double firmware_pass(const mesh::View& view, const std::vector<math::Vec3>& poin
   return sum;
 }
 
-void tell(const Model& model, const PointSet& set, const std::vector<Entrant>& entrants,
-          Report& report) {
+void report_set(const Model& model, const PointSet& set, const std::vector<Entrant>& entrants,
+                Report& report) {
   report.stage(std::string(set.what) + ", " + model.name);
   const double queries = static_cast<double>(set.points.size());
   const double triangles = model.report.triangles;
@@ -87,7 +87,7 @@ void run_orders(const Options& options, Report& report) {
     PointSet touching{"touching path", {}};
     for (size_t i = 0; i < path.size(); i += 40) touching.points.push_back(path[i]);
     for (const PointSet& set : {PointSet{"random points", random_points(model, queries)}, touching})
-      tell(model, set, contest.entrants(), report);
+      report_set(model, set, contest.entrants(), report);
   }
 }
 

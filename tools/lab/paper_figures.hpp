@@ -7,7 +7,7 @@
 namespace firmtouch::lab {
 
 /// A counterexample of Baerentzen & Aanaes 2005 as a closed mesh: `query` is outside of it, its
-/// closest point is vertex 0, and the pseudonormal named tells that it is inside.
+/// closest point is vertex 0, and by the pseudonormal named it is inside.
 struct PaperFigure {
   const char* name;
   NormalKind fails;

@@ -14,7 +14,7 @@ using tools::Point;
 
 struct Wrong {
   uint32_t vertices = 0;         // that can be a closest point, away from crossings
-  std::vector<uint32_t> counts;  // of them, told wrong for some point: for each kind
+  std::vector<uint32_t> counts;  // of them, with a wrong sign for some point: for each kind
 };
 
 // Every extreme ray, drawn a little into the cone of those on its side.
@@ -63,7 +63,7 @@ std::vector<std::string> heads(const char* what, const char* beside) {
   return all;
 }
 
-void tell_figures(Report& report) {
+void report_figures(Report& report) {
   report.heading("the side of one point beside the counterexamples of the paper");
   std::vector<std::vector<std::string>> rows;
   for (const PaperFigure& figure : paper_figures()) {
@@ -80,10 +80,10 @@ void tell_figures(Report& report) {
 }  // namespace
 
 // The pseudonormals of section 2.1 of Baerentzen & Aanaes on their figures and on models: for how
-// many vertices each tells a wrong side for some point whose closest point is that vertex.
+// many vertices each gives a wrong sign for some point whose closest point is that vertex.
 void run_pseudonormals(const Options& options, Report& report) {
-  tell_figures(report);
-  report.heading("vertices that tell a wrong side for some point nearest to them");
+  report_figures(report);
+  report.heading("vertices that give a wrong sign for some point nearest to them");
   std::vector<std::vector<std::string>> rows;
   for (const Model& model : load_models(options)) {
     report.stage("pseudonormals of " + model.name);

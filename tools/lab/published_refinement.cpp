@@ -28,7 +28,7 @@ Refinement::Refinement(const ProgressiveHull& hull, uint32_t base_faces) : hull_
   cut_ = std::min(base_faces >= all ? 0 : (all - base_faces + 1) / 2,
                   static_cast<uint32_t>(hull.collapses.size()));
   base_ = hull_after(hull, cut_);
-  is_undone_.assign(cut_, false);
+  is_split_.assign(cut_, false);
   low_m_ = high_m_ = to_point(hull.vertices_m[base_.faces[0][0]]);
   for (const Face& face : base_.faces) {
     for (const uint32_t corner : face) {
@@ -47,7 +47,7 @@ bool Refinement::is_of_mesh(const Face& face) const {
 
 bool Refinement::is_made(const Face& face) const {
   return is_of_mesh(face) ||
-         !is_undone_[std::max({face[0], face[1], face[2]}) - hull_.mesh_vertices];
+         !is_split_[std::max({face[0], face[1], face[2]}) - hull_.mesh_vertices];
 }
 
 Face Refinement::star_face(const Collapse& collapse, uint32_t i) const {
@@ -60,43 +60,43 @@ Face Refinement::star_face(const Collapse& collapse, uint32_t i) const {
                                   : Face{collapse.v, collapse.u, link[collapse.split]};
 }
 
-void Refinement::ask_for(uint32_t collapse) {
-  if (is_undone_[collapse]) return;
+void Refinement::request_split(uint32_t collapse) {
+  if (is_split_[collapse]) return;
   const auto add = [this](uint32_t k) {
-    if (k >= cut_ || is_undone_[k]) return;
-    is_undone_[k] = true;
-    undone_.push_back(k);
+    if (k >= cut_ || is_split_[k]) return;
+    is_split_[k] = true;
+    split_.push_back(k);
   };
-  size_t closed = undone_.size();
+  size_t closed = split_.size();
   add(collapse);
-  for (; closed < undone_.size(); ++closed) {
-    const Collapse& c = hull_.collapses[undone_[closed]];
-    add(hull_.removed_by[hull_.mesh_vertices + undone_[closed]]);
+  for (; closed < split_.size(); ++closed) {
+    const Collapse& c = hull_.collapses[split_[closed]];
+    add(hull_.removed_by[hull_.mesh_vertices + split_[closed]]);
     for (uint32_t i = 0; i < c.link_count; ++i)
       add(hull_.removed_by[hull_.links[c.first_link + i]]);
   }
 }
 
-void Refinement::ask_for_corners(const Face& face) {
+void Refinement::request_corners(const Face& face) {
   for (const uint32_t corner : face) {
-    if (corner >= hull_.mesh_vertices) ask_for(corner - hull_.mesh_vertices);
+    if (corner >= hull_.mesh_vertices) request_split(corner - hull_.mesh_vertices);
   }
 }
 
-void Refinement::undo_all() {
-  for (const uint32_t k : undone_) is_undone_[k] = false;
-  undone_.clear();
+void Refinement::collapse_all() {
+  for (const uint32_t k : split_) is_split_[k] = false;
+  split_.clear();
   kept_ = 0;
 }
 
 // What a collapse needs has a higher number, so each is looked at after all that may need it.
 void Refinement::coarsen() {
-  std::sort(undone_.begin(), undone_.end());
+  std::sort(split_.begin(), split_.end());
   std::vector<bool> is_needed(cut_, false);
   std::vector<uint32_t> left;
-  for (const uint32_t k : undone_) {
+  for (const uint32_t k : split_) {
     if (!is_needed[k] && !is_crossed_[k]) {
-      is_undone_[k] = false;
+      is_split_[k] = false;
       continue;
     }
     left.push_back(k);
@@ -107,7 +107,7 @@ void Refinement::coarsen() {
     need(hull_.mesh_vertices + k);
     for (uint32_t i = 0; i < c.link_count; ++i) need(hull_.links[c.first_link + i]);
   }
-  undone_ = left;
+  split_ = left;
 }
 
 uint32_t Refinement::mesh_face(const Face& face) const {
@@ -139,7 +139,7 @@ bool Refinement::touches_box(const Segment& s) const {
 std::vector<SegmentHit> Refinement::hits(const Segment& segment, RefinementCounts& counts) {
   std::vector<SegmentHit> found;
   if (!touches_box(segment)) return found;
-  const size_t before = undone_.size();
+  const size_t before = split_.size();
   is_crossed_.assign(coarsens_ ? cut_ : 0, false);
   const auto test = [&](const Face& face) {
     ++counts.tests;
@@ -148,25 +148,25 @@ std::vector<SegmentHit> Refinement::hits(const Segment& segment, RefinementCount
     if (is_of_mesh(face)) {
       found.push_back({t, mesh_face(face)});
     } else {
-      ask_for_corners(face);
+      request_corners(face);
     }
     return true;
   };
   for (const Face& face : base_.faces) {
     if (is_made(face)) (void)test(face);
   }
-  for (size_t head = 0; head < undone_.size(); ++head) {
-    const Collapse& collapse = hull_.collapses[undone_[head]];
+  for (size_t head = 0; head < split_.size(); ++head) {
+    const Collapse& collapse = hull_.collapses[split_[head]];
     for (uint32_t i = 0; i < collapse.link_count + 2; ++i) {
       const Face face = star_face(collapse, i);
-      if (is_made(face) && test(face) && coarsens_) is_crossed_[undone_[head]] = true;
+      if (is_made(face) && test(face) && coarsens_) is_crossed_[split_[head]] = true;
     }
   }
-  counts.splits += undone_.size() - before;
+  counts.splits += split_.size() - before;
   if (coarsens_) {
     coarsen();
   } else if (++kept_ >= keep_) {
-    undo_all();
+    collapse_all();
   }
   std::sort(found.begin(), found.end(), [](const SegmentHit& a, const SegmentHit& b) {
     return a.t < b.t || (!(b.t < a.t) && a.face < b.face);
@@ -175,19 +175,19 @@ std::vector<SegmentHit> Refinement::hits(const Segment& segment, RefinementCount
 }
 
 std::vector<Face> Refinement::all_split() {
-  for (uint32_t k = 0; k < cut_; ++k) ask_for(k);
+  for (uint32_t k = 0; k < cut_; ++k) request_split(k);
   std::vector<Face> faces;
   for (const Face& face : base_.faces) {
     if (is_made(face)) faces.push_back(face);
   }
-  for (const uint32_t k : undone_) {
+  for (const uint32_t k : split_) {
     const Collapse& collapse = hull_.collapses[k];
     for (uint32_t i = 0; i < collapse.link_count + 2; ++i) {
       const Face face = star_face(collapse, i);
       if (is_made(face)) faces.push_back(face);
     }
   }
-  undo_all();
+  collapse_all();
   return faces;
 }
 

@@ -63,7 +63,7 @@ struct Spread {
     negative += value > 0 ? 0u : 1u;
     refused += value >= tools::kMinMargin_rad ? 0u : 1u;
   }
-  void tell(std::vector<std::string>& row) const {
+  void add_to(std::vector<std::string>& row) const {
     for (const double value : {least, sum / kPyramids, most}) row.push_back(number_text(value));
     row.push_back(std::to_string(negative));
   }
@@ -131,7 +131,7 @@ void run_pyramids(const Options&, Report& report) {
       floats.add(margins.floats_rad);
     }
     std::vector<std::string> row{number_text(radius)};
-    for (const Spread* spread : {&doubles, &stored, &floats}) spread->tell(row);
+    for (const Spread* spread : {&doubles, &stored, &floats}) spread->add_to(row);
     row.push_back(std::to_string(stored.refused));
     row.push_back(radius > 1.5e-4 ? "positive" : "first negative");
     rows.push_back(row);

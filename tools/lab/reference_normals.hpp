@@ -7,7 +7,7 @@
 namespace firmtouch::lab {
 
 /// The pseudonormals of a vertex that have been proposed (Baerentzen & Aanaes 2005, section 2.1 and
-/// appendix). Only the first two tell inside from outside; the rest stand here to be shown to fail.
+/// appendix). Only the first two give the right sign always; the rest are here to fail.
 enum class NormalKind {
   kAngleWeighted,
   kConvexHull,    // the shortest vector to the convex hull of the tips of the face normals

@@ -145,9 +145,9 @@ const std::vector<std::string> kHeads = {"",      "wrong",   "worst, m", "pruned
 
 double rate(double us) { return 1e6 / us; }
 
-void tell(const std::string& shape, const Sum& s, const Sum& printed,
-          const std::vector<Case>& cases, double published_us, const char* beside, size_t scratch,
-          Report& report) {
+void report_shape(const std::string& shape, const Sum& s, const Sum& printed,
+                  const std::vector<Case>& cases, double published_us, const char* beside,
+                  size_t scratch, Report& report) {
   report.figure("Newton steps a foot-point and move, the point kept fixed", shape, s.steps(), "");
   report.figure("the same, predicted as printed", shape, printed.steps(), "");
   report.figure("moves without a critical cell on their way", shape, s.pruned(), "%",
@@ -183,7 +183,8 @@ void run_curves(bool is_planar, bool is_long, Report& report) {
   endless.watches_ends = false;
   bare.uses_grid = false;
   const Sum s = follow(cases, levels, usual, 1, true), p = follow(cases, levels, printed, 1, false);
-  tell(shape, s, p, cases, kPublishedCurve_us, "10,000 in 1.2 to 1.4 s", positions / 20, report);
+  report_shape(shape, s, p, cases, kPublishedCurve_us, "10,000 in 1.2 to 1.4 s", positions / 20,
+               report);
   const Sum without = follow(cases, levels, bare, 1, true);
   report.figure("without the cells, every piece tested for each move: time over time with", shape,
                 without.us / s.us, "x", "published: about ten times");
@@ -210,8 +211,8 @@ void run_surfaces(std::vector<Case> cases, const std::string& shape, const std::
   printed.predictor = tools::Predictor::kProjected;
   const Sum s = follow(cases, levels[0], usual, 1, true);
   const Sum p = follow(cases, levels[0], printed, 1, false);
-  tell(shape, s, p, cases, kPublishedSurface_us, "300 to 500 a second", cases[0].path.size() / 10,
-       report);
+  report_shape(shape, s, p, cases, kPublishedSurface_us, "300 to 500 a second",
+               cases[0].path.size() / 10, report);
   std::vector<std::vector<std::string>> rows;
   for (const int level : levels) {
     for (const size_t stride : {1u, 10u}) {
