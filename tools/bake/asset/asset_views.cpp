@@ -37,7 +37,7 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
   const field::Sections sections = field::find_sections(container, name.c_str());
   const core::Verdict of_field =
       sections.head.empty() ? core::kPassed : field::open(sections, view, distance_field);
-  if (!of_field.ok()) return "distance map '" + name + "': " + rule_text(of_field);
+  if (!of_field.ok()) return "distance field '" + name + "': " + rule_text(of_field);
   const core::Bytes probes = container.find(mesh::kProbesSection, name.c_str());
   if (probes.empty() || probes_agree(view, probes)) return "";
   return "mesh '" + name +

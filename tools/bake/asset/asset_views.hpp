@@ -12,7 +12,7 @@
 
 namespace firmtouch::tools {
 
-/// Whether a mesh has its tree; without it only its hull can be asked.
+/// Whether a mesh has its tree; without it only its hull can be queried.
 bool has_tree(const asset::Container& container, const char* name);
 
 /// The names of the geometries that have a section of this type, in the asset's order.
