@@ -40,14 +40,17 @@ foreach(flags WARNING ARITHMETIC ROUNDING NATIVE FREESTANDING)
   set(FIRMTOUCH_${flags}_FLAGS "${FIRMTOUCH_${flags}_FLAGS}" CACHE INTERNAL "")
 endforeach()
 
-# firmtouch_module(NAME [LINKS MODULE...] [HOT FILE...]): one library a module of the firmware, libfirmtouch_NAME.a, from the
-# *.cpp of its folder. It may include only the modules that it links (check.includes). A module of headers alone has no
+# firmtouch_module(NAME [FOLDER FOLDER] [LINKS MODULE...] [HOT FILE...]): one library a module of the firmware,
+# libfirmtouch_NAME.a, from the *.cpp of its folder (default: NAME). It may include only the modules that it links (check.includes). A module of headers alone has no
 # archive. On a controller only HOT files are compiled for speed (-O2): those that a tick runs, and of these only the ones
 # that are measurably faster by it. All others are compiled for size (-Os). On this machine all are compiled for speed.
 function(firmtouch_module name)
-  cmake_parse_arguments(module "" "" "LINKS;HOT" ${ARGN})
+  cmake_parse_arguments(module "" "FOLDER" "LINKS;HOT" ${ARGN})
+  if(NOT module_FOLDER)
+    set(module_FOLDER ${name})
+  endif()
   list(TRANSFORM module_LINKS PREPEND firmtouch_)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${name}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${module_FOLDER}/*.cpp)
   set(target firmtouch_${name})
   if(sources)
     add_library(${target} STATIC ${sources})
@@ -58,10 +61,10 @@ function(firmtouch_module name)
     if(CMAKE_CROSSCOMPILING)
       target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-Os>)
       foreach(file ${module_HOT})
-        if(NOT ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${name}/${file} IN_LIST sources)
+        if(NOT ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${module_FOLDER}/${file} IN_LIST sources)
           message(FATAL_ERROR "firmtouch_module(${name}): there is no ${file}")
         endif()
-        set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${name}/${file}
+        set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${module_FOLDER}/${file}
                                     PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:-O2>")
       endforeach()
     endif()

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/bake_spline.hpp"
+#include "bake/spline/bake_spline.hpp"
 #include "footpoint/footpoints.hpp"
 #include "harness/test.hpp"
 #include "spline/sample_splines.hpp"

@@ -2,13 +2,14 @@
 #include <cmath>
 #include <vector>
 
-#include "bake/bake_spline.hpp"
+#include "bake/spline/bake_spline.hpp"
 #include "bake/curve/bake_curve.hpp"
-#include "bake/spline_guide.hpp"
+#include "bake/spline/spline_guide.hpp"
 #include "curve/small_curve.hpp"
 #include "firmtouch/scene/curve_guide.hpp"
 #include "firmtouch/scene/spline_guide.hpp"
 #include "firmtouch/servo/evaluate.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
 #include "harness/test.hpp"
 
 namespace {

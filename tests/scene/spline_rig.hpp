@@ -3,9 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "bake/bake_spline.hpp"
+#include "bake/spline/bake_spline.hpp"
 #include "firmtouch/scene/spline_contact.hpp"
 #include "firmtouch/servo/evaluate.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
 #include "harness/test.hpp"
 #include "spline/orientation.hpp"
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bake/bake_spline.hpp"
-#include "bake/spline_guide.hpp"
+#include "bake/spline/bake_spline.hpp"
+#include "bake/spline/spline_guide.hpp"
 #include "harness/test.hpp"
 
 namespace firmtouch::spline_test {

@@ -2,8 +2,8 @@
 #include <utility>
 #include <vector>
 
-#include "bake/bake_spline.hpp"
-#include "firmtouch/spline/view.hpp"
+#include "bake/spline/bake_spline.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
 #include "harness/test.hpp"
 
 namespace firmtouch::spline_test {

@@ -4,8 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "bake/bake_spline.hpp"
+#include "bake/spline/bake_spline.hpp"
 #include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
 #include "harness/test.hpp"
 #include "spline/exact_distance.hpp"
 #include "spline/random_splines.hpp"

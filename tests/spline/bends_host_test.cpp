@@ -1,8 +1,9 @@
 // The baked bounds of fourth derivatives, of even powers from below, against differences of D^2 / 2 in double.
 #include <cmath>
 
-#include "bake/bake_spline.hpp"
-#include "firmtouch/spline/leaf_shape.hpp"
+#include "bake/spline/bake_spline.hpp"
+#include "firmtouch/spline/proof/leaf_shape.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
 #include "harness/test.hpp"
 #include "spline/random_splines.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "bake/spline_worst.hpp"
+#include "bake/spline/spline_worst.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "firmtouch/math/isa.hpp"
-#include "firmtouch/spline/arc.hpp"
-#include "firmtouch/spline/guided_point.hpp"
-#include "firmtouch/spline/min_cost.hpp"
+#include "firmtouch/spline/guide/arc.hpp"
+#include "firmtouch/spline/guide/guided_point.hpp"
+#include "firmtouch/spline/guide/min_cost.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_guide.hpp"
 #include "spline/random_splines.hpp"
@@ -214,7 +214,8 @@ TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
       for (int k = 0; k <= 40; ++k) {
         const float at = from + (to - from) * static_cast<float>(k) / 40;
         const uint32_t piece = std::min(static_cast<uint32_t>(at), g.view.pieces().size() - 1);
-        const Vec3 on = spline::place_of(g.view, piece, 2 * (at - static_cast<float>(piece)) - 1);
+        const Vec3 on =
+            spline::position_of(g.view, piece, 2 * (at - static_cast<float>(piece)) - 1);
         const float off_m = std::hypot(on.x - p.x, on.y - p.y, on.z - p.z);
         is_downhill = is_downhill && off_m <= before_m + 2e-6f * extent_m;
         before_m = off_m;

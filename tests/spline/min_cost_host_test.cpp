@@ -1,6 +1,7 @@
 // The point of a guide of the least distance + penalty, against dense sampling with refinement in double:
 // of the file's own curve, and of the cost as it is told.
-#include "firmtouch/spline/min_cost.hpp"
+#include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/guide/min_cost.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,8 @@
 #include <functional>
 #include <vector>
 
-#include "firmtouch/spline/arc.hpp"
-#include "firmtouch/spline/chain.hpp"
+#include "firmtouch/spline/guide/arc.hpp"
+#include "firmtouch/spline/guide/chain.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_guide.hpp"
 #include "spline/random_splines.hpp"
@@ -217,7 +218,7 @@ TEST(TheLeastCostOfAGuideAgainstDenseSampling) {
                      random.between(-0.3, 0.3) * extent};
       if (i % 4 == 0) {  // beside the curve, where a guide is
         const Was near = any_place(random, g, i);
-        const Vec3 on = spline::place_of(g.view, near.piece, near.s);
+        const Vec3 on = spline::position_of(g.view, near.piece, near.s);
         p = {static_cast<double>(on.x) + random.between(-0.01, 0.01) * extent,
              static_cast<double>(on.y) + random.between(-0.01, 0.01) * extent,
              static_cast<double>(on.z) + random.between(-0.01, 0.01) * extent};

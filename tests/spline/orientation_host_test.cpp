@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_spline.hpp"
+#include "bake/spline/bake_spline.hpp"
 #include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
 #include "harness/test.hpp"
 #include "surface/random.hpp"
 

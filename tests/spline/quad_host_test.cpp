@@ -1,7 +1,7 @@
 // How near the quads that stand for parts of surfaces may be, and what lies about them.
 #include <cmath>
 
-#include "firmtouch/spline/patch_grid.hpp"
+#include "firmtouch/spline/surface/patch_grid.hpp"
 #include "harness/test.hpp"
 #include "surface/random.hpp"
 

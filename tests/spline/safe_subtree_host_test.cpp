@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "firmtouch/spline/closest_point.hpp"
-#include "firmtouch/spline/surface_parts.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
+#include "firmtouch/spline/surface/nodes.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"

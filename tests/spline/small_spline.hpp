@@ -3,11 +3,11 @@
 // tests run on the controller too and a rule can be broken by hand.
 #include <stdint.h>
 
-#include "firmtouch/spline/bend_bounds.hpp"
 #include "firmtouch/spline/closest_point.hpp"
-#include "firmtouch/spline/leaf_shape.hpp"
-#include "firmtouch/spline/part_radius.hpp"
-#include "firmtouch/spline/view.hpp"
+#include "firmtouch/spline/proof/bend_bounds.hpp"
+#include "firmtouch/spline/proof/leaf_shape.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
+#include "firmtouch/spline/proof/patch_radius.hpp"
 
 namespace firmtouch::spline_test {
 

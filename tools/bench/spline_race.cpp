@@ -4,12 +4,13 @@
 #include <memory>
 #include <type_traits>
 
-#include "bake/spline_choice.hpp"
+#include "bake/spline/spline_choice.hpp"
 #include "bench/models.hpp"
 #include "bench/peer.hpp"
 #include "bench/problem.hpp"
 #include "bench/timing.hpp"
 #include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/proof/opening.hpp"
 #include "footpoint/footpoints.hpp"
 #include "spline/sample_splines.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/bake_spline.hpp"
+#include "bake/spline/bake_spline.hpp"
 #include "bench/problem.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "lab/trials.hpp"

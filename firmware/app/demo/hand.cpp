@@ -4,7 +4,7 @@
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/math/elementary.hpp"
-#include "firmtouch/spline/guided_point.hpp"
+#include "firmtouch/spline/guide/guided_point.hpp"
 #include "servo_interrupt.hpp"
 
 // A scripted hand for simulated joints. It follows the asset's guide (without one, a circle about the

@@ -7,7 +7,7 @@
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/mesh/layout.hpp"
-#include "firmtouch/spline/guide_view.hpp"
+#include "firmtouch/spline/guide/view.hpp"
 #include "firmtouch/spline/layout.hpp"
 
 namespace firmtouch {

@@ -3,7 +3,7 @@
 
 #include "firmtouch/controller/curve_guide.hpp"
 #include "firmtouch/scene/spline_guide.hpp"
-#include "firmtouch/spline/loader.hpp"
+#include "firmtouch/spline/guide/loader.hpp"
 
 namespace firmtouch {
 

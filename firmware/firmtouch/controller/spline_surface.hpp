@@ -6,7 +6,7 @@
 #include "firmtouch/params/compose.hpp"
 #include "firmtouch/params/rows.hpp"
 #include "firmtouch/scene/spline_contact.hpp"
-#include "firmtouch/spline/loader.hpp"
+#include "firmtouch/spline/surface/loader.hpp"
 
 namespace firmtouch {
 

@@ -88,7 +88,7 @@ void touch_spline(const SplineObject& object, float radius_m, Vec3 position_m, q
   if (object.surface == nullptr || !object.surface->is_open()) return;
   const Vec3 p_m = math::apply_inverse(object.pose, position_m);
   const query::Carried carried = query::carry(touch.hint, p_m);
-  touch.closest = spline::closest_point(*object.surface, p_m, budget, touch.hint);
+  touch.closest = spline::closest_on_surface(*object.surface, p_m, budget, touch.hint);
   query::Certificate& certificate = touch.closest.certificate;
   const Offset offset = offset_of(object, touch.closest, p_m);
   const float extent_m = object.surface->head().extent_m;

@@ -5,7 +5,7 @@
 #include "firmtouch/query/certificate.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/local_model.hpp"
-#include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/surface/closest_on_surface.hpp"
 
 namespace firmtouch::scene {
 

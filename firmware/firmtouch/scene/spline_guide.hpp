@@ -1,6 +1,6 @@
 #pragma once
 #include "firmtouch/scene/guide.hpp"
-#include "firmtouch/spline/guided_point.hpp"
+#include "firmtouch/spline/guide/guided_point.hpp"
 
 namespace firmtouch::scene {
 

@@ -17,6 +17,9 @@ constexpr uint32_t kNodesSection = 0x6006;         // Box[piece_count - 1]: surf
 constexpr uint32_t kPointsSection = 0x6007;
 constexpr uint32_t kProbesSection = 0x6008;  // query::ProbeHead and its points
 constexpr uint32_t kBendsSection = 0x6009;   // CurveBend[piece_count]; PatchBend, one a cell
+// Of a guide: how long it is, and which of its pieces follow each other.
+constexpr uint32_t kArcsSection = 0x600A;    // float[parts * piece_count + 1]
+constexpr uint32_t kChainsSection = 0x600B;  // Chain[1 or more]
 constexpr uint32_t kGridsSection = 0x600C;   // Grid[piece_count]: surfaces only
 // Bytes of a unit. Of curves uint8_t[2^levels - 1 + leaf_count], one a node; of surfaces
 // uint8_t[3 * leaf_count - 2 * piece_count]: radii, overlaps.
@@ -152,5 +155,81 @@ static_assert(sizeof(Box) == 48);
 constexpr uint32_t first_child(uint32_t node) { return 2 * node + 1; }
 constexpr uint32_t parent_of(uint32_t node) { return (node - 1) / 2; }
 constexpr uint32_t sibling_of(uint32_t node) { return (node & 1u) != 0 ? node + 1 : node - 1; }
+
+/// Why opening rejects; the numbers never change. tools/FORMAT.md prints the same text.
+enum Rule : uint16_t {
+  // The head is absent or not 64 bytes long.
+  kRuleHeadSize = 601,
+  // A count of the head is out of range.
+  kRuleCounts = 602,
+  // A flag of the head is above 1.
+  kRuleFlags = 603,
+  // A section does not hold what the head says: pieces (0), coefficients (1), leaves (2), nodes
+  // (4), points (5), bends (6), grids (7), radii (8).
+  kRuleSectionSize = 604,
+  // The box is inverted or extends beyond 1e6 m.
+  kRuleHeadBox = 605,
+  // The extent is below 2^-20 m or above the box's longest side.
+  kRuleExtent = 606,
+  // loss_m is below 0 or above 2 (rational: 5) times 2^-24 of the extent.
+  kRuleLoss = 607,
+  // worst_steps is 0.
+  kRuleWorstSteps = 608,
+  // radius_unit_m of curves is outside 2^-100 to 2^60, of surfaces not 0.
+  kRuleRadiusUnit = 609,
+  // A degree is out of range.
+  kRuleDegree = 611,
+  // A piece is rational and the head says that none is, or a level is above 8 (a curve's level_v:
+  // above 0; a surface's: above 6).
+  kRuleLevel = 612,
+  // Coefficients do not follow those of the previous piece, leave the section, or belong to no
+  // piece.
+  kRuleCoefficients = 613,
+  // A coefficient is beyond 6.4e7 or NaN.
+  kRuleCoefficientRange = 614,
+  // Leaves of a curve are not those of each piece in order, with at most one empty leaf between
+  // two pieces, or belong to no piece.
+  kRuleCurveLeaves = 615,
+  // An origin is beyond 2e6 m or a parameter beyond 1e30, or one is NaN.
+  kRulePieceRange = 616,
+  // A point lies outside the head's box.
+  kRulePointOutside = 617,
+  // A centre or half side of a box is out of range, or its axes could lengthen a vector; of
+  // curves: an absent node has a radius.
+  kRuleNode = 618,
+  // The weight may fall to half of its middle's on a leaf, a cell, or a sixteenth of a curve's
+  // piece.
+  kRuleWeight = 619,
+  // A stored bend is below what the 8 x 8 parts of its cell, or the sixteen parts of its piece,
+  // require, or above 2^90.
+  kRuleBends = 620,
+  // A point of the leaf may lose more than loss_m.
+  kRuleLeafLoss = 621,
+  // A leaf leaves the head's box.
+  kRuleLeafOutside = 622,
+  // A leaf leaves a node above it, or its half of a patch's quad.
+  kRuleEnclosure = 623,
+  // cell_level is above 6, or corners, leaves or cells of a grid do not follow those of the
+  // previous piece, leave the section, or belong to no piece.
+  kRuleGrid = 624,
+  // A step is not a power of two or outside 2^-100 to 2^20, or a unit is outside 2^-100 to 2^60.
+  kRuleGridUnit = 625,
+  // A flat curve (points without z) has a coefficient of z that is not 0, or origins whose z
+  // differ.
+  kRuleFlat = 626,
+  // The arcs are not `parts` times the pieces and one, or belong to surfaces.
+  kRuleGuideArcsSize = 641,
+  // There is no chain, a chain's first piece does not exist or does not rise from 0, or a flag is
+  // above 1.
+  kRuleGuideChains = 642,
+  // An arc falls, is NaN or above 1e9, the first is not 0, or the last not above 0.
+  kRuleGuideArcs = 643,
+  // An arc differs from its length by three Gauss points by more than a sixteenth and 2^-18 of
+  // extent and arc.
+  kRuleGuideArcLength = 644,
+  // A piece does not begin within 2^-19 of the extent of where the previous piece of its chain (of
+  // a closed chain: the last) ends.
+  kRuleGuideJoint = 645,
+};
 
 }  // namespace firmtouch::spline

@@ -2,13 +2,11 @@
 // What the searches of this module share, for .cpp files of this module only.
 #include <float.h>
 
-#include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/hint.hpp"
+#include "firmtouch/spline/numbers.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::spline {
-
-constexpr float kUnit = 0x1p-24f;
 
 /// The nearest point evaluated so far.
 struct Best {
@@ -54,16 +52,6 @@ static inline uint32_t coded(float at, uint32_t most) {
 static inline float decoded(uint32_t code, uint32_t most) {
   return static_cast<float>(code) / static_cast<float>(most);
 }
-
-/// At least as long as the vector.
-static inline float size_of(math::Vec3 v) {
-  return __builtin_fabsf(v.x) + __builtin_fabsf(v.y) + __builtin_fabsf(v.z);
-}
-
-/// What rounding does to the slope of D^2 / 2 and to its change, beside what it does to D: the
-/// model's loss bounds the error of a point, and with these factors that of its derivatives, whose
-/// sums carry k, k (k - 1) or k (k - 1) (k - 2) more (and three times that where the weights' derivatives come in).
-constexpr float kSlopeNoise = 20.0f, kBendNoise = 80.0f, kTwistNoise = 400.0f;
 
 /// What became of a part whose points were evaluated, each for one step: all of it is beyond the best's limit;
 /// it is left in two halves with bounds of their own; the budget ended; float32 has no point between its ends,

@@ -7,7 +7,7 @@
 #include "firmtouch/field/view.hpp"
 #include "firmtouch/hull/view.hpp"
 #include "firmtouch/mesh/view.hpp"
-#include "firmtouch/spline/guide_view.hpp"
+#include "firmtouch/spline/guide/view.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::tools {

@@ -1,0 +1,103 @@
+#pragma once
+// Lengths along the pieces of a guide, for .cpp files of this module only.
+#include "firmtouch/spline/curve/point.hpp"
+#include "firmtouch/spline/guide/view.hpp"
+#include "firmtouch/spline/numbers.hpp"
+
+namespace firmtouch::spline {
+
+static inline void evaluate_on(const View& model, uint32_t piece, float s, CurvePoint& point) {
+  evaluate(model.pieces()[piece], model.coefficients().data(), s, point);
+}
+
+/// In the model's frame.
+static inline math::Vec3 position_of(const View& model, uint32_t piece, float s) {
+  CurvePoint point;
+  evaluate_on(model, piece, s, point);
+  return vec3_at(model.pieces()[piece].origin_m) + point.x;
+}
+
+static inline float speed_of(const View& model, uint32_t piece, float s) {
+  CurvePoint point;
+  evaluate_on(model, piece, s, point);
+  return math::length(point.d1);
+}
+
+/// Length of a part by three points (Gauss).
+static inline float part_length_m(const View& model, uint32_t piece, float low, float high) {
+  const float middle = 0.5f * (low + high), half = 0.5f * (high - low);
+  const float aside = half * 0.77459667f;
+  return half * (0.5555556f * (speed_of(model, piece, middle - aside) +
+                               speed_of(model, piece, middle + aside)) +
+                 0.8888889f * speed_of(model, piece, middle));
+}
+
+/// Lengths within a part: a cubic between its stored ends, with the curve's own speeds there, no faster
+/// than keeps it from turning back. `t` goes from 0 to 1 over the part.
+struct ArcCubic {
+  float first_m, rise_m, from_m, bow_m;
+  float square_m() const { return rise_m - from_m - bow_m; }
+  float at_m(float t) const {
+    const float risen_m = t * (from_m + t * (square_m() + t * bow_m));
+    return first_m + (risen_m > 0.0f ? (risen_m < rise_m ? risen_m : rise_m) : 0.0f);
+  }
+};
+
+/// Two points are evaluated.
+static inline ArcCubic arc_cubic_of(const GuideView& guide, uint32_t piece, uint32_t part) {
+  ArcCubic arc;
+  arc.first_m = guide.arcs()[piece * guide.parts() + part];
+  arc.rise_m = guide.arcs()[piece * guide.parts() + part + 1] - arc.first_m;
+  const float step = 2.0f / static_cast<float>(guide.parts());
+  const float low = step * static_cast<float>(part) - 1.0f;
+  arc.from_m = speed_of(guide.model(), piece, low) * step;
+  float to_m = speed_of(guide.model(), piece, low + step) * step;
+  if (!(arc.from_m < 3.0f * arc.rise_m)) arc.from_m = 3.0f * arc.rise_m;
+  if (!(to_m < 3.0f * arc.rise_m)) to_m = 3.0f * arc.rise_m;
+  arc.bow_m = arc.from_m + to_m - 2.0f * arc.rise_m;
+  return arc;
+}
+
+/// The part that holds a place of a piece, and where in it.
+static inline uint32_t part_at(const GuideView& guide, float s, float& t) {
+  const float at = 0.5f * (s + 1.0f) * static_cast<float>(guide.parts());
+  uint32_t part = at > 0.0f ? static_cast<uint32_t>(at) : 0;
+  if (part >= guide.parts()) part = guide.parts() - 1;
+  t = at - static_cast<float>(part);
+  t = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
+  return part;
+}
+
+static inline float arc_m_at(const GuideView& guide, uint32_t piece, float s) {
+  float t;
+  const uint32_t part = part_at(guide, s, t);
+  return arc_cubic_of(guide, piece, part).at_m(t);
+}
+
+/// The same where places follow each other: the part asked for last is kept.
+class Arcs {
+ public:
+  explicit Arcs(const GuideView& guide) : guide_(guide) {}
+
+  void take(uint32_t piece, uint32_t part) {
+    if (is_of(piece, part)) return;
+    cubic_ = arc_cubic_of(guide_, piece, part);
+    piece_ = piece;
+    part_ = part;
+  }
+  float at_m(uint32_t piece, float s) {
+    float t;
+    take(piece, part_at(guide_, s, t));
+    return cubic_.at_m(t);
+  }
+  bool is_of(uint32_t piece, uint32_t part) const { return piece_ == piece && part_ == part; }
+  uint32_t part() const { return part_; }
+  const ArcCubic& cubic() const { return cubic_; }
+
+ private:
+  const GuideView& guide_;
+  uint32_t piece_ = UINT32_MAX, part_ = 0;
+  ArcCubic cubic_{};
+};
+
+}  // namespace firmtouch::spline
