@@ -8,7 +8,7 @@ check() {
 
 # module_arrows: `module:link link ...;` for every firmtouch_module(module LINKS link ...)
 module_arrows() {
-  sed 's/#.*//' firmware/CMakeLists.txt | tr '\n' ' ' | grep -o 'firmtouch_module([^)]*)' | sed 's, HOT [^)]*),),' |
+  sed 's/#.*//' firmware/CMakeLists.txt | tr '\n' ' ' | grep -o 'firmtouch_module([^)]*)' | sed 's, HOT [^)]*),),; s, FOLDER [a-z/_]*,,' |
     sed 's/firmtouch_module( *\([a-z_]*\) *\(LINKS\)\{0,1\} *\(.*\))/\1:\3;/' | tr -d '\n'
 }
 
