@@ -8,7 +8,7 @@
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/mesh/layout.hpp"
-#include "firmtouch/spline/guide_view.hpp"
+#include "firmtouch/spline/guide/view.hpp"
 #include "harness/test.hpp"
 
 using namespace firmtouch::controller_test;
