@@ -29,7 +29,7 @@ struct Level {
   const Searches* searches;  // null: the scalar search
 };
 
-/// The levels that this processor runs, the fastest last; the first is "scalar".
+/// The levels that this processor runs, the highest last; the first is "scalar".
 const std::vector<Level>& levels();
 
 /// The level of new WideMesh objects: the fastest, unless use_level() chose another.
