@@ -40,7 +40,8 @@ link::HelloReply describe() {
 
 void HostSession::poll() {
   uint8_t bytes[64];
-  // Replies are sent before requests are read: a host that does not read waits, and nothing is lost.
+  // Replies are sent before requests are read: a host that does not read waits, and nothing is
+  // lost.
   while (outbox_.has_room_to_stream()) {
     const uint32_t count = hal::link_read(bytes, sizeof bytes);
     if (count == 0) break;

@@ -7,20 +7,21 @@
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
 
-// The controller program, the same source for every board and composition: proves the asset, answers
-// the host, runs the servo.
+// The controller program, the same source for every board and composition: proves the asset,
+// answers the host, runs the servo.
 
 namespace firmtouch::app {
 namespace {
 
-// Opening between two polls of the link: well below 1 ms on a Cortex-M7. A slice of probe queries takes
-// some ms (controller/loaders.hpp): the board's ring of received bytes must last so long. No servo
-// runs yet.
+// Opening between two polls of the link: well below 1 ms on a Cortex-M7. A slice of probe queries
+// takes some ms (controller/loaders.hpp): the board's ring of received bytes must last so long. No
+// servo runs yet.
 constexpr uint32_t kSliceBytes = 4096;
 
 HostSession session;
 
-// The asset in the board's slot; the whole slot if none begins there, so that opening names the rule.
+// The asset in the board's slot; the whole slot if none begins there, so that opening names the
+// rule.
 core::Bytes asset() {
   const core::Bytes region = hal::board_asset();
   const uint32_t bytes = asset::stated_bytes(region);

@@ -11,14 +11,14 @@ uint32_t servo_period_us();
 void start_servo();
 bool servo_is_running();
 
-/// hal::motors_lines() as flags of a tick. In the first tick after start_servo_when_enabled() enable is
-/// low, as the main loop saw it: else the switch that starts the servo had to be closed twice. Servo
-/// interrupt only.
+/// hal::motors_lines() as flags of a tick. In the first tick after start_servo_when_enabled()
+/// enable is low, as the main loop saw it: else the switch that starts the servo had to be closed
+/// twice. Servo interrupt only.
 uint32_t servo_flags();
 
 /// Starts the servo when the operator closes the enable switch for the first time. A switch that is
-/// closed since the reset must be opened first: nobody may be holding the device. Until then no tick
-/// runs, and a host may take the controller into lock-step.
+/// closed since the reset must be opened first: nobody may be holding the device. Until then no
+/// tick runs, and a host may take the controller into lock-step.
 void start_servo_when_enabled();
 
 }  // namespace firmtouch::app

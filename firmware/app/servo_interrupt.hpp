@@ -12,13 +12,14 @@ namespace firmtouch::app {
 // opening, a frame).
 using Records = record::Ring<record::TickRecord, 64>;
 
-// Shared by the servo interrupt and the main loop. Each is safe between the two by its own contract.
+// Shared by the servo interrupt and the main loop. Each is safe between the two by its own
+// contract.
 extern AppController controller;
 extern link::CommandMailbox commands;  // main loop -> interrupt
 extern Records records;                // interrupt -> main loop
 
-// At two rates the interrupt renders the last local model while the main loop makes the next one: for
-// a servo that is faster than a query.
+// At two rates the interrupt renders the last local model while the main loop makes the next one:
+// for a servo that is faster than a query.
 #ifdef FIRMTOUCH_APP_TWO_RATES
 constexpr bool kTwoRates = true;
 #else

@@ -1,4 +1,5 @@
-// The oracle of `firmtouch bench truth`: it is right, it finds a wrong sign, and the library passes.
+// The oracle of `firmtouch bench truth`: it is right, it finds a wrong sign, and the library
+// passes.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

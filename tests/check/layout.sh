@@ -47,6 +47,7 @@ EOF
       complain("left for later: do it, or say in DESIGN.md what is not built")
     }
     !words && /(^|[^A-Za-z0-9_.\/])\/(work|home|root)\// { complain("a path of one machine") }
+    name ~ /\.(cpp|hpp|h)$/ && length($0) > 100 && /\/\// { complain("a comment beyond 100 columns") }
     name ~ /\.hpp$/ && FNR < 12 && /^#pragma once/ { once[name] = 1 }
     function flush() {
       if (name == "") return
@@ -124,4 +125,8 @@ plant_long_page() {
 plant_module_without_a_page() {
   rm firmware/firmtouch/mesh/README.md
   expect='^firmware/firmtouch/mesh/README.md is missing'
+}
+plant_wide_comment() {
+  echo '// A comment that does not end before the hundredth column, which is where clang-format wraps it if it can.' >>firmware/firmtouch/core/crc32.cpp
+  expect='crc32.cpp:[0-9]*: a comment beyond 100 columns'
 }

@@ -1,4 +1,5 @@
-// Compositions of a controller: the rules that name a missing part, and the same bits from fewer parts.
+// Compositions of a controller: the rules that name a missing part, and the same bits from fewer
+// parts.
 #include <cstring>
 #include <vector>
 

@@ -14,7 +14,8 @@ struct Run {
   uint32_t models = 0;
 };
 
-// Every tick's model is made as many ticks later as `late` says; the lines are the controller's own.
+// Every tick's model is made as many ticks later as `late` says; the lines are the controller's
+// own.
 Run ride_with(uint32_t (*late)(uint32_t)) {
   Ride ride;
   Run run;

@@ -39,8 +39,8 @@ struct Plain {
 };
 
 // Sorts all samples by distance, takes n, collects segments in an ordered set, tries each. Samples
-// as near as the last one taken, to float32, may be among the n or not: `least` has them all, `most`
-// has none of them.
+// as near as the last one taken, to float32, may be among the n or not: `least` has them all,
+// `most` has none of them.
 Plain plainly(const Baked& baked, math::Vec3 p, const curve::ArcPenalty& penalty, size_t n) {
   std::vector<std::pair<double, size_t>> order;
   for (size_t i = 0; i < baked.samples.size(); ++i)

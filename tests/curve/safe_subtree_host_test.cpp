@@ -1,6 +1,6 @@
-// Warm queries of a hand that moves little: what the last answer has certified lets a search stop early,
-// and must never hide a nearer point. Against brute force in double, on the hard curves, with runs of
-// every length.
+// Warm queries of a hand that moves little: what the last answer has certified lets a search stop
+// early, and must never hide a nearer point. Against brute force in double, on the hard curves,
+// with runs of every length.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
-// Smooth curves: the closest point of cubic pieces against a oracle that looks everywhere in double, and
-// what a hand feels that goes along one.
+// Smooth curves: the closest point of cubic pieces against a oracle that looks everywhere in
+// double, and what a hand feels that goes along one.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -194,8 +194,8 @@ TEST(EveryBudgetOfASmoothCurveIsCertified) {
   }
 }
 
-// A hand 3 mm beside a guide of coarse samples, at 1 kHz and 100 mm/s: the force's step from tick to
-// tick, less that of a true circle's.
+// A hand 3 mm beside a guide of coarse samples, at 1 kHz and 100 mm/s: the force's step from tick
+// to tick, less that of a true circle's.
 TEST(AGuideOfCubicPiecesHasNoCornersAndOneOfStraightPiecesHas) {
   for (const double aside : {0.003, -0.003}) {
     double steps[2] = {};

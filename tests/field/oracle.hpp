@@ -1,5 +1,6 @@
 #pragma once
-// Distance by brute force in double, sharing no code with the tools: each point against each triangle.
+// Distance by brute force in double, sharing no code with the tools: each point against each
+// triangle.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-// Real machine code with a whole interrupt between any two of its instructions: the processor's trap
-// flag stops after each one, and the signal's handler is the interrupt.
+// Real machine code with a whole interrupt between any two of its instructions: the processor's
+// trap flag stops after each one, and the signal's handler is the interrupt.
 #if defined(__x86_64__) && defined(__linux__)
 #define FIRMTOUCH_SINGLE_STEP 1
 

@@ -27,10 +27,10 @@ struct Apart {
       blocks.push_back(std::move(block));
       return core::Bytes(reinterpret_cast<const uint8_t*>(blocks.back().data()), bytes.size());
     };
-    sections = {copy(from.head),          copy(from.vertices),    copy(from.origins),
-                copy(from.records),       copy(from.record_offsets),      copy(from.star_boxes),
-                copy(from.boxes),         copy(from.base_hull),   copy(from.mesh_head),
-                copy(from.mesh_vertices), copy(from.triangles16), {}};
+    sections = {copy(from.head),          copy(from.vertices),       copy(from.origins),
+                copy(from.records),       copy(from.record_offsets), copy(from.star_boxes),
+                copy(from.boxes),         copy(from.base_hull),      copy(from.mesh_head),
+                copy(from.mesh_vertices), copy(from.triangles16),    {}};
   }
 };
 

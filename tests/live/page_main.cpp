@@ -138,8 +138,8 @@ void faults(Test& test) {
              test.becomes(kNoFault, kPatience_s));
 }
 
-// A cable that is none: a serial port for the page, whose bytes go to the emulator's WebSocket and come
-// from it.
+// A cable that is none: a serial port for the page, whose bytes go to the emulator's WebSocket and
+// come from it.
 constexpr const char* kStandInPort =
     "Object.defineProperty(navigator, 'serial', { configurable: true, value: { requestPort: async "
     "() => { let socket; const port = { async open(how) { window.baud = how.baudRate; socket = new "

@@ -1,4 +1,5 @@
-// A compiler that leaves roundings out gives tools and judges other numbers than the firmware is asked with.
+// A compiler that leaves roundings out gives tools and judges other numbers than the firmware is
+// asked with.
 #include "firmtouch/math/vec3.hpp"
 #include "harness/test.hpp"
 

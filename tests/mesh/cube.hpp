@@ -17,8 +17,8 @@ struct Cube {
   uint32_t normals[kVertices];
   mesh::EdgeFolds folds[kTriangles];
 
-  /// Half a side from each face to the centre at the origin. Nodes depth first, as the baker has them, or
-  /// breadth first.
+  /// Half a side from each face to the centre at the origin. Nodes depth first, as the baker has
+  /// them, or breadth first.
   explicit Cube(float half_m = 1.0f, bool is_breadth_first = false) {
     for (uint32_t v = 0; v < kVertices; ++v) {
       const float s[3] = {sign(v, 0), sign(v, 1), sign(v, 2)};

@@ -216,8 +216,8 @@ TEST(BodiesThatTouchAtACornerAnswerLikeBruteForce) {
       baked(obj_of(box({0, 0, 0}, {1, 1, 1})) + obj_of(box({1, 1, 1}, {2, 2, 2}), 8)), 3000);
 }
 
-// One point of a pit, touched by the tip of another body: below it the nearest point belongs to both,
-// and each would tell another side.
+// One point of a pit, touched by the tip of another body: below it the nearest point belongs to
+// both, and each would tell another side.
 TEST(TipInThePitOfAnotherBody_IsRejected) {
   const std::string tip =
       "v 0 0 0\nv -0.2 -0.2 1\nv 0.2 -0.2 1\nv 0.2 0.2 1\nv -0.2 0.2 1\nf -4 -3 -2 -1\n"

@@ -1,5 +1,5 @@
-// Boxes of leaves (bake --bounded): never farther than the leaf they hold, near enough to be worth it,
-// and of no weight in any answer.
+// Boxes of leaves (bake --bounded): never farther than the leaf they hold, near enough to be worth
+// it, and of no weight in any answer.
 #include "firmtouch/mesh/leaf_box.hpp"
 
 #include <cfloat>

@@ -1,4 +1,5 @@
-// Boxes of leaves and shapes of triangles: the reject rules, each condition tripped alone, and a cube's answers.
+// Boxes of leaves and shapes of triangles: the reject rules, each condition tripped alone, and a
+// cube's answers.
 #include "firmtouch/mesh/leaf_box.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"

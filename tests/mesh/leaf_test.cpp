@@ -1,4 +1,5 @@
-// Triangles of a leaf: excluding some that are certainly farther, or using stored shapes, changes no bit.
+// Triangles of a leaf: excluding some that are certainly farther, or using stored shapes, changes
+// no bit.
 #include "firmtouch/mesh/leaf.hpp"
 
 #include "harness/test.hpp"
@@ -14,7 +15,8 @@ struct Compared {
 
 }  // namespace
 
-// All triangles, and without those that are certainly farther, from one bound; by corners and by shapes.
+// All triangles, and without those that are certainly farther, from one bound; by corners and by
+// shapes.
 TEST(ExcludedTrianglesAndShapes_ChangeNoBitOfALeaf) {
   Compared compared;
   for (uint32_t turn = 0; turn < 20000; ++turn) {

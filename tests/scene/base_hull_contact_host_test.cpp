@@ -1,5 +1,5 @@
-// Contact by the shell where the mesh's query has no time: against the exact query, and against every
-// face of the shell in double.
+// Contact by the shell where the mesh's query has no time: against the exact query, and against
+// every face of the shell in double.
 #include <cmath>
 #include <vector>
 

@@ -126,8 +126,8 @@ TEST(SecondGuideAndFourthPlaneAreRefused) {
 }
 
 TEST(UsersOwnShapeComposesWithTheRest) {
-  // A ball of 20 mm about the origin, touched from inside: what a user writes is a distance, a normal
-  // and a side.
+  // A ball of 20 mm about the origin, touched from inside: what a user writes is a distance, a
+  // normal and a side.
   const auto bowl = [](math::Vec3 p_m, servo::LocalModel& model) {
     const float out_m = math::square_root(p_m.x * p_m.x + p_m.y * p_m.y + p_m.z * p_m.z);
     if (!(out_m > 1e-6f)) return;

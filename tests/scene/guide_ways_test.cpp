@@ -1,5 +1,5 @@
-// What a guide does besides pulling: tunnel, one side, ends, drive, progress, and which part it keeps
-// to.
+// What a guide does besides pulling: tunnel, one side, ends, drive, progress, and which part it
+// keeps to.
 #include <float.h>
 #include <stdint.h>
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bake/spline/bake_spline.hpp"
 #include "bake/curve/bake_curve.hpp"
+#include "bake/spline/bake_spline.hpp"
 #include "bake/spline/spline_guide.hpp"
 #include "curve/small_curve.hpp"
 #include "firmtouch/scene/curve_guide.hpp"

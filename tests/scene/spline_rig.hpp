@@ -52,7 +52,8 @@ inline Surface torus(bool is_inside_out = false) {
   return Surface({s});
 }
 
-// A cube of 40 mm of six bilinear patches: creases everywhere. `inward`: normals that the file turns in.
+// A cube of 40 mm of six bilinear patches: creases everywhere. `inward`: normals that the file
+// turns in.
 inline Surface cube(uint32_t inward = 0) {
   std::vector<tools::SplineSurface> sides;
   const double h = 0.02;

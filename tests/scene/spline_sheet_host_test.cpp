@@ -61,7 +61,8 @@ TEST(WhereATickLeapsNoSideOfASheetIsKnown) {
   CHECK_LE(apart(deep.force_N({0.03f, 0, -0.01f}), {}), 0.0f);
 }
 
-// A device of 75 g on a hand that presses 4 cm beyond a wavy sheet, sways there and comes back; 1 kHz.
+// A device of 75 g on a hand that presses 4 cm beyond a wavy sheet, sways there and comes back; 1
+// kHz.
 TEST(InAClosedLoopAHandThatPressesHardDoesNotComeThroughASheet) {
   const Surface surface = waves();
   Rig rig(surface, false);

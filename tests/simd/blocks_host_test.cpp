@@ -1,5 +1,5 @@
-// Leaves and blocks measured eight triangles at once have the bits of scalar ones, and a triangle that a prism
-// excludes is farther.
+// Leaves and blocks measured eight triangles at once have the bits of scalar ones, and a triangle
+// that a prism excludes is farther.
 #include <cmath>
 
 #include "../mesh/random_leaf.hpp"
@@ -142,7 +142,8 @@ void compare_leaves(uint32_t turn, Compared& compared) {
   }
 }
 
-// The units of 2^-24 that a stored prism is off by, at most: simd/search/prism_bound.hpp counts with 4, 8 and 4.
+// The units of 2^-24 that a stored prism is off by, at most: simd/search/prism_bound.hpp counts
+// with 4, 8 and 4.
 struct Off {
   double longer = 0, skew = 0, beyond = 0;
   uint32_t unbounded = 0;  // of how many the normal is 0

@@ -1,5 +1,5 @@
-// Entries of the wide search are ordered and replaced without branches, and boxes measured by fours and sixes,
-// as the portable definitions do.
+// Entries of the wide search are ordered and replaced without branches, and boxes measured by fours
+// and sixes, as the portable definitions do.
 #include "simd/search/entries.hpp"
 
 #include "harness/random.hpp"

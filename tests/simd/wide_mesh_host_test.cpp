@@ -1,5 +1,5 @@
-// The wide search of every level that this processor has gives the scalar search's answers, visits and hints, to
-// the bit.
+// The wide search of every level that this processor has gives the scalar search's answers, visits
+// and hints, to the bit.
 #include <cmath>
 
 #include "../mesh/cube.hpp"

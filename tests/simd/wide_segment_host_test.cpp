@@ -1,5 +1,5 @@
-// The wide segment search of every level that this processor has gives the scalar search's crossings, t and
-// visits, to the bit, within any budget.
+// The wide segment search of every level that this processor has gives the scalar search's
+// crossings, t and visits, to the bit, within any budget.
 #include <cmath>
 
 #include "bake/mesh/bake_mesh.hpp"
@@ -102,8 +102,8 @@ void compare(const tools::TreeShape& shape, uint64_t seed) {
   CHECK(hits > 1000);
 }
 
-// Segments from the grid's first plane that end where a widened box is entered, so that its key is the limit, or
-// at the next float.
+// Segments from the grid's first plane that end where a widened box is entered, so that its key is
+// the limit, or at the next float.
 void compare_at_limit(const tools::TreeShape& shape) {
   const Baked baked(shape);
   const mesh::Head& head = baked.view.head();

@@ -1,5 +1,6 @@
-// Jumps and paths by the hundred thousand against intervals that hold the truth: no wrong minimum. Daily a
-// few; FIRMTOUCH_LONG: 100,000 jumps and as many path queries of each curve, 50,000 of each surface.
+// Jumps and paths by the hundred thousand against intervals that hold the truth: no wrong minimum.
+// Daily a few; FIRMTOUCH_LONG: 100,000 jumps and as many path queries of each curve, 50,000 of each
+// surface.
 #include <cmath>
 #include <cstdlib>
 #include <string>

@@ -1,4 +1,5 @@
-// The baked bounds of fourth derivatives, of even powers from below, against differences of D^2 / 2 in double.
+// The baked bounds of fourth derivatives, of even powers from below, against differences of D^2 / 2
+// in double.
 #include <cmath>
 
 #include "bake/spline/bake_spline.hpp"

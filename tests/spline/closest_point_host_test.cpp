@@ -1,4 +1,5 @@
-// The global minimum with its certificate, against dense sampling of the file's own knots in double.
+// The global minimum with its certificate, against dense sampling of the file's own knots in
+// double.
 #include "firmtouch/spline/closest_point.hpp"
 
 #include <cstdlib>
@@ -22,8 +23,8 @@ using spline::Hint;
 
 bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
 
-// Told, exact and certified as promised, cold and warm. What is told is a place, whose point in double
-// lies on the shape: the truth is at most as far, whatever the samples missed.
+// Told, exact and certified as promised, cold and warm. What is told is a place, whose point in
+// double lies on the shape: the truth is at most as far, whatever the samples missed.
 void judge(const BakedModel& baked, const SampledTruth& truth, const Vec3& p, Hint& warm) {
   const double sampled = truth.distance(tools::to_point(p));
   const double unit = baked.report.is_rational ? 1e-6 : 4e-7;

@@ -178,7 +178,8 @@ TEST(AFrontierOfRandomWordsIsNoFrontier) {
   }
 }
 
-// A front is a certificate: of another model's nothing is true, but nothing is read that is not there.
+// A front is a certificate: of another model's nothing is true, but nothing is read that is not
+// there.
 TEST(AnyFrontierGivesFiniteAnswersWithinTheBudget) {
   const SmallSpline model(true);
   const View view = model.view();

@@ -1,5 +1,5 @@
-// Every bound that a baked curve stands on, as tools/FORMAT.md words it: what holds what, and how fast the
-// distance may turn.
+// Every bound that a baked curve stands on, as tools/FORMAT.md words it: what holds what, and how
+// fast the distance may turn.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -44,7 +44,8 @@ Plain point(const spline::View& view, uint32_t i) {
           view.is_flat() ? view.pieces()[0].origin_m[2] : view.heights_m()[i]};
 }
 
-// By the words of the format: leaf i is node 2^h + i, with the least 2^h that is not below their number.
+// By the words of the format: leaf i is node 2^h + i, with the least 2^h that is not below their
+// number.
 void check_curve(const spline::View& view) {
   const uint32_t count = view.leaf_count();
   uint32_t first_node = 1;

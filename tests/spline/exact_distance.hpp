@@ -1,6 +1,6 @@
 #pragma once
-// The distance to a spline file by interval arithmetic: two numbers between which it certainly lies.
-// Shares no code with baker and firmware, from the file's knots on.
+// The distance to a spline file by interval arithmetic: two numbers between which it certainly
+// lies. Shares no code with baker and firmware, from the file's knots on.
 #include <algorithm>
 #include <cmath>
 #include <vector>

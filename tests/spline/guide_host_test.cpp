@@ -1,4 +1,5 @@
-// Splines as guides: lengths along them, which part the guide keeps to, and what open_guide() refuses.
+// Splines as guides: lengths along them, which part the guide keeps to, and what open_guide()
+// refuses.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -128,8 +129,8 @@ TEST(APenaltyKeepsTheGuideOnItsStrandAndNoneDoesNot) {
   }
 }
 
-// Three strands, 4 mm apart, one after the other: a tool at the first's end that lifts towards the third
-// passes the second, which is nearer than the first and less far along than the third.
+// Three strands, 4 mm apart, one after the other: a tool at the first's end that lifts towards the
+// third passes the second, which is nearer than the first and less far along than the third.
 TEST(OfThreeStrandsTheGuideGoesToTheOneBetweenWhereThatCostsLeast) {
   const Guide g({through({{0, 0, 0, 1},
                           {0.2, 0, 0, 1},
@@ -153,8 +154,8 @@ TEST(OfThreeStrandsTheGuideGoesToTheOneBetweenWhereThatCostsLeast) {
   CHECK(at(0.19f, 0.0065f).certificate.exact);
 }
 
-// Above a parabola's centre of curvature the distance has two low points close together, with a ridge
-// between them: nearer is not worth the way over it.
+// Above a parabola's centre of curvature the distance has two low points close together, with a
+// ridge between them: nearer is not worth the way over it.
 TEST(ARidgeBetweenTwoLowPointsOfOnePieceIsNotCrossed) {
   const double first = -0.19, last = 0.31;
   const Guide g({through({{first, first * first, 0, 1},

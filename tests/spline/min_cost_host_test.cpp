@@ -1,5 +1,5 @@
-// The point of a guide of the least distance + penalty, against dense sampling with refinement in double:
-// of the file's own curve, and of the cost as it is told.
+// The point of a guide of the least distance + penalty, against dense sampling with refinement in
+// double: of the file's own curve, and of the cost as it is told.
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/guide/min_cost.hpp"
 
@@ -27,8 +27,8 @@ using spline_test::Guide;
 
 int queries_a_curve() { return std::getenv("FIRMTOUCH_LONG") != nullptr ? 5000 : 96; }
 
-// The least of a function over an interval: samples, samples again about the low ones, and a section
-// about the low ones of those.
+// The least of a function over an interval: samples, samples again about the low ones, and a
+// section about the low ones of those.
 double least_of(double low, double high, int samples, const std::function<double(double)>& f,
                 bool is_again = false) {
   std::vector<double> values;

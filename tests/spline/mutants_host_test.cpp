@@ -1,5 +1,5 @@
-// Searches that are wrong in known ways, planted here and judged as the real one is: the judge finds
-// them out, and the real one is right on the same queries.
+// Searches that are wrong in known ways, planted here and judged as the real one is: the judge
+// finds them out, and the real one is right on the same queries.
 #include <cmath>
 #include <vector>
 
@@ -42,7 +42,8 @@ double by_convergence(const std::vector<tools::BezierCurve>& pieces, const Point
 }
 
 // On a surface: Newton on each of 4 x 4 parts of a patch. A step that leaves the part is cut off on
-// each axis by itself, or the axis that is pushed against its end is left out and the step made anew.
+// each axis by itself, or the axis that is pushed against its end is left out and the step made
+// anew.
 double on_patches(const std::vector<tools::BezierPatch>& patches, const Point& p, bool is_clamped) {
   double best2 = HUGE_VAL;
   const double h = 1e-4;

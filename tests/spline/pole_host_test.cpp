@@ -19,7 +19,8 @@ double wide(float value) { return static_cast<double>(value); }
 
 }  // namespace
 
-// Four sectors about a pole, which the path passes where all points about it are nearly equally near.
+// Four sectors about a pole, which the path passes where all points about it are nearly equally
+// near.
 TEST(WarmAnswersEqualColdAnswers_AlongAPathPastAPole) {
   uint32_t wrong = 0, inexact = 0, expensive = 0;
   for (uint32_t seed = 0; seed < 6; ++seed) {

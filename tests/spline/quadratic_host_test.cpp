@@ -1,4 +1,5 @@
-// What an expansion of half the squared distance proves over a rectangle, against quartics sampled in double.
+// What an expansion of half the squared distance proves over a rectangle, against quartics sampled
+// in double.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,8 @@ float within(Random& random, double most) {
   return static_cast<float>(random.between(-most, most));
 }
 
-// A quartic about `at`: its derivatives are those of the expansion, the fourth ones anything within its bounds.
+// A quartic about `at`: its derivatives are those of the expansion, the fourth ones anything within
+// its bounds.
 struct Quartic {
   Quadratic f;
   double fourth[5];

@@ -1,6 +1,6 @@
 #pragma once
-// Random NURBS of every kind that a file may hold: any degree, uneven and repeated knots, knots that
-// do not touch the ends, weights or none.
+// Random NURBS of every kind that a file may hold: any degree, uneven and repeated knots, knots
+// that do not touch the ends, weights or none.
 #include <vector>
 
 #include "spline/spline.hpp"

@@ -1,5 +1,5 @@
-// What a query along a path keeps from the one before: where a fence lets it pass over the rest of a curve,
-// the answer is that of a query which knows nothing.
+// What a query along a path keeps from the one before: where a fence lets it pass over the rest of
+// a curve, the answer is that of a query which knows nothing.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -106,7 +106,8 @@ TEST(AlongAPathASafeSubtreeLeavesNothingOut) {
   CHECK(reported.passed_over > 100000);
 }
 
-// Of all words none is a node but those that halving a whole piece comes to, in its order, and the tree's above.
+// Of all words none is a node but those that halving a whole piece comes to, in its order, and the
+// tree's above.
 TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
   for (uint32_t seed = 0; seed < 3; ++seed) {
     tools::Random random(seed + 90);
@@ -181,7 +182,8 @@ TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {
   }
 }
 
-// Twelve short curves that do not meet, of a flat model and of one in space: between two of them is no leaf.
+// Twelve short curves that do not meet, of a flat model and of one in space: between two of them is
+// no leaf.
 TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
   for (uint32_t seed = 0; seed < 8; ++seed) {
     tools::Random random(seed + 41);
@@ -218,9 +220,10 @@ TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
   }
 }
 
-// One piece whose ends lie beside its middle: where a query comes to be nearer to them, the middle is a
-// foot-point still, the distance rises from there on both sides, and only the fourth derivative says that it
-// falls again. (Beside a curve far away: else the piece would be cut for the sake of float32.)
+// One piece whose ends lie beside its middle: where a query comes to be nearer to them, the middle
+// is a foot-point still, the distance rises from there on both sides, and only the fourth
+// derivative says that it falls again. (Beside a curve far away: else the piece would be cut for
+// the sake of float32.)
 TEST(ThePointOfAPieceThatTurnsBackIsNotKeptToItsMiddle) {
   for (const double weight : {1.0, 1.2, 0.8}) {
     tools::SplineCurve curve, far_away;

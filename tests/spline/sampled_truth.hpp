@@ -1,6 +1,6 @@
 #pragma once
-// The nearest point of a spline file by dense sampling and refinement in double, from the file's own
-// knots: shares nothing with what is baked.
+// The nearest point of a spline file by dense sampling and refinement in double, from the file's
+// own knots: shares nothing with what is baked.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
-// Spline models of two pieces and four leaves, built without the baker and without heap, so that the
-// tests run on the controller too and a rule can be broken by hand.
+// Spline models of two pieces and four leaves, built without the baker and without heap, so that
+// the tests run on the controller too and a rule can be broken by hand.
 #include <stdint.h>
 
 #include "firmtouch/spline/closest_point.hpp"
@@ -11,8 +11,8 @@
 
 namespace firmtouch::spline_test {
 
-/// Two cubics in space that meet with a corner, or two patches (cubic by quadratic) beside each other;
-/// each cut into two leaves along u.
+/// Two cubics in space that meet with a corner, or two patches (cubic by quadratic) beside each
+/// other; each cut into two leaves along u.
 struct SmallSpline {
   spline::Head head{};
   spline::Piece pieces[2] = {};

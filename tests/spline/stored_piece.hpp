@@ -1,6 +1,6 @@
 #pragma once
-// Bounds of a baked spline, by interval arithmetic from its stored coefficients: shares no code with the
-// baker and the proof at open.
+// Bounds of a baked spline, by interval arithmetic from its stored coefficients: shares no code
+// with the baker and the proof at open.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +14,9 @@ namespace firmtouch::spline_test {
 
 using Vector = std::array<Interval, 3>;
 constexpr int kOrders = 5;
-// Halvings of a part on an axis, before a bound is called wrong: where a bound is met at an end of a
-// curve's leaf, intervals come near it by halves. A radius may leave 3 % of it to a part's farthest point.
+// Halvings of a part on an axis, before a bound is called wrong: where a bound is met at an end of
+// a curve's leaf, intervals come near it by halves. A radius may leave 3 % of it to a part's
+// farthest point.
 constexpr int kFinest = 12, kFinestOfCurve = 20, kFinestOfBox = 18;
 constexpr Wide kNothing = 1e-40L;  // what widening makes of 0
 

@@ -38,8 +38,9 @@ Plain sum_of(const Plain& a, const Plain& b, Wide times) {
   return sum;
 }
 
-// Where on it a point is nearest, about: of each u the v is known, and u is looked for on a grid and by
-// thirds from there. (By turns of one axis each it takes hundreds where the sides are nearly parallel.)
+// Where on it a point is nearest, about: of each u the v is known, and u is looked for on a grid
+// and by thirds from there. (By turns of one axis each it takes hundreds where the sides are nearly
+// parallel.)
 struct OnQuad {
   Wide u = 0, v = 0;
 };
@@ -72,8 +73,9 @@ OnQuad nearest_on(const Quad& quad, const Plain& off) {
 Plain middle_of(const Vector& x) { return {middle(x[0]), middle(x[1]), middle(x[2])}; }
 Interval about(Wide by) { return {-raised(by), raised(by)}; }
 
-// Each point of an area is measured from one of the quad that moves with it, linearly, about the nearest to the area's middle: what
-// runs along the quad then counts as nothing. By the mean value theorem about the middle.
+// Each point of an area is measured from one of the quad that moves with it, linearly, about the
+// nearest to the area's middle: what runs along the quad then counts as nothing. By the mean value
+// theorem about the middle.
 bool is_about_quad(const StoredPiece& stored, const Area& area, const Quad& quad, Wide radius) {
   const Wide s = middle({area.s0, area.s1}), t = middle({area.t0, area.t1});
   const Jet there = stored.over({s, s, t, t}, 1), over = stored.over(area, 1);

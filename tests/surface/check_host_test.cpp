@@ -173,7 +173,8 @@ TEST(AnInsideOutSurfaceIsTurned) {
   CHECK(near(volume_of(surface), 8));
 }
 
-// Each shell is compared only with those around it: thousands of hollow cubes take no longer than their faces.
+// Each shell is compared only with those around it: thousands of hollow cubes take no longer than
+// their faces.
 TEST(ThousandsOfHollowPiecesAreEachHollow) {
   constexpr int kSide = 14;
   Surface foam;

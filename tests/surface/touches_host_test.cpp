@@ -32,8 +32,8 @@ std::string refusal(Surface surface, CheckOptions options = {}) {
   return report.refused.empty() ? "" : report.refused.back();
 }
 
-// A square ring of one piece that is cut through on its left and closed again without a gap. `ends`: how
-// much lower than the other the one end face's inner corner lies.
+// A square ring of one piece that is cut through on its left and closed again without a gap.
+// `ends`: how much lower than the other the one end face's inner corner lies.
 Surface cut_ring(float ends) {
   const float path[12][2] = {{0, 1.5f},        {0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 1.5f},
                              {1, 1.5f - ends}, {1, 2}, {2, 2}, {2, 1}, {1, 1}, {1, 1.5f}};
@@ -113,7 +113,8 @@ TEST(ACornerOnAReflexEdgeIsRefused) {
 }
 
 TEST(AnEdgeOnAFaceIsRefusedAlsoWhereBothItsEndsAreElsewhere) {
-  // Lying on the top and reaching beyond it on both sides, over convex edges alone: across one corner.
+  // Lying on the top and reaching beyond it on both sides, over convex edges alone: across one
+  // corner.
   const Surface knife =
       spike({1.5f, -0.25f, 1}, {-1.75f, -1.75f, 0}, {0, 0, 1}, {-0.5f, -1.25f, 1});
   const std::string text = refusal(cube_and(knife));

@@ -28,7 +28,8 @@ void add(core::Hash& hash, const query::Certificate& certificate) {
   hash.add((certificate.exact ? 1u : 0u) | static_cast<uint32_t>(certificate.sign + 1) << 1);
 }
 
-/// Points about a box. Only sums and products by themselves: nothing that a compiler could contract.
+/// Points about a box. Only sums and products by themselves: nothing that a compiler could
+/// contract.
 class Points {
  public:
   Points(const float (&low_m)[3], const float (&high_m)[3]) {

@@ -1,4 +1,5 @@
-// `answers HASH`: the hash of 6,000 answers about the asset that the board holds, on its debug console.
+// `answers HASH`: the hash of 6,000 answers about the asset that the board holds, on its debug
+// console.
 #include "firmtouch/hal/board.hpp"
 #include "target/answers.hpp"
 #include "target/text.hpp"

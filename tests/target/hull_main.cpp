@@ -11,8 +11,8 @@
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
-#include "firmtouch/hull/refinement.hpp"
 #include "firmtouch/hull/loader.hpp"
+#include "firmtouch/hull/refinement.hpp"
 #include "target/text.hpp"
 
 namespace asset = firmtouch::asset;

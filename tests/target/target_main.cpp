@@ -1,4 +1,5 @@
-// The controller's main of the tests: all of them, over the debug console; the result is the exit status.
+// The controller's main of the tests: all of them, over the debug console; the result is the exit
+// status.
 #include "firmtouch/hal/board.hpp"
 #include "harness/test.hpp"
 

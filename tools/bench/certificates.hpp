@@ -5,7 +5,8 @@
 
 namespace firmtouch::bench {
 
-/// What a query returned: |distance| (an upper bound of the truth), certified lower bound, steps taken.
+/// What a query returned: |distance| (an upper bound of the truth), certified lower bound, steps
+/// taken.
 struct Reported {
   double upper_m = 0, lower_m = 0;
   uint32_t steps = 0;

@@ -25,8 +25,8 @@ struct CurveCase {
   curve::View view;
 };
 
-/// A knot of 0.3 m that passes near itself; `power`: 0 for even spacing, 6 for spacing that varies by
-/// a million. The same on every machine.
+/// A knot of 0.3 m that passes near itself; `power`: 0 for even spacing, 6 for spacing that varies
+/// by a million. The same on every machine.
 std::vector<math::Vec3> make_track(uint32_t samples, uint32_t power);
 
 /// Throws a Problem where the curve cannot be baked.

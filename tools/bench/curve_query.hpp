@@ -24,8 +24,8 @@ inline Contender ours(const std::vector<math::Vec3>& points, const std::function
       clock);
 }
 
-/// Follows the curve from point to point, each from the arc position of the one before, with a penalty
-/// of `weight_m`.
+/// Follows the curve from point to point, each from the arc position of the one before, with a
+/// penalty of `weight_m`.
 inline std::function<Query()> guided(const curve::View& view, float weight_m) {
   return [&view, weight_m]() -> Query {
     return [&view, weight_m, following = curve::Following{}](math::Vec3 p) mutable {

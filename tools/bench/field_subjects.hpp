@@ -21,7 +21,8 @@ struct Subject {
 std::vector<Subject> field_subjects(const Options& options);
 /// The distance field inside and on the surface, on a grid of so many cells along the longest axis.
 tools::DistanceField field_of(const Subject& subject, uint32_t cells);
-/// Centres of the voxels that the field computed, in the grid's order; `inside_only`: of those inside.
+/// Centres of the voxels that the field computed, in the grid's order; `inside_only`: of those
+/// inside.
 std::vector<tools::Point> centres_of(const tools::DistanceField& distance_field, bool inside_only);
 
 }  // namespace firmtouch::bench

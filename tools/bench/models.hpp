@@ -49,8 +49,8 @@ struct Model {
 /// Whether a bake stores what the sign needs.
 enum class Sides { kSigned, kUnsigned };
 
-/// What is named, or the demo part (seed 1) where nothing is: throws a Problem with the file, what is
-/// wrong and how to mend it.
+/// What is named, or the demo part (seed 1) where nothing is: throws a Problem with the file, what
+/// is wrong and how to mend it.
 std::vector<Model> load_models(const Options& options, Sides sides = Sides::kSigned);
 Model load_model(const std::string& path, Sides sides = Sides::kSigned);
 Model demo_part(Sides sides = Sides::kSigned, uint32_t triangles = 20000);

@@ -13,12 +13,12 @@ class Peer {
   explicit Peer(std::string command) : command_(std::move(command)) {}
   bool is_present() const { return !command_.empty(); }
 
-  /// One run of the peer; throws a Problem with command, status and remedy where it fails or says no
-  /// time.
+  /// One run of the peer; throws a Problem with command, status and remedy where it fails or says
+  /// no time.
   double us_per_query(const std::string& kind, const std::string& file,
                       const std::string& csv) const;
-  /// The same program's `build_s X`: what building its tree took, in microseconds; NaN where it prints
-  /// none.
+  /// The same program's `build_s X`: what building its tree took, in microseconds; NaN where it
+  /// prints none.
   double build_us(const std::string& kind, const std::string& file, const std::string& csv) const;
   /// us_per_query() for medians_us().
   Contender contender(const std::string& kind, const std::string& file,

@@ -11,11 +11,13 @@
 
 // Records of 128 B from one thread to another: record::Ring, read in place, against a
 // mutex-guarded std::deque of the same capacity, and against an outside program:
-//     COMMAND ring RECORD_BYTES TRANSFERS      prints `us_per_query X`, microseconds a transfer: the
+//     COMMAND ring RECORD_BYTES TRANSFERS      prints `us_per_query X`, microseconds a transfer:
+//     the
 //                                              least of 20 runs of so many, capacity 1,024
-// Timed from when both threads are there. Whoever finds the ring full, or fewer records than a batch
-// in it, yields; one word of every record is looked at. Where other programs want the processors too, a long run tells how the system shares
-// them out: so 20 short ones a pass, of which the least disturbed and the median are told.
+// Timed from when both threads are there. Whoever finds the ring full, or fewer records than a
+// batch in it, yields; one word of every record is looked at. Where other programs want the
+// processors too, a long run tells how the system shares them out: so 20 short ones a pass, of
+// which the least disturbed and the median are told.
 namespace firmtouch::bench {
 namespace {
 
@@ -119,8 +121,8 @@ double through_deque(uint32_t transfers) {
                      });
 }
 
-// The best that a lock can do for its reader: it waits for a batch as the ring's does, and takes all
-// that waits under one lock, without a copy.
+// The best that a lock can do for its reader: it waits for a batch as the ring's does, and takes
+// all that waits under one lock, without a copy.
 template <uint32_t Capacity>
 double through_swapped_deque(uint32_t transfers) {
   std::mutex mutex;

@@ -7,8 +7,8 @@ namespace firmtouch::bench {
 
 constexpr size_t kPasses = 5;
 
-/// Who takes part in a comparison: runs all its queries once, on this thread, and says how long that
-/// took, in microseconds a query.
+/// Who takes part in a comparison: runs all its queries once, on this thread, and says how long
+/// that took, in microseconds a query.
 using Contender = std::function<double()>;
 
 /// A peer reports wall time; processor time of this thread is what to take where all

@@ -48,8 +48,8 @@ std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& si
 /// Round numbers from `low` to `high`, about `count` of them.
 std::vector<double> round_numbers(double low, double high, int count);
 
-/// The same SVG with the light theme's colours instead of the style sheet's variables: for a picture
-/// that has no style sheet.
+/// The same SVG with the light theme's colours instead of the style sheet's variables: for a
+/// picture that has no style sheet.
 std::string with_colours(std::string svg);
 
 /// Text for HTML and SVG.

@@ -1,5 +1,6 @@
-// Worst-case stack of a program, from the call graphs that the compiler writes next to its object files (gcc
-// -fcallgraph-info=su,da). Rejects recursion, frames without a bound and indirect calls without a name. See `stack --help`.
+// Worst-case stack of a program, from the call graphs that the compiler writes next to its object
+// files (gcc -fcallgraph-info=su,da). Rejects recursion, frames without a bound and indirect calls
+// without a name. See `stack --help`.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -18,12 +19,14 @@ const char kHelp[] =
     "Functions are named as in the source (firmtouch::mesh::closest_point) or as the linker names "
     "them; there a\n"
     "* stands for any text (_GLOBAL__sub_I_* are the constructors of a file's variables).\n"
-    "  --root NAME            a function that is not begun by a call: main, reset. Default: all functions are checked,\n"
+    "  --root NAME            a function that is not begun by a call: main, reset. Default: all "
+    "functions are checked,\n"
     "                         no path is printed\n"
     "  --interrupt NAME       a root that may come on top of the others; its exception frame is "
     "added (108 bytes)\n"
     "  --without NAME         a function that is not called in this phase of the program\n"
-    "  --calls CALLER=CALLEE  what the indirect calls of CALLER reach (again for several); a pattern of "
+    "  --calls CALLER=CALLEE  what the indirect calls of CALLER reach (again for several); a "
+    "pattern of "
     "callees leaves out\n"
     "                         those that call CALLER\n"
     "  --size NAME=BYTES      stack of a function without a graph (libgcc, assembly)\n"
@@ -98,7 +101,8 @@ bool read(Graph& graph, const char* path) {
 }
 
 bool matches(const char* text, const char* pattern) {
-  if (*pattern == '*') return matches(text, pattern + 1) || (*text != 0 && matches(text + 1, pattern));
+  if (*pattern == '*')
+    return matches(text, pattern + 1) || (*text != 0 && matches(text + 1, pattern));
   return *text == *pattern && (*text == 0 || matches(text + 1, pattern + 1));
 }
 
@@ -260,8 +264,8 @@ void bind_calls(Graph& graph, const Options& options, Problems& problems) {
   }
 }
 
-// The compiler calls a constructor or destructor by its "complete" name, C1 or D1, and where both are the same code
-// defines only the "base" one, C2 or D2 (Itanium C++ ABI, 5.1.4.3).
+// The compiler calls a constructor or destructor by its "complete" name, C1 or D1, and where both
+// are the same code defines only the "base" one, C2 or D2 (Itanium C++ ABI, 5.1.4.3).
 void bind_constructors(Graph& graph) {
   for (auto& [title, function] : graph) {
     if (function.is_defined || title == kIndirect) continue;
@@ -324,8 +328,7 @@ void check_functions(const Graph& graph, Problems& problems) {
     if (title == kIndirect) continue;
     const std::string name = shown(graph, title);
     if (!function.is_defined) {
-      problems.say(name +
-                   ": called, but its stack is unknown: give its .ci file, or --size");
+      problems.say(name + ": called, but its stack is unknown: give its .ci file, or --size");
     }
     if (function.is_unbounded) {
       problems.say(name + " at " + function.place +
@@ -338,8 +341,8 @@ void check_functions(const Graph& graph, Problems& problems) {
   }
 }
 
-uint32_t print_root(const Graph& graph, Traversal& paths, const std::string& name, uint32_t extra_bytes,
-                    Problems& problems) {
+uint32_t print_root(const Graph& graph, Traversal& paths, const std::string& name,
+                    uint32_t extra_bytes, Problems& problems) {
   const std::vector<std::string> titles = find(graph, name);
   if (titles.empty()) problems.say("no function " + name + ": mend the name of the root");
   uint32_t worst_bytes = 0;

@@ -57,8 +57,8 @@ struct Run {
   size_t left_out = 0;               // ticks whose position is not to be trusted
 };
 
-// From the first tick with enable to the last: before, parameters may still be set, which bend what a
-// position means. A run that was never enabled counts whole.
+// From the first tick with enable to the last: before, parameters may still be set, which bend what
+// a position means. A run that was never enabled counts whole.
 Run run_of(const std::vector<Tick>& ticks, const log::Header& header) {
   size_t begin = 0, end = ticks.size();
   while (begin < end && (ticks[begin].lines & kEnable) == 0) ++begin;

@@ -13,7 +13,7 @@
 namespace firmtouch::cli {
 
 struct LoadedMesh {
-  simd::WideMesh wide;  // the answers of the controller, to the bit
+  simd::WideMesh wide;                // the answers of the controller, to the bit
   core::Span<const uint32_t> source;  // of each triangle: its index in the imported file
 
   uint32_t source_of(uint32_t triangle) const {

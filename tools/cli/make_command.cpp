@@ -26,7 +26,8 @@ constexpr uint32_t kMaxPoints = 100000000;
 constexpr uint32_t kControlPoints = 15, kMaxControlPoints = 1000;  // of a spline, in one direction
 constexpr double kRise = 0.15;                                     // of a surface's hills
 
-// Of what is made: the format it is written in (a name that says another would lie), and its own options.
+// Of what is made: the format it is written in (a name that says another would lie), and its own
+// options.
 struct Kind {
   const char* name;
   const char* extension;

@@ -6,8 +6,8 @@
 
 namespace firmtouch::cli {
 
-/// Runs one bench of `all`, or all of them, on the models that the arguments name; without a name it
-/// prints the list. Result: an exit code. Options: --peer, --bar, --figures, --json, --long.
+/// Runs one bench of `all`, or all of them, on the models that the arguments name; without a name
+/// it prints the list. Result: an exit code. Options: --peer, --bar, --figures, --json, --long.
 int run_benches(const std::vector<bench::Bench>& all, const Arguments& arguments);
 
 }  // namespace firmtouch::cli

@@ -18,8 +18,8 @@ struct ThinnedRun {
 };
 
 /// Leaves places out so long as each lies within `max_m` of the straight piece, between float32
-/// samples, that stands for it. So the guide and the run, joined place to place, lie within max_m of
-/// each other everywhere, either way: distance to a piece is convex along the run, and the run
+/// samples, that stands for it. So the guide and the run, joined place to place, lie within max_m
+/// of each other everywhere, either way: distance to a piece is convex along the run, and the run
 /// between two samples passes beside every point of their piece.
 /// Bounds: O(n log n); the same samples on every machine.
 /// Result: points.problem says where max_m is finer than float32 can hold there, or the run stands

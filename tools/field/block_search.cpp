@@ -117,8 +117,8 @@ class BlockSearch::Best {
   uint32_t waiting_[kLanes];
 };
 
-// The square of how far a triangle may be from the cube that can be nearest to a point of it: the seed,
-// nearest to the cube's middle, is no farther from any point than that and half the diagonal.
+// The square of how far a triangle may be from the cube that can be nearest to a point of it: the
+// seed, nearest to the cube's middle, is no farther from any point than that and half the diagonal.
 float BlockSearch::reach2(const Point3& low, const Point3& high) {
   float diagonal2 = 0;
   for (size_t k = 0; k < 3; ++k) diagonal2 += (high[k] - low[k]) * (high[k] - low[k]);

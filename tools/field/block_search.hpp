@@ -8,7 +8,8 @@
 
 namespace firmtouch::tools {
 
-/// Triangles with the first `kWords` words of their rows, those of kLanes triangles beside each other.
+/// Triangles with the first `kWords` words of their rows, those of kLanes triangles beside each
+/// other.
 template <uint32_t kWords>
 struct LaneList {
   std::vector<float> words;  // of group g: kWords times kLanes floats from g * kWords * kLanes on
@@ -40,8 +41,9 @@ struct LaneList {
 using BoxList = LaneList<6>;   // low x y z, high x y z
 using DiskList = LaneList<7>;  // centre, unit normal, radius
 
-/// The nearest triangles of points that lie together in cubes: what a cube cannot have nearest is left
-/// out for all of its points at once. Each point begins with the triangle of the one before it.
+/// The nearest triangles of points that lie together in cubes: what a cube cannot have nearest is
+/// left out for all of its points at once. Each point begins with the triangle of the one before
+/// it.
 class BlockSearch {
  public:
   using Point3 = std::array<float, 3>;  // in the tree's frame

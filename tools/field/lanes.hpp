@@ -1,7 +1,7 @@
 #pragma once
-// Eight floats at a time by the compiler's vector types: one instruction each with AVX, two with SSE,
-// as many as it takes elsewhere; the same bits everywhere (nothing is contracted or reordered). A cast
-// from one vector type to another keeps the bits.
+// Eight floats at a time by the compiler's vector types: one instruction each with AVX, two with
+// SSE, as many as it takes elsewhere; the same bits everywhere (nothing is contracted or
+// reordered). A cast from one vector type to another keeps the bits.
 #include <cstdint>
 
 namespace firmtouch::tools {

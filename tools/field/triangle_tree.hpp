@@ -14,8 +14,8 @@ struct FloatBox {
   std::array<float, 3> low, high;
 };
 
-/// The triangles of a surface in float32 about the middle of its box, in a binary tree of boxes: for
-/// dense queries on a desktop. Coordinates err by 2^-25 of the extent.
+/// The triangles of a surface in float32 about the middle of its box, in a binary tree of boxes:
+/// for dense queries on a desktop. Coordinates err by 2^-25 of the extent.
 class TriangleTree {
  public:
   /// Bounds: O(n log^2 n), no recursion. The same tree on every machine.
@@ -40,8 +40,8 @@ class TriangleTree {
   const std::vector<Corners>& triangles() const { return triangles_; }  // in leaf order
   /// Of the same: low x y z, high x y z.
   const std::vector<Row>& boxes() const { return boxes_; }
-  /// A disk in the triangle's plane that holds it: centre, unit normal, radius. Where the triangle has
-  /// no plane worth the name the normal is 0, and the disk a sphere.
+  /// A disk in the triangle's plane that holds it: centre, unit normal, radius. Where the triangle
+  /// has no plane worth the name the normal is 0, and the disk a sphere.
   const std::vector<Row>& disks() const { return disks_; }
   uint32_t face_of(uint32_t triangle) const { return faces_[triangle]; }
   uint32_t triangle_of(uint32_t face) const { return places_[face]; }

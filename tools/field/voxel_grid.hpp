@@ -31,9 +31,10 @@ VoxelGrid make_voxel_grid(const std::vector<const Surface*>& surfaces, uint32_t 
 
 enum class Voxel : uint8_t { kOutside, kSurface, kInside };
 
-/// What each voxel of the grid is to one surface: kSurface where a triangle has a point in it (touching
-/// counts; a voxel that misses all by less than 1e-9 of the grid may count too), of the others kOutside
-/// those that a flood from beyond the grid reaches through faces of voxels, kInside the rest.
+/// What each voxel of the grid is to one surface: kSurface where a triangle has a point in it
+/// (touching counts; a voxel that misses all by less than 1e-9 of the grid may count too), of the
+/// others kOutside those that a flood from beyond the grid reaches through faces of voxels, kInside
+/// the rest.
 std::vector<Voxel> voxelize(const Surface& surface, const VoxelGrid& grid);
 
 /// Whether a triangle and a box (centre, half sides) have a point in common.

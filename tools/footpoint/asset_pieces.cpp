@@ -89,8 +89,8 @@ double inner_parameter(const CurveSystem& edge, Point at, double tolerance) {
   return NAN;
 }
 
-// The baker cuts a patch whose neighbour stays whole: patches are cut until no corner of another lies
-// within an edge, so that edges meet edge by edge.
+// The baker cuts a patch whose neighbour stays whole: patches are cut until no corner of another
+// lies within an edge, so that edges meet edge by edge.
 bool cut_at_corners(std::vector<BezierPatch>& patches, double tolerance) {
   std::vector<Point> corners;
   for (const BezierPatch& p : patches)

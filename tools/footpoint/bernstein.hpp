@@ -38,8 +38,8 @@ Points difference(const Points& f, const Points& g);  // of equal degrees
 void split_u(Scalars& left, Scalars& right);
 void split_v(Scalars& low, Scalars& high);
 
-/// The coefficients over a square (an interval where degree_v is 0) that is larger by `more` on every
-/// side.
+/// The coefficients over a square (an interval where degree_v is 0) that is larger by `more` on
+/// every side.
 Scalars extended(const Scalars& f, double more);
 
 double value_at(const Scalars& f, double u, double v);
@@ -51,9 +51,9 @@ struct Root {
   int before, after;
 };
 
-/// The roots of `f` in the open interval, in no order: bisection until the signs of the coefficients
-/// vary once, then guarded Newton. Coefficients within `noise` of zero count as zero. Where `f` is
-/// zero throughout, `is_zero` is set and there are no roots.
+/// The roots of `f` in the open interval, in no order: bisection until the signs of the
+/// coefficients vary once, then guarded Newton. Coefficients within `noise` of zero count as zero.
+/// Where `f` is zero throughout, `is_zero` is set and there are no roots.
 void roots_of(const std::vector<double>& f, double noise, std::vector<Root>& roots, bool& is_zero);
 
 /// Of the first coefficient beyond `noise`, or of the last: the sign just inside an end. 0: none.

@@ -28,10 +28,9 @@ struct Corner {
   double u, v;
 };
 
-/// The edges of patches over which no other patch goes on smoothly, and the corners where they end or
-/// turn, edges that are a single point among them. `gap`: as of
-/// Footpoints. `neighbours`:
-/// over each side of each patch.
+/// The edges of patches over which no other patch goes on smoothly, and the corners where they end
+/// or turn, edges that are a single point among them. `gap`: as of Footpoints. `neighbours`: over
+/// each side of each patch.
 void find_borders(const std::vector<BezierPatch>& patches, double gap, double extent_m,
                   std::vector<Border>& borders, std::vector<Corner>& corners,
                   std::vector<std::array<Neighbour, 4>>& neighbours);

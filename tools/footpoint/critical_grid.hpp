@@ -8,10 +8,10 @@ namespace firmtouch::tools {
 
 /// Space about a model in 2^levels cells along each side (one along z for planar curves), each with
 /// the pieces whose foot-points appear or disappear where a point crosses the cell: those with a
-/// place where equation (1) and its derivative by t, (2), vanish for a point of the cell; of patches
-/// (3), (4) and their Jacobian's determinant, (5). Certified: where no bound of the Bernstein
-/// coefficients over the cell proves that one of them cannot vanish, the piece is listed. Smooth
-/// joints where curvature jumps are listed with both pieces.
+/// place where equation (1) and its derivative by t, (2), vanish for a point of the cell; of
+/// patches (3), (4) and their Jacobian's determinant, (5). Certified: where no bound of the
+/// Bernstein coefficients over the cell proves that one of them cannot vanish, the piece is listed.
+/// Smooth joints where curvature jumps are listed with both pieces.
 /// Source: Seong, Johnson, Cohen, sections 3.4 and 4.3.
 class CriticalGrid {
  public:

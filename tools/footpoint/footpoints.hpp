@@ -13,9 +13,9 @@ enum class FootKind { kMin, kMax, kSaddle, kEnd };
 /// "min", "max", "saddle" or "end"
 const char* name_of(FootKind kind);
 
-/// A point of a curve or surface where the direction to the query is normal to it, or an end: an end
-/// or corner of a curve, a corner of a surface, or a point of a surface's border where the direction
-/// is normal to the border.
+/// A point of a curve or surface where the direction to the query is normal to it, or an end: an
+/// end or corner of a curve, a corner of a surface, or a point of a surface's border where the
+/// direction is normal to the border.
 struct Footpoint {
   FootKind kind = FootKind::kMin;
   double distance_m = 0;
@@ -24,8 +24,8 @@ struct Footpoint {
   double u = 0, v = 0;  // of the entity's own parameters; v = 0 on curves
 };
 
-/// All foot-points of a point, from scratch: no state, no budget. For listings, benches and oracles;
-/// nothing of it runs on a controller.
+/// All foot-points of a point, from scratch: no state, no budget. For listings, benches and
+/// oracles; nothing of it runs on a controller.
 /// Source: Seong, Johnson, Cohen, "A higher dimensional formulation for robust and interactive
 /// distance queries", equations (1), (3) and (4), by subdivision of their Bernstein coefficients.
 /// The ends, corners and borders that it leaves out are reported too.
@@ -37,7 +37,8 @@ class Footpoints {
              double gap = 1e-12);
 
   /// Sorted by distance. `is_complete` is cleared where whole lines are foot-points (about the
-  /// centre of a circle or on the axis of a surface of revolution): then only some of them are reported.
+  /// centre of a circle or on the axis of a surface of revolution): then only some of them are
+  /// reported.
   std::vector<Footpoint> all(Point p_m, bool& is_complete) const;
 
   const std::vector<CurveSystem>& curves() const { return curves_; }

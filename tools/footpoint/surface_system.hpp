@@ -26,11 +26,11 @@ struct SurfaceSystem {
   /// Gradients of -H and -I by P.
   void gradients(double u, double v, Point& by_h, Point& by_i) const;
 
-  /// All roots in the closed unit square and up to `more` beyond it, those taken to its edge, by subdivision of the Bernstein coefficients:
-  /// boxes without a root are left where a coefficient's sign is the same throughout, also after
-  /// the system is multiplied by its inverse Jacobian; boxes with at most one are found by a
-  /// dominant diagonal and solved by Newton. `boxes` counts those looked at. `is_complete` is
-  /// cleared where they were too many.
+  /// All roots in the closed unit square and up to `more` beyond it, those taken to its edge, by
+  /// subdivision of the Bernstein coefficients: boxes without a root are left where a coefficient's
+  /// sign is the same throughout, also after the system is multiplied by its inverse Jacobian;
+  /// boxes with at most one are found by a dominant diagonal and solved by Newton. `boxes` counts
+  /// those looked at. `is_complete` is cleared where they were too many.
   void solve(Point p_m, std::vector<SurfaceRoot>& roots, size_t& boxes, bool& is_complete,
              double more = 1e-9) const;
 

@@ -47,8 +47,8 @@ void Tracker::find_gate_events(Point p_m, std::vector<uint32_t>& pieces) {
   }
 }
 
-// Borders are solved anew for each move; where one of their foot-points begins to point to the other
-// side, a foot-point of the surface has passed over the border.
+// Borders are solved anew for each move; where one of their foot-points begins to point to the
+// other side, a foot-point of the surface has passed over the border.
 void Tracker::find_border_events(Point p_m, std::vector<uint32_t>& pieces) {
   std::vector<Root> roots;
   border_distance_m_ = 1e300;

@@ -26,8 +26,8 @@ struct TrackerCounts {
 };
 
 /// Foot-points of a moving point, carried along: predictor and Newton for each, pieces solved anew
-/// where the way crosses a critical cell or an end's normal. It has state, and what it loses beside a
-/// critical cell may stay lost: the published method for comparison, never what motors feel.
+/// where the way crosses a critical cell or an end's normal. It has state, and what it loses beside
+/// a critical cell may stay lost: the published method for comparison, never what motors feel.
 /// Source: Seong, Johnson, Cohen, sections 3.3, 3.4, 4.2 and 4.3.
 class Tracker {
  public:

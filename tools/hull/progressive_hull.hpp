@@ -49,8 +49,8 @@ struct ProgressiveHull {
   }
 };
 
-/// The hull after the first `collapses` collapses, each of its faces at the index of the mesh's face
-/// that it grew from (`source`). Vertices keep their numbers; those not used are left in.
+/// The hull after the first `collapses` collapses, each of its faces at the index of the mesh's
+/// face that it grew from (`source`). Vertices keep their numbers; those not used are left in.
 Surface hull_after(const ProgressiveHull& hull, uint32_t collapses);
 
 /// The finest hull of at most `faces` faces, or the coarsest there is; without unused vertices.

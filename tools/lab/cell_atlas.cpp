@@ -121,8 +121,8 @@ CellAtlas::Form CellAtlas::distance_beyond(const Atom& a, double x, double y) co
   return form;
 }
 
-// Of what slopes one way all over a cell only a curve's end may be nearest; of what is bent downward
-// nothing.
+// Of what slopes one way all over a cell only a curve's end may be nearest; of what is bent
+// downward nothing.
 CellAtlas::Keep CellAtlas::keeps(const Atom& a, const Square& s) const {
   bool falls = true, rises = true, is_downward = true;
   for (int k = 0; k < 4; ++k) {

@@ -17,9 +17,9 @@ namespace {
 constexpr double kStep = 0.002;  // of the extent, a move
 
 // What the tree's query takes on the Cortex-M7, fitted to the means counted on ten other planar
-// cubics (November 2026, tools/bench/cortex-m7-spline; within 1 % of each): by itself, an evaluation
-// with its proof, and a node. Of cells by what would be done: two comparisons and an index a level,
-// and the ends, the start and the certificate of an entry.
+// cubics (November 2026, tools/bench/cortex-m7-spline; within 1 % of each): by itself, an
+// evaluation with its proof, and a node. Of cells by what would be done: two comparisons and an
+// index a level, and the ends, the start and the certificate of an entry.
 constexpr double kQuery = 590, kEvaluation = 250, kRationalEvaluation = 300, kNode = 85;
 constexpr double kLevel = 12, kEntry = 60;
 

@@ -20,7 +20,8 @@ constexpr char kCell[] = "stroke=\"#36c\" stroke-width=\"0.5\"";
 constexpr char kFocal[] = "fill=\"#c33\" fill-opacity=\"0.7\"";
 constexpr char kOtherFocal[] = "fill=\"#36c\" fill-opacity=\"0.7\"";
 
-/// A planar curve's point, unit normal and radius of curvature (negative: the centre lies to the right).
+/// A planar curve's point, unit normal and radius of curvature (negative: the centre lies to the
+/// right).
 struct Osculation {
   Point at, normal;
   double radius = 0;
@@ -67,8 +68,8 @@ std::vector<Point> samples_of(const tools::SplineCurve& curve, bool lifted) {
   return points;
 }
 
-// Figure 5: (a) curve and evolute; (b) the zero set over the parameter with its critical curve, whose
-// projection is the evolute; (d) the cells of the plane that list critical points.
+// Figure 5: (a) curve and evolute; (b) the zero set over the parameter with its critical curve,
+// whose projection is the evolute; (d) the cells of the plane that list critical points.
 void draw_curve(const Options& options, Report& report) {
   const tools::SplineCurve curve = tools::winding_curve(4, 10, true, false);
   const Footpoints feet(bezier_pieces(curve), {});
@@ -155,8 +156,8 @@ void draw_net(Picture& picture, const tools::SplineSurface& s) {
   }
 }
 
-// Figure 6: (a) a surface and its critical points, both focal sheets; (b) those along one iso-curve,
-// with the cells that list them.
+// Figure 6: (a) a surface and its critical points, both focal sheets; (b) those along one
+// iso-curve, with the cells that list them.
 void draw_surface(const Options& options, Report& report) {
   const tools::SplineSurface surface = tools::hilly_surface(1, 7, 0.15, false);
   const Footpoints feet({}, bezier_pieces(surface));

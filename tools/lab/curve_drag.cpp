@@ -48,8 +48,8 @@ struct Drag {
   double mean_N = 0, max_N = 0, max_jump_N = 0;
 };
 
-// The work that the hand does, over its way: it begins and ends at the same distance, so that a spring
-// without friction takes none.
+// The work that the hand does, over its way: it begins and ends at the same distance, so that a
+// spring without friction takes none.
 template <class Force>
 Drag drag_of(const std::vector<math::Vec3>& points, Force force_N) {
   Drag drag;

@@ -8,9 +8,9 @@ namespace firmtouch::tools {
 
 /// The published search for a list of points, for comparison: a list of boxes to look at, lower and
 /// upper bounds by nearest and farthest corner, the next point's list seeded with the box `ascend`
-/// levels above the last nearest triangle. Two things differ from the print, which gives wrong answers
-/// (tests/field/morris_host_test.cpp): distances to planes are squared before they are summed, and the
-/// bounds begin anew with each point.
+/// levels above the last nearest triangle. Two things differ from the print, which gives wrong
+/// answers (tests/field/morris_host_test.cpp): distances to planes are squared before they are
+/// summed, and the bounds begin anew with each point.
 /// Source: Morris 2006, section 3.3.
 class MorrisSearch {
  public:

@@ -7,8 +7,8 @@
 
 namespace firmtouch::lab {
 
-/// An SVG picture of points in space: seen along the z axis (of the plane) or askew (of space); y and
-/// z point up. What is drawn later lies over what was drawn before.
+/// An SVG picture of points in space: seen along the z axis (of the plane) or askew (of space); y
+/// and z point up. What is drawn later lies over what was drawn before.
 class Picture {
  public:
   Picture(tools::Point low, tools::Point high, bool is_askew);

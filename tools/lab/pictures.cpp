@@ -11,7 +11,8 @@ bool is_spline(const std::string& path) {
 
 }  // namespace
 
-// The papers' figures as SVG, into the folder of --figures: of the models given, or of generated ones.
+// The papers' figures as SVG, into the folder of --figures: of the models given, or of generated
+// ones.
 void run_pictures(const Options& options, Report& report) {
   Options splines = options, meshes = options;
   splines.models.clear(), meshes.models.clear();

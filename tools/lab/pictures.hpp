@@ -3,14 +3,15 @@
 
 namespace firmtouch::lab {
 
-// Each draws figures of one paper as SVG into the folder `options.figures` and throws a Problem where
-// a file cannot be written.
+// Each draws figures of one paper as SVG into the folder `options.figures` and throws a Problem
+// where a file cannot be written.
 
 /// Seong, Johnson, Cohen, figures 5 and 6: curve and evolute, the zero set with its critical curve,
 /// surface and critical points, and the cells that list them.
 void draw_critical_figures(const Options& options, Report& report);
-/// The same paper, figures 7 to 11: each of 200 positions of a path joined with the nearest point, as
-/// the published method carries it along. Figure 11 shows the first spline model given, or two surfaces.
+/// The same paper, figures 7 to 11: each of 200 positions of a path joined with the nearest point,
+/// as the published method carries it along. Figure 11 shows the first spline model given, or two
+/// surfaces.
 void draw_spline_figures(const Options& options, Report& report);
 /// Morris 2006, figure 3: device and constraint joined by lines, with and without a penalty.
 void draw_curve_figures(const Options& options, Report& report);

@@ -37,7 +37,8 @@ struct Corner {
 std::vector<std::vector<Corner>> corners_of(const tools::Surface& surface);
 
 /// The pseudonormal, of any length, for the offset `r` from the vertex (only Huang's depends on
-/// it). A fitted plane has no outside: it is turned as the angle-weighted one lies, which favours it.
+/// it). A fitted plane has no outside: it is turned as the angle-weighted one lies, which favours
+/// it.
 tools::Point reference_normal(NormalKind kind, const std::vector<Corner>& corners, tools::Point r);
 
 }  // namespace firmtouch::lab

@@ -44,8 +44,8 @@ void draw_joins(Picture& picture, const std::vector<Point>& path, const std::vec
   for (size_t k = 0; k < path.size(); ++k) picture.line({path[k], found[k]}, kJoin);
 }
 
-// Figures 7, 8 and 9: (a) the plane; (b) the zero set over x, y and the parameter: at each parameter
-// the curve's normal.
+// Figures 7, 8 and 9: (a) the plane; (b) the zero set over x, y and the parameter: at each
+// parameter the curve's normal.
 void draw_curve(const Options& options, const std::string& name, uint64_t seed, size_t points,
                 bool with_zero_set, Report& report) {
   const tools::SplineCurve curve = tools::winding_curve(seed, points, true, true);

@@ -32,8 +32,8 @@ class FileSink : public Sink {
   }
   void reserve(uint64_t bytes) override {
 #if defined(__linux__)
-    // Keeps the file's size: a log that was not closed ends behind its last block. If the file system
-    // cannot reserve, writing goes on without.
+    // Keeps the file's size: a log that was not closed ends behind its last block. If the file
+    // system cannot reserve, writing goes on without.
     if (::fallocate(file_, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) != 0) return;
 #else
     (void)bytes;

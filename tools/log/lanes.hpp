@@ -7,8 +7,8 @@
 
 namespace firmtouch::log {
 
-/// Bits over time in words, a lane each: faults, state, lines. Lanes whose bit is never set are left
-/// out.
+/// Bits over time in words, a lane each: faults, state, lines. Lanes whose bit is never set are
+/// left out.
 class Lanes {
  public:
   /// The bits that the log names of these fields; of one that is listed in `all`, the others too.

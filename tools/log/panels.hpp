@@ -28,8 +28,8 @@ struct Panel {
 /// their fields.
 std::vector<Panel> usual_panels(const Header& header);
 
-/// One for each of these fields, by their names in the log (with or without an index); those of bits
-/// are left to the lanes. Throws std::runtime_error where there is no such field.
+/// One for each of these fields, by their names in the log (with or without an index); those of
+/// bits are left to the lanes. Throws std::runtime_error where there is no such field.
 std::vector<Panel> chosen_panels(const std::string& path, const Header& header,
                                  const std::vector<std::string>& names);
 

@@ -10,8 +10,8 @@
 namespace firmtouch::log {
 
 /// A thread of low priority that takes a ring's records to files. Whoever fills the ring never
-/// waits for it: what the ring cannot hold while the disk stalls is dropped, counted, and missing in
-/// the log at its place.
+/// waits for it: what the ring cannot hold while the disk stalls is dropped, counted, and missing
+/// in the log at its place.
 class Recorder {
  public:
   /// The first file is `path`; further ones `stem.0002.ftl` and so on beside it.

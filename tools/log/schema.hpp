@@ -49,8 +49,8 @@ struct Header {
 /// Without the characters that command a terminal: for words of a log that may come from anywhere.
 std::string printable(std::string text);
 
-/// The text of a log's head: `field` lines, `bit` lines, `decimation`, then `key value` lines in the
-/// order of their keys.
+/// The text of a log's head: `field` lines, `bit` lines, `decimation`, then `key value` lines in
+/// the order of their keys.
 std::string text_of(const Header& header);
 /// The other way round. Result: an empty string, or what is wrong with which line.
 std::string parse(const std::string& text, uint32_t record_bytes, Header& header);

@@ -7,9 +7,10 @@
 // Outside of `firmtouch`, the namespace that each level renames.
 namespace firmtouch_simd {
 
-/// The wide search, compiled for one instruction-set level (level.cpp). A level has a copy of the library's
-/// inline functions under a namespace of its own: the linker must not take one that this processor cannot
-/// run. So the library's types cross here by address; they have one layout at every level.
+/// The wide search, compiled for one instruction-set level (level.cpp). A level has a copy of the
+/// library's inline functions under a namespace of its own: the linker must not take one that this
+/// processor cannot run. So the library's types cross here by address; they have one layout at
+/// every level.
 struct Searches {
   // mesh::View, simd::WideTree, three floats, query::Budget, mesh::Hint, mesh::Closest.
   void (*closest_point)(const void* mesh, const void* tree, const float* p_m, const void* budget,

@@ -8,8 +8,9 @@
 
 namespace firmtouch::simd {
 
-/// A mesh with the wide search of this processor: the answers, visits and hints of mesh::closest_point() and
-/// of mesh/segment_cast.hpp, to the bit, in less time. The mesh's sections must outlive it.
+/// A mesh with the wide search of this processor: the answers, visits and hints of
+/// mesh::closest_point() and of mesh/segment_cast.hpp, to the bit, in less time. The mesh's
+/// sections must outlive it.
 class WideMesh {
  public:
   WideMesh() = default;

@@ -1,6 +1,6 @@
 #pragma once
-// SIMD copy of a mesh's tree and triangles for hosts. No asset holds it: WideMesh builds it when a mesh
-// is opened.
+// SIMD copy of a mesh's tree and triangles for hosts. No asset holds it: WideMesh builds it when a
+// mesh is opened.
 
 #include <stddef.h>
 
@@ -22,8 +22,8 @@ constexpr uint32_t kPrismArrays = 16;
 constexpr uint32_t kFeatures = 7;
 
 /// Consecutive triangles that are measured at once. A node (except the root) with at most kLanes
-/// triangles, in at most two leaves on either side, has a block, unless an ancestor has one. A leaf below
-/// no such node is a block of its own.
+/// triangles, in at most two leaves on either side, has a block, unless an ancestor has one. A leaf
+/// below no such node is a block of its own.
 struct Block {
   uint32_t first, count;
 };
@@ -32,8 +32,8 @@ struct Block {
 struct NodeBlock {
   Block of;
   uint32_t lanes;
-  // The boxes in the node and below it: bits 0 and 4 its own; bits 1 and 5 those in its child of side 0,
-  // bits 2 and 6 of side 1, unless these are leaves.
+  // The boxes in the node and below it: bits 0 and 4 its own; bits 1 and 5 those in its child of
+  // side 0, bits 2 and 6 of side 1, unless these are leaves.
   uint32_t boxes;
 
   NodeBlock() = default;
@@ -44,8 +44,8 @@ struct NodeBlock {
               ((lanes & 0xFF000000u) != 0 ? 0x44u : 0u)) {}
 };
 
-// A leaf as in mesh::Side::child. Bits that a mesh of at most kMaxWideTriangles leaves free hold its
-// first lane in its block << 22, and the count of the block less 1 << 25.
+// A leaf as in mesh::Side::child. Bits that a mesh of at most kMaxWideTriangles leaves free hold
+// its first lane in its block << 22, and the count of the block less 1 << 25.
 constexpr uint32_t kMaxWideTriangles = 1u << 22;
 constexpr uint32_t wide_leaf_first(uint32_t leaf) { return leaf & (kMaxWideTriangles - 1); }
 constexpr uint32_t wide_leaf_lane(uint32_t leaf) { return (leaf >> 22) & 7u; }
@@ -63,14 +63,15 @@ constexpr uint32_t block_node(uint32_t child) { return child & ~kBlockBit; }
 struct WideTree {
   const Node* nodes;        // [node_count]: the mesh's, with leaves as above
   const Node* block_nodes;  // [node_count]: the same, with kBlockBit
-  // Node[2 * node_count + 1]: at each slot a copy of the child there, so that both children of a node are
-  // adjacent. At the slot of a leaf, and last, a copy of the root.
+  // Node[2 * node_count + 1]: at each slot a copy of the child there, so that both children of a
+  // node are adjacent. At the slot of a leaf, and last, a copy of the root.
   const Node* children;
   const NodeBlock* blocks;  // [node_count]; of no triangles where a node has none
-  // float[9 * (triangle_count + 1) + kLanes]: of each block nine arrays of `count` floats, from float
-  // 9 * first on: x, y, z of corner 0, then of corners 1 and 2.
+  // float[9 * (triangle_count + 1) + kLanes]: of each block nine arrays of `count` floats, from
+  // float 9 * first on: x, y, z of corner 0, then of corners 1 and 2.
   const float* corners;
-  // float[12 * (triangle_count + 1) + kLanes]: of each leaf twelve arrays, the floats of its shapes.
+  // float[12 * (triangle_count + 1) + kLanes]: of each leaf twelve arrays, the floats of its
+  // shapes.
   const float* shapes;
   // float[16 * (triangle_count + 1) + kLanes]: of each block sixteen arrays of prisms (prism.hpp).
   const float* prisms;

@@ -81,8 +81,8 @@ class Shells {
   std::vector<Shell> shells_;
 };
 
-// Closed shells that lie otherwise than most: fewer surfaces are turned over than are left. Result: how many
-// shells nothing is known of.
+// Closed shells that lie otherwise than most: fewer surfaces are turned over than are left. Result:
+// how many shells nothing is known of.
 size_t turn_closed(SplineModel& model, Shells& shells) {
   std::vector<const Shell*> closed;
   std::vector<std::vector<size_t>> surfaces;

@@ -3,8 +3,8 @@
 #include "spline/spline_sink.hpp"
 #include "surface/read/text_scan.hpp"
 
-// Patches, how many first. Newell's: sixteen point numbers a patch, from 1, u fastest, in a line; how
-// many points; x, y and z of each. Or each patch by itself: its two degrees, then its points, u
+// Patches, how many first. Newell's: sixteen point numbers a patch, from 1, u fastest, in a line;
+// how many points; x, y and z of each. Or each patch by itself: its two degrees, then its points, u
 // fastest. Commas or blanks stand between numbers.
 
 namespace firmtouch::tools {

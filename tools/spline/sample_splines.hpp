@@ -6,8 +6,8 @@
 
 namespace firmtouch::tools {
 
-/// Curves and surfaces of about unit size, as the published examples are, and a path beside them, for
-/// benches, tests and `firmtouch make`. The same for a seed on every machine.
+/// Curves and surfaces of about unit size, as the published examples are, and a path beside them,
+/// for benches, tests and `firmtouch make`. The same for a seed on every machine.
 
 /// A clamped cubic of `n` points that winds about, uneven knots.
 SplineCurve winding_curve(uint64_t seed, size_t n, bool is_planar, bool weighs);
@@ -19,8 +19,8 @@ SplineSurface hilly_surface(uint64_t seed, size_t n, double rise, bool weighs);
 std::vector<Point> wandering_path(uint64_t seed, size_t positions, double step, double low_z,
                                   double high_z);
 
-/// The same path about the box from `low` to `high`, by the extent of the box; in its plane where it
-/// has no height.
+/// The same path about the box from `low` to `high`, by the extent of the box; in its plane where
+/// it has no height.
 std::vector<Point> path_about(const std::vector<Point>& path, Point low, Point high);
 
 }  // namespace firmtouch::tools

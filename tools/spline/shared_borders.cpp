@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstdint>
 
-// A border is cut into short segments. Where the middle of one lies on a segment of another surface's
-// border, and of no second one's, both are shared there: their surfaces have their normals on one side where
-// the borders, each gone along with its surface to the left, run against each other.
+// A border is cut into short segments. Where the middle of one lies on a segment of another
+// surface's border, and of no second one's, both are shared there: their surfaces have their
+// normals on one side where the borders, each gone along with its surface to the left, run against
+// each other.
 
 namespace firmtouch::tools {
 namespace {
@@ -54,7 +55,8 @@ class Neighbours {
   }
   /// By the two surfaces, the lower first.
   const std::map<std::pair<size_t, size_t>, BorderVotes>& votes() const { return votes_; }
-  /// More than a quarter of a border of the surface is shared with none, or with two: one place may be crossed.
+  /// More than a quarter of a border of the surface is shared with none, or with two: one place may
+  /// be crossed.
   bool is_open(size_t surface) const {
     for (size_t b = 4 * surface; b < 4 * surface + 4; ++b)
       if (4 * (counted_[b] - shared_[b]) > counted_[b]) return true;

@@ -8,8 +8,9 @@
 
 namespace firmtouch::tools {
 
-/// Places where the borders of two surfaces lie on each other, each gone along with its surface to the
-/// left as its normal (u x v) shows it: in how many they run the same way, and against each other.
+/// Places where the borders of two surfaces lie on each other, each gone along with its surface to
+/// the left as its normal (u x v) shows it: in how many they run the same way, and against each
+/// other.
 struct BorderVotes {
   int along = 0, against = 0;
 };
@@ -20,8 +21,8 @@ struct SharedBorders {
   std::vector<bool> is_open;
 };
 
-/// Borders are compared as places, within 2e-5 of the extent, not by their parameters: one may lie on a part of
-/// another. Pre: there are surfaces.
+/// Borders are compared as places, within 2e-5 of the extent, not by their parameters: one may lie
+/// on a part of another. Pre: there are surfaces.
 SharedBorders shared_borders(const SplineModel& model);
 
 }  // namespace firmtouch::tools

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-// By triangles: their signed volume says to which side a shell's normals point by itself, the solid angles that
-// they cover from a point of another shell whether that lies within.
+// By triangles: their signed volume says to which side a shell's normals point by itself, the solid
+// angles that they cover from a point of another shell whether that lies within.
 
 namespace firmtouch::tools {
 namespace {
@@ -64,8 +64,8 @@ double volume_of(const std::vector<Triangle>& triangles) {
   return sum;
 }
 
-// -1 where one shell lies within another, 1 where without, 0 where nearly as much within as without. Where
-// they touch, rounding says which.
+// -1 where one shell lies within another, 1 where without, 0 where nearly as much within as
+// without. Where they touch, rounding says which.
 int crossing(const std::vector<Triangle>& own, const std::vector<Triangle>& other) {
   size_t within = 0, without = 0;
   for (size_t k = 0; k < kPlaces; ++k) {

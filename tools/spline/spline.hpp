@@ -7,7 +7,8 @@
 
 namespace firmtouch::tools {
 
-/// A control point of a NURBS or of a rational Bezier piece: where it is, and how strongly it pulls.
+/// A control point of a NURBS or of a rational Bezier piece: where it is, and how strongly it
+/// pulls.
 struct ControlPoint {
   double x = 0, y = 0, z = 0;  // metres, not multiplied by the weight
   double w = 1;                // > 0
@@ -67,8 +68,8 @@ struct BezierPatch {
 bool is_rational(const std::vector<ControlPoint>& points);
 
 /// The Bezier pieces of a curve in the order of its parameter, each by knot insertion in double.
-/// Result: pieces that meet have the same end point to the bit. A piece all of whose points coincide
-/// is left out, so that nothing is left of a curve without length.
+/// Result: pieces that meet have the same end point to the bit. A piece all of whose points
+/// coincide is left out, so that nothing is left of a curve without length.
 std::vector<BezierCurve> bezier_pieces(const SplineCurve& curve);
 
 /// The Bezier pieces of a surface, u fastest. Neighbours have the same edge to the bit. A piece all

@@ -7,9 +7,9 @@
 #include "firmtouch/spline/guide/guided_point.hpp"
 #include "servo_interrupt.hpp"
 
-// A scripted hand for simulated joints. It follows the asset's guide (without one, a circle about the
-// surface), presses and lifts, and closes the enable switch. The motors' forces move it, so that a
-// change of a parameter is visible. The rest of the controller program is unchanged.
+// A scripted hand for simulated joints. It follows the asset's guide (without one, a circle about
+// the surface), presses and lifts, and closes the enable switch. The motors' forces move it, so
+// that a change of a parameter is visible. The rest of the controller program is unchanged.
 
 namespace firmtouch::demo {
 namespace {
@@ -120,8 +120,8 @@ bool count(const Axis& axis, uint32_t k, int32_t& counts) {
   return true;
 }
 
-// The switch closes soon after the servo began. Where nothing has pushed for a while, as after a fault,
-// it opens, so that faults can be cleared, and closes again.
+// The switch closes soon after the servo began. Where nothing has pushed for a while, as after a
+// fault, it opens, so that faults can be cleared, and closes again.
 void work_switch() {
   if (g_ticks == 0) return;
   const uint32_t now_us = hal::clock_us();

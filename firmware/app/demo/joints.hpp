@@ -1,8 +1,8 @@
 #pragma once
 #include <stdint.h>
 
-// Simulated joints. They replace the board's encoder and motor functions; a scripted hand moves them
-// (hand.hpp).
+// Simulated joints. They replace the board's encoder and motor functions; a scripted hand moves
+// them (hand.hpp).
 namespace firmtouch::demo {
 
 struct Joints {

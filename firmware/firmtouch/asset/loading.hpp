@@ -13,7 +13,8 @@
 //     void close();                        // forgets its view
 //     void begin(const asset::Container&, const char* name, State&);
 //     asset::Progress work(State&, uint32_t budget);
-//         proves about `budget` bytes more, then runs the probe queries; the view is open at the end
+//         proves about `budget` bytes more, then runs the probe queries; the view is open at the
+//         end
 namespace firmtouch {
 
 /// Reasons to refuse a sound asset on this controller (tools/FORMAT.md, section 5).
@@ -30,7 +31,8 @@ enum Rule : uint16_t {
   kRuleMeshProbes = 905,
   // This machine answers the curve's probes with other bits, or there are none or more than 256.
   kRuleCurveProbes = 906,
-  // This machine answers a spline model's probes with other bits, or there are none or more than 256.
+  // This machine answers a spline model's probes with other bits, or there are none or more than
+  // 256.
   kRuleSplineProbes = 907,
   // This machine answers the hull's probes with other bits, or there are none or more than 256.
   kRuleHullProbes = 908,

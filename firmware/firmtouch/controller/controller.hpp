@@ -50,7 +50,8 @@ class Controller {
   core::Verdict verdict() const { return loaders_.verdict(); }
   bool is_ready() const { return loaders_.is_ready(); }
 
-  /// The state right after begin(), without opening the asset again. Not while tick() may interrupt.
+  /// The state right after begin(), without opening the asset again. Not while tick() may
+  /// interrupt.
   void reset() {
     core_.reset();
     surfaces_.reset();

@@ -32,8 +32,8 @@ static_assert(servo::kGuardMaxPeriod_s >= params::kMaxTickPeriod_s &&
               servo::kGuardMaxPeriod_s <= servo::kMaxTickPeriod_s &&
               servo::kMaxTickPeriod_s <= params::kMaxTickPeriod_s);
 
-// The guard takes a limit from the command that changes it, not from the parameters' memory, which it
-// guards against.
+// The guard takes a limit from the command that changes it, not from the parameters' memory, which
+// it guards against.
 void set_guard_limit(servo::GuardState& guard, uint32_t number, float value) {
   servo::GuardLimits limits = guard_limits(guard);
   if (number == params::kForceLimit) limits.force_limit_N = value;

@@ -20,7 +20,8 @@ struct AssetStatus {
 };
 
 /// The part of a controller that is the same for every composition: parameters, clock, a Cartesian
-/// device of three axes, servo, guard, record output, and the hand-over of local models at two rates.
+/// device of three axes, servo, guard, record output, and the hand-over of local models at two
+/// rates.
 class ControllerCore {
  public:
   using Parameters = params::Groups<params::SafetyRows, params::DeviceRows, params::SceneRows>;

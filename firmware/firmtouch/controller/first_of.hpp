@@ -8,8 +8,8 @@
 
 namespace firmtouch {
 
-/// Several policies of one kind, all surfaces or all guides, of which the first that the asset has is
-/// used. It has the shape of a policy itself.
+/// Several policies of one kind, all surfaces or all guides, of which the first that the asset has
+/// is used. It has the shape of a policy itself.
 template <class... Policies>
 class FirstOf : private Policies... {
   static_assert(sizeof...(Policies) > 0, "name a policy");

@@ -74,9 +74,9 @@ class LoaderChain {
   bool is_begun_ = false;
 };
 
-/// Loads an asset for parts that run in turn: finds what each uses, then proves it and runs its probe
-/// queries. A part is a policy of surfaces or guides (surfaces.hpp, guides.hpp). All proofs share one
-/// state.
+/// Loads an asset for parts that run in turn: finds what each uses, then proves it and runs its
+/// probe queries. A part is a policy of surfaces or guides (surfaces.hpp, guides.hpp). All proofs
+/// share one state.
 template <class... Parts>
 class Loaders : public AssetLoading {
  public:

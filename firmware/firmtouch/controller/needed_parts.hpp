@@ -33,8 +33,9 @@ uint32_t part_of_section(const asset::Container& asset, uint32_t i);
 /// All parts that an asset needs.
 uint32_t needed_parts(const asset::Container& asset);
 
-/// The verdict on an asset in a program with the parts `linked`: one of R909 to R914, at the section
-/// that needs the missing part, or passed. Where a name is selected, others of its kind do not count.
+/// The verdict on an asset in a program with the parts `linked`: one of R909 to R914, at the
+/// section that needs the missing part, or passed. Where a name is selected, others of its kind do
+/// not count.
 core::Verdict missing_part(const asset::Container& asset, const Selection& selection,
                            uint32_t linked);
 

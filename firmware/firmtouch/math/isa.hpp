@@ -190,11 +190,11 @@ static inline BoxPoint box_point(uint32_t x, uint32_t y, uint32_t z) {
 #endif
 }
 
-/// A coordinate in 65536ths of a cell as a word of a point, 2^-8 cells wider to either side and then
-/// to whole cells. The top bit of `outside` is set where it is not inside the grid.
+/// A coordinate in 65536ths of a cell as a word of a point, 2^-8 cells wider to either side and
+/// then to whole cells. The top bit of `outside` is set where it is not inside the grid.
 static inline uint32_t portable_grid_word(float parts, uint32_t& outside) {
-  // Exact except for the fraction that is cut off. 256 less, rounded down to cells, and 256 more than
-  // what may have been cut off, rounded up.
+  // Exact except for the fraction that is cut off. 256 less, rounded down to cells, and 256 more
+  // than what may have been cut off, rounded up.
   const uint32_t whole = saturated(parts);
   const uint32_t below = 0x7FFFFFFFu - (whole - 256), above = whole + 0x10100u;
   outside |= below | above;

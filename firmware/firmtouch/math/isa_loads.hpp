@@ -1,6 +1,6 @@
 #pragma once
-// How vectors of an array are fetched in few instructions, with the variants of math/isa.hpp's kind.
-// For the library's own translation units.
+// How vectors of an array are fetched in few instructions, with the variants of math/isa.hpp's
+// kind. For the library's own translation units.
 
 #include "firmtouch/math/isa.hpp"
 
@@ -15,8 +15,8 @@ static inline uint32_t as_multiplier(uint32_t value) {
   return value;
 }
 
-/// Puts two words behind `top`, the last of a stack, and moves it there: by one instruction where the
-/// processor has it.
+/// Puts two words behind `top`, the last of a stack, and moves it there: by one instruction where
+/// the processor has it.
 [[gnu::always_inline]] static inline void push_pair(uint32_t*& top, uint32_t first,
                                                     uint32_t second) {
 #if FIRMTOUCH_ISA_PAIRS
@@ -30,8 +30,8 @@ static inline uint32_t as_multiplier(uint32_t value) {
 #endif
 }
 
-/// Takes one off `count`. Result: whether something is left. Where the processor can by one instruction
-/// that the branch reads: a compiler that counts early compares once more.
+/// Takes one off `count`. Result: whether something is left. Where the processor can by one
+/// instruction that the branch reads: a compiler that counts early compares once more.
 [[gnu::always_inline]] static inline bool count_down(uint32_t& count) {
 #if FIRMTOUCH_ISA_PAIRS && defined(__GCC_ASM_FLAG_OUTPUTS__)
   bool is_left;
@@ -57,8 +57,8 @@ template <class Index>
 #endif
 }
 
-/// `value`, of which nothing is computed before it is needed: a compiler would keep in registers for a
-/// whole loop what few turns need.
+/// `value`, of which nothing is computed before it is needed: a compiler would keep in registers
+/// for a whole loop what few turns need.
 static inline uint32_t only_here(uint32_t value) {
 #if FIRMTOUCH_ISA_PAIRS
   __asm__ volatile("" : "+r"(value));

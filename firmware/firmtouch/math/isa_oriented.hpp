@@ -1,19 +1,19 @@
 #pragma once
-// A lower bound of the distance to an oriented box, with the variants of math/isa.hpp's kind. For the
-// library's own translation units.
+// A lower bound of the distance to an oriented box, with the variants of math/isa.hpp's kind. For
+// the library's own translation units.
 
 #include "firmtouch/math/isa.hpp"
 
 namespace firmtouch::math {
 
-/// A query packed for oriented_distance2(): x | y << 16 and z, each in half cells of a grid of 15-bit
-/// coordinates, less 2^15, in two's complement; bits 16 to 31 of z are 0.
+/// A query packed for oriented_distance2(): x | y << 16 and z, each in half cells of a grid of
+/// 15-bit coordinates, less 2^15, in two's complement; bits 16 to 31 of z are 0.
 struct HalfCellPoint {
   uint32_t xy, z;
 };
 
-/// The middles of the cells into which the point of box_distance2() was widened: off by at most 1.012
-/// half cells on each axis.
+/// The middles of the cells into which the point of box_distance2() was widened: off by at
+/// most 1.012 half cells on each axis.
 /// Pre: grid_point() made the point and returned true.
 static inline HalfCellPoint half_cell_point(const BoxPoint& point) {
 #if FIRMTOUCH_ISA_AVX2

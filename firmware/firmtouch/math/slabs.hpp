@@ -14,25 +14,25 @@ struct GridSegment {
 /// The segment from `a` to `b` on a grid that begins at `low`.
 /// Pre: `cell` is a power of two.
 ///
-/// With u = 2^-24 and o the origin in cells: o is off by u |o|, the box check by 2^-9 cells, rate and
-/// each plane's difference by 3 u of the plane's distance, at most |o| + 32768: 4 u |o| + 2^-7 in
-/// all. Slabs widen boxes by twice that.
+/// With u = 2^-24 and o the origin in cells: o is off by u |o|, the box check by 2^-9 cells, rate
+/// and each plane's difference by 3 u of the plane's distance, at most |o| + 32768: 4 u |o| + 2^-7
+/// in all. Slabs widen boxes by twice that.
 static inline GridSegment on_grid(Vec3 a, Vec3 b, const float* low, float cell) {
   const float per_cell = 1.0f / cell;
   return {{(a.x - low[0]) * per_cell, (a.y - low[1]) * per_cell, (a.z - low[2]) * per_cell},
           {(b.x - a.x) * per_cell, (b.y - a.y) * per_cell, (b.z - a.z) * per_cell}};
 }
 
-// An axis along which the segment stands still (less than this in cells) has so high a rate that the
-// whole segment is inside a slab, or outside. A segment beyond kFarCells is not bounded.
+// An axis along which the segment stands still (less than this in cells) has so high a rate that
+// the whole segment is inside a slab, or outside. A segment beyond kFarCells is not bounded.
 constexpr float kStillCells = 1e-30f;
 constexpr float kFarCells = 0x1p60f;
 constexpr uint32_t kNotEntered = UINT32_MAX;
 
-/// The slabs of boxes as a segment meets them. A box's word is low | (32767 - high) << 16; turned by
-/// `turn` (0 or 16) its low half is the plane where the segment enters, its high half the one where
-/// it leaves: entry = (low half - enter) * rate, exit = (leave - high half) * rate, rate > 0 in
-/// segments a cell. Boxes are widened by |origin| 2^-21 + 2^-6 cells, rounded.
+/// The slabs of boxes as a segment meets them. A box's word is low | (32767 - high) << 16; turned
+/// by `turn` (0 or 16) its low half is the plane where the segment enters, its high half the one
+/// where it leaves: entry = (low half - enter) * rate, exit = (leave - high half) * rate, rate > 0
+/// in segments a cell. Boxes are widened by |origin| 2^-21 + 2^-6 cells, rounded.
 class Slabs {
  public:
   /// False: the segment is too far off, or not finite; every box is entered at 0.
@@ -57,8 +57,8 @@ class Slabs {
   }
   void set_limit(float limit) { limit_ = limit; }
 
-  /// Of two boxes of three words each, a word between them: the bits of the entry where the segment enters no later than
-  /// the limit, else kNotEntered.
+  /// Of two boxes of three words each, a word between them: the bits of the entry where the segment
+  /// enters no later than the limit, else kNotEntered.
   void enter(const uint32_t* boxes, uint32_t* key) const {
     for (uint32_t box = 0; box < 2; ++box) {
       float first = 0.0f, last = limit_;

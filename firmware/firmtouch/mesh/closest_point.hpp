@@ -31,11 +31,11 @@ struct Closest {
 /// Result: always finite. Two triangles equally near: the one visited first. Outside the mesh's
 ///         grid the sign is known under any budget. A query that is not finite: a vertex, at
 ///         distance FLT_MAX, lower 0, not exact, sign 0.
-/// Error:  if exact, |distance| and lower_m within 4e-7 max(diagonal, distance); lower_m never above
-///         the truth (mesh/loss.hpp; tests/mesh/compensated_host_test.cpp). If float32 is not enough
-///         (far away, or few large triangles), the nearest triangle is measured in compensated
-///         arithmetic. If that is not enough either, the search runs a second time: some thousand
-///         instructions more, counted in steps.
+/// Error: if exact, |distance| and lower_m within 4e-7 max(diagonal, distance); lower_m never above
+///         the truth (mesh/loss.hpp; tests/mesh/compensated_host_test.cpp). If float32 is not
+///         enough (far away, or few large triangles), the nearest triangle is measured in
+///         compensated arithmetic. If that is not enough either, the search runs a second time:
+///         some thousand instructions more, counted in steps.
 /// Source: Baerentzen & Aanaes 2005, sections 3 and 4; Morris 2006, 3.3 (ascend from the last
 ///         leaf).
 Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, Hint& hint);

@@ -7,13 +7,13 @@
 
 namespace firmtouch::mesh {
 
-/// The pseudonormal of an edge or a vertex of a triangle whose unit normal is `normal`. Apart: nearly
-/// every answer is a face's, whose values would wait in memory.
+/// The pseudonormal of an edge or a vertex of a triangle whose unit normal is `normal`. Apart:
+/// nearly every answer is a face's, whose values would wait in memory.
 math::Vec3 border_direction(const View& mesh, uint32_t triangle, Feature feature,
                             math::Vec3 normal);
 
-/// Unit pseudonormal of a feature of a triangle, from what the mesh stores of it; of an unsigned mesh
-/// the face's normal.
+/// Unit pseudonormal of a feature of a triangle, from what the mesh stores of it; of an unsigned
+/// mesh the face's normal.
 [[gnu::always_inline]] static inline math::Vec3 feature_direction(const View& mesh,
                                                                   uint32_t triangle,
                                                                   Feature feature) {

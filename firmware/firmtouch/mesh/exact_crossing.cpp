@@ -12,8 +12,8 @@ struct Difference3 {
 };
 
 // With d = b - a and the corners seen from a: the side on which the line passes the edge from p to
-// q is the sign of d . (p x q), that of edge q to p the other one to the bit. The three sum to d . n,
-// n = (q - p) x (r - p), and p . (q x r) = p . n is the distance of a from the plane.
+// q is the sign of d . (p x q), that of edge q to p the other one to the bit. The three sum to d .
+// n, n = (q - p) x (r - p), and p . (q x r) = p . n is the distance of a from the plane.
 class Exact {
  public:
   Exact(Vec3 a, Vec3 b, Vec3 p, Vec3 q, Vec3 r) {

@@ -14,10 +14,10 @@ struct Crossing {
 
 /// Whether the segment from `a` to `b` crosses the triangle, decided without any rounding.
 ///
-/// What touches an edge, a corner or an end is decided as if a and b had both been moved by (e, e^2,
-/// e^3) for an infinitely small e > 0: the moved segment touches nothing, so it crosses exactly one
-/// of the triangles of an edge that it passes through, and a closed surface as often inward as
-/// outward on any closed chain of segments.
+/// What touches an edge, a corner or an end is decided as if a and b had both been moved by (e,
+/// e^2, e^3) for an infinitely small e > 0: the moved segment touches nothing, so it crosses
+/// exactly one of the triangles of an edge that it passes through, and a closed surface as often
+/// inward as outward on any closed chain of segments.
 /// Pre: all coordinates are finite.
 /// Bounds: about 3,000 integer operations for coordinates of like size, at most 60,000; 1.9 KB of
 ///         stack; re-entrant.

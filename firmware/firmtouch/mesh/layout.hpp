@@ -85,8 +85,8 @@ struct Triangle {
 };
 static_assert(sizeof(Triangle<uint16_t>) == 6 && sizeof(Triangle<uint32_t>) == 12);
 
-/// What a measurement takes from a triangle a b c alone (mesh/triangle.hpp): corner a, b - a, the height
-/// vector from the line a b to c, 1 / |ab|^2, the part of ab at which c stands, |h|^2.
+/// What a measurement takes from a triangle a b c alone (mesh/triangle.hpp): corner a, b - a, the
+/// height vector from the line a b to c, 1 / |ab|^2, the part of ab at which c stands, |h|^2.
 struct TriangleShape {
   Vertex a_m, ab_m, h_m;
   float per_ab2_m2;
@@ -95,8 +95,8 @@ struct TriangleShape {
 };
 static_assert(sizeof(TriangleShape) == 48);
 
-/// One side of an inner node: the box of a child, box[k] = low | (32767 - high) << 16, and where the
-/// child is.
+/// One side of an inner node: the box of a child, box[k] = low | (32767 - high) << 16, and where
+/// the child is.
 struct Side {
   uint32_t box[3];
   uint32_t child;
@@ -120,7 +120,8 @@ constexpr uint32_t make_leaf(uint32_t first, uint32_t count) {
   return kLeafBit | (count << 28) | first;
 }
 
-// parents[i]: depth of node i (root 0) << 25 | its parent's index << 1 | which child of it. Root: 0.
+// parents[i]: depth of node i (root 0) << 25 | its parent's index << 1 | which child of it. Root:
+// 0.
 constexpr uint32_t slot_of(uint32_t word) { return word & 0x01FFFFFFu; }  // parent << 1 | slot
 constexpr uint32_t parent_of(uint32_t word) { return slot_of(word) >> 1; }
 constexpr uint32_t which_of(uint32_t word) { return word & 1u; }
@@ -133,8 +134,8 @@ constexpr uint32_t make_parent(uint32_t parent, uint32_t which, uint32_t depth) 
 /// with n the face's unit normal, m the unit vector in its plane, across the edge and outward, s =
 /// fold / 127.05: n (1 - |s|) + m s.
 ///
-/// The last codes, +-127, are 3.9e-4 rad short of m. A normal perpendicular to its own face would decide
-/// no sign; these still decide it for a face that is folded back to within 7e-4 rad.
+/// The last codes, +-127, are 3.9e-4 rad short of m. A normal perpendicular to its own face would
+/// decide no sign; these still decide it for a face that is folded back to within 7e-4 rad.
 struct EdgeFolds {
   int8_t fold[3];
 };

@@ -44,7 +44,8 @@ struct Sought {
   bool is_narrow;  // the indices have 16 bits
 };
 
-/// A triangle whose shape is stored (mesh/layout.hpp, kShapesSection). Corners b and c are rarely needed.
+/// A triangle whose shape is stored (mesh/layout.hpp, kShapesSection). Corners b and c are rarely
+/// needed.
 struct OfShape {
   math::Vec3 a_m, ab_m, h_m;
   float per_ab2_m2;
@@ -105,7 +106,8 @@ struct LeafShapes {
   }
 };
 
-/// Puts into sought.best the first nearest triangle of the leaf `child`, in slot `slot`, if it is nearer.
+/// Puts into sought.best the first nearest triangle of the leaf `child`, in slot `slot`, if it is
+/// nearer.
 /// Wanted: Nearer or Everything, with the same result; Everything is faster without a bound.
 template <class Source, class Wanted>
 [[gnu::always_inline]] static inline void measure_triangles(uint32_t child, uint32_t slot,
@@ -138,8 +140,8 @@ template <class Source, class Wanted>
   }
 }
 
-/// Puts into `best` the first nearest triangle of the leaf `child`, in slot `slot`, if it is nearer than
-/// best.distance2_m2. Triangles that may be the nearest are measured again in double-float.
+/// Puts into `best` the first nearest triangle of the leaf `child`, in slot `slot`, if it is nearer
+/// than best.distance2_m2. Triangles that may be the nearest are measured again in double-float.
 template <class Index>
 [[gnu::always_inline]] static inline void measure_compensated_leaf(
     const Vertex* vertices, core::Span<const Triangle<Index>> triangles, const Loss& loss,

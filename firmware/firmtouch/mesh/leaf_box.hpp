@@ -7,19 +7,20 @@
 
 namespace firmtouch::mesh {
 
-/// An oriented box as tools/FORMAT.md (0x100E) has it: with c the centre, in half cells less 2^15, and
-/// a each axis, every x of the leaf has |a . (x - c)| <= half 2^16.
+/// An oriented box as tools/FORMAT.md (0x100E) has it: with c the centre, in half cells less 2^15,
+/// and a each axis, every x of the leaf has |a . (x - c)| <= half 2^16.
 ///
 /// math::oriented_distance2() is never more than the true distance: let q be the query, d = q - c
-/// as it is computed, saturated, and t the same of the exact query. d is off by at most 1.012 on each
-/// axis (math::half_cell_point()). Saturating moves t to the nearest point of a cube that holds the
-/// leaf (holds()), so not away from any x of it. An axis' gap is (|a . d| 2^-16) - half, rounded down,
-/// and half covers both |a . (x - c)| and 1.012 |a|_1: so it is at most |a . (t - (x - c))| 2^-16, and
-/// the squares of all three sum to at most s^2 |t - (x - c)|^2 2^-32 with s the most by which the axes
-/// lengthen a vector. s^2 <= 2^30 (are_axes_sound(), by Gershgorin's circles), and half cells are half
-/// as long as cells: the result is the squared distance in cells. No sum passes 2^31, for no axis
-/// is longer than 2^15 and no d than 2^15 sqrt(3). (A leaf of one triangle has no box but halves that
-/// no offset exceeds: the words read as its axes do not matter.)
+/// as it is computed, saturated, and t the same of the exact query. d is off by at most 1.012 on
+/// each axis (math::half_cell_point()). Saturating moves t to the nearest point of a cube that
+/// holds the leaf (holds()), so not away from any x of it. An axis' gap is (|a . d| 2^-16) - half,
+/// rounded down, and half covers both |a . (x - c)| and 1.012 |a|_1: so it is at most |a . (t - (x
+/// - c))| 2^-16, and the squares of all three sum to at most s^2 |t - (x - c)|^2 2^-32 with s the
+/// most by which the axes lengthen a vector. s^2 <= 2^30 (are_axes_sound(), by Gershgorin's
+/// circles), and half cells are half as long as cells: the result is the squared distance in cells.
+/// No sum passes 2^31, for no axis is longer than 2^15 and no d than 2^15 sqrt(3). (A leaf of one
+/// triangle has no box but halves that no offset exceeds: the words read as its axes do not
+/// matter.)
 struct LeafBox {
   int32_t axis[3][3];
   int32_t centre[3];
@@ -61,9 +62,9 @@ struct LeafBox {
     return true;
   }
 
-  /// Whether it holds a corner at these coordinates in cells, each within 2^-9 of the true one, and the
-  /// query's error with it. This computation loses less than the 2^11 that are added to the bound:
-  /// each x - c 0.006 half cells, and the sums 2^10.
+  /// Whether it holds a corner at these coordinates in cells, each within 2^-9 of the true one, and
+  /// the query's error with it. This computation loses less than the 2^11 that are added to the
+  /// bound: each x - c 0.006 half cells, and the sums 2^10.
   bool holds(math::Vec3 cells) const {
     const float at[3] = {cells.x, cells.y, cells.z};
     float from_centre[3];

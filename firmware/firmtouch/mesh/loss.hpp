@@ -9,13 +9,14 @@ namespace firmtouch::mesh {
 /// Bounds of the error of closest_on_triangle(), with u = 2^-24, d the distance and L the mesh's
 /// longest edge (first order; 2 % are added for the rest).
 ///
-/// The offset is p - q rounded, with q a point of the triangle except for the error of h. Roundings of the
-/// vector: ap by u |ap| <= u (d + L); ab x by 2 u L; e by u (d + 0.9 L); h w by u (4.9 L) for h and
-/// its product; the last difference by u d. Squares, their sum and the root lose 2.5 u d. Together
-/// u (5.5 d + 8.8 L). Of x the error is 5 u (d + L) / L + 6.5 u, of w (d + L + 2 L) u / |h| + 7 u (d +
-/// 0.9 L) / |h| beside the sliver's term (mesh/triangle.hpp, at most u L / 2 in d): they move q in
-/// the plane by at most u (13 d + 21 L). That lengthens d by as much where d is of that size, where
-/// 13 u d is nothing, and by its square over 2 d, nothing, where d is larger: u 18 L at most.
+/// The offset is p - q rounded, with q a point of the triangle except for the error of h. Roundings
+/// of the vector: ap by u |ap| <= u (d + L); ab x by 2 u L; e by u (d + 0.9 L); h w by u (4.9 L)
+/// for h and its product; the last difference by u d. Squares, their sum and the root lose 2.5 u d.
+/// Together u (5.5 d + 8.8 L). Of x the error is 5 u (d + L) / L + 6.5 u, of w (d + L + 2 L) u /
+/// |h| + 7 u (d + 0.9 L) / |h| beside the sliver's term (mesh/triangle.hpp, at most u L / 2 in d):
+/// they move q in the plane by at most u (13 d + 21 L). That lengthens d by as much where d is of
+/// that size, where 13 u d is nothing, and by its square over 2 d, nothing, where d is larger: u 18
+/// L at most.
 struct Loss {
   float longest_edge_m;
   float rounding_m;  // of the model's coordinates: a lower bound holds for the model as imported

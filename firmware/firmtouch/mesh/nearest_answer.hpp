@@ -1,9 +1,10 @@
 #pragma once
-// From a search for the nearest triangle to an answer with its certificate. The scalar search and the
-// wide one of tools/simd share it. For the library's own translation units.
+// From a search for the nearest triangle to an answer with its certificate. The scalar search and
+// the wide one of tools/simd share it. For the library's own translation units.
 //
-// A Finder has three functions: find<kCompensated>(bound, search) searches, direction(best) returns the
-// pseudonormal of the best feature, sign(height_m, doubt_m) returns the sign of a height, 0 in doubt.
+// A Finder has three functions: find<kCompensated>(bound, search) searches, direction(best) returns
+// the pseudonormal of the best feature, sign(height_m, doubt_m) returns the sign of a height, 0 in
+// doubt.
 
 #include <float.h>
 
@@ -14,8 +15,8 @@
 namespace firmtouch::mesh {
 namespace {
 
-// Bound of an exact answer's error in distance and lower bound, relative to max(diagonal, distance):
-// a little inside of 4e-7.
+// Bound of an exact answer's error in distance and lower bound, relative to max(diagonal,
+// distance): a little inside of 4e-7.
 constexpr float kPromise = 3.9e-7f;
 
 // Below this distance, relative to the diagonal, either sign is right, and none is carried on.
@@ -67,7 +68,8 @@ void weigh(Found& found, float lower_m, float rounding_m) {
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
 }
 
-// Measures the nearest triangle alone in double-float: usually float32 lost far less than its bound.
+// Measures the nearest triangle alone in double-float: usually float32 lost far less than its
+// bound.
 // Result: whether distance and lower bound are now within `within_m` of each other.
 bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
   if (!found.search.complete) return false;
@@ -123,7 +125,8 @@ void search_again(const View& mesh, const Finder& finder, const Bound& bound, Ve
   found.distance_m = math::square_root(distance2_m2);
 }
 
-// The sign of the offset, or 0 if the roundings of offset, `loss_m`, and pseudonormal could change it.
+// The sign of the offset, or 0 if the roundings of offset, `loss_m`, and pseudonormal could change
+// it.
 template <class Finder>
 int8_t sign_of(const Finder& finder, const Found& found, Vec3 direction, float loss_m,
                float diagonal_m) {

@@ -13,8 +13,8 @@ namespace {
 
 using math::Vec3;
 
-// Pending boxes: smallest key first while a whole descent fits, else last in first out, which needs at
-// most kMaxDepth entries. 64 entries for smallest first never overflow within 64 visits.
+// Pending boxes: smallest key first while a whole descent fits, else last in first out, which needs
+// at most kMaxDepth entries. 64 entries for smallest first never overflow within 64 visits.
 constexpr uint32_t kBestFirst = 64;
 constexpr uint32_t kCapacity = kBestFirst + kMaxDepth;
 
@@ -57,10 +57,10 @@ struct Taken {
   bool found;
 };
 
-// Pops the leaf of the smallest key below `prune`; inner nodes of the smallest key are replaced by their
-// boxes. So the lower bound of a search that is cut short rises fastest. With kBestFirst or more
-// pending, or nothing `left`, it returns the box that is next, inner node or not.
-// noinline: inlined it takes registers of the warm search, which does not use it.
+// Pops the leaf of the smallest key below `prune`; inner nodes of the smallest key are replaced by
+// their boxes. So the lower bound of a search that is cut short rises fastest. With kBestFirst or
+// more pending, or nothing `left`, it returns the box that is next, inner node or not. noinline:
+// inlined it takes registers of the warm search, which does not use it.
 template <class Bound>
 [[gnu::noinline]] Taken take_smallest(const Side* sides, const Bound& bound, Pending* pending,
                                       uint32_t count, uint32_t prune, uint32_t left) {
@@ -103,9 +103,10 @@ inline uint32_t prune_key(const Bound& bound, const Search& search) {
   return bound.prune_key(math::smaller(search.best.distance2_m2, search.band2_m2));
 }
 
-// From the leaf at search.start, which has been visited, up to the safe subtree if its certificate is
-// still far enough, else to the root. Pushes sibling boxes that are near. The next safe subtree is the
-// highest node on the path with a sibling nearer than the margin. Result: false if the budget ends.
+// From the leaf at search.start, which has been visited, up to the safe subtree if its certificate
+// is still far enough, else to the root. Pushes sibling boxes that are near. The next safe subtree
+// is the highest node on the path with a sibling nearer than the margin. Result: false if the
+// budget ends.
 template <class Bound>
 inline bool ascend(const View& mesh, const Side* sides, const Bound& bound, uint32_t prune,
                    uint32_t& left, Pending*& top, Search& search) {
@@ -141,8 +142,8 @@ inline bool ascend(const View& mesh, const Side* sides, const Bound& bound, uint
   return false;
 }
 
-// Instead of an index type: each leaf has an oriented box, which is tested before its triangles, and these
-// are measured by their stored shapes.
+// Instead of an index type: each leaf has an oriented box, which is tested before its triangles,
+// and these are measured by their stored shapes.
 struct Boxed {};
 template <class Kind>
 constexpr bool kIsBoxed = false;
@@ -216,9 +217,9 @@ template <class Source, class Wanted>
   return search.best.slot ^ slot;
 }
 
-// A compensated search tests the index width at each leaf, which costs nothing there and saves one copy
-// of the loop a bound, 1.1 to 1.5 KB. `prune`: the lowest key that is not visited. Result: whether a
-// triangle was nearer.
+// A compensated search tests the index width at each leaf, which costs nothing there and saves one
+// copy of the loop a bound, 1.1 to 1.5 KB. `prune`: the lowest key that is not visited. Result:
+// whether a triangle was nearer.
 template <bool kCompensated, class Index, Which kWhich>
 inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t child,
                     uint32_t slot, Search& search) {
@@ -236,7 +237,8 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
   }
 }
 
-// Descends to the nearer box below `prune` of an inner node; pushes the other one if it is below too.
+// Descends to the nearer box below `prune` of an inner node; pushes the other one if it is below
+// too.
 // Result: false if neither is below.
 template <class Bound>
 [[gnu::always_inline]] inline bool enter(const Side* sides, const Bound& bound, uint32_t prune,
@@ -263,10 +265,10 @@ template <class Bound>
   return true;
 }
 
-// One loop with its state in registers. It measures leaves and descends inner nodes to the nearer child;
-// the other child goes to `pending`. A warm search begins at the last leaf and ascends first, pushing
-// the sibling boxes. noinline: with its caller's values the loop's do not stay in registers.
-// `Index`: of the triangles; void if compensated.
+// One loop with its state in registers. It measures leaves and descends inner nodes to the nearer
+// child; the other child goes to `pending`. A warm search begins at the last leaf and ascends
+// first, pushing the sibling boxes. noinline: with its caller's values the loop's do not stay in
+// registers. `Index`: of the triangles; void if compensated.
 template <bool kCompensated, class Bound, class Index>
 [[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers

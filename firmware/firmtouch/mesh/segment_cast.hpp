@@ -9,12 +9,12 @@ namespace firmtouch::mesh {
 // Crossings are decided without rounding, also if the segment passes through an edge or a corner,
 // runs within a face or ends on one: as if the whole segment had been moved by (e, e^2, e^3) for an
 // infinitely small e > 0. There is no tolerance and no leak. A segment through an edge or a corner
-// has one crossing if the surface passes there from one side to the other, else two or none. Along a
-// chain of segments no crossing is reported twice or lost at the joints, in either direction.
+// has one crossing if the surface passes there from one side to the other, else two or none. Along
+// a chain of segments no crossing is reported twice or lost at the joints, in either direction.
 //
 // All three functions: a segment that is not finite crosses nothing and is not exact; one without
-// length crosses nothing. t is within 2^-18 of the truth, mostly within 2^-22. Crossings closer than
-// that may be reported in the other order (tests/mesh/segment_host_test.cpp).
+// length crosses nothing. t is within 2^-18 of the truth, mostly within 2^-22. Crossings closer
+// than that may be reported in the other order (tests/mesh/segment_host_test.cpp).
 
 struct Hit {
   bool hit = false;
@@ -51,8 +51,8 @@ struct Crossings {
 
 /// Every crossing, in order of t (equal t: of triangles in leaf order). If there are more than the
 /// span holds, the first ones are kept and all are counted; an empty span counts them.
-/// Bounds: <= budget steps and found * reported moves; 2.8 KB of stack; re-entrant; callable from an
-///         interrupt.
+/// Bounds: <= budget steps and found * reported moves; 2.8 KB of stack; re-entrant; callable from
+///         an interrupt.
 Crossings all_crossings(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
                         core::Span<SurfaceCrossing> buffer);
 

@@ -18,7 +18,8 @@ static inline float smaller(float a, float b) { return a < b ? a : b; }
 // How a segment's line passes a triangle's three edges.
 enum class Pass { kMisses, kEnters, kLeaves, kUnsure };
 
-/// How a segment is sheared so that it runs along its longest axis k; i and j are the next two axes, cyclically.
+/// How a segment is sheared so that it runs along its longest axis k; i and j are the next two
+/// axes, cyclically.
 struct Shear {
   uint32_t i, j, k;
   float along_i, along_j;  // for each step along k
@@ -119,8 +120,8 @@ class SegmentLine {
 /// With u = 2^-24, R the largest coordinate of any vertex as seen from a, and a direction whose
 /// shears are at most 1 and off by 4 u: a difference is off by u R, its shear by 6 u R, the sheared
 /// coordinate by 7 u R and its own rounding, at most 2 u R: 10 u R with a unit to spare. With S the
-/// largest sheared coordinate of a triangle (at most 2 R), a cross product is then off by 40 u R S +
-/// 200 u^2 R^2 and its roundings by 4 u S^2 <= 8 u R S; rounded up to 52 u R (S + 8 u R).
+/// largest sheared coordinate of a triangle (at most 2 R), a cross product is then off by 40 u R S
+/// + 200 u^2 R^2 and its roundings by 4 u S^2 <= 8 u R S; rounded up to 52 u R (S + 8 u R).
 class SegmentFrame : private SegmentLine {
  public:
   SegmentFrame() = default;
@@ -164,8 +165,9 @@ class SegmentFrame : private SegmentLine {
     return decides(p, q, r, reported, early) ? reported : exact_crossing(a_m_, b_m_, p, q, r);
   }
 
-  /// Whether floats decide: then the crossing is that of crossing(). Else its direction is 0 if floats
-  /// cannot prove that the triangle is crossed, and otherwise its t is early, by at most `early`.
+  /// Whether floats decide: then the crossing is that of crossing(). Else its direction is 0 if
+  /// floats cannot prove that the triangle is crossed, and otherwise its t is early, by at most
+  /// `early`.
   bool decides(math::Vec3 p, math::Vec3 q, math::Vec3 r, Crossing& reported, float& early) const {
     return SegmentLine::decides(pass(sheared(p), sheared(q), sheared(r)), p, q, r, reported, early);
   }

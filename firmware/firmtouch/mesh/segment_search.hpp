@@ -1,6 +1,6 @@
 #pragma once
-// The search for what a segment crosses, through the tree of boxes. For the library's own translation
-// units.
+// The search for what a segment crosses, through the tree of boxes. For the library's own
+// translation units.
 
 #include "firmtouch/math/slabs.hpp"
 #include "firmtouch/mesh/segment_frame.hpp"
@@ -9,8 +9,8 @@
 
 namespace firmtouch::mesh {
 
-// A pending box: the bits of the entry time, which order as it does, above the child. The highest value
-// is the bottom of the stack and ends the search.
+// A pending box: the bits of the entry time, which order as it does, above the child. The highest
+// value is the bottom of the stack and ends the search.
 using PendingNode = uint64_t;
 constexpr PendingNode kEnd = UINT64_MAX;
 constexpr uint32_t child_of(PendingNode pending) { return static_cast<uint32_t>(pending); }
@@ -32,8 +32,8 @@ static inline bool take_leaf(const View& mesh, const SegmentFrame& frame, uint32
   return true;
 }
 
-/// Visits what the segment may cross, nearest first, until `visitor` has enough. Visitor::limit is the
-/// largest t still of interest, at first 1. Visitor::take() returns whether it wants more.
+/// Visits what the segment may cross, nearest first, until `visitor` has enough. Visitor::limit is
+/// the largest t still of interest, at first 1. Visitor::take() returns whether it wants more.
 /// Result: false if the budget ended the search.
 template <class Visitor>
 static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
@@ -69,8 +69,8 @@ static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, quer
       now = pending[--count];
       continue;
     }
-    // Branchless, for no predictor learns it: next is the nearer box that is entered, else the popped
-    // top of the stack.
+    // Branchless, for no predictor learns it: next is the nearer box that is entered, else the
+    // popped top of the stack.
     const Node& node = nodes[child_of(now)];
     uint32_t key[2];
     slabs.enter(reinterpret_cast<const uint32_t*>(&node), key);

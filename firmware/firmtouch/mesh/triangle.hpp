@@ -24,18 +24,19 @@ struct Everything {
 /// Skips triangles whose computed distance is certainly not below that of the nearest so far, L. A
 /// skipped triangle takes two thirds of the work, or less.
 ///
-/// Let e be the offset of p from the line a b, perpendicular to ab, and g be ac, or less a multiple of ab. For
-/// each q of the triangle p - q is e - m g and some multiple of ab, 0 <= m <= 1. So e . (p - q) = e^2 -
-/// m e . g, and the distance d is at least (e^2 - e . g) / |e|, or |e| where e . g is below 0. And p -
-/// q is no shorter than e less its part along h, so that d^2 is at least e^2 - (e . h)^2 / h^2, for any
-/// h that is ac less a multiple of ab: also for a sliver's, which may be all rounding.
+/// Let e be the offset of p from the line a b, perpendicular to ab, and g be ac, or less a multiple
+/// of ab. For each q of the triangle p - q is e - m g and some multiple of ab, 0 <= m <= 1. So e .
+/// (p - q) = e^2 - m e . g, and the distance d is at least (e^2 - e . g) / |e|, or |e| where e . g
+/// is below 0. And p - q is no shorter than e less its part along h, so that d^2 is at least e^2 -
+/// (e . h)^2 / h^2, for any h that is ac less a multiple of ab: also for a sliver's, which may be
+/// all rounding.
 ///
 /// Suppose that d is below A = L (1 + 8 u) + 30 u E, beyond which no computed distance is below L
-/// (mesh/loss.hpp; u = 2^-24, E the mesh's longest edge). Then no vector is longer than A + 2 E, and
-/// roundings move none of the squares and products by more than C = 32 u (A + 2 E)^2 <= 2^-18 A^2 +
-/// 2^-16 E^2. With S = A^2 + 2 C the triangle is not skipped: e^2 - (e . h)^2 / h^2 <= A^2 + 2 C; and
-/// where s = e^2 - e . g <= |e| A + C and |e| > sqrt(S), s^2 <= e^2 S, because C <= (S - A^2) / 2 <=
-/// sqrt(S) (sqrt(S) - A). A^2 is at most (1 + 2^-11 + 2^-19) L^2 + 2^-26 E^2.
+/// (mesh/loss.hpp; u = 2^-24, E the mesh's longest edge). Then no vector is longer than A + 2 E,
+/// and roundings move none of the squares and products by more than C = 32 u (A + 2 E)^2 <= 2^-18
+/// A^2 + 2^-16 E^2. With S = A^2 + 2 C the triangle is not skipped: e^2 - (e . h)^2 / h^2 <= A^2 +
+/// 2 C; and where s = e^2 - e . g <= |e| A + C and |e| > sqrt(S), s^2 <= e^2 S, because C <= (S -
+/// A^2) / 2 <= sqrt(S) (sqrt(S) - A). A^2 is at most (1 + 2^-11 + 2^-19) L^2 + 2^-26 E^2.
 struct Nearer {
   float beyond_m2;  // S, or more
 
@@ -77,7 +78,8 @@ struct OfCorners {
 }
 
 /// Closest point of the triangle a b c, whose edge a b is the longest, to p. Shape: OfCorners, or a
-/// type with the same values from memory (mesh/leaf.hpp), which may hold the height vector instead of ac.
+/// type with the same values from memory (mesh/leaf.hpp), which may hold the height vector instead
+/// of ac.
 ///
 /// In the orthogonal frame of a b and the height vector h = ac - ab (ab . ac) / |ab|^2 the foot of
 /// p in the plane is a + ab x + h w; its barycentric coordinates are v = x - w xc (of b) and w (of

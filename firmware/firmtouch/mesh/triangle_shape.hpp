@@ -1,6 +1,6 @@
 #pragma once
-// What a measurement takes from the triangle alone, as the baker stores it and open() proves it. For
-// the library's own translation units and the baker.
+// What a measurement takes from the triangle alone, as the baker stores it and open() proves it.
+// For the library's own translation units and the baker.
 
 #include "firmtouch/mesh/triangle.hpp"
 

@@ -10,8 +10,8 @@
 namespace firmtouch::mesh {
 
 /// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
-/// triangles32; the normals and folds are empty for an unsigned mesh, leaf_boxes and shapes except for a
-/// bounded bake.
+/// triangles32; the normals and folds are empty for an unsigned mesh, leaf_boxes and shapes except
+/// for a bounded bake.
 struct Sections {
   core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds,
       leaf_boxes, shapes;

@@ -3,9 +3,9 @@
 
 #include "firmtouch/core/span.hpp"
 
-// One parameter that a person may set, and tables of them. A controller's table is composed from the
-// rows of its parts (params/compose.hpp); scenario files, the link and the record name a parameter
-// by its row.
+// One parameter that a person may set, and tables of them. A controller's table is composed from
+// the rows of its parts (params/compose.hpp); scenario files, the link and the record name a
+// parameter by its row.
 namespace firmtouch::params {
 
 /// When a parameter may change.

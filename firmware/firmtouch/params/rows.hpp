@@ -2,8 +2,8 @@
 #include "firmtouch/params/entry.hpp"
 
 // The rows of the library's own parts. The initial values are of a table-top device that a hand can
-// stop: 8 N, 1 kHz. With 75 g and 0.5 N s/m of its own, such a device is stable to 1,000 N/m without
-// virtual damping (Colgate & Schenkel 1994: b > K T / 2).
+// stop: 8 N, 1 kHz. With 75 g and 0.5 N s/m of its own, such a device is stable to 1,000 N/m
+// without virtual damping (Colgate & Schenkel 1994: b > K T / 2).
 namespace firmtouch::params {
 
 // Upper ends of these rows; servo and its guard have the same ceilings.

@@ -3,8 +3,8 @@
 #include "firmtouch/params/entry.hpp"
 #include "firmtouch/params/rows.hpp"
 
-// The table of the full controller (controller/full_controller.hpp): all rows, where a number is the
-// row. Hosts name parameters by it.
+// The table of the full controller (controller/full_controller.hpp): all rows, where a number is
+// the row. Hosts name parameters by it.
 namespace firmtouch::params {
 
 constexpr Table kTable =

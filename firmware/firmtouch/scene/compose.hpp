@@ -4,9 +4,9 @@
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/servo/local_model.hpp"
 
-// How effects, the library's and a user's own alike, fill a local model: an effect is a free function
-// that reads the tool's position and adds to the model. A user calls the effects of a tick one after
-// the other; nothing is registered.
+// How effects, the library's and a user's own alike, fill a local model: an effect is a free
+// function that reads the tool's position and adds to the model. A user calls the effects of a tick
+// one after the other; nothing is registered.
 //
 //     scene::begin_model(model, position_m, tick, age_ticks);
 //     scene::touch_mesh(object, tool_radius_m, position_m, budget, touch, model);
@@ -36,15 +36,15 @@ void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick,
 /// Result: false, and the model unchanged, if it has kMaxPlanes.
 bool add_plane(servo::LocalModel& model, const servo::ContactPlane& plane);
 
-/// Result: false, and the model unchanged, if it has a guide: two at once cannot be distinguished by
-/// touch.
+/// Result: false, and the model unchanged, if it has a guide: two at once cannot be distinguished
+/// by touch.
 bool add_guide(servo::LocalModel& model, const servo::GuideLine& guide);
 
-/// Penalty contact of a sphere about `position_m` with a shape: a plane tangent to the shape, moved out
-/// by the radius. The model's free radius shrinks to the shape's `lower_m`.
-/// Of more than kMaxPlanes contacts the deepest are kept.
-/// Result: the penetration, 0 in free space. No plane, and 0, if the sign is unknown, the normal is not
-/// a unit vector, or the model is full of deeper contacts.
+/// Penalty contact of a sphere about `position_m` with a shape: a plane tangent to the shape, moved
+/// out by the radius. The model's free radius shrinks to the shape's `lower_m`. Of more than
+/// kMaxPlanes contacts the deepest are kept.
+/// Result: the penetration, 0 in free space. No plane, and 0, if the sign is unknown, the normal is
+/// not a unit vector, or the model is full of deeper contacts.
 float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_m,
                   const SurfacePoint& surface, const Material& material);
 

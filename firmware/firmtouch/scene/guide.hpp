@@ -39,19 +39,19 @@ struct Guide {
   float snap_m = 0;     // nearer than this, the guide holds the tool
   float release_m = 0;  // farther than this, and than snap_m, it releases it
   float tunnel_m = 0;   // no force nearer than this
-  // Cost of a jump along the curve, in metres of distance per metre of length: keeps the guide on its
-  // part where the curve passes near itself. 0: always the nearest part. 0.1 holds well and is hardly
-  // noticed at corners. From 1 on, sharp corners hold the tool back until it is released.
+  // Cost of a jump along the curve, in metres of distance per metre of length: keeps the guide on
+  // its part where the curve passes near itself. 0: always the nearest part. 0.1 holds well and is
+  // hardly noticed at corners. From 1 on, sharp corners hold the tool back until it is released.
   float arc_penalty = 0;
-  // Device frame; any length from 1e-3 on. The tool may leave the curve freely in this direction: the
-  // guide is the edge of a ruler. Zero: the guide pulls from all sides.
+  // Device frame; any length from 1e-3 on. The tool may leave the curve freely in this direction:
+  // the guide is the edge of a ruler. Zero: the guide pulls from all sides.
   math::Vec3 free_side;
   Ends ends = Ends::kHold;
   Drive drive;
 };
 
-/// State of a (tool, guide) pair from tick to tick, and the result of its last query. The caller owns
-/// one a pair.
+/// State of a (tool, guide) pair from tick to tick, and the result of its last query. The caller
+/// owns one a pair.
 struct GuideTouch {
   curve::Closest closest;  // curve frame; distance_m is the deviation; of a spline, segment = piece
   float progress_m = 0;    // along the curve since the guide holds, rounds of a closed one included

@@ -13,8 +13,8 @@ constexpr float kMinSide = 1e-3f;
 // Beyond the reach of every device.
 constexpr float kMaxReach_m = 1e4f;
 
-// A unit vector at right angles to the unit vector `u`: the cross product with the axis of its least
-// component.
+// A unit vector at right angles to the unit vector `u`: the cross product with the axis of its
+// least component.
 Vec3 any_across(Vec3 u) {
   const float x = u.x < 0.0f ? -u.x : u.x, y = u.y < 0.0f ? -u.y : u.y, z = u.z < 0.0f ? -u.z : u.z;
   const Vec3 axis = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
@@ -28,8 +28,8 @@ struct FreeDirection {
   bool is_along = true;
 };
 
-// The tangent, turned at right angles to the line from the closest point to the tool. On a segment it
-// is so already; at a corner or past an end the whole distance counts by this.
+// The tangent, turned at right angles to the line from the closest point to the tool. On a segment
+// it is so already; at a corner or past an end the whole distance counts by this.
 FreeDirection free_direction(const curve::Closest& c, Vec3 p_m, float diagonal_m) {
   const Vec3 off = p_m - c.point_m;
   const float size_m = math::length(off);
@@ -42,8 +42,8 @@ FreeDirection free_direction(const curve::Closest& c, Vec3 p_m, float diagonal_m
   return {any_across(u), false};
 }
 
-// A tool that was released at an end is held again once it was clear of the guide, or came back along
-// it.
+// A tool that was released at an end is held again once it was clear of the guide, or came back
+// along it.
 bool stays_off(const Guide& guide, const Found& found, float distance_m) {
   const float back_m = found.behind_m < found.ahead_m ? found.behind_m : found.ahead_m;
   return distance_m <= guide.snap_m &&

@@ -10,8 +10,8 @@ namespace {
 using math::Vec3;
 
 // A closest point has an error of 3.5e-7 of the diagonal. At 1e-4 of the diagonal the direction to
-// it has an error of 4e-3 rad; at 1e-5 it is useless. Between the two the normals are mixed, so that
-// the force has no step.
+// it has an error of 4e-3 rad; at 1e-5 it is useless. Between the two the normals are mixed, so
+// that the force has no step.
 constexpr float kOwnDirection = 1e-4f;
 constexpr float kPseudonormal = 1e-5f;
 
@@ -21,8 +21,8 @@ struct Nearest {
   int8_t sign;
 };
 
-// Outward unit normal at the closest point `c`, mesh frame. Both candidates are in the normal cone of
-// one feature, less than a right angle apart, so their mix is not zero.
+// Outward unit normal at the closest point `c`, mesh frame. Both candidates are in the normal cone
+// of one feature, less than a right angle apart, so their mix is not zero.
 Vec3 contact_normal(const Nearest& c, Vec3 p_m, float diagonal_m) {
   const Vec3 off = p_m - c.point_m;
   const float size_m = math::length(off);

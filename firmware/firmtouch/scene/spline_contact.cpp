@@ -8,8 +8,8 @@ namespace {
 
 using math::Vec3;
 
-// At a foot-point inside a surface the line to the tool is along the normal. From this cosine on the
-// normal gives the sign.
+// At a foot-point inside a surface the line to the tool is along the normal. From this cosine on
+// the normal gives the sign.
 constexpr float kAlong = 0.98f;
 constexpr float kOnSurface = 2e-6f;  // of the extent: no sign nearer than this
 constexpr float kLeap =
@@ -45,9 +45,9 @@ int8_t side_of_solid(const Offset& offset, bool is_exact, int8_t carried, float 
 }
 
 // A sheet has no inside: a path round its border gives no sign. From its free side a border is in
-// contact, too. A tool is behind the sheet if it came through it and no border was nearest since then,
-// however deep it is: a wall does not let go of a hand that presses harder. After a leap the path is
-// unknown.
+// contact, too. A tool is behind the sheet if it came through it and no border was nearest since
+// then, however deep it is: a wall does not let go of a hand that presses harder. After a leap the
+// path is unknown.
 int8_t side_of_sheet(const Offset& offset, bool is_exact, const query::Carried& carried,
                      float radius_m, float extent_m, SplineTouch& touch) {
   const bool is_before = offset.along_m > 0.0f;

@@ -15,8 +15,8 @@ struct SplineObject {
   math::RigidTransform pose;
   Material material;
   bool is_turned = false;  // false: the free side is where the normals point; true: the other one
-  // true: the surfaces enclose a solid, and a tool inside is pushed out. false: they are sheets, with
-  // no force from behind.
+  // true: the surfaces enclose a solid, and a tool inside is pushed out. false: they are sheets,
+  // with no force from behind.
   bool is_closed = false;
 };
 
@@ -34,9 +34,9 @@ struct SplineTouch {
 /// The sign comes from the normal if the line to the closest point is along it. Elsewhere (at a
 /// crease, a border or a pole) the last sign holds, through certified free distance alone. No plane
 /// is made for an unknown sign.
-/// A sheet pushes a tool that was clear of it on its free side, however deep the tool is pressed. It
-/// stops when a border, or a crease that points to the tool, is nearest behind it, or when a tick
-/// jumps farther than the radius plus 2 % of the extent.
+/// A sheet pushes a tool that was clear of it on its free side, however deep the tool is pressed.
+/// It stops when a border, or a crease that points to the tool, is nearest behind it, or when a
+/// tick jumps farther than the radius plus 2 % of the extent.
 /// Bounds: one query of at most `budget` visits, and about 250 instructions; re-entrant for
 /// different touches.
 void touch_spline(const SplineObject& object, float radius_m, math::Vec3 position_m,

@@ -7,15 +7,15 @@ namespace {
 
 using math::Vec3;
 
-// A node that is at most so much of the extent nearer than the best point is not searched: what is left of the 4e-7 and 1e-6
-// that `exact` promises when the losses are taken off.
+// A node that is at most so much of the extent nearer than the best point is not searched: what is
+// left of the 4e-7 and 1e-6 that `exact` promises when the losses are taken off.
 constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
 constexpr float kBeyond = 0x1p28f;  // extents
 
 float sized(float value) { return value < 0.0f ? -value : value; }
 
-// What float32 loses of a distance: two roundings of the query's differences, three of the squares' sum, which the root
-// halves, and one each of root and result.
+// What float32 loses of a distance: two roundings of the query's differences, three of the squares'
+// sum, which the root halves, and one each of root and result.
 float lost_m(const Head& head, float distance_m) { return head.loss_m + 5.5f * kUnit * distance_m; }
 
 }  // namespace

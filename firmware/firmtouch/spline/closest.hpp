@@ -10,8 +10,8 @@ namespace firmtouch::spline {
 struct Closest {
   float distance_m = 0;
   math::Vec3 point_m;  // on the curve or surface
-  // Unit vector: a curve's tangent; a surface's normal, along u x along v, or against it where the baker reversed the
-  // surface. 0 where there is none.
+  // Unit vector: a curve's tangent; a surface's normal, along u x along v, or against it where the
+  // baker reversed the surface. 0 where there is none.
   math::Vec3 direction;
   uint32_t piece = 0;   // the entity, in the order of the file
   float u = 0, v = 0;   // in the entity's own parameters; v = 0 for a curve

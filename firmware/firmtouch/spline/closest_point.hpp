@@ -3,7 +3,8 @@
 #include "firmtouch/spline/probe_run.hpp"
 #include "firmtouch/spline/surface/closest_on_surface.hpp"
 
-// Queries for a caller that does not know whether a model has curves or surfaces: it links both searches.
+// Queries for a caller that does not know whether a model has curves or surfaces: it links both
+// searches.
 namespace firmtouch::spline {
 
 /// Closest point of all the model's curves or surfaces to `p_m` (model frame).

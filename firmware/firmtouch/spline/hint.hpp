@@ -5,11 +5,13 @@
 
 namespace firmtouch::spline {
 
-/// Parts of a surface's tree, each with how far it is at least, and how far all that is in none of them is: so many
-/// units beyond base_m, from where the last query was. A certificate, as lower_m is: what a query of another asset wrote
-/// makes answers wrong, though never reads what is not there.
+/// Parts of a surface's tree, each with how far it is at least, and how far all that is in none of
+/// them is: so many units beyond base_m, from where the last query was. A certificate, as lower_m
+/// is: what a query of another asset wrote makes answers wrong, though never reads what is not
+/// there.
 struct Frontier {
-  // Where most of a model is about as near, 64 have no room for what is within reach (DESIGN.md, "Splines").
+  // Where most of a model is about as near, 64 have no room for what is within reach (DESIGN.md,
+  // "Splines").
   static constexpr uint32_t kMax = 128;
 
   float base_m = 0.0f;  // less all motion since it was told: may be below 0
@@ -20,11 +22,12 @@ struct Frontier {
   uint32_t part[kMax] = {};
 };
 
-/// Hint::fence of a surface whose front is of position_m. A query that leaves no front leaves query::kNowhere.
+/// Hint::fence of a surface whose front is of position_m. A query that leaves no front leaves
+/// query::kNowhere.
 constexpr uint32_t kWithFrontier = 0;
 
-/// What a query of a spline curve leaves for the next one (query/hint.hpp). A surface queried with it
-/// returns the same, with more visits. No value of the place can make an answer wrong.
+/// What a query of a spline curve leaves for the next one (query/hint.hpp). A surface queried with
+/// it returns the same, with more visits. No value of the place can make an answer wrong.
 struct CurveHint : query::HintBase {
   uint32_t place = query::kNowhere;         // piece and parameter of the last answer
   uint8_t fine[2] = {0, 0};                 // lower bits of a surface's two parameters

@@ -54,8 +54,9 @@ struct Head {
 static_assert(sizeof(Head) == 64 && offsetof(Head, low_m) == 24 && offsetof(Head, loss_m) == 52);
 
 /// A polynomial or rational piece over s (and t) from -1 to 1: with the powers about 0, x(s) =
-/// origin + sum of c[k] s^k; rational: origin + (sum of c[k] s^k) / (sum of w[k] s^k). A surface has
-/// c[i, j] s^i t^j, the power of s fastest. Coefficients are x, y, z, and w where it is rational.
+/// origin + sum of c[k] s^k; rational: origin + (sum of c[k] s^k) / (sum of w[k] s^k). A surface
+/// has c[i, j] s^i t^j, the power of s fastest. Coefficients are x, y, z, and w where it is
+/// rational.
 struct Piece {
   uint32_t coefficients;       // index of the first float
   uint8_t degree_u, degree_v;  // degree_v: 0 for a curve
@@ -68,30 +69,31 @@ struct Piece {
 };
 static_assert(sizeof(Piece) == 40 && offsetof(Piece, origin_m) == 12);
 
-/// Leaves of curves are the parts of each piece in turn, from its first one on; between two pieces that do
-/// not meet stands one that is none.
+/// Leaves of curves are the parts of each piece in turn, from its first one on; between two pieces
+/// that do not meet stands one that is none.
 constexpr uint32_t kNoLeaf = 0xFFFF;  // in the place of a piece
 
-/// On a curve's piece the fourth derivative of half the squared distance D^2 / 2, by its s, is nowhere
-/// below -(fixed + turning D), where D is the distance to any point of the piece. As computed there, the second
-/// derivative and two thirds of the third together are off by at most noise + noise_turning D.
+/// On a curve's piece the fourth derivative of half the squared distance D^2 / 2, by its s, is
+/// nowhere below -(fixed + turning D), where D is the distance to any point of the piece. As
+/// computed there, the second derivative and two thirds of the third together are off by at most
+/// noise + noise_turning D.
 struct CurveBend {
   float fixed_m2, turning_m, noise_m2, noise_turning_m;
   uint32_t first_leaf;
 };
 static_assert(sizeof(CurveBend) == 20);
 
-/// On a cell of a surface, which holds leaves, of the fourth derivatives of D^2 / 2 by the piece's s and t, ssss, ssst,
-/// sstt, sttt and tttt, the second and fourth are at most fixed + turning D in size, the others nowhere below -(fixed +
-/// turning D): as bytes of its Grid's units.
+/// On a cell of a surface, which holds leaves, of the fourth derivatives of D^2 / 2 by the piece's
+/// s and t, ssss, ssst, sstt, sttt and tttt, the second and fourth are at most fixed + turning D in
+/// size, the others nowhere below -(fixed + turning D): as bytes of its Grid's units.
 struct PatchBend {
   uint8_t fixed[5], turning[5];
 };
 static_assert(sizeof(PatchBend) == 10);
 
-/// How a surface's piece is cut into 2^level_u x 2^level_v leaves, and what holds them. Corners of leaves
-/// lie in rows, (2^level_u + 1) x (2^level_v + 1). A byte b of a unit is the float32 whose bits are the
-/// unit's + b 2^20: eight steps to every doubling.
+/// How a surface's piece is cut into 2^level_u x 2^level_v leaves, and what holds them. Corners of
+/// leaves lie in rows, (2^level_u + 1) x (2^level_v + 1). A byte b of a unit is the float32 whose
+/// bits are the unit's + b 2^20: eight steps to every doubling.
 struct Grid {
   uint32_t first_corner;
   uint32_t
@@ -114,9 +116,10 @@ struct Point {
 };
 static_assert(sizeof(Point) == 8);
 
-/// The tree over a curve's leaves: node 1 is the root, the children of node i are 2 i and 2 i + 1, and leaf
-/// i is node 2^levels + i. What would hold no leaf is no node; its byte is 0. The others' leaves lie within
-/// the radius of the straight line from the first one's first point to the last one's last.
+/// The tree over a curve's leaves: node 1 is the root, the children of node i are 2 i and 2 i + 1,
+/// and leaf i is node 2^levels + i. What would hold no leaf is no node; its byte is 0. The others'
+/// leaves lie within the radius of the straight line from the first one's first point to the last
+/// one's last.
 struct CurveLevels {
   uint32_t levels = 0;
   uint32_t leaf_count = 0;
@@ -142,9 +145,9 @@ struct CurveLevels {
   uint32_t width_of(uint32_t node) const { return 1u << levels_below(node); }
 };
 
-/// Node i of the tree over a surface's pieces, of piece_count leaves: only the inner ones are stored.
-/// The third axis is the product of the two; the axes are a little
-/// shorter than unit vectors, so that no distance seen along them is longer than it is.
+/// Node i of the tree over a surface's pieces, of piece_count leaves: only the inner ones are
+/// stored. The third axis is the product of the two; the axes are a little shorter than unit
+/// vectors, so that no distance seen along them is longer than it is.
 struct Box {
   float centre_m[3];
   float axis[2][3];

@@ -13,8 +13,9 @@ static inline float size_of(math::Vec3 v) {
   return __builtin_fabsf(v.x) + __builtin_fabsf(v.y) + __builtin_fabsf(v.z);
 }
 
-/// Head::loss_m bounds the rounding error of a computed point. Its first, second and third derivatives are off by at most
-/// so many times as much: their terms carry factors k, k (k - 1) and k (k - 1) (k - 2), three times that with weights.
+/// Head::loss_m bounds the rounding error of a computed point. Its first, second and third
+/// derivatives are off by at most so many times as much: their terms carry factors k, k (k - 1) and
+/// k (k - 1) (k - 2), three times that with weights.
 constexpr float kSlopeNoise = 20.0f, kBendNoise = 80.0f, kTwistNoise = 400.0f;
 
 }  // namespace firmtouch::spline

@@ -10,7 +10,8 @@ namespace firmtouch::spline {
 
 using ProbeQuery = Closest(const View&, math::Vec3, query::Budget, CurveHint&);
 
-/// Runs probe queries one after the other with one hint, one in each call of work(). The hash is of the answers' bits.
+/// Runs probe queries one after the other with one hint, one in each call of work(). The hash is of
+/// the answers' bits.
 template <ProbeQuery* kQuery>
 class ProbeRunOf {
  public:

@@ -53,9 +53,9 @@ static inline float decoded(uint32_t code, uint32_t most) {
   return static_cast<float>(code) / static_cast<float>(most);
 }
 
-/// What became of a part whose points were evaluated, each for one step: all of it is beyond the best's limit;
-/// it is left in two halves with bounds of their own; the budget ended; float32 has no point between its ends,
-/// and it is given up.
+/// What became of a part whose points were evaluated, each for one step: all of it is beyond the
+/// best's limit; it is left in two halves with bounds of their own; the budget ended; float32 has
+/// no point between its ends, and it is given up.
 enum class Outcome : uint8_t { kClosed, kSplit, kStopped, kLost };
 
 template <class Range>
@@ -77,8 +77,8 @@ class Account {
   void lose(float lower_m) {
     if (lower_m < lost_m_) lost_m_ = lower_m;
   }
-  /// Certified distance to all that was not looked at, before what float32 loses: what waits on a stack
-  /// has lower bounds of its own, and nothing of the model is nearer than outside_m.
+  /// Certified distance to all that was not looked at, before what float32 loses: what waits on a
+  /// stack has lower bounds of its own, and nothing of the model is nearer than outside_m.
   template <class Entry>
   float min_pending_m(const Entry* stack, uint32_t count, float outside_m) const {
     float min_m = lost_m_;

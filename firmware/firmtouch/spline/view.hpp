@@ -54,8 +54,8 @@ class View {
   };
   Place place_of(uint32_t leaf) const;
   bool is_leaf(uint32_t leaf) const { return is_surface() || leaves_[leaf] != kNoLeaf; }
-  /// What is stored of it: bounds of the fourth derivatives ssss, ssst, sstt, sttt, tttt (of a curve: of
-  /// the first).
+  /// What is stored of it: bounds of the fourth derivatives ssss, ssst, sstt, sttt, tttt (of a
+  /// curve: of the first).
   struct Bounds {
     float fixed_m2[5], turning_m[5];
   };

@@ -3,8 +3,9 @@
 
 #include "firmtouch/servo/local_model.hpp"
 
-/// An effect of this project: a floor at `height_m` that moves up and down by `amplitude_m`, 125 times a second at 1 kHz, so
-/// that it hums under a finger. The sphere's centre stays `radius_m` above it.
+/// An effect of this project: a floor at `height_m` that moves up and down by `amplitude_m`, 125
+/// times a second at 1 kHz, so that it hums under a finger. The sphere's centre stays `radius_m`
+/// above it.
 struct HummingWall {
   float height_m;
   float amplitude_m;

@@ -1,5 +1,6 @@
-// The library's parts without its controller: a baked mesh, a shape and an effect of this project's own. The scripted hand
-// rests on each in turn; the program checks the forces and exits with 0, or prints what is wrong.
+// The library's parts without its controller: a baked mesh, a shape and an effect of this project's
+// own. The scripted hand rests on each in turn; the program checks the forces and exits with 0, or
+// prints what is wrong.
 #include "../hand.hpp"
 #include "firmtouch/controller/loaders.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"

@@ -1,4 +1,5 @@
-// Joints that the scripted hand moves. They check the force at each stop: none in free space, 3 mm of spring on the gem.
+// Joints that the scripted hand moves. They check the force at each stop: none in free space, 3 mm
+// of spring on the gem.
 #include "../hand.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/encoders.hpp"

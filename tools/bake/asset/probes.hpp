@@ -43,8 +43,8 @@ Section answered_probes(uint32_t type, const std::string& name, const View& view
   return probe_section(type, name, points, probe_hash(view, span));
 }
 
-/// What this machine answers to probe_points() of a proven mesh, hull or curve, as the section that a
-/// controller's begin() compares with its own answers.
+/// What this machine answers to probe_points() of a proven mesh, hull or curve, as the section that
+/// a controller's begin() compares with its own answers.
 Section mesh_probes(const mesh::View& mesh, const std::string& name);
 Section curve_probes(const curve::View& curve, const std::string& name);
 Section hull_probes(const hull::View& hull, const std::string& name);

@@ -14,8 +14,8 @@ struct CurveRuns {
 /// How often runs are halved, as measured (firmware/firmtouch/curve/README.md, Cost).
 uint32_t choose_run_levels(uint32_t sample_count);
 
-/// Sets grid_low_m and cell_m from the head's box: the finest grid that open() takes. `beyond`: how far
-/// pieces lie beyond the box of the samples, in its extents.
+/// Sets grid_low_m and cell_m from the head's box: the finest grid that open() takes. `beyond`: how
+/// far pieces lie beyond the box of the samples, in its extents.
 /// Result: false where float32 has no such grid, the curve being far from the origin for its size.
 bool choose_grid(curve::Head& head, float beyond = 0);
 

@@ -54,8 +54,8 @@ class Encoder {
   math::Vec3 at(uint32_t id) const { return source_.vertices_m[source_.numbers[id]]; }
   bool is_kept(uint32_t id) const { return source_.numbers[id] < mesh_vertices_; }
 
-  // Those made by a collapse first, each kind as the faces meet it: a leaf's corners have numbers that
-  // lie together.
+  // Those made by a collapse first, each kind as the faces meet it: a leaf's corners have numbers
+  // that lie together.
   void number_vertices() {
     local_.assign(source_.numbers.size(), kNone);
     for (const bool is_kept_turn : {false, true}) {

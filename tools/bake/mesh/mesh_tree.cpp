@@ -38,11 +38,12 @@ std::vector<Box> face_boxes(const Surface& surface) {
 
 // A closest-point query reads the boxes within its distance of the surface, not those that a line
 // crosses: with boxes widened by this many mean edges the heuristic prefers what is compact.
-// Of 0, 2, 4, 6, 10, 20 and 40, 10 served the touching walks best (up to 6 % fewer instructions than 0).
+// Of 0, 2, 4, 6, 10, 20 and 40, 10 served the touching walks best (up to 6 % fewer instructions
+// than 0).
 constexpr double kMarginEdges = 10;
 
-// The same where a leaf is split that could stay whole: far less, for such boxes hardly differ beside
-// the other margin. 0.5 and 1 do alike at equal bytes.
+// The same where a leaf is split that could stay whole: far less, for such boxes hardly differ
+// beside the other margin. 0.5 and 1 do alike at equal bytes.
 constexpr double kLeafMarginEdges = 0.5;
 
 // What reaching a leaf costs the controller beside 1 for a face of it.
@@ -179,7 +180,8 @@ class Builder {
     return leaf_area(begin, end) * (kLeafCost + static_cast<double>(end - begin));
   }
 
-  // What a subtree costs: its faces, and `empty_cost` for each by which its leaves would not be full.
+  // What a subtree costs: its faces, and `empty_cost` for each by which its leaves would not be
+  // full.
   double price(uint32_t faces) const {
     const uint32_t rest = faces % shape_.leaf_faces;
     const uint32_t missing = rest == 0 ? 0 : shape_.leaf_faces - rest;

@@ -116,8 +116,8 @@ double loss_of(const StoredPiece& stored) {
   return worst + stored.deviation_m;
 }
 
-// How much of the second derivative of D^2 / 2 in the middle of a curve's piece, seen from a tenth of the
-// extent, the fourth may take away at its ends: where weights vary, more than the whole.
+// How much of the second derivative of D^2 / 2 in the middle of a curve's piece, seen from a tenth
+// of the extent, the fourth may take away at its ends: where weights vary, more than the whole.
 double doubt_of(const StoredPiece& stored, double extent_m) {
   const spline::CurveBend bend = curve_bend_of(stored);
   const spline::LeafShape whole = shape_of(stored, 0, 0, 0, 0);
@@ -127,8 +127,8 @@ double doubt_of(const StoredPiece& stored, double extent_m) {
   return fourth / (12 * dot(along, along));
 }
 
-// Pieces short enough that float32 loses no more than is promised, and that a point tells much of those
-// about it.
+// Pieces short enough that float32 loses no more than is promised, and that a point tells much of
+// those about it.
 std::vector<StoredPiece> cut(std::vector<BezierPatch> patches, bool is_surface,
                              const SplineDetail& detail, double extent_m, double max_m) {
   std::vector<StoredPiece> pieces;

@@ -23,7 +23,8 @@ struct SplineReport {
   std::string problem;     // empty: baked and proven; else what, where and how to mend
 };
 
-/// How finely pieces are cut into leaves. More leaves, fewer evaluations a query; small: half the bytes.
+/// How finely pieces are cut into leaves. More leaves, fewer evaluations a query; small: half the
+/// bytes.
 struct SplineDetail {
   double thickness = 0.004;  // of a leaf about its chord or plane, of the extent
   double doubt =

@@ -114,7 +114,8 @@ spline::Box box_around(const std::vector<Cut>& cuts, uint32_t begin, uint32_t en
   return best;
 }
 
-// Pieces in the order of a tree whose levels are filled from the left, with the boxes of its inner nodes.
+// Pieces in the order of a tree whose levels are filled from the left, with the boxes of its inner
+// nodes.
 std::vector<spline::Box> build_tree(std::vector<Cut>& cuts) {
   const auto count = static_cast<uint32_t>(cuts.size());
   std::vector<spline::Box> boxes(count - 1);
@@ -144,8 +145,8 @@ std::vector<spline::Box> build_tree(std::vector<Cut>& cuts) {
   return boxes;
 }
 
-// Corners stand off the surface, along its normal, by half of what the leaves about them sag in the middle: so a leaf
-// lies on both sides of its quad, half as far from it.
+// Corners stand off the surface, along its normal, by half of what the leaves about them sag in the
+// middle: so a leaf lies on both sides of its quad, half as far from it.
 void place_corners(const Cut& cut, spline::Grid& grid, std::vector<spline::Corner>& corners) {
   const uint32_t columns = 1u << cut.stored.piece.level_u, rows = 1u << cut.stored.piece.level_v;
   std::vector<Point> places;
@@ -255,8 +256,9 @@ void store_radii(const Cut& cut, uint32_t number, spline::Grid& grid,
     bounds.radii.push_back(static_cast<uint8_t>(spline::byte_above(grid.radius_unit_m, radius_m)));
 }
 
-// With which each leaf lies within the radii about its halves of the parts above it: about the least. What one leaf needs may
-// be too much for how another is seen to lie, so that all are asked until none needs more; halves that are the whole hold all.
+// With which each leaf lies within the radii about its halves of the parts above it: about the
+// least. What one leaf needs may be too much for how another is seen to lie, so that all are asked
+// until none needs more; halves that are the whole hold all.
 void store_overlaps(const Cut& cut, uint32_t number, const spline::Grid& grid,
                     const std::vector<spline::Corner>& corners, Bounds& bounds) {
   constexpr uint32_t kWhole = 128;

@@ -38,7 +38,8 @@ std::vector<float> radii_of(const SplineTree& tree, const std::vector<Part>& par
   return radii;
 }
 
-// A unit whose bytes reach the largest radius, and the byte of each; those above a leaf follow from its own.
+// A unit whose bytes reach the largest radius, and the byte of each; those above a leaf follow from
+// its own.
 void store_radii(SplineTree& tree, const std::vector<Part>& parts) {
   const spline::CurveLevels levels(static_cast<uint32_t>(tree.leaves.size()));
   std::vector<float> radii = radii_of(tree, parts);

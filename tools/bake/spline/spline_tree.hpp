@@ -15,7 +15,8 @@ struct SplineTree {
   float radius_unit_m = 0;
 };
 
-/// All but its first leaf; infinite where a weight may fall to half of its middle's on a sixteenth of it.
+/// All but its first leaf; infinite where a weight may fall to half of its middle's on a sixteenth
+/// of it.
 spline::CurveBend curve_bend_of(const StoredPiece& stored);
 
 /// Pre: the pieces' levels are set; at most spline::kMaxLeaves parts in all.
@@ -31,8 +32,8 @@ struct SplineGrids {
   std::vector<spline::Box> boxes;
 };
 
-/// Puts the pieces into the order of the tree over them; cells are `cell_level` halvings of them. Pre and
-/// result as above (grids).
+/// Puts the pieces into the order of the tree over them; cells are `cell_level` halvings of them.
+/// Pre and result as above (grids).
 SplineGrids build_spline_grids(std::vector<StoredPiece>& pieces, uint32_t cell_level);
 
 }  // namespace firmtouch::tools

@@ -10,8 +10,8 @@ struct Frame {
   Point axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 };
 
-/// The principal axes of points, the widest first; by Jacobi's rotations, of + - * / and square roots
-/// only, so the same on every machine.
+/// The principal axes of points, the widest first; by Jacobi's rotations, of + - * / and square
+/// roots only, so the same on every machine.
 Frame principal_axes(const std::vector<Point>& points);
 
 }  // namespace firmtouch::tools

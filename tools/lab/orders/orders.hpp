@@ -6,8 +6,8 @@ namespace firmtouch::lab::orders {
 enum class Order { kDepthFirst, kBestFirst, kBreadthFirst };
 
 // Boxes that the priority queue holds; where it is full, the rest goes on a stack that is emptied
-// first, so that nothing is lost. The most that 2,000 random points on real models wanted is printed in
-// the bench's table.
+// first, so that nothing is lost. The most that 2,000 random points on real models wanted is
+// printed in the bench's table.
 constexpr uint32_t kQueueBoxes = 256;
 constexpr uint32_t kStackBoxes = 3 * mesh::kMaxDepth + 4;
 // Breadth-first keeps a whole level.

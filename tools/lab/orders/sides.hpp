@@ -1,6 +1,6 @@
 #pragma once
-// Inside or outside, in the paper's two ways: by the pseudonormal of the closest feature, and by the
-// number of triangles that a ray crosses.
+// Inside or outside, in the paper's two ways: by the pseudonormal of the closest feature, and by
+// the number of triangles that a ray crosses.
 #include "firmtouch/mesh/pseudonormal.hpp"
 #include "lab/orders/search.hpp"
 

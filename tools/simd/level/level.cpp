@@ -1,4 +1,5 @@
-// The wide search, compiled once per level with -Dfirmtouch=... and -DFIRMTOUCH_LEVEL=... (levels.hpp).
+// The wide search, compiled once per level with -Dfirmtouch=... and -DFIRMTOUCH_LEVEL=...
+// (levels.hpp).
 
 #include <new>
 

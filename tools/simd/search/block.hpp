@@ -1,6 +1,6 @@
 #pragma once
-// A block's triangles are measured at once. Best, cutoff and visits are then those of the scalar search,
-// which reads one leaf after the other.
+// A block's triangles are measured at once. Best, cutoff and visits are then those of the scalar
+// search, which reads one leaf after the other.
 
 #include "firmtouch/mesh/grid.hpp"
 #include "simd/search/leaf.hpp"
@@ -18,8 +18,8 @@ constexpr uint32_t chosen(bool is, uint32_t one, uint32_t other) {
   return (one & mask) | (other & ~mask);
 }
 
-/// The keys of the boxes below a block's node. A child that is a leaf counts as its own leaf 0. Boxes that
-/// are not there have a key that no cutoff exceeds.
+/// The keys of the boxes below a block's node. A child that is a leaf counts as its own leaf 0.
+/// Boxes that are not there have a key that no cutoff exceeds.
 struct BlockKeys {
   uint32_t child[2], leaf[4];
   uint32_t is_later_first, are_leaves_swapped[2];  // the nearer of two first; equal: side 0
@@ -44,8 +44,8 @@ struct BlockKeys {
   }
 };
 
-/// Sets `best` and `prune` as the scalar search does. `feet`: of the block's triangles; `sides`: of its
-/// node. Result: the visits below the node.
+/// Sets `best` and `prune` as the scalar search does. `feet`: of the block's triangles; `sides`: of
+/// its node. Result: the visits below the node.
 [[gnu::always_inline]] static inline uint32_t take_block(const Feet& feet, const NodeBlock& block,
                                                          const BlockKeys& keys,
                                                          const NearBound& bound, const Side* sides,

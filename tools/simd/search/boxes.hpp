@@ -33,8 +33,8 @@ static inline void sibling_distances2(const uint32_t* ones, const uint32_t* othe
 #endif
 }
 
-/// Compares the boxes of one node, and of two adjacent ones, with `below`. Bit k: the first box of node
-/// k is nearer; bit 4 + k: the second is. Other bits mean nothing.
+/// Compares the boxes of one node, and of two adjacent ones, with `below`. Bit k: the first box of
+/// node k is nearer; bit 4 + k: the second is. Other bits mean nothing.
 static inline uint32_t portable_boxes_below(const uint32_t* pair, const uint32_t* pairs,
                                             const math::BoxPoint& point, uint32_t below) {
   uint32_t are = 0;

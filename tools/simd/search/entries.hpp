@@ -42,8 +42,8 @@ static inline void portable_replace_beyond(uint64_t cutoff, Any& now, const Any&
   if (now.key > cutoff) now = other;
 }
 
-/// Puts the entry of the lower key first; equal ones keep their order. By conditional moves: compilers
-/// make a branch of it, which no predictor can learn.
+/// Puts the entry of the lower key first; equal ones keep their order. By conditional moves:
+/// compilers make a branch of it, which no predictor can learn.
 static inline void order(ChildEntry& first, ChildEntry& second) {
 #if FIRMTOUCH_HAS_CMOV
   const ChildEntry a = first, b = second;
@@ -62,8 +62,8 @@ static inline void order(ChildEntry& first, ChildEntry& second) {
 #endif
 }
 
-/// Puts the second first if its box key, the high half of `keys`, is below the first's, the low half. The
-/// second is rebuilt from the exclusive or of both: fewer registers.
+/// Puts the second first if its box key, the high half of `keys`, is below the first's, the low
+/// half. The second is rebuilt from the exclusive or of both: fewer registers.
 static inline void put_nearer_first(uint64_t keys, Entry& first, Entry& second) {
 #if FIRMTOUCH_HAS_CMOV
   const uint64_t either_key = first.key ^ second.key, either_keys = first.keys ^ second.keys;
@@ -102,8 +102,9 @@ static inline void replace_beyond(uint64_t cutoff, ChildEntry& now, const ChildE
 #endif
 }
 
-/// Returns the next entry: `nearer` if its key is at most `cutoff`, else the popped top of the stack.
-/// Pushes `farther` if its key is at most `cutoff`. The bottom of the stack is beyond every cutoff.
+/// Returns the next entry: `nearer` if its key is at most `cutoff`, else the popped top of the
+/// stack. Pushes `farther` if its key is at most `cutoff`. The bottom of the stack is beyond every
+/// cutoff.
 template <class Any>
 [[gnu::always_inline]] static inline Any next_of(uint64_t cutoff, Any nearer, const Any& farther,
                                                  Any*& top) {

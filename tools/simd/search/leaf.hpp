@@ -11,7 +11,8 @@ namespace firmtouch::simd {
 using mesh::Best;
 using mesh::TriangleShape;
 
-/// Puts into `best` the first nearest of the lanes `of`. Lane 0 is triangle `first`. Pre: one lane or more.
+/// Puts into `best` the first nearest of the lanes `of`. Lane 0 is triangle `first`. Pre: one lane
+/// or more.
 [[gnu::always_inline]] static inline void put_nearest(const Feet& feet, uint32_t of, uint32_t first,
                                                       uint32_t slot, Best& best) {
   float min2_m2;
@@ -24,7 +25,8 @@ using mesh::TriangleShape;
   best.feature = static_cast<Feature>(lane_of(feet.features(), lane));
 }
 
-/// The same if one of the lanes `of` is nearer than `min2_m2`. Result: the least squared distance so far.
+/// The same if one of the lanes `of` is nearer than `min2_m2`. Result: the least squared distance
+/// so far.
 [[gnu::always_inline]] static inline float take_nearest(const Feet& feet, uint32_t of,
                                                         uint32_t first, uint32_t slot,
                                                         float min2_m2, Best& best) {
@@ -115,10 +117,10 @@ struct ShapeInLane {
   return take_nearest(feet_by_shapes(leaf, p_m), leaf.lanes(), leaf.first, slot, min2_m2, best);
 }
 
-/// The same with no bound yet, faster if the nearest is the triangle whose low 16 bits are `last`. Any
-/// value of `last` gives the same best.
-/// Result: the first triangle of the leaf's block if no other leaf of the block has a nearer one, else
-///         kNowhere.
+/// The same with no bound yet, faster if the nearest is the triangle whose low 16 bits are `last`.
+/// Any value of `last` gives the same best.
+/// Result: the first triangle of the leaf's block if no other leaf of the block has a nearer one,
+///         else kNowhere.
 [[gnu::always_inline]] static inline uint32_t measure_last_leaf(const BlockTriangles& leaf,
                                                                 math::Vec3 p_m, uint32_t slot,
                                                                 uint32_t last, float slack_m2,

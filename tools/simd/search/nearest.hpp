@@ -31,8 +31,8 @@ using mesh::View;
 // A tree of more nodes does not fit the second cache.
 constexpr uint32_t kMaxNodesNear = 16384;
 
-// Prefetches the corners of the block of `child`, the next node; if it has none, those of `node`, which
-// are in the cache.
+// Prefetches the corners of the block of `child`, the next node; if it has none, those of `node`,
+// which are in the cache.
 [[gnu::always_inline, maybe_unused]] inline void fetch_corners(const WideTree& tree, uint32_t child,
                                                                uint32_t node) {
   const bool has_block = (child & ~(kBlockBit - 1)) == kBlockBit;
@@ -42,9 +42,10 @@ constexpr uint32_t kMaxNodesNear = 16384;
     __builtin_prefetch(first + i);
 }
 
-/// mesh::search_nearest() of a cold query without budget: the same leaves in the same order, the same
-/// visits. Instead of waiting for the nearer of two children it measures the boxes in both, and selects
-/// by conditional moves. The keys in an entry are those of its node's sides. A block is measured at once.
+/// mesh::search_nearest() of a cold query without budget: the same leaves in the same order, the
+/// same visits. Instead of waiting for the nearer of two children it measures the boxes in both,
+/// and selects by conditional moves. The keys in an entry are those of its node's sides. A block is
+/// measured at once.
 /// Pre: search.start == kNowhere; search.budget is not reached.
 [[gnu::noinline, gnu::flatten, maybe_unused]] void search_cold(const View& mesh,
                                                                const WideTree& tree,
@@ -128,8 +129,8 @@ constexpr uint32_t kMaxNodesNear = 16384;
   }
 }
 
-// Measures a block in which a triangle may be nearer. Result: visits below the node. noinline: rare, and
-// inlined it takes registers from the loop.
+// Measures a block in which a triangle may be nearer. Result: visits below the node. noinline:
+// rare, and inlined it takes registers from the loop.
 [[gnu::noinline, maybe_unused]] uint32_t measure_block(const WideTree& tree, uint32_t node,
                                                        const NearBound& bound, uint32_t& prune,
                                                        Search& search) {
@@ -147,7 +148,8 @@ constexpr uint32_t kMaxNodesNear = 16384;
   return take_block(feet, block, keys, bound, sides, node, prune, search.best);
 }
 
-// mesh::ascend() without branches on the leaf's distance: the processor goes on while it waits for it.
+// mesh::ascend() without branches on the leaf's distance: the processor goes on while it waits for
+// it.
 inline void ascend(const View& mesh, const Side* sides, const NearBound& bound, uint32_t prune,
                    uint32_t& left, mesh::Pending*& top, Search& search) {
   const uint32_t* const parents = mesh.parents().data();
@@ -179,8 +181,8 @@ inline void ascend(const View& mesh, const Side* sides, const NearBound& bound, 
   }
 }
 
-/// mesh::search_nearest() of a warm query without budget: the same nodes in the same order, the same
-/// visits. Usually the prisms of a block already exclude all of its triangles.
+/// mesh::search_nearest() of a warm query without budget: the same nodes in the same order, the
+/// same visits. Usually the prisms of a block already exclude all of its triangles.
 /// Pre: search.start != kNowhere; search.budget is not reached.
 [[gnu::noinline, gnu::flatten, maybe_unused]] void search_warm(const View& mesh,
                                                                const WideTree& tree,

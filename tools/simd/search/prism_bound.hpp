@@ -13,19 +13,19 @@ static inline float prism_limit2(float min2_m2, float slack_m2) {
 }
 
 /// Lanes whose triangle may be nearer than the nearest so far, at distance D.
-/// `limit2_m2`: prism_limit2(). Arrays of a prism: the corner a, the triangle's normal n, the outward
-/// normals s of its edges ab, ca and bc in its plane, and the outward offset of bc.
+/// `limit2_m2`: prism_limit2(). Arrays of a prism: the corner a, the triangle's normal n, the
+/// outward normals s of its edges ab, ca and bc in its plane, and the outward offset of bc.
 ///
-/// Let q be the triangle's point nearest to p, at distance d; u = 2^-24, E the mesh's longest edge. As
-/// stored, n and s are at most 1 + 4 u long, n . s is at most 8 u, and at most 4 u E of q - a lies along
-/// n or outward of an edge (tools/simd/prism.cpp proves that or stores 0, which bounds nothing). Let z =
-/// n . (p - a), and o the largest of 0 and each s . (p - a), less the offset for bc. Then (z, o) is
-/// longer by at most 6 u E than a vector whose square is d^2 (1 + 17 u).
+/// Let q be the triangle's point nearest to p, at distance d; u = 2^-24, E the mesh's longest edge.
+/// As stored, n and s are at most 1 + 4 u long, n . s is at most 8 u, and at most 4 u E of q - a
+/// lies along n or outward of an edge (tools/simd/prism.cpp proves that or stores 0, which bounds
+/// nothing). Let z = n . (p - a), and o the largest of 0 and each s . (p - a), less the offset for
+/// bc. Then (z, o) is longer by at most 6 u E than a vector whose square is d^2 (1 + 17 u).
 ///
-/// Suppose d < A = D (1 + 8 u) + 30 u E; a foot beyond A is found farther than D (mesh/loss.hpp). Then
-/// |p - a| < A + E. z and o have an error of at most 6 u (A + E) each. The sum of their squares is at
-/// most A^2 (1 + 55 u) + 16 u E^2, which is D^2 (1 + 104 u) + 48 u E^2: half of what prism_limit2()
-/// adds. Squares that underflow are less than its constant. NaN leaves the lane in.
+/// Suppose d < A = D (1 + 8 u) + 30 u E; a foot beyond A is found farther than D (mesh/loss.hpp).
+/// Then |p - a| < A + E. z and o have an error of at most 6 u (A + E) each. The sum of their
+/// squares is at most A^2 (1 + 55 u) + 16 u E^2, which is D^2 (1 + 104 u) + 48 u E^2: half of what
+/// prism_limit2() adds. Squares that underflow are less than its constant. NaN leaves the lane in.
 [[gnu::always_inline]] static inline uint32_t may_be_nearer(const BlockTriangles& triangles,
                                                             math::Vec3 p_m, float limit2_m2) {
   // A pointer to every fourth array: address modes reach the others.

@@ -1,6 +1,6 @@
 #pragma once
-// mesh::SegmentFrame's test of eight triangles at once: the same formulas in the same order, so the same
-// bits.
+// mesh::SegmentFrame's test of eight triangles at once: the same formulas in the same order, so the
+// same bits.
 
 #include "firmtouch/mesh/segment_frame.hpp"
 #include "simd/search/block_triangles.hpp"
@@ -41,8 +41,8 @@ class SegmentLanes : private SegmentLine {
     }
   };
 
-  /// Of the triangles whose corners are stored in arrays of `count` floats. The bits of lanes beyond
-  /// them mean nothing.
+  /// Of the triangles whose corners are stored in arrays of `count` floats. The bits of lanes
+  /// beyond them mean nothing.
   [[gnu::always_inline]] inline Passes passes(const float* arrays, uint32_t count) const {
     const size_t stride = 3 * size_t{count};
     const float *i = arrays + shear_.i * count, *j = arrays + shear_.j * count,

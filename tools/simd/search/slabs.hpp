@@ -30,8 +30,8 @@ class PortableSiblingSlabs {
 };
 
 #if defined(__AVX2__)
-/// The same with AVX2: four boxes at once. The low half of a vector holds the planes where the segment
-/// enters, the high half those where it leaves, with out = -(high half - leave) * rate.
+/// The same with AVX2: four boxes at once. The low half of a vector holds the planes where the
+/// segment enters, the high half those where it leaves, with out = -(high half - leave) * rate.
 class LaneSiblingSlabs {
  public:
   [[gnu::always_inline]] inline bool begin(math::Vec3 a_in, math::Vec3 b_in, const float* low_in,

@@ -1,6 +1,6 @@
 #pragma once
-// mesh::closest_on_triangle() of eight triangles at once: the same formulas in the same order, so the
-// same bits. Where it branches, all branches are computed and one is selected.
+// mesh::closest_on_triangle() of eight triangles at once: the same formulas in the same order, so
+// the same bits. Where it branches, all branches are computed and one is selected.
 
 #include "firmtouch/mesh/triangle.hpp"
 #include "simd/search/vectors.hpp"

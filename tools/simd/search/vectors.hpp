@@ -1,6 +1,6 @@
 #pragma once
-// Eight floats at once, in the variant of the level that this is compiled for. Each operation rounds as
-// that of one float does.
+// Eight floats at once, in the variant of the level that this is compiled for. Each operation
+// rounds as that of one float does.
 
 #include "firmtouch/math/vec3_ops.hpp"
 

@@ -62,7 +62,8 @@ constexpr float kMaxMinimum = 0x1.fffffep127f;
   least = _mm256_min_ps(least, _mm256_permute_ps(least, 0xB1));
   return _mm256_min_ps(least, _mm256_permute2f128_ps(least, least, 1));
 }
-/// The first of the lanes `of` that holds their minimum. Pre: one lane or more, all below kMaxMinimum.
+/// The first of the lanes `of` that holds their minimum. Pre: one lane or more, all below
+/// kMaxMinimum.
 [[gnu::always_inline]] static inline uint32_t minimum_lane(Float8 v, uint32_t of, float& minimum) {
   __m256 all;
   const __m256 least = minimum_everywhere(v, of, all);

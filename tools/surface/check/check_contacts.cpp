@@ -8,8 +8,8 @@
 #include "surface/winding_number.hpp"
 
 // Where bodies touch, one nearest point belongs to both, and each gives its own sign. That
-// does no harm where convex corners meet: nothing inside a body is nearest to such a corner. Faces on
-// faces, and corners in pits, would give wrong signs at any depth.
+// does no harm where convex corners meet: nothing inside a body is nearest to such a corner. Faces
+// on faces, and corners in pits, would give wrong signs at any depth.
 
 namespace firmtouch::tools {
 namespace {
@@ -25,8 +25,8 @@ Box box_of(const Surface& surface, const Face& face) {
           {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
 }
 
-// A sheet alone parts winding w from w - 1, also where it crosses another; two sheets on one another
-// part other numbers.
+// A sheet alone parts winding w from w - 1, also where it crosses another; two sheets on one
+// another part other numbers.
 bool lies_on_another(const Surface& surface, const WindingNumber& winding, const Face& face,
                      double lift_m) {
   const Point a = at(surface, face[0]), b = at(surface, face[1]), c = at(surface, face[2]);

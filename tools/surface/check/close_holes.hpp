@@ -12,8 +12,8 @@ constexpr uint32_t kMaxHoleEdges = 1000;
 /// the vertices of its border: of all such caps one whose worst bend is the least, of those one of
 /// the least area; where that one passes through the surface or another cap, the one of the least
 /// area. Caps are wound as their neighbours are, and `source` numbers them from `first_source` on.
-/// Adds a line to report.mended for all caps and one for each place; what cannot be closed stands in
-/// report.refused.
+/// Adds a line to report.mended for all caps and one for each place; what cannot be closed stands
+/// in report.refused.
 /// Bounds: O(edges of a hole ^ 3) time, O(^ 2) memory, no recursion.
 /// Source: Barequet & Sharir 1995; Liepa 2003, section 3 (bend before area).
 void close_holes(Surface& surface, uint32_t first_source, CheckReport& report);

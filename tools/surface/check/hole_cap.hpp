@@ -6,8 +6,8 @@
 
 namespace firmtouch::tools {
 
-/// The border of a hole: vertices in the order in which its cap winds, and on the other side of each
-/// edge (from its vertex to the next) the third vertex of the face there.
+/// The border of a hole: vertices in the order in which its cap winds, and on the other side of
+/// each edge (from its vertex to the next) the third vertex of the face there.
 struct Hole {
   std::vector<uint32_t> border, beyond;
 };

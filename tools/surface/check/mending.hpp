@@ -36,9 +36,11 @@ void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint
 void remove_flat_faces(Surface& surface, const CheckOptions& options, CheckReport& report);
 /// Open edges, edges of more than two faces, vertices of more than one fan.
 void find_topology_defects(const Surface& surface, std::vector<std::string>& defects);
-/// Rejects pieces that touch so that the nearest point does not determine the sign. Pre: closed and outward.
+/// Rejects pieces that touch so that the nearest point does not determine the sign. Pre: closed and
+/// outward.
 void refuse_contacts(const Surface& surface, CheckReport& report);
-/// Of these, corners and edges that touch the surface elsewhere, of one piece too, without rounding.
+/// Of these, corners and edges that touch the surface elsewhere, of one piece too, without
+/// rounding.
 /// Pre: coordinates are finite and below 2^24 m.
 void refuse_touches(const Surface& surface, CheckReport& report);
 void drop_unused_vertices(Surface& surface, CheckReport& report);

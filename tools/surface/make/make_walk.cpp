@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kStep = 0.0005;     // of the diagonal
 constexpr uint32_t kQueryEvery = 2;  // steps, in which the distance grows by 0.001 at most
-// Of the diagonal: beyond it the surface draws the walk back, as a hand that touches a part of 0.1 m
-// keeps within tenths of a millimetre of its surface. Seen: mean 0.001 from the surface.
+// Of the diagonal: beyond it the surface draws the walk back, as a hand that touches a part of 0.1
+// m keeps within tenths of a millimetre of its surface. Seen: mean 0.001 from the surface.
 constexpr double kPullFrom = 0.0005;
 constexpr double kTurnAt =
     0.0165;  // beyond it the walk goes straight back; 0.0165 + 0.0025 leaves 5 % to spare

@@ -3,9 +3,9 @@
 #include "surface/read/stl_facets.hpp"
 
 // STL, which has two forms. Binary: 80 bytes of any content, the number of facets, then 50 bytes a
-// facet. Text: `solid NAME`, facets, `endsolid NAME`. Many binary files begin with the word `solid`,
-// so the length decides: no text can be as long as its bytes 80 to 83, taken as a number of facets,
-// would have it (0.5 billion facets at least).
+// facet. Text: `solid NAME`, facets, `endsolid NAME`. Many binary files begin with the word
+// `solid`, so the length decides: no text can be as long as its bytes 80 to 83, taken as a number
+// of facets, would have it (0.5 billion facets at least).
 
 namespace firmtouch::tools {
 namespace {

@@ -14,9 +14,10 @@ struct Imported {
   std::vector<std::string> notes;  // remarks for the report of a bake
 };
 
-/// Reads .obj, .off, .ply or .stl (the last two as text and binary), distinguished by the extension in either case.
-/// Coordinates are read as double, multiplied by `unit_m` and rounded once to float. Polygons are
-/// fanned from their first corner; `source` counts the triangles in the file's order.
+/// Reads .obj, .off, .ply or .stl (the last two as text and binary), distinguished by the extension
+/// in either case. Coordinates are read as double, multiplied by `unit_m` and rounded once to
+/// float. Polygons are fanned from their first corner; `source` counts the triangles in the file's
+/// order.
 Imported read_surface(const std::string& path, double unit_m);
 
 /// The same from memory; `path` gives the extension and the name used in messages.

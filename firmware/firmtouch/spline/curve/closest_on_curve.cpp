@@ -10,8 +10,8 @@ namespace {
 
 using math::Vec3;
 
-// The safe subtree reaches so much of the extent beyond the best point. Of 0.01, 0.015, 0.02 and 0.03 ten planar cubics'
-// paths of 0.002 a query took 1,742, 1,726, 1,734 and 1,760 instructions.
+// The safe subtree reaches so much of the extent beyond the best point. Of 0.01, 0.015, 0.02 and
+// 0.03 ten planar cubics' paths of 0.002 a query took 1,742, 1,726, 1,734 and 1,760 instructions.
 constexpr float kSafeSubtreeReach = 0.015f;
 
 // Most tangents need no scaling.

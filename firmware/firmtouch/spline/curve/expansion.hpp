@@ -1,18 +1,20 @@
 #pragma once
-// What the derivatives at a point of a curve prove of the points about it, for .cpp files of this module only.
+// What the derivatives at a point of a curve prove of the points about it, for .cpp files of this
+// module only.
 #include "firmtouch/spline/curve/tree.hpp"
 
 namespace firmtouch::spline {
 
-/// D^2 / 2 about a point: its slope, its bend as small as it may be, a third of its third derivative and a
-/// twelfth of how far the fourth may be below 0 on all of the piece.
+/// D^2 / 2 about a point: its slope, its bend as small as it may be, a third of its third
+/// derivative and a twelfth of how far the fourth may be below 0 on all of the piece.
 struct Expansion {
   float distance2, slope, slope_noise, min_bend, noise, third_3, fourth_12;
 
-  /// The bend as far as it counts on one side, over a length: with the sign of the side in slope and third,
+  /// The bend as far as it counts on one side, over a length: with the sign of the side in slope
+  /// and third,
   ///     f(d) >= f + slope d + (bend + third d / 3 - fourth d^2 / 12) d^2 / 2,
-  /// where what is added to the bend is concave in d: least at an end. Lengths are at most 2: what the
-  /// third derivative is off by is in the bend's noise already.
+  /// where what is added to the bend is concave in d: least at an end. Lengths are at most 2: what
+  /// the third derivative is off by is in the bend's noise already.
   float bend_over(float side, float length) const {
     const float change = side * third_3 - fourth_12 * length;
     return change < 0.0f ? min_bend + change * length : min_bend;
@@ -32,8 +34,8 @@ struct Expansion {
   }
 };
 
-/// `r_m`: from the query to the point; `speed2` and `bend`: of the curve, and of D^2 / 2 there; `stored`: of
-/// the piece; `loss_m`: of the model.
+/// `r_m`: from the query to the point; `speed2` and `bend`: of the curve, and of D^2 / 2 there;
+/// `stored`: of the piece; `loss_m`: of the model.
 static inline Expansion expand(const CurvePoint& at, math::Vec3 r_m, float distance2, float slope,
                                float speed2, float bend, const CurveBend& stored, float loss_m) {
   const float distance_m = math::square_root(distance2);

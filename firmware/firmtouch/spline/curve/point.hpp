@@ -11,7 +11,8 @@ struct CurvePoint {
   CurvePoint() {}  // leaves the members unset: clearing them would cost a call
 };
 
-/// Evaluates a piece at s. The order of operations is part of the result; proof/leaf_shape.cpp bounds what it loses.
+/// Evaluates a piece at s. The order of operations is part of the result; proof/leaf_shape.cpp
+/// bounds what it loses.
 void evaluate(const Piece& piece, const float* coefficients, float s, CurvePoint& point);
 
 }  // namespace firmtouch::spline

@@ -38,9 +38,9 @@ class PassedParts {
     if (lower_m < around_m_) around_m_ = lower_m;
   }
 
-  /// What was passed beside a leaf stands within the fence, with the row about it; of the rest is known how far
-  /// it is. A part that is more than that is opened, and some of those farther along the curve where few
-  /// steps were taken: their bounds were only as good as the search needed.
+  /// What was passed beside a leaf stands within the fence, with the row about it; of the rest is
+  /// known how far it is. A part that is more than that is opened, and some of those farther along
+  /// the curve where few steps were taken: their bounds were only as good as the search needed.
   LeafSafeSubtree safe_subtree_about(const Tree& tree, uint32_t leaf, LeafRow row, uint32_t& left) {
     uint32_t low = leaf > kBeside ? leaf - kBeside : 0, high = leaf + kBeside;
     if (row.first < low) low = row.first;

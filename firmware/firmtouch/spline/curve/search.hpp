@@ -20,7 +20,8 @@ class CurveSearch : public Account {
     s = static_cast<float>(place & 0xFFFFu) * kPlace - 1.0f;
     return piece < tree_.piece_count();
   }
-  /// Where the nearest point will be after as much motion again, no farther on than a leaf and its piece.
+  /// Where the nearest point will be after as much motion again, no farther on than a leaf and its
+  /// piece.
   uint32_t place_after(math::Vec3 motion_m) const {
     const uint32_t piece = best_.node;
     float s = best_.s;
@@ -32,9 +33,9 @@ class CurveSearch : public Account {
     return piece << 16 | coded(0.5f * s + 0.5f, 65535);
   }
 
-  /// From a place that may be near to the leaves within the fence, where everything outside it is far enough
-  /// away, else up the tree to the root: then a new fence is told, `margin_m` farther than the best
-  /// where there is room for it.
+  /// From a place that may be near to the leaves within the fence, where everything outside it is
+  /// far enough away, else up the tree to the root: then a new fence is told, `margin_m` farther
+  /// than the best where there is room for it.
   void run_warm(uint32_t piece, float s, float margin_m, LeafSafeSubtree& safe_subtree) {
     const uint32_t leaf = tree_.leaf_at(piece, s);
     LeafRow row = safe_subtree.row;
@@ -131,8 +132,8 @@ class CurveSearch : public Account {
     entry.lower_m = lower_m;
   }
 
-  // Reads the nodes of a level from one to before another, but for what is closed, and keeps those that may
-  // hold something nearer.
+  // Reads the nodes of a level from one to before another, but for what is closed, and keeps those
+  // that may hold something nearer.
   void scan(uint32_t node, uint32_t end) {
     const CurveLevels& levels = tree_.levels();
     const uint32_t below = levels.levels_below(node), first = levels.first_node();
@@ -190,8 +191,8 @@ class CurveSearch : public Account {
     return true;
   }
 
-  // Nodes that are most of the curve are not worth a look: from the root three levels to five, and then two
-  // at a time.
+  // Nodes that are most of the curve are not worth a look: from the root three levels to five, and
+  // then two at a time.
   static uint32_t first_step(uint32_t levels) {
     return levels < 5 ? levels : levels == 7 ? 5 : 3 + ((levels - 3) & 1u);
   }
@@ -236,9 +237,10 @@ class CurveSearch : public Account {
     return true;
   }
 
-  /// Evaluates points of the range until what is left of it is beyond the best's limit (kClosed), or in
-  /// two halves with bounds of their own (kSplit); where float32 has no point between the ends it is
-  /// given up (kLost). Of a row of leaves, what a point does not close is left but for its own leaf.
+  /// Evaluates points of the range until what is left of it is beyond the best's limit (kClosed),
+  /// or in two halves with bounds of their own (kSplit); where float32 has no point between the
+  /// ends it is given up (kLost). Of a row of leaves, what a point does not close is left but for
+  /// its own leaf.
   Outcome close(uint32_t& leaf, Range& range, float& middle, float& below_m, float& above_m) {
     const uint32_t on = tree_.piece_of(leaf);
     const Piece& piece = tree_.piece(on);
@@ -264,8 +266,8 @@ class CurveSearch : public Account {
         best_.along[0] = at.d1;
         best_bend_ = bend;
       }
-      // Where Newton's step leads within the range, and what it would gain there is needed, no proof can
-      // hold yet.
+      // Where Newton's step leads within the range, and what it would gain there is needed, no
+      // proof can hold yet.
       float next = bend > 0.0f ? s - slope / bend : slope > 0.0f ? range.low : range.high;
       if (next > range.low && next < range.high && turn + 1 < kMaxTurns &&
           !best_.seems_beyond(distance2_m2 + slope * (next - s))) {

@@ -47,8 +47,8 @@ class CurveTree {
   const CurveBend& bend_of(uint32_t piece) const { return bends_[piece]; }
   math::Vec3 query_from(const Piece& piece) const { return p_m_ - vec3_at(piece.origin_m); }
 
-  /// Of a chord, by the ways from its ends to the query: no point within the radius of it is nearer; what of
-  /// it is nearest. The stored radius holds what float32 loses here (with_slack()).
+  /// Of a chord, by the ways from its ends to the query: no point within the radius of it is
+  /// nearer; what of it is nearest. The stored radius holds what float32 loses here (with_slack()).
   Seen see(math::Vec3 off_m, math::Vec3 off_end_m, float radius_m) const {
     const math::Vec3 along = off_m - off_end_m;
     const float progress_m2 = dot(off_m, along);

@@ -32,8 +32,8 @@ static inline float part_length_m(const View& model, uint32_t piece, float low, 
                  0.8888889f * speed_of(model, piece, middle));
 }
 
-/// Lengths within a part: a cubic between its stored ends, with the curve's own speeds there, no faster
-/// than keeps it from turning back. `t` goes from 0 to 1 over the part.
+/// Lengths within a part: a cubic between its stored ends, with the curve's own speeds there, no
+/// faster than keeps it from turning back. `t` goes from 0 to 1 over the part.
 struct ArcCubic {
   float first_m, rise_m, from_m, bow_m;
   float square_m() const { return rise_m - from_m - bow_m; }

@@ -95,8 +95,8 @@ Foot slide(const GuideView& guide, Vec3 p_m, uint32_t from_piece, float from_s, 
   return best;
 }
 
-// A certified point need not be the foot-point to the last digit: near it the distance hardly changes,
-// but the way along the curve does. Newton by the slope alone, which keeps its digits.
+// A certified point need not be the foot-point to the last digit: near it the distance hardly
+// changes, but the way along the curve does. Newton by the slope alone, which keeps its digits.
 Foot polished(const View& model, Vec3 p_m, const Foot& from) {
   Foot best = from;
   for (uint32_t turn = 0; turn < kPolishings; ++turn) {
@@ -143,9 +143,9 @@ void put_ends(const GuideView& guide, Vec3 p_m, float arc_m, Followed& followed)
     followed.end = 1;
 }
 
-// Whether the guide comes to the closest point for certain, without a search: what costs less than that
-// lies no farther along the curve, before or behind, and there is one point in all that stretch to
-// which the distance falls, for its square is convex there. (Of a part of one piece.)
+// Whether the guide comes to the closest point for certain, without a search: what costs less than
+// that lies no farther along the curve, before or behind, and there is one point in all that
+// stretch to which the distance falls, for its square is convex there. (Of a part of one piece.)
 bool comes_to(const GuideView& guide, const Foot& nearest, float lower_m, float weight_m,
               const Following& following, Arcs& arcs) {
   const View& model = guide.model();

@@ -12,8 +12,8 @@ struct Hold {
   float release_m = 0;  // a deviation beyond this lets go
 };
 
-/// What one (tool, guide) pair remembers from tick to tick; the caller owns it. A default one has no
-/// previous state.
+/// What one (tool, guide) pair remembers from tick to tick; the caller owns it. A default one has
+/// no previous state.
 struct Following {
   CurveHint hint;
   uint32_t piece = 0;  // where on the curve the guide is, where is_following
@@ -33,17 +33,18 @@ struct Followed {
   bool is_held = false;  // the deviation is within release_m
 };
 
-/// One tick of a guide. The penalty says on which part of the curve it is: of all points the one of the
-/// least distance + penalty of the change of arc, min_cost(). Distance says where on it: from there
-/// the guide goes along the curve to where the distance falls no further. Without a penalty it is at the
-/// closest point of the whole curve. No lost tick, jump or reset can keep it on a wrong part. Where
-/// the point is farther than release_m, or not a number, the guide lets go and takes the closest.
+/// One tick of a guide. The penalty says on which part of the curve it is: of all points the one of
+/// the least distance + penalty of the change of arc, min_cost(). Distance says where on it: from
+/// there the guide goes along the curve to where the distance falls no further. Without a penalty
+/// it is at the closest point of the whole curve. No lost tick, jump or reset can keep it on a
+/// wrong part. Where the point is farther than release_m, or not a number, the guide lets go and
+/// takes the closest.
 /// Pre:    `guide` is open.
-/// Bounds: <= budget steps (16 for a penalty), at most half of them for the closest point where there is one,
-///         kMaxSlides for the way along; and 14 points evaluated for lengths and for the last
-///         digits of the place; stack and reentrancy as closest_point().
-/// Result: always finite. lower_m bounds the distance of the whole curve; `exact` says that it meets that of
-///         the closest point, and that of no other part a point costs less.
+/// Bounds: <= budget steps (16 for a penalty), at most half of them for the closest point where
+///         there is one, kMaxSlides for the way along; and 14 points evaluated for lengths and for
+///         the last digits of the place; stack and reentrancy as closest_point().
+/// Result: always finite. lower_m bounds the distance of the whole curve; `exact` says that it
+///         meets that of the closest point, and that of no other part a point costs less.
 Followed follow(const GuideView& guide, math::Vec3 p_m, const Hold& hold, query::Budget budget,
                 Following& following);
 

@@ -24,16 +24,16 @@ struct LeastCost {
       certificate;  // lower_m bounds the cost of every point; `exact` says that it meets it
 };
 
-/// The point of the least distance + penalty of the change of arc, of all points of the curve; changes are
-/// taken the shorter way round where a chain is closed. `nearest` is the answer of closest_point()
-/// there, of which the place and the bound are used.
+/// The point of the least distance + penalty of the change of arc, of all points of the curve;
+/// changes are taken the shorter way round where a chain is closed. `nearest` is the answer of
+/// closest_point() there, of which the place and the bound are used.
 /// Pre:    `guide` is open; penalty.piece is one of its pieces, -1 <= penalty.s <= 1, weight_m > 0;
 ///         nearest.distance_m <= 1e9.
-/// Bounds: <= budget steps (2 at least): nodes read, points evaluated; and 5 points evaluated. 3 KB of
-///         stack; re-entrant; callable from an interrupt.
+/// Bounds: <= budget steps (2 at least): nodes read, points evaluated; and 5 points evaluated. 3 KB
+///         of stack; re-entrant; callable from an interrupt.
 /// Result: always finite. Equal costs: where the guide was, the closest point, the one found first.
-///         `exact` says that cost and bound are within 4e-7 (rational: 1e-6) of the extent, 1e-6 of the
-///         weight and 2e-6 of the cost of the truth, by the lengths that are told.
+///         `exact` says that cost and bound are within 4e-7 (rational: 1e-6) of the extent, 1e-6 of
+///         the weight and 2e-6 of the cost of the truth, by the lengths that are told.
 /// Error:  tests/spline/min_cost_host_test.cpp, against dense sampling in double.
 LeastCost min_cost(const GuideView& guide, math::Vec3 p_m, const ArcPenalty& penalty,
                    const Closest& nearest, query::Budget budget);

@@ -14,8 +14,8 @@ float least_of(float a, float b) { return a < b ? a : b; }
 
 }  // namespace
 
-// Leaves follow each other along the curve: the first and the last say how far, by the ends of stored
-// lengths about them, or within them.
+// Leaves follow each other along the curve: the first and the last say how far, by the ends of
+// stored lengths about them, or within them.
 GuideParts::Stretch GuideParts::stretch_of(const CurveLevels::Leaves& under, bool is_within) const {
   const View& model = guide_.model();
   uint32_t first = under.first, last = under.end - 1;
@@ -106,8 +106,8 @@ uint32_t GuideParts::ways_of(uint32_t piece, const Range& range, Way (&ways)[2])
   return 2;
 }
 
-// `outward`: 1 with rising s, -1 with falling. The third power of the way is at most its length times
-// the second.
+// `outward`: 1 with rising s, -1 with falling. The third power of the way is at most its length
+// times the second.
 GuideParts::Room GuideParts::room_of(const Slopes& arc, const Way& way, float limit_m,
                                      float outward, float length) {
   Room room;
@@ -127,11 +127,13 @@ GuideParts::Room GuideParts::room_of(const Slopes& arc, const Way& way, float li
 }
 
 // No point has a cost below the limit if its squared distance is at least the square of what the
-// penalty leaves of it. D^2 >= D0^2 + 2 g d + q d^2 there (curve_proof.hpp), and with slack m0 + m1 d + m2 d^2
-//     D^2 - slack^2 >= (D0^2 - m0^2) + 2 (g - m0 m1) d + (q - m1^2 - 2 m0 m2 - 2 m1 m2 l - m2^2 l^2) d^2
-// over a length l, the third but last term where it takes away. Beyond where the slack ends nothing is
-// to be shown. The limit is 16 units of the cost below the best, which is more than what is rounded
-// of D0^2 - m0^2; what is rounded of the other terms is taken off them.
+// penalty leaves of it. D^2 >= D0^2 + 2 g d + q d^2 there (curve_proof.hpp), and with slack m0 + m1
+// d + m2 d^2
+//     D^2 - slack^2 >= (D0^2 - m0^2) + 2 (g - m0 m1) d + (q - m1^2 - 2 m0 m2 - 2 m1 m2 l - m2^2
+//     l^2) d^2
+// over a length l, the third but last term where it takes away. Beyond where the slack ends nothing
+// is to be shown. The limit is 16 units of the cost below the best, which is more than what is
+// rounded of D0^2 - m0^2; what is rounded of the other terms is taken off them.
 bool GuideParts::is_side_done(const Expansion& f, float distance_m, float side, const Room& room,
                               float length) {
   const float m1 = room.slope, m2 = room.half_bend;
@@ -199,8 +201,8 @@ bool GuideParts::take_point(uint32_t on, uint32_t node, float s, uint32_t& left,
   return true;
 }
 
-// Newton's step on the cost times the distance, the shorter way round. `gain` is what it promises of
-// that.
+// Newton's step on the cost times the distance, the shorter way round. `gain` is what it promises
+// of that.
 float GuideParts::step_from(const Seen& seen, const Way& way, float& gain_m2) {
   const float pull = way.per_m * seen.arc.first;
   const float down = seen.slope + seen.distance_m * pull;
@@ -209,7 +211,8 @@ float GuideParts::step_from(const Seen& seen, const Way& way, float& gain_m2) {
   return rise > 0.0f ? -down / rise : down > 0.0f ? -FLT_MAX : FLT_MAX;
 }
 
-// Takes off a range what is proven on both sides of a point: nothing there costs less than the limit.
+// Takes off a range what is proven on both sides of a point: nothing there costs less than the
+// limit.
 bool GuideParts::prove(uint32_t on, const Seen& seen, float s, const Way* ways, uint32_t way_count,
                        Range& range, Sides& sides) const {
   const Expansion f = expand(seen.at, seen.r_m, seen.distance2_m2, seen.slope, seen.speed2,

@@ -46,7 +46,8 @@ class GuideParts {
  public:
   using Range = CurveRange;
 
-  /// Nothing of the curve is nearer than nearest_m. `kink` is the point where the penalty is nothing.
+  /// Nothing of the curve is nearer than nearest_m. `kink` is the point where the penalty is
+  /// nothing.
   GuideParts(const GuideView& guide, math::Vec3 p_m, const Penalty& penalty, const CurvePoint& kink,
              Arcs& arcs, float nearest_m, const Best& best)
       : guide_(guide),
@@ -105,8 +106,8 @@ class GuideParts {
     float offset_m;  // what the other way costs more
     float per_m;     // along the curve: rising or falling
   };
-  // What is left for the distance, outward from a point: at most first + slope d + half_bend d^2; it falls by
-  // at least `fall` all along, where that is not 0.
+  // What is left for the distance, outward from a point: at most first + slope d + half_bend d^2;
+  // it falls by at least `fall` all along, where that is not 0.
   struct Room {
     float first_m, slope, half_bend, fall;
   };

@@ -48,8 +48,8 @@ class GuideOpening {
   GuideOpening(const View& model, const GuideSections& sections);
 
   /// Checks up to `elements` parts more.
-  /// Bounds: about 1,500 instructions an element, the first of each piece at most 10,000; 1 KB of stack;
-  /// reads only inside the sections.
+  /// Bounds: about 1,500 instructions an element, the first of each piece at most 10,000; 1 KB of
+  /// stack; reads only inside the sections.
   void work(uint32_t elements);
   bool done() const { return is_done_; }
   core::Verdict verdict() const { return verdict_; }

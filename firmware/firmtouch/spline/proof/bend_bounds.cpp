@@ -55,7 +55,8 @@ void bound_sums(const LeafShape& shape, const Part& part, float noise_m, float n
     }
 }
 
-// With numerator = point * weight, Leibniz' rule gives each derivative of the point by the lower ones.
+// With numerator = point * weight, Leibniz' rule gives each derivative of the point by the lower
+// ones.
 void quotient(Sizes& c, const Sizes& w, float min_weight) {
   for (uint32_t order = 0; order < kOrders; ++order)
     for (uint32_t b = 0; b <= order; ++b) {
@@ -87,8 +88,8 @@ void middle_derivatives(const LeafShape& shape, Vectors& x) {
     }
 }
 
-// What changes over the leaf, at most, from what it is in the middle: nothing is lost to the sizes of
-// terms that cancel there. The numerator's own noise is in the sums already.
+// What changes over the leaf, at most, from what it is in the middle: nothing is lost to the sizes
+// of terms that cancel there. The numerator's own noise is in the sums already.
 void tighten(const Vectors& x, Sizes& c) {
   for (uint32_t order = kOrders - 1; order-- > 1;)
     for (uint32_t b = 0; b <= order; ++b) {
@@ -98,8 +99,8 @@ void tighten(const Vectors& x, Sizes& c) {
     }
 }
 
-// |p . q| over the leaf, p and q being the derivatives (a, b) and (k, l): by their sizes, or by what it
-// is in the middle and how fast it may change from there.
+// |p . q| over the leaf, p and q being the derivatives (a, b) and (k, l): by their sizes, or by
+// what it is in the middle and how fast it may change from there.
 float product(const Vectors& x, const Sizes& c, uint32_t a, uint32_t b, uint32_t k, uint32_t l) {
   const float sizes = c.of[a][b] * c.of[k][l];
   const float along_u = c.of[a + 1][b] * c.of[k][l] + c.of[a][b] * c.of[k + 1][l];
@@ -108,8 +109,9 @@ float product(const Vectors& x, const Sizes& c, uint32_t a, uint32_t b, uint32_t
   return least(sizes, in_middle + along_u + along_v) * kUp;
 }
 
-// Sums of products p . q over the leaf, p and q being the derivatives (a, b) and (k, l): by their sizes, or by
-// what each, or all together, are in the middle and how fast they may change from there.
+// Sums of products p . q over the leaf, p and q being the derivatives (a, b) and (k, l): by their
+// sizes, or by what each, or all together, are in the middle and how fast they may change from
+// there.
 struct Products {
   const Vectors& x;
   const Sizes& c;
@@ -162,9 +164,9 @@ void bound_bends(const Part& part, float span_m, LeafShape& shape) {
   }
 }
 
-// Of the fourth derivative of D^2 / 2 the terms without the query, 4 x1 . x3 + 3 x2 . x2 of the derivatives x1
-// to x4: by how much they may be below 0. Their own derivative, 10 x2 . x3 + 4 x1 . x4, tells how fast they
-// leave what they are in the middle.
+// Of the fourth derivative of D^2 / 2 the terms without the query, 4 x1 . x3 + 3 x2 . x2 of the
+// derivatives x1 to x4: by how much they may be below 0. Their own derivative, 10 x2 . x3 + 4 x1 .
+// x4, tells how fast they leave what they are in the middle.
 float lowest_of(const Part& part, const LeafShape& shape, const Vectors& x, const Sizes& c) {
   const float one = c.of[1][0], two = c.of[2][0], three = c.of[3][0], four = c.of[4][0];
   const float u = part.half_u;
@@ -182,8 +184,9 @@ float lowest_of(const Part& part, const LeafShape& shape, const Vectors& x, cons
 
 }  // namespace
 
-// Beside what a point loses, its derivatives lose so many times more (search.hpp), and each product is
-// rounded; what the query's difference from a point loses counts with the derivative that it meets.
+// Beside what a point loses, its derivatives lose so many times more (search.hpp), and each product
+// is rounded; what the query's difference from a point loses counts with the derivative that it
+// meets.
 CurveBend CurveBends::stored() const {
   const float sum_m2 = lowest + turning * span_m * kUp;
   CurveBend bend{};

@@ -3,12 +3,13 @@
 
 namespace firmtouch::spline {
 
-/// Bounds the fourth derivatives of D^2 / 2 over a part of a surface, by the piece's s and t, those of even powers
-/// from below: fills fixed and turning.
+/// Bounds the fourth derivatives of D^2 / 2 over a part of a surface, by the piece's s and t, those
+/// of even powers from below: fills fixed and turning.
 /// Pre: the shape is the part's, its min_weight above 1 / 2.
 void bound_bends(const Part& part, LeafShape& shape);
-/// What is stored of a cell, a part of a surface: the most that its parts, so many on a side, need. Their bounds
-/// are tighter than those of the whole: of one with weights more than 4 times, else more than 2.
+/// What is stored of a cell, a part of a surface: the most that its parts, so many on a side, need.
+/// Their bounds are tighter than those of the whole: of one with weights more than 4 times, else
+/// more than 2.
 constexpr uint32_t kFineSide = 8, kFineCells = kFineSide * kFineSide;
 struct CellBends {
   float span_m = 0;  // no two points of the cell are farther apart
@@ -19,8 +20,8 @@ bool begin_bends(const Piece& piece, const float* coefficients, const Part& cell
 bool add_bends(const Piece& piece, const float* coefficients, const Part& cell, uint32_t fine_part,
                CellBends& bends);
 
-/// What is stored of a curve's piece: how far the fourth derivative of D^2 / 2 may be below 0 at most on one
-/// of its sixteenths.
+/// What is stored of a curve's piece: how far the fourth derivative of D^2 / 2 may be below 0 at
+/// most on one of its sixteenths.
 constexpr uint32_t kFineParts = 16;
 constexpr float kMaxBend = 0x1p90f;  // with the square of any length of a model it is a float32
 struct CurveBends {

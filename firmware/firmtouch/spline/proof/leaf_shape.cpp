@@ -36,8 +36,8 @@ float with_slack(float derived_m, float size_m) {
   return derived_m * (1.0f + 0x1p-18f) + size_m * 0x1p-19f;
 }
 
-// What is lost when evaluation.hpp computes a point: Horner's rule rounds twice a power, the query's
-// difference from the origin and the sum of a square once each.
+// What is lost when evaluation.hpp computes a point: Horner's rule rounds twice a power, the
+// query's difference from the origin and the sum of a square once each.
 struct Sums {
   float points_m = 0, weights = 0;    // of the coefficients' sizes
   float lost_m = 0, lost_weight = 0;  // in units of kUnit

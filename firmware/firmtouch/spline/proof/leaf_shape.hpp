@@ -1,5 +1,6 @@
 #pragma once
-// What is derived of a leaf's coefficients: for the proof at open, and for the baker, which stores it.
+// What is derived of a leaf's coefficients: for the proof at open, and for the baker, which stores
+// it.
 #include <stdint.h>
 
 #include "firmtouch/math/vec3.hpp"
@@ -46,8 +47,8 @@ struct Extent {
 };
 Extent extent_along(const LeafShape& shape, math::Vec3 centre_m, math::Vec3 axis);
 
-/// What a stored radius or half side must at least be, so that it also holds what float32 loses when
-/// a query measures against it.
+/// What a stored radius or half side must at least be, so that it also holds what float32 loses
+/// when a query measures against it.
 float radius_for(const LeafShape& shape, math::Vec3 a_m, math::Vec3 b_m);
 /// The same of a node above: the leaf's own capsule and the node's.
 float radius_above(float leaf_radius_m, math::Vec3 leaf_a_m, math::Vec3 leaf_b_m, math::Vec3 a_m,

@@ -5,14 +5,14 @@
 
 namespace firmtouch::spline {
 
-/// Proves a spline model in slices, so that a main loop stays alive while it opens a large one: rules
-/// R601 to R625 of tools/FORMAT.md.
+/// Proves a spline model in slices, so that a main loop stays alive while it opens a large one:
+/// rules R601 to R625 of tools/FORMAT.md.
 class Opening {
  public:
   explicit Opening(const Sections& sections);
 
-  /// Checks up to `elements` pieces, points, nodes, parts of cells or leaves more; one of the last two
-  /// counts as 64.
+  /// Checks up to `elements` pieces, points, nodes, parts of cells or leaves more; one of the last
+  /// two counts as 64.
   /// Bounds: about 1,000 instructions an element, 3 KB of stack; no recursion; reads only inside
   /// the sections.
   void work(uint32_t elements);

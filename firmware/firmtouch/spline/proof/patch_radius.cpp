@@ -26,7 +26,8 @@ struct OnQuad {
 };
 Vec3 tangent_x(const Quad& quad, float y) { return quad.a + quad.twist * y; }
 Vec3 tangent_y(const Quad& quad, float x) { return quad.b + quad.twist * x; }
-// By what of two tangents, together, a vector is met best. Result: false where they are next to parallel.
+// By what of two tangents, together, a vector is met best. Result: false where they are next to
+// parallel.
 bool solve(Vec3 a, Vec3 b, Vec3 v, OnQuad& by) {
   const float aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), of = aa * bb - ab * ab;
   if (!(of > 0x1p-12f * (aa * bb))) return false;
@@ -35,8 +36,8 @@ bool solve(Vec3 a, Vec3 b, Vec3 v, OnQuad& by) {
   return true;
 }
 
-// About the nearest to a point of a part of a quad, from where that is thought to be: by Newton's method, and where that
-// leads beyond an edge along it.
+// About the nearest to a point of a part of a quad, from where that is thought to be: by Newton's
+// method, and where that leads beyond an edge along it.
 OnQuad nearest_on(const Quad& quad, const PartOfQuad& part, Vec3 p_m, OnQuad at) {
   constexpr uint32_t kTurns = 2;
   const Vec3 r = p_m - quad.centre;
@@ -80,8 +81,8 @@ Vec3 corner_of(const LeafShape& shape, float x, float y) {
   return shape.local_m + sum * (1.0f / weight);
 }
 
-// Where on a quad the points of a leaf are thought to be, x and y by powers of the leaf's own s and t, [of t][of s]: never
-// outside a part of the quad.
+// Where on a quad the points of a leaf are thought to be, x and y by powers of the leaf's own s and
+// t, [of t][of s]: never outside a part of the quad.
 struct Spread {
   float x[3][3] = {}, y[3][3] = {};
 };
@@ -94,8 +95,9 @@ void spread_between(const float (&corner)[4], float (&of)[3][3]) {
   of[1][0] = 0.25f * (high - low);
   of[1][1] = 0.25f * (high_turn - low_turn);
 }
-// And by_s (1 - s^2) + by_t (1 - t^2) added, as much as leaves all between low and high: half of the change along s at most, with
-// which all along s is still between its ends, or half of what slack there is.
+// And by_s (1 - s^2) + by_t (1 - t^2) added, as much as leaves all between low and high: half of
+// the change along s at most, with which all along s is still between its ends, or half of what
+// slack there is.
 void bend_spread(float (&of)[3][3], float by_s, float by_t, float low, float high) {
   const float sides = sized(of[0][1]) + sized(of[1][0]) + sized(of[1][1]);
   const float below = 0.5f * (of[0][0] - sides - low), above = 0.5f * (high - of[0][0] - sides);
@@ -133,7 +135,8 @@ void spread_on(const LeafShape& shape, const LeafCorners& corners, const Quad& q
   bend_spread(spread.y, -by_s.y, -by_t.y, within.low[1], within.high[1]);
 }
 
-// (point - where its spread says) * weight, as a polynomial of up to four degrees more on each axis.
+// (point - where its spread says) * weight, as a polynomial of up to four degrees more on each
+// axis.
 struct Residual {
   static constexpr uint32_t kSide = kMaxDegree + 5;
   uint32_t rows, columns;     // powers there are
@@ -167,8 +170,8 @@ void residual_of(const LeafShape& shape, const Quad& quad, const Spread& on, Res
     }
 }
 
-// How long that is at most. Between the points of a grid it is off what is linear between them by 1 / 8 of the step's square
-// times its second derivatives, and what is linear is longest in a corner.
+// How long that is at most. Between the points of a grid it is off what is linear between them by 1
+// / 8 of the step's square times its second derivatives, and what is linear is longest in a corner.
 float most_of(const Residual& r) {
   constexpr uint32_t kSteps = 6;
   constexpr float kStep = 2.0f / kSteps;
@@ -232,7 +235,8 @@ PartOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, ui
   return half;
 }
 
-// Rounded by at most 64 units of the sizes where residuals are added up, and as much where a query measures.
+// Rounded by at most 64 units of the sizes where residuals are added up, and as much where a query
+// measures.
 float radius_for(const LeafShape& shape, const LeafCorners& corners, const Quad& around,
                  const PartOfQuad& own, const PartOfQuad& within) {
   constexpr float kUp = 1.0f + 0x1p-16f;

@@ -1,5 +1,6 @@
 #pragma once
-// How far a surface is from the quads that stand for its parts: for the proof at open, and for the baker, which stores it.
+// How far a surface is from the quads that stand for its parts: for the proof at open, and for the
+// baker, which stores it.
 #include "firmtouch/spline/proof/leaf_shape.hpp"
 
 namespace firmtouch::spline {
@@ -11,7 +12,8 @@ Quad stored_quad(const Piece& piece, const Grid& grid, const Corner* corners, co
 struct PartOfQuad {
   float low[2] = {-1.0f, -1.0f}, high[2] = {1.0f, 1.0f};
 };
-/// Of a part of a surface what one of its leaves is, and the leaf's half of it by the part's overlap.
+/// Of a part of a surface what one of its leaves is, and the leaf's half of it by the part's
+/// overlap.
 PartOfQuad own_of(const Piece& piece, const Patch& above, const Patch& leaf);
 PartOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap);
 
@@ -21,9 +23,9 @@ struct LeafCorners {
   math::Vec3 at_m[4];
 };
 
-/// What the radius of a part must at least be, what float32 loses when a query measures against it included, so that each
-/// point of that leaf is within it of some point of its quad, or of what is `within` of it. own: where on the quad the leaf
-/// is thought to be; any would do.
+/// What the radius of a part must at least be, what float32 loses when a query measures against it
+/// included, so that each point of that leaf is within it of some point of its quad, or of what is
+/// `within` of it. own: where on the quad the leaf is thought to be; any would do.
 float radius_for(const LeafShape& shape, const LeafCorners& corners, const Quad& around,
                  const PartOfQuad& own, const PartOfQuad& within = {});
 

@@ -10,10 +10,12 @@ namespace {
 
 using math::Vec3;
 
-// A new frontier reaches this many of the last motions beyond the nearest point, or so much of the extent.
+// A new frontier reaches this many of the last motions beyond the nearest point, or so much of the
+// extent.
 constexpr float kFrontierMotions = 8.0f, kMinReach = 0x1p-10f;
 
-// Every node of a frontier comes nearer by the motion at most. Four roundings, of what is not larger than either.
+// Every node of a frontier comes nearer by the motion at most. Four roundings, of what is not
+// larger than either.
 void move(const Vec3& p_m, const CurveHint& hint, Frontier& frontier) {
   const float motion_m = query::motion_m(hint, p_m);
   if (!(motion_m <= query::kMaxMotion_m)) {

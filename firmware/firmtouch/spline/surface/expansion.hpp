@@ -1,6 +1,6 @@
 #pragma once
-// Half the squared distance about a point of a surface with all that bounds its rest, for .cpp files of this
-// module only.
+// Half the squared distance about a point of a surface with all that bounds its rest, for .cpp
+// files of this module only.
 #include "firmtouch/spline/surface/point.hpp"
 #include "firmtouch/spline/surface/quadratic.hpp"
 
@@ -15,8 +15,8 @@ struct SurfaceBends {
 struct DerivativeNoise {
   float first, second, mixed, third;
 };
-/// Of degree 3 at most, without weights: each term is rounded no more often than the point's (evaluation.hpp),
-/// and carries k, k (k - 1), k l and k (k - 1) l more. Else: search.hpp.
+/// Of degree 3 at most, without weights: each term is rounded no more often than the point's
+/// (evaluation.hpp), and carries k, k (k - 1), k l and k (k - 1) l more. Else: search.hpp.
 static inline DerivativeNoise noise_of(const Piece& piece) {
   if (piece.is_rational == 0 && piece.degree_u <= 3 && piece.degree_v <= 3)
     return {3.0f, 6.0f, 9.0f, 18.0f};

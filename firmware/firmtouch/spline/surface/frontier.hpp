@@ -1,12 +1,14 @@
 #pragma once
-// What a search of surfaces passes over becomes the next one's front, for .cpp files of this module only.
+// What a search of surfaces passes over becomes the next one's front, for .cpp files of this module
+// only.
 //
-// A front says: all of the model lies in its parts or is at least `outside` units beyond base_m away, and each part is as
-// far as it says. After a motion m everything is nearer by m at most, so that m taken off base_m keeps all of it true; what
-// is then still beyond the limit is not looked at. A part that is looked at is left in the front with its new bound, or
-// replaced by the parts of it that were passed over, which hold all of it. What a proof told, as every distance computed
-// here, may be off by what float32 loses of it, which certified() takes off: reported_m() is rounded down by more than that
-// may differ from one query to the next.
+// A front says: all of the model lies in its parts or is at least `outside` units beyond base_m
+// away, and each part is as far as it says. After a motion m everything is nearer by m at most, so
+// that m taken off base_m keeps all of it true; what is then still beyond the limit is not looked
+// at. A part that is looked at is left in the front with its new bound, or replaced by the parts of
+// it that were passed over, which hold all of it. What a proof told, as every distance computed
+// here, may be off by what float32 loses of it, which certified() takes off: reported_m() is
+// rounded down by more than that may differ from one query to the next.
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/hint.hpp"
 #include "firmtouch/spline/surface/patch_node.hpp"
@@ -63,8 +65,8 @@ class FrontierUse {
 
   explicit FrontierUse(Frontier& frontier) : frontier_(frontier) {}
 
-  /// Of what is less beyond nothing is certain any more. Its quotient is rounded up by more than its three
-  /// roundings.
+  /// Of what is less beyond nothing is certain any more. Its quotient is rounded up by more than
+  /// its three roundings.
   bool needs(float limit_m, uint32_t& needed) const {
     const float units = (limit_m - frontier_.base_m) / frontier_.unit_m;
     if (!(units < static_cast<float>(kAll) - 1.0f)) return false;

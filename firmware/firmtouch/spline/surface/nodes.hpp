@@ -59,7 +59,8 @@ class SurfaceParts {
     hint.fine[1] = static_cast<uint8_t>(v & 255u);
   }
 
-  /// Whether the last expansion is the one that closed this leaf: no other one says what is about it.
+  /// Whether the last expansion is the one that closed this leaf: no other one says what is about
+  /// it.
   bool was_closed_last(uint32_t leaf) const { return closed_ == leaf; }
   /// The largest part about a leaf, just closed, that the same expansion closes: at most its cell.
   uint32_t closed_around(uint32_t leaf, const Best& best) {
@@ -71,7 +72,8 @@ class SurfaceParts {
     return node;
   }
 
-  /// Whether the expansion that closed the last leaf closes this part of its cell as well: not asked of large ones.
+  /// Whether the expansion that closed the last leaf closes this part of its cell as well: not
+  /// asked of large ones.
   bool is_closed(uint32_t node, const Best& best) {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
     const PatchNode part = apart(pieces_[node >> 16], node);
@@ -164,7 +166,8 @@ class SurfaceParts {
     return best.is_beyond(upper2_);
   }
 
-  /// A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the piece.
+  /// A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the
+  /// piece.
   static Range range_of(const PatchNode& part, float x, float y) {
     const float half_u = math::float_of((127u - part.made_u) << 23);
     const float half_v = math::float_of((127u - part.made_v) << 23);

@@ -5,8 +5,8 @@
 
 namespace firmtouch::spline {
 
-/// A part of a surface's piece: the piece halved `depth` times, its longer axis first while it has more
-/// halvings to come, then u and v in turn.
+/// A part of a surface's piece: the piece halved `depth` times, its longer axis first while it has
+/// more halvings to come, then u and v in turn.
 struct Patch {
   uint32_t piece, depth, u, v;  // from where u and v are least
 };
@@ -59,7 +59,8 @@ inline uint32_t overlap_of(const Grid& grid, const Patch& p, const Halvings& mad
   return grid.first_leaf - p.piece + (1u << p.depth) - 1u + (p.v << made.u | p.u);
 }
 
-/// centre + x a + y b + x y twist for x and y from -1 to 1, in metres from the piece's origin: without rounding.
+/// centre + x a + y b + x y twist for x and y from -1 to 1, in metres from the piece's origin:
+/// without rounding.
 struct Quad {
   math::Vec3 centre, a, b, twist;
 };

@@ -10,8 +10,8 @@ namespace firmtouch::spline {
 struct PartBound {
   float lower_m;  // no point of it is nearer
   float x, y;     // where on it, from -1 to 1, the foot is thought to be
-  // Where lower_m is below the limit, and it is no leaf: the half without the foot, and a bound of it as
-  // seen from the whole; 0: none.
+  // Where lower_m is below the limit, and it is no leaf: the half without the foot, and a bound of
+  // it as seen from the whole; 0: none.
   uint32_t far_half;
   float far_m;
 };
@@ -43,8 +43,8 @@ class PatchBounds {
     return *of_;
   }
 
-  /// Whether a part of that piece is beyond the limit. u and v: with a 1 before their digits; left: halvings to a
-  /// leaf; next_u: its halves are of u.
+  /// Whether a part of that piece is beyond the limit. u and v: with a 1 before their digits; left:
+  /// halvings to a leaf; next_u: its halves are of u.
   [[gnu::always_inline]] bool is_beyond(uint32_t u, uint32_t v, uint32_t left_u, uint32_t left_v,
                                         bool next_u, float limit_m, PartBound& reported) const {
     const uint32_t along = columns_ << left_v;

@@ -9,7 +9,8 @@ static inline float in_units(float unit, uint32_t byte) {
   return math::float_of(math::bits_of(unit) + (byte << 20));
 }
 
-/// Of a part, from its first corner and by how many the next along u and along v follow; in units of a quarter of the grid's step: all are whole.
+/// Of a part, from its first corner and by how many the next along u and along v follow; in units
+/// of a quarter of the grid's step: all are whole.
 static inline Quad quarters_between(const Corner* c00, uint32_t across, uint32_t along) {
   const Corner *const c10 = c00 + across, *const c01 = c00 + along, *const c11 = c01 + across;
   Quad made_of;
@@ -56,16 +57,17 @@ static inline void see(const Quad& p, math::Vec3 q, Seen& seen) {
 }
 
 static inline float held(float value) { return math::smaller(math::larger(value, -1.0f), 1.0f); }
-/// Of what along a vector of square off2, times its length, is at least off2 - left away: the root of
-/// off2 - 2 left. Its square is at most (off2 - left)^2 / off2, which is that distance's along the vector.
-/// What rounding does to it is less than 2^-20 of off2, and to the root than 2^-22 of itself.
+/// Of what along a vector of square off2, times its length, is at least off2 - left away: the root
+/// of off2 - 2 left. Its square is at most (off2 - left)^2 / off2, which is that distance's along
+/// the vector. What rounding does to it is less than 2^-20 of off2, and to the root than 2^-22 of
+/// itself.
 static inline float least_of(float off2, float left) {
   return math::square_root(math::larger(off2 * (1.0f - 0x1p-20f) - (left + left), 0.0f));
 }
 
-/// A lower bound of the distance to a quad, but for the rounding of its root, and where on it, x and y, the foot is
-/// thought to be: that of its parallelogram. Along any vector, here the one from there to the query, no point of
-/// the quad is farther than its farthest corner.
+/// A lower bound of the distance to a quad, but for the rounding of its root, and where on it, x
+/// and y, the foot is thought to be: that of its parallelogram. Along any vector, here the one from
+/// there to the query, no point of the quad is farther than its farthest corner.
 struct Foot {
   float x, y, distance;
   math::Vec3 off;
@@ -86,8 +88,8 @@ static inline void foot_on(const Quad& p, const Seen& seen, Foot& foot) {
 /// A part's halves overlap by as much of its quad to each side of the middle.
 static inline float in_overlaps(uint32_t byte) { return static_cast<float>(byte) * 0x1p-7f; }
 
-/// The same of the half without the foot, whose nearest line is `excess` from it: from there on to the end, of all that is
-/// along it. An axis: what it is of the quad, and where on it the foot is.
+/// The same of the half without the foot, whose nearest line is `excess` from it: from there on to
+/// the end, of all that is along it. An axis: what it is of the quad, and where on it the foot is.
 struct Axis {
   math::Vec3 way;
   float at;

@@ -4,8 +4,8 @@
 
 namespace firmtouch::spline {
 
-/// A node in one word: a part of a piece, or kUpper + i for inner node i of the tree over the pieces. No
-/// piece has the number of kUpper: there are at most kMaxPatches.
+/// A node in one word: a part of a piece, or kUpper + i for inner node i of the tree over the
+/// pieces. No piece has the number of kUpper: there are at most kMaxPatches.
 constexpr uint32_t kUpper = 0xFFFF0000u;
 /// Of a part bits 16 to 31 are the piece, bits 7 to 13 and 0 to 6 its u and v, each with a 1 before
 /// their binary digits: as many as the halvings made.

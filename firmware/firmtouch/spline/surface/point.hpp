@@ -1,6 +1,6 @@
 #pragma once
-// Points of a surface's piece with their derivatives, for .cpp files of this module only. The order of operations is part
-// of the result; proof/leaf_shape.cpp bounds what it loses.
+// Points of a surface's piece with their derivatives, for .cpp files of this module only. The order
+// of operations is part of the result; proof/leaf_shape.cpp bounds what it loses.
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/spline/layout.hpp"
 #include "firmtouch/spline/numbers.hpp"
@@ -39,8 +39,8 @@ static inline void divide(T& p, const Derivatives<float>& w) {
   p.vvv = (p.vvv - p.dvv * (3.0f * w.dv) - p.dv * (3.0f * w.dvv) - p.x * w.vvv) * per_w;
 }
 
-/// A coordinate, or four, with its derivatives, those of an order k divided by k! of each axis. Horner's
-/// rule along s in each row, then along t.
+/// A coordinate, or four, with its derivatives, those of an order k divided by k! of each axis.
+/// Horner's rule along s in each row, then along t.
 template <class T>
 struct Rows {
   T x, u, v, uu, uv, vv, uuu, uuv, uvv, vvv;

@@ -12,9 +12,9 @@ struct Rectangle {
   float start[2];  // where to evaluate first
 };
 
-/// D^2 / 2 = distance2 / 2 + slope . d + d . bend . d / 2 and a rest of third derivatives uuu, uuv, uvv,
-/// vvv, at the point, and fourth ones, uuuu to vvvv, everywhere at most `fourth` in size, those of even powers
-/// only downward, by the piece's s and t.
+/// D^2 / 2 = distance2 / 2 + slope . d + d . bend . d / 2 and a rest of third derivatives uuu, uuv,
+/// uvv, vvv, at the point, and fourth ones, uuuu to vvvv, everywhere at most `fourth` in size,
+/// those of even powers only downward, by the piece's s and t.
 struct Quadratic {
   float distance2;
   float at[2];
@@ -26,8 +26,8 @@ struct Quadratic {
   float third[4], third_noise;  // a third derivative may be off by the latter
   float fourth[5];
 
-  /// By how much third derivatives may lower the rest, with what makes up for the fourth ones within U and V: u^3 v <= U u^2 v, and of u^2 v^2
-  /// half counts as V u^2 v, half as U u v^2.
+  /// By how much third derivatives may lower the rest, with what makes up for the fourth ones
+  /// within U and V: u^3 v <= U u^2 v, and of u^2 v^2 half counts as V u^2 v, half as U u v^2.
   void changes(float u, float v, const float (&lows)[4], float (&change)[4]) const {
     change[0] = lows[0] + third_noise + fourth[0] * u * 0.25f;
     change[1] = lows[1] + third_noise + fourth[1] * u * 0.33333337f + fourth[2] * v * 0.25f;
@@ -35,16 +35,18 @@ struct Quadratic {
     change[3] = lows[3] + third_noise + fourth[4] * v * 0.25f;
   }
 
-  /// A lower bound of D^2 over a rectangle. With x and y from -1 to 1 of its reaches U and V, the rest is
-  /// at least -(uuu U^3 |x|^3 + 3 uuv U^2 V x^2 |y| + 3 uvv U V^2 |x| y^2 + vvv V^3 |y|^3) / 6, which with
-  /// the bend is a quadratic form Q of |x| and |y|: x^2 |y| is at most x^2, of the stronger axis, and at most |x y|,
-  /// which spares the weaker one. On an axis that leads only away from the point and uphill, g |x| >= g x^2: the
-  /// slope becomes part of Q. What is left of the slopes costs what Q leaves of it: the stronger axis wherever it ends,
-  /// the other one within the rectangle, bent downward or not. Where an axis leads up more steeply than all
-  /// that is mixed with it may take away, the other one is left alone: asked only where the rest is not `enough2`.
+  /// A lower bound of D^2 over a rectangle. With x and y from -1 to 1 of its reaches U and V, the
+  /// rest is at least -(uuu U^3 |x|^3 + 3 uuv U^2 V x^2 |y| + 3 uvv U V^2 |x| y^2 + vvv V^3 |y|^3)
+  /// / 6, which with the bend is a quadratic form Q of |x| and |y|: x^2 |y| is at most x^2, of the
+  /// stronger axis, and at most |x y|, which spares the weaker one. On an axis that leads only away
+  /// from the point and uphill, g |x| >= g x^2: the slope becomes part of Q. What is left of the
+  /// slopes costs what Q leaves of it: the stronger axis wherever it ends, the other one within the
+  /// rectangle, bent downward or not. Where an axis leads up more steeply than all that is mixed
+  /// with it may take away, the other one is left alone: asked only where the rest is not
+  /// `enough2`.
   float least2(const Rectangle& r, float enough2 = FLT_MAX) const {
-    // By how much terms may lower the rest: those whose sign is known, on one side of the point, by nothing
-    // where that leads up.
+    // By how much terms may lower the rest: those whose sign is known, on one side of the point, by
+    // nothing where that leads up.
     struct Way {
       float reach, side;  // the latter 0 where the rectangle is on both sides
       float g, q;
@@ -113,8 +115,9 @@ struct Quadratic {
     return distance2 + 2.0f * bound;
   }
 
-  /// Where Newton's method, within the rectangle, would look next: of the bend where it is positive on
-  /// the axes that are free, else of the tangents alone. Result: by how much D^2 / 2 should be less there.
+  /// Where Newton's method, within the rectangle, would look next: of the bend where it is positive
+  /// on the axes that are free, else of the tangents alone. Result: by how much D^2 / 2 should be
+  /// less there.
   float next(const Rectangle& r, float (&to)[2]) const {
     const float* h = bend;
     bool is_fixed[2];
@@ -131,7 +134,8 @@ struct Quadratic {
     if (!is_fixed[0] && !is_fixed[1] && determinant > 0.0f) {
       step[0] = (h[1] * slope[1] - h[2] * slope[0]) / determinant;
       step[1] = (h[1] * slope[0] - h[0] * slope[1]) / determinant;
-      // Where one axis ends, the other is solved anew along the edge; where both do, along the better one.
+      // Where one axis ends, the other is solved anew along the edge; where both do, along the
+      // better one.
       const float wanted[2] = {at[0] + step[0], at[1] + step[1]};
       float most = -FLT_MAX;
 #pragma GCC unroll 2
@@ -174,15 +178,16 @@ struct Quadratic {
     return of_u >= of_v ? 0 : 1;
   }
 
-  /// At most the least of x rise - x fall + x^2 own / 2 over x from 0 to 1, of which rise or fall is 0.
+  /// At most the least of x rise - x fall + x^2 own / 2 over x from 0 to 1, of which rise or fall
+  /// is 0.
   static float min_along(float rise, float fall, float own) {
     if (own > fall) return -0.5f * (fall * fall / own) * (1.0f + 0x1p-20f);
     const float end = rise + 0.5f * own - fall;
     return end > 0x1p-20f * rise ? 0.0f : end - 0x1p-22f * rise;
   }
 
-  /// At most the least of -(g x + h y) + (a x^2 - 2 b x y + c y^2) / 2 over x and y from 0 to 1, where c > 0: of any y
-  /// where that may be less than 1, else of y = 1.
+  /// At most the least of -(g x + h y) + (a x^2 - 2 b x y + c y^2) / 2 over x and y from 0 to 1,
+  /// where c > 0: of any y where that may be less than 1, else of y = 1.
   static float min_across(float a, float b, float c, float g, float h) {
     const bool is_within = h < c;
     const float turned = is_within ? b / c : 1.0f, own = is_within ? a - b * turned : a;

@@ -20,8 +20,8 @@ class SurfaceSearch : public Account {
   void leave(math::Vec3 motion_m, CurveHint& hint) const { parts_.leave(best_, motion_m, hint); }
   uint32_t piece_of(uint32_t node) const { return node >> 16; }
 
-  /// From a leaf that may be near: where the front is far enough away only what of it may be within the limit, else
-  /// all, and a new front is told, to `margin_m` beyond the best.
+  /// From a leaf that may be near: where the front is far enough away only what of it may be within
+  /// the limit, else all, and a new front is told, to `margin_m` beyond the best.
   void run_warm(uint32_t leaf, const Range& range, float margin_m, Frontier& frontier) {
     FrontierUse use(frontier);
     run_from(leaf, range, margin_m, use, frontier);
@@ -57,8 +57,9 @@ class SurfaceSearch : public Account {
     is_complete_ = true;
   }
 
-  // At the parts of a front that may hold something nearer: all are read, and what then may still hold it is gone through
-  // nearest first, as below one node, so that what closes one part closes others about it.
+  // At the parts of a front that may hold something nearer: all are read, and what then may still
+  // hold it is gone through nearest first, as below one node, so that what closes one part closes
+  // others about it.
   bool look(uint32_t leaf, bool is_closed, uint32_t needed, FrontierUse& use, Frontier& frontier,
             bool& holds) {
     passed_.start(use.outside_m());
@@ -168,8 +169,8 @@ class SurfaceSearch : public Account {
     }
   }
 
-  // Reads a part of a piece, and of its halves the nearer one on and on, as far as the limit or a leaf.
-  // What else may hold something nearer goes to the stack. `known`: it has been read already.
+  // Reads a part of a piece, and of its halves the nearer one on and on, as far as the limit or a
+  // leaf. What else may hold something nearer goes to the stack. `known`: it has been read already.
   [[gnu::noinline]] void descend(uint32_t node, float above_m, const Entry* known) {
     const Piece& piece = bounds_.come_near(node >> 16);
     uint32_t u = (node >> 7) & 127u, v = node & 127u;
