@@ -71,6 +71,7 @@ TEST(AWrongVertexNormalIsFoundByItsWrongSides) {
     }
   }
   CHECK(mesh::open(tools::mesh_sections(model.sections, "model"), model.view).ok());
+  model.wide = simd::WideMesh(model.view);
   const bench::TruthReport truth = bench::measure_truth(model, 4000);
   CHECK_GT(truth.wrong_sides, 50u);
   CHECK_EQ(truth.wrong_places.size(), 5u);

@@ -47,6 +47,9 @@ BEGIN {
     if (text ~ /^[ \t]*#[ \t]*include/) continue
     if (text ~ /std::/) complain("std::")
     if (text ~ /= *delete *;/) sub(/= *delete *;/, ";", text)  # a deleted function is no heap
+    # Placement into memory that is there is no heap.
+    gsub(/operator (new|delete)/, "", text)
+    gsub(/new \(static_cast<void\*>/, "(", text)
     words = text
     while (match(words, /[A-Za-z_][A-Za-z0-9_]*|[0-9.][0-9A-Za-z_.]*([eE][-+][0-9]+[fFlL]?)?/)) {
       word = substr(words, RSTART, RLENGTH)

@@ -44,9 +44,9 @@ VoxelizeRefusesWhatItCannotDo() {
 
 ADistanceMapIsBakedProvenAndShown() {
   f make part --triangles 2000 -o part.obj; exits 0
-  f bake part.obj -o a.fta --distance-map 16; exits 0; told 'distance map of 18 x ' 'proven with'
+  f bake part.obj -o a.fta --distance-map 16; exits 0; told 'distance field of 18 x ' 'proven with'
   f info a.fta; exits 0
-  printf '%s\n' "$out" | grep -q 'distance map bounds' || fail "$out"
+  printf '%s\n' "$out" | grep -q 'distance field bounds' || fail "$out"
   f bake part.obj -o b.fta --distance-map 16; cmp -s a.fta b.fta || fail 'another map the second time'
   f bake part.obj -o c.fta; exits 0
   [ "$(wc -c <c.fta)" -lt "$(wc -c <a.fta)" ] || fail 'no map in the asset'

@@ -127,13 +127,13 @@ void add_edge(const Guide& guide, Vec3 tangent, const servo::GuideLine& line,
 
 void add_line(const Guide& guide, Vec3 p_m, const Found& found, float moved_m, GuideTouch& touch,
               servo::LocalModel& model) {
-  const FreeDirection free = free_direction(touch.closest, p_m, found.size_m);
+  const FreeDirection unguided = free_direction(touch.closest, p_m, found.size_m);
   servo::GuideLine line;
   line.point_m = math::apply(guide.pose, touch.closest.point_m);
-  line.direction = guide.pose.rotation * free.direction;
+  line.direction = guide.pose.rotation * unguided.direction;
   const float tunnel_m = positive(guide.tunnel_m);
   line.tunnel_m = tunnel_m < servo::kMaxTunnel_m ? tunnel_m : servo::kMaxTunnel_m;
-  set_drive(guide, found, moved_m, free.is_along, touch, line);
+  set_drive(guide, found, moved_m, unguided.is_along, touch, line);
   const float side2 = math::dot(guide.free_side, guide.free_side);
   if (side2 >= kMinSide * kMinSide && side2 <= 1e6f) {
     add_edge(guide, guide.pose.rotation * touch.closest.tangent, line, model);

@@ -2,6 +2,8 @@
 
 #include <float.h>
 
+#include "firmtouch/spline/probe_run.hpp"
+
 namespace firmtouch::spline {
 namespace {
 
@@ -105,6 +107,16 @@ Closest answer_beyond(const View& model, Vec3 p_m, CurveHint& hint) {
   hint.position_m = p_m;
   hint.lower_m = closest.certificate.lower_m;
   return closest;
+}
+
+void add_answer(const Closest& answer, core::Hash& hash) {
+  const float values[] = {answer.distance_m,         answer.point_m.x,   answer.point_m.y,
+                          answer.point_m.z,          answer.direction.x, answer.direction.y,
+                          answer.direction.z,        answer.u,           answer.v,
+                          answer.certificate.lower_m};
+  for (const float value : values) hash.add(math::bits_of(value));
+  hash.add(answer.piece);
+  hash.add(answer.certificate.steps);
 }
 
 }  // namespace firmtouch::spline

@@ -20,7 +20,7 @@ inline Closest closest_point(const View& model, math::Vec3 p_m, query::Budget bu
                             : closest_on_curve(model, p_m, budget, hint);
 }
 
-using ProbeRun = ProbeRunOf<static_cast<ProbeQuery*>(closest_point)>;
+using ProbeRun = query::ProbeRun<Prober<static_cast<ProbeQuery*>(closest_point)>>;
 
 /// The hash of the answers to `points`, one after the other with one hint.
 inline uint64_t probe_hash(const View& model, core::Span<const query::ProbePoint> points) {

@@ -1,7 +1,6 @@
 #pragma once
 #include "firmtouch/core/hash.hpp"
-#include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/query/probe.hpp"
+#include "firmtouch/query/probe_run.hpp"
 #include "firmtouch/spline/closest.hpp"
 #include "firmtouch/spline/hint.hpp"
 #include "firmtouch/spline/view.hpp"
@@ -10,35 +9,16 @@ namespace firmtouch::spline {
 
 using ProbeQuery = Closest(const View&, math::Vec3, query::Budget, CurveHint&);
 
-/// Runs probe queries one after the other with one hint, one in each call of work(). The hash is of
-/// the answers' bits.
+/// Adds the bits of an answer to `hash`.
+void add_answer(const Closest& answer, core::Hash& hash);
+
+/// What a probe run of spline queries keeps from one query to the next (query/probe_run.hpp).
 template <ProbeQuery* kQuery>
-class ProbeRunOf {
- public:
-  ProbeRunOf() = default;
-  explicit ProbeRunOf(const query::Probes& probes) : probes_(probes) {}
-
-  /// Runs the next query.
-  void work(const View& model) {
-    if (done()) return;
-    const query::ProbePoint& p = probes_.points[next_++];
-    const Closest c = kQuery(model, {p.x_m, p.y_m, p.z_m}, query::kUnlimited, hint_);
-    const float values[] = {c.distance_m,  c.point_m.x,          c.point_m.y,   c.point_m.z,
-                            c.direction.x, c.direction.y,        c.direction.z, c.u,
-                            c.v,           c.certificate.lower_m};
-    for (const float value : values) hash_.add(math::bits_of(value));
-    hash_.add(c.piece);
-    hash_.add(c.certificate.steps);
+struct Prober {
+  void answer(const View& model, math::Vec3 p_m, core::Hash& hash) {
+    add_answer(kQuery(model, p_m, query::kUnlimited, hint), hash);
   }
-  bool done() const { return next_ >= probes_.points.size(); }
-  uint64_t hash() const { return hash_.value(); }
-  bool agrees() const { return hash() == probes_.hash; }
-
- private:
-  query::Probes probes_;
-  core::Hash hash_;
-  CurveHint hint_;
-  uint32_t next_ = 0;
+  CurveHint hint;
 };
 
 }  // namespace firmtouch::spline

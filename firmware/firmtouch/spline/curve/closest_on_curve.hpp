@@ -20,6 +20,6 @@ namespace firmtouch::spline {
 ///         9e-7 of the distance of the truth (tests/spline/closest_point_host_test.cpp).
 Closest closest_on_curve(const View& model, math::Vec3 p_m, query::Budget budget, CurveHint& hint);
 
-using CurveProbeRun = ProbeRunOf<closest_on_curve>;
+using CurveProbeRun = query::ProbeRun<Prober<closest_on_curve>>;
 
 }  // namespace firmtouch::spline

@@ -24,6 +24,6 @@ Closest closest_on_surface(const View& model, math::Vec3 p_m, query::Budget budg
 Closest closest_on_surface(const View& model, math::Vec3 p_m, query::Budget budget,
                            CurveHint& hint);
 
-using SurfaceProbeRun = ProbeRunOf<static_cast<ProbeQuery*>(closest_on_surface)>;
+using SurfaceProbeRun = query::ProbeRun<Prober<static_cast<ProbeQuery*>(closest_on_surface)>>;
 
 }  // namespace firmtouch::spline
