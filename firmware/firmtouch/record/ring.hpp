@@ -92,8 +92,8 @@ class Ring {
     uint32_t copied = 0;
     for (uint32_t batch = 0; batch < 2 && copied < to.size(); ++batch) {
       const core::Span<const Numbered<T>> from = ready();
-      const uint32_t free = to.size() - copied;
-      const uint32_t count = from.size() < free ? from.size() : free;
+      const uint32_t space = to.size() - copied;
+      const uint32_t count = from.size() < space ? from.size() : space;
       if (count == 0) break;
       for (uint32_t i = 0; i < count; ++i) to[copied + i] = from[i];
       release(count);
