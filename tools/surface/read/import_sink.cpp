@@ -1,9 +1,11 @@
 #include "surface/read/import_sink.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "firmtouch/mesh/layout.hpp"
+#include "surface/ear_clip.hpp"
 #include "surface/point.hpp"
 
 namespace firmtouch::tools {
@@ -127,12 +129,64 @@ bool ImportSink::add_polygon(const std::vector<int64_t>& corners, const Place& p
   }
   const int64_t greatest = *std::max_element(corners.begin(), corners.end());
   if (greatest >= known) later_.push_back({greatest, place});
+  if (corners.size() > 3) polygons_.push_back({surface_.faces.size(), corners.size(), place});
   for (size_t k = 1; k + 1 < corners.size(); ++k) {
     surface_.source.push_back(static_cast<uint32_t>(surface_.faces.size()));
     surface_.faces.push_back({static_cast<uint32_t>(corners[0]), static_cast<uint32_t>(corners[k]),
                               static_cast<uint32_t>(corners[k + 1])});
   }
   return true;
+}
+
+void ImportSink::split_concave(const Polygon& polygon) {
+  std::vector<uint32_t> corners{surface_.faces[polygon.first][0], surface_.faces[polygon.first][1]};
+  for (size_t k = 0; k + 2 < polygon.corners; ++k)
+    corners.push_back(surface_.faces[polygon.first + k][2]);
+  const auto corner = [&](size_t k) {
+    return to_point(surface_.vertices[corners[k % corners.size()]]) -
+           to_point(surface_.vertices[corners[0]]);
+  };
+  Point normal{};  // Newell's, twice the area long
+  double reach_m = 0;
+  for (size_t k = 0; k < corners.size(); ++k) {
+    normal = normal + cross(corner(k), corner(k + 1));
+    reach_m = std::max(reach_m, length(corner(k)));
+  }
+  bool is_turned = false, is_flat = false;
+  for (size_t k = 1; k + 1 < corners.size(); ++k) {
+    const double along = dot(cross(corner(k), corner(k + 1)), normal);
+    is_turned = is_turned || along < 0;
+    is_flat = is_flat || !(along > 0);
+  }
+  if (!is_turned && !is_flat) return;
+  // In the face's plane, on a grid of 2^28 units.
+  std::vector<Face> ears;
+  if (dot(normal, normal) > 0) {
+    const Point n = normal * (1 / length(normal));
+    const Point aside =
+        cross(n, std::fabs(n.x) <= std::fabs(n.y) ? Point{1, 0, 0} : Point{0, 1, 0});
+    const Point across = aside * (1 / length(aside)), up = cross(n, across);
+    const double per_m = 0x1p28 / reach_m;
+    Outline outline;
+    for (size_t k = 0; k < corners.size(); ++k)
+      outline.push_back(
+          {std::llround(dot(corner(k), across) * per_m), std::llround(dot(corner(k), up) * per_m)});
+    std::vector<uint32_t> sorted = corners;
+    std::sort(sorted.begin(), sorted.end());
+    // An outline that runs twice along a cut to a hole passes corners twice.
+    const bool has_cut = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+    if (has_cut || is_simple(outline)) ears = clip_ears({outline});
+  }
+  if (ears.size() + 2 == corners.size()) {
+    for (size_t k = 0; k < ears.size(); ++k)
+      surface_.faces[polygon.first + k] = {corners[ears[k][0]], corners[ears[k][1]],
+                                           corners[ears[k][2]]};
+  } else if (is_turned) {
+    defect(polygon.place, "outline",
+           "a face of " + std::to_string(corners.size()) +
+               " corners whose outline crosses itself or is far from flat: split it into triangles "
+               "in the program that made it");
+  }
 }
 
 bool ImportSink::finish() {
@@ -150,6 +204,8 @@ bool ImportSink::finish() {
   if (count == 0) return fail("has no vertices: is it a mesh? Export it again with its geometry");
   if (surface_.faces.empty())
     return fail("has no faces: export it as a mesh, not as points or lines");
+  for (const Polygon& polygon : polygons_) split_concave(polygon);
+  if (failed()) return false;
   report_rounding();
   return true;
 }

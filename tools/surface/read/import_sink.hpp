@@ -37,8 +37,9 @@ class ImportSink {
   /// Coordinates in the file's unit: scaled in double, rounded once. A vertex that is refused still
   /// counts, so that indices stay right.
   bool add_vertex(const double* xyz, const Place& place);
-  /// A polygon, fanned from its first corner. An index may name a vertex that comes later: finish()
-  /// checks.
+  /// A polygon, fanned from its first corner; where a triangle of the fan would be turned over or
+  /// flat, because the outline is concave, split by clip_ears(). An index may name a vertex that
+  /// comes later: finish() checks and splits.
   bool add_polygon(const std::vector<int64_t>& corners, const Place& place);
   bool finish();
   /// Whether the format counts vertices from 0 or 1, for messages.
@@ -57,7 +58,14 @@ class ImportSink {
     Place place;
   };
 
+  struct Polygon {
+    size_t first;  // of its triangles
+    size_t corners;
+    Place place;
+  };
+
   std::string where(const Place& place) const;
+  void split_concave(const Polygon& polygon);
   void report_rounding();
 
   std::string path_;
@@ -65,6 +73,7 @@ class ImportSink {
   int64_t base_ = 0;
   Surface surface_;
   std::vector<Later> later_;
+  std::vector<Polygon> polygons_;  // of more than three corners
   std::vector<std::string> notes_;
   double moved_m_ = 0;  // by the rounding to float, at most
   bool is_stopped_ = false;
