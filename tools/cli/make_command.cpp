@@ -12,6 +12,7 @@
 #include "spline/read_spline.hpp"
 #include "spline/sample_splines.hpp"
 #include "spline/write_iges.hpp"
+#include "surface/make/make_cad.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/make/make_walk.hpp"
 #include "surface/write_surface.hpp"
@@ -46,6 +47,10 @@ void demand_extension(const Kind& kind, const std::string& output) {
 std::string made_part(const Arguments& arguments, uint64_t seed) {
   const uint32_t triangles = arguments.count("--triangles", kPartTriangles, 2000, 4000000);
   return tools::to_obj(tools::make_part(seed, triangles));
+}
+
+std::string made_cad(const Arguments&, uint64_t seed) {
+  return tools::to_obj(tools::make_cad(seed));
 }
 
 std::string made_path(const Arguments& arguments, uint64_t seed) {
@@ -99,7 +104,7 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
       tools::bake_mesh(surface, "walk", mesh_options, report);
   if (!report.problem.empty()) fail_input(model + ": " + report.problem);
   mesh::View view;
-  const core::Verdict verdict = mesh::open(tools::mesh_sections(sections, "walk"), view);
+  const core::Verdict verdict = tools::open_baked(sections, "walk", view);
   if (!verdict.ok()) fail_input(model + ": its mesh breaks rule R" + std::to_string(verdict.rule));
   mesh::Hint hint;
   return tools::to_csv(tools::make_walk(surface, seed, points, [&](math::Vec3 p_m) {
@@ -109,6 +114,7 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
 
 const Kind kKinds[] = {
     {"part", ".obj", made_part, {"--triangles"}},
+    {"cad", ".obj", made_cad, {}},
     {"path", ".csv", made_path, {"--points"}},
     {"walk", ".csv", made_walk, {"--points"}},
     {"curve", ".igs", made_curve, {"--control-points", "--space", "--weights"}},
@@ -118,7 +124,7 @@ const Kind kKinds[] = {
 const Kind& kind_of(const std::string& name) {
   for (const Kind& kind : kKinds)
     if (name == kind.name) return kind;
-  fail_usage("make: '" + name + "' cannot be made; make part, path, walk, curve or surface");
+  fail_usage("make: '" + name + "' cannot be made; make part, cad, path, walk, curve or surface");
 }
 
 void forbid_options_of_others(const Arguments& arguments, const Kind& kind) {
@@ -134,11 +140,15 @@ void forbid_options_of_others(const Arguments& arguments, const Kind& kind) {
 const Command& make_command() {
   static const Command command{
       "make",
-      "part|path|curve|surface|walk MODEL -o FILE [options]",
-      "Makes the demo's part and guide path, splines, and paths to query a model along; the same "
+      "part|cad|path|curve|surface|walk MODEL -o FILE [options]",
+      "Makes the demo's part and guide path, machined parts, splines, and paths to query a model "
+      "along; the same "
       "on "
       "every machine.",
       "part     a closed mesh (.obj)\n"
+      "cad      a machined part as CAD exports it, of five kinds by seed: plate with holes, turned "
+      "part,\n"
+      "         gear, bent sheet, extrusion; millimetres with few decimals (.obj)\n"
       "path     the guide that runs in the groove of the part of the same seed (.csv)\n"
       "curve    a cubic spline curve that winds about in a plane (.igs)\n"
       "surface  a bicubic spline surface of hills (.igs)\n"
