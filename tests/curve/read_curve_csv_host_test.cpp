@@ -134,3 +134,18 @@ TEST(AFileThatCannotBeOpenedIsNamed) {
   CHECK(has(points.problem, "no/such/path.csv"));
   CHECK(has(points.problem, "cannot be opened"));
 }
+
+// sin 2 pi is -2.4e-16 in double: the ring's last row is 7e-18 m beside its first.
+TEST(RingThatClosesWithinRounding_IsClosedAndSaidSo) {
+  const CurvePoints ring = read("x,y,z\n0.03,0,0\n0,0.03,0\n-0.03,0,0\n0,-0.03,0\n0.03,-7e-18,0\n");
+  CHECK(ring.problem.empty());
+  CHECK_EQ(ring.samples_m.size(), 5u);
+  CHECK_EQ(ring.samples_m[4].y, 0.0f);
+  CHECK_EQ(ring.notes.size(), 1u);
+  CHECK(!ring.notes.empty() &&
+        has(ring.notes[0], "closed: the last row is 7e-18 m from the first"));
+  // Beyond the rounding of 0.03 m, 3.6e-9 m, it stays open.
+  const CurvePoints open = read("x,y,z\n0.03,0,0\n0,0.03,0\n-0.03,0,0\n0,-0.03,0\n0.03,-1e-8,0\n");
+  CHECK_EQ(open.samples_m[4].y, -1e-8f);
+  CHECK_EQ(open.notes.size(), 0u);
+}

@@ -1,6 +1,7 @@
 #include "curve/curve_points.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 #include "firmtouch/curve/layout.hpp"
 
@@ -40,6 +41,24 @@ void drop_repeated(CurvePoints& points) {
                          ", counted from 0)");
 }
 
+// A ring computed in floating point (sin 2 pi = -2.4e-16) ends beside its first sample.
+void close_ring(CurvePoints& points) {
+  if (points.samples_m.size() < 3) return;
+  const math::Vec3 first = points.samples_m.front();
+  math::Vec3& last = points.samples_m.back();
+  float largest_m = 0;
+  for (const math::Vec3& s : points.samples_m)
+    largest_m =
+        std::fmax(largest_m, std::fmax(std::fabs(s.x), std::fmax(std::fabs(s.y), std::fabs(s.z))));
+  const double gap_m = distance_m(first, last);
+  if (!(gap_m > 0) || !(gap_m <= double{largest_m} * 0x1p-23)) return;
+  char text[96];
+  std::snprintf(text, sizeof text, "closed: the last row is %.2g m from the first, within rounding",
+                gap_m);
+  points.notes.push_back(text);
+  last = first;
+}
+
 double diagonal_m(const CurvePoints& points) {
   math::Vec3 low = points.samples_m[0], high = low;
   for (const math::Vec3& s : points.samples_m) {
@@ -63,6 +82,7 @@ void mend_curve(CurvePoints& points, const std::string& name) {
     return;
   }
   const size_t rows = points.samples_m.size();
+  close_ring(points);
   drop_repeated(points);
   if (rows < 2) {
     points.problem = name + ": " + (rows == 0 ? "no samples" : "only one sample") +

@@ -19,8 +19,10 @@ struct CurvePoints {
   std::string problem;             // empty: usable; else file, line, what is wrong, how to mend it
 };
 
-/// Drops samples that repeat the one before them and refuses what cannot be a guide: fewer than two
-/// different samples, a curve too small or too far for float32. `name` stands in the messages.
+/// Closes a ring whose last sample is the first within the rounding of its coordinates (2^-23 of
+/// the largest one). Drops samples that repeat the one before them and refuses what cannot be a
+/// guide: fewer than two different samples, a curve too small or too far for float32. `name` stands
+/// in the messages.
 void mend_curve(CurvePoints& points, const std::string& name);
 
 }  // namespace firmtouch::tools
