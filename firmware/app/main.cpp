@@ -13,11 +13,6 @@
 namespace firmtouch::app {
 namespace {
 
-// Opening between two polls of the link: well below 1 ms on a Cortex-M7. A slice of probe queries
-// takes some ms (controller/loaders.hpp): the board's ring of received bytes must last so long. No
-// servo runs yet.
-constexpr uint32_t kSliceBytes = 4096;
-
 HostSession session;
 
 // The asset in the board's slot; the whole slot if none begins there, so that opening names the
@@ -52,7 +47,7 @@ core::Bytes asset() {
 // A function of its own: tools/check/image leaves it out of the phases in which no asset is opened.
 [[gnu::noinline]] void open_asset() {
   controller.begin(asset());
-  while (!controller.work(kSliceBytes)) session.poll();
+  while (!controller.work(kSliceUnits)) session.poll();
 }
 
 namespace {
@@ -63,6 +58,7 @@ namespace {
   open_asset();
   print_verdict();
   for (;;) {
+    main_loop.count();
     session.poll();
     if (controller.is_ready() && !session.is_lock_step()) start_servo_when_enabled();
     if (kTwoRates && !session.is_lock_step()) controller.make_model();

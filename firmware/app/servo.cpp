@@ -10,9 +10,13 @@
 namespace firmtouch::app {
 namespace {
 
-// Ticks that may be missing before the watchdog cuts the motors' power. A late tick passes (the
-// controller latches it by itself); a hand moves millimetres in that time.
-constexpr uint32_t kWatchdogTicks = 4;
+// Periods without a fed watchdog before it cuts the motors' power. A tick that takes up to four
+// passes: the controller latches a fault by itself, and its program goes on. A hand moves
+// millimetres in that time.
+constexpr uint32_t kWatchdogTicks = 6;
+
+// Longest turn of the main loop: beyond a local model at two rates and the text of a refusal.
+constexpr uint32_t kMaxTurn_us = 100000;
 
 // The lines of the motors are flags of a tick.
 static_assert(hal::kMotorsEnable == record::kFlagEnable &&
@@ -28,6 +32,8 @@ bool g_show_enable_low = false;
 uint32_t servo_period_us() {
   return static_cast<uint32_t>(params::kInitialTickPeriod_s * 1e6f + 0.5f);
 }
+
+uint32_t max_ticks_of_a_turn() { return kMaxTurn_us / servo_period_us(); }
 
 void start_servo() {
   if (g_running) return;

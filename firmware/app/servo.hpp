@@ -6,6 +6,9 @@ namespace firmtouch::app {
 /// Nominal time between two ticks: the initial value of tick_period_s.
 uint32_t servo_period_us();
 
+/// Ticks that a turn of the main loop may take. After more of them the watchdog is not fed.
+uint32_t max_ticks_of_a_turn();
+
 /// Starts the timer that calls servo_interrupt(), and the watchdog over it. Later calls do nothing.
 /// Main loop only.
 void start_servo();

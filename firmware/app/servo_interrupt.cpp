@@ -12,14 +12,17 @@ namespace firmtouch::app {
 AppController controller;
 link::CommandMailbox commands;
 Records records;
+TurnWatch main_loop;
 
 void servo_interrupt() {
   static uint32_t next_tick = 0;
+  static uint32_t last_work_us = 0;
   record::TickRecord now{};
 
+  if constexpr (kDemo) demo::move_hand();
   now.input.tick = next_tick++;
   now.input.clock_us = hal::clock_us();
-  if constexpr (kDemo) demo::move_hand();
+  now.input.last_work_us = last_work_us;
   now.input.flags = servo_flags();
   if (!hal::encoders_read(now.input.encoder_counts)) now.input.flags |= record::kFlagEncoderFault;
   if (kTwoRates) now.input.flags |= controller.model_flags();
@@ -28,8 +31,9 @@ void servo_interrupt() {
   controller.tick(now.input, now.output);  // calls no HAL: a replay calls it with the same input
 
   hal::motors_write_N(now.output.motor_N);
-  hal::watchdog_feed();
+  if (main_loop.is_alive(max_ticks_of_a_turn())) hal::watchdog_feed();
   records.push(now);  // never waits: if the ring is full the record is dropped and counted
+  last_work_us = hal::clock_us() - now.input.clock_us;
 }
 
 }  // namespace firmtouch::app

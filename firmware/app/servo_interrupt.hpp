@@ -5,6 +5,7 @@
 #include "firmtouch/link/command_mailbox.hpp"
 #include "firmtouch/record/ring.hpp"
 #include "firmtouch/record/tick.hpp"
+#include "turn_watch.hpp"
 
 namespace firmtouch::app {
 
@@ -17,6 +18,7 @@ using Records = record::Ring<record::TickRecord, 64>;
 extern AppController controller;
 extern link::CommandMailbox commands;  // main loop -> interrupt
 extern Records records;                // interrupt -> main loop
+extern TurnWatch main_loop;            // main loop -> interrupt: it goes on
 
 // At two rates the interrupt renders the last local model while the main loop makes the next one:
 // for a servo that is faster than a query.

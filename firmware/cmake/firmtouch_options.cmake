@@ -23,12 +23,32 @@ set(FIRMTOUCH_NATIVE_FLAGS "$<$<BOOL:${FIRMTOUCH_NATIVE}>:-march=native;-mtune=g
 # (tests/math/rounding_host_test.cpp sees it). Freestanding code has no doubles and keeps its vectors.
 set(FIRMTOUCH_ROUNDING_FLAGS $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 
-# The smaller and the larger of two floats by one instruction (math/isa.hpp). No compiler defines a macro for it, and the GNU
-# assembler accepts it for a Cortex-M4 too, which lacks it: so it is used only if the flags name a unit that has it.
-set(FIRMTOUCH_HAS_VMAXNM OFF)
-if(CMAKE_CXX_FLAGS MATCHES "-mfpu=(fpv5|fp-armv8)")
-  set(FIRMTOUCH_HAS_VMAXNM ON)
+# Which folder of firmware/firmtouch/arch holds the primitives of this target (math/isa.hpp). Chosen by what the compiler
+# defines under these flags; -DFIRMTOUCH_ARCH=portable overrides.
+function(firmtouch_find_arch result)
+  separate_arguments(flags UNIX_COMMAND "${CMAKE_CXX_FLAGS} ${ARGN}")
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${flags} -dM -E -x c++ /dev/null OUTPUT_VARIABLE macros ERROR_QUIET)
+  set(arch portable)
+  if(macros MATCHES "__AVX2__ ")
+    set(arch avx2)
+  elseif(macros MATCHES "__ARM_FEATURE_DSP " AND macros MATCHES "__thumb2__ " AND macros MATCHES "__ARM_FP ")
+    set(arch armv7em_fpv4)
+    if(CMAKE_CXX_FLAGS MATCHES "-mfpu=(fpv5|fp-armv8)")  # no macro separates it from FPv4
+      set(arch armv7em_fpv5)
+    endif()
+  elseif(macros MATCHES "__SSE2__ |__riscv_flen |__ARM_FP ")
+    set(arch hard_float)
+  endif()
+  set(${result} ${arch} PARENT_SCOPE)
+endfunction()
+if(NOT FIRMTOUCH_ARCH)
+  set(native_flag "")
+  if(FIRMTOUCH_NATIVE)
+    set(native_flag -march=native)
+  endif()
+  firmtouch_find_arch(FIRMTOUCH_ARCH ${native_flag})
 endif()
+set(FIRMTOUCH_ARCH_DEFINITION "FIRMTOUCH_ARCH_HEADER=\"firmtouch/arch/${FIRMTOUCH_ARCH}/primitives.hpp\"" CACHE INTERNAL "")
 
 # Freestanding code: firmware and hal.
 set(FIRMTOUCH_FREESTANDING_FLAGS
@@ -82,7 +102,7 @@ function(firmtouch_freestanding target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O2> ${FIRMTOUCH_FREESTANDING_FLAGS}
                                            ${FIRMTOUCH_ARITHMETIC_FLAGS} ${FIRMTOUCH_NATIVE_FLAGS}
                                            ${FIRMTOUCH_WARNING_FLAGS})
-  target_compile_definitions(${target} PRIVATE $<$<BOOL:${FIRMTOUCH_HAS_VMAXNM}>:FIRMTOUCH_HAS_VMAXNM>)
+  target_compile_definitions(${target} PRIVATE ${FIRMTOUCH_ARCH_DEFINITION})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
 
@@ -91,5 +111,6 @@ function(firmtouch_hosted target)
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O2> ${FIRMTOUCH_ARITHMETIC_FLAGS} ${FIRMTOUCH_ROUNDING_FLAGS}
                                            ${FIRMTOUCH_NATIVE_FLAGS} ${FIRMTOUCH_WARNING_FLAGS})
+  target_compile_definitions(${target} PRIVATE ${FIRMTOUCH_ARCH_DEFINITION})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()

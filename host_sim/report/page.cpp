@@ -125,6 +125,7 @@ std::string table(const Report& report, const Scene3d& scene3d) {
         grouped(static_cast<uint64_t>(s.mean_instructions)) + ", " + grouped(s.worst_instructions));
     rows += row("Deepest stack", grouped(s.stack_high_bytes) + " bytes");
   }
+  rows += row("Load of the servo", load_text(s));
   rows +=
       row("Contact stiffness, damping", value(params::kContactStiffness, 0) + " N/m, " +
                                             value(params::kContactDamping, 1) + " N&middot;s/m");

@@ -112,10 +112,15 @@ Summary summarise(const Scenario& scenario, const Environment& environment, cons
       (environment.has_guide() ? parameter_value(scenario, params::kCurveSteps) : 0));
   uint64_t visits = 0, instructions = 0;
   double deviation = 0;
-  for (size_t i = 0; i < trace.records.size(); ++i)
+  for (size_t i = 0; i < trace.records.size(); ++i) {
     count(summary, trace.records[i].output, static_cast<double>(i) / trace.rate_Hz, visits,
           deviation);
+    const double load = trace.records[i].input.last_work_us * 1e-6 * trace.rate_Hz;
+    summary.mean_load += load;
+    summary.worst_load = std::max(summary.worst_load, load);
+  }
   const double ticks = static_cast<double>(std::max<size_t>(summary.ticks, 1));
+  summary.mean_load /= ticks;
   summary.mean_visits = static_cast<double>(visits) / ticks;
   if (summary.guide_ticks > 0)
     summary.mean_guide_deviation_m = deviation / static_cast<double>(summary.guide_ticks);
@@ -131,6 +136,13 @@ Summary summarise(const Scenario& scenario, const Environment& environment, cons
           (summary.fault_names.empty() ? "" : ", ") + std::string(servo::fault_name(bit));
   if (summary.has_surface) check_certificates(summary, environment, trace);
   return summary;
+}
+
+std::string load_text(const Summary& s) {
+  char text[64];
+  std::snprintf(text, sizeof text, "mean %.0f %%, worst %.0f %% of the period", s.mean_load * 100,
+                s.worst_load * 100);
+  return s.worst_load > 0 ? text : "not measured (lock-step)";
 }
 
 std::string text_of(const Summary& s, const Trace& trace) {
@@ -159,6 +171,7 @@ std::string text_of(const Summary& s, const Trace& trace) {
   if (s.worst_instructions > 0)
     line("  instructions   mean %.0f a tick, worst %u; stack %u bytes\n", s.mean_instructions,
          s.worst_instructions, s.stack_high_bytes);
+  line("  load           %s\n", load_text(s).c_str());
   if (trace.compared)
     text += trace.difference ? "  same bits      NO: see below\n"
                              : "  same bits      yes: every output bit of every tick is equal to "

@@ -29,12 +29,17 @@ struct Summary {
   bool has_surface = false, has_guide = false;
   double mean_instructions = 0;
   uint32_t worst_instructions = 0, stack_high_bytes = 0;
+  // Share of the period that a tick took, where its time was measured.
+  double mean_load = 0, worst_load = 0;
   uint32_t faults = 0;
   double fault_s = -1;  // time of the first latched fault; -1: none
   std::string fault_names;
 };
 
 Summary summarise(const Scenario& scenario, const Environment& environment, const Trace& trace);
+
+/// "mean 40 %, worst 61 % of the period".
+std::string load_text(const Summary& summary);
 
 /// The figures as text for a terminal.
 std::string text_of(const Summary& summary, const Trace& trace);

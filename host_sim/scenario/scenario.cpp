@@ -99,7 +99,7 @@ bool Reader::parameter(const std::string& name, LineReader& words) {
 }
 
 // at 9.5 s emergency_stop | drive_fault | encoder_fault | disable | enable | release |
-// clear_faults | set KEY VALUE UNIT
+// clear_faults | set KEY VALUE UNIT | load RATIO
 void Reader::event(LineReader& words) {
   struct Name {
     const char* name;
@@ -112,7 +112,8 @@ void Reader::event(LineReader& words) {
                              {"enable", Event::Kind::kEnable},
                              {"release", Event::Kind::kRelease},
                              {"clear_faults", Event::Kind::kClearFaults},
-                             {"set", Event::Kind::kSet}};
+                             {"set", Event::Kind::kSet},
+                             {"load", Event::Kind::kLoad}};
   Event event;
   event.time_s = words.quantity("at", "s", 0, 3600);
   const std::string what = words.next("an event");
@@ -122,8 +123,9 @@ void Reader::event(LineReader& words) {
   if (found == nullptr)
     words.refuse("unknown event `" + what +
                  "`; known: emergency_stop, drive_fault, encoder_fault, disable, enable, release, "
-                 "clear_faults, set");
+                 "clear_faults, set, load");
   event.kind = found->kind;
+  if (event.kind == Event::Kind::kLoad) event.value = words.quantity("load", "", 0, 100);
   if (event.kind == Event::Kind::kSet) {
     const std::string name = words.next("a parameter's name");
     event.parameter = row_of(parameters, name);
@@ -226,7 +228,8 @@ std::string scenario_help() {
           "Events, independent of the script:\n"
           "  at T s emergency_stop | drive_fault | encoder_fault | disable | enable |\n"
           "         release (of emergency stop and drive fault) |\n"
-          "         clear_faults (accepted only while disabled) | set PARAMETER VALUE UNIT\n";
+          "         clear_faults (accepted only while disabled) | set PARAMETER VALUE UNIT |\n"
+          "         load RATIO (from then on a tick with queries takes so many periods)\n";
   return help.str();
 }
 

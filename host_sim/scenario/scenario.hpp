@@ -40,12 +40,13 @@ struct Event {
     kEnable,
     kRelease,
     kClearFaults,
-    kSet
+    kSet,
+    kLoad
   };
   double time_s = 0;
   Kind kind = Kind::kEnable;
   uint32_t parameter = 0;  // kSet: row of the parameter table
-  double value = 0;        // SI
+  double value = 0;        // kSet: SI; kLoad: periods that a tick takes which queries the geometry
 };
 
 struct Setting {

@@ -67,10 +67,13 @@ class Operator {
     for (const Setting& setting : scenario.settings) commands_.push_back(setting);
     enable_tick_ = static_cast<uint32_t>(setup_ticks(scenario));
   }
-  void fill(record::TickInput& input, double time_s) {
+  // `last`: output of the tick before.
+  void fill(record::TickInput& input, const record::TickOutput& last, double time_s) {
     uint32_t once = 0;
     for (; next_ < scenario_.events.size() && scenario_.events[next_].time_s <= time_s; ++next_)
       once |= apply(scenario_.events[next_]);
+    if (last.steps > 0)
+      input.last_work_us = static_cast<uint32_t>(std::lround(load_ * 1e6 / scenario_.rate_Hz));
     const bool enabled = enabled_ && input.tick >= enable_tick_;
     input.flags = held_ | once | (enabled ? record::kFlagEnable : 0);
     if (commands_.empty()) return;
@@ -106,6 +109,9 @@ class Operator {
       case Event::Kind::kSet:
         commands_.push_back({event.parameter, event.value});
         return 0;
+      case Event::Kind::kLoad:
+        load_ = event.value;
+        return 0;
     }
     return 0;
   }
@@ -115,6 +121,7 @@ class Operator {
   uint32_t enable_tick_ = 0;
   size_t next_ = 0;
   uint32_t held_ = 0;
+  double load_ = 0;
   bool enabled_ = true;
 };
 
@@ -247,7 +254,8 @@ Trace run(const Scenario& scenario, FullController& controller, const Environmen
     record.input.tick = tick;
     record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
     for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = device.count(axis);
-    panel.fill(record.input, now_s);
+    panel.fill(record.input, trace.records.empty() ? record.output : trace.records.back().output,
+               now_s);
     record.input.flags |= model_flags(scenario, tick);
     controller.tick(record.input, record.output);
     controller.make_model();

@@ -70,7 +70,7 @@ TEST(AWrongVertexNormalIsFoundByItsWrongSides) {
       std::memcpy(section.bytes.data() + i, &code, 4);
     }
   }
-  CHECK(mesh::open(tools::mesh_sections(model.sections, "model"), model.view).ok());
+  CHECK(tools::open_baked(model.sections, "model", model.view).ok());
   model.wide = simd::WideMesh(model.view);
   const bench::TruthReport truth = bench::measure_truth(model, 4000);
   CHECK_GT(truth.wrong_sides, 50u);

@@ -7,10 +7,11 @@ fast_math='-ffast-math:-funsafe-math-optimizations:-ffinite-math-only:-freciproc
 -fassociative-math,-fno-signed-zeros,-fno-trapping-math'
 no_errors='-U__FAST_MATH__,-U__ASSOCIATIVE_MATH__,-U__RECIPROCAL_MATH__,-U__FINITE_MATH_ONLY__'
 source=firmware/firmtouch/math/arithmetic_check.cpp
+arch='-DFIRMTOUCH_ARCH_HEADER="firmtouch/arch/hard_float/primitives.hpp"'
 
 compile() {  # compile FLAGS FROM TO: FLAGS divided by commas; no warnings
   # shellcheck disable=SC2046
-  $compiler -std=c++17 -O2 -w -Ifirmware $(printf %s "$1" | tr , ' ') -c "$2" -o "$3" 2>"$work/error"
+  $compiler -std=c++17 -O2 -w -Ifirmware "$arch" $(printf %s "$1" | tr , ' ') -c "$2" -o "$3" 2>"$work/error"
 }
 # What comes of the check: sound, unsound, or refused. Linked without flags: GCC's fast-math start-up flushes denormals.
 verdict_of() {  # verdict_of OBJECT...

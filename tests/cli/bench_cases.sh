@@ -21,11 +21,11 @@ BenchListsTheBenches() {
 }
 
 BenchNeedsWhatItIsGiven() {
-  f bench warmth; exits 2; told "'warmth' is no bench" distance; same "$out" ''
-  f bench distance missing.obj; exits 3; told 'bench distance' missing.obj; same "$out" ''
+  f bench warmth; exits 2; says "'warmth' is no bench" distance; same "$out" ''
+  f bench distance missing.obj; exits 3; says 'bench distance' missing.obj; same "$out" ''
   box | sed '$d' >open.obj
-  f bench distance open.obj; exits 3; told open.obj 'open edge'
-  f bench distance --peer; exits 2; told '--peer needs a value'
+  f bench distance open.obj; exits 3; says open.obj 'open edge'
+  f bench distance --peer; exits 2; says '--peer needs a value'
 }
 
 BenchRacesAPeerOrSaysThatItIsAbsent() {
@@ -44,7 +44,7 @@ BenchRacesAPeerOrSaysThatItIsAbsent() {
   printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.2500  met' || fail "$out"
   f bench distance box.obj --bar --peer 'echo us_per_query 0.000001;:'
   exits 1
-  told 'not met'
+  says 'not met'
   printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.2500  NOT MET' || fail "$out"
   f bench distance box.obj --json --peer 'echo us_per_query 0.000001;:'
   exits 0
@@ -59,15 +59,15 @@ BenchNamesAPeerThatFails() {
   export TMPDIR
   f bench distance box.obj --peer 'exit 9;'
   exits 3
-  told 'exit code 9' 'closest' 'box.obj' '--peer'
+  says 'exit code 9' 'closest' 'box.obj' '--peer'
   f bench distance box.obj --peer 'echo nothing'
   exits 3
-  told 'us_per_query'
+  says 'us_per_query'
   same "$(ls temporary)" ''
   unset TMPDIR
 }
 
 BenchNamesTheLabForItsTrials() {
-  f bench orders part.obj; exits 2; told "'orders' is now run as \`firmtouch-lab orders\`" FIRMTOUCH_LAB
+  f bench orders part.obj; exits 2; says "'orders' is now run as \`firmtouch-lab orders\`" FIRMTOUCH_LAB
   same "$out" ''
 }

@@ -27,41 +27,41 @@ WithoutACommandTheUsageGoesToStderr() {
   f
   exits 2
   same "$out" ''
-  told 'usage: firmtouch COMMAND'
+  says 'usage: firmtouch COMMAND'
 }
 
 WhatDoesNotExistIsAUsageError() {
-  f bend; exits 2; told "'bend' is no command"
-  f bake x.obj --fats -o a.fta; exits 2; told 'unknown option --fats' 'firmtouch bake --help'
-  f make ball -o a.obj; exits 2; told "'ball' cannot be made"
-  f query a.fta a touch; exits 2; told "'touch' is no kind of query"
-  f bake x.obj -o a.fta --unit furlong; exits 2; told 'furlong' 'm, mm, cm, in'
-  f query a.fta a distance --budget 0; exits 2; told '--budget 0'
-  f query a.fta a distance --budget; exits 2; told '--budget needs a value'
-  f query a.fta a distance --cold --cold; exits 2; told '--cold is given twice'
-  f query a.fta a; exits 2; told 'missing'
-  f info a.fta b.fta; exits 2; told "one word too many: 'b.fta'"
-  f bake x.obj; exits 2; told '-o SCENE.fta'
-  f make part; exits 2; told '-o FILE'
-  f make walk -o w.csv; exits 2; told 'MODEL'
+  f bend; exits 2; says "'bend' is no command"
+  f bake x.obj --fats -o a.fta; exits 2; says 'unknown option --fats' 'firmtouch bake --help'
+  f make ball -o a.obj; exits 2; says "'ball' cannot be made"
+  f query a.fta a touch; exits 2; says "'touch' is no kind of query"
+  f bake x.obj -o a.fta --unit furlong; exits 2; says 'furlong' 'm, mm, cm, in'
+  f query a.fta a distance --budget 0; exits 2; says '--budget 0'
+  f query a.fta a distance --budget; exits 2; says '--budget needs a value'
+  f query a.fta a distance --cold --cold; exits 2; says '--cold is given twice'
+  f query a.fta a; exits 2; says 'missing'
+  f info a.fta b.fta; exits 2; says "one word too many: 'b.fta'"
+  f bake x.obj; exits 2; says '-o SCENE.fta'
+  f make part; exits 2; says '-o FILE'
+  f make walk -o w.csv; exits 2; says 'MODEL'
 }
 
 OptionsWithoutMeaningAreRefused() {
   small_scene
-  f query scene.fta box distance --mode exact </dev/null; exits 2; told '--mode has no meaning for distance'
-  f query scene.fta bend curve --n 3 </dev/null; exits 2; told '--n has no meaning for --mode exact'
-  f make part --points 9 -o p.obj; exits 2; told '--points has no meaning for part'
-  f make surface --space -o s.igs; exits 2; told '--space has no meaning for surface'
+  f query scene.fta box distance --mode exact </dev/null; exits 2; says '--mode has no meaning for distance'
+  f query scene.fta bend curve --n 3 </dev/null; exits 2; says '--n has no meaning for --mode exact'
+  f make part --points 9 -o p.obj; exits 2; says '--points has no meaning for part'
+  f make surface --space -o s.igs; exits 2; says '--space has no meaning for surface'
 }
 
 AMissingFileIsNamed() {
-  f bake missing.obj -o a.fta; exits 3; told missing.obj; absent a.fta
-  f bake missing.csv -o a.fta; exits 3; told missing.csv
-  f info missing.fta; exits 3; told missing.fta
-  f query missing.fta a distance; exits 3; told missing.fta
-  f make walk missing.off -o w.csv; exits 3; told missing.off; absent w.csv
+  f bake missing.obj -o a.fta; exits 3; says missing.obj; absent a.fta
+  f bake missing.csv -o a.fta; exits 3; says missing.csv
+  f info missing.fta; exits 3; says missing.fta
+  f query missing.fta a distance; exits 3; says missing.fta
+  f make walk missing.off -o w.csv; exits 3; says missing.off; absent w.csv
   mkdir folder.obj
-  f bake folder.obj -o a.fta; exits 3; told folder.obj
+  f bake folder.obj -o a.fta; exits 3; says folder.obj
 }
 
 AFailingCommandLeavesNoFile() {
@@ -69,25 +69,25 @@ AFailingCommandLeavesNoFile() {
   bend >bend.csv
   f bake bend.csv box.obj -o a.fta --cpp a.cpp
   exits 3
-  told box.obj
+  says box.obj
   absent a.fta
   absent a.cpp
   box >box.obj
   f bake box.obj -o a.fta --cpp nowhere/a.cpp
   exits 3
-  told nowhere/a.cpp
+  says nowhere/a.cpp
   absent a.fta
   f bake box.obj -o nowhere/a.fta
   exits 3
-  told nowhere/a.fta
+  says nowhere/a.fta
 }
 
 AnInputIsNeverOverwritten() {
   box >box.obj
-  f bake box.obj -o box.obj; exits 2; told 'overwrite'
-  f bake box.obj -o a.fta --cpp ./box.obj; exits 2; told 'overwrite'
+  f bake box.obj -o box.obj; exits 2; says 'overwrite'
+  f bake box.obj -o a.fta --cpp ./box.obj; exits 2; says 'overwrite'
   cp box.obj box.csv
-  f make walk box.csv -o box.csv; exits 2; told 'overwrite'
+  f make walk box.csv -o box.csv; exits 2; says 'overwrite'
   same "$(box | cksum)" "$(cksum <box.obj)"
   f bake box.obj -o a.fta --cpp a.fta; exits 2; absent a.fta
 }
@@ -96,10 +96,10 @@ AnOpenSurfaceIsRefusedUnlessUnsigned() {
   box | sed '$d' >box.obj
   f bake box.obj -o a.fta
   exits 3
-  told box.obj 'open edge' '--unsigned'
+  says box.obj 'open edge' '--unsigned'
   absent a.fta
   bake box.obj -o a.fta --unsigned
-  told 'unsigned'
+  says 'unsigned'
   printf 'x,y,z\n0,0,5\n' >p.csv
   f query a.fta box distance <p.csv
   exits 0
@@ -112,7 +112,7 @@ TwoInputsOfOneNameAreRefused() {
   bend >a/box.csv
   f bake box.obj a/box.csv -o a.fta
   exits 3
-  told a/box.csv box.obj "'box'" rename
+  says a/box.csv box.obj "'box'" rename
 }
 
 ANameTooLongIsRefused() {
@@ -122,7 +122,7 @@ ANameTooLongIsRefused() {
   box >${name}2.obj
   f bake ${name}2.obj -o b.fta
   exits 3
-  told ${name}2 31
+  says ${name}2 31
 }
 
 NamesMayHoldSpacesAndUmlauts() {
@@ -144,12 +144,12 @@ TheSameInputsGiveTheSameBytes() {
 }
 
 AMadeFileIsWhatItsNameSays() {
-  f make part -o p.ply; exits 2; told "'p.ply'" '.obj' '-o p.obj'; absent p.ply
-  f make part -o p; exits 2; told '.obj'; absent p
-  f make path -o p.obj; exits 2; told '.csv'; absent p.obj
-  f make curve -o c.bpt; exits 2; told "'c.bpt'" '.igs'; absent c.bpt
+  f make part -o p.ply; exits 2; says "'p.ply'" '.obj' '-o p.obj'; absent p.ply
+  f make part -o p; exits 2; says '.obj'; absent p
+  f make path -o p.obj; exits 2; says '.csv'; absent p.obj
+  f make curve -o c.bpt; exits 2; says "'c.bpt'" '.igs'; absent c.bpt
   box >box.obj
-  f make walk box.obj -o w.txt; exits 2; told "'w.txt'" '.csv'; absent w.txt
+  f make walk box.obj -o w.txt; exits 2; says "'w.txt'" '.csv'; absent w.txt
   f make part --triangles 2000 -o P.OBJ; exits 0
 }
 
@@ -186,6 +186,12 @@ DistancesOfABoxAreKnown() {
   case $(printf '%s\n' "$out" | sed -n 2p | cut -d, -f9) in 2 | 3) ;; *) fail "triangle of the file: $out" ;; esac
 }
 
+CadPartsAreBaked() {
+  f make cad --seed 3 -o sheet.obj; exits 0
+  bake --unit mm sheet.obj -o sheet.fta
+  f make cad --triangles 9 -o c.obj; exits 2; told "--triangles has no meaning for cad"
+}
+
 EveryBakeTellsTheSameDistances() {
   f make part --triangles 2000 -o p.obj; exits 0
   bake p.obj -o fast.fta
@@ -200,16 +206,16 @@ EveryBakeTellsTheSameDistances() {
     exits 0
     same "$(printf '%s\n' "$out" | cut -d, -f1,2,13)" "$of_fast"
   done
-  f bake p.obj -o a.fta --small --desktop; exits 2; told contradict; absent a.fta
-  f bake p.obj -o a.fta --fast --bounded; exits 2; told contradict; absent a.fta
+  f bake p.obj -o a.fta --small --desktop; exits 2; says contradict; absent a.fta
+  f bake p.obj -o a.fta --fast --bounded; exits 2; says contradict; absent a.fta
 }
 
 AFormerOptionNameIsAcceptedWithANote() {
   f make part --triangles 2000 -o p.obj; exits 0
   bake p.obj -o now.fta --bounded
-  bake p.obj -o former.fta --steady; told '--steady is called --bounded now'
+  bake p.obj -o former.fta --steady; says '--steady is called --bounded now'
   cmp -s now.fta former.fta || fail 'the former name bakes other bytes'
-  f bake p.obj -o a.fta --steady --bounded; exits 2; told '--bounded is given twice'; absent a.fta
+  f bake p.obj -o a.fta --steady --bounded; exits 2; says '--bounded is given twice'; absent a.fta
 }
 
 TheUnitScalesTheModel() {
@@ -238,7 +244,7 @@ APolylineIsAnsweredBetweenItsSamples() {
 RowsOfACurveKeepTheirNumbers() {
   printf 'x,y,z\n0,0,0\n0,0,0\n1,0,0\n2,0,0\n' >c.csv
   bake c.csv -o a.fta
-  told mended
+  says mended
   printf 'x,y,z\n1.5,1,0\n' >p.csv
   f query a.fta c curve <p.csv
   same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f5)" 2
@@ -256,17 +262,17 @@ ColumnsComeInAnyOrderWithCrlfAndBlankLines() {
 BadRowsAreNamedByLine() {
   small_scene
   printf 'x,y,z\n1,2,3\n\n1,2\n' >p.csv
-  f query scene.fta box distance <p.csv; exits 3; told 'standard input:4' "column 'z'" missing; same "$out" ''
+  f query scene.fta box distance <p.csv; exits 3; says 'standard input:4' "column 'z'" missing; same "$out" ''
   printf 'x,y,z\n1,two,3\n' >p.csv
-  f query scene.fta box distance <p.csv; exits 3; told 'standard input:2' "'two' is not a number"
+  f query scene.fta box distance <p.csv; exits 3; says 'standard input:2' "'two' is not a number"
   printf '1,2,3\n' >p.csv
-  f query scene.fta box distance <p.csv; exits 3; told 'standard input:1' "no column 'x'" 'x,y,z'
-  f query scene.fta box segment <p.csv; exits 3; told 'ax,ay,az,bx,by,bz'
+  f query scene.fta box distance <p.csv; exits 3; says 'standard input:1' "no column 'x'" 'x,y,z'
+  f query scene.fta box segment <p.csv; exits 3; says 'ax,ay,az,bx,by,bz'
   printf 'x,y,z\n1,2,3\n0,5,1,0\n' >p.csv
-  f query scene.fta box distance <p.csv; exits 3; told 'standard input:3' 'has 4 values' 'decimal comma'; same "$out" ''
+  f query scene.fta box distance <p.csv; exits 3; says 'standard input:3' 'has 4 values' 'decimal comma'; same "$out" ''
   printf 'x,y,z,x\n' >p.csv
-  f query scene.fta box distance <p.csv; exits 3; told "'x' twice"
-  f query scene.fta box distance </dev/null; exits 3; told empty
+  f query scene.fta box distance <p.csv; exits 3; says "'x' twice"
+  f query scene.fta box distance </dev/null; exits 3; says empty
 }
 
 APointThatIsNotANumberGetsAFiniteAnswer() {
@@ -313,29 +319,29 @@ TimeOfNoRowsIsNoFigure() {
   small_scene
   printf 'x,y,z\n' >p.csv
   printf 'ax,ay,az,bx,by,bz\n' >g.csv
-  f query scene.fta box distance --time <p.csv; exits 3; told 'no rows'; same "$out" ''
-  f query scene.fta bend curve --time <p.csv; exits 3; told 'no rows'; same "$out" ''
-  f query scene.fta box segment --time <g.csv; exits 3; told 'no rows'; same "$out" ''
+  f query scene.fta box distance --time <p.csv; exits 3; says 'no rows'; same "$out" ''
+  f query scene.fta bend curve --time <p.csv; exits 3; says 'no rows'; same "$out" ''
+  f query scene.fta box segment --time <g.csv; exits 3; says 'no rows'; same "$out" ''
   f query scene.fta box distance <p.csv; exits 0
 }
 
 AnAbsentNameIsAnsweredWithTheNamesThereAre() {
   small_scene
-  f query scene.fta ball distance </dev/null; exits 3; told scene.fta "'ball'" 'meshes: box' 'curves: bend'
-  f query scene.fta bend distance </dev/null; exits 3; told "no mesh 'bend'"
-  f query scene.fta box curve </dev/null; exits 3; told "no curve 'box'"
+  f query scene.fta ball distance </dev/null; exits 3; says scene.fta "'ball'" 'meshes: box' 'curves: bend'
+  f query scene.fta bend distance </dev/null; exits 3; says "no mesh 'bend'"
+  f query scene.fta box curve </dev/null; exits 3; says "no curve 'box'"
 }
 
 ADamagedAssetIsRefusedByRule() {
   small_scene
   head -c 1000 scene.fta >cut.fta
-  f info cut.fta; exits 3; told cut.fta 'rule R8' 'bake it again'
+  f info cut.fta; exits 3; says cut.fta 'rule R8' 'bake it again'
   { head -c 1000 scene.fta; printf 'XYZ'; tail -c +1004 scene.fta; } >bent.fta
   same "$(wc -c <bent.fta)" "$(wc -c <scene.fta)"
-  f info bent.fta; exits 3; told 'rule R'
-  f query box.obj box distance </dev/null; exits 3; told 'box.obj: not a sound asset: rule R3'
+  f info bent.fta; exits 3; says 'rule R'
+  f query box.obj box distance </dev/null; exits 3; says 'box.obj: not a sound asset: rule R3'
   : >empty.fta
-  f info empty.fta; exits 3; told 'rule R2'
+  f info empty.fta; exits 3; says 'rule R2'
 }
 
 InfoTellsNamesSizesAndProvenance() {
@@ -376,7 +382,7 @@ CPP
 MendedInputIsReportedAndDone() {
   box | sed 's/^f \(.\) \(.\) \(.\) \(.\)/f \4 \3 \2 \1/' >box.obj
   bake box.obj -o a.fta
-  told 'mended: ' 'inside out'
+  says 'mended: ' 'inside out'
   printf 'x,y,z\n0,0,5\n' >p.csv
   f query a.fta box distance <p.csv
   same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f1,2)" 2,1
@@ -390,5 +396,5 @@ AFullDiskIsNoSuccess() {
   status=$?
   err=$(cat .err)
   exits 3
-  told 'standard output'
+  says 'standard output'
 }

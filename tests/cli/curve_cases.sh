@@ -16,15 +16,15 @@ APenaltyHoldsAQueryOnItsPartOfACurve() {
 ACurveBeyondTheUsualWorkspaceIsTold() {
   printf 'x,y,z\n0,0,0\n700,0,0\n' >c.csv
   bake c.csv -o a.fta
-  told 'reaches 700 m' '--unit'
-  f bake c.csv -o a.fta --unit mm; exits 0; told 'reaches 0.7 m'
-  f bake c.csv -o a.fta --unit in; exits 0; told 'reaches 17.78 m'
+  says 'reaches 700 m' '--unit'
+  f bake c.csv -o a.fta --unit mm; exits 0; says 'reaches 0.7 m'
+  f bake c.csv -o a.fta --unit in; exits 0; says 'reaches 17.78 m'
 }
 
 ASmoothCurveGoesThroughItsSamplesWithoutCorners() {
   printf 'x,y,z\n0,0,0\n0.1,0,0\n0.1,0.1,0\n0.2,0.1,0\n' >c.csv
   bake c.csv -o a.fta --smooth
-  told 'open smooth curve, 4 samples'
+  says 'open smooth curve, 4 samples'
   f info a.fta; printf '%s\n' "$out" | grep -q 'cubic' || fail "info does not tell: $out"
   printf 'x,y,z\n0.1,0,0\n0.1,0.1,0\n0.15,0.1125,0\n' >p.csv
   f query a.fta c curve <p.csv

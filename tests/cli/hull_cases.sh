@@ -4,49 +4,49 @@ AHullIsWrittenAndIsAModelItself() {
   f make part -o part.obj --triangles 4000; exits 0
   for strategy in 1 2 lazy; do
     f hull part.obj --faces 500 --strategy $strategy -o hull.obj; exits 0
-    told '500 faces enclose' 'void' 'proven outside in exact arithmetic'
+    says '500 faces enclose' 'void' 'proven outside in exact arithmetic'
     same "$(grep -c '^f ' hull.obj)" 500
     f bake hull.obj -o hull.fta; exits 0
-    told 'closed: inside and outside are known'
+    says 'closed: inside and outside are known'
   done
   f hull part.obj --faces 500 -o again.obj; exits 0
   cmp -s hull.obj again.obj || fail 'a second run gave other bytes'
   f hull part.obj --faces 500 --hull-grid 16 -o coarse.obj; exits 0
-  told 'grid of'
+  says 'grid of'
 }
 
 BadModelsAreNoHulls() {
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >open.obj
-  f hull open.obj --faces 4 -o h.obj; exits 3; told open.obj '3 open edges' '--close-holes'; absent h.obj
-  f hull open.obj --faces 4 --close-holes -o h.obj; exits 0; told 'closed 1 hole' 'written as it is'; rm h.obj
+  f hull open.obj --faces 4 -o h.obj; exits 3; says open.obj '3 open edges' '--close-holes'; absent h.obj
+  f hull open.obj --faces 4 --close-holes -o h.obj; exits 0; says 'closed 1 hole' 'written as it is'; rm h.obj
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 1 2 5\n' >fin.obj
-  f hull fin.obj --faces 4 -o h.obj; exits 3; told fin.obj 'share'; absent h.obj
+  f hull fin.obj --faces 4 -o h.obj; exits 3; says fin.obj 'share'; absent h.obj
   box | sed 's/^f \(.\) \(.\) \(.\) \(.\)/f \4 \3 \2 \1/' >inward.obj
-  f hull inward.obj --faces 12 -o h.obj; exits 0; told 'turned 1 piece of 12 faces wound inside out' 'void 0 %'
+  f hull inward.obj --faces 12 -o h.obj; exits 0; says 'turned 1 piece of 12 faces wound inside out' 'void 0 %'
   : >empty.obj; rm h.obj
-  f hull empty.obj --faces 4 -o h.obj; exits 3; told empty.obj; absent h.obj
+  f hull empty.obj --faces 4 -o h.obj; exits 3; says empty.obj; absent h.obj
   { box; echo 'f 1 1 2'; } >flat.obj
-  f hull flat.obj --faces 12 -o h.obj; exits 0; told 'mended'; rm h.obj
+  f hull flat.obj --faces 12 -o h.obj; exits 0; says 'mended'; rm h.obj
 }
 
 AHullThatCannotBeCoarserSaysWhereAndWhy() {
   f make part -o part.obj --triangles 2000; exits 0
   f hull part.obj --faces 4 -o h.obj; exits 0
-  told 'stops at' 'of the 4 requested' 'may collapse' 'first the edge at vertex' '--compactness'
+  says 'stops at' 'of the 4 requested' 'may collapse' 'first the edge at vertex' '--compactness'
   [ -s h.obj ] || fail 'the best was not kept'
-  f hull part.obj --faces 100000 -o h.obj; exits 0; told 'written as it is'
+  f hull part.obj --faces 100000 -o h.obj; exits 0; says 'written as it is'
 }
 
 HullsNeedFacesAndAnObjFile() {
   box >box.obj
-  f hull box.obj -o h.obj; exits 2; told '--faces N'
-  f hull box.obj --faces 8; exits 2; told '-o FILE.obj'
-  f hull box.obj --faces 8 -o h.stl; exits 2; told '.obj'
-  f hull box.obj --faces 3 -o h.obj; exits 2; told '--faces'
-  f hull box.obj --faces 8 -o box.obj; exits 2; told 'box.obj'
-  f hull box.obj --faces 8 --strategy 3 -o h.obj; exits 2; told '--strategy'
-  f hull box.obj --faces 8 --compactness 2 -o h.obj; exits 2; told 'at most 1'
-  f hull box.obj --faces 8 --max-deviation-deg 91 -o h.obj; exits 2; told 'at most 90'
+  f hull box.obj -o h.obj; exits 2; says '--faces N'
+  f hull box.obj --faces 8; exits 2; says '-o FILE.obj'
+  f hull box.obj --faces 8 -o h.stl; exits 2; says '.obj'
+  f hull box.obj --faces 3 -o h.obj; exits 2; says '--faces'
+  f hull box.obj --faces 8 -o box.obj; exits 2; says 'box.obj'
+  f hull box.obj --faces 8 --strategy 3 -o h.obj; exits 2; says '--strategy'
+  f hull box.obj --faces 8 --compactness 2 -o h.obj; exits 2; says 'at most 1'
+  f hull box.obj --faces 8 --max-deviation-deg 91 -o h.obj; exits 2; says 'at most 90'
   absent h.obj
 }
 
@@ -55,25 +55,25 @@ AModelThatCrossesItselfListsThePlaces() {
   box | sed -n 's/^v \(.*\) \(.*\) \(.*\)/\1 \2 \3/p' |
     awk '{ print "v", $1 + 0.7, $2 + 1.1, $3 + 1.3 }' >>two.obj
   box | awk '/^f/ { print "f", $2 + 8, $3 + 8, $4 + 8, $5 + 8 }' >>two.obj
-  f hull two.obj --faces 24 -o h.obj; exits 0; told 'crosses itself in' 'place 1 of 1'
+  f hull two.obj --faces 24 -o h.obj; exits 0; says 'crosses itself in' 'place 1 of 1'
 }
 
 WhatIsNoSoundSurfaceIsNamedOrMendedFirst() {
   box >box.obj
   sed '$d' box.obj >open.obj
-  f hull open.obj --faces 8 -o h.obj; exits 3; told 'open.obj' 'open edges around 1 hole' 'first the edge'
+  f hull open.obj --faces 8 -o h.obj; exits 3; says 'open.obj' 'open edges around 1 hole' 'first the edge'
   { box; printf 'v 9 9 9\nf 1 2 9\n'; } >three.obj
-  f hull three.obj --faces 8 -o h.obj; exits 3; told 'three.obj' 'more than two faces share'
-  f bake three.obj -o a.fta --hull-faces 8; exits 3; told 'more than two faces share'
+  f hull three.obj --faces 8 -o h.obj; exits 3; says 'three.obj' 'more than two faces share'
+  f bake three.obj -o a.fta --hull-faces 8; exits 3; says 'more than two faces share'
   absent h.obj; absent a.fta
   awk '/^f/ { print "f", $5, $4, $3, $2; next } { print }' box.obj >turned.obj
-  f hull turned.obj --faces 8 -o h.obj; exits 0; told 'turned 1 piece' 'wound inside out'
+  f hull turned.obj --faces 8 -o h.obj; exits 0; says 'turned 1 piece' 'wound inside out'
   { box; echo 'f 1 1 2'; } >twice.obj
-  f hull twice.obj --faces 8 -o h.obj; exits 0; told 'dropped 1 face that names a vertex twice'
+  f hull twice.obj --faces 8 -o h.obj; exits 0; says 'dropped 1 face that names a vertex twice'
   f make part -o part.obj --triangles 2000; exits 0
   vertices=$(grep -c '^v ' part.obj)
   { cat part.obj; awk -v n="$vertices" '/^v / { print "v", $2 + 1, $3, $4 } /^f / { print "f", $2 + n, $3 + n, $4 + n }' part.obj; } >apart.obj
-  f hull apart.obj --faces 800 -o h.obj; exits 0; told '800 faces enclose'
+  f hull apart.obj --faces 800 -o h.obj; exits 0; says '800 faces enclose'
   [ "$(awk '/^v / { if ($2 < 0.5) a++; else b++ } END { print (a > 100 && b > 100) }' h.obj)" = 1 ] ||
     fail 'the pieces were not coarsened each by itself'
 }
@@ -81,11 +81,11 @@ WhatIsNoSoundSurfaceIsNamedOrMendedFirst() {
 AHullIsBakedShownAndAsked() {
   f make part -o part.obj --triangles 2000; exits 0
   f bake part.obj -o s.fta --hull-faces 200 --hull-grid 16; exits 0
-  told 'progressive hull down to 200 faces' 'RAM of a refinement' 'proven with'
+  says 'progressive hull down to 200 faces' 'RAM of a refinement' 'proven with'
   f bake part.obj -o again.fta --hull-faces 200 --hull-grid 16; cmp -s s.fta again.fta || fail 'another hull the second time'
   f info s.fta; exits 0
   printf '%s\n' "$out" | grep -q 'hull boxes of stars' || fail "$out"
-  f bake part.obj -o bare.fta --hull-faces 200 --hull-grid 16 --no-tree; exits 0; told 'only queries of its hull'
+  f bake part.obj -o bare.fta --hull-faces 200 --hull-grid 16 --no-tree; exits 0; says 'only queries of its hull'
   f info bare.fta; exits 0
   printf 'ax,ay,az,bx,by,bz\n-1,0.01,0.002,1,0.012,0.003\n0,0,-1,0.03,0.01,1\n0,0,3,1,0,3\n' >g.csv
   f query s.fta part segment --all <g.csv; exits 0; tree=$out
@@ -115,7 +115,7 @@ AHullIsAskedWithRaysAndTriangles() {
   f query s.fta part hull --primitive ray <r.csv; exits 0
   printf '%s\n' "$out" | sed -n 2p | awk -F, -v t="$first" '{ exit !($1 == 1 && $2 - t < 1e-5 && t - $2 < 1e-5) }' || fail "$out"
   printf 'ax,ay,az,dx,dy,dz\n0,0,0,0,0,0\n' >none.csv
-  f query s.fta part hull --primitive ray <none.csv; exits 3; told 'row 1' 'direction'
+  f query s.fta part hull --primitive ray <none.csv; exits 3; says 'row 1' 'direction'
   printf 'ax,ay,az,bx,by,bz,cx,cy,cz\n-1,0.01,0.002,1,0.012,0.003,0,0,1\n0,0,3,1,0,3,0,1,3\n' >t.csv
   f query s.fta part hull --primitive triangle --all <t.csv; exits 0; whole=$out
   [ "$(printf '%s\n' "$whole" | wc -l)" -gt 5 ] || fail "too few to tell: $whole"
@@ -127,24 +127,24 @@ AHullIsAskedWithRaysAndTriangles() {
   printf '%s\n' "$out" | sort >refined; printf '%s\n' "$whole" | sort >whole
   [ -z "$(comm -23 refined whole)" ] || fail 'refinement makes some up'
   f query s.fta part hull --primitive triangle --time <t.csv; exits 0
-  f query s.fta part hull --primitive sphere <t.csv; exits 2; told '--primitive'
-  f query s.fta part segment --primitive ray <r.csv; exits 2; told '--primitive'
+  f query s.fta part hull --primitive sphere <t.csv; exits 2; says '--primitive'
+  f query s.fta part segment --primitive ray <r.csv; exits 2; says '--primitive'
 }
 
 WhatAHullCannotDoIsRefused() {
   box >box.obj
-  f bake box.obj -o a.fta --hull-grid 16; exits 2; told '--hull-faces N'
-  f bake box.obj -o a.fta --no-tree; exits 2; told '--hull-faces N'
-  f bake box.obj -o a.fta --hull-faces 8 --unsigned; exits 2; told 'needs an inside'
-  f bake box.obj -o a.fta --hull-faces 8 --max-valence 40; exits 2; told 'at most 31'
-  f bake box.obj -o a.fta --hull-faces 8 --no-tree --distance-map 9; exits 2; told 'needs the tree'
+  f bake box.obj -o a.fta --hull-grid 16; exits 2; says '--hull-faces N'
+  f bake box.obj -o a.fta --no-tree; exits 2; says '--hull-faces N'
+  f bake box.obj -o a.fta --hull-faces 8 --unsigned; exits 2; says 'needs an inside'
+  f bake box.obj -o a.fta --hull-faces 8 --max-valence 40; exits 2; says 'at most 31'
+  f bake box.obj -o a.fta --hull-faces 8 --no-tree --distance-map 9; exits 2; says 'needs the tree'
   absent a.fta
   f bake box.obj -o a.fta; exits 0
   printf 'ax,ay,az,bx,by,bz\n5,0,0,-5,0.1,0.2\n' >g.csv
-  f query a.fta box hull <g.csv; exits 3; told 'has no hull' '--hull-faces'
-  f bake box.obj -o a.fta --hull-faces 4 --no-tree; exits 0; told 'stops at' 'void 0 %'
-  f query a.fta box segment <g.csv; exits 3; told '--no-tree'
-  f query a.fta box hull --base 4 <g.csv; exits 2; told '--mode complete'
-  f query a.fta box hull --mode refine --base 4 <g.csv; exits 3; told 'down to'
-  f query a.fta box hull --mode exact <g.csv; exits 2; told '--mode'
+  f query a.fta box hull <g.csv; exits 3; says 'has no hull' '--hull-faces'
+  f bake box.obj -o a.fta --hull-faces 4 --no-tree; exits 0; says 'stops at' 'void 0 %'
+  f query a.fta box segment <g.csv; exits 3; says '--no-tree'
+  f query a.fta box hull --base 4 <g.csv; exits 2; says '--mode complete'
+  f query a.fta box hull --mode refine --base 4 <g.csv; exits 3; says 'down to'
+  f query a.fta box hull --mode exact <g.csv; exits 2; says '--mode'
 }

@@ -6,7 +6,7 @@ refused() {
   shift
   f bake "$file" -o bad.fta
   exits 3
-  told "$file" "$@"
+  says "$file" "$@"
   absent bad.fta
 }
 
@@ -48,14 +48,14 @@ ALineThatDoesNotEndIsRefusedInBoundedMemory() {
     status=$?
     err=$(cat .err)
     exits 3
-    told "line.$kind" 'line ' 'longer than 16777216 bytes'
+    says "line.$kind" 'line ' 'longer than 16777216 bytes'
     absent bad.fta
     [ $kind = csv ] || rm line.$kind
   done
   small_scene
   f query scene.fta box distance <line.csv
   exits 3
-  told 'standard input: line 2 is longer'
+  says 'standard input: line 2 is longer'
   rm line.csv
 }
 
@@ -82,10 +82,10 @@ WhatAReaderPassesOverIsTold() {
       '0 0 0 vertex 0 1 0 vertex 1 0 0' '0 0 0 vertex 1 0 0 vertex 0 0 1' \
       '1 0 0 vertex 0 1 0 vertex 0 0 1' '0 0 0 vertex 0 0 1 vertex 0 1 0'; printf 'endsolid a\n'; } >t.stl
   bake t.stl -o a.fta
-  told 'read: passed over stored normals' 'of 4 facets 1 have one opposite'
+  says 'read: passed over stored normals' 'of 4 facets 1 have one opposite'
   box | awk '/^v/ { $2 += 20000.1 } { print }' >far.obj
   bake far.obj -o a.fta
-  told 'read: rounded coordinates to 32 bits' 'move the model to the origin'
+  says 'read: rounded coordinates to 32 bits' 'move the model to the origin'
 }
 
 RealModelsAreBakedMendedOrRefused() {
@@ -95,9 +95,9 @@ RealModelsAreBakedMendedOrRefused() {
   for model in cow.obj suzanne.obj stanford-bunny.obj; do
     f bake "$models/$model" -o a.fta
     exits 3
-    told "$model"
+    says "$model"
     absent a.fta
   done
   bake "$models/stanford-bunny.obj" -o a.fta --unsigned
-  told 'dropped 1113 vertices'
+  says 'dropped 1113 vertices'
 }

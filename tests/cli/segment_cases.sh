@@ -25,5 +25,5 @@ EveryCrossingOfASegmentIsARowInOrder() {
   exits 0
   printf '%s\n' "$out" | grep -qxE 'us_per_query [0-9]+\.[0-9]{4} queries 4' || fail "$out"
   printf 'x,y,z\n0,0,0\n' >p.csv
-  f query scene.fta box distance --all <p.csv; exits 2; told '--all has no meaning for distance'
+  f query scene.fta box distance --all <p.csv; exits 2; says '--all has no meaning for distance'
 }

@@ -11,7 +11,7 @@ roof() {
 ASplineIsBakedToldAndAsked() {
   roof >roof.bpt
   bake roof.bpt -o a.fta
-  told 'spline surface, 1 entity' 'worst query that a search found' 'instructions on a Cortex-M7'
+  says 'spline surface, 1 entity' 'worst query that a search found' 'instructions on a Cortex-M7'
   f info a.fta
   exits 0
   printf '%s\n' "$out" | grep -q 'spline pieces' || fail "info: $out"
@@ -27,13 +27,13 @@ ASplineIsBakedToldAndAsked() {
 1'
   f query a.fta roof distance <p.csv
   exits 3
-  told "holds no mesh 'roof'" 'splines: roof'
+  says "holds no mesh 'roof'" 'splines: roof'
 }
 
 AUnitGivenStandsAboveTheFiles() {
   roof >roof.bpt
   bake roof.bpt -o a.fta --unit mm
-  told 'extent 0.001 m'
+  says 'extent 0.001 m'
 }
 
 EveryFootPointIsListedWithItsKind() {
@@ -46,7 +46,7 @@ EveryFootPointIsListedWithItsKind() {
   same "$(printf '%s\n' "$out" | awk -F, '$2 != "end" && NR > 1 { printf "%s,%s,%.5f\n", $1, $2, $3 }')" '0,min,1.00000
 1,saddle,3.30000'
   same "$(printf '%s\n' "$out" | awk -F, '$2 == "end" && $1 == 0' | wc -l | tr -d ' ')" 8 # corners, middles of the edges
-  f query a.fta roof footpoints --budget 3 <p.csv; exits 2; told '--budget has no meaning for footpoints'
+  f query a.fta roof footpoints --budget 3 <p.csv; exits 2; says '--budget has no meaning for footpoints'
 }
 
 ACadKernelsFileIsBakedAndAskedInItsUnit() {
@@ -63,7 +63,7 @@ max,0.130000'
   same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f2 | sort | tr '\n' ' ')" 'max min saddle saddle '
   f bake "$cad/trimmed-face.igs" -o bad.fta
   exits 3
-  told 'trimmed-face.igs:6: entity 144 in line 6' 'trimmed surfaces are not read'
+  says 'trimmed-face.igs:6: entity 144 in line 6' 'trimmed surfaces are not read'
   absent bad.fta
 }
 
@@ -85,5 +85,5 @@ AWalkAboutSplinesKeepsToTheirBox() {
       fail "the walk of $name.igs"
   done
   printf 'no spline\n' >bad.igs
-  f make walk bad.igs -o w2.csv; exits 3; told bad.igs; absent w2.csv
+  f make walk bad.igs -o w2.csv; exits 3; says bad.igs; absent w2.csv
 }

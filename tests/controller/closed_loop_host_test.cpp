@@ -132,7 +132,7 @@ TEST(MoreProbesThanASliceMayRunAreRefused) {
   for (const uint32_t count : {256u, 257u}) {
     std::vector<tools::Section> sections = part_sections();
     mesh::View view;
-    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    CHECK(tools::open_baked(sections, "part", view).ok());
     sections.pop_back();
     std::vector<firmtouch::query::ProbePoint> points;
     for (uint32_t i = 0; i < count; ++i)

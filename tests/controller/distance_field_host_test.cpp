@@ -117,7 +117,7 @@ TEST(Field_IsProvenInSlicesOfTheBudget) {
   FullController controller;
   controller.begin(asset_with_field().bytes());
   uint32_t slices = 0;  // with the curve proven, the map not yet
-  while (!controller.work(2048))
+  while (!controller.work(250))
     slices += controller.curve().is_open() && !controller.distance_field().is_open() ? 1u : 0u;
   CHECK(controller.verdict().ok() && controller.distance_field().is_open());
   const field::Head& head = controller.distance_field().head();

@@ -38,6 +38,8 @@ TEST(EachLineAndEachBrokenInputLatchesItsFaultInTime) {
        [](record::TickInput& i, uint32_t) { i.clock_us -= 50000u; }},
       {"three late ticks", servo::kFaultDeadline, 3,
        [](record::TickInput& i, uint32_t since) { i.clock_us += 1000u * (since + 1); }},
+      {"overload", servo::kFaultOverload, 3,
+       [](record::TickInput& i, uint32_t) { i.last_work_us = 950; }},
       {"stall", servo::kFaultDeadline, 1,
        [](record::TickInput& i, uint32_t) { i.clock_us += 5000u; }},
       {"out of reach", servo::kFaultWorkspace, 120,
@@ -119,6 +121,37 @@ TEST(ClearedTimingAndEncoderFaultsDoNotComeBackByThemselves) {
       ride.step();
       CHECK_EQ(ride.output.faults, 0u);
     }
+  }
+}
+
+// So that the main loop, and with it the link, goes on, and somebody can lower the budget.
+TEST(OverloadedControllerQueriesNothingUntilTheFaultIsCleared) {
+  for (const bool is_enabled : {true, false}) {
+    Ride ride;
+    uint32_t queried = 0;
+    const auto step = [&](uint32_t tick, uint32_t last_work_us) {
+      ride.fill(tick);
+      if (!is_enabled) ride.input.flags = 0;
+      ride.input.last_work_us = last_work_us;
+      ride.step();
+      queried += ride.output.steps > 0 ? 1 : 0;
+    };
+    for (uint32_t tick = 0; tick < 400; ++tick) step(tick, tick % 10 < 2 ? 2000 : 890);
+    CHECK_EQ(ride.output.faults, 0u);
+    CHECK_EQ(queried, 400u);
+    for (uint32_t tick = 400; tick < 402; ++tick) step(tick, 1050);
+    queried = 0;
+    for (uint32_t tick = 402; tick < 600; ++tick) step(tick, tick == 402 ? 1050 : 100);
+    CHECK_EQ(queried, 0u);
+    CHECK_EQ(ride.output.faults, servo::kFaultOverload);
+    CHECK_EQ(size_of(ride.output.motor_N), 0.0);
+    ride.fill(600);
+    ride.input.flags = 0;
+    ride.input.command = record::kCommandClearFaults;
+    ride.step();
+    for (uint32_t tick = 601; tick < 900; ++tick) step(tick, 100);
+    CHECK_EQ(ride.output.faults, 0u);
+    CHECK_EQ(queried, 299u);
   }
 }
 

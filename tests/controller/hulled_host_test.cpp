@@ -16,7 +16,7 @@ namespace {
 std::vector<tools::Section> hulled_sections() {
   std::vector<tools::Section> sections = part_sections();
   mesh::View view;
-  CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+  CHECK(tools::open_baked(sections, "part", view).ok());
   tools::HullOptions options;
   options.target_faces = 600;
   options.grid_bits = 16;

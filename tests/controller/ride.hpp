@@ -43,7 +43,7 @@ inline std::vector<tools::Section> part_sections() {
       tools::bake_mesh(tools::make_part(1, 4000), "part", {}, report);
   CHECK(report.problem.empty());
   mesh::View view;
-  CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+  CHECK(tools::open_baked(sections, "part", view).ok());
   sections.push_back(tools::mesh_probes(view, "part"));
   return sections;
 }
@@ -56,7 +56,7 @@ inline std::vector<tools::Section> path_sections() {
   std::vector<tools::Section> sections = tools::bake_curve(points, "path", report);
   CHECK(report.problem.empty());
   curve::View view;
-  CHECK(curve::open(tools::curve_sections(sections, "path"), view).ok());
+  CHECK(tools::open_baked(sections, "path", view).ok());
   sections.push_back(tools::curve_probes(view, "path"));
   return sections;
 }
@@ -65,7 +65,7 @@ inline std::vector<tools::Section> path_sections() {
 inline std::vector<tools::Section> distance_field_sections(
     const std::vector<tools::Section>& part) {
   mesh::View view;
-  CHECK(mesh::open(tools::mesh_sections(part, "part"), view).ok());
+  CHECK(tools::open_baked(part, "part", view).ok());
   tools::FieldReport report;
   std::vector<tools::Section> sections = tools::bake_field(view, "part", 16, report);
   CHECK(report.problem.empty());

@@ -27,7 +27,7 @@ struct Baked {
     given.run_levels = run_levels;
     given.with_tree = true;
     sections = tools::bake_curve(given, "curve", report);
-    if (report.problem.empty() && !curve::open(tools::curve_sections(sections, "curve"), view).ok())
+    if (report.problem.empty() && !tools::open_baked(sections, "curve", view).ok())
       report.problem = "refused";
     for (uint32_t i = 0; view.is_open() && i < view.samples().size(); ++i)
       samples.push_back(view.sample(i));

@@ -118,7 +118,7 @@ TEST(NearestConstraint_WithoutTree_AnswersAsClosestPoint) {
   tools::CurveReport report;
   const auto sections = tools::bake_curve(points, "curve", report);
   curve::View view;
-  CHECK(curve::open(tools::curve_sections(sections, "curve"), view).ok());
+  CHECK(tools::open_baked(sections, "curve", view).ok());
   CHECK(view.tree().empty());
   curve::Neighbour memory[10];
   for (const math::Vec3& p : curve_test::queries(points.samples_m, 40, 21)) {

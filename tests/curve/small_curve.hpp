@@ -35,7 +35,7 @@ struct CurveOf {
             bytes(tree, n * 4),
             bytes(boxes, (2 * run_count() - 1) * 12),
             bytes(runs, run_count() * uint32_t{sizeof(curve::Run)}),
-            bytes(radii, run_count() * (curve::parts_of(head.run_levels) + 1) * 2)};
+            bytes(radii, run_count() * (curve::parts_of(levels()) + 1) * 2)};
   }
   curve::View view() const {
     curve::View opened;
@@ -71,7 +71,11 @@ struct CurveOf {
     place(n);
     derive_runs();
   }
-  uint32_t run_count() const { return curve::run_count_of(head.sample_count, head.run_levels); }
+  /// Those of a damaged head would shift by more than a word has.
+  uint32_t levels() const {
+    return head.run_levels <= curve::kMaxRunLevels ? head.run_levels : curve::kMaxRunLevels;
+  }
+  uint32_t run_count() const { return curve::run_count_of(head.sample_count, levels()); }
   // Runs are leaves in turn: another tree than the baker's, as good to open().
   void derive_runs() {
     derive_grid();

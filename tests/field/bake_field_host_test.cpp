@@ -29,10 +29,11 @@ Baked bake(Surface surface, uint32_t cells, bool is_signed = true) {
   options.is_signed = is_signed;
   baked.mesh_sections_ = bake_mesh(baked.surface, "m", options, report);
   CHECK(report.problem.empty());
-  CHECK(mesh::open(mesh_sections(baked.mesh_sections_, "m"), baked.mesh).ok());
+  CHECK(open_baked(baked.mesh_sections_, "m", baked.mesh).ok());
   baked.field_sections_ = bake_field(baked.mesh, "m", cells, baked.report);
   CHECK(baked.report.problem.empty());
-  CHECK(field::open(field_sections(baked.field_sections_, "m"), baked.mesh, baked.distance_field)
+  CHECK(field::open(sections_of<field::Sections>(baked.field_sections_, "m"), baked.mesh,
+                    baked.distance_field)
             .ok());
   return baked;
 }

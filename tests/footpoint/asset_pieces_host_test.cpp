@@ -23,7 +23,7 @@ void same_as_baked(const tools::SplineModel& model, const Footpoints& source, ui
   const auto sections = tools::bake_spline(model, "a", detail, report);
   CHECK(report.problem.empty());
   spline::View view;
-  CHECK(spline::open(tools::spline_sections(sections, "a"), view).ok());
+  CHECK(tools::open_baked(sections, "a", view).ok());
   std::vector<tools::BezierCurve> curves;
   std::vector<tools::BezierPatch> patches;
   tools::asset_pieces(view, curves, patches);
@@ -101,7 +101,7 @@ TEST(PatchesAtAPole_AreCutOnlyWhereTheirNeighboursAre) {
   const auto sections = tools::bake_spline(model, "a", tools::surface_detail(true), report);
   CHECK(report.problem.empty());
   spline::View view;
-  CHECK(spline::open(tools::spline_sections(sections, "a"), view).ok());
+  CHECK(tools::open_baked(sections, "a", view).ok());
   std::vector<tools::BezierCurve> curves;
   std::vector<tools::BezierPatch> patches;
   tools::asset_pieces(view, curves, patches);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "firmtouch/asset/loader.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/nearest_constraint.hpp"
@@ -35,6 +36,18 @@ class Copies {
     blocks_.push_back(std::make_unique<uint8_t[]>(bytes.size()));
     std::memcpy(blocks_.back().get(), bytes.data(), bytes.size());
     return {blocks_.back().get(), bytes.size()};
+  }
+  template <class View, class... Others>
+  core::Verdict open_geometry(const asset::Container& container, const char* name, View& view,
+                              const Others&... others) {
+    auto sections = asset::find_sections<typename View::Sections>(container, name);
+    sections.each([&](uint32_t, core::Bytes& bytes) { bytes = of(bytes); });
+    const core::Verdict verdict = open(sections, others..., view);
+    CHECK_EQ(verdict.ok(), view.is_open());
+    return verdict;
+  }
+  query::Probes probes(const asset::Container& container, const char* name, uint32_t type) {
+    return query::read_probes(of(container.find(type, name)));
   }
 
  private:
@@ -112,61 +125,31 @@ void exercise_field(const field::View& distance_field, const mesh::View& mesh) {
 core::Verdict open_field(const asset::Container& container, const char* name,
                          const mesh::View& mesh) {
   Copies copies;
-  field::Sections sections;
-  sections.head = copies.of(container.find(field::kHeadSection, name));
-  if (sections.head.empty()) return core::kPassed;
-  sections.distances = copies.of(container.find(field::kDistancesSection, name));
-  sections.seeds = copies.of(container.find(field::kSeedsSection, name));
+  if (container.find(field::kHeadSection, name).empty()) return core::kPassed;
   field::View view;
-  const core::Verdict verdict = field::open(sections, mesh, view);
-  CHECK_EQ(verdict.ok(), view.is_open());
+  const core::Verdict verdict = copies.open_geometry(container, name, view, mesh);
   if (verdict.ok()) exercise_field(view, mesh);
   return verdict;
 }
 
 core::Verdict open_mesh(const asset::Container& container, const char* name) {
   Copies copies;
-  mesh::Sections sections;
-  sections.head = copies.of(container.find(mesh::kHeadSection, name));
-  sections.vertices = copies.of(container.find(mesh::kVerticesSection, name));
-  sections.triangles16 = copies.of(container.find(mesh::kTriangles16Section, name));
-  sections.triangles32 = copies.of(container.find(mesh::kTriangles32Section, name));
-  sections.nodes = copies.of(container.find(mesh::kNodesSection, name));
-  sections.parents = copies.of(container.find(mesh::kParentsSection, name));
-  sections.vertex_normals = copies.of(container.find(mesh::kVertexNormalsSection, name));
-  sections.edge_folds = copies.of(container.find(mesh::kEdgeFoldsSection, name));
-  sections.leaf_boxes = copies.of(container.find(mesh::kLeafBoxesSection, name));
-  sections.shapes = copies.of(container.find(mesh::kShapesSection, name));
   mesh::View view;
-  const core::Verdict verdict = mesh::open(sections, view);
-  CHECK_EQ(verdict.ok(), view.is_open());
+  const core::Verdict verdict = copies.open_geometry(container, name, view);
   if (!verdict.ok()) return verdict;
   for (const firmtouch_simd::Level& level : firmtouch_simd::levels())
     exercise_mesh(simd::WideMesh(view, level));  // sound trees that no baker makes, too
-  const query::Probes probes =
-      query::read_probes(copies.of(container.find(mesh::kProbesSection, name)));
-  (void)mesh::probe_hash(view, probes.points);
+  (void)mesh::probe_hash(view, copies.probes(container, name, mesh::kProbesSection).points);
   return open_field(container, name, view);
 }
 
 core::Verdict open_curve(const asset::Container& container, const char* name) {
   Copies copies;
-  curve::Sections sections;
-  sections.head = copies.of(container.find(curve::kHeadSection, name));
-  sections.samples = copies.of(container.find(curve::kSamplesSection, name));
-  sections.arcs = copies.of(container.find(curve::kArcsSection, name));
-  sections.tree = copies.of(container.find(curve::kTreeSection, name));
-  sections.boxes = copies.of(container.find(curve::kBoxesSection, name));
-  sections.runs = copies.of(container.find(curve::kRunsSection, name));
-  sections.radii = copies.of(container.find(curve::kRadiiSection, name));
   curve::View view;
-  const core::Verdict verdict = curve::open(sections, view);
-  CHECK_EQ(verdict.ok(), view.is_open());
+  const core::Verdict verdict = copies.open_geometry(container, name, view);
   if (!verdict.ok()) return verdict;
   exercise_curve(view);
-  const query::Probes probes =
-      query::read_probes(copies.of(container.find(curve::kProbesSection, name)));
-  (void)curve::probe_hash(view, probes.points);
+  (void)curve::probe_hash(view, copies.probes(container, name, curve::kProbesSection).points);
   return verdict;
 }
 

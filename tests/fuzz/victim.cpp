@@ -60,7 +60,7 @@ void add_mesh(std::vector<Section>& sections, const std::string& name, bool is_s
     section = widened;
   }
   mesh::View view;
-  CHECK(mesh::open(tools::mesh_sections(mesh, name), view).ok());
+  CHECK(tools::open_baked(mesh, name, view).ok());
   // Only three cells a side: each proof queries the mesh for all of them.
   if (is_signed && !wide) {
     tools::FieldReport of_field;
@@ -94,7 +94,7 @@ void add_curve(std::vector<Section>& sections, const std::string& name, bool clo
   std::vector<Section> curve = tools::bake_curve(points, name, report);
   CHECK(report.problem.empty());
   curve::View view;
-  CHECK(curve::open(tools::curve_sections(curve, name), view).ok());
+  CHECK(tools::open_baked(curve, name, view).ok());
   curve.push_back(tools::curve_probes(view, name));
   sections.insert(sections.end(), curve.begin(), curve.end());
 }

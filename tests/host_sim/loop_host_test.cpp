@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "firmtouch/record/ring.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "harness/test.hpp"
 #include "host_sim/controllers/session.hpp"
@@ -14,6 +15,8 @@
 #include "host_sim/report/summary.hpp"
 #include "host_sim/trace/log.hpp"
 #include "host_sim/trace/replay.hpp"
+#include "log/memory_sink.hpp"
+#include "log/writer.hpp"
 
 namespace host_sim = firmtouch::host_sim;
 namespace record = firmtouch::record;
@@ -109,6 +112,53 @@ TEST(Replay_ReproducesEveryBit) {
   CHECK(!replay(log, *session.controller));
 }
 
+// A log as a version without `field` wrote it.
+std::string write_without(const std::string& field, const std::vector<record::TickRecord>& all) {
+  namespace log = firmtouch::log;
+  log::Header header = host_sim::tick_header();
+  const log::Field* found = header.find(field);
+  CHECK(found != nullptr);
+  const uint32_t at = found->offset;
+  header.fields.erase(header.fields.begin() + (found - header.fields.data()));
+  header.record_bytes = log::place(header.fields);
+  log::MemorySink sink;
+  log::Writer writer(sink, header);
+  writer.begin();
+  for (uint32_t i = 0; i < all.size(); ++i) {
+    const record::Numbered<record::TickRecord> slot{i, all[i]};
+    std::vector<uint8_t> bytes(sizeof slot);
+    std::memcpy(bytes.data(), &slot, sizeof slot);
+    bytes.erase(bytes.begin() + at, bytes.begin() + at + 4);
+    writer.append(bytes.data(), 1);
+  }
+  writer.finish();
+  const std::string path = scratch() + "/older.ftl";
+  host_sim::write_file(path, {sink.bytes().begin(), sink.bytes().end()});
+  return path;
+}
+
+TEST(Replay_LogOfAnOlderVersion_TakesWorkAsNotMeasured) {
+  std::vector<record::TickRecord> records = the_run().trace.records;
+  records.resize(3000);
+  for (record::TickRecord& record : records) record.input.last_work_us = 7;
+  const Log log = host_sim::read_log(write_without("input.last_work_us", records));
+  CHECK(log.is_complete);
+  CHECK_EQ(log.records.size(), records.size());
+  for (const record::TickRecord& record : log.records) CHECK_EQ(record.input.last_work_us, 0u);
+  const Session session(part_asset());
+  CHECK(!replay(log, *session.controller));
+  CHECK(refusal_of(write_without("input.clock_us", records)).find("input.clock_us") !=
+        std::string::npos);
+}
+
+TEST(Replay_LoadOfATickIsAnInput) {
+  Log log = log_of(the_run().trace);
+  for (uint32_t tick = 2000; tick < 2003; ++tick) log.records[tick].input.last_work_us = 950;
+  const Session session(part_asset());
+  const std::optional<Difference> found = replay(log, *session.controller);
+  CHECK(found && found->tick == 2002);
+}
+
 TEST(Replay_PlantedDifference_ReportsTickAndField) {
   for (const host_sim::Field& field : host_sim::fields()) {
     if (field.name.compare(0, 7, "output.") != 0) continue;
@@ -179,17 +229,17 @@ TEST(Run_RejectedParameter_EndsWithItsName) {
   CHECK(message.find("only while the motors are off") != std::string::npos);
 }
 
+Trace run_with(const std::string& events) {
+  const Session session(part_asset());
+  const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
+  host_sim::Scenario scenario = host_sim::read_scenario(
+      "clear.scenario", "asset part.fta\nduration 1 s\n" + events, {}, host_sim::parameter_rows());
+  host_sim::complete(scenario);
+  return host_sim::run(scenario, *session.controller, environment, nullptr, {});
+}
+
 // A momentary fault and a held emergency stop; the scenario clears both, and the loop continues.
 TEST(Scenario_ClearsFaults_WhileDisabled) {
-  const auto run_with = [](const std::string& events) {
-    const Session session(part_asset());
-    const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
-    host_sim::Scenario scenario =
-        host_sim::read_scenario("clear.scenario", "asset part.fta\nduration 1 s\n" + events, {},
-                                host_sim::parameter_rows());
-    host_sim::complete(scenario);
-    return host_sim::run(scenario, *session.controller, environment, nullptr, {});
-  };
   const std::string stop = "at 0.3 s emergency_stop\nat 0.4 s release\n";
   const std::string clear = stop + "at 0.5 s disable\nat 0.6 s clear_faults\nat 0.7 s enable\n";
   const Trace trace = run_with(clear);
@@ -206,6 +256,21 @@ TEST(Scenario_ClearsFaults_WhileDisabled) {
     message = refused.what();
   }
   CHECK(message.find("only while disabled") != std::string::npos);
+}
+
+TEST(Scenario_Overload_IsAFaultAndTheReportSaysHowMuch) {
+  const Trace trace = run_with("at 0.2 s load 0.8\nat 0.5 s load 1.2\n");
+  CHECK_EQ(trace.records[499].output.faults, 0u);
+  CHECK_EQ(trace.records[510].output.faults, servo::kFaultOverload);
+  CHECK_EQ(trace.records.back().input.last_work_us, 0u);  // no tick queries any more
+  const host_sim::Scenario scenario = loop_scenario();
+  const Session session(part_asset());
+  const host_sim::Summary summary =
+      summarise(scenario, host_sim::environment_of(*session.controller, {}), trace);
+  CHECK(summary.fault_names == "overload");
+  CHECK(load_text(summary) == "mean 24 %, worst 120 % of the period");
+  CHECK(load_text(summarise(scenario, the_run().environment, the_run().trace)) ==
+        "not measured (lock-step)");
 }
 
 TEST(Session_DamagedAsset_ReportsRule) {

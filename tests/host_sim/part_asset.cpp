@@ -23,7 +23,7 @@ void add_mesh(Sections& to, uint32_t seed, uint32_t triangles, const std::string
   tools::MeshReport report;
   Sections sections = tools::bake_mesh(tools::make_part(seed, triangles), name, {}, report);
   mesh::View mesh;
-  if (!mesh::open(tools::mesh_sections(sections, name), mesh).ok()) std::abort();
+  if (!tools::open_baked(sections, name, mesh).ok()) std::abort();
   sections.push_back(tools::mesh_probes(mesh, name));
   to.insert(to.end(), sections.begin(), sections.end());
 }
@@ -35,7 +35,7 @@ void add_path(Sections& to, uint32_t seed, const std::string& name) {
   tools::CurveReport report;
   Sections sections = tools::bake_curve(points, name, report);
   curve::View curve;
-  if (!curve::open(tools::curve_sections(sections, name), curve).ok()) std::abort();
+  if (!tools::open_baked(sections, name, curve).ok()) std::abort();
   sections.push_back(tools::curve_probes(curve, name));
   to.insert(to.end(), sections.begin(), sections.end());
 }

@@ -79,7 +79,7 @@ TEST(ABaseHullInFastMemoryAnswersWithTheAssetLocked) {
   asset::Container container;
   CHECK(asset::open(flash.bytes(), container).ok());
   hull::View view;
-  CHECK_EQ(hull::open(hull::find_sections(container, "model"), view).rule, 0);
+  CHECK_EQ(asset::open_geometry(container, "model", view).rule, 0);
   const uint32_t resident = view.base_hull().resident_bytes();
   std::vector<uint32_t> fast(resident / 4);
   std::memcpy(fast.data(), container.find(hull::kBaseHullSection, "model").data(), resident);

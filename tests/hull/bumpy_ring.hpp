@@ -22,13 +22,13 @@ struct BakedHull {
     MeshReport mesh_report;
     sections = bake_mesh(from, "model", {}, mesh_report);
     CHECK(mesh_report.problem.empty());
-    CHECK(mesh::open(mesh_sections(sections, "model"), mesh).ok());
+    CHECK(open_baked(sections, "model", mesh).ok());
     HullOptions options;
     options.target_faces = faces;
     options.grid_bits = grid_bits;
     const std::vector<Section> hull = bake_hull(mesh, sections, "model", options, report);
     sections.insert(sections.end(), hull.begin(), hull.end());
-    CHECK_EQ(hull::open(hull_sections(sections, "model"), view).rule, 0);
+    CHECK_EQ(open_baked(sections, "model", view).rule, 0);
     for (uint32_t i = 0; i < mesh.vertices().size(); ++i)
       surface.vertices.push_back(mesh.vertex(i));
     for (uint32_t i = 0; i < mesh.head().triangle_count; ++i) {

@@ -214,7 +214,7 @@ TEST(SplittingEverythingRestoresTheMeshFromEveryBaseHull) {
 TEST(ABaseHullOfTheAssetIsTheCoarsestAndCutAgainTheSameBytes) {
   const BakedHull baked(bumpy_ring(8, 4), 100, 16);
   const std::vector<uint32_t> words = cut_base_hull(baked.view, 4);
-  const core::Bytes stored = hull_sections(baked.sections, "model").base_hull;
+  const core::Bytes stored = sections_of<hull::Sections>(baked.sections, "model").base_hull;
   CHECK_EQ(stored.size(), 4 * words.size());
   CHECK(std::memcmp(stored.data(), words.data(), stored.size()) == 0);
 }
@@ -222,7 +222,7 @@ TEST(ABaseHullOfTheAssetIsTheCoarsestAndCutAgainTheSameBytes) {
 TEST(R549AHullsOwnBaseHullIsTheCoarsest) {
   const BakedHull baked(bumpy_ring(8, 4), 100, 16);
   const std::vector<uint32_t> finer = cut_base_hull(baked.view, 300);
-  hull::Sections sections = hull_sections(baked.sections, "model");
+  hull::Sections sections = sections_of<hull::Sections>(baked.sections, "model");
   sections.base_hull = bytes_of_words(finer);
   hull::View view;
   CHECK_EQ(hull::open(sections, view).rule, 549);

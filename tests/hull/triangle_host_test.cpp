@@ -198,7 +198,9 @@ struct Place {
 };
 Place operator-(Place a, Place b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Place whole(math::Vec3 v, bool is_moved) {
-  const auto of = [](float c) { return static_cast<Whole>(static_cast<int64_t>(c * 4.0f)) << 30; };
+  const auto of = [](float c) {
+    return static_cast<Whole>(static_cast<int64_t>(c * 4.0f)) * (1 << 30);
+  };
   const Whole moved = is_moved ? 1 : 0;
   return {of(v.x) + (moved << 20), of(v.y) + (moved << 10), of(v.z) + moved};
 }

@@ -1,5 +1,5 @@
 // The bound of an oriented box: its variants agree, and it is what its words say.
-#include "firmtouch/math/isa_oriented.hpp"
+#include "firmtouch/math/isa.hpp"
 
 #include <stdint.h>
 
@@ -16,7 +16,7 @@ uint32_t pair_of(int32_t low, int32_t high) {
   return (static_cast<uint32_t>(low) & 0xFFFFu) | static_cast<uint32_t>(high) << 16;
 }
 
-// No axis is longer than 2^15, as open() asks: three of these are not.
+// No axis is longer than 2^15, as open() requires: three of these are.
 int32_t component() { return static_cast<int32_t>(next_random() % 37800u) - 18900; }
 
 struct Box {
@@ -46,7 +46,7 @@ TEST(OrientedBoxVariantsAgree) {
     if (i % 4 == 0) point.xy = (i & 16u) != 0 ? pair_of(-32768, 32767) : pair_of(32767, -32768);
     if (i % 4 == 1) point.xy = box.words[2] + (next_random() & 0x00FF00FFu);  // near by
     if (math::oriented_distance2(box.words, point) !=
-        math::portable_oriented_distance2(box.words, point))
+        math::portable::oriented_distance2(box.words, point))
       ++differ;
   }
   CHECK_EQ(differ, 0u);

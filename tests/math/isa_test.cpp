@@ -1,7 +1,6 @@
 // The instruction-set variants give the bits of their portable definitions, and elementary
 // functions are total.
 #include "firmtouch/math/isa.hpp"
-#include "firmtouch/math/isa_loads.hpp"
 
 #include <float.h>
 #include <stdint.h>
@@ -26,7 +25,7 @@ bool is_nan(float value) { return (math::bits_of(value) & 0x7FFFFFFFu) > 0x7F800
 bool roots_agree(uint32_t bits) {
   volatile uint32_t word = bits;
   const float value = math::float_of(word);
-  const float portable = math::portable_square_root(value), variant = math::square_root(value);
+  const float portable = math::portable::square_root(value), variant = math::square_root(value);
   return math::bits_of(portable) == math::bits_of(variant) || (is_nan(portable) && is_nan(variant));
 }
 
@@ -59,7 +58,7 @@ TEST(PortableSquareRootIsTheNearestFloat) {
   for (uint32_t i = 0; i < 4000; ++i) {
     const uint32_t mantissa = 0x800000u | (next_random() & 0x7FFFFFu);
     const float x = math::float_of(0x4B000000u | (mantissa & 0x7FFFFFu));  // the integer `mantissa`
-    const uint32_t root = math::bits_of(math::portable_square_root(x));
+    const uint32_t root = math::bits_of(math::portable::square_root(x));
     // 2^11.5 <= root < 2^12: exponent 138, 12 bits behind the point; doubled for the half bit.
     const uint64_t twice = 2 * static_cast<uint64_t>((root & 0x7FFFFFu) | 0x800000u);
     const uint64_t target = static_cast<uint64_t>(mantissa) << 26;
@@ -110,8 +109,8 @@ TEST(BoxDistanceVariantsAgree) {
       if (i % 16 == 0) point[k] = (i & 32u) != 0 ? 32767u : 32767u << 16;
     }
     const math::BoxPoint packed = math::box_point(point[0], point[1], point[2]);
-    const uint32_t first = math::portable_box_distance2(boxes, point),
-                   second = math::portable_box_distance2(boxes + 3, point);
+    const uint32_t first = math::portable::box_distance2(boxes, point),
+                   second = math::portable::box_distance2(boxes + 3, point);
     if (math::box_distance2(boxes, packed) != first) ++differ;
     if (math::box_distance2(boxes + 3, packed) != second) ++differ;
     // As a node holds them: each with a word behind it.
@@ -137,18 +136,18 @@ TEST(BoxDistanceIsTheSquaredGapInCells) {
 }
 
 TEST(FloatsBeyondAWordAreSaturated) {
-  CHECK_EQ(math::portable_saturated(3.99f), 3u);
-  CHECK_EQ(math::portable_saturated(-0.5f), 0u);
-  CHECK_EQ(math::portable_saturated(-1e30f), 0u);
-  CHECK_EQ(math::portable_saturated(4294967040.0f), 4294967040u);  // the last float below 2^32
-  CHECK_EQ(math::portable_saturated(0x1p32f), UINT32_MAX);
-  CHECK_EQ(math::portable_saturated(math::float_of(0x7F800000u)), UINT32_MAX);
-  CHECK_EQ(math::portable_saturated(math::float_of(0x7FC00000u)), 0u);
-  CHECK_EQ(math::portable_saturated(math::float_of(0xFF800001u)), 0u);
+  CHECK_EQ(math::portable::saturated(3.99f), 3u);
+  CHECK_EQ(math::portable::saturated(-0.5f), 0u);
+  CHECK_EQ(math::portable::saturated(-1e30f), 0u);
+  CHECK_EQ(math::portable::saturated(4294967040.0f), 4294967040u);  // the last float below 2^32
+  CHECK_EQ(math::portable::saturated(0x1p32f), UINT32_MAX);
+  CHECK_EQ(math::portable::saturated(math::float_of(0x7F800000u)), UINT32_MAX);
+  CHECK_EQ(math::portable::saturated(math::float_of(0x7FC00000u)), 0u);
+  CHECK_EQ(math::portable::saturated(math::float_of(0xFF800001u)), 0u);
   uint32_t differ = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
     const float value = math::float_of(next_random());
-    if (math::saturated(value) != math::portable_saturated(value)) ++differ;
+    if (math::saturated(value) != math::portable::saturated(value)) ++differ;
   }
   CHECK_EQ(differ, 0u);
 }
@@ -164,13 +163,14 @@ TEST(PointsOnTheGridAreTheSameEverywhere) {
       if (i % 4 == 2) at[k] = low[k] + (k == i % 3 ? share * 0x1p-10f : 2047.9f + 0.2f * share);
       if (i % 8 == 7 && k == i % 3) at[k] = math::float_of(next_random());
     }
-    math::BoxPoint reported, portable;
+    math::BoxPoint reported;
+    math::portable::BoxPoint expected;
     const bool is_inside = math::grid_point(at[0], at[1], at[2], low, 0x1p20f, reported);
-    if (is_inside != math::portable_grid_point(at[0], at[1], at[2], low, 0x1p20f, portable))
+    if (is_inside != math::portable::grid_point(at[0], at[1], at[2], low, 0x1p20f, expected))
       ++differ;
     if (!is_inside) continue;
     ++inside;
-    if (__builtin_memcmp(&reported, &portable, sizeof reported) != 0) ++differ;
+    if (__builtin_memcmp(&reported, &expected, sizeof expected) != 0) ++differ;
   }
   CHECK_EQ(differ, 0u);
   CHECK_LT(8000u, inside);
@@ -184,8 +184,8 @@ TEST(TheLargerAndTheSmallerOfTwoHaveTheSameBitsEverywhere) {
   const float limits[] = {0.0f, 1.0f, -1.0f, 0x1p-149f, infinite, -infinite};
   uint32_t differ = 0;
   const auto compare = [&differ](float value, float limit) {
-    const uint32_t larger = math::bits_of(math::portable_larger(value, limit));
-    const uint32_t smaller = math::bits_of(math::portable_smaller(value, limit));
+    const uint32_t larger = math::bits_of(math::portable::larger(value, limit));
+    const uint32_t smaller = math::bits_of(math::portable::smaller(value, limit));
     if (math::bits_of(math::larger(value, limit)) != larger) ++differ;
     const bool has_smaller = limit < 0.0f || limit > 0.0f;
     if (has_smaller && math::bits_of(math::smaller(value, limit)) != smaller) ++differ;

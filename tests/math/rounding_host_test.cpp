@@ -1,5 +1,5 @@
-// A compiler that leaves roundings out gives tools and judges other numbers than the firmware is
-// asked with.
+// A compiler that leaves roundings out gives tools and oracles other numbers than the firmware's
+// queries.
 #include "firmtouch/math/vec3.hpp"
 #include "harness/test.hpp"
 

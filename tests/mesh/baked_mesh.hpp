@@ -25,7 +25,7 @@ struct BakedMesh {
     CHECK(mesh::open(parts(), view).ok());
     size = diagonal(surface);
   }
-  mesh::Sections parts() const { return tools::mesh_sections(sections, "model"); }
+  mesh::Sections parts() const { return tools::sections_of<mesh::Sections>(sections, "model"); }
 };
 
 }  // namespace firmtouch::mesh_test

@@ -117,8 +117,9 @@ TEST(EveryBudgetIsCertifiedColdAndWarm) {
       CHECK_LE(c.certificate.steps, budget);
       check_answer(baked, c, truth[i], false);
       const float now = std::fabs(c.distance_m) - c.certificate.lower_m;
-      CHECK_LE(now,
-               gap * (1 + 1e-6f) + 1e-9f);  // never grows, but for the rounding of the difference
+      CHECK_LE(
+          now,
+          gap * (1 + 1e-6f) + 1e-9f);  // never grows, except for the rounding of the difference
       gap = now;
       check_answer(baked, mesh::closest_point(baked.view, queries[i], {budget}, warm[budget]),
                    truth[i], false);

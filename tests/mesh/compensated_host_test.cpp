@@ -40,7 +40,7 @@ double truth_of(const Case& c) {
   return true_distance(wide(c.p), wide(c.corner[0]), wide(c.corner[1]), wide(c.corner[2]));
 }
 
-// Climbs for the largest value of `loss` from many starts.
+// Hill climbing for the largest value of `loss` from many starts.
 template <class LossOf>
 double worst(LossOf loss, double reach, int starts, int steps) {
   Random random(17);
@@ -102,7 +102,7 @@ mesh::View one_triangle(const Case& c, std::vector<tools::Section>& sections) {
   tools::MeshReport report;
   sections = tools::bake_mesh(surface, "one", options, report);
   mesh::View view;
-  if (report.problem.empty()) CHECK(mesh::open(tools::mesh_sections(sections, "one"), view).ok());
+  if (report.problem.empty()) CHECK(tools::open_baked(sections, "one", view).ok());
   return view;
 }
 
@@ -132,8 +132,8 @@ TEST(CompensatedLossStaysWithinItsBoundUnderAttack) {
   CHECK_LE(worst(compensated_share, 30, 20, 500), 1.0);
 }
 
-// Found by hill-climbing: float32 alone tells 2.8e-7 of the distance too much here, so that a lower
-// bound of 2e-7 below it was above the truth.
+// Found by hill-climbing: float32 alone returns 2.8e-7 of the distance too much here, so that a
+// lower bound of 2e-7 below it was above the truth.
 TEST(TheTriangleThatBrokeTheFirstCertificateHolds) {
   check_certificate({{{-0.811651766f, -0.379323512f, 0.00345657114f},
                       {-0.858275235f, 0.194350839f, -0.261579245f},
@@ -152,7 +152,7 @@ TEST(CertificatesOfSingleTrianglesHold) {
   }
 }
 
-// So thin that its pseudonormals, as they are stored, told the wrong side near its tip.
+// So thin that its pseudonormals, as they are stored, gave the wrong sign near its tip.
 TEST(Needle_IsRejected) {
   tools::Surface needle;
   needle.vertices = {{0, 0, 0}, {1, 0, 0}, {0.3f, 2e-4f, 5e-5f}, {0.31f, -1e-4f, 3e-4f}};

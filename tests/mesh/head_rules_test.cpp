@@ -62,7 +62,7 @@ TEST(R103TrianglesDoNotMatchTheirCount) {
   s.triangles16 = {s.triangles16.data(), 3};  // there, and no triangle
   cube.head.triangle_count = 0;
   CHECK_EQ(refusal_of(s), 103'001u);
-  // Sizes are judged before anything is read.
+  // Sizes are checked before anything is read.
   s.triangles16 = {s.triangles16.data(), (mesh::kMaxTriangles + 1) * 6};
   cube.head.triangle_count = mesh::kMaxTriangles + 1;
   CHECK_EQ(refusal_of(s), 103'001u);

@@ -79,8 +79,7 @@ Model baked(const std::string& obj, double unit_m = 1, bool is_signed = true) {
   tools::MeshReport report;
   model.sections = tools::bake_mesh(model.surface, "hostile", options, report);
   model.problem = report.problem;
-  if (model.problem.empty())
-    CHECK(mesh::open(tools::mesh_sections(model.sections, "hostile"), model.view).ok());
+  if (model.problem.empty()) CHECK(tools::open_baked(model.sections, "hostile", model.view).ok());
   return model;
 }
 
@@ -105,7 +104,8 @@ void check_query(const Model& model, double size, Vec3 p, mesh::Hint& warm) {
     CHECK_LE(truth - reported, 4e-7 * scale);
     CHECK_LE(lower, truth + 1e-9 * scale);
     if (budget == UINT32_MAX && !c.certificate.exact) {
-      // So near a mesh of few large triangles that float32 cannot tell the side: said, not guessed.
+      // So near a mesh of few large triangles that float32 cannot decide the sign: reported, not
+      // guessed.
       CHECK_EQ(c.certificate.sign, 0);
       CHECK_LE(truth, 6e-6 * size);
     }
@@ -217,7 +217,7 @@ TEST(BodiesThatTouchAtACornerAnswerLikeBruteForce) {
 }
 
 // One point of a pit, touched by the tip of another body: below it the nearest point belongs to
-// both, and each would tell another side.
+// both, and each would give another sign.
 TEST(TipInThePitOfAnotherBody_IsRejected) {
   const std::string tip =
       "v 0 0 0\nv -0.2 -0.2 1\nv 0.2 -0.2 1\nv 0.2 0.2 1\nv -0.2 0.2 1\nf -4 -3 -2 -1\n"
@@ -235,7 +235,7 @@ TEST(TipInThePitOfAnotherBody_IsRejected) {
   }
 }
 
-// Inside the upper box the nearest point lies on both, and the lower one would tell outside.
+// Inside the upper box the nearest point lies on both, and the lower one would give outside.
 TEST(FacesOnFaces_AreRejected) {
   const std::string lower = obj_of(box({0, 0, 0}, {1, 1, 1}));
   for (const Corners& upper : {box({0, 0, 1}, {1, 1, 2}), box({0.25, 0.25, 1}, {0.5, 0.75, 2}),

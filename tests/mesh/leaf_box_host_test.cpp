@@ -8,7 +8,7 @@
 
 #include "bake/mesh/mesh_tree.hpp"
 #include "baked_mesh.hpp"
-#include "firmtouch/math/isa_oriented.hpp"
+#include "firmtouch/math/isa.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/grid.hpp"
 #include "harness/test.hpp"

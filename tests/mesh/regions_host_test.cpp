@@ -35,7 +35,7 @@ struct Solid {
     tools::MeshReport report;
     sections = tools::bake_mesh(surface, "solid", {}, report);
     CHECK(report.problem.empty());
-    CHECK(mesh::open(tools::mesh_sections(sections, "solid"), view).ok());
+    CHECK(tools::open_baked(sections, "solid", view).ok());
   }
   Point vertex(uint32_t v) const { return tools::to_point(surface.vertices[v]); }
   Point corner(uint32_t h) const { return vertex(surface.faces[h / 3][h % 3]); }
@@ -114,7 +114,7 @@ Ties ties_of(const Solid& solid, Point p) {
   return ties;
 }
 
-// What the firmware tells of the side of `p` when the foot `q` is the nearest: from a point so near
+// The sign that the firmware returns for `p` when the foot `q` is the nearest: from a point so near
 // to it on the way to `p` that no other is, along which the side is the same.
 int side_by_foot(const Solid& solid, Point p, Point q) {
   mesh::Hint hint;
@@ -139,8 +139,8 @@ TEST(AnUlpToEitherSideOfBordersOfRealModelsTheSideIsRight) {
   }
 }
 
-// From a foot along its offset until another foot is as near: there every nearest feature must tell
-// the same side.
+// From a foot along its offset until another foot is as near: there every nearest feature must give
+// the same sign.
 TEST(MedialAxis_AllTiedFeaturesGiveOneSign) {
   const Solid solid(tools::make_part(1, 1000));
   tools::Random random(12);
@@ -190,9 +190,9 @@ TEST(CubeMedialAxis_EveryNearestFaceGivesInside) {
         (void)check_around(solid, {double{x}, double{y}, double{t}}, hint);
 }
 
-// On the surface no side is asked, but feature and direction are told: a step along the direction
-// leads out, a step back leads in. A query at a corner is told the corner; one that float32 puts
-// beside the middle of an edge may be told a face of it.
+// On the surface the sign means nothing; feature and direction are returned. A step along the
+// direction leads out, a step back leads in. A query at a corner returns the corner; one that
+// float32 puts beside the middle of an edge may return a face of it.
 TEST(OnTheSurface_FeatureAndDirectionAreRight) {
   const Solid solid(tools::make_part(1, 2000));
   const tools::Stars stars(solid.surface, solid.exact);

@@ -113,7 +113,7 @@ void no_leaks_in_real_model(const char* file, size_t daily, size_t whole) {
 }
 
 // An oracle in 128-bit integers: the segment really is moved, by 2^-12, 2^-24 and 2^-36 of the
-// grid's unit, less than any determinant of small integers can tell from nothing.
+// grid's unit, less than any determinant of small integers resolves.
 __extension__ typedef __int128 Integer;
 struct Grid3 {
   Integer x, y, z;
@@ -211,6 +211,35 @@ TEST(FloatsDecideAsIntegersDo) {
   CHECK_EQ(wrong, size_t{0});
   CHECK_LE(worst, double{mesh::kTimeError} + 0x1p-22);
   CHECK(crossed > 20000);
+}
+
+// Past an edge as near as floats come, along a diagonal, with triangles as large as the distance:
+// where the error of a side is largest beside its bound.
+TEST(FloatsDecideAsIntegersDo_WhereTheErrorOfASideIsLargest) {
+  Random random(26);
+  const auto sign = [&] { return random.below(2) == 0 ? -1.0 : 1.0; };
+  size_t wrong = 0, sure = 0;
+  for (int i = 0; i < (long_run() ? 20000000 : 3000000); ++i) {
+    Vec3 corner[3];
+    for (Vec3& c : corner)
+      c = narrow({random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)});
+    const Point aim = wide(corner[0]) + (wide(corner[1]) - wide(corner[0])) * random.between(0, 1);
+    const Point way{sign(), sign() * random.between(0.7, 1), sign() * random.between(0.7, 1)};
+    const double reach = i % 8 == 0 ? 2048 : 3, past = 0x1p-24 * random.between(-reach, reach);
+    const Point off{past * random.between(-1, 1), past * random.between(-1, 1),
+                    past * random.between(-1, 1)};
+    const Vec3 a = narrow(aim + off - way * random.between(2, 4));
+    const Vec3 b = narrow(aim + off + way * random.between(0.1, 1.5));
+    const mesh::Crossing exact = mesh::exact_crossing(a, b, corner[0], corner[1], corner[2]);
+    const mesh::SegmentFrame frame(head_of(corner, 3), a, b);
+    mesh::Crossing fast;
+    float early = 0;
+    if (!frame.decides(corner[0], corner[1], corner[2], fast, early)) continue;
+    ++sure;
+    if (exact.direction != fast.direction) ++wrong;
+  }
+  CHECK_EQ(wrong, size_t{0});
+  CHECK(sure > 1000);
 }
 
 TEST(NothingLeaksThroughThePart) { no_leaks(part(), long_run() ? 40000000 : 100000, 20); }

@@ -1,4 +1,4 @@
-// What the baker proves of the stored pseudonormals: that it finds each that tells a wrong side,
+// What the baker proves of the stored pseudonormals: that it finds each that gives a wrong sign,
 // and what it does where no normal can be right.
 #include <algorithm>
 #include <cmath>
@@ -197,7 +197,7 @@ TEST(BladeEdge_IsSignedDownTo7e4Rad) {
   }
 }
 
-// The corner c of a face lies, but for a rounding, on the edge a b of the next: float32 may take
+// The corner c of a face lies, except for a rounding, on the edge a b of the next: float32 may take
 // the sides of the sliver between them for one another.
 TEST(ASliverIsRefusedOrItsSideIsRight) {
   tools::Random random(9);
@@ -225,7 +225,7 @@ TEST(ASliverIsRefusedOrItsSideIsRight) {
     }
     ++baked;
     mesh::View view;
-    CHECK(mesh::open(tools::mesh_sections(sections, "sliver"), view).ok());
+    CHECK(tools::open_baked(sections, "sliver", view).ok());
     for (int k = 0; k < 60; ++k) {
       const Point along = a + (b - a) * random.uniform();
       const double reach = std::pow(10.0, random.between(-5, 0));

@@ -152,7 +152,7 @@ TEST(TheDegenerateTriangleAnswersItsLongestEdge) {
 
 TEST(EachRegion_HasItsFeature) {
   const Vec3 a{0, 0, 0}, b{4, 0, 0},
-      c{3, 1, 0};  // obtuse at c: beyond c both short edges must be asked
+      c{3, 1, 0};  // obtuse at c: beyond c both short edges must be tested
   const struct {
     Vec3 p;
     mesh::Feature feature;

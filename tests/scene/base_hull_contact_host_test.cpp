@@ -27,7 +27,7 @@ struct Rig {
     tools::MeshReport report;
     sections = tools::bake_mesh(surface, "part", {}, report);
     CHECK(report.problem.empty());
-    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    CHECK(tools::open_baked(sections, "part", view).ok());
     tools::HullOptions options;
     options.target_faces = 400;
     options.grid_bits = 16;
@@ -35,8 +35,8 @@ struct Rig {
     for (tools::Section& s : tools::bake_hull(view, sections, "part", options, of_hull))
       sections.push_back(std::move(s));
     CHECK(of_hull.problem.empty());
-    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
-    CHECK(hull::open(tools::hull_sections(sections, "part"), hull_view).ok());
+    CHECK(tools::open_baked(sections, "part", view).ok());
+    CHECK(tools::open_baked(sections, "part", hull_view).ok());
     const hull::BaseHull& base_hull = hull_view.base_hull();
     for (uint32_t i = 0; i < base_hull.face_count(); ++i) {
       for (uint32_t k = 0; k < 3; ++k)

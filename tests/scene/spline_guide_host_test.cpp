@@ -45,7 +45,7 @@ struct Splines {
     model.curves.push_back(line);
     tools::SplineReport report;
     sections = tools::bake_spline(model, "x", tools::curve_detail(false), report);
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+    CHECK(tools::open_baked(sections, "x", view).ok());
     tools::SplineGuideReport of_guide;
     lengths = tools::bake_spline_guide(view, "x", of_guide);
     const auto bytes = [&](size_t i) {

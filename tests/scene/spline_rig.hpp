@@ -23,7 +23,7 @@ struct Surface {
     orient(model);
     tools::SplineReport report;
     sections = tools::bake_spline(model, "x", tools::surface_detail(false), report);
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+    CHECK(tools::open_baked(sections, "x", view).ok());
   }
 };
 

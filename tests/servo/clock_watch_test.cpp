@@ -18,8 +18,8 @@ constexpr float kPeriod_s = 0.001f;
 struct Clock {
   servo::ClockState state;
   uint32_t now_us = 0;
-  servo::ClockReading after(uint32_t us) {
-    return servo::watch_clock(state, now_us += us, kPeriod_s, 1.5f);
+  servo::ClockReading after(uint32_t us, uint32_t last_work_us = 0) {
+    return servo::watch_clock(state, now_us += us, last_work_us, kPeriod_s, 1.5f);
   }
 };
 
@@ -106,10 +106,36 @@ TEST(ClockThatStandsIsABrokenClockAtTheThirdTick) {
   CHECK(is_near(reading.dt_s, 0.5f * kPeriod_s));
 }
 
+TEST(ThreeOverloadedTicksOfTenAreAnOverload) {
+  const uint32_t works_us[] = {899u, 901u, 1050u, UINT32_MAX};
+  for (const uint32_t work_us : works_us) {
+    for (uint32_t gap = 1; gap <= 6; ++gap) {
+      Clock clock;
+      (void)clock.after(0);
+      uint32_t overloaded = 0, faults = 0;
+      for (uint32_t i = 0; i < 40 && faults == 0; ++i) {
+        const bool is_overloaded = i % gap == 0;
+        overloaded += is_overloaded ? 1 : 0;
+        faults = clock.after(1000, is_overloaded ? work_us : 500).faults;
+      }
+      CHECK_EQ(faults, gap <= 4 && work_us > 900 ? servo::kFaultOverload : 0u);
+      if (faults != 0) CHECK_EQ(overloaded, 3u);
+    }
+  }
+}
+
+TEST(OverloadIsSeenOnABrokenClockToo) {
+  Clock clock;
+  (void)clock.after(0);
+  uint32_t faults = 0;
+  for (uint32_t i = 0; i < 3; ++i) faults = clock.after(2000000, 2000000).faults;
+  CHECK_EQ(faults, servo::kFaultOverload | servo::kFaultClock);
+}
+
 TEST(ClearedMisses_DoNotComeBack) {
   Clock clock;
   (void)clock.after(0);
-  for (int i = 0; i < 3; ++i) (void)clock.after(2000);
+  for (int i = 0; i < 3; ++i) (void)clock.after(2000, 2000);
   CHECK_NE(clock.after(1000).faults, 0u);
   servo::clear(clock.state);
   CHECK_EQ(clock.after(1000).faults, 0u);
@@ -122,7 +148,7 @@ TEST(TimeIsFiniteForEveryClockAndSetting) {
       servo::ClockState state;
       for (const uint32_t now : clocks) {
         const servo::ClockReading reading =
-            servo::watch_clock(state, now, math::float_of(period), math::float_of(ratio));
+            servo::watch_clock(state, now, now, math::float_of(period), math::float_of(ratio));
         // What is not finite in is not finite out, and only that: device and servo check their own.
         CHECK(test::is_number(reading.dt_s) || !test::is_number(4 * math::float_of(period)));
       }

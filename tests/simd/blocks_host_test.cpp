@@ -89,13 +89,13 @@ void compare_prisms(uint32_t turn, Reported& reported) {
         reported.farther += at2_m2 > min2_m2 * 1.1f + slack_m2 ? 1u : 0u;
         if ((may_be >> lane & 1u) != 0) continue;
         ++reported.left_out;
-        if (at2_m2 <= min2_m2) ++reported.wrong;  // a triangle that is a point is told no number
+        if (at2_m2 <= min2_m2) ++reported.wrong;  // a triangle that is a point gives NaN
       }
     }
   }
 }
 
-// Whether a triangle of the block that is none of the leaf is told nearer than `min2_m2`.
+// Whether a triangle of the block outside the leaf is reported nearer than `min2_m2`.
 bool has_nearer_outside(const Leaf& leaf, uint32_t child, const simd::Block& block, float min2_m2) {
   for (uint32_t i = block.first; i < block.first + block.count; ++i)
     if (i - mesh::leaf_first(child) >= mesh::leaf_count(child) &&

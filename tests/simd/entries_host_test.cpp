@@ -111,8 +111,8 @@ TEST(FourBoxDistances_EqualThoseOfEachBox) {
     uint64_t reported[2];
     simd::sibling_distances2(boxes[0], boxes[1], point, reported[0], reported[1]);
     for (uint32_t pair = 0; pair < 2; ++pair) {
-      const uint32_t first = math::portable_box_distance2(boxes[pair], at),
-                     second = math::portable_box_distance2(boxes[pair] + 4, at);
+      const uint32_t first = math::portable::box_distance2(boxes[pair], at),
+                     second = math::portable::box_distance2(boxes[pair] + 4, at);
       if (reported[pair] != simd::keys_of(first, second)) ++differ;
       inside += first == 0 ? 1 : 0;
     }
@@ -128,11 +128,11 @@ TEST(SixBoxesBelow_EqualTheComparisonOfEachBox) {
     for (auto& pair : boxes) put_random_pair(pair, i % 9 == 0);
     put_random_point(at);
     const uint32_t* const as = boxes[next_random() % 3] + 4 * (next_random() % 2);
-    const uint32_t below = math::portable_box_distance2(as, at) + next_random() % 3 - (i % 2);
+    const uint32_t below = math::portable::box_distance2(as, at) + next_random() % 3 - (i % 2);
     const uint32_t reported =
         simd::boxes_below(boxes[0], boxes[1], math::box_point(at[0], at[1], at[2]), below);
     for (uint32_t k = 0; k < 6; ++k) {
-      const bool is = math::portable_box_distance2(boxes[k / 2] + 4 * (k % 2), at) < below;
+      const bool is = math::portable::box_distance2(boxes[k / 2] + 4 * (k % 2), at) < below;
       differ += is == ((reported >> (k / 2 + 4 * (k % 2)) & 1u) != 0) ? 0u : 1u;
       nearer += is ? 1u : 0u;
     }

@@ -21,7 +21,7 @@ constexpr float kLow[3] = {-3.25f, 0.5f, 17.0f};
 constexpr float kCell = 0x1p-9f;
 
 // From inside the grid or beside it, of any length, some along an axis; every eleventh too far off
-// or not a number.
+// or NaN.
 Segment random_segment(uint32_t i) {
   constexpr float kLengths[] = {1e6f, 3e4f, 1e3f, 4.0f, 0.0f, 1e-31f, 1e18f};
   const float strange[] = {1e19f, -1e30f, math::float_of(0x7F800000u), math::float_of(0x7FC00000u)};

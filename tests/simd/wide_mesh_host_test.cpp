@@ -27,7 +27,7 @@ struct Baked {
     tools::MeshReport report;
     sections = tools::bake_mesh(tools::make_part(3, 3000), "part", options, report);
     CHECK(report.problem.empty());
-    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    CHECK(tools::open_baked(sections, "part", view).ok());
   }
 };
 
@@ -136,7 +136,7 @@ TEST(EveryLevel_HasTheBitsOfTheScalarSearch_OneTriangle) {
   tools::MeshReport report;
   const std::vector<tools::Section> sections = tools::bake_mesh(surface, "one", options, report);
   mesh::View view;
-  CHECK(mesh::open(tools::mesh_sections(sections, "one"), view).ok());
+  CHECK(tools::open_baked(sections, "one", view).ok());
   CHECK_EQ(differences_at_levels(view, query::kUnlimited, 3), 0u);
 }
 

@@ -27,7 +27,7 @@ struct Baked {
     tools::MeshReport report;
     sections = tools::bake_mesh(surface, "part", options, report);
     CHECK(report.problem.empty());
-    CHECK(mesh::open(tools::mesh_sections(sections, "part"), view).ok());
+    CHECK(tools::open_baked(sections, "part", view).ok());
     for (const firmtouch_simd::Level& level : firmtouch_simd::levels())
       wide.emplace_back(view, level);
   }

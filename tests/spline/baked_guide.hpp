@@ -23,7 +23,7 @@ struct Guide {
     for (size_t i = 0; i < model.curves.size(); ++i) model.curves[i].piece = static_cast<int>(i);
     tools::SplineReport of_bake;
     sections = tools::bake_spline(model, "x", tools::curve_detail(false), of_bake);
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+    CHECK(tools::open_baked(sections, "x", view).ok());
     lengths = tools::bake_spline_guide(view, "x", report);
     CHECK_EQ(lengths.size(), 2u);
     CHECK(spline::open_guide(view, parts(), guide).ok());

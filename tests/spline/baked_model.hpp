@@ -55,8 +55,7 @@ struct BakedModel {
     const tools::SplineDetail detail =
         model.surfaces.empty() ? tools::curve_detail(is_small) : tools::surface_detail(is_small);
     sections = tools::bake_spline(model, "x", detail, report);
-    if (report.problem.empty())
-      CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+    if (report.problem.empty()) CHECK(tools::open_baked(sections, "x", view).ok());
   }
 };
 

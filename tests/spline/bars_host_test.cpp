@@ -33,7 +33,7 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
       model, "x",
       model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
   spline::View view;
-  CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+  CHECK(tools::open_baked(sections, "x", view).ok());
   if (!view.is_open()) return;
   const spline_test::ExactDistance exact(model);
   const double unit = (report.is_rational ? 1e-6 : 4e-7) * report.extent_m;
@@ -48,7 +48,7 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
     at[k] = 0.5 * (low[k] + high[k]);
   }
   uint32_t wrong = 0, false_bounds = 0, inexact = 0;
-  const auto judge = [&](const Point& p, spline::Hint& hint) {
+  const auto check_at = [&](const Point& p, spline::Hint& hint) {
     const spline::Closest c = closest_point(view, tools::to_vec3(p), query::kUnlimited, hint);
     const spline_test::Interval d = exact.distance(tools::to_point(tools::to_vec3(p)));
     const double lo = static_cast<double>(d.lo), hi = static_cast<double>(d.hi);
@@ -57,14 +57,14 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
     inexact += c.certificate.exact ? 0u : 1u;
   };
   for (uint32_t i = 0; i < queries; ++i) {
-    judge({random.between(low[0], high[0]), random.between(low[1], high[1]),
-           random.between(low[2], high[2])},
-          jumping);
+    check_at({random.between(low[0], high[0]), random.between(low[1], high[1]),
+              random.between(low[2], high[2])},
+             jumping);
     for (int k = 0; k < 3; ++k) {  // about 0.2 % of the extent a step
       speed[k] += 0.1 * (0.0012 * report.extent_m * random.bell() - speed[k] * 0.1);
       at[k] = reflected(at[k] + speed[k], low[k], high[k]);
     }
-    judge({at[0], at[1], at[2]}, going);
+    check_at({at[0], at[1], at[2]}, going);
   }
   firmtouch::test::note("seed", seed);
   CHECK_EQ(wrong, 0u);
@@ -72,7 +72,7 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
   CHECK_EQ(inexact, 0u);
 }
 
-// Of 10 to 19 points; weights, and its third coordinate, as asked.
+// Of 10 to 19 points; weights, and its third coordinate, as passed.
 tools::SplineModel cubic(uint32_t seed, bool is_rational, bool is_planar) {
   tools::Random random(seed);
   tools::SplineCurve c;

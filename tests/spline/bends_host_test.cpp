@@ -31,14 +31,14 @@ tools::Point point_of(const spline::View& view, const spline::Piece& piece, doub
 }
 
 // On random leaves, at random places, along random directions, from random queries.
-void judge(const tools::SplineModel& model, uint32_t seed) {
+void check_at(const tools::SplineModel& model, uint32_t seed) {
   tools::SplineReport report;
   const auto sections = tools::bake_spline(
       model, "x",
       model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
   CHECK(report.problem.empty());
   spline::View view;
-  CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+  CHECK(tools::open_baked(sections, "x", view).ok());
   if (!view.is_open()) return;
   tools::Random random(seed);
   // A difference is a mean of the derivative.
@@ -75,7 +75,7 @@ void judge(const tools::SplineModel& model, uint32_t seed) {
     const double distance = std::sqrt(2 * half_square(0));
     double bound = 0;
     for (uint32_t k = 0; k < (view.is_surface() ? 5u : 1u); ++k) {
-      // Told by the piece's s and t.
+      // Returned as the piece's s and t.
       const double each_way = std::pow(wide(part.half_u), order - k) *
                               (view.is_surface() ? std::pow(wide(part.half_v), k) : 1);
       const double of =
@@ -102,6 +102,6 @@ TEST(NoFourthDerivativeIsBeyondItsBakedBound) {
     else
       model.surfaces.push_back(
           firmtouch::spline_test::random_surface(random, 3, 2 + static_cast<int>(seed / 2 % 2), 1));
-    judge(model, seed);
+    check_at(model, seed);
   }
 }

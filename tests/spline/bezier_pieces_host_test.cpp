@@ -1,4 +1,4 @@
-// Pieces between knots are the spline itself, judged by its basis functions.
+// Pieces between knots are the spline itself, checked against its basis functions.
 #include <cmath>
 
 #include "harness/test.hpp"

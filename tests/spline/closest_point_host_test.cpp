@@ -23,9 +23,9 @@ using spline::Hint;
 
 bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
 
-// Told, exact and certified as promised, cold and warm. What is told is a place, whose point in
-// double lies on the shape: the truth is at most as far, whatever the samples missed.
-void judge(const BakedModel& baked, const SampledTruth& truth, const Vec3& p, Hint& warm) {
+// Returned, exact and certified as promised, cold and warm. The result is a parameter, whose point
+// in double lies on the shape: the truth is at most as far, whatever the samples missed.
+void check_at(const BakedModel& baked, const SampledTruth& truth, const Vec3& p, Hint& warm) {
   const double sampled = truth.distance(tools::to_point(p));
   const double unit = baked.report.is_rational ? 1e-6 : 4e-7;
   Hint cold;
@@ -42,7 +42,7 @@ void judge(const BakedModel& baked, const SampledTruth& truth, const Vec3& p, Hi
     CHECK_LE(std::fabs(static_cast<double>(c.distance_m) - d), unit * baked.report.extent_m);
     CHECK_LE(static_cast<double>(c.certificate.lower_m), d * (1 + 1e-9) + 1e-12);
     CHECK_GE(static_cast<double>(c.certificate.lower_m), d - slack);
-    // The place told is where the point told is.
+    // The returned parameter gives the returned point.
     CHECK_LE(length(at - tools::to_point(c.point_m)),
              2e-5 * baked.report.extent_m + 1.5e-7 * length(at));
   }
@@ -59,7 +59,7 @@ Vec3 anywhere(const BakedModel& baked, tools::Random& random) {
   return {at[0], at[1], at[2]};
 }
 
-void judge_many(const BakedModel& baked, uint32_t seed, uint32_t queries, int samples) {
+void check_many(const BakedModel& baked, uint32_t seed, uint32_t queries, int samples) {
   CHECK(baked.report.problem.empty());
   if (!baked.report.problem.empty()) return;
   const SampledTruth truth(baked.model, samples);
@@ -67,15 +67,15 @@ void judge_many(const BakedModel& baked, uint32_t seed, uint32_t queries, int sa
   Hint warm;
   for (uint32_t i = 0; i < queries; ++i) {
     firmtouch::test::note("seed", seed);
-    judge(baked, truth, anywhere(baked, random), warm);
+    check_at(baked, truth, anywhere(baked, random), warm);
     const tools::Point& on =
         truth.points()[random.below(static_cast<uint32_t>(truth.points().size()))];
-    judge(baked, truth, tools::to_vec3(on), warm);
+    check_at(baked, truth, tools::to_vec3(on), warm);
     const double near = 0.01 * baked.report.extent_m;
-    judge(baked, truth,
-          tools::to_vec3(
-              on + tools::Point{near * random.bell(), near * random.bell(), near * random.bell()}),
-          warm);
+    check_at(baked, truth,
+             tools::to_vec3(on + tools::Point{near * random.bell(), near * random.bell(),
+                                              near * random.bell()}),
+             warm);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(RandomCurvesOfEveryDegreeAnswerAsDenseSamplingDoes) {
   for (uint32_t seed = 0; seed < curves; ++seed) {
     tools::Random random(seed + 1);
     const int degree = 1 + static_cast<int>(seed % 5);
-    judge_many(BakedModel(of(spline_test::random_curve(random, degree, degree)), seed % 2 == 1),
+    check_many(BakedModel(of(spline_test::random_curve(random, degree, degree)), seed % 2 == 1),
                seed, queries, 48);
   }
 }
@@ -96,7 +96,7 @@ TEST(RandomSurfacesOfEveryDegreeAnswerAsDenseSamplingDoes) {
   for (uint32_t seed = 0; seed < surfaces; ++seed) {
     tools::Random random(seed + 100);
     const int u = 1 + static_cast<int>(seed % 3), v = 3 - static_cast<int>(seed % 2);
-    judge_many(BakedModel(of(spline_test::random_surface(random, u, v, 1)), seed % 2 == 1), seed,
+    check_many(BakedModel(of(spline_test::random_surface(random, u, v, 1)), seed % 2 == 1), seed,
                queries, 40);
   }
 }
@@ -117,12 +117,12 @@ TEST(TheCentreOfACircleIsCertifiedThoughAllPointsAreAsNear) {
 
 TEST(CurvesWithCoincidentControlPointsAndFoldsAnswerAsDenseSamplingDoes) {
   const tools::ControlPoint a{0, 0, 0, 1}, b{1, 0.5, 0.2, 1}, c{0.4, 1, -0.3, 1};
-  judge_many(BakedModel(of(bezier({a, a, a, b}))), 1, 40, 400);
-  judge_many(BakedModel(of(bezier({a, b, b, b, c}))), 2, 40, 400);
-  judge_many(BakedModel(of(bezier({a, b, c, a}))), 3, 40, 400);  // closed, a corner
-  judge_many(BakedModel(of(bezier({a, {1, 0, 0, 1}, {0.2, 0, 0, 1}}))), 4, 40,
+  check_many(BakedModel(of(bezier({a, a, a, b}))), 1, 40, 400);
+  check_many(BakedModel(of(bezier({a, b, b, b, c}))), 2, 40, 400);
+  check_many(BakedModel(of(bezier({a, b, c, a}))), 3, 40, 400);  // closed, a corner
+  check_many(BakedModel(of(bezier({a, {1, 0, 0, 1}, {0.2, 0, 0, 1}}))), 4, 40,
              400);  // folded on itself
-  judge_many(BakedModel(of(bezier({a, {3, 2, 0, 1}, {-2, 2, 0, 1}, {1, 0, 0, 1}}))), 5, 40,
+  check_many(BakedModel(of(bezier({a, {3, 2, 0, 1}, {-2, 2, 0, 1}, {1, 0, 0, 1}}))), 5, 40,
              400);  // a loop
 }
 
@@ -142,7 +142,7 @@ TEST(OnTheEvoluteAndBesideItTheAnswerIsTheGlobalOne) {
     if (!(dot(bend, bend) > 0)) continue;
     const tools::Point centre = at + bend * (dot(d1, d1) / dot(bend, bend));
     if (!(length(centre) < 5)) continue;
-    judge(baked, truth, tools::to_vec3(centre), warm);
+    check_at(baked, truth, tools::to_vec3(centre), warm);
   }
 }
 
@@ -197,12 +197,12 @@ TEST(AModelFarFromTheOriginIsAsGoodAsNearIt) {
   tools::Random random(8);
   tools::SplineCurve curve = spline_test::random_curve(random, 3, 1);
   for (tools::ControlPoint& p : curve.points) p.x += 512, p.y -= 256;
-  judge_many(BakedModel(of(curve)), 8, 30, 48);
+  check_many(BakedModel(of(curve)), 8, 30, 48);
 }
 
 TEST(TheTeapotAnswersAsDenseSamplingDoes) {
   const char* models = std::getenv("FIRMTOUCH_MODELS");
   if (models == nullptr) return firmtouch::test::skip("FIRMTOUCH_MODELS is not set");
   const BakedModel baked(tools::read_spline_file(std::string(models) + "/teapot.bpt", 0.001));
-  judge_many(baked, 5, is_long() ? 3000 : 10, 100);
+  check_many(baked, 5, is_long() ? 3000 : 10, 100);
 }

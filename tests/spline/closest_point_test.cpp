@@ -126,7 +126,7 @@ TEST(HostileQueriesGiveFiniteAnswers) {
   }
 }
 
-TEST(AQueryThatIsNoNumberKnowsNothing) {
+TEST(NanQuery_KnowsNothing) {
   const SmallSpline model(false);
   CurveHint hint;
   const Closest c = closest_point(model.view(), {0, __builtin_nanf(""), 0}, kUnlimited, hint);
@@ -153,7 +153,7 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
   }
 }
 
-// Words that are no parts of the model are not looked up, and nothing beside them is believed.
+// Words that are no parts of the model are not looked up, and nothing beside them is accepted.
 TEST(AFrontierOfRandomWordsIsNoFrontier) {
   const SmallSpline model(true);
   const View view = model.view();
@@ -178,7 +178,7 @@ TEST(AFrontierOfRandomWordsIsNoFrontier) {
   }
 }
 
-// A front is a certificate: of another model's nothing is true, but nothing is read that is not
+// A frontier is a certificate: of another model's nothing is true, but nothing is read that is not
 // there.
 TEST(AnyFrontierGivesFiniteAnswersWithinTheBudget) {
   const SmallSpline model(true);
@@ -200,7 +200,8 @@ TEST(AnyFrontierGivesFiniteAnswersWithinTheBudget) {
   }
 }
 
-// The two overloads in turn: a front is of where the last query that knows of fronts was.
+// The two overloads, one after the other: a frontier is of where the last query that knows of
+// frontiers was.
 TEST(AFrontierIsNotCarriedOnByAQueryThatKnowsOfNone) {
   const SmallSpline model(true);
   const View view = model.view();

@@ -12,7 +12,7 @@ namespace firmtouch::spline_test {
 using Wide = long double;  // of 64 bits on x86, and nowhere of fewer than a double's
 constexpr Wide kRounding = sizeof(Wide) > 8 ? 0x1p-63L : 0x1p-52L;
 
-/// Holds what was reckoned exactly: each operation widens by more than it rounds.
+/// Holds what was computed exactly: each operation widens by more than it rounds.
 struct Interval {
   Wide lo = 0, hi = 0;
   Interval() = default;

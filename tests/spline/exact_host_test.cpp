@@ -1,5 +1,5 @@
-// Every answer against intervals that certainly hold the truth: the point told, the lower bound and
-// `exact`, at the places where a search may go wrong.
+// Every answer against intervals that certainly hold the truth: the returned point, the lower bound
+// and `exact`, at the places where a search may go wrong.
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -49,7 +49,7 @@ Truth truth_of(const ExactDistance& exact, const tools_point& p) {
 }
 
 // What an answer claims, whatever its budget.
-void judge_answer(const Baked& baked, const Truth& truth, const spline::Closest& c) {
+void check_answer(const Baked& baked, const Truth& truth, const spline::Closest& c) {
   const double unit = (baked.report.is_rational ? 1e-6 : 4e-7) * baked.report.extent_m;
   const double rounding = 9e-7 * truth.hi;
   const double reported = wide(c.distance_m), lower = wide(c.certificate.lower_m);
@@ -61,37 +61,37 @@ void judge_answer(const Baked& baked, const Truth& truth, const spline::Closest&
 }
 
 // Cold, warm, and within budgets.
-void judge(Baked& baked, const Vec3& p) {
+void check_at(Baked& baked, const Vec3& p) {
   const Truth truth = truth_of(baked.exact, tools::to_point(p));
   CHECK_LE(truth.hi - truth.lo, 1e-7 * baked.report.extent_m + 1e-12 * truth.hi);
   Hint cold;
   const spline::Closest alone = closest_point(baked.view, p, kPlenty, cold);
   CHECK(alone.certificate.exact);
-  judge_answer(baked, truth, alone);
+  check_answer(baked, truth, alone);
   const spline::Closest after = closest_point(baked.view, p, kPlenty, baked.warm);
   CHECK(after.certificate.exact);
-  judge_answer(baked, truth, after);
+  check_answer(baked, truth, after);
   for (const uint32_t steps : {1u, 5u, 17u, 60u, 200u}) {
     Hint fresh;
     const spline::Closest cut = closest_point(baked.view, p, Budget{steps}, fresh);
     CHECK_LE(cut.certificate.steps, steps);
-    judge_answer(baked, truth, cut);
-    judge_answer(baked, truth, closest_point(baked.view, p, Budget{steps}, fresh));
+    check_answer(baked, truth, cut);
+    check_answer(baked, truth, closest_point(baked.view, p, Budget{steps}, fresh));
   }
 }
 
-void judge(Baked& baked, const tools_point& p) { judge(baked, tools::to_vec3(p)); }
+void check_at(Baked& baked, const tools_point& p) { check_at(baked, tools::to_vec3(p)); }
 
 // The place itself and its neighbours in float32.
-void judge_about(Baked& baked, const tools_point& p) {
+void check_about(Baked& baked, const tools_point& p) {
   const Vec3 at = tools::to_vec3(p);
-  judge(baked, at);
+  check_at(baked, at);
   for (int axis = 0; axis < 3; ++axis)
     for (const float to : {-HUGE_VALF, HUGE_VALF}) {
       Vec3 beside = at;
       float& x = axis == 0 ? beside.x : axis == 1 ? beside.y : beside.z;
       x = std::nextafterf(x, to);
-      judge(baked, beside);
+      check_at(baked, beside);
     }
 }
 
@@ -135,19 +135,19 @@ TEST(TheIntervalsHoldDistancesThatAreKnown) {
 
 TEST(AtAndBesideTheCentreOfACircleNothingIsWrong) {
   Baked baked(of(circle()));
-  judge_about(baked, {0, 0, 0});
+  check_about(baked, {0, 0, 0});
   for (const double off : {1e-20, 1e-12, 1e-9, 1e-7, 3e-7, 1e-6, 1e-5, 1e-4, 1e-3})
-    judge_about(baked, {off, 0.7 * off, -0.3 * off});
-  for (int i = 1; i < 20; ++i) judge(baked, tools_point{0, 0, 0.2 * i});  // on its axis
+    check_about(baked, {off, 0.7 * off, -0.3 * off});
+  for (int i = 1; i < 20; ++i) check_at(baked, tools_point{0, 0, 0.2 * i});  // on its axis
 }
 
 TEST(OnTheAxisOfASurfaceOfRevolutionNothingIsWrong) {
   Baked baked(of(vase()));
   for (int i = 0; i < (is_long() ? 200 : 8); ++i) {
     const double z = -0.2 + 1.8 * i / (is_long() ? 200 : 8);
-    judge(baked, tools_point{0, 0, z});
-    judge(baked, tools_point{1e-6, 0, z});
-    judge(baked, tools_point{0, -1e-4, z});
+    check_at(baked, tools_point{0, 0, z});
+    check_at(baked, tools_point{1e-6, 0, z});
+    check_at(baked, tools_point{0, -1e-4, z});
   }
 }
 
@@ -163,7 +163,7 @@ TEST(OnTheEvoluteNothingIsWrong) {
       const tools_point bend = d2 - d1 * (dot(d1, d2) / dot(d1, d1));
       if (!(dot(bend, bend) > 0)) continue;
       const tools_point centre = at + bend * (dot(d1, d1) / dot(bend, bend));
-      if (length(centre) < 20) judge_about(baked, centre);
+      if (length(centre) < 20) check_about(baked, centre);
     }
   }
 }
@@ -190,7 +190,7 @@ TEST(AtFocalPointsOfASurfaceNothingIsWrong) {
     const double a = e * g - f * f, b = 2 * f * m - e * n - g * l, c = l * n - m * m;
     const double root = std::sqrt(std::max(0.0, b * b - 4 * a * c));
     for (const double k : {(-b + root) / (2 * a), (-b - root) / (2 * a)})
-      if (std::fabs(k) > 0.1) judge(baked, x + normal * (1 / k));
+      if (std::fabs(k) > 0.1) check_at(baked, x + normal * (1 / k));
   }
 }
 
@@ -214,23 +214,23 @@ TEST(OnTheMedialAxisNothingIsWrong) {
         const tools_point middle = (a + b) * 0.5, at = place(middle);
         (length(at - place(a)) < length(at - place(b)) ? a : b) = middle;
       }
-      judge_about(baked, a);
-      judge(baked, b);
+      check_about(baked, a);
+      check_at(baked, b);
     }
   }
 }
 
 TEST(AtSelfCrossingsAndOnTheShapeNothingIsWrong) {
   Baked loop(of(bezier({{0, 0, 0, 1}, {3, 2, 0, 1}, {-2, 2, 0, 1}, {1, 0, 0, 1}})));
-  judge_about(loop, {0.5, 0.833333333333, 0});  // about its crossing
+  check_about(loop, {0.5, 0.833333333333, 0});  // about its crossing
   for (int i = 0; i <= 40; ++i) {
     const double t = i / 40.0;
-    judge_about(loop, point_at(loop.model.curves[0], t));
-    judge(loop, point_at(loop.model.curves[0], t) + tools_point{1e-7, -1e-7, 1e-7});
+    check_about(loop, point_at(loop.model.curves[0], t));
+    check_at(loop, point_at(loop.model.curves[0], t) + tools_point{1e-7, -1e-7, 1e-7});
   }
   Baked round(of(vase()));
   for (int i = 0; i <= (is_long() ? 200 : 12); ++i)
-    judge(round, point_at(round.model.surfaces[0], 0.3 * (i % 13), 0.07 * (i % 14)));
+    check_at(round, point_at(round.model.surfaces[0], 0.3 * (i % 13), 0.07 * (i % 14)));
 }
 
 TEST(AtKnotsWithCornersAndJumpsOfCurvatureNothingIsWrong) {
@@ -241,15 +241,15 @@ TEST(AtKnotsWithCornersAndJumpsOfCurvatureNothingIsWrong) {
     for (const double knot : c.knots) {
       if (!(knot >= c.t0 && knot <= c.t1)) continue;
       const tools_point at = point_at(c, knot);
-      judge_about(baked, at);
+      check_about(baked, at);
       for (int i = 0; i < 6; ++i) {
         const tools_point off{random.bell(), random.bell(), random.bell()};
-        judge(baked, at + off * std::pow(10.0, -i));
+        check_at(baked, at + off * std::pow(10.0, -i));
         // On the normals of both sides, where a foot-point passes the knot.
         const double h = 1e-5 * (c.t1 - c.t0);
         for (const double side : {-h, h}) {
           const tools_point d = derivative(c, knot + 2 * side, h);
-          if (dot(d, d) > 0) judge(baked, at + off - d * (dot(off, d) / dot(d, d)));
+          if (dot(d, d) > 0) check_at(baked, at + off - d * (dot(off, d) / dot(d, d)));
         }
       }
     }
@@ -264,23 +264,23 @@ TEST(WhereThreeOrFourControlPointsCoincideNothingIsWrong) {
   for (size_t i = 0; i < shapes.size(); ++i) {
     Baked baked(of(bezier(shapes[i])));
     tools::Random random(static_cast<uint32_t>(i + 1));
-    judge_about(baked, {0, 0, 0});
-    judge_about(baked, {1, 0.5, 0.2});
+    check_about(baked, {0, 0, 0});
+    check_about(baked, {1, 0.5, 0.2});
     for (int k = 0; k < (is_long() ? 2000 : 20); ++k) {
-      judge(baked, tools_point{random.between(-1.5, 1.5), random.between(-1.5, 1.5),
-                               random.between(-1.5, 1.5)});
-      judge(baked, point_at(baked.model.curves[0], random.between(0, 1)) +
-                       tools_point{random.bell(), random.bell(), random.bell()} *
-                           std::pow(10.0, random.between(-7, -1)));
+      check_at(baked, tools_point{random.between(-1.5, 1.5), random.between(-1.5, 1.5),
+                                  random.between(-1.5, 1.5)});
+      check_at(baked, point_at(baked.model.curves[0], random.between(0, 1)) +
+                          tools_point{random.bell(), random.bell(), random.bell()} *
+                              std::pow(10.0, random.between(-7, -1)));
     }
   }
   tools::SplineSurface pole = vase();  // a row of control points that is one point
   for (size_t i = 0; i < 9; ++i) pole.points[i].x = pole.points[i].y = 0;
   Baked baked(of(pole));
-  judge_about(baked, {0, 0, 0});
-  judge(baked, tools_point{0, 0, -0.5});
-  judge(baked, tools_point{1e-4, 0, 0.01});
-  judge(baked, tools_point{0.01, -0.02, -0.01});
+  check_about(baked, {0, 0, 0});
+  check_at(baked, tools_point{0, 0, -0.5});
+  check_at(baked, tools_point{1e-4, 0, 0.01});
+  check_at(baked, tools_point{0.01, -0.02, -0.01});
 }
 
 TEST(AnUlpAboutEveryFaceOfALeafNothingIsWrong) {
@@ -299,15 +299,15 @@ TEST(AnUlpAboutEveryFaceOfALeafNothingIsWrong) {
         const double v = wide(piece.middle_v) + wide(piece.half_v) * 0.5;
         const tools_point at = is_surface ? point_at(baked->model.surfaces[0], u, v)
                                           : point_at(baked->model.curves[0], u);
-        judge_about(*baked, at);
+        check_about(*baked, at);
         const tools_point off{random.bell(), random.bell(), random.bell()};
-        judge(*baked, at + off * 0.05);
+        check_at(*baked, at + off * 0.05);
       }
     }
     // And about the corners of the box of all.
     const spline::Head& head = baked->view.head();
     for (int corner = 0; corner < 8; ++corner)
-      judge_about(*baked, {wide((corner & 1) != 0 ? head.high_m[0] : head.low_m[0]),
+      check_about(*baked, {wide((corner & 1) != 0 ? head.high_m[0] : head.low_m[0]),
                            wide((corner & 2) != 0 ? head.high_m[1] : head.low_m[1]),
                            wide((corner & 4) != 0 ? head.high_m[2] : head.low_m[2])});
   }
@@ -320,7 +320,7 @@ TEST(FarAwayNothingIsWrong) {
   for (Baked* baked : {&curve, &surface})
     for (int i = 0; i < 9; ++i) {
       const tools_point way{random.bell(), random.bell(), random.bell()};
-      judge(*baked, way * std::pow(10.0, i));
+      check_at(*baked, way * std::pow(10.0, i));
     }
 }
 
@@ -335,9 +335,9 @@ TEST(RandomJumpsAndPathsOfRandomModelsAreNeverWrong) {
     tools_point at{0, 0, 0};
     for (uint32_t i = 0; i < queries; ++i) {
       at = at + tools_point{random.bell(), random.bell(), random.bell()} * 0.004;
-      judge(baked, at);
-      judge(baked, tools_point{random.between(-1.5, 1.5), random.between(-1.5, 1.5),
-                               random.between(-1.5, 1.5)});
+      check_at(baked, at);
+      check_at(baked, tools_point{random.between(-1.5, 1.5), random.between(-1.5, 1.5),
+                                  random.between(-1.5, 1.5)});
     }
   }
 }

@@ -61,7 +61,7 @@ TEST(ArcPositionsAreLengthsAlongTheFilesCurve) {
     for (int i = 0; i <= 6; ++i) {
       const double t = curve.t0 + (curve.t1 - curve.t0) * i / 6;
       const tools::Point on = point_at(curve, t);
-      // Where the curve passes itself another part may be told: then that is as near.
+      // Where the curve passes itself another part may be returned: then that is as near.
       spline::Following following;
       const spline::Followed f =
           follow(g.guide, tools::to_vec3(on), {0, 1e3f}, kUnlimited, following);
@@ -178,8 +178,8 @@ TEST(ARidgeBetweenTwoLowPointsOfOnePieceIsNotCrossed) {
   }
 }
 
-// What min_cost() finds is where the guide is found from: from there to the point told the distance
-// falls, and goes on falling no further.
+// What min_cost() finds is where the guide is found from: from there to the returned point the
+// distance falls, and goes on falling no further.
 TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
   constexpr float kPerMetre[] = {0.01f, 0.1f, 0.5f, 2.0f};
   uint32_t others = 0, moves = 0;

@@ -1,5 +1,5 @@
 // The point of a guide of the least distance + penalty, against dense sampling with refinement in
-// double: of the file's own curve, and of the cost as it is told.
+// double: of the file's own curve, and of the cost as it is returned.
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/guide/min_cost.hpp"
 
@@ -135,7 +135,7 @@ double cost_by_file(const Guide& g, const Lengths& lengths, const tools::Point& 
   return least;
 }
 
-// A stored piece in double, beside the lengths that are told.
+// A stored piece in double, beside the lengths that are returned.
 double cost_as_reported(const Guide& g, const tools::Point& p, float per_m, const Was& was) {
   const spline::Round round = spline::round_of(g.guide, was.piece);
   const float from_m = spline::arc_m_at(g.guide, was.piece, was.s);

@@ -1,4 +1,4 @@
-// Searches that are wrong in known ways, planted here and judged as the real one is: the judge
+// Searches that are wrong in known ways, planted here and checked as the real one is: the oracle
 // finds them out, and the real one is right on the same queries.
 #include <cmath>
 #include <vector>
@@ -114,7 +114,7 @@ void count(const tools::SplineModel& model, uint32_t seed, int queries, Counts& 
       model, "x",
       model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
   spline::View view;
-  CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+  CHECK(tools::open_baked(sections, "x", view).ok());
   const ExactDistance exact(model);
   tools::Random random(seed);
   spline::Hint hint;

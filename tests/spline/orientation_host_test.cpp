@@ -1,4 +1,4 @@
-// Surfaces whose normals point to different sides are turned to one, or told.
+// Surfaces whose normals point to different sides are turned to one, or reported.
 #include "spline/orientation.hpp"
 
 #include <cmath>
@@ -143,7 +143,8 @@ TEST(SurfacesThatShareBordersAreTurnedToOneSide) {
 }
 
 TEST(BordersAreSharedInPartsAndByOtherParameters) {
-  // Of a cube's top two halves and its front of degree 2 by 3, with its own knots and weights.
+  // Of a cube's top two halves and the face before it of degree 2 by 3, with its own knots and
+  // weights.
   std::vector<SplineSurface> sides = cube();
   const SplineSurface top = sides[5];
   const auto point = [&](double u, double v) { return point_at(top, u, v); };
@@ -171,7 +172,7 @@ TEST(BordersAreSharedInPartsAndByOtherParameters) {
   CHECK(has(model.notes[0], "entity 128 in line 3, entity 128 in line 15"));
 }
 
-TEST(AShellOfOneSideIsToldAndLeftAsItIs) {
+TEST(OneSidedShell_IsReportedAndKept) {
   for (const int twists : {0, 1, 2, 3}) {
     std::vector<SplineSurface> patches = strip(7, twists);
     patches[2] = reversed(patches[2]);
@@ -271,7 +272,7 @@ TEST(WhereThreeSurfacesMeetNoneIsTurnedByThat) {
   CHECK(has(model.notes[0], "its 3 shells share no border"));
 }
 
-TEST(OfATurnedSurfaceTheFilesParametersAreTold) {
+TEST(TurnedSurface_ReturnsTheFilesParameters) {
   std::vector<SplineSurface> sides = cube();
   sides[2] = reversed(sides[2]);
   sides[2].knots_u = {3, 3, 7, 7};
@@ -283,7 +284,7 @@ TEST(OfATurnedSurfaceTheFilesParametersAreTold) {
   const std::vector<tools::Section> sections =
       tools::bake_spline(model, "x", tools::surface_detail(false), report);
   spline::View view;
-  CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+  CHECK(tools::open_baked(sections, "x", view).ok());
   tools::Random random(8);
   spline::Hint hint;
   for (int i = 0; i < 300; ++i) {

@@ -115,7 +115,7 @@ TEST(AnUntrimmedTrimmedSurfaceIsItsSurface) {
   CHECK(read_entities({{128, sheet()}, {144, "144,1,0,0,0;"}}).problem.empty());
 }
 
-TEST(PiecesWithoutLengthAreTold) {
+TEST(PiecesWithoutLength_AreReported) {
   const SplineModel model = read_entities(
       {{126,
         "126,4,1,1,0,1,0,0.,0.,1.,2.,3.,4.,4.,1.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,1.,0.,0.,2.,0.,"

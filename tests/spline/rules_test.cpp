@@ -156,7 +156,7 @@ TEST(Rule611RefusesADegreeOutOfRange) {
   expect(model, 611, 0);
 }
 
-TEST(Rule612RefusesWeightsThatTheHeadDoesNotTellAndTooManyHalvings) {
+TEST(Rule612_RejectsUnannouncedWeightsAndTooManyHalvings) {
   SmallSpline model = curve();
   model.pieces[0].is_rational = 1;
   expect(model, 612, 0);
@@ -177,13 +177,13 @@ TEST(Rule613RefusesCoefficientsOutOfTurn) {
   expect(model, 613, 2);
 }
 
-TEST(Rule614RefusesACoefficientThatIsNoNumber) {
+TEST(Rule614_RejectsANanCoefficient) {
   SmallSpline model = curve();
   model.coefficients[7] = nan_value();
   expect(model, 614, 7);
 }
 
-TEST(Rule615RefusesLeavesThatAreNotThePartsOfEachPieceInTurn) {
+TEST(Rule615_RejectsLeavesOutOfOrder) {
   SmallSpline model = curve();
   model.leaves[1] = 1;
   expect(model, 615, 0);
@@ -210,7 +210,7 @@ TEST(Rule615RefusesLeavesThatAreNotThePartsOfEachPieceInTurn) {
   expect(model, 615, 2);
 }
 
-TEST(Rule616RefusesAnOriginOrAParameterThatIsNoNumber) {
+TEST(Rule616_RejectsANanOriginOrParameter) {
   SmallSpline model = curve();
   model.pieces[1].origin_m[2] = nan_value();
   expect(model, 616, 1);

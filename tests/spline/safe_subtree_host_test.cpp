@@ -1,5 +1,5 @@
-// What a query along a path keeps from the one before: where a fence lets it pass over the rest of
-// a curve, the answer is that of a query which knows nothing.
+// What a query along a path keeps from the one before: where a safe subtree lets it pass over the
+// rest of a curve, the answer is that of a query which knows nothing.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -55,10 +55,10 @@ struct Path {
   }
 };
 
-// What queries along paths told, beside each of them asked without what the last one left.
+// What queries along paths returned, beside each of them run cold.
 struct Reported {
   uint32_t wrong = 0, inexact = 0,
-           passed_over = 0;  // the latter: by a fence, or a front, that stayed
+           passed_over = 0;  // the latter: by a safe subtree, or a frontier, that stayed
 };
 
 void follow(const BakedModel& baked, tools::Random& random, int positions, Reported& reported) {
@@ -140,7 +140,7 @@ TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
   }
 }
 
-// Trees of one piece, of a few, and of many more than a front has parts.
+// Trees of one piece, of a few, and of many more than a frontier has entries.
 TEST(AlongAPathAFrontierLeavesNothingOutOfSurfaces) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Reported reported;
@@ -246,7 +246,7 @@ TEST(ThePointOfAPieceThatTurnsBackIsNotKeptToItsMiddle) {
     tools::SplineReport report;
     const auto sections = tools::bake_spline(model, "x", detail, report);
     spline::View view;
-    CHECK(spline::open(tools::spline_sections(sections, "x"), view).ok());
+    CHECK(tools::open_baked(sections, "x", view).ok());
     CHECK_EQ(view.leaf_count(), 3u);  // two, and one between them that is none
     Hint hint;
     for (int i = 0; i <= 200; ++i) {

@@ -48,7 +48,7 @@ OnQuad nearest_on(const Quad& quad, const Plain& off) {
   constexpr int kGrid = 48, kThirds = 26;
   OnQuad best;
   Wide least = HUGE_VALL;
-  const auto ask = [&](Wide u) {
+  const auto bound_at = [&](Wide u) {
     const Plain b = sum_of(quad.b, quad.twist, u), by_b = sum_of(off, quad.a, -u);
     const Wide bb = dot(b, b);
     const Wide v = held(bb > 0 ? dot(b, by_b) / bb : 0, quad.low[1], quad.high[1]);
@@ -58,11 +58,11 @@ OnQuad nearest_on(const Quad& quad, const Plain& off) {
     return left2;
   };
   const Wide step = (quad.high[0] - quad.low[0]) / kGrid;
-  for (int k = 0; k <= kGrid; ++k) ask(quad.low[0] + step * k);
+  for (int k = 0; k <= kGrid; ++k) bound_at(quad.low[0] + step * k);
   Wide low = std::max(quad.low[0], best.u - step), high = std::min(quad.high[0], best.u + step);
   for (int i = 0; i < kThirds; ++i) {
     const Wide third = (high - low) / 3;
-    if (ask(low + third) < ask(high - third))
+    if (bound_at(low + third) < bound_at(high - third))
       high -= third;
     else
       low += third;

@@ -97,8 +97,7 @@ int main() {
   hull::BaseHull base_hull;
   bool is_sound = asset::open({region.data(), bytes != 0 ? bytes : region.size()}, file).ok();
   const uint32_t at = is_sound ? file.next_of_type(hull::kHeadSection) : asset::kNoSection;
-  is_sound = at != asset::kNoSection &&
-             hull::open(hull::find_sections(file, file.name(at)), view).ok() &&
+  is_sound = at != asset::kNoSection && asset::open_geometry(file, file.name(at), view).ok() &&
              hull::bit_words(view.collapse_count()) <= sizeof g_bits / 4;
   if (is_sound) {
     const uint32_t resident = view.base_hull().resident_bytes();

@@ -15,15 +15,15 @@ Views open_views(core::Bytes region) {
   if (!views.verdict.ok()) return views;
   const uint32_t mesh = file.next_of_type(mesh::kHeadSection);
   if (mesh != asset::kNoSection)
-    views.verdict = mesh::open(mesh::find_sections(file, file.name(mesh)), views.mesh);
+    views.verdict = asset::open_geometry(file, file.name(mesh), views.mesh);
   if (!views.verdict.ok()) return views;
   const uint32_t curve = file.next_of_type(curve::kHeadSection);
   if (curve != asset::kNoSection)
-    views.verdict = curve::open(curve::find_sections(file, file.name(curve)), views.curve);
+    views.verdict = asset::open_geometry(file, file.name(curve), views.curve);
   if (!views.verdict.ok()) return views;
   const uint32_t spline = file.next_of_type(spline::kHeadSection);
   if (spline != asset::kNoSection)
-    views.verdict = spline::open(spline::find_sections(file, file.name(spline)), views.spline);
+    views.verdict = asset::open_geometry(file, file.name(spline), views.spline);
   return views;
 }
 

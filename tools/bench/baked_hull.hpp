@@ -35,7 +35,7 @@ struct Baked {
     const auto more = tools::bake_hull(model.view, sections, "model", options, report);
     seconds = seconds_since(begin);
     sections.insert(sections.end(), more.begin(), more.end());
-    (void)hull::open(tools::hull_sections(sections, "model"), view);
+    (void)tools::open_baked(sections, "model", view);
   }
   Baked(const Baked&) = delete;
   Baked& operator=(const Baked&) = delete;

@@ -42,8 +42,7 @@ CurveCase bake_case(std::vector<math::Vec3> samples_m, const std::string& name, 
   made.sections = tools::bake_curve(points, "curve", made.report);
   made.bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!made.report.problem.empty()) throw Problem(name + ": " + made.report.problem);
-  const core::Verdict verdict =
-      curve::open(tools::curve_sections(made.sections, "curve"), made.view);
+  const core::Verdict verdict = tools::open_baked(made.sections, "curve", made.view);
   if (!verdict.ok())
     throw Problem(name + ": its curve breaks rule R" + std::to_string(verdict.rule));
   made.samples_m = std::move(points.samples_m);

@@ -68,7 +68,7 @@ void run_race(const Race& race, const Model& model, const Model& desktop, const 
 
 // Bytes that queries read, by what they are for; names in the imported file, probes and provenance
 // are not among them.
-void tell_bytes(const Model& model, Report& report) {
+void report_bytes(const Model& model, Report& report) {
   double all = 0, sides = 0;
   for (const tools::Section& section : model.sections) {
     if (section.type == mesh::kSourceSection) continue;
@@ -103,7 +103,7 @@ BudgetQuery cold_query(const simd::WideMesh& mesh, const std::vector<math::Vec3>
   };
 }
 
-void tell_certificates(const Model& model, Report& report) {
+void report_certificates(const Model& model, Report& report) {
   report.stage("certificates, " + model.name);
   const TrueDistance truth(model.surface);
   const std::vector<math::Vec3> points = random_points(model, kBudgetQueries, kBudgetSeed);
@@ -124,8 +124,8 @@ void tell_certificates(const Model& model, Report& report) {
                               std::to_string(counts.worst_steps);
   report.bar("lower bounds above the truth", model.name, static_cast<double>(counts.lower_wrong),
              "", 0, queried);
-  report.bar("told distances below the truth", model.name, static_cast<double>(counts.upper_wrong),
-             "", 0, queried);
+  report.bar("returned distances below the truth", model.name,
+             static_cast<double>(counts.upper_wrong), "", 0, queried);
   report.bar("gaps that a larger budget widened", model.name, static_cast<double>(counts.gap_grew),
              "", 0, queried);
   report.figure("median gap at half the worst", model.name,
@@ -144,8 +144,8 @@ void run_distance(const Options& options, Report& report) {
     race_sides(model, walk(model, kQueries), report);
     run_race({"random points, cold, exact", random_points(model, kQueries), false, kRandomGoal},
              model, desktop, peer, report);
-    tell_certificates(model, report);
-    tell_bytes(model, report);
+    report_certificates(model, report);
+    report_bytes(model, report);
   }
 }
 

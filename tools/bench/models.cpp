@@ -56,8 +56,7 @@ Model model_of(tools::Surface surface, const std::string& name, const std::strin
   options.shape = shape;
   model.sections = tools::bake_mesh(model.surface, "model", options, model.report);
   if (!model.report.problem.empty()) throw Problem(where + ": " + model.report.problem);
-  const core::Verdict verdict =
-      mesh::open(tools::mesh_sections(model.sections, "model"), model.view);
+  const core::Verdict verdict = tools::open_baked(model.sections, "model", model.view);
   if (!verdict.ok())
     throw Problem(where + ": its mesh breaks rule R" + std::to_string(verdict.rule));
   model.wide = simd::WideMesh(model.view);

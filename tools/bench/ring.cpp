@@ -16,8 +16,8 @@
 //                                              least of 20 runs of so many, capacity 1,024
 // Timed from when both threads are there. Whoever finds the ring full, or fewer records than a
 // batch in it, yields; one word of every record is looked at. Where other programs want the
-// processors too, a long run tells how the system shares them out: so 20 short ones a pass, of
-// which the least disturbed and the median are told.
+// processors too, a long run shows how the system shares them out: so 20 short ones a pass, of
+// which the least disturbed and the median are reported.
 namespace firmtouch::bench {
 namespace {
 
@@ -51,7 +51,7 @@ double together_us(Fill fill, Drain drain) {
 
 template <uint32_t Capacity>
 double through_ring(uint32_t transfers) {
-  // Once: a ring is fixed memory. A deque asks for its own on the way.
+  // Once: a ring is fixed memory. A deque allocates its own on the way.
   static const auto ring = std::make_unique<record::Ring<Payload, Capacity>>();
   const auto fill = [&] {
     Payload payload{};
@@ -150,7 +150,8 @@ double middle(std::vector<double> list) {
   return list[list.size() / 2];
 }
 
-// A contender that tells its least disturbed run, and keeps the median one of each pass beside it.
+// A contender that reports its least disturbed run, and keeps the median one of each pass beside
+// it.
 struct Entry {
   const char* name;
   double (*run)(uint32_t transfers);  // microseconds of all

@@ -107,7 +107,7 @@ std::unique_ptr<Baked> baked_of(const Spline& spline) {
   auto baked = std::make_unique<Baked>();
   baked->sections = tools::bake_fast_spline(model, "spline", false, reported);
   if (!reported.problem.empty()) throw Problem(reported.problem);
-  if (!spline::open(tools::spline_sections(baked->sections, "spline"), baked->view).ok())
+  if (!tools::open_baked(baked->sections, "spline", baked->view).ok())
     throw Problem("a baked spline does not open");
   return baked;
 }

@@ -80,7 +80,7 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
   baked.sections = tools::bake_curve(points, name, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   curve::View view;
-  const core::Verdict verdict = curve::open(tools::curve_sections(baked.sections, name), view);
+  const core::Verdict verdict = tools::open_baked(baked.sections, name, view);
   if (!verdict.ok()) fail_input(path + ": its curve breaks rule R" + std::to_string(verdict.rule));
 
   progress.stage("counting steps on " + name);

@@ -201,7 +201,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   baked.sections = tools::bake_mesh(surface, name, mesh_options, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   mesh::View view;
-  const core::Verdict verdict = mesh::open(tools::mesh_sections(baked.sections, name), view);
+  const core::Verdict verdict = tools::open_baked(baked.sections, name, view);
   if (!verdict.ok()) fail_input(path + ": its mesh breaks rule R" + std::to_string(verdict.rule));
 
   std::string reported_of_field;

@@ -87,7 +87,7 @@ double max_off_m(const tools::CurvePoints& points, const std::vector<tools::Plac
   const std::vector<tools::Section> sections = tools::bake_curve(smooth, "smooth", report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   curve::View view;
-  (void)curve::open(tools::curve_sections(sections, "smooth"), view);
+  (void)tools::open_baked(sections, "smooth", view);
   curve::Hint hint;
   double max_m = 0;
   for (const tools::Place& p : places) {

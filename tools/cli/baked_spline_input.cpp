@@ -118,7 +118,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   baked.sections = tools::bake_fast_spline(model, name, options.purpose == Purpose::kSmall, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   spline::View view;
-  const core::Verdict verdict = spline::open(tools::spline_sections(baked.sections, name), view);
+  const core::Verdict verdict = tools::open_baked(baked.sections, name, view);
   if (!verdict.ok()) fail_input(path + ": its spline breaks rule R" + std::to_string(verdict.rule));
 
   tools::SplineGuideReport guide;

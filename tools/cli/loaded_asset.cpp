@@ -49,7 +49,7 @@ LoadedMesh LoadedAsset::mesh(const std::string& name) const {
   }
   LoadedMesh loaded;
   mesh::View view;
-  const core::Verdict verdict = mesh::open(mesh::find_sections(container_, key), view);
+  const core::Verdict verdict = asset::open_geometry(container_, key, view);
   if (!verdict.ok()) fail_unsound("mesh '" + name + "': " + tools::rule_text(verdict));
   loaded.wide = simd::WideMesh(view);
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
@@ -64,7 +64,7 @@ LoadedHull LoadedAsset::hull(const std::string& name) const {
                "' has no hull; bake it with --hull-faces N, or query segment");
   }
   LoadedHull loaded;
-  const core::Verdict verdict = hull::open(hull::find_sections(container_, key), loaded.view);
+  const core::Verdict verdict = asset::open_geometry(container_, key, loaded.view);
   if (!verdict.ok()) fail_unsound("hull '" + name + "': " + tools::rule_text(verdict));
   loaded.source = core::as_whole_array<uint32_t>(container_.find(mesh::kSourceSection, key));
   return loaded;
@@ -74,7 +74,7 @@ LoadedCurve LoadedAsset::curve(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(curve::kHeadSection, key).empty()) fail_absent("curve", name);
   LoadedCurve loaded;
-  loaded.sections = curve::find_sections(container_, key);
+  loaded.sections = asset::find_sections<curve::Sections>(container_, key);
   const core::Verdict verdict = curve::open(loaded.sections, loaded.view);
   if (!verdict.ok()) fail_unsound("curve '" + name + "': " + tools::rule_text(verdict));
   loaded.rows = core::as_whole_array<uint32_t>(container_.find(curve::kRowsSection, key));
@@ -85,7 +85,7 @@ spline::View LoadedAsset::spline(const std::string& name) const {
   const char* key = name.c_str();
   if (container_.find(spline::kHeadSection, key).empty()) fail_absent("spline", name);
   spline::View view;
-  const core::Verdict verdict = spline::open(spline::find_sections(container_, key), view);
+  const core::Verdict verdict = asset::open_geometry(container_, key, view);
   if (!verdict.ok()) fail_unsound("spline '" + name + "': " + tools::rule_text(verdict));
   return view;
 }

@@ -50,7 +50,7 @@ std::vector<std::string> row_of(uint64_t seed, int levels, size_t positions, siz
       tools::bake_spline(model, "curve", tools::curve_detail(false), baked);
   if (!baked.problem.empty()) throw Problem(baked.problem);
   spline::View view;
-  if (!spline::open(tools::spline_sections(sections, "curve"), view).ok())
+  if (!tools::open_baked(sections, "curve", view).ok())
     throw Problem("a baked curve does not open");
   CellAtlas::Options options;
   options.levels = levels;

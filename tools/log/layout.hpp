@@ -8,7 +8,7 @@ namespace firmtouch::log {
 
 constexpr uint8_t kMagic[8] = {'F', 'T', 'L', 'O', 'G', '\r', '\n', 0x1A};
 constexpr uint16_t kMajor = 2;
-constexpr uint16_t kMinor = 0;
+constexpr uint16_t kMinor = 1;  // 1: records have input.last_work_us
 constexpr uint32_t kMaxTextBytes = 1u << 22;
 constexpr uint32_t kMaxRecordBytes = 1u << 14;
 constexpr uint32_t kMaxPayloadBytes = 1u << 24;

@@ -40,7 +40,7 @@ class Container {
   uint32_t crc() const;
 
  private:
-  friend class Opening;
+  friend class Proof;
   core::Bytes file_;
   core::Span<const Entry> entries_;
 };

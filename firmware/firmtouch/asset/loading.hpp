@@ -5,16 +5,16 @@
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 
-// What the loaders of all geometries share. A loader (mesh/loader.hpp and the like) has this shape:
+// What the loaders of all geometries share. A loader (loader.hpp) has this shape:
 //
 //     using State = core::OneOf<...>;      // of its proof, in the workspace that all loaders share
 //     static const char* find(const asset::Container&, const char* wanted);
 //         `wanted` where the asset has it; the first of its kind where `wanted` is null; else null
 //     void close();                        // forgets its view
-//     void begin(const asset::Container&, const char* name, State&);
-//     asset::Progress work(State&, uint32_t budget);
-//         proves about `budget` bytes more, then runs the probe queries; the view is open at the
-//         end
+//     void begin<Trust>(const asset::Container&, const char* name, State&);
+//     asset::Progress work<Trust>(State&, uint32_t units);
+//         checks elements of at most `units` together, or one probe query; the view is open at the
+//         end. Trust: asset::Proven
 namespace firmtouch {
 
 /// Reasons to refuse a sound asset on this controller (tools/FORMAT.md, section 5).
@@ -56,9 +56,6 @@ struct Progress {
   bool is_done = false;
   core::Verdict verdict;  // passed until done
 };
-
-/// Elements (vertices, nodes, samples) that take about as long as `budget` bytes of a CRC.
-constexpr uint32_t elements_of(uint32_t budget) { return budget / 16 + 1; }
 
 /// Name of a section of this type: `wanted` where there is one, the first where `wanted` is null.
 /// Result: null where there is none.

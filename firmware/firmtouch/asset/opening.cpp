@@ -10,6 +10,9 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
+constexpr uint32_t kPieceBytes = 128;
+static_assert(kPieceBytes % kAlignment == 0);
+
 uint32_t min(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
 core::Bytes slice(core::Bytes bytes, uint32_t offset, uint32_t count) {
@@ -42,19 +45,19 @@ int compare(const Entry& a, const Entry& b) {
   return a.type < b.type ? -1 : 1;
 }
 
+using Stage = query::StageOf<Proof>;
+
 }  // namespace
 
-Opening::Opening(core::Bytes file) {
-  const Verdict verdict = check_header(file);
-  if (!verdict.ok()) settle(verdict);
-}
+// CRCs are continued by pieces of a multiple of the alignment, in which up to 8 sections end.
+const query::CheckStage Proof::kStages[3] = {
+    {8, Stage::count<&Proof::table_pieces>, Stage::all<&Proof::check_table>,
+     Stage::finish<&Proof::finish_table>},
+    {10, Stage::count<&Proof::entry_count>, Stage::each<&Proof::check_entry>,
+     Stage::finish<&Proof::finish_entries>},
+    {20, Stage::count<&Proof::section_pieces>, Stage::all<&Proof::check_sections>}};
 
-void Opening::settle(Verdict verdict) {
-  verdict_ = verdict;
-  stage_ = Stage::kDone;
-}
-
-Verdict Opening::check_header(core::Bytes file) {
+Verdict Proof::take(core::Bytes file) {
   if (reinterpret_cast<uintptr_t>(file.data()) % kAlignment != 0) return reject(kRuleAlignment);
   const core::Span<const Header> found = core::as_array<Header>(file, 1);
   if (found.empty()) return reject(kRuleTooShort);
@@ -71,19 +74,18 @@ Verdict Opening::check_header(core::Bytes file) {
   if (header.total_bytes % kAlignment != 0) return reject(kRuleTotalBytes);
   const uint32_t rest = header.total_bytes - static_cast<uint32_t>(sizeof(Header));
   if (header.section_count > rest / sizeof(Entry)) return reject(kRuleTableSize);
-  container_.file_ = file;
-  container_.entries_ =
-      core::as_array<Entry>(slice(file, sizeof(Header), rest), header.section_count);
+  view.file_ = file;
+  view.entries_ = core::as_array<Entry>(slice(file, sizeof(Header), rest), header.section_count);
   free_ = static_cast<uint32_t>(sizeof(Header) + header.section_count * sizeof(Entry));
   return kPassed;
 }
 
-Verdict Opening::check_entry(uint32_t i) {
-  const Entry& entry = container_.entries_[i];
+Verdict Proof::check_entry(uint32_t i) {
+  const Entry& entry = view.entries_[i];
   const Verdict name = check_name(entry.name, i);
   if (!name.ok()) return name;
   if (i > 0) {
-    const int order = compare(container_.entries_[i - 1], entry);
+    const int order = compare(view.entries_[i - 1], entry);
     if (order > 0) return reject(kRuleEntryOrder, i);
     if (order == 0) return reject(kRuleEntryTwice, i);
   }
@@ -92,9 +94,9 @@ Verdict Opening::check_entry(uint32_t i) {
 
 // Sections fill the file in the table's order, so one running end proves that none overlaps
 // another.
-Verdict Opening::check_extent(uint32_t i) {
-  const Entry& entry = container_.entries_[i];
-  const uint32_t total = container_.file_.size();
+Verdict Proof::check_extent(uint32_t i) {
+  const Entry& entry = view.entries_[i];
+  const uint32_t total = view.file_.size();
   if (entry.bytes == 0) return reject(kRuleSectionEmpty, i);
   if (entry.offset % kAlignment != 0) return reject(kRuleSectionAlignment, i);
   if (entry.offset < free_) return reject(kRuleSectionOverlap, i);
@@ -107,85 +109,53 @@ Verdict Opening::check_extent(uint32_t i) {
   return kPassed;
 }
 
-Verdict Opening::check_section_end(uint32_t i) const {
-  const Entry& entry = container_.entries_[i];
-  if (crc_ != entry.crc) return reject(kRuleSectionCrc, i);
-  const uint8_t* bytes = container_.file_.data();
-  for (uint32_t at = entry.offset + entry.bytes; at % kAlignment != 0; ++at) {
-    if (bytes[at] != 0) return reject(kRuleSectionPadding, i);
+uint32_t Proof::table_bytes() const {
+  return static_cast<uint32_t>(view.entries_.size() * sizeof(Entry));
+}
+uint32_t Proof::table_pieces() const { return (table_bytes() + kPieceBytes - 1) / kPieceBytes; }
+uint32_t Proof::section_pieces() const {
+  const uint32_t begin = static_cast<uint32_t>(sizeof(Header)) + table_bytes();
+  return (view.file_.size() - begin + kPieceBytes - 1) / kPieceBytes;
+}
+
+Verdict Proof::check_table(uint32_t first, uint32_t end) {
+  const uint32_t from = first * kPieceBytes, to = min(end * kPieceBytes, table_bytes());
+  crc_ =
+      core::crc32(slice(view.file_, static_cast<uint32_t>(sizeof(Header)) + from, to - from), crc_);
+  return kPassed;
+}
+
+Verdict Proof::finish_table() {
+  const Header& header = core::as_array<Header>(view.file_, 1)[0];
+  if (crc_ != header.table_crc) return reject(kRuleTableCrc);
+  crc_ = 0;
+  return kPassed;
+}
+
+Verdict Proof::finish_entries() {
+  return free_ == view.file_.size() ? kPassed : reject(kRuleTrailingBytes, view.entries_.size());
+}
+
+// From a multiple of the alignment to one: no section's padding is divided.
+Verdict Proof::check_sections(uint32_t first, uint32_t end) {
+  const uint32_t begin = static_cast<uint32_t>(sizeof(Header)) + table_bytes();
+  const uint32_t stop = min(begin + end * kPieceBytes, view.file_.size());
+  uint32_t at = begin + first * kPieceBytes;
+  while (at < stop) {
+    const Entry& entry = view.entries_[section_];
+    const uint32_t behind = entry.offset + entry.bytes, to = min(behind, stop);
+    crc_ = core::crc32(slice(view.file_, at, to - at), crc_);
+    at = to;
+    if (at < behind) break;
+    if (crc_ != entry.crc) return reject(kRuleSectionCrc, section_);
+    for (; at % kAlignment != 0; ++at)
+      if (view.file_.data()[at] != 0) return reject(kRuleSectionPadding, section_);
+    ++section_;
+    crc_ = 0;
   }
   return kPassed;
 }
 
-uint32_t Opening::work_table_crc(uint32_t bytes) {
-  const uint32_t table = static_cast<uint32_t>(container_.entries_.size() * sizeof(Entry));
-  const uint32_t now = min(bytes, table - offset_);
-  crc_ = core::crc32(slice(container_.file_, static_cast<uint32_t>(sizeof(Header)) + offset_, now),
-                     crc_);
-  offset_ += now;
-  if (offset_ == table) {
-    const Header& header = core::as_array<Header>(container_.file_, 1)[0];
-    if (crc_ != header.table_crc) {
-      settle(reject(kRuleTableCrc));
-    } else {
-      stage_ = Stage::kEntries;
-    }
-  }
-  return now;
-}
-
-uint32_t Opening::work_entry() {
-  if (index_ == container_.entries_.size()) {
-    index_ = offset_ = crc_ = 0;
-    stage_ = Stage::kSections;
-    if (free_ != container_.file_.size())
-      settle(reject(kRuleTrailingBytes, container_.entries_.size()));
-    return 0;
-  }
-  const Verdict verdict = check_entry(index_);
-  ++index_;
-  if (!verdict.ok()) settle(verdict);
-  return sizeof(Entry);
-}
-
-uint32_t Opening::work_section(uint32_t bytes) {
-  if (index_ == container_.entries_.size()) {
-    settle(kPassed);
-    return 0;
-  }
-  const core::Bytes section = container_.section(index_);
-  const uint32_t now = min(bytes, section.size() - offset_);
-  crc_ = core::crc32(slice(section, offset_, now), crc_);
-  offset_ += now;
-  if (offset_ == section.size()) {
-    const Verdict verdict = check_section_end(index_);
-    ++index_;
-    offset_ = crc_ = 0;
-    if (!verdict.ok()) settle(verdict);
-  }
-  return now;
-}
-
-void Opening::work(uint32_t bytes) {
-  uint32_t left = bytes == 0 ? 1 : bytes;
-  while (left > 0 && stage_ != Stage::kDone) {
-    uint32_t used = 0;
-    if (stage_ == Stage::kTableCrc) {
-      used = work_table_crc(left);
-    } else if (stage_ == Stage::kEntries) {
-      used = work_entry();
-    } else {
-      used = work_section(left);
-    }
-    left -= min(used, left);
-  }
-}
-
-Verdict open(core::Bytes file, Container& container) {
-  Opening opening(file);
-  while (!opening.done()) opening.work(UINT32_MAX);
-  container = opening.container();
-  return opening.verdict();
-}
-
 }  // namespace firmtouch::asset
+
+template class firmtouch::query::Opening<firmtouch::asset::Proof>;

@@ -33,10 +33,10 @@ void AssetLoading::begin_frame(Selection selection) {
   container_ = {};
 }
 
-bool AssetLoading::work_frame(asset::Opening& frame, uint32_t budget, uint32_t linked_parts) {
-  frame.work(budget);
+bool AssetLoading::work_frame(asset::Opening& frame, uint32_t units, uint32_t linked_parts) {
+  frame.work(units);
   if (!frame.done()) return false;
-  container_ = frame.container();
+  container_ = frame.view();
   core::Verdict verdict = frame.verdict();
   if (verdict.ok()) verdict = missing_part(container_, selection_, linked_parts);
   if (verdict.ok() && !math::arithmetic_is_sound()) verdict = core::reject(kRuleArithmetic);

@@ -9,6 +9,10 @@
 
 namespace firmtouch {
 
+/// What the controller program opens between two polls of its link (Controller::work()): below
+/// 100,000 instructions of a Cortex-M7 (tools/bench/cortex-m7-opening --bar).
+constexpr uint32_t kSliceUnits = 500;
+
 /// Which surface and which guide of the asset to use; null: the first that the parts find. A null
 /// name in an asset without one is no error, unless both are missing. The names must outlive the
 /// controller.
@@ -37,7 +41,7 @@ class AssetLoading {
   Stage stage() const;
   void begin_frame(Selection selection);
   /// Result: true when the frame is done; then the stage is kParts or kRefused.
-  bool work_frame(asset::Opening& frame, uint32_t budget, uint32_t linked_parts);
+  bool work_frame(asset::Opening& frame, uint32_t units, uint32_t linked_parts);
   void end(core::Verdict verdict);
 
  private:

@@ -15,7 +15,7 @@ namespace firmtouch {
 ///
 /// Its size is all the RAM that it takes: no heap, nothing static. Controllers are independent of
 /// each other and may share an asset.
-template <class SurfaceList, class Guide = NoGuide>
+template <class SurfaceList, class Guide = NoGuide, class Trust = asset::Proven>
 class Controller {
  public:
   /// The parameters of all parts.
@@ -34,15 +34,15 @@ class Controller {
     reset();
   }
 
-  /// Continues to open, for about as long as a CRC of `budget` bytes takes (loaders.hpp). For the
-  /// main loop; tick() may interrupt it.
+  /// Continues to open, for at most `units` of about 100 instructions (loaders.hpp). For the main
+  /// loop; tick() may interrupt it.
   /// Result: true when it ended; verdict() then says whether the motors may be enabled.
-  bool work(uint32_t budget) { return loaders_.work(budget, guide_, surfaces_); }
+  bool work(uint32_t units) { return loaders_.work(units, guide_, surfaces_); }
 
   /// begin(), then work() until it ends.
   core::Verdict open(core::Bytes asset, Selection selection = {}) {
     begin(asset, selection);
-    while (!work(4096)) {
+    while (!work(kSliceUnits)) {
     }
     return verdict();
   }
@@ -108,7 +108,7 @@ class Controller {
     guide_.follow(request, values, ticks, result);
   }
 
-  Loaders<Guide, SurfaceList> loaders_;
+  Loaders<Trust, Guide, SurfaceList> loaders_;
   SurfaceList surfaces_;
   Guide guide_;
   ControllerCore core_;

@@ -107,8 +107,8 @@ ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
   }
   const Values& v = values_;
 
-  const servo::ClockReading clock =
-      watch_clock(live_.clock, input.clock_us, v[params::kTickPeriod], v[params::kLateRatio]);
+  const servo::ClockReading clock = watch_clock(live_.clock, input.clock_us, input.last_work_us,
+                                                v[params::kTickPeriod], v[params::kLateRatio]);
   const device::Sample sample{
       {input.encoder_counts[0], input.encoder_counts[1], input.encoder_counts[2]},
       (input.flags & record::kFlagEncoderFault) == 0,
@@ -116,7 +116,9 @@ ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
   const device::Reading tool = read(live_.device, device_settings(v), sample);
 
   Tick tick;
-  tick.request = {tool.position_m, input.tick, asset.is_ready && tool.started};
+  // An overloaded controller queries nothing, so that the main loop, and with it the link, goes on.
+  const bool is_overloaded = ((live_.servo.faults | clock.faults) & servo::kFaultOverload) != 0;
+  tick.request = {tool.position_m, input.tick, asset.is_ready && tool.started && !is_overloaded};
   tick.step.position_m = tool.position_m;
   tick.step.velocity_mps = tool.velocity_mps;
   tick.step.tick = input.tick;

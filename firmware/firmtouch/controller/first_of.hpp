@@ -35,16 +35,18 @@ class FirstOf : private Policies... {
     (void)(((name = Policies::find(asset, wanted)) != nullptr) || ...);
     return name;
   }
+  template <class Trust>
   void begin(const asset::Container& asset, const char* name, State& state) {
     at_ = 0;
-    (void)(begin_if<Policies>(asset, name, state) || ...);
+    (void)(begin_if<Trust, Policies>(asset, name, state) || ...);
   }
-  asset::Progress work(State& state, uint32_t budget) {
+  template <class Trust>
+  asset::Progress work(State& state, uint32_t units) {
     asset::Progress progress;
     uint8_t i = 0;
-    (void)((i++ == at_ &&
-            (progress = Policies::work(state.template get<typename Policies::State>(), budget),
-             true)) ||
+    (void)((i++ == at_ && (progress = Policies::template work<Trust>(
+                               state.template get<typename Policies::State>(), units),
+                           true)) ||
            ...);
     return progress;
   }
@@ -58,13 +60,13 @@ class FirstOf : private Policies... {
   }
 
  private:
-  template <class P>
+  template <class Trust, class P>
   bool begin_if(const asset::Container& asset, const char* name, State& state) {
     if (P::find(asset, name) == nullptr) {
       ++at_;
       return false;
     }
-    P::begin(asset, name, state.template begin<typename P::State>());
+    P::template begin<Trust>(asset, name, state.template begin<typename P::State>());
     return true;
   }
 
@@ -111,8 +113,12 @@ class NoGuide {
   static const char* find(const asset::Container&, const char*) { return nullptr; }
   void reset() {}
   void close() {}
+  template <class Trust>
   void begin(const asset::Container&, const char*, State&) {}
-  asset::Progress work(State&, uint32_t) { return {true, core::kPassed}; }
+  template <class Trust>
+  asset::Progress work(State&, uint32_t) {
+    return {true, core::kPassed};
+  }
   void follow(const ModelRequest&, const params::Values&, uint32_t, ModelResult&) {}
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/asset/loader.hpp"
 #include "firmtouch/controller/asset_loading.hpp"
 #include "firmtouch/core/one_of.hpp"
 
@@ -28,18 +29,19 @@ class LoaderChain {
     get<First>().close();
     (get<Others>().close(), ...);
   }
-  void begin(const asset::Container& asset, const char* name, State& state) {
+  template <class Trust>
+  void begin(const asset::Container& asset, const char* name, State&) {
     asset_ = &asset;
     name_ = name;
     at_ = 0;
     is_begun_ = false;
-    (void)state;
   }
-  asset::Progress work(State& state, uint32_t budget) {
+  template <class Trust>
+  asset::Progress work(State& state, uint32_t units) {
     asset::Progress progress;
     uint32_t i = 0;
-    (void)(work_if(i++ == at_, get<First>(), state, budget, progress) || ... ||
-           work_if(i++ == at_, get<Others>(), state, budget, progress));
+    (void)(work_if<Trust>(i++ == at_, get<First>(), state, units, progress) || ... ||
+           work_if<Trust>(i++ == at_, get<Others>(), state, units, progress));
     if (!progress.is_done || !progress.verdict.ok()) return progress;
     is_begun_ = false;
     return {++at_ == 1 + sizeof...(Others), core::kPassed};
@@ -52,16 +54,16 @@ class LoaderChain {
   };
   struct All : Holder<First>, Holder<Others>... {};
 
-  template <class L>
-  bool work_if(bool is_its_turn, L& loader, State& state, uint32_t budget,
+  template <class Trust, class L>
+  bool work_if(bool is_its_turn, L& loader, State& state, uint32_t units,
                asset::Progress& progress) {
     if (!is_its_turn) return false;
     if (is_begun_) {
-      progress = loader.work(state.template get<typename L::State>(), budget);
+      progress = loader.template work<Trust>(state.template get<typename L::State>(), units);
     } else if (L::find(*asset_, name_) == nullptr) {
       progress.is_done = true;  // an option that the asset has not
     } else {
-      loader.begin(*asset_, name_, state.template begin<typename L::State>());
+      loader.template begin<Trust>(*asset_, name_, state.template begin<typename L::State>());
       is_begun_ = true;
     }
     return true;
@@ -75,9 +77,9 @@ class LoaderChain {
 };
 
 /// Loads an asset for parts that run in turn: finds what each uses, then proves it and runs its
-/// probe queries. A part is a policy of surfaces or guides (surfaces.hpp, guides.hpp). All proofs
-/// share one state.
-template <class... Parts>
+/// probe queries. `Trust`: asset::Proven. A part is a policy of surfaces or guides (first_of.hpp).
+/// All proofs share one state.
+template <class Trust, class... Parts>
 class Loaders : public AssetLoading {
  public:
   static constexpr uint32_t kLinkedParts = (Parts::kParts | ... | 0u);
@@ -91,17 +93,17 @@ class Loaders : public AssetLoading {
     state_.template begin<asset::Opening>(asset);
   }
 
-  /// Works for about as long as a CRC of `budget` bytes takes. Probe queries do not count: all of a
-  /// mesh or of a curve are one slice, of the others each one is.
+  /// Checks elements of at most `units` together, or one that takes more (query/staged_check.hpp),
+  /// or runs one probe query.
   /// Result: true when it ended.
-  bool work(uint32_t budget, Parts&... parts) {
+  bool work(uint32_t units, Parts&... parts) {
     if (stage() == Stage::kFrame) {
-      if (work_frame(state_.template get<asset::Opening>(), budget, kLinkedParts) &&
+      if (work_frame(state_.template get<asset::Opening>(), units, kLinkedParts) &&
           stage() == Stage::kParts)
         find(parts...);
     } else if (stage() == Stage::kParts) {
       uint32_t i = 0;
-      (void)(work_if(i++ == at_, parts, budget) || ...);
+      (void)(work_if(i++ == at_, parts, units) || ...);
       if (stage() == Stage::kParts && at_ == sizeof...(Parts)) end(core::kPassed);
     }
     return is_ready() || is_refused();
@@ -126,16 +128,16 @@ class Loaders : public AssetLoading {
     if (!is_any) end(core::reject(kRuleEmptyScene));
   }
   template <class P>
-  bool work_if(bool is_its_turn, P& part, uint32_t budget) {
+  bool work_if(bool is_its_turn, P& part, uint32_t units) {
     if (!is_its_turn) return false;
     const char* name = is_begun_ ? nullptr : part.find(container(), selected<P>());
     asset::Progress progress;
     if (is_begun_) {
-      progress = part.work(state_.template get<typename P::State>(), budget);
+      progress = part.template work<Trust>(state_.template get<typename P::State>(), units);
     } else if (name == nullptr) {
       progress.is_done = true;
     } else {
-      part.begin(container(), name, state_.template begin<typename P::State>());
+      part.template begin<Trust>(container(), name, state_.template begin<typename P::State>());
       is_begun_ = true;
     }
     if (!progress.is_done) return true;

@@ -23,11 +23,6 @@ void MeshSurface::touch(const ModelRequest& request, const params::Values& v, Mo
   report(result);
 }
 
-void FieldMesh::begin(const asset::Container& asset, const char* name, State& state) {
-  get<field::Loader>().prove_against(mesh());
-  LoaderChain::begin(asset, name, state);
-}
-
 void FieldMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::MeshObject with_field = object(mesh(), v);
   with_field.distance_field = &distance_field();
@@ -42,11 +37,6 @@ void HulledMesh::touch(const ModelRequest& request, const params::Values& v, Mod
   scene::touch_mesh_with_base_hull(with_hull, v[params::kToolRadius], request.position_m,
                                    visit_budget(v, params::kMeshSteps), touch_, result.model);
   report(result);
-}
-
-void FullMesh::begin(const asset::Container& asset, const char* name, State& state) {
-  get<field::Loader>().prove_against(mesh());
-  LoaderChain::begin(asset, name, state);
 }
 
 void FullMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {

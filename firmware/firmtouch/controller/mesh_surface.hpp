@@ -41,10 +41,10 @@ class MeshSurface : public MeshContact, public mesh::Loader {
 class FieldMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Loader> {
  public:
   static constexpr uint32_t kParts = kPartMesh | kPartField;
+  FieldMesh() { get<field::Loader>().prove_against(mesh()); }
   const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
   const field::View& distance_field() const { return get<field::Loader>().view(); }
   bool is_open() const { return mesh().is_open(); }
-  void begin(const asset::Container& asset, const char* name, State& state);
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
 };
 
@@ -62,11 +62,11 @@ class HulledMesh : public MeshContact, public LoaderChain<mesh::Loader, hull::Lo
 class FullMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Loader, hull::Loader> {
  public:
   static constexpr uint32_t kParts = kPartMesh | kPartField | kPartHull;
+  FullMesh() { get<field::Loader>().prove_against(mesh()); }
   const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
   const field::View& distance_field() const { return get<field::Loader>().view(); }
   const hull::View& hull() const { return get<hull::Loader>().view(); }
   bool is_open() const { return mesh().is_open(); }
-  void begin(const asset::Container& asset, const char* name, State& state);
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
 };
 

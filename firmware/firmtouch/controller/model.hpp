@@ -13,7 +13,7 @@ namespace firmtouch {
 struct ModelRequest {
   math::Vec3 position_m;
   uint32_t tick = 0;
-  bool can_touch = false;  // the asset is ready and the position known
+  bool can_touch = false;  // asset ready, position known, no overload
 };
 
 /// A local model, and what the record says of how it was made. Surfaces and guides add to both.

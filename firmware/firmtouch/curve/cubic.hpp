@@ -42,11 +42,16 @@ static inline math::Vec3 slope_at(const Track& track, uint32_t i) {
          after * (length_before / (length_after * whole));
 }
 
-/// Piece `segment`: cubic Hermite, so that neighbours share a tangent at their sample.
-static inline Cubic cubic_of(const Track& track, uint32_t segment) {
-  const math::Vec3 along = step_m(track, segment);
+/// A piece `along` with these slopes: cubic Hermite, so that neighbours share a tangent at their
+/// sample.
+static inline Cubic cubic_between(math::Vec3 along, math::Vec3 first_slope,
+                                  math::Vec3 second_slope) {
   const float third = math::length(along) * (1.0f / 3.0f);
-  return {slope_at(track, segment) * third, along - slope_at(track, segment + 1) * third, along};
+  return {first_slope * third, along - second_slope * third, along};
+}
+static inline Cubic cubic_of(const Track& track, uint32_t segment) {
+  return cubic_between(step_m(track, segment), slope_at(track, segment),
+                       slope_at(track, segment + 1));
 }
 
 static inline math::Vec3 point_at(const Cubic& c, float t) {

@@ -50,42 +50,33 @@ static inline float radius_m_of(uint16_t stored) {
   return math::float_of(static_cast<uint32_t>(stored) << 16);
 }
 
-/// How far the samples from `first` to `last` lie from the straight line between these two. What
-/// chord_distance2() loses is at most 20 u of the line's length and 6 u of the distance, here and
-/// again in the search (u = 2^-24; derived as in answer.hpp, which computes from the nearer end);
-/// the latter's share of the distance is in the search's own radius.
-static inline uint16_t stored_radius(const Sample* samples, uint32_t first, uint32_t last) {
-  if (last <= first) return 0;
-  const math::Vec3 a = vec(samples[first]), b = vec(samples[last]);
-  float max2_m2 = 0;
-  for (uint32_t i = first + 1; i < last; ++i) {
-    const float distance2_m2 = chord_distance2(vec(samples[i]), a, b);
-    if (distance2_m2 > max2_m2) max2_m2 = distance2_m2;
-  }
-  const float lost_m = math::length(b - a) * 0x1p-18f;
+/// The stored radius of a part `along` whose farthest point has this squared distance from the
+/// straight line between its ends. What line_distance2() loses is at most 20 u of the line's length
+/// and 6 u of the distance, here and again in the search (u = 2^-24; derived as in answer.hpp,
+/// which computes from the nearer end); the latter's share of the distance is in the search's own
+/// radius.
+static inline uint16_t radius_of(float max2_m2, math::Vec3 along) {
+  const float lost_m = math::length(along) * 0x1p-18f;
   return rounded_radius(math::square_root(max2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
 }
 
-/// The same of a smooth curve: how far the Bezier points of the pieces between these two samples
-/// lie from that line. A piece lies within its points' hull, and distance to a line is convex.
-static inline uint16_t smooth_radius(const Track& track, uint32_t first, uint32_t last) {
+/// How far the samples from `first` to `last` lie from the straight line between these two; of a
+/// smooth curve also the Bezier points of the pieces between them. A piece lies within its points'
+/// hull, and distance to a line is convex.
+static inline uint16_t part_radius(const Track& track, bool is_smooth, uint32_t first,
+                                   uint32_t last) {
   if (last <= first) return 0;
   const math::Vec3 a = vec(track.samples[first]), along = vec(track.samples[last]) - a;
   float max2_m2 = 0;
   for (uint32_t i = first; i < last; ++i) {
     const math::Vec3 from = vec(track.samples[i]) - a;
-    const Cubic c = cubic_of(track, i);
+    const Cubic c = is_smooth ? cubic_of(track, i) : Cubic{};
     const float at_m2[] = {line_distance2(from, along), line_distance2(from + c.c1, along),
                            line_distance2(from + c.c2, along)};
-    for (uint32_t k = 0; k < 3; ++k)
+    for (uint32_t k = 0; k < (is_smooth ? 3u : 1u); ++k)
       if (at_m2[k] > max2_m2) max2_m2 = at_m2[k];
   }
-  const float lost_m = math::length(along) * 0x1p-18f;
-  return rounded_radius(math::square_root(max2_m2) * (1.0f + 0x1p-20f) + lost_m + 0x1p-58f);
-}
-static inline uint16_t part_radius(const Track& track, bool is_smooth, uint32_t first,
-                                   uint32_t last) {
-  return is_smooth ? smooth_radius(track, first, last) : stored_radius(track.samples, first, last);
+  return radius_of(max2_m2, along);
 }
 
 /// Part `k` of run `run`: from sample `first` to sample `last`; the same sample twice where the run

@@ -1,33 +1,10 @@
 #pragma once
-#include <stdint.h>
-
-#include "firmtouch/asset/container.hpp"
-#include "firmtouch/asset/loading.hpp"
-#include "firmtouch/core/one_of.hpp"
-#include "firmtouch/curve/view.hpp"
+#include "firmtouch/asset/loader.hpp"
+#include "firmtouch/curve/closest_point.hpp"
 
 namespace firmtouch::curve {
 
-/// The sections of the curve `name`, as Opening takes them. One that the asset lacks is empty.
-/// Bounds: a search of the section table each; no memory is copied.
-Sections find_sections(const asset::Container& asset, const char* name);
-
-/// Proves the curve of an asset and runs its probe queries (asset/loading.hpp).
-class Loader {
- public:
-  using State = core::OneOf<Opening>;
-  static const char* find(const asset::Container& asset, const char* wanted);
-  void close() { view_ = {}; }
-  void begin(const asset::Container& asset, const char* name, State& state);
-  /// Bounds: all probes, at most 256 queries, are one slice.
-  asset::Progress work(State& state, uint32_t budget);
-  /// Open once loaded.
-  const View& view() const { return view_; }
-
- private:
-  View view_;
-  core::Bytes probes_;
-  bool is_proven_ = false;
-};
+/// Proves the curve of an asset and runs its probe queries.
+using Loader = asset::Loader<Proof, ProbeRun, kHeadSection, kProbesSection, kRuleCurveProbes>;
 
 }  // namespace firmtouch::curve

@@ -9,6 +9,7 @@ namespace {
 using core::kPassed;
 using core::reject;
 using core::Verdict;
+using math::Vec3;
 
 constexpr uint64_t kWhole = uint64_t{1} << 62;  // the length of the curve, in units of travelled_
 
@@ -27,7 +28,71 @@ uint64_t as_fixed(float fraction) {
   return exponent < 65 ? 0 : mantissa >> (88 - exponent);
 }
 
-Verdict check_head(const Head& head) {
+uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
+float greatest(float a, float b) { return a < b ? b : a; }
+
+// Whether a run's box holds a sample and, `slack` inside, the inner Bezier points of its piece.
+bool holds(const Head& head, const Box& box, const Sample& sample, const Cubic* piece) {
+  const float* at_m = &sample.x_m;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const float low = static_cast<float>(low_of(box.side[k]));
+    const float high = static_cast<float>(high_of(box.side[k]));
+    const float cells = cells_of(head, at_m[k], k);
+    if (!(cells >= low && cells <= high)) return false;
+    if (piece == nullptr) continue;
+    const float* const off_m[] = {&piece->c1.x, &piece->c2.x};
+    for (const float* point : off_m) {
+      const float at = cells_of(head, at_m[k], point[k], k);
+      if (!(at >= low + kPointSlack_cells && at <= high - kPointSlack_cells)) return false;
+    }
+  }
+  return true;
+}
+
+using Stage = query::StageOf<Proof>;
+
+}  // namespace
+
+const query::CheckStage Proof::kStages[6] = {
+    {1, Stage::count<&Proof::sample_count>, Stage::all<&Proof::check_samples>,
+     Stage::finish<&Proof::finish_samples>},
+    {3, Stage::count<&Proof::sample_count>, Stage::each<&Proof::check_length>,
+     Stage::finish<&Proof::finish_lengths>},
+    {8, Stage::count<&Proof::tree_count>, Stage::all<&Proof::check_tree>},
+    {1, Stage::count<&Proof::box_count>, Stage::all<&Proof::check_boxes>},
+    {1, Stage::count<&Proof::run_count>, Stage::all<&Proof::check_runs>},
+    {50, Stage::count<&Proof::part_count>, Stage::each<&Proof::check_part>}};
+
+Verdict Proof::take(const Sections& s) {
+  const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
+  if (heads.size() != 1) return reject(kRuleHeadSize);
+  const Head& head = heads[0];
+  if (head.sample_count < 2 || head.sample_count > kMaxSamples) return reject(kRuleSampleCount);
+  view.samples_ = core::as_whole_array<Sample>(s.samples);
+  if (view.samples_.size() != head.sample_count)
+    return reject(kRuleSamplesSize, view.samples_.size());
+  view.arcs_ = core::as_whole_array<float>(s.arcs);
+  if (view.arcs_.size() != head.sample_count) return reject(kRuleArcsSize, view.arcs_.size());
+  view.tree_ = core::as_whole_array<uint32_t>(s.tree);
+  if (!s.tree.empty() && view.tree_.size() != head.sample_count)
+    return reject(kRuleTreeSize, view.tree_.size());
+  if (head.run_levels < kMinRunLevels || head.run_levels > kMaxRunLevels)
+    return reject(kRuleRunLevels);
+  const uint32_t runs = run_count_of(head.sample_count, head.run_levels);
+  view.boxes_ = core::as_whole_array<Box>(s.boxes);
+  if (view.boxes_.size() != 2 * runs - 1) return reject(kRuleRunsSize, view.boxes_.size());
+  view.runs_ = core::as_whole_array<Run>(s.runs);
+  if (view.runs_.size() != runs) return reject(kRuleRunsSize, view.runs_.size());
+  const core::Span<const uint16_t> radii = core::as_whole_array<uint16_t>(s.radii);
+  if (radii.size() != runs * (parts_of(head.run_levels) + 1))
+    return reject(kRuleRunsSize, radii.size());
+  view.radii_ = radii.data();
+  view.head_ = &head;
+  return kPassed;
+}
+
+Verdict Proof::check_head() const {
+  const Head& head = view.head();
   if (head.is_smooth > 1) return reject(kRuleSmoothFlag);
   if (head.is_closed > 1) return reject(kRuleClosedFlag);
   for (uint32_t k = 0; k < 3; ++k)
@@ -38,189 +103,141 @@ Verdict check_head(const Head& head) {
     return reject(kRuleDiagonal);
   if (!(head.length_m >= head.diagonal_m * 0.5f && head.length_m <= 0x1p60f))
     return reject(kRuleLength);
-  if (head.run_levels < kMinRunLevels || head.run_levels > kMaxRunLevels)
-    return reject(kRuleRunLevels);
   const uint32_t grid = wrong_of_grid(head);
   return grid == 0 ? kPassed : reject(kRuleGrid, grid - 1);
 }
 
-// Whether a run's box holds the inner Bezier points of a piece.
-bool holds_piece(const Head& head, const Track& track, uint32_t segment, const Box& box) {
-  const Cubic c = cubic_of(track, segment);
-  const float* at_m = &track.samples[segment].x_m;
-  const float* first_m = &c.c1.x;
-  const float* second_m = &c.c2.x;
-  for (uint32_t k = 0; k < 3; ++k) {
-    const float low = static_cast<float>(low_of(box.side[k])) + kPointSlack_cells;
-    const float high = static_cast<float>(high_of(box.side[k])) - kPointSlack_cells;
-    const float first = cells_of(head, at_m[k], first_m[k], k);
-    const float second = cells_of(head, at_m[k], second_m[k], k);
-    if (!(first >= low && first <= high && second >= low && second <= high)) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
-const query::CheckStage<Opening> Opening::kStages[6] = {
-    {&Opening::sample_count, &Opening::check_sample, &Opening::finish_samples},
-    {&Opening::sample_count, &Opening::check_length, &Opening::finish_length},
-    {&Opening::tree_count, &Opening::check_tree},
-    {&Opening::box_count, &Opening::check_box},
-    {&Opening::run_count, &Opening::check_run, nullptr, &Opening::run_cost},
-    {&Opening::radius_count, &Opening::check_part, nullptr, &Opening::part_cost}};
-
-Opening::Opening(const Sections& sections) { check_.begin(open_head(sections)); }
-
-void Opening::work(uint32_t elements) { check_.work(*this, kStages, elements); }
-
-Verdict Opening::open_head(const Sections& s) {
-  const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
-  if (heads.size() != 1) return reject(kRuleHeadSize);
-  const Head& head = heads[0];
-  if (head.sample_count < 2 || head.sample_count > kMaxSamples) return reject(kRuleSampleCount);
-  view_.samples_ = core::as_whole_array<Sample>(s.samples);
-  if (view_.samples_.size() != head.sample_count)
-    return reject(kRuleSamplesSize, view_.samples_.size());
-  view_.arcs_ = core::as_whole_array<float>(s.arcs);
-  if (view_.arcs_.size() != head.sample_count) return reject(kRuleArcsSize, view_.arcs_.size());
-  view_.tree_ = core::as_whole_array<uint32_t>(s.tree);
-  if (!s.tree.empty() && view_.tree_.size() != head.sample_count)
-    return reject(kRuleTreeSize, view_.tree_.size());
-  const Verdict of_head = check_head(head);
-  if (!of_head.ok()) return of_head;
-  const uint32_t runs = run_count_of(head.sample_count, head.run_levels);
-  view_.boxes_ = core::as_whole_array<Box>(s.boxes);
-  if (view_.boxes_.size() != 2 * runs - 1) return reject(kRuleRunsSize, view_.boxes_.size());
-  view_.runs_ = core::as_whole_array<Run>(s.runs);
-  if (view_.runs_.size() != runs) return reject(kRuleRunsSize, view_.runs_.size());
-  const core::Span<const uint16_t> radii = core::as_whole_array<uint16_t>(s.radii);
-  if (radii.size() != runs * (parts_of(head.run_levels) + 1))
-    return reject(kRuleRunsSize, radii.size());
-  view_.radii_ = radii.data();
-  view_.head_ = &head;
+Verdict Proof::check_samples(uint32_t first, uint32_t end) {
+  const Head& head = view.head();
+  for (uint32_t i = first; i < end; ++i)
+    if (!seen_.take(&view.samples_[i].x_m, head.low_m, head.high_m))
+      return reject(kRuleSampleOutside, i);
   return kPassed;
 }
 
-uint32_t Opening::run_cost(uint32_t) const { return part_cost(0); }
-
-// Its segments; a cubic piece costs as much as four straight ones.
-uint32_t Opening::part_cost(uint32_t i) const {
-  const uint32_t levels = view_.run_levels();
-  uint32_t size = run_segments_of(levels);
-  for (uint32_t above = i & parts_of(levels); above != 0; above = parent_of(above)) size /= 2;
-  return view_.is_smooth() ? 4 * size : size;
-}
-
-Verdict Opening::check_sample(uint32_t i) {
-  const Head& head = view_.head();
-  return seen_.take(&view_.samples_[i].x_m, head.low_m, head.high_m)
-             ? kPassed
-             : reject(kRuleSampleOutside, i);
-}
-
-Verdict Opening::finish_samples() {
-  const Head& head = view_.head();
+Verdict Proof::finish_samples() {
+  const Head& head = view.head();
   for (uint32_t k = 0; k < 3; ++k)
     if (!seen_.touches_low(k, head.low_m[k]) || !seen_.touches_high(k, head.high_m[k]))
       return reject(kRuleLooseBox, k);
-  const float* first = &view_.samples_[0].x_m;
-  const float* last = &view_.samples_[head.sample_count - 1].x_m;
+  const float* first = &view.samples_[0].x_m;
+  const float* last = &view.samples_[head.sample_count - 1].x_m;
   bool meet = true;
   for (uint32_t k = 0; k < 3; ++k)
     if (first[k] < last[k] || first[k] > last[k]) meet = false;
-  return meet == view_.is_closed() ? kPassed : reject(kRuleClosure);
+  return meet == view.is_closed() ? kPassed : reject(kRuleClosure);
 }
 
-Verdict Opening::check_length(uint32_t i) {
-  const float arc = view_.arcs_[i];
+Verdict Proof::check_length(uint32_t i) {
+  const float arc = view.arcs_[i];
   if (!(arc >= 0.0f && arc <= 1.0f)) return reject(kRuleArcRange, i);
   if (i == 0) return arc > 0.0f ? reject(kRuleArcRange, i) : kPassed;
-  const Sample& from = view_.samples_[i - 1];
-  const float spacing_m = math::length(vec(view_.samples_[i]) - vec(from));
+  const Sample& from = view.samples_[i - 1];
+  const float spacing_m = math::length(vec(view.samples_[i]) - vec(from));
   if (!(spacing_m >= kMinSpacing_m)) return reject(kRuleSpacing, i);
-  if (!(arc >= view_.arcs_[i - 1])) return reject(kRuleArcOrder, i);
-  const float half_m = half_segment_m(from, view_.samples_[i]);
+  if (!(arc >= view.arcs_[i - 1])) return reject(kRuleArcOrder, i);
+  const float half_m = half_segment_m(from, view.samples_[i]);
   if (half_m > longest_half_m_) longest_half_m_ = half_m;
-  const float fraction = spacing_m / view_.head_->length_m;
+  const float fraction = spacing_m / view.head_->length_m;
   travelled_ += fraction < 1.0f ? as_fixed(fraction) : kWhole;
   const uint64_t reported = as_fixed(arc);
   const uint64_t apart = travelled_ > reported ? travelled_ - reported : reported - travelled_;
   if (apart > kArcSlack) return reject(kRuleArcValue, i);
-  if (i + 1 == view_.samples_.size() && arc < 1.0f) return reject(kRuleArcRange, i);
+  if (i + 1 == view.samples_.size() && arc < 1.0f) return reject(kRuleArcRange, i);
   return kPassed;
 }
 
-Verdict Opening::finish_length() {
-  return same_bits(longest_half_m_, view_.head_->longest_half_m) ? kPassed
-                                                                 : reject(kRuleLongestHalf);
+Verdict Proof::finish_lengths() {
+  return same_bits(longest_half_m_, view.head_->longest_half_m) ? kPassed
+                                                                : reject(kRuleLongestHalf);
 }
 
 // The order by (coordinate, sample) is strict: a sample that stood in two nodes would have to come
 // before itself where their ways part. So nodes in order, as many as samples, hold each once.
-Verdict Opening::check_tree(uint32_t i) {
-  const uint32_t count = view_.samples_.size(), node = view_.tree_[i];
-  const Sample* samples = view_.samples_.data();
-  if (sample_of(node) >= count || axis_of(node) > 2) return reject(kRuleTreeNode, i);
-  for (uint32_t at = i; at != 0; at = parent_of(at)) {  // ancestors have passed the line above
-    const uint32_t above = view_.tree_[parent_of(at)];
-    const bool is_first = (at & 1u) != 0;
-    const uint32_t first = is_first ? node : above, second = is_first ? above : node;
-    if (!comes_before(samples, axis_of(above), sample_of(first), sample_of(second)))
-      return reject(kRuleTreeOrder, i);
+Verdict Proof::check_tree(uint32_t first_node, uint32_t end) {
+  const uint32_t count = view.samples_.size();
+  const Sample* samples = view.samples_.data();
+  for (uint32_t i = first_node; i < end; ++i) {
+    const uint32_t node = view.tree_[i];
+    if (sample_of(node) >= count || axis_of(node) > 2) return reject(kRuleTreeNode, i);
+    for (uint32_t at = i; at != 0; at = parent_of(at)) {  // ancestors have passed the line above
+      const uint32_t above = view.tree_[parent_of(at)];
+      const bool is_first = (at & 1u) != 0;
+      const uint32_t first = is_first ? node : above, second = is_first ? above : node;
+      if (!comes_before(samples, axis_of(above), sample_of(first), sample_of(second)))
+        return reject(kRuleTreeOrder, i);
+    }
   }
   return kPassed;
 }
 
-Verdict Opening::check_box(uint32_t i) {
-  const Box& box = view_.boxes_[i];
-  const Box& around = view_.boxes_[i == 0 ? 0 : parent_of(i)];
-  for (uint32_t k = 0; k < 3; ++k) {
-    if (!query::is_axis(box.side[k])) return reject(kRuleBoxRange, i);
-    if (!query::holds(around.side[k], box.side[k])) return reject(kRuleBoxNesting, i);
+Verdict Proof::check_boxes(uint32_t first, uint32_t end) {
+  for (uint32_t i = first; i < end; ++i) {
+    const Box& box = view.boxes_[i];
+    const Box& around = view.boxes_[i == 0 ? 0 : parent_of(i)];
+    for (uint32_t k = 0; k < 3; ++k) {
+      if (!query::is_axis(box.side[k])) return reject(kRuleBoxRange, i);
+      if (!query::holds(around.side[k], box.side[k])) return reject(kRuleBoxNesting, i);
+    }
+    const uint32_t wrong = i > 0 || !view.is_smooth() ? 0 : wrong_of_root(*view.head_, box);
+    if (wrong != 0) return reject(kRuleSmoothMargin, wrong - 1);
   }
-  if (i > 0 || !view_.is_smooth()) return kPassed;
-  const uint32_t wrong = wrong_of_root(*view_.head_, box);
-  return wrong == 0 ? kPassed : reject(kRuleSmoothMargin, wrong - 1);
+  return kPassed;
 }
 
 // leaf -> run inverts run -> leaf, so each run is one leaf.
-Verdict Opening::check_run(uint32_t i) {
-  const core::Span<const Run> runs = view_.runs_;
-  const Run& run = runs[i];
-  if (run.run >= runs.size() || runs[run.run].leaf != i) return reject(kRuleRunOrder, i);
-  if (run.leaf >= runs.size() || runs[run.leaf].run != i) return reject(kRuleRunOrder, i);
-  const uint32_t segments = view_.segment_count();
-  const Part whole = part_of(view_.run_levels(), i, 0, segments);
-  const Box& box = view_.boxes_[runs.size() - 1 + run.leaf];
-  for (uint32_t s = whole.first; s <= whole.last; ++s) {
-    const float* at_m = &view_.samples_[s].x_m;
-    for (uint32_t k = 0; k < 3; ++k) {
-      const float cells = cells_of(*view_.head_, at_m[k], k);
-      if (!(cells >= static_cast<float>(low_of(box.side[k])) &&
-            cells <= static_cast<float>(high_of(box.side[k]))))
-        return reject(kRuleRunBox, s);
-    }
+Verdict Proof::check_runs(uint32_t first, uint32_t end) {
+  const core::Span<const Run> runs = view.runs_;
+  for (uint32_t i = first; i < end; ++i) {
+    if (runs[i].run >= runs.size() || runs[runs[i].run].leaf != i) return reject(kRuleRunOrder, i);
+    if (runs[i].leaf >= runs.size() || runs[runs[i].leaf].run != i) return reject(kRuleRunOrder, i);
   }
-  const Track track{view_.samples_.data(), view_.samples_.size(), view_.is_closed()};
-  for (uint32_t s = whole.first; view_.is_smooth() && s < whole.last; ++s)
-    if (!holds_piece(*view_.head_, track, s, box)) return reject(kRuleRunBox, s);
   return kPassed;
 }
 
-Verdict Opening::check_part(uint32_t i) {
-  const uint32_t levels = view_.run_levels(), parts = parts_of(levels);
-  const uint32_t run = i >> (levels + 1), k = i & parts;
-  if (k == parts) return view_.radii_[i] == 0 ? kPassed : reject(kRuleRadiusPadding, run);
-  const Part part = part_of(levels, run, k, view_.segment_count());
-  const Track track{view_.samples_.data(), view_.samples_.size(), view_.is_closed()};
-  const uint16_t radius = part_radius(track, view_.is_smooth(), part.first, part.last);
-  return view_.radii_[i] == radius ? kPassed : reject(kRuleRadius, run);
-}
-
-Verdict open(const Sections& sections, View& view) {
-  Opening opening(sections);
-  return query::open_at_once(opening, view);
+// A smallest part: it lies in its run's box, and adds to the radii of the parts that hold it.
+Verdict Proof::check_part(uint32_t i) {
+  const uint32_t segments = view.segment_count(), levels = view.run_levels(), run = i >> levels;
+  const uint32_t begin = i * kPartSegments;
+  const uint32_t count = begin >= segments ? 0 : least(kPartSegments, segments - begin);
+  Vec3 slope[kPartSegments + 1] = {};
+  Cubic pieces[kPartSegments] = {};
+  const Track track{view.samples_.data(), view.samples_.size(), view.is_closed()};
+  for (uint32_t s = 0; view.is_smooth() && count > 0 && s <= count; ++s) {
+    slope[s] = slope_at(track, begin + s);
+    if (s > 0) pieces[s - 1] = cubic_between(step_m(track, begin + s - 1), slope[s - 1], slope[s]);
+  }
+  const Box& box = view.boxes_[view.runs_.size() - 1 + view.runs_[run].leaf];
+  for (uint32_t s = 0; count > 0 && s <= count; ++s) {
+    const Cubic* piece = view.is_smooth() && s < count ? &pieces[s] : nullptr;
+    if (!holds(view.head(), box, view.samples_[begin + s], piece))
+      return reject(kRuleRunBox, begin + s);
+  }
+  const uint16_t* radii = view.radii_ + size_t{run} * (parts_of(levels) + 1);
+  for (uint32_t level = 0; level <= levels; ++level) {
+    const uint32_t rest =
+        (1u << (levels - level)) - 1;  // smallest parts in one of this level, less 1
+    const uint32_t first = least((i & ~rest) * kPartSegments, segments);
+    const uint32_t last = least(first + (rest + 1) * kPartSegments, segments);
+    const Vec3 a = vec(view.samples_[first]), along = vec(view.samples_[last]) - a;
+    float& max2_m2 = max2_m2_[level];
+    for (uint32_t s = 0; s < count; ++s) {
+      const Vec3 from = vec(view.samples_[begin + s]) - a;
+      max2_m2 = greatest(max2_m2, line_distance2(from, along));
+      if (!view.is_smooth()) continue;
+      max2_m2 = greatest(max2_m2, line_distance2(from + pieces[s].c1, along));
+      max2_m2 = greatest(max2_m2, line_distance2(from + pieces[s].c2, along));
+    }
+    if ((i & rest) != rest) continue;
+    const uint32_t part = (1u << level) - 1 + ((i & ((1u << levels) - 1)) >> (levels - level));
+    const uint16_t radius = last > first ? radius_of(max2_m2, along) : uint16_t{0};
+    if (radii[part] != radius) return reject(kRuleRadius, run);
+    max2_m2 = 0;
+  }
+  const bool is_end_of_run = ((i + 1) & ((1u << levels) - 1)) == 0;
+  return is_end_of_run && radii[parts_of(levels)] != 0 ? reject(kRuleRadiusPadding, run) : kPassed;
 }
 
 }  // namespace firmtouch::curve
+
+template class firmtouch::query::Opening<firmtouch::curve::Proof>;

@@ -12,12 +12,21 @@ namespace firmtouch::curve {
 /// The bytes of a curve's sections, as the container returns them; `tree` may be empty.
 struct Sections {
   core::Bytes head, samples, arcs, tree, boxes, runs, radii;
+
+  /// Calls take(section type, bytes) for each.
+  template <class Take>
+  void each(const Take& take) {
+    take(kHeadSection, head), take(kSamplesSection, samples), take(kArcsSection, arcs),
+        take(kTreeSection, tree), take(kBoxesSection, boxes), take(kRunsSection, runs),
+        take(kRadiiSection, radii);
+  }
 };
 
 /// A curve that open() has proven: every index, order, box, radius and float. Immutable; share it
 /// between any number of tools.
 class View {
  public:
+  using Sections = curve::Sections;
   View() = default;
 
   bool is_open() const { return head_ != nullptr; }
@@ -41,7 +50,7 @@ class View {
   }
 
  private:
-  friend class Opening;
+  friend class Proof;
   const Head* head_ = nullptr;
   core::Span<const Sample> samples_;
   core::Span<const float> arcs_;
@@ -51,52 +60,43 @@ class View {
   const uint16_t* radii_ = nullptr;  // as many as the runs have
 };
 
-/// Proves a curve in slices, so that a main loop stays alive while it opens a large one: rules R201
-/// to R231 of tools/FORMAT.md.
-///
-///     Opening opening(sections);
-///     while (!opening.done()) opening.work(1000);
-///     if (opening.verdict().ok()) view = opening.view();
-class Opening {
+/// What Opening proves of a curve: rules R201 to R231 of tools/FORMAT.md.
+class Proof {
  public:
-  explicit Opening(const Sections& sections);
-
-  /// Checks up to `elements` samples or boxes more; a run, and a part of one, counts as an element
-  /// a segment, one of cubic pieces as four. Bounds: at most kMaxLevels reads an element; at most a
-  /// run, 1,024 segments, at once; no recursion; reads only inside the sections.
-  void work(uint32_t elements);
-  bool done() const { return check_.done(); }
-  core::Verdict verdict() const { return check_.verdict(); }
-  /// The proven curve; one that is not open unless done() and verdict().ok().
-  View view() const { return check_.has_passed() ? view_ : View{}; }
+  static const query::CheckStage kStages[6];
+  core::Verdict take(const Sections& sections);
+  core::Verdict check_head() const;
+  View view;
 
  private:
-  static const query::CheckStage<Opening> kStages[6];
-  core::Verdict open_head(const Sections& sections);
-  uint32_t sample_count() const { return view_.samples_.size(); }
-  uint32_t tree_count() const { return view_.tree_.size(); }
-  uint32_t box_count() const { return view_.boxes_.size(); }
-  uint32_t run_count() const { return view_.runs_.size(); }
-  uint32_t radius_count() const { return view_.radii().size(); }
-  core::Verdict check_sample(uint32_t i);
+  uint32_t sample_count() const { return view.samples_.size(); }
+  uint32_t tree_count() const { return view.tree_.size(); }
+  uint32_t box_count() const { return view.boxes_.size(); }
+  uint32_t run_count() const { return view.runs_.size(); }
+  uint32_t part_count() const { return view.runs_.size() << view.run_levels(); }
+  core::Verdict check_samples(uint32_t first, uint32_t end);
   core::Verdict finish_samples();
+  core::Verdict finish_lengths();
   core::Verdict check_length(uint32_t i);
-  core::Verdict finish_length();
-  core::Verdict check_tree(uint32_t i);
-  core::Verdict check_box(uint32_t i);
-  core::Verdict check_run(uint32_t i);
+  core::Verdict check_tree(uint32_t first, uint32_t end);
+  core::Verdict check_boxes(uint32_t first, uint32_t end);
+  core::Verdict check_runs(uint32_t first, uint32_t end);
   core::Verdict check_part(uint32_t i);
-  uint32_t run_cost(uint32_t) const;
-  uint32_t part_cost(uint32_t i) const;
 
-  View view_;
-  query::StagedCheck check_;
   query::SeenBox seen_;
   uint64_t travelled_ = 0;  // along the curve, in 2^-62 of its length
   float longest_half_m_ = 0;
+  // Of the part of each level that the next smallest part is in: its farthest point so far.
+  float max2_m2_[kMaxRunLevels + 1] = {};
 };
 
+using Opening = query::Opening<Proof>;
+
 /// All at once.
-core::Verdict open(const Sections& sections, View& view);
+inline core::Verdict open(const Sections& sections, View& view) {
+  return query::open_at_once<Opening>(view, sections);
+}
 
 }  // namespace firmtouch::curve
+
+extern template class firmtouch::query::Opening<firmtouch::curve::Proof>;

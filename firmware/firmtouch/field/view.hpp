@@ -13,12 +13,19 @@ namespace firmtouch::field {
 /// The bytes of a distance field's sections, as the container returns them.
 struct Sections {
   core::Bytes head, distances, seeds;
+
+  /// Calls take(section type, bytes) for each.
+  template <class Take>
+  void each(const Take& take) {
+    take(kHeadSection, head), take(kDistancesSection, distances), take(kSeedsSection, seeds);
+  }
 };
 
 /// A distance field that Opening has proven against its mesh: every cell's bounds and sign.
 /// Immutable; share it between any number of tools.
 class View {
  public:
+  using Sections = field::Sections;
   View() = default;
 
   bool is_open() const { return head_ != nullptr; }
@@ -28,41 +35,37 @@ class View {
   core::Span<const uint32_t> seeds() const { return seeds_; }
 
  private:
-  friend class Opening;
+  friend class Proof;
   const Head* head_ = nullptr;
   core::Span<const int16_t> distances_;
   core::Span<const uint32_t> seeds_;
 };
 
-/// Proves a distance field in slices: rules R301 to R310 of tools/FORMAT.md. Each cell's bounds are
-/// compared with a query of the proven mesh at its centre, which starts at the cell's seed. A field
-/// that passes is as accurate as its mesh.
-class Opening {
+/// What Opening proves of a distance field: rules R301 to R310 of tools/FORMAT.md. Each cell's
+/// bounds are compared with a query of the proven mesh at its centre, which starts at the cell's
+/// seed. A field that passes is as accurate as its mesh.
+class Proof {
  public:
-  /// `mesh` is open and outlives the opening; else rule R305.
-  Opening(const Sections& sections, const mesh::View& mesh);
-
-  /// Checks up to `cells` cells more.
-  /// Bounds: one query of the mesh a cell (some thousand instructions where the seed is right); no
-  ///         recursion; reads only inside the sections.
-  void work(uint32_t cells);
-  bool done() const { return check_.done(); }
-  core::Verdict verdict() const { return check_.verdict(); }
-  /// The proven field; one that is not open unless done() and verdict().ok().
-  View view() const { return check_.has_passed() ? view_ : View{}; }
+  static const query::CheckStage kStages[1];
+  /// `mesh` is open and outlives the proof; else rule R305.
+  core::Verdict take(const Sections& sections, const mesh::View& mesh);
+  core::Verdict check_head() const;
+  View view;
 
  private:
-  static const query::CheckStage<Opening> kStages[1];
-  core::Verdict open_head(const Sections& sections);
-  uint32_t cell_count() const { return view_.distances_.size(); }
+  uint32_t cell_count() const { return view.distances_.size(); }
   core::Verdict check_cell(uint32_t i);
 
-  View view_;
-  const mesh::View* mesh_;
-  query::StagedCheck check_;
+  const mesh::View* mesh_ = nullptr;
 };
 
+using Opening = query::Opening<Proof>;
+
 /// All at once.
-core::Verdict open(const Sections& sections, const mesh::View& mesh, View& view);
+inline core::Verdict open(const Sections& sections, const mesh::View& mesh, View& view) {
+  return query::open_at_once<Opening>(view, sections, mesh);
+}
 
 }  // namespace firmtouch::field
+
+extern template class firmtouch::query::Opening<firmtouch::field::Proof>;

@@ -97,13 +97,17 @@ Verdict BaseHullProof::begin(core::Bytes bytes, const View& hull) {
   base_hull_.triangles_ = rest.take_array<BaseHullTriangle>(head.triangle_count);
   if (!rest.is_used_up()) return reject(kRuleBaseHullSize, 1);
   base_hull_.id_bytes_ = of.id_bytes;
-  for (uint32_t k = 0; k < 3; ++k) {
-    base_hull_.grid_low_m_[k] = of.grid_low_m[k];
-    if (!(head.low_m[k] >= of.low_m[k] && head.low_m[k] <= head.high_m[k] &&
-          head.high_m[k] <= of.high_m[k]))
-      return reject(kRuleBaseHullBox, k);
-  }
+  for (uint32_t k = 0; k < 3; ++k) base_hull_.grid_low_m_[k] = of.grid_low_m[k];
   base_hull_.cell_m_ = of.cell_m;
+  return kPassed;
+}
+
+Verdict BaseHullProof::check_head(const View& hull) const {
+  const BaseHullHead& head = base_hull_.head();
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!(head.low_m[k] >= hull.head().low_m[k] && head.low_m[k] <= head.high_m[k] &&
+          head.high_m[k] <= hull.head().high_m[k]))
+      return reject(kRuleBaseHullBox, k);
   return kPassed;
 }
 
@@ -198,6 +202,7 @@ Verdict open_base_hull(core::Bytes bytes, const View& hull, BaseHull& base_hull)
   base_hull = {};
   BaseHullProof proof;
   Verdict found = proof.begin(bytes, hull);
+  if (found.ok()) found = proof.check_head(hull);
   for (uint32_t i = 0; found.ok() && i < proof.vertex_count(); ++i)
     found = proof.check_vertex(i, hull);
   for (uint32_t i = 0; found.ok() && i < proof.face_count(); ++i) found = proof.check_face(i, hull);

@@ -78,16 +78,18 @@ class BaseHull {
 };
 
 /// Proves a base hull against its hull (whose ids and vertices must be proven), element by element:
-/// rules R540 to R548. begin(), then every vertex, then every face in rising order, then finish().
+/// rules R540 to R548. begin(), check_head(), every vertex, every face in rising order, finish().
 class BaseHullProof {
  public:
+  /// The sizes of its parts.
   core::Verdict begin(core::Bytes bytes, const View& hull);
+  core::Verdict check_head(const View& hull) const;
   uint32_t vertex_count() const;
   uint32_t face_count() const { return base_hull_.head_->face_count; }
   core::Verdict check_vertex(uint32_t i, const View& hull) const;
   core::Verdict check_face(uint32_t i, const View& hull);
   core::Verdict finish() const;
-  /// Pre: everything has passed.
+  /// Pre: begin() has passed. It is proven when all has.
   const BaseHull& base_hull() const { return base_hull_; }
   /// Sum of the hashes of its faces' vertex numbers.
   uint64_t faces() const { return faces_; }

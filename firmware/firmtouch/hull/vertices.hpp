@@ -120,6 +120,9 @@ static inline uint64_t scattered(uint64_t x) {
   return x ^ (x >> 31);
 }
 
+// Odd factors that give triples and pairs of numbers distinct sums.
+constexpr uint64_t kFirst = 0xD6E8FEB86659FD93u, kSecond = 0xA0761D6478BD642Fu;
+
 /// Of a face's three vertex numbers, whichever comes first.
 static inline uint64_t face_hash(uint32_t a, uint32_t b, uint32_t c) {
   const bool is_b = b < a && b < c, is_c = c < a && c < b;
@@ -132,10 +135,10 @@ static inline uint64_t face_hash(uint32_t a, uint32_t b, uint32_t c) {
                  third = is_b   ? a
                          : is_c ? b
                                 : c;
-  return scattered(scattered(scattered(first) ^ second) ^ third);
+  return scattered(first * kFirst + second * kSecond + third);
 }
 static inline uint64_t edge_hash(uint32_t from, uint32_t to) {
-  return scattered(scattered(from) ^ to);
+  return scattered(from * kFirst + to);
 }
 
 }  // namespace firmtouch::hull

@@ -16,11 +16,23 @@ namespace firmtouch::hull {
 struct Sections {
   core::Bytes head, vertices, origins, records, record_offsets, star_boxes, boxes, base_hull;
   core::Bytes mesh_head, mesh_vertices, triangles16, triangles32;
+
+  /// Calls take(section type, bytes) for each.
+  template <class Take>
+  void each(const Take& take) {
+    take(kHeadSection, head), take(kVerticesSection, vertices), take(kOriginsSection, origins),
+        take(kRecordsSection, records), take(kRecordOffsetsSection, record_offsets),
+        take(kStarBoxesSection, star_boxes), take(kBoxesSection, boxes),
+        take(kBaseHullSection, base_hull), take(mesh::kHeadSection, mesh_head),
+        take(mesh::kVerticesSection, mesh_vertices), take(mesh::kTriangles16Section, triangles16),
+        take(mesh::kTriangles32Section, triangles32);
+  }
 };
 
 /// A progressive hull that open() has proven. Immutable; share it between any number of tools.
 class View {
  public:
+  using Sections = hull::Sections;
   View() = default;
 
   bool is_open() const { return head_ != nullptr; }
@@ -64,7 +76,7 @@ class View {
   core::Span<const NodeBox> boxes() const { return boxes_; }
 
  private:
-  friend class Opening;
+  friend class Proof;
   uint32_t read_id(const uint8_t* at) const {
     const uint32_t low = at[0] | static_cast<uint32_t>(at[1]) << 8;
     return head_->id_bytes == 2 ? low : low | static_cast<uint32_t>(at[2]) << 16;
@@ -82,46 +94,36 @@ class View {
   BaseHull base_hull_;
 };
 
-/// Proves a hull in slices, as mesh::Opening does its mesh: rules R501 to R549 of tools/FORMAT.md.
-/// It needs the mesh's vertices and triangles, not the mesh's proof.
-class Opening {
+/// What Opening proves of a hull: rules R501 to R549 of tools/FORMAT.md. It needs the mesh's
+/// vertices and triangles, not the mesh's proof.
+class Proof {
  public:
-  explicit Opening(const Sections& sections);
-
-  /// Checks up to `elements` vertices, triangles, ids, records or faces more.
-  /// Bounds: O(elements), a triangle as often as its tree is deep; no recursion; reads only inside
-  ///         the sections.
-  void work(uint32_t elements);
-  bool done() const { return check_.done(); }
-  core::Verdict verdict() const { return check_.verdict(); }
-  /// The proven hull; one that is not open unless done() and verdict().ok().
-  View view() const { return check_.has_passed() ? view_ : View{}; }
+  static const query::CheckStage kStages[6];
+  core::Verdict take(const Sections& sections);
+  core::Verdict check_head() const;
+  View view;
 
  private:
-  static const query::CheckStage<Opening> kStages[6];
-  core::Verdict open_head(const Sections& sections);
-  core::Verdict open_mesh(const Sections& sections);
-  uint32_t vertex_count() const { return view_.mesh_head().vertex_count; }
-  uint32_t id_count() const { return view_.id_count(); }
-  uint32_t record_count() const { return view_.collapse_count(); }
-  uint32_t triangle_count() const { return view_.mesh_head().triangle_count; }
+  core::Verdict take_mesh(const Sections& sections);
+  uint32_t vertex_count() const { return view.mesh_head().vertex_count; }
+  uint32_t id_count() const { return view.id_count(); }
+  uint32_t record_count() const { return view.collapse_count(); }
+  uint32_t leaf_count() const;
   uint32_t base_vertex_count() const { return base_hull_.vertex_count(); }
   uint32_t base_face_count() const { return base_hull_.face_count(); }
-  core::Verdict check_mesh_vertex(uint32_t i);
-  core::Verdict check_id(uint32_t id);
+  core::Verdict check_mesh_vertices(uint32_t first, uint32_t end);
+  core::Verdict check_ids(uint32_t first, uint32_t end);
   core::Verdict finish_ids();
-  core::Verdict check_record(uint32_t collapse);
   core::Verdict finish_records();
+  core::Verdict check_record(uint32_t collapse);
   core::Verdict check_star(uint32_t collapse, const uint8_t* record);
-  core::Verdict check_triangle(uint32_t i);
-  core::Verdict finish_triangles();
+  core::Verdict check_leaf(uint32_t leaf);
+  core::Verdict finish_leaves();
   core::Verdict check_base_vertex(uint32_t i);
   core::Verdict check_base_face(uint32_t i);
   core::Verdict finish_base_hull();
 
-  View view_;
   core::Bytes base_hull_bytes_;
-  query::StagedCheck check_;
   uint32_t record_at_ = 0;
   // Sums of hashes, which compare two multisets without memory: each number has one id; each face
   // of the mesh or made is replaced once or left.
@@ -129,7 +131,13 @@ class Opening {
   BaseHullProof base_hull_;
 };
 
+using Opening = query::Opening<Proof>;
+
 /// All at once.
-core::Verdict open(const Sections& sections, View& view);
+inline core::Verdict open(const Sections& sections, View& view) {
+  return query::open_at_once<Opening>(view, sections);
+}
 
 }  // namespace firmtouch::hull
+
+extern template class firmtouch::query::Opening<firmtouch::hull::Proof>;

@@ -20,7 +20,7 @@
 //               without Hello too.
 namespace firmtouch::link {
 
-constexpr uint32_t kProtocolVersion = 4;
+constexpr uint32_t kProtocolVersion = 5;
 
 // Append-only. The high bit marks frames of the controller.
 enum Type : uint8_t {
@@ -83,7 +83,7 @@ static_assert(sizeof(HelloReply) == 56);
 struct Step {
   record::TickInput input;
 };
-static_assert(sizeof(Step) == 32);
+static_assert(sizeof(Step) == 36);
 
 struct StepReply {
   uint32_t tick = 0;              // of the Step
@@ -138,7 +138,7 @@ struct Log {
   uint32_t dropped = 0;  // total before this record, because the ring was full
   record::Numbered<record::TickRecord> record;
 };
-static_assert(sizeof(Log) == 132);
+static_assert(sizeof(Log) == 136);
 static_assert(sizeof(Log) <= kMaxPayloadBytes);
 
 // Describe::what

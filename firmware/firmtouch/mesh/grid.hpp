@@ -1,7 +1,7 @@
 #pragma once
 // Lower bounds of the distance to the boxes of a mesh. For the library's own translation units.
 
-#include "firmtouch/math/isa_oriented.hpp"
+#include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/mesh/triangle.hpp"

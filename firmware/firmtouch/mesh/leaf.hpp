@@ -5,12 +5,10 @@
 #include <stddef.h>
 
 #include "firmtouch/core/span.hpp"
-#include "firmtouch/math/isa_loads.hpp"
+#include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/mesh/compensated_distance.hpp"
 #include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/layout.hpp"
-#include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/triangle.hpp"
 
 namespace firmtouch::mesh {
@@ -135,37 +133,6 @@ template <class Source, class Wanted>
     best.offset_m = foot.offset_m;
     const uint32_t word = math::only_here(child);
     best.triangle = leaf_first(word) + leaf_count(word) - left;
-    best.slot = slot;
-    best.feature = foot.feature;
-  }
-}
-
-/// Puts into `best` the first nearest triangle of the leaf `child`, in slot `slot`, if it is nearer
-/// than best.distance2_m2. Triangles that may be the nearest are measured again in double-float.
-template <class Index>
-[[gnu::always_inline]] static inline void measure_compensated_leaf(
-    const Vertex* vertices, core::Span<const Triangle<Index>> triangles, const Loss& loss,
-    math::Vec3 p_m, uint32_t child, uint32_t slot, Best& best) {
-  using math::Vec3;
-  const uint32_t stride = math::as_multiplier(sizeof(Vertex));
-  const Triangle<Index>* triangle = triangles.data() + leaf_first(child);
-  float min2_m2 = best.distance2_m2;
-  for (const Triangle<Index>* const end = triangle + leaf_count(child); triangle != end;
-       ++triangle) {
-    Vec3 a_m, b_m, c_m;
-    load_corner<0>(vertices, triangle->corner[0], stride, a_m);
-    load_corner<1>(vertices, triangle->corner[1], stride, b_m);
-    load_corner<2>(vertices, triangle->corner[2], stride, c_m);
-    Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
-    if (!loss.may_be_less(foot.distance2_m2, min2_m2)) continue;
-    foot.distance2_m2 = loss.is_clear(foot.distance2_m2)
-                            ? compensated_distance2(p_m, a_m, b_m, c_m, foot.feature)
-                            : compensated_distance2(p_m, a_m, b_m, c_m);
-    if (!(foot.distance2_m2 < min2_m2)) continue;
-    min2_m2 = foot.distance2_m2;
-    best.distance2_m2 = min2_m2;  // one by one: an aggregate is built on the stack first
-    best.offset_m = foot.offset_m;
-    best.triangle = static_cast<uint32_t>(triangle - triangles.data());
     best.slot = slot;
     best.feature = foot.feature;
   }

@@ -2,6 +2,7 @@
 // The search for the nearest triangle: the module's inner loop. For closest_point.cpp alone.
 
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/compensated_distance.hpp"
 #include "firmtouch/mesh/grid.hpp"
 #include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/leaf.hpp"
@@ -189,14 +190,33 @@ enum class Which { kLast, kBeside };
 
 // Functions of their own: inlined they take the registers of the descent.
 // Result: 0 where a triangle was nearer. A search measures no leaf twice.
-template <class Index>
+//
+// Triangles that may be the nearest are measured again in double-float.
 [[gnu::noinline]] uint32_t measure_compensated(const View& mesh, uint32_t child, uint32_t slot,
                                                Search& search) {
-  const Vec3 p_m{search.p_m.x, search.p_m.y,
-                 search.p_m.z};  // one by one: see measure_compensated_leaf()
-  measure_compensated_leaf(mesh.vertices().data(), triangles_of<Index>(mesh), Loss(mesh.head()),
-                           p_m, child, slot, search.best);
-  return search.best.slot ^ slot;
+  const Loss loss(mesh.head());
+  const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};
+  Best& best = search.best;
+  float min2_m2 = best.distance2_m2;
+  const uint32_t first = leaf_first(child), end = first + leaf_count(child);
+  for (uint32_t i = first; i != end; ++i) {
+    const Triangle<uint32_t> triangle = mesh.triangle(i);
+    const Vec3 a_m = mesh.vertex(triangle.corner[0]), b_m = mesh.vertex(triangle.corner[1]),
+               c_m = mesh.vertex(triangle.corner[2]);
+    Foot foot = closest_on_triangle(p_m, a_m, b_m, c_m);
+    if (!loss.may_be_less(foot.distance2_m2, min2_m2)) continue;
+    foot.distance2_m2 = loss.is_clear(foot.distance2_m2)
+                            ? compensated_distance2(p_m, a_m, b_m, c_m, foot.feature)
+                            : compensated_distance2(p_m, a_m, b_m, c_m);
+    if (!(foot.distance2_m2 < min2_m2)) continue;
+    min2_m2 = foot.distance2_m2;
+    best.distance2_m2 = min2_m2;  // one by one: an aggregate is built on the stack first
+    best.offset_m = foot.offset_m;
+    best.triangle = i;
+    best.slot = slot;
+    best.feature = foot.feature;
+  }
+  return best.slot ^ slot;
 }
 // `prune`, which it does not need, is in the register in which measure_boxed() has it.
 template <class Source, class Wanted>
@@ -217,18 +237,15 @@ template <class Source, class Wanted>
   return search.best.slot ^ slot;
 }
 
-// A compensated search tests the index width at each leaf, which costs nothing there and saves one
-// copy of the loop a bound, 1.1 to 1.5 KB. `prune`: the lowest key that is not visited. Result:
-// whether a triangle was nearer.
+// `prune`: the lowest key that is not visited. Result: whether a triangle was nearer. A compensated
+// search tests the index width at each triangle, which costs nothing there and saves 2 to 3 kB.
 template <bool kCompensated, class Index, Which kWhich>
 inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t child,
                     uint32_t slot, Search& search) {
   // Before the last leaf there is no bound that could exclude a triangle.
   using Wanted = typename Choice<kWhich == Which::kLast, Everything, Nearer>::Type;
   if constexpr (kCompensated) {
-    return (mesh.triangles16().empty()
-                ? measure_compensated<uint32_t>(mesh, child, slot, search)
-                : measure_compensated<uint16_t>(mesh, child, slot, search)) == 0;
+    return measure_compensated(mesh, child, slot, search) == 0;
   } else if constexpr (kIsBoxed<Index> && kWhich != Which::kLast) {
     return measure_boxed(prune, child, slot, search) == 0;
   } else {

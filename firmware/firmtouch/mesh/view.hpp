@@ -15,12 +15,23 @@ namespace firmtouch::mesh {
 struct Sections {
   core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds,
       leaf_boxes, shapes;
+
+  /// Calls take(section type, bytes) for each.
+  template <class Take>
+  void each(const Take& take) {
+    take(kHeadSection, head), take(kVerticesSection, vertices),
+        take(kTriangles16Section, triangles16), take(kTriangles32Section, triangles32),
+        take(kNodesSection, nodes), take(kParentsSection, parents),
+        take(kVertexNormalsSection, vertex_normals), take(kEdgeFoldsSection, edge_folds),
+        take(kLeafBoxesSection, leaf_boxes), take(kShapesSection, shapes);
+  }
 };
 
 /// A mesh that open() has proven: every index, box, depth and float. Immutable; share it between
 /// any number of tools.
 class View {
  public:
+  using Sections = mesh::Sections;
   View() = default;
 
   bool is_open() const { return head_ != nullptr; }
@@ -52,7 +63,7 @@ class View {
   }
 
  private:
-  friend class Opening;
+  friend class Proof;
   const Head* head_ = nullptr;
   core::Span<const Vertex> vertices_;
   core::Span<const Triangle<uint16_t>> triangles16_;
@@ -65,52 +76,41 @@ class View {
   const TriangleShape* shapes_ = nullptr;
 };
 
-/// Proves a mesh in slices, so that a main loop stays alive while it opens a large one: rules R101
-/// to R141 of tools/FORMAT.md.
-///
-///     Opening opening(sections);
-///     while (!opening.done()) opening.work(1000);
-///     if (opening.verdict().ok()) view = opening.view();
-class Opening {
+/// What Opening proves of a mesh: rules R101 to R141 of tools/FORMAT.md.
+class Proof {
  public:
-  explicit Opening(const Sections& sections);
-
-  /// Checks up to `elements` vertices, nodes or triangles more.
-  /// Bounds: O(elements); no recursion; reads only inside the sections.
-  void work(uint32_t elements);
-  bool done() const { return check_.done(); }
-  core::Verdict verdict() const { return check_.verdict(); }
-  /// The proven mesh; one that is not open unless done() and verdict().ok().
-  View view() const { return check_.has_passed() ? view_ : View{}; }
+  static const query::CheckStage kStages[3];
+  core::Verdict take(const Sections& sections);
+  core::Verdict check_head() const;
+  View view;
 
  private:
-  static const query::CheckStage<Opening> kStages[4];
-  core::Verdict open_head(const Sections& sections);
-  core::Verdict open_bounded(const Sections& sections);
-  uint32_t vertex_count() const { return view_.vertices_.size(); }
-  uint32_t normal_count() const { return view_.vertex_normals_.size(); }
-  uint32_t node_count() const { return view_.nodes_.size(); }
-  uint32_t triangle_count() const { return view_.head_->triangle_count; }
-  core::Verdict check_vertex(uint32_t i);
+  core::Verdict take_bounded(const Sections& sections);
+  uint32_t vertex_count() const { return view.vertices_.size(); }
+  uint32_t normal_count() const { return view.vertex_normals_.size(); }
+  uint32_t node_count() const { return view.nodes_.size(); }
+  core::Verdict check_vertices(uint32_t first, uint32_t end);
   core::Verdict finish_vertices();
-  core::Verdict check_normal(uint32_t i);
-  core::Verdict check_node(uint32_t i);
+  core::Verdict check_normals(uint32_t first, uint32_t end);
   core::Verdict finish_nodes();
+  core::Verdict check_node(uint32_t i);
   core::Verdict check_leaf(uint32_t node, uint32_t which);
   core::Verdict check_leaf_box(uint32_t first, uint32_t count) const;
-  TriangleShape shape_at(uint32_t triangle) const;
-  core::Verdict check_shape(uint32_t i) const;
-  core::Verdict check_triangle(uint32_t i);
+  core::Verdict check_triangle(uint32_t i, math::Vec3 a, math::Vec3 b, math::Vec3 c) const;
 
-  View view_;
-  query::StagedCheck check_;
   // Leaves hold the triangles in the order of their nodes: none twice, none left out.
   uint32_t next_triangle_ = 0;
   uint32_t deepest_ = 0;
   query::SeenBox seen_;
 };
 
+using Opening = query::Opening<Proof>;
+
 /// All at once.
-core::Verdict open(const Sections& sections, View& view);
+inline core::Verdict open(const Sections& sections, View& view) {
+  return query::open_at_once<Opening>(view, sections);
+}
 
 }  // namespace firmtouch::mesh
+
+extern template class firmtouch::query::Opening<firmtouch::mesh::Proof>;

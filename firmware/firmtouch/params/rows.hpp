@@ -80,7 +80,7 @@ struct ContactRows {
        When::kAnytime, "stiffness of the surface"},
       {kContactDamping, "contact_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime,
        "damping of the surface"},
-      {kMeshSteps, "mesh_steps", "1", 1.0f, 65536.0f, 256.0f, When::kAnytime,
+      {kMeshSteps, "mesh_steps", "1", 1.0f, 65536.0f, 256.0f, When::kMayFall,
        "visit budget of the surface query"},
   };
 };
@@ -124,7 +124,7 @@ struct GuideRows {
        "force of a push along the guide; largest force of a lead"},
       {kGuideDriveSpeed, "guide_drive_speed_mps", "m/s", -1.0f, 1.0f, 0.0f, When::kAnytime,
        "speed of a lead along the guide; 0: hold"},
-      {kCurveSteps, "curve_steps", "1", 1.0f, 65536.0f, 256.0f, When::kAnytime,
+      {kCurveSteps, "curve_steps", "1", 1.0f, 65536.0f, 256.0f, When::kMayFall,
        "visit budget of the guide query"},
   };
 };

@@ -35,7 +35,7 @@ constexpr bool is_sensible(const Probes& probes) {
 }
 
 /// Result: no points where the bytes are not such a section.
-inline Probes read_probes(core::Bytes bytes) {
+[[gnu::noinline]] inline Probes read_probes(core::Bytes bytes) {
   const core::Span<const ProbeHead> head = core::as_array<ProbeHead>(bytes, 1);
   if (head.empty() || head[0].reserved != 0) return {};
   const core::Bytes rest(bytes.data() + sizeof(ProbeHead),

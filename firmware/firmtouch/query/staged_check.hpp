@@ -1,18 +1,42 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 
 namespace firmtouch::query {
 
-/// One stage of a proof of untrusted sections, as member functions of the class that proves them.
-/// `count` and `cost` are called again for each element: they should only read.
-template <class Proof>
+/// One stage of a proof of untrusted sections. An element takes at most `units`, of about 100
+/// instructions of a Cortex-M7 each.
 struct CheckStage {
-  uint32_t (Proof::*count)() const;                   // elements; 0 skips to `finish`
-  core::Verdict (Proof::*check)(uint32_t element);    // of one, in rising order from 0
-  core::Verdict (Proof::*finish)() = nullptr;         // after the last element
-  uint32_t (Proof::*cost)(uint32_t) const = nullptr;  // of one, in units of the budget; else 1
+  uint32_t units;
+  uint32_t (*count)(const void* proof);
+  core::Verdict (*check)(void* proof, uint32_t first, uint32_t end);  // in rising order
+  core::Verdict (*finish)(void* proof) = nullptr;                     // after the last element
+};
+
+/// Members of a proof as functions of a CheckStage, so that all proofs share one StagedCheck.
+template <class Proof>
+struct StageOf {
+  template <uint32_t (Proof::*kCount)() const>
+  static uint32_t count(const void* proof) {
+    return (static_cast<const Proof*>(proof)->*kCount)();
+  }
+  template <core::Verdict (Proof::*kCheck)(uint32_t)>
+  static core::Verdict each(void* proof, uint32_t first, uint32_t end) {
+    core::Verdict found;
+    for (uint32_t i = first; i < end && found.ok(); ++i)
+      found = (static_cast<Proof*>(proof)->*kCheck)(i);
+    return found;
+  }
+  template <core::Verdict (Proof::*kCheck)(uint32_t, uint32_t)>
+  static core::Verdict all(void* proof, uint32_t first, uint32_t end) {
+    return (static_cast<Proof*>(proof)->*kCheck)(first, end);
+  }
+  template <core::Verdict (Proof::*kFinish)()>
+  static core::Verdict finish(void* proof) {
+    return (static_cast<Proof*>(proof)->*kFinish)();
+  }
 };
 
 /// Runs the stages of a proof in slices, up to the first verdict that rejects, so that a main loop
@@ -26,20 +50,23 @@ class StagedCheck {
     next_ = 0;
   }
 
-  /// Checks elements until their costs reach `budget`; the last one may exceed it.
-  template <class Proof, uint32_t kStages>
-  void work(Proof& proof, const CheckStage<Proof> (&stages)[kStages], uint32_t budget) {
+  /// Checks elements of at most `units` together, or one that takes more.
+  [[gnu::noinline]] void work(void* proof, core::Span<const CheckStage> stages, uint32_t units) {
     while (!done()) {
-      const CheckStage<Proof>& stage = stages[stage_];
-      if (next_ == (proof.*stage.count)()) {
+      const CheckStage& stage = stages[stage_];
+      const uint32_t left = stage.count(proof) - next_;
+      if (left == 0) {
         next_ = 0;
-        if (stage.finish != nullptr) verdict_ = (proof.*stage.finish)();
-        stage_ = verdict_.ok() && stage_ + 1u < kStages ? static_cast<uint8_t>(stage_ + 1) : kDone;
+        if (stage.finish != nullptr) verdict_ = stage.finish(proof);
+        stage_ =
+            verdict_.ok() && stage_ + 1u < stages.size() ? static_cast<uint8_t>(stage_ + 1) : kDone;
       } else {
-        if (budget == 0) return;
-        const uint32_t cost = stage.cost == nullptr ? 1 : (proof.*stage.cost)(next_);
-        budget = cost < budget ? budget - cost : 0;
-        verdict_ = (proof.*stage.check)(next_++);
+        if (units == 0) return;
+        const uint32_t fit = units < stage.units ? 1 : units / stage.units;
+        const uint32_t count = fit < left ? fit : left;
+        verdict_ = stage.check(proof, next_, next_ + count);
+        next_ += count;
+        units -= count * stage.units < units ? count * stage.units : units;
         if (!verdict_.ok()) stage_ = kDone;
       }
     }
@@ -56,9 +83,43 @@ class StagedCheck {
   uint32_t next_ = 0;
 };
 
-/// Whole proof at once. `Opening` has work(), done(), verdict() and view().
-template <class Opening, class View>
-core::Verdict open_at_once(Opening& opening, View& view) {
+/// Proves the sections of a geometry in slices:
+///
+///     mesh::Opening opening(sections);
+///     while (!opening.done()) opening.work(500);
+///     if (opening.verdict().ok()) view = opening.view();
+///
+/// `Proof` holds what is proven, `view`, and its stages, `kStages`, and has
+///     core::Verdict take(sections...);  // checks the sections' sizes and points the view to them
+///     core::Verdict check_head();       // the rest of what comes before the stages
+template <class Proof>
+class Opening {
+ public:
+  using View = decltype(Proof::view);
+
+  template <class... Sources>
+  [[gnu::always_inline]] explicit Opening(const Sources&... sources) {
+    const core::Verdict taken = proof_.take(sources...);
+    check_.begin(taken.ok() ? proof_.check_head() : taken);
+  }
+
+  /// Checks elements of at most `units` together, or one that takes more (CheckStage).
+  /// Bounds: no recursion; reads only inside the sections.
+  void work(uint32_t units) { check_.work(&proof_, Proof::kStages, units == 0 ? 1 : units); }
+  bool done() const { return check_.done(); }
+  core::Verdict verdict() const { return check_.verdict(); }
+  /// What was proven; a view that is not open unless done() and verdict().ok().
+  View view() const { return check_.has_passed() ? proof_.view : View{}; }
+
+ private:
+  Proof proof_;
+  StagedCheck check_;
+};
+
+/// Proves the sections at once.
+template <class Opening, class... Sources>
+core::Verdict open_at_once(typename Opening::View& view, const Sources&... sources) {
+  Opening opening(sources...);
   while (!opening.done()) opening.work(UINT32_MAX);
   view = opening.view();
   return opening.verdict();

@@ -49,7 +49,7 @@ class Ring {
   constexpr explicit Ring(uint32_t first = 0) : kept_(first), taken_seen_(first), taken_(first) {}
 
   /// Producer. Appends a copy of `value`, or drops it if the ring is full.
-  /// Bounds: wait-free; interrupt-safe. A tick's record takes 74 instructions on a Cortex-M7, 19 if
+  /// Bounds: wait-free; interrupt-safe. A tick's record takes 76 instructions on a Cortex-M7, 18 if
   /// it is dropped (tools/bench/ring-cortex-m7).
   /// Result: false if it was dropped.
   bool push(const T& value) {

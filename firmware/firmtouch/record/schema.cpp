@@ -10,6 +10,7 @@ extern constexpr Field kFields[kFieldCount] = {
     {"input.lines", "bits", 1, 0, Type::kU32, 1},
     {"input.command", "1", 1, 0, Type::kU32, 1},
     {"input.command_value", "1", 1, 0, Type::kF32, 1},
+    {"input.last_work_us", "s", 1e-6f, 0, Type::kU32, 1},
     {"output.motor_N", "N", 1, 0, Type::kF32, kAxes},
     {"output.position_m", "m", 1, 0, Type::kF32, kAxes},
     {"output.velocity_mps", "m/s", 1, 0, Type::kF32, kAxes},

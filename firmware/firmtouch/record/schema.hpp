@@ -28,7 +28,7 @@ struct Bit {
   uint8_t bit;
 };
 
-constexpr uint32_t kFieldCount = 22;
+constexpr uint32_t kFieldCount = 23;
 constexpr uint32_t kBitCount = 15;
 
 /// The fields of Numbered<TickRecord> in their order, without gaps (schema.cpp asserts it).
@@ -36,7 +36,7 @@ extern const Field kFields[kFieldCount];
 /// Except those of the faults, whose names are in servo/fault.hpp.
 extern const Bit kBits[kBitCount];
 
-// The same bytes in the ring, in a log and in a frame: two cache lines of 64 B.
-static_assert(sizeof(Numbered<TickRecord>) == 128);
+// The same bytes in the ring, in a log and in a frame.
+static_assert(sizeof(Numbered<TickRecord>) == 132);
 
 }  // namespace firmtouch::record

@@ -47,8 +47,11 @@ struct TickInput {
   // kCommandNone, kCommandClearFaults, or 1 + index of the parameter to set to command_value.
   uint32_t command;
   float command_value;
+  // Time that the tick before took, by the board's clock; divided by tick_period_s, the load. 0:
+  // not measured, as in lock-step.
+  uint32_t last_work_us;
 };
-static_assert(sizeof(TickInput) == 32);
+static_assert(sizeof(TickInput) == 36);
 
 struct TickOutput {
   float motor_N[kAxes];     // force (torque) of each joint's motor; joint frame
@@ -73,6 +76,6 @@ struct TickRecord {
   TickInput input;
   TickOutput output;
 };
-static_assert(sizeof(TickRecord) == 124);
+static_assert(sizeof(TickRecord) == 128);
 
 }  // namespace firmtouch::record

@@ -101,12 +101,14 @@ void touch_with(const MeshObject& object, float radius_m, Vec3 position_m, query
   surface.lower_m = certificate.lower_m;
   surface.distance_m = touch.closest.distance_m;
   if (certificate.sign < 0 && !certificate.exact) surface.distance_m = -certificate.lower_m;
-  // Nothing within reach: the direction to the surface is unknown, and not needed.
-  const bool is_beyond = !certificate.exact && certificate.lower_m >= 0.99f * reach_m;
+  // Outside, nothing within reach: the direction to the surface is unknown, and not needed. Inside,
+  // a depth beyond reach is the deepest contact of all.
+  const bool is_beyond =
+      certificate.sign > 0 && !certificate.exact && certificate.lower_m >= 0.99f * reach_m;
   if (is_beyond) surface.sign = 0;
   Nearest nearest{touch.closest.point_m, touch.closest.direction, certificate.sign};
   if constexpr (kHasBaseHull) {
-    if (!certificate.exact && !(is_beyond && certificate.sign > 0))
+    if (!certificate.exact && !is_beyond)
       touch.is_of_base_hull = query_base_hull(object, p_m, budget, touch, surface, nearest);
   }
   if (surface.sign != 0)

@@ -18,7 +18,8 @@ bool too_many(uint32_t history) {
 
 }  // namespace
 
-ClockReading watch_clock(ClockState& state, uint32_t clock_us, float period_s, float late_ratio) {
+ClockReading watch_clock(ClockState& state, uint32_t clock_us, uint32_t last_work_us,
+                         float period_s, float late_ratio) {
   ClockReading reading;
   reading.dt_s = period_s;
   const uint32_t elapsed_us = clock_us - state.last_us;  // modulo 2^32, so a wrap is no event
@@ -27,8 +28,11 @@ ClockReading watch_clock(ClockState& state, uint32_t clock_us, float period_s, f
     state.started = true;
     return reading;
   }
+  const bool overloaded = !(static_cast<float>(last_work_us) * 1e-6f < kMaxLoad * period_s);
+  state.overload_history = state.overload_history << 1 | (overloaded ? 1u : 0u);
+  if (too_many(state.overload_history)) reading.faults = kFaultOverload;
   if (elapsed_us >= kJump_us) {
-    reading.faults = kFaultClock;
+    reading.faults |= kFaultClock;
     return reading;
   }
   const float elapsed_s = static_cast<float>(elapsed_us) * 1e-6f;
@@ -46,6 +50,7 @@ ClockReading watch_clock(ClockState& state, uint32_t clock_us, float period_s, f
 void clear(ClockState& state) {
   state.late_history = 0;
   state.early_history = 0;
+  state.overload_history = 0;
 }
 
 }  // namespace firmtouch::servo

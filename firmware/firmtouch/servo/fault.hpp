@@ -19,7 +19,10 @@ constexpr uint32_t kFaultAsset = 1u << 9;          // enabled with a rejected as
 constexpr uint32_t kFaultProbes = 1u << 10;        // enabled with other arithmetic than the baker's
 constexpr uint32_t kFaultSettings = 1u << 11;      // servo settings out of range
 constexpr uint32_t kFaultGuard = 1u << 12;         // the guard stopped a force
-constexpr uint32_t kFaultCount = 13;
+// Ticks take 0.9 of tick_period_s or more: the main loop would stand still (clock_watch.hpp). While
+// it is latched, no tick queries the geometry.
+constexpr uint32_t kFaultOverload = 1u << 13;
+constexpr uint32_t kFaultCount = 14;
 
 // These cut the force in the same tick. The others ramp it down over kRampOut_s, because a sudden
 // loss of support hits the hand; force_limit_N holds meanwhile.
@@ -36,7 +39,7 @@ constexpr uint32_t kOnlyWhileOn =
 constexpr const char* fault_name(uint32_t number) {
   constexpr const char* kName[kFaultCount] = {
       "not finite", "model",          "stale model", "deadline", "clock",    "encoder", "workspace",
-      "drive",      "emergency stop", "asset",       "probes",   "settings", "guard"};
+      "drive",      "emergency stop", "asset",       "probes",   "settings", "guard",   "overload"};
   return number < kFaultCount ? kName[number] : "unknown";
 }
 
@@ -57,7 +60,8 @@ constexpr const char* fault_text(uint32_t number) {
       "enabled over an asset that was refused: bake it again",
       "this processor answers the asset's probe queries otherwise than the baker's",
       "a setting of the servo is out of range",
-      "the last guard stopped a force beyond force_limit_N or slew_limit_N_per_s"};
+      "the last guard stopped a force beyond force_limit_N or slew_limit_N_per_s",
+      "ticks took longer than 0.9 of tick_period_s: lower the budgets of the queries"};
   return number < kFaultCount ? kText[number] : "";
 }
 

@@ -9,24 +9,11 @@ namespace {
 
 using math::Vec3;
 
-// A node that is at most so much of the extent nearer than the best point is not searched: what is
-// left of the 4e-7 and 1e-6 that `exact` promises when the losses are taken off.
-constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
-constexpr float kBeyond = 0x1p28f;  // extents
-
-float sized(float value) { return value < 0.0f ? -value : value; }
-
 // What float32 loses of a distance: two roundings of the query's differences, three of the squares'
 // sum, which the root halves, and one each of root and result.
 float lost_m(const Head& head, float distance_m) { return head.loss_m + 5.5f * kUnit * distance_m; }
 
 }  // namespace
-
-Best best_of(const Head& head) {
-  Best best;
-  best.gap_m = head.extent_m * (head.is_rational != 0 ? kRationalGap : kGap);
-  return best;
-}
 
 void begin_at_first(const View& model, Vec3 p_m, Best& best) {
   const Piece& piece = model.pieces()[0];
@@ -51,47 +38,41 @@ float outside_m(const Head& head, Vec3 p_m) {
   return off_m > 0.0f ? off_m : 0.0f;
 }
 
-bool is_near(const Head& head, Vec3 p_m) {
-  const float max_m = head.extent_m * kBeyond;
-  return sized(p_m.x - head.low_m[0]) <= max_m && sized(p_m.y - head.low_m[1]) <= max_m &&
-         sized(p_m.z - head.low_m[2]) <= max_m;
-}
-
-Closest answer_at(const View& model, const Best& best, uint32_t piece_index) {
+Closest answer_at(const View& model, const Best& best, uint32_t piece_index, Vec3 direction,
+                  const query::Certificate& certificate) {
   const Piece& piece = model.pieces()[piece_index];
-  Closest closest;
-  closest.distance_m = best.distance_m;
-  closest.point_m = vec3_at(piece.origin_m) + best.x;
-  closest.piece = piece.entity;
-  closest.u = piece.middle_u + piece.half_u * best.s;
-  closest.v = piece.middle_v + piece.half_v * best.t;
-  closest.bezier = piece_index;
-  closest.s = best.s;
-  closest.t = best.t;
-  closest.evaluations = best.evaluations;
-  return closest;
+  return {best.distance_m,
+          vec3_at(piece.origin_m) + best.x,
+          direction,
+          piece.entity,
+          piece.middle_u + piece.half_u * best.s,
+          piece.middle_v + piece.half_v * best.t,
+          piece_index,
+          best.s,
+          best.t,
+          best.evaluations,
+          certificate};
 }
 
-void certify(const Head& head, Vec3 p_m, const Best& best, bool is_complete, float pending_m,
-             uint32_t steps, const query::Carried& carried, Closest& closest, CurveHint& hint) {
-  float lower_m = best.limit_m < closest.distance_m ? best.limit_m : closest.distance_m;
+query::Certificate certify(const Head& head, Vec3 p_m, const Best& best, bool is_complete,
+                           float pending_m, uint32_t steps, const query::Carried& carried,
+                           CurveHint& hint) {
+  float lower_m = best.limit_m < best.distance_m ? best.limit_m : best.distance_m;
   if (!is_complete && pending_m < lower_m) lower_m = pending_m;
-  lower_m -= lost_m(head, closest.distance_m);
+  lower_m -= lost_m(head, best.distance_m);
   if (!is_complete && carried.lower_m > lower_m) lower_m = carried.lower_m;
-  closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
-  closest.certificate.steps = steps;
-  closest.certificate.exact = is_complete;
+  if (!(lower_m > 0.0f)) lower_m = 0.0f;
   hint.position_m = p_m;
-  hint.lower_m = closest.certificate.lower_m;
+  hint.lower_m = lower_m;
   hint.sign = 0;
+  return {lower_m, steps, is_complete, 0};
 }
 
 Closest answer_beyond(const View& model, Vec3 p_m, CurveHint& hint) {
   const bool is_finite = math::is_finite(p_m);
-  Best best;
+  Best best(model.head());
   begin_at_first(model, is_finite ? p_m : Vec3{}, best);
-  best.along[0] = best.along[1] = {};
-  Closest closest = answer_at(model, best, 0);
+  Closest closest = answer_at(model, best, 0, {}, {});
   if (!is_finite) {
     closest.distance_m = FLT_MAX;
     hint.lower_m = 0;

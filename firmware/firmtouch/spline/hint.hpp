@@ -14,7 +14,7 @@ struct Frontier {
   // "Splines").
   static constexpr uint32_t kMax = 128;
 
-  float base_m = 0.0f;  // less all motion since it was told: may be below 0
+  float base_m = 0.0f;  // less all motion since it was stored: may be below 0
   float unit_m = 0.0f;  // 0: nothing is known
   uint8_t count = 0;
   uint8_t outside = 0;
@@ -22,8 +22,8 @@ struct Frontier {
   uint32_t part[kMax] = {};
 };
 
-/// Hint::fence of a surface whose front is of position_m. A query that leaves no front leaves
-/// query::kNowhere.
+/// Hint::safe_subtree of a surface whose frontier is of position_m. A query that leaves no frontier
+/// leaves query::kNowhere.
 constexpr uint32_t kWithFrontier = 0;
 
 /// What a query of a spline curve leaves for the next one (query/hint.hpp). A surface queried with

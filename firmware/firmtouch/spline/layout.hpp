@@ -12,7 +12,7 @@ constexpr uint32_t kHeadSection = 0x6001;
 constexpr uint32_t kPiecesSection = 0x6002;        // Piece[piece_count]
 constexpr uint32_t kCoefficientsSection = 0x6003;  // float[coefficient_count]
 constexpr uint32_t kNodesSection = 0x6006;         // Box[piece_count - 1]: surfaces only
-// Of curves: Point[point_count], and behind them float[point_count], their z, but for a flat model;
+// Of curves: Point[point_count], and behind them float[point_count], their z, none if flat;
 // Corner[point_count].
 constexpr uint32_t kPointsSection = 0x6007;
 constexpr uint32_t kProbesSection = 0x6008;  // query::ProbeHead and its points
@@ -141,7 +141,7 @@ struct CurveLevels {
   uint32_t levels_below(uint32_t node) const {
     return levels + static_cast<uint32_t>(__builtin_clz(node)) - 31u;
   }
-  /// How many leaves are below a node, but for what there is.
+  /// How many leaves a full tree has below a node.
   uint32_t width_of(uint32_t node) const { return 1u << levels_below(node); }
 };
 

@@ -8,12 +8,16 @@
 
 namespace firmtouch::spline {
 
+/// A node that is at most so much of the extent nearer than the best point is not searched: what is
+/// left of the 4e-7 and 1e-6 that `exact` promises when the losses are taken off.
+constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
+
 /// The nearest point evaluated so far.
 struct Best {
   float distance2_m2 = FLT_MAX;
   float distance_m = FLT_MAX;
   float limit_m = FLT_MAX;  // what is at least so far off need not be looked at
-  float gap_m = 0;          // by how much less than the best that is, but for 3 units of it
+  float gap_m;              // by how much less than the best that is, beside 3 units of it
   uint32_t node = 0;        // the leaf it is of
   float s = 0, t = 0;       // of the leaf's piece
   math::Vec3 x;             // from the piece's origin
@@ -21,8 +25,8 @@ struct Best {
   float bend[3];            // of half the squared distance there, of a surface: uu, uv, vv
   uint32_t evaluations = 0;
 
-  // By hand: else all is cleared by a call, and then most of it set.
-  Best() {}
+  explicit Best(const Head& head)
+      : gap_m(head.extent_m * (head.is_rational != 0 ? kRationalGap : kGap)) {}
 
   bool take(float d2) {
     if (!(d2 < distance2_m2)) return false;

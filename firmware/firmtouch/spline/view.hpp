@@ -10,12 +10,22 @@ namespace firmtouch::spline {
 /// The bytes of a spline model's sections, as the container hands them out.
 struct Sections {
   core::Bytes head, pieces, coefficients, leaves, bends, nodes, points, grids, radii;
+
+  /// Calls take(section type, bytes) for each.
+  template <class Take>
+  void each(const Take& take) {
+    take(kHeadSection, head), take(kPiecesSection, pieces),
+        take(kCoefficientsSection, coefficients), take(kLeavesSection, leaves),
+        take(kBendsSection, bends), take(kNodesSection, nodes), take(kPointsSection, points),
+        take(kGridsSection, grids), take(kRadiiSection, radii);
+  }
 };
 
 /// Spline curves, or spline surfaces, that open() has proven: every index, float, bound and
 /// enclosure. Immutable; share it between any number of tools.
 class View {
  public:
+  using Sections = spline::Sections;
   View() = default;
 
   bool is_open() const { return head_ != nullptr; }
@@ -62,7 +72,7 @@ class View {
   Bounds bounds_of(uint32_t leaf) const;
 
  private:
-  friend class Opening;
+  friend class Proof;
   uint32_t radius_count() const { return 2 * head_->leaf_count - head_->piece_count; }
   const Head* head_ = nullptr;
   core::Span<const Piece> pieces_;

@@ -31,7 +31,7 @@ constexpr device::Settings kDevice{
 constexpr servo::Settings kServo{5.0f, 1000.0f, 0.02f, 0.001f};
 constexpr servo::GuardLimits kGuard{5.0f, 1000.0f, 0.001f};
 
-Loaders<MeshSurface> loaders;
+Loaders<asset::Proven, MeshSurface> loaders;
 MeshSurface gem_mesh;
 device::State joints;
 scene::MeshTouch gem_touch;
@@ -105,7 +105,7 @@ bool between(Place place, float low_N, float high_N) {
 int main() {
   hal::board_begin();
   loaders.begin(hal::board_asset(), {}, gem_mesh);
-  while (!loaders.work(4096, gem_mesh)) {
+  while (!loaders.work(kSliceUnits, gem_mesh)) {
   }
   if (!check(loaders.is_ready(), "Asset_LoadsAndItsProbesHaveTheSameBits"))
     return loaders.verdict().rule % 256;

@@ -10,15 +10,17 @@ using namespace firmtouch;
 Controller<Surfaces<MeshSurface>> controller;  // what the type does not name is not linked
 
 void servo_interrupt() {
-  static uint32_t next_tick = 0;
+  static uint32_t next_tick = 0, last_work_us = 0;
   record::TickInput input{};
   record::TickOutput output;
   input.tick = next_tick++;
   input.clock_us = hal::clock_us();
+  input.last_work_us = last_work_us;  // an overload is a fault
   input.flags = hal::motors_lines();
   if (!hal::encoders_read(input.encoder_counts)) input.flags |= record::kFlagEncoderFault;
   controller.tick(input, output);
   hal::motors_write_N(output.motor_N);
+  last_work_us = hal::clock_us() - input.clock_us;
 }
 
 int main() {

@@ -1,5 +1,7 @@
 #include "bake/asset/asset_views.hpp"
 
+#include <utility>
+
 #include "bake/asset/probes.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
@@ -15,59 +17,51 @@
 namespace firmtouch::tools {
 namespace {
 
-std::string prove_hull(const asset::Container& container, const std::string& name) {
-  hull::View view;
-  const core::Verdict verdict = hull::open(hull::find_sections(container, name.c_str()), view);
-  if (!verdict.ok()) return "hull '" + name + "': " + rule_text(verdict);
-  const core::Bytes probes = container.find(hull::kProbesSection, name.c_str());
+std::string broken(const std::string& what, const std::string& name, core::Verdict verdict) {
+  return what + " '" + name + "': " + rule_text(verdict);
+}
+
+// Of a geometry that is not proven or not answered as where it was baked: what is wrong.
+template <class View>
+std::string prove(const char* what, const asset::Container& container, const std::string& name,
+                  uint32_t probes_type, View& view) {
+  const core::Verdict verdict = asset::open_geometry(container, name.c_str(), view);
+  if (!verdict.ok()) return broken(what, name, verdict);
+  const core::Bytes probes = container.find(probes_type, name.c_str());
   if (probes.empty() || probes_agree(view, probes)) return "";
-  return "hull '" + name +
+  return std::string(what) + " '" + name +
          "': its probe queries are answered otherwise here than where it was baked";
 }
 
 std::string prove_mesh(const asset::Container& container, const std::string& name) {
+  hull::View hull;
+  std::string problem;
   if (!container.find(hull::kHeadSection, name.c_str()).empty()) {
-    const std::string problem = prove_hull(container, name);
+    problem = prove("hull", container, name, hull::kProbesSection, hull);
     if (!problem.empty() || !has_tree(container, name.c_str())) return problem;
   }
-  mesh::View view;
-  const core::Verdict verdict = mesh::open(mesh::find_sections(container, name.c_str()), view);
-  if (!verdict.ok()) return "mesh '" + name + "': " + rule_text(verdict);
+  mesh::View mesh;
+  problem = prove("mesh", container, name, mesh::kProbesSection, mesh);
+  const auto sections = asset::find_sections<field::Sections>(container, name.c_str());
+  if (!problem.empty() || sections.head.empty()) return problem;
   field::View distance_field;
-  const field::Sections sections = field::find_sections(container, name.c_str());
-  const core::Verdict of_field =
-      sections.head.empty() ? core::kPassed : field::open(sections, view, distance_field);
-  if (!of_field.ok()) return "distance field '" + name + "': " + rule_text(of_field);
-  const core::Bytes probes = container.find(mesh::kProbesSection, name.c_str());
-  if (probes.empty() || probes_agree(view, probes)) return "";
-  return "mesh '" + name +
-         "': its probe queries are answered otherwise here than where it was baked";
+  const core::Verdict verdict = field::open(sections, mesh, distance_field);
+  return verdict.ok() ? "" : broken("distance field", name, verdict);
 }
 
 std::string prove_curve(const asset::Container& container, const std::string& name) {
   curve::View view;
-  const core::Verdict verdict = curve::open(curve::find_sections(container, name.c_str()), view);
-  if (!verdict.ok()) return "curve '" + name + "': " + rule_text(verdict);
-  const core::Bytes probes = container.find(curve::kProbesSection, name.c_str());
-  if (probes.empty() || probes_agree(view, probes)) return "";
-  return "curve '" + name +
-         "': its probe queries are answered otherwise here than where it was baked";
+  return prove("curve", container, name, curve::kProbesSection, view);
 }
 
 std::string prove_spline(const asset::Container& container, const std::string& name) {
   spline::View view;
-  const core::Verdict verdict = spline::open(spline::find_sections(container, name.c_str()), view);
-  if (!verdict.ok()) return "spline '" + name + "': " + rule_text(verdict);
-  if (!container.find(spline::kArcsSection, name.c_str()).empty()) {
-    spline::GuideView guide;
-    const core::Verdict of_guide =
-        spline::open_guide(view, spline::find_guide_sections(container, name.c_str()), guide);
-    if (!of_guide.ok()) return "guide along spline '" + name + "': " + rule_text(of_guide);
-  }
-  const core::Bytes probes = container.find(spline::kProbesSection, name.c_str());
-  if (probes.empty() || probes_agree(view, probes)) return "";
-  return "spline '" + name +
-         "': its probe queries are answered otherwise here than where it was baked";
+  const std::string problem = prove("spline", container, name, spline::kProbesSection, view);
+  const auto sections = asset::find_sections<spline::GuideSections>(container, name.c_str());
+  if (!problem.empty() || sections.arcs.empty()) return problem;
+  spline::GuideView guide;
+  const core::Verdict verdict = spline::open_guide(view, sections, guide);
+  return verdict.ok() ? "" : broken("guide along spline", name, verdict);
 }
 
 }  // namespace
@@ -93,18 +87,14 @@ std::string prove_asset(core::Bytes file) {
   asset::Container container;
   const core::Verdict verdict = asset::open(file, container);
   if (!verdict.ok()) return rule_text(verdict);
-  for (const std::string& name : names_with(container, mesh::kHeadSection)) {
-    const std::string problem = prove_mesh(container, name);
-    if (!problem.empty()) return problem;
-  }
-  for (const std::string& name : names_with(container, curve::kHeadSection)) {
-    const std::string problem = prove_curve(container, name);
-    if (!problem.empty()) return problem;
-  }
-  for (const std::string& name : names_with(container, spline::kHeadSection)) {
-    const std::string problem = prove_spline(container, name);
-    if (!problem.empty()) return problem;
-  }
+  const std::pair<uint32_t, decltype(&prove_mesh)> kinds[] = {{mesh::kHeadSection, prove_mesh},
+                                                              {curve::kHeadSection, prove_curve},
+                                                              {spline::kHeadSection, prove_spline}};
+  for (const auto& [type, prove_kind] : kinds)
+    for (const std::string& name : names_with(container, type)) {
+      const std::string problem = prove_kind(container, name);
+      if (!problem.empty()) return problem;
+    }
   return "";
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
 
 namespace firmtouch::tools {
 
@@ -34,6 +35,21 @@ inline core::Bytes find_section(const std::vector<Section>& sections, const std:
     if (s.type == type && s.name == name)
       return core::Bytes(s.bytes.data(), static_cast<uint32_t>(s.bytes.size()));
   return core::Bytes();
+}
+
+/// The sections of geometry `name` as its open() takes them: mesh::Sections and the like.
+template <class Sections>
+Sections sections_of(const std::vector<Section>& baked, const std::string& name) {
+  Sections sections;
+  sections.each(
+      [&](uint32_t type, core::Bytes& bytes) { bytes = find_section(baked, name, type); });
+  return sections;
+}
+
+/// Proves a baked geometry. The view reads `baked`, which must stay alive.
+template <class View>
+core::Verdict open_baked(const std::vector<Section>& baked, const std::string& name, View& view) {
+  return open(sections_of<typename View::Sections>(baked, name), view);
 }
 
 }  // namespace firmtouch::tools

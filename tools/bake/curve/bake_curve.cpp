@@ -68,13 +68,6 @@ float beyond_of(const std::vector<curve::Sample>& samples, const curve::Head& he
   return max_m / extent_m;
 }
 
-core::Bytes bytes_of(const std::vector<Section>& sections, const std::string& name, uint32_t type) {
-  for (const Section& section : sections)
-    if (section.type == type && section.name == name)
-      return {section.bytes.data(), static_cast<uint32_t>(section.bytes.size())};
-  return {};
-}
-
 bool has_gaps(const std::vector<uint32_t>& rows) {
   for (size_t i = 0; i < rows.size(); ++i)
     if (rows[i] != i) return true;
@@ -139,7 +132,7 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
   report.is_closed = head.is_closed == 1;
 
   curve::View view;
-  const core::Verdict verdict = curve::open(curve_sections(sections, name), view);
+  const core::Verdict verdict = open_baked(sections, name, view);
   if (!verdict.ok()) {
     report.problem = name + ": the baked curve breaks rule R" + std::to_string(verdict.rule) +
                      " at element " + std::to_string(verdict.element) +
@@ -147,16 +140,6 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
     return {};
   }
   return sections;
-}
-
-curve::Sections curve_sections(const std::vector<Section>& sections, const std::string& name) {
-  return {bytes_of(sections, name, curve::kHeadSection),
-          bytes_of(sections, name, curve::kSamplesSection),
-          bytes_of(sections, name, curve::kArcsSection),
-          bytes_of(sections, name, curve::kTreeSection),
-          bytes_of(sections, name, curve::kBoxesSection),
-          bytes_of(sections, name, curve::kRunsSection),
-          bytes_of(sections, name, curve::kRadiiSection)};
 }
 
 }  // namespace firmtouch::tools

@@ -25,7 +25,4 @@ struct CurveReport {
 std::vector<Section> bake_curve(const CurvePoints& points, const std::string& name,
                                 CurveReport& report);
 
-/// The baked sections as the firmware sees them (`sections` must stay alive).
-curve::Sections curve_sections(const std::vector<Section>& sections, const std::string& name);
-
 }  // namespace firmtouch::tools

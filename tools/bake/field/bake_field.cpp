@@ -83,7 +83,8 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
   report.cell_m = static_cast<double>(head.cell_m);
   report.quantum_m = static_cast<double>(head.quantum_m);
   field::View view;
-  const core::Verdict verdict = field::open(field_sections(sections, name), mesh, view);
+  const core::Verdict verdict =
+      field::open(sections_of<field::Sections>(sections, name), mesh, view);
   if (!verdict.ok()) {
     report.problem = "the distance field fails its own proof, rule R" +
                      std::to_string(verdict.rule) + " at element " +
@@ -91,11 +92,6 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
     return {};
   }
   return sections;
-}
-
-field::Sections field_sections(const std::vector<Section>& sections, const std::string& name) {
-  const auto find = [&](uint32_t type) { return find_section(sections, name, type); };
-  return {find(field::kHeadSection), find(field::kDistancesSection), find(field::kSeedsSection)};
 }
 
 }  // namespace firmtouch::tools

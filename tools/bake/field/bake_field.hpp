@@ -21,7 +21,4 @@ struct FieldReport {
 std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name, uint32_t long_axis,
                                 FieldReport& report);
 
-/// The baked sections as the firmware sees them (`sections` must stay alive).
-field::Sections field_sections(const std::vector<Section>& sections, const std::string& name);
-
 }  // namespace firmtouch::tools

@@ -56,7 +56,7 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
   std::vector<Section> all = sections;
   all.insert(all.end(), baked.begin(), baked.end());
   hull::View view;
-  const core::Verdict verdict = hull::open(hull_sections(all, name), view);
+  const core::Verdict verdict = open_baked(all, name, view);
   if (!verdict.ok()) {
     report.problem = "the hull fails its own proof, rule R" + std::to_string(verdict.rule) +
                      " at element " + std::to_string(verdict.element) +
@@ -65,16 +65,6 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
   }
   baked.push_back(hull_probes(view, name));
   return baked;
-}
-
-hull::Sections hull_sections(const std::vector<Section>& sections, const std::string& name) {
-  const auto find = [&](uint32_t type) { return find_section(sections, name, type); };
-  return {find(hull::kHeadSection),          find(hull::kVerticesSection),
-          find(hull::kOriginsSection),       find(hull::kRecordsSection),
-          find(hull::kRecordOffsetsSection), find(hull::kStarBoxesSection),
-          find(hull::kBoxesSection),         find(hull::kBaseHullSection),
-          find(mesh::kHeadSection),          find(mesh::kVerticesSection),
-          find(mesh::kTriangles16Section),   find(mesh::kTriangles32Section)};
 }
 
 }  // namespace firmtouch::tools

@@ -26,7 +26,4 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
                                const std::string& name, const HullOptions& options,
                                HullBakeReport& report);
 
-/// As the firmware sees them (`sections` must stay alive): the hull's and its mesh's.
-hull::Sections hull_sections(const std::vector<Section>& sections, const std::string& name);
-
 }  // namespace firmtouch::tools

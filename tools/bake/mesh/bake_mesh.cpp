@@ -196,28 +196,12 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   report.depth = head.depth;
 
   mesh::View view;
-  const core::Verdict verdict = mesh::open(mesh_sections(sections, name), view);
+  const core::Verdict verdict = open_baked(sections, name, view);
   if (!verdict.ok()) {
     report.problem = proof_failure(verdict);
     return {};
   }
   return sections;
-}
-
-mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::string& name) {
-  const auto find = [&](uint32_t type) { return find_section(sections, name, type); };
-  mesh::Sections found;
-  found.head = find(mesh::kHeadSection);
-  found.vertices = find(mesh::kVerticesSection);
-  found.triangles16 = find(mesh::kTriangles16Section);
-  found.triangles32 = find(mesh::kTriangles32Section);
-  found.nodes = find(mesh::kNodesSection);
-  found.parents = find(mesh::kParentsSection);
-  found.vertex_normals = find(mesh::kVertexNormalsSection);
-  found.edge_folds = find(mesh::kEdgeFoldsSection);
-  found.leaf_boxes = find(mesh::kLeafBoxesSection);
-  found.shapes = find(mesh::kShapesSection);
-  return found;
 }
 
 }  // namespace firmtouch::tools

@@ -18,7 +18,7 @@ struct MeshOptions {
 
 struct MeshReport {
   uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0;
-  // Of what a query reads: tree, indices and vertices, and what tells the side.
+  // Of what a query reads: tree, indices and vertices, and what gives the sign.
   uint32_t shape_bytes = 0, sign_bytes = 0;
   SignReport signs;     // of a signed mesh
   std::string problem;  // empty: baked and proven; else what, where and how to mend
@@ -28,8 +28,5 @@ struct MeshReport {
 /// own open().
 std::vector<Section> bake_mesh(const Surface& surface, const std::string& name,
                                const MeshOptions& options, MeshReport& report);
-
-/// The baked sections as the firmware sees them (`sections` must stay alive and 4-byte aligned).
-mesh::Sections mesh_sections(const std::vector<Section>& sections, const std::string& name);
 
 }  // namespace firmtouch::tools

@@ -59,15 +59,14 @@ std::string problem_of(const Surface& surface, const SignProof& proof) {
   const auto &faces = proof.faces.weak, &edges = proof.edges.weak, &vertices = proof.vertices.weak;
   if (!faces.empty())
     return "the triangle at " + at_face(faces[0]) + more(faces.size()) +
-           " is so thin that float32 loses its normal: inside and outside cannot be told there; "
+           " is so thin that float32 loses its normal: inside and outside cannot be decided there; "
            "join its corners, or bake with --unsigned";
   if (!vertices.empty())
     return "the corner at " + at(surface.vertices[vertices[0]]) + more(vertices.size()) +
-           " is too sharp a needle for inside and outside to be told from the nearest point" +
-           remedy;
+           " is too sharp a needle for the nearest point to decide inside and outside" + remedy;
   if (!edges.empty())
     return "the triangle at " + at_face(edges[0] / 3) + more(edges.size()) +
-           " folds back on its neighbour: inside and outside cannot be told there" + remedy;
+           " folds back on its neighbour: inside and outside cannot be decided there" + remedy;
   return {};
 }
 

@@ -10,7 +10,7 @@
 
 namespace firmtouch::tools {
 
-/// What is known of the sides that an asset will tell. Indices are those of the surface given.
+/// What is known of the signs that an asset will return. Indices are those of the surface given.
 struct SignReport {
   // By how much the worst stored normal of each kind may still turn; features where the surface
   // crosses itself are left out.
@@ -31,8 +31,8 @@ struct SignReport {
 /// Error: `problem` says what, where and how to mend, and is empty where every side will be right.
 Pseudonormals bake_signs(const Surface& surface, SignReport& report, std::string& problem);
 
-/// Where the surface crosses itself: the lines of describe(), then by place how many features tell
-/// another side than the winding number, and the first few. With indices of the file.
+/// Where the surface crosses itself: the lines of describe(), then by place how many features give
+/// another sign than the winding number, and the first few. With indices of the file.
 std::vector<std::string> describe(const SignReport& report, const Surface& surface,
                                   const std::vector<uint32_t>& vertex_source);
 

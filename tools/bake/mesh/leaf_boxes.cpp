@@ -92,7 +92,7 @@ uint32_t pair_of(double low, double high) {
          static_cast<uint32_t>(static_cast<int32_t>(high)) << 16;
 }
 
-// Half the length along an axis, in cells, with the margins that open() asks for and 0.02 more.
+// Half the length along an axis, in cells, with the margins that open() requires and 0.02 more.
 double half_length(const Rounded& axis, const Rounded& centre, const std::vector<Point>& corners) {
   double most = 0;
   for (const Point& p : corners)

@@ -38,7 +38,7 @@ std::vector<Box> face_boxes(const Surface& surface) {
 
 // A closest-point query reads the boxes within its distance of the surface, not those that a line
 // crosses: with boxes widened by this many mean edges the heuristic prefers what is compact.
-// Of 0, 2, 4, 6, 10, 20 and 40, 10 served the touching walks best (up to 6 % fewer instructions
+// Of 0, 2, 4, 6, 10, 20 and 40, 10 served the touching paths best (up to 6 % fewer instructions
 // than 0).
 constexpr double kMarginEdges = 10;
 

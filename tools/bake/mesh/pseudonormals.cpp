@@ -66,7 +66,7 @@ uint32_t encode_vertex_normal(Point normal, const std::vector<SideRay>& rays) {
   return best;
 }
 
-// The same for edge k of a face whose normal the firmware reckons as `told`.
+// The same for edge k of a face whose normal the firmware computes as `reported`.
 int8_t encode_fold(const Surface& surface, const ExactNormals& exact, uint32_t f, uint32_t k,
                    math::Vec3 reported) {
   const Face& face = surface.faces[f];

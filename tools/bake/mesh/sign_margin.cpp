@@ -26,7 +26,7 @@ Point square_to(Point e) {
 }
 
 // Every k-th edge, so that the tip of a finely cut cone takes no hours. Fewer edges leave a wider
-// cone: the margin is never told too large.
+// cone: the margin is never reported too large.
 std::vector<StarEdge> thinned(const std::vector<StarEdge>& star) {
   std::vector<StarEdge> few;
   const size_t step = (star.size() + kMaxEdges - 1) / kMaxEdges;
@@ -72,7 +72,7 @@ double vertex_margin(const std::vector<SideRay>& rays, Point normal) {
   double least = 1;
   for (const SideRay& ray : rays) {
     const double height = ray.side * dot(normal, ray.direction);
-    if (!(height >= -1.5)) return -1;  // not a number
+    if (!(height >= -1.5)) return -1;  // NaN
     least = std::min(least, height);
   }
   return least;

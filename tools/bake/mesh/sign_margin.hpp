@@ -5,7 +5,7 @@
 
 namespace firmtouch::tools {
 
-// By how much a pseudonormal may turn before it tells a wrong side for some point whose closest
+// By how much a pseudonormal may turn before it gives a wrong sign for some point whose closest
 // point lies on its feature (Baerentzen & Aanaes 2005, equation 15). All in double.
 
 /// An edge that leaves a vertex: its unit direction and its own pseudonormal, the sum of the unit
@@ -30,7 +30,7 @@ struct SideRay {
 std::vector<SideRay> extreme_rays(const std::vector<StarEdge>& star);
 
 /// Sine of the margin of `normal` (unit) over the rays; 1 where there are none, -1 where the normal
-/// is not a number.
+/// is NaN.
 double vertex_margin(const std::vector<SideRay>& rays, Point normal);
 
 /// The same for an edge between faces of unit normals `one` and `other`: its points lie in the

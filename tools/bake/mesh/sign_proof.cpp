@@ -19,7 +19,7 @@ void take(SignProof::Kind& kind, uint32_t feature, double sine, double min_rad,
           const std::vector<bool>& excused) {
   if (!excused.empty() && excused[feature]) return;
   const double margin_rad = std::asin(std::max(-1.0, std::min(1.0, sine)));
-  // Written so that what is not a number is weak.
+  // Written so that NaN is weak.
   if (!(margin_rad >= kind.smallest_rad)) kind.smallest_rad = margin_rad;
   if (!(sine >= min_rad)) kind.weak.push_back(feature);
 }
@@ -67,7 +67,7 @@ double confusion_m(const Surface& surface) {
 }
 
 // Triangles so thin that their features are taken for one another: each stored normal there must
-// tell the side of the others' points too.
+// give the sign of the others' points too.
 class Confusion {
  public:
   Confusion(const Surface& surface, const ExactNormals& exact, const Pseudonormals& stored)
@@ -80,7 +80,7 @@ class Confusion {
   }
 
   // Whether the firmware's own arithmetic (mesh/triangle.hpp) turns the height of the triangle, by
-  // which it tells the features apart.
+  // which it separates the features.
   bool loses_height(uint32_t f) const {
     const Face& face = surface_.faces[f];
     const Point base = corner(face, 1) - corner(face, 0), side = corner(face, 2) - corner(face, 0);

@@ -13,22 +13,21 @@ namespace firmtouch::tools {
 /// sharp that, near the surface, the rounding of the direction to the query could turn its side.
 constexpr double kMinMargin_rad = 3e-4;
 
-/// The margin by which each stored pseudonormal may still turn before it tells a wrong side for
+/// The margin by which each stored pseudonormal may still turn before it gives a wrong sign for
 /// some point whose closest point lies on its feature (Baerentzen & Aanaes 2005, equation 15): what
 /// the firmware decodes from the stored values, against the exact surface, in double. Triangles so
-/// thin that float32 takes their features for one another must tell one side with all of them.
+/// thin that float32 takes their features for one another must give one sign with all of them.
 struct SignProof {
   struct Kind {
     double smallest_rad = 1.5707963267948966;
-    std::vector<uint32_t>
-        weak;  // faces, half-edges (3 * face + k), vertices of less than asked for
+    std::vector<uint32_t> weak;  // faces, half-edges (3 * face + k), vertices of less than required
   };
   Kind faces, edges, vertices;
 
   bool holds() const { return faces.weak.empty() && edges.weak.empty() && vertices.weak.empty(); }
 };
 
-/// Features that are not judged: where a surface crosses itself no normal is right. Empty: none.
+/// Features that are not checked: where a surface crosses itself no normal is right. Empty: none.
 struct Excused {
   std::vector<bool> faces, edges, vertices;  // edges: each half-edge
 };

@@ -9,7 +9,7 @@
 namespace firmtouch::tools {
 namespace {
 
-// As open() asks (rule R607), less what rounding of the sum may take.
+// As open() requires (rule R607), less what rounding of the sum may take.
 constexpr double kMaxLoss = 1.98 * 0x1p-24, kMaxRationalLoss = 4.98 * 0x1p-24;
 constexpr size_t kMaxPieces = 20000;
 constexpr int kMaxCuts = 3;  // of a piece, for the sake of its weights
@@ -103,7 +103,7 @@ void choose_levels(StoredPiece& stored, const SplineDetail& detail, double exten
   stored.piece.level_v = static_cast<uint8_t>(level_v & 15u);
 }
 
-// Of a piece's points, at its levels; not a number where a weight varies too much on a leaf.
+// Of a piece's points, at its levels; NaN where a weight varies too much on a leaf.
 double loss_of(const StoredPiece& stored) {
   double worst = 0;
   for (uint32_t v = 0; v < 1u << stored.piece.level_v; ++v)
@@ -127,7 +127,7 @@ double doubt_of(const StoredPiece& stored, double extent_m) {
   return fourth / (12 * dot(along, along));
 }
 
-// Pieces short enough that float32 loses no more than is promised, and that a point tells much of
+// Pieces short enough that float32 loses no more than is promised, and that a point bounds much of
 // those about it.
 std::vector<StoredPiece> cut(std::vector<BezierPatch> patches, bool is_surface,
                              const SplineDetail& detail, double extent_m, double max_m) {
@@ -224,13 +224,6 @@ std::vector<float> stored_points(const std::vector<math::Vec3>& points_m, bool i
   }
   for (size_t i = 0; i < points_m.size() && !is_flat; ++i) stored.push_back(points_m[i].z);
   return stored;
-}
-
-core::Bytes bytes_of(const std::vector<Section>& sections, const std::string& name, uint32_t type) {
-  for (const Section& section : sections)
-    if (section.type == type && section.name == name)
-      return {section.bytes.data(), static_cast<uint32_t>(section.bytes.size())};
-  return {};
 }
 
 // Of a tree over so many, and of the deepest piece below it.
@@ -353,7 +346,7 @@ std::vector<Section> bake_spline(const SplineModel& model, const std::string& na
   report.loss_m = static_cast<double>(head.loss_m);
 
   spline::View view;
-  const core::Verdict verdict = spline::open(spline_sections(sections, name), view);
+  const core::Verdict verdict = open_baked(sections, name, view);
   if (!verdict.ok()) {
     report.problem = "the baked spline breaks rule R" + std::to_string(verdict.rule) +
                      " at element " + std::to_string(verdict.element) +
@@ -361,18 +354,6 @@ std::vector<Section> bake_spline(const SplineModel& model, const std::string& na
     return {};
   }
   return sections;
-}
-
-spline::Sections spline_sections(const std::vector<Section>& sections, const std::string& name) {
-  return {bytes_of(sections, name, spline::kHeadSection),
-          bytes_of(sections, name, spline::kPiecesSection),
-          bytes_of(sections, name, spline::kCoefficientsSection),
-          bytes_of(sections, name, spline::kLeavesSection),
-          bytes_of(sections, name, spline::kBendsSection),
-          bytes_of(sections, name, spline::kNodesSection),
-          bytes_of(sections, name, spline::kPointsSection),
-          bytes_of(sections, name, spline::kGridsSection),
-          bytes_of(sections, name, spline::kRadiiSection)};
 }
 
 void set_worst_steps(std::vector<Section>& sections, const std::string& name, uint32_t steps) {

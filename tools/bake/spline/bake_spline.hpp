@@ -40,9 +40,6 @@ SplineDetail surface_detail(bool is_small);
 std::vector<Section> bake_spline(const SplineModel& model, const std::string& name,
                                  const SplineDetail& detail, SplineReport& report);
 
-/// The baked sections as the firmware sees them (`sections` must stay alive).
-spline::Sections spline_sections(const std::vector<Section>& sections, const std::string& name);
-
 /// Sets how many steps the worst query seen took, in a baked head.
 void set_worst_steps(std::vector<Section>& sections, const std::string& name, uint32_t steps);
 

@@ -41,7 +41,7 @@ double work_of(const spline::View& model) {
 
 double work_of(const std::vector<Section>& sections, const std::string& name) {
   spline::View view;
-  const bool is_open = spline::open(spline_sections(sections, name), view).ok();
+  const bool is_open = open_baked(sections, name, view).ok();
   return is_open ? work_of(view) : HUGE_VAL;
 }
 

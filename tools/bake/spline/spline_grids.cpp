@@ -187,7 +187,7 @@ float unit_for(float most) {
   return below < least ? kMin : math::float_of(below & ~0xFFFFFu);
 }
 
-// Cells as large as may be, but for weights that vary too much on them.
+// Cells as large as may be, except where weights vary too much on them.
 std::vector<spline::CellBends> cells_of(const Cut& cut, uint32_t least, spline::Grid& grid) {
   const spline::Piece& piece = cut.stored.piece;
   for (uint32_t level = least;; ++level) {
@@ -257,7 +257,7 @@ void store_radii(const Cut& cut, uint32_t number, spline::Grid& grid,
 }
 
 // With which each leaf lies within the radii about its halves of the parts above it: about the
-// least. What one leaf needs may be too much for how another is seen to lie, so that all are asked
+// least. What one leaf needs may be too much for how another is seen to lie, so that all are tested
 // until none needs more; halves that are the whole hold all.
 void store_overlaps(const Cut& cut, uint32_t number, const spline::Grid& grid,
                     const std::vector<spline::Corner>& corners, Bounds& bounds) {

@@ -12,7 +12,7 @@ struct SplineGuideReport {
   double length_m = 0;
   uint32_t chains = 0, closed_chains = 0;
   uint32_t parts = 0;    // of a piece
-  double arc_error = 0;  // of an arc position as the firmware tells it, of the length, as seen
+  double arc_error = 0;  // of an arc position as the firmware returns it, of the length, as seen
   uint64_t bytes = 0;
 };
 

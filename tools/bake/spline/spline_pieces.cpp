@@ -147,7 +147,7 @@ StoredPiece store_piece(const BezierPatch& patch, bool is_surface) {
     moved_weight += std::fabs(off[3]);
     reach_m += length(f);
   }
-  // The doubles themselves are good to a few 1e-16 of what they are reckoned from.
+  // The doubles themselves are good to a few 1e-16 of what they are computed from.
   stored.deviation_m = (moved_m + moved_weight * reach_m / least + 1e-13 * reach_m) / least;
   return stored;
 }

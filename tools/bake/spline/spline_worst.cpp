@@ -13,44 +13,44 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr uint32_t kAnywhere = 1500, kBetween = 1000, kMaxCentres = 1500;
-constexpr uint32_t kMaxSteps = 20000;  // of one query: what takes more is told as that
+constexpr uint32_t kMaxSteps = 20000;  // of one query: what takes more is reported as that
 constexpr size_t kClimbers = 12;
-constexpr int kClimbs = 120;
+constexpr int kHillClimbs = 120;
 
 class Finder {
  public:
   explicit Finder(const spline::View& model) : model_(model) {}
 
-  void ask(const Point& p) {
+  void query(const Point& p) {
     const math::Vec3 at_m = to_vec3(p);
     spline::Hint hint;
     const spline::Closest c = spline::closest_point(model_, at_m, {kMaxSteps}, hint);
     seen_.push_back({c.certificate.steps, c.evaluations, at_m});
   }
 
-  void ask_anywhere() {
+  void query_anywhere() {
     const spline::Head& head = model_.head();
     for (uint32_t i = 0; i < kAnywhere; ++i) {
       double at[3];
       for (size_t k = 0; k < 3; ++k) {
         const auto low = static_cast<double>(head.low_m[k]),
                    high = static_cast<double>(head.high_m[k]);
-        // A flat model is asked in its plane: there its parts are nearest to one another.
+        // A flat model is queried in its plane: there its parts are nearest to one another.
         const double room = high - low > 1e-3 * extent_m() ? 0.25 * extent_m() : 0;
         at[k] = random_.between(low - room, high + room);
       }
-      ask({at[0], at[1], at[2]});
+      query({at[0], at[1], at[2]});
     }
   }
 
-  void ask_between() {
+  void query_between() {
     const auto pieces = model_.pieces();
     for (uint32_t i = 0; i < kBetween; ++i)
-      ask((origin(random_.below(pieces.size())) + origin(random_.below(pieces.size()))) * 0.5);
+      query((origin(random_.below(pieces.size())) + origin(random_.below(pieces.size()))) * 0.5);
   }
 
   // About the middles of leaves, along each of the two ways: x + n (x' . x') / (n . x'').
-  void ask_centres() {
+  void query_centres() {
     const uint32_t step = model_.leaf_count() / kMaxCentres + 1;
     for (uint32_t i = 0; i < model_.leaf_count(); i += step) {
       if (!model_.is_leaf(i)) continue;
@@ -63,7 +63,7 @@ class Finder {
       if (piece.degree_u < 2) continue;
       if (piece.degree_v < 2) {
         const double speed2 = dot(u, u);
-        if (speed2 > 0) ask_centre(shape, uu - u * (dot(uu, u) / speed2), speed2);
+        if (speed2 > 0) query_centre(shape, uu - u * (dot(uu, u) / speed2), speed2);
         continue;
       }
       const uint32_t row = shape.degree_u + 1;
@@ -71,12 +71,12 @@ class Finder {
       const Point n = cross(u, v);
       const double size2 = dot(n, n);
       if (!(size2 > 0)) continue;
-      ask_centre(shape, n * (dot(uu, n) / size2), dot(u, u));
-      ask_centre(shape, n * (dot(vv, n) / size2), dot(v, v));
+      query_centre(shape, n * (dot(uu, n) / size2), dot(u, u));
+      query_centre(shape, n * (dot(vv, n) / size2), dot(v, v));
     }
   }
 
-  WorstQuery climb() {
+  WorstQuery hill_climb() {
     sort();
     const std::vector<WorstQuery> starts(
         seen_.begin(),
@@ -84,11 +84,11 @@ class Finder {
     for (const WorstQuery& start : starts) {
       WorstQuery best = start;
       double size_m = 0.05 * extent_m();
-      for (int i = 0; i < kClimbs; ++i) {
+      for (int i = 0; i < kHillClimbs; ++i) {
         seen_.clear();
         const Point at = to_point(best.at_m);
-        ask({at.x + size_m * random_.bell(), at.y + size_m * random_.bell(),
-             at.z + (is_flat() ? 0 : size_m * random_.bell())});
+        query({at.x + size_m * random_.bell(), at.y + size_m * random_.bell(),
+               at.z + (is_flat() ? 0 : size_m * random_.bell())});
         if (seen_[0].steps > best.steps)
           best = seen_[0];
         else
@@ -110,11 +110,11 @@ class Finder {
     const float(&o)[3] = model_.pieces()[piece].origin_m;
     return to_point({o[0], o[1], o[2]});
   }
-  void ask_centre(const spline::LeafShape& shape, const Point& bend, double speed2) {
+  void query_centre(const spline::LeafShape& shape, const Point& bend, double speed2) {
     const double bend2 = dot(bend, bend);
     if (!(bend2 > 0)) return;
     const Point off = bend * (speed2 / bend2);
-    if (length(off) < 2 * extent_m()) ask(to_point(shape.middle_m) + off);
+    if (length(off) < 2 * extent_m()) query(to_point(shape.middle_m) + off);
   }
   void sort() {
     std::stable_sort(seen_.begin(), seen_.end(),
@@ -131,10 +131,10 @@ class Finder {
 
 WorstQuery find_worst(const spline::View& model) {
   Finder finder(model);
-  finder.ask_anywhere();
-  finder.ask_between();
-  finder.ask_centres();
-  return finder.climb();
+  finder.query_anywhere();
+  finder.query_between();
+  finder.query_centres();
+  return finder.hill_climb();
 }
 
 double cortex_m7_instructions(bool is_surface, double steps, double evaluations) {

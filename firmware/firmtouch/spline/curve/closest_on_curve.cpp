@@ -21,12 +21,9 @@ Vec3 tangent_of(Vec3 v) {
   return v * (1.0f / math::square_root(length2));
 }
 
-}  // namespace
-
-Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint) {
-  if (!is_near(model.head(), p_m)) return answer_beyond(model, p_m, hint);
+inline Closest answer_near(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
-  Best best = best_of(model.head());
+  Best best(model.head());
   CurveSearch search(model, p_m, budget.steps, best);
   LeafSafeSubtree safe_subtree{
       {hint.safe_subtree & 0xFFFFu, hint.safe_subtree >> 16},
@@ -45,14 +42,20 @@ Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, Curv
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
   const float pending_m =
       search.is_complete() ? 0.0f : search.pending_m(outside_m(model.head(), p_m));
-  Closest closest = answer_at(model, best, is_first ? 0 : best.node);
-  closest.direction = is_first ? Vec3{} : tangent_of(best.along[0]);
-  certify(model.head(), p_m, best, search.is_complete(), pending_m, search.steps(), carried,
-          closest, hint);
+  const query::Certificate certificate = certify(model.head(), p_m, best, search.is_complete(),
+                                                 pending_m, search.steps(), carried, hint);
   hint.place = is_first ? query::kNowhere : search.place_after(motion_m);
   hint.safe_subtree = safe_subtree.row.first | safe_subtree.row.last << 16;
   hint.safe_subtree_m = safe_subtree.distance_m;
-  return closest;
+  return answer_at(model, best, is_first ? 0 : best.node,
+                   is_first ? Vec3{} : tangent_of(best.along[0]), certificate);
+}
+
+}  // namespace
+
+Closest closest_on_curve(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint) {
+  return is_near(model.head(), p_m) ? answer_near(model, p_m, budget, hint)
+                                    : answer_beyond(model, p_m, hint);
 }
 
 }  // namespace firmtouch::spline

@@ -16,8 +16,8 @@ struct Expansion {
   /// where what is added to the bend is concave in d: least at an end. Lengths are at most 2: what
   /// the third derivative is off by is in the bend's noise already.
   float bend_over(float side, float length) const {
-    const float change = side * third_3 - fourth_12 * length;
-    return change < 0.0f ? min_bend + change * length : min_bend;
+    const float fall = math::larger(fourth_12 * length - side * third_3, 0.0f);
+    return min_bend - fall * length;
   }
   /// The same of the second derivative itself, bend + third d - fourth d^2 / 2.
   float min_bend_over(float side, float length) const {
@@ -29,8 +29,7 @@ struct Expansion {
     const float g = side * slope - slope_noise;
     const float q = bend_over(side, length);
     if (q > 0.0f && g < 0.0f && -g < q * length) return distance2 - g * (g / q);
-    const float end = (2.0f * g + q * length) * length;
-    return end < 0.0f ? distance2 + end : distance2;
+    return distance2 - math::larger(-(2.0f * g + q * length) * length, 0.0f);
   }
 };
 

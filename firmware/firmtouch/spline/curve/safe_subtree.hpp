@@ -1,5 +1,6 @@
 #pragma once
-// What a search passes over becomes the next one's fence, for .cpp files of this module only.
+// What a search passes over becomes the next query's safe subtree, for .cpp files of this module
+// only.
 #include "firmtouch/spline/curve/tree.hpp"
 
 namespace firmtouch::spline {
@@ -15,7 +16,7 @@ struct LeafSafeSubtree {
   float distance_m;
 };
 
-constexpr uint32_t kBeside = 4;  // a fence reaches at most so many leaves to either side
+constexpr uint32_t kBeside = 4;  // a safe subtree reaches at most so many leaves to either side
 
 /// Parts that need not be looked at, each with a lower bound of its distance.
 class PassedParts {
@@ -23,7 +24,7 @@ class PassedParts {
   using Tree = CurveTree;
   PassedParts() {}  // by hand: else all is cleared
 
-  /// Parts that are farther than the reach are outside every fence.
+  /// Parts that are farther than the reach are outside every safe subtree.
   void begin(float reach_m) { reach_m_ = around_m_ = reach_m; }
   float reach_m() const { return reach_m_; }
   void pass(uint32_t node, float lower_m) {
@@ -38,9 +39,10 @@ class PassedParts {
     if (lower_m < around_m_) around_m_ = lower_m;
   }
 
-  /// What was passed beside a leaf stands within the fence, with the row about it; of the rest is
-  /// known how far it is. A part that is more than that is opened, and some of those farther along
-  /// the curve where few steps were taken: their bounds were only as good as the search needed.
+  /// What was passed beside a leaf lies within the safe subtree, with the row about it; of the rest
+  /// is known how far it is. A part that is more than that is opened, and some of those farther
+  /// along the curve where few steps were taken: their bounds were only as good as the search
+  /// needed.
   LeafSafeSubtree safe_subtree_about(const Tree& tree, uint32_t leaf, LeafRow row, uint32_t& left) {
     uint32_t low = leaf > kBeside ? leaf - kBeside : 0, high = leaf + kBeside;
     if (row.first < low) low = row.first;

@@ -33,9 +33,9 @@ class CurveSearch : public Account {
     return piece << 16 | coded(0.5f * s + 0.5f, 65535);
   }
 
-  /// From a place that may be near to the leaves within the fence, where everything outside it is
-  /// far enough away, else up the tree to the root: then a new fence is told, `margin_m` farther
-  /// than the best where there is room for it.
+  /// From a place that may be near to the leaves within the safe subtree, where everything outside
+  /// it is far enough away, else up the tree to the root: then a new safe subtree is stored,
+  /// `margin_m` farther than the best where there is room for it.
   void run_warm(uint32_t piece, float s, float margin_m, LeafSafeSubtree& safe_subtree) {
     const uint32_t leaf = tree_.leaf_at(piece, s);
     LeafRow row = safe_subtree.row;
@@ -47,8 +47,7 @@ class CurveSearch : public Account {
     Entry all{tree_.node_of(leaf),
               0.0f,
               {tree_.end_of(piece, row_.first, wide), tree_.end_of(piece, row_.last + 1, wide), s}};
-    is_row_ = true;
-    if (!solve(all) || (count_ != 0 && !drain())) return stop();
+    if (!solve(all, true) || (count_ != 0 && !drain())) return stop();
     is_complete_ = best_.limit_m <= 0.0f;
     if (is_complete_) return;
     if (best_.limit_m <= safe_subtree.distance_m && safe_subtree.row.last <= tree_.last())
@@ -115,11 +114,11 @@ class CurveSearch : public Account {
     return true;
   }
 
-  void put(uint32_t leaf, float lower_m, const Range& range) {
+  void put(const Entry& entry) {
     if (count_ < kCapacity)
-      stack_[count_++] = {tree_.node_of(leaf), lower_m, range};
+      stack_[count_++] = entry;
     else
-      lose(lower_m);
+      lose(entry.lower_m);
   }
   void lose(float lower_m) {
     Account::lose(lower_m);
@@ -132,7 +131,7 @@ class CurveSearch : public Account {
     entry.lower_m = lower_m;
   }
 
-  // Reads the nodes of a level from one to before another, but for what is closed, and keeps those
+  // Reads the nodes of a level from one to before another, except closed ones, and keeps those
   // that may hold something nearer.
   void scan(uint32_t node, uint32_t end) {
     const CurveLevels& levels = tree_.levels();
@@ -147,10 +146,14 @@ class CurveSearch : public Account {
     if (closed_end < end) read(closed_end, end, below);
   }
   void read(uint32_t node, uint32_t end, uint32_t below) {
+    tree_.is_flat() ? read_as<true>(node, end, below) : read_as<false>(node, end, below);
+  }
+  template <bool kIsFlat>
+  void read_as(uint32_t node, uint32_t end, uint32_t below) {
     const float limit_m = best_.limit_m, reach_m = passed_.reach_m();
     left_ -= end - node;
     const Tree tree = tree_;  // of its own: nothing that is kept changes it
-    Tree::Chords chords(tree, node, below);
+    Tree::Chords<kIsFlat> chords(tree, node, below);
     for (; node < end; ++node) {
       const Tree::Seen seen = chords.next();
       if (seen.lower_m < limit_m)
@@ -181,7 +184,7 @@ class CurveSearch : public Account {
       if (entry.lower_m >= best_.limit_m) {
         passed_.pass(entry.node, entry.lower_m);
       } else if (tree_.is_leaf(entry.node)) {
-        if (!solve(entry)) return false;
+        if (!solve(entry, false)) return false;
       } else if (!open(entry.node)) {
         ++count_;
         left_ = 0;
@@ -206,56 +209,26 @@ class CurveSearch : public Account {
     return true;
   }
 
-  bool solve(Entry& entry) {
-    uint32_t leaf = tree_.leaf_of(entry.node);
-    const float lower_m = entry.lower_m;
-    Range range = entry.range;
-    float middle, below_m = lower_m, above_m = lower_m;
-    const Outcome outcome = close(leaf, range, middle, below_m, above_m);
-    if (is_row_)
-      is_row_ = false;
-    else
-      passed_.pass(entry.node, outcome == Outcome::kClosed ? raised(lower_m, min2_m2_) : 0.0f);
-    switch (outcome) {
-      case Outcome::kClosed:
-        return true;
-      case Outcome::kStopped:
-        put(leaf, lower_m, range);
-        return false;
-      case Outcome::kLost:
-        lose(lower_m);
-        return true;
-      case Outcome::kSplit:
-        break;
-    }
-    const Range below{range.low, middle, 0.5f * (range.low + middle)};
-    const Range above{middle, range.high, 0.5f * (middle + range.high)};
-    const bool is_below_first = above_m >= below_m;
-    if (is_below_first) put(leaf, above_m, above);
-    put(leaf, below_m, below);
-    if (!is_below_first) put(leaf, above_m, above);
-    return true;
-  }
-
-  /// Evaluates points of the range until what is left of it is beyond the best's limit (kClosed),
-  /// or in two halves with bounds of their own (kSplit); where float32 has no point between the
-  /// ends it is given up (kLost). Of a row of leaves, what a point does not close is left but for
-  /// its own leaf.
-  Outcome close(uint32_t& leaf, Range& range, float& middle, float& below_m, float& above_m) {
-    const uint32_t on = tree_.piece_of(leaf);
+  // Evaluates points of a leaf's range until the rest of it is beyond the best's limit, else leaves
+  // it in two halves with bounds of their own. Of a row of leaves, what a point does not close is
+  // left except for its own leaf. False: the budget ended, and the rest stands on the stack.
+  // noinline: both callers are cold beside it.
+  [[gnu::noinline]] bool solve(const Entry& entry, bool is_row) {
+    const uint32_t node = is_row ? 0 : entry.node;
+    Entry rest = entry;
+    const uint32_t on = tree_.piece_of(tree_.leaf_of(entry.node));
     const Piece& piece = tree_.piece(on);
     const math::Vec3 q_m = tree_.query_from(piece);
-    bool is_row = is_row_;
-    float s = range.start;
+    float s = rest.range.start;
     for (uint32_t turn = 0; turn < kMaxTurns; ++turn) {
       if (left_ == 0) {
-        range.start = s;
-        return Outcome::kStopped;
+        rest.range.start = s;
+        put(rest);
+        return false;
       }
       --left_;
       ++best_.evaluations;
-      CurvePoint at;
-      evaluate(piece, tree_.coefficients(), s, at);
+      const CurvePoint at = tree_.point_at(piece, s);
       const math::Vec3 r_m = at.x - q_m;
       const float distance2_m2 = dot(r_m, r_m), speed2 = dot(at.d1, at.d1);
       const float slope = dot(r_m, at.d1), bend = speed2 + dot(r_m, at.d2);
@@ -266,63 +239,98 @@ class CurveSearch : public Account {
         best_.along[0] = at.d1;
         best_bend_ = bend;
       }
-      // Where Newton's step leads within the range, and what it would gain there is needed, no
-      // proof can hold yet.
-      float next = bend > 0.0f ? s - slope / bend : slope > 0.0f ? range.low : range.high;
-      if (next > range.low && next < range.high && turn + 1 < kMaxTurns &&
+      const float low = rest.range.low, high = rest.range.high;
+      float next = bend > 0.0f ? s - slope / bend : slope > 0.0f ? low : high;
+      // Where Newton's step leads within the range, and its gain there is needed, no proof can hold
+      // yet.
+      if (next > low && next < high && turn + 1 < kMaxTurns &&
           !best_.seems_beyond(distance2_m2 + slope * (next - s))) {
         s = next;
         continue;
       }
       const Expansion f =
           expand(at, r_m, distance2_m2, slope, speed2, bend, tree_.bend_of(on), loss_m_);
-      float below2 = f.least2(-1.0f, s - range.low), above2 = f.least2(1.0f, range.high - s);
-      bool is_below_done = best_.is_beyond(below2), is_above_done = best_.is_beyond(above2);
-      if (is_row) {
-        closed_ = row_;
-        if (!is_below_done || !is_above_done) {
-          is_row = false;
-          leaf = tree_.leaf_at(on, s);
-          const Range own = tree_.range_of(leaf, 0.0f);
-          if (!is_below_done) {
-            closed_.first = leaf;
-            range.low = own.low;
-            below2 = f.least2(-1.0f, s - range.low);
-            is_below_done = best_.is_beyond(below2);
-          }
-          if (!is_above_done) {
-            closed_.last = leaf;
-            range.high = own.high;
-            above2 = f.least2(1.0f, range.high - s);
-            is_above_done = best_.is_beyond(above2);
-          }
-        }
+      Side below, above;
+      prove(f, s, is_row, on, rest, below, above);
+      is_row = false;
+      if (below.is_done && above.is_done) {
+        float min2_m2 = below.least2 < above.least2 ? below.least2 : above.least2;
+        const float limit2_m2 = best_.limit_m * best_.limit_m;  // of what was closed before
+        if (turn > 0 && limit2_m2 < min2_m2) min2_m2 = limit2_m2;
+        if (node == 0)
+          closed2_m2_ = min2_m2;
+        else
+          passed_.pass(node, raised(rest.lower_m, min2_m2));
+        return true;
       }
-      if (is_below_done && is_above_done) {
-        min2_m2_ = below2 < above2 ? below2 : above2;
-        const float limit2_m2 = best_.limit_m * best_.limit_m;  // so far are parts closed before
-        if (turn > 0 && limit2_m2 < min2_m2_) min2_m2_ = limit2_m2;
-        if (is_row_) closed2_m2_ = min2_m2_;
-        return Outcome::kClosed;
-      }
-      if (is_below_done) range.low = s;
-      if (is_above_done) range.high = s;
-      if (!(next > range.low)) next = range.low;
-      if (!(next < range.high)) next = range.high;
+      if (!(next > rest.range.low)) next = rest.range.low;
+      if (!(next < rest.range.high)) next = rest.range.high;
       const float step = next - s;
       if (!(step > 0.0f || step < 0.0f)) {  // Newton goes no further, yet a side is not proven
-        if (!is_below_done && !is_above_done) {
-          middle = s;
-          below_m = raised(below_m, below2);
-          above_m = raised(above_m, above2);
-          return Outcome::kSplit;
+        if (!below.is_done && !above.is_done) {
+          halve(node, rest, s, raised(rest.lower_m, below.least2),
+                raised(rest.lower_m, above.least2));
+          return true;
         }
-        next = 0.5f * (range.low + range.high);
+        next = 0.5f * (rest.range.low + rest.range.high);
       }
       s = next;
     }
-    middle = 0.5f * (range.low + range.high);
-    return middle > range.low && middle < range.high ? Outcome::kSplit : Outcome::kLost;
+    const float middle = 0.5f * (rest.range.low + rest.range.high);
+    if (middle > rest.range.low && middle < rest.range.high)
+      halve(node, rest, middle, rest.lower_m, rest.lower_m);
+    else
+      lose(rest.lower_m);  // float32 has no point between its ends
+    return true;
+  }
+
+  // What the expansion at s proves of both sides of a range, less what it closes.
+  struct Side {
+    float least2;
+    bool is_done;
+  };
+  void prove(const Expansion& f, float s, bool is_row, uint32_t on, Entry& rest, Side& below,
+             Side& above) {
+    Range& range = rest.range;
+    below = side_of(f, -1.0f, s - range.low);
+    above = side_of(f, 1.0f, range.high - s);
+    if (is_row) {
+      closed_ = row_;
+      if (!below.is_done || !above.is_done) {
+        const uint32_t leaf = tree_.leaf_at(on, s);
+        const Range own = tree_.range_of(leaf, 0.0f);
+        rest.node = tree_.node_of(leaf);
+        if (!below.is_done) {
+          closed_.first = leaf;
+          range.low = own.low;
+          below = side_of(f, -1.0f, s - range.low);
+        }
+        if (!above.is_done) {
+          closed_.last = leaf;
+          range.high = own.high;
+          above = side_of(f, 1.0f, range.high - s);
+        }
+      }
+    }
+    if (!(below.is_done && above.is_done)) {
+      if (below.is_done) range.low = s;
+      if (above.is_done) range.high = s;
+    }
+  }
+  Side side_of(const Expansion& f, float sign, float length) const {
+    const float least2 = f.least2(sign, length);
+    return {least2, best_.is_beyond(least2)};
+  }
+
+  // The half that is nearer comes up first.
+  void halve(uint32_t node, const Entry& rest, float s, float below_m, float above_m) {
+    if (node != 0) passed_.pass(node, 0.0f);
+    const Range below{rest.range.low, s, 0.5f * (rest.range.low + s)};
+    const Range above{s, rest.range.high, 0.5f * (s + rest.range.high)};
+    const bool is_below_first = above_m >= below_m;
+    if (is_below_first) put({rest.node, above_m, above});
+    put({rest.node, below_m, below});
+    if (!is_below_first) put({rest.node, above_m, above});
   }
 
   static float raised(float lower_m, float lower2_m2) {
@@ -335,9 +343,8 @@ class CurveSearch : public Account {
   float loss_m_;
   Best& best_;  // its node: the piece it is of
   float best_bend_ = 0.0f;
-  bool is_row_ = false;  // what is solved next
   LeafRow row_{1, 0}, closed_{1, 0};
-  float min2_m2_ = 0.0f, closed2_m2_ = 0.0f;  // of the last that was closed, and of those leaves
+  float closed2_m2_ = 0.0f;  // of those leaves
   PassedParts passed_;
   uint32_t count_ = 0, base_ = 0;  // of the stack, and where a scan's begin
   Entry stack_[kCapacity];

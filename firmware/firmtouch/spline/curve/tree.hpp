@@ -43,20 +43,28 @@ class CurveTree {
   uint32_t piece_of(uint32_t leaf) const { return leaves_[leaf]; }
   uint32_t piece_count() const { return piece_count_; }
   const Piece& piece(uint32_t index) const { return pieces_[index]; }
-  const float* coefficients() const { return coefficients_; }
+  CurvePoint point_at(const Piece& piece, float s) const {
+    if (piece.degree_u == 3 && piece.is_rational == 0)
+      return cubic_at(coefficients_ + piece.coefficients, 3, s);
+    return evaluate(piece, coefficients_, s);
+  }
   const CurveBend& bend_of(uint32_t piece) const { return bends_[piece]; }
   math::Vec3 query_from(const Piece& piece) const { return p_m_ - vec3_at(piece.origin_m); }
 
-  /// Of a chord, by the ways from its ends to the query: no point within the radius of it is
-  /// nearer; what of it is nearest. The stored radius holds what float32 loses here (with_slack()).
-  Seen see(math::Vec3 off_m, math::Vec3 off_end_m, float radius_m) const {
+  /// Of a chord, by the vectors from its ends to the query: no point within the radius of it is
+  /// nearer, and its nearest point. The stored radius holds what float32 loses here (with_slack()).
+  /// kIsFlat: both ends have one z, and nothing of that is computed twice.
+  template <bool kIsFlat = false>
+  static Seen see(math::Vec3 off_m, math::Vec3 off_end_m, float radius_m) {
     const math::Vec3 along = off_m - off_end_m;
-    const float progress_m2 = dot(off_m, along);
+    const float progress_m2 = product<kIsFlat>(off_m, along);
     float share = 0.0f;
     if (progress_m2 > 0.0f) {
-      const float length2_m2 = dot(along, along);
+      const float length2_m2 = product<kIsFlat>(along, along);
       share = progress_m2 < length2_m2 ? progress_m2 / length2_m2 : 1.0f;
-      off_m = off_m - along * share;
+      off_m.x -= along.x * share;
+      off_m.y -= along.y * share;
+      if (!kIsFlat) off_m.z -= along.z * share;
     }
     return {math::length(off_m) * (1.0f - 0x1p-20f) - radius_m, share};
   }
@@ -65,6 +73,7 @@ class CurveTree {
     return see(off_m(under.first), off_m(under.end), radius_m(node));
   }
   /// The chords of nodes next to each other, one after the other.
+  template <bool kIsFlat>
   class Chords {
    public:
     /// Pre: the node is there.
@@ -78,9 +87,12 @@ class CurveTree {
       const math::Vec3 from_m = off_m_;
       leaf_ += wide_;
       if (leaf_ > tree_.levels_.leaf_count) leaf_ = tree_.levels_.leaf_count;
-      off_m_ = tree_.off_m(leaf_);
+      const Point& end = tree_.points_[leaf_];
+      off_m_.x = tree_.p_m_.x - end.x_m;
+      off_m_.y = tree_.p_m_.y - end.y_m;
+      if (!kIsFlat) off_m_.z = tree_.p_m_.z - tree_.heights_m_[leaf_];
       const uint32_t byte = *radius_++;
-      return tree_.see(from_m, off_m_, math::float_of(tree_.unit_ + (byte << 20)));
+      return see<kIsFlat>(from_m, off_m_, math::float_of(tree_.unit_ + (byte << 20)));
     }
 
    private:
@@ -90,6 +102,7 @@ class CurveTree {
     math::Vec3 off_m_;
   };
 
+  bool is_flat() const { return height_mask_ == 0; }
   /// From a point between leaves to the query.
   math::Vec3 off_m(uint32_t point) const {
     const Point& a = points_[point];
@@ -126,6 +139,11 @@ class CurveTree {
   }
 
  private:
+  template <bool kIsFlat>
+  static float product(math::Vec3 a, math::Vec3 b) {
+    return kIsFlat ? a.x * b.x + a.y * b.y : dot(a, b);
+  }
+
   const Piece* pieces_;
   uint32_t piece_count_;
   const float* coefficients_;

@@ -6,21 +6,17 @@
 
 namespace firmtouch::spline {
 
-static inline void evaluate_on(const View& model, uint32_t piece, float s, CurvePoint& point) {
-  evaluate(model.pieces()[piece], model.coefficients().data(), s, point);
+static inline CurvePoint evaluate_on(const View& model, uint32_t piece, float s) {
+  return evaluate(model.pieces()[piece], model.coefficients().data(), s);
 }
 
 /// In the model's frame.
 static inline math::Vec3 position_of(const View& model, uint32_t piece, float s) {
-  CurvePoint point;
-  evaluate_on(model, piece, s, point);
-  return vec3_at(model.pieces()[piece].origin_m) + point.x;
+  return vec3_at(model.pieces()[piece].origin_m) + evaluate_on(model, piece, s).x;
 }
 
 static inline float speed_of(const View& model, uint32_t piece, float s) {
-  CurvePoint point;
-  evaluate_on(model, piece, s, point);
-  return math::length(point.d1);
+  return math::length(evaluate_on(model, piece, s).d1);
 }
 
 /// Length of a part by three points (Gauss).
@@ -74,7 +70,7 @@ static inline float arc_m_at(const GuideView& guide, uint32_t piece, float s) {
   return arc_cubic_of(guide, piece, part).at_m(t);
 }
 
-/// The same where places follow each other: the part asked for last is kept.
+/// The same where places follow each other: the last one is kept.
 class Arcs {
  public:
   explicit Arcs(const GuideView& guide) : guide_(guide) {}

@@ -13,7 +13,7 @@ namespace {
 
 using math::Vec3;
 
-// Fewer steps tell nothing of costs.
+// Fewer visits bound no cost.
 constexpr uint32_t kMinSteps = 16;
 // Beyond that squares may overflow, and no guide holds.
 constexpr float kMaxPolished_m = 1e9f;
@@ -34,7 +34,7 @@ Foot foot_at(const View& model, Vec3 p_m, uint32_t piece, float s) {
   Foot foot;
   foot.piece = piece;
   foot.s = s;
-  evaluate_on(model, piece, s, foot.at);
+  foot.at = evaluate_on(model, piece, s);
   foot.r_m = foot.at.x - (p_m - vec3_at(model.pieces()[piece].origin_m));
   foot.distance2_m2 = dot(foot.r_m, foot.r_m);
   foot.slope = dot(foot.r_m, foot.at.d1);
@@ -172,8 +172,8 @@ bool comes_to(const GuideView& guide, const Foot& nearest, float lower_m, float 
   const bool is_below = is_first || arcs.at_m(nearest.piece, low) <= was_m - reach_m;
   const bool is_above = is_last || arcs.at_m(nearest.piece, high) >= was_m + reach_m;
   if (!is_below || !is_above) return false;
-  CurvePoint at;  // with its third derivative
-  evaluate(model.pieces()[nearest.piece], model.coefficients().data(), nearest.s, at);
+  const CurvePoint at =
+      evaluate(model.pieces()[nearest.piece], model.coefficients().data(), nearest.s);
   const Expansion f = expand(at, nearest.r_m, nearest.distance2_m2, nearest.slope, speed2,
                              speed2 + dot(nearest.r_m, nearest.at.d2),
                              model.curve_bends()[nearest.piece], model.head().loss_m);

@@ -37,7 +37,7 @@ struct Followed {
 /// the least distance + penalty of the change of arc, min_cost(). Distance says where on it: from
 /// there the guide goes along the curve to where the distance falls no further. Without a penalty
 /// it is at the closest point of the whole curve. No lost tick, jump or reset can keep it on a
-/// wrong part. Where the point is farther than release_m, or not a number, the guide lets go and
+/// wrong part. Where the point is farther than release_m, or NaN, the guide lets go and
 /// takes the closest.
 /// Pre:    `guide` is open.
 /// Bounds: <= budget steps (16 for a penalty), at most half of them for the closest point where

@@ -12,42 +12,40 @@ constexpr uint32_t kNoNode = UINT32_MAX;
 constexpr float kMaxPerMetre = 0x1p20f;
 // What float32 loses of a length along the curve, beside the whole of it.
 constexpr float kArcLoss = 0x1p-22f;
-// By how much a part may cost less than the best and is not looked at, of the extent: as in
-// closest_point().
-constexpr float kGap = 1.5f * kUnit, kRationalGap = 4.0f * kUnit;
 
-Penalty penalty_of(const GuideView& guide, const ArcPenalty& asked, Arcs& arcs) {
+Penalty penalty_of(const GuideView& guide, const ArcPenalty& penalised, Arcs& arcs) {
   Penalty penalty;
-  const float per_m = asked.weight_m / guide.length_m();
+  const float per_m = penalised.weight_m / guide.length_m();
   penalty.per_m = per_m < kMaxPerMetre ? per_m : kMaxPerMetre;
-  penalty.piece = asked.piece;
-  penalty.s = asked.s;
-  penalty.at_m = arcs.at_m(asked.piece, asked.s);
-  penalty.round = round_of(guide, asked.piece);
+  penalty.piece = penalised.piece;
+  penalty.s = penalised.s;
+  penalty.at_m = arcs.at_m(penalised.piece, penalised.s);
+  penalty.round = round_of(guide, penalised.piece);
   return penalty;
 }
 
 }  // namespace
 
-LeastCost min_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& asked,
+LeastCost min_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& penalised,
                    const Closest& nearest, query::Budget budget) {
   const View& model = guide.model();
   const Head& head = model.head();
   Arcs arcs(guide);
-  const Penalty penalty = penalty_of(guide, asked, arcs);
+  const Penalty penalty = penalty_of(guide, penalised, arcs);
   const float arc_loss_m = penalty.per_m * guide.length_m() * kArcLoss;
-  Best best;
-  best.gap_m = head.extent_m * (head.is_rational != 0 ? kRationalGap : kGap) + arc_loss_m;
+  Best best(head);
+  best.gap_m += arc_loss_m;
 
   LeastCost found;
-  CurvePoint kink;
-  evaluate(model.pieces()[asked.piece], model.coefficients().data(), asked.s, kink);
-  const Vec3 r_m = kink.x - (p_m - vec3_at(model.pieces()[asked.piece].origin_m));
+
+  const CurvePoint kink =
+      evaluate(model.pieces()[penalised.piece], model.coefficients().data(), penalised.s);
+  const Vec3 r_m = kink.x - (p_m - vec3_at(model.pieces()[penalised.piece].origin_m));
   best.node = kNoNode;
   best.distance2_m2 = dot(r_m, r_m);
   take_cost(best, math::square_root(best.distance2_m2));
-  found.piece = asked.piece;
-  found.s = asked.s;
+  found.piece = penalised.piece;
+  found.s = penalised.s;
   const float nearest_cost_m =
       nearest.distance_m + penalty.of(nearest.bezier, arcs.at_m(nearest.bezier, nearest.s));
   if (take_cost(best, nearest_cost_m)) {
@@ -60,7 +58,7 @@ LeastCost min_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& asked,
   GuideParts parts(guide, p_m, penalty, kink, arcs, nearest.certificate.lower_m, best);
   GuideSearch search(parts, budget.steps > 1 ? budget.steps - 1 : 1, best);
   GuideParts::Range range;
-  const uint32_t node = parts.node_at(asked.piece, asked.s, range);
+  const uint32_t node = parts.node_at(penalised.piece, penalised.s, range);
   // What is farther along the curve costs more, for nothing is nearer than the nearest.
   const float reach_m = (best.distance_m - nearest.certificate.lower_m) / penalty.per_m;
   search.run(node, range,

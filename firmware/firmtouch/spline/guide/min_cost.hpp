@@ -15,7 +15,7 @@ struct ArcPenalty {
 };
 
 struct LeastCost {
-  uint32_t piece = 0;  // the point, and what is told of it
+  uint32_t piece = 0;  // the point that is returned
   float s = 0;
   float distance_m = 0;
   float cost_m = 0;      // distance + penalty
@@ -33,7 +33,7 @@ struct LeastCost {
 ///         of stack; re-entrant; callable from an interrupt.
 /// Result: always finite. Equal costs: where the guide was, the closest point, the one found first.
 ///         `exact` says that cost and bound are within 4e-7 (rational: 1e-6) of the extent, 1e-6 of
-///         the weight and 2e-6 of the cost of the truth, by the lengths that are told.
+///         the weight and 2e-6 of the cost of the truth, by the lengths that are returned.
 /// Error:  tests/spline/min_cost_host_test.cpp, against dense sampling in double.
 LeastCost min_cost(const GuideView& guide, math::Vec3 p_m, const ArcPenalty& penalty,
                    const Closest& nearest, query::Budget budget);

@@ -180,7 +180,7 @@ bool GuideParts::take_point(uint32_t on, uint32_t node, float s, uint32_t& left,
     if (left == 0) return false;
     --left;
     ++best.evaluations;
-    evaluate(piece, guide_.model().coefficients().data(), s, seen.at);
+    seen.at = evaluate(piece, guide_.model().coefficients().data(), s);
   }
   seen.r_m = seen.at.x - (p_m_ - vec3_at(piece.origin_m));
   seen.distance2_m2 = dot(seen.r_m, seen.r_m);

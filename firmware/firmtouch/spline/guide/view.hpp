@@ -3,6 +3,7 @@
 
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
+#include "firmtouch/query/staged_check.hpp"
 #include "firmtouch/spline/view.hpp"
 
 namespace firmtouch::spline {
@@ -18,11 +19,18 @@ constexpr uint32_t kMaxArcParts = 64;  // of a piece
 
 struct GuideSections {
   core::Bytes arcs, chains;
+
+  /// Calls take(section type, bytes) for each.
+  template <class Take>
+  void each(const Take& take) {
+    take(kArcsSection, arcs), take(kChainsSection, chains);
+  }
 };
 
 /// A proven model of curves with the lengths along it.
 class GuideView {
  public:
+  using Sections = GuideSections;
   GuideView() = default;
   bool is_open() const { return model_.is_open(); }
   const View& model() const { return model_; }
@@ -33,43 +41,37 @@ class GuideView {
   core::Span<const Chain> chains() const { return chains_; }
 
  private:
-  friend class GuideOpening;
+  friend class GuideProof;
   View model_;
   core::Span<const float> arcs_;
   core::Span<const Chain> chains_;
   uint32_t parts_ = 0;
 };
 
-/// Proves in slices: rules R641 to R645 of tools/FORMAT.md.
-class GuideOpening {
+/// What GuideOpening proves of the lengths along curves: rules R641 to R645 of tools/FORMAT.md.
+class GuideProof {
  public:
-  GuideOpening() = default;  // of nothing: done, and no view
+  static const query::CheckStage kStages[1];
   /// Pre: `model` is open.
-  GuideOpening(const View& model, const GuideSections& sections);
-
-  /// Checks up to `elements` parts more.
-  /// Bounds: about 1,500 instructions an element, the first of each piece at most 10,000; 1 KB of
-  /// stack; reads only inside the sections.
-  void work(uint32_t elements);
-  bool done() const { return is_done_; }
-  core::Verdict verdict() const { return verdict_; }
-  /// One that is not open unless done() and verdict().ok().
-  GuideView view() const { return done() && verdict_.ok() ? view_ : GuideView{}; }
+  core::Verdict take(const View& model, const GuideSections& sections);
+  core::Verdict check_head() const;
+  GuideView view;
 
  private:
-  core::Verdict take_sections(const View& model, const GuideSections& sections);
-  core::Verdict check_chains() const;
-  core::Verdict check_part(uint32_t i) const;
+  uint32_t part_count() const { return view.arcs_.size() - 1; }
+  core::Verdict check_part(uint32_t i);
   core::Verdict check_joint(uint32_t piece);
 
-  GuideView view_;
-  core::Verdict verdict_;
-  uint32_t next_ = 0;
   uint32_t chain_ = 0;  // of the piece that is next
-  bool is_done_ = true;
 };
 
+using GuideOpening = query::Opening<GuideProof>;
+
 /// All at once.
-core::Verdict open_guide(const View& model, const GuideSections& sections, GuideView& view);
+inline core::Verdict open_guide(const View& model, const GuideSections& sections, GuideView& view) {
+  return query::open_at_once<GuideOpening>(view, model, sections);
+}
 
 }  // namespace firmtouch::spline
+
+extern template class firmtouch::query::Opening<firmtouch::spline::GuideProof>;

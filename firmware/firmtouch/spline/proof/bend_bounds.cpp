@@ -166,7 +166,7 @@ void bound_bends(const Part& part, float span_m, LeafShape& shape) {
 
 // Of the fourth derivative of D^2 / 2 the terms without the query, 4 x1 . x3 + 3 x2 . x2 of the
 // derivatives x1 to x4: by how much they may be below 0. Their own derivative, 10 x2 . x3 + 4 x1 .
-// x4, tells how fast they leave what they are in the middle.
+// x4, bounds how fast they leave their value in the middle.
 float lowest_of(const Part& part, const LeafShape& shape, const Vectors& x, const Sizes& c) {
   const float one = c.of[1][0], two = c.of[2][0], three = c.of[3][0], four = c.of[4][0];
   const float u = part.half_u;
@@ -220,7 +220,7 @@ bool add_bends(const Piece& piece, const float* coefficients, uint32_t fine_part
   tighten(x, c);
   const float fourth = part.half_u * part.half_u * part.half_u * part.half_u;
   const float lowest = lowest_of(part, shape, x, c) / fourth, turning = c.of[4][0] * kUp / fourth;
-  if (fine_part == 0 || !(lowest <= bends.lowest)) bends.lowest = lowest;  // not a number stays
+  if (fine_part == 0 || !(lowest <= bends.lowest)) bends.lowest = lowest;  // NaN stays
   if (!(turning <= bends.turning)) bends.turning = turning;
   bends.span_m = (bends.span_m + 2.0f * shape.reach_m) * kUp;
   const float per_half = 1.0f / part.half_u;
@@ -261,7 +261,7 @@ bool add_bends(const Piece& piece, const float* coefficients, const Part& cell, 
   derive(piece, coefficients, part, shape);
   if (!(shape.min_weight > 0.0f)) return false;
   bound_bends(part, bends.span_m, shape);
-  for (uint32_t k = 0; k < 5; ++k) {  // one that is no number stays
+  for (uint32_t k = 0; k < 5; ++k) {  // NaN stays
     if (!(shape.fixed[k] <= bends.fixed[k])) bends.fixed[k] = shape.fixed[k];
     if (!(shape.turning[k] <= bends.turning[k])) bends.turning[k] = shape.turning[k];
   }

@@ -30,7 +30,7 @@ struct LeafShape {
   float min_weight = 0;          // on the leaf; where it is not above 1 / 2 nothing else is known
   float noise_m = 0;             // of any point of it, as computed here
   float reach_m = 0;             // no point of the leaf is farther from middle_m
-  float loss_m = 0;  // of a point that evaluation.hpp computes, but for 5 units of its distance
+  float loss_m = 0;  // of a point that evaluation.hpp computes, beside 5 units of its distance
   // By which a coefficient of the numerator, or of the weight, may be off, times the powers of the
   // part's halves that belong to it.
   float numerator_noise_m = 0, weight_noise = 0;

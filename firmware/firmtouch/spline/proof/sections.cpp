@@ -1,6 +1,7 @@
 #include "firmtouch/spline/proof/sections.hpp"
 
 #include "firmtouch/core/bytes.hpp"
+#include "firmtouch/spline/layout.hpp"
 
 namespace firmtouch::spline {
 namespace {
@@ -20,20 +21,6 @@ const char* find_kind(const asset::Container& asset, const char* wanted, bool is
        at = asset.next_of_type(kHeadSection, at + 1))
     if (is_of_kind(asset, asset.name(at), is_surface)) return asset.name(at);
   return nullptr;
-}
-
-Sections find_sections(const asset::Container& asset, const char* name) {
-  Sections sections;
-  sections.head = asset.find(kHeadSection, name);
-  sections.pieces = asset.find(kPiecesSection, name);
-  sections.coefficients = asset.find(kCoefficientsSection, name);
-  sections.leaves = asset.find(kLeavesSection, name);
-  sections.bends = asset.find(kBendsSection, name);
-  sections.nodes = asset.find(kNodesSection, name);
-  sections.points = asset.find(kPointsSection, name);
-  sections.grids = asset.find(kGridsSection, name);
-  sections.radii = asset.find(kRadiiSection, name);
-  return sections;
 }
 
 }  // namespace firmtouch::spline

@@ -34,7 +34,7 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
     return answer_beyond(model, p_m, hint);
   }
   const query::Carried carried = query::carry(hint, p_m);
-  Best best = best_of(model.head());
+  Best best(model.head());
   SurfaceSearch search(model, p_m, budget.steps, best);
   if (hint.safe_subtree != kWithFrontier) FrontierUse(frontier).clear();
   move(p_m, hint, frontier);
@@ -54,15 +54,14 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
   const float pending_m =
       search.is_complete() ? 0.0f : search.pending_m(outside_m(model.head(), p_m));
-  Closest closest = answer_at(model, best, is_first ? 0 : search.piece_of(best.node));
-  if (!is_first) closest.direction = unit_of(cross(best.along[0], best.along[1]));
-  certify(model.head(), p_m, best, search.is_complete(), pending_m, search.steps(), carried,
-          closest, hint);
+  const query::Certificate certificate = certify(model.head(), p_m, best, search.is_complete(),
+                                                 pending_m, search.steps(), carried, hint);
   hint.place = query::kNowhere;
   if (!is_first) search.leave(motion_m, hint);
   hint.safe_subtree = safe_subtree;
   hint.safe_subtree_m = 0.0f;
-  return closest;
+  return answer_at(model, best, is_first ? 0 : search.piece_of(best.node),
+                   is_first ? Vec3{} : unit_of(cross(best.along[0], best.along[1])), certificate);
 }
 
 }  // namespace

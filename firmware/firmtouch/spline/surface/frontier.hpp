@@ -1,14 +1,14 @@
 #pragma once
-// What a search of surfaces passes over becomes the next one's front, for .cpp files of this module
-// only.
+// What a search of surfaces passes over becomes the next query's frontier, for .cpp files of this
+// module only.
 //
-// A front says: all of the model lies in its parts or is at least `outside` units beyond base_m
+// A frontier says: all of the model lies in its parts or is at least `outside` units beyond base_m
 // away, and each part is as far as it says. After a motion m everything is nearer by m at most, so
 // that m taken off base_m keeps all of it true; what is then still beyond the limit is not looked
-// at. A part that is looked at is left in the front with its new bound, or replaced by the parts of
-// it that were passed over, which hold all of it. What a proof told, as every distance computed
-// here, may be off by what float32 loses of it, which certified() takes off: reported_m() is
-// rounded down by more than that may differ from one query to the next.
+// at. A part that is looked at is left in the frontier with its new bound, or replaced by the parts
+// of it that were passed over, which hold all of it. What a proof returned, as every distance
+// computed here, may be off by what float32 loses of it, which certified() takes off: reported_m()
+// is rounded down by more than that may differ from one query to the next.
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/spline/hint.hpp"
 #include "firmtouch/spline/surface/patch_node.hpp"
@@ -58,7 +58,7 @@ class FarParts {
   Part parts_[kMax];
 };
 
-/// Of a front, as seen by one query.
+/// A frontier, as one query uses it.
 class FrontierUse {
  public:
   static constexpr uint32_t kAll = 255;

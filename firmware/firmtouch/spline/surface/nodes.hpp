@@ -73,7 +73,7 @@ class SurfaceParts {
   }
 
   /// Whether the expansion that closed the last leaf closes this part of its cell as well: not
-  /// asked of large ones.
+  /// tested for large ones.
   bool is_closed(uint32_t node, const Best& best) {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
     const PatchNode part = apart(pieces_[node >> 16], node);

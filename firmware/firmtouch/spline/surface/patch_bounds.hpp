@@ -6,7 +6,7 @@
 
 namespace firmtouch::spline {
 
-/// What is told of a part. The stored radii and half sides hold what float32 loses.
+/// The bound of a patch. The stored radii and half sides hold what float32 loses.
 struct PartBound {
   float lower_m;  // no point of it is nearer
   float x, y;     // where on it, from -1 to 1, the foot is thought to be
@@ -37,7 +37,7 @@ class PatchBounds {
     return math::length(off) * (1.0f - 0x1p-19f);
   }
 
-  /// The piece whose parts are asked about from here on.
+  /// The piece whose patches are queried from here on.
   const Piece& come_near(uint32_t piece) {
     if (piece != piece_) enter(piece);
     return *of_;

@@ -65,7 +65,7 @@ static inline float least_of(float off2, float left) {
   return math::square_root(math::larger(off2 * (1.0f - 0x1p-20f) - (left + left), 0.0f));
 }
 
-/// A lower bound of the distance to a quad, but for the rounding of its root, and where on it, x
+/// A lower bound of the distance to a quad, except for the rounding of its root, and where on it, x
 /// and y, the foot is thought to be: that of its parallelogram. Along any vector, here the one from
 /// there to the query, no point of the quad is farther than its farthest corner.
 struct Foot {

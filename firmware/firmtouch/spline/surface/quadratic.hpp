@@ -42,7 +42,7 @@ struct Quadratic {
   /// from the point and uphill, g |x| >= g x^2: the slope becomes part of Q. What is left of the
   /// slopes costs what Q leaves of it: the stronger axis wherever it ends, the other one within the
   /// rectangle, bent downward or not. Where an axis leads up more steeply than all that is mixed
-  /// with it may take away, the other one is left alone: asked only where the rest is not
+  /// with it may take away, the other one is left alone: computed only where the rest is not
   /// `enough2`.
   float least2(const Rectangle& r, float enough2 = FLT_MAX) const {
     // By how much terms may lower the rest: those whose sign is known, on one side of the point, by

@@ -20,8 +20,8 @@ class SurfaceSearch : public Account {
   void leave(math::Vec3 motion_m, CurveHint& hint) const { parts_.leave(best_, motion_m, hint); }
   uint32_t piece_of(uint32_t node) const { return node >> 16; }
 
-  /// From a leaf that may be near: where the front is far enough away only what of it may be within
-  /// the limit, else all, and a new front is told, to `margin_m` beyond the best.
+  /// From a leaf that may be near: where the frontier is far enough away only what of it may be
+  /// within the limit, else all, and a new frontier is stored, to `margin_m` beyond the best.
   void run_warm(uint32_t leaf, const Range& range, float margin_m, Frontier& frontier) {
     FrontierUse use(frontier);
     run_from(leaf, range, margin_m, use, frontier);
@@ -51,15 +51,15 @@ class SurfaceSearch : public Account {
     if (!holds) {
       const float reach_m = best_.distance_m + margin_m;
       passed_.start(reach_m);
-      if (!climb(leaf, is_closed, parts_.root())) return stop();
+      if (!ascend(leaf, is_closed, parts_.root())) return stop();
       use.renew(best_.limit_m, reach_m, passed_);
     }
     is_complete_ = true;
   }
 
-  // At the parts of a front that may hold something nearer: all are read, and what then may still
-  // hold it is gone through nearest first, as below one node, so that what closes one part closes
-  // others about it.
+  // At the patches of a frontier that may hold something nearer: all are read, and what then may
+  // still hold it is gone through nearest first, as below one node, so that what closes one part
+  // closes others about it.
   bool look(uint32_t leaf, bool is_closed, uint32_t needed, FrontierUse& use, Frontier& frontier,
             bool& holds) {
     passed_.start(use.outside_m());
@@ -87,7 +87,7 @@ class SurfaceSearch : public Account {
       return true;
     }
     if (left_ == 0) return false;
-    if (is_about) return climb(leaf, is_closed, node);
+    if (is_about) return ascend(leaf, is_closed, node);
     visit(node);
     return count_ <= kMaxWaiting || drain();
   }
@@ -99,7 +99,7 @@ class SurfaceSearch : public Account {
       visit_upper(node - kUpper, 0.0f);
   }
   // From a leaf that is done with up to a node that holds it: all that is beside the way.
-  bool climb(uint32_t leaf, bool is_closed, uint32_t top) {
+  bool ascend(uint32_t leaf, bool is_closed, uint32_t top) {
     uint32_t node =
         is_closed && parts_.was_closed_last(leaf) ? parts_.closed_around(leaf, best_) : leaf;
     if (top < kUpper && node <= top)
@@ -137,7 +137,7 @@ class SurfaceSearch : public Account {
   };
   static constexpr uint32_t kHalfMark = 1u << 15;  // of a leaf: not all of it
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), three,
-  // and what waits of a front.
+  // and what waits of a frontier.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 4 + 8;
 
   // A node, as it is on the stack, that need not be looked at.
@@ -280,7 +280,7 @@ class SurfaceSearch : public Account {
     return true;
   }
 
-  // Of a leaf that is halved its own bound is known; what its halves tell is not of it.
+  // Of a leaf that is halved its own bound is known; the bounds of its halves are not its own.
   bool solve(uint32_t node, float lower_m, const Range& in, bool is_half) {
     Half<Range> halves[2];
     Range range = in;
