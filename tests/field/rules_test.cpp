@@ -1,7 +1,7 @@
 // The reject rules of a distance field, each condition tripped alone.
+#include "harness/rules.hpp"
 #include "cube_field.hpp"
 #include "harness/float_bits.hpp"
-#include "harness/rules.hpp"
 #include "harness/test.hpp"
 
 namespace {

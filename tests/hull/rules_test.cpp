@@ -1,6 +1,6 @@
 // The reject rules of a hull, each condition tripped alone.
-#include "harness/float_bits.hpp"
 #include "harness/rules.hpp"
+#include "harness/float_bits.hpp"
 #include "small_hull.hpp"
 
 namespace {

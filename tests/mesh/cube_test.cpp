@@ -5,6 +5,7 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "harness/float_bits.hpp"
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace {
@@ -12,11 +13,8 @@ namespace {
 using firmtouch::math::Vec3;
 using namespace firmtouch;  // NOLINT: a test file
 
-uint32_t g_random = 1;
-float random_in(float low, float high) {
-  g_random = g_random * 1664525u + 1013904223u;
-  return low + (high - low) * static_cast<float>(g_random >> 8) * 0x1p-24f;
-}
+test::Lcg g_random(1);
+float random_in(float low, float high) { return g_random.between(low, high); }
 
 float larger(float a, float b) { return a > b ? a : b; }
 float absolute(float a) { return a < 0 ? -a : a; }

@@ -6,11 +6,6 @@
 // without virtual damping (Colgate & Schenkel 1994: b > K T / 2).
 namespace firmtouch::params {
 
-// Upper ends of these rows; servo and its guard have the same ceilings.
-constexpr float kMaxForceLimit_N = 100.0f;
-constexpr float kMaxSlewLimit_N_per_s = 1e6f;
-constexpr float kMaxTickPeriod_s = 0.1f;
-
 constexpr float kInitialTickPeriod_s = 0.001f;
 
 /// Limits of force and time: servo, guard and clock.
