@@ -85,13 +85,20 @@ class Turns {
 
 template <class Taker>
 struct Faces {
+  Faces(const BaseHull& of, const BaseHullSegment& along, Vec3 from_m, Vec3 to_m, Taker& to)
+      : base_hull(of),
+        segment(along),
+        a_m(from_m),
+        b_m(to_m),
+        taker(to),
+        limit(along.until(to.limit)) {}
   const BaseHull& base_hull;
   const BaseHullSegment& segment;
   Vec3 a_m, b_m;
   Taker& taker;
-  int32_t limit = segment.until(taker.limit);
+  int32_t limit;
   bool has_frame = false;  // most segments come near no face
-  mesh::SegmentFrame frame{};
+  mesh::SegmentFrame frame;
 
   bool face(const BaseHull::Leaf& leaf, uint32_t n) {
     const BaseHullHead& head = base_hull.head();
@@ -107,7 +114,7 @@ template <class Taker>
 bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget, uint32_t& steps,
             Taker& taker) {
   const BaseHullSegment segment(base_hull, a_m, b_m);
-  Faces<Taker> faces{base_hull, segment, a_m, b_m, taker};
+  Faces<Taker> faces(base_hull, segment, a_m, b_m, taker);
   return descend(base_hull, segment, budget, steps, faces);
 }
 
