@@ -1,3 +1,4 @@
+  sources | grep -E '\.(cpp|hpp|h)$' | tr '\n' '\0' | xargs -0 awk -f "$here/functions.awk" || bad=1
 # The shape of the tree: the five folders, small files, POSIX scripts, nothing left for later, nothing of one machine.
 # Read by tests/check/run.
 
@@ -85,6 +86,17 @@ plant_folder() {
 plant_long_file() {
   yes '// a line' | head -n 401 >>firmware/firmtouch/core/crc32.cpp
   expect='core/crc32.cpp: 4[0-9]* lines'
+}
+lines() { yes "$1" | head -n "$2"; }
+plant_long_function() {
+  { echo 'float planted(float x) {'; lines '  x += 1.0f;' 78; echo '  return x;'; echo '}'; } >>firmware/firmtouch/core/crc32.cpp
+  expect='core/crc32.cpp:[0-9]*: a function of 81 lines'
+}
+plant_long_test() {  # behind one of 80 lines, in a class, behind a template's head over two lines
+  { echo 'TEST(Planted) {'; lines '  CHECK(true);' 78; echo '}'
+    echo 'struct Planted {'; echo '  template <class A,'; echo '            class B>'; echo '  void run(A a, B b) {'; lines '    a = b;' 80
+    echo '  }'; echo '};'; } >>tests/core/status_test.cpp
+  expect='status_test.cpp:[0-9]*: a function of 84 lines'
 }
 plant_unguarded_header() {
   echo 'int f();' >firmware/firmtouch/core/planted.hpp
