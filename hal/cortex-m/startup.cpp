@@ -1,10 +1,12 @@
 #include <stdint.h>
 
 #include "cortex-m/cortex_m.hpp"
+#include "cortex-m/floating_point.hpp"
 #include "cortex-m/stack.hpp"
 #include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/motors.hpp"
 
-// From reset to main(): FPU, data, constructors.
+// From reset to main(): FPU, motors off, stack, data, constructors.
 
 extern "C" {
 extern uint32_t __stack_top[];
@@ -17,7 +19,10 @@ int main();
 void hard_fault_handler();
 void servo_timer_handler();
 
+/// The motors first: their pins may float, or be as a reset found them. Nothing is initialised yet.
 [[noreturn]] void start_up() {
+  firmtouch::hal::motors_off();
+  firmtouch::hal::floating_point_begin();
   firmtouch::hal::stack_paint();
   firmtouch::hal::stack_guard();
   const uint32_t* from = __data_load;

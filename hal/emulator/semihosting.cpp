@@ -1,4 +1,7 @@
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
+
+#include "emulator/exit.hpp"
+#include "firmtouch/hal/board.hpp"
 
 namespace firmtouch::hal {
 namespace {
@@ -24,7 +27,9 @@ uint32_t length(const char* text) {
 
 }  // namespace
 
-void semihosting_exit(int status) {
+bool board_may_exit() { return true; }
+
+void emulator_exit(int status) {
   uint32_t arguments[] = {kApplicationExit, static_cast<uint32_t>(status)};
   call(kExitExtended, arguments);
 }
