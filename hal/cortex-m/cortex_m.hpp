@@ -14,6 +14,7 @@ constexpr uint32_t kSysTickReload = 0xE000E014;   // 24 bits
 constexpr uint32_t kSysTickValue = 0xE000E018;
 constexpr uint32_t kNvicEnable = 0xE000E100;       // one bit an interrupt
 constexpr uint32_t kNvicPriority = 0xE000E400;     // one byte an interrupt
+constexpr uint32_t kVectorTable = 0xE000ED08;
 constexpr uint32_t kSystemPriority3 = 0xE000ED20;  // SysTick in bits 24-31
 constexpr uint32_t kFaultStatus = 0xE000ED28;
 constexpr uint32_t kFloatDefaultStatus = 0xE000EF3C;

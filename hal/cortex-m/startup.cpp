@@ -10,6 +10,7 @@
 
 extern "C" {
 extern uint32_t __stack_top[];
+extern const uint32_t __vectors[];
 extern uint32_t __data_begin[], __data_end[], __data_load[];
 extern uint32_t __bss_begin[], __bss_end[];
 extern firmtouch::hal::Handler __init_array_begin[], __init_array_end[];
@@ -23,6 +24,9 @@ void servo_timer_handler();
 [[noreturn]] void start_up() {
   firmtouch::hal::motors_off();
   firmtouch::hal::floating_point_begin();
+  // A boot loader may have left its own. The table is first in CODE.
+  firmtouch::hal::reg(firmtouch::hal::kVectorTable) =
+      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(__vectors));
   firmtouch::hal::stack_paint();
   firmtouch::hal::stack_guard();
   const uint32_t* from = __data_load;

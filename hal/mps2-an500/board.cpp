@@ -30,7 +30,7 @@ void board_begin() {
   link_begin();
 }
 
-const char* board_name() { return "mps2-an500"; }
+const char* board_name() { return FIRMTOUCH_BOARD_NAME; }
 
 core::Bytes board_asset() { return linked_or_loaded_asset(); }
 

@@ -60,7 +60,8 @@ TEST(ServoInterrupt_OncePerPeriod_MicrosecondsContinue) {
 
 TEST(ServoInterrupt_SecondStart_ChangesThePeriod) {
   constexpr uint32_t kPeriods = 20;
-  for (const uint32_t period_us : {100u, 250u, 80u}) {
+  constexpr uint32_t kPeriods_us[] = {100, 250, 80};
+  for (const uint32_t period_us : kPeriods_us) {
     hal::clock_start_servo(period_us, count_tick);
     const uint32_t start_us = hal::clock_us();
     const uint32_t start_ticks = ticks_seen;
