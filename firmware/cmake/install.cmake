@@ -12,7 +12,15 @@ install(DIRECTORY firmware/firmtouch hal/firmtouch DESTINATION ${CMAKE_INSTALL_I
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/firmtouch-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES firmware/cmake/firmtouch-config.cmake tools/cmake/firmtouch_bake.cmake
               ${CMAKE_BINARY_DIR}/firmtouch-config-version.cmake DESTINATION ${folder})
-install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/firmtouch)
+# The bill of materials. The build id of the link tells one tree from another.
+file(GLOB_RECURSE files RELATIVE ${PROJECT_SOURCE_DIR} firmware/firmtouch/*.hpp firmware/firmtouch/*.cpp)
+set(tree_hash "")
+foreach(file ${files})
+  file(SHA256 ${PROJECT_SOURCE_DIR}/${file} hash)
+  string(SHA256 tree_hash "${tree_hash}${hash}${file}")
+endforeach()
+configure_file(firmware/cmake/sbom.spdx.json.in ${CMAKE_BINARY_DIR}/firmtouch.spdx.json @ONLY)
+install(FILES LICENSE CHANGELOG.md ${CMAKE_BINARY_DIR}/firmtouch.spdx.json DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/firmtouch)
 if(FIRMTOUCH_TOOLS)
   install(TARGETS firmtouch firmtouch-sim RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -99,7 +99,7 @@ int main() {
     case kExit:
       hal::board_exit(42);
     case kBus:
-      return static_cast<int>(*reinterpret_cast<volatile uint32_t*>(uintptr_t{0x90000000}));
+      return static_cast<int>(*reinterpret_cast<volatile uint32_t*>(uintptr_t{0x00F00000}));
     case kUndefined:
       undefined();
     case kOverflow:

@@ -17,7 +17,7 @@ uint32_t crc_of(const Saved& saved) {
 }
 
 const Saved& slot_at(core::Bytes sector, uint32_t offset) {
-  return *reinterpret_cast<const Saved*>(sector.data() + offset);
+  return *static_cast<const Saved*>(static_cast<const void*>(sector.data() + offset));
 }
 
 bool is_valid(const Saved& saved) { return saved.magic == kMagic && saved.crc == crc_of(saved); }
