@@ -2,7 +2,9 @@
 # project that takes Firmtouch in keeps its own.
 
 set(FIRMTOUCH_WARNING_FLAGS
-    -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wshadow)
+    -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wshadow
+    # Of -fno-rounding-math below, which is the default there.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-unsupported-floating-point-opt>)
 # Firmware and hal also: clean of these. Not -Wuseless-cast: a cast to uint32_t is of use where that is no unsigned long.
 set(FIRMTOUCH_STRICT_FLAGS -Wold-style-cast -Wundef -Wswitch-enum $<$<CXX_COMPILER_ID:GNU>:-Wcast-align=strict>)
 if(FIRMTOUCH_WERROR)

@@ -8,14 +8,14 @@
 
 // From reset to main(): FPU, motors off, stack, data, constructors.
 
+int main();  // not extern "C": clang mangles it in freestanding code
+
 extern "C" {
 extern uint32_t __stack_top[];
 extern const uint32_t __vectors[];
 extern uint32_t __data_begin[], __data_end[], __data_load[];
 extern uint32_t __bss_begin[], __bss_end[];
 extern firmtouch::hal::Handler __init_array_begin[], __init_array_end[];
-
-int main();
 
 void hard_fault_handler();
 void servo_timer_handler();

@@ -1,7 +1,7 @@
 #include "firmtouch/hal/clock.hpp"
 
 #include "cortex-m/servo_timer.hpp"
-#include "cortex-m/work.hpp"
+#include "parts/work.hpp"
 #include "registers.hpp"
 
 // The system counter counts at the core's clock. Under -icount shift=6 an instruction is 2.048 of

@@ -1,6 +1,6 @@
 #include "firmtouch/hal/board.hpp"
 
-#include "cortex-m/asset_region.hpp"
+#include "parts/asset_region.hpp"
 #include "cortex-m/stack.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"

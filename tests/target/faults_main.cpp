@@ -39,10 +39,15 @@ void tick() {
 }
 
 [[noreturn, gnu::noinline]] void undefined() {
+#ifdef __riscv
+  asm volatile(".global undefined_here\nundefined_here: unimp");
+#else
   asm volatile(".global undefined_here\nundefined_here: udf #1");
+#endif
   __builtin_unreachable();
 }
 
+#ifdef __arm__
 // As a thread of an operating system, on a stack of its own.
 [[noreturn]] void undefined_in_thread() {
   static uint64_t stack[64];
@@ -51,6 +56,9 @@ void tick() {
       : "r0", "memory");
   undefined();
 }
+#else
+[[noreturn]] void undefined_in_thread() { undefined(); }
+#endif
 
 }  // namespace
 
@@ -99,7 +107,7 @@ int main() {
     case kExit:
       hal::board_exit(42);
     case kBus:
-      return static_cast<int>(*reinterpret_cast<volatile uint32_t*>(uintptr_t{0x00F00000}));
+      return static_cast<int>(*reinterpret_cast<volatile uint32_t*>(uintptr_t{0xF0000000}));
     case kUndefined:
       undefined();
     case kOverflow:
