@@ -16,7 +16,7 @@ constexpr uint32_t kMaxCuts = 96;
 
 /// Closest point of piece `segment`: Newton's method for a point, then halves of the piece, each
 /// within a stated distance of its chord, until none can be nearer by more than piece_slack_m().
-/// Bounds: kMaxCuts cuts of about 250 instructions, 0.8 KB of stack.
+/// Bounds: kMaxCuts cuts of about 250 instructions, 1.4 KB of stack.
 /// Result: doubt_m <= piece_slack_m() unless cuts ran out, as about the centre of an arc.
 PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment);
 
