@@ -1,6 +1,6 @@
 #pragma once
 // The search for the closest point of straight segments: the module's inner loop, for .cpp files of
-// this room only.
+// this module only.
 
 #include "firmtouch/curve/run_search.hpp"
 #include "firmtouch/curve/segment.hpp"
@@ -11,15 +11,15 @@ namespace firmtouch::curve {
 enum class Ascent : uint8_t { kSpent, kRun, kSafeSubtree };
 
 /// Keeps the closest point of the runs that it is offered.
-template <bool kCompensated>
 class NearestFoot {
  public:
-  NearestFoot(const View& curve, math::Vec3 p_m)
+  NearestFoot(const View& curve, math::Vec3 p_m, bool compensated)
       : samples_(curve.samples().data()),
         radii_(curve.radii().data()),
         levels_(curve.run_levels()),
         segment_count_(curve.segment_count()),
-        p_m_(p_m) {}
+        p_m_(p_m),
+        compensated_(compensated) {}
 
   const Foot& best() const { return best_; }
   float reach2_m2() const { return best_.distance2_m2; }
@@ -28,7 +28,7 @@ class NearestFoot {
   void begin_at_first() {
     const math::Vec3 from_m = p_m_ - vec(samples_[0]);
     best_.distance2_m2 = dot(from_m, from_m);
-    if constexpr (kCompensated)
+    if (compensated_)
       best_.distance2_m2 = compensated_distance2(p_m_, vec(samples_[0]), vec(samples_[0]), 0.0f);
     radius_m_ = math::square_root(best_.distance2_m2) * (1.0f + 0x1p-20f);
   }
@@ -257,11 +257,11 @@ class NearestFoot {
     math::Vec3 from_m = p_m_ - vec(samples_[first]);
     float from2_m2 = dot(from_m, from_m);
     for (uint32_t segment = first;; ++segment) {
-      if (!kCompensated && from2_m2 < best_.distance2_m2) take_sample(segment, from2_m2);
+      if (from2_m2 < best_.distance2_m2 && !compensated_) take_sample(segment, from2_m2);
       if (segment == end) return;
       const math::Vec3 next_m = p_m_ - vec(samples_[segment + 1]);
       const float next2_m2 = dot(next_m, next_m);
-      if (segment != but && (kCompensated || is_between(from_m, next_m, from2_m2, next2_m2)))
+      if (segment != but && (compensated_ || is_between(from_m, next_m, from2_m2, next2_m2)))
         (void)look_at(segment);
       from_m = next_m;
       from2_m2 = next2_m2;
@@ -293,7 +293,7 @@ class NearestFoot {
     if (!(t > 0.0f)) t = 0.0f;
     const math::Vec3 rest_m = is_back ? from_m + along_m * t : from_m - along_m * t;
     float distance2_m2 = dot(rest_m, rest_m);
-    if constexpr (kCompensated) {
+    if (compensated_) {
       if (!(distance2_m2 <= best_.distance2_m2 * (1.0f + 0x1p-16f))) return offset;
       distance2_m2 = is_back ? compensated_distance2(p_m_, b_m, a_m, t)
                              : compensated_distance2(p_m_, a_m, b_m, t);
@@ -314,6 +314,7 @@ class NearestFoot {
   uint32_t levels_;
   uint32_t segment_count_;
   math::Vec3 p_m_;
+  bool compensated_;
   float radius_m_ = 0x1p62f;  // more than any distance that comes here
   float others_m_ = 0x1p62f;
   bool is_second_ = false;
