@@ -35,6 +35,7 @@ struct RunBound {
     const float margin_m = curve.head().diagonal_m * 0x1p-5f;
     return is_far || near.key(curve.boxes()[0].side) >= near.prune_key(margin_m * margin_m);
   }
+  uint32_t key(const uint32_t* box) const { return is_far ? far_key(box) : near.key(box); }
   uint32_t prune_key(float distance2_m2) const {
     return is_far ? far.prune_key(distance2_m2) : near.prune_key(distance2_m2);
   }
@@ -45,6 +46,9 @@ struct RunBound {
   NearBound near;
   FarBound far;
   bool is_far;
+
+ private:
+  [[gnu::noinline]] uint32_t far_key(const uint32_t* box) const { return far.key(box); }
 };
 
 }  // namespace firmtouch::curve

@@ -56,7 +56,8 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& clos
 Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
                         query::Budget budget, Hint& hint) {
   const bool counts = is_penalty(penalty) && penalty.weight_m <= 0x1p60f;
-  if (counts && is_near(p_m)) return min_cost(curve, p_m, penalty, budget, hint);
+  if ((counts || curve.is_smooth()) && is_near(p_m))
+    return min_cost(curve, p_m, counts ? penalty : kNoPenalty, budget, hint);
   return nearest_point(curve, p_m, budget, hint);
 }
 

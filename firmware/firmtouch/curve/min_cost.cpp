@@ -84,15 +84,19 @@ class LeastCost {
  private:
   static constexpr uint32_t kMaxJumps = 8;
 
-  bool may_hold(uint32_t first, uint32_t last, uint16_t radius) const {
+  /// Beyond this distance the segments from `first` to `last` cost more than the best.
+  float reach_m(uint32_t first, uint32_t last) const {
     const float min_m =
         min_penalty_m(penalty_, curve_.arcs()[first], curve_.arcs()[last], curve_.is_closed());
-    const float room_m =
-        (cost_m_ - min_m) + (cost_m_ + min_m + penalty_.weight_m * 0.125f) * kSlack;
+    return (cost_m_ - min_m) + (cost_m_ + min_m + penalty_.weight_m * 0.125f) * kSlack;
+  }
+
+  bool may_hold(uint32_t first, uint32_t last, uint16_t radius) const {
+    const float room_m = reach_m(first, last);
     if (!(room_m > 0.0f)) return false;
     const float limit_m = room_m + radius_m_of(radius);
     const float distance2_m2 =
-        chord_distance2(p_m_, vec(curve_.samples()[first]), vec(curve_.samples()[last]));
+        line_distance2(p_m_ - curve_.sample(first), curve_.sample(last) - curve_.sample(first));
     return distance2_m2 < limit_m * limit_m;
   }
 
@@ -109,7 +113,7 @@ class LeastCost {
 
   Foot foot_on(uint32_t segment) {
     if (curve_.is_smooth()) {
-      const PieceFoot found = foot_on_piece(curve_, p_m_, segment);
+      const PieceFoot found = foot_on_piece(curve_, p_m_, segment, reach_m(segment, segment + 1));
       if (found.doubt_m > doubt_m_) doubt_m_ = found.doubt_m;
       return found.foot;
     }
@@ -150,8 +154,7 @@ Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty
   const uint32_t start = run_of(least.approach(from), curve.run_levels());
   Steps steps(budget);
   Traversal traversal{steps.allowed, false, 0.0f};
-  if (least.take(start, steps.left))
-    traversal = traverse_runs(curve, bound, steps, start, least);
+  if (least.take(start, steps.left)) traversal = traverse_runs(curve, bound, steps, start, least);
 
   Constraint found;
   found.closest = any_answer(curve, least.best());

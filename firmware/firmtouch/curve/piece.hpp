@@ -11,14 +11,18 @@ struct PieceFoot {
   float doubt_m;  // no point of the piece is nearer than the foot by more than this
 };
 
-/// Cuts of a piece that a query may look at.
-constexpr uint32_t kMaxCuts = 96;
+/// Halvings of a piece in a query.
+constexpr uint32_t kMaxCuts = 16;
 
-/// Closest point of piece `segment`: Newton's method for a point, then halves of the piece, each
-/// within a stated distance of its chord, until none can be nearer by more than piece_slack_m().
-/// Bounds: kMaxCuts cuts of about 250 instructions, 0.8 KB of stack.
-/// Result: doubt_m <= piece_slack_m() unless cuts ran out, as about the centre of an arc.
-PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment);
+/// Closest point of piece `segment`. The piece is halved until no cut can be nearer by more than
+/// piece_slack_m(). A cut is closed where no Bernstein coefficient of the squared distance is less
+/// than the best, as about the centre of an arc, or where the squared distance is convex: there
+/// Newton's method ends at its least value.
+/// Bounds: 2 kMaxCuts + 1 cuts of about 1,000 instructions.
+/// Result: doubt_m <= piece_slack_m() unless halvings ran out. No point that is nearer than
+///         `reach_m`: an end, perhaps.
+PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment,
+                        float reach_m = 0x1p62f);
 
 /// All but the certificate, for a foot on a piece.
 Closest answer_on_piece(const View& curve, const Foot& foot);
