@@ -81,34 +81,42 @@ Bounds bounds_of(const Cubic& c, Vec3 v, float chord_m, float t0, float size, Be
 // Newton's method from `t`, kept on the cut. Result: f where it ends, and half its derivative
 // there; 0 at an end of the cut beyond which f falls.
 struct End {
-  float distance2_m2, slope_m2;
+  float distance2_m2, slope_m2, speed2_m2;
 };
 End refine(const Cubic& c, Vec3 v, float t, float t0, float t1, Best& best) {
   for (uint32_t i = 0;; ++i) {
     Jet jet;
     jet_at(c, v, t, jet);
     const float distance2_m2 = dot(jet.off, jet.off), slope_m2 = dot(jet.off, jet.first);
+    const float speed2_m2 = dot(jet.first, jet.first);
     offer(distance2_m2, t, best);
-    const float bend_m2 = dot(jet.first, jet.first) + dot(jet.off, jet.second);
-    if (!(bend_m2 > 0.0f)) return {distance2_m2, slope_m2};
+    const float bend_m2 = speed2_m2 + dot(jet.off, jet.second);
+    if (!(bend_m2 > 0.0f)) return {distance2_m2, slope_m2, speed2_m2};
     const float next = t - slope_m2 / bend_m2;
     const float kept = next > t0 ? (next < t1 ? next : t1) : t0;
     if (!(kept < t) && !(kept > t)) {
       const bool leads_out = t > t0 ? t >= t1 && slope_m2 < 0.0f : slope_m2 > 0.0f;
-      return {distance2_m2, leads_out ? 0.0f : slope_m2};
+      return {distance2_m2, leads_out ? 0.0f : slope_m2, speed2_m2};
     }
-    if (i == kNewtonSteps) return {distance2_m2, slope_m2};
+    if (i == kNewtonSteps) return {distance2_m2, slope_m2, speed2_m2};
     t = kept;
   }
 }
 
 // Where half of f'' is at least `bend_m2`, f(t) - (f'(t) / 2)^2 / bend_m2 is its least value. The
-// slope loses 96 u of the chord times distance + chord.
-float convex_bound_m(const End& end, float chord_m, float size, float bend_m2) {
+// slope loses 96 u of the chord times distance + chord. Where the distance is small beside chord
+// and speed, and f bends by no less than a quarter of the speed, that is worth 27 u of the chord at
+// most, which piece_loss_m() holds.
+float convex_bound_m(const End& end, float chord_m, float bend_m2) {
   const float distance_m = math::square_root(end.distance2_m2);
-  const float slope_m2 = size_of(end.slope_m2) + 96.0f * kUnit * chord_m * (distance_m + chord_m);
-  const float over_m2 = slope_m2 * slope_m2 * size * size / bend_m2;
-  return math::square_root(greatest(end.distance2_m2 - over_m2, 0.0f));
+  float slope_m2 = size_of(end.slope_m2), share = 2.0f;
+  if (!(4.0f * bend_m2 >= end.speed2_m2 && bend_m2 >= 4.0f * end.distance2_m2 &&
+        chord_m >= 4.0f * distance_m)) {
+    slope_m2 += 96.0f * kUnit * chord_m * (distance_m + chord_m);
+    share = 1.0f;
+  }
+  return math::square_root(
+      greatest(end.distance2_m2 - share * slope_m2 * slope_m2 / bend_m2, 0.0f));
 }
 
 }  // namespace
@@ -136,7 +144,7 @@ PieceFoot foot_on_piece(const View& curve, Vec3 p_m, uint32_t segment, float rea
     float lower_m = math::square_root(greatest(bounds.min_m2, 0.0f));
     if (bounds.bend_m2 > 0.0f) {
       const End end = refine(c, v, bounds.t, t0, t0 + size, best);
-      lower_m = greatest(lower_m, convex_bound_m(end, chord_m, size, bounds.bend_m2));
+      lower_m = greatest(lower_m, convex_bound_m(end, chord_m, bounds.bend_m2 / (size * size)));
     }
     const float best_m = math::square_root(best.distance2_m2);
     const bool is_closed = lower_m >= best_m - piece_slack_m(curve.head(), best_m);

@@ -34,11 +34,11 @@ static inline Track track_of(const View& curve) {
   return {curve.samples().data(), curve.samples().size(), curve.is_closed()};
 }
 
-/// What a distance to a piece may be off by beside doubt_m, u = 2^-24: the difference of two places
-/// rounds by u d on each axis, and the sum of squares and its root by 3 u d more; Bezier points,
-/// halves of halves and polynomials move a point of the piece by at most 30 u of its length.
+/// What a distance to a piece may be off by beside doubt_m, u = 2^-24: the difference of two points
+/// rounds by u d on each axis, and the sum of squares and its root by 3 u d more; Bezier points and
+/// polynomials move a point of the piece by at most 16 u of its length, and a foot loses 38 u more.
 static inline float piece_loss_m(float distance_m, float half_m) {
-  return 0x1p-24f * (7.5f * distance_m + 64.0f * half_m) + 0x1p-58f;
+  return 0x1p-24f * (7.5f * distance_m + 128.0f * half_m) + 0x1p-58f;
 }
 
 /// How near the answer of a piece shall be: float32 knows no less of a far one.
