@@ -1,4 +1,3 @@
-  sources | grep -E '\.(cpp|hpp|h)$' | tr '\n' '\0' | xargs -0 awk -f "$here/functions.awk" || bad=1
 # The shape of the tree: the five folders, small files, POSIX scripts, nothing left for later, nothing of one machine.
 # Read by tests/check/run.
 
@@ -58,6 +57,7 @@ EOF
       if (name ~ /\.hpp$/ && !(name in once)) { print name ": no #pragma once at its head"; bad = 1 }
     }
     END { flush(); exit bad }' || bad=1
+  sources | grep -E '\.(cpp|hpp|h)$' | tr '\n' '\0' | xargs -0 awk -f "$here/functions.awk" || bad=1
   # Scripts are for any POSIX shell; .ci/run and whatever says bash is read by bash.
   for file in $(sources | grep -E '\.sh$|^tools/[a-z_]*$|^hal/[a-z_]*$|^tests/.*/[a-z_]*$|^\.ci/'); do
     case $(head -n 1 "$file" | tr -d '\0') in
