@@ -15,10 +15,6 @@
 namespace firmtouch::mesh {
 namespace {
 
-// Bound of an exact answer's error in distance and lower bound, relative to max(diagonal,
-// distance): a little inside of 4e-7.
-constexpr float kPromise = 3.9e-7f;
-
 // Below this distance, relative to the diagonal, either sign is right, and none is carried on.
 constexpr float kEitherSide = 2e-6f;
 
@@ -68,21 +64,59 @@ void weigh(Found& found, float lower_m, float rounding_m) {
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
 }
 
-// Measures the nearest triangle alone in double-float: usually float32 lost far less than its
-// bound.
-// Result: whether distance and lower bound are now within `within_m` of each other.
-bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
-  if (!found.search.complete) return false;
-  const Best& best = found.search.best;
-  const Triangle<uint32_t> t = mesh.triangle(best.triangle);
-  const Vec3 a_m = mesh.vertex(t.corner[0]), b_m = mesh.vertex(t.corner[1]),
-             c_m = mesh.vertex(t.corner[2]);
+float compensated_m(const View& mesh, Vec3 p_m, uint32_t triangle, Feature feature,
+                    float distance2_m2) {
+  const Triangle<uint32_t> t = mesh.triangle(triangle);
+  return math::square_root(nearest_compensated2(p_m, mesh.vertex(t.corner[0]),
+                                                mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]),
+                                                feature, distance2_m2));
+}
+
+// Puts into search.best the rival that is truly nearer than `distance_m`, the true distance of the
+// nearest so far, if there is one. Result: its true distance.
+[[gnu::noinline]] float settle_rivals(const View& mesh, Vec3 p_m, float distance_m,
+                                      Search& search) {
   const Loss loss(mesh.head());
-  const float distance_m = math::square_root(
-      loss.is_clear(best.distance2_m2) ? compensated_distance2(p_m, a_m, b_m, c_m, best.feature)
-                                       : compensated_distance2(p_m, a_m, b_m, c_m));
-  const float near_m = nearest_m(found.search);
-  weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
+  for (uint32_t i = 0; i < search.rivals.count; ++i) {
+    if (!loss.may_be_less(search.rivals.distance2_m2[i], distance_m * distance_m)) continue;
+    const uint32_t triangle = search.rivals.triangle[i];
+    const Triangle<uint32_t> t = mesh.triangle(triangle);
+    const Foot foot = closest_on_triangle(p_m, mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]),
+                                          mesh.vertex(t.corner[2]));
+    const float rival_m = compensated_m(mesh, p_m, triangle, foot.feature, foot.distance2_m2);
+    if (!(rival_m < distance_m)) continue;
+    distance_m = rival_m;
+    search.best.offset_m = foot.offset_m;
+    search.best.triangle = triangle;
+    search.best.feature = foot.feature;
+  }
+  return distance_m;
+}
+
+// Measures the nearest triangle, and its rivals, in double-float: usually float32 lost far less
+// than its bound.
+// Result: whether distance and lower bound are now within `within_m` of each other.
+[[gnu::noinline]] bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
+  if (!found.search.complete) return false;
+  Search& search = found.search;
+  const Loss loss(mesh.head());
+  const bool knows_rivals = mesh.has_rivals() && search.rivals.count <= Rivals::kMax;
+  const float near_m = nearest_m(search);
+  if (knows_rivals && search.rivals.count == 0) {
+    // What is no rival is no nearer than near_m: the loss of this triangle alone counts.
+    const Triangle<uint32_t> t = mesh.triangle(search.best.triangle);
+    const float own_m = loss.own_m(near_m, mesh.vertex(t.corner[1]) - mesh.vertex(t.corner[0]));
+    if (2.0f * (own_m + loss.rounding_m) <= within_m) {
+      weigh(found, near_m - (own_m + loss.rounding_m), loss.rounding_m);
+      return true;
+    }
+  }
+  float distance_m =
+      compensated_m(mesh, p_m, search.best.triangle, search.best.feature, search.best.distance2_m2);
+  if (knows_rivals) distance_m = settle_rivals(mesh, p_m, distance_m, search);
+  const float least_m = math::smaller(distance_m, near_m);
+  const float lost_m = knows_rivals ? loss.compensated_m(least_m) : loss.plain_m(near_m);
+  weigh(found, less_m(knows_rivals ? least_m : near_m, lost_m + loss.rounding_m), loss.rounding_m);
   const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
   if (!(max_m - found.lower_m <= within_m)) return false;
   found.distance_m = distance_m;
@@ -91,35 +125,32 @@ bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
 
 // If that is not enough: searches again in double-float, from the nearest leaf.
 template <class Finder, class Bound>
-void search_again(const View& mesh, const Finder& finder, const Bound& bound, Vec3 p_m,
-                  uint32_t budget, Found& found) {
+[[gnu::noinline]] void search_again(const View& mesh, const Finder& finder, const Bound& bound,
+                                    Vec3 p_m, uint32_t budget, Found& found) {
   const Loss loss(mesh.head());
-  if (found.search.complete && budget > found.search.steps) {
-    Found again{};
+  Search& search = found.search;
+  const uint32_t steps = search.steps;
+  if (search.complete && budget > steps) {
+    const Best best = search.best;
     // The nearest triangle is no farther than this: in its leaf only near ties are measured again.
     const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
-    again.search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
-    again.search.band2_m2 = found.search.band2_m2;
-    again.search.safe_subtree = found.search.safe_subtree;
-    again.search.safe_subtree_m = found.search.safe_subtree_m;
-    again.search.safe_subtree_margin_m = found.search.safe_subtree_margin_m;
-    again.search.p_m = p_m;
-    again.search.start = found.search.best.slot;
-    again.search.budget = budget - found.search.steps;
-    finder.template find<true>(bound, again.search);
-    again.search.steps += found.search.steps;
-    if (again.search.complete) {
-      found = again;
-      const float near_m = nearest_m(found.search);
+    search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
+    search.start = best.slot;
+    search.best.slot = query::kNowhere;
+    search.budget = budget - steps;
+    finder.template find<true>(bound, search);
+    search.steps += steps;
+    if (search.complete) {
+      const float near_m = nearest_m(search);
       const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
       return weigh(found, lower_m, loss.rounding_m);
     }
-    found.search.steps = again.search.steps;
+    search.best = best;
   }
   // No budget left for it: return the true distance of the triangle that was found.
-  found.search.complete = false;
-  if (found.search.best.slot == query::kNowhere) return;
-  const Triangle<uint32_t> t = mesh.triangle(found.search.best.triangle);
+  search.complete = false;
+  if (search.best.slot == query::kNowhere) return;
+  const Triangle<uint32_t> t = mesh.triangle(search.best.triangle);
   const float distance2_m2 = compensated_distance2(
       p_m, mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
   found.distance_m = math::square_root(distance2_m2);
