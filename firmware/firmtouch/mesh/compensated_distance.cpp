@@ -71,11 +71,14 @@ constexpr Wide kZero{0, 0}, kOne{1, 0};
 inline Wide less(Wide a, Wide b, float times) {
   const float p = b.high * times;
   const Wide s = sum(a.high, -p);
-  return ordered_sum(s.high,
-                     s.low + (a.low - (math::product_error(b.high, times, p) + b.low * times)));
+  return {s.high, s.low + (a.low - (math::product_error(b.high, times, p) + b.low * times))};
 }
 inline Wide3 less(const Wide3& a, const Wide3& b, float times) {
   return {less(a.x, b.x, times), less(a.y, b.y, times), less(a.z, b.z, times)};
+}
+inline Wide3 ordered(const Wide3& a) {
+  return {ordered_sum(a.x.high, a.x.low), ordered_sum(a.y.high, a.y.low),
+          ordered_sum(a.z.high, a.z.low)};
 }
 // a - b * times, for a small second part.
 inline Wide3 corrected(const Wide3& a, Vec3 b, float times) {
@@ -108,34 +111,49 @@ float share(float t) { return t > 0.0f ? t < 1.0f ? t : 1.0f : 0.0f; }
   const Vec3 ab = b - a;
   const float per_ab2 = 1.0f / math::dot(ab, ab);
   const float t = share(math::dot(ab, p - a) * per_ab2);
-  const Wide3 offset = less(difference(p, a), difference(b, a), t);
+  const Wide3 offset = ordered(less(difference(p, a), difference(b, a), t));
   const float further = share(t + math::dot(ab, rounded(offset)) * per_ab2) - t;
   return square(corrected(offset, ab, further));
 }
 
-// The same on the plane, with the names of mesh/triangle.hpp. Result: below 0 if the foot is not
-// within the triangle.
-[[gnu::noinline]] float face_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+// The same on the plane, with the names of mesh/triangle.hpp. `is_clear`: the foot is within the
+// triangle.
+constexpr float kOutside = -1.0f, kNeedle = -2.0f;
+[[gnu::noinline]] float face_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, bool is_clear) {
   const OfCorners shape{a, b, c};
   const Vec3 ab = shape.ab(), ap = p - a;
   const float per_ab2 = OfCorners::per_ab2(ab), xc = shape.xc(ab, per_ab2);
   const Vec3 h = shape.h(ab, xc);
-  const float per_h2 = 1.0f / OfCorners::h2(h);
-  const float x = math::dot(ab, ap) * per_ab2;
-  const float w = math::dot(ap - ab * x, h) * per_h2, v = x - w * xc;
-  const Wide3 offset = less(less(difference(p, a), difference(b, a), v), difference(c, a), w);
+  const float h2 = OfCorners::h2(h), x = math::dot(ab, ap) * per_ab2;
+  const float w = math::dot(ap - ab * x, h) / h2, v = x - w * xc;
+  const Wide3 offset =
+      ordered(less(less(difference(p, a), difference(b, a), v), difference(c, a), w));
+  if (is_clear) return square(offset);
+  if (!(h2 * per_ab2 > 0x1p-26f)) return kNeedle;  // h is little more than rounding
   const float dx = math::dot(ab, rounded(offset)) * per_ab2;
-  const float dw = math::dot(h, rounded(offset)) * per_h2, dv = dx - dw * xc;
-  if (!(w + dw >= 0.0f && v + dv >= 0.0f && ((1.0f - w) - v) - (dw + dv) >= 0.0f)) return -1.0f;
+  const float dw = math::dot(h, rounded(offset)) / h2, dv = dx - dw * xc;
+  if (!(w + dw >= 0.0f && v + dv >= 0.0f && ((1.0f - w) - v) - (dw + dv) >= 0.0f)) return kOutside;
   return square(corrected(corrected(offset, ab, dx), h, dw));
 }
 
-// The height vector decides nothing where it is little more than rounding.
-bool is_needle(Vec3 a, Vec3 b, Vec3 c) {
-  const OfCorners shape{a, b, c};
-  const Vec3 ab = shape.ab();
-  const Vec3 h = shape.h(ab, shape.xc(ab, OfCorners::per_ab2(ab)));
-  return !(math::dot(h, h) > math::dot(ab, ab) * 0x1p-26f);
+float feature_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature) {
+  switch (feature) {
+    case Feature::kEdge0:
+      return edge_distance2(p, a, b);
+    case Feature::kEdge1:
+      return edge_distance2(p, b, c);
+    case Feature::kEdge2:
+      return edge_distance2(p, c, a);
+    case Feature::kVertex0:
+      return corner_distance2(p, a);
+    case Feature::kVertex1:
+      return corner_distance2(p, b);
+    case Feature::kVertex2:
+      return corner_distance2(p, c);
+    case Feature::kFace:
+      break;
+  }
+  return face_distance2(p, a, b, c, true);
 }
 
 }  // namespace
@@ -163,31 +181,12 @@ float compensated_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
 }
 
 float nearest_compensated2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature, float distance2_m2) {
-  if (is_needle(a, b, c)) return compensated_distance2(p, a, b, c);
-  if (feature == Feature::kFace) {
-    const float face2 = face_distance2(p, a, b, c);
-    if (face2 >= 0.0f) return face2;
-  } else if (is_feature_clear(distance2_m2, b - a)) {
-    switch (feature) {
-      case Feature::kEdge0:
-        return edge_distance2(p, a, b);
-      case Feature::kEdge1:
-        return edge_distance2(p, b, c);
-      case Feature::kEdge2:
-        return edge_distance2(p, c, a);
-      case Feature::kVertex0:
-        return corner_distance2(p, a);
-      case Feature::kVertex1:
-        return corner_distance2(p, b);
-      default:
-        return corner_distance2(p, c);
-    }
-  }
-  float least = edge_distance2(p, a, b);
-  least = math::smaller(edge_distance2(p, b, c), least);
-  least = math::smaller(edge_distance2(p, c, a), least);
-  const float face2 = feature == Feature::kFace ? -1.0f : face_distance2(p, a, b, c);
-  return face2 >= 0.0f ? math::smaller(face2, least) : least;
+  if (is_feature_clear(distance2_m2, b - a)) return feature_distance2(p, a, b, c, feature);
+  const float face2 = face_distance2(p, a, b, c, false);
+  if (face2 >= 0.0f) return face2;
+  if (face2 <= kNeedle) return compensated_distance2(p, a, b, c);
+  const float least = math::smaller(edge_distance2(p, a, b), edge_distance2(p, b, c));
+  return math::smaller(edge_distance2(p, c, a), least);
 }
 
 }  // namespace firmtouch::mesh

@@ -31,8 +31,8 @@ struct Best {
 /// nothing but the leaves that are read and their order.
 struct Rivals {
   static constexpr uint32_t kMax = 4;
-  uint32_t count;  // more than kMax: some are not known
-  uint32_t triangle[kMax];
+  uint32_t count;            // more than kMax: some are not known
+  uint32_t foot[kMax];       // feature << 24 | triangle
   float distance2_m2[kMax];  // as computed
   float slack_m2;
 
@@ -40,13 +40,15 @@ struct Rivals {
   // 6 u d)^2 <= d^2 (1 + 2^-12) + l^2 (2^12 + 2), and l^2 2^12 < 2^-26.3 L^2.
   static float slack_of(float longest_edge_m) { return longest_edge_m * longest_edge_m * 0x1p-26f; }
   float limit2_m2(float min2_m2) const { return min2_m2 * (1.0f + 0x1p-12f) + slack_m2; }
-  void add(uint32_t index, float distance2) {
+  void add(uint32_t triangle, Feature feature, float distance2) {
     if (count < kMax) {
-      triangle[count] = index;
+      foot[count] = static_cast<uint32_t>(feature) << 24 | triangle;
       distance2_m2[count] = distance2;
     }
     ++count;
   }
+  uint32_t triangle(uint32_t i) const { return foot[i] & 0xFFFFFFu; }
+  Feature feature(uint32_t i) const { return static_cast<Feature>(foot[i] >> 24); }
 };
 
 // Pre: `stride` is that of vertices.
@@ -168,14 +170,14 @@ static inline bool take_foot(const Foot& foot, math::Vec3 ab_m, uint32_t triangl
     const bool is_shared = is_vertex(foot.feature) && is_vertex(best.feature) &&
                            is_same(foot.offset_m, best.offset_m) &&
                            is_feature_clear(foot.distance2_m2, ab_m);
-    if (!is_shared) rivals.add(triangle, foot.distance2_m2);
+    if (!is_shared) rivals.add(triangle, foot.feature, foot.distance2_m2);
     return false;
   }
   // Rivals of the last nearest are farther than it.
   if (!(best.distance2_m2 < rivals.limit2_m2(foot.distance2_m2)))
     rivals.count = 0;
   else
-    rivals.add(best.triangle, best.distance2_m2);
+    rivals.add(best.triangle, best.feature, best.distance2_m2);
   best.distance2_m2 = foot.distance2_m2;
   best.offset_m = foot.offset_m;
   best.triangle = triangle;

@@ -40,11 +40,13 @@ struct Loss {
   float reported_m(float distance_m) const {
     return 0x1p-24f * (6.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
-  /// reported_m() of a triangle whose longest edge is `ab_m`. Where the distance is more than 2^-10
-  /// of it, the shift in the plane adds less than u L / 8, and 8.9 u L are left.
-  float own_m(float distance_m, math::Vec3 ab_m) const {
+  /// reported_m() of a triangle whose longest edge is `ab_m`, at a feature. Where the distance is
+  /// more than 2^-10 of the edge, the shift in the plane adds less than u L / 8. Of 8.8 u L above,
+  /// 3 are left at an edge, and none at a corner.
+  float own_m(float distance_m, math::Vec3 ab_m, bool is_face) const {
     const float ab2_m2 = ab_m.x * ab_m.x + ab_m.y * ab_m.y + ab_m.z * ab_m.z;
-    const float edges = distance_m * distance_m > ab2_m2 * 0x1p-20f ? 9.0f : 28.0f;
+    const bool is_clear = distance_m * distance_m > ab2_m2 * 0x1p-20f;
+    const float edges = is_clear ? is_face ? 9.0f : 3.2f : 28.0f;
     return 0x1p-24f * (6.7f * distance_m + edges * math::square_root(ab2_m2)) + kVanishing_m;
   }
   /// Of compensated_distance2() and its root: one rounding each, the first halved by the root.

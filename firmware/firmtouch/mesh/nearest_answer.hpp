@@ -64,59 +64,91 @@ void weigh(Found& found, float lower_m, float rounding_m) {
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
 }
 
-float compensated_m(const View& mesh, Vec3 p_m, uint32_t triangle, Feature feature,
-                    float distance2_m2) {
-  const Triangle<uint32_t> t = mesh.triangle(triangle);
-  return math::square_root(nearest_compensated2(p_m, mesh.vertex(t.corner[0]),
-                                                mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]),
-                                                feature, distance2_m2));
+struct Corners {
+  Triangle<uint32_t> index;
+  Vec3 a_m, b_m, c_m;
+
+  Corners(const View& mesh, uint32_t triangle)
+      : index(mesh.triangle(triangle)),
+        a_m(mesh.vertex(index.corner[0])),
+        b_m(mesh.vertex(index.corner[1])),
+        c_m(mesh.vertex(index.corner[2])) {}
+  float compensated_m(Vec3 p_m, Feature feature, float distance2_m2) const {
+    return math::square_root(nearest_compensated2(p_m, a_m, b_m, c_m, feature, distance2_m2));
+  }
+  uint32_t first_of(Feature edge) const { return index.corner[static_cast<uint32_t>(edge) - 1u]; }
+  uint32_t second_of(Feature edge) const {
+    return edge == Feature::kEdge2 ? index.corner[0] : index.corner[static_cast<uint32_t>(edge)];
+  }
+};
+
+// Whether a rival only shares the nearest edge. Pre: features are clear.
+bool is_same_edge(const Corners& one, Feature feature, const Corners& other, Feature of_other) {
+  return is_edge(feature) && is_edge(of_other) &&
+         one.first_of(feature) == other.second_of(of_other) &&
+         one.second_of(feature) == other.first_of(of_other);
 }
 
-// Puts into search.best the rival that is truly nearer than `distance_m`, the true distance of the
-// nearest so far, if there is one. Result: its true distance.
-[[gnu::noinline]] float settle_rivals(const View& mesh, Vec3 p_m, float distance_m,
-                                      Search& search) {
+// Measures the nearest triangle of `search`, and its rivals, in double-float, and puts into
+// search.best which of them is truly the nearest. Result: its distance.
+[[gnu::noinline]] float settle(const View& mesh, Vec3 p_m, Search& search) {
   const Loss loss(mesh.head());
+  Best& best = search.best;
+  const Corners corners(mesh, best.triangle);
+  float distance_m = corners.compensated_m(p_m, best.feature, best.distance2_m2);
   for (uint32_t i = 0; i < search.rivals.count; ++i) {
     if (!loss.may_be_less(search.rivals.distance2_m2[i], distance_m * distance_m)) continue;
-    const uint32_t triangle = search.rivals.triangle[i];
-    const Triangle<uint32_t> t = mesh.triangle(triangle);
-    const Foot foot = closest_on_triangle(p_m, mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]),
-                                          mesh.vertex(t.corner[2]));
-    const float rival_m = compensated_m(mesh, p_m, triangle, foot.feature, foot.distance2_m2);
+    const uint32_t triangle = search.rivals.triangle(i);
+    const Corners rival(mesh, triangle);
+    const float rival_m =
+        rival.compensated_m(p_m, search.rivals.feature(i), search.rivals.distance2_m2[i]);
     if (!(rival_m < distance_m)) continue;
     distance_m = rival_m;
-    search.best.offset_m = foot.offset_m;
-    search.best.triangle = triangle;
-    search.best.feature = foot.feature;
+    best.offset_m = closest_on_triangle(p_m, rival.a_m, rival.b_m, rival.c_m).offset_m;
+    best.triangle = triangle;
+    best.feature = search.rivals.feature(i);
   }
   return distance_m;
 }
 
-// Measures the nearest triangle, and its rivals, in double-float: usually float32 lost far less
-// than its bound.
+// Whether no triangle but those at the nearest feature can be as near as the nearest.
+bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const Search& search) {
+  const float clear2_m2 = loss.longest_edge_m * loss.longest_edge_m * 0x1p-20f;
+  for (uint32_t i = 0; i < search.rivals.count; ++i)
+    if (!(search.best.distance2_m2 > clear2_m2) ||
+        !is_same_edge(corners, search.best.feature, Corners(mesh, search.rivals.triangle(i)),
+                      search.rivals.feature(i)))
+      return false;
+  return true;
+}
+
+// Measures again what float32 may have lost: usually it is far less than its bound.
 // Result: whether distance and lower bound are now within `within_m` of each other.
 [[gnu::noinline]] bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
-  if (!found.search.complete) return false;
   Search& search = found.search;
+  if (!search.complete) return false;
   const Loss loss(mesh.head());
-  const bool knows_rivals = mesh.has_rivals() && search.rivals.count <= Rivals::kMax;
   const float near_m = nearest_m(search);
-  if (knows_rivals && search.rivals.count == 0) {
-    // What is no rival is no nearer than near_m: the loss of this triangle alone counts.
-    const Triangle<uint32_t> t = mesh.triangle(search.best.triangle);
-    const float own_m = loss.own_m(near_m, mesh.vertex(t.corner[1]) - mesh.vertex(t.corner[0]));
-    if (2.0f * (own_m + loss.rounding_m) <= within_m) {
-      weigh(found, near_m - (own_m + loss.rounding_m), loss.rounding_m);
-      return true;
-    }
+  if (!mesh.has_rivals() || search.rivals.count > Rivals::kMax) {
+    search.rivals.count = 0;
+    const float distance_m = settle(mesh, p_m, search);
+    weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
+    const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
+    if (!(max_m - found.lower_m <= within_m)) return false;
+    found.distance_m = distance_m;
+    return true;
   }
-  float distance_m =
-      compensated_m(mesh, p_m, search.best.triangle, search.best.feature, search.best.distance2_m2);
-  if (knows_rivals) distance_m = settle_rivals(mesh, p_m, distance_m, search);
+  // What is no rival is no nearer than near_m: the loss of this triangle alone counts.
+  const Corners corners(mesh, search.best.triangle);
+  const float own_m =
+      loss.own_m(near_m, corners.b_m - corners.a_m, search.best.feature == Feature::kFace);
+  if (2.0f * (own_m + loss.rounding_m) <= within_m && is_alone(mesh, loss, corners, search)) {
+    weigh(found, near_m - (own_m + loss.rounding_m), loss.rounding_m);
+    return true;
+  }
+  const float distance_m = settle(mesh, p_m, search);
   const float least_m = math::smaller(distance_m, near_m);
-  const float lost_m = knows_rivals ? loss.compensated_m(least_m) : loss.plain_m(near_m);
-  weigh(found, less_m(knows_rivals ? least_m : near_m, lost_m + loss.rounding_m), loss.rounding_m);
+  weigh(found, less_m(least_m, loss.compensated_m(least_m) + loss.rounding_m), loss.rounding_m);
   const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
   if (!(max_m - found.lower_m <= within_m)) return false;
   found.distance_m = distance_m;
