@@ -15,6 +15,7 @@ using portable::load_kept;
 using portable::next_of;
 using portable::only_here;
 using portable::oriented_distance2;
+using portable::product_error;
 using portable::push_pair;
 using portable::saturated;
 using portable::smaller;
