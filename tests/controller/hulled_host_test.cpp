@@ -29,7 +29,7 @@ const Asset& hulled() {
 void fill_short(Ride& ride, uint32_t tick, float steps) {
   ride.fill(tick);
   if (tick != 0) return;
-  ride.input.command = 1 + params::kMeshSteps;
+  ride.input.command = 1 + params::kMeshWork;
   ride.input.command_value = steps;
 }
 

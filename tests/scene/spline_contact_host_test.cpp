@@ -107,7 +107,7 @@ TEST(AnUnknownSideOfASplineIsNeverPushedOn) {
   const Surface surface = torus();
   for (uint32_t steps = 1; steps < 60; ++steps) {
     Rig rig(surface, true);
-    rig.budget.steps = steps;
+    rig.budget.work = steps;
     for (int i = 0; i < 30; ++i) {
       rig.touch.hint = {};
       const double off = 0.004 * std::sin(1.0 + i);

@@ -65,7 +65,7 @@ Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget bud
                 Following& following) {
   Followed followed;
   const ArcPenalty penalty{hold.weight_m, following.arc, following.is_following};
-  const query::Budget first{budget.steps > 1 ? budget.steps - 1 : 1, budget.band_m};
+  const query::Budget first{budget.work > 1 ? budget.work - 1 : 1, budget.band_m};
   followed.constraint = guided_point(curve, p_m, penalty, first, following.hint);
   followed.closest = followed.constraint.closest;
   if (is_penalty(penalty)) slide(curve, p_m, penalty, followed.closest, following.hint);
@@ -73,7 +73,7 @@ Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget bud
   followed.is_new = !following.is_following;
   if (!followed.is_held && following.is_following) {
     const uint32_t steps = followed.closest.certificate.steps;
-    const query::Budget rest{budget.steps > steps ? budget.steps - steps : 1, budget.band_m};
+    const query::Budget rest{budget.work > steps ? budget.work - steps : 1, budget.band_m};
     followed.constraint = guided_point(curve, p_m, {}, rest, following.hint);
     followed.closest = followed.constraint.closest;
     followed.closest.certificate.steps += steps;

@@ -129,7 +129,7 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
     return {far, far.distance_m, 0};
   }
   NearestSamples nearest(memory);
-  TreeSearch<NearestSamples> search(curve, p_m, budget.steps, nearest);
+  TreeSearch<NearestSamples> search(curve, p_m, budget.work, nearest);
   const bool complete = search.run();
   const float farthest_m = nearest.is_full() ? math::square_root(nearest[0].distance2_m2) : FLT_MAX;
   nearest.sort_by_sample();

@@ -19,7 +19,7 @@ constexpr uint32_t kVisitSegments = 64;
 /// traversal starts, is one.
 struct Steps {
   explicit Steps(query::Budget budget)
-      : allowed(budget.steps == 0 ? 1 : budget.steps), left(allowed - 1) {}
+      : allowed(budget.work == 0 ? 1 : budget.work), left(allowed - 1) {}
   uint32_t allowed, left;
 };
 

@@ -111,11 +111,10 @@ struct Faces {
 };
 
 template <class Taker>
-bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget, uint32_t& steps,
-            Taker& taker) {
+bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Work& work, Taker& taker) {
   const BaseHullSegment segment(base_hull, a_m, b_m);
   Faces<Taker> faces(base_hull, segment, a_m, b_m, taker);
-  return descend(base_hull, segment, budget, steps, faces);
+  return descend(base_hull, segment, work, faces);
 }
 
 }  // namespace
@@ -123,20 +122,19 @@ bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget,
 BaseHullHit cast_base_hull(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget) {
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
   First first(a_m, b_m);
-  uint32_t steps = 0;
-  const bool is_done = search(base_hull, a_m, b_m, budget, steps, first);
+  query::Work work(budget);
+  const bool is_done = search(base_hull, a_m, b_m, work, first);
   BaseHullHit hit = first.hit;
   if (!is_done) {
     hit.hit = true;
     hit.t = 0.0f;
   }
   hit.exact = is_done && (hit.exact || !hit.hit);
-  hit.steps = steps;
+  hit.steps = work.visits();
   return hit;
 }
 
-bool wind_around(const BaseHull& base_hull, Vec3 p_m, query::Budget budget, int32_t& winding,
-                 uint32_t& steps) {
+bool wind_around(const BaseHull& base_hull, Vec3 p_m, query::Work& work, int32_t& winding) {
   winding = 0;
   if (!math::is_finite(p_m)) return false;
   const BaseHullHead& head = base_hull.head();
@@ -147,7 +145,7 @@ bool wind_around(const BaseHull& base_hull, Vec3 p_m, query::Budget budget, int3
   const bool is_beyond = p_m.x < head.low_m[0] || p_m.x > head.high_m[0];
   if (is_beyond) return true;
   Turns turns;
-  const bool is_done = search(base_hull, p_m, {out, p_m.y, p_m.z}, budget, steps, turns);
+  const bool is_done = search(base_hull, p_m, {out, p_m.y, p_m.z}, work, turns);
   winding = is_done ? turns.sum : 0;
   return is_done;
 }

@@ -90,11 +90,14 @@ BaseHullDistance base_hull_distance(const BaseHull& base_hull, Vec3 p_m, query::
   result.point_m = vertex(base_hull, 0);
   if (!math::is_finite(p_m)) return result;
   int32_t winding = 0;
-  if (wind_around(base_hull, p_m, budget, winding, result.steps))
+  query::Work work(budget);
+  if (wind_around(base_hull, p_m, work, winding))
     result.side = winding == 0 ? BaseHullSide::kOutside : BaseHullSide::kInside;
   Nearest nearest{base_hull, p_m, result.point_m};
   const query::Descent<float> end =
-      descend<false>(base_hull.boxes(), box_of(head), Around{p_m}, budget, result.steps, nearest);
+      descend<false>(base_hull.boxes(), box_of(head), Around{p_m}, work, nearest);
+  result.steps = work.visits();
+  result.work = work.used();
   const float rest2 = end.is_done ? FLT_MAX : end.pending;
   const bool is_far = !(nearest.distance2_m2 < FLT_MAX);
   result.exact = rest2 >= nearest.distance2_m2 && !is_far;

@@ -146,6 +146,7 @@ struct BaseHullSearch {
     int32_t key;
     uint32_t index;
   };
+  static constexpr uint32_t kLeafWork = kLeafFaces;
   const BaseHull& base_hull;
   const BaseHullSegment& segment;
   Visitor& visitor;
@@ -172,12 +173,12 @@ struct BaseHullSearch {
 
 /// Result: whether the search came to its end within the budget.
 template <class Visitor>
-bool descend(const BaseHull& base_hull, const BaseHullSegment& segment, query::Budget budget,
-             uint32_t& steps, Visitor& visitor) {
+bool descend(const BaseHull& base_hull, const BaseHullSegment& segment, query::Work& work,
+             Visitor& visitor) {
   if (segment.misses()) return true;
   BaseHullSearch<Visitor> search{base_hull, segment, visitor, base_hull.boxes().data(),
                                  FilledTree(base_hull.boxes().size())};
-  return query::descend<kMaxTreeDepth>(search, query::visits_of(budget), steps).is_done;
+  return query::descend<kMaxTreeDepth>(search, work).is_done;
 }
 
 }  // namespace firmtouch::hull

@@ -89,6 +89,7 @@ struct BoxSearch {
     uint32_t index;
     Box box;
   };
+  static constexpr uint32_t kLeafWork = kLeafFaces;
   const NodeBox* boxes;
   const Box& whole;
   const Region& region;
@@ -117,11 +118,10 @@ struct BoxSearch {
 
 template <bool kNested, class Region, class Visitor>
 query::Descent<float> descend(core::Span<const NodeBox> boxes, const Box& whole,
-                              const Region& region, query::Budget budget, uint32_t& steps,
-                              Visitor& visitor) {
+                              const Region& region, query::Work& work, Visitor& visitor) {
   BoxSearch<kNested, Region, Visitor> search{boxes.data(), whole, region, visitor,
                                              FilledTree(boxes.size())};
-  return query::descend<kMaxTreeDepth>(search, query::visits_of(budget), steps);
+  return query::descend<kMaxTreeDepth>(search, work);
 }
 
 }  // namespace firmtouch::hull

@@ -40,11 +40,13 @@ class Leaves {
 template <class Taker>
 bool search(const View& hull, Vec3 a_m, Vec3 b_m, query::Budget budget, Taker& taker,
             uint32_t& steps) {
+  query::Work work(budget);
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return false;
   Leaves<Taker> leaves(hull, a_m, b_m, taker);
-  return descend<true>(hull.boxes(), box_of(hull.mesh_head()), Slabs(a_m, b_m), budget, steps,
-                       leaves)
-      .is_done;
+  const bool is_done =
+      descend<true>(hull.boxes(), box_of(hull.mesh_head()), Slabs(a_m, b_m), work, leaves).is_done;
+  steps = work.visits();
+  return is_done;
 }
 
 }  // namespace

@@ -37,11 +37,10 @@ class SegmentQuery {
     return frame_.crossing(face.p_m, face.q_m, face.r_m);
   }
   template <class Face>
-  bool base_hull_faces(const BaseHull& base_hull, float limit, query::Budget budget,
-                       uint32_t& steps, Face face) const {
+  bool base_hull_faces(const BaseHull& base_hull, float limit, query::Work& work, Face face) const {
     const BaseHullSegment segment(base_hull, a_m_, b_m_);
     Faces<Face> faces{segment.until(limit), face};
-    return descend(base_hull, segment, budget, steps, faces);
+    return descend(base_hull, segment, work, faces);
   }
 
  private:
@@ -69,13 +68,11 @@ class TriangleQuery {
     return {region_.crosses(face) ? int8_t{1} : int8_t{0}, 0.0f};
   }
   template <class Face>
-  bool base_hull_faces(const BaseHull& base_hull, float, query::Budget budget, uint32_t& steps,
-                       Face face) const {
-    return faces_near(base_hull, region_, budget, steps,
-                      [&](const BaseHull::Leaf& leaf, uint32_t n) {
-                        face(leaf.first_face + n);
-                        return true;
-                      });
+  bool base_hull_faces(const BaseHull& base_hull, float, query::Work& work, Face face) const {
+    return faces_near(base_hull, region_, work, [&](const BaseHull::Leaf& leaf, uint32_t n) {
+      face(leaf.first_face + n);
+      return true;
+    });
   }
 
  private:
@@ -89,17 +86,17 @@ template <class Shape>
 class Refinement::Search {
  public:
   float limit = 1;
-  uint32_t steps = 0, tests = 0;
+  uint32_t tests = 0;
 
   Search(Refinement& of, const Shape& shape, query::Budget budget)
-      : of_(of), shape_(shape), budget_(budget) {}
+      : of_(of), shape_(shape), work_(budget) {}
 
-  bool has_steps() const { return steps < query::visits_of(budget_); }
+  const query::Work& work() const { return work_; }
 
   /// Faces of the base hull. Result: false if the budget ran out.
   template <class Use>
   bool base_hull(Use use) {
-    return shape_.base_hull_faces(of_.base_hull_, limit, budget_, steps,
+    return shape_.base_hull_faces(of_.base_hull_, limit, work_,
                                   [&](uint32_t face) { base_hull_face(face, use); });
   }
 
@@ -107,7 +104,7 @@ class Refinement::Search {
   template <class Use>
   void star(uint32_t collapse, Use use) {
     const View& hull = of_.hull_;
-    ++steps;
+    (void)work_.visit();
     const Vec3 about_m = made_vertex(hull, collapse);
     const Box box = star_box_m(about_m, hull.head().cell_m, hull.star_box(collapse));
     if (!(shape_.enter(box, limit) <= limit)) return;
@@ -171,7 +168,7 @@ class Refinement::Search {
 
   Refinement& of_;
   const Shape& shape_;
-  query::Budget budget_;
+  query::Work work_;
 };
 
 Refinement::Refinement(const View& hull, const BaseHull& base_hull, const RefinementMemory& memory)
@@ -267,7 +264,7 @@ RefinedHit Refinement::nearest(const Shape& shape, query::Budget budget, bool is
     }
     if (is_split(index)) continue;
     const uint32_t before = count_;
-    if (!search.has_steps() || !split(index)) {
+    if (search.work().left == 0 || !split(index)) {
       if (!hit.hit) report(now);
       hit.exact = false;
       break;
@@ -278,7 +275,7 @@ RefinedHit Refinement::nearest(const Shape& shape, query::Budget budget, bool is
     if (!hit.hit) report({queue.horizon, kEnters});
     hit.exact = false;
   }
-  hit.steps = search.steps;
+  hit.steps = search.work().visits();
   hit.tests = search.tests;
   hit.splits = count_;
   reset();
@@ -305,7 +302,7 @@ RefinedCrossings Refinement::every(const Shape& shape, query::Budget budget,
   };
   result.exact = search.base_hull(use);
   for (uint32_t at = 0; at < count_; ++at) {
-    if (!search.has_steps()) {
+    if (search.work().left == 0) {
       result.exact = false;
       break;
     }
@@ -314,7 +311,7 @@ RefinedCrossings Refinement::every(const Shape& shape, query::Budget budget,
   result.exact = result.exact && fits;
   result.found = all.crossings.found;
   result.reported = all.crossings.reported;
-  result.steps = search.steps;
+  result.steps = search.work().visits();
   result.tests = search.tests;
   result.splits = count_;
   reset();

@@ -27,8 +27,11 @@ bool search(const View& hull, const Vec3 (&corner_m)[3], query::Budget budget, u
   if (!is_finite(corner_m)) return false;
   const TriangleRegion region(box_of(hull.mesh_head()), corner_m);
   Leaves<Take> leaves{hull, region, take};
-  return descend<true>(hull.boxes(), box_of(hull.mesh_head()), region, budget, steps, leaves)
-      .is_done;
+  query::Work work(budget);
+  const bool is_done =
+      descend<true>(hull.boxes(), box_of(hull.mesh_head()), region, work, leaves).is_done;
+  steps = work.visits();
+  return is_done;
 }
 
 }  // namespace
@@ -69,16 +72,18 @@ TriangleHit base_hull_crossed(const BaseHull& base_hull, const Vec3 (&corner_m)[
   if (!is_finite(corner_m)) return hit;
   const TriangleRegion region(box_of(base_hull.head()), corner_m);
   int32_t winding = 0;
-  hit.exact = wind_around(base_hull, corner_m[0], budget, winding, hit.steps);
+  query::Work work(budget);
+  hit.exact = wind_around(base_hull, corner_m[0], work, winding);
   hit.hit = !hit.exact || winding != 0;
+  hit.steps = work.visits();
   if (hit.hit) return hit;
-  hit.exact =
-      faces_near(base_hull, region, budget, hit.steps, [&](const BaseHull::Leaf& leaf, uint32_t n) {
-        hit.hit = region.crosses(points_of(base_hull, leaf, n));
-        hit.triangle = leaf.first_face + n;
-        return !hit.hit;
-      });
+  hit.exact = faces_near(base_hull, region, work, [&](const BaseHull::Leaf& leaf, uint32_t n) {
+    hit.hit = region.crosses(points_of(base_hull, leaf, n));
+    hit.triangle = leaf.first_face + n;
+    return !hit.hit;
+  });
   hit.hit = hit.hit || !hit.exact;
+  hit.steps = work.visits();
   return hit;
 }
 

@@ -50,11 +50,10 @@ struct RegionFaces {
 };
 /// Calls use(leaf, n) for them until one returns false. Result: false if the budget ran out.
 template <class Use>
-bool faces_near(const BaseHull& base_hull, const TriangleRegion& region, query::Budget budget,
-                uint32_t& steps, const Use& use) {
+bool faces_near(const BaseHull& base_hull, const TriangleRegion& region, query::Work& work,
+                const Use& use) {
   RegionFaces<Use> faces{base_hull, use};
-  return descend<false>(base_hull.boxes(), box_of(base_hull.head()), region, budget, steps, faces)
-      .is_done;
+  return descend<false>(base_hull.boxes(), box_of(base_hull.head()), region, work, faces).is_done;
 }
 
 }  // namespace firmtouch::hull

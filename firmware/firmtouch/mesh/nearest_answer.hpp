@@ -220,7 +220,7 @@ template <class Finder, class Bound>
   search.p_m.y = p_m.y;
   search.p_m.z = p_m.z;
   search.start = is_warm ? slot : query::kNowhere;
-  search.budget = budget.steps;
+  search.budget = budget.work;
   search.triangle_low = hint.triangle_low;
   search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
   search.safe_subtree_margin_m = safe_subtree_margin_m;
@@ -244,7 +244,7 @@ template <class Finder, class Bound>
   const float promise_m = kPromise * scale_m;
   if (!Bound::kCompensated && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
       !measure_again(mesh, p_m, promise_m, found))
-    search_again(mesh, finder, bound, p_m, budget.steps, found);
+    search_again(mesh, finder, bound, p_m, budget.work, found);
 
   const Best& best = search.best;
   const Vec3 point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);

@@ -75,8 +75,8 @@ struct ContactRows {
        When::kAnytime, "stiffness of the surface"},
       {kContactDamping, "contact_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime,
        "damping of the surface"},
-      {kMeshSteps, "mesh_steps", "1", 1.0f, 65536.0f, 256.0f, When::kMayFall,
-       "visit budget of the surface query"},
+      {kMeshWork, "mesh_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
+       "work units of the surface's queries in a tick"},
   };
 };
 
@@ -119,8 +119,8 @@ struct GuideRows {
        "force of a push along the guide; largest force of a lead"},
       {kGuideDriveSpeed, "guide_drive_speed_mps", "m/s", -1.0f, 1.0f, 0.0f, When::kAnytime,
        "speed of a lead along the guide; 0: hold"},
-      {kCurveSteps, "curve_steps", "1", 1.0f, 65536.0f, 256.0f, When::kMayFall,
-       "visit budget of the guide query"},
+      {kGuideWork, "guide_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
+       "work units of the guide's queries in a tick"},
   };
 };
 

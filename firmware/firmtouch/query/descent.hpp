@@ -1,14 +1,11 @@
 #pragma once
 #include <stdint.h>
 
-#include "firmtouch/query/certificate.hpp"
+#include "firmtouch/query/work.hpp"
 
 // The depth-first traversal of a binary tree. For the library's own translation units.
 
 namespace firmtouch::query {
-
-/// Visits that a budget allows: at least one.
-constexpr uint32_t visits_of(Budget budget) { return budget.steps == 0 ? 1 : budget.steps; }
 
 /// End of a descent: whether all was visited that may matter; else the least key of what was not.
 template <class Key>
@@ -24,10 +21,11 @@ struct Descent {
 ///     void open(const Node& node, Node& one, Node& other);          the children, with their keys
 ///     bool leaf(const Node& node);                                  whether more are wanted
 ///     Key limit();                                                  largest key of interest
+///     kLeafWork                                         units of a leaf beyond its visit, at most
 /// kDepth: of the tree; one pending node a level suffices.
-/// Bounds: <= allowed - visits node visits; kDepth + 4 nodes of stack.
+/// Bounds: <= work.left units; kDepth + 4 nodes of stack.
 template <uint32_t kDepth, class Search>
-[[gnu::always_inline]] inline auto descend(Search& search, uint32_t allowed, uint32_t& visits)
+[[gnu::always_inline]] inline auto descend(Search& search, Work& work)
     -> Descent<decltype(search.root().key)> {
   using Node = decltype(search.root());
   Node pending[kDepth + 1];
@@ -35,8 +33,7 @@ template <uint32_t kDepth, class Search>
   Node now = search.root();
   while (true) {
     if (now.key <= search.limit()) {
-      if (visits >= allowed) break;
-      ++visits;
+      if (!work.visit()) break;
       if (!search.is_leaf(now)) {
         Node one, other;
         search.open(now, one, other);
@@ -46,6 +43,7 @@ template <uint32_t kDepth, class Search>
         now = swap ? other : one;
         continue;
       }
+      work.charge(Search::kLeafWork);
       if (!search.leaf(now)) return {true, now.key};
     }
     if (count == 0) return {true, now.key};

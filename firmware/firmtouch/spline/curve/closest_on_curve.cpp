@@ -24,7 +24,7 @@ Vec3 tangent_of(Vec3 v) {
 inline Closest answer_near(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best(model.head());
-  CurveSearch search(model, p_m, budget.steps, best);
+  CurveSearch search(model, p_m, budget.work, best);
   LeafSafeSubtree safe_subtree{
       {hint.safe_subtree & 0xFFFFu, hint.safe_subtree >> 16},
       carried.is_finite ? query::left_of(hint.safe_subtree_m, carried.motion_m) : 0.0f};

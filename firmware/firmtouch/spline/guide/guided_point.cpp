@@ -211,10 +211,10 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
   if (!(following.piece < model.pieces().size())) following.is_following = false;
   following.s = clamped(following.s);
   const bool was_following = following.is_following;
-  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.steps >= kMinSteps;
+  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.work >= kMinSteps;
   Followed followed;
   followed.is_new = !was_following;
-  const query::Budget first{is_penalty ? budget.steps - budget.steps / 2 : budget.steps,
+  const query::Budget first{is_penalty ? budget.work - budget.work / 2 : budget.work,
                             budget.band_m};
   followed.closest = closest_on_curve(model, p_m, first, following.hint);
   Arcs arcs(guide);
@@ -227,7 +227,7 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
         is_penalty && !(certificate.exact &&
                         comes_to(guide, foot, certificate.lower_m, hold.weight_m, following, arcs));
     if (is_kept)
-      keep_to_part(guide, p_m, hold, budget.steps - certificate.steps, following, followed);
+      keep_to_part(guide, p_m, hold, budget.work - certificate.steps, following, followed);
   }
   const Closest& closest = followed.closest;
   followed.is_held = closest.distance_m <= hold.release_m;

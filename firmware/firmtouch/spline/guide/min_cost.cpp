@@ -56,7 +56,7 @@ LeastCost min_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& penalised
   }
 
   GuideParts parts(guide, p_m, penalty, kink, arcs, nearest.certificate.lower_m, best);
-  GuideSearch search(parts, budget.steps > 1 ? budget.steps - 1 : 1, best);
+  GuideSearch search(parts, budget.work > 1 ? budget.work - 1 : 1, best);
   GuideParts::Range range;
   const uint32_t node = parts.node_at(penalised.piece, penalised.s, range);
   // What is farther along the curve costs more, for nothing is nearer than the nearest.

@@ -35,7 +35,7 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
   }
   const query::Carried carried = query::carry(hint, p_m);
   Best best(model.head());
-  SurfaceSearch search(model, p_m, budget.steps, best);
+  SurfaceSearch search(model, p_m, budget.work, best);
   if (hint.safe_subtree != kWithFrontier) FrontierUse(frontier).clear();
   move(p_m, hint, frontier);
   uint32_t leaf;
