@@ -127,7 +127,7 @@ TEST(SafeSubtree_LeavesNothingNearerOutside_AfterAnyQueryOfCurves) {
       ++checked;
       for (uint32_t leaf = 0; leaf < view.leaf_count(); ++leaf) {
         if ((leaf >= first && leaf <= last) || !view.is_leaf(leaf)) continue;
-        const spline::View::Place at = view.place_of(leaf);
+        const spline::View::LeafIndex at = view.index_of(leaf);
         const spline::Piece& piece = view.pieces()[at.piece];
         const float half = std::ldexp(1.0f, -static_cast<int>(piece.level_u));
         for (int k = -4; k <= 4; ++k) {
@@ -152,7 +152,7 @@ TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
   for (uint32_t seed = 0; seed < 3; ++seed) {
     tools::Random random(seed + 90);
     const BakedModel baked(of({spline_test::random_surface(random, 3, most_of(seed), 1)}));
-    const spline::SurfaceParts parts(baked.view, Vec3{});
+    const spline::SurfaceNodes parts(baked.view, Vec3{});
     const uint32_t count = baked.view.pieces().size();
     uint32_t wrong = 0, deepest = 0;
     for (uint32_t piece = 0; piece <= count; ++piece) {
