@@ -92,7 +92,7 @@ void check_at(const tools::SplineModel& model, uint32_t seed) {
 
 }  // namespace
 
-TEST(NoFourthDerivativeIsBeyondItsBakedBound) {
+TEST(FourthDerivative_StaysWithinItsBound_AtRandomPoints) {
   for (uint32_t seed = 0; seed < 12; ++seed) {
     tools::Random random(seed + 900);
     tools::SplineModel model;
