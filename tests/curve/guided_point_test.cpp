@@ -9,15 +9,7 @@
 
 namespace {
 
-using firmtouch::curve::ArcPenalty;
-using firmtouch::curve::Constraint;
-using firmtouch::curve::Followed;
-using firmtouch::curve::Following;
-using firmtouch::curve::guided_point;
-using firmtouch::curve::Hint;
-using firmtouch::curve::Hold;
-using firmtouch::curve::Sample;
-using firmtouch::curve::View;
+using namespace firmtouch::curve;  // NOLINT: a test file
 using firmtouch::curve_test::LongCurve;
 using firmtouch::curve_test::SmallCurve;
 using firmtouch::math::Vec3;

@@ -3,6 +3,7 @@
 
 #include <float.h>
 
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 #include "spline/small_spline.hpp"
 
@@ -11,26 +12,11 @@ namespace {
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
 using firmtouch::query::kUnlimited;
-using firmtouch::spline::Closest;
-using firmtouch::spline::closest_point;
-using firmtouch::spline::CurveHint;
-using firmtouch::spline::View;
+using namespace firmtouch::spline;  // NOLINT: a test file
 using firmtouch::spline_test::sampled_distance;
 using firmtouch::spline_test::SmallSpline;
 
-// The same pseudo-random numbers on every machine.
-class Random {
- public:
-  explicit Random(uint32_t seed) : state_(seed) {}
-  float between(float low, float high) {
-    state_ = state_ * 1664525u + 1013904223u;
-    return low + (high - low) * (static_cast<float>(state_ >> 8) * 0x1p-24f);
-  }
-  uint32_t bits() { return state_ = state_ * 1664525u + 1013904223u; }
-
- private:
-  uint32_t state_;
-};
+using Random = firmtouch::test::Lcg;
 
 Vec3 about(Random& random) {
   return {random.between(-2.0f, 3.5f), random.between(-1.5f, 4.0f), random.between(-2.0f, 2.0f)};

@@ -6,7 +6,7 @@
 // tools/bench/cortex-m7 runs it and adds up.
 #include <stdint.h>
 
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"

@@ -60,18 +60,10 @@ query::Budget budget_of(const Arguments& arguments) {
 }
 
 void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
-  if (arguments.has("--time")) {
-    print_time(table.rows(), [&] {
-      Answers answers(mesh.wide, arguments);
-      float sum = 0;
-      for (size_t i = 0; i < table.rows(); ++i) sum += answers.next(table.row(i)).distance_m;
-      return sum;
-    });
-    return;
-  }
-  std::puts("distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact");
-  Answers answers(mesh.wide, arguments);
-  for (size_t i = 0; i < table.rows(); ++i) print_row(mesh, answers.next(table.row(i)));
+  answer_rows(
+      table, arguments, "distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact",
+      [&] { return Answers(mesh.wide, arguments); },
+      [&](const mesh::Closest& a) { print_row(mesh, a); });
 }
 
 }  // namespace firmtouch::cli

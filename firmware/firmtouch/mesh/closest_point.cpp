@@ -13,6 +13,8 @@ struct ScalarFinder {
   void find(const Bound& bound, Search& search) const {
     if constexpr (kCompensated)
       search_nearest<true, Bound, void>(mesh, bound, search);
+    else if (mesh.has_rivals())
+      search_nearest<false, Bound, WithRivals>(mesh, bound, search);
     else if (mesh.leaf_boxes() != nullptr)
       search_nearest<false, Bound, Boxed>(mesh, bound, search);
     else if (!mesh.triangles16().empty())
