@@ -110,7 +110,7 @@ TEST(HostilePenaltiesGiveFiniteAnswers) {
 }
 
 // The same on every compiler and controller: smooth pieces, cold, warm, penalised and by budget.
-TEST(AnswersOfCubicPiecesHaveOneHashEverywhere) {
+TEST(CubicPieces_HaveOneHash_Everywhere) {
   static LongCurve smooth = [] {
     LongCurve made = loops();
     made.head.is_smooth = 1;

@@ -93,7 +93,7 @@ TEST(SafeSubtree_LeavesNothingNearerOutside_AfterAnyQuery) {
   CHECK_GE(10 * tight, checked);  // or it would claim nothing
 }
 
-TEST(WhatWasCertifiedBeforeNeverHidesANearerPoint) {
+TEST(WarmQuery_FindsTheNearestPoint_AfterAnyCertificate) {
   uint32_t queries = 0, stopped_early = 0;
   for (uint32_t levels = 2; levels <= 8; ++levels) {
     for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {

@@ -129,7 +129,7 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
     for (uint32_t i = 0; i < 100; ++i) {
       const Vec3 p = about(random);
       CurveHint cold, bent;
-      bent.place = random.bits();
+      bent.foot = random.bits();
       const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
       const Closest c = closest_point(view, p, kUnlimited, bent);
       CHECK_EQ(c.certificate.exact, true);
@@ -155,7 +155,7 @@ TEST(AFrontierOfRandomWordsIsNoFrontier) {
     bent.frontier.unit_m = 1.0f;
     bent.frontier.count = static_cast<uint8_t>(random.bits() >> 24);
     bent.frontier.outside = 255;
-    for (uint32_t& word : bent.frontier.part) word = random.bits() | 0x4000u;
+    for (uint32_t& word : bent.frontier.node) word = random.bits() | 0x4000u;
     const Closest c = closest_point(view, p, kUnlimited, bent);
     CHECK_EQ(c.certificate.exact, true);
     CHECK_LE(c.distance_m, truth + 5e-7f * (truth + 3.9f));
@@ -178,7 +178,7 @@ TEST(AnyFrontierGivesFiniteAnswersWithinTheBudget) {
     bent.frontier.unit_m = 1.0f / static_cast<float>(1 + random.bits() % 1000u);
     bent.frontier.count = static_cast<uint8_t>(random.bits() >> 24);
     bent.frontier.outside = 255;
-    for (uint32_t& word : bent.frontier.part)
+    for (uint32_t& word : bent.frontier.node)
       word = i % 2 == 0 ? random.bits() & 0x8000FFFFu : random.bits();
     const Closest c = closest_point(view, p, {200}, bent);
     CHECK(c.distance_m >= 0.0f && c.distance_m < 1e6f);

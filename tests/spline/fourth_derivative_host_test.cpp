@@ -113,7 +113,7 @@ TEST(PatchBend_ReachesTheLowestFourthDerivatives_OfABicubic) {
       3, {{0, 1, 0, 1.0}, {0, 3, 0, -a}, {0, 1, 2, -e}, {1, 0, 1, 1.0}, {1, 0, 3, -a}})));
   double most[5] = {};
   for (uint32_t leaf = 0; leaf < baked.view.leaf_count(); ++leaf) {
-    const spline::Piece& piece = baked.view.pieces()[baked.view.place_of(leaf).piece];
+    const spline::Piece& piece = baked.view.pieces()[baked.view.index_of(leaf).piece];
     for (uint32_t k = 0; k < 5; ++k)
       most[k] =
           std::fmax(most[k], wide(baked.view.bounds_of(leaf).fixed_m2[k]) / by_piece(piece, k));
@@ -130,7 +130,7 @@ TEST(PatchBend_TurnsAsFastAsTheFourthDerivatives_OfABiquartic) {
   for (size_t k = 0; k < 5; ++k) terms.push_back({2, 4 - k, k, b[k]});
   const BakedModel baked(of(surface_of(4, terms)));
   for (uint32_t leaf = 0; leaf < baked.view.leaf_count(); ++leaf) {
-    const spline::Piece& piece = baked.view.pieces()[baked.view.place_of(leaf).piece];
+    const spline::Piece& piece = baked.view.pieces()[baked.view.index_of(leaf).piece];
     for (uint32_t k = 0; k < 5; ++k)
       check_tight(wide(baked.view.bounds_of(leaf).turning_m[k]),
                   times[k] * b[k] * by_piece(piece, k));

@@ -92,7 +92,7 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Repor
 
 }  // namespace
 
-TEST(AlongAPathASafeSubtreeLeavesNothingOut) {
+TEST(SafeSubtree_LeavesNothingOut_AlongAPath) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Reported reported;
   for (uint32_t seed = 0; seed < (is_long ? 200u : 24u); ++seed) {
@@ -127,7 +127,7 @@ TEST(SafeSubtree_LeavesNothingNearerOutside_AfterAnyQueryOfCurves) {
       ++checked;
       for (uint32_t leaf = 0; leaf < view.leaf_count(); ++leaf) {
         if ((leaf >= first && leaf <= last) || !view.is_leaf(leaf)) continue;
-        const spline::View::Place at = view.place_of(leaf);
+        const spline::View::LeafIndex at = view.index_of(leaf);
         const spline::Piece& piece = view.pieces()[at.piece];
         const float half = std::ldexp(1.0f, -static_cast<int>(piece.level_u));
         for (int k = -4; k <= 4; ++k) {
@@ -148,11 +148,11 @@ TEST(SafeSubtree_LeavesNothingNearerOutside_AfterAnyQueryOfCurves) {
 
 // Of all words none is a node but those that halving a whole piece comes to, in its order, and the
 // tree's above.
-TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
+TEST(Frontier_HoldsOnlyNodes_ThatHalvingReaches) {
   for (uint32_t seed = 0; seed < 3; ++seed) {
     tools::Random random(seed + 90);
     const BakedModel baked(of({spline_test::random_surface(random, 3, most_of(seed), 1)}));
-    const spline::SurfaceParts parts(baked.view, Vec3{});
+    const spline::SurfaceNodes parts(baked.view, Vec3{});
     const uint32_t count = baked.view.pieces().size();
     uint32_t wrong = 0, deepest = 0;
     for (uint32_t piece = 0; piece <= count; ++piece) {
@@ -181,7 +181,7 @@ TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
 }
 
 // Trees of one piece, of a few, and of many more than a frontier has entries.
-TEST(AlongAPathAFrontierLeavesNothingOutOfSurfaces) {
+TEST(Frontier_LeavesNothingOut_AlongAPath) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Reported reported;
   uint32_t max_pieces = 0;
@@ -201,7 +201,7 @@ TEST(AlongAPathAFrontierLeavesNothingOutOfSurfaces) {
   CHECK(reported.passed_over > 10000);
 }
 
-TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {
+TEST(PlanarCurve_AnswersTheSame_TurnedOutOfItsPlane) {
   for (uint32_t seed = 0; seed < 12; ++seed) {
     tools::Random random(seed + 3);
     const tools::SplineCurve curve =
@@ -224,7 +224,7 @@ TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {
 
 // Twelve short curves that do not meet, of a flat model and of one in space: between two of them is
 // no leaf.
-TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
+TEST(Curves_AnswerAsEachAlone_WhenApart) {
   for (uint32_t seed = 0; seed < 8; ++seed) {
     tools::Random random(seed + 41);
     tools::SplineModel model;
@@ -264,7 +264,7 @@ TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
 // is a foot-point still, the distance rises from there on both sides, and only the fourth
 // derivative says that it falls again. (Beside a curve far away: else the piece would be cut for
 // the sake of float32.)
-TEST(ThePointOfAPieceThatTurnsBackIsNotKeptToItsMiddle) {
+TEST(Query_LeavesTheMiddle_OfAPieceThatTurnsBack) {
   for (const double weight : {1.0, 1.2, 0.8}) {
     tools::SplineCurve curve, far_away;
     curve.degree = 3;
