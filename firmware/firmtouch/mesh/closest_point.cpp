@@ -19,8 +19,8 @@ struct ScalarFinder {
       search_nearest<false, Bound, Boxed>(mesh, bound, search);
     else if (!mesh.triangles16().empty())
       search_nearest<false, Bound, uint16_t>(mesh, bound, search);
-    else
-      search_nearest<false, Bound, uint32_t>(mesh, bound, search);
+    else  // rare on a controller: a loop of their own takes 3 kB
+      search_nearest<false, Bound, WithRivals>(mesh, bound, search);
   }
   [[gnu::always_inline]] inline Vec3 direction(const Best& best) const {
     return feature_direction(mesh, best.triangle, best.feature);

@@ -22,28 +22,6 @@ Wide ordered_sum(float a, float b) {  // |a| >= |b|
   const float s = a + b;
   return {s, b - (s - a)};
 }
-Wide product(float a, float b) {
-  const float p = a * b;
-  return {p, math::product_error(a, b, p)};
-}
-Wide operator+(Wide a, Wide b) {
-  const Wide high = sum(a.high, b.high), low = sum(a.low, b.low);
-  const Wide once = ordered_sum(high.high, high.low + low.high);
-  return ordered_sum(once.high, once.low + low.low);
-}
-Wide operator-(Wide a) { return {-a.high, -a.low}; }
-Wide operator-(Wide a, Wide b) { return a + -b; }
-Wide operator*(Wide a, Wide b) {
-  const Wide p = product(a.high, b.high);
-  return ordered_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
-}
-Wide operator/(Wide a, Wide b) {
-  const float first = a.high / b.high;
-  const Wide rest = a - b * Wide{first, 0};
-  return ordered_sum(first, rest.high / b.high);
-}
-bool operator<(Wide a, Wide b) { return a.high < b.high || (a.high <= b.high && a.low < b.low); }
-
 struct Wide3 {
   Wide x, y, z;
 };
@@ -51,22 +29,6 @@ struct Wide3 {
 Wide3 difference(Vec3 a, Vec3 b) {  // exact
   return {sum(a.x, -b.x), sum(a.y, -b.y), sum(a.z, -b.z)};
 }
-Wide3 less(Wide3 a, Wide3 b, Wide times) {
-  return {a.x - b.x * times, a.y - b.y * times, a.z - b.z * times};
-}
-Wide dot(Wide3 a, Wide3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-constexpr Wide kZero{0, 0}, kOne{1, 0};
-
-[[gnu::noinline]] Wide segment_distance2(Vec3 p, Vec3 a, Vec3 b) {
-  const Wide3 ap = difference(p, a), ab = difference(b, a);
-  Wide t = dot(ap, ab) / dot(ab, ab);
-  if (t < kZero) t = kZero;
-  if (kOne < t) t = kOne;
-  const Wide3 offset = less(ap, ab, t);
-  return dot(offset, offset);
-}
-
 // a - b * times within 2^-45 of the sizes, without the care for what cancels.
 inline Wide less(Wide a, Wide b, float times) {
   const float p = b.high * times;
@@ -102,12 +64,14 @@ float square(const Wide3& a) {
   return high + low;
 }
 
-float corner_distance2(Vec3 p, Vec3 a) { return square(difference(p, a)); }
+[[gnu::noinline, gnu::cold]] float corner_distance2(Vec3 p, Vec3 a) {
+  return square(difference(p, a));
+}
 
 float share(float t) { return t > 0.0f ? t < 1.0f ? t : 1.0f : 0.0f; }
 
 // By the offset from where floats put the foot, and what that leaves along the edge.
-[[gnu::noinline]] float edge_distance2(Vec3 p, Vec3 a, Vec3 b) {
+[[gnu::noinline, gnu::cold]] float edge_distance2(Vec3 p, Vec3 a, Vec3 b) {
   const Vec3 ab = b - a;
   const float per_ab2 = 1.0f / math::dot(ab, ab);
   const float t = share(math::dot(ab, p - a) * per_ab2);
@@ -117,25 +81,45 @@ float share(float t) { return t > 0.0f ? t < 1.0f ? t : 1.0f : 0.0f; }
 }
 
 // The same on the plane, with the names of mesh/triangle.hpp. `is_clear`: the foot is within the
-// triangle.
-constexpr float kOutside = -1.0f, kNeedle = -2.0f;
+// triangle. Result: below 0 if it is not.
+//
+// Of a needle, lower than 2^-13 of its length, h as floats have it is little more than rounding.
+// Its foot is sought from the edge a b, and h computed in pairs: floats lose nothing on so short a
+// way.
 [[gnu::noinline]] float face_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, bool is_clear) {
   const OfCorners shape{a, b, c};
   const Vec3 ab = shape.ab(), ap = p - a;
   const float per_ab2 = OfCorners::per_ab2(ab), xc = shape.xc(ab, per_ab2);
-  const Vec3 h = shape.h(ab, xc);
-  const float h2 = OfCorners::h2(h), x = math::dot(ab, ap) * per_ab2;
-  const float w = math::dot(ap - ab * x, h) / h2, v = x - w * xc;
-  const Wide3 offset =
-      ordered(less(less(difference(p, a), difference(b, a), v), difference(c, a), w));
+  Vec3 h = shape.h(ab, xc);
+  float h2 = OfCorners::h2(h), x = math::dot(ab, ap) * per_ab2;
+  float w = math::dot(ap - ab * x, h) / h2, v = x - w * xc;
+  const Wide3 wide_ab = difference(b, a), wide_ac = difference(c, a);
+  if (!is_clear && !(h2 * per_ab2 > 0x1p-26f)) {
+    h = rounded(ordered(less(wide_ac, wide_ab, xc)));
+    h2 = OfCorners::h2(h);
+    v = share(x);
+    w = 0.0f;
+  }
+  Wide3 offset = ordered(less(less(difference(p, a), wide_ab, v), wide_ac, w));
   if (is_clear) return square(offset);
-  if (!(h2 * per_ab2 > 0x1p-26f)) return kNeedle;  // h is little more than rounding
   const float dx = math::dot(ab, rounded(offset)) * per_ab2;
-  const float dw = math::dot(h, rounded(offset)) / h2, dv = dx - dw * xc;
-  if (!(w + dw >= 0.0f && v + dv >= 0.0f && ((1.0f - w) - v) - (dw + dv) >= 0.0f)) return kOutside;
-  return square(corrected(corrected(offset, ab, dx), h, dw));
+  offset = corrected(offset, ab, dx);
+  const float dw = math::dot(h, rounded(offset)) / h2;
+  offset = corrected(offset, h, dw);
+  const float again = math::dot(ab, rounded(offset)) * per_ab2;
+  const float dv = (dx + again) - dw * xc;
+  if (!(w + dw >= 0.0f && v + dv >= 0.0f && ((1.0f - w) - v) - (dw + dv) >= 0.0f)) return -1.0f;
+  return square(corrected(offset, ab, again));
 }
 
+[[gnu::noinline, gnu::cold]] float least_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const float face2 = face_distance2(p, a, b, c, false);
+  if (face2 >= 0.0f) return face2;
+  const float least = math::smaller(edge_distance2(p, a, b), edge_distance2(p, b, c));
+  return math::smaller(edge_distance2(p, c, a), least);
+}
+
+// Only calls that return what they return: no stack of its own.
 float feature_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature) {
   switch (feature) {
     case Feature::kEdge0:
@@ -158,35 +142,14 @@ float feature_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature) {
 
 }  // namespace
 
-float compensated_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-  Wide least = segment_distance2(p, a, b);
-  const Wide bc = segment_distance2(p, b, c), ca = segment_distance2(p, c, a);
-  if (bc < least) least = bc;
-  if (ca < least) least = ca;
-
-  // Where the foot in the plane lies inside, as in mesh/triangle.hpp.
-  const Wide3 ab = difference(b, a), ac = difference(c, a), ap = difference(p, a);
-  const Wide ab2 = dot(ab, ab), x = dot(ab, ap) / ab2, xc = dot(ab, ac) / ab2;
-  const Wide3 e = less(ap, ab, x), h = less(ac, ab, xc);
-  const Wide h2 = dot(h, h);
-  if (kZero < h2) {
-    const Wide w = dot(e, h) / h2, v = x - w * xc;
-    if (!(w < kZero || v < kZero || kOne < v + w)) {
-      const Wide3 offset = less(e, h, w);
-      const Wide inside = dot(offset, offset);
-      if (inside < least) least = inside;
-    }
-  }
-  return least.high;
+float nearest_compensated2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature, float distance2_m2) {
+  return is_feature_clear(distance2_m2, b - a) ? feature_distance2(p, a, b, c, feature)
+                                               : least_distance2(p, a, b, c);
 }
 
-float nearest_compensated2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature, float distance2_m2) {
-  if (is_feature_clear(distance2_m2, b - a)) return feature_distance2(p, a, b, c, feature);
-  const float face2 = face_distance2(p, a, b, c, false);
-  if (face2 >= 0.0f) return face2;
-  if (face2 <= kNeedle) return compensated_distance2(p, a, b, c);
-  const float least = math::smaller(edge_distance2(p, a, b), edge_distance2(p, b, c));
-  return math::smaller(edge_distance2(p, c, a), least);
+float compensated_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const Foot foot = closest_on_triangle(p, a, b, c);
+  return nearest_compensated2(p, a, b, c, foot.feature, foot.distance2_m2);
 }
 
 }  // namespace firmtouch::mesh

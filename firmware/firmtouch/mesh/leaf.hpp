@@ -124,17 +124,15 @@ struct LeafTriangles {
   size_t at;  // of the next corner
 
   LeafTriangles(const Sought& from, uint32_t first) : sought(&from), at(size_t{first} * 3) {}
-  math::Vec3 corner() {
-    const size_t k = at++;
-    const Vertex& v =
-        sought->vertices[sought->is_narrow ? static_cast<const uint16_t*>(sought->triangles)[k]
-                                           : static_cast<const uint32_t*>(sought->triangles)[k]];
-    return {v.x_m, v.y_m, v.z_m};
-  }
   [[gnu::always_inline]] void next(OfCorners& shape) {
-    shape.a_m = corner();
-    shape.b_m = corner();
-    shape.c_m = corner();
+    uint32_t index[3];
+    for (uint32_t& k : index)
+      k = sought->is_narrow ? static_cast<const uint16_t*>(sought->triangles)[at++]
+                            : static_cast<const uint32_t*>(sought->triangles)[at++];
+    const uint32_t stride = math::as_multiplier(sizeof(Vertex));
+    load_corner<0>(sought->vertices, index[0], stride, shape.a_m);
+    load_corner<1>(sought->vertices, index[1], stride, shape.b_m);
+    load_corner<2>(sought->vertices, index[2], stride, shape.c_m);
   }
 };
 
@@ -163,8 +161,8 @@ static inline bool is_same(const math::Vec3& a, const math::Vec3& b) {
 
 /// Takes a foot below rivals.limit2_m2() as the nearest, or as a rival. `ab_m`: the longest edge.
 /// Result: whether it is the nearest.
-static inline bool take_foot(const Foot& foot, math::Vec3 ab_m, uint32_t triangle, uint32_t slot,
-                             Best& best, Rivals& rivals) {
+[[gnu::noinline]] inline bool take_foot(const Foot& foot, math::Vec3 ab_m, uint32_t triangle,
+                                        uint32_t slot, Best& best, Rivals& rivals) {
   if (!(foot.distance2_m2 < best.distance2_m2)) {
     // The nearest feature of both is no rival.
     const bool is_shared = is_vertex(foot.feature) && is_vertex(best.feature) &&

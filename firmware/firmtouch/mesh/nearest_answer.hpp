@@ -68,12 +68,14 @@ struct Corners {
   Triangle<uint32_t> index;
   Vec3 a_m, b_m, c_m;
 
-  Corners(const View& mesh, uint32_t triangle)
+  // Inlined: GCC 12 drops the stores of a constructor that a cold function calls.
+  [[gnu::always_inline]] inline Corners(const View& mesh, uint32_t triangle)
       : index(mesh.triangle(triangle)),
         a_m(mesh.vertex(index.corner[0])),
         b_m(mesh.vertex(index.corner[1])),
         c_m(mesh.vertex(index.corner[2])) {}
-  float compensated_m(Vec3 p_m, Feature feature, float distance2_m2) const {
+  [[gnu::always_inline]] inline float compensated_m(Vec3 p_m, Feature feature,
+                                                    float distance2_m2) const {
     return math::square_root(nearest_compensated2(p_m, a_m, b_m, c_m, feature, distance2_m2));
   }
   uint32_t first_of(Feature edge) const { return index.corner[static_cast<uint32_t>(edge) - 1u]; }
@@ -91,7 +93,7 @@ bool is_same_edge(const Corners& one, Feature feature, const Corners& other, Fea
 
 // Measures the nearest triangle of `search`, and its rivals, in double-float, and puts into
 // search.best which of them is truly the nearest. Result: its distance.
-[[gnu::noinline]] float settle(const View& mesh, Vec3 p_m, Search& search) {
+[[gnu::noinline, gnu::cold]] float settle(const View& mesh, Vec3 p_m, Search& search) {
   const Loss loss(mesh.head());
   Best& best = search.best;
   const Corners corners(mesh, best.triangle);
@@ -124,7 +126,8 @@ bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const 
 
 // Measures again what float32 may have lost: usually it is far less than its bound.
 // Result: whether distance and lower bound are now within `within_m` of each other.
-[[gnu::noinline]] bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
+[[gnu::noinline, gnu::cold]] bool measure_again(const View& mesh, Vec3 p_m, float within_m,
+                                                Found& found) {
   Search& search = found.search;
   if (!search.complete) return false;
   const Loss loss(mesh.head());
@@ -155,37 +158,48 @@ bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const 
   return true;
 }
 
-// If that is not enough: searches again in double-float, from the nearest leaf.
-template <class Finder, class Bound>
-[[gnu::noinline]] void search_again(const View& mesh, const Finder& finder, const Bound& bound,
-                                    Vec3 p_m, uint32_t budget, Found& found) {
+// The nearest of a search.
+struct Nearest {
+  Best best;
+  uint32_t steps;
+};
+
+// If that is not enough, the search runs again in double-float, from the nearest leaf. Before it:
+// Result: whether there is a budget for it.
+[[gnu::noinline, gnu::cold]] bool begin_again(const View& mesh, uint32_t budget, Found& found,
+                                              Nearest& before) {
+  Search& search = found.search;
+  before = {search.best, search.steps};
+  if (!(search.complete && budget > search.steps)) {
+    search.complete = false;
+    return false;
+  }
+  // The nearest triangle is no farther than this: in its leaf only near ties are measured again.
+  const Loss loss(mesh.head());
+  const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
+  search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
+  search.start = search.best.slot;
+  search.best.slot = query::kNowhere;
+  search.budget = budget - search.steps;
+  search.steps = 0;
+  return true;
+}
+// After it:
+[[gnu::noinline, gnu::cold]] void end_again(const View& mesh, Vec3 p_m, const Nearest& before,
+                                            bool has_run, Found& found) {
   const Loss loss(mesh.head());
   Search& search = found.search;
-  const uint32_t steps = search.steps;
-  if (search.complete && budget > steps) {
-    const Best best = search.best;
-    // The nearest triangle is no farther than this: in its leaf only near ties are measured again.
-    const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
-    search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
-    search.start = best.slot;
-    search.best.slot = query::kNowhere;
-    search.budget = budget - steps;
-    finder.template find<true>(bound, search);
-    search.steps += steps;
-    if (search.complete) {
-      const float near_m = nearest_m(search);
-      const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
-      return weigh(found, lower_m, loss.rounding_m);
-    }
-    search.best = best;
+  if (has_run) search.steps += before.steps;
+  if (search.complete) {
+    const float near_m = nearest_m(search);
+    const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
+    return weigh(found, lower_m, loss.rounding_m);
   }
   // No budget left for it: return the true distance of the triangle that was found.
-  search.complete = false;
+  search.best = before.best;
   if (search.best.slot == query::kNowhere) return;
-  const Triangle<uint32_t> t = mesh.triangle(search.best.triangle);
-  const float distance2_m2 = compensated_distance2(
-      p_m, mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
-  found.distance_m = math::square_root(distance2_m2);
+  const Corners corners(mesh, search.best.triangle);
+  found.distance_m = corners.compensated_m(p_m, search.best.feature, search.best.distance2_m2);
 }
 
 // The sign of the offset, or 0 if the roundings of offset, `loss_m`, and pseudonormal could change
@@ -243,8 +257,12 @@ template <class Finder, class Bound>
   const bool is_near = search.best.distance2_m2 <= search.band2_m2;
   const float promise_m = kPromise * scale_m;
   if (!Bound::kCompensated && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
-      !measure_again(mesh, p_m, promise_m, found))
-    search_again(mesh, finder, bound, p_m, budget.work, found);
+      !measure_again(mesh, p_m, promise_m, found)) {
+    Nearest before;
+    const bool has_budget = begin_again(mesh, budget.work, found, before);
+    if (has_budget) finder.template find<true>(bound, search);
+    end_again(mesh, p_m, before, has_budget, found);
+  }
 
   const Best& best = search.best;
   const Vec3 point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);
