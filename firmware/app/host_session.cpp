@@ -74,6 +74,8 @@ void HostSession::handle(const link::Frame& frame) {
       return answer_set_param(frame);
     case link::kClearFaults:
       return answer_clear_faults(frame);
+    case link::kPanel:
+      return answer_panel(frame);
     case link::kStream:
       return answer_stream(frame);
     case link::kDescribe:
@@ -188,6 +190,16 @@ void HostSession::answer_clear_faults(const link::Frame& frame) {
   } else if (!commands.put_clear_faults()) {
     ack.result = link::kAckBusy;
   }
+  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+}
+
+void HostSession::answer_panel(const link::Frame& frame) {
+  link::Panel panel;
+  if (!is_live()) return complain(frame, "a Panel before an accepted Hello in live mode");
+  if (!link::take(frame, panel)) return complain(frame, "a Panel of another length");
+  set_panel(panel.flags);
+  link::Ack ack;
+  ack.index = link::kAckOfPanel;
   outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
 }
 

@@ -3,6 +3,7 @@
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
+#include "firmtouch/link/protocol.hpp"
 #include "firmtouch/params/rows.hpp"
 #include "firmtouch/record/tick.hpp"
 #include "servo_interrupt.hpp"
@@ -26,6 +27,8 @@ static_assert(hal::kMotorsEnable == record::kFlagEnable &&
 bool g_running = false;
 bool g_saw_enable_low = false;
 bool g_show_enable_low = false;
+volatile bool g_panel_disables = false;  // main loop -> interrupt
+volatile bool g_panel_stops = false;     // cleared by the interrupt
 
 }  // namespace
 
@@ -43,8 +46,18 @@ void start_servo() {
   hal::clock_start_servo(servo_period_us(), servo_interrupt);
 }
 
+void set_panel(uint32_t flags) {
+  g_panel_disables = (flags & link::kPanelDisable) != 0;
+  if ((flags & link::kPanelStop) != 0) g_panel_stops = true;
+}
+
 uint32_t servo_flags() {
-  const uint32_t flags = hal::motors_lines();
+  uint32_t flags = hal::motors_lines();
+  if (g_panel_disables) flags &= ~record::kFlagEnable;
+  if (g_panel_stops) {
+    g_panel_stops = false;
+    flags |= record::kFlagEmergencyStop;
+  }
   if (!g_show_enable_low) return flags;
   g_show_enable_low = false;
   return flags & ~record::kFlagEnable;

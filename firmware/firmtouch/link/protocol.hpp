@@ -14,8 +14,8 @@
 //               accepted Hello resets the controller. A repeated Step is answered again without a
 //               second tick.
 //   live        Hello(kModeLive) -> HelloReply. The timer makes the ticks. The controller sends a
-//               Log frame for every n-th tick (Hello, Stream -> Ack). SetParam -> Ack and
-//               ClearFaults -> Ack are possible at any time.
+//               Log frame for every n-th tick (Hello, Stream -> Ack). SetParam -> Ack, ClearFaults
+//               -> Ack and Panel -> Ack are possible at any time.
 //   both        Describe -> Description: fields of a record, their bits, and parameters. Answered
 //               without Hello too.
 namespace firmtouch::link {
@@ -31,6 +31,7 @@ enum Type : uint8_t {
   kClearFaults = 0x05,
   kStream = 0x06,
   kDescribe = 0x07,
+  kPanel = 0x08,
   kHelloReply = 0x81,
   kStepReply = 0x82,
   kAck = 0x83,
@@ -118,6 +119,7 @@ constexpr uint32_t kAckTimerRuns = 5;   // tick_period_s: the board's running ti
 // Ack::index of other requests than SetParam.
 constexpr uint32_t kAckOfClearFaults = UINT32_MAX;
 constexpr uint32_t kAckOfStream = UINT32_MAX - 1;
+constexpr uint32_t kAckOfPanel = UINT32_MAX - 2;
 
 struct Ack {
   uint32_t index = 0;
@@ -131,6 +133,15 @@ struct Stream {
   uint32_t decimation = 1;
 };
 static_assert(sizeof(Stream) == 4);
+
+/// Buttons of the host. They can only take force away: the enable switch has the last word.
+struct Panel {
+  uint32_t flags = 0;  // kPanel... below
+};
+static_assert(sizeof(Panel) == 4);
+// Enable is low until a Panel without this bit; the loss of the link changes nothing.
+constexpr uint32_t kPanelDisable = 1u << 0;
+constexpr uint32_t kPanelStop = 1u << 1;  // one tick with the emergency stop: a latched fault
 
 /// One tick's record. If its number exceeds the last one's by more than the decimation, records are
 /// missing; `dropped` shows how many of them the ring lost, the link lost the others.
