@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -106,8 +107,16 @@ class RunOutputs {
   std::optional<RunPaths> paths_;
 };
 
+// A path that ends in / is a folder: the report is named after its model.
+std::string report_path(const Options& options, const std::string& asset_path) {
+  const std::string path = options.value("--report");
+  return path.empty() || path.back() != '/'
+             ? path
+             : path + std::filesystem::path(asset_path).stem().string() + ".html";
+}
+
 void write_pages(const Options& options, const Report& report) {
-  if (const std::string path = options.value("--report"); !path.empty())
+  if (const std::string path = report_path(options, report.asset_path); !path.empty())
     write_file(path, page_of(report));
   if (const std::string path = options.value("--picture"); !path.empty())
     write_file(path, picture_of(report));
@@ -152,7 +161,8 @@ const Command& run_command_line() {
         "                              others are compared with the in-process one, bit for bit"},
        {"--image", "FILE",
         "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
-       {"--report", "FILE.html", "report: 3D view, charts and figures in one file"},
+       {"--report", "FILE.html",
+        "report: 3D view, charts and figures in one file; FOLDER/ names it after its model"},
        {"--picture", "FILE.svg", "the report's 3D view and force chart"},
        {"--log", "FILE.ftl", "input and output of every tick, for `firmtouch-sim replay`"},
        {"--csv", "FILE.csv", "the same as text; - is stdout, also for --report and --picture"},
@@ -171,8 +181,8 @@ int run_scenario(const std::vector<std::string>& words) {
   for (const std::string& set : options.values("--set")) sets.push_back(line_of(set));
   Scenario scenario = read_scenario(file, read_file(file), sets, parameter_rows());
   complete(scenario);
-  NamedFiles outputs;
-  for (const char* name : {"--report", "--picture", "--log", "--csv"})
+  NamedFiles outputs = {{"--report", report_path(options, scenario.asset)}};
+  for (const char* name : {"--picture", "--log", "--csv"})
     outputs.emplace_back(name, options.value(name));
   check_stdout(options, outputs);
   check_outputs({{"the scenario", file},

@@ -79,6 +79,10 @@ void LiveServer::poll(int timeout_ms) {
   clients_.erase(std::remove_if(clients_.begin(), clients_.end(),
                                 [](const Client& c) { return c.is_ending && c.waiting.empty(); }),
                  clients_.end());
+  if (holder_ >= 0) return;
+  const auto next = std::find_if(clients_.begin(), clients_.end(),
+                                 [](const Client& c) { return c.is_page && !c.is_ending; });
+  if (next != clients_.end()) give_link(next->socket);
 }
 
 void LiveServer::accept_client() {

@@ -12,7 +12,8 @@ namespace firmtouch::host_sim {
 
 /// Serves the live page to browsers of this machine, and carries the frames of one controller to
 /// the page that holds the link: one WebSocket message a frame. Another page waits until it takes
-/// the link over. Pages of another origin get neither the page nor the link.
+/// the link over, or the first one leaves. Pages of another origin get neither the page nor the
+/// link.
 class LiveServer {
  public:
   /// Listens on 127.0.0.1. Throws Refused if the port is taken. `stream`: nullptr: page only.
@@ -22,7 +23,7 @@ class LiveServer {
   LiveServer& operator=(const LiveServer&) = delete;
 
   /// Serves for up to `timeout_ms`. Throws Refused if the controller closed its link; the pages
-  /// have been told then.
+  /// have been notified then.
   void poll(int timeout_ms);
 
  private:

@@ -94,8 +94,8 @@ async function openServer(take, ended) {
     socket.onopen = done;
     socket.onerror = () => failed(new Error(`no link at ${address}; is firmtouch-sim live running, with a controller?`));
   });
-  let why = 'firmtouch-sim live has ended';
-  // The server says first whose the link is; it waits here until it is this page's.
+  let why = 'firmtouch-sim live has ended', isMine = false;
+  // The server says first whose the link is; this waits until it is this page's.
   const port = { name: 'firmtouch-sim live', decimation: 1, tries: kTries, rejects: 0, messages: 0,
     write: bytes => { if (socket.readyState === WebSocket.OPEN) socket.send(bytes); },
     takeOver: () => socket.send('take'), close: () => socket.close() };
@@ -103,8 +103,8 @@ async function openServer(take, ended) {
     socket.onmessage = event => {
       if (typeof event.data !== 'string') { ++port.messages; return take(new Uint8Array(event.data)); }
       const [word, rest] = [event.data.split(' ')[0], event.data.slice(event.data.indexOf(' ') + 1)];
-      if (word === 'yours') { page.held(null); done(); }
-      if (word === 'held') page.held(port);
+      if (word === 'yours') { isMine = true; page.held(null); done(); }
+      if (word === 'held' && isMine) { ended('another page took the link over'); socket.close(); } else if (word === 'held' && !isMine) page.held(port);
       if (word === 'rejects') port.rejects = Number(rest);
       if (word === 'closed') why = rest;
     };

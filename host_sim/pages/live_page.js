@@ -79,10 +79,8 @@ const page = {
   held(port) {
     $('take').hidden = !port;
     if (!port) return;
-    if (this.session?.live) { this.session.live = false; this.setConnected(false); }
     this.say('warn', 'Another page holds the link to the controller. This page waits; it shows nothing and sends nothing.');
     $('take').onclick = () => port.takeOver();
-    this.waiting = true;
   },
   setConnected(is) {
     $('leave').hidden = !is;

@@ -77,27 +77,29 @@ std::string contact_claim(const Summary& s) {
                    " mm. The tool could pass through a wall thinner than twice that.");
 }
 
-std::string feel_item(const std::string& text, bool is_bad) {
+std::string quality_item(const std::string& text, bool is_bad) {
   return is_bad ? "<span class=\"no\">" + text + "</span>" : text;
 }
 
-std::string feel_claim(const Summary& s) {
+std::string quality_claim(const Summary& s) {
   if (s.contact_ticks + s.guide_ticks == 0)
     return claim("Feel", "<span class=\"no\">nothing was touched</span>",
                  "No tick had contact or guidance while the motors were on.");
   return claim(
-      "Feel", s.feels_bad() ? "<span class=\"no\">bad</span>" : "<span class=\"yes\">calm</span>",
-      feel_item(grouped(s.limit_ticks) + " ticks at the force limit", s.is_saturated()) + "; " +
-          feel_item("deepest " + fixed(s.deepest_radii(), 2) + " tool radii", s.is_deep()) + "; " +
-          feel_item("chatter above 50 Hz " + fixed(s.chatter_N, 3) + " N" +
-                        (s.chatter_s > 0 ? " (" + fixed(s.chatter_s, 2) + " s above " +
-                                               fixed(s.chatter_limit_N(), 2) + " N)"
-                                         : ""),
-                    s.chatters()) +
+      "Feel",
+      s.is_bad_contact() ? "<span class=\"no\">bad</span>" : "<span class=\"yes\">calm</span>",
+      quality_item(grouped(s.limit_ticks) + " ticks at the force limit", s.is_saturated()) + "; " +
+          quality_item("deepest " + fixed(s.deepest_radii(), 2) + " tool radii", s.is_deep()) +
           "; " +
-          feel_item("largest turn of the force " + fixed(s.worst_turn_rad * 57.29577951308232, 1) +
-                        "&deg; a tick",
-                    s.turns()) +
+          quality_item("chatter above 50 Hz " + fixed(s.chatter_N, 3) + " N" +
+                           (s.chatter_s > 0 ? " (" + fixed(s.chatter_s, 2) + " s above " +
+                                                  fixed(s.chatter_limit_N(), 2) + " N)"
+                                            : ""),
+                       s.chatters()) +
+          "; " +
+          quality_item("largest turn of the force " +
+                           fixed(s.worst_turn_rad * 57.29577951308232, 1) + "&deg; a tick",
+                       s.turns()) +
           ".");
 }
 
@@ -187,10 +189,10 @@ constexpr const char* kTimeBar =
     "<option value=\"1\" selected>1&times;</option><option value=\"4\">4&times;</option></select>"
     "<input type=\"range\" id=\"slider\" min=\"0\" max=\"10000\" value=\"0\" aria-label=\"time\">"
     "<output id=\"clock\"></output><span class=\"zoom\">"
-    "<button type=\"button\" id=\"earlier\" aria-label=\"earlier\">&#9664;</button>"
+    "<button type=\"button\" id=\"earlier\" aria-label=\"earlier\">&lsaquo;</button>"
     "<button type=\"button\" id=\"out\" aria-label=\"zoom out\">&minus;</button>"
     "<button type=\"button\" id=\"in\" aria-label=\"zoom in\">+</button>"
-    "<button type=\"button\" id=\"later\" aria-label=\"later\">&#9654;</button>"
+    "<button type=\"button\" id=\"later\" aria-label=\"later\">&rsaquo;</button>"
     "<button type=\"button\" id=\"all\">All</button></span></div>";
 
 std::string lede(const Report& report) {
@@ -230,7 +232,7 @@ std::string page_of(const Report& report) {
           "</h1><p class=\"lede\">" + lede(report) + "</p>";
   html += "<ul class=\"claims\">" + certificate_claim(report.summary) +
           visits_claim(report.summary) + bits_claim(report) + contact_claim(report.summary) +
-          feel_claim(report.summary) + "</ul>\n";
+          quality_claim(report.summary) + "</ul>\n";
   html +=
       "<div class=\"top\"><section class=\"card stage\"><div class=\"title\"><h2>The part, the "
       "guide and the tool</h2><span class=\"now\"></span></div>"

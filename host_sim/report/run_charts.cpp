@@ -105,7 +105,7 @@ RunCharts::RunCharts(const Environment& environment, const RunFacts& facts)
       bins_(1 + (facts.ticks - 1) / ticks_per_bin_),
       charts_(charts_of(environment)) {
   axis_.seconds = static_cast<double>(bins_) * ticks_per_bin_ / facts.rate_Hz;
-  least_gap_s_ = std::max(0.004, axis_.seconds / 4096);
+  min_gap_s_ = std::max(0.004, axis_.seconds / 4096);
   for (RunChart& chart : charts_)
     for (Curve& curve : chart.curves) curve.values = {bins_, ticks_per_bin_ == 1};
 }
@@ -133,7 +133,7 @@ void RunCharts::add(const RunTick& tick) {
 void RunCharts::add_span(chart::TimeAxis::Spans& spans, bool holds, double time_s) const {
   if (!holds) return;
   const double end_s = time_s + 1 / facts_.rate_Hz;
-  if (!spans.empty() && time_s - spans.back().second < least_gap_s_)
+  if (!spans.empty() && time_s - spans.back().second < min_gap_s_)
     spans.back().second = end_s;
   else
     spans.emplace_back(time_s, end_s);

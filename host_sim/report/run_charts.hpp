@@ -61,7 +61,7 @@ class RunCharts {
   size_t bins_;
   std::vector<RunChart> charts_;
   chart::TimeAxis axis_;
-  double least_gap_s_;  // shorter gaps between two spans are invisible
+  double min_gap_s_;  // shorter gaps between two spans are invisible
   uint32_t faults_ = 0, ticks_ = 0;
 };
 

@@ -66,7 +66,7 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
                        const RunFacts& facts)
     : environment_(environment),
       facts_(facts),
-      feel_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)) {
+      quality_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)) {
   summary_.rate_Hz = facts.rate_Hz;
   summary_.has_surface = environment.has_surface();
   summary_.has_guide = environment.has_guide();
@@ -94,7 +94,7 @@ void Summariser::add(const RunTick& tick) {
   count(summary_, out, visits_, deviation_m_);
   const bool is_on = motors_are_on(out);
   const Vec force_N = wide(out.force_N);
-  feel_.add(force_N, is_on);
+  quality_.add(force_N, is_on);
   if (is_on && norm(force_N) > kAtLimit * summary_.force_limit_N) ++summary_.limit_ticks;
   const double load = record.input.last_work_us * 1e-6 * facts_.rate_Hz;
   load_ += load;
@@ -142,9 +142,9 @@ Summary Summariser::finish() {
     if ((summary.faults >> bit & 1u) != 0)
       summary.fault_names +=
           (summary.fault_names.empty() ? "" : ", ") + std::string(servo::fault_name(bit));
-  summary.chatter_N = feel_.chatter_N();
-  summary.chatter_s = feel_.chatter_s();
-  summary.worst_turn_rad = feel_.turn_rad();
+  summary.chatter_N = quality_.chatter_N();
+  summary.chatter_s = quality_.chatter_s();
+  summary.worst_turn_rad = quality_.turn_rad();
   const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
   std::nth_element(ratios_.begin(), middle, ratios_.end());
   if (!ratios_.empty()) summary.median_ratio = *middle;
@@ -165,7 +165,9 @@ double Summary::deepest_radii() const {
   return tool_radius_m > 0 ? worst_penetration_m / tool_radius_m : 0;
 }
 
-bool Summary::feels_bad() const { return is_saturated() || is_deep() || chatters() || turns(); }
+bool Summary::is_bad_contact() const {
+  return is_saturated() || is_deep() || chatters() || turns();
+}
 
 std::string load_text(const Summary& s) {
   char text[64];
@@ -205,7 +207,7 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
         "  feel           %zu ticks at the force limit; deepest %.2f tool radii; chatter %.3f N "
         "above 50 Hz; largest turn %.1f degrees a tick%s\n",
         s.limit_ticks, s.deepest_radii(), s.chatter_N, s.worst_turn_rad * kDegrees,
-        s.feels_bad() ? ": BAD" : "");
+        s.is_bad_contact() ? ": BAD" : "");
   line("  load           %s\n", load_text(s).c_str());
   if (trace.compared)
     text += trace.difference ? "  same bits      NO: see below\n"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host_sim/plant/environment.hpp"
-#include "host_sim/report/feel.hpp"
+#include "host_sim/report/contact_quality.hpp"
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/run.hpp"
 
@@ -36,20 +36,20 @@ struct Summary {
   double fault_s = -1;             // time of the first latched fault; -1: none
   bool fault_is_scripted = false;  // the scenario causes it
   std::string fault_names;
-  // How it feels (report/feel.hpp), while the motors were on.
+  // How it feels (report/contact_quality.hpp), while the motors were on.
   double tool_radius_m = 0;
   size_t limit_ticks = 0;  // at the force limit
   double chatter_N = 0, chatter_s = 0;
   double worst_turn_rad = 0;  // of the force between two ticks
 
   double deepest_radii() const;
-  double chatter_limit_N() const { return FeelMeter::kChatterShare * force_limit_N; }
+  double chatter_limit_N() const { return ContactQuality::kChatterShare * force_limit_N; }
   // A hand feels a wall that gives way, goes in to the tool's centre, buzzes or jumps.
   bool is_saturated() const { return limit_ticks * 100 > ticks; }
   bool is_deep() const { return deepest_radii() > 1; }
   bool chatters() const { return chatter_s > 0.5; }
   bool turns() const { return worst_turn_rad > 0.35; }
-  bool feels_bad() const;
+  bool is_bad_contact() const;
 };
 
 /// Computes the figures while a run goes on. Bounded memory.
@@ -71,7 +71,7 @@ class Summariser {
   const Environment& environment_;
   const RunFacts& facts_;
   Summary summary_;
-  FeelMeter feel_;
+  ContactQuality quality_;
   size_t stride_ = 1;  // ticks from one checked certificate to the next
   Made used_, requested_;
   std::vector<double> ratios_;  // of lower bound to truth, at most 1e5

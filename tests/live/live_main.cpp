@@ -226,16 +226,19 @@ void plots(Test& test) {
 void second_page(Test& test, const std::string& url) {
   const std::string first = test.browser.page();
   test.browser.open(url, 1440, 960);
-  test.check("a second page is told that another one holds the link",
+  test.check("a second page says that another one holds the link",
              test.becomes("$('banner').textContent.includes('Another page holds')", kPatience_s) &&
                  test.becomes("!page.session.live && !$('take').hidden", 1));
   test.browser.evaluate("$('take').click()");
   test.check("it can take the link over", test.becomes(kConnected, kConnect_s));
   test.browser.use(first);
-  test.check("the first page is told",
-             test.becomes("$('banner').textContent.includes('Another page holds')", kPatience_s));
-  test.browser.evaluate("$('take').click()");
-  test.check("and takes it back", test.becomes(kConnected, kConnect_s));
+  test.check("the first page reports it",
+             test.becomes("$('banner').textContent.includes('another page took')", kPatience_s));
+  test.browser.evaluate("$('connect').click()");
+  test.check("it connects, waits, and takes the link back",
+             test.becomes("$('banner').textContent.includes('Another page holds')", kPatience_s) &&
+                 test.becomes("($('take').click(), true)", 1) &&
+                 test.becomes(kConnected, kConnect_s));
 }
 
 // A cable that is none: a serial port for the page, whose bytes take the server's link.

@@ -4,10 +4,10 @@
 namespace firmtouch::host_sim {
 
 /// How a contact feels, from the forces while the motors are on. Bounded memory.
-class FeelMeter {
+class ContactQuality {
  public:
   /// Forces above 5 % of `force_limit_N` have a direction whose turn is measured.
-  FeelMeter(double rate_Hz, double force_limit_N);
+  ContactQuality(double rate_Hz, double force_limit_N);
   void add(Vec force_N, bool motors_are_on);
 
   /// Greatest root mean square over about 0.1 s of the force's part above 50 Hz. A hand feels
@@ -26,7 +26,7 @@ class FeelMeter {
   };
   double high_pass(Section& s, double x) const;
 
-  double rate_Hz_, least_N_, limit_N_;
+  double rate_Hz_, min_N_, limit_N_;
   double b0_, a1_, a2_;
   Section sections_[3];
   Vec last_N_;
