@@ -42,6 +42,7 @@ const page = {
     this.store = new Store(session.recordBytes);
     this.state = null;
     this.back = this.newest = 0;
+    this.flow = { at_ms: performance.now(), records: session.records, bytes: session.decoder.received };
     const about = session.about;
     $('board').textContent = `${about.board}, ${plain(1e3 / about.period_us)} kHz`;
     $('help').hidden = true;

@@ -19,7 +19,11 @@ class Browser {
   bool open(const std::string& url, int width, int height);
   /// The page that the calls below go to, for use().
   const std::string& page() const { return session_; }
-  void use(const std::string& page) { session_ = page; }
+  /// In front: a page behind another one draws nothing.
+  void use(const std::string& page) {
+    session_ = page;
+    call("Page.bringToFront", "{}", 5000);
+  }
   /// Exceptions and errors on the console of all pages, a line each.
   const std::string& errors() const { return errors_; }
   /// Presses, moves and releases pointers, or turns the wheel: one event of the protocol's Input.
