@@ -221,7 +221,7 @@ class Parameter {
   constructor(session, row) {
     Object.assign(this, { session, row, held: row.number[3], wanted: null });
     const [low, high, initial] = row.number;
-    const choices = [...row.text.matchAll(/(\d): ([^,]+?)(?=, \d: |$)/g)].map(m => [Number(m[1]), m[2]]);
+    const choices = [...row.text.matchAll(/(\d): (.+?)(?=, \d: |$)/g)].map(m => [Number(m[1]), m[2]]);
     const what = choices.length > 1 ? row.text.slice(0, row.text.indexOf(`${choices[0][0]}: `)).replace(/[:, ]+$/, '') : row.text;
     this.said = make('div', { className: 'said' });
     this.said.setAttribute('role', 'status');
