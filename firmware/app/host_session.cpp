@@ -77,6 +77,8 @@ void HostSession::handle(const link::Frame& frame) {
       return answer_clear_faults(frame);
     case link::kSaveParameters:
       return answer_save(frame);
+    case link::kPanel:
+      return answer_panel(frame);
     case link::kStream:
       return answer_stream(frame);
     case link::kDescribe:
@@ -200,6 +202,16 @@ void HostSession::answer_save(const link::Frame& frame) {
   link::Ack ack;
   ack.index = link::kAckOfSave;
   ack.result = is_lock_step() ? link::kAckInLockStep : save_parameters();
+  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+}
+
+void HostSession::answer_panel(const link::Frame& frame) {
+  link::Panel panel;
+  if (!is_live()) return complain(frame, "a Panel before an accepted Hello in live mode");
+  if (!link::take(frame, panel)) return complain(frame, "a Panel of another length");
+  set_panel(panel.flags);
+  link::Ack ack;
+  ack.index = link::kAckOfPanel;
   outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
 }
 

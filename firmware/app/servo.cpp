@@ -3,6 +3,7 @@
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
+#include "firmtouch/link/protocol.hpp"
 #include "firmtouch/params/rows.hpp"
 #include "firmtouch/record/tick.hpp"
 #include "servo_interrupt.hpp"
@@ -27,6 +28,8 @@ bool g_running = false;
 bool g_saw_enable_low = false;  // main loop; once the servo runs, interrupt
 bool g_is_first_tick = true;
 bool g_may_push = false;
+volatile bool g_panel_disables = false;  // main loop -> interrupt
+volatile bool g_panel_stops = false;     // cleared by the interrupt
 uint32_t g_period_us = static_cast<uint32_t>(params::kInitialTickPeriod_s * 1e6f + 0.5f);
 
 // The watchdog before the timer where the period grows, and behind it where it falls: never short.
@@ -54,12 +57,22 @@ void start_servo() {
   set_period(servo_period_us());
 }
 
+void set_panel(uint32_t flags) {
+  g_panel_disables = (flags & link::kPanelDisable) != 0;
+  if ((flags & link::kPanelStop) != 0) g_panel_stops = true;
+}
+
 uint32_t servo_flags(bool sets_saved) {
-  const uint32_t flags = hal::motors_lines();
+  uint32_t flags = hal::motors_lines();
   if ((flags & record::kFlagEnable) == 0) g_saw_enable_low = true;
   const bool must_wait = g_is_first_tick || sets_saved || !g_saw_enable_low;
   g_is_first_tick = false;
-  return must_wait ? flags & ~record::kFlagEnable : flags;
+  if (must_wait || g_panel_disables) flags &= ~record::kFlagEnable;
+  if (g_panel_stops) {
+    g_panel_stops = false;
+    flags |= record::kFlagEmergencyStop;
+  }
+  return flags;
 }
 
 void after_tick(const record::TickOutput& output) {

@@ -19,13 +19,16 @@ bool servo_is_running();
 /// The power stage was on in the last tick. Main loop.
 bool motors_may_push();
 
-/// hal::motors_lines() as flags of a tick. Enable is low in the first tick, while `sets_saved`, and
+/// hal::motors_lines() and the host's panel as flags of a tick. Enable is low in the first tick, while `sets_saved`, and
 /// until the switch was seen open once since reset: nobody may be holding the device. Servo
 /// interrupt only.
 uint32_t servo_flags(bool sets_saved);
 
 /// Servo interrupt, behind each tick: timer and watchdog follow a changed period.
 void after_tick(const record::TickOutput& output);
+
+/// link::Panel::flags, for the next ticks. Main loop only.
+void set_panel(uint32_t flags);
 
 /// Starts the servo when the operator closes the enable switch for the first time. A switch that is
 /// closed since the reset must be opened first. Until then no tick runs, and a host may take the

@@ -18,6 +18,8 @@ class ByteStream {
   /// Waits up to `timeout_ms` for at least one byte. Result: bytes read; 0 after the time-out.
   uint32_t read(uint8_t* to, uint32_t capacity, int timeout_ms);
   const std::string& name() const { return name_; }
+  /// To wait for its bytes together with others.
+  int descriptor() const { return in_; }
 
  protected:
   /// Why the stream was closed, for the message: " (exit status 71)".

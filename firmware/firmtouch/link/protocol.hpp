@@ -14,8 +14,8 @@
 //               accepted Hello resets the controller. A repeated Step is answered again without a
 //               second tick.
 //   live        Hello(kModeLive) -> HelloReply. The timer makes the ticks. The controller sends a
-//               Log frame for every n-th tick (Hello, Stream -> Ack). SetParam -> Ack and
-//               ClearFaults -> Ack are possible at any time, SaveParameters -> Ack while the
+//               Log frame for every n-th tick (Hello, Stream -> Ack). SetParam -> Ack, ClearFaults
+//               -> Ack and Panel -> Ack are possible at any time, SaveParameters -> Ack while the
 //               motors are off.
 //   both        Describe -> Description: fields of a record, their bits, and parameters. Answered
 //               without Hello too.
@@ -33,6 +33,7 @@ enum Type : uint8_t {
   kStream = 0x06,
   kDescribe = 0x07,
   kSaveParameters = 0x08,
+  kPanel = 0x09,
   kHelloReply = 0x81,
   kStepReply = 0x82,
   kAck = 0x83,
@@ -131,6 +132,7 @@ constexpr uint32_t kAckFlashFailed = 9;  // what flash holds is not what was wri
 constexpr uint32_t kAckOfClearFaults = UINT32_MAX;
 constexpr uint32_t kAckOfStream = UINT32_MAX - 1;
 constexpr uint32_t kAckOfSave = UINT32_MAX - 2;
+constexpr uint32_t kAckOfPanel = UINT32_MAX - 3;
 
 struct Ack {
   uint32_t index = 0;
@@ -144,6 +146,15 @@ struct Stream {
   uint32_t decimation = 1;
 };
 static_assert(sizeof(Stream) == 4);
+
+/// Buttons of the host. They can only take force away: the enable switch has the last word.
+struct Panel {
+  uint32_t flags = 0;  // kPanel... below
+};
+static_assert(sizeof(Panel) == 4);
+// Enable is low until a Panel without this bit; the loss of the link changes nothing.
+constexpr uint32_t kPanelDisable = 1u << 0;
+constexpr uint32_t kPanelStop = 1u << 1;  // one tick with the emergency stop: a latched fault
 
 /// One tick's record. If its number exceeds the last one's by more than the decimation, records are
 /// missing; `dropped` shows how many of them the ring lost, the link lost the others.

@@ -8,16 +8,16 @@
 
 #include "live/browser.hpp"
 
-// The live page in a browser, against the controller program in an emulator whose joints a
-// simulated hand moves. The test uses the page's own buttons and inputs, and reads what it shows.
+// The live page in a browser, against the controller program whose joints a simulated hand moves.
+// The test uses the page's own buttons and inputs, and reads what it shows.
 
 namespace {
 
 using firmtouch::live_test::Browser;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPatience_s = 40;  // an emulator on a busy machine runs at a fraction of its pace
-constexpr double kConnect_s = 120;  // some hundred answers, each a turn of the emulator's
+constexpr double kPatience_s = 40;
+constexpr double kConnect_s = 60;
 constexpr const char* kMotorsAreOn = "$('mode').textContent === 'motors: on'";
 
 struct Test {
@@ -63,15 +63,15 @@ struct Test {
   }
   // Greatest of a field's length over the next `ticks` records.
   double peak(const char* field, int ticks) {
-    const std::string begin = browser.evaluate("page.number");
-    becomes("page.number - " + begin + " > " + std::to_string(ticks), 20);
-    return number(std::string("(() => { const f = page.session.field('") + field +
-                  "'), s = page.store; let most = 0; for (let i = Math.max(0, s.count - " +
-                  std::to_string(ticks) +
-                  " / page.session.decimation); i < s.count; ++i) { const b = (i & (kKept - 1)) * "
-                  "s.words; let q = 0; for "
-                  "(let k = 0; k < f.count; ++k) q += valueOf(s, f, b, k) ** 2; most = "
-                  "Math.max(most, Math.sqrt(q)); } return most; })()");
+    const std::string begin = browser.evaluate("page.newest");
+    becomes("page.newest - " + begin + " > " + std::to_string(ticks), 20);
+    return number(
+        std::string("(() => { const f = page.session.field('") + field +
+        "'), s = page.store; let most = 0; for (let i = Math.max(0, s.count - " +
+        std::to_string(ticks) +
+        " / page.session.decimation); i < s.count; ++i) { const b = s.baseOf(i); let q = 0; for "
+        "(let k = 0; k < f.count; ++k) q += s.value(f, b, k) ** 2; most = "
+        "Math.max(most, Math.sqrt(q)); } return most; })()");
   }
 };
 
@@ -101,7 +101,7 @@ void stiffness(Test& test) {
   test.type("contact_damping_N_s_per_m", "0");
   test.type("guide_damping_N_s_per_m", "0");
   test.said("guide_damping_N_s_per_m", "acknowledged");
-  test.becomes("page.number % 50 === 0", 1);
+  test.becomes("page.newest % 50 === 0", 1);
   const double without_N = test.peak("output.force_N", 500);
   test.type("contact_stiffness_N_per_m", "1600");
   test.said("contact_stiffness_N_per_m", "acknowledged: 0 ");
@@ -138,21 +138,121 @@ void faults(Test& test) {
              test.becomes(kNoFault, kPatience_s));
 }
 
-// A cable that is none: a serial port for the page, whose bytes go to the emulator's WebSocket and
-// come from it.
+// Buttons and a key switch the motors off and on; the enable switch keeps the last word.
+void panel(Test& test) {
+  test.becomes(kMotorsAreOn, kPatience_s);
+  test.browser.evaluate("$('disable').click()");
+  test.check("Disable switches the motors off",
+             test.becomes("$('mode').textContent === 'motors: off'", kPatience_s));
+  test.type("force_limit_N", "9");
+  test.check("then a limit may rise", test.said("force_limit_N", "9 N"));
+  test.browser.evaluate("$('enable').click()");
+  test.check("Enable gives them back to the switch", test.becomes(kMotorsAreOn, kPatience_s));
+  test.browser.evaluate(
+      "document.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true }))");
+  test.check("Escape is an emergency stop: a latched fault",
+             test.becomes("$('faults').textContent.includes('emergency stop')", kPatience_s) &&
+                 test.becomes("page.isEnabled() === false", kPatience_s));
+  test.browser.evaluate("$('clear').click()");
+  test.check("it is cleared while the page holds the motors off",
+             test.becomes(kNoFault, kPatience_s));
+  test.browser.evaluate("$('enable').click()");
+  test.check("and the motors come on again", test.becomes(kMotorsAreOn, kPatience_s));
+}
+
+void parameters(Test& test) {
+  const std::string ends = "document.querySelector('[data-parameter=guide_ends]')";
+  test.check("parameters stand in groups", test.becomes("$('groups').children.length >= 4", 1));
+  test.browser.evaluate("$('search').value = 'guide ends', $('search').oninput()");
+  test.check("search shows what it finds, and nothing else",
+             test.becomes("!" + ends +
+                              ".hidden && page.parameters.filter(p => "
+                              "!p.element.hidden).length < 4",
+                          1));
+  test.browser.evaluate(ends + ".querySelector('button[data-value=\"2\"]').click()");
+  test.check("a switch of three values has three buttons",
+             test.becomes(ends + ".querySelectorAll('button').length === 3", 1) &&
+                 test.becomes(ends + ".querySelector('[aria-pressed=true]').dataset.value === '2'",
+                              kPatience_s));
+  test.browser.evaluate(
+      "window.kept = page.preset(), $('search').value = '', $('search').oninput()");
+  test.type("contact_stiffness_N_per_m", "500");
+  test.said("contact_stiffness_N_per_m", "acknowledged");
+  test.browser.evaluate(
+      "window.done = false, page.applyPreset(window.kept).then(() => window.done "
+      "= true)");
+  test.check("a preset brings back what was saved",
+             test.becomes("window.done", kPatience_s) &&
+                 test.becomes("JSON.stringify(page.preset()) === JSON.stringify(window.kept)", 1));
+}
+
+void recording(Test& test) {
+  test.browser.evaluate("$('record').click()");
+  test.becomes("page.recording.count > 100", kPatience_s);
+  const std::string rows = "(window.saved || (window.saved = page.stopRecording())).split('\\n')";
+  test.check("a recording is saved with a row a record and the names of the bits",
+             test.becomes(rows + ".length > 101", 5) &&
+                 test.becomes(rows + "[0].startsWith('number,') && " + rows +
+                                  "[0].includes('output.force_N[2]') && " + rows +
+                                  "[50].includes('enable')",
+                              1));
+}
+
+void plots(Test& test) {
+  test.browser.evaluate(
+      "(() => { const c = page.plots[0].canvas, b = c.getBoundingClientRect(); page.pause(true); "
+      "c.dispatchEvent(new PointerEvent('pointermove', { clientX: b.left + b.width / 2, clientY: "
+      "b.top + 20 })); })()");
+  test.check("pointing at a plot shows the values there",
+             test.becomes("page.plots[0].hover > 50", 2));
+  test.browser.evaluate(
+      "(() => { const c = page.plots[0].canvas; c.focus(); c.dispatchEvent(new WheelEvent('wheel', "
+      "{ deltaY: -700, cancelable: true })); })()");
+  test.check("the wheel zooms", test.becomes("page.seconds < 2", 2));
+  test.browser.evaluate("page.goBack(300)");
+  test.check("a drag goes back in time", test.becomes("page.back > 0 && page.paused", 2));
+  test.browser.evaluate("page.pause(false), page.setSeconds(5)");
+  test.check("part, tool and force are shown in 3D",
+             test.becomes("page.stage.corners.length > 1000 && page.stage.tool.every(v => "
+                          "Math.abs(v) < 3) && page.stage.trail.length > 100",
+                          kPatience_s));
+  test.check("one message a frame: no more messages than frames",
+             test.becomes("page.session.port.messages >= page.session.records && "
+                          "page.session.port.messages < page.session.records * 1.5 + 500",
+                          2));
+}
+
+// A second page waits, takes the link over, and gives it back.
+void second_page(Test& test, const std::string& url) {
+  const std::string first = test.browser.page();
+  test.browser.open(url, 1440, 960);
+  test.check("a second page says that another one holds the link",
+             test.becomes("$('banner').textContent.includes('Another page holds')", kPatience_s) &&
+                 test.becomes("!page.session.live && !$('take').hidden", 1));
+  test.browser.evaluate("$('take').click()");
+  test.check("it can take the link over", test.becomes(kConnected, kConnect_s));
+  test.browser.use(first);
+  test.check("the first page reports it",
+             test.becomes("$('banner').textContent.includes('another page took')", kPatience_s));
+  test.browser.evaluate("$('connect').click()");
+  test.check("it connects, waits, and takes the link back",
+             test.becomes("$('banner').textContent.includes('Another page holds')", kPatience_s) &&
+                 test.becomes("($('take').click(), true)", 1) &&
+                 test.becomes(kConnected, kConnect_s));
+}
+
+// A cable that is none: a serial port for the page, whose bytes take the server's link.
 constexpr const char* kStandInPort =
     "Object.defineProperty(navigator, 'serial', { configurable: true, value: { requestPort: async "
     "() => { let socket; const port = { async open(how) { window.baud = how.baudRate; socket = new "
-    "WebSocket($('address').value, ['binary']); socket.binaryType = 'arraybuffer'; await new "
-    "Promise(done => socket.onopen = done); port.readable = new ReadableStream({ start(to) { "
-    "socket.onmessage = event => to.enqueue(new Uint8Array(event.data)); window.pullCable = () => "
-    "{ "
-    "to.error(new Error('The device has been lost.')); socket.close(); }; } }); port.writable = "
-    "new "
-    "WritableStream({ async write(bytes) { for (let at = 0; at < bytes.length; at += 32) { "
-    "socket.send(bytes.slice(at, at + 32)); await new Promise(done => setTimeout(done, 25)); } } "
-    "}); "
-    "}, async close() { socket.close(); } }; return port; } } })";
+    "WebSocket(location.origin.replace('http', 'ws') + '/link'); socket.binaryType = "
+    "'arraybuffer'; await new Promise(done => socket.onopen = done); port.readable = new "
+    "ReadableStream({ start(to) { socket.onmessage = event => { if (typeof event.data !== "
+    "'string') to.enqueue(new Uint8Array(event.data)); }; window.pullCable = () => { to.error(new "
+    "Error('The device has been lost.')); socket.close(); }; } }); port.writable = new "
+    "WritableStream({ write(bytes) { socket.send(bytes); } }); }, async close() { socket.close(); "
+    "} "
+    "}; return port; } } })";
 
 void serial(Test& test) {
   test.browser.evaluate("$('leave').click()");
@@ -161,10 +261,7 @@ void serial(Test& test) {
                  test.becomes("$('state').textContent.startsWith('State, as last reported')", 1) &&
                  test.becomes("$('flow').textContent === 'no records'", 1));
   test.browser.evaluate(kStandInPort);
-  // As its button does, but with every 100th record: each byte of the emulator is a message here.
-  test.browser.evaluate(
-      "page.connect(async (take, ended) => ({ ...await openSerial(take, ended), decimation: 100 "
-      "}))");
+  test.browser.evaluate("$('serial').click()");
   test.check("it connects over a serial port too (a stand-in), at 1 Mbaud",
              test.becomes(kConnected, kConnect_s) && test.becomes("window.baud === 1000000", 1) &&
                  test.becomes("page.session.records > 5", kPatience_s));
@@ -175,20 +272,13 @@ void serial(Test& test) {
   test.check("it connects again",
              test.becomes(kConnected, kConnect_s) &&
                  test.becomes("$('mode').textContent !== 'motors: ?'", kPatience_s));
-  test.browser.evaluate("$('leave').click()");
-  test.browser.evaluate(
-      "(window.opened = 0, page.connect(async (take, ended) => window.opened++ > 0 ? await "
-      "openSocket($('address').value, take, ended) : { name: 'mute', decimation: 10, tries: 1, "
-      "reopens: 1, write() {}, close() {} }))");
-  test.check("where nothing answers a socket is opened anew",
-             test.becomes(kConnected, kConnect_s) && test.becomes("window.opened === 2", 1));
 }
 
 }  // namespace
 
 int main(int count, char** words) {
   if (count < 5) {
-    std::fprintf(stderr, "usage: live_page BROWSER URL EMULATOR_PID FOLDER [PICTURES]\n");
+    std::fprintf(stderr, "usage: live_page BROWSER URL CONTROLLER_PID FOLDER [PICTURES]\n");
     return 2;
   }
   ::signal(SIGPIPE, SIG_IGN);
@@ -198,7 +288,7 @@ int main(int count, char** words) {
   const auto picture = [&](const char* name) {
     if (!pictures.empty()) browser.picture(pictures + "/" + name + ".png");
   };
-  if (!test.check("the browser opens the page", browser.open(words[2], 1440, 960))) return 1;
+  if (!test.check("the browser opens the page", browser.open(words[2], 1600, 1000))) return 1;
   if (test.check("it connects to the controller", test.becomes(kConnected, kConnect_s))) {
     const double first = test.number("page.session.records");
     test.check("records come, and the pictures move",
@@ -210,7 +300,12 @@ int main(int count, char** words) {
     picture("desktop");
     refusals(test);
     faults(test);
-    picture("cleared");
+    panel(test);
+    parameters(test);
+    recording(test);
+    plots(test);
+    picture("tuned");
+    second_page(test, words[2]);
     std::printf("      %s\n", browser.evaluate("$('flow').textContent").c_str());
     serial(test);
     test.check("no frame was damaged", browser.evaluate("page.session.decoder.rejects") == "0");
@@ -226,6 +321,8 @@ int main(int count, char** words) {
   test.check("at a phone's width nothing stands out to the side",
              test.becomes("document.documentElement.scrollWidth <= 390", 2));
   picture("phone");
+  const std::string errors = browser.errors();
+  if (!test.check("no error on the console", errors.empty())) std::printf("%s", errors.c_str());
   std::printf("%d passed, %d failed\n", test.passed, test.failed);
   return test.failed == 0 ? 0 : 1;
 }
