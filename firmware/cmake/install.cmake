@@ -12,7 +12,7 @@ install(DIRECTORY firmware/firmtouch hal/firmtouch DESTINATION ${CMAKE_INSTALL_I
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/firmtouch-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES firmware/cmake/firmtouch-config.cmake tools/cmake/firmtouch_bake.cmake
               ${CMAKE_BINARY_DIR}/firmtouch-config-version.cmake DESTINATION ${folder})
-# The bill of materials. The build id of the link tells one tree from another.
+# The bill of materials. The build id of the link distinguishes one tree from another.
 file(GLOB_RECURSE files RELATIVE ${PROJECT_SOURCE_DIR} firmware/firmtouch/*.hpp firmware/firmtouch/*.cpp)
 set(tree_hash "")
 foreach(file ${files})

@@ -78,7 +78,7 @@ TEST(ServoInterrupt_SecondStart_ChangesThePeriod) {
 }
 
 #ifdef __arm__
-TEST(FloatingPoint_ModesLeftByABootLoader_AreUndoneHereAndInInterrupts) {
+TEST(FloatingPoint_ModesLeftByABootLoader_AreResetHereAndInInterrupts) {
   constexpr uint32_t kModes = 0x07C00000;
   auto& at_interrupt = *reinterpret_cast<volatile uint32_t*>(uintptr_t{0xE000EF3C});
   uint32_t status;
