@@ -27,10 +27,12 @@ int main() {
   asset::Container file;
   mesh::View gem;
   if (!asset::open({scene_fta, scene_fta_size}, file).ok()) return 1;
-  if (!asset::open_geometry(file, file.name(file.next_of_type(mesh::kHeadSection)), gem).ok()) return 2;
+  if (!asset::open_geometry(file, file.name(file.next_of_type(mesh::kHeadSection)), gem).ok())
+    return 2;
   mesh::Hint hint;
   const mesh::Closest found = mesh::closest_point(gem, {0.04f, 0, 0.03f}, query::Budget{256}, hint);
-  const bool is_good = found.certificate.exact && found.distance_m > 0.0149f && found.distance_m < 0.0151f && kVersion >= 100;
+  const bool is_good = found.certificate.exact && found.distance_m > 0.0149f &&
+                       found.distance_m < 0.0151f && kVersion >= 100;
   print(is_good ? "ok    the gem is touched\n" : "FAIL  the gem is not touched\n");
   return is_good ? 0 : 3;
 }
