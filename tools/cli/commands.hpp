@@ -16,6 +16,9 @@ int run_info(const Arguments& arguments);
 const Command& query_command();
 int run_query(const Arguments& arguments);
 
+const Command& mend_command();
+int run_mend(const Arguments& arguments);
+
 const Command& hull_command();
 int run_hull(const Arguments& arguments);
 

@@ -18,7 +18,8 @@ struct Entry {
 constexpr Entry kEntries[] = {{make_command, run_make},         {bake_command, run_bake},
                               {info_command, run_info},         {query_command, run_query},
                               {log_command, run_log},           {bench_command, run_bench},
-                              {voxelize_command, run_voxelize}, {hull_command, run_hull}};
+                              {voxelize_command, run_voxelize}, {hull_command, run_hull},
+                              {mend_command, run_mend}};
 
 std::string usage() {
   std::string text =
