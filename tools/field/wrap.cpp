@@ -13,6 +13,7 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr double kMostNodes = 1 << 27;
+constexpr double kCell = 0.55;          // of the distance: a cell's diagonal is 0.953 of it
 constexpr uint32_t kBlock = 8;         // nodes along a side that share one distance query
 constexpr double kNearNode = 0.05;     // of an edge: no vertex lies nearer to its ends
 constexpr double kOver = 1 + 1e-4;     // on bounds: far above rounding
@@ -22,7 +23,7 @@ enum Node : uint8_t { kInside, kUnreached, kOutside };
 class Wrapper {
  public:
   Wrapper(const Surface& soup, double distance_m, Point low, Point high)
-      : soup_(soup), tree_(soup), distance_m_(distance_m), cell_m_(distance_m / 2) {
+      : soup_(soup), tree_(soup), distance_m_(distance_m), cell_m_(kCell * distance_m) {
     const Point margin{distance_m + 2 * cell_m_, distance_m + 2 * cell_m_,
                        distance_m + 2 * cell_m_};
     low_ = low - margin;
@@ -190,10 +191,13 @@ class Wrapper {
 // On the vertices as they are stored.
 size_t points_outside(const Surface& soup, const Surface& wrapped) {
   const WindingNumber winding(wrapped, {});
+  std::vector<bool> is_seen(soup.vertices.size(), false);
   size_t outside = 0;
   for (const Face& face : soup.faces)
-    for (const uint32_t v : face)
-      if (winding.at(to_point(soup.vertices[v])) < 1) ++outside;
+    for (const uint32_t v : face) {
+      if (!is_seen[v] && winding.at(to_point(soup.vertices[v])) < 1) ++outside;
+      is_seen[v] = true;
+    }
   return outside;
 }
 
@@ -201,7 +205,7 @@ size_t points_outside(const Surface& soup, const Surface& wrapped) {
 
 Surface wrap_surface(const Surface& soup, double distance_m, WrapReport& report) {
   report = {};
-  report.cell_m = distance_m / 2;
+  report.cell_m = kCell * distance_m;
   Point low = to_point(soup.vertices[soup.faces[0][0]]), high = low;
   for (const Face& face : soup.faces)
     for (const uint32_t v : face) {
@@ -221,7 +225,9 @@ Surface wrap_surface(const Surface& soup, double distance_m, WrapReport& report)
   Surface wrapped = wrapper.extract();
   wrapped.frame = soup.frame;
   if (points_outside(soup, wrapped) != 0)
-    report.problem = "has points that its wrapping does not enclose: a defect of the wrapper, please report the input";
+    report.problem =
+        "has points that its wrapping does not enclose: a defect of the wrapper, please report the "
+        "input";
   return wrapped;
 }
 

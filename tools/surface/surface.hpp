@@ -17,7 +17,7 @@ struct Surface {
   std::vector<math::Vec3> vertices;
   std::vector<Face> faces;
   std::vector<uint32_t> source;  // of each face: its index in the imported file (polygons fanned)
-  FileFrame frame;                   // of the file, for messages
+  FileFrame frame = {};          // of the file, for messages
 };
 
 }  // namespace firmtouch::tools

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "surface/check/mending.hpp"
 #include "surface/point.hpp"
@@ -11,6 +12,9 @@
 
 namespace firmtouch::tools {
 namespace {
+
+constexpr double kApart = 1e-5;       // of the surface's reach: how far parted sheets move
+constexpr double kApartOfEdge = 0.05;  // at most, of the shortest edge there
 
 struct Spoke {
   double angle;  // of its face about the edge, from the lower vertex to the higher one
@@ -54,6 +58,30 @@ void pair_spokes(const std::vector<Spoke>& spokes, std::vector<uint32_t>& mates)
   }
 }
 
+// Moves the vertices of parted sheets into their solids, so that the sheets touch no more.
+void move_apart(Surface& surface, const std::vector<bool>& moves) {
+  std::vector<Point> normal(surface.vertices.size());
+  std::vector<double> shortest_m(surface.vertices.size(), std::numeric_limits<double>::max());
+  double reach_m = 0;
+  for (const Face& face : surface.faces) {
+    const Point a = to_point(surface.vertices[face[0]]), b = to_point(surface.vertices[face[1]]),
+                c = to_point(surface.vertices[face[2]]);
+    const Point of_face = cross(b - a, c - a);
+    const double edge_m = std::min({length(b - a), length(c - b), length(a - c)});
+    reach_m = std::max(reach_m, length(b - to_point(surface.vertices[surface.faces[0][0]])));
+    for (const uint32_t v : face) {
+      normal[v] = normal[v] + of_face;
+      shortest_m[v] = std::min(shortest_m[v], edge_m);
+    }
+  }
+  for (uint32_t v = 0; v < moves.size(); ++v) {
+    const double size = length(normal[v]);
+    if (!moves[v] || !(size > 0)) continue;
+    const double by_m = std::min(kApart * reach_m, kApartOfEdge * shortest_m[v]);
+    surface.vertices[v] = to_vec3(to_point(surface.vertices[v]) - normal[v] * (by_m / size));
+  }
+}
+
 }  // namespace
 
 void split_sheets(Surface& surface, CheckReport& report) {
@@ -63,6 +91,8 @@ void split_sheets(Surface& surface, CheckReport& report) {
     if (edge.count > 2) pair_spokes(spokes_of(surface, edge), mates);
   Sets fans = corner_fans(surface.faces, mates);
   std::vector<uint32_t> owner(surface.vertices.size(), kNone), vertex_of(surface.faces.size() * 3);
+  std::vector<uint32_t> of_corner;  // the vertex as it was
+  for (uint32_t c = 0; c < vertex_of.size(); ++c) of_corner.push_back(start_of(surface.faces, c));
   uint32_t split = 0, added = 0, first = kNone;
   std::vector<bool> is_split(surface.vertices.size(), false);
   for (uint32_t c = 0; c < vertex_of.size(); ++c) {
@@ -87,8 +117,12 @@ void split_sheets(Surface& surface, CheckReport& report) {
   if (added == 0) return;
   report.mended.push_back("gave separate sheets vertices of their own at " +
                           counted(split, "vertex", "vertices") + ", first " +
-                          named_vertex(surface, first) + ": " + std::to_string(added) + " added");
+                          named_vertex(surface, first) + ": " + std::to_string(added) + " added, each moved into its solid by at most 1e-5 of the size");
   for (uint32_t c = 0; c < vertex_of.size(); ++c) surface.faces[c / 3][c % 3] = vertex_of[c];
+  is_split.resize(surface.vertices.size(), false);
+  for (uint32_t c = 0; c < vertex_of.size(); ++c)
+    if (is_split[of_corner[c]]) is_split[vertex_of[c]] = true;
+  move_apart(surface, is_split);
 }
 
 }  // namespace firmtouch::tools
