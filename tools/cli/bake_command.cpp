@@ -70,10 +70,10 @@ std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
   Progress progress(inputs.size() * kStagesAnInput);
   std::vector<BakedInput> baked;
   for (const std::string& path : inputs) {
-    baked.push_back(is_curve_file(path) ? bake_curve_input(path, options, progress)
-                    : is_run(path)    ? bake_run_input(path, options, progress)
+    baked.push_back(is_curve_file(path)    ? bake_curve_input(path, options, progress)
+                    : is_run(path)         ? bake_run_input(path, options, progress)
                     : is_spline_file(path) ? bake_spline_input(path, options, progress)
-                                      : bake_mesh_input(path, options, progress));
+                                           : bake_mesh_input(path, options, progress));
   }
   return baked;
 }
@@ -156,41 +156,47 @@ const Command& bake_command() {
       "bake",
       "INPUT... -o SCENE.fta [options]",
       "Bakes meshes, curves and splines into one asset, proven with the firmware's own decoder.",
-      "INPUT by extension: .obj .off .ply .stl .gltf .glb .3mf a mesh; .csv a curve (header x,y,z); "
+      "INPUT by extension: .obj .off .ply .stl .gltf .glb .3mf a mesh; .csv a curve (header "
+      "x,y,z); "
       ".ftl\n"
-      "a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces (126, 128); .bpt Bezier\n"
+      "a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces (126, 128); .bpt "
+      "Bezier\n"
       "patches. Each is named after its file's stem. What can be mended safely is mended and\n"
       "reported; the rest is refused.",
-      with_model_options({{"-o", "FILE", "the asset to write"},
-       {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
-       {"--fast", nullptr,
-        "meshes: the fastest on a controller rather than the smallest (the default)"},
-       {"--bounded", nullptr,
-        "meshes: the worst query near the surface takes a controller a fifth less, for nearly "
-        "three "
-        "times the flash"},
-       {"--small", nullptr,
-        "meshes: a third less flash, a third more work a query; splines: half the flash"},
-       {"--desktop", nullptr,
-        "meshes: the fastest on a desktop with AVX2; half as much work again on a controller"},
-       {"--distance-map", "CELLS",
-        "meshes get a grid of certified bounds, CELLS along the long axis"},
-       {"--cpp", "FILE", "the asset as a C++ source, too"},
-       {"--hull-faces", "N",
-        "meshes get a progressive hull, at its coarsest of at most N faces: enclosing, proven"},
-       {"--hull-grid", "22|16", "bits of a hull's coordinate (default 22)"},
-       {"--max-valence", "N", "faces around a hull's vertex, at most 31 (default 12)"},
-       {"--compactness", "R",
-        "share of the faces' compactness that a collapse leaves (default 0.8)"},
-       {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
-       {"--no-tree", nullptr,
-        "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
-       {"--smooth", nullptr, "curves and runs: cubic pieces through the samples, without corners"},
-       {"--curve-tree", nullptr,
-        "curves and runs: also the k-d tree of the samples, for nearest_constraint()"},
-       {"--teach", "NAME", "what the guide is called that a recorded run gives"},
-       {"--max-deviation", "METRES",
-        "no place of the run is farther from its guide (default 0.0001)"}}),
+      with_model_options(
+          {{"-o", "FILE", "the asset to write"},
+           {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
+           {"--fast", nullptr,
+            "meshes: the fastest on a controller rather than the smallest (the default)"},
+           {"--bounded", nullptr,
+            "meshes: the worst query near the surface takes a controller a fifth less, for nearly "
+            "three "
+            "times the flash"},
+           {"--small", nullptr,
+            "meshes: a third less flash, a third more work a query; splines: half the flash"},
+           {"--desktop", nullptr,
+            "meshes: the fastest on a desktop with AVX2; half as much work again on a controller"},
+           {"--distance-map", "CELLS",
+            "meshes get a grid of certified bounds, CELLS along the long axis"},
+           {"--cpp", "FILE", "the asset as a C++ source, too"},
+           {"--hull-faces", "N",
+            "meshes get a progressive hull, at its coarsest of at most N faces: enclosing, proven"},
+           {"--hull-grid", "22|16", "bits of a hull's coordinate (default 22)"},
+           {"--max-valence", "N", "faces around a hull's vertex, at most 31 (default 12)"},
+           {"--compactness", "R",
+            "share of the faces' compactness that a collapse leaves (default 0.8)"},
+           {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
+           {"--no-tree", nullptr,
+            "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
+           {"--decimal-comma", nullptr,
+            "curves: numbers as 1,5; then semicolons or tabs separate them"},
+           {"--smooth", nullptr,
+            "curves and runs: cubic pieces through the samples, without corners"},
+           {"--curve-tree", nullptr,
+            "curves and runs: also the k-d tree of the samples, for nearest_constraint()"},
+           {"--teach", "NAME", "what the guide is called that a recorded run gives"},
+           {"--max-deviation", "METRES",
+            "no place of the run is farther from its guide (default 0.0001)"}}),
       1,
       SIZE_MAX};
   return command;

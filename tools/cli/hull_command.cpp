@@ -66,15 +66,16 @@ const Command& hull_command() {
       "itself.\n"
       "Where no edge may collapse any more, the coarsest hull reached is written and the reason "
       "printed.",
-      with_model_options({{"-o", "FILE", "the hull (.obj)"},
-       {"--faces", "N", "at most so many, even (4 and more)"},
-       {"--strategy", "1|2|lazy",
-        "1: least volume first; 2: least volume about the middle of the "
-        "star; lazy (default): 1, looking again only at an edge's turn"},
-       {"--hull-grid", "22|16", "bits of a stored coordinate (default 22)"},
-       {"--max-valence", "N", "faces around a vertex (default 12)"},
-       {"--compactness", "R", "share of the faces' compactness that is left (default 0.8)"},
-       {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"}}),
+      with_model_options(
+          {{"-o", "FILE", "the hull (.obj)"},
+           {"--faces", "N", "at most so many, even (4 and more)"},
+           {"--strategy", "1|2|lazy",
+            "1: least volume first; 2: least volume about the middle of the "
+            "star; lazy (default): 1, looking again only at an edge's turn"},
+           {"--hull-grid", "22|16", "bits of a stored coordinate (default 22)"},
+           {"--max-valence", "N", "faces around a vertex (default 12)"},
+           {"--compactness", "R", "share of the faces' compactness that is left (default 0.8)"},
+           {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"}}),
       1,
       1};
   return command;

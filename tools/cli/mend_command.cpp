@@ -17,7 +17,8 @@ const Command& mend_command() {
       "MODEL -o FILE [options]",
       "Mends a mesh so that it can be touched, as bake --mend does, and writes it.",
       "MODEL: .obj .off .ply .stl .gltf .glb .3mf; FILE: .obj .off .ply .stl, in metres. Vertices\n"
-      "near each other are welded, sheets that touch parted, dangling faces removed, holes closed,\n"
+      "near each other are welded, sheets that touch parted, dangling faces removed, holes "
+      "closed,\n"
       "windings made alike; each is reported. Where that is not enough, --wrap puts a surface\n"
       "around whatever is there.",
       with_model_options({{"-o", "FILE", "the mesh to write"}}),
@@ -42,8 +43,8 @@ int run_mend(const Arguments& arguments) {
     progress.stage("mending " + file_name_of(path));
     settle_size(path, options);
     sound = sound_surface(path, read_model(path), options);
-    for (const std::string& line : tools::describe(tools::find_crossings(sound.surface),
-                                                   sound.surface, sound.vertex_source))
+    for (const std::string& line :
+         tools::describe(tools::find_crossings(sound.surface), sound.surface, sound.vertex_source))
       sound.reported.push_back(line);
   }
   const std::string bytes = tools::to_model(sound.surface, tools::model_extension(output));

@@ -106,7 +106,8 @@ Extent extent_of(const std::string& path, const ModelOptions& options) {
   const tools::FileFrame frame = options.frame_for(path);
   Extent extent;
   if (is_curve_file(path)) {
-    for (const math::Vec3 p : tools::read_curve_csv(path, frame).samples_m)
+    for (const math::Vec3 p :
+         tools::read_curve_csv(path, frame, {options.has_decimal_commas}).samples_m)
       extent.add(tools::to_point(p));
   } else if (is_spline_file(path)) {
     const tools::SplineModel model =
@@ -194,21 +195,22 @@ bool is_spline_file(const std::string& path) {
 }
 
 std::vector<Option> with_model_options(std::vector<Option> own) {
-  static const std::vector<Option> kShared = {{"--unit", "m|mm|cm|in",
-           "of the inputs' coordinates (default m; .igs .3mf: their own); INPUT:mm for one alone"},
-          {"--scale", "FACTOR", "after the unit"},
-          {"--up", "x|y|z", "which axis of the file points up; it becomes z"},
-          {"--rotate", "AXIS:DEGREES", "about the origin, such as z:90; after --up"},
-          {"--size", "LENGTH",
-           "the first model's largest side becomes so long, such as 150mm; all inputs scale alike"},
-          {"--centre", nullptr, "the middle of the first model's box comes to the origin"},
-          {"--translate", "X,Y,Z", "metres, after all else"},
-          {"--close-holes", nullptr, "each hole of a mesh gets a cap of triangles, reported"},
-          {"--mend", nullptr,
-           "meshes: weld what lies near, part sheets that touch, drop dangling faces, close holes"},
-          {"--wrap", "LENGTH",
-           "meshes: a surface around them at this distance, such as 2mm or 1% (of the diagonal); "
-           "with --mend only where that is not enough; takes soups and points"}};
+  static const std::vector<Option> kShared = {
+      {"--unit", "m|mm|cm|in",
+       "of the inputs' coordinates (default m; .igs .3mf: their own); INPUT:mm for one alone"},
+      {"--scale", "FACTOR", "after the unit"},
+      {"--up", "x|y|z", "which axis of the file points up; it becomes z"},
+      {"--rotate", "AXIS:DEGREES", "about the origin, such as z:90; after --up"},
+      {"--size", "LENGTH",
+       "the first model's largest side becomes so long, such as 150mm; all inputs scale alike"},
+      {"--centre", nullptr, "the middle of the first model's box comes to the origin"},
+      {"--translate", "X,Y,Z", "metres, after all else"},
+      {"--close-holes", nullptr, "each hole of a mesh gets a cap of triangles, reported"},
+      {"--mend", nullptr,
+       "meshes: weld what lies near, part sheets that touch, drop dangling faces, close holes"},
+      {"--wrap", "LENGTH",
+       "meshes: a surface around them at this distance, such as 2mm or 1% (of the diagonal); "
+       "with --mend only where that is not enough; takes soups and points"}};
   own.insert(own.begin() + 1, kShared.begin(), kShared.end());
   return own;
   own.insert(own.begin() + 1, kShared.begin(), kShared.end());
@@ -228,13 +230,15 @@ ModelOptions model_options(const Arguments& arguments, std::string& text) {
   options.is_signed = !arguments.has("--unsigned");
   options.close_holes = arguments.has("--close-holes");
   options.mend = arguments.has("--mend");
+  options.has_decimal_commas = arguments.has("--decimal-comma");
   options.wrap = length_of(arguments, "--wrap", true);
   if (!options.is_signed && options.wrap.value > 0)
     fail_usage("--wrap gives an inside and --unsigned does without one; give one of them");
   text += "--unit " + unit;
   for (const char* option : {"--scale", "--up", "--rotate", "--size", "--translate", "--wrap"})
     if (arguments.has(option)) text += std::string(" ") + option + " " + arguments.text(option, "");
-  for (const char* option : {"--centre", "--unsigned", "--close-holes", "--mend"})
+  for (const char* option :
+       {"--centre", "--unsigned", "--close-holes", "--mend", "--decimal-comma"})
     if (arguments.has(option)) text += std::string(" ") + option;
   return options;
 }

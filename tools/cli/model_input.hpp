@@ -16,14 +16,15 @@ struct Length {
 
 /// How the inputs become metres, and what is done to a mesh that cannot be touched as it is.
 struct ModelOptions {
-  tools::FileFrame frame;                         // without size and centre
+  tools::FileFrame frame;                            // without size and centre
   std::map<std::string, tools::FileFrame> frame_of;  // of the inputs with a unit of their own
-  double size_m = 0;                          // of the first model's largest side; 0: as it is
-  bool centre = false;                        // the middle of the first model's box to the origin
+  double size_m = 0;    // of the first model's largest side; 0: as it is
+  bool centre = false;  // the middle of the first model's box to the origin
   bool is_signed = true;
   bool close_holes = false;
   bool mend = false;
   Length wrap;
+  bool has_decimal_commas = false;  // in curves
 
   tools::FileFrame frame_for(const std::string& path) const;
 };

@@ -103,7 +103,8 @@ std::string column_name(std::string_view field, double& unit_m) {
   } kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"um", 1e-6}};
   unit_m = 0;
   const size_t end = field.find_first_of("([/_ ", 1);
-  std::string_view unit = end == field.npos || field.empty() ? std::string_view{} : field.substr(end);
+  std::string_view unit =
+      end == field.npos || field.empty() ? std::string_view{} : field.substr(end);
   while (!unit.empty() && std::string_view("([/_ ").find(unit.front()) != unit.npos)
     unit.remove_prefix(1);
   while (!unit.empty() && std::string_view(")] ").find(unit.back()) != unit.npos)

@@ -13,10 +13,10 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr double kMostNodes = 1 << 27;
-constexpr double kCell = 0.55;          // of the distance: a cell's diagonal is 0.953 of it
-constexpr uint32_t kBlock = 8;         // nodes along a side that share one distance query
-constexpr double kNearNode = 0.05;     // of an edge: no vertex lies nearer to its ends
-constexpr double kOver = 1 + 1e-4;     // on bounds: far above rounding
+constexpr double kCell = 0.55;      // of the distance: a cell's diagonal is 0.953 of it
+constexpr uint32_t kBlock = 8;      // nodes along a side that share one distance query
+constexpr double kNearNode = 0.05;  // of an edge: no vertex lies nearer to its ends
+constexpr double kOver = 1 + 1e-4;  // on bounds: far above rounding
 
 enum Node : uint8_t { kInside, kUnreached, kOutside };
 
@@ -69,9 +69,7 @@ class Wrapper {
  private:
   using Where = std::array<uint32_t, 3>;
 
-  size_t index(const Where& at) const {
-    return at[0] + n_[0] * (at[1] + size_t{n_[1]} * at[2]);
-  }
+  size_t index(const Where& at) const { return at[0] + n_[0] * (at[1] + size_t{n_[1]} * at[2]); }
   Point point(const Where& at) const {
     return low_ + Point{cell_m_ * at[0], cell_m_ * at[1], cell_m_ * at[2]};
   }
@@ -79,9 +77,10 @@ class Wrapper {
   double distance(Point p) {
     seed_ = tree_.nearest(tree_.local(p), seed_);
     const Face& face = soup_.faces[tree_.face_of(seed_)];
-    return std::sqrt(foot_on(p, {to_point(soup_.vertices[face[0]]), to_point(soup_.vertices[face[1]]),
-                                 to_point(soup_.vertices[face[2]])})
-                         .distance2);
+    return std::sqrt(
+        foot_on(p, {to_point(soup_.vertices[face[0]]), to_point(soup_.vertices[face[1]]),
+                    to_point(soup_.vertices[face[2]])})
+            .distance2);
   }
 
   void classify_block(uint32_t x0, uint32_t y0, uint32_t z0) {
@@ -145,8 +144,8 @@ class Wrapper {
 
   void add(Face face, Point outer) {
     const Point a = to_point(wrapped_.vertices[face[0]]);
-    const Point normal = cross(to_point(wrapped_.vertices[face[1]]) - a,
-                               to_point(wrapped_.vertices[face[2]]) - a);
+    const Point normal =
+        cross(to_point(wrapped_.vertices[face[1]]) - a, to_point(wrapped_.vertices[face[2]]) - a);
     if (dot(normal, outer - a) < 0) std::swap(face[1], face[2]);
     wrapped_.source.push_back(static_cast<uint32_t>(wrapped_.faces.size()));
     wrapped_.faces.push_back(face);
@@ -157,8 +156,8 @@ class Wrapper {
     const bool rises = in[0] <= out[0] && in[1] <= out[1] && in[2] <= out[2];
     const Where &low = rises ? in : out, &high = rises ? out : in;
     const uint64_t kind = (high[0] - low[0]) | (high[1] - low[1]) << 1 | (high[2] - low[2]) << 2;
-    const auto added = vertex_of_.emplace(
-        index(low) * 8 + kind, static_cast<uint32_t>(wrapped_.vertices.size()));
+    const auto added =
+        vertex_of_.emplace(index(low) * 8 + kind, static_cast<uint32_t>(wrapped_.vertices.size()));
     if (added.second) wrapped_.vertices.push_back(to_vec3(crossing(point(in), point(out))));
     return added.first->second;
   }

@@ -49,7 +49,8 @@ template <class Number>
 void append_bytes(std::string& bytes, Number value) {
   uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof value);
-  for (size_t k = 0; k < sizeof value; ++k) bytes.push_back(static_cast<char>(bits >> 8 * k & 0xFF));
+  for (size_t k = 0; k < sizeof value; ++k)
+    bytes.push_back(static_cast<char>(bits >> 8 * k & 0xFF));
 }
 
 std::string to_stl(const Surface& surface) {

@@ -54,7 +54,8 @@ std::string counted(uint64_t count, const char* one, const char* many) {
 }
 
 std::string named_vertex(const Surface& surface, uint32_t vertex) {
-  return "vertex " + std::to_string(vertex) + surface.frame.place_text(to_point(surface.vertices[vertex]));
+  return "vertex " + std::to_string(vertex) +
+         surface.frame.place_text(to_point(surface.vertices[vertex]));
 }
 
 std::string named_edge(const Surface& surface, uint32_t a, uint32_t b) {

@@ -158,9 +158,8 @@ void close_holes(Surface& surface, uint32_t first_source, CheckReport& report) {
     return;
   }
   // Small holes first: what they take, a large one can leave.
-  std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) {
-    return a.border.size() < b.border.size();
-  });
+  std::stable_sort(holes.begin(), holes.end(),
+                   [](const Hole& a, const Hole& b) { return a.border.size() < b.border.size(); });
   const Pairs taken = taken_edges(surface, edges, holes);
   std::vector<CapRule> rules(holes.size(), CapRule::kMinBend);
   std::vector<std::vector<Face>> caps;

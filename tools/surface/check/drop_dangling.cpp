@@ -15,9 +15,9 @@ constexpr uint32_t kMaxRounds = 32;
 
 struct Patch {
   double area = 0;
-  bool is_open = false;      // has an edge of one face
-  bool is_crowded = false;   // has an edge of more than two
-  bool has_odd = false;      // of these, one with an odd number
+  bool is_open = false;     // has an edge of one face
+  bool is_crowded = false;  // has an edge of more than two
+  bool has_odd = false;     // of these, one with an odd number
 };
 
 double area_of(const Surface& surface, const Face& face) {
@@ -70,7 +70,8 @@ double mark_patches(const Surface& surface, double most, std::vector<bool>& drop
     const auto begin = std::lower_bound(at_edge.begin(), at_edge.end(), std::make_pair(p, 0u));
     auto end = begin;
     bool is_free = area + patches[p].area <= most;
-    for (; end != at_edge.end() && end->first == p; ++end) is_free = is_free && !is_used[end->second];
+    for (; end != at_edge.end() && end->first == p; ++end)
+      is_free = is_free && !is_used[end->second];
     if (!is_free) continue;
     for (auto i = begin; i != end; ++i) is_used[i->second] = true;
     chosen[p] = true;

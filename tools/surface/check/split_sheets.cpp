@@ -13,7 +13,7 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr double kApart = 1e-5;       // of the surface's reach: how far parted sheets move
+constexpr double kApart = 1e-5;        // of the surface's reach: how far parted sheets move
 constexpr double kApartOfEdge = 0.05;  // at most, of the shortest edge there
 
 struct Spoke {
@@ -26,7 +26,8 @@ std::vector<Spoke> spokes_of(const Surface& surface, const Edges::Edge& edge) {
   const Point low = to_point(surface.vertices[edge.low]);
   const Point along = to_point(surface.vertices[edge.high]) - low;
   const Point axis = along * (1 / std::max(length(along), 1e-300));
-  Point aside = cross(axis, std::fabs(axis.x) <= std::fabs(axis.y) ? Point{1, 0, 0} : Point{0, 1, 0});
+  Point aside =
+      cross(axis, std::fabs(axis.x) <= std::fabs(axis.y) ? Point{1, 0, 0} : Point{0, 1, 0});
   aside = aside * (1 / std::max(length(aside), 1e-300));
   const Point up = cross(axis, aside);
   std::vector<Spoke> spokes;
@@ -34,8 +35,8 @@ std::vector<Spoke> spokes_of(const Surface& surface, const Edges::Edge& edge) {
     const uint32_t h = edge.half[k];
     const uint32_t apex = start_of(surface.faces, next_half(next_half(h)));
     const Point p = to_point(surface.vertices[apex]) - low;
-    spokes.push_back({std::atan2(dot(p, up), dot(p, aside)), h,
-                      start_of(surface.faces, h) == edge.low});
+    spokes.push_back(
+        {std::atan2(dot(p, up), dot(p, aside)), h, start_of(surface.faces, h) == edge.low});
   }
   std::stable_sort(spokes.begin(), spokes.end(),
                    [](const Spoke& a, const Spoke& b) { return a.angle < b.angle; });
@@ -117,7 +118,8 @@ void split_sheets(Surface& surface, CheckReport& report) {
   if (added == 0) return;
   report.mended.push_back("gave separate sheets vertices of their own at " +
                           counted(split, "vertex", "vertices") + ", first " +
-                          named_vertex(surface, first) + ": " + std::to_string(added) + " added, each moved into its solid by at most 1e-5 of the size");
+                          named_vertex(surface, first) + ": " + std::to_string(added) +
+                          " added, each moved into its solid by at most 1e-5 of the size");
   for (uint32_t c = 0; c < vertex_of.size(); ++c) surface.faces[c / 3][c % 3] = vertex_of[c];
   is_split.resize(surface.vertices.size(), false);
   for (uint32_t c = 0; c < vertex_of.size(); ++c)

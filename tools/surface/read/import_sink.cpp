@@ -208,7 +208,9 @@ bool ImportSink::finish() {
     }
   }
   if (surface_.faces.empty())
-    return fail("has no faces: export it as a mesh, not as points or lines; points are taken with --wrap D");
+    return fail(
+        "has no faces: export it as a mesh, not as points or lines; points are taken with --wrap "
+        "D");
   for (const Polygon& polygon : polygons_) split_concave(polygon);
   if (failed()) return false;
   report_rounding();

@@ -152,8 +152,8 @@ const char* read_codes(Bits& in, Codes& codes) {
 }
 
 const char* read_block(Bits& in, const Codes& codes, std::string& out, size_t max_bytes) {
-  static constexpr uint16_t kLength[29] = {3,  4,  5,  6,  7,  8,  9,  10,  11,  13,
-                                           15, 17, 19, 23, 27, 31, 35, 43,  51,  59,
+  static constexpr uint16_t kLength[29] = {3,  4,  5,  6,   7,   8,   9,   10,  11, 13,
+                                           15, 17, 19, 23,  27,  31,  35,  43,  51, 59,
                                            67, 83, 99, 115, 131, 163, 195, 227, 258};
   for (;;) {
     const uint32_t symbol = codes.literal.read(in);
@@ -199,7 +199,8 @@ size_t gzip_header(std::string_view bytes) {
   const uint32_t flags = static_cast<uint8_t>(bytes[3]);
   size_t at = 10;
   if ((flags & 4) != 0)
-    at += 2 + size_t{static_cast<uint8_t>(bytes[10])} + 256 * size_t{static_cast<uint8_t>(bytes[11])};
+    at +=
+        2 + size_t{static_cast<uint8_t>(bytes[10])} + 256 * size_t{static_cast<uint8_t>(bytes[11])};
   for (const uint32_t text : {8u, 16u}) {
     if ((flags & text) == 0) continue;
     const size_t end = bytes.find('\0', at);

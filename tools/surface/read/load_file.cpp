@@ -89,7 +89,8 @@ LoadedFile load_stream(std::FILE* stream, size_t max_line_bytes) {
     return {{}, "cannot be decompressed: " + plain.problem + "; compress it again"};
   file.bytes.assign(plain.bytes.begin(), plain.bytes.end());
   LineWatch unpacked(max_line_bytes);
-  if (!unpacked.take(file.bytes.data(), file.bytes.size())) return {{}, too_long(unpacked.line(), max_line_bytes)};
+  if (!unpacked.take(file.bytes.data(), file.bytes.size()))
+    return {{}, too_long(unpacked.line(), max_line_bytes)};
   return file;
 }
 

@@ -98,8 +98,8 @@ class Model {
       std::string_view name;
       double unit_m;
       const char* shown;
-    } kUnits[] = {{"millimeter", 0.001, "mm"}, {"", 0.001, "mm"},         {"meter", 1, "m"},
-                  {"centimeter", 0.01, "cm"},  {"inch", 0.0254, "in"},    {"foot", 0.3048, "ft"},
+    } kUnits[] = {{"millimeter", 0.001, "mm"}, {"", 0.001, "mm"},      {"meter", 1, "m"},
+                  {"centimeter", 0.01, "cm"},  {"inch", 0.0254, "in"}, {"foot", 0.3048, "ft"},
                   {"micron", 1e-6, "um"}};
     for (const auto& unit : kUnits) {
       if (attribute(tag, "unit") != unit.name) continue;
@@ -111,8 +111,9 @@ class Model {
 
   bool take_part(const XmlScan::Tag& tag, std::vector<Part>& parts) {
     if (!attribute(tag, "p:path").empty())
-      return sink_.fail(at(tag), "the model is spread over several files of the archive, which is "
-                                 "not read: export it as one");
+      return sink_.fail(at(tag),
+                        "the model is spread over several files of the archive, which is "
+                        "not read: export it as one");
     Part part{std::string(attribute(tag, "objectid")), kAsItIs};
     const std::string_view text = attribute(tag, "transform");
     if (!text.empty()) {
@@ -208,7 +209,8 @@ void read_3mf(std::string_view bytes, ImportSink& sink) {
   }
   const ZipEntry* chosen = nullptr;
   for (const ZipEntry& entry : entries) {
-    const bool is_model = entry.name.size() > 6 && entry.name.substr(entry.name.size() - 6) == ".model";
+    const bool is_model =
+        entry.name.size() > 6 && entry.name.substr(entry.name.size() - 6) == ".model";
     if (is_model && (chosen == nullptr || entry.name == "3D/3dmodel.model")) chosen = &entry;
   }
   if (chosen == nullptr) {

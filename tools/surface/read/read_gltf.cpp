@@ -143,10 +143,11 @@ class Scene {
         offset < 0 || offset > length || found.count < 0 || found.stride < size ||
         found.stride > 65536 || found.count > length ||
         (found.count > 0 && (found.count - 1) * found.stride + size > length - offset))
-      return sink_.fail(name + " reaches beyond its buffer: the file is cut short; export it again");
-    found.bytes = std::string_view(buffers_[static_cast<size_t>(buffer)])
-                      .substr(static_cast<size_t>(begin + offset),
-                              static_cast<size_t>(length - offset));
+      return sink_.fail(name +
+                        " reaches beyond its buffer: the file is cut short; export it again");
+    found.bytes =
+        std::string_view(buffers_[static_cast<size_t>(buffer)])
+            .substr(static_cast<size_t>(begin + offset), static_cast<size_t>(length - offset));
     return true;
   }
 
@@ -154,9 +155,8 @@ class Scene {
     const size_t at = static_cast<size_t>(i * numbers.stride);
     if (numbers.type == 5125) return word(numbers.bytes, at);
     const int64_t low = static_cast<uint8_t>(numbers.bytes[at]);
-    return numbers.type == 5121
-               ? low
-               : low | int64_t{static_cast<uint8_t>(numbers.bytes[at + 1])} << 8;
+    return numbers.type == 5121 ? low
+                                : low | int64_t{static_cast<uint8_t>(numbers.bytes[at + 1])} << 8;
   }
 
   bool add_primitive(uint32_t primitive, const Matrix& m, const Place& place) {
@@ -212,7 +212,8 @@ class Scene {
     for (const uint32_t node : nodes_)
       for (const uint32_t child : json_.items(json_.member(node, "children"))) {
         const int64_t c = json_.whole(child, -1);
-        if (c >= 0 && c < static_cast<int64_t>(nodes_.size())) is_child[static_cast<size_t>(c)] = true;
+        if (c >= 0 && c < static_cast<int64_t>(nodes_.size()))
+          is_child[static_cast<size_t>(c)] = true;
       }
     const std::vector<uint32_t> scenes = list("scenes");
     const int64_t chosen = whole(json_.root(), "scene", 0);
@@ -253,7 +254,9 @@ class Scene {
     if (primitives_ > mesh::kMaxTriangles)
       return sink_.fail("places more primitives than an asset has triangles: simplify it");
     for (const uint32_t primitive : primitives)
-      if (!add_primitive(primitive, m, {0, 0, "mesh", static_cast<uint64_t>(mesh)}) || sink_.failed()) return false;
+      if (!add_primitive(primitive, m, {0, 0, "mesh", static_cast<uint64_t>(mesh)}) ||
+          sink_.failed())
+        return false;
     return true;
   }
 
@@ -270,14 +273,22 @@ class Scene {
     fill("rotation", 4, q);
     fill("scale", 3, s);
     const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const Matrix placed = {s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
-                           s[0] * 2 * (x * z - y * w),       0,
-                           s[1] * 2 * (x * y - z * w),       s[1] * (1 - 2 * (x * x + z * z)),
-                           s[1] * 2 * (y * z + x * w),       0,
-                           s[2] * 2 * (x * z + y * w),       s[2] * 2 * (y * z - x * w),
-                           s[2] * (1 - 2 * (x * x + y * y)), 0,
-                           t[0],                             t[1],
-                           t[2],                             1};
+    const Matrix placed = {s[0] * (1 - 2 * (y * y + z * z)),
+                           s[0] * 2 * (x * y + z * w),
+                           s[0] * 2 * (x * z - y * w),
+                           0,
+                           s[1] * 2 * (x * y - z * w),
+                           s[1] * (1 - 2 * (x * x + z * z)),
+                           s[1] * 2 * (y * z + x * w),
+                           0,
+                           s[2] * 2 * (x * z + y * w),
+                           s[2] * 2 * (y * z - x * w),
+                           s[2] * (1 - 2 * (x * x + y * y)),
+                           0,
+                           t[0],
+                           t[1],
+                           t[2],
+                           1};
     return product(m, placed);
   }
 

@@ -182,7 +182,8 @@ bool add_strips(const std::vector<int64_t>& corners, const Place& place, ImportS
       first = i + 1;
     } else if (i >= first + 2) {
       const bool is_turned = (i - first) % 2 == 1;
-      triangle = {corners[i - 2], corners[i - (is_turned ? 0 : 1)], corners[i - (is_turned ? 1 : 0)]};
+      triangle = {corners[i - 2], corners[i - (is_turned ? 0 : 1)],
+                  corners[i - (is_turned ? 1 : 0)]};
       if (!sink.add_polygon(triangle, place)) return false;
     }
   }

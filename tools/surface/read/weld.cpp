@@ -140,10 +140,12 @@ std::vector<uint32_t> near_twins_of(const Surface& surface, const std::vector<bo
     for (int64_t k = 0; k < 9; ++k) {
       const Cell from{cell[0] + k / 3 - 1, cell[1] + k % 3 - 1, cell[2] - 1};
       auto other = std::lower_bound(order.begin(), order.end(), std::make_pair(from, 0u));
-      for (uint32_t looked = 0; other != order.end() && looked < kMaxNeighbours; ++other, ++looked) {
+      for (uint32_t looked = 0; other != order.end() && looked < kMaxNeighbours;
+           ++other, ++looked) {
         const Cell& at = other->first;
         if (at[0] != from[0] || at[1] != from[1] || at[2] > from[2] + 2) break;
-        const Point apart = to_point(surface.vertices[v]) - to_point(surface.vertices[other->second]);
+        const Point apart =
+            to_point(surface.vertices[v]) - to_point(surface.vertices[other->second]);
         if (length(apart) <= reach_m) sets.join(v, other->second);
       }
     }

@@ -47,7 +47,8 @@ std::string_view attribute(const XmlScan::Tag& tag, std::string_view name) {
     rest.remove_prefix(begin);
     const size_t equals = rest.find('=');
     if (equals == rest.npos) return {};
-    const std::string_view key = rest.substr(0, rest.substr(0, equals).find_last_not_of(kBlanks) + 1);
+    const std::string_view key =
+        rest.substr(0, rest.substr(0, equals).find_last_not_of(kBlanks) + 1);
     const size_t open = rest.find_first_of("\"'", equals);
     if (open == rest.npos) return {};
     const size_t close = rest.find(rest[open], open + 1);

@@ -12,9 +12,9 @@ class XmlScan {
 
   struct Tag {
     std::string_view name, attributes;
-    bool closes = false;  // </name>
+    bool closes = false;    // </name>
     bool is_empty = false;  // <name/>
-    size_t byte = 0;  // where it begins
+    size_t byte = 0;        // where it begins
   };
   /// Result: false at the end, or where a tag has none.
   bool next(Tag& tag);

@@ -43,8 +43,7 @@ Inflated unzip(std::string_view bytes, const ZipEntry& entry) {
   if (at > bytes.size() || bytes.size() - at < kLocalBytes ||
       bytes.substr(at, 4) != std::string_view("PK\x03\x04", 4))
     return {{}, "its place is wrong", 0};
-  const size_t head =
-      kLocalBytes + size_t{number(bytes, at + 26, 2)} + number(bytes, at + 28, 2);
+  const size_t head = kLocalBytes + size_t{number(bytes, at + 26, 2)} + number(bytes, at + 28, 2);
   if (bytes.size() - at < head || bytes.size() - at - head < entry.packed)
     return {{}, "it is cut short", 0};
   const std::string_view packed = bytes.substr(at + head, entry.packed);
