@@ -76,7 +76,10 @@ Surface points_of(const Surface& surface) {
 // One of eight ways to spoil a machined part.
 Surface bad_model(uint64_t seed) {
   Random random(seed);
-  Surface s = make_cad(seed);
+  const CadPart part = make_cad(seed);
+  Surface s;
+  for (const Point& p : part.vertices_mm) s.vertices.push_back(to_vec3(p * 1e-3));
+  s.faces = part.faces;
   const uint32_t faces = static_cast<uint32_t>(s.faces.size());
   const auto drop = [&](uint32_t count) {
     for (; count > 0; --count)
@@ -92,7 +95,7 @@ Surface bad_model(uint64_t seed) {
     case 2:    // a soup: each face with corners of its own
     case 3: {  // and not quite at the same place
       Surface soup;
-      const double by = seed % 8 == 2 ? 0 : 1e-4;
+      const double by = seed % 8 == 2 ? 0 : 1e-7;
       for (uint32_t f = 0; f < faces; ++f) {
         for (const uint32_t v : s.faces[f])
           soup.vertices.push_back(
@@ -105,8 +108,8 @@ Surface bad_model(uint64_t seed) {
     }
     case 4: {  // two that share a vertex
       Surface other = s;
-      const math::Vec3 shift = s.vertices[0] - s.vertices[s.vertices.size() / 2];
-      for (math::Vec3& v : other.vertices) v = v + shift;
+      const Point shift = to_point(s.vertices[0]) - to_point(s.vertices[s.vertices.size() / 2]);
+      for (math::Vec3& v : other.vertices) v = to_vec3(to_point(v) + shift);
       const uint32_t first = static_cast<uint32_t>(s.vertices.size());
       append(s, other);
       for (Face& face : s.faces)
@@ -116,14 +119,14 @@ Surface bad_model(uint64_t seed) {
     case 5: {  // two through each other, the second in inches
       Surface other = s;
       for (math::Vec3& v : other.vertices)
-        v = v * (1 / 2.54f) + math::Vec3{1e-3f, 1.7e-3f, 0.9e-3f};
+        v = to_vec3(to_point(v) * (1 / 2.54) + Point{1e-3, 1.7e-3, 0.9e-3});
       append(s, other);
       break;
     }
     case 6:  // y up, some faces turned, a fin
       for (math::Vec3& v : s.vertices) v = {v.x, -v.z, v.y};
       for (uint32_t k = 0; k < 9; ++k) turn(s.faces[random.below(faces)]);
-      s.vertices.push_back(s.vertices[0] + math::Vec3{0.5f, 0.3f, 0.2f});
+      s.vertices.push_back(to_vec3(to_point(s.vertices[0]) + Point{5e-3, 3e-3, 2e-3}));
       s.faces.push_back(
           {s.faces[0][0], s.faces[0][1], static_cast<uint32_t>(s.vertices.size()) - 1});
       break;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "firmtouch/core/crc32.hpp"
+#include "surface/surface.hpp"
 
 namespace firmtouch::tools {
 

@@ -35,7 +35,7 @@ TEST(TwoSolidsAtOneVertex_GetVerticesOfTheirOwn) {
   for (Face& face : two.faces)
     for (uint32_t& v : face) v = v == 8 ? 7 : v;
   CHECK(says(mended(two).mended, "gave separate sheets vertices of their own at 1 vertex"));
-  CHECK_NEAR(volume_of(two), 16, 1e-3);
+  CHECK_LT(std::fabs(volume_of(two) - (16)), 1e-3);
   CHECK(find_crossings(two).pairs.empty());
 }
 
@@ -45,7 +45,7 @@ TEST(TwoSolidsAtOneEdge_ArePartedAlongIt) {
   for (Face& face : two.faces)
     for (uint32_t& v : face) v = v == 8 ? 3 : v == 12 ? 7 : v;
   mended(two);
-  CHECK_NEAR(volume_of(two), 16, 1e-3);
+  CHECK_LT(std::fabs(volume_of(two) - (16)), 1e-3);
   CHECK(find_crossings(two).pairs.empty());
 }
 
@@ -74,7 +74,10 @@ TEST(CornersNearEachOther_AreWelded) {
   for (const Face& face : whole.faces)
     for (const uint32_t v : face) {
       const float by = static_cast<float>(random.between(-1e-5, 1e-5));
-      soup.vertices.push_back(whole.vertices[v] + math::Vec3{by, -by, by});
+      {
+        const math::Vec3 at = whole.vertices[v];
+        soup.vertices.push_back({at.x + by, at.y - by, at.z + by});
+      }
     }
   for (uint32_t f = 0; f < 12; ++f) soup.faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
   CHECK(says(mended(soup).mended, "welded"));
@@ -87,7 +90,7 @@ TEST(AHoleAndAPieceWoundAgainstTheRest_AreMended) {
   open.source.pop_back();
   turn(open.faces[3]);
   mended(open);
-  CHECK_NEAR(volume_of(open), 8, 1e-9);
+  CHECK_LT(std::fabs(volume_of(open) - (8)), 1e-9);
 }
 
 TEST(WhatMendingCannotClose_IsRefusedWithWrap) {
