@@ -24,7 +24,7 @@ constexpr struct {
   double unit_m;
 } kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
 
-constexpr double kMostOfDiagonal = 0.1, kGrowth = 1.5;  // of a wrapping that must join points
+constexpr double kMaxOfDiagonal = 0.1, kGrowth = 1.5;  // of a wrapping that must join points
 
 double unit_named(std::string_view name) {
   for (const auto& unit : kUnits)
@@ -158,7 +158,7 @@ SoundSurface wrapped_surface(const std::string& path, const tools::Surface& soup
     if (!report.problem.empty()) fail_input(path + ": " + report.problem);
     pieces = pieces_of(wrapped);
     const double wider_m = distance_m * kGrowth;
-    if (!is_points || !wrap.is_share || pieces == 1 || wider_m > kMostOfDiagonal * diagonal_m)
+    if (!is_points || !wrap.is_share || pieces == 1 || wider_m > kMaxOfDiagonal * diagonal_m)
       break;
     distance_m = wider_m;
   }

@@ -12,7 +12,7 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr double kMostNodes = 1 << 27;
+constexpr double kMaxNodes = 1 << 27;
 constexpr double kCell = 0.55;      // of the distance: a cell's diagonal is 0.953 of it
 constexpr uint32_t kBlock = 8;      // nodes along a side that share one distance query
 constexpr double kNearNode = 0.05;  // of an edge: no vertex lies nearer to its ends
@@ -213,8 +213,8 @@ Surface wrap_surface(const Surface& soup, double distance_m, WrapReport& report)
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
   Wrapper wrapper(soup, distance_m, low, high);
-  if (!(wrapper.nodes() <= kMostNodes)) {
-    const double least_m = distance_m * std::cbrt(wrapper.nodes() / kMostNodes) * 1.1;
+  if (!(wrapper.nodes() <= kMaxNodes)) {
+    const double least_m = distance_m * std::cbrt(wrapper.nodes() / kMaxNodes) * 1.1;
     report.problem = "--wrap " + soup.frame.length_text(distance_m) +
                      " needs too fine a grid: choose at least " + soup.frame.length_text(least_m);
     return {};

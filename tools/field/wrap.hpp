@@ -19,8 +19,8 @@ struct WrapReport {
 ///         lies in a tetrahedron of its own. Every point of the soup lies inside: the corners of
 ///         its cell are at most 0.96 distances away, so all are inside.
 /// Error: its vertices lie within 5 % of a cell's edge of the distance.
-/// Source: marching tetrahedra: Doi & Koide 1991; cells cut in six along their diagonal: Freudenthal
-///         1942.
+/// Source: marching tetrahedra: Doi & Koide 1991; six tetrahedra along the diagonal of a cell:
+///         Freudenthal 1942.
 Surface wrap_surface(const Surface& soup, double distance_m, WrapReport& report);
 
 }  // namespace firmtouch::tools

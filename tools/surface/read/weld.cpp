@@ -12,7 +12,7 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr uint32_t kMaxNeighbours = 64;  // looked at in one column: welding stays linear
-constexpr double kMostOfEdge = 0.25;     // of the mean open edge: details are not welded away
+constexpr double kMaxOfEdge = 0.25;     // of the mean open edge: details are not welded away
 
 using PositionKey = std::array<uint32_t, 3>;
 
@@ -185,7 +185,7 @@ void weld_near_vertices(Surface& surface, CheckReport& report) {
   uint32_t best_open = open;
   for (const double share : {1e-6, 1e-5, 1e-4, 1e-3}) {
     const double reach_m = share * diagonal_m;
-    if (!(reach_m > 0 && reach_m < kMostOfEdge * edge_m) || best_open == 0) break;
+    if (!(reach_m > 0 && reach_m < kMaxOfEdge * edge_m) || best_open == 0) break;
     const std::vector<uint32_t> twin = near_twins_of(surface, border, reach_m);
     Surface welded = surface;
     uint32_t count = 0;
