@@ -158,8 +158,7 @@ SoundSurface wrapped_surface(const std::string& path, const tools::Surface& soup
     if (!report.problem.empty()) fail_input(path + ": " + report.problem);
     pieces = pieces_of(wrapped);
     const double wider_m = distance_m * kGrowth;
-    if (!is_points || !wrap.is_share || pieces == 1 || wider_m > kMaxOfDiagonal * diagonal_m)
-      break;
+    if (!is_points || !wrap.is_share || pieces == 1 || wider_m > kMaxOfDiagonal * diagonal_m) break;
     distance_m = wider_m;
   }
   tools::CheckReport checked = tools::check_and_mend(wrapped, {});

@@ -12,7 +12,7 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr uint32_t kMaxNeighbours = 64;  // looked at in one column: welding stays linear
-constexpr double kMaxOfEdge = 0.25;     // of the mean open edge: details are not welded away
+constexpr double kMaxOfEdge = 0.25;      // of the mean open edge: details are not welded away
 
 using PositionKey = std::array<uint32_t, 3>;
 
