@@ -44,13 +44,14 @@ void clock_start_servo(uint32_t period_us, void (*tick)()) {
   std::thread([tick] {
     uint64_t next_ns = now_ns();
     for (;;) {
-      next_ns += uint64_t{period.load()} * 1000;
+      const uint64_t period_ns = uint64_t{period.load()} * 1000;
+      next_ns += period_ns;
       timespec until{};
       until.tv_sec = static_cast<time_t>(next_ns / kNs_per_s);
       until.tv_nsec = static_cast<long>(next_ns % kNs_per_s);
       while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
       }
-      if (g_simulated_ns != 0) g_simulated_ns += uint64_t{period_us} * 1000;
+      if (g_simulated_ns != 0) g_simulated_ns += period_ns;
       tick();
     }
   }).detach();
