@@ -135,7 +135,7 @@ TEST(OtherSeparators_AreTaken_MixedOnesRefused) {
   CHECK(refused(std::string("\xFF\xFEx\0,\0y", 8), {"UTF-16", "UTF-8"}));
 }
 
-TEST(DecimalCommas_AreTakenWhenAskedFor) {
+TEST(DecimalCommas_AreTakenByOption) {
   const CurvePoints points =
       read_curve_csv_bytes("x;y;z\n0;0;0\n1,5;-0,25;2\n", "path.csv", 1.0, {true});
   CHECK(points.problem.empty());
