@@ -106,7 +106,9 @@ bool is_same_edge(const Corners& one, Feature feature, const Corners& other, Fea
         rival.compensated_m(p_m, search.rivals.feature(i), search.rivals.distance2_m2[i]);
     if (!(rival_m < distance_m)) continue;
     distance_m = rival_m;
-    best.offset_m = closest_on_triangle(p_m, rival.a_m, rival.b_m, rival.c_m).offset_m;
+    Foot foot;
+    find_foot_apart(p_m, {rival.a_m, rival.b_m, rival.c_m}, Nearer::than_nothing(), foot);
+    best.offset_m = foot.offset_m;
     best.triangle = triangle;
     best.feature = search.rivals.feature(i);
   }

@@ -219,7 +219,7 @@ enum class Which { kLast, kBeside };
     const Vec3 a_m = mesh.vertex(triangle.corner[0]), b_m = mesh.vertex(triangle.corner[1]),
                c_m = mesh.vertex(triangle.corner[2]);
     Foot foot;
-    if (!find_foot(p_m, OfCorners{a_m, b_m, c_m}, Nearer::than(min2_m2, search.slack_m2), foot) ||
+    if (!find_foot_apart(p_m, {a_m, b_m, c_m}, Nearer::than(min2_m2, search.slack_m2), foot) ||
         !loss.may_be_less(foot.distance2_m2, min2_m2))
       continue;
     foot.distance2_m2 = nearest_compensated2(p_m, a_m, b_m, c_m, foot.feature, foot.distance2_m2);
@@ -248,13 +248,17 @@ template <class Source, class Wanted>
 // 32 bits are rare on a controller.
 [[gnu::noinline, gnu::cold]] void measure_wide_rivals(uint32_t child, uint32_t slot,
                                                       Search& search) {
-  measure_rivals<LeafTriangles>(child, slot, search);
+  measure_rivals<LeafTriangles>(child, slot, find_foot_apart, search);
 }
 [[gnu::noinline]] uint32_t measure_with_rivals(uint32_t prune, uint32_t child, uint32_t slot,
                                                Search& search) {
   if (search.leaf_boxes != nullptr && prune != 0 && is_beyond(prune, child, search)) return 1;
   if (search.is_narrow)
-    measure_rivals<LeafCorners<uint16_t>>(child, slot, search);
+    measure_rivals<LeafCorners<uint16_t>>(
+        child, slot,
+        [](Vec3 p_m, const OfCorners& shape, Nearer wanted, Foot& foot)
+            __attribute__((always_inline)) { return find_foot(p_m, shape, wanted, foot); },
+        search);
   else
     measure_wide_rivals(child, slot, search);
   return search.best.slot ^ slot;
