@@ -265,13 +265,14 @@ template <class Source, class Wanted>
 }
 [[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t slot,
                                          Search& search) {
-  if (is_beyond(prune, child, search)) return 1;
+  if (prune != 0 && is_beyond(prune, child, search)) return 1;
   measure_triangles<LeafShapes, Nearer>(child, slot, search);
   return search.best.slot ^ slot;
 }
 
-// `prune`: the lowest key that is not visited. Result: whether a triangle was nearer. A compensated
-// search tests the index width at each triangle, which costs nothing there and saves 2 to 3 kB.
+// `prune`: the lowest key that is not visited; 0 at the last leaf. Result: whether a triangle was
+// nearer. A compensated search tests the index width at each triangle, which costs nothing there
+// and saves 2 to 3 kB.
 template <bool kCompensated, class Index, Which kWhich>
 inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t child,
                     uint32_t slot, Search& search) {
@@ -282,12 +283,7 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
   } else if constexpr (kHasRivals<Index>) {
     return measure_with_rivals(prune, child, slot, search) == 0;
   } else if constexpr (kIsBoxed<Index>) {
-    if constexpr (kWhich != Which::kLast) return measure_boxed(prune, child, slot, search) == 0;
-    // By corners: a loop over the shapes of this one leaf takes 1 kB and saves 1 %.
-    if (search.is_narrow)
-      return measure_plain<LeafCorners<uint16_t>, Everything>(prune, child, slot, search) == 0;
-    measure_wide_rivals(child, slot, search);
-    return search.best.slot == slot;
+    return measure_boxed(prune, child, slot, search) == 0;
   } else {
     return measure_plain<typename Triangles<Index>::Source, Wanted>(prune, child, slot, search) ==
            0;
