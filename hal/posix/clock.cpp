@@ -2,6 +2,7 @@
 
 #include <time.h>
 
+#include <atomic>
 #include <thread>
 
 namespace firmtouch::hal {
@@ -26,10 +27,12 @@ uint32_t clock_work_per_1000() { return 0; }
 // A thread replaces the timer interrupt. Deadlines are absolute: a late tick does not delay the
 // next ones.
 void clock_start_servo(uint32_t period_us, void (*tick)()) {
-  std::thread([period_us, tick] {
+  static std::atomic<uint32_t> period{0};
+  if (period.exchange(period_us) != 0) return;  // the thread runs
+  std::thread([tick] {
     uint64_t next_ns = now_ns();
     for (;;) {
-      next_ns += static_cast<uint64_t>(period_us) * 1000;
+      next_ns += uint64_t{period.load()} * 1000;
       timespec until{};
       until.tv_sec = static_cast<time_t>(next_ns / kNs_per_s);
       until.tv_nsec = static_cast<long>(next_ns % kNs_per_s);

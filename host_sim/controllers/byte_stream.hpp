@@ -30,7 +30,7 @@ class ByteStream {
 std::unique_ptr<ByteStream> connect_stream(const std::string& where);
 
 /// Starts QEMU with `image` and the asset in the board's slot. The link uses two FIFOs, one trap a
-/// frame (hal/cortex-m/file_link.hpp): 20,000 ticks a second; the emulated UART carries 1,000.
+/// frame (hal/emulator/file_link.hpp): 20,000 ticks a second; the emulated UART carries 1,000.
 std::unique_ptr<ByteStream> start_emulator(const std::string& board, const std::string& image,
                                            const std::string& asset_path);
 

@@ -108,8 +108,8 @@ Summary summarise(const Scenario& scenario, const Environment& environment, cons
   summary.has_guide = environment.has_guide();
   summary.force_limit_N = parameter_value(scenario, params::kForceLimit);
   summary.budget_visits = static_cast<uint32_t>(
-      (environment.has_surface() ? parameter_value(scenario, params::kMeshSteps) : 0) +
-      (environment.has_guide() ? parameter_value(scenario, params::kCurveSteps) : 0));
+      (environment.has_surface() ? parameter_value(scenario, params::kMeshWork) : 0) +
+      (environment.has_guide() ? parameter_value(scenario, params::kGuideWork) : 0));
   uint64_t visits = 0, instructions = 0;
   double deviation = 0;
   for (size_t i = 0; i < trace.records.size(); ++i) {

@@ -50,13 +50,13 @@ double reach_of(const curve::View& view) {
   return reach_m;
 }
 
+}  // namespace
+
 std::string sentence(const char* format, double a, double b) {
   char text[300];
   std::snprintf(text, sizeof(text), format, a, b);
   return text;
 }
-
-}  // namespace
 
 BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
                             Progress& progress) {

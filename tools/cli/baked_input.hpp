@@ -75,5 +75,7 @@ SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& 
                            const BakeOptions& options);
 
 uint64_t bytes_of(const std::vector<tools::Section>& sections);
+/// A line of a report with two numbers.
+std::string sentence(const char* format, double a, double b);
 
 }  // namespace firmtouch::cli

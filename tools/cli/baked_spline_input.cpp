@@ -93,12 +93,6 @@ std::string ram_of(bool is_surface) {
                    " bytes a tool that it guides (spline::CurveHint)";
 }
 
-std::string sentence(const char* format, double a, double b) {
-  char text[300];
-  std::snprintf(text, sizeof(text), format, a, b);
-  return text;
-}
-
 }  // namespace
 
 BakedInput bake_spline_input(const std::string& path, const BakeOptions& options,

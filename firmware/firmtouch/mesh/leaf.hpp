@@ -55,8 +55,8 @@ struct Rivals {
 template <int kBlock>
 [[gnu::always_inline]] static inline void load_corner(const Vertex* vertices, uint32_t index,
                                                       uint32_t stride, math::Vec3& corner_m) {
-  const uint8_t* const at = reinterpret_cast<const uint8_t*>(vertices) + index * stride;
-  math::load_floats<kBlock>(reinterpret_cast<const float*>(at), corner_m.x, corner_m.y, corner_m.z);
+  const void* const at = reinterpret_cast<const uint8_t*>(vertices) + index * stride;
+  math::load_floats<kBlock>(static_cast<const float*>(at), corner_m.x, corner_m.y, corner_m.z);
 }
 
 /// Input and result of measuring leaves. Its first five floats are consecutive.

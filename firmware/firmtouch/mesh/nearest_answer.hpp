@@ -236,7 +236,7 @@ template <class Finder, class Bound>
   search.p_m.y = p_m.y;
   search.p_m.z = p_m.z;
   search.start = is_warm ? slot : query::kNowhere;
-  search.budget = budget.steps;
+  search.budget = budget.work;
   search.triangle_low = hint.triangle_low;
   search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
   search.safe_subtree_margin_m = safe_subtree_margin_m;
@@ -261,7 +261,7 @@ template <class Finder, class Bound>
   if (!Bound::kCompensated && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
       !measure_again(mesh, p_m, promise_m, found)) {
     Nearest before;
-    const bool has_budget = begin_again(mesh, budget.steps, found, before);
+    const bool has_budget = begin_again(mesh, budget.work, found, before);
     if (has_budget) finder.template find<true>(bound, search);
     end_again(mesh, p_m, before, has_budget, found);
   }

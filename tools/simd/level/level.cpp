@@ -31,7 +31,7 @@ struct WideFinder {
         return mesh::search_nearest<false, Bound, mesh::WithRivals>(mesh, bound, search);
       if (mesh.leaf_boxes() != nullptr)
         return mesh::search_nearest<false, Bound, mesh::Boxed>(mesh, bound, search);
-      if (search.budget != query::kUnlimited.steps) return find_within_budget(bound, search);
+      if (search.budget != query::kUnlimited.work) return find_within_budget(bound, search);
       if (mesh.has_rivals()) return find_unlimited<true>(bound, search);
       return find_unlimited<false>(bound, search);
     }

@@ -76,4 +76,14 @@ LoadedFile load_file(const std::string& path, size_t max_line_bytes) {
   return file;
 }
 
+std::string extension_of(const std::string& path) {
+  const size_t dot = path.find_last_of("./\\");
+  if (dot == path.npos || path[dot] != '.') return "";
+  std::string extension = path.substr(dot + 1);
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
 }  // namespace firmtouch::tools

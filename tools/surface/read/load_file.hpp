@@ -25,4 +25,7 @@ constexpr size_t kMaxFileBytes = 0xFFFFFFFF;
 LoadedFile load_file(const std::string& path, size_t max_line_bytes);
 LoadedFile load_stream(std::FILE* stream, size_t max_line_bytes);
 
+/// The letters behind the last dot, in lower case; empty where there is none.
+std::string extension_of(const std::string& path);
+
 }  // namespace firmtouch::tools

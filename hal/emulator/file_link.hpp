@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-#include "cortex-m/byte_ring.hpp"
+#include "parts/byte_ring.hpp"
 
 // The link of an emulated board over two host FIFOs instead of its UART: one trap a frame instead
 // of one a byte, 24,000 round trips a second instead of 1,000 (QEMU 7.2). QEMU's option:

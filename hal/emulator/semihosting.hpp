@@ -2,11 +2,8 @@
 #include <stdint.h>
 
 // Calls to the attached debugger or emulator (ARM "Semihosting for AArch32 and AArch64"). Without
-// one, every call returns -1 (fault.cpp).
+// one, each is a HardFault: link this part (firmtouch_emulator) into images for emulators only.
 namespace firmtouch::hal {
-
-/// Ends an emulator's process with `status`. Returns if no debugger or emulator is attached.
-void semihosting_exit(int status);
 
 /// Opens a file on the machine that runs the emulator. Mode 1: read binary; 5: write binary.
 /// Result: a file handle; -1 on failure.

@@ -1,6 +1,6 @@
 #include "firmtouch/hal/pace.hpp"
 
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
 
 namespace firmtouch::hal {
 namespace {

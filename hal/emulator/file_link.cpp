@@ -1,6 +1,6 @@
-#include "cortex-m/file_link.hpp"
+#include "emulator/file_link.hpp"
 
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
 #include "firmtouch/hal/board.hpp"
 
 namespace firmtouch::hal {

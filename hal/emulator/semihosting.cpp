@@ -1,4 +1,7 @@
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
+
+#include "emulator/exit.hpp"
+#include "firmtouch/hal/board.hpp"
 
 namespace firmtouch::hal {
 namespace {
@@ -7,12 +10,27 @@ constexpr uint32_t kOpen = 0x01, kClose = 0x02, kWrite = 0x05, kRead = 0x06, kCo
                    kExitExtended = 0x20;
 constexpr uint32_t kApplicationExit = 0x20026;
 
+#ifdef __riscv
+uint32_t call(uint32_t operation, uint32_t* arguments) {
+  register uint32_t a0 asm("a0") = operation;
+  register uint32_t* a1 asm("a1") = arguments;
+  // Three instructions of 32 bits, within one page.
+  asm volatile(
+      ".balign 16\n .option push\n .option norvc\n slli x0, x0, 0x1f\n ebreak\n srai x0, x0, 7\n"
+      ".option pop"
+      : "+r"(a0)
+      : "r"(a1)
+      : "memory");
+  return a0;
+}
+#else
 uint32_t call(uint32_t operation, uint32_t* arguments) {
   register uint32_t r0 asm("r0") = operation;
   register uint32_t* r1 asm("r1") = arguments;
   asm volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
   return r0;
 }
+#endif
 
 uint32_t address(const void* p) { return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(p)); }
 
@@ -24,7 +42,9 @@ uint32_t length(const char* text) {
 
 }  // namespace
 
-void semihosting_exit(int status) {
+bool board_may_exit() { return true; }
+
+void emulator_exit(int status) {
   uint32_t arguments[] = {kApplicationExit, static_cast<uint32_t>(status)};
   call(kExitExtended, arguments);
 }

@@ -1,4 +1,4 @@
-#include "cortex-m/asset_region.hpp"
+#include "parts/asset_region.hpp"
 
 #include "firmtouch/hal/board.hpp"
 
