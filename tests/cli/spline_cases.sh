@@ -21,7 +21,7 @@ ASplineIsBakedToldAndAsked() {
   same "$(printf '%s\n' "$out" | sed -n 1p)" 'distance,cx,cy,cz,piece,u,v,lower,steps,exact'
   same "$(printf '%s\n' "$out" | awk -F, 'NR > 1 { printf "%.5f,%s,%s\n", $1, $5, $10 }')" '1.00000,0,1
 1.00000,0,1'
-  f query a.fta roof spline --budget 1 --cold <p.csv
+  f query a.fta roof spline --work 1 --cold <p.csv
   exits 0
   same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f9)" '1
 1'

@@ -19,7 +19,7 @@ struct CertificateCounts {
   size_t queried = 0;      // answers compared
   size_t lower_wrong = 0;  // lower > truth
   size_t upper_wrong = 0;  // upper < truth - 4e-7 max(diagonal, truth)
-  size_t gap_grew = 0;     // a larger budget left a wider gap
+  size_t gap_grew = 0;     // a larger budget left a wider gap, and one that is not exact
   uint32_t worst_steps = 0;
   double half_gap_m = 0;  // median gap at half the worst
 };

@@ -1,4 +1,5 @@
 #pragma once
+// For the library's own translation units.
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 

@@ -61,8 +61,10 @@ struct FarBound : query::FarBoxBound<kBoundUnits> {
                     uint32_t triangle) const {
     const Triangle<uint32_t> t = mesh.triangle(triangle);
     const math::Vec3 near_m = p_m - offset_m;
-    const Foot foot = closest_on_triangle(near_m, mesh.vertex(t.corner[0]),
-                                          mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
+    Foot foot;
+    find_foot_apart(near_m,
+                    {mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2])},
+                    Nearer::than_nothing(), foot);
     return near_m - foot.offset_m;
   }
 };

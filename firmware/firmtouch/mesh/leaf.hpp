@@ -218,9 +218,10 @@ template <class Source, class Wanted>
   }
 }
 
-/// The same, and keeps the rivals.
-template <class Source>
-static inline void measure_rivals(uint32_t child, uint32_t slot, Sought& sought) {
+/// The same, and keeps the rivals. Find: find_foot(), or find_foot_apart().
+template <class Source, class Find>
+[[gnu::always_inline]] static inline void measure_rivals(uint32_t child, uint32_t slot,
+                                                         const Find& find, Sought& sought) {
   const math::Vec3 p_m = sought.p_m;
   Best& best = sought.best;
   Rivals& rivals = sought.rivals;
@@ -232,7 +233,7 @@ static inline void measure_rivals(uint32_t child, uint32_t slot, Sought& sought)
     typename Source::Shape shape;
     triangles.next(shape);
     Foot foot;
-    if (!find_foot(p_m, shape, wanted, foot) || !(foot.distance2_m2 < limit2_m2)) continue;
+    if (!find(p_m, shape, wanted, foot) || !(foot.distance2_m2 < limit2_m2)) continue;
     if (take_foot(foot, shape.ab(), i, slot, best, rivals)) {
       limit2_m2 = rivals.limit2_m2(best.distance2_m2);
       wanted = Nearer::than(limit2_m2, sought.slack_m2);

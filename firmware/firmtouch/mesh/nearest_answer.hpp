@@ -106,7 +106,9 @@ bool is_same_edge(const Corners& one, Feature feature, const Corners& other, Fea
         rival.compensated_m(p_m, search.rivals.feature(i), search.rivals.distance2_m2[i]);
     if (!(rival_m < distance_m)) continue;
     distance_m = rival_m;
-    best.offset_m = closest_on_triangle(p_m, rival.a_m, rival.b_m, rival.c_m).offset_m;
+    Foot foot;
+    find_foot_apart(p_m, {rival.a_m, rival.b_m, rival.c_m}, Nearer::than_nothing(), foot);
+    best.offset_m = foot.offset_m;
     best.triangle = triangle;
     best.feature = search.rivals.feature(i);
   }
@@ -215,6 +217,21 @@ int8_t sign_of(const Finder& finder, const Found& found, Vec3 direction, float l
   return height_m >= 0.0f ? 1 : -1;
 }
 
+// What the next query may use of this one.
+[[gnu::always_inline]] inline void leave_hint(const Search& search, float lower_m, int8_t sign,
+                                              Hint& hint) {
+  const Best& best = search.best;
+  if (best.slot != query::kNowhere) hint.leaf_slot = best.slot;
+  hint.triangle_low = static_cast<uint16_t>(best.triangle);
+  hint.position_m.x = search.p_m.x;
+  hint.position_m.y = search.p_m.y;
+  hint.position_m.z = search.p_m.z;
+  hint.lower_m = lower_m;
+  hint.sign = sign;
+  hint.safe_subtree = search.safe_subtree;
+  hint.safe_subtree_m = search.safe_subtree_m;
+}
+
 template <class Finder, class Bound>
 [[gnu::always_inline]] inline Closest answer(const View& mesh, const Finder& finder,
                                              const Bound& bound, const Vec3& p_m,
@@ -285,15 +302,7 @@ template <class Finder, class Bound>
       exact = exact && sign != 0;
     }
   }
-  if (best.slot != query::kNowhere) hint.leaf_slot = best.slot;
-  hint.triangle_low = static_cast<uint16_t>(best.triangle);
-  hint.position_m.x = p_m.x;
-  hint.position_m.y = p_m.y;
-  hint.position_m.z = p_m.z;
-  hint.lower_m = lower_m;
-  hint.sign = lower_m > kEitherSide * diagonal_m ? sign : int8_t{0};
-  hint.safe_subtree = search.safe_subtree;
-  hint.safe_subtree_m = search.safe_subtree_m;
+  leave_hint(search, lower_m, lower_m > kEitherSide * diagonal_m ? sign : int8_t{0}, hint);
   return {sign < 0 ? -found.distance_m : found.distance_m,
           {point_m.x, point_m.y, point_m.z},
           {direction.x, direction.y, direction.z},

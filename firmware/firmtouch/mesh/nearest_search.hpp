@@ -219,7 +219,7 @@ enum class Which { kLast, kBeside };
     const Vec3 a_m = mesh.vertex(triangle.corner[0]), b_m = mesh.vertex(triangle.corner[1]),
                c_m = mesh.vertex(triangle.corner[2]);
     Foot foot;
-    if (!find_foot(p_m, OfCorners{a_m, b_m, c_m}, Nearer::than(min2_m2, search.slack_m2), foot) ||
+    if (!find_foot_apart(p_m, {a_m, b_m, c_m}, Nearer::than(min2_m2, search.slack_m2), foot) ||
         !loss.may_be_less(foot.distance2_m2, min2_m2))
       continue;
     foot.distance2_m2 = nearest_compensated2(p_m, a_m, b_m, c_m, foot.feature, foot.distance2_m2);
@@ -248,26 +248,31 @@ template <class Source, class Wanted>
 // 32 bits are rare on a controller.
 [[gnu::noinline, gnu::cold]] void measure_wide_rivals(uint32_t child, uint32_t slot,
                                                       Search& search) {
-  measure_rivals<LeafTriangles>(child, slot, search);
+  measure_rivals<LeafTriangles>(child, slot, find_foot_apart, search);
 }
 [[gnu::noinline]] uint32_t measure_with_rivals(uint32_t prune, uint32_t child, uint32_t slot,
                                                Search& search) {
   if (search.leaf_boxes != nullptr && prune != 0 && is_beyond(prune, child, search)) return 1;
   if (search.is_narrow)
-    measure_rivals<LeafCorners<uint16_t>>(child, slot, search);
+    measure_rivals<LeafCorners<uint16_t>>(
+        child, slot,
+        [](Vec3 p_m, const OfCorners& shape, Nearer wanted, Foot& foot)
+            __attribute__((always_inline)) { return find_foot(p_m, shape, wanted, foot); },
+        search);
   else
     measure_wide_rivals(child, slot, search);
   return search.best.slot ^ slot;
 }
 [[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t slot,
                                          Search& search) {
-  if (is_beyond(prune, child, search)) return 1;
+  if (prune != 0 && is_beyond(prune, child, search)) return 1;
   measure_triangles<LeafShapes, Nearer>(child, slot, search);
   return search.best.slot ^ slot;
 }
 
-// `prune`: the lowest key that is not visited. Result: whether a triangle was nearer. A compensated
-// search tests the index width at each triangle, which costs nothing there and saves 2 to 3 kB.
+// `prune`: the lowest key that is not visited; 0 at the last leaf. Result: whether a triangle was
+// nearer. A compensated search tests the index width at each triangle, which costs nothing there
+// and saves 2 to 3 kB.
 template <bool kCompensated, class Index, Which kWhich>
 inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t child,
                     uint32_t slot, Search& search) {
@@ -278,12 +283,7 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
   } else if constexpr (kHasRivals<Index>) {
     return measure_with_rivals(prune, child, slot, search) == 0;
   } else if constexpr (kIsBoxed<Index>) {
-    if constexpr (kWhich != Which::kLast) return measure_boxed(prune, child, slot, search) == 0;
-    // By corners: a loop over the shapes of this one leaf takes 1 kB and saves 1 %.
-    if (search.is_narrow)
-      return measure_plain<LeafCorners<uint16_t>, Everything>(prune, child, slot, search) == 0;
-    measure_wide_rivals(child, slot, search);
-    return search.best.slot == slot;
+    return measure_boxed(prune, child, slot, search) == 0;
   } else {
     return measure_plain<typename Triangles<Index>::Source, Wanted>(prune, child, slot, search) ==
            0;

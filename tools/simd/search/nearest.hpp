@@ -53,6 +53,30 @@ constexpr uint32_t kMaxNodesNear = 16384;
     __builtin_prefetch(first + i);
 }
 
+// A leaf. Result: whether a triangle is nearer.
+template <bool kRivals>
+inline bool take_leaf_of(const WideTree& tree, uint32_t child, uint32_t slot, Search& search) {
+  const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};
+  const BlockTriangles triangles(tree, child);
+  const float before2_m2 = search.best.distance2_m2;
+  if constexpr (kRivals)
+    return take_leaf_rivals(triangles, p_m, slot, search);
+  else
+    return measure_wide_leaf(triangles, p_m, slot, before2_m2, search.best) < before2_m2;
+}
+
+// A block in which a triangle is nearer. Result: visits below its node.
+template <bool kRivals>
+inline uint32_t take_block_of(const WideTree& tree, const Feet& feet, const NodeBlock& block,
+                              const BlockKeys& keys, const NearBound& bound, const Side* sides,
+                              uint32_t node, uint32_t& prune, Search& search) {
+  if constexpr (kRivals)
+    return take_block(feet, CornerArrays(BlockTriangles(tree, block.of)), block, keys, bound, sides,
+                      node, prune, search.best, search.rivals);
+  else
+    return take_block(feet, block, keys, bound, sides, node, prune, search.best);
+}
+
 /// mesh::search_nearest() of a cold query without budget: the same leaves in the same order, the
 /// same visits. Instead of waiting for the nearer of two children it measures the boxes in both,
 /// and selects by conditional moves. The keys in an entry are those of its node's sides. A block is
@@ -125,18 +149,11 @@ template <bool kRivals>
         if (nearer_of(feet, block.of, limit_of<kRivals>(search)) == 0) {
           steps += keys.steps(prune);
         } else {
-          if constexpr (kRivals)
-            steps += take_block(feet, CornerArrays(BlockTriangles(tree, block.of)), block, keys,
-                                bound, children[slot].side, node, prune, best, search.rivals);
-          else
-            steps += take_block(feet, block, keys, bound, children[slot].side, node, prune, best);
+          steps += take_block_of<kRivals>(tree, feet, block, keys, bound, children[slot].side, node,
+                                          prune, search);
           cutoff = (uint64_t{prune} << 32) - 1;
         }
-      } else if constexpr (kRivals) {
-        if (take_leaf_rivals(BlockTriangles(tree, child), p_m, slot, search))
-          cutoff = (uint64_t{prune_key(bound, search)} << 32) - 1;
-      } else if (measure_wide_leaf(BlockTriangles(tree, child), p_m, slot, before2_m2, best) <
-                 before2_m2) {
+      } else if (take_leaf_of<kRivals>(tree, child, slot, search)) {
         cutoff = (uint64_t{prune_key(bound, search)} << 32) - 1;
       }
       // The answer reads this direction after the search.

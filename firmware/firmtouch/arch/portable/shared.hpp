@@ -1,5 +1,6 @@
 #pragma once
-// What no target without the DSP extension replaces. For the primitives.hpp of such targets.
+// What no target without the DSP extension replaces. For the primitives.hpp of such targets, and
+// so for the library's own translation units.
 
 #include "firmtouch/math/portable.hpp"
 
