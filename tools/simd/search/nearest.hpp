@@ -124,10 +124,7 @@ template <bool kRivals>
     }
     while (true) {  // until an inner node is next
       if (now.key > cutoff) {
-        if (now.key == UINT64_MAX) {
-          search.steps = steps;
-          return;
-        }
+        if (now.key == UINT64_MAX) return void(search.steps = steps);
         now = *top--;
         steps += now.key <= cutoff ? 1 : 0;
         continue;
