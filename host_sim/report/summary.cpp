@@ -38,6 +38,15 @@ std::vector<size_t> model_ticks(const Trace& trace) {
   return made;
 }
 
+// Where the model's query was: at the proxy that a surface holds, or at the tool's position of the
+// tick that requested the model.
+const float (&queried_m(const record::TickOutput& out, const record::TickOutput& model))[3] {
+  const bool is_held = (out.state & record::kStateProxy) != 0 &&
+                       (out.state & record::kStateContact) != 0 &&
+                       (out.state >> record::kStateSignShift & 3u) != 0;
+  return is_held ? out.proxy_m : model.position_m;
+}
+
 void check_certificates(Summary& summary, const Environment& environment, const Trace& trace) {
   const mesh::View& mesh = environment.mesh();
   const bool is_mesh = environment.has_mesh();
@@ -56,7 +65,7 @@ void check_certificates(Summary& summary, const Environment& environment, const 
     if ((out.state & record::kStateReady) == 0) continue;
     const record::TickOutput& model = trace.records[made[i]].output;
     if ((model.state & record::kStateReady) == 0 || out.model_sequence == 0) continue;
-    const Vec at = wide(model.position_m) - environment.origin_m();
+    const Vec at = wide(queried_m(out, model)) - environment.origin_m();
     const double truth =
         is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(environment.surface(), at);
     const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kSplineFactor);

@@ -72,6 +72,8 @@ enum Index : uint32_t {
   kGuideDriveSpeed,
   kSurfaceClosed,
   kSurfaceTurned,
+  kFrictionStatic,
+  kFrictionDynamic,
   kCount
 };
 

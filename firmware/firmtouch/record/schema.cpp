@@ -26,6 +26,7 @@ extern constexpr Field kFields[kFieldCount] = {
     {"output.faults", "bits", 1, 0, Type::kU32, 1},
     {"output.state", "bits", 1, 0, Type::kU32, 1},
     {"output.model_sequence", "1", 1, 0, Type::kU32, 1},
+    {"output.proxy_m", "m", 1, 0, Type::kF32, kAxes},
 };
 
 extern constexpr Bit kBits[kBitCount] = {
@@ -36,7 +37,7 @@ extern constexpr Bit kBits[kBitCount] = {
     {"output.state", "on guide", 9},       {"output.state", "exact", 10},
     {"output.state", "command taken", 11}, {"output.state", "command refused", 12},
     {"output.state", "ready", 13},         {"output.state", "guide exact", 14},
-    {"output.state", "base hull", 15},
+    {"output.state", "base hull", 15},     {"output.state", "proxy", 18},
 };
 
 namespace {
@@ -50,7 +51,7 @@ static_assert(words_of_fields() * 4 == sizeof(Numbered<TickRecord>),
               "a field of the record has no row, or a row no field");
 static_assert(kFlagEncoderFault == 1u << 3 && kFlagModelWanted == 1u << 6 &&
                   kStateContact == 1u << 8 && kStateGuideExact == 1u << 14 &&
-                  kStateOfBaseHull == 1u << 15,
+                  kStateOfBaseHull == 1u << 15 && kStateProxy == 1u << 18,
               "the bits are those of tick.hpp");
 
 }  // namespace
