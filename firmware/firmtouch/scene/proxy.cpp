@@ -103,9 +103,11 @@ bool ProxyMove::is_longer(Vec3 to_m) const {
 // Each feature becomes a plane that the sphere's centre stays in front of. A place that is nearer
 // than the radius already need not be left: there no plane would have a solution.
 void ProxyMove::linearise() {
-  const float reach_m = proxy_.radius_m + kBand * size_m_, restored_m = kRestoring * size_m_;
+  const float restored_m = kRestoring * size_m_;
   const float most_m = restored_m + (aimed_radius_m_ - proxy_.radius_m);
   const Outlook outlook{goal_m_ - proxy_.position_m, proxy_.radius_m, restored_m};
+  // A feature farther away can be met neither by this move nor by a usual one of the next tick.
+  const float reach_m = aimed_radius_m_ + kBand * size_m_ + math::length(outlook.way_m);
   for (uint32_t i = 0; i < proxy_.feature_count;) {
     const Tangent tangent = tangent_at(proxy_.feature[i], proxy_.position_m, outlook);
     if (!(tangent.distance_m <= reach_m)) {
