@@ -185,7 +185,8 @@ void ControllerCore::end_tick(const record::TickInput& input, const AssetStatus&
   put(output.velocity_mps, tick.step.velocity_mps);
   output.faults = live_.servo.faults;
   output.state |= result.state | static_cast<uint32_t>(live_.servo.mode) |
-                  (asset.is_ready ? record::kStateReady : 0u);
+                  (asset.is_ready ? record::kStateReady : 0u) |
+                  (result.model.is_uncertain ? record::kStateUncertain : 0u);
   output.distance_m = result.distance_m;
   output.distance_lower_m = result.distance_lower_m;
   output.penetration_m = result.penetration_m;

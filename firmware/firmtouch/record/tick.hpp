@@ -39,6 +39,7 @@ constexpr uint32_t kStateOfBaseHull = 1u << 15;  // the base hull was rendered i
 constexpr uint32_t kStateSignShift = 16;
 // Contact is through a proxy; distance and its bound are the proxy's. 0: penalty contact.
 constexpr uint32_t kStateProxy = 1u << 18;
+constexpr uint32_t kStateUncertain = 1u << 19;  // the visits did not certify the proxy
 
 /// Everything that a tick depends on, except the controller's state.
 struct TickInput {
