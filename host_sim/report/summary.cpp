@@ -27,6 +27,15 @@ Vec wide(const float (&v)[3]) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
+// Where the model's query was: at the proxy that a surface holds, or at the tool's position of the
+// tick that requested the model.
+Vec queried_m(const record::TickOutput& out, const Vec& model_m) {
+  const bool is_held = (out.state & record::kStateProxy) != 0 &&
+                       (out.state & record::kStateContact) != 0 &&
+                       (out.state >> record::kStateSignShift & 3u) != 0;
+  return is_held ? wide(out.proxy_m) : model_m;
+}
+
 void count(Summary& summary, const record::TickOutput& out, uint64_t& visits, double& deviation) {
   const bool is_on = motors_are_on(out);
   if (is_on && (out.state & record::kStateContact) != 0) ++summary.contact_ticks;
@@ -116,7 +125,7 @@ void Summariser::check_certificate(const record::TickOutput& out) {
   const mesh::View& mesh = environment_.mesh();
   const double size_m = static_cast<double>(is_mesh ? mesh.head().diagonal_m
                                                     : environment_.surface().head().extent_m);
-  const Vec at = used_.position_m - environment_.origin_m();
+  const Vec at = queried_m(out, used_.position_m) - environment_.origin_m();
   const double truth =
       is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(environment_.surface(), at);
   const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kSplineFactor);

@@ -32,7 +32,8 @@ TEST(RideOnThePart_GivesForceAndKeepsEveryLimit) {
     CHECK_LE(o.distance_lower_m, std::fabs(o.distance_m));
     contact += (o.state & record::kStateContact) != 0 ? 1 : 0;
     guide += (o.state & record::kStateOnGuide) != 0 ? 1 : 0;
-    if (tick > 10 && o.steps > 200) ++late_steps;
+    // Up to four queries share the surface's budget.
+    if (tick > 10 && o.steps > 500) ++late_steps;
   }
   CHECK_EQ(ride.output.faults, 0u);
   CHECK_GE(contact, 1000u);

@@ -1,4 +1,5 @@
 // What latches, when, what it leaves of the force, and how it is cleared: over the whole tick.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -327,4 +328,54 @@ TEST(RandomInputsNeverBreakTheOutput) {
     }
   }
   CHECK_GE(pushing, 1000u);  // it must not pass by being off
+}
+
+// Penalty contact was silently absent with 8 visits: no force in 19,000 ticks, and no fault.
+TEST(TooFewVisits_AreAFaultIn10ms) {
+  Ride ride;
+  uint32_t certain = 0;
+  for (uint32_t tick = 0; tick < 1200; ++tick) {
+    ride.fill(tick);
+    if (tick == 200) {
+      ride.input.command = 1 + params::kMeshSteps;
+      ride.input.command_value = 1;
+    }
+    ride.step();
+    if ((ride.output.state & record::kStateUncertain) == 0) {
+      certain = tick;
+    } else {
+      CHECK_LE(tick, certain + 10);
+    }
+    if (ride.output.faults != 0) break;
+  }
+  CHECK_EQ(ride.output.faults, servo::kFaultContact);
+  CHECK_GE(certain, 200u);
+}
+
+// A stiffness that was raised under load threw the hand at 0.68 m/s.
+TEST(StiffnessRaisedUnderLoad_MakesNoStepOfTheForce) {
+  Ride ride;
+  const auto press = [&ride](uint32_t tick, int32_t counts) {
+    ride.fill(400);
+    ride.input.encoder_counts[2] += counts;
+    ride.input.tick = tick;
+    ride.input.clock_us = tick * 1000u;
+    ride.input.flags = tick < 10 ? 0 : record::kFlagEnable;
+    if (tick == 800) {
+      ride.input.command = 1 + params::kContactStiffness;
+      ride.input.command_value = 8000;
+    }
+    ride.step();
+  };
+  for (uint32_t tick = 0; tick < 300; ++tick) press(tick, 1000);
+  for (uint32_t tick = 300; tick < 800; ++tick)
+    press(tick, 1000 - static_cast<int32_t>(2 * std::min(tick - 300, 400u)));
+  const double before_N = size_of(ride.output.force_N);
+  CHECK_NE(ride.output.state & record::kStateContact, 0u);
+  CHECK_GE(before_N, 0.5);
+  for (uint32_t tick = 800; tick < 900; ++tick) {
+    press(tick, 200);
+    CHECK_LE(std::fabs(size_of(ride.output.force_N) - before_N), 1e-6);
+  }
+  CHECK_NE(ride.output.state & record::kStateContact, 0u);
 }

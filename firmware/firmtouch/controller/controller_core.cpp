@@ -123,7 +123,13 @@ ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
   Tick tick;
   // An overloaded controller queries nothing, so that the main loop, and with it the link, goes on.
   const bool is_overloaded = ((live_.servo.faults | clock.faults) & servo::kFaultOverload) != 0;
-  tick.request = {tool.position_m, input.tick, asset.is_ready && tool.started && !is_overloaded};
+  tick.request.position_m = tool.position_m;
+  tick.request.tick = input.tick;
+  tick.request.can_touch = asset.is_ready && tool.started && !is_overloaded;
+  tick.request.is_on =
+      live_.servo.mode == servo::Mode::kRampIn || live_.servo.mode == servo::Mode::kOn;
+  tick.request.has_proxy = live_.servo.has_proxy;
+  tick.request.proxy_m = live_.servo.proxy_m;
   tick.step.position_m = tool.position_m;
   tick.step.velocity_mps = tool.velocity_mps;
   tick.step.tick = input.tick;
@@ -180,10 +186,12 @@ void ControllerCore::end_tick(const record::TickInput& input, const AssetStatus&
   }
   for (uint32_t k = 0; k < record::kAxes; ++k) output.motor_N[k] = output.force_N[k] = motor_N[k];
   put(output.position_m, tick.step.position_m);
+  put(output.proxy_m, wanted.proxy_m);
   put(output.velocity_mps, tick.step.velocity_mps);
   output.faults = live_.servo.faults;
   output.state |= result.state | static_cast<uint32_t>(live_.servo.mode) |
-                  (asset.is_ready ? record::kStateReady : 0u);
+                  (asset.is_ready ? record::kStateReady : 0u) |
+                  (result.model.is_uncertain ? record::kStateUncertain : 0u);
   output.distance_m = result.distance_m;
   output.distance_lower_m = result.distance_lower_m;
   output.penetration_m = result.penetration_m;

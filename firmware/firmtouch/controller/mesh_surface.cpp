@@ -1,6 +1,26 @@
 #include "firmtouch/controller/mesh_surface.hpp"
 
+#include "firmtouch/scene/mesh_touched.hpp"
+
 namespace firmtouch {
+namespace {
+
+template <class Touched>
+void touch_object(const scene::MeshObject& object, const ModelRequest& request,
+                  const params::Values& v, mesh::Hint& hint, scene::ProxyTouch& touch,
+                  ModelResult& result) {
+  Touched touched{object, hint};
+  scene::touch_by_proxy(proxy_contact(request, v), touched, touch, result.model);
+  report_proxy(touch, result);
+}
+
+void report_penalty(const scene::MeshTouch& touch, ModelResult& result) {
+  report_surface(touch.closest.certificate, touch.closest.distance_m, touch.penetration_m, result);
+  result.steps += touch.base_hull_steps;
+  if (touch.is_of_base_hull) result.state |= record::kStateOfBaseHull;
+}
+
+}  // namespace
 
 scene::MeshObject MeshContact::object(const mesh::View& mesh, const params::Values& v) const {
   scene::MeshObject object;
@@ -10,43 +30,65 @@ scene::MeshObject MeshContact::object(const mesh::View& mesh, const params::Valu
   return object;
 }
 
-void MeshContact::report(ModelResult& result) const {
-  report_surface(touch_.closest.certificate, touch_.closest.distance_m, touch_.penetration_m,
-                 result);
-  result.steps += touch_.base_hull_steps;
-  if (touch_.is_of_base_hull) result.state |= record::kStateOfBaseHull;
+void MeshSurface::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
+  scene::MeshObject touched = object(mesh(), v);
+  touch_object<scene::MeshTouched>(touched, request, v, hint_, touch_, result);
 }
 
-void MeshSurface::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
-  scene::touch_mesh(object(mesh(), v), v[params::kToolRadius], request.position_m,
-                    work_budget(v, params::kMeshWork), touch_, result.model);
-  report(result);
+void MeshSurface::touch_by_penalty(const ModelRequest& request, const params::Values& v,
+                                   PenaltyTouch& touch, ModelResult& result) const {
+  scene::MeshObject touched = object(mesh(), v);
+  scene::touch_mesh(touched, v[params::kToolRadius], request.position_m,
+                    work_budget(v, params::kMeshWork), touch, result.model);
+  report_penalty(touch, result);
 }
 
 void FieldMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
-  scene::MeshObject with_field = object(mesh(), v);
-  with_field.distance_field = &distance_field();
-  scene::touch_mesh_with_field(with_field, v[params::kToolRadius], request.position_m,
-                               work_budget(v, params::kMeshWork), touch_, result.model);
-  report(result);
+  scene::MeshObject touched = object(mesh(), v);
+  touched.distance_field = &distance_field();
+  touch_object<scene::FieldMeshTouched>(touched, request, v, hint_, touch_, result);
+}
+
+void FieldMesh::touch_by_penalty(const ModelRequest& request, const params::Values& v,
+                                 PenaltyTouch& touch, ModelResult& result) const {
+  scene::MeshObject touched = object(mesh(), v);
+  touched.distance_field = &distance_field();
+  scene::touch_mesh_with_field(touched, v[params::kToolRadius], request.position_m,
+                               work_budget(v, params::kMeshWork), touch, result.model);
+  report_penalty(touch, result);
 }
 
 void HulledMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
-  scene::MeshObject with_hull = object(mesh(), v);
-  with_hull.base_hull = &hull().base_hull();
-  scene::touch_mesh_with_base_hull(with_hull, v[params::kToolRadius], request.position_m,
-                                   work_budget(v, params::kMeshWork), touch_, result.model);
-  report(result);
+  scene::MeshObject touched = object(mesh(), v);
+  touched.base_hull = &hull().base_hull();
+  touch_object<scene::HulledMeshTouched>(touched, request, v, hint_, touch_, result);
+}
+
+void HulledMesh::touch_by_penalty(const ModelRequest& request, const params::Values& v,
+                                  PenaltyTouch& touch, ModelResult& result) const {
+  scene::MeshObject touched = object(mesh(), v);
+  touched.base_hull = &hull().base_hull();
+  scene::touch_mesh_with_base_hull(touched, v[params::kToolRadius], request.position_m,
+                                   work_budget(v, params::kMeshWork), touch, result.model);
+  report_penalty(touch, result);
 }
 
 void FullMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
-  scene::MeshObject with_both = object(mesh(), v);
-  with_both.distance_field = &distance_field();
-  with_both.base_hull = &hull().base_hull();
-  scene::touch_mesh_with_field_and_base_hull(with_both, v[params::kToolRadius], request.position_m,
-                                             work_budget(v, params::kMeshWork), touch_,
+  scene::MeshObject touched = object(mesh(), v);
+  touched.distance_field = &distance_field();
+  touched.base_hull = &hull().base_hull();
+  touch_object<scene::FullMeshTouched>(touched, request, v, hint_, touch_, result);
+}
+
+void FullMesh::touch_by_penalty(const ModelRequest& request, const params::Values& v,
+                                PenaltyTouch& touch, ModelResult& result) const {
+  scene::MeshObject touched = object(mesh(), v);
+  touched.distance_field = &distance_field();
+  touched.base_hull = &hull().base_hull();
+  scene::touch_mesh_with_field_and_base_hull(touched, v[params::kToolRadius], request.position_m,
+                                             work_budget(v, params::kMeshWork), touch,
                                              result.model);
-  report(result);
+  report_penalty(touch, result);
 }
 
 }  // namespace firmtouch

@@ -4,6 +4,7 @@
 #include "firmtouch/controller/loaders.hpp"
 #include "firmtouch/controller/model.hpp"
 #include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/controller/proxy_surface.hpp"
 #include "firmtouch/field/loader.hpp"
 #include "firmtouch/hull/loader.hpp"
 #include "firmtouch/mesh/loader.hpp"
@@ -16,16 +17,20 @@ namespace firmtouch {
 /// What the surfaces of meshes share: the state of the (tool, mesh) pair, and the object.
 class MeshContact {
  public:
-  using Parameters = params::Groups<params::ContactRows>;
+  using Parameters = params::Groups<params::ContactRows, params::FrictionRows>;
+  using PenaltyTouch = scene::MeshTouch;
   static constexpr bool kIsGuide = false;
 
-  void reset() { touch_ = {}; }
+  void reset() {
+    touch_ = {};
+    hint_ = {};
+  }
 
  protected:
   scene::MeshObject object(const mesh::View& mesh, const params::Values& values) const;
-  void report(ModelResult& result) const;
 
-  scene::MeshTouch touch_;
+  scene::ProxyTouch touch_;
+  mesh::Hint hint_;
 };
 
 /// A surface policy: a mesh alone.
@@ -35,6 +40,8 @@ class MeshSurface : public MeshContact, public mesh::Loader {
   const mesh::View& mesh() const { return view(); }
   bool is_open() const { return mesh().is_open(); }
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
+  void touch_by_penalty(const ModelRequest& request, const params::Values& values,
+                        PenaltyTouch& touch, ModelResult& result) const;
 };
 
 /// A mesh with its distance field, if the asset has one.
@@ -46,6 +53,8 @@ class FieldMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Lo
   const field::View& distance_field() const { return get<field::Loader>().view(); }
   bool is_open() const { return mesh().is_open(); }
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
+  void touch_by_penalty(const ModelRequest& request, const params::Values& values,
+                        PenaltyTouch& touch, ModelResult& result) const;
 };
 
 /// A mesh with its base hull, if the asset has one.
@@ -56,6 +65,8 @@ class HulledMesh : public MeshContact, public LoaderChain<mesh::Loader, hull::Lo
   const hull::View& hull() const { return get<hull::Loader>().view(); }
   bool is_open() const { return mesh().is_open(); }
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
+  void touch_by_penalty(const ModelRequest& request, const params::Values& values,
+                        PenaltyTouch& touch, ModelResult& result) const;
 };
 
 /// A mesh with its distance field and its base hull, if the asset has them.
@@ -68,6 +79,8 @@ class FullMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Loa
   const hull::View& hull() const { return get<hull::Loader>().view(); }
   bool is_open() const { return mesh().is_open(); }
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
+  void touch_by_penalty(const ModelRequest& request, const params::Values& values,
+                        PenaltyTouch& touch, ModelResult& result) const;
 };
 
 }  // namespace firmtouch

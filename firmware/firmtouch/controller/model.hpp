@@ -14,6 +14,9 @@ struct ModelRequest {
   math::Vec3 position_m;
   uint32_t tick = 0;
   bool can_touch = false;  // asset ready, position known, no overload
+  bool is_on = false;      // the motors
+  bool has_proxy = false;  // servo holds a proxy, at proxy_m
+  math::Vec3 proxy_m;
 };
 
 /// A local model, and what the record says of how it was made. Surfaces and guides add to both.

@@ -1,21 +1,35 @@
 #include "firmtouch/controller/spline_surface.hpp"
 
+#include "firmtouch/scene/spline_touched.hpp"
+
 namespace firmtouch {
 
-void SplineSurface::touch(const ModelRequest& request, const params::Values& v,
-                          ModelResult& result) {
+scene::SplineObject SplineSurface::object(const params::Values& v) const {
   scene::SplineObject object;
   object.surface = &surface();
   object.pose.translation_m = scene_origin_m(v);
   object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
   object.is_turned = v[params::kSurfaceTurned] >= 0.5f;
   object.is_closed = v[params::kSurfaceClosed] >= 0.5f;
-  scene::touch_spline(object, v[params::kToolRadius], request.position_m,
-                      work_budget(v, params::kMeshWork), touch_, result.model);
-  const spline::Closest& closest = touch_.closest;
+  return object;
+}
+
+void SplineSurface::touch(const ModelRequest& request, const params::Values& v,
+                          ModelResult& result) {
+  const scene::SplineObject touched_object = object(v);
+  scene::SplineTouched touched{touched_object, hint_};
+  scene::touch_by_proxy(proxy_contact(request, v), touched, touch_, result.model);
+  report_proxy(touch_, result);
+}
+
+void SplineSurface::touch_by_penalty(const ModelRequest& request, const params::Values& v,
+                                     PenaltyTouch& touch, ModelResult& result) const {
+  scene::touch_spline(object(v), v[params::kToolRadius], request.position_m,
+                      work_budget(v, params::kMeshWork), touch, result.model);
+  const spline::Closest& closest = touch.closest;
   const bool is_inside = closest.certificate.sign < 0;
   report_surface(closest.certificate, is_inside ? -closest.distance_m : closest.distance_m,
-                 touch_.penetration_m, result);
+                 touch.penetration_m, result);
 }
 
 }  // namespace firmtouch

@@ -3,6 +3,7 @@
 
 #include "firmtouch/controller/model.hpp"
 #include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/controller/proxy_surface.hpp"
 #include "firmtouch/params/compose.hpp"
 #include "firmtouch/params/rows.hpp"
 #include "firmtouch/scene/spline_contact.hpp"
@@ -13,17 +14,26 @@ namespace firmtouch {
 /// A surface policy: spline surfaces.
 class SplineSurface : public spline::SurfaceLoader {
  public:
-  using Parameters = params::Groups<params::ContactRows, params::SheetRows>;
+  using Parameters = params::Groups<params::ContactRows, params::FrictionRows, params::SheetRows>;
+  using PenaltyTouch = scene::SplineTouch;
   static constexpr bool kIsGuide = false;
   static constexpr uint32_t kParts = kPartSpline;
 
   const spline::View& surface() const { return view(); }
   bool is_open() const { return surface().is_open(); }
-  void reset() { touch_ = {}; }
+  void reset() {
+    touch_ = {};
+    hint_ = {};
+  }
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
+  void touch_by_penalty(const ModelRequest& request, const params::Values& values,
+                        PenaltyTouch& touch, ModelResult& result) const;
 
  private:
-  scene::SplineTouch touch_;
+  scene::SplineObject object(const params::Values& values) const;
+
+  scene::ProxyTouch touch_;
+  spline::Hint hint_;
 };
 
 }  // namespace firmtouch

@@ -21,7 +21,7 @@
 //               without Hello too.
 namespace firmtouch::link {
 
-constexpr uint32_t kProtocolVersion = 5;
+constexpr uint32_t kProtocolVersion = 6;
 
 // Append-only. The high bit marks frames of the controller.
 enum Type : uint8_t {
@@ -95,7 +95,7 @@ struct StepReply {
   uint32_t stack_high_bytes = 0;  // most stack in use, measured every 64 ticks; 0: not painted
   record::TickOutput output{};
 };
-static_assert(sizeof(StepReply) == 108);
+static_assert(sizeof(StepReply) == 120);
 
 struct SetParam {
   uint32_t index = 0;  // in the parameter table
@@ -162,7 +162,7 @@ struct Log {
   uint32_t dropped = 0;  // total before this record, because the ring was full
   record::Numbered<record::TickRecord> record;
 };
-static_assert(sizeof(Log) == 136);
+static_assert(sizeof(Log) == 148);
 static_assert(sizeof(Log) <= kMaxPayloadBytes);
 
 // Describe::what

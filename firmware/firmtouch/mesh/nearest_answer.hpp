@@ -163,7 +163,7 @@ bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const 
 // The nearest of a search.
 struct Nearest {
   Best best;
-  uint32_t steps;
+  uint32_t steps, charged;
 };
 
 // If that is not enough, the search runs again in double-float, from the nearest leaf. Before it:
@@ -171,8 +171,9 @@ struct Nearest {
 [[gnu::noinline, gnu::cold]] bool begin_again(const View& mesh, uint32_t budget, Found& found,
                                               Nearest& before) {
   Search& search = found.search;
-  before = {search.best, search.steps};
-  if (!(search.complete && budget > search.steps)) {
+  const uint32_t used = search.steps + search.charged;
+  before = {search.best, search.steps, search.charged};
+  if (!(search.complete && budget > used)) {
     search.complete = false;
     return false;
   }
@@ -182,8 +183,8 @@ struct Nearest {
   search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
   search.start = search.best.slot;
   search.best.slot = query::kNowhere;
-  search.budget = budget - search.steps;
-  search.steps = 0;
+  search.budget = budget - used;
+  search.steps = search.charged = 0;
   return true;
 }
 // After it:
@@ -191,7 +192,10 @@ struct Nearest {
                                             bool has_run, Found& found) {
   const Loss loss(mesh.head());
   Search& search = found.search;
-  if (has_run) search.steps += before.steps;
+  if (has_run) {
+    search.steps += before.steps;
+    search.charged += before.charged;
+  }
   if (search.complete) {
     const float near_m = nearest_m(search);
     const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
@@ -252,6 +256,7 @@ template <class Finder, class Bound>
   search.p_m.z = p_m.z;
   search.start = is_warm ? slot : query::kNowhere;
   search.budget = budget.work;
+  search.charged = 0;
   search.triangle_low = hint.triangle_low;
   search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
   search.safe_subtree_margin_m = safe_subtree_margin_m;
@@ -308,7 +313,7 @@ template <class Finder, class Bound>
           {direction.x, direction.y, direction.z},
           best.triangle,
           best.feature,
-          {lower_m, search.steps, exact, sign}};
+          {lower_m, search.steps, exact, sign, search.steps + search.charged}};
 }
 
 // So far away that every vertex is as near as any other to 4e-8: no square of such a distance fits
@@ -318,7 +323,7 @@ Closest answer_beyond(const View& mesh, Vec3 p_m, Hint& hint) {
   closest.point_m = mesh.vertex(mesh.triangle(0).corner[0]);
   closest.direction = unit(Vec3{p_m.x * 0x1p-100f, p_m.y * 0x1p-100f, p_m.z * 0x1p-100f});
   closest.feature = Feature::kVertex0;
-  closest.certificate.steps = 1;
+  closest.certificate.steps = closest.certificate.work = 1;
   const float scaled = math::length((p_m - closest.point_m) * 0x1p-70f);
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;

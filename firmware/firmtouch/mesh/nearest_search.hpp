@@ -29,15 +29,16 @@ struct Pending {
 /// Input and result of a search.
 struct Search : Sought {
   uint32_t start;               // a leaf's slot, or kNowhere
-  uint32_t budget;              // in visits
+  uint32_t budget;              // in work units
   uint32_t triangle_low;        // Hint::triangle_low; the wide search reads it
   float band2_m2;               // triangles farther away need not be found
   float safe_subtree_margin_m;  // margin of a new safe subtree beyond the first leaf
   uint32_t safe_subtree;        // in: the last one; all triangles outside it are at least ...
   float safe_subtree_m;         // ... this far away; out: the same, renewed
   uint32_t steps;
-  bool complete;    // no nearer triangle can be left
-  float pending_m;  // if not complete: certified distance to all that was not visited
+  uint32_t charged;  // units beyond the visits
+  bool complete;     // no nearer triangle can be left
+  float pending_m;   // if not complete: certified distance to all that was not visited
   math::HalfCellPoint half_cells;  // of p_m; for the boxes of leaves alone
   const uint32_t* leaf_boxes;
 
@@ -56,6 +57,16 @@ struct Choice<false, First, Second> {
   using Type = Second;
 };
 
+// Units of a leaf beyond its visit: a triangle takes one, in double-float eight.
+constexpr uint32_t kCompensatedWork = 8;
+
+// Takes units beyond a visit. The visit itself is still to be taken: one is left.
+[[gnu::always_inline]] inline void charge(uint32_t units, uint32_t& left, Search& search) {
+  const uint32_t taken = units < left ? units : left - 1;
+  left -= taken;
+  search.charged += taken;
+}
+
 // Result of take_smallest().
 struct Taken {
   uint32_t slot;
@@ -70,8 +81,13 @@ struct Taken {
 // inlined it takes registers of the warm search, which does not use it.
 template <class Bound>
 [[gnu::noinline]] Taken take_smallest(const Side* sides, const Bound& bound, Pending* pending,
-                                      uint32_t count, uint32_t prune, uint32_t left) {
+                                      uint32_t count, uint32_t prune, uint32_t left,
+                                      uint32_t& charged) {
   while (count != 0) {
+    const uint32_t scan = count >> 4,
+                   taken_units = scan < left ? scan : left;  // of 100 instructions
+    left -= taken_units;
+    charged += taken_units;
     uint32_t at = count - 1;
     for (uint32_t i = at; i-- > 0;) at = pending[i].key < pending[at].key ? i : at;
     const Pending taken = pending[at];
@@ -334,18 +350,19 @@ template <bool kCompensated, class Bound, class Index>
   search.complete = true;
   if constexpr (!kCompensated) begin_leaves<Index>(mesh, bound, search);
   if (search.start != query::kNowhere) {
+    const uint32_t last = sides[search.start].child;
+    charge(kCompensated ? kCompensatedWork * leaf_count(last) : leaf_count(last), left, search);
     --left;
-    measure<kCompensated, Index, Which::kLast>(mesh, 0, sides[search.start].child, search.start,
-                                               search);
+    measure<kCompensated, Index, Which::kLast>(mesh, 0, last, search.start, search);
     prune = prune_key(bound, search);
     if (!ascend(mesh, mesh.sides(), bound, prune, left, top, search)) {
       search.complete = false;
-      search.steps = allowed;
+      search.steps = allowed - search.charged;
       search.pending_m = 0.0f;
       return;
     }
     if (!take_last(top, best_first, prune, slot)) {
-      search.steps = allowed - left;
+      search.steps = allowed - left - search.charged;
       return;
     }
     child = sides[slot].child;
@@ -358,6 +375,7 @@ template <bool kCompensated, class Bound, class Index>
     if (!is_leaf(child)) {
       if (enter(sides, bound, prune, child, slot, top)) continue;
     } else {
+      charge(kCompensated ? kCompensatedWork * leaf_count(child) : leaf_count(child), left, search);
       if (measure<kCompensated, Index, Which::kBeside>(mesh, prune, child, slot, search))
         prune = prune_key(bound, search);
     }
@@ -365,9 +383,10 @@ template <bool kCompensated, class Bound, class Index>
     if (!take_last(top, best_first, prune, slot)) {
       const uint32_t count = static_cast<uint32_t>(top - pending);
       Taken taken{0, 0, left - 1, false};
-      if (count != 0) taken = take_smallest(sides, bound_at, pending, count, prune, left - 1);
+      if (count != 0)
+        taken = take_smallest(sides, bound_at, pending, count, prune, left - 1, search.charged);
       if (!taken.found) {
-        search.steps = allowed - taken.left;
+        search.steps = allowed - taken.left - search.charged;
         return;
       }
       slot = taken.slot;
@@ -378,7 +397,7 @@ template <bool kCompensated, class Bound, class Index>
   }
   // The budget ran out before the next box, which counts as pending too.
   search.complete = false;
-  search.steps = allowed;
+  search.steps = allowed - search.charged;
   uint32_t least = bound.key(sides[slot].box);
   for (const Pending* p = pending; p != top; ++p) least = p->key < least ? p->key : least;
   search.pending_m = bound.distance_m(least);

@@ -77,6 +77,8 @@ enum Index : uint32_t {
   kGuideDriveSpeed,
   kSurfaceClosed,
   kSurfaceTurned,
+  kFrictionStatic,
+  kFrictionDynamic,
   kCount
 };
 

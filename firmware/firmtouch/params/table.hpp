@@ -7,8 +7,8 @@
 // the row. Hosts name parameters by it.
 namespace firmtouch::params {
 
-constexpr Table kTable =
-    Composed<Groups<SafetyRows, DeviceRows, SceneRows, ContactRows, SheetRows, GuideRows>>::kTable;
+constexpr Table kTable = Composed<Groups<SafetyRows, DeviceRows, SceneRows, ContactRows,
+                                         FrictionRows, SheetRows, GuideRows>>::kTable;
 static_assert(kTable.size() == kCount, "a number has no row");
 
 inline Values initial_values() { return initial_values(kTable); }

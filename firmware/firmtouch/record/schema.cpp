@@ -26,17 +26,27 @@ extern constexpr Field kFields[kFieldCount] = {
     {"output.faults", "bits", 1, 0, Type::kU32, 1},
     {"output.state", "bits", 1, 0, Type::kU32, 1},
     {"output.model_sequence", "1", 1, 0, Type::kU32, 1},
+    {"output.proxy_m", "m", 1, 0, Type::kF32, kAxes},
 };
 
 extern constexpr Bit kBits[kBitCount] = {
-    {"input.lines", "enable", 0},          {"input.lines", "emergency stop", 1},
-    {"input.lines", "drive fault", 2},     {"input.lines", "encoder fault", 3},
-    {"input.lines", "model apart", 4},     {"input.lines", "model taken", 5},
-    {"input.lines", "model wanted", 6},    {"output.state", "contact", 8},
-    {"output.state", "on guide", 9},       {"output.state", "exact", 10},
-    {"output.state", "command taken", 11}, {"output.state", "command refused", 12},
-    {"output.state", "ready", 13},         {"output.state", "guide exact", 14},
+    {"input.lines", "enable", 0},
+    {"input.lines", "emergency stop", 1},
+    {"input.lines", "drive fault", 2},
+    {"input.lines", "encoder fault", 3},
+    {"input.lines", "model apart", 4},
+    {"input.lines", "model taken", 5},
+    {"input.lines", "model wanted", 6},
+    {"output.state", "contact", 8},
+    {"output.state", "on guide", 9},
+    {"output.state", "exact", 10},
+    {"output.state", "command taken", 11},
+    {"output.state", "command refused", 12},
+    {"output.state", "ready", 13},
+    {"output.state", "guide exact", 14},
     {"output.state", "base hull", 15},
+    {"output.state", "proxy", 18},
+    {"output.state", "contact uncertain", 19},
 };
 
 namespace {
@@ -50,7 +60,8 @@ static_assert(words_of_fields() * 4 == sizeof(Numbered<TickRecord>),
               "a field of the record has no row, or a row no field");
 static_assert(kFlagEncoderFault == 1u << 3 && kFlagModelWanted == 1u << 6 &&
                   kStateContact == 1u << 8 && kStateGuideExact == 1u << 14 &&
-                  kStateOfBaseHull == 1u << 15,
+                  kStateOfBaseHull == 1u << 15 && kStateProxy == 1u << 18 &&
+                  kStateUncertain == 1u << 19,
               "the bits are those of tick.hpp");
 
 }  // namespace

@@ -28,8 +28,8 @@ struct Bit {
   uint8_t bit;
 };
 
-constexpr uint32_t kFieldCount = 23;
-constexpr uint32_t kBitCount = 15;
+constexpr uint32_t kFieldCount = 24;
+constexpr uint32_t kBitCount = 17;
 
 /// The fields of Numbered<TickRecord> in their order, without gaps (schema.cpp asserts it).
 extern const Field kFields[kFieldCount];
@@ -37,6 +37,6 @@ extern const Field kFields[kFieldCount];
 extern const Bit kBits[kBitCount];
 
 // The same bytes in the ring, in a log and in a frame.
-static_assert(sizeof(Numbered<TickRecord>) == 132);
+static_assert(sizeof(Numbered<TickRecord>) == 144);
 
 }  // namespace firmtouch::record

@@ -37,6 +37,9 @@ constexpr uint32_t kStateGuideExact = 1u << 14;      // the guide query was exac
 constexpr uint32_t kStateOfBaseHull = 1u << 15;  // the base hull was rendered instead of the mesh
 // Two bits: sign of the distance + 1. 1: unknown; then only the base hull makes a force.
 constexpr uint32_t kStateSignShift = 16;
+// Contact is through a proxy; distance and its bound are the proxy's. 0: penalty contact.
+constexpr uint32_t kStateProxy = 1u << 18;
+constexpr uint32_t kStateUncertain = 1u << 19;  // the visits did not certify the proxy
 
 /// Everything that a tick depends on, except the controller's state.
 struct TickInput {
@@ -58,9 +61,9 @@ struct TickOutput {
   float position_m[kAxes];  // tool, device frame
   float velocity_mps[kAxes];
   float force_N[kAxes];     // at the tool, after every limit
-  float distance_m;         // signed distance of the tool's centre to the nearest surface
+  float distance_m;         // signed distance of the proxy, or the tool's centre, to the surface
   float distance_lower_m;   // its certified lower bound (unsigned)
-  float penetration_m;      // of the tool's sphere; 0 in free space
+  float penetration_m;      // hand to proxy, or depth of the tool's sphere; 0 in free space
   float guide_deviation_m;  // distance to the guide; 0 without a guide
   float guide_lower_m;      // certified lower bound of that distance
   float guide_arc;          // 0 to 1 along the guide
@@ -69,8 +72,9 @@ struct TickOutput {
   uint32_t faults;          // latched; one bit per fault (servo/fault.hpp)
   uint32_t state;           // kState... above
   uint32_t model_sequence;  // of the local model that this tick used
+  float proxy_m[kAxes];     // of contact, at the end of the tick; without one the tool
 };
-static_assert(sizeof(TickOutput) == 92);
+static_assert(sizeof(TickOutput) == 104);
 
 /// Whether the power stage may be on: the servo pushes, or its force still falls to zero.
 constexpr bool may_push(const TickOutput& output) {
@@ -82,6 +86,6 @@ struct TickRecord {
   TickInput input;
   TickOutput output;
 };
-static_assert(sizeof(TickRecord) == 128);
+static_assert(sizeof(TickRecord) == 140);
 
 }  // namespace firmtouch::record

@@ -52,6 +52,11 @@ Vec3 drive_N(const GuideLine& guide, Vec3 off_m, Vec3 velocity_mps) {
   return guide.direction * (along_N > max_N ? max_N : along_N < -max_N ? -max_N : along_N);
 }
 
+bool is_sound(const ProxySpring& spring) {
+  return is_near(spring.anchor_m) && is_between(spring.reach_m, 0.0f, FLT_MAX) &&
+         is_material(spring.stiffness_N_per_m, spring.damping_N_s_per_m);
+}
+
 }  // namespace
 
 bool is_sound(const LocalModel& model) {
@@ -63,6 +68,7 @@ bool is_sound(const LocalModel& model) {
       return false;
     if (!is_material(plane.stiffness_N_per_m, plane.damping_N_s_per_m)) return false;
   }
+  if (!is_sound(model.spring)) return false;
   if (!model.has_guide) return true;
   const GuideLine& guide = model.guide;
   return is_near(guide.point_m) && is_unit(guide.direction) &&

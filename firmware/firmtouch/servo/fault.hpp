@@ -22,7 +22,10 @@ constexpr uint32_t kFaultGuard = 1u << 12;         // the guard stopped a force
 // Ticks take 0.9 of tick_period_s or more: the main loop would stand still (clock_watch.hpp). While
 // it is latched, no tick queries the geometry.
 constexpr uint32_t kFaultOverload = 1u << 13;
-constexpr uint32_t kFaultCount = 14;
+// For 10 ms the visit budget did not suffice to certify the proxy, or a tool that began inside did
+// not come out in 10 s.
+constexpr uint32_t kFaultContact = 1u << 14;
+constexpr uint32_t kFaultCount = 15;
 
 // These cut the force in the same tick. The others ramp it down over kRampOut_s, because a sudden
 // loss of support hits the hand; force_limit_N holds meanwhile.
@@ -31,15 +34,16 @@ constexpr uint32_t kCutAtOnce = kFaultNotFinite | kFaultModel | kFaultDrive | kF
 // These are latched only while the motors are on: plugging in an encoder or halting in a debugger
 // with the motors off does no harm. A cause that is present in the tick that enables is latched
 // then, and the motors stay off.
-constexpr uint32_t kOnlyWhileOn =
-    kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder | kFaultWorkspace;
+constexpr uint32_t kOnlyWhileOn = kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder |
+                                  kFaultWorkspace | kFaultContact;
 
 /// Short name of fault `number` (its bit), for messages and tables.
 /// Result: "unknown" beyond the last.
 constexpr const char* fault_name(uint32_t number) {
   constexpr const char* kName[kFaultCount] = {
-      "not finite", "model",          "stale model", "deadline", "clock",    "encoder", "workspace",
-      "drive",      "emergency stop", "asset",       "probes",   "settings", "guard",   "overload"};
+      "not finite", "model",     "stale model", "deadline",       "clock",
+      "encoder",    "workspace", "drive",       "emergency stop", "asset",
+      "probes",     "settings",  "guard",       "overload",       "contact uncertain"};
   return number < kFaultCount ? kName[number] : "unknown";
 }
 
@@ -61,7 +65,8 @@ constexpr const char* fault_text(uint32_t number) {
       "this processor answers the asset's probe queries otherwise than the baker's",
       "a setting of the servo is out of range",
       "the last guard stopped a force beyond force_limit_N or slew_limit_N_per_s",
-      "ticks took longer than 0.9 of tick_period_s: lower the budgets of the queries"};
+      "ticks took longer than 0.9 of tick_period_s: lower the budgets of the queries",
+      "contact is uncertain: raise mesh_steps, bake a hull, or start outside"};
   return number < kFaultCount ? kText[number] : "";
 }
 

@@ -26,6 +26,17 @@ struct ContactPlane {
   float damping_N_s_per_m = 0;
 };
 
+/// A spring from the tool to the proxy, which stays in front of all surfaces. Scene certifies where
+/// the proxy may be, servo moves it. Device frame.
+struct ProxySpring {
+  math::Vec3 anchor_m;  // a certified place
+  float reach_m = 0;    // so far from the anchor the tool's sphere meets no surface either
+  float stiffness_N_per_m = 0;
+  float damping_N_s_per_m = 0;
+  bool is_used = false;
+  bool is_held = false;  // a surface holds the proxy at the anchor
+};
+
 /// A straight piece of a guide: pulls toward the line, across it only. Along it the tool is free,
 /// or driven.
 struct GuideLine {
@@ -46,8 +57,10 @@ struct GuideLine {
 struct LocalModel {
   ContactPlane plane[kMaxPlanes];
   uint32_t plane_count = 0;
+  ProxySpring spring;
   GuideLine guide;
   bool has_guide = false;
+  bool is_uncertain = false;  // the budget did not suffice to know where the surfaces are
   math::Vec3 made_at_m;
   float free_radius_m = 0;  // certified: no surface nearer to made_at_m than this
   uint32_t sequence = 0;

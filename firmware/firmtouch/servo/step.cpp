@@ -3,6 +3,7 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "firmtouch/servo/fault.hpp"
+#include "firmtouch/servo/proxy_spring.hpp"
 
 namespace firmtouch::servo {
 namespace {
@@ -44,6 +45,8 @@ uint32_t seen_faults(const State& state, const Settings& settings, const LocalMo
     faults |= kFaultNotFinite;
   }
   if (!is_sound(model)) faults |= kFaultModel;
+  if (static_cast<float>(state.uncertain_ticks) * settings.tick_period_s >= kUncertain_s)
+    faults |= kFaultContact;
   // The difference modulo 2^32, so that a tick counter that wraps is no event.
   if (static_cast<int32_t>(input.tick - model.expires_tick) > 0) faults |= kFaultStaleModel;
   return faults;
@@ -97,8 +100,9 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   } else {
     state.mode = Mode::kOn;
   }
-  const Vec3 wanted_N = shorten(evaluate(model, input.position_m, input.velocity_mps) * share,
-                                settings.force_limit_N);
+  const Vec3 model_N = evaluate(model, input.position_m, input.velocity_mps) +
+                       spring_N(model.spring, state.proxy_m, input.position_m, input.velocity_mps);
+  const Vec3 wanted_N = shorten(model_N * share, settings.force_limit_N);
   // The sum below rounds by half an ulp of an axis, at most the limit; subtracted from the step
   // here.
   const float step_N = settings.slew_limit_N_per_s * settings.tick_period_s -
@@ -113,6 +117,11 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   if (input.clear_faults && !input.enable) {
     state = State{};
   }
+  if (!model.is_uncertain) {
+    state.uncertain_ticks = 0;
+  } else if (state.uncertain_ticks < UINT32_MAX) {
+    ++state.uncertain_ticks;
+  }
   uint32_t faults = seen_faults(state, settings, model, input);
   // In the tick that enables, the motors count as on already: a fault that stands keeps them off.
   const bool enabling = state.mode == Mode::kOff && input.enable;
@@ -120,6 +129,8 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   state.faults |= faults;
   change_mode(state, settings, input.enable);
 
+  state.has_proxy = model.spring.is_used;
+  state.proxy_m = proxy_at(model.spring, input.position_m);
   Vec3 force_N;
   if (is_on(state.mode)) {
     force_N = rendered(state, settings, model, input);
@@ -135,6 +146,7 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
 
   StepOutput output;
   output.force_N = force_N;
+  output.proxy_m = state.proxy_m;
   output.mode = state.mode;
   output.faults = state.faults;
   output.in_free_radius = math::length(input.position_m - model.made_at_m) < model.free_radius_m;

@@ -10,6 +10,9 @@ namespace firmtouch::servo {
 // least 1.
 constexpr float kRampOut_s = 0.008f;
 
+// So long models may be uncertain before kFaultContact.
+constexpr float kUncertain_s = 0.0099f;
+
 // Settings beyond these are kFaultSettings: no device that a hand holds needs more, and most
 // flipped bits of a setting exceed them.
 constexpr float kMaxForceLimit_N = 100.0f;
@@ -42,6 +45,7 @@ struct StepInput {
 
 struct StepOutput {
   math::Vec3 force_N;
+  math::Vec3 proxy_m;  // the tool's position where there is no proxy
   Mode mode = Mode::kOff;
   uint32_t faults = 0;          // latched
   bool in_free_radius = false;  // no surface can be between here and where the model was made
@@ -54,6 +58,9 @@ struct State {
   uint32_t ramp_out_left = 0;
   math::Vec3 force_N;      // of the last tick
   math::Vec3 ramp_from_N;  // at the start of the ramp out
+  math::Vec3 proxy_m;
+  bool has_proxy = false;
+  uint32_t uncertain_ticks = 0;  // of the models, without a break
 };
 
 /// Force of this tick: the local model evaluated at the fresh position, ramped in, limited in size

@@ -1,0 +1,34 @@
+#include "firmtouch/controller/proxy_surface.hpp"
+
+namespace firmtouch {
+
+scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Values& v) {
+  scene::ProxyContact contact;
+  contact.settings.radius_m = v[params::kToolRadius];
+  contact.settings.friction_static = v[params::kFrictionStatic];
+  contact.settings.friction_dynamic = v[params::kFrictionDynamic];
+  contact.settings.budget = work_budget(v, params::kMeshWork);
+  contact.material = {v[params::kContactStiffness], v[params::kContactDamping]};
+  contact.position_m = request.position_m;
+  contact.proxy_m = request.proxy_m;
+  contact.has_proxy = request.has_proxy;
+  contact.is_on = request.is_on;
+  contact.passed_s = v[params::kTickPeriod];
+  return contact;
+}
+
+void report_proxy(const scene::ProxyTouch& touch, ModelResult& result) {
+  const scene::Proxy& proxy = touch.proxy;
+  query::Certificate certificate;
+  certificate.lower_m = scene::free_bound_m(proxy);
+  certificate.exact = proxy.near.is_exact;
+  certificate.sign = proxy.near.sign;
+  certificate.steps = touch.moved.steps;
+  const float distance_m = scene::distance_bound_m(proxy);
+  report_surface(certificate, proxy.near.sign < 0 ? -distance_m : distance_m, touch.penetration_m,
+                 result);
+  result.state |= record::kStateProxy;
+  if (touch.moved.is_of_base_hull) result.state |= record::kStateOfBaseHull;
+}
+
+}  // namespace firmtouch

@@ -1,0 +1,48 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/math/vec3.hpp"
+
+// The projection of a point on the intersection of half-spaces, and how far friction lets a point
+// slide towards it. Positions are relative to a feasible point, the origin: differences of
+// coordinates keep their last digits there.
+namespace firmtouch::math {
+
+constexpr uint32_t kMaxHalfSpaces = 8;
+
+/// dot(normal, x) >= offset_m. Pre: the normal is unit to 1e-5.
+struct HalfSpace {
+  Vec3 normal;
+  float offset_m = 0;
+};
+
+struct NearestInPlanes {
+  Vec3 point_m;
+  uint32_t active[3] = {};  // the half-spaces whose planes hold it
+  uint32_t active_count = 0;
+  // The planes agree to 1e-5 |goal|. If false, point_m is the best that was found.
+  bool is_found = false;
+};
+
+/// The point nearest to `goal_m` with all of `planes`, with at most three of them active. Subsets
+/// of planes are tried in the order of their sizes and indices; the first that satisfies the
+/// conditions of Kuhn and Tucker is the answer, because the problem is convex.
+/// Bounds: at most 92 subsets of 8 planes, each with at most 8 products; no iteration.
+/// Result: finite where all input is finite and below 1e6 m. Planes beyond kMaxHalfSpaces are
+///         ignored, and so are those with NaN. No plane: the goal. A goal with NaN: the origin.
+/// Error: 1e-5 |goal|; planes that agree in direction to 1e-5 rad count as one.
+NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 goal_m);
+
+struct Slide {
+  Vec3 point_m;
+  bool is_stuck = false;  // friction holds the point
+};
+
+/// Where Coulomb friction of coefficient `friction` lets a point at the origin come to rest that is
+/// pulled to `nearest`: it slides along the active planes until the pull along them is `friction`
+/// times the pull across them. Never farther from the goal than the origin is, except for rounding.
+/// Pre: `nearest` is nearest_in_planes() of the same planes and goal.
+Slide slide_with_friction(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
+                          const NearestInPlanes& nearest, float friction);
+
+}  // namespace firmtouch::math

@@ -1,0 +1,29 @@
+#pragma once
+#include "firmtouch/scene/mesh_contact.hpp"
+#include "firmtouch/scene/touched.hpp"
+
+namespace firmtouch::scene {
+
+/// A mesh as a shape that a proxy touches. The distance field and the base hull of the object are
+/// read only where the arguments say so. Where the visits run out, a base hull certifies what it
+/// can: another query of as many visits, or 512 if that is more.
+template <bool kHasField, bool kHasBaseHull>
+struct MeshTouchedWith {
+  const MeshObject& object;
+  mesh::Hint& hint;  // of the (tool, object) pair
+
+  float size_m() const;
+  Near near(math::Vec3 x_m, query::Budget budget, float needed_m) const;
+};
+
+using MeshTouched = MeshTouchedWith<false, false>;
+using FieldMeshTouched = MeshTouchedWith<true, false>;
+using HulledMeshTouched = MeshTouchedWith<false, true>;
+using FullMeshTouched = MeshTouchedWith<true, true>;
+
+extern template struct MeshTouchedWith<false, false>;
+extern template struct MeshTouchedWith<true, false>;
+extern template struct MeshTouchedWith<false, true>;
+extern template struct MeshTouchedWith<true, true>;
+
+}  // namespace firmtouch::scene

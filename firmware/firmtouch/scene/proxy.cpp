@@ -1,0 +1,314 @@
+#include "firmtouch/scene/proxy.hpp"
+
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::scene {
+namespace {
+
+using math::Vec3;
+
+// All relative to the size of the shape. A query's bounds lose at most 4e-7.
+constexpr float kClearance = 2e-6f;    // that a place may lack of the radius
+constexpr float kMinRadius = 4e-6f;    // of a tool that is a point: what the clearance needs
+constexpr float kTolerance = 1e-6f;    // a move that is shorter needs no query
+constexpr float kExact = 4.5e-7f;      // between the bounds of an exact answer
+constexpr float kLonger = 0.9e-7f;     // a move without friction may be away from the hand
+constexpr float kRestoring = 2.5e-8f;  // a tick, of clearance that rounding took
+// Band of queries beyond the sphere: many times what a hand moves in a tick.
+constexpr float kBand = 0.02f;
+
+// Part of the certified free radius that one move takes.
+constexpr float kCap = 0.9f;
+// Squared: planes whose directions differ by less count as one.
+constexpr float kSameDirection2 = 1e-10f;
+// Lengths are rounded up by so much.
+constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
+
+bool is_same(const Feature& a, const Feature& b, float within_m) {
+  if (a.kind != b.kind) return false;
+  if (a.kind == Feature::Kind::kTriangle) return a.id == b.id;
+  return a.kind == Feature::Kind::kHalfSpace || math::length(a.corner[0] - b.corner[0]) <= within_m;
+}
+
+}  // namespace
+
+float free_bound_m(const Proxy& proxy) {
+  return proxy.phase == Proxy::Phase::kFree ? proxy.free_m : proxy.near.lower_m;
+}
+
+float distance_bound_m(const Proxy& proxy) {
+  // Since the last query it has moved by what the free radius has lost.
+  return proxy.near.distance_m + (proxy.near.lower_m - free_bound_m(proxy));
+}
+
+ProxyMove::ProxyMove(const ProxySettings& settings, float size_m, Vec3 goal_m, Proxy& proxy)
+    : settings_(settings),
+      proxy_(proxy),
+      goal_m_(goal_m),
+      size_m_(size_m),
+      cap_(kCap),
+      work_left_(settings.budget.work == 0 ? 1 : settings.budget.work) {
+  if (!math::is_finite(goal_m_)) is_over_ = true;
+  if (proxy_.feature_count > kMaxFeatures) proxy_.feature_count = 0;
+  if (proxy_.phase == Proxy::Phase::kFree) use_radius();
+  begin_m_ = proxy_.position_m;
+  if (!proxy_.is_loaded) free_way_m_ = math::length(goal_m_ - begin_m_);
+  friction_ = proxy_.slid_m <= kTolerance * size_m_ ? settings_.friction_static
+                                                    : settings_.friction_dynamic;
+}
+
+// Of a tool without load the radius may fall at once, and grow where there is room.
+void ProxyMove::use_radius() {
+  const float least_m = kMinRadius * size_m_;
+  const float wanted_m = settings_.radius_m > least_m ? settings_.radius_m : least_m;
+  aimed_radius_m_ = proxy_.radius_m;
+  if (!(proxy_.radius_m < wanted_m)) proxy_.is_growing = false;
+  if (proxy_.is_growing && settings_.growth_m > 0.0f) {
+    const float next_m = proxy_.radius_m + settings_.growth_m;
+    aimed_radius_m_ = next_m < wanted_m ? next_m : wanted_m;
+  }
+  if (proxy_.is_loaded) return;
+  if (wanted_m <= proxy_.radius_m) {
+    proxy_.radius_m = aimed_radius_m_ = wanted_m;
+    return;
+  }
+  const float fits_m = proxy_.free_m < wanted_m ? proxy_.free_m : wanted_m;
+  if (fits_m > proxy_.radius_m) proxy_.radius_m = fits_m;
+  if (aimed_radius_m_ < proxy_.radius_m) aimed_radius_m_ = proxy_.radius_m;
+}
+
+query::Budget ProxyMove::budget() const {
+  query::Budget budget{work_left_};
+  // For a place that is not certified yet the side matters, too.
+  if (proxy_.phase == Proxy::Phase::kFree)
+    budget.band_m = aimed_radius_m_ + kBand * size_m_ + free_way_m_;
+  return budget;
+}
+
+float ProxyMove::needed_m() const {
+  return (proxy_.phase == Proxy::Phase::kFree ? proxy_.radius_m : settings_.radius_m) -
+         kClearance * size_m_;
+}
+
+bool ProxyMove::is_longer(Vec3 to_m) const {
+  const Vec3 step_m = to_m - proxy_.position_m;
+  const Vec3 sum_m = (to_m - goal_m_) + (proxy_.position_m - goal_m_);
+  const float longer = math::dot(step_m, sum_m), sum = math::length(sum_m);
+  const float rounding = 8.0f * 0x1p-24f * math::length(step_m) * sum;
+  if (aimed_radius_m_ > proxy_.radius_m) return false;
+  if (friction_ > 0.0f) return !(longer + rounding <= 0.0f);
+  return !(longer + rounding <= kLonger * size_m_ * sum);
+}
+
+// Each feature becomes a plane that the sphere's centre stays in front of. A place that is nearer
+// than the radius already need not be left: there no plane would have a solution.
+void ProxyMove::linearise() {
+  const float restored_m = kRestoring * size_m_;
+  const float most_m = restored_m + (aimed_radius_m_ - proxy_.radius_m);
+  const Outlook outlook{goal_m_ - proxy_.position_m, proxy_.radius_m, restored_m};
+  // A feature farther away can be met neither by this move nor by a usual one of the next tick.
+  const float reach_m = aimed_radius_m_ + kBand * size_m_ + math::length(outlook.way_m);
+  for (uint32_t i = 0; i < proxy_.feature_count;) {
+    const Tangent tangent = tangent_at(proxy_.feature[i], proxy_.position_m, outlook);
+    if (!(tangent.distance_m <= reach_m)) {
+      proxy_.feature[i] = proxy_.feature[--proxy_.feature_count];
+      continue;
+    }
+    const float lacking_m = aimed_radius_m_ - tangent.distance_m;
+    math::HalfSpace plane{tangent.normal, lacking_m < most_m ? lacking_m : most_m};
+    for (uint32_t j = 0; j < i; ++j) {
+      const Vec3 apart = plane_[j].normal - plane.normal;
+      if (!(math::dot(apart, apart) < kSameDirection2)) continue;
+      if (plane_[j].offset_m < plane.offset_m) plane_[j].offset_m = plane.offset_m;
+      plane = {};
+      break;
+    }
+    plane_[i++] = plane;
+  }
+}
+
+// Where the proxy comes to rest for the planes of the working set, from where it is.
+math::Slide ProxyMove::rest() {
+  const Vec3 way_m = goal_m_ - proxy_.position_m;
+  if (math::length(way_m) * kUp < proxy_.free_m - aimed_radius_m_) return {way_m, false};
+  linearise();
+  const math::NearestInPlanes nearest =
+      math::nearest_in_planes(plane_, proxy_.feature_count, way_m);
+  return math::slide_with_friction(plane_, proxy_.feature_count, way_m, nearest, friction_);
+}
+
+// What is left of the free radius after a move.
+// Result: whether that is enough.
+bool ProxyMove::is_within_certified(Vec3 to_m, float& left_m) const {
+  left_m = (proxy_.free_m - math::length(to_m - proxy_.position_m) * kUp) * (1.0f - 0x1p-22f);
+  return left_m >= needed_m();
+}
+
+// Makes a move that is too short for a query, where the certificate allows it.
+bool ProxyMove::drift() {
+  float left_m = 0;
+  if (!is_within_certified(trial_m_, left_m)) return false;
+  proxy_.position_m = trial_m_;
+  proxy_.free_m = left_m;
+  return true;
+}
+
+bool ProxyMove::aim() {
+  if (is_over_) return false;
+  if (proxy_.phase != Proxy::Phase::kFree) {
+    if (moved_.queries == kMaxQueries) return false;
+    if (moved_.queries > 0) return true;
+    is_searching_ = math::length(goal_m_ - proxy_.searched_m) * kUp < proxy_.searched_free_m;
+    trial_m_ = is_searching_ ? proxy_.position_m : goal_m_;
+    return true;
+  }
+  const math::Slide slide = rest();
+  const float size_m = math::length(slide.point_m);
+  const float way_m = math::length(goal_m_ - proxy_.position_m);
+  const float tolerance_m =
+      way_m * 3e-6f > kTolerance * size_m_ ? way_m * 3e-6f : kTolerance * size_m_;
+  const float limit_m = cap_ * proxy_.free_m;
+  // Bitwise at the hand, if nothing holds it back.
+  const Vec3 to_m = proxy_.position_m + slide.point_m;
+  const Vec3 missing_m = slide.point_m - (goal_m_ - proxy_.position_m);
+  const bool is_to_goal = math::dot(missing_m, missing_m) <= 0.0f;
+  trial_m_ = size_m <= limit_m ? (is_to_goal ? goal_m_ : to_m)
+                               : proxy_.position_m + slide.point_m * (limit_m / size_m);
+  is_over_ = true;
+  if (size_m <= tolerance_m) {
+    moved_.is_optimal = true;
+    if (slide.is_stuck || !(size_m > 0.0f) || is_longer(trial_m_) || drift()) return false;
+  }
+  if (is_longer(trial_m_)) {
+    moved_.is_optimal = true;
+    return false;
+  }
+  // A base hull goes on where the mesh's visits are gone.
+  if (work_left_ == 0 && !moved_.is_of_base_hull) {
+    moved_.is_starved = !moved_.is_optimal;
+    return false;
+  }
+  if (moved_.queries == kMaxQueries) return false;
+  // Within the ball that is certainly free. Refused: the free radius is of the size of rounding.
+  if (!(math::length(trial_m_ - proxy_.position_m) * kUp < proxy_.free_m)) return false;
+  is_over_ = false;
+  return true;
+}
+
+// Result: false if it was known.
+bool ProxyMove::keep(const Feature& feature) {
+  if (feature.kind == Feature::Kind::kNone) return false;
+  uint32_t at = 0;
+  for (; at < proxy_.feature_count; ++at)
+    if (is_same(proxy_.feature[at], feature, kTolerance * size_m_)) return false;
+  if (at == kMaxFeatures) {
+    // Instead of the farthest.
+    float farthest_m = -1.0f;
+    for (uint32_t i = 0; i < kMaxFeatures; ++i) {
+      const float distance_m = tangent_at(proxy_.feature[i], proxy_.position_m, {}).distance_m;
+      if (distance_m > farthest_m) farthest_m = distance_m, at = i;
+    }
+  } else {
+    ++proxy_.feature_count;
+  }
+  proxy_.feature[at] = feature;
+  return true;
+}
+
+// The mesh's own features hold again.
+void ProxyMove::drop_base_hull() {
+  for (uint32_t i = 0; i < proxy_.feature_count;) {
+    if (proxy_.feature[i].is_of_base_hull) {
+      proxy_.feature[i] = proxy_.feature[--proxy_.feature_count];
+    } else {
+      ++i;
+    }
+  }
+}
+
+// Where the side of the hand is not known, the search goes on from ball to ball towards the
+// surface, where it needs fewer visits, in the next tick if it must: in free balls that overlap all
+// has one side.
+void ProxyMove::begin_contact(const Near& near) {
+  is_over_ = true;
+  if (!is_searching_) {
+    proxy_.near = near;
+    proxy_.searched_m = goal_m_;
+    proxy_.searched_free_m = near.lower_m;
+  }
+  if (!near.has_inside || near.sign != 0) {
+    if (!is_searching_) proxy_.feature_count = 0, keep(near.feature);
+    return begin_at_hand(near.sign);
+  }
+  moved_.is_starved = true;
+  proxy_.phase = Proxy::Phase::kUnknown;
+  const Tangent tangent = tangent_at(near.feature, trial_m_, {});
+  proxy_.position_m = trial_m_ = trial_m_ - tangent.normal * (kCap * near.lower_m);
+  is_searching_ = near.lower_m > kClearance * size_m_ && work_left_ > 0;
+  is_over_ = !is_searching_;
+}
+
+void ProxyMove::begin_at_hand(int8_t sign) {
+  const float moved_m = math::length(goal_m_ - proxy_.searched_m);
+  proxy_.position_m = begin_m_ = goal_m_;
+  proxy_.free_m = proxy_.searched_free_m - moved_m * kUp;
+  proxy_.near.lower_m = proxy_.free_m;
+  proxy_.near.distance_m = proxy_.near.distance_m + moved_m;
+  proxy_.near.sign = sign;
+  proxy_.searched_free_m = 0;
+  proxy_.slid_m = 0;
+  if (is_searching_) proxy_.feature_count = 0;
+  const float least_m = kMinRadius * size_m_;
+  const float radius_m = settings_.radius_m > least_m ? settings_.radius_m : least_m;
+  moved_.is_starved = false;
+  moved_.is_optimal = true;
+  if (sign < 0) {
+    proxy_.phase = Proxy::Phase::kInside;
+  } else if (proxy_.free_m >= least_m) {
+    proxy_.phase = Proxy::Phase::kFree;
+    proxy_.is_growing = proxy_.free_m < radius_m;
+    proxy_.radius_m = proxy_.is_growing ? proxy_.free_m : radius_m;
+  } else {  // on the surface
+    proxy_.phase = Proxy::Phase::kUnknown;
+    moved_.is_optimal = false;
+    moved_.is_starved = true;
+  }
+}
+
+void ProxyMove::take(const Near& near) {
+  ++moved_.queries;
+  moved_.steps += near.steps;
+  work_left_ -= near.work < work_left_ ? near.work : work_left_;
+  if (near.is_of_base_hull) moved_.is_of_base_hull = true;
+  if (proxy_.phase != Proxy::Phase::kFree) return begin_contact(near);
+  if (near.lower_m >= needed_m()) {
+    proxy_.position_m = trial_m_;
+    proxy_.free_m = near.lower_m;
+    proxy_.near = near;
+    if (!near.is_of_base_hull) drop_base_hull();
+    keep(near.feature);
+    cap_ = kCap;
+    const float grown_m = near.lower_m < aimed_radius_m_ ? near.lower_m : aimed_radius_m_;
+    if (grown_m > proxy_.radius_m) proxy_.radius_m = grown_m;
+    if (moved_.is_optimal) is_over_ = true;
+    return;
+  }
+  const float scale_m = near.distance_m > size_m_ ? near.distance_m : size_m_;
+  if (near.feature.kind != Feature::Kind::kNone &&
+      (near.is_exact || near.is_of_base_hull || near.distance_m < needed_m() + kExact * scale_m)) {
+    if (!keep(near.feature)) cap_ *= 0.5f;
+    return;
+  }
+  moved_.is_starved = true;
+  is_over_ = true;
+}
+
+ProxyMoved ProxyMove::finish() {
+  const Vec3 off_m = goal_m_ - proxy_.position_m;
+  proxy_.is_loaded = !(math::dot(off_m, off_m) <= 0.0f);
+  proxy_.slid_m = proxy_.is_loaded ? math::length(proxy_.position_m - begin_m_) : 0.0f;
+  if (moved_.is_optimal) moved_.is_starved = false;
+  return moved_;
+}
+
+}  // namespace firmtouch::scene

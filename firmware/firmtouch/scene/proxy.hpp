@@ -1,0 +1,123 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/math/nearest_in_planes.hpp"
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/query/certificate.hpp"
+#include "firmtouch/scene/touched.hpp"
+
+// The proxy: the centre of the tool's sphere as it would be if the sphere could not enter the part.
+// A spring ties it to the hand. scene/README.md has the algorithm and its theorems.
+namespace firmtouch::scene {
+
+constexpr uint32_t kMaxFeatures = 8;  // of the working set
+constexpr uint32_t kMaxQueries = 4;   // a tick
+
+struct ProxySettings {
+  float radius_m = 0;
+  float friction_static = 0;
+  float friction_dynamic = 0;
+  float growth_m = 0;    // a tick, of the radius of a tool that began too near to a surface
+  query::Budget budget;  // visits of all queries of a tick together
+};
+
+/// State of a (tool, object) pair from tick to tick. The caller owns one a pair. A default one
+/// begins a contact: see `phase`.
+struct Proxy {
+  enum class Phase : uint8_t {
+    kUnknown,  // not yet certified anywhere
+    kInside,   // the tool began inside: it is led out
+    kFree,     // certified: the theorems hold from here on
+  };
+  math::Vec3 position_m;    // device frame
+  float free_m = 0;         // certified: no surface nearer to position_m
+  float radius_m = 0;       // in use; reaches the setting's when there is room for it
+  float slid_m = 0;         // in the last tick
+  bool is_growing = false;  // it began too near to a surface for its radius
+  bool is_loaded = false;   // the last tick ended with the hand elsewhere
+  Nearness near;            // at the last query that certified it
+  // While the side of the hand is unknown: a place of the hand and the free ball about it, in which
+  // a search for the side began that has come to position_m.
+  math::Vec3 searched_m;
+  float searched_free_m = 0;
+  Feature feature[kMaxFeatures];
+  uint32_t feature_count = 0;
+  Phase phase = Phase::kUnknown;
+};
+
+/// Bounds of the distance between shape and proxy, or hand where there is no proxy; without sign.
+float distance_bound_m(const Proxy& proxy);
+float free_bound_m(const Proxy& proxy);
+
+/// What a tick of a proxy has done.
+struct ProxyMoved {
+  uint32_t queries = 0;
+  uint32_t steps = 0;
+  bool is_optimal = false;  // ended at the solution for the working set
+  bool is_starved = false;  // the visits ran out: contact is uncertain
+  bool is_of_base_hull = false;
+};
+
+/// One tick, driven by the caller, who makes the queries:
+///
+///     ProxyMove move(settings, size_m, goal_m, proxy);
+///     while (move.aim()) move.take(shape.near(move.query_m(), move.budget(), move.needed_m()));
+///     const ProxyMoved moved = move.finish();
+///
+/// which move_proxy() does. Bounds: at most kMaxQueries queries, which share the budget, and about
+/// 2,500 instructions for each.
+class ProxyMove {
+ public:
+  ProxyMove(const ProxySettings& settings, float size_m, math::Vec3 goal_m, Proxy& proxy);
+
+  /// Result: whether a query is needed to go on.
+  bool aim();
+  math::Vec3 query_m() const { return trial_m_; }
+  query::Budget budget() const;
+  float needed_m() const;
+  void take(const Near& near);
+  ProxyMoved finish();
+
+ private:
+  void use_radius();
+  void begin_contact(const Near& near);
+  void begin_at_hand(int8_t sign);
+  void drop_base_hull();
+  void linearise();
+  math::Slide rest();
+  bool is_longer(math::Vec3 to_m) const;
+  bool drift();
+  bool keep(const Feature& feature);
+  bool is_within_certified(math::Vec3 to_m, float& left_m) const;
+
+  const ProxySettings& settings_;
+  Proxy& proxy_;
+  math::Vec3 goal_m_, trial_m_, begin_m_;
+  float size_m_;
+  float friction_ = 0;
+  float free_way_m_ = 0;      // to the hand, of a proxy without load: the band reaches as far
+  float aimed_radius_m_ = 0;  // the radius that is grown to in this tick
+  float cap_;                 // part of the free radius that a move may take
+  bool is_over_ = false;
+  bool is_searching_ = false;  // for the side of the hand, from where another tick has come
+  uint32_t work_left_;
+  math::HalfSpace plane_[kMaxFeatures];  // of the features, about proxy_.position_m
+  ProxyMoved moved_;
+};
+
+/// Moves the proxy towards the hand at `goal_m` (device frame).
+/// Result, from the first tick with Phase::kFree on, for every shape whose bounds are true, every
+///         budget, goal, setting, and content of the working set:
+///   no crossing: the proxy's path meets no surface;
+///   clearance: it ends at a place certified proxy.radius_m - 2e-6 size away from all of it;
+///   energy: with friction it is never farther from the hand than where it began; without, at most
+///     by 1e-7 of the size.
+template <class Shape>
+ProxyMoved move_proxy(const ProxySettings& settings, math::Vec3 goal_m, Shape& shape,
+                      Proxy& proxy) {
+  ProxyMove move(settings, shape.size_m(), goal_m, proxy);
+  while (move.aim()) move.take(shape.near(move.query_m(), move.budget(), move.needed_m()));
+  return move.finish();
+}
+
+}  // namespace firmtouch::scene

@@ -1,0 +1,82 @@
+#include "firmtouch/scene/proxy_contact.hpp"
+
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::scene {
+namespace {
+
+using math::Vec3;
+
+// A tool that begins inside: largest force, how fast it grows, and how long it may take.
+constexpr float kLeadOut_N = 1.0f;
+constexpr float kLeadOutRise_s = 1.0f;
+constexpr float kNoWayOut_s = 10.0f;
+// How fast a sphere that began too near to a surface grows to its size, with as much force.
+constexpr float kGrowth_mps = 0.005f;
+
+void lead_out(const ProxyContact& contact, ProxyTouch& touch, servo::LocalModel& model) {
+  const Nearness& near = touch.proxy.near;
+  touch.inside_s = touch.inside_s + contact.passed_s;
+  if (!(touch.inside_s < kNoWayOut_s)) {
+    touch.inside_s = kNoWayOut_s;
+    model.is_uncertain = true;
+    return;
+  }
+  const float rise = touch.inside_s < kLeadOutRise_s ? touch.inside_s / kLeadOutRise_s : 1.0f;
+  Material material = touch.material;
+  if (material.stiffness_N_per_m * near.distance_m > kLeadOut_N)
+    material.stiffness_N_per_m = kLeadOut_N / near.distance_m;
+  material.stiffness_N_per_m *= rise;
+  material.damping_N_s_per_m *= rise;
+  touch.penetration_m =
+      add_contact(model, contact.position_m, 0.0f,
+                  {-near.distance_m, near.outward, near.sign, near.lower_m}, material);
+}
+
+}  // namespace
+
+ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch) {
+  Proxy& proxy = touch.proxy;
+  const bool is_free = proxy.phase == Proxy::Phase::kFree;
+  if (is_free && (!contact.has_proxy || (proxy.is_loaded && !contact.is_on))) {
+    proxy.phase = Proxy::Phase::kUnknown;
+    proxy.is_loaded = false;
+  } else if (is_free) {
+    // At two rates servo has moved it within the ball that was certified.
+    const Vec3 moved_m = contact.proxy_m - proxy.position_m;
+    if (!(math::dot(moved_m, moved_m) <= 0.0f)) {
+      const float left_m = proxy.free_m - math::length(moved_m) * (1.0f + 0x1p-20f);
+      proxy.position_m = contact.proxy_m;
+      proxy.free_m = left_m;
+      if (!(left_m > 0.0f)) proxy.phase = Proxy::Phase::kUnknown;
+    }
+  }
+  if (!proxy.is_loaded) touch.material = contact.material;
+  if (proxy.phase != Proxy::Phase::kInside || !contact.is_on) touch.inside_s = 0;
+  ProxySettings settings = contact.settings;
+  if (contact.is_on && touch.material.stiffness_N_per_m * touch.penetration_m < kLeadOut_N)
+    settings.growth_m = kGrowth_mps * contact.passed_s;
+  return settings;
+}
+
+void end_proxy_contact(const ProxyContact& contact, const ProxyMoved& moved, ProxyTouch& touch,
+                       servo::LocalModel& model) {
+  const Proxy& proxy = touch.proxy;
+  touch.moved = moved;
+  touch.penetration_m = 0;
+  if (proxy.phase == Proxy::Phase::kInside) return lead_out(contact, touch, model);
+  model.is_uncertain = moved.is_starved;
+  if (proxy.phase != Proxy::Phase::kFree) return;
+  servo::ProxySpring& spring = model.spring;
+  spring.is_used = true;
+  spring.is_held = proxy.is_loaded;
+  spring.anchor_m = proxy.position_m;
+  const float reach_m = proxy.free_m - proxy.radius_m;
+  spring.reach_m = reach_m > 0.0f ? reach_m : 0.0f;
+  spring.stiffness_N_per_m = touch.material.stiffness_N_per_m;
+  spring.damping_N_s_per_m = touch.material.damping_N_s_per_m;
+  if (!(model.free_radius_m <= proxy.free_m)) model.free_radius_m = proxy.free_m;
+  if (proxy.is_loaded) touch.penetration_m = math::length(proxy.position_m - contact.position_m);
+}
+
+}  // namespace firmtouch::scene

@@ -1,0 +1,253 @@
+// The proxy's theorems over baked meshes: every move of every tick is observed.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "firmtouch/scene/analytic.hpp"
+#include "scene/proxy_rig.hpp"
+#include "surface/make/make_part.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+using namespace scene_test;
+
+namespace {
+
+double wide(float a) { return static_cast<double>(a); }
+
+// A hand that wanders about the shape, now and then at up to `speed_m` a tick, now and then
+// leaping.
+class Hand {
+ public:
+  Hand(uint32_t seed, double reach_m, double speed_m)
+      : random_(seed), reach_m_(reach_m), speed_m_(speed_m) {}
+  Vec3 next() {
+    if (left_-- == 0) {
+      left_ = 20 + word() % 80;
+      const double size_m = speed_m_ * std::pow(between(0, 1), 3.0);
+      for (double& step : step_) step = size_m * between(-1, 1);
+      if (random_() % 40 == 0)
+        for (double& at : at_) at = reach_m_ * between(-1, 1);
+    }
+    for (int k = 0; k < 3; ++k) {
+      at_[k] += step_[k];
+      if (std::fabs(at_[k]) > reach_m_) step_[k] = -step_[k], at_[k] += 2 * step_[k];
+    }
+    return {static_cast<float>(at_[0]), static_cast<float>(at_[1]), static_cast<float>(at_[2])};
+  }
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_() >> 5) / 134217728.0;
+  }
+  uint32_t word() { return static_cast<uint32_t>(random_()); }
+
+ private:
+  std::mt19937 random_;
+  double reach_m_, speed_m_, at_[3] = {0, 0, 0.06}, step_[3] = {};
+  uint32_t left_ = 0;
+};
+
+constexpr uint32_t kTicks = 12000;
+
+Broken ride(ProxyRig& rig, Hand& hand) {
+  Broken broken;
+  for (uint32_t tick = 0; tick < kTicks; ++tick) rig.tick(hand.next(), broken);
+  return broken;
+}
+
+}  // namespace
+
+TEST(Proxy_AnyHandSpeedRadiusAndBudget_NeverCrossesASurface) {
+  const tools::Surface shapes[] = {two_walls(), groove(), slot(0.004f), plate(0.0001f),
+                                   tools::make_part(1, 2000)};
+  const float radii_m[] = {0.00002f, 0.0005f, 0.003f};
+  const uint32_t budgets[] = {4, 16, 64, 1u << 20};
+  uint32_t seed = 0, ticks = 0;
+  for (const tools::Surface& surface : shapes) {
+    for (const bool is_signed : {true, false}) {
+      for (const float radius_m : radii_m) {
+        ProxyRig rig(surface, is_signed);
+        Hand hand(++seed, 0.06, 0.01);
+        rig.settings.radius_m = radius_m;
+        rig.settings.budget.work = budgets[seed % 4];
+        rig.settings.friction_static = rig.settings.friction_dynamic =
+            static_cast<float>(seed % 3) * 0.5f;
+        const Broken broken = ride(rig, hand);
+        firmtouch::test::note("seed", seed);
+        CHECK_EQ(broken.crossings, 0u);
+        CHECK_EQ(broken.unclear, 0u);
+        CHECK_EQ(broken.over_budget, 0u);
+        if (rig.settings.friction_static > 0) CHECK_EQ(broken.longer, 0u);
+        CHECK_LE(broken.worst_longer_m, 1e-7 * wide(rig.view.head().diagonal_m));
+        ticks += broken.ticks;
+      }
+    }
+  }
+  CHECK_EQ(ticks, 30 * kTicks);
+}
+
+// The theorems need nothing of what stands in the working set or in the hint.
+TEST(Proxy_AnyBitsInWorkingSetAndHint_CrossesNothing) {
+  ProxyRig rig(tools::make_part(1, 2000));
+  Hand hand(5, 0.05, 0.003);
+  Broken broken;
+  for (uint32_t tick = 0; tick < kTicks; ++tick) {
+    rig.tick(hand.next(), broken);
+    if (tick % 7 != 0) continue;
+    const uint32_t at = hand.word() % scene::kMaxFeatures;
+    scene::Feature& feature = rig.proxy.feature[at];
+    const uint32_t bits = hand.word();
+    std::memcpy(&feature.corner[hand.word() % 3].y, &bits, sizeof bits);
+    feature.id = hand.word();
+    feature.kind = static_cast<scene::Feature::Kind>(hand.word() % 4);
+    rig.proxy.feature_count = hand.word() % (scene::kMaxFeatures + 3);
+    rig.hint.leaf_slot = hand.word() % 4096;
+  }
+  CHECK_EQ(broken.crossings, 0u);
+  CHECK_EQ(broken.unclear, 0u);
+}
+
+TEST(Proxy_HandThatIsNotFinite_StaysWhereItIs) {
+  ProxyRig rig(two_walls());
+  Broken broken;
+  rig.tick({-0.02f, 0, 0.02f}, broken);
+  rig.tick({-0.02f, 0, 0.002f}, broken);
+  const Vec3 before_m = rig.proxy.position_m;
+  const float special[] = {std::numeric_limits<float>::quiet_NaN(),
+                           std::numeric_limits<float>::infinity()};
+  for (const float value : special) {
+    rig.tick({value, 0, 0}, broken);
+    CHECK_EQ(rig.proxy.position_m.x, before_m.x);
+    CHECK_EQ(rig.proxy.position_m.z, before_m.z);
+  }
+  rig.tick({1e30f, 0, 0.002f}, broken);
+  CHECK_EQ(broken.crossings, 0u);
+}
+
+// Penalty contact has one plane a tick: pressed into an inside corner it turned by 90 degrees from
+// tick to tick, 1.93 N rms.
+TEST(Proxy_InsideCorner_StandsInTheCornerInTheSameTick) {
+  ProxyRig rig(two_walls());
+  Broken broken;
+  rig.tick({-0.0031f, 0, 0.0031f}, broken);
+  rig.tick({0.003f, 0.001f, -0.003f}, broken);
+  CHECK(rig.moved.is_optimal);
+  CHECK_LE(std::fabs(wide(rig.proxy.position_m.x) + 0.003), 4e-7);
+  CHECK_LE(std::fabs(wide(rig.proxy.position_m.z) - 0.003), 4e-7);
+  CHECK_LE(std::fabs(wide(rig.proxy.position_m.y) - 0.001), 4e-7);
+}
+
+// Penalty contact let a ball of 6 mm into a slot of 4 mm.
+TEST(Proxy_BallOnASlot_RestsWhereTheClosedFormSays) {
+  ProxyRig rig(slot(0.004f));
+  Broken broken;
+  for (int tick = 0; tick < 200; ++tick)
+    rig.tick({0.0004f, 0.002f, static_cast<float>(0.01 - 0.0001 * tick)}, broken);
+  CHECK_LE(std::fabs(wide(rig.proxy.position_m.z) - std::sqrt(0.003 * 0.003 - 0.002 * 0.002)),
+           1e-6);
+  CHECK_LE(std::fabs(wide(rig.proxy.position_m.x)), 1e-6);
+}
+
+// Penalty contact let go of a plate of 2 mm at 4.01 N, and pulled.
+TEST(Proxy_ThinPlateAtSpeed_HoldsAHandFarBehindIt) {
+  const float radii_m[] = {0.00002f, 0.0005f, 0.003f};
+  for (const float radius_m : radii_m) {
+    for (const double step_m : {0.00005, 0.002, 0.01}) {
+      ProxyRig rig(plate(0.00005f));
+      rig.settings.radius_m = radius_m;
+      Broken broken;
+      for (double z = 0.02; z > -0.03; z -= step_m)
+        rig.tick({0.0023f, 0.0011f, static_cast<float>(z)}, broken);
+      rig.tick({0.0023f, 0.0011f, -0.03f}, broken);
+      CHECK_LE(std::fabs(wide(rig.proxy.position_m.z) - wide(radius_m)), 1e-6);
+      CHECK_EQ(broken.crossings, 0u);
+    }
+  }
+}
+
+TEST(Proxy_StuckByFriction_DoesNotCreep) {
+  ProxyRig rig(groove());
+  rig.settings.friction_static = rig.settings.friction_dynamic = 0.6f;
+  Broken broken;
+  Hand hand(9, 1, 1);
+  rig.tick({-0.03f, 0, 0.01f}, broken);
+  rig.tick({-0.03f, 0, -0.002f}, broken);
+  rig.tick({-0.03f, 0, -0.002f}, broken);
+  const Vec3 before_m = rig.proxy.position_m;
+  for (int tick = 0; tick < 5000; ++tick)
+    rig.tick({static_cast<float>(-0.03 + 0.001 * hand.between(-1, 1)),
+              static_cast<float>(0.001 * hand.between(-1, 1)), -0.002f},
+             broken);
+  CHECK_LE(ProxyRig::distance(rig.proxy.position_m, before_m), 1e-9);
+}
+
+// A frozen proxy would be a tool that is glued to the part.
+TEST(Proxy_VisitsThatDoNotSuffice_AreReportedInTheSameTick) {
+  ProxyRig rig(tools::make_part(1, 4000));
+  Broken broken;
+  rig.tick({0, 0, 0.08f}, broken);
+  CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
+  rig.settings.budget.work = 1;
+  uint32_t silent = 0;
+  for (int tick = 0; tick < 400; ++tick) {
+    const Vec3 hand_m{0, 0, static_cast<float>(0.08 - 0.0002 * tick)};
+    rig.tick(hand_m, broken);
+    const bool is_there = ProxyRig::distance(rig.proxy.position_m, hand_m) < 1e-9;
+    if (!is_there && !rig.moved.is_starved && !rig.moved.is_optimal) ++silent;
+  }
+  CHECK_EQ(silent, 0u);
+}
+
+TEST(Proxy_BeginsTooNearForItsRadius_GrowsWhereThereIsRoom) {
+  ProxyRig rig(two_walls());
+  Broken broken;
+  rig.tick({-0.03f, 0, 0.001f}, broken);
+  CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
+  CHECK_LE(rig.proxy.radius_m, 0.001f);
+  rig.settings.growth_m = 5e-6f;
+  for (int tick = 0; tick < 500; ++tick) rig.tick({-0.03f, 0, 0.001f}, broken);
+  CHECK_GE(rig.proxy.radius_m, 0.0029f);
+  CHECK_GE(rig.proxy.position_m.z, 0.0029f);
+  rig.tick({-0.03f, 0, 0.01f}, broken);
+  CHECK_EQ(rig.proxy.radius_m, 0.003f);
+}
+
+TEST(Proxy_BeginsInside_IsNotFree) {
+  ProxyRig rig(two_walls());
+  Broken broken;
+  rig.tick({0.01f, 0, 0.01f}, broken);
+  CHECK(rig.proxy.phase == scene::Proxy::Phase::kInside);
+  rig.tick({-0.01f, 0, 0.01f}, broken);
+  CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
+}
+
+// Closed forms: where a proxy rests on each shape.
+TEST(Proxy_AnalyticShapes_RestOnThem) {
+  scene::ProxySettings settings;
+  settings.radius_m = 0.002f;
+  const auto height_on = [&settings](auto shape) {
+    scene::Proxy proxy;
+    for (int tick = 0; tick < 85; ++tick) {
+      const Vec3 hand_m{0.001f, 0.0005f, static_cast<float>(0.08 - 0.001 * tick)};
+      (void)scene::move_proxy(settings, hand_m, shape, proxy);
+    }
+    const Vec3 hand_m{0.001f, 0.0005f, -0.004f};
+    for (int tick = 0; tick < 20; ++tick) (void)scene::move_proxy(settings, hand_m, shape, proxy);
+    return proxy;
+  };
+  const scene::Proxy on_plane = height_on(scene::PlaneTouched{{0, 0, 0.01f}, {0, 0, 1}, 0.1f});
+  CHECK_LE(std::fabs(wide(on_plane.position_m.z) - 0.012), 1e-6);
+  const scene::Proxy on_sphere = height_on(scene::SphereTouched{{0, 0, 0}, 0.03f});
+  CHECK_LE(std::fabs(ProxyRig::distance(on_sphere.position_m, {}) - 0.032), 1e-6);
+  const scene::Proxy on_box = height_on(scene::BoxTouched{{}, {0.02f, 0.02f, 0.01f}});
+  CHECK_LE(std::fabs(wide(on_box.position_m.z) - 0.012), 1e-6);
+  const scene::Proxy on_end =
+      height_on(scene::CylinderTouched{{{0, 0, -0.01f}, {0, 0, 0.01f}}, 0.02f});
+  CHECK_LE(std::fabs(wide(on_end.position_m.z) - 0.012), 1e-6);
+  const scene::Proxy on_capsule =
+      height_on(scene::CapsuleTouched{{{-0.02f, 0, 0}, {0.02f, 0, 0}}, 0.01f});
+  CHECK_LE(
+      std::fabs(std::hypot(wide(on_capsule.position_m.y), wide(on_capsule.position_m.z)) - 0.012),
+      1e-6);
+}
