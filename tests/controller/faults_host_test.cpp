@@ -337,7 +337,7 @@ TEST(TooFewVisits_AreAFaultIn10ms) {
   for (uint32_t tick = 0; tick < 1200; ++tick) {
     ride.fill(tick);
     if (tick == 200) {
-      ride.input.command = 1 + params::kMeshSteps;
+      ride.input.command = 1 + params::kMeshWork;
       ride.input.command_value = 1;
     }
     ride.step();
