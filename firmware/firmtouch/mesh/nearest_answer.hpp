@@ -217,6 +217,19 @@ int8_t sign_of(const Finder& finder, const Found& found, Vec3 direction, float l
   return height_m >= 0.0f ? 1 : -1;
 }
 
+[[gnu::always_inline]] inline void put(Hint& hint, const Search& search, const Vec3& p_m,
+                                       float lower_m, int8_t sign) {
+  if (search.best.slot != query::kNowhere) hint.leaf_slot = search.best.slot;
+  hint.triangle_low = static_cast<uint16_t>(search.best.triangle);
+  hint.position_m.x = p_m.x;
+  hint.position_m.y = p_m.y;
+  hint.position_m.z = p_m.z;
+  hint.lower_m = lower_m;
+  hint.sign = sign;
+  hint.safe_subtree = search.safe_subtree;
+  hint.safe_subtree_m = search.safe_subtree_m;
+}
+
 template <class Finder, class Bound>
 [[gnu::always_inline]] inline Closest answer(const View& mesh, const Finder& finder,
                                              const Bound& bound, const Vec3& p_m,
@@ -287,15 +300,7 @@ template <class Finder, class Bound>
       exact = exact && sign != 0;
     }
   }
-  if (best.slot != query::kNowhere) hint.leaf_slot = best.slot;
-  hint.triangle_low = static_cast<uint16_t>(best.triangle);
-  hint.position_m.x = p_m.x;
-  hint.position_m.y = p_m.y;
-  hint.position_m.z = p_m.z;
-  hint.lower_m = lower_m;
-  hint.sign = lower_m > kEitherSide * diagonal_m ? sign : int8_t{0};
-  hint.safe_subtree = search.safe_subtree;
-  hint.safe_subtree_m = search.safe_subtree_m;
+  put(hint, search, p_m, lower_m, lower_m > kEitherSide * diagonal_m ? sign : int8_t{0});
   return {sign < 0 ? -found.distance_m : found.distance_m,
           {point_m.x, point_m.y, point_m.z},
           {direction.x, direction.y, direction.z},

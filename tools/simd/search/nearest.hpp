@@ -22,6 +22,13 @@ using mesh::View;
   __builtin_prefetch(tree.blocks + node);
 }
 
+// The answer reads this direction after the search.
+[[gnu::always_inline, maybe_unused]] inline void fetch_direction(const WideTree& tree,
+                                                                 const Best& best) {
+  __builtin_prefetch(tree.directions + size_t{kFeatures} * best.triangle +
+                     static_cast<uint32_t>(best.feature));
+}
+
 // The triangles of a block that are nearer.
 [[gnu::always_inline, maybe_unused]] inline uint32_t nearer_of(const Feet& feet, const Block& block,
                                                                float min2_m2) {
@@ -37,6 +44,26 @@ template <bool kRivals>
 inline bool take_leaf_rivals(const BlockTriangles& leaf, Vec3 p_m, uint32_t slot, Search& search) {
   return take_rivals(feet_on(leaf, p_m), CornerArrays(leaf), leaf.lanes(), leaf.first, slot,
                      search.best, search.rivals);
+}
+
+template <bool kRivals>
+[[gnu::always_inline]] inline bool take_leaf_of(const BlockTriangles& leaf, Vec3 p_m, uint32_t slot,
+                                                Search& search) {
+  if constexpr (kRivals) return take_leaf_rivals(leaf, p_m, slot, search);
+  const float before2_m2 = search.best.distance2_m2;
+  return measure_wide_leaf(leaf, p_m, slot, before2_m2, search.best) < before2_m2;
+}
+template <bool kRivals>
+[[gnu::always_inline]] inline uint32_t take_block_of(const WideTree& tree, const Feet& feet,
+                                                     const NodeBlock& block, const BlockKeys& keys,
+                                                     const NearBound& bound, const Side* sides,
+                                                     uint32_t node, uint32_t& prune,
+                                                     Search& search) {
+  if constexpr (kRivals)
+    return take_block(feet, CornerArrays(BlockTriangles(tree, block.of)), block, keys, bound, sides,
+                      node, prune, search.best, search.rivals);
+  else
+    return take_block(feet, block, keys, bound, sides, node, prune, search.best);
 }
 
 // A tree of more nodes does not fit the second cache.
@@ -111,7 +138,7 @@ template <bool kRivals>
       const uint32_t child = static_cast<uint32_t>(now.child), slot = low_half(now.key);
       if (child < kBlockBit) break;
       const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};
-      Best& best = search.best;
+      const Best& best = search.best;
       const float before2_m2 = best.distance2_m2;
       if (!is_leaf(child)) {
         const uint32_t node = block_node(child);
@@ -125,24 +152,14 @@ template <bool kRivals>
         if (nearer_of(feet, block.of, limit_of<kRivals>(search)) == 0) {
           steps += keys.steps(prune);
         } else {
-          if constexpr (kRivals)
-            steps += take_block(feet, CornerArrays(BlockTriangles(tree, block.of)), block, keys,
-                                bound, children[slot].side, node, prune, best, search.rivals);
-          else
-            steps += take_block(feet, block, keys, bound, children[slot].side, node, prune, best);
+          steps += take_block_of<kRivals>(tree, feet, block, keys, bound, children[slot].side, node,
+                                          prune, search);
           cutoff = (uint64_t{prune} << 32) - 1;
         }
-      } else if constexpr (kRivals) {
-        if (take_leaf_rivals(BlockTriangles(tree, child), p_m, slot, search))
-          cutoff = (uint64_t{prune_key(bound, search)} << 32) - 1;
-      } else if (measure_wide_leaf(BlockTriangles(tree, child), p_m, slot, before2_m2, best) <
-                 before2_m2) {
+      } else if (take_leaf_of<kRivals>(BlockTriangles(tree, child), p_m, slot, search)) {
         cutoff = (uint64_t{prune_key(bound, search)} << 32) - 1;
       }
-      // The answer reads this direction after the search.
-      if (best.distance2_m2 < before2_m2)
-        __builtin_prefetch(tree.directions + size_t{kFeatures} * best.triangle +
-                           static_cast<uint32_t>(best.feature));
+      if (best.distance2_m2 < before2_m2) fetch_direction(tree, best);
       now = *top--;
       steps += now.key <= cutoff ? 1 : 0;
     }
@@ -166,10 +183,7 @@ template <bool kRivals>
   const Feet feet =
       feet_on(BlockTriangles(tree, block.of), {search.p_m.x, search.p_m.y, search.p_m.z});
   if (nearer_of(feet, block.of, limit_of<kRivals>(search)) == 0) return keys.steps(prune);
-  if constexpr (kRivals)
-    return take_block(feet, CornerArrays(BlockTriangles(tree, block.of)), block, keys, bound, sides,
-                      node, prune, search.best, search.rivals);
-  return take_block(feet, block, keys, bound, sides, node, prune, search.best);
+  return take_block_of<kRivals>(tree, feet, block, keys, bound, sides, node, prune, search);
 }
 
 // mesh::ascend() without branches on the leaf's distance: the processor goes on while it waits for
