@@ -77,6 +77,7 @@ enum Index : uint32_t {
   kGuideDriveSpeed,
   kSurfaceClosed,
   kSurfaceTurned,
+  kVelocityEstimator,
   kCount
 };
 
