@@ -14,11 +14,10 @@ struct Entry {
   const Command& (*command)();
   int (*run)(const std::vector<std::string>& words);
 };
-constexpr Entry kEntries[] = {{run_command_line, run_scenario},
-                              {replay_command_line, replay_log},
-                              {record_command_line, record_live},
-                              {live_command_line, serve_live},
-                              {scenario_command_line, make_scenario}};
+constexpr Entry kEntries[] = {
+    {run_command_line, run_scenario},       {replay_command_line, replay_log},
+    {record_command_line, record_live},     {live_command_line, serve_live},
+    {scenario_command_line, make_scenario}, {z_width_command_line, print_z_width}};
 
 std::string usage() {
   std::string text =

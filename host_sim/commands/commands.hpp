@@ -40,6 +40,8 @@ const Command& live_command_line();
 int serve_live(const std::vector<std::string>& words);
 const Command& scenario_command_line();
 int make_scenario(const std::vector<std::string>& words);
+const Command& z_width_command_line();
+int print_z_width(const std::vector<std::string>& words);
 
 /// As `firmtouch COMMAND --help` is laid out.
 std::string help_of(const Command& command);

@@ -79,6 +79,7 @@ enum Index : uint32_t {
   kSurfaceTurned,
   kFrictionStatic,
   kFrictionDynamic,
+  kVelocityEstimator,
   kCount
 };
 

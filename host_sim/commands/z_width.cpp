@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include "firmtouch/params/table.hpp"
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/plant/sampled_wall.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+// Mass, own damping and period of the free rows; each at B of 0, a little and much.
+struct Axis {
+  double mass_kg, viscous, period_s, damping[3];
+};
+constexpr Axis kAxes[] = {
+    {.050, .2, 1e-3, {0, .1, 2}},    {.050, .2, .25e-3, {0, .1, 2}}, {.075, .5, 1e-3, {0, .25, 5}},
+    {.075, .5, .25e-3, {0, .25, 5}}, {.075, .5, .1e-3, {0, .25, 5}}, {.200, 1., 1e-3, {0, .5, 10}},
+};
+// Mass, damper and spring of hands: a light and a firm grip.
+struct Held {
+  double mass_kg, damping, stiffness;
+};
+constexpr Held kHands[] = {{.05, 2, 100}, {.15, 6, 700}};
+
+// 18 rows without delay, 6 of one sample, 4 of two.
+std::vector<SampledWall> free_rows() {
+  std::vector<SampledWall> rows;
+  for (const Axis& axis : kAxes)
+    for (const double damping : axis.damping)
+      rows.push_back({axis.mass_kg, axis.viscous, axis.period_s, damping, 0, 0, 0, 0});
+  for (uint32_t i = 0; i < 10; ++i) {
+    const Axis& axis = kAxes[i % 6];
+    rows.push_back(
+        {axis.mass_kg, axis.viscous, axis.period_s, axis.damping[2], 1 + i / 6, 0, 0, 0});
+  }
+  return rows;
+}
+
+std::vector<SampledWall> held_rows() {
+  std::vector<SampledWall> rows;
+  for (const Axis& axis : kAxes)
+    for (const Held& hand : kHands)
+      rows.push_back({axis.mass_kg, axis.viscous, axis.period_s, axis.damping[1],
+                      static_cast<uint32_t>(rows.size() / 2 % 2), hand.mass_kg, hand.damping,
+                      hand.stiffness});
+  return rows;
+}
+
+// Result: the largest relative error.
+double print_rows(const std::vector<SampledWall>& rows) {
+  std::printf(
+      "  mass  own b  T ms     B  delay  hand kg  N s/m   N/m   passive   delayed     exact"
+      "  simulated  error\n");
+  double worst = 0;
+  for (const SampledWall& row : rows) {
+    const double exact = exact_limit_N_per_m(row), simulated = simulated_limit_N_per_m(row);
+    const double error = simulated / exact - 1;
+    worst = std::max(worst, std::isfinite(error) ? std::fabs(error) : HUGE_VAL);
+    std::printf("%6.3f %6.2f %5.2f %5.2f %6u %8.2f %6.1f %5.0f %9.0f %9.0f %9.0f %10.0f %5.2f %%\n",
+                row.mass_kg, row.viscous_N_s_per_m, row.period_s * 1e3, row.damping_N_s_per_m,
+                row.delay_samples, row.hand_mass_kg, row.hand_damping_N_s_per_m,
+                row.hand_stiffness_N_per_m, passive_limit_N_per_m(row), delayed_limit_N_per_m(row),
+                exact, simulated, error * 100);
+  }
+  return worst;
+}
+
+int verdict(bool is_met, const std::string& bar) {
+  std::cout << (is_met ? "met: " : "NOT MET: ") << bar << "\n";
+  return is_met ? 0 : 1;
+}
+
+int print_table() {
+  const std::vector<SampledWall> free = free_rows(), held = held_rows();
+  std::printf("Stiffest stable wall in N/m, %zu free axes\n", free.size());
+  const double worst_free = print_rows(free);
+  std::printf("\nThe same of %zu axes that a hand holds\n", held.size());
+  const double worst_held = print_rows(held);
+  char text[120];
+  std::snprintf(text, sizeof text, "largest error %.2f %% free, %.2f %% held; bar 1 %%",
+                worst_free * 100, worst_held * 100);
+  return verdict(worst_free <= 0.01 && worst_held <= 0.01, text);
+}
+
+int print_regimes() {
+  constexpr const char* kName[] = {"rest", "limit cycle", "rest from near, growth from far",
+                                   "growth"};
+  // b / (K T) and f / (K quantum): four points a regime. Below b / (K T) of about 0.8 a
+  // cycle spans more than a quantum, above 0.3 a locked one survives within growth.
+  constexpr double kPoints[16][2] = {{.6, .6}, {.6, 1}, {1, .6},   {2, .8},  {.8, 0}, {1.2, 0},
+                                     {1.6, 0}, {2, 0},  {.25, .6}, {.4, .6}, {.1, 1}, {.25, 2},
+                                     {.05, 0}, {.1, 0}, {.2, 0},   {.3, 0}};
+  std::printf(
+      "500 N/m on 100 g, 1 kHz, 30 um. Amplitudes in quanta: of the "
+      "cycle with the period seen, or of the one between rest and growth\n"
+      " b/KT  f/Kq  predicted                         simulated                        "
+      " predicted simulated\n");
+  int wrong = 0;
+  double worst = 0;
+  for (const auto& point : kPoints) {
+    QuantisedWall wall;
+    wall.viscous_N_s_per_m = point[0] * wall.stiffness_N_per_m * wall.period_s;
+    wall.coulomb_N = point[1] * wall.stiffness_N_per_m * wall.quantum_m;
+    const Motion seen = simulated_motion(wall);
+    Motion predicted = predicted_motion(wall);
+    if (predicted.regime == Regime::kCycle)
+      predicted.amplitude_m = cycle_amplitude_m(wall, seen.half_period_ticks);
+    std::printf("%5.2f %5.3f  %-32s  %-32s %9.2f %9.2f\n", point[0], point[1],
+                kName[static_cast<int>(predicted.regime)], kName[static_cast<int>(seen.regime)],
+                predicted.amplitude_m / wall.quantum_m, seen.amplitude_m / wall.quantum_m);
+    wrong += predicted.regime != seen.regime;
+    if (predicted.regime == Regime::kCycle || predicted.regime == Regime::kRests)
+      worst = std::max(worst, std::fabs(seen.amplitude_m / predicted.amplitude_m - 1));
+  }
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "%d of 16 regimes wrong, amplitudes within %.1f %%; bar 0, 10 %%", wrong,
+                worst * 100);
+  return verdict(wrong == 0 && worst <= 0.1, text);
+}
+
+int print_estimators() {
+  constexpr double kQuantum_m = 30e-6, kBar_N_per_m = 1.15 * 7286;
+  constexpr struct {
+    const char* name;
+    device::VelocitySettings settings;
+  } kEstimators[] = {{"0 difference", {device::Estimator::kDifference, 0}},
+                     {"1 low-pass, 150 Hz", {device::Estimator::kLowPass, 150}},
+                     {"2 tracking", {device::Estimator::kTracking, 0}}};
+  const auto initial = static_cast<uint32_t>(params::kTable[params::kVelocityEstimator].initial);
+  std::printf(
+      "Stiffest wall at rest in N/m: 75 g, b 0.5 N s/m, B 5 N s/m, 30 um, pushed with 1 N\n"
+      "estimator               1 kHz   4 kHz  10 kHz\n");
+  double of_default = 0;
+  for (uint32_t i = 0; i < 3; ++i) {
+    double limit[3];
+    for (int k = 0; k < 3; ++k)
+      limit[k] = rest_limit_N_per_m({.075, .5,
+                                     k == 0   ? 1e-3
+                                     : k == 1 ? .25e-3
+                                              : .1e-3,
+                                     5},
+                                    kQuantum_m, kEstimators[i].settings);
+    std::printf("%-20s %8.0f %7.0f %7.0f%s\n", kEstimators[i].name, limit[0], limit[1], limit[2],
+                i == initial ? "   default" : "");
+    if (i == initial) of_default = limit[0];
+  }
+  char text[120];
+  std::snprintf(text, sizeof text, "default at 1 kHz %.0f N/m; bar %.0f", of_default, kBar_N_per_m);
+  return verdict(of_default >= kBar_N_per_m, text);
+}
+
+double number(const Options& options, const std::string& name, double otherwise, double least) {
+  const double value = options.number(name, otherwise, 0);
+  if (!(value >= least) || !(value <= 1e6)) {
+    char range[60];
+    std::snprintf(range, sizeof range, ": a number from %g to 1e6 is needed", least);
+    options.refuse(name + " " + options.value(name) + range);
+  }
+  return value;
+}
+
+SampledWall wall_of(const Options& options) {
+  SampledWall wall;
+  wall.mass_kg = number(options, "--mass", wall.mass_kg, 1e-6);
+  wall.viscous_N_s_per_m = number(options, "--viscous", wall.viscous_N_s_per_m, 0);
+  wall.period_s = 1 / number(options, "--rate", 1000, 1);
+  wall.damping_N_s_per_m = number(options, "--damping", 0, 0);
+  const double delay = number(options, "--delay", 0, 0);
+  if (std::floor(delay) < delay || delay > 8)
+    options.refuse("--delay: whole samples, 0 to 8, are needed");
+  wall.delay_samples = static_cast<uint32_t>(delay);
+  wall.hand_mass_kg = number(options, "--hand-mass", 0, 0);
+  wall.hand_damping_N_s_per_m = number(options, "--hand-damping", 0, 0);
+  wall.hand_stiffness_N_per_m = number(options, "--hand-stiffness", 0, 0);
+  return wall;
+}
+
+}  // namespace
+
+const Command& z_width_command_line() {
+  static const Command command = {
+      "z-width",
+      "[--table | --regimes | --estimators | axis and hand]",
+      "prints the stiffest passive wall and the stiffest stable wall of an axis",
+      "All values are SI. Bounds on the stiffness K at period T, own damping b, wall damping B:\n"
+      "passive: b > K T / 2 + |B| (Colgate & Schenkel 1994)\n"
+      "delayed: K < (b + B) / (T / 2 + delay), for small B (Gil, Hulin & Diaz)\n"
+      "exact: the spectral radius of the discrete model is 1\n"
+      "Exit code 1: a bar is not met.\n",
+      {{"--table", nullptr, "simulated limits of 28 free and 12 held axes; bar: 1 % of exact"},
+       {"--regimes", nullptr, "quantum and Coulomb friction at 16 points: rest, cycle or growth"},
+       {"--estimators", nullptr, "stiffest wall at rest for each velocity estimator"},
+       {"--mass", "KG", "moving mass (default 0.075)"},
+       {"--viscous", "B", "damping of the axis, N s/m (default 0.5)"},
+       {"--rate", "HZ", "ticks a second (default 1000)"},
+       {"--damping", "B", "damping of the wall, N s/m (default 0)"},
+       {"--delay", "SAMPLES", "whole samples, 0 to 8 (default 0)"},
+       {"--hand-mass", "KG", "mass that moves with the axis (default 0)"},
+       {"--hand-damping", "B", "damper from the axis to the ground (default 0)"},
+       {"--hand-stiffness", "K", "spring from the axis to the ground (default 0)"}}};
+  return command;
+}
+
+int print_z_width(const std::vector<std::string>& words) {
+  const Options options(z_width_command_line(), words);
+  if (options.help()) {
+    std::cout << help_of(z_width_command_line());
+    return 0;
+  }
+  if (!options.operands().empty()) options.refuse("takes no operand");
+  const bool table = options.has("--table"), regimes = options.has("--regimes"),
+             estimators = options.has("--estimators");
+  if ((table || regimes || estimators) && words.size() > 1)
+    options.refuse("--table, --regimes and --estimators stand alone");
+  if (table) return print_table();
+  if (regimes) return print_regimes();
+  if (estimators) return print_estimators();
+  print_rows({wall_of(options)});
+  return 0;
+}
+
+}  // namespace firmtouch::host_sim
