@@ -291,15 +291,12 @@ APointThatIsNotANumberGetsAFiniteAnswer() {
 ABudgetIsKeptAndTold() {
   f make part --triangles 2000 -o part.obj
   bake part.obj -o a.fta
-  f make walk part.obj --points 200 --seed 2 -o walk.csv
-  exits 0
+  f make walk part.obj --points 200 --seed 2 -o walk.csv; exits 0
   same "$(wc -l <walk.csv | tr -d ' ')" 201
   f query a.fta part distance --cold --work 5 <walk.csv
   exits 0
   printf '%s\n' "$out" | awk -F, 'NR > 1 && !($12 <= 5 && $11 >= 0) { exit 1 }' || fail 'steps beyond the budget'
-  f query a.fta part distance --cold --budget 2 <walk.csv
-  exits 0
-  says '--budget N is now --work N'
+  f query a.fta part distance --cold --budget 2 <walk.csv; exits 0; says '--budget N is now --work N'
   f query a.fta part distance <walk.csv
   warm=$(printf '%s\n' "$out" | cut -d, -f1)
   printf '%s\n' "$out" | awk -F, 'NR > 1 && $13 != 1 { exit 1 }' || fail 'not exact'
