@@ -15,7 +15,11 @@ namespace {
 constexpr float kPeriod_s = 0.001f;
 
 device::Settings settings() {
-  return {{100000.0f, 50000.0f, 8192.0f}, {0.1f, -0.2f, 0.0f}, {0.5f, 0.5f, 0.5f}, 5.0f, 150.0f};
+  return {{100000.0f, 50000.0f, 8192.0f},
+          {0.1f, -0.2f, 0.0f},
+          {0.5f, 0.5f, 0.5f},
+          5.0f,
+          {device::Estimator::kLowPass, 150.0f}};
 }
 
 device::Sample at(int32_t x, int32_t y, int32_t z) { return {{x, y, z}, true, kPeriod_s}; }

@@ -12,5 +12,6 @@ void run_ring(const Options& options, Report& report);
 void run_segment(const Options& options, Report& report);
 void run_spline_race(const Options& options, Report& report);
 void run_truth(const Options& options, Report& report);
+void run_velocity(const Options& options, Report& report);
 
 }  // namespace firmtouch::bench

@@ -13,7 +13,8 @@ device::Settings device_settings(const Values& v) {
           {v[params::kOriginX], v[params::kOriginY], v[params::kOriginZ]},
           {v[params::kWorkspaceHalfX], v[params::kWorkspaceHalfY], v[params::kWorkspaceHalfZ]},
           v[params::kMaxSpeed],
-          v[params::kVelocityFilter]};
+          {static_cast<device::Estimator>(static_cast<uint8_t>(v[params::kVelocityEstimator])),
+           v[params::kVelocityFilter]}};
 }
 
 servo::Settings servo_settings(const Values& v) {

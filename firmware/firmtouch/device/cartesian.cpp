@@ -5,7 +5,6 @@
 namespace firmtouch::device {
 namespace {
 
-constexpr float kTwoPi = 6.2831853f;
 // A time step outside of this is a broken clock, which servo faults; here it must only not break
 // the arithmetic.
 constexpr float kMinStep_s = 1e-6f;
@@ -49,16 +48,13 @@ math::Vec3 position_of(const State& state, const Settings& settings) {
                                         to_float(state.total[2]) / settings.counts_per_metre[2]};
 }
 
-// a dt / (dt + tau): the backward-difference form of a first-order low-pass, stable for every dt >
-// 0.
-void filter_velocity(State& state, const Settings& settings, const int32_t (&step)[kAxes],
-                     float since_s) {
-  const float tau_s = 1.0f / (kTwoPi * settings.velocity_filter_Hz);
-  const float share = since_s / (since_s + tau_s);
-  const math::Vec3 quotient{to_float(step[0]) / (settings.counts_per_metre[0] * since_s),
-                            to_float(step[1]) / (settings.counts_per_metre[1] * since_s),
-                            to_float(step[2]) / (settings.counts_per_metre[2] * since_s)};
-  state.velocity_mps = state.velocity_mps + (quotient - state.velocity_mps) * share;
+void estimate_velocity(State& state, const Settings& settings, const int32_t (&step)[kAxes],
+                       float since_s) {
+  float velocity_mps[kAxes];
+  for (uint32_t k = 0; k < kAxes; ++k)
+    velocity_mps[k] = estimate(state.velocity[k], settings.velocity, settings.counts_per_metre[k],
+                               to_float(step[k]), since_s);
+  state.velocity_mps = {velocity_mps[0], velocity_mps[1], velocity_mps[2]};
 }
 
 bool clamp_to_workspace(math::Vec3& position_m, const Settings& settings) {
@@ -78,7 +74,7 @@ void accept(State& state, const Settings& settings, const Sample& sample,
     state.counts[k] = sample.counts[k];
     state.total[k] += step[k];
   }
-  filter_velocity(state, settings, step, state.since_accepted_s);
+  estimate_velocity(state, settings, step, state.since_accepted_s);
   state.position_m = position_of(state, settings);
   state.since_accepted_s = 0;
   state.bad_in_a_row = 0;
@@ -89,6 +85,7 @@ void extrapolate(State& state, float dt_s) {
   if (state.bad_in_a_row <= kExtrapolatedSamples) {
     state.position_m = state.position_m + state.velocity_mps * dt_s;
   } else {
+    for (VelocityState& axis : state.velocity) stop(axis);
     state.velocity_mps = {};
   }
   state.bad_history |= 1u;

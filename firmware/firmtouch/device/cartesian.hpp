@@ -1,6 +1,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/device/velocity.hpp"
 #include "firmtouch/math/vec3.hpp"
 
 // A device of three straight axes at right angles, with one encoder each. Joint frame and device
@@ -23,8 +24,8 @@ struct Settings {
   float counts_per_metre[kAxes];
   math::Vec3 origin_m;  // position at a count of 0, and centre of the workspace
   math::Vec3 workspace_half_m;
-  float max_speed_mps;       // of an axis
-  float velocity_filter_Hz;  // first-order low-pass on the difference quotient
+  float max_speed_mps;  // of an axis
+  VelocitySettings velocity;
 };
 
 /// The encoders in one tick.
@@ -40,6 +41,7 @@ struct State {
   int64_t total[kAxes] = {};   // the same without the wrap
   math::Vec3 position_m;
   math::Vec3 velocity_mps;
+  VelocityState velocity[kAxes];
   float since_accepted_s = 0;
   uint32_t bad_in_a_row = 0;
   uint32_t bad_history = 0;  // bit k: the sample k ticks ago

@@ -72,6 +72,7 @@ enum Index : uint32_t {
   kGuideDriveSpeed,
   kSurfaceClosed,
   kSurfaceTurned,
+  kVelocityEstimator,
   kCount
 };
 
