@@ -14,7 +14,8 @@ constexpr const char* kHelp =
     "every output bit\n"
     "  firmtouch-sim record CONTROLLER -o FILE   record a running controller over its link\n"
     "  firmtouch-sim scenario ASSET -o FILE      write a scenario for an asset: press on the "
-    "surface, follow the guide\n\n"
+    "surface, follow the guide\n"
+    "  firmtouch-sim z-width [options]           limits of stable walls, and their bars\n\n"
     "`firmtouch-sim COMMAND --help` lists a command's options.\n"
     "Exit codes: 0 done; 1 it ran and the answer is no; 2 usage; 3 bad input.\n";
 
@@ -53,17 +54,18 @@ std::vector<std::string> Options::values(const std::string& name) const {
 }
 
 int run_command(const std::vector<std::string>& words) {
-  if (words.empty()) throw Usage("name a command: run, replay, record or scenario");
+  if (words.empty()) throw Usage("name a command: run, replay, record, scenario or z-width");
   const std::vector<std::string> rest(words.begin() + 1, words.end());
   if (words[0] == "run") return run_scenario(rest);
   if (words[0] == "replay") return replay_log(rest);
   if (words[0] == "record") return record_live(rest);
   if (words[0] == "scenario") return make_scenario(rest);
+  if (words[0] == "z-width") return print_z_width(rest);
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
     std::cout << kHelp;
     return 0;
   }
-  throw Usage("unknown command `" + words[0] + "`; known: run, replay, record, scenario");
+  throw Usage("unknown command `" + words[0] + "`; known: run, replay, record, scenario, z-width");
 }
 
 }  // namespace firmtouch::host_sim

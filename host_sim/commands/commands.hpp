@@ -10,7 +10,8 @@ struct Usage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Runs `run ...`, `replay ...`, `record ...`, `scenario ...` or `--help`.
+/// Runs `run ...`, `replay ...`, `record ...`, `scenario ...`, `z-width ...` or
+/// `--help`.
 /// Result: the exit code. Throws Usage or Refused.
 int run_command(const std::vector<std::string>& words);
 
@@ -18,6 +19,7 @@ int run_scenario(const std::vector<std::string>& words);
 int replay_log(const std::vector<std::string>& words);
 int record_live(const std::vector<std::string>& words);
 int make_scenario(const std::vector<std::string>& words);
+int print_z_width(const std::vector<std::string>& words);
 
 /// Parses the arguments of a command: `--name VALUE`, `--name=VALUE`, and operands.
 class Options {

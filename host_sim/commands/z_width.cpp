@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "firmtouch/params/table.hpp"
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/plant/sampled_wall.hpp"
+#include "host_sim/scenario/units.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr const char* kHelp =
+    "firmtouch-sim z-width [VALUES]      the stiffest passive and the stiffest stable wall of an "
+    "axis\n"
+    "firmtouch-sim z-width --table       simulated limits of 28 free and 12 held axes against the\n"
+    "                                    exact ones; bar: 1 %\n"
+    "firmtouch-sim z-width --regimes     quantum and Coulomb friction: rest, limit cycle or "
+    "growth,\n"
+    "                                    16 points against describing functions; bar: 10 %\n"
+    "firmtouch-sim z-width --estimators  stiffest wall at rest by velocity estimator; bar: the "
+    "default\n"
+    "                                    8,379 N/m\n\n"
+    "VALUES, in SI: --mass 0.075  --viscous 0.5  --rate 1000  --damping 0  --delay 0 (samples)\n"
+    "               --hand-mass 0  --hand-damping 0  --hand-stiffness 0\n\n"
+    "passive: b > K T / 2 + |B| (Colgate & Schenkel 1994); delayed: K < (b + B) / (T / 2 + delay)\n"
+    "(Gil, Hulin & Diaz); exact: spectral radius 1 of the discrete model.\n"
+    "Exit codes: 0 done, bars met; 1 a bar is not met; 2 usage.\n";
+
+// Mass, own damping and period of the free rows; each at B of 0, a little and much.
+struct Axis {
+  double mass_kg, viscous, period_s, damping[3];
+};
+constexpr Axis kAxes[] = {
+    {.050, .2, 1e-3, {0, .1, 2}},    {.050, .2, .25e-3, {0, .1, 2}}, {.075, .5, 1e-3, {0, .25, 5}},
+    {.075, .5, .25e-3, {0, .25, 5}}, {.075, .5, .1e-3, {0, .25, 5}}, {.200, 1., 1e-3, {0, .5, 10}},
+};
+// Mass, damper and spring of hands: a light and a firm grip.
+struct Held {
+  double mass_kg, damping, stiffness;
+};
+constexpr Held kHands[] = {{.05, 2, 100}, {.15, 6, 700}};
+
+// 18 rows without delay, 6 of one sample, 4 of two.
+std::vector<SampledWall> free_rows() {
+  std::vector<SampledWall> rows;
+  for (const Axis& axis : kAxes)
+    for (const double damping : axis.damping)
+      rows.push_back({axis.mass_kg, axis.viscous, axis.period_s, damping, 0, 0, 0, 0});
+  for (uint32_t i = 0; i < 10; ++i) {
+    const Axis& axis = kAxes[i % 6];
+    rows.push_back(
+        {axis.mass_kg, axis.viscous, axis.period_s, axis.damping[2], 1 + i / 6, 0, 0, 0});
+  }
+  return rows;
+}
+
+std::vector<SampledWall> held_rows() {
+  std::vector<SampledWall> rows;
+  for (const Axis& axis : kAxes)
+    for (const Held& hand : kHands)
+      rows.push_back({axis.mass_kg, axis.viscous, axis.period_s, axis.damping[1],
+                      static_cast<uint32_t>(rows.size() / 2 % 2), hand.mass_kg, hand.damping,
+                      hand.stiffness});
+  return rows;
+}
+
+// Result: the largest relative error.
+double print_rows(const std::vector<SampledWall>& rows) {
+  std::printf(
+      "  mass  own b  T ms     B  delay  hand kg  N s/m   N/m   passive   delayed     exact"
+      "  simulated  error\n");
+  double worst = 0;
+  for (const SampledWall& row : rows) {
+    const double exact = exact_limit_N_per_m(row), simulated = simulated_limit_N_per_m(row);
+    const double error = simulated / exact - 1;
+    worst = std::max(worst, std::isfinite(error) ? std::fabs(error) : HUGE_VAL);
+    std::printf("%6.3f %6.2f %5.2f %5.2f %6u %8.2f %6.1f %5.0f %9.0f %9.0f %9.0f %10.0f %5.2f %%\n",
+                row.mass_kg, row.viscous_N_s_per_m, row.period_s * 1e3, row.damping_N_s_per_m,
+                row.delay_samples, row.hand_mass_kg, row.hand_damping_N_s_per_m,
+                row.hand_stiffness_N_per_m, passive_limit_N_per_m(row), delayed_limit_N_per_m(row),
+                exact, simulated, error * 100);
+  }
+  return worst;
+}
+
+int verdict(bool is_met, const std::string& bar) {
+  std::cout << (is_met ? "met: " : "NOT MET: ") << bar << "\n";
+  return is_met ? 0 : 1;
+}
+
+int print_table() {
+  const std::vector<SampledWall> free = free_rows(), held = held_rows();
+  std::printf("Stiffest stable wall in N/m, %zu free axes\n", free.size());
+  const double worst_free = print_rows(free);
+  std::printf("\nThe same of %zu axes that a hand holds\n", held.size());
+  const double worst_held = print_rows(held);
+  char text[120];
+  std::snprintf(text, sizeof text, "largest error %.2f %% free, %.2f %% held; bar 1 %%",
+                worst_free * 100, worst_held * 100);
+  return verdict(worst_free <= 0.01 && worst_held <= 0.01, text);
+}
+
+int print_regimes() {
+  constexpr const char* kName[] = {"rest", "limit cycle", "rest from near, growth from far",
+                                   "growth"};
+  // b / (K T) and f / (K quantum): four points a regime. Below b / (K T) of about 0.8 a
+  // cycle spans more than a quantum, above 0.3 a locked one survives within growth.
+  constexpr double kPoints[16][2] = {{.6, .6}, {.6, 1}, {1, .6},   {2, .8},  {.8, 0}, {1.2, 0},
+                                     {1.6, 0}, {2, 0},  {.25, .6}, {.4, .6}, {.1, 1}, {.25, 2},
+                                     {.05, 0}, {.1, 0}, {.2, 0},   {.3, 0}};
+  std::printf(
+      "500 N/m on 100 g, 1 kHz, 30 um. Amplitudes in quanta: of the "
+      "cycle with the period seen, or of the one between rest and growth\n"
+      " b/KT  f/Kq  predicted                         simulated                        "
+      " predicted simulated\n");
+  int wrong = 0;
+  double worst = 0;
+  for (const auto& point : kPoints) {
+    QuantisedWall wall;
+    wall.viscous_N_s_per_m = point[0] * wall.stiffness_N_per_m * wall.period_s;
+    wall.coulomb_N = point[1] * wall.stiffness_N_per_m * wall.quantum_m;
+    const Motion seen = simulated_motion(wall);
+    Motion predicted = predicted_motion(wall);
+    if (predicted.regime == Regime::kCycle)
+      predicted.amplitude_m = cycle_amplitude_m(wall, seen.half_period_ticks);
+    std::printf("%5.2f %5.3f  %-32s  %-32s %9.2f %9.2f\n", point[0], point[1],
+                kName[static_cast<int>(predicted.regime)], kName[static_cast<int>(seen.regime)],
+                predicted.amplitude_m / wall.quantum_m, seen.amplitude_m / wall.quantum_m);
+    wrong += predicted.regime != seen.regime;
+    if (predicted.regime == Regime::kCycle || predicted.regime == Regime::kRests)
+      worst = std::max(worst, std::fabs(seen.amplitude_m / predicted.amplitude_m - 1));
+  }
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "%d of 16 regimes wrong, amplitudes within %.1f %%; bar 0, 10 %%", wrong,
+                worst * 100);
+  return verdict(wrong == 0 && worst <= 0.1, text);
+}
+
+int print_estimators() {
+  constexpr double kQuantum_m = 30e-6, kBar_N_per_m = 1.15 * 7286;
+  constexpr struct {
+    const char* name;
+    device::VelocitySettings settings;
+  } kEstimators[] = {{"0 difference", {device::Estimator::kDifference, 0}},
+                     {"1 low-pass, 150 Hz", {device::Estimator::kLowPass, 150}},
+                     {"2 tracking", {device::Estimator::kTracking, 0}}};
+  const auto initial = static_cast<uint32_t>(params::kTable[params::kVelocityEstimator].initial);
+  std::printf(
+      "Stiffest wall at rest in N/m: 75 g, b 0.5 N s/m, B 5 N s/m, 30 um, pushed with 1 N\n"
+      "estimator               1 kHz   4 kHz  10 kHz\n");
+  double of_default = 0;
+  for (uint32_t i = 0; i < 3; ++i) {
+    double limit[3];
+    for (int k = 0; k < 3; ++k)
+      limit[k] = rest_limit_N_per_m({.075, .5,
+                                     k == 0   ? 1e-3
+                                     : k == 1 ? .25e-3
+                                              : .1e-3,
+                                     5},
+                                    kQuantum_m, kEstimators[i].settings);
+    std::printf("%-20s %8.0f %7.0f %7.0f%s\n", kEstimators[i].name, limit[0], limit[1], limit[2],
+                i == initial ? "   default" : "");
+    if (i == initial) of_default = limit[0];
+  }
+  char text[120];
+  std::snprintf(text, sizeof text, "default at 1 kHz %.0f N/m; bar %.0f", of_default, kBar_N_per_m);
+  return verdict(of_default >= kBar_N_per_m, text);
+}
+
+double number(const Options& options, const std::string& name, double initial, double low) {
+  const std::string text = options.value(name);
+  if (text.empty()) return initial;
+  const std::optional<double> value = read_number(text);
+  if (!value || !(*value >= low) || !(*value <= 1e6))
+    throw Usage(name + " " + text + ": not a number from " + std::to_string(low) + " to 1e6");
+  return *value;
+}
+
+int print_one(const std::vector<std::string>& words) {
+  const Options options(words, {"--mass", "--viscous", "--rate", "--damping", "--delay",
+                                "--hand-mass", "--hand-damping", "--hand-stiffness"});
+  if (options.help()) {
+    std::cout << kHelp;
+    return 0;
+  }
+  if (!options.operands().empty()) throw Usage("z-width takes no operand");
+  SampledWall wall;
+  wall.mass_kg = number(options, "--mass", wall.mass_kg, 1e-6);
+  wall.viscous_N_s_per_m = number(options, "--viscous", wall.viscous_N_s_per_m, 0);
+  wall.period_s = 1 / number(options, "--rate", 1000, 1);
+  wall.damping_N_s_per_m = number(options, "--damping", 0, 0);
+  const double delay = number(options, "--delay", 0, 0);
+  if (std::floor(delay) < delay || delay > 8) throw Usage("--delay: whole samples, 0 to 8");
+  wall.delay_samples = static_cast<uint32_t>(delay);
+  wall.hand_mass_kg = number(options, "--hand-mass", 0, 0);
+  wall.hand_damping_N_s_per_m = number(options, "--hand-damping", 0, 0);
+  wall.hand_stiffness_N_per_m = number(options, "--hand-stiffness", 0, 0);
+  print_rows({wall});
+  return 0;
+}
+
+}  // namespace
+
+int print_z_width(const std::vector<std::string>& words) {
+  if (words.size() == 1 && words[0] == "--table") return print_table();
+  if (words.size() == 1 && words[0] == "--regimes") return print_regimes();
+  if (words.size() == 1 && words[0] == "--estimators") return print_estimators();
+  return print_one(words);
+}
+
+}  // namespace firmtouch::host_sim

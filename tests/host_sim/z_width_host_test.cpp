@@ -1,0 +1,122 @@
+// Limits of sampled walls: the exact bound against eigenvalues, simulation against the exact bound.
+#include <cmath>
+#include <vector>
+
+#include "harness/test.hpp"
+#include "host_sim/plant/sampled_wall.hpp"
+
+#if __has_include(<Eigen/Dense>)
+#include <Eigen/Dense>
+#include <unsupported/Eigen/MatrixFunctions>
+#define FIRMTOUCH_HAS_EIGEN 1
+#endif
+
+using namespace firmtouch::host_sim;
+
+TEST(SchurStable_KnownRoots_AreSeparated) {
+  const double half[] = {1, -0.5};
+  CHECK(is_schur_stable(half, 1));
+  const double outside[] = {2, 0, 0, -2.001};  // roots of size just above 1
+  CHECK(!is_schur_stable(outside, 3));
+  const double inside[] = {2, 0, 0, -1.999};
+  CHECK(is_schur_stable(inside, 3));
+  const double pair[] = {1, -1.8, 0.9};  // 0.9 +- 0.3 i: size 0.9487
+  CHECK(is_schur_stable(pair, 2));
+  const double wide[] = {1, -1.8, 1.01};
+  CHECK(!is_schur_stable(wide, 2));
+}
+
+#ifdef FIRMTOUCH_HAS_EIGEN
+namespace {
+
+// Largest size of an eigenvalue of the loop: position, velocity, the position of a tick ago, and
+// the forces that wait.
+double spectral_radius(const SampledWall& wall, double stiffness) {
+  const double m = wall.mass_kg + wall.hand_mass_kg;
+  Eigen::Matrix3d rate;
+  rate << 0, 1, 0, -wall.hand_stiffness_N_per_m / m,
+      -(wall.viscous_N_s_per_m + wall.hand_damping_N_s_per_m) / m, 1 / m, 0, 0, 0;
+  const Eigen::Matrix3d period = (rate * wall.period_s).exp();
+  const int delay = static_cast<int>(wall.delay_samples), size = 3 + delay;
+  Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(size);
+  force(0) = -stiffness - wall.damping_N_s_per_m / wall.period_s;
+  force(2) = wall.damping_N_s_per_m / wall.period_s;
+  Eigen::RowVectorXd applied = force;
+  if (delay > 0) applied = Eigen::RowVectorXd::Unit(size, 3);  // the one that waits longest
+  Eigen::MatrixXd loop = Eigen::MatrixXd::Zero(size, size);
+  loop.topLeftCorner(2, 2) = period.topLeftCorner(2, 2);
+  loop.topRows(2) += period.topRightCorner(2, 1) * applied;
+  loop(2, 0) = 1;
+  for (int i = 0; i < delay; ++i)
+    loop.row(3 + i) =
+        i + 1 < delay ? Eigen::RowVectorXd(Eigen::RowVectorXd::Unit(size, 4 + i)) : force;
+  return loop.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+#endif
+
+TEST(ExactLimit_SpectralRadiusIsOneThere) {
+#ifdef FIRMTOUCH_HAS_EIGEN
+  for (const double mass_kg : {0.05, 0.2})
+    for (const double viscous : {0.2, 1.0})
+      for (const double damping : {0.0, 0.3, 10.0})
+        for (const uint32_t delay : {0u, 1u, 2u})
+          for (const double grip : {0.0, 1.0}) {
+            const SampledWall wall = {mass_kg, viscous,    0.5e-3,     damping,
+                                      delay,   0.1 * grip, 3.0 * grip, 400 * grip};
+            const double limit = exact_limit_N_per_m(wall);
+            CHECK_LT(spectral_radius(wall, 0.999 * limit), 1);
+            CHECK_GT(spectral_radius(wall, 1.001 * limit), 1);
+          }
+#else
+  firmtouch::test::skip("Eigen is not installed");
+#endif
+}
+
+TEST(SimulatedLimit_EqualsExactOne_FreeAndHeld) {
+  const SampledWall walls[] = {{.075, .5, 1e-3, 5, 0, 0, 0, 0},
+                               {.200, 1., 1e-3, 10, 2, 0, 0, 0},
+                               {.050, .2, 1e-3, .1, 1, .15, 6, 700}};
+  for (const SampledWall& wall : walls)
+    CHECK_LE(std::fabs(simulated_limit_N_per_m(wall) / exact_limit_N_per_m(wall) - 1), 0.01);
+}
+
+TEST(PassiveWall_IsBelowTheStableOne) {
+  for (const double damping : {0.0, 0.2, 0.4}) {
+    const SampledWall wall = {.075, .5, 1e-3, damping, 0, 0, 0, 0};
+    CHECK_LE(passive_limit_N_per_m(wall), 1.001 * exact_limit_N_per_m(wall));
+  }
+}
+
+// 75 g, b 0.5, B 5, 30 um, 1 kHz. An ideal velocity would give 11,000 N/m, the low-pass gives 7,286
+// within the steps of the search.
+TEST(WallAtRest_Tracking_IsStifferThanTheLowPass) {
+  using firmtouch::device::Estimator;
+  const SampledWall wall = {.075, .5, 1e-3, 5, 0, 0, 0, 0};
+  const double low_pass = rest_limit_N_per_m(wall, 30e-6, {Estimator::kLowPass, 150});
+  const double tracking = rest_limit_N_per_m(wall, 30e-6, {Estimator::kTracking, 0});
+  CHECK_LE(std::fabs(low_pass / 7286 - 1), 0.06);
+  CHECK_GE(tracking, 1.15 * 7286);
+  CHECK_LE(tracking, 11000);
+}
+
+TEST(QuantisedWall_CycleOfItsPeriod_HasTheExactAmplitude) {
+  QuantisedWall wall;
+  wall.viscous_N_s_per_m = 1.2 * wall.stiffness_N_per_m * wall.period_s;
+  const Motion seen = simulated_motion(wall);
+  CHECK(seen.regime == Regime::kCycle);
+  const double exact_m = cycle_amplitude_m(wall, seen.half_period_ticks);
+  CHECK_GT(exact_m, 0);
+  CHECK_LE(std::fabs(seen.amplitude_m / exact_m - 1), 0.01);
+}
+
+TEST(QuantisedWall_FrictionOfHalfAForceStep_HoldsTheAxis) {
+  QuantisedWall wall;
+  wall.viscous_N_s_per_m = 0.6 * wall.stiffness_N_per_m * wall.period_s;
+  wall.coulomb_N = 0.6 * wall.stiffness_N_per_m * wall.quantum_m;
+  CHECK(predicted_motion(wall).regime == Regime::kRest);
+  CHECK(simulated_motion(wall).regime == Regime::kRest);
+  wall.coulomb_N = 0;
+  CHECK(simulated_motion(wall).regime == Regime::kCycle);
+}
