@@ -7,6 +7,7 @@
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/link/build_id.hpp"
 #include "firmtouch/link/handshake.hpp"
+#include "saved_parameters.hpp"
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
 
@@ -74,6 +75,10 @@ void HostSession::handle(const link::Frame& frame) {
       return answer_set_param(frame);
     case link::kClearFaults:
       return answer_clear_faults(frame);
+    case link::kSaveParameters:
+      return answer_save(frame);
+    case link::kPanel:
+      return answer_panel(frame);
     case link::kStream:
       return answer_stream(frame);
     case link::kDescribe:
@@ -164,8 +169,6 @@ void HostSession::answer_set_param(const link::Frame& frame) {
     ack.result = link::kAckInLockStep;
   } else if (wanted.index >= controller.kTable.size()) {
     ack.result = link::kAckNoSuchParameter;
-  } else if (controller.kTable[wanted.index].number == params::kTickPeriod) {
-    ack.result = link::kAckTimerRuns;  // programmed once, when the session began
   } else {
     const params::Entry& row = controller.kTable[wanted.index];
     if (!(wanted.value >= row.low) || !(wanted.value <= row.high)) {
@@ -191,6 +194,27 @@ void HostSession::answer_clear_faults(const link::Frame& frame) {
   outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
 }
 
+void HostSession::answer_save(const link::Frame& frame) {
+  link::SaveParameters wanted;
+  if (phase_ == Phase::kStranger)
+    return complain(frame, "a SaveParameters before an accepted Hello");
+  if (!link::take(frame, wanted)) return complain(frame, "a SaveParameters of another length");
+  link::Ack ack;
+  ack.index = link::kAckOfSave;
+  ack.result = is_lock_step() ? link::kAckInLockStep : save_parameters();
+  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+}
+
+void HostSession::answer_panel(const link::Frame& frame) {
+  link::Panel panel;
+  if (!is_live()) return complain(frame, "a Panel before an accepted Hello in live mode");
+  if (!link::take(frame, panel)) return complain(frame, "a Panel of another length");
+  set_panel(panel.flags);
+  link::Ack ack;
+  ack.index = link::kAckOfPanel;
+  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+}
+
 void HostSession::answer_stream(const link::Frame& frame) {
   link::Stream wanted;
   if (!is_live()) return complain(frame, "a Stream before an accepted Hello in live mode");
@@ -213,6 +237,7 @@ void HostSession::leave(const link::Frame& frame) {
   if (!link::take(frame, bye)) return complain(frame, "a Bye of another length");
   phase_ = Phase::kStranger;
   if (bye.what != link::kByeExit) return;
+  if (!hal::board_may_exit()) return complain(frame, "this board does not exit");
   hal::motors_off();
   outbox_.flush();
   hal::board_exit(0);

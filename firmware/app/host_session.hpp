@@ -28,6 +28,8 @@ class HostSession {
   [[gnu::noinline]] void answer_step(const link::Frame& frame);
   void answer_set_param(const link::Frame& frame);
   void answer_clear_faults(const link::Frame& frame);
+  [[gnu::noinline]] void answer_save(const link::Frame& frame);
+  void answer_panel(const link::Frame& frame);
   void answer_stream(const link::Frame& frame);
   void answer_describe(const link::Frame& frame);
   void leave(const link::Frame& frame);

@@ -4,6 +4,7 @@
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/link/text_writer.hpp"
 #include "host_session.hpp"
+#include "saved_parameters.hpp"
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
 
@@ -55,6 +56,7 @@ namespace {
 [[noreturn]] void run() {
   hal::board_begin();
   hal::motors_off();
+  prepare_saving();
   open_asset();
   print_verdict();
   for (;;) {

@@ -13,6 +13,7 @@ AppController controller;
 link::CommandMailbox commands;
 Records records;
 TurnWatch main_loop;
+SavedCommands saved_commands;
 
 void servo_interrupt() {
   static uint32_t next_tick = 0;
@@ -23,15 +24,18 @@ void servo_interrupt() {
   now.input.tick = next_tick++;
   now.input.clock_us = hal::clock_us();
   now.input.last_work_us = last_work_us;
-  now.input.flags = servo_flags();
+  const bool sets_saved = saved_commands.take(now.input);
+  if (!sets_saved) commands.take(now.input);  // at most one parameter a tick
+  now.input.flags = servo_flags(sets_saved);
   if (!hal::encoders_read(now.input.encoder_counts)) now.input.flags |= record::kFlagEncoderFault;
   if (kTwoRates) now.input.flags |= controller.model_flags();
-  commands.take(now.input);  // at most one parameter a tick
 
   controller.tick(now.input, now.output);  // calls no HAL: a replay calls it with the same input
 
+  hal::motors_state(record::may_push(now.output));
   hal::motors_write_N(now.output.motor_N);
   if (main_loop.is_alive(max_ticks_of_a_turn())) hal::watchdog_feed();
+  after_tick(now.output);
   records.push(now);  // never waits: if the ring is full the record is dropped and counted
   last_work_us = hal::clock_us() - now.input.clock_us;
 }

@@ -5,6 +5,7 @@
 #include "firmtouch/link/command_mailbox.hpp"
 #include "firmtouch/record/ring.hpp"
 #include "firmtouch/record/tick.hpp"
+#include "saved_parameters.hpp"
 #include "turn_watch.hpp"
 
 namespace firmtouch::app {
@@ -19,6 +20,7 @@ extern AppController controller;
 extern link::CommandMailbox commands;  // main loop -> interrupt
 extern Records records;                // interrupt -> main loop
 extern TurnWatch main_loop;            // main loop -> interrupt: it goes on
+extern SavedCommands saved_commands;   // main loop, until the servo runs; then interrupt
 
 // At two rates the interrupt renders the last local model while the main loop makes the next one:
 // for a servo that is faster than a query.

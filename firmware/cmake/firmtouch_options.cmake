@@ -2,7 +2,11 @@
 # project that takes Firmtouch in keeps its own.
 
 set(FIRMTOUCH_WARNING_FLAGS
-    -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wshadow)
+    -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wshadow
+    # Of -fno-rounding-math below, which is the default there.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-unsupported-floating-point-opt>)
+# Firmware and hal also: clean of these. Not -Wuseless-cast: a cast to uint32_t is of use where that is no unsigned long.
+set(FIRMTOUCH_STRICT_FLAGS -Wold-style-cast -Wundef -Wswitch-enum $<$<CXX_COMPILER_ID:GNU>:-Wcast-align=strict>)
 if(FIRMTOUCH_WERROR)
   list(APPEND FIRMTOUCH_WARNING_FLAGS -Werror)
 endif()
@@ -56,9 +60,18 @@ set(FIRMTOUCH_FREESTANDING_FLAGS
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections)
 
 # Seen from everywhere: the functions below may be called by the project that takes Firmtouch in.
-foreach(flags WARNING ARITHMETIC ROUNDING NATIVE FREESTANDING)
+foreach(flags WARNING STRICT ARITHMETIC ROUNDING NATIVE FREESTANDING)
   set(FIRMTOUCH_${flags}_FLAGS "${FIRMTOUCH_${flags}_FLAGS}" CACHE INTERNAL "")
 endforeach()
+
+set(FIRMTOUCH_OPTIMIZE "" CACHE STRING "Level of all but the hot files, such as -O3 (empty: -Os on a controller, -O2 here)")
+if(FIRMTOUCH_OPTIMIZE)
+  set(FIRMTOUCH_COLD_FLAGS $<$<NOT:$<CONFIG:Debug>>:${FIRMTOUCH_OPTIMIZE}>)
+elseif(CMAKE_CROSSCOMPILING)
+  set(FIRMTOUCH_COLD_FLAGS $<$<NOT:$<CONFIG:Debug>>:-Os>)
+else()
+  set(FIRMTOUCH_COLD_FLAGS "")
+endif()
 
 # firmtouch_module(NAME [FOLDER FOLDER] [LINKS MODULE...] [HOT FILE...]): one library a module of the firmware,
 # libfirmtouch_NAME.a, from the *.cpp of its folder (default: NAME). It may include only the modules that it links (check.includes). A module of headers alone has no
@@ -72,14 +85,15 @@ function(firmtouch_module name)
   list(TRANSFORM module_LINKS PREPEND firmtouch_)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${module_FOLDER}/*.cpp)
   set(target firmtouch_${name})
+  set(include $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/firmware> $<INSTALL_INTERFACE:include>)
   if(sources)
     add_library(${target} STATIC ${sources})
-    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/firmware)
+    target_include_directories(${target} PUBLIC ${include})
     target_compile_features(${target} PUBLIC cxx_std_17)
     target_link_libraries(${target} PUBLIC ${module_LINKS})
-    firmtouch_freestanding(${target})
-    if(CMAKE_CROSSCOMPILING)
-      target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-Os>)
+    firmtouch_firmware(${target})
+    if(FIRMTOUCH_COLD_FLAGS)
+      target_compile_options(${target} PRIVATE ${FIRMTOUCH_COLD_FLAGS})
       foreach(file ${module_HOT})
         if(NOT ${CMAKE_CURRENT_SOURCE_DIR}/firmtouch/${module_FOLDER}/${file} IN_LIST sources)
           message(FATAL_ERROR "firmtouch_module(${name}): there is no ${file}")
@@ -90,20 +104,28 @@ function(firmtouch_module name)
     endif()
   else()
     add_library(${target} INTERFACE)
-    target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/firmware)
+    target_include_directories(${target} INTERFACE ${include})
     target_compile_features(${target} INTERFACE cxx_std_17)
     target_link_libraries(${target} INTERFACE ${module_LINKS})
   endif()
   add_library(firmtouch::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY FIRMTOUCH_MODULES ${target})
 endfunction()
 
-# firmtouch_freestanding(TARGET): the flags of firmware and hal.
+# firmtouch_freestanding(TARGET): the flags of all that runs on a controller.
 function(firmtouch_freestanding target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O2> ${FIRMTOUCH_FREESTANDING_FLAGS}
                                            ${FIRMTOUCH_ARITHMETIC_FLAGS} ${FIRMTOUCH_NATIVE_FLAGS}
                                            ${FIRMTOUCH_WARNING_FLAGS})
   target_compile_definitions(${target} PRIVATE ${FIRMTOUCH_ARCH_DEFINITION})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+endfunction()
+
+# firmtouch_firmware(TARGET): those, with the warnings of our own sources.
+function(firmtouch_firmware target)
+  firmtouch_freestanding(${target})
+  target_compile_options(${target} PRIVATE ${FIRMTOUCH_STRICT_FLAGS})
 endfunction()
 
 # firmtouch_hosted(TARGET): the flags of tools, host_sim and host tests.

@@ -12,13 +12,15 @@ inline volatile uint32_t& reg(uint32_t address) {
 constexpr uint32_t kSysTickControl = 0xE000E010;  // b0 enable, b1 interrupt, b2 processor clock
 constexpr uint32_t kSysTickReload = 0xE000E014;   // 24 bits
 constexpr uint32_t kSysTickValue = 0xE000E018;
-constexpr uint32_t kNvicEnable = 0xE000E100;       // one bit an interrupt
-constexpr uint32_t kNvicPriority = 0xE000E400;     // one byte an interrupt
+constexpr uint32_t kNvicEnable = 0xE000E100;    // one bit an interrupt
+constexpr uint32_t kNvicPriority = 0xE000E400;  // one byte an interrupt
+constexpr uint32_t kVectorTable = 0xE000ED08;
 constexpr uint32_t kSystemPriority3 = 0xE000ED20;  // SysTick in bits 24-31
-constexpr uint32_t kHardFaultStatus = 0xE000ED2C;
 constexpr uint32_t kFaultStatus = 0xE000ED28;
+constexpr uint32_t kFloatDefaultStatus = 0xE000EF3C;
 constexpr uint32_t kMpuType = 0xE000ED90, kMpuControl = 0xE000ED94, kMpuRegion = 0xE000ED98;
-constexpr uint32_t kMpuBase = 0xE000ED9C, kMpuSize = 0xE000EDA0;
+constexpr uint32_t kMpuBase = 0xE000ED9C, kMpuSize = 0xE000EDA0;  // Armv8-M: size is the limit
+constexpr uint32_t kMpuAttributes = 0xE000EDC0;                   // Armv8-M only
 
 // Lower is more urgent. A received byte is overwritten after 10 us at 1 Mbaud, so its handler (20
 // instructions) preempts the servo's.

@@ -9,10 +9,7 @@
 namespace firmtouch::hal {
 namespace {
 
-// HardFault status: a breakpoint was reached with no debugger attached.
-constexpr uint32_t kFromDebugEvent = 1u << 31;
-constexpr uint16_t kSemihostingCall = 0xBEAB;  // bkpt 0xAB
-constexpr int kExitStatus = 70;                // exit code of an emulator's process
+constexpr int kExitStatus = 70;  // exit code of an emulator's process
 
 struct Frame {  // pushed by the core (ARM DDI 0403, B1.5.6)
   uint32_t r[4], r12, lr, pc, status;
@@ -25,25 +22,13 @@ void print_hex(const char* name, uint32_t value) {
   board_print(text);
 }
 
-// Without a debugger a semihosting call faults: it then returns -1 and the program goes on.
-bool skip_unattached_semihosting(Frame& frame) {
-  if ((reg(kHardFaultStatus) & kFromDebugEvent) == 0) return false;
-  if (*reinterpret_cast<const uint16_t*>(static_cast<uintptr_t>(frame.pc)) != kSemihostingCall)
-    return false;
-  reg(kHardFaultStatus) = kFromDebugEvent;
-  frame.r[0] = UINT32_MAX;
-  frame.pc += 2;
-  return true;
-}
-
 }  // namespace
 
 extern "C" {
 
 /// `frame` is null after a stack overflow.
-[[gnu::used]] void hard_fault(Frame* frame) {
+[[gnu::used]] void hard_fault(const Frame* frame) {
   motors_off();
-  if (frame != nullptr && skip_unattached_semihosting(*frame)) return;
   board_print("\nFault: motors are off. ");
   print_hex("status ", reg(kFaultStatus));
   if (frame != nullptr) {
@@ -56,18 +41,22 @@ extern "C" {
   board_exit(kExitStatus);
 }
 
+// The frame is on the stack that was in use: bit 2 of the return code in lr names it. At or below
+// its limit the main stack has overflowed, and this handler begins a new one.
 [[gnu::naked]] void hard_fault_handler() {
   asm volatile(
       "mrs r0, msp             \n"
       "ldr r1, =__stack_bottom \n"
       "cmp r0, r1              \n"
-      "bhs 1f                  \n"
+      "bhi 1f                  \n"
       "ldr r1, =__stack_top    \n"
       "mov sp, r1              \n"
       "movs r0, #0             \n"
-      "1: push {r4, lr}        \n"
-      "bl hard_fault           \n"
-      "pop {r4, pc}            \n");
+      "b hard_fault            \n"
+      "1: tst lr, #4           \n"
+      "it ne                   \n"
+      "mrsne r0, psp           \n"
+      "b hard_fault            \n");
 }
 
 }  // extern "C"

@@ -4,17 +4,31 @@
 
 extern "C" {
 extern uint32_t __stack_bottom[], __stack_top[];
+extern const uint8_t __firmtouch_guard_region[];  // its address is the number
 }
 
 namespace firmtouch::hal {
 namespace {
 
 constexpr uint32_t kPaint = 0x5AFE57AC;
+constexpr uint32_t kGuard_bytes = 1u << 14;
 
-uint32_t bytes_between(const uint32_t* low, const uint32_t* high) {
-  return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(high) -
-                               reinterpret_cast<uintptr_t>(low));
+uint32_t address(const void* p) { return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(p)); }
+
+#if __ARM_ARCH >= 8
+// The limit register stops pushes, the region every other access (ARM DDI 0553, B3.12 and B10).
+void guard_below(uint32_t bottom) {
+  asm volatile("msr msplim, %0" ::"r"(bottom));
+  reg(kMpuAttributes) = 0;                                 // attribute 0: device memory
+  reg(kMpuBase) = (bottom - kGuard_bytes) | 2u << 1 | 1u;  // read-only, privileged; never executed
+  reg(kMpuSize) = (bottom - 32) | 1u;                      // its last 32 bytes; attribute 0; on
 }
+#else
+void guard_below(uint32_t bottom) {
+  reg(kMpuBase) = (bottom - kGuard_bytes) & ~(kGuard_bytes - 1);
+  reg(kMpuSize) = 1u << 28 | 13u << 1 | 1u;  // never executed, no access, 2^(13 + 1) bytes
+}
+#endif
 
 }  // namespace
 
@@ -26,22 +40,19 @@ void stack_paint() {
 }
 
 void stack_guard() {
-  constexpr uint32_t kGuard_bytes = 1u << 14;
   if ((reg(kMpuType) >> 8 & 0xFFu) == 0) return;
-  const uint32_t bottom = bytes_between(nullptr, __stack_bottom);
-  reg(kMpuRegion) = 0;
-  reg(kMpuBase) = (bottom - kGuard_bytes) & ~(kGuard_bytes - 1);
-  reg(kMpuSize) = 1u << 28 | 13u << 1 | 1u;  // never executed, no access, 2^(13 + 1) bytes
-  reg(kMpuControl) = 5;                      // the rest of memory as without an MPU
+  reg(kMpuRegion) = address(__firmtouch_guard_region);
+  guard_below(address(__stack_bottom));
+  reg(kMpuControl) = 5;  // the rest of memory as without an MPU
   asm volatile("dsb\n isb");
 }
 
 uint32_t stack_used_bytes() {
   const volatile uint32_t* word = __stack_bottom;
   while (word < __stack_top && *word == kPaint) ++word;
-  return bytes_between(const_cast<const uint32_t*>(word), __stack_top);
+  return address(__stack_top) - address(const_cast<const uint32_t*>(word));
 }
 
-uint32_t stack_size_bytes() { return bytes_between(__stack_bottom, __stack_top); }
+uint32_t stack_size_bytes() { return address(__stack_top) - address(__stack_bottom); }
 
 }  // namespace firmtouch::hal

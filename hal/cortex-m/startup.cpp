@@ -1,23 +1,32 @@
 #include <stdint.h>
 
 #include "cortex-m/cortex_m.hpp"
+#include "cortex-m/floating_point.hpp"
 #include "cortex-m/stack.hpp"
 #include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/motors.hpp"
 
-// From reset to main(): FPU, data, constructors.
+// From reset to main(): FPU, motors off, stack, data, constructors.
+
+int main();  // not extern "C": clang mangles it in freestanding code
 
 extern "C" {
 extern uint32_t __stack_top[];
+extern const uint32_t __vectors[];
 extern uint32_t __data_begin[], __data_end[], __data_load[];
 extern uint32_t __bss_begin[], __bss_end[];
 extern firmtouch::hal::Handler __init_array_begin[], __init_array_end[];
 
-int main();
-
 void hard_fault_handler();
 void servo_timer_handler();
 
+/// The motors first: their pins may float, or be as a reset found them. Nothing is initialised yet.
 [[noreturn]] void start_up() {
+  firmtouch::hal::motors_off();
+  firmtouch::hal::floating_point_begin();
+  // A boot loader may have left its own. The table is first in CODE.
+  firmtouch::hal::reg(firmtouch::hal::kVectorTable) =
+      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(__vectors));
   firmtouch::hal::stack_paint();
   firmtouch::hal::stack_guard();
   const uint32_t* from = __data_load;

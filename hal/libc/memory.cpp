@@ -12,6 +12,9 @@ bool aligned(const void* a, const void* b) {
   return ((reinterpret_cast<uintptr_t>(a) | reinterpret_cast<uintptr_t>(b)) & 3u) == 0;
 }
 
+Word& word(void* at) { return *static_cast<Word*>(at); }
+Word word(const void* at) { return *static_cast<const Word*>(at); }
+
 }  // namespace
 
 extern "C" {
@@ -20,9 +23,7 @@ void* memcpy(void* __restrict to, const void* __restrict from, size_t count) {
   uint8_t* out = static_cast<uint8_t*>(to);
   const uint8_t* in = static_cast<const uint8_t*>(from);
   if (aligned(to, from)) {
-    for (; count >= 4; count -= 4, out += 4, in += 4) {
-      *reinterpret_cast<Word*>(out) = *reinterpret_cast<const Word*>(in);
-    }
+    for (; count >= 4; count -= 4, out += 4, in += 4) word(out) = word(in);
   }
   for (; count != 0; --count) *out++ = *in++;
   return to;
@@ -43,8 +44,8 @@ void* memset(void* to, int value, size_t count) {
   uint8_t* out = static_cast<uint8_t*>(to);
   const uint32_t byte = static_cast<uint32_t>(value) & 0xFFu;
   if (aligned(to, nullptr)) {
-    const uint32_t word = byte * 0x01010101u;
-    for (; count >= 4; count -= 4, out += 4) *reinterpret_cast<Word*>(out) = word;
+    const uint32_t four = byte * 0x01010101u;
+    for (; count >= 4; count -= 4, out += 4) word(out) = four;
   }
   for (; count != 0; --count) *out++ = static_cast<uint8_t>(byte);
   return to;

@@ -1,10 +1,9 @@
 #include "firmtouch/hal/board.hpp"
 
-#include "cortex-m/asset_region.hpp"
-#include "cortex-m/semihosting.hpp"
 #include "cortex-m/stack.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
+#include "parts/asset_region.hpp"
 #include "registers.hpp"
 
 extern "C" {
@@ -31,7 +30,7 @@ void board_begin() {
   link_begin();
 }
 
-const char* board_name() { return "mps2-an500"; }
+const char* board_name() { return FIRMTOUCH_BOARD_NAME; }
 
 core::Bytes board_asset() { return linked_or_loaded_asset(); }
 
@@ -42,12 +41,6 @@ void board_print(const char* text) {
     }
     reg(kUart0 + kUartData) = static_cast<uint8_t>(*text);
   }
-}
-
-void board_exit(int status) {
-  motors_off();
-  semihosting_exit(status);
-  for (;;) asm volatile("wfi");
 }
 
 uint32_t board_stack_high_bytes() { return stack_used_bytes(); }

@@ -1,7 +1,7 @@
 #include "firmtouch/hal/clock.hpp"
 
 #include "cortex-m/servo_timer.hpp"
-#include "cortex-m/work.hpp"
+#include "parts/work.hpp"
 #include "registers.hpp"
 
 // TIMER0 counts down at the core's clock, 40 ns a tick. Under -icount shift=N an instruction takes

@@ -1,10 +1,9 @@
 #include "firmtouch/hal/board.hpp"
 
-#include "cortex-m/asset_region.hpp"
-#include "cortex-m/semihosting.hpp"
 #include "cortex-m/stack.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
+#include "parts/asset_region.hpp"
 #include "registers.hpp"
 
 extern "C" {
@@ -57,12 +56,6 @@ void board_print(const char* text) {
     }
     reg(kUsart1 + kUsartData) = static_cast<uint8_t>(*text);
   }
-}
-
-void board_exit(int status) {
-  motors_off();
-  semihosting_exit(status);
-  for (;;) asm volatile("wfi");
 }
 
 uint32_t board_stack_high_bytes() { return stack_used_bytes(); }

@@ -1,7 +1,7 @@
 #include "firmtouch/hal/clock.hpp"
 
 #include "cortex-m/servo_timer.hpp"
-#include "cortex-m/work.hpp"
+#include "parts/work.hpp"
 #include "registers.hpp"
 
 // TIM5 counts microseconds, TIM2 counts work. In QEMU TIM2 runs at 1 GHz: under -icount shift=0 it

@@ -11,6 +11,8 @@ bool encoders_read(int32_t (&counts)[3]) {
   return false;
 }
 
+void motors_state(bool) {}
+
 void motors_write_N(const float (&)[3]) {}
 
 void motors_off() {}

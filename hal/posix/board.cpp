@@ -64,6 +64,8 @@ void board_exit(int status) {
   std::_Exit(status);  // no destructors: the servo thread may be in a tick
 }
 
+bool board_may_exit() { return true; }
+
 uint32_t board_stack_high_bytes() { return 0; }
 
 }  // namespace firmtouch::hal

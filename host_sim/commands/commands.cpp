@@ -1,44 +1,90 @@
 #include "host_sim/commands/commands.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr const char* kHelp =
-    "firmtouch-sim runs a controller with a simulated device and a simulated hand.\n\n"
-    "  firmtouch-sim run SCENARIO [options]      simulate a scenario (run --help: options, and "
-    "the scenario's syntax)\n"
-    "  firmtouch-sim replay LOG [options]        recompute a log from its inputs and compare "
-    "every output bit\n"
-    "  firmtouch-sim record CONTROLLER -o FILE   record a running controller over its link\n"
-    "  firmtouch-sim scenario ASSET -o FILE      write a scenario for an asset: press on the "
-    "surface, follow the guide\n"
-    "  firmtouch-sim z-width [options]           limits of stable walls, and their bars\n\n"
-    "`firmtouch-sim COMMAND --help` lists a command's options.\n"
-    "Exit codes: 0 done; 1 it ran and the answer is no; 2 usage; 3 bad input.\n";
+constexpr const char* kVersion = "firmtouch-sim 0.1.0";  // as `firmtouch --version`
+constexpr size_t kHelpColumn = 30;
+
+struct Entry {
+  const Command& (*command)();
+  int (*run)(const std::vector<std::string>& words);
+};
+constexpr Entry kEntries[] = {
+    {run_command_line, run_scenario},       {replay_command_line, replay_log},
+    {record_command_line, record_live},     {live_command_line, serve_live},
+    {scenario_command_line, make_scenario}, {z_width_command_line, print_z_width}};
+
+std::string usage() {
+  std::string text =
+      "usage: firmtouch-sim COMMAND ...\n"
+      "Runs a controller with a simulated device and a simulated hand.\n\n";
+  for (const Entry& entry : kEntries) {
+    std::string line = std::string("  ") + entry.command().name;
+    line.resize(11, ' ');
+    text += line + entry.command().summary + "\n";
+  }
+  return text +
+         "\nfirmtouch-sim COMMAND --help says more. Exit codes: 0 done, 1 the answer is no, "
+         "2 usage, 3 bad input.\n";
+}
 
 }  // namespace
 
-Options::Options(const std::vector<std::string>& words,
-                 const std::vector<std::string>& with_value) {
+std::string help_of(const Command& command) {
+  std::string text = std::string("usage: firmtouch-sim ") + command.name + " " + command.usage +
+                     "\n" + command.summary + "\n\noptions\n";
+  for (const Option& option : command.options) {
+    std::string line = std::string("  ") + option.name;
+    if (option.value != nullptr) line += std::string(" ") + option.value;
+    line.resize(std::max(line.size() + 2, kHelpColumn), ' ');
+    text += line + option.help + "\n";
+  }
+  std::string help = "  --help";
+  help.resize(kHelpColumn, ' ');
+  text += help + "this text\n";
+  return command.details[0] == 0 ? text : text + "\n" + command.details;
+}
+
+Options::Options(const Command& command, const std::vector<std::string>& words)
+    : command_(command.name) {
+  for (const std::string& word : words) help_ = help_ || word == "--help" || word == "-h";
+  if (help_) return;
   for (size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
-    if (word == "--help" || word == "-h") {
-      help_ = true;
-    } else if (word.size() < 2 || word[0] != '-') {
+    if (word.size() < 2 || word[0] != '-') {
       operands_.push_back(word);
+      continue;
+    }
+    const size_t equals = word.compare(0, 2, "--") == 0 ? word.find('=') : std::string::npos;
+    const std::string name = word.substr(0, equals);
+    const auto found = std::find_if(command.options.begin(), command.options.end(),
+                                    [&](const Option& option) { return name == option.name; });
+    if (found == command.options.end()) refuse("unknown option " + name);
+    if (found->value == nullptr) {
+      if (equals != std::string::npos) refuse(name + " takes no value");
+      given_.emplace_back(name, "");
+    } else if (equals != std::string::npos) {
+      given_.emplace_back(name, word.substr(equals + 1));
+    } else if (i + 1 < words.size()) {
+      given_.emplace_back(name, words[++i]);
     } else {
-      const size_t equals = word.compare(0, 2, "--") == 0 ? word.find('=') : std::string::npos;
-      const std::string name = word.substr(0, equals);
-      if (std::find(with_value.begin(), with_value.end(), name) == with_value.end())
-        throw Usage("unknown option " + name);
-      if (equals == std::string::npos && i + 1 == words.size())
-        throw Usage(name + " needs a value");
-      given_.emplace_back(name, equals != std::string::npos ? word.substr(equals + 1) : words[++i]);
+      refuse(name + " needs a value: " + name + " " + found->value);
     }
   }
+}
+
+void Options::refuse(const std::string& what) const {
+  throw Usage(command_ + ": " + what + " (see firmtouch-sim " + command_ + " --help)");
+}
+
+bool Options::has(const std::string& name) const {
+  return std::any_of(given_.begin(), given_.end(),
+                     [&](const auto& given) { return given.first == name; });
 }
 
 std::string Options::value(const std::string& name) const {
@@ -53,19 +99,39 @@ std::vector<std::string> Options::values(const std::string& name) const {
   return all;
 }
 
+double Options::number(const std::string& name, double otherwise, double least) const {
+  const std::string text = value(name);
+  if (text.empty()) return otherwise;
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (*end != 0 || !(number >= least))
+    refuse(name + " " + text + ": a number not below " + std::to_string(static_cast<int>(least)) +
+           " is needed");
+  return number;
+}
+
+const std::string& Options::operand(const std::string& what) const {
+  if (operands_.empty()) refuse("name " + what);
+  if (operands_.size() > 1) refuse("one word too many: '" + operands_[1] + "'");
+  return operands_[0];
+}
+
 int run_command(const std::vector<std::string>& words) {
-  if (words.empty()) throw Usage("name a command: run, replay, record, scenario or z-width");
-  const std::vector<std::string> rest(words.begin() + 1, words.end());
-  if (words[0] == "run") return run_scenario(rest);
-  if (words[0] == "replay") return replay_log(rest);
-  if (words[0] == "record") return record_live(rest);
-  if (words[0] == "scenario") return make_scenario(rest);
-  if (words[0] == "z-width") return print_z_width(rest);
+  if (words.empty()) {
+    std::cerr << usage();
+    return 2;
+  }
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
-    std::cout << kHelp;
+    std::cout << usage();
     return 0;
   }
-  throw Usage("unknown command `" + words[0] + "`; known: run, replay, record, scenario, z-width");
+  if (words[0] == "--version") {
+    std::cout << kVersion << "\n";
+    return 0;
+  }
+  for (const Entry& entry : kEntries)
+    if (words[0] == entry.command().name) return entry.run({words.begin() + 1, words.end()});
+  throw Usage("'" + words[0] + "' is no command (see firmtouch-sim --help)");
 }
 
 }  // namespace firmtouch::host_sim

@@ -1,6 +1,7 @@
 #pragma once
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace firmtouch::host_sim {
@@ -10,29 +11,61 @@ struct Usage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Runs `run ...`, `replay ...`, `record ...`, `scenario ...`, `z-width ...` or
-/// `--help`.
+/// One option of a command. `value`: its value's name in the help; nullptr for a flag.
+struct Option {
+  const char* name;
+  const char* value;
+  const char* help;
+};
+
+struct Command {
+  const char* name;
+  const char* usage;    // the rest of the usage line
+  const char* summary;  // one line
+  const char* details;  // behind the options in --help, or ""
+  std::vector<Option> options;
+};
+
+/// Runs `run ...`, `replay ...` and the other commands, `--help` or `--version`.
 /// Result: the exit code. Throws Usage or Refused.
 int run_command(const std::vector<std::string>& words);
 
+const Command& run_command_line();
 int run_scenario(const std::vector<std::string>& words);
+const Command& replay_command_line();
 int replay_log(const std::vector<std::string>& words);
+const Command& record_command_line();
 int record_live(const std::vector<std::string>& words);
+const Command& live_command_line();
+int serve_live(const std::vector<std::string>& words);
+const Command& scenario_command_line();
 int make_scenario(const std::vector<std::string>& words);
+const Command& z_width_command_line();
 int print_z_width(const std::vector<std::string>& words);
 
-/// Parses the arguments of a command: `--name VALUE`, `--name=VALUE`, and operands.
+/// As `firmtouch COMMAND --help` is laid out.
+std::string help_of(const Command& command);
+
+/// Parses the arguments of a command: `--name VALUE`, `--name=VALUE`, flags, and operands.
 class Options {
  public:
-  /// `with_value`: the known options. Throws Usage for an unknown one or a missing value.
-  Options(const std::vector<std::string>& words, const std::vector<std::string>& with_value);
+  /// Throws Usage for an unknown option or a missing value.
+  Options(const Command& command, const std::vector<std::string>& words);
+  bool has(const std::string& name) const;
   /// The last value given; empty if there is none.
   std::string value(const std::string& name) const;
   std::vector<std::string> values(const std::string& name) const;
+  /// A number of at least `least`; `otherwise` if the option is not given. Throws Usage.
+  double number(const std::string& name, double otherwise, double least) const;
   bool help() const { return help_; }
   const std::vector<std::string>& operands() const { return operands_; }
+  /// The only operand. Throws Usage if there is another number of them.
+  const std::string& operand(const std::string& what) const;
+  /// Throws Usage with the command's name.
+  [[noreturn]] void refuse(const std::string& what) const;
 
  private:
+  std::string command_;
   std::vector<std::pair<std::string, std::string>> given_;
   std::vector<std::string> operands_;
   bool help_ = false;

@@ -1,5 +1,6 @@
 // firmtouch-sim. Exit codes: 0 done; 1 it ran and the answer is no; 2 usage; 3 bad input.
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -12,10 +13,13 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a closed link is an error message, not a signal
   const std::vector<std::string> words(argv + 1, argv + argc);
   try {
-    return run_command(words);
+    const int code = run_command(words);
+    // A full disk or a closed pipe must not pass for success.
+    if (std::cout.flush() && std::fflush(stdout) == 0) return code;
+    std::cerr << "firmtouch-sim: standard output: cannot be written\n";
+    return 3;
   } catch (const Usage& usage) {
-    std::cerr << "firmtouch-sim: " << usage.what()
-              << "\n`firmtouch-sim --help` lists the commands.\n";
+    std::cerr << "firmtouch-sim: " << usage.what() << "\n";
     return 2;
   } catch (const Refused& refused) {
     std::cerr << "firmtouch-sim: " << refused.what() << "\n";

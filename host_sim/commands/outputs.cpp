@@ -18,7 +18,7 @@ bool same_file(const std::string& a, const std::string& b) {
 }
 
 void check_differ(const NamedFiles::value_type& output, const NamedFiles::value_type& other) {
-  if (output.second.empty() || other.second.empty()) return;
+  if (output.second.empty() || other.second.empty() || other.second == "-") return;
   // An output has a second path while it is written.
   if (!same_file(output.second, other.second) &&
       !same_file(partial_of(output.second), other.second))

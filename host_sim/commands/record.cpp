@@ -13,6 +13,7 @@
 #include "host_sim/controllers/asset_file.hpp"
 #include "host_sim/controllers/live_link.hpp"
 #include "host_sim/controllers/session.hpp"
+#include "host_sim/report/page_data.hpp"
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/log.hpp"
 #include "host_sim/trace/queued_records.hpp"
@@ -21,31 +22,8 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr const char* kHelp =
-    "firmtouch-sim record CONTROLLER -o FILE.ftl [options]\n"
-    "Records a running controller over its link until Ctrl-C, or for a given time.\n"
-    "  CONTROLLER            unix:PATH | tcp:HOST:PORT | DEVICE (serial, 1 Mbaud)\n"
-    "  --seconds S           duration\n"
-    "  --decimate N          every N-th tick only (1 Mbaud carries about 690 records a second)\n"
-    "  --set NAME=VALUE      set a parameter, in its SI unit, while recording; may be repeated\n"
-    "  --asset FILE          the controller's asset; the log then names it for a replay\n"
-    "  --file-megabytes N    start a new file after N megabytes\n"
-    "  --keep N              keep the newest N files\n"
-    "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.\n";
-
 volatile std::sig_atomic_t g_stop = 0;
 void on_signal(int) { g_stop = 1; }
-
-double number_of(const Options& options, const char* name, double fallback, double minimum) {
-  const std::string text = options.value(name);
-  if (text.empty()) return fallback;
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  if (*end != 0 || !(number >= minimum))
-    throw Usage(std::string(name) + " " + text + ": give a number of at least " +
-                std::to_string(static_cast<int>(minimum)));
-  return number;
-}
 
 std::string hex(uint64_t value, int digits) {
   char text[24];
@@ -209,23 +187,39 @@ class Watch {
 
 }  // namespace
 
+const Command& record_command_line() {
+  static const Command command = {
+      "record",
+      "CONTROLLER -o FILE.ftl [options]",
+      "records a running controller over its link until Ctrl-C, or for a given time",
+      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
+      "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.\n",
+      {{"-o", "FILE.ftl", "the log"},
+       {"--seconds", "S", "duration"},
+       {"--decimate", "N", "every N-th tick only (1 Mbaud carries about 690 records a second)"},
+       {"--set", "NAME=VALUE", "set a parameter, in its SI unit; may be repeated"},
+       {"--asset", "FILE", "the controller's asset; the log then names it for a replay"},
+       {"--file-megabytes", "N", "start a new file after N megabytes"},
+       {"--keep", "N", "keep the newest N files"},
+       {"--json", nullptr, "the summary as JSON on stdout"}}};
+  return command;
+}
+
 int record_live(const std::vector<std::string>& words) {
-  const Options options(
-      words, {"-o", "--seconds", "--decimate", "--set", "--asset", "--file-megabytes", "--keep"});
+  const Options options(record_command_line(), words);
   if (options.help()) {
-    std::cout << kHelp;
+    std::cout << help_of(record_command_line());
     return 0;
   }
   const std::string path = options.value("-o"), asset = options.value("--asset");
-  if (options.operands().size() != 1) throw Usage("record needs one controller");
-  if (path.empty()) throw Usage("record needs -o FILE.ftl");
-  const std::string where = options.operands()[0];
+  const std::string where = options.operand("one controller");
+  if (path.empty()) options.refuse("name -o FILE.ftl");
   if (where.compare(0, 5, "qemu:") == 0)
     throw Usage(where +
                 ": a lock-step controller has no clock of its own; start the emulator with "
                 "-serial null -serial unix:PATH,server=on,wait=off and record unix:PATH");
-  const double seconds = number_of(options, "--seconds", 1e9, 0);
-  const uint32_t decimation = static_cast<uint32_t>(number_of(options, "--decimate", 1, 1));
+  const double seconds = options.number("--seconds", 1e9, 0);
+  const uint32_t decimation = static_cast<uint32_t>(options.number("--decimate", 1, 1));
   check_outputs({{"--asset", asset}}, {{"-o", path}});
 
   LiveLink controller(connect_stream(where));
@@ -240,9 +234,8 @@ int record_live(const std::vector<std::string>& words) {
   log::Header header = header_of(controller, decimation, asset, path);
   QueuedRecords records(header.record_bytes, kRingBytes / header.record_bytes);
   log::DrainOptions drain;
-  drain.file_bytes =
-      static_cast<uint64_t>(number_of(options, "--file-megabytes", 0, 0) * (1 << 20));
-  drain.keep_files = static_cast<uint32_t>(number_of(options, "--keep", 0, 0));
+  drain.file_bytes = static_cast<uint64_t>(options.number("--file-megabytes", 0, 0) * (1 << 20));
+  drain.keep_files = static_cast<uint32_t>(options.number("--keep", 0, 0));
   log::Recorder recorder(records, header, drain, path);
   Recording session{controller, records, std::move(requests)};
   std::signal(SIGINT, on_signal);
@@ -271,6 +264,11 @@ int record_live(const std::vector<std::string>& words) {
             << totals.bytes << " bytes in " << totals.files
             << (totals.files == 1 ? " file" : " files")
             << "; damaged frames: " << controller.rejects() << "\n";
+  if (options.has("--json"))
+    std::cout << "{\"log\": " << json_text(path) << ", \"records\": " << totals.records
+              << ", \"missing\": " << totals.missing << ", \"bytes\": " << totals.bytes
+              << ", \"files\": " << totals.files << ", \"damaged_frames\": " << controller.rejects()
+              << "}\n";
   if (!link_error.empty() || !is_closed) return 3;
   return totals.missing > 0 || session.is_rejected ? 1 : 0;
 }

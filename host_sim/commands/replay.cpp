@@ -7,21 +7,11 @@
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/controllers/session.hpp"
+#include "host_sim/report/page_data.hpp"
 #include "host_sim/trace/replay.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
-
-constexpr const char* kHelp =
-    "firmtouch-sim replay LOG [--asset FILE] [--controller WHAT [--image FILE]]\n"
-    "Feeds the inputs of a log to a controller and compares every bit of every output.\n"
-    "  --asset FILE        the asset, if it is not at the path in the log\n"
-    "  --controller WHAT   inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE "
-    "(serial)\n"
-    "  --image FILE        the program for qemu:BOARD (default: "
-    "build/BOARD/bin/firmtouch_app.elf)\n"
-    "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), or "
-    "the log\nis incomplete and all outputs before the gap are equal.\n";
 
 std::string entry_or_empty(const Log& log, const std::string& key) {
   const auto found = log.text.find(key);
@@ -59,14 +49,44 @@ void check_complete(const std::string& path, const Log& log) {
 
 }  // namespace
 
+const Command& replay_command_line() {
+  static const Command command = {
+      "replay",
+      "LOG [options]",
+      "recomputes a log from its inputs and compares every bit of every output",
+      "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), "
+      "or the\nlog is incomplete and all outputs before the gap are equal.\n",
+      {{"--asset", "FILE", "the asset, if it is not at the path in the log"},
+       {"--controller", "WHAT",
+        "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE"},
+       {"--image", "FILE",
+        "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
+       {"--json", nullptr, "the answer as JSON on stdout"}}};
+  return command;
+}
+
+// Ticks, whether all bits are equal, and the first difference.
+std::string json_of(const std::string& path, const Log& log, const std::string& by,
+                    const std::optional<Difference>& d) {
+  std::string text = "{\"log\": " + json_text(path) +
+                     ", \"ticks\": " + std::to_string(log.records.size()) +
+                     ", \"controller\": " + json_text(by) +
+                     ", \"is_complete\": " + (log.is_complete ? "true" : "false") +
+                     ", \"is_equal\": " + (d ? "false" : "true");
+  if (d)
+    text += ", \"difference\": {\"tick\": " + std::to_string(d->tick) +
+            ", \"field\": " + json_text(d->field) + ", \"recorded\": " + json_text(d->expected) +
+            ", \"replayed\": " + json_text(d->found) + "}";
+  return text + "}\n";
+}
+
 int replay_log(const std::vector<std::string>& words) {
-  const Options options(words, {"--asset", "--controller", "--image"});
+  const Options options(replay_command_line(), words);
   if (options.help()) {
-    std::cout << kHelp;
+    std::cout << help_of(replay_command_line());
     return 0;
   }
-  if (options.operands().size() != 1) throw Usage("replay needs one log");
-  const std::string path = options.operands()[0];
+  const std::string path = options.operand("one log");
   const Log log = read_log(path);
   check_same(path, "parameter table",
              std::strtoull(entry(log, path, "parameter_table").c_str(), nullptr, 16),
@@ -94,7 +114,9 @@ int replay_log(const std::vector<std::string>& words) {
     else
       session.controller->tick(input, output), session.controller->make_model();
   };
-  if (const std::optional<Difference> d = replay(log, tick, progress_bar("replaying"))) {
+  const std::optional<Difference> d = replay(log, tick, progress_bar("replaying"));
+  if (options.has("--json")) std::cout << json_of(path, log, by, d);
+  if (d) {
     std::cerr << "firmtouch-sim: " << path << ": first difference at tick " << d->tick << " in "
               << d->field << ": recorded " << d->expected << ", replayed (" << by << ") "
               << d->found << "\n";

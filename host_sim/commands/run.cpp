@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <iostream>
+#include <map>
+#include <optional>
 
 #include "firmtouch/link/build_id.hpp"
 #include "firmtouch/params/table.hpp"
@@ -15,21 +19,6 @@
 
 namespace firmtouch::host_sim {
 namespace {
-
-constexpr const char* kHelp =
-    "firmtouch-sim run SCENARIO [options]\n"
-    "  --set KEY=VALUE          override a line of the scenario, with unit: "
-    "--set \"mass=60 g\"; may be repeated\n"
-    "  --controller WHAT        inproc (default) | qemu:BOARD | unix:PATH | tcp:HOST:PORT | DEVICE "
-    "(serial)\n"
-    "                           every other controller is compared with the in-process one, bit "
-    "for bit\n"
-    "  --image FILE             the program for qemu:BOARD (default: "
-    "build/BOARD/bin/firmtouch_app.elf)\n"
-    "  --report FILE.html       report: 3D view, charts and figures in one file\n"
-    "  --picture FILE.svg       the report's 3D view and force chart\n"
-    "  --log FILE.ftl           input and output of every tick, for `firmtouch-sim replay`\n"
-    "  --csv FILE.csv           the same as text\n\n";
 
 std::string hex(uint64_t value, int digits) {
   char text[24];
@@ -51,26 +40,25 @@ std::string line_of(std::string set) {
   return set;
 }
 
-Log log_of(const Scenario& scenario, const Session& session, const Trace& trace,
-           const std::string& log_path) {
-  Log log;
-  log.text["asset"] = path_from(log_path, session.asset.path());
-  log.text["asset_crc"] = hex(session.controller->asset_crc(), 8);
-  log.text["asset_bytes"] = std::to_string(session.asset.bytes().size());
-  log.text["parameter_table"] = hex(params::table_hash(), 16);
-  log.text["build"] = hex(link::build_id(), 16);
-  log.text["controller"] = trace.controller;
-  if (!session.used.surface.empty()) log.text["surface"] = session.used.surface;
-  if (!session.used.guide.empty()) log.text["guide"] = session.used.guide;
-  log.text["scenario"] = scenario.text;
+std::map<std::string, std::string> log_text(const Scenario& scenario, const Session& session,
+                                            const RunFacts& facts, const std::string& log_path) {
+  std::map<std::string, std::string> text;
+  text["asset"] = path_from(log_path, session.asset.path());
+  text["asset_crc"] = hex(session.controller->asset_crc(), 8);
+  text["asset_bytes"] = std::to_string(session.asset.bytes().size());
+  text["parameter_table"] = hex(params::table_hash(), 16);
+  text["build"] = hex(link::build_id(), 16);
+  text["controller"] = facts.controller;
+  if (!session.used.surface.empty()) text["surface"] = session.used.surface;
+  if (!session.used.guide.empty()) text["guide"] = session.used.guide;
+  text["scenario"] = scenario.text;
   for (uint32_t i = 0; i < params::kCount; ++i) {
     char value[32];
     std::snprintf(value, sizeof value, "%.9g %s", parameter_value(scenario, i),
                   params::kTable[i].unit);
-    log.text[std::string("parameter.") + params::kTable[i].name] = value;
+    text[std::string("parameter.") + params::kTable[i].name] = value;
   }
-  log.records = trace.records;
-  return log;
+  return text;
 }
 
 std::string command_of(const std::vector<std::string>& words) {
@@ -80,24 +68,123 @@ std::string command_of(const std::vector<std::string>& words) {
   return text;
 }
 
+// What a run writes while it goes on.
+class RunOutputs {
+ public:
+  RunOutputs(const Options& options, const Scenario& scenario, const Session& session,
+             const Environment& environment, const RunFacts& facts)
+      : facts_(facts), summariser_(scenario, environment, facts) {
+    if (const std::string path = options.value("--csv"); !path.empty()) csv_.emplace(path);
+    if (const std::string path = options.value("--log"); !path.empty())
+      log_.emplace(path, log_text(scenario, session, facts, path));
+    if (!options.value("--report").empty() || !options.value("--picture").empty()) {
+      charts_.emplace(environment, facts);
+      paths_.emplace(facts);
+    }
+  }
+  void add(const RunTick& tick) {
+    if (csv_) csv_->add(tick, tick.record.input.tick / facts_.rate_Hz);
+    if (log_) log_->add(tick.record);
+    if (charts_) charts_->add(tick), paths_->add(tick);
+    summariser_.add(tick);
+  }
+  Summary finish() {
+    if (csv_) csv_->finish();
+    if (log_) log_->finish();
+    Summary summary = summariser_.finish();
+    if (charts_) charts_->finish(summary);
+    return summary;
+  }
+  const RunCharts& charts() const { return *charts_; }
+  const RunPaths& paths() const { return *paths_; }
+
+ private:
+  const RunFacts& facts_;
+  Summariser summariser_;
+  std::optional<CsvStream> csv_;
+  std::optional<LogStream> log_;
+  std::optional<RunCharts> charts_;
+  std::optional<RunPaths> paths_;
+};
+
+// A path that ends in / is a folder: the report is named after its model.
+std::string report_path(const Options& options, const std::string& asset_path) {
+  const std::string path = options.value("--report");
+  return path.empty() || path.back() != '/'
+             ? path
+             : path + std::filesystem::path(asset_path).stem().string() + ".html";
+}
+
+void write_pages(const Options& options, const Report& report) {
+  if (const std::string path = report_path(options, report.asset_path); !path.empty())
+    write_file(path, page_of(report));
+  if (const std::string path = options.value("--picture"); !path.empty())
+    write_file(path, picture_of(report));
+}
+
+int exit_code(const RunFacts& facts, const Summary& summary) {
+  if (facts.difference) {
+    const Difference& d = *facts.difference;
+    std::cerr << "firmtouch-sim: " << facts.controller
+              << " differs from the in-process controller first at tick " << d.tick << " in "
+              << d.field << ": in-process " << d.expected << ", " << facts.controller << " "
+              << d.found << "\n";
+    return 1;
+  }
+  if (summary.wrong_bounds == 0) return 0;
+  std::cerr << "firmtouch-sim: " << summary.wrong_bounds
+            << " certificates are wrong; this is a defect, please report it\n";
+  return 1;
+}
+
+// Throws Usage if two outputs, or an output and the JSON summary, go to stdout.
+void check_stdout(const Options& options, const NamedFiles& outputs) {
+  size_t count = options.has("--json") ? 1 : 0;
+  for (const auto& output : outputs) count += output.second == "-" ? 1u : 0u;
+  if (count > 1) options.refuse("only one output can go to stdout");
+  if (options.value("--log") == "-") options.refuse("a log needs a file: --log FILE.ftl");
+}
+
 }  // namespace
 
+const Command& run_command_line() {
+  static const std::string details = scenario_help() + parameter_help();
+  static const Command command = {
+      "run",
+      "SCENARIO [options]",
+      "simulates a scenario: a hand moves a device, and the controller renders the force",
+      details.c_str(),
+      {{"--set", "KEY=VALUE",
+        "overrides a line of the scenario, with unit: \"mass=60 g\"; may be repeated"},
+       {"--controller", "WHAT",
+        "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE;\n"
+        "                              others are compared with the in-process one, bit for bit"},
+       {"--image", "FILE",
+        "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
+       {"--report", "FILE.html",
+        "report: 3D view, charts and figures in one file; FOLDER/ names it after its model"},
+       {"--picture", "FILE.svg", "the report's 3D view and force chart"},
+       {"--log", "FILE.ftl", "input and output of every tick, for `firmtouch-sim replay`"},
+       {"--csv", "FILE.csv", "the same as text; - is stdout, also for --report and --picture"},
+       {"--json", nullptr, "the figures as JSON on stdout"}}};
+  return command;
+}
+
 int run_scenario(const std::vector<std::string>& words) {
-  const Options options(
-      words, {"--set", "--controller", "--image", "--report", "--picture", "--log", "--csv"});
+  const Options options(run_command_line(), words);
   if (options.help()) {
-    std::cout << kHelp << scenario_help() << parameter_help();
+    std::cout << help_of(run_command_line());
     return 0;
   }
-  if (options.operands().size() != 1) throw Usage("run needs one scenario");
-  const std::string file = options.operands()[0];
+  const std::string file = options.operand("one scenario");
   std::vector<std::string> sets;
   for (const std::string& set : options.values("--set")) sets.push_back(line_of(set));
   Scenario scenario = read_scenario(file, read_file(file), sets, parameter_rows());
   complete(scenario);
-  NamedFiles outputs;
-  for (const char* name : {"--report", "--picture", "--log", "--csv"})
+  NamedFiles outputs = {{"--report", report_path(options, scenario.asset)}};
+  for (const char* name : {"--picture", "--log", "--csv"})
     outputs.emplace_back(name, options.value(name));
+  check_stdout(options, outputs);
   check_outputs({{"the scenario", file},
                  {"the asset", path_beside(file, scenario.asset)},
                  {"--image", options.value("--image")}},
@@ -109,43 +196,24 @@ int run_scenario(const std::vector<std::string>& words) {
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
                       session.controller->asset_crc());
   check_scene(session, port != nullptr);
-  const Trace trace =
-      run(scenario, *session.controller, environment, port.get(), progress_bar("simulating"));
-  const Summary summary = summarise(scenario, environment, trace);
-
-  if (const std::string path = options.value("--csv"); !path.empty())
-    write_file(path, csv_of(trace));
-  if (const std::string path = options.value("--log"); !path.empty())
-    write_log(path, log_of(scenario, session, trace, path));
-  if (!options.value("--report").empty() || !options.value("--picture").empty()) {
-    const Report report{scenario,
-                        environment,
-                        trace,
-                        summary,
-                        session.asset.path(),
-                        session.asset.bytes().size(),
-                        session.scene_text(),
-                        command_of(words)};
-    if (const std::string path = options.value("--report"); !path.empty())
-      write_file(path, page_of(report));
-    if (const std::string path = options.value("--picture"); !path.empty())
-      write_file(path, picture_of(report));
+  Simulation simulation(scenario, *session.controller, environment, port.get());
+  const RunFacts& facts = simulation.facts();
+  RunOutputs written(options, scenario, session, environment, facts);
+  const std::function<void(double)> progress = progress_bar("simulating");
+  for (RunTick tick; simulation.next(tick);) {
+    written.add(tick);
+    if (progress && tick.record.input.tick % 256 == 0)
+      progress(static_cast<double>(tick.record.input.tick) / facts.ticks);
   }
-  std::cerr << "  scene          " << session.scene_text() << "\n" << text_of(summary, trace);
-  if (trace.difference) {
-    const Difference& d = *trace.difference;
-    std::cerr << "firmtouch-sim: " << trace.controller
-              << " differs from the in-process controller first at tick " << d.tick << " in "
-              << d.field << ": in-process " << d.expected << ", " << trace.controller << " "
-              << d.found << "\n";
-    return 1;
-  }
-  if (summary.wrong_bounds > 0) {
-    std::cerr << "firmtouch-sim: " << summary.wrong_bounds
-              << " certificates are wrong; this is a defect, please report it\n";
-    return 1;
-  }
-  return 0;
+  if (progress) progress(1);
+  const Summary summary = written.finish();
+  if (!options.value("--report").empty() || !options.value("--picture").empty())
+    write_pages(options, {scenario, environment, facts, summary, written.charts(), written.paths(),
+                          session.asset.path(), static_cast<uint32_t>(session.asset.bytes().size()),
+                          session.scene_text(), command_of(words)});
+  if (options.has("--json")) std::cout << json_of(summary, facts);
+  std::cerr << "  scene          " << session.scene_text() << "\n" << text_of(summary, facts);
+  return exit_code(facts, summary);
 }
 
 }  // namespace firmtouch::host_sim

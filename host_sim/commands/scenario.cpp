@@ -13,12 +13,6 @@ namespace {
 // In diagonals above the surface: the planned tool just touches it.
 constexpr double kOutlineHeight = 0.016;
 
-constexpr const char* kHelp =
-    "firmtouch-sim scenario ASSET -o FILE [--outline FILE.csv]\n"
-    "Writes a scenario for an asset, scaled by its bounding box: press on the surface, follow the "
-    "guide,\nemergency stop.\n"
-    "  --outline FILE.csv   write a closed line around the mesh, to be baked as its guide\n";
-
 std::string csv_of(const std::vector<Vec>& line) {
   std::string text = "x,y,z\n";
   for (const Vec& p : line) {
@@ -31,17 +25,26 @@ std::string csv_of(const std::vector<Vec>& line) {
 
 }  // namespace
 
+const Command& scenario_command_line() {
+  static const Command command = {
+      "scenario",
+      "ASSET -o FILE [--outline FILE.csv]",
+      "writes a scenario for an asset: press on the surface, follow the guide, emergency stop",
+      "The scenario is scaled by the asset's bounding box. - as FILE is stdout.\n",
+      {{"-o", "FILE", "the scenario"},
+       {"--outline", "FILE.csv", "a closed line around the mesh, to be baked as its guide"}}};
+  return command;
+}
+
 int make_scenario(const std::vector<std::string>& words) {
-  const Options options(words, {"-o", "--outline"});
+  const Options options(scenario_command_line(), words);
   if (options.help()) {
-    std::cout << kHelp;
+    std::cout << help_of(scenario_command_line());
     return 0;
   }
-  if (options.operands().size() != 1) throw Usage("scenario needs one asset");
-  const std::string path = options.operands()[0], to = options.value("-o"),
+  const std::string path = options.operand("one asset"), to = options.value("-o"),
                     outline_path = options.value("--outline");
-  if (to.empty() && outline_path.empty())
-    throw Usage("scenario needs -o FILE or --outline FILE.csv");
+  if (to.empty() && outline_path.empty()) options.refuse("name -o FILE or --outline FILE.csv");
   check_outputs({{"the asset", path}}, {{"-o", to}, {"--outline", outline_path}});
   const Session session(path);
   if (!session.unused.empty()) std::cerr << path << ": " << session.scene_text() << "\n";

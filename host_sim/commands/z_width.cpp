@@ -2,33 +2,14 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <optional>
 #include <string>
 
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/plant/sampled_wall.hpp"
-#include "host_sim/scenario/units.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
-
-constexpr const char* kHelp =
-    "firmtouch-sim z-width [VALUES]      the stiffest passive and the stiffest stable wall of an "
-    "axis\n"
-    "firmtouch-sim z-width --table       simulated limits of 28 free and 12 held axes against the\n"
-    "                                    exact ones; bar: 1 %\n"
-    "firmtouch-sim z-width --regimes     quantum and Coulomb friction: rest, limit cycle or "
-    "growth,\n"
-    "                                    16 points against describing functions; bar: 10 %\n"
-    "firmtouch-sim z-width --estimators  stiffest wall at rest by velocity estimator; bar: the "
-    "default\n"
-    "                                    8,379 N/m\n\n"
-    "VALUES, in SI: --mass 0.075  --viscous 0.5  --rate 1000  --damping 0  --delay 0 (samples)\n"
-    "               --hand-mass 0  --hand-damping 0  --hand-stiffness 0\n\n"
-    "passive: b > K T / 2 + |B| (Colgate & Schenkel 1994); delayed: K < (b + B) / (T / 2 + delay)\n"
-    "(Gil, Hulin & Diaz); exact: spectral radius 1 of the discrete model.\n"
-    "Exit codes: 0 done, bars met; 1 a bar is not met; 2 usage.\n";
 
 // Mass, own damping and period of the free rows; each at B of 0, a little and much.
 struct Axis {
@@ -172,45 +153,56 @@ int print_estimators() {
   return verdict(of_default >= kBar_N_per_m, text);
 }
 
-double number(const Options& options, const std::string& name, double initial, double low) {
-  const std::string text = options.value(name);
-  if (text.empty()) return initial;
-  const std::optional<double> value = read_number(text);
-  if (!value || !(*value >= low) || !(*value <= 1e6))
-    throw Usage(name + " " + text + ": not a number from " + std::to_string(low) + " to 1e6");
-  return *value;
-}
-
-int print_one(const std::vector<std::string>& words) {
-  const Options options(words, {"--mass", "--viscous", "--rate", "--damping", "--delay",
-                                "--hand-mass", "--hand-damping", "--hand-stiffness"});
-  if (options.help()) {
-    std::cout << kHelp;
-    return 0;
-  }
-  if (!options.operands().empty()) throw Usage("z-width takes no operand");
-  SampledWall wall;
-  wall.mass_kg = number(options, "--mass", wall.mass_kg, 1e-6);
-  wall.viscous_N_s_per_m = number(options, "--viscous", wall.viscous_N_s_per_m, 0);
-  wall.period_s = 1 / number(options, "--rate", 1000, 1);
-  wall.damping_N_s_per_m = number(options, "--damping", 0, 0);
-  const double delay = number(options, "--delay", 0, 0);
-  if (std::floor(delay) < delay || delay > 8) throw Usage("--delay: whole samples, 0 to 8");
-  wall.delay_samples = static_cast<uint32_t>(delay);
-  wall.hand_mass_kg = number(options, "--hand-mass", 0, 0);
-  wall.hand_damping_N_s_per_m = number(options, "--hand-damping", 0, 0);
-  wall.hand_stiffness_N_per_m = number(options, "--hand-stiffness", 0, 0);
-  print_rows({wall});
-  return 0;
-}
-
 }  // namespace
 
+const Command& z_width_command_line() {
+  static const Command command = {
+      "z-width",
+      "[--table | --regimes | --estimators] [options]",
+      "prints the stiffest passive and the stiffest stable wall of an axis",
+      "passive: b > K T / 2 + |B| (Colgate & Schenkel 1994); delayed: K < (b + B) / (T / 2 + "
+      "delay)\n"
+      "(Gil, Hulin & Diaz); exact: spectral radius 1 of the discrete model; simulated: growth or "
+      "decay.\n",
+      {{"--table", nullptr, "28 free and 12 held axes; exit code 1 beyond 1 %"},
+       {"--regimes", nullptr,
+        "quantum and Coulomb friction: 16 points against describing functions; 1 beyond 10 %"},
+       {"--estimators", nullptr, "stiffest wall at rest by velocity estimator; 1 below 8,379 N/m"},
+       {"--mass", "KG", "of the axis (0.075)"},
+       {"--viscous", "N_S_PER_M", "its own damping b (0.5)"},
+       {"--rate", "HZ", "ticks a second (1000)"},
+       {"--damping", "N_S_PER_M", "of the wall, B (0)"},
+       {"--delay", "SAMPLES", "from the position to the force: 0 to 8 (0)"},
+       {"--hand-mass", "KG", "that moves with the axis (0)"},
+       {"--hand-damping", "N_S_PER_M", "of the hand, to the ground (0)"},
+       {"--hand-stiffness", "N_PER_M", "of the hand, to the ground (0)"}}};
+  return command;
+}
+
 int print_z_width(const std::vector<std::string>& words) {
-  if (words.size() == 1 && words[0] == "--table") return print_table();
-  if (words.size() == 1 && words[0] == "--regimes") return print_regimes();
-  if (words.size() == 1 && words[0] == "--estimators") return print_estimators();
-  return print_one(words);
+  const Options options(z_width_command_line(), words);
+  if (options.help()) {
+    std::cout << help_of(z_width_command_line());
+    return 0;
+  }
+  if (!options.operands().empty()) options.refuse("it takes no file");
+  if (options.has("--table")) return print_table();
+  if (options.has("--regimes")) return print_regimes();
+  if (options.has("--estimators")) return print_estimators();
+  SampledWall wall;
+  wall.mass_kg = options.number("--mass", wall.mass_kg, 0);
+  wall.viscous_N_s_per_m = options.number("--viscous", wall.viscous_N_s_per_m, 0);
+  wall.period_s = 1 / options.number("--rate", 1000, 1);
+  wall.damping_N_s_per_m = options.number("--damping", 0, 0);
+  const double delay = options.number("--delay", 0, 0);
+  if (std::floor(delay) < delay || delay > 8) options.refuse("--delay takes 0 to 8 whole samples");
+  if (!(wall.mass_kg > 0)) options.refuse("--mass must exceed 0");
+  wall.delay_samples = static_cast<uint32_t>(delay);
+  wall.hand_mass_kg = options.number("--hand-mass", 0, 0);
+  wall.hand_damping_N_s_per_m = options.number("--hand-damping", 0, 0);
+  wall.hand_stiffness_N_per_m = options.number("--hand-stiffness", 0, 0);
+  print_rows({wall});
+  return 0;
 }
 
 }  // namespace firmtouch::host_sim

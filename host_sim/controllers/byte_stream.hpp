@@ -18,6 +18,8 @@ class ByteStream {
   /// Waits up to `timeout_ms` for at least one byte. Result: bytes read; 0 after the time-out.
   uint32_t read(uint8_t* to, uint32_t capacity, int timeout_ms);
   const std::string& name() const { return name_; }
+  /// To wait for its bytes together with others.
+  int descriptor() const { return in_; }
 
  protected:
   /// Why the stream was closed, for the message: " (exit status 71)".
@@ -30,7 +32,7 @@ class ByteStream {
 std::unique_ptr<ByteStream> connect_stream(const std::string& where);
 
 /// Starts QEMU with `image` and the asset in the board's slot. The link uses two FIFOs, one trap a
-/// frame (hal/cortex-m/file_link.hpp): 20,000 ticks a second; the emulated UART carries 1,000.
+/// frame (hal/emulator/file_link.hpp): 20,000 ticks a second; the emulated UART carries 1,000.
 std::unique_ptr<ByteStream> start_emulator(const std::string& board, const std::string& image,
                                            const std::string& asset_path);
 

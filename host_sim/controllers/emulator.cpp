@@ -72,7 +72,7 @@ class Emulator : public ByteStream {
   pid_t process_;
 };
 
-// Same order as the board: link.in first, then link.out (hal/cortex-m/file_link.hpp).
+// Same order as the board: link.in first, then link.out (hal/emulator/file_link.hpp).
 void Emulator::open_files() {
   in_ = open((folder_ + "/link.out").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   for (int i = 0; i < kStartPolls && out_ < 0; ++i) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "firmtouch/record/tick.hpp"
+#include "log/interface.hpp"
 
 namespace firmtouch::host_sim {
 
@@ -14,12 +15,8 @@ struct TickCost {
 };
 
 /// A controller outside this process, driven in lock-step: one input sent, one output received.
-class LockStepController {
+class LockStepController : public log::Interface {
  public:
-  LockStepController() = default;
-  LockStepController(const LockStepController&) = delete;
-  LockStepController& operator=(const LockStepController&) = delete;
-  virtual ~LockStepController() = default;
   /// Throws Refused if the controller does not answer, or answers with an error.
   virtual TickCost tick(const record::TickInput& input, record::TickOutput& output) = 0;
   /// Name for messages and the report: "mps2-an500 (qemu)".

@@ -53,10 +53,10 @@ std::string core_of(const std::string& controller) {
 }
 
 std::string bits_claim(const Report& report) {
-  const Trace& trace = report.trace;
+  const RunFacts& trace = report.facts;
   if (trace.compared && !trace.difference)
     return claim("Same bits" + core_of(trace.controller),
-                 "<span class=\"yes\">all equal</span> <small>" + grouped(trace.records.size()) +
+                 "<span class=\"yes\">all equal</span> <small>" + grouped(report.summary.ticks) +
                      " ticks</small>",
                  "In this run every output bit of every tick of " + html_of(trace.controller) +
                      " was equal to the in-process controller&rsquo;s.");
@@ -77,21 +77,41 @@ std::string contact_claim(const Summary& s) {
                    " mm. The tool could pass through a wall thinner than twice that.");
 }
 
+std::string quality_item(const std::string& text, bool is_bad) {
+  return is_bad ? "<span class=\"no\">" + text + "</span>" : text;
+}
+
+std::string quality_claim(const Summary& s) {
+  if (s.contact_ticks + s.guide_ticks == 0)
+    return claim("Feel", "<span class=\"no\">nothing was touched</span>",
+                 "No tick had contact or guidance while the motors were on.");
+  return claim(
+      "Feel",
+      s.is_bad_contact() ? "<span class=\"no\">bad</span>" : "<span class=\"yes\">calm</span>",
+      quality_item(grouped(s.limit_ticks) + " ticks at the force limit", s.is_saturated()) + "; " +
+          quality_item("deepest " + fixed(s.deepest_radii(), 2) + " tool radii", s.is_deep()) +
+          "; " +
+          quality_item("chatter above 50 Hz " + fixed(s.chatter_N, 3) + " N" +
+                           (s.chatter_s > 0 ? " (" + fixed(s.chatter_s, 2) + " s above " +
+                                                  fixed(s.chatter_limit_N(), 2) + " N)"
+                                            : ""),
+                       s.chatters()) +
+          "; " +
+          quality_item("largest turn of the force " +
+                           fixed(s.worst_turn_rad * 57.29577951308232, 1) + "&deg; a tick",
+                       s.turns()) +
+          ".");
+}
+
 std::string row(const std::string& name, const std::string& value) {
   return "<tr><th scope=\"row\">" + name + "</th><td>" + value + "</td></tr>";
 }
 
-// "emergency stop at 11.430 s (in the scenario)"
-std::string faults_text(const Report& report) {
-  const Summary& s = report.summary;
+// "emergency stop at 11.430 s (part of the scenario)"
+std::string faults_text(const Summary& s) {
   if (s.fault_s < 0) return "none";
-  const bool is_scripted =
-      std::any_of(report.trace.events.begin(), report.trace.events.end(), [&](const Event& event) {
-        return event.kind <= Event::Kind::kEncoderFault &&
-               std::fabs(event.time_s - s.fault_s) < 1.5 / s.rate_Hz;
-      });
   return html_of(s.fault_names) + " at " + fixed(s.fault_s, 3) + " s" +
-         (is_scripted ? " (in the scenario)" : "");
+         (s.fault_is_scripted ? " (part of the scenario)" : "");
 }
 
 std::string table(const Report& report, const Scene3d& scene3d) {
@@ -133,7 +153,7 @@ std::string table(const Report& report, const Scene3d& scene3d) {
   rows +=
       row("Device", fixed(scenario.device.mass_kg * 1e3, 0) + " g, " +
                         fixed(scenario.device.encoder_quantum_m * 1e6, 0) + " &micro;m per count");
-  rows += row("Faults latched", faults_text(report));
+  rows += row("Faults latched", faults_text(s));
   return "<table>" + rows + "</table>";
 }
 
@@ -151,25 +171,29 @@ std::string legend(const Scene3d& scene3d) {
          "is up</label></div>";
 }
 
+// The script draws the charts at the page's width; without it the notes and the picture remain.
 std::string plots(const RunCharts& run) {
-  std::string html;
-  for (size_t i = 0; i < run.charts.size(); ++i) {
-    const Chart& chart = run.charts[i];
-    html += "<section class=\"card plot\"><header><h2>" + chart.title + "</h2><div class=\"keys\">";
-    for (const Series& s : chart.series)
-      html += "<span><i style=\"background:" + s.colour + "\"></i>" + html_of(s.label) +
-              "<span class=\"value\"></span></span>";
-    if (i == 0)
-      html +=
-          "<span><i style=\"background:var(--second)\"></i>in contact</span><span><i "
-          "style=\"background:var(--good)\"></i>on the guide</span>";
-    html += "</div><span class=\"now\"></span></header>" +
-            svg_of(chart, run.axis, {}, static_cast<int>(i));
-    if (!run.notes[i].empty()) html += "<p>" + run.notes[i] + "</p>";
-    html += "</section>";
-  }
-  return html;
+  std::string html = "<div id=\"plots\">";
+  for (const RunChart& chart : run.charts())
+    html += "<section class=\"card plot\"><header><h2>" + html_of(chart.title) +
+            "</h2></header><p>" + html_of(chart.note) + "</p></section>";
+  return html + "</div>";
 }
+
+// One time for all charts and the 3D view.
+constexpr const char* kTimeBar =
+    "<div id=\"time\" hidden><button type=\"button\" id=\"play\" "
+    "aria-label=\"play\">&#9654;</button>"
+    "<select id=\"speed\" aria-label=\"speed\"><option value=\"0.02\">1/50</option>"
+    "<option value=\"0.1\">1/10</option><option value=\"0.5\">1/2</option>"
+    "<option value=\"1\" selected>1&times;</option><option value=\"4\">4&times;</option></select>"
+    "<input type=\"range\" id=\"slider\" min=\"0\" max=\"10000\" value=\"0\" aria-label=\"time\">"
+    "<output id=\"clock\"></output><span class=\"zoom\">"
+    "<button type=\"button\" id=\"earlier\" aria-label=\"earlier\">&lsaquo;</button>"
+    "<button type=\"button\" id=\"out\" aria-label=\"zoom out\">&minus;</button>"
+    "<button type=\"button\" id=\"in\" aria-label=\"zoom in\">+</button>"
+    "<button type=\"button\" id=\"later\" aria-label=\"later\">&rsaquo;</button>"
+    "<button type=\"button\" id=\"all\">All</button></span></div>";
 
 std::string lede(const Report& report) {
   const Summary& s = report.summary;
@@ -195,37 +219,37 @@ std::string noscript(const Scene3d& scene3d) {
 }  // namespace
 
 std::string page_of(const Report& report) {
-  const Scene3d scene3d = make_scene3d(report.environment, report.trace,
+  const Scene3d scene3d = make_scene3d(report.environment, report.paths,
                                        parameter_value(report.scenario, params::kToolRadius));
-  const RunCharts run = make_charts(report);
-  const std::string name = html_of(file_name(report.asset_path));
+  const std::string name = html_of(std::filesystem::path(report.asset_path).stem().string());
   std::string html =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\">"
-      "<title>Firmtouch: " +
-      name + "</title><link rel=\"icon\" href=\"data:,\"><style>\n" + std::string(kReportCss) +
-      "</style></head>\n<body><main>";
+      "<title>" +
+      name + " - Firmtouch report</title><link rel=\"icon\" href=\"data:,\"><style>\n" +
+      std::string(kReportCss) + "</style></head>\n<body><main>";
   html += "<p class=\"brand\"><b>Firmtouch</b> run report</p><h1>Touching " + name +
           "</h1><p class=\"lede\">" + lede(report) + "</p>";
   html += "<ul class=\"claims\">" + certificate_claim(report.summary) +
           visits_claim(report.summary) + bits_claim(report) + contact_claim(report.summary) +
-          "</ul>\n";
+          quality_claim(report.summary) + "</ul>\n";
   html +=
       "<div class=\"top\"><section class=\"card stage\"><div class=\"title\"><h2>The part, the "
       "guide and the tool</h2><span class=\"now\"></span></div>"
-      "<p class=\"hint\">drag: rotate; click, then scroll: zoom; double-click: reset</p>"
-      "<div class=\"sight\"><canvas id=\"stage\" tabindex=\"0\" role=\"img\" aria-label=\"the part "
+      "<div class=\"sight\"><p class=\"hint\">drag: rotate; Shift or two fingers: move; pinch, or "
+      "click and scroll: zoom; double-click: reset</p><canvas id=\"stage\" tabindex=\"0\" "
+      "role=\"img\" aria-label=\"the part "
       "in 3D with the device's and the tool's paths\"></canvas></div>" +
       noscript(scene3d) + legend(scene3d) +
       "</section><section class=\"card\"><h2>Key figures</h2>" + table(report, scene3d) +
       "</section></div>\n";
-  html += plots(run);
+  html += plots(report.charts) + kTimeBar;
   html += "<footer><p>Written by <code>" + html_of(report.command) +
           "</code>. The oracle that checks the distances shares no code with the controller.</p>"
           "<details><summary>The scenario</summary><pre>" +
           html_of(report.scenario.text) + "</pre></details></footer></main>\n";
-  html += "<script type=\"application/json\" id=\"run-data\">" + data_of(report, scene3d, run) +
-          "</script>\n<script>\n" + std::string(kViewerJs) + "</script></body></html>\n";
+  html += "<script type=\"application/json\" id=\"run-data\">" + data_of(report, scene3d) +
+          "</script>\n<script>\n" + std::string(kReportJs) + "</script></body></html>\n";
   return html;
 }
 

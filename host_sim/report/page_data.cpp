@@ -7,34 +7,40 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr size_t kCursorSteps = 1200;  // positions of the time cursor: finer than its pixels
 constexpr double kFullScale = 32767;
+// Positions are scaled to the scene's bounding sphere: centre 0, radius 1. Paths may leave it.
+constexpr double kPathReach = 4;
+constexpr int16_t kBreak = -32768;  // a path is interrupted
 
-// Positions are scaled to the scene's bounding sphere: centre 0, radius 1.
 Vec normalized(const Scene3d& scene3d, Vec p) {
   return (p - scene3d.centre) * (1 / scene3d.radius_m);
 }
 
-std::string point_text(const Scene3d& scene3d, Vec p) {
-  if (std::isnan(p.x)) return "null";
-  const Vec q = normalized(scene3d, p);
-  return "[" + fixed(q.x, 4) + "," + fixed(q.y, 4) + "," + fixed(q.z, 4) + "]";
+void add_scaled(std::vector<int16_t>& list, Vec v, double reach) {
+  for (const double c : {v.x, v.y, v.z})
+    list.push_back(
+        static_cast<int16_t>(std::lround(std::clamp(c / reach, -1.0, 1.0) * kFullScale)));
 }
 
-std::string points_text(const Scene3d& scene3d, const std::vector<Vec>& points, size_t stride) {
-  std::string text = "[";
-  for (size_t i = 0; i < points.size(); i += stride)
-    text += (i > 0 ? "," : "") + point_text(scene3d, points[i]);
-  return text + "]";
+template <class T>
+std::string packed(const std::vector<T>& list) {
+  return "\"" + base64_of(list.data(), list.size() * sizeof(T)) + "\"";
 }
 
-std::string mesh_text(const Scene3d& scene3d, bool closed) {
-  std::vector<int16_t> vertices;
-  for (const Vec& v : scene3d.vertices) {
-    const Vec q = normalized(scene3d, v);
-    for (const double c : {q.x, q.y, q.z})
-      vertices.push_back(static_cast<int16_t>(std::lround(std::clamp(c, -1.0, 1.0) * kFullScale)));
+std::string points_text(const Scene3d& scene3d, const std::vector<Vec>& points) {
+  std::vector<int16_t> list;
+  for (const Vec& p : points) {
+    if (std::isnan(p.x))
+      list.insert(list.end(), 3, kBreak);
+    else
+      add_scaled(list, normalized(scene3d, p), kPathReach);
   }
+  return packed(list);
+}
+
+std::string mesh_text(const Scene3d& scene3d, bool is_closed) {
+  std::vector<int16_t> vertices;
+  for (const Vec& v : scene3d.vertices) add_scaled(vertices, normalized(scene3d, v), 1);
   const bool is_wide = scene3d.vertices.size() > 65536;
   std::vector<uint16_t> narrow;
   std::vector<uint32_t> wide;
@@ -45,18 +51,15 @@ std::string mesh_text(const Scene3d& scene3d, bool closed) {
       else
         narrow.push_back(static_cast<uint16_t>(corner));
     }
-  return std::string("{\"closed\":") + (closed ? "true" : "false") +
-         ",\"wide\":" + (is_wide ? "true" : "false") + ",\"vertices\":\"" +
-         base64_of(vertices.data(), vertices.size() * 2) + "\",\"triangles\":\"" +
-         (is_wide ? base64_of(wide.data(), wide.size() * 4)
-                  : base64_of(narrow.data(), narrow.size() * 2)) +
-         "\"}";
+  return std::string("{\"closed\":") + (is_closed ? "true" : "false") +
+         ",\"wide\":" + (is_wide ? "true" : "false") + ",\"vertices\":" + packed(vertices) +
+         ",\"triangles\":" + (is_wide ? packed(wide) : packed(narrow)) + "}";
 }
 
 std::string path_text(const Scene3d& scene3d, const Path& path) {
-  std::string text = "{\"key\":\"" + path.key + "\",\"colour\":\"" + hex_of(path.colour) +
+  std::string text = "{\"key\":" + json_text(path.key) + ",\"colour\":\"" + hex_of(path.colour) +
                      "\",\"width\":" + fixed(path.width, 1) +
-                     ",\"points\":" + points_text(scene3d, path.points, 1);
+                     ",\"points\":" + points_text(scene3d, path.points);
   if (!path.values.empty()) {
     text += ",\"colours\":[";
     for (size_t i = 0; i < path.values.size(); ++i)
@@ -66,29 +69,46 @@ std::string path_text(const Scene3d& scene3d, const Path& path) {
   return text + "}";
 }
 
-std::string series_text(const Report& report, const Scene3d& scene3d, const RunCharts& run) {
-  const size_t n = report.trace.records.size();
-  const size_t stride = std::max<size_t>(1, n / kCursorSteps);
-  // The cursor starts at the largest force.
-  const std::vector<double>& force = run.charts.front().series.back().values;
-  const size_t start =
-      static_cast<size_t>(std::max_element(force.begin(), force.end()) - force.begin()) / stride;
-  std::string text = "{\"step\":" + fixed(static_cast<double>(stride) / report.trace.rate_Hz, 6) +
-                     ",\"start\":" + std::to_string(start) +
-                     ",\"device\":" + points_text(scene3d, report.trace.device_m, stride) +
-                     ",\"charts\":[";
-  for (size_t c = 0; c < run.charts.size(); ++c) {
-    text += c > 0 ? ",[" : "[";
-    for (size_t s = 0; s < run.charts[c].series.size(); ++s) {
-      text += s > 0 ? ",[" : "[";
-      const std::vector<double>& values = run.charts[c].series[s].values;
-      for (size_t i = 0; i < n; i += stride)
-        text += (i > 0 ? ",\"" : "\"") + fixed(values[i], run.charts[c].decimals) + "\"";
-      text += "]";
-    }
-    text += "]";
+std::string samples_text(const Report& report, const Scene3d& scene3d) {
+  std::vector<int16_t> device, force;
+  for (const RunPaths::Sample& sample : report.paths.samples()) {
+    add_scaled(device, normalized(scene3d, sample.device_m), kPathReach);
+    add_scaled(force, sample.force_N, report.paths.peak_N());
   }
-  return text + "]}";
+  return "{\"step_s\":" + fixed(report.paths.ticks_per_sample() / report.facts.rate_Hz, 6) +
+         ",\"first\":" + std::to_string(report.paths.first()) +
+         ",\"peak_N\":" + fixed(report.paths.peak_N(), 6) + ",\"device\":" + packed(device) +
+         ",\"force\":" + packed(force) + "}";
+}
+
+std::string spans_text(const chart::TimeAxis::Spans& spans) {
+  std::string text;
+  for (const auto& [from, to] : spans)
+    text += (text.empty() ? "[" : ",[") + fixed(from, 4) + "," + fixed(to, 4) + "]";
+  return "[" + text + "]";
+}
+
+std::string axis_text(const chart::TimeAxis& axis) {
+  std::string events;
+  for (const auto& [time, text] : axis.events)
+    events += (events.empty() ? "[" : ",[") + fixed(time, 4) + "," + json_text(text) + "]";
+  return "{\"contact\":" + spans_text(axis.contact_s) + ",\"guide\":" + spans_text(axis.guide_s) +
+         ",\"off\":" + spans_text(axis.off_s) + ",\"events\":[" + events + "]}";
+}
+
+std::string chart_text(const RunChart& chart) {
+  std::string curves;
+  for (const Curve& curve : chart.curves)
+    curves += (curves.empty() ? "{\"label\":" : ",{\"label\":") + json_text(curve.label) +
+              ",\"colour\":" + json_text(curve.colour) +
+              ",\"area\":" + (curve.is_area ? "true" : "false") +
+              ",\"width\":" + fixed(curve.width, 1) + ",\"low\":" + packed(curve.values.low()) +
+              ",\"high\":" + packed(curve.values.high()) + "}";
+  return "{\"title\":" + json_text(chart.title) + ",\"unit\":" + json_text(chart.unit) +
+         ",\"note\":" + json_text(chart.note) + ",\"decimals\":" + std::to_string(chart.decimals) +
+         ",\"log\":" + (chart.is_logarithmic ? "true" : "false") +
+         ",\"limit\":" + fixed(chart.limit, 6) + ",\"limitLabel\":" + json_text(chart.limit_label) +
+         ",\"curves\":[" + curves + "]}";
 }
 
 }  // namespace
@@ -99,14 +119,45 @@ std::string hex_of(Colour colour) {
   return text;
 }
 
-std::string data_of(const Report& report, const Scene3d& scene3d, const RunCharts& run) {
-  const bool closed = report.environment.has_mesh() && report.environment.mesh().is_signed() &&
-                      scene3d.triangles.size() == scene3d.source_triangles;
-  std::string text = "{\"toolRadius\":" + fixed(scene3d.tool_radius_m / scene3d.radius_m, 5) +
-                     ",\"mesh\":" + mesh_text(scene3d, closed) + ",\"paths\":[";
-  for (size_t i = 0; i < scene3d.paths.size(); ++i)
-    text += (i > 0 ? "," : "") + path_text(scene3d, scene3d.paths[i]);
-  return text + "],\"series\":" + series_text(report, scene3d, run) + "}";
+std::string json_text(const std::string& text) {
+  std::string json = "\"";
+  for (const char c : text) {
+    char escaped[8];
+    std::snprintf(escaped, sizeof escaped, "\\u%04x", static_cast<unsigned char>(c));
+    // `<` too: no text ends the page's script.
+    const bool is_plain = static_cast<unsigned char>(c) >= ' ' && c != '"' && c != '\\' && c != '<';
+    json += is_plain ? std::string(1, c) : escaped;
+  }
+  return json + "\"";
+}
+
+std::string scene_data_of(const Scene3d& scene3d, bool is_closed) {
+  std::string paths;
+  for (const Path& path : scene3d.paths)
+    paths += (paths.empty() ? "" : ",") + path_text(scene3d, path);
+  return "\"toolRadius\":" + fixed(scene3d.tool_radius_m / scene3d.radius_m, 5) + ",\"centre\":[" +
+         fixed(scene3d.centre.x, 6) + "," + fixed(scene3d.centre.y, 6) + "," +
+         fixed(scene3d.centre.z, 6) + "],\"radius_m\":" + fixed(scene3d.radius_m, 6) +
+         ",\"mesh\":" + mesh_text(scene3d, is_closed) + ",\"paths\":[" + paths + "]";
+}
+
+std::string data_of(const Report& report, const Scene3d& scene3d) {
+  const bool is_closed = report.environment.has_mesh() && report.environment.mesh().is_signed() &&
+                         scene3d.triangles.size() == scene3d.source_triangles;
+  // The cursor starts at the largest force.
+  const std::vector<RunPaths::Sample>& samples = report.paths.samples();
+  const auto most = std::max_element(
+      samples.begin(), samples.end(),
+      [](const auto& a, const auto& b) { return norm(a.force_N) < norm(b.force_N); });
+  const double start_s = static_cast<double>(most - samples.begin()) *
+                         report.paths.ticks_per_sample() / report.facts.rate_Hz;
+  std::string charts;
+  for (const RunChart& chart : report.charts.charts())
+    charts += (charts.empty() ? "" : ",") + chart_text(chart);
+  const double bin_s = report.charts.ticks_per_bin() / report.facts.rate_Hz;
+  return "{\"bin_s\":" + fixed(bin_s, 6) + ",\"start_s\":" + fixed(start_s, 6) + "," +
+         scene_data_of(scene3d, is_closed) + ",\"samples\":" + samples_text(report, scene3d) +
+         ",\"axis\":" + axis_text(report.charts.axis()) + ",\"charts\":[" + charts + "]}";
 }
 
 }  // namespace firmtouch::host_sim

@@ -2,14 +2,19 @@
 #include <string>
 
 #include "host_sim/report/report.hpp"
-#include "host_sim/report/run_charts.hpp"
 #include "host_sim/report/scene3d.hpp"
 
 namespace firmtouch::host_sim {
 
-/// Data of the page's script as JSON: mesh, paths, and the charts' values.
-std::string data_of(const Report& report, const Scene3d& scene3d, const RunCharts& run);
+/// Data of the report's script as JSON: mesh, paths, samples, and the charts' values.
+std::string data_of(const Report& report, const Scene3d& scene3d);
+
+/// Surface and paths as members of a JSON object, for the 3D view of a page.
+std::string scene_data_of(const Scene3d& scene3d, bool is_closed);
 
 std::string hex_of(Colour colour);
+
+/// A JSON string.
+std::string json_text(const std::string& text);
 
 }  // namespace firmtouch::host_sim

@@ -2,8 +2,11 @@
 
 namespace firmtouch::host_sim {
 
-// Contents of report.css and viewer.js, embedded by the build.
+// Style sheets and scripts of the pages, embedded by the build.
 extern const char* const kReportCss;
-extern const char* const kViewerJs;
+extern const char* const kReportJs;
+extern const char* const kLiveHtml;
+extern const char* const kLiveCss;
+extern const char* const kLiveJs;
 
 }  // namespace firmtouch::host_sim

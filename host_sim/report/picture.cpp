@@ -21,23 +21,10 @@ std::string text_at(double x, double y, int size, const std::string& colour,
          colour + "\">" + text + "</text>";
 }
 
-// Position of the tool at the largest force.
-Vec tool_at_peak(const Trace& trace) {
-  size_t best = 0;
-  double most = -1;
-  for (size_t i = 0; i < trace.records.size(); ++i) {
-    const float(&f)[3] = trace.records[i].output.force_N;
-    const double force =
-        norm({static_cast<double>(f[0]), static_cast<double>(f[1]), static_cast<double>(f[2])});
-    if (force > most) most = force, best = i;
-  }
-  return trace.device_m[best];
-}
-
 }  // namespace
 
 std::string picture_of(const Report& report) {
-  Scene3d scene3d = make_scene3d(report.environment, report.trace,
+  Scene3d scene3d = make_scene3d(report.environment, report.paths,
                                  parameter_value(report.scenario, params::kToolRadius));
   std::string key;
   double at = 24;
@@ -55,12 +42,11 @@ std::string picture_of(const Report& report) {
     at += 52 + 7.0 * static_cast<double>(path.label.size());
   }
   const std::string png =
-      png_of(draw(scene3d, kImageWidth, kImageHeight, kPaper, tool_at_peak(report.trace)));
-  const RunCharts run = make_charts(report);
+      png_of(draw(scene3d, kImageWidth, kImageHeight, kPaper, report.paths.peak_device_m()));
   const Summary& s = report.summary;
   const double charts_top = kImageTop + kImageShown + 34;
-  const ChartSize size{kWidth - 48, 140};
-  const size_t shown = std::min<size_t>(2, run.charts.size());
+  const chart::ChartSize size{kWidth - 48, 140};
+  const size_t shown = std::min<size_t>(2, report.charts.charts().size());
   const double height = charts_top + static_cast<double>(shown) * 166 + 8;
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(kWidth, 0) +
                     " " + fixed(height, 0) +
@@ -83,13 +69,13 @@ std::string picture_of(const Report& report) {
          "\" href=\"data:image/png;base64," + base64_of(png.data(), png.size()) + "\"/>" + key;
   for (size_t i = 0; i < shown; ++i) {
     const double top = charts_top + static_cast<double>(i) * 166;
-    svg += text_at(24, top + 14, 14, "#16202e", html_of(run.charts[i].title), 620);
+    svg += text_at(24, top + 14, 14, "#16202e", html_of(report.charts.charts()[i].title), 620);
     if (i == 0)
       svg += text_at(84, top + 14, 13, "#566175",
                      "bars: orange in contact, green on the guide; grey: motors off");
     svg += "<svg x=\"24\" y=\"" + fixed(top + 20, 0) + "\" width=\"" + fixed(size.width, 0) +
            "\" height=\"" + fixed(size.height, 0) + "\">" +
-           svg_of(run.charts[i], run.axis, size, 0) + "</svg>";
+           svg_of(chart_of(report.charts.charts()[i]), report.charts.axis(), size, 0) + "</svg>";
   }
   return chart::with_colours(svg + "</svg>\n");
 }

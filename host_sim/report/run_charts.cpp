@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "firmtouch/servo/fault.hpp"
 
@@ -16,96 +15,77 @@ constexpr const char* kGreen = "var(--good)";
 
 using Output = record::TickOutput;
 
-Vec wide(const float (&v)[3]) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+double wide(float value) { return static_cast<double>(value); }
+double length(const float (&v)[3]) { return norm({wide(v[0]), wide(v[1]), wide(v[2])}); }
+
+// A value of the controller's output, in `scale` of its unit.
+std::function<double(const RunTick&)> output(float Output::*field, double scale) {
+  return [=](const RunTick& tick) { return wide(tick.record.output.*field) * scale; };
 }
 
-std::vector<double> values(const Trace& trace, const std::function<double(const Output&)>& of) {
-  std::vector<double> list;
-  list.reserve(trace.records.size());
-  for (const record::TickRecord& r : trace.records) list.push_back(of(r.output));
-  // Before its parameters are set, the controller's outputs are meaningless.
-  const size_t setup = std::min(trace.setup_ticks, list.size() - 1);
-  std::fill(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(setup), list[setup]);
-  return list;
+double signed_lower_mm(const RunTick& tick) {
+  const Output& out = tick.record.output;
+  return std::copysign(wide(out.distance_lower_m), wide(out.distance_m)) * 1e3;
 }
 
-std::vector<double> lengths(const std::vector<Vec>& vectors) {
-  std::vector<double> list;
-  for (const Vec& v : vectors) list.push_back(norm(v));
-  return list;
+std::vector<RunChart> surface_charts() {
+  return {
+      {"Penetration of the tool's sphere",
+       "mm",
+       "Penalty contact: the contact force is a function of this depth, so the tool penetrates a "
+       "softer surface farther. With the motors off (grey) nothing holds the hand.",
+       {{"into the surface", kOrange, output(&Output::penetration_m, 1e3), true}}},
+      {"Distance of the tool's centre to the surface",
+       "mm",
+       "",
+       {{"reported (upper bound), negative inside", kBlue, output(&Output::distance_m, 1e3), false,
+         2.6},
+        {"certified lower bound", kOrange, signed_lower_mm, false, 1.1}},
+       3}};
 }
 
-TimeAxis::Spans spans(const Trace& trace, const std::function<bool(const Output&)>& holds) {
-  TimeAxis::Spans list;
-  for (size_t i = 0; i < trace.records.size(); ++i) {
-    if (!holds(trace.records[i].output)) continue;
-    const double from = static_cast<double>(i) / trace.rate_Hz, to = from + 1 / trace.rate_Hz;
-    // Gaps of a few ticks are invisible at this scale.
-    if (!list.empty() && from - list.back().second < 0.004)
-      list.back().second = to;
-    else
-      list.emplace_back(from, to);
-  }
-  return list;
-}
-
-std::vector<std::pair<double, std::string>> fault_events(const Trace& trace) {
-  std::vector<std::pair<double, std::string>> list;
-  uint32_t before = 0;
-  for (size_t i = 0; i < trace.records.size(); ++i) {
-    const uint32_t risen = trace.records[i].output.faults & ~before;
-    before |= risen;
-    for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
-      if ((risen >> bit & 1u) != 0)
-        list.emplace_back(static_cast<double>(i) / trace.rate_Hz,
-                          std::string("fault: ") + servo::fault_name(bit));
-  }
-  return list;
-}
-
-Chart force_chart(const Report& report) {
-  Chart chart{"Force", "N", {}, false, 0, "", 2};
-  chart.series.push_back(
-      {"of the simulated hand", kGrey, lengths(report.trace.hand_N), false, 1.1});
-  chart.series.push_back(
-      {"at the tool", kBlue,
-       values(report.trace, [](const Output& o) { return norm(wide(o.force_N)); }), true, 1.7});
-  return chart;
-}
-
-Chart distance_chart(const Report& report) {
-  Chart chart{"Distance of the tool's centre to the surface", "mm", {}, false, 0, "", 3};
-  chart.series.push_back(
-      {"reported (upper bound), negative inside", kBlue,
-       values(report.trace,
-              [](const Output& o) { return static_cast<double>(o.distance_m) * 1e3; }),
-       false, 2.6});
-  chart.series.push_back({"certified lower bound", kOrange,
-                          values(report.trace,
-                                 [](const Output& o) {
-                                   return std::copysign(static_cast<double>(o.distance_lower_m),
-                                                        static_cast<double>(o.distance_m)) *
-                                          1e3;
-                                 }),
-                          false, 1.1});
-  return chart;
-}
-
-Chart visits_chart(const Report& report) {
-  Chart chart{"Visits a tick",
-              "visits",
-              {},
-              true,
-              static_cast<double>(report.summary.budget_visits),
-              "",
-              0};
-  chart.limit_label = "budget " + std::to_string(report.summary.budget_visits);
-  chart.series.push_back(
-      {"tree nodes read", kBlue,
-       values(report.trace, [](const Output& o) { return static_cast<double>(o.steps); }), true,
-       1.2});
-  return chart;
+std::vector<RunChart> charts_of(const Environment& environment) {
+  std::vector<RunChart> charts = {
+      {"Force",
+       "N",
+       "",
+       {{"of the simulated hand", kGrey, [](const RunTick& tick) { return norm(tick.hand_N); },
+         false, 1.1},
+        {"at the tool", kBlue,
+         [](const RunTick& tick) { return length(tick.record.output.force_N); }, true, 1.7}}}};
+  if (environment.has_surface())
+    for (RunChart& chart : surface_charts()) charts.push_back(std::move(chart));
+  charts.push_back(
+      {"Visits a tick",
+       "visits",
+       "Surface and guide query together, logarithmic scale. A tick never exceeds its budget.",
+       {{"tree nodes read", kBlue,
+         [](const RunTick& tick) { return static_cast<double>(tick.record.output.steps); }, true,
+         1.2}},
+       0,
+       true});
+  if (environment.has_guide())
+    charts.push_back(
+        {"Distance to the guide",
+         "mm",
+         "A virtual spring and damper acts across the guide; along it the hand is free.",
+         {{"of the tool's centre", kGreen, output(&Output::guide_deviation_m, 1e3), true}}});
+  charts.push_back(
+      {"Speed",
+       "mm/s",
+       "",
+       {{"of the tool, as estimated from the encoders", kBlue,
+         [](const RunTick& tick) { return length(tick.record.output.velocity_mps) * 1e3; }, false,
+         1.2}},
+       1});
+  charts.push_back(
+      {"Instructions a tick",
+       "instr.",
+       "Instructions of the whole tick. An emulator counts instructions, not cycles.",
+       {{"counted on the controller", kBlue,
+         [](const RunTick& tick) { return static_cast<double>(tick.instructions); }, false, 1.2}},
+       0});
+  return charts;
 }
 
 std::string note_of_distance(const Summary& s) {
@@ -119,62 +99,78 @@ std::string note_of_distance(const Summary& s) {
 
 }  // namespace
 
-RunCharts make_charts(const Report& report) {
-  const Trace& trace = report.trace;
-  RunCharts run;
-  run.axis.seconds = report.summary.seconds;
-  const auto with_motors_on = [](uint32_t bit) {
-    return [bit](const Output& o) { return motors_are_on(o) && (o.state & bit) != 0; };
-  };
-  run.axis.contact_s = spans(trace, with_motors_on(record::kStateContact));
-  run.axis.guide_s = spans(trace, with_motors_on(record::kStateOnGuide));
-  run.axis.off_s = spans(trace, [](const Output& o) { return o.faults != 0; });
-  run.axis.events = fault_events(trace);
-  const auto add = [&](Chart chart, std::string note) {
-    run.charts.push_back(std::move(chart));
-    run.notes.push_back(std::move(note));
-  };
-  add(force_chart(report), "Force at the tool after all limits; the force limit is " +
-                               fixed(report.summary.force_limit_N, 1) +
-                               " N. Grey background: after a fault the motors are off.");
-  if (report.summary.has_surface) {
-    Chart depth{"Penetration of the tool's sphere", "mm", {}, false, 0, "", 2};
-    depth.series.push_back(
-        {"into the surface", kOrange,
-         values(trace, [](const Output& o) { return static_cast<double>(o.penetration_m) * 1e3; }),
-         true, 1.6});
-    add(std::move(depth),
-        "Penalty contact: the contact force is a function of this depth, so the tool penetrates a "
-        "softer surface farther. With the motors off (grey) nothing holds the hand.");
-    add(distance_chart(report), note_of_distance(report.summary));
+RunCharts::RunCharts(const Environment& environment, const RunFacts& facts)
+    : facts_(facts),
+      ticks_per_bin_(1 + (facts.ticks - 1) / static_cast<uint32_t>(kMaxBins)),
+      bins_(1 + (facts.ticks - 1) / ticks_per_bin_),
+      charts_(charts_of(environment)) {
+  axis_.seconds = static_cast<double>(bins_) * ticks_per_bin_ / facts.rate_Hz;
+  min_gap_s_ = std::max(0.004, axis_.seconds / 4096);
+  for (RunChart& chart : charts_)
+    for (Curve& curve : chart.curves) curve.values = {bins_, ticks_per_bin_ == 1};
+}
+
+void RunCharts::add(const RunTick& tick) {
+  const uint32_t number = ticks_++;
+  // Before its parameters are set, the controller's outputs are meaningless.
+  if (number < facts_.setup_ticks) return;
+  const size_t bin = number / ticks_per_bin_;
+  const size_t first = number == facts_.setup_ticks ? 0 : bin;
+  for (RunChart& chart : charts_)
+    for (Curve& curve : chart.curves) {
+      const double value = curve.of(tick);
+      for (size_t i = first; i <= bin; ++i) curve.values.add(i, value);
+    }
+  const Output& out = tick.record.output;
+  const double time_s = number / facts_.rate_Hz;
+  const bool is_on = motors_are_on(out);
+  add_span(axis_.contact_s, is_on && (out.state & record::kStateContact) != 0, time_s);
+  add_span(axis_.guide_s, is_on && (out.state & record::kStateOnGuide) != 0, time_s);
+  add_span(axis_.off_s, out.faults != 0, time_s);
+  add_faults(out.faults, time_s);
+}
+
+void RunCharts::add_span(chart::TimeAxis::Spans& spans, bool holds, double time_s) const {
+  if (!holds) return;
+  const double end_s = time_s + 1 / facts_.rate_Hz;
+  if (!spans.empty() && time_s - spans.back().second < min_gap_s_)
+    spans.back().second = end_s;
+  else
+    spans.emplace_back(time_s, end_s);
+}
+
+// Each fault once.
+void RunCharts::add_faults(uint32_t faults, double time_s) {
+  const uint32_t risen = faults & ~faults_;
+  faults_ |= risen;
+  for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
+    if ((risen >> bit & 1u) != 0)
+      axis_.events.emplace_back(time_s, std::string("fault: ") + servo::fault_name(bit));
+}
+
+void RunCharts::finish(const Summary& summary) {
+  if (summary.worst_instructions == 0) charts_.pop_back();
+  charts_.front().note = "Force at the tool after all limits; the force limit is " +
+                         fixed(summary.force_limit_N, 1) +
+                         " N. Grey background: after a fault the motors are off.";
+  for (RunChart& chart : charts_) {
+    if (chart.is_logarithmic) {
+      chart.limit = summary.budget_visits;
+      chart.limit_label = "budget " + std::to_string(summary.budget_visits);
+    }
+    if (chart.decimals == 3) chart.note = note_of_distance(summary);
   }
-  add(visits_chart(report),
-      "Surface and guide query together, logarithmic scale. A tick never exceeds its budget.");
-  if (report.summary.has_guide) {
-    Chart off{"Distance to the guide", "mm", {}, false, 0, "", 2};
-    off.series.push_back(
-        {"of the tool's centre", kGreen,
-         values(trace,
-                [](const Output& o) { return static_cast<double>(o.guide_deviation_m) * 1e3; }),
-         true, 1.6});
-    add(std::move(off),
-        "A virtual spring and damper acts across the guide; along it the hand is free.");
-  }
-  Chart speed{"Speed", "mm/s", {}, false, 0, "", 1};
-  speed.series.push_back(
-      {"of the tool, as estimated from the encoders", kBlue,
-       values(trace, [](const Output& o) { return norm(wide(o.velocity_mps)) * 1e3; }), false,
-       1.2});
-  add(std::move(speed), "");
-  if (report.summary.worst_instructions > 0) {
-    Chart work{"Instructions a tick", "instr.", {}, false, 0, "", 0};
-    work.series.push_back(
-        {"counted on " + trace.controller, kBlue,
-         std::vector<double>(trace.instructions.begin(), trace.instructions.end()), false, 1.2});
-    add(std::move(work),
-        "Instructions of the whole tick. An emulator counts instructions, not cycles.");
-  }
-  return run;
+  if (!axis_.events.empty() && summary.fault_is_scripted)
+    axis_.events.front().second += " (part of the scenario)";
+}
+
+chart::Chart chart_of(const RunChart& from) {
+  chart::Chart chart{from.title, from.unit,        {},           from.is_logarithmic,
+                     from.limit, from.limit_label, from.decimals};
+  for (const Curve& curve : from.curves)
+    chart.series.push_back(
+        {curve.label, curve.colour, curve.values.values(), curve.is_area, curve.width});
+  return chart;
 }
 
 }  // namespace firmtouch::host_sim

@@ -1,28 +1,71 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "chart/chart.hpp"
-#include "host_sim/report/report.hpp"
+#include "chart/envelope.hpp"
+#include "host_sim/plant/environment.hpp"
+#include "host_sim/report/summary.hpp"
+#include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
 
-using chart::Chart;
-using chart::ChartSize;
 using chart::fixed;
 using chart::grouped;
 using chart::html_of;
-using chart::Series;
-using chart::TimeAxis;
 
-/// The charts of a run, most important first: force, penetration, distance with its bound, visits,
-/// guide, speed, and instructions if they were counted.
-struct RunCharts {
-  std::vector<Chart> charts;
-  std::vector<std::string> notes;  // explanation of each chart
-  TimeAxis axis;
+/// A line of a chart, gathered while a run goes on.
+struct Curve {
+  std::string label;
+  std::string colour;  // CSS
+  std::function<double(const RunTick&)> of;
+  bool is_area = false;
+  double width = 1.6;
+  chart::Envelope values{0, true};
 };
 
-RunCharts make_charts(const Report& report);
+struct RunChart {
+  std::string title, unit, note;
+  std::vector<Curve> curves;
+  int decimals = 2;
+  bool is_logarithmic = false;
+  double limit = 0;  // a dashed line at this value; 0: none
+  std::string limit_label{};
+};
+
+/// The charts of a run, most important first: force, penetration, distance with its bound, visits,
+/// guide, speed, and instructions if they are counted. Memory: at most kMaxBins bins a line.
+class RunCharts {
+ public:
+  /// At 1 kHz 16 s have a bin for each tick; a longer run keeps the least and greatest of each bin.
+  static constexpr size_t kMaxBins = 16384;
+
+  /// `facts` outlives this.
+  RunCharts(const Environment& environment, const RunFacts& facts);
+  void add(const RunTick& tick);
+  /// After the last tick: notes and limits.
+  void finish(const Summary& summary);
+
+  size_t bins() const { return bins_; }
+  uint32_t ticks_per_bin() const { return ticks_per_bin_; }
+  const std::vector<RunChart>& charts() const { return charts_; }
+  const chart::TimeAxis& axis() const { return axis_; }
+
+ private:
+  void add_span(chart::TimeAxis::Spans& spans, bool holds, double time_s) const;
+  void add_faults(uint32_t faults, double time_s);
+
+  const RunFacts& facts_;
+  uint32_t ticks_per_bin_;
+  size_t bins_;
+  std::vector<RunChart> charts_;
+  chart::TimeAxis axis_;
+  double min_gap_s_;  // shorter gaps between two spans are invisible
+  uint32_t faults_ = 0, ticks_ = 0;
+};
+
+/// For a picture.
+chart::Chart chart_of(const RunChart& from);
 
 }  // namespace firmtouch::host_sim

@@ -10,7 +10,8 @@ namespace {
 
 // A browser rotates this many smoothly without a graphics card.
 constexpr uint32_t kMaxShownTriangles = 120000;
-constexpr size_t kMaxPathPoints = 3000;
+constexpr uint32_t kMaxSamples = 6000;
+constexpr size_t kSamplesPerPoint = 2;   // of a drawn path
 constexpr double kMinShownForce = 0.04;  // of the largest force; weaker contact is not drawn
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -72,24 +73,15 @@ void add_surface(Scene3d& scene3d, const Environment& environment) {
     simplify(scene3d, low, 2 * scene3d.radius_m / cells);
 }
 
-// Ticks between two points of a path.
-size_t stride_of(const Trace& trace) {
-  return std::max<size_t>(1, trace.records.size() / kMaxPathPoints);
-}
-
-Path touch_path(const Environment& environment, const Trace& trace) {
+Path touch_path(const Environment& environment, const RunPaths& run) {
   Path path{"touch", "contact points, coloured by force", kTouchColour, 6.5, {}, {}};
-  double most = 1e-9;
-  for (const record::TickRecord& r : trace.records)
-    most = std::max(most, norm(narrow(r.output.force_N)));
-  for (size_t i = 0; i < trace.records.size(); i += stride_of(trace)) {
-    const record::TickOutput& out = trace.records[i].output;
-    const bool touches = (out.state & record::kStateContact) != 0 &&
-                         norm(narrow(out.force_N)) > kMinShownForce * most;
+  for (size_t i = 0; i < run.samples().size(); i += kSamplesPerPoint) {
+    const RunPaths::Sample& sample = run.samples()[i];
+    const double share = norm(sample.force_N) / run.peak_N();
+    const bool touches = sample.touches && share > kMinShownForce;
     if (!touches && (path.points.empty() || std::isnan(path.points.back().x))) continue;
-    path.points.push_back(touches ? environment.nearest(narrow(out.position_m)).point_m
-                                  : Vec{kNone, 0, 0});
-    path.values.push_back(norm(narrow(out.force_N)) / most);
+    path.points.push_back(touches ? environment.nearest(sample.tool_m).point_m : Vec{kNone, 0, 0});
+    path.values.push_back(share);
   }
   return path;
 }
@@ -108,19 +100,41 @@ Colour heat(double share) {
   return {channel(0), channel(1), channel(2)};
 }
 
-Scene3d make_scene3d(const Environment& environment, const Trace& trace, double tool_radius_m) {
+Scene3d surface_scene(const Environment& environment, double tool_radius_m) {
   Scene3d scene3d;
   scene3d.tool_radius_m = tool_radius_m;
   add_surface(scene3d, environment);
   if (environment.has_guide())
     scene3d.paths.push_back({"guide", "guide", kGuideColour, 2.4, environment.guide_m(), {}});
+  return scene3d;
+}
+
+RunPaths::RunPaths(const RunFacts& facts)
+    : facts_(facts), stride_(1 + (facts.ticks - 1) / kMaxSamples) {}
+
+size_t RunPaths::first() const {
+  return std::min<size_t>((facts_.setup_ticks + stride_ - 1) / stride_, samples_.size());
+}
+
+void RunPaths::add(const RunTick& tick) {
+  const record::TickOutput& out = tick.record.output;
+  const Vec force_N = narrow(out.force_N);
+  if (norm(force_N) > peak_N_ || ticks_ == 0)
+    peak_N_ = std::max(peak_N_, norm(force_N)), peak_device_m_ = tick.device_m;
+  if (ticks_++ % stride_ != 0) return;
+  samples_.push_back({tick.device_m, narrow(out.position_m), tick.target_m, force_N,
+                      (out.state & record::kStateContact) != 0});
+}
+
+Scene3d make_scene3d(const Environment& environment, const RunPaths& run, double tool_radius_m) {
+  Scene3d scene3d = surface_scene(environment, tool_radius_m);
   Path device{"device", "tool centre, true path", kDeviceColour, 2, {}, {}};
   Path tool{"tool", "tool centre, from the encoders", {14, 165, 190}, 1.2, {}, {}};
   Path hand{"hand", "target of the simulated hand", kHandColour, 1.4, {}, {}};
-  for (size_t i = trace.setup_ticks; i < trace.records.size(); i += stride_of(trace)) {
-    device.points.push_back(trace.device_m[i]);
-    tool.points.push_back(narrow(trace.records[i].output.position_m));
-    hand.points.push_back(trace.target_m[i]);
+  for (size_t i = run.first(); i < run.samples().size(); i += kSamplesPerPoint) {
+    device.points.push_back(run.samples()[i].device_m);
+    tool.points.push_back(run.samples()[i].tool_m);
+    hand.points.push_back(run.samples()[i].target_m);
   }
   if (scene3d.triangles.empty() && !device.points.empty()) {
     scene3d.centre = device.points.front();
@@ -130,7 +144,7 @@ Scene3d make_scene3d(const Environment& environment, const Trace& trace, double 
   scene3d.paths.push_back(std::move(hand));
   scene3d.paths.push_back(std::move(device));
   scene3d.paths.push_back(std::move(tool));
-  if (environment.has_surface()) scene3d.paths.push_back(touch_path(environment, trace));
+  if (environment.has_surface()) scene3d.paths.push_back(touch_path(environment, run));
   return scene3d;
 }
 

@@ -32,7 +32,38 @@ struct Scene3d {
   double tool_radius_m = 0;
 };
 
-Scene3d make_scene3d(const Environment& environment, const Trace& trace, double tool_radius_m);
+/// The surface alone.
+Scene3d surface_scene(const Environment& environment, double tool_radius_m);
+
+/// Samples of a run for the 3D view, gathered while it goes on. Bounded memory.
+class RunPaths {
+ public:
+  /// `facts` outlives this.
+  explicit RunPaths(const RunFacts& facts);
+  void add(const RunTick& tick);
+
+  struct Sample {
+    Vec device_m, tool_m, target_m, force_N;
+    bool touches = false;
+  };
+  const std::vector<Sample>& samples() const { return samples_; }
+  uint32_t ticks_per_sample() const { return stride_; }
+  double peak_N() const { return peak_N_; }
+  /// Of the device at the largest force.
+  Vec peak_device_m() const { return peak_device_m_; }
+  /// First sample of which the scenario's parameters are set.
+  size_t first() const;
+
+ private:
+  const RunFacts& facts_;
+  uint32_t stride_, ticks_ = 0;
+  std::vector<Sample> samples_;
+  double peak_N_ = 1e-9;
+  Vec peak_device_m_;
+};
+
+/// The surface with the paths of a run.
+Scene3d make_scene3d(const Environment& environment, const RunPaths& run, double tool_radius_m);
 
 /// Colours a force from none (0) to the run's largest (1).
 Colour heat(double share);

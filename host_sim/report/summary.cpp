@@ -13,6 +13,9 @@ namespace firmtouch::host_sim {
 namespace {
 
 constexpr double kCheckedTriangles = 4e7;  // read by the oracle in total: about half a second
+constexpr double kMaxChecked = 1e5;
+constexpr double kDegrees = 57.29577951308232;
+constexpr double kAtLimit = 0.999;  // of the force limit
 // Tolerances, relative to max(diagonal, distance): of a float32 distance, and of the tool position
 // in the record.
 constexpr double kRounding = 4e-7;
@@ -24,57 +27,7 @@ Vec wide(const float (&v)[3]) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-// For each tick, the tick whose position its local model was made from.
-std::vector<size_t> model_ticks(const Trace& trace) {
-  std::vector<size_t> made(trace.records.size());
-  size_t used = 0, requested = 0;
-  for (size_t i = 0; i < trace.records.size(); ++i) {
-    const uint32_t flags = trace.records[i].input.flags;
-    if ((flags & record::kFlagModelTaken) != 0) used = requested;
-    if ((flags & record::kFlagModelWanted) != 0) requested = i;
-    if ((flags & record::kFlagModelApart) == 0) used = requested = i;
-    made[i] = used;
-  }
-  return made;
-}
-
-void check_certificates(Summary& summary, const Environment& environment, const Trace& trace) {
-  const mesh::View& mesh = environment.mesh();
-  const bool is_mesh = environment.has_mesh();
-  const double size_m =
-      static_cast<double>(is_mesh ? mesh.head().diagonal_m : environment.surface().head().extent_m);
-  // A spline sample costs about as much as ten triangles.
-  const double work = is_mesh ? mesh.head().triangle_count
-                              : 10 * kSplineSamples * environment.surface().pieces().size();
-  const size_t count = static_cast<size_t>(
-      std::clamp(kCheckedTriangles / work, 20.0, static_cast<double>(trace.records.size())));
-  const size_t stride = std::max<size_t>(1, trace.records.size() / count);
-  const std::vector<size_t> made = model_ticks(trace);
-  std::vector<double> ratios;
-  for (size_t i = 0; i < trace.records.size(); i += stride) {
-    const record::TickOutput& out = trace.records[i].output;
-    if ((out.state & record::kStateReady) == 0) continue;
-    const record::TickOutput& model = trace.records[made[i]].output;
-    if ((model.state & record::kStateReady) == 0 || out.model_sequence == 0) continue;
-    const Vec at = wide(model.position_m) - environment.origin_m();
-    const double truth =
-        is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(environment.surface(), at);
-    const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kSplineFactor);
-    const double reported = std::fabs(static_cast<double>(out.distance_m)),
-                 lower = static_cast<double>(out.distance_lower_m);
-    if (!(lower <= truth + kBoundRounding * scale) || !(reported >= truth - kRounding * scale))
-      ++summary.wrong_bounds;
-    if (truth > kRounding * scale * 1000) ratios.push_back(lower / truth);
-    ++summary.checked_ticks;
-  }
-  if (ratios.empty()) return;
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
-                   ratios.end());
-  summary.median_ratio = ratios[ratios.size() / 2];
-}
-
-void count(Summary& summary, const record::TickOutput& out, double time_s, uint64_t& visits,
-           double& deviation) {
+void count(Summary& summary, const record::TickOutput& out, uint64_t& visits, double& deviation) {
   const bool is_on = motors_are_on(out);
   if (is_on && (out.state & record::kStateContact) != 0) ++summary.contact_ticks;
   if ((out.state & record::kStateExact) != 0) ++summary.exact_ticks;
@@ -93,49 +46,127 @@ void count(Summary& summary, const record::TickOutput& out, double time_s, uint6
                                         static_cast<double>(out.distance_lower_m));
   summary.worst_visits = std::max(summary.worst_visits, out.steps);
   visits += out.steps;
-  if (out.faults != 0 && summary.fault_s < 0) summary.fault_s = time_s;
   summary.faults |= out.faults;
+}
+
+bool is_scripted_fault(const Event& event) { return event.kind <= Event::Kind::kEncoderFault; }
+
+size_t checked_ticks(const Environment& environment, size_t ticks) {
+  // A spline sample costs about as much as ten triangles.
+  const double work = environment.has_mesh()
+                          ? environment.mesh().head().triangle_count
+                          : 10 * kSplineSamples * environment.surface().pieces().size();
+  return static_cast<size_t>(std::clamp(std::min(kCheckedTriangles / work, kMaxChecked), 20.0,
+                                        std::max(20.0, static_cast<double>(ticks))));
 }
 
 }  // namespace
 
-Summary summarise(const Scenario& scenario, const Environment& environment, const Trace& trace) {
-  Summary summary;
-  summary.ticks = trace.records.size();
-  summary.rate_Hz = trace.rate_Hz;
-  summary.seconds = static_cast<double>(summary.ticks) / trace.rate_Hz;
-  summary.has_surface = environment.has_surface();
-  summary.has_guide = environment.has_guide();
-  summary.force_limit_N = parameter_value(scenario, params::kForceLimit);
-  summary.budget_visits = static_cast<uint32_t>(
-      (environment.has_surface() ? parameter_value(scenario, params::kMeshSteps) : 0) +
-      (environment.has_guide() ? parameter_value(scenario, params::kCurveSteps) : 0));
-  uint64_t visits = 0, instructions = 0;
-  double deviation = 0;
-  for (size_t i = 0; i < trace.records.size(); ++i) {
-    count(summary, trace.records[i].output, static_cast<double>(i) / trace.rate_Hz, visits,
-          deviation);
-    const double load = trace.records[i].input.last_work_us * 1e-6 * trace.rate_Hz;
-    summary.mean_load += load;
-    summary.worst_load = std::max(summary.worst_load, load);
+Summariser::Summariser(const Scenario& scenario, const Environment& environment,
+                       const RunFacts& facts)
+    : environment_(environment),
+      facts_(facts),
+      quality_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)) {
+  summary_.rate_Hz = facts.rate_Hz;
+  summary_.has_surface = environment.has_surface();
+  summary_.has_guide = environment.has_guide();
+  summary_.force_limit_N = parameter_value(scenario, params::kForceLimit);
+  summary_.tool_radius_m = parameter_value(scenario, params::kToolRadius);
+  summary_.budget_visits = static_cast<uint32_t>(
+      (environment.has_surface() ? parameter_value(scenario, params::kMeshWork) : 0) +
+      (environment.has_guide() ? parameter_value(scenario, params::kGuideWork) : 0));
+  if (summary_.has_surface)
+    stride_ = 1 + facts.ticks / (checked_ticks(environment, facts.ticks) + 1);
+}
+
+void Summariser::add(const RunTick& tick) {
+  const record::TickRecord& record = tick.record;
+  const record::TickOutput& out = record.output;
+  const double time_s = static_cast<double>(summary_.ticks) / facts_.rate_Hz;
+  if (out.faults != 0 && summary_.fault_s < 0) {
+    summary_.fault_s = time_s;
+    summary_.fault_is_scripted =
+        std::any_of(facts_.events.begin(), facts_.events.end(), [&](const Event& event) {
+          return is_scripted_fault(event) &&
+                 std::fabs(event.time_s - time_s) < 1.5 / facts_.rate_Hz;
+        });
   }
+  count(summary_, out, visits_, deviation_m_);
+  const bool is_on = motors_are_on(out);
+  const Vec force_N = wide(out.force_N);
+  quality_.add(force_N, is_on);
+  if (is_on && norm(force_N) > kAtLimit * summary_.force_limit_N) ++summary_.limit_ticks;
+  const double load = record.input.last_work_us * 1e-6 * facts_.rate_Hz;
+  load_ += load;
+  summary_.worst_load = std::max(summary_.worst_load, load);
+  instructions_ += tick.instructions;
+  summary_.worst_instructions = std::max(summary_.worst_instructions, tick.instructions);
+  // The tick whose position the local model of this one was made from.
+  const Made now{(out.state & record::kStateReady) != 0, wide(out.position_m)};
+  if ((record.input.flags & record::kFlagModelTaken) != 0) used_ = requested_;
+  if ((record.input.flags & record::kFlagModelWanted) != 0) requested_ = now;
+  if ((record.input.flags & record::kFlagModelApart) == 0) used_ = requested_ = now;
+  if (summary_.has_surface && summary_.ticks % stride_ == 0) check_certificate(out);
+  ++summary_.ticks;
+}
+
+void Summariser::check_certificate(const record::TickOutput& out) {
+  if ((out.state & record::kStateReady) == 0 || !used_.is_ready || out.model_sequence == 0) return;
+  const bool is_mesh = environment_.has_mesh();
+  const mesh::View& mesh = environment_.mesh();
+  const double size_m = static_cast<double>(is_mesh ? mesh.head().diagonal_m
+                                                    : environment_.surface().head().extent_m);
+  const Vec at = used_.position_m - environment_.origin_m();
+  const double truth =
+      is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(environment_.surface(), at);
+  const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kSplineFactor);
+  const double reported = std::fabs(static_cast<double>(out.distance_m)),
+               lower = static_cast<double>(out.distance_lower_m);
+  if (!(lower <= truth + kBoundRounding * scale) || !(reported >= truth - kRounding * scale))
+    ++summary_.wrong_bounds;
+  if (truth > kRounding * scale * 1000) ratios_.push_back(lower / truth);
+  ++summary_.checked_ticks;
+}
+
+Summary Summariser::finish() {
+  Summary summary = summary_;
   const double ticks = static_cast<double>(std::max<size_t>(summary.ticks, 1));
-  summary.mean_load /= ticks;
-  summary.mean_visits = static_cast<double>(visits) / ticks;
+  summary.seconds = static_cast<double>(summary.ticks) / facts_.rate_Hz;
+  summary.mean_load = load_ / ticks;
+  summary.mean_visits = static_cast<double>(visits_) / ticks;
   if (summary.guide_ticks > 0)
-    summary.mean_guide_deviation_m = deviation / static_cast<double>(summary.guide_ticks);
-  for (const uint32_t n : trace.instructions) {
-    instructions += n;
-    summary.worst_instructions = std::max(summary.worst_instructions, n);
-  }
-  summary.mean_instructions = static_cast<double>(instructions) / ticks;
-  summary.stack_high_bytes = trace.stack_high_bytes;
+    summary.mean_guide_deviation_m = deviation_m_ / static_cast<double>(summary.guide_ticks);
+  summary.mean_instructions = static_cast<double>(instructions_) / ticks;
+  summary.stack_high_bytes = facts_.stack_high_bytes;
   for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
     if ((summary.faults >> bit & 1u) != 0)
       summary.fault_names +=
           (summary.fault_names.empty() ? "" : ", ") + std::string(servo::fault_name(bit));
-  if (summary.has_surface) check_certificates(summary, environment, trace);
+  summary.chatter_N = quality_.chatter_N();
+  summary.chatter_s = quality_.chatter_s();
+  summary.worst_turn_rad = quality_.turn_rad();
+  const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
+  std::nth_element(ratios_.begin(), middle, ratios_.end());
+  if (!ratios_.empty()) summary.median_ratio = *middle;
   return summary;
+}
+
+Summary summarise(const Scenario& scenario, const Environment& environment, const Trace& trace) {
+  Summariser summariser(scenario, environment, trace);
+  for (const record::TickRecord& record : trace.records) {
+    RunTick tick;
+    tick.record = record;
+    summariser.add(tick);
+  }
+  return summariser.finish();
+}
+
+double Summary::deepest_radii() const {
+  return tool_radius_m > 0 ? worst_penetration_m / tool_radius_m : 0;
+}
+
+bool Summary::is_bad_contact() const {
+  return is_saturated() || is_deep() || chatters() || turns();
 }
 
 std::string load_text(const Summary& s) {
@@ -145,7 +176,7 @@ std::string load_text(const Summary& s) {
   return s.worst_load > 0 ? text : "not measured (lock-step)";
 }
 
-std::string text_of(const Summary& s, const Trace& trace) {
+std::string text_of(const Summary& s, const RunFacts& trace) {
   std::string text;
   const auto line = [&](const char* format, auto... values) {
     char buffer[256];
@@ -171,13 +202,20 @@ std::string text_of(const Summary& s, const Trace& trace) {
   if (s.worst_instructions > 0)
     line("  instructions   mean %.0f a tick, worst %u; stack %u bytes\n", s.mean_instructions,
          s.worst_instructions, s.stack_high_bytes);
+  if (s.contact_ticks + s.guide_ticks > 0)
+    line(
+        "  feel           %zu ticks at the force limit; deepest %.2f tool radii; chatter %.3f N "
+        "above 50 Hz; largest turn %.1f degrees a tick%s\n",
+        s.limit_ticks, s.deepest_radii(), s.chatter_N, s.worst_turn_rad * kDegrees,
+        s.is_bad_contact() ? ": BAD" : "");
   line("  load           %s\n", load_text(s).c_str());
   if (trace.compared)
     text += trace.difference ? "  same bits      NO: see below\n"
                              : "  same bits      yes: every output bit of every tick is equal to "
                                "the in-process controller's\n";
   if (s.fault_s >= 0)
-    line("  fault          %s, latched at %.3f s\n", s.fault_names.c_str(), s.fault_s);
+    line("  fault          %s, latched at %.3f s%s\n", s.fault_names.c_str(), s.fault_s,
+         s.fault_is_scripted ? " (part of the scenario)" : "");
   return text;
 }
 

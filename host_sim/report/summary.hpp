@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host_sim/plant/environment.hpp"
+#include "host_sim/report/contact_quality.hpp"
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/run.hpp"
 
@@ -32,16 +33,62 @@ struct Summary {
   // Share of the period that a tick took, where its time was measured.
   double mean_load = 0, worst_load = 0;
   uint32_t faults = 0;
-  double fault_s = -1;  // time of the first latched fault; -1: none
+  double fault_s = -1;             // time of the first latched fault; -1: none
+  bool fault_is_scripted = false;  // the scenario causes it
   std::string fault_names;
+  // How it feels (report/contact_quality.hpp), while the motors were on.
+  double tool_radius_m = 0;
+  size_t limit_ticks = 0;  // at the force limit
+  double chatter_N = 0, chatter_s = 0;
+  double worst_turn_rad = 0;  // of the force between two ticks
+
+  double deepest_radii() const;
+  double chatter_limit_N() const { return ContactQuality::kChatterShare * force_limit_N; }
+  // A hand feels a wall that gives way, goes in to the tool's centre, buzzes or jumps.
+  bool is_saturated() const { return limit_ticks * 100 > ticks; }
+  bool is_deep() const { return deepest_radii() > 1; }
+  bool chatters() const { return chatter_s > 0.5; }
+  bool turns() const { return worst_turn_rad > 0.35; }
+  bool is_bad_contact() const;
 };
 
+/// Computes the figures while a run goes on. Bounded memory.
+class Summariser {
+ public:
+  /// All references outlive this.
+  Summariser(const Scenario& scenario, const Environment& environment, const RunFacts& facts);
+  void add(const RunTick& tick);
+  /// After the last tick.
+  Summary finish();
+
+ private:
+  struct Made {
+    bool is_ready = false;
+    Vec position_m;
+  };
+  void check_certificate(const record::TickOutput& out);
+
+  const Environment& environment_;
+  const RunFacts& facts_;
+  Summary summary_;
+  ContactQuality quality_;
+  size_t stride_ = 1;  // ticks from one checked certificate to the next
+  Made used_, requested_;
+  std::vector<double> ratios_;  // of lower bound to truth, at most 1e5
+  uint64_t visits_ = 0, instructions_ = 0;
+  double deviation_m_ = 0, load_ = 0;
+};
+
+/// The same for a run in memory.
 Summary summarise(const Scenario& scenario, const Environment& environment, const Trace& trace);
 
 /// "mean 40 %, worst 61 % of the period".
 std::string load_text(const Summary& summary);
 
 /// The figures as text for a terminal.
-std::string text_of(const Summary& summary, const Trace& trace);
+std::string text_of(const Summary& summary, const RunFacts& trace);
+
+/// The figures as one JSON object, for programs.
+std::string json_of(const Summary& summary, const RunFacts& facts);
 
 }  // namespace firmtouch::host_sim

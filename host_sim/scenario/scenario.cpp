@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "host_sim/scenario/line_reader.hpp"
@@ -56,6 +57,14 @@ struct Reader {
   void once(const std::string& name, LineReader& words);
 };
 
+// Budgets that counted visits: accepted in this version, with a note, and dropped in the next one.
+struct FormerParameter {
+  const char *name, *now;
+  double factor;  // a visit takes two and a half units on average
+};
+constexpr FormerParameter kFormer[] = {{"mesh_steps", "mesh_work", 2.5},
+                                       {"curve_steps", "guide_work", 2.5}};
+
 uint32_t row_of(const std::vector<ParameterRow>& rows, const std::string& name) {
   for (uint32_t i = 0; i < rows.size(); ++i)
     if (rows[i].name == name || rows[i].short_name == name) return i;
@@ -87,11 +96,20 @@ bool Reader::own_key(const std::string& name, LineReader& words) {
   return true;
 }
 
-bool Reader::parameter(const std::string& name, LineReader& words) {
+bool Reader::parameter(const std::string& given_name, LineReader& words) {
+  std::string name = given_name;
+  double factor = 1;
+  for (const FormerParameter& former : kFormer) {
+    if (name != former.name) continue;
+    std::fprintf(stderr, "`%s` is now `%s`, in work units; a visit counts %g\n", former.name,
+                 former.now, former.factor);
+    name = former.now;
+    factor = former.factor;
+  }
   const uint32_t row = row_of(parameters, name);
   if (row == UINT32_MAX) return false;
   once(parameters[row].name, words);
-  const double value = value_of(parameters[row], words);
+  const double value = factor * value_of(parameters[row], words);
   for (Setting& setting : out.settings)
     if (setting.parameter == row) return setting.value = value, true;
   out.settings.push_back({row, value});

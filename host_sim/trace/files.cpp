@@ -9,6 +9,11 @@
 #include "host_sim/trace/log.hpp"
 
 namespace firmtouch::host_sim {
+namespace {
+
+const std::string kStandardOutput = "-";
+
+}  // namespace
 
 std::string read_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -22,6 +27,7 @@ std::string read_file(const std::string& path) {
 std::string partial_of(const std::string& path) { return path + ".partial"; }
 
 void check_writable(const std::string& path) {
+  if (path == kStandardOutput) return;
   const std::string partial = partial_of(path);
   const bool is_folder = std::filesystem::is_directory(path);
   std::ofstream out;
@@ -34,15 +40,46 @@ void check_writable(const std::string& path) {
   throw Refused(path + ": cannot be written: " + std::strerror(is_folder ? EISDIR : errno));
 }
 
-void write_file(const std::string& path, const std::string& bytes) {
+void take_name(const std::string& path) {
   const std::string partial = partial_of(path);
-  std::ofstream out(partial, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out && std::rename(partial.c_str(), path.c_str()) == 0) return;
+  if (std::rename(partial.c_str(), path.c_str()) == 0) return;
   const int error = errno;
   std::remove(partial.c_str());
   throw Refused(path + ": cannot be written: " + std::strerror(error));
+}
+
+TextStream::TextStream(const std::string& path)
+    : path_(path),
+      file_(path == kStandardOutput ? stdout : std::fopen(partial_of(path).c_str(), "wb")) {
+  if (file_ == nullptr) throw Refused(path + ": cannot be written: " + std::strerror(errno));
+}
+
+TextStream::~TextStream() {
+  if (file_ == nullptr || file_ == stdout) return;
+  std::fclose(file_);
+  std::remove(partial_of(path_).c_str());
+}
+
+void TextStream::add(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size())
+    throw Refused(path_ + ": cannot be written: " + std::strerror(errno));
+}
+
+void TextStream::finish() {
+  std::FILE* const file = file_;
+  file_ = file == stdout ? stdout : nullptr;
+  if ((file == stdout ? std::fflush(file) : std::fclose(file)) != 0) {
+    const int error = errno;
+    if (file != stdout) std::remove(partial_of(path_).c_str());
+    throw Refused(path_ + ": cannot be written: " + std::strerror(error));
+  }
+  if (file != stdout) take_name(path_);
+}
+
+void write_file(const std::string& path, const std::string& bytes) {
+  TextStream out(path);
+  out.add(bytes);
+  out.finish();
 }
 
 }  // namespace firmtouch::host_sim

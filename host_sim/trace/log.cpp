@@ -1,12 +1,14 @@
 #include "host_sim/trace/log.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
+#include <optional>
 
 #include "firmtouch/record/schema.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "host_sim/scenario/scenario.hpp"
-#include "log/memory_sink.hpp"
+#include "log/file_sink.hpp"
 #include "log/reader.hpp"
 #include "log/writer.hpp"
 
@@ -69,23 +71,58 @@ log::Header tick_header() {
   return header;
 }
 
-void write_log(const std::string& path, const Log& log) {
-  log::Header header = tick_header();
-  header.text = log.text;
-  header.decimation = log.decimation;
-  log::MemorySink sink;
-  log::Writer writer(sink, header);
-  writer.begin();
-  std::vector<Slot> slots;
-  for (size_t first = 0; first < log.records.size(); first += slots.size()) {
-    slots.resize(std::min<size_t>(kBlockRecords, log.records.size() - first));
-    for (size_t i = 0; i < slots.size(); ++i)
-      slots[i] = {static_cast<uint32_t>(log.first_number + first + i), log.records[first + i]};
-    writer.append(reinterpret_cast<const uint8_t*>(slots.data()),
-                  static_cast<uint32_t>(slots.size()));
+struct LogStream::File {
+  std::string path, problem;
+  std::unique_ptr<log::Sink> sink;
+  std::optional<log::Writer> writer;
+  std::vector<Slot> block;
+  uint64_t number = 0;
+
+  void check(bool is_done) const {
+    if (!is_done) throw Refused(path + ": cannot be written: " + sink->problem());
   }
-  writer.finish();
-  write_file(path, {sink.bytes().begin(), sink.bytes().end()});
+  void flush() {
+    if (block.empty()) return;
+    check(writer->append(reinterpret_cast<const uint8_t*>(block.data()),
+                         static_cast<uint32_t>(block.size())));
+    block.clear();
+  }
+};
+
+LogStream::LogStream(const std::string& path, const std::map<std::string, std::string>& text,
+                     uint32_t decimation, uint64_t first_number)
+    : file_(std::make_unique<File>()) {
+  log::Header header = tick_header();
+  header.text = text;
+  header.decimation = decimation;
+  file_->path = path;
+  file_->number = first_number;
+  file_->sink = log::make_file(partial_of(path), file_->problem);
+  if (file_->sink == nullptr) throw Refused(file_->problem);
+  file_->writer.emplace(*file_->sink, header);
+  file_->check(file_->writer->begin());
+}
+
+LogStream::~LogStream() {
+  if (file_->sink != nullptr) std::remove(partial_of(file_->path).c_str());
+}
+
+void LogStream::add(const record::TickRecord& record) {
+  file_->block.push_back({static_cast<uint32_t>(file_->number++), record});
+  if (file_->block.size() == kBlockRecords) file_->flush();
+}
+
+void LogStream::finish() {
+  file_->flush();
+  file_->check(file_->writer->finish());
+  file_->sink.reset();
+  take_name(file_->path);
+}
+
+void write_log(const std::string& path, const Log& log) {
+  LogStream stream(path, log.text, log.decimation, log.first_number);
+  for (const record::TickRecord& record : log.records) stream.add(record);
+  stream.finish();
 }
 
 Log read_log(const std::string& path) try {

@@ -15,9 +15,9 @@ namespace {
 // Integration steps of device and hand within a tick. With a grip of 2,000 N/m on 75 g at 1 kHz the
 // hand's piecewise constant force differs from a continuous one by less than 1e-3.
 constexpr uint32_t kSubsteps = 16;
-constexpr uint32_t kMaxTicks = 5000000;  // 250 B each in memory
-constexpr uint32_t kSettlingTicks = 5;   // between the last initial parameter and the enable line
-constexpr double kArmLag_s = 0.012;      // of each of the arm's two lags
+constexpr uint32_t kMaxTicks = 1000000000;  // 28 h at 10 kHz; record numbers stay below 2^32
+constexpr uint32_t kSettlingTicks = 5;  // between the last initial parameter and the enable line
+constexpr double kArmLag_s = 0.012;     // of each of the arm's two lags
 
 constexpr params::Index kCountsPerMetre[3] = {params::kCountsPerMetreX, params::kCountsPerMetreY,
                                               params::kCountsPerMetreZ};
@@ -231,61 +231,98 @@ void complete(Scenario& scenario) {
   }
 }
 
-Trace run(const Scenario& scenario, FullController& controller, const Environment& environment,
-          LockStepController* remote, const std::function<void(double)>& progress) {
-  const Hand hand(scenario, environment, parameter_value(scenario, params::kToolRadius));
-  const uint32_t ticks = tick_count(scenario, hand);
-  const double period_s = 1 / scenario.rate_Hz, substep_s = period_s / kSubsteps;
-  const Vec zero_m = {parameter_value(scenario, kOrigin[0]), parameter_value(scenario, kOrigin[1]),
-                      parameter_value(scenario, kOrigin[2])};  // where the encoders count 0
-  Device device(scenario.device, hand.start_m() - zero_m);
-  Arm arm(hand.start_m());
-  Operator panel(scenario);
-  Trace trace;
-  trace.events = scenario.events;
-  trace.rate_Hz = scenario.rate_Hz;
-  trace.setup_ticks = std::min<size_t>(setup_ticks(scenario), ticks - 1);
-  trace.records.reserve(ticks);
-  if (remote != nullptr) trace.controller = remote->name(), trace.compared = true;
+struct Simulation::Loop {
+  Loop(const Scenario& its_scenario, FullController& its_controller, const Environment& environment,
+       LockStepController* its_remote)
+      : scenario(its_scenario),
+        controller(its_controller),
+        remote(its_remote),
+        hand(scenario, environment, parameter_value(scenario, params::kToolRadius)),
+        zero_m{parameter_value(scenario, kOrigin[0]), parameter_value(scenario, kOrigin[1]),
+               parameter_value(scenario, kOrigin[2])},
+        device(scenario.device, hand.start_m() - zero_m),
+        arm(hand.start_m()),
+        panel(scenario) {}
 
-  for (uint32_t tick = 0; tick < ticks; ++tick) {
-    const double now_s = tick * period_s;
-    record::TickRecord record{};
-    record.input.tick = tick;
-    record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
-    for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = device.count(axis);
-    panel.fill(record.input, trace.records.empty() ? record.output : trace.records.back().output,
-               now_s);
-    record.input.flags |= model_flags(scenario, tick);
-    controller.tick(record.input, record.output);
-    controller.make_model();
-    if (remote != nullptr) {
-      const record::TickRecord expected = record;
-      const TickCost cost = remote->tick(record.input, record.output);
-      trace.instructions.push_back(cost.instructions);
-      trace.stack_high_bytes = std::max(trace.stack_high_bytes, cost.stack_high_bytes);
-      trace.difference = first_difference(expected, record.output);
-    }
-    check_command(scenario, record);
-    const float(&motor)[3] = record.output.motor_N;
-    device.command({static_cast<double>(motor[0]), static_cast<double>(motor[1]),
-                    static_cast<double>(motor[2])});
-    trace.records.push_back(record);
-    trace.device_m.push_back(device.position_m() + zero_m);
-    trace.target_m.push_back(arm.position_m());
-    trace.hand_N.push_back(hand.force_N(arm.position_m(), arm.velocity_mps(),
-                                        device.position_m() + zero_m, device.velocity_mps()));
-    if (trace.difference) break;
-    const Vec script_m = hand.target_m(now_s);
+  Vec device_m() const { return device.position_m() + zero_m; }
+  Vec hand_N() const {
+    return hand.force_N(arm.position_m(), arm.velocity_mps(), device_m(), device.velocity_mps());
+  }
+  // From the tick before to this one.
+  void move(double before_s, double substep_s) {
+    const Vec script_m = hand.target_m(before_s);
     for (uint32_t k = 0; k < kSubsteps; ++k) {
       arm.advance(script_m, substep_s);
-      device.advance(hand.force_N(arm.position_m(), arm.velocity_mps(),
-                                  device.position_m() + zero_m, device.velocity_mps()),
-                     substep_s);
+      device.advance(hand_N(), substep_s);
     }
-    if (progress && tick % 256 == 0) progress(static_cast<double>(tick) / ticks);
   }
-  if (progress) progress(1);
+
+  const Scenario& scenario;
+  FullController& controller;
+  LockStepController* remote;
+  Hand hand;
+  Vec zero_m;  // where the encoders count 0
+  Device device;
+  Arm arm;
+  Operator panel;
+  record::TickOutput last{};
+  uint32_t tick = 0;
+};
+
+Simulation::Simulation(const Scenario& scenario, FullController& controller,
+                       const Environment& environment, LockStepController* remote)
+    : loop_(std::make_unique<Loop>(scenario, controller, environment, remote)) {
+  facts_.ticks = tick_count(scenario, loop_->hand);
+  facts_.rate_Hz = scenario.rate_Hz;
+  facts_.setup_ticks =
+      static_cast<uint32_t>(std::min<size_t>(setup_ticks(scenario), facts_.ticks - 1));
+  facts_.events = scenario.events;
+  if (remote != nullptr) facts_.controller = remote->name(), facts_.compared = true;
+}
+
+Simulation::~Simulation() = default;
+
+bool Simulation::next(RunTick& tick) {
+  Loop& loop = *loop_;
+  if (loop.tick == facts_.ticks || facts_.difference) return false;
+  const double period_s = 1 / facts_.rate_Hz, now_s = loop.tick * period_s;
+  if (loop.tick > 0) loop.move((loop.tick - 1) * period_s, period_s / kSubsteps);
+  record::TickRecord& record = tick.record;
+  record = {};
+  record.input.tick = loop.tick++;
+  record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
+  for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = loop.device.count(axis);
+  loop.panel.fill(record.input, loop.last, now_s);
+  record.input.flags |= model_flags(loop.scenario, record.input.tick);
+  loop.controller.tick(record.input, record.output);
+  loop.controller.make_model();
+  if (loop.remote != nullptr) {
+    const record::TickRecord expected = record;
+    const TickCost cost = loop.remote->tick(record.input, record.output);
+    tick.instructions = cost.instructions;
+    facts_.stack_high_bytes = std::max(facts_.stack_high_bytes, cost.stack_high_bytes);
+    facts_.difference = first_difference(expected, record.output);
+  }
+  check_command(loop.scenario, record);
+  const float(&motor)[3] = record.output.motor_N;
+  loop.device.command({static_cast<double>(motor[0]), static_cast<double>(motor[1]),
+                       static_cast<double>(motor[2])});
+  loop.last = record.output;
+  tick.device_m = loop.device_m();
+  tick.target_m = loop.arm.position_m();
+  tick.hand_N = loop.hand_N();
+  return true;
+}
+
+Trace run(const Scenario& scenario, FullController& controller, const Environment& environment,
+          LockStepController* remote, const std::function<void(double)>& progress) {
+  Simulation simulation(scenario, controller, environment, remote);
+  Trace trace;
+  for (RunTick tick; simulation.next(tick);) {
+    trace.records.push_back(tick.record);
+    if (progress) progress(static_cast<double>(trace.records.size()) / simulation.facts().ticks);
+  }
+  static_cast<RunFacts&>(trace) = simulation.facts();
   return trace;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,20 +14,25 @@
 
 namespace firmtouch::host_sim {
 
-/// Result of a run: the tick records, and the plant's state at each tick.
-struct Trace {
-  std::vector<record::TickRecord> records;
-  std::vector<Vec> device_m;           // true position, before encoder quantization
-  std::vector<Vec> target_m;           // target of the hand
-  std::vector<Vec> hand_N;             // force of the hand
-  std::vector<uint32_t> instructions;  // per tick; empty if the controller does not count them
-  uint32_t stack_high_bytes = 0;
-  std::string controller = "in-process";
-  bool compared = false;                 // a remote controller was compared with the in-process one
-  std::optional<Difference> difference;  // the first one; it ends the run
-  std::vector<Event> events;
+/// One tick of a run: its record, and what only the simulator knows.
+struct RunTick {
+  record::TickRecord record{};
+  Vec device_m;               // true position, before encoder quantization
+  Vec target_m;               // target of the hand
+  Vec hand_N;                 // force of the hand
+  uint32_t instructions = 0;  // 0: the controller does not count them
+};
+
+/// A run apart from its ticks.
+struct RunFacts {
+  uint32_t ticks = 0;  // planned; a difference ends the run before
   double rate_Hz = 1000;
-  size_t setup_ticks = 0;  // ticks at the begin that set the scenario's parameters
+  uint32_t setup_ticks = 0;  // at the begin: they set the parameters of the scenario
+  std::string controller = "in-process";
+  bool compared = false;  // a remote controller is compared with the in-process one
+  std::vector<Event> events;
+  std::optional<Difference> difference;  // the first one; it ends the run
+  uint32_t stack_high_bytes = 0;
 };
 
 /// Whether the motors are on in this tick: enabled, and no fault latched. Contact, depth and guide
@@ -46,10 +52,32 @@ void complete(Scenario& scenario);
 double parameter_value(const Scenario& scenario, uint32_t parameter);
 Vec scene_origin_m(const Scenario& scenario);
 
-/// Runs `scenario` on `controller`. If `remote` is given, it drives the device, and every bit of
-/// its outputs is compared with the in-process controller's. Pre: `controller` is ready and has run
-/// no tick. Result: deterministic; the same scenario and controller give the same records.
+/// A run of `scenario` on `controller`, tick by tick; its memory does not grow with its duration.
+/// If `remote` is given, it drives the device, and every bit of its outputs is compared with the
+/// in-process controller's. Pre: `controller` is ready and has run no tick; all references outlive
+/// this. Result: deterministic; the same scenario and controller give the same records.
+class Simulation {
+ public:
+  /// Throws Refused if the script needs a guide that the asset lacks, or the run is too long.
+  Simulation(const Scenario& scenario, FullController& controller, const Environment& environment,
+             LockStepController* remote);
+  ~Simulation();
+  const RunFacts& facts() const { return facts_; }
+  /// Runs one tick. Result: false if the run has ended. Throws Refused if the controller rejects a
+  /// parameter.
+  bool next(RunTick& tick);
+
+ private:
+  struct Loop;
+  RunFacts facts_;
+  std::unique_ptr<Loop> loop_;
+};
+
+/// A run with all its records in memory, for tests.
+struct Trace : RunFacts {
+  std::vector<record::TickRecord> records;
+};
 Trace run(const Scenario& scenario, FullController& controller, const Environment& environment,
-          LockStepController* remote, const std::function<void(double)>& progress);
+          LockStepController* remote = nullptr, const std::function<void(double)>& progress = {});
 
 }  // namespace firmtouch::host_sim

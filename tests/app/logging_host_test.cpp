@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/tick_source.hpp"
+#include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
@@ -37,8 +38,10 @@ bool encoders_read(int32_t (&counts)[3]) {
 void motors_write_N(const float (&motor_N)[3]) {
   std::memcpy(g_motors + size_t{3} * g_tick, motor_N, sizeof motor_N);
 }
+void motors_state(bool) {}
 void motors_off() {}
 uint32_t motors_lines() { return app_test::input_of(g_tick).flags; }
+void board_print(const char*) {}
 void watchdog_begin(uint32_t) {}
 void watchdog_feed() {}
 

@@ -4,7 +4,9 @@ if(TARGET firmtouch AND TARGET firmtouch-app-posix)
   firmtouch_test_module(app LINKS firmtouch_controller firmtouch_link firmtouch_params firmtouch_hal)
   # The program's own servo interrupt, over joints of the test (logging_host_test.cpp).
   target_sources(test_app PRIVATE app/app_process.cpp ${PROJECT_SOURCE_DIR}/firmware/app/servo_interrupt.cpp
-                                  ${PROJECT_SOURCE_DIR}/firmware/app/servo.cpp)
+                                  ${PROJECT_SOURCE_DIR}/firmware/app/servo.cpp
+                                  ${PROJECT_SOURCE_DIR}/firmware/app/saved_parameters.cpp)
+  target_link_libraries(test_app PRIVATE firmtouch_no_parameters)
   firmtouch_compose(test_app all)
   target_include_directories(test_app PRIVATE ${PROJECT_SOURCE_DIR}/firmware/app)
   target_compile_definitions(

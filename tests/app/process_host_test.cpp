@@ -82,7 +82,7 @@ TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
   };
   CHECK_EQ(result_of(params::kCount, 1.0f), link::kAckNoSuchParameter);
   CHECK_EQ(result_of(UINT32_MAX, 1.0f), link::kAckNoSuchParameter);
-  CHECK_EQ(result_of(params::kTickPeriod, 0.002f), link::kAckTimerRuns);
+  CHECK_EQ(result_of(params::kTickPeriod, 0.2f), link::kAckOutOfRange);
   CHECK_EQ(result_of(params::kForceLimit, NAN), link::kAckOutOfRange);
   CHECK_EQ(result_of(params::kForceLimit, INFINITY), link::kAckOutOfRange);
   CHECK_EQ(result_of(params::kForceLimit, -1.0f), link::kAckOutOfRange);

@@ -4,9 +4,7 @@
 
 namespace {
 
-using firmtouch::asset::Container;
-using firmtouch::asset::kNoSection;
-using firmtouch::asset::Opening;
+using namespace firmtouch::asset;  // NOLINT: a test file
 using firmtouch::asset_test::SmallFile;
 using firmtouch::core::Bytes;
 

@@ -1,4 +1,4 @@
-# Compares the figures of README.md with those measured:  awk -f figures.awk TABLE README.md
+# Compares the figures of README.md with those measured:  awk -f figures.awk TABLE README.md hull/README.md
 # TABLE: what tools/bench/cortex-m7, tools/check/image and the closed loop printed, one after the other. A row that differs
 # is printed as it should be.
 function commas(number,    text, out) {
@@ -21,11 +21,14 @@ files == 1 {
   if ($1 == "instructions" && $4 == "p99.9") measured[model] = "mean " commas($3) ", worst " commas($7)
   if ($1 == "steps" || $1 == "visits") measured[model " steps"] = "mean " $3 ", worst " $7
   if ($1 == "tick") measured["tick " $2] = "mean " commas($3) ", worst " commas($4)
+  if ($1 == "shell" && hull == "") hull = "mean " commas($6) " and worst " commas($10)  # of the demo part, first
   if ($1 == "flash") measured[board] = commas($2) " B, "
   if ($1 == "RAM") measured[board] = measured[board] commas($2) " B, "
   if ($1 == "worst" && $2 == "stack") measured[board] = measured[board] commas($3) " B"
   next
 }
+
+files == 3 { if (hull != "" && index($0, hull)) is_hull = 1; next }
 
 !/^\|/ { next }
 {
@@ -45,6 +48,7 @@ files == 1 {
 }
 
 END {
+  if (!is_hull) { print "firmware/firmtouch/hull/README.md: the base hull of the demo part was measured with " hull; bad = 1 }
   split("demo part,demo part steps,mps2-an500,netduinoplus2 mesh)", wanted, ",")
   for (i = 1; i in wanted; ++i) {
     if (!(wanted[i] in measured)) { print "the table holds no figures of " wanted[i]; bad = 1 }

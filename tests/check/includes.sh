@@ -5,6 +5,25 @@ check() {
   find firmware hal host_sim tools tests -type f \( -name '*.hpp' -o -name '*.cpp' -o -name '*.h' \) |
     LC_ALL=C sort | awk -v arrows="$(module_arrows)" -f "$here/includes.awk"
 }
+plants() {
+  cat <<'END'
+upward_include @ firmware/firmtouch/core/status.hpp @ #include "firmtouch/mesh/view.hpp" @ ^firmware/firmtouch/core/status.hpp:[0-9]+: core may not include mesh
+sideways_include @ firmware/firmtouch/curve/planted.cpp @ #include "firmtouch/mesh/view.hpp" @ planted.cpp:1: curve may not include mesh
+servo_in_scene @ firmware/firmtouch/scene/planted.cpp @ #include "firmtouch/servo/step.hpp" @ planted.cpp:1: scene may not include servo
+hal_in_firmware @ firmware/firmtouch/query/certificate.hpp @   #  include "firmtouch/hal/clock.hpp" @ certificate.hpp:[0-9]+: query may not include hal
+controller_in_a_room @ firmware/firmtouch/servo/planted.cpp @ #include "firmtouch/controller/controller.hpp" @ planted.cpp:1: servo may not include controller
+tools_in_firmware @ firmware/firmtouch/mesh/planted.cpp @ #include "bake/asset/section.hpp" @ planted.cpp:1: firmware may not include "bake/asset/section.hpp"
+tests_in_firmware @ firmware/firmtouch/mesh/planted.cpp @ #include "../../../tests/harness/test.hpp" @ planted.cpp:1: firmware may not include "../../../tests/harness/test.hpp"
+geometry_in_hal @ hal/firmtouch/hal/clock.hpp @ #include "firmtouch/math/vec3.hpp" @ clock.hpp:[0-9]+: hal may not include math
+host_sim_in_hal @ hal/firmtouch/hal/clock.hpp @ #include "host_sim/plant/device.hpp" @ clock.hpp:[0-9]+: hal may not include "host_sim/plant/device.hpp"
+hosted_header @ firmware/firmtouch/math/planted.cpp @ #include <cmath> @ planted.cpp:1: <cmath> is not freestanding
+intrinsics_elsewhere @ firmware/firmtouch/mesh/planted.cpp @ #include <arm_acle.h> @ planted.cpp:1: <arm_acle.h> is not freestanding
+hosted_header_in_hal @ hal/libc/planted.cpp @ #include <string.h> @ planted.cpp:1: <string.h> is not freestanding
+eigen_in_tools @ tools/surface/planted.cpp @ #include <Eigen/Dense> @ planted.cpp:1: Eigen is for tests/\*_host_test.cpp
+tests_in_tools @ tools/bake/planted.cpp @ #include "harness/test.hpp" @ planted.cpp:1: tools may not include "harness/test.hpp"
+hosted_header_in_a_test @ tests/core/core_test.cpp @ #include <cstring> @ core_test.cpp:[0-9]+: <cstring> is not freestanding, and this runs on the controller
+END
+}
 
 # module_arrows: `module:link link ...;` for every firmtouch_module(module LINKS link ...)
 module_arrows() {
@@ -14,66 +33,6 @@ module_arrows() {
 
 add() {  # add FILE LINE
   printf '%s\n' "$2" >>"$1"
-}
-plant_upward_include() {
-  add firmware/firmtouch/core/status.hpp '#include "firmtouch/mesh/view.hpp"'
-  expect='^firmware/firmtouch/core/status.hpp:[0-9]+: core may not include mesh'
-}
-plant_sideways_include() {
-  add firmware/firmtouch/curve/planted.cpp '#include "firmtouch/mesh/view.hpp"'
-  expect='planted.cpp:1: curve may not include mesh'
-}
-plant_servo_in_scene() {
-  add firmware/firmtouch/scene/planted.cpp '#include "firmtouch/servo/step.hpp"'
-  expect='planted.cpp:1: scene may not include servo'
-}
-plant_hal_in_firmware() {
-  add firmware/firmtouch/query/certificate.hpp '  #  include "firmtouch/hal/clock.hpp"'
-  expect='certificate.hpp:[0-9]+: query may not include hal'
-}
-plant_controller_in_a_room() {
-  add firmware/firmtouch/servo/planted.cpp '#include "firmtouch/controller/controller.hpp"'
-  expect='planted.cpp:1: servo may not include controller'
-}
-plant_tools_in_firmware() {
-  add firmware/firmtouch/mesh/planted.cpp '#include "bake/asset/section.hpp"'
-  expect='planted.cpp:1: firmware may not include "bake/asset/section.hpp"'
-}
-plant_tests_in_firmware() {
-  add firmware/firmtouch/mesh/planted.cpp '#include "../../../tests/harness/test.hpp"'
-  expect='planted.cpp:1: firmware may not include "../../../tests/harness/test.hpp"'
-}
-plant_geometry_in_hal() {
-  add hal/firmtouch/hal/clock.hpp '#include "firmtouch/math/vec3.hpp"'
-  expect='clock.hpp:[0-9]+: hal may not include math'
-}
-plant_host_sim_in_hal() {
-  add hal/firmtouch/hal/clock.hpp '#include "host_sim/plant/device.hpp"'
-  expect='clock.hpp:[0-9]+: hal may not include "host_sim/plant/device.hpp"'
-}
-plant_hosted_header() {
-  add firmware/firmtouch/math/planted.cpp '#include <cmath>'
-  expect='planted.cpp:1: <cmath> is not freestanding'
-}
-plant_intrinsics_elsewhere() {
-  add firmware/firmtouch/mesh/planted.cpp '#include <arm_acle.h>'
-  expect='planted.cpp:1: <arm_acle.h> is not freestanding'
-}
-plant_hosted_header_in_hal() {
-  add hal/libc/planted.cpp '#include <string.h>'
-  expect='planted.cpp:1: <string.h> is not freestanding'
-}
-plant_eigen_in_tools() {
-  add tools/surface/planted.cpp '#include <Eigen/Dense>'
-  expect='planted.cpp:1: Eigen is for tests/\*_host_test.cpp'
-}
-plant_tests_in_tools() {
-  add tools/bake/planted.cpp '#include "harness/test.hpp"'
-  expect='planted.cpp:1: tools may not include "harness/test.hpp"'
-}
-plant_hosted_header_in_a_test() {
-  add tests/core/core_test.cpp '#include <cstring>'
-  expect='core_test.cpp:[0-9]+: <cstring> is not freestanding, and this runs on the controller'
 }
 plant_hosted_header_behind_a_test() {
   add tests/core/planted.hpp '#include <string.h>'

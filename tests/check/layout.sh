@@ -57,6 +57,7 @@ EOF
       if (name ~ /\.hpp$/ && !(name in once)) { print name ": no #pragma once at its head"; bad = 1 }
     }
     END { flush(); exit bad }' || bad=1
+  sources | grep -E '\.(cpp|hpp|h)$' | tr '\n' '\0' | xargs -0 awk -f "$here/functions.awk" || bad=1
   # Scripts are for any POSIX shell; .ci/run and whatever says bash is read by bash.
   for file in $(sources | grep -E '\.sh$|^tools/[a-z_]*$|^hal/[a-z_]*$|^tests/.*/[a-z_]*$|^\.ci/'); do
     case $(head -n 1 "$file" | tr -d '\0') in
@@ -85,6 +86,17 @@ plant_folder() {
 plant_long_file() {
   yes '// a line' | head -n 401 >>firmware/firmtouch/core/crc32.cpp
   expect='core/crc32.cpp: 4[0-9]* lines'
+}
+lines() { yes "$1" | head -n "$2"; }
+plant_long_function() {
+  { echo 'float planted(float x) {'; lines '  x += 1.0f;' 78; echo '  return x;'; echo '}'; } >>firmware/firmtouch/core/crc32.cpp
+  expect='core/crc32.cpp:[0-9]*: a function of 81 lines'
+}
+plant_long_test() {  # behind one of 80 lines, in a class, behind a template's head over two lines
+  { echo 'TEST(Planted) {'; lines '  CHECK(true);' 78; echo '}'
+    echo 'struct Planted {'; echo '  template <class A,'; echo '            class B>'; echo '  void run(A a, B b) {'; lines '    a = b;' 80
+    echo '  }'; echo '};'; } >>tests/core/status_test.cpp
+  expect='status_test.cpp:[0-9]*: a function of 84 lines'
 }
 plant_unguarded_header() {
   echo 'int f();' >firmware/firmtouch/core/planted.hpp

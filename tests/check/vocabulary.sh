@@ -7,38 +7,24 @@ check() {
     -o -name '*.cmake' -o -name CMakeLists.txt -o ! -name '*.*' \) ! -path 'tests/check/vocabulary.*' |
     LC_ALL=C sort | LC_ALL=C awk -v list=tests/check/vocabulary.txt -f "$here/vocabulary.awk"
 }
+plants() {
+  cat <<'END'
+name @ firmware/firmtouch/core/crc32.cpp @ int told_distance_m(); @ core/crc32.cpp:[0-9]+: name: told
+name_in_capitals @ tests/core/status_test.cpp @ constexpr int kMostPlanes = 3; @ status_test.cpp:[0-9]+: name: k most
+comment @ firmware/firmtouch/core/crc32.cpp @ // The dearest query of all. @ core/crc32.cpp:[0-9]+: comment: dearest
+message @ tools/log/plot.cpp @ const char* text = "the mesh tells another side"; @ plot.cpp:[0-9]+: message: tells
+page @ README.md @ It is asked for the undone collapses. @ README.md:[0-9]+: page: undone
+script_comment @ tests/check/run @ # judges the answers @ tests/check/run:[0-9]+: comment: judges
+END
+}
 
-plant_name() {
-  echo 'int told_distance_m();' >>firmware/firmtouch/core/crc32.cpp
-  expect='core/crc32.cpp:[0-9]+: name: told'
-}
-plant_name_in_capitals() {
-  echo 'constexpr int kMostPlanes = 3;' >>tests/core/status_test.cpp
-  expect='status_test.cpp:[0-9]+: name: k most'
-}
 plant_file_name() {
   echo '#pragma once' >firmware/firmtouch/core/told_again.hpp
   expect='told_again.hpp:0: name: told'
 }
-plant_comment() {
-  echo '// The dearest query of all.' >>firmware/firmtouch/core/crc32.cpp
-  expect='core/crc32.cpp:[0-9]+: comment: dearest'
-}
 plant_comment_over_two_lines() {
   printf '// A list in place\n// of a tree.\n' >>firmware/firmtouch/core/crc32.cpp
   expect='core/crc32.cpp:[0-9]+: comment: in place of'
-}
-plant_message() {
-  echo 'const char* text = "the mesh tells another side";' >>tools/log/plot.cpp
-  expect='plot.cpp:[0-9]+: message: tells'
-}
-plant_page() {
-  echo 'It is asked for the undone collapses.' >>README.md
-  expect='README.md:[0-9]+: page: undone'
-}
-plant_script_comment() {
-  echo '# judges the answers' >>tests/check/run
-  expect='tests/check/run:[0-9]+: comment: judges'
 }
 plant_everyday_english() {  # only the last line is a retired term
   cat >>tests/core/status_test.cpp <<'EOF'

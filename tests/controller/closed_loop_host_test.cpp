@@ -43,26 +43,12 @@ TEST(RideOnThePart_GivesForceAndKeepsEveryLimit) {
 
 TEST(SameInputsTwiceGiveTheSameBits) {
   Ride a, b;
-  uint32_t differ = 0;
-  for (uint32_t tick = 0; tick < 3000; ++tick) {
-    a.fill(tick);
-    b.input = a.input;
-    a.step();
-    b.step();
-    if (std::memcmp(&a.output, &b.output, sizeof a.output) != 0) ++differ;
-  }
-  CHECK_EQ(differ, 0u);
+  const auto fill = [](Ride& ride, uint32_t tick) { ride.fill(tick); };
+  CHECK_EQ(differing_ticks(a, b, 3000, fill), 0u);
   // And after a reset, as from the beginning.
   a.controller.reset();
   Ride fresh;
-  for (uint32_t tick = 0; tick < 500; ++tick) {
-    a.fill(tick);
-    fresh.input = a.input;
-    a.step();
-    fresh.step();
-    if (std::memcmp(&a.output, &fresh.output, sizeof a.output) != 0) ++differ;
-  }
-  CHECK_EQ(differ, 0u);
+  CHECK_EQ(differing_ticks(a, fresh, 500, fill), 0u);
 }
 
 TEST(TwoControllersInOneProcessDoNotMeet) {
@@ -119,12 +105,7 @@ TEST(OtherProbeAnswersKeepTheMotorsOff) {
     const bool is_mesh = type == mesh::kProbesSection;
     CHECK_EQ(controller.open(bent.bytes()).rule,
              is_mesh ? firmtouch::kRuleMeshProbes : firmtouch::kRuleCurveProbes);
-    record::TickInput input{};
-    input.flags = record::kFlagEnable;
-    record::TickOutput output;
-    controller.tick(input, output);
-    CHECK_EQ(output.faults, servo::kFaultProbes);
-    CHECK_EQ(size_of(output.motor_N), 0.0);
+    CHECK_EQ(faults_when_enabled(controller), servo::kFaultProbes);
   }
 }
 

@@ -132,8 +132,8 @@ TEST(WhereTheSceneLiesCannotChangeAndLimitsOnlyFallWhileEnabled) {
     CHECK(!takes(row, 0.01f, record::kFlagEnable));
     CHECK(takes(row, 0.01f, 0));
   }
-  const uint32_t limits[] = {params::kForceLimit, params::kSlewLimit, params::kMeshSteps,
-                             params::kCurveSteps};
+  const uint32_t limits[] = {params::kForceLimit, params::kSlewLimit, params::kMeshWork,
+                             params::kGuideWork};
   for (const uint32_t row : limits) {
     const float now = params::kTable[row].initial;
     CHECK(!takes(row, 1.001f * now, record::kFlagEnable));

@@ -71,15 +71,7 @@ TEST(Field_OneCellATickInFreeSpace_SameContact) {
 
 TEST(RideWithAField_IsAFunctionOfItsInputs) {
   Ride a(asset_with_field()), b(asset_with_field());
-  uint32_t differ = 0;
-  for (uint32_t tick = 0; tick < 2000; ++tick) {
-    fill_far(a, tick);
-    b.input = a.input;
-    a.step();
-    b.step();
-    if (std::memcmp(&a.output, &b.output, sizeof a.output) != 0) ++differ;
-  }
-  CHECK_EQ(differ, 0u);
+  CHECK_EQ(differing_ticks(a, b, 2000, fill_far), 0u);
 }
 
 TEST(FieldThatItsMeshDoesNotProve_IsRejected_NoForce) {
@@ -93,12 +85,7 @@ TEST(FieldThatItsMeshDoesNotProve_IsRejected_NoForce) {
   FullController controller;
   CHECK_EQ(controller.open(bent.bytes()).rule, uint16_t{310});
   CHECK(!controller.distance_field().is_open());
-  record::TickInput input{};
-  input.flags = record::kFlagEnable;
-  record::TickOutput output;
-  controller.tick(input, output);
-  CHECK_EQ(output.faults, servo::kFaultAsset);
-  CHECK_EQ(size_of(output.motor_N), 0.0);
+  CHECK_EQ(faults_when_enabled(controller), servo::kFaultAsset);
 }
 
 TEST(FieldOfAnotherName_IsNotTheMeshs) {

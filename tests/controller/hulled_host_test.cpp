@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <cstring>
 
-#include "bake/hull/bake_hull.hpp"
 #include "controller/ride.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "harness/test.hpp"
+#include "hull/add_hull.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 using namespace controller_test;
@@ -15,15 +15,7 @@ namespace {
 
 std::vector<tools::Section> hulled_sections() {
   std::vector<tools::Section> sections = part_sections();
-  mesh::View view;
-  CHECK(tools::open_baked(sections, "part", view).ok());
-  tools::HullOptions options;
-  options.target_faces = 600;
-  options.grid_bits = 16;
-  tools::HullBakeReport report;
-  for (tools::Section& section : tools::bake_hull(view, sections, "part", options, report))
-    sections.push_back(std::move(section));
-  CHECK(report.problem.empty());
+  hull_test::add_hull(sections, 600);
   for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
   return sections;
 }
@@ -37,7 +29,7 @@ const Asset& hulled() {
 void fill_short(Ride& ride, uint32_t tick, float steps) {
   ride.fill(tick);
   if (tick != 0) return;
-  ride.input.command = 1 + params::kMeshSteps;
+  ride.input.command = 1 + params::kMeshWork;
   ride.input.command_value = steps;
 }
 
@@ -72,15 +64,8 @@ TEST(BudgetExhausted_BaseHullIsTouchedAndRecorded) {
 
 TEST(ARideByTheHullIsAFunctionOfItsInputs) {
   Ride a(hulled()), b(hulled());
-  uint32_t differ = 0;
-  for (uint32_t tick = 0; tick < 2000; ++tick) {
-    fill_short(a, tick, 16);
-    b.input = a.input;
-    a.step();
-    b.step();
-    if (std::memcmp(&a.output, &b.output, sizeof a.output) != 0) ++differ;
-  }
-  CHECK_EQ(differ, 0u);
+  const auto fill = [](Ride& ride, uint32_t tick) { fill_short(ride, tick, 16); };
+  CHECK_EQ(differing_ticks(a, b, 2000, fill), 0u);
 }
 
 TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
@@ -99,12 +84,7 @@ TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
     } else {
       CHECK(rule >= 540 && rule <= 549);
     }
-    record::TickInput input{};
-    input.flags = record::kFlagEnable;
-    record::TickOutput output;
-    controller.tick(input, output);
-    CHECK_NE(output.faults, 0u);
-    CHECK_EQ(size_of(output.motor_N), 0.0);
+    CHECK_NE(faults_when_enabled(controller), 0u);
   }
 }
 

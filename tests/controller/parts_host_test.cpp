@@ -83,12 +83,7 @@ TEST(SelectedGeometry_OthersDoNotCount) {
 TEST(MeshController_RejectsAnAssetWithAGuide_AndKeepsTheMotorsOff) {
   static MeshController controller;
   CHECK_EQ(controller.open(both().bytes()).rule, uint16_t{kRuleNeedsGuide});
-  record::TickInput input{};
-  input.flags = record::kFlagEnable;
-  record::TickOutput output;
-  controller.tick(input, output);
-  CHECK_EQ(output.faults, servo::kFaultAsset);
-  CHECK_EQ(size_of(output.motor_N), 0.0);
+  CHECK_EQ(faults_when_enabled(controller), servo::kFaultAsset);
 }
 
 TEST(MeshController_HasTheSameBitsAsTheFullOne) {

@@ -126,6 +126,33 @@ inline double size_of(const float (&a)[3]) {
                     static_cast<double>(a[2]));
 }
 
+/// Rides both with the inputs that fill(a, tick) gives to the first.
+/// Result: ticks after which their outputs differ by a bit.
+template <class Fill>
+uint32_t differing_ticks(Ride& a, Ride& b, uint32_t ticks, const Fill& fill) {
+  uint32_t differ = 0;
+  for (uint32_t tick = 0; tick < ticks; ++tick) {
+    fill(a, tick);
+    b.input = a.input;
+    a.step();
+    b.step();
+    if (std::memcmp(&a.output, &b.output, sizeof a.output) != 0) ++differ;
+  }
+  return differ;
+}
+
+/// Enables the motors of a controller whose asset was rejected, for one tick.
+/// Result: the faults; the motors are checked to be without force.
+template <class AnyController>
+uint32_t faults_when_enabled(AnyController& controller) {
+  record::TickInput input{};
+  input.flags = record::kFlagEnable;
+  record::TickOutput output;
+  controller.tick(input, output);
+  CHECK_EQ(size_of(output.motor_N), 0.0);
+  return output.faults;
+}
+
 inline bool all_finite(const record::TickOutput& output) {
   const float* at = output.motor_N;
   for (int k = 0; k < 17; ++k) {

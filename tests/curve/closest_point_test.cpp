@@ -5,15 +5,12 @@
 
 #include "curve/rule_curves.hpp"
 #include "curve/small_curve.hpp"
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace {
 
-using firmtouch::curve::Closest;
-using firmtouch::curve::closest_point;
-using firmtouch::curve::Hint;
-using firmtouch::curve::Sample;
-using firmtouch::curve::View;
+using namespace firmtouch::curve;  // NOLINT: a test file
 using firmtouch::curve_test::LongCurve;
 using firmtouch::curve_test::SmallCurve;
 using firmtouch::math::Vec3;
@@ -27,18 +24,7 @@ Closest cold(const View& view, Vec3 p, Budget budget = kUnlimited) {
   return closest_point(view, p, budget, hint);
 }
 
-// The same pseudo-random numbers on every machine.
-class Random {
- public:
-  explicit Random(uint32_t seed) : state_(seed) {}
-  float between(float low, float high) {
-    state_ = state_ * 1664525u + 1013904223u;
-    return low + (high - low) * (static_cast<float>(state_ >> 8) * 0x1p-24f);
-  }
-
- private:
-  uint32_t state_;
-};
+using Random = firmtouch::test::Lcg;
 
 // Spacing from 1e-5 to 1, turning back towards itself every eight samples.
 const LongCurve& tangled(uint32_t count) {

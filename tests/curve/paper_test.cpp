@@ -7,14 +7,7 @@
 namespace {
 
 using firmtouch::core::Span;
-using firmtouch::curve::ArcPenalty;
-using firmtouch::curve::closest_point;
-using firmtouch::curve::Constraint;
-using firmtouch::curve::Hint;
-using firmtouch::curve::nearest_constraint;
-using firmtouch::curve::Neighbour;
-using firmtouch::curve::Sample;
-using firmtouch::curve::View;
+using namespace firmtouch::curve;  // NOLINT: a test file
 using firmtouch::curve_test::SmallCurve;
 using firmtouch::math::Vec3;
 using firmtouch::query::kUnlimited;

@@ -110,18 +110,51 @@ TEST(WhatIsNotAFiniteNumberIsRefusedWithItsLine) {
 }
 
 TEST(AMissingHeaderIsRefused) {
-  CHECK(refused("0,0,0\n1,0,0\n", {"line 1", "no header", "x,y,z"}));
+  CHECK(refused("0,0,0,0\n1,0,0,0\n", {"line 1", "no header", "4 columns", "x,y,z"}));
   CHECK(refused("a,b,c\n0,0,0\n1,0,0\n", {"line 1", "'a,b,c'", "x,y,z"}));
   CHECK(refused("x,y\n0,0\n1,0\n", {"line 1", "x,y,z"}));
   CHECK(refused("x,y,z,x\n0,0,0,0\n1,0,0,0\n", {"line 1", "once"}));
 }
 
-TEST(OtherSeparatorsAndDecimalCommasAreRefusedByName) {
-  CHECK(refused("x;y;z\n0;0;0\n1;0;0\n", {"line 1", "semicolons", "commas"}));
+TEST(OtherSeparators_AreTaken_MixedOnesRefused) {
+  for (const char* text :
+       {"x;y;z\n0;0;0\n1.5;0;2\n", "x\ty\tz\n0\t0\t0\n1.5\t0\t2\n", "x y z\n0 0 0\n1.5  0 2\n",
+        "sep=;\nx;y;z\n0;0;0\n1.5;0;2\n", "\"X\",\"Y\",\"Z\"\r\n0,0,0\r\n\"1.5\",0,2\r\n",
+        "# x y z\n0 0 0\n1.5 0 2\n", "0.0e+00 0 0\n1.5 0 2\n", ",x,y,z\n0,0,0,0\n1,1.5,0,2\n",
+        "# from a probe\nx,y,z\n0,0,0\n# half way\n1.5,0,2\n"}) {
+    const CurvePoints points = read(text);
+    CHECK(points.problem.empty());
+    CHECK_EQ(points.samples_m.size(), 2u);
+    if (points.samples_m.size() != 2) continue;
+    CHECK_EQ(points.samples_m[1].x, 1.5f);
+    CHECK_EQ(points.samples_m[1].z, 2.0f);
+  }
   CHECK(refused("x,y,z\n0;0;0\n", {"line 2", "semicolons"}));
-  CHECK(refused("x\ty\tz\n0\t0\t0\n", {"line 1", "tabs"}));
-  CHECK(refused("x y z\n0 0 0\n", {"line 1", "spaces"}));
   CHECK(refused("x,y,z\n0,0,0,0,1,5\n", {"line 2", "6 fields", "point, not a comma"}));
+  CHECK(refused("x;y;z\n0;0;0\n1,5;0;0\n", {"line 3", "--decimal-comma"}));
+  CHECK(refused(std::string("\xFF\xFEx\0,\0y", 8), {"UTF-16", "UTF-8"}));
+}
+
+TEST(DecimalCommas_AreTakenByOption) {
+  const CurvePoints points =
+      read_curve_csv_bytes("x;y;z\n0;0;0\n1,5;-0,25;2\n", "path.csv", 1.0, {true});
+  CHECK(points.problem.empty());
+  CHECK_EQ(points.samples_m[1].x, 1.5f);
+  CHECK_EQ(points.samples_m[1].y, -0.25f);
+}
+
+TEST(UnitsInTheHeader_CountUnlessOneIsGiven) {
+  firmtouch::tools::FileFrame own;
+  own.has_unit = false;
+  for (const char* header :
+       {"x (mm),y (mm),z (mm)", "x_mm,y_mm,z_mm", "X [mm],Y [mm],Z [mm]", "x/mm,y/mm,z/mm"}) {
+    const std::string text = std::string(header) + "\n0,0,0\n10,0,20\n";
+    CHECK_EQ(read_curve_csv_bytes(text, "path.csv", own).samples_m[1].z,
+             static_cast<float>(20 * 0.001));
+    CHECK_EQ(read(text).samples_m[1].z, 20.0f);
+  }
+  CHECK(has(read_curve_csv_bytes("x_mm,y_m,z_mm\n0,0,0\n1,1,1\n", "path.csv", own).problem,
+            "different units"));
 }
 
 TEST(RowsOfAnotherLengthAreRefusedWithTheirLine) {

@@ -5,14 +5,8 @@
 namespace {
 
 using firmtouch::core::Verdict;
-using firmtouch::curve::Sample;
-using firmtouch::curve::Sections;
-using firmtouch::curve::View;
-using firmtouch::curve_test::expect;
-using firmtouch::curve_test::long_hook;
-using firmtouch::curve_test::LongCurve;
-using firmtouch::curve_test::SmallCurve;
-using firmtouch::curve_test::verdict_of;
+using namespace firmtouch::curve;       // NOLINT: a test file
+using namespace firmtouch::curve_test;  // NOLINT
 
 constexpr Sample kHook[] = {{0, 0, 0},           {0.125f, 0, 0},
                             {0.25f, 0.0625f, 0}, {0.25f, 0.25f, 0.5f},

@@ -38,9 +38,62 @@ struct Walker {
   }
 };
 
+// The segments of a safe subtree and of its two neighbours of the same size, first to before end.
+struct Stretch {
+  uint32_t first, end;
+};
+Stretch stretch_of(const curve::View& view, uint32_t safe_subtree) {
+  const uint32_t levels = view.run_levels();
+  const uint32_t run = safe_subtree >> (levels + 1);
+  const uint32_t node = safe_subtree & ((2u << levels) - 1);
+  uint32_t level = 0;
+  while (node + 1 >= (2u << level)) ++level;
+  const uint32_t size = curve::run_segments_of(levels) >> level;
+  const uint32_t run_first = run * curve::run_segments_of(levels);
+  const uint32_t first = run_first + (node + 1 - (1u << level)) * size, after = first + 2 * size;
+  const uint32_t run_end = run_first + curve::run_segments_of(levels);
+  const uint32_t end = after < run_end ? after : run_end;
+  return {first >= run_first + size ? first - size : first,
+          end < view.segment_count() ? end : view.segment_count()};
+}
+
 }  // namespace
 
-TEST(WhatWasCertifiedBeforeNeverHidesANearerPoint) {
+// Against every segment outside of it, in double: what the hint claims, not what a search makes of
+// it.
+TEST(SafeSubtree_LeavesNothingNearerOutside_AfterAnyQuery) {
+  uint32_t checked = 0, tight = 0;
+  for (uint32_t levels = 3; levels <= 8; ++levels) {
+    for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {
+      const Baked baked(named.points, false, levels);
+      test::note(named.name.c_str(), levels);
+      Walker walker{std::mt19937(levels + 20), baked.samples[0]};
+      curve::Hint hint;
+      for (uint32_t i = 0; i < kSteps; ++i) {
+        walker.step(baked);
+        const math::Vec3 p = walker.at_m;
+        hint.safe_subtree = query::kNowhere;  // so that this query leaves one of its own
+        (void)closest_point(baked.view, p, query::kUnlimited, hint);
+        if (hint.safe_subtree == query::kNowhere) continue;
+        const Stretch kept = stretch_of(baked.view, hint.safe_subtree);
+        double outside = HUGE_VAL;
+        for (uint32_t s = 0; s < baked.view.segment_count(); ++s)
+          if (s < kept.first || s >= kept.end)
+            outside = std::min(outside,
+                               curve_test::to_segment(p, baked.samples[s], baked.samples[s + 1]));
+        ++checked;
+        const double claimed = double{hint.safe_subtree_m};
+        if (claimed > 0.5 * outside) ++tight;
+        CHECK_LE(claimed, outside * (1 + 1e-6));
+      }
+    }
+  }
+  std::printf("      %u safe subtrees, %u within a half of the truth\n", checked, tight);
+  CHECK_GE(checked, 500u);
+  CHECK_GE(10 * tight, checked);  // or it would claim nothing
+}
+
+TEST(WarmQuery_FindsTheNearestPoint_AfterAnyCertificate) {
   uint32_t queries = 0, stopped_early = 0;
   for (uint32_t levels = 2; levels <= 8; ++levels) {
     for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {

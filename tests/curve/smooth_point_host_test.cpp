@@ -120,7 +120,7 @@ Points ring(int count) {
 
 }  // namespace
 
-TEST(SmoothCurvesAreBakedAndProven) {
+TEST(SmoothCurve_IsBakedAndProven_OfHardSamples) {
   size_t refused = 0;
   for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {
     const Baked baked(named.points, true);
@@ -168,7 +168,7 @@ TEST(ClosestPoint_OfCubicPieces_EqualsDenseOracle) {
   CHECK_LE(in_doubt * 100, all);
 }
 
-TEST(EveryBudgetOfASmoothCurveIsCertified) {
+TEST(Certificate_Holds_UnderEveryBudgetOfASmoothCurve) {
   for (const curve_test::NamedCurve& named : curves()) {
     const Baked baked(named.points, true);
     const Oracle oracle(baked);
@@ -196,7 +196,7 @@ TEST(EveryBudgetOfASmoothCurveIsCertified) {
 
 // A hand 3 mm beside a guide of coarse samples, at 1 kHz and 100 mm/s: the force's step from tick
 // to tick, less that of a true circle's.
-TEST(AGuideOfCubicPiecesHasNoCornersAndOneOfStraightPiecesHas) {
+TEST(Guide_HasNoCorners_OnCubicPieces) {
   for (const double aside : {0.003, -0.003}) {
     double steps[2] = {};
     for (const bool is_smooth : {false, true}) {
@@ -224,7 +224,7 @@ TEST(AGuideOfCubicPiecesHasNoCornersAndOneOfStraightPiecesHas) {
   }
 }
 
-TEST(TheTangentDoesNotTurnAtASample) {
+TEST(Tangent_StaysTheSame_AtASample) {
   const Baked baked(ring(40), true);
   curve::Hint hint;
   for (uint32_t i = 1; i + 1 < baked.samples.size(); ++i) {

@@ -11,14 +11,8 @@ namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
 using field_test::CubeField;
+using field_test::Opened;
 using math::Vec3;
-
-struct Opened {
-  CubeField distance_field;
-  mesh::View mesh = distance_field.cube.view();
-  field::View view;
-  Opened() { CHECK(field::open(distance_field.sections(), mesh, view).ok()); }
-};
 
 // Signed distance to the cube from -1 to 1, negative inside.
 float truth_of(Vec3 p) {

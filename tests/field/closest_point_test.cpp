@@ -10,15 +10,8 @@
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
-using field_test::CubeField;
+using field_test::Opened;
 using math::Vec3;
-
-struct Opened {
-  CubeField distance_field;
-  mesh::View mesh = distance_field.cube.view();
-  field::View view;
-  Opened() { CHECK(field::open(distance_field.sections(), mesh, view).ok()); }
-};
 
 float coordinate(uint32_t& state, float reach) {
   state = state * 1664525u + 1013904223u;

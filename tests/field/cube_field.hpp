@@ -3,6 +3,7 @@
 #include "firmtouch/field/centre.hpp"
 #include "firmtouch/field/view.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "harness/test.hpp"
 #include "mesh/cube.hpp"
 
 namespace firmtouch::field_test {
@@ -40,6 +41,13 @@ struct CubeField {
   static core::Bytes bytes(const void* from, uint32_t count) {
     return {static_cast<const uint8_t*>(from), count};
   }
+};
+
+struct Opened {
+  CubeField distance_field;
+  mesh::View mesh = distance_field.cube.view();
+  field::View view;
+  Opened() { CHECK(field::open(distance_field.sections(), mesh, view).ok()); }
 };
 
 }  // namespace firmtouch::field_test

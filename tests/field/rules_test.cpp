@@ -1,17 +1,21 @@
 // The reject rules of a distance field, each condition tripped alone.
+#include "harness/rules.hpp"
 #include "cube_field.hpp"
+#include "harness/float_bits.hpp"
 #include "harness/test.hpp"
 
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
 using field_test::CubeField;
+using test::nan_value;
+using test::shorter;
 
 uint32_t refusal_of(const field::Sections& sections, const mesh::View& mesh) {
   field::View view;
   const core::Verdict verdict = field::open(sections, mesh, view);
   CHECK_EQ(verdict.ok(), view.is_open());
-  return verdict.rule * 1000u + verdict.element;
+  return test::refusal(verdict);
 }
 uint32_t refusal_of(const CubeField& distance_field) {
   return refusal_of(distance_field.sections(), distance_field.cube.view());
@@ -23,15 +27,6 @@ uint32_t refusal_with(Change change) {
   change(distance_field);
   return refusal_of(distance_field);
 }
-
-float nan_value() {
-  const uint32_t bits = 0x7FC00000;
-  float value;
-  __builtin_memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-core::Bytes shorter(core::Bytes bytes, uint32_t by) { return {bytes.data(), bytes.size() - by}; }
 
 }  // namespace
 

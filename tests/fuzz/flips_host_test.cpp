@@ -11,6 +11,7 @@
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "fuzz/victim.hpp"
+#include "harness/long.hpp"
 #include "harness/test.hpp"
 #include "surface/random.hpp"
 
@@ -22,10 +23,7 @@ namespace {
 
 using namespace firmtouch;
 
-bool is_long() {
-  const char* wanted = std::getenv("FIRMTOUCH_LONG");
-  return wanted != nullptr && wanted[0] != 0 && wanted[0] != '0';
-}
+using test::is_long;
 
 const std::vector<uint8_t>& victim() {
   static const std::vector<uint8_t> bytes = fuzz::make_victim();

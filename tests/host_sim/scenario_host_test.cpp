@@ -47,7 +47,7 @@ TEST(Scenario_EveryStatement_ConvertsToSi) {
       "coulomb_friction 20 mN\nencoder_quantum 30 um\nmotor_limit 10 N\noutput_delay 1 "
       "samples\nhand_stiffness 0.4 N/mm\n"
       "hand_damping 4 Ns/m\nstart 1 2 -3 cm\ncontact_stiffness 800 N/m\ntool_radius_m 5 "
-      "mm\nmesh_steps 64\n"
+      "mm\nmesh_work 64\n"
       "\tmove to 0 0 0.1 m at 50 mm/s\nhold for 1 s\npress 0 0 0.01 m for 0.5 s\n"
       "follow guide at 0.05 m/s for 4 s pressing 2 mm\nat 2 s set guide_stiffness 100 N/m\nat 1.5 "
       "s emergency_stop\n");
@@ -86,7 +86,7 @@ TEST(Scenario_EveryMistake_ReportsItsLine) {
       {"mass -1 kg", "outside"},
       {"mass 1 kg 2", "unexpected `2`"},
       {"contact_stiffness 1e9 N/m", "outside"},
-      {"mesh_steps 3 m", "unexpected `m`"},
+      {"mesh_work 3 m", "unexpected `m`"},
       {"output_delay 1.5 samples", "whole number"},
       {"start 1 2 m", "needs a number"},
       {"start 1 2 3", "the unit of `start`"},

@@ -167,14 +167,14 @@ TEST(ABaseHullWindsAroundEveryPointOfTheMesh) {
     if (winding_by_angles(baked.surface, to_point(middle)) < 0.9) continue;
     ++inside;
     int32_t winding;
-    uint32_t steps = 0;
-    CHECK(hull::wind_around(baked.view.base_hull(), middle, query::kUnlimited, winding, steps));
+    query::Work work(query::kUnlimited);
+    CHECK(hull::wind_around(baked.view.base_hull(), middle, work, winding));
     CHECK_LE(1, winding);
   }
   CHECK_LT(100u, inside);
   int32_t winding = 9;
-  uint32_t steps = 0;
-  CHECK(hull::wind_around(baked.view.base_hull(), {0, 0, 0}, query::kUnlimited, winding, steps));
+  query::Work work(query::kUnlimited);
+  CHECK(hull::wind_around(baked.view.base_hull(), {0, 0, 0}, work, winding));
   CHECK_EQ(winding, 0);  // the hole of the ring
 }
 
@@ -283,8 +283,8 @@ TEST(BaseHullCast_OutOfBudget_ReportsHitAtStart) {
   CHECK(hit.hit && !hit.exact);
   CHECK_EQ(hit.t, 0.0f);
   int32_t winding;
-  uint32_t steps = 0;
-  CHECK(!hull::wind_around(baked.view.base_hull(), {0, 0, 0}, {1}, winding, steps));
+  query::Work work(query::Budget{1});
+  CHECK(!hull::wind_around(baked.view.base_hull(), {0, 0, 0}, work, winding));
 }
 
 }  // namespace firmtouch::tools

@@ -9,6 +9,7 @@
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/refinement.hpp"
+#include "refinement_faces.hpp"
 #include "small_hull.hpp"
 #include "surface/random.hpp"
 
@@ -49,14 +50,14 @@ void use(const hull::View& view, Random& random) {
     const mesh::Crossings all = hull::all_crossings(view, a, b, {100}, {buffer});
     CHECK_LE(all.steps, 100u);
     (void)refinement.all(a, b, {100}, {buffer});
-    CHECK_EQ(refinement.split_count(), 0u);
+    CHECK_EQ(refinement.splits().size(), 0u);
     const hull::BaseHullHit base_hull = hull::cast_base_hull(view.base_hull(), a, b, {100});
     CHECK(base_hull.t >= 0 && base_hull.t <= 1);
     const hull::BaseHullDistance near = hull::base_hull_distance(view.base_hull(), a, {100});
     CHECK(std::isfinite(near.lower_m) && std::isfinite(near.deepest_m));
     CHECK_LE(near.steps, 100u);
   }
-  for (hull::Refinement::Faces faces(refinement); faces.next();)
+  for (hull_test::RefinementFaces faces(view, view.base_hull(), refinement); faces.next();)
     for (const uint32_t number : faces.number) CHECK_LT(number, view.id_count());
 }
 

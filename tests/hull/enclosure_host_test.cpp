@@ -4,6 +4,7 @@
 #include <set>
 
 #include "exact_oracle.hpp"
+#include "harness/long.hpp"
 #include "harness/test.hpp"
 #include "hull/build_hull.hpp"
 #include "surface/check/check.hpp"
@@ -18,10 +19,7 @@
 namespace firmtouch::tools {
 namespace {
 
-bool is_long() {
-  const char* wanted = std::getenv("FIRMTOUCH_LONG");
-  return wanted != nullptr && wanted[0] != 0;
-}
+using test::is_long;
 
 struct Outside {
   size_t points = 0;

@@ -10,16 +10,15 @@
 #include "firmtouch/hull/refinement.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
+#include "harness/long.hpp"
 #include "harness/test.hpp"
+#include "refinement_faces.hpp"
 #include "surface/make/make_part.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
-bool is_long() {
-  const char* wanted = std::getenv("FIRMTOUCH_LONG");
-  return wanted != nullptr && wanted[0] != 0;
-}
+using test::is_long;
 
 struct Line {
   math::Vec3 a, b;
@@ -181,7 +180,7 @@ void restores(const BakedHull& baked, uint32_t base) {
   hull::Refinement refinement(baked.view, base_hull, memory.spans());
   for (uint32_t k = 0; k < base_hull.head().cut; ++k) CHECK(refinement.split(k));
   std::vector<Face> found, wanted = baked.surface.faces;
-  for (hull::Refinement::Faces faces(refinement); faces.next();)
+  for (hull_test::RefinementFaces faces(baked.view, base_hull, refinement); faces.next();)
     found.push_back({faces.number[0], faces.number[1], faces.number[2]});
   for (std::vector<Face>* faces : {&found, &wanted}) {
     for (Face& f : *faces)

@@ -1,17 +1,21 @@
 // The reject rules of a hull, each condition tripped alone.
+#include "harness/rules.hpp"
+#include "harness/float_bits.hpp"
 #include "small_hull.hpp"
 
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
 using hull_test::SmallHull;
+using test::nan_value;
+using test::shorter;
 
 /// Rule * 1000 + element.
 uint32_t refusal_of(const hull::Sections& sections) {
   hull::View view;
   const core::Verdict verdict = hull::open(sections, view);
   CHECK_EQ(verdict.ok(), view.is_open());
-  return verdict.rule * 1000u + verdict.element;
+  return test::refusal(verdict);
 }
 
 template <class Change>
@@ -27,15 +31,6 @@ uint32_t rule_with(Change change) {
   hull::View view;
   return hull::open(small.sections, view).rule;
 }
-
-float nan_value() {
-  const uint32_t bits = 0x7FC00000;
-  float value;
-  __builtin_memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-core::Bytes shorter(core::Bytes bytes, uint32_t by) { return {bytes.data(), bytes.size() - by}; }
 
 }  // namespace
 

@@ -104,6 +104,7 @@ Browser::~Browser() {
 }
 
 bool Browser::open(const std::string& url, int width, int height) {
+  session_.clear();
   const std::string target =
       text_of(call("Target.createTarget", "{\"url\":\"about:blank\"}", 20000), "targetId");
   if (target.empty()) return false;
@@ -111,6 +112,9 @@ bool Browser::open(const std::string& url, int width, int height) {
       call("Target.attachToTarget", "{\"targetId\":" + quoted(target) + ",\"flatten\":true}", 5000),
       "sessionId");
   if (session_.empty()) return false;
+  call("Runtime.enable", "{}", 5000);
+  call("Log.enable", "{}", 5000);
+  call("Page.setDownloadBehavior", "{\"behavior\":\"deny\"}", 5000);
   resize(width, height);
   return !text_of(call("Page.navigate", "{\"url\":" + quoted(url) + "}", 10000), "frameId").empty();
 }
@@ -140,6 +144,16 @@ bool Browser::picture(const std::string& path) {
   return std::fclose(out) == 0 && whole && !bytes.empty();
 }
 
+void Browser::note(const std::string& event) {
+  const auto has = [&](const char* text) { return event.find(text) != std::string::npos; };
+  if (has("\"method\":\"Runtime.exceptionThrown\""))
+    errors_ += text_of(event, "description") + "\n";
+  else if (has("\"method\":\"Runtime.consoleAPICalled\"") && has("\"type\":\"error\""))
+    errors_ += "console: " + text_of(event, "value") + "\n";
+  else if (has("\"method\":\"Log.entryAdded\"") && has("\"level\":\"error\""))
+    errors_ += "log: " + text_of(event, "text") + "\n";
+}
+
 // Result: the answer's text; empty where none came in time.
 std::string Browser::call(const std::string& method, const std::string& parameters,
                           int timeout_ms) {
@@ -159,7 +173,8 @@ std::string Browser::call(const std::string& method, const std::string& paramete
     for (size_t zero; (zero = waiting_.find('\0')) != std::string::npos;) {
       const std::string answer = waiting_.substr(0, zero);
       waiting_.erase(0, zero + 1);
-      if (answer.rfind(begins, 0) == 0) return answer;  // others are events
+      if (answer.rfind(begins, 0) == 0) return answer;
+      note(answer);
     }
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
     pollfd ready{from_, POLLIN, 0};

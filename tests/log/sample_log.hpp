@@ -6,6 +6,7 @@
 
 #include "firmtouch/core/crc32.hpp"
 #include "firmtouch/record/ring.hpp"
+#include "harness/long.hpp"
 #include "log/layout.hpp"
 #include "log/memory_sink.hpp"
 #include "log/reader.hpp"
@@ -160,7 +161,7 @@ class Random {
   uint64_t state_;
 };
 
-inline bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
+using test::is_long;
 
 /// A folder of a test's own, gone with it.
 struct Folder {

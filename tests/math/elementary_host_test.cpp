@@ -9,17 +9,15 @@
 #include <initializer_list>
 #include <limits>
 
+#include "harness/float_bits.hpp"
 #include "harness/test.hpp"
 
 namespace math = firmtouch::math;
 
 namespace {
 
-float float_of(uint32_t bits) {
-  float value;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
+using firmtouch::test::bits_of;
+using firmtouch::test::float_of;
 
 // Distance from the truth in units in the last place of the float nearest to the truth.
 double error_ulp(float got, double truth) {
@@ -40,12 +38,6 @@ double worst_ulp(uint32_t last_bits, uint32_t stride, Function function, Truth t
     worst = std::fmax(worst, error_ulp(function(-x), truth(-static_cast<double>(x))));
   }
   return worst;
-}
-
-uint32_t bits_of(float value) {
-  uint32_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits;
 }
 
 double sin_of(double x) { return std::sin(x); }

@@ -51,6 +51,33 @@ TEST(PortableSquareRootHasTheBitsOfTheProcessors) {
   CHECK_EQ(differ, 0u);
 }
 
+// Exact in integers: two significands of 24 bits, and 48 bits of product.
+TEST(ProductError_IsWhatRoundingLost) {
+  uint32_t wrong = 0, differ = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const uint32_t m = 0x800000u | (next_random() & 0x7FFFFFu);
+    const uint32_t n = 0x800000u | (next_random() & 0x7FFFFFu);
+    const float a = static_cast<float>(m),
+                b = (i & 1u) != 0 ? -static_cast<float>(n) : static_cast<float>(n);
+    volatile float rounded = a * b;
+    const float product = rounded, error = math::product_error(a, b, product);
+    const int64_t exact = (i & 1u) != 0 ? -(int64_t{m} * n) : int64_t{m} * n;
+    wrong += static_cast<int64_t>(product) + static_cast<int64_t>(error) == exact ? 0u : 1u;
+    // Scaled to where the error is a denormal, and below where it counts as 0.
+    constexpr float kScales[] = {0x1p-60f, 0x1p-72f, 0x1p-74f, 0x1p40f};
+    for (const float scale : kScales) {
+      const float x = a * scale, y = b * scale;
+      volatile float small = x * y;
+      differ += math::bits_of(math::product_error(x, y, small)) ==
+                        math::bits_of(math::portable::product_error(x, y, small))
+                    ? 0u
+                    : 1u;
+    }
+  }
+  CHECK_EQ(wrong, 0u);
+  CHECK_EQ(differ, 0u);
+}
+
 TEST(PortableSquareRootIsTheNearestFloat) {
   // r is right where (r - half ulp)^2 < x < (r + half ulp)^2, in integers: r = 2^12 scaled, x = r^2
   // scaled.

@@ -8,6 +8,7 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
 #include "surface/crossings.hpp"
+#include "surface/make/make_cad.hpp"
 #include "surface/make/make_part.hpp"
 
 namespace {
@@ -62,7 +63,8 @@ bool at_crossing(const BakedMesh& baked, const tools::Crossings& crossings, Vec3
   return false;
 }
 
-void against_brute_force(const BakedMesh& baked, size_t count, uint64_t seed) {
+// `sure`: of the diagonal; nearer to the surface a sign may be unknown, and the answer not exact.
+void against_brute_force(const BakedMesh& baked, size_t count, uint64_t seed, double sure = 0) {
   const std::vector<Vec3> queries = hard_queries(baked.surface, count, seed);
   const std::vector<Truth> truth = truths(baked.surface, queries);
   const tools::Crossings crossings = tools::find_crossings(baked.surface);
@@ -72,7 +74,7 @@ void against_brute_force(const BakedMesh& baked, size_t count, uint64_t seed) {
     mesh::Hint cold;
     for (mesh::Hint* hint : {&warm, &cold}) {
       const mesh::Closest c = mesh::closest_point(baked.view, queries[i], query::kUnlimited, *hint);
-      CHECK(c.certificate.exact);
+      CHECK(c.certificate.exact || truth[i].distance < sure * baked.size);
       check_answer(baked, c, truth[i], at_crossing(baked, crossings, c.point_m));
     }
   }
@@ -102,6 +104,16 @@ TEST(SpotAnswersLikeBruteForce) { against_real_model("spot.obj", 20000, 20000); 
 TEST(RockerArmAnswersLikeBruteForce) { against_real_model("rocker-arm.off", 20000, 20000); }
 TEST(FandiskAnswersLikeBruteForce) { against_real_model("fandisk.obj", 20000, 20000); }
 TEST(HorseAnswersLikeBruteForce) { against_real_model("horse.ply", 2000, 20000); }
+
+// Few large triangles, long thin ones, fans: float32 alone keeps no promise, and rivals decide. The
+// sign beside an edge is known from 28 units of float32 of the longest edge on.
+TEST(MachinedPartsAnswerLikeBruteForce) {
+  for (uint64_t seed = 0; seed < 4 * tools::kCadKinds; ++seed) {
+    const BakedMesh baked(tools::to_surface(tools::make_cad(seed)));
+    CHECK(baked.view.has_rivals());
+    against_brute_force(baked, long_run() ? 10000 : 300, seed, 4e-6);
+  }
+}
 
 TEST(EveryBudgetIsCertifiedColdAndWarm) {
   const BakedMesh& baked = part();

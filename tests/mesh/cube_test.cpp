@@ -4,6 +4,8 @@
 #include "cube.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
+#include "harness/float_bits.hpp"
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 
 namespace {
@@ -11,17 +13,8 @@ namespace {
 using firmtouch::math::Vec3;
 using namespace firmtouch;  // NOLINT: a test file
 
-float bits_to_float(uint32_t bits) {
-  float value;
-  __builtin_memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-uint32_t g_random = 1;
-float random_in(float low, float high) {
-  g_random = g_random * 1664525u + 1013904223u;
-  return low + (high - low) * static_cast<float>(g_random >> 8) * 0x1p-24f;
-}
+test::Lcg g_random(1);
+float random_in(float low, float high) { return g_random.between(low, high); }
 
 float larger(float a, float b) { return a > b ? a : b; }
 float absolute(float a) { return a < 0 ? -a : a; }
@@ -140,7 +133,7 @@ TEST(HostileQueriesGiveFiniteAnswers) {
   for (const uint32_t x : bits)
     for (const uint32_t y : bits)
       for (const uint32_t z : bits) {
-        const Vec3 p{bits_to_float(x), bits_to_float(y), bits_to_float(z)};
+        const Vec3 p{test::float_of(x), test::float_of(y), test::float_of(z)};
         mesh::Hint cold;
         const mesh::Closest answers[] = {query_at(view, p, warm), query_at(view, p, cold)};
         for (const mesh::Closest& c : answers) {
@@ -191,7 +184,7 @@ TEST(SegmentsCrossTheCubeWhereTheyShould) {
   CHECK(!mesh::cast_segment(view, {2, 2, 3}, {2, 2, -3}, query::kUnlimited).hit);
   CHECK(!mesh::cast_segment(view, {0, 0, 0}, {0.5f, 0.5f, 0.5f}, query::kUnlimited).hit);
   CHECK(!mesh::cast_segment(view, {0, 0, 2}, {0, 0, 2}, query::kUnlimited).hit);
-  const float nan = bits_to_float(0x7FC00000);
+  const float nan = test::float_of(0x7FC00000);
   CHECK(!mesh::cast_segment(view, {nan, 0, 2}, {0, 0, 0}, query::kUnlimited).hit);
   CHECK(!mesh::cast_segment(view, {0, 0, 2}, {0, 0, 0}, {1}).exact);
 }

@@ -126,7 +126,7 @@ TEST(LeafBoxes_ChangeNoAnswer) {
   CHECK(mesh::open(parts, without).ok());
   uint32_t differ = 0, beyond = 0;
   const std::vector<Vec3> queries = hard_queries(baked.surface, 2000, 8);
-  for (const uint32_t steps : {1u, 8u, 64u, query::kUnlimited.steps}) {
+  for (const uint32_t steps : {1u, 8u, 64u, query::kUnlimited.work}) {
     const query::Budget budget{steps};
     mesh::Hint hint, other;
     for (const Vec3 p : queries)

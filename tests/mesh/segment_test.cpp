@@ -4,23 +4,13 @@
 #include "cube.hpp"
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
+#include "harness/float_bits.hpp"
 #include "harness/test.hpp"
 
 namespace {
 
 using firmtouch::math::Vec3;
 using namespace firmtouch;  // NOLINT: a test file
-
-float bits_to_float(uint32_t bits) {
-  float value;
-  __builtin_memcpy(&value, &bits, sizeof value);
-  return value;
-}
-uint32_t float_to_bits(float value) {
-  uint32_t bits;
-  __builtin_memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
 
 uint32_t g_random = 1;
 float random_in(float low, float high) {
@@ -113,9 +103,9 @@ TEST(HostileSegmentsGetFiniteAnswers) {
   for (const uint32_t x : bits)
     for (const uint32_t y : bits)
       for (const uint32_t z : bits) {
-        const Vec3 a{bits_to_float(x), bits_to_float(y), bits_to_float(z)};
-        const Vec3 b{bits_to_float(bits[++i % kCount]), bits_to_float(bits[i / 5 % kCount]),
-                     bits_to_float(bits[i / 25 % kCount])};
+        const Vec3 a{test::float_of(x), test::float_of(y), test::float_of(z)};
+        const Vec3 b{test::float_of(bits[++i % kCount]), test::float_of(bits[i / 5 % kCount]),
+                     test::float_of(bits[i / 25 % kCount])};
         const float sum =
             (a.x - a.x) + (a.y - a.y) + (a.z - a.z) + (b.x - b.x) + (b.y - b.y) + (b.z - b.z);
         const bool finite = sum <= 0;
@@ -163,7 +153,7 @@ TEST(SegmentsHaveOneHashEverywhere) {
     const mesh::Hit hits[] = {mesh::cast_segment(view, a, b, {budget}),
                               mesh::any_crossing(view, a, b, {budget})};
     for (const mesh::Hit& hit : hits) {
-      hash.add(float_to_bits(hit.t));
+      hash.add(test::bits_of(hit.t));
       hash.add(hit.triangle);
       hash.add(hit.steps);
       hash.add((hit.hit ? 1u : 0u) | (hit.exact ? 2u : 0u) | (hit.enters ? 4u : 0u));
@@ -172,7 +162,7 @@ TEST(SegmentsHaveOneHashEverywhere) {
     hash.add(there.all.found);
     hash.add(there.all.steps);
     for (uint32_t k = 0; k < there.all.reported; ++k) {
-      hash.add(float_to_bits(there.buffer[k].t));
+      hash.add(test::bits_of(there.buffer[k].t));
       hash.add(there.buffer[k].triangle);
     }
   }

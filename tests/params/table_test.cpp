@@ -4,23 +4,15 @@
 #include <float.h>
 #include <stdint.h>
 
+#include "harness/float_bits.hpp"
 #include "harness/test.hpp"
 
 namespace params = firmtouch::params;
 
 namespace {
 
-float float_of(uint32_t bits) {
-  float value;
-  __builtin_memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-uint32_t bits_of(float value) {
-  uint32_t bits;
-  __builtin_memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
+using firmtouch::test::bits_of;
+using firmtouch::test::float_of;
 
 // The next float away from zero, or towards +infinity from zero.
 float beyond(float value, bool upwards) {

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <vector>
 
-#include "bake/hull/bake_hull.hpp"
 #include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/hull/view.hpp"
 #include "firmtouch/scene/mesh_contact.hpp"
 #include "harness/test.hpp"
+#include "hull/add_hull.hpp"
 #include "mesh/brute_force.hpp"
 #include "surface/make/make_part.hpp"
 
@@ -27,14 +27,7 @@ struct Rig {
     tools::MeshReport report;
     sections = tools::bake_mesh(surface, "part", {}, report);
     CHECK(report.problem.empty());
-    CHECK(tools::open_baked(sections, "part", view).ok());
-    tools::HullOptions options;
-    options.target_faces = 400;
-    options.grid_bits = 16;
-    tools::HullBakeReport of_hull;
-    for (tools::Section& s : tools::bake_hull(view, sections, "part", options, of_hull))
-      sections.push_back(std::move(s));
-    CHECK(of_hull.problem.empty());
+    hull_test::add_hull(sections, 400);
     CHECK(tools::open_baked(sections, "part", view).ok());
     CHECK(tools::open_baked(sections, "part", hull_view).ok());
     const hull::BaseHull& base_hull = hull_view.base_hull();

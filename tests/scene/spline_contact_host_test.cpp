@@ -107,7 +107,7 @@ TEST(AnUnknownSideOfASplineIsNeverPushedOn) {
   const Surface surface = torus();
   for (uint32_t steps = 1; steps < 60; ++steps) {
     Rig rig(surface, true);
-    rig.budget.steps = steps;
+    rig.budget.work = steps;
     for (int i = 0; i < 30; ++i) {
       rig.touch.hint = {};
       const double off = 0.004 * std::sin(1.0 + i);
@@ -139,7 +139,7 @@ TEST(HostileTouchesOfSplinesLeaveASoundModel) {
       (void)rig.force_N({value, 0, 0});
       (void)rig.force_N({value, value, -value});
       CHECK_EQ(rig.model.plane_count, value < 1 && value > 0 ? rig.model.plane_count : 0u);
-      rig.touch.hint.place = 0xFFFFFFFEu;
+      rig.touch.hint.foot = 0xFFFFFFFEu;
       rig.touch.hint.position_m.x = value;
       const math::Vec3 force = rig.force_N(on_torus(0, 0, 0.001));
       CHECK(force.x - force.x <= 0.0f);

@@ -100,7 +100,7 @@ TEST(UnderNoBudgetIsASheetPushedOnFromAnUnknownSide) {
     bool was_behind = false;
     for (int i = 0; i < 400; ++i) {
       // Down through it, sideways, and round the border.
-      rig.budget.steps = i < 100 ? UINT32_MAX : steps;
+      rig.budget.work = i < 100 ? UINT32_MAX : steps;
       const float t = static_cast<float>(i);
       const float z = i < 200 ? 0.01f - 1e-4f * t : -0.01f, x = i < 200 ? 0 : 4e-4f * (t - 200);
       (void)rig.force_N({x, 0, z});

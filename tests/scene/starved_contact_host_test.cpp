@@ -91,7 +91,7 @@ TEST(ShortBudgetInside_RendersAllTheDepthThatIsCertified) {
       const double lower_m = static_cast<double>(certificate.lower_m);
       firmtouch::test::note("tick", static_cast<uint64_t>(tick));
       if (certificate.sign == 0) CHECK_EQ(size_N, 0.0);
-      if (budget.steps == kDefault.steps && height_m < 0.0498) CHECK_EQ(certificate.sign, -1);
+      if (budget.work == kDefault.work && height_m < 0.0498) CHECK_EQ(certificate.sign, -1);
       if (certificate.sign >= 0) continue;
       // The triangles cut up to 0.05 mm off the sphere.
       CHECK_LE(size_N,

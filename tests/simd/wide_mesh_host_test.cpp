@@ -9,6 +9,7 @@
 #include "harness/test.hpp"
 #include "simd/prism.hpp"
 #include "simd/wide_mesh.hpp"
+#include "surface/make/make_cad.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
@@ -20,12 +21,14 @@ struct Baked {
   std::vector<tools::Section> sections;
   mesh::View view;
 
-  explicit Baked(const tools::TreeShape& shape, bool is_signed = true) {
+  explicit Baked(const tools::TreeShape& shape, bool is_signed = true)
+      : Baked(tools::make_part(3, 3000), shape, is_signed) {}
+  Baked(const tools::Surface& surface, const tools::TreeShape& shape, bool is_signed = true) {
     tools::MeshOptions options;
     options.is_signed = is_signed;
     options.shape = shape;
     tools::MeshReport report;
-    sections = tools::bake_mesh(tools::make_part(3, 3000), "part", options, report);
+    sections = tools::bake_mesh(surface, "part", options, report);
     CHECK(report.problem.empty());
     CHECK(tools::open_baked(sections, "part", view).ok());
   }
@@ -124,6 +127,19 @@ TEST(EveryLevel_HasTheBitsOfTheScalarSearch) {
     for (const query::Budget budget :
          {query::kUnlimited, query::Budget{12}, query::Budget{UINT32_MAX, 0.05f}})
       CHECK_EQ(differences_at_levels(baked.view, budget, seed++), 0u);
+  }
+}
+
+// Their nearest triangles have rivals (mesh/leaf.hpp).
+TEST(EveryLevel_HasTheBitsOfTheScalarSearch_MachinedParts) {
+  for (uint64_t seed = 0; seed < 2 * tools::kCadKinds; ++seed) {
+    test::note("seed", static_cast<int64_t>(seed));
+    const Baked baked(tools::to_surface(tools::make_cad(seed)),
+                      seed % 3 == 0 ? tools::kBoundedTree : tools::kFastTree);
+    CHECK(baked.view.has_rivals());
+    for (const query::Budget budget :
+         {query::kUnlimited, query::Budget{12}, query::Budget{UINT32_MAX, 0.05f}})
+      CHECK_EQ(differences_at_levels(baked.view, budget, seed), 0u);
   }
 }
 

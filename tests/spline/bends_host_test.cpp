@@ -47,10 +47,10 @@ void check_at(const tools::SplineModel& model, uint32_t seed) {
   for (int trial = 0; trial < 2000; ++trial) {
     const uint32_t i = random.below(view.leaf_count());
     CHECK(view.is_leaf(i));
-    const spline::View::Place place = view.place_of(i);
+    const spline::View::LeafIndex place = view.index_of(i);
     const spline::View::Bounds bounds = view.bounds_of(i);
     const spline::Piece& piece = view.pieces()[place.piece];
-    const spline::Part part = spline::part_of(piece, place.index_u, place.index_v);
+    const spline::Region part = spline::region_of(piece, place.index_u, place.index_v);
     const double angle = random.between(0, 6.283185307);
     const double eu = view.is_surface() ? std::cos(angle) : 1;
     const double ev = view.is_surface() ? std::sin(angle) : 0;
@@ -92,7 +92,7 @@ void check_at(const tools::SplineModel& model, uint32_t seed) {
 
 }  // namespace
 
-TEST(NoFourthDerivativeIsBeyondItsBakedBound) {
+TEST(FourthDerivative_StaysWithinItsBound_AtRandomPoints) {
   for (uint32_t seed = 0; seed < 12; ++seed) {
     tools::Random random(seed + 900);
     tools::SplineModel model;

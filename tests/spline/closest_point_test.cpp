@@ -3,6 +3,7 @@
 
 #include <float.h>
 
+#include "harness/random.hpp"
 #include "harness/test.hpp"
 #include "spline/small_spline.hpp"
 
@@ -11,26 +12,11 @@ namespace {
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
 using firmtouch::query::kUnlimited;
-using firmtouch::spline::Closest;
-using firmtouch::spline::closest_point;
-using firmtouch::spline::CurveHint;
-using firmtouch::spline::View;
+using namespace firmtouch::spline;  // NOLINT: a test file
 using firmtouch::spline_test::sampled_distance;
 using firmtouch::spline_test::SmallSpline;
 
-// The same pseudo-random numbers on every machine.
-class Random {
- public:
-  explicit Random(uint32_t seed) : state_(seed) {}
-  float between(float low, float high) {
-    state_ = state_ * 1664525u + 1013904223u;
-    return low + (high - low) * (static_cast<float>(state_ >> 8) * 0x1p-24f);
-  }
-  uint32_t bits() { return state_ = state_ * 1664525u + 1013904223u; }
-
- private:
-  uint32_t state_;
-};
+using Random = firmtouch::test::Lcg;
 
 Vec3 about(Random& random) {
   return {random.between(-2.0f, 3.5f), random.between(-1.5f, 4.0f), random.between(-2.0f, 2.0f)};
@@ -143,7 +129,7 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
     for (uint32_t i = 0; i < 100; ++i) {
       const Vec3 p = about(random);
       CurveHint cold, bent;
-      bent.place = random.bits();
+      bent.foot = random.bits();
       const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
       const Closest c = closest_point(view, p, kUnlimited, bent);
       CHECK_EQ(c.certificate.exact, true);
@@ -169,7 +155,7 @@ TEST(AFrontierOfRandomWordsIsNoFrontier) {
     bent.frontier.unit_m = 1.0f;
     bent.frontier.count = static_cast<uint8_t>(random.bits() >> 24);
     bent.frontier.outside = 255;
-    for (uint32_t& word : bent.frontier.part) word = random.bits() | 0x4000u;
+    for (uint32_t& word : bent.frontier.node) word = random.bits() | 0x4000u;
     const Closest c = closest_point(view, p, kUnlimited, bent);
     CHECK_EQ(c.certificate.exact, true);
     CHECK_LE(c.distance_m, truth + 5e-7f * (truth + 3.9f));
@@ -192,7 +178,7 @@ TEST(AnyFrontierGivesFiniteAnswersWithinTheBudget) {
     bent.frontier.unit_m = 1.0f / static_cast<float>(1 + random.bits() % 1000u);
     bent.frontier.count = static_cast<uint8_t>(random.bits() >> 24);
     bent.frontier.outside = 255;
-    for (uint32_t& word : bent.frontier.part)
+    for (uint32_t& word : bent.frontier.node)
       word = i % 2 == 0 ? random.bits() & 0x8000FFFFu : random.bits();
     const Closest c = closest_point(view, p, {200}, bent);
     CHECK(c.distance_m >= 0.0f && c.distance_m < 1e6f);

@@ -83,7 +83,7 @@ bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
 
 }  // namespace
 
-TEST(EveryBoundBakedOfRandomCurvesHoldsByIntervals) {
+TEST(CurveBounds_HoldByIntervals_OfRandomCurves) {
   for (uint32_t seed = 0; seed < (is_long() ? 60u : 5u); ++seed) {
     tools::Random random(seed + 300);
     tools::SplineModel model;

@@ -257,7 +257,7 @@ TEST(NoStateMakesTheGuidesAnswerWorseThanTheClosestPoints) {
     following.piece = random.below(i % 3 == 0 ? 0xFFFFFFFFu : 40);
     following.s = firmtouch::math::float_of(random.below(0xFFFFFFFFu));
     following.is_following = true;
-    following.hint.place = random.below(0xFFFFFFFFu);
+    following.hint.foot = random.below(0xFFFFFFFFu);
     const Vec3 p =
         tools::to_vec3({random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)});
     const uint32_t steps = i % 2 == 0 ? UINT32_MAX : 2 + random.below(60);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/curve/point.hpp"
 #include "firmtouch/spline/proof/opening.hpp"
 #include "firmtouch/spline/surface/nodes.hpp"
 #include "harness/test.hpp"
@@ -91,7 +92,7 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Repor
 
 }  // namespace
 
-TEST(AlongAPathASafeSubtreeLeavesNothingOut) {
+TEST(SafeSubtree_LeavesNothingOut_AlongAPath) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Reported reported;
   for (uint32_t seed = 0; seed < (is_long ? 200u : 24u); ++seed) {
@@ -106,13 +107,52 @@ TEST(AlongAPathASafeSubtreeLeavesNothingOut) {
   CHECK(reported.passed_over > 100000);
 }
 
+// What the hint claims of all leaves outside the row, against points of each.
+TEST(SafeSubtree_LeavesNothingNearerOutside_AfterAnyQueryOfCurves) {
+  uint32_t checked = 0, wrong = 0;
+  for (uint32_t seed = 0; seed < 12; ++seed) {
+    tools::Random random(seed + 130);
+    const tools::SplineCurve curve =
+        spline_test::random_curve(random, static_cast<int>(2 + seed % 4), most_of(seed));
+    const BakedModel baked(of(seed % 2 == 0 ? flattened(curve) : curve));
+    const spline::View& view = baked.view;
+    Path path{random, 0.002, 1.3};
+    Hint hint;
+    for (int turn = 0; turn < 400; ++turn) {
+      const Vec3 p = path.next();
+      hint.safe_subtree = query::kNowhere;
+      (void)closest_point(view, p, kUnlimited, hint);
+      const uint32_t first = hint.safe_subtree & 0xFFFFu, last = hint.safe_subtree >> 16;
+      if (first > last || last >= view.leaf_count()) continue;
+      ++checked;
+      for (uint32_t leaf = 0; leaf < view.leaf_count(); ++leaf) {
+        if ((leaf >= first && leaf <= last) || !view.is_leaf(leaf)) continue;
+        const spline::View::LeafIndex at = view.index_of(leaf);
+        const spline::Piece& piece = view.pieces()[at.piece];
+        const float half = std::ldexp(1.0f, -static_cast<int>(piece.level_u));
+        for (int k = -4; k <= 4; ++k) {
+          const float s = half * static_cast<float>(2 * at.index_u + 1) - 1.0f +
+                          half * 0.25f * static_cast<float>(k);
+          const Vec3 x = spline::evaluate(piece, view.coefficients().data(), s).x;
+          const double distance = std::hypot(wide(piece.origin_m[0]) + wide(x.x) - wide(p.x),
+                                             wide(piece.origin_m[1]) + wide(x.y) - wide(p.y),
+                                             wide(piece.origin_m[2]) + wide(x.z) - wide(p.z));
+          wrong += wide(hint.safe_subtree_m) > distance + 4e-7 * baked.report.extent_m ? 1u : 0u;
+        }
+      }
+    }
+  }
+  CHECK_EQ(wrong, 0u);
+  CHECK_GE(checked, 1000u);
+}
+
 // Of all words none is a node but those that halving a whole piece comes to, in its order, and the
 // tree's above.
-TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
+TEST(Frontier_HoldsOnlyNodes_ThatHalvingReaches) {
   for (uint32_t seed = 0; seed < 3; ++seed) {
     tools::Random random(seed + 90);
     const BakedModel baked(of({spline_test::random_surface(random, 3, most_of(seed), 1)}));
-    const spline::SurfaceParts parts(baked.view, Vec3{});
+    const spline::SurfaceNodes parts(baked.view, Vec3{});
     const uint32_t count = baked.view.pieces().size();
     uint32_t wrong = 0, deepest = 0;
     for (uint32_t piece = 0; piece <= count; ++piece) {
@@ -141,7 +181,7 @@ TEST(OnlyWhatHalvingComesToIsANodeOfAFrontier) {
 }
 
 // Trees of one piece, of a few, and of many more than a frontier has entries.
-TEST(AlongAPathAFrontierLeavesNothingOutOfSurfaces) {
+TEST(Frontier_LeavesNothingOut_AlongAPath) {
   const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
   Reported reported;
   uint32_t max_pieces = 0;
@@ -161,7 +201,7 @@ TEST(AlongAPathAFrontierLeavesNothingOutOfSurfaces) {
   CHECK(reported.passed_over > 10000);
 }
 
-TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {
+TEST(PlanarCurve_AnswersTheSame_TurnedOutOfItsPlane) {
   for (uint32_t seed = 0; seed < 12; ++seed) {
     tools::Random random(seed + 3);
     const tools::SplineCurve curve =
@@ -184,7 +224,7 @@ TEST(ACurveInAPlaneOfOneZAnswersAsItDoesTurnedOutOfIt) {
 
 // Twelve short curves that do not meet, of a flat model and of one in space: between two of them is
 // no leaf.
-TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
+TEST(Curves_AnswerAsEachAlone_WhenApart) {
   for (uint32_t seed = 0; seed < 8; ++seed) {
     tools::Random random(seed + 41);
     tools::SplineModel model;
@@ -224,7 +264,7 @@ TEST(CurvesApartFromEachOtherAnswerAsEachAlone) {
 // is a foot-point still, the distance rises from there on both sides, and only the fourth
 // derivative says that it falls again. (Beside a curve far away: else the piece would be cut for
 // the sake of float32.)
-TEST(ThePointOfAPieceThatTurnsBackIsNotKeptToItsMiddle) {
+TEST(Query_LeavesTheMiddle_OfAPieceThatTurnsBack) {
   for (const double weight : {1.0, 1.2, 0.8}) {
     tools::SplineCurve curve, far_away;
     curve.degree = 3;

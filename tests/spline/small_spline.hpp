@@ -62,9 +62,9 @@ struct SmallSpline {
     return verdict.ok() ? opened : spline::View{};
   }
   spline::LeafShape shape(uint32_t leaf) const {
-    return shape(leaf / 2, spline::part_of(pieces[leaf / 2], leaf % 2, 0));
+    return shape(leaf / 2, spline::region_of(pieces[leaf / 2], leaf % 2, 0));
   }
-  spline::LeafShape shape(uint32_t of, const spline::Part& part) const {
+  spline::LeafShape shape(uint32_t of, const spline::Region& part) const {
     spline::LeafShape made;
     spline::derive(pieces[of], coefficients + pieces[of].coefficients, part, made);
     if (head.is_surface != 0) spline::bound_bends(part, made);
@@ -162,7 +162,7 @@ struct SmallSpline {
     }
     for (uint32_t p = 0; p < 2; ++p) {
       spline::CurveBends needed;
-      for (uint32_t k = 0; k < spline::kFineParts; ++k)
+      for (uint32_t k = 0; k < spline::kFineSteps; ++k)
         (void)spline::add_bends(pieces[p], coefficients + pieces[p].coefficients, k, needed);
       bends[p] = needed.stored();
       bends[p].first_leaf = 2 * p;
@@ -195,7 +195,7 @@ struct SmallSpline {
           to[k] = static_cast<int16_t>((at[k] - static_cast<double>(pieces[p].origin_m[k])) * 8192);
       }
       for (uint32_t i = 0; i < p + 1; ++i) {
-        const spline::Part part = spline::part_of(spline::cell_levels(pieces[p], grid), i, 0);
+        const spline::Region part = spline::region_of(spline::cell_levels(pieces[p], grid), i, 0);
         const float* const from = coefficients + pieces[p].coefficients;
         spline::CellBends needed;
         (void)spline::begin_bends(pieces[p], from, part, needed);
@@ -211,7 +211,7 @@ struct SmallSpline {
         const spline::LeafShape s = shape(2 * p + u);
         const spline::Patch leaf{p, 1, u, 0};
         const auto needed = [&](const spline::Patch& part) {
-          const spline::PartOfQuad own = spline::own_of(pieces[p], part, leaf);
+          const spline::RegionOfQuad own = spline::own_of(pieces[p], part, leaf);
           return byte(grid.radius_unit_m,
                       spline::radius_for(s, spline::LeafCorners(s), around(part), own));
         };
@@ -229,8 +229,8 @@ struct SmallSpline {
     const float stored_m = spline::stored_value(grids[p].radius_unit_m, radii[3 * p]);
     for (uint32_t u = 0; u < 2; ++u) {
       const spline::Patch leaf{p, 1, u, 0};
-      const spline::PartOfQuad half = spline::half_of(pieces[p], whole, leaf, overlap);
-      const spline::PartOfQuad own = spline::own_of(pieces[p], whole, leaf);
+      const spline::RegionOfQuad half = spline::half_of(pieces[p], whole, leaf, overlap);
+      const spline::RegionOfQuad own = spline::own_of(pieces[p], whole, leaf);
       const spline::LeafShape s = shape(2 * p + u);
       const float needed_m =
           spline::radius_for(s, spline::LeafCorners(s), around(whole), own, half);

@@ -113,14 +113,14 @@ TEST(ObjProblemsAreNamedWithTheirLine) {
   CHECK(refuses(cube_off(), "a.obj", "", "is an OFF file by its content"));
   CHECK(refuses("solid thing\n", "a.obj", "", "an STL file"));
   CHECK(refuses(std::string("v 0 0 0\n\0\0", 10), "a.obj", "", "a binary file"));
-  CHECK(refuses("x", "a.stp", "", "no extension of a mesh"));
+  CHECK(refuses("x", "a.stp", "", "is STEP"));
   CHECK(refuses("x", "dir.obj/mesh", "", "no extension of a mesh"));
 }
 
 TEST(OffProblemsAreNamedWithTheirLine) {
   CHECK(refuses("\n", "a.off", "", "no text"));
   CHECK(refuses("8 6 12\n", "a.off", ":1:", "the word OFF"));
-  CHECK(refuses(cube_off("COFF\n8 6 12\n"), "a.off", ":1:", "`COFF` files are not read"));
+  CHECK(refuses(cube_off("4OFF\n8 6 12\n"), "a.off", ":1:", "other than three coordinates"));
   CHECK(refuses("OFF BINARY\n", "a.off", ":1:", "binary OFF"));
   CHECK(refuses("OFF 8 -6 12\n", "a.off", ":1:", "no number of faces"));
   CHECK(refuses(cube_off("OFF\n9 6 12\n"), "a.off", ":16: ", "the file ends here"));

@@ -6,7 +6,7 @@
 // tools/bench/cortex-m7 runs it and adds up.
 #include <stdint.h>
 
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
@@ -81,7 +81,7 @@ bool run(const View& view, const char* path, query::Budget budget, uint32_t rows
     const uint32_t before = hal::clock_work();
     const auto closest = closest_point(view, p_m, budget, hint);
     const uint32_t work = hal::clock_work() - before - empty;
-    print_row(budget.steps == UINT32_MAX ? 0 : budget.steps, instructions(work), closest);
+    print_row(budget.work == UINT32_MAX ? 0 : budget.work, instructions(work), closest);
   }
   return row > 0;
 }

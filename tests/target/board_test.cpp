@@ -1,9 +1,13 @@
 #include <stdint.h>
 
+#ifdef __arm__
+#include "cortex-m/floating_point.hpp"
+#endif
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
+#include "firmtouch/hal/parameters.hpp"
 #include "harness/test.hpp"
 
 // The contracts of firmtouch/hal, on the board itself. The virtual clock advances by a fixed time
@@ -19,7 +23,11 @@ void count_tick() { ticks_seen = ticks_seen + 1; }
 
 uint32_t instructions_of_loop(uint32_t turns) {
   const uint32_t before = hal::clock_work();
+#ifdef __riscv
+  asm volatile("1: addi %0, %0, -1\n bnez %0, 1b" : "+r"(turns));
+#else
   asm volatile("1: subs %0, #1\n bne 1b" : "+r"(turns)::"cc");
+#endif
   const uint64_t work = hal::clock_work() - before;
   const uint32_t per_1000 = hal::clock_work_per_1000();
   return static_cast<uint32_t>((work * 1000 + per_1000 / 2) / per_1000);
@@ -52,6 +60,50 @@ TEST(ServoInterrupt_OncePerPeriod_MicrosecondsContinue) {
   const uint32_t took_us = hal::clock_us() - start_us;
   CHECK_GE(took_us, (kPeriods - 1) * kPeriod_us);
   CHECK_LE(took_us, (kPeriods + 1) * kPeriod_us);
+}
+
+TEST(ServoInterrupt_SecondStart_ChangesThePeriod) {
+  constexpr uint32_t kPeriods = 20;
+  constexpr uint32_t kPeriods_us[] = {100, 250, 80};
+  for (const uint32_t period_us : kPeriods_us) {
+    hal::clock_start_servo(period_us, count_tick);
+    const uint32_t start_us = hal::clock_us();
+    const uint32_t start_ticks = ticks_seen;
+    while (ticks_seen - start_ticks < kPeriods) {
+    }
+    const uint32_t took_us = hal::clock_us() - start_us;
+    CHECK_GE(took_us, (kPeriods - 1) * period_us);
+    CHECK_LE(took_us, (kPeriods + 1) * period_us);
+  }
+}
+
+#ifdef __arm__
+TEST(FloatingPoint_ModesOfABootLoader_AreClearedHereAndForInterrupts) {
+  constexpr uint32_t kModes = 0x07C00000;
+  auto& at_interrupt = *reinterpret_cast<volatile uint32_t*>(uintptr_t{0xE000EF3C});
+  uint32_t status;
+  asm volatile("vmrs %0, fpscr" : "=r"(status));
+  at_interrupt = at_interrupt | 0x01C00000;  // toward zero, flush to zero
+  asm volatile("vmsr fpscr, %0" ::"r"(status | 0x01C00000));
+  hal::floating_point_begin();
+  asm volatile("vmrs %0, fpscr" : "=r"(status));
+  CHECK_EQ(status & kModes, 0u);
+  CHECK_EQ(at_interrupt & kModes, 0u);
+}
+#endif
+
+TEST(ParameterFlash_ErasedThenProgrammed_OnlyClearsBits) {
+  const hal::ParameterFlash flash = hal::board_parameters();
+  CHECK(flash.sector[0].empty() == flash.sector[1].empty());
+  CHECK_EQ(flash.sector[0].size(), flash.sector[1].size());
+  CHECK_EQ(reinterpret_cast<uintptr_t>(flash.sector[0].data()) % 32, 0u);
+  // QEMU has no flash controller of the STM32.
+  if (!hal::board_erase_parameters(0) || flash.sector[0].data()[0] != 0xFF) return;
+  alignas(32) uint8_t bytes[32] = {1, 2, 3};
+  CHECK(hal::board_program_parameters(0, 64, {bytes, 32}));
+  CHECK_EQ(flash.sector[0].data()[63], 0xFF);
+  CHECK_EQ(flash.sector[0].data()[65], 2);
+  CHECK_EQ(flash.sector[0].data()[96], 0xFF);
 }
 
 TEST(StackHighWater_IncludesDeepCall) {

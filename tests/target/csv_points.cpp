@@ -1,6 +1,6 @@
 #include "target/csv_points.hpp"
 
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
 
 namespace firmtouch::target {
 namespace {

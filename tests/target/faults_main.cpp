@@ -1,15 +1,35 @@
-// Causes the fault that the emulator's command line names; tests/target/run_faults checks the
-// reaction.
+// Starts the servo timer and ends it by the cause whose number lies in the asset's slot;
+// tests/target/run_faults checks what is printed. Built for the emulator, and as for hardware.
 #include <stdint.h>
 
-#include "cortex-m/semihosting.hpp"
+#include "emulator/exit.hpp"
 #include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
+#include "text.hpp"
+
+namespace hal = firmtouch::hal;
+using hal::board_print;
 
 namespace {
 
-using firmtouch::hal::board_print;
+enum Cause : uint8_t { kRun, kExit, kBus, kUndefined, kOverflow, kWatchdog, kThread };
+
+[[gnu::section(".noinit")]] uint32_t g_motors_off_calls;  // counted from reset; QEMU's RAM is 0
+volatile uint32_t g_ticks = 0;
+volatile bool g_has_power = false;
+uint32_t g_ticks_at_cause = 0;
+
+void print(const char* name, uint32_t value) {
+  board_print(name);
+  board_print(firmtouch::target::decimal(value).text);
+}
+
+void tick() {
+  g_ticks = g_ticks + 1;
+  hal::motors_state(true);
+}
 
 [[gnu::noinline]] uint32_t fall(uint32_t depth) {
   volatile uint32_t room[64];
@@ -18,31 +38,91 @@ using firmtouch::hal::board_print;
   return room[below % 64];  // used after the call, so that it cannot become a loop
 }
 
-bool wants(const char* line, const char* word) {
-  while (*word != 0 && *line == *word) ++line, ++word;
-  return *word == 0;
+[[noreturn, gnu::noinline]] void undefined() {
+#ifdef __riscv
+  asm volatile(".global undefined_here\nundefined_here: unimp");
+#else
+  asm volatile(".global undefined_here\nundefined_here: udf #1");
+#endif
+  __builtin_unreachable();
 }
+
+#ifdef __arm__
+// As a thread of an operating system, on a stack of its own.
+[[noreturn]] void undefined_in_thread() {
+  static uint64_t stack[64];
+  asm volatile(
+      "msr psp, %0\n mrs r0, control\n orr r0, #2\n msr control, r0\n isb" ::"r"(stack + 64)
+      : "r0", "memory");
+  undefined();
+}
+#else
+[[noreturn]] void undefined_in_thread() { undefined(); }
+#endif
 
 }  // namespace
 
-/// Replaces the board's motors: prints when they are switched off.
+/// The board's motors: they print when they are switched off.
 namespace firmtouch::hal {
-void motors_off() { board_print("motors off\n"); }
+
+void motors_state(bool may_push) { g_has_power = may_push; }
+void motors_write_N(const float (&)[3]) {}
+uint32_t motors_lines() { return 0; }
+void motors_off() {
+  g_has_power = false;
+  ++g_motors_off_calls;
+  if (g_ticks_at_cause != 0)
+    print("motors off, ticks since the cause: ", g_ticks - g_ticks_at_cause);
+  if (g_ticks_at_cause != 0) board_print("\n");
+}
+
+#ifdef FIRMTOUCH_AS_HARDWARE
+void emulator_exit(int status) {
+  const uint32_t ticks = g_ticks;
+  const uint32_t from_us = clock_us();
+  while (clock_us() - from_us < 20000) {
+  }
+  print("end ", static_cast<uint32_t>(status));
+  print(", later ticks: ", g_ticks - ticks);
+  print(", power: ", g_has_power ? 1 : 0);
+  board_print("\n");
+}
+#endif
+
 }  // namespace firmtouch::hal
 
 int main() {
-  firmtouch::hal::board_begin();
-  board_print("running\n");
-  char line[64];
-  if (!firmtouch::hal::semihosting_command_line(line, sizeof line)) return 2;
-  if (wants(line, "bus"))
-    return static_cast<int>(*reinterpret_cast<volatile uint32_t*>(uintptr_t{0x90000000}));
-  if (wants(line, "undefined")) asm volatile("udf #1");
-  if (wants(line, "overflow")) return static_cast<int>(fall(0));
-  if (wants(line, "watchdog")) {
-    firmtouch::hal::watchdog_begin(1000);
-    for (;;) asm volatile("nop");
+  const uint32_t calls_at_reset = g_motors_off_calls;
+  hal::board_begin();
+  print("running, motors off before main: ", calls_at_reset);
+  board_print("\n");
+  const uint8_t cause = hal::board_asset().data()[0];
+  hal::clock_start_servo(1000, tick);
+  if (cause == kWatchdog) hal::watchdog_begin(1000);
+  while (g_ticks < 5) {
+    if (cause == kWatchdog) hal::watchdog_feed();
   }
-  if (wants(line, "exit")) return 42;
-  return 2;
+  g_ticks_at_cause = g_ticks;
+  switch (cause) {
+    case kExit:
+      hal::board_exit(42);
+    case kBus:
+      return static_cast<int>(*reinterpret_cast<volatile uint32_t*>(uintptr_t{0xF0000000}));
+    case kUndefined:
+      undefined();
+    case kOverflow:
+      return static_cast<int>(fall(0));
+    case kWatchdog:
+      for (;;) asm volatile("nop");
+    case kThread:
+      undefined_in_thread();
+    case kRun:
+      while (g_ticks < 50) {
+      }
+      print("still running, power: ", g_has_power ? 1 : 0);
+      board_print("\n");
+      return 42;
+    default:
+      return 2;
+  }
 }

@@ -5,7 +5,7 @@
 // tools/bench/cortex-m7 --orders runs it.
 #include <stdint.h>
 
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"

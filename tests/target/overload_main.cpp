@@ -4,7 +4,7 @@
 #include <stdint.h>
 
 #include "asset/small_file.hpp"
-#include "cortex-m/semihosting.hpp"
+#include "emulator/semihosting.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/encoders.hpp"
@@ -111,6 +111,7 @@ bool hal::encoders_read(int32_t (&counts)[3]) {
   return true;
 }
 void hal::motors_write_N(const float (&)[3]) {}
+void hal::motors_state(bool) {}
 void hal::motors_off() {}
 uint32_t hal::motors_lines() { return g_tick >= kEnable_ticks ? kMotorsEnable : 0; }
 

@@ -4,14 +4,8 @@
 namespace firmtouch::bench {
 
 // The benches, one a file of that name; what each prints stands above its definition.
-void run_curve(const Options& options, Report& report);
-void run_distance(const Options& options, Report& report);
-void run_field(const Options& options, Report& report);
-void run_hull_queries(const Options& options, Report& report);
-void run_ring(const Options& options, Report& report);
-void run_segment(const Options& options, Report& report);
-void run_spline_race(const Options& options, Report& report);
-void run_truth(const Options& options, Report& report);
-void run_velocity(const Options& options, Report& report);
+using Run = void(const Options& options, Report& report);
+Run run_curve, run_distance, run_field, run_hull_queries, run_ring, run_segment, run_spline_race,
+    run_truth, run_velocity;
 
 }  // namespace firmtouch::bench

@@ -10,33 +10,15 @@
 
 #include "firmtouch/mesh/closest_point.hpp"
 #include "surface/random.hpp"
+#include "surface/triangle_distance.hpp"
 
 namespace firmtouch::bench {
 namespace {
 
+using tools::distance2_to_triangle;
 using tools::Point;
 
 double square(Point p) { return dot(p, p); }
-
-double distance2_to_segment(Point p, Point a, Point b) {
-  const Point ab = b - a, ap = p - a;
-  const double t = std::max(0.0, std::min(1.0, dot(ap, ab) / dot(ab, ab)));
-  return square(ap - ab * t);
-}
-
-// The three sides, and the plane where the foot lies within: nothing is lost on slivers.
-double distance2_to_triangle(Point p, Point a, Point b, Point c) {
-  const Point n = cross(b - a, c - a);
-  const double size2 = dot(n, n);
-  const bool is_within = size2 > 0 && dot(cross(b - a, p - a), n) >= 0 &&
-                         dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0;
-  if (is_within) {
-    const double height = dot(p - a, n);
-    return height * height / size2;
-  }
-  return std::min({distance2_to_segment(p, a, b), distance2_to_segment(p, b, c),
-                   distance2_to_segment(p, c, a)});
-}
 
 // Half the solid angle of the triangle seen from p. Source: van Oosterom & Strackee 1983.
 double half_solid_angle(Point u, Point v, Point w) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "surface/triangle_distance.hpp"
+
 namespace firmtouch::bench {
 namespace {
 
@@ -12,17 +14,10 @@ using tools::Point;
 
 constexpr uint32_t kLeafFaces = 4;
 
-double side_distance2(Point p, Point a, Point b) {
-  const Point along = b - a;
-  const double length2 = dot(along, along);
-  const double t = length2 > 0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0;
-  const Point rest = p - (a + along * t);
-  return dot(rest, rest);
-}
-
 double triangle_distance2(Point p, Point a, Point b, Point c) {
   double least2 =
-      std::min({side_distance2(p, a, b), side_distance2(p, b, c), side_distance2(p, c, a)});
+      std::min({tools::distance2_to_segment(p, a, b), tools::distance2_to_segment(p, b, c),
+                tools::distance2_to_segment(p, c, a)});
   // In an orthogonal frame of the triangle, which slivers do not spoil.
   const Point ab = b - a, ac = c - a, ap = p - a;
   const double ab2 = dot(ab, ab);

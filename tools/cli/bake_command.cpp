@@ -20,12 +20,6 @@ namespace {
 
 constexpr double kUsualDeviation_m = 1e-4;
 
-bool is_curve(const std::string& path) { return extension_of(path) == ".csv"; }
-bool is_spline(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".igs" || extension == ".iges" || extension == ".bpt";
-}
-
 bool is_run(const std::string& path) { return extension_of(path) == ".ftl"; }
 
 std::string name_of(const std::string& path, const BakeOptions& options) {
@@ -76,10 +70,10 @@ std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
   Progress progress(inputs.size() * kStagesAnInput);
   std::vector<BakedInput> baked;
   for (const std::string& path : inputs) {
-    baked.push_back(is_curve(path)    ? bake_curve_input(path, options, progress)
-                    : is_run(path)    ? bake_run_input(path, options, progress)
-                    : is_spline(path) ? bake_spline_input(path, options, progress)
-                                      : bake_mesh_input(path, options, progress));
+    baked.push_back(is_curve_file(path)    ? bake_curve_input(path, options, progress)
+                    : is_run(path)         ? bake_run_input(path, options, progress)
+                    : is_spline_file(path) ? bake_spline_input(path, options, progress)
+                                           : bake_mesh_input(path, options, progress));
   }
   return baked;
 }
@@ -101,7 +95,7 @@ void add_hull(const Arguments& arguments, BakeOptions& options) {
     options.text += " " + option;
     if (option != "--no-tree") options.text += " " + arguments.text(option, "");
   }
-  if (options.hull_faces != 0 && !options.is_signed)
+  if (options.hull_faces != 0 && !options.model.is_signed)
     fail_usage("bake: a hull needs an inside: leave out --unsigned or --hull-faces");
   if (options.hull.limits.max_valence > hull::kMaxLink)
     fail_usage("bake: --max-valence: a hull in an asset has at most " +
@@ -125,18 +119,12 @@ void write_source(const std::string& path, const std::vector<uint8_t>& asset,
 }  // namespace
 
 BakeOptions bake_options(const Arguments& arguments) {
-  static const std::map<std::string, double> kUnits = {
-      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
   static const std::map<std::string, Purpose> kPurposes = {{"--fast", Purpose::kFast},
                                                            {"--bounded", Purpose::kBounded},
                                                            {"--small", Purpose::kSmall},
                                                            {"--desktop", Purpose::kDesktop}};
   BakeOptions options;
-  const std::string unit = arguments.choice("--unit", "m", {"m", "mm", "cm", "in"});
-  options.unit_m = kUnits.at(unit);
-  options.has_unit = arguments.has("--unit");
-  options.is_signed = !arguments.has("--unsigned");
-  options.close_holes = arguments.has("--close-holes");
+  options.model = model_options(arguments, options.text);
   std::string purpose;
   for (const auto& [option, meant] : kPurposes) {
     if (!arguments.has(option)) continue;
@@ -145,9 +133,7 @@ BakeOptions bake_options(const Arguments& arguments) {
     purpose = option;
     options.purpose = meant;
   }
-  options.text = "--unit " + unit + (options.is_signed ? "" : " --unsigned") +
-                 (options.close_holes ? " --close-holes" : "") +
-                 (options.purpose == Purpose::kFast ? "" : " " + purpose);
+  if (options.purpose != Purpose::kFast) options.text += " " + purpose;
   options.field_cells = arguments.count("--distance-map", 0, 1, field::kMaxCellsAnAxis - 2);
   if (options.field_cells != 0)
     options.text += " --distance-map " + std::to_string(options.field_cells);
@@ -170,62 +156,71 @@ const Command& bake_command() {
       "bake",
       "INPUT... -o SCENE.fta [options]",
       "Bakes meshes, curves and splines into one asset, proven with the firmware's own decoder.",
-      "INPUT by extension: .obj .off .ply .stl a mesh; .csv a curve (header x,y,z); .ftl a "
-      "recorded\n"
-      "run, which teaches a guide; .igs .iges NURBS curves or surfaces (126, 128); .bpt Bezier\n"
+      "INPUT by extension: .obj .off .ply .stl .gltf .glb .3mf a mesh; .csv a curve (header "
+      "x,y,z); "
+      ".ftl\n"
+      "a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces (126, 128); .bpt "
+      "Bezier\n"
       "patches. Each is named after its file's stem. What can be mended safely is mended and\n"
       "reported; the rest is refused.",
-      {{"-o", "FILE", "the asset to write"},
-       {"--unit", "m|mm|cm|in", "of the inputs' coordinates (default m; .igs: its own)"},
-       {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
-       {"--close-holes", nullptr, "each hole of a mesh gets a cap of triangles, reported"},
-       {"--fast", nullptr,
-        "meshes: the fastest on a controller rather than the smallest (the default)"},
-       {"--bounded", nullptr,
-        "meshes: the worst query near the surface takes a controller a fifth less, for nearly "
-        "three "
-        "times the flash"},
-       {"--small", nullptr,
-        "meshes: a third less flash, a third more work a query; splines: half the flash"},
-       {"--desktop", nullptr,
-        "meshes: the fastest on a desktop with AVX2; half as much work again on a controller"},
-       {"--distance-map", "CELLS",
-        "meshes get a grid of certified bounds, CELLS along the long axis"},
-       {"--cpp", "FILE", "the asset as a C++ source, too"},
-       {"--hull-faces", "N",
-        "meshes get a progressive hull, at its coarsest of at most N faces: enclosing, proven"},
-       {"--hull-grid", "22|16", "bits of a hull's coordinate (default 22)"},
-       {"--max-valence", "N", "faces around a hull's vertex, at most 31 (default 12)"},
-       {"--compactness", "R",
-        "share of the faces' compactness that a collapse leaves (default 0.8)"},
-       {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
-       {"--no-tree", nullptr,
-        "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
-       {"--smooth", nullptr, "curves and runs: cubic pieces through the samples, without corners"},
-       {"--curve-tree", nullptr,
-        "curves and runs: also the k-d tree of the samples, for nearest_constraint()"},
-       {"--teach", "NAME", "what the guide is called that a recorded run gives"},
-       {"--max-deviation", "METRES",
-        "no place of the run is farther from its guide (default 0.0001)"}},
+      with_model_options(
+          {{"-o", "FILE", "the asset to write"},
+           {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
+           {"--fast", nullptr,
+            "meshes: the fastest on a controller rather than the smallest (the default)"},
+           {"--bounded", nullptr,
+            "meshes: the worst query near the surface takes a controller a fifth less, for nearly "
+            "three "
+            "times the flash"},
+           {"--small", nullptr,
+            "meshes: a third less flash, a third more work a query; splines: half the flash"},
+           {"--desktop", nullptr,
+            "meshes: the fastest on a desktop with AVX2; half as much work again on a controller"},
+           {"--distance-map", "CELLS",
+            "meshes get a grid of certified bounds, CELLS along the long axis"},
+           {"--cpp", "FILE", "the asset as a C++ source, too"},
+           {"--hull-faces", "N",
+            "meshes get a progressive hull, at its coarsest of at most N faces: enclosing, proven"},
+           {"--hull-grid", "22|16", "bits of a hull's coordinate (default 22)"},
+           {"--max-valence", "N", "faces around a hull's vertex, at most 31 (default 12)"},
+           {"--compactness", "R",
+            "share of the faces' compactness that a collapse leaves (default 0.8)"},
+           {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
+           {"--no-tree", nullptr,
+            "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
+           {"--decimal-comma", nullptr,
+            "curves: numbers as 1,5; then semicolons or tabs separate them"},
+           {"--smooth", nullptr,
+            "curves and runs: cubic pieces through the samples, without corners"},
+           {"--curve-tree", nullptr,
+            "curves and runs: also the k-d tree of the samples, for nearest_constraint()"},
+           {"--teach", "NAME", "what the guide is called that a recorded run gives"},
+           {"--max-deviation", "METRES",
+            "no place of the run is farther from its guide (default 0.0001)"}}),
       1,
       SIZE_MAX};
   return command;
 }
 
 int run_bake(const Arguments& arguments) {
-  const std::vector<std::string>& inputs = arguments.positionals();
   const std::string output = arguments.text("-o", "");
   const std::string source = arguments.text("--cpp", "");
   if (output.empty()) fail_usage("bake: say where to write: -o SCENE.fta");
   if (source == output) fail_usage("bake: -o and --cpp name the same file; name two");
   BakeOptions options = bake_options(arguments);
   add_hull(arguments, options);
+  const std::vector<std::string> inputs = inputs_with_units(arguments.positionals(), options.model);
   for (const std::string& input : inputs) {
     forbid_overwriting(output, input);
     forbid_overwriting(source, input);
   }
   check_runs(inputs, options);
   check_names(inputs, options);
+  for (const std::string& input : inputs) {
+    if (is_run(input)) continue;
+    settle_size(input, options.model);
+    break;
+  }
 
   const std::vector<BakedInput> baked = bake_all(inputs, options);
   std::vector<tools::Section> sections;

@@ -50,20 +50,21 @@ double reach_of(const curve::View& view) {
   return reach_m;
 }
 
+}  // namespace
+
 std::string sentence(const char* format, double a, double b) {
   char text[300];
   std::snprintf(text, sizeof(text), format, a, b);
   return text;
 }
 
-}  // namespace
-
 BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
                             Progress& progress) {
   progress.stage("reading and checking " + file_name_of(path));
   const std::vector<uint8_t> source = read_model(path);
   const tools::CurvePoints points = tools::read_curve_csv_bytes(
-      {reinterpret_cast<const char*>(source.data()), source.size()}, path, options.unit_m);
+      {reinterpret_cast<const char*>(source.data()), source.size()}, path,
+      options.model.frame_for(path), {options.model.has_decimal_commas});
   if (!points.problem.empty()) fail_input(points.problem);
   return bake_points(points, path, stem_of(path), source, options, progress);
 }

@@ -4,10 +4,10 @@
 
 #include "bake/asset/section.hpp"
 #include "cli/arguments.hpp"
+#include "cli/model_input.hpp"
 #include "cli/progress.hpp"
 #include "curve/curve_points.hpp"
 #include "hull/build_hull.hpp"
-#include "surface/surface.hpp"
 
 namespace firmtouch::cli {
 
@@ -20,10 +20,7 @@ enum class Purpose {
 };
 
 struct BakeOptions {
-  double unit_m = 1;
-  bool has_unit = false;  // said by the user: a file's own unit gives way to it
-  bool is_signed = true;
-  bool close_holes = false;
+  ModelOptions model;
   Purpose purpose = Purpose::kFast;
   uint32_t field_cells = 0;  // along the long axis; 0: no distance field
   uint32_t hull_faces = 0;   // 0: no hull
@@ -36,7 +33,7 @@ struct BakeOptions {
   std::string text;            // as they stand in the provenance
 };
 
-/// Of --unit, --unsigned and --close-holes.
+/// Of the options of models and of bake.
 BakeOptions bake_options(const Arguments& arguments);
 
 /// One input as sections of an asset, proven, with its probes and provenance, and what to report
@@ -63,17 +60,8 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
 BakedInput bake_spline_input(const std::string& path, const BakeOptions& options,
                              Progress& progress);
 
-/// A model read, checked and mended.
-struct SoundSurface {
-  tools::Surface surface;
-  std::vector<uint32_t> vertex_source;  // of each vertex: its index in the file
-  std::vector<std::string> reported;    // a sentence for each thing mended or let through
-};
-
-/// Fails (bad input) as above.
-SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
-                           const BakeOptions& options);
-
 uint64_t bytes_of(const std::vector<tools::Section>& sections);
+/// A line of a report with two numbers.
+std::string sentence(const char* format, double a, double b);
 
 }  // namespace firmtouch::cli

@@ -15,9 +15,7 @@
 #include "firmtouch/asset/layout.hpp"
 #include "firmtouch/hull/refinement.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
-#include "surface/check/check.hpp"
 #include "surface/make/make_walk.hpp"
-#include "surface/read/read_surface.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -162,40 +160,18 @@ void drop_tree(BakedInput& baked) {
 
 }  // namespace
 
-SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
-                           const BakeOptions& options) {
-  tools::Imported imported = tools::read_surface_bytes(
-      {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, options.unit_m);
-  if (!imported.problem.empty()) fail_input(imported.problem);
-  tools::CheckOptions checks;
-  checks.allow_unsigned = !options.is_signed;
-  checks.close_holes = options.close_holes;
-  const tools::CheckReport report = tools::check_and_mend(imported.surface, checks);
-  if (!report.usable()) {
-    std::string all;
-    for (const std::string& line : report.refused)
-      all += (all.empty() ? "" : "\n" + std::string(11, ' ')) + path + ": " + line;
-    fail_input(all);
-  }
-  SoundSurface sound{std::move(imported.surface), report.vertex_source, {}};
-  for (const std::string& line : imported.notes) sound.reported.push_back("read: " + line);
-  for (const std::string& line : report.mended) sound.reported.push_back("mended: " + line);
-  for (const std::string& line : report.kept) sound.reported.push_back("kept: " + line);
-  return sound;
-}
-
 BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
                            Progress& progress) {
   const std::string name = stem_of(path);
   BakedInput baked;
   progress.stage("reading and checking " + file_name_of(path));
   const std::vector<uint8_t> source = read_model(path);
-  const SoundSurface sound = sound_surface(path, source, options);
+  const SoundSurface sound = sound_surface(path, source, options.model);
   const tools::Surface& surface = sound.surface;
 
   progress.stage("building the tree of " + name);
   tools::MeshOptions mesh_options;
-  mesh_options.is_signed = options.is_signed;
+  mesh_options.is_signed = options.model.is_signed;
   mesh_options.shape = tree_for(options.purpose);
   tools::MeshReport report;
   baked.sections = tools::bake_mesh(surface, name, mesh_options, report);
@@ -234,7 +210,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   progress.stage("running the probes of " + name);
   baked.sections.push_back(tools::mesh_probes(view, name));
   add_facts(facts_of(view, steps));
-  baked.report = report_of(report, steps, bytes_of(baked.sections), options.is_signed);
+  baked.report = report_of(report, steps, bytes_of(baked.sections), options.model.is_signed);
   if (!reported_of_field.empty()) baked.report.push_back(reported_of_field);
   baked.report.insert(baked.report.end(), reported_of_hull.begin(), reported_of_hull.end());
   baked.report.insert(baked.report.end(), sound.reported.begin(), sound.reported.end());

@@ -45,6 +45,17 @@ tools::StepFigures steps_of(const spline::View& view, const tools::SplineModel& 
       });
 }
 
+void place(tools::SplineModel& model, const tools::FileFrame& frame) {
+  const auto place_all = [&](std::vector<tools::ControlPoint>& points) {
+    for (tools::ControlPoint& p : points) {
+      const tools::Point at = frame.placed({p.x, p.y, p.z});
+      p = {at.x, at.y, at.z, p.w};
+    }
+  };
+  for (tools::SplineCurve& curve : model.curves) place_all(curve.points);
+  for (tools::SplineSurface& surface : model.surfaces) place_all(surface.points);
+}
+
 std::string kind_of(const tools::SplineReport& report) {
   const std::string rational = report.is_rational ? "rational " : "";
   if (report.is_surface) return rational + "spline surface";
@@ -93,12 +104,6 @@ std::string ram_of(bool is_surface) {
                    " bytes a tool that it guides (spline::CurveHint)";
 }
 
-std::string sentence(const char* format, double a, double b) {
-  char text[300];
-  std::snprintf(text, sizeof(text), format, a, b);
-  return text;
-}
-
 }  // namespace
 
 BakedInput bake_spline_input(const std::string& path, const BakeOptions& options,
@@ -107,10 +112,12 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   BakedInput baked;
   progress.stage("reading and checking " + file_name_of(path));
   const std::vector<uint8_t> source = read_model(path);
+  const tools::FileFrame frame = options.model.frame_for(path);
   tools::SplineModel model =
       tools::read_spline_bytes({reinterpret_cast<const char*>(source.data()), source.size()}, path,
-                               options.has_unit ? options.unit_m : 0);
+                               frame.has_unit ? frame.unit_m : 0);
   if (!model.problem.empty()) fail_input(model.problem);
+  place(model, frame);
   tools::orient(model);
 
   progress.stage("building the tree of " + name);

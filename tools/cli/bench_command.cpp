@@ -25,11 +25,8 @@ const Command& bench_command() {
       "another\n"
       "machine. A peer is another program that answers the same queries:\n"
       "    COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`",
-      {{"--peer", "COMMAND", "what to race against (default: none)"},
-       {"--bar", nullptr, "exit code 1 where a bar is not met"},
-       {"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"},
-       {"--json", nullptr, "for programs"},
-       {"--long", nullptr, "the full sizes"}},
+      options_of_benches(
+          {"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"}),
       0,
       SIZE_MAX};
   return command;

@@ -4,28 +4,11 @@
 namespace firmtouch::cli {
 
 // The commands: what each takes, and what it does (result: an exit code; a Failure ends it early).
-const Command& make_command();
-int run_make(const Arguments& arguments);
+using TakenBy = const Command&();
+TakenBy make_command, bake_command, info_command, query_command, mend_command, hull_command,
+    bench_command, log_command, voxelize_command;
 
-const Command& bake_command();
-int run_bake(const Arguments& arguments);
-
-const Command& info_command();
-int run_info(const Arguments& arguments);
-
-const Command& query_command();
-int run_query(const Arguments& arguments);
-
-const Command& hull_command();
-int run_hull(const Arguments& arguments);
-
-const Command& bench_command();
-int run_bench(const Arguments& arguments);
-
-const Command& log_command();
-int run_log(const Arguments& arguments);
-
-const Command& voxelize_command();
-int run_voxelize(const Arguments& arguments);
+using Run = int(const Arguments& arguments);
+Run run_make, run_bake, run_info, run_query, run_mend, run_hull, run_bench, run_log, run_voxelize;
 
 }  // namespace firmtouch::cli

@@ -1,32 +1,15 @@
 #include "cli/csv_table.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "cli/failure.hpp"
+#include "curve/csv_rows.hpp"
 
 namespace firmtouch::cli {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const char* const blanks = " \t\r\"";
-  const size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (size_t begin = 0; begin <= line.size();) {
-    const size_t comma = std::min(line.find(',', begin), line.size());
-    fields.push_back(trimmed(line.substr(begin, comma - begin)));
-    begin = comma + 1;
-  }
-  return fields;
-}
 
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
@@ -54,6 +37,7 @@ struct Reader {
   const std::string& origin;
   const std::vector<std::string>& columns;
   std::vector<size_t> places;  // of each column in a row
+  std::vector<float> unit_m;   // of each, where its name has a unit
   size_t names_of_header = 0;
   CsvTable table;
 
@@ -61,8 +45,11 @@ struct Reader {
     fail_input(origin + ":" + std::to_string(line) + ": " + what);
   }
 
-  void read_header(std::string_view line, uint32_t number) {
-    const std::vector<std::string_view> names = fields_of(line);
+  void read_header(const std::vector<std::string_view>& fields, uint32_t number) {
+    std::vector<std::string> names;
+    std::vector<double> units_m(fields.size());
+    for (size_t i = 0; i < fields.size(); ++i)
+      names.push_back(tools::column_name(fields[i], units_m[i]));
     names_of_header = names.size();
     for (const std::string& column : columns) {
       size_t found = names.size();
@@ -76,11 +63,11 @@ struct Reader {
                          joined(columns));
       }
       places.push_back(found);
+      unit_m.push_back(units_m[found] > 0 ? static_cast<float>(units_m[found]) : 1.0f);
     }
   }
 
-  void read_row(std::string_view line, uint32_t number) {
-    const std::vector<std::string_view> fields = fields_of(line);
+  void read_row(const std::vector<std::string_view>& fields, uint32_t number) {
     if (fields.size() > names_of_header) {
       fail(number, "the row has " + std::to_string(fields.size()) + " values, the header " +
                        std::to_string(names_of_header) +
@@ -98,7 +85,7 @@ struct Reader {
                          std::string(fields[places[i]].substr(0, 40)) +
                          "' is not a number; write it with a point, as 0.125 or 1.25e-1");
       }
-      table.values.push_back(value);
+      table.values.push_back(value * unit_m[i]);
     }
     table.line_of.push_back(number);
   }
@@ -108,21 +95,17 @@ struct Reader {
 
 CsvTable read_csv(const std::string& text, const std::string& origin,
                   const std::vector<std::string>& columns) {
-  Reader reader{origin, columns, {}, 0, {}};
+  Reader reader{origin, columns, {}, {}, 0, {}};
   reader.table.columns = columns.size();
-  std::string_view rest = text;
-  if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
-  uint32_t number = 0;
-  while (!rest.empty()) {
-    const size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = trimmed(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    ++number;
-    if (line.empty()) continue;
+  tools::CsvRows rows(text, false);
+  if (!rows.problem().empty()) fail_input(origin + ": " + rows.problem());
+  std::vector<std::string_view> fields;
+  while (rows.next(fields)) {
+    const uint32_t number = static_cast<uint32_t>(rows.line());
     if (reader.places.empty()) {
-      reader.read_header(line, number);
+      reader.read_header(fields, number);
     } else {
-      reader.read_row(line, number);
+      reader.read_row(fields, number);
     }
   }
   if (reader.places.empty())

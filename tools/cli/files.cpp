@@ -14,6 +14,11 @@ namespace {
 
 std::string reason() { return std::strerror(errno); }
 
+bool is_gz(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".gz" || extension == ".GZ";
+}
+
 std::vector<uint8_t> taken(tools::LoadedFile file, const std::string& name) {
   if (!file.problem.empty()) fail_input(name + ": " + file.problem);
   return std::move(file.bytes);
@@ -48,14 +53,14 @@ void write_file(const std::string& path, const void* bytes, size_t count) {
   fail_input(path + ": cannot be written: " + why);
 }
 
-std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+std::string stem_of(const std::string& path) {
+  const std::filesystem::path stem = std::filesystem::path(path).stem();
+  return (is_gz(path) ? stem.stem() : stem).string();
+}
 
 std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& letter : extension) {
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  }
-  return extension;
+  const std::string extension = tools::model_extension(path);
+  return extension.empty() ? extension : "." + extension;
 }
 
 std::string file_name_of(const std::string& path) {

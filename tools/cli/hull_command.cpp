@@ -66,17 +66,16 @@ const Command& hull_command() {
       "itself.\n"
       "Where no edge may collapse any more, the coarsest hull reached is written and the reason "
       "printed.",
-      {{"-o", "FILE", "the hull (.obj)"},
-       {"--faces", "N", "at most so many, even (4 and more)"},
-       {"--strategy", "1|2|lazy",
-        "1: least volume first; 2: least volume about the middle of the "
-        "star; lazy (default): 1, looking again only at an edge's turn"},
-       {"--hull-grid", "22|16", "bits of a stored coordinate (default 22)"},
-       {"--max-valence", "N", "faces around a vertex (default 12)"},
-       {"--compactness", "R", "share of the faces' compactness that is left (default 0.8)"},
-       {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
-       {"--unit", "m|mm|cm|in", "of the input's coordinates (default m)"},
-       {"--close-holes", nullptr, "each hole gets a cap of triangles, reported"}},
+      with_model_options(
+          {{"-o", "FILE", "the hull (.obj)"},
+           {"--faces", "N", "at most so many, even (4 and more)"},
+           {"--strategy", "1|2|lazy",
+            "1: least volume first; 2: least volume about the middle of the "
+            "star; lazy (default): 1, looking again only at an edge's turn"},
+           {"--hull-grid", "22|16", "bits of a stored coordinate (default 22)"},
+           {"--max-valence", "N", "faces around a vertex (default 12)"},
+           {"--compactness", "R", "share of the faces' compactness that is left (default 0.8)"},
+           {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"}}),
       1,
       1};
   return command;
@@ -96,13 +95,16 @@ int run_hull(const Arguments& arguments) {
   options.strategy = strategy == "1"   ? tools::HullStrategy::kVolume
                      : strategy == "2" ? tools::HullStrategy::kCentre
                                        : tools::HullStrategy::kLazyVolume;
+  std::string text_of_options;
+  ModelOptions options_of_model = model_options(arguments, text_of_options);
+  settle_size(path, options_of_model);
   SoundSurface sound;
   tools::HullReport report;
   tools::ProgressiveHull hull;
   {
     Progress progress(0);
     progress.stage("reading and checking " + file_name_of(path));
-    sound = sound_surface(path, read_model(path), bake_options(arguments));
+    sound = sound_surface(path, read_model(path), options_of_model);
     progress.stage("collapsing edges of " + name);
     options.on_progress = [&](uint32_t faces) {
       progress.stage(std::to_string(faces) + " faces left, of " +

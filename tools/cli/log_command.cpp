@@ -19,7 +19,7 @@ namespace {
 class TextOutput {
  public:
   explicit TextOutput(std::string path) : path_(std::move(path)) {
-    if (path_.empty()) return;
+    if (path_.empty() || path_ == "-") return;
     file_ = std::fopen(partial().c_str(), "wb");
     if (file_ == nullptr) fail_input(path_ + ": cannot be written; is its folder there?");
   }
@@ -65,10 +65,14 @@ int reported(const std::string& path, const std::string& troubles) {
   return kAnswerIsNo;
 }
 
-int info(const std::string& path) {
+int info(const std::string& path, bool is_json) {
   log::Reader reader(log::open_file(path), path);
   log::read_through(reader);
   const log::Header& header = reader.header();
+  if (is_json) {
+    std::fputs(json_of(reader).c_str(), stdout);
+    return reported(path, reader.troubles());
+  }
   std::printf("%s: %llu records of %u bytes in %u blocks, %llu missing\n", path.c_str(),
               static_cast<unsigned long long>(reader.records()), header.record_bytes,
               reader.blocks(), static_cast<unsigned long long>(reader.missing()));
@@ -114,6 +118,18 @@ std::vector<log::Column> columns_of(const std::string& path, const log::Header& 
   return chosen;
 }
 
+// With --names: the fields whose set bits are named behind the columns.
+std::vector<const log::Field*> bit_fields(const log::Header& header,
+                                          const std::vector<log::Column>& columns,
+                                          const Arguments& arguments) {
+  std::vector<const log::Field*> list;
+  if (!arguments.has("--names")) return list;
+  for (const log::Field& field : header.fields)
+    for (const log::Column& column : columns)
+      if (field.unit == "bits" && column.field->name == field.name) list.push_back(&field);
+  return list;
+}
+
 int csv(const std::string& path, const Arguments& arguments) {
   log::Reader reader(log::open_file(path), path);
   const std::vector<log::Column> columns =
@@ -125,14 +141,20 @@ int csv(const std::string& path, const Arguments& arguments) {
     std::replace(name.begin(), name.end(), ',', ';');  // a name of this project has none
     text += (text.empty() ? "" : ",") + name;
   }
+  const std::vector<const log::Field*> bits = bit_fields(reader.header(), columns, arguments);
+  for (const log::Field* field : bits) text += "," + field->name + "_names";
   out.add(text + "\n");
   log::Block block;
   while (reader.next(block)) {
     text.clear();
-    for (uint32_t i = 0; i < block.count; ++i)
+    for (uint32_t i = 0; i < block.count; ++i) {
+      const uint8_t* record = block.record(i);
       for (const log::Column& column : columns)
-        text +=
-            log::stored_text(column, block.record(i)) + (&column == &columns.back() ? "\n" : ",");
+        text += (&column == &columns.front() ? "" : ",") + log::stored_text(column, record);
+      for (const log::Field* field : bits)
+        text += "," + reader.header().names(field->name, log::word(record, field->offset));
+      text += "\n";
+    }
     out.add(text);
   }
   out.close();
@@ -197,7 +219,7 @@ int stats(const std::string& path, bool is_json) {
 
 void allow(const Arguments& arguments, const std::string& action,
            const std::vector<std::string>& allowed) {
-  for (const char* option : {"-o", "--fields", "--from", "--to", "--json"}) {
+  for (const char* option : {"-o", "--fields", "--names", "--from", "--to", "--json"}) {
     bool is_allowed = false;
     for (const std::string& name : allowed) is_allowed |= name == option;
     if (arguments.has(option) && !is_allowed)
@@ -213,8 +235,10 @@ int act(const Arguments& arguments) {
   if ((action == "cut" || action == "join") && output.empty())
     fail_usage("log: " + action + " wants -o FILE.ftl");
   if (!output.empty()) forbid_overwriting(output, path);
-  if (action == "info") return allow(arguments, action, {}), info(path);
-  if (action == "csv") return allow(arguments, action, {"-o", "--fields"}), csv(path, arguments);
+  if (action == "info")
+    return allow(arguments, action, {"--json"}), info(path, arguments.has("--json"));
+  if (action == "csv")
+    return allow(arguments, action, {"-o", "--fields", "--names"}), csv(path, arguments);
   if (action == "plot") return allow(arguments, action, {"-o", "--fields"}), plot(path, arguments);
   if (action == "cut")
     return allow(arguments, action, {"-o", "--from", "--to"}), cut(path, arguments, output);
@@ -238,11 +262,13 @@ const Command& log_command() {
       "steps\n"
       "  cut     the records from --from to before --to  join   this log and those that follow it\n"
       "A damaged or cut-off log gives all its whole blocks; exit code 1 then.",
-      {{"-o", "FILE", "where to: .ftl for cut and join, .svg or .html for plot, text for csv"},
+      {{"-o", "FILE",
+        "where to: .ftl for cut and join, .svg or .html for plot, text for csv (- is stdout)"},
        {"--fields", "A,B", "csv, plot: these fields alone, by their names in the log"},
+       {"--names", nullptr, "csv: further columns with the names of the set bits"},
        {"--from", "N|S", "cut: from this record's number on, or from a time: 2.5s"},
        {"--to", "N|S", "cut: to before this record's number, or this time"},
-       {"--json", nullptr, "stats: for programs"}},
+       {"--json", nullptr, "info, stats: for programs"}},
       2,
       1000};
   return command;

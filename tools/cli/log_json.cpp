@@ -78,4 +78,35 @@ std::string json_of(const log::Statistics& s) {
   return all.object() + "\n";
 }
 
+// What a log says of itself, its fields and their bits.
+std::string json_of(const log::Reader& reader) {
+  constexpr const char* kTypes[] = {"u32", "i32", "f32"};
+  const log::Header& header = reader.header();
+  Json text, all;
+  for (const auto& [key, value] : header.text)
+    text.add(log::printable(key), tools::json_text(value));
+  all.add("records", reader.records()).add("blocks", uint64_t{reader.blocks()});
+  all.add("missing", reader.missing()).add("decimation", uint64_t{header.decimation});
+  all.add("record_bytes", uint64_t{header.record_bytes});
+  all.add("troubles", tools::json_text(reader.troubles()));
+  all.add("fields", json_list(header.fields, [&](const log::Field& field) {
+            return Json()
+                .add("name", tools::json_text(field.name))
+                .add("unit", tools::json_text(field.unit))
+                .add("type", tools::json_text(kTypes[static_cast<size_t>(field.type)]))
+                .add("count", uint64_t{field.count})
+                .add("scale", field.scale)
+                .add("zero", field.zero)
+                .object();
+          }));
+  all.add("bits", json_list(header.bits, [](const log::Bit& bit) {
+            return Json()
+                .add("field", tools::json_text(bit.field))
+                .add("bit", uint64_t{bit.bit})
+                .add("name", tools::json_text(bit.what))
+                .object();
+          }));
+  return all.add("text", text.object()).object() + "\n";
+}
+
 }  // namespace firmtouch::cli

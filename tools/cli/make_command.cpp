@@ -94,7 +94,7 @@ std::string made_walk(const Arguments& arguments, uint64_t seed) {
   const std::string extension = extension_of(model);
   if (extension == ".igs" || extension == ".iges" || extension == ".bpt")
     return walk_about_spline(model, seed, points);
-  BakeOptions options;
+  ModelOptions options;
   options.is_signed = false;
   const tools::Surface surface = sound_surface(model, read_model(model), options).surface;
   tools::MeshOptions mesh_options;

@@ -78,7 +78,10 @@ const Command& query_command() {
       "               double, on this machine alone)\n"
       "Rows are answered in order, each warm-started by the one before.",
       {{"--cold", nullptr, "each row on its own"},
-       {"--budget", "N", "at most N steps a query (default: unlimited, so exact)"},
+       {"--work", "N",
+        "at most N work units a query, of about 100 instructions of a Cortex-M7 (default: unlimited, "
+        "so exact)"},
+       {"--budget", "N", "the same in visits of 2.5 units; dropped in the next version"},
        {"--time", nullptr, "no CSV: the median time a query over 5 passes"},
        {"--isa", "LEVEL",
         "distance, segment: instruction set: scalar, x86-64-v2, -v3, -v4 or neon (default: the "
@@ -107,7 +110,7 @@ int run_query(const Arguments& arguments) {
   const std::string& name = arguments.positionals()[1];
   const std::string& kind = arguments.positionals()[2];
   check_kind(kind);
-  if (kind == "footpoints") forbid(arguments, kind, {"--budget", "--cold"});
+  if (kind == "footpoints") forbid(arguments, kind, {"--budget", "--work", "--cold"});
   if (kind != "segment" && kind != "hull") forbid(arguments, kind, {"--all"});
   if (kind != "curve" && kind != "hull") forbid(arguments, kind, {"--mode"});
   if (kind != "curve") forbid(arguments, kind, {"--n", "--arc-penalty"});

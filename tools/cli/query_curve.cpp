@@ -76,24 +76,15 @@ void query_curve(const LoadedCurve& given, const CsvTable& table, const Argument
                            static_cast<uint32_t>(tree.size() * sizeof(tree[0]))};
     if (!curve::open(curve.sections, curve.view).ok()) fail_input("the curve has no k-d tree");
   }
-  if (arguments.has("--time")) {
-    print_time(table.rows(), [&] {
-      Answers answers(curve.view, arguments);
-      float sum = 0;
-      for (size_t i = 0; i < table.rows(); ++i) sum += answers.next(table.row(i)).distance_m;
-      return sum;
-    });
-    return;
-  }
-  std::puts("distance,cx,cy,cz,segment,arc,lower,steps,exact");
   const auto wide = [](float value) { return static_cast<double>(value); };
-  Answers answers(curve.view, arguments);
-  for (size_t i = 0; i < table.rows(); ++i) {
-    const curve::Closest a = answers.next(table.row(i));
+  const auto print = [&](const curve::Closest& a) {
     std::printf("%.9g,%.9g,%.9g,%.9g,%u,%.9g,%.9g,%u,%d\n", wide(a.distance_m), wide(a.point_m.x),
                 wide(a.point_m.y), wide(a.point_m.z), curve.row_of(a.segment), wide(a.arc),
                 wide(a.certificate.lower_m), a.certificate.steps, a.certificate.exact ? 1 : 0);
-  }
+  };
+  answer_rows(
+      table, arguments, "distance,cx,cy,cz,segment,arc,lower,steps,exact",
+      [&] { return Answers(curve.view, arguments); }, print);
 }
 
 }  // namespace firmtouch::cli

@@ -55,23 +55,20 @@ void choose_isa(const Arguments& arguments) {
 
 query::Budget budget_of(const Arguments& arguments) {
   query::Budget budget;
-  budget.steps = arguments.count("--budget", UINT32_MAX, 1, UINT32_MAX);
+  budget.work = arguments.count("--work", UINT32_MAX, 0, UINT32_MAX);
+  if (!arguments.has("--budget")) return budget;
+  // Visits: accepted in this version. One takes two and a half units on average.
+  std::fprintf(stderr, "--budget N is now --work N, in work units; a visit counts 2.5\n");
+  const uint64_t work = uint64_t{arguments.count("--budget", UINT32_MAX, 1, UINT32_MAX)} * 5 / 2;
+  budget.work = static_cast<uint32_t>(std::min<uint64_t>(work, UINT32_MAX));
   return budget;
 }
 
 void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
-  if (arguments.has("--time")) {
-    print_time(table.rows(), [&] {
-      Answers answers(mesh.wide, arguments);
-      float sum = 0;
-      for (size_t i = 0; i < table.rows(); ++i) sum += answers.next(table.row(i)).distance_m;
-      return sum;
-    });
-    return;
-  }
-  std::puts("distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact");
-  Answers answers(mesh.wide, arguments);
-  for (size_t i = 0; i < table.rows(); ++i) print_row(mesh, answers.next(table.row(i)));
+  answer_rows(
+      table, arguments, "distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact",
+      [&] { return Answers(mesh.wide, arguments); },
+      [&](const mesh::Closest& a) { print_row(mesh, a); });
 }
 
 }  // namespace firmtouch::cli

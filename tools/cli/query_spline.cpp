@@ -28,25 +28,16 @@ class Answers {
 }  // namespace
 
 void query_spline(const spline::View& model, const CsvTable& table, const Arguments& arguments) {
-  if (arguments.has("--time")) {
-    print_time(table.rows(), [&] {
-      Answers answers(model, arguments);
-      float sum = 0;
-      for (size_t i = 0; i < table.rows(); ++i) sum += answers.next(table.row(i)).distance_m;
-      return sum;
-    });
-    return;
-  }
-  std::puts("distance,cx,cy,cz,piece,u,v,lower,steps,exact");
   const auto wide = [](float value) { return static_cast<double>(value); };
-  Answers answers(model, arguments);
-  for (size_t i = 0; i < table.rows(); ++i) {
-    const spline::Closest a = answers.next(table.row(i));
+  const auto print = [&](const spline::Closest& a) {
     std::printf("%.9g,%.9g,%.9g,%.9g,%u,%.9g,%.9g,%.9g,%u,%d\n", wide(a.distance_m),
                 wide(a.point_m.x), wide(a.point_m.y), wide(a.point_m.z), a.piece, wide(a.u),
                 wide(a.v), wide(a.certificate.lower_m), a.certificate.steps,
                 a.certificate.exact ? 1 : 0);
-  }
+  };
+  answer_rows(
+      table, arguments, "distance,cx,cy,cz,piece,u,v,lower,steps,exact",
+      [&] { return Answers(model, arguments); }, print);
 }
 
 }  // namespace firmtouch::cli

@@ -64,6 +64,14 @@ bench::Report report_of(const bench::Bench& each, const bench::Options& options)
 
 }  // namespace
 
+std::vector<Option> options_of_benches(const Option& own) {
+  return {{"--peer", "COMMAND", "what to race against (default: none)"},
+          {"--bar", nullptr, "exit code 1 where a bar is not met"},
+          own,
+          {"--json", nullptr, "for programs"},
+          {"--long", nullptr, "the full sizes"}};
+}
+
 int run_benches(const std::vector<bench::Bench>& all, const Arguments& arguments) {
   const std::vector<std::string>& words = arguments.positionals();
   const bool is_json = arguments.has("--json");

@@ -92,7 +92,7 @@ int run_voxelize(const Arguments& arguments) {
   options.interior_only = arguments.has("--interior");
   const uint32_t processors = std::max(1u, std::thread::hardware_concurrency());
   options.threads = arguments.count("--threads", std::min(processors, 256u), 1, 256);
-  BakeOptions read;
+  ModelOptions read;
   read.close_holes = arguments.has("--close-holes");
 
   tools::DistanceField distance_field;

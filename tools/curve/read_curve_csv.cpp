@@ -2,163 +2,162 @@
 
 #include <array>
 
+#include "curve/csv_rows.hpp"
+#include "surface/point.hpp"
 #include "surface/read/load_file.hpp"
-#include "surface/read/text_scan.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
 constexpr char kHeaderWanted[] = "the first line must name the columns: x,y,z";
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
-    text = text.substr(1, text.size() - 2);
-  return text;
-}
-
-void split(std::string_view line, std::vector<std::string_view>& fields) {
-  fields.clear();
-  for (;;) {
-    const size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == line.npos) return;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-/// Lines of a text without their ends.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {
-    if (rest_.substr(0, 3) == "\xEF\xBB\xBF") rest_.remove_prefix(3);
-  }
-  bool next(std::string_view& line) {
-    if (rest_.empty()) return false;
-    const size_t end = rest_.find_first_of("\r\n");
-    line = rest_.substr(0, end);
-    const bool is_pair = end != rest_.npos && rest_.substr(end, 2) == "\r\n";
-    rest_.remove_prefix(end == rest_.npos ? rest_.size() : end + (is_pair ? 2 : 1));
-    ++number_;
-    return true;
-  }
-  uint64_t number() const { return number_; }
-
- private:
-  std::string_view rest_;
-  uint64_t number_ = 0;
-};
-
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& name, double unit_m)
-      : lines_(text), name_(name), unit_m_(unit_m) {}
+  Reader(std::string_view text, const std::string& name, const FileFrame& frame,
+         const CsvOptions& options)
+      : rows_(text, options.has_decimal_commas),
+        has_decimal_commas_(options.has_decimal_commas),
+        name_(name),
+        frame_(frame) {}
 
   CurvePoints read() {
-    std::string_view line;
     bool has_header = false;
-    while (points_.problem.empty() && lines_.next(line)) {
-      line = trimmed(line);
-      if (line.empty()) continue;
-      if (has_header) {
-        take_row(line);
-      } else {
-        take_header(line);
+    while (points_.problem.empty() && rows_.next(fields_)) {
+      if (!has_header) {
         has_header = true;
+        if (take_header()) continue;
       }
+      if (points_.problem.empty()) take_row();
     }
-    if (!has_header) points_.problem = name_ + ": is empty: " + kHeaderWanted;
+    if (!rows_.problem().empty()) {
+      points_.problem = name_ + ": " + rows_.problem();
+    } else if (!has_header) {
+      points_.problem = name_ + ": is empty: " + kHeaderWanted;
+    }
     mend_curve(points_, name_);
     return std::move(points_);
   }
 
  private:
   void fail(const std::string& what) {
-    points_.problem = name_ + ": line " + std::to_string(lines_.number()) + ": " + what;
+    points_.problem = name_ + ": line " + std::to_string(rows_.line()) + ": " + what;
   }
 
-  // What separates the fields if not a comma, or nullptr.
-  static const char* other_separator(std::string_view line) {
-    if (line.find(';') != line.npos) return "semicolons";
-    if (line.find(',') != line.npos) return nullptr;
-    if (line.find('\t') != line.npos) return "tabs";
-    return line.find(' ') != line.npos ? "spaces" : nullptr;
-  }
-
-  void fail_separator(const char* separator) {
-    fail(std::string("fields are separated by ") + separator +
-         ": separate them by commas, and write decimals with a point");
-  }
-
-  void take_header(std::string_view line) {
-    if (const char* separator = other_separator(line)) return fail_separator(separator);
-    split(line, fields_);
-    columns_ = fields_.size();
-    std::string passed_over;
+  // Finds x, y and z among the names. Result: how many of them stand there once.
+  uint32_t find_columns(const std::vector<std::string_view>& names, std::string& passed_over) {
     std::array<size_t, 3> found{};
-    for (size_t i = 0; i < columns_; ++i) {
-      const size_t axis = fields_[i].size() == 1 ? std::string_view("xyz").find(fields_[i]) : 3;
+    std::array<double, 3> unit_m{};
+    columns_ = names.size();
+    for (size_t i = 0; i < names.size(); ++i) {
+      double of_column_m = 0;
+      const std::string name = column_name(names[i], of_column_m);
+      const size_t axis = name.size() == 1 ? std::string_view("xyz").find(name) : 3;
       if (axis < 3) {
         column_[axis] = i;
+        unit_m[axis] = of_column_m;
         ++found[axis];
       } else {
-        passed_over += (passed_over.empty() ? "'" : ", '") + std::string(fields_[i]) + "'";
+        passed_over += (passed_over.empty() ? "'" : ", '") + std::string(names[i]) + "'";
       }
     }
-    double value = 0;
-    if (found == std::array<size_t, 3>{1, 1, 1}) {
-      if (!passed_over.empty()) points_.notes.push_back("passed over columns " + passed_over);
-    } else if (read_number(fields_[0], value) == nullptr) {
-      fail(std::string("there is no header: ") + kHeaderWanted);
-    } else {
-      fail("the header '" + std::string(line.substr(0, 60)) +
-           "' does not name x, y and z once "
-           "each: " +
-           kHeaderWanted);
-    }
+    uint32_t once = 0;
+    for (size_t axis = 0; axis < 3; ++axis) once += found[axis] == 1 ? 1u : 0u;
+    if (once == 3) header_unit_m_ = unit_m;
+    return once;
   }
 
-  void take_row(std::string_view line) {
-    if (const char* separator = other_separator(line)) return fail_separator(separator);
-    split(line, fields_);
-    if (fields_.size() != columns_)
+  // Result: whether the row was the header; else it is a sample.
+  bool take_header() {
+    std::string passed_over, none;
+    double value = 0;
+    if (find_columns(fields_, passed_over) == 3) {
+      if (!passed_over.empty()) points_.notes.push_back("passed over columns " + passed_over);
+      take_unit();
+      return true;
+    }
+    if (rows_.number(fields_[0], value) == nullptr) {
+      const size_t columns = fields_.size();
+      if (find_columns(rows_.comment(), none) == 3 && columns_ == columns) {
+        points_.notes.push_back("took the names of the columns from the comment before them");
+        take_unit();
+        return false;
+      }
+      columns_ = columns;
+      column_ = {0, 1, 2};
+      if (columns == 3) {
+        points_.notes.push_back("found no header: took the columns as x, y and z");
+      } else {
+        fail("there is no header and " + std::to_string(columns) + " columns: " + kHeaderWanted);
+      }
+      return false;
+    }
+    fail("the header '" + std::string(rows_.text().substr(0, 60)) +
+         "' does not name x, y and z once each: " + kHeaderWanted);
+    return true;
+  }
+
+  void take_unit() {
+    if (!(header_unit_m_[0] > 0)) return;
+    for (const double unit_m : header_unit_m_) {
+      if (unit_m < header_unit_m_[0] || unit_m > header_unit_m_[0])
+        return fail("the header gives x, y and z different units: write them in one");
+    }
+    const FileFrame named(header_unit_m_[0]);
+    frame_.take_unit(named.unit_m, named.unit);
+  }
+
+  void take_row() {
+    if (fields_.size() != columns_) {
+      const bool has_semicolons = rows_.text().find(';') != std::string_view::npos;
+      const bool has_commas = fields_.size() == 2 * columns_;
       return fail(std::to_string(fields_.size()) + " fields, but the header names " +
                   std::to_string(columns_) +
-                  (fields_.size() == 2 * columns_ ? ": write decimals with a point, not a comma"
-                                                  : ": mend or delete this row"));
-    std::array<float, 3> xyz{};
+                  (has_semicolons ? ": it has semicolons where the first line has others"
+                   : has_commas   ? ": write decimals with a point, not a comma"
+                                  : ": mend or delete this row"));
+    }
+    double xyz[3] = {};
     for (size_t k = 0; k < 3; ++k) {
       const std::string_view field = fields_[column_[k]];
-      double value = 0;
-      const char* wrong = read_number(field, value);
-      xyz[k] = static_cast<float>(value * unit_m_);
-      if (wrong == nullptr && !(xyz[k] - xyz[k] <= 0)) wrong = "is too large for a coordinate";
-      if (wrong != nullptr)
-        return fail(std::string(1, "xyz"[k]) + " = '" + std::string(field.substr(0, 40)) + "' " +
-                    wrong + ": mend or delete this row");
+      const char* wrong = rows_.number(field, xyz[k]);
+      if (wrong != nullptr) return fail_number(k, field, wrong);
     }
-    points_.samples_m.push_back({xyz[0], xyz[1], xyz[2]});
+    const math::Vec3 p = to_vec3(frame_.to_m({xyz[0], xyz[1], xyz[2]}));
+    const float placed[3] = {p.x, p.y, p.z};
+    for (size_t k = 0; k < 3; ++k)
+      if (!(placed[k] - placed[k] <= 0))
+        return fail_number(k, fields_[column_[k]], "is too large for a coordinate");
+    points_.samples_m.push_back(p);
     points_.rows.push_back(next_row_++);
   }
 
-  Lines lines_;
+  void fail_number(size_t axis, std::string_view field, const char* wrong) {
+    const bool has_comma = !has_decimal_commas_ && field.find(',') != field.npos;
+    fail(std::string(1, "xyz"[axis]) + " = '" + std::string(field.substr(0, 40)) + "' " + wrong +
+         (has_comma ? ", or say --decimal-comma" : ": mend or delete this row"));
+  }
+
+  CsvRows rows_;
+  bool has_decimal_commas_;
   const std::string& name_;
-  double unit_m_;
+  FileFrame frame_;
   CurvePoints points_;
   std::vector<std::string_view> fields_;
   std::array<size_t, 3> column_{};
+  std::array<double, 3> header_unit_m_{};
   size_t columns_ = 0;
   uint32_t next_row_ = 0;
 };
 
 }  // namespace
 
-CurvePoints read_curve_csv_bytes(std::string_view text, const std::string& name, double unit_m) {
-  return Reader(text, name, unit_m).read();
+CurvePoints read_curve_csv_bytes(std::string_view text, const std::string& name,
+                                 const FileFrame& frame, const CsvOptions& options) {
+  return Reader(text, name, frame, options).read();
 }
 
-CurvePoints read_curve_csv(const std::string& path, double unit_m) {
+CurvePoints read_curve_csv(const std::string& path, const FileFrame& frame,
+                           const CsvOptions& options) {
   CurvePoints failed;
   const LoadedFile file = load_file(path, kMaxLineBytes);
   if (!file.problem.empty()) {
@@ -166,7 +165,7 @@ CurvePoints read_curve_csv(const std::string& path, double unit_m) {
     return failed;
   }
   const std::string_view text(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
-  return read_curve_csv_bytes(text, path, unit_m);
+  return read_curve_csv_bytes(text, path, frame, options);
 }
 
 }  // namespace firmtouch::tools

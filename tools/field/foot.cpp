@@ -20,6 +20,7 @@ Foot foot_at(Point p, Point at, uint32_t part) { return {at, dot(p - at, p - at)
 // a b is the longest edge.
 Foot foot_in_order(Point p, Point a, Point b, Point c) {
   const Point ab = b - a, ac = c - a, ap = p - a;
+  if (!(dot(ab, ab) > 0)) return foot_at(p, a, 4);  // a point
   const double per_ab2 = 1 / dot(ab, ab);
   const double x = dot(ab, ap) * per_ab2, xc = dot(ab, ac) * per_ab2;
   const Point e = ap - ab * x, h = ac - ab * xc;

@@ -17,11 +17,8 @@ const cli::Command& command() {
       "of\n"
       "each trial. A peer is another program that answers the same queries, as for firmtouch "
       "bench.",
-      {{"--peer", "COMMAND", "what to race against (default: none)"},
-       {"--bar", nullptr, "exit code 1 where a bar is not met"},
-       {"--figures", "FOLDER", "where `pictures` draws (default: the current folder)"},
-       {"--json", nullptr, "for programs"},
-       {"--long", nullptr, "the full sizes"}},
+      cli::options_of_benches(
+          {"--figures", "FOLDER", "where `pictures` draws (default: the current folder)"}),
       0,
       SIZE_MAX,
       "firmtouch-lab"};

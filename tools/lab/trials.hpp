@@ -9,17 +9,8 @@ using namespace bench;  // NOLINT: the lab is built on the benches' models, timi
 const std::vector<Bench>& trials();
 
 // The trials, one a file of that name; what each prints stands above its definition.
-void run_cells(const Options& options, Report& report);
-void run_curve_constraint(const Options& options, Report& report);
-void run_curve_drag(const Options& options, Report& report);
-void run_grid(const Options& options, Report& report);
-void run_hull_tables(const Options& options, Report& report);
-void run_hulls(const Options& options, Report& report);
-void run_morris(const Options& options, Report& report);
-void run_orders(const Options& options, Report& report);
-void run_pictures(const Options& options, Report& report);
-void run_pseudonormals(const Options& options, Report& report);
-void run_pyramids(const Options& options, Report& report);
-void run_splines(const Options& options, Report& report);
+using Run = void(const Options& options, Report& report);
+Run run_cells, run_curve_constraint, run_curve_drag, run_grid, run_hull_tables, run_hulls,
+    run_morris, run_orders, run_pictures, run_pseudonormals, run_pyramids, run_splines;
 
 }  // namespace firmtouch::lab

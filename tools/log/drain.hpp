@@ -5,6 +5,7 @@
 #include <string>
 
 #include "firmtouch/core/span.hpp"
+#include "log/interface.hpp"
 #include "log/schema.hpp"
 #include "log/sink.hpp"
 #include "log/writer.hpp"
@@ -12,12 +13,8 @@
 namespace firmtouch::log {
 
 /// The reader's side of a ring (record/ring.hpp) of any record and capacity.
-class Records {
+class Records : public Interface {
  public:
-  Records() = default;
-  Records(const Records&) = delete;
-  Records& operator=(const Records&) = delete;
-  virtual ~Records() = default;
   /// The records that lie together, oldest first, each with its number first; they stay until
   /// release().
   virtual core::Bytes ready() = 0;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "chart/chart.hpp"
+#include "chart/envelope.hpp"
 #include "log/lanes.hpp"
 #include "log/panels.hpp"
 #include "log/plot_page.hpp"
@@ -16,35 +17,12 @@ namespace firmtouch::log {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMax = 1e30;   // what a chart can take
+constexpr double kMax = 1e30;   // of a time
 constexpr size_t kBins = 2400;  // twice the pixels that a line has
 constexpr double kTop = 66, kHeight = 168, kHead = 30;
 constexpr double kMargin = 20;
 const chart::ChartSize kSize = {1160 - 2 * kMargin, kHeight};
 constexpr const char* kColours[] = {"var(--force)", "var(--second)", "var(--good)", "var(--third)"};
-
-// A line as it is gathered: of each bin of time the least and the greatest value.
-class Line {
- public:
-  Line(size_t bins, bool is_fine) : low_(bins, kNone), high_(is_fine ? 0 : bins, kNone) {}
-  void add(size_t bin, double value) {
-    if (!(std::fabs(value) <= kMax)) return;
-    if (!(low_[bin] <= value)) low_[bin] = value;
-    if (!high_.empty() && !(high_[bin] >= value)) high_[bin] = value;
-  }
-  std::vector<double> values() const {
-    if (high_.empty()) return low_;
-    std::vector<double> list;
-    for (size_t i = 0; i < low_.size(); ++i) {
-      list.push_back(low_[i]);
-      list.push_back(high_[i]);
-    }
-    return list;
-  }
-
- private:
-  std::vector<double> low_, high_;
-};
 
 // The records that the log's time has room for, present or missing; at least 1.
 class Slots {
@@ -86,7 +64,7 @@ chart::TimeAxis::Spans missing_spans(const Statistics& s, const Slots& slots, do
 
 struct Drawn {
   std::vector<Panel> panels;
-  std::vector<std::vector<Line>> lines;
+  std::vector<std::vector<chart::Envelope>> lines;
   Lanes lanes;
   chart::TimeAxis axis;
 };
@@ -94,7 +72,7 @@ struct Drawn {
 void gather(Reader& reader, const Slots& slots, Drawn& drawn) {
   const uint64_t decimation = reader.header().decimation;
   for (const Panel& panel : drawn.panels)
-    drawn.lines.emplace_back(panel.curves.size(), Line(slots.bins(), slots.is_fine()));
+    drawn.lines.emplace_back(panel.curves.size(), chart::Envelope(slots.bins(), slots.is_fine()));
   const Field* clock = reader.header().find("input.clock_us");
   uint64_t before = UINT64_MAX;
   uint32_t last_clock = 0;

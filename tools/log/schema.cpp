@@ -106,6 +106,14 @@ std::string Header::what(const std::string& field, uint32_t number) const {
   return "bit " + std::to_string(number);
 }
 
+std::string Header::names(const std::string& field, uint32_t set) const {
+  std::string list;
+  for (const Bit& bit : bits)
+    if (bit.field == field && (set >> bit.bit & 1u) != 0)
+      list += (list.empty() ? "" : "|") + bit.what;
+  return list;
+}
+
 std::vector<Column> Header::columns() const {
   std::vector<Column> list;
   for (const Field& field : fields)

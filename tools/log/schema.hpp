@@ -43,6 +43,8 @@ struct Header {
   const Field* find(const std::string& name) const;
   /// What bit `bit` of `field` says; "bit N" where the log does not.
   std::string what(const std::string& field, uint32_t bit) const;
+  /// Of the named bits that are set in `set`: "enable|drive fault".
+  std::string names(const std::string& field, uint32_t set) const;
   std::vector<Column> columns() const;
 };
 

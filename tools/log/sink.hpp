@@ -2,17 +2,14 @@
 #include <cstdint>
 #include <string>
 
+#include "log/interface.hpp"
+
 namespace firmtouch::log {
 
 /// Where a log is written: a file, or what stands for one in a test. Every call may be slow; none
 /// throws.
-class Sink {
+class Sink : public Interface {
  public:
-  Sink() = default;
-  Sink(const Sink&) = delete;
-  Sink& operator=(const Sink&) = delete;
-  virtual ~Sink() = default;
-
   struct Part {
     const void* data;
     uint64_t bytes;

@@ -4,15 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "log/interface.hpp"
+
 namespace firmtouch::log {
 
 /// The bytes that a reader reads: a file, or memory.
-class Source {
+class Source : public Interface {
  public:
-  Source() = default;
-  Source(const Source&) = delete;
-  Source& operator=(const Source&) = delete;
-  virtual ~Source() = default;
   virtual uint64_t size() const = 0;
   /// Pre: offset + bytes <= size(). Result: false where they cannot be read.
   virtual bool read(uint64_t offset, void* to, uint64_t bytes) = 0;

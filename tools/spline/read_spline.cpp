@@ -4,20 +4,6 @@
 #include "surface/read/load_file.hpp"
 
 namespace firmtouch::tools {
-namespace {
-
-std::string extension_of(const std::string& path) {
-  const size_t dot = path.find_last_of("./\\");
-  if (dot == path.npos || path[dot] != '.') return "";
-  std::string extension = path.substr(dot + 1);
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
-}
-
-}  // namespace
-
 SplineModel read_spline_bytes(std::string_view bytes, const std::string& path, double unit_m) {
   SplineSink sink(path);
   const std::string extension = extension_of(path);

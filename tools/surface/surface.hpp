@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "firmtouch/math/vec3.hpp"
+#include "surface/file_frame.hpp"
 
 namespace firmtouch::tools {
 
@@ -16,6 +17,7 @@ struct Surface {
   std::vector<math::Vec3> vertices;
   std::vector<Face> faces;
   std::vector<uint32_t> source;  // of each face: its index in the imported file (polygons fanned)
+  FileFrame frame = {};          // of the file, for messages
 };
 
 }  // namespace firmtouch::tools

@@ -26,6 +26,8 @@ void motors_write_N(const float (&motor_N)[3]) {
   }
 }
 
+void motors_state(bool) {}
+
 void motors_off() {}
 
 uint32_t motors_lines() { return demo::joints.lines; }

@@ -66,8 +66,8 @@ class Controller {
   /// At one rate the tick makes the local model. At two, where input.flags has kFlagModelApart,
   /// make_model() makes it. This tick then requests one (kFlagModelWanted), begins to use the one
   /// that was made (kFlagModelTaken), or keeps the last. These are inputs: a log replays.
-  /// Bounds: two queries of at most mesh_steps and curve_steps visits; with a base hull another of
-  /// mesh_steps or 512; at two rates none. Callable from an interrupt; not re-entrant.
+  /// Bounds: two queries of at most mesh_work and guide_work units; with a base hull another of
+  /// mesh_work or 1,280; at two rates none. Callable from an interrupt; not re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output) {
     const AssetStatus asset = loaders_.status();
     const ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
@@ -81,7 +81,7 @@ class Controller {
 
   /// Below the servo interrupt, which may interrupt it anywhere; in lock-step and on replay after
   /// each tick. Makes the model that a tick requested, if any.
-  /// Bounds: two queries of at most mesh_steps and curve_steps visits.
+  /// Bounds: two queries of at most mesh_work and guide_work units.
   void make_model() {
     const ControllerCore::ModelTask* task = core_.task();
     if (task == nullptr) return;

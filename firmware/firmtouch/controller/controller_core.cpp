@@ -33,6 +33,11 @@ static_assert(servo::kGuardMaxPeriod_s >= params::kMaxTickPeriod_s &&
               servo::kGuardMaxPeriod_s <= servo::kMaxTickPeriod_s &&
               servo::kMaxTickPeriod_s <= params::kMaxTickPeriod_s);
 
+// record::may_push() knows the numbers of these modes.
+static_assert(static_cast<uint32_t>(servo::Mode::kRampIn) == 1 &&
+              static_cast<uint32_t>(servo::Mode::kOn) == 2 &&
+              static_cast<uint32_t>(servo::Mode::kRampOut) == 3);
+
 // The guard takes a limit from the command that changes it, not from the parameters' memory, which
 // it guards against.
 void set_guard_limit(servo::GuardState& guard, uint32_t number, float value) {

@@ -26,7 +26,7 @@ void CurveGuide::follow(const ModelRequest& request, const params::Values& v, ui
   scene::CurveGuide guide;
   set_guide(v, ticks, guide);
   guide.curve = &curve();
-  scene::follow_curve(guide, request.position_m, visit_budget(v, params::kCurveSteps), touch_,
+  scene::follow_curve(guide, request.position_m, work_budget(v, params::kGuideWork), touch_,
                       result.model);
   report_guide(touch_, result);
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-#include "firmtouch/asset/loading.hpp"
+#include "firmtouch/asset/loader.hpp"
 #include "firmtouch/controller/model.hpp"
 #include "firmtouch/core/one_of.hpp"
 #include "firmtouch/params/compose.hpp"
@@ -103,22 +103,14 @@ class Guides : public FirstOf<Policies...> {
 };
 
 /// The guide policy of a controller without a guide.
-class NoGuide {
+class NoGuide : public asset::LoadsNothing {
  public:
   using Parameters = params::Groups<>;
-  using State = core::OneOf<uint32_t>;
   static constexpr bool kIsGuide = true;
   static constexpr uint32_t kParts = 0;
 
   static const char* find(const asset::Container&, const char*) { return nullptr; }
   void reset() {}
-  void close() {}
-  template <class Trust>
-  void begin(const asset::Container&, const char*, State&) {}
-  template <class Trust>
-  asset::Progress work(State&, uint32_t) {
-    return {true, core::kPassed};
-  }
   void follow(const ModelRequest&, const params::Values&, uint32_t, ModelResult&) {}
 };
 

@@ -19,7 +19,7 @@ void MeshContact::report(ModelResult& result) const {
 
 void MeshSurface::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::touch_mesh(object(mesh(), v), v[params::kToolRadius], request.position_m,
-                    visit_budget(v, params::kMeshSteps), touch_, result.model);
+                    work_budget(v, params::kMeshWork), touch_, result.model);
   report(result);
 }
 
@@ -27,7 +27,7 @@ void FieldMesh::touch(const ModelRequest& request, const params::Values& v, Mode
   scene::MeshObject with_field = object(mesh(), v);
   with_field.distance_field = &distance_field();
   scene::touch_mesh_with_field(with_field, v[params::kToolRadius], request.position_m,
-                               visit_budget(v, params::kMeshSteps), touch_, result.model);
+                               work_budget(v, params::kMeshWork), touch_, result.model);
   report(result);
 }
 
@@ -35,7 +35,7 @@ void HulledMesh::touch(const ModelRequest& request, const params::Values& v, Mod
   scene::MeshObject with_hull = object(mesh(), v);
   with_hull.base_hull = &hull().base_hull();
   scene::touch_mesh_with_base_hull(with_hull, v[params::kToolRadius], request.position_m,
-                                   visit_budget(v, params::kMeshSteps), touch_, result.model);
+                                   work_budget(v, params::kMeshWork), touch_, result.model);
   report(result);
 }
 
@@ -44,7 +44,7 @@ void FullMesh::touch(const ModelRequest& request, const params::Values& v, Model
   with_both.distance_field = &distance_field();
   with_both.base_hull = &hull().base_hull();
   scene::touch_mesh_with_field_and_base_hull(with_both, v[params::kToolRadius], request.position_m,
-                                             visit_budget(v, params::kMeshSteps), touch_,
+                                             work_budget(v, params::kMeshWork), touch_,
                                              result.model);
   report(result);
 }

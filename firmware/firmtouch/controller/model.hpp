@@ -32,11 +32,11 @@ void report_surface(const query::Certificate& certificate, float distance_m, flo
 void report_guide(const query::Certificate& certificate, float deviation_m, float arc, bool is_held,
                   ModelResult& result);
 
-/// Origin of the scene in the device frame, and the visit budget of a row.
+/// Origin of the scene in the device frame, and the budget of a row.
 inline math::Vec3 scene_origin_m(const params::Values& values) {
   return {values[params::kSceneX], values[params::kSceneY], values[params::kSceneZ]};
 }
-inline query::Budget visit_budget(const params::Values& values, params::Index row) {
+inline query::Budget work_budget(const params::Values& values, params::Index row) {
   return {static_cast<uint32_t>(values[row])};
 }
 

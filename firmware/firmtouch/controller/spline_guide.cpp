@@ -7,7 +7,7 @@ void SplineGuide::follow(const ModelRequest& request, const params::Values& v, u
   scene::SplineGuide settings;
   set_guide(v, ticks, settings);
   settings.spline = &guide();
-  scene::follow_spline(settings, request.position_m, visit_budget(v, params::kCurveSteps), touch_,
+  scene::follow_spline(settings, request.position_m, work_budget(v, params::kGuideWork), touch_,
                        result.model);
   report_guide(touch_, result);
 }

@@ -11,7 +11,7 @@ void SplineSurface::touch(const ModelRequest& request, const params::Values& v,
   object.is_turned = v[params::kSurfaceTurned] >= 0.5f;
   object.is_closed = v[params::kSurfaceClosed] >= 0.5f;
   scene::touch_spline(object, v[params::kToolRadius], request.position_m,
-                      visit_budget(v, params::kMeshSteps), touch_, result.model);
+                      work_budget(v, params::kMeshWork), touch_, result.model);
   const spline::Closest& closest = touch_.closest;
   const bool is_inside = closest.certificate.sign < 0;
   report_surface(closest.certificate, is_inside ? -closest.distance_m : closest.distance_m,

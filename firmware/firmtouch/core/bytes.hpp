@@ -17,7 +17,7 @@ Span<const T> as_array(Bytes bytes, uint32_t count) {
   static_assert(__is_trivially_copyable(T), "only plain structs live in an asset");
   if (bytes.size() / sizeof(T) < count) return {};
   if (reinterpret_cast<uintptr_t>(bytes.data()) % alignof(T) != 0) return {};
-  return {reinterpret_cast<const T*>(bytes.data()), count};
+  return {static_cast<const T*>(static_cast<const void*>(bytes.data())), count};
 }
 
 /// View of all of `bytes` as T. Result: empty if the size is not a multiple of sizeof(T).

@@ -20,7 +20,7 @@ class OneOf {
   /// Pre: the last begin() was of a T.
   template <class T>
   T& get() {
-    return reinterpret_cast<Held<T>*>(bytes_)->value;
+    return static_cast<Held<T>*>(static_cast<void*>(bytes_))->value;
   }
 
  private:

@@ -3,8 +3,8 @@
 #include <float.h>
 
 #include "firmtouch/curve/answer.hpp"
+#include "firmtouch/curve/min_cost.hpp"
 #include "firmtouch/curve/nearest_foot.hpp"
-#include "firmtouch/curve/smooth_point.hpp"
 #include "firmtouch/query/coherence.hpp"
 
 namespace firmtouch::curve {
@@ -43,29 +43,39 @@ Closest finish(const View& curve, const Foot& best, const Traversal& traversal, 
 
 // Without a safe subtree. A warm search begins at the last segment, a cold one with the first
 // sample.
-template <bool kCompensated, class Bound>
-Closest answer(const View& curve, const Bound& bound, Vec3 p_m, query::Budget budget, Hint& hint) {
-  NearestFoot<kCompensated> nearest(curve, p_m);
+Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint) {
+  const RunBound bound(curve.head(), p_m);
+  const bool compensated = bound.is_compensated(curve);
+  NearestFoot nearest(curve, p_m, compensated);
   uint32_t start = kNoRun;
   Steps steps(budget);
   bool has_begun = true;
   if (hint.segment < curve.segment_count()) {
-    start = run_of(nearest.follow(hint.segment), curve.run_levels());
-    has_begun = nearest.begin(start, kNoNode, steps.left) == Ascent::kRun;
+    const uint32_t from =
+        compensated ? nearest.follow<true>(hint.segment) : nearest.follow<false>(hint.segment);
+    start = run_of(from, curve.run_levels());
+    has_begun = nearest.begin<false>(start, kNoNode, steps.left) == Ascent::kRun;
   } else {
     nearest.begin_at_first();
   }
-  const Traversal traversal = traverse_runs(curve, bound, steps, start, has_begun, nearest);
+  Traversal traversal{steps.allowed, false, 0.0f};
+  if (has_begun) traversal = traverse_runs(curve, bound, steps, start, nearest);
   hint.safe_subtree = query::kNowhere;
-  return finish(curve, nearest.best(), traversal, kCompensated, p_m, hint);
+  return finish(curve, nearest.best(), traversal, compensated, p_m, hint);
+}
+
+// A function of its own: most queries, which end at the safe subtree, do not need its frame.
+[[gnu::noinline]] Traversal search_runs(const View& curve, const NearBound& bound, Steps steps,
+                                        uint32_t run, NearestFoot& nearest) {
+  return traverse_runs(curve, bound, steps, run, nearest);
 }
 
 // From the last segment up to the last safe subtree if its bound still holds, else to the root,
 // which yields the next safe subtree. Result: false if plain floats do not suffice or the query is
 // not near.
 bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
-                 NearestFoot<false>& nearest, Traversal& traversal) {
-  const uint32_t run = run_of(nearest.follow(hint.segment), curve.run_levels());
+                 NearestFoot& nearest, Traversal& traversal) {
+  const uint32_t run = run_of(nearest.follow<false>(hint.segment), curve.run_levels());
   const float radius_m = nearest.radius_m();
   if (!(radius_m <= kPlain * curve.head().diagonal_m)) return false;
   // The certified distance outside the safe subtree, rounded down as in query::carry().
@@ -73,7 +83,7 @@ bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
   const float left_m = (hint.safe_subtree_m - motion_m) * (1.0f - 4.0f * kUnit);
   Steps steps(budget);
   const uint32_t safe_subtree = radius_m <= left_m ? hint.safe_subtree : kNoNode;
-  const Ascent ascent = nearest.begin(run, safe_subtree, steps.left);
+  const Ascent ascent = nearest.begin<true>(run, safe_subtree, steps.left);
   traversal.steps = steps.allowed - steps.left;
   traversal.complete = ascent == Ascent::kSafeSubtree;
   hint.safe_subtree_m = left_m;
@@ -81,9 +91,9 @@ bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
   hint.safe_subtree = kNoNode;
   traversal.pending_m = 0.0f;
   if (ascent == Ascent::kSpent) return true;
-  NearBound bound;
-  if (!bound.begin(curve.head(), p_m)) return false;
-  traversal = traverse_runs(curve, bound, steps, run, true, nearest);
+  const RunBound bound(curve.head(), p_m);
+  if (bound.is_far) return false;
+  traversal = search_runs(curve, bound.near, steps, run, nearest);
   if (traversal.complete && traversal.pending_m > nearest.radius_m() && motion_m <= kBeyond_m)
     nearest.make_safe_subtree(run, motion_m, spacing_m(curve), traversal.pending_m, hint);
   return true;
@@ -108,30 +118,12 @@ Closest answer_nothing(const View& curve, Hint& hint) {
   return closest;
 }
 
-// Functions of their own: a query needs the frame of one of them only.
-[[gnu::noinline]] Closest answer_smooth(const View& curve, Vec3 p_m, query::Budget budget,
-                                        Hint& hint) {
-  return smooth_point(curve, p_m, {}, budget, hint).closest;
-}
-
-[[gnu::noinline]] Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget,
-                                          Hint& hint) {
-  NearBound near_bound;
-  if (near_bound.begin(curve.head(), p_m)) {
-    if (!near_bound.is_compensated(curve))
-      return answer<false>(curve, near_bound, p_m, budget, hint);
-    return answer<true>(curve, near_bound, p_m, budget, hint);
-  }
-  FarBound far_bound;
-  far_bound.begin(curve.head(), p_m);
-  return answer<true>(curve, far_bound, p_m, budget, hint);
-}
-
+// A function of its own: a query needs the frame of one of them only.
 [[gnu::noinline]] Closest answer_anywhere(const View& curve, Vec3 p_m, query::Budget budget,
                                           Hint& hint) {
   if (!math::is_finite(p_m)) return answer_nothing(curve, hint);
   if (!is_near(p_m)) return answer_beyond(curve, p_m, hint);
-  return curve.is_smooth() ? answer_smooth(curve, p_m, budget, hint)
+  return curve.is_smooth() ? min_cost(curve, p_m, kNoPenalty, budget, hint).closest
                            : answer_straight(curve, p_m, budget, hint);
 }
 
@@ -139,7 +131,7 @@ Closest answer_nothing(const View& curve, Hint& hint) {
 
 Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint) {
   if (!curve.is_smooth() && hint.segment < curve.segment_count()) {
-    NearestFoot<false> nearest(curve, p_m);
+    NearestFoot nearest(curve, p_m, false);
     Traversal traversal;
     if (search_near(curve, p_m, budget, hint, nearest, traversal))
       return finish(curve, nearest.best(), traversal, false, p_m, hint);

@@ -33,15 +33,6 @@ static inline bool comes_before(const Sample* samples, uint32_t axis, uint32_t a
   return a < b;
 }
 
-/// Squared distance from p to the straight line from a to b, computed from a.
-static inline float chord_distance2(math::Vec3 p, math::Vec3 a, math::Vec3 b) {
-  const math::Vec3 from = p - a, along = b - a;
-  const float progress = dot(from, along), length2 = dot(along, along);
-  const float t = !(progress > 0.0f) ? 0.0f : progress < length2 ? progress / length2 : 1.0f;
-  const math::Vec3 rest = from - along * t;
-  return dot(rest, rest);
-}
-
 /// The upper half of a float that is not negative, rounded up.
 static inline uint16_t rounded_radius(float radius_m) {
   return static_cast<uint16_t>((math::bits_of(radius_m) + 0xFFFFu) >> 16);

@@ -1,7 +1,9 @@
 #include "firmtouch/curve/guided_point.hpp"
 
+#include "firmtouch/curve/answer.hpp"
+#include "firmtouch/curve/arc_penalty.hpp"
 #include "firmtouch/curve/min_cost.hpp"
-#include "firmtouch/curve/smooth_point.hpp"
+#include "firmtouch/curve/piece.hpp"
 
 namespace firmtouch::curve {
 namespace {
@@ -40,18 +42,6 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& clos
   hint.segment = closest.segment;
 }
 
-// A function of its own: other queries of a guide do not need its frame.
-[[gnu::noinline]] Constraint penalised_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
-                                             query::Budget budget, Hint& hint) {
-  NearBound near_bound;
-  if (near_bound.begin(curve.head(), p_m))
-    return min_cost<false>(curve, near_bound, p_m, penalty, near_bound.is_compensated(curve),
-                           budget, hint);
-  FarBound far_bound;
-  far_bound.begin(curve.head(), p_m);
-  return min_cost<false>(curve, far_bound, p_m, penalty, true, budget, hint);
-}
-
 // The point of least distance, without a penalty.
 [[gnu::noinline]] Constraint nearest_point(const View& curve, Vec3 p_m, query::Budget budget,
                                            Hint& hint) {
@@ -65,10 +55,9 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& clos
 
 Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
                         query::Budget budget, Hint& hint) {
-  const bool near = is_near(p_m);
-  if (curve.is_smooth() && near) return smooth_point(curve, p_m, penalty, budget, hint);
-  if (is_penalty(penalty) && penalty.weight_m <= 0x1p60f && near)
-    return penalised_point(curve, p_m, penalty, budget, hint);
+  const bool counts = is_penalty(penalty) && penalty.weight_m <= 0x1p60f;
+  if ((counts || curve.is_smooth()) && is_near(p_m))
+    return min_cost(curve, p_m, counts ? penalty : kNoPenalty, budget, hint);
   return nearest_point(curve, p_m, budget, hint);
 }
 
@@ -76,7 +65,7 @@ Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget bud
                 Following& following) {
   Followed followed;
   const ArcPenalty penalty{hold.weight_m, following.arc, following.is_following};
-  const query::Budget first{budget.steps > 1 ? budget.steps - 1 : 1, budget.band_m};
+  const query::Budget first{budget.work > 1 ? budget.work - 1 : 1, budget.band_m};
   followed.constraint = guided_point(curve, p_m, penalty, first, following.hint);
   followed.closest = followed.constraint.closest;
   if (is_penalty(penalty)) slide(curve, p_m, penalty, followed.closest, following.hint);
@@ -84,7 +73,7 @@ Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget bud
   followed.is_new = !following.is_following;
   if (!followed.is_held && following.is_following) {
     const uint32_t steps = followed.closest.certificate.steps;
-    const query::Budget rest{budget.steps > steps ? budget.steps - steps : 1, budget.band_m};
+    const query::Budget rest{budget.work > steps ? budget.work - steps : 1, budget.band_m};
     followed.constraint = guided_point(curve, p_m, {}, rest, following.hint);
     followed.closest = followed.constraint.closest;
     followed.closest.certificate.steps += steps;

@@ -92,21 +92,23 @@ class Choice {
   void look_at(uint32_t segment) {
     const Foot foot = foot_on(segment);
     const float cost_m = math::square_root(foot.distance2_m2) + penalty_m(curve_, foot, penalty_);
+    const float low_m = math::square_root(foot.distance2_m2) - doubt_m_;
     if (foot.distance2_m2 < min2_m2) min2_m2 = foot.distance2_m2;
+    if (low_m < min_low_m) min_low_m = low_m;
     if (candidates++ == 0 || cost_m < best_cost_m) best = foot, best_cost_m = cost_m;
   }
 
   Foot foot_on(uint32_t segment) {
     if (!curve_.is_smooth()) return foot_on_segment(curve_, p_m_, segment, compensated_);
     const PieceFoot found = foot_on_piece(curve_, p_m_, segment);
-    if (found.doubt_m > doubt_m) doubt_m = found.doubt_m;
+    doubt_m_ = found.doubt_m;
     return found.foot;
   }
 
-  float doubt_m = 0;  // of feet on cubic pieces
   Foot best{};
   float best_cost_m = 0;
-  float min2_m2 = FLT_MAX;  // of all candidates, whatever their penalty
+  float min2_m2 = FLT_MAX;    // of all candidates, whatever their penalty
+  float min_low_m = FLT_MAX;  // the same, less the doubt of feet on cubic pieces
   uint32_t candidates = 0;
 
  private:
@@ -114,6 +116,7 @@ class Choice {
   Vec3 p_m_;
   const ArcPenalty& penalty_;
   bool compensated_;
+  float doubt_m_ = 0;
 };
 
 }  // namespace
@@ -126,7 +129,7 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
     return {far, far.distance_m, 0};
   }
   NearestSamples nearest(memory);
-  TreeSearch<NearestSamples> search(curve, p_m, budget.steps, nearest);
+  TreeSearch<NearestSamples> search(curve, p_m, budget.work, nearest);
   const bool complete = search.run();
   const float farthest_m = nearest.is_full() ? math::square_root(nearest[0].distance2_m2) : FLT_MAX;
   nearest.sort_by_sample();
@@ -148,7 +151,7 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
   const float reach_m = is_smooth ? 2.0f * half_m : half_m;
   found.closest = any_answer(curve, choice.best);
   const float min_m = math::square_root(choice.min2_m2);
-  float lower_m = is_smooth ? min_m - choice.doubt_m - piece_loss_m(min_m, half_m)
+  float lower_m = is_smooth ? choice.min_low_m - piece_loss_m(min_m, half_m)
                             : rounded_down(min_m, half_m, choice.compensated());
   const float pending_m = search.pending_m();
   const bool by_budget = !complete && pending_m < farthest_m;
@@ -156,10 +159,10 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
   if (nearest.size() < curve.samples().size() && unseen_m < lower_m) lower_m = unseen_m;
   found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   found.closest.certificate.steps = search.steps();
-  found.closest.certificate.exact = complete &&
-                                    choice.doubt_m <= 2.0f * piece_slack_m(curve.head(), min_m) &&
-                                    !(choice.best.distance2_m2 > choice.min2_m2) &&
-                                    (nearest.size() == curve.samples().size() || unseen_m >= min_m);
+  found.closest.certificate.exact =
+      complete && min_m - choice.min_low_m <= 2.0f * piece_slack_m(curve.head(), min_m) &&
+      !(choice.best.distance2_m2 > choice.min2_m2) &&
+      (nearest.size() == curve.samples().size() || unseen_m >= min_m);
   found.cost_m = choice.best_cost_m;
   found.candidates = choice.candidates;
   return found;

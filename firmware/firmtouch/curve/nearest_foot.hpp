@@ -1,6 +1,6 @@
 #pragma once
 // The search for the closest point of straight segments: the module's inner loop, for .cpp files of
-// this room only.
+// this module only.
 
 #include "firmtouch/curve/run_search.hpp"
 #include "firmtouch/curve/segment.hpp"
@@ -11,15 +11,16 @@ namespace firmtouch::curve {
 enum class Ascent : uint8_t { kSpent, kRun, kSafeSubtree };
 
 /// Keeps the closest point of the runs that it is offered.
-template <bool kCompensated>
+/// The inner loops know at compile time whether distances are compensated: a flag costs 8 %.
 class NearestFoot {
  public:
-  NearestFoot(const View& curve, math::Vec3 p_m)
+  NearestFoot(const View& curve, math::Vec3 p_m, bool compensated)
       : samples_(curve.samples().data()),
         radii_(curve.radii().data()),
         levels_(curve.run_levels()),
         segment_count_(curve.segment_count()),
-        p_m_(p_m) {}
+        p_m_(p_m),
+        compensated_(compensated) {}
 
   const Foot& best() const { return best_; }
   float reach2_m2() const { return best_.distance2_m2; }
@@ -28,7 +29,7 @@ class NearestFoot {
   void begin_at_first() {
     const math::Vec3 from_m = p_m_ - vec(samples_[0]);
     best_.distance2_m2 = dot(from_m, from_m);
-    if constexpr (kCompensated)
+    if (compensated_)
       best_.distance2_m2 = compensated_distance2(p_m_, vec(samples_[0]), vec(samples_[0]), 0.0f);
     radius_m_ = math::square_root(best_.distance2_m2) * (1.0f + 0x1p-20f);
   }
@@ -37,8 +38,9 @@ class NearestFoot {
   /// no longer helps: by the segment's own line where that is not far, else by the straight line of
   /// the segments about it, whose spacing is evener. A few are looked at, whatever the curve.
   /// Result: the segment of the best point.
+  template <bool kCompensated>
   uint32_t follow(uint32_t segment) {
-    float offset = look_at(segment), before_m2 = FLT_MAX;
+    float offset = look<kCompensated>(segment), before_m2 = FLT_MAX;
     for (uint32_t i = 1; i < kMaxJumps; ++i) {
       if ((offset >= 0.0f && offset < 1.0f) || !(best_.distance2_m2 < before_m2)) break;
       const uint32_t to = offset >= -2.0f && offset <= 3.0f
@@ -48,7 +50,7 @@ class NearestFoot {
       if (to == segment) break;
       segment = to;
       before_m2 = best_.distance2_m2;
-      offset = look_at(segment);
+      offset = look<kCompensated>(segment);
     }
     return segment_of(best_);
   }
@@ -59,6 +61,7 @@ class NearestFoot {
 
   /// The run of the best point so far: its part of the last level, then the sibling on each level
   /// up to the top, or up to the safe subtree and its neighbours.
+  template <bool kHot>
   [[gnu::always_inline]] inline Ascent begin(uint32_t run, uint32_t safe_subtree, uint32_t& left) {
     const uint32_t found = segment_of(best_);
     const uint32_t node = run << (levels_ + 1), stop = safe_subtree - node;
@@ -66,17 +69,20 @@ class NearestFoot {
     const uint32_t least = (1u << levels_) - 1;  // the first part of the last level
     uint32_t first = found - found % kPartSegments, size = kPartSegments;
     uint32_t part = (found / kPartSegments & least) + least;
-    take_segments(first, found);
+    kHot ? take_each<false>(first, found) : take_segments(first, found);
     for (; part != stop; size *= 2) {
       if (part == 0) return Ascent::kRun;
-      if (!take_beside(radii, part, first, size, (part & 1u) != 0, left)) return Ascent::kSpent;
+      if (!take_sibling<kHot>(radii, part, first, size, (part & 1u) != 0, left))
+        return Ascent::kSpent;
       if ((part & 1u) == 0) first -= size;
       part = parent_of(part);
     }
     const uint32_t end = (part + 2) & (part + 1);  // 0 for the last part of its level
-    if (end != 0 && !take_beside(radii, part, first, size, true, left)) return Ascent::kSpent;
+    if (end != 0 && !take_sibling<kHot>(radii, part, first, size, true, left))
+      return Ascent::kSpent;
     const bool is_inside = ((part + 1) & part) != 0;  // not the first part of its level
-    if (is_inside && !take_beside(radii, part, first, size, false, left)) return Ascent::kSpent;
+    if (is_inside && !take_sibling<kHot>(radii, part, first, size, false, left))
+      return Ascent::kSpent;
     return Ascent::kSafeSubtree;
   }
 
@@ -159,8 +165,9 @@ class NearestFoot {
 
   /// The part of this size after, or before, the one that begins with `first`.
   /// Result: false where the budget ended.
-  bool take_beside(const uint16_t* radii, uint32_t part, uint32_t first, uint32_t size,
-                   bool is_after, uint32_t& left) {
+  [[gnu::always_inline]] inline bool take_beside(const uint16_t* radii, uint32_t part,
+                                                 uint32_t first, uint32_t size, bool is_after,
+                                                 uint32_t& left) {
     if (!spend(size, left)) return false;
     // From its end on this side.
     uint32_t near = first, far = first - size;
@@ -175,6 +182,18 @@ class NearestFoot {
     if (!(off.distance2_m2 < limit_m * limit_m)) return true;
     is_second_ = !is_after;
     return take_part(radii, {beside, is_after ? near : far}, size, left);
+  }
+
+  [[gnu::noinline]] bool take_beside_cold(const uint16_t* radii, uint32_t part, uint32_t first,
+                                          uint32_t size, bool is_after, uint32_t& left) {
+    return take_beside(radii, part, first, size, is_after, left);
+  }
+  template <bool kHot>
+  [[gnu::always_inline]] inline bool take_sibling(const uint16_t* radii, uint32_t part,
+                                                  uint32_t first, uint32_t size, bool is_after,
+                                                  uint32_t& left) {
+    return kHot ? take_beside(radii, part, first, size, is_after, left)
+                : take_beside_cold(radii, part, first, size, is_after, left);
   }
 
   /// Certified distance to a part of the run of these segments.
@@ -251,18 +270,22 @@ class NearestFoot {
   }
 
   /// The segments of a part of the last level, except one that is known.
-  void take_segments(uint32_t first, uint32_t but) {
+  [[gnu::noinline]] void take_segments(uint32_t first, uint32_t but) {
+    compensated_ ? take_each<true>(first, but) : take_each<false>(first, but);
+  }
+  template <bool kCompensated>
+  void take_each(uint32_t first, uint32_t but) {
     const uint32_t after = first + kPartSegments;
     const uint32_t end = after < segment_count_ ? after : segment_count_;
     math::Vec3 from_m = p_m_ - vec(samples_[first]);
     float from2_m2 = dot(from_m, from_m);
     for (uint32_t segment = first;; ++segment) {
-      if (!kCompensated && from2_m2 < best_.distance2_m2) take_sample(segment, from2_m2);
+      if (from2_m2 < best_.distance2_m2 && !kCompensated) take_sample(segment, from2_m2);
       if (segment == end) return;
       const math::Vec3 next_m = p_m_ - vec(samples_[segment + 1]);
       const float next2_m2 = dot(next_m, next_m);
       if (segment != but && (kCompensated || is_between(from_m, next_m, from2_m2, next2_m2)))
-        (void)look_at(segment);
+        (void)look<kCompensated>(segment);
       from_m = next_m;
       from2_m2 = next2_m2;
     }
@@ -277,6 +300,7 @@ class NearestFoot {
   }
 
   /// Result: where the foot would be on the segment's straight line, in lengths of the segment.
+  template <bool kCompensated>
   [[gnu::always_inline]] inline float look_at(uint32_t segment) {
     const math::Vec3 a_m = vec(samples_[segment]), b_m = vec(samples_[segment + 1]);
     const math::Vec3 along_m = b_m - a_m;
@@ -309,11 +333,18 @@ class NearestFoot {
     return offset;
   }
 
+  template <bool kCompensated>
+  [[gnu::always_inline]] inline float look(uint32_t segment) {
+    return kCompensated ? look_compensated(segment) : look_at<false>(segment);
+  }
+  [[gnu::noinline]] float look_compensated(uint32_t segment) { return look_at<true>(segment); }
+
   const Sample* samples_;
   const uint16_t* radii_;
   uint32_t levels_;
   uint32_t segment_count_;
   math::Vec3 p_m_;
+  bool compensated_;
   float radius_m_ = 0x1p62f;  // more than any distance that comes here
   float others_m_ = 0x1p62f;
   bool is_second_ = false;

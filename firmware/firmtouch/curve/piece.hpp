@@ -11,14 +11,18 @@ struct PieceFoot {
   float doubt_m;  // no point of the piece is nearer than the foot by more than this
 };
 
-/// Cuts of a piece that a query may look at.
-constexpr uint32_t kMaxCuts = 96;
+/// Halvings of a piece in a query.
+constexpr uint32_t kMaxCuts = 16;
 
-/// Closest point of piece `segment`: Newton's method for a point, then halves of the piece, each
-/// within a stated distance of its chord, until none can be nearer by more than piece_slack_m().
-/// Bounds: kMaxCuts cuts of about 250 instructions, 0.8 KB of stack.
-/// Result: doubt_m <= piece_slack_m() unless cuts ran out, as about the centre of an arc.
-PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment);
+/// Closest point of piece `segment`. The piece is halved until no cut can be nearer by more than
+/// piece_slack_m(). A cut is closed where no Bernstein coefficient of the squared distance is less
+/// than the best, as about the centre of an arc, or where the squared distance is convex: there
+/// Newton's method ends at its least value.
+/// Bounds: 2 kMaxCuts + 1 cuts; 0.7 KB of stack.
+/// Result: doubt_m <= piece_slack_m() unless halvings ran out. No point that is nearer than
+///         `reach_m`: an end, perhaps.
+PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment,
+                        float reach_m = 0x1p62f);
 
 /// All but the certificate, for a foot on a piece.
 Closest answer_on_piece(const View& curve, const Foot& foot);
@@ -30,11 +34,11 @@ static inline Track track_of(const View& curve) {
   return {curve.samples().data(), curve.samples().size(), curve.is_closed()};
 }
 
-/// What a distance to a piece may be off by beside doubt_m, u = 2^-24: the difference of two places
-/// rounds by u d on each axis, and the sum of squares and its root by 3 u d more; Bezier points,
-/// halves of halves and polynomials move a point of the piece by at most 30 u of its length.
+/// What a distance to a piece may be off by beside doubt_m, u = 2^-24: the difference of two points
+/// rounds by u d on each axis, and the sum of squares and its root by 3 u d more; Bezier points and
+/// polynomials move a point of the piece by at most 16 u of its length, and a foot loses 38 u more.
 static inline float piece_loss_m(float distance_m, float half_m) {
-  return 0x1p-24f * (7.5f * distance_m + 64.0f * half_m) + 0x1p-58f;
+  return 0x1p-24f * (7.5f * distance_m + 128.0f * half_m) + 0x1p-58f;
 }
 
 /// How near the answer of a piece shall be: float32 knows no less of a far one.

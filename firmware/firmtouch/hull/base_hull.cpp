@@ -38,11 +38,6 @@ class Rest {
   bool is_whole_ = true;
 };
 
-Box box_of(const BaseHullHead& head) {
-  return {{head.low_m[0], head.low_m[1], head.low_m[2]},
-          {head.high_m[0], head.high_m[1], head.high_m[2]}};
-}
-
 }  // namespace
 
 // Everything but what ties it to the hull. Result: false where the bytes do not hold it.

@@ -21,16 +21,17 @@ class First {
     per_length2_ = length2_m2 > 1e-30f && length2_m2 < 1e30f ? 1.0f / length2_m2 : 0.0f;
   }
 
-  bool take(const mesh::SegmentFrame& frame, Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t face) {
+  bool take(const mesh::SegmentFrame& frame, const FacePoints& corner, uint32_t face) {
     mesh::Crossing reported;
     float early;
-    bool is_decided = frame.decides(p_m, q_m, r_m, reported, early);
+    bool is_decided = frame.decides(corner.p_m, corner.q_m, corner.r_m, reported, early);
     if (!is_decided) {
-      const Range feet = feet_of(p_m, q_m, r_m);
+      const Range feet = feet_of(corner);
       if (feet.last < 0.0f || feet.first > 1.0f) return true;
       is_decided = !(reported.t > 0.0f);  // the plane gives no time
       reported.t = mesh::larger(feet.first, reported.t);
-      if (is_decided) reported = mesh::exact_crossing(a_m_, b_m_, p_m, q_m, r_m);
+      if (is_decided)
+        reported = mesh::exact_crossing(a_m_, b_m_, corner.p_m, corner.q_m, corner.r_m);
     }
     if (is_decided && reported.direction == 0) return true;
     const bool is_first =
@@ -53,8 +54,8 @@ class First {
   };
   // A crossing lies between the corners' feet on the line. With u = 2^-24 a foot is off by 6 u of
   // the magnitudes summed.
-  Range feet_of(Vec3 p_m, Vec3 q_m, Vec3 r_m) const {
-    const Range p = foot_of(p_m), q = foot_of(q_m), r = foot_of(r_m);
+  Range feet_of(const FacePoints& corner) const {
+    const Range p = foot_of(corner.p_m), q = foot_of(corner.q_m), r = foot_of(corner.r_m);
     return {mesh::smaller(p.first, mesh::smaller(q.first, r.first)),
             mesh::larger(p.last, mesh::larger(q.last, r.last))};
   }
@@ -76,60 +77,44 @@ class Turns {
  public:
   float limit = 1;
   int32_t sum = 0;
-  bool take(const mesh::SegmentFrame& frame, Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t) {
-    sum += frame.crossing(p_m, q_m, r_m).direction;
+  bool take(const mesh::SegmentFrame& frame, const FacePoints& corner, uint32_t) {
+    sum += frame.crossing(corner.p_m, corner.q_m, corner.r_m).direction;
     return true;
   }
 };
 
 template <class Taker>
-class Leaves {
- public:
-  Leaves(const BaseHull& base_hull, const BaseHullSegment& segment, Vec3 a_m, Vec3 b_m,
-         Taker& taker)
-      : limit(segment.until(taker.limit)),
-        base_hull_(base_hull),
-        segment_(segment),
-        a_m_(a_m),
-        b_m_(b_m),
-        taker_(taker) {}
+struct Faces {
+  Faces(const BaseHull& of, const BaseHullSegment& along, Vec3 from_m, Vec3 to_m, Taker& to)
+      : base_hull(of),
+        segment(along),
+        a_m(from_m),
+        b_m(to_m),
+        taker(to),
+        limit(along.until(to.limit)) {}
+  const BaseHull& base_hull;
+  const BaseHullSegment& segment;
+  Vec3 a_m, b_m;
+  Taker& taker;
   int32_t limit;
+  bool has_frame = false;  // most segments come near no face
+  mesh::SegmentFrame frame;
 
-  bool leaf(uint32_t i) {
-    const BaseHull::Leaf leaf = base_hull_.leaf(i);
-    BaseHullSegment::Corners corners;
-    if (segment_.locate(base_hull_, leaf, corners) != 0) return true;
-    for (uint32_t n = 0; n < leaf.faces.size(); ++n) {
-      const BaseHullFace face = leaf.faces[n];
-      if (segment_.passes(corners, face)) continue;
-      if (!has_frame_)
-        frame_ = mesh::SegmentFrame(base_hull_.head().low_m, base_hull_.head().high_m, a_m_, b_m_);
-      has_frame_ = true;
-      if (!taker_.take(frame_, vertex(base_hull_, leaf.corners[corner_at(face, 0)]),
-                       vertex(base_hull_, leaf.corners[corner_at(face, 1)]),
-                       vertex(base_hull_, leaf.corners[corner_at(face, 2)]), leaf.first_face + n))
-        return false;
-      limit = segment_.until(taker_.limit);
-    }
-    return true;
+  bool face(const BaseHull::Leaf& leaf, uint32_t n) {
+    const BaseHullHead& head = base_hull.head();
+    if (!has_frame) frame = mesh::SegmentFrame(head.low_m, head.high_m, a_m, b_m);
+    has_frame = true;
+    const bool is_wanted = taker.take(frame, points_of(base_hull, leaf, n), leaf.first_face + n);
+    limit = segment.until(taker.limit);
+    return is_wanted;
   }
-
- private:
-  const BaseHull& base_hull_;
-  const BaseHullSegment& segment_;
-  Vec3 a_m_, b_m_;
-  mesh::SegmentFrame frame_;
-  bool has_frame_ = false;  // most segments come near no face
-  Taker& taker_;
 };
 
 template <class Taker>
-bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget, uint32_t& steps,
-            Taker& taker) {
+bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Work& work, Taker& taker) {
   const BaseHullSegment segment(base_hull, a_m, b_m);
-  if (segment.misses()) return true;
-  Leaves<Taker> leaves(base_hull, segment, a_m, b_m, taker);
-  return traverse(base_hull, segment, budget.steps == 0 ? 1 : budget.steps, steps, leaves);
+  Faces<Taker> faces(base_hull, segment, a_m, b_m, taker);
+  return descend(base_hull, segment, work, faces);
 }
 
 }  // namespace
@@ -137,20 +122,19 @@ bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget,
 BaseHullHit cast_base_hull(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Budget budget) {
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return {};
   First first(a_m, b_m);
-  uint32_t steps = 0;
-  const bool is_done = search(base_hull, a_m, b_m, budget, steps, first);
+  query::Work work(budget);
+  const bool is_done = search(base_hull, a_m, b_m, work, first);
   BaseHullHit hit = first.hit;
   if (!is_done) {
     hit.hit = true;
     hit.t = 0.0f;
   }
   hit.exact = is_done && (hit.exact || !hit.hit);
-  hit.steps = steps;
+  hit.steps = work.visits();
   return hit;
 }
 
-bool wind_around(const BaseHull& base_hull, Vec3 p_m, query::Budget budget, int32_t& winding,
-                 uint32_t& steps) {
+bool wind_around(const BaseHull& base_hull, Vec3 p_m, query::Work& work, int32_t& winding) {
   winding = 0;
   if (!math::is_finite(p_m)) return false;
   const BaseHullHead& head = base_hull.head();
@@ -161,7 +145,7 @@ bool wind_around(const BaseHull& base_hull, Vec3 p_m, query::Budget budget, int3
   const bool is_beyond = p_m.x < head.low_m[0] || p_m.x > head.high_m[0];
   if (is_beyond) return true;
   Turns turns;
-  const bool is_done = search(base_hull, p_m, {out, p_m.y, p_m.z}, budget, steps, turns);
+  const bool is_done = search(base_hull, p_m, {out, p_m.y, p_m.z}, work, turns);
   winding = is_done ? turns.sum : 0;
   return is_done;
 }

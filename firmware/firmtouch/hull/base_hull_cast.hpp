@@ -1,7 +1,7 @@
 #pragma once
 #include "firmtouch/hull/base_hull.hpp"
 #include "firmtouch/math/vec3.hpp"
-#include "firmtouch/query/certificate.hpp"
+#include "firmtouch/query/work.hpp"
 
 namespace firmtouch::hull {
 
@@ -28,10 +28,9 @@ BaseHullHit cast_base_hull(const BaseHull& base_hull, math::Vec3 a_m, math::Vec3
 
 /// Winding number of the base hull around a point, from the crossings of a segment to a point
 /// outside its box: 0 outside, 1 or more inside. Exact; reads only the resident part. Bounds: <=
-/// budget visits, including those already in `steps`; 4 KB of stack; re-entrant; callable
+/// work.left units; 4 KB of stack; re-entrant; callable
 ///         from an interrupt.
 /// Result: false if the budget ran out or the point is not finite.
-bool wind_around(const BaseHull& base_hull, math::Vec3 p_m, query::Budget budget, int32_t& winding,
-                 uint32_t& steps);
+bool wind_around(const BaseHull& base_hull, math::Vec3 p_m, query::Work& work, int32_t& winding);
 
 }  // namespace firmtouch::hull

@@ -19,8 +19,9 @@ struct BaseHullDistance {
   float deepest_m = FLT_MAX;
   math::Vec3 point_m{};  // of the base hull, the nearest found
   math::Vec3 normal{};   // unit, outward, of a face at point_m; 0 if none was found
-  uint32_t steps = 0;
-  bool exact = false;  // point_m is the nearest of the base hull, except for rounding
+  uint32_t steps = 0;    // visits
+  uint32_t work = 0;     // units used
+  bool exact = false;    // point_m is the nearest of the base hull, except for rounding
 };
 
 /// Closest point of a base hull to `p_m` (mesh frame), and the bounds that it certifies for the

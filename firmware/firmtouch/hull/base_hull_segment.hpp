@@ -137,45 +137,48 @@ class BaseHullSegment {
   float grid_low_m_[3], steps_per_m_ = 0.0f;
 };
 
-/// Visits the leaves of a base hull's tree whose boxes the segment enters, nearest box first, until
-/// `visitor` has enough. Visitor::limit is the largest time that is still of interest;
-/// Visitor::leaf(i) answers whether it wants more.
-/// Result: whether the search came to its end within `allowed` steps in all.
+/// The tree of a base hull along a segment, as query::descend() searches it. Visitor::limit is the
+/// largest time that is still of interest; Visitor::face(leaf, n) takes each face that the segment
+/// may cross, and answers whether it wants more.
 template <class Visitor>
-bool traverse(const BaseHull& base_hull, const BaseHullSegment& segment, uint32_t allowed,
-              uint32_t& steps, Visitor& visitor) {
-  struct Pending {
-    int32_t entry;
-    uint32_t node;
+struct BaseHullSearch {
+  struct Node {
+    int32_t key;
+    uint32_t index;
   };
-  if (segment.misses()) return true;
-  const NodeBox* boxes = base_hull.boxes().data();
-  const FilledTree tree(base_hull.boxes().size());
-  Pending pending[kMaxTreeDepth + 1];
-  uint32_t count = 0, node = 0;
-  while (true) {
-    if (steps >= allowed) return false;
-    ++steps;
-    if (tree.is_leaf(node)) {
-      if (!visitor.leaf(tree.leaf(node))) return true;
-    } else {
-      const uint32_t left = 2 * node + 1;
-      const int32_t one = segment.enter(boxes[left], visitor.limit);
-      const int32_t other = segment.enter(boxes[left + 1], visitor.limit);
-      const uint32_t nearer = other < one ? left + 1 : left;
-      const int32_t entry = other < one ? other : one, later = other < one ? one : other;
-      if (later != BaseHullSegment::kNever) pending[count++] = {later, left + left + 1 - nearer};
-      if (entry != BaseHullSegment::kNever) {
-        node = nearer;
-        continue;
-      }
-    }
-    do {
-      if (count == 0) return true;
-      --count;
-    } while (pending[count].entry > visitor.limit);
-    node = pending[count].node;
+  static constexpr uint32_t kLeafWork = kLeafFaces;
+  const BaseHull& base_hull;
+  const BaseHullSegment& segment;
+  Visitor& visitor;
+  const NodeBox* boxes;
+  FilledTree tree;
+
+  int32_t limit() const { return visitor.limit; }
+  Node root() const { return {0, 0}; }
+  bool is_leaf(const Node& node) const { return tree.is_leaf(node.index); }
+  void open(const Node& node, Node& one, Node& other) const {
+    const uint32_t left = 2 * node.index + 1;
+    one = {segment.enter(boxes[left], visitor.limit), left};
+    other = {segment.enter(boxes[left + 1], visitor.limit), left + 1};
   }
+  bool leaf(const Node& node) {
+    const BaseHull::Leaf leaf = base_hull.leaf(tree.leaf(node.index));
+    BaseHullSegment::Corners corners;
+    if (segment.locate(base_hull, leaf, corners) != 0) return true;
+    for (uint32_t n = 0; n < leaf.faces.size(); ++n)
+      if (!segment.passes(corners, leaf.faces[n]) && !visitor.face(leaf, n)) return false;
+    return true;
+  }
+};
+
+/// Result: whether the search came to its end within the budget.
+template <class Visitor>
+bool descend(const BaseHull& base_hull, const BaseHullSegment& segment, query::Work& work,
+             Visitor& visitor) {
+  if (segment.misses()) return true;
+  BaseHullSearch<Visitor> search{base_hull, segment, visitor, base_hull.boxes().data(),
+                                 FilledTree(base_hull.boxes().size())};
+  return query::descend<kMaxTreeDepth>(search, work).is_done;
 }
 
 }  // namespace firmtouch::hull

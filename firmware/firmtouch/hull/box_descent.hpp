@@ -2,7 +2,7 @@
 // A segment against boxes, and down a tree of them. For the library's own translation units.
 
 #include "firmtouch/hull/vertices.hpp"
-#include "firmtouch/query/certificate.hpp"
+#include "firmtouch/query/descent.hpp"
 
 namespace firmtouch::hull {
 
@@ -78,46 +78,50 @@ struct FilledTree {
   }
 };
 
-/// Visits the leaves whose boxes the region (Slabs of a segment, or a TriangleRegion) enters,
-/// nearest box first, until `visitor` has enough. Visitor::limit is the largest t that is still of
-/// interest; Visitor::leaf(i) answers whether it wants more. Result: whether the search came to its
-/// end within `allowed` steps in all.
-template <class Region, class Visitor>
-bool descend(core::Span<const NodeBox> boxes, const Box& whole, const Region& region,
-             uint32_t allowed, uint32_t& steps, Visitor& visitor) {
-  struct Pending {
+/// A tree of boxes as query::descend() searches it: the leaves whose boxes `region` enters (Slabs
+/// of a segment, a TriangleRegion, a point's neighbourhood), nearest first. Visitor::limit is the
+/// largest key that is still of interest; Visitor::leaf(i) answers whether it wants more.
+/// kNested: each box lies within its parent's; else within `whole`.
+template <bool kNested, class Region, class Visitor>
+struct BoxSearch {
+  struct Node {
+    float key;
+    uint32_t index;
     Box box;
-    float entry;
-    uint32_t node;
   };
-  const FilledTree tree(boxes.size());
-  Pending pending[kMaxTreeDepth + 1];
-  uint32_t count = 0;
-  Pending now{child_box(whole, boxes[0]), 0.0f, 0};
-  now.entry = region.enter(now.box, visitor.limit);
-  while (true) {
-    if (!(now.entry <= visitor.limit)) {
-      if (count == 0) return true;
-      now = pending[--count];
-      continue;
-    }
-    if (steps >= allowed) return false;
-    ++steps;
-    if (tree.is_leaf(now.node)) {
-      if (!visitor.leaf(tree.leaf(now.node))) return true;
-      now.entry = Slabs::kNever;
-      continue;
-    }
-    const uint32_t left = 2 * now.node + 1;
-    Pending one{child_box(now.box, boxes[left]), 0.0f, left};
-    Pending other{child_box(now.box, boxes[left + 1]), 0.0f, left + 1};
-    one.entry = region.enter(one.box, visitor.limit);
-    other.entry = region.enter(other.box, visitor.limit);
-    const bool swap = other.entry < one.entry;
-    const Pending& farther = swap ? one : other;
-    if (farther.entry <= visitor.limit) pending[count++] = farther;
-    now = swap ? other : one;
+  static constexpr uint32_t kLeafWork = kLeafFaces;
+  const NodeBox* boxes;
+  const Box& whole;
+  const Region& region;
+  Visitor& visitor;
+  FilledTree tree;
+
+  float limit() const { return visitor.limit; }
+  bool is_leaf(const Node& node) const { return tree.is_leaf(node.index); }
+  bool leaf(const Node& node) { return visitor.leaf(tree.leaf(node.index)); }
+  void set(Node& node, uint32_t index, const Box& outer) const {
+    node.index = index;
+    node.box = child_box(outer, boxes[index]);
+    node.key = region.enter(node.box, visitor.limit);
   }
+  Node root() const {
+    Node node;
+    set(node, 0, whole);
+    return node;
+  }
+  void open(const Node& node, Node& one, Node& other) const {
+    const Box& outer = kNested ? node.box : whole;
+    set(one, 2 * node.index + 1, outer);
+    set(other, 2 * node.index + 2, outer);
+  }
+};
+
+template <bool kNested, class Region, class Visitor>
+query::Descent<float> descend(core::Span<const NodeBox> boxes, const Box& whole,
+                              const Region& region, query::Work& work, Visitor& visitor) {
+  BoxSearch<kNested, Region, Visitor> search{boxes.data(), whole, region, visitor,
+                                             FilledTree(boxes.size())};
+  return query::descend<kMaxTreeDepth>(search, work);
 }
 
 }  // namespace firmtouch::hull

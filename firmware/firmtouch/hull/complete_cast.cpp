@@ -20,17 +20,13 @@ class Leaves {
     if (!has_frame_)
       frame_ = mesh::SegmentFrame(hull_.mesh_head().low_m, hull_.mesh_head().high_m, a_m_, b_m_);
     has_frame_ = true;
-    const uint32_t first = leaf * kLeafTriangles, count = hull_.head().mesh_triangle_count;
-    const uint32_t end = first + kLeafTriangles < count ? first + kLeafTriangles : count;
-    for (uint32_t i = first; i < end; ++i) {
-      const mesh::Triangle<uint32_t> t = hull_.triangle(i);
-      const mesh::Crossing crossing =
-          frame_.crossing(hull_.mesh_vertex(t.corner[0]), hull_.mesh_vertex(t.corner[1]),
-                          hull_.mesh_vertex(t.corner[2]));
-      if (crossing.direction != 0 && !taker_.take(crossing, i)) return false;
-    }
+    const bool is_wanted = each_triangle(hull_, leaf, [&](uint32_t i) {
+      const FacePoints t = points_of(hull_, i);
+      const mesh::Crossing crossing = frame_.crossing(t.p_m, t.q_m, t.r_m);
+      return crossing.direction == 0 || taker_.take(crossing, i);
+    });
     limit = taker_.limit;
-    return true;
+    return is_wanted;
   }
 
  private:
@@ -44,13 +40,13 @@ class Leaves {
 template <class Taker>
 bool search(const View& hull, Vec3 a_m, Vec3 b_m, query::Budget budget, Taker& taker,
             uint32_t& steps) {
+  query::Work work(budget);
   if (!(math::is_finite(a_m) && math::is_finite(b_m))) return false;
-  const mesh::Head& head = hull.mesh_head();
-  const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
-                  {head.high_m[0], head.high_m[1], head.high_m[2]}};
   Leaves<Taker> leaves(hull, a_m, b_m, taker);
-  return descend(hull.boxes(), whole, Slabs(a_m, b_m), budget.steps == 0 ? 1 : budget.steps, steps,
-                 leaves);
+  const bool is_done =
+      descend<true>(hull.boxes(), box_of(hull.mesh_head()), Slabs(a_m, b_m), work, leaves).is_done;
+  steps = work.visits();
+  return is_done;
 }
 
 }  // namespace

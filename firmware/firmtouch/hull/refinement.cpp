@@ -25,10 +25,6 @@ uint32_t triangle_of(const BaseHull& base_hull, uint32_t face) {
   return all[low].triangle;
 }
 
-}  // namespace
-
-namespace {
-
 // Shape that a refinement is queried with. enter(): time at which it meets a box, above `limit` if
 // it does not. crossing(): of a face. base_hull_faces(): faces of the base hull that it may cross.
 class SegmentQuery {
@@ -37,30 +33,23 @@ class SegmentQuery {
       : a_m_(a_m), b_m_(b_m), slabs_(a_m, b_m), frame_(head.low_m, head.high_m, a_m, b_m) {}
 
   float enter(const Box& box, float limit) const { return slabs_.enter(box, limit); }
-  mesh::Crossing crossing(Vec3 p_m, Vec3 q_m, Vec3 r_m) const {
-    return frame_.crossing(p_m, q_m, r_m);
+  mesh::Crossing crossing(const FacePoints& face) const {
+    return frame_.crossing(face.p_m, face.q_m, face.r_m);
   }
   template <class Face>
-  bool base_hull_faces(const BaseHull& base_hull, float limit, uint32_t allowed, uint32_t& steps,
-                       Face face) const {
+  bool base_hull_faces(const BaseHull& base_hull, float limit, query::Work& work, Face face) const {
     const BaseHullSegment segment(base_hull, a_m_, b_m_);
-    Faces<Face> faces{segment.until(limit), base_hull, segment, face};
-    return traverse(base_hull, segment, allowed, steps, faces);
+    Faces<Face> faces{segment.until(limit), face};
+    return descend(base_hull, segment, work, faces);
   }
 
  private:
   template <class Face>
   struct Faces {
     int32_t limit;
-    const BaseHull& base_hull;
-    const BaseHullSegment& segment;
-    Face& face;
-    bool leaf(uint32_t i) {
-      const BaseHull::Leaf leaf = base_hull.leaf(i);
-      BaseHullSegment::Corners corners;
-      if (segment.locate(base_hull, leaf, corners) != 0) return true;
-      for (uint32_t n = 0; n < leaf.faces.size(); ++n)
-        if (!segment.passes(corners, leaf.faces[n])) face(leaf.first_face + n);
+    Face& use;
+    bool face(const BaseHull::Leaf& leaf, uint32_t n) {
+      use(leaf.first_face + n);
       return true;
     }
   };
@@ -72,35 +61,18 @@ class SegmentQuery {
 // Everything that a triangle crosses is reported at t = 0.
 class TriangleQuery {
  public:
-  TriangleQuery(const Head& head, const Vec3 (&corner_m)[3])
-      : region_(head.low_m, head.high_m, corner_m) {}
+  TriangleQuery(const Head& head, const Vec3 (&corner_m)[3]) : region_(box_of(head), corner_m) {}
 
   float enter(const Box& box, float limit) const { return region_.enter(box, limit); }
-  mesh::Crossing crossing(Vec3 p_m, Vec3 q_m, Vec3 r_m) const {
-    return {region_.crosses(p_m, q_m, r_m) ? int8_t{1} : int8_t{0}, 0.0f};
+  mesh::Crossing crossing(const FacePoints& face) const {
+    return {region_.crosses(face) ? int8_t{1} : int8_t{0}, 0.0f};
   }
   template <class Face>
-  bool base_hull_faces(const BaseHull& base_hull, float, uint32_t allowed, uint32_t& steps,
-                       Face face) const {
-    const BaseHullHead& head = base_hull.head();
-    const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
-                    {head.high_m[0], head.high_m[1], head.high_m[2]}};
-    const FilledTree tree(base_hull.boxes().size());
-    uint32_t pending[kMaxTreeDepth + 2] = {}, count = 1;
-    while (count > 0) {
-      const uint32_t node = pending[--count];
-      if (region_.enter(child_box(whole, base_hull.boxes()[node]), 1.0f) > 1.0f) continue;
-      if (steps >= allowed) return false;
-      ++steps;
-      if (!tree.is_leaf(node)) {
-        pending[count++] = 2 * node + 2;
-        pending[count++] = 2 * node + 1;
-        continue;
-      }
-      const BaseHull::Leaf leaf = base_hull.leaf(tree.leaf(node));
-      for (uint32_t n = 0; n < leaf.faces.size(); ++n) face(leaf.first_face + n);
-    }
-    return true;
+  bool base_hull_faces(const BaseHull& base_hull, float, query::Work& work, Face face) const {
+    return faces_near(base_hull, region_, work, [&](const BaseHull::Leaf& leaf, uint32_t n) {
+      face(leaf.first_face + n);
+      return true;
+    });
   }
 
  private:
@@ -114,17 +86,17 @@ template <class Shape>
 class Refinement::Search {
  public:
   float limit = 1;
-  uint32_t steps = 0, tests = 0;
+  uint32_t tests = 0;
 
   Search(Refinement& of, const Shape& shape, query::Budget budget)
-      : of_(of), shape_(shape), allowed_(budget.steps == 0 ? 1 : budget.steps) {}
+      : of_(of), shape_(shape), work_(budget) {}
 
-  bool has_steps() const { return steps < allowed_; }
+  const query::Work& work() const { return work_; }
 
   /// Faces of the base hull. Result: false if the budget ran out.
   template <class Use>
   bool base_hull(Use use) {
-    return shape_.base_hull_faces(of_.base_hull_, limit, allowed_, steps,
+    return shape_.base_hull_faces(of_.base_hull_, limit, work_,
                                   [&](uint32_t face) { base_hull_face(face, use); });
   }
 
@@ -132,7 +104,7 @@ class Refinement::Search {
   template <class Use>
   void star(uint32_t collapse, Use use) {
     const View& hull = of_.hull_;
-    ++steps;
+    (void)work_.visit();
     const Vec3 about_m = made_vertex(hull, collapse);
     const Box box = star_box_m(about_m, hull.head().cell_m, hull.star_box(collapse));
     if (!(shape_.enter(box, limit) <= limit)) return;
@@ -152,7 +124,7 @@ class Refinement::Search {
         continue;
       }
       if (of_.is_split(youngest - mesh_vertices)) continue;
-      test(at_m[corner[0]], at_m[corner[1]], at_m[corner[2]], youngest - mesh_vertices, use);
+      test({at_m[corner[0]], at_m[corner[1]], at_m[corner[2]]}, youngest - mesh_vertices, use);
     }
   }
 
@@ -176,29 +148,27 @@ class Refinement::Search {
       const uint32_t maker = youngest - of_.hull_.head().mesh_vertex_count;
       use(Candidate{candidate.t, candidate.what | maker});
     };
-    test(vertex(base_hull, corner[0]), vertex(base_hull, corner[1]), vertex(base_hull, corner[2]),
+    test({vertex(base_hull, corner[0]), vertex(base_hull, corner[1]), vertex(base_hull, corner[2])},
          0, of_face);
   }
 
   // With the mesh's own order of corners: to the bit what the mesh answers.
   template <class Use>
   void mesh_triangle(uint32_t i, Use& use) {
-    const mesh::Triangle<uint32_t> t = of_.hull_.triangle(i);
-    test(of_.hull_.mesh_vertex(t.corner[0]), of_.hull_.mesh_vertex(t.corner[1]),
-         of_.hull_.mesh_vertex(t.corner[2]), i | kOfMesh, use);
+    test(points_of(of_.hull_, i), i | kOfMesh, use);
   }
 
   template <class Use>
-  void test(Vec3 p_m, Vec3 q_m, Vec3 r_m, uint32_t what, Use& use) {
+  void test(const FacePoints& face, uint32_t what, Use& use) {
     ++tests;
-    const mesh::Crossing crossing = shape_.crossing(p_m, q_m, r_m);
+    const mesh::Crossing crossing = shape_.crossing(face);
     if (crossing.direction == 0) return;
     use(Candidate{crossing.t, what | (crossing.direction < 0 ? kEnters : 0u)});
   }
 
   Refinement& of_;
   const Shape& shape_;
-  uint32_t allowed_;
+  query::Work work_;
 };
 
 Refinement::Refinement(const View& hull, const BaseHull& base_hull, const RefinementMemory& memory)
@@ -223,7 +193,6 @@ bool Refinement::split(uint32_t collapse) {
     const uint32_t ids = 1 + link_of(View::head_of(record));
     for (uint32_t i = 0; fits && i < ids; ++i) fits = add(removed_by(hull_.id_in(record, i)));
   }
-  if (count_ > max_) max_ = count_;
   while (!fits && count_ > before) {
     const uint32_t last = memory_.splits[--count_];
     memory_.is_split[last / 32] &= ~(1u << (last % 32));
@@ -251,14 +220,12 @@ RefinedCrossings Refinement::all(Vec3 a_m, Vec3 b_m, query::Budget budget,
 }
 
 RefinedHit Refinement::any(const Vec3 (&corner_m)[3], query::Budget budget) {
-  for (const Vec3& corner : corner_m)
-    if (!math::is_finite(corner)) return {};
+  if (!is_finite(corner_m)) return {};
   return nearest(TriangleQuery(hull_.head(), corner_m), budget, true);
 }
 RefinedCrossings Refinement::all(const Vec3 (&corner_m)[3], query::Budget budget,
                                  core::Span<mesh::SurfaceCrossing> buffer) {
-  for (const Vec3& corner : corner_m)
-    if (!math::is_finite(corner)) return {};
+  if (!is_finite(corner_m)) return {};
   return every(TriangleQuery(hull_.head(), corner_m), budget, buffer);
 }
 
@@ -297,7 +264,7 @@ RefinedHit Refinement::nearest(const Shape& shape, query::Budget budget, bool is
     }
     if (is_split(index)) continue;
     const uint32_t before = count_;
-    if (!search.has_steps() || !split(index)) {
+    if (search.work().left == 0 || !split(index)) {
       if (!hit.hit) report(now);
       hit.exact = false;
       break;
@@ -308,7 +275,7 @@ RefinedHit Refinement::nearest(const Shape& shape, query::Budget budget, bool is
     if (!hit.hit) report({queue.horizon, kEnters});
     hit.exact = false;
   }
-  hit.steps = search.steps;
+  hit.steps = search.work().visits();
   hit.tests = search.tests;
   hit.splits = count_;
   reset();
@@ -335,7 +302,7 @@ RefinedCrossings Refinement::every(const Shape& shape, query::Budget budget,
   };
   result.exact = search.base_hull(use);
   for (uint32_t at = 0; at < count_; ++at) {
-    if (!search.has_steps()) {
+    if (search.work().left == 0) {
       result.exact = false;
       break;
     }
@@ -344,7 +311,7 @@ RefinedCrossings Refinement::every(const Shape& shape, query::Budget budget,
   result.exact = result.exact && fits;
   result.found = all.crossings.found;
   result.reported = all.crossings.reported;
-  result.steps = search.steps;
+  result.steps = search.work().visits();
   result.tests = search.tests;
   result.splits = count_;
   reset();

@@ -92,20 +92,15 @@ class Refinement {
   bool split(uint32_t collapse);
   /// Back to the base hull.
   void reset();
-  /// The faces of the hull as it is now, one by one, as vertex numbers.
-  ///     for (Faces f(refinement); f.next();) use(f.number)
-  class Faces;
-
-  uint32_t split_count() const { return count_; }
-  /// The most collapses that one query split back so far.
-  uint32_t max_splits() const { return max_; }
+  /// The collapses that are split back now, in order.
+  core::Span<const uint32_t> splits() const { return {memory_.splits.data(), count_}; }
+  bool is_split(uint32_t collapse) const {
+    return (memory_.is_split[collapse / 32] >> (collapse % 32) & 1u) != 0;
+  }
 
  private:
   template <class Shape>
   class Search;
-  bool is_split(uint32_t collapse) const {
-    return (memory_.is_split[collapse / 32] >> (collapse % 32) & 1u) != 0;
-  }
   bool add(uint32_t collapse);
   template <class Shape>
   RefinedHit nearest(const Shape& shape, query::Budget budget, bool is_any);
@@ -116,20 +111,7 @@ class Refinement {
   const View& hull_;
   const BaseHull& base_hull_;
   RefinementMemory memory_;
-  uint32_t count_ = 0, max_ = 0;
-};
-
-/// The faces of a refinement's hull, one by one.
-class Refinement::Faces {
- public:
-  explicit Faces(const Refinement& refinement) : of_(refinement) {}
-  /// Result: false where there are no more.
-  bool next();
-  uint32_t number[3] = {};  // of its vertices, counter-clockwise from outside
-
- private:
-  const Refinement& of_;
-  uint32_t at_ = 0, face_ = 0;
+  uint32_t count_ = 0;
 };
 
 }  // namespace firmtouch::hull

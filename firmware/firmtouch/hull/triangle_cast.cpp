@@ -8,11 +8,6 @@ namespace {
 
 using math::Vec3;
 
-bool is_finite(const Vec3 (&corner_m)[3]) {
-  return math::is_finite(corner_m[0]) && math::is_finite(corner_m[1]) &&
-         math::is_finite(corner_m[2]);
-}
-
 // Four triangles of the mesh a leaf, handed on in leaf order.
 template <class Take>
 struct Leaves {
@@ -21,16 +16,8 @@ struct Leaves {
   Take& take;
   float limit = 1;
   bool leaf(uint32_t leaf) {
-    const uint32_t first = leaf * kLeafTriangles, count = hull.head().mesh_triangle_count;
-    const uint32_t end = first + kLeafTriangles < count ? first + kLeafTriangles : count;
-    for (uint32_t i = first; i < end; ++i) {
-      const mesh::Triangle<uint32_t> t = hull.triangle(i);
-      if (region.crosses(hull.mesh_vertex(t.corner[0]), hull.mesh_vertex(t.corner[1]),
-                         hull.mesh_vertex(t.corner[2])) &&
-          !take(i))
-        return false;
-    }
-    return true;
+    return each_triangle(
+        hull, leaf, [&](uint32_t i) { return !region.crosses(points_of(hull, i)) || take(i); });
   }
 };
 
@@ -38,12 +25,13 @@ template <class Take>
 bool search(const View& hull, const Vec3 (&corner_m)[3], query::Budget budget, uint32_t& steps,
             Take take) {
   if (!is_finite(corner_m)) return false;
-  const mesh::Head& head = hull.mesh_head();
-  const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
-                  {head.high_m[0], head.high_m[1], head.high_m[2]}};
-  const TriangleRegion region(head.low_m, head.high_m, corner_m);
+  const TriangleRegion region(box_of(hull.mesh_head()), corner_m);
   Leaves<Take> leaves{hull, region, take};
-  return descend(hull.boxes(), whole, region, budget.steps == 0 ? 1 : budget.steps, steps, leaves);
+  query::Work work(budget);
+  const bool is_done =
+      descend<true>(hull.boxes(), box_of(hull.mesh_head()), region, work, leaves).is_done;
+  steps = work.visits();
+  return is_done;
 }
 
 }  // namespace
@@ -54,16 +42,6 @@ TriangleHit any_crossed(const View& hull, const Vec3 (&corner_m)[3], query::Budg
     hit.hit = true;
     hit.triangle = i;
     return false;
-  });
-  return hit;
-}
-
-TriangleHit first_crossed(const View& hull, const Vec3 (&corner_m)[3], query::Budget budget) {
-  TriangleHit hit;
-  hit.exact = search(hull, corner_m, budget, hit.steps, [&](uint32_t i) {
-    if (!hit.hit || i < hit.triangle) hit.triangle = i;
-    hit.hit = true;
-    return true;
   });
   return hit;
 }
@@ -92,38 +70,20 @@ TriangleHit base_hull_crossed(const BaseHull& base_hull, const Vec3 (&corner_m)[
                               query::Budget budget) {
   TriangleHit hit;
   if (!is_finite(corner_m)) return hit;
-  const BaseHullHead& head = base_hull.head();
-  const Box whole{{head.low_m[0], head.low_m[1], head.low_m[2]},
-                  {head.high_m[0], head.high_m[1], head.high_m[2]}};
-  const TriangleRegion region(head.low_m, head.high_m, corner_m);
-  const FilledTree tree(base_hull.boxes().size());
-  const uint32_t allowed = budget.steps == 0 ? 1 : budget.steps;
+  const TriangleRegion region(box_of(base_hull.head()), corner_m);
   int32_t winding = 0;
-  hit.exact = wind_around(base_hull, corner_m[0], {allowed}, winding, hit.steps);
+  query::Work work(budget);
+  hit.exact = wind_around(base_hull, corner_m[0], work, winding);
   hit.hit = !hit.exact || winding != 0;
-  uint32_t pending[kMaxTreeDepth + 2] = {}, count = 1;
-  while (count > 0 && !hit.hit) {
-    const uint32_t node = pending[--count];
-    if (region.enter(child_box(whole, base_hull.boxes()[node]), 1.0f) > 1.0f) continue;
-    if (hit.steps >= allowed) {
-      hit.hit = true;
-      hit.exact = false;
-      break;
-    }
-    ++hit.steps;
-    if (!tree.is_leaf(node)) {
-      pending[count++] = 2 * node + 2;
-      pending[count++] = 2 * node + 1;
-      continue;
-    }
-    const BaseHull::Leaf leaf = base_hull.leaf(tree.leaf(node));
-    for (uint32_t i = 0; i < leaf.faces.size() && !hit.hit; ++i) {
-      hit.hit = region.crosses(vertex(base_hull, leaf.corners[corner_at(leaf.faces[i], 0)]),
-                               vertex(base_hull, leaf.corners[corner_at(leaf.faces[i], 1)]),
-                               vertex(base_hull, leaf.corners[corner_at(leaf.faces[i], 2)]));
-      hit.triangle = leaf.first_face + i;
-    }
-  }
+  hit.steps = work.visits();
+  if (hit.hit) return hit;
+  hit.exact = faces_near(base_hull, region, work, [&](const BaseHull::Leaf& leaf, uint32_t n) {
+    hit.hit = region.crosses(points_of(base_hull, leaf, n));
+    hit.triangle = leaf.first_face + n;
+    return !hit.hit;
+  });
+  hit.hit = hit.hit || !hit.exact;
+  hit.steps = work.visits();
   return hit;
 }
 

@@ -29,10 +29,6 @@ struct TriangleHits {
 ///         interrupt.
 TriangleHit any_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget);
 
-/// The first one in leaf order.
-/// Bounds: as above.
-TriangleHit first_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget);
-
 /// All of them, in leaf order; where there are more than `buffer` holds, the first ones.
 /// Bounds: as above, and found * reported moves in `buffer`.
 TriangleHits all_crossed(const View& hull, const math::Vec3 (&corner_m)[3], query::Budget budget,

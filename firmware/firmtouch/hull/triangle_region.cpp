@@ -27,13 +27,13 @@ bool is_aside(const Vec3 (&of)[3], const Vec3 (&other)[3]) {
 
 }  // namespace
 
-TriangleRegion::TriangleRegion(const float (&low_m)[3], const float (&high_m)[3],
-                               const Vec3 (&corner_m)[3])
+TriangleRegion::TriangleRegion(const Box& bounds, const Vec3 (&corner_m)[3])
     : box_{{corner_m[0].x, corner_m[0].y, corner_m[0].z},
            {corner_m[0].x, corner_m[0].y, corner_m[0].z}} {
   for (uint32_t i = 0; i < 3; ++i) {
     corner_m_[i] = corner_m[i];
-    edge_[i] = mesh::SegmentFrame(low_m, high_m, corner_m[i], corner_m[i == 2 ? 0 : i + 1]);
+    edge_[i] =
+        mesh::SegmentFrame(bounds.low_m, bounds.high_m, corner_m[i], corner_m[i == 2 ? 0 : i + 1]);
     const float at[3] = {corner_m[i].x, corner_m[i].y, corner_m[i].z};
     for (uint32_t k = 0; k < 3; ++k) {
       box_.low_m[k] = mesh::smaller(box_.low_m[k], at[k]);
@@ -42,11 +42,11 @@ TriangleRegion::TriangleRegion(const float (&low_m)[3], const float (&high_m)[3]
   }
 }
 
-bool TriangleRegion::crosses(Vec3 p_m, Vec3 q_m, Vec3 r_m) const {
-  const Vec3 other_m[3] = {p_m, q_m, r_m};
+bool TriangleRegion::crosses(const FacePoints& face) const {
+  const Vec3 other_m[3] = {face.p_m, face.q_m, face.r_m};
   if (is_aside(corner_m_, other_m) || is_aside(other_m, corner_m_)) return false;
   for (const mesh::SegmentFrame& edge : edge_)
-    if (edge.crossing(p_m, q_m, r_m).direction != 0) return true;
+    if (edge.crossing(face.p_m, face.q_m, face.r_m).direction != 0) return true;
   // This triangle moved is the other moved the opposite way: seen through the origin, the same way.
   const Vec3 a = -corner_m_[0], b = -corner_m_[1], c = -corner_m_[2];
   for (uint32_t i = 0; i < 3; ++i) {

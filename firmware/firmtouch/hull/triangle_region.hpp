@@ -13,9 +13,8 @@ namespace firmtouch::hull {
 /// other's inside, and nothing is only touched.
 class TriangleRegion {
  public:
-  /// `low_m`, `high_m`: the box of all vertices of later calls.
-  TriangleRegion(const float (&low_m)[3], const float (&high_m)[3],
-                 const math::Vec3 (&corner_m)[3]);
+  /// `bounds`: the box of all vertices of later calls.
+  TriangleRegion(const Box& bounds, const math::Vec3 (&corner_m)[3]);
 
   /// As Slabs::enter(): 0 where the triangle may meet the box, else Slabs::kNever.
   float enter(const Box& box, float) const {
@@ -23,12 +22,38 @@ class TriangleRegion {
       if (box.high_m[k] < box_.low_m[k] || box.low_m[k] > box_.high_m[k]) return Slabs::kNever;
     return 0.0f;
   }
-  bool crosses(math::Vec3 p_m, math::Vec3 q_m, math::Vec3 r_m) const;
+  bool crosses(const FacePoints& face) const;
 
  private:
   math::Vec3 corner_m_[3];
   Box box_;
   mesh::SegmentFrame edge_[3];
 };
+
+static inline bool is_finite(const math::Vec3 (&corner_m)[3]) {
+  return math::is_finite(corner_m[0]) && math::is_finite(corner_m[1]) &&
+         math::is_finite(corner_m[2]);
+}
+
+/// Faces of a base hull in the leaves that a triangle may meet.
+template <class Use>
+struct RegionFaces {
+  const BaseHull& base_hull;
+  const Use& use;
+  float limit = 1;
+  bool leaf(uint32_t i) {
+    const BaseHull::Leaf leaf = base_hull.leaf(i);
+    for (uint32_t n = 0; n < leaf.faces.size(); ++n)
+      if (!use(leaf, n)) return false;
+    return true;
+  }
+};
+/// Calls use(leaf, n) for them until one returns false. Result: false if the budget ran out.
+template <class Use>
+bool faces_near(const BaseHull& base_hull, const TriangleRegion& region, query::Work& work,
+                const Use& use) {
+  RegionFaces<Use> faces{base_hull, use};
+  return descend<false>(base_hull.boxes(), box_of(base_hull.head()), region, work, faces).is_done;
+}
 
 }  // namespace firmtouch::hull

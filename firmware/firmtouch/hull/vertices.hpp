@@ -41,6 +41,40 @@ struct Box {
   float low_m[3], high_m[3];
 };
 
+/// The box of a head.
+template <class Head>
+static inline Box box_of(const Head& head) {
+  return {{head.low_m[0], head.low_m[1], head.low_m[2]},
+          {head.high_m[0], head.high_m[1], head.high_m[2]}};
+}
+
+/// Corners of a face.
+struct FacePoints {
+  math::Vec3 p_m, q_m, r_m;
+};
+static inline FacePoints points_of(const View& hull, uint32_t triangle) {
+  const mesh::Triangle<uint32_t> t = hull.triangle(triangle);
+  return {hull.mesh_vertex(t.corner[0]), hull.mesh_vertex(t.corner[1]),
+          hull.mesh_vertex(t.corner[2])};
+}
+static inline FacePoints points_of(const BaseHull& base_hull, const BaseHull::Leaf& leaf,
+                                   uint32_t n) {
+  const BaseHullFace face = leaf.faces[n];
+  return {vertex(base_hull, leaf.corners[corner_at(face, 0)]),
+          vertex(base_hull, leaf.corners[corner_at(face, 1)]),
+          vertex(base_hull, leaf.corners[corner_at(face, 2)])};
+}
+
+/// Calls use(i) for the triangles of a leaf until one returns false. Result: whether none did.
+template <class Use>
+static inline bool each_triangle(const View& hull, uint32_t leaf, const Use& use) {
+  const uint32_t first = leaf * kLeafTriangles, count = hull.head().mesh_triangle_count;
+  const uint32_t end = first + kLeafTriangles < count ? first + kLeafTriangles : count;
+  for (uint32_t i = first; i < end; ++i)
+    if (!use(i)) return false;
+  return true;
+}
+
 /// As the baker computed it, to the bit: the proof at open() is of these floats.
 static inline Box child_box(const Box& parent, const NodeBox& node) {
   Box box;

@@ -20,10 +20,6 @@ bool is_box(const float* low_m, const float* high_m) {
   return true;
 }
 
-Box box_of(const float (&low_m)[3], const float (&high_m)[3]) {
-  return {{low_m[0], low_m[1], low_m[2]}, {high_m[0], high_m[1], high_m[2]}};
-}
-
 // Whether the same three stand in the same turn.
 bool is_same_face(const uint32_t (&a)[3], const uint32_t (&b)[3]) {
   for (uint32_t turn = 0; turn < 3; ++turn)
@@ -112,7 +108,7 @@ Verdict Proof::check_head() const {
   if (!query::is_power_of_two(head.cell_m) || !(head.cell_m <= kFarthest_m))
     return reject(kRuleGrid, 3);
   if (!is_box(head.low_m, head.high_m)) return reject(kRuleHeadBox, 0);
-  const Box box = box_of(head.low_m, head.high_m);
+  const Box box = box_of(head);
   if (!holds(box, {mesh.low_m[0], mesh.low_m[1], mesh.low_m[2]}) ||
       !holds(box, {mesh.high_m[0], mesh.high_m[1], mesh.high_m[2]}))
     return reject(kRuleHeadBox, 1);
@@ -120,7 +116,7 @@ Verdict Proof::check_head() const {
 }
 
 Verdict Proof::check_mesh_vertices(uint32_t first, uint32_t end) {
-  const Box box = box_of(view.mesh_head().low_m, view.mesh_head().high_m);
+  const Box box = box_of(view.mesh_head());
   for (uint32_t i = first; i < end; ++i)
     if (!holds(box, view.mesh_vertex(i))) return reject(kRuleMeshVertex, i);
   return kPassed;
@@ -172,8 +168,7 @@ Verdict Proof::check_star(uint32_t collapse, const uint8_t* record) {
   for (uint32_t i = 0; i < 2 + star.link; ++i)
     if (star.number[i] >= made) return reject(kRuleLinkCorner, collapse);
   const Vec3 vertex_m = made_vertex(view, collapse);
-  if (!holds(box_of(head.low_m, head.high_m), vertex_m))
-    return reject(kRuleNewVertexOutside, collapse);
+  if (!holds(box_of(head), vertex_m)) return reject(kRuleNewVertexOutside, collapse);
   const Box box = star_box_m(vertex_m, head.cell_m, view.star_box(collapse));
   for (uint32_t i = 0; i < 2 + star.link; ++i)
     if (!holds(box, vertex(view, star.number[i]))) return reject(kRuleStarBox, collapse);
@@ -205,8 +200,7 @@ Verdict Proof::check_leaf(uint32_t leaf) {
   const uint32_t first = leaf * kLeafTriangles, left = view.mesh_head().triangle_count - first;
   const FilledTree tree(view.boxes_.size());
   Box box;
-  const bool is_box = tree.box_of(
-      view.boxes_, box_of(view.mesh_head().low_m, view.mesh_head().high_m), tree.node(leaf), box);
+  const bool is_box = tree.box_of(view.boxes_, box_of(view.mesh_head()), tree.node(leaf), box);
   for (uint32_t i = first; i < first + (left < kLeafTriangles ? left : kLeafTriangles); ++i) {
     const mesh::Triangle<uint32_t> t = view.triangle(i);
     for (const uint32_t corner : t.corner) {

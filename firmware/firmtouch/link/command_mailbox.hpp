@@ -24,6 +24,9 @@ class CommandMailbox {
   /// Result: false if the mailbox is full.
   bool put_clear_faults() { return ring_.push({record::kCommandClearFaults, 0}); }
 
+  /// Main loop: a command waits for its tick.
+  bool has_waiting() const { return ring_.waiting() > 0; }
+
   /// Servo interrupt: moves the oldest command into `input`; kCommandNone if there is none.
   /// Bounds: wait-free.
   void take(record::TickInput& input) {

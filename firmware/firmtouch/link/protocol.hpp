@@ -14,8 +14,9 @@
 //               accepted Hello resets the controller. A repeated Step is answered again without a
 //               second tick.
 //   live        Hello(kModeLive) -> HelloReply. The timer makes the ticks. The controller sends a
-//               Log frame for every n-th tick (Hello, Stream -> Ack). SetParam -> Ack and
-//               ClearFaults -> Ack are possible at any time.
+//               Log frame for every n-th tick (Hello, Stream -> Ack). SetParam -> Ack, ClearFaults
+//               -> Ack and Panel -> Ack are possible at any time, SaveParameters -> Ack while the
+//               motors are off.
 //   both        Describe -> Description: fields of a record, their bits, and parameters. Answered
 //               without Hello too.
 namespace firmtouch::link {
@@ -31,6 +32,8 @@ enum Type : uint8_t {
   kClearFaults = 0x05,
   kStream = 0x06,
   kDescribe = 0x07,
+  kSaveParameters = 0x08,
+  kPanel = 0x09,
   kHelloReply = 0x81,
   kStepReply = 0x82,
   kAck = 0x83,
@@ -107,17 +110,29 @@ struct ClearFaults {
 };
 static_assert(sizeof(ClearFaults) == 4);
 
+/// Keeps the present parameters in flash. At the next start the first ticks set them by commands.
+struct SaveParameters {
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(SaveParameters) == 4);
+
 // Ack::result
 constexpr uint32_t kAckTaken = 0;
 constexpr uint32_t kAckNoSuchParameter = 1;
 constexpr uint32_t kAckOutOfRange = 2;
-constexpr uint32_t kAckBusy = 3;        // the mailbox is full: send again
-constexpr uint32_t kAckInLockStep = 4;  // rejected in lock-step: use TickInput::command of a Step
-constexpr uint32_t kAckTimerRuns = 5;   // tick_period_s: the board's running timer keeps its period
+constexpr uint32_t kAckBusy = 3;         // the mailbox is full: send again
+constexpr uint32_t kAckInLockStep = 4;   // rejected in lock-step: use TickInput::command of a Step
+constexpr uint32_t kAckTimerRuns = 5;    // of older releases: tick_period_s could not change
+constexpr uint32_t kAckNoFlash = 6;      // this board keeps no parameters
+constexpr uint32_t kAckMotorsOn = 7;     // saving stops the processor: open the enable switch first
+constexpr uint32_t kAckFlashFull = 8;    // restart the board: it erases flash only at start-up
+constexpr uint32_t kAckFlashFailed = 9;  // what flash holds is not what was written
 
 // Ack::index of other requests than SetParam.
 constexpr uint32_t kAckOfClearFaults = UINT32_MAX;
 constexpr uint32_t kAckOfStream = UINT32_MAX - 1;
+constexpr uint32_t kAckOfSave = UINT32_MAX - 2;
+constexpr uint32_t kAckOfPanel = UINT32_MAX - 3;
 
 struct Ack {
   uint32_t index = 0;
@@ -131,6 +146,15 @@ struct Stream {
   uint32_t decimation = 1;
 };
 static_assert(sizeof(Stream) == 4);
+
+/// Buttons of the host. They can only take force away: the enable switch has the last word.
+struct Panel {
+  uint32_t flags = 0;  // kPanel... below
+};
+static_assert(sizeof(Panel) == 4);
+// Enable is low until a Panel without this bit; the loss of the link changes nothing.
+constexpr uint32_t kPanelDisable = 1u << 0;
+constexpr uint32_t kPanelStop = 1u << 1;  // one tick with the emergency stop: a latched fault
 
 /// One tick's record. If its number exceeds the last one's by more than the decimation, records are
 /// missing; `dropped` shows how many of them the ring lost, the link lost the others.

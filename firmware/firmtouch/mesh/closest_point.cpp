@@ -13,12 +13,14 @@ struct ScalarFinder {
   void find(const Bound& bound, Search& search) const {
     if constexpr (kCompensated)
       search_nearest<true, Bound, void>(mesh, bound, search);
+    else if (mesh.has_rivals())
+      search_nearest<false, Bound, WithRivals>(mesh, bound, search);
     else if (mesh.leaf_boxes() != nullptr)
       search_nearest<false, Bound, Boxed>(mesh, bound, search);
     else if (!mesh.triangles16().empty())
       search_nearest<false, Bound, uint16_t>(mesh, bound, search);
-    else
-      search_nearest<false, Bound, uint32_t>(mesh, bound, search);
+    else  // rare on a controller: a loop of their own takes 3 kB
+      search_nearest<false, Bound, WithRivals>(mesh, bound, search);
   }
   [[gnu::always_inline]] inline Vec3 direction(const Best& best) const {
     return feature_direction(mesh, best.triangle, best.feature);

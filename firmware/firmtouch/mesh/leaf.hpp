@@ -7,6 +7,7 @@
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/compensated_distance.hpp"
 #include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/mesh/triangle.hpp"
@@ -22,12 +23,40 @@ struct Best {
   Feature feature = Feature::kVertex0;
 };
 
+/// Triangles that lost to the nearest by so little that the loss of float32 may have decided. Kept
+/// only of a mesh whose loss float32 cannot promise away (View::has_rivals()).
+///
+/// A triangle that is not kept is farther than the nearest, as computed: its box is, or the line or
+/// plane that skipped it, or its own computed distance, less the loss. Which are kept depends on
+/// nothing but the leaves that are read and their order.
+struct Rivals {
+  static constexpr uint32_t kMax = 4;
+  uint32_t count;            // more than kMax: some are not known
+  uint32_t foot[kMax];       // feature << 24 | triangle
+  float distance2_m2[kMax];  // as computed
+  float slack_m2;
+
+  // With l = 28 u L the loss of a near triangle and d the distance of the nearest so far: (d + l +
+  // 6 u d)^2 <= d^2 (1 + 2^-12) + l^2 (2^12 + 2), and l^2 2^12 < 2^-26.3 L^2.
+  static float slack_of(float longest_edge_m) { return longest_edge_m * longest_edge_m * 0x1p-26f; }
+  float limit2_m2(float min2_m2) const { return min2_m2 * (1.0f + 0x1p-12f) + slack_m2; }
+  void add(uint32_t triangle, Feature feature, float distance2) {
+    if (count < kMax) {
+      foot[count] = static_cast<uint32_t>(feature) << 24 | triangle;
+      distance2_m2[count] = distance2;
+    }
+    ++count;
+  }
+  uint32_t triangle(uint32_t i) const { return foot[i] & 0xFFFFFFu; }
+  Feature feature(uint32_t i) const { return static_cast<Feature>(foot[i] >> 24); }
+};
+
 // Pre: `stride` is that of vertices.
 template <int kBlock>
 [[gnu::always_inline]] static inline void load_corner(const Vertex* vertices, uint32_t index,
                                                       uint32_t stride, math::Vec3& corner_m) {
-  const uint8_t* const at = reinterpret_cast<const uint8_t*>(vertices) + index * stride;
-  math::load_floats<kBlock>(reinterpret_cast<const float*>(at), corner_m.x, corner_m.y, corner_m.z);
+  const void* const at = reinterpret_cast<const uint8_t*>(vertices) + index * stride;
+  math::load_floats<kBlock>(static_cast<const float*>(at), corner_m.x, corner_m.y, corner_m.z);
 }
 
 /// Input and result of measuring leaves. Its first five floats are consecutive.
@@ -40,6 +69,7 @@ struct Sought {
   // For LeafShapes alone:
   const TriangleShape* shapes;
   bool is_narrow;  // the indices have 16 bits
+  Rivals rivals;
 };
 
 /// A triangle whose shape is stored (mesh/layout.hpp, kShapesSection). Corners b and c are rarely
@@ -87,6 +117,25 @@ struct LeafCorners {
   }
 };
 
+// The same with indices of either width.
+struct LeafTriangles {
+  using Shape = OfCorners;
+  const Sought* sought;
+  size_t at;  // of the next corner
+
+  LeafTriangles(const Sought& from, uint32_t first) : sought(&from), at(size_t{first} * 3) {}
+  [[gnu::always_inline]] void next(OfCorners& shape) {
+    uint32_t index[3];
+    for (uint32_t& k : index)
+      k = sought->is_narrow ? static_cast<const uint16_t*>(sought->triangles)[at++]
+                            : static_cast<const uint32_t*>(sought->triangles)[at++];
+    const uint32_t stride = math::as_multiplier(sizeof(Vertex));
+    load_corner<0>(sought->vertices, index[0], stride, shape.a_m);
+    load_corner<1>(sought->vertices, index[1], stride, shape.b_m);
+    load_corner<2>(sought->vertices, index[2], stride, shape.c_m);
+  }
+};
+
 // The same by their stored shapes, with indices of either width.
 struct LeafShapes {
   using Shape = OfShape;
@@ -103,6 +152,37 @@ struct LeafShapes {
     shape.sought = sought;
   }
 };
+
+// Of two feet at a corner: whether both triangles have it.
+static inline bool is_same(const math::Vec3& a, const math::Vec3& b) {
+  return math::bits_of(a.x) == math::bits_of(b.x) && math::bits_of(a.y) == math::bits_of(b.y) &&
+         math::bits_of(a.z) == math::bits_of(b.z);
+}
+
+/// Takes a foot below rivals.limit2_m2() as the nearest, or as a rival. `ab_m`: the longest edge.
+/// Result: whether it is the nearest.
+[[gnu::noinline]] inline bool take_foot(const Foot& foot, math::Vec3 ab_m, uint32_t triangle,
+                                        uint32_t slot, Best& best, Rivals& rivals) {
+  if (!(foot.distance2_m2 < best.distance2_m2)) {
+    // The nearest feature of both is no rival.
+    const bool is_shared = is_vertex(foot.feature) && is_vertex(best.feature) &&
+                           is_same(foot.offset_m, best.offset_m) &&
+                           is_feature_clear(foot.distance2_m2, ab_m);
+    if (!is_shared) rivals.add(triangle, foot.feature, foot.distance2_m2);
+    return false;
+  }
+  // Rivals of the last nearest are farther than it.
+  if (!(best.distance2_m2 < rivals.limit2_m2(foot.distance2_m2)))
+    rivals.count = 0;
+  else
+    rivals.add(best.triangle, best.feature, best.distance2_m2);
+  best.distance2_m2 = foot.distance2_m2;
+  best.offset_m = foot.offset_m;
+  best.triangle = triangle;
+  best.slot = slot;
+  best.feature = foot.feature;
+  return true;
+}
 
 /// Puts into sought.best the first nearest triangle of the leaf `child`, in slot `slot`, if it is
 /// nearer.
@@ -135,6 +215,28 @@ template <class Source, class Wanted>
     best.triangle = leaf_first(word) + leaf_count(word) - left;
     best.slot = slot;
     best.feature = foot.feature;
+  }
+}
+
+/// The same, and keeps the rivals.
+template <class Source>
+static inline void measure_rivals(uint32_t child, uint32_t slot, Sought& sought) {
+  const math::Vec3 p_m = sought.p_m;
+  Best& best = sought.best;
+  Rivals& rivals = sought.rivals;
+  float limit2_m2 = rivals.limit2_m2(best.distance2_m2);
+  Nearer wanted = Nearer::than(limit2_m2, sought.slack_m2);
+  const uint32_t first = leaf_first(child), end = first + leaf_count(child);
+  Source triangles(sought, first);
+  for (uint32_t i = first; i != end; ++i) {
+    typename Source::Shape shape;
+    triangles.next(shape);
+    Foot foot;
+    if (!find_foot(p_m, shape, wanted, foot) || !(foot.distance2_m2 < limit2_m2)) continue;
+    if (take_foot(foot, shape.ab(), i, slot, best, rivals)) {
+      limit2_m2 = rivals.limit2_m2(best.distance2_m2);
+      wanted = Nearer::than(limit2_m2, sought.slack_m2);
+    }
   }
 }
 

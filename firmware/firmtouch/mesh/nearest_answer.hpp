@@ -15,10 +15,6 @@
 namespace firmtouch::mesh {
 namespace {
 
-// Bound of an exact answer's error in distance and lower bound, relative to max(diagonal,
-// distance): a little inside of 4e-7.
-constexpr float kPromise = 3.9e-7f;
-
 // Below this distance, relative to the diagonal, either sign is right, and none is carried on.
 constexpr float kEitherSide = 2e-6f;
 
@@ -68,61 +64,142 @@ void weigh(Found& found, float lower_m, float rounding_m) {
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
 }
 
-// Measures the nearest triangle alone in double-float: usually float32 lost far less than its
-// bound.
-// Result: whether distance and lower bound are now within `within_m` of each other.
-bool measure_again(const View& mesh, Vec3 p_m, float within_m, Found& found) {
-  if (!found.search.complete) return false;
-  const Best& best = found.search.best;
-  const Triangle<uint32_t> t = mesh.triangle(best.triangle);
-  const Vec3 a_m = mesh.vertex(t.corner[0]), b_m = mesh.vertex(t.corner[1]),
-             c_m = mesh.vertex(t.corner[2]);
+struct Corners {
+  Triangle<uint32_t> index;
+  Vec3 a_m, b_m, c_m;
+
+  // Inlined: GCC 12 drops the stores of a constructor that a cold function calls.
+  [[gnu::always_inline]] inline Corners(const View& mesh, uint32_t triangle)
+      : index(mesh.triangle(triangle)),
+        a_m(mesh.vertex(index.corner[0])),
+        b_m(mesh.vertex(index.corner[1])),
+        c_m(mesh.vertex(index.corner[2])) {}
+  [[gnu::always_inline]] inline float compensated_m(Vec3 p_m, Feature feature,
+                                                    float distance2_m2) const {
+    return math::square_root(nearest_compensated2(p_m, a_m, b_m, c_m, feature, distance2_m2));
+  }
+  uint32_t first_of(Feature edge) const { return index.corner[static_cast<uint32_t>(edge) - 1u]; }
+  uint32_t second_of(Feature edge) const {
+    return edge == Feature::kEdge2 ? index.corner[0] : index.corner[static_cast<uint32_t>(edge)];
+  }
+};
+
+// Whether a rival only shares the nearest edge. Pre: features are clear.
+bool is_same_edge(const Corners& one, Feature feature, const Corners& other, Feature of_other) {
+  return is_edge(feature) && is_edge(of_other) &&
+         one.first_of(feature) == other.second_of(of_other) &&
+         one.second_of(feature) == other.first_of(of_other);
+}
+
+// Measures the nearest triangle of `search`, and its rivals, in double-float, and puts into
+// search.best which of them is truly the nearest. Result: its distance.
+[[gnu::noinline, gnu::cold]] float settle(const View& mesh, Vec3 p_m, Search& search) {
   const Loss loss(mesh.head());
-  const float distance_m = math::square_root(
-      loss.is_clear(best.distance2_m2) ? compensated_distance2(p_m, a_m, b_m, c_m, best.feature)
-                                       : compensated_distance2(p_m, a_m, b_m, c_m));
-  const float near_m = nearest_m(found.search);
-  weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
+  Best& best = search.best;
+  const Corners corners(mesh, best.triangle);
+  float distance_m = corners.compensated_m(p_m, best.feature, best.distance2_m2);
+  for (uint32_t i = 0; i < search.rivals.count; ++i) {
+    if (!loss.may_be_less(search.rivals.distance2_m2[i], distance_m * distance_m)) continue;
+    const uint32_t triangle = search.rivals.triangle(i);
+    const Corners rival(mesh, triangle);
+    const float rival_m =
+        rival.compensated_m(p_m, search.rivals.feature(i), search.rivals.distance2_m2[i]);
+    if (!(rival_m < distance_m)) continue;
+    distance_m = rival_m;
+    best.offset_m = closest_on_triangle(p_m, rival.a_m, rival.b_m, rival.c_m).offset_m;
+    best.triangle = triangle;
+    best.feature = search.rivals.feature(i);
+  }
+  return distance_m;
+}
+
+// Whether no triangle but those at the nearest feature can be as near as the nearest.
+bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const Search& search) {
+  const float clear2_m2 = loss.longest_edge_m * loss.longest_edge_m * 0x1p-20f;
+  for (uint32_t i = 0; i < search.rivals.count; ++i)
+    if (!(search.best.distance2_m2 > clear2_m2) ||
+        !is_same_edge(corners, search.best.feature, Corners(mesh, search.rivals.triangle(i)),
+                      search.rivals.feature(i)))
+      return false;
+  return true;
+}
+
+// Measures again what float32 may have lost: usually it is far less than its bound.
+// Result: whether distance and lower bound are now within `within_m` of each other.
+[[gnu::noinline, gnu::cold]] bool measure_again(const View& mesh, Vec3 p_m, float within_m,
+                                                Found& found) {
+  Search& search = found.search;
+  if (!search.complete) return false;
+  const Loss loss(mesh.head());
+  const float near_m = nearest_m(search);
+  if (!mesh.has_rivals() || search.rivals.count > Rivals::kMax) {
+    search.rivals.count = 0;
+    const float distance_m = settle(mesh, p_m, search);
+    weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
+    const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
+    if (!(max_m - found.lower_m <= within_m)) return false;
+    found.distance_m = distance_m;
+    return true;
+  }
+  // What is no rival is no nearer than near_m: the loss of this triangle alone counts.
+  const Corners corners(mesh, search.best.triangle);
+  const float own_m =
+      loss.own_m(near_m, corners.b_m - corners.a_m, search.best.feature == Feature::kFace);
+  if (2.0f * (own_m + loss.rounding_m) <= within_m && is_alone(mesh, loss, corners, search)) {
+    weigh(found, near_m - (own_m + loss.rounding_m), loss.rounding_m);
+    return true;
+  }
+  const float distance_m = settle(mesh, p_m, search);
+  const float least_m = math::smaller(distance_m, near_m);
+  weigh(found, less_m(least_m, loss.compensated_m(least_m) + loss.rounding_m), loss.rounding_m);
   const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
   if (!(max_m - found.lower_m <= within_m)) return false;
   found.distance_m = distance_m;
   return true;
 }
 
-// If that is not enough: searches again in double-float, from the nearest leaf.
-template <class Finder, class Bound>
-void search_again(const View& mesh, const Finder& finder, const Bound& bound, Vec3 p_m,
-                  uint32_t budget, Found& found) {
+// The nearest of a search.
+struct Nearest {
+  Best best;
+  uint32_t steps;
+};
+
+// If that is not enough, the search runs again in double-float, from the nearest leaf. Before it:
+// Result: whether there is a budget for it.
+[[gnu::noinline, gnu::cold]] bool begin_again(const View& mesh, uint32_t budget, Found& found,
+                                              Nearest& before) {
+  Search& search = found.search;
+  before = {search.best, search.steps};
+  if (!(search.complete && budget > search.steps)) {
+    search.complete = false;
+    return false;
+  }
+  // The nearest triangle is no farther than this: in its leaf only near ties are measured again.
   const Loss loss(mesh.head());
-  if (found.search.complete && budget > found.search.steps) {
-    Found again{};
-    // The nearest triangle is no farther than this: in its leaf only near ties are measured again.
-    const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
-    again.search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
-    again.search.band2_m2 = found.search.band2_m2;
-    again.search.safe_subtree = found.search.safe_subtree;
-    again.search.safe_subtree_m = found.search.safe_subtree_m;
-    again.search.safe_subtree_margin_m = found.search.safe_subtree_margin_m;
-    again.search.p_m = p_m;
-    again.search.start = found.search.best.slot;
-    again.search.budget = budget - found.search.steps;
-    finder.template find<true>(bound, again.search);
-    again.search.steps += found.search.steps;
-    if (again.search.complete) {
-      found = again;
-      const float near_m = nearest_m(found.search);
-      const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
-      return weigh(found, lower_m, loss.rounding_m);
-    }
-    found.search.steps = again.search.steps;
+  const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
+  search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
+  search.start = search.best.slot;
+  search.best.slot = query::kNowhere;
+  search.budget = budget - search.steps;
+  search.steps = 0;
+  return true;
+}
+// After it:
+[[gnu::noinline, gnu::cold]] void end_again(const View& mesh, Vec3 p_m, const Nearest& before,
+                                            bool has_run, Found& found) {
+  const Loss loss(mesh.head());
+  Search& search = found.search;
+  if (has_run) search.steps += before.steps;
+  if (search.complete) {
+    const float near_m = nearest_m(search);
+    const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
+    return weigh(found, lower_m, loss.rounding_m);
   }
   // No budget left for it: return the true distance of the triangle that was found.
-  found.search.complete = false;
-  if (found.search.best.slot == query::kNowhere) return;
-  const Triangle<uint32_t> t = mesh.triangle(found.search.best.triangle);
-  const float distance2_m2 = compensated_distance2(
-      p_m, mesh.vertex(t.corner[0]), mesh.vertex(t.corner[1]), mesh.vertex(t.corner[2]));
-  found.distance_m = math::square_root(distance2_m2);
+  search.best = before.best;
+  if (search.best.slot == query::kNowhere) return;
+  const Corners corners(mesh, search.best.triangle);
+  found.distance_m = corners.compensated_m(p_m, search.best.feature, search.best.distance2_m2);
 }
 
 // The sign of the offset, or 0 if the roundings of offset, `loss_m`, and pseudonormal could change
@@ -157,7 +234,7 @@ template <class Finder, class Bound>
   search.p_m.y = p_m.y;
   search.p_m.z = p_m.z;
   search.start = is_warm ? slot : query::kNowhere;
-  search.budget = budget.steps;
+  search.budget = budget.work;
   search.triangle_low = hint.triangle_low;
   search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
   search.safe_subtree_margin_m = safe_subtree_margin_m;
@@ -180,8 +257,12 @@ template <class Finder, class Bound>
   const bool is_near = search.best.distance2_m2 <= search.band2_m2;
   const float promise_m = kPromise * scale_m;
   if (!Bound::kCompensated && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
-      !measure_again(mesh, p_m, promise_m, found))
-    search_again(mesh, finder, bound, p_m, budget.steps, found);
+      !measure_again(mesh, p_m, promise_m, found)) {
+    Nearest before;
+    const bool has_budget = begin_again(mesh, budget.work, found, before);
+    if (has_budget) finder.template find<true>(bound, search);
+    end_again(mesh, p_m, before, has_budget, found);
+  }
 
   const Best& best = search.best;
   const Vec3 point_m = bound.foot_m(mesh, p_m, best.offset_m, best.triangle);

@@ -44,7 +44,7 @@ static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, quer
     return false;
   slabs.set_limit(visitor.limit);
   uint32_t last_key = math::bits_of(visitor.limit);
-  const uint32_t allowed = budget.steps == 0 ? 1 : budget.steps;
+  const uint32_t allowed = budget.work == 0 ? 1 : budget.work;
   SegmentFrame frame;
   bool has_frame = false;  // many segments reach no leaf
   const Node* nodes = mesh.nodes().data();

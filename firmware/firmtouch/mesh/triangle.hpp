@@ -32,15 +32,17 @@ struct Everything {
 /// all rounding.
 ///
 /// Suppose that d is below A = L (1 + 8 u) + 30 u E, beyond which no computed distance is below L
-/// (mesh/loss.hpp; u = 2^-24, E the mesh's longest edge). Then no vector is longer than A + 2 E,
-/// and roundings move none of the squares and products by more than C = 32 u (A + 2 E)^2 <= 2^-18
-/// A^2 + 2^-16 E^2. With S = A^2 + 2 C the triangle is not skipped: e^2 - (e . h)^2 / h^2 <= A^2 +
-/// 2 C; and where s = e^2 - e . g <= |e| A + C and |e| > sqrt(S), s^2 <= e^2 S, because C <= (S -
-/// A^2) / 2 <= sqrt(S) (sqrt(S) - A). A^2 is at most (1 + 2^-11 + 2^-19) L^2 + 2^-26 E^2.
+/// (mesh/loss.hpp; u = 2^-24, E the mesh's longest edge). Then |p - a| and |e| are at most P = A +
+/// E. Roundings move e by 4 u P across ab and by 16 u P along it, so e^2 by 11 u P^2, and e . ac by
+/// at most 24 u P E. What of h is rounding, at most 5 u E, is as if q moved by it. So s is off by
+/// at most C = 12 u P^2 + 24 u P E, and e^2 - (e . h)^2 / h^2 by 30 u P^2 + 10 u P E. With S = A^2
+/// + 2 C the triangle is not skipped: e^2 - (e . h)^2 / h^2 <= S; and where |e| > sqrt(S), s <= |e|
+/// A + C gives s^2 <= e^2 S, because C <= (S - A^2) / 2 <= sqrt(S) (sqrt(S) - A). With 2 A E <= 2^6
+/// A^2 + 2^-6 E^2, and the same for L E, S is at most L^2 (1 + 2^-11) + 83 u E^2.
 struct Nearer {
   float beyond_m2;  // S, or more
 
-  static float slack_m2(float longest_edge_m) { return longest_edge_m * longest_edge_m * 0x1p-13f; }
+  static float slack_m2(float longest_edge_m) { return longest_edge_m * longest_edge_m * 0x1p-17f; }
   static Nearer than(float distance2_m2, float slack_m2) {
     return {distance2_m2 * (1.0f + 0x1p-10f) + slack_m2};
   }

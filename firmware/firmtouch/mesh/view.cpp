@@ -3,6 +3,7 @@
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/leaf_box.hpp"
+#include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
 
 namespace firmtouch::mesh {
@@ -42,7 +43,7 @@ const query::CheckStage Proof::kStages[3] = {
     {60, Stage::count<&Proof::node_count>, Stage::each<&Proof::check_node>,
      Stage::finish<&Proof::finish_nodes>}};
 
-Verdict Proof::check_head() const {
+Verdict Proof::check_head() {
   const Head& head = view.head();
   if (!query::is_power_of_two(head.cell_m)) return reject(kRuleHead, 1);
   const float reach_m = static_cast<float>(kGridMax) * head.cell_m;
@@ -70,6 +71,7 @@ Verdict Proof::check_head() const {
     return reject(kRuleHead, 6);
   if (!(head.rounding_m >= 0.0f && head.rounding_m <= kMaxRounding * head.diagonal_m))
     return reject(kRuleHead, 0);
+  view.has_rivals_ = !Loss(head).is_within_promise(head.diagonal_m);
   return head.depth == 0 || head.depth > kMaxDepth ? reject(kRuleDepth, 0) : kPassed;
 }
 

@@ -47,6 +47,9 @@ class View {
   /// Null where the asset has none: what they hold follows from the rest.
   const uint32_t* leaf_boxes() const { return leaf_boxes_; }
   const TriangleShape* shapes() const { return shapes_; }
+  /// Whether float32 alone cannot keep the promise of exact answers (mesh/loss.hpp): the search
+  /// keeps the rivals of the nearest triangle, which are then measured in double-float.
+  bool has_rivals() const { return has_rivals_; }
   core::Span<const Triangle<uint16_t>> triangles16() const { return triangles16_; }
   core::Span<const Triangle<uint32_t>> triangles32() const { return triangles32_; }
 
@@ -74,6 +77,7 @@ class View {
   core::Span<const EdgeFolds> folds_;
   const uint32_t* leaf_boxes_ = nullptr;
   const TriangleShape* shapes_ = nullptr;
+  bool has_rivals_ = false;
 };
 
 /// What Opening proves of a mesh: rules R101 to R141 of tools/FORMAT.md.
@@ -81,7 +85,7 @@ class Proof {
  public:
   static const query::CheckStage kStages[3];
   core::Verdict take(const Sections& sections);
-  core::Verdict check_head() const;
+  core::Verdict check_head();
   View view;
 
  private:

@@ -26,6 +26,11 @@ struct Entry {
   const char* what;
 };
 
+// Upper ends of three rows; servo and its guard have the same ceilings.
+constexpr float kMaxForceLimit_N = 100.0f;
+constexpr float kMaxSlewLimit_N_per_s = 1e6f;
+constexpr float kMaxTickPeriod_s = 0.1f;
+
 /// Sorted by number, each once.
 using Table = core::Span<const Entry>;
 
@@ -58,8 +63,8 @@ enum Index : uint32_t {
   kSceneX,
   kSceneY,
   kSceneZ,
-  kMeshSteps,
-  kCurveSteps,
+  kMeshWork,
+  kGuideWork,
   kModelAge,
   kGuideArcPenalty,
   kGuideTunnel,

@@ -6,11 +6,6 @@
 // without virtual damping (Colgate & Schenkel 1994: b > K T / 2).
 namespace firmtouch::params {
 
-// Upper ends of these rows; servo and its guard have the same ceilings.
-constexpr float kMaxForceLimit_N = 100.0f;
-constexpr float kMaxSlewLimit_N_per_s = 1e6f;
-constexpr float kMaxTickPeriod_s = 0.1f;
-
 constexpr float kInitialTickPeriod_s = 0.001f;
 
 /// Limits of force and time: servo, guard and clock.
@@ -23,7 +18,7 @@ struct SafetyRows {
       {kRampIn, "ramp_in_s", "s", 0.0f, 10.0f, 0.2f, When::kAnytime,
        "time from enable to full force"},
       {kTickPeriod, "tick_period_s", "s", 0.00005f, kMaxTickPeriod_s, kInitialTickPeriod_s,
-       When::kMotorsOff, "nominal time between ticks; a board's timer keeps the initial one"},
+       When::kMotorsOff, "nominal time between ticks; the timer follows it"},
       {kLateRatio, "late_ratio", "1", 1.05f, 4.0f, 1.5f, When::kAnytime,
        "a tick that takes more periods than this is late"},
       {kModelAge, "model_age", "1", 1.0f, 1000.0f, 3.0f, When::kAnytime,
@@ -82,8 +77,8 @@ struct ContactRows {
        When::kAnytime, "stiffness of the surface"},
       {kContactDamping, "contact_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime,
        "damping of the surface"},
-      {kMeshSteps, "mesh_steps", "1", 1.0f, 65536.0f, 256.0f, When::kMayFall,
-       "visit budget of the surface query"},
+      {kMeshWork, "mesh_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
+       "work units of the surface's queries in a tick"},
   };
 };
 
@@ -126,8 +121,8 @@ struct GuideRows {
        "force of a push along the guide; largest force of a lead"},
       {kGuideDriveSpeed, "guide_drive_speed_mps", "m/s", -1.0f, 1.0f, 0.0f, When::kAnytime,
        "speed of a lead along the guide; 0: hold"},
-      {kCurveSteps, "curve_steps", "1", 1.0f, 65536.0f, 256.0f, When::kMayFall,
-       "visit budget of the guide query"},
+      {kGuideWork, "guide_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
+       "work units of the guide's queries in a tick"},
   };
 };
 

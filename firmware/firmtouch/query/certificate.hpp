@@ -4,13 +4,14 @@
 
 namespace firmtouch::query {
 
-/// Visit budget of a query, and the distance beyond which it need not be exact. A visit is one tree
-/// node read, leaves included. Beyond band_m the answer is a certified lower bound: at least band_m
-/// unless the visits ran out, with the sign if it is known without a search. Its point may then be
+/// Work that a query may do, and the distance beyond which it need not be exact. Work counts in
+/// units of about 100 instructions of a Cortex-M7: a visit of a tree node is one, a triangle one,
+/// what takes longer several. Beyond band_m the answer is a certified lower bound: at least band_m
+/// unless the work ran out, with the sign if it is known without a search. Its point may then be
 /// any point of the surface.
 struct Budget {
-  uint32_t steps = UINT32_MAX;  // 0 counts as 1
-  float band_m = FLT_MAX;       // NaN counts as 0
+  uint32_t work = UINT32_MAX;  // 0 counts as 1
+  float band_m = FLT_MAX;      // NaN counts as 0
 };
 
 constexpr Budget kUnlimited{};
@@ -20,9 +21,10 @@ constexpr Budget kUnlimited{};
 /// of the asset, distance) of the truth.
 struct Certificate {
   float lower_m = 0;   // certified: no point of the shape is nearer
-  uint32_t steps = 0;  // visits used, at most the budget
+  uint32_t steps = 0;  // visits: tree nodes read, leaves included
   bool exact = false;
-  int8_t sign = 0;  // +1 outside, -1 inside, 0 unknown: never act on an unknown sign
+  int8_t sign = 0;    // +1 outside, -1 inside, 0 unknown: never act on an unknown sign
+  uint32_t work = 0;  // units used, at most the budget; a host's wide search counts none
 };
 
 }  // namespace firmtouch::query

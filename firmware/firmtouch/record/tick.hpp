@@ -72,6 +72,12 @@ struct TickOutput {
 };
 static_assert(sizeof(TickOutput) == 92);
 
+/// Whether the power stage may be on: the servo pushes, or its force still falls to zero.
+constexpr bool may_push(const TickOutput& output) {
+  const uint32_t mode = output.state & kStateServoMask;
+  return mode == 1 || mode == 2 || mode == 3;  // of servo::Mode; controller_core.cpp checks it
+}
+
 struct TickRecord {
   TickInput input;
   TickOutput output;

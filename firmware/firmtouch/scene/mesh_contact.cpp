@@ -42,7 +42,7 @@ constexpr float kBand = 0.02f;
 
 // A base hull of 1,000 faces needs a fifth of it (tests/scene/base_hull_contact_host_test.cpp). It
 // serves ticks whose own budget is too small.
-constexpr uint32_t kBaseHullSteps = 512;
+constexpr uint32_t kBaseHullWork = 1280;
 
 mesh::Closest query_with_field(const MeshObject& object, Vec3 p_m, float reach_m,
                                query::Budget budget, mesh::Hint& hint) {
@@ -58,7 +58,7 @@ mesh::Closest query_with_field(const MeshObject& object, Vec3 p_m, float reach_m
 bool query_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, MeshTouch& touch,
                      SurfacePoint& surface, Nearest& nearest) {
   if (object.base_hull == nullptr || !object.base_hull->is_open()) return false;
-  const query::Budget own{budget.steps > kBaseHullSteps ? budget.steps : kBaseHullSteps};
+  const query::Budget own{budget.work > kBaseHullWork ? budget.work : kBaseHullWork};
   const hull::BaseHullDistance found = hull::base_hull_distance(*object.base_hull, p_m, own);
   touch.base_hull_steps = found.steps;
   if (found.side == hull::BaseHullSide::kUnknown) return false;

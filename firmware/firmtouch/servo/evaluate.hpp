@@ -4,14 +4,6 @@
 
 namespace firmtouch::servo {
 
-// Limits of a local model: far beyond every device, and small enough that no sum of its forces
-// overflows.
-constexpr float kMaxStiffness_N_per_m = 1e6f;
-constexpr float kMaxDamping_N_s_per_m = 1e4f;
-constexpr float kMaxPosition_m = 1e4f;
-constexpr float kMaxVelocity_mps = 1e4f;
-constexpr float kMaxDrive_N = 1e9f;  // before drive_limit_N
-
 /// Whether every number of the model is finite and in range and its directions are unit to 1 %.
 bool is_sound(const LocalModel& model);
 
@@ -19,7 +11,7 @@ bool is_sound(const LocalModel& model);
 /// along its normal or not at all, so its damper never pulls the tool into the surface. Planes add
 /// up. The guide acts across its line beyond its tunnel, without a jump at the wall, and along it
 /// by its drive.
-/// Pre: is_sound(model), position and velocity finite and within the bounds above.
+/// Pre: is_sound(model), position and velocity finite and within the limits of local_model.hpp.
 /// Result: finite.
 math::Vec3 evaluate(const LocalModel& model, math::Vec3 position_m, math::Vec3 velocity_mps);
 

@@ -7,7 +7,13 @@ namespace firmtouch::servo {
 
 constexpr uint32_t kMaxPlanes = 3;  // a corner of three faces
 
-// Far beyond every device.
+// Limits of a local model: far beyond every device, and small enough that no sum of its forces
+// overflows.
+constexpr float kMaxStiffness_N_per_m = 1e6f;
+constexpr float kMaxDamping_N_s_per_m = 1e4f;
+constexpr float kMaxPosition_m = 1e4f;
+constexpr float kMaxVelocity_mps = 1e4f;
+constexpr float kMaxDrive_N = 1e9f;  // before drive_limit_N
 constexpr float kMaxDriveLimit_N = 1e3f;
 constexpr float kMaxTunnel_m = 1e3f;
 

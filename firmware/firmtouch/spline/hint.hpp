@@ -19,7 +19,7 @@ struct Frontier {
   uint8_t count = 0;
   uint8_t outside = 0;
   uint8_t beyond[kMax] = {};
-  uint32_t part[kMax] = {};
+  uint32_t node[kMax] = {};
 };
 
 /// Hint::safe_subtree of a surface whose frontier is of position_m. A query that leaves no frontier
@@ -29,7 +29,7 @@ constexpr uint32_t kWithFrontier = 0;
 /// What a query of a spline curve leaves for the next one (query/hint.hpp). A surface queried with
 /// it returns the same, with more visits. No value of the place can make an answer wrong.
 struct CurveHint : query::HintBase {
-  uint32_t place = query::kNowhere;         // piece and parameter of the last answer
+  uint32_t foot = query::kNowhere;          // piece and parameter of the last answer
   uint8_t fine[2] = {0, 0};                 // lower bits of a surface's two parameters
   uint32_t safe_subtree = query::kNowhere;  // leaves; all outside them is ...
   float safe_subtree_m = 0;                 // ... certified at least this far from position_m

@@ -4,7 +4,7 @@
 
 namespace firmtouch::spline {
 
-View::Place View::place_of(uint32_t leaf) const {
+View::LeafIndex View::index_of(uint32_t leaf) const {
   if (!is_surface()) {
     const uint32_t piece = leaves_[leaf];
     return {piece, leaf - curve_bends_[piece].first_leaf, 0};
@@ -26,10 +26,10 @@ View::Bounds View::bounds_of(uint32_t leaf) const {
     const CurveBend& bend = curve_bends_[leaves_[leaf]];
     return {{bend.fixed_m2}, {bend.turning_m}};
   }
-  const Place place = place_of(leaf);
-  const Grid& grid = grids_[place.piece];
+  const LeafIndex at_leaf = index_of(leaf);
+  const Grid& grid = grids_[at_leaf.piece];
   const PatchBend& bend =
-      patch_bends_[cell_of(pieces_[place.piece], grid, place.index_u, place.index_v)];
+      patch_bends_[cell_of(pieces_[at_leaf.piece], grid, at_leaf.index_u, at_leaf.index_v)];
   Bounds bounds;
   for (uint32_t k = 0; k < 5; ++k) {
     bounds.fixed_m2[k] = in_units(grid.fixed_unit_m2, bend.fixed[k]);

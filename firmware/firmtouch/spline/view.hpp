@@ -59,10 +59,10 @@ class View {
 
   /// Which part of which piece a leaf is, by its number in the asset.
   /// Pre: leaf < leaf_count(), and one that is_leaf().
-  struct Place {
+  struct LeafIndex {
     uint32_t piece, index_u, index_v;
   };
-  Place place_of(uint32_t leaf) const;
+  LeafIndex index_of(uint32_t leaf) const;
   bool is_leaf(uint32_t leaf) const { return is_surface() || leaves_[leaf] != kNoLeaf; }
   /// What is stored of it: bounds of the fourth derivatives ssss, ssst, sstt, sttt, tttt (of a
   /// curve: of the first).

@@ -32,9 +32,14 @@ core::Bytes board_asset();
 /// Context: start-up, main loop, fault handler; never the servo interrupt.
 void board_print(const char* text);
 
-/// Switches the motors off and stops. On an emulator `status` becomes the process's exit code.
+/// Masks interrupts, switches the motors off and stops. In a build for an emulator `status` becomes
+/// the exit code of its process; on hardware the watchdog, if it runs, resets the chip.
 /// Context: any.
 [[noreturn]] void board_exit(int status);
+
+/// Whether a host may end the program (Bye with kByeExit): an emulator or a process, not hardware.
+/// Context: main loop.
+bool board_may_exit();
 
 /// Most stack in use since start-up, interrupts included. 0 if the board does not paint its stack.
 /// Context: main loop.

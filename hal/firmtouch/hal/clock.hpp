@@ -16,9 +16,10 @@ uint32_t clock_work();
 /// Context: any, after board_begin().
 uint32_t clock_work_per_1000();
 
-/// Starts the servo interrupt: it calls `tick` every `period_us`.
-/// Pre: called once; period_us >= 50.
-/// Context: main loop.
+/// Starts the servo interrupt: it calls `tick` every `period_us`. Later calls, with the same
+/// `tick`, change the period.
+/// Pre: period_us >= 50.
+/// Context: main loop, the first time; then servo interrupt.
 void clock_start_servo(uint32_t period_us, void (*tick)());
 
 }  // namespace firmtouch::hal

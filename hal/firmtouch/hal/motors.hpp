@@ -3,11 +3,16 @@
 
 namespace firmtouch::hal {
 
+/// Switches the power stage on, or off if the motors must not push. Called in each tick, before
+/// motors_write_N(); off until the first call.
+/// Context: servo interrupt.
+void motors_state(bool may_push);
+
 /// Applies force (torque) to each joint's motor. All limits are applied already.
 /// Context: servo interrupt.
 void motors_write_N(const float (&motor_N)[3]);
 
-/// Switches the power stage off at once. Must work before board_begin().
+/// Switches the power stage off at once. Must work at reset, when no variable has its value yet.
 /// Context: any, the fault handler included.
 void motors_off();
 
@@ -17,7 +22,7 @@ constexpr uint32_t kMotorsEmergencyStop = 1u << 1;  // the emergency stop is pre
 constexpr uint32_t kMotorsDriveFault = 1u << 2;     // a motor driver reports a fault
 
 /// Reads the input lines of the power stage. Result: the bits above.
-/// Context: main loop until the servo runs, then servo interrupt.
+/// Context: main loop until the servo runs, then servo interrupt; never both at once.
 uint32_t motors_lines();
 
 }  // namespace firmtouch::hal

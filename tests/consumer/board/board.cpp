@@ -85,6 +85,7 @@ void board_print(const char* text) {
 }
 
 void board_exit(int status) {
+  asm volatile("cpsid i" ::: "memory");
   motors_off();
   const uint32_t block[] = {0x20026, static_cast<uint32_t>(status)};
   asm volatile("mov r0, #0x20\n mov r1, %0\n bkpt 0xAB" ::"r"(block) : "r0", "r1", "memory");

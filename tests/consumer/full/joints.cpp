@@ -13,6 +13,7 @@ bool encoders_read(int32_t (&counts)[3]) {
 
 void motors_write_N(const float (&)[3]) {}
 
+void motors_state(bool) {}
 void motors_off() {}
 
 uint32_t motors_lines() { return kMotorsEnable; }

@@ -80,7 +80,9 @@ void servo_interrupt() {
   input.reported = tool.faults;
   const servo::StepOutput output = servo::step(servo_state, kServo, model, input);
   float motor_N[3] = {output.force_N.x, output.force_N.y, output.force_N.z};
-  servo::guard(guard_state, input.enable && output.faults == 0, false, motor_N);
+  const bool is_good =
+      servo::guard(guard_state, input.enable && output.faults == 0, false, motor_N);
+  hal::motors_state(is_good && output.mode != servo::Mode::kOff);
   hal::motors_write_N(motor_N);
   keep(tick++, motor_N);
 }

@@ -37,6 +37,7 @@ bool encoders_read(int32_t (&counts)[3]) {
 
 void motors_write_N(const float (&force_N)[3]) { check(force_N); }
 
+void motors_state(bool) {}
 void motors_off() {}
 
 uint32_t motors_lines() { return tick < 10 ? 0 : kMotorsEnable; }  // closed after the start

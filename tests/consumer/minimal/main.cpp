@@ -19,6 +19,7 @@ void servo_interrupt() {
   input.flags = hal::motors_lines();
   if (!hal::encoders_read(input.encoder_counts)) input.flags |= record::kFlagEncoderFault;
   controller.tick(input, output);
+  hal::motors_state(record::may_push(output));
   hal::motors_write_N(output.motor_N);
   last_work_us = hal::clock_us() - input.clock_us;
 }

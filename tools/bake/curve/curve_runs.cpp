@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bake/tree/left_filled.hpp"
+#include "bake/tree/widest_axis.hpp"
 #include "firmtouch/curve/derived.hpp"
 
 namespace firmtouch::tools {
@@ -58,20 +59,6 @@ curve::Box around(const curve::Box& a, const curve::Box& b) {
   return box;
 }
 
-uint32_t widest_axis(const std::vector<Item>& items, uint32_t begin, uint32_t end) {
-  std::array<uint32_t, 3> low = items[begin].middle, high = low;
-  for (uint32_t i = begin + 1; i < end; ++i) {
-    for (size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], items[i].middle[k]);
-      high[k] = std::max(high[k], items[i].middle[k]);
-    }
-  }
-  size_t widest = 0;
-  for (size_t k = 1; k < 3; ++k)
-    if (high[k] - low[k] > high[widest] - low[widest]) widest = k;
-  return static_cast<uint32_t>(widest);
-}
-
 void place_runs(std::vector<Item>& items, std::vector<curve::Run>& runs) {
   const auto leaves = static_cast<uint32_t>(runs.size() - 1);
   std::vector<Range> open{{0, 0, static_cast<uint32_t>(items.size())}};
@@ -84,7 +71,8 @@ void place_runs(std::vector<Item>& items, std::vector<curve::Run>& runs) {
       runs[leaf].run = run;
       continue;
     }
-    const uint32_t axis = widest_axis(items, range.begin, range.end);
+    const uint32_t axis =
+        widest_axis(items, range.begin, range.end, [](const Item& i) { return i.middle; });
     const uint32_t count = range.end - range.begin;
     const uint32_t middle = range.begin + (first_size(2 * count - 1) + 1) / 2;
     std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,

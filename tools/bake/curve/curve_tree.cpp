@@ -4,6 +4,7 @@
 #include <array>
 
 #include "bake/tree/left_filled.hpp"
+#include "bake/tree/widest_axis.hpp"
 #include "firmtouch/curve/derived.hpp"
 
 namespace firmtouch::tools {
@@ -20,26 +21,13 @@ struct Range {
   uint32_t begin, end;
 };
 
-uint32_t widest_axis(const std::vector<Item>& items, uint32_t begin, uint32_t end) {
-  std::array<float, 3> low = items[begin].at_m, high = low;
-  for (uint32_t i = begin + 1; i < end; ++i) {
-    for (size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], items[i].at_m[k]);
-      high[k] = std::max(high[k], items[i].at_m[k]);
-    }
-  }
-  size_t widest = 0;
-  for (size_t k = 1; k < 3; ++k)
-    if (high[k] - low[k] > high[widest] - low[widest]) widest = k;
-  return static_cast<uint32_t>(widest);
-}
-
 void place_samples(std::vector<Item>& items, std::vector<uint32_t>& tree) {
   std::vector<Range> open{{0, 0, static_cast<uint32_t>(items.size())}};
   while (!open.empty()) {
     const Range range = open.back();
     open.pop_back();
-    const uint32_t axis = widest_axis(items, range.begin, range.end);
+    const uint32_t axis =
+        widest_axis(items, range.begin, range.end, [](const Item& i) { return i.at_m; });
     const uint32_t middle = range.begin + first_size(range.end - range.begin);
     std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
                      [axis](const Item& a, const Item& b) {

@@ -274,6 +274,26 @@ SplineDetail surface_detail(bool is_small) {
   return detail;
 }
 
+// The sections of a tree of leaves (curves) or of grids (surfaces), behind those of the pieces.
+static void add_search_sections(const SplineTree& tree, const SplineGrids& grids,
+                                bool is_flat_curve, const std::string& name,
+                                std::vector<Section>& sections) {
+  if (!grids.grids.empty()) {
+    sections.push_back(make_section(spline::kGridsSection, name, grids.grids));
+    sections.push_back(make_section(spline::kPointsSection, name, grids.corners));
+    sections.push_back(make_section(spline::kRadiiSection, name, grids.radii));
+    sections.push_back(make_section(spline::kBendsSection, name, grids.bends));
+    if (!grids.boxes.empty())
+      sections.push_back(make_section(spline::kNodesSection, name, grids.boxes));
+    return;
+  }
+  sections.push_back(make_section(spline::kLeavesSection, name, tree.leaves));
+  sections.push_back(make_section(spline::kBendsSection, name, tree.bends));
+  sections.push_back(
+      make_section(spline::kPointsSection, name, stored_points(tree.points_m, is_flat_curve)));
+  sections.push_back(make_section(spline::kRadiiSection, name, tree.radii));
+}
+
 std::vector<Section> bake_spline(const SplineModel& model, const std::string& name,
                                  const SplineDetail& detail, SplineReport& report) {
   report = {};
@@ -325,20 +345,7 @@ std::vector<Section> bake_spline(const SplineModel& model, const std::string& na
   sections.push_back(make_section(spline::kHeadSection, name, &head, 1));
   sections.push_back(make_section(spline::kPiecesSection, name, stored_pieces));
   sections.push_back(make_section(spline::kCoefficientsSection, name, coefficients));
-  if (is_surface) {
-    sections.push_back(make_section(spline::kGridsSection, name, grids.grids));
-    sections.push_back(make_section(spline::kPointsSection, name, grids.corners));
-    sections.push_back(make_section(spline::kRadiiSection, name, grids.radii));
-    sections.push_back(make_section(spline::kBendsSection, name, grids.bends));
-    if (!grids.boxes.empty())
-      sections.push_back(make_section(spline::kNodesSection, name, grids.boxes));
-  } else {
-    sections.push_back(make_section(spline::kLeavesSection, name, tree.leaves));
-    sections.push_back(make_section(spline::kBendsSection, name, tree.bends));
-    sections.push_back(
-        make_section(spline::kPointsSection, name, stored_points(tree.points_m, is_flat(pieces))));
-    sections.push_back(make_section(spline::kRadiiSection, name, tree.radii));
-  }
+  add_search_sections(tree, grids, is_flat(pieces), name, sections);
   for (const Section& section : sections) report.bytes += section.bytes.size();
   report.pieces = head.piece_count;
   report.leaves = head.leaf_count;

@@ -5,6 +5,7 @@
 #include "bake/spline/spline_tree.hpp"
 #include "bake/tree/left_filled.hpp"
 #include "bake/tree/principal_axes.hpp"
+#include "bake/tree/widest_axis.hpp"
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/spline/proof/patch_radius.hpp"
 
@@ -37,19 +38,6 @@ std::vector<Cut> cuts_of(const std::vector<StoredPiece>& pieces) {
     cuts.push_back(std::move(cut));
   }
   return cuts;
-}
-
-uint32_t widest_axis(const std::vector<Cut>& cuts, uint32_t begin, uint32_t end) {
-  std::array<float, 3> low = cuts[begin].middle_m, high = low;
-  for (uint32_t i = begin + 1; i < end; ++i)
-    for (size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], cuts[i].middle_m[k]);
-      high[k] = std::max(high[k], cuts[i].middle_m[k]);
-    }
-  size_t widest = 0;
-  for (size_t k = 1; k < 3; ++k)
-    if (high[k] - low[k] > high[widest] - low[widest]) widest = k;
-  return static_cast<uint32_t>(widest);
 }
 
 // From its middle.
@@ -131,7 +119,8 @@ std::vector<spline::Box> build_tree(std::vector<Cut>& cuts) {
     }
     boxes[range.node] = box_around(cuts, range.begin, range.end);
     const uint32_t middle = range.begin + (first_size(2 * size - 1) + 1) / 2;
-    const size_t axis = widest_axis(cuts, range.begin, range.end);
+    const size_t axis =
+        widest_axis(cuts, range.begin, range.end, [](const Cut& c) { return c.middle_m; });
     std::sort(cuts.begin() + range.begin, cuts.begin() + range.end,
               [axis](const Cut& a, const Cut& b) {
                 if (a.middle_m[axis] < b.middle_m[axis]) return true;

@@ -56,11 +56,11 @@ std::vector<float> arcs_of(const std::vector<double>& finest, uint32_t step) {
 double error_of(const spline::GuideView& guide, const std::vector<double>& finest) {
   double worst_m = 0;
   for (size_t i = 0; i < finest.size(); ++i) {
-    const uint32_t piece = std::min(static_cast<uint32_t>(i / spline::kMaxArcParts),
+    const uint32_t piece = std::min(static_cast<uint32_t>(i / spline::kMaxArcIntervals),
                                     guide.model().pieces().size() - 1);
-    const double s =
-        2.0 * static_cast<double>(i - size_t{piece} * spline::kMaxArcParts) / spline::kMaxArcParts -
-        1;
+    const double s = 2.0 * static_cast<double>(i - size_t{piece} * spline::kMaxArcIntervals) /
+                         spline::kMaxArcIntervals -
+                     1;
     const double reported_m =
         static_cast<double>(spline::arc_m_at(guide, piece, static_cast<float>(s)));
     worst_m = std::max(worst_m, std::abs(reported_m - finest[i]));
@@ -101,20 +101,20 @@ std::vector<Section> bake_spline_guide(const spline::View& model, const std::str
   if (model.is_surface()) return {};
   std::vector<double> finest = {0};
   for (uint32_t piece = 0; piece < model.pieces().size(); ++piece)
-    for (uint32_t part = 0; part < spline::kMaxArcParts; ++part) {
-      const double step = 2.0 / spline::kMaxArcParts, low = step * part - 1;
+    for (uint32_t part = 0; part < spline::kMaxArcIntervals; ++part) {
+      const double step = 2.0 / spline::kMaxArcIntervals, low = step * part - 1;
       finest.push_back(finest.back() + length_between(model, piece, low, low + step));
     }
   const std::vector<spline::Chain> chains = chains_of(model);
   const Section chains_section = make_section(spline::kChainsSection, name, chains);
-  for (uint32_t parts = 1; parts <= spline::kMaxArcParts; parts *= 2) {
+  for (uint32_t parts = 1; parts <= spline::kMaxArcIntervals; parts *= 2) {
     const Section arcs_section =
-        make_section(spline::kArcsSection, name, arcs_of(finest, spline::kMaxArcParts / parts));
+        make_section(spline::kArcsSection, name, arcs_of(finest, spline::kMaxArcIntervals / parts));
     spline::GuideView guide;
     if (!spline::open_guide(model, {bytes_of(arcs_section), bytes_of(chains_section)}, guide).ok())
       continue;
     report.arc_error = error_of(guide, finest);
-    if (report.arc_error > kGoal && parts < spline::kMaxArcParts) continue;
+    if (report.arc_error > kGoal && parts < spline::kMaxArcIntervals) continue;
     report.is_guide = true;
     report.length_m = finest.back();
     report.chains = static_cast<uint32_t>(chains.size());

@@ -157,7 +157,7 @@ spline::LeafShape shape_of(const StoredPiece& stored, uint32_t level_u, uint32_t
   spline::Piece piece = stored.piece;
   piece.level_u = static_cast<uint8_t>(level_u & 15u);
   piece.level_v = static_cast<uint8_t>(level_v & 15u);
-  const spline::Part part = spline::part_of(piece, index_u, index_v);
+  const spline::Region part = spline::region_of(piece, index_u, index_v);
   spline::LeafShape shape;
   spline::derive(piece, stored.coefficients.data(), part, shape);
   if (shape.min_weight > 0.0f) spline::bound_bends(part, shape);
@@ -166,7 +166,7 @@ spline::LeafShape shape_of(const StoredPiece& stored, uint32_t level_u, uint32_t
 
 bool bound_cell(const StoredPiece& stored, const spline::Halvings& levels, uint32_t index_u,
                 uint32_t index_v, spline::CellBends& bends) {
-  const spline::Part cell = spline::part_of(levels, index_u, index_v);
+  const spline::Region cell = spline::region_of(levels, index_u, index_v);
   const float* const coefficients = stored.coefficients.data();
   bool has_weight = spline::begin_bends(stored.piece, coefficients, cell, bends);
   for (uint32_t k = 0; k < spline::kFineCells && has_weight; ++k)

@@ -79,7 +79,7 @@ void store_radii(SplineTree& tree, const std::vector<Part>& parts) {
 
 spline::CurveBend curve_bend_of(const StoredPiece& stored) {
   spline::CurveBends bends;
-  for (uint32_t k = 0; k < spline::kFineParts; ++k)
+  for (uint32_t k = 0; k < spline::kFineSteps; ++k)
     if (!spline::add_bends(stored.piece, stored.coefficients.data(), k, bends))
       return {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, 0};
   return bends.stored();

@@ -54,11 +54,11 @@ class Finder {
     const uint32_t step = model_.leaf_count() / kMaxCentres + 1;
     for (uint32_t i = 0; i < model_.leaf_count(); i += step) {
       if (!model_.is_leaf(i)) continue;
-      const spline::View::Place leaf = model_.place_of(i);
+      const spline::View::LeafIndex leaf = model_.index_of(i);
       const spline::Piece& piece = model_.pieces()[leaf.piece];
       spline::LeafShape shape;
       spline::derive(piece, model_.coefficients().data() + piece.coefficients,
-                     spline::part_of(piece, leaf.index_u, leaf.index_v), shape);
+                     spline::region_of(piece, leaf.index_u, leaf.index_v), shape);
       const Point u = to_point(shape.c[1]), uu = to_point(shape.c[2]) * 2;
       if (piece.degree_u < 2) continue;
       if (piece.degree_v < 2) {

@@ -27,11 +27,13 @@ struct WideFinder {
     if constexpr (kCompensated) {
       mesh::search_nearest<true, Bound, void>(mesh, bound, search);
     } else {
+      if (mesh.leaf_boxes() != nullptr && mesh.has_rivals())
+        return mesh::search_nearest<false, Bound, mesh::WithRivals>(mesh, bound, search);
       if (mesh.leaf_boxes() != nullptr)
         return mesh::search_nearest<false, Bound, mesh::Boxed>(mesh, bound, search);
-      if (search.budget != query::kUnlimited.steps) return find_within_budget(bound, search);
-      if (search.start == query::kNowhere) return search_cold(mesh, tree, bound, search);
-      return search_warm(mesh, tree, bound, search);
+      if (search.budget != query::kUnlimited.work) return find_within_budget(bound, search);
+      if (mesh.has_rivals()) return find_unlimited<true>(bound, search);
+      return find_unlimited<false>(bound, search);
     }
   }
   Vec3 direction(const Best& best) const {
@@ -45,8 +47,15 @@ struct WideFinder {
   }
 
  private:
+  template <bool kRivals, class Bound>
+  void find_unlimited(const Bound& bound, Search& search) const {
+    if (search.start == query::kNowhere) return search_cold<kRivals>(mesh, tree, bound, search);
+    return search_warm<kRivals>(mesh, tree, bound, search);
+  }
   template <class Bound>
   void find_within_budget(const Bound& bound, Search& search) const {
+    if (mesh.has_rivals())
+      return mesh::search_nearest<false, Bound, mesh::WithRivals>(mesh, bound, search);
     if (!mesh.triangles16().empty())
       return mesh::search_nearest<false, Bound, uint16_t>(mesh, bound, search);
     mesh::search_nearest<false, Bound, uint32_t>(mesh, bound, search);

@@ -78,4 +78,28 @@ struct BlockKeys {
   return steps;
 }
 
+/// The same of a mesh with rivals.
+static inline uint32_t take_block(const Feet& feet, const CornerArrays& corners,
+                                  const NodeBlock& block, const BlockKeys& keys,
+                                  const NearBound& bound, const Side* sides, uint32_t node,
+                                  uint32_t& prune, Best& best, mesh::Rivals& rivals) {
+  uint32_t steps = 0;
+  for (uint32_t i = 0; i < 2; ++i) {
+    const uint32_t which = i ^ keys.is_later_first, child = sides[which].child;
+    steps += keys.child[which] < prune ? 1 : 0;
+    for (uint32_t k = 0; k < 2; ++k) {
+      const uint32_t leaf = 2 * which + (k ^ keys.are_leaves_swapped[which]);
+      if (!(keys.leaf[leaf] < prune)) continue;
+      ++steps;
+      const uint32_t slot = is_leaf(child) ? 2 * node + which : 2 * child + (leaf & 1);
+      if (take_rivals(feet, corners, (block.lanes >> (8 * leaf)) & 0xFFu, block.of.first, slot,
+                      best, rivals)) {
+        const uint32_t key_after = bound.prune_key(best.distance2_m2);
+        prune = key_after < prune ? key_after : prune;
+      }
+    }
+  }
+  return steps;
+}
+
 }  // namespace firmtouch::simd

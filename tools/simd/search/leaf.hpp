@@ -148,4 +148,24 @@ struct ShapeInLane {
   return clear;
 }
 
+/// mesh::measure_rivals() of the lanes `of`, one leaf. Lane 0 is triangle `first`.
+/// Result: whether one is the nearest.
+static inline bool take_rivals(const Feet& feet, const CornerArrays& corners, uint32_t of,
+                               uint32_t first, uint32_t slot, Best& best, mesh::Rivals& rivals) {
+  bool is_nearer = false;
+  const Mask8 features = feet.features();
+  for (uint32_t left = of; left != 0; left &= left - 1) {
+    const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(left));
+    const float distance2_m2 = lane_of(feet.distance2_m2, lane);
+    if (!(distance2_m2 < rivals.limit2_m2(best.distance2_m2))) continue;
+    const mesh::Foot foot{{lane_of(feet.offset_m.x, lane), lane_of(feet.offset_m.y, lane),
+                           lane_of(feet.offset_m.z, lane)},
+                          distance2_m2,
+                          static_cast<Feature>(lane_of(features, lane))};
+    is_nearer |= mesh::take_foot(foot, corners.corner(1, lane) - corners.corner(0, lane),
+                                 first + lane, slot, best, rivals);
+  }
+  return is_nearer;
+}
+
 }  // namespace firmtouch::simd

@@ -28,6 +28,17 @@ using mesh::View;
   return bits_of(less(feet.distance2_m2, all_of(min2_m2))) & ((1u << block.count) - 1u);
 }
 
+// Beyond this squared distance a triangle is of no interest.
+template <bool kRivals>
+[[gnu::always_inline]] inline float limit_of(const Search& search) {
+  return kRivals ? search.rivals.limit2_m2(search.best.distance2_m2) : search.best.distance2_m2;
+}
+// Of a leaf without a block. Result: whether one of its triangles is the nearest.
+inline bool take_leaf_rivals(const BlockTriangles& leaf, Vec3 p_m, uint32_t slot, Search& search) {
+  return take_rivals(feet_on(leaf, p_m), CornerArrays(leaf), leaf.lanes(), leaf.first, slot,
+                     search.best, search.rivals);
+}
+
 // A tree of more nodes does not fit the second cache.
 constexpr uint32_t kMaxNodesNear = 16384;
 
@@ -47,6 +58,7 @@ constexpr uint32_t kMaxNodesNear = 16384;
 /// and selects by conditional moves. The keys in an entry are those of its node's sides. A block is
 /// measured at once.
 /// Pre: search.start == kNowhere; search.budget is not reached.
+template <bool kRivals>
 [[gnu::noinline, gnu::flatten, maybe_unused]] void search_cold(const View& mesh,
                                                                const WideTree& tree,
                                                                const NearBound& bound_at,
@@ -70,6 +82,7 @@ constexpr uint32_t kMaxNodesNear = 16384;
   const uint32_t* const boxes = children[root].side[0].box;
   sibling_distances2(boxes, boxes, bound.point, now.keys, again);
   search.complete = true;
+  if constexpr (kRivals) search.begin_rivals(mesh.head());
   uint32_t steps = 1;
   while (true) {
     while (true) {  // from inner node to inner node, branchless
@@ -109,12 +122,19 @@ constexpr uint32_t kMaxNodesNear = 16384;
         const Feet feet = feet_on(BlockTriangles(tree, block.of), p_m);
         uint32_t prune = high_half(cutoff + 1);
         const BlockKeys keys(block.lanes, now.keys, a_keys, b_keys);
-        if (nearer_of(feet, block.of, before2_m2) == 0) {
+        if (nearer_of(feet, block.of, limit_of<kRivals>(search)) == 0) {
           steps += keys.steps(prune);
         } else {
-          steps += take_block(feet, block, keys, bound, children[slot].side, node, prune, best);
+          if constexpr (kRivals)
+            steps += take_block(feet, CornerArrays(BlockTriangles(tree, block.of)), block, keys,
+                                bound, children[slot].side, node, prune, best, search.rivals);
+          else
+            steps += take_block(feet, block, keys, bound, children[slot].side, node, prune, best);
           cutoff = (uint64_t{prune} << 32) - 1;
         }
+      } else if constexpr (kRivals) {
+        if (take_leaf_rivals(BlockTriangles(tree, child), p_m, slot, search))
+          cutoff = (uint64_t{prune_key(bound, search)} << 32) - 1;
       } else if (measure_wide_leaf(BlockTriangles(tree, child), p_m, slot, before2_m2, best) <
                  before2_m2) {
         cutoff = (uint64_t{prune_key(bound, search)} << 32) - 1;
@@ -131,6 +151,7 @@ constexpr uint32_t kMaxNodesNear = 16384;
 
 // Measures a block in which a triangle may be nearer. Result: visits below the node. noinline:
 // rare, and inlined it takes registers from the loop.
+template <bool kRivals>
 [[gnu::noinline, maybe_unused]] uint32_t measure_block(const WideTree& tree, uint32_t node,
                                                        const NearBound& bound, uint32_t& prune,
                                                        Search& search) {
@@ -144,7 +165,10 @@ constexpr uint32_t kMaxNodesNear = 16384;
   const BlockKeys keys(block.lanes, keys_of(key0, key1), a_keys, b_keys);
   const Feet feet =
       feet_on(BlockTriangles(tree, block.of), {search.p_m.x, search.p_m.y, search.p_m.z});
-  if (nearer_of(feet, block.of, search.best.distance2_m2) == 0) return keys.steps(prune);
+  if (nearer_of(feet, block.of, limit_of<kRivals>(search)) == 0) return keys.steps(prune);
+  if constexpr (kRivals)
+    return take_block(feet, CornerArrays(BlockTriangles(tree, block.of)), block, keys, bound, sides,
+                      node, prune, search.best, search.rivals);
   return take_block(feet, block, keys, bound, sides, node, prune, search.best);
 }
 
@@ -184,6 +208,7 @@ inline void ascend(const View& mesh, const Side* sides, const NearBound& bound, 
 /// mesh::search_nearest() of a warm query without budget: the same nodes in the same order, the
 /// same visits. Usually the prisms of a block already exclude all of its triangles.
 /// Pre: search.start != kNowhere; search.budget is not reached.
+template <bool kRivals>
 [[gnu::noinline, gnu::flatten, maybe_unused]] void search_warm(const View& mesh,
                                                                const WideTree& tree,
                                                                const NearBound& bound_at,
@@ -193,10 +218,16 @@ inline void ascend(const View& mesh, const Side* sides, const NearBound& bound, 
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};
   const float slack_m2 = search.slack_m2;
   Best& best = search.best;
-  const uint32_t clear = measure_last_leaf(BlockTriangles(tree, sides[search.start].child), p_m,
-                                           search.start, search.triangle_low, slack_m2, best);
+  uint32_t clear = query::kNowhere;
+  const BlockTriangles last(tree, sides[search.start].child);
+  if constexpr (kRivals) {
+    search.begin_rivals(mesh.head());
+    take_leaf_rivals(last, p_m, search.start, search);
+  } else {
+    clear = measure_last_leaf(last, p_m, search.start, search.triangle_low, slack_m2, best);
+  }
   uint32_t prune = prune_key(bound, search), left = UINT32_MAX - 1, slot;
-  float limit2_m2 = prism_limit2(best.distance2_m2, slack_m2);
+  float limit2_m2 = prism_limit2(limit_of<kRivals>(search), slack_m2);
   mesh::Pending pending[mesh::kCapacity];
   mesh::Pending* top = pending;
   ascend(mesh, sides, bound, prune, left, top, search);
@@ -215,7 +246,12 @@ inline void ascend(const View& mesh, const Side* sides, const NearBound& bound, 
             boxes_below(sides[2 * node].box, below, bound.point, prune) & block.boxes));
         continue;
       }
-      left -= measure_block(tree, node, bound_at, prune, search);
+      left -= measure_block<kRivals>(tree, node, bound_at, prune, search);
+    } else if constexpr (kRivals) {
+      const BlockTriangles leaf(tree, child);
+      if (may_be_nearer(leaf, p_m, limit2_m2) == 0 || !take_leaf_rivals(leaf, p_m, slot, search))
+        continue;
+      prune = prune_key(bound, search);
     } else {
       const float before2_m2 = best.distance2_m2;
       if (wide_leaf_block(child).first == clear ||
@@ -224,7 +260,7 @@ inline void ascend(const View& mesh, const Side* sides, const NearBound& bound, 
         continue;
       prune = prune_key(bound, search);
     }
-    limit2_m2 = prism_limit2(best.distance2_m2, slack_m2);
+    limit2_m2 = prism_limit2(limit_of<kRivals>(search), slack_m2);
   }
   search.complete = true;
   search.steps = UINT32_MAX - left;

@@ -9,7 +9,7 @@ namespace firmtouch::simd {
 /// A squared prism distance beyond this is certainly farther than the nearest so far. `slack_m2`:
 /// Nearer::slack_m2().
 static inline float prism_limit2(float min2_m2, float slack_m2) {
-  return min2_m2 * (1.0f + 0x1p-16f) + (slack_m2 * 0x1p-4f + 0x1p-100f);
+  return min2_m2 * (1.0f + 0x1p-16f) + (slack_m2 + 0x1p-100f);
 }
 
 /// Lanes whose triangle may be nearer than the nearest so far, at distance D.

@@ -141,7 +141,7 @@ template <class Visitor>
                                                          math::Vec3 a_m, math::Vec3 b_m,
                                                          query::Budget budget, Visitor& visitor,
                                                          uint32_t& steps) {
-  if (budget.steps != query::kUnlimited.steps)
+  if (budget.work != query::kUnlimited.work)
     return search_within_budget(mesh, a_m, b_m, budget, visitor, steps);
   SiblingSlabs slabs;
   if (!slabs.begin(a_m, b_m, mesh.head().grid_low_m, mesh.head().cell_m) &&

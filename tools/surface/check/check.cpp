@@ -1,7 +1,6 @@
 #include "surface/check/check.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "surface/check/close_holes.hpp"
 #include "surface/check/mending.hpp"
@@ -10,13 +9,6 @@
 namespace firmtouch::tools {
 namespace {
 
-std::string coordinates(const math::Vec3& v) {
-  char text[80];
-  std::snprintf(text, sizeof text, " (%.6g, %.6g, %.6g m)", static_cast<double>(v.x),
-                static_cast<double>(v.y), static_cast<double>(v.z));
-  return text;
-}
-
 // The option was given already, so it is not recommended again.
 void leave_out_close_holes(std::vector<std::string>& defects) {
   const std::string remedy = ", or with --close-holes";
@@ -24,6 +16,25 @@ void leave_out_close_holes(std::vector<std::string>& defects) {
     const size_t at = line.find(remedy);
     if (at != line.npos) line.erase(at, remedy.size());
   }
+}
+
+constexpr char kBeforeMending[] =
+    "; or mend it with --mend, give it a surface around it with --wrap 1%, or bake with "
+    "--unsigned: distances without inside and outside";
+constexpr char kAfterMending[] =
+    "; --mend is not enough: give it a surface around it with --wrap 1%, or bake with --unsigned: "
+    "distances without inside and outside";
+
+// Parted sheets may be wound anew.
+uint32_t part_and_wind(Surface& surface, std::vector<uint32_t>& component,
+                       std::vector<bool>& turned, std::vector<std::string>& defects,
+                       CheckReport& report) {
+  split_sheets(surface, report);
+  defects.clear();
+  std::vector<bool> again;
+  const uint32_t components = wind_alike(surface, component, again, defects);
+  for (size_t f = 0; f < again.size(); ++f) turned[f] = turned[f] != again[f];
+  return components;
 }
 
 // Caps join the pieces that they close; nothing is left to turn.
@@ -43,7 +54,8 @@ std::string counted(uint64_t count, const char* one, const char* many) {
 }
 
 std::string named_vertex(const Surface& surface, uint32_t vertex) {
-  return "vertex " + std::to_string(vertex) + coordinates(surface.vertices[vertex]);
+  return "vertex " + std::to_string(vertex) +
+         surface.frame.place_text(to_point(surface.vertices[vertex]));
 }
 
 std::string named_edge(const Surface& surface, uint32_t a, uint32_t b) {
@@ -79,23 +91,27 @@ CheckReport check_and_mend(Surface& surface, const CheckOptions& options) {
 
   drop_pointlike_faces(surface, report);
   weld_torn_vertices(surface, report);
+  if (options.mend) weld_near_vertices(surface, report);
   drop_duplicate_faces(surface, report);
+  if (options.mend) drop_dangling_faces(surface, report);
 
   std::vector<std::string> defects;
   std::vector<uint32_t> component;
   std::vector<bool> turned;
   uint32_t components = wind_alike(surface, component, turned, defects);
-  if (options.close_holes && defects.empty()) {
+  if (options.mend) components = part_and_wind(surface, component, turned, defects, report);
+  const bool closes = options.close_holes || options.mend;
+  if (closes && defects.empty()) {
     close_holes(surface, imported, report);
     components = wind_alike_again(surface, component, turned);
   }
   find_topology_defects(surface, defects);
-  if (options.close_holes) leave_out_close_holes(defects);
+  if (closes) leave_out_close_holes(defects);
   wind_outward(surface, component, components, defects.empty(), turned, report);
   remove_flat_faces(surface, options, report);
   report.is_closed = defects.empty();
   if (!defects.empty() && !options.allow_unsigned) {
-    defects.back() += "; or bake with --unsigned: distances without inside and outside";
+    defects.back() += options.mend ? kAfterMending : kBeforeMending;
   }
   std::vector<std::string>& reported = options.allow_unsigned ? report.kept : report.refused;
   reported.insert(reported.end(), defects.begin(), defects.end());

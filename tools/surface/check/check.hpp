@@ -12,6 +12,9 @@ struct CheckOptions {
   bool allow_unsigned = false;
   // --close-holes: each hole gets a cap of triangles (surface/close_holes.hpp).
   bool close_holes = false;
+  // --mend: all of the above, and vertices near each other are welded, dangling faces removed and
+  // sheets that share an edge or a vertex parted.
+  bool mend = false;
 };
 
 /// What check_and_mend() did and found, one sentence each: what, how often, where first (indices

@@ -1,7 +1,6 @@
 #include "surface/check/close_holes.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "surface/check/hole_cap.hpp"
 #include "surface/check/mending.hpp"
@@ -57,10 +56,9 @@ std::string place_of(const Surface& surface, const Hole& hole) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const Point centre = (low + high) * 0.5;
-  char text[160];
-  std::snprintf(text, sizeof text, "a hole of %zu edges about (%.6g, %.6g, %.6g m), %.3g m across",
-                hole.border.size(), centre.x, centre.y, centre.z, length(high - low));
-  return text;
+  return "a hole of " + std::to_string(hole.border.size()) + " edges about" +
+         surface.frame.place_text(centre) + ", " + surface.frame.length_text(length(high - low)) +
+         " across";
 }
 
 // Edges between two vertices of one hole's border or another's; caps must not make them again.
@@ -159,6 +157,9 @@ void close_holes(Surface& surface, uint32_t first_source, CheckReport& report) {
         "cannot close them: mend it in a modelling program");
     return;
   }
+  // Small holes first: what they take, a large one can leave.
+  std::stable_sort(holes.begin(), holes.end(),
+                   [](const Hole& a, const Hole& b) { return a.border.size() < b.border.size(); });
   const Pairs taken = taken_edges(surface, edges, holes);
   std::vector<CapRule> rules(holes.size(), CapRule::kMinBend);
   std::vector<std::vector<Face>> caps;

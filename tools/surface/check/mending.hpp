@@ -25,6 +25,12 @@ void refuse_bad_size(const Surface& surface, CheckReport& report);
 void drop_pointlike_faces(Surface& surface, CheckReport& report);
 void weld_torn_vertices(Surface& surface, CheckReport& report);
 void drop_duplicate_faces(Surface& surface, CheckReport& report);
+/// Welds vertices of open edges that lie near each other, by the least distance that closes most.
+void weld_near_vertices(Surface& surface, CheckReport& report);
+/// Removes fins and inner walls, at most a tenth of the area.
+void drop_dangling_faces(Surface& surface, CheckReport& report);
+/// Gives each sheet that meets others at an edge or a vertex vertices of its own. Pre: wound alike.
+void split_sheets(Surface& surface, CheckReport& report);
 /// Makes the winding of each component consistent. `component` gets each face's component, numbered
 /// from 0, `turned` which faces were turned. Result: components; a surface with one side alone is
 /// refused (or kept).

@@ -297,6 +297,13 @@ CadPart make_cad(uint64_t seed) {
   return part;
 }
 
+Surface to_surface(const CadPart& part) {
+  Surface surface;
+  for (const Point& v : part.vertices_mm) surface.vertices.push_back(to_vec3(v * 1e-3));
+  surface.faces = part.faces;
+  return surface;
+}
+
 std::string to_obj(const CadPart& part) {
   std::string text = "# millimetres\n";
   for (const Point& v : part.vertices_mm) {

@@ -24,6 +24,9 @@ constexpr uint32_t kCadKinds = 5;
 /// and has six decimals. The same bytes on every machine.
 CadPart make_cad(uint64_t seed);
 
+/// In float32 metres.
+Surface to_surface(const CadPart& part);
+
 /// The text of an OBJ file in millimetres, with as many decimals as the part has.
 std::string to_obj(const CadPart& part);
 

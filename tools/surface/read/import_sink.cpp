@@ -93,16 +93,15 @@ bool ImportSink::add_vertex(const double* xyz, const Place& place) {
   if (is_stopped_) return false;
   if (surface_.vertices.size() >= 0xFFFFFFF0u)
     return fail(place, "more vertices than 32 bits can number: split the model");
-  const double scaled_m[3] = {xyz[0] * unit_m_, xyz[1] * unit_m_, xyz[2] * unit_m_};
-  const math::Vec3 v{static_cast<float>(scaled_m[0]), static_cast<float>(scaled_m[1]),
-                     static_cast<float>(scaled_m[2])};
+  const Point placed_m = surface_.frame.to_m({xyz[0], xyz[1], xyz[2]});
+  const math::Vec3 v = to_vec3(placed_m);
   surface_.vertices.push_back(v);
   if (!is_finite(v.x) || !is_finite(v.y) || !is_finite(v.z)) {
     return defect(place, "coordinate",
                   "a coordinate is not a finite 32-bit number of metres: mend the model or choose "
                   "another --unit");
   }
-  const Point moved = to_point(v) - Point{scaled_m[0], scaled_m[1], scaled_m[2]};
+  const Point moved = to_point(v) - placed_m;
   moved_m_ = std::max(moved_m_, length(moved));
   return true;
 }
@@ -202,8 +201,16 @@ bool ImportSink::finish() {
   }
   if (failed()) return false;
   if (count == 0) return fail("has no vertices: is it a mesh? Export it again with its geometry");
+  if (surface_.faces.empty() && allows_points_) {
+    for (uint32_t v = 0; v < count && v < mesh::kMaxTriangles; ++v) {
+      surface_.source.push_back(v);
+      surface_.faces.push_back({v, v, v});
+    }
+  }
   if (surface_.faces.empty())
-    return fail("has no faces: export it as a mesh, not as points or lines");
+    return fail(
+        "has no faces: export it as a mesh, not as points or lines; points are taken with --wrap "
+        "D");
   for (const Polygon& polygon : polygons_) split_concave(polygon);
   if (failed()) return false;
   report_rounding();
@@ -226,13 +233,14 @@ void ImportSink::report_rounding() {
   const double moved_m = std::min(moved_m_, reach_m * 0x1p-24);  // vertices that no face uses apart
   const double diagonal_m = length(high - low);
   if (!(moved_m > static_cast<double>(mesh::kMaxRounding) * diagonal_m)) return;
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "rounded coordinates to 32 bits, which moved vertices by up to %.3g m (%.2g of the "
-                "diagonal), as they lie %.3g m from the origin: answers are those of the rounded "
-                "surface; move the model to the origin where that is too much",
-                moved_m, moved_m / diagonal_m, reach_m);
-  note(text);
+  char share[40];
+  std::snprintf(share, sizeof share, "%.2g", moved_m / diagonal_m);
+  const FileFrame& frame = surface_.frame;
+  note("rounded coordinates to 32 bits, which moved vertices by up to " +
+       frame.length_text(moved_m) + " (" + share + " of the diagonal), as they lie " +
+       frame.length_text(reach_m) +
+       " from the origin: answers are those of the rounded surface; move the model to the origin, "
+       "as with --centre, where that is too much");
 }
 
 const char* known_by_content(std::string_view bytes) {
@@ -247,7 +255,7 @@ const char* known_by_content(std::string_view bytes) {
       {"NOFF", "a NOFF file"},
       {"STOFF", "a STOFF file"},
       {"solid", "an STL file"},
-      {"PK\x03\x04", "a zip archive (3MF?)"},
+      {"PK\x03\x04", "a zip archive"},
       {"glTF", "a glTF file"},
       {"ISO-10303", "a STEP file"},
       {"%PDF", "a PDF"},
@@ -256,6 +264,8 @@ const char* known_by_content(std::string_view bytes) {
       {"<", "an XML or HTML page"},
       {"version https://git-lfs", "a Git LFS pointer (run `git lfs pull`)"},
       {"{", "a JSON file"},
+      {"\xFF\xFE", "a UTF-16 text (save it as UTF-8)"},
+      {"\xFE\xFF", "a UTF-16 text (save it as UTF-8)"},
       {"Kaydara FBX", "an FBX file"},
   };
   if (begins(bytes, "\xEF\xBB\xBF")) bytes.remove_prefix(3);

@@ -21,7 +21,9 @@ struct Place {
 /// like are counted, so that the message says how often; after fail() nothing is taken.
 class ImportSink {
  public:
-  ImportSink(const std::string& path, double unit_m) : path_(path), unit_m_(unit_m) {}
+  ImportSink(const std::string& path, const FileFrame& frame) : path_(path) {
+    surface_.frame = frame;
+  }
 
   /// Reading cannot go on. Result: false.
   bool fail(const Place& place, const std::string& what);
@@ -34,7 +36,15 @@ class ImportSink {
   /// A remark for the report of a bake; the surface is accepted.
   void note(const std::string& what) { notes_.push_back(what); }
 
-  /// Coordinates in the file's unit: scaled in double, rounded once. A vertex that is refused still
+  /// The unit that a file states; one that the user gave counts instead.
+  void take_unit(double unit_m, const char* name) { surface_.frame.take_unit(unit_m, name); }
+  /// Points without faces are taken too: each becomes a face of one vertex, for wrapping.
+  void allow_points() { allows_points_ = true; }
+  bool allows_points() const { return allows_points_; }
+  /// The folder of the file with its separator, or empty.
+  std::string folder() const { return path_.substr(0, path_.find_last_of("/\\") + 1); }
+
+  /// Coordinates in the file's unit: placed in double, rounded once. A vertex that is refused still
   /// counts, so that indices stay right.
   bool add_vertex(const double* xyz, const Place& place);
   /// A polygon, fanned from its first corner; where a triangle of the fan would be turned over or
@@ -69,14 +79,13 @@ class ImportSink {
   void report_rounding();
 
   std::string path_;
-  double unit_m_;
   int64_t base_ = 0;
   Surface surface_;
   std::vector<Later> later_;
   std::vector<Polygon> polygons_;  // of more than three corners
   std::vector<std::string> notes_;
   double moved_m_ = 0;  // by the rounding to float, at most
-  bool is_stopped_ = false;
+  bool is_stopped_ = false, allows_points_ = false;
   std::string problem_, kind_;  // the first one
   uint64_t times_ = 0, others_ = 0;
   Place first_, last_;
@@ -93,5 +102,7 @@ void read_obj(std::string_view text, ImportSink& sink);
 void read_off(std::string_view text, ImportSink& sink);
 void read_ply(std::string_view bytes, ImportSink& sink);
 void read_stl(std::string_view bytes, ImportSink& sink);
+void read_gltf(std::string_view bytes, ImportSink& sink);
+void read_3mf(std::string_view bytes, ImportSink& sink);
 
 }  // namespace firmtouch::tools

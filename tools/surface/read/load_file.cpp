@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "surface/read/inflate.hpp"
+
 namespace firmtouch::tools {
 namespace {
 
@@ -36,7 +38,30 @@ class LineWatch {
   bool is_text_ = true, is_after_return_ = false;
 };
 
+// What comes out of a gzip file: enough for the largest asset, and no trap for the memory.
+constexpr size_t kMaxUnpackedBytes = size_t{1} << 30;
+
+std::string too_long(uint64_t line, size_t max_line_bytes) {
+  return "line " + std::to_string(line) + " is longer than " + std::to_string(max_line_bytes) +
+         " bytes: this is no text of that format; break its lines, or export it again";
+}
+
 }  // namespace
+
+std::string model_extension(const std::string& path) {
+  std::string rest = path;
+  for (int k = 0; k < 2; ++k) {
+    const size_t dot = rest.find_last_of("./\\");
+    if (dot == rest.npos || rest[dot] != '.') return "";
+    std::string extension = rest.substr(dot + 1);
+    for (char& c : extension) {
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    if (extension != "gz") return extension;
+    rest.resize(dot);
+  }
+  return "";
+}
 
 LoadedFile load_stream(std::FILE* stream, size_t max_line_bytes) {
   LoadedFile file;
@@ -45,10 +70,7 @@ LoadedFile load_stream(std::FILE* stream, size_t max_line_bytes) {
   size_t count = 0;
   while ((count = std::fread(block, 1, sizeof block, stream)) > 0) {
     if (!lines.take(block, count)) {
-      return {{},
-              "line " + std::to_string(lines.line()) + " is longer than " +
-                  std::to_string(max_line_bytes) +
-                  " bytes: this is no text of that format; break its lines, or export it again"};
+      return {{}, too_long(lines.line(), max_line_bytes)};
     }
     if (file.bytes.size() + count > kMaxFileBytes) {
       return {{},
@@ -59,6 +81,16 @@ LoadedFile load_stream(std::FILE* stream, size_t max_line_bytes) {
   }
   if (std::ferror(stream) != 0)
     return {{}, std::string("cannot be read: ") + std::strerror(errno) + "; check the disk"};
+  const std::string_view packed(reinterpret_cast<const char*>(file.bytes.data()),
+                                file.bytes.size());
+  if (!is_gzip(packed)) return file;
+  const Inflated plain = gunzip(packed, kMaxUnpackedBytes);
+  if (!plain.problem.empty())
+    return {{}, "cannot be decompressed: " + plain.problem + "; compress it again"};
+  file.bytes.assign(plain.bytes.begin(), plain.bytes.end());
+  LineWatch unpacked(max_line_bytes);
+  if (!unpacked.take(file.bytes.data(), file.bytes.size()))
+    return {{}, too_long(unpacked.line(), max_line_bytes)};
   return file;
 }
 
@@ -74,6 +106,16 @@ LoadedFile load_file(const std::string& path, size_t max_line_bytes) {
   LoadedFile file = load_stream(stream, max_line_bytes);
   std::fclose(stream);
   return file;
+}
+
+std::string extension_of(const std::string& path) {
+  const size_t dot = path.find_last_of("./\\");
+  if (dot == path.npos || path[dot] != '.') return "";
+  std::string extension = path.substr(dot + 1);
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
 }
 
 }  // namespace firmtouch::tools

@@ -2,9 +2,9 @@
 #include "surface/read/import_sink.hpp"
 #include "surface/read/text_scan.hpp"
 
-// OFF: the word OFF, the counts of vertices, faces and edges, the vertices, the faces. Numbers
-// after the third of a vertex's line and after the corners of a face's line are colours and passed
-// over.
+// OFF, COFF, NOFF, STOFF and their joins: the word, the counts of vertices, faces and edges, the
+// vertices, the faces. Numbers after the third of a vertex's line and after the corners of a face's
+// line are colours and passed over.
 
 namespace firmtouch::tools {
 namespace {
@@ -12,12 +12,14 @@ namespace {
 bool read_header(TextScan& scan, std::string_view text, ImportSink& sink) {
   std::string_view word;
   if (!scan.find_word(word)) return sink.fail("holds no text: export the model again");
-  if (word != "OFF") {
+  std::string_view kind = word;  // colours, normals and textures follow the coordinates
+  for (const std::string_view what : {"ST", "C", "N"})
+    if (kind.substr(0, what.size()) == what) kind.remove_prefix(what.size());
+  if (kind != "OFF") {
     if (word.size() > 3 && word.size() <= 8 && word.substr(word.size() - 3) == "OFF") {
-      return sink.fail({scan.line()},
-                       quoted(word) +
-                           " files are not read, only plain OFF: export without colours, " +
-                           "normals and texture coordinates");
+      return sink.fail(
+          {scan.line()},
+          quoted(word) + " files have other than three coordinates: export as plain OFF");
     }
     const char* other = known_by_content(text);
     if (other != nullptr)

@@ -6,7 +6,8 @@
 #include "surface/read/text_scan.hpp"
 
 // PLY: a header that names elements and their properties, then the values, as text or binary of
-// either byte order. Elements other than `vertex` and `face`, and properties other than x, y, z and
+// either byte order. Faces are polygons or strips of
+// triangles. Other elements, and properties other than x, y, z and
 // the corner list, are passed over.
 
 namespace firmtouch::tools {
@@ -107,12 +108,16 @@ struct Wanted {
   int corners = -1;
 };
 
+bool has_corners(const PlyElement& element) {
+  return element.name == "face" || element.name == "tristrips";
+}
+
 bool is_corner_list(const PlyProperty& property) {
   return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
 bool find_wanted(const PlyElement& element, Wanted& wanted, ImportSink& sink) {
-  const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
+  const bool is_vertex = element.name == "vertex", is_face = has_corners(element);
   for (int i = 0; i < static_cast<int>(element.properties.size()); ++i) {
     const PlyProperty& property = element.properties[static_cast<size_t>(i)];
     int* place = nullptr;
@@ -133,7 +138,8 @@ bool find_wanted(const PlyElement& element, Wanted& wanted, ImportSink& sink) {
   }
   if (!is_face) return true;
   if (wanted.corners < 0)
-    return sink.fail("element face has no list vertex_indices: export it with its faces");
+    return sink.fail("element " + element.name +
+                     " has no list vertex_indices: export it with its faces");
   if (!is_integer(element.properties[static_cast<size_t>(wanted.corners)].type)) {
     return sink.fail("vertex_indices are not whole numbers: export the model with integer indices");
   }
@@ -167,11 +173,28 @@ bool read_list(PlyValues& values, const PlyProperty& property, const PlyElement&
                               sink.fail("a list that cannot be read"));
 }
 
+// Every three corners in a row are a triangle, every second one turned; -1 begins a new strip.
+bool add_strips(const std::vector<int64_t>& corners, const Place& place, ImportSink& sink) {
+  std::vector<int64_t> triangle(3);
+  size_t first = 0;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i] == -1) {
+      first = i + 1;
+    } else if (i >= first + 2) {
+      const bool is_turned = (i - first) % 2 == 1;
+      triangle = {corners[i - 2], corners[i - (is_turned ? 0 : 1)],
+                  corners[i - (is_turned ? 1 : 0)]};
+      if (!sink.add_polygon(triangle, place)) return false;
+    }
+  }
+  return true;
+}
+
 bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wanted,
                   uint64_t index, std::vector<int64_t>& corners, ImportSink& sink) {
   double xyz[3] = {};
   corners.clear();
-  const bool is_face = element.name == "face", is_vertex = element.name == "vertex";
+  const bool is_face = has_corners(element), is_vertex = element.name == "vertex";
   for (int i = 0; i < static_cast<int>(element.properties.size()); ++i) {
     const PlyProperty& property = element.properties[static_cast<size_t>(i)];
     if (property.is_list) {
@@ -199,6 +222,7 @@ bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wa
     return sink.fail(place, "more values on the line than the header states: mend the header");
   }
   if (is_vertex) return sink.add_vertex(xyz, place);
+  if (element.name == "tristrips") return add_strips(corners, place, sink);
   return !is_face || sink.add_polygon(corners, place);
 }
 
@@ -213,8 +237,8 @@ void read_ply(std::string_view file, ImportSink& sink) {
   for (const PlyElement& element : header.elements) {
     Wanted wanted;
     if (!find_wanted(element, wanted, sink)) return;
-    bool& is_seen = element.name == "face" ? has_faces : has_vertices;
-    if (element.name == "face" || element.name == "vertex") {
+    bool& is_seen = has_corners(element) ? has_faces : has_vertices;
+    if (has_corners(element) || element.name == "vertex") {
       if (is_seen) {
         sink.fail("has element " + element.name + " twice: export it as one mesh");
         return;
@@ -226,8 +250,8 @@ void read_ply(std::string_view file, ImportSink& sink) {
       if (!read_element(values, element, wanted, i, corners, sink)) return;
     }
   }
-  if (!has_faces)
-    sink.fail("has no element face: export it as a triangle mesh, not as points or strips");
+  if (!has_faces && !sink.allows_points())
+    sink.fail("has no element face: export it as a triangle mesh; points are taken with --wrap D");
 }
 
 }  // namespace firmtouch::tools

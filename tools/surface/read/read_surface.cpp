@@ -6,35 +6,37 @@
 namespace firmtouch::tools {
 namespace {
 
-std::string extension_of(const std::string& path) {
-  const size_t dot = path.find_last_of("./\\");
-  if (dot == path.npos || path[dot] != '.') return "";
-  std::string extension = path.substr(dot + 1);
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+constexpr struct {
+  std::string_view extension;
+  void (*read)(std::string_view bytes, ImportSink& sink);
+} kReaders[] = {{"obj", read_obj},   {"off", read_off},  {"ply", read_ply}, {"stl", read_stl},
+                {"gltf", read_gltf}, {"glb", read_gltf}, {"3mf", read_3mf}};
+
+void read_by_extension(std::string_view bytes, const std::string& extension, ImportSink& sink) {
+  if (bytes.empty()) {
+    sink.fail("is empty: export the model again");
+    return;
   }
-  return extension;
+  for (const auto& reader : kReaders)
+    if (extension == reader.extension) return reader.read(bytes, sink);
+  if (extension == "step" || extension == "stp") {
+    sink.fail(
+        "is STEP, which holds trimmed surfaces and is not read: export it as a mesh from your CAD "
+        "program, or convert it, as with FreeCAD or `gmsh -3 part.step -o part.stl`");
+    return;
+  }
+  sink.fail("`" + extension +
+            "` is no extension of a mesh: give a file that ends in .obj, .off, .ply, .stl, .gltf, "
+            ".glb or .3mf");
 }
 
 }  // namespace
 
-Imported read_surface_bytes(std::string_view bytes, const std::string& path, double unit_m) {
-  ImportSink sink(path, unit_m);
-  const std::string extension = extension_of(path);
-  if (bytes.empty()) {
-    sink.fail("is empty: export the model again");
-  } else if (extension == "obj") {
-    read_obj(bytes, sink);
-  } else if (extension == "off") {
-    read_off(bytes, sink);
-  } else if (extension == "ply") {
-    read_ply(bytes, sink);
-  } else if (extension == "stl") {
-    read_stl(bytes, sink);
-  } else {
-    sink.fail("`" + extension +
-              "` is no extension of a mesh: give a file that ends in .obj, .off, .ply or .stl");
-  }
+Imported read_surface_bytes(std::string_view bytes, const std::string& path, const FileFrame& frame,
+                            PointsAre points) {
+  ImportSink sink(path, frame);
+  if (points == PointsAre::kTaken) sink.allow_points();
+  read_by_extension(bytes, model_extension(path), sink);
   sink.finish();
   Imported imported;
   imported.problem = sink.problem();
@@ -44,11 +46,11 @@ Imported read_surface_bytes(std::string_view bytes, const std::string& path, dou
   return imported;
 }
 
-Imported read_surface(const std::string& path, double unit_m) {
+Imported read_surface(const std::string& path, const FileFrame& frame, PointsAre points) {
   const LoadedFile file = load_file(path, kMaxLineBytes);
   if (!file.problem.empty()) return {{}, path + ": " + file.problem, {}};
   const char* bytes = reinterpret_cast<const char*>(file.bytes.data());
-  return read_surface_bytes({bytes, file.bytes.size()}, path, unit_m);
+  return read_surface_bytes({bytes, file.bytes.size()}, path, frame, points);
 }
 
 }  // namespace firmtouch::tools

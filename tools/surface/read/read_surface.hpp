@@ -14,13 +14,18 @@ struct Imported {
   std::vector<std::string> notes;  // remarks for the report of a bake
 };
 
-/// Reads .obj, .off, .ply or .stl (the last two as text and binary), distinguished by the extension
-/// in either case. Coordinates are read as double, multiplied by `unit_m` and rounded once to
-/// float. Polygons are fanned from their first corner; `source` counts the triangles in the file's
-/// order.
-Imported read_surface(const std::string& path, double unit_m);
+/// What a file without faces gives.
+enum class PointsAre { kRefused, kTaken };
+
+/// Reads .obj, .off, .ply, .stl, .gltf, .glb or .3mf, distinguished by the extension in either
+/// case; `.gz` behind it is passed over. Coordinates are read as double, placed by `frame` and
+/// rounded once to float. Polygons are fanned from their first corner; `source` counts the
+/// triangles in the file's order.
+Imported read_surface(const std::string& path, const FileFrame& frame,
+                      PointsAre points = PointsAre::kRefused);
 
 /// The same from memory; `path` gives the extension and the name used in messages.
-Imported read_surface_bytes(std::string_view bytes, const std::string& path, double unit_m);
+Imported read_surface_bytes(std::string_view bytes, const std::string& path, const FileFrame& frame,
+                            PointsAre points = PointsAre::kRefused);
 
 }  // namespace firmtouch::tools

@@ -15,6 +15,12 @@ using portable::half_cell_point;
 /// Correctly rounded by the processor.
 static inline float square_root(float value) { return __builtin_sqrtf(value); }
 
+/// By one rounding more than the product: VFMA.
+static inline float product_error(float a, float b, float product) {
+  return __builtin_fabsf(product) >= portable::kLeastProduct ? __builtin_fmaf(a, b, -product)
+                                                             : 0.0f;
+}
+
 static inline uint32_t saturated(float value) {
   uint32_t whole;
   __asm__("vcvt.u32.f32 %0, %1" : "=t"(whole) : "t"(value));

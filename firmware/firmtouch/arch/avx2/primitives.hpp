@@ -3,23 +3,9 @@
 
 #include <immintrin.h>
 
-#include "firmtouch/math/portable.hpp"
+#include "firmtouch/arch/portable/shared.hpp"
 
 namespace firmtouch::math {
-
-using portable::as_multiplier;
-using portable::box_distance2;
-using portable::count_down;
-using portable::half_cell_point;
-using portable::larger;
-using portable::load_floats;
-using portable::load_kept;
-using portable::next_of;
-using portable::only_here;
-using portable::oriented_distance2;
-using portable::push_pair;
-using portable::saturated;
-using portable::smaller;
 
 /// Correctly rounded by the processor.
 static inline float square_root(float value) { return __builtin_sqrtf(value); }

@@ -24,13 +24,13 @@ Vec3 tangent_of(Vec3 v) {
 inline Closest answer_near(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint) {
   const query::Carried carried = query::carry(hint, p_m);
   Best best(model.head());
-  CurveSearch search(model, p_m, budget.steps, best);
+  CurveSearch search(model, p_m, budget.work, best);
   LeafSafeSubtree safe_subtree{
       {hint.safe_subtree & 0xFFFFu, hint.safe_subtree >> 16},
       carried.is_finite ? query::left_of(hint.safe_subtree_m, carried.motion_m) : 0.0f};
   uint32_t piece;
   float s;
-  const bool is_warm = search.resume(hint.place, piece, s);
+  const bool is_warm = search.resume(hint.foot, piece, s);
   if (is_warm) {
     search.run_warm(piece, s, kSafeSubtreeReach * model.head().extent_m, safe_subtree);
   } else {
@@ -44,7 +44,7 @@ inline Closest answer_near(const View& model, Vec3 p_m, query::Budget budget, Cu
       search.is_complete() ? 0.0f : search.pending_m(outside_m(model.head(), p_m));
   const query::Certificate certificate = certify(model.head(), p_m, best, search.is_complete(),
                                                  pending_m, search.steps(), carried, hint);
-  hint.place = is_first ? query::kNowhere : search.place_after(motion_m);
+  hint.foot = is_first ? query::kNowhere : search.foot_after(motion_m);
   hint.safe_subtree = safe_subtree.row.first | safe_subtree.row.last << 16;
   hint.safe_subtree_m = safe_subtree.distance_m;
   return answer_at(model, best, is_first ? 0 : best.node,

@@ -19,10 +19,10 @@ struct LeafSafeSubtree {
 constexpr uint32_t kBeside = 4;  // a safe subtree reaches at most so many leaves to either side
 
 /// Parts that need not be looked at, each with a lower bound of its distance.
-class PassedParts {
+class PassedNodes {
  public:
   using Tree = CurveTree;
-  PassedParts() {}  // by hand: else all is cleared
+  PassedNodes() {}  // by hand: else all is cleared
 
   /// Parts that are farther than the reach are outside every safe subtree.
   void begin(float reach_m) { reach_m_ = around_m_ = reach_m; }
@@ -30,7 +30,7 @@ class PassedParts {
   void pass(uint32_t node, float lower_m) {
     if (lower_m >= reach_m_) return;
     if (count_ < kMax)
-      parts_[count_++] = {node, lower_m};
+      passed_[count_++] = {node, lower_m};
     else if (lower_m < around_m_)
       around_m_ = lower_m;
   }
@@ -48,8 +48,8 @@ class PassedParts {
     if (row.first < low) low = row.first;
     if (row.last > high) high = row.last;
     for (uint32_t i = 0; i < count_; ++i) {
-      const Part part = parts_[i];
-      const CurveLevels::Leaves under = tree.below(part.node);
+      const Passed passed = passed_[i];
+      const CurveLevels::Leaves under = tree.below(passed.node);
       const uint32_t last = under.end - 1;
       if (under.first >= low && last <= high) {
         if (under.first < row.first) row.first = under.first;
@@ -58,11 +58,11 @@ class PassedParts {
       }
       const bool is_outside = under.first > high || last < low;
       if (is_outside || left < 2) {
-        pass(part.lower_m);
+        pass(passed.lower_m);
       } else {
         left -= 2;
-        pass_child(tree, 2 * part.node, part.lower_m);
-        pass_child(tree, 2 * part.node + 1, part.lower_m);
+        pass_child(tree, 2 * passed.node, passed.lower_m);
+        pass_child(tree, 2 * passed.node + 1, passed.lower_m);
       }
     }
     return {row, around_m_ * (1.0f - 0x1p-22f)};
@@ -70,7 +70,7 @@ class PassedParts {
 
  private:
   static constexpr uint32_t kMax = 8;
-  struct Part {
+  struct Passed {
     uint32_t node;
     float lower_m;
   };
@@ -83,7 +83,7 @@ class PassedParts {
 
   float reach_m_ = 0.0f, around_m_ = 0.0f;
   uint32_t count_ = 0;
-  Part parts_[kMax];
+  Passed passed_[kMax];
 };
 
 }  // namespace firmtouch::spline

@@ -15,14 +15,14 @@ class CurveSearch : public Account {
       : Account(budget), tree_(model, p_m), loss_m_(model.head().loss_m), best_(best) {}
 
   /// The piece of a hint, and where on it: false for a hint that is none.
-  bool resume(uint32_t place, uint32_t& piece, float& s) const {
-    piece = place >> 16;
-    s = static_cast<float>(place & 0xFFFFu) * kPlace - 1.0f;
+  bool resume(uint32_t foot, uint32_t& piece, float& s) const {
+    piece = foot >> 16;
+    s = static_cast<float>(foot & 0xFFFFu) * kFootStep - 1.0f;
     return piece < tree_.piece_count();
   }
   /// Where the nearest point will be after as much motion again, no farther on than a leaf and its
   /// piece.
-  uint32_t place_after(math::Vec3 motion_m) const {
+  uint32_t foot_after(math::Vec3 motion_m) const {
     const uint32_t piece = best_.node;
     float s = best_.s;
     if (best_bend_ > 0.0f) {
@@ -67,7 +67,7 @@ class CurveSearch : public Account {
 
  private:
   static constexpr uint32_t kMaxTurns = 5;
-  static constexpr float kPlace = 2.0f / 65535.0f;  // 65,535 of them are 2 in float32 as well
+  static constexpr float kFootStep = 2.0f / 65535.0f;  // 65,535 of them are 2 in float32 as well
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and two.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 3;
   static constexpr uint32_t kStep = 2;  // levels
@@ -345,7 +345,7 @@ class CurveSearch : public Account {
   float best_bend_ = 0.0f;
   LeafRow row_{1, 0}, closed_{1, 0};
   float closed2_m2_ = 0.0f;  // of those leaves
-  PassedParts passed_;
+  PassedNodes passed_;
   uint32_t count_ = 0, base_ = 0;  // of the stack, and where a scan's begin
   Entry stack_[kCapacity];
 };

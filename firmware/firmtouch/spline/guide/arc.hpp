@@ -20,7 +20,7 @@ static inline float speed_of(const View& model, uint32_t piece, float s) {
 }
 
 /// Length of a part by three points (Gauss).
-static inline float part_length_m(const View& model, uint32_t piece, float low, float high) {
+static inline float interval_length_m(const View& model, uint32_t piece, float low, float high) {
   const float middle = 0.5f * (low + high), half = 0.5f * (high - low);
   const float aside = half * 0.77459667f;
   return half * (0.5555556f * (speed_of(model, piece, middle - aside) +
@@ -40,12 +40,12 @@ struct ArcCubic {
 };
 
 /// Two points are evaluated.
-static inline ArcCubic arc_cubic_of(const GuideView& guide, uint32_t piece, uint32_t part) {
+static inline ArcCubic arc_cubic_of(const GuideView& guide, uint32_t piece, uint32_t interval) {
   ArcCubic arc;
-  arc.first_m = guide.arcs()[piece * guide.parts() + part];
-  arc.rise_m = guide.arcs()[piece * guide.parts() + part + 1] - arc.first_m;
-  const float step = 2.0f / static_cast<float>(guide.parts());
-  const float low = step * static_cast<float>(part) - 1.0f;
+  arc.first_m = guide.arcs()[piece * guide.intervals() + interval];
+  arc.rise_m = guide.arcs()[piece * guide.intervals() + interval + 1] - arc.first_m;
+  const float step = 2.0f / static_cast<float>(guide.intervals());
+  const float low = step * static_cast<float>(interval) - 1.0f;
   arc.from_m = speed_of(guide.model(), piece, low) * step;
   float to_m = speed_of(guide.model(), piece, low + step) * step;
   if (!(arc.from_m < 3.0f * arc.rise_m)) arc.from_m = 3.0f * arc.rise_m;
@@ -55,19 +55,19 @@ static inline ArcCubic arc_cubic_of(const GuideView& guide, uint32_t piece, uint
 }
 
 /// The part that holds a place of a piece, and where in it.
-static inline uint32_t part_at(const GuideView& guide, float s, float& t) {
-  const float at = 0.5f * (s + 1.0f) * static_cast<float>(guide.parts());
-  uint32_t part = at > 0.0f ? static_cast<uint32_t>(at) : 0;
-  if (part >= guide.parts()) part = guide.parts() - 1;
-  t = at - static_cast<float>(part);
+static inline uint32_t interval_at(const GuideView& guide, float s, float& t) {
+  const float at = 0.5f * (s + 1.0f) * static_cast<float>(guide.intervals());
+  uint32_t interval = at > 0.0f ? static_cast<uint32_t>(at) : 0;
+  if (interval >= guide.intervals()) interval = guide.intervals() - 1;
+  t = at - static_cast<float>(interval);
   t = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
-  return part;
+  return interval;
 }
 
 static inline float arc_m_at(const GuideView& guide, uint32_t piece, float s) {
   float t;
-  const uint32_t part = part_at(guide, s, t);
-  return arc_cubic_of(guide, piece, part).at_m(t);
+  const uint32_t interval = interval_at(guide, s, t);
+  return arc_cubic_of(guide, piece, interval).at_m(t);
 }
 
 /// The same where places follow each other: the last one is kept.
@@ -75,24 +75,26 @@ class Arcs {
  public:
   explicit Arcs(const GuideView& guide) : guide_(guide) {}
 
-  void take(uint32_t piece, uint32_t part) {
-    if (is_of(piece, part)) return;
-    cubic_ = arc_cubic_of(guide_, piece, part);
+  void take(uint32_t piece, uint32_t interval) {
+    if (is_of(piece, interval)) return;
+    cubic_ = arc_cubic_of(guide_, piece, interval);
     piece_ = piece;
-    part_ = part;
+    interval_ = interval;
   }
   float at_m(uint32_t piece, float s) {
     float t;
-    take(piece, part_at(guide_, s, t));
+    take(piece, interval_at(guide_, s, t));
     return cubic_.at_m(t);
   }
-  bool is_of(uint32_t piece, uint32_t part) const { return piece_ == piece && part_ == part; }
-  uint32_t part() const { return part_; }
+  bool is_of(uint32_t piece, uint32_t interval) const {
+    return piece_ == piece && interval_ == interval;
+  }
+  uint32_t interval() const { return interval_; }
   const ArcCubic& cubic() const { return cubic_; }
 
  private:
   const GuideView& guide_;
-  uint32_t piece_ = UINT32_MAX, part_ = 0;
+  uint32_t piece_ = UINT32_MAX, interval_ = 0;
   ArcCubic cubic_{};
 };
 

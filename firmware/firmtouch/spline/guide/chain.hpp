@@ -50,8 +50,8 @@ static inline Round round_of(const GuideView& guide, uint32_t piece) {
   Round round;
   round.first_piece = guide.chains()[chain].first_piece;
   round.end_piece = end_of(guide, chain);
-  round.first_m = guide.arcs()[round.first_piece * guide.parts()];
-  round.last_m = guide.arcs()[round.end_piece * guide.parts()];
+  round.first_m = guide.arcs()[round.first_piece * guide.intervals()];
+  round.last_m = guide.arcs()[round.end_piece * guide.intervals()];
   round.is_closed = guide.chains()[chain].is_closed != 0;
   return round;
 }

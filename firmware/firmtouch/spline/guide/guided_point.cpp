@@ -132,8 +132,8 @@ Closest as_closest(const View& model, const Foot& foot, const Closest& nearest) 
 void put_ends(const GuideView& guide, Vec3 p_m, float arc_m, Followed& followed) {
   const uint32_t chain = chain_of(guide, followed.closest.bezier);
   const uint32_t first = guide.chains()[chain].first_piece, last = end_of(guide, chain) - 1;
-  followed.behind_m = arc_m - guide.arcs()[first * guide.parts()];
-  followed.ahead_m = guide.arcs()[(last + 1) * guide.parts()] - arc_m;
+  followed.behind_m = arc_m - guide.arcs()[first * guide.intervals()];
+  followed.ahead_m = guide.arcs()[(last + 1) * guide.intervals()] - arc_m;
   followed.is_chain_closed = guide.chains()[chain].is_closed != 0;
   if (followed.is_chain_closed) return;
   const float beyond_m = dot(p_m - followed.closest.point_m, followed.closest.direction);
@@ -151,9 +151,9 @@ bool comes_to(const GuideView& guide, const Foot& nearest, float lower_m, float 
   const View& model = guide.model();
   if (following.piece != nearest.piece) return false;
   const float was_m = arcs.at_m(following.piece, following.s);
-  const uint32_t part = arcs.part();
+  const uint32_t interval = arcs.interval();
   const float way_m = arcs.at_m(nearest.piece, nearest.s) - was_m;
-  if (arcs.part() != part) return false;
+  if (arcs.interval() != interval) return false;
   const float beside_m = (math::square_root(nearest.distance2_m2) - lower_m) *
                              (guide.length_m() / weight_m) * (1.0f + 0x1p-18f) +
                          guide.length_m() * 0x1p-22f;
@@ -182,8 +182,8 @@ bool comes_to(const GuideView& guide, const Foot& nearest, float lower_m, float 
 }
 
 // The part of the least cost, and on it where the distance falls no further.
-void keep_to_part(const GuideView& guide, Vec3 p_m, const Hold& hold, uint32_t steps,
-                  const Following& following, Followed& followed) {
+void keep_near(const GuideView& guide, Vec3 p_m, const Hold& hold, uint32_t steps,
+               const Following& following, Followed& followed) {
   const View& model = guide.model();
   const Closest nearest = followed.closest;
   const uint32_t third = steps / 3, most = third < kMaxSlides ? third : kMaxSlides;
@@ -211,10 +211,10 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
   if (!(following.piece < model.pieces().size())) following.is_following = false;
   following.s = clamped(following.s);
   const bool was_following = following.is_following;
-  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.steps >= kMinSteps;
+  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.work >= kMinSteps;
   Followed followed;
   followed.is_new = !was_following;
-  const query::Budget first{is_penalty ? budget.steps - budget.steps / 2 : budget.steps,
+  const query::Budget first{is_penalty ? budget.work - budget.work / 2 : budget.work,
                             budget.band_m};
   followed.closest = closest_on_curve(model, p_m, first, following.hint);
   Arcs arcs(guide);
@@ -226,8 +226,7 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
     const bool is_kept =
         is_penalty && !(certificate.exact &&
                         comes_to(guide, foot, certificate.lower_m, hold.weight_m, following, arcs));
-    if (is_kept)
-      keep_to_part(guide, p_m, hold, budget.steps - certificate.steps, following, followed);
+    if (is_kept) keep_near(guide, p_m, hold, budget.work - certificate.steps, following, followed);
   }
   const Closest& closest = followed.closest;
   followed.is_held = closest.distance_m <= hold.release_m;
@@ -268,9 +267,10 @@ Vec3 point_at_arc(const GuideView& guide, float arc) {
   }
   const float rise_m = guide.arcs()[first + 1] - guide.arcs()[first];
   const float t = rise_m > 0.0f ? (wanted_m - guide.arcs()[first]) / rise_m : 0.0f;
-  const uint32_t parts = guide.parts();
-  const float s = 2.0f * (static_cast<float>(first % parts) + t) / static_cast<float>(parts) - 1.0f;
-  return position_of(guide.model(), first / parts, clamped(s));
+  const uint32_t intervals = guide.intervals();
+  const float s =
+      2.0f * (static_cast<float>(first % intervals) + t) / static_cast<float>(intervals) - 1.0f;
+  return position_of(guide.model(), first / intervals, clamped(s));
 }
 
 }  // namespace firmtouch::spline

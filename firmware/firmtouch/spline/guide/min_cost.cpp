@@ -55,17 +55,17 @@ LeastCost min_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& penalised
     found.is_found = false;
   }
 
-  GuideParts parts(guide, p_m, penalty, kink, arcs, nearest.certificate.lower_m, best);
-  GuideSearch search(parts, budget.steps > 1 ? budget.steps - 1 : 1, best);
-  GuideParts::Range range;
-  const uint32_t node = parts.node_at(penalised.piece, penalised.s, range);
+  GuideNodes nodes(guide, p_m, penalty, kink, arcs, nearest.certificate.lower_m, best);
+  GuideSearch search(nodes, budget.work > 1 ? budget.work - 1 : 1, best);
+  GuideNodes::Range range;
+  const uint32_t node = nodes.node_at(penalised.piece, penalised.s, range);
   // What is farther along the curve costs more, for nothing is nearer than the nearest.
   const float reach_m = (best.distance_m - nearest.certificate.lower_m) / penalty.per_m;
   search.run(node, range,
-             parts.node_around(node, reach_m * (1.0f + 0x1p-18f) + guide.length_m() * kArcLoss));
+             nodes.node_around(node, reach_m * (1.0f + 0x1p-18f) + guide.length_m() * kArcLoss));
 
   if (best.node != kNoNode) {
-    found.piece = parts.piece_of(best.node);
+    found.piece = nodes.piece_of(best.node);
     found.s = best.s;
     found.is_found = true;
   }

@@ -4,8 +4,8 @@ namespace firmtouch::spline {
 namespace {
 
 // Where a place of a piece lies among its parts, 0 to their number.
-float among_parts(const GuideView& guide, float s) {
-  return 0.5f * (s + 1.0f) * static_cast<float>(guide.parts());
+float among_intervals(const GuideView& guide, float s) {
+  return 0.5f * (s + 1.0f) * static_cast<float>(guide.intervals());
 }
 
 constexpr uint32_t kRoot = 1;  // of the tree over leaves
@@ -16,7 +16,7 @@ float least_of(float a, float b) { return a < b ? a : b; }
 
 // Leaves follow each other along the curve: the first and the last say how far, by the ends of
 // stored lengths about them, or within them.
-GuideParts::Stretch GuideParts::stretch_of(const CurveLevels::Leaves& under, bool is_within) const {
+GuideNodes::Stretch GuideNodes::stretch_of(const CurveLevels::Leaves& under, bool is_within) const {
   const View& model = guide_.model();
   uint32_t first = under.first, last = under.end - 1;
   if (curve_.piece_of(first) == kNoLeaf) ++first;
@@ -25,15 +25,15 @@ GuideParts::Stretch GuideParts::stretch_of(const CurveLevels::Leaves& under, boo
   const uint32_t from_index = first - curve_.first_of(from),
                  to_end = last - curve_.first_of(to) + 1;
   const uint32_t from_level = model.pieces()[from].level_u, to_level = model.pieces()[to].level_u;
-  const uint32_t parts = guide_.parts();
+  const uint32_t intervals = guide_.intervals();
   const uint32_t low_more = is_within ? (1u << from_level) - 1 : 0;
   const uint32_t high_more = is_within ? 0 : (1u << to_level) - 1;
-  const uint32_t low = (from_index * parts + low_more) >> from_level;
-  const uint32_t high = (to_end * parts + high_more) >> to_level;
-  return {guide_.arcs()[from * parts + low], guide_.arcs()[to * parts + high]};
+  const uint32_t low = (from_index * intervals + low_more) >> from_level;
+  const uint32_t high = (to_end * intervals + high_more) >> to_level;
+  return {guide_.arcs()[from * intervals + low], guide_.arcs()[to * intervals + high]};
 }
 
-uint32_t GuideParts::node_around(uint32_t node, float reach_m) const {
+uint32_t GuideNodes::node_around(uint32_t node, float reach_m) const {
   const float low_m = penalty_.at_m - reach_m, high_m = penalty_.at_m + reach_m;
   const Round& round = penalty_.round;
   if (round.is_closed && !(low_m >= round.first_m && high_m <= round.last_m)) return kRoot;
@@ -47,30 +47,31 @@ uint32_t GuideParts::node_around(uint32_t node, float reach_m) const {
   return node;
 }
 
-float GuideParts::min_within(uint32_t piece, float low, float high) const {
-  const auto first = static_cast<uint32_t>(among_parts(guide_, low));
-  const float end = among_parts(guide_, high);
+float GuideNodes::min_within(uint32_t piece, float low, float high) const {
+  const auto first = static_cast<uint32_t>(among_intervals(guide_, low));
+  const float end = among_intervals(guide_, high);
   auto last = static_cast<uint32_t>(end);
   if (static_cast<float>(last) < end) ++last;
-  const uint32_t at = piece * guide_.parts();
+  const uint32_t at = piece * guide_.intervals();
   return penalty_.least(guide_.arcs()[at + first], guide_.arcs()[at + last]);
 }
 
 // Where a range goes over the place without a penalty, or from one part to another.
-bool GuideParts::find_cut(uint32_t piece, const Range& range, float& at) const {
+bool GuideNodes::find_cut(uint32_t piece, const Range& range, float& at) const {
   at = penalty_.s;
   if (piece == penalty_.piece && range.low < at && at < range.high) return true;
-  const float low = among_parts(guide_, range.low), high = among_parts(guide_, range.high);
+  const float low = among_intervals(guide_, range.low), high = among_intervals(guide_, range.high);
   const auto first = static_cast<uint32_t>(low);
   auto last = static_cast<uint32_t>(high);
   if (static_cast<float>(last) < high) ++last;
   if (last - first < 2) return false;
-  at = 2.0f * static_cast<float>((first + last) / 2) / static_cast<float>(guide_.parts()) - 1.0f;
+  at =
+      2.0f * static_cast<float>((first + last) / 2) / static_cast<float>(guide_.intervals()) - 1.0f;
   return range.low < at && at < range.high;
 }
 
-GuideParts::Slopes GuideParts::slopes_at(float t) const {
-  const float per = 0.5f * static_cast<float>(guide_.parts());
+GuideNodes::Slopes GuideNodes::slopes_at(float t) const {
+  const float per = 0.5f * static_cast<float>(guide_.intervals());
   Slopes arc;
   arc.first = (arcs_.cubic().from_m +
                t * (2.0f * arcs_.cubic().square_m() + 3.0f * t * arcs_.cubic().bow_m)) *
@@ -81,7 +82,7 @@ GuideParts::Slopes GuideParts::slopes_at(float t) const {
 }
 
 // The ways that may be the shorter one somewhere in a range; the first is that of its middle.
-uint32_t GuideParts::ways_of(uint32_t piece, const Range& range, Way (&ways)[2]) const {
+uint32_t GuideNodes::ways_of(uint32_t piece, const Range& range, Way (&ways)[2]) const {
   const float middle = 0.5f * (range.low + range.high);
   const bool is_after = piece == penalty_.piece ? middle > penalty_.s : piece > penalty_.piece;
   const Way direct{0.0f, is_after ? penalty_.per_m : -penalty_.per_m};
@@ -90,8 +91,8 @@ uint32_t GuideParts::ways_of(uint32_t piece, const Range& range, Way (&ways)[2])
   const float round_m = penalty_.round.length_m();
   const Way other{penalty_.per_m * round_m, -direct.per_m};
   float low_t, high_t;
-  (void)part_at(guide_, range.low, low_t);
-  if (part_at(guide_, range.high, high_t) != arcs_.part()) high_t = 1.0f;
+  (void)interval_at(guide_, range.low, low_t);
+  if (interval_at(guide_, range.high, high_t) != arcs_.interval()) high_t = 1.0f;
   const float low_m = arcs_.cubic().at_m(low_t) - penalty_.at_m,
               high_m = arcs_.cubic().at_m(high_t) - penalty_.at_m;
   const float near_m = is_after ? low_m : -high_m, far_m = is_after ? high_m : -low_m;
@@ -108,7 +109,7 @@ uint32_t GuideParts::ways_of(uint32_t piece, const Range& range, Way (&ways)[2])
 
 // `outward`: 1 with rising s, -1 with falling. The third power of the way is at most its length
 // times the second.
-GuideParts::Room GuideParts::room_of(const Slopes& arc, const Way& way, float limit_m,
+GuideNodes::Room GuideNodes::room_of(const Slopes& arc, const Way& way, float limit_m,
                                      float outward, float length) {
   Room room;
   room.first_m = limit_m;
@@ -134,7 +135,7 @@ GuideParts::Room GuideParts::room_of(const Slopes& arc, const Way& way, float li
 // over a length l, the third but last term where it takes away. Beyond where the slack ends nothing
 // is to be shown. The limit is 16 units of the cost below the best, which is more than what is
 // rounded of D0^2 - m0^2; what is rounded of the other terms is taken off them.
-bool GuideParts::is_side_done(const Expansion& f, float distance_m, float side, const Room& room,
+bool GuideNodes::is_side_done(const Expansion& f, float distance_m, float side, const Room& room,
                               float length) {
   const float m1 = room.slope, m2 = room.half_bend;
   const float most =
@@ -158,20 +159,20 @@ bool GuideParts::is_side_done(const Expansion& f, float distance_m, float side, 
 }
 
 // The lengths of the part that a range lies in: false where there are no steps left for them.
-bool GuideParts::take_part(uint32_t on, const Range& range, uint32_t& left, Best& best) {
+bool GuideNodes::take_interval(uint32_t on, const Range& range, uint32_t& left, Best& best) {
   float t;
-  const uint32_t part = part_at(guide_, 0.5f * (range.low + range.high), t);
-  if (arcs_.is_of(on, part)) return true;
+  const uint32_t interval = interval_at(guide_, 0.5f * (range.low + range.high), t);
+  if (arcs_.is_of(on, interval)) return true;
   const bool is_enough = left >= 2;
   left = is_enough ? left - 2 : 0;
   if (!is_enough) return false;
   best.evaluations += 2;
-  arcs_.take(on, part);
+  arcs_.take(on, interval);
   return true;
 }
 
 // False: there is no step left for it.
-bool GuideParts::take_point(uint32_t on, uint32_t node, float s, uint32_t& left, Best& best,
+bool GuideNodes::take_point(uint32_t on, uint32_t node, float s, uint32_t& left, Best& best,
                             Seen& seen) const {
   const Piece& piece = guide_.model().pieces()[on];
   if (on == penalty_.piece && !(s < penalty_.s) && !(s > penalty_.s)) {
@@ -188,7 +189,7 @@ bool GuideParts::take_point(uint32_t on, uint32_t node, float s, uint32_t& left,
   seen.slope = dot(seen.r_m, seen.at.d1);
   seen.speed2 = dot(seen.at.d1, seen.at.d1);
   seen.bend = seen.speed2 + dot(seen.r_m, seen.at.d2);
-  float t = among_parts(guide_, s) - static_cast<float>(arcs_.part());
+  float t = among_intervals(guide_, s) - static_cast<float>(arcs_.interval());
   t = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
   seen.arc_m = arcs_.cubic().at_m(t);
   seen.arc = slopes_at(t);
@@ -203,7 +204,7 @@ bool GuideParts::take_point(uint32_t on, uint32_t node, float s, uint32_t& left,
 
 // Newton's step on the cost times the distance, the shorter way round. `gain` is what it promises
 // of that.
-float GuideParts::step_from(const Seen& seen, const Way& way, float& gain_m2) {
+float GuideNodes::step_from(const Seen& seen, const Way& way, float& gain_m2) {
   const float pull = way.per_m * seen.arc.first;
   const float down = seen.slope + seen.distance_m * pull;
   const float rise = seen.bend - pull * pull + seen.distance_m * (way.per_m * seen.arc.second);
@@ -213,7 +214,7 @@ float GuideParts::step_from(const Seen& seen, const Way& way, float& gain_m2) {
 
 // Takes off a range what is proven on both sides of a point: nothing there costs less than the
 // limit.
-bool GuideParts::prove(uint32_t on, const Seen& seen, float s, const Way* ways, uint32_t way_count,
+bool GuideNodes::prove(uint32_t on, const Seen& seen, float s, const Way* ways, uint32_t way_count,
                        Range& range, Sides& sides) const {
   const Expansion f = expand(seen.at, seen.r_m, seen.distance2_m2, seen.slope, seen.speed2,
                              seen.bend, curve_.bend_of(on), guide_.model().head().loss_m);
@@ -234,14 +235,14 @@ bool GuideParts::prove(uint32_t on, const Seen& seen, float s, const Way* ways, 
   return sides.below && sides.above;
 }
 
-Outcome GuideParts::split(uint32_t on, const Range& range, float at, float lower_m,
+Outcome GuideNodes::split(uint32_t on, const Range& range, float at, float lower_m,
                           Half<Range> (&halves)[2]) const {
   halves[0] = half(on, range.low, at, lower_m);
   halves[1] = half(on, at, range.high, lower_m);
   return Outcome::kSplit;
 }
 
-Outcome GuideParts::solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
+Outcome GuideNodes::solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
                           Half<Range> (&halves)[2]) {
   const uint32_t on = piece_of(node);
   float cut;
@@ -252,7 +253,7 @@ Outcome GuideParts::solve(uint32_t node, Range& range, float lower_m, uint32_t& 
     halves[0].range.start = halves[1].range.start = cut;
     return Outcome::kSplit;
   }
-  if (!take_part(on, range, left, best)) return Outcome::kStopped;
+  if (!take_interval(on, range, left, best)) return Outcome::kStopped;
   Way ways[2];
   const uint32_t way_count = ways_of(on, range, ways);
   float s = range.start;

@@ -42,13 +42,13 @@ static inline bool take_cost(Best& best, float cost_m) {
 }
 
 /// Best holds costs in the place of distances.
-class GuideParts {
+class GuideNodes {
  public:
   using Range = CurveRange;
 
   /// Nothing of the curve is nearer than nearest_m. `kink` is the point where the penalty is
   /// nothing.
-  GuideParts(const GuideView& guide, math::Vec3 p_m, const Penalty& penalty, const CurvePoint& kink,
+  GuideNodes(const GuideView& guide, math::Vec3 p_m, const Penalty& penalty, const CurvePoint& kink,
              Arcs& arcs, float nearest_m, const Best& best)
       : guide_(guide),
         curve_(guide.model(), p_m),
@@ -149,7 +149,7 @@ class GuideParts {
     return {{low, high, 0.5f * (low + high)}, own_m > lower_m ? own_m : lower_m};
   }
   Slopes slopes_at(float t) const;
-  bool take_part(uint32_t on, const Range& range, uint32_t& left, Best& best);
+  bool take_interval(uint32_t on, const Range& range, uint32_t& left, Best& best);
   bool take_point(uint32_t on, uint32_t node, float s, uint32_t& left, Best& best,
                   Seen& seen) const;
   static float step_from(const Seen& seen, const Way& way, float& gain_m2);

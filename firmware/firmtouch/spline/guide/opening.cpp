@@ -21,18 +21,18 @@ using Stage = query::StageOf<GuideProof>;
 
 // By three points of a piece, or by many for the first part of one.
 const query::CheckStage GuideProof::kStages[1] = {
-    {100, Stage::count<&GuideProof::part_count>, Stage::each<&GuideProof::check_part>}};
+    {100, Stage::count<&GuideProof::interval_count>, Stage::each<&GuideProof::check_interval>}};
 
 Verdict GuideProof::take(const View& model, const GuideSections& sections) {
   view.arcs_ = core::as_whole_array<float>(sections.arcs);
   view.chains_ = core::as_whole_array<Chain>(sections.chains);
   const uint32_t pieces = model.pieces().size();
-  uint32_t parts = 1;
-  while (parts < kMaxArcParts && parts * pieces + 1 < view.arcs_.size()) parts *= 2;
-  if (model.is_surface() || parts * pieces + 1 != view.arcs_.size())
+  uint32_t intervals = 1;
+  while (intervals < kMaxArcIntervals && intervals * pieces + 1 < view.arcs_.size()) intervals *= 2;
+  if (model.is_surface() || intervals * pieces + 1 != view.arcs_.size())
     return reject(kRuleGuideArcsSize);
   view.model_ = model;
-  view.parts_ = parts;
+  view.intervals_ = intervals;
   return kPassed;
 }
 
@@ -47,19 +47,19 @@ Verdict GuideProof::check_head() const {
   return kPassed;
 }
 
-Verdict GuideProof::check_part(uint32_t i) {
+Verdict GuideProof::check_interval(uint32_t i) {
   const float from_m = view.arcs_[i], to_m = view.arcs_[i + 1];
   const bool is_first_sound = i > 0 || (from_m >= 0.0f && from_m <= 0.0f);
   if (!is_first_sound || !(to_m >= from_m) || !(to_m <= kMaxLength_m))
     return reject(kRuleGuideArcs, i);
   if (i + 2 == view.arcs_.size() && !(to_m > 0.0f)) return reject(kRuleGuideArcs, i);
-  const float step = 2.0f / static_cast<float>(view.parts_);
-  const float low = step * static_cast<float>(i % view.parts_) - 1.0f;
-  const float by_points_m = part_length_m(view.model_, i / view.parts_, low, low + step);
+  const float step = 2.0f / static_cast<float>(view.intervals_);
+  const float low = step * static_cast<float>(i % view.intervals_) - 1.0f;
+  const float by_points_m = interval_length_m(view.model_, i / view.intervals_, low, low + step);
   const float off_m = to_m - from_m - by_points_m;
   const float max_m = kShare * by_points_m + kBeside * (to_m + view.model_.head().extent_m);
   if (!(off_m <= max_m && -off_m <= max_m)) return reject(kRuleGuideArcLength, i);
-  return i % view.parts_ == 0 ? check_joint(i / view.parts_) : kPassed;
+  return i % view.intervals_ == 0 ? check_joint(i / view.intervals_) : kPassed;
 }
 
 // The end before a piece, of its own chain.

@@ -7,18 +7,18 @@ namespace firmtouch::spline {
 /// Branch and bound over the parts of a guide, by distance and penalty together.
 class GuideSearch : public Account {
  public:
-  using Range = GuideParts::Range;
+  using Range = GuideNodes::Range;
 
-  GuideSearch(GuideParts& parts, uint32_t budget, Best& best)
-      : Account(budget), parts_(parts), best_(best) {}
+  GuideSearch(GuideNodes& nodes, uint32_t budget, Best& best)
+      : Account(budget), nodes_(nodes), best_(best) {}
 
   /// From a leaf that may be near up the tree, as far as a node `end` above it.
   void run(uint32_t leaf, const Range& range, uint32_t end) {
     Entry first{leaf, 0.0f, range};
     if (!solve(first) || !drain()) return stop();
-    for (uint32_t node = leaf; node != end && best_.limit_m > 0.0f; node = parts_.parent_of(node)) {
+    for (uint32_t node = leaf; node != end && best_.limit_m > 0.0f; node = nodes_.parent_of(node)) {
       if (left_ == 0) return stop();
-      visit(parts_.sibling_of(node), 0.0f);
+      visit(nodes_.sibling_of(node), 0.0f);
       if (!drain()) return stop();
     }
     is_complete_ = true;
@@ -47,7 +47,7 @@ class GuideSearch : public Account {
     --left_;
     Entry& entry = stack_[count_ < kCapacity ? count_ : kCapacity];
     entry.node = node;
-    const float own_m = parts_.bound_m(node, entry.range);
+    const float own_m = nodes_.bound_m(node, entry.range);
     entry.lower_m = own_m < above_m ? above_m : own_m;
     if (!(entry.lower_m < best_.limit_m)) return;
     if (count_ < kCapacity)
@@ -61,7 +61,7 @@ class GuideSearch : public Account {
     while (count_ > 0) {
       Entry& entry = stack_[--count_];
       if (entry.lower_m >= best_.limit_m) continue;
-      if (parts_.is_leaf(entry.node)) {
+      if (nodes_.is_leaf(entry.node)) {
         if (!solve(entry)) return false;
       } else if (left_ < 2) {
         ++count_;
@@ -79,7 +79,7 @@ class GuideSearch : public Account {
     const float lower_m = entry.lower_m;
     const uint32_t before = count_;
     uint32_t low, high;
-    parts_.children(entry.node, low, high);
+    nodes_.children(entry.node, low, high);
     visit(low, lower_m);
     visit(high, lower_m);
     if (count_ == before + 2 && stack_[before].lower_m < stack_[before + 1].lower_m) {
@@ -93,7 +93,7 @@ class GuideSearch : public Account {
     Half<Range> halves[2];
     const uint32_t node = entry.node;
     const float lower_m = entry.lower_m;
-    const Outcome outcome = parts_.solve(node, entry.range, lower_m, left_, best_, halves);
+    const Outcome outcome = nodes_.solve(node, entry.range, lower_m, left_, best_, halves);
     if (outcome == Outcome::kClosed) return true;
     if (outcome == Outcome::kStopped) put(Entry(entry));
     if (outcome == Outcome::kLost) lose(lower_m);
@@ -105,7 +105,7 @@ class GuideSearch : public Account {
     return outcome != Outcome::kStopped;
   }
 
-  GuideParts& parts_;
+  GuideNodes& nodes_;
   Best& best_;
   uint32_t count_ = 0;
   Entry stack_[kCapacity + 1];

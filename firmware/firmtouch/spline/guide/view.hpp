@@ -15,7 +15,7 @@ struct Chain {
 };
 static_assert(sizeof(Chain) == 4);
 
-constexpr uint32_t kMaxArcParts = 64;  // of a piece
+constexpr uint32_t kMaxArcIntervals = 64;  // of a piece
 
 struct GuideSections {
   core::Bytes arcs, chains;
@@ -35,7 +35,7 @@ class GuideView {
   bool is_open() const { return model_.is_open(); }
   const View& model() const { return model_; }
   float length_m() const { return arcs_[arcs_.size() - 1]; }  // of all chains together
-  uint32_t parts() const { return parts_; }                   // of a piece, of equal steps of its s
+  uint32_t intervals() const { return intervals_; }           // of a piece, of equal steps of its s
   /// From the first piece's beginning to each part's.
   core::Span<const float> arcs() const { return arcs_; }
   core::Span<const Chain> chains() const { return chains_; }
@@ -45,7 +45,7 @@ class GuideView {
   View model_;
   core::Span<const float> arcs_;
   core::Span<const Chain> chains_;
-  uint32_t parts_ = 0;
+  uint32_t intervals_ = 0;
 };
 
 /// What GuideOpening proves of the lengths along curves: rules R641 to R645 of tools/FORMAT.md.
@@ -58,8 +58,8 @@ class GuideProof {
   GuideView view;
 
  private:
-  uint32_t part_count() const { return view.arcs_.size() - 1; }
-  core::Verdict check_part(uint32_t i);
+  uint32_t interval_count() const { return view.arcs_.size() - 1; }
+  core::Verdict check_interval(uint32_t i);
   core::Verdict check_joint(uint32_t piece);
 
   uint32_t chain_ = 0;  // of the piece that is next

@@ -39,14 +39,14 @@ struct Vectors {
 };
 
 // Of the numerator and of the weight: the sums of what their powers may amount to.
-void bound_sums(const LeafShape& shape, const Part& part, float noise_m, float noise_w, Sizes& c,
-                Sizes& w) {
+void bound_sums(const LeafShape& shape, const Region& region, float noise_m, float noise_w,
+                Sizes& c, Sizes& w) {
   for (uint32_t b = 0; b < kOrders; ++b)
     for (uint32_t a = 0; a + b < kOrders; ++a) {
       c.of[a][b] = w.of[a][b] = 0.0f;
       for (uint32_t j = b; j <= shape.degree_v; ++j)
         for (uint32_t i = a; i <= shape.degree_u; ++i) {
-          const float small = power(part.half_u, i) * power(part.half_v, j);
+          const float small = power(region.half_u, i) * power(region.half_v, j);
           const float factor = falling(i, a) * falling(j, b);
           const uint32_t at = j * (shape.degree_u + 1) + i;
           c.of[a][b] += factor * (math::length(shape.c[at]) + small * noise_m);
@@ -139,9 +139,9 @@ struct Products {
 };
 
 // Of a part of something no two points of which are farther apart than span_m.
-void bound_bends(const Part& part, float span_m, LeafShape& shape) {
+void bound_bends(const Region& region, float span_m, LeafShape& shape) {
   Sizes c, w;
-  bound_sums(shape, part, shape.numerator_noise_m, shape.weight_noise, c, w);
+  bound_sums(shape, region, shape.numerator_noise_m, shape.weight_noise, c, w);
   quotient(c, w, shape.min_weight);
   Vectors x;
   middle_derivatives(shape, x);
@@ -153,7 +153,7 @@ void bound_bends(const Part& part, float span_m, LeafShape& shape) {
   uuvv.add(1.0f, 2, 0, 0, 2), uuvv.add(2.0f, 1, 1, 1, 1);
   uvvv.add(1.0f, 1, 0, 0, 3), uvvv.add(3.0f, 0, 1, 1, 2), uvvv.add(3.0f, 0, 2, 1, 1);
   vvvv.add(4.0f, 0, 1, 0, 3), vvvv.add(3.0f, 0, 2, 0, 2);
-  const float u = part.half_u, v = part.half_v;
+  const float u = region.half_u, v = region.half_v;
   const float products[5] = {uuuu.depth(), uuuv.size(), uuvv.depth(), uvvv.size(), vvvv.depth()};
   for (uint32_t k = 0; k < 5; ++k) {
     // By the piece's s and t: the halves are powers of two.
@@ -167,9 +167,9 @@ void bound_bends(const Part& part, float span_m, LeafShape& shape) {
 // Of the fourth derivative of D^2 / 2 the terms without the query, 4 x1 . x3 + 3 x2 . x2 of the
 // derivatives x1 to x4: by how much they may be below 0. Their own derivative, 10 x2 . x3 + 4 x1 .
 // x4, bounds how fast they leave their value in the middle.
-float lowest_of(const Part& part, const LeafShape& shape, const Vectors& x, const Sizes& c) {
+float lowest_of(const Region& region, const LeafShape& shape, const Vectors& x, const Sizes& c) {
   const float one = c.of[1][0], two = c.of[2][0], three = c.of[3][0], four = c.of[4][0];
-  const float u = part.half_u;
+  const float u = region.half_u;
   // Of a middle derivative: what its coefficients may be off, by Leibniz' rule.
   const float off_m =
       16.0f * (shape.numerator_noise_m + shape.weight_noise * shape.reach_m) / shape.min_weight;
@@ -203,27 +203,27 @@ CurveBend CurveBends::stored() const {
   return bend;
 }
 
-bool add_bends(const Piece& piece, const float* coefficients, uint32_t fine_part,
+bool add_bends(const Piece& piece, const float* coefficients, uint32_t fine_step,
                CurveBends& bends) {
-  Part part{};
-  part.half_u = 1.0f / static_cast<float>(kFineParts);
-  part.middle_u = part.half_u * static_cast<float>(2 * fine_part + 1) - 1.0f;
-  part.half_v = 1.0f;
+  Region region{};
+  region.half_u = 1.0f / static_cast<float>(kFineSteps);
+  region.middle_u = region.half_u * static_cast<float>(2 * fine_step + 1) - 1.0f;
+  region.half_v = 1.0f;
   LeafShape shape;
-  derive(piece, coefficients, part, shape);
+  derive(piece, coefficients, region, shape);
   if (!(shape.min_weight > 0.0f)) return false;
   Sizes c, w;
-  bound_sums(shape, part, shape.numerator_noise_m, shape.weight_noise, c, w);
+  bound_sums(shape, region, shape.numerator_noise_m, shape.weight_noise, c, w);
   quotient(c, w, shape.min_weight);
   Vectors x;
   middle_derivatives(shape, x);
   tighten(x, c);
-  const float fourth = part.half_u * part.half_u * part.half_u * part.half_u;
-  const float lowest = lowest_of(part, shape, x, c) / fourth, turning = c.of[4][0] * kUp / fourth;
-  if (fine_part == 0 || !(lowest <= bends.lowest)) bends.lowest = lowest;  // NaN stays
+  const float fourth = region.half_u * region.half_u * region.half_u * region.half_u;
+  const float lowest = lowest_of(region, shape, x, c) / fourth, turning = c.of[4][0] * kUp / fourth;
+  if (fine_step == 0 || !(lowest <= bends.lowest)) bends.lowest = lowest;  // NaN stays
   if (!(turning <= bends.turning)) bends.turning = turning;
   bends.span_m = (bends.span_m + 2.0f * shape.reach_m) * kUp;
-  const float per_half = 1.0f / part.half_u;
+  const float per_half = 1.0f / region.half_u;
   const auto keep = [](float& most, float size) {
     if (!(size <= most)) most = size;
   };
@@ -234,11 +234,11 @@ bool add_bends(const Piece& piece, const float* coefficients, uint32_t fine_part
   return true;
 }
 
-void bound_bends(const Part& part, LeafShape& shape) {
-  bound_bends(part, 2.0f * shape.reach_m, shape);
+void bound_bends(const Region& region, LeafShape& shape) {
+  bound_bends(region, 2.0f * shape.reach_m, shape);
 }
 
-bool begin_bends(const Piece& piece, const float* coefficients, const Part& cell,
+bool begin_bends(const Piece& piece, const float* coefficients, const Region& cell,
                  CellBends& bends) {
   LeafShape whole;
   derive(piece, coefficients, cell, whole);
@@ -247,20 +247,20 @@ bool begin_bends(const Piece& piece, const float* coefficients, const Part& cell
   return whole.min_weight > 0.0f;
 }
 
-bool add_bends(const Piece& piece, const float* coefficients, const Part& cell, uint32_t fine_part,
-               CellBends& bends) {
-  Part part;
-  constexpr float kPart = 1.0f / kFineSide, kFirst = kFineSide - 1;
-  part.half_u = kPart * cell.half_u;
-  part.half_v = kPart * cell.half_v;
-  part.middle_u =
-      cell.middle_u + part.half_u * (2.0f * static_cast<float>(fine_part % kFineSide) - kFirst);
-  part.middle_v =
-      cell.middle_v + part.half_v * (2.0f * static_cast<float>(fine_part / kFineSide) - kFirst);
+bool add_bends(const Piece& piece, const float* coefficients, const Region& cell,
+               uint32_t fine_step, CellBends& bends) {
+  Region region;
+  constexpr float kShare = 1.0f / kFineSide, kFirst = kFineSide - 1;
+  region.half_u = kShare * cell.half_u;
+  region.half_v = kShare * cell.half_v;
+  region.middle_u =
+      cell.middle_u + region.half_u * (2.0f * static_cast<float>(fine_step % kFineSide) - kFirst);
+  region.middle_v =
+      cell.middle_v + region.half_v * (2.0f * static_cast<float>(fine_step / kFineSide) - kFirst);
   LeafShape shape;
-  derive(piece, coefficients, part, shape);
+  derive(piece, coefficients, region, shape);
   if (!(shape.min_weight > 0.0f)) return false;
-  bound_bends(part, bends.span_m, shape);
+  bound_bends(region, bends.span_m, shape);
   for (uint32_t k = 0; k < 5; ++k) {  // NaN stays
     if (!(shape.fixed[k] <= bends.fixed[k])) bends.fixed[k] = shape.fixed[k];
     if (!(shape.turning[k] <= bends.turning[k])) bends.turning[k] = shape.turning[k];

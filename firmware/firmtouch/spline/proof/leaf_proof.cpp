@@ -41,13 +41,13 @@ Verdict check_capsules(const View& model, uint32_t i, const LeafShape& shape) {
   return kPassed;
 }
 
-Verdict check_bend(const View& model, uint32_t piece_index, uint32_t fine_part,
+Verdict check_bend(const View& model, uint32_t piece_index, uint32_t fine_step,
                    CurveBends& needed) {
   const Piece& piece = model.pieces()[piece_index];
-  if (fine_part == 0) needed = {};
-  if (!add_bends(piece, model.coefficients().data() + piece.coefficients, fine_part, needed))
+  if (fine_step == 0) needed = {};
+  if (!add_bends(piece, model.coefficients().data() + piece.coefficients, fine_step, needed))
     return reject(kRuleWeight, piece_index);
-  if (fine_part + 1 < kFineParts) return kPassed;
+  if (fine_step + 1 < kFineSteps) return kPassed;
   const CurveBend &stored = model.curve_bends()[piece_index], least = needed.stored();
   const auto holds = [](float value, float at_least) {
     return value >= at_least && value <= kMaxBend;
@@ -59,28 +59,28 @@ Verdict check_bend(const View& model, uint32_t piece_index, uint32_t fine_part,
              : reject(kRuleBends, piece_index);
 }
 
-Verdict check_cell(const View& model, uint32_t piece_index, uint32_t cell, uint32_t fine_part,
+Verdict check_cell(const View& model, uint32_t piece_index, uint32_t cell, uint32_t fine_step,
                    CellBends& needed) {
   const Piece& piece = model.pieces()[piece_index];
   const Grid& grid = model.grids()[piece_index];
   const float* const coefficients = model.coefficients().data() + piece.coefficients;
   const Halvings levels = cell_levels(piece, grid);
   const uint32_t in_piece = cell - grid.first_cell;
-  const Part part = part_of(levels, in_piece & ((1u << levels.u) - 1u), in_piece >> levels.u);
-  if (fine_part == 0 && !begin_bends(piece, coefficients, part, needed))
+  const Region region = region_of(levels, in_piece & ((1u << levels.u) - 1u), in_piece >> levels.u);
+  if (fine_step == 0 && !begin_bends(piece, coefficients, region, needed))
     return reject(kRuleWeight, cell);
-  if (!add_bends(piece, coefficients, part, fine_part, needed)) return reject(kRuleWeight, cell);
-  const bool is_last = fine_part + 1 == kFineCells;
+  if (!add_bends(piece, coefficients, region, fine_step, needed)) return reject(kRuleWeight, cell);
+  const bool is_last = fine_step + 1 == kFineCells;
   if (is_last && !bends_hold(model.patch_bends()[cell], grid, needed))
     return reject(kRuleBends, cell);
   return kPassed;
 }
 
-Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
+Verdict check_patch(const View& model, uint32_t i, const View::LeafIndex& at_leaf,
                     const LeafShape& shape) {
-  const Piece& piece = model.pieces()[place.piece];
-  const Grid& grid = model.grids()[place.piece];
-  Patch patch{place.piece, 0u + piece.level_u + piece.level_v, place.index_u, place.index_v};
+  const Piece& piece = model.pieces()[at_leaf.piece];
+  const Grid& grid = model.grids()[at_leaf.piece];
+  Patch patch{at_leaf.piece, 0u + piece.level_u + piece.level_v, at_leaf.index_u, at_leaf.index_v};
   const auto quad = [&] { return stored_quad(piece, grid, model.corners().data(), patch); };
   const auto stored_m = [&] {
     return in_units(grid.radius_unit_m,
@@ -93,11 +93,11 @@ Verdict check_patch(const View& model, uint32_t i, const View::Place& place,
     patch = parent_of(piece, patch);
     const uint32_t overlap =
         model.overlaps()[overlap_of(grid, patch, halvings_of(piece, patch.depth))];
-    const PartOfQuad half = half_of(piece, patch, leaf, overlap);
+    const RegionOfQuad half = half_of(piece, patch, leaf, overlap);
     if (!(radius_for(shape, corners, quad(), own_of(piece, patch, leaf), half) <= stored_m()))
       return reject(kRuleEnclosure, i);
   }
-  for (uint32_t at = model.pieces().size() - 1 + place.piece; at != 0;) {
+  for (uint32_t at = model.pieces().size() - 1 + at_leaf.piece; at != 0;) {
     at = parent_of(at);
     if (!leaf_fits(shape, model.boxes()[at])) return reject(kRuleEnclosure, i);
   }

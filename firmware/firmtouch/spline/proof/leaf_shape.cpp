@@ -90,16 +90,16 @@ float off_line_m(Vec3 p_m, Vec3 a_m, Vec3 b_m) {
 
 }  // namespace
 
-Part part_of(const Halvings& made, uint32_t u, uint32_t v) {
+Region region_of(const Halvings& made, uint32_t u, uint32_t v) {
   const float half_u = half_of(made.u), half_v = half_of(made.v);
   return {static_cast<float>(2 * u + 1) * half_u - 1.0f, half_u,
           static_cast<float>(2 * v + 1) * half_v - 1.0f, half_v};
 }
-Part part_of(const Piece& piece, uint32_t index_u, uint32_t index_v) {
-  return part_of(Halvings{piece.level_u, piece.level_v}, index_u, index_v);
+Region region_of(const Piece& piece, uint32_t index_u, uint32_t index_v) {
+  return region_of(Halvings{piece.level_u, piece.level_v}, index_u, index_v);
 }
 
-void derive(const Piece& piece, const float* coefficients, const Part& part, LeafShape& shape) {
+void derive(const Piece& piece, const float* coefficients, const Region& region, LeafShape& shape) {
   const uint32_t nu = piece.degree_u + 1u, nv = piece.degree_v + 1u;
   Four c[LeafShape::kMax];
   for (uint32_t k = 0; k < nu * nv; ++k) {
@@ -109,8 +109,9 @@ void derive(const Piece& piece, const float* coefficients, const Part& part, Lea
   }
   const Sums sums = sums_of(c, piece.degree_u, piece.degree_v);
   for (uint32_t j = 0; j < nv; ++j)
-    shift(c + j * nu, piece.degree_u, 1, part.middle_u, part.half_u);
-  for (uint32_t i = 0; i < nu; ++i) shift(c + i, piece.degree_v, nu, part.middle_v, part.half_v);
+    shift(c + j * nu, piece.degree_u, 1, region.middle_u, region.half_u);
+  for (uint32_t i = 0; i < nu; ++i)
+    shift(c + i, piece.degree_v, nu, region.middle_v, region.half_v);
 
   shape.is_rational = piece.is_rational != 0;
   shape.degree_u = piece.degree_u;
@@ -153,11 +154,11 @@ Extent extent_along(const LeafShape& shape, Vec3 centre_m, Vec3 axis) {
     for (uint32_t i = 0; i <= shape.degree_u; ++i) {
       if (i + j == 0) continue;
       const uint32_t at = j * (shape.degree_u + 1) + i;
-      const float part = dot(shape.c[at], axis);
-      const float size = part < 0.0f ? -part : part;
+      const float along = dot(shape.c[at], axis);
+      const float size = along < 0.0f ? -along : along;
       const bool is_even = (i & 1u) == 0 && (j & 1u) == 0;  // then x^i y^j is never below 0
-      if (!is_even || part > 0.0f) high += size;
-      if (!is_even || part < 0.0f) low -= size;
+      if (!is_even || along > 0.0f) high += size;
+      if (!is_even || along < 0.0f) low -= size;
     }
   const Vec3 off_m = shape.middle_m - centre_m;
   const float off = dot(off_m, axis);

@@ -10,13 +10,13 @@
 namespace firmtouch::spline {
 
 /// The part of a piece that a leaf covers. `level` halvings of -1 to 1, the `index`th from -1.
-struct Part {
+struct Region {
   float middle_u, half_u;
   float middle_v, half_v;  // 0, 1 for a curve
 };
-Part part_of(const Piece& piece, uint32_t index_u, uint32_t index_v);
+Region region_of(const Piece& piece, uint32_t index_u, uint32_t index_v);
 /// The `u`th and `v`th of parts halved so often.
-Part part_of(const Halvings& made, uint32_t u, uint32_t v);
+Region region_of(const Halvings& made, uint32_t u, uint32_t v);
 
 /// A leaf about its middle, in leaf coordinates x (and y) from -1 to 1: with the powers of x
 /// fastest, point(x, y) = middle_m + (sum of c[i, j] x^i y^j) / (sum of w[i, j] x^i y^j).
@@ -39,7 +39,7 @@ struct LeafShape {
 
 /// All but fixed and turning.
 /// Pre: the piece's coefficients lie at `coefficients`, its degrees and part are in range.
-void derive(const Piece& piece, const float* coefficients, const Part& part, LeafShape& shape);
+void derive(const Piece& piece, const float* coefficients, const Region& region, LeafShape& shape);
 
 /// The least and the most of (point - centre_m) . axis over the leaf, rounded outward.
 struct Extent {

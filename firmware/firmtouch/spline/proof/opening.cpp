@@ -138,7 +138,7 @@ uint32_t Proof::node_count() const {
 
 uint32_t Proof::cell_count() const {
   return view.is_surface() ? view.patch_bends_.size() * kFineCells
-                           : view.curve_bends_.size() * kFineParts;
+                           : view.curve_bends_.size() * kFineSteps;
 }
 
 Verdict Proof::finish_pieces() {
@@ -241,7 +241,7 @@ Verdict Proof::check_node(uint32_t i) {
 }
 
 Verdict Proof::check_cell(uint32_t i) {
-  if (!view.is_surface()) return check_bend(view, i / kFineParts, i % kFineParts, curve_bends_);
+  if (!view.is_surface()) return check_bend(view, i / kFineSteps, i % kFineSteps, curve_bends_);
   const Grid& grid = view.grids_[piece_];
   const Halvings cell = cell_levels(view.pieces_[piece_], grid);
   const uint32_t of = i / kFineCells;
@@ -258,19 +258,19 @@ Verdict Proof::finish_cells() {
 
 Verdict Proof::check_leaf(uint32_t i) {
   const bool is_surface = view.is_surface();
-  View::Place place{};
+  View::LeafIndex at_leaf{};
   if (is_surface) {
-    place.piece = piece_;
-    place.index_u = in_piece_ % (1u << view.pieces_[piece_].level_u);
-    place.index_v = in_piece_ >> view.pieces_[piece_].level_u;
+    at_leaf.piece = piece_;
+    at_leaf.index_u = in_piece_ % (1u << view.pieces_[piece_].level_u);
+    at_leaf.index_v = in_piece_ >> view.pieces_[piece_].level_u;
   } else {
     if (!view.is_leaf(i)) return kPassed;
-    place = view.place_of(i);
+    at_leaf = view.index_of(i);
   }
-  const Piece& piece = view.pieces_[place.piece];
+  const Piece& piece = view.pieces_[at_leaf.piece];
   LeafShape shape;
   derive(piece, view.coefficients_.data() + piece.coefficients,
-         part_of(piece, place.index_u, place.index_v), shape);
+         region_of(piece, at_leaf.index_u, at_leaf.index_v), shape);
   if (!(shape.min_weight > 0.0f)) return reject(kRuleWeight, i);
   const Head& head = *view.head_;
   if (!(shape.loss_m <= head.loss_m)) return reject(kRuleLeafLoss, i);
@@ -285,7 +285,7 @@ Verdict Proof::check_leaf(uint32_t i) {
     in_piece_ = 0;
     ++piece_;
   }
-  return check_patch(view, i, place, shape);
+  return check_patch(view, i, at_leaf, shape);
 }
 
 }  // namespace firmtouch::spline

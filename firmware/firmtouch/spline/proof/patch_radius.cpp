@@ -38,7 +38,7 @@ bool solve(Vec3 a, Vec3 b, Vec3 v, OnQuad& by) {
 
 // About the nearest to a point of a part of a quad, from where that is thought to be: by Newton's
 // method, and where that leads beyond an edge along it.
-OnQuad nearest_on(const Quad& quad, const PartOfQuad& part, Vec3 p_m, OnQuad at) {
+OnQuad nearest_on(const Quad& quad, const RegionOfQuad& region, Vec3 p_m, OnQuad at) {
   constexpr uint32_t kTurns = 2;
   const Vec3 r = p_m - quad.centre;
   const auto off = [&](OnQuad to) { return r - quad.a * to.x - tangent_y(quad, to.x) * to.y; };
@@ -47,8 +47,8 @@ OnQuad nearest_on(const Quad& quad, const PartOfQuad& part, Vec3 p_m, OnQuad at)
     if (!solve(tangent_x(quad, at.y), tangent_y(quad, at.x), off(at), by)) break;
     at = {between(at.x + by.x, -2.0f, 2.0f), between(at.y + by.y, -2.0f, 2.0f)};
   }
-  const auto held_x = [&](float x) { return between(x, part.low[0], part.high[0]); };
-  const auto held_y = [&](float y) { return between(y, part.low[1], part.high[1]); };
+  const auto held_x = [&](float x) { return between(x, region.low[0], region.high[0]); };
+  const auto held_y = [&](float y) { return between(y, region.low[1], region.high[1]); };
   const OnQuad held{held_x(at.x), held_y(at.y)};
   if (!(sized(held.x - at.x) > 0.0f || sized(held.y - at.y) > 0.0f)) return held;
   // Where that is beyond: along either edge.
@@ -113,7 +113,7 @@ void bend_spread(float (&of)[3][3], float by_s, float by_t, float low, float hig
 }
 // By its corners, and bent so that what is left of the leaf leads away from the quad.
 void spread_on(const LeafShape& shape, const LeafCorners& corners, const Quad& quad,
-               const PartOfQuad& own, const PartOfQuad& within, Spread& spread) {
+               const RegionOfQuad& own, const RegionOfQuad& within, Spread& spread) {
   float x[4], y[4];
   for (uint32_t k = 0; k < 4; ++k) {
     const OnQuad thought{(k & 1u) != 0 ? own.high[0] : own.low[0],
@@ -209,11 +209,11 @@ LeafCorners::LeafCorners(const LeafShape& shape) {
     at_m[k] = corner_of(shape, (k & 1u) != 0 ? 1.0f : -1.0f, (k & 2u) != 0 ? 1.0f : -1.0f);
 }
 
-PartOfQuad own_of(const Piece& piece, const Patch& above, const Patch& leaf) {
+RegionOfQuad own_of(const Piece& piece, const Patch& above, const Patch& leaf) {
   const Halvings made = halvings_of(piece, above.depth);
   const uint32_t left[2] = {piece.level_u - made.u, piece.level_v - made.v};
   const uint32_t at[2] = {leaf.u - (above.u << left[0]), leaf.v - (above.v << left[1])};
-  PartOfQuad own;
+  RegionOfQuad own;
   for (uint32_t k = 0; k < 2; ++k) {
     const float wide = math::float_of((128u - left[k]) << 23);
     own.low[k] = static_cast<float>(at[k]) * wide - 1.0f;
@@ -222,12 +222,12 @@ PartOfQuad own_of(const Piece& piece, const Patch& above, const Patch& leaf) {
   return own;
 }
 
-PartOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap) {
+RegionOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap) {
   const Halvings made = halvings_of(piece, above.depth);
   const uint32_t axis = halves_u(piece, made) ? 0 : 1;
   const uint32_t left = (axis == 0 ? piece.level_u - made.u : piece.level_v - made.v) - 1;
   const bool is_low = (((axis == 0 ? leaf.u : leaf.v) >> left) & 1u) == 0;
-  PartOfQuad half;
+  RegionOfQuad half;
   if (is_low)
     half.high[axis] = in_overlaps(overlap);
   else
@@ -238,7 +238,7 @@ PartOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, ui
 // Rounded by at most 64 units of the sizes where residuals are added up, and as much where a query
 // measures.
 float radius_for(const LeafShape& shape, const LeafCorners& corners, const Quad& around,
-                 const PartOfQuad& own, const PartOfQuad& within) {
+                 const RegionOfQuad& own, const RegionOfQuad& within) {
   constexpr float kUp = 1.0f + 0x1p-16f;
   Spread on;
   spread_on(shape, corners, around, own, within, on);

@@ -9,13 +9,13 @@ namespace firmtouch::spline {
 Quad stored_quad(const Piece& piece, const Grid& grid, const Corner* corners, const Patch& patch);
 
 /// Of a quad the x and y that belong to a part of it.
-struct PartOfQuad {
+struct RegionOfQuad {
   float low[2] = {-1.0f, -1.0f}, high[2] = {1.0f, 1.0f};
 };
 /// Of a part of a surface what one of its leaves is, and the leaf's half of it by the part's
 /// overlap.
-PartOfQuad own_of(const Piece& piece, const Patch& above, const Patch& leaf);
-PartOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap);
+RegionOfQuad own_of(const Piece& piece, const Patch& above, const Patch& leaf);
+RegionOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap);
 
 /// Where a leaf's corners are, from the piece's origin: with x and y -1 or 1, x first.
 struct LeafCorners {
@@ -27,6 +27,6 @@ struct LeafCorners {
 /// included, so that each point of that leaf is within it of some point of its quad, or of what is
 /// `within` of it. own: where on the quad the leaf is thought to be; any would do.
 float radius_for(const LeafShape& shape, const LeafCorners& corners, const Quad& around,
-                 const PartOfQuad& own, const PartOfQuad& within = {});
+                 const RegionOfQuad& own, const RegionOfQuad& within = {});
 
 }  // namespace firmtouch::spline

@@ -35,7 +35,7 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
   }
   const query::Carried carried = query::carry(hint, p_m);
   Best best(model.head());
-  SurfaceSearch search(model, p_m, budget.steps, best);
+  SurfaceSearch search(model, p_m, budget.work, best);
   if (hint.safe_subtree != kWithFrontier) FrontierUse(frontier).clear();
   move(p_m, hint, frontier);
   uint32_t leaf;
@@ -56,7 +56,7 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
       search.is_complete() ? 0.0f : search.pending_m(outside_m(model.head(), p_m));
   const query::Certificate certificate = certify(model.head(), p_m, best, search.is_complete(),
                                                  pending_m, search.steps(), carried, hint);
-  hint.place = query::kNowhere;
+  hint.foot = query::kNowhere;
   if (!is_first) search.leave(motion_m, hint);
   hint.safe_subtree = safe_subtree;
   hint.safe_subtree_m = 0.0f;

@@ -16,13 +16,13 @@
 namespace firmtouch::spline {
 
 /// Parts that need not be looked at, each with a lower bound of its distance.
-class FarParts {
+class FarNodes {
  public:
-  struct Part {
+  struct Far {
     uint32_t node;
     float lower_m;
   };
-  FarParts() {}  // by hand: else all is cleared
+  FarNodes() {}  // by hand: else all is cleared
 
   /// What is at least reach_m away is not kept.
   void start(float reach_m) {
@@ -37,15 +37,15 @@ class FarParts {
   bool is_all() const { return is_all_; }
   /// What is not kept is at least so far away.
   float around_m() const { return reach_m_; }
-  const Part* begin() const { return parts_; }
-  const Part* end() const { return parts_ + count_; }
+  const Far* begin() const { return nodes_; }
+  const Far* end() const { return nodes_ + count_; }
 
   static constexpr uint32_t kMax = Frontier::kMax;
 
  private:
   [[gnu::noinline]] void keep(uint32_t node, float lower_m) {
     if (count_ < kMax) {
-      parts_[count_++] = {node, lower_m};
+      nodes_[count_++] = {node, lower_m};
     } else {
       reach_m_ = lower_m;
       is_all_ = false;
@@ -55,7 +55,7 @@ class FarParts {
   float reach_m_ = 0.0f;
   uint32_t count_ = 0;
   bool is_all_ = true;
-  Part parts_[kMax];
+  Far nodes_[kMax];
 };
 
 /// A frontier, as one query uses it.
@@ -91,39 +91,39 @@ class FrontierUse {
     frontier_.unit_m = 0.0f;
     frontier_.count = frontier_.outside = 0;
   }
-  void put(uint32_t k, const FarParts::Part& part) {
-    frontier_.part[k] = part.node;
-    frontier_.beyond[k] = coded(part.lower_m);
+  void put(uint32_t k, const FarNodes::Far& far) {
+    frontier_.node[k] = far.node;
+    frontier_.beyond[k] = coded(far.lower_m);
   }
   /// Beside the parts that are left all that was passed over, or as much as there is room for.
-  void add(const FarParts& passed) {
+  void add(const FarNodes& passed) {
     uint32_t outside = frontier_.outside;
     if (!passed.is_all() && coded(passed.around_m()) < outside) outside = coded(passed.around_m());
     if (frontier_.count + passed.count() > Frontier::kMax)
       outside = max_within(passed, outside, Frontier::kMax - frontier_.count);
     frontier_.outside = static_cast<uint8_t>(outside);
-    for (const FarParts::Part& part : passed)
-      if (coded(part.lower_m) < outside) put(frontier_.count++, part);
+    for (const FarNodes::Far& far : passed)
+      if (coded(far.lower_m) < outside) put(frontier_.count++, far);
   }
   /// All that was passed over, as far as it was kept.
-  void renew(float limit_m, float reach_m, const FarParts& passed) {
+  void renew(float limit_m, float reach_m, const FarNodes& passed) {
     frontier_.base_m = limit_m;
     frontier_.unit_m = (reach_m - limit_m) * (1.0f / 256.0f);
     if (!(frontier_.unit_m > 0.0f)) return clear();
-    static_assert(FarParts::kMax <= Frontier::kMax);
+    static_assert(FarNodes::kMax <= Frontier::kMax);
     const uint32_t outside = passed.is_all() ? kAll : coded(passed.around_m());
     frontier_.outside = static_cast<uint8_t>(outside);
     frontier_.count = 0;
-    for (const FarParts::Part& part : passed)
-      if (coded(part.lower_m) < outside) put(frontier_.count++, part);
+    for (const FarNodes::Far& far : passed)
+      if (coded(far.lower_m) < outside) put(frontier_.count++, far);
   }
 
  private:
   // The most units that no more parts than there is room for are less beyond than.
-  uint32_t max_within(const FarParts& passed, uint32_t most, uint32_t room) const {
+  uint32_t max_within(const FarNodes& passed, uint32_t most, uint32_t room) const {
     constexpr uint32_t kWide = 4;
     uint8_t counts[(kAll + 1) >> kWide] = {};
-    for (const FarParts::Part& part : passed) ++counts[coded(part.lower_m) >> kWide];
+    for (const FarNodes::Far& far : passed) ++counts[coded(far.lower_m) >> kWide];
     uint32_t within = 0, i = 0;
     while (i < (most >> kWide) && within + counts[i] <= room) within += counts[i++];
     return i << kWide;

@@ -8,11 +8,11 @@
 
 namespace firmtouch::spline {
 
-class SurfaceParts {
+class SurfaceNodes {
  public:
   using Range = Rectangle;
 
-  SurfaceParts(const View& model, math::Vec3 p_m)
+  SurfaceNodes(const View& model, math::Vec3 p_m)
       : pieces_(model.pieces().data()),
         coefficients_(model.coefficients().data()),
         grids_(model.grids().data()),
@@ -31,8 +31,8 @@ class SurfaceParts {
 
   /// The leaf of a hint, from where it was left: none for a hint that is none.
   bool resume(const CurveHint& hint, uint32_t& node, Range& range) const {
-    const uint32_t place = hint.place;
-    const uint32_t piece = place >> 16, u = (place >> 8) & 255u, v = place & 255u;
+    const uint32_t foot = hint.foot;
+    const uint32_t piece = foot >> 16, u = (foot >> 8) & 255u, v = foot & 255u;
     if (piece >= piece_count_) return false;
     const Piece& of = pieces_[piece];
     node = node_of_leaf(of, piece, u >> (8u - of.level_u), v >> (8u - of.level_v));
@@ -54,7 +54,7 @@ class SurfaceParts {
         if (step[k] > -kMaxStep && step[k] < kMaxStep) to[k] += step[k];
     }
     const uint32_t u = coded(0.5f * to[0] + 0.5f, 65535), v = coded(0.5f * to[1] + 0.5f, 65535);
-    hint.place = (best.node & 0xFFFF0000u) | (u & 0xFF00u) | v >> 8;
+    hint.foot = (best.node & 0xFFFF0000u) | (u & 0xFF00u) | v >> 8;
     hint.fine[0] = static_cast<uint8_t>(u & 255u);
     hint.fine[1] = static_cast<uint8_t>(v & 255u);
   }
@@ -66,9 +66,9 @@ class SurfaceParts {
   uint32_t closed_around(uint32_t leaf, const Best& best) {
     const Piece& piece = pieces_[leaf >> 16];
     const Halvings cell = cell_levels(piece, grids_[leaf >> 16]);
-    PatchNode part = apart(piece, leaf);
+    PatchNode patch = apart(piece, leaf);
     uint32_t node = leaf;
-    while (widen(part, cell) && closes(part, best)) node = node_of(leaf >> 16, part);
+    while (widen(patch, cell) && closes(patch, best)) node = node_of(leaf >> 16, patch);
     return node;
   }
 
@@ -76,8 +76,8 @@ class SurfaceParts {
   /// tested for large ones.
   bool is_closed(uint32_t node, const Best& best) {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
-    const PatchNode part = apart(pieces_[node >> 16], node);
-    return part.left_u + part.left_v <= kTried && is_closed_in_cell(node, part, best);
+    const PatchNode patch = apart(pieces_[node >> 16], node);
+    return patch.left_u + patch.left_v <= kTried && is_closed_in_cell(node, patch, best);
   }
   bool is_closed_in_cell(uint32_t node, const Best& best) {
     if (closed_ == kNone || (node ^ closed_) >> 16 != 0) return false;
@@ -93,11 +93,11 @@ class SurfaceParts {
     if (node >= kUpper) return node - kUpper < piece_count_ - 1;
     if (node >> 16 >= piece_count_ || (node & 0xC000u) != 0) return false;
     if ((node & 0x3F80u) == 0 || (node & 127u) == 0) return false;
-    const PatchNode part = apart(pieces_[node >> 16], node);
-    if ((part.left_u | part.left_v) >> 31 != 0) return false;  // below a leaf
+    const PatchNode patch = apart(pieces_[node >> 16], node);
+    if ((patch.left_u | patch.left_v) >> 31 != 0) return false;  // below a leaf
     // In the order of halvings: the axis with more of them left first, then u and v in turn.
-    const uint32_t ahead = part.left_v - part.left_u;
-    return ahead <= 1 || (ahead >> 31 != 0 ? part.made_v : part.made_u) == 0;
+    const uint32_t ahead = patch.left_v - patch.left_u;
+    return ahead <= 1 || (ahead >> 31 != 0 ? patch.made_v : patch.made_u) == 0;
   }
   /// Whether a node is a leaf's own, or above it.
   bool holds(uint32_t node, uint32_t leaf) const {
@@ -161,18 +161,18 @@ class SurfaceParts {
     return split(range, *base, lower_m, halves);
   }
 
-  bool closes(const PatchNode& part, const Best& best) {
-    upper2_ = closed_by_->least2(range_of(part, 0.0f, 0.0f), best.enough2());
+  bool closes(const PatchNode& patch, const Best& best) {
+    upper2_ = closed_by_->least2(range_of(patch, 0.0f, 0.0f), best.enough2());
     return best.is_beyond(upper2_);
   }
 
   /// A part, to be begun at x and y of its own, from -1 to 1. Its u and v count from 1 before the
   /// piece.
-  static Range range_of(const PatchNode& part, float x, float y) {
-    const float half_u = math::float_of((127u - part.made_u) << 23);
-    const float half_v = math::float_of((127u - part.made_v) << 23);
-    const float u = static_cast<float>(2 * part.u + 1) * half_u - 3.0f;
-    const float v = static_cast<float>(2 * part.v + 1) * half_v - 3.0f;
+  static Range range_of(const PatchNode& patch, float x, float y) {
+    const float half_u = math::float_of((127u - patch.made_u) << 23);
+    const float half_v = math::float_of((127u - patch.made_v) << 23);
+    const float u = static_cast<float>(2 * patch.u + 1) * half_u - 3.0f;
+    const float v = static_cast<float>(2 * patch.v + 1) * half_v - 3.0f;
     return {{u - half_u, v - half_v}, {u + half_u, v + half_v}, {u + half_u * x, v + half_v * y}};
   }
 
@@ -195,26 +195,26 @@ class SurfaceParts {
   }
 
   // To the part that was halved into this one, where that is no larger than a cell.
-  static bool widen(PatchNode& part, const Halvings& cell) {
-    if (was_halved_u(part)) {
-      if (part.made_u == cell.u) return false;
-      --part.made_u, ++part.left_u, part.u >>= 1;
+  static bool widen(PatchNode& patch, const Halvings& cell) {
+    if (was_halved_u(patch)) {
+      if (patch.made_u == cell.u) return false;
+      --patch.made_u, ++patch.left_u, patch.u >>= 1;
     } else {
-      if (part.made_v == cell.v) return false;
-      --part.made_v, ++part.left_v, part.v >>= 1;
+      if (patch.made_v == cell.v) return false;
+      --patch.made_v, ++patch.left_v, patch.v >>= 1;
     }
     return true;
   }
 
-  bool is_closed_in_cell(uint32_t node, const PatchNode& part, const Best& best) {
+  bool is_closed_in_cell(uint32_t node, const PatchNode& patch, const Best& best) {
     const Piece& piece = pieces_[node >> 16];
     const Halvings cell = cell_levels(piece, grids_[node >> 16]);
     const uint32_t leaf_u = (closed_ >> 7) & 127u, leaf_v = closed_ & 127u;
-    if (part.made_u < cell.u || part.made_v < cell.v ||
-        part.u >> (part.made_u - cell.u) != leaf_u >> (piece.level_u - cell.u) ||
-        part.v >> (part.made_v - cell.v) != leaf_v >> (piece.level_v - cell.v))
+    if (patch.made_u < cell.u || patch.made_v < cell.v ||
+        patch.u >> (patch.made_u - cell.u) != leaf_u >> (piece.level_u - cell.u) ||
+        patch.v >> (patch.made_v - cell.v) != leaf_v >> (piece.level_v - cell.v))
       return false;
-    return closes(part, best);
+    return closes(patch, best);
   }
 
   void stored_bends(const Piece& piece, uint32_t leaf, SurfaceBends& bends) const {

@@ -7,7 +7,7 @@
 namespace firmtouch::spline {
 
 /// The bound of a patch. The stored radii and half sides hold what float32 loses.
-struct PartBound {
+struct NodeBound {
   float lower_m;  // no point of it is nearer
   float x, y;     // where on it, from -1 to 1, the foot is thought to be
   // Where lower_m is below the limit, and it is no leaf: the half without the foot, and a bound of
@@ -46,7 +46,7 @@ class PatchBounds {
   /// Whether a part of that piece is beyond the limit. u and v: with a 1 before their digits; left:
   /// halvings to a leaf; next_u: its halves are of u.
   [[gnu::always_inline]] bool is_beyond(uint32_t u, uint32_t v, uint32_t left_u, uint32_t left_v,
-                                        bool next_u, float limit_m, PartBound& reported) const {
+                                        bool next_u, float limit_m, NodeBound& reported) const {
     const uint32_t along = columns_ << left_v;
     const Quad p = quarters_between(first_ + v * along + (u << left_u), 1u << left_u, along);
     Seen seen;

@@ -12,12 +12,12 @@ class SurfaceSearch : public Account {
   using Range = Rectangle;
 
   SurfaceSearch(const View& model, math::Vec3 p_m, uint32_t budget, Best& best)
-      : Account(budget), parts_(model, p_m), bounds_(model, p_m), best_(best) {}
+      : Account(budget), nodes_(model, p_m), bounds_(model, p_m), best_(best) {}
 
   bool resume(const CurveHint& hint, uint32_t& leaf, Range& range) const {
-    return parts_.resume(hint, leaf, range);
+    return nodes_.resume(hint, leaf, range);
   }
-  void leave(math::Vec3 motion_m, CurveHint& hint) const { parts_.leave(best_, motion_m, hint); }
+  void leave(math::Vec3 motion_m, CurveHint& hint) const { nodes_.leave(best_, motion_m, hint); }
   uint32_t piece_of(uint32_t node) const { return node >> 16; }
 
   /// From a leaf that may be near: where the frontier is far enough away only what of it may be
@@ -29,7 +29,7 @@ class SurfaceSearch : public Account {
   }
 
   void run_cold(float outside_m) {
-    const uint32_t root = parts_.root();
+    const uint32_t root = nodes_.root();
     if (root >= kUpper)
       stack_[count_++] = Entry(root, outside_m);
     else
@@ -51,7 +51,7 @@ class SurfaceSearch : public Account {
     if (!holds) {
       const float reach_m = best_.distance_m + margin_m;
       passed_.start(reach_m);
-      if (!ascend(leaf, is_closed, parts_.root())) return stop();
+      if (!ascend(leaf, is_closed, nodes_.root())) return stop();
       use.renew(best_.limit_m, reach_m, passed_);
     }
     is_complete_ = true;
@@ -65,13 +65,13 @@ class SurfaceSearch : public Account {
     passed_.start(use.outside_m());
     uint32_t kept = 0;
     for (uint32_t k = 0; k < frontier.count; ++k) {
-      const uint32_t node = frontier.part[k];
+      const uint32_t node = frontier.node[k];
       if (frontier.beyond[k] >= needed) {
-        frontier.part[kept] = node;
+        frontier.node[kept] = node;
         frontier.beyond[kept++] = frontier.beyond[k];
         continue;
       }
-      holds = parts_.is_node(node);
+      holds = nodes_.is_node(node);
       if (!holds) break;  // no hint of this model
       if (!look_at(node, leaf, is_closed)) return false;
     }
@@ -81,8 +81,8 @@ class SurfaceSearch : public Account {
     return true;
   }
   bool look_at(uint32_t node, uint32_t leaf, bool is_closed) {
-    const bool is_about = (node >= kUpper || (node ^ leaf) >> 16 == 0) && parts_.holds(node, leaf);
-    if (is_about && is_closed && node < kUpper && parts_.is_closed_in_cell(node, best_)) {
+    const bool is_about = (node >= kUpper || (node ^ leaf) >> 16 == 0) && nodes_.holds(node, leaf);
+    if (is_about && is_closed && node < kUpper && nodes_.is_closed_in_cell(node, best_)) {
       pass_closed(node);
       return true;
     }
@@ -101,19 +101,19 @@ class SurfaceSearch : public Account {
   // From a leaf that is done with up to a node that holds it: all that is beside the way.
   bool ascend(uint32_t leaf, bool is_closed, uint32_t top) {
     uint32_t node =
-        is_closed && parts_.was_closed_last(leaf) ? parts_.closed_around(leaf, best_) : leaf;
+        is_closed && nodes_.was_closed_last(leaf) ? nodes_.closed_around(leaf, best_) : leaf;
     if (top < kUpper && node <= top)
       node = top;  // of two parts about a leaf the larger one has the lower number
     pass(node, best_.limit_m);
     while (node != top && (node & 0xFFFFu) != kWholePiece) {
       if (left_ == 0) return false;
-      const PatchNode part = apart(bounds_.come_near(node >> 16), node);
-      descend(node ^ (was_halved_u(part) ? kNextU : kNextV), 0.0f, nullptr);
+      const PatchNode patch = apart(bounds_.come_near(node >> 16), node);
+      descend(node ^ (was_halved_u(patch) ? kNextU : kNextV), 0.0f, nullptr);
       if (!drain()) return false;
-      node = whole_of(node, part);
+      node = whole_of(node, patch);
     }
     if (node == top) return true;
-    for (uint32_t i = parts_.upper_of(node); i != 0 && parts_.upper(i) != top; i = parent_of(i)) {
+    for (uint32_t i = nodes_.upper_of(node); i != 0 && nodes_.upper(i) != top; i = parent_of(i)) {
       if (left_ == 0) return false;
       visit_upper(sibling_of(i), 0.0f);
       if (!drain()) return false;
@@ -142,10 +142,10 @@ class SurfaceSearch : public Account {
 
   // A node, as it is on the stack, that need not be looked at.
   void pass(uint32_t node, float lower_m) { passed_.pass(node, lower_m); }
-  void pass_closed(uint32_t node) { passed_.pass(node, parts_.reported_m()); }
+  void pass_closed(uint32_t node) { passed_.pass(node, nodes_.reported_m()); }
 
   [[gnu::noinline]] void visit_upper(uint32_t i, float above_m) {
-    const uint32_t node = parts_.upper(i);
+    const uint32_t node = nodes_.upper(i);
     if (node < kUpper) return descend(node, above_m, nullptr);
     --left_;
     const float own_m = bounds_.box_m(i), lower_m = own_m < above_m ? above_m : own_m;
@@ -155,13 +155,13 @@ class SurfaceSearch : public Account {
     stack_[count_++].lower_m = lower_m;
   }
 
-  void keep(uint32_t node, float lower_m, const PartBound& reported, bool is_leaf) {
+  void keep(uint32_t node, float lower_m, const NodeBound& reported, bool is_leaf) {
     if (count_ >= kCapacity) return lose(lower_m);
     Entry& entry = stack_[count_++];
     entry.lower_m = lower_m;
     if (is_leaf) {
       entry.node = node | kLeafMark;
-      entry.range = parts_.range_of(node, reported.x, reported.y);
+      entry.range = nodes_.range_of(node, reported.x, reported.y);
     } else {
       entry.node = node;
       entry.halves.far_half = reported.far_half;
@@ -175,7 +175,7 @@ class SurfaceSearch : public Account {
     const Piece& piece = bounds_.come_near(node >> 16);
     uint32_t u = (node >> 7) & 127u, v = node & 127u;
     uint32_t left_u = piece.level_u - digits_of(u), left_v = piece.level_v - digits_of(v);
-    PartBound reported{};
+    NodeBound reported{};
     bool is_known = known != nullptr;
     if (is_known) {
       reported.far_half = known->halves.far_half;
@@ -250,7 +250,7 @@ class SurfaceSearch : public Account {
         if (!is_half) pass(node < kUpper ? node & ~kLeafMark : node, lower_m);
         continue;
       }
-      if (parts_.is_closed(node & ~kLeafMark, best_)) {
+      if (nodes_.is_closed(node & ~kLeafMark, best_)) {
         if (!is_half) pass_closed(node & ~kLeafMark);
         continue;
       }
@@ -270,7 +270,7 @@ class SurfaceSearch : public Account {
         const uint32_t low = first_child(node - kUpper);
         visit_upper(low, lower_m);
         if (left_ == 0) {  // all were taken below the first one
-          keep(parts_.upper(low + 1), lower_m, {}, false);
+          keep(nodes_.upper(low + 1), lower_m, {}, false);
           return false;
         }
         visit_upper(low + 1, lower_m);
@@ -284,8 +284,8 @@ class SurfaceSearch : public Account {
   bool solve(uint32_t node, float lower_m, const Range& in, bool is_half) {
     Half<Range> halves[2];
     Range range = in;
-    const Outcome outcome = parts_.solve(node, range, lower_m, left_, best_, halves);
-    if (!is_half) pass(node, outcome == Outcome::kClosed ? parts_.reported_m() : lower_m);
+    const Outcome outcome = nodes_.solve(node, range, lower_m, left_, best_, halves);
+    if (!is_half) pass(node, outcome == Outcome::kClosed ? nodes_.reported_m() : lower_m);
     if (outcome == Outcome::kStopped) put(node, lower_m, range);
     if (outcome == Outcome::kLost) lose(lower_m);
     if (outcome == Outcome::kSplit) {
@@ -301,10 +301,10 @@ class SurfaceSearch : public Account {
     stack_[count_++].range = range;
   }
 
-  SurfaceParts parts_;
+  SurfaceNodes nodes_;
   PatchBounds bounds_;
   Best& best_;
-  FarParts passed_;
+  FarNodes passed_;
   uint32_t count_ = 0;
   Entry stack_[kCapacity];
 };

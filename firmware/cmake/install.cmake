@@ -1,0 +1,26 @@
+# cmake --install: the libraries of this build, for its processor; their headers; the interfaces of hal; and of a build for
+# this machine its programs. A project then says find_package(firmtouch).
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+get_property(modules GLOBAL PROPERTY FIRMTOUCH_MODULES)
+set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/firmtouch)
+set_target_properties(firmtouch_libc_objects PROPERTIES EXCLUDE_FROM_ALL OFF EXPORT_NAME libc_objects)
+install(TARGETS ${modules} firmtouch_hal firmtouch_libc_objects EXPORT firmtouch-targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} OBJECTS DESTINATION ${CMAKE_INSTALL_LIBDIR}/firmtouch)
+install(EXPORT firmtouch-targets NAMESPACE firmtouch:: DESTINATION ${folder})
+install(DIRECTORY firmware/firmtouch hal/firmtouch DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.hpp)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/firmtouch-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES firmware/cmake/firmtouch-config.cmake tools/cmake/firmtouch_bake.cmake
+              ${CMAKE_BINARY_DIR}/firmtouch-config-version.cmake DESTINATION ${folder})
+# The bill of materials. Its name holds a hash of the sources.
+file(GLOB_RECURSE files RELATIVE ${PROJECT_SOURCE_DIR} firmware/firmtouch/*.hpp firmware/firmtouch/*.cpp)
+set(tree_hash "")
+foreach(file ${files})
+  file(SHA256 ${PROJECT_SOURCE_DIR}/${file} hash)
+  string(SHA256 tree_hash "${tree_hash}${hash}${file}")
+endforeach()
+configure_file(firmware/cmake/sbom.spdx.json.in ${CMAKE_BINARY_DIR}/firmtouch.spdx.json @ONLY)
+install(FILES LICENSE CHANGELOG.md ${CMAKE_BINARY_DIR}/firmtouch.spdx.json DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/firmtouch)
+if(FIRMTOUCH_TOOLS)
+  install(TARGETS firmtouch firmtouch-sim RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

@@ -1,0 +1,185 @@
+#include "firmtouch/curve/min_cost.hpp"
+
+#include "firmtouch/curve/answer.hpp"
+#include "firmtouch/curve/arc_penalty.hpp"
+#include "firmtouch/curve/piece.hpp"
+#include "firmtouch/curve/run_search.hpp"
+
+namespace firmtouch::curve {
+namespace {
+
+// What comparing and pruning lose beside a cost, and what arc positions lose beside the weight: a
+// stored one 2^-25, one between two 2^-24 more, their difference 2^-25. A foot lies within 7 u h +
+// 3 u d of its computed position along the segment (answer.hpp).
+constexpr float kSlack = 0x1p-19f;
+constexpr float kArcLoss = 0x1p-22f;
+constexpr float kFootLoss = 0x1p-21f;
+
+/// Keeps the segment whose closest point costs least. Parts are left out by distance and by the
+/// least penalty of their arc positions together.
+class LeastCost {
+ public:
+  LeastCost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty, bool compensated)
+      : curve_(curve), p_m_(p_m), penalty_(penalty), compensated_(compensated) {}
+
+  const Foot& best() const { return best_; }
+  float doubt_m() const { return doubt_m_; }
+  float cost_m() const { return cost_m_; }
+  float reach2_m2() const {
+    const float reach_m = cost_m_ * (1.0f + kSlack);
+    return reach_m * reach_m;
+  }
+
+  /// Result: the segment of the least cost so far, having gone along the curve while that helped.
+  uint32_t approach(uint32_t segment) {
+    for (uint32_t i = 0; i < kMaxJumps; ++i) {
+      const float before_m = cost_m_;
+      const Foot foot = look_at(segment);
+      if (!(cost_m_ < before_m)) break;
+      const bool at_first = foot.sample == segment && !(foot.t > 0.0f);
+      const bool at_last = foot.sample != segment && !(foot.t > 0.0f);
+      if (at_first && segment > 0)
+        --segment;
+      else if (at_last && segment + 1 < curve_.segment_count())
+        ++segment;
+      else
+        break;
+    }
+    return segment_of(best_);
+  }
+
+  float others_m() const { return 0.0f; }
+
+  /// Result: false where the budget ended.
+  bool take(uint32_t run, uint32_t& budget_left) {
+    struct Cut {
+      uint32_t part, size, first;
+    };
+    const uint32_t levels = curve_.run_levels(), whole = run_segments_of(levels);
+    const uint16_t* const radii = curve_.radii().data() + (run << (levels + 1));
+    const uint32_t count = curve_.segment_count();
+    Cut pending[kMaxRunLevels + 2];
+    pending[0] = {0, whole, run * whole};
+    for (uint32_t left = 1; left > 0;) {
+      const Cut cut = pending[--left];
+      const uint32_t first = cut.first;
+      if (first >= count) continue;
+      if (cut.size < whole && !spend(cut.size, budget_left)) return false;
+      const uint32_t end = first + cut.size, last = end < count ? end : count;
+      if (!may_hold(first, last, radii[cut.part])) continue;
+      if (cut.size == kPartSegments) {
+        for (uint32_t segment = first; segment < last; ++segment) (void)look_at(segment);
+        continue;
+      }
+      const uint32_t child = first_child(cut.part), half = cut.size / 2;
+      const bool is_second =
+          penalty_.previous_arc > curve_.arcs()[first + half < count ? first + half : count];
+      const Cut low{child, half, first}, high{child + 1, half, first + half};
+      pending[left++] = is_second ? low : high;  // the last is taken first
+      pending[left++] = is_second ? high : low;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr uint32_t kMaxJumps = 8;
+
+  /// Beyond this distance the segments from `first` to `last` cost more than the best.
+  float reach_m(uint32_t first, uint32_t last) const {
+    const float min_m =
+        min_penalty_m(penalty_, curve_.arcs()[first], curve_.arcs()[last], curve_.is_closed());
+    return (cost_m_ - min_m) + (cost_m_ + min_m + penalty_.weight_m * 0.125f) * kSlack;
+  }
+
+  bool may_hold(uint32_t first, uint32_t last, uint16_t radius) const {
+    const float room_m = reach_m(first, last);
+    if (!(room_m > 0.0f)) return false;
+    const float limit_m = room_m + radius_m_of(radius);
+    const float distance2_m2 =
+        line_distance2(p_m_ - curve_.sample(first), curve_.sample(last) - curve_.sample(first));
+    return distance2_m2 < limit_m * limit_m;
+  }
+
+  Foot look_at(uint32_t segment) {
+    const Foot foot = foot_on(segment);
+    const float cost_m = math::square_root(foot.distance2_m2) +
+                         penalty_at_m(penalty_, arc_of(curve_, foot), curve_.is_closed());
+    if (cost_m < cost_m_) {
+      best_ = foot;
+      cost_m_ = cost_m;
+    }
+    return foot;
+  }
+
+  Foot foot_on(uint32_t segment) {
+    if (curve_.is_smooth()) {
+      const PieceFoot found = foot_on_piece(curve_, p_m_, segment, reach_m(segment, segment + 1));
+      if (found.doubt_m > doubt_m_) doubt_m_ = found.doubt_m;
+      return found.foot;
+    }
+    return foot_on_segment(curve_, p_m_, segment, compensated_);
+  }
+
+  const View& curve_;
+  math::Vec3 p_m_;
+  const ArcPenalty penalty_;
+  bool compensated_;
+  float doubt_m_ = 0;
+  float cost_m_ = 0x1p62f;  // more than any cost
+  Foot best_{FLT_MAX, 0, 1, 0.0f};
+};
+
+// The segment that holds an arc position: what a cold query begins with.
+uint32_t segment_at(const View& curve, float arc) {
+  uint32_t first = 0, last = curve.segment_count();
+  while (last - first > 1) {
+    const uint32_t middle = first + (last - first) / 2;
+    if (curve.arcs()[middle] <= arc)
+      first = middle;
+    else
+      last = middle;
+  }
+  return first;
+}
+
+}  // namespace
+
+Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
+                    query::Budget budget, Hint& hint) {
+  const RunBound bound(curve.head(), p_m);
+  const bool compensated = bound.is_compensated(curve);
+  LeastCost least(curve, p_m, penalty, compensated);
+  const uint32_t from =
+      hint.segment < curve.segment_count() ? hint.segment : segment_at(curve, penalty.previous_arc);
+  const uint32_t start = run_of(least.approach(from), curve.run_levels());
+  Steps steps(budget);
+  Traversal traversal{steps.allowed, false, 0.0f};
+  if (least.take(start, steps.left)) traversal = traverse_runs(curve, bound, steps, start, least);
+
+  Constraint found;
+  found.closest = any_answer(curve, least.best());
+  found.cost_m = least.cost_m();
+  const float distance_m = found.closest.distance_m;
+  const Head& head = curve.head();
+  const float half_m = head.longest_half_m;
+  float lost_m = distance_m - rounded_down(distance_m, half_m, compensated);
+  // Where a foot is in doubt, so is its arc position, by its piece at most.
+  if (curve.is_smooth())
+    lost_m = least.doubt_m() + piece_loss_m(distance_m, half_m) +
+             penalty.weight_m * (2.0f + 0x1p-18f) * half_m / head.length_m;
+  const float along = kFootLoss * (found.cost_m + head.longest_half_m) / head.length_m;
+  float lower_m = found.cost_m * (1.0f - 0x1p-23f) - lost_m - penalty.weight_m * (kArcLoss + along);
+  if (!traversal.complete && traversal.pending_m < lower_m) lower_m = traversal.pending_m;
+  found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  found.closest.certificate.steps = traversal.steps;
+  found.closest.certificate.exact =
+      traversal.complete && least.doubt_m() <= 2.0f * piece_slack_m(head, distance_m);
+  hint.segment = found.closest.segment;
+  hint.position_m = p_m;
+  hint.lower_m = 0;  // a bound of the cost is none of the distance
+  hint.sign = 0;
+  hint.safe_subtree = query::kNowhere;
+  return found;
+}
+
+}  // namespace firmtouch::curve

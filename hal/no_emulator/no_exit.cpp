@@ -1,0 +1,7 @@
+#include "emulator/exit.hpp"
+
+namespace firmtouch::hal {
+
+void emulator_exit(int) {}
+
+}  // namespace firmtouch::hal

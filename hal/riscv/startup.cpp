@@ -1,0 +1,56 @@
+#include <stdint.h>
+
+#include "emulator/exit.hpp"
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/motors.hpp"
+#include "riscv/stack.hpp"
+
+// From reset to main(): FPU, motors off, stack, data, constructors.
+
+int main();  // not extern "C": clang mangles it in freestanding code
+
+extern "C" {
+extern uint32_t __data_begin[], __data_end[], __data_load[];
+extern uint32_t __bss_begin[], __bss_end[];
+using Constructor = void (*)();
+extern Constructor __init_array_begin[], __init_array_end[];
+
+[[noreturn]] void start_up() {
+  firmtouch::hal::motors_off();
+  firmtouch::hal::stack_paint();
+  firmtouch::hal::stack_guard();
+  const uint32_t* from = __data_load;
+  for (uint32_t* to = __data_begin; to < __data_end; ++to) *to = *from++;
+  for (uint32_t* to = __bss_begin; to < __bss_end; ++to) *to = 0;
+  for (Constructor* make = __init_array_begin; make < __init_array_end; ++make) (*make)();
+  firmtouch::hal::board_exit(main());
+}
+
+/// FPU on, rounding to nearest; stack; traps.
+[[gnu::naked, gnu::section(".reset"), noreturn]] void reset_handler() {
+  asm volatile(
+      ".option push; .option norelax     \n"
+      "la gp, __global_pointer$          \n"
+      ".option pop                       \n"
+      "li t0, 0x2000                     \n"  // mstatus.FS: initial
+      "csrs mstatus, t0                  \n"
+      "csrw fcsr, zero                   \n"
+      "la sp, __stack_top                \n"
+      "la t0, trap_handler               \n"
+      "csrw mtvec, t0                    \n"
+      "j start_up                        \n");
+}
+
+}  // extern "C"
+
+namespace firmtouch::hal {
+
+// Interrupts first: a tick behind motors_off() would switch the power stage on again.
+void board_exit(int status) {
+  asm volatile("csrci mstatus, 8" ::: "memory");
+  motors_off();
+  emulator_exit(status);
+  for (;;) asm volatile("wfi");
+}
+
+}  // namespace firmtouch::hal

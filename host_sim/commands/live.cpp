@@ -1,0 +1,83 @@
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include "firmtouch/params/table.hpp"
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/commands/outputs.hpp"
+#include "host_sim/controllers/session.hpp"
+#include "host_sim/live/live_server.hpp"
+#include "host_sim/report/page_data.hpp"
+#include "host_sim/report/page_parts.hpp"
+#include "host_sim/trace/log.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+volatile std::sig_atomic_t g_stop = 0;
+void on_signal(int) { g_stop = 1; }
+
+void fill(std::string& page, const std::string& place, const std::string& with) {
+  page.replace(page.find(place), place.size(), with);
+}
+
+// The whole page in one text; `asset`: of the part that it shows, or empty.
+std::string live_page(const std::string& asset) {
+  std::string scene;
+  if (!asset.empty()) {
+    const Session session(asset);
+    const Environment environment = environment_of(*session.controller, {});
+    const double radius_m = static_cast<double>(params::kTable[params::kToolRadius].initial);
+    const Scene3d scene3d = surface_scene(environment, radius_m);
+    const bool is_closed = environment.has_mesh() && environment.mesh().is_signed() &&
+                           scene3d.triangles.size() == scene3d.source_triangles;
+    scene =
+        "<script>window.firmtouchScene = {" + scene_data_of(scene3d, is_closed) + "};</script>\n";
+  }
+  std::string page = kLiveHtml;
+  fill(page, "{{script}}", kLiveJs);
+  fill(page, "{{scene}}", scene);
+  fill(page, "{{style}}", kLiveCss);
+  return page;
+}
+
+}  // namespace
+
+const Command& live_command_line() {
+  static const Command command = {
+      "live",
+      "CONTROLLER [options]",
+      "serves a page that shows and tunes a running controller in a browser, until Ctrl-C",
+      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
+      "The page is served to this machine only. One page holds the link; others wait.\n",
+      {{"--asset", "FILE", "the controller's asset: the page shows its part"},
+       {"--port", "N", "of http://127.0.0.1:N/ (default: 5678)"},
+       {"--page", "FILE.html",
+        "write the page instead, for use over WebSerial without this program"}}};
+  return command;
+}
+
+int serve_live(const std::vector<std::string>& words) {
+  const Options options(live_command_line(), words);
+  if (options.help()) {
+    std::cout << help_of(live_command_line());
+    return 0;
+  }
+  const std::string asset = options.value("--asset"), to = options.value("--page");
+  if (!to.empty()) {
+    check_outputs({{"--asset", asset}}, {{"--page", to}});
+    write_file(to, live_page(asset));
+    return 0;
+  }
+  const std::string where = options.operand("one controller");
+  const double port = options.number("--port", 5678, 1);
+  if (!(port <= 65535)) options.refuse("--port: a number up to 65535 is needed");
+  LiveServer server(static_cast<uint16_t>(port), live_page(asset), connect_stream(where));
+  std::cerr << "http://127.0.0.1:" << static_cast<int>(port) << "/   (Ctrl-C ends)\n";
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  while (g_stop == 0) server.poll(200);
+  return 0;
+}
+
+}  // namespace firmtouch::host_sim

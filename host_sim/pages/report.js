@@ -1,0 +1,70 @@
+'use strict';
+// The report: one time for charts, slider and 3D view.
+const report = (() => {
+  const $ = id => document.getElementById(id);
+  const data = JSON.parse($('run-data').textContent), { samples } = data;
+  const device = View3d.vectors(samples.device, 4), force = View3d.vectors(samples.force, 1);
+  const stage = new View3d($('stage'), data, ['tool', 'hand']);
+  const kArrow = 0.6;  // radii of the largest force
+  const name = document.title.split(' - ')[0];
+  let charts = [], queued = false, playing = null;
+
+  const seconds = View3d.bytes(data.charts[0].curves[0].low).byteLength / 4 * data.bin_s;
+  const time = new TimeWindow(seconds, 10 * data.bin_s, changed);
+  function changed(isWindow) {
+    const at = time.cursor / samples.step_s, i = Math.max(samples.first, Math.min(device.length - 1, Math.floor(at)));
+    const next = Math.min(device.length - 1, i + 1), share = Math.max(0, Math.min(1, at - i));
+    stage.setTool(device[i].map((v, k) => v + (device[next][k] - v) * share), force[i].map(v => v * kArrow));
+    const newton = Math.hypot(...force[i]) * samples.peak_N;
+    $('clock').textContent = `${time.cursor.toFixed(3)} s`;
+    document.querySelector('.stage .now').textContent = `at ${time.cursor.toFixed(3)} s, force ${newton.toFixed(2)} N`;
+    $('slider').value = String(Math.round(10000 * time.cursor / time.seconds));
+    if (!isWindow) return charts.forEach(chart => chart.showCursor());
+    if (queued) return;
+    queued = true;
+    requestAnimationFrame(() => { queued = false; charts.forEach(chart => chart.draw()); });
+  }
+  function play(is) {
+    cancelAnimationFrame(playing);
+    playing = null;
+    $('play').textContent = is ? '\u23F8' : '\u25B6';
+    $('play').setAttribute('aria-label', is ? 'pause' : 'play');
+    if (!is) return;
+    if (time.cursor >= time.seconds - data.bin_s) time.set(0);
+    let before = null;
+    const step = now => {
+      if (before !== null) time.set(time.cursor + (now - before) / 1000 * Number($('speed').value));
+      before = now;
+      if (time.cursor >= time.seconds) return play(false);
+      playing = requestAnimationFrame(step);
+    };
+    playing = requestAnimationFrame(step);
+  }
+
+  const sections = [...document.querySelectorAll('#plots > section')];
+  charts = data.charts.map((about, i) => new Chart(sections[i], about, data.bin_s, data.axis, time, name, i === 0));
+  $('time').hidden = false;
+  $('play').onclick = () => play(playing === null);
+  $('slider').oninput = () => time.set(Number($('slider').value) / 10000 * time.seconds);
+  $('in').onclick = () => time.zoom(0.5);
+  $('out').onclick = () => time.zoom(2);
+  $('earlier').onclick = () => time.pan(-time.span / 2);
+  $('later').onclick = () => time.pan(time.span / 2);
+  $('all').onclick = () => time.all();
+  document.addEventListener('keydown', e => {
+    if (e.key !== ' ' || /^(BUTTON|INPUT|SELECT|SUMMARY)$/.test(e.target.tagName)) return;
+    e.preventDefault();
+    play(playing === null);
+  });
+  for (const box of document.querySelectorAll('input[data-path]')) {
+    box.checked = !stage.hidden.has(box.dataset.path);
+    box.onchange = () => { stage.hidden[box.checked ? 'delete' : 'add'](box.dataset.path); stage.draw(); };
+  }
+  $('upright').onchange = e => stage.reset(e.target.checked);
+  new ResizeObserver(() => changed(true)).observe($('plots'));
+  window.addEventListener('beforeprint', () => charts.forEach(chart => chart.draw()));
+  time.cursor = data.start_s;
+  charts.forEach(chart => chart.draw());
+  changed(true);
+  return { charts, time, stage, play };
+})();

@@ -1,0 +1,1 @@
+firmtouch_test_module(bake LINKS firmtouch_tools_bake)

@@ -1,0 +1,328 @@
+#include <signal.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "live/browser.hpp"
+
+// The live page in a browser, against the controller program whose joints a simulated hand moves.
+// The test uses the page's own buttons and inputs, and reads what it shows.
+
+namespace {
+
+using firmtouch::live_test::Browser;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPatience_s = 40;
+constexpr double kConnect_s = 60;
+constexpr const char* kMotorsAreOn = "$('mode').textContent === 'motors: on'";
+
+struct Test {
+  Browser& browser;
+  int passed = 0, failed = 0;
+
+  // Whether `expression` becomes true in the page within the time.
+  bool becomes(const std::string& expression, double max_s) {
+    const auto end = Clock::now() + std::chrono::duration<double>(max_s);
+    do {
+      if (browser.evaluate(expression) == "true") return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    } while (Clock::now() < end);
+    return false;
+  }
+  bool check(const char* claim, bool holds) {
+    std::printf("%s  %s\n", holds ? "ok  " : "FAIL", claim);
+    if (!holds) {
+      std::printf("      the page says: %s\n", browser.evaluate("$('banner').textContent").c_str());
+    }
+    std::fflush(stdout);
+    ++(holds ? passed : failed);
+    return holds;
+  }
+  double number(const std::string& expression) {
+    return std::strtod(browser.evaluate(expression).c_str(), nullptr);
+  }
+  // Types a value into a parameter's field, as a person does.
+  void type(const std::string& parameter, const std::string& value) {
+    const std::string input =
+        "document.querySelector('[data-parameter=" + parameter + "] input[type=number]')";
+    browser.evaluate(input + ".value = '" + value + "', " + input +
+                     ".dispatchEvent(new Event('change'))");
+  }
+  bool said(const std::string& parameter, const std::string& what) {
+    return becomes("document.querySelector('[data-parameter=" + parameter +
+                       "] .said').textContent.includes('" + what + "')",
+                   kPatience_s);
+  }
+  std::string said_of(const std::string& parameter) {
+    return browser.evaluate("document.querySelector('[data-parameter=" + parameter +
+                            "] .said').textContent");
+  }
+  // Greatest of a field's length over the next `ticks` records.
+  double peak(const char* field, int ticks) {
+    const std::string begin = browser.evaluate("page.newest");
+    becomes("page.newest - " + begin + " > " + std::to_string(ticks), 20);
+    return number(
+        std::string("(() => { const f = page.session.field('") + field +
+        "'), s = page.store; let most = 0; for (let i = Math.max(0, s.count - " +
+        std::to_string(ticks) +
+        " / page.session.decimation); i < s.count; ++i) { const b = s.baseOf(i); let q = 0; for "
+        "(let k = 0; k < f.count; ++k) q += s.value(f, b, k) ** 2; most = "
+        "Math.max(most, Math.sqrt(q)); } return most; })()");
+  }
+};
+
+// What records at 10 kHz cost the page, whatever brings them: frames as the controller sends them,
+// in pieces of 4 KB, to its decoder, its store and its plots.
+constexpr const char* kCostOf10kHz =
+    "(() => { const n = 10000, parts = []; for (let i = 0; i < n; ++i) { const p = new "
+    "Uint8Array(4 + page.session.recordBytes); new DataView(p.buffer).setUint32(4, i, true); "
+    "parts.push(...encode(kLog, i & 0xFFFF, p)); } const bytes = new Uint8Array(parts); let "
+    "records = 0; const decoder = new Decoder((t, q, v) => { ++records; page.record(v.getUint32(4, "
+    "true), v); }); const begin = performance.now(); for (let at = 0; at < bytes.length; at += "
+    "4096) decoder.push(bytes.subarray(at, at + 4096)); for (const plot of page.plots) "
+    "plot.draw(page.columnOf(n)); return records + ' records of ' + page.session.recordBytes + ' "
+    "bytes: ' + Math.round(performance.now() - begin) + ' ms to read and plot'; })()";
+
+constexpr const char* kConnected = "$('banner').textContent.includes('receiving records')";
+constexpr const char* kNoFault = "$('faults').textContent.includes('No faults')";
+constexpr int kPressTicks = 2100;  // a press and a lift of the hand's
+
+void stiffness(Test& test) {
+  const double before_N = test.peak("output.force_N", kPressTicks);
+  test.type("contact_stiffness_N_per_m", "0");
+  test.type("guide_stiffness_N_per_m", "0");
+  test.check("a stiffness is changed, acknowledged, and shown as the controller has it",
+             test.said("contact_stiffness_N_per_m", "acknowledged: 800 ") &&
+                 test.said("guide_stiffness_N_per_m", "acknowledged: 400 "));
+  test.type("contact_damping_N_s_per_m", "0");
+  test.type("guide_damping_N_s_per_m", "0");
+  test.said("guide_damping_N_s_per_m", "acknowledged");
+  test.becomes("page.newest % 50 === 0", 1);
+  const double without_N = test.peak("output.force_N", 500);
+  test.type("contact_stiffness_N_per_m", "1600");
+  test.said("contact_stiffness_N_per_m", "acknowledged: 0 ");
+  const double after_N = test.peak("output.force_N", kPressTicks);
+  std::printf("      force, greatest: %.3f N; without stiffness %.3f N; at 1,600 N/m %.3f N\n",
+              before_N, without_N, after_N);
+  test.check("the force follows it: there, gone, and back",
+             before_N > 0.3 && without_N < 0.02 && after_N > 0.3);
+}
+
+void refusals(Test& test) {
+  test.type("contact_stiffness_N_per_m", "1e9");
+  test.check("a value out of range is not sent, and the range is shown",
+             test.said("contact_stiffness_N_per_m", "0 to 20000 N/m"));
+  test.check("the controller refuses it by itself",
+             test.becomes("page.session.set(1, 1e9).then(r => r.why.includes('out of range'))",
+                          kPatience_s));
+  test.becomes(kMotorsAreOn, kPatience_s);
+  test.type("force_limit_N", "9");
+  if (!test.check("a limit may only fall while the motors are on: refused by the tick, and said",
+                  test.said("force_limit_N", "may only fall"))) {
+    std::printf("      of the limit: %s\n", test.said_of("force_limit_N").c_str());
+  }
+}
+
+void faults(Test& test) {
+  test.type("max_speed_mps", "0.01");
+  test.check("a fault is shown in words, with what governs it",
+             test.becomes("/encoder.*max_speed_mps/.test($('faults').textContent)", kPatience_s));
+  test.type("max_speed_mps", "5");
+  test.said("max_speed_mps", "acknowledged");
+  test.browser.evaluate("$('clear').click()");
+  test.check("cleared when the operator opens the enable switch",
+             test.becomes(kNoFault, kPatience_s));
+}
+
+// Buttons and a key switch the motors off and on; the enable switch keeps the last word.
+void panel(Test& test) {
+  test.becomes(kMotorsAreOn, kPatience_s);
+  test.browser.evaluate("$('disable').click()");
+  test.check("Disable switches the motors off",
+             test.becomes("$('mode').textContent === 'motors: off'", kPatience_s));
+  test.type("force_limit_N", "9");
+  test.check("then a limit may rise", test.said("force_limit_N", "9 N"));
+  test.browser.evaluate("$('enable').click()");
+  test.check("Enable gives them back to the switch", test.becomes(kMotorsAreOn, kPatience_s));
+  test.browser.evaluate(
+      "document.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true }))");
+  test.check("Escape is an emergency stop: a latched fault",
+             test.becomes("$('faults').textContent.includes('emergency stop')", kPatience_s) &&
+                 test.becomes("page.isEnabled() === false", kPatience_s));
+  test.browser.evaluate("$('clear').click()");
+  test.check("it is cleared while the page holds the motors off",
+             test.becomes(kNoFault, kPatience_s));
+  test.browser.evaluate("$('enable').click()");
+  test.check("and the motors come on again", test.becomes(kMotorsAreOn, kPatience_s));
+}
+
+void parameters(Test& test) {
+  const std::string ends = "document.querySelector('[data-parameter=guide_ends]')";
+  test.check("parameters stand in groups", test.becomes("$('groups').children.length >= 4", 1));
+  test.browser.evaluate("$('search').value = 'guide ends', $('search').oninput()");
+  test.check("search shows what it finds, and nothing else",
+             test.becomes("!" + ends +
+                              ".hidden && page.parameters.filter(p => "
+                              "!p.element.hidden).length < 4",
+                          1));
+  test.browser.evaluate(ends + ".querySelector('button[data-value=\"2\"]').click()");
+  test.check("a switch of three values has three buttons",
+             test.becomes(ends + ".querySelectorAll('button').length === 3", 1) &&
+                 test.becomes(ends + ".querySelector('[aria-pressed=true]').dataset.value === '2'",
+                              kPatience_s));
+  test.browser.evaluate(
+      "window.kept = page.preset(), $('search').value = '', $('search').oninput()");
+  test.type("contact_stiffness_N_per_m", "500");
+  test.said("contact_stiffness_N_per_m", "acknowledged");
+  test.browser.evaluate(
+      "window.done = false, page.applyPreset(window.kept).then(() => window.done "
+      "= true)");
+  test.check("a preset brings back what was saved",
+             test.becomes("window.done", kPatience_s) &&
+                 test.becomes("JSON.stringify(page.preset()) === JSON.stringify(window.kept)", 1));
+}
+
+void recording(Test& test) {
+  test.browser.evaluate("$('record').click()");
+  test.becomes("page.recording.count > 100", kPatience_s);
+  const std::string rows = "(window.saved || (window.saved = page.stopRecording())).split('\\n')";
+  test.check("a recording is saved with a row a record and the names of the bits",
+             test.becomes(rows + ".length > 101", 5) &&
+                 test.becomes(rows + "[0].startsWith('number,') && " + rows +
+                                  "[0].includes('output.force_N[2]') && " + rows +
+                                  "[50].includes('enable')",
+                              1));
+}
+
+void plots(Test& test) {
+  test.browser.evaluate(
+      "(() => { const c = page.plots[0].canvas, b = c.getBoundingClientRect(); page.pause(true); "
+      "c.dispatchEvent(new PointerEvent('pointermove', { clientX: b.left + b.width / 2, clientY: "
+      "b.top + 20 })); })()");
+  test.check("pointing at a plot shows the values there",
+             test.becomes("page.plots[0].hover > 50", 2));
+  test.browser.evaluate(
+      "(() => { const c = page.plots[0].canvas; c.focus(); c.dispatchEvent(new WheelEvent('wheel', "
+      "{ deltaY: -700, cancelable: true })); })()");
+  test.check("the wheel zooms", test.becomes("page.seconds < 2", 2));
+  test.browser.evaluate("page.goBack(300)");
+  test.check("a drag goes back in time", test.becomes("page.back > 0 && page.paused", 2));
+  test.browser.evaluate("page.pause(false), page.setSeconds(5)");
+  test.check("part, tool and force are shown in 3D",
+             test.becomes("page.stage.corners.length > 1000 && page.stage.tool.every(v => "
+                          "Math.abs(v) < 3) && page.stage.trail.length > 100",
+                          kPatience_s));
+  test.check("one message a frame: no more messages than frames",
+             test.becomes("page.session.port.messages >= page.session.records && "
+                          "page.session.port.messages < page.session.records * 1.5 + 500",
+                          2));
+}
+
+// A second page waits, takes the link over, and gives it back.
+void second_page(Test& test, const std::string& url) {
+  const std::string first = test.browser.page();
+  test.browser.open(url, 1440, 960);
+  test.check("a second page says that another one holds the link",
+             test.becomes("$('banner').textContent.includes('Another page holds')", kPatience_s) &&
+                 test.becomes("!page.session.live && !$('take').hidden", 1));
+  test.browser.evaluate("$('take').click()");
+  test.check("it can take the link over", test.becomes(kConnected, kConnect_s));
+  test.browser.use(first);
+  test.check("the first page reports it",
+             test.becomes("$('banner').textContent.includes('another page took')", kPatience_s));
+  test.browser.evaluate("$('connect').click()");
+  test.check("it connects, waits, and takes the link back",
+             test.becomes("$('banner').textContent.includes('Another page holds')", kPatience_s) &&
+                 test.becomes("($('take').click(), true)", 1) &&
+                 test.becomes(kConnected, kConnect_s));
+}
+
+// A cable that is none: a serial port for the page, whose bytes take the server's link.
+constexpr const char* kStandInPort =
+    "Object.defineProperty(navigator, 'serial', { configurable: true, value: { requestPort: async "
+    "() => { let socket; const port = { async open(how) { window.baud = how.baudRate; socket = new "
+    "WebSocket(location.origin.replace('http', 'ws') + '/link'); socket.binaryType = "
+    "'arraybuffer'; await new Promise(done => socket.onopen = done); port.readable = new "
+    "ReadableStream({ start(to) { socket.onmessage = event => { if (typeof event.data !== "
+    "'string') to.enqueue(new Uint8Array(event.data)); }; window.pullCable = () => { to.error(new "
+    "Error('The device has been lost.')); socket.close(); }; } }); port.writable = new "
+    "WritableStream({ write(bytes) { socket.send(bytes); } }); }, async close() { socket.close(); "
+    "} "
+    "}; return port; } } })";
+
+void serial(Test& test) {
+  test.browser.evaluate("$('leave').click()");
+  test.check("on request it leaves: what is shown is called the last that was reported",
+             test.becomes("$('banner').textContent === 'Disconnected.'", 5) &&
+                 test.becomes("$('state').textContent.startsWith('State, as last reported')", 1) &&
+                 test.becomes("$('flow').textContent === 'no records'", 1));
+  test.browser.evaluate(kStandInPort);
+  test.browser.evaluate("$('serial').click()");
+  test.check("it connects over a serial port too (a stand-in), at 1 Mbaud",
+             test.becomes(kConnected, kConnect_s) && test.becomes("window.baud === 1000000", 1) &&
+                 test.becomes("page.session.records > 5", kPatience_s));
+  test.browser.evaluate("window.pullCable()");
+  test.check("the cable is pulled: it says so",
+             test.becomes("$('banner').textContent.includes('the cable was pulled')", 5));
+  test.browser.evaluate("$('connect').click()");
+  test.check("it connects again",
+             test.becomes(kConnected, kConnect_s) &&
+                 test.becomes("$('mode').textContent !== 'motors: ?'", kPatience_s));
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 5) {
+    std::fprintf(stderr, "usage: live_page BROWSER URL CONTROLLER_PID FOLDER [PICTURES]\n");
+    return 2;
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+  const std::string pictures = count > 5 ? words[5] : "";
+  Browser browser(words[1], words[4]);
+  Test test{browser};
+  const auto picture = [&](const char* name) {
+    if (!pictures.empty()) browser.picture(pictures + "/" + name + ".png");
+  };
+  if (!test.check("the browser opens the page", browser.open(words[2], 1600, 1000))) return 1;
+  if (test.check("it connects to the controller", test.becomes(kConnected, kConnect_s))) {
+    const double first = test.number("page.session.records");
+    test.check("records come, and the pictures move",
+               test.becomes("page.session.records > 50 + " + std::to_string(first), kPatience_s) &&
+                   test.becomes("document.querySelectorAll('.plot').length === 5", 1));
+    test.check("the motors come on when the hand closes its switch",
+               test.becomes(kMotorsAreOn, kPatience_s));
+    stiffness(test);
+    picture("desktop");
+    refusals(test);
+    faults(test);
+    panel(test);
+    parameters(test);
+    recording(test);
+    plots(test);
+    picture("tuned");
+    second_page(test, words[2]);
+    std::printf("      %s\n", browser.evaluate("$('flow').textContent").c_str());
+    serial(test);
+    test.check("no frame was damaged", browser.evaluate("page.session.decoder.rejects") == "0");
+  }
+  ::kill(static_cast<pid_t>(std::atoi(words[3])), SIGKILL);
+  test.check("the page reports a closed link",
+             test.becomes("$('banner').textContent.includes('Disconnected')", 5) &&
+                 test.becomes("$('state').textContent.startsWith('State, as last reported')", 1));
+  picture("gone");
+  std::printf("      a second at 10 kHz, %s\n", browser.evaluate(kCostOf10kHz).c_str());
+  browser.resize(390, 844);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  test.check("at a phone's width nothing stands out to the side",
+             test.becomes("document.documentElement.scrollWidth <= 390", 2));
+  picture("phone");
+  const std::string errors = browser.errors();
+  if (!test.check("no error on the console", errors.empty())) std::printf("%s", errors.c_str());
+  std::printf("%d passed, %d failed\n", test.passed, test.failed);
+  return test.failed == 0 ? 0 : 1;
+}

@@ -1,0 +1,189 @@
+#include <signal.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "live/browser.hpp"
+
+// A run's report in a browser: everything that a reader can do with it, done by a script.
+
+namespace {
+
+using firmtouch::live_test::Browser;
+using Clock = std::chrono::steady_clock;
+
+struct Test {
+  Browser& browser;
+  int passed = 0, failed = 0;
+
+  bool becomes(const std::string& expression, double max_s = 10) {
+    const auto end = Clock::now() + std::chrono::duration<double>(max_s);
+    do {
+      if (browser.evaluate(expression) == "true") return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    } while (Clock::now() < end);
+    return false;
+  }
+  bool check(const char* claim, bool holds) {
+    std::printf("%s  %s\n", holds ? "ok  " : "FAIL", claim);
+    std::fflush(stdout);
+    ++(holds ? passed : failed);
+    return holds;
+  }
+  void run(const std::string& script) { browser.evaluate("(() => { " + script + " })()"); }
+  double number(const std::string& expression) {
+    return std::strtod(browser.evaluate(expression).c_str(), nullptr);
+  }
+  // A mouse over the first chart, at these shares of its width.
+  void drag_chart(double from, double to) {
+    run("report.charts[0].node.scrollIntoView({ block: 'center' })");
+    const std::string box = "report.charts[0].node.getBoundingClientRect()";
+    const double left = number(box + ".left"), width = number(box + ".width"),
+                 y = number(box + ".top + 60");
+    const auto mouse = [&](const char* type, double share, const char* more) {
+      browser.input("dispatchMouseEvent", "{\"type\":\"" + std::string(type) +
+                                              "\",\"x\":" + std::to_string(left + share * width) +
+                                              ",\"y\":" + std::to_string(y) + more + "}");
+    };
+    mouse("mouseMoved", from, "");
+    mouse("mousePressed", from, ",\"button\":\"left\",\"buttons\":1,\"clickCount\":1");
+    for (int i = 1; i <= 5; ++i)
+      mouse("mouseMoved", from + (to - from) * i / 5, ",\"button\":\"left\",\"buttons\":1");
+    mouse("mouseReleased", to, ",\"button\":\"left\",\"clickCount\":1");
+  }
+};
+
+void time(Test& test) {
+  test.run(
+      "document.getElementById('slider').value = 5000; "
+      "document.getElementById('slider').oninput()");
+  test.check("the slider moves the time of all charts and of the tool",
+             test.becomes("Math.abs(report.time.cursor - report.time.seconds / 2) < 0.01 && "
+                          "document.getElementById('clock').textContent === "
+                          "report.time.cursor.toFixed(3) + ' s'"));
+  test.run("document.getElementById('speed').value = '4'; document.getElementById('play').click()");
+  test.check("play moves it on", test.becomes("report.time.cursor > report.time.seconds * 0.6"));
+  test.run("document.getElementById('play').click(); window.at = report.time.cursor");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  test.check("pause holds it", test.becomes("report.time.cursor === window.at", 1));
+}
+
+// Three ticks of 50 N in the middle of the force of the run.
+void event(Test& test) {
+  test.run(
+      "const c = report.charts[0].about.curves[1]; for (const i of [6000, 6001, 6002]) c.low[i] "
+      "= 50; report.charts[0].draw(); window.points = () => "
+      "report.charts[0].node.querySelector('polyline[data-series=\"1\"]')"
+      ".getAttribute('points').split(' ').map(p => p.split(',').map(Number))");
+  test.check("3 ms in 12 s stand out in the whole chart",
+             test.becomes("Math.min(...window.points().map(p => p[1])) < 30", 2));
+  test.run("report.time.show(5.985, 0.03)");
+  test.check("zoomed in, they are a tenth of the width, tick by tick",
+             test.becomes("(() => { const high = window.points().filter(p => p[1] < 30); return "
+                          "high.length === 3 && high[2][0] - high[0][0] > 50; })()",
+                          2));
+}
+
+void zoom_and_pan(Test& test) {
+  test.run("report.time.all()");
+  test.run(
+      "const n = report.charts[2].node; n.scrollIntoView(); n.focus(); const b = "
+      "n.getBoundingClientRect(); n.dispatchEvent(new WheelEvent('wheel', { deltaY: -1000, "
+      "clientX: b.left + b.width / 2, cancelable: true }))");
+  test.check("the wheel zooms all charts at the pointer",
+             test.becomes("report.time.span < 0.2 * report.time.seconds && "
+                          "Math.abs((report.time.from + report.time.to) / 2 / report.time.seconds "
+                          "- 0.5) < 0.1"));
+  test.run("window.from = report.time.from");
+  test.drag_chart(0.6, 0.4);
+  test.check("a drag pans",
+             test.becomes("report.time.from > window.from + 0.1 * report.time.span"));
+  test.run("document.getElementById('all').click()");
+  test.check("All shows everything", test.becomes("!report.time.isZoomed"));
+  test.run("document.getElementById('in').click()");
+  test.check("a button zooms", test.becomes("report.time.isZoomed"));
+  test.run("report.time.all()");
+}
+
+void stage(Test& test) {
+  test.run(
+      "report.time.set(report.time.seconds * 0.6); const s = report.stage, c = s.canvas; "
+      "c.scrollIntoView({ block: 'center' }); const b = c.getBoundingClientRect(); const p = "
+      "(type, id, x, y) => c.dispatchEvent(new PointerEvent(type, { pointerId: id, "
+      "pointerType: 'touch', clientX: b.left + x, clientY: b.top + y, buttons: 1 })); "
+      "window.before = { ...s.view }; p('pointerdown', 1, 100, 100); p('pointerdown', 2, 200, "
+      "100); p('pointermove', 1, 60, 110); p('pointermove', 2, 300, 140); p('pointerup', 1, "
+      "60, 110); p('pointerup', 2, 300, 140)");
+  test.check("two fingers zoom and move the 3D view",
+             test.becomes("report.stage.view.zoom > 1.5 && Math.abs(report.stage.view.x) > 0.01"));
+  test.run("report.stage.reset()");
+  test.check("the force is an arrow",
+             test.becomes("Math.hypot(...report.stage.force) > 0.1 && (() => { const c = "
+                          "report.stage.canvas, d = c.getContext('2d').getImageData(0, 0, c.width, "
+                          "c.height).data; let red = 0; for (let i = 0; i < d.length; i += 4) red "
+                          "+= d[i] === 198 && d[i + 1] === 40 && d[i + 2] === 57; return red > 40; "
+                          "})()"));
+}
+
+void lines_and_files(Test& test) {
+  const std::string lines = "report.charts[0].node.querySelectorAll('polyline[data-series=\"0\"]')";
+  test.check("a line is shown", test.becomes(lines + ".length > 0", 2));
+  test.run("report.charts[0].section.querySelector('.keys button').click()");
+  test.check("its legend hides it", test.becomes(lines + ".length === 0", 2));
+  test.run("report.charts[0].section.querySelector('.keys button').click()");
+  test.check("and shows it again", test.becomes(lines + ".length > 0", 2));
+  test.check("a chart is saved as SVG that needs no style sheet",
+             test.becomes("(() => { const t = report.charts[0].saveSvg(); return "
+                          "t.startsWith('<svg') && t.includes('xmlns=') && t.includes('Force') && "
+                          "!t.includes('var('); })()",
+                          2));
+  test.check("data are saved as CSV, a row a tick",
+             test.becomes("(() => { const rows = report.charts[1].saveCsv().trim().split('\\n'); "
+                          "return rows.length > 12000 && rows[0].startsWith('time_s,') && "
+                          "rows[5000].split(',').length === 2; })()",
+                          2));
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 4) {
+    std::fprintf(stderr, "usage: report_page BROWSER URL FOLDER [PICTURES]\n");
+    return 2;
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+  const std::string pictures = count > 4 ? words[4] : "";
+  Browser browser(words[1], words[3]);
+  Test test{browser};
+  const auto picture = [&](const char* name) {
+    if (!pictures.empty()) browser.picture(pictures + "/" + name + ".png");
+  };
+  if (!test.check("the browser opens the report", browser.open(words[2], 1440, 1000))) return 1;
+  test.check("it has its charts and its name",
+             test.becomes("report.charts.length >= 6 && document.title.startsWith('part ')", 30));
+  test.check("a card says how it feels, and the stop is said to be the scenario's",
+             test.becomes("/Feel/.test(document.querySelector('.claims').textContent) && "
+                          "/part of the scenario/.test(document.body.textContent)",
+                          2));
+  picture("report");
+  time(test);
+  zoom_and_pan(test);
+  stage(test);
+  picture("report_3d");
+  lines_and_files(test);
+  event(test);
+  picture("report_zoomed");
+  browser.resize(390, 844);
+  test.check("at a phone's width nothing stands out to the side, and labels are readable",
+             test.becomes("document.documentElement.scrollWidth <= 390 && "
+                          "report.charts[0].node.querySelector('text').getBoundingClientRect()"
+                          ".height >= 10"));
+  picture("report_phone");
+  const std::string errors = browser.errors();
+  if (!test.check("no error on the console", errors.empty())) std::printf("%s", errors.c_str());
+  std::printf("%d passed, %d failed\n", test.passed, test.failed);
+  return test.failed == 0 ? 0 : 1;
+}

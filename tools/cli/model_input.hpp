@@ -1,0 +1,58 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/arguments.hpp"
+#include "surface/surface.hpp"
+
+namespace firmtouch::cli {
+
+/// A length that the user gives: metres, or a share of the model's diagonal.
+struct Length {
+  double value = 0;  // 0: not given
+  bool is_share = false;
+};
+
+/// How the inputs become metres, and what is done to a mesh that cannot be touched as it is.
+struct ModelOptions {
+  tools::FileFrame frame;                            // without size and centre
+  std::map<std::string, tools::FileFrame> frame_of;  // of the inputs with a unit of their own
+  double size_m = 0;    // of the first model's largest side; 0: as it is
+  bool centre = false;  // the middle of the first model's box to the origin
+  bool is_signed = true;
+  bool close_holes = false;
+  bool mend = false;
+  Length wrap;
+  bool has_decimal_commas = false;  // in curves
+
+  tools::FileFrame frame_for(const std::string& path) const;
+};
+
+/// A command's own options with those that say the above behind the first.
+std::vector<Option> with_model_options(std::vector<Option> own);
+/// Of these. `text`: as they stand in the provenance, appended.
+ModelOptions model_options(const Arguments& arguments, std::string& text);
+
+/// "bone.stl:mm" as path and unit where no file has the whole name. The units go to `options`.
+std::vector<std::string> inputs_with_units(const std::vector<std::string>& words,
+                                           ModelOptions& options);
+
+/// Settles --size and --centre by the box of `path`, which is read for that.
+void settle_size(const std::string& path, ModelOptions& options);
+
+/// A model read, checked and mended.
+struct SoundSurface {
+  tools::Surface surface;
+  std::vector<uint32_t> vertex_source;  // of each vertex: its index in the file
+  std::vector<std::string> reported;    // a sentence for each thing mended or let through
+};
+
+/// Fails (bad input) with the file, the place, what is wrong, how often and how to mend it.
+SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
+                           const ModelOptions& options);
+
+bool is_curve_file(const std::string& path);
+bool is_spline_file(const std::string& path);
+
+}  // namespace firmtouch::cli
