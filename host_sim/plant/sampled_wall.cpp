@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kHighest_N_per_m = 1e7;
 
-// The axis over one period under a constant force: x' = a[0] x + a[1] v + b[0] F; the same for v'.
+// The axis over one period under a constant force: x' = a[0] x + a[1] v + b[0] F, and so v' with
+// the second row.
 struct Period {
   double a[2][2], b[2];
 };

@@ -37,7 +37,7 @@ bool is_finite(float a) { return a - a <= 0.0f; }
 
 }  // namespace
 
-TEST(Tracking_ConstantSpeed_EndsWithoutError) {
+TEST(Tracking_UniformMotion_EndsWithoutError) {
   constexpr float kPeriods_s[] = {1e-3f, 0.25e-3f, 0.1e-3f};
   constexpr double kSpeeds_mps[] = {0.002, -0.003, 0.005, -0.0073, 0.02, 0.126, -0.9};
   for (const float period_s : kPeriods_s) {
@@ -67,15 +67,15 @@ TEST(Tracking_FlickerBetweenTwoCounts_IsSoonNoMotion) {
   CHECK_LE(size(velocity), 1e-6f);
 }
 
-TEST(Tracking_AxisThatStops_SlowsWithTheElapsedTime) {
+// The slope falls by 0.57 a tick until the line stays in its count, the lead by 4 in 5.
+TEST(Tracking_AxisThatStops_IsEstimatedAtRestWithin50Milliseconds) {
   constexpr double kSpeeds_mps[] = {0.01, -0.1, 1.0};
   for (const double mps : kSpeeds_mps) {
     Axis axis;
     for (int32_t i = 0; i < 300; ++i) (void)axis.move(mps * 33.333333);
     for (int32_t i = 1; i < 400; ++i) {
       const float velocity = size(axis.move(0));
-      // A parabola that stays within one count for a time t is no steeper than 4 / t (Markov).
-      if (i > 5) CHECK_LE(velocity, 4.0f / (kPerMetre * 1e-3f * static_cast<float>(i - 5)));
+      if (i > 50) CHECK_LE(velocity, 1e-3f);
     }
   }
 }

@@ -13,7 +13,7 @@ const std::vector<Bench>& benches() {
       {"curve", "guides along recorded curves: time, bytes, jumps of the force", run_curve},
       {"spline-race", "closest points of splines: time against another library", run_spline_race},
       {"ring", "records from thread to thread: the lock-free ring, a locked deque", run_ring},
-      {"velocity", "velocity estimators on encoder counts: error", run_velocity},
+      {"velocity", "velocity estimators on encoder counts: errors", run_velocity},
   };
   return all;
 }

@@ -69,7 +69,7 @@ double rms_mm_per_s(Estimate estimate, double period_s, const Motion& position_m
   return std::sqrt(sum / n) * 1e3;
 }
 
-double constant(const Estimate& estimate, double period_s, double mps) {
+double uniform(const Estimate& estimate, double period_s, double mps) {
   return rms_mm_per_s(
       estimate, period_s, [=](double t) { return 1e-6 + mps * t; }, [=](double) { return mps; });
 }
@@ -112,14 +112,13 @@ void run_velocity(const Options&, Report& report) {
     for (const auto& one : estimators) {
       std::vector<std::string> row = {one.name};
       for (const double mps : {1e-3, 3e-3, 5e-3, 20e-3, 50e-3})
-        row.push_back(number_text(constant(one.estimate, t, mps)));
+        row.push_back(number_text(uniform(one.estimate, t, mps)));
       row.push_back(number_text(sine(one.estimate, t)));
       rows.push_back(row);
     }
     report.table({"estimator", "1 mm/s", "3", "5", "20", "50", "sine, worst phase"}, rows);
     const Estimate tracking = of_firmware(device::Estimator::kTracking, t);
-    report.bar("tracking at 5 mm/s", rate.name, constant(tracking, t, 5e-3), "mm/s",
-               rate.slow_goal);
+    report.bar("tracking at 5 mm/s", rate.name, uniform(tracking, t, 5e-3), "mm/s", rate.slow_goal);
     report.bar("tracking on 10 Hz, 126 mm/s", rate.name, sine(tracking, t), "mm/s", rate.sine_goal);
   }
 }

@@ -9,7 +9,7 @@ namespace firmtouch::device {
 enum class Estimator : uint8_t {
   kDifference,  // of the last two samples
   kLowPass,     // the difference through a first-order low-pass
-  kTracking,    // a curve through the counts, corrected where it leaves one
+  kTracking,    // a line through the counts, corrected where it leaves one
 };
 
 struct VelocitySettings {
@@ -19,19 +19,19 @@ struct VelocitySettings {
 
 struct VelocityState {
   float units_per_s = 0;  // the last estimate
-  // kTracking: the curve's end, from 0 to 1 in the current count, its slope and its bend.
+  // kTracking: the line's end, from 0 to 1 in the current count, its slope, and the lead on it.
   float within = 0.5f;
   float counts_per_s = 0;
-  float counts_per_s2 = 0;
+  float lead_counts_per_s = 0;
   float since_s = 0;  // time since the last correction
 };
 
 /// The velocity after a motion of `step` counts in `dt_s`.
-/// kTracking extrapolates a parabola. An encoder bounds the position to one count. Where the curve
-/// leaves it, its end is moved to the nearer bound, its slope is corrected by the miss over the
-/// time since the last correction, and its bend by that over the time again. So steady motion is
-/// estimated without error in the end, and a change is followed fast, because misses then follow
-/// each other.
+/// kTracking extrapolates a line. An encoder bounds the position to one count. Where the line
+/// leaves it, its end is moved to the nearer bound, and its slope is corrected by a share of the
+/// miss over the time since the last correction. So steady motion is estimated without error in the
+/// end, and a change is followed fast, because misses then follow each other. A share of recent
+/// corrections is added to the result, against the lag; it is not fed back.
 /// Pre: dt_s > 0 and counts_per_unit != 0, both finite.
 /// Bounds: constant; four divisions. Result: finite, also at rest after any history.
 float estimate(VelocityState& state, const VelocitySettings& settings, float counts_per_unit,
