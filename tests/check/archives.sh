@@ -73,7 +73,8 @@ check() {
       preset == "host" && /[ \t]v?(add|sub|mul|div|sqrt|cvtss2|cvtsi2|ucomi|comi)[sp]?d[ \t]/ { if ($0 ~ /%xmm/) complain("computes in double") }
       preset == "host" && /[ \t]vf(n?m)(add|sub)[0-9]*[sp][sd][ \t]/ { complain("fuses multiply and add") }
       preset != "host" && /\.f64[ \t]/ { complain("computes in double") }
-      preset != "host" && /[ \t]v(fma|fms|fnma|fnms)\.f32/ { complain("fuses multiply and add") }
+      # math::product_error() is one: its single rounding is the error of a product.
+      preset != "host" && object !~ /^compensated_distance\.cpp/ && /[ \t]v(fma|fms|fnma|fnms)\.f32/ { complain("fuses multiply and add") }
       END { exit bad }' || bad=1
   done
   return $bad
