@@ -19,9 +19,9 @@ bool servo_is_running();
 /// The power stage was on in the last tick. Main loop.
 bool motors_may_push();
 
-/// hal::motors_lines() and the host's panel as flags of a tick. Enable is low in the first tick, while `sets_saved`, and
-/// until the switch was seen open once since reset: nobody may be holding the device. Servo
-/// interrupt only.
+/// hal::motors_lines() and the host's panel as flags of a tick. Enable is low in the first tick,
+/// while `sets_saved`, and until the switch was seen open once since reset: nobody may be holding
+/// the device. Servo interrupt only.
 uint32_t servo_flags(bool sets_saved);
 
 /// Servo interrupt, behind each tick: timer and watchdog follow a changed period.

@@ -28,13 +28,13 @@ struct HalfCellPoint {
 namespace portable {
 
 // The error of a smaller product may be no float.
-constexpr float kLeastProduct = 0x1p-100f;
+constexpr float kMinProduct = 0x1p-100f;
 
-/// a * b - product, exact; 0 where |product| < kLeastProduct. Pre: product is a * b rounded; |a|
+/// a * b - product, exact; 0 where |product| < kMinProduct. Pre: product is a * b rounded; |a|
 /// and |b| are below 2^115.
 /// Source: Dekker 1971, with Veltkamp's halves.
 static inline float product_error(float a, float b, float product) {
-  if (!(__builtin_fabsf(product) >= kLeastProduct)) return 0.0f;
+  if (!(__builtin_fabsf(product) >= kMinProduct)) return 0.0f;
   const float ca = 4097.0f * a, a_high = ca - (ca - a), a_low = a - a_high;
   const float cb = 4097.0f * b, b_high = cb - (cb - b), b_low = b - b_high;
   return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;

@@ -17,8 +17,7 @@ static inline float square_root(float value) { return __builtin_sqrtf(value); }
 
 /// By one rounding more than the product: VFMA.
 static inline float product_error(float a, float b, float product) {
-  return __builtin_fabsf(product) >= portable::kLeastProduct ? __builtin_fmaf(a, b, -product)
-                                                             : 0.0f;
+  return __builtin_fabsf(product) >= portable::kMinProduct ? __builtin_fmaf(a, b, -product) : 0.0f;
 }
 
 static inline uint32_t saturated(float value) {

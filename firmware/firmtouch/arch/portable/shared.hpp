@@ -1,5 +1,6 @@
 #pragma once
-// What no target without the DSP extension replaces. For the primitives.hpp of such targets.
+// What no target without the DSP extension replaces, for the primitives.hpp of such targets. For
+// own translation units.
 
 #include "firmtouch/math/portable.hpp"
 
