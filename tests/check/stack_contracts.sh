@@ -33,12 +33,12 @@ check() {
 }
 
 plant_too_small_figure() {
-  sed 's/2\.5 KB of stack/2 KB of stack/' firmware/firmtouch/mesh/closest_point.hpp >new.hpp
+  sed 's/1\.6 KB of stack/1 KB of stack/' firmware/firmtouch/mesh/closest_point.hpp >new.hpp
   mv new.hpp firmware/firmtouch/mesh/closest_point.hpp
-  expect='mesh::closest_point states 2048 bytes of stack and takes'
+  expect='mesh::closest_point states 1024 bytes of stack and takes'
 }
 plant_generous_figure() {
-  sed 's/2\.5 KB of stack/9 KB of stack/' firmware/firmtouch/mesh/closest_point.hpp >new.hpp
+  sed 's/1\.6 KB of stack/9 KB of stack/' firmware/firmtouch/mesh/closest_point.hpp >new.hpp
   mv new.hpp firmware/firmtouch/mesh/closest_point.hpp
   expect='mesh::closest_point states 9216 bytes of stack and takes'
 }
