@@ -79,14 +79,9 @@ const Command& query_command() {
       "Rows are answered in order, each warm-started by the one before.",
       {{"--cold", nullptr, "each row on its own"},
        {"--work", "N",
-<<<<<<< HEAD
         "at most N work units a query, of about 100 instructions of a Cortex-M7 (default: "
         "unlimited, "
         "so exact)"},
-=======
-        "at most N work units a query, of about 100 instructions of a Cortex-M7 "
-        "(default: unlimited, so exact)"},
->>>>>>> house
        {"--budget", "N", "the same in visits of 2.5 units; dropped in the next version"},
        {"--time", nullptr, "no CSV: the median time a query over 5 passes"},
        {"--isa", "LEVEL",

@@ -77,7 +77,7 @@ struct ContactRows {
        When::kAnytime, "stiffness of the surface"},
       {kContactDamping, "contact_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime,
        "damping of the surface"},
-      {kMeshWork, "mesh_work", "1", 0.0f, 65536.0f, 2560.0f, When::kMayFall,
+      {kMeshWork, "mesh_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
        "work units of the surface's queries in a tick"},
   };
 };

@@ -1,11 +1,6 @@
 #pragma once
-<<<<<<< HEAD
 // What no target without the DSP extension replaces. For the primitives.hpp of such targets, and
 // so for the library's own translation units.
-=======
-// What no target without the DSP extension replaces, for the primitives.hpp of such targets. For
-// own translation units.
->>>>>>> house
 
 #include "firmtouch/math/portable.hpp"
 
