@@ -26,9 +26,11 @@ constexpr float kStiffness_N_per_m = 500.0f;
 constexpr query::Budget kBudget{64};
 constexpr Torus kTorus{{-0.04f, 0, 0}, 0.02f, 0.008f};
 constexpr HummingWall kWall{-0.02f, 0.0005f, kStiffness_N_per_m};
-constexpr device::Settings kDevice{
-    {100000, 100000, 100000}, {0, 0, 0}, {0.1f, 0.1f, 0.1f}, 1.0f,
-    {device::Estimator::kLowPass, 100.0f}};
+constexpr device::Settings kDevice{{100000, 100000, 100000},
+                                   {0, 0, 0},
+                                   {0.1f, 0.1f, 0.1f},
+                                   1.0f,
+                                   {device::Estimator::kLowPass, 100.0f}};
 constexpr servo::Settings kServo{5.0f, 1000.0f, 0.02f, 0.001f};
 constexpr servo::GuardLimits kGuard{5.0f, 1000.0f, 0.001f};
 
