@@ -93,24 +93,24 @@ constexpr int kPressTicks = 2100;  // a press and a lift of the hand's
 
 void stiffness(Test& test) {
   const double before_N = test.peak("output.force_N", kPressTicks);
-  test.type("contact_stiffness_N_per_m", "0");
+  test.type("contact_stiffness_N_per_m", "400");
   test.type("guide_stiffness_N_per_m", "0");
   test.check("a stiffness is changed, acknowledged, and shown as the controller has it",
              test.said("contact_stiffness_N_per_m", "acknowledged: 800 ") &&
                  test.said("guide_stiffness_N_per_m", "acknowledged: 400 "));
-  test.type("contact_damping_N_s_per_m", "0");
   test.type("guide_damping_N_s_per_m", "0");
   test.said("guide_damping_N_s_per_m", "acknowledged");
   test.becomes("page.newest % 50 === 0", 1);
-  const double without_N = test.peak("output.force_N", 500);
-  test.type("contact_stiffness_N_per_m", "1600");
-  test.said("contact_stiffness_N_per_m", "acknowledged: 0 ");
   // A stiffness acts in full when contact is next made: the hand may be pressing now.
+  test.peak("output.force_N", kPressTicks);
+  const double soft_N = test.peak("output.force_N", kPressTicks);
+  test.type("contact_stiffness_N_per_m", "1600");
+  test.said("contact_stiffness_N_per_m", "acknowledged: 400 ");
   const double after_N = test.peak("output.force_N", 2 * kPressTicks);
-  std::printf("      force, greatest: %.3f N; without stiffness %.3f N; at 1,600 N/m %.3f N\n",
-              before_N, without_N, after_N);
-  test.check("the force follows it: there, gone, and back",
-             before_N > 0.3 && without_N < 0.02 && after_N > 0.3);
+  std::printf("      force, greatest: %.3f N; at 400 N/m %.3f N; at 1,600 N/m %.3f N\n", before_N,
+              soft_N, after_N);
+  test.check("the force follows it: there, less, and back",
+             before_N > 0.3 && soft_N < 0.9 * before_N && after_N > 0.3);
 }
 
 void refusals(Test& test) {
