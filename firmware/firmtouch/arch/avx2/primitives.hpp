@@ -33,7 +33,7 @@ static inline bool grid_point(float x, float y, float z, const float* low, float
 
 // The squares of the three axes and 0.
 static inline __m128i box_squares(const uint32_t* box, BoxPoint point) {
-  const __m128i words = _mm_loadu_si128(reinterpret_cast<const __m128i*>(box));
+  const __m128i words = _mm_loadu_si128(static_cast<const __m128i*>(static_cast<const void*>(box)));
   const __m128i gaps = _mm_subs_epu16(words, point.words);
   return _mm_madd_epi16(gaps, gaps);
 }
