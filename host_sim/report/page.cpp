@@ -71,10 +71,9 @@ std::string bits_claim(const Report& report) {
 
 std::string contact_claim(const Summary& s) {
   return claim("Contact", fixed(s.peak_force_N, 2) + " N <small>peak force</small>",
-               "Penalty contact: a spring on the penetration depth of the tool&rsquo;s sphere, "
-               "without a proxy. Deepest penetration with motors on: " +
-                   fixed(s.worst_penetration_m * 1e3, 2) +
-                   " mm. The tool could pass through a wall thinner than twice that.");
+               "A spring between the hand and a proxy that crosses no surface. Farthest of the "
+               "hand from the proxy, with motors on: " +
+                   fixed(s.worst_penetration_m * 1e3, 2) + " mm.");
 }
 
 std::string quality_item(const std::string& text, bool is_bad) {
@@ -202,7 +201,7 @@ std::string lede(const Report& report) {
                      " s. The controller, the same program as "
                      "on a board, computed " +
                      grouped(s.ticks) + " ticks. ";
-  return text + "The hand feels <b>penalty contact</b> with the surface" +
+  return text + "The hand feels <b>contact</b> with the surface" +
          (s.has_guide ? " and the spring of the <b>guide</b> (virtual fixture)." : ".") +
          " All figures below are from this run.";
 }

@@ -59,7 +59,7 @@ std::string picture_of(const Report& report) {
                      ", servo at " + fixed(s.rate_Hz, 0) + " Hz",
                  650);
   svg += text_at(24, 57, 13, "#566175",
-                 "penalty contact, peak force " + fixed(s.peak_force_N, 2) + " N; worst tick: " +
+                 "contact, peak force " + fixed(s.peak_force_N, 2) + " N; worst tick: " +
                      std::to_string(s.worst_visits) + " of " + std::to_string(s.budget_visits) +
                      " visits; certificates checked on " + grouped(s.checked_ticks) + " ticks, " +
                      (s.wrong_bounds == 0 ? "all valid" : grouped(s.wrong_bounds) + " wrong"));

@@ -29,19 +29,18 @@ double signed_lower_mm(const RunTick& tick) {
 }
 
 std::vector<RunChart> surface_charts() {
-  return {
-      {"Penetration of the tool's sphere",
-       "mm",
-       "Penalty contact: the contact force is a function of this depth, so the tool penetrates a "
-       "softer surface farther. With the motors off (grey) nothing holds the hand.",
-       {{"into the surface", kOrange, output(&Output::penetration_m, 1e3), true}}},
-      {"Distance of the tool's centre to the surface",
-       "mm",
-       "",
-       {{"reported (upper bound), negative inside", kBlue, output(&Output::distance_m, 1e3), false,
-         2.6},
-        {"certified lower bound", kOrange, signed_lower_mm, false, 1.1}},
-       3}};
+  return {{"Penetration of the tool's sphere",
+           "mm",
+           "The contact force is a function of this depth, so the tool penetrates a softer surface "
+           "farther. With the motors off (grey) nothing holds the hand.",
+           {{"into the surface", kOrange, output(&Output::penetration_m, 1e3), true}}},
+          {"Distance of the tool's centre to the surface",
+           "mm",
+           "",
+           {{"reported (upper bound), negative inside", kBlue, output(&Output::distance_m, 1e3),
+             false, 2.6},
+            {"certified lower bound", kOrange, signed_lower_mm, false, 1.1}},
+           3}};
 }
 
 std::vector<RunChart> charts_of(const Environment& environment) {
