@@ -12,58 +12,67 @@ constexpr float kTolerance = 1e-5f;
 // Squared sine of the least angle between planes that are solved together.
 constexpr float kMinSine2 = 1e-10f;
 
-// Orthogonal directions in which up to three planes are reached one after the other.
-struct Basis {
-  Vec3 normal[3];     // of the planes
-  Vec3 direction[3];  // of which each is perpendicular to the normals before
-  float size2[3];     // of the directions
-  float share[3][3];  // share[k][i]: of direction i in normal k
-  uint32_t count = 0;
+// Planes that are reached one after the other, each in a direction perpendicular to the normals
+// before. A subset of planes begins with a shorter one: only its last plane costs anew.
+class Reach {
+ public:
+  explicit Reach(Vec3 from_m) { point_m_[0] = from_m; }
 
-  // Result: false, nothing added, if the normal depends on those before.
-  bool add(Vec3 n) {
-    Vec3 d = n;
-    for (uint32_t i = 0; i < count; ++i) {
-      share[count][i] = dot(n, direction[i]) / size2[i];
-      d = d - direction[i] * share[count][i];
+  /// The point of all planes so far that is nearest to the beginning.
+  Vec3 point_m() const { return point_m_[count_]; }
+  uint32_t count() const { return count_; }
+  void drop_to(uint32_t count) { count_ = count; }
+
+  /// Whether the plane, as the last, would push: its multiplier is at least 0.
+  bool would_push(const HalfSpace& plane) const { return lacking_m(plane) >= 0.0f; }
+
+  /// Result: false, nothing added, if the normal depends on those before.
+  bool add(const HalfSpace& plane) {
+    Vec3 d = plane.normal;
+    for (uint32_t i = 0; i < count_; ++i) {
+      share_[count_][i] = dot(plane.normal, direction_[i]) / size2_[i];
+      d = d - direction_[i] * share_[count_][i];
     }
     // Once more: what is left of a small difference is not yet perpendicular.
-    for (uint32_t i = 0; i < count; ++i) d = d - direction[i] * (dot(d, direction[i]) / size2[i]);
+    for (uint32_t i = 0; i < count_; ++i)
+      d = d - direction_[i] * (dot(d, direction_[i]) / size2_[i]);
     const float d2 = dot(d, d);
     if (!(d2 > kMinSine2)) return false;
-    normal[count] = n;
-    direction[count] = d;
-    size2[count] = d2;
-    ++count;
+    direction_[count_] = d;
+    size2_[count_] = d2;
+    along_[count_] = lacking_m(plane) / d2;
+    point_m_[count_ + 1] = point_m_[count_] + d * along_[count_];
+    ++count_;
     return true;
   }
-};
 
-struct Trial {
-  Vec3 point_m;
-  bool is_pushed = true;  // no plane pulls: all multipliers are at least 0
-};
+  /// Whether no plane pulls: all multipliers are at least 0.
+  bool is_pushed() const {
+    float along[3] = {along_[0], along_[1], along_[2]};
+    // From coefficients of the directions to multipliers of the normals, the last first.
+    for (uint32_t k = count_; k-- > 0;) {
+      if (!(along[k] >= 0.0f)) return false;
+      for (uint32_t i = 0; i < k; ++i) along[i] -= share_[k][i] * along[k];
+    }
+    return true;
+  }
 
-// Projects `from_m` on the planes of the basis.
-Trial project(const Basis& basis, const float (&offset_m)[3], Vec3 from_m) {
-  Trial trial;
-  trial.point_m = from_m;
-  float along[3] = {};
-  for (uint32_t k = 0; k < basis.count; ++k) {
-    along[k] = (offset_m[k] - dot(basis.normal[k], trial.point_m)) / basis.size2[k];
-    trial.point_m = trial.point_m + basis.direction[k] * along[k];
+ private:
+  float lacking_m(const HalfSpace& plane) const {
+    return plane.offset_m - dot(plane.normal, point_m());
   }
-  // From coefficients of the directions to multipliers of the normals, the last first.
-  for (uint32_t k = basis.count; k-- > 0;) {
-    if (!(along[k] >= 0.0f)) trial.is_pushed = false;
-    for (uint32_t i = 0; i < k; ++i) along[i] -= basis.share[k][i] * along[k];
-  }
-  return trial;
-}
+
+  Vec3 point_m_[4];
+  Vec3 direction_[3];
+  float size2_[3] = {};
+  float share_[3][3] = {};  // share_[k][i]: of direction i in normal k
+  float along_[3] = {};     // coefficients of the directions
+  uint32_t count_ = 0;
+};
 
 class Search {
  public:
-  Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m) : goal_m_(goal_m) {
+  Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m) : reach_(goal_m) {
     for (uint32_t i = 0; i < count && i < kMaxHalfSpaces; ++i) {
       const HalfSpace& plane = planes[i];
       if (!is_finite(plane.normal) || !is_finite(plane.offset_m)) continue;
@@ -74,23 +83,34 @@ class Search {
   }
 
   NearestInPlanes run() {
-    if (try_subset(0, 0, 0, 0)) return best_;
-    for (uint32_t size = 1; size <= 3; ++size) {
-      for (uint32_t i = 0; i + size <= count_; ++i) {
-        if (size == 1 ? try_subset(1, i, 0, 0) : with_others(size, i)) return best_;
-      }
-    }
+    if (try_subset()) return best_;
+    for (uint32_t size = 1; size <= 3; ++size)
+      if (try_subsets(size)) return best_;
     return best_;
   }
 
  private:
-  bool with_others(uint32_t size, uint32_t i) {
-    for (uint32_t j = i + 1; j < count_; ++j) {
-      if (size == 2 && try_subset(2, i, j, 0)) return true;
-      for (uint32_t k = j + 1; size == 3 && k < count_; ++k)
-        if (try_subset(3, i, j, k)) return true;
+  // Result: whether a subset of this size solves the problem.
+  bool try_subsets(uint32_t size) {
+    for (uint32_t i = 0; i + size <= count_; ++i) {
+      if (!choose(i, 0, size)) continue;
+      if (size == 1 && try_subset()) return true;
+      for (uint32_t j = i + 1; size >= 2 && j < count_; ++j) {
+        if (!choose(j, 1, size)) continue;
+        if (size == 2 && try_subset()) return true;
+        for (uint32_t k = j + 1; size == 3 && k < count_; ++k)
+          if (choose(k, 2, size) && try_subset()) return true;
+      }
     }
     return false;
+  }
+
+  // Result: false if no subset of `size` that begins with `before` planes and this one can push.
+  bool choose(uint32_t plane, uint32_t before, uint32_t size) {
+    reach_.drop_to(before);
+    chosen_[before] = plane;
+    if (before + 1 == size && !reach_.would_push(plane_[plane])) return false;
+    return reach_.add(plane_[plane]);
   }
 
   // How far a point is outside of the worst plane.
@@ -103,24 +123,17 @@ class Search {
     return worst_m;
   }
 
-  // Result: whether this subset solves the problem.
-  bool try_subset(uint32_t size, uint32_t i, uint32_t j, uint32_t k) {
-    const uint32_t at[3] = {i, j, k};
-    Basis basis;
-    float offset_m[3] = {};
-    for (uint32_t n = 0; n < size; ++n) {
-      offset_m[n] = plane_[at[n]].offset_m;
-      if (!basis.add(plane_[at[n]].normal)) return false;
-    }
-    const Trial trial = project(basis, offset_m, goal_m_);
-    if (!trial.is_pushed) return false;
-    const float worst_m = violation_m(trial.point_m);
+  // Result: whether the chosen planes solve the problem.
+  bool try_subset() {
+    if (!reach_.is_pushed()) return false;
+    const uint32_t size = reach_.count();
+    const float worst_m = violation_m(reach_.point_m());
     const bool is_found = worst_m <= (size == 0 ? 0.0f : tolerance_m_);
     if (!is_found && !(worst_m < best_violation_m_)) return false;
     best_violation_m_ = worst_m;
-    best_.point_m = trial.point_m;
+    best_.point_m = reach_.point_m();
     best_.active_count = size;
-    for (uint32_t n = 0; n < size; ++n) best_.active[n] = number_[at[n]];
+    for (uint32_t n = 0; n < size; ++n) best_.active[n] = number_[chosen_[n]];
     best_.is_found = is_found;
     return is_found;
   }
@@ -128,7 +141,8 @@ class Search {
   HalfSpace plane_[kMaxHalfSpaces];
   uint32_t number_[kMaxHalfSpaces] = {};
   uint32_t count_ = 0;
-  Vec3 goal_m_;
+  Reach reach_;
+  uint32_t chosen_[3] = {};
   float tolerance_m_ = 0;
   float best_violation_m_ = FLT_MAX;
   NearestInPlanes best_;
@@ -153,14 +167,10 @@ Slide slide_with_friction(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
                           const NearestInPlanes& nearest, float friction) {
   const Vec3 end_m = nearest.point_m;
   if (!(friction > 0.0f) || nearest.active_count == 0) return {end_m, false};
-  Basis basis;
-  float offset_m[3] = {};
-  for (uint32_t n = 0; n < nearest.active_count; ++n) {
-    const HalfSpace& plane = planes[nearest.active[n]];
-    if (basis.add(plane.normal)) offset_m[basis.count - 1] = plane.offset_m;
-  }
+  Reach reach(Vec3{});
+  for (uint32_t n = 0; n < nearest.active_count; ++n) reach.add(planes[nearest.active[n]]);
   // Slides begin where the origin is pressed on the planes.
-  const Vec3 begin_m = project(basis, offset_m, {}).point_m;
+  const Vec3 begin_m = reach.point_m();
   const float held_m = friction * length(goal_m - end_m);
   const float way_m = length(begin_m - end_m);
   if (way_m <= held_m) {
