@@ -5,6 +5,7 @@
 #include "baked_mesh.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
+#include "surface/make/make_cad.hpp"
 #include "surface/make/make_part.hpp"
 
 namespace {
@@ -61,6 +62,41 @@ TEST(FarAwayABandCostsLittle) {
     mesh::Hint hint;
     CHECK_LE(mesh::closest_point(part().view, p, budget, hint).certificate.steps, 40u);
   }
+}
+
+// Machined parts, whose long edges make float32 alone too coarse for an exact answer.
+TEST(WithAThresholdTheSideIsDecidedAsByAnExactAnswer) {
+  uint32_t above = 0, below = 0, coarse = 0;
+  for (uint64_t seed = 0; seed < tools::kCadKinds; ++seed) {
+    const BakedMesh baked(tools::to_surface(tools::make_cad(seed)));
+    mesh::Hint warm, exact_warm;
+    for (const Vec3 p : hard_queries(baked.surface, 150, seed)) {
+      const double truth_m = brute_force(baked.surface, wide(p)).distance;
+      for (const double share : {0.9, 0.999999, 1.000001, 1.1}) {
+        query::Budget budget;
+        budget.threshold_m = static_cast<float>(truth_m * share);
+        const mesh::Closest c = mesh::closest_point(baked.view, p, budget, warm);
+        const mesh::Closest exact =
+            mesh::closest_point(baked.view, p, query::kUnlimited, exact_warm);
+        coarse += exact.certificate.exact && !c.certificate.exact;
+        const double scale = std::max(double{baked.size}, truth_m),
+                     d = std::fabs(double{c.distance_m});
+        CHECK_LE(double{c.certificate.lower_m}, truth_m + 1e-9 * scale);
+        CHECK_LE(truth_m - d, 4e-7 * scale);
+        if (exact.certificate.lower_m >= budget.threshold_m) {
+          CHECK_GE(c.certificate.lower_m, budget.threshold_m);
+          ++above;
+        }
+        if (std::fabs(exact.distance_m) < budget.threshold_m - 4e-7f * static_cast<float>(scale)) {
+          CHECK_LT(d, double{budget.threshold_m});
+          ++below;
+        }
+      }
+    }
+  }
+  CHECK_LE(500u, above);
+  CHECK_LE(500u, below);
+  CHECK_LE(500u, coarse);
 }
 
 TEST(NanBand_IsABandOfZero) {

@@ -149,6 +149,34 @@ TEST(Proxy_BallOnASlot_RestsWhereTheClosedFormSays) {
   CHECK_LE(std::fabs(wide(rig.proxy.position_m.x)), 1e-6);
 }
 
+// Nearly every side of a bore is as near as the nearest one: more than the working set holds. Once
+// it kept the nearest, those that hold the tool came and went, and the tool stood still.
+TEST(Proxy_BoreThatTheToolJustFits_FollowsAHandInside) {
+  for (const uint32_t sides : {48u, 160u}) {
+    for (const double step_m : {0.0001, 0.0003, 0.001}) {
+      ProxyRig rig(tube(0.0031f, 0.06f, sides));
+      Broken broken;
+      rig.tick({0, -0.05f, 0}, broken);
+      rig.settings.friction_static = 0.3f, rig.settings.friction_dynamic = 0.2f;
+      rig.settings.budget.work = sides == 48 ? 640 : 2000;
+      uint32_t starved = 0, run = 0, longest = 0;
+      for (int tick = 0; tick < 300; ++tick) {  // 2 mm aside, round and along
+        const double turn = 0.05 * tick, y_m = -0.05 + step_m * (tick % 90);
+        rig.tick({static_cast<float>(0.002 * std::cos(turn)), static_cast<float>(y_m),
+                  static_cast<float>(0.002 * std::sin(turn))},
+                 broken);
+        run = rig.moved.is_starved ? run + 1 : 0;
+        longest = std::max(longest, run);
+        starved += rig.moved.is_starved;
+      }
+      CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
+      CHECK_EQ(broken.crossings, 0u);
+      CHECK_LE(starved, sides == 48 ? 0u : 30u);
+      CHECK_LE(longest, 4u);  // 10 are a fault
+    }
+  }
+}
+
 // Penalty contact let go of a plate of 2 mm at 4.01 N, and pulled.
 TEST(Proxy_ThinPlateAtSpeed_HoldsAHandFarBehindIt) {
   const float radii_m[] = {0.00002f, 0.0005f, 0.003f};

@@ -84,6 +84,30 @@ inline tools::Surface plate(float thickness_m) {
   return surface;
 }
 
+// A tube along y, with a bore of `sides` flat sides that touch a cylinder of that radius.
+inline tools::Surface tube(float bore_m, float half_m, uint32_t sides) {
+  tools::Surface surface;
+  const double pi = 3.14159265358979, corner_m = static_cast<double>(bore_m) / std::cos(pi / sides);
+  for (uint32_t i = 0; i < sides; ++i) {
+    const double x = std::cos(2 * pi * i / sides), z = std::sin(2 * pi * i / sides);
+    for (const double radius_m : {corner_m, 2 * corner_m})
+      for (const float y : {-half_m, half_m})
+        surface.vertices.push_back(
+            {static_cast<float>(radius_m * x), y, static_cast<float>(radius_m * z)});
+  }
+  for (uint32_t i = 0; i < sides; ++i) {
+    const uint32_t a = 4 * i, b = 4 * ((i + 1) % sides);
+    const uint32_t ring[4] = {0, 1, 3, 2};  // inside back, inside front, outside front, ...
+    for (uint32_t k = 0; k < 4; ++k) {
+      const uint32_t near = ring[k], next = ring[(k + 1) % 4];
+      surface.faces.push_back({a + near, b + near, a + next});
+      surface.faces.push_back({a + next, b + near, b + next});
+    }
+  }
+  for (uint32_t i = 0; i < surface.faces.size(); ++i) surface.source.push_back(i);
+  return surface;
+}
+
 // What a tick may have broken.
 struct Broken {
   uint32_t crossings = 0, unclear = 0, longer = 0, late = 0, over_budget = 0, optimal = 0,

@@ -126,6 +126,17 @@ bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const 
   return true;
 }
 
+// Whether both bounds of what float32 knows are above the threshold, or both below:
+// no more need be known.
+[[gnu::noinline, gnu::cold]] bool is_decided(float threshold_m, float loss_m, Found& found) {
+  const float most_m = found.distance_m + loss_m;
+  if (!(threshold_m > 0.0f) || !(found.lower_m >= threshold_m || most_m < threshold_m))
+    return false;
+  found.distance_m = most_m;
+  found.search.complete = false;  // not exact
+  return true;
+}
+
 // Measures again what float32 may have lost: usually it is far less than its bound.
 // Result: whether distance and lower bound are now within `within_m` of each other.
 [[gnu::noinline, gnu::cold]] bool measure_again(const View& mesh, Vec3 p_m, float within_m,
@@ -279,6 +290,7 @@ template <class Finder, class Bound>
   const bool is_near = search.best.distance2_m2 <= search.band2_m2;
   const float promise_m = kPromise * scale_m;
   if (!Bound::kCompensated && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
+      !is_decided(budget.threshold_m, plain_loss_m + loss.rounding_m, found) &&
       !measure_again(mesh, p_m, promise_m, found)) {
     Nearest before;
     const bool has_budget = begin_again(mesh, budget.work, found, before);

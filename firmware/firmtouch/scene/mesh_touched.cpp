@@ -63,6 +63,8 @@ Near MeshTouchedWith<kHasField, kHasBaseHull>::near(Vec3 x_m, query::Budget budg
   Near near;
   near.has_inside = object.mesh->is_signed();
   const Vec3 p_m = math::apply_inverse(object.pose, x_m);
+  const float loss_m = pose_loss_m(object.pose, x_m);
+  if (budget.threshold_m > 0.0f) budget.threshold_m += loss_m;
   mesh::Closest closest;
   bool is_far = false;
   if (kHasField && object.distance_field != nullptr && object.distance_field->is_open()) {
@@ -76,7 +78,6 @@ Near MeshTouchedWith<kHasField, kHasBaseHull>::near(Vec3 x_m, query::Budget budg
   const query::Certificate& certificate = closest.certificate;
   // A search for the side that was cut short begins anew: a cold one raises its bound fastest.
   if (!(budget.band_m < FLT_MAX) && !certificate.exact) hint.leaf_slot = query::kNowhere;
-  const float loss_m = pose_loss_m(object.pose, x_m);
   near.lower_m = certificate.lower_m > loss_m ? certificate.lower_m - loss_m : 0.0f;
   near.distance_m = closest.distance_m < 0.0f ? -closest.distance_m : closest.distance_m;
   near.sign = certificate.sign;

@@ -1,5 +1,7 @@
 #include "firmtouch/scene/proxy.hpp"
 
+#include <float.h>
+
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::scene {
@@ -9,6 +11,7 @@ using math::Vec3;
 
 // All relative to the size of the shape. A query's bounds lose at most 4e-7.
 constexpr float kClearance = 2e-6f;    // that a place may lack of the radius
+constexpr float kAim = 1e-6f;          // of planes beyond the radius: float32 then decides a query
 constexpr float kMinRadius = 4e-6f;    // of a tool that is a point: what the clearance needs
 constexpr float kTolerance = 1e-6f;    // a move that is shorter needs no query
 constexpr float kExact = 4.5e-7f;      // between the bounds of an exact answer
@@ -17,6 +20,8 @@ constexpr float kRestoring = 2.5e-8f;  // a tick, of clearance that rounding too
 // Band of queries beyond the sphere: many times what a hand moves in a tick.
 constexpr float kBand = 0.02f;
 
+// Of the way that the tick has made: what is shorter needs no query in this tick.
+constexpr float kRefinement = 0x1p-6f;
 // Part of the certified free radius that one move takes.
 constexpr float kCap = 0.9f;
 // Squared: planes whose directions differ by less count as one.
@@ -80,8 +85,10 @@ void ProxyMove::use_radius() {
 query::Budget ProxyMove::budget() const {
   query::Budget budget{work_left_};
   // For a place that is not certified yet the side matters, too.
-  if (proxy_.phase == Proxy::Phase::kFree)
+  if (proxy_.phase == Proxy::Phase::kFree) {
     budget.band_m = aimed_radius_m_ + kBand * size_m_ + free_way_m_;
+    budget.threshold_m = needed_m();
+  }
   return budget;
 }
 
@@ -103,6 +110,7 @@ bool ProxyMove::is_longer(Vec3 to_m) const {
 // Each feature becomes a plane that the sphere's centre stays in front of. A place that is nearer
 // than the radius already need not be left: there no plane would have a solution.
 void ProxyMove::linearise() {
+  linearised_at_m_ = proxy_.position_m;
   const float restored_m = kRestoring * size_m_;
   const float most_m = restored_m + (aimed_radius_m_ - proxy_.radius_m);
   const Outlook outlook{goal_m_ - proxy_.position_m, proxy_.radius_m, restored_m};
@@ -114,7 +122,7 @@ void ProxyMove::linearise() {
       proxy_.feature[i] = proxy_.feature[--proxy_.feature_count];
       continue;
     }
-    const float lacking_m = aimed_radius_m_ - tangent.distance_m;
+    const float lacking_m = aimed_radius_m_ + kAim * size_m_ - tangent.distance_m;
     math::HalfSpace plane{tangent.normal, lacking_m < most_m ? lacking_m : most_m};
     for (uint32_t j = 0; j < i; ++j) {
       const Vec3 apart = plane_[j].normal - plane.normal;
@@ -167,6 +175,7 @@ bool ProxyMove::aim() {
   const float way_m = math::length(goal_m_ - proxy_.position_m);
   const float tolerance_m =
       way_m * 3e-6f > kTolerance * size_m_ ? way_m * 3e-6f : kTolerance * size_m_;
+  const bool is_refinement = size_m <= kRefinement * math::length(proxy_.position_m - begin_m_);
   const float limit_m = cap_ * proxy_.free_m;
   // Bitwise at the hand, if nothing holds it back.
   const Vec3 to_m = proxy_.position_m + slide.point_m;
@@ -175,9 +184,10 @@ bool ProxyMove::aim() {
   trial_m_ = size_m <= limit_m ? (is_to_goal ? goal_m_ : to_m)
                                : proxy_.position_m + slide.point_m * (limit_m / size_m);
   is_over_ = true;
-  if (size_m <= tolerance_m) {
+  if (size_m <= tolerance_m || is_refinement) {
     moved_.is_optimal = true;
-    if (slide.is_stuck || !(size_m > 0.0f) || is_longer(trial_m_) || drift()) return false;
+    if (slide.is_stuck || !(size_m > 0.0f) || is_longer(trial_m_) || drift() || is_refinement)
+      return false;
   }
   if (is_longer(trial_m_)) {
     moved_.is_optimal = true;
@@ -202,11 +212,16 @@ bool ProxyMove::keep(const Feature& feature) {
   for (; at < proxy_.feature_count; ++at)
     if (is_same(proxy_.feature[at], feature, kTolerance * size_m_)) return false;
   if (at == kMaxFeatures) {
-    // Instead of the farthest.
-    float farthest_m = -1.0f;
+    // Instead of the one whose plane is farthest from the trial.
+    const Vec3 step_m = trial_m_ - linearised_at_m_;
+    float most_m = -FLT_MAX;
+    at = 0;
     for (uint32_t i = 0; i < kMaxFeatures; ++i) {
-      const float distance_m = tangent_at(proxy_.feature[i], proxy_.position_m, {}).distance_m;
-      if (distance_m > farthest_m) farthest_m = distance_m, at = i;
+      const math::HalfSpace& plane = plane_[i];
+      const bool is_twin = !(math::dot(plane.normal, plane.normal) > 0.0f);
+      const float slack_m =
+          is_twin ? kTolerance * size_m_ : math::dot(plane.normal, step_m) - plane.offset_m;
+      if (slack_m > most_m) most_m = slack_m, at = i;
     }
   } else {
     ++proxy_.feature_count;
@@ -307,6 +322,10 @@ ProxyMoved ProxyMove::finish() {
   const Vec3 off_m = goal_m_ - proxy_.position_m;
   proxy_.is_loaded = !(math::dot(off_m, off_m) <= 0.0f);
   proxy_.slid_m = proxy_.is_loaded ? math::length(proxy_.position_m - begin_m_) : 0.0f;
+  // A proxy that lags by less than it moved follows the hand: the next tick goes on.
+  const float moved_m = math::length(proxy_.position_m - begin_m_);
+  if (proxy_.phase == Proxy::Phase::kFree && moved_m >= math::length(trial_m_ - proxy_.position_m))
+    moved_.is_starved = false;
   if (moved_.is_optimal) moved_.is_starved = false;
   return moved_;
 }

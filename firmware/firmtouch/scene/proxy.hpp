@@ -101,7 +101,8 @@ class ProxyMove {
   bool is_over_ = false;
   bool is_searching_ = false;  // for the side of the hand, from where another tick has come
   uint32_t work_left_;
-  math::HalfSpace plane_[kMaxFeatures];  // of the features, about proxy_.position_m
+  math::HalfSpace plane_[kMaxFeatures];  // of the features, about linearised_at_m_
+  math::Vec3 linearised_at_m_;
   ProxyMoved moved_;
 };
 
