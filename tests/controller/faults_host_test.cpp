@@ -379,3 +379,44 @@ TEST(StiffnessRaisedUnderLoad_MakesNoStepOfTheForce) {
   }
   CHECK_NE(ride.output.state & record::kStateContact, 0u);
 }
+
+// A proxy waited at the surface for a hand that had gone through it: it was never touched again.
+TEST(SurfaceWithoutStiffness_HoldsNothingAndIsThereAgainWhenItHasOne) {
+  Ride ride;
+  const auto step = [&ride](uint32_t tick, uint32_t place, int32_t counts, uint32_t parameter = 0,
+                            float value = 0) {
+    ride.fill(place);
+    ride.input.encoder_counts[2] += counts;
+    ride.input.tick = tick;
+    ride.input.clock_us = tick * 1000u;
+    ride.input.flags = tick < 10 ? 0 : record::kFlagEnable;
+    if (parameter != 0) {
+      ride.input.command = 1 + parameter;
+      ride.input.command_value = value;
+    }
+    ride.step();
+    return size_of(ride.output.force_N);
+  };
+  uint32_t tick = 0;
+  for (; tick < 300; ++tick) step(tick, 400, 1000);
+  step(tick++, 400, 1000, params::kGuideStiffness, 0);
+  step(tick++, 400, 1000, params::kContactStiffness, 0);
+  // In through the surface, to stay there, and out of the part below.
+  double most_N = 0;
+  int32_t height = 1000;
+  for (; height > -200; height -= 2) most_N = std::max(most_N, step(tick++, 400, height));
+  for (uint32_t i = 0; i < 12000; ++i) most_N = std::max(most_N, step(tick++, 400, height));
+  CHECK_LE(most_N, 0.05);  // the damper's
+  CHECK_EQ(ride.output.faults, 0u);
+  most_N = step(tick++, 400, height, params::kContactStiffness, 1200);
+  for (uint32_t i = 0; i < 500; ++i) most_N = std::max(most_N, step(tick++, 400, height));
+  CHECK_LE(most_N, 1.01);  // led out
+  step(tick++, 400, height, params::kContactStiffness, 0);
+  for (; height > -7000; height -= 4) step(tick++, 400, height);
+  step(tick++, 400, height, params::kContactStiffness, 1200);
+  while (height < 0 && most_N < 2) most_N = std::max(most_N, step(tick++, 400, height += 2));
+  CHECK_GE(most_N, 2.0);  // from below
+  CHECK_GE(ride.output.force_N[2], -8.0f);
+  CHECK_LE(ride.output.force_N[2], -1.0f);
+  CHECK_EQ(ride.output.faults, 0u);
+}

@@ -14,6 +14,8 @@ constexpr float kNoWayOut_s = 10.0f;
 // How fast a sphere that began too near to a surface grows to its size, with as much force.
 constexpr float kGrowth_mps = 0.005f;
 
+bool is_stiff(const ProxyTouch& touch) { return touch.material.stiffness_N_per_m > 0.0f; }
+
 void lead_out(const ProxyContact& contact, ProxyTouch& touch, servo::LocalModel& model) {
   const Nearness& near = touch.proxy.near;
   touch.inside_s = touch.inside_s + contact.passed_s;
@@ -38,7 +40,9 @@ void lead_out(const ProxyContact& contact, ProxyTouch& touch, servo::LocalModel&
 ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch) {
   Proxy& proxy = touch.proxy;
   const bool is_free = proxy.phase == Proxy::Phase::kFree;
-  if (is_free && (!contact.has_proxy || (proxy.is_loaded && !contact.is_on))) {
+  // Without motors or stiffness a hand goes in: its proxy would wait for it at the surface.
+  const bool is_on = contact.is_on && is_stiff(touch);
+  if (is_free && (!contact.has_proxy || (proxy.is_loaded && !is_on))) {
     proxy.phase = Proxy::Phase::kUnknown;
     proxy.is_loaded = false;
   } else if (is_free) {
@@ -52,7 +56,7 @@ ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch
     }
   }
   if (!proxy.is_loaded) touch.material = contact.material;
-  if (proxy.phase != Proxy::Phase::kInside || !contact.is_on) touch.inside_s = 0;
+  if (proxy.phase != Proxy::Phase::kInside || !is_on) touch.inside_s = 0;
   ProxySettings settings = contact.settings;
   if (contact.is_on && touch.material.stiffness_N_per_m * touch.penetration_m < kLeadOut_N)
     settings.growth_m = kGrowth_mps * contact.passed_s;
@@ -65,7 +69,7 @@ void end_proxy_contact(const ProxyContact& contact, const ProxyMoved& moved, Pro
   touch.moved = moved;
   touch.penetration_m = 0;
   if (proxy.phase == Proxy::Phase::kInside) return lead_out(contact, touch, model);
-  model.is_uncertain = moved.is_starved;
+  model.is_uncertain = moved.is_starved && is_stiff(touch);
   if (proxy.phase != Proxy::Phase::kFree) return;
   servo::ProxySpring& spring = model.spring;
   spring.is_used = true;
