@@ -70,6 +70,7 @@ class Reach {
   uint32_t count_ = 0;
 };
 
+// The optimum of the planes that were violated so far, one more at a time.
 class Search {
  public:
   Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m) : reach_(goal_m) {
@@ -79,27 +80,55 @@ class Search {
       plane_[count_] = plane;
       number_[count_++] = i;
     }
+    best_.point_m = goal_m;
     tolerance_m_ = kTolerance * length(goal_m);
   }
 
   NearestInPlanes run() {
-    if (try_subset()) return best_;
-    for (uint32_t size = 1; size <= 3; ++size)
-      if (try_subsets(size)) return best_;
+    // The goal itself is only the answer if it violates nothing.
+    float least_m = 0.0f;
+    for (uint32_t known = 0; known <= count_; ++known) {
+      if (!find_violated(known, least_m)) {
+        best_.is_found = true;
+        return best_;
+      }
+      least_m = tolerance_m_;
+      if (known == count_ || !solve(known)) return best_;
+    }
     return best_;
   }
 
  private:
-  // Result: whether a subset of this size solves the problem.
-  bool try_subsets(uint32_t size) {
-    for (uint32_t i = 0; i + size <= count_; ++i) {
-      if (!choose(i, 0, size)) continue;
-      if (size == 1 && try_subset()) return true;
-      for (uint32_t j = i + 1; size >= 2 && j < count_; ++j) {
-        if (!choose(j, 1, size)) continue;
-        if (size == 2 && try_subset()) return true;
-        for (uint32_t k = j + 1; size == 3 && k < count_; ++k)
-          if (choose(k, 2, size) && try_subset()) return true;
+  // Moves the plane that is violated most to place `known`. Result: false if none is by more than
+  // `least_m`.
+  bool find_violated(uint32_t known, float least_m) {
+    uint32_t at = count_;
+    for (uint32_t i = known; i < count_; ++i) {
+      const float out_m = violation_m(i, best_.point_m);
+      if (out_m > least_m) least_m = out_m, at = i;
+    }
+    if (at == count_) return false;
+    const HalfSpace plane = plane_[at];
+    plane_[at] = plane_[known];
+    plane_[known] = plane;
+    const uint32_t number = number_[at];
+    number_[at] = number_[known];
+    number_[known] = number;
+    return true;
+  }
+
+  // The optimum of the planes up to `last`, which is violated by that of the planes before it: so
+  // it is active. Result: false if there is none; the best subset is kept.
+  bool solve(uint32_t last) {
+    best_violation_m_ = FLT_MAX;
+    if (!choose(last, 0, 3)) return false;  // it need not push alone
+    if (try_subset(last)) return true;
+    for (uint32_t size = 2; size <= 3; ++size) {
+      for (uint32_t i = 0; i < last; ++i) {
+        if (!choose(i, 1, size)) continue;
+        if (size == 2 && try_subset(last)) return true;
+        for (uint32_t j = i + 1; size == 3 && j < last; ++j)
+          if (choose(j, 2, size) && try_subset(last)) return true;
       }
     }
     return false;
@@ -113,29 +142,24 @@ class Search {
     return reach_.add(plane_[plane]);
   }
 
-  // How far a point is outside of the worst plane.
-  float violation_m(Vec3 point_m) const {
-    float worst_m = 0.0f;
-    for (uint32_t i = 0; i < count_; ++i) {
-      const float out_m = plane_[i].offset_m - dot(plane_[i].normal, point_m);
-      if (out_m > worst_m) worst_m = out_m;
-    }
-    return worst_m;
+  float violation_m(uint32_t plane, Vec3 point_m) const {
+    return plane_[plane].offset_m - dot(plane_[plane].normal, point_m);
   }
 
-  // Result: whether the chosen planes solve the problem.
-  bool try_subset() {
+  // Result: whether the chosen planes solve the problem of the planes up to `last`.
+  bool try_subset(uint32_t last) {
     if (!reach_.is_pushed()) return false;
-    const uint32_t size = reach_.count();
-    const float worst_m = violation_m(reach_.point_m());
-    const bool is_found = worst_m <= (size == 0 ? 0.0f : tolerance_m_);
-    if (!is_found && !(worst_m < best_violation_m_)) return false;
+    float worst_m = 0.0f;
+    for (uint32_t i = 0; i <= last; ++i) {
+      const float out_m = violation_m(i, reach_.point_m());
+      if (out_m > worst_m) worst_m = out_m;
+    }
+    if (!(worst_m < best_violation_m_)) return false;
     best_violation_m_ = worst_m;
     best_.point_m = reach_.point_m();
-    best_.active_count = size;
-    for (uint32_t n = 0; n < size; ++n) best_.active[n] = number_[chosen_[n]];
-    best_.is_found = is_found;
-    return is_found;
+    best_.active_count = reach_.count();
+    for (uint32_t n = 0; n < best_.active_count; ++n) best_.active[n] = number_[chosen_[n]];
+    return worst_m <= tolerance_m_;
   }
 
   HalfSpace plane_[kMaxHalfSpaces];

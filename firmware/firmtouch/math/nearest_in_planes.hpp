@@ -24,10 +24,11 @@ struct NearestInPlanes {
   bool is_found = false;
 };
 
-/// The point nearest to `goal_m` with all of `planes`, with at most three of them active. Subsets
-/// of planes are tried in the order of their sizes and indices; the first that satisfies the
-/// conditions of Kuhn and Tucker is the answer, because the problem is convex.
-/// Bounds: at most 92 subsets of 8 planes, those that push with at most 8 products; no iteration.
+/// The point nearest to `goal_m` with all of `planes`, with at most three of them active. The plane
+/// that is violated most is added to those before it, until none is violated. It is active then,
+/// because the problem is convex; which others are is found by trying subsets in the order of their
+/// sizes, until one satisfies the conditions of Kuhn and Tucker.
+/// Bounds: at most 92 subsets of 8 planes, those that push with at most 8 products.
 /// Result: finite where all input is finite and below 1e6 m. Planes beyond kMaxHalfSpaces are
 ///         ignored, and so are those with NaN. No plane: the goal. A goal with NaN: the origin.
 /// Error: 1e-5 |goal|; planes that agree in direction to 1e-5 rad count as one.
