@@ -12,6 +12,7 @@ const std::vector<Bench>& benches() {
       {"field", "the interior distance field of a mesh: time", run_field},
       {"curve", "guides along recorded curves: time, bytes, jumps of the force", run_curve},
       {"spline-race", "closest points of splines: time against another library", run_spline_race},
+      {"touch", "contact through a proxy: crossings, energy, queries a tick", run_touch},
       {"ring", "records from thread to thread: the lock-free ring, a locked deque", run_ring},
       {"velocity", "velocity estimators on encoder counts: errors", run_velocity},
   };

@@ -15,13 +15,11 @@ constexpr float kAim = 1e-6f;          // of planes beyond the radius: float32 t
 constexpr float kMinRadius = 4e-6f;    // of a tool that is a point: what the clearance needs
 constexpr float kTolerance = 1e-6f;    // a move that is shorter needs no query
 constexpr float kExact = 4.5e-7f;      // between the bounds of an exact answer
-constexpr float kLonger = 0.9e-7f;     // a move without friction may be away from the hand
+constexpr float kLonger = 0.9e-7f;     // a tick without friction may be away from the hand
 constexpr float kRestoring = 2.5e-8f;  // a tick, of clearance that rounding took
 // Band of queries beyond the sphere: many times what a hand moves in a tick.
 constexpr float kBand = 0.02f;
 
-// Of the way that the tick has made: what is shorter needs no query in this tick.
-constexpr float kRefinement = 0x1p-6f;
 // Part of the certified free radius that one move takes.
 constexpr float kCap = 0.9f;
 // Squared: planes whose directions differ by less count as one.
@@ -97,14 +95,16 @@ float ProxyMove::needed_m() const {
          kClearance * size_m_;
 }
 
+// With friction no move may be away from the hand; without, all of a tick together by rounding.
 bool ProxyMove::is_longer(Vec3 to_m) const {
-  const Vec3 step_m = to_m - proxy_.position_m;
-  const Vec3 sum_m = (to_m - goal_m_) + (proxy_.position_m - goal_m_);
+  if (aimed_radius_m_ > proxy_.radius_m) return false;
+  const bool is_held = friction_ > 0.0f;
+  const Vec3 from_m = is_held ? proxy_.position_m : begin_m_;
+  const Vec3 step_m = to_m - from_m;
+  const Vec3 sum_m = (to_m - goal_m_) + (from_m - goal_m_);
   const float longer = math::dot(step_m, sum_m), sum = math::length(sum_m);
   const float rounding = 8.0f * 0x1p-24f * math::length(step_m) * sum;
-  if (aimed_radius_m_ > proxy_.radius_m) return false;
-  if (friction_ > 0.0f) return !(longer + rounding <= 0.0f);
-  return !(longer + rounding <= kLonger * size_m_ * sum);
+  return !(longer + rounding <= (is_held ? 0.0f : kLonger * size_m_ * sum));
 }
 
 // Each feature becomes a plane that the sphere's centre stays in front of. A place that is nearer
@@ -171,11 +171,10 @@ bool ProxyMove::aim() {
     return true;
   }
   const math::Slide slide = rest();
-  const float size_m = math::length(slide.point_m);
+  const float size_m = lag_m_ = math::length(slide.point_m);
   const float way_m = math::length(goal_m_ - proxy_.position_m);
   const float tolerance_m =
       way_m * 3e-6f > kTolerance * size_m_ ? way_m * 3e-6f : kTolerance * size_m_;
-  const bool is_refinement = size_m <= kRefinement * math::length(proxy_.position_m - begin_m_);
   const float limit_m = cap_ * proxy_.free_m;
   // Bitwise at the hand, if nothing holds it back.
   const Vec3 to_m = proxy_.position_m + slide.point_m;
@@ -184,10 +183,9 @@ bool ProxyMove::aim() {
   trial_m_ = size_m <= limit_m ? (is_to_goal ? goal_m_ : to_m)
                                : proxy_.position_m + slide.point_m * (limit_m / size_m);
   is_over_ = true;
-  if (size_m <= tolerance_m || is_refinement) {
+  if (size_m <= tolerance_m) {
     moved_.is_optimal = true;
-    if (slide.is_stuck || !(size_m > 0.0f) || is_longer(trial_m_) || drift() || is_refinement)
-      return false;
+    if (slide.is_stuck || !(size_m > 0.0f) || is_longer(trial_m_) || drift()) return false;
   }
   if (is_longer(trial_m_)) {
     moved_.is_optimal = true;
@@ -322,10 +320,9 @@ ProxyMoved ProxyMove::finish() {
   const Vec3 off_m = goal_m_ - proxy_.position_m;
   proxy_.is_loaded = !(math::dot(off_m, off_m) <= 0.0f);
   proxy_.slid_m = proxy_.is_loaded ? math::length(proxy_.position_m - begin_m_) : 0.0f;
-  // A proxy that lags by less than it moved follows the hand: the next tick goes on.
+  // A proxy that lags by no more than twice what it moved follows the hand: the next tick goes on.
   const float moved_m = math::length(proxy_.position_m - begin_m_);
-  if (proxy_.phase == Proxy::Phase::kFree && moved_m >= math::length(trial_m_ - proxy_.position_m))
-    moved_.is_starved = false;
+  if (proxy_.phase == Proxy::Phase::kFree && moved_m >= 0.5f * lag_m_) moved_.is_starved = false;
   if (moved_.is_optimal) moved_.is_starved = false;
   return moved_;
 }

@@ -103,6 +103,7 @@ class ProxyMove {
   uint32_t work_left_;
   math::HalfSpace plane_[kMaxFeatures];  // of the features, about linearised_at_m_
   math::Vec3 linearised_at_m_;
+  float lag_m_ = 0;  // from there to the solution
   ProxyMoved moved_;
 };
 

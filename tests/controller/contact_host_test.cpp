@@ -1,0 +1,102 @@
+// How contact begins, changes under load and ends, over the whole tick of a controller.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "controller/ride.hpp"
+#include "firmtouch/servo/fault.hpp"
+#include "harness/test.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+using namespace controller_test;
+
+// Penalty contact was silently absent with 8 visits: no force in 19,000 ticks, and no fault.
+TEST(TooFewVisits_AreAFaultIn10ms) {
+  Ride ride;
+  uint32_t certain = 0;
+  for (uint32_t tick = 0; tick < 1200; ++tick) {
+    ride.fill(tick);
+    if (tick == 200) {
+      ride.input.command = 1 + params::kMeshWork;
+      ride.input.command_value = 1;
+    }
+    ride.step();
+    if ((ride.output.state & record::kStateUncertain) == 0) {
+      certain = tick;
+    } else {
+      CHECK_LE(tick, certain + 10);
+    }
+    if (ride.output.faults != 0) break;
+  }
+  CHECK_EQ(ride.output.faults, servo::kFaultContact);
+  CHECK_GE(certain, 200u);
+}
+
+// A stiffness that was raised under load threw the hand at 0.68 m/s.
+TEST(StiffnessRaisedUnderLoad_MakesNoStepOfTheForce) {
+  Ride ride;
+  const auto press = [&ride](uint32_t tick, int32_t counts) {
+    ride.fill(400);
+    ride.input.encoder_counts[2] += counts;
+    ride.input.tick = tick;
+    ride.input.clock_us = tick * 1000u;
+    ride.input.flags = tick < 10 ? 0 : record::kFlagEnable;
+    if (tick == 800) {
+      ride.input.command = 1 + params::kContactStiffness;
+      ride.input.command_value = 8000;
+    }
+    ride.step();
+  };
+  for (uint32_t tick = 0; tick < 300; ++tick) press(tick, 1000);
+  for (uint32_t tick = 300; tick < 800; ++tick)
+    press(tick, 1000 - static_cast<int32_t>(2 * std::min(tick - 300, 400u)));
+  const double before_N = size_of(ride.output.force_N);
+  CHECK_NE(ride.output.state & record::kStateContact, 0u);
+  CHECK_GE(before_N, 0.5);
+  for (uint32_t tick = 800; tick < 900; ++tick) {
+    press(tick, 200);
+    CHECK_LE(std::fabs(size_of(ride.output.force_N) - before_N), 1e-6);
+  }
+  CHECK_NE(ride.output.state & record::kStateContact, 0u);
+}
+
+// A proxy waited at the surface for a hand that had gone through it: it was never touched again.
+TEST(SurfaceWithoutStiffness_HoldsNothingAndIsThereAgainWhenItHasOne) {
+  Ride ride;
+  const auto step = [&ride](uint32_t tick, uint32_t place, int32_t counts, uint32_t parameter = 0,
+                            float value = 0) {
+    ride.fill(place);
+    ride.input.encoder_counts[2] += counts;
+    ride.input.tick = tick;
+    ride.input.clock_us = tick * 1000u;
+    ride.input.flags = tick < 10 ? 0 : record::kFlagEnable;
+    if (parameter != 0) {
+      ride.input.command = 1 + parameter;
+      ride.input.command_value = value;
+    }
+    ride.step();
+    return size_of(ride.output.force_N);
+  };
+  uint32_t tick = 0;
+  for (; tick < 300; ++tick) step(tick, 400, 1000);
+  step(tick++, 400, 1000, params::kGuideStiffness, 0);
+  step(tick++, 400, 1000, params::kContactStiffness, 0);
+  // In through the surface, to stay there, and out of the part below.
+  double most_N = 0;
+  int32_t height = 1000;
+  for (; height > -200; height -= 2) most_N = std::max(most_N, step(tick++, 400, height));
+  for (uint32_t i = 0; i < 12000; ++i) most_N = std::max(most_N, step(tick++, 400, height));
+  CHECK_LE(most_N, 0.05);  // the damper's
+  CHECK_EQ(ride.output.faults, 0u);
+  most_N = step(tick++, 400, height, params::kContactStiffness, 1200);
+  for (uint32_t i = 0; i < 500; ++i) most_N = std::max(most_N, step(tick++, 400, height));
+  CHECK_LE(most_N, 1.01);  // led out
+  step(tick++, 400, height, params::kContactStiffness, 0);
+  for (; height > -7000; height -= 4) step(tick++, 400, height);
+  step(tick++, 400, height, params::kContactStiffness, 1200);
+  while (height < 0 && most_N < 2) most_N = std::max(most_N, step(tick++, 400, height += 2));
+  CHECK_GE(most_N, 2.0);  // from below
+  CHECK_GE(ride.output.force_N[2], -8.0f);
+  CHECK_LE(ride.output.force_N[2], -1.0f);
+  CHECK_EQ(ride.output.faults, 0u);
+}
