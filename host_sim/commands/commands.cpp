@@ -12,7 +12,7 @@ constexpr size_t kHelpColumn = 30;
 
 struct Entry {
   const Command& (*command)();
-  int (*run)(const std::vector<std::string>& words);
+  int (*run)(const Options& options);
 };
 constexpr Entry kEntries[] = {
     {run_command_line, run_scenario},       {replay_command_line, replay_log},
@@ -51,7 +51,7 @@ std::string help_of(const Command& command) {
 }
 
 Options::Options(const Command& command, const std::vector<std::string>& words)
-    : command_(command.name) {
+    : command_(command.name), words_(words) {
   for (const std::string& word : words) help_ = help_ || word == "--help" || word == "-h";
   if (help_) return;
   for (size_t i = 0; i < words.size(); ++i) {
@@ -129,8 +129,14 @@ int run_command(const std::vector<std::string>& words) {
     std::cout << kVersion << "\n";
     return 0;
   }
-  for (const Entry& entry : kEntries)
-    if (words[0] == entry.command().name) return entry.run({words.begin() + 1, words.end()});
+  for (const Entry& entry : kEntries) {
+    const Command& command = entry.command();
+    if (words[0] != command.name) continue;
+    const Options options(command, {words.begin() + 1, words.end()});
+    if (!options.help()) return entry.run(options);
+    std::cout << help_of(command);
+    return 0;
+  }
   throw Usage("'" + words[0] + "' is no command (see firmtouch-sim --help)");
 }
 

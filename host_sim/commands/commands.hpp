@@ -30,19 +30,6 @@ struct Command {
 /// Result: the exit code. Throws Usage or Refused.
 int run_command(const std::vector<std::string>& words);
 
-const Command& run_command_line();
-int run_scenario(const std::vector<std::string>& words);
-const Command& replay_command_line();
-int replay_log(const std::vector<std::string>& words);
-const Command& record_command_line();
-int record_live(const std::vector<std::string>& words);
-const Command& live_command_line();
-int serve_live(const std::vector<std::string>& words);
-const Command& scenario_command_line();
-int make_scenario(const std::vector<std::string>& words);
-const Command& z_width_command_line();
-int print_z_width(const std::vector<std::string>& words);
-
 /// As `firmtouch COMMAND --help` is laid out.
 std::string help_of(const Command& command);
 
@@ -58,6 +45,7 @@ class Options {
   /// A number of at least `least`; `otherwise` if the option is not given. Throws Usage.
   double number(const std::string& name, double otherwise, double least) const;
   bool help() const { return help_; }
+  const std::vector<std::string>& words() const { return words_; }
   const std::vector<std::string>& operands() const { return operands_; }
   /// The only operand. Throws Usage if there is another number of them.
   const std::string& operand(const std::string& what) const;
@@ -66,9 +54,23 @@ class Options {
 
  private:
   std::string command_;
+  std::vector<std::string> words_;
   std::vector<std::pair<std::string, std::string>> given_;
   std::vector<std::string> operands_;
   bool help_ = false;
 };
+
+const Command& run_command_line();
+int run_scenario(const Options& options);
+const Command& replay_command_line();
+int replay_log(const Options& options);
+const Command& record_command_line();
+int record_live(const Options& options);
+const Command& live_command_line();
+int serve_live(const Options& options);
+const Command& scenario_command_line();
+int make_scenario(const Options& options);
+const Command& z_width_command_line();
+int print_z_width(const Options& options);
 
 }  // namespace firmtouch::host_sim

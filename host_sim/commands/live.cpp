@@ -57,12 +57,7 @@ const Command& live_command_line() {
   return command;
 }
 
-int serve_live(const std::vector<std::string>& words) {
-  const Options options(live_command_line(), words);
-  if (options.help()) {
-    std::cout << help_of(live_command_line());
-    return 0;
-  }
+int serve_live(const Options& options) {
   const std::string asset = options.value("--asset"), to = options.value("--page");
   if (!to.empty()) {
     check_outputs({{"--asset", asset}}, {{"--page", to}});

@@ -205,12 +205,7 @@ const Command& record_command_line() {
   return command;
 }
 
-int record_live(const std::vector<std::string>& words) {
-  const Options options(record_command_line(), words);
-  if (options.help()) {
-    std::cout << help_of(record_command_line());
-    return 0;
-  }
+int record_live(const Options& options) {
   const std::string path = options.value("-o"), asset = options.value("--asset");
   const std::string where = options.operand("one controller");
   if (path.empty()) options.refuse("name -o FILE.ftl");

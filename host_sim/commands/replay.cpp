@@ -80,12 +80,7 @@ std::string json_of(const std::string& path, const Log& log, const std::string& 
   return text + "}\n";
 }
 
-int replay_log(const std::vector<std::string>& words) {
-  const Options options(replay_command_line(), words);
-  if (options.help()) {
-    std::cout << help_of(replay_command_line());
-    return 0;
-  }
+int replay_log(const Options& options) {
   const std::string path = options.operand("one log");
   const Log log = read_log(path);
   check_same(path, "parameter table",

@@ -170,12 +170,7 @@ const Command& run_command_line() {
   return command;
 }
 
-int run_scenario(const std::vector<std::string>& words) {
-  const Options options(run_command_line(), words);
-  if (options.help()) {
-    std::cout << help_of(run_command_line());
-    return 0;
-  }
+int run_scenario(const Options& options) {
   const std::string file = options.operand("one scenario");
   std::vector<std::string> sets;
   for (const std::string& set : options.values("--set")) sets.push_back(line_of(set));
@@ -210,7 +205,7 @@ int run_scenario(const std::vector<std::string>& words) {
   if (!options.value("--report").empty() || !options.value("--picture").empty())
     write_pages(options, {scenario, environment, facts, summary, written.charts(), written.paths(),
                           session.asset.path(), static_cast<uint32_t>(session.asset.bytes().size()),
-                          session.scene_text(), command_of(words)});
+                          session.scene_text(), command_of(options.words())});
   if (options.has("--json")) std::cout << json_of(summary, facts);
   std::cerr << "  scene          " << session.scene_text() << "\n" << text_of(summary, facts);
   return exit_code(facts, summary);

@@ -36,12 +36,7 @@ const Command& scenario_command_line() {
   return command;
 }
 
-int make_scenario(const std::vector<std::string>& words) {
-  const Options options(scenario_command_line(), words);
-  if (options.help()) {
-    std::cout << help_of(scenario_command_line());
-    return 0;
-  }
+int make_scenario(const Options& options) {
   const std::string path = options.operand("one asset"), to = options.value("-o"),
                     outline_path = options.value("--outline");
   if (to.empty() && outline_path.empty()) options.refuse("name -o FILE or --outline FILE.csv");

@@ -179,12 +179,7 @@ const Command& z_width_command_line() {
   return command;
 }
 
-int print_z_width(const std::vector<std::string>& words) {
-  const Options options(z_width_command_line(), words);
-  if (options.help()) {
-    std::cout << help_of(z_width_command_line());
-    return 0;
-  }
+int print_z_width(const Options& options) {
   if (!options.operands().empty()) options.refuse("it takes no file");
   if (options.has("--table")) return print_table();
   if (options.has("--regimes")) return print_regimes();
