@@ -28,6 +28,14 @@ void expect(const SmallFile& file, uint32_t rule, uint32_t element = 0) {
   CHECK_EQ(verdict.element, element);
 }
 
+// A field of the third section's entry is wrong.
+void expect_third(uint32_t field, uint32_t value, uint32_t rule) {
+  SmallFile file;
+  file.word(kThird + field, value);
+  file.repair();
+  expect(file, rule, 2);
+}
+
 }  // namespace
 
 TEST(UnchangedFile_Passes) { expect(SmallFile(), 0); }
@@ -199,33 +207,21 @@ TEST(Rule20_RejectsUnalignedSection) {
 }
 
 TEST(Rule21_RejectsOverlappingSection) {
-  SmallFile file;
-  static const uint32_t offsets[] = {0u, 32u, kData, kData + 16};
-  for (const uint32_t offset : offsets) {  // header, table, first, second section
-    file.word(kThird + kOffset, offset);
-    file.repair();
-    expect(file, firmtouch::asset::kRuleSectionOverlap, 2);
-  }
+  const uint32_t offsets[] = {0, 32, kData, kData + 16};  // header, table, first, second section
+  for (const uint32_t offset : offsets)
+    expect_third(kOffset, offset, firmtouch::asset::kRuleSectionOverlap);
 }
 
 TEST(Rule22_RejectsGapBetweenSections) {
-  SmallFile file;
-  static const uint32_t offsets[] = {kData + 64, 0xFFFFFFF0u};
-  for (const uint32_t offset : offsets) {
-    file.word(kThird + kOffset, offset);
-    file.repair();
-    expect(file, firmtouch::asset::kRuleSectionGap, 2);
-  }
+  const uint32_t values[] = {kData + 64, 0xFFFFFFF0u};
+  for (const uint32_t value : values)
+    expect_third(kOffset, value, firmtouch::asset::kRuleSectionGap);
 }
 
 TEST(Rule23_RejectsSectionBeyondFile) {
-  SmallFile file;
-  static const uint32_t counts[] = {17u, 0xFFFFFFFFu, 0xFFFFFF00u};
-  for (const uint32_t count : counts) {
-    file.word(kThird + kBytes, count);
-    file.repair();
-    expect(file, firmtouch::asset::kRuleSectionOutside, 2);
-  }
+  const uint32_t values[] = {17u, 0xFFFFFFFFu, 0xFFFFFF00u};
+  for (const uint32_t value : values)
+    expect_third(kBytes, value, firmtouch::asset::kRuleSectionOutside);
 }
 
 TEST(Rule24_RejectsBytesAfterLastSection) {

@@ -83,10 +83,7 @@ TEST(ClearedFaultsLetItGoOn) {
   ride.step();  // refused: enable is high
   CHECK_NE(ride.output.state & record::kStateCommandRefused, 0u);
   CHECK_NE(ride.output.faults, 0u);
-  ride.fill(501);
-  ride.input.flags = 0;
-  ride.input.command = record::kCommandClearFaults;
-  ride.step();
+  ride.clear_faults(501);
   CHECK_EQ(ride.output.faults, 0u);
   double most = 0;
   for (uint32_t tick = 502; tick < 1500; ++tick) {
@@ -144,10 +141,7 @@ TEST(OverloadedControllerQueriesNothingUntilTheFaultIsCleared) {
     CHECK_EQ(queried, 0u);
     CHECK_EQ(ride.output.faults, servo::kFaultOverload);
     CHECK_EQ(size_of(ride.output.motor_N), 0.0);
-    ride.fill(600);
-    ride.input.flags = 0;
-    ride.input.command = record::kCommandClearFaults;
-    ride.step();
+    ride.clear_faults(600);
     for (uint32_t tick = 601; tick < 900; ++tick) step(tick, 100);
     CHECK_EQ(ride.output.faults, 0u);
     CHECK_EQ(queried, 299u);
@@ -170,10 +164,7 @@ TEST(TrippedGuardIsAFaultThatStaysUntilItIsCleared) {
   ride.run(400, 420);
   CHECK_EQ(ride.output.faults, servo::kFaultGuard);
   CHECK_EQ(size_of(ride.output.motor_N), 0.0);
-  ride.fill(420);
-  ride.input.flags = 0;
-  ride.input.command = record::kCommandClearFaults;
-  ride.step();
+  ride.clear_faults(420);
   CHECK_EQ(ride.output.faults, 0u);
   ride.run(421, 600);
   CHECK_EQ(ride.output.faults, 0u);

@@ -116,6 +116,13 @@ struct Ride {
       input.encoder_counts[k] = static_cast<int32_t>(std::lround(p_m[k] * 100000));
   }
   void step() { controller.tick(input, output); }
+  // In tick `tick`, with the motors disabled.
+  void clear_faults(uint32_t tick) {
+    fill(tick);
+    input.flags = 0;
+    input.command = record::kCommandClearFaults;
+    step();
+  }
   void run(uint32_t from, uint32_t to) {
     for (uint32_t tick = from; tick < to; ++tick) fill(tick), step();
   }

@@ -43,8 +43,9 @@ void check(const Baked& baked, math::Vec3 p, double truth, const curve::Closest&
       kPromise * (scale + std::abs(double{p.x}) + std::abs(double{p.y}) + std::abs(double{p.z})) +
       2e-7 * (std::abs(double{found.point_m.x}) + std::abs(double{found.point_m.y}) +
               std::abs(double{found.point_m.z}));
-  CHECK_LE(curve_test::to_segment(found.point_m, baked.samples[found.segment],
-                                  baked.samples[found.segment + 1]),
+  CHECK_LE(curve_test::nearest_on_segment(found.point_m, baked.samples[found.segment],
+                                          baked.samples[found.segment + 1])
+               .distance,
            room);
   CHECK_LE(std::abs(std::hypot(double{found.tangent.x}, double{found.tangent.y},
                                double{found.tangent.z}) -

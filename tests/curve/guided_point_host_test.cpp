@@ -25,14 +25,8 @@ Least brute_cost(const Baked& baked, math::Vec3 p, const curve::ArcPenalty& pena
   Least least;
   const auto arcs = baked.view.arcs();
   for (uint32_t i = 0; i + 1 < baked.samples.size(); ++i) {
-    const math::Vec3 a = baked.samples[i], b = baked.samples[i + 1];
-    const double e[3] = {double{b.x} - double{a.x}, double{b.y} - double{a.y},
-                         double{b.z} - double{a.z}};
-    const double v[3] = {double{p.x} - double{a.x}, double{p.y} - double{a.y},
-                         double{p.z} - double{a.z}};
-    const double along = v[0] * e[0] + v[1] * e[1] + v[2] * e[2];
-    const double t = std::clamp(along / (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]), 0.0, 1.0);
-    const double distance = std::hypot(v[0] - t * e[0], v[1] - t * e[1], v[2] - t * e[2]);
+    const auto [distance, t] =
+        curve_test::nearest_on_segment(p, baked.samples[i], baked.samples[i + 1]);
     double change = std::abs(double{arcs[i]} * (1 - t) + double{arcs[i + 1]} * t -
                              double{penalty.previous_arc});
     if (baked.view.is_closed()) change = std::min(change, 1 - change);

@@ -40,20 +40,23 @@ struct Baked {
   Points samples;
 };
 
-inline double to_segment(math::Vec3 p, math::Vec3 a, math::Vec3 b) {
+struct NearestOnSegment {
+  double distance, t;
+};
+inline NearestOnSegment nearest_on_segment(math::Vec3 p, math::Vec3 a, math::Vec3 b) {
   const double e[3] = {double{b.x} - double{a.x}, double{b.y} - double{a.y},
                        double{b.z} - double{a.z}};
   const double v[3] = {double{p.x} - double{a.x}, double{p.y} - double{a.y},
                        double{p.z} - double{a.z}};
   const double along = v[0] * e[0] + v[1] * e[1] + v[2] * e[2];
   const double t = std::clamp(along / (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]), 0.0, 1.0);
-  return std::hypot(v[0] - t * e[0], v[1] - t * e[1], v[2] - t * e[2]);
+  return {std::hypot(v[0] - t * e[0], v[1] - t * e[1], v[2] - t * e[2]), t};
 }
 
 inline double brute_distance(const Points& samples, math::Vec3 p) {
   double least = HUGE_VAL;
   for (size_t i = 0; i + 1 < samples.size(); ++i)
-    least = std::min(least, to_segment(p, samples[i], samples[i + 1]));
+    least = std::min(least, nearest_on_segment(p, samples[i], samples[i + 1]).distance);
   return least;
 }
 

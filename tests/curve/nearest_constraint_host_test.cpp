@@ -30,7 +30,7 @@ double cost(const Baked& baked, math::Vec3 p, const curve::ArcPenalty& penalty, 
       double{baked.view.arcs()[index]} * (1 - t) + double{baked.view.arcs()[index + 1]} * t;
   double change = std::abs(arc - double{penalty.previous_arc});
   if (baked.view.is_closed()) change = std::min(change, 1 - change);
-  return curve_test::to_segment(p, a, b) +
+  return curve_test::nearest_on_segment(p, a, b).distance +
          (penalty.has_previous ? double{penalty.weight_m} * change : 0);
 }
 

@@ -15,6 +15,17 @@ constexpr Sample kRing[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0
 
 float nan_value() { return __builtin_nanf(""); }
 
+// A section that is `less` or `more` bytes away from its size is rejected.
+void check_sizes(const Sections& sections, firmtouch::core::Bytes Sections::*section, uint32_t less,
+                 uint32_t more, uint32_t rule) {
+  Sections s = sections;
+  const firmtouch::core::Bytes whole = s.*section;
+  s.*section = {whole.data(), whole.size() - less};
+  CHECK_EQ(verdict_of(s).rule, rule);
+  s.*section = {whole.data(), whole.size() + more};
+  CHECK_EQ(verdict_of(s).rule, rule);
+}
+
 }  // namespace
 
 TEST(TheCurvesThatTheRulesAreTriedOnAreGood) {
@@ -80,17 +91,10 @@ TEST(Rule204RefusesAClosednessBeyondOne) {
 
 TEST(Rules205To207RefuseSectionsOfAnotherLength) {
   const SmallCurve c(kHook);
-  for (uint32_t less = 0; less < 2; ++less) {
-    Sections s = c.sections();
-    s.samples = {s.samples.data(), less ? s.samples.size() - 12 : s.samples.size() + 12};
-    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleSamplesSize);
-    s = c.sections();
-    s.arcs = {s.arcs.data(), less ? s.arcs.size() - 4 : s.arcs.size() + 1};
-    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleArcsSize);
-    s = c.sections();
-    s.tree = {s.tree.data(), less ? s.tree.size() - 4 : s.tree.size() + 4};
-    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleTreeSize);
-  }
+  const Sections s = c.sections();
+  check_sizes(s, &Sections::samples, 12, 12, firmtouch::curve::kRuleSamplesSize);
+  check_sizes(s, &Sections::arcs, 4, 1, firmtouch::curve::kRuleArcsSize);
+  check_sizes(s, &Sections::tree, 4, 4, firmtouch::curve::kRuleTreeSize);
 }
 
 TEST(Rule208RefusesABoxThatIsNotOneOrTooFarAway) {
@@ -225,18 +229,10 @@ TEST(Rule219RefusesASampleThatStandsInTwoNodes) {
 }
 
 TEST(Rule221RefusesBoxesAndRunsOfAnotherCount) {
-  const LongCurve& c = long_hook();
-  for (uint32_t less = 0; less < 2; ++less) {
-    Sections s = c.sections();
-    s.boxes = {s.boxes.data(), less ? s.boxes.size() - 12 : s.boxes.size() + 12};
-    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleRunsSize);
-    s = c.sections();
-    s.runs = {s.runs.data(), less ? s.runs.size() - 8 : s.runs.size() + 8};
-    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleRunsSize);
-    s = c.sections();
-    s.radii = {s.radii.data(), less ? s.radii.size() - 2 : s.radii.size() + 2};
-    CHECK_EQ(verdict_of(s).rule, firmtouch::curve::kRuleRunsSize);
-  }
+  const Sections s = long_hook().sections();
+  check_sizes(s, &Sections::boxes, 12, 12, firmtouch::curve::kRuleRunsSize);
+  check_sizes(s, &Sections::runs, 8, 8, firmtouch::curve::kRuleRunsSize);
+  check_sizes(s, &Sections::radii, 2, 2, firmtouch::curve::kRuleRunsSize);
 }
 
 TEST(Rule222RefusesAGridThatItsBoundsDoNotHoldOn) {

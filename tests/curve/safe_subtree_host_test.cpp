@@ -79,8 +79,9 @@ TEST(SafeSubtree_LeavesNothingNearerOutside_AfterAnyQuery) {
         double outside = HUGE_VAL;
         for (uint32_t s = 0; s < baked.view.segment_count(); ++s)
           if (s < kept.first || s >= kept.end)
-            outside = std::min(outside,
-                               curve_test::to_segment(p, baked.samples[s], baked.samples[s + 1]));
+            outside = std::min(
+                outside,
+                curve_test::nearest_on_segment(p, baked.samples[s], baked.samples[s + 1]).distance);
         ++checked;
         const double claimed = double{hint.safe_subtree_m};
         if (claimed > 0.5 * outside) ++tight;

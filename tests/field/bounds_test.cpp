@@ -10,6 +10,7 @@
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
+using field_test::coordinate;
 using field_test::CubeField;
 using field_test::Opened;
 using math::Vec3;
@@ -22,11 +23,6 @@ float truth_of(Vec3 p) {
   if (most <= 0) return most;
   const auto plus = [](float v) { return v > 0 ? v : 0.0f; };
   return math::length(Vec3{plus(x), plus(y), plus(z)});
-}
-
-float coordinate(uint32_t& state, float reach) {
-  state = state * 1664525u + 1013904223u;
-  return (static_cast<float>(static_cast<int32_t>(state >> 8)) * 0x1p-23f - 1.0f) * reach;
 }
 
 }  // namespace

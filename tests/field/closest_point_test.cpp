@@ -10,13 +10,9 @@
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
+using field_test::coordinate;
 using field_test::Opened;
 using math::Vec3;
-
-float coordinate(uint32_t& state, float reach) {
-  state = state * 1664525u + 1013904223u;
-  return (static_cast<float>(static_cast<int32_t>(state >> 8)) * 0x1p-23f - 1.0f) * reach;
-}
 
 }  // namespace
 

@@ -50,4 +50,10 @@ struct Opened {
   Opened() { CHECK(field::open(distance_field.sections(), mesh, view).ok()); }
 };
 
+/// Pseudo-random, of at most `reach` in size.
+inline float coordinate(uint32_t& state, float reach) {
+  state = state * 1664525u + 1013904223u;
+  return (static_cast<float>(static_cast<int32_t>(state >> 8)) * 0x1p-23f - 1.0f) * reach;
+}
+
 }  // namespace firmtouch::field_test

@@ -16,18 +16,26 @@ using namespace firmtouch;
 using tools::Footpoint;
 using tools::Footpoints;
 
-void same_as_baked(const tools::SplineModel& model, const Footpoints& source, uint64_t seed) {
-  tools::SplineReport report;
-  const auto detail =
-      model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(true);
-  const auto sections = tools::bake_spline(model, "a", detail, report);
-  CHECK(report.problem.empty());
+// The pieces that a baked model holds.
+struct Baked {
+  std::vector<tools::Section> sections;
   spline::View view;
-  CHECK(tools::open_baked(sections, "a", view).ok());
   std::vector<tools::BezierCurve> curves;
   std::vector<tools::BezierPatch> patches;
-  tools::asset_pieces(view, curves, patches);
-  const Footpoints baked(curves, patches, tools::kAssetGap);
+  explicit Baked(const tools::SplineModel& model) {
+    tools::SplineReport report;
+    const auto detail =
+        model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(true);
+    sections = tools::bake_spline(model, "a", detail, report);
+    CHECK(report.problem.empty());
+    CHECK(tools::open_baked(sections, "a", view).ok());
+    tools::asset_pieces(view, curves, patches);
+  }
+};
+
+void same_as_baked(const tools::SplineModel& model, const Footpoints& source, uint64_t seed) {
+  const Baked of_asset(model);
+  const Footpoints baked(of_asset.curves, of_asset.patches, tools::kAssetGap);
   CHECK_EQ(baked.corners().size(), source.corners().size());
   CHECK_GE(baked.borders().size(), source.borders().size());
   tools::Random random(seed);
@@ -97,18 +105,14 @@ tools::SplineModel dome() {
 // Rounding of the baked coefficients makes a curve of about 1e-8 of the edge at the pole.
 TEST(PatchesAtAPole_AreCutOnlyWhereTheirNeighboursAre) {
   const tools::SplineModel model = dome();
-  tools::SplineReport report;
-  const auto sections = tools::bake_spline(model, "a", tools::surface_detail(true), report);
-  CHECK(report.problem.empty());
-  spline::View view;
-  CHECK(tools::open_baked(sections, "a", view).ok());
-  std::vector<tools::BezierCurve> curves;
-  std::vector<tools::BezierPatch> patches;
-  tools::asset_pieces(view, curves, patches);
+  const Baked baked(model);
   double narrowest = 1;
-  for (const spline::Piece& piece : view.pieces())
+  for (const spline::Piece& piece : baked.view.pieces())
     narrowest = std::min(narrowest, 2 * static_cast<double>(piece.half_u));
-  for (const tools::BezierPatch& patch : patches) CHECK_GE(patch.u1 - patch.u0, narrowest * 0.999);
+  for (const tools::BezierPatch& patch : baked.patches)
+    CHECK_GE(patch.u1 - patch.u0, narrowest * 0.999);
   bool is_complete = false;
-  CHECK(!Footpoints(curves, patches, tools::kAssetGap).all({0.2, 0.6, 1}, is_complete).empty());
+  CHECK(!Footpoints(baked.curves, baked.patches, tools::kAssetGap)
+             .all({0.2, 0.6, 1}, is_complete)
+             .empty());
 }

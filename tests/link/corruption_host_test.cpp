@@ -7,10 +7,7 @@
 namespace firmtouch::link {
 namespace {
 
-using test::feed;
-using test::Random;
-using test::same;
-using test::Wire;
+using namespace test;  // NOLINT: a test file
 
 constexpr uint32_t kFrames = 2;
 

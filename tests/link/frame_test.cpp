@@ -9,10 +9,7 @@
 namespace firmtouch::link {
 namespace {
 
-using test::feed;
-using test::Random;
-using test::same;
-using test::Wire;
+using namespace test;  // NOLINT: a test file
 
 void ignore(const Frame&) {}
 

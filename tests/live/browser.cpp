@@ -66,6 +66,7 @@ std::string bytes_of_base64(const std::string& text) {
 }  // namespace
 
 Browser::Browser(const std::string& program, const std::string& folder) {
+  ::signal(SIGPIPE, SIG_IGN);  // a browser that ended is a failed claim
   int commands[2], answers[2];
   if (::pipe2(commands, O_CLOEXEC) != 0 || ::pipe2(answers, O_CLOEXEC) != 0) return;
   process_ = ::fork();

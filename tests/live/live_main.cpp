@@ -6,44 +6,27 @@
 #include <string>
 #include <thread>
 
-#include "live/browser.hpp"
+#include "live/page_test.hpp"
 
 // The live page in a browser, against the controller program whose joints a simulated hand moves.
 // The test uses the page's own buttons and inputs, and reads what it shows.
 
 namespace {
 
-using firmtouch::live_test::Browser;
-using Clock = std::chrono::steady_clock;
+using firmtouch::live_test::PageTest;
 
 constexpr double kPatience_s = 40;
 constexpr double kConnect_s = 60;
 constexpr const char* kMotorsAreOn = "$('mode').textContent === 'motors: on'";
 
-struct Test {
-  Browser& browser;
-  int passed = 0, failed = 0;
+struct Test : PageTest {
+  using PageTest::PageTest;
 
-  // Whether `expression` becomes true in the page within the time.
-  bool becomes(const std::string& expression, double max_s) {
-    const auto end = Clock::now() + std::chrono::duration<double>(max_s);
-    do {
-      if (browser.evaluate(expression) == "true") return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    } while (Clock::now() < end);
-    return false;
-  }
   bool check(const char* claim, bool holds) {
-    std::printf("%s  %s\n", holds ? "ok  " : "FAIL", claim);
-    if (!holds) {
+    PageTest::check(claim, holds);
+    if (!holds)
       std::printf("      the page says: %s\n", browser.evaluate("$('banner').textContent").c_str());
-    }
-    std::fflush(stdout);
-    ++(holds ? passed : failed);
     return holds;
-  }
-  double number(const std::string& expression) {
-    return std::strtod(browser.evaluate(expression).c_str(), nullptr);
   }
   // Types a value into a parameter's field, as a person does.
   void type(const std::string& parameter, const std::string& value) {
@@ -282,14 +265,8 @@ int main(int count, char** words) {
     std::fprintf(stderr, "usage: live_page BROWSER URL CONTROLLER_PID FOLDER [PICTURES]\n");
     return 2;
   }
-  ::signal(SIGPIPE, SIG_IGN);
-  const std::string pictures = count > 5 ? words[5] : "";
-  Browser browser(words[1], words[4]);
-  Test test{browser};
-  const auto picture = [&](const char* name) {
-    if (!pictures.empty()) browser.picture(pictures + "/" + name + ".png");
-  };
-  if (!test.check("the browser opens the page", browser.open(words[2], 1600, 1000))) return 1;
+  Test test(words[1], words[4], words[5]);  // null behind the last word
+  if (!test.check("the browser opens the page", test.browser.open(words[2], 1600, 1000))) return 1;
   if (test.check("it connects to the controller", test.becomes(kConnected, kConnect_s))) {
     const double first = test.number("page.session.records");
     test.check("records come, and the pictures move",
@@ -298,32 +275,30 @@ int main(int count, char** words) {
     test.check("the motors come on when the hand closes its switch",
                test.becomes(kMotorsAreOn, kPatience_s));
     stiffness(test);
-    picture("desktop");
+    test.picture("desktop");
     refusals(test);
     faults(test);
     panel(test);
     parameters(test);
     recording(test);
     plots(test);
-    picture("tuned");
+    test.picture("tuned");
     second_page(test, words[2]);
-    std::printf("      %s\n", browser.evaluate("$('flow').textContent").c_str());
+    std::printf("      %s\n", test.browser.evaluate("$('flow').textContent").c_str());
     serial(test);
-    test.check("no frame was damaged", browser.evaluate("page.session.decoder.rejects") == "0");
+    test.check("no frame was damaged",
+               test.browser.evaluate("page.session.decoder.rejects") == "0");
   }
   ::kill(static_cast<pid_t>(std::atoi(words[3])), SIGKILL);
   test.check("the page reports a closed link",
              test.becomes("$('banner').textContent.includes('Disconnected')", 5) &&
                  test.becomes("$('state').textContent.startsWith('State, as last reported')", 1));
-  picture("gone");
-  std::printf("      a second at 10 kHz, %s\n", browser.evaluate(kCostOf10kHz).c_str());
-  browser.resize(390, 844);
+  test.picture("gone");
+  std::printf("      a second at 10 kHz, %s\n", test.browser.evaluate(kCostOf10kHz).c_str());
+  test.browser.resize(390, 844);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   test.check("at a phone's width nothing stands out to the side",
              test.becomes("document.documentElement.scrollWidth <= 390", 2));
-  picture("phone");
-  const std::string errors = browser.errors();
-  if (!test.check("no error on the console", errors.empty())) std::printf("%s", errors.c_str());
-  std::printf("%d passed, %d failed\n", test.passed, test.failed);
-  return test.failed == 0 ? 0 : 1;
+  test.picture("phone");
+  return test.finish();
 }

@@ -1,42 +1,20 @@
-#include <signal.h>
-
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <thread>
 
-#include "live/browser.hpp"
+#include "live/page_test.hpp"
 
 // A run's report in a browser: everything that a reader can do with it, done by a script.
 
 namespace {
 
-using firmtouch::live_test::Browser;
-using Clock = std::chrono::steady_clock;
+using firmtouch::live_test::PageTest;
 
-struct Test {
-  Browser& browser;
-  int passed = 0, failed = 0;
+struct Test : PageTest {
+  using PageTest::PageTest;
 
-  bool becomes(const std::string& expression, double max_s = 10) {
-    const auto end = Clock::now() + std::chrono::duration<double>(max_s);
-    do {
-      if (browser.evaluate(expression) == "true") return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    } while (Clock::now() < end);
-    return false;
-  }
-  bool check(const char* claim, bool holds) {
-    std::printf("%s  %s\n", holds ? "ok  " : "FAIL", claim);
-    std::fflush(stdout);
-    ++(holds ? passed : failed);
-    return holds;
-  }
   void run(const std::string& script) { browser.evaluate("(() => { " + script + " })()"); }
-  double number(const std::string& expression) {
-    return std::strtod(browser.evaluate(expression).c_str(), nullptr);
-  }
   // A mouse over the first chart, at these shares of its width.
   void drag_chart(double from, double to) {
     run("report.charts[0].node.scrollIntoView({ block: 'center' })");
@@ -154,36 +132,28 @@ int main(int count, char** words) {
     std::fprintf(stderr, "usage: report_page BROWSER URL FOLDER [PICTURES]\n");
     return 2;
   }
-  ::signal(SIGPIPE, SIG_IGN);
-  const std::string pictures = count > 4 ? words[4] : "";
-  Browser browser(words[1], words[3]);
-  Test test{browser};
-  const auto picture = [&](const char* name) {
-    if (!pictures.empty()) browser.picture(pictures + "/" + name + ".png");
-  };
-  if (!test.check("the browser opens the report", browser.open(words[2], 1440, 1000))) return 1;
+  Test test(words[1], words[3], words[4]);  // null behind the last word
+  if (!test.check("the browser opens the report", test.browser.open(words[2], 1440, 1000)))
+    return 1;
   test.check("it has its charts and its name",
              test.becomes("report.charts.length >= 6 && document.title.startsWith('part ')", 30));
   test.check("a card says how it feels, and the stop is said to be the scenario's",
              test.becomes("/Feel/.test(document.querySelector('.claims').textContent) && "
                           "/part of the scenario/.test(document.body.textContent)",
                           2));
-  picture("report");
+  test.picture("report");
   time(test);
   zoom_and_pan(test);
   stage(test);
-  picture("report_3d");
+  test.picture("report_3d");
   lines_and_files(test);
   event(test);
-  picture("report_zoomed");
-  browser.resize(390, 844);
+  test.picture("report_zoomed");
+  test.browser.resize(390, 844);
   test.check("at a phone's width nothing stands out to the side, and labels are readable",
              test.becomes("document.documentElement.scrollWidth <= 390 && "
                           "report.charts[0].node.querySelector('text').getBoundingClientRect()"
                           ".height >= 10"));
-  picture("report_phone");
-  const std::string errors = browser.errors();
-  if (!test.check("no error on the console", errors.empty())) std::printf("%s", errors.c_str());
-  std::printf("%d passed, %d failed\n", test.passed, test.failed);
-  return test.failed == 0 ? 0 : 1;
+  test.picture("report_phone");
+  return test.finish();
 }

@@ -70,27 +70,27 @@ double worst(LossOf loss, double reach, int starts, int steps) {
 
 double longest(const Case& c) { return length(wide(c.corner[1]) - wide(c.corner[0])); }
 
+mesh::Loss loss_of(const Case& c) {
+  mesh::Head head{};
+  head.longest_edge_m = static_cast<float>(longest(c));
+  return mesh::Loss(head);
+}
+
 // Error of the plain solver as a share of what Loss allows it.
 double plain_share(const Case& c) {
-  const double l = longest(c);
-  if (!(l > 1e-3)) return -1;
-  mesh::Head head{};
-  head.longest_edge_m = static_cast<float>(l);
+  if (!(longest(c) > 1e-3)) return -1;
   const double truth = truth_of(c);
   const mesh::Foot foot = mesh::closest_on_triangle(c.p, c.corner[0], c.corner[1], c.corner[2]);
   const double reported = std::sqrt(double{foot.distance2_m2});
-  return std::fabs(reported - truth) / double{mesh::Loss(head).plain_m(static_cast<float>(truth))};
+  return std::fabs(reported - truth) / double{loss_of(c).plain_m(static_cast<float>(truth))};
 }
 
 double compensated_share(const Case& c) {
-  const double l = longest(c);
-  if (!(l > 1e-3)) return -1;
-  mesh::Head head{};
-  head.longest_edge_m = static_cast<float>(l);
+  if (!(longest(c) > 1e-3)) return -1;
   const double truth = truth_of(c);
   const float upper2 = mesh::compensated_distance2(c.p, c.corner[0], c.corner[1], c.corner[2]);
   return std::fabs(double{math::square_root(upper2)} - truth) /
-         double{mesh::Loss(head).compensated_m(static_cast<float>(truth))};
+         double{loss_of(c).compensated_m(static_cast<float>(truth))};
 }
 
 mesh::View one_triangle(const Case& c, std::vector<tools::Section>& sections) {

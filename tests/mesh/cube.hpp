@@ -106,12 +106,7 @@ struct Cube {
     nodes[2].side[0].child = mesh::make_leaf(2, 2), nodes[2].side[1].child = mesh::make_leaf(4, 2);
     nodes[3].side[0].child = mesh::make_leaf(6, 2), nodes[3].side[1].child = 4;
     nodes[4].side[0].child = mesh::make_leaf(8, 2), nodes[4].side[1].child = mesh::make_leaf(10, 2);
-    parents[0] = 0;
-    parents[1] = mesh::make_parent(0, 0, 1);
-    parents[2] = mesh::make_parent(1, 0, 2);
-    parents[3] = mesh::make_parent(0, 1, 1);
-    parents[4] = mesh::make_parent(3, 1, 2);
-    head.depth = 3;
+    make_parents();
   }
 
   void make_tree_breadth_first() {
@@ -120,11 +115,20 @@ struct Cube {
     nodes[2].side[0].child = mesh::make_leaf(2, 2), nodes[2].side[1].child = 4;
     nodes[3].side[0].child = mesh::make_leaf(4, 2), nodes[3].side[1].child = mesh::make_leaf(6, 2);
     nodes[4].side[0].child = mesh::make_leaf(8, 2), nodes[4].side[1].child = mesh::make_leaf(10, 2);
+    make_parents();
+  }
+
+  // Of a tree whose nodes stand behind their parents.
+  void make_parents() {
+    uint32_t depth[kNodes] = {};
+    for (uint32_t n = 0; n < kNodes; ++n)
+      for (uint32_t which = 0; which < 2; ++which) {
+        const uint32_t child = nodes[n].side[which].child;
+        if (mesh::is_leaf(child)) continue;
+        depth[child] = depth[n] + 1;
+        parents[child] = mesh::make_parent(n, which, depth[child]);
+      }
     parents[0] = 0;
-    parents[1] = mesh::make_parent(0, 0, 1);
-    parents[2] = mesh::make_parent(0, 1, 1);
-    parents[3] = mesh::make_parent(1, 0, 2);
-    parents[4] = mesh::make_parent(2, 1, 2);
     head.depth = 3;
   }
 

@@ -4,10 +4,7 @@
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
-using mesh_test::Cube;
-using mesh_test::quiet_nan;
-using mesh_test::refusal_of;
-using mesh_test::shorter;
+using namespace mesh_test;  // NOLINT
 
 // A cube, something in whose head is changed.
 template <class Change>

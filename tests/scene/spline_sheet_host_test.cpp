@@ -5,14 +5,8 @@
 #include "harness/test.hpp"
 #include "scene/spline_rig.hpp"
 
-namespace {
-
-namespace math = firmtouch::math;
-namespace query = firmtouch::query;
-namespace scene = firmtouch::scene;
-using namespace firmtouch::spline_touch;
-
-}  // namespace
+using namespace firmtouch;     // NOLINT: a test file
+using namespace spline_touch;  // NOLINT
 
 TEST(Sheet_PushesFromItsFreeSideOnly) {
   const Surface surface = sheet();

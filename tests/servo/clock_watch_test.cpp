@@ -25,6 +25,21 @@ struct Clock {
 
 bool is_near(float a, float b) { return a - b < 1e-9f && b - a < 1e-9f; }
 
+// Every `gap`-th tick misses; `tick(clock, is_missed)` makes one. The third miss must raise
+// `fault`.
+template <class Tick>
+void check_third_miss(uint32_t gap, uint32_t fault, Tick tick) {
+  Clock clock;
+  (void)clock.after(0);
+  uint32_t missed = 0, faults = 0;
+  for (uint32_t i = 0; i < 40 && faults == 0; ++i) {
+    missed += i % gap == 0 ? 1 : 0;
+    faults = tick(clock, i % gap == 0);
+  }
+  CHECK_EQ(faults, fault);
+  if (faults != 0) CHECK_EQ(missed, 3u);
+}
+
 }  // namespace
 
 TEST(RegularClock_MeasuresItsPeriodWithinTenPercent) {
@@ -65,16 +80,10 @@ TEST(OneLateTick_IsMeasuredWithoutAFault) {
 
 TEST(ThreeLateTicksOfTenAreAMissedDeadline) {
   for (uint32_t gap = 1; gap <= 6; ++gap) {
-    Clock clock;
-    (void)clock.after(0);
-    uint32_t late = 0, faults = 0;
-    for (uint32_t i = 0; i < 40 && faults == 0; ++i) {
-      const bool is_late = i % gap == 0;
-      late += is_late ? 1 : 0;
-      faults = clock.after(is_late ? 1501 : 1000).faults;
-    }
-    CHECK_EQ(faults, gap <= 4 ? servo::kFaultDeadline : 0u);
-    if (faults != 0) CHECK_EQ(late, 3u);
+    const uint32_t fault = gap <= 4 ? servo::kFaultDeadline : 0u;
+    check_third_miss(gap, fault, [](Clock& clock, bool is_late) {
+      return clock.after(is_late ? 1501 : 1000).faults;
+    });
   }
 }
 
@@ -110,16 +119,10 @@ TEST(ThreeOverloadedTicksOfTenAreAnOverload) {
   const uint32_t works_us[] = {899u, 901u, 1050u, UINT32_MAX};
   for (const uint32_t work_us : works_us) {
     for (uint32_t gap = 1; gap <= 6; ++gap) {
-      Clock clock;
-      (void)clock.after(0);
-      uint32_t overloaded = 0, faults = 0;
-      for (uint32_t i = 0; i < 40 && faults == 0; ++i) {
-        const bool is_overloaded = i % gap == 0;
-        overloaded += is_overloaded ? 1 : 0;
-        faults = clock.after(1000, is_overloaded ? work_us : 500).faults;
-      }
-      CHECK_EQ(faults, gap <= 4 && work_us > 900 ? servo::kFaultOverload : 0u);
-      if (faults != 0) CHECK_EQ(overloaded, 3u);
+      const uint32_t fault = gap <= 4 && work_us > 900 ? servo::kFaultOverload : 0u;
+      check_third_miss(gap, fault, [work_us](Clock& clock, bool is_overloaded) {
+        return clock.after(1000, is_overloaded ? work_us : 500).faults;
+      });
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "bake/spline/bake_spline.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/proof/opening.hpp"
+#include "harness/long.hpp"
 #include "harness/test.hpp"
 #include "spline/exact_distance.hpp"
 #include "spline/random_splines.hpp"
@@ -18,7 +19,7 @@ namespace {
 using namespace firmtouch;  // NOLINT: a test file
 using tools::Point;
 
-bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
+using firmtouch::test::is_long;
 double wide(float value) { return static_cast<double>(value); }
 
 double reflected(double x, double low, double high) {

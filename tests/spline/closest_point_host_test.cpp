@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bake/spline/spline_worst.hpp"
+#include "harness/long.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"
@@ -21,7 +22,7 @@ using query::Budget;
 using query::kUnlimited;
 using spline::Hint;
 
-bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
+using firmtouch::test::is_long;
 
 // Returned, exact and certified as promised, cold and warm. The result is a parameter, whose point
 // in double lies on the shape: the truth is at most as far, whatever the samples missed.

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 
+#include "harness/long.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"
@@ -79,7 +80,7 @@ void check_curve(const spline::View& view) {
   }
 }
 
-bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
+using firmtouch::test::is_long;
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmtouch/spline/closest_point.hpp"
+#include "harness/long.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_model.hpp"
 #include "spline/exact_distance.hpp"
@@ -21,7 +22,7 @@ using query::Budget;
 using spline::Hint;
 using tools_point = firmtouch::tools::Point;  // in double
 
-bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
+using firmtouch::test::is_long;
 // No query here needs as many; one that went on for ever would say so.
 constexpr Budget kPlenty{300000};
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "harness/long.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_model.hpp"
 #include "spline/random_splines.hpp"
@@ -256,7 +257,7 @@ void check_tight(const Radii& radii) {
   CHECK(radii.reported < kMax * radii.seen);
 }
 
-bool is_long() { return std::getenv("FIRMTOUCH_LONG") != nullptr; }
+using firmtouch::test::is_long;
 
 }  // namespace
 

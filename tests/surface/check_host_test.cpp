@@ -8,6 +8,18 @@
 namespace firmtouch::tools {
 namespace {
 
+// Every triangle with vertices of its own.
+Surface torn(const Surface& whole) {
+  Surface soup;
+  for (const Face& face : whole.faces) {
+    const uint32_t first = static_cast<uint32_t>(soup.vertices.size());
+    for (const uint32_t v : face) soup.vertices.push_back(whole.vertices[v]);
+    soup.source.push_back(static_cast<uint32_t>(soup.faces.size()));
+    soup.faces.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
 bool passes(Surface surface) {
   const Surface before = surface;
   const CheckReport report = check_and_mend(surface, {});
@@ -68,17 +80,10 @@ TEST(UnusedVerticesAreDropped) {
 }
 
 TEST(TornVerticesAreWeldedWhereThatCloses) {
-  Surface soup;  // every triangle with its own vertices; -0 is 0
-  const Surface whole = cube({1, 1, 1});
-  for (const Face& face : whole.faces) {
-    const uint32_t first = static_cast<uint32_t>(soup.vertices.size());
-    for (const uint32_t v : face) {
-      math::Vec3 p = whole.vertices[v];
-      if (first % 2 == 0) p = {p.x > 0 ? p.x : -0.0f, p.y > 0 ? p.y : -0.0f, p.z > 0 ? p.z : -0.0f};
-      soup.vertices.push_back(p);
-    }
-    soup.source.push_back(static_cast<uint32_t>(soup.faces.size()));
-    soup.faces.push_back({first, first + 1, first + 2});
+  Surface soup = torn(cube({1, 1, 1}));
+  for (size_t v = 0; v < soup.vertices.size(); ++v) {  // -0 is 0
+    math::Vec3& p = soup.vertices[v];
+    if (v / 3 % 2 == 0) p = {p.x > 0 ? p.x : -0.0f, p.y > 0 ? p.y : -0.0f, p.z > 0 ? p.z : -0.0f};
   }
   CHECK(is_mended(soup, "welded 28 vertices"));
   CHECK_EQ(soup.vertices.size(), 8u);
@@ -89,13 +94,7 @@ TEST(BodiesThatTouchAtACornerAreNotWeldedTogether) {
   Surface two = cube();
   append(two, cube({2, 2, 2}));
   CHECK(passes(two));  // closed already: nothing to weld
-  Surface soup;
-  for (const Face& face : two.faces) {
-    const uint32_t first = static_cast<uint32_t>(soup.vertices.size());
-    for (const uint32_t v : face) soup.vertices.push_back(two.vertices[v]);
-    soup.source.push_back(static_cast<uint32_t>(soup.faces.size()));
-    soup.faces.push_back({first, first + 1, first + 2});
-  }
+  Surface soup = torn(two);
   CHECK(is_mended(soup, "welded"));
   CHECK_EQ(soup.vertices.size(), 16u);
   CHECK(near(volume_of(soup), 16));

@@ -39,6 +39,17 @@ uint32_t instructions_of_loop(uint32_t turns) {
   return room[bytes / 2];
 }
 
+void check_servo_period(uint32_t period_us, uint32_t periods) {
+  hal::clock_start_servo(period_us, count_tick);
+  const uint32_t start_us = hal::clock_us();
+  const uint32_t start_ticks = ticks_seen;
+  while (ticks_seen - start_ticks < periods) {
+  }
+  const uint32_t took_us = hal::clock_us() - start_us;
+  CHECK_GE(took_us, (periods - 1) * period_us);
+  CHECK_LE(took_us, (periods + 1) * period_us);
+}
+
 }  // namespace
 
 TEST(Work_CountsInstructionsExactly) {
@@ -50,31 +61,11 @@ TEST(Work_CountsInstructionsExactly) {
   CHECK_LE(long_one - short_one, 100001u);
 }
 
-TEST(ServoInterrupt_OncePerPeriod_MicrosecondsContinue) {
-  constexpr uint32_t kPeriod_us = 100, kPeriods = 50;
-  hal::clock_start_servo(kPeriod_us, count_tick);
-  const uint32_t start_us = hal::clock_us();
-  const uint32_t start_ticks = ticks_seen;
-  while (ticks_seen - start_ticks < kPeriods) {
-  }
-  const uint32_t took_us = hal::clock_us() - start_us;
-  CHECK_GE(took_us, (kPeriods - 1) * kPeriod_us);
-  CHECK_LE(took_us, (kPeriods + 1) * kPeriod_us);
-}
+TEST(ServoInterrupt_OncePerPeriod_MicrosecondsContinue) { check_servo_period(100, 50); }
 
 TEST(ServoInterrupt_SecondStart_ChangesThePeriod) {
-  constexpr uint32_t kPeriods = 20;
   constexpr uint32_t kPeriods_us[] = {100, 250, 80};
-  for (const uint32_t period_us : kPeriods_us) {
-    hal::clock_start_servo(period_us, count_tick);
-    const uint32_t start_us = hal::clock_us();
-    const uint32_t start_ticks = ticks_seen;
-    while (ticks_seen - start_ticks < kPeriods) {
-    }
-    const uint32_t took_us = hal::clock_us() - start_us;
-    CHECK_GE(took_us, (kPeriods - 1) * period_us);
-    CHECK_LE(took_us, (kPeriods + 1) * period_us);
-  }
+  for (const uint32_t period_us : kPeriods_us) check_servo_period(period_us, 20);
 }
 
 #ifdef __arm__
