@@ -1,23 +1,13 @@
 # clang-format over every source that is there (found in the tree, not listed by git). Read by tests/check/run.
 # Version 14 (Debian 12) decides: others lay out a few things differently.
 
-formatter() {
-  for name in clang-format-14 clang-format; do
-    if "$name" --version 2>/dev/null | grep -q 'version 14\.'; then
-      echo "$name"
-      return
-    fi
-  done
-  return 1
-}
-
 not_run() {
-  formatter >/dev/null && return 1
+  version_14 clang-format >/dev/null && return 1
   echo 'there is no clang-format 14'
 }
 
 check() {
-  judge=$(formatter) || return 1
+  judge=$(version_14 clang-format) || return 1
   complaints=$(find firmware hal host_sim tests tools -type f \( -name '*.cpp' -o -name '*.hpp' \) |
     LC_ALL=C sort | tr '\n' '\0' | xargs -0 "$judge" --style=file --dry-run --Werror 2>&1 |
     grep 'error:' | LC_ALL=C sort -u -t: -k1,1)

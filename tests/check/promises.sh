@@ -28,38 +28,32 @@ check() {
   } | awk -f "$here/promises.awk"
 }
 
-row() {  # row CELL...: puts a row of four cells after the table's head
-  awk -v row="| $1 | $2 | $3 | $4 |" '
+row() {  # row MECHANISM ATTACK FIGURE COMPLAINT: puts a row after the table's head
+  expect="planted: $4"
+  awk -v row="| planted | $1 | $2 | $3 |" '
     { print } /^\| promise \| mechanism/ { table = 1 } table && /^\|---/ && !done { print row; done = 1 }' VERIFICATION.md >new.md
   mv new.md VERIFICATION.md
 }
 plant_missing_file() {
-  row 'planted' '`firmware/firmtouch/mesh/nowhere.cpp`' '`check.words`' '`tools/test`'
-  expect='planted: there is no firmware/firmtouch/mesh/nowhere.cpp'
+  row '`firmware/firmtouch/mesh/nowhere.cpp`' '`check.words`' '`tools/test`' 'there is no firmware/firmtouch/mesh/nowhere.cpp'
 }
 plant_missing_test() {
-  row 'planted' '`tools/test`' '`mesh.NobodyWroteThis`' '`tools/test`'
-  expect='planted: there is no test mesh.NobodyWroteThis'
+  row '`tools/test`' '`mesh.NobodyWroteThis`' '`tools/test`' 'there is no test mesh.NobodyWroteThis'
 }
 plant_missing_command() {
-  row 'planted' '`tools/test`' '`check.words`' '`build/host/bin/firmtouch frobnicate x.fta`'
-  expect='planted: no command frobnicate of build/host/bin/firmtouch'
+  row '`tools/test`' '`check.words`' '`build/host/bin/firmtouch frobnicate x.fta`' 'no command frobnicate of build/host/bin/firmtouch'
 }
 plant_help_as_a_figure() {
-  row 'planted' '`tools/test`' '`check.words`' '`build/host/bin/firmtouch bake --help`'
-  expect='planted: `build/host/bin/firmtouch bake --help` prints no figure'
+  row '`tools/test`' '`check.words`' '`build/host/bin/firmtouch bake --help`' '`build/host/bin/firmtouch bake --help` prints no figure'
 }
 plant_command_that_waits() {
-  row 'planted' '`tools/test`' '`check.words`' '`build/host/bin/firmtouch query part.fta part distance`'
-  expect='planted: .* waits on standard input'
+  row '`tools/test`' '`check.words`' '`build/host/bin/firmtouch query part.fta part distance`' '.* waits on standard input'
 }
 plant_missing_script() {
-  row 'planted' '`tools/test`' '`check.words`' '`tools/nothing --long`'
-  expect='planted: there is no tools/nothing'
+  row '`tools/test`' '`check.words`' '`tools/nothing --long`' 'there is no tools/nothing'
 }
 plant_row_without_an_attack() {
-  row 'planted' '`tools/test`' 'by hand' '`tools/test`'
-  expect='planted: names no attack'
+  row '`tools/test`' 'by hand' '`tools/test`' 'names no attack'
 }
 plant_no_table() {
   grep -v '^|' VERIFICATION.md >new.md

@@ -2,17 +2,8 @@
 # build/host/compile_commands.json, which tools/test makes. Version 14 (Debian 12) decides: others know other rules.
 # Read by tests/check/run; takes a minute, so only tools/test --long runs it.
 
-judge() {
-  for name in clang-tidy-14 clang-tidy; do
-    if "$name" --version 2>/dev/null | grep -q 'version 14\.'; then
-      echo "$name"
-      return
-    fi
-  done
-  return 1
-}
 not_run() {
-  judge >/dev/null && return 1
+  version_14 clang-tidy >/dev/null && return 1
   echo 'there is no clang-tidy 14'
 }
 
@@ -32,7 +23,7 @@ check() {
   for file in ${files:-$(find firmware -name '*.cpp' | LC_ALL=C sort)}; do
     grep -qF "\"$PWD/$file\"" "$place/compile_commands.json" || continue  # of a board
     judged=$((judged + 1))
-    "$(judge)" -p "$place" --quiet "$file" >"$place/said" 2>"$place/noise" || {
+    "$(version_14 clang-tidy)" -p "$place" --quiet "$file" >"$place/said" 2>"$place/noise" || {
       grep -E 'error:|warning:' "$place/said" || cat "$place/said" "$place/noise"
       bad=1
     }
