@@ -3,24 +3,16 @@
 #include "cortex-m/cortex_m.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/motors.hpp"
+#include "parts/fault_text.hpp"
 
 // HardFault and NMI: motors off first, then a report, then stop.
 
 namespace firmtouch::hal {
 namespace {
 
-constexpr int kExitStatus = 70;  // exit code of an emulator's process
-
 struct Frame {  // pushed by the core (ARM DDI 0403, B1.5.6)
   uint32_t r[4], r12, lr, pc, status;
 };
-
-void print_hex(const char* name, uint32_t value) {
-  char text[] = "0x00000000 ";
-  for (uint32_t i = 0; i < 8; ++i, value <<= 4) text[2 + i] = "0123456789abcdef"[value >> 28];
-  board_print(name);
-  board_print(text);
-}
 
 }  // namespace
 
@@ -36,9 +28,9 @@ extern "C" {
     print_hex("lr ", frame->lr);
     board_print("(find them with addr2line)\n");
   } else {
-    board_print("Stack overflow: raise STACK_BYTES in the board's linker script.\n");
+    board_print(kStackOverflowText);
   }
-  board_exit(kExitStatus);
+  board_exit(kFaultExitStatus);
 }
 
 // The frame is on the stack that was in use: bit 2 of the return code in lr names it. At or below

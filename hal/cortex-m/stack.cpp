@@ -1,17 +1,14 @@
-#include "cortex-m/stack.hpp"
+#include "parts/stack.hpp"
 
 #include "cortex-m/cortex_m.hpp"
 
 extern "C" {
-extern uint32_t __stack_bottom[], __stack_top[];
+extern uint32_t __stack_bottom[];
 extern const uint8_t __firmtouch_guard_region[];  // its address is the number
 }
 
 namespace firmtouch::hal {
 namespace {
-
-constexpr uint32_t kPaint = 0x5AFE57AC;
-constexpr uint32_t kGuard_bytes = 1u << 14;
 
 uint32_t address(const void* p) { return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(p)); }
 
@@ -19,13 +16,14 @@ uint32_t address(const void* p) { return static_cast<uint32_t>(reinterpret_cast<
 // The limit register stops pushes, the region every other access (ARM DDI 0553, B3.12 and B10).
 void guard_below(uint32_t bottom) {
   asm volatile("msr msplim, %0" ::"r"(bottom));
-  reg(kMpuAttributes) = 0;                                 // attribute 0: device memory
-  reg(kMpuBase) = (bottom - kGuard_bytes) | 2u << 1 | 1u;  // read-only, privileged; never executed
-  reg(kMpuSize) = (bottom - 32) | 1u;                      // its last 32 bytes; attribute 0; on
+  reg(kMpuAttributes) = 0;  // attribute 0: device memory
+  reg(kMpuBase) =
+      (bottom - kStackGuard_bytes) | 2u << 1 | 1u;  // read-only, privileged; never executed
+  reg(kMpuSize) = (bottom - 32) | 1u;               // its last 32 bytes; attribute 0; on
 }
 #else
 void guard_below(uint32_t bottom) {
-  reg(kMpuBase) = (bottom - kGuard_bytes) & ~(kGuard_bytes - 1);
+  reg(kMpuBase) = (bottom - kStackGuard_bytes) & ~(kStackGuard_bytes - 1);
   reg(kMpuSize) = 1u << 28 | 13u << 1 | 1u;  // never executed, no access, 2^(13 + 1) bytes
 }
 #endif
@@ -36,9 +34,11 @@ void stack_paint() {
   uint32_t here;
   asm volatile("mov %0, sp" : "=r"(here));
   const uint32_t* end = reinterpret_cast<const uint32_t*>(static_cast<uintptr_t>(here)) - 16;
-  for (volatile uint32_t* word = __stack_bottom; word < end; ++word) *word = kPaint;
+  for (volatile uint32_t* word = __stack_bottom; word < end; ++word) *word = kStackPaint;
 }
 
+// Armv8-M can only deny writing, and has a limit register besides. Uses MPU region GUARD_REGION of
+// the linker script, 0 if it names none. No effect on a core without an MPU.
 void stack_guard() {
   if ((reg(kMpuType) >> 8 & 0xFFu) == 0) return;
   reg(kMpuRegion) = address(__firmtouch_guard_region);
@@ -46,13 +46,5 @@ void stack_guard() {
   reg(kMpuControl) = 5;  // the rest of memory as without an MPU
   asm volatile("dsb\n isb");
 }
-
-uint32_t stack_used_bytes() {
-  const volatile uint32_t* word = __stack_bottom;
-  while (word < __stack_top && *word == kPaint) ++word;
-  return address(__stack_top) - address(const_cast<const uint32_t*>(word));
-}
-
-uint32_t stack_size_bytes() { return address(__stack_top) - address(__stack_bottom); }
 
 }  // namespace firmtouch::hal

@@ -2,9 +2,9 @@
 
 #include "cortex-m/cortex_m.hpp"
 #include "cortex-m/floating_point.hpp"
-#include "cortex-m/stack.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/motors.hpp"
+#include "parts/stack.hpp"
 
 // From reset to main(): FPU, motors off, stack, data, constructors.
 

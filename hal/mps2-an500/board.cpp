@@ -1,10 +1,5 @@
-#include "firmtouch/hal/board.hpp"
-
-#include "cortex-m/stack.hpp"
-#include "firmtouch/hal/motors.hpp"
-#include "firmtouch/hal/watchdog.hpp"
-#include "parts/asset_region.hpp"
-#include "registers.hpp"
+#include "cmsdk/cmsdk.hpp"
+#include "firmtouch/hal/clock.hpp"
 
 extern "C" {
 void uart1_receive_handler();
@@ -14,46 +9,25 @@ void hard_fault_handler();
 namespace firmtouch::hal {
 namespace {
 
-constexpr uint32_t kConsoleDivider = kCore_MHz * 1000000 / 115200;
-
 // Interrupts 0 to 2. Further ones are not enabled.
 [[gnu::section(".vectors.board"), gnu::used]] const Handler kBoardVectors[] = {
     hard_fault_handler, hard_fault_handler, uart1_receive_handler};
 
 }  // namespace
 
-void board_begin() {
-  motors_off();
-  reg(kUart0 + kUartDivider) = kConsoleDivider;
-  reg(kUart0 + kUartControl) = kTransmitOn;
-  clock_begin();
-  link_begin();
+// TIMER0 counts down at the core's clock, 40 ns a tick. Under -icount shift=N an instruction takes
+// 2^N ns, so the ticks count instructions: at shift=6 exactly 1.6 ticks each.
+void work_counter_begin() {
+  reg(kTimer0 + 0x8) = UINT32_MAX;
+  reg(kTimer0 + 0x4) = UINT32_MAX;
+  reg(kTimer0 + 0x0) = 1;
 }
 
-const char* board_name() { return FIRMTOUCH_BOARD_NAME; }
+uint32_t clock_work() { return UINT32_MAX - reg(kTimer0 + 0x4); }
 
-core::Bytes board_asset() { return linked_or_loaded_asset(); }
-
-void board_print(const char* text) {
-  if ((reg(kUart0 + kUartControl) & kTransmitOn) == 0) return;  // a fault before board_begin()
-  for (; *text != 0; ++text) {
-    while ((reg(kUart0 + kUartState) & kTransmitFull) != 0) {
-    }
-    reg(kUart0 + kUartData) = static_cast<uint8_t>(*text);
-  }
-}
-
-uint32_t board_stack_high_bytes() { return stack_used_bytes(); }
-
-// At the first time-out the watchdog raises the NMI (fault.cpp switches the motors off and stops);
-// at the second it resets the chip.
-void watchdog_begin(uint32_t timeout_us) {
+uint32_t watchdog_ticks(uint32_t timeout_us) {
   const uint32_t longest_us = UINT32_MAX / kCore_MHz;
-  reg(kWatchdog + 0x0) = (timeout_us < longest_us ? timeout_us : longest_us) * kCore_MHz;
-  reg(kWatchdog + 0xC) = 1;  // clears a time-out from before the servo ran
-  reg(kWatchdog + 0x8) = 3;
+  return (timeout_us < longest_us ? timeout_us : longest_us) * kCore_MHz;
 }
-
-void watchdog_feed() { reg(kWatchdog + 0xC) = 1; }
 
 }  // namespace firmtouch::hal

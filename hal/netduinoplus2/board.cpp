@@ -1,9 +1,9 @@
 #include "firmtouch/hal/board.hpp"
 
-#include "cortex-m/stack.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
 #include "parts/asset_region.hpp"
+#include "parts/stack.hpp"
 #include "registers.hpp"
 
 extern "C" {

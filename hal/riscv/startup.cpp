@@ -3,7 +3,7 @@
 #include "emulator/exit.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/motors.hpp"
-#include "riscv/stack.hpp"
+#include "parts/stack.hpp"
 
 // From reset to main(): FPU, motors off, stack, data, constructors.
 

@@ -4,6 +4,7 @@
 
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/motors.hpp"
+#include "parts/fault_text.hpp"
 
 // Exceptions: motors off first, then a report, then stop. Interrupts: the machine timer.
 
@@ -12,19 +13,6 @@ extern uint32_t __stack_bottom[];
 }
 
 namespace firmtouch::hal {
-namespace {
-
-constexpr int kExitStatus = 70;  // exit code of an emulator's process
-
-void print_hex(const char* name, uint32_t value) {
-  char text[] = "0x00000000 ";
-  for (uint32_t i = 0; i < 8; ++i, value <<= 4) text[2 + i] = "0123456789abcdef"[value >> 28];
-  board_print(name);
-  board_print(text);
-}
-
-}  // namespace
-
 extern "C" {
 
 /// `sp` of what was interrupted.
@@ -40,9 +28,8 @@ extern "C" {
   print_hex("value ", value);
   const uint32_t bottom = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(__stack_bottom));
   const bool is_overflow = sp < bottom + 512 || value - (bottom - 0x8000) < 0x8000;
-  board_print(is_overflow ? "Stack overflow: raise STACK_BYTES in the board's linker script.\n"
-                          : "(find them with addr2line)\n");
-  board_exit(kExitStatus);
+  board_print(is_overflow ? kStackOverflowText : "(find them with addr2line)\n");
+  board_exit(kFaultExitStatus);
 }
 
 [[gnu::interrupt("machine"), gnu::used]] void interrupt() { machine_timer_handler(); }

@@ -6,8 +6,8 @@
 #include "firmtouch/hal/watchdog.hpp"
 #include "parts/asset_region.hpp"
 #include "parts/byte_ring.hpp"
+#include "parts/stack.hpp"
 #include "registers.hpp"
-#include "riscv/stack.hpp"
 
 // Its one UART is the console, so the link is over files only. It has no watchdog.
 

@@ -1,11 +1,8 @@
 #include "firmtouch/hal/clock.hpp"
 
+#include "cmsdk/cmsdk.hpp"
 #include "cortex-m/servo_timer.hpp"
 #include "parts/work.hpp"
-#include "registers.hpp"
-
-// The system counter counts at the core's clock. Under -icount shift=6 an instruction is 2.048 of
-// its ticks.
 
 namespace firmtouch::hal {
 namespace {
@@ -18,12 +15,13 @@ uint32_t g_work_per_1000 = 0;
 }  // namespace
 
 void clock_begin() {
-  reg(kCounter) = 1;
+  work_counter_begin();
   g_last_ticks = clock_work();
   g_work_per_1000 = measure_work_per_1000();
 }
 
-// As on the MPS2: the counter's low word wraps every 134 s, so each call accumulates microseconds.
+// The counter of 32 bits wraps after two minutes and more, long before the microseconds do, so each
+// call accumulates them. The servo calls this every tick, often enough.
 uint32_t clock_us() {
   const CriticalSection critical;
   const uint32_t now_ticks = clock_work();
@@ -34,8 +32,6 @@ uint32_t clock_us() {
   if (g_rest_ticks >= kCore_MHz) g_rest_ticks -= kCore_MHz, ++g_us;
   return g_us;
 }
-
-uint32_t clock_work() { return reg(kCounter + 0x8); }
 
 uint32_t clock_work_per_1000() { return g_work_per_1000; }
 

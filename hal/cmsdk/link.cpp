@@ -1,8 +1,8 @@
 #include "firmtouch/hal/link.hpp"
 
+#include "cmsdk/cmsdk.hpp"
 #include "emulator/file_link.hpp"
 #include "parts/byte_ring.hpp"
-#include "registers.hpp"
 
 // UART1 at 1 Mbaud, or two FIFOs on the machine that runs the emulator (file_link.hpp).
 

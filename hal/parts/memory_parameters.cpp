@@ -6,8 +6,8 @@ extern "C" {
 extern uint8_t __parameter_sectors[];  // link.ld
 }
 
-// Two sectors of SRAM stand for flash: they keep their
-// bytes over a reset, not without power.
+// For a board without flash of its own: two sectors of RAM stand for it. They keep their bytes over
+// a reset, not without power.
 namespace firmtouch::hal {
 namespace {
 

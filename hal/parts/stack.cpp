@@ -1,0 +1,22 @@
+#include "parts/stack.hpp"
+
+extern "C" {
+extern uint32_t __stack_bottom[], __stack_top[];
+}
+
+namespace firmtouch::hal {
+namespace {
+
+uint32_t address(const void* p) { return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(p)); }
+
+}  // namespace
+
+uint32_t stack_used_bytes() {
+  const volatile uint32_t* word = __stack_bottom;
+  while (word < __stack_top && *word == kStackPaint) ++word;
+  return address(__stack_top) - address(const_cast<const uint32_t*>(word));
+}
+
+uint32_t stack_size_bytes() { return address(__stack_top) - address(__stack_bottom); }
+
+}  // namespace firmtouch::hal
