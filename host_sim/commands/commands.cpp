@@ -10,23 +10,18 @@ namespace {
 constexpr const char* kVersion = "firmtouch-sim 0.1.0";  // as `firmtouch --version`
 constexpr size_t kHelpColumn = 30;
 
-struct Entry {
-  const Command& (*command)();
-  int (*run)(const Options& options);
-};
-constexpr Entry kEntries[] = {
-    {run_command_line, run_scenario},       {replay_command_line, replay_log},
-    {record_command_line, record_live},     {live_command_line, serve_live},
-    {scenario_command_line, make_scenario}, {z_width_command_line, print_z_width}};
+constexpr const Command& (*kCommands[])() = {run_command_line,      replay_command_line,
+                                             record_command_line,   live_command_line,
+                                             scenario_command_line, z_width_command_line};
 
 std::string usage() {
   std::string text =
       "usage: firmtouch-sim COMMAND ...\n"
       "Runs a controller with a simulated device and a simulated hand.\n\n";
-  for (const Entry& entry : kEntries) {
-    std::string line = std::string("  ") + entry.command().name;
+  for (const auto command : kCommands) {
+    std::string line = std::string("  ") + command().name;
     line.resize(11, ' ');
-    text += line + entry.command().summary + "\n";
+    text += line + command().summary + "\n";
   }
   return text +
          "\nfirmtouch-sim COMMAND --help says more. Exit codes: 0 done, 1 the answer is no, "
@@ -129,11 +124,11 @@ int run_command(const std::vector<std::string>& words) {
     std::cout << kVersion << "\n";
     return 0;
   }
-  for (const Entry& entry : kEntries) {
-    const Command& command = entry.command();
+  for (const auto command_line : kCommands) {
+    const Command& command = command_line();
     if (words[0] != command.name) continue;
     const Options options(command, {words.begin() + 1, words.end()});
-    if (!options.help()) return entry.run(options);
+    if (!options.help()) return command.run(options);
     std::cout << help_of(command);
     return 0;
   }

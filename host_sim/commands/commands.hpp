@@ -18,12 +18,15 @@ struct Option {
   const char* help;
 };
 
+class Options;
+
 struct Command {
   const char* name;
   const char* usage;    // the rest of the usage line
   const char* summary;  // one line
   const char* details;  // behind the options in --help, or ""
   std::vector<Option> options;
+  int (*run)(const Options& options);  // result: the exit code
 };
 
 /// Runs `run ...`, `replay ...` and the other commands, `--help` or `--version`.
@@ -60,17 +63,12 @@ class Options {
   bool help_ = false;
 };
 
+// The commands.
 const Command& run_command_line();
-int run_scenario(const Options& options);
 const Command& replay_command_line();
-int replay_log(const Options& options);
 const Command& record_command_line();
-int record_live(const Options& options);
 const Command& live_command_line();
-int serve_live(const Options& options);
 const Command& scenario_command_line();
-int make_scenario(const Options& options);
 const Command& z_width_command_line();
-int print_z_width(const Options& options);
 
 }  // namespace firmtouch::host_sim

@@ -41,22 +41,6 @@ std::string live_page(const std::string& asset) {
   return page;
 }
 
-}  // namespace
-
-const Command& live_command_line() {
-  static const Command command = {
-      "live",
-      "CONTROLLER [options]",
-      "serves a page that shows and tunes a running controller in a browser, until Ctrl-C",
-      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
-      "The page is served to this machine only. One page holds the link; others wait.\n",
-      {{"--asset", "FILE", "the controller's asset: the page shows its part"},
-       {"--port", "N", "of http://127.0.0.1:N/ (default: 5678)"},
-       {"--page", "FILE.html",
-        "write the page instead, for use over WebSerial without this program"}}};
-  return command;
-}
-
 int serve_live(const Options& options) {
   const std::string asset = options.value("--asset"), to = options.value("--page");
   if (!to.empty()) {
@@ -73,6 +57,23 @@ int serve_live(const Options& options) {
   std::signal(SIGTERM, on_signal);
   while (g_stop == 0) server.poll(200);
   return 0;
+}
+
+}  // namespace
+
+const Command& live_command_line() {
+  static const Command command = {
+      "live",
+      "CONTROLLER [options]",
+      "serves a page that shows and tunes a running controller in a browser, until Ctrl-C",
+      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
+      "The page is served to this machine only. One page holds the link; others wait.\n",
+      {{"--asset", "FILE", "the controller's asset: the page shows its part"},
+       {"--port", "N", "of http://127.0.0.1:N/ (default: 5678)"},
+       {"--page", "FILE.html",
+        "write the page instead, for use over WebSerial without this program"}},
+      serve_live};
+  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -185,26 +185,6 @@ class Watch {
   std::string reported_;
 };
 
-}  // namespace
-
-const Command& record_command_line() {
-  static const Command command = {
-      "record",
-      "CONTROLLER -o FILE.ftl [options]",
-      "records a running controller over its link until Ctrl-C, or for a given time",
-      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
-      "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.\n",
-      {{"-o", "FILE.ftl", "the log"},
-       {"--seconds", "S", "duration"},
-       {"--decimate", "N", "every N-th tick only (1 Mbaud carries about 690 records a second)"},
-       {"--set", "NAME=VALUE", "set a parameter, in its SI unit; may be repeated"},
-       {"--asset", "FILE", "the controller's asset; the log then names it for a replay"},
-       {"--file-megabytes", "N", "start a new file after N megabytes"},
-       {"--keep", "N", "keep the newest N files"},
-       {"--json", nullptr, "the summary as JSON on stdout"}}};
-  return command;
-}
-
 int record_live(const Options& options) {
   const std::string path = options.value("-o"), asset = options.value("--asset");
   const std::string where = options.operand("one controller");
@@ -266,6 +246,27 @@ int record_live(const Options& options) {
               << "}\n";
   if (!link_error.empty() || !is_closed) return 3;
   return totals.missing > 0 || session.is_rejected ? 1 : 0;
+}
+
+}  // namespace
+
+const Command& record_command_line() {
+  static const Command command = {
+      "record",
+      "CONTROLLER -o FILE.ftl [options]",
+      "records a running controller over its link until Ctrl-C, or for a given time",
+      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
+      "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.\n",
+      {{"-o", "FILE.ftl", "the log"},
+       {"--seconds", "S", "duration"},
+       {"--decimate", "N", "every N-th tick only (1 Mbaud carries about 690 records a second)"},
+       {"--set", "NAME=VALUE", "set a parameter, in its SI unit; may be repeated"},
+       {"--asset", "FILE", "the controller's asset; the log then names it for a replay"},
+       {"--file-megabytes", "N", "start a new file after N megabytes"},
+       {"--keep", "N", "keep the newest N files"},
+       {"--json", nullptr, "the summary as JSON on stdout"}},
+      record_live};
+  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -47,24 +47,6 @@ void check_complete(const std::string& path, const Log& log) {
                   "; a replay needs all ticks from 0 on: replay the log that it was cut from");
 }
 
-}  // namespace
-
-const Command& replay_command_line() {
-  static const Command command = {
-      "replay",
-      "LOG [options]",
-      "recomputes a log from its inputs and compares every bit of every output",
-      "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), "
-      "or the\nlog is incomplete and all outputs before the gap are equal.\n",
-      {{"--asset", "FILE", "the asset, if it is not at the path in the log"},
-       {"--controller", "WHAT",
-        "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE"},
-       {"--image", "FILE",
-        "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
-       {"--json", nullptr, "the answer as JSON on stdout"}}};
-  return command;
-}
-
 // Ticks, whether all bits are equal, and the first difference.
 std::string json_of(const std::string& path, const Log& log, const std::string& by,
                     const std::optional<Difference>& d) {
@@ -120,6 +102,25 @@ int replay_log(const Options& options) {
   std::cerr << path << ": " << log.records.size() << " ticks replayed (" << by
             << "), every output bit the same\n";
   return log.is_complete ? 0 : 1;
+}
+
+}  // namespace
+
+const Command& replay_command_line() {
+  static const Command command = {
+      "replay",
+      "LOG [options]",
+      "recomputes a log from its inputs and compares every bit of every output",
+      "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), "
+      "or the\nlog is incomplete and all outputs before the gap are equal.\n",
+      {{"--asset", "FILE", "the asset, if it is not at the path in the log"},
+       {"--controller", "WHAT",
+        "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE"},
+       {"--image", "FILE",
+        "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
+       {"--json", nullptr, "the answer as JSON on stdout"}},
+      replay_log};
+  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -145,31 +145,6 @@ void check_stdout(const Options& options, const NamedFiles& outputs) {
   if (options.value("--log") == "-") options.refuse("a log needs a file: --log FILE.ftl");
 }
 
-}  // namespace
-
-const Command& run_command_line() {
-  static const std::string details = scenario_help() + parameter_help();
-  static const Command command = {
-      "run",
-      "SCENARIO [options]",
-      "simulates a scenario: a hand moves a device, and the controller renders the force",
-      details.c_str(),
-      {{"--set", "KEY=VALUE",
-        "overrides a line of the scenario, with unit: \"mass=60 g\"; may be repeated"},
-       {"--controller", "WHAT",
-        "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE;\n"
-        "                              others are compared with the in-process one, bit for bit"},
-       {"--image", "FILE",
-        "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
-       {"--report", "FILE.html",
-        "report: 3D view, charts and figures in one file; FOLDER/ names it after its model"},
-       {"--picture", "FILE.svg", "the report's 3D view and force chart"},
-       {"--log", "FILE.ftl", "input and output of every tick, for `firmtouch-sim replay`"},
-       {"--csv", "FILE.csv", "the same as text; - is stdout, also for --report and --picture"},
-       {"--json", nullptr, "the figures as JSON on stdout"}}};
-  return command;
-}
-
 int run_scenario(const Options& options) {
   const std::string file = options.operand("one scenario");
   std::vector<std::string> sets;
@@ -209,6 +184,32 @@ int run_scenario(const Options& options) {
   if (options.has("--json")) std::cout << json_of(summary, facts);
   std::cerr << "  scene          " << session.scene_text() << "\n" << text_of(summary, facts);
   return exit_code(facts, summary);
+}
+
+}  // namespace
+
+const Command& run_command_line() {
+  static const std::string details = scenario_help() + parameter_help();
+  static const Command command = {
+      "run",
+      "SCENARIO [options]",
+      "simulates a scenario: a hand moves a device, and the controller renders the force",
+      details.c_str(),
+      {{"--set", "KEY=VALUE",
+        "overrides a line of the scenario, with unit: \"mass=60 g\"; may be repeated"},
+       {"--controller", "WHAT",
+        "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE;\n"
+        "                              others are compared with the in-process one, bit for bit"},
+       {"--image", "FILE",
+        "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
+       {"--report", "FILE.html",
+        "report: 3D view, charts and figures in one file; FOLDER/ names it after its model"},
+       {"--picture", "FILE.svg", "the report's 3D view and force chart"},
+       {"--log", "FILE.ftl", "input and output of every tick, for `firmtouch-sim replay`"},
+       {"--csv", "FILE.csv", "the same as text; - is stdout, also for --report and --picture"},
+       {"--json", nullptr, "the figures as JSON on stdout"}},
+      run_scenario};
+  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -23,19 +23,6 @@ std::string csv_of(const std::vector<Vec>& line) {
   return text;
 }
 
-}  // namespace
-
-const Command& scenario_command_line() {
-  static const Command command = {
-      "scenario",
-      "ASSET -o FILE [--outline FILE.csv]",
-      "writes a scenario for an asset: press on the surface, follow the guide, emergency stop",
-      "The scenario is scaled by the asset's bounding box. - as FILE is stdout.\n",
-      {{"-o", "FILE", "the scenario"},
-       {"--outline", "FILE.csv", "a closed line around the mesh, to be baked as its guide"}}};
-  return command;
-}
-
 int make_scenario(const Options& options) {
   const std::string path = options.operand("one asset"), to = options.value("-o"),
                     outline_path = options.value("--outline");
@@ -54,6 +41,20 @@ int make_scenario(const Options& options) {
   }
   if (!to.empty()) write_file(to, plan_scenario(environment, path_from(to, path)));
   return 0;
+}
+
+}  // namespace
+
+const Command& scenario_command_line() {
+  static const Command command = {
+      "scenario",
+      "ASSET -o FILE [--outline FILE.csv]",
+      "writes a scenario for an asset: press on the surface, follow the guide, emergency stop",
+      "The scenario is scaled by the asset's bounding box. - as FILE is stdout.\n",
+      {{"-o", "FILE", "the scenario"},
+       {"--outline", "FILE.csv", "a closed line around the mesh, to be baked as its guide"}},
+      make_scenario};
+  return command;
 }
 
 }  // namespace firmtouch::host_sim

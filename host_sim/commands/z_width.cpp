@@ -153,6 +153,27 @@ int print_estimators() {
   return verdict(of_default >= kBar_N_per_m, text);
 }
 
+int print_z_width(const Options& options) {
+  if (!options.operands().empty()) options.refuse("it takes no file");
+  if (options.has("--table")) return print_table();
+  if (options.has("--regimes")) return print_regimes();
+  if (options.has("--estimators")) return print_estimators();
+  SampledWall wall;
+  wall.mass_kg = options.number("--mass", wall.mass_kg, 0);
+  wall.viscous_N_s_per_m = options.number("--viscous", wall.viscous_N_s_per_m, 0);
+  wall.period_s = 1 / options.number("--rate", 1000, 1);
+  wall.damping_N_s_per_m = options.number("--damping", 0, 0);
+  const double delay = options.number("--delay", 0, 0);
+  if (std::floor(delay) < delay || delay > 8) options.refuse("--delay takes 0 to 8 whole samples");
+  if (!(wall.mass_kg > 0)) options.refuse("--mass must exceed 0");
+  wall.delay_samples = static_cast<uint32_t>(delay);
+  wall.hand_mass_kg = options.number("--hand-mass", 0, 0);
+  wall.hand_damping_N_s_per_m = options.number("--hand-damping", 0, 0);
+  wall.hand_stiffness_N_per_m = options.number("--hand-stiffness", 0, 0);
+  print_rows({wall});
+  return 0;
+}
+
 }  // namespace
 
 const Command& z_width_command_line() {
@@ -175,29 +196,9 @@ const Command& z_width_command_line() {
        {"--delay", "SAMPLES", "from the position to the force: 0 to 8 (0)"},
        {"--hand-mass", "KG", "that moves with the axis (0)"},
        {"--hand-damping", "N_S_PER_M", "of the hand, to the ground (0)"},
-       {"--hand-stiffness", "N_PER_M", "of the hand, to the ground (0)"}}};
+       {"--hand-stiffness", "N_PER_M", "of the hand, to the ground (0)"}},
+      print_z_width};
   return command;
-}
-
-int print_z_width(const Options& options) {
-  if (!options.operands().empty()) options.refuse("it takes no file");
-  if (options.has("--table")) return print_table();
-  if (options.has("--regimes")) return print_regimes();
-  if (options.has("--estimators")) return print_estimators();
-  SampledWall wall;
-  wall.mass_kg = options.number("--mass", wall.mass_kg, 0);
-  wall.viscous_N_s_per_m = options.number("--viscous", wall.viscous_N_s_per_m, 0);
-  wall.period_s = 1 / options.number("--rate", 1000, 1);
-  wall.damping_N_s_per_m = options.number("--damping", 0, 0);
-  const double delay = options.number("--delay", 0, 0);
-  if (std::floor(delay) < delay || delay > 8) options.refuse("--delay takes 0 to 8 whole samples");
-  if (!(wall.mass_kg > 0)) options.refuse("--mass must exceed 0");
-  wall.delay_samples = static_cast<uint32_t>(delay);
-  wall.hand_mass_kg = options.number("--hand-mass", 0, 0);
-  wall.hand_damping_N_s_per_m = options.number("--hand-damping", 0, 0);
-  wall.hand_stiffness_N_per_m = options.number("--hand-stiffness", 0, 0);
-  print_rows({wall});
-  return 0;
 }
 
 }  // namespace firmtouch::host_sim

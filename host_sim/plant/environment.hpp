@@ -31,7 +31,6 @@ class Environment {
 
   bool has_guide() const { return guide_m_.size() > 1; }
   double guide_length_m() const { return arc_m_.empty() ? 0 : arc_m_.back(); }
-  bool guide_is_closed() const { return closed_; }
   /// Point of the guide at arc length `arc_m`. Beyond the end a closed guide continues from its
   /// start, an open one runs backwards.
   Vec guide_at(double arc_m) const;
