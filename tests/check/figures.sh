@@ -12,18 +12,15 @@ not_run() {
 check() { awk -f "$here/figures.awk" "$table" README.md firmware/firmtouch/hull/README.md; }
 
 plant_wrong_number() {
-  sed '/`tools\/bench\/cortex-m7` |$/s/worst [0-9,]*/worst 1,234/' README.md >new.md
-  mv new.md README.md
+  edit README.md '/`tools\/bench\/cortex-m7` |$/s/worst [0-9,]*/worst 1,234/'
   expect='^\| query with sign .*\| mean [0-9,]+, worst [0-9,]+ \| `tools/bench/cortex-m7` \|$'
 }
 plant_wrong_flash() {
-  sed '/`tools\/check\/image netduinoplus2`/s/| [0-9,]* B,/| 12,345 B,/' README.md >new.md
-  mv new.md README.md
+  edit README.md '/`tools\/check\/image netduinoplus2`/s/| [0-9,]* B,/| 12,345 B,/'
   expect='Cortex-M4F \| [0-9,]+ B, [0-9,]+ B, [0-9,]+ B \|'
 }
 plant_wrong_figure_of_a_module() {
-  sed 's/and worst [0-9,]* instructions/and worst 1,234 instructions/' firmware/firmtouch/hull/README.md >new.md
-  mv new.md firmware/firmtouch/hull/README.md
+  edit firmware/firmtouch/hull/README.md 's/and worst [0-9,]* instructions/and worst 1,234 instructions/'
   expect='hull/README.md: the base hull of the demo part was measured with mean'
 }
 plant_lost_row() {

@@ -22,7 +22,7 @@ plant_made_too_early() { bug BUG_MADE_TOO_EARLY; }
 plant_requests_untaken() { bug BUG_REQUESTS_UNTAKEN; }
 plant_requests_unanswered() { bug BUG_REQUESTS_UNANSWERED; }
 plant_order_in_the_code() {
-  sed 's/__atomic_store_n(&state_, kMade, __ATOMIC_RELEASE)/__atomic_store_n(\&state_, kMade, __ATOMIC_RELAXED)/' \
-    firmware/firmtouch/core/handoff.hpp >handoff.new && mv handoff.new firmware/firmtouch/core/handoff.hpp
+  edit firmware/firmtouch/core/handoff.hpp \
+    's/__atomic_store_n(&state_, kMade, __ATOMIC_RELEASE)/__atomic_store_n(\&state_, kMade, __ATOMIC_RELAXED)/'
   expect='no longer those of firmware/firmtouch/core/handoff.hpp'
 }

@@ -40,7 +40,6 @@ plant_hosted_header_behind_a_test() {
   expect='core/planted.hpp:1: <string.h> is not freestanding'
 }
 plant_circle_of_rooms() {
-  sed 's/firmtouch_module(core)/firmtouch_module(core LINKS mesh)/' firmware/CMakeLists.txt >CMakeLists.new
-  mv CMakeLists.new firmware/CMakeLists.txt
+  edit firmware/CMakeLists.txt 's/firmtouch_module(core)/firmtouch_module(core LINKS mesh)/'
   expect='firmware/CMakeLists.txt: core links itself'
 }

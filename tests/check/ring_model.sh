@@ -20,7 +20,7 @@ plant_uncounted() { bug BUG_UNCOUNTED; }
 plant_number() { bug BUG_NUMBER; }
 plant_release_more() { bug BUG_RELEASE_MORE; }
 plant_order_in_the_code() {
-  sed 's/__atomic_store_n(&kept_, kept + 1, __ATOMIC_RELEASE)/__atomic_store_n(\&kept_, kept + 1, __ATOMIC_RELAXED)/' \
-    firmware/firmtouch/record/ring.hpp >ring.new && mv ring.new firmware/firmtouch/record/ring.hpp
+  edit firmware/firmtouch/record/ring.hpp \
+    's/__atomic_store_n(&kept_, kept + 1, __ATOMIC_RELEASE)/__atomic_store_n(\&kept_, kept + 1, __ATOMIC_RELAXED)/'
   expect='no longer those of firmware/firmtouch/record/ring.hpp'
 }

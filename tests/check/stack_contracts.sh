@@ -33,12 +33,10 @@ check() {
 }
 
 plant_too_small_figure() {
-  sed 's/1\.6 KB of stack/1 KB of stack/' firmware/firmtouch/mesh/closest_point.hpp >new.hpp
-  mv new.hpp firmware/firmtouch/mesh/closest_point.hpp
+  edit firmware/firmtouch/mesh/closest_point.hpp 's/1\.6 KB of stack/1 KB of stack/'
   expect='mesh::closest_point states 1024 bytes of stack and takes'
 }
 plant_generous_figure() {
-  sed 's/1\.6 KB of stack/9 KB of stack/' firmware/firmtouch/mesh/closest_point.hpp >new.hpp
-  mv new.hpp firmware/firmtouch/mesh/closest_point.hpp
+  edit firmware/firmtouch/mesh/closest_point.hpp 's/1\.6 KB of stack/9 KB of stack/'
   expect='mesh::closest_point states 9216 bytes of stack and takes'
 }
