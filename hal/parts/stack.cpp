@@ -17,6 +17,4 @@ uint32_t stack_used_bytes() {
   return address(__stack_top) - address(const_cast<const uint32_t*>(word));
 }
 
-uint32_t stack_size_bytes() { return address(__stack_top) - address(__stack_bottom); }
-
 }  // namespace firmtouch::hal

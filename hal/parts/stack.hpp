@@ -15,6 +15,5 @@ void stack_guard();
 
 /// Most bytes of stack in use since start-up, interrupts included.
 uint32_t stack_used_bytes();
-uint32_t stack_size_bytes();
 
 }  // namespace firmtouch::hal

@@ -58,14 +58,6 @@ TEST(Container_NextOfType_IgnoresNames) {
   CHECK_EQ(container.section(2).size(), 16u);
 }
 
-TEST(Container_UnknownTypes_AreSkippedAndCounted) {
-  const SmallFile file;
-  const Container container = opened(file);
-  static const uint32_t known[] = {0x1001, 0x2001};
-  CHECK_EQ(container.count_unknown(known), 1u);
-  CHECK_EQ(container.count_unknown({}), 3u);
-}
-
 TEST(Container_Closed_IsEmpty) {
   const Container container;
   CHECK(!container.is_open());

@@ -183,7 +183,8 @@ TEST(SavedParameters_OwnRowsOfAnotherTable_AreLeftOut) {
       {kForceLimit, "force_limit_N", "N", 0.0f, 100.0f, 8.0f, When::kMayFall, "force"},
       {kFirstOwn, "own", "1", 0.0f, 9.0f, 1.0f, When::kAnytime, "own"}};
   const Table table{kOwn, 2};
-  Values values = initial_values(table);
+  Values values;
+  set_initial(values, table);
   CHECK(set(values, table, 0, 5.0f));
   CHECK(set(values, table, 1, 6.0f));
   Saved saved;

@@ -40,16 +40,6 @@ uint32_t Container::next_of_type(uint32_t type, uint32_t from) const {
   return kNoSection;
 }
 
-uint32_t Container::count_unknown(core::Span<const uint32_t> known_types) const {
-  uint32_t unknown = 0;
-  for (const Entry& entry : entries_) {
-    bool known = false;
-    for (const uint32_t type : known_types) known = known || entry.type == type;
-    if (!known) ++unknown;
-  }
-  return unknown;
-}
-
 uint32_t Container::crc() const {
   const core::Span<const Header> header = core::as_array<Header>(file_, 1);
   return header.empty() ? 0 : header[0].header_crc;

@@ -32,8 +32,6 @@ class Container {
   /// Index of the first section of this type at or after `from`, in the table's order.
   /// Bounds: O(sections). Result: kNoSection if there is none.
   uint32_t next_of_type(uint32_t type, uint32_t from = 0) const;
-  /// Number of sections with none of these types: written by a newer baker, and skipped.
-  uint32_t count_unknown(core::Span<const uint32_t> known_types) const;
 
   core::Bytes bytes() const { return file_; }
   /// Identity of the asset: the header's CRC, which covers the CRCs of table and sections.

@@ -28,7 +28,6 @@ constexpr uint32_t kMaxIds = 1u << 24;
 constexpr uint32_t kRecordsPerOffset = 8;
 // A star keeps its corners in an array.
 constexpr uint32_t kMaxLink = 31;
-constexpr uint32_t kMaxStarFaces = kMaxLink + 2;
 
 struct Head {
   uint32_t mesh_vertex_count;

@@ -16,22 +16,11 @@ void add_float(core::Hash& hash, float value) {
   hash.add(bits);
 }
 
-bool same(const char* a, const char* b) {
-  while (*a != 0 && *a == *b) ++a, ++b;
-  return *a == *b;
-}
-
 }  // namespace
 
 void set_initial(Values& values, Table table) {
   for (float& value : values.value) value = 0;
   for (const Entry& row : table) values.value[row.number] = row.initial;
-}
-
-Values initial_values(Table table) {
-  Values values;
-  set_initial(values, table);
-  return values;
 }
 
 bool set(Values& values, Table table, uint32_t row, float value) {
@@ -40,12 +29,6 @@ bool set(Values& values, Table table, uint32_t row, float value) {
   if (!(value >= entry.low) || !(value <= entry.high)) return false;
   values.value[entry.number] = value;
   return true;
-}
-
-uint32_t find(Table table, const char* name) {
-  uint32_t i = 0;
-  while (i < table.size() && !same(table[i].name, name)) ++i;
-  return i;
 }
 
 uint64_t table_hash(Table table) {

@@ -96,15 +96,10 @@ struct Values {
 
 /// In place: no copy of the values stands on the stack.
 void set_initial(Values& values, Table table);
-Values initial_values(Table table);
 
 /// Sets the value of one row.
 /// Result: false, and nothing changed, for a row outside the table, NaN, or a value out of range.
 bool set(Values& values, Table table, uint32_t row, float value);
-
-/// Row of a name that ends with a zero.
-/// Result: the table's size where there is none.
-uint32_t find(Table table, const char* name);
 
 /// One number for names, units, ranges, defaults and their order: two programs with the same one
 /// mean the same by a row.

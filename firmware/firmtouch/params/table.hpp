@@ -11,11 +11,14 @@ constexpr Table kTable = Composed<Groups<SafetyRows, DeviceRows, SceneRows, Cont
                                          FrictionRows, SheetRows, GuideRows>>::kTable;
 static_assert(kTable.size() == kCount, "a number has no row");
 
-inline Values initial_values() { return initial_values(kTable); }
+inline Values initial_values() {
+  Values values;
+  set_initial(values, kTable);
+  return values;
+}
 inline bool set(Values& values, uint32_t row, float value) {
   return set(values, kTable, row, value);
 }
-inline uint32_t find(const char* name) { return find(kTable, name); }
 inline uint64_t table_hash() { return table_hash(kTable); }
 
 }  // namespace firmtouch::params
