@@ -67,6 +67,16 @@ TEST(LiveTicksComeFromTheTimerNumberedAndCounted) {
   }
 }
 
+// Of the same index as the request.
+template <class Reply, class Request>
+Reply reply_to(AppProcess& app, uint8_t type, const Request& request, uint8_t reply_type) {
+  app.send(type, request);
+  Reply reply;
+  CHECK(app.receive(reply_type).take(reply));
+  CHECK_EQ(reply.index, request.index);
+  return reply;
+}
+
 TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
@@ -74,11 +84,7 @@ TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
     link::SetParam set;
     set.index = index;
     set.value = value;
-    app.send(link::kSetParam, set);
-    link::Ack ack;
-    CHECK(app.receive(link::kAck).take(ack));
-    CHECK_EQ(ack.index, index);
-    return ack.result;
+    return reply_to<link::Ack>(app, link::kSetParam, set, link::kAck).result;
   };
   CHECK_EQ(result_of(params::kCount, 1.0f), link::kAckNoSuchParameter);
   CHECK_EQ(result_of(UINT32_MAX, 1.0f), link::kAckNoSuchParameter);
@@ -114,11 +120,7 @@ TEST(EveryParameterAndFaultIsDescribedForAPerson) {
     link::Describe wanted;
     wanted.what = what;
     wanted.index = index;
-    app.send(link::kDescribe, wanted);
-    link::Description row;
-    CHECK(app.receive(link::kDescription).take(row));
-    CHECK_EQ(row.index, index);
-    return row;
+    return reply_to<link::Description>(app, link::kDescribe, wanted, link::kDescription);
   };
   for (uint16_t i = 0; i < params::kCount; ++i) {
     const link::Description row = row_of(link::kDescribeParameter, i);

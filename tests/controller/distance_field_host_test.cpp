@@ -103,10 +103,8 @@ TEST(FieldOfAnotherName_IsNotTheMeshs) {
 TEST(Field_IsProvenInSlicesOfTheBudget) {
   FullController controller;
   controller.begin(asset_with_field().bytes());
-  uint32_t slices = 0;  // with the curve proven, the map not yet
-  while (!controller.work(250))
-    slices += controller.curve().is_open() && !controller.distance_field().is_open() ? 1u : 0u;
-  CHECK(controller.verdict().ok() && controller.distance_field().is_open());
+  const uint32_t slices = slices_behind_the_curve(
+      controller, 250, [&] { return controller.distance_field().is_open(); });
   const field::Head& head = controller.distance_field().head();
   CHECK_GE(slices, head.count[0] * head.count[1] * head.count[2] / 9);
   controller.begin(both().bytes());  // and is forgotten with its asset

@@ -91,10 +91,8 @@ TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
 TEST(AHullIsProvenInSlicesOfTheBudget) {
   FullController controller;
   controller.begin(hulled().bytes());
-  uint32_t slices = 0;  // with the curve proven, the hull not yet
-  while (!controller.work(2048))
-    slices += controller.curve().is_open() && !controller.hull().is_open() ? 1u : 0u;
-  CHECK(controller.verdict().ok() && controller.hull().is_open());
+  const uint32_t slices =
+      slices_behind_the_curve(controller, 2048, [&] { return controller.hull().is_open(); });
   CHECK_GE(slices, controller.hull().id_count() / 200);
   controller.begin(both().bytes());  // and is forgotten with its asset
   CHECK(!controller.hull().is_open());

@@ -148,6 +148,16 @@ uint32_t differing_ticks(Ride& a, Ride& b, uint32_t ticks, const Fill& fill) {
   return differ;
 }
 
+/// Works an asset to its end in slices of `units`.
+/// Result: slices after which the curve was proven and the part of `is_open()` was not yet.
+template <class AnyController, class IsOpen>
+uint32_t slices_behind_the_curve(AnyController& controller, uint32_t units, const IsOpen& is_open) {
+  uint32_t slices = 0;
+  while (!controller.work(units)) slices += controller.curve().is_open() && !is_open() ? 1u : 0u;
+  CHECK(controller.verdict().ok() && is_open());
+  return slices;
+}
+
 /// Enables the motors of a controller whose asset was rejected, for one tick.
 /// Result: the faults; the motors are checked to be without force.
 template <class AnyController>

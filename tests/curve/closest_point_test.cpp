@@ -10,9 +10,8 @@
 
 namespace {
 
-using namespace firmtouch::curve;  // NOLINT: a test file
-using firmtouch::curve_test::LongCurve;
-using firmtouch::curve_test::SmallCurve;
+using namespace firmtouch::curve;       // NOLINT: a test file
+using namespace firmtouch::curve_test;  // NOLINT
 using firmtouch::math::Vec3;
 using firmtouch::query::Budget;
 using firmtouch::query::kUnlimited;

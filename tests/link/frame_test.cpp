@@ -22,6 +22,13 @@ struct Payload {
   core::Bytes first(uint32_t count) const { return {bytes, count}; }
 };
 
+void check_finds_only(Decoder& decoder, const Wire& wire, uint16_t sequence) {
+  const uint32_t found = feed(decoder, {wire.bytes, wire.count}, [sequence](const Frame& frame) {
+    CHECK_EQ(frame.sequence, sequence);
+  });
+  CHECK_EQ(found, 1u);
+}
+
 TEST(Frame_EveryLength_RoundTrips) {
   const Payload payload(1);
   Decoder decoder;
@@ -112,9 +119,7 @@ TEST(Decoder_DamagedLength_IsRejectedAtOnce) {
     wire.bytes[4 + bit / 8] = static_cast<uint8_t>(wire.bytes[4 + bit / 8] ^ (1u << (bit % 8)));
     wire.frame(kStep, 2, payload.first(32));
     Decoder decoder;
-    const uint32_t found = feed(decoder, {wire.bytes, wire.count},
-                                [&](const Frame& frame) { CHECK_EQ(frame.sequence, 2); });
-    CHECK_EQ(found, 1u);
+    check_finds_only(decoder, wire, 2);
     CHECK_GE(decoder.rejects(), 1u);
   }
 }
@@ -126,9 +131,7 @@ TEST(Decoder_LengthBeyondBuffer_IsRejected) {
   wire.byte(static_cast<uint8_t>(core::crc32({wire.bytes, 7}) & 0xFFu));
   wire.frame(kBye, 9, {});
   Decoder decoder;
-  const uint32_t found = feed(decoder, {wire.bytes, wire.count},
-                              [&](const Frame& frame) { CHECK_EQ(frame.sequence, 9); });
-  CHECK_EQ(found, 1u);
+  check_finds_only(decoder, wire, 9);
   CHECK_EQ(decoder.rejects(), 1u);
 }
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/scene/mesh_contact.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "harness/test.hpp"
+#include "mesh/baked_mesh.hpp"
 #include "surface/surface.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
@@ -48,18 +48,13 @@ tools::Surface sphere() {
 }
 
 struct Rig {
-  std::vector<tools::Section> sections;
-  mesh::View view;
+  mesh_test::BakedMesh baked{sphere()};
   scene::MeshObject object;
   scene::MeshTouch touch;
   servo::LocalModel model;
   Rig() {
-    tools::MeshReport report;
-    sections = tools::bake_mesh(sphere(), "sphere", {}, report);
-    CHECK(report.problem.empty());
-    CHECK_EQ(report.triangles, 20184u);
-    CHECK(tools::open_baked(sections, "sphere", view).ok());
-    object.mesh = &view;
+    CHECK_EQ(baked.surface.faces.size(), 20184u);
+    object.mesh = &baked.view;
     object.material = {static_cast<float>(kStiffness_N_per_m), 0.0f};
   }
   math::Vec3 force_N(math::Vec3 p_m, query::Budget budget) {

@@ -28,6 +28,12 @@ struct Rig {
   }
 };
 
+void check_stops(servo::GuardState& state, float force_N) {
+  float motor_N[3] = {force_N, 0, 0};
+  CHECK(!servo::guard(state, true, false, motor_N));
+  CHECK_EQ(motor_N[0], 0.0f);
+}
+
 }  // namespace
 
 TEST(GuardLetsGoodForcesPassUnchanged) {
@@ -92,9 +98,7 @@ TEST(Guard_StopsWithNaNLimits) {
                     : limits.tick_period_s) = math::float_of(bits);
       servo::GuardState state;
       CHECK(servo::guard_set_limits(state, limits));
-      float motor_N[3] = {1, 0, 0};
-      CHECK(!servo::guard(state, true, false, motor_N));
-      CHECK_EQ(motor_N[0], 0.0f);
+      check_stops(state, 1);
     }
   }
 }
@@ -149,9 +153,7 @@ TEST(GuardHoldsItsCeilingsWhateverLimitsItIsGiven) {
 
 TEST(GuardWithoutLimitsLetsNoForcePass) {
   servo::GuardState state;
-  float motor_N[3] = {0.01f, 0, 0};
-  CHECK(!servo::guard(state, true, false, motor_N));
-  CHECK_EQ(motor_N[0], 0.0f);
+  check_stops(state, 0.01f);
 }
 
 TEST(GuardKeepsItsLimitsThroughAClear) {

@@ -10,6 +10,7 @@
 #include "firmtouch/spline/proof/opening.hpp"
 #include "harness/long.hpp"
 #include "harness/test.hpp"
+#include "spline/baked_model.hpp"
 #include "spline/exact_distance.hpp"
 #include "spline/random_splines.hpp"
 #include "spline/read_spline.hpp"
@@ -29,12 +30,10 @@ double reflected(double x, double low, double high) {
 }
 
 void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
-  tools::SplineReport report;
-  const auto sections = tools::bake_spline(
-      model, "x",
-      model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
-  spline::View view;
-  CHECK(tools::open_baked(sections, "x", view).ok());
+  const spline_test::BakedModel baked(model);
+  const tools::SplineReport& report = baked.report;
+  const spline::View& view = baked.view;
+  CHECK(view.is_open());
   if (!view.is_open()) return;
   const spline_test::ExactDistance exact(model);
   const double unit = (report.is_rational ? 1e-6 : 4e-7) * report.extent_m;

@@ -7,6 +7,7 @@
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/proof/opening.hpp"
 #include "harness/test.hpp"
+#include "spline/baked_model.hpp"
 #include "spline/exact_distance.hpp"
 #include "spline/random_splines.hpp"
 
@@ -109,12 +110,10 @@ bool is_wrong(double reported, double truth, double extent_m) {
 template <class First, class Second>
 void count(const tools::SplineModel& model, uint32_t seed, int queries, Counts& counts, First first,
            Second second) {
-  tools::SplineReport report;
-  const auto sections = tools::bake_spline(
-      model, "x",
-      model.surfaces.empty() ? tools::curve_detail(false) : tools::surface_detail(false), report);
-  spline::View view;
-  CHECK(tools::open_baked(sections, "x", view).ok());
+  const spline_test::BakedModel baked(model);
+  const tools::SplineReport& report = baked.report;
+  const spline::View& view = baked.view;
+  CHECK(view.is_open());
   const ExactDistance exact(model);
   tools::Random random(seed);
   spline::Hint hint;
