@@ -48,7 +48,7 @@ bool same_bits(const record::TickOutput& a, const record::TickOutput& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-TEST(AThousandStepsGiveTheBitsOfAControllerInThisProcess) {
+TEST(LockStep_ThousandSteps_EqualAControllerInThisProcess) {
   Inproc here;
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   const link::HelloReply reply =
@@ -70,7 +70,7 @@ TEST(AThousandStepsGiveTheBitsOfAControllerInThisProcess) {
   CHECK_EQ(here.controller.values()[params::kContactStiffness], 650.0f);
 }
 
-TEST(AStepThatComesTwiceIsAnsweredTwiceAndTickedOnce) {
+TEST(RepeatedStep_IsAnsweredAgain_WithoutASecondTick) {
   Inproc here;
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   CHECK_EQ(greet(app, identity(here.controller.asset_crc()), link::kModeLockStep).refused, 0u);
@@ -96,7 +96,7 @@ TEST(EachHelloBeginsAFreshController) {
   }
 }
 
-TEST(GarbageBetweenFramesCostsNothingButItself) {
+TEST(GarbageBetweenFrames_LosesNoFrame) {
   Inproc here;
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   app.send_bytes({0xF7, 0x5A, 1, 2, 3, 0xF7, 0xF7, 0x5A, 0, 0});
@@ -140,7 +140,7 @@ TEST(AnotherProtocolIsRefusedNamingBoth) {
   CHECK_EQ(second.refused, link::kRefusedProtocol);
 }
 
-TEST(AnotherParameterTableIsRefusedNamingBoth) {
+TEST(Hello_OtherParameterTable_IsRejected_NamingBoth) {
   Inproc here;
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   link::Identity host = identity(here.controller.asset_crc());
@@ -178,7 +178,7 @@ TEST(ARefusedHelloEndsTheLockStepBeforeIt) {
   CHECK_EQ(app.receive().type, link::kText);
 }
 
-TEST(FramesOfTheWrongLengthOrTypeAreAnsweredInWords) {
+TEST(FrameOfWrongLengthOrType_IsAnsweredByText) {
   Inproc here;
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   CHECK_EQ(greet(app, identity(here.controller.asset_crc()), link::kModeLockStep).refused, 0u);

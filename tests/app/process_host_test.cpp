@@ -50,7 +50,7 @@ struct Folder {
   std::string name;
 };
 
-TEST(LiveTicksComeFromTheTimerNumberedAndCounted) {
+TEST(LiveTicks_AreNumbered_LostOnesCounted) {
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
   link::Log before;
@@ -77,7 +77,7 @@ Reply reply_to(AppProcess& app, uint8_t type, const Request& request, uint8_t re
   return reply;
 }
 
-TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
+TEST(Parameter_IsChecked_Acknowledged_AndRecordedInOneTick) {
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
   const auto result_of = [&](uint32_t index, float value) {
@@ -114,7 +114,7 @@ TEST(AParameterIsCheckedAcknowledgedAndSeenInTheRecordOfOneTick) {
   CHECK_EQ(commands, 1u);
 }
 
-TEST(EveryParameterAndFaultIsDescribedForAPerson) {
+TEST(Describe_ReturnsEveryParameterAndFault) {
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   const auto row_of = [&](uint16_t what, uint16_t index) {
     link::Describe wanted;
@@ -142,7 +142,7 @@ TEST(EveryParameterAndFaultIsDescribedForAPerson) {
   CHECK_EQ(faults, servo::kFaultCount);
 }
 
-TEST(ClearFaultsReachesTheTickAndIsTakenThere) {
+TEST(ClearFaults_ReachesTheTick) {
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   app.send(link::kClearFaults, link::ClearFaults{});
   CHECK_EQ(app.receive().type, link::kText);  // nobody has said Hello yet
@@ -169,13 +169,13 @@ TEST(ClearFaultsReachesTheTickAndIsTakenThere) {
   CHECK_EQ(commands, 1u);
 }
 
-TEST(AServoThatRunsFromItsTimerIsNotTakenIntoLockStep) {
+TEST(LockStep_WhileTheTimerRuns_IsRejected) {
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
   CHECK_EQ(greet(app, link::kModeLockStep, asset_crc()).refused, link::kRefusedBusy);
 }
 
-TEST(ADamagedAssetIsRefusedByItsRuleAndTheLinkStaysAlive) {
+TEST(DamagedAsset_IsRejectedByItsRule_LinkStaysAlive) {
   AssetFile file(FIRMTOUCH_TEST_ASSET);
   file.data()[file.bytes().size() / 2] ^= 1;
   Folder folder;
@@ -238,7 +238,7 @@ TEST(ItAnswersOnAPseudoTerminal) {
 
 int status_of(const std::vector<std::string>& options) { return AppProcess(options).wait(); }
 
-TEST(WrongOptionsAreUsageAndMissingFilesBadInput) {
+TEST(WrongOption_ExitsWith2_MissingFile_ExitsWith3) {
   const std::string asset = FIRMTOUCH_TEST_ASSET;
   using Options = std::vector<std::string>;
   CHECK_EQ(status_of(Options{}), 2);

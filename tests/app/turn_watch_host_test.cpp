@@ -22,7 +22,7 @@ TEST(MainLoopThatStandsStillIsNotAlive_UntilItTurnsAgain) {
   CHECK(watch.is_alive(100));
 }
 
-TEST(MainLoopThatNeverTurnedIsNotAliveForLong) {
+TEST(MainLoopThatStopped_IsReported) {
   app::TurnWatch watch;
   uint32_t ticks = 0;
   while (watch.is_alive(3) && ticks < 10) ++ticks;

@@ -7,9 +7,9 @@ not_run() {
 }
 
 check() {
-  judge=$(version_14 clang-format) || return 1
+  formatter=$(version_14 clang-format) || return 1
   complaints=$(find firmware hal host_sim tests tools -type f \( -name '*.cpp' -o -name '*.hpp' \) |
-    LC_ALL=C sort | tr '\n' '\0' | xargs -0 "$judge" --style=file --dry-run --Werror 2>&1 |
+    LC_ALL=C sort | tr '\n' '\0' | xargs -0 "$formatter" --style=file --dry-run --Werror 2>&1 |
     grep 'error:' | LC_ALL=C sort -u -t: -k1,1)
   [ -z "$complaints" ] || {
     printf '%s\n' "$complaints" |

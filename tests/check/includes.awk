@@ -38,7 +38,7 @@ function room_may(file, module, header,    of) {
   return of
 }
 
-function judge(file, line, header, quoted,    where, top, module, answer) {
+function check_include(file, line, header, quoted,    where, top, module, answer) {
   where = file ":" line ": "
   split(file, folder, "/")
   top = folder[1]
@@ -120,7 +120,7 @@ function file_beside(file, header) {
     quoted = substr(text, 1, 1) == "\""
     text = substr(text, 2)
     sub(/[>"].*/, "", text)
-    judge(file, line, text, quoted)
+    check_include(file, line, text, quoted)
     ++seen
   }
   close(file)

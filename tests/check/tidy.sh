@@ -19,17 +19,17 @@ check() {
   for folder in firmware hal; do printf 's|%s/%s|%s/%s|g\n' "$root" $folder "$PWD" $folder; done >"$place/rules"
   sed -f "$place/rules" "$commands" >"$place/compile_commands.json"
   bad=0
-  judged=0
+  checked=0
   for file in ${files:-$(find firmware -name '*.cpp' | LC_ALL=C sort)}; do
     grep -qF "\"$PWD/$file\"" "$place/compile_commands.json" || continue  # of a board
-    judged=$((judged + 1))
+    checked=$((checked + 1))
     "$(version_14 clang-tidy)" -p "$place" --quiet "$file" >"$place/said" 2>"$place/noise" || {
       grep -E 'error:|warning:' "$place/said" || cat "$place/said" "$place/noise"
       bad=1
     }
   done
   rm -rf "$place"
-  [ $judged -gt 0 ] || { echo "$commands names no source of the firmware"; bad=1; }
+  [ $checked -gt 0 ] || { echo "$commands names no source of the firmware"; bad=1; }
   return $bad
 }
 

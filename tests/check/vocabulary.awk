@@ -1,6 +1,6 @@
 # Finds retired terms:  awk -f vocabulary.awk LIST <FILES      (tests/check/vocabulary.sh; FILES: a path a line)
 # LIST has a row a term, its cells separated by tabs: pattern, scopes, what to write instead, and optionally `where` (a
-# regular expression of paths), `except` (phrases that contain the term and are fine), `not_yet` (paths that still use it).
+# regular expression of paths), `except` (phrases that contain the term and are fine).
 # A pattern consists of lower-case words with one blank between them, and matches whole words. Scopes: name (identifiers
 # and file names, cut at _ and at capitals), comment, message (string literals), page (Markdown, without code).
 function words_of(text) {
@@ -26,7 +26,6 @@ function look(scope, text, carried,    i, rest, at) {
   if (text !~ any[scope]) return
   for (i = 1; i <= terms; ++i) {
     if (!((i, scope) in applies) || (where[i] != "" && file !~ where[i])) continue
-    if (not_yet[i] != "" && file ~ not_yet[i]) continue
     rest = text
     if (except[i] != "") gsub(" (" except[i] ") ", " . ", rest)
     at = 0
@@ -86,7 +85,6 @@ BEGIN {
     instead[terms] = cell[3]
     where[terms] = count > 3 ? cell[4] : ""
     except[terms] = count > 4 ? cell[5] : ""
-    not_yet[terms] = count > 5 ? cell[6] : ""
     scopes = split(cell[2], scope, ",")
     for (k = 1; k <= scopes; ++k) {
       applies[terms, scope[k]] = 1

@@ -128,7 +128,7 @@ TEST(MoreProbesThanASliceMayRunAreRefused) {
   }
 }
 
-TEST(SlicesOfOpeningStaySmallAlsoWhereElementsAreChecked) {
+TEST(Opening_EverySliceStaysSmall) {
   FullController controller;
   controller.begin(both().bytes());
   uint32_t slices = 0;
@@ -140,7 +140,7 @@ TEST(SlicesOfOpeningStaySmallAlsoWhereElementsAreChecked) {
   CHECK_GE(slices, both().size / 4096 + controller.mesh().head().triangle_count / 256);
 }
 
-TEST(OpeningInSmallSlicesWhileTicksRunEndsTheSame) {
+TEST(Opening_InSlicesBetweenTicks_GivesTheSameResult) {
   FullController controller;
   controller.begin(both().bytes());
   uint32_t slices = 0;

@@ -38,7 +38,7 @@ bool is_still(const record::TickOutput& output) {
 static_assert(sizeof(FullController) <= (sizeof(void*) == 8 ? 5120 : 4224),
               "the controller outgrew its RAM budget");
 
-TEST(ControllerWithoutAnAssetMeasuresAndStaysStill) {
+TEST(NoAsset_PositionIsMeasured_MotorsAreOff) {
   g_controller.reset();
   record::TickOutput output;
   for (uint32_t tick = 0; tick < 50; ++tick) {
@@ -71,7 +71,7 @@ TEST(BrokenAssetIsRefusedByItsRuleAndLatchesAFaultWhenEnabled) {
   CHECK(!g_controller.open(firmtouch::core::Bytes{}).ok());
 }
 
-TEST(ParametersChangeByCommandInTheirTickAndOnlyWithinTheirRange) {
+TEST(ParameterCommand_ActsInItsTick_OnlyWithinItsRange) {
   g_controller.reset();
   record::TickOutput output;
   record::TickInput input = at(0, 100);
@@ -100,7 +100,7 @@ TEST(ParametersChangeByCommandInTheirTickAndOnlyWithinTheirRange) {
   CHECK_EQ(g_controller.values()[params::kCountsPerMetreX], 100000.0f);
 }
 
-TEST(WhatBendsPositionOrTimeCannotChangeWhileEnabled) {
+TEST(WhileEnabled_PositionAndTimeParameters_AreFixed) {
   g_controller.reset();
   record::TickOutput output;
   for (uint32_t row = 0; row < params::kCount; ++row) {
@@ -115,7 +115,7 @@ TEST(WhatBendsPositionOrTimeCannotChangeWhileEnabled) {
   g_controller.reset();
 }
 
-TEST(WhereTheSceneLiesCannotChangeAndLimitsOnlyFallWhileEnabled) {
+TEST(WhileEnabled_ScenePositionIsFixed_LimitsOnlyFall) {
   g_controller.reset();
   record::TickOutput output;
   uint32_t tick = 0;

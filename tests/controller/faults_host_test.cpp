@@ -95,7 +95,7 @@ TEST(ClearedFaultsLetItGoOn) {
   CHECK_GE(most, 0.3);
 }
 
-TEST(ClearedTimingAndEncoderFaultsDoNotComeBackByThemselves) {
+TEST(ClearedFaults_OfTimingAndEncoder_StayCleared) {
   for (int kind = 0; kind < 2; ++kind) {
     Ride ride;
     ride.run(0, 400);
@@ -121,7 +121,7 @@ TEST(ClearedTimingAndEncoderFaultsDoNotComeBackByThemselves) {
 }
 
 // So that the main loop, and with it the link, goes on, and somebody can lower the budget.
-TEST(OverloadedControllerQueriesNothingUntilTheFaultIsCleared) {
+TEST(Overload_NoQueries_UntilTheFaultIsCleared) {
   for (const bool is_enabled : {true, false}) {
     Ride ride;
     uint32_t queried = 0;

@@ -68,7 +68,7 @@ TEST(ARideByTheHullIsAFunctionOfItsInputs) {
   CHECK_EQ(differing_ticks(a, b, 2000, fill), 0u);
 }
 
-TEST(AHullThatIsNotProvenOrAnswersOtherwiseKeepsTheMotorsOff) {
+TEST(Hull_UnprovenOrOtherProbeAnswers_KeepsTheMotorsOff) {
   for (const uint32_t type : {hull::kProbesSection, hull::kBaseHullSection}) {
     std::vector<tools::Section> sections = hulled_sections();
     for (tools::Section& section : sections) {

@@ -49,7 +49,7 @@ uint32_t differing_on_replay(const Run& run) {
 uint32_t at_once(uint32_t) { return 0; }
 uint32_t now_and_then(uint32_t tick) { return tick * 2654435761u >> 31; }  // 0 or 1
 
-TEST(WhenAModelIsMadeChangesNoBitOnlyWhenItIsTakenDoes) {
+TEST(TwoRates_TimeOfMakingAModel_ChangesNoBit) {
   for (const auto late : {at_once, now_and_then}) {
     const Run run = ride_with(late);
     CHECK_GE(run.models, kTicks / 3);
@@ -78,7 +78,7 @@ TEST(TheRecordKeepsWhichModelEachTickUsed) {
   }
 }
 
-TEST(AThreadBelowTheServoMakesTheModelsAndTheLogReplays) {
+TEST(TwoRates_ModelsOfAThread_LogReplays) {
   Ride ride;
   bool is_over = false;
   std::thread geometry([&] {
@@ -100,7 +100,7 @@ TEST(AThreadBelowTheServoMakesTheModelsAndTheLogReplays) {
   CHECK_EQ(differing_on_replay(run), 0u);
 }
 
-TEST(AGeometryThatNeverAnswersIsAStaleModelAndNoForceIsLeft) {
+TEST(StaleModel_RaisesAFault_ForceEnds) {
   Ride ride;
   for (uint32_t tick = 0; tick < 1000; ++tick) {
     ride.fill(tick);

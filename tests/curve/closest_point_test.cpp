@@ -75,7 +75,7 @@ TEST(APointBesideASegmentAnswersItsFoot) {
   CHECK_EQ(found.certificate.sign, 0);
 }
 
-TEST(TheSecondHalfOfASegmentGivesTheSameTangentAndArcAsTheFirst) {
+TEST(BothHalvesOfASegment_GiveTheSameTangentAndArc) {
   const SmallCurve c(kCorner);
   const Closest found = cold(c.view(), {1.5f, -0.25f, 0.5f});
   CHECK_EQ(found.segment, 0u);
@@ -145,7 +145,7 @@ TEST(AWarmStartAnswersTheSameDistanceInNoMoreSteps) {
   CHECK_LE(warm_steps, cold_steps);
 }
 
-TEST(TheLastCertificateMinusTheMotionHoldsWhenTheBudgetEnds) {
+TEST(BudgetExhausted_LastCertificateMinusTheMotion_Holds) {
   const LongCurve& c = tangled(200);
   Hint hint;
   const Closest first = closest_point(c.view(), {0.5f, 0.4f, 0.4f}, kUnlimited, hint);

@@ -57,7 +57,7 @@ TEST(ThePenaltyOfAClosedCurveGoesTheShorterWay) {
   CHECK_EQ(found.cost_m, 0.125f + 0.125f);
 }
 
-TEST(BeyondItsReleaseAGuideLetsGoAndFindsItselfAgain) {
+TEST(Guide_BeyondRelease_LetsGo_AndHoldsAgain) {
   const SmallCurve c(kReturning);
   const Hold hold{1.0f, 0.5f};
   Following following;
@@ -74,7 +74,7 @@ TEST(BeyondItsReleaseAGuideLetsGoAndFindsItselfAgain) {
   CHECK_EQ(again.closest.distance_m, 0.0f);  // by distance alone
 }
 
-TEST(AGuideLetsGoInTheTickThatTearsItOffToAnotherPart) {
+TEST(Guide_JumpToAnotherPart_HoldsItAtOnce) {
   const SmallCurve c(kReturning);
   Following following;
   const Hold hold{10.0f, 0.2f};

@@ -94,7 +94,7 @@ TEST(TheSameCostAsThePlainTextOnHardCurves) {
   }
 }
 
-TEST(TenNearestSamplesMissWhereSpacingVariesAndTheExactWayDoesNot) {
+TEST(TenNearestSamples_VaryingSpacing_Miss_ExactSearchDoesNot) {
   static curve::Neighbour memory[10];
   const Baked baked(curve_test::strands());
   uint32_t missed = 0, wrong = 0;

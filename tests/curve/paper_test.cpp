@@ -35,7 +35,7 @@ TEST(Figure1TheNearestSampleAloneTiesToTheWrongSegment) {
   CHECK_LE(one.closest.certificate.lower_m, 0.0625f);
 }
 
-TEST(Figure1EnoughNeighboursFindTheSegmentAndTheExactWayNeedsNoN) {
+TEST(Figure1_EnoughNeighbours_FindTheSegment_ExactSearchNeedsNone) {
   const SmallCurve c(kReturning);
   const Vec3 device{1, 0.0625f, 0};
   const Constraint three = constrain(c.view(), device, {}, 4);
@@ -47,7 +47,7 @@ TEST(Figure1EnoughNeighboursFindTheSegmentAndTheExactWayNeedsNoN) {
   CHECK_EQ(exact.distance_m, 0.0625f);
 }
 
-TEST(Figure2ThePenaltyHoldsTheSegmentWhereTheDevicePassesVertex4) {
+TEST(Figure2_Penalty_KeepsTheSegment_AtVertex4) {
   const SmallCurve c(kReturning);
   const View view = c.view();
   const Vec3 device{1, 0.25f, 0};  // on vertex 4

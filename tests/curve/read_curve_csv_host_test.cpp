@@ -41,7 +41,7 @@ TEST(RowsBecomeSamplesInOrder) {
   CHECK_EQ(points.notes.size(), 0u);
 }
 
-TEST(CrLfBlankLinesQuotesSpacesAndAMissingLastNewlineAreTaken) {
+TEST(Csv_CrLfBlankLinesQuotesSpacesAndNoLastNewline_AreAccepted) {
   const CurvePoints points = read("\xEF\xBB\xBF\"x\", y ,z\r\n\r\n 0, 0 ,0\r\n1,2,3");
   CHECK(points.problem.empty());
   CHECK_EQ(points.samples_m.size(), 2u);

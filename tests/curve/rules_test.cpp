@@ -344,7 +344,7 @@ TEST(RunsOfEveryLengthAreGood) {
   }
 }
 
-TEST(AnyFlippedBitIsRefusedByARuleOrLeavesAQueryWithinBounds) {
+TEST(FlippedBit_IsRejectedByARule_OrQueriesStayWithinBounds) {
   static SmallCurve c(kHook);
   uint32_t refused = 0, kept = 0;
   uint8_t* const parts[] = {

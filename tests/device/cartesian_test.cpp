@@ -187,7 +187,7 @@ TEST(EncoderThatNeverAnsweredIsAFault) {
   CHECK_EQ(read(state, sample).faults, device::kEncoderFault);
 }
 
-TEST(EveryCountAndEveryTimeGivesFiniteAnswers) {
+TEST(AnyCountAndTime_GivesFiniteResults) {
   const int32_t counts[] = {
       0, 1, -1, INT32_MAX, INT32_MIN, INT32_MAX - 1, 1 << 24, (1 << 24) + 1, -(1 << 30)};
   const uint32_t times[] = {0u,          0x80000000u, 1u,          0x007FFFFFu,

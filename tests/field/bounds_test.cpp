@@ -27,7 +27,7 @@ float truth_of(Vec3 p) {
 
 }  // namespace
 
-TEST(BoundsHoldTheCubesDistanceAndSideInTheGridAndBesideIt) {
+TEST(Bounds_ContainTheCubesDistanceAndSign_InAndOutsideTheGrid) {
   const Opened o;
   uint32_t state = 1, known = 0;
   const float reaches[] = {1.0f, 1.4f, 3.0f, 100.0f};
@@ -45,7 +45,7 @@ TEST(BoundsHoldTheCubesDistanceAndSideInTheGridAndBesideIt) {
   CHECK_GT(known, 5000u);
 }
 
-TEST(AtACentreTheBoundsAreTwoQuantaApartButForRounding) {
+TEST(Bounds_AtACellCentre_AreTwoQuantaApart) {
   const Opened o;
   for (uint32_t i = 0; i < CubeField::kCells; ++i) {
     const field::Bounds b = field::distance_bounds(o.view, o.distance_field.centre_of(i));

@@ -87,7 +87,7 @@ TEST(SidesAreThoseOfTheWindingNumber) {
   CHECK_EQ(wrong, 0u);
 }
 
-TEST(InteriorOnlyGivesTheSameValuesWithoutTheOutside) {
+TEST(InteriorOnly_SameValuesInside_NoneOutside) {
   const Made all = make({make_part(1, 1500)}, 30);
   FieldOptions options;
   options.interior_only = true;
@@ -125,7 +125,7 @@ TEST(AnyNumberOfThreadsGivesTheSameBits) {
   CHECK(calls >= 1 && calls < 1000);
 }
 
-TEST(SeveralObjectsGiveTheNearestOfAnyAndTheInsideOfAny) {
+TEST(SeveralObjects_DistanceOfTheNearest_InsideOfAny) {
   // Two cubes that overlap: a corner of each lies in the other.
   const Made made = make({cube({0, 0, 0}, 1), cube({1.25f, 1.25f, 1.25f}, 1)}, 26);
   size_t wrong = 0, second = 0;
@@ -145,7 +145,7 @@ TEST(SeveralObjectsGiveTheNearestOfAnyAndTheInsideOfAny) {
   CHECK(second > 100);
 }
 
-TEST(AListOfPointsIsAnsweredInAnyOrderLikeBruteForce) {
+TEST(ListOfPoints_InAnyOrder_EqualsBruteForce) {
   const std::vector<Surface> surfaces{make_part(4, 1200), moved(make_part(5, 1200), {0.05f, 0, 0})};
   std::vector<Solid> solids(surfaces.begin(), surfaces.end());
   Random random(7);
@@ -166,7 +166,7 @@ TEST(AListOfPointsIsAnsweredInAnyOrderLikeBruteForce) {
   CHECK_EQ(wrong, 0u);
 }
 
-TEST(AModelFarFromTheOriginAndOneOfAMillimetreAreAnsweredAlike) {
+TEST(Field_AnyScaleAndPosition_SameRelativeError) {
   for (const float scale : {1e-3f, 1.0f, 1e3f}) {
     Surface surface = moved(cube({0, 0, 0}, 1), {300, -200, 100});
     for (math::Vec3& v : surface.vertices) v = {v.x * scale, v.y * scale, v.z * scale};

@@ -21,7 +21,7 @@ bool net_meets_box(const std::array<Point, 3>& t, Point centre, double half) {
 
 }  // namespace
 
-TEST(ATriangleMeetsTheBoxesThatAFineNetOfItsPointsMeets) {
+TEST(Triangle_MeetsTheBoxesOfItsSampledPoints) {
   Random random(3);
   const auto point = [&] {
     return Point{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
@@ -70,7 +70,7 @@ TEST(AVoxelOffTheSurfaceHoldsNoPointOfIt) {
   CHECK(near > 100);
 }
 
-TEST(ACubeFillsItsGridAndATetrahedronAbout1Over6OfIt) {
+TEST(Voxels_CubeFillsItsGrid_TetrahedronASixth) {
   const Surface box = cube({3, 4, 5}, 0.5f);
   const VoxelGrid grid = make_voxel_grid({&box}, 10);
   CHECK(grid.count == (std::array<uint32_t, 3>{10, 10, 10}));
@@ -95,7 +95,7 @@ TEST(AFlatModelStillHasAVoxelOnEachAxis) {
   CHECK_EQ(std::count(voxels.begin(), voxels.end(), Voxel::kSurface), 256);
 }
 
-TEST(TheFloodStopsAtTheSurfaceHoweverCoarseTheVoxels) {
+TEST(Flood_AnyVoxelSize_StopsAtTheSurface) {
   const Surface ball = make_part(6, 6000);
   for (const uint32_t cells : {7u, 13u, 29u}) {
     const VoxelGrid grid = make_voxel_grid({&ball}, cells);

@@ -91,7 +91,7 @@ TEST(WhatABaseHullCertifiesOfTheMeshIsTrueUnderEveryBudget) {
   check_distances(ring, finer, 300);
 }
 
-TEST(HostilePointsGetFiniteDistancesToABaseHull) {
+TEST(BaseHull_HostilePoints_GiveFiniteDistances) {
   const BakedHull ring(bumpy_ring(4, 2), 100, 22);
   const float values[] = {0, -0.0f, 1e-42f, 1, 1e7f, 3e18f, -3e19f, 3e38f, FLT_MAX, NAN, INFINITY};
   for (const float x : values)

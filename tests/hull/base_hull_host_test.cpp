@@ -114,7 +114,7 @@ TEST(ABaseHullInFastMemoryAnswersWithTheAssetLocked) {
 }
 
 // In the planes of faces too, where floats cannot decide when a face is crossed.
-TEST(AMoveThatStaysOffTheBaseHullMeetsNothing) {
+TEST(MoveOutsideTheBaseHull_MeetsNothing) {
   const BakedHull baked(make_part(1, 3000), 300, 16);
   const hull::BaseHull& base_hull = baked.view.base_hull();
   const float off_m = 0.02f * baked.view.mesh_head().diagonal_m;
@@ -269,7 +269,7 @@ void check_casts(const hull::BaseHull& base_hull, int count) {
   CHECK_LT(unsure * 2, static_cast<uint32_t>(count));  // four in nine are laid to be hard
 }
 
-TEST(ABaseHullsFirstCrossingIsThatOfAllItsFaces) {
+TEST(BaseHull_FirstCrossing_EqualsAllFacesTested) {
   check_casts(BakedHull(make_part(1, 3000), 300, 16).view.base_hull(), 900);
   check_casts(BakedHull(bumpy_ring(16, 8, 0.2), 200, 22).view.base_hull(), 900);
   check_casts(BakedHull(bumpy_ring(8, 4), 100000, 16).view.base_hull(),

@@ -48,7 +48,7 @@ std::set<Face> faces_of(const Surface& level) {
 
 }  // namespace
 
-TEST(EveryLevelIsClosedAndEnclosesMoreThanTheFinerOne) {
+TEST(EveryLevel_IsClosed_EnclosesTheFinerOne) {
   const Surface part = make_part(1, 4000);
   for (const HullStrategy strategy : kAll) {
     test::note("strategy", static_cast<int64_t>(strategy));
@@ -77,7 +77,7 @@ TEST(VolumesOfCollapsesAddUpToTheVoid) {
   CHECK_LT(std::fabs(sum - volume_of(hull_level(hull, 500))), 1e-9 * sum);
 }
 
-TEST(TreeAndHeapGiveTheSameHullAndSoDoesASecondRun) {
+TEST(TreeAndHeap_GiveTheSameHull_InEveryRun) {
   const Surface part = make_part(2, 3000);
   for (const HullStrategy strategy : kAll) {
     HullOptions options = options_of(strategy, 300);
@@ -92,7 +92,7 @@ TEST(TreeAndHeapGiveTheSameHullAndSoDoesASecondRun) {
   }
 }
 
-TEST(RecordedStarsAreTheFacesThatEachCollapseReplaces) {
+TEST(RecordedStars_AreTheFacesOfEachCollapse) {
   const Surface part = make_part(1, 2000);
   HullReport report;
   const ProgressiveHull hull = built(part, options_of(HullStrategy::kLazyVolume, 1000), report);
@@ -126,7 +126,7 @@ TEST(LimitsHoldForEveryCollapse) {
   CHECK_LT(0u, report.counts.deviation);
 }
 
-TEST(AnUnreachableTargetStopsWithPlaceAndReason) {
+TEST(UnreachableTarget_StopsWithPositionAndReason) {
   const Surface part = make_part(1, 2000);
   HullReport report;
   const ProgressiveHull hull = built(part, options_of(HullStrategy::kLazyVolume, 4), report);
@@ -137,7 +137,7 @@ TEST(AnUnreachableTargetStopsWithPlaceAndReason) {
   CHECK_EQ(hull_level(hull, 4).faces.size(), hull.min_faces());
 }
 
-TEST(ATetrahedronAndATargetAboveTheMeshChangeNothing) {
+TEST(Tetrahedron_AndTargetAboveTheMesh_ChangeNothing) {
   HullReport report;
   const Surface body = tetrahedron();
   CHECK(same(hull_level(built(body, options_of(HullStrategy::kVolume, 4), report), 4), body));

@@ -210,7 +210,7 @@ TEST(SplittingEverythingRestoresTheMeshFromEveryBaseHull) {
   for (const uint32_t base : {4u, 200u, 700u, 1501u, 2500u, 1000000u}) restores(baked, base);
 }
 
-TEST(ABaseHullOfTheAssetIsTheCoarsestAndCutAgainTheSameBytes) {
+TEST(BaseHullOfTheAsset_IsTheCoarsest_SameBytesWhenCutAgain) {
   const BakedHull baked(bumpy_ring(8, 4), 100, 16);
   const std::vector<uint32_t> words = cut_base_hull(baked.view, 4);
   const core::Bytes stored = sections_of<hull::Sections>(baked.sections, "model").base_hull;

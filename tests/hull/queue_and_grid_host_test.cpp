@@ -9,7 +9,7 @@
 
 namespace firmtouch::tools {
 
-TEST(BothQueuesGiveTheLeastKeyWhateverIsMovedOrTakenOut) {
+TEST(BothQueues_ReturnTheSmallestKey_AfterAnyChange) {
   constexpr uint32_t kEdges = 60;
   for (const QueueKind kind : {QueueKind::kTree, QueueKind::kHeap}) {
     Random random(4);
@@ -39,7 +39,7 @@ TEST(BothQueuesGiveTheLeastKeyWhateverIsMovedOrTakenOut) {
   }
 }
 
-TEST(EveryPointOfAGridIsAFloatAndTheModelHasRoomOnIt) {
+TEST(Grid_EveryPointIsAFloat_ModelFits) {
   for (const uint32_t bits : {22u, 16u}) {
     for (const float away : {0.0f, 0.3f, 70.0f, 9000.0f}) {
       for (const float half : {1.0f, 0.0173f}) {

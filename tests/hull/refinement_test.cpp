@@ -125,7 +125,7 @@ TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
   CHECK(splits > hits);
 }
 
-TEST(FirstAndLastOfAllCrossingsAreTheMeshsAndNoneIsMadeUp) {
+TEST(FirstAndLastCrossing_AreTheMeshs_NoneIsInvented) {
   const Opened opened;
   Memory<kMax, 4> memory;
   hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
@@ -179,7 +179,7 @@ TEST(OutOfMemoryOrBudget_NoMeshCrossingBeforeReportedOne) {
   CHECK(exact > 50);
 }
 
-TEST(AClosureThatDoesNotFitIsTakenBackWhole) {
+TEST(ClosureThatDoesNotFit_IsReverted) {
   const Opened opened;
   Memory<12, 4> memory;
   hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
@@ -201,7 +201,7 @@ TEST(AClosureThatDoesNotFitIsTakenBackWhole) {
   CHECK(refused > 10);
 }
 
-TEST(HostileSegmentsAreAnsweredInFiniteNumbers) {
+TEST(HostileSegments_GiveFiniteResults) {
   const Opened opened;
   Memory<kMax, 8> memory;
   hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());

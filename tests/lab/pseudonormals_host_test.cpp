@@ -146,7 +146,7 @@ TEST(Firmware_ReturnsOutside_OnEveryFigure) {
 }
 
 // The harder, the nearer the mean of a cut face and the tiny face's normal come to that face's.
-TEST(CuttingFinerDrawsTheOthersToTheFaceAndLeavesTheAngleWeighted) {
+TEST(FinerCuts_MoveOtherNormalsToTheFace_NotTheAngleWeighted) {
   const Point face{0, 1, 0};
   double mean_before = -1;
   const auto at = [](uint32_t cuts, NormalKind kind) {

@@ -153,7 +153,7 @@ TEST(ASmallRingLosesExactlyWhatDoesNotFitAndTheLogSaysWhere) {
   scene->disk.stall_s = 5;
   uint32_t made = 0, dropped = 0;
   const Counts counts = outcome(std::move(scene), 15, made, dropped);
-  // Of the 50,000 records of the stall as many find module as the ring had free.
+  // Of the 50,000 records of the stall as many were kept as the ring had slots free.
   CHECK_GE(dropped, 50000u - kSmall);
   CHECK_LE(dropped, 50000u - kSmall + 1024u);
   CHECK_EQ(counts.missing, dropped);
@@ -168,7 +168,7 @@ TEST(ASmallRingLosesExactlyWhatDoesNotFitAndTheLogSaysWhere) {
   CHECK(counts.is_whole);
 }
 
-TEST(AFullDiskIsTriedAgainAndWhatWasLostMeanwhileIsCounted) {
+TEST(FullDisk_IsTriedAgain_LostRecordsAreCounted) {
   constexpr uint32_t kSmall = 4096;
   auto scene = std::make_unique<Scene<kSmall>>();
   scene->disk.full_from_s = 3;
@@ -183,7 +183,7 @@ TEST(AFullDiskIsTriedAgainAndWhatWasLostMeanwhileIsCounted) {
   CHECK(counts.is_whole);
 }
 
-TEST(ADiskThatStaysFullLeavesEveryWholeBlock) {
+TEST(DiskStaysFull_EveryWholeBlockIsReadable) {
   auto scene = std::make_unique<Scene<4096>>();
   scene->disk.full_from_s = 3;
   CHECK(!scene->run(5));

@@ -60,7 +60,7 @@ TEST(MissingRecords_AreReportedWhereTheyAreMissing) {
   CHECK(found.troubles.empty());  // dropped and counted is not damaged
 }
 
-TEST(ADecimatedLogMissesOnlyWhatWasToBeKept) {
+TEST(DecimatedLog_SkippedTicks_AreNotMissing) {
   const Found found = read(log_of({{0, 10, 20}, {50, 60}}, 10));
   CHECK_EQ(found.missing, 2u);
   CHECK_EQ(found.gaps.size(), 1u);
@@ -83,7 +83,7 @@ TEST(AnEmptyLogIsALog) {
 }
 
 // Every place where the power may go, byte by byte.
-TEST(ALogCutOffAnywhereGivesEveryWholeBlock) {
+TEST(TruncatedLog_EveryWholeBlockIsReadable) {
   const Bytes whole = log_of({{0, 1}, {2, 3, 4}, {5}, {6, 7, 8, 9}});
   const std::vector<log::Block> blocks = read(whole).blocks;
   for (uint64_t length = first_block(whole); length < whole.size(); ++length) {
@@ -105,7 +105,7 @@ TEST(ALogCutOffAnywhereGivesEveryWholeBlock) {
 }
 
 // A power cut may leave any of the pages that were not synced yet unwritten.
-TEST(PagesThatWereNeverWrittenCostOnlyTheirOwnBlocks) {
+TEST(UnwrittenPages_LoseOnlyTheirBlocks) {
   std::vector<std::vector<uint32_t>> numbers;
   for (uint32_t i = 0; i < 60; ++i) {
     numbers.emplace_back();

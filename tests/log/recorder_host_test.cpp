@@ -43,7 +43,7 @@ uint64_t wrong_rows(const std::string& path, log::Reader& reader) {
   return wrong;
 }
 
-TEST(AThreadTakesEveryRecordToTheDiskOrCountsIt) {
+TEST(Recorder_EveryRecord_IsWrittenOrCounted) {
   Folder folder;
   const std::string path = folder.name + "/run.ftl";
   auto ring = std::make_unique<Ring>();

@@ -142,7 +142,7 @@ std::string refusal(const std::function<void()>& work) {
   return "";
 }
 
-TEST(WhatDoesNotFitTogetherIsRefusedAndLeavesNoFile) {
+TEST(UnrelatedLogs_AreRejected_NoFileIsLeft) {
   Folder folder;
   const auto path = [&](const char* name) { return folder.name + "/" + name; };
   write(path("a.ftl"), sample_ticks());
@@ -171,7 +171,7 @@ size_t count(const std::string& text, const std::string& what) {
   return found;
 }
 
-TEST(APlotShowsItsLinesBrokenWhereRecordsAreMissing) {
+TEST(Plot_MissingRecords_BreakTheLines) {
   Folder folder;
   const std::string path = folder.name + "/a.ftl";
   write(path, sample_ticks());

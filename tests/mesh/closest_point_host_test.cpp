@@ -91,7 +91,7 @@ void against_real_model(const char* file, size_t daily, size_t whole) {
 }  // namespace
 
 // Where coordinates are as coarse as a lower bound still covers.
-TEST(APartFarFromItsOriginAnswersForTheModelThatItsFileHas) {
+TEST(PartFarFromItsOrigin_AnswersForTheFilesModel) {
   tools::Surface surface = tools::make_part(1, 1000);
   const float away = static_cast<float>(1.3 * diagonal(surface));
   for (Vec3& v : surface.vertices) v = {v.x - away, v.y + away, v.z + away};

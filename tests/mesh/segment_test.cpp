@@ -46,7 +46,7 @@ Reported reported(const mesh::View& view, Vec3 a, Vec3 b) {
 
 }  // namespace
 
-TEST(ThroughACornerAnEdgeOrASidesDiagonalIsOneCrossingInAndOneOut) {
+TEST(Segment_ThroughCornerEdgeOrDiagonal_CrossesOnceInOnceOut) {
   const mesh_test::Cube cube;
   const mesh::View view = cube.view();
   const struct {

@@ -243,7 +243,7 @@ TEST(ASliverIsRefusedOrItsSideIsRight) {
 }
 
 // Two cubes through each other: sides differ at the vertices of the one inside the other.
-TEST(WhereSolidsCrossTheFeaturesThatDifferAreListedByPlace) {
+TEST(CrossingSolids_DifferingFeatures_AreListedByPosition) {
   tools::Surface cubes;
   for (const float shift : {0.0f, 1.25f}) {
     const uint32_t first = static_cast<uint32_t>(cubes.vertices.size());

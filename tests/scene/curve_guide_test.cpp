@@ -12,7 +12,7 @@ using namespace firmtouch;  // NOLINT: a test file
 using scene_test::is_near;
 using scene_test::Rig;
 
-TEST(GuideTakesHoldWithinItsSnapAndLetsGoBeyondItsRelease) {
+TEST(Guide_HoldsWithinSnap_ReleasesBeyondRelease) {
   Rig rig;
   CHECK(is_near(rig.force_N({0.05f, 0.02f, 0.5f}), {0, 0, 0}));  // too far to take hold
   CHECK(!rig.touch.is_held);

@@ -144,7 +144,7 @@ TEST(ALeadPullsAtItsSpeedWithAtMostItsForceAndWaits) {
   CHECK(is_near(force_N, {0.2f, 0, 0}, 1e-3f));  // the carriage had not run away meanwhile
 }
 
-TEST(ALeadWithoutSpeedHoldsThePlaceAndSlipsBeyondItsForce) {
+TEST(Lead_WithoutSpeed_HoldsItsPosition_SlipsBeyondItsForce) {
   Rig rig;
   rig.guide.drive = drive(scene::Drive::Kind::kLead, -0.5f, 0);
   (void)rig.force_N({0.05f, 0, 0.5f});
@@ -154,7 +154,7 @@ TEST(ALeadWithoutSpeedHoldsThePlaceAndSlipsBeyondItsForce) {
   CHECK(is_near(rig.force_N({0.057f, 0, 0.5f}), {-0.4f, 0, 0}));
 }
 
-TEST(AGuideKeepsToItsStrandByThePenaltyAndFindsItselfAgainBeyondItsRelease) {
+TEST(Guide_Penalty_KeepsItsStrand_AndReturnsBeyondRelease) {
   const float penalties[] = {0.0f, 0.25f, 250.0f};
   for (const float penalty : penalties) {
     Rig rig;

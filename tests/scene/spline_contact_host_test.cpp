@@ -29,7 +29,7 @@ TEST(ASolidOfSplinesPushesOutAlongItsNormalAsDeepAsTheSphereIsIn) {
   }
 }
 
-TEST(TheForceOfASplineSurfaceDoesNotShakeWhereATouchGlidesOverIt) {
+TEST(SplineSurface_GlidingTouch_ForceIsSmooth) {
   const Surface surface = torus();
   Rig rig(surface, true);
   float worst = 0;

@@ -198,7 +198,7 @@ TEST(ASplineGuideKeepsToItsStrandByThePenalty) {
   }
 }
 
-TEST(AroundASplineCircleTheForceHasNoCornerAndAnOpenRingGoesOn) {
+TEST(SplineCircle_ForceHasNoCorner_OpenRingContinues) {
   // A rational quarter, three more, and a gap of half a millimetre.
   tools::SplineCurve c;
   c.degree = 2;

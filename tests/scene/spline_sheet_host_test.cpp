@@ -24,7 +24,7 @@ TEST(Sheet_PushesFromItsFreeSideOnly) {
   CHECK_LE(apart(turned.go({0, 0, -0.01f}, {0, 0, -0.001f}), {0, 0, -2}), 2e-3f);
 }
 
-TEST(ASheetHoldsHoweverDeepItIsPressedTillItsBorderIsTheNearest) {
+TEST(Sheet_AnyDepth_Holds_UntilItsBorderIsNearest) {
   const Surface surface = sheet();
   Rig rig(surface, false);
   (void)rig.go({0, 0, 0.01f}, {0, 0, 0.001f});
@@ -57,7 +57,7 @@ TEST(WhereATickLeapsNoSideOfASheetIsKnown) {
 
 // A device of 75 g on a hand that presses 4 cm beyond a wavy sheet, sways there and comes back; 1
 // kHz.
-TEST(InAClosedLoopAHandThatPressesHardDoesNotComeThroughASheet) {
+TEST(ClosedLoop_HardPress_DoesNotPassASheet) {
   const Surface surface = waves();
   Rig rig(surface, false);
   float z_m = 0.02f, speed_mps = 0, deepest_m = 0, max_N = 0;
@@ -87,7 +87,7 @@ TEST(InAClosedLoopAHandThatPressesHardDoesNotComeThroughASheet) {
   CHECK_LE(max_N, 30);
 }
 
-TEST(UnderNoBudgetIsASheetPushedOnFromAnUnknownSide) {
+TEST(Sheet_UnknownSide_AnyBudget_MakesNoForce) {
   const Surface surface = waves();
   for (uint32_t steps = 1; steps < 120; steps += 7) {
     Rig rig(surface, false);

@@ -93,7 +93,7 @@ TEST(StallIsAMissedDeadlineAtOnce) {
   CHECK_EQ(clock.after(4001).faults, servo::kFaultDeadline);
 }
 
-TEST(ClockSetBackOrFarAheadIsABrokenClockAtOnce) {
+TEST(ClockSetBackOrFarForward_IsAClockFaultAtOnce) {
   const uint32_t jumps[] = {UINT32_MAX, UINT32_MAX - 999u, 0x80000000u, 1000000u};
   for (const uint32_t jump : jumps) {
     Clock clock;
@@ -115,7 +115,7 @@ TEST(ClockThatStandsIsABrokenClockAtTheThirdTick) {
   CHECK(is_near(reading.dt_s, 0.5f * kPeriod_s));
 }
 
-TEST(ThreeOverloadedTicksOfTenAreAnOverload) {
+TEST(ThreeOverloadedTicksOfTen_AreAnOverload) {
   const uint32_t works_us[] = {899u, 901u, 1050u, UINT32_MAX};
   for (const uint32_t work_us : works_us) {
     for (uint32_t gap = 1; gap <= 6; ++gap) {

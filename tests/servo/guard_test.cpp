@@ -134,7 +134,7 @@ TEST(GuardCutsAtOnceWhereItMust) {
   CHECK(rig.is_zero());
 }
 
-TEST(GuardHoldsItsCeilingsWhateverLimitsItIsGiven) {
+TEST(Guard_AnyLimits_KeepsItsCeilings) {
   const servo::GuardLimits beyond[] = {
       {128.0f, 5000.0f, 0.001f}, {8.0f, 2e6f, 0.001f}, {8.0f, 5000.0f, 0.11f}};
   for (const servo::GuardLimits& limits : beyond) {
@@ -166,7 +166,7 @@ TEST(GuardKeepsItsLimitsThroughAClear) {
   CHECK_EQ(limits.tick_period_s, kLimits.tick_period_s);
 }
 
-TEST(LimitsThatWereHitAreNotMendedByAClearOrAnotherLimit) {
+TEST(Guard_DamagedLimits_AreNotRepairedByClearOrNewLimits) {
   for (uint32_t bit = 0; bit < 64 * 3; ++bit) {
     Rig rig;
     uint32_t* words = bit < 96 ? rig.state.limit : rig.state.limit_complement;

@@ -50,7 +50,7 @@ TEST(FloorPushesByItsSpringAndNotAbove) {
   CHECK_EQ(servo::evaluate(model, {3, 4, -0.5f}, {1, 1, -1}).z, 502.0f);
 }
 
-TEST(PlaneNeverPullsHoweverFastTheToolLeaves) {
+TEST(Plane_AnyLeavingSpeed_NeverPulls) {
   const servo::LocalModel model = floor_model();
   for (int i = 0; i < 200; ++i) {
     const float speed = static_cast<float>(i);
@@ -93,7 +93,7 @@ TEST(NothingIsRenderedUnlessEnabled) {
     CHECK_EQ(servo::step(state, kSettings, floor_model(), input).force_N.z, 0.0f);
 }
 
-TEST(ForceStopsAtItsLimitAndGetsThereByItsSlew) {
+TEST(Force_StopsAtItsLimit_GrowsByItsSlew) {
   servo::State state = pressed(floor_model());
   float before = state.force_N.z;
   for (uint32_t tick = 100; tick < 120; ++tick) {
@@ -105,7 +105,7 @@ TEST(ForceStopsAtItsLimitAndGetsThereByItsSlew) {
   CHECK_GE(before, 7.9999f);
 }
 
-TEST(DisableLetsTheForceDownWithinTenMilliseconds) {
+TEST(Disable_ForceEndsWithin10Milliseconds) {
   servo::State state = pressed(floor_model());
   servo::StepInput input = at(-0.001f, 100);
   input.enable = false;
@@ -157,7 +157,7 @@ TEST(LatchOpensOnlyByAClearWhileDisabled) {
   CHECK_GE(output.force_N.z, 0.01f);
 }
 
-TEST(TimingAndEncoderFaultsCountOnlyWhileTheMotorsAreOn) {
+TEST(TimingAndEncoderFaults_OnlyWhileMotorsAreOn) {
   servo::State state;
   servo::StepInput input = at(-0.001f, 0);
   input.enable = false;

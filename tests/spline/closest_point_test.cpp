@@ -188,7 +188,7 @@ TEST(AnyFrontierGivesFiniteAnswersWithinTheBudget) {
 
 // The two overloads, one after the other: a frontier is of where the last query that knows of
 // frontiers was.
-TEST(AFrontierIsNotCarriedOnByAQueryThatKnowsOfNone) {
+TEST(Frontier_IsDroppedByAQueryWithoutOne) {
   const SmallSpline model(true);
   const View view = model.view();
   Random random(11);

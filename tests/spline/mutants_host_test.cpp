@@ -147,7 +147,7 @@ TEST(OneLeafASegmentClosedByConvergenceWouldBeFoundOut) {
   CHECK_LE(counts.second, counts.first / 3);     // eight: rarely, but nothing says when
 }
 
-TEST(AStepClampedInsteadOfProjectedWouldBeFoundOut) {
+TEST(StepClampedInsteadOfProjected_IsDetected) {
   Counts counts;
   for (uint32_t seed = 0; seed < 2; ++seed) {
     tools::Random random(seed + 80);
