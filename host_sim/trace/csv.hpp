@@ -7,7 +7,7 @@
 namespace firmtouch::host_sim {
 
 /// Every tick as a row, written as the run goes on: all fields of its record under their names,
-/// then what only the simulator knows (the device's true position, the hand's target and force,
+/// then what only the simulator has (the device's true position, the hand's target and force,
 /// instructions), then the names of the set bits. Numbers print as %.9g.
 class CsvStream {
  public:

@@ -14,7 +14,7 @@
 
 namespace firmtouch::host_sim {
 
-/// One tick of a run: its record, and what only the simulator knows.
+/// One tick of a run: its record, and what only the simulator has.
 struct RunTick {
   record::TickRecord record{};
   Vec device_m;               // true position, before encoder quantization

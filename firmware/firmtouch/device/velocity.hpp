@@ -37,7 +37,7 @@ struct VelocityState {
 float estimate(VelocityState& state, const VelocitySettings& settings, float counts_per_unit,
                float step, float dt_s);
 
-/// The axis stands, as far as anyone knows.
+/// The axis stands, as far as the counts show.
 void stop(VelocityState& state);
 
 }  // namespace firmtouch::device

@@ -60,7 +60,7 @@ void Nearest::look_at(const FacePoints& corner, uint32_t i) {
   Vec3 a = corner.p_m, b = corner.q_m, c = corner.r_m;
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const float ab2 = dot(ab, ab), bc2 = dot(bc, bc), ca2 = dot(ca, ca);
-  if (bc2 > ab2 && bc2 >= ca2) {  // the solver wants the longest edge first
+  if (bc2 > ab2 && bc2 >= ca2) {  // the longest edge comes first
     const Vec3 first = a;
     a = b, b = c, c = first;
   } else if (ca2 > ab2) {

@@ -139,7 +139,7 @@ class BaseHullSegment {
 
 /// The tree of a base hull along a segment, as query::descend() searches it. Visitor::limit is the
 /// largest time that is still of interest; Visitor::face(leaf, n) takes each face that the segment
-/// may cross, and answers whether it wants more.
+/// may cross, and returns whether to go on.
 template <class Visitor>
 struct BaseHullSearch {
   struct Node {

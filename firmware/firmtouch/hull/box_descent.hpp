@@ -80,7 +80,7 @@ struct FilledTree {
 
 /// A tree of boxes as query::descend() searches it: the leaves whose boxes `region` enters (Slabs
 /// of a segment, a TriangleRegion, a point's neighbourhood), nearest first. Visitor::limit is the
-/// largest key that is still of interest; Visitor::leaf(i) answers whether it wants more.
+/// largest key that is still of interest; Visitor::leaf(i) returns whether to go on.
 /// kNested: each box lies within its parent's; else within `whole`.
 template <bool kNested, class Region, class Visitor>
 struct BoxSearch {

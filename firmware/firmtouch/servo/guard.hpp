@@ -2,7 +2,7 @@
 #include <stdint.h>
 
 // The last stage before the motors. It shares no code with what it guards: it includes nothing of
-// Firmtouch, knows no Vec3, mode or fault, uses integer arithmetic only, and keeps its own copy of
+// Firmtouch, has no Vec3, mode or fault, uses integer arithmetic only, and keeps its own copy of
 // limits and last forces, twice.
 namespace firmtouch::servo {
 
