@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "firmtouch/math/sine_cosine.hpp"
 #include "harness/float_bits.hpp"
 #include "harness/test.hpp"
 
@@ -59,6 +60,25 @@ TEST(SineIsWithin1point5UlpOverEveryFloat) {
 
 TEST(CosineIsWithin1point5UlpOverEveryFloat) {
   CHECK_LE(worst_ulp(bits_of(FLT_MAX), 1009, math::cosine, cos_of), 1.5);
+}
+
+TEST(SineCosine_EveryAngleTo100Rad_IsWithin1point2EMinus7) {
+  double worst = 0;
+  for (uint32_t bits = 0; bits <= bits_of(100.0f); bits += 211) {
+    for (const float x : {float_of(bits), -float_of(bits)}) {
+      const math::SineCosine both = math::sine_cosine(x);
+      worst = std::fmax(worst, std::fabs(static_cast<double>(both.sine) - sin_of(x)));
+      worst = std::fmax(worst, std::fabs(static_cast<double>(both.cosine) - cos_of(x)));
+    }
+  }
+  CHECK_LE(worst, 1.2e-7);
+}
+
+TEST(SineCosine_BeyondItsRangeAndNan_IsOfZero) {
+  for (const float x : {100.1f, -1e9f, FLT_MAX, INFINITY, -INFINITY, NAN}) {
+    CHECK_EQ(math::sine_cosine(x).sine, 0.0f);
+    CHECK_EQ(math::sine_cosine(x).cosine, 1.0f);
+  }
 }
 
 TEST(SineAndCosineHoldNextToEveryQuarterTurn) {

@@ -1,35 +1,16 @@
 #include "firmtouch/device/cartesian.hpp"
 
+#include "firmtouch/device/samples.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::device {
 namespace {
-
-// A time step outside of this is a broken clock, which servo faults; here it must only not break
-// the arithmetic.
-constexpr float kMinStep_s = 1e-6f;
-constexpr float kMaxStep_s = 1.0f;
-
-float clamp(float value, float low, float high) {
-  if (!(value >= low)) return low;  // NaN too
-  return value > high ? high : value;
-}
 
 // Exact to 2^24, then rounded to nearest. What is beyond 32 bits is far outside every workspace.
 float to_float(int64_t counts) {
   if (counts > INT32_MAX) return static_cast<float>(INT32_MAX);
   if (counts < INT32_MIN) return static_cast<float>(INT32_MIN);
   return static_cast<float>(static_cast<int32_t>(counts));
-}
-
-int32_t difference(int32_t to, int32_t from) {
-  return static_cast<int32_t>(static_cast<uint32_t>(to) - static_cast<uint32_t>(from));
-}
-
-uint32_t count_bits(uint32_t word) {
-  uint32_t count = 0;
-  for (; word != 0; word &= word - 1) ++count;
-  return count;
 }
 
 bool is_plausible(const int32_t (&step)[kAxes], const Settings& settings, float since_s) {

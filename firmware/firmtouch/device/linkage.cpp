@@ -1,0 +1,60 @@
+#include "firmtouch/device/linkage.hpp"
+
+#include "firmtouch/device/jacobian.hpp"
+#include "firmtouch/device/rules.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::device {
+namespace {
+
+using core::reject;
+using math::Vec3;
+
+constexpr float kMaxTorque_Nm = 1000.0f;
+constexpr float kMinGone = 1e-3f;
+// 1 less 4 u: against the roundings of torque / limit, its inverse and the product.
+constexpr float kBelowOne = 1.0f - 0x1p-22f;
+
+float larger(float a, float b) { return a > b ? a : b; }
+
+}  // namespace
+
+float reciprocal_condition(const Vec3 (&column_m)[kMaxJoints]) {
+  return condition_of(column_m[0], column_m[1], column_m[2]);
+}
+
+Vec3 tip_velocity(const Pose& pose, const float (&rate_rad_per_s)[kMaxJoints]) {
+  return pose.column_m[0] * rate_rad_per_s[0] + pose.column_m[1] * rate_rad_per_s[1] +
+         pose.column_m[2] * rate_rad_per_s[2];
+}
+
+JointTorques torques(const Pose& pose, const TorqueLimits& limits, Vec3 force_N) {
+  const float along =
+      (pose.reciprocal_condition - limits.gone_at) / (limits.full_from - limits.gone_at);
+  if (!(along > 0.0f)) return {};
+  const float share = along < 1.0f ? along : 1.0f;
+  const Vec3 faded_N = force_N * share;
+  const Vec3 torque_Nm{math::dot(pose.column_m[0], faded_N), math::dot(pose.column_m[1], faded_N),
+                       math::dot(pose.column_m[2], faded_N)};
+  if (!math::is_finite(torque_Nm.x + torque_Nm.y + torque_Nm.z)) return {};
+  // The largest torque in units of its limit.
+  float excess = larger(1.0f, __builtin_fabsf(torque_Nm.x) / limits.max_torque_Nm[0]);
+  excess = larger(excess, __builtin_fabsf(torque_Nm.y) / limits.max_torque_Nm[1]);
+  excess = larger(excess, __builtin_fabsf(torque_Nm.z) / limits.max_torque_Nm[2]);
+  if (!(excess > 1.0f)) return {{torque_Nm.x, torque_Nm.y, torque_Nm.z}, share};
+  const float scale = kBelowOne / excess;
+  return {{torque_Nm.x * scale, torque_Nm.y * scale, torque_Nm.z * scale}, share * scale};
+}
+
+core::Verdict check(const TorqueLimits& limits) {
+  for (uint32_t k = 0; k < kMaxJoints; ++k) {
+    if (!(limits.max_torque_Nm[k] > 0.0f && limits.max_torque_Nm[k] <= kMaxTorque_Nm))
+      return reject(kRuleMaxTorque, k);
+  }
+  if (!(limits.gone_at >= kMinGone && limits.gone_at < limits.full_from &&
+        limits.full_from <= 1.0f))
+    return reject(kRuleFade);
+  return core::kPassed;
+}
+
+}  // namespace firmtouch::device
