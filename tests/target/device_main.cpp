@@ -1,5 +1,5 @@
 // Instructions from counts to position, velocity, Jacobian and torques, by linkage. A row each:
-//     NAME | JOINTS | POSE | TORQUES | MEAN OF ALL | WORST OF ALL
+//     NAME | JOINTS | POSE | VELOCITY, TORQUES | MEAN OF ALL | WORST | % OF TICKS WITH WHOLE FORCE
 // tools/bench/cortex-m7-device runs it.
 #include <stdint.h>
 

@@ -17,11 +17,11 @@ static inline Planar operator*(Planar a, float s) { return {a.x * s, a.y * s}; }
 static inline float dot(Planar a, Planar b) { return a.x * b.x + a.y * b.y; }
 static inline float cross(Planar a, Planar b) { return a.x * b.y - a.y * b.x; }
 
-/// 0 to 1, and 0 for NaN.
+/// Of parts that are not negative: at most 1, and 0 for NaN.
 static inline float unit_ratio(float part, float whole) {
   const float ratio = part / whole;
-  if (!(ratio >= 0.0f)) return 0.0f;
-  return ratio > 1.0f ? 1.0f : ratio;
+  if (ratio <= 1.0f) return ratio;
+  return ratio > 1.0f ? 1.0f : 0.0f;
 }
 
 static inline float condition_of(Planar a, Planar b) {

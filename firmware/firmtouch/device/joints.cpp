@@ -2,6 +2,7 @@
 
 #include <float.h>
 
+#include "firmtouch/device/estimate.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "firmtouch/device/samples.hpp"
 
@@ -22,13 +23,14 @@ float size(float a) { return __builtin_fabsf(a); }
 bool is_plausible(const JointState& state, const JointSettings& settings, const Sample& sample,
                   float (&step)[kMaxJoints]) {
   const float most_rad = settings.max_speed_rad_per_s * state.since_accepted_s;
-  bool is_plausible = sample.trusted;
+  float least_spare = sample.trusted ? 0.0f : -1.0f;  // a minimum branches less than an and
   for (uint32_t k = 0; k < settings.joints; ++k) {
     const float most = most_rad * size(settings.joint[k].counts_per_rad) + 1.0f;
     step[k] = static_cast<float>(difference(sample.counts[k], state.joint[k].counts));
-    is_plausible = is_plausible && size(step[k]) <= most;
+    const float spare = most - size(step[k]);
+    least_spare = spare < least_spare ? spare : least_spare;
   }
-  return is_plausible;
+  return least_spare >= 0.0f;
 }
 
 void set_angle(JointState::Joint& joint, const JointSetting& setting, int32_t counts) {
@@ -41,8 +43,8 @@ void accept(JointState& state, const JointSettings& settings, const Sample& samp
   for (uint32_t k = 0; k < settings.joints; ++k) {
     JointState::Joint& joint = state.joint[k];
     set_angle(joint, settings.joint[k], sample.counts[k]);
-    (void)estimate(joint.velocity, settings.velocity, settings.joint[k].counts_per_rad, step[k],
-                   state.since_accepted_s);
+    (void)estimate_inline(joint.velocity, settings.velocity, settings.joint[k].counts_per_rad,
+                          step[k], state.since_accepted_s);
   }
   state.since_accepted_s = 0;
   state.bad_in_a_row = 0;
@@ -123,6 +125,8 @@ Joints read_joints(JointState& state, const JointSettings& settings, const Sampl
                       count_bits(state.bad_history) >= kBadOf32;
   joints.faults = is_bad ? kEncoderFault : 0;
   float margin_rad = FLT_MAX;
+  joints.angle_rad[1] = joints.angle_rad[2] = 0.0f;
+  joints.rate_rad_per_s[1] = joints.rate_rad_per_s[2] = 0.0f;
   for (uint32_t k = 0; k < settings.joints; ++k) {
     const JointState::Joint& joint = state.joint[k];
     const JointSetting& setting = settings.joint[k];
@@ -133,8 +137,6 @@ Joints read_joints(JointState& state, const JointSettings& settings, const Sampl
     margin_rad = above_rad < margin_rad ? above_rad : margin_rad;
     margin_rad = below_rad < margin_rad ? below_rad : margin_rad;
   }
-  for (uint32_t k = settings.joints; k < kMaxJoints; ++k)
-    joints.angle_rad[k] = joints.rate_rad_per_s[k] = 0.0f;
   joints.margin_rad = margin_rad;
   if (margin_rad < 0.0f) clamp_to_range(state, settings, joints);
   return joints;

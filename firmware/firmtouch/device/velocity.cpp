@@ -1,59 +1,12 @@
 #include "firmtouch/device/velocity.hpp"
 
+#include "firmtouch/device/estimate.hpp"
+
 namespace firmtouch::device {
-namespace {
-
-constexpr float kTwoPi = 6.2831853f;
-
-// Share of a miss that corrects the slope, share of a correction that leads, and the time constant
-// with which the lead is forgotten. Chosen on errors at 1 and 10 kHz and on the stiffest wall at
-// rest (`firmtouch bench velocity`, `firmtouch-sim z-width --estimators`, November 2026). A lead
-// that is fed back, as a bend of the line, is better on a sine but cycles in steady motion.
-constexpr float kShare = 0.57f;
-constexpr float kLeadShare = 0.3f;
-constexpr float kForget_s = 0.004f;
-// Shorter times between corrections count as this: at 10 kHz a count a tick is 300 mm/s.
-constexpr float kMinSince_s = 0.7e-3f;
-
-// a dt / (dt + tau): the backward-difference form of a first-order low-pass, stable for every dt >
-// 0.
-void low_pass(VelocityState& state, float quotient, float filter_Hz, float dt_s) {
-  const float tau_s = 1.0f / (kTwoPi * filter_Hz);
-  const float share = dt_s / (dt_s + tau_s);
-  state.units_per_s = state.units_per_s + (quotient - state.units_per_s) * share;
-}
-
-void track(VelocityState& state, float counts_per_unit, float step, float dt_s) {
-  state.since_s = state.since_s + dt_s;
-  state.lead_counts_per_s = state.lead_counts_per_s * (kForget_s / (kForget_s + dt_s));
-  const float end = state.within + (state.counts_per_s * dt_s - step);
-  state.within = end > 0.0f ? (end < 1.0f ? end : 1.0f) : 0.0f;
-  const float miss = state.within - end;
-  if (miss < 0.0f || miss > 0.0f) {
-    const float correction =
-        kShare * miss / (state.since_s > kMinSince_s ? state.since_s : kMinSince_s);
-    state.counts_per_s = state.counts_per_s + correction;
-    state.lead_counts_per_s = state.lead_counts_per_s + kLeadShare * correction;
-    state.since_s = 0.0f;
-  }
-  state.units_per_s = (state.counts_per_s + state.lead_counts_per_s) / counts_per_unit;
-}
-
-}  // namespace
 
 float estimate(VelocityState& state, const VelocitySettings& settings, float counts_per_unit,
                float step, float dt_s) {
-  if (settings.estimator == Estimator::kTracking) {
-    track(state, counts_per_unit, step, dt_s);
-  } else {
-    const float quotient = step / (counts_per_unit * dt_s);
-    if (settings.estimator == Estimator::kLowPass) {
-      low_pass(state, quotient, settings.filter_Hz, dt_s);
-    } else {
-      state.units_per_s = quotient;
-    }
-  }
-  return state.units_per_s;
+  return estimate_inline(state, settings, counts_per_unit, step, dt_s);
 }
 
 void stop(VelocityState& state) {
