@@ -70,5 +70,6 @@ const Command& record_command_line();
 const Command& live_command_line();
 const Command& scenario_command_line();
 const Command& z_width_command_line();
+const Command& device_command_line();
 
 }  // namespace firmtouch::host_sim

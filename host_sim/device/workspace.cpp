@@ -1,0 +1,91 @@
+#include "host_sim/device/workspace.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace firmtouch::host_sim {
+namespace {
+
+using tools::to_point;
+
+struct Determinants {
+  bool positive = false, negative = false;
+};
+
+double wide(float a) { return static_cast<double>(a); }
+
+double determinant(const device::Pose& pose, uint32_t joints) {
+  const Vec a = to_point(pose.column_m[0]), b = to_point(pose.column_m[1]);
+  const Vec c = joints == 2 ? Vec{0, 0, 1} : to_point(pose.column_m[2]);
+  return dot(a, cross(b, c));
+}
+
+void add_forces(const LinkageDevice& device, const device::Pose& pose, Workspace& to) {
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const double length_m = norm(to_point(pose.column_m[k]));
+    // Worst is the direction of the column itself.
+    const double force_N = wide(device.limits.max_torque_Nm[k]) / length_m;
+    if (!(to.least_force_N > 0) || force_N < to.least_force_N) to.least_force_N = force_N;
+    to.count_m =
+        std::max(to.count_m, length_m / std::fabs(wide(device.joints.joint[k].counts_per_rad)));
+  }
+}
+
+void add(const LinkageDevice& device, const float (&angle_rad)[device::kMaxJoints],
+         Determinants& seen, Workspace& to) {
+  const device::Pose pose = std::visit(
+      [&](const auto& linkage) { return device::pose_of(linkage, angle_rad); }, device.linkage);
+  ++to.poses;
+  const double condition = wide(pose.reciprocal_condition);
+  if (to.poses == 1 || condition < to.worst_condition) {
+    to.worst_condition = condition;
+    for (uint32_t k = 0; k < device::kMaxJoints; ++k) to.worst_at_rad[k] = wide(angle_rad[k]);
+  }
+  if (!pose.is_reachable) return;
+  const Vec tip_m = to_point(pose.position_m);
+  if (to.reachable++ == 0) to.low_m = to.high_m = tip_m;
+  to.low_m = {std::min(to.low_m.x, tip_m.x), std::min(to.low_m.y, tip_m.y),
+              std::min(to.low_m.z, tip_m.z)};
+  to.high_m = {std::max(to.high_m.x, tip_m.x), std::max(to.high_m.y, tip_m.y),
+               std::max(to.high_m.z, tip_m.z)};
+  const double volume = determinant(pose, device.joints.joints);
+  seen.positive = seen.positive || volume > 0;
+  seen.negative = seen.negative || volume < 0;
+  if (pose.reciprocal_condition >= device.limits.full_from) {
+    ++to.with_whole_force;
+    add_forces(device, pose, to);
+  } else if (pose.reciprocal_condition > device.limits.gone_at) {
+    ++to.with_faded_force;
+  }
+}
+
+}  // namespace
+
+Workspace workspace_of(const LinkageDevice& device, uint32_t steps) {
+  Workspace to;
+  Determinants seen;
+  uint32_t last[device::kMaxJoints] = {};
+  for (uint32_t k = 0; k < device.joints.joints; ++k) last[k] = steps;
+  for (uint32_t i = 0; i <= last[0]; ++i)
+    for (uint32_t j = 0; j <= last[1]; ++j)
+      for (uint32_t l = 0; l <= last[2]; ++l) {
+        const uint32_t at[] = {i, j, l};
+        float angle_rad[device::kMaxJoints] = {};
+        for (uint32_t k = 0; k < device.joints.joints; ++k) {
+          const device::JointSetting& joint = device.joints.joint[k];
+          angle_rad[k] = static_cast<float>(
+              wide(joint.low_rad) + (wide(joint.high_rad) - wide(joint.low_rad)) * at[k] / steps);
+        }
+        add(device, angle_rad, seen, to);
+      }
+  to.changes_orientation = seen.positive && seen.negative;
+  return to;
+}
+
+bool is_free_of_singularities(const Workspace& workspace) {
+  return workspace.poses > 0 &&
+         workspace.with_whole_force + workspace.with_faded_force == workspace.poses &&
+         !workspace.changes_orientation;
+}
+
+}  // namespace firmtouch::host_sim

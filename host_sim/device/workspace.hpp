@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+
+#include "host_sim/device/device_file.hpp"
+#include "host_sim/plant/vec.hpp"
+
+namespace firmtouch::host_sim {
+
+/// Poses of a linkage on a grid over the ranges of its joints.
+struct Workspace {
+  uint32_t poses = 0, reachable = 0;
+  uint32_t with_whole_force = 0, with_faded_force = 0;  // of the reachable ones
+  Vec low_m, high_m;                                    // box about the tip
+  double worst_condition = 1;                           // the least reciprocal one
+  double worst_at_rad[device::kMaxJoints] = {};
+  bool changes_orientation = false;  // the Jacobian's determinant has both signs
+  // Where the whole force is rendered:
+  double least_force_N = 0;  // that the torque limits allow in every direction
+  double count_m = 0;        // longest motion of the tip by one count
+};
+
+/// `steps` + 1 angles a joint, ends included.
+Workspace workspace_of(const LinkageDevice& device, uint32_t steps);
+
+/// Every pose is reachable and none is at or beyond the fade's end; no singularity lies between
+/// poses, because the Jacobian's determinant keeps its sign.
+bool is_free_of_singularities(const Workspace& workspace);
+
+}  // namespace firmtouch::host_sim

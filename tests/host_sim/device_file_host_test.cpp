@@ -1,0 +1,149 @@
+// Device files: every key, every kind of mistake with its line, and singular workspaces.
+#include "host_sim/device/device_file.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "harness/test.hpp"
+#include "host_sim/device/workspace.hpp"
+#include "host_sim/scenario/scenario.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+using host_sim::LinkageDevice;
+using host_sim::Workspace;
+
+namespace {
+
+const std::string kFiveBar =
+    "# the Pantograph Mk-II's lengths\n"
+    "linkage five_bar\nbase 25 mm\n"
+    "proximal_0 63 mm\nproximal_1 63 mm\ndistal_0 7.5 cm\ndistal_1 0.075 m\ntip left\n"
+    "counts_0 13824 counts/turn\nlow_0 100 deg\nhigh_0 150 deg\nmax_torque_0 300 mN*m\n"
+    "counts_1 2000 counts/rad\nlow_1 30 deg\nhigh_1 80 deg\nmax_torque_1 0.2 N*m\n";
+const std::string kDelta =
+    "linkage delta\nupper_0 60 mm\nupper_1 60 mm\nupper_2 60 mm\n"
+    "lower_0 103 mm\nlower_1 103 mm\nlower_2 103 mm\nbase_radius 38 mm\nplatform_radius 21 mm\n"
+    "side 4.5 mm\n"
+    "counts_0 500 counts/rad\nlow_0 0 deg\nhigh_0 50 deg\nmax_torque_0 1 N*m\n"
+    "counts_1 500 counts/rad\nlow_1 0 deg\nhigh_1 50 deg\nmax_torque_1 1 N*m\n"
+    "counts_2 500 counts/rad\nlow_2 0 deg\nhigh_2 50 deg\nmax_torque_2 1 N*m\n";
+
+LinkageDevice read(const std::string& text) { return host_sim::read_device("test.device", text); }
+
+bool near(float a, double b) { return std::fabs(static_cast<double>(a) - b) <= 1e-6 * (1 + b); }
+
+// `text` with its first `from` replaced.
+std::string edited(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  CHECK(at != std::string::npos);
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+void check_refusal(const std::string& text, const std::string& part) {
+  try {
+    read(text);
+    test::fail(__FILE__, __LINE__, ("not refused: " + part).c_str());
+  } catch (const host_sim::Refused& refused) {
+    const std::string message = refused.what();
+    if (message.find(part) == std::string::npos)
+      test::fail(__FILE__, __LINE__, ("`" + message + "` lacks `" + part + "`").c_str());
+  }
+}
+
+}  // namespace
+
+TEST(DeviceFile_EveryKey_ConvertsToSi) {
+  const LinkageDevice device =
+      read(kFiveBar + "zero_1 -90 deg\nmax_speed 900 deg/s\nfull_from 0.2\ngone_at 0.1\n");
+  const auto& bar = std::get<device::FiveBar>(device.linkage);
+  CHECK(near(bar.base_m, .025) && near(bar.proximal_m[1], .063) && near(bar.distal_m[0], .075));
+  CHECK(bar.is_tip_left);
+  CHECK_EQ(device.joints.joints, 2u);
+  CHECK(near(device.joints.joint[0].counts_per_rad, 13824 / 6.283185307));
+  CHECK(near(device.joints.joint[1].zero_rad + 2, 2 - 1.570796327));
+  CHECK(near(device.joints.joint[1].high_rad, 1.396263402));
+  CHECK(near(device.joints.max_speed_rad_per_s, 15.70796327));
+  CHECK(near(device.limits.max_torque_Nm[0], .3) && near(device.limits.max_torque_Nm[1], .2));
+  CHECK(near(device.limits.full_from, .2) && near(device.limits.gone_at, .1));
+  const LinkageDevice delta = read(kDelta + "tip below\n");
+  CHECK(!std::get<device::Delta>(delta.linkage).is_tip_above);
+  CHECK(near(std::get<device::Delta>(delta.linkage).side_m, .0045));
+  const LinkageDevice arm = read(
+      "linkage serial_arm 2\nlink_0 150 mm\nlink_1 120 mm\nelbow parallelogram\n"
+      "counts_0 -1000 counts/rad\nlow_0 -1 rad\nhigh_0 1 rad\nmax_torque_0 1 N*m\n"
+      "counts_1 1000 counts/rad\nlow_1 -1 rad\nhigh_1 1 rad\nmax_torque_1 1 N*m\n");
+  CHECK_EQ(std::get<device::SerialArm>(arm.linkage).joints, 2u);
+  CHECK(std::get<device::SerialArm>(arm.linkage).has_parallelogram);
+  CHECK(near(-arm.joints.joint[0].counts_per_rad, 1000));
+}
+
+TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
+  check_refusal("", "begin with `linkage five_bar`");
+  check_refusal("base 25 mm\n", "test.device:1: `linkage` is expected");
+  check_refusal("\nlinkage hexapod\n", "test.device:2: `hexapod` is no linkage");
+  check_refusal("linkage serial_arm 4\n", "outside 2 to 3");
+  check_refusal(kFiveBar + "bse 1 mm\n", "test.device:17: unknown key `bse`; known are base");
+  check_refusal(kFiveBar + "counts_2 1 counts/rad\n", "unknown key `counts_2`");
+  check_refusal(kFiveBar + "base 25 mm\n", "`base` is given twice, first in line 3");
+  check_refusal(kFiveBar + "tip up\n", "given twice");
+  check_refusal(edited(kFiveBar, "tip left", "tip up"), "`tip` is left or right, not `up`");
+  check_refusal(edited(kFiveBar, "base 25 mm", "base 25 N"), "`N` is not a unit for `base`");
+  check_refusal(edited(kFiveBar, "base 25 mm", "base 25"), "the line ends where the unit");
+  check_refusal(edited(kFiveBar, "63 mm", "0 mm"), "test.device:4: `proximal_0` = 0 m is outside");
+  check_refusal(edited(kFiveBar, "63 mm", "nan mm"), "needs a number instead of `nan`");
+  check_refusal(edited(kFiveBar, "63 mm", "63 mm mm"), "unexpected `mm`");
+  check_refusal(edited(kFiveBar, "max_torque_1 0.2 N*m\n", ""), "`max_torque_1` is missing");
+  check_refusal(edited(kFiveBar, "base 25 mm", "base 2500 mm"), "the links meet at no angles");
+  check_refusal(edited(kFiveBar, "base 25 mm", "base -25 mm"), "offset");
+  check_refusal(edited(kFiveBar, "low_1 30", "low_1 130"), "low below high, within 100 rad (ele");
+  check_refusal(edited(kFiveBar, "0.2 N*m", "0 N*m"), "torque limit");
+  check_refusal(kFiveBar + "full_from 0.05\ngone_at 0.1\n", "fade");
+}
+
+TEST(Workspace_GoodRanges_AreFreeOfSingularities) {
+  for (const std::string& text : {kFiveBar, kDelta}) {
+    const LinkageDevice device = read(text);
+    const Workspace space = host_sim::workspace_of(device, 20);
+    CHECK(host_sim::is_free_of_singularities(space));
+    CHECK_EQ(space.poses, device.joints.joints == 2 ? 441u : 9261u);
+    CHECK_EQ(space.reachable, space.poses);
+    CHECK_GE(space.worst_condition, 0.1);
+  }
+}
+
+// By hand, of the elbow at a right angle: columns of 0.25 and 0.15 m, 0.03 m^2 between them.
+TEST(Workspace_PlanarArm_HasTheForceAndTheCountOfItsLongestColumn) {
+  const LinkageDevice arm = read(
+      "linkage serial_arm 2\nlink_0 0.2 m\nlink_1 0.15 m\n"
+      "counts_0 1000 counts/rad\nlow_0 0 deg\nhigh_0 90 deg\nmax_torque_0 0.5 N*m\n"
+      "counts_1 500 counts/rad\nlow_1 90 deg\nhigh_1 91 deg\nmax_torque_1 0.6 N*m\n");
+  const Workspace space = host_sim::workspace_of(arm, 10);
+  CHECK(host_sim::is_free_of_singularities(space));
+  CHECK_LE(std::fabs(space.least_force_N - 0.5 / 0.25), 1e-6);
+  CHECK_LE(std::fabs(space.count_m - 0.15 / 500), 1e-9);
+  CHECK_LE(std::fabs(space.worst_condition - 2 * 0.03 / (0.0625 + 0.0225)), 1e-6);
+  CHECK_LE(std::fabs(space.worst_at_rad[1] - 1.570796327), 1e-6);
+  CHECK_LE(std::fabs(space.high_m.y - 0.25), 1e-3);
+  CHECK_LE(std::fabs(space.high_m.x - 0.2), 1e-6);
+}
+
+TEST(Workspace_StretchedElbowBetweenTwoPoses_IsFound) {
+  std::string text =
+      "linkage serial_arm 2\nlink_0 0.2 m\nlink_1 0.15 m\n"
+      "counts_0 1000 counts/rad\nlow_0 0 deg\nhigh_0 90 deg\nmax_torque_0 1 N*m\n"
+      "counts_1 1000 counts/rad\nlow_1 -60 deg\nhigh_1 70 deg\nmax_torque_1 1 N*m\n";
+  const Workspace space = host_sim::workspace_of(read(text), 1);  // its ends alone
+  CHECK_EQ(space.with_whole_force, 4u);
+  CHECK(space.changes_orientation);
+  CHECK(!host_sim::is_free_of_singularities(space));
+  text = edited(text, "low_1 -60", "low_1 1");
+  CHECK(!host_sim::is_free_of_singularities(host_sim::workspace_of(read(text), 10)));
+}
+
+TEST(Workspace_ElbowsOutOfReach_IsFound) {
+  const std::string text =
+      edited(edited(kFiveBar, "high_0 150", "high_0 180"), "low_1 30", "low_1 0");
+  const Workspace space = host_sim::workspace_of(read(text), 20);
+  CHECK_LT(space.reachable, space.poses);
+  CHECK(!host_sim::is_free_of_singularities(space));
+}
