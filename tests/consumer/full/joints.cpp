@@ -1,4 +1,4 @@
-// Joints that the scripted hand moves.
+// Joints of a CoreXY gantry that the scripted hand moves: belts by x + y and x - y.
 #include "../hand.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/encoders.hpp"
@@ -7,7 +7,11 @@
 namespace firmtouch::hal {
 
 bool encoders_read(int32_t (&counts)[3]) {
-  hand_counts(clock_us() / 1000, counts);
+  int32_t hand[3];
+  hand_counts(clock_us() / 1000, hand);
+  counts[0] = hand[0] + hand[1];
+  counts[1] = hand[0] - hand[1];
+  counts[2] = hand[2];
   return true;
 }
 

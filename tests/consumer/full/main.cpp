@@ -1,10 +1,11 @@
-// The library's parts without its controller: a baked mesh, a shape and an effect of this project's
-// own. The scripted hand rests on each in turn; the program checks the forces and exits with 0, or
-// prints what is wrong.
+// The library's parts without its controller: a baked mesh; a shape, an effect and a linkage of
+// this project's own. The scripted hand rests on each in turn; the program checks the forces and
+// exits with 0, or prints what is wrong.
 #include "../hand.hpp"
+#include "core_xy.hpp"
 #include "firmtouch/controller/loaders.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
-#include "firmtouch/device/cartesian.hpp"
+#include "firmtouch/device/linkage.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/encoders.hpp"
@@ -26,17 +27,19 @@ constexpr float kStiffness_N_per_m = 500.0f;
 constexpr query::Budget kBudget{64};
 constexpr Torus kTorus{{-0.04f, 0, 0}, 0.02f, 0.008f};
 constexpr HummingWall kWall{-0.02f, 0.0005f, kStiffness_N_per_m};
-constexpr device::Settings kDevice{{100000, 100000, 100000},
-                                   {0, 0, 0},
-                                   {0.1f, 0.1f, 0.1f},
-                                   1.0f,
-                                   {device::Estimator::kLowPass, 100.0f}};
+constexpr CoreXY kGantry{0.01f, 0.002f};
+// Counts of 10 um.
+constexpr device::JointSettings kJoints{3,
+                                        {{1000, 0, -10, 10}, {1000, 0, -10, 10}, {200, 0, -50, 50}},
+                                        500,
+                                        {device::Estimator::kLowPass, 100.0f}};
+constexpr device::TorqueLimits kTorques{0.1f, 0.05f, {0.05f, 0.05f, 0.01f}};
 constexpr servo::Settings kServo{5.0f, 1000.0f, 0.02f, 0.001f};
 constexpr servo::GuardLimits kGuard{5.0f, 1000.0f, 0.001f};
 
 Loaders<asset::Proven, MeshSurface> loaders;
 MeshSurface gem_mesh;
-device::State joints;
+device::JointState joints;
 scene::MeshTouch gem_touch;
 servo::LocalModel model;
 servo::State servo_state;
@@ -64,30 +67,36 @@ void servo_interrupt() {
   static uint32_t tick = 0;
   device::Sample sample{{}, false, 0.001f};
   sample.trusted = hal::encoders_read(sample.counts);
-  const device::Reading tool = device::read(joints, kDevice, sample);
+  const device::Joints at = device::read_joints(joints, kJoints, sample);
+  const device::Pose pose = pose_of(kGantry, at.angle_rad);
 
-  scene::begin_model(model, tool.position_m, tick, 2);
+  scene::begin_model(model, pose.position_m, tick, 2);
   scene::MeshObject gem;
   gem.mesh = &gem_mesh.mesh();
   gem.material = {kStiffness_N_per_m, 0};
-  scene::touch_mesh(gem, kRadius_m, tool.position_m, kBudget, gem_touch, model);
-  scene::add_contact(model, tool.position_m, kRadius_m, closest_on(kTorus, tool.position_m),
+  scene::touch_mesh(gem, kRadius_m, pose.position_m, kBudget, gem_touch, model);
+  scene::add_contact(model, pose.position_m, kRadius_m, closest_on(kTorus, pose.position_m),
                      {kStiffness_N_per_m, 0});
   add_hum(model, kWall, kRadius_m, tick);
 
   servo::StepInput input;
-  input.position_m = tool.position_m;
-  input.velocity_mps = tool.velocity_mps;
+  input.position_m = pose.position_m;
+  input.velocity_mps = device::tip_velocity(pose, at.rate_rad_per_s);
   input.tick = tick;
   input.enable = (hal::motors_lines() & hal::kMotorsEnable) != 0;
-  input.reported = tool.faults;
+  input.reported = at.faults;
   const servo::StepOutput output = servo::step(servo_state, kServo, model, input);
-  float motor_N[3] = {output.force_N.x, output.force_N.y, output.force_N.z};
+  float force_N[3] = {output.force_N.x, output.force_N.y, output.force_N.z};
   const bool is_good =
-      servo::guard(guard_state, input.enable && output.faults == 0, false, motor_N);
+      servo::guard(guard_state, input.enable && output.faults == 0, false, force_N);
   hal::motors_state(is_good && output.mode != servo::Mode::kOff);
-  hal::motors_write_N(motor_N);
-  keep(tick++, motor_N);
+  // This board's motors take torques.
+  const device::JointTorques motors =
+      device::torques(pose, kTorques, {force_N[0], force_N[1], force_N[2]});
+  hal::motors_write_N(motors.torque_Nm);
+  float rendered_N[3];
+  force_of(kGantry, motors.torque_Nm, rendered_N);
+  keep(tick++, rendered_N);
 }
 
 int passed = 0, failed = 0;
