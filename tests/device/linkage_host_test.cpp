@@ -179,7 +179,7 @@ Truth truth_of(const SerialArm& arm) {
 double distance_of_angles(double a, double b) { return std::remainder(a - b, 2 * kPi); }
 
 struct Worst {
-  double position_m = 0, inverse_m = 0, jacobian = 0, condition = 0;
+  double position_m = 0, inverse_m = 0, jacobian = 0, condition = 0, force = 0;
   uint32_t poses = 0, singular = 0;
 };
 
@@ -204,6 +204,20 @@ double reciprocal_condition(const Matrix3d& columns, uint32_t joints) {
     inverses += 1 / (s * s);
   }
   return joints / std::sqrt(squares * inverses);
+}
+
+// The force that joint torques hold at the tip, by virtual work, against the one passed; relative.
+double force_error(const Pose& pose, const Matrix3d& expected, uint32_t joints) {
+  device::TorqueLimits limits;
+  limits.max_torque_Nm[1] = 0.05f;
+  const math::Vec3 passed_N{1.5f, -2.0f, joints == 2 ? 0.0f : 1.0f};
+  const device::JointTorques out = torques(pose, limits, passed_N);
+  Matrix3d columns = expected;
+  if (joints == 2) columns(2, 2) = 1;
+  const Vector3d torque_Nm(wide(out.torque_Nm[0]), wide(out.torque_Nm[1]), wide(out.torque_Nm[2]));
+  const Vector3d held_N = columns.transpose().fullPivLu().solve(torque_Nm);
+  const Vector3d due_N = wide(out.share) * wide(passed_N);
+  return (held_N - due_N).norm() / due_N.norm();
 }
 
 template <class Linkage>
@@ -236,6 +250,8 @@ void compare(const Linkage& linkage, const Truth& truth, const float (&angle_rad
   if (truth.rods_volume(tip_m, at) >= 0.3)
     worst.jacobian = std::max(
         worst.jacobian, (columns - expected).norm() / std::max(expected.norm(), truth.shortest_m));
+  if (pose.reciprocal_condition >= device::TorqueLimits{}.full_from)
+    worst.force = std::max(worst.force, force_error(pose, expected, truth.joints));
   const double condition = reciprocal_condition(expected, truth.joints);
   worst.condition =
       std::max(worst.condition, std::fabs(wide(pose.reciprocal_condition) / condition - 1));
@@ -260,6 +276,7 @@ void attack(const Linkage& linkage, uint32_t seed) {
   CHECK_LE(worst.inverse_m, 1e-6);
   CHECK_LE(worst.jacobian, 1e-5);
   CHECK_LE(worst.condition, 1e-4);
+  CHECK_LE(worst.force, 5e-3);
 }
 
 }  // namespace
