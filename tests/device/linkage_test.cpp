@@ -102,7 +102,7 @@ TEST(Delta_EqualAngles_HaveTheTipOnZ) {
   CHECK_LT(pose_of(below, {.5f, .5f, .5f}).position_m.z, 0.0f);
 }
 
-// Elbows 0.151 m apart of 0.150 m that the distal links bridge.
+// Elbows 0.151 m apart of 0.150 m that the distal links reach.
 TEST(FiveBar_ElbowsOutOfReach_GiveNoJacobianAndNoTorque) {
   const Pose pose = pose_of(kFiveBar, {2 * kQuarter, 0, 0});
   CHECK(!pose.is_reachable);
@@ -164,7 +164,7 @@ TEST(Torques_AnyForceAndPose_StayWithinTheLimitsInTheForcesDirection) {
         const float whole_Nm = c.x * force_N.x + c.y * force_N.y + c.z * force_N.z;
         if (scale < 31.0f) CHECK_LE(size(found.torque_Nm[k] - found.share * whole_Nm), 1e-6f);
       }
-      // No more is taken off than the limits ask for.
+      // No more is taken off than the limits demand.
       if (found.share < 1.0f && pose.reciprocal_condition >= kLimits.full_from)
         CHECK_GE(fullest, .999999f);
     });

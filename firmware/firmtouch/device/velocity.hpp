@@ -37,7 +37,7 @@ struct VelocityState {
 float estimate(VelocityState& state, const VelocitySettings& settings, float counts_per_unit,
                float step, float dt_s);
 
-/// The axis stands, as far as the counts show.
+/// The axis is taken to be at rest.
 void stop(VelocityState& state);
 
 }  // namespace firmtouch::device
