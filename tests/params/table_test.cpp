@@ -52,6 +52,15 @@ TEST(NamesSitWhereTheIndexSaysTheyDo) {
   CHECK(same(params::kTable[params::kModelAge].name, "model_age"));
 }
 
+TEST(RowOf_ComposedTable_IsWhereTheNameStands) {
+  constexpr params::Table kTable =
+      params::Composed<params::Groups<params::SafetyRows, params::ContactRows>>::kTable;
+  static_assert(params::row_of(kTable, params::kToolRadius) == 0);
+  CHECK(same(kTable[params::row_of(kTable, params::kTickPeriod)].name, "tick_period_s"));
+  CHECK_EQ(params::row_of(kTable, params::kGuideSnap), kTable.size());
+  for (uint32_t i = 0; i < params::kCount; ++i) CHECK_EQ(params::row_of(params::kTable, i), i);
+}
+
 TEST(ValuesBeginAsTheTableSays) {
   const params::Values values = params::initial_values();
   for (uint32_t i = 0; i < params::kCount; ++i)

@@ -88,6 +88,14 @@ constexpr uint16_t kFirstOwn = 56;
 constexpr uint16_t kMaxOwn = 8;
 static_assert(kCount <= kFirstOwn);
 
+/// The row of a number, for a tick's command (1 + row): a composed table leaves rows out.
+/// Result: table.size() if it has none.
+constexpr uint32_t row_of(Table table, uint32_t number) {
+  uint32_t row = 0;
+  while (row < table.size() && table[row].number != number) ++row;
+  return row;
+}
+
 /// A value for every number; 0 where the table has no row.
 struct Values {
   float value[kFirstOwn + kMaxOwn] = {};
