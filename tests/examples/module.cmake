@@ -1,0 +1,40 @@
+# Programs for whoever begins with the library (README.md). Each is a test: it returns 0 if what one feels is right. They
+# call no board, so they run on this machine, and on a board's build in QEMU (tests/target).
+
+# firmtouch_example(NAME LINKS TARGET...): the program and test of NAME.cpp.
+function(firmtouch_example name)
+  cmake_parse_arguments(example "" "" "LINKS" ${ARGN})
+  set(source ${PROJECT_SOURCE_DIR}/tests/examples/${name}.cpp)
+  if(CMAKE_CROSSCOMPILING)
+    firmtouch_target_program(example_${name} SOURCES ${source} LINKS ${example_LINKS})
+    if(FIRMTOUCH_BOARD)  # one that hal/emulate knows
+      add_test(NAME examples.${name}.${FIRMTOUCH_BOARD}
+               COMMAND ${PROJECT_SOURCE_DIR}/hal/emulate ${FIRMTOUCH_BOARD} $<TARGET_FILE:example_${name}>)
+    endif()
+  else()
+    add_executable(example_${name} ${source})
+    target_link_libraries(example_${name} PRIVATE ${example_LINKS})
+    target_compile_options(example_${name} PRIVATE ${FIRMTOUCH_WARNING_FLAGS})
+    add_test(NAME examples.${name} COMMAND example_${name})
+  endif()
+endfunction()
+
+firmtouch_example(wall LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(detent_ring LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(own_shape LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(own_linkage LINKS firmtouch::scene firmtouch::servo)
+
+# Those with an asset need the baker: this build's, or the one in FIRMTOUCH_HOST_TOOLS.
+if(TARGET firmtouch OR FIRMTOUCH_HOST_TOOLS)
+  set(block ${CMAKE_CURRENT_LIST_DIR}/block.obj)
+  firmtouch_bake(TARGET example_block INPUTS ${block} OUTPUT block.fta OPTIONS --unit mm)
+  firmtouch_embed(TARGET example_block_bytes ASSET example_block SYMBOL block_fta)
+  firmtouch_bake(TARGET example_path INPUTS ${block} ${CMAKE_CURRENT_LIST_DIR}/path.csv OUTPUT block_and_path.fta
+                 OPTIONS --unit mm)
+  firmtouch_embed(TARGET example_path_bytes ASSET example_path SYMBOL block_and_path_fta)
+
+  firmtouch_example(touch_mesh LINKS firmtouch::controller example_block_bytes)
+  firmtouch_example(two_rates LINKS firmtouch::controller example_block_bytes)
+  firmtouch_example(replay_log LINKS firmtouch::controller example_block_bytes)
+  firmtouch_example(follow_path LINKS firmtouch::controller example_path_bytes)
+endif()
