@@ -25,7 +25,7 @@ inline bool is_feature_clear(float distance2_m2, math::Vec3 ab_m) {
 /// the face, the nearest edge counts.
 /// Pre: a b is the longest edge.
 /// Bounds: about 300 instructions in a face, 250 at an edge, 120 at a corner; 1,200 if the feature
-///         is not clear; 400 B of stack; re-entrant.
+///         is not clear; 500 B of stack; re-entrant.
 /// Error:  2^-24 of the square, the rounding of the result, beside 2^-4 u L in the distance
 ///         (tests/mesh/compensated_host_test.cpp).
 /// Source: Dekker 1971; Knuth, volume 2, 4.2.2 (error-free sums and products).
