@@ -1,0 +1,31 @@
+# Every function of hal states in its header from which contexts it is called, and the call graph of the controller program
+# on the Cortex-M7 agrees. Needs the preset mps2-an500 built. Read by tests/check/run.
+
+graphs=$root/build/mps2-an500
+
+not_run() {
+  [ ! -d "$graphs/firmware/app" ] || return 1
+  echo 'the preset mps2-an500 is not built'
+}
+
+check() {
+  find "$graphs/firmware" "$graphs/hal" -name '*.ci' | awk '!/\/firmware\/app\// || /\/firmtouch_app\.dir\//' |
+    LC_ALL=C sort | xargs awk -f "$here/contexts.awk" hal/firmtouch/hal/*.hpp
+}
+
+plant_unstated_context() {
+  edit hal/firmtouch/hal/board.hpp 's/^\(.*Name of the board.*\) Context: any\./\1/'
+  expect='board.hpp: board_name\(\) states no context'
+}
+plant_servo_interrupt_left_out() {
+  edit hal/firmtouch/hal/encoders.hpp 's/Context: servo interrupt/Context: main loop/'
+  expect='encoders_read\(\) is called from the servo interrupt'
+}
+plant_fault_handler_left_out() {
+  edit hal/firmtouch/hal/board.hpp 's/main loop, fault handler; never/main loop; never/'
+  expect='board_print\(\) is called from the fault handler'
+}
+plant_main_loop_left_out() {
+  edit hal/firmtouch/hal/link.hpp 's/Context: main loop/Context: servo interrupt/'
+  expect='link_read\(\) is called from the main loop'
+}
