@@ -205,13 +205,13 @@ inline LongCurve& shared_curve(const curve::Sample* from, uint32_t count) {
 /// Squared distance to the polyline in double, over every segment.
 template <uint32_t Most>
 double brute_distance2(const CurveOf<Most>& c, math::Vec3 p) {
+  const auto wide = [](float value) { return static_cast<double>(value); };
   double least = 1e300;
   for (uint32_t i = 0; i + 1 < c.head.sample_count; ++i) {
     const curve::Sample &a = c.samples[i], &b = c.samples[i + 1];
-    const double e[3] = {double{b.x_m} - double{a.x_m}, double{b.y_m} - double{a.y_m},
-                         double{b.z_m} - double{a.z_m}};
-    const double v[3] = {double{p.x} - double{a.x_m}, double{p.y} - double{a.y_m},
-                         double{p.z} - double{a.z_m}};
+    const double e[3] = {wide(b.x_m) - wide(a.x_m), wide(b.y_m) - wide(a.y_m),
+                         wide(b.z_m) - wide(a.z_m)};
+    const double v[3] = {wide(p.x) - wide(a.x_m), wide(p.y) - wide(a.y_m), wide(p.z) - wide(a.z_m)};
     double t =
         (v[0] * e[0] + v[1] * e[1] + v[2] * e[2]) / (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
     t = t < 0 ? 0 : t > 1 ? 1 : t;
