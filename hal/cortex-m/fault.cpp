@@ -48,7 +48,8 @@ extern "C" {
       "1: tst lr, #4           \n"
       "it ne                   \n"
       "mrsne r0, psp           \n"
-      "b hard_fault            \n");
+      "b hard_fault            \n"
+      ".ltorg                  \n");  // the two addresses, within reach
 }
 
 }  // extern "C"

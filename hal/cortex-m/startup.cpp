@@ -21,7 +21,7 @@ void hard_fault_handler();
 void servo_timer_handler();
 
 /// The motors first: their pins may float, or be as a reset found them. Nothing is initialised yet.
-[[noreturn]] void start_up() {
+[[noreturn, gnu::used]] void start_up() {
   firmtouch::hal::motors_off();
   firmtouch::hal::floating_point_begin();
   // A boot loader may have left its own. The table is first in CODE.
@@ -47,7 +47,8 @@ void servo_timer_handler();
       "str r1, [r0]        \n"
       "dsb                 \n"
       "isb                 \n"
-      "b start_up          \n");
+      "b start_up          \n"
+      ".ltorg              \n");  // CPACR's address, within reach
 }
 
 [[gnu::section(".vectors.core"), gnu::used]] const firmtouch::hal::Handler kCoreVectors[16] = {

@@ -15,7 +15,7 @@ extern uint32_t __bss_begin[], __bss_end[];
 using Constructor = void (*)();
 extern Constructor __init_array_begin[], __init_array_end[];
 
-[[noreturn]] void start_up() {
+[[noreturn, gnu::used]] void start_up() {
   firmtouch::hal::motors_off();
   firmtouch::hal::stack_paint();
   firmtouch::hal::stack_guard();
