@@ -137,6 +137,9 @@ __asm__(
 ]])
   set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${asset})
   add_library(${embed_TARGET} STATIC ${source})
+  # With -flto a symbol that only assembly defines is not found.
+  set_target_properties(${embed_TARGET} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
+  target_compile_options(${embed_TARGET} PRIVATE -fno-lto)
   if(TARGET ${embed_ASSET})
     add_dependencies(${embed_TARGET} ${embed_ASSET})
   endif()
