@@ -58,6 +58,14 @@ EOF
     }
     END { flush(); exit bad }' || bad=1
   sources | grep -E '\.(cpp|hpp|h)$' | tr '\n' '\0' | xargs -0 awk -f "$here/functions.awk" || bad=1
+  for example in tests/examples/*.cpp; do
+    [ "$(wc -l <"$example")" -le 120 ] || complain "$example: a first program has at most 120 lines"
+    case $(head -n 1 "$example") in
+      '// What you feel: '*) ;;
+      *) complain "$example: does not open with what one feels" ;;
+    esac
+    grep -qF "](${example##*/})" tests/examples/README.md || complain "$example: not in the README.md beside it"
+  done
   # Scripts are for any POSIX shell; .ci/run and whatever says bash is read by bash.
   for file in $(sources | grep -E '\.sh$|^tools/[a-z_]*$|^hal/[a-z_]*$|^tests/.*/[a-z_]*$|^\.ci/'); do
     case $(head -n 1 "$file" | tr -d '\0') in
@@ -97,6 +105,14 @@ plant_long_test() {  # behind one of 80 lines, in a class, behind a template's h
     echo 'struct Planted {'; echo '  template <class A,'; echo '            class B>'; echo '  void run(A a, B b) {'; lines '    a = b;' 80
     echo '  }'; echo '};'; } >>tests/core/status_test.cpp
   expect='status_test.cpp:[0-9]*: a function of 84 lines'
+}
+plant_long_example() {
+  lines '// a line' 120 >>tests/examples/wall.cpp
+  expect='examples/wall.cpp: a first program has at most 120 lines'
+}
+plant_example_that_nobody_lists() {
+  echo '// A wall.' >tests/examples/other_wall.cpp
+  expect='examples/other_wall.cpp: not in the README.md beside it'
 }
 plant_unguarded_header() {
   echo 'int f();' >firmware/firmtouch/core/planted.hpp

@@ -21,6 +21,7 @@ endfunction()
 
 firmtouch_example(wall LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(detent_ring LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(friction LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(own_shape LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(own_linkage LINKS firmtouch::scene firmtouch::servo)
 
