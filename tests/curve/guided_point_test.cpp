@@ -118,8 +118,8 @@ TEST(CubicPieces_HaveOneHash_Everywhere) {
   }();
   const View view = smooth.view();
   CHECK(view.is_open());
-  firmtouch::core::Hash hash;
-  Hint hint;
+  firmtouch::core::Hash hash, starved;
+  Hint hint, starved_hint;
   Following following;
   uint32_t state = 1;
   const auto next = [&] {
@@ -128,12 +128,18 @@ TEST(CubicPieces_HaveOneHash_Everywhere) {
   };
   for (uint32_t i = 0; i < 300; ++i) {
     const Vec3 p{next() * 1.5f, next() * 0.75f, next() * 0.5f};
-    const Constraint found = guided_point(view, p, {0.5f, next(), i % 3 != 0}, {40}, hint);
+    const ArcPenalty penalty{0.5f, next(), i % 3 != 0};
+    const Constraint found = guided_point(view, p, penalty, kUnlimited, hint);
+    const Constraint cut = guided_point(view, p, penalty, {40}, starved_hint);
     const Followed tick = follow(view, p, {0.25f, 0.25f}, kUnlimited, following);
     const float values[] = {
         found.cost_m,           found.closest.arc,      found.closest.certificate.lower_m,
         tick.closest.point_m.x, tick.closest.tangent.y, tick.closest.certificate.lower_m};
     for (const float value : values) hash.add(firmtouch::math::bits_of(value));
+    starved.add(firmtouch::math::bits_of(cut.cost_m));
+    starved.add(firmtouch::math::bits_of(cut.closest.certificate.lower_m));
+    starved.add(cut.closest.certificate.work);
   }
   CHECK_EQ(hash.value(), 9453317766210172144u);
+  CHECK_EQ(starved.value(), 1807164924033736572u);
 }

@@ -174,17 +174,30 @@ TEST(Certificate_Holds_UnderEveryBudgetOfASmoothCurve) {
     const Oracle oracle(baked);
     test::note(named.name.c_str(), 0);
     curve::Hint warm;
-    for (const math::Vec3& p : curve_test::queries(baked.samples, 24, 43)) {
+    curve::Following following;
+    for (const math::Vec3& p : curve_test::queries(baked.samples, 8, 43)) {
       const double truth = oracle.distance(p);
-      for (const uint32_t steps : {1u, 3u, 9u}) {
+      for (uint32_t work = 0; work < 400; work += 1 + work / 32) {
+        test::note("work", work);
+        const curve::Hold hold{0.1f * baked.view.head().length_m, 1e3f};
+        const auto tick = follow(baked.view, p, hold, {work}, following);
+        CHECK_LE(double{tick.closest.certificate.lower_m}, truth * (1 + 1e-9));
+        CHECK_GE(double{tick.closest.distance_m}, truth - room(baked, truth));
+        CHECK_LE(tick.closest.certificate.work, std::max(work, 2u));
+        curve::Neighbour memory[10];
+        const auto tied = nearest_constraint(baked.view, p, {}, {memory, 10}, {work});
+        CHECK_LE(double{tied.closest.certificate.lower_m}, truth * (1 + 1e-9));
+        CHECK_LE(tied.closest.certificate.work, std::max(work, 1u));
         const curve::ArcPenalty penalty{0.1f * baked.view.head().diagonal_m, 0.4f, true};
         curve::Hint cold, held;
-        const auto found = closest_point(baked.view, p, {steps}, cold);
-        const auto next = closest_point(baked.view, p, {steps}, warm);
-        const auto guided = guided_point(baked.view, p, penalty, {steps}, held);
+        const auto found = closest_point(baked.view, p, {work}, cold);
+        const auto next = closest_point(baked.view, p, {work}, warm);
+        const auto guided = guided_point(baked.view, p, penalty, {work}, held);
         for (const curve::Closest& c : {found, next}) {
           CHECK_LE(double{c.certificate.lower_m}, truth * (1 + 1e-9));
-          CHECK_LE(c.certificate.steps, steps);
+          CHECK_LE(c.certificate.work, std::max(work, 1u));
+          CHECK_LE(c.certificate.steps, c.certificate.work);
+          if (c.certificate.exact) CHECK_LE(double{c.distance_m}, truth + room(baked, truth));
           CHECK_GE(double{c.distance_m}, truth - room(baked, truth));
         }
         CHECK_LE(guided.closest.certificate.lower_m, guided.cost_m);

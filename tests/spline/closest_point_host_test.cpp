@@ -157,11 +157,14 @@ TEST(EveryBudgetBracketsTheTruthOnRandomModels) {
     for (int i = 0; i < 8; ++i) {
       const Vec3 p = anywhere(baked, random);
       const double d = truth.distance(tools::to_point(p));
-      for (uint32_t steps = 1; steps < 400; steps += 1 + steps / 4) {
+      for (uint32_t work = 0; work < 4000; work += 1 + work / 16) {
         Hint cold;
         const spline::Closest c =
-            closest_point(baked.view, p, Budget{steps}, steps % 2 == 0 ? cold : warm);
-        CHECK_LE(c.certificate.steps, steps);
+            closest_point(baked.view, p, Budget{work}, work % 2 == 0 ? cold : warm);
+        CHECK_LE(c.certificate.work, std::max(work, 1u));
+        CHECK_LE(c.certificate.steps, c.certificate.work);
+        if (c.certificate.exact)
+          CHECK_LE(static_cast<double>(c.distance_m), d + 1e-6 * (d + baked.report.extent_m));
         CHECK_LE(static_cast<double>(c.certificate.lower_m), d * (1 + 1e-9) + 1e-12);
         CHECK_GE(static_cast<double>(c.distance_m), d - 1e-6 * (d + baked.report.extent_m));
       }
@@ -175,7 +178,10 @@ TEST(AtABudgetOfTheBakedWorstAPathIsExact) {
     tools::Random random(seed + 70);
     const BakedModel baked(seed % 2 == 0 ? of(spline_test::random_curve(random, 3, 2))
                                          : of(spline_test::random_surface(random, 3, 3, 1)));
-    const Budget budget{tools::find_worst(baked.view).steps};
+    Hint cold;
+    const tools::WorstQuery worst = tools::find_worst(baked.view);
+    const Budget budget{
+        closest_point(baked.view, worst.at_m, query::kUnlimited, cold).certificate.work};
     const double step = 0.002 * baked.report.extent_m;
     const Vec3 start = anywhere(baked, random), home = anywhere(baked, random);
     tools::Point at = tools::to_point(start), way{0, 0, 0};

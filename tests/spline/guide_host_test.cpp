@@ -277,6 +277,27 @@ TEST(NoStateMakesTheGuidesAnswerWorseThanTheClosestPoints) {
   }
 }
 
+TEST(StarvedGuide_StaysTrue_AtEveryBudget) {
+  tools::Random random(78);
+  const Guide g({spline_test::random_curve(random, 3, 1), spline_test::random_curve(random, 5, 1)});
+  const spline::Hold hold{0.1f * g.guide.length_m(), 1e3f};
+  for (uint32_t work = 0; work <= 400; ++work) {
+    firmtouch::test::note("work", work);
+    spline::Following following;
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 p =
+          tools::to_vec3({random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)});
+      const spline::Closest found = follow(g.guide, p, hold, Budget{work}, following).closest;
+      CurveHint cold;
+      const spline::Closest truth = closest_point(g.view, p, kUnlimited, cold);
+      CHECK(truth.certificate.exact);
+      CHECK_LE(found.certificate.work, std::max(work, 1u));
+      CHECK_LE(found.certificate.lower_m, truth.distance_m);
+      CHECK_GE(found.distance_m, truth.certificate.lower_m);
+    }
+  }
+}
+
 TEST(HostileQueriesOfAGuideLetGoAndGiveFiniteNumbers) {
   const Guide g({eight()});
   const float bad[] = {NAN, HUGE_VALF, -HUGE_VALF, 3e38f, 1e-45f};

@@ -22,28 +22,41 @@ float spacing_m(const View& curve) {
 }
 
 // Everything except the safe subtree.
-Closest finish(const View& curve, const Foot& best, const Traversal& traversal, bool compensated,
-               Vec3 p_m, Hint& hint) {
+[[gnu::always_inline]] inline Closest finish(const View& curve, const Foot& best,
+                                             const Traversal& traversal, bool compensated, Vec3 p_m,
+                                             Hint& hint) {
   Closest closest = answer_at(curve, best);
   float lower_m = rounded_down(closest.distance_m, curve.head().longest_half_m, compensated);
-  if (!traversal.complete) {
-    const float carried_m = query::carry(hint, p_m).lower_m;
-    const float known_m = traversal.pending_m > carried_m ? traversal.pending_m : carried_m;
-    if (known_m < lower_m) lower_m = known_m;
-  }
+  if (!traversal.complete && traversal.pending_m < lower_m) lower_m = traversal.pending_m;
   closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   closest.certificate.steps = traversal.steps;
+  closest.certificate.work = traversal.work;
   closest.certificate.exact = traversal.complete;
   hint.segment = closest.segment;
-  hint.position_m = p_m;
+  hint.position_m.x = p_m.x;  // one by one: an aggregate would go through the stack
+  hint.position_m.y = p_m.y;
+  hint.position_m.z = p_m.z;
   hint.lower_m = closest.certificate.lower_m;
   hint.sign = 0;
   return closest;
 }
 
+// The last bound, less the motion, where the budget ended.
+[[gnu::noinline, gnu::cold]] void carry_bound(const Hint& hint, Vec3 p_m, Traversal& traversal) {
+  const float carried_m = query::carry(hint, p_m).lower_m;
+  if (carried_m > traversal.pending_m) traversal.pending_m = carried_m;
+}
+
+// What a search that did not suffice leaves to the next one: units of the budget that are used, and
+// the segment of its nearest point.
+struct Before {
+  uint32_t work = 0, segment = 0;
+};
+
 // Without a safe subtree. A warm search begins at the last segment, a cold one with the first
 // sample.
-Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint) {
+Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget, const Before& before,
+                        Hint& hint) {
   const RunBound bound(curve.head(), p_m);
   const bool compensated = bound.is_compensated(curve);
   NearestFoot nearest(curve, p_m, compensated);
@@ -58,8 +71,12 @@ Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget, Hint&
   } else {
     nearest.begin_at_first();
   }
-  Traversal traversal{steps.allowed, false, 0.0f};
+  Traversal traversal{steps.allowed, steps.allowed - nearest.charged(), false, 0.0f};
   if (has_begun) traversal = traverse_runs(curve, bound, steps, start, nearest);
+  if (!traversal.complete) {
+    carry_bound(hint, p_m, traversal);
+    if (before.work != 0) nearest.look_at_one(before.segment);
+  }
   hint.safe_subtree = query::kNowhere;
   return finish(curve, nearest.best(), traversal, compensated, p_m, hint);
 }
@@ -77,6 +94,7 @@ bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
                  NearestFoot& nearest, Traversal& traversal) {
   const uint32_t run = run_of(nearest.follow<false>(hint.segment), curve.run_levels());
   const float radius_m = nearest.radius_m();
+  traversal.work = 0;
   if (!(radius_m <= kPlain * curve.head().diagonal_m)) return false;
   // The certified distance outside the safe subtree, rounded down as in query::carry().
   const float motion_m = math::length(p_m - hint.position_m) * (1.0f + 8.0f * kUnit);
@@ -84,15 +102,16 @@ bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
   Steps steps(budget);
   const uint32_t safe_subtree = radius_m <= left_m ? hint.safe_subtree : kNoNode;
   const Ascent ascent = nearest.begin<true>(run, safe_subtree, steps.left);
-  traversal.steps = steps.allowed - steps.left;
+  traversal.work = steps.allowed - steps.left;
+  traversal.steps = traversal.work - nearest.charged();
   traversal.complete = ascent == Ascent::kSafeSubtree;
   hint.safe_subtree_m = left_m;
   if (ascent == Ascent::kSafeSubtree) return true;
   hint.safe_subtree = kNoNode;
   traversal.pending_m = 0.0f;
-  if (ascent == Ascent::kSpent) return true;
   const RunBound bound(curve.head(), p_m);
   if (bound.is_far) return false;
+  if (ascent == Ascent::kSpent) return true;
   traversal = search_runs(curve, bound.near, steps, run, nearest);
   if (traversal.complete && traversal.pending_m > nearest.radius_m() && motion_m <= kBeyond_m)
     nearest.make_safe_subtree(run, motion_m, spacing_m(curve), traversal.pending_m, hint);
@@ -105,7 +124,7 @@ Closest answer_beyond(const View& curve, Vec3 p_m, Hint& hint) {
   const float scaled = math::length((p_m - closest.point_m) * 0x1p-70f);
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
-  closest.certificate = {closest.distance_m * (1.0f - 6.0f * kUnit), 1, fits, 0};
+  closest.certificate = {closest.distance_m * (1.0f - 6.0f * kUnit), 1, fits, 0, 1};
   hint = {{p_m, closest.certificate.lower_m, 0}, 0, query::kNowhere, 0};
   return closest;
 }
@@ -120,23 +139,30 @@ Closest answer_nothing(const View& curve, Hint& hint) {
 
 // A function of its own: a query needs the frame of one of them only.
 [[gnu::noinline]] Closest answer_anywhere(const View& curve, Vec3 p_m, query::Budget budget,
-                                          Hint& hint) {
+                                          const Before& before, Hint& hint) {
   if (!math::is_finite(p_m)) return answer_nothing(curve, hint);
   if (!is_near(p_m)) return answer_beyond(curve, p_m, hint);
-  return curve.is_smooth() ? min_cost(curve, p_m, kNoPenalty, budget, hint).closest
-                           : answer_straight(curve, p_m, budget, hint);
+  const query::Budget rest{budget.work > before.work ? budget.work - before.work : 1,
+                           budget.band_m};
+  Closest closest = curve.is_smooth() ? min_cost(curve, p_m, kNoPenalty, rest, hint).closest
+                                      : answer_straight(curve, p_m, rest, before, hint);
+  if (before.work < budget.work) closest.certificate.work += before.work;
+  return closest;
 }
 
 }  // namespace
 
 Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint) {
+  Before before;
   if (!curve.is_smooth() && hint.segment < curve.segment_count()) {
     NearestFoot nearest(curve, p_m, false);
     Traversal traversal;
-    if (search_near(curve, p_m, budget, hint, nearest, traversal))
-      return finish(curve, nearest.best(), traversal, false, p_m, hint);
+    const bool is_answered = search_near(curve, p_m, budget, hint, nearest, traversal);
+    if (is_answered && !traversal.complete) carry_bound(hint, p_m, traversal);
+    if (is_answered) return finish(curve, nearest.best(), traversal, false, p_m, hint);
+    before = {traversal.work, segment_of(nearest.best())};
   }
-  return answer_anywhere(curve, p_m, budget, hint);
+  return answer_anywhere(curve, p_m, budget, before, hint);
 }
 
 void Prober::answer(const View& curve, Vec3 p_m, core::Hash& hash) {

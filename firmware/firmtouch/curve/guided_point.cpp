@@ -19,25 +19,30 @@ uint32_t beyond(const View& curve, const Foot& foot) {
 }
 
 // Along the curve from the point found, while the distance falls.
-void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, Closest& closest, Hint& hint) {
+void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, uint32_t most_work,
+           Closest& closest, Hint& hint) {
   if (!is_near(p_m)) return;
   const bool compensated = is_compensated(curve.head(), p_m);
-  Foot best = any_foot(curve, p_m, closest.segment, compensated);
+  PieceWork work{most_work, 0};
+  bool goes_on;
+  Foot best = any_foot(curve, p_m, closest.segment, compensated, work, goes_on);
+  const bool has_begun = goes_on;
   const uint32_t most = curve.is_smooth() ? kMaxSmoothSlides : kMaxSlides;
-  for (uint32_t i = 0; i < most; ++i) {
+  for (uint32_t i = 0; i < most && goes_on; ++i) {
     const uint32_t segment = beyond(curve, best);
-    if (segment == segment_of(best)) break;
-    const Foot foot = any_foot(curve, p_m, segment, compensated);
+    if (segment == segment_of(best) || work.left == 0) break;
+    const Foot foot = any_foot(curve, p_m, segment, compensated, work, goes_on);
     if (!(foot.distance2_m2 < best.distance2_m2)) break;
     best = foot;
   }
   query::Certificate certificate = closest.certificate;
+  certificate.work += work.charged;
   // The cost of no point is less: at most this much of it is penalty.
   const float previous = penalty.previous_arc;
   const float max_change = curve.is_closed() ? 0.5f : previous > 0.5f ? previous : 1.0f - previous;
   const float lower_m = certificate.lower_m - penalty.weight_m * max_change * (1.0f + 0x1p-20f);
   certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
-  closest = any_answer(curve, best);
+  if (has_begun) closest = any_answer(curve, best);
   closest.certificate = certificate;
   hint.segment = closest.segment;
 }
@@ -65,18 +70,27 @@ Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget bud
                 Following& following) {
   Followed followed;
   const ArcPenalty penalty{hold.weight_m, following.arc, following.is_following};
-  const query::Budget first{budget.work > 1 ? budget.work - 1 : 1, budget.band_m};
+  // A quarter is for the way along the curve.
+  const uint32_t search = is_penalty(penalty) ? budget.work - budget.work / 4 : budget.work;
+  const query::Budget first{search > 1 ? search - 1 : 1, budget.band_m};
   followed.constraint = guided_point(curve, p_m, penalty, first, following.hint);
   followed.closest = followed.constraint.closest;
-  if (is_penalty(penalty)) slide(curve, p_m, penalty, followed.closest, following.hint);
+  if (is_penalty(penalty)) {
+    // One unit is for the search where it lets go.
+    const uint32_t used = followed.closest.certificate.work + 1;
+    slide(curve, p_m, penalty, budget.work > used ? budget.work - used : 0, followed.closest,
+          following.hint);
+  }
   followed.is_held = followed.closest.distance_m <= hold.release_m;
   followed.is_new = !following.is_following;
   if (!followed.is_held && following.is_following) {
-    const uint32_t steps = followed.closest.certificate.steps;
-    const query::Budget rest{budget.work > steps ? budget.work - steps : 1, budget.band_m};
+    const query::Certificate before = followed.closest.certificate;
+    const query::Budget rest{budget.work > before.work ? budget.work - before.work : 1,
+                             budget.band_m};
     followed.constraint = guided_point(curve, p_m, {}, rest, following.hint);
     followed.closest = followed.constraint.closest;
-    followed.closest.certificate.steps += steps;
+    followed.closest.certificate.steps += before.steps;
+    followed.closest.certificate.work += before.work;
     followed.is_held = followed.closest.distance_m <= hold.release_m;
     followed.is_new = true;
   }

@@ -10,7 +10,7 @@ namespace firmtouch::curve {
 /// the one of the least distance + penalty, with a certificate. nearest_constraint() looks at the
 /// segments of the N nearest samples only.
 /// Pre:    `curve` is open.
-/// Bounds: <= budget visits; 1.9 KB of stack, of a smooth curve 2.5 KB; re-entrant; callable from
+/// Bounds: <= budget.work units; 1.9 KB of stack, of a smooth curve 2.5 KB; re-entrant; callable from
 ///         an interrupt.
 /// Result: always finite. Equal costs: the one found first. On a closed curve the change of arc is
 ///         taken the shorter way round. Without a penalty (no previous arc, one outside 0 to 1, a
@@ -51,7 +51,8 @@ struct Followed {
 /// it is on, and the closest point of that part where it pulls to: a penalty alone would hold the
 /// guide back at every sample that it passes, and drag. If the point is farther than release_m or
 /// NaN, the guide lets go and searches again by distance alone.
-/// Bounds: <= budget steps (2 at least, in the tick that lets go), and kMaxSlides segments.
+/// Bounds: <= budget.work units (2 at least, in the tick that lets go): with a penalty three
+///         quarters for the search, and the rest for the way along the curve.
 /// Result: a change of part never raises the distance: what a spring holds is not increased by it.
 Followed follow(const View& curve, math::Vec3 p_m, const Hold& hold, query::Budget budget,
                 Following& following);

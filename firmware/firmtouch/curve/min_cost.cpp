@@ -23,6 +23,7 @@ class LeastCost {
       : curve_(curve), p_m_(p_m), penalty_(penalty), compensated_(compensated) {}
 
   const Foot& best() const { return best_; }
+  uint32_t charged() const { return work_.charged; }
   float doubt_m() const { return doubt_m_; }
   float cost_m() const { return cost_m_; }
   float reach2_m2() const {
@@ -31,11 +32,12 @@ class LeastCost {
   }
 
   /// Result: the segment of the least cost so far, having gone along the curve while that helped.
-  uint32_t approach(uint32_t segment) {
+  uint32_t approach(uint32_t segment, uint32_t& left) {
+    work_.left = left;
     for (uint32_t i = 0; i < kMaxJumps; ++i) {
       const float before_m = cost_m_;
-      const Foot foot = look_at(segment);
-      if (!(cost_m_ < before_m)) break;
+      Foot foot;
+      if (!look_at(segment, foot) || !(cost_m_ < before_m)) break;
       const bool at_first = foot.sample == segment && !(foot.t > 0.0f);
       const bool at_last = foot.sample != segment && !(foot.t > 0.0f);
       if (at_first && segment > 0)
@@ -45,13 +47,24 @@ class LeastCost {
       else
         break;
     }
+    left = work_.left;
     return segment_of(best_);
   }
 
   float others_m() const { return 0.0f; }
 
   /// Result: false where the budget ended.
-  bool take(uint32_t run, uint32_t& budget_left) {
+  bool take(uint32_t run, uint32_t& left) {
+    work_.left = left;
+    const bool is_done = take(run);
+    left = work_.left;
+    return is_done;
+  }
+
+ private:
+  static constexpr uint32_t kMaxJumps = 8;
+
+  bool take(uint32_t run) {
     struct Cut {
       uint32_t part, size, first;
     };
@@ -64,11 +77,17 @@ class LeastCost {
       const Cut cut = pending[--left];
       const uint32_t first = cut.first;
       if (first >= count) continue;
-      if (cut.size < whole && !spend(cut.size, budget_left)) return false;
+      if (work_.left == 0) return false;
+      if (cut.size < whole && cut.size >= kVisitSegments)
+        --work_.left;
+      else
+        work_.charge(1);
       const uint32_t end = first + cut.size, last = end < count ? end : count;
       if (!may_hold(first, last, radii[cut.part])) continue;
       if (cut.size == kPartSegments) {
-        for (uint32_t segment = first; segment < last; ++segment) (void)look_at(segment);
+        Foot foot;
+        for (uint32_t segment = first; segment < last; ++segment)
+          if (!look_at(segment, foot)) return false;
         continue;
       }
       const uint32_t child = first_child(cut.part), half = cut.size / 2;
@@ -80,9 +99,6 @@ class LeastCost {
     }
     return true;
   }
-
- private:
-  static constexpr uint32_t kMaxJumps = 8;
 
   /// Beyond this distance the segments from `first` to `last` cost more than the best.
   float reach_m(uint32_t first, uint32_t last) const {
@@ -100,23 +116,28 @@ class LeastCost {
     return distance2_m2 < limit_m * limit_m;
   }
 
-  Foot look_at(uint32_t segment) {
-    const Foot foot = foot_on(segment);
+  /// Result: false where the budget ended: what was found counts, and the segment is not done with.
+  bool look_at(uint32_t segment, Foot& foot) {
+    bool is_done = true;
+    foot = foot_on(segment, is_done);
     const float cost_m = math::square_root(foot.distance2_m2) +
                          penalty_at_m(penalty_, arc_of(curve_, foot), curve_.is_closed());
     if (cost_m < cost_m_) {
       best_ = foot;
       cost_m_ = cost_m;
     }
-    return foot;
+    return is_done;
   }
 
-  Foot foot_on(uint32_t segment) {
+  Foot foot_on(uint32_t segment, bool& is_done) {
     if (curve_.is_smooth()) {
-      const PieceFoot found = foot_on_piece(curve_, p_m_, segment, reach_m(segment, segment + 1));
+      const PieceFoot found =
+          foot_on_piece(curve_, p_m_, segment, reach_m(segment, segment + 1), work_);
       if (found.doubt_m > doubt_m_) doubt_m_ = found.doubt_m;
+      is_done = found.is_done;
       return found.foot;
     }
+    work_.charge(segment_work(compensated_));
     return foot_on_segment(curve_, p_m_, segment, compensated_);
   }
 
@@ -124,6 +145,7 @@ class LeastCost {
   math::Vec3 p_m_;
   const ArcPenalty penalty_;
   bool compensated_;
+  PieceWork work_{0, 0};
   float doubt_m_ = 0;
   float cost_m_ = 0x1p62f;  // more than any cost
   Foot best_{FLT_MAX, 0, 1, 0.0f};
@@ -151,10 +173,13 @@ Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty
   LeastCost least(curve, p_m, penalty, compensated);
   const uint32_t from =
       hint.segment < curve.segment_count() ? hint.segment : segment_at(curve, penalty.previous_arc);
-  const uint32_t start = run_of(least.approach(from), curve.run_levels());
   Steps steps(budget);
-  Traversal traversal{steps.allowed, false, 0.0f};
-  if (least.take(start, steps.left)) traversal = traverse_runs(curve, bound, steps, start, least);
+  const uint32_t start = run_of(least.approach(from, steps.left), curve.run_levels());
+  Traversal traversal{steps.allowed, 0, false, 0.0f};
+  if (least.take(start, steps.left))
+    traversal = traverse_runs(curve, bound, steps, start, least);
+  else
+    traversal.steps = steps.allowed - least.charged();
 
   Constraint found;
   found.closest = any_answer(curve, least.best());
@@ -172,6 +197,7 @@ Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty
   if (!traversal.complete && traversal.pending_m < lower_m) lower_m = traversal.pending_m;
   found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   found.closest.certificate.steps = traversal.steps;
+  found.closest.certificate.work = traversal.work;
   found.closest.certificate.exact =
       traversal.complete && least.doubt_m() <= 2.0f * piece_slack_m(head, distance_m);
   hint.segment = found.closest.segment;

@@ -12,6 +12,9 @@ namespace {
 
 using math::Vec3;
 
+// Units of a node of the k-d tree with its sample.
+constexpr uint32_t kVisitWork = 2;
+
 /// The N nearest samples: a heap with the farthest on top, by (distance, sample).
 class NearestSamples {
  public:
@@ -32,6 +35,13 @@ class NearestSamples {
       sink(0, size_, found);
     }
     if (is_full()) radius_m_ = math::square_root(items_[0].distance2_m2) * (1.0f + 0x1p-20f);
+  }
+
+  float nearest_m() const {
+    float min2_m2 = FLT_MAX;
+    for (uint32_t i = 0; i < size_; ++i)
+      min2_m2 = items_[i].distance2_m2 < min2_m2 ? items_[i].distance2_m2 : min2_m2;
+    return math::square_root(min2_m2);
   }
 
   /// In the order of the curve, by the same heap: no recursion, no memory.
@@ -81,13 +91,20 @@ float penalty_m(const View& curve, const Foot& foot, const ArcPenalty& penalty) 
 /// The candidates in order; of equal costs the first.
 class Choice {
  public:
-  Choice(const View& curve, Vec3 p_m, const ArcPenalty& penalty)
+  Choice(const View& curve, Vec3 p_m, const ArcPenalty& penalty, uint32_t work)
       : curve_(curve),
         p_m_(p_m),
         penalty_(penalty),
-        compensated_(is_compensated(curve.head(), p_m)) {}
+        compensated_(is_compensated(curve.head(), p_m)),
+        work_{work, 0} {}
 
   bool compensated() const { return compensated_; }
+  uint32_t charged() const { return work_.charged; }
+  /// Whether the work sufficed so far. The first candidate is looked at without any.
+  bool goes_on() {
+    is_cut = is_cut || (work_.left == 0 && candidates != 0);
+    return !is_cut;
+  }
 
   void look_at(uint32_t segment) {
     const Foot foot = foot_on(segment);
@@ -99,9 +116,13 @@ class Choice {
   }
 
   Foot foot_on(uint32_t segment) {
-    if (!curve_.is_smooth()) return foot_on_segment(curve_, p_m_, segment, compensated_);
-    const PieceFoot found = foot_on_piece(curve_, p_m_, segment);
+    if (!curve_.is_smooth()) {
+      work_.charge(segment_work(compensated_));
+      return foot_on_segment(curve_, p_m_, segment, compensated_);
+    }
+    const PieceFoot found = foot_on_piece(curve_, p_m_, segment, kAnyReach_m, work_);
     doubt_m_ = found.doubt_m;
+    is_cut = is_cut || !found.is_done;
     return found.foot;
   }
 
@@ -110,12 +131,14 @@ class Choice {
   float min2_m2 = FLT_MAX;    // of all candidates, whatever their penalty
   float min_low_m = FLT_MAX;  // the same, less the doubt of feet on cubic pieces
   uint32_t candidates = 0;
+  bool is_cut = false;  // candidates were left out
 
  private:
   const View& curve_;
   Vec3 p_m_;
   const ArcPenalty& penalty_;
   bool compensated_;
+  PieceWork work_;
   float doubt_m_ = 0;
 };
 
@@ -129,14 +152,17 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
     return {far, far.distance_m, 0};
   }
   NearestSamples nearest(memory);
-  TreeSearch<NearestSamples> search(curve, p_m, budget.work, nearest);
+  TreeSearch<NearestSamples> search(curve, p_m, budget.work / kVisitWork, nearest);
   const bool complete = search.run();
+  const uint32_t searched = kVisitWork * search.steps();
+  const uint32_t left = budget.work > searched ? budget.work - searched : 0;
   const float farthest_m = nearest.is_full() ? math::square_root(nearest[0].distance2_m2) : FLT_MAX;
+  const float nearest_m = nearest.nearest_m();
   nearest.sort_by_sample();
 
-  Choice choice(curve, p_m, penalty);
+  Choice choice(curve, p_m, penalty, left);
   uint32_t next = 0;  // the first segment that was not looked at
-  for (uint32_t i = 0; i < nearest.size(); ++i) {
+  for (uint32_t i = 0; i < nearest.size() && choice.goes_on(); ++i) {
     const uint32_t sample = nearest[i].sample;
     if (sample > 0 && sample - 1 >= next) choice.look_at(sample - 1);
     if (sample < curve.segment_count()) choice.look_at(sample);
@@ -157,10 +183,16 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
   const bool by_budget = !complete && pending_m < farthest_m;
   const float unseen_m = (by_budget ? pending_m : farthest_m) * (1.0f - 0x1p-20f) - reach_m;
   if (nearest.size() < curve.samples().size() && unseen_m < lower_m) lower_m = unseen_m;
+  // Nor is any point farther than a reach from the sample that it is nearest to.
+  const float left_out_m = nearest_m * (1.0f - 0x1p-20f) - reach_m;
+  if (choice.is_cut && left_out_m < lower_m) lower_m = left_out_m;
   found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   found.closest.certificate.steps = search.steps();
+  const uint32_t used = searched + choice.charged();
+  found.closest.certificate.work = used < budget.work ? used : budget.work;
   found.closest.certificate.exact =
-      complete && min_m - choice.min_low_m <= 2.0f * piece_slack_m(curve.head(), min_m) &&
+      complete && !choice.is_cut &&
+      min_m - choice.min_low_m <= 2.0f * piece_slack_m(curve.head(), min_m) &&
       !(choice.best.distance2_m2 > choice.min2_m2) &&
       (nearest.size() == curve.samples().size() || unseen_m >= min_m);
   found.cost_m = choice.best_cost_m;

@@ -55,9 +55,15 @@ class NearestFoot {
     return segment_of(best_);
   }
 
+  void look_at_one(uint32_t segment) {
+    (void)(compensated_ ? look<true>(segment) : look<false>(segment));
+  }
+
   /// More than the distance of the best point so far.
   float radius_m() const { return radius_m_; }
   float others_m() const { return others_m_; }
+  /// Units taken beyond visits.
+  uint32_t charged() const { return charged_; }
 
   /// The run of the best point so far: its part of the last level, then the sibling on each level
   /// up to the top, or up to the safe subtree and its neighbours.
@@ -129,7 +135,7 @@ class NearestFoot {
     const uint16_t* const radii = radii_ + (run << (levels_ + 1));
     const float before_m = others_m_;
     others_m_ = 0.0f;
-    if (may_hold(radii, whole, size, best_.sample > whole.first))
+    if (may_hold(radii, whole, size, best_.sample > whole.first, is_second_))
       return take_part(radii, whole, size, left);
     others_m_ = smaller(before_m, part_distance_m(radii, whole.first, size, size));
     return true;
@@ -139,6 +145,8 @@ class NearestFoot {
   static constexpr uint32_t kMaxJumps = 4;
   static constexpr float kSafeSubtreeMotions = 8.0f;
   static constexpr uint32_t kAbout = 8;  // segments on either side
+  // Units of the four segments of a part.
+  static constexpr uint32_t kSegmentsWork = 2, kCompensatedWork = 10;
 
   uint32_t clamped(int32_t segment) const {
     const int32_t last = static_cast<int32_t>(segment_count_) - 1;
@@ -168,7 +176,10 @@ class NearestFoot {
   [[gnu::always_inline]] inline bool take_beside(const uint16_t* radii, uint32_t part,
                                                  uint32_t first, uint32_t size, bool is_after,
                                                  uint32_t& left) {
-    if (!spend(size, left)) return false;
+    if (size >= kVisitSegments) {
+      if (left == 0) return false;
+      --left;
+    }
     // From its end on this side.
     uint32_t near = first, far = first - size;
     if (is_after) {
@@ -206,44 +217,72 @@ class NearestFoot {
   }
   static float smaller(float a, float b) { return a < b ? a : b; }
 
+  /// A small part is a unit; units are charged at the end, and leave visits less.
+  /// Result: false where a part is a visit and none is left.
+  [[gnu::always_inline]] static inline bool spend(uint32_t size, uint32_t& units, uint32_t& left) {
+    if (left <= units) return false;
+    if (size < kVisitSegments)
+      ++units;
+    else
+      --left;
+    return true;
+  }
+
   /// A part that may hold a nearer point, by halves, the one first on whose side the foot lies.
   /// Result: false where the budget ended.
   bool take_part(const uint16_t* radii, Cut cut, uint32_t size, uint32_t& left) {
-    Cut pending[kMaxRunLevels + 1];
-    uint32_t count = 0;
-    uint32_t level_size[kMaxRunLevels + 1];
+    uint32_t units = 0, visits_left = left;
+    const bool is_done = take_halves(radii, cut, size, units, visits_left);
+    charge(units, visits_left, charged_);
+    left = visits_left;
+    return is_done;
+  }
+  [[gnu::always_inline]] inline bool take_halves(const uint16_t* radii, Cut cut, uint32_t size,
+                                                 uint32_t& units, uint32_t& left) {
+    struct Half {
+      Cut cut;
+      uint32_t size;
+    };
+    bool is_second = is_second_;
+    Half pending[kMaxRunLevels + 1];
+    Half* top = pending;
     for (;;) {
       if (size == kPartSegments) {
         take_segments(cut.first, kNoRun);
+        units += compensated_ ? kCompensatedWork : kSegmentsWork;
       } else {
         size /= 2;
-        const Cut low{first_child(cut.part), cut.first};
-        const Cut high{low.part + 1, low.first + size};
-        const bool second = is_second_;
-        pending[count] = second ? low : high;
-        level_size[count++] = size;
-        cut = second ? high : low;
-        if (!spend(size, left)) return false;
-        if (may_hold(radii, cut, size, !second)) continue;
+        const uint32_t second = is_second ? 1 : 0, low = first_child(cut.part);
+        const uint32_t on = size & (0u - second);
+        top->cut.part = low + 1 - second;  // one by one: an aggregate is built on the stack first
+        top->cut.first = cut.first + size - on;
+        top->size = size;
+        ++top;
+        cut.part = low + second;
+        cut.first += on;
+        if (!spend(size, units, left)) return false;
+        if (may_hold(radii, cut, size, second == 0, is_second)) continue;
       }
       do {
-        if (count == 0) return true;
-        cut = pending[--count];
-        size = level_size[count];
-        if (!spend(size, left)) return false;
-      } while (!may_hold(radii, cut, size, (cut.part & 1u) != 0));
+        if (top == pending) return true;
+        --top;
+        cut.part = top->cut.part;
+        cut.first = top->cut.first;
+        size = top->size;
+        if (!spend(size, units, left)) return false;
+      } while (!may_hold(radii, cut, size, (cut.part & 1u) != 0, is_second));
     }
   }
 
   /// Whether a part of a run may hold a point nearer than the best. Computed from the end beyond
   /// which the query is expected: most parts are pruned without a division.
-  bool may_hold(const uint16_t* radii, Cut cut, uint32_t size, bool from_last) {
+  bool may_hold(const uint16_t* radii, Cut cut, uint32_t size, bool from_last, bool& is_second) {
     if (cut.first >= segment_count_) return false;
     const uint32_t end = cut.first + size, last = end < segment_count_ ? end : segment_count_;
     const float limit_m = radius_m_ + radius_m_of(radii[cut.part]);
     const Off off = from_last ? off_chord(samples_[last], samples_[cut.first])
                               : off_chord(samples_[cut.first], samples_[last]);
-    is_second_ = (off.t > 0.5f) != from_last;
+    is_second = (off.t > 0.5f) != from_last;
     return off.distance2_m2 < limit_m * limit_m;
   }
 
@@ -347,6 +386,7 @@ class NearestFoot {
   bool compensated_;
   float radius_m_ = 0x1p62f;  // more than any distance that comes here
   float others_m_ = 0x1p62f;
+  uint32_t charged_ = 0;
   bool is_second_ = false;
   Foot best_{FLT_MAX, 0, 1, 0.0f};
 };

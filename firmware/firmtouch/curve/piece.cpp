@@ -12,6 +12,7 @@ using math::Vec3;
 constexpr uint32_t kNewtonSteps = 5;
 constexpr float kSmallest = 0x1p-12f;  // a cut is not halved below this share of the piece
 constexpr uint32_t kMaxPending = 13;   // one for each halving, and the whole
+constexpr uint32_t kPieceWork = 6, kCutWork = 10;  // units of a piece, and of each of its cuts
 
 float greatest(float a, float b) { return a < b ? b : a; }
 float size_of(float a) { return a < 0.0f ? -a : a; }
@@ -121,9 +122,11 @@ float convex_bound_m(const End& end, float chord_m, float bend_m2) {
 
 }  // namespace
 
-PieceFoot foot_on_piece(const View& curve, Vec3 p_m, uint32_t segment, float reach_m) {
+PieceFoot foot_on_piece(const View& curve, Vec3 p_m, uint32_t segment, float reach_m,
+                        PieceWork& work) {
   const Vec3 v = p_m - curve.sample(segment);
-  PieceFoot found{{dot(v, v), segment, segment + 1, 0.0f}, 0.0f};
+  PieceFoot found{{dot(v, v), segment, segment + 1, 0.0f}, 0.0f, true};
+  work.charge(kPieceWork);
   const Cubic c = cubic_of(track_of(curve), segment);
   // Within three quarters of its inner points' distance the piece keeps to its chord.
   const float off2_m2 = greatest(line_distance2(c.c1, c.c3), line_distance2(c.c2, c.c3));
@@ -139,6 +142,11 @@ PieceFoot foot_on_piece(const View& curve, Vec3 p_m, uint32_t segment, float rea
   pending[0] = {0.0f, 1.0f};
   uint32_t left = kMaxCuts;
   for (uint32_t count = 1; count > 0;) {
+    if (work.left == 0) {
+      found.is_done = false;
+      break;
+    }
+    work.charge(kCutWork);
     const float t0 = pending[--count].t0, size = pending[count].size;
     const Bounds bounds = bounds_of(c, v, chord_m, t0, size, best);
     float lower_m = math::square_root(greatest(bounds.min_m2, 0.0f));

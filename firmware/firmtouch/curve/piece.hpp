@@ -2,6 +2,7 @@
 // Closest point of one cubic piece, for .cpp files of this module only.
 
 #include "firmtouch/curve/closest_point.hpp"
+#include "firmtouch/curve/run_search.hpp"
 #include "firmtouch/curve/segment.hpp"
 
 namespace firmtouch::curve {
@@ -9,7 +10,17 @@ namespace firmtouch::curve {
 struct PieceFoot {
   Foot foot;      // t: of the piece's parameter, from the nearer end
   float doubt_m;  // no point of the piece is nearer than the foot by more than this
+  bool is_done;   // the work sufficed
 };
+
+/// What is left of a query's budget, and what was taken beyond visits.
+struct PieceWork {
+  uint32_t left, charged;
+  void charge(uint32_t units) { curve::charge(units, left, charged); }
+};
+
+/// More than any distance that comes here.
+constexpr float kAnyReach_m = 0x1p62f;
 
 /// Halvings of a piece in a query.
 constexpr uint32_t kMaxCuts = 16;
@@ -18,11 +29,11 @@ constexpr uint32_t kMaxCuts = 16;
 /// piece_slack_m(). A cut is closed where no Bernstein coefficient of the squared distance is less
 /// than the best, as about the centre of an arc, or where the squared distance is convex: there
 /// Newton's method ends at its least value.
-/// Bounds: 2 kMaxCuts + 1 cuts; 0.7 KB of stack.
+/// Bounds: 2 kMaxCuts + 1 cuts, each begun while work is left; 0.7 KB of stack.
 /// Result: doubt_m <= piece_slack_m() unless halvings ran out. No point that is nearer than
-///         `reach_m`: an end, perhaps.
-PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment,
-                        float reach_m = 0x1p62f);
+///         `reach_m`: an end, perhaps. Where the work ran out, the nearest point seen.
+PieceFoot foot_on_piece(const View& curve, math::Vec3 p_m, uint32_t segment, float reach_m,
+                        PieceWork& work);
 
 /// All but the certificate, for a foot on a piece.
 Closest answer_on_piece(const View& curve, const Foot& foot);
@@ -47,9 +58,20 @@ static inline float piece_slack_m(const Head& head, float distance_m) {
   return near_m > far_m ? near_m : far_m;
 }
 
-static inline Foot any_foot(const View& curve, math::Vec3 p_m, uint32_t segment, bool compensated) {
-  if (curve.is_smooth()) return foot_on_piece(curve, p_m, segment).foot;
-  return foot_on_segment(curve, p_m, segment, compensated);
+/// Units of a straight segment's foot.
+static inline uint32_t segment_work(bool compensated) { return compensated ? 4 : 1; }
+
+/// The nearest point of a piece or segment. `is_done`: the work sufficed.
+static inline Foot any_foot(const View& curve, math::Vec3 p_m, uint32_t segment, bool compensated,
+                            PieceWork& work, bool& is_done) {
+  is_done = true;
+  if (!curve.is_smooth()) {
+    work.charge(segment_work(compensated));
+    return foot_on_segment(curve, p_m, segment, compensated);
+  }
+  const PieceFoot found = foot_on_piece(curve, p_m, segment, kAnyReach_m, work);
+  is_done = found.is_done;
+  return found.foot;
 }
 
 }  // namespace firmtouch::curve

@@ -15,7 +15,7 @@ constexpr uint32_t kNoNode = UINT32_MAX;
 /// Within a run a part of this many segments or more is a node of its own: a visit.
 constexpr uint32_t kVisitSegments = 64;
 
-/// A budget: how many visits it has and how many are left. The root, or the run where a warm
+/// A budget: how many units it has and how many are left. The root, or the run where a warm
 /// traversal starts, is one.
 struct Steps {
   explicit Steps(query::Budget budget)
@@ -23,17 +23,17 @@ struct Steps {
   uint32_t allowed, left;
 };
 
-/// Result: false where a part of a run is a visit and none is left.
-static inline bool spend(uint32_t segments, uint32_t& left) {
-  if (segments < kVisitSegments) return true;
-  if (left == 0) return false;
-  --left;
-  return true;
+/// Takes units beyond the visits, at most what is left.
+static inline void charge(uint32_t units, uint32_t& left, uint32_t& charged) {
+  const uint32_t taken = units < left ? units : left;
+  left -= taken;
+  charged += taken;
 }
 
 /// Result of a traversal.
 struct Traversal {
-  uint32_t steps;
+  uint32_t work;    // units used
+  uint32_t steps;   // of them visits
   bool complete;    // nothing is left that the visitor would accept
   float pending_m;  // where it is not: certified distance to everything that was not visited;
                     // where it is: to all runs but the first, if that is beyond the visitor's reach
@@ -94,19 +94,20 @@ class RunSearch {
     }
   }
 
-  /// Visits left; parts of runs take some.
+  /// Units left; runs take some.
   uint32_t left() const { return left_; }
   void set_left(uint32_t left) { left_ = left; }
 
   /// Pre: `others_m` bounds the distance to all runs that were yielded.
-  Traversal result(uint32_t allowed, float others_m) const {
+  Traversal result(uint32_t allowed, uint32_t charged, float others_m) const {
+    const uint32_t work = allowed - left_, steps = work - charged - charged_;
     if (complete_) {
       const float boxes_m = bound_.distance_m(least_);
-      return {allowed - left_, true, boxes_m < others_m ? boxes_m : others_m};
+      return {work, steps, true, boxes_m < others_m ? boxes_m : others_m};
     }
     uint32_t least = now_.key;
     for (uint32_t i = 0; i < count_; ++i) least = pending_[i].key < least ? pending_[i].key : least;
-    return {allowed, false, bound_.distance_m(least)};
+    return {work, steps, false, bound_.distance_m(least)};
   }
 
  private:
@@ -115,6 +116,7 @@ class RunSearch {
   static constexpr uint32_t kMaxTreeLevels = kMaxLevels - kMinRunLevels - 1;
   static constexpr uint32_t kBestFirst = 64;  // within a tick's budget it never overflows
   static constexpr uint32_t kMaxPending = kBestFirst + kMaxTreeLevels + 1;
+  static constexpr uint32_t kScannedInUnit = 16;
   struct Pending {
     uint32_t key;
     uint32_t box;
@@ -150,6 +152,7 @@ class RunSearch {
     }
     complete_ = true;
     if (count_ == 0) return false;
+    charge(count_ / kScannedInUnit, left_, charged_);
     uint32_t at = count_ - 1;
     for (uint32_t i = at; i-- > 0;) at = pending_[i].key < pending_[at].key ? i : at;
     now_ = pending_[at];
@@ -162,7 +165,7 @@ class RunSearch {
   const Run* runs_;
   uint32_t leaves_;  // the first leaf's box
   const Bound bound_;
-  uint32_t left_;
+  uint32_t left_, charged_ = 0;
   float reach2_m2_ = 0;
   uint32_t prune_ = 0;
   uint32_t best_first_ = kBestFirst;
@@ -176,6 +179,7 @@ class RunSearch {
 /// Offers every run that may matter to a visitor, which has
 ///     float reach2_m2() const;       squared: what lies farther has nothing for it; never grows
 ///     bool take(uint32_t run, uint32_t& left);      false: no visit was left
+///     uint32_t charged() const;                     units that take() took beyond visits
 ///     float others_m() const;                       certified distance to all runs so taken
 template <class Bound, class Visitor>
 static inline Traversal traverse_runs(const View& curve, const Bound& bound, Steps steps,
@@ -190,7 +194,7 @@ static inline Traversal traverse_runs(const View& curve, const Bound& bound, Ste
     search.set_left(left);
     if (!is_done) break;
   }
-  return search.result(steps.allowed, visitor.others_m());
+  return search.result(steps.allowed, visitor.charged(), visitor.others_m());
 }
 
 }  // namespace firmtouch::curve

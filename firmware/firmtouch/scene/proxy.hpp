@@ -18,7 +18,7 @@ struct ProxySettings {
   float friction_static = 0;
   float friction_dynamic = 0;
   float growth_m = 0;    // a tick, of the radius of a tool that began too near to a surface
-  query::Budget budget;  // visits of all queries of a tick together
+  query::Budget budget;  // work of all queries of a tick together
 };
 
 /// State of a (tool, object) pair from tick to tick. The caller owns one a pair. A default one

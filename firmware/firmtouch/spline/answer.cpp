@@ -54,9 +54,9 @@ Closest answer_at(const View& model, const Best& best, uint32_t piece_index, Vec
           certificate};
 }
 
-query::Certificate certify(const Head& head, Vec3 p_m, const Best& best, bool is_complete,
-                           float pending_m, uint32_t steps, const query::Carried& carried,
-                           CurveHint& hint) {
+query::Certificate certify(const Head& head, Vec3 p_m, const Best& best, const Account& search,
+                           float pending_m, const query::Carried& carried, CurveHint& hint) {
+  const bool is_complete = search.is_complete();
   float lower_m = best.limit_m < best.distance_m ? best.limit_m : best.distance_m;
   if (!is_complete && pending_m < lower_m) lower_m = pending_m;
   lower_m -= lost_m(head, best.distance_m);
@@ -65,7 +65,7 @@ query::Certificate certify(const Head& head, Vec3 p_m, const Best& best, bool is
   hint.position_m = p_m;
   hint.lower_m = lower_m;
   hint.sign = 0;
-  return {lower_m, steps, is_complete, 0};
+  return {lower_m, search.steps(), is_complete, 0, search.work()};
 }
 
 Closest answer_beyond(const View& model, Vec3 p_m, CurveHint& hint) {
@@ -83,7 +83,7 @@ Closest answer_beyond(const View& model, Vec3 p_m, CurveHint& hint) {
   const float scaled = math::length((p_m - closest.point_m) * 0x1p-70f);
   const bool fits = scaled < 0x1.ffffp57f;
   closest.distance_m = fits ? scaled * 0x1p70f : FLT_MAX;
-  closest.certificate = {closest.distance_m * (1.0f - 8.0f * kUnit), 1, fits, 0};
+  closest.certificate = {closest.distance_m * (1.0f - 8.0f * kUnit), 1, fits, 0, 1};
   hint = CurveHint{};
   hint.position_m = p_m;
   hint.lower_m = closest.certificate.lower_m;

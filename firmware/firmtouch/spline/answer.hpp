@@ -27,8 +27,8 @@ Closest answer_at(const View& model, const Best& best, uint32_t piece_index, mat
 
 /// Returns the certificate, and fills the hint except for position and safe subtree. `pending_m`:
 /// bound of what the search left.
-query::Certificate certify(const Head& head, math::Vec3 p_m, const Best& best, bool is_complete,
-                           float pending_m, uint32_t steps, const query::Carried& carried,
+query::Certificate certify(const Head& head, math::Vec3 p_m, const Best& best,
+                           const Account& search, float pending_m, const query::Carried& carried,
                            CurveHint& hint);
 
 /// The answer to a point that is not near: the first point, with a bound, or for NaN without one.

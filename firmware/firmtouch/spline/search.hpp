@@ -2,6 +2,7 @@
 // What the searches of this module share, for .cpp files of this module only.
 #include <float.h>
 
+#include "firmtouch/query/work.hpp"
 #include "firmtouch/spline/hint.hpp"
 #include "firmtouch/spline/numbers.hpp"
 #include "firmtouch/spline/view.hpp"
@@ -68,14 +69,23 @@ struct Half {
   float lower_m;
 };
 
-/// What every search accounts for: its steps, and what it had no room or no time to look at.
+/// What every search accounts for: its work, and what it had no room or no time to look at. It
+/// counts in visits of nodes, `per_visit` units each.
 class Account {
  public:
   bool is_complete() const { return is_complete_ && lost_m_ >= FLT_MAX; }
-  uint32_t steps() const { return budget_ - left_; }
+  uint32_t steps() const { return work_.visits(); }
+  /// In units.
+  uint32_t work() const {
+    const uint32_t used = work_.used() * per_visit_;
+    return used < budget_ ? used : budget_;
+  }
 
  protected:
-  explicit Account(uint32_t budget) : budget_(budget == 0 ? 1 : budget), left_(budget_) {}
+  Account(uint32_t budget, uint32_t per_visit)
+      : work_(query::Budget{budget / per_visit}),
+        budget_(budget == 0 ? 1 : budget),
+        per_visit_(per_visit) {}
 
   void stop() { is_cut_ = true; }
   void lose(float lower_m) {
@@ -92,7 +102,8 @@ class Account {
     return min_m;
   }
 
-  uint32_t budget_, left_;
+  query::Work work_;
+  uint32_t budget_, per_visit_;
   float lost_m_ = FLT_MAX;  // bound of what the stack had no room for
   bool is_complete_ = false;
   bool is_cut_ = false;  // parts of the tree were not reached at all

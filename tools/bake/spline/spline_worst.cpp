@@ -13,7 +13,7 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr uint32_t kAnywhere = 1500, kBetween = 1000, kMaxCentres = 1500;
-constexpr uint32_t kMaxSteps = 20000;  // of one query: what takes more is reported as that
+constexpr uint32_t kMaxWork = 60000;  // of one query: what takes more is reported as that
 constexpr size_t kClimbers = 12;
 constexpr int kHillClimbs = 120;
 
@@ -24,7 +24,7 @@ class Finder {
   void query(const Point& p) {
     const math::Vec3 at_m = to_vec3(p);
     spline::Hint hint;
-    const spline::Closest c = spline::closest_point(model_, at_m, {kMaxSteps}, hint);
+    const spline::Closest c = spline::closest_point(model_, at_m, {kMaxWork}, hint);
     seen_.push_back({c.certificate.steps, c.evaluations, at_m});
   }
 

@@ -11,7 +11,7 @@ namespace firmtouch::spline {
 /// expansion at one of its points, with bounds of the third and fourth derivatives, proves that no
 /// point of it is nearer; else it is halved.
 /// Pre:    `model` is open and has curves.
-/// Bounds: <= budget steps, a step being a node read or a point evaluated; 2.2 kB of stack;
+/// Bounds: <= budget.work units, 1 a node read and 4 a point evaluated; 2.2 kB of stack;
 ///         re-entrant; callable from an interrupt.
 /// Result: always finite. Of two points equally near the one found first. Unlimited queries are
 ///         exact. A query that is not finite returns a point at distance FLT_MAX, lower 0, not

@@ -12,7 +12,7 @@ class CurveSearch : public Account {
   using Range = CurveRange;
 
   CurveSearch(const View& model, math::Vec3 p_m, uint32_t budget, Best& best)
-      : Account(budget), tree_(model, p_m), loss_m_(model.head().loss_m), best_(best) {}
+      : Account(budget, 1), tree_(model, p_m), loss_m_(model.head().loss_m), best_(best) {}
 
   /// The piece of a hint, and where on it: false for a hint that is none.
   bool resume(uint32_t foot, uint32_t& piece, float& s) const {
@@ -67,6 +67,7 @@ class CurveSearch : public Account {
 
  private:
   static constexpr uint32_t kMaxTurns = 5;
+  static constexpr uint32_t kEvaluationWork = 3;       // beside the visit
   static constexpr float kFootStep = 2.0f / 65535.0f;  // 65,535 of them are 2 in float32 as well
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), and two.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 3;
@@ -88,7 +89,7 @@ class CurveSearch : public Account {
   }
   bool look_at(uint32_t first, uint32_t last) {
     const uint32_t count = last - first + 1;
-    if (left_ < count) return false;
+    if (work_.left < count) return false;
     scan(tree_.node_of(first), tree_.node_of(first) + count);
     return drain();
   }
@@ -110,7 +111,7 @@ class CurveSearch : public Account {
       row = closed_;
     else if (closed_.first <= closed_.last)
       passed_.pass(raised(0.0f, closed2_m2_));
-    safe_subtree = passed_.safe_subtree_about(tree_, leaf, row, left_);
+    safe_subtree = passed_.safe_subtree_about(tree_, leaf, row, work_.left);
     return true;
   }
 
@@ -151,7 +152,7 @@ class CurveSearch : public Account {
   template <bool kIsFlat>
   void read_as(uint32_t node, uint32_t end, uint32_t below) {
     const float limit_m = best_.limit_m, reach_m = passed_.reach_m();
-    left_ -= end - node;
+    work_.left -= end - node;
     const Tree tree = tree_;  // of its own: nothing that is kept changes it
     Tree::Chords<kIsFlat> chords(tree, node, below);
     for (; node < end; ++node) {
@@ -187,7 +188,6 @@ class CurveSearch : public Account {
         if (!solve(entry, false)) return false;
       } else if (!open(entry.node)) {
         ++count_;
-        left_ = 0;
         return false;
       }
     }
@@ -203,8 +203,8 @@ class CurveSearch : public Account {
   bool open(uint32_t node) {
     const uint32_t below = tree_.levels().levels_below(node);
     uint32_t step = node == 1 ? first_step(below) : below < kStep ? below : kStep;
-    if (left_ < 1u << step) step = 1;
-    if (left_ < 2) return false;
+    if (work_.left < 1u << step) step = 1;
+    if (work_.left < 2) return false;
     scan(node << step, (node + 1) << step);
     return true;
   }
@@ -221,12 +221,12 @@ class CurveSearch : public Account {
     const math::Vec3 q_m = tree_.query_from(piece);
     float s = rest.range.start;
     for (uint32_t turn = 0; turn < kMaxTurns; ++turn) {
-      if (left_ == 0) {
+      if (!work_.visit()) {
         rest.range.start = s;
         put(rest);
         return false;
       }
-      --left_;
+      work_.charge(kEvaluationWork);
       ++best_.evaluations;
       const CurvePoint at = tree_.point_at(piece, s);
       const math::Vec3 r_m = at.x - q_m;

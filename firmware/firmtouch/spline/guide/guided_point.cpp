@@ -13,8 +13,10 @@ namespace {
 
 using math::Vec3;
 
-// Fewer visits bound no cost.
-constexpr uint32_t kMinSteps = 16;
+// Less bounds no cost.
+constexpr uint32_t kMinWork = 16;
+// Units of a point along the curve.
+constexpr uint32_t kSlideWork = 4;
 // Beyond that squares may overflow, and no guide holds.
 constexpr float kMaxPolished_m = 1e9f;
 // Steps along the curve shorter than that end a slide.
@@ -182,20 +184,22 @@ bool comes_to(const GuideView& guide, const Foot& nearest, float lower_m, float 
 }
 
 // The part of the least cost, and on it where the distance falls no further.
-void keep_near(const GuideView& guide, Vec3 p_m, const Hold& hold, uint32_t steps,
+void keep_near(const GuideView& guide, Vec3 p_m, const Hold& hold, uint32_t work,
                const Following& following, Followed& followed) {
   const View& model = guide.model();
   const Closest nearest = followed.closest;
-  const uint32_t third = steps / 3, most = third < kMaxSlides ? third : kMaxSlides;
-  const LeastCost least =
-      min_cost(guide, p_m, {hold.weight_m, following.piece, following.s}, nearest, {steps - most});
+  const uint32_t third = work / (3 * kSlideWork), most = third < kMaxSlides ? third : kMaxSlides;
+  const LeastCost least = min_cost(guide, p_m, {hold.weight_m, following.piece, following.s},
+                                   nearest, {work - most * kSlideWork});
   query::Certificate& certificate = followed.closest.certificate;
   certificate.steps += least.certificate.steps;
+  certificate.work += least.certificate.work;
   certificate.exact = certificate.exact && least.certificate.exact;
   if (!least.is_found) return;
   uint32_t slid = 0;
   const Foot foot = polished(model, p_m, slide(guide, p_m, least.piece, least.s, most, slid));
   certificate.steps += slid;
+  certificate.work += kSlideWork * (slid < most ? slid : most);
   const query::Certificate all = certificate;
   const Closest kept = as_closest(model, foot, nearest);
   followed.is_new = !(kept.distance_m <= hold.release_m);
@@ -211,7 +215,7 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
   if (!(following.piece < model.pieces().size())) following.is_following = false;
   following.s = clamped(following.s);
   const bool was_following = following.is_following;
-  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.work >= kMinSteps;
+  const bool is_penalty = was_following && hold.weight_m > 0.0f && budget.work >= kMinWork;
   Followed followed;
   followed.is_new = !was_following;
   const query::Budget first{is_penalty ? budget.work - budget.work / 2 : budget.work,
@@ -226,7 +230,7 @@ Followed follow(const GuideView& guide, Vec3 p_m, const Hold& hold, query::Budge
     const bool is_kept =
         is_penalty && !(certificate.exact &&
                         comes_to(guide, foot, certificate.lower_m, hold.weight_m, following, arcs));
-    if (is_kept) keep_near(guide, p_m, hold, budget.work - certificate.steps, following, followed);
+    if (is_kept) keep_near(guide, p_m, hold, budget.work - certificate.work, following, followed);
   }
   const Closest& closest = followed.closest;
   followed.is_held = closest.distance_m <= hold.release_m;

@@ -40,7 +40,7 @@ struct Followed {
 /// wrong part. Where the point is farther than release_m, or NaN, the guide lets go and
 /// takes the closest.
 /// Pre:    `guide` is open.
-/// Bounds: <= budget steps (16 for a penalty), at most half of them for the closest point where
+/// Bounds: <= budget.work units (16 for a penalty), at most half of them for the closest point where
 ///         there is one, kMaxSlides for the way along; and 14 points evaluated for lengths and for
 ///         the last digits of the place; stack and reentrancy as closest_point().
 /// Result: always finite. lower_m bounds the distance of the whole curve; `exact` says that it

@@ -81,6 +81,7 @@ LeastCost min_cost(const GuideView& guide, Vec3 p_m, const ArcPenalty& penalised
   if (!(lower_m > nearest.certificate.lower_m)) lower_m = nearest.certificate.lower_m;
   found.certificate.lower_m = lower_m;
   found.certificate.steps = search.steps() + 1;
+  found.certificate.work = search.work() + 1;
   return found;
 }
 

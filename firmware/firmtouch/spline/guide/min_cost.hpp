@@ -29,8 +29,8 @@ struct LeastCost {
 /// closest_point() there, of which the place and the bound are used.
 /// Pre:    `guide` is open; penalty.piece is one of its pieces, -1 <= penalty.s <= 1, weight_m > 0;
 ///         nearest.distance_m <= 1e9.
-/// Bounds: <= budget steps (2 at least): nodes read, points evaluated; and 5 points evaluated. 3 KB
-///         of stack; re-entrant; callable from an interrupt.
+/// Bounds: <= budget.work units (2 at least), 2 a node read and 8 a point evaluated; and 5 points
+///         evaluated. 3 KB of stack; re-entrant; callable from an interrupt.
 /// Result: always finite. Equal costs: where the guide was, the closest point, the one found first.
 ///         `exact` says that cost and bound are within 4e-7 (rational: 1e-6) of the extent, 1e-6 of
 ///         the weight and 2e-6 of the cost of the truth, by the lengths that are returned.

@@ -159,27 +159,26 @@ bool GuideNodes::is_side_done(const Expansion& f, float distance_m, float side, 
 }
 
 // The lengths of the part that a range lies in: false where there are no steps left for them.
-bool GuideNodes::take_interval(uint32_t on, const Range& range, uint32_t& left, Best& best) {
+bool GuideNodes::take_interval(uint32_t on, const Range& range, query::Work& work, Best& best) {
   float t;
   const uint32_t interval = interval_at(guide_, 0.5f * (range.low + range.high), t);
   if (arcs_.is_of(on, interval)) return true;
-  const bool is_enough = left >= 2;
-  left = is_enough ? left - 2 : 0;
-  if (!is_enough) return false;
+  if (!(work.visit() && work.visit())) return false;
+  work.charge(2 * kEvaluationWork);
   best.evaluations += 2;
   arcs_.take(on, interval);
   return true;
 }
 
 // False: there is no step left for it.
-bool GuideNodes::take_point(uint32_t on, uint32_t node, float s, uint32_t& left, Best& best,
+bool GuideNodes::take_point(uint32_t on, uint32_t node, float s, query::Work& work, Best& best,
                             Seen& seen) const {
   const Piece& piece = guide_.model().pieces()[on];
   if (on == penalty_.piece && !(s < penalty_.s) && !(s > penalty_.s)) {
     seen.at = kink_;
   } else {
-    if (left == 0) return false;
-    --left;
+    if (!work.visit()) return false;
+    work.charge(kEvaluationWork);
     ++best.evaluations;
     seen.at = evaluate(piece, guide_.model().coefficients().data(), s);
   }
@@ -242,24 +241,23 @@ Outcome GuideNodes::split(uint32_t on, const Range& range, float at, float lower
   return Outcome::kSplit;
 }
 
-Outcome GuideNodes::solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
+Outcome GuideNodes::solve(uint32_t node, Range& range, float lower_m, query::Work& work, Best& best,
                           Half<Range> (&halves)[2]) {
   const uint32_t on = piece_of(node);
   float cut;
   if (find_cut(on, range, cut)) {
-    if (left == 0) return Outcome::kStopped;
-    --left;
+    if (!work.visit()) return Outcome::kStopped;
     (void)split(on, range, cut, lower_m, halves);
     halves[0].range.start = halves[1].range.start = cut;
     return Outcome::kSplit;
   }
-  if (!take_interval(on, range, left, best)) return Outcome::kStopped;
+  if (!take_interval(on, range, work, best)) return Outcome::kStopped;
   Way ways[2];
   const uint32_t way_count = ways_of(on, range, ways);
   float s = range.start;
   for (uint32_t turn = 0; turn < kMaxTurns; ++turn) {
     Seen seen;
-    if (!take_point(on, node, s, left, best, seen)) {
+    if (!take_point(on, node, s, work, best, seen)) {
       range.start = s;
       return Outcome::kStopped;
     }

@@ -95,11 +95,12 @@ class GuideNodes {
     return seen.lower_m > nearest_m_ ? with_slack(seen.lower_m, min_m) : by_arc_m;
   }
 
-  Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
+  Outcome solve(uint32_t node, Range& range, float lower_m, query::Work& work, Best& best,
                 Half<Range> (&halves)[2]);
 
  private:
   static constexpr uint32_t kMaxTurns = 5;
+  static constexpr uint32_t kEvaluationWork = 3;  // in visits, beside its own
 
   // A change of arc on one side of where there is none, and on a closed chain the other way round.
   struct Way {
@@ -149,8 +150,8 @@ class GuideNodes {
     return {{low, high, 0.5f * (low + high)}, own_m > lower_m ? own_m : lower_m};
   }
   Slopes slopes_at(float t) const;
-  bool take_interval(uint32_t on, const Range& range, uint32_t& left, Best& best);
-  bool take_point(uint32_t on, uint32_t node, float s, uint32_t& left, Best& best,
+  bool take_interval(uint32_t on, const Range& range, query::Work& work, Best& best);
+  bool take_point(uint32_t on, uint32_t node, float s, query::Work& work, Best& best,
                   Seen& seen) const;
   static float step_from(const Seen& seen, const Way& way, float& gain_m2);
   bool prove(uint32_t on, const Seen& seen, float s, const Way* ways, uint32_t way_count,

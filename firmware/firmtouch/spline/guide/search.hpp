@@ -10,14 +10,14 @@ class GuideSearch : public Account {
   using Range = GuideNodes::Range;
 
   GuideSearch(GuideNodes& nodes, uint32_t budget, Best& best)
-      : Account(budget), nodes_(nodes), best_(best) {}
+      : Account(budget, kVisitWork), nodes_(nodes), best_(best) {}
 
   /// From a leaf that may be near up the tree, as far as a node `end` above it.
   void run(uint32_t leaf, const Range& range, uint32_t end) {
     Entry first{leaf, 0.0f, range};
     if (!solve(first) || !drain()) return stop();
     for (uint32_t node = leaf; node != end && best_.limit_m > 0.0f; node = nodes_.parent_of(node)) {
-      if (left_ == 0) return stop();
+      if (work_.left == 0) return stop();
       visit(nodes_.sibling_of(node), 0.0f);
       if (!drain()) return stop();
     }
@@ -27,6 +27,7 @@ class GuideSearch : public Account {
   float pending_m(float outside_m) const { return min_pending_m(stack_, count_, outside_m); }
 
  private:
+  static constexpr uint32_t kVisitWork = 2;
   struct Entry {
     uint32_t node;
     float lower_m;
@@ -44,7 +45,7 @@ class GuideSearch : public Account {
 
   // Reads a node and keeps it where it may hold something nearer.
   void visit(uint32_t node, float above_m) {
-    --left_;
+    --work_.left;
     Entry& entry = stack_[count_ < kCapacity ? count_ : kCapacity];
     entry.node = node;
     const float own_m = nodes_.bound_m(node, entry.range);
@@ -63,9 +64,8 @@ class GuideSearch : public Account {
       if (entry.lower_m >= best_.limit_m) continue;
       if (nodes_.is_leaf(entry.node)) {
         if (!solve(entry)) return false;
-      } else if (left_ < 2) {
+      } else if (work_.left < 2) {
         ++count_;
-        left_ = 0;
         return false;
       } else {
         open(entry);
@@ -93,7 +93,7 @@ class GuideSearch : public Account {
     Half<Range> halves[2];
     const uint32_t node = entry.node;
     const float lower_m = entry.lower_m;
-    const Outcome outcome = nodes_.solve(node, entry.range, lower_m, left_, best_, halves);
+    const Outcome outcome = nodes_.solve(node, entry.range, lower_m, work_, best_, halves);
     if (outcome == Outcome::kClosed) return true;
     if (outcome == Outcome::kStopped) put(Entry(entry));
     if (outcome == Outcome::kLost) lose(lower_m);

@@ -11,7 +11,7 @@ namespace firmtouch::spline {
 /// expansion at one of its points, with bounds of the third and fourth derivatives, proves that no
 /// point of it is nearer; else it is halved.
 /// Pre:    `model` is open and has surfaces.
-/// Bounds: <= budget steps, a step being a node read or a point evaluated; 5.3 kB of stack;
+/// Bounds: <= budget.work units, 3 a node read and 24 a point evaluated; 5.3 kB of stack;
 ///         re-entrant; callable from an interrupt.
 /// Result: always finite. Of two points equally near the one found first. Unlimited queries are
 ///         exact except for a rare one within 2e-7 extents of the surface, which says so after many

@@ -115,7 +115,7 @@ class SurfaceNodes {
     return of_u >> more_u == u && of_v >> more_v == v;
   }
 
-  Outcome solve(uint32_t node, Range& range, float lower_m, uint32_t& left, Best& best,
+  Outcome solve(uint32_t node, Range& range, float lower_m, query::Work& work, Best& best,
                 Half<Range> (&halves)[2]) {
     if (best.limit_m <= 0.0f) {
       upper2_ = 0.0f;
@@ -130,12 +130,12 @@ class SurfaceNodes {
     Quadratic *f = expansions_, *base = expansions_ + 1;
     base->distance2 = FLT_MAX;
     for (uint32_t turn = 0; turn < kMaxTurns; ++turn) {
-      if (left == 0) {
+      if (!work.visit()) {
         range.start[0] = at[0];
         range.start[1] = at[1];
         return Outcome::kStopped;
       }
-      --left;
+      work.charge(kEvaluationWork);
       ++best.evaluations;
       expand(node, piece, bends, q_m, at, best, *f);
       if (!(f->distance2 < base->distance2)) {  // too far along the way: a quarter of it
@@ -188,6 +188,7 @@ class SurfaceNodes {
   // What Newton's step gains of D^2 / 2 is lost in rounding where it is less than this of D^2.
   static constexpr float kRounding = 0x1p-23f;
   static constexpr uint32_t kMaxTurns = 6;
+  static constexpr uint32_t kEvaluationWork = 7;  // in visits, beside its own
   // From a hint's 16 bits: the ends are the piece's own.
   static float start_at(uint32_t code) {
     if (code == 65535) return 1.0f;

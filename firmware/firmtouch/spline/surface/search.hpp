@@ -12,7 +12,7 @@ class SurfaceSearch : public Account {
   using Range = Rectangle;
 
   SurfaceSearch(const View& model, math::Vec3 p_m, uint32_t budget, Best& best)
-      : Account(budget), nodes_(model, p_m), bounds_(model, p_m), best_(best) {}
+      : Account(budget, kVisitWork), nodes_(model, p_m), bounds_(model, p_m), best_(best) {}
 
   bool resume(const CurveHint& hint, uint32_t& leaf, Range& range) const {
     return nodes_.resume(hint, leaf, range);
@@ -40,6 +40,7 @@ class SurfaceSearch : public Account {
   float pending_m(float outside_m) const { return min_pending_m(stack_, count_, outside_m); }
 
  private:
+  static constexpr uint32_t kVisitWork = 3;
   void run_from(uint32_t leaf, const Range& range, float margin_m, FrontierUse& use,
                 Frontier& frontier) {
     if (!solve(leaf, 0.0f, range, false)) return stop();
@@ -86,7 +87,7 @@ class SurfaceSearch : public Account {
       pass_closed(node);
       return true;
     }
-    if (left_ == 0) return false;
+    if (work_.left == 0) return false;
     if (is_about) return ascend(leaf, is_closed, node);
     visit(node);
     return count_ <= kMaxWaiting || drain();
@@ -106,7 +107,7 @@ class SurfaceSearch : public Account {
       node = top;  // of two parts about a leaf the larger one has the lower number
     pass(node, best_.limit_m);
     while (node != top && (node & 0xFFFFu) != kWholePiece) {
-      if (left_ == 0) return false;
+      if (work_.left == 0) return false;
       const PatchNode patch = apart(bounds_.come_near(node >> 16), node);
       descend(node ^ (was_halved_u(patch) ? kNextU : kNextV), 0.0f, nullptr);
       if (!drain()) return false;
@@ -114,7 +115,7 @@ class SurfaceSearch : public Account {
     }
     if (node == top) return true;
     for (uint32_t i = nodes_.upper_of(node); i != 0 && nodes_.upper(i) != top; i = parent_of(i)) {
-      if (left_ == 0) return false;
+      if (work_.left == 0) return false;
       visit_upper(sibling_of(i), 0.0f);
       if (!drain()) return false;
     }
@@ -147,7 +148,7 @@ class SurfaceSearch : public Account {
   [[gnu::noinline]] void visit_upper(uint32_t i, float above_m) {
     const uint32_t node = nodes_.upper(i);
     if (node < kUpper) return descend(node, above_m, nullptr);
-    --left_;
+    --work_.left;
     const float own_m = bounds_.box_m(i), lower_m = own_m < above_m ? above_m : own_m;
     if (!(lower_m < best_.limit_m)) return pass(node, lower_m);
     if (count_ >= kCapacity) return lose(lower_m);
@@ -186,7 +187,7 @@ class SurfaceSearch : public Account {
     for (;;) {
       const bool next_u = left_u >= left_v;
       if (!is_known) {
-        --left_;
+        --work_.left;
         const bool is_leaf = left_u + left_v == 0;
         const bool is_kept =
             !bounds_.is_beyond(u, v, left_u, left_v, next_u, best_.limit_m, reported);
@@ -204,7 +205,7 @@ class SurfaceSearch : public Account {
           continue;
         }
         if (!is_kept) return pass(node, lower_m);
-        if (is_leaf || lower_m > far_lower_m || left_ < 2) {
+        if (is_leaf || lower_m > far_lower_m || work_.left < 2) {
           keep(node, lower_m, reported, is_leaf);
           if (lower_m > far_lower_m) order(count_ - 2);
           return;
@@ -258,9 +259,8 @@ class SurfaceSearch : public Account {
         if (!solve(node & ~kLeafMark, lower_m, entry.range, is_half)) return false;
         continue;
       }
-      if (left_ < 2) {
+      if (work_.left < 2) {
         ++count_;
-        left_ = 0;
         return false;
       }
       if (node < kUpper) {
@@ -269,7 +269,7 @@ class SurfaceSearch : public Account {
         const uint32_t before = count_;
         const uint32_t low = first_child(node - kUpper);
         visit_upper(low, lower_m);
-        if (left_ == 0) {  // all were taken below the first one
+        if (work_.left == 0) {  // all were taken below the first one
           keep(nodes_.upper(low + 1), lower_m, {}, false);
           return false;
         }
@@ -284,7 +284,7 @@ class SurfaceSearch : public Account {
   bool solve(uint32_t node, float lower_m, const Range& in, bool is_half) {
     Half<Range> halves[2];
     Range range = in;
-    const Outcome outcome = nodes_.solve(node, range, lower_m, left_, best_, halves);
+    const Outcome outcome = nodes_.solve(node, range, lower_m, work_, best_, halves);
     if (!is_half) pass(node, outcome == Outcome::kClosed ? nodes_.reported_m() : lower_m);
     if (outcome == Outcome::kStopped) put(node, lower_m, range);
     if (outcome == Outcome::kLost) lose(lower_m);

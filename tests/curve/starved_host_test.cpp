@@ -1,0 +1,76 @@
+// Queries of straight curves that run out of work, against every segment in double.
+#include "curve/hard_curves.hpp"
+#include "firmtouch/curve/guided_point.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+#include "harness/test.hpp"
+
+namespace {
+
+using namespace firmtouch;
+using curve_test::Baked;
+using query::Budget;
+
+constexpr uint32_t kMaxWork = 240;
+constexpr double kLost = 4e-7;  // of max(diagonal, distance)
+
+void check(const Baked& baked, double truth, uint32_t work, const curve::Closest& found) {
+  const double scale = std::max(double{baked.view.head().diagonal_m}, truth);
+  const query::Certificate& certificate = found.certificate;
+  CHECK_LE(double{certificate.lower_m}, truth * (1 + 1e-15));
+  CHECK_GE(double{found.distance_m}, truth - kLost * scale);
+  if (certificate.exact) CHECK_LE(double{found.distance_m}, truth + kLost * scale);
+  CHECK_LE(certificate.work, std::max(work, 1u));
+  CHECK_LE(certificate.steps, certificate.work);
+}
+
+// By every budget from 0 on, each with a hint of its own.
+template <class Query>
+void starve(uint32_t seed, const Query& query) {
+  for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {
+    const Baked baked(named.points);
+    test::note(named.name.c_str(), 0);
+    std::vector<math::Vec3> points = curve_test::queries(baked.samples, 8, seed);
+    const float far_m = 40.0f * baked.view.head().diagonal_m;
+    points.push_back(points.back() + math::Vec3{far_m, -far_m, far_m});
+    for (uint32_t work = 0; work <= kMaxWork; ++work) {
+      test::note("work", work);
+      curve::Following state;
+      for (const math::Vec3& p : points)
+        query(baked, p, curve_test::brute_distance(baked.samples, p), work, state);
+    }
+  }
+}
+
+}  // namespace
+
+TEST(StarvedQuery_StaysTrue_AtEveryBudget) {
+  starve(71, [](const Baked& baked, math::Vec3 p, double truth, uint32_t work,
+                curve::Following& state) {
+    curve::Hint cold;
+    check(baked, truth, work, closest_point(baked.view, p, Budget{work}, cold));
+    check(baked, truth, work, closest_point(baked.view, p, Budget{work}, state.hint));
+  });
+}
+
+TEST(StarvedGuide_StaysTrue_AtEveryBudget) {
+  starve(72, [](const Baked& baked, math::Vec3 p, double truth, uint32_t work,
+                curve::Following& state) {
+    const curve::Head& head = baked.view.head();
+    const curve::Hold hold{0.1f * head.length_m, 0.3f * head.diagonal_m};
+    const curve::Closest found = follow(baked.view, p, hold, Budget{work}, state).closest;
+    query::Certificate certificate = found.certificate;
+    CHECK_LE(double{certificate.lower_m}, truth * (1 + 1e-15));
+    CHECK_GE(double{found.distance_m}, truth - kLost * std::max(double{head.diagonal_m}, truth));
+    CHECK_LE(certificate.work, std::max(work, 2u));
+  });
+}
+
+TEST(StarvedConstraint_StaysTrue_AtEveryBudget) {
+  starve(73, [](const Baked& baked, math::Vec3 p, double truth, uint32_t work, curve::Following&) {
+    curve::Neighbour memory[10];
+    const curve::Closest found =
+        nearest_constraint(baked.view, p, {}, {memory, 10}, Budget{work}).closest;
+    CHECK_LE(double{found.certificate.lower_m}, truth * (1 + 1e-15));
+    CHECK_LE(found.certificate.work, std::max(work, 1u));
+  });
+}
