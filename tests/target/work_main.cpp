@@ -1,0 +1,306 @@
+// Attacks the bound of a query's time: `work ROUNDS SEED FIXED PER_UNIT [guide]` on the emulator's
+// command line. A query of the board's asset (mesh, curve or spline; guide: a tick of the guide
+// along it) must take at most FIXED + units used * PER_UNIT instructions, at every budget:
+// anywhere, after jumps, from afar, led along, and hill climbing from the worst so far. Rows:
+//     UNITS INSTRUCTIONS                 the worst seen of queries that used so many units, or more
+//                                        and fewer than the next row's
+//     ratio RATIO UNITS INSTRUCTIONS     the largest instructions / bound, in thousandths
+// tools/bench/cortex-m7-work runs it.
+#include <stdint.h>
+
+#include "emulator/semihosting.hpp"
+#include "firmtouch/asset/container.hpp"
+#include "firmtouch/asset/loader.hpp"
+#include "firmtouch/asset/opening.hpp"
+#include "firmtouch/curve/guided_point.hpp"
+#include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/clock.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/spline/closest_point.hpp"
+#include "firmtouch/spline/guide/guided_point.hpp"
+#include "target/scene_views.hpp"
+#include "target/text.hpp"
+
+namespace asset = firmtouch::asset;
+namespace core = firmtouch::core;
+namespace curve = firmtouch::curve;
+namespace hal = firmtouch::hal;
+namespace mesh = firmtouch::mesh;
+namespace query = firmtouch::query;
+namespace spline = firmtouch::spline;
+namespace target = firmtouch::target;
+using firmtouch::math::Vec3;
+
+namespace {
+
+constexpr uint32_t kBudgets[] = {0,  1,  2,   3,   5,   8,   13,   21,
+                                 34, 55, 160, 320, 640, 640, 1280, UINT32_MAX};
+constexpr float kReach = 1e-4f;                       // of the extent: the least motion
+constexpr float kArcPenalty = 0.1f, kRelease = 0.1f;  // of a guide, as shares of length and extent
+
+struct Settings {
+  uint32_t rounds, seed, fixed, per_unit;
+  bool is_guide;
+};
+
+class Random {
+ public:
+  explicit Random(uint32_t seed) : state_(seed * 2654435761u | 1u) {}
+  uint32_t next() {
+    state_ ^= state_ << 13;
+    state_ ^= state_ >> 17;
+    state_ ^= state_ << 5;
+    return state_;
+  }
+  uint32_t below(uint32_t end) { return (next() >> 8) % end; }
+  /// Uniform in [-1, 1].
+  float sign() {
+    return static_cast<float>(static_cast<int32_t>(next() >> 8) - (1 << 23)) * 0x1p-23f;
+  }
+  Vec3 cube() {
+    const float x = sign(), y = sign();
+    return {x, y, sign()};
+  }
+  /// A power of two times `least`, up to 2^octaves of it.
+  float scale(float least, uint32_t octaves) {
+    for (uint32_t i = below(octaves + 1); i != 0; --i) least *= 2.0f;
+    return least;
+  }
+
+ private:
+  uint32_t state_;
+};
+
+// A shape that is queried, and what the last query left.
+struct Answer {
+  Vec3 point_m;
+  query::Certificate certificate;
+};
+template <class View, class Hint>
+struct Shape {
+  using State = Hint;
+  const View& view;
+  Answer query(Vec3 p_m, query::Budget budget, State& state) const {
+    const auto closest = closest_point(view, p_m, budget, state);
+    return {closest.point_m, closest.certificate};
+  }
+};
+template <class View, class Hold, class Following>
+struct Guided {
+  using State = Following;
+  const View& view;
+  Hold hold;
+  Answer query(Vec3 p_m, query::Budget budget, State& state) const {
+    const auto followed = follow(view, p_m, hold, budget, state);
+    return {followed.closest.point_m, followed.closest.certificate};
+  }
+};
+
+struct Box {
+  Vec3 low_m, size_m;
+  float extent_m;
+};
+template <class Head>
+Box box_of(const Head& head) {
+  const Vec3 low_m{head.low_m[0], head.low_m[1], head.low_m[2]};
+  const Vec3 size_m = Vec3{head.high_m[0], head.high_m[1], head.high_m[2]} - low_m;
+  return {low_m, size_m, firmtouch::math::length(size_m)};
+}
+
+template <class Subject>
+class Attack {
+ public:
+  Attack(const Subject& subject, const Box& box, const Settings& settings)
+      : subject_(subject), box_(box), settings_(settings), random_(settings.seed) {
+    const uint32_t before = hal::clock_work();
+    empty_ = hal::clock_work() - before;
+  }
+
+  void run() {
+    for (uint32_t i = 0; i < settings_.rounds; ++i) {
+      const uint32_t way = random_.below(8);
+      if (way >= 5 && i > kWorst) {
+        const Case& from = worst_[random_.below(kWorst)];
+        now_ = from;
+        if (way == 5) now_.budget = a_budget();
+        measure(from.p_m + random_.cube() * random_.scale(kReach * 0.01f * box_.extent_m, 12));
+        continue;
+      }
+      now_.budget = a_budget();
+      if (random_.below(4) == 0) now_.state = {};
+      measure(way_to(way));
+    }
+    print();
+  }
+
+ private:
+  static constexpr uint32_t kWorst = 16, kBins = 64;
+  struct Case {
+    typename Subject::State state;  // before the query
+    Vec3 p_m;
+    uint32_t budget = 0;
+    float ratio = 0;
+  };
+
+  uint32_t a_budget() { return kBudgets[random_.below(sizeof kBudgets / sizeof kBudgets[0])]; }
+
+  Vec3 way_to(uint32_t way) {
+    const Vec3 off = random_.cube();
+    switch (way) {
+      case 0:
+        return now_.p_m + off * random_.scale(kReach * box_.extent_m, 6);  // led
+      case 1:
+        return at_m_ + off * random_.scale(kReach * box_.extent_m, 10);  // near the shape
+      case 2:
+        return at_m_ + off * random_.scale(box_.extent_m, 14);  // far
+      default: {
+        const Vec3 half_m = box_.size_m * 0.5f;
+        return box_.low_m + half_m +
+               Vec3{off.x * half_m.x, off.y * half_m.y, off.z * half_m.z} * 1.5f;
+      }
+    }
+  }
+
+  void measure(Vec3 p_m) {
+    Case tried = now_;
+    tried.p_m = p_m;
+    const uint32_t before = hal::clock_work();
+    const Answer answer = subject_.query(p_m, query::Budget{now_.budget}, now_.state);
+    const uint32_t work = hal::clock_work() - before - empty_;
+    const uint32_t per_1000 = hal::clock_work_per_1000();
+    const auto taken = static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
+    const uint32_t units = answer.certificate.work;
+    now_.p_m = p_m;
+    at_m_ = answer.point_m;
+    uint32_t& bin = most_[bin_of(units)];
+    if (taken > bin) bin = taken;
+    const float bound = static_cast<float>(settings_.fixed) +
+                        static_cast<float>(units) * static_cast<float>(settings_.per_unit);
+    tried.ratio = static_cast<float>(taken) / bound;
+    if (tried.ratio > ratio_) ratio_ = tried.ratio, units_ = units, taken_ = taken;
+    keep(tried);
+  }
+
+  void keep(const Case& tried) {
+    uint32_t least = 0;
+    for (uint32_t i = 1; i < kWorst; ++i)
+      if (worst_[i].ratio < worst_[least].ratio) least = i;
+    if (tried.ratio > worst_[least].ratio) worst_[least] = tried;
+  }
+
+  // Up to 16 one by one, then four to an octave.
+  static uint32_t bin_of(uint32_t units) {
+    if (units < 16) return units;
+    uint32_t octave = 0;
+    for (; units >= 8; units >>= 1) ++octave;
+    const uint32_t bin = 8 + octave * 4 + (units - 4);
+    return bin < kBins ? bin : kBins - 1;
+  }
+  static uint32_t first_of(uint32_t bin) {
+    return bin < 16 ? bin : (4 + (bin - 8) % 4) << ((bin - 8) / 4);
+  }
+
+  void print_number(uint32_t value, const char* after) {
+    hal::board_print(target::decimal(value).text);
+    hal::board_print(after);
+  }
+  void print() {
+    for (uint32_t bin = 0; bin < kBins; ++bin) {
+      if (most_[bin] == 0) continue;
+      print_number(first_of(bin), " ");
+      print_number(most_[bin], "\n");
+    }
+    hal::board_print("ratio ");
+    print_number(static_cast<uint32_t>(ratio_ * 1000.0f + 0.5f), " ");
+    print_number(units_, " ");
+    print_number(taken_, "\n");
+  }
+
+  const Subject& subject_;
+  Box box_;
+  Settings settings_;
+  Random random_;
+  uint32_t empty_ = 0;
+  Case now_;
+  Vec3 at_m_;  // the last answer's
+  float ratio_ = 0;
+  uint32_t units_ = 0, taken_ = 0;
+  uint32_t most_[kBins] = {};
+  Case worst_[kWorst];
+};
+
+template <class Subject>
+void attack(const Subject& subject, const Box& box, const Settings& settings) {
+  // Too large for the stack.
+  static Attack<Subject> attack(subject, box, settings);
+  attack.run();
+}
+
+using CurveGuide = Guided<curve::View, curve::Hold, curve::Following>;
+using SplineGuide = Guided<spline::GuideView, spline::Hold, spline::Following>;
+
+bool open_guide(const spline::View& model, spline::GuideView& guide) {
+  const core::Bytes slot = hal::board_asset();
+  asset::Container file;
+  if (!asset::open({slot.data(), asset::stated_bytes(slot)}, file).ok()) return false;
+  const char* const name = file.name(file.next_of_type(spline::kHeadSection));
+  return spline::open_guide(model, asset::find_sections<spline::GuideSections>(file, name), guide)
+      .ok();
+}
+
+int run(const target::Views& views, const Settings& settings) {
+  if (views.mesh.is_open()) {
+    attack(Shape<mesh::View, mesh::Hint>{views.mesh}, box_of(views.mesh.head()), settings);
+    return 0;
+  }
+  if (views.curve.is_open()) {
+    const Box box = box_of(views.curve.head());
+    if (settings.is_guide)
+      attack(CurveGuide{views.curve,
+                        {kArcPenalty * views.curve.head().length_m, kRelease * box.extent_m}},
+             box, settings);
+    else
+      attack(Shape<curve::View, curve::Hint>{views.curve}, box, settings);
+    return 0;
+  }
+  if (!views.spline.is_open()) return 1;
+  const Box box = box_of(views.spline.head());
+  if (!settings.is_guide) {
+    attack(Shape<spline::View, spline::Hint>{views.spline}, box, settings);
+    return 0;
+  }
+  spline::GuideView guide;
+  if (!open_guide(views.spline, guide)) return 1;
+  attack(SplineGuide{guide, {kArcPenalty * guide.length_m(), kRelease * box.extent_m}}, box,
+         settings);
+  return 0;
+}
+
+uint32_t number(const char*& text) {
+  while (*text == ' ') ++text;
+  uint32_t value = 0;
+  for (; *text >= '0' && *text <= '9'; ++text)
+    value = value * 10 + static_cast<uint32_t>(*text - '0');
+  return value;
+}
+
+}  // namespace
+
+int main() {
+  hal::board_begin();
+  char line[512];
+  if (!hal::semihosting_command_line(line, sizeof line)) return 2;
+  constexpr uint32_t kWord = 5;  // "work "
+  const char* text = line + kWord;
+  Settings settings;
+  settings.rounds = number(text);
+  settings.seed = number(text);
+  settings.fixed = number(text);
+  settings.per_unit = number(text);
+  settings.is_guide = *text == ' ' && text[1] == 'g';
+  const target::Views views = target::open_views(hal::board_asset());
+  if (views.verdict.ok() && run(views, settings) == 0) return 0;
+  hal::board_print("no mesh, curve or spline in the asset, no guide, or a rule rejects it\n");
+  return 1;
+}
