@@ -55,8 +55,8 @@ struct Before {
 
 // Without a safe subtree. A warm search begins at the last segment, a cold one with the first
 // sample.
-Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget, const Before& before,
-                        Hint& hint) {
+[[gnu::noinline]] Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget,
+                                          const Before& before, Hint& hint) {
   const RunBound bound(curve.head(), p_m);
   const bool compensated = bound.is_compensated(curve);
   NearestFoot nearest(curve, p_m, compensated);

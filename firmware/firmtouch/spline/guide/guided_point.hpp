@@ -40,9 +40,9 @@ struct Followed {
 /// wrong part. Where the point is farther than release_m, or NaN, the guide lets go and
 /// takes the closest.
 /// Pre:    `guide` is open.
-/// Bounds: <= budget.work units (16 for a penalty), at most half of them for the closest point where
-///         there is one, kMaxSlides for the way along; and 14 points evaluated for lengths and for
-///         the last digits of the place; stack and reentrancy as closest_point().
+/// Bounds: <= budget.work units (16 for a penalty), at most half of them for the closest point
+///         where there is one, kMaxSlides points for the way along; and 14 points evaluated for
+///         lengths and for the last digits of the place; stack and reentrancy as closest_point().
 /// Result: always finite. lower_m bounds the distance of the whole curve; `exact` says that it
 ///         meets that of the closest point, and that of no other part a point costs less.
 Followed follow(const GuideView& guide, math::Vec3 p_m, const Hold& hold, query::Budget budget,
