@@ -75,7 +75,7 @@ struct Before {
   if (has_begun) traversal = traverse_runs(curve, bound, steps, start, nearest);
   if (!traversal.complete) {
     carry_bound(hint, p_m, traversal);
-    if (before.work != 0) nearest.look_at_one(before.segment);
+    if (before.work != 0) nearest.look_compensated(before.segment);  // it was far
   }
   hint.safe_subtree = query::kNowhere;
   return finish(curve, nearest.best(), traversal, compensated, p_m, hint);

@@ -116,11 +116,7 @@ class Choice {
   }
 
   Foot foot_on(uint32_t segment) {
-    if (!curve_.is_smooth()) {
-      work_.charge(segment_work(compensated_));
-      return foot_on_segment(curve_, p_m_, segment, compensated_);
-    }
-    const PieceFoot found = foot_on_piece(curve_, p_m_, segment, kAnyReach_m, work_);
+    const PieceFoot found = any_foot(curve_, p_m_, segment, compensated_, work_);
     doubt_m_ = found.doubt_m;
     is_cut = is_cut || !found.is_done;
     return found.foot;

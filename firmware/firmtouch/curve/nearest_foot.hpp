@@ -55,9 +55,7 @@ class NearestFoot {
     return segment_of(best_);
   }
 
-  void look_at_one(uint32_t segment) {
-    (void)(compensated_ ? look<true>(segment) : look<false>(segment));
-  }
+  [[gnu::noinline]] float look_compensated(uint32_t segment) { return look_at<true>(segment); }
 
   /// More than the distance of the best point so far.
   float radius_m() const { return radius_m_; }
@@ -376,7 +374,6 @@ class NearestFoot {
   [[gnu::always_inline]] inline float look(uint32_t segment) {
     return kCompensated ? look_compensated(segment) : look_at<false>(segment);
   }
-  [[gnu::noinline]] float look_compensated(uint32_t segment) { return look_at<true>(segment); }
 
   const Sample* samples_;
   const uint16_t* radii_;

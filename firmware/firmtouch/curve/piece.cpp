@@ -186,6 +186,13 @@ Closest answer_on_piece(const View& curve, const Foot& foot) {
   return closest;
 }
 
+PieceFoot any_foot(const View& curve, Vec3 p_m, uint32_t segment, bool compensated,
+                   PieceWork& work) {
+  if (curve.is_smooth()) return foot_on_piece(curve, p_m, segment, kAnyReach_m, work);
+  work.charge(segment_work(compensated));
+  return {foot_on_segment(curve, p_m, segment, compensated), 0.0f, true};
+}
+
 Closest any_answer(const View& curve, const Foot& foot) {
   return curve.is_smooth() ? answer_on_piece(curve, foot) : answer_at(curve, foot);
 }

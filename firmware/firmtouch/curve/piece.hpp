@@ -61,17 +61,8 @@ static inline float piece_slack_m(const Head& head, float distance_m) {
 /// Units of a straight segment's foot.
 static inline uint32_t segment_work(bool compensated) { return compensated ? 4 : 1; }
 
-/// The nearest point of a piece or segment. `is_done`: the work sufficed.
-static inline Foot any_foot(const View& curve, math::Vec3 p_m, uint32_t segment, bool compensated,
-                            PieceWork& work, bool& is_done) {
-  is_done = true;
-  if (!curve.is_smooth()) {
-    work.charge(segment_work(compensated));
-    return foot_on_segment(curve, p_m, segment, compensated);
-  }
-  const PieceFoot found = foot_on_piece(curve, p_m, segment, kAnyReach_m, work);
-  is_done = found.is_done;
-  return found.foot;
-}
+/// The nearest point of a piece or segment.
+PieceFoot any_foot(const View& curve, math::Vec3 p_m, uint32_t segment, bool compensated,
+                   PieceWork& work);
 
 }  // namespace firmtouch::curve
