@@ -32,3 +32,20 @@ ASmoothCurveGoesThroughItsSamplesWithoutCorners() {
   printf '%s\n' "$out" | awk -F, 'NR == 2 || NR == 3 { if (!($1 < 1e-7)) exit 1 } NR == 4 { if (!($1 < 0.01 && $9 == 1)) exit 1 }' ||
     fail "answers: $out"
 }
+
+AQueryOfACurveWithoutWorkIsStarvedAndNotRefused() {
+  f make path --points 400 -o path.csv
+  printf 'x,y,z\n0.3,0.1,0.2\n' >p.csv
+  for option in '' --smooth; do
+    # shellcheck disable=SC2086  # no word where there is no option
+    bake path.csv -o a.fta $option
+    f query a.fta path curve <p.csv
+    truth=$(printf '%s\n' "$out" | sed 1d | cut -d, -f1)
+    for units in 0 1 8; do
+      f query a.fta path curve --work $units <p.csv
+      exits 0
+      printf '%s\n' "$out" | awk -F, -v truth="$truth" 'NR == 2 { exit !($7 <= truth && $1 >= truth && $9 == 0) }' ||
+        fail "--work $units $option: $out"
+    done
+  done
+}

@@ -23,8 +23,8 @@ ASplineIsBakedToldAndAsked() {
 1.00000,0,1'
   f query a.fta roof spline --work 1 --cold <p.csv
   exits 0
-  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f9)" '1
-1'
+  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f9,10)" '0,0
+0,0'
   f query a.fta roof distance <p.csv
   exits 3
   says "holds no mesh 'roof'" 'splines: roof'
