@@ -73,12 +73,11 @@ class Reach {
 // The optimum of the planes that were violated so far, one more at a time.
 class Search {
  public:
-  Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m) : reach_(goal_m) {
+  Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m) : planes_(planes), reach_(goal_m) {
     for (uint32_t i = 0; i < count && i < kMaxHalfSpaces; ++i) {
-      const HalfSpace& plane = planes[i];
-      if (!is_finite(plane.normal) || !is_finite(plane.offset_m)) continue;
-      plane_[count_] = plane;
-      number_[count_++] = i;
+      const float sum =
+          (planes[i].normal.x + planes[i].normal.y) + (planes[i].normal.z + planes[i].offset_m);
+      if (sum - sum <= 0.0f) order_[count_++] = i;  // finite
     }
     best_.point_m = goal_m;
     tolerance_m_ = kTolerance * length(goal_m);
@@ -99,6 +98,8 @@ class Search {
   }
 
  private:
+  const HalfSpace& plane_at(uint32_t place) const { return planes_[order_[place]]; }
+
   // Moves the plane that is violated most to place `known`. Result: false if none is by more than
   // `least_m`.
   bool find_violated(uint32_t known, float least_m) {
@@ -108,12 +109,9 @@ class Search {
       if (out_m > least_m) least_m = out_m, at = i;
     }
     if (at == count_) return false;
-    const HalfSpace plane = plane_[at];
-    plane_[at] = plane_[known];
-    plane_[known] = plane;
-    const uint32_t number = number_[at];
-    number_[at] = number_[known];
-    number_[known] = number;
+    const uint32_t plane = order_[at];
+    order_[at] = order_[known];
+    order_[known] = plane;
     return true;
   }
 
@@ -138,12 +136,12 @@ class Search {
   bool choose(uint32_t plane, uint32_t before, uint32_t size) {
     reach_.drop_to(before);
     chosen_[before] = plane;
-    if (before + 1 == size && !reach_.would_push(plane_[plane])) return false;
-    return reach_.add(plane_[plane]);
+    if (before + 1 == size && !reach_.would_push(plane_at(plane))) return false;
+    return reach_.add(plane_at(plane));
   }
 
   float violation_m(uint32_t plane, Vec3 point_m) const {
-    return plane_[plane].offset_m - dot(plane_[plane].normal, point_m);
+    return plane_at(plane).offset_m - dot(plane_at(plane).normal, point_m);
   }
 
   // Result: whether the chosen planes solve the problem of the planes up to `last`.
@@ -158,12 +156,12 @@ class Search {
     best_violation_m_ = worst_m;
     best_.point_m = reach_.point_m();
     best_.active_count = reach_.count();
-    for (uint32_t n = 0; n < best_.active_count; ++n) best_.active[n] = number_[chosen_[n]];
+    for (uint32_t n = 0; n < best_.active_count; ++n) best_.active[n] = order_[chosen_[n]];
     return worst_m <= tolerance_m_;
   }
 
-  HalfSpace plane_[kMaxHalfSpaces];
-  uint32_t number_[kMaxHalfSpaces] = {};
+  const HalfSpace* planes_;
+  uint32_t order_[kMaxHalfSpaces] = {};
   uint32_t count_ = 0;
   Reach reach_;
   uint32_t chosen_[3] = {};

@@ -126,6 +126,7 @@ void ProxyMove::linearise() {
     math::HalfSpace plane{tangent.normal, lacking_m < most_m ? lacking_m : most_m};
     for (uint32_t j = 0; j < i; ++j) {
       const Vec3 apart = plane_[j].normal - plane.normal;
+      if (apart.x * apart.x > kSameDirection2) continue;
       if (!(math::dot(apart, apart) < kSameDirection2)) continue;
       if (plane_[j].offset_m < plane.offset_m) plane_[j].offset_m = plane.offset_m;
       plane = {};
