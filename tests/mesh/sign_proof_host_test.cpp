@@ -282,10 +282,10 @@ TEST(CrossingSolids_DifferingFeatures_AreListedByPosition) {
 TEST(TheHorsesDifferingFeaturesAllLieAtItsOnePlace) {
   if (mesh_test::models_folder().empty())
     return test::skip("FIRMTOUCH_MODELS names no folder of real models");
-  const tools::Surface horse = mesh_test::real_model("horse.ply");
+  tools::Surface horse = mesh_test::real_model("horse.ply");
   tools::SignReport report;
   std::string problem;
-  (void)tools::bake_signs(horse, report, problem);
+  (void)tools::bake_signs(horse, 0, report, problem);
   CHECK(problem.empty());
   CHECK_EQ(report.differing.size(), 2u);
   if (report.differing.size() != 2) return;

@@ -66,7 +66,8 @@ struct Head {
   float grid_low_m[3];
   float cell_m;          // a power of two, so that metres to cells rounds only once
   float longest_edge_m;  // of all triangles, rounded up
-  // By how much importing it to float32 may have moved a vertex; at most kMaxRounding diagonals.
+  // By how much importing it to float32 and turning slivers may have moved the surface; at most
+  // kMaxRounding diagonals.
   float rounding_m;
 };
 static_assert(sizeof(Head) == 72 && alignof(Head) == 4);

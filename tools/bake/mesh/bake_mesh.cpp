@@ -5,28 +5,16 @@
 
 #include "bake/mesh/leaf_boxes.hpp"
 #include "bake/mesh/mesh_tree.hpp"
+#include "bake/mesh/sign_proof.hpp"
+#include "bake/mesh/turn_slivers.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
-// The longest edge first, by the firmware's own arithmetic, which open() repeats.
-void longest_edge_first(Surface& surface) {
-  for (Face& face : surface.faces) {
-    float longest2 = -1;
-    size_t longest = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      const math::Vec3 edge = surface.vertices[face[(k + 1) % 3]] - surface.vertices[face[k]];
-      const float length2 = dot(edge, edge);
-      if (length2 > longest2) longest2 = length2, longest = k;
-    }
-    std::rotate(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(longest), face.end());
-  }
-}
-
 // Half a unit in the last place of every coordinate: what reading them as float32 can have lost.
-float import_rounding_m(const Surface& surface) {
+double import_rounding_m(const Surface& surface) {
   double largest2 = 0;
   for (const math::Vec3& v : surface.vertices) {
     double sum = 0;
@@ -39,18 +27,23 @@ float import_rounding_m(const Surface& surface) {
     }
     largest2 = std::max(largest2, sum);
   }
-  return static_cast<float>(std::sqrt(largest2) * (1 + 0x1p-20));
+  return std::sqrt(largest2) * (1 + 0x1p-20);
 }
 
-mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& tree,
-                     bool is_signed) {
+// How far the surface may still move under a lower bound that holds for the model as imported.
+double max_move_m(const Surface& surface) {
+  return double{mesh::kMaxRounding} * (1 - 0x1p-18) * diagonal_m(surface) -
+         import_rounding_m(surface);
+}
+
+mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& tree, bool is_signed,
+                     double moved_m) {
   mesh::Head head{};
   head.vertex_count = static_cast<uint32_t>(surface.vertices.size());
   head.triangle_count = static_cast<uint32_t>(surface.faces.size());
   head.node_count = static_cast<uint32_t>(tree.nodes.size());
   head.depth = tree.depth;
   head.is_signed = is_signed ? 1 : 0;
-  double diagonal2 = 0;
   for (size_t k = 0; k < 3; ++k) {
     float low = surface.vertices[0].x, high = low;
     for (size_t v = 0; v < surface.vertices.size(); ++v) {
@@ -61,11 +54,12 @@ mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& t
     head.low_m[k] = low;
     head.high_m[k] = high;
     head.grid_low_m[k] = grid.low_m[k];
-    diagonal2 += (double{high} - double{low}) * (double{high} - double{low});
   }
-  head.diagonal_m = static_cast<float>(std::sqrt(diagonal2) * (1 - 0x1p-21));
+  head.diagonal_m = static_cast<float>(diagonal_m(surface) * (1 - 0x1p-21));
   head.cell_m = grid.cell_m;
-  head.rounding_m = std::min(import_rounding_m(surface), mesh::kMaxRounding * head.diagonal_m);
+  head.rounding_m =
+      std::min(static_cast<float>(import_rounding_m(surface) + moved_m * (1 + 0x1p-20)),
+               mesh::kMaxRounding * head.diagonal_m);
   for (const Face& f : surface.faces) {
     const float edge_m = math::length(surface.vertices[f[1]] - surface.vertices[f[0]]);
     head.longest_edge_m = std::max(head.longest_edge_m, edge_m);
@@ -151,6 +145,11 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   }
   Surface input = given;
   longest_edge_first(input);
+  Pseudonormals signs;
+  if (options.is_signed) {
+    signs = bake_signs(input, max_move_m(input), report.signs, report.problem);
+    if (!report.problem.empty()) return {};
+  }
   const Grid grid = make_grid(input);
   const MeshTree tree = build_mesh_tree(input, grid, options.shape);
   if (tree.depth > mesh::kMaxDepth) {
@@ -163,7 +162,8 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   const Surface& surface = reordered.surface;
 
   std::vector<Section> sections;
-  const mesh::Head head = make_head(surface, grid, tree, options.is_signed);
+  const mesh::Head head =
+      make_head(surface, grid, tree, options.is_signed, report.signs.turned.moved_m);
   std::vector<mesh::Vertex> vertices;
   for (const math::Vec3& v : surface.vertices) vertices.push_back({v.x, v.y, v.z});
   sections.push_back(make_section(mesh::kHeadSection, name, &head, 1));
@@ -182,11 +182,7 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
     sections.push_back(make_section(mesh::kShapesSection, name, make_shapes(surface)));
   }
   for (const Section& s : sections) report.shape_bytes += static_cast<uint32_t>(s.bytes.size());
-  if (options.is_signed) {
-    const Pseudonormals signs = bake_signs(input, report.signs, report.problem);
-    if (!report.problem.empty()) return {};
-    add_signs(signs, reordered.vertex_from, tree.order, name, sections);
-  }
+  if (options.is_signed) add_signs(signs, reordered.vertex_from, tree.order, name, sections);
   for (const Section& s : sections) report.sign_bytes += static_cast<uint32_t>(s.bytes.size());
   report.sign_bytes -= report.shape_bytes;
   sections.push_back(make_section(mesh::kSourceSection, name, surface.source));

@@ -87,6 +87,25 @@ void compare(const Surface& surface, const ExactNormals& exact, const Pseudonorm
   }
 }
 
+// Result: whether any sliver was turned.
+bool turn(const std::vector<uint32_t>& slivers, const std::vector<uint32_t>& mates,
+          double max_move_m, Surface& surface, SignReport& report) {
+  const TurnedSlivers turned = turn_slivers(
+      surface, mates, slivers, max_move_m - report.turned.moved_m, confusion_m(surface));
+  if (turned.flips == 0) return false;
+  longest_edge_first(surface);
+  report.turned.flips += turned.flips;
+  report.turned.moved_m += turned.moved_m;
+  return true;
+}
+
+// The check was before the flips.
+std::string contacts_of(const Surface& surface) {
+  CheckReport report;
+  refuse_contacts(surface, report);
+  return report.usable() ? std::string() : report.refused[0];
+}
+
 std::string first_few(size_t count, const std::function<uint32_t(size_t)>& index) {
   constexpr size_t kShown = 5;
   std::string text;
@@ -97,24 +116,42 @@ std::string first_few(size_t count, const std::function<uint32_t(size_t)>& index
 
 }  // namespace
 
-Pseudonormals bake_signs(const Surface& surface, SignReport& report, std::string& problem) {
-  const ExactNormals exact(surface);
-  const Pseudonormals stored = make_pseudonormals(surface, exact);
-  report.crossings = find_crossings(surface);
-  const Places places(report.crossings);
-  const SignProof proof =
-      prove_signs(surface, exact, stored, kMinMargin_rad, places.excused(surface));
-  report.face_margin_rad = proof.faces.smallest_rad;
-  report.edge_margin_rad = proof.edges.smallest_rad;
-  report.vertex_margin_rad = proof.vertices.smallest_rad;
-  problem = problem_of(surface, proof);
-  if (!report.crossings.pairs.empty()) compare(surface, exact, stored, places, report);
-  return stored;
+Pseudonormals bake_signs(Surface& surface, double max_move_m, SignReport& report,
+                         std::string& problem) {
+  constexpr int kMaxRounds = 16;  // a flip may leave another sliver
+  size_t crossings_before = 0;
+  for (int round = 0;; ++round) {
+    const ExactNormals exact(surface);
+    const Pseudonormals stored = make_pseudonormals(surface, exact);
+    report.crossings = find_crossings(surface);
+    if (round == 0) crossings_before = report.crossings.pairs.size();
+    const Places places(report.crossings);
+    const SignProof proof =
+        prove_signs(surface, exact, stored, kMinMargin_rad, places.excused(surface));
+    if (round < kMaxRounds && turn(proof.slivers, exact.mates, max_move_m, surface, report))
+      continue;
+    report.face_margin_rad = proof.faces.smallest_rad;
+    report.edge_margin_rad = proof.edges.smallest_rad;
+    report.vertex_margin_rad = proof.vertices.smallest_rad;
+    problem = problem_of(surface, proof);
+    if (problem.empty() && report.turned.flips != 0) problem = contacts_of(surface);
+    if (problem.empty() && report.crossings.pairs.size() > crossings_before)
+      problem = "crosses itself where thin triangles are turned; remove slivers from the model";
+    if (!report.crossings.pairs.empty()) compare(surface, exact, stored, places, report);
+    return stored;
+  }
 }
 
 std::vector<std::string> describe(const SignReport& report, const Surface& surface,
                                   const std::vector<uint32_t>& vertex_source) {
-  std::vector<std::string> lines = describe(report.crossings, surface, vertex_source);
+  std::vector<std::string> lines;
+  if (report.turned.flips != 0)
+    lines.push_back("mended: turned the longest edge of " +
+                    counted(report.turned.flips, "triangle", "triangles") +
+                    " so thin that float32 confuses its edges; no vertex moved, the surface by " +
+                    surface.frame.length_text(report.turned.moved_m) + " at most");
+  for (const std::string& line : describe(report.crossings, surface, vertex_source))
+    lines.push_back(line);
   const auto file_face = [&](uint32_t f) {
     return f < surface.source.size() ? surface.source[f] : f;
   };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/mesh/pseudonormals.hpp"
+#include "bake/mesh/turn_slivers.hpp"
 #include "surface/crossings.hpp"
 #include "surface/surface.hpp"
 
@@ -16,6 +17,7 @@ struct SignReport {
   // crosses itself are left out.
   double face_margin_rad = 0, edge_margin_rad = 0, vertex_margin_rad = 0;
   Crossings crossings;
+  TurnedSlivers turned;
 
   /// Features whose stored side differs from the winding number.
   struct Differing {
@@ -28,8 +30,11 @@ struct SignReport {
 };
 
 /// Makes and proves the pseudonormals of a surface whose faces have their longest edges first.
+/// Slivers whose edges float32 confuses are turned where that moves the surface by `max_move_m` at
+/// most in all (turn_slivers.hpp).
 /// Error: `problem` says what, where and how to mend, and is empty where every side will be right.
-Pseudonormals bake_signs(const Surface& surface, SignReport& report, std::string& problem);
+Pseudonormals bake_signs(Surface& surface, double max_move_m, SignReport& report,
+                         std::string& problem);
 
 /// Where the surface crosses itself: the lines of describe(), then by place how many features give
 /// another sign than the winding number, and the first few. With indices of the file.

@@ -49,23 +49,6 @@ bool agrees(const WindingNumber& winding, Point at, bool reported_outside) {
   return winding.at(at) == (reported_outside ? 0 : 1);
 }
 
-// Of features that lie nearer together than this the firmware may take one for the other: what
-// float32 moves a foot in its plane (mesh/loss.hpp) for a query up to a diagonal away.
-double confusion_m(const Surface& surface) {
-  Point low = to_point(surface.vertices[0]), high = low;
-  double longest2 = 0;
-  for (const math::Vec3& v : surface.vertices) {
-    const Point p = to_point(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  for (const Face& face : surface.faces) {
-    const Point edge = to_point(surface.vertices[face[1]]) - to_point(surface.vertices[face[0]]);
-    longest2 = std::max(longest2, dot(edge, edge));
-  }
-  return 0x1p-24 * (13 * length(high - low) + 21 * std::sqrt(longest2));
-}
-
 // Triangles so thin that their features are taken for one another: each stored normal there must
 // give the sign of the others' points too.
 class Confusion {
@@ -151,15 +134,37 @@ class Confusion {
 
 }  // namespace
 
+double diagonal_m(const Surface& surface) {
+  Point low = to_point(surface.vertices[0]), high = low;
+  for (const math::Vec3& v : surface.vertices) {
+    const Point p = to_point(v);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return length(high - low);
+}
+
+double confusion_m(const Surface& surface) {
+  double longest2 = 0;
+  for (const Face& face : surface.faces) {
+    const Point edge = to_point(surface.vertices[face[1]]) - to_point(surface.vertices[face[0]]);
+    longest2 = std::max(longest2, dot(edge, edge));
+  }
+  return 0x1p-24 * (13 * diagonal_m(surface) + 21 * std::sqrt(longest2));
+}
+
 SignProof prove_signs(const Surface& surface, const ExactNormals& exact,
                       const Pseudonormals& stored, double min_rad, const Excused& excused) {
   SignProof proof;
   const Stars stars(surface, exact);
   const Confusion confusion(surface, exact, stored);
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {
-    if (confusion.is_thin(f) && confusion.loses_height(f)) {
+    const bool is_thin = confusion.is_thin(f);
+    const double thin_margin = is_thin ? confusion.thin_margin(f) : 1;
+    if (!(thin_margin >= min_rad)) proof.slivers.push_back(f);
+    if (is_thin && confusion.loses_height(f)) {
       // Not excused where it crosses others: its sides would reach far beyond the place.
-      take(proof.faces, f, confusion.thin_margin(f), min_rad, {});
+      take(proof.faces, f, thin_margin, min_rad, {});
     } else {
       take(proof.faces, f, dot(to_point(reported_face_normal(surface, f)), exact.faces[f]), min_rad,
            excused.faces);

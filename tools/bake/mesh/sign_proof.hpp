@@ -23,9 +23,19 @@ struct SignProof {
     std::vector<uint32_t> weak;  // faces, half-edges (3 * face + k), vertices of less than required
   };
   Kind faces, edges, vertices;
+  // Faces so thin that float32 may take an edge of theirs for another, which gives another sign.
+  // They are weak only where it also loses their height, by which it separates the edges.
+  std::vector<uint32_t> slivers;
 
   bool holds() const { return faces.weak.empty() && edges.weak.empty() && vertices.weak.empty(); }
 };
+
+/// Of the bounding box of the vertices.
+double diagonal_m(const Surface& surface);
+
+/// Of features that lie nearer together than this the firmware may take one for the other: what
+/// float32 moves a foot in its plane (mesh/loss.hpp) for a query up to a diagonal away.
+double confusion_m(const Surface& surface);
 
 /// Features that are not checked: where a surface crosses itself no normal is right. Empty: none.
 struct Excused {
