@@ -165,8 +165,10 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   const std::string name = stem_of(path);
   BakedInput baked;
   progress.stage("reading and checking " + file_name_of(path));
-  const std::vector<uint8_t> source = read_model(path);
-  const SoundSurface sound = sound_surface(path, source, options.model);
+  std::vector<uint8_t> source = read_model(path);
+  const tools::Facts origin =
+      tools::provenance(file_name_of(path), source, options.text, kToolVersion);
+  const SoundSurface sound = sound_surface(path, std::move(source), options.model);
   const tools::Surface& surface = sound.surface;
 
   progress.stage("building the tree of " + name);
@@ -189,9 +191,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
     reported_of_hull = add_hull(view, name, options, path, progress, baked);
   const auto add_facts = [&](const tools::Facts& facts) {
     baked.sections.push_back(tools::text_section(asset::kBoundsSection, name, facts));
-    baked.sections.push_back(tools::text_section(
-        asset::kProvenanceSection, name,
-        tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
+    baked.sections.push_back(tools::text_section(asset::kProvenanceSection, name, origin));
   };
   if (!options.has_tree) {
     drop_tree(baked);

@@ -274,12 +274,13 @@ void settle_size(const std::string& path, ModelOptions& options) {
   options.frame.offset_m = options.frame.offset_m + moved_m;
 }
 
-SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
+SoundSurface sound_surface(const std::string& path, std::vector<uint8_t> bytes,
                            const ModelOptions& options) {
   const bool wraps = options.wrap.value > 0;
   tools::Imported imported = tools::read_surface_bytes(
       {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, options.frame_for(path),
       wraps ? tools::PointsAre::kTaken : tools::PointsAre::kRefused);
+  bytes = {};  // a large model needs the memory
   if (!imported.problem.empty()) fail_input(imported.problem);
   tools::CheckOptions checks;
   checks.allow_unsigned = !options.is_signed;
@@ -289,7 +290,7 @@ SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& 
   if (wraps && !options.mend) {
     sound = wrapped_surface(path, imported.surface, options.wrap);
   } else {
-    tools::Surface surface = imported.surface;
+    tools::Surface surface = wraps ? imported.surface : std::move(imported.surface);
     const tools::CheckReport report = tools::check_and_mend(surface, checks);
     if (report.usable()) {
       sound = {std::move(surface), report.vertex_source, {}};

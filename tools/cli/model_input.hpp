@@ -49,7 +49,7 @@ struct SoundSurface {
 };
 
 /// Fails (bad input) with the file, the place, what is wrong, how often and how to mend it.
-SoundSurface sound_surface(const std::string& path, const std::vector<uint8_t>& bytes,
+SoundSurface sound_surface(const std::string& path, std::vector<uint8_t> bytes,
                            const ModelOptions& options);
 
 bool is_curve_file(const std::string& path);

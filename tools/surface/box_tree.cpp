@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace firmtouch::tools {
 namespace {
@@ -44,19 +45,18 @@ uint64_t morton(const Box& box, const Box& all) {
 
 }  // namespace
 
-BoxTree::BoxTree(const std::vector<Box>& items) {
+BoxTree::BoxTree(std::vector<Box> items) : items_(std::move(items)) {
   Box all = kEmpty;
-  for (const Box& item : items) grow(all, item);
-  std::vector<std::pair<uint64_t, uint32_t>> order(items.size());
-  for (uint32_t i = 0; i < order.size(); ++i) order[i] = {morton(items[i], all), i};
+  for (const Box& item : items_) grow(all, item);
+  std::vector<std::pair<uint64_t, uint32_t>> order(items_.size());
+  for (uint32_t i = 0; i < order.size(); ++i) order[i] = {morton(items_[i], all), i};
   std::sort(order.begin(), order.end());
-  for (const auto& [code, number] : order) {
-    items_.push_back(items[number]);
-    number_.push_back(number);
-  }
+  order_.reserve(order.size());
+  for (const auto& [code, number] : order) order_.push_back(number);
   while (size_t{leaves_} * kLeafItems < items_.size()) leaves_ *= 2;
   nodes_.assign(2 * size_t{leaves_} - 1, kEmpty);
-  for (size_t i = 0; i < items_.size(); ++i) grow(nodes_[leaves_ - 1 + i / kLeafItems], items_[i]);
+  for (size_t i = 0; i < items_.size(); ++i)
+    grow(nodes_[leaves_ - 1 + i / kLeafItems], items_[order_[i]]);
   for (size_t n = leaves_ - 1; n-- > 0;) {
     grow(nodes_[n], nodes_[2 * n + 1]);
     grow(nodes_[n], nodes_[2 * n + 2]);
@@ -77,7 +77,7 @@ void BoxTree::overlaps(const Box& box, std::vector<uint32_t>& found) const {
     }
     const size_t first = size_t{node + 1 - leaves_} * kLeafItems;
     for (size_t i = first; i < std::min(first + kLeafItems, items_.size()); ++i) {
-      if (overlap(items_[i], box)) found.push_back(number_[i]);
+      if (overlap(items_[order_[i]], box)) found.push_back(order_[i]);
     }
   }
 }

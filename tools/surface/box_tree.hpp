@@ -15,7 +15,7 @@ struct Box {
 /// Bounds: building O(n log n), no recursion.
 class BoxTree {
  public:
-  explicit BoxTree(const std::vector<Box>& items);
+  explicit BoxTree(std::vector<Box> items);
 
   /// Appends to `found` the items whose box overlaps `box` (touching counts), in a fixed order.
   void overlaps(const Box& box, std::vector<uint32_t>& found) const;
@@ -23,8 +23,8 @@ class BoxTree {
  private:
   static constexpr uint32_t kLeafItems = 4;
 
-  std::vector<Box> items_;        // in leaf order
-  std::vector<uint32_t> number_;  // of each, as it was given
+  std::vector<Box> items_;
+  std::vector<uint32_t> order_;  // the items' numbers, as the leaves hold them
   // Children of i: 2 i + 1 and 2 i + 2; the last leaves_ of them are leaves.
   std::vector<Box> nodes_;
   uint32_t leaves_ = 1;

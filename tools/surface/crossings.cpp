@@ -43,12 +43,13 @@ class Search {
   /// All pairs that cross or, where an edge meets an edge, may only touch: those are not `is_sure`.
   void find_pairs(Crossings& found, std::vector<bool>& is_sure) const {
     std::vector<Box> boxes;
+    boxes.reserve(surface_.faces.size());
     for (const Face& face : surface_.faces) boxes.push_back(box_of(face));
-    const BoxTree tree(boxes);
+    const BoxTree tree(std::move(boxes));
     std::vector<uint32_t> near;
     for (uint32_t f = 0; f < surface_.faces.size(); ++f) {
       near.clear();
-      tree.overlaps(boxes[f], near);
+      tree.overlaps(box_of(surface_.faces[f]), near);
       std::sort(near.begin(), near.end());
       for (const uint32_t g : near) {
         if (g <= f || share_an_edge(surface_.faces[f], surface_.faces[g])) continue;

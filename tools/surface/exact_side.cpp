@@ -1,5 +1,6 @@
 #include "surface/exact_side.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -80,9 +81,58 @@ void add_determinant(Sum& sum, math::Vec3 u, math::Vec3 v, math::Vec3 w, bool is
   sum.add(u.z, v.y, w.x, !is_negative);
 }
 
+bool is_same(math::Vec3 a, math::Vec3 b) {
+  return !(a.x < b.x || a.x > b.x || a.y < b.y || a.y > b.y || a.z < b.z || a.z > b.z);
+}
+
+// Coordinates as whole numbers of one unit where all are below 2^39 of it: their differences are
+// below 2^40, a product of three below 2^120, and the sum of six below 2^123.
+class Lattice {
+ public:
+  Lattice(math::Vec3 a, math::Vec3 b, math::Vec3 c, math::Vec3 p) {
+    const float most = std::max({size(a), size(b), size(c), size(p)});
+    int exponent = 0;
+    std::frexp(most, &exponent);
+    per_unit_ = std::ldexp(1.0, 39 - exponent);
+    holds_ = put(a, a_) && put(b, b_) && put(c, c_) && put(p, p_);
+  }
+  bool holds() const { return holds_; }
+  int side() const {
+    __extension__ using Wide = __int128;
+    int64_t u[3], v[3], w[3];
+    for (int k = 0; k < 3; ++k) u[k] = b_[k] - a_[k], v[k] = c_[k] - a_[k], w[k] = p_[k] - a_[k];
+    const Wide x = Wide{u[1]} * v[2] - Wide{u[2]} * v[1], y = Wide{u[2]} * v[0] - Wide{u[0]} * v[2],
+               z = Wide{u[0]} * v[1] - Wide{u[1]} * v[0];
+    const Wide sum = x * w[0] + y * w[1] + z * w[2];
+    return sum > 0 ? 1 : sum < 0 ? -1 : 0;
+  }
+
+ private:
+  static float size(math::Vec3 v) {
+    return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  }
+  bool put(math::Vec3 from, int64_t to[3]) const {
+    const double scaled[3] = {static_cast<double>(from.x) * per_unit_,
+                              static_cast<double>(from.y) * per_unit_,
+                              static_cast<double>(from.z) * per_unit_};
+    bool is_whole = true;
+    for (int k = 0; k < 3; ++k) {
+      to[k] = static_cast<int64_t>(scaled[k]);
+      const double back = static_cast<double>(to[k]);
+      is_whole = is_whole && back >= scaled[k] && back <= scaled[k];
+    }
+    return is_whole;
+  }
+
+  double per_unit_;
+  bool holds_;
+  int64_t a_[3], b_[3], c_[3], p_[3];
+};
+
 }  // namespace
 
 int exact_side(math::Vec3 a, math::Vec3 b, math::Vec3 c, math::Vec3 p) {
+  if (is_same(p, a) || is_same(p, b) || is_same(p, c)) return 0;
   const Point u = to_point(b) - to_point(a), v = to_point(c) - to_point(a),
               w = to_point(p) - to_point(a);
   const Point n = cross(u, v);
@@ -95,6 +145,8 @@ int exact_side(math::Vec3 a, math::Vec3 b, math::Vec3 c, math::Vec3 p) {
       1e-15 * (most.x * std::fabs(w.x) + most.y * std::fabs(w.y) + most.z * std::fabs(w.z));
   if (side > error) return 1;
   if (side < -error) return -1;
+  const Lattice lattice(a, b, c, p);
+  if (lattice.holds()) return lattice.side();
   Sum sum;
   add_determinant(sum, b, c, p, false);
   add_determinant(sum, a, c, p, true);

@@ -15,6 +15,13 @@ namespace {
 // corners; rounding in double adds less than this.
 constexpr double kFlat = 4e-16;
 
+bool is_flat_in(const Surface& surface, uint32_t f) {
+  const auto at = [&](uint32_t k) { return to_point(surface.vertices[surface.faces[f][k]]); };
+  const Point a = at(0), ab = at(1) - a, ac = at(2) - a, bc = at(2) - at(1);
+  const double longest2 = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+  return !(length(cross(ab, ac)) > kFlat * longest2);
+}
+
 class FlatFaces {
  public:
   explicit FlatFaces(Surface& surface) : surface_(surface), around_(surface.vertices.size()) {
@@ -24,11 +31,7 @@ class FlatFaces {
     dropped_.assign(surface_.faces.size(), false);
   }
 
-  bool is_flat(uint32_t f) const {
-    const Point a = at(f, 0), ab = at(f, 1) - a, ac = at(f, 2) - a, bc = at(f, 2) - at(f, 1);
-    const double longest2 = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
-    return !(length(cross(ab, ac)) > kFlat * longest2);
-  }
+  bool is_flat(uint32_t f) const { return is_flat_in(surface_, f); }
 
   // Result: whether the face went.
   bool mend(uint32_t f) {
@@ -156,9 +159,9 @@ class FlatFaces {
   std::vector<uint32_t> changed_;
 };
 
-bool any_flat(const FlatFaces& flat, const Surface& surface) {
+bool any_flat(const Surface& surface) {
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {
-    if (flat.is_flat(f)) return true;
+    if (is_flat_in(surface, f)) return true;
   }
   return false;
 }
@@ -166,8 +169,8 @@ bool any_flat(const FlatFaces& flat, const Surface& surface) {
 }  // namespace
 
 void remove_flat_faces(Surface& surface, const CheckOptions& options, CheckReport& report) {
+  if (!any_flat(surface)) return;
   FlatFaces flat(surface);
-  if (!any_flat(flat, surface)) return;
   const Surface before = surface;
   std::vector<uint32_t> queue, left;
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "surface/box_tree.hpp"
 #include "surface/check/mending.hpp"
@@ -67,19 +68,19 @@ enum class Where { kElsewhere, kOnEdge, kInside };
 class Touches {
  public:
   explicit Touches(const Surface& surface)
-      : surface_(surface), mates_(Edges(surface.faces).mates()), star_(surface.vertices.size()) {
-    for (uint32_t f = 0; f < surface.faces.size(); ++f)
-      for (const uint32_t v : surface.faces[f]) star_[v].push_back(f);
+      : surface_(surface), mates_(Edges(surface.faces).mates()), half_of_(surface.vertices.size()) {
+    for (uint32_t h = 0; h < mates_.size(); ++h) half_of_[start_of(surface.faces, h)] = h;
   }
 
   void find() {
     std::vector<Box> boxes;
+    boxes.reserve(surface_.faces.size());
     for (uint32_t f = 0; f < surface_.faces.size(); ++f) boxes.push_back(box_of(f));
-    const BoxTree tree(boxes);
+    const BoxTree tree(std::move(boxes));
     std::vector<uint32_t> near;
     for (uint32_t f = 0; f < surface_.faces.size(); ++f) {
       near.clear();
-      tree.overlaps(boxes[f], near);
+      tree.overlaps(box_of(f), near);
       for (const uint32_t g : near) {
         if (g == f) continue;
         for (uint32_t k = 0; k < 3; ++k) look_at_corner(f, k, g);
@@ -147,10 +148,14 @@ class Touches {
     const Vec3 p = at(f, k), q = at(f, k + 1);
     const bool lies_in_plane = side(g, p) == 0 && side(g, q) == 0;
     if (lies_in_plane && runs_inside(p, q, g)) return add(half, g);
-    for (uint32_t j = 0; j < 3; ++j)
-      if (!(is_convex_edge(half) && is_convex_edge(3 * g + j)) &&
-          is_crossed(p, q, at(g, j), at(g, j + 1)))
+    for (uint32_t j = 0; j < 3; ++j) {
+      const Vec3 r = at(g, j), s = at(g, j + 1);
+      // Edges with a common end are crossed nowhere else; to decide that exactly would take
+      // longest.
+      if (is_same(p, r) || is_same(p, s) || is_same(q, r) || is_same(q, s)) continue;
+      if (is_crossed(p, q, r, s) && !(is_convex_edge(half) && is_convex_edge(3 * g + j)))
         return add(half, g);
+    }
   }
 
   void add(uint32_t half, uint32_t g) {
@@ -210,9 +215,15 @@ class Touches {
 
   // A convex corner, and not one in the middle of a flat place.
   bool is_pointed(uint32_t v) const {
+    std::vector<uint32_t> star;
+    uint32_t h = half_of_[v];
+    do {
+      star.push_back(h / 3);
+      h = next_half(mates_[h]);
+    } while (h != half_of_[v]);
     bool is_flat = true;
-    for (const uint32_t f : star_[v]) {
-      for (const uint32_t g : star_[v]) {
+    for (const uint32_t f : star) {
+      for (const uint32_t g : star) {
         for (const uint32_t w : surface_.faces[g]) {
           const int above = side(f, surface_.vertices[w]);
           if (above > 0) return false;
@@ -224,8 +235,7 @@ class Touches {
   }
 
   const Surface& surface_;
-  std::vector<uint32_t> mates_;
-  std::vector<std::vector<uint32_t>> star_;
+  std::vector<uint32_t> mates_, half_of_;  // half_of_: of each vertex, one that leaves it
 };
 
 }  // namespace
