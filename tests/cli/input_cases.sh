@@ -101,3 +101,11 @@ RealModelsAreBakedMendedOrRefused() {
   bake "$models/stanford-bunny.obj" -o a.fta --unsigned
   says 'dropped 1113 vertices'
 }
+
+NeedlesMendedInVainAreWrapped() {
+  printf 'v %s\n' '0 0 0' '1 0 0' '0.3 2e-4 5e-5' '0.31 -1e-4 3e-4' >needle.obj
+  printf 'f %s\n' '1 3 2' '1 2 4' '2 3 4' '3 1 4' >>needle.obj
+  f bake needle.obj -o a.fta --mend; exits 3; says 'too sharp a needle'; absent a.fta
+  bake needle.obj -o a.fta --mend --wrap 1%
+  says 'wrapped: ' 'mending alone was not enough: the corner at'
+}

@@ -168,15 +168,25 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   std::vector<uint8_t> source = read_model(path);
   const tools::Facts origin =
       tools::provenance(file_name_of(path), source, options.text, kToolVersion);
-  const SoundSurface sound = sound_surface(path, std::move(source), options.model);
-  const tools::Surface& surface = sound.surface;
+  SoundSurface sound = sound_surface(path, std::move(source), options.model);
 
   progress.stage("building the tree of " + name);
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = options.model.is_signed;
   mesh_options.shape = tree_for(options.purpose);
   tools::MeshReport report;
-  baked.sections = tools::bake_mesh(surface, name, mesh_options, report);
+  baked.sections = tools::bake_mesh(sound.surface, name, mesh_options, report);
+  if (!report.problem.empty() && options.model.mend && options.model.wrap.value > 0) {
+    progress.stage("wrapping " + name);
+    const std::string problem = report.problem;
+    ModelOptions wraps = options.model;
+    wraps.mend = false;
+    sound = sound_surface(path, read_model(path), wraps);
+    sound.reported.push_back("mending alone was not enough: " + problem);
+    report = {};
+    baked.sections = tools::bake_mesh(sound.surface, name, mesh_options, report);
+  }
+  const tools::Surface& surface = sound.surface;
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
   mesh::View view;
   const core::Verdict verdict = tools::open_baked(baked.sections, name, view);
