@@ -64,6 +64,22 @@ TEST(CadParts_AreClosedAndSound) {
   }
 }
 
+TEST(CadParts_EachTriangleWithOwnVertices_AreWelded) {
+  for (uint64_t seed = 0; seed < kCadKinds; ++seed) {
+    test::note("seed", static_cast<int64_t>(seed));
+    const Surface part = surface_of(make_cad(seed));
+    Surface soup;
+    for (const Face& face : part.faces) {
+      const uint32_t first = static_cast<uint32_t>(soup.vertices.size());
+      for (const uint32_t v : face) soup.vertices.push_back(part.vertices[v]);
+      soup.faces.push_back({first, first + 1, first + 2});
+    }
+    const CheckReport report = check_and_mend(soup, {});
+    CHECK(report.usable() && report.is_closed);
+    CHECK_EQ(soup.vertices.size(), part.vertices.size());
+  }
+}
+
 TEST(CadParts_HaveLongThinTriangles) {
   double least = 1;
   for (uint64_t seed = 0; seed < kSeeds; ++seed)

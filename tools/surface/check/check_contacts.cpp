@@ -95,8 +95,13 @@ bool is_convex(const Surface& surface, uint32_t v, Neighbours::const_iterator be
 }
 
 void refuse_corners_in_pits(const Surface& surface, CheckReport& report) {
+  // Vertices that welding left without a face touch nothing.
+  std::vector<bool> is_used(surface.vertices.size(), false);
+  for (const Face& face : surface.faces)
+    for (const uint32_t v : face) is_used[v] = true;
   std::vector<std::pair<std::array<float, 3>, uint32_t>> order;
   for (uint32_t v = 0; v < surface.vertices.size(); ++v) {
+    if (!is_used[v]) continue;
     const math::Vec3 p = surface.vertices[v];
     order.push_back({{p.x, p.y, p.z}, v});
   }
