@@ -212,8 +212,6 @@ std::vector<Option> with_model_options(std::vector<Option> own) {
        "with --mend only where that is not enough; takes soups and points"}};
   own.insert(own.begin() + 1, kShared.begin(), kShared.end());
   return own;
-  own.insert(own.begin() + 1, kShared.begin(), kShared.end());
-  return own;
 }
 
 ModelOptions model_options(const Arguments& arguments, std::string& text) {
