@@ -4,7 +4,7 @@
 namespace firmtouch::device {
 
 /// What a check of a device's data found. Append-only.
-enum Rule : uint16_t {
+enum LinkageRule : uint16_t {
   kRuleJointCount = 1,  // 1 to 3 joints; a serial arm: 2 or 3
   kRuleCountsPerRad,    // 1 to 1e7 either way
   kRuleZeroAngle,       // within 100 rad
