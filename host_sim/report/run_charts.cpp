@@ -154,8 +154,8 @@ void RunCharts::finish(const Summary& summary) {
                          " N. Grey background: after a fault the motors are off.";
   for (RunChart& chart : charts_) {
     if (chart.is_logarithmic) {
-      chart.limit = summary.budget_visits;
-      chart.limit_label = "budget " + std::to_string(summary.budget_visits);
+      chart.limit = summary.budget_units;
+      chart.limit_label = "budget " + std::to_string(summary.budget_units) + " units";
     }
     if (chart.decimals == 3) chart.note = note_of_distance(summary);
   }

@@ -81,7 +81,7 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
   summary_.has_guide = environment.has_guide();
   summary_.force_limit_N = parameter_value(scenario, params::kForceLimit);
   summary_.tool_radius_m = parameter_value(scenario, params::kToolRadius);
-  summary_.budget_visits = static_cast<uint32_t>(
+  summary_.budget_units = static_cast<uint32_t>(
       (environment.has_surface() ? parameter_value(scenario, params::kMeshWork) : 0) +
       (environment.has_guide() ? parameter_value(scenario, params::kGuideWork) : 0));
   if (summary_.has_surface)
@@ -201,8 +201,8 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
   if (s.has_guide)
     line("  guide          %zu ticks on it; mean deviation %.2f mm, worst %.2f mm\n", s.guide_ticks,
          s.mean_guide_deviation_m * 1e3, s.worst_guide_deviation_m * 1e3);
-  line("  visits a tick  mean %.1f, worst %u, budget %u (tree nodes read)\n", s.mean_visits,
-       s.worst_visits, s.budget_visits);
+  line("  visits a tick  mean %.1f, worst %u (tree nodes read); budget %u work units\n",
+       s.mean_visits, s.worst_visits, s.budget_units);
   if (s.has_surface)
     line(
         "  certificate    lower <= true distance <= upper bound: %zu of %zu checked ticks (oracle "

@@ -19,7 +19,7 @@ struct Summary {
   double worst_penetration_m = 0;  // while the motors were on
   double mean_guide_deviation_m = 0, worst_guide_deviation_m = 0;
   double mean_visits = 0;
-  uint32_t worst_visits = 0, budget_visits = 0;
+  uint32_t worst_visits = 0, budget_units = 0;
   // Ticks whose distance was checked against an oracle in double (every triangle; for splines dense
   // samples).
   size_t checked_ticks = 0;

@@ -71,7 +71,7 @@ TEST(ClosedLoop_TouchesFollowsAndLatchesEmergencyStop) {
   CHECK_EQ(s.faults, servo::kFaultEmergencyStop);
   CHECK_LT(0.5, s.peak_force_N);
   CHECK_LE(s.peak_force_N, s.force_limit_N * (1 + 1e-6));
-  CHECK_LE(s.worst_visits, s.budget_visits);
+  CHECK_LE(s.worst_visits, s.budget_units);
   CHECK_EQ(s.wrong_bounds, 0u);
   CHECK_GE(s.checked_ticks, 1000u);
 }
