@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "firmtouch/curve/layout.hpp"
+#include "surface/point.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -59,15 +60,6 @@ void close_ring(CurvePoints& points) {
   last = first;
 }
 
-double diagonal_m(const CurvePoints& points) {
-  math::Vec3 low = points.samples_m[0], high = low;
-  for (const math::Vec3& s : points.samples_m) {
-    low = {s.x < low.x ? s.x : low.x, s.y < low.y ? s.y : low.y, s.z < low.z ? s.z : low.z};
-    high = {s.x > high.x ? s.x : high.x, s.y > high.y ? s.y : high.y, s.z > high.z ? s.z : high.z};
-  }
-  return distance_m(low, high);
-}
-
 bool fits(float value) { return std::abs(value) <= curve::kMaxCoordinate_m; }
 
 }  // namespace
@@ -94,7 +86,7 @@ void mend_curve(CurvePoints& points, const std::string& name) {
     points.problem = name + ": " + std::to_string(points.samples_m.size()) +
                      " samples are more than " + std::to_string(curve::kMaxSamples) +
                      ": thin the recording or cut it";
-  } else if (!(diagonal_m(points) >= kMinDiagonal_m)) {
+  } else if (!(diagonal_m(points.samples_m) >= kMinDiagonal_m)) {
     points.problem = name +
                      ": the whole curve is smaller than a thousandth of a millimetre: check "
                      "the unit (coordinates are metres unless --unit says otherwise)";

@@ -1,7 +1,5 @@
 #include "curve/make_hand_walk.hpp"
 
-#include <algorithm>
-
 #include "surface/point.hpp"
 #include "surface/random.hpp"
 
@@ -11,16 +9,6 @@ namespace {
 constexpr double kWander = 0.0002;  // of the diagonal, a step
 constexpr double kAside = 0.01;     // of the diagonal, at most
 
-double diagonal_of(const std::vector<math::Vec3>& samples_m) {
-  Point low = to_point(samples_m[0]), high = low;
-  for (const math::Vec3& s : samples_m) {
-    const Point p = to_point(s);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return length(high - low);
-}
-
 }  // namespace
 
 std::vector<math::Vec3> make_hand_walk(const std::vector<math::Vec3>& samples_m, uint64_t seed,
@@ -28,7 +16,7 @@ std::vector<math::Vec3> make_hand_walk(const std::vector<math::Vec3>& samples_m,
   std::vector<math::Vec3> walk;
   if (samples_m.empty()) return walk;
   Random random(seed ^ 0x68616E64ull);
-  const double diagonal = diagonal_of(samples_m);
+  const double diagonal = diagonal_m(samples_m);
   double total = 0;
   for (size_t i = 1; i < samples_m.size(); ++i)
     total += length(to_point(samples_m[i]) - to_point(samples_m[i - 1]));

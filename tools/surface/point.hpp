@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "firmtouch/math/vec3.hpp"
 
@@ -24,5 +26,16 @@ inline Point cross(Point a, Point b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double length(Point a) { return std::sqrt(dot(a, a)); }
+
+/// Of the bounding box of points, of which there is at least one.
+inline double diagonal_m(const std::vector<math::Vec3>& points_m) {
+  Point low = to_point(points_m[0]), high = low;
+  for (const math::Vec3& point_m : points_m) {
+    const Point p = to_point(point_m);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return length(high - low);
+}
 
 }  // namespace firmtouch::tools

@@ -9,6 +9,7 @@
 #include "bake/mesh/turn_slivers.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
+#include "surface/point.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -32,7 +33,7 @@ double import_rounding_m(const Surface& surface) {
 
 // How far the surface may still move under a lower bound that holds for the model as imported.
 double max_move_m(const Surface& surface) {
-  return double{mesh::kMaxRounding} * (1 - 0x1p-18) * diagonal_m(surface) -
+  return double{mesh::kMaxRounding} * (1 - 0x1p-18) * diagonal_m(surface.vertices) -
          import_rounding_m(surface);
 }
 
@@ -55,7 +56,7 @@ mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& t
     head.high_m[k] = high;
     head.grid_low_m[k] = grid.low_m[k];
   }
-  head.diagonal_m = static_cast<float>(diagonal_m(surface) * (1 - 0x1p-21));
+  head.diagonal_m = static_cast<float>(diagonal_m(surface.vertices) * (1 - 0x1p-21));
   head.cell_m = grid.cell_m;
   head.rounding_m =
       std::min(static_cast<float>(import_rounding_m(surface) + moved_m * (1 + 0x1p-20)),

@@ -134,23 +134,13 @@ class Confusion {
 
 }  // namespace
 
-double diagonal_m(const Surface& surface) {
-  Point low = to_point(surface.vertices[0]), high = low;
-  for (const math::Vec3& v : surface.vertices) {
-    const Point p = to_point(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return length(high - low);
-}
-
 double confusion_m(const Surface& surface) {
   double longest2 = 0;
   for (const Face& face : surface.faces) {
     const Point edge = to_point(surface.vertices[face[1]]) - to_point(surface.vertices[face[0]]);
     longest2 = std::max(longest2, dot(edge, edge));
   }
-  return 0x1p-24 * (13 * diagonal_m(surface) + 21 * std::sqrt(longest2));
+  return 0x1p-24 * (13 * diagonal_m(surface.vertices) + 21 * std::sqrt(longest2));
 }
 
 SignProof prove_signs(const Surface& surface, const ExactNormals& exact,

@@ -30,9 +30,6 @@ struct SignProof {
   bool holds() const { return faces.weak.empty() && edges.weak.empty() && vertices.weak.empty(); }
 };
 
-/// Of the bounding box of the vertices.
-double diagonal_m(const Surface& surface);
-
 /// Of features that lie nearer together than this the firmware may take one for the other: what
 /// float32 moves a foot in its plane (mesh/loss.hpp) for a query up to a diagonal away.
 double confusion_m(const Surface& surface);

@@ -1,7 +1,5 @@
 #include "surface/make/make_walk.hpp"
 
-#include <algorithm>
-
 #include "surface/point.hpp"
 #include "surface/random.hpp"
 
@@ -16,16 +14,6 @@ constexpr double kPullFrom = 0.0005;
 constexpr double kTurnAt =
     0.0165;  // beyond it the walk goes straight back; 0.0165 + 0.0025 leaves 5 % to spare
 
-double diagonal_of(const Surface& surface) {
-  Point low = to_point(surface.vertices[0]), high = low;
-  for (const math::Vec3& v : surface.vertices) {
-    const Point p = to_point(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return length(high - low);
-}
-
 }  // namespace
 
 std::vector<math::Vec3> make_walk(const Surface& surface, uint64_t seed, uint32_t points,
@@ -33,7 +21,7 @@ std::vector<math::Vec3> make_walk(const Surface& surface, uint64_t seed, uint32_
   std::vector<math::Vec3> walk;
   if (surface.faces.empty() || points == 0) return walk;
   Random random(seed ^ 0x77616C6Bull);
-  const double diagonal = diagonal_of(surface);
+  const double diagonal = diagonal_m(surface.vertices);
   const Face& face = surface.faces[random.below(static_cast<uint32_t>(surface.faces.size()))];
   Point p = to_point(surface.vertices[face[0]]), heading, back;
   double distance = 0;
