@@ -1,6 +1,7 @@
 // The projection on half-spaces, against all subsets of planes solved in double.
 #include <float.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "firmtouch/math/nearest_in_planes.hpp"
 #include "harness/random.hpp"
@@ -110,14 +111,33 @@ Problem make(test::Xorshift& random) {
   return problem;
 }
 
+ActivePlanes any_active(test::Xorshift& random) {
+  ActivePlanes active;
+  active.count = static_cast<uint8_t>(random() % 5);
+  for (uint8_t& plane : active.plane) plane = static_cast<uint8_t>(random() % 10);
+  return active;
+}
+
 }  // namespace
 
 TEST(NearestInPlanes_RandomPlanes_IsTheBruteForceInDouble) {
   test::Xorshift random(24);
-  uint32_t of_three = 0;
+  uint32_t of_three = 0, still = 0;
   for (uint32_t i = 0; i < 4000; ++i) {
     const Problem problem = make(random);
-    const NearestInPlanes found = nearest_in_planes(problem.plane, problem.count, problem.goal_m);
+    // Every other time from what held a goal near by, or from any planes.
+    ActivePlanes before = any_active(random);
+    if (i % 2 == 0) {
+      const float part = between(random, 0.9f, 1.0f);
+      const Vec3 near_m{problem.goal_m.x * part, problem.goal_m.y * part, problem.goal_m.z * part};
+      before = nearest_in_planes(problem.plane, problem.count, near_m).active;
+    }
+    const NearestInPlanes found =
+        nearest_in_planes(problem.plane, problem.count, problem.goal_m, before);
+    still += before.count != 0 && found.active.count == before.count &&
+                     memcmp(found.active.plane, before.plane, before.count) == 0
+                 ? 1
+                 : 0;
     const Oracle oracle(problem);
     test::note("case", i);
     CHECK(found.is_found);
@@ -125,17 +145,18 @@ TEST(NearestInPlanes_RandomPlanes_IsTheBruteForceInDouble) {
     CHECK_LE(root(dot(off, off)), oracle.distance_m + 2e-7);
     CHECK_LE(oracle.distance_m, root(dot(off, off)) + 2e-7);
     CHECK_LE(depth_m(problem, wide(found.point_m)), 1.1e-7);
-    CHECK_LE(found.active_count, 3u);
-    of_three += found.active_count == 3 ? 1 : 0;
+    CHECK_LE(found.active.count, 3u);
+    of_three += found.active.count == 3 ? 1 : 0;
   }
   CHECK_GE(of_three, 300u);
+  CHECK_GE(still, 1000u);
 }
 
 TEST(NearestInPlanes_CornerOfThreeWalls_IsTheCorner) {
   const HalfSpace walls[3] = {{{1, 0, 0}, -0.001f}, {{0, 1, 0}, -0.002f}, {{0, 0, 1}, -0.003f}};
   const NearestInPlanes found = nearest_in_planes(walls, 3, {-0.01f, -0.01f, -0.01f});
   CHECK(found.is_found);
-  CHECK_EQ(found.active_count, 3u);
+  CHECK_EQ(found.active.count, 3u);
   CHECK_LE(__builtin_fabsf(found.point_m.x + 0.001f), 2e-9f);
   CHECK_LE(__builtin_fabsf(found.point_m.y + 0.002f), 2e-9f);
   CHECK_LE(__builtin_fabsf(found.point_m.z + 0.003f), 2e-9f);
@@ -159,7 +180,7 @@ TEST(NearestInPlanes_SamePlaneEightTimes_CountsOnce) {
   for (HalfSpace& plane : planes) plane = {{0, 0, 1}, -0.001f};
   const NearestInPlanes found = nearest_in_planes(planes, 8, {0.002f, 0, -0.005f});
   CHECK(found.is_found);
-  CHECK_EQ(found.active_count, 1u);
+  CHECK_EQ(found.active.count, 1u);
   CHECK_LE(__builtin_fabsf(found.point_m.z + 0.001f), 1e-9f);
   CHECK_EQ(found.point_m.x, 0.002f);
 }
@@ -175,10 +196,11 @@ TEST(NearestInPlanes_HostileInput_IsFinite) {
     *fields[random() % 5] = special[random() % 9];
     problem.count = random() % 12;
     if (problem.count > kMaxHalfSpaces) {
-      CHECK_LE(nearest_in_planes(problem.plane, kMaxHalfSpaces, problem.goal_m).active_count, 3u);
+      CHECK_LE(nearest_in_planes(problem.plane, kMaxHalfSpaces, problem.goal_m).active.count, 3u);
       continue;
     }
-    const NearestInPlanes found = nearest_in_planes(problem.plane, problem.count, problem.goal_m);
+    const NearestInPlanes found =
+        nearest_in_planes(problem.plane, problem.count, problem.goal_m, any_active(random));
     test::note("case", i);
     CHECK(found.point_m.x - found.point_m.x <= 0 && found.point_m.y - found.point_m.y <= 0 &&
           found.point_m.z - found.point_m.z <= 0);

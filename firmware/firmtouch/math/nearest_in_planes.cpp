@@ -70,15 +70,34 @@ class Reach {
   uint32_t count_ = 0;
 };
 
+bool is_finite(const HalfSpace& plane) {
+  const float sum = (plane.normal.x + plane.normal.y) + (plane.normal.z + plane.offset_m);
+  return sum - sum <= 0.0f;
+}
+
+// Whether these planes alone hold the answer, which is unique.
+bool is_held_by(const ActivePlanes& active, const HalfSpace* planes, uint32_t count, Vec3 goal_m,
+                NearestInPlanes& found) {
+  if (active.count == 0 || active.count > 3) return false;
+  Reach reach(goal_m);
+  for (uint32_t n = 0; n < active.count; ++n) {
+    const uint32_t i = active.plane[n];
+    if (i >= count || !is_finite(planes[i]) || !reach.add(planes[i])) return false;
+  }
+  if (!reach.is_pushed()) return false;
+  const float tolerance_m = kTolerance * length(goal_m);
+  for (uint32_t i = 0; i < count; ++i)
+    if (planes[i].offset_m - dot(planes[i].normal, reach.point_m()) > tolerance_m) return false;
+  found = {reach.point_m(), active, true};
+  return true;
+}
+
 // The optimum of the planes that were violated so far, one more at a time.
 class Search {
  public:
   Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m) : planes_(planes), reach_(goal_m) {
-    for (uint32_t i = 0; i < count && i < kMaxHalfSpaces; ++i) {
-      const float sum =
-          (planes[i].normal.x + planes[i].normal.y) + (planes[i].normal.z + planes[i].offset_m);
-      if (sum - sum <= 0.0f) order_[count_++] = i;  // finite
-    }
+    for (uint32_t i = 0; i < count && i < kMaxHalfSpaces; ++i)
+      if (is_finite(planes[i])) order_[count_++] = i;
     best_.point_m = goal_m;
     tolerance_m_ = kTolerance * length(goal_m);
   }
@@ -155,8 +174,9 @@ class Search {
     if (!(worst_m < best_violation_m_)) return false;
     best_violation_m_ = worst_m;
     best_.point_m = reach_.point_m();
-    best_.active_count = reach_.count();
-    for (uint32_t n = 0; n < best_.active_count; ++n) best_.active[n] = order_[chosen_[n]];
+    best_.active.count = static_cast<uint8_t>(reach_.count());
+    for (uint32_t n = 0; n < reach_.count(); ++n)
+      best_.active.plane[n] = static_cast<uint8_t>(order_[chosen_[n]]);
     return worst_m <= tolerance_m_;
   }
 
@@ -180,17 +200,21 @@ bool is_allowed(const HalfSpace* planes, uint32_t count, Vec3 point_m, float tol
 
 }  // namespace
 
-NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 goal_m) {
+NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
+                                  ActivePlanes before) {
   if (!is_finite(goal_m)) return {};
+  NearestInPlanes found;
+  const uint32_t known = count < kMaxHalfSpaces ? count : kMaxHalfSpaces;
+  if (is_held_by(before, planes, known, goal_m, found)) return found;
   return Search(planes, count, goal_m).run();
 }
 
 Slide slide_with_friction(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
                           const NearestInPlanes& nearest, float friction) {
   const Vec3 end_m = nearest.point_m;
-  if (!(friction > 0.0f) || nearest.active_count == 0) return {end_m, false};
+  if (!(friction > 0.0f) || nearest.active.count == 0) return {end_m, false};
   Reach reach(Vec3{});
-  for (uint32_t n = 0; n < nearest.active_count; ++n) reach.add(planes[nearest.active[n]]);
+  for (uint32_t n = 0; n < nearest.active.count; ++n) reach.add(planes[nearest.active.plane[n]]);
   // Slides begin where the origin is pressed on the planes.
   const Vec3 begin_m = reach.point_m();
   const float held_m = friction * length(goal_m - end_m);

@@ -16,10 +16,15 @@ struct HalfSpace {
   float offset_m = 0;
 };
 
+/// The half-spaces whose planes hold a point.
+struct ActivePlanes {
+  uint8_t plane[3] = {};
+  uint8_t count = 0;
+};
+
 struct NearestInPlanes {
   Vec3 point_m;
-  uint32_t active[3] = {};  // the half-spaces whose planes hold it
-  uint32_t active_count = 0;
+  ActivePlanes active;
   // The planes agree to 1e-5 |goal|. If false, point_m is the best that was found.
   bool is_found = false;
 };
@@ -27,12 +32,14 @@ struct NearestInPlanes {
 /// The point nearest to `goal_m` with all of `planes`, with at most three of them active. The plane
 /// that is violated most is added to those before it, until none is violated. It is active then,
 /// because the problem is convex; which others are is found by trying subsets in the order of their
-/// sizes, until one satisfies the conditions of Kuhn and Tucker.
+/// sizes, until one satisfies the conditions of Kuhn and Tucker. `before`: the active planes of a
+/// like problem, in any state. If they satisfy the conditions here, nothing else is tried.
 /// Bounds: at most 92 subsets of 8 planes, those that push with at most 8 products.
 /// Result: finite where all input is finite and below 1e6 m. Planes beyond kMaxHalfSpaces are
 ///         ignored, and so are those with NaN. No plane: the goal. A goal with NaN: the origin.
 /// Error: 1e-5 |goal|; planes that agree in direction to 1e-5 rad count as one.
-NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 goal_m);
+NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
+                                  ActivePlanes before = {});
 
 struct Slide {
   Vec3 point_m;

@@ -21,7 +21,6 @@ Feature feature_of(const MeshObject& object, uint32_t triangle) {
   const mesh::Triangle<uint32_t> corners = object.mesh->triangle(triangle);
   for (uint32_t k = 0; k < 3; ++k)
     feature.corner[k] = math::apply(object.pose, object.mesh->vertex(corners.corner[k]));
-  feature.id = triangle;
   feature.kind = Feature::Kind::kTriangle;
   return feature;
 }

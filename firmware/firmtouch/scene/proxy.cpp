@@ -29,8 +29,9 @@ constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 
 bool is_same(const Feature& a, const Feature& b, float within_m) {
   if (a.kind != b.kind) return false;
-  if (a.kind == Feature::Kind::kTriangle) return a.id == b.id;
-  return a.kind == Feature::Kind::kHalfSpace || math::length(a.corner[0] - b.corner[0]) <= within_m;
+  for (uint32_t k = 0; k < 3; ++k)
+    if (!(math::length(a.corner[k] - b.corner[k]) <= within_m)) return false;
+  return true;
 }
 
 }  // namespace
@@ -107,43 +108,64 @@ bool ProxyMove::is_longer(Vec3 to_m) const {
   return !(longer + rounding <= (is_held ? 0.0f : kLonger * size_m_ * sum));
 }
 
-// Each feature becomes a plane that the sphere's centre stays in front of. A place that is nearer
-// than the radius already need not be left: there no plane would have a solution.
-void ProxyMove::linearise() {
-  linearised_at_m_ = proxy_.position_m;
-  const float restored_m = kRestoring * size_m_;
-  const float most_m = restored_m + (aimed_radius_m_ - proxy_.radius_m);
-  const Outlook outlook{goal_m_ - proxy_.position_m, proxy_.radius_m, restored_m};
-  // A feature farther away can be met neither by this move nor by a usual one of the next tick.
-  const float reach_m = aimed_radius_m_ + kBand * size_m_ + math::length(outlook.way_m);
-  for (uint32_t i = 0; i < proxy_.feature_count;) {
-    const Tangent tangent = tangent_at(proxy_.feature[i], proxy_.position_m, outlook);
-    if (!(tangent.distance_m <= reach_m)) {
-      proxy_.feature[i] = proxy_.feature[--proxy_.feature_count];
-      continue;
-    }
-    const float lacking_m = aimed_radius_m_ + kAim * size_m_ - tangent.distance_m;
-    math::HalfSpace plane{tangent.normal, lacking_m < most_m ? lacking_m : most_m};
-    for (uint32_t j = 0; j < i; ++j) {
-      const Vec3 apart = plane_[j].normal - plane.normal;
-      if (apart.x * apart.x > kSameDirection2) continue;
-      if (!(math::dot(apart, apart) < kSameDirection2)) continue;
-      if (plane_[j].offset_m < plane.offset_m) plane_[j].offset_m = plane.offset_m;
-      plane = {};
-      break;
-    }
-    plane_[i++] = plane;
-  }
+void ProxyMove::drop(uint32_t i) {
+  const uint32_t last = --proxy_.feature_count;
+  proxy_.feature[i] = proxy_.feature[last];
+  proxy_.plane[i] = proxy_.plane[last];
 }
 
-// Where the proxy comes to rest for the planes of the working set, from where it is.
+// Planes count from the proxy again. A feature that is farther away than this move and a usual one
+// of the next tick reach is dropped.
+void ProxyMove::begin_planes() {
+  outlook_ = {goal_m_ - proxy_.position_m, proxy_.radius_m, kRestoring * size_m_};
+  taken_ = 0;
+  const float reach_m = kBand * size_m_ + math::length(outlook_.way_m);
+  const Vec3 moved_m = proxy_.position_m - proxy_.planes_at_m;
+  proxy_.planes_at_m = proxy_.position_m;
+  for (uint32_t i = 0; i < proxy_.feature_count;) {
+    math::HalfSpace& plane = proxy_.plane[i];
+    plane.offset_m -= math::dot(plane.normal, moved_m);
+    if (-plane.offset_m <= reach_m)
+      ++i;
+    else
+      drop(i);
+  }
+  if (aimed_radius_m_ > proxy_.radius_m)
+    for (uint32_t i = 0; i < proxy_.feature_count; ++i) take_plane(i);
+}
+
+// The plane between a feature and the proxy, for the sphere's centre to stay in front of. A place
+// that is nearer than the radius already need not be left: there no plane would have a solution.
+void ProxyMove::take_plane(uint32_t i) {
+  const Tangent tangent = tangent_at(proxy_.feature[i], proxy_.position_m, outlook_);
+  const float most_m = outlook_.rounding_m + (aimed_radius_m_ - proxy_.radius_m);
+  const float lacking_m = aimed_radius_m_ + kAim * size_m_ - tangent.distance_m;
+  const float from_m = math::dot(tangent.normal, proxy_.position_m - proxy_.planes_at_m);
+  proxy_.plane[i] = {tangent.normal, (lacking_m < most_m ? lacking_m : most_m) + from_m};
+  taken_ |= 1u << i;
+}
+
+// Result: whether a plane that holds the proxy was taken elsewhere before.
+bool ProxyMove::take_active() {
+  const uint32_t before = taken_;
+  for (uint32_t n = 0; n < proxy_.active.count; ++n)
+    if ((taken_ >> proxy_.active.plane[n] & 1u) == 0) take_plane(proxy_.active.plane[n]);
+  return taken_ != before;
+}
+
+// Where the proxy comes to rest for the planes of the working set, from where it is. Only planes
+// that hold it are taken anew, at most once each.
 math::Slide ProxyMove::rest() {
   const Vec3 way_m = goal_m_ - proxy_.position_m;
   if (math::length(way_m) * kUp < proxy_.free_m - aimed_radius_m_) return {way_m, false};
-  linearise();
-  const math::NearestInPlanes nearest =
-      math::nearest_in_planes(plane_, proxy_.feature_count, way_m);
-  return math::slide_with_friction(plane_, proxy_.feature_count, way_m, nearest, friction_);
+  begin_planes();
+  for (;;) {
+    const math::NearestInPlanes nearest =
+        math::nearest_in_planes(proxy_.plane, proxy_.feature_count, way_m, proxy_.active);
+    proxy_.active = nearest.active;
+    if (take_active()) continue;
+    return math::slide_with_friction(proxy_.plane, proxy_.feature_count, way_m, nearest, friction_);
+  }
 }
 
 // What is left of the free radius after a move.
@@ -204,28 +226,28 @@ bool ProxyMove::aim() {
   return true;
 }
 
-// Result: false if it was known.
+// Result: false if it was known, and its plane, too.
 bool ProxyMove::keep(const Feature& feature) {
   if (feature.kind == Feature::Kind::kNone) return false;
   uint32_t at = 0;
   for (; at < proxy_.feature_count; ++at)
-    if (is_same(proxy_.feature[at], feature, kTolerance * size_m_)) return false;
-  if (at == kMaxFeatures) {
+    if (is_same(proxy_.feature[at], feature, kTolerance * size_m_)) break;
+  if (at < proxy_.feature_count && (taken_ >> at & 1u) != 0) return false;
+  if (at == proxy_.feature_count && at < kMaxFeatures) {
+    ++proxy_.feature_count;
+  } else if (at == kMaxFeatures) {
     // Instead of the one whose plane is farthest from the trial.
-    const Vec3 step_m = trial_m_ - linearised_at_m_;
+    const Vec3 step_m = trial_m_ - proxy_.planes_at_m;
     float most_m = -FLT_MAX;
     at = 0;
     for (uint32_t i = 0; i < kMaxFeatures; ++i) {
-      const math::HalfSpace& plane = plane_[i];
-      const bool is_twin = !(math::dot(plane.normal, plane.normal) > 0.0f);
-      const float slack_m =
-          is_twin ? kTolerance * size_m_ : math::dot(plane.normal, step_m) - plane.offset_m;
+      const math::HalfSpace& plane = proxy_.plane[i];
+      const float slack_m = math::dot(plane.normal, step_m) - plane.offset_m;
       if (slack_m > most_m) most_m = slack_m, at = i;
     }
-  } else {
-    ++proxy_.feature_count;
   }
   proxy_.feature[at] = feature;
+  take_plane(at);
   return true;
 }
 
@@ -233,7 +255,7 @@ bool ProxyMove::keep(const Feature& feature) {
 void ProxyMove::drop_base_hull() {
   for (uint32_t i = 0; i < proxy_.feature_count;) {
     if (proxy_.feature[i].is_of_base_hull) {
-      proxy_.feature[i] = proxy_.feature[--proxy_.feature_count];
+      drop(i);
     } else {
       ++i;
     }
@@ -251,8 +273,10 @@ void ProxyMove::begin_contact(const Near& near) {
     proxy_.searched_free_m = near.lower_m;
   }
   if (!near.has_inside || near.sign != 0) {
-    if (!is_searching_) proxy_.feature_count = 0, keep(near.feature);
-    return begin_at_hand(near.sign);
+    begin_at_hand(near.sign);
+    proxy_.feature_count = 0;
+    if (!is_searching_) keep(near.feature);
+    return;
   }
   moved_.is_starved = true;
   proxy_.phase = Proxy::Phase::kUnknown;
@@ -271,7 +295,6 @@ void ProxyMove::begin_at_hand(int8_t sign) {
   proxy_.near.sign = sign;
   proxy_.searched_free_m = 0;
   proxy_.slid_m = 0;
-  if (is_searching_) proxy_.feature_count = 0;
   const float least_m = kMinRadius * size_m_;
   const float radius_m = settings_.radius_m > least_m ? settings_.radius_m : least_m;
   moved_.is_starved = false;

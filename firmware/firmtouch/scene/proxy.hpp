@@ -10,7 +10,7 @@
 // A spring ties it to the hand. scene/README.md has the algorithm and its theorems.
 namespace firmtouch::scene {
 
-constexpr uint32_t kMaxFeatures = 8;  // of the working set
+constexpr uint32_t kMaxFeatures = 7;  // of the working set: a (tool, object) pair fits 512 B
 constexpr uint32_t kMaxQueries = 4;   // a tick
 
 struct ProxySettings {
@@ -41,6 +41,11 @@ struct Proxy {
   math::Vec3 searched_m;
   float searched_free_m = 0;
   Feature feature[kMaxFeatures];
+  // Each has its feature behind it, wherever it was taken; only those that hold the proxy are taken
+  // anew. Their offsets count from planes_at_m.
+  math::HalfSpace plane[kMaxFeatures];
+  math::Vec3 planes_at_m;
+  math::ActivePlanes active;  // in the last solution
   uint32_t feature_count = 0;
   Phase phase = Phase::kUnknown;
 };
@@ -83,7 +88,10 @@ class ProxyMove {
   void begin_contact(const Near& near);
   void begin_at_hand(int8_t sign);
   void drop_base_hull();
-  void linearise();
+  void drop(uint32_t i);
+  void begin_planes();
+  void take_plane(uint32_t i);
+  bool take_active();
   math::Slide rest();
   bool is_longer(math::Vec3 to_m) const;
   bool drift();
@@ -101,9 +109,9 @@ class ProxyMove {
   bool is_over_ = false;
   bool is_searching_ = false;  // for the side of the hand, from where another tick has come
   uint32_t work_left_;
-  math::HalfSpace plane_[kMaxFeatures];  // of the features, about linearised_at_m_
-  math::Vec3 linearised_at_m_;
-  float lag_m_ = 0;  // from there to the solution
+  Outlook outlook_;
+  uint32_t taken_ = 0;  // bits of the planes that were taken where the proxy is
+  float lag_m_ = 0;     // from there to the solution
   ProxyMoved moved_;
 };
 

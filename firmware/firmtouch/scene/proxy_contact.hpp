@@ -26,6 +26,8 @@ struct ProxyTouch {
   ProxyMoved moved;         // in the last tick
 };
 
+static_assert(sizeof(ProxyTouch) <= 512);
+
 /// Before the proxy moves: takes servo's place of it, and settings that may change.
 /// Result: the settings of the move.
 ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch);

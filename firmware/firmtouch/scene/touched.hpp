@@ -24,7 +24,6 @@ struct Feature {
     kHalfSpace  // behind the plane through corner[0] with the unit normal corner[1]
   };
   math::Vec3 corner[3];
-  uint32_t id = 0;  // of a triangle
   Kind kind = Kind::kNone;
   bool is_of_base_hull = false;  // holds only while the work does not suffice
 };
