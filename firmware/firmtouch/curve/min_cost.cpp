@@ -83,11 +83,12 @@ class LeastCost {
       else
         work_.charge(1);
       const uint32_t end = first + cut.size, last = end < count ? end : count;
-      if (!may_hold(first, last, radii[cut.part])) continue;
+      const bool has_best = best_at_ - first < cut.size;
+      if (!has_best && !may_hold(first, last, radii[cut.part])) continue;
       if (cut.size == kPartSegments) {
         Foot foot;
         for (uint32_t segment = first; segment < last; ++segment)
-          if (!look_at(segment, foot)) return false;
+          if (segment != best_at_ && !look_at(segment, foot)) return false;
         continue;
       }
       const uint32_t child = first_child(cut.part), half = cut.size / 2;
@@ -124,6 +125,7 @@ class LeastCost {
                          penalty_at_m(penalty_, arc_of(curve_, foot), curve_.is_closed());
     if (cost_m < cost_m_) {
       best_ = foot;
+      best_at_ = segment;
       cost_m_ = cost_m;
     }
     return is_done;
@@ -149,6 +151,7 @@ class LeastCost {
   float doubt_m_ = 0;
   float cost_m_ = 0x1p62f;  // more than any cost
   Foot best_{FLT_MAX, 0, 1, 0.0f};
+  uint32_t best_at_ = UINT32_MAX;  // the segment on which it was found
 };
 
 // The segment that holds an arc position: what a cold query begins with.
