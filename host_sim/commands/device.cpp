@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <string>
 
+#include "device/device_file.hpp"
 #include "host_sim/commands/commands.hpp"
-#include "host_sim/device/device_file.hpp"
 #include "host_sim/device/workspace.hpp"
 #include "host_sim/trace/log.hpp"
 
@@ -17,7 +17,7 @@ double percent(uint32_t part, const Workspace& of) { return 100.0 * part / of.po
 
 int print_device(const Options& options) {
   const std::string path = options.operand("one device file");
-  const LinkageDevice device = read_device(path, read_file(path));
+  const LinkageDevice device = tools::read_device(path, read_file(path));
   const Workspace space = workspace_of(device, kSteps[device.joints.joints]);
   const uint32_t none = space.poses - space.with_whole_force - space.with_faded_force;
   std::printf("poses on a grid over the joints' ranges    %u\n", space.poses);

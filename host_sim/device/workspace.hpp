@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
 
-#include "host_sim/device/device_file.hpp"
+#include "device/device_file.hpp"
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
+
+using tools::LinkageDevice;
 
 /// Poses of a linkage on a grid over the ranges of its joints.
 struct Workspace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host_sim/scenario/line_reader.hpp"
+#include "device/line_reader.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -135,7 +135,7 @@ std::string plan_scenario(const Environment& environment, const std::string& ass
   TextLines out;
   out.line(
       "# A hand touches the asset. Written by `firmtouch-sim scenario` from the bounding box.");
-  out.line("asset " + path_word(asset));
+  out.line("asset " + tools::path_word(asset));
   add_setting(out, environment, box, diagonal, tool);
   out.add("\n# the hand\nhand_stiffness 400 N/m\nhand_damping 4 N*s/m");
   out.add("start %.6g %.6g %.6g m\nhold for %.4g s", start.x, start.y, start.z, kHold_s);

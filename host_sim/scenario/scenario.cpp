@@ -5,11 +5,12 @@
 #include <cstdio>
 #include <sstream>
 
-#include "host_sim/scenario/line_reader.hpp"
-#include "host_sim/scenario/units.hpp"
+#include "host_sim/scenario/moves.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
+
+using tools::LineReader;
 
 struct Key {
   const char* name;

@@ -1,18 +1,15 @@
 #pragma once
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "device/refused.hpp"
 #include "host_sim/plant/device.hpp"
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
 
-/// Bad input. The message names file and place, what is wrong, and how to mend it.
-struct Refused : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+using tools::Refused;
 
 struct HandModel {
   double stiffness_N_per_m = 400;  // a relaxed grip

@@ -6,6 +6,7 @@
 #include "controller/ride.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/device/layout.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/mesh/layout.hpp"
@@ -63,7 +64,8 @@ TEST(MissingPart_IsNamedByItsRule) {
       {{hull::kHeadSection, "x", {1}}},
       {{curve::kHeadSection, "x", {1}}},
       {spline_head(true)},
-      {spline_head(false), {spline::kArcsSection, "x", {1, 2, 3, 4}}}};
+      {spline_head(false), {spline::kArcsSection, "x", {1, 2, 3, 4}}},
+      {{device::kLinkageSection, "x", {1}}}};
   for (uint32_t part = 0; part < kPartCount; ++part) {
     CHECK_EQ(missing(needs[part], {}, kAll & ~(1u << part)).rule, kRuleNeedsMesh + part);
     CHECK_EQ(missing(needs[part], {}, 1u << part).rule, 0u);

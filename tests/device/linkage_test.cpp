@@ -221,8 +221,9 @@ TEST(TorqueLimits_BadValues_BreakARuleByName) {
            kRuleMaxTorque * 100u + 1);
   CHECK_EQ(broken(kLimits, [](TorqueLimits& t) { t.gone_at = .1f; }), kRuleFade * 100u);
   // Every rule has a text of its own.
-  for (uint16_t rule = 0; rule <= kRuleFade + 1; ++rule)
-    for (uint16_t other = 0; other < rule; ++other) CHECK(rule_name(rule) != rule_name(other));
+  for (uint16_t rule = kRuleJointCount; rule <= kRuleLoad + 1; ++rule)
+    for (uint16_t other = kRuleJointCount; other < rule; ++other)
+      CHECK(rule_name(rule) != rule_name(other));
 }
 
 TEST(Linkages_HaveOneHashEverywhere) {

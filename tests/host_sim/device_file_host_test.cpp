@@ -1,5 +1,5 @@
 // Device files: every key, every kind of mistake with its line, and singular workspaces.
-#include "host_sim/device/device_file.hpp"
+#include "device/device_file.hpp"
 
 #include <cmath>
 #include <string>
@@ -9,8 +9,8 @@
 #include "host_sim/scenario/scenario.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
-using host_sim::LinkageDevice;
 using host_sim::Workspace;
+using tools::LinkageDevice;
 
 namespace {
 
@@ -28,7 +28,7 @@ const std::string kDelta =
     "counts_1 500 counts/rad\nlow_1 0 deg\nhigh_1 50 deg\nmax_torque_1 1 N*m\n"
     "counts_2 500 counts/rad\nlow_2 0 deg\nhigh_2 50 deg\nmax_torque_2 1 N*m\n";
 
-LinkageDevice read(const std::string& text) { return host_sim::read_device("test.device", text); }
+LinkageDevice read(const std::string& text) { return tools::read_device("test.device", text); }
 
 bool near(float a, double b) { return std::fabs(static_cast<double>(a) - b) <= 1e-6 * (1 + b); }
 

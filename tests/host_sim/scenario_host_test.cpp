@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
+#include "device/line_reader.hpp"
+#include "device/units.hpp"
 #include "harness/test.hpp"
-#include "host_sim/scenario/line_reader.hpp"
 #include "host_sim/scenario/scenario.hpp"
-#include "host_sim/scenario/units.hpp"
 #include "host_sim/trace/run.hpp"
 
 namespace host_sim = firmtouch::host_sim;
@@ -128,7 +128,7 @@ TEST(QuotedPath_RoundTrips_ForAnyPath) {
   for (const std::string path :
        {"a.fta", "gear #2.fta", "#1", " leading", "trailing ", "a#b", "a\"b\"", "back\\slash",
         "back\\", "two\nlines", "\ttab", "\"", "\\n"}) {
-    const std::string line = "asset " + host_sim::path_word(path);
+    const std::string line = "asset " + firmtouch::tools::path_word(path);
     CHECK(read(line + "\nduration 1 s\n").asset == path);
     CHECK(read(line + "  # \"a\" comment\nduration 1 s\n").asset == path);
   }
@@ -138,23 +138,25 @@ TEST(QuotedPath_RoundTrips_ForAnyPath) {
 }
 
 TEST(Units_OtherDimension_DoNotConvert) {
-  CHECK(near(*host_sim::to_si(2, "N/mm", "N/m"), 2000));
-  CHECK(near(*host_sim::to_si(2, "N*s/m", "N s/m"), 2));
-  CHECK(!host_sim::to_si(2, "N", "N/m"));
-  CHECK(!host_sim::to_si(2, "", "m"));
+  CHECK(near(*firmtouch::tools::to_si(2, "N/mm", "N/m"), 2000));
+  CHECK(near(*firmtouch::tools::to_si(2, "N*s/m", "N s/m"), 2));
+  CHECK(!firmtouch::tools::to_si(2, "N", "N/m"));
+  CHECK(!firmtouch::tools::to_si(2, "", "m"));
 }
 
 // A new parameter of the controller must be writable in a scenario.
 TEST(Scenario_EveryParameter_CanBeSetByName) {
   for (const host_sim::ParameterRow& row : host_sim::parameter_rows()) {
     const Scenario s =
-        read(kHead, {row.short_name + " " + std::to_string(row.initial) +
-                     (row.unit.empty() ? ""
-                                       : " " + host_sim::units_like(row.unit).substr(
-                                                   0, host_sim::units_like(row.unit).find(',')))});
+        read(kHead,
+             {row.short_name + " " + std::to_string(row.initial) +
+              (row.unit.empty() ? ""
+                                : " " + firmtouch::tools::units_like(row.unit).substr(
+                                            0, firmtouch::tools::units_like(row.unit).find(',')))});
     CHECK_EQ(s.settings.size(), 1u);
-    if (!row.unit.empty() && !host_sim::to_si(1, row.unit, row.unit)) CHECK(says("", row.unit));
-    CHECK(row.unit.empty() || host_sim::units_like(row.unit) != "");
+    if (!row.unit.empty() && !firmtouch::tools::to_si(1, row.unit, row.unit))
+      CHECK(says("", row.unit));
+    CHECK(row.unit.empty() || firmtouch::tools::units_like(row.unit) != "");
   }
 }
 

@@ -194,3 +194,69 @@ TEST(GuardNoticesEveryFlippedBitOfItsMemoryThatMatters) {
     CHECK(rig.is_zero());
   }
 }
+
+namespace {
+
+struct TorqueRig : Rig {
+  servo::TorqueCeilings ceilings;
+  // 0.01 N m a tick.
+  TorqueRig() { servo::set_ceilings(ceilings, {0.2f, 0.3f, 0.0f}, 0.02f); }
+  bool turn(float first, float second, float third, bool may_push = true) {
+    motor_N[0] = first, motor_N[1] = second, motor_N[2] = third;
+    return servo::guard_torques(state, ceilings, may_push, false, motor_N);
+  }
+  void rise_to(float first_Nm) {
+    for (float torque_Nm = 0; torque_Nm < first_Nm; torque_Nm += 0.009f)
+      CHECK(turn(torque_Nm, 0, 0));
+  }
+};
+
+}  // namespace
+
+TEST(GuardOfTorques_HoldsEachJointsCeilingAndRise) {
+  TorqueRig rig;
+  CHECK(rig.turn(0.01f, -0.015f, 0));
+  CHECK_EQ(rig.motor_N[1], -0.015f);
+  CHECK(rig.turn(-0.01f, 0.015f, 0));  // through 0
+  CHECK(!rig.turn(-0.0205f, 0.015f, 0));
+  CHECK(rig.is_zero());
+  TorqueRig high;
+  high.rise_to(0.2f);
+  CHECK(high.turn(0.2f, 0, 0));
+  CHECK(!high.turn(0.2001f, 0, 0));
+  CHECK(!TorqueRig().turn(0, 0, 0.001f));  // a joint that the linkage does not have
+  TorqueRig quiet;
+  quiet.rise_to(0.1f);
+  for (uint32_t tick = 0; tick < 10; ++tick) CHECK(quiet.turn(0.05f, 0, 0, false));
+  CHECK(quiet.turn(0.05f, 0, 0, false));
+  CHECK(!quiet.turn(0.05f, 0, 0, false));
+}
+
+TEST(GuardOfTorques_NoticesEveryFlippedBitOfACeiling) {
+  for (uint32_t bit = 0; bit < 8 * 32; ++bit) {
+    TorqueRig rig;
+    CHECK(rig.turn(0.001f, 0.001f, 0));
+    uint32_t* words = bit < 128 ? rig.ceilings.word : rig.ceilings.complement;
+    words[bit / 32 % 4] ^= 1u << (bit % 32);
+    CHECK(!rig.turn(0.001f, 0.001f, 0));
+    CHECK(rig.is_zero());
+  }
+}
+
+TEST(GuardOfTorques_WithoutSaneCeilings_PassesNone) {
+  const float all[] = {math::float_of(0x7FC00000u), -1.0f, 1001.0f, 3e38f};
+  for (const float bad : all) {
+    TorqueRig rig;
+    servo::set_ceilings(rig.ceilings, {0.2f, bad, 0.2f}, 0.02f);
+    CHECK(!rig.turn(0.001f, 0, 0));
+    servo::set_ceilings(rig.ceilings, {0.2f, 0.2f, 0.2f}, bad);
+    TorqueRig other;
+    other.ceilings = rig.ceilings;
+    CHECK(!other.turn(0.001f, 0, 0));
+  }
+  Rig none;
+  float motor_Nm[3] = {0.001f, 0, 0};
+  CHECK(!servo::guard_torques(none.state, {}, true, false, motor_Nm));
+  TorqueRig wrong;
+  CHECK(!wrong.turn(all[0], 0, 0));
+}

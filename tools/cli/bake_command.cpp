@@ -11,6 +11,8 @@
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "cli/hull_arguments.hpp"
+#include "cli/version.hpp"
+#include "device/device_file.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
@@ -104,6 +106,27 @@ void add_hull(const Arguments& arguments, BakeOptions& options) {
     fail_usage("bake: --distance-map needs the tree: leave out --no-tree");
 }
 
+// The linkage of --device, as an asset named after its file's stem.
+BakedInput bake_device(const std::string& path) {
+  const std::vector<uint8_t> source = read_model(path);
+  BakedInput baked;
+  try {
+    const tools::LinkageDevice device =
+        tools::read_device(path, std::string(source.begin(), source.end()));
+    const device::LinkageLayout layout = tools::layout_of(device);
+    const std::string name = stem_of(path);
+    baked.sections = {
+        tools::make_section(device::kLinkageSection, name, &layout, 1),
+        tools::text_section(asset::kProvenanceSection, name,
+                            tools::provenance(file_name_of(path), source, "", kToolVersion))};
+    baked.report = {"linkage of " + std::to_string(layout.joints) + " joints, " +
+                    std::to_string(bytes_of(baked.sections)) + " bytes"};
+  } catch (const tools::Refused& refused) {
+    fail_input(refused.what());
+  }
+  return baked;
+}
+
 // Both files or none.
 void write_source(const std::string& path, const std::vector<uint8_t>& asset,
                   const std::string& output) {
@@ -194,6 +217,10 @@ const Command& bake_command() {
             "curves and runs: cubic pieces through the samples, without corners"},
            {"--curve-tree", nullptr,
             "curves and runs: also the k-d tree of the samples, for nearest_constraint()"},
+           {"--device", "FILE",
+            "a linkage, as `firmtouch-sim device FILE` reads it: the controller then takes joint "
+            "counts "
+            "and gives torques"},
            {"--teach", "NAME", "what the guide is called that a recorded run gives"},
            {"--max-deviation", "METRES",
             "no place of the run is farther from its guide (default 0.0001)"}}),
@@ -215,14 +242,22 @@ int run_bake(const Arguments& arguments) {
     forbid_overwriting(source, input);
   }
   check_runs(inputs, options);
-  check_names(inputs, options);
+  const std::string device = arguments.text("--device", "");
+  std::vector<std::string> named = inputs;
+  if (!device.empty()) {
+    named.push_back(device);
+    forbid_overwriting(output, device);
+    forbid_overwriting(source, device);
+  }
+  check_names(named, options);
   for (const std::string& input : inputs) {
     if (is_run(input)) continue;
     settle_size(input, options.model);
     break;
   }
 
-  const std::vector<BakedInput> baked = bake_all(inputs, options);
+  std::vector<BakedInput> baked = bake_all(inputs, options);
+  if (!device.empty()) baked.push_back(bake_device(device));
   std::vector<tools::Section> sections;
   for (const BakedInput& input : baked) {
     sections.insert(sections.end(), input.sections.begin(), input.sections.end());
@@ -238,13 +273,13 @@ int run_bake(const Arguments& arguments) {
   write_file(output, file.bytes.data(), file.bytes.size());
   if (!source.empty()) write_source(source, file.bytes, output);
 
-  for (size_t i = 0; i < inputs.size(); ++i)
-    print_report(name_of(inputs[i], options), baked[i].report);
+  for (size_t i = 0; i < named.size(); ++i)
+    print_report(name_of(named[i], options), baked[i].report);
   asset::Container container;
   (void)asset::open(bytes, container);
   std::fprintf(stderr, "%s: %zu bytes, %zu %s, CRC %08x, proven with the firmware's decoder\n",
-               output.c_str(), file.bytes.size(), inputs.size(),
-               inputs.size() == 1 ? "asset" : "assets", container.crc());
+               output.c_str(), file.bytes.size(), named.size(),
+               named.size() == 1 ? "asset" : "assets", container.crc());
   std::fprintf(stderr, "needs parts: %s (FIRMTOUCH_APP)\n",
                tools::needed_parts_text(container).c_str());
   return kDone;

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include "firmtouch/device/layout.hpp"
 #include "firmtouch/field/layout.hpp"
 
 #include "bake/asset/asset_views.hpp"
@@ -45,6 +46,7 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {hull::kBoxesSection, "hull boxes over the triangles"},
                                          {hull::kBaseHullSection, "hull at its coarsest"},
                                          {hull::kProbesSection, "hull probes"},
+                                         {device::kLinkageSection, "linkage"},
                                          {curve::kHeadSection, "curve head"},
                                          {curve::kSamplesSection, "curve samples"},
                                          {curve::kArcsSection, "curve arcs"},

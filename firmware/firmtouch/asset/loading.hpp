@@ -48,6 +48,8 @@ enum Rule : uint16_t {
   kRuleNeedsSpline = 913,
   // The asset needs part `spline_guide`, which is not linked into this program.
   kRuleNeedsSplineGuide = 914,
+  // The asset needs part `linkage`, which is not linked into this program.
+  kRuleNeedsLinkage = 915,
 };
 
 namespace asset {

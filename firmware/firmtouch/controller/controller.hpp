@@ -7,21 +7,23 @@
 
 namespace firmtouch {
 
-/// A Cartesian device of three axes that touches a surface by the sphere at its tip and follows a
-/// guide. What the type does not name is not linked:
+/// A device that touches a surface by the sphere at its tip and follows a guide. What the type does
+/// not name is not linked:
 ///
 ///     Controller<Surfaces<MeshSurface>> controller;
-///     Controller<Surfaces<FullMesh, SplineSurface>, CurveGuide> other;
+///     Controller<Surfaces<FullMesh, SplineSurface>, CurveGuide, AnyDevice> other;
 ///
+/// A CartesianDevice has three axes; AnyDevice is the linkage that the asset stores.
 /// Its size is all the RAM that it takes: no heap, nothing static. Controllers are independent of
 /// each other and may share an asset.
-template <class SurfaceList, class Guide = NoGuide, class Trust = asset::Proven>
+template <class SurfaceList, class Guide = NoGuide, class Device = CartesianDevice,
+          class Trust = asset::Proven>
 class Controller {
  public:
   /// The parameters of all parts.
   static constexpr params::Table kTable =
-      params::Composed<ControllerCore::Parameters, typename SurfaceList::Parameters,
-                       typename Guide::Parameters>::kTable;
+      params::Composed<ControllerCore::Parameters, typename Device::Parameters,
+                       typename SurfaceList::Parameters, typename Guide::Parameters>::kTable;
 
   Controller() : core_(kTable) {}
   Controller(const Controller&) = delete;  // a distance field refers to the mesh in here
@@ -30,14 +32,14 @@ class Controller {
   /// Starts to open an asset, which must outlive the controller. The motors stay off until it is
   /// proven. Resets all, parameters and faults included. Not while tick() may interrupt.
   void begin(core::Bytes asset, Selection selection = {}) {
-    loaders_.begin(asset, selection, guide_, surfaces_);
+    loaders_.begin(asset, selection, device_, guide_, surfaces_);
     reset();
   }
 
   /// Continues to open, for at most `units` of about 100 instructions (loaders.hpp). For the main
   /// loop; tick() may interrupt it.
   /// Result: true when it ended; verdict() then says whether the motors may be enabled.
-  bool work(uint32_t units) { return loaders_.work(units, guide_, surfaces_); }
+  bool work(uint32_t units) { return loaders_.work(units, device_, guide_, surfaces_); }
 
   /// begin(), then work() until it ends.
   core::Verdict open(core::Bytes asset, Selection selection = {}) {
@@ -54,6 +56,7 @@ class Controller {
   /// interrupt.
   void reset() {
     core_.reset();
+    device_.reset();
     surfaces_.reset();
     guide_.reset();
   }
@@ -70,10 +73,13 @@ class Controller {
   /// mesh_work or 1,280; at two rates none. Callable from an interrupt; not re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output) {
     const AssetStatus asset = loaders_.status();
-    const ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
+    ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
+    core_.locate(device_.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
     ModelResult* result = core_.result_of_tick(tick, input.flags);
     if (result != nullptr) make_local_model(tick.request, core_.values(), *result);
-    core_.end_tick(input, asset, tick, output);
+    const Push push = core_.step(tick, input.flags, output);
+    const bool passed = device_.push(core_.values(), push, core_.guard(), output);
+    core_.end_tick(asset, tick, passed, output);
   }
 
   /// Servo interrupt, at two rates: the flags of the next tick, by what make_model() has done.
@@ -96,6 +102,7 @@ class Controller {
     return surfaces_.template get<P>();
   }
   const Guide& guide() const { return guide_; }
+  const Device& device() const { return device_; }
   /// Identifies the asset; 0 before the asset's frame is proven.
   uint32_t asset_crc() const { return loaders_.container().crc(); }
 
@@ -108,9 +115,10 @@ class Controller {
     guide_.follow(request, values, ticks, result);
   }
 
-  Loaders<Trust, Guide, SurfaceList> loaders_;
+  Loaders<Trust, Device, Guide, SurfaceList> loaders_;
   SurfaceList surfaces_;
   Guide guide_;
+  Device device_;
   ControllerCore core_;
 };
 

@@ -8,15 +8,6 @@ namespace {
 
 using params::Values;
 
-device::Settings device_settings(const Values& v) {
-  return {{v[params::kCountsPerMetreX], v[params::kCountsPerMetreY], v[params::kCountsPerMetreZ]},
-          {v[params::kOriginX], v[params::kOriginY], v[params::kOriginZ]},
-          {v[params::kWorkspaceHalfX], v[params::kWorkspaceHalfY], v[params::kWorkspaceHalfZ]},
-          v[params::kMaxSpeed],
-          {static_cast<device::Estimator>(static_cast<uint8_t>(v[params::kVelocityEstimator])),
-           v[params::kVelocityFilter]}};
-}
-
 servo::Settings servo_settings(const Values& v) {
   return {v[params::kForceLimit], v[params::kSlewLimit], v[params::kRampIn],
           v[params::kTickPeriod]};
@@ -61,6 +52,8 @@ uint32_t flag_faults(uint32_t flags) {
          ((flags & record::kFlagEmergencyStop) != 0 ? servo::kFaultEmergencyStop : 0u);
 }
 
+bool is_on(servo::Mode mode) { return mode == servo::Mode::kRampIn || mode == servo::Mode::kOn; }
+
 void put(float (&to)[record::kAxes], math::Vec3 from) {
   to[0] = from.x;
   to[1] = from.y;
@@ -104,7 +97,6 @@ ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
   output = {};
   if (clear) {
     servo::clear(live_.clock);
-    device::clear(live_.device);
     guard_clear(live_.guard);
   }
   if (input.command != record::kCommandNone) {
@@ -115,30 +107,29 @@ ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
 
   const servo::ClockReading clock = watch_clock(live_.clock, input.clock_us, input.last_work_us,
                                                 v[params::kTickPeriod], v[params::kLateRatio]);
-  const device::Sample sample{
-      {input.encoder_counts[0], input.encoder_counts[1], input.encoder_counts[2]},
-      (input.flags & record::kFlagEncoderFault) == 0,
-      clock.dt_s};
-  const device::Reading tool = read(live_.device, device_settings(v), sample);
-
   Tick tick;
+  tick.sample = {{input.encoder_counts[0], input.encoder_counts[1], input.encoder_counts[2]},
+                 (input.flags & record::kFlagEncoderFault) == 0,
+                 clock.dt_s};
+  tick.step.reported = clock.faults | flag_faults(input.flags);
   // An overloaded controller queries nothing, so that the main loop, and with it the link, goes on.
   const bool is_overloaded = ((live_.servo.faults | clock.faults) & servo::kFaultOverload) != 0;
-  tick.request.position_m = tool.position_m;
-  tick.request.tick = input.tick;
-  tick.request.can_touch = asset.is_ready && tool.started && !is_overloaded;
-  tick.request.is_on =
-      live_.servo.mode == servo::Mode::kRampIn || live_.servo.mode == servo::Mode::kOn;
+  tick.request.tick = tick.step.tick = input.tick;
+  tick.request.can_touch = asset.is_ready && !is_overloaded;
+  tick.request.is_on = is_on(live_.servo.mode);
   tick.request.has_proxy = live_.servo.has_proxy;
   tick.request.proxy_m = live_.servo.proxy_m;
-  tick.step.position_m = tool.position_m;
-  tick.step.velocity_mps = tool.velocity_mps;
-  tick.step.tick = input.tick;
   tick.step.enable = enable && asset.is_ready && live_.enable_was_low;
   tick.step.clear_faults = clear;
-  tick.step.reported = clock.faults | device_faults(tool.faults) | flag_faults(input.flags);
   if (enable) tick.step.reported |= asset.faults;
   return tick;
+}
+
+void ControllerCore::locate(const device::Reading& tool, Tick& tick) {
+  tick.request.position_m = tick.step.position_m = tool.position_m;
+  tick.request.can_touch = tick.request.can_touch && tool.started;
+  tick.step.velocity_mps = tool.velocity_mps;
+  tick.step.reported |= device_faults(tool.faults);
 }
 
 uint32_t ControllerCore::begin_model(const ModelRequest& request, const Values& v,
@@ -171,23 +162,26 @@ uint32_t ControllerCore::model_flags() const {
   return flags;
 }
 
-void ControllerCore::end_tick(const record::TickInput& input, const AssetStatus& asset,
-                              const Tick& tick, record::TickOutput& output) {
-  const ModelResult& result = models_.result();
+Push ControllerCore::step(const Tick& tick, uint32_t flags, record::TickOutput& output) {
   const servo::StepOutput wanted =
-      servo::step(live_.servo, servo_settings(values_), result.model, tick.step);
+      servo::step(live_.servo, servo_settings(values_), models_.result().model, tick.step);
+  put(output.proxy_m, wanted.proxy_m);
+  Push push;
+  push.force_N = wanted.force_N;
+  push.is_on = is_on(wanted.mode);
+  push.may_push = tick.step.enable && wanted.faults == 0;
+  push.cut = flag_faults(flags) != 0 || (wanted.faults & servo::kCutAtOnce) != 0;
+  return push;
+}
 
-  // The joints of a Cartesian device are its axes: each motor's force is the tool's.
-  float motor_N[record::kAxes];
-  put(motor_N, wanted.force_N);
-  const bool cut = flag_faults(input.flags) != 0 || (wanted.faults & servo::kCutAtOnce) != 0;
-  if (!guard(live_.guard, tick.step.enable && wanted.faults == 0, cut, motor_N)) {
+void ControllerCore::end_tick(const AssetStatus& asset, const Tick& tick, bool passed,
+                              record::TickOutput& output) {
+  const ModelResult& result = models_.result();
+  if (!passed) {
     live_.servo.faults |= servo::kFaultGuard;
     live_.servo.mode = servo::Mode::kFault;
   }
-  for (uint32_t k = 0; k < record::kAxes; ++k) output.motor_N[k] = output.force_N[k] = motor_N[k];
   put(output.position_m, tick.step.position_m);
-  put(output.proxy_m, wanted.proxy_m);
   put(output.velocity_mps, tick.step.velocity_mps);
   output.faults = live_.servo.faults;
   output.state |= result.state | static_cast<uint32_t>(live_.servo.mode) |

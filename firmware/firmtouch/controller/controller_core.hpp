@@ -1,14 +1,13 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/controller/cartesian_device.hpp"
 #include "firmtouch/controller/model.hpp"
 #include "firmtouch/core/handoff.hpp"
-#include "firmtouch/device/cartesian.hpp"
 #include "firmtouch/params/compose.hpp"
 #include "firmtouch/params/rows.hpp"
 #include "firmtouch/record/tick.hpp"
 #include "firmtouch/servo/clock_watch.hpp"
-#include "firmtouch/servo/guard.hpp"
 #include "firmtouch/servo/step.hpp"
 
 namespace firmtouch {
@@ -19,15 +18,15 @@ struct AssetStatus {
   uint32_t faults = 0;  // latched in a tick that enables
 };
 
-/// The part of a controller that is the same for every composition: parameters, clock, a Cartesian
-/// device of three axes, servo, guard, record output, and the hand-over of local models at two
-/// rates.
+/// The part of a controller that is the same for every composition: parameters, clock, servo, the
+/// guard's memory, record output, and the hand-over of local models at two rates.
 class ControllerCore {
  public:
-  using Parameters = params::Groups<params::SafetyRows, params::DeviceRows, params::SceneRows>;
+  using Parameters = params::Groups<params::SafetyRows, params::SceneRows>;
 
-  /// A tick between its two halves.
+  /// A tick between its parts.
   struct Tick {
+    device::Sample sample;
     ModelRequest request;
     servo::StepInput step;
   };
@@ -44,15 +43,19 @@ class ControllerCore {
   /// Initial parameters, no faults. Not while a tick may interrupt.
   void reset();
 
-  /// The first half of a tick: command, clock, encoders.
+  /// The first part of a tick: command, clock.
   Tick begin_tick(const record::TickInput& input, const AssetStatus& asset,
                   record::TickOutput& output);
-  /// Between the halves.
+  /// What the device reads of tick.sample.
+  static void locate(const device::Reading& tool, Tick& tick);
   /// Result: the result to make of tick.request now; null at two rates.
   ModelResult* result_of_tick(const Tick& tick, uint32_t flags);
-  /// The second half: servo, guard, record output.
-  void end_tick(const record::TickInput& input, const AssetStatus& asset, const Tick& tick,
+  /// The servo: what the motors shall do.
+  Push step(const Tick& tick, uint32_t flags, record::TickOutput& output);
+  /// The last part: record output. `passed`: what the guard decided on the motors.
+  void end_tick(const AssetStatus& asset, const Tick& tick, bool passed,
                 record::TickOutput& output);
+  servo::GuardState& guard() { return live_.guard; }
 
   /// At two rates: the flags of the next tick.
   uint32_t model_flags() const;
@@ -70,7 +73,6 @@ class ControllerCore {
   // State from tick to tick, except parameters and models.
   struct Live {
     servo::ClockState clock;
-    device::State device;
     servo::State servo;
     servo::GuardState guard;
     uint32_t model_sequence = 0;

@@ -1,4 +1,5 @@
 #pragma once
+#include "firmtouch/controller/any_device.hpp"
 #include "firmtouch/controller/controller.hpp"
 #include "firmtouch/controller/curve_guide.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
@@ -9,15 +10,17 @@
 namespace firmtouch {
 
 /// Every part of the library: a mesh with its distance field and base hull, else spline surfaces; a
-/// sampled curve, else spline curves. What the simulator runs, and FIRMTOUCH_APP=all.
-class FullController
-    : public Controller<Surfaces<FullMesh, SplineSurface>, Guides<CurveGuide, SplineGuide>> {
+/// sampled curve, else spline curves; a linkage, else three axes. What the simulator runs, and
+/// FIRMTOUCH_APP=all.
+class FullController : public Controller<Surfaces<FullMesh, SplineSurface>,
+                                         Guides<CurveGuide, SplineGuide>, AnyDevice> {
  public:
   const mesh::View& mesh() const { return surface<FullMesh>().mesh(); }
   const hull::View& hull() const { return surface<FullMesh>().hull(); }
   const field::View& distance_field() const { return surface<FullMesh>().distance_field(); }
   const spline::View& spline_surface() const { return surface<SplineSurface>().surface(); }
   const curve::View& curve() const { return guide().get<CurveGuide>().curve(); }
+  const device::StoredLinkage& linkage() const { return device().linkage(); }
   const spline::GuideView& spline_guide() const { return guide().get<SplineGuide>().guide(); }
 };
 static_assert(FullController::kTable.size() == params::kTable.size(),

@@ -77,8 +77,8 @@ class LoaderChain {
 };
 
 /// Loads an asset for parts that run in turn: finds what each uses, then proves it and runs its
-/// probe queries. `Trust`: asset::Proven. A part is a policy of surfaces or guides (first_of.hpp).
-/// All proofs share one state.
+/// probe queries. `Trust`: asset::Proven. A part is a policy of surfaces or guides (first_of.hpp)
+/// or of devices. All proofs share one state.
 template <class Trust, class... Parts>
 class Loaders : public AssetLoading {
  public:
@@ -111,11 +111,22 @@ class Loaders : public AssetLoading {
 
  private:
   template <class P>
+  static constexpr bool kIsDevice = __is_base_of(DevicePolicy, P);
+
+  template <class P>
   const char* selected() const {
-    return P::kIsGuide ? selection().guide : selection().surface;
+    if constexpr (kIsDevice<P>)
+      return nullptr;
+    else
+      return P::kIsGuide ? selection().guide : selection().surface;
   }
   template <class P>
   bool find_one(P& part, bool& is_any) {
+    if constexpr (!kIsDevice<P>) return find_geometry(part, is_any);
+    return true;
+  }
+  template <class P>
+  bool find_geometry(P& part, bool& is_any) {
     const char* name = part.find(container(), selected<P>());
     if (name != nullptr) is_any = true;
     if (name != nullptr || selected<P>() == nullptr) return true;

@@ -4,6 +4,7 @@
 #include "firmtouch/controller/asset_loading.hpp"
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/curve/layout.hpp"
+#include "firmtouch/device/layout.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/mesh/layout.hpp"
@@ -13,7 +14,7 @@
 namespace firmtouch {
 namespace {
 
-static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsSplineGuide, "a rule a part, in order");
+static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsLinkage, "a rule a part, in order");
 
 bool same(const char* a, const char* b) {
   while (*a != 0 && *a == *b) ++a, ++b;
@@ -42,6 +43,8 @@ uint32_t part_of_section(const asset::Container& asset, uint32_t i) {
       return kPartGuide;
     case spline::kHeadSection:
       return spline_part(asset, i);
+    case device::kLinkageSection:
+      return kPartLinkage;
     default:
       return 0;
   }
@@ -60,7 +63,7 @@ core::Verdict missing_part(const asset::Container& asset, const Selection& selec
     if ((part & ~linked) == 0) continue;
     const bool is_guide = (part & (kPartGuide | kPartSplineGuide)) != 0;
     const char* wanted = is_guide ? selection.guide : selection.surface;
-    if (wanted != nullptr && !same(wanted, asset.name(i))) continue;
+    if (part != kPartLinkage && wanted != nullptr && !same(wanted, asset.name(i))) continue;
     uint32_t number = 0;
     while (part >> number != 1) ++number;
     return core::reject(static_cast<uint16_t>(kRuleNeedsMesh + number), i);

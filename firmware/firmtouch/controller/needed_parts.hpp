@@ -4,7 +4,7 @@
 #include "firmtouch/asset/container.hpp"
 #include "firmtouch/core/status.hpp"
 
-// The parts of a controller that an asset needs, by the geometries that are in it.
+// The parts of a controller that an asset needs, by the geometries and the linkage that are in it.
 namespace firmtouch {
 
 struct Selection;
@@ -16,13 +16,14 @@ enum Part : uint32_t {
   kPartGuide = 1u << 3,
   kPartSpline = 1u << 4,
   kPartSplineGuide = 1u << 5,
+  kPartLinkage = 1u << 6,
 };
-constexpr uint32_t kPartCount = 6;
+constexpr uint32_t kPartCount = 7;
 
-/// Name of part `number` (its bit), as in FIRMTOUCH_APP and in the texts of rules R909 to R914.
+/// Name of part `number` (its bit), as in FIRMTOUCH_APP and in the texts of rules R909 to R915.
 constexpr const char* part_name(uint32_t number) {
-  constexpr const char* kName[kPartCount] = {"mesh",  "field",  "hull",
-                                             "guide", "spline", "spline_guide"};
+  constexpr const char* kName[kPartCount] = {"mesh",   "field",        "hull",   "guide",
+                                             "spline", "spline_guide", "linkage"};
   return number < kPartCount ? kName[number] : "unknown";
 }
 
@@ -33,7 +34,7 @@ uint32_t part_of_section(const asset::Container& asset, uint32_t i);
 /// All parts that an asset needs.
 uint32_t needed_parts(const asset::Container& asset);
 
-/// The verdict on an asset in a program with the parts `linked`: one of R909 to R914, at the
+/// The verdict on an asset in a program with the parts `linked`: one of R909 to R915, at the
 /// section that needs the missing part, or passed. Where a name is selected, others of its kind do
 /// not count.
 core::Verdict missing_part(const asset::Container& asset, const Selection& selection,

@@ -1,5 +1,6 @@
 #include "firmtouch/device/delta.hpp"
 
+#include "firmtouch/device/arms.hpp"
 #include "firmtouch/device/jacobian.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "firmtouch/math/sine_cosine.hpp"
@@ -9,10 +10,6 @@ namespace {
 
 using core::reject;
 using math::Vec3;
-
-// Outward directions of the arms.
-constexpr float kCosine[3] = {1.0f, -0.5f, -0.5f};
-constexpr float kSine[3] = {0.0f, 0.866025404f, -0.866025404f};
 
 // `end` is where the lower link would begin if the platform were a point; `swing` its motion per
 // radian.

@@ -28,6 +28,18 @@ Vec3 tip_velocity(const Pose& pose, const float (&rate_rad_per_s)[kMaxJoints]) {
          pose.column_m[2] * rate_rad_per_s[2];
 }
 
+JointTorques limited(const JointTorques& torques, const float (&most_Nm)[kMaxJoints]) {
+  const float(&torque_Nm)[kMaxJoints] = torques.torque_Nm;
+  // The largest torque in units of its limit.
+  float excess = larger(1.0f, __builtin_fabsf(torque_Nm[0]) / most_Nm[0]);
+  excess = larger(excess, __builtin_fabsf(torque_Nm[1]) / most_Nm[1]);
+  excess = larger(excess, __builtin_fabsf(torque_Nm[2]) / most_Nm[2]);
+  if (!(excess > 1.0f)) return torques;
+  const float scale = kBelowOne / excess;
+  return {{torque_Nm[0] * scale, torque_Nm[1] * scale, torque_Nm[2] * scale},
+          torques.share * scale};
+}
+
 JointTorques torques(const Pose& pose, const TorqueLimits& limits, Vec3 force_N) {
   const float along =
       (pose.reciprocal_condition - limits.gone_at) / (limits.full_from - limits.gone_at);
@@ -37,13 +49,7 @@ JointTorques torques(const Pose& pose, const TorqueLimits& limits, Vec3 force_N)
   const Vec3 torque_Nm{math::dot(pose.column_m[0], faded_N), math::dot(pose.column_m[1], faded_N),
                        math::dot(pose.column_m[2], faded_N)};
   if (!math::is_finite(torque_Nm.x + torque_Nm.y + torque_Nm.z)) return {};
-  // The largest torque in units of its limit.
-  float excess = larger(1.0f, __builtin_fabsf(torque_Nm.x) / limits.max_torque_Nm[0]);
-  excess = larger(excess, __builtin_fabsf(torque_Nm.y) / limits.max_torque_Nm[1]);
-  excess = larger(excess, __builtin_fabsf(torque_Nm.z) / limits.max_torque_Nm[2]);
-  if (!(excess > 1.0f)) return {{torque_Nm.x, torque_Nm.y, torque_Nm.z}, share};
-  const float scale = kBelowOne / excess;
-  return {{torque_Nm.x * scale, torque_Nm.y * scale, torque_Nm.z * scale}, share * scale};
+  return limited({{torque_Nm.x, torque_Nm.y, torque_Nm.z}, share}, limits.max_torque_Nm);
 }
 
 core::Verdict check(const TorqueLimits& limits) {

@@ -39,6 +39,10 @@ float reciprocal_condition(const math::Vec3 (&column_m)[kMaxJoints]);
 /// Jacobian times rates.
 math::Vec3 tip_velocity(const Pose& pose, const float (&rate_rad_per_s)[kMaxJoints]);
 
+/// Scales torques as a whole so that no joint exceeds `most_Nm`: the direction stays.
+/// Pre: most_Nm is above 0 wherever the torque is not 0. Result: finite for finite torques.
+JointTorques limited(const JointTorques& torques, const float (&most_Nm)[kMaxJoints]);
+
 /// Transposed Jacobian times force, faded, then scaled as a whole so that no joint exceeds its
 /// limit: the force rendered has the direction of the one passed.
 /// Fade: the share is (c - gone_at) / (full_from - gone_at) between the two, where c is the

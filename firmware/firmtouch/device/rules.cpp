@@ -9,21 +9,27 @@ constexpr float kMaxLink_m = 10.0f;
 }  // namespace
 
 const char* rule_name(uint16_t rule) {
-  static const char* const kNames[] = {"passed",
-                                       "joint count: 1 to 3, of a serial arm 2 or 3",
-                                       "counts per rad: 1 to 1e7, either sign",
-                                       "angle at a count of 0: within 100 rad",
-                                       "angle range: low below high, within 100 rad",
-                                       "largest speed: above 0, to 10000 rad/s",
-                                       "velocity estimator: 0 to 2, filter to 100000 Hz",
-                                       "link length: 0.001 to 10 m",
-                                       "offset: within 10 m, a base not below 0",
-                                       "the links meet at no angles",
-                                       "torque limit: above 0, to 1000 N m",
-                                       "fade: 0.001 <= gone < full <= 1"};
+  static const char* const kNames[] = {
+      "joint count: 1 to 3, of a serial arm 2 or 3",
+      "counts per rad: 1 to 1e7, either sign",
+      "angle at a count of 0: within 100 rad",
+      "angle range: low below high, within 100 rad",
+      "largest speed: above 0, to 10000 rad/s",
+      "velocity estimator: 0 to 2, filter to 100000 Hz",
+      "link length: 0.001 to 10 m",
+      "offset: within 10 m, a base not below 0",
+      "the links meet at no angles",
+      "torque limit: above 0, to 1000 N m",
+      "fade: 0.001 <= gone < full <= 1",
+      "length of the section",
+      "kind of linkage and its joints",
+      "words that this kind does not use: 0",
+      "torque rise: 0.0001 to 1 s",
+      "load: masses of 0 to 100 kg, gravity within 100 m/s2, share 0 to 0.9"};
   constexpr uint32_t kCount = sizeof kNames / sizeof kNames[0];
-  static_assert(kCount == kRuleFade + 1);
-  return rule < kCount ? kNames[rule] : "unknown rule";
+  static_assert(kRuleJointCount + kCount == kRuleLoad + 1);
+  const uint32_t number = uint32_t{rule} - kRuleJointCount;
+  return number < kCount ? kNames[number] : "unknown rule";
 }
 
 bool is_link_length(float length_m) { return length_m >= kMinLink_m && length_m <= kMaxLink_m; }

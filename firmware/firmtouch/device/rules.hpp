@@ -3,22 +3,45 @@
 
 namespace firmtouch::device {
 
-/// What a check of a device's data found. Append-only.
-enum LinkageRule : uint16_t {
-  kRuleJointCount = 1,  // 1 to 3 joints; a serial arm: 2 or 3
-  kRuleCountsPerRad,    // 1 to 1e7 either way
-  kRuleZeroAngle,       // within 100 rad
-  kRuleAngleRange,      // low < high, within 100 rad
-  kRuleMaxSpeed,        // above 0, to 10,000 rad/s
-  kRuleEstimator,       // an estimator, and a filter above 0, to 100 kHz
-  kRuleLinkLength,      // 1 mm to 10 m
-  kRuleOffset,          // finite, within 10 m; a base not below 0
-  kRuleNeverCloses,     // no angles at which the links meet
-  kRuleMaxTorque,       // above 0, to 1,000 N m
-  kRuleFade             // 0.001 <= gone < full <= 1
+/// Why a linkage's data are rejected; the numbers never change. tools/FORMAT.md prints the same
+/// text.
+enum Rule : uint16_t {
+  // There are not 1 to 3 joints; of a serial arm 2 or 3.
+  kRuleJointCount = 701,
+  // Counts per radian are not 1 to 1e7, with either sign.
+  kRuleCountsPerRad = 702,
+  // The angle at a count of 0 is not within 100 rad.
+  kRuleZeroAngle = 703,
+  // A range of angles does not rise, or is not within 100 rad.
+  kRuleAngleRange = 704,
+  // The largest speed of a joint is not above 0 and at most 10000 rad/s.
+  kRuleMaxSpeed = 705,
+  // There is no such velocity estimator, or its filter is not above 0 and at most 100 kHz.
+  kRuleEstimator = 706,
+  // A link is not 0.001 to 10 m long.
+  kRuleLinkLength = 707,
+  // An offset is not within 10 m, or a base is below 0.
+  kRuleOffset = 708,
+  // The links meet at no angles.
+  kRuleNeverCloses = 709,
+  // A torque limit is not above 0 and at most 1000 N m.
+  kRuleMaxTorque = 710,
+  // The fade is not 0.001 <= gone_at < full_from <= 1.
+  kRuleFade = 711,
+  // The section is not as long as a linkage.
+  kRuleLinkageSize = 712,
+  // There is no such kind of linkage, or not with so many joints.
+  kRuleKind = 713,
+  // A reserved word, or a word that this kind of linkage does not use, is not 0.
+  kRuleUnused = 714,
+  // The time of a torque's rise is not 0.0001 to 1 s.
+  kRuleTorqueRise = 715,
+  // A mass is not 0 to 100 kg, gravity is not within 100 m/s2, or the share of the torque limits
+  // that carries weight is not 0 to 0.9.
+  kRuleLoad = 716,
 };
 
-/// Name, range and unit of a rule, for a message.
+/// What a rule demands, with range and unit, for a message.
 const char* rule_name(uint16_t rule);
 
 /// Shared by the checks of linkages. False for NaN.

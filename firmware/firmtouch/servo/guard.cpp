@@ -67,6 +67,17 @@ bool remembers(const GuardState& state) {
   return true;
 }
 
+uint64_t size_of(int32_t force) {
+  const int64_t wide = force;
+  return static_cast<uint64_t>(wide < 0 ? -wide : wide);
+}
+
+// Away from 0.
+uint64_t growth_of(int32_t before, int32_t now) {
+  const uint64_t from = (now < 0) == (before < 0) ? size_of(before) : 0;
+  return size_of(now) > from ? size_of(now) - from : 0;
+}
+
 bool is_in_limits(const GuardState& state, const GuardLimits& limits,
                   const int32_t (&force)[kGuardedMotors]) {
   if (!are_sane(limits)) return false;
@@ -75,14 +86,30 @@ bool is_in_limits(const GuardState& state, const GuardLimits& limits,
   uint64_t squares = 0;
   for (uint32_t k = 0; k < kGuardedMotors; ++k) {
     const int64_t now = force[k];
-    const int64_t before = state.passed[k];
     squares += static_cast<uint64_t>(now * now);
-    const uint64_t size = static_cast<uint64_t>(now < 0 ? -now : now);
-    const bool same_side = (now < 0) == (before < 0);
-    const uint64_t from = same_side ? static_cast<uint64_t>(before < 0 ? -before : before) : 0;
-    if (size > from + growth) return false;
+    if (growth_of(state.passed[k], force[k]) > growth) return false;
   }
   return squares <= limit * limit;
+}
+
+bool is_in_ceilings(const GuardState& state, const GuardLimits& limits,
+                    const TorqueCeilings& ceilings, const int32_t (&torque)[kGuardedMotors]) {
+  if (!are_sane(limits)) return false;
+  for (uint32_t k = 0; k <= kGuardedMotors; ++k)
+    if (ceilings.word[k] != ~ceilings.complement[k]) return false;
+  const uint64_t rise = fixed_point(float_of(ceilings.word[kGuardedMotors]), 28);
+  if (rise == 0 || rise > fixed_point(1, 28)) return false;
+  const uint64_t period = fixed_point(limits.tick_period_s, 28);
+  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
+    const float largest = float_of(ceilings.word[k]);
+    if (!is_up_to(largest, kGuardMaxTorque_Nm, 16)) return false;
+    const uint64_t ceiling = fixed_point(largest, 16);
+    if (size_of(torque[k]) > ceiling + 1) return false;
+    // Growth / (ceiling with 0.1 % and 2 units) <= period / rise, without a division.
+    const uint64_t most = (ceiling + (ceiling >> 10)) * period + 2 * rise;
+    if (growth_of(state.passed[k], torque[k]) * rise > most) return false;
+  }
+  return true;
 }
 
 bool is_quiet_in_time(GuardState& state, const GuardLimits& limits, bool may_push, bool cut,
@@ -98,6 +125,42 @@ bool is_quiet_in_time(GuardState& state, const GuardLimits& limits, bool may_pus
   if (state.quiet_ticks <= 1) return true;
   return are_sane(limits) &&
          fixed_point(limits.tick_period_s, 28) * (state.quiet_ticks - 1u) <= 2684354u;
+}
+
+// What the guards have in common: a tick's forces in fixed point, and whether the guard's memory,
+// numbers and time allow them.
+struct Forces {
+  int32_t force[kGuardedMotors] = {};
+  bool is_good, is_zero = true;
+};
+
+Forces begin_guard(GuardState& state, const GuardLimits& limits, bool may_push, bool cut,
+                   const float (&motor_N)[kGuardedMotors]) {
+  Forces now;
+  now.is_good = remembers(state);
+  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
+    const uint64_t size = fixed_point(motor_N[k], 16);
+    if (size >= (1u << 30)) {
+      now.is_good = false;
+    } else {
+      now.force[k] = static_cast<int32_t>(size);
+      if (is_negative(motor_N[k])) now.force[k] = -now.force[k];
+    }
+    now.is_zero = now.is_zero && (word_of(motor_N[k]) & 0x7FFFFFFFu) == 0;
+  }
+  now.is_good = is_quiet_in_time(state, limits, may_push, cut, now.is_zero) && now.is_good;
+  return now;
+}
+
+bool end_guard(GuardState& state, const Forces& now, bool is_good,
+               float (&motor_N)[kGuardedMotors]) {
+  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
+    if (!is_good) motor_N[k] = 0;
+    state.passed[k] = is_good ? now.force[k] : 0;
+    state.complement[k] = ~state.passed[k];
+  }
+  if (!is_good) state.armed = kTripped;
+  return is_good;
 }
 
 }  // namespace
@@ -122,31 +185,26 @@ GuardLimits guard_limits(const GuardState& state) {
 
 bool guard(GuardState& state, bool may_push, bool cut, float (&motor_N)[kGuardedMotors]) {
   const GuardLimits limits = guard_limits(state);
-  int32_t force[kGuardedMotors] = {};
-  bool good = remembers(state);
-  bool is_zero = true;
-  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
-    const uint64_t size = fixed_point(motor_N[k], 16);
-    if (size >= (1u << 30)) {
-      good = false;
-    } else {
-      force[k] = static_cast<int32_t>(size);
-      if (is_negative(motor_N[k])) force[k] = -force[k];
-    }
-    is_zero = is_zero && (word_of(motor_N[k]) & 0x7FFFFFFFu) == 0;
+  const Forces now = begin_guard(state, limits, may_push, cut, motor_N);
+  const bool is_good = now.is_good && (now.is_zero || is_in_limits(state, limits, now.force));
+  return end_guard(state, now, is_good, motor_N);
+}
+
+void set_ceilings(TorqueCeilings& ceilings, const float (&max_torque_Nm)[kGuardedMotors],
+                  float rise_s) {
+  for (uint32_t k = 0; k <= kGuardedMotors; ++k) {
+    ceilings.word[k] = word_of(k < kGuardedMotors ? max_torque_Nm[k] : rise_s);
+    ceilings.complement[k] = ~ceilings.word[k];
   }
-  good = is_quiet_in_time(state, limits, may_push, cut, is_zero) && good;
-  good = good && (is_zero || is_in_limits(state, limits, force));
-  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
-    if (!good) {
-      motor_N[k] = 0;
-      force[k] = 0;
-    }
-    state.passed[k] = force[k];
-    state.complement[k] = ~force[k];
-  }
-  if (!good) state.armed = kTripped;
-  return good;
+}
+
+bool guard_torques(GuardState& state, const TorqueCeilings& ceilings, bool may_push, bool cut,
+                   float (&motor_Nm)[kGuardedMotors]) {
+  const GuardLimits limits = guard_limits(state);
+  const Forces now = begin_guard(state, limits, may_push, cut, motor_Nm);
+  const bool is_good =
+      now.is_good && (now.is_zero || is_in_ceilings(state, limits, ceilings, now.force));
+  return end_guard(state, now, is_good, motor_Nm);
 }
 
 void guard_clear(GuardState& state) {

@@ -15,6 +15,7 @@ constexpr uint32_t kGuardLimitCount = 3;
 constexpr float kGuardMaxForce_N = 100.0f;
 constexpr float kGuardMaxSlew_N_per_s = 1e6f;
 constexpr float kGuardMaxPeriod_s = 0.1f;
+constexpr float kGuardMaxTorque_Nm = 1000.0f;
 
 struct GuardLimits {
   float force_limit_N = 0;
@@ -51,6 +52,23 @@ GuardLimits guard_limits(const GuardState& state);
 /// Bounds: integer arithmetic only, a few hundred instructions; re-entrant.
 /// Result: true if it passed; once tripped, zero and false until guard_clear().
 bool guard(GuardState& state, bool may_push, bool cut, float (&motor_N)[kGuardedMotors]);
+
+/// The torques of a linkage's joints: of each the largest, and the time in which all rise to it
+/// from 0. Kept twice. By default no torque passes.
+struct TorqueCeilings {
+  uint32_t word[kGuardedMotors + 1] = {};  // bits of the floats; the time is the last
+  uint32_t complement[kGuardedMotors + 1] = {};
+};
+
+/// When an asset is opened, and not again.
+void set_ceilings(TorqueCeilings& ceilings, const float (&max_torque_Nm)[kGuardedMotors],
+                  float rise_s);
+
+/// As guard(), for torques: it trips where a joint exceeds its ceiling (by 2^-16 N m) or grows away
+/// from 0 by more than ceiling * tick_period_s / rise_s (and 0.1 %), where a ceiling is beyond
+/// kGuardMaxTorque_Nm, and where a copy of a ceiling differs.
+bool guard_torques(GuardState& state, const TorqueCeilings& ceilings, bool may_push, bool cut,
+                   float (&motor_Nm)[kGuardedMotors]);
 
 /// Arms it again with its limits. If those were corrupted it trips again at once; then only a new
 /// GuardState with its limits set helps.

@@ -6,6 +6,7 @@
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/loader.hpp"
+#include "firmtouch/device/stored_linkage.hpp"
 #include "firmtouch/field/loader.hpp"
 #include "firmtouch/hull/loader.hpp"
 #include "firmtouch/hull/probes.hpp"
@@ -54,6 +55,13 @@ std::string prove_curve(const asset::Container& container, const std::string& na
   return prove("curve", container, name, curve::kProbesSection, view);
 }
 
+std::string prove_linkage(const asset::Container& container, const std::string& name) {
+  device::StoredLinkage linkage;
+  const core::Verdict verdict =
+      device::open(container.find(device::kLinkageSection, name.c_str()), linkage);
+  return verdict.ok() ? "" : broken("linkage", name, verdict);
+}
+
 std::string prove_spline(const asset::Container& container, const std::string& name) {
   spline::View view;
   const std::string problem = prove("spline", container, name, spline::kProbesSection, view);
@@ -87,9 +95,11 @@ std::string prove_asset(core::Bytes file) {
   asset::Container container;
   const core::Verdict verdict = asset::open(file, container);
   if (!verdict.ok()) return rule_text(verdict);
-  const std::pair<uint32_t, decltype(&prove_mesh)> kinds[] = {{mesh::kHeadSection, prove_mesh},
-                                                              {curve::kHeadSection, prove_curve},
-                                                              {spline::kHeadSection, prove_spline}};
+  const std::pair<uint32_t, decltype(&prove_mesh)> kinds[] = {
+      {mesh::kHeadSection, prove_mesh},
+      {curve::kHeadSection, prove_curve},
+      {spline::kHeadSection, prove_spline},
+      {device::kLinkageSection, prove_linkage}};
   for (const auto& [type, prove_kind] : kinds)
     for (const std::string& name : names_with(container, type)) {
       const std::string problem = prove_kind(container, name);

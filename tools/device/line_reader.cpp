@@ -1,17 +1,26 @@
-#include "host_sim/scenario/line_reader.hpp"
+#include "device/line_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <sstream>
 #include <utility>
 
-#include "host_sim/scenario/units.hpp"
+#include "device/units.hpp"
 
-namespace firmtouch::host_sim {
+namespace firmtouch::tools {
 namespace {
 
 constexpr double kMaxReach_m = 100;  // larger coordinates are a wrong unit, not a device
-constexpr double kMaxSpeed_mps = 10;
-constexpr double kMaxTime_s = 3600;
+
+std::optional<double> finite_number(const std::string& text) {
+  if (text.empty()) return {};
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() + text.size() || !std::isfinite(value)) return {};
+  return value;
+}
 
 std::string short_number(double value) {
   std::ostringstream text;
@@ -143,7 +152,7 @@ void LineReader::end() {
 
 double LineReader::number(const std::string& name) {
   const std::string text = next("the value of `" + name + "`");
-  const std::optional<double> value = read_number(text);
+  const std::optional<double> value = finite_number(text);
   if (!value) refuse("`" + name + "` needs a number instead of `" + text + "`");
   return *value;
 }
@@ -170,7 +179,7 @@ double LineReader::quantity(const std::string& name, const std::string& unit, do
   return ranged(name, unit.empty() ? value : in_si(name, value, unit), unit, low, high);
 }
 
-Vec LineReader::point(const std::string& name) {
+Point LineReader::point(const std::string& name) {
   const double x = number(name), y = number(name), z = number(name);
   const double scale = in_si(name, 1, "m");
   const auto coordinate = [&](double value) {
@@ -179,34 +188,4 @@ Vec LineReader::point(const std::string& name) {
   return {coordinate(x), coordinate(y), coordinate(z)};
 }
 
-bool is_move(const std::string& name) {
-  return name == "move" || name == "hold" || name == "press" || name == "follow";
-}
-
-Move read_move(const std::string& name, LineReader& words) {
-  Move move;
-  if (name == "move") {
-    move.kind = Move::Kind::kMove;
-    words.expect("to");
-    move.to_m = words.point("move");
-    words.expect("at");
-    move.speed_mps = words.quantity("move ... at", "m/s", 1e-6, kMaxSpeed_mps);
-    return move;
-  }
-  if (name == "press") {
-    move.kind = Move::Kind::kPress;
-    move.to_m = words.point("press");
-  } else if (name == "follow") {
-    move.kind = Move::Kind::kFollow;
-    words.expect("guide");
-    words.expect("at");
-    move.speed_mps = words.quantity("follow ... at", "m/s", 1e-6, kMaxSpeed_mps);
-  }
-  words.expect("for");
-  move.time_s = words.quantity(name + " ... for", "s", 0.001, kMaxTime_s);
-  if (move.kind == Move::Kind::kFollow && words.take("pressing"))
-    move.press_m = words.quantity("pressing", "m", 0, 1);
-  return move;
-}
-
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::tools

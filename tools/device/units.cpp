@@ -1,9 +1,6 @@
-#include "host_sim/scenario/units.hpp"
+#include "device/units.hpp"
 
-#include <cmath>
-#include <cstdlib>
-
-namespace firmtouch::host_sim {
+namespace firmtouch::tools {
 namespace {
 
 struct Unit {
@@ -46,6 +43,11 @@ constexpr Unit kUnits[] = {
     {"deg", "angle", 0.017453292519943295},
     {"rad/s", "angular speed", 1},
     {"deg/s", "angular speed", 0.017453292519943295},
+    {"kg*m2", "inertia", 1},
+    {"g*cm2", "inertia", 1e-7},
+    {"N*m*s/rad", "angular damping", 1},
+    {"mN*m*s/rad", "angular damping", 1e-3},
+    {"N*m/rad", "angular stiffness", 1},
     {"N*m", "torque", 1},
     {"N.m", "torque", 1},
     {"mN*m", "torque", 1e-3},
@@ -91,12 +93,4 @@ std::string units_like(const std::string& wanted) {
   return list;
 }
 
-std::optional<double> read_number(const std::string& text) {
-  if (text.empty()) return {};
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end != text.c_str() + text.size() || !std::isfinite(value)) return {};
-  return value;
-}
-
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::tools

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-namespace firmtouch::host_sim {
+namespace firmtouch::tools {
 
 /// Converts `value` from `unit` to SI: 1 "mm" for "m" gives 0.001.
 /// Result: nullopt if a unit is unknown or `unit` and `wanted` have different dimensions.
@@ -11,7 +11,4 @@ std::optional<double> to_si(double value, const std::string& unit, const std::st
 /// The accepted units of the same dimension, for a message: "m, mm, um, cm, in".
 std::string units_like(const std::string& wanted);
 
-/// Parses a finite number; nullopt if `text` contains anything else.
-std::optional<double> read_number(const std::string& text);
-
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::tools

@@ -1,17 +1,20 @@
-#include "host_sim/device/device_file.hpp"
+#include "device/device_file.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <vector>
 
+#include "device/line_reader.hpp"
 #include "firmtouch/device/rules.hpp"
-#include "host_sim/scenario/line_reader.hpp"
 
-namespace firmtouch::host_sim {
+namespace firmtouch::tools {
 namespace {
+
+constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 struct Key {
   std::string name;
@@ -30,10 +33,17 @@ struct Keys {
   std::vector<Key> keys;
   std::vector<Word> words;  // a key whose value is one of several words
 
-  void number(const std::string& name, const char* unit, double low, double high, float& value,
+  template <class T>
+  void number(const std::string& name, const char* unit, double low, double high, T& value,
               bool must_be_given = true) {
     keys.push_back({name, unit, low, high, must_be_given,
-                    [&value](double si) { value = static_cast<float>(si); }});
+                    [&value](double si) { value = static_cast<T>(si); }});
+  }
+  void rod(const std::string& link, const std::string& end, Rod& rod) {
+    rod.centre_m = rod.inertia_kg_m2 = kNotGiven;
+    number(link + "_mass" + end, "kg", 0, 100, rod.mass_kg, false);
+    number(link + "_centre" + end, "m", -10, 10, rod.centre_m, false);
+    number(link + "_inertia" + end, "kg*m2", 0, 100, rod.inertia_kg_m2, false);
   }
   void length(const std::string& name, float& value_m) { number(name, "m", 1e-3, 10, value_m); }
   void offset(const std::string& name, float& value_m) {
@@ -74,6 +84,25 @@ void add_keys(device::Delta& delta, Keys& to) {
   to.flag("tip", "above", "below", delta.is_tip_above);
 }
 
+void add_masses(LinkageDevice& device, Keys& to) {
+  MassModel& masses = device.masses;
+  const std::vector<Link> links = links_of(device);
+  for (size_t i = 0; i < links.size(); ++i)
+    to.rod(links[i].name, "_" + std::to_string(links[i].number), masses.rod[i]);
+  to.number("tip_mass", "kg", 0, 100, masses.tip_mass_kg, false);
+  for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
+    JointFriction& joint = masses.joint[k];
+    to.number(of("rotor", k), "kg*m2", 0, 100, joint.rotor_kg_m2, false);
+    to.number(of("viscous", k), "N*m*s/rad", 0, 100, joint.viscous_N_m_s, false);
+    to.number(of("coulomb", k), "N*m", 0, 100, joint.coulomb_N_m, false);
+  }
+  to.number("gravity_x", "m/s2", -100, 100, masses.gravity_mps2.x, false);
+  to.number("gravity_y", "m/s2", -100, 100, masses.gravity_mps2.y, false);
+  to.number("gravity_z", "m/s2", -100, 100, masses.gravity_mps2.z, false);
+  to.number("stop_stiffness", "N*m/rad", 0.01, 1e5, masses.stop_N_m_per_rad, false);
+  to.number("stop_damping", "N*m*s/rad", 0, 100, masses.stop_N_m_s, false);
+}
+
 Keys keys_of(LinkageDevice& device) {
   Keys to;
   std::visit([&](auto& linkage) { add_keys(linkage, to); }, device.linkage);
@@ -88,6 +117,9 @@ Keys keys_of(LinkageDevice& device) {
   to.number("max_speed", "rad/s", 0, 1e4, device.joints.max_speed_rad_per_s, false);
   to.number("full_from", "", 0, 1, device.limits.full_from, false);
   to.number("gone_at", "", 0, 1, device.limits.gone_at, false);
+  to.number("torque_rise", "s", 1e-4, 1, device.torque_rise_s, false);
+  to.number("carried_share", "", 0, 0.9, device.carried_share, false);
+  add_masses(device, to);
   return to;
 }
 
@@ -131,10 +163,21 @@ void set(Keys& keys, const std::string& name, LineReader& words) {
   words.refuse("`" + name + "` is " + choices + ", not `" + value + "`");
 }
 
+// What is not given of a rod is that of an even one.
+void fill_rods(LinkageDevice& device) {
+  const std::vector<Link> links = links_of(device);
+  for (size_t i = 0; i < links.size(); ++i) {
+    Rod& rod = device.masses.rod[i];
+    if (std::isnan(rod.centre_m)) rod.centre_m = links[i].length_m / 2;
+    if (std::isnan(rod.inertia_kg_m2))
+      rod.inertia_kg_m2 = rod.mass_kg * links[i].length_m * links[i].length_m / 12;
+  }
+}
+
 void check_rules(const std::string& name, const LinkageDevice& device) {
   const core::Verdict verdicts[] = {
       std::visit([](const auto& linkage) { return device::check(linkage); }, device.linkage),
-      device::check(device.joints), device::check(device.limits)};
+      device::check(device.joints), device::check(device.limits), device::check(load_of(device))};
   for (const core::Verdict verdict : verdicts)
     if (!verdict.ok())
       throw Refused(name + ": " + device::rule_name(verdict.rule) + " (element " +
@@ -170,8 +213,29 @@ LinkageDevice read_device(const std::string& name, const std::string& text) {
   for (const Key& key : keys.keys)
     if (key.must_be_given && given.count(key.name) == 0)
       throw Refused(name + ": `" + key.name + "` is missing");
+  fill_rods(device);
   check_rules(name, device);
   return device;
 }
 
-}  // namespace firmtouch::host_sim
+std::string device_file_help() {
+  std::string text;
+  for (const char* kind : {"five_bar", "serial_arm 3", "delta"}) {
+    LinkageDevice device;
+    LineReader words(std::string("linkage ") + kind, "", {}, false);
+    set_linkage(device, words);
+    std::string line = std::string("  linkage ") + kind + ":";
+    text += line + "\n";
+    line = "   ";
+    for (const Key& key : keys_of(device).keys) {
+      const std::string word =
+          " " + key.name + (*key.unit != 0 ? std::string(" ") + key.unit : "") + ",";
+      if (line.size() + word.size() > 100) text += line + "\n", line = "   ";
+      line += word;
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace firmtouch::tools

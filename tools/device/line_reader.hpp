@@ -2,11 +2,13 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scenario/scenario.hpp"
+#include "device/refused.hpp"
+#include "surface/point.hpp"
 
-namespace firmtouch::host_sim {
+namespace firmtouch::tools {
 
-/// Reads one line of a scenario from left to right. Every error throws Refused with the place.
+/// Reads one line of a scenario or a device file from left to right. Every error throws Refused
+/// with the place.
 class LineReader {
  public:
   /// `names`: all keys and statements, for suggestions. `overrides`: a line from the command line,
@@ -26,7 +28,7 @@ class LineReader {
   /// A number and its unit, converted to SI. `unit` empty: dimensionless.
   double quantity(const std::string& name, const std::string& unit, double low, double high);
   /// Three numbers and one unit of length.
-  Vec point(const std::string& name);
+  Point point(const std::string& name);
   void end();
 
   [[noreturn]] void refuse(const std::string& what) const;
@@ -50,8 +52,4 @@ class LineReader {
 /// A path as LineReader::path() reads it; quoted if it contains a blank, #, quote or backslash.
 std::string path_word(const std::string& path);
 
-bool is_move(const std::string& name);
-/// The rest of a line of the hand's script that begins with `name`.
-Move read_move(const std::string& name, LineReader& words);
-
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::tools

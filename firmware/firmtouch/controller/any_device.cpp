@@ -1,0 +1,122 @@
+#include "firmtouch/controller/any_device.hpp"
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/servo/step.hpp"
+
+namespace firmtouch {
+namespace {
+
+using device::kMaxJoints;
+using math::Vec3;
+using params::Values;
+
+float size(float a) { return __builtin_fabsf(a); }
+
+float at_most(float value, float most) { return value < most ? value : most; }
+
+}  // namespace
+
+core::Verdict AnyDevice::open_section() {
+  const core::Verdict verdict = device::open(section_, linkage_);
+  if (!verdict.ok()) return verdict;
+  const device::LinkageLayout& layout = linkage_.layout();
+  servo::set_ceilings(ceilings_, layout.max_torque_Nm, layout.torque_rise_s);
+  return verdict;
+}
+
+void AnyDevice::reset() {
+  cartesian_.reset();
+  joints_ = {};
+  pose_ = {};
+  for (float& torque_Nm : before_Nm_) torque_Nm = 0;
+  carried_ = 0;
+  fast_ticks_ = 0;
+}
+
+device::Reading AnyDevice::read(const Values& values, const device::Sample& sample, bool clear) {
+  if (!linkage_.is_open()) return cartesian_.read(values, sample, clear);
+  if (clear) {
+    device::clear(joints_);
+    fast_ticks_ = 0;
+  }
+  const device::Joints joints =
+      read_joints(joints_, linkage_.joints(velocity_settings(values)), sample);
+  for (uint32_t k = 0; k < kMaxJoints; ++k) angle_rad_[k] = joints.angle_rad[k];
+  pose_ = pose_of(linkage_, angle_rad_);
+  device::Reading reading;
+  reading.position_m = pose_.position_m;
+  reading.velocity_mps = tip_velocity(pose_, joints.rate_rad_per_s);
+  reading.accepted = joints.accepted;
+  reading.started = joints.started;
+  reading.faults = joints.faults;
+  if (!pose_.is_reachable) reading.faults |= device::kWorkspaceFault;
+  const float speed_mps = math::length(reading.velocity_mps);
+  fast_ticks_ = speed_mps <= values[params::kMaxSpeed] ? 0 : fast_ticks_ + 1;
+  if (fast_ticks_ >= device::kBadInARow) {
+    fast_ticks_ = device::kBadInARow;
+    reading.faults |= device::kEncoderFault;
+  }
+  return reading;
+}
+
+// The weight is taken up over ramp_in_s, and let go as fast as a force ramps out.
+void AnyDevice::carry(const Values& values, bool is_on, float (&torque_Nm)[kMaxJoints]) {
+  const float tick_s = values[params::kTickPeriod];
+  const float share = linkage_.layout().carried_share;
+  if (is_on) {
+    const float ramp_s = values[params::kRampIn];
+    carried_ = ramp_s > tick_s ? at_most(carried_ + tick_s / ramp_s, 1.0f) : 1.0f;
+  } else {
+    carried_ = carried_ > tick_s / servo::kRampOut_s ? carried_ - tick_s / servo::kRampOut_s : 0.0f;
+  }
+  if (!(share > 0.0f && carried_ > 0.0f)) return;
+  const Vec3 whole_Nm = carrying_torques_Nm(linkage_, angle_rad_, pose_);
+  const float carrying_Nm[kMaxJoints] = {whole_Nm.x, whole_Nm.y, whole_Nm.z};
+  for (uint32_t k = 0; k < linkage_.layout().joints; ++k) {
+    const float most_Nm = share * linkage_.layout().max_torque_Nm[k];
+    const float wanted_Nm = carrying_Nm[k] * carried_;
+    const float held_Nm = at_most(size(wanted_Nm), most_Nm);
+    torque_Nm[k] = wanted_Nm < 0.0f ? -held_Nm : held_Nm;
+  }
+}
+
+// Torques may fall to 0 at once; away from it they rise by a share of the largest.
+void AnyDevice::allow_rise(const device::JointTorques& wanted, float tick_s,
+                           float (&most_Nm)[kMaxJoints]) const {
+  const device::LinkageLayout& layout = linkage_.layout();
+  for (uint32_t k = 0; k < kMaxJoints; ++k) {
+    const float largest_Nm = layout.max_torque_Nm[k];
+    const float rise_Nm = largest_Nm * at_most(tick_s / layout.torque_rise_s, 1.0f);
+    const bool same_side = (wanted.torque_Nm[k] < 0.0f) == (before_Nm_[k] < 0.0f);
+    const float from_Nm = same_side ? size(before_Nm_[k]) : 0.0f;
+    // A joint that the linkage does not have has a torque of 0, which any bound allows.
+    most_Nm[k] = k < layout.joints ? at_most(from_Nm + rise_Nm, largest_Nm) : 1.0f;
+  }
+}
+
+bool AnyDevice::push(const Values& values, const Push& push, servo::GuardState& guard,
+                     record::TickOutput& output) {
+  if (!linkage_.is_open()) return cartesian_.push(values, push, guard, output);
+  float carrying_Nm[kMaxJoints] = {};
+  carry(values, push.is_on, carrying_Nm);
+  device::TorqueLimits limits = linkage_.limits();
+  for (uint32_t k = 0; k < kMaxJoints; ++k) limits.max_torque_Nm[k] -= size(carrying_Nm[k]);
+  device::JointTorques wanted = torques(pose_, limits, push.force_N);
+  for (uint32_t k = 0; k < kMaxJoints; ++k) wanted.torque_Nm[k] += carrying_Nm[k];
+  float most_Nm[kMaxJoints];
+  allow_rise(wanted, values[params::kTickPeriod], most_Nm);
+  device::JointTorques rendered = limited(wanted, most_Nm);
+  if (push.cut) rendered = {};
+  const bool passed =
+      servo::guard_torques(guard, ceilings_, push.may_push, push.cut, rendered.torque_Nm);
+  const float share = passed ? rendered.share : 0.0f;
+  const Vec3 force_N = push.force_N * share;
+  for (uint32_t k = 0; k < kMaxJoints; ++k)
+    output.motor_N[k] = before_Nm_[k] = rendered.torque_Nm[k];
+  output.force_N[0] = force_N.x;
+  output.force_N[1] = force_N.y;
+  output.force_N[2] = force_N.z;
+  return passed;
+}
+
+}  // namespace firmtouch

@@ -1,0 +1,60 @@
+#pragma once
+#include "firmtouch/controller/cartesian_device.hpp"
+#include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/device/stored_linkage.hpp"
+
+namespace firmtouch {
+
+/// The device policy of the linkage that the asset stores; without one a Cartesian device. The
+/// record's motors are then joint torques in N m, and counts and motors are those of the joints.
+/// The parameters counts_per_metre, origin and workspace_half have no effect on a linkage.
+class AnyDevice : public DevicePolicy {
+ public:
+  using State = core::OneOf<uint32_t>;
+  using Parameters = CartesianDevice::Parameters;
+  static constexpr uint32_t kParts = kPartLinkage;
+
+  static const char* find(const asset::Container& asset, const char* wanted) {
+    return asset::find_name(asset, device::kLinkageSection, wanted);
+  }
+  void close() { linkage_ = {}; }
+  template <class Trust>
+  void begin(const asset::Container& asset, const char* name, State&) {
+    section_ = asset.find(device::kLinkageSection, name);
+  }
+  template <class Trust>
+  asset::Progress work(State&, uint32_t) {
+    return {true, open_section()};
+  }
+
+  void reset();
+  /// Faults beside those of read_joints(): a pose that the links do not reach is outside of the
+  /// workspace; a tip faster than max_speed_mps for three ticks is an encoder fault.
+  device::Reading read(const params::Values& values, const device::Sample& sample, bool clear);
+  /// Torques of the force and, while the motors are on, of the linkage's own weight. Each joint
+  /// stays within its largest torque, and none rises faster than from 0 to there in torque_rise_s.
+  /// Where torques are too large all are scaled alike; force_N of the record is what is left.
+  bool push(const params::Values& values, const Push& push, servo::GuardState& guard,
+            record::TickOutput& output);
+
+  const device::StoredLinkage& linkage() const { return linkage_; }
+
+ private:
+  core::Verdict open_section();
+  void carry(const params::Values& values, bool is_on, float (&torque_Nm)[device::kMaxJoints]);
+  void allow_rise(const device::JointTorques& wanted, float tick_s,
+                  float (&most_Nm)[device::kMaxJoints]) const;
+
+  CartesianDevice cartesian_;
+  core::Bytes section_;
+  device::StoredLinkage linkage_;
+  servo::TorqueCeilings ceilings_;  // the guard's own copy
+  device::JointState joints_;
+  device::Pose pose_ = {};
+  float angle_rad_[device::kMaxJoints] = {};
+  float before_Nm_[device::kMaxJoints] = {};
+  float carried_ = 0;  // share of the weight, from 0 to 1
+  uint32_t fast_ticks_ = 0;
+};
+
+}  // namespace firmtouch

@@ -1,0 +1,46 @@
+#pragma once
+#include "firmtouch/asset/loader.hpp"
+#include "firmtouch/device/cartesian.hpp"
+#include "firmtouch/params/compose.hpp"
+#include "firmtouch/params/entry.hpp"
+#include "firmtouch/params/rows.hpp"
+#include "firmtouch/record/tick.hpp"
+#include "firmtouch/servo/guard.hpp"
+
+namespace firmtouch {
+
+/// What a tick demands of the motors.
+struct Push {
+  math::Vec3 force_N;     // at the tool
+  bool is_on = false;     // the motors are on, and do not ramp out
+  bool may_push = false;  // false: the force falls to 0
+  bool cut = false;       // no force at all
+};
+
+/// Base of the policies of devices, which turn counts to a position and a force to motors.
+struct DevicePolicy {};
+
+/// How the parameters estimate velocity.
+device::VelocitySettings velocity_settings(const params::Values& values);
+
+/// The device policy of three straight axes at right angles, by the parameters alone: each motor's
+/// force is the tool's.
+class CartesianDevice : public DevicePolicy, public asset::LoadsNothing {
+ public:
+  using Parameters = params::Groups<params::DeviceRows>;
+  static constexpr uint32_t kParts = 0;
+
+  static const char* find(const asset::Container&, const char*) { return nullptr; }
+  void reset() { state_ = {}; }
+  /// `clear`: earlier bad samples are forgotten.
+  device::Reading read(const params::Values& values, const device::Sample& sample, bool clear);
+  /// Sets motors and force of the record.
+  /// Result: false if the guard stopped them.
+  bool push(const params::Values& values, const Push& push, servo::GuardState& guard,
+            record::TickOutput& output);
+
+ private:
+  device::State state_;
+};
+
+}  // namespace firmtouch

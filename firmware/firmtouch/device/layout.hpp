@@ -1,0 +1,40 @@
+#pragma once
+#include <stddef.h>
+#include <stdint.h>
+
+// Byte layout of a linkage in an asset (tools/FORMAT.md, section 3d). Little-endian.
+namespace firmtouch::device {
+
+constexpr uint32_t kLinkageSection = 0x7001;
+
+enum Kind : uint32_t { kFiveBar = 1, kSerialArm = 2, kDelta = 3 };
+
+// Bits of LinkageLayout::flags.
+constexpr uint32_t kFlagTip = 1u << 0;            // is_tip_left, is_tip_above
+constexpr uint32_t kFlagParallelogram = 1u << 1;  // of a serial arm
+
+struct JointLayout {
+  float counts_per_rad, zero_rad, low_rad, high_rad;
+};
+
+/// A linkage with its joints, limits and weight. Words that a kind does not use are 0.
+struct LinkageLayout {
+  uint32_t kind;
+  uint32_t joints;
+  uint32_t flags;
+  uint32_t reserved;
+  float length_m[6];  // five-bar: proximal, distal; serial arm: links; delta: upper, lower
+  float offset_m[3];  // base; offset, height; base radius, platform radius, side
+  JointLayout joint[3];
+  float max_torque_Nm[3];
+  float torque_rise_s;  // from no torque to the largest
+  float max_speed_rad_per_s;
+  float full_from, gone_at;  // reciprocal condition
+  float elbow_mass_kg[3];    // weight that acts at the ends of the driven links
+  float tip_mass_kg;         // and at the tip
+  float gravity_mps2[3];     // linkage's frame
+  float carried_share;       // of the torque limits: the most that carries weight; 0: none does
+};
+static_assert(sizeof(LinkageLayout) == 160 && offsetof(LinkageLayout, max_torque_Nm) == 100);
+
+}  // namespace firmtouch::device

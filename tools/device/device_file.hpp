@@ -1,0 +1,85 @@
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "device/refused.hpp"
+#include "firmtouch/device/delta.hpp"
+#include "firmtouch/device/five_bar.hpp"
+#include "firmtouch/device/layout.hpp"
+#include "firmtouch/device/load.hpp"
+#include "firmtouch/device/serial_arm.hpp"
+#include "surface/point.hpp"
+
+namespace firmtouch::tools {
+
+/// A link that moves like a rod: its mass lies on the line between its ends.
+struct Rod {
+  double mass_kg = 0;
+  double centre_m = 0;       // of mass, from the end nearer to the base
+  double inertia_kg_m2 = 0;  // about the centre of mass, across the rod
+};
+
+/// What resists a joint's motion.
+struct JointFriction {
+  double rotor_kg_m2 = 0;  // of motor and transmission, at the joint
+  double viscous_N_m_s = 0;
+  double coulomb_N_m = 0;
+};
+
+/// What the simulator needs, and the compensation of weight.
+struct MassModel {
+  // As the lengths: five-bar proximal 0, 1, distal 0, 1; serial arm 0, 1; delta upper, lower.
+  Rod rod[6];
+  double tip_mass_kg = 0;
+  JointFriction joint[device::kMaxJoints];
+  Point gravity_mps2{0, 0, -9.80665};  // linkage's frame
+  double stop_N_m_per_rad = 30;        // end stops of the ranges
+  double stop_N_m_s = 0.01;
+};
+
+/// A linkage with its joints, limits and masses.
+struct LinkageDevice {
+  std::variant<device::FiveBar, device::SerialArm, device::Delta> linkage;
+  device::JointSettings joints;
+  device::TorqueLimits limits;
+  float torque_rise_s = 0.002f;
+  float carried_share = 0;
+  MassModel masses;
+};
+
+/// Reads a device file: a statement a line, `KEY VALUE UNIT`; # begins a comment.
+///     linkage five_bar                first; or serial_arm, delta
+///     base 25 mm                      the linkage's lengths, as in its header
+///     proximal_0 63 mm
+///     ...
+///     counts_0 13824 counts/turn      of each joint: encoder, range and largest torque
+///     low_0 60 deg
+///     high_0 150 deg
+///     max_torque_0 0.3 N*m
+///     proximal_mass_0 20 g            optional, of each link: also proximal_centre_0 (default: the
+///                                     middle), proximal_inertia_0 (default: of an even rod)
+/// `name` stands before the line in messages.
+/// Throws Refused: an unknown, missing or doubled key, a wrong unit, a value out of range, or a
+/// rule of firmtouch/device/rules.hpp.
+LinkageDevice read_device(const std::string& name, const std::string& text);
+
+/// All keys with their units, for --help.
+std::string device_file_help();
+
+/// A link of a device file: `name`_`number`.
+struct Link {
+  const char* name;
+  int number;
+  double length_m;
+};
+/// In the order of MassModel::rod; the first half are driven by the joints, each by its own.
+std::vector<Link> links_of(const LinkageDevice& device);
+
+/// Where the weight of the links acts.
+device::Load load_of(const LinkageDevice& device);
+
+/// The section that the firmware reads.
+device::LinkageLayout layout_of(const LinkageDevice& device);
+
+}  // namespace firmtouch::tools

@@ -1,0 +1,105 @@
+#include "device/device_file.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+using device::Delta;
+using device::FiveBar;
+using device::SerialArm;
+
+double wide(float a) { return static_cast<double>(a); }
+
+std::vector<Link> links(const FiveBar& bar) {
+  return {{"proximal", 0, wide(bar.proximal_m[0])},
+          {"proximal", 1, wide(bar.proximal_m[1])},
+          {"distal", 0, wide(bar.distal_m[0])},
+          {"distal", 1, wide(bar.distal_m[1])}};
+}
+std::vector<Link> links(const SerialArm& arm) {
+  return {{"link", 0, wide(arm.link_m[0])}, {"link", 1, wide(arm.link_m[1])}};
+}
+std::vector<Link> links(const Delta& delta) {
+  std::vector<Link> all;
+  for (int k = 0; k < 3; ++k) all.push_back({"upper", k, wide(delta.upper_m[k])});
+  for (int k = 0; k < 3; ++k) all.push_back({"lower", k, wide(delta.lower_m[k])});
+  return all;
+}
+
+template <size_t kCount>
+void put(float (&to)[kCount], const float* from, uint32_t first, uint32_t count) {
+  for (uint32_t k = 0; k < count; ++k) to[first + k] = from[k];
+}
+
+void put_linkage(const FiveBar& bar, device::LinkageLayout& to) {
+  to.kind = device::kFiveBar;
+  to.flags = bar.is_tip_left ? device::kFlagTip : 0;
+  put(to.length_m, bar.proximal_m, 0, 2);
+  put(to.length_m, bar.distal_m, 2, 2);
+  to.offset_m[0] = bar.base_m;
+}
+void put_linkage(const SerialArm& arm, device::LinkageLayout& to) {
+  to.kind = device::kSerialArm;
+  to.flags = arm.has_parallelogram ? device::kFlagParallelogram : 0;
+  put(to.length_m, arm.link_m, 0, 2);
+  to.offset_m[0] = arm.offset_m;
+  to.offset_m[1] = arm.height_m;
+}
+void put_linkage(const Delta& delta, device::LinkageLayout& to) {
+  to.kind = device::kDelta;
+  to.flags = delta.is_tip_above ? device::kFlagTip : 0;
+  put(to.length_m, delta.upper_m, 0, 3);
+  put(to.length_m, delta.lower_m, 3, 3);
+  to.offset_m[0] = delta.base_radius_m;
+  to.offset_m[1] = delta.platform_radius_m;
+  to.offset_m[2] = delta.side_m;
+}
+
+}  // namespace
+
+std::vector<Link> links_of(const LinkageDevice& device) {
+  return std::visit([](const auto& linkage) { return links(linkage); }, device.linkage);
+}
+
+device::Load load_of(const LinkageDevice& device) {
+  device::Load load;
+  const std::vector<Link> all = links_of(device);
+  // The first half are the driven links, of which one end is fixed; the others end at the tip.
+  const size_t half = all.size() / 2;
+  double elbow_kg[device::kMaxJoints] = {}, tip_kg = device.masses.tip_mass_kg;
+  for (size_t i = 0; i < half; ++i) {
+    const Rod &driven = device.masses.rod[i], &outer = device.masses.rod[half + i];
+    const double far_share = outer.centre_m / all[half + i].length_m;
+    elbow_kg[i] = driven.mass_kg * driven.centre_m / all[i].length_m;
+    elbow_kg[i] += outer.mass_kg * (1 - far_share);
+    tip_kg += outer.mass_kg * far_share;
+  }
+  for (size_t i = 0; i < half; ++i) load.elbow_mass_kg[i] = static_cast<float>(elbow_kg[i]);
+  load.tip_mass_kg = static_cast<float>(tip_kg);
+  load.gravity_mps2 = to_vec3(device.masses.gravity_mps2);
+  return load;
+}
+
+device::LinkageLayout layout_of(const LinkageDevice& device) {
+  device::LinkageLayout to = {};
+  std::visit([&](const auto& linkage) { put_linkage(linkage, to); }, device.linkage);
+  to.joints = device.joints.joints;
+  for (uint32_t k = 0; k < to.joints; ++k) {
+    const device::JointSetting& joint = device.joints.joint[k];
+    to.joint[k] = {joint.counts_per_rad, joint.zero_rad, joint.low_rad, joint.high_rad};
+  }
+  put(to.max_torque_Nm, device.limits.max_torque_Nm, 0, to.joints);
+  to.torque_rise_s = device.torque_rise_s;
+  to.max_speed_rad_per_s = device.joints.max_speed_rad_per_s;
+  to.full_from = device.limits.full_from;
+  to.gone_at = device.limits.gone_at;
+  const device::Load load = load_of(device);
+  put(to.elbow_mass_kg, load.elbow_mass_kg, 0, 3);
+  to.tip_mass_kg = load.tip_mass_kg;
+  to.gravity_mps2[0] = load.gravity_mps2.x;
+  to.gravity_mps2[1] = load.gravity_mps2.y;
+  to.gravity_mps2[2] = load.gravity_mps2.z;
+  to.carried_share = device.carried_share;
+  return to;
+}
+
+}  // namespace firmtouch::tools
