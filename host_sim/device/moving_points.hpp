@@ -1,0 +1,35 @@
+#pragma once
+#include "device/device_file.hpp"
+#include "host_sim/plant/vec.hpp"
+
+namespace firmtouch::host_sim {
+
+using tools::LinkageDevice;
+
+constexpr uint32_t kJoints = device::kMaxJoints;
+
+/// A point of a linkage in motion, in double. Its acceleration is the columns times the joints'
+/// accelerations, and `bias_mps2`.
+struct MovingPoint {
+  Vec at_m, velocity_mps;
+  Vec column_m[kJoints];  // motion per radian of each joint
+  Vec bias_mps2;
+};
+
+/// The points that the rods of a linkage end at.
+struct MovingPoints {
+  MovingPoint base[kJoints];   // of the driven links
+  MovingPoint elbow[kJoints];  // their other ends; of a serial arm one
+  MovingPoint tip;
+  bool is_closed = true;  // false: the links do not meet, and the tip is not defined
+};
+
+struct JointMotion {
+  double angle_rad[kJoints] = {}, rate_rad_per_s[kJoints] = {};
+};
+
+/// Kinematics to the second order: loops closed as spheres that intersect, their velocities and
+/// accelerations from rods of constant length.
+MovingPoints points_of(const LinkageDevice& device, const JointMotion& motion);
+
+}  // namespace firmtouch::host_sim
