@@ -3,7 +3,9 @@
 #include <string>
 
 #include "device/device_file.hpp"
+#include "device/machines.hpp"
 #include "host_sim/commands/commands.hpp"
+#include "host_sim/device/firmware_check.hpp"
 #include "host_sim/device/workspace.hpp"
 #include "host_sim/trace/log.hpp"
 
@@ -15,9 +17,36 @@ constexpr uint32_t kSteps[] = {0, 0, 400, 40};  // of a joint, by the number of 
 
 double percent(uint32_t part, const Workspace& of) { return 100.0 * part / of.poses; }
 
+constexpr uint32_t kCheckedPoses = 20000;
+
+void print_check(const FirmwareCheck& check) {
+  std::printf("poses of the check against the simulation  %u\n", check.poses);
+  std::printf("inverse of forward kinematics              within %.2g m (goal %.2g)\n",
+              check.inverse_m, kMaxInverse_m);
+  std::printf("force at the tip, counts to torques        within %.2g %% (goal %.2g)\n",
+              check.force * 100, kMaxForceError * 100);
+  std::printf("weight carried, largest torque %.3g N m   within %.2g %% (goal %.2g)\n",
+              check.heaviest_Nm, check.weight * 100, kMaxWeightError * 100);
+}
+
+std::string machines() {
+  std::string names;
+  for (const std::string& name : tools::machine_names())
+    names += (names.empty() ? "" : ", ") + name;
+  return "Machines: " + names + "\n";
+}
+
+void print_assumed(const std::string& text) {
+  std::string keys;
+  for (const std::string& key : tools::assumed_keys(text)) keys += (keys.empty() ? "" : ", ") + key;
+  if (!keys.empty()) std::printf("assumed, without a source: %s\n", keys.c_str());
+}
+
 int print_device(const Options& options) {
-  const std::string path = options.operand("one device file");
-  const LinkageDevice device = tools::read_device(path, read_file(path));
+  const std::string path = options.operand("one device file, or a machine's name");
+  const std::string text = tools::read_device_text(path);
+  if (options.has("--print")) return std::fputs(text.c_str(), stdout) < 0 ? 3 : 0;
+  const LinkageDevice device = tools::read_device(path, text);
   const Workspace space = workspace_of(device, kSteps[device.joints.joints]);
   const uint32_t none = space.poses - space.with_whole_force - space.with_faded_force;
   std::printf("poses on a grid over the joints' ranges    %u\n", space.poses);
@@ -42,22 +71,31 @@ int print_device(const Options& options) {
   std::printf(" deg\n%s\n", is_free ? "no singularity within the ranges"
                                     : "the ranges contain a singularity, or poses that the links "
                                       "do not reach: narrow low_ and high_");
-  return is_free ? 0 : 1;
+  const FirmwareCheck check =
+      check_firmware(device, static_cast<uint32_t>(options.number("--poses", kCheckedPoses, 1)));
+  print_check(check);
+  print_assumed(text);
+  return is_free && is_good(check) ? 0 : 1;
 }
 
 }  // namespace
 
 const Command& device_command_line() {
+  static const std::string details =
+      "FILE begins with `linkage five_bar`, `linkage serial_arm [2|3]` or `linkage delta`; then "
+      "lines KEY VALUE UNIT.\nLengths: as in firmware/firmtouch/device. Fade by the reciprocal "
+      "condition: full_from, gone_at.\nAll keys:\n" +
+      tools::device_file_help() + machines() +
+      "Exit code 1: a pose of the ranges is not reachable, singular, or beyond the fade; or the "
+      "firmware misses a goal.\n";
   static const Command command = {
       "device",
-      "FILE",
-      "checks a linkage's file and prints its workspace",
-      "FILE begins with `linkage five_bar`, `linkage serial_arm [2|3]` or `linkage delta`; then "
-      "lines KEY VALUE UNIT.\nLengths: as in firmware/firmtouch/device. Joints: counts_K, zero_K, "
-      "low_K, high_K, max_torque_K; max_speed.\nFade by the reciprocal condition: full_from, "
-      "gone_at.\nExit code 1: a pose of the ranges is not reachable, singular, or beyond the "
-      "fade.\n",
-      {},
+      "FILE|MACHINE",
+      "checks a linkage's file, prints its workspace, and compares the firmware with its "
+      "simulation",
+      details.c_str(),
+      {{"--poses", "N", "of the check against the simulation (default 20000)"},
+       {"--print", nullptr, "the device file of a machine, to bake or to change"}},
       print_device};
   return command;
 }

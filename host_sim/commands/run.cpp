@@ -1,17 +1,21 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <optional>
 
+#include "device/machines.hpp"
 #include "firmtouch/link/build_id.hpp"
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/outputs.hpp"
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/controllers/session.hpp"
+#include "host_sim/device/linkage_body.hpp"
 #include "host_sim/report/report.hpp"
 #include "host_sim/report/summary.hpp"
 #include "host_sim/trace/csv.hpp"
@@ -19,6 +23,8 @@
 
 namespace firmtouch::host_sim {
 namespace {
+
+constexpr double kMaxBalanceError = 1e-5;
 
 std::string hex(uint64_t value, int digits) {
   char text[24];
@@ -33,7 +39,7 @@ std::string line_of(std::string set) {
   // "1N" is accepted as "1 N".
   const size_t unit = set.find_first_not_of("0123456789.+-eE", equals + 1);
   const std::string key = set.substr(0, equals);
-  const bool is_text = key == "asset" || key == "mesh" || key == "guide";
+  const bool is_text = key == "asset" || key == "device" || key == "mesh" || key == "guide";
   if (!is_text && unit != std::string::npos && unit > equals + 1 && set[unit] != ' ' &&
       set.find(' ', equals + 1) == std::string::npos)
     set.insert(unit, " ");
@@ -137,6 +143,35 @@ int exit_code(const RunFacts& facts, const Summary& summary) {
   return 1;
 }
 
+// The linkage that the scenario names must be the one that the controller drives.
+void read_linkage(Scenario& scenario, const Session& session, const std::string& file) {
+  const device::StoredLinkage& stored = session.controller->linkage();
+  const bool is_named = !scenario.device_file.empty();
+  if (!is_named && !stored.is_open()) return;
+  if (!is_named) throw Refused(file + ": its asset stores a linkage; name its file: `device FILE`");
+  const bool is_machine = !tools::machine_text(scenario.device_file).empty();
+  const std::string path =
+      is_machine ? scenario.device_file : path_beside(file, scenario.device_file);
+  scenario.linkage = tools::read_device(path, tools::read_device_text(path));
+  if (!stored.is_open())
+    throw Refused(file + ": its asset stores no linkage; bake it with --device " +
+                  scenario.device_file);
+  const device::LinkageLayout layout = tools::layout_of(*scenario.linkage);
+  if (std::memcmp(&layout, &stored.layout(), sizeof layout) != 0)
+    throw Refused(path + ": the asset stores another linkage; bake it again with --device");
+}
+
+// Result: whether the balance holds.
+bool print_energy(const EnergyBook& book) {
+  const double error = book.turnover_J > 0 ? book.error_J() / book.turnover_J : 0;
+  std::fprintf(stderr,
+               "  energy         hand %.4g J, motors %.4g J, lost %.4g J, stored %.4g J; balance "
+               "within %.1e of %.4g J\n",
+               book.hand_J, book.motors_J, book.lost_J, book.stored_J - book.start_J,
+               std::fabs(error), book.turnover_J);
+  return std::fabs(error) <= kMaxBalanceError;
+}
+
 // Throws Usage if two outputs, or an output and the JSON summary, go to stdout.
 void check_stdout(const Options& options, const NamedFiles& outputs) {
   size_t count = options.has("--json") ? 1 : 0;
@@ -166,6 +201,9 @@ int run_scenario(const Options& options) {
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
                       session.controller->asset_crc());
   check_scene(session, port != nullptr);
+  read_linkage(scenario, session, file);
+  if (options.has("--energy") && !scenario.linkage)
+    options.refuse("--energy is of a linkage: name one in the scenario, `device FILE`");
   Simulation simulation(scenario, *session.controller, environment, port.get());
   const RunFacts& facts = simulation.facts();
   RunOutputs written(options, scenario, session, environment, facts);
@@ -183,7 +221,9 @@ int run_scenario(const Options& options) {
                           session.scene_text(), command_of(options.words())});
   if (options.has("--json")) std::cout << json_of(summary, facts);
   std::cerr << "  scene          " << session.scene_text() << "\n" << text_of(summary, facts);
-  return exit_code(facts, summary);
+  const bool is_balanced = !options.has("--energy") || print_energy(*simulation.energy());
+  const int code = exit_code(facts, summary);
+  return code == 0 && !is_balanced ? 1 : code;
 }
 
 }  // namespace
@@ -207,6 +247,9 @@ const Command& run_command_line() {
        {"--picture", "FILE.svg", "the report's 3D view and force chart"},
        {"--log", "FILE.ftl", "input and output of every tick, for `firmtouch-sim replay`"},
        {"--csv", "FILE.csv", "the same as text; - is stdout, also for --report and --picture"},
+       {"--energy", nullptr,
+        "of a linkage: work of hand and motors, stored and lost energy; exit code 1 where they\n"
+        "                              do not balance to 1e-5"},
        {"--json", nullptr, "the figures as JSON on stdout"}},
       run_scenario};
   return command;

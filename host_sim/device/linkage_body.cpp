@@ -244,6 +244,10 @@ bool find_angles(const LinkageDevice& device, Vec tip_m, JointMotion& motion) {
     const device::JointSetting& joint = device.joints.joint[k];
     motion.angle_rad[k] = 0.5 * (wide(joint.low_rad) + wide(joint.high_rad));
   }
+  return find_angles_from(device, tip_m, motion);
+}
+
+bool find_angles_from(const LinkageDevice& device, Vec tip_m, JointMotion& motion) {
   for (int step = 0; step < 100; ++step) {
     const MovingPoint tip = points_of(device, motion).tip;
     const Vec off = tip_m - tip.at_m;

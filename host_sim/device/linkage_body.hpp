@@ -61,7 +61,9 @@ class LinkageBody {
 };
 
 /// Joint angles that put the tip at `tip_m`, within the ranges of the joints.
-/// Result: false if Newton's method finds none within 1e-9 m.
+/// Result: false if Newton's method, from the middle of the ranges, finds none within 1e-9 m.
 bool find_angles(const LinkageDevice& device, Vec tip_m, JointMotion& motion);
+/// The same from the angles of `motion`.
+bool find_angles_from(const LinkageDevice& device, Vec tip_m, JointMotion& motion);
 
 }  // namespace firmtouch::host_sim

@@ -159,6 +159,9 @@ void Reader::statement(LineReader& words) {
   if (name == "asset") {
     once(name, words);
     out.asset = words.path();
+  } else if (name == "device") {
+    once(name, words);
+    out.device_file = words.path();
   } else if (name == "mesh" || name == "guide") {
     once(name, words);
     (name == "mesh" ? out.scene.surface : out.scene.guide) = words.path();
@@ -174,6 +177,16 @@ void Reader::statement(LineReader& words) {
     words.refuse_unknown("key or statement", name);
   }
   words.end();
+}
+
+// A linkage brings its own masses, encoders and motors.
+void check_axes(const Reader& reader) {
+  if (reader.out.device_file.empty()) return;
+  for (const char* name :
+       {"mass", "viscous_friction", "coulomb_friction", "encoder_quantum", "motor_limit"})
+    if (std::find(reader.given.begin(), reader.given.end(), name) != reader.given.end())
+      throw Refused(reader.out.file + ": `" + name + "` is of a device with straight axes; it " +
+                    "stands in " + reader.out.device_file + " for its joints");
 }
 
 void check_whole(const Scenario& scenario) {
@@ -194,8 +207,8 @@ Scenario read_scenario(const std::string& file, const std::string& text,
   reader.out.text = text;
   std::vector<std::string> names;
   for (const Key& key : kKeys) names.emplace_back(key.name);
-  for (const char* name :
-       {"output_delay", "asset", "mesh", "guide", "start", "at", "move", "hold", "press", "follow"})
+  for (const char* name : {"output_delay", "asset", "device", "mesh", "guide", "start", "at",
+                           "move", "hold", "press", "follow"})
     names.emplace_back(name);
   for (const ParameterRow& row : parameters) names.push_back(row.short_name);
   std::istringstream lines(text);
@@ -212,6 +225,7 @@ Scenario read_scenario(const std::string& file, const std::string& text,
     reader.out.text += set + "\n";
   }
   check_whole(reader.out);
+  check_axes(reader);
   std::stable_sort(reader.out.events.begin(), reader.out.events.end(),
                    [](const Event& a, const Event& b) { return a.time_s < b.time_s; });
   return reader.out;
@@ -225,6 +239,9 @@ std::string scenario_help() {
           "                                    in \"quotes\" if it contains a # after a blank\n"
           "  mesh NAME                         mesh or spline surface to touch; default: the "
           "asset's first\n"
+          "  device FILE                       linkage (firmtouch-sim device --help) that is "
+          "simulated;\n"
+          "                                    the asset was baked with --device FILE\n"
           "  guide NAME                        curve to use as guide; default: the asset's first\n"
           "  start X Y Z m                     initial position of device and hand\n";
   Scenario defaults;

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "device/device_file.hpp"
 #include "device/refused.hpp"
 #include "host_sim/plant/device.hpp"
 #include "host_sim/plant/vec.hpp"
@@ -65,9 +67,11 @@ struct SceneNames {
 };
 
 struct Scenario {
-  std::string file;   // path of the scenario
-  std::string text;   // as read, plus the --set lines; stored in logs
-  std::string asset;  // path, relative to the scenario's folder
+  std::string file;                             // path of the scenario
+  std::string text;                             // as read, plus the --set lines; stored in logs
+  std::string asset;                            // path, relative to the scenario's folder
+  std::string device_file;                      // the same, of a linkage; empty: a Cartesian device
+  std::optional<tools::LinkageDevice> linkage;  // read from there
   SceneNames scene;
   double rate_Hz = 1000;
   double geometry_rate_Hz = 0;  // 0: every tick makes a local model

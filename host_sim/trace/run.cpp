@@ -8,13 +8,11 @@
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/servo/step.hpp"
 #include "host_sim/hand/hand.hpp"
+#include "host_sim/plant/machine.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
 
-// Integration steps of device and hand within a tick. With a grip of 2,000 N/m on 75 g at 1 kHz the
-// hand's piecewise constant force differs from a continuous one by less than 1e-3.
-constexpr uint32_t kSubsteps = 16;
 constexpr uint32_t kMaxTicks = 1000000000;  // 28 h at 10 kHz; record numbers stay below 2^32
 constexpr uint32_t kSettlingTicks = 5;  // between the last initial parameter and the enable line
 constexpr double kArmLag_s = 0.012;     // of each of the arm's two lags
@@ -238,22 +236,23 @@ struct Simulation::Loop {
         controller(its_controller),
         remote(its_remote),
         hand(scenario, environment, parameter_value(scenario, params::kToolRadius)),
-        zero_m{parameter_value(scenario, kOrigin[0]), parameter_value(scenario, kOrigin[1]),
-               parameter_value(scenario, kOrigin[2])},
-        device(scenario.device, hand.start_m() - zero_m),
+        machine(scenario, hand.start_m(),
+                {parameter_value(scenario, kOrigin[0]), parameter_value(scenario, kOrigin[1]),
+                 parameter_value(scenario, kOrigin[2])}),
         arm(hand.start_m()),
         panel(scenario) {}
 
-  Vec device_m() const { return device.position_m() + zero_m; }
   Vec hand_N() const {
-    return hand.force_N(arm.position_m(), arm.velocity_mps(), device_m(), device.velocity_mps());
+    return hand.force_N(arm.position_m(), arm.velocity_mps(), machine.position_m(),
+                        machine.velocity_mps());
   }
   // From the tick before to this one.
-  void move(double before_s, double substep_s) {
+  void move(double before_s, double period_s) {
     const Vec script_m = hand.target_m(before_s);
-    for (uint32_t k = 0; k < kSubsteps; ++k) {
-      arm.advance(script_m, substep_s);
-      device.advance(hand_N(), substep_s);
+    const uint32_t substeps = machine.substeps(period_s);
+    for (uint32_t k = 0; k < substeps; ++k) {
+      arm.advance(script_m, period_s / substeps);
+      machine.advance(hand_N(), period_s / substeps);
     }
   }
 
@@ -261,8 +260,7 @@ struct Simulation::Loop {
   FullController& controller;
   LockStepController* remote;
   Hand hand;
-  Vec zero_m;  // where the encoders count 0
-  Device device;
+  Machine machine;
   Arm arm;
   Operator panel;
   record::TickOutput last{};
@@ -282,16 +280,18 @@ Simulation::Simulation(const Scenario& scenario, FullController& controller,
 
 Simulation::~Simulation() = default;
 
+const EnergyBook* Simulation::energy() const { return loop_->machine.energy(); }
+
 bool Simulation::next(RunTick& tick) {
   Loop& loop = *loop_;
   if (loop.tick == facts_.ticks || facts_.difference) return false;
   const double period_s = 1 / facts_.rate_Hz, now_s = loop.tick * period_s;
-  if (loop.tick > 0) loop.move((loop.tick - 1) * period_s, period_s / kSubsteps);
+  if (loop.tick > 0) loop.move((loop.tick - 1) * period_s, period_s);
   record::TickRecord& record = tick.record;
   record = {};
   record.input.tick = loop.tick++;
   record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
-  for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = loop.device.count(axis);
+  for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = loop.machine.count(axis);
   loop.panel.fill(record.input, loop.last, now_s);
   record.input.flags |= model_flags(loop.scenario, record.input.tick);
   loop.controller.tick(record.input, record.output);
@@ -304,11 +304,9 @@ bool Simulation::next(RunTick& tick) {
     facts_.difference = first_difference(expected, record.output);
   }
   check_command(loop.scenario, record);
-  const float(&motor)[3] = record.output.motor_N;
-  loop.device.command({static_cast<double>(motor[0]), static_cast<double>(motor[1]),
-                       static_cast<double>(motor[2])});
+  loop.machine.command(record.output.motor_N);
   loop.last = record.output;
-  tick.device_m = loop.device_m();
+  tick.device_m = loop.machine.position_m();
   tick.target_m = loop.arm.position_m();
   tick.hand_N = loop.hand_N();
   return true;

@@ -14,6 +14,8 @@
 
 namespace firmtouch::host_sim {
 
+struct EnergyBook;
+
 /// One tick of a run: its record, and what only the simulator has.
 struct RunTick {
   record::TickRecord record{};
@@ -63,6 +65,8 @@ class Simulation {
              LockStepController* remote);
   ~Simulation();
   const RunFacts& facts() const { return facts_; }
+  /// Of the simulated linkage so far; null for a Cartesian device.
+  const EnergyBook* energy() const;
   /// Runs one tick. Result: false if the run has ended. Throws Refused if the controller rejects a
   /// parameter.
   bool next(RunTick& tick);

@@ -13,6 +13,7 @@
 #include "cli/hull_arguments.hpp"
 #include "cli/version.hpp"
 #include "device/device_file.hpp"
+#include "device/machines.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
@@ -108,11 +109,11 @@ void add_hull(const Arguments& arguments, BakeOptions& options) {
 
 // The linkage of --device, as an asset named after its file's stem.
 BakedInput bake_device(const std::string& path) {
-  const std::vector<uint8_t> source = read_model(path);
   BakedInput baked;
   try {
-    const tools::LinkageDevice device =
-        tools::read_device(path, std::string(source.begin(), source.end()));
+    const std::string text = tools::read_device_text(path);
+    const std::vector<uint8_t> source(text.begin(), text.end());
+    const tools::LinkageDevice device = tools::read_device(path, text);
     const device::LinkageLayout layout = tools::layout_of(device);
     const std::string name = stem_of(path);
     baked.sections = {
@@ -218,7 +219,8 @@ const Command& bake_command() {
            {"--curve-tree", nullptr,
             "curves and runs: also the k-d tree of the samples, for nearest_constraint()"},
            {"--device", "FILE",
-            "a linkage, as `firmtouch-sim device FILE` reads it: the controller then takes joint "
+            "a linkage's file, or a machine of `firmtouch-sim device --help`: the controller then "
+            "takes joint "
             "counts "
             "and gives torques"},
            {"--teach", "NAME", "what the guide is called that a recorded run gives"},

@@ -1,0 +1,83 @@
+#include "host_sim/plant/machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace firmtouch::host_sim {
+namespace {
+
+// With a grip of 2,000 N/m on 75 g at 1 kHz the hand's piecewise constant force differs from a
+// continuous one by less than 1e-3.
+constexpr uint32_t kMinSubsteps = 16;
+constexpr double kLinkageStep_s = 2e-5;
+
+LinkageBody body_at(const Scenario& scenario, Vec start_m) {
+  JointMotion start;
+  if (!find_angles(*scenario.linkage, start_m, start)) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  ": the linkage cannot reach the start at %.4g %.4g %.4g m; move `start` or the "
+                  "scene",
+                  start_m.x, start_m.y, start_m.z);
+    throw Refused(scenario.file + text);
+  }
+  LinkageBody body(*scenario.linkage, start);
+  if (!body.has_inertia())
+    throw Refused(scenario.device_file +
+                  ": its inertia is not positive definite; give each joint a rotor_ or its links "
+                  "masses");
+  return body;
+}
+
+}  // namespace
+
+Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m) : zero_m_(zero_m) {
+  if (scenario.linkage) {
+    body_.emplace(body_at(scenario, start_m));
+    delayed_Nm_.resize(scenario.device.output_delay_samples);
+  } else {
+    axes_.emplace(scenario.device, start_m - zero_m);
+  }
+  locate();
+}
+
+void Machine::locate() {
+  if (axes_) {
+    position_m_ = axes_->position_m() + zero_m_;
+    velocity_mps_ = axes_->velocity_mps();
+  } else {
+    const MovingPoint tip = body_->tip();
+    position_m_ = tip.at_m;
+    velocity_mps_ = tip.velocity_mps;
+  }
+}
+
+void Machine::command(const float (&motor)[3]) {
+  const Vec wanted{static_cast<double>(motor[0]), static_cast<double>(motor[1]),
+                   static_cast<double>(motor[2])};
+  if (axes_) return axes_->command(wanted);
+  delayed_Nm_.push_back(wanted);
+  motor_Nm_ = delayed_Nm_.front();
+  delayed_Nm_.pop_front();
+}
+
+void Machine::advance(Vec hand_N, double time_s) {
+  if (axes_) {
+    axes_->advance(hand_N, time_s);
+  } else {
+    body_->advance({motor_Nm_.x, motor_Nm_.y, motor_Nm_.z}, hand_N, time_s);
+  }
+  locate();
+}
+
+int32_t Machine::count(int joint) const {
+  return axes_ ? axes_->count(joint) : body_->count(static_cast<uint32_t>(joint));
+}
+
+uint32_t Machine::substeps(double period_s) const {
+  if (axes_) return kMinSubsteps;
+  return std::max(kMinSubsteps, static_cast<uint32_t>(std::ceil(period_s / kLinkageStep_s - 1e-9)));
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,42 @@
+#pragma once
+#include <deque>
+#include <optional>
+
+#include "host_sim/device/linkage_body.hpp"
+#include "host_sim/plant/device.hpp"
+#include "host_sim/scenario/scenario.hpp"
+
+namespace firmtouch::host_sim {
+
+/// The machine of a run: three Cartesian axes, or the scenario's linkage. Positions are those of
+/// the controller's device frame.
+class Machine {
+ public:
+  /// `zero_m`: where the encoders of a Cartesian device count 0.
+  /// Throws Refused if the linkage has no inertia, or cannot reach `start_m`.
+  Machine(const Scenario& scenario, Vec start_m, Vec zero_m);
+
+  /// Motor forces, or joint torques of a linkage, of this tick; they act after the output delay.
+  void command(const float (&motor)[3]);
+  /// Moves under motors and hand, both constant during `time_s`.
+  void advance(Vec hand_N, double time_s);
+  Vec position_m() const { return position_m_; }
+  Vec velocity_mps() const { return velocity_mps_; }
+  int32_t count(int joint) const;
+  /// Null for a Cartesian device.
+  const EnergyBook* energy() const { return body_ ? &body_->energy() : nullptr; }
+  /// Integration steps in a tick of `period_s`, so that a linkage has 50,000 a second.
+  uint32_t substeps(double period_s) const;
+
+ private:
+  void locate();
+
+  Vec zero_m_;
+  std::optional<Device> axes_;
+  std::optional<LinkageBody> body_;
+  std::deque<Vec> delayed_Nm_;  // torques of a linkage, the oldest first
+  Vec motor_Nm_;
+  Vec position_m_, velocity_mps_;
+};
+
+}  // namespace firmtouch::host_sim
