@@ -31,7 +31,7 @@ struct DeviceRows {
   static constexpr Entry kRows[] = {
       {kVelocityFilter, "velocity_filter_Hz", "Hz", 1.0f, 10000.0f, 150.0f, When::kAnytime,
        "cut-off frequency of velocity estimator 1"},
-      {kVelocityEstimator, "velocity_estimator", "1", 0.0f, 2.0f, 1.0f, When::kAnytime,
+      {kVelocityEstimator, "velocity_estimator", "1", 0.0f, 2.0f, 2.0f, When::kAnytime,
        "0: difference of two samples, 1: through a low-pass, 2: tracking line"},
       {kMaxSpeed, "max_speed_mps", "m/s", 0.01f, 100.0f, 5.0f, When::kAnytime,
        "an encoder that jumps faster than this is rejected"},
