@@ -135,7 +135,7 @@ TEST(DryFriction_HoldsUpToItsTorque_AndBringsToRest) {
 }
 
 // The firmware's pose and torques, from counts, hold a hand of the opposite force still.
-TEST(StaticForce_IsTheOneAskedFor) {
+TEST(StaticForce_IsTheOneRequested) {
   test::Lcg random(3);
   for (const Swing& swing : swings()) {
     const device::LinkageLayout layout = tools::layout_of(swing.device);
