@@ -69,6 +69,8 @@ const Command& replay_command_line();
 const Command& record_command_line();
 const Command& live_command_line();
 const Command& scenario_command_line();
+const Command& score_command_line();
+const Command& bench_command_line();
 const Command& z_width_command_line();
 const Command& device_command_line();
 

@@ -69,8 +69,10 @@ int replay_log(const Options& options) {
              std::strtoull(entry(log, path, "parameter_table").c_str(), nullptr, 16),
              params::table_hash(), 16, "use the version that recorded it");
   const std::string named = options.value("--asset");
-  const Session session(named.empty() ? path_beside(path, entry(log, path, "asset")) : named,
-                        {entry_or_empty(log, "surface"), entry_or_empty(log, "guide")});
+  const Session session(
+      named.empty() ? path_beside(path, entry(log, path, "asset")) : named,
+      {entry_or_empty(log, "surface"), entry_or_empty(log, "guide")},
+      entry_or_empty(log, "contact") == "penalty" ? Contact::kPenalty : Contact::kProxy);
   check_same(path, ("asset CRC of " + session.asset.path()).c_str(),
              std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16),
              session.controller->asset_crc(), 8, "give the recorded asset with --asset");
@@ -80,18 +82,16 @@ int replay_log(const Options& options) {
               << " ticks before them are replayed\n";
   for (const std::string& name : log.missing_outputs)
     std::cerr << path << ": it has no field " << name << "; that field is not compared\n";
+  check_scene(session, options.value("--controller"));
   const std::unique_ptr<LockStepController> port =
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
                       session.controller->asset_crc());
-  check_scene(session, port != nullptr);
   const std::string by = port ? port->name() : "in-process";
-  const Tick tick = [&](const record::TickInput& input, record::TickOutput& output) {
-    if (port)
-      port->tick(input, output);
-    else
-      session.controller->tick(input, output), session.controller->make_model();
+  const Tick remote = [&](const record::TickInput& input, record::TickOutput& output) {
+    port->tick(input, output);
   };
-  const std::optional<Difference> d = replay(log, tick, progress_bar("replaying"));
+  const std::optional<Difference> d =
+      replay(log, port ? remote : session.tick(), progress_bar("replaying"));
   if (options.has("--json")) std::cout << json_of(path, log, by, d);
   if (d) {
     std::cerr << "firmtouch-sim: " << path << ": first difference at tick " << d->tick << " in "

@@ -55,6 +55,7 @@ std::map<std::string, std::string> log_text(const Scenario& scenario, const Sess
   text["parameter_table"] = hex(params::table_hash(), 16);
   text["build"] = hex(link::build_id(), 16);
   text["controller"] = facts.controller;
+  if (session.penalty) text["contact"] = "penalty";
   if (!session.used.surface.empty()) text["surface"] = session.used.surface;
   if (!session.used.guide.empty()) text["guide"] = session.used.guide;
   text["scenario"] = scenario.text;
@@ -194,17 +195,18 @@ int run_scenario(const Options& options) {
                  {"the asset", path_beside(file, scenario.asset)},
                  {"--image", options.value("--image")}},
                 outputs);
-  const Session session(path_beside(file, scenario.asset), scenario.scene);
+  const Session session(path_beside(file, scenario.asset), scenario.scene,
+                        options.has("--penalty") ? Contact::kPenalty : Contact::kProxy);
   Environment environment = environment_of(*session.controller, scene_origin_m(scenario));
   environment.turn(parameter_value(scenario, params::kSurfaceTurned) >= 0.5);
+  check_scene(session, options.value("--controller"));
   const std::unique_ptr<LockStepController> port =
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
                       session.controller->asset_crc());
-  check_scene(session, port != nullptr);
   read_linkage(scenario, session, file);
   if (options.has("--energy") && !scenario.linkage)
     options.refuse("--energy is of a linkage: name one in the scenario, `device FILE`");
-  Simulation simulation(scenario, *session.controller, environment, port.get());
+  Simulation simulation(scenario, session.tick(), environment, port.get());
   const RunFacts& facts = simulation.facts();
   RunOutputs written(options, scenario, session, environment, facts);
   const std::function<void(double)> progress = progress_bar("simulating");
@@ -242,6 +244,7 @@ const Command& run_command_line() {
         "                              others are compared with the in-process one, bit for bit"},
        {"--image", "FILE",
         "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
+       {"--penalty", nullptr, "penalty contact instead of a proxy, for comparison"},
        {"--report", "FILE.html",
         "report: 3D view, charts and figures in one file; FOLDER/ names it after its model"},
        {"--picture", "FILE.svg", "the report's 3D view and force chart"},

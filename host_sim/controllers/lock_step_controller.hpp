@@ -23,6 +23,11 @@ class LockStepController : public log::Interface {
   virtual std::string name() const = 0;
 };
 
+/// Whether --controller names the controller in this process.
+inline bool is_in_process(const std::string& controller) {
+  return controller.empty() || controller == "inproc";
+}
+
 /// Opens the controller that --controller names: unix:PATH, tcp:HOST:PORT, qemu:BOARD or a serial
 /// DEVICE; nullptr for inproc. `image`: the program for qemu:BOARD; empty: that of the board's own
 /// build. `asset_crc`: Controller::asset_crc(). Throws Refused if it cannot be opened, or if asset,

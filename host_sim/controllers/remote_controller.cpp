@@ -140,7 +140,7 @@ std::unique_ptr<LockStepController> open_controller(const std::string& controlle
                                                     const std::string& image,
                                                     const std::string& asset_path,
                                                     uint32_t asset_crc) {
-  if (controller.empty() || controller == "inproc") return nullptr;
+  if (is_in_process(controller)) return nullptr;
   if (controller.compare(0, 5, "qemu:") == 0) {
     const std::string board = controller.substr(5);
     return std::make_unique<Remote>(

@@ -5,6 +5,7 @@
 
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/controller/needed_parts.hpp"
+#include "host_sim/controllers/lock_step_controller.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -67,7 +68,7 @@ void check_name(const std::string& path, const std::vector<SceneEntry>& entries,
 
 }  // namespace
 
-Session::Session(const std::string& asset_path, SceneNames wanted_names)
+Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact contact)
     : asset(asset_path),
       wanted(std::move(wanted_names)),
       controller(std::make_unique<FullController>()) {
@@ -82,12 +83,18 @@ Session::Session(const std::string& asset_path, SceneNames wanted_names)
       if (entry.name != (entry.is_guide ? used.guide : used.surface))
         unused.push_back((entry.is_guide ? "guide `" : "surface `") + entry.name + "`");
   }
-  const core::Verdict verdict =
-      controller->open(asset.bytes(), {text_or_null(wanted.surface), text_or_null(wanted.guide)});
+  const Selection selection{text_or_null(wanted.surface), text_or_null(wanted.guide)};
+  core::Verdict verdict = controller->open(asset.bytes(), selection);
+  if (verdict.ok() && contact == Contact::kPenalty) {
+    penalty = std::make_unique<PenaltyController>();
+    verdict = penalty->open(asset.bytes(), selection);
+  }
   if (verdict.ok()) return;
   throw Refused(asset_path + ": rejected by rule R" + std::to_string(verdict.rule) +
                 " at element " + std::to_string(verdict.element) + ": " + remedy_of(verdict.rule));
 }
+
+Tick Session::tick() const { return penalty ? tick_of(*penalty) : tick_of(*controller); }
 
 std::string Session::scene_text() const {
   std::string text;
@@ -101,8 +108,13 @@ bool Session::is_default() const {
   return used.surface == default_.surface && used.guide == default_.guide;
 }
 
-void check_scene(const Session& session, bool has_remote) {
-  if (!has_remote || session.is_default()) return;
+void check_scene(const Session& session, const std::string& controller) {
+  if (is_in_process(controller)) return;
+  if (session.penalty)
+    throw Refused(
+        "penalty contact: a controller outside this process renders contact through a "
+        "proxy; leave out --controller");
+  if (session.is_default()) return;
   throw Refused(session.asset.path() + ": " + session.scene_text() +
                 ": a controller outside this process always uses the asset's first surface and "
                 "guide; run in-process, or bake these alone");

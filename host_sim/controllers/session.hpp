@@ -5,19 +5,26 @@
 
 #include "firmtouch/controller/full_controller.hpp"
 #include "host_sim/controllers/asset_file.hpp"
+#include "host_sim/controllers/penalty_controller.hpp"
 #include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
+
+/// What makes the contact of a controller in this process.
+enum class Contact { kProxy, kPenalty };
 
 /// An asset and the in-process controller that opened it.
 struct Session {
   /// `wanted`: the surface and the guide to use; an empty name stands for the asset's first.
   /// Throws Refused with the file and the rule that rejects it, or with the names that the asset
   /// has.
-  explicit Session(const std::string& asset_path, SceneNames wanted = {});
+  explicit Session(const std::string& asset_path, SceneNames wanted = {},
+                   Contact contact = Contact::kProxy);
   Session(const Session&) = delete;  // the controller refers to `wanted`
   Session& operator=(const Session&) = delete;
 
+  /// Of the controller that renders the contact.
+  Tick tick() const;
   /// "surface `part`, guide `path`; not used: surface `lid`".
   std::string scene_text() const;
   /// Whether a controller that uses the asset's first surface and guide has the same scene.
@@ -28,14 +35,16 @@ struct Session {
   SceneNames used;                  // empty: the asset has none
   std::vector<std::string> unused;  // "surface `lid`"
   std::unique_ptr<FullController> controller;
+  std::unique_ptr<PenaltyController> penalty;  // null: contact through a proxy
 
  private:
   SceneNames default_;
 };
 
 /// Throws Refused if a controller outside this process would use another scene: it always opens the
-/// asset's first surface and guide.
-void check_scene(const Session& session, bool has_remote);
+/// asset's first surface and guide, and renders contact through a proxy.
+/// `controller`: as of open_controller().
+void check_scene(const Session& session, const std::string& controller);
 
 /// `path` relative to the folder of `folder_of` if possible, so that log and asset can be moved
 /// together.

@@ -5,6 +5,7 @@
 
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/report/contact_quality.hpp"
+#include "host_sim/report/score.hpp"
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/run.hpp"
 
@@ -45,10 +46,12 @@ struct Summary {
   double deepest_radii() const;
   double chatter_limit_N() const { return ContactQuality::kChatterShare * force_limit_N; }
   // A hand feels a wall that gives way, goes in to the tool's centre, buzzes or jumps.
-  bool is_saturated() const { return limit_ticks * 100 > ticks; }
-  bool is_deep() const { return deepest_radii() > 1; }
+  bool is_saturated() const {
+    return static_cast<double>(limit_ticks) * 100 > kMaxLimit_percent * static_cast<double>(ticks);
+  }
+  bool is_deep() const { return deepest_radii() > kMaxDepth_radii; }
   bool chatters() const { return chatter_s > 0.5; }
-  bool turns() const { return worst_turn_rad > 0.35; }
+  bool turns() const { return worst_turn_rad * 180 > kMaxTurn_deg * 3.14159265358979; }
   bool is_bad_contact() const;
 };
 

@@ -18,11 +18,4 @@ std::optional<Difference> replay(const Log& log, const Tick& tick,
   return {};
 }
 
-std::optional<Difference> replay(const Log& log, FullController& controller) {
-  return replay(log, [&](const record::TickInput& input, record::TickOutput& output) {
-    controller.tick(input, output);
-    controller.make_model();
-  });
-}
-
 }  // namespace firmtouch::host_sim

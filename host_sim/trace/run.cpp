@@ -230,10 +230,10 @@ void complete(Scenario& scenario) {
 }
 
 struct Simulation::Loop {
-  Loop(const Scenario& its_scenario, FullController& its_controller, const Environment& environment,
+  Loop(const Scenario& its_scenario, Tick its_controller, const Environment& environment,
        LockStepController* its_remote)
       : scenario(its_scenario),
-        controller(its_controller),
+        controller(std::move(its_controller)),
         remote(its_remote),
         hand(scenario, environment, parameter_value(scenario, params::kToolRadius)),
         machine(scenario, hand.start_m(),
@@ -257,7 +257,7 @@ struct Simulation::Loop {
   }
 
   const Scenario& scenario;
-  FullController& controller;
+  Tick controller;
   LockStepController* remote;
   Hand hand;
   Machine machine;
@@ -267,9 +267,9 @@ struct Simulation::Loop {
   uint32_t tick = 0;
 };
 
-Simulation::Simulation(const Scenario& scenario, FullController& controller,
-                       const Environment& environment, LockStepController* remote)
-    : loop_(std::make_unique<Loop>(scenario, controller, environment, remote)) {
+Simulation::Simulation(const Scenario& scenario, Tick controller, const Environment& environment,
+                       LockStepController* remote)
+    : loop_(std::make_unique<Loop>(scenario, std::move(controller), environment, remote)) {
   facts_.ticks = tick_count(scenario, loop_->hand);
   facts_.rate_Hz = scenario.rate_Hz;
   facts_.setup_ticks =
@@ -294,8 +294,7 @@ bool Simulation::next(RunTick& tick) {
   for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = loop.machine.count(axis);
   loop.panel.fill(record.input, loop.last, now_s);
   record.input.flags |= model_flags(loop.scenario, record.input.tick);
-  loop.controller.tick(record.input, record.output);
-  loop.controller.make_model();
+  loop.controller(record.input, record.output);
   if (loop.remote != nullptr) {
     const record::TickRecord expected = record;
     const TickCost cost = loop.remote->tick(record.input, record.output);
@@ -314,7 +313,7 @@ bool Simulation::next(RunTick& tick) {
 
 Trace run(const Scenario& scenario, FullController& controller, const Environment& environment,
           LockStepController* remote, const std::function<void(double)>& progress) {
-  Simulation simulation(scenario, controller, environment, remote);
+  Simulation simulation(scenario, tick_of(controller), environment, remote);
   Trace trace;
   for (RunTick tick; simulation.next(tick);) {
     trace.records.push_back(tick.record);

@@ -11,6 +11,7 @@
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/fields.hpp"
+#include "host_sim/trace/tick.hpp"
 
 namespace firmtouch::host_sim {
 
@@ -54,15 +55,15 @@ void complete(Scenario& scenario);
 double parameter_value(const Scenario& scenario, uint32_t parameter);
 Vec scene_origin_m(const Scenario& scenario);
 
-/// A run of `scenario` on `controller`, tick by tick; its memory does not grow with its duration.
+/// A run of `scenario` by `controller`, tick by tick; its memory does not grow with its duration.
 /// If `remote` is given, it drives the device, and every bit of its outputs is compared with the
 /// in-process controller's. Pre: `controller` is ready and has run no tick; all references outlive
 /// this. Result: deterministic; the same scenario and controller give the same records.
 class Simulation {
  public:
   /// Throws Refused if the script needs a guide that the asset lacks, or the run is too long.
-  Simulation(const Scenario& scenario, FullController& controller, const Environment& environment,
-             LockStepController* remote);
+  Simulation(const Scenario& scenario, Tick controller, const Environment& environment,
+             LockStepController* remote = nullptr);
   ~Simulation();
   const RunFacts& facts() const { return facts_; }
   /// Of the simulated linkage so far; null for a Cartesian device.

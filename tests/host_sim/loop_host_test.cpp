@@ -27,6 +27,7 @@ using firmtouch::test::scratch;
 using host_sim::Difference;
 using host_sim::Log;
 using host_sim::Session;
+using host_sim::tick_of;
 using host_sim::Trace;
 
 namespace {
@@ -109,7 +110,7 @@ TEST(Replay_ReproducesEveryBit) {
   CHECK(log.text.at("scenario") == "two\nlines \\ and a backslash");
   CHECK_EQ(log.records.size(), the_run().trace.records.size());
   const Session session(part_asset());
-  CHECK(!replay(log, *session.controller));
+  CHECK(!replay(log, tick_of(*session.controller)));
 }
 
 // A log as a version without `field` wrote it.
@@ -146,7 +147,7 @@ TEST(Replay_LogOfAnOlderVersion_TakesWorkAsNotMeasured) {
   CHECK_EQ(log.records.size(), records.size());
   for (const record::TickRecord& record : log.records) CHECK_EQ(record.input.last_work_us, 0u);
   const Session session(part_asset());
-  CHECK(!replay(log, *session.controller));
+  CHECK(!replay(log, tick_of(*session.controller)));
   CHECK(refusal_of(write_without("input.clock_us", records)).find("input.clock_us") !=
         std::string::npos);
 }
@@ -155,7 +156,7 @@ TEST(Replay_LoadOfATickIsAnInput) {
   Log log = log_of(the_run().trace);
   for (uint32_t tick = 2000; tick < 2003; ++tick) log.records[tick].input.last_work_us = 950;
   const Session session(part_asset());
-  const std::optional<Difference> found = replay(log, *session.controller);
+  const std::optional<Difference> found = replay(log, tick_of(*session.controller));
   CHECK(found && found->tick == 2002);
 }
 
@@ -166,7 +167,7 @@ TEST(Replay_PlantedDifference_ReportsTickAndField) {
     log.records.resize(4000);
     reinterpret_cast<unsigned char*>(&log.records[3456])[field.offset] ^= 1;
     const Session session(part_asset());
-    const std::optional<Difference> found = replay(log, *session.controller);
+    const std::optional<Difference> found = replay(log, tick_of(*session.controller));
     CHECK(found && found->tick == 3456 && found->field == field.name);
     CHECK(found && found->expected != found->found);
   }
@@ -176,7 +177,7 @@ TEST(Replay_OtherInputs_Differs) {
   Log log = log_of(the_run().trace);
   log.records[5000].input.encoder_counts[2] += 3;
   const Session session(part_asset());
-  const std::optional<Difference> found = replay(log, *session.controller);
+  const std::optional<Difference> found = replay(log, tick_of(*session.controller));
   CHECK(found && found->tick >= 5000);
 }
 

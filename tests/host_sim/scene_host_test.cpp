@@ -73,9 +73,9 @@ TEST(Session_UnknownName_ListsTheNamesOfTheAsset) {
 
 TEST(RemoteController_OtherSceneThanTheFirst_IsRejected) {
   const Session first(two_part_asset()), named(two_part_asset(), {"part", ""});
-  host_sim::check_scene(first, true);
-  host_sim::check_scene(named, false);
-  CHECK(contains(refusal([&] { host_sim::check_scene(named, true); }), "run in-process"));
+  host_sim::check_scene(first, "unix:port");
+  host_sim::check_scene(named, "inproc");
+  CHECK(contains(refusal([&] { host_sim::check_scene(named, "unix:port"); }), "run in-process"));
 }
 
 TEST(Scenario_MeshAndGuide_NameTheScene) {

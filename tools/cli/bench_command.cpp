@@ -11,6 +11,8 @@ namespace {
 // What reproduces papers and designs that lost is run by the lab.
 constexpr const char* kOfTheLab[] = {"cells",  "grid",          "hulls",    "morris",
                                      "orders", "pseudonormals", "pyramids", "splines"};
+// What needs the simulated device is run by the simulator.
+constexpr const char* kOfTheSimulator[] = {"feel", "friction", "passivity"};
 
 }  // namespace
 
@@ -34,6 +36,9 @@ const Command& bench_command() {
 
 int run_bench(const Arguments& arguments) {
   for (const std::string& name : arguments.positionals()) {
+    if (std::find(std::begin(kOfTheSimulator), std::end(kOfTheSimulator), name) !=
+        std::end(kOfTheSimulator))
+      fail_usage("bench: '" + name + "' is run as `firmtouch-sim bench " + name + "`");
     if (std::find(std::begin(kOfTheLab), std::end(kOfTheLab), name) == std::end(kOfTheLab)) break;
     fail_usage("bench: '" + name + "' is now run as `firmtouch-lab " + name +
                "`; build it with cmake --preset host -DFIRMTOUCH_LAB=ON");

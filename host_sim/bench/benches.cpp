@@ -1,0 +1,13 @@
+#include "host_sim/bench/benches.hpp"
+
+namespace firmtouch::host_sim {
+
+const std::vector<bench::Bench>& rig_benches() {
+  static const std::vector<bench::Bench> all = {
+      {"feel", "contact with walls, corners, grooves, slots, plates; penalty contact beside it",
+       run_contact_bench},
+  };
+  return all;
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,46 @@
+#include <cstdio>
+#include <iostream>
+
+#include "host_sim/bench/benches.hpp"
+#include "host_sim/commands/commands.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+int run_bench(const Options& options) {
+  if (options.operands().empty()) {
+    for (const bench::Bench& each : rig_benches())
+      std::printf("  %-12s%s\n", each.name, each.summary);
+    return 0;
+  }
+  const std::string name = options.operand("one bench");
+  for (const bench::Bench& each : rig_benches()) {
+    if (name != each.name) continue;
+    bench::Options chosen;
+    chosen.is_long = options.has("--long");
+    bench::Report report;
+    each.run(chosen, report);
+    if (options.has("--json"))
+      std::cout << "{\"benches\": [\n  {\"name\": \"" << name << "\",\n   "
+                << bench::to_json_members(report) << "}\n]}\n";
+    else
+      std::cout << bench::to_text(report);
+    return report.bars_not_met() == 0 ? 0 : 1;
+  }
+  options.refuse("'" + name + "' is no bench; without a name it lists them");
+}
+
+}  // namespace
+
+const Command& bench_command_line() {
+  static const Command command = {
+      "bench",
+      "[NAME] [options]",
+      "measures the contact of a controller on the simulated device against closed forms",
+      "Without NAME: the benches there are. Exit code 1 where a bar is not met.\n",
+      {{"--long", nullptr, "the full sizes"}, {"--json", nullptr, "for programs"}},
+      run_bench};
+  return command;
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,145 @@
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include "firmtouch/params/table.hpp"
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/commands/outputs.hpp"
+#include "host_sim/report/score_page.hpp"
+#include "host_sim/trace/log.hpp"
+#include "host_sim/trace/run.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+struct ScoredRun {
+  std::vector<ScoredTick> ticks;
+  ScoreSettings settings;
+};
+
+Vec wide(const float (&v)[3]) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+double logged(const Log& log, params::Index row) {
+  const auto found = log.text.find(std::string("parameter.") + params::kTable[row].name);
+  return found == log.text.end() ? static_cast<double>(params::kTable[row].initial)
+                                 : std::strtod(found->second.c_str(), nullptr);
+}
+
+ScoredRun from_log(const std::string& path) {
+  const Log log = read_log(path);
+  if (log.decimation != 1)
+    throw Refused(path + ": it has not every tick; record with --decimate 1 to score it");
+  ScoredRun run;
+  run.settings = {1 / logged(log, params::kTickPeriod), logged(log, params::kForceLimit),
+                  logged(log, params::kToolRadius), logged(log, params::kContactStiffness)};
+  for (const record::TickRecord& record : log.records) {
+    const record::TickOutput& out = record.output;
+    run.ticks.push_back({wide(out.force_N), wide(out.motor_N), wide(out.position_m),
+                         static_cast<double>(out.penetration_m), motors_are_on(out)});
+  }
+  return run;
+}
+
+// The columns of a run's CSV, by their names.
+class CsvRun {
+ public:
+  CsvRun(const std::string& path, const std::string& text) : path_(path), lines_(text) {
+    std::string name;
+    next();
+    for (size_t i = 0; std::getline(cells_, name, ','); ++i) columns_[name] = i;
+  }
+  bool next() {
+    std::string line;
+    if (!std::getline(lines_, line)) return false;
+    ++line_;
+    cells_ = std::istringstream(line);
+    return true;
+  }
+  void read() {
+    row_.clear();
+    for (std::string cell; std::getline(cells_, cell, ',');)
+      row_.push_back(std::strtod(cell.c_str(), nullptr));
+  }
+  double value(const std::string& name) const {
+    const auto found = columns_.find(name);
+    if (found == columns_.end()) throw Refused(path_ + ": it has no column " + name);
+    if (found->second >= row_.size() || !std::isfinite(row_[found->second]))
+      throw Refused(path_ + ":" + std::to_string(line_) + ": no finite value of " + name);
+    return row_[found->second];
+  }
+  Vec vector(const std::string& name) const {
+    return {value(name + "[0]"), value(name + "[1]"), value(name + "[2]")};
+  }
+
+ private:
+  std::string path_;
+  std::istringstream lines_, cells_;
+  std::map<std::string, size_t> columns_;
+  std::vector<double> row_;
+  size_t line_ = 0;
+};
+
+ScoredRun from_csv(const std::string& path) {
+  CsvRun csv(path, read_file(path));
+  ScoredRun run;
+  double end_s = 0;
+  while (csv.next()) {
+    csv.read();
+    end_s = csv.value("time_s");
+    record::TickOutput out{};
+    out.state = static_cast<uint32_t>(csv.value("state"));
+    run.ticks.push_back({csv.vector("force_N"), csv.vector("motor_N"), csv.vector("device_m"),
+                         csv.value("penetration_m"), motors_are_on(out)});
+  }
+  if (end_s > 0) run.settings.rate_Hz = static_cast<double>(run.ticks.size() - 1) / end_s;
+  return run;
+}
+
+int score_run(const Options& options) {
+  const std::string path = options.operand("one run: its log or its CSV"),
+                    page = options.value("--page");
+  check_outputs({{"the run", path}}, {{"--page", page}});
+  const bool is_csv = path.size() > 4 && path.compare(path.size() - 4, 4, ".csv") == 0;
+  ScoredRun run = is_csv ? from_csv(path) : from_log(path);
+  if (run.ticks.empty()) throw Refused(path + ": it has no tick");
+  ScoreSettings& settings = run.settings;
+  settings.force_limit_N = options.number("--force-limit", settings.force_limit_N, 0);
+  settings.tool_radius_m = options.number("--tool-radius", settings.tool_radius_m, 0);
+  settings.stiffness_N_per_m = options.number("--stiffness", settings.stiffness_N_per_m, 0);
+  const std::vector<ScoreRow> rows = rows_of(score_of(run.ticks, settings), settings);
+  if (!page.empty()) write_file(page, score_page(path, rows, run.ticks, settings));
+  std::cout << csv_of(rows);
+  int not_met = 0;
+  for (const ScoreRow& row : rows) {
+    if (row.is_met()) continue;
+    ++not_met;
+    std::cerr << "not met: " << row.figure << "\n";
+  }
+  return not_met == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+const Command& score_command_line() {
+  static const Command command = {
+      "score",
+      "RUN.ftl|RUN.csv [options]",
+      "figures of the contact in a run, each with its bar, as CSV; exit code 1 if one is not met",
+      "Energy given: the largest gain of the motors' work plus what the contact's spring holds. "
+      "From a\n"
+      "log it is that of the encoders' positions, from a CSV of the device's. A log has its "
+      "settings;\n"
+      "for a CSV they are the parameters' initial values, or those given here.\n",
+      {{"--page", "FILE.html", "the figures and charts of force, turn, energy and depth"},
+       {"--force-limit", "N", "force_limit of the run"},
+       {"--tool-radius", "M", "tool_radius of the run"},
+       {"--stiffness", "N_PER_M", "contact_stiffness of the run"}},
+      score_run};
+  return command;
+}
+
+}  // namespace firmtouch::host_sim

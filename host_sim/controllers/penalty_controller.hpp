@@ -1,0 +1,10 @@
+#pragma once
+#include "firmtouch/controller/full_controller.hpp"
+
+namespace firmtouch::host_sim {
+
+/// FullController with penalty contact instead of a proxy, for comparison.
+using PenaltyController = Controller<Surfaces<Penalty<FullMesh>, Penalty<SplineSurface>>,
+                                     Guides<CurveGuide, SplineGuide>>;
+
+}  // namespace firmtouch::host_sim

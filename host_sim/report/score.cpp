@@ -1,0 +1,71 @@
+#include "host_sim/report/score.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_sim/report/buzz.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr double kDirection_N = 0.2;  // below it a count of the encoder turns a force by degrees
+constexpr double kPressed_N = 0.3, kLetGo_N = 0.05;
+constexpr double kAtLimit = 0.999;   // of the force limit
+constexpr double kWindow_s = 2.048;  // 2,048 ticks at 1 kHz
+
+// Of every window in contact; they overlap by half.
+double worst_buzz_N(const std::vector<ScoredTick>& ticks, double rate_Hz) {
+  const size_t size = static_cast<size_t>(std::max(kWindow_s * rate_Hz, 2.0));
+  std::vector<Vec> pressed_N;
+  double worst_N = 0;
+  for (const ScoredTick& tick : ticks) {
+    if (!tick.is_on || !(tick.depth_m > 0)) {
+      pressed_N.clear();
+      continue;
+    }
+    pressed_N.push_back(tick.force_N);
+    if (pressed_N.size() >= size && (pressed_N.size() - size) % (size / 2) == 0)
+      worst_N = std::max(worst_N, buzz_N(&pressed_N[pressed_N.size() - size], size, rate_Hz));
+  }
+  return worst_N;
+}
+
+}  // namespace
+
+double stored_J(const ScoreSettings& settings, double depth_m) {
+  const double stretch_m =
+      std::min(depth_m, settings.force_limit_N / std::max(settings.stiffness_N_per_m, 1e-9));
+  const double force_N = settings.stiffness_N_per_m * stretch_m;
+  return force_N * stretch_m / 2 + force_N * (depth_m - stretch_m);
+}
+
+double turn_rad(Vec a_N, Vec b_N) {
+  if (norm(a_N) < kDirection_N || norm(b_N) < kDirection_N) return 0;
+  return std::atan2(norm(cross(a_N, b_N)), dot(a_N, b_N));
+}
+
+Score score_of(const std::vector<ScoredTick>& ticks, const ScoreSettings& settings) {
+  Score score;
+  score.ticks = ticks.size();
+  score.buzz_N = worst_buzz_N(ticks, settings.rate_Hz);
+  double work_J = 0, least_J = 0;
+  for (size_t i = 0; i < ticks.size(); ++i) {
+    const ScoredTick& tick = ticks[i];
+    if (i > 0) work_J += dot(ticks[i - 1].motor_N, tick.device_m - ticks[i - 1].device_m);
+    const double energy_J = work_J + stored_J(settings, tick.depth_m);
+    least_J = i == 0 ? energy_J : std::min(least_J, energy_J);
+    score.given_J = std::max(score.given_J, energy_J - least_J);
+    if (!tick.is_on) continue;
+    const double size_N = norm(tick.force_N);
+    if (size_N > kAtLimit * settings.force_limit_N) ++score.limit_ticks;
+    if (settings.tool_radius_m > 0)
+      score.deepest_radii = std::max(score.deepest_radii, tick.depth_m / settings.tool_radius_m);
+    if (i == 0 || !ticks[i - 1].is_on) continue;
+    const Vec last_N = ticks[i - 1].force_N;
+    score.turn_rad = std::max(score.turn_rad, turn_rad(last_N, tick.force_N));
+    if (norm(last_N) > kPressed_N && size_N < kLetGo_N) ++score.let_go;
+  }
+  return score;
+}
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "host_sim/plant/vec.hpp"
+
+namespace firmtouch::host_sim {
+
+/// What a score needs of a tick.
+struct ScoredTick {
+  Vec force_N, motor_N;
+  Vec device_m;        // true, or as the encoders have it
+  double depth_m = 0;  // hand to proxy, or penetration
+  bool is_on = false;  // the motors
+};
+
+struct ScoreSettings {
+  double rate_Hz = 1000, force_limit_N = 8, tool_radius_m = 0.003, stiffness_N_per_m = 800;
+};
+
+// Bars of any run.
+constexpr double kMaxTurn_deg = 20;      // of the force in a tick
+constexpr double kMaxGiven_mJ = 1.5;     // of a tool of 75 g at 0.2 m/s
+constexpr double kMaxDepth_radii = 1;    // deeper, penalty contact finds no way out
+constexpr double kMaxLimit_percent = 1;  // of the ticks at the force limit
+
+/// How contact is rendered: figures of a run, while the motors are on.
+struct Score {
+  double buzz_N = 0;    // worst 2 s in contact without a break (buzz.hpp)
+  double turn_rad = 0;  // of the force between two ticks with more than 0.2 N each
+  double given_J = 0;   // largest gain of: work of the motors, plus what the contact's spring holds
+  double deepest_radii = 0;
+  size_t limit_ticks = 0;  // at the force limit
+  size_t let_go = 0;       // from more than 0.3 N to less than 0.05 N in a tick
+  size_t ticks = 0;
+};
+
+/// Energy of a spring that is stretched by `depth_m`, with a force that is limited.
+double stored_J(const ScoreSettings& settings, double depth_m);
+
+/// Angle between two forces; 0 where one is too small to have a direction.
+double turn_rad(Vec a_N, Vec b_N);
+
+Score score_of(const std::vector<ScoredTick>& ticks, const ScoreSettings& settings);
+
+}  // namespace firmtouch::host_sim
