@@ -39,7 +39,8 @@ ScoredRun from_log(const std::string& path) {
   for (const record::TickRecord& record : log.records) {
     const record::TickOutput& out = record.output;
     run.ticks.push_back({wide(out.force_N), wide(out.motor_N), wide(out.position_m),
-                         static_cast<double>(out.penetration_m), motors_are_on(out)});
+                         static_cast<double>(out.penetration_m), motors_are_on(out),
+                         (out.state & record::kStateOnGuide) != 0});
   }
   return run;
 }
@@ -93,7 +94,8 @@ ScoredRun from_csv(const std::string& path) {
     record::TickOutput out{};
     out.state = static_cast<uint32_t>(csv.value("state"));
     run.ticks.push_back({csv.vector("force_N"), csv.vector("motor_N"), csv.vector("device_m"),
-                         csv.value("penetration_m"), motors_are_on(out)});
+                         csv.value("penetration_m"), motors_are_on(out),
+                         (out.state & record::kStateOnGuide) != 0});
   }
   if (end_s > 0) run.settings.rate_Hz = static_cast<double>(run.ticks.size() - 1) / end_s;
   return run;
@@ -129,11 +131,13 @@ const Command& score_command_line() {
       "score",
       "RUN.ftl|RUN.csv [options]",
       "figures of the contact in a run, each with its bar, as CSV; exit code 1 if one is not met",
-      "Energy given: the largest gain of the motors' work plus what the contact's spring holds. "
-      "From a\n"
-      "log it is that of the encoders' positions, from a CSV of the device's. A log has its "
-      "settings;\n"
-      "for a CSV they are the parameters' initial values, or those given here.\n",
+      "Energy given, while no guide holds the tool: the largest gain of the motors' work plus what "
+      "the\n"
+      "contact's spring holds. From a log it is that of the encoders' positions, from a CSV of "
+      "the\n"
+      "device's. A log has its settings; for a CSV they are the parameters' initial values, or "
+      "those\n"
+      "given here.\n",
       {{"--page", "FILE.html", "the figures and charts of force, turn, energy and depth"},
        {"--force-limit", "N", "force_limit of the run"},
        {"--tool-radius", "M", "tool_radius of the run"},

@@ -53,7 +53,8 @@ Score score_of(const std::vector<ScoredTick>& ticks, const ScoreSettings& settin
     const ScoredTick& tick = ticks[i];
     if (i > 0) work_J += dot(ticks[i - 1].motor_N, tick.device_m - ticks[i - 1].device_m);
     const double energy_J = work_J + stored_J(settings, tick.depth_m);
-    least_J = i == 0 ? energy_J : std::min(least_J, energy_J);
+    const bool is_begun_anew = i == 0 || tick.is_guided || !tick.is_on;
+    least_J = is_begun_anew ? energy_J : std::min(least_J, energy_J);
     score.given_J = std::max(score.given_J, energy_J - least_J);
     if (!tick.is_on) continue;
     const double size_N = norm(tick.force_N);

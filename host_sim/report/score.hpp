@@ -12,6 +12,7 @@ struct ScoredTick {
   Vec device_m;        // true, or as the encoders have it
   double depth_m = 0;  // hand to proxy, or penetration
   bool is_on = false;  // the motors
+  bool is_guided = false;
 };
 
 struct ScoreSettings {
@@ -28,7 +29,8 @@ constexpr double kMaxLimit_percent = 1;  // of the ticks at the force limit
 struct Score {
   double buzz_N = 0;    // worst 2 s in contact without a break (buzz.hpp)
   double turn_rad = 0;  // of the force between two ticks with more than 0.2 N each
-  double given_J = 0;   // largest gain of: work of the motors, plus what the contact's spring holds
+  // Largest gain, without a guide, of: work of the motors, plus what the contact's spring holds.
+  double given_J = 0;
   double deepest_radii = 0;
   size_t limit_ticks = 0;  // at the force limit
   size_t let_go = 0;       // from more than 0.3 N to less than 0.05 N in a tick

@@ -67,6 +67,10 @@ TEST(Score_Energy_IsWorkPlusWhatTheSpringHolds) {
   CHECK_LT(score_of(ticks, kSettings).given_J, 1e-9);
   for (size_t i = 20; i < ticks.size(); ++i) ticks[i].motor_N.z *= 1.5;
   CHECK_LT(std::fabs(score_of(ticks, kSettings).given_J - 1e-3), 1e-5);
+  for (ScoredTick& tick : ticks) tick.is_guided = true;  // a guide's spring holds some, too
+  CHECK(!(score_of(ticks, kSettings).given_J > 0));
+  for (ScoredTick& tick : ticks) tick.is_guided = tick.is_on = false;
+  CHECK(!(score_of(ticks, kSettings).given_J > 0));
 }
 
 TEST(Score_SpringAtTheForceLimit_HoldsWhatTheLimitDoes) {
