@@ -6,6 +6,7 @@ const std::vector<bench::Bench>& rig_benches() {
   static const std::vector<bench::Bench> all = {
       {"feel", "contact with walls, corners, grooves, slots, plates; penalty contact beside it",
        run_contact_bench},
+      {"friction", "friction: force ratio, creep, stick-slip", run_friction_bench},
   };
   return all;
 }

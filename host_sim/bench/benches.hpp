@@ -1,13 +1,14 @@
 #pragma once
 #include <vector>
 
+#include "bench/all_benches.hpp"
 #include "bench/bench.hpp"
 
 namespace firmtouch::host_sim {
 
 // What a controller renders on the simulated device, against closed forms. Each stands above its
 // definition.
-void run_contact_bench(const bench::Options& options, bench::Report& report);
+bench::Run run_contact_bench, run_friction_bench;
 
 const std::vector<bench::Bench>& rig_benches();
 

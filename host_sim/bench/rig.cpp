@@ -83,7 +83,7 @@ RigRun Rig::run(const Solid& solid, Vec start_m, const std::vector<std::string>&
   for (RunTick tick; simulation.next(tick);) {
     const record::TickOutput& out = tick.record.output;
     run.push_back({back(wide(out.force_N)), back(wide(out.motor_N)), back(tick.device_m),
-                   back(wide(out.position_m)), back(wide(out.proxy_m)),
+                   back(wide(out.position_m)), back(wide(out.proxy_m)), back(tick.target_m),
                    static_cast<double>(out.penetration_m), out.faults, motors_are_on(out)});
   }
   return run;

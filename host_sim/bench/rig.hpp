@@ -13,7 +13,7 @@ namespace firmtouch::host_sim {
 
 /// A tick of a run on the rig, in the solid's frame.
 struct RigTick {
-  Vec force_N, motor_N, device_m, position_m, proxy_m;
+  Vec force_N, motor_N, device_m, position_m, proxy_m, hand_m;
   double depth_m = 0;
   uint32_t faults = 0;
   bool is_on = false;

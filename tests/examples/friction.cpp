@@ -54,10 +54,10 @@ int main() {
   // Down onto the ice, 3 mm deep.
   for (uint32_t i = 0; i <= 300; ++i)
     tick(now++, -0.05f, 0.006f - 0.00002f * static_cast<float>(i));
-  // Across both halves at 50 mm/s.
+  // Across both halves at 20 mm/s.
   float stuck_N = 0;
-  for (uint32_t i = 0; i <= 1800; ++i) {
-    const float x_m = -0.05f + 0.00005f * static_cast<float>(i);
+  for (uint32_t i = 0; i <= 4500; ++i) {
+    const float x_m = -0.05f + 0.00002f * static_cast<float>(i);
     const math::Vec3 force_N = tick(now++, x_m, 0.0f);
     is_right &= is_between(force_N.z, 2.99f, 3.01f);
     if (x_m < -0.001f) is_right &= is_between(force_N.x, 0, 0);

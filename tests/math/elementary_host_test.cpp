@@ -155,3 +155,18 @@ TEST(ArcCosineIsWithin1point5UlpOverItsRange) {
   }
   CHECK_LE(worst, 1.5);
 }
+
+TEST(Decay_IsTheExponentialFunctionTo4e6) {
+  double worst = 0;
+  for (uint32_t k = 0; k < bits_of(16.0f); k += 997) {
+    const double exact = std::exp(-static_cast<double>(float_of(k)));
+    worst = std::fmax(worst, std::fabs(static_cast<double>(math::decay(float_of(k))) - exact));
+  }
+  CHECK_LE(worst, 4e-6);
+  const float infinity = std::numeric_limits<float>::infinity();
+  CHECK_EQ(math::decay(0.0f), 1.0f);
+  CHECK_EQ(math::decay(-1.0f), 0.0f);
+  CHECK_EQ(math::decay(-infinity), 0.0f);
+  CHECK_EQ(math::decay(infinity), 0.0f);
+  CHECK_EQ(math::decay(std::numeric_limits<float>::quiet_NaN()), 0.0f);
+}

@@ -161,6 +161,7 @@ TEST(Proxy_BoreThatTheToolJustFits_FollowsAHandInside) {
       Broken broken;
       rig.tick({0, -0.05f, 0}, broken);
       rig.settings.friction_static = 0.3f, rig.settings.friction_dynamic = 0.2f;
+      rig.settings.slide_share = 1;  // friction by the last tick alone: its stops are the hard case
       rig.settings.budget.work = sides == 48 ? 640 : 2000;
       uint32_t starved = 0, run = 0, longest = 0;
       for (int tick = 0; tick < 300; ++tick) {  // 2 mm aside, round and along
@@ -211,6 +212,28 @@ TEST(Proxy_StuckByFriction_DoesNotCreep) {
               static_cast<float>(0.001 * hand.between(-1, 1)), -0.002f},
              broken);
   CHECK_LE(ProxyRig::distance(rig.proxy.position_m, before_m), 1e-9);
+}
+
+// An encoder of 10 um counts in every fourth tick at 2.5 mm/s: between its counts nothing rests.
+TEST(Proxy_SlowSlideInCounts_KeepsItsDynamicFriction) {
+  ProxyRig rig(plate(0.03f));
+  rig.settings.friction_static = 0.6f, rig.settings.friction_dynamic = 0.3f;
+  Broken broken;
+  rig.tick({-0.02f, 0, 0.01f}, broken);
+  double most = 0;
+  for (int tick = 0; tick < 4000; ++tick) {
+    const Vec3 hand_m{static_cast<float>(-0.02 + 1e-5 * (tick / 4)), 0, 0.002f};
+    rig.tick(hand_m, broken);
+    const double across_m = wide(rig.proxy.position_m.z) - wide(hand_m.z);
+    if (tick > 1000)
+      most = std::fmax(most, (wide(hand_m.x) - wide(rig.proxy.position_m.x)) / across_m);
+  }
+  CHECK_LE(most, 0.31);
+  for (int tick = 0; tick < 100; ++tick) rig.tick({-0.01f, 0, 0.002f}, broken);
+  const Vec3 rest_m = rig.proxy.position_m;
+  rig.tick({rest_m.x + 0.00055f, 0, 0.002f}, broken);  // rested: static again
+  CHECK_LE(ProxyRig::distance(rig.proxy.position_m, rest_m), 1e-9);
+  CHECK_EQ(broken.longer, 0u);
 }
 
 // A frozen proxy would be a tool that is glued to the part.

@@ -109,10 +109,10 @@ class Controller {
  private:
   void make_local_model(const ModelRequest& request, const params::Values& values,
                         ModelResult& result) {
-    const uint32_t ticks = core_.begin_model(request, values, result);
+    core_.begin_model(request, values, result);
     if (!request.can_touch) return;
     surfaces_.touch(request, values, result);
-    guide_.follow(request, values, ticks, result);
+    guide_.follow(request, values, result);
   }
 
   Loaders<Trust, Device, Guide, SurfaceList> loaders_;

@@ -132,10 +132,10 @@ void ControllerCore::locate(const device::Reading& tool, Tick& tick) {
   tick.step.reported |= device_faults(tool.faults);
 }
 
-uint32_t ControllerCore::begin_model(const ModelRequest& request, const Values& v,
+void ControllerCore::begin_model(const ModelRequest& request, const Values& v,
                                      ModelResult& result) {
   const uint32_t passed = request.tick - live_.model_tick;
-  const uint32_t ticks = live_.model_sequence != 0 && passed <= kMaxTicksOfAModel ? passed : 1;
+  result.ticks = live_.model_sequence != 0 && passed <= kMaxTicksOfAModel ? passed : 1;
   live_.model_tick = request.tick;
   result.distance_m = result.distance_lower_m = result.penetration_m = 0;
   result.guide_deviation_m = result.guide_lower_m = result.guide_arc = 0;
@@ -145,7 +145,6 @@ uint32_t ControllerCore::begin_model(const ModelRequest& request, const Values& 
   scene::begin_model(result.model, request.position_m, request.tick,
                      static_cast<uint32_t>(v[params::kModelAge]));
   live_.model_sequence = result.model.sequence;
-  return ticks;
 }
 
 ModelResult* ControllerCore::result_of_tick(const Tick& tick, uint32_t flags) {

@@ -65,9 +65,7 @@ class ControllerCore {
   void finish_task() { models_.made(); }
 
   /// Begins the model of a request. Of the tick, or of the task, never of both.
-  /// Result: ticks since the last model, for the drive of a guide.
-  uint32_t begin_model(const ModelRequest& request, const params::Values& values,
-                       ModelResult& result);
+  void begin_model(const ModelRequest& request, const params::Values& values, ModelResult& result);
 
  private:
   // State from tick to tick, except parameters and models.

@@ -21,10 +21,9 @@ void report_guide(const scene::GuideTouch& touch, ModelResult& result) {
   report_guide(closest.certificate, closest.distance_m, closest.arc, touch.is_held, result);
 }
 
-void CurveGuide::follow(const ModelRequest& request, const params::Values& v, uint32_t ticks,
-                        ModelResult& result) {
+void CurveGuide::follow(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::CurveGuide guide;
-  set_guide(v, ticks, guide);
+  set_guide(v, result.ticks, guide);
   guide.curve = &curve();
   scene::follow_curve(guide, request.position_m, work_budget(v, params::kGuideWork), touch_,
                       result.model);

@@ -24,8 +24,7 @@ class CurveGuide : public curve::Loader {
   const curve::View& curve() const { return view(); }
   bool is_open() const { return curve().is_open(); }
   void reset() { touch_ = {}; }
-  void follow(const ModelRequest& request, const params::Values& values, uint32_t ticks,
-              ModelResult& result);
+  void follow(const ModelRequest& request, const params::Values& values, ModelResult& result);
 
  private:
   scene::CurveGuideTouch touch_;

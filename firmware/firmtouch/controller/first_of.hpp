@@ -96,9 +96,8 @@ class Guides : public FirstOf<Policies...> {
   static constexpr bool kIsGuide = true;
   using Parameters = params::Joined<typename Policies::Parameters...>;
 
-  void follow(const ModelRequest& request, const params::Values& values, uint32_t ticks,
-              ModelResult& result) {
-    this->use_open([&](auto& guide) { guide.follow(request, values, ticks, result); });
+  void follow(const ModelRequest& request, const params::Values& values, ModelResult& result) {
+    this->use_open([&](auto& guide) { guide.follow(request, values, result); });
   }
 };
 
@@ -111,7 +110,7 @@ class NoGuide : public asset::LoadsNothing {
 
   static const char* find(const asset::Container&, const char*) { return nullptr; }
   void reset() {}
-  void follow(const ModelRequest&, const params::Values&, uint32_t, ModelResult&) {}
+  void follow(const ModelRequest&, const params::Values&, ModelResult&) {}
 };
 
 }  // namespace firmtouch

@@ -10,7 +10,7 @@ void touch_object(const scene::MeshObject& object, const ModelRequest& request,
                   const params::Values& v, mesh::Hint& hint, scene::ProxyTouch& touch,
                   ModelResult& result) {
   Touched touched{object, hint};
-  scene::touch_by_proxy(proxy_contact(request, v), touched, touch, result.model);
+  scene::touch_by_proxy(proxy_contact(request, result.ticks, v), touched, touch, result.model);
   report_proxy(touch, result);
 }
 

@@ -22,6 +22,7 @@ struct ModelRequest {
 /// A local model, and what the record says of how it was made. Surfaces and guides add to both.
 struct ModelResult {
   servo::LocalModel model;
+  uint32_t ticks = 1;  // since the last model
   float distance_m = 0, distance_lower_m = 0, penetration_m = 0;
   float guide_deviation_m = 0, guide_lower_m = 0, guide_arc = 0;
   uint32_t steps = 0, guide_steps = 0;

@@ -2,18 +2,20 @@
 
 namespace firmtouch {
 
-scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Values& v) {
+scene::ProxyContact proxy_contact(const ModelRequest& request, uint32_t ticks,
+                                  const params::Values& v) {
   scene::ProxyContact contact;
   contact.settings.radius_m = v[params::kToolRadius];
   contact.settings.friction_static = v[params::kFrictionStatic];
   contact.settings.friction_dynamic = v[params::kFrictionDynamic];
+  contact.friction_speed_mps = v[params::kFrictionSpeed];
   contact.settings.budget = work_budget(v, params::kMeshWork);
   contact.material = {v[params::kContactStiffness], v[params::kContactDamping]};
   contact.position_m = request.position_m;
   contact.proxy_m = request.proxy_m;
   contact.has_proxy = request.has_proxy;
   contact.is_on = request.is_on;
-  contact.passed_s = v[params::kTickPeriod];
+  contact.passed_s = v[params::kTickPeriod] * static_cast<float>(ticks);
   return contact;
 }
 

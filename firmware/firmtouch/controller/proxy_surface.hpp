@@ -6,8 +6,9 @@
 // What surface policies share that are touched through a proxy.
 namespace firmtouch {
 
-/// Settings of a tick's contact, from the parameters.
-scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Values& values);
+/// Settings of a tick's contact, from the parameters. `ticks`: since the last model.
+scene::ProxyContact proxy_contact(const ModelRequest& request, uint32_t ticks,
+                                  const params::Values& values);
 /// Adds the proxy's last query to the record's part.
 void report_proxy(const scene::ProxyTouch& touch, ModelResult& result);
 

@@ -2,10 +2,10 @@
 
 namespace firmtouch {
 
-void SplineGuide::follow(const ModelRequest& request, const params::Values& v, uint32_t ticks,
+void SplineGuide::follow(const ModelRequest& request, const params::Values& v,
                          ModelResult& result) {
   scene::SplineGuide settings;
-  set_guide(v, ticks, settings);
+  set_guide(v, result.ticks, settings);
   settings.spline = &guide();
   scene::follow_spline(settings, request.position_m, work_budget(v, params::kGuideWork), touch_,
                        result.model);

@@ -17,8 +17,7 @@ class SplineGuide : public spline::GuideLoader {
   const spline::GuideView& guide() const { return view(); }
   bool is_open() const { return guide().is_open(); }
   void reset() { touch_ = {}; }
-  void follow(const ModelRequest& request, const params::Values& values, uint32_t ticks,
-              ModelResult& result);
+  void follow(const ModelRequest& request, const params::Values& values, ModelResult& result);
 
  private:
   scene::SplineGuideTouch touch_;

@@ -18,7 +18,7 @@ void SplineSurface::touch(const ModelRequest& request, const params::Values& v,
                           ModelResult& result) {
   const scene::SplineObject touched_object = object(v);
   scene::SplineTouched touched{touched_object, hint_};
-  scene::touch_by_proxy(proxy_contact(request, v), touched, touch_, result.model);
+  scene::touch_by_proxy(proxy_contact(request, result.ticks, v), touched, touch_, result.model);
   report_proxy(touch_, result);
 }
 

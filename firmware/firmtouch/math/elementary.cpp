@@ -152,6 +152,16 @@ float arc_cosine(float cosine) {
   return kHalfPi - (arc_sine_of_small(cosine) + kHalfPiOver);
 }
 
+// Pade's fraction of a 32nd, squared five times.
+float decay(float x) {
+  if (!(x >= 0.0f && x < 16.0f)) return 0.0f;
+  const float y = x * 0.03125f, half = 0.5f * y;
+  const float even = 1.0f + y * y * 0.083333336f;
+  float power = (even - half) / (even + half);
+  for (int i = 0; i < 5; ++i) power = power * power;
+  return power;
+}
+
 float safe_square_root(float value) {
   if (!(value > 0.0f)) return 0.0f;
   return value > FLT_MAX ? FLT_MAX : square_root(value);

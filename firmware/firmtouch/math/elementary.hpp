@@ -23,6 +23,10 @@ float arc_tangent2(float y, float x);
 /// Bounds: one square root, about 40 instructions.
 float arc_cosine(float cosine);
 
+/// e^-x of x from 0 to 16, within 4e-6. Beyond, NaN: 0.
+/// Bounds: one division, about 20 instructions.
+float decay(float x);
+
 /// Correctly rounded. Negative, NaN: 0. Infinity: the largest float.
 float safe_square_root(float value);
 

@@ -80,6 +80,7 @@ enum Index : uint32_t {
   kFrictionStatic,
   kFrictionDynamic,
   kVelocityEstimator,
+  kFrictionSpeed,
   kCount
 };
 

@@ -89,6 +89,8 @@ struct FrictionRows {
        "friction of a tool that rests on the surface, over the force across it"},
       {kFrictionDynamic, "friction_dynamic", "1", 0.0f, 10.0f, 0.0f, When::kAnytime,
        "friction of a tool that slides"},
+      {kFrictionSpeed, "friction_speed_mps", "m/s", 0.0001f, 10.0f, 0.001f, When::kAnytime,
+       "above it friction is dynamic"},
   };
 };
 

@@ -2,6 +2,7 @@
 
 #include <float.h>
 
+#include "firmtouch/math/elementary.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::scene {
@@ -57,8 +58,9 @@ ProxyMove::ProxyMove(const ProxySettings& settings, float size_m, Vec3 goal_m, P
   if (proxy_.phase == Proxy::Phase::kFree) use_radius();
   begin_m_ = proxy_.position_m;
   if (!proxy_.is_loaded) free_way_m_ = math::length(goal_m_ - begin_m_);
-  friction_ = proxy_.slid_m <= kTolerance * size_m_ ? settings_.friction_static
-                                                    : settings_.friction_dynamic;
+  const float slide = proxy_.slid_m / settings_.friction_slide_m;
+  friction_ = settings_.friction_dynamic +
+              (settings_.friction_static - settings_.friction_dynamic) * math::decay(slide * slide);
 }
 
 // Of a tool without load the radius may fall at once, and grow where there is room.
@@ -343,9 +345,10 @@ void ProxyMove::take(const Near& near) {
 ProxyMoved ProxyMove::finish() {
   const Vec3 off_m = goal_m_ - proxy_.position_m;
   proxy_.is_loaded = !(math::dot(off_m, off_m) <= 0.0f);
-  proxy_.slid_m = proxy_.is_loaded ? math::length(proxy_.position_m - begin_m_) : 0.0f;
   // A proxy that lags by no more than twice what it moved follows the hand: the next tick goes on.
   const float moved_m = math::length(proxy_.position_m - begin_m_);
+  proxy_.slid_m += (moved_m - proxy_.slid_m) * settings_.slide_share;
+  if (!proxy_.is_loaded) proxy_.slid_m = 0;
   if (proxy_.phase == Proxy::Phase::kFree && moved_m >= 0.5f * lag_m_) moved_.is_starved = false;
   if (moved_.is_optimal) moved_.is_starved = false;
   return moved_;

@@ -17,6 +17,10 @@ struct ProxySettings {
   float radius_m = 0;
   float friction_static = 0;
   float friction_dynamic = 0;
+  // The slide a tick at which friction is 37 % of the way from dynamic to static, and the part of a
+  // tick in the mean of slides.
+  float friction_slide_m = 1e-6f;
+  float slide_share = 0.125f;
   float growth_m = 0;    // a tick, of the radius of a tool that began too near to a surface
   query::Budget budget;  // work of all queries of a tick together
 };
@@ -32,7 +36,7 @@ struct Proxy {
   math::Vec3 position_m;    // device frame
   float free_m = 0;         // certified: no surface nearer to position_m
   float radius_m = 0;       // in use; reaches the setting's when there is room for it
-  float slid_m = 0;         // in the last tick
+  float slid_m = 0;         // a tick, mean of the last ones
   bool is_growing = false;  // it began too near to a surface for its radius
   bool is_loaded = false;   // the last tick ended with the hand elsewhere
   Nearness near;            // at the last query that certified it

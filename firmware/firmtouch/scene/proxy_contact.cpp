@@ -13,6 +13,8 @@ constexpr float kLeadOutRise_s = 1.0f;
 constexpr float kNoWayOut_s = 10.0f;
 // How fast a sphere that began too near to a surface grows to its size, with as much force.
 constexpr float kGrowth_mps = 0.005f;
+// Slides are averaged for so long: at 10 mm/s an encoder of 10 um counts once in 1 ms.
+constexpr float kSlideMean_s = 0.008f;
 
 bool is_stiff(const ProxyTouch& touch) { return touch.material.stiffness_N_per_m > 0.0f; }
 
@@ -58,6 +60,8 @@ ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch
   if (!proxy.is_loaded) touch.material = contact.material;
   if (proxy.phase != Proxy::Phase::kInside || !is_on) touch.inside_s = 0;
   ProxySettings settings = contact.settings;
+  settings.friction_slide_m = contact.friction_speed_mps * contact.passed_s;
+  settings.slide_share = contact.passed_s / (contact.passed_s + kSlideMean_s);
   if (contact.is_on && touch.material.stiffness_N_per_m * touch.penetration_m < kLeadOut_N)
     settings.growth_m = kGrowth_mps * contact.passed_s;
   return settings;

@@ -13,8 +13,9 @@ struct ProxyContact {
   // Where servo holds the proxy; none: contact begins anew.
   math::Vec3 proxy_m;
   bool has_proxy = false;
-  bool is_on = false;  // the motors; without them a loaded proxy is let go
-  float passed_s = 0;  // since the last model
+  bool is_on = false;                 // the motors; without them a loaded proxy is let go
+  float passed_s = 0;                 // since the last model
+  float friction_speed_mps = 0.001f;  // of a slide at which friction is mostly dynamic
 };
 
 /// State of a (tool, object) pair from tick to tick. The caller owns one a pair.
