@@ -7,6 +7,7 @@ const std::vector<bench::Bench>& rig_benches() {
       {"feel", "contact with walls, corners, grooves, slots, plates; penalty contact beside it",
        run_contact_bench},
       {"friction", "friction: force ratio, creep, stick-slip", run_friction_bench},
+      {"passivity", "energy that contact gives to the hand", run_passivity_bench},
   };
   return all;
 }
