@@ -9,6 +9,7 @@ no_errors='-U__FAST_MATH__,-U__ASSOCIATIVE_MATH__,-U__RECIPROCAL_MATH__,-U__FINI
 source=firmware/firmtouch/math/arithmetic_check.cpp
 arch='-DFIRMTOUCH_ARCH_HEADER="firmtouch/arch/hard_float/primitives.hpp"'
 
+copies="CMakeLists.txt firmware hal tools/cmake"
 compile() {  # compile FLAGS FROM TO: FLAGS divided by commas; no warnings
   # shellcheck disable=SC2046
   $compiler -std=c++17 -O2 -w -Ifirmware "$arch" $(printf %s "$1" | tr , ' ') -c "$2" -o "$3" 2>"$work/error"
@@ -52,7 +53,7 @@ add_subdirectory("$(pwd -P)" firmtouch)
 END
   cmake -S "$work/project" -B "$work/build" -DCMAKE_CXX_COMPILER="$(command -v $compiler)" \
     -DCMAKE_CXX_FLAGS='-ffast-math -fno-signed-zeros -freciprocal-math' -DFIRMTOUCH_WERROR=ON >"$work/log" 2>&1 &&
-    cmake --build "$work/build" --target firmtouch_math firmtouch_mesh >>"$work/log" 2>&1 || {
+    cmake --build "$work/build" --target $targets >>"$work/log" 2>&1 || {
     complain 'a project with -ffast-math does not build'
     grep error "$work/log"
     return
@@ -64,6 +65,8 @@ END
 check() {
   work=$(mktemp -d) || return 1
   bad=0
+  targets='firmtouch_math firmtouch_mesh'
+  [ -z "${only-}" ] || targets=firmtouch_math
   complain() { echo "$compiler: $1"; bad=1; }
   for compiler in g++ clang++; do
     command -v $compiler >/dev/null || continue
@@ -72,6 +75,7 @@ check() {
     compile -O0 "$work/main.cpp" "$work/main.o" || complain 'the program around it does not compile'
     [ "${only-flags}" != flags ] || with_flags
     [ "${only-project}" != project ] || in_a_project
+    [ $bad = 0 ] || break
   done
   rm -rf "$work"
   return $bad

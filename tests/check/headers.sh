@@ -4,6 +4,7 @@
 # lines ("own translation units", "for .cpp files", "for x.cpp alone"): no public header and no user's program may reach it.
 # Read by tests/check/run.
 
+copies="firmware hal tests/consumer"
 private_headers() {
   echo firmware/firmtouch/math/isa.hpp
   for header in $(find firmware/firmtouch -name '*.hpp'); do

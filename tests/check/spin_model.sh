@@ -1,6 +1,7 @@
 # What the checks ring_model and handoff_model share: a Spin model over every order of its steps, and that its steps are those
 # of the source. Read by both.
 
+copies="firmware/firmtouch/core firmware/firmtouch/record tests/core tests/record"
 not_run() {
   command -v spin >/dev/null || { echo 'spin is missing (package spin of Debian and Ubuntu)'; return 0; }
   return 1
@@ -20,7 +21,7 @@ check_model() {
     return 1
   fi
   model=$(pwd)/$model
-  (cd "$folder" && spin -a "$model" && ${CC:-cc} -w -O1 -DSAFETY -DMEMLIM=1500 -o pan pan.c && ./pan -m200000) >"$folder/said" 2>&1
+  (cd "$folder" && spin -a "$model" && ${CC:-cc} -w -O0 -DSAFETY -DMEMLIM=1500 -o pan pan.c && ./pan -m200000) >"$folder/said" 2>&1
   states=$(sed -n 's/^ *\([0-9.e+]*\) states, stored.*/\1/p' "$folder/said")
   if grep -q 'errors: 0' "$folder/said" && ! grep -q 'search depth too small\|max search depth' "$folder/said" &&
     awk -v n="${states:-0}" -v least="$least" 'BEGIN { exit !(n > least) }'; then
