@@ -1,5 +1,5 @@
 # cmake --install: the libraries of this build, for its processor; their headers; the interfaces of hal; and of a build for
-# this machine its programs. A project then says find_package(firmtouch).
+# this machine its programs with man pages and completions. A project then says find_package(firmtouch).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 get_property(modules GLOBAL PROPERTY FIRMTOUCH_MODULES)
@@ -23,4 +23,10 @@ configure_file(firmware/cmake/sbom.spdx.json.in ${CMAKE_BINARY_DIR}/firmtouch.sp
 install(FILES LICENSE CHANGELOG.md ${CMAKE_BINARY_DIR}/firmtouch.spdx.json DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/firmtouch)
 if(FIRMTOUCH_TOOLS)
   install(TARGETS firmtouch firmtouch-sim RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # Man pages and shell completions, from what --help prints.
+  install(CODE "execute_process(COMMAND sh \"${PROJECT_SOURCE_DIR}/tools/cli/help_pages.sh\" \"$<TARGET_FILE_DIR:firmtouch>\"
+                                        \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\" RESULT_VARIABLE failed)
+                if(failed)
+                  message(FATAL_ERROR \"tools/cli/help_pages.sh fails\")
+                endif()")
 endif()

@@ -26,7 +26,7 @@ std::string usage() {
       "Bakes surfaces and paths into assets that a controller touches in fixed memory.\n\n";
   for (const Entry& entry : kEntries) {
     std::string line = std::string("  ") + entry.command().name;
-    line.resize(10, ' ');
+    line.resize(11, ' ');
     text += line + entry.command().summary + "\n";
   }
   return text +
