@@ -119,18 +119,6 @@ std::string hex_of(Colour colour) {
   return text;
 }
 
-std::string json_text(const std::string& text) {
-  std::string json = "\"";
-  for (const char c : text) {
-    char escaped[8];
-    std::snprintf(escaped, sizeof escaped, "\\u%04x", static_cast<unsigned char>(c));
-    // `<` too: no text ends the page's script.
-    const bool is_plain = static_cast<unsigned char>(c) >= ' ' && c != '"' && c != '\\' && c != '<';
-    json += is_plain ? std::string(1, c) : escaped;
-  }
-  return json + "\"";
-}
-
 std::string scene_data_of(const Scene3d& scene3d, bool is_closed) {
   std::string paths;
   for (const Path& path : scene3d.paths)

@@ -3,6 +3,7 @@
 
 #include "host_sim/report/report.hpp"
 #include "host_sim/report/scene3d.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::host_sim {
 
@@ -14,7 +15,6 @@ std::string scene_data_of(const Scene3d& scene3d, bool is_closed);
 
 std::string hex_of(Colour colour);
 
-/// A JSON string.
-std::string json_text(const std::string& text);
+using tools::json_text;
 
 }  // namespace firmtouch::host_sim

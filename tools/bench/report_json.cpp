@@ -1,8 +1,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "bake/asset/json_text.hpp"
 #include "bench/report.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::bench {
 namespace {

@@ -5,6 +5,7 @@
 #include "bake/asset/asset_writer.hpp"
 #include "bake/asset/part_names.hpp"
 #include "bake/asset/provenance.hpp"
+#include "cli/asset_json.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/commands.hpp"
 #include "cli/cpp_source.hpp"
@@ -188,7 +189,7 @@ const Command& bake_command() {
       "patches. Each is named after its file's stem. What can be mended safely is mended and\n"
       "reported; the rest is refused.",
       with_model_options(
-          {{"-o", "FILE", "the asset to write"},
+          {{"-o", "FILE", "the asset to write; -: to stdout"},
            {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
            {"--fast", nullptr,
             "meshes: the fastest on a controller rather than the smallest (the default)"},
@@ -225,7 +226,8 @@ const Command& bake_command() {
             "and gives torques"},
            {"--teach", "NAME", "what the guide is called that a recorded run gives"},
            {"--max-deviation", "METRES",
-            "no place of the run is farther from its guide (default 0.0001)"}}),
+            "no place of the run is farther from its guide (default 0.0001)"},
+           {"--json", nullptr, "what was made, for programs, on stdout"}}),
       1,
       SIZE_MAX};
   return command;
@@ -235,6 +237,9 @@ int run_bake(const Arguments& arguments) {
   const std::string output = arguments.text("-o", "");
   const std::string source = arguments.text("--cpp", "");
   if (output.empty()) fail_usage("bake: say where to write: -o SCENE.fta");
+  const bool is_json = arguments.has("--json");
+  if (output == "-" && (is_json || !source.empty()))
+    fail_usage("bake: -o - takes standard output: leave out --json and --cpp, or name a file");
   if (source == output) fail_usage("bake: -o and --cpp name the same file; name two");
   BakeOptions options = bake_options(arguments);
   add_hull(arguments, options);
@@ -284,6 +289,15 @@ int run_bake(const Arguments& arguments) {
                named.size() == 1 ? "asset" : "assets", container.crc());
   std::fprintf(stderr, "needs parts: %s (FIRMTOUCH_APP)\n",
                tools::needed_parts_text(container).c_str());
+  if (!is_json) return kDone;
+  std::vector<std::string> reported;
+  for (size_t i = 0; i < inputs.size(); ++i)
+    for (const std::string& line : baked[i].report)
+      reported.push_back(name_of(inputs[i], options) + ": " + line);
+  std::puts(asset_json(output, container)
+                .add("reported", tools::json_list(reported, tools::json_text))
+                .object()
+                .c_str());
   return kDone;
 }
 

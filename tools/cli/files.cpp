@@ -27,6 +27,7 @@ std::vector<uint8_t> taken(tools::LoadedFile file, const std::string& name) {
 }  // namespace
 
 std::vector<uint8_t> read_file(const std::string& path) {
+  if (path == "-") return taken(tools::load_stream(stdin, SIZE_MAX), "standard input");
   return taken(tools::load_file(path, SIZE_MAX), path);
 }
 
@@ -41,6 +42,10 @@ std::string read_standard_input() {
 }
 
 void write_file(const std::string& path, const void* bytes, size_t count) {
+  if (path == "-") {  // run_program() reports what cannot be written
+    std::fwrite(bytes, 1, count, stdout);
+    return;
+  }
   const std::string temporary = path + ".part";
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr)

@@ -5,7 +5,7 @@
 
 namespace firmtouch::cli {
 
-/// Every byte of a file. Fails (bad input) where it cannot be opened or read.
+/// Every byte of a file; -: of standard input. Fails (bad input) where it cannot be opened or read.
 std::vector<uint8_t> read_file(const std::string& path);
 /// The same for a model, curve or table: a line without an end is refused before it fills the
 /// memory.
@@ -13,7 +13,7 @@ std::vector<uint8_t> read_model(const std::string& path);
 std::string read_standard_input();
 
 /// Writes a file whole or not at all: to a temporary beside it, renamed at the end. A failing
-/// command leaves no output.
+/// command leaves no output. -: to standard output.
 void write_file(const std::string& path, const void* bytes, size_t count);
 
 /// "dir/spot.final.obj": stem "spot.final", extension ".obj" (lower case), file name

@@ -6,6 +6,7 @@
 #include "cli/files.hpp"
 #include "cli/hull_arguments.hpp"
 #include "hull/build_hull.hpp"
+#include "json/json.hpp"
 #include "surface/crossings.hpp"
 #include "surface/write_surface.hpp"
 
@@ -18,29 +19,39 @@ std::string sentence(const char* format, double a, double b) {
   return text;
 }
 
-void print_line(const std::string& name, const std::string& line) {
-  std::fprintf(stderr, "%s: %s\n", name.c_str(), line.c_str());
-}
-
 // Where the surface crosses itself it may wind around a point less than once, and such points are
 // not promised to stay inside.
-void print_crossings(const std::string& name, const SoundSurface& sound) {
+std::vector<std::string> crossings_of(const SoundSurface& sound) {
   const tools::Crossings crossings = tools::find_crossings(sound.surface);
-  for (const std::string& line : tools::describe(crossings, sound.surface, sound.vertex_source))
-    print_line(name, line);
+  return tools::describe(crossings, sound.surface, sound.vertex_source);
 }
 
-void print_result(const std::string& name, const tools::Surface& mesh, const tools::Surface& level,
-                  const tools::ProgressiveHull& hull, const tools::HullReport& report) {
-  const double before = tools::enclosed_volume_m3(mesh), after = tools::enclosed_volume_m3(level);
-  print_line(name, std::to_string(level.faces.size()) + " faces enclose " +
-                       std::to_string(mesh.faces.size()) + ": void " +
-                       sentence("%.3g %% of the volume, grid of %.3g m",
-                                100 * (after - before) / before, hull.grid.cell_m));
-  print_line(name, std::to_string(hull.collapses.size()) + " collapses, " +
-                       std::to_string(report.counts.programs) +
-                       " linear programs; every new vertex proven outside in exact arithmetic");
-}
+// What was made: as lines, or for programs.
+struct Made {
+  size_t triangles, of_triangles;
+  double void_share, grid_m;
+  size_t collapses, programs;
+
+  std::vector<std::string> lines() const {
+    return {std::to_string(triangles) + " faces enclose " + std::to_string(of_triangles) +
+                ": void " +
+                sentence("%.3g %% of the volume, grid of %.3g m", 100 * void_share, grid_m),
+            std::to_string(collapses) + " collapses, " + std::to_string(programs) +
+                " linear programs; every new vertex proven outside in exact arithmetic"};
+  }
+  std::string json(const std::string& file, const std::vector<std::string>& reported) const {
+    return tools::Json()
+        .add("file", tools::json_text(file))
+        .add("triangles", uint64_t{triangles})
+        .add("of_triangles", uint64_t{of_triangles})
+        .add("void_share", void_share)
+        .add("grid_m", grid_m)
+        .add("collapses", uint64_t{collapses})
+        .add("programs", uint64_t{programs})
+        .add("reported", tools::json_list(reported, tools::json_text))
+        .object();
+  }
+};
 
 }  // namespace
 
@@ -67,7 +78,7 @@ const Command& hull_command() {
       "Where no edge may collapse any more, the coarsest hull reached is written and the reason "
       "printed.",
       with_model_options(
-          {{"-o", "FILE", "the hull (.obj)"},
+          {{"-o", "FILE", "the hull (.obj); -: to stdout"},
            {"--faces", "N", "at most so many, even (4 and more)"},
            {"--strategy", "1|2|lazy",
             "1: least volume first; 2: least volume about the middle of the "
@@ -75,7 +86,8 @@ const Command& hull_command() {
            {"--hull-grid", "22|16", "bits of a stored coordinate (default 22)"},
            {"--max-valence", "N", "faces around a vertex (default 12)"},
            {"--compactness", "R", "share of the faces' compactness that is left (default 0.8)"},
-           {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"}}),
+           {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
+           {"--json", nullptr, "what was made, for programs, on stdout"}}),
       1,
       1};
   return command;
@@ -85,7 +97,9 @@ int run_hull(const Arguments& arguments) {
   const std::string& path = arguments.positionals()[0];
   const std::string output = arguments.text("-o", ""), name = stem_of(path);
   if (output.empty()) fail_usage("hull: say where to write: -o FILE.obj");
-  if (extension_of(output) != ".obj")
+  if (output == "-" && arguments.has("--json"))
+    fail_usage("hull: -o - takes standard output: leave out --json, or name a file");
+  if (output != "-" && extension_of(output) != ".obj")
     fail_usage("hull: writes .obj, and '" + output + "' does not end in it");
   if (!arguments.has("--faces")) fail_usage("hull: say how coarse: --faces N");
   forbid_overwriting(output, path);
@@ -116,15 +130,25 @@ int run_hull(const Arguments& arguments) {
   const tools::Surface level = tools::hull_level(hull, options.target_faces);
   const std::string text = tools::to_obj(level);
   write_file(output, text.data(), text.size());
-  for (const std::string& line : sound.reported) print_line(name, line);
-  print_crossings(name, sound);
+  std::vector<std::string> reported = sound.reported;
+  for (const std::string& line : crossings_of(sound)) reported.push_back(line);
   if (sound.surface.faces.size() <= options.target_faces) {
-    print_line(name, "has " + std::to_string(sound.surface.faces.size()) +
-                         " faces, not more than the " + std::to_string(options.target_faces) +
-                         " requested: written as it is");
+    reported.push_back("has " + std::to_string(sound.surface.faces.size()) +
+                       " faces, not more than the " + std::to_string(options.target_faces) +
+                       " requested: written as it is");
   }
-  if (!report.stalled.empty()) print_line(name, report.stalled);
-  print_result(name, sound.surface, level, hull, report);
+  if (!report.stalled.empty()) reported.push_back(report.stalled);
+  const double before = tools::enclosed_volume_m3(sound.surface);
+  const Made made{level.faces.size(),
+                  sound.surface.faces.size(),
+                  (tools::enclosed_volume_m3(level) - before) / before,
+                  hull.grid.cell_m,
+                  hull.collapses.size(),
+                  report.counts.programs};
+  for (const auto& lines : {reported, made.lines()})
+    for (const std::string& line : lines)
+      std::fprintf(stderr, "%s: %s\n", name.c_str(), line.c_str());
+  if (arguments.has("--json")) std::puts(made.json(output, reported).c_str());
   return kDone;
 }
 

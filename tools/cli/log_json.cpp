@@ -1,43 +1,11 @@
 #include "cli/log_json.hpp"
 
-#include <cmath>
-#include <cstdio>
-
-#include "bake/asset/json_text.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::cli {
-namespace {
 
-std::string number(double value, const char* format) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-class Json {
- public:
-  Json& add(const std::string& name, const std::string& value) {
-    text_ += (text_.empty() ? "" : ", ") + ("\"" + name + "\": " + value);
-    return *this;
-  }
-  Json& add(const std::string& name, uint64_t value) { return add(name, std::to_string(value)); }
-  Json& add(const std::string& name, double value) {
-    return add(name, std::isfinite(value) ? number(value, "%.9g") : "null");
-  }
-  std::string object() const { return "{" + text_ + "}"; }
-
- private:
-  std::string text_;
-};
-
-template <class List, class Of>
-std::string json_list(const List& list, Of of) {
-  std::string text;
-  for (const auto& item : list) text += (text.empty() ? "" : ", ") + of(item);
-  return "[" + text + "]";
-}
-
-}  // namespace
+using tools::Json;
+using tools::json_list;
 
 std::string json_of(const log::Statistics& s) {
   Json period;

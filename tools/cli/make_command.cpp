@@ -38,7 +38,8 @@ struct Kind {
 
 void demand_extension(const Kind& kind, const std::string& output) {
   const std::string wanted = kind.extension, name = kind.name;
-  if (extension_of(output) == wanted || (wanted == ".igs" && extension_of(output) == ".iges"))
+  if (output == "-" || extension_of(output) == wanted ||
+      (wanted == ".igs" && extension_of(output) == ".iges"))
     return;
   fail_usage("make: " + name + " writes " + wanted + ", and '" + output +
              "' does not end in it; name a file that does: -o " + stem_of(output) + wanted);
@@ -160,7 +161,7 @@ const Command& make_command() {
       "         it once, up to 1 % of its diagonal aside; of splines (.igs, .iges, .bpt): all "
       "through\n"
       "         their box and a fifth of its extent beyond, 0.002 extents a step",
-      {{"-o", "FILE", "the file to write"},
+      {{"-o", "FILE", "the file to write; -: to stdout"},
        {"--seed", "N", "which of them (default 1)"},
        {"--points", "N", "path, walk: how many (default 2000, 20000)"},
        {"--triangles", "N", "part: at least so many (default 20000)"},

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "bake/asset/json_text.hpp"
 #include "bench/problem.hpp"
 #include "cli/failure.hpp"
 #include "cli/progress.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::cli {
 namespace {

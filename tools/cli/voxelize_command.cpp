@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "field/distance_field.hpp"
 #include "field/write_vti.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -55,6 +56,20 @@ void print_field(const tools::DistanceField& distance_field, const std::vector<s
     std::fprintf(stderr, "    and %zu more\n", distance_field.disagreements.size() - kShown);
 }
 
+std::string json_of(const tools::DistanceField& made, const std::string& output) {
+  return tools::Json()
+      .add("file", output.empty() ? "null" : tools::json_text(output))
+      .add("voxels",
+           tools::json_list(made.grid.count, [](uint32_t n) { return std::to_string(n); }))
+      .add("voxel_m", made.grid.size_m)
+      .add("surface", uint64_t{made.surface})
+      .add("inside", uint64_t{made.inside})
+      .add("outside", uint64_t{made.outside})
+      .add("distances", uint64_t{made.computed})
+      .add("disagreements", uint64_t{made.disagreements.size()})
+      .object();
+}
+
 }  // namespace
 
 const Command& voxelize_command() {
@@ -69,10 +84,11 @@ const Command& voxelize_command() {
       "distance,\n"
       "closest_point, triangle, object, side and kind; ParaView opens it.",
       {{"-n", "LONG_AXIS_CELLS", "voxels along the longest side, 1 to 4096"},
-       {"-o", "FILE", "the .vti to write"},
+       {"-o", "FILE", "the .vti to write; -: to stdout"},
        {"--interior", nullptr, "distances only for voxels on a surface or inside"},
        {"--close-holes", nullptr, "each hole of a model gets a cap of triangles, reported"},
-       {"--threads", "N", "how many compute (default: one a processor; the result is the same)"}},
+       {"--threads", "N", "how many compute (default: one a processor; the result is the same)"},
+       {"--json", nullptr, "what was made, for programs, on stdout"}},
       1,
       SIZE_MAX};
   return command;
@@ -83,7 +99,9 @@ int run_voxelize(const Arguments& arguments) {
   const std::string output = arguments.text("-o", "");
   if (!arguments.has("-n")) fail_usage("voxelize: say how fine: -n LONG_AXIS_CELLS");
   const uint32_t cells = arguments.count("-n", 1, 1, kMaxCells);
-  if (!output.empty() && extension_of(output) != ".vti")
+  if (output == "-" && arguments.has("--json"))
+    fail_usage("voxelize: -o - takes standard output: leave out --json, or name a file");
+  if (!output.empty() && output != "-" && extension_of(output) != ".vti")
     fail_usage("voxelize: -o " + output + ": name it .vti");
   if (inputs.size() > INT16_MAX)
     fail_usage("voxelize: at most " + std::to_string(INT16_MAX) + " models at once");
@@ -129,6 +147,7 @@ int run_voxelize(const Arguments& arguments) {
   for (size_t i = 0; i < inputs.size(); ++i) print_report(inputs[i], sound[i].reported);
   print_field(distance_field, inputs, options.threads);
   if (!output.empty()) std::fprintf(stderr, "%s: %zu bytes\n", output.c_str(), file.size());
+  if (arguments.has("--json")) std::puts(json_of(distance_field, output).c_str());
   return kDone;
 }
 
