@@ -68,6 +68,7 @@ const Command& run_command_line();
 const Command& replay_command_line();
 const Command& record_command_line();
 const Command& live_command_line();
+const Command& view_command_line();
 const Command& scenario_command_line();
 const Command& score_command_line();
 const Command& bench_command_line();

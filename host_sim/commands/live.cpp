@@ -29,10 +29,8 @@ std::string live_page(const std::string& asset) {
     const Environment environment = environment_of(*session.controller, {});
     const double radius_m = static_cast<double>(params::kTable[params::kToolRadius].initial);
     const Scene3d scene3d = surface_scene(environment, radius_m);
-    const bool is_closed = environment.has_mesh() && environment.mesh().is_signed() &&
-                           scene3d.triangles.size() == scene3d.source_triangles;
     scene =
-        "<script>window.firmtouchScene = {" + scene_data_of(scene3d, is_closed) + "};</script>\n";
+        "<script>window.firmtouchScene = {" + scene_data_of(scene3d, environment) + "};</script>\n";
   }
   std::string page = kLiveHtml;
   fill(page, "{{script}}", kLiveJs);

@@ -56,11 +56,7 @@ const report = (() => {
     e.preventDefault();
     play(playing === null);
   });
-  for (const box of document.querySelectorAll('input[data-path]')) {
-    box.checked = !stage.hidden.has(box.dataset.path);
-    box.onchange = () => { stage.hidden[box.checked ? 'delete' : 'add'](box.dataset.path); stage.draw(); };
-  }
-  $('upright').onchange = e => stage.reset(e.target.checked);
+  stage.useLegend();
   new ResizeObserver(() => changed(true)).observe($('plots'));
   window.addEventListener('beforeprint', () => charts.forEach(chart => chart.draw()));
   time.cursor = data.start_s;

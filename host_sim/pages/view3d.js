@@ -21,6 +21,13 @@ class View3d {
     new ResizeObserver(() => this.draw()).observe(canvas);
     this.draw();
   }
+  useLegend() {  // check boxes of the paths, and which axis is up
+    for (const box of document.querySelectorAll('input[data-path]')) {
+      box.checked = !this.hidden.has(box.dataset.path);
+      box.onchange = () => { this.hidden[box.checked ? 'delete' : 'add'](box.dataset.path); this.draw(); };
+    }
+    document.getElementById('upright').onchange = e => this.reset(e.target.checked);
+  }
   static bytes(text) { return Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer; }
   static vectors(text, reach) {
     const packed = new Int16Array(View3d.bytes(text)), list = [];

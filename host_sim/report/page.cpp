@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "firmtouch/params/table.hpp"
 #include "host_sim/report/page_data.hpp"
@@ -9,6 +8,7 @@
 #include "host_sim/report/report.hpp"
 #include "host_sim/report/run_charts.hpp"
 #include "host_sim/report/scene3d.hpp"
+#include "host_sim/report/stage.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -156,20 +156,6 @@ std::string table(const Report& report, const Scene3d& scene3d) {
   return "<table>" + rows + "</table>";
 }
 
-std::string legend(const Scene3d& scene3d) {
-  std::string html = "<div class=\"legend\">";
-  for (const Path& path : scene3d.paths)
-    html += "<label><input type=\"checkbox\" checked data-path=\"" + path.key +
-            "\"><i style=\"background:" +
-            (path.values.empty() ? hex_of(path.colour)
-                                 : "linear-gradient(90deg," + hex_of(heat(0.05)) + "," +
-                                       hex_of(heat(0.4)) + "," + hex_of(heat(1)) + ")") +
-            "\"></i>" + path.label + "</label>";
-  return html +
-         "<label class=\"upright\"><input type=\"checkbox\" id=\"upright\" autocomplete=\"off\">y "
-         "is up</label></div>";
-}
-
 // The script draws the charts at the page's width; without it the notes and the picture remain.
 std::string plots(const RunCharts& run) {
   std::string html = "<div id=\"plots\">";
@@ -206,42 +192,21 @@ std::string lede(const Report& report) {
          " All figures below are from this run.";
 }
 
-// Picture for browsers without JavaScript.
-std::string noscript(const Scene3d& scene3d) {
-  const std::string png = png_of(
-      draw(scene3d, 720, 500, {238, 241, 245}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
-  return "<noscript><img alt=\"the part with its paths\" style=\"width:100%\" "
-         "src=\"data:image/png;base64," +
-         base64_of(png.data(), png.size()) + "\"></noscript>";
-}
-
 }  // namespace
 
 std::string page_of(const Report& report) {
   const Scene3d scene3d = make_scene3d(report.environment, report.paths,
                                        parameter_value(report.scenario, params::kToolRadius));
   const std::string name = html_of(std::filesystem::path(report.asset_path).stem().string());
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width,initial-scale=1\">"
-      "<title>" +
-      name + " - Firmtouch report</title><link rel=\"icon\" href=\"data:,\"><style>\n" +
-      std::string(kReportCss) + "</style></head>\n<body><main>";
+  std::string html = page_head(name + " - Firmtouch report");
   html += "<p class=\"brand\"><b>Firmtouch</b> run report</p><h1>Touching " + name +
           "</h1><p class=\"lede\">" + lede(report) + "</p>";
   html += "<ul class=\"claims\">" + certificate_claim(report.summary) +
           visits_claim(report.summary) + bits_claim(report) + contact_claim(report.summary) +
           quality_claim(report.summary) + "</ul>\n";
-  html +=
-      "<div class=\"top\"><section class=\"card stage\"><div class=\"title\"><h2>The part, the "
-      "guide and the tool</h2><span class=\"now\"></span></div>"
-      "<div class=\"sight\"><p class=\"hint\">drag: rotate; Shift or two fingers: move; pinch, or "
-      "click and scroll: zoom; double-click: reset</p><canvas id=\"stage\" tabindex=\"0\" "
-      "role=\"img\" aria-label=\"the part "
-      "in 3D with the device's and the tool's paths\"></canvas></div>" +
-      noscript(scene3d) + legend(scene3d) +
-      "</section><section class=\"card\"><h2>Key figures</h2>" + table(report, scene3d) +
-      "</section></div>\n";
+  html += "<div class=\"top\">" + stage_of(scene3d, "The part, the guide and the tool") +
+          "<section class=\"card\"><h2>Key figures</h2>" + table(report, scene3d) +
+          "</section></div>\n";
   html += plots(report.charts) + kTimeBar;
   html += "<footer><p>Written by <code>" + html_of(report.command) +
           "</code>. The oracle that checks the distances shares no code with the controller.</p>"

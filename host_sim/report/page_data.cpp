@@ -119,7 +119,9 @@ std::string hex_of(Colour colour) {
   return text;
 }
 
-std::string scene_data_of(const Scene3d& scene3d, bool is_closed) {
+std::string scene_data_of(const Scene3d& scene3d, const Environment& environment) {
+  const bool is_closed = environment.has_mesh() && environment.mesh().is_signed() &&
+                         scene3d.triangles.size() == scene3d.source_triangles;
   std::string paths;
   for (const Path& path : scene3d.paths)
     paths += (paths.empty() ? "" : ",") + path_text(scene3d, path);
@@ -130,8 +132,6 @@ std::string scene_data_of(const Scene3d& scene3d, bool is_closed) {
 }
 
 std::string data_of(const Report& report, const Scene3d& scene3d) {
-  const bool is_closed = report.environment.has_mesh() && report.environment.mesh().is_signed() &&
-                         scene3d.triangles.size() == scene3d.source_triangles;
   // The cursor starts at the largest force.
   const std::vector<RunPaths::Sample>& samples = report.paths.samples();
   const auto most = std::max_element(
@@ -144,7 +144,8 @@ std::string data_of(const Report& report, const Scene3d& scene3d) {
     charts += (charts.empty() ? "" : ",") + chart_text(chart);
   const double bin_s = report.charts.ticks_per_bin() / report.facts.rate_Hz;
   return "{\"bin_s\":" + fixed(bin_s, 6) + ",\"start_s\":" + fixed(start_s, 6) + "," +
-         scene_data_of(scene3d, is_closed) + ",\"samples\":" + samples_text(report, scene3d) +
+         scene_data_of(scene3d, report.environment) +
+         ",\"samples\":" + samples_text(report, scene3d) +
          ",\"axis\":" + axis_text(report.charts.axis()) + ",\"charts\":[" + charts + "]}";
 }
 

@@ -11,7 +11,7 @@ namespace firmtouch::host_sim {
 std::string data_of(const Report& report, const Scene3d& scene3d);
 
 /// Surface and paths as members of a JSON object, for the 3D view of a page.
-std::string scene_data_of(const Scene3d& scene3d, bool is_closed);
+std::string scene_data_of(const Scene3d& scene3d, const Environment& environment);
 
 std::string hex_of(Colour colour);
 
