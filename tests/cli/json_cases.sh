@@ -46,3 +46,37 @@ AFileCalledMinusIsStandardInputOrOutput() {
   f bake box.obj -o - --cpp a.cpp; exits 2; says 'leave out --json and --cpp'
   absent -
 }
+AQueryIsACoProcess() {
+  small_scene
+  mkfifo questions answers
+  "$firmtouch" query scene.fta box distance --line-buffered <questions >answers 2>note &
+  program=$!
+  exec 7>questions 8<answers
+  read -r header <&8
+  printf '# points\n\nx (mm),y (mm),z (mm)\n' >&7
+  for x in 5000 7000 2000; do  # each answer is read before the next point is written
+    echo "$x,0,0" >&7
+    read -r row <&8
+    printf '%s\n' "$row" >>rows
+  done
+  echo '1,two,3' >&7
+  wait $program
+  same $? 3
+  exec 7>&- 8<&-
+  grep -q "standard input:7: column 'y': 'two' is not a number" note || fail "$(cat note)"
+  printf 'x/mm,y/mm,z/mm\n5000,0,0\n7000,0,0\n2000,0,0\n' | "$firmtouch" query scene.fta box distance >batch
+  same "$(echo "$header"; cat rows)" "$(cat batch)"
+  printf 'ax,ay,az,bx,by,bz\n5,0,0,-5,0,0\n' >segments
+  for kind in 'segment' 'segment --all'; do
+    # shellcheck disable=SC2086  # two words
+    "$firmtouch" query scene.fta box $kind <segments >batch
+    "$firmtouch" query scene.fta box $kind --line-buffered <segments | cmp - batch || fail "$kind differs"
+  done
+  bake box.obj -o hulled.fta --hull-faces 12
+  "$firmtouch" query hulled.fta box hull <segments >batch
+  "$firmtouch" query hulled.fta box hull --line-buffered <segments | cmp - batch || fail 'hull differs'
+  printf '' | "$firmtouch" query scene.fta box distance --line-buffered >.out 2>.err
+  same $? 3
+  err=$(cat .err) says 'standard input: is empty'
+  f query scene.fta box distance --line-buffered --time; exits 2; says 'leave out --line-buffered'
+}

@@ -2,14 +2,18 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string_view>
 
 #include "cli/failure.hpp"
 #include "curve/csv_rows.hpp"
+#include "surface/read/load_file.hpp"
 
 namespace firmtouch::cli {
 namespace {
+
+const std::string kStandardInput = "standard input";
 
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
@@ -91,10 +95,9 @@ struct Reader {
   }
 };
 
-}  // namespace
-
-CsvTable read_csv(const std::string& text, const std::string& origin,
-                  const std::vector<std::string>& columns) {
+// `skipped`: lines between the header and the rows, which `text` leaves out.
+CsvTable read_rows(const std::string& text, const std::string& origin,
+                   const std::vector<std::string>& columns, uint32_t skipped) {
   Reader reader{origin, columns, {}, {}, 0, {}};
   reader.table.columns = columns.size();
   tools::CsvRows rows(text, false);
@@ -105,12 +108,70 @@ CsvTable read_csv(const std::string& text, const std::string& origin,
     if (reader.places.empty()) {
       reader.read_header(fields, number);
     } else {
-      reader.read_row(fields, number);
+      reader.read_row(fields, number + skipped);
     }
   }
   if (reader.places.empty())
     fail_input(origin + ": is empty; the first line must be " + joined(columns));
   return reader.table;
+}
+
+// A line with its end; empty at the end of the input.
+std::string next_line(uint32_t number) {
+  std::string line;
+  for (int letter = 0; (letter = std::getc(stdin)) != EOF;) {
+    line += static_cast<char>(letter);
+    if (letter == '\n') break;
+    if (line.size() > tools::kMaxLineBytes)
+      fail_input(kStandardInput + ":" + std::to_string(number) + ": the line is longer than " +
+                 std::to_string(tools::kMaxLineBytes) + " bytes; break it");
+  }
+  return line;
+}
+
+// The header and what stands above it, then a row a line.
+struct Lines {
+  std::vector<std::string> columns;
+  std::string head;
+  uint32_t head_lines = 0, lines = 0;
+  bool has_header = false;
+
+  bool operator()(CsvTable& table) {
+    for (;;) {
+      std::fflush(stdout);
+      const std::string line = next_line(++lines);
+      if (!has_header) {
+        head += line;
+        head_lines = lines;
+        tools::CsvRows rows(head, false);
+        std::vector<std::string_view> fields;
+        has_header = !rows.problem().empty() || rows.next(fields);
+        if (has_header || line.empty()) (void)read_rows(head, kStandardInput, columns, 0);
+      } else if (!line.empty()) {
+        const CsvTable one =
+            read_rows(head + line, kStandardInput, columns, lines - head_lines - 1);
+        if (one.rows() == 0) continue;  // a comment or nothing
+        table.values.insert(table.values.end(), one.values.begin(), one.values.end());
+        table.line_of.push_back(lines);
+        return true;
+      }
+      if (line.empty()) return false;
+    }
+  }
+};
+
+}  // namespace
+
+CsvTable read_csv(const std::string& text, const std::string& origin,
+                  const std::vector<std::string>& columns) {
+  return read_rows(text, origin, columns, 0);
+}
+
+CsvTable read_csv_lines(const std::vector<std::string>& columns) {
+  CsvTable table;
+  table.columns = columns.size();
+  table.more = Lines{columns, "", 0, 0, false};
+  return table;
 }
 
 }  // namespace firmtouch::cli

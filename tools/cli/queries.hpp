@@ -28,11 +28,11 @@ std::string primitive_of(const Arguments& arguments);
 /// Applies --isa. Fails (usage) where this processor has no such level.
 void choose_isa(const Arguments& arguments);
 
-void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
-void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments);
-void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments);
-void query_curve(const LoadedCurve& curve, const CsvTable& table, const Arguments& arguments);
-void query_spline(const spline::View& model, const CsvTable& table, const Arguments& arguments);
-void query_footpoints(const spline::View& model, const CsvTable& table, const Arguments& arguments);
+void query_distance(const LoadedMesh& mesh, CsvTable table, const Arguments& arguments);
+void query_segment(const LoadedMesh& mesh, CsvTable table, const Arguments& arguments);
+void query_hull(const LoadedHull& hull, CsvTable table, const Arguments& arguments);
+void query_curve(const LoadedCurve& curve, CsvTable table, const Arguments& arguments);
+void query_spline(const spline::View& model, CsvTable table, const Arguments& arguments);
+void query_footpoints(const spline::View& model, CsvTable table, const Arguments& arguments);
 
 }  // namespace firmtouch::cli

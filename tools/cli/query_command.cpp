@@ -43,6 +43,7 @@ void check_options(const Arguments& arguments, const std::string& kind) {
 }
 
 CsvTable query_rows(const std::vector<std::string>& columns, const Arguments& arguments) {
+  if (arguments.has("--line-buffered")) return read_csv_lines(columns);
   CsvTable table = read_csv(read_standard_input(), "standard input", columns);
   if (arguments.has("--time") && table.rows() == 0)
     fail_input("standard input: no rows after the header, so there is nothing to time; add some");
@@ -84,6 +85,8 @@ const Command& query_command() {
         "so exact)"},
        {"--budget", "N", "the same in visits of 2.5 units; dropped in the next version"},
        {"--time", nullptr, "no CSV: the median time a query over 5 passes"},
+       {"--line-buffered", nullptr,
+        "each row is answered before the next one is read, for a program at both ends"},
        {"--isa", "LEVEL",
         "distance, segment: instruction set: scalar, x86-64-v2, -v3, -v4 or neon (default: the "
         "fastest here); the answers are the same"},
@@ -111,6 +114,8 @@ int run_query(const Arguments& arguments) {
   const std::string& name = arguments.positionals()[1];
   const std::string& kind = arguments.positionals()[2];
   check_kind(kind);
+  if (arguments.has("--line-buffered") && arguments.has("--time"))
+    fail_usage("query: --time needs all rows at once: leave out --line-buffered");
   if (kind == "footpoints") forbid(arguments, kind, {"--budget", "--work", "--cold"});
   if (kind != "segment" && kind != "hull") forbid(arguments, kind, {"--all"});
   if (kind != "curve" && kind != "hull") forbid(arguments, kind, {"--mode"});

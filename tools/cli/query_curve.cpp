@@ -66,7 +66,7 @@ CurveOptions curve_options_of(const Arguments& arguments) {
   return options;
 }
 
-void query_curve(const LoadedCurve& given, const CsvTable& table, const Arguments& arguments) {
+void query_curve(const LoadedCurve& given, CsvTable table, const Arguments& arguments) {
   LoadedCurve curve = given;
   std::vector<uint32_t> tree;
   if (!curve_options_of(arguments).is_exact && curve.view.tree().empty()) {

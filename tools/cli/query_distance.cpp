@@ -64,7 +64,7 @@ query::Budget budget_of(const Arguments& arguments) {
   return budget;
 }
 
-void query_distance(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
+void query_distance(const LoadedMesh& mesh, CsvTable table, const Arguments& arguments) {
   answer_rows(
       table, arguments, "distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact",
       [&] { return Answers(mesh.wide, arguments); },

@@ -7,8 +7,7 @@
 
 namespace firmtouch::cli {
 
-void query_footpoints(const spline::View& model, const CsvTable& table,
-                      const Arguments& arguments) {
+void query_footpoints(const spline::View& model, CsvTable table, const Arguments& arguments) {
   std::vector<tools::BezierCurve> curves;
   std::vector<tools::BezierPatch> patches;
   tools::asset_pieces(model, curves, patches);
@@ -30,7 +29,7 @@ void query_footpoints(const spline::View& model, const CsvTable& table,
   }
   std::puts("point,kind,distance,cx,cy,cz,piece,u,v");
   size_t incomplete = 0, first = 0;
-  for (size_t i = 0; i < table.rows(); ++i) {
+  for (size_t i = 0; table.has(i); ++i) {
     bool is_complete = false;
     for (const tools::Footpoint& f : feet.all(place(i), is_complete))
       std::printf("%zu,%s,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g\n", i, tools::name_of(f.kind),

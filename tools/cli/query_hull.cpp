@@ -95,53 +95,54 @@ class Refined : public HullQuery {
   query::Budget budget_;
 };
 
-void answer(HullQuery& hull_query, const LoadedHull& hull, const CsvTable& table,
+void answer(HullQuery& hull_query, const LoadedHull& hull, CsvTable& table,
             const Arguments& arguments) {
   const bool is_ray = primitive_of(arguments) == "ray";
   const hull::Head& head = hull.view.head();
-  std::vector<hull::RaySegment> lines;  // a ray's reach, or 1
-  for (size_t i = 0; i < table.rows(); ++i) {
+  const auto line_of = [&](size_t i) {  // a ray's reach, or 1
     const float* row = table.row(i);
     const math::Vec3 a_m{row[0], row[1], row[2]}, b{row[3], row[4], row[5]};
-    lines.push_back({a_m, b, 1});
-    if (is_ray && !hull::segment_of_ray(head.low_m, head.high_m, a_m, b, lines.back()))
+    hull::RaySegment line{a_m, b, 1};
+    if (is_ray && !hull::segment_of_ray(head.low_m, head.high_m, a_m, b, line))
       fail_input("standard input, row " + std::to_string(i + 1) +
                  ": a ray without a direction, or too far off; give dx,dy,dz that are not all 0");
-  }
-  const auto from = [&](size_t i) { return lines[i].from_m; };
-  const auto to = [&](size_t i) { return lines[i].to_m; };
+    return line;
+  };
   const bool all = arguments.has("--all");
   if (arguments.has("--time")) {
+    std::vector<hull::RaySegment> lines;
+    for (size_t i = 0; i < table.rows(); ++i) lines.push_back(line_of(i));
     print_time(table.rows(), [&] {
       float sum = 0;
-      for (size_t i = 0; i < table.rows(); ++i) {
-        if (!all) sum += hull_query.first(from(i), to(i)).t;
+      for (const hull::RaySegment& line : lines) {
+        if (!all) sum += hull_query.first(line.from_m, line.to_m).t;
         if (all)
-          for (const mesh::SurfaceCrossing& c : hull_query.all(from(i), to(i))) sum += c.t;
+          for (const mesh::SurfaceCrossing& c : hull_query.all(line.from_m, line.to_m)) sum += c.t;
       }
       return sum;
     });
     return;
   }
   std::puts(all ? "segment,t,triangle" : "hit,t,triangle,steps");
-  for (size_t i = 0; i < table.rows(); ++i) {
+  for (size_t i = 0; table.has(i); ++i) {
+    const hull::RaySegment line = line_of(i);
     if (all) {
-      for (const mesh::SurfaceCrossing& c : hull_query.all(from(i), to(i)))
-        std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t * lines[i].reach),
+      for (const mesh::SurfaceCrossing& c : hull_query.all(line.from_m, line.to_m))
+        std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t * line.reach),
                     hull.source_of(c.triangle));
       continue;
     }
-    const mesh::Hit hit = hull_query.first(from(i), to(i));
+    const mesh::Hit hit = hull_query.first(line.from_m, line.to_m);
     const bool is_of_mesh = hit.hit && hit.triangle != UINT32_MAX;
     const int64_t triangle = is_of_mesh ? int64_t{hull.source_of(hit.triangle)} : -1;
-    std::printf("%d,%.9g,%lld,%u\n", hit.hit ? 1 : 0, static_cast<double>(hit.t * lines[i].reach),
+    std::printf("%d,%.9g,%lld,%u\n", hit.hit ? 1 : 0, static_cast<double>(hit.t * line.reach),
                 static_cast<long long>(triangle), hit.steps);
   }
 }
 
 // The lowest triangle that each row's crosses, or all of them.
 template <class Query>
-void answer_triangles(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments,
+void answer_triangles(const LoadedHull& hull, CsvTable& table, const Arguments& arguments,
                       Query query_one) {
   const auto corners = [&](size_t i) {
     const float* row = table.row(i);
@@ -161,7 +162,7 @@ void answer_triangles(const LoadedHull& hull, const CsvTable& table, const Argum
   }
   const bool all = arguments.has("--all");
   std::puts(all ? "asked,triangle" : "hit,triangle,steps");
-  for (size_t i = 0; i < table.rows(); ++i) {
+  for (size_t i = 0; table.has(i); ++i) {
     const uint32_t steps = query_one(corners(i), met);
     if (all) {
       for (const uint32_t triangle : met) std::printf("%zu,%u\n", i, hull.source_of(triangle));
@@ -189,7 +190,7 @@ void check_hull_options(const Arguments& arguments) {
     fail_usage("query: --base has no meaning for --mode complete; leave it out");
 }
 
-void query_hull(const LoadedHull& hull, const CsvTable& table, const Arguments& arguments) {
+void query_hull(const LoadedHull& hull, CsvTable table, const Arguments& arguments) {
   const bool is_triangle = primitive_of(arguments) == "triangle";
   const query::Budget budget = budget_of(arguments);
   const uint32_t triangles = hull.view.head().mesh_triangle_count;

@@ -37,7 +37,7 @@ class AllCrossings {
   std::vector<mesh::SurfaceCrossing> buffer_ = std::vector<mesh::SurfaceCrossing>(64);
 };
 
-void query_all(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
+void query_all(const LoadedMesh& mesh, CsvTable& table, const Arguments& arguments) {
   AllCrossings crossings(mesh, budget_of(arguments));
   if (arguments.has("--time")) {
     print_time(table.rows(), [&] {
@@ -49,14 +49,14 @@ void query_all(const LoadedMesh& mesh, const CsvTable& table, const Arguments& a
     return;
   }
   std::puts("segment,t,triangle");
-  for (size_t i = 0; i < table.rows(); ++i)
+  for (size_t i = 0; table.has(i); ++i)
     for (const mesh::SurfaceCrossing& c : crossings.of(table.row(i)))
       std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t), mesh.source_of(c.triangle));
 }
 
 }  // namespace
 
-void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Arguments& arguments) {
+void query_segment(const LoadedMesh& mesh, CsvTable table, const Arguments& arguments) {
   if (arguments.has("--all")) return query_all(mesh, table, arguments);
   const query::Budget budget = budget_of(arguments);
   const auto cast = [&](size_t i) {
@@ -72,7 +72,7 @@ void query_segment(const LoadedMesh& mesh, const CsvTable& table, const Argument
     return;
   }
   std::puts("hit,t,triangle,steps");
-  for (size_t i = 0; i < table.rows(); ++i) {
+  for (size_t i = 0; table.has(i); ++i) {
     const mesh::Hit hit = cast(i);
     const int64_t triangle = hit.hit ? int64_t{mesh.source_of(hit.triangle)} : -1;
     std::printf("%d,%.9g,%lld,%u\n", hit.hit ? 1 : 0, static_cast<double>(hit.t),

@@ -27,7 +27,7 @@ class Answers {
 
 }  // namespace
 
-void query_spline(const spline::View& model, const CsvTable& table, const Arguments& arguments) {
+void query_spline(const spline::View& model, CsvTable table, const Arguments& arguments) {
   const auto wide = [](float value) { return static_cast<double>(value); };
   const auto print = [&](const spline::Closest& a) {
     std::printf("%.9g,%.9g,%.9g,%.9g,%u,%.9g,%.9g,%.9g,%u,%d\n", wide(a.distance_m),

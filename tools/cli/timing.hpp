@@ -21,8 +21,8 @@ void print_time(size_t queries, const Pass& pass) {
 /// Answers each row of `table` in order by what make() returns: timed with --time, else printed by
 /// print(answer) below `header`.
 template <class Make, class Print>
-void answer_rows(const CsvTable& table, const Arguments& arguments, const char* header,
-                 const Make& make, const Print& print) {
+void answer_rows(CsvTable& table, const Arguments& arguments, const char* header, const Make& make,
+                 const Print& print) {
   if (arguments.has("--time")) {
     print_time(table.rows(), [&] {
       auto answers = make();
@@ -34,7 +34,7 @@ void answer_rows(const CsvTable& table, const Arguments& arguments, const char* 
   }
   std::puts(header);
   auto answers = make();
-  for (size_t i = 0; i < table.rows(); ++i) print(answers.next(table.row(i)));
+  for (size_t i = 0; table.has(i); ++i) print(answers.next(table.row(i)));
 }
 
 }  // namespace firmtouch::cli
