@@ -17,7 +17,7 @@ namespace firmtouch::curve {
 ///         weight that is not positive), or where the query is not finite or beyond 2^60 m: as
 ///         closest_point(), bit for bit. certificate.lower_m bounds the cost of all segments, and
 ///         `exact` says that cost and bound are within 4e-7 max(diagonal, distance) and, for
-///         what float32 knows of arc positions, 1e-6 weight_m (1 + cost_m / length) of the truth.
+///         the rounding of arc positions, 1e-6 weight_m (1 + cost_m / length) of the truth.
 /// Error:  tests/curve/guided_point_host_test.cpp, against every segment in double.
 /// Source: Morris 2006, section 2.2, over all segments instead of those at N samples.
 Constraint guided_point(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,

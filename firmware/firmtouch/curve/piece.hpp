@@ -52,7 +52,7 @@ static inline float piece_loss_m(float distance_m, float half_m) {
   return 0x1p-24f * (7.5f * distance_m + 128.0f * half_m) + 0x1p-58f;
 }
 
-/// How near the answer of a piece shall be: float32 knows no less of a far one.
+/// Accepted error of a piece's answer. Far from the curve the rounding of float32 is larger.
 static inline float piece_slack_m(const Head& head, float distance_m) {
   const float near_m = head.diagonal_m * 0x1p-23f, far_m = distance_m * 0x1p-22f;
   return near_m > far_m ? near_m : far_m;

@@ -126,8 +126,8 @@ bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const 
   return true;
 }
 
-// Whether both bounds of what float32 knows are above the threshold, or both below:
-// no more need be known.
+// Whether lower and upper bound, rounding included, lie on one side of the threshold: then no more
+// precise distance is needed.
 [[gnu::noinline, gnu::cold]] bool is_decided(float threshold_m, float loss_m, Found& found) {
   const float most_m = found.distance_m + loss_m;
   if (!(threshold_m > 0.0f) || !(found.lower_m >= threshold_m || most_m < threshold_m))

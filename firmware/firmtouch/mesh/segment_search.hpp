@@ -33,7 +33,7 @@ static inline bool take_leaf(const View& mesh, const SegmentFrame& frame, uint32
 }
 
 /// Visits what the segment may cross, nearest first, until `visitor` has enough. Visitor::limit is
-/// the largest t still of interest, at first 1. Visitor::take() returns whether it wants more.
+/// the largest t still of interest, at first 1. Visitor::take() returns whether to go on.
 /// Result: false if the budget ended the search.
 template <class Visitor>
 static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,

@@ -28,7 +28,7 @@ struct Feature {
   bool is_of_base_hull = false;  // holds only while the work does not suffice
 };
 
-/// What a shape knows of a point.
+/// Certified distance, sign and normal of a shape at a point.
 struct Nearness {
   float lower_m = 0;     // certified: no point of the shape is nearer
   float distance_m = 0;  // of the feature, an upper bound; without a feature of any point
