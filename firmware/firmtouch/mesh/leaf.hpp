@@ -30,7 +30,7 @@ struct Best {
 /// plane that skipped it, or its own computed distance, less the loss. Which are kept depends on
 /// nothing but the leaves that are read and their order.
 struct Rivals {
-  static constexpr uint32_t kMax = 4;
+  static constexpr uint32_t kMax = 8;
   uint32_t count;            // more than kMax: some are not known
   uint32_t foot[kMax];       // feature << 24 | triangle
   float distance2_m2[kMax];  // as computed

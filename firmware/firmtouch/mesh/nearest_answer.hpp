@@ -78,52 +78,59 @@ struct Corners {
                                                     float distance2_m2) const {
     return math::square_root(nearest_compensated2(p_m, a_m, b_m, c_m, feature, distance2_m2));
   }
-  uint32_t first_of(Feature edge) const { return index.corner[static_cast<uint32_t>(edge) - 1u]; }
-  uint32_t second_of(Feature edge) const {
-    return edge == Feature::kEdge2 ? index.corner[0] : index.corner[static_cast<uint32_t>(edge)];
-  }
 };
 
-// Whether a rival only shares the nearest edge. Pre: features are clear.
-bool is_same_edge(const Corners& one, Feature feature, const Corners& other, Feature of_other) {
-  return is_edge(feature) && is_edge(of_other) &&
-         one.first_of(feature) == other.second_of(of_other) &&
-         one.second_of(feature) == other.first_of(of_other);
+// What float32 and the rounding of the model can have lost of a triangle, by its own edges.
+float own_loss_m(const Loss& loss, const Corners& corners, Feature feature, float distance_m) {
+  return loss.own_m(distance_m, corners.b_m - corners.a_m, feature == Feature::kFace) +
+         loss.rounding_m;
 }
 
-// Measures the nearest triangle of `search`, and its rivals, in double-float, and puts into
-// search.best which of them is truly the nearest. Result: its distance.
-[[gnu::noinline, gnu::cold]] float settle(const View& mesh, Vec3 p_m, Search& search) {
+// The least distance that each of the rivals may truly have.
+float rivals_lower_m(const View& mesh, const Loss& loss, const Search& search) {
+  float lower_m = FLT_MAX;
+  for (uint32_t i = 0; i < search.rivals.count; ++i) {
+    const float rival_m = math::square_root(search.rivals.distance2_m2[i]);
+    const Corners corners(mesh, search.rivals.triangle(i));
+    lower_m = math::smaller(lower_m,
+                            rival_m - own_loss_m(loss, corners, search.rivals.feature(i), rival_m));
+  }
+  return lower_m;
+}
+
+// Measures the nearest triangle of `search` in double-float, and its rivals of which float32 does
+// not know enough, and puts into search.best which of them is truly the nearest. Enough: each is
+// certified to be no more than `gap_m` nearer.
+// Result: its distance. `lower_m`: of the rivals that were not measured.
+[[gnu::noinline, gnu::cold]] float settle(const View& mesh, Vec3 p_m, float gap_m, Search& search,
+                                          float& lower_m) {
   const Loss loss(mesh.head());
   Best& best = search.best;
   const Corners corners(mesh, best.triangle);
   float distance_m = corners.compensated_m(p_m, best.feature, best.distance2_m2);
+  lower_m = FLT_MAX;
   for (uint32_t i = 0; i < search.rivals.count; ++i) {
-    if (!loss.may_be_less(search.rivals.distance2_m2[i], distance_m * distance_m)) continue;
+    const float distance2_m2 = search.rivals.distance2_m2[i];
+    if (!loss.may_be_less(distance2_m2, distance_m * distance_m)) continue;
     const uint32_t triangle = search.rivals.triangle(i);
+    const Feature feature = search.rivals.feature(i);
     const Corners rival(mesh, triangle);
-    const float rival_m =
-        rival.compensated_m(p_m, search.rivals.feature(i), search.rivals.distance2_m2[i]);
+    const float plain_m = math::square_root(distance2_m2);
+    const float least_m = plain_m - own_loss_m(loss, rival, feature, plain_m);
+    if (distance_m - least_m <= gap_m) {
+      lower_m = math::smaller(lower_m, least_m);
+      continue;
+    }
+    const float rival_m = rival.compensated_m(p_m, feature, distance2_m2);
     if (!(rival_m < distance_m)) continue;
     distance_m = rival_m;
     Foot foot;
     find_foot_apart(p_m, {rival.a_m, rival.b_m, rival.c_m}, Nearer::than_nothing(), foot);
     best.offset_m = foot.offset_m;
     best.triangle = triangle;
-    best.feature = search.rivals.feature(i);
+    best.feature = feature;
   }
   return distance_m;
-}
-
-// Whether no triangle but those at the nearest feature can be as near as the nearest.
-bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const Search& search) {
-  const float clear2_m2 = loss.longest_edge_m * loss.longest_edge_m * 0x1p-20f;
-  for (uint32_t i = 0; i < search.rivals.count; ++i)
-    if (!(search.best.distance2_m2 > clear2_m2) ||
-        !is_same_edge(corners, search.best.feature, Corners(mesh, search.rivals.triangle(i)),
-                      search.rivals.feature(i)))
-      return false;
-  return true;
 }
 
 // Whether lower and upper bound, rounding included, lie on one side of the threshold: then no more
@@ -147,24 +154,27 @@ bool is_alone(const View& mesh, const Loss& loss, const Corners& corners, const 
   const float near_m = nearest_m(search);
   if (!mesh.has_rivals() || search.rivals.count > Rivals::kMax) {
     search.rivals.count = 0;
-    const float distance_m = settle(mesh, p_m, search);
+    float unused_m = 0.0f;
+    const float distance_m = settle(mesh, p_m, 0.0f, search, unused_m);
     weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
     const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
     if (!(max_m - found.lower_m <= within_m)) return false;
     found.distance_m = distance_m;
     return true;
   }
-  // What is no rival is no nearer than near_m: the loss of this triangle alone counts.
-  const Corners corners(mesh, search.best.triangle);
+  // What is no rival is no nearer than near_m: the losses of these triangles alone count.
   const float own_m =
-      loss.own_m(near_m, corners.b_m - corners.a_m, search.best.feature == Feature::kFace);
-  if (2.0f * (own_m + loss.rounding_m) <= within_m && is_alone(mesh, loss, corners, search)) {
-    weigh(found, near_m - (own_m + loss.rounding_m), loss.rounding_m);
+      own_loss_m(loss, Corners(mesh, search.best.triangle), search.best.feature, near_m);
+  float lower_m = math::smaller(near_m - own_m, rivals_lower_m(mesh, loss, search));
+  if (near_m - lower_m + own_m <= within_m) {
+    weigh(found, lower_m, loss.rounding_m);
     return true;
   }
-  const float distance_m = settle(mesh, p_m, search);
+  const float lost_m = loss.rounding_m + 2.0f * loss.compensated_m(near_m);
+  const float distance_m = settle(mesh, p_m, within_m - lost_m, search, lower_m);
   const float least_m = math::smaller(distance_m, near_m);
-  weigh(found, less_m(least_m, loss.compensated_m(least_m) + loss.rounding_m), loss.rounding_m);
+  lower_m = math::smaller(lower_m, less_m(least_m, loss.compensated_m(least_m) + loss.rounding_m));
+  weigh(found, lower_m, loss.rounding_m);
   const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
   if (!(max_m - found.lower_m <= within_m)) return false;
   found.distance_m = distance_m;
