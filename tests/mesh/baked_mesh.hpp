@@ -14,6 +14,7 @@ struct BakedMesh {
   tools::Surface surface;
   std::vector<tools::Section> sections;
   mesh::View view;
+  double moved_m = 0;  // the surface, by tools::refine()
   double size = 0;
 
   explicit BakedMesh(tools::Surface from, const tools::MeshOptions& options = {})
@@ -22,6 +23,7 @@ struct BakedMesh {
     tools::MeshReport report;
     sections = tools::bake_mesh(surface, "model", options, report);
     CHECK(report.problem.empty());
+    moved_m = report.refined.moved_m;
     CHECK(mesh::open(parts(), view).ok());
     size = diagonal(surface);
   }

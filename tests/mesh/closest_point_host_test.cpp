@@ -41,7 +41,7 @@ void check_answer(const BakedMesh& baked, const mesh::Closest& c, const Truth& t
   const double scale = std::max(baked.size, truth.distance),
                reported = std::fabs(double{c.distance_m});
   CHECK_LE(truth.distance - reported, 4e-7 * scale);
-  const double rounding = double{baked.view.head().rounding_m};
+  const double rounding = double{baked.view.head().rounding_m} - baked.moved_m;
   const double least = std::max(0.0, truth.distance - rounding), most = truth.distance + rounding;
   CHECK_LE(double{c.certificate.lower_m}, least + 1e-12 * scale);
   if (!c.certificate.exact) return;
@@ -109,7 +109,11 @@ TEST(HorseAnswersLikeBruteForce) { against_real_model("horse.ply", 2000, 20000);
 // sign beside an edge is known from 28 units of float32 of the longest edge on.
 TEST(MachinedPartsAnswerLikeBruteForce) {
   for (uint64_t seed = 0; seed < 4 * tools::kCadKinds; ++seed) {
-    const BakedMesh baked(tools::to_surface(tools::make_cad(seed)));
+    const tools::Surface part = tools::to_surface(tools::make_cad(seed));
+    against_brute_force(BakedMesh(part), long_run() ? 100000 : 300, seed, 4e-6);
+    tools::MeshOptions as_given;
+    as_given.max_growth = 0;
+    const BakedMesh baked(part, as_given);
     CHECK(baked.view.has_rivals());
     against_brute_force(baked, long_run() ? 10000 : 300, seed, 4e-6);
   }

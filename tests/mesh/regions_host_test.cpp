@@ -32,8 +32,10 @@ struct Solid {
         exact(surface),
         winding(surface, {}),
         size(mesh_test::diagonal(surface)) {
+    tools::MeshOptions as_given;  // the features are those of the surface
+    as_given.max_growth = 0;
     tools::MeshReport report;
-    sections = tools::bake_mesh(surface, "solid", {}, report);
+    sections = tools::bake_mesh(surface, "solid", as_given, report);
     CHECK(report.problem.empty());
     CHECK(tools::open_baked(sections, "solid", view).ok());
   }

@@ -164,6 +164,8 @@ BakeOptions bake_options(const Arguments& arguments) {
     options.text += " --distance-map " + std::to_string(options.field_cells);
   options.smooth = arguments.has("--smooth");
   if (options.smooth) options.text += " --smooth";
+  options.keeps_triangles = arguments.has("--keep-triangles");
+  if (options.keeps_triangles) options.text += " --keep-triangles";
   options.curve_tree = arguments.has("--curve-tree");
   if (options.curve_tree) options.text += " --curve-tree";
   options.teach = arguments.text("--teach", "");
@@ -213,6 +215,8 @@ const Command& bake_command() {
            {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
            {"--no-tree", nullptr,
             "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
+           {"--keep-triangles", nullptr,
+            "meshes: as in the file; else long triangles of flat faces are cut anew, for queries"},
            {"--decimal-comma", nullptr,
             "curves: numbers as 1,5; then semicolons or tabs separate them"},
            {"--smooth", nullptr,

@@ -26,11 +26,12 @@ struct BakeOptions {
   uint32_t hull_faces = 0;   // 0: no hull
   bool has_tree = true;      // of the mesh; without it only a hull can be queried
   tools::HullOptions hull;
-  bool smooth = false;         // cubic pieces between a curve's samples
-  bool curve_tree = false;     // also bake the k-d tree of a curve
-  std::string teach;           // what a recorded run's guide is called
-  double max_deviation_m = 0;  // of the guide from the run
-  std::string text;            // as they stand in the provenance
+  bool keeps_triangles = false;  // else flat faces of long triangles are cut anew
+  bool smooth = false;           // cubic pieces between a curve's samples
+  bool curve_tree = false;       // also bake the k-d tree of a curve
+  std::string teach;             // what a recorded run's guide is called
+  double max_deviation_m = 0;    // of the guide from the run
+  std::string text;              // as they stand in the provenance
 };
 
 /// Of the options of models and of bake.

@@ -56,10 +56,11 @@ std::string sentence(const char* format, double a, double b) {
 
 double degrees(double rad) { return rad * 57.295779513082320; }
 
-std::vector<std::string> report_of(const tools::MeshReport& report, const tools::StepFigures& steps,
-                                   uint64_t bytes, bool is_signed) {
+std::vector<std::string> report_of(const tools::MeshReport& report, const tools::Surface& surface,
+                                   const tools::StepFigures& steps, uint64_t bytes,
+                                   bool is_signed) {
   const double triangles = report.triangles;
-  return {
+  std::vector<std::string> lines = {
       "mesh, " + std::to_string(report.triangles) + " triangles, " +
           std::to_string(report.vertices) + " vertices, " +
           (is_signed ? "closed: inside and outside are known" : "unsigned: distance only"),
@@ -80,6 +81,12 @@ std::vector<std::string> report_of(const tools::MeshReport& report, const tools:
                steps.random_mean, steps.random_worst),
       sentence("steps on a touching path of 2000 points: mean %.1f, worst seen %.0f",
                steps.path_mean, steps.path_worst)};
+  if (report.refined.any())
+    lines.push_back(
+        "long triangles cut anew for faster queries (--keep-triangles: as in the file): " +
+        std::to_string(surface.faces.size()) + " became " + std::to_string(report.triangles) +
+        ", the surface moved by " + surface.frame.length_text(report.refined.moved_m) + " at most");
+  return lines;
 }
 
 // Adds the sections of a distance field. Result: its line of the report.
@@ -174,6 +181,8 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = options.model.is_signed;
   mesh_options.shape = tree_for(options.purpose);
+  if (options.purpose == Purpose::kSmall) mesh_options.max_growth = 1;
+  if (options.keeps_triangles || !options.has_tree) mesh_options.max_growth = 0;
   tools::MeshReport report;
   baked.sections = tools::bake_mesh(sound.surface, name, mesh_options, report);
   if (!report.problem.empty() && options.model.mend && options.model.wrap.value > 0) {
@@ -220,7 +229,8 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   progress.stage("running the probes of " + name);
   baked.sections.push_back(tools::mesh_probes(view, name));
   add_facts(facts_of(view, steps));
-  baked.report = report_of(report, steps, bytes_of(baked.sections), options.model.is_signed);
+  baked.report =
+      report_of(report, surface, steps, bytes_of(baked.sections), options.model.is_signed);
   if (!reported_of_field.empty()) baked.report.push_back(reported_of_field);
   baked.report.insert(baked.report.end(), reported_of_hull.begin(), reported_of_hull.end());
   baked.report.insert(baked.report.end(), sound.reported.begin(), sound.reported.end());

@@ -5,10 +5,12 @@
 
 #include "bake/mesh/leaf_boxes.hpp"
 #include "bake/mesh/mesh_tree.hpp"
+#include "bake/mesh/refine.hpp"
 #include "bake/mesh/sign_proof.hpp"
 #include "bake/mesh/turn_slivers.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
+#include "surface/check/mending.hpp"
 #include "surface/point.hpp"
 
 namespace firmtouch::tools {
@@ -125,6 +127,14 @@ void add_signs(const Pseudonormals& signs, const std::vector<uint32_t>& vertex_f
   sections.push_back(make_section(mesh::kEdgeFoldsSection, name, edges));
 }
 
+// Whether nothing of a refined surface has to be reported by the faces of the file.
+bool is_clear(const Surface& refined, const MeshReport& report) {
+  if (!report.problem.empty() || !report.signs.crossings.pairs.empty()) return false;
+  CheckReport contacts;
+  refuse_contacts(refined, contacts);
+  return contacts.usable();
+}
+
 std::string proof_failure(const core::Verdict& verdict) {
   if (verdict.rule == 128 || verdict.rule == 129)
     return "a triangle is too thin for float32; remove slivers with sides shorter than 1e-15 m or "
@@ -146,9 +156,19 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   }
   Surface input = given;
   longest_edge_first(input);
+  if (options.max_growth > 0)
+    report.refined = refine(input, max_move_m(input) / 2, options.max_growth);
+  longest_edge_first(input);
   Pseudonormals signs;
   if (options.is_signed) {
-    signs = bake_signs(input, max_move_m(input), report.signs, report.problem);
+    signs =
+        bake_signs(input, max_move_m(input) - report.refined.moved_m, report.signs, report.problem);
+    if (report.refined.any() && !is_clear(input, report)) {
+      report = {};
+      MeshOptions as_given = options;
+      as_given.max_growth = 0;
+      return bake_mesh(given, name, as_given, report);
+    }
     if (!report.problem.empty()) return {};
   }
   const Grid grid = make_grid(input);
@@ -163,8 +183,8 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   const Surface& surface = reordered.surface;
 
   std::vector<Section> sections;
-  const mesh::Head head =
-      make_head(surface, grid, tree, options.is_signed, report.signs.turned.moved_m);
+  const mesh::Head head = make_head(surface, grid, tree, options.is_signed,
+                                    report.refined.moved_m + report.signs.turned.moved_m);
   std::vector<mesh::Vertex> vertices;
   for (const math::Vec3& v : surface.vertices) vertices.push_back({v.x, v.y, v.z});
   sections.push_back(make_section(mesh::kHeadSection, name, &head, 1));

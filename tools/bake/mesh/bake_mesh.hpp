@@ -6,6 +6,7 @@
 #include "bake/asset/section.hpp"
 #include "bake/mesh/bake_signs.hpp"
 #include "bake/mesh/mesh_tree.hpp"
+#include "bake/mesh/refine.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "surface/surface.hpp"
 
@@ -13,6 +14,7 @@ namespace firmtouch::tools {
 
 struct MeshOptions {
   bool is_signed = true;
+  double max_growth = kMaxGrowth;  // of refine(); 0: the faces stay as given
   TreeShape shape = kFastTree;
 };
 
@@ -20,6 +22,7 @@ struct MeshReport {
   uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0;
   // Of what a query reads: tree, indices and vertices, and what gives the sign.
   uint32_t shape_bytes = 0, sign_bytes = 0;
+  Refined refined;
   SignReport signs;     // of a signed mesh
   std::string problem;  // empty: baked and proven; else what, where and how to mend
 };

@@ -22,9 +22,8 @@ bool has_edge(const std::vector<Face>& faces, const std::vector<uint32_t>& mates
   return false;
 }
 
-// Seen along the normal of both diagonals, a b and c d, the faces before and after fill the same
-// quadrilateral; nowhere do they lie farther apart than where the diagonals cross.
-// Result: how far that is; infinite where they do not cross.
+}  // namespace
+
 double moved_by_flip_m(Point a, Point b, Point c, Point d) {
   const Point ab = b - a, cd = d - c, ac = c - a, n = cross(ab, cd);
   const double n2 = dot(n, n);
@@ -34,12 +33,9 @@ double moved_by_flip_m(Point a, Point b, Point c, Point d) {
   return std::fabs(dot(ac, n)) / std::sqrt(n2);
 }
 
-// Over the longest edge.
 double height_m(Point a, Point b, Point c) {
   return length(cross(b - a, c - a)) / std::max({length(b - a), length(c - b), length(a - c)});
 }
-
-}  // namespace
 
 void longest_edge_first(Surface& surface) {
   for (Face& face : surface.faces) {

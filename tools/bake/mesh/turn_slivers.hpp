@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "surface/point.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::tools {
@@ -9,6 +10,15 @@ namespace firmtouch::tools {
 /// Rotates every face so that its longest edge comes first, by the firmware's own arithmetic, which
 /// open() repeats.
 void longest_edge_first(Surface& surface);
+
+/// How far the surface moves where edge a b of the faces a b c and b a d is flipped to c d. Seen
+/// along the normal of both, the faces before and after fill the same quadrilateral; nowhere do
+/// they lie farther apart than where the diagonals cross.
+/// Result: infinite where they do not cross, or a corner is NaN.
+double moved_by_flip_m(Point a, Point b, Point c, Point d);
+
+/// Over the longest edge.
+double height_m(Point a, Point b, Point c);
 
 /// Slivers without a usable normal, removed by edge flips.
 struct TurnedSlivers {
