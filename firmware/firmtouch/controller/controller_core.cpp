@@ -133,7 +133,7 @@ void ControllerCore::locate(const device::Reading& tool, Tick& tick) {
 }
 
 void ControllerCore::begin_model(const ModelRequest& request, const Values& v,
-                                     ModelResult& result) {
+                                 ModelResult& result) {
   const uint32_t passed = request.tick - live_.model_tick;
   result.ticks = live_.model_sequence != 0 && passed <= kMaxTicksOfAModel ? passed : 1;
   live_.model_tick = request.tick;
