@@ -79,8 +79,9 @@ struct Points {
     right.segment<3>(3 * tip) += hand_N;
     Eigen::Index row = n;
     for (const RodEnds& r : rods) {
-      const Vector3d way = end(at, r.to, {}) - end(at, r.from, r.fixed_m);
-      const Vector3d apart = end(velocity, r.to, {}) - end(velocity, r.from, Vector3d::Zero());
+      const Vector3d way = end(at, r.to, Vector3d::Zero()) - end(at, r.from, r.fixed_m);
+      const Vector3d apart =
+          end(velocity, r.to, Vector3d::Zero()) - end(velocity, r.from, Vector3d::Zero());
       all.block<1, 3>(row, 3 * r.to) = way.transpose();
       if (r.from >= 0) all.block<1, 3>(row, 3 * r.from) = -way.transpose();
       right[row++] = -apart.squaredNorm();

@@ -98,9 +98,9 @@ float rivals_lower_m(const View& mesh, const Loss& loss, const Search& search) {
   return lower_m;
 }
 
-// Measures the nearest triangle of `search` in double-float, and its rivals of which float32 does
-// not know enough, and puts into search.best which of them is truly the nearest. Enough: each is
-// certified to be no more than `gap_m` nearer.
+// Measures the nearest triangle of `search` in double-float, and those rivals that are not
+// certified by float32 to be at most `gap_m` nearer, and puts into search.best which of them is
+// truly the nearest.
 // Result: its distance. `lower_m`: of the rivals that were not measured.
 [[gnu::noinline, gnu::cold]] float settle(const View& mesh, Vec3 p_m, float gap_m, Search& search,
                                           float& lower_m) {
