@@ -212,6 +212,4 @@ TEST(Motion_SerialArm_IsThatOfConstrainedPoints) {
   CHECK_LE(difference(device, start, points), 1e-5);
 }
 
-#else
-TEST(Motion_OfLinkages_NeedsEigen) { test::skip("Eigen is missing"); }
 #endif

@@ -10,6 +10,10 @@ namespace {
 
 using math::Vec3;
 
+// Roundings by which the line must leave more of the way than the triangle's own plane. On a joint
+// of coplanar triangles both leave nearly the same, and the line turns the proxy aside.
+constexpr float kClear = 4.0f;
+
 Tangent from_offset(Vec3 offset_m, float radius_m) {
   const float size_m = math::length(offset_m);
   // Squares of less underflow.
@@ -44,7 +48,7 @@ Tangent of_triangle(const Feature& feature, Vec3 x_m, const Outlook& outlook) {
   if (!(own.distance_m >= outlook.radius_m - outlook.rounding_m)) return line;
   const float own_m = own.distance_m + math::dot(own.normal, outlook.way_m),
               line_m = line.distance_m + math::dot(line.normal, outlook.way_m);
-  return own_m >= line_m - outlook.rounding_m ? own : line;
+  return own_m >= line_m - kClear * outlook.rounding_m ? own : line;
 }
 
 }  // namespace
