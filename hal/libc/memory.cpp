@@ -45,6 +45,8 @@ void* memset(void* to, int value, size_t count) {
   const uint32_t byte = static_cast<uint32_t>(value) & 0xFFu;
   if (aligned(to, nullptr)) {
     const uint32_t four = byte * 0x01010101u;
+    for (; count >= 16; count -= 16, out += 16)
+      word(out) = word(out + 4) = word(out + 8) = word(out + 12) = four;
     for (; count >= 4; count -= 4, out += 4) word(out) = four;
   }
   for (; count != 0; --count) *out++ = static_cast<uint8_t>(byte);

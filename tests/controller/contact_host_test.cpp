@@ -32,32 +32,57 @@ TEST(TooFewVisits_AreAFaultIn10ms) {
   CHECK_GE(certain, 200u);
 }
 
-// A stiffness that was raised under load threw the hand at 0.68 m/s.
-TEST(StiffnessRaisedUnderLoad_MakesNoStepOfTheForce) {
-  Ride ride;
-  const auto press = [&ride](uint32_t tick, int32_t counts) {
+// Presses to a depth without a guide, then sets the stiffness.
+struct Changed {
+  double step_N = 0, before_N = 0, after_N = 0;  // greatest change in a tick; force 300 ticks after
+};
+Changed change_under_load(Ride& ride, float stiffness_N_per_m) {
+  const auto press = [&ride](uint32_t tick, uint32_t parameter = 0, float value = 0) {
     ride.fill(400);
-    ride.input.encoder_counts[2] += counts;
+    ride.input.encoder_counts[2] +=
+        1000 - static_cast<int32_t>(2 * std::clamp(tick, 300u, 700u) - 600);
     ride.input.tick = tick;
     ride.input.clock_us = tick * 1000u;
     ride.input.flags = tick < 10 ? 0 : record::kFlagEnable;
-    if (tick == 800) {
-      ride.input.command = 1 + params::kContactStiffness;
-      ride.input.command_value = 8000;
+    if (tick == 0 || tick == 800) {
+      ride.input.command = 1 + parameter;
+      ride.input.command_value = value;
     }
     ride.step();
+    return size_of(ride.output.force_N);
   };
-  for (uint32_t tick = 0; tick < 300; ++tick) press(tick, 1000);
-  for (uint32_t tick = 300; tick < 800; ++tick)
-    press(tick, 1000 - static_cast<int32_t>(2 * std::min(tick - 300, 400u)));
-  const double before_N = size_of(ride.output.force_N);
+  Changed changed;
+  press(0, params::kGuideStiffness);
+  for (uint32_t tick = 1; tick < 800; ++tick) changed.before_N = press(tick);
   CHECK_NE(ride.output.state & record::kStateContact, 0u);
-  CHECK_GE(before_N, 0.5);
-  for (uint32_t tick = 800; tick < 900; ++tick) {
-    press(tick, 200);
-    CHECK_LE(std::fabs(size_of(ride.output.force_N) - before_N), 1e-6);
+  CHECK_GE(changed.before_N, 0.5);
+  changed.after_N = changed.before_N;
+  for (uint32_t tick = 800; tick < 1100; ++tick) {
+    const double force_N = press(tick, params::kContactStiffness, stiffness_N_per_m);
+    changed.step_N = std::max(changed.step_N, std::fabs(force_N - changed.after_N));
+    changed.after_N = force_N;
   }
+  return changed;
+}
+
+// A stiffness that was raised under load threw the hand at 0.68 m/s.
+TEST(StiffnessRaisedUnderLoad_MakesNoStepOfTheForce) {
+  Ride ride;
+  CHECK_LE(change_under_load(ride, 8000).step_N, 1e-6);
   CHECK_NE(ride.output.state & record::kStateContact, 0u);
+}
+
+// A hand that goes on pressing felt nothing of it for as long as it pressed.
+TEST(StiffnessLoweredUnderLoad_ActsAtOnceWithoutAStepOfTheForce) {
+  Ride ride;
+  const float before = ride.controller.values()[params::kContactStiffness];
+  const Changed changed = change_under_load(ride, before / 2);
+  CHECK_LE(changed.step_N, 0.0201);  // 20 N/s
+  CHECK_LE(std::fabs(changed.after_N - changed.before_N / 2), 1e-3);
+  Ride to_nothing;
+  const Changed gone = change_under_load(to_nothing, 0);
+  CHECK_LE(gone.step_N, 0.0201);
+  CHECK_LE(gone.after_N, 1e-3);
 }
 
 // A proxy waited at the surface for a hand that had gone through it: it was never touched again.

@@ -84,6 +84,34 @@ inline tools::Surface plate(float thickness_m) {
   return surface;
 }
 
+// The axis of a drum: skew, so that no coordinate is exact.
+constexpr Vec3 kDrumAxis{0.48f, 0.64f, 0.6f};
+
+// A drum whose ends are fans: on its axis as many triangles as it has sides are nearest.
+inline tools::Surface drum(float radius_m, float half_m, uint32_t sides) {
+  tools::Surface surface;
+  const auto add = [&surface](double x, double y, double z) {
+    surface.vertices.push_back({static_cast<float>(0.36 * x - 0.8 * y + 0.48 * z),
+                                static_cast<float>(0.48 * x + 0.6 * y + 0.64 * z),
+                                static_cast<float>(-0.8 * x + 0.6 * z)});
+  };
+  const double radius = static_cast<double>(radius_m), half = static_cast<double>(half_m);
+  add(0, 0, -half), add(0, 0, half);
+  for (uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / sides;
+    for (const double z : {-half, half}) add(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  for (uint32_t i = 0; i < sides; ++i) {
+    const uint32_t a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % sides);
+    surface.faces.push_back({0, b, a});
+    surface.faces.push_back({1, a + 1, b + 1});
+    surface.faces.push_back({a, b, a + 1});
+    surface.faces.push_back({a + 1, b, b + 1});
+  }
+  for (uint32_t i = 0; i < surface.faces.size(); ++i) surface.source.push_back(i);
+  return surface;
+}
+
 // A tube along y, with a bore of `sides` flat sides that touch a cylinder of that radius.
 inline tools::Surface tube(float bore_m, float half_m, uint32_t sides) {
   tools::Surface surface;

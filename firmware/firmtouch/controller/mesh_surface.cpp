@@ -11,7 +11,7 @@ void touch_object(const scene::MeshObject& object, const ModelRequest& request,
                   ModelResult& result) {
   Touched touched{object, hint};
   scene::touch_by_proxy(proxy_contact(request, result.ticks, v), touched, touch, result.model);
-  report_proxy(touch, result);
+  report_proxy(touch, request.position_m, result);
 }
 
 void report_penalty(const scene::MeshTouch& touch, ModelResult& result) {

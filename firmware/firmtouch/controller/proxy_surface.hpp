@@ -10,7 +10,7 @@ namespace firmtouch {
 scene::ProxyContact proxy_contact(const ModelRequest& request, uint32_t ticks,
                                   const params::Values& values);
 /// Adds the proxy's last query to the record's part.
-void report_proxy(const scene::ProxyTouch& touch, ModelResult& result);
+void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult& result);
 
 /// A surface policy with penalty contact instead of a proxy, for comparison:
 /// Controller<Surfaces<Penalty<MeshSurface>>>.

@@ -19,7 +19,7 @@ void SplineSurface::touch(const ModelRequest& request, const params::Values& v,
   const scene::SplineObject touched_object = object(v);
   scene::SplineTouched touched{touched_object, hint_};
   scene::touch_by_proxy(proxy_contact(request, result.ticks, v), touched, touch_, result.model);
-  report_proxy(touch_, result);
+  report_proxy(touch_, request.position_m, result);
 }
 
 void SplineSurface::touch_by_penalty(const ModelRequest& request, const params::Values& v,

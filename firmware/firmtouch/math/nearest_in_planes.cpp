@@ -75,19 +75,27 @@ bool is_finite(const HalfSpace& plane) {
   return sum - sum <= 0.0f;
 }
 
+bool is_outside_any(const HalfSpace* planes, uint32_t count, Vec3 point_m, float tolerance_m) {
+  for (uint32_t i = 0; i < count; ++i)
+    if (planes[i].offset_m - dot(planes[i].normal, point_m) > tolerance_m) return true;
+  return false;
+}
+
 // Whether these planes alone hold the answer, which is unique.
 bool is_held_by(const ActivePlanes& active, const HalfSpace* planes, uint32_t count, Vec3 goal_m,
                 NearestInPlanes& found) {
-  if (active.count == 0 || active.count > 3) return false;
+  if (active.count > 3) return false;
+  if (active.count == 0) {
+    found = {goal_m, active, true};
+    return !is_outside_any(planes, count, goal_m, 0.0f);
+  }
   Reach reach(goal_m);
   for (uint32_t n = 0; n < active.count; ++n) {
     const uint32_t i = active.plane[n];
     if (i >= count || !is_finite(planes[i]) || !reach.add(planes[i])) return false;
   }
   if (!reach.is_pushed()) return false;
-  const float tolerance_m = kTolerance * length(goal_m);
-  for (uint32_t i = 0; i < count; ++i)
-    if (planes[i].offset_m - dot(planes[i].normal, reach.point_m()) > tolerance_m) return false;
+  if (is_outside_any(planes, count, reach.point_m(), kTolerance * length(goal_m))) return false;
   found = {reach.point_m(), active, true};
   return true;
 }

@@ -23,6 +23,8 @@ constexpr float kBand = 0.02f;
 
 // Part of the certified free radius that one move takes.
 constexpr float kCap = 0.9f;
+// Parts of a free radius by which the search for the side goes on; together within it.
+constexpr float kTowards = 0.8f, kAside = 0.4f;
 // Squared: planes whose directions differ by less count as one.
 constexpr float kSameDirection2 = 1e-10f;
 // Lengths are rounded up by so much.
@@ -37,13 +39,17 @@ bool is_same(const Feature& a, const Feature& b, float within_m) {
 
 }  // namespace
 
-float free_bound_m(const Proxy& proxy) {
-  return proxy.phase == Proxy::Phase::kFree ? proxy.free_m : proxy.near.lower_m;
+float free_bound_m(const Proxy& proxy, Vec3 hand_m) {
+  if (proxy.phase == Proxy::Phase::kFree) return proxy.free_m;
+  // While the side is looked for the hand goes on.
+  if (!(proxy.searched_free_m > 0.0f)) return proxy.near.lower_m;
+  const float free_m = proxy.near.lower_m - math::length(hand_m - proxy.searched_m) * kUp;
+  return free_m > 0.0f ? free_m : 0.0f;
 }
 
-float distance_bound_m(const Proxy& proxy) {
+float distance_bound_m(const Proxy& proxy, Vec3 hand_m) {
   // Since the last query it has moved by what the free radius has lost.
-  return proxy.near.distance_m + (proxy.near.lower_m - free_bound_m(proxy));
+  return proxy.near.distance_m + (proxy.near.lower_m - free_bound_m(proxy, hand_m));
 }
 
 ProxyMove::ProxyMove(const ProxySettings& settings, float size_m, Vec3 goal_m, Proxy& proxy)
@@ -266,7 +272,8 @@ void ProxyMove::drop_base_hull() {
 
 // Where the side of the hand is not known, the search goes on from ball to ball towards the
 // surface, where it needs fewer visits, in the next tick if it must: in free balls that overlap all
-// has one side.
+// has one side. It goes aside, too: on the axis of a turned part the triangles of a whole ring are
+// equally near, all the way.
 void ProxyMove::begin_contact(const Near& near) {
   is_over_ = true;
   if (!is_searching_) {
@@ -283,7 +290,10 @@ void ProxyMove::begin_contact(const Near& near) {
   moved_.is_starved = true;
   proxy_.phase = Proxy::Phase::kUnknown;
   const Tangent tangent = tangent_at(near.feature, trial_m_, {});
-  proxy_.position_m = trial_m_ = trial_m_ - tangent.normal * (kCap * near.lower_m);
+  const Vec3 n = tangent.normal;
+  const Vec3 aside = math::cross(n, n.x * n.x < 0.5f ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+  const Vec3 step = n * kTowards + aside * kAside;
+  proxy_.position_m = trial_m_ = trial_m_ - step * near.lower_m;
   is_searching_ = near.lower_m > kClearance * size_m_ && work_left_ > 0;
   is_over_ = !is_searching_;
 }

@@ -55,8 +55,8 @@ struct Proxy {
 };
 
 /// Bounds of the distance between shape and proxy, or hand where there is no proxy; without sign.
-float distance_bound_m(const Proxy& proxy);
-float free_bound_m(const Proxy& proxy);
+float distance_bound_m(const Proxy& proxy, math::Vec3 hand_m);
+float free_bound_m(const Proxy& proxy, math::Vec3 hand_m);
 
 /// What a tick of a proxy has done.
 struct ProxyMoved {

@@ -13,10 +13,25 @@ constexpr float kLeadOutRise_s = 1.0f;
 constexpr float kNoWayOut_s = 10.0f;
 // How fast a sphere that began too near to a surface grows to its size, with as much force.
 constexpr float kGrowth_mps = 0.005f;
+// How fast the force falls where a loaded surface is made softer.
+constexpr float kSoften_N_per_s = 20.0f;
 // Slides are averaged for so long: at 10 mm/s an encoder of 10 um counts once in 1 ms.
 constexpr float kSlideMean_s = 0.008f;
 
 bool is_stiff(const ProxyTouch& touch) { return touch.material.stiffness_N_per_m > 0.0f; }
+
+// A softer surface takes energy from the hand's spring and gives none: under load it acts slowly
+// enough to make no step of the force. Anything else waits until there is no load.
+void use_material(const ProxyContact& contact, ProxyTouch& touch) {
+  if (!touch.proxy.is_loaded) {
+    touch.material = contact.material;
+    return;
+  }
+  float& stiffness = touch.material.stiffness_N_per_m;
+  const float softer = stiffness - kSoften_N_per_s * contact.passed_s / touch.penetration_m;
+  if (contact.material.stiffness_N_per_m < stiffness)
+    stiffness = math::larger(softer, contact.material.stiffness_N_per_m);
+}
 
 void lead_out(const ProxyContact& contact, ProxyTouch& touch, servo::LocalModel& model) {
   const Nearness& near = touch.proxy.near;
@@ -57,7 +72,7 @@ ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch
       if (!(left_m > 0.0f)) proxy.phase = Proxy::Phase::kUnknown;
     }
   }
-  if (!proxy.is_loaded) touch.material = contact.material;
+  use_material(contact, touch);
   if (proxy.phase != Proxy::Phase::kInside || !is_on) touch.inside_s = 0;
   ProxySettings settings = contact.settings;
   settings.friction_slide_m = contact.friction_speed_mps * contact.passed_s;
