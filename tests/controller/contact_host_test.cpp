@@ -72,7 +72,7 @@ TEST(StiffnessRaisedUnderLoad_MakesNoStepOfTheForce) {
   CHECK_NE(ride.output.state & record::kStateContact, 0u);
 }
 
-// A hand that goes on pressing felt nothing of it for as long as it pressed.
+// For a hand that goes on pressing nothing changed for as long as it pressed.
 TEST(StiffnessLoweredUnderLoad_ActsAtOnceWithoutAStepOfTheForce) {
   Ride ride;
   const float before = ride.controller.values()[params::kContactStiffness];

@@ -268,9 +268,8 @@ TEST(Proxy_BeginsOnTheAxisOfATurnedPart_FindsItsSideWhileTheHandMoves) {
       const bool is_free = rig.proxy.phase == scene::Proxy::Phase::kFree;
       unknown += is_free ? 0 : 1;
       const double truth_m = rig.truth_m(is_free ? rig.proxy.position_m : hand_m);
-      if (wide(scene::free_bound_m(rig.proxy, hand_m)) > truth_m + 1e-7 ||
-          wide(scene::distance_bound_m(rig.proxy, hand_m)) < truth_m - 1e-7)
-        ++wrong;
+      const scene::Bounds bounds = scene::bounds_of(rig.proxy, hand_m);
+      if (wide(bounds.lower_m) > truth_m + 1e-7 || wide(bounds.upper_m) < truth_m - 1e-7) ++wrong;
     }
     CHECK_EQ(wrong, 0u);
     CHECK_EQ(broken.crossings, 0u);

@@ -22,13 +22,13 @@ scene::ProxyContact proxy_contact(const ModelRequest& request, uint32_t ticks,
 void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult& result) {
   const scene::Proxy& proxy = touch.proxy;
   query::Certificate certificate;
-  certificate.lower_m = scene::free_bound_m(proxy, hand_m);
+  const scene::Bounds bounds = scene::bounds_of(proxy, hand_m);
+  certificate.lower_m = bounds.lower_m;
   certificate.exact = proxy.near.is_exact;
   certificate.sign = proxy.near.sign;
   certificate.steps = touch.moved.steps;
-  const float distance_m = scene::distance_bound_m(proxy, hand_m);
-  report_surface(certificate, proxy.near.sign < 0 ? -distance_m : distance_m, touch.penetration_m,
-                 result);
+  report_surface(certificate, proxy.near.sign < 0 ? -bounds.upper_m : bounds.upper_m,
+                 touch.penetration_m, result);
   result.state |= record::kStateProxy;
   if (touch.moved.is_of_base_hull) result.state |= record::kStateOfBaseHull;
 }

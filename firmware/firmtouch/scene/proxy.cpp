@@ -23,8 +23,9 @@ constexpr float kBand = 0.02f;
 
 // Part of the certified free radius that one move takes.
 constexpr float kCap = 0.9f;
-// Parts of a free radius by which the search for the side goes on; together within it.
-constexpr float kTowards = 0.8f, kAside = 0.4f;
+// Parts of a free radius by which the search for the side goes on: together within it.
+constexpr float kTowards = 0.7f;
+constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
 // Squared: planes whose directions differ by less count as one.
 constexpr float kSameDirection2 = 1e-10f;
 // Lengths are rounded up by so much.
@@ -39,17 +40,14 @@ bool is_same(const Feature& a, const Feature& b, float within_m) {
 
 }  // namespace
 
-float free_bound_m(const Proxy& proxy, Vec3 hand_m) {
-  if (proxy.phase == Proxy::Phase::kFree) return proxy.free_m;
-  // While the side is looked for the hand goes on.
-  if (!(proxy.searched_free_m > 0.0f)) return proxy.near.lower_m;
-  const float free_m = proxy.near.lower_m - math::length(hand_m - proxy.searched_m) * kUp;
-  return free_m > 0.0f ? free_m : 0.0f;
-}
-
-float distance_bound_m(const Proxy& proxy, Vec3 hand_m) {
+Bounds bounds_of(const Proxy& proxy, Vec3 hand_m) {
+  float free_m = proxy.near.lower_m;
+  if (proxy.phase == Proxy::Phase::kFree)
+    free_m = proxy.free_m;
+  else if (proxy.searched_free_m > 0.0f)  // while the side is looked for the hand goes on
+    free_m = math::larger(free_m - math::length(hand_m - proxy.searched_m) * kUp, 0.0f);
   // Since the last query it has moved by what the free radius has lost.
-  return proxy.near.distance_m + (proxy.near.lower_m - free_bound_m(proxy, hand_m));
+  return {free_m, proxy.near.distance_m + (proxy.near.lower_m - free_m)};
 }
 
 ProxyMove::ProxyMove(const ProxySettings& settings, float size_m, Vec3 goal_m, Proxy& proxy)
@@ -290,9 +288,7 @@ void ProxyMove::begin_contact(const Near& near) {
   moved_.is_starved = true;
   proxy_.phase = Proxy::Phase::kUnknown;
   const Tangent tangent = tangent_at(near.feature, trial_m_, {});
-  const Vec3 n = tangent.normal;
-  const Vec3 aside = math::cross(n, n.x * n.x < 0.5f ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
-  const Vec3 step = n * kTowards + aside * kAside;
+  const Vec3 step = tangent.normal * kTowards + kAside;
   proxy_.position_m = trial_m_ = trial_m_ - step * near.lower_m;
   is_searching_ = near.lower_m > kClearance * size_m_ && work_left_ > 0;
   is_over_ = !is_searching_;

@@ -55,8 +55,10 @@ struct Proxy {
 };
 
 /// Bounds of the distance between shape and proxy, or hand where there is no proxy; without sign.
-float distance_bound_m(const Proxy& proxy, math::Vec3 hand_m);
-float free_bound_m(const Proxy& proxy, math::Vec3 hand_m);
+struct Bounds {
+  float lower_m, upper_m;
+};
+Bounds bounds_of(const Proxy& proxy, math::Vec3 hand_m);
 
 /// What a tick of a proxy has done.
 struct ProxyMoved {
