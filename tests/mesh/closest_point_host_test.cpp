@@ -130,7 +130,7 @@ TEST(EveryBudgetIsCertifiedColdAndWarm) {
     for (const uint32_t budget : {1u, 2u, 4u, 8u, 16u, 32u, 64u, 128u, 256u, 0xFFFFFFFFu}) {
       mesh::Hint cold;
       const mesh::Closest c = mesh::closest_point(baked.view, queries[i], {budget}, cold);
-      CHECK_LE(c.certificate.steps, budget);
+      CHECK_LE(c.certificate.work, budget);
       check_answer(baked, c, truth[i], false);
       const float now = std::fabs(c.distance_m) - c.certificate.lower_m;
       CHECK_LE(

@@ -101,7 +101,7 @@ TEST(EveryBudgetKeepsItsPromise) {
     for (uint32_t budget = 0; budget < 12; ++budget) {
       mesh::Hint hint;
       const mesh::Closest c = query_at(view, p, hint, budget);
-      CHECK_LE(c.certificate.steps, budget == 0 ? 1u : budget);
+      CHECK_LE(c.certificate.work, budget == 0 ? 1u : budget);
       CHECK_LE(c.certificate.lower_m, truth);
       CHECK_LE(truth, absolute(c.distance_m) + 2e-6f);
       CHECK_LE(absolute(c.distance_m) - c.certificate.lower_m, gap + 1e-6f);

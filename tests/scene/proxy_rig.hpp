@@ -189,9 +189,12 @@ struct ProxyRig {
     const Vec3 begin_m = proxy.position_m;
     const scene::MeshTouched shape{object, hint};
     scene::ProxyMove move(settings, shape.size_m(), hand_m, proxy);
+    uint32_t work = 0;
     while (move.aim()) {
       const Vec3 before_m = proxy.position_m;
-      move.take(shape.near(move.query_m(), move.budget(), move.needed_m()));
+      const scene::Near near = shape.near(move.query_m(), move.budget(), move.needed_m());
+      work += near.work;
+      move.take(near);
       if (was_free) note_move(before_m, broken);
     }
     moved = move.finish();
@@ -199,8 +202,7 @@ struct ProxyRig {
     ++broken.ticks;
     broken.queries += moved.queries;
     broken.optimal += moved.is_optimal ? 1 : 0;
-    if (moved.queries > scene::kMaxQueries || moved.steps > settings.budget.work)
-      ++broken.over_budget;
+    if (moved.queries > scene::kMaxQueries || work > settings.budget.work) ++broken.over_budget;
     if (proxy.phase != scene::Proxy::Phase::kFree) return;
     if (was_free) {
       const double longer_m = distance(proxy.position_m, hand_m) - distance(begin_m, hand_m);

@@ -276,7 +276,7 @@ template <class Finder, class Bound>
   search.p_m.y = p_m.y;
   search.p_m.z = p_m.z;
   search.start = is_warm ? slot : query::kNowhere;
-  search.budget = budget.work;
+  search.budget = parts_of(budget.work);
   search.charged = 0;
   search.triangle_low = hint.triangle_low;
   search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
@@ -303,7 +303,7 @@ template <class Finder, class Bound>
       !is_decided(budget.threshold_m, plain_loss_m + loss.rounding_m, found) &&
       !measure_again(mesh, p_m, promise_m, found)) {
     Nearest before;
-    const bool has_budget = begin_again(mesh, budget.work, found, before);
+    const bool has_budget = begin_again(mesh, parts_of(budget.work), found, before);
     if (has_budget) finder.template find<true>(bound, search);
     end_again(mesh, p_m, before, has_budget, found);
   }
@@ -335,7 +335,7 @@ template <class Finder, class Bound>
           {direction.x, direction.y, direction.z},
           best.triangle,
           best.feature,
-          {lower_m, search.steps, exact, sign, search.steps + search.charged}};
+          {lower_m, search.steps, exact, sign, units_of(search.steps + search.charged)}};
 }
 
 // So far away that every vertex is as near as any other to 4e-8: no square of such a distance fits

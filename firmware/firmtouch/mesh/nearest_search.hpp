@@ -18,14 +18,14 @@ using math::Vec3;
 /// Input and result of a search.
 struct Search : Sought {
   uint32_t start;               // a leaf's slot, or kNowhere
-  uint32_t budget;              // in work units
+  uint32_t budget;              // in parts of work units
   uint32_t triangle_low;        // Hint::triangle_low; the wide search reads it
   float band2_m2;               // triangles farther away need not be found
   float safe_subtree_margin_m;  // margin of a new safe subtree beyond the first leaf
   uint32_t safe_subtree;        // in: the last one; all triangles outside it are at least ...
   float safe_subtree_m;         // ... this far away; out: the same, renewed
   uint32_t steps;
-  uint32_t charged;  // units beyond the visits
+  uint32_t charged;  // parts beyond the visits
   bool complete;     // no nearer triangle can be left
   float pending_m;   // if not complete: certified distance to all that was not visited
   math::HalfCellPoint half_cells;  // of p_m; for the boxes of leaves alone
@@ -46,14 +46,29 @@ struct Choice<false, First, Second> {
   using Type = Second;
 };
 
-// Units of a leaf beyond its visit: a triangle takes one, in double-float eight.
-constexpr uint32_t kCompensatedWork = 8;
+// A search counts in thirds of a work unit: a visit takes one, a triangle two, in double-float 24.
+constexpr uint32_t kPartsOfUnit = 3;
+constexpr uint32_t kTriangleParts = 2;
+constexpr uint32_t kCompensatedParts = 24;
 
-// Takes units beyond a visit. The visit itself is still to be taken: one is left.
-[[gnu::always_inline]] inline void charge(uint32_t units, uint32_t& left, Search& search) {
-  const uint32_t taken = units < left ? units : left - 1;
+constexpr uint32_t parts_of(uint32_t units) {
+  if (units > UINT32_MAX / kPartsOfUnit) return UINT32_MAX;
+  return units == 0 ? kPartsOfUnit : units * kPartsOfUnit;
+}
+constexpr uint32_t units_of(uint32_t parts) {
+  return parts / kPartsOfUnit + (parts % kPartsOfUnit != 0 ? 1 : 0);
+}
+
+// Takes parts beyond a visit. The visit itself is still to be taken: one is left.
+[[gnu::always_inline]] inline void charge(uint32_t parts, uint32_t& left, Search& search) {
+  const uint32_t taken = parts < left ? parts : left - 1;
   left -= taken;
   search.charged += taken;
+}
+
+template <bool kCompensated>
+[[gnu::always_inline]] inline void charge_leaf(uint32_t child, uint32_t& left, Search& search) {
+  charge((kCompensated ? kCompensatedParts : kTriangleParts) * leaf_count(child), left, search);
 }
 
 // The cutoff by the nearest so far, or by the band. A square is never -0, so a band of 0 works.
@@ -278,7 +293,7 @@ template <bool kCompensated, class Bound, class Index>
 [[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers
   const Side* const sides = mesh.sides();
-  const uint32_t allowed = search.budget == 0 ? 1 : search.budget;
+  const uint32_t allowed = search.budget;
   Pending pending[kCapacity];
   Pending* top = pending;  // behind the last
   const Pending* best_first = pending;
@@ -287,7 +302,7 @@ template <bool kCompensated, class Bound, class Index>
   if constexpr (!kCompensated) begin_leaves<Index>(mesh, bound, search);
   if (search.start != query::kNowhere) {
     const uint32_t last = sides[search.start].child;
-    charge(kCompensated ? kCompensatedWork * leaf_count(last) : leaf_count(last), left, search);
+    charge_leaf<kCompensated>(last, left, search);
     --left;
     measure<kCompensated, Index, Which::kLast>(mesh, 0, last, search.start, search);
     prune = prune_key(bound, search);
@@ -311,7 +326,7 @@ template <bool kCompensated, class Bound, class Index>
     if (!is_leaf(child)) {
       if (enter(sides, bound, prune, child, slot, top)) continue;
     } else {
-      charge(kCompensated ? kCompensatedWork * leaf_count(child) : leaf_count(child), left, search);
+      charge_leaf<kCompensated>(child, left, search);
       if (measure<kCompensated, Index, Which::kBeside>(mesh, prune, child, slot, search))
         prune = prune_key(bound, search);
     }

@@ -38,10 +38,9 @@ template <class Bound>
                                       uint32_t count, uint32_t prune, uint32_t left,
                                       uint32_t& charged) {
   while (count != 0) {
-    const uint32_t scan = count >> 4,
-                   taken_units = scan < left ? scan : left;  // of 100 instructions
-    left -= taken_units;
-    charged += taken_units;
+    const uint32_t scan = 1 + (count >> 3), taken_parts = scan < left ? scan : left;
+    left -= taken_parts;
+    charged += taken_parts;
     uint32_t at = count - 1;
     for (uint32_t i = at; i-- > 0;) at = pending[i].key < pending[at].key ? i : at;
     const Pending taken = pending[at];
