@@ -25,20 +25,63 @@ struct Truth {
   bool inside = false;
 };
 
-inline Truth brute_force(const tools::Surface& surface, Point p) {
-  double best2 = 1e300, winding = 0;
-  for (const tools::Face& f : surface.faces) {
-    const Point a = wide(surface.vertices[f[0]]), b = wide(surface.vertices[f[1]]),
-                c = wide(surface.vertices[f[2]]);
-    const Point r = closest_of(p, a, b, c) - p;
-    best2 = std::min(best2, dot(r, r));
-    const Point u = a - p, v = b - p, w = c - p;
-    const double lu = length(u), lv = length(v), lw = length(w);
-    winding += std::atan2(dot(u, cross(v, w)),
-                          lu * lv * lw + dot(u, v) * lw + dot(v, w) * lu + dot(w, u) * lv);
+/// Angles from -pi to pi added as the product of complex numbers, whose turns are counted: a sum of
+/// arc tangents without their time.
+class AngleSum {
+ public:
+  void add(double x, double y) {  // of the direction (x, y)
+    const double re = x_ * x - y_ * y, im = x_ * y + y_ * x;
+    const double size = std::fabs(re) + std::fabs(im);
+    if (!(size > 0)) return;  // no direction: on a corner or an edge
+    if (y >= 0 && y_ >= 0 && im < 0) turns_ += 1;
+    if (y < 0 && y_ < 0 && im >= 0) turns_ -= 1;
+    x_ = re / size, y_ = im / size;
   }
-  return {std::sqrt(best2), winding > M_PI};
-}
+  double total() const { return 2 * M_PI * turns_ + std::atan2(y_, x_); }
+
+ private:
+  double x_ = 1, y_ = 0;
+  int turns_ = 0;
+};
+
+class BruteForce {
+ public:
+  explicit BruteForce(const tools::Surface& surface) : surface_(surface) {
+    for (const tools::Face& f : surface.faces)
+      reach_.push_back(std::max(length(at(f[1]) - at(f[0])), length(at(f[2]) - at(f[0]))));
+  }
+
+  Truth operator()(Point p) const {
+    struct Seen {
+      Point from_p;
+      double distance;
+    };
+    std::vector<Seen> seen;
+    seen.reserve(surface_.vertices.size());
+    for (uint32_t i = 0; i < surface_.vertices.size(); ++i)
+      seen.push_back({at(i) - p, length(at(i) - p)});
+    double best = 1e300;
+    AngleSum winding;
+    for (size_t i = 0; i < surface_.faces.size(); ++i) {
+      const tools::Face& f = surface_.faces[i];
+      const auto& [u, lu] = seen[f[0]];
+      const auto& [v, lv] = seen[f[1]];
+      const auto& [w, lw] = seen[f[2]];
+      winding.add(lu * lv * lw + dot(u, v) * lw + dot(v, w) * lu + dot(w, u) * lv,
+                  dot(u, cross(v, w)));
+      if (lu * (1 - 1e-14) - reach_[i] * (1 + 1e-14) > best) continue;  // no point of it is nearer
+      best = std::min(best, length(closest_of(p, at(f[0]), at(f[1]), at(f[2])) - p));
+    }
+    return {best, winding.total() > M_PI};
+  }
+
+ private:
+  Point at(uint32_t vertex) const { return wide(surface_.vertices[vertex]); }
+
+  const tools::Surface& surface_;
+  std::vector<double> reach_;  // of each face's first corner to its farthest point
+};
+inline Truth brute_force(const tools::Surface& surface, Point p) { return BruteForce(surface)(p); }
 
 inline double diagonal(const tools::Surface& surface) {
   Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};

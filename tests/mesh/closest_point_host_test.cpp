@@ -24,10 +24,10 @@ const BakedMesh& part() {
 
 // On two threads: brute force is what takes the time.
 std::vector<Truth> truths(const tools::Surface& surface, const std::vector<Vec3>& queries) {
+  const BruteForce brute_force(surface);
   std::vector<Truth> result(queries.size());
   const auto work = [&](size_t first) {
-    for (size_t i = first; i < queries.size(); i += 2)
-      result[i] = brute_force(surface, wide(queries[i]));
+    for (size_t i = first; i < queries.size(); i += 2) result[i] = brute_force(wide(queries[i]));
   };
   std::thread other(work, 1);
   work(0);

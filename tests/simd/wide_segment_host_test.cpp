@@ -62,30 +62,39 @@ bool is_same(const mesh::Hit& a, const mesh::Hit& b) {
          a.enters == b.enters && a.steps == b.steps && a.exact == b.exact;
 }
 
-size_t differences(const simd::WideMesh& wide, Vec3 a_m, Vec3 b_m, query::Budget budget) {
-  const mesh::View& view = wide.view();
-  size_t differ = 0;
-  if (!is_same(mesh::cast_segment(view, a_m, b_m, budget), wide.cast_segment(a_m, b_m, budget)))
-    ++differ;
-  if (!is_same(mesh::any_crossing(view, a_m, b_m, budget), wide.any_crossing(a_m, b_m, budget)))
-    ++differ;
-  mesh::SurfaceCrossing buffer[64], buffer_wide[64];
-  const mesh::Crossings all = mesh::all_crossings(view, a_m, b_m, budget, {buffer});
-  const mesh::Crossings all_wide = wide.all_crossings(a_m, b_m, budget, {buffer_wide});
-  if (all.found != all_wide.found || all.reported != all_wide.reported ||
-      all.steps != all_wide.steps || all.exact != all_wide.exact)
+// What one search answers to the three kinds of query.
+struct Answers {
+  mesh::Hit first, any;
+  mesh::Crossings all;
+  mesh::SurfaceCrossing buffer[64];
+};
+
+size_t differences(const Answers& a, const Answers& b) {
+  size_t differ = (is_same(a.first, b.first) ? 0u : 1u) + (is_same(a.any, b.any) ? 0u : 1u);
+  if (a.all.found != b.all.found || a.all.reported != b.all.reported ||
+      a.all.steps != b.all.steps || a.all.exact != b.all.exact)
     return differ + 1;
-  for (uint32_t i = 0; i < all.reported; ++i)
-    if (math::bits_of(buffer[i].t) != math::bits_of(buffer_wide[i].t) ||
-        buffer[i].triangle != buffer_wide[i].triangle || buffer[i].enters != buffer_wide[i].enters)
+  for (uint32_t i = 0; i < a.all.reported; ++i)
+    if (math::bits_of(a.buffer[i].t) != math::bits_of(b.buffer[i].t) ||
+        a.buffer[i].triangle != b.buffer[i].triangle || a.buffer[i].enters != b.buffer[i].enters)
       ++differ;
   return differ;
 }
 
 size_t differences(const Baked& baked, Vec3 a_m, Vec3 b_m, query::Budget budget, size_t& hits) {
+  Answers scalar;
+  scalar.first = mesh::cast_segment(baked.view, a_m, b_m, budget);
+  scalar.any = mesh::any_crossing(baked.view, a_m, b_m, budget);
+  scalar.all = mesh::all_crossings(baked.view, a_m, b_m, budget, {scalar.buffer});
+  hits += scalar.first.hit ? 1u : 0u;
   size_t differ = 0;
-  for (const simd::WideMesh& wide : baked.wide) differ += differences(wide, a_m, b_m, budget);
-  hits += mesh::cast_segment(baked.view, a_m, b_m, budget).hit ? 1u : 0u;
+  for (const simd::WideMesh& wide : baked.wide) {
+    Answers other;
+    other.first = wide.cast_segment(a_m, b_m, budget);
+    other.any = wide.any_crossing(a_m, b_m, budget);
+    other.all = wide.all_crossings(a_m, b_m, budget, {other.buffer});
+    differ += differences(scalar, other);
+  }
   return differ;
 }
 

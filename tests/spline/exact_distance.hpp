@@ -32,6 +32,10 @@ inline Interval operator*(Interval a, Interval b) {
   const Wide p[4] = {a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi};
   return {lowered(std::min({p[0], p[1], p[2], p[3]})), raised(std::max({p[0], p[1], p[2], p[3]}))};
 }
+inline Interval operator*(Interval a, Wide b) {
+  const Wide p = a.lo * b, q = a.hi * b;
+  return p < q ? Interval(lowered(p), raised(q)) : Interval(lowered(q), raised(p));
+}
 /// Pre: b does not hold 0.
 inline Interval operator/(Interval a, Interval b) {
   return a * Interval(lowered(1 / b.hi), raised(1 / b.lo));

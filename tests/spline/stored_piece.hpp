@@ -58,18 +58,23 @@ class StoredPiece {
   Jet over(const Area& area, int order) const {
     const Wide s = 0.5L * (area.s0 + area.s1), t = 0.5L * (area.t0 + area.t1);
     const Wide hs = raised(0.5L * (area.s1 - area.s0)), ht = raised(0.5L * (area.t1 - area.t0));
+    const bool is_point = !(area.s0 < area.s1 || area.t0 < area.t1);
+    const int last_u = is_point ? std::min<int>(order, piece_.degree_u) : piece_.degree_u;
+    const int last_v = is_point ? std::min<int>(order, piece_.degree_v) : piece_.degree_v;
+    Interval middle[6][6][4];  // derivatives there
+    for (int i = 0; i <= last_u; ++i)
+      for (int j = 0; j <= last_v; ++j)
+        for (size_t k = 0; k < 4; ++k) middle[i][j][k] = at(i, j, k, s, t);
     Interval n[kOrders][kOrders][4];
     for (int a = 0; a <= order; ++a)
       for (int b = 0; a + b <= order; ++b)
-        for (size_t k = 0; k < 4; ++k)
-          for (int i = a; i <= piece_.degree_u; ++i)
-            for (int j = b; j <= piece_.degree_v; ++j) {
-              const Interval step =
-                  i == a && j == b ? Interval(1) : both(power(hs, i - a) * power(ht, j - b));
-              n[a][b][k] =
-                  n[a][b][k] + at(i, j, k, s, t) * step *
-                                   (Interval(1) / Interval(factorial(i - a) * factorial(j - b)));
-            }
+        for (int i = a; i <= (is_point ? std::min(a, last_u) : last_u); ++i)
+          for (int j = b; j <= (is_point ? std::min(b, last_v) : last_v); ++j) {
+            const Interval step =
+                (i == a && j == b ? Interval(1) : both(power(hs, i - a) * power(ht, j - b))) *
+                (Interval(1) / Interval(factorial(i - a) * factorial(j - b)));
+            for (size_t k = 0; k < 4; ++k) n[a][b][k] = n[a][b][k] + middle[i][j][k] * step;
+          }
     Jet jet;
     for (int a = 0; a <= order; ++a)
       for (int b = 0; a + b <= order; ++b)
@@ -92,12 +97,13 @@ class StoredPiece {
   static Interval both(Wide x) { return {-raised(x), raised(x)}; }
   // The (i, j)th derivative of a sum of powers at a place.
   Interval at(int i, int j, size_t k, Wide s, Wide t) const {
+    if (k == 3 && piece_.is_rational == 0) return i + j == 0 ? Wide{1} : Wide{0};
     Interval sum;
     for (int m = piece_.degree_v; m >= j; --m) {
       Interval row;
       for (int l = piece_.degree_u; l >= i; --l)
-        row = row * Interval(s) + Interval(c_[l][m][k]) * Interval(falling(l, i));
-      sum = sum * Interval(t) + row * Interval(falling(m, j));
+        row = row * s + Interval(c_[l][m][k]) * falling(l, i);
+      sum = sum * t + row * falling(m, j);
     }
     return sum;
   }
