@@ -65,7 +65,7 @@ END
 check() {
   work=$(mktemp -d) || return 1
   bad=0
-  targets='firmtouch_math firmtouch_mesh'
+  targets='firmtouch_math firmtouch_query'
   [ -z "${only-}" ] || targets=firmtouch_math
   complain() { echo "$compiler: $1"; bad=1; }
   for compiler in g++ clang++; do

@@ -7,10 +7,13 @@
 copies="firmware hal tests/consumer"
 private_headers() {
   echo firmware/firmtouch/math/isa.hpp
-  for header in $(find firmware/firmtouch -name '*.hpp'); do
-    ! sed -n '2,8s/^\/\/ *//p' "$header" | tr '\n' ' ' |
-      grep -qiE 'own translation units|for [a-z_]*\.cpp (files|alone)' || echo "$header"
-  done
+  find firmware/firmtouch -name '*.hpp' -exec awk '
+    FNR == 1 { words = "" }
+    FNR > 1 && FNR <= 8 && words != "found" {
+      sub(/^\/\/ */, "")
+      words = words $0 " "
+      if (tolower(words) ~ /own translation units|for [a-z_]*\.cpp (files|alone)/) { print FILENAME; words = "found" }
+    }' {} +
 }
 
 check() {
@@ -27,11 +30,9 @@ check() {
       bad=1
       continue
     fi
-    for used in $(tr ' ' '\n' <"$work/uses" | grep '^firmware/'); do
-      if grep -qx "$used" "$work/private"; then
-        echo "$header: public, and reaches $used, which is for the library's own units"
-        bad=1
-      fi
+    for used in $(tr -s ' \\' '\n' <"$work/uses" | grep -xF -f "$work/private"); do
+      echo "$header: public, and reaches $used, which is for the library's own units"
+      bad=1
     done
     arithmetic=$(awk '/^[_A-Za-z].*:$/ { name = $1 }
       /^[ \t]+v?(add|sub|mul|div|sqrt|fmadd)[0-9]*s[sd][ \t]/ || /^[ \t]+f(add|sub|mul|div|madd|msub|sqrt)[ \t]/ { print name }

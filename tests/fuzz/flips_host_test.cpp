@@ -45,13 +45,15 @@ const char* asset_at(const asset::Container& container, size_t byte) {
 }
 
 // Two bits of every byte, `first` and the next: a quarter of all, to run in parallel. The daily
-// suite runs only the queries of the changed asset.
+// suite flips one of them, in turn, and runs only the queries of the changed asset.
 void flip_repaired(size_t first) {
   asset::Container whole;
   CHECK(asset::open({victim().data(), static_cast<uint32_t>(victim().size())}, whole).ok());
   std::vector<uint8_t> file;
-  int64_t refused = 0, harmless = 0;
+  int64_t refused = 0, harmless = 0, flips = 0;
   for (size_t bit = first; bit < victim().size() * 8; bit += bit % 2 == 0 ? 1u : 7u) {
+    if (!is_long() && bit % 2 != bit / 8 % 2) continue;
+    ++flips;
     file = victim();
     flip(file, bit);
     tools::repair_crcs(file);
@@ -59,10 +61,11 @@ void flip_repaired(size_t first) {
     const char* const only = is_long() ? nullptr : asset_at(whole, bit / 8);
     ++(fuzz::exercise(file, only).ok() ? harmless : refused);
   }
-  CHECK_EQ(refused + harmless, static_cast<int64_t>(victim().size()) * 2);
+  CHECK_EQ(flips, static_cast<int64_t>(victim().size()) * (is_long() ? 2 : 1));
+  CHECK_EQ(refused + harmless, flips);
   // Text, probes and the low bits of normals are harmless; indices, boxes, trees and lengths are
   // not.
-  CHECK_GE(refused, static_cast<int64_t>(victim().size()) / 4);
+  CHECK_GE(refused, flips / 8);
   CHECK_GE(harmless, 1);
 }
 
@@ -117,7 +120,7 @@ TEST(SpecialWord_WithRepairedCrcs_IsRejectedOrHarmless) {
                           0x80000000u, 0x7FC00000u, 0x7F800000u, 0xFF800000u,
                           0x00000001u, 0x7F7FFFFFu, 0x3F800000u, 0xFFFFFFF0u};
   tools::Random random(20240611);
-  const int cases = is_long() ? 200000 : 6000;
+  const int cases = is_long() ? 200000 : 3000;
   std::vector<uint8_t> file;
   for (int i = 0; i < cases; ++i) {
     file = victim();
