@@ -1,6 +1,5 @@
-#include <stdint.h>
+#include "cortex-m/fault.hpp"
 
-#include "cortex-m/cortex_m.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "parts/fault_text.hpp"
@@ -8,18 +7,9 @@
 // HardFault and NMI: motors off first, then a report, then stop.
 
 namespace firmtouch::hal {
-namespace {
-
-struct Frame {  // pushed by the core (ARM DDI 0403, B1.5.6)
-  uint32_t r[4], r12, lr, pc, status;
-};
-
-}  // namespace
-
 extern "C" {
 
-/// `frame` is null after a stack overflow.
-[[gnu::used]] void hard_fault(const Frame* frame) {
+void report_fault(const Frame* frame) {
   motors_off();
   board_print("\nFault: motors are off. ");
   print_hex("status ", reg(kFaultStatus));
@@ -32,6 +22,9 @@ extern "C" {
   }
   board_exit(kFaultExitStatus);
 }
+
+/// What the handler calls. Part firmtouch_crash_record replaces it.
+[[gnu::used, gnu::weak, gnu::alias("report_fault")]] void hard_fault(const Frame* frame);
 
 // The frame is on the stack that was in use: bit 2 of the return code in lr names it. At or below
 // its limit the main stack has overflowed, and this handler begins a new one.
