@@ -35,7 +35,7 @@ allowed() {
 
 check() {
   bad=0
-  for preset in $presets; do
+  for preset in ${only:-$presets}; do
     set -- "build/$preset/firmware"/libfirmtouch_*.a
     if [ ! -e "$1" ] || [ $# -lt 5 ]; then
       echo "build/$preset/firmware: too few archives: cmake --preset $preset && cmake --build --preset $preset"
@@ -90,6 +90,7 @@ copy_tree() {
 plant() {
   preset=$1
   source=$2
+  only=$1
   shift 2
   printf '%s\n' "$source" >planted.cpp
   # shellcheck disable=SC2046
@@ -139,6 +140,7 @@ plant_contraction() {
   expect='^netduinoplus2: planted.o <_Z1ffff> fuses multiply and add'
 }
 plant_missing_archives() {
+  only=mps2-an500
   rm build/mps2-an500/firmware/libfirmtouch_*.a
   expect='^build/mps2-an500/firmware: too few archives'
 }
