@@ -5,10 +5,7 @@
 check() {
   names=$(
     grep -rhoE '^TEST\([A-Za-z0-9_]+' tests --include='*.cpp' | sed 's/TEST(/any./'
-    for file in $(grep -rlE '^TEST\(' tests --include='*.cpp'); do
-      module=${file#tests/}
-      sed -n "s/^TEST(\([A-Za-z0-9_]*\).*/${module%%/*}.\1/p" "$file"
-    done
+    grep -roE '^TEST\([A-Za-z0-9_]+' tests --include='*.cpp' | sed 's|^tests/\([^/]*\)/.*:TEST(|\1.|'
     for file in tests/*/*cases.sh; do  # shell functions, one a test
       sed -n "s/^\([A-Z][A-Za-z0-9]*\)() *{.*/$(basename "$(dirname "$file")").\1/p" "$file"
     done
