@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -173,6 +174,13 @@ bool print_energy(const EnergyBook& book) {
   return std::fabs(error) <= kMaxBalanceError;
 }
 
+void print_speed(const RunFacts& facts, std::clock_t began) {
+  const double seconds = facts.ticks / facts.rate_Hz;
+  const double used_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  std::fprintf(stderr, "  speed          %.3g times real time (%.3g s of processor time)\n",
+               seconds / std::max(used_s, 1e-6), used_s);
+}
+
 // Throws Usage if two outputs, or an output and the JSON summary, go to stdout.
 void check_stdout(const Options& options, const NamedFiles& outputs) {
   size_t count = options.has("--json") ? 1 : 0;
@@ -206,6 +214,7 @@ int run_scenario(const Options& options) {
   read_linkage(scenario, session, file);
   if (options.has("--energy") && !scenario.linkage)
     options.refuse("--energy is of a linkage: name one in the scenario, `device FILE`");
+  const std::clock_t began = std::clock();
   Simulation simulation(scenario, session.tick(), environment, port.get());
   const RunFacts& facts = simulation.facts();
   RunOutputs written(options, scenario, session, environment, facts);
@@ -221,6 +230,7 @@ int run_scenario(const Options& options) {
     write_pages(options, {scenario, environment, facts, summary, written.charts(), written.paths(),
                           session.asset.path(), static_cast<uint32_t>(session.asset.bytes().size()),
                           session.scene_text(), command_of(options.words())});
+  print_speed(facts, began);
   if (options.has("--json")) std::cout << json_of(summary, facts);
   std::cerr << "  scene          " << session.scene_text() << "\n" << text_of(summary, facts);
   const bool is_balanced = !options.has("--energy") || print_energy(*simulation.energy());

@@ -40,22 +40,33 @@ double beyond(const device::JointSetting& joint, double angle_rad) {
   return angle_rad - std::clamp(angle_rad, wide(joint.low_rad), wide(joint.high_rad));
 }
 
-JointMotion moved(const JointMotion& from, const JointMotion& by, double time_s) {
-  JointMotion to = from;
-  for (uint32_t k = 0; k < kJoints; ++k) {
-    to.angle_rad[k] += by.angle_rad[k] * time_s;
-    to.rate_rad_per_s[k] += by.rate_rad_per_s[k] * time_s;
-  }
-  return to;
+// Inverse of the inertia, symmetric, by its adjugate. Joints that the linkage lacks have 1.
+// Result: false if it is not positive definite.
+bool invert(const double (&m)[kJoints][kJoints], double (&inverse)[kJoints][kJoints]) {
+  const double a = m[1][1] * m[2][2] - m[2][1] * m[2][1];
+  const double b = m[2][1] * m[2][0] - m[1][0] * m[2][2];
+  const double c = m[1][0] * m[2][1] - m[1][1] * m[2][0];
+  const double minor = m[0][0] * m[1][1] - m[1][0] * m[1][0];
+  const double volume = m[0][0] * a + m[1][0] * b + m[2][0] * c;
+  const double scale = 1 / volume;
+  inverse[0][0] = a * scale;
+  inverse[1][0] = inverse[0][1] = b * scale;
+  inverse[2][0] = inverse[0][2] = c * scale;
+  inverse[1][1] = (m[0][0] * m[2][2] - m[2][0] * m[2][0]) * scale;
+  inverse[2][1] = inverse[1][2] = (m[1][0] * m[2][0] - m[0][0] * m[2][1]) * scale;
+  inverse[2][2] = minor * scale;
+  return m[0][0] > 0 && minor > 0 && volume > 0;
+}
+
+// Moments of mass at two points of a linkage: both halves of the symmetric sum.
+void add_mass(double mass_kg, const MovingPoint& p, const MovingPoint& q,
+              double (&to)[kJoints][kJoints]) {
+  for (uint32_t i = p.first; i < p.end; ++i)
+    for (uint32_t j = q.first; j < q.end; ++j)
+      to[i][j] += mass_kg * dot(p.column_m[i], q.column_m[j]);
 }
 
 }  // namespace
-
-struct LinkageBody::Inertia {
-  double mass[kJoints][kJoints] = {};
-  double torque_Nm[kJoints] = {};  // of gravity, less those that the motion itself takes
-  Vec tip_column_m[kJoints];
-};
 
 LinkageBody::LinkageBody(const LinkageDevice& device, const JointMotion& start)
     : device_(device), joints_(device.joints.joints), motion_(start) {
@@ -68,149 +79,187 @@ LinkageBody::LinkageBody(const LinkageDevice& device, const JointMotion& start)
     moments_[i] = {rod.mass_kg - 2 * centre + second, centre - second, second};
   }
   elbows_ = links.size() / 2;
-  book_.stored_J = book_.start_J = stored_J();
+  for (uint32_t k = 0; k < joints_; ++k) is_dry_ |= device_.masses.joint[k].coulomb_N_m > 0;
+  here_ = before_ = dynamics_of(motion_);
+  book_.stored_J = book_.start_J = here_.stored_J;
 }
 
-LinkageBody::Inertia LinkageBody::inertia_of(const JointMotion& motion) const {
-  const MovingPoints points = points_of(device_, motion);
+void LinkageBody::add_links(const MovingPoints& points, double (&mass)[kJoints][kJoints],
+                            Dynamics& to) const {
   const Vec gravity = device_.masses.gravity_mps2;
-  Inertia all;
-  const auto add = [&](const Moments& m, const MovingPoint& a, const MovingPoint& b) {
-    const double near = m.a + m.b, far = m.b + m.c;  // the lever rule
-    const Vec at_a = gravity * near - a.bias_mps2 * m.a - b.bias_mps2 * m.b;
-    const Vec at_b = gravity * far - a.bias_mps2 * m.b - b.bias_mps2 * m.c;
-    for (uint32_t i = 0; i < joints_; ++i) {
-      all.torque_Nm[i] += dot(a.column_m[i], at_a) + dot(b.column_m[i], at_b);
-      const Vec of_a = a.column_m[i] * m.a + b.column_m[i] * m.b;
-      const Vec of_b = a.column_m[i] * m.b + b.column_m[i] * m.c;
-      for (uint32_t j = 0; j <= i; ++j)
-        all.mass[i][j] += dot(of_a, a.column_m[j]) + dot(of_b, b.column_m[j]);
-    }
+  const auto load = [&](const MovingPoint& p, double heavy_kg, Vec inertial_N) {
+    const Vec force_N = gravity * heavy_kg - inertial_N;
+    for (uint32_t i = p.first; i < p.end; ++i) to.torque_Nm[i] += dot(p.column_m[i], force_N);
+    to.stored_J -= heavy_kg * dot(gravity, p.at_m);
   };
+  const MovingPoint& tip = points.tip;
+  double at_tip_kg = device_.masses.tip_mass_kg, weight_of_tip_kg = at_tip_kg;
+  Vec by_elbows_N;
   for (size_t k = 0; k < elbows_; ++k) {
-    add(moments_[k], points.base[k], points.elbow[k]);
-    add(moments_[elbows_ + k], points.elbow[k], points.tip);
+    const Moments &driven = moments_[k], &outer = moments_[elbows_ + k];
+    const MovingPoint &base = points.base[k], &elbow = points.elbow[k];
+    const double at_elbow_kg = driven.c + outer.a;
+    add_mass(driven.a, base, base, mass);
+    add_mass(driven.b, base, elbow, mass);
+    add_mass(driven.b, elbow, base, mass);
+    add_mass(at_elbow_kg, elbow, elbow, mass);
+    add_mass(outer.b, elbow, tip, mass);
+    add_mass(outer.b, tip, elbow, mass);
+    load(base, driven.a + driven.b, base.bias_mps2 * driven.a + elbow.bias_mps2 * driven.b);
+    load(elbow, driven.b + driven.c + outer.a + outer.b,
+         base.bias_mps2 * driven.b + elbow.bias_mps2 * at_elbow_kg + tip.bias_mps2 * outer.b);
+    at_tip_kg += outer.c, weight_of_tip_kg += outer.b + outer.c;  // the lever rule
+    by_elbows_N = by_elbows_N + elbow.bias_mps2 * outer.b;
   }
-  add({0, 0, device_.masses.tip_mass_kg}, {}, points.tip);
+  add_mass(at_tip_kg, tip, tip, mass);
+  load(tip, weight_of_tip_kg, by_elbows_N + tip.bias_mps2 * at_tip_kg);
+}
+
+void LinkageBody::add_stops(const JointMotion& motion, Dynamics& to) const {
   for (uint32_t k = 0; k < joints_; ++k) {
-    all.mass[k][k] += device_.masses.joint[k].rotor_kg_m2;
-    all.tip_column_m[k] = points.tip.column_m[k];
+    const double off_rad = beyond(device_.joints.joint[k], motion.angle_rad[k]);
+    const double stop_Nm = device_.masses.stop_N_m_per_rad * off_rad;
+    double damping = device_.masses.joint[k].viscous_N_m_s;
+    if (off_rad < 0 || off_rad > 0) damping += device_.masses.stop_N_m_s;
+    to.resisting_Nm[k] = damping * motion.rate_rad_per_s[k];
+    to.torque_Nm[k] -= stop_Nm;
+    to.stored_J += 0.5 * stop_Nm * off_rad;
   }
+}
+
+LinkageBody::Dynamics LinkageBody::dynamics_of(const JointMotion& motion) const {
+  const MovingPoints points = points_of(device_, motion);
+  Dynamics all;
+  all.is_closed = points.is_closed && points.span >= kMinSpan;
+  all.tip = points.tip;
+  double mass[kJoints][kJoints] = {};
+  add_links(points, mass, all);
+  for (uint32_t k = 0; k < kJoints; ++k)
+    mass[k][k] += k < joints_ ? device_.masses.joint[k].rotor_kg_m2 : 1;
+  all.has_inertia = invert(mass, all.inverse);
+  for (uint32_t k = joints_; k < kJoints; ++k) all.inverse[k][k] = 0;
+  for (uint32_t i = 0; i < kJoints; ++i)
+    for (uint32_t j = 0; j < kJoints; ++j)
+      all.kinetic_J += 0.5 * mass[i][j] * motion.rate_rad_per_s[i] * motion.rate_rad_per_s[j];
+  all.stored_J += all.kinetic_J;
+  add_stops(motion, all);
   return all;
 }
 
-// Viscous friction and the end stops.
-void LinkageBody::loads_of(const JointMotion& motion, double (&torque_Nm)[kJoints],
-                           double& lost_W) const {
-  for (uint32_t k = 0; k < joints_; ++k) {
-    const double rate = motion.rate_rad_per_s[k];
-    const double off_rad = beyond(device_.joints.joint[k], motion.angle_rad[k]);
-    double damping = device_.masses.joint[k].viscous_N_m_s;
-    if (off_rad < 0 || off_rad > 0) damping += device_.masses.stop_N_m_s;
-    torque_Nm[k] -= damping * rate + device_.masses.stop_N_m_per_rad * off_rad;
-    lost_W += damping * rate * rate;
-  }
+void LinkageBody::accelerate(const Dynamics& at, const double (&motor_Nm)[kJoints], Vec hand_N,
+                             double (&acceleration)[kJoints]) const {
+  double torque_Nm[kJoints];
+  for (uint32_t k = 0; k < kJoints; ++k)
+    torque_Nm[k] =
+        at.torque_Nm[k] - at.resisting_Nm[k] + dot(at.tip.column_m[k], hand_N) + motor_Nm[k];
+  for (uint32_t k = 0; k < kJoints; ++k)
+    acceleration[k] = at.inverse[k][0] * torque_Nm[0] + at.inverse[k][1] * torque_Nm[1] +
+                      at.inverse[k][2] * torque_Nm[2];
 }
 
-LinkageBody::Rates LinkageBody::rates_of(const JointMotion& motion,
-                                         const double (&motor_Nm)[kJoints],
-                                         const double (&dry_Nm)[kJoints], Vec hand_N) const {
-  const Inertia inertia = inertia_of(motion);
-  Rates rates = {};
-  double torque_Nm[kJoints] = {};
-  loads_of(motion, torque_Nm, rates.lost_W);
-  for (uint32_t k = 0; k < joints_; ++k) {
-    const double rate = motion.rate_rad_per_s[k], hand_Nm = dot(inertia.tip_column_m[k], hand_N);
-    rates.rate[k] = rate;
-    rates.hand_W += hand_Nm * rate;
-    rates.motors_W += motor_Nm[k] * rate;
-    rates.lost_W += dry_Nm[k] * rate;
-    rates.acceleration[k] = torque_Nm[k] + inertia.torque_Nm[k] + hand_Nm + motor_Nm[k] - dry_Nm[k];
-  }
-  (void)solve(joints_, inertia.mass, rates.acceleration);
-  return rates;
-}
-
-// The box-constrained torques after which an Euler step leaves each joint at rest or against its
-// whole friction, by projected Gauss-Seidel.
-void LinkageBody::dry_torques(const double (&motor_Nm)[kJoints], Vec hand_N, double time_s,
+// The box-constrained torques after which a step of rates `free` leaves each joint at rest or
+// against its whole friction, by projected Gauss-Seidel. `old`: share of the step before.
+void LinkageBody::dry_torques(const double (&free)[kJoints], double old, double time_s,
                               double (&dry_Nm)[kJoints]) const {
-  bool is_dry = false;
-  for (uint32_t k = 0; k < joints_; ++k) is_dry |= device_.masses.joint[k].coulomb_N_m > 0;
-  if (!is_dry) return;
-  const Rates without = rates_of(motion_, motor_Nm, dry_Nm, hand_N);
-  const Inertia inertia = inertia_of(motion_);
-  double inverse[kJoints][kJoints] = {};
-  for (uint32_t k = 0; k < joints_; ++k) {
-    inverse[k][k] = 1;
-    (void)solve(joints_, inertia.mass, inverse[k]);
-  }
-  for (int sweep = 0; sweep < 40; ++sweep)
+  double change[kJoints][kJoints];  // of the rates by each torque
+  for (uint32_t k = 0; k < kJoints; ++k)
+    for (uint32_t j = 0; j < kJoints; ++j)
+      change[k][j] = time_s * ((1 + old) * here_.inverse[k][j] - old * before_.inverse[k][j]);
+  bool is_settled = false;
+  for (int sweep = 0; sweep < 40 && !is_settled; ++sweep) {
+    is_settled = true;
     for (uint32_t k = 0; k < joints_; ++k) {
-      double rate = motion_.rate_rad_per_s[k] + without.acceleration[k] * time_s;
-      for (uint32_t j = 0; j < joints_; ++j) rate -= inverse[k][j] * dry_Nm[j] * time_s;
-      const double most = device_.masses.joint[k].coulomb_N_m;
-      dry_Nm[k] = std::clamp(dry_Nm[k] + rate / (inverse[k][k] * time_s), -most, most);
+      double rate = free[k];
+      for (uint32_t j = 0; j < joints_; ++j) rate -= change[k][j] * dry_Nm[j];
+      const double most_Nm = device_.masses.joint[k].coulomb_N_m, before_Nm = dry_Nm[k];
+      dry_Nm[k] = std::clamp(before_Nm + rate / change[k][k], -most_Nm, most_Nm);
+      is_settled &= std::fabs(dry_Nm[k] - before_Nm) <= 1e-12 * most_Nm;
     }
+  }
+}
+
+bool LinkageBody::is_sound(const JointMotion& motion, const Dynamics& dynamics) const {
+  bool is_slow = true;
+  for (uint32_t k = 0; k < joints_; ++k)
+    is_slow &= std::fabs(motion.rate_rad_per_s[k]) <= kMaxRate_rad_per_s;
+  return is_slow && dynamics.is_closed && dynamics.has_inertia &&
+         std::isfinite(dynamics.stored_J) && std::isfinite(norm(dynamics.tip.at_m));
+}
+
+void LinkageBody::jam() {
+  ++jams_;
+  for (double& rate : motion_.rate_rad_per_s) rate = 0;
+  book_.lost_J += here_.kinetic_J;
+  here_ = before_ = dynamics_of(motion_);
+}
+
+LinkageBody::Step LinkageBody::step(const double (&motor_Nm)[kJoints], Vec hand_N, double time_s) {
+  JointMotion next = motion_;
+  const double old = 0.5 * time_s / before_s_;
+  double now[kJoints], earlier[kJoints], after[kJoints], dry_Nm[kJoints] = {}, torque_Nm[kJoints];
+  const auto predict = [&] {
+    for (uint32_t k = 0; k < kJoints; ++k) torque_Nm[k] = motor_Nm[k] - dry_Nm[k];
+    accelerate(here_, torque_Nm, hand_N, now);
+    accelerate(before_, torque_Nm, hand_N, earlier);
+    for (uint32_t k = 0; k < kJoints; ++k)
+      next.rate_rad_per_s[k] =
+          motion_.rate_rad_per_s[k] + time_s * ((1 + old) * now[k] - old * earlier[k]);
+  };
+  predict();
+  if (is_dry_) {
+    dry_torques(next.rate_rad_per_s, old, time_s, dry_Nm);
+    predict();
+  }
+  for (uint32_t k = 0; k < kJoints; ++k)
+    next.angle_rad[k] += 0.5 * time_s * (motion_.rate_rad_per_s[k] + next.rate_rad_per_s[k]);
+  const Dynamics then = dynamics_of(next);
+  accelerate(then, torque_Nm, hand_N, after);
+  double error = 0, motors_J = 0, lost_J = 0;
+  for (uint32_t k = 0; k < kJoints; ++k) {
+    const double off = time_s * (0.5 * (after[k] - now[k]) - old * (now[k] - earlier[k]));
+    error = std::max(error, std::fabs(off));
+    next.rate_rad_per_s[k] += off * (5.0 / 6);
+    next.angle_rad[k] += time_s * time_s / 12 * (now[k] - after[k]);
+    const double turn_rad = next.angle_rad[k] - motion_.angle_rad[k];
+    motors_J += motor_Nm[k] * turn_rad;
+    lost_J += (dry_Nm[k] + 0.5 * (here_.resisting_Nm[k] + then.resisting_Nm[k])) * turn_rad;
+  }
+  const bool is_good = is_sound(next, then);
+  if (!(is_good && error <= kMaxError_rad_per_s) && halvings_ < kMaxHalvings) return Step::kTooLong;
+  if (!is_good) return Step::kImpossible;
+  book_.hand_J += dot(hand_N, then.tip.at_m - here_.tip.at_m);
+  book_.motors_J += motors_J;
+  book_.lost_J += lost_J;
+  motion_ = next;
+  before_ = here_;
+  here_ = then;
+  before_s_ = time_s;
+  return Step::kDone;
 }
 
 void LinkageBody::advance(const double (&motor_Nm)[kJoints], Vec hand_N, double time_s) {
-  double dry_Nm[kJoints] = {};
-  dry_torques(motor_Nm, hand_N, time_s, dry_Nm);
-  const double at[] = {0, 0.5, 0.5, 1}, weight[] = {1, 2, 2, 1};
-  JointMotion slope, change;
-  double hand_J = 0, motors_J = 0, lost_J = 0;
-  for (int stage = 0; stage < 4; ++stage) {
-    const JointMotion here = moved(motion_, slope, at[stage] * time_s);
-    const Rates rates = rates_of(here, motor_Nm, dry_Nm, hand_N);
-    const double share = weight[stage] / 6;
-    for (uint32_t k = 0; k < joints_; ++k) {
-      slope.angle_rad[k] = rates.rate[k];
-      slope.rate_rad_per_s[k] = rates.acceleration[k];
+  if (halvings_ > 0) --halvings_;
+  uint32_t parts = 1u << halvings_;  // that are left, of the present length
+  while (parts > 0) {
+    const Step result = step(motor_Nm, hand_N, time_s / (1u << halvings_));
+    if (result == Step::kImpossible) {
+      jam();
+      break;
     }
-    change = moved(change, slope, share);
-    hand_J += share * rates.hand_W, motors_J += share * rates.motors_W;
-    lost_J += share * rates.lost_W;
+    if (result == Step::kTooLong) {
+      ++halvings_, parts *= 2;
+    } else {
+      --parts;
+      if (parts > 0 && parts % 2 == 0 && halvings_ > 0) --halvings_, parts /= 2;
+    }
   }
-  motion_ = moved(motion_, change, time_s);
-  book_.hand_J += hand_J * time_s;
-  book_.motors_J += motors_J * time_s;
-  book_.lost_J += lost_J * time_s;
-  book_.stored_J = stored_J();
+  book_.stored_J = here_.stored_J;
   book_.turnover_J =
       std::max(book_.turnover_J, std::fabs(book_.stored_J - book_.start_J) + book_.lost_J);
 }
 
-double LinkageBody::kinetic_J() const {
-  const Inertia inertia = inertia_of(motion_);
-  double energy_J = 0;
-  for (uint32_t i = 0; i < joints_; ++i)
-    for (uint32_t j = 0; j <= i; ++j)
-      energy_J += (i == j ? 0.5 : 1) * inertia.mass[i][j] * motion_.rate_rad_per_s[i] *
-                  motion_.rate_rad_per_s[j];
-  return energy_J;
-}
-
-double LinkageBody::stored_J() const {
-  const MovingPoints points = points_of(device_, motion_);
-  const Vec gravity = device_.masses.gravity_mps2;
-  double energy_J = kinetic_J();
-  for (size_t k = 0; k < elbows_; ++k) {
-    const Moments &driven = moments_[k], &outer = moments_[elbows_ + k];
-    energy_J -= (driven.b + driven.c + outer.a + outer.b) * dot(gravity, points.elbow[k].at_m) +
-                (driven.a + driven.b) * dot(gravity, points.base[k].at_m) +
-                (outer.b + outer.c) * dot(gravity, points.tip.at_m);
-  }
-  energy_J -= device_.masses.tip_mass_kg * dot(gravity, points.tip.at_m);
-  for (uint32_t k = 0; k < joints_; ++k) {
-    const double off_rad = beyond(device_.joints.joint[k], motion_.angle_rad[k]);
-    energy_J += 0.5 * device_.masses.stop_N_m_per_rad * off_rad * off_rad;
-  }
-  return energy_J;
-}
-
 Vec LinkageBody::tip_force_N(Vec torque_Nm) const {
-  const MovingPoint at = tip();
+  const MovingPoint& at = tip();
   const Vec third = joints_ == 2 ? Vec{0, 0, 1} : at.column_m[2];
   const Vec first = cross(at.column_m[1], third);
   return (first * torque_Nm.x + cross(third, at.column_m[0]) * torque_Nm.y +
@@ -221,8 +270,8 @@ Vec LinkageBody::tip_force_N(Vec torque_Nm) const {
 void LinkageBody::holding_torques_Nm(double (&torque_Nm)[kJoints]) const {
   JointMotion still = motion_;
   for (double& rate : still.rate_rad_per_s) rate = 0;
-  const Inertia inertia = inertia_of(still);
-  for (uint32_t k = 0; k < kJoints; ++k) torque_Nm[k] = -inertia.torque_Nm[k];
+  const Dynamics at = dynamics_of(still);
+  for (uint32_t k = 0; k < kJoints; ++k) torque_Nm[k] = -at.torque_Nm[k];
 }
 
 int32_t LinkageBody::count(uint32_t joint) const {
@@ -231,11 +280,6 @@ int32_t LinkageBody::count(uint32_t joint) const {
   const double counts = std::floor((motion_.angle_rad[joint] - wide(setting.zero_rad)) *
                                    wide(setting.counts_per_rad));
   return static_cast<int32_t>(std::clamp(counts, -2147483647.0, 2147483647.0));
-}
-
-bool LinkageBody::has_inertia() const {
-  double any[kJoints] = {1, 1, 1};
-  return solve(joints_, inertia_of(motion_).mass, any);
 }
 
 bool find_angles(const LinkageDevice& device, Vec tip_m, JointMotion& motion) {

@@ -17,47 +17,76 @@ struct EnergyBook {
 /// Rigid-body dynamics of a linkage: M(q) q'' = torques - h(q, q') + gravity + J^T hand - friction.
 /// A rod's mass lies on the line between its ends, so its inertia follows from its ends' columns
 /// alone: a A.A + 2 b A.B + c B.B with the rod's three moments.
-/// Integrated by Runge-Kutta of the fourth order. Coulomb friction is constant in a step: what
-/// brings a joint to rest, at most coulomb_N_m; with it the order is 1.
+/// Integrated in the third order with one evaluation a step, motors and hand constant: rates by
+/// Adams and Bashforth's second order and angles by the trapezoid rule, corrected by the change of
+/// acceleration that follows. Where the rates differ from the trapezoid rule's by more than
+/// kMaxError_rad_per_s, the step is halved, at most kMaxHalvings times: at stops and near
+/// singularities. Coulomb friction is constant in a step: what brings a joint to rest, at most
+/// coulomb_N_m; with it the order is 1.
+/// The ends of the joints' ranges are springs with dampers. Where the links of a loop would come
+/// into one line (span below kMinSpan), a joint would exceed kMaxRate_rad_per_s or anything would
+/// not be finite, the linkage jams until the time passed to advance() is over: it keeps its angles,
+/// and its kinetic energy is lost. It leaves where torques lead it back. So its motion is finite
+/// under every torque and every hand.
 class LinkageBody {
  public:
+  static constexpr double kMinSpan = 1e-3, kMaxRate_rad_per_s = 1e4;
+  static constexpr double kMaxError_rad_per_s = 1e-8;
+  static constexpr uint32_t kMaxHalvings = 6;
+
   LinkageBody(const LinkageDevice& device, const JointMotion& start);
 
   void advance(const double (&motor_Nm)[kJoints], Vec hand_N, double time_s);
   const JointMotion& motion() const { return motion_; }
-  MovingPoint tip() const { return points_of(device_, motion_).tip; }
+  const MovingPoint& tip() const { return here_.tip; }
   const EnergyBook& energy() const { return book_; }
-  double kinetic_J() const;
+  double kinetic_J() const { return here_.kinetic_J; }
+  uint64_t jams() const { return jams_; }
   /// The force that these torques hold still at the tip; of a planar linkage in its plane.
   Vec tip_force_N(Vec torque_Nm) const;
   /// Torques that hold it still against gravity, at its angles.
   void holding_torques_Nm(double (&torque_Nm)[kJoints]) const;
   /// Encoder counts, rounded down as an incremental encoder does.
   int32_t count(uint32_t joint) const;
+  /// Of the pose at the start: the links of a loop meet, and not in one line.
+  bool is_closed() const { return here_.is_closed; }
   /// Result: false where the inertia of this pose is not positive definite.
-  bool has_inertia() const;
+  bool has_inertia() const { return here_.has_inertia; }
 
  private:
-  struct Inertia;
-  struct Rates {
-    double rate[kJoints], acceleration[kJoints], hand_W, motors_W, lost_W;
+  struct Dynamics {
+    bool is_closed = false, has_inertia = false;
+    double inverse[kJoints][kJoints];    // of the inertia
+    double torque_Nm[kJoints] = {};      // of gravity, less those that the motion itself takes
+    double resisting_Nm[kJoints] = {};   // viscous friction and the stops
+    double kinetic_J = 0, stored_J = 0;  // stored: kinetic, of weight and of the stops
+    MovingPoint tip;
   };
-  Inertia inertia_of(const JointMotion& motion) const;
-  void loads_of(const JointMotion& motion, double (&torque_Nm)[kJoints], double& lost_W) const;
-  Rates rates_of(const JointMotion& motion, const double (&motor_Nm)[kJoints],
-                 const double (&dry_Nm)[kJoints], Vec hand_N) const;
-  void dry_torques(const double (&motor_Nm)[kJoints], Vec hand_N, double time_s,
+  Dynamics dynamics_of(const JointMotion& motion) const;
+  void add_links(const MovingPoints& points, double (&mass)[kJoints][kJoints], Dynamics& to) const;
+  void add_stops(const JointMotion& motion, Dynamics& to) const;
+  void accelerate(const Dynamics& at, const double (&motor_Nm)[kJoints], Vec hand_N,
+                  double (&acceleration)[kJoints]) const;
+  void dry_torques(const double (&free)[kJoints], double old, double time_s,
                    double (&dry_Nm)[kJoints]) const;
-  double stored_J() const;
+  bool is_sound(const JointMotion& motion, const Dynamics& dynamics) const;
+  void jam();
+  enum class Step { kDone, kTooLong, kImpossible };  // only kDone moves it
+  Step step(const double (&motor_Nm)[kJoints], Vec hand_N, double time_s);
 
   LinkageDevice device_;
   uint32_t joints_;
   size_t elbows_ = 0;
+  bool is_dry_ = false;  // has Coulomb friction
   struct Moments {
     double a, b, c;  // of the rod over (1 - s)^2, s (1 - s), s^2, where s goes from 0 to 1
   } moments_[6] = {};
   JointMotion motion_;
+  Dynamics here_, before_;  // of motion_, and of a step ago
+  double before_s_ = 1;     // length of that step
+  uint32_t halvings_ = 0;   // of the last step
   EnergyBook book_;
+  uint64_t jams_ = 0;
 };
 
 /// Joint angles that put the tip at `tip_m`, within the ranges of the joints.

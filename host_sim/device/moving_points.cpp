@@ -18,6 +18,7 @@ MovingPoint link_end(Vec base_m, Vec out, Vec up, double length_m, uint32_t k,
   const double rate = motion.rate_rad_per_s[k];
   const Vec along = (out * c + up * s) * length_m;
   MovingPoint end;
+  end.first = k, end.end = k + 1;
   end.at_m = base_m + along;
   end.column_m[k] = (up * c - out * s) * length_m;
   end.velocity_mps = end.column_m[k] * rate;
@@ -25,35 +26,30 @@ MovingPoint link_end(Vec base_m, Vec out, Vec up, double length_m, uint32_t k,
   return end;
 }
 
-// x of row[k] . x = right[k] for the three rows.
-struct Rows {
-  Vec row[3];
-  Vec solve(const double (&right)[3]) const {
-    const Vec first = cross(row[1], row[2]);
-    return (first * right[0] + cross(row[2], row[0]) * right[1] +
-            cross(row[0], row[1]) * right[2]) *
-           (1 / dot(row[0], first));
-  }
-};
-
 // Velocity and acceleration of a tip at fixed distances from the elbows: rod . (tip' - elbow') = 0
-// and its derivative. A planar linkage stays in its plane.
+// and its derivative, by Cramer's rule. A planar linkage stays in its plane.
 void close_motion(uint32_t joints, const JointMotion& motion, MovingPoints& points) {
   MovingPoint& tip = points.tip;
-  Rows rows{{{}, {}, {0, 0, 1}}};
-  for (uint32_t k = 0; k < joints; ++k) rows.row[k] = tip.at_m - points.elbow[k].at_m;
+  tip.end = joints;
+  Vec rod[kJoints] = {{}, {}, {0, 0, 1}};
+  double lengths2 = 1;
   for (uint32_t k = 0; k < joints; ++k) {
-    double right[3] = {};
-    right[k] = dot(rows.row[k], points.elbow[k].column_m[k]);
-    tip.column_m[k] = rows.solve(right);
+    rod[k] = tip.at_m - points.elbow[k].at_m;
+    lengths2 *= dot(rod[k], rod[k]);
+  }
+  Vec opposite[kJoints] = {cross(rod[1], rod[2]), cross(rod[2], rod[0]), cross(rod[0], rod[1])};
+  const double volume = dot(rod[0], opposite[0]);
+  points.span = std::fabs(volume) / std::sqrt(lengths2);
+  for (Vec& way : opposite) way = way * (1 / volume);
+  for (uint32_t k = 0; k < joints; ++k) {
+    tip.column_m[k] = opposite[k] * dot(rod[k], points.elbow[k].column_m[k]);
     tip.velocity_mps = tip.velocity_mps + tip.column_m[k] * motion.rate_rad_per_s[k];
   }
-  double right[3] = {};
   for (uint32_t k = 0; k < joints; ++k) {
     const Vec apart_mps = tip.velocity_mps - points.elbow[k].velocity_mps;
-    right[k] = dot(rows.row[k], points.elbow[k].bias_mps2) - dot(apart_mps, apart_mps);
+    tip.bias_mps2 = tip.bias_mps2 + opposite[k] * (dot(rod[k], points.elbow[k].bias_mps2) -
+                                                   dot(apart_mps, apart_mps));
   }
-  tip.bias_mps2 = rows.solve(right);
 }
 
 MovingPoints points(const FiveBar& bar, const JointMotion& motion) {
@@ -75,11 +71,12 @@ MovingPoints points(const FiveBar& bar, const JointMotion& motion) {
 }
 
 MovingPoints points(const Delta& delta, const JointMotion& motion) {
+  constexpr double kSine = 0.86602540378443865;  // of 120 degrees
+  constexpr Vec kOut[] = {{1, 0, 0}, {-0.5, kSine, 0}, {-0.5, -kSine, 0}};
   MovingPoints all;
   const double out_m = wide(delta.base_radius_m) - wide(delta.platform_radius_m);
   for (uint32_t k = 0; k < 3; ++k) {
-    const double turn = 2.0943951023931953 * k;
-    const Vec out{std::cos(turn), std::sin(turn), 0}, side{-out.y, out.x, 0};
+    const Vec out = kOut[k], side{-out.y, out.x, 0};
     all.base[k].at_m = out * out_m + side * wide(delta.side_m);
     all.elbow[k] = link_end(all.base[k].at_m, out, {0, 0, 1}, wide(delta.upper_m[k]), k, motion);
   }
@@ -105,6 +102,7 @@ MovingPoint turned(const MovingPoint& flat, double angle_rad, double rate) {
   const auto turn = [&](Vec a) { return Vec{a.x * c, a.x * s, a.z}; };
   const Vec across{-s, c, 0};
   MovingPoint point;
+  point.end = flat.end > 0 ? flat.end : 1;
   point.at_m = turn(flat.at_m);
   for (uint32_t k = 1; k < kJoints; ++k) point.column_m[k] = turn(flat.column_m[k]);
   point.column_m[0] = across * flat.at_m.x;
@@ -129,6 +127,7 @@ MovingPoints points(const SerialArm& arm, const JointMotion& motion) {
   const MovingPoint first = link_end(base.at_m, out, up, wide(arm.link_m[0]), shoulder, motion);
   const MovingPoint second = link_end({}, out, up, wide(arm.link_m[1]), elbow, of_links);
   MovingPoint tip;
+  tip.first = shoulder, tip.end = elbow + 1;
   tip.at_m = first.at_m + second.at_m;
   tip.velocity_mps = first.velocity_mps + second.velocity_mps;
   tip.bias_mps2 = first.bias_mps2 + second.bias_mps2;

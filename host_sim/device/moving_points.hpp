@@ -14,6 +14,7 @@ struct MovingPoint {
   Vec at_m, velocity_mps;
   Vec column_m[kJoints];  // motion per radian of each joint
   Vec bias_mps2;
+  uint32_t first = 0, end = 0;  // the columns that are not 0
 };
 
 /// The points that the rods of a linkage end at.
@@ -22,6 +23,7 @@ struct MovingPoints {
   MovingPoint elbow[kJoints];  // their other ends; of a serial arm one
   MovingPoint tip;
   bool is_closed = true;  // false: the links do not meet, and the tip is not defined
+  double span = 1;        // volume of unit vectors along the links that meet at the tip of a loop
 };
 
 struct JointMotion {

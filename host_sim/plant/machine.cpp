@@ -23,6 +23,9 @@ LinkageBody body_at(const Scenario& scenario, Vec start_m) {
     throw Refused(scenario.file + text);
   }
   LinkageBody body(*scenario.linkage, start);
+  if (!body.is_closed())
+    throw Refused(scenario.file +
+                  ": at the start the linkage is singular; move `start` or the scene");
   if (!body.has_inertia())
     throw Refused(scenario.device_file +
                   ": its inertia is not positive definite; give each joint a rotor_ or its links "
@@ -47,7 +50,7 @@ void Machine::locate() {
     position_m_ = axes_->position_m() + zero_m_;
     velocity_mps_ = axes_->velocity_mps();
   } else {
-    const MovingPoint tip = body_->tip();
+    const MovingPoint& tip = body_->tip();
     position_m_ = tip.at_m;
     velocity_mps_ = tip.velocity_mps;
   }

@@ -43,19 +43,24 @@ size_t setup_ticks(const Scenario& scenario) {
 // the script's corners as an arm does.
 class Arm {
  public:
-  explicit Arm(Vec start_m) : first_m_(start_m), second_m_(start_m) {}
-  void advance(Vec script_m, double time_s) {
-    const double share = -std::expm1(-time_s / kArmLag_s);
-    first_m_ = first_m_ + (script_m - first_m_) * share;
+  // Steps of `time_s`.
+  Arm(Vec start_m, double time_s)
+      : first_m_(start_m),
+        second_m_(start_m),
+        time_s_(time_s),
+        share_(-std::expm1(-time_s / kArmLag_s)) {}
+  void advance(Vec script_m) {
+    first_m_ = first_m_ + (script_m - first_m_) * share_;
     const Vec before = second_m_;
-    second_m_ = second_m_ + (first_m_ - second_m_) * share;
-    velocity_mps_ = (second_m_ - before) * (1 / time_s);
+    second_m_ = second_m_ + (first_m_ - second_m_) * share_;
+    velocity_mps_ = (second_m_ - before) * (1 / time_s_);
   }
   Vec position_m() const { return second_m_; }
   Vec velocity_mps() const { return velocity_mps_; }
 
  private:
   Vec first_m_, second_m_, velocity_mps_;
+  double time_s_, share_;
 };
 
 // Flags and command of each tick, from the scenario's settings and events.
@@ -239,20 +244,21 @@ struct Simulation::Loop {
         machine(scenario, hand.start_m(),
                 {parameter_value(scenario, kOrigin[0]), parameter_value(scenario, kOrigin[1]),
                  parameter_value(scenario, kOrigin[2])}),
-        arm(hand.start_m()),
+        substeps(machine.substeps(1 / scenario.rate_Hz)),
+        substep_s(1 / scenario.rate_Hz / substeps),
+        arm(hand.start_m(), substep_s),
         panel(scenario) {}
 
   Vec hand_N() const {
     return hand.force_N(arm.position_m(), arm.velocity_mps(), machine.position_m(),
                         machine.velocity_mps());
   }
-  // From the tick before to this one.
-  void move(double before_s, double period_s) {
+  // From the tick before, at `before_s`, to this one.
+  void move(double before_s) {
     const Vec script_m = hand.target_m(before_s);
-    const uint32_t substeps = machine.substeps(period_s);
     for (uint32_t k = 0; k < substeps; ++k) {
-      arm.advance(script_m, period_s / substeps);
-      machine.advance(hand_N(), period_s / substeps);
+      arm.advance(script_m);
+      machine.advance(hand_N(), substep_s);
     }
   }
 
@@ -261,6 +267,8 @@ struct Simulation::Loop {
   LockStepController* remote;
   Hand hand;
   Machine machine;
+  uint32_t substeps;
+  double substep_s;
   Arm arm;
   Operator panel;
   record::TickOutput last{};
@@ -286,7 +294,7 @@ bool Simulation::next(RunTick& tick) {
   Loop& loop = *loop_;
   if (loop.tick == facts_.ticks || facts_.difference) return false;
   const double period_s = 1 / facts_.rate_Hz, now_s = loop.tick * period_s;
-  if (loop.tick > 0) loop.move((loop.tick - 1) * period_s, period_s);
+  if (loop.tick > 0) loop.move((loop.tick - 1) * period_s);
   record::TickRecord& record = tick.record;
   record = {};
   record.input.tick = loop.tick++;
