@@ -74,5 +74,6 @@ const Command& score_command_line();
 const Command& bench_command_line();
 const Command& z_width_command_line();
 const Command& device_command_line();
+const Command& home_command_line();
 
 }  // namespace firmtouch::host_sim

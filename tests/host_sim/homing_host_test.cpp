@@ -1,0 +1,41 @@
+// Homing by the firmware on every machine, with every thing that may be wrong.
+#include <string>
+
+#include "device/machines.hpp"
+#include "harness/long.hpp"
+#include "harness/test.hpp"
+#include "host_sim/device/homing_check.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+using device::HomingFault;
+using host_sim::HomingCase;
+
+TEST(Homing_EveryMachine_IsWithinACountOrFaults) {
+  const uint32_t runs = test::is_long() ? 10000 : 96;
+  uint32_t named = 0, wrong_axes = 0;
+  for (const std::string& name : tools::machine_names()) {
+    const tools::LinkageDevice device = tools::read_device(name, tools::machine_text(name));
+    host_sim::HomingTally tallies[host_sim::kHomingCases];
+    for (uint32_t run = 0; run < runs; ++run) {
+      const uint32_t which = run % host_sim::kHomingCases;
+      add(simulate_homing(device, static_cast<HomingCase>(which), run), tallies[which]);
+    }
+    for (uint32_t i = 0; i < host_sim::kHomingCases; ++i) {
+      const host_sim::HomingTally& tally = tallies[i];
+      test::note((name + ", " + case_name(static_cast<HomingCase>(i))).c_str(), tally.runs);
+      CHECK_EQ(tally.wrong, 0u);
+      CHECK_GE(tally.torque_share, 0.9);
+      if (i == static_cast<uint32_t>(HomingCase::kGood)) CHECK_GE(tally.homed * 4, tally.runs * 3);
+      const auto it = static_cast<HomingCase>(i);
+      if (it == HomingCase::kDead || it == HomingCase::kReversed || it == HomingCase::kSwapped ||
+          it == HomingCase::kNoStop || it == HomingCase::kNoIndex)
+        CHECK_EQ(tally.homed, 0u);
+      if (it != HomingCase::kReversed && it != HomingCase::kSwapped) continue;
+      wrong_axes += tally.runs;
+      named += tally.faults[static_cast<uint32_t>(HomingFault::kWrongWay)] +
+               tally.faults[static_cast<uint32_t>(HomingFault::kSwapped)];
+    }
+  }
+  test::note("reversed or swapped axes that are named so", named);
+  CHECK_GE(named * 10, wrong_axes * 8);
+}
