@@ -1,7 +1,15 @@
 #pragma once
-#include "host_sim/device/moving_points.hpp"
+#include "device/moving_points.hpp"
+#include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
+
+using tools::JointMotion;
+using tools::kJoints;
+using tools::LinkageDevice;
+using tools::MovingPoint;
+using tools::MovingPoints;
+using tools::points_of;
 
 /// Where the energy of a simulated linkage went since its start: hand + motors = stored - start +
 /// lost.

@@ -25,3 +25,34 @@ ALinkageIsBakedWithItsPart() {
   f bake box.obj --device box.obj -o b.fta; exits 3; absent b.fta
   f bake box.obj --device pantograph.txt -o pantograph.txt; exits 2; says overwrite
 }
+
+ALinkageIsCalibrated() {
+  # An arm of links 130 and 120 mm, shoulder on the axis; counts are milliradians. The file says 135 and 115 mm.
+  awk 'BEGIN {
+    print "count_0,count_1,count_2,x,y,z,nx,ny,nz,radius"
+    for (i = 0; i < 40; ++i) {
+      a = i * 37 % 1000 - 500; b = i * 53 % 900; c = -300 - i * 71 % 1500
+      out = .13 * cos(b / 1e3) + .12 * cos((b + c) / 1e3); up = .13 * sin(b / 1e3) + .12 * sin((b + c) / 1e3)
+      x = out * cos(a / 1e3); y = out * sin(a / 1e3)
+      if (i % 3 == 0) printf "%d,%d,%d,%.7f,%.7f,%.7f,0,0,0,0\n", a, b, c, x, y, up
+      if (i % 3 == 1) printf "%d,%d,%d,%.7f,0,0,1,0,0,0\n", a, b, c, x
+      if (i % 3 == 2) printf "%d,%d,%d,%.7f,%.7f,%.7f,0,0,0,0.02\n", a, b, c, x, y, up + 0.02
+    }
+  }' >touches.csv
+  printf 'linkage serial_arm 3\nlink_0 135 mm\nlink_1 115 mm\n' >arm.txt
+  for k in 0 1 2; do printf 'counts_%s 1000 counts/rad\nlow_%s -2 rad\nhigh_%s 2 rad\nmax_torque_%s 1 N*m\n' $k $k $k $k; done >>arm.txt
+  f calibrate arm.txt touches.csv -o found.txt
+  exits 0
+  f calibrate found.txt touches.csv; exits 0
+  for link in 'link_0 .* 0\.13[0-9]* ' 'link_1 .* 0\.12[0-9]* '; do printf '%s' "$out" | grep -q "$link" || fail "$out"; done
+  # Height and zero of the turntable are open where only plates of one direction are touched.
+  sed -n '1p; /,1,0,0,0$/p' touches.csv >x_plates.csv
+  f calibrate arm.txt x_plates.csv; exits 0
+  case $out in *'do not determine'*height*) ;; *) fail "$out" ;; esac
+  f calibrate arm.txt touches.csv --noise 1e-9; exits 1; says 'do not fit'
+  sed '2s/,0$/,nan/' touches.csv >bad.csv
+  f calibrate arm.txt bad.csv; exits 3; says 'bad.csv:2' 'not finite'
+  f calibrate arm.txt; exits 2
+  f calibrate touch_like --study --runs 200; exits 0
+  case $out in *'200, converged 200'*) ;; *) fail "$out" ;; esac
+}

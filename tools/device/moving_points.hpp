@@ -1,19 +1,16 @@
 #pragma once
 #include "device/device_file.hpp"
-#include "host_sim/plant/vec.hpp"
 
-namespace firmtouch::host_sim {
-
-using tools::LinkageDevice;
+namespace firmtouch::tools {
 
 constexpr uint32_t kJoints = device::kMaxJoints;
 
 /// A point of a linkage in motion, in double. Its acceleration is the columns times the joints'
 /// accelerations, and `bias_mps2`.
 struct MovingPoint {
-  Vec at_m, velocity_mps;
-  Vec column_m[kJoints];  // motion per radian of each joint
-  Vec bias_mps2;
+  Point at_m, velocity_mps;
+  Point column_m[kJoints];  // motion per radian of each joint
+  Point bias_mps2;
   uint32_t first = 0, end = 0;  // the columns that are not 0
 };
 
@@ -34,4 +31,4 @@ struct JointMotion {
 /// accelerations from rods of constant length.
 MovingPoints points_of(const LinkageDevice& device, const JointMotion& motion);
 
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::tools

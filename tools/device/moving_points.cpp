@@ -1,8 +1,8 @@
-#include "host_sim/device/moving_points.hpp"
+#include "device/moving_points.hpp"
 
 #include <cmath>
 
-namespace firmtouch::host_sim {
+namespace firmtouch::tools {
 namespace {
 
 using device::Delta;
@@ -12,11 +12,11 @@ using device::SerialArm;
 double wide(float a) { return static_cast<double>(a); }
 
 // The end of a link of `length_m` that joint `k` turns in the plane of `out` and `up`.
-MovingPoint link_end(Vec base_m, Vec out, Vec up, double length_m, uint32_t k,
+MovingPoint link_end(Point base_m, Point out, Point up, double length_m, uint32_t k,
                      const JointMotion& motion) {
   const double c = std::cos(motion.angle_rad[k]), s = std::sin(motion.angle_rad[k]);
   const double rate = motion.rate_rad_per_s[k];
-  const Vec along = (out * c + up * s) * length_m;
+  const Point along = (out * c + up * s) * length_m;
   MovingPoint end;
   end.first = k, end.end = k + 1;
   end.at_m = base_m + along;
@@ -31,22 +31,22 @@ MovingPoint link_end(Vec base_m, Vec out, Vec up, double length_m, uint32_t k,
 void close_motion(uint32_t joints, const JointMotion& motion, MovingPoints& points) {
   MovingPoint& tip = points.tip;
   tip.end = joints;
-  Vec rod[kJoints] = {{}, {}, {0, 0, 1}};
+  Point rod[kJoints] = {{}, {}, {0, 0, 1}};
   double lengths2 = 1;
   for (uint32_t k = 0; k < joints; ++k) {
     rod[k] = tip.at_m - points.elbow[k].at_m;
     lengths2 *= dot(rod[k], rod[k]);
   }
-  Vec opposite[kJoints] = {cross(rod[1], rod[2]), cross(rod[2], rod[0]), cross(rod[0], rod[1])};
+  Point opposite[kJoints] = {cross(rod[1], rod[2]), cross(rod[2], rod[0]), cross(rod[0], rod[1])};
   const double volume = dot(rod[0], opposite[0]);
   points.span = std::fabs(volume) / std::sqrt(lengths2);
-  for (Vec& way : opposite) way = way * (1 / volume);
+  for (Point& way : opposite) way = way * (1 / volume);
   for (uint32_t k = 0; k < joints; ++k) {
     tip.column_m[k] = opposite[k] * dot(rod[k], points.elbow[k].column_m[k]);
     tip.velocity_mps = tip.velocity_mps + tip.column_m[k] * motion.rate_rad_per_s[k];
   }
   for (uint32_t k = 0; k < joints; ++k) {
-    const Vec apart_mps = tip.velocity_mps - points.elbow[k].velocity_mps;
+    const Point apart_mps = tip.velocity_mps - points.elbow[k].velocity_mps;
     tip.bias_mps2 = tip.bias_mps2 + opposite[k] * (dot(rod[k], points.elbow[k].bias_mps2) -
                                                    dot(apart_mps, apart_mps));
   }
@@ -59,34 +59,34 @@ MovingPoints points(const FiveBar& bar, const JointMotion& motion) {
     all.elbow[k] =
         link_end(all.base[k].at_m, {1, 0, 0}, {0, 1, 0}, wide(bar.proximal_m[k]), k, motion);
   }
-  const Vec way = all.elbow[1].at_m - all.elbow[0].at_m;
+  const Point way = all.elbow[1].at_m - all.elbow[0].at_m;
   const double way2 = dot(way, way), first = wide(bar.distal_m[0]), second = wide(bar.distal_m[1]);
   const double along = 0.5 + 0.5 * (first * first - second * second) / way2;
   const double height2 = first * first / way2 - along * along;
   all.is_closed = height2 > 0;
   const double height = std::sqrt(std::fmax(height2, 0)) * (bar.is_tip_left ? 1 : -1);
-  all.tip.at_m = all.elbow[0].at_m + way * along + Vec{-way.y, way.x, 0} * height;
+  all.tip.at_m = all.elbow[0].at_m + way * along + Point{-way.y, way.x, 0} * height;
   if (all.is_closed) close_motion(2, motion, all);
   return all;
 }
 
 MovingPoints points(const Delta& delta, const JointMotion& motion) {
   constexpr double kSine = 0.86602540378443865;  // of 120 degrees
-  constexpr Vec kOut[] = {{1, 0, 0}, {-0.5, kSine, 0}, {-0.5, -kSine, 0}};
+  constexpr Point kOut[] = {{1, 0, 0}, {-0.5, kSine, 0}, {-0.5, -kSine, 0}};
   MovingPoints all;
   const double out_m = wide(delta.base_radius_m) - wide(delta.platform_radius_m);
   for (uint32_t k = 0; k < 3; ++k) {
-    const Vec out = kOut[k], side{-out.y, out.x, 0};
+    const Point out = kOut[k], side{-out.y, out.x, 0};
     all.base[k].at_m = out * out_m + side * wide(delta.side_m);
     all.elbow[k] = link_end(all.base[k].at_m, out, {0, 0, 1}, wide(delta.upper_m[k]), k, motion);
   }
-  const Vec u = all.elbow[1].at_m - all.elbow[0].at_m, v = all.elbow[2].at_m - all.elbow[0].at_m;
-  const Vec normal = cross(u, v);
+  const Point u = all.elbow[1].at_m - all.elbow[0].at_m, v = all.elbow[2].at_m - all.elbow[0].at_m;
+  const Point normal = cross(u, v);
   const double normal2 = dot(normal, normal),
                first2 = wide(delta.lower_m[0]) * wide(delta.lower_m[0]);
   const double a = 0.5 * (first2 - wide(delta.lower_m[1]) * wide(delta.lower_m[1]) + dot(u, u));
   const double b = 0.5 * (first2 - wide(delta.lower_m[2]) * wide(delta.lower_m[2]) + dot(v, v));
-  const Vec flat = cross(v * a - u * b, normal) * (1 / normal2);
+  const Point flat = cross(v * a - u * b, normal) * (1 / normal2);
   const double lift2 = (first2 - dot(flat, flat)) / normal2;
   all.is_closed = lift2 > 0;
   all.tip.at_m = all.elbow[0].at_m + flat +
@@ -99,8 +99,8 @@ MovingPoints points(const Delta& delta, const JointMotion& motion) {
 // turntable adds its own motion.
 MovingPoint turned(const MovingPoint& flat, double angle_rad, double rate) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  const auto turn = [&](Vec a) { return Vec{a.x * c, a.x * s, a.z}; };
-  const Vec across{-s, c, 0};
+  const auto turn = [&](Point a) { return Point{a.x * c, a.x * s, a.z}; };
+  const Point across{-s, c, 0};
   MovingPoint point;
   point.end = flat.end > 0 ? flat.end : 1;
   point.at_m = turn(flat.at_m);
@@ -116,7 +116,7 @@ MovingPoint turned(const MovingPoint& flat, double angle_rad, double rate) {
 MovingPoints points(const SerialArm& arm, const JointMotion& motion) {
   const bool is_planar = arm.joints == 2;
   const uint32_t shoulder = arm.joints - 2, elbow = shoulder + 1;
-  const Vec out{1, 0, 0}, up = is_planar ? Vec{0, 1, 0} : Vec{0, 0, 1};
+  const Point out{1, 0, 0}, up = is_planar ? Point{0, 1, 0} : Point{0, 0, 1};
   JointMotion of_links = motion;
   if (!arm.has_parallelogram) {  // the second link's own angle and rate
     of_links.angle_rad[elbow] += motion.angle_rad[shoulder];
@@ -149,4 +149,4 @@ MovingPoints points_of(const LinkageDevice& device, const JointMotion& motion) {
   return std::visit([&](const auto& linkage) { return points(linkage, motion); }, device.linkage);
 }
 
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::tools
