@@ -75,5 +75,6 @@ const Command& bench_command_line();
 const Command& z_width_command_line();
 const Command& device_command_line();
 const Command& home_command_line();
+const Command& compare_command_line();
 
 }  // namespace firmtouch::host_sim

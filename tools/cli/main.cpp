@@ -27,7 +27,7 @@ std::string usage() {
       "Bakes surfaces and paths into assets that a controller touches in fixed memory.\n\n";
   for (const Entry& entry : kEntries) {
     std::string line = std::string("  ") + entry.command().name;
-    line.resize(11, ' ');
+    line.resize(12, ' ');
     text += line + entry.command().summary + "\n";
   }
   return text +

@@ -1,0 +1,66 @@
+#include <cstdio>
+
+#include "device/refused.hpp"
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/report/comparison.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+void print(const char* name, double first, double second) {
+  std::printf("%-22s %14.6g %14.6g %14.6g\n", name, first, second, second - first);
+}
+
+void print_figures(const RunFigures& a, const RunFigures& b) {
+  const auto count = [](uint64_t value) { return static_cast<double>(value); };
+  std::printf("%-22s %14s %14s %14s\n", "figure", "first", "second", "change");
+  print("ticks", count(a.ticks), count(b.ticks));
+  print("contact ticks", count(a.contact_ticks), count(b.contact_ticks));
+  print("exact ticks", count(a.exact_ticks), count(b.exact_ticks));
+  print("peak force, N", a.peak_force_N, b.peak_force_N);
+  print("rms force, N", a.rms_force_N, b.rms_force_N);
+  print("peak motor, N or N m", a.peak_motor, b.peak_motor);
+  print("peak speed, m/s", a.peak_speed_mps, b.peak_speed_mps);
+  print("deepest, mm", a.deepest_m * 1e3, b.deepest_m * 1e3);
+  print("mean visits", a.mean_visits, b.mean_visits);
+  print("worst visits", a.worst_visits, b.worst_visits);
+  std::printf("%-22s     0x%08x     0x%08x\n", "faults", a.faults, b.faults);
+}
+
+int print_comparison(const Options& options) {
+  if (options.operands().size() != 2) options.refuse("give two logs: A.ftl B.ftl");
+  Log logs[2];
+  for (size_t i = 0; i < 2; ++i) {
+    logs[i] = read_log(options.operands()[i]);
+    if (logs[i].decimation != 1 || logs[i].first_number != 0)
+      throw tools::Refused(options.operands()[i] +
+                           ": it does not hold every tick from the first; record the run again");
+  }
+  const Comparison result = compare(logs[0], logs[1]);
+  print_figures(result.first, result.second);
+  for (const std::string& line : result.settings) std::printf("setting  %s\n", line.c_str());
+  if (!result.fields.empty())
+    std::printf("%-26s %12s %12s %12s %12s\n", "field", "worst", "at tick", "rms", "first tick");
+  for (const FieldComparison& row : result.fields)
+    std::printf("%-26s %12.5g %12u %12.5g %12u\n", row.name.c_str(), row.worst, row.worst_tick,
+                row.rms, row.first_tick);
+  const bool is_same = result.fields.empty() && result.first.ticks == result.second.ticks;
+  std::printf("%s\n", is_same ? "the same in every bit of every tick" : "they differ");
+  return is_same ? 0 : 1;
+}
+
+}  // namespace
+
+const Command& compare_command_line() {
+  static const Command command = {
+      "compare",
+      "A.ftl B.ftl",
+      "compares two runs: the figures of both, settings and fields that differ, and where",
+      "Ticks are matched by their number, up to the end of the shorter run. Exit code 0: all bits "
+      "of all ticks are\nthe same; 1: they differ.\n",
+      {},
+      print_comparison};
+  return command;
+}
+
+}  // namespace firmtouch::host_sim
