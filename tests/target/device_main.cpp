@@ -1,10 +1,12 @@
 // Instructions from counts to position, velocity, Jacobian and torques, by linkage. A row each:
 //     NAME | JOINTS | POSE | VELOCITY, TORQUES | MEAN OF ALL | WORST | % OF TICKS WITH WHOLE FORCE
+// and of homing:   homing | MEAN | WORST | 1 if it was done
 // tools/bench/cortex-m7-device runs it.
 #include <stdint.h>
 
 #include "firmtouch/device/delta.hpp"
 #include "firmtouch/device/five_bar.hpp"
+#include "firmtouch/device/homing.hpp"
 #include "firmtouch/device/serial_arm.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
@@ -76,6 +78,46 @@ void run(const char* name, const Linkage& linkage, uint32_t joints, const float 
   hal::board_print("\n");
 }
 
+// Three joints between stops that follow their torques at once.
+void run_homing() {
+  device::JointSettings joints;
+  device::HomingSettings settings;
+  settings.by = device::HomeBy::kIndex;
+  for (uint32_t k = 0; k < 3; ++k) {
+    joints.joint[k] = {kCountsPerRad, 0, -0.5f, 0.5f};
+    settings.torque_Nm[k] = 0.1f;
+    settings.index_period_rad[k] = 0.4f;
+  }
+  device::HomingState state;
+  device::HomingSample sample;
+  sample.encoders = {{}, true, 1e-3f};
+  const uint32_t before = hal::clock_work();
+  const uint32_t empty = hal::clock_work() - before;
+  uint64_t sum = 0;
+  uint32_t worst = 0, ticks = 0;
+  while (!state.is_done && ticks < kTicks) {
+    const uint32_t start = hal::clock_work();
+    const device::HomingTorques out = home(state, settings, joints, sample);
+    const uint32_t all = hal::clock_work() - start - empty;
+    sum += all;
+    worst = all > worst ? all : worst;
+    ++ticks;
+    sample.pulses = 0;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const int32_t way = out.torque_Nm[k] > 0 ? 10 : out.torque_Nm[k] < 0 ? -10 : 0;
+      const int32_t to = sample.encoders.counts[k] + way;
+      if (to > 1100 || to < -1100) continue;
+      if (to == 0) sample.pulses |= 1u << k;  // latched at 0, an index pulse's angle
+      sample.encoders.counts[k] = to;
+    }
+  }
+  hal::board_print("homing");
+  print(" | ", instructions(sum / ticks));
+  print(" | ", instructions(worst));
+  print(" | ", state.is_done ? 1 : 0);
+  hal::board_print("\n");
+}
+
 }  // namespace
 
 int main() {
@@ -84,5 +126,6 @@ int main() {
   run("serial, 2 joints", kScara, 2, {.5f, 1.2f, 0});
   run("serial, 3 joints", kArm, 3, {.1f, .8f, -1.6f});
   run("delta", kDelta, 3, {.4f, .4f, .4f});
+  run_homing();
   return 0;
 }
