@@ -47,16 +47,18 @@ struct Choice<false, First, Second> {
 };
 
 // A search counts in thirds of a work unit: a visit takes one, a triangle two, in double-float 24.
+// To begin takes 5 units.
 constexpr uint32_t kPartsOfUnit = 3;
+constexpr uint32_t kBeginUnits = 5;
 constexpr uint32_t kTriangleParts = 2;
 constexpr uint32_t kCompensatedParts = 24;
 
 constexpr uint32_t parts_of(uint32_t units) {
   if (units > UINT32_MAX / kPartsOfUnit) return UINT32_MAX;
-  return units == 0 ? kPartsOfUnit : units * kPartsOfUnit;
+  return units <= kBeginUnits ? 1 : (units - kBeginUnits) * kPartsOfUnit;
 }
 constexpr uint32_t units_of(uint32_t parts) {
-  return parts / kPartsOfUnit + (parts % kPartsOfUnit != 0 ? 1 : 0);
+  return kBeginUnits + parts / kPartsOfUnit + (parts % kPartsOfUnit != 0 ? 1 : 0);
 }
 
 // Takes parts beyond a visit. The visit itself is still to be taken: one is left.
