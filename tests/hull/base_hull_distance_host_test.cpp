@@ -110,4 +110,30 @@ TEST(BaseHull_HostilePoints_GiveFiniteDistances) {
       }
 }
 
+// The line that decides the side passes a corner, which only integers decide.
+TEST(BaseHull_LineThroughACorner_IsChargedAndKnownOrUnknown) {
+  const BakedHull ring(bumpy_ring(8, 4, 0.2), 150, 16);
+  const hull::BaseHull& base_hull = ring.view.base_hull();
+  const Surface surface = surface_of(base_hull);
+  int charged = 0, starved = 0;
+  for (const math::Vec3& corner : surface.vertices)
+    for (const float off : {-0.11f, 0.07f}) {
+      const math::Vec3 p{corner.x + off, corner.y, corner.z};
+      const bool is_inside = mesh_test::brute_force(surface, wide(p)).inside;
+      for (const uint32_t work : {UINT32_MAX, 640u, 160u, 40u, 1u}) {
+        const hull::BaseHullDistance reported = hull::base_hull_distance(base_hull, p, {work});
+        CHECK_LE(reported.work, work);
+        if (reported.side == hull::BaseHullSide::kUnknown)
+          ++starved;
+        else
+          CHECK_EQ(reported.side == hull::BaseHullSide::kInside, is_inside);
+        if (work != UINT32_MAX) continue;
+        CHECK(reported.side != hull::BaseHullSide::kUnknown);
+        charged += reported.work >= reported.steps + 100 ? 1 : 0;
+      }
+    }
+  CHECK_LT(100, charged);
+  CHECK_LT(100, starved);
+}
+
 }  // namespace firmtouch::tools

@@ -1,7 +1,8 @@
-// Attacks the bound of a query's time: `work ROUNDS SEED FIXED PER_UNIT [guide]` on the emulator's
-// command line. A query of the board's asset (mesh, curve or spline; guide: a tick of the guide
-// along it) must take at most FIXED + units used * PER_UNIT instructions, at every budget:
-// anywhere, after jumps, from afar, led along, and hill climbing from the worst so far. Rows:
+// Attacks the bound of a query's time: `work ROUNDS SEED FIXED PER_UNIT [guide|field|hull]` on the
+// emulator's command line. A query of the board's asset (mesh, curve or spline; guide: a tick of
+// the guide along it; field, hull: those of the mesh) must take at most FIXED + units used *
+// PER_UNIT instructions, at every budget: anywhere, after jumps, from afar, led along, along the
+// axes of a point of the shape, and hill climbing from the worst so far. Rows:
 //     UNITS INSTRUCTIONS                 the worst seen of queries that used so many units, or more
 //                                        and fewer than the next row's
 //     ratio RATIO UNITS INSTRUCTIONS     the largest instructions / bound, in thousandths
@@ -13,8 +14,12 @@
 #include "firmtouch/asset/loader.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/guided_point.hpp"
+#include "firmtouch/field/closest_point.hpp"
+#include "firmtouch/field/loader.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hull/base_hull_distance.hpp"
+#include "firmtouch/hull/loader.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/spline/closest_point.hpp"
@@ -25,7 +30,9 @@
 namespace asset = firmtouch::asset;
 namespace core = firmtouch::core;
 namespace curve = firmtouch::curve;
+namespace field = firmtouch::field;
 namespace hal = firmtouch::hal;
+namespace hull = firmtouch::hull;
 namespace mesh = firmtouch::mesh;
 namespace query = firmtouch::query;
 namespace spline = firmtouch::spline;
@@ -36,12 +43,13 @@ namespace {
 
 constexpr uint32_t kBudgets[] = {0,  1,  2,   3,   5,   8,   13,   21,
                                  34, 55, 160, 320, 640, 640, 1280, UINT32_MAX};
-constexpr float kReach = 1e-4f;                       // of the extent: the least motion
+constexpr float kReach = 1e-4f;  // of the extent: the least motion
+constexpr float kFieldBand = 0.01f;
 constexpr float kArcPenalty = 0.1f, kRelease = 0.1f;  // of a guide, as shares of length and extent
 
 struct Settings {
   uint32_t rounds, seed, fixed, per_unit;
-  bool is_guide;
+  char part;  // 'g': a guide, 'f': a field, 'h': a hull; else the shape itself
 };
 
 class Random {
@@ -94,6 +102,26 @@ struct Guided {
   Answer query(Vec3 p_m, query::Budget budget, State& state) const {
     const auto followed = follow(view, p_m, hold, budget, state);
     return {followed.closest.point_m, followed.closest.certificate};
+  }
+};
+struct Field {
+  using State = mesh::Hint;
+  const field::View& view;
+  const mesh::View& mesh;
+  float band_m;
+  Answer query(Vec3 p_m, query::Budget budget, State& state) const {
+    const field::Answer answer = field::closest_point(view, mesh, p_m, band_m, budget, state);
+    return {answer.is_far ? p_m : answer.closest.point_m, answer.closest.certificate};
+  }
+};
+struct Hull {
+  struct State {};
+  const hull::BaseHull& base_hull;
+  Answer query(Vec3 p_m, query::Budget budget, State&) const {
+    const hull::BaseHullDistance distance = hull::base_hull_distance(base_hull, p_m, budget);
+    Answer answer{distance.point_m, {}};
+    answer.certificate.work = distance.work;
+    return answer;
   }
 };
 
@@ -154,6 +182,13 @@ class Attack {
         return at_m_ + off * random_.scale(kReach * box_.extent_m, 10);  // near the shape
       case 2:
         return at_m_ + off * random_.scale(box_.extent_m, 14);  // far
+      case 3: {                                                 // along the axes
+        const Vec3 motion_m = off * (0.5f * box_.extent_m);
+        const uint32_t axes = random_.below(7);
+        return at_m_ + Vec3{(axes & 1) != 0 ? 0.0f : motion_m.x,
+                            (axes & 2) != 0 ? 0.0f : motion_m.y,
+                            (axes & 4) != 0 ? 0.0f : motion_m.z};
+      }
       default: {
         const Vec3 half_m = box_.size_m * 0.5f;
         return box_.low_m + half_m +
@@ -240,41 +275,78 @@ void attack(const Subject& subject, const Box& box, const Settings& settings) {
 using CurveGuide = Guided<curve::View, curve::Hold, curve::Following>;
 using SplineGuide = Guided<spline::GuideView, spline::Hold, spline::Following>;
 
-bool open_guide(const spline::View& model, spline::GuideView& guide) {
-  const core::Bytes slot = hal::board_asset();
-  asset::Container file;
-  if (!asset::open({slot.data(), asset::stated_bytes(slot)}, file).ok()) return false;
-  const char* const name = file.name(file.next_of_type(spline::kHeadSection));
-  return spline::open_guide(model, asset::find_sections<spline::GuideSections>(file, name), guide)
-      .ok();
+// A further part of the asset, which lies beside the part that is open.
+class Asset {
+ public:
+  Asset() {
+    const core::Bytes slot = hal::board_asset();
+    is_open_ = asset::open({slot.data(), asset::stated_bytes(slot)}, file_).ok();
+  }
+  bool open(const spline::View& model, spline::GuideView& guide) const {
+    return is_open_ && spline::open_guide(model,
+                                          asset::find_sections<spline::GuideSections>(
+                                              file_, name_of(spline::kHeadSection)),
+                                          guide)
+                           .ok();
+  }
+  bool open(const mesh::View& mesh, field::View& view) const {
+    const char* const name = name_of(mesh::kHeadSection);
+    return is_open_ &&
+           field::open(asset::find_sections<field::Sections>(file_, name), mesh, view).ok();
+  }
+  bool open(hull::View& view) const {
+    return is_open_ && asset::open_geometry(file_, name_of(mesh::kHeadSection), view).ok();
+  }
+
+ private:
+  const char* name_of(uint32_t type) const { return file_.name(file_.next_of_type(type)); }
+  asset::Container file_;
+  bool is_open_;
+};
+
+bool run_mesh(const mesh::View& mesh, const Settings& settings) {
+  const Box box = box_of(mesh.head());
+  if (settings.part == 'f') {
+    field::View view;
+    if (!Asset().open(mesh, view)) return false;
+    attack(Field{view, mesh, kFieldBand * box.extent_m}, box, settings);
+  } else if (settings.part == 'h') {
+    hull::View view;
+    if (!Asset().open(view)) return false;
+    attack(Hull{view.base_hull()}, box, settings);
+  } else {
+    attack(Shape<mesh::View, mesh::Hint>{mesh}, box, settings);
+  }
+  return true;
 }
 
-int run(const target::Views& views, const Settings& settings) {
-  if (views.mesh.is_open()) {
-    attack(Shape<mesh::View, mesh::Hint>{views.mesh}, box_of(views.mesh.head()), settings);
-    return 0;
-  }
-  if (views.curve.is_open()) {
-    const Box box = box_of(views.curve.head());
-    if (settings.is_guide)
-      attack(CurveGuide{views.curve,
-                        {kArcPenalty * views.curve.head().length_m, kRelease * box.extent_m}},
-             box, settings);
-    else
-      attack(Shape<curve::View, curve::Hint>{views.curve}, box, settings);
-    return 0;
-  }
-  if (!views.spline.is_open()) return 1;
-  const Box box = box_of(views.spline.head());
-  if (!settings.is_guide) {
-    attack(Shape<spline::View, spline::Hint>{views.spline}, box, settings);
-    return 0;
+bool run_curve(const curve::View& curve, const Settings& settings) {
+  const Box box = box_of(curve.head());
+  if (settings.part == 'g')
+    attack(CurveGuide{curve, {kArcPenalty * curve.head().length_m, kRelease * box.extent_m}}, box,
+           settings);
+  else
+    attack(Shape<curve::View, curve::Hint>{curve}, box, settings);
+  return true;
+}
+
+bool run_spline(const spline::View& model, const Settings& settings) {
+  const Box box = box_of(model.head());
+  if (settings.part != 'g') {
+    attack(Shape<spline::View, spline::Hint>{model}, box, settings);
+    return true;
   }
   spline::GuideView guide;
-  if (!open_guide(views.spline, guide)) return 1;
+  if (!Asset().open(model, guide)) return false;
   attack(SplineGuide{guide, {kArcPenalty * guide.length_m(), kRelease * box.extent_m}}, box,
          settings);
-  return 0;
+  return true;
+}
+
+bool run(const target::Views& views, const Settings& settings) {
+  if (views.mesh.is_open()) return run_mesh(views.mesh, settings);
+  if (views.curve.is_open()) return run_curve(views.curve, settings);
+  return views.spline.is_open() && run_spline(views.spline, settings);
 }
 
 uint32_t number(const char*& text) {
@@ -298,9 +370,10 @@ int main() {
   settings.seed = number(text);
   settings.fixed = number(text);
   settings.per_unit = number(text);
-  settings.is_guide = *text == ' ' && text[1] == 'g';
+  settings.part = *text == ' ' ? text[1] : ' ';
   const target::Views views = target::open_views(hal::board_asset());
-  if (views.verdict.ok() && run(views, settings) == 0) return 0;
-  hal::board_print("no mesh, curve or spline in the asset, no guide, or a rule rejects it\n");
+  if (views.verdict.ok() && run(views, settings)) return 0;
+  hal::board_print(
+      "no mesh, curve or spline in the asset, no such part of it, or a rule rejects it\n");
   return 1;
 }

@@ -49,7 +49,7 @@ Answer closest_point(const View& distance_field, const mesh::View& mesh, Vec3 p_
     answer.closest.distance_m = bounds.upper_m;
     answer.closest.certificate.lower_m = bounds.lower_m;
     answer.closest.certificate.sign = bounds.sign;
-    answer.closest.certificate.steps = 1;
+    answer.closest.certificate.steps = answer.closest.certificate.work = 1;
     return answer;
   }
   start_at_seed(bounds, distance_field.head().cell_m, p_m, hint);

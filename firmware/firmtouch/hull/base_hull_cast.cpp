@@ -77,10 +77,26 @@ class Turns {
  public:
   float limit = 1;
   int32_t sum = 0;
+  bool is_starved = false;
+
+  Turns(Vec3 a_m, Vec3 b_m, query::Work& work) : a_m_(a_m), b_m_(b_m), work_(work) {}
   bool take(const mesh::SegmentFrame& frame, const FacePoints& corner, uint32_t) {
-    sum += frame.crossing(corner.p_m, corner.q_m, corner.r_m).direction;
+    mesh::Crossing crossing;
+    float early;
+    if (!frame.decides(corner.p_m, corner.q_m, corner.r_m, crossing, early)) {
+      is_starved = work_.left == 0;
+      if (is_starved) return false;
+      work_.charge(kExactWork);
+      crossing = mesh::exact_crossing(a_m_, b_m_, corner.p_m, corner.q_m, corner.r_m);
+    }
+    sum += crossing.direction;
     return true;
   }
+
+ private:
+  static constexpr uint32_t kExactWork = 100;  // it takes up to 10,000 instructions
+  Vec3 a_m_, b_m_;
+  query::Work& work_;
 };
 
 template <class Taker>
@@ -144,8 +160,9 @@ bool wind_around(const BaseHull& base_hull, Vec3 p_m, query::Work& work, int32_t
   const float out = p_m.x < middle ? head.low_m[0] - side : head.high_m[0] + side;
   const bool is_beyond = p_m.x < head.low_m[0] || p_m.x > head.high_m[0];
   if (is_beyond) return true;
-  Turns turns;
-  const bool is_done = search(base_hull, p_m, {out, p_m.y, p_m.z}, work, turns);
+  const Vec3 out_m{out, p_m.y, p_m.z};
+  Turns turns(p_m, out_m, work);
+  const bool is_done = search(base_hull, p_m, out_m, work, turns) && !turns.is_starved;
   winding = is_done ? turns.sum : 0;
   return is_done;
 }

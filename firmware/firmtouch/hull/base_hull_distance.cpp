@@ -12,6 +12,7 @@ using math::Vec3;
 // A squared distance to a box is off by 7 units of 2^-24 (a difference, its square, two sums);
 // lowered by more than that.
 constexpr float kDown = 1.0f - 0x1p-20f;
+constexpr uint32_t kFaceWork = 2;   // beyond the unit of the descent: 300 instructions
 constexpr float kBeyond_m = 1e19f;  // squares of more are no floats
 
 // The squared distance of boxes to a point.
@@ -41,6 +42,7 @@ Vec3 normal_of(const BaseHull& base_hull, uint32_t face) {
 // The nearest point of the faces that were looked at.
 struct Nearest {
   const BaseHull& base_hull;
+  query::Work& work;
   Vec3 p_m, point_m;
   float distance2_m2 = FLT_MAX;
   float limit = math::float_of(math::bits_of(FLT_MAX) - 1);  // the largest float below distance2_m2
@@ -48,6 +50,7 @@ struct Nearest {
 
   bool leaf(uint32_t i) {
     const BaseHull::Leaf leaf = base_hull.leaf(i);
+    work.charge(kFaceWork * leaf.faces.size());
     for (uint32_t n = 0; n < leaf.faces.size(); ++n)
       look_at(points_of(base_hull, leaf, n), leaf.first_face + n);
     limit = distance2_m2 > 0.0f ? math::float_of(math::bits_of(distance2_m2) - 1) : -1.0f;
@@ -93,7 +96,7 @@ BaseHullDistance base_hull_distance(const BaseHull& base_hull, Vec3 p_m, query::
   query::Work work(budget);
   if (wind_around(base_hull, p_m, work, winding))
     result.side = winding == 0 ? BaseHullSide::kOutside : BaseHullSide::kInside;
-  Nearest nearest{base_hull, p_m, result.point_m};
+  Nearest nearest{base_hull, work, p_m, result.point_m};
   const query::Descent<float> end =
       descend<false>(base_hull.boxes(), box_of(head), Around{p_m}, work, nearest);
   result.steps = work.visits();
