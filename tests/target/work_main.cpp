@@ -105,13 +105,17 @@ struct Guided {
   }
 };
 struct Field {
-  using State = mesh::Hint;
+  struct State {
+    mesh::Hint hint;
+    Vec3 near_m;  // of the last mesh query
+  };
   const field::View& view;
   const mesh::View& mesh;
   float band_m;
   Answer query(Vec3 p_m, query::Budget budget, State& state) const {
-    const field::Answer answer = field::closest_point(view, mesh, p_m, band_m, budget, state);
-    return {answer.is_far ? p_m : answer.closest.point_m, answer.closest.certificate};
+    const field::Answer answer = field::closest_point(view, mesh, p_m, band_m, budget, state.hint);
+    if (!answer.is_far) state.near_m = answer.closest.point_m;
+    return {state.near_m, answer.closest.certificate};
   }
 };
 struct Hull {
