@@ -82,8 +82,9 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
   summary_.force_limit_N = parameter_value(scenario, params::kForceLimit);
   summary_.tool_radius_m = parameter_value(scenario, params::kToolRadius);
   summary_.budget_units = static_cast<uint32_t>(
-      (environment.has_surface() ? parameter_value(scenario, params::kMeshWork) : 0) +
-      (environment.has_guide() ? parameter_value(scenario, params::kGuideWork) : 0));
+      std::min(parameter_value(scenario, params::kTickWork) - double{params::kFixedTickWork},
+               (environment.has_surface() ? parameter_value(scenario, params::kMeshWork) : 0) +
+                   (environment.has_guide() ? parameter_value(scenario, params::kGuideWork) : 0)));
   if (summary_.has_surface)
     stride_ = 1 + facts.ticks / (checked_ticks(environment, facts.ticks) + 1);
 }

@@ -99,7 +99,7 @@ void add_setting(TextLines& out, const Environment& environment, const Box& box,
     const Orientation orientation = orientation_of(environment.tessellation());
     out.add("surface_closed %d\nsurface_turned %d", orientation.is_closed ? 1 : 0,
             orientation.normals_inward ? 1 : 0);
-    out.add("mesh_work 5120");  // a patch needs more work than a triangle
+    out.add("mesh_work 5120\ntick_work 5600");  // a patch needs more work than a triangle
   }
   out.add("guide_snap %.4g mm\nguide_release %.4g mm", kSnap * diagonal * 1e3,
           kRelease * diagonal * 1e3);

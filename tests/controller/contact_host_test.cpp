@@ -32,6 +32,50 @@ TEST(TooFewVisits_AreAFaultIn10ms) {
   CHECK_GE(certain, 200u);
 }
 
+// What the surface leaves of a tick's pool is the guide's. A query takes one visit at least.
+TEST(QueriesOfATick_ShareItsWork_TheSurfaceFirst) {
+  uint32_t short_guides = 0;
+  for (const uint32_t pool : {1u, 3u, 20u, 60u, 200u}) {
+    Ride ride;
+    for (uint32_t tick = 0; tick < 1200; ++tick) {
+      ride.fill(tick);
+      ride.input.flags &= ~record::kFlagEnable;
+      if (tick == 0) {
+        ride.input.command = 1 + params::kTickWork;
+        ride.input.command_value = params::kFixedTickWork + static_cast<float>(pool);
+      }
+      ride.step();
+      if (tick == 0) CHECK((ride.output.state & record::kStateCommandTaken) != 0);
+      const uint32_t of_surface = ride.output.steps - ride.output.guide_steps;
+      CHECK_LE(of_surface, 3 * pool);  // at most three visits a unit
+      const uint32_t left = pool > of_surface / 3 ? pool - of_surface / 3 : 0;
+      CHECK_LE(ride.output.guide_steps, std::max(left, 1u));
+      short_guides += (ride.output.state & record::kStateGuideExact) == 0 ? 1 : 0;
+    }
+  }
+  CHECK_GE(short_guides, 1000u);
+}
+
+TEST(PoolBelowTheFixedCostOfATick_IsRefused_AndMayOnlyFallUnderPower) {
+  Ride ride;
+  const auto set = [&ride](uint32_t tick, float value) {
+    ride.fill(tick);
+    ride.input.command = 1 + params::kTickWork;
+    ride.input.command_value = value;
+    ride.step();
+    return (ride.output.state & record::kStateCommandTaken) != 0;
+  };
+  CHECK(!set(0, 0.0f));
+  CHECK(!set(1, params::kFixedTickWork));
+  CHECK(!set(2, NAN));
+  CHECK(set(3, params::kFixedTickWork + 1));
+  CHECK(set(4, 2000.0f));
+  ride.run(5, 200);
+  CHECK(!set(200, 2001.0f));
+  CHECK(set(201, 1000.0f));
+  CHECK(!set(202, 1001.0f));
+}
+
 // Presses to a depth without a guide, then sets the stiffness.
 struct Changed {
   double step_N = 0, before_N = 0, after_N = 0;  // greatest change in a tick; force 300 ticks after

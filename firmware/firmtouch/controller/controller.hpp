@@ -69,8 +69,9 @@ class Controller {
   /// At one rate the tick makes the local model. At two, where input.flags has kFlagModelApart,
   /// make_model() makes it. This tick then requests one (kFlagModelWanted), begins to use the one
   /// that was made (kFlagModelTaken), or keeps the last. These are inputs: a log replays.
-  /// Bounds: two queries of at most mesh_work and guide_work units; with a base hull another of
-  /// mesh_work or 1,280; at two rates none. Callable from an interrupt; not re-entrant.
+  /// Bounds: queries that share tick_work, the surface's at most mesh_work, the guide's at most
+  /// guide_work; with a base hull others of mesh_work or 1,280; at two rates none. Callable from
+  /// an interrupt; not re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output) {
     const AssetStatus asset = loaders_.status();
     ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
@@ -87,7 +88,7 @@ class Controller {
 
   /// Below the servo interrupt, which may interrupt it anywhere; in lock-step and on replay after
   /// each tick. Makes the model that a tick requested, if any.
-  /// Bounds: two queries of at most mesh_work and guide_work units.
+  /// Bounds: the queries of a tick.
   void make_model() {
     const ControllerCore::ModelTask* task = core_.task();
     if (task == nullptr) return;

@@ -140,6 +140,7 @@ void ControllerCore::begin_model(const ModelRequest& request, const Values& v,
   result.distance_m = result.distance_lower_m = result.penetration_m = 0;
   result.guide_deviation_m = result.guide_lower_m = result.guide_arc = 0;
   result.steps = result.guide_steps = 0;
+  result.work_left = static_cast<uint32_t>(v[params::kTickWork] - params::kFixedTickWork);
   result.state = 1u << record::kStateSignShift;
   result.model.sequence = live_.model_sequence;
   scene::begin_model(result.model, request.position_m, request.tick,

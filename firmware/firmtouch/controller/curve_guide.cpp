@@ -25,7 +25,7 @@ void CurveGuide::follow(const ModelRequest& request, const params::Values& v, Mo
   scene::CurveGuide guide;
   set_guide(v, result.ticks, guide);
   guide.curve = &curve();
-  scene::follow_curve(guide, request.position_m, work_budget(v, params::kGuideWork), touch_,
+  scene::follow_curve(guide, request.position_m, work_budget(v, params::kGuideWork, result), touch_,
                       result.model);
   report_guide(touch_, result);
 }

@@ -5,15 +5,6 @@
 namespace firmtouch {
 namespace {
 
-template <class Touched>
-void touch_object(const scene::MeshObject& object, const ModelRequest& request,
-                  const params::Values& v, mesh::Hint& hint, scene::ProxyTouch& touch,
-                  ModelResult& result) {
-  Touched touched{object, hint};
-  scene::touch_by_proxy(proxy_contact(request, result.ticks, v), touched, touch, result.model);
-  report_proxy(touch, request.position_m, result);
-}
-
 void report_penalty(const scene::MeshTouch& touch, ModelResult& result) {
   report_surface(touch.closest.certificate, touch.closest.distance_m, touch.penetration_m, result);
   result.steps += touch.base_hull_steps;
@@ -32,21 +23,21 @@ scene::MeshObject MeshContact::object(const mesh::View& mesh, const params::Valu
 
 void MeshSurface::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::MeshObject touched = object(mesh(), v);
-  touch_object<scene::MeshTouched>(touched, request, v, hint_, touch_, result);
+  touch_shape(scene::MeshTouched{touched, hint_}, request, v, touch_, result);
 }
 
 void MeshSurface::touch_by_penalty(const ModelRequest& request, const params::Values& v,
                                    PenaltyTouch& touch, ModelResult& result) const {
   scene::MeshObject touched = object(mesh(), v);
   scene::touch_mesh(touched, v[params::kToolRadius], request.position_m,
-                    work_budget(v, params::kMeshWork), touch, result.model);
+                    work_budget(v, params::kMeshWork, result), touch, result.model);
   report_penalty(touch, result);
 }
 
 void FieldMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::MeshObject touched = object(mesh(), v);
   touched.distance_field = &distance_field();
-  touch_object<scene::FieldMeshTouched>(touched, request, v, hint_, touch_, result);
+  touch_shape(scene::FieldMeshTouched{touched, hint_}, request, v, touch_, result);
 }
 
 void FieldMesh::touch_by_penalty(const ModelRequest& request, const params::Values& v,
@@ -54,14 +45,14 @@ void FieldMesh::touch_by_penalty(const ModelRequest& request, const params::Valu
   scene::MeshObject touched = object(mesh(), v);
   touched.distance_field = &distance_field();
   scene::touch_mesh_with_field(touched, v[params::kToolRadius], request.position_m,
-                               work_budget(v, params::kMeshWork), touch, result.model);
+                               work_budget(v, params::kMeshWork, result), touch, result.model);
   report_penalty(touch, result);
 }
 
 void HulledMesh::touch(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::MeshObject touched = object(mesh(), v);
   touched.base_hull = &hull().base_hull();
-  touch_object<scene::HulledMeshTouched>(touched, request, v, hint_, touch_, result);
+  touch_shape(scene::HulledMeshTouched{touched, hint_}, request, v, touch_, result);
 }
 
 void HulledMesh::touch_by_penalty(const ModelRequest& request, const params::Values& v,
@@ -69,7 +60,7 @@ void HulledMesh::touch_by_penalty(const ModelRequest& request, const params::Val
   scene::MeshObject touched = object(mesh(), v);
   touched.base_hull = &hull().base_hull();
   scene::touch_mesh_with_base_hull(touched, v[params::kToolRadius], request.position_m,
-                                   work_budget(v, params::kMeshWork), touch, result.model);
+                                   work_budget(v, params::kMeshWork, result), touch, result.model);
   report_penalty(touch, result);
 }
 
@@ -77,7 +68,7 @@ void FullMesh::touch(const ModelRequest& request, const params::Values& v, Model
   scene::MeshObject touched = object(mesh(), v);
   touched.distance_field = &distance_field();
   touched.base_hull = &hull().base_hull();
-  touch_object<scene::FullMeshTouched>(touched, request, v, hint_, touch_, result);
+  touch_shape(scene::FullMeshTouched{touched, hint_}, request, v, touch_, result);
 }
 
 void FullMesh::touch_by_penalty(const ModelRequest& request, const params::Values& v,
@@ -86,7 +77,7 @@ void FullMesh::touch_by_penalty(const ModelRequest& request, const params::Value
   touched.distance_field = &distance_field();
   touched.base_hull = &hull().base_hull();
   scene::touch_mesh_with_field_and_base_hull(touched, v[params::kToolRadius], request.position_m,
-                                             work_budget(v, params::kMeshWork), touch,
+                                             work_budget(v, params::kMeshWork, result), touch,
                                              result.model);
   report_penalty(touch, result);
 }

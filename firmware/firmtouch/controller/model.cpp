@@ -8,6 +8,7 @@ void report_surface(const query::Certificate& certificate, float distance_m, flo
   result.distance_lower_m = certificate.lower_m;
   result.penetration_m = penetration_m;
   result.steps += certificate.steps;
+  result.work_left -= certificate.work < result.work_left ? certificate.work : result.work_left;
   result.state &= ~(3u << record::kStateSignShift);
   result.state |= static_cast<uint32_t>(certificate.sign + 1) << record::kStateSignShift;
   if (penetration_m > 0) result.state |= record::kStateContact;
@@ -23,6 +24,12 @@ void report_guide(const query::Certificate& certificate, float deviation_m, floa
   result.guide_steps = certificate.steps;
   if (is_held) result.state |= record::kStateOnGuide;
   if (certificate.exact) result.state |= record::kStateGuideExact;
+}
+
+query::Budget work_budget(const params::Values& values, params::Index row,
+                          const ModelResult& result) {
+  const auto most = static_cast<uint32_t>(values[row]);
+  return {most < result.work_left ? most : result.work_left};
 }
 
 }  // namespace firmtouch

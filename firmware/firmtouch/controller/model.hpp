@@ -26,6 +26,7 @@ struct ModelResult {
   float distance_m = 0, distance_lower_m = 0, penetration_m = 0;
   float guide_deviation_m = 0, guide_lower_m = 0, guide_arc = 0;
   uint32_t steps = 0, guide_steps = 0;
+  uint32_t work_left = UINT32_MAX;                 // of tick_work
   uint32_t state = 1u << record::kStateSignShift;  // sign unknown
 };
 
@@ -36,12 +37,12 @@ void report_surface(const query::Certificate& certificate, float distance_m, flo
 void report_guide(const query::Certificate& certificate, float deviation_m, float arc, bool is_held,
                   ModelResult& result);
 
-/// Origin of the scene in the device frame, and the budget of a row.
+/// Origin of the scene in the device frame.
 inline math::Vec3 scene_origin_m(const params::Values& values) {
   return {values[params::kSceneX], values[params::kSceneY], values[params::kSceneZ]};
 }
-inline query::Budget work_budget(const params::Values& values, params::Index row) {
-  return {static_cast<uint32_t>(values[row])};
-}
+/// Of a row, and of what the tick's other queries have left.
+query::Budget work_budget(const params::Values& values, params::Index row,
+                          const ModelResult& result);
 
 }  // namespace firmtouch

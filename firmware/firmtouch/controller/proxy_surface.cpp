@@ -2,24 +2,25 @@
 
 namespace firmtouch {
 
-scene::ProxyContact proxy_contact(const ModelRequest& request, uint32_t ticks,
-                                  const params::Values& v) {
+scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Values& v,
+                                  const ModelResult& result) {
   scene::ProxyContact contact;
   contact.settings.radius_m = v[params::kToolRadius];
   contact.settings.friction_static = v[params::kFrictionStatic];
   contact.settings.friction_dynamic = v[params::kFrictionDynamic];
   contact.friction_speed_mps = v[params::kFrictionSpeed];
-  contact.settings.budget = work_budget(v, params::kMeshWork);
+  contact.settings.budget = work_budget(v, params::kMeshWork, result);
   contact.material = {v[params::kContactStiffness], v[params::kContactDamping]};
   contact.position_m = request.position_m;
   contact.proxy_m = request.proxy_m;
   contact.has_proxy = request.has_proxy;
   contact.is_on = request.is_on;
-  contact.passed_s = v[params::kTickPeriod] * static_cast<float>(ticks);
+  contact.passed_s = v[params::kTickPeriod] * static_cast<float>(result.ticks);
   return contact;
 }
 
-void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult& result) {
+void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, uint32_t work,
+                  ModelResult& result) {
   const scene::Proxy& proxy = touch.proxy;
   query::Certificate certificate;
   const scene::Bounds bounds = scene::bounds_of(proxy, hand_m);
@@ -27,6 +28,7 @@ void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult
   certificate.exact = proxy.near.is_exact;
   certificate.sign = proxy.near.sign;
   certificate.steps = touch.moved.steps;
+  certificate.work = work;
   report_surface(certificate, proxy.near.sign < 0 ? -bounds.upper_m : bounds.upper_m,
                  touch.penetration_m, result);
   result.state |= record::kStateProxy;

@@ -7,8 +7,8 @@ void SplineGuide::follow(const ModelRequest& request, const params::Values& v,
   scene::SplineGuide settings;
   set_guide(v, result.ticks, settings);
   settings.spline = &guide();
-  scene::follow_spline(settings, request.position_m, work_budget(v, params::kGuideWork), touch_,
-                       result.model);
+  scene::follow_spline(settings, request.position_m, work_budget(v, params::kGuideWork, result),
+                       touch_, result.model);
   report_guide(touch_, result);
 }
 

@@ -17,15 +17,13 @@ scene::SplineObject SplineSurface::object(const params::Values& v) const {
 void SplineSurface::touch(const ModelRequest& request, const params::Values& v,
                           ModelResult& result) {
   const scene::SplineObject touched_object = object(v);
-  scene::SplineTouched touched{touched_object, hint_};
-  scene::touch_by_proxy(proxy_contact(request, result.ticks, v), touched, touch_, result.model);
-  report_proxy(touch_, request.position_m, result);
+  touch_shape(scene::SplineTouched{touched_object, hint_}, request, v, touch_, result);
 }
 
 void SplineSurface::touch_by_penalty(const ModelRequest& request, const params::Values& v,
                                      PenaltyTouch& touch, ModelResult& result) const {
   scene::touch_spline(object(v), v[params::kToolRadius], request.position_m,
-                      work_budget(v, params::kMeshWork), touch, result.model);
+                      work_budget(v, params::kMeshWork, result), touch, result.model);
   const spline::Closest& closest = touch.closest;
   const bool is_inside = closest.certificate.sign < 0;
   report_surface(closest.certificate, is_inside ? -closest.distance_m : closest.distance_m,

@@ -81,6 +81,7 @@ enum Index : uint32_t {
   kFrictionDynamic,
   kVelocityEstimator,
   kFrictionSpeed,
+  kTickWork,
   kCount
 };
 

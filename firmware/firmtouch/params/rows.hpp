@@ -8,6 +8,11 @@ namespace firmtouch::params {
 
 constexpr float kInitialTickPeriod_s = 0.001f;
 
+/// A tick takes at most 180 instructions of a Cortex-M7 for each unit of tick_work, base hulls
+/// apart. So much it takes beside the units of its queries: 5,000 instructions, four queries of a
+/// proxy with 2,500 and up to 9,000 each, one of a guide with up to 14,000 (query/README.md).
+constexpr float kFixedTickWork = 362.0f;
+
 /// Limits of force and time: servo, guard and clock.
 struct SafetyRows {
   static constexpr Entry kRows[] = {
@@ -23,6 +28,8 @@ struct SafetyRows {
        "a tick that takes more periods than this is late"},
       {kModelAge, "model_age", "1", 1.0f, 1000.0f, 3.0f, When::kAnytime,
        "ticks for which a local model is valid"},
+      {kTickWork, "tick_work", "1", kFixedTickWork + 1.0f, 65536.0f, 900.0f, When::kMayFall,
+       "work of a tick, 362 of it fixed"},
   };
 };
 

@@ -66,7 +66,7 @@ constexpr const char* fault_text(uint32_t number) {
       "a setting of the servo is out of range",
       "the last guard stopped a force beyond force_limit_N or slew_limit_N_per_s",
       "ticks took longer than 0.9 of tick_period_s: lower the budgets of the queries",
-      "contact is uncertain: raise mesh_work, bake a hull, or start outside"};
+      "contact is uncertain: raise tick_work, bake a hull, or start outside"};
   return number < kFaultCount ? kText[number] : "";
 }
 
