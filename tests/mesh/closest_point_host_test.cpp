@@ -144,6 +144,39 @@ TEST(EveryBudgetIsCertifiedColdAndWarm) {
   }
 }
 
+// A query that ran out begins at the leaf where it ended. A carried bound loses four roundings.
+TEST(StandingStill_ShortQuery_CertificateOnlyImproves) {
+  const BakedMesh& baked = part();
+  Random random(17);
+  std::vector<Vec3> queries;
+  for (int i = 0; i < 600; ++i) {
+    const double reach_m = i % 2 == 0 ? 0.075 : 0.04;
+    const auto at = [&] { return static_cast<float>(random.between(-reach_m, reach_m)); };
+    const float x = at(), y = at();
+    queries.push_back({x, y, at()});
+  }
+  const std::vector<Truth> truth = truths(baked.surface, queries);
+  int at_once = 0, in_the_end = 0, raised = 0;
+  for (size_t i = 0; i < queries.size(); ++i) {
+    test::note("query", static_cast<int64_t>(i));
+    mesh::Hint hint;
+    mesh::Closest before = mesh::closest_point(baked.view, queries[i], {40}, hint);
+    const mesh::Closest first = before;
+    for (int tick = 1; tick < 40; ++tick) {
+      const mesh::Closest now = mesh::closest_point(baked.view, queries[i], {40}, hint);
+      check_answer(baked, now, truth[i], false);
+      CHECK_LE(std::fabs(now.distance_m), std::fabs(before.distance_m));
+      CHECK_GE(now.certificate.lower_m, before.certificate.lower_m * (1 - 5 * 0x1p-24f));
+      before = now;
+    }
+    at_once += first.certificate.exact ? 1 : 0;
+    in_the_end += before.certificate.exact ? 1 : 0;
+    raised += before.certificate.lower_m > first.certificate.lower_m * 1.001f ? 1 : 0;
+  }
+  CHECK_LE(at_once + 5, in_the_end);
+  CHECK_LE(20, raised);
+}
+
 TEST(SixtyFourStepsGiveAGoodLowerBound) {
   const BakedMesh& baked = part();
   Random random(9);
