@@ -6,6 +6,7 @@ namespace firmtouch::bench {
 const std::vector<Bench>& benches() {
   static const std::vector<Bench> all = {
       {"distance", "closest points of meshes: time, budgets, bytes", run_distance},
+      {"certificates", "bounds of meshes under short budgets", run_certificates},
       {"truth", "distances and signs against brute force in double", run_truth},
       {"segment", "segments through meshes: first, any and every crossing", run_segment},
       {"hull-queries", "queries of a baked hull: crossings, memory, base hulls", run_hull_queries},
