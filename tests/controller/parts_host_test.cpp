@@ -20,6 +20,8 @@ namespace {
 
 using MeshController = Controller<Surfaces<MeshSurface>>;
 using MeshAndGuide = Controller<Surfaces<MeshSurface>, CurveGuide>;
+using Trusting =
+    Controller<Surfaces<FullMesh>, CurveGuide, CartesianDevice, firmtouch::asset::Trusted>;
 
 constexpr uint32_t kAll = (1u << kPartCount) - 1;
 
@@ -56,6 +58,28 @@ record::TickOutput last_of_ride(const Asset& asset) {
 }
 
 }  // namespace
+
+TEST(Trusted_SameBits_CrcsAndProbesStay_ProofsDoNot) {
+  const record::TickOutput proven = last_of_ride<MeshAndGuide>(both());
+  const record::TickOutput trusted = last_of_ride<Trusting>(both());
+  CHECK(std::memcmp(&proven, &trusted, sizeof proven) == 0);
+  static Trusting controller;
+  static FullController prover;
+  Asset flipped(file_of(part_sections()));
+  flipped.begin[flipped.size - 1] ^= 1;
+  CHECK(!controller.open(flipped.bytes()).ok());
+  for (const uint32_t type : {mesh::kProbesSection, mesh::kParentsSection}) {
+    std::vector<tools::Section> sections = part_sections();
+    for (tools::Section& section : sections)
+      if (section.type == type) section.bytes[8] = static_cast<uint8_t>(section.bytes[8] ^ 1u);
+    const Asset bent(file_of(std::move(sections)));
+    const bool is_probe = type == mesh::kProbesSection;
+    CHECK(!prover.open(bent.bytes()).ok());
+    const core::Verdict verdict = controller.open(bent.bytes());
+    CHECK(verdict.ok() || verdict.rule == firmtouch::kRuleMeshProbes);
+    CHECK(!is_probe || !verdict.ok());
+  }
+}
 
 TEST(MissingPart_IsNamedByItsRule) {
   const std::vector<std::vector<tools::Section>> needs = {

@@ -27,6 +27,13 @@ struct Proven {
   using Opening = query::Opening<Proof>;
 };
 
+/// It does not: for an asset whose signature the boot loader has checked, and no other. CRCs and
+/// probe queries are checked as ever.
+struct Trusted {
+  template <class Proof>
+  using Opening = query::Unproven<Proof>;
+};
+
 /// The loader of what needs no section of an asset.
 class LoadsNothing {
  public:

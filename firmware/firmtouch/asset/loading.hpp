@@ -14,7 +14,7 @@
 //     void begin<Trust>(const asset::Container&, const char* name, State&);
 //     asset::Progress work<Trust>(State&, uint32_t units);
 //         checks elements of at most `units` together, or one probe query; the view is open at the
-//         end. Trust: asset::Proven
+//         end. Trust: asset::Proven or asset::Trusted
 namespace firmtouch {
 
 /// Reasons to refuse a sound asset on this controller (tools/FORMAT.md, section 5).
