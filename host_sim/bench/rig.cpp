@@ -8,6 +8,8 @@
 namespace firmtouch::host_sim {
 namespace {
 
+constexpr double kMass_kg = 0.075;
+
 Vec wide(const float (&v)[3]) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
@@ -51,7 +53,7 @@ std::string Rig::to(Vec to_m, double speed_mps) const {
 
 RigRun Rig::run(const Solid& solid, Vec start_m, const std::vector<std::string>& script,
                 Contact contact, const Lines& settings) const {
-  Lines lines = {{"mass", "0.075 kg"},
+  Lines lines = {{"mass", with_unit(kMass_kg, "kg")},
                  {"viscous_friction", "0.5 N*s/m"},
                  {"coulomb_friction", "0 N"},
                  {"encoder_quantum", "10 um"},
@@ -84,7 +86,9 @@ RigRun Rig::run(const Solid& solid, Vec start_m, const std::vector<std::string>&
     const record::TickOutput& out = tick.record.output;
     run.push_back({back(wide(out.force_N)), back(wide(out.motor_N)), back(tick.device_m),
                    back(wide(out.position_m)), back(wide(out.proxy_m)), back(tick.target_m),
-                   static_cast<double>(out.penetration_m), out.faults, motors_are_on(out)});
+                   static_cast<double>(out.penetration_m),
+                   tick.hand_J - 0.5 * kMass_kg * dot(tick.device_mps, tick.device_mps), out.faults,
+                   motors_are_on(out)});
   }
   return run;
 }

@@ -15,6 +15,7 @@ namespace firmtouch::host_sim {
 struct RigTick {
   Vec force_N, motor_N, device_m, position_m, proxy_m, hand_m;
   double depth_m = 0;
+  double taken_J = 0;  // of the hand, less the motion of the device
   uint32_t faults = 0;
   bool is_on = false;
 };

@@ -291,4 +291,4 @@ class Parameter {
   }
 }
 const kGroups = [['Contact', /^(contact|tool|mesh|surface|friction|texture)_/], ['Guide', /^(guide|curve)_/],
-  ['Safety and time', /^(force|slew|ramp|late|model|tick|passiv)/], ['Device', /^(velocity|max_speed|counts|origin|workspace|joint|device)/], ['Scene', /^scene_/], ['Other', /./]];
+  ['Safety and time', /^(force|slew|ramp|late|model|tick|energy)/], ['Device', /^(velocity|max_speed|counts|origin|workspace|joint|device)/], ['Scene', /^scene_/], ['Other', /./]];

@@ -131,7 +131,7 @@ class Operator {
 // A parameter's name without the unit that ends it.
 std::string short_name(const std::string& name) {
   for (const char* suffix :
-       {"_N_s_per_m", "_N_per_m", "_N_per_s", "_mps", "_Hz", "_N", "_s", "_m"}) {
+       {"_N_s_per_m", "_N_per_m", "_N_per_s", "_mps", "_Hz", "_J", "_N", "_s", "_m"}) {
     const std::string end = suffix;
     if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
       return name.substr(0, name.size() - end.size());
@@ -258,7 +258,9 @@ struct Simulation::Loop {
     const Vec script_m = hand.target_m(before_s);
     for (uint32_t k = 0; k < substeps; ++k) {
       arm.advance(script_m);
-      machine.advance(hand_N(), substep_s);
+      const Vec force_N = hand_N(), from_m = machine.position_m();
+      machine.advance(force_N, substep_s);
+      hand_J += dot(force_N, machine.position_m() - from_m);
     }
   }
 
@@ -272,6 +274,7 @@ struct Simulation::Loop {
   Arm arm;
   Operator panel;
   record::TickOutput last{};
+  double hand_J = 0;
   uint32_t tick = 0;
 };
 
@@ -316,6 +319,8 @@ bool Simulation::next(RunTick& tick) {
   tick.device_m = loop.machine.position_m();
   tick.target_m = loop.arm.position_m();
   tick.hand_N = loop.hand_N();
+  tick.device_mps = loop.machine.velocity_mps();
+  tick.hand_J = loop.hand_J;
   return true;
 }
 

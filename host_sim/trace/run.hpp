@@ -23,6 +23,8 @@ struct RunTick {
   Vec device_m;               // true position, before encoder quantization
   Vec target_m;               // target of the hand
   Vec hand_N;                 // force of the hand
+  Vec device_mps;             // true velocity
+  double hand_J = 0;          // work of the hand on the device so far
   uint32_t instructions = 0;  // 0: the controller does not count them
 };
 

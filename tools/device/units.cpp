@@ -24,6 +24,8 @@ constexpr Unit kUnits[] = {
     {"g", "mass", 1e-3},
     {"N", "force", 1},
     {"mN", "force", 1e-3},
+    {"J", "energy", 1},
+    {"mJ", "energy", 1e-3},
     {"m/s", "speed", 1},
     {"mm/s", "speed", 1e-3},
     {"N/m", "stiffness", 1},

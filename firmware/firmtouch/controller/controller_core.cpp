@@ -9,8 +9,11 @@ namespace {
 using params::Values;
 
 servo::Settings servo_settings(const Values& v) {
-  return {v[params::kForceLimit], v[params::kSlewLimit], v[params::kRampIn],
-          v[params::kTickPeriod]};
+  return {v[params::kForceLimit],
+          v[params::kSlewLimit],
+          v[params::kRampIn],
+          v[params::kTickPeriod],
+          {v[params::kEnergyReservoir], v[params::kDeviceDamping] / v[params::kTickPeriod]}};
 }
 
 // The guard has its own constants for the table's ceilings.

@@ -36,4 +36,12 @@ static inline Vec3 apply_inverse(const RigidTransform& t, Vec3 point_m) {
 static inline bool is_finite(float a) { return a - a <= 0.0f; }
 static inline bool is_finite(Vec3 a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
 
+/// True where |a| <= most, in each axis: on the bits, whose order is that of the sizes. NaN fails.
+static inline bool is_within(float a, float most) {
+  return (bits_of(a) & 0x7FFFFFFFu) <= bits_of(most);
+}
+static inline bool is_within(Vec3 a, float most) {
+  return is_within(a.x, most) && is_within(a.y, most) && is_within(a.z, most);
+}
+
 }  // namespace firmtouch::math

@@ -26,10 +26,11 @@ struct Entry {
   const char* what;
 };
 
-// Upper ends of three rows; servo and its guard have the same ceilings.
+// Upper ends of rows; servo and its guard have the same ceilings.
 constexpr float kMaxForceLimit_N = 100.0f;
 constexpr float kMaxSlewLimit_N_per_s = 1e6f;
 constexpr float kMaxTickPeriod_s = 0.1f;
+constexpr float kMaxReservoir_J = 1000.0f;
 
 /// Sorted by number, each once.
 using Table = core::Span<const Entry>;
@@ -82,6 +83,8 @@ enum Index : uint32_t {
   kVelocityEstimator,
   kFrictionSpeed,
   kTickWork,
+  kEnergyReservoir,
+  kDeviceDamping,
   kCount
 };
 

@@ -30,6 +30,10 @@ struct SafetyRows {
        "ticks for which a local model is valid"},
       {kTickWork, "tick_work", "1", kFixedTickWork + 1.0f, 65536.0f, 900.0f, When::kMayFall,
        "work of a tick, 362 of it fixed"},
+      {kEnergyReservoir, "energy_reservoir_J", "J", 0.0f, kMaxReservoir_J, 0.0006f, When::kMayFall,
+       "energy that contact may give"},
+      {kDeviceDamping, "device_damping_N_s_per_m", "N s/m", 0.0f, 50.0f, 0.5f, When::kMayFall,
+       "damping of the device itself, at most what it has"},
   };
 };
 

@@ -12,16 +12,9 @@ using math::Vec3;
 
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
-bool is_unit(Vec3 a) {
-  return is_between(a.x, -2.0f, 2.0f) && is_between(a.y, -2.0f, 2.0f) &&
-         is_between(a.z, -2.0f, 2.0f) && is_between(dot(a, a), 0.98f, 1.02f);
-}
+bool is_unit(Vec3 a) { return math::is_within(a, 2.0f) && is_between(dot(a, a), 0.98f, 1.02f); }
 
-bool is_near(Vec3 a) {
-  return is_between(a.x, -kMaxPosition_m, kMaxPosition_m) &&
-         is_between(a.y, -kMaxPosition_m, kMaxPosition_m) &&
-         is_between(a.z, -kMaxPosition_m, kMaxPosition_m);
-}
+bool is_near(Vec3 a) { return math::is_within(a, kMaxPosition_m); }
 
 bool is_material(float stiffness_N_per_m, float damping_N_s_per_m) {
   return is_between(stiffness_N_per_m, 0.0f, kMaxStiffness_N_per_m) &&
@@ -64,8 +57,7 @@ bool is_sound(const LocalModel& model) {
   if (!is_between(model.free_radius_m, 0.0f, FLT_MAX)) return false;
   for (uint32_t i = 0; i < model.plane_count; ++i) {
     const ContactPlane& plane = model.plane[i];
-    if (!is_unit(plane.normal) || !is_between(plane.offset_m, -kMaxPosition_m, kMaxPosition_m))
-      return false;
+    if (!is_unit(plane.normal) || !math::is_within(plane.offset_m, kMaxPosition_m)) return false;
     if (!is_material(plane.stiffness_N_per_m, plane.damping_N_s_per_m)) return false;
   }
   if (!is_sound(model.spring)) return false;
@@ -74,7 +66,7 @@ bool is_sound(const LocalModel& model) {
   return is_near(guide.point_m) && is_unit(guide.direction) &&
          is_material(guide.stiffness_N_per_m, guide.damping_N_s_per_m) &&
          is_between(guide.tunnel_m, 0.0f, kMaxTunnel_m) &&
-         is_between(guide.drive_N, -kMaxDrive_N, kMaxDrive_N) &&
+         math::is_within(guide.drive_N, kMaxDrive_N) &&
          is_material(guide.drive_stiffness_N_per_m, guide.drive_damping_N_s_per_m) &&
          is_between(guide.drive_limit_N, 0.0f, kMaxDriveLimit_N);
 }

@@ -25,7 +25,9 @@ constexpr uint32_t kFaultOverload = 1u << 13;
 // For 10 ms the visit budget did not suffice to certify the proxy, or a tool that began inside did
 // not come out in 10 s.
 constexpr uint32_t kFaultContact = 1u << 14;
-constexpr uint32_t kFaultCount = 15;
+// For 10 ms contact has given the hand 1 mJ more than energy_reservoir_J.
+constexpr uint32_t kFaultEnergy = 1u << 15;
+constexpr uint32_t kFaultCount = 16;
 
 // These cut the force in the same tick. The others ramp it down over kRampOut_s, because a sudden
 // loss of support hits the hand; force_limit_N holds meanwhile.
@@ -35,15 +37,15 @@ constexpr uint32_t kCutAtOnce = kFaultNotFinite | kFaultModel | kFaultDrive | kF
 // with the motors off does no harm. A cause that is present in the tick that enables is latched
 // then, and the motors stay off.
 constexpr uint32_t kOnlyWhileOn = kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder |
-                                  kFaultWorkspace | kFaultContact;
+                                  kFaultWorkspace | kFaultContact | kFaultEnergy;
 
 /// Short name of fault `number` (its bit), for messages and tables.
 /// Result: "unknown" beyond the last.
 constexpr const char* fault_name(uint32_t number) {
   constexpr const char* kName[kFaultCount] = {
-      "not finite", "model",     "stale model", "deadline",       "clock",
-      "encoder",    "workspace", "drive",       "emergency stop", "asset",
-      "probes",     "settings",  "guard",       "overload",       "contact uncertain"};
+      "not finite", "model",    "stale model",       "deadline", "clock",  "encoder",
+      "workspace",  "drive",    "emergency stop",    "asset",    "probes", "settings",
+      "guard",      "overload", "contact uncertain", "energy"};
   return number < kFaultCount ? kName[number] : "unknown";
 }
 
@@ -66,7 +68,8 @@ constexpr const char* fault_text(uint32_t number) {
       "a setting of the servo is out of range",
       "the last guard stopped a force beyond force_limit_N or slew_limit_N_per_s",
       "ticks took longer than 0.9 of tick_period_s: lower the budgets of the queries",
-      "contact is uncertain: raise tick_work, bake a hull, or start outside"};
+      "contact is uncertain: raise tick_work, bake a hull, or start outside",
+      "contact gave energy: lower contact_stiffness (energy_reservoir_J)"};
   return number < kFaultCount ? kText[number] : "";
 }
 

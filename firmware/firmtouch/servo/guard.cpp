@@ -34,14 +34,13 @@ uint64_t fixed_point(float value, uint32_t fraction) {
 
 bool is_negative(float value) { return (word_of(value) >> 31) != 0; }
 
-bool is_up_to(float value, float most, uint32_t fraction) {
-  return !is_negative(value) && fixed_point(value, fraction) <= fixed_point(most, fraction);
-}
+// Of 0 to `most`: the bits of floats that are not negative are in the order of their values.
+bool is_up_to(float value, float most) { return word_of(value) <= word_of(most); }
 
 bool are_sane(const GuardLimits& limits) {
-  return is_up_to(limits.force_limit_N, kGuardMaxForce_N, 16) &&
-         is_up_to(limits.slew_limit_N_per_s, kGuardMaxSlew_N_per_s, 16) &&
-         is_up_to(limits.tick_period_s, kGuardMaxPeriod_s, 28);
+  return is_up_to(limits.force_limit_N, kGuardMaxForce_N) &&
+         is_up_to(limits.slew_limit_N_per_s, kGuardMaxSlew_N_per_s) &&
+         is_up_to(limits.tick_period_s, kGuardMaxPeriod_s);
 }
 
 // Units of 2^-16 N that a force may grow by in a tick. Sane limits keep the product within 64 bits.
@@ -102,7 +101,7 @@ bool is_in_ceilings(const GuardState& state, const GuardLimits& limits,
   const uint64_t period = fixed_point(limits.tick_period_s, 28);
   for (uint32_t k = 0; k < kGuardedMotors; ++k) {
     const float largest = float_of(ceilings.word[k]);
-    if (!is_up_to(largest, kGuardMaxTorque_Nm, 16)) return false;
+    if (!is_up_to(largest, kGuardMaxTorque_Nm)) return false;
     const uint64_t ceiling = fixed_point(largest, 16);
     if (size_of(torque[k]) > ceiling + 1) return false;
     // Growth / (ceiling with 0.1 % and 2 units) <= period / rise, without a division.
@@ -152,8 +151,9 @@ Forces begin_guard(GuardState& state, const GuardLimits& limits, bool may_push, 
   return now;
 }
 
-bool end_guard(GuardState& state, const Forces& now, bool is_good,
-               float (&motor_N)[kGuardedMotors]) {
+// noinline: it stands in both guards.
+[[gnu::noinline]] bool end_guard(GuardState& state, const Forces& now, bool is_good,
+                                 float (&motor_N)[kGuardedMotors]) {
   for (uint32_t k = 0; k < kGuardedMotors; ++k) {
     if (!is_good) motor_N[k] = 0;
     state.passed[k] = is_good ? now.force[k] : 0;
@@ -165,7 +165,7 @@ bool end_guard(GuardState& state, const Forces& now, bool is_good,
 
 }  // namespace
 
-bool guard_set_limits(GuardState& state, const GuardLimits& limits) {
+[[gnu::cold]] bool guard_set_limits(GuardState& state, const GuardLimits& limits) {
   if (!remembers_limits(state)) {
     state.armed = kTripped;
     return false;
@@ -198,8 +198,8 @@ void set_ceilings(TorqueCeilings& ceilings, const float (&max_torque_Nm)[kGuarde
   }
 }
 
-bool guard_torques(GuardState& state, const TorqueCeilings& ceilings, bool may_push, bool cut,
-                   float (&motor_Nm)[kGuardedMotors]) {
+[[gnu::cold]] bool guard_torques(GuardState& state, const TorqueCeilings& ceilings, bool may_push,
+                                 bool cut, float (&motor_Nm)[kGuardedMotors]) {
   const GuardLimits limits = guard_limits(state);
   const Forces now = begin_guard(state, limits, may_push, cut, motor_Nm);
   const bool is_good =
@@ -207,7 +207,7 @@ bool guard_torques(GuardState& state, const TorqueCeilings& ceilings, bool may_p
   return end_guard(state, now, is_good, motor_Nm);
 }
 
-void guard_clear(GuardState& state) {
+[[gnu::cold]] void guard_clear(GuardState& state) {
   GuardState armed;
   for (uint32_t k = 0; k < kGuardLimitCount; ++k) {
     armed.limit[k] = state.limit[k];

@@ -10,10 +10,10 @@ namespace firmtouch::servo {
 /// Result: within reach of the anchor; at the anchor for a position with NaN.
 math::Vec3 proxy_at(const ProxySpring& spring, math::Vec3 position_m);
 
-/// Force of the spring from the tool to the proxy at `proxy_m`, with a damper that never pushes the
-/// tool away from it.
+/// Force of the spring from the tool to the proxy at `proxy_m`, stretched by at most `stretch_m`,
+/// with a damper that never pushes the tool away from it.
 /// Pre: as evaluate(). Result: finite.
-math::Vec3 spring_N(const ProxySpring& spring, math::Vec3 proxy_m, math::Vec3 position_m,
-                    math::Vec3 velocity_mps);
+math::Vec3 spring_N(const ProxySpring& spring, math::Vec3 proxy_m, float stretch_m,
+                    math::Vec3 position_m, math::Vec3 velocity_mps);
 
 }  // namespace firmtouch::servo

@@ -20,33 +20,38 @@ bool is_sound(const Settings& settings) {
   return is_between(settings.force_limit_N, 0.0f, kMaxForceLimit_N) &&
          is_between(settings.slew_limit_N_per_s, 0.0f, kMaxSlewLimit_N_per_s) &&
          is_between(settings.ramp_in_s, 0.0f, 100.0f) &&
-         is_between(settings.tick_period_s, 1e-5f, kMaxTickPeriod_s);
+         is_between(settings.tick_period_s, 1e-5f, kMaxTickPeriod_s) &&
+         is_between(settings.energy.reservoir_J, 0.0f, kMaxReservoir_J) &&
+         is_between(settings.energy.friction_N_per_m, 0.0f, kMaxStiffness_N_per_m);
 }
 
-bool is_within(Vec3 a, float most) {
-  return is_between(a.x, -most, most) && is_between(a.y, -most, most) &&
-         is_between(a.z, -most, most);
+// The share of a vector that `most` leaves.
+float share_within(Vec3 a, float most) {
+  const float kept = most * (1.0f - 8.0f * kRound);
+  const float is = math::length(a);
+  return is <= kept ? 1.0f : kept / is;
 }
 
 // Shortens a vector to `most`: in exact arithmetic the result is not longer.
 Vec3 shorten(Vec3 a, float most) {
-  if (!(most >= kMinLimit_N)) return {};
-  const float kept = most * (1.0f - 8.0f * kRound);
-  const float is = math::length(a);
-  return is <= kept ? a : a * (kept / is);
+  return most >= kMinLimit_N ? a * share_within(a, most) : Vec3{};
+}
+
+bool lasts(uint32_t ticks, const Settings& settings) {
+  return static_cast<float>(ticks) * settings.tick_period_s >= kLasting_s;
 }
 
 uint32_t seen_faults(const State& state, const Settings& settings, const LocalModel& model,
                      const StepInput& input) {
   uint32_t faults = input.reported;
   if (!is_sound(settings)) faults |= kFaultSettings;
-  if (!is_within(input.position_m, kMaxPosition_m) ||
-      !is_within(input.velocity_mps, kMaxVelocity_mps) || !math::is_finite(state.force_N)) {
+  if (!math::is_within(input.position_m, kMaxPosition_m) ||
+      !math::is_within(input.velocity_mps, kMaxVelocity_mps) || !math::is_finite(state.force_N)) {
     faults |= kFaultNotFinite;
   }
   if (!is_sound(model)) faults |= kFaultModel;
-  if (static_cast<float>(state.uncertain_ticks) * settings.tick_period_s >= kUncertain_s)
-    faults |= kFaultContact;
+  if (lasts(state.uncertain_ticks, settings)) faults |= kFaultContact;
+  if (lasts(state.energy.overdrawn_ticks, settings)) faults |= kFaultEnergy;
   // The difference modulo 2^32, so that a tick counter that wraps is no event.
   if (static_cast<int32_t>(input.tick - model.expires_tick) > 0) faults |= kFaultStaleModel;
   return faults;
@@ -89,8 +94,19 @@ Vec3 ramped_out(State& state, const Settings& settings) {
   return shorten(state.ramp_from_N * share, settings.force_limit_N);
 }
 
+// Moves the proxy, and counts the energy of the last tick.
+// Result: the largest stretch of the spring.
+float move_spring(State& state, const Settings& settings, const ProxySpring& spring,
+                  Vec3 position_m) {
+  state.has_proxy = spring.is_used;
+  state.proxy_m = proxy_at(spring, position_m);
+  return payable_stretch_m(state.energy, settings.energy,
+                           spring.is_used ? spring.stiffness_N_per_m : 0.0f,
+                           math::length(state.proxy_m - position_m), position_m);
+}
+
 Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
-              const StepInput& input) {
+              const StepInput& input, float stretch_m) {
   if (state.ticks_on < UINT32_MAX) ++state.ticks_on;
   const float ramp =
       static_cast<float>(state.ticks_on) * settings.tick_period_s / settings.ramp_in_s;
@@ -100,14 +116,25 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   } else {
     state.mode = Mode::kOn;
   }
-  const Vec3 model_N = evaluate(model, input.position_m, input.velocity_mps) +
-                       spring_N(model.spring, state.proxy_m, input.position_m, input.velocity_mps);
-  const Vec3 wanted_N = shorten(model_N * share, settings.force_limit_N);
+  const Vec3 other_N = evaluate(model, input.position_m, input.velocity_mps);
+  const Vec3 model_N = (other_N + spring_N(model.spring, state.proxy_m, stretch_m, input.position_m,
+                                           input.velocity_mps)) *
+                       share;
+  const Vec3 wanted_N = shorten(model_N, settings.force_limit_N);
   // The sum below rounds by half an ulp of an axis, at most the limit; subtracted from the step
   // here.
   const float step_N = settings.slew_limit_N_per_s * settings.tick_period_s -
                        settings.force_limit_N * (4.0f * kRound);
-  return shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);
+  Vec3 force_N =
+      shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);
+  // A force that is not paid for must not last: it falls faster than its slew limit.
+  if (state.energy.payable_m < state.energy.stretch_m)
+    force_N = shorten(force_N, math::length(wanted_N));
+  if (model.spring.is_used) {
+    const float kept = share_within(model_N, settings.force_limit_N) * share;
+    state.energy.contact_N = force_N - other_N * kept;
+  }
+  return force_N;
 }
 
 }  // namespace
@@ -122,6 +149,7 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   } else if (state.uncertain_ticks < UINT32_MAX) {
     ++state.uncertain_ticks;
   }
+  const float stretch_m = move_spring(state, settings, model.spring, input.position_m);
   uint32_t faults = seen_faults(state, settings, model, input);
   // In the tick that enables, the motors count as on already: a fault that stands keeps them off.
   const bool enabling = state.mode == Mode::kOff && input.enable;
@@ -129,11 +157,10 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   state.faults |= faults;
   change_mode(state, settings, input.enable);
 
-  state.has_proxy = model.spring.is_used;
-  state.proxy_m = proxy_at(model.spring, input.position_m);
+  state.energy.contact_N = {};
   Vec3 force_N;
   if (is_on(state.mode)) {
-    force_N = rendered(state, settings, model, input);
+    force_N = rendered(state, settings, model, input, stretch_m);
   } else if (state.mode == Mode::kRampOut) {
     force_N = ramped_out(state, settings);
   }

@@ -2,6 +2,7 @@
 #include <stdint.h>
 
 #include "firmtouch/math/vec3.hpp"
+#include "firmtouch/servo/energy.hpp"
 #include "firmtouch/servo/local_model.hpp"
 
 namespace firmtouch::servo {
@@ -10,14 +11,15 @@ namespace firmtouch::servo {
 // least 1.
 constexpr float kRampOut_s = 0.008f;
 
-// So long models may be uncertain before kFaultContact.
-constexpr float kUncertain_s = 0.0099f;
+// So long models may be uncertain before kFaultContact, and energy overdrawn before kFaultEnergy.
+constexpr float kLasting_s = 0.0099f;
 
 // Settings beyond these are kFaultSettings: no device that a hand holds needs more, and most
 // flipped bits of a setting exceed them.
 constexpr float kMaxForceLimit_N = 100.0f;
 constexpr float kMaxSlewLimit_N_per_s = 1e6f;
 constexpr float kMaxTickPeriod_s = 0.1f;
+constexpr float kMaxReservoir_J = 1000.0f;
 
 enum class Mode : uint8_t {
   kOff,     // not enabled: no force
@@ -32,6 +34,7 @@ struct Settings {
   float slew_limit_N_per_s = 0;
   float ramp_in_s = 0;
   float tick_period_s = 0;
+  EnergySettings energy{};
 };
 
 struct StepInput {
@@ -61,6 +64,7 @@ struct State {
   math::Vec3 proxy_m;
   bool has_proxy = false;
   uint32_t uncertain_ticks = 0;  // of the models, without a break
+  Energy energy;
 };
 
 /// Force of this tick: the local model evaluated at the fresh position, ramped in, limited in size

@@ -1,0 +1,43 @@
+#include "firmtouch/servo/energy.hpp"
+
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::servo {
+
+float payable_stretch_m(Energy& energy, const EnergySettings& settings, float stiffness_N_per_m,
+                        float stretch_m, math::Vec3 position_m) {
+  const math::Vec3 move_m = position_m - energy.position_m;
+  const float given_J = math::dot(energy.contact_N - move_m * settings.friction_N_per_m, move_m);
+  const float stored_J = 0.5f * stiffness_N_per_m * stretch_m * stretch_m;
+  float available_J = energy.available_J - given_J;
+  const float most_J = stored_J + settings.reservoir_J;
+  if (!(available_J <= most_J)) available_J = most_J;
+  const float entered_m = stretch_m - energy.stretch_m;
+  const float grown_m = energy.payable_m + entered_m;
+  energy.available_J = available_J;
+  energy.position_m = position_m;
+  energy.stretch_m = stretch_m;
+  energy.payable_m = stretch_m;
+  energy.overdrawn_ticks = available_J < -kOverdraft_J ? energy.overdrawn_ticks + 1 : 0;
+
+  // A tool that leaves faster and faster takes this much by the next tick.
+  const float faster_m = entered_m < energy.entered_m ? energy.entered_m - entered_m : 0.0f;
+  const float left_m = entered_m < 0.0f ? faster_m - entered_m : 0.0f;
+  energy.entered_m = entered_m;
+  const float friction_N = settings.friction_N_per_m * left_m;
+  const float next_J = (stiffness_N_per_m * stretch_m - friction_N) * left_m;
+  const bool is_paid = available_J >= stored_J && available_J >= next_J;
+  if (is_paid || !(stiffness_N_per_m > 0.0f)) return stretch_m;
+  if (!(available_J > 0.0f)) available_J = 0;
+  float payable_m = math::square_root(2.0f * available_J / stiffness_N_per_m);
+  if (left_m > 0.0f) {
+    const float next_m = (available_J / left_m + friction_N) / stiffness_N_per_m;
+    if (next_m < payable_m) payable_m = next_m;
+  } else if (payable_m < grown_m) {
+    payable_m = grown_m;
+  }
+  if (payable_m < stretch_m) energy.payable_m = payable_m;
+  return energy.payable_m;
+}
+
+}  // namespace firmtouch::servo

@@ -1,0 +1,46 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/servo/local_model.hpp"
+
+namespace firmtouch::servo {
+
+// Beyond an empty reservoir, before it counts as overdrawn.
+constexpr float kOverdraft_J = 0.001f;
+
+struct EnergySettings {
+  float reservoir_J = 0;
+  float friction_N_per_m = 0;  // the device's own viscous friction over the tick's period
+};
+
+/// Passivity observer of the proxy spring: the energy that contact may still give to the hand.
+/// What the hand put into the spring, plus a reservoir, less what contact gave back.
+struct Energy {
+  float available_J = kMaxDrive_N;  // limited to a full reservoir in the first tick
+  float stretch_m = 0;              // hand to proxy in the last tick
+  float entered_m = 0;              // growth of the stretch in the last tick
+  float payable_m = 0;              // result of the last tick
+  math::Vec3 position_m;            // of the last tick
+  math::Vec3 contact_N;             // applied since then; the caller sets it
+  uint32_t overdrawn_ticks = 0;     // without a break, by more than kOverdraft_J
+};
+
+/// Counts the work of the last tick and limits the spring to the energy that is left.
+/// The work is exact: between two samples the motors hold the force. The device's friction takes
+/// its part, at least that of an even speed. Energy that contact dissipates
+/// fills the reservoir up and is not saved beyond it.
+/// Result: the largest stretch of the spring. At least `stretch_m` while the reservoir is not
+///         empty. From then on
+///           no more than holds the available energy;
+///           of a tool that leaves, no more than is paid for until the next tick;
+///           of a tool that enters, at least the last result and its step, so that contact resists
+///             and fills up.
+///         For NaN, a full reservoir.
+/// Bounds: constant; re-entrant for different states.
+/// Source: Hannaford and Ryu 2002 (observer); Lee and Huang 2010 (the spring is shortened to its
+///         energy: no velocity is used, so that an encoder's steps make no force).
+float payable_stretch_m(Energy& energy, const EnergySettings& settings, float stiffness_N_per_m,
+                        float stretch_m, math::Vec3 position_m);
+
+}  // namespace firmtouch::servo

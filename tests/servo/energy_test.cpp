@@ -1,0 +1,144 @@
+// Energy that contact may give to the hand: what the observer counts and what it holds back.
+#include "firmtouch/servo/energy.hpp"
+
+#include "firmtouch/servo/fault.hpp"
+#include "firmtouch/servo/step.hpp"
+#include "harness/test.hpp"
+#include "specials.hpp"
+
+namespace math = firmtouch::math;
+namespace servo = firmtouch::servo;
+using firmtouch::test::kSpecialBits;
+
+namespace {
+
+constexpr float kReservoir_J = 0.0005f;
+constexpr float kStiffness_N_per_m = 5000.0f;
+
+servo::Settings settings(float reservoir_J) {
+  return {8.0f, 1e5f, 0.0f, 0.001f, {reservoir_J, 0.0f}};
+}
+
+// A wall at z = 0 that holds the proxy of a tool below it.
+servo::LocalModel wall(float z_m) {
+  servo::LocalModel model;
+  model.spring.is_used = true;
+  model.spring.is_held = z_m < 0;
+  model.spring.reach_m = 1.0f;
+  model.spring.stiffness_N_per_m = kStiffness_N_per_m;
+  model.expires_tick = 1000000;
+  return model;
+}
+
+// A tool that something else moves, and its energy account in double.
+struct Tool {
+  explicit Tool(float reservoir_J) : limits(settings(reservoir_J)) {}
+  servo::StepOutput at(float z_m) {
+    given_J +=
+        static_cast<double>(force_N) * (static_cast<double>(z_m) - static_cast<double>(at_m));
+    servo::StepInput input;
+    input.position_m = {0, 0, z_m};
+    input.tick = tick++;
+    input.enable = true;
+    const servo::StepOutput output = servo::step(state, limits, wall(z_m), input);
+    at_m = z_m;
+    force_N = output.force_N.z;
+    return output;
+  }
+  servo::Settings limits;
+  servo::State state;
+  double given_J = 0;
+  float at_m = 0.01f, force_N = 0;
+  uint32_t tick = 0;
+};
+
+// In and out of the wall by a sine: a sampled spring gives energy in each period.
+double given_by_sine_J(float reservoir_J, uint32_t ticks, float period_ticks) {
+  Tool tool(reservoir_J);
+  float x = 0.001f, v = 0;  // a rotation that stays on its ellipse (symplectic)
+  const float turn = 6.2831853f / period_ticks;
+  for (uint32_t i = 0; i < ticks || x < 0.0005f; ++i) {  // and out
+    v = v - turn * x;
+    x = x + turn * v;
+    (void)tool.at(x);
+  }
+  return tool.given_J;
+}
+
+}  // namespace
+
+TEST(Energy_AnySine_GivesNoMoreThanTheReservoir) {
+  const float periods[] = {10.0f, 12.7f, 20.0f, 60.0f};
+  for (const float period : periods) {
+    CHECK_GE(given_by_sine_J(1000.0f, 2000, period), 0.004);  // it shows that the next can fail
+    CHECK_LE(given_by_sine_J(kReservoir_J, 2000, period), 0.00051);
+  }
+}
+
+TEST(Energy_SlowPress_IsRenderedInFull) {
+  Tool tool(kReservoir_J);
+  for (int i = 0; i <= 1000; ++i) {
+    const float z_m = -1e-6f * static_cast<float>(i);
+    CHECK_GE(tool.at(z_m).force_N.z, kStiffness_N_per_m * -z_m * 0.999999f);
+  }
+}
+
+TEST(Energy_AnEmptyReservoir_DoesNotHideTheWallFromASlowHand) {
+  Tool tool(0);
+  float z_m = 0, last_N = 0;
+  for (int i = 0; i < 2000; ++i) {
+    if (i % 10 == 0) z_m = z_m - 1e-5f;  // a count of the encoder
+    const float force_N = tool.at(z_m).force_N.z;
+    CHECK_GE(force_N, last_N * 0.999999f);
+    last_N = force_N;
+  }
+  CHECK_GE(last_N, 7.0f);  // of 8 N with a full reservoir
+  CHECK_EQ(tool.state.faults, 0u);
+}
+
+TEST(Energy_HandThatOutruns_IsAFaultIn10ms) {
+  Tool tool(kReservoir_J);
+  uint32_t latched = 0;
+  for (uint32_t i = 0; i < 200 && latched == 0; ++i) {
+    // Whenever the wall holds a force, the tool leaps out against all that came before.
+    const servo::StepOutput output = tool.at(i % 2 == 0 ? -0.0008f : 0.004f);
+    if ((output.faults & servo::kFaultEnergy) != 0) latched = i;
+  }
+  CHECK_GE(latched, 1u);
+  CHECK_LE(latched, 20u);
+}
+
+TEST(Energy_GuideBeyondTheForceLimit_IsNotCounted) {
+  servo::State state;
+  for (uint32_t i = 0; i < 400; ++i) {
+    servo::LocalModel model = wall(0.001f);
+    model.has_guide = true;
+    model.guide.direction = {1, 0, 0};
+    model.guide.stiffness_N_per_m = 2000.0f;
+    servo::StepInput input;
+    const float phase = static_cast<float>(i % 40) * 0.05f - 1.0f;
+    input.position_m = {0, 0, 0.02f * (phase < 0 ? -phase : phase)};  // to and fro across it
+    input.tick = i;
+    input.enable = true;
+    const servo::StepOutput output = servo::step(state, settings(kReservoir_J), model, input);
+    CHECK_EQ(output.faults, 0u);
+    CHECK_GE(state.energy.available_J, 0.9f * kReservoir_J);
+  }
+}
+
+TEST(Energy_EverySpecial_LeavesAStretchThatIsFiniteAndFillsNothing) {
+  for (const uint32_t a : kSpecialBits)
+    for (const uint32_t b : kSpecialBits) {
+      servo::Energy energy;
+      (void)servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m,
+                                     math::float_of(a), {math::float_of(b), 0, 0});
+      energy.contact_N = {math::float_of(b), 0, math::float_of(a)};
+      (void)servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m, 0.001f,
+                                     {});
+      const float stretch_m =
+          servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m, 0.001f, {});
+      CHECK(stretch_m >= 0.0f && stretch_m <= 0.001f);
+      const float most_J = 0.5f * kStiffness_N_per_m * 1e-6f + kReservoir_J;
+      CHECK(energy.available_J <= most_J * 1.000001f);
+    }
+}
