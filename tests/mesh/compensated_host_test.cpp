@@ -93,6 +93,21 @@ double compensated_share(const Case& c) {
          double{loss_of(c).compensated_m(static_cast<float>(truth))};
 }
 
+// Of the plain solver as a share of own_m(), by where the foot is; where the feature is clear, as
+// only there it is less than plain_m().
+double own_share(const Case& c) {
+  const Vec3 ab = c.corner[1] - c.corner[0];
+  if (!(longest(c) > 1e-3)) return -1;
+  const mesh::Foot foot = mesh::closest_on_triangle(c.p, c.corner[0], c.corner[1], c.corner[2]);
+  if (!mesh::is_feature_clear(foot.distance2_m2, ab)) return -1;
+  const Vec3 from = foot.feature == mesh::Feature::kEdge1 ? c.corner[1] : c.corner[0];
+  const float reach = math::length((c.p - from) - foot.offset_m);
+  const double truth = truth_of(c), reported = std::sqrt(double{foot.distance2_m2});
+  return std::fabs(reported - truth) /
+         double{loss_of(c).own_m(static_cast<float>(truth), ab, reach,
+                                 foot.feature == mesh::Feature::kFace)};
+}
+
 mesh::View one_triangle(const Case& c, std::vector<tools::Section>& sections) {
   tools::Surface surface;
   surface.vertices = {c.corner[0], c.corner[1], c.corner[2]};
@@ -127,8 +142,17 @@ TEST(PlainLossStaysWithinItsBoundUnderAttack) {
   CHECK_LE(worst(plain_share, 30, 30, 1500), 1.0);
 }
 
+TEST(LossByTheFootStaysWithinItsBoundUnderAttack) {
+  CHECK_LE(worst(own_share, 1.5, 30, 1500), 1.0);
+  CHECK_LE(worst(own_share, 0.01, 30, 1500), 1.0);
+  CHECK_LE(worst(own_share, 0.001, 30, 1500), 1.0);
+  CHECK_GT(worst(own_share, 0.01, 30, 1500), 0.2);
+}
+
 TEST(CompensatedLossStaysWithinItsBoundUnderAttack) {
   CHECK_LE(worst(compensated_share, 1.5, 20, 500), 1.0);
+  CHECK_LE(worst(compensated_share, 0.01, 20, 500), 1.0);
+  CHECK_LE(worst(compensated_share, 0.001, 20, 500), 1.0);
   CHECK_LE(worst(compensated_share, 30, 20, 500), 1.0);
 }
 

@@ -7,6 +7,7 @@
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "harness/test.hpp"
 #include "simd/wide_mesh.hpp"
+#include "surface/make/make_cad.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 
@@ -16,12 +17,14 @@ using namespace firmtouch;  // NOLINT: a test file
 using math::Vec3;
 
 struct Baked {
-  tools::Surface surface = tools::make_part(3, 3000);
+  tools::Surface surface;
   std::vector<tools::Section> sections;
   mesh::View view;
   std::vector<simd::WideMesh> wide;  // of each level
 
-  explicit Baked(const tools::TreeShape& shape) {
+  explicit Baked(const tools::TreeShape& shape,
+                 const tools::Surface& of = tools::make_part(3, 3000))
+      : surface(of) {
     tools::MeshOptions options;
     options.shape = shape;
     tools::MeshReport report;
@@ -98,8 +101,7 @@ size_t differences(const Baked& baked, Vec3 a_m, Vec3 b_m, query::Budget budget,
   return differ;
 }
 
-void compare(const tools::TreeShape& shape, uint64_t seed) {
-  const Baked baked(shape);
+void compare(const Baked& baked, uint64_t seed) {
   Ends ends(baked, seed);
   size_t differ = 0, hits = 0;
   for (uint32_t i = 0; i < 2000; ++i) {
@@ -138,9 +140,15 @@ void compare_at_limit(const tools::TreeShape& shape) {
 }  // namespace
 
 TEST(EveryLevel_HasTheCrossingsOfTheScalarSearch) {
-  compare(tools::kFastTree, 1);
-  compare(tools::kSmallTree, 2);
-  compare(tools::kDesktopTree, 3);
+  compare(Baked(tools::kFastTree), 1);
+  compare(Baked(tools::kSmallTree), 2);
+  compare(Baked(tools::kDesktopTree), 3);
+}
+
+TEST(EveryLevel_HasTheCrossingsOfTheScalarSearch_TurnedBoxes) {
+  const Baked baked(tools::kFastTree, tools::to_surface(tools::make_cad(tools::kCadKinds)));
+  CHECK(baked.view.box_frame() != nullptr);
+  compare(baked, 4);
 }
 
 TEST(EveryLevel_EntersBoxesAtTheEndOfTheSegment) {

@@ -28,21 +28,22 @@ static inline GridSegment on_grid(Vec3 a, Vec3 b, const float* low, float cell) 
 constexpr float kStillCells = 1e-30f;
 constexpr float kFarCells = 0x1p60f;
 constexpr uint32_t kNotEntered = UINT32_MAX;
+constexpr float kSlabSlackCells = 0x1p-6f;
 
 /// The slabs of boxes as a segment meets them. A box's word is low | (32767 - high) << 16; turned
 /// by `turn` (0 or 16) its low half is the plane where the segment enters, its high half the one
 /// where it leaves: entry = (low half - enter) * rate, exit = (leave - high half) * rate, rate > 0
-/// in segments a cell. Boxes are widened by |origin| 2^-21 + 2^-6 cells, rounded.
+/// in segments a cell. Boxes are widened by |origin| 2^-21 + `slack_cells`, rounded.
 class Slabs {
  public:
   /// False: the segment is too far off, or not finite; every box is entered at 0.
-  bool begin(const GridSegment& segment) {
+  bool begin(const GridSegment& segment, float slack_cells = kSlabSlackCells) {
     bool is_near = true;
     for (uint32_t k = 0; k < 3; ++k) {
       const float origin = segment.origin[k], step = segment.step[k];
       const float offset = origin < 0.0f ? -origin : origin, size = step < 0.0f ? -step : step;
       is_near = is_near && offset <= kFarCells && size <= kFarCells;
-      const float slack = offset * 0x1p-21f + 0x1p-6f;
+      const float slack = offset * 0x1p-21f + slack_cells;
       const float low = origin + slack, high = 32767.0f - (origin - slack);
       turn_[k] = step < 0.0f ? 16u : 0u;
       enter_[k] = step < 0.0f ? high : low;

@@ -27,7 +27,7 @@ struct Closest {
 /// Closest point of the surface to `p_m` (mesh frame), with sign and certificate.
 /// Cold: one descent to a leaf, nearer child first, then the box with the least bound first. Warm:
 /// from the last leaf upward, until the last certificate excludes the rest.
-/// Bounds: <= budget.work units; 1.7 KB of stack; re-entrant; callable from an interrupt.
+/// Bounds: <= budget.work units; 2.1 KB of stack; re-entrant; callable from an interrupt.
 /// Result: always finite. Two triangles equally near: the one visited first. Outside the mesh's
 ///         grid the sign is known under any budget. A query that is not finite: a vertex, at
 ///         distance FLT_MAX, lower 0, not exact, sign 0.

@@ -11,7 +11,7 @@ namespace firmtouch::mesh {
 /// mesh/loss.hpp).
 inline bool is_feature_clear(float distance2_m2, math::Vec3 ab_m) {
   const float ab2_m2 = ab_m.x * ab_m.x + ab_m.y * ab_m.y + ab_m.z * ab_m.z;
-  return distance2_m2 > ab2_m2 * 0x1p-20f;
+  return distance2_m2 > ab2_m2 * 0x1p-24f;
 }
 
 /// Squared distance from `p` to the triangle a b c in compensated arithmetic (pairs of floats,

@@ -30,6 +30,8 @@ constexpr uint32_t kEdgeFoldsSection = 0x100B;
 constexpr uint32_t kLeafBoxesSection = 0x100E;
 // There where the boxes are: TriangleShape[triangle_count].
 constexpr uint32_t kShapesSection = 0x100F;
+// BoxFrame; only where the boxes are turned against the axes.
+constexpr uint32_t kBoxFrameSection = 0x1010;
 
 constexpr uint32_t kLeafBoxWords = 8;
 constexpr uint32_t kLeafBoxStride = 4;  // words a triangle
@@ -77,6 +79,16 @@ struct Vertex {
   float x_m, y_m, z_m;
 };
 static_assert(sizeof(Vertex) == 12);
+
+/// The frame of the boxes of a turned mesh: p is at (axis[k] . (p - centre)) on axis k of the grid.
+/// The axes are square to each other and a little shorter than units, so that no distance grows by
+/// their rounding.
+struct BoxFrame {
+  float centre_m[3];
+  float axis[3][3];
+};
+static_assert(sizeof(BoxFrame) == 48);
+constexpr float kAxisLength2 = 1.0f - 1.5f * 0x1p-15f;  // squared
 
 /// Corners in outward order, rotated so that edge 0 (corner 0 to 1) is the longest: the solver
 /// needs that.
@@ -149,7 +161,7 @@ constexpr float kFoldsPerUnit = 127.05f;
 
 /// Why opening rejects; the numbers never change. tools/FORMAT.md prints the same text.
 enum Rule : uint16_t {
-  // The head is absent or not 72 bytes long.
+  // The head is absent or not 72 bytes long, or the box frame not 48.
   kRuleHeadSize = 101,
   // There are no vertices, or the vertex section does not hold vertex_count of them.
   kRuleVertices = 102,
@@ -166,7 +178,9 @@ enum Rule : uint16_t {
   // two from 2^-95 to 2^65 (1); box inverted or beyond 1e7 m (2); grid with less than 0.124
   // extents free about the box (3); grid over more than 2.6 extents, or extent below 1e-9 m (4);
   // diagonal above the box's, or more than 2^-20 of it below (5); longest edge not above 0, or
-  // above 1.001 diagonals (6).
+  // above 1.001 diagonals (6). With a box frame: extent below 1e-9 m, centre beyond 1e7 m, or a
+  // product of two axes more than 2^-18 from 0, or of one with itself from 1 - 1.5 * 2^-15 (7);
+  // less than 3,200 cells free about the root's boxes (3).
   kRuleHead = 106,
   // The depth is 0, above 40 or not the tree's.
   kRuleDepth = 107,
@@ -201,8 +215,8 @@ enum Rule : uint16_t {
   kRuleFold = 130,
   // Edge 0 of a triangle is longer than the head's longest_edge_m.
   kRuleEdgeAboveLongest = 131,
-  // The leaf boxes are not 16 bytes a triangle and 32 (0), or the last eight words are not those
-  // of no box (1).
+  // The leaf boxes are not 16 bytes a triangle and 32 (0), the last eight words are not those
+  // of no box (1), or there is a box frame, too (2).
   kRuleLeafBoxesSize = 136,
   // The words after a leaf's box, or instead of one, are not as they must be.
   kRuleLeafBoxWords = 137,

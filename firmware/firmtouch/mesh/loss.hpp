@@ -40,14 +40,20 @@ struct Loss {
   float reported_m(float distance_m) const {
     return 0x1p-24f * (6.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
-  /// reported_m() of a triangle whose longest edge is `ab_m`, at a feature. Where the distance is
-  /// more than 2^-10 of the edge, the shift in the plane adds less than u L / 8. Of 8.8 u L above,
-  /// 3 are left at an edge, and none at a corner.
-  float own_m(float distance_m, math::Vec3 ab_m, bool is_face) const {
+  /// reported_m() of a triangle whose longest edge is `ab_m`, with the foot at most `reach_m` from
+  /// corner a; on the edge b c from corner b.
+  ///
+  /// Where the distance is more than 2^-12 of the edge, the shift in the plane adds less than u L /
+  /// 16. The rest of 8.8 u L grows with the foot's parts X along ab and Y across: u |ap| is u r, r
+  /// = |X, Y|, ab x 2 u X, e u Y. Of h, w |ac| <= X + Y, and 2 w xc |ab| <= 2 X because v >= 0; h
+  /// and its product 2 u Y. Together u (r + 5 X + 4 Y) <= 7.41 u r; at an edge 3 u r.
+  float own_m(float distance_m, math::Vec3 ab_m, float reach_m, bool is_face) const {
     const float ab2_m2 = ab_m.x * ab_m.x + ab_m.y * ab_m.y + ab_m.z * ab_m.z;
-    const bool is_clear = distance_m * distance_m > ab2_m2 * 0x1p-20f;
-    const float edges = is_clear ? is_face ? 9.0f : 3.2f : 28.0f;
-    return 0x1p-24f * (6.7f * distance_m + edges * math::square_root(ab2_m2)) + kVanishing_m;
+    const float edge_m = math::square_root(ab2_m2);
+    const bool is_clear = distance_m * distance_m > ab2_m2 * 0x1p-24f;
+    const float lost_m =
+        is_clear ? (is_face ? 7.6f : 3.1f) * reach_m + 0.1f * edge_m : 28.0f * edge_m;
+    return 0x1p-24f * (6.7f * distance_m + lost_m) + kVanishing_m;
   }
   /// Of compensated_distance2() and its root: one rounding each, the first halved by the root.
   float compensated_m(float distance_m) const {

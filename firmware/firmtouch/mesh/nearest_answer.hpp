@@ -8,8 +8,10 @@
 
 #include <float.h>
 
+#include "firmtouch/mesh/box_frame.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/nearest_search.hpp"
+#include "firmtouch/mesh/own_loss.hpp"
 #include "firmtouch/query/motion.hpp"
 
 namespace firmtouch::mesh {
@@ -62,40 +64,6 @@ void weigh(Found& found, float lower_m, float rounding_m) {
   const float pending_m = found.search.pending_m - rounding_m;
   if (!found.search.complete && pending_m < found.lower_m) found.lower_m = pending_m;
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
-}
-
-struct Corners {
-  Triangle<uint32_t> index;
-  Vec3 a_m, b_m, c_m;
-
-  // Inlined: GCC 12 drops the stores of a constructor that a cold function calls.
-  [[gnu::always_inline]] inline Corners(const View& mesh, uint32_t triangle)
-      : index(mesh.triangle(triangle)),
-        a_m(mesh.vertex(index.corner[0])),
-        b_m(mesh.vertex(index.corner[1])),
-        c_m(mesh.vertex(index.corner[2])) {}
-  [[gnu::always_inline]] inline float compensated_m(Vec3 p_m, Feature feature,
-                                                    float distance2_m2) const {
-    return math::square_root(nearest_compensated2(p_m, a_m, b_m, c_m, feature, distance2_m2));
-  }
-};
-
-// What float32 and the rounding of the model can have lost of a triangle, by its own edges.
-float own_loss_m(const Loss& loss, const Corners& corners, Feature feature, float distance_m) {
-  return loss.own_m(distance_m, corners.b_m - corners.a_m, feature == Feature::kFace) +
-         loss.rounding_m;
-}
-
-// The least distance that each of the rivals may truly have.
-float rivals_lower_m(const View& mesh, const Loss& loss, const Search& search) {
-  float lower_m = FLT_MAX;
-  for (uint32_t i = 0; i < search.rivals.count; ++i) {
-    const float rival_m = math::square_root(search.rivals.distance2_m2[i]);
-    const Corners corners(mesh, search.rivals.triangle(i));
-    lower_m = math::smaller(lower_m,
-                            rival_m - own_loss_m(loss, corners, search.rivals.feature(i), rival_m));
-  }
-  return lower_m;
 }
 
 // Measures the nearest triangle of `search` in double-float, and those rivals that are not
@@ -152,28 +120,36 @@ float rivals_lower_m(const View& mesh, const Loss& loss, const Search& search) {
   if (!search.complete) return false;
   const Loss loss(mesh.head());
   const float near_m = nearest_m(search);
-  if (!mesh.has_rivals() || search.rivals.count > Rivals::kMax) {
+  const Corners nearest(mesh, search.best.triangle);
+  if (near_m <= within_m) {  // on the surface, whatever else touches it there: 0 is near enough
+    const float distance_m =
+        nearest.compensated_m(p_m, search.best.feature, search.best.distance2_m2);
+    if (distance_m + loss.compensated_m(distance_m) + loss.rounding_m <= within_m) {
+      weigh(found, 0.0f, loss.rounding_m);
+      found.distance_m = distance_m;
+      return true;
+    }
+  }
+  float lower_m, gap_m = 0.0f;
+  const bool are_all_known = mesh.has_rivals() && search.rivals.count <= Rivals::kMax;
+  if (are_all_known) {
+    // What is no rival is no nearer than near_m: the losses of these triangles alone count.
+    const float own_m = best_loss_m(loss, nearest, p_m, search.best, near_m);
+    lower_m = math::smaller(near_m - own_m, rivals_lower_m(mesh, loss, search));
+    if (near_m - lower_m + own_m <= within_m) {
+      weigh(found, lower_m, loss.rounding_m);
+      return true;
+    }
+    gap_m = within_m - (loss.rounding_m + 2.0f * loss.compensated_m(near_m));
+  } else {
     search.rivals.count = 0;
-    float unused_m = 0.0f;
-    const float distance_m = settle(mesh, p_m, 0.0f, search, unused_m);
-    weigh(found, less_m(near_m, loss.plain_m(near_m) + loss.rounding_m), loss.rounding_m);
-    const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
-    if (!(max_m - found.lower_m <= within_m)) return false;
-    found.distance_m = distance_m;
-    return true;
   }
-  // What is no rival is no nearer than near_m: the losses of these triangles alone count.
-  const float own_m =
-      own_loss_m(loss, Corners(mesh, search.best.triangle), search.best.feature, near_m);
-  float lower_m = math::smaller(near_m - own_m, rivals_lower_m(mesh, loss, search));
-  if (near_m - lower_m + own_m <= within_m) {
-    weigh(found, lower_m, loss.rounding_m);
-    return true;
-  }
-  const float lost_m = loss.rounding_m + 2.0f * loss.compensated_m(near_m);
-  const float distance_m = settle(mesh, p_m, within_m - lost_m, search, lower_m);
+  const float distance_m = settle(mesh, p_m, gap_m, search, lower_m);
   const float least_m = math::smaller(distance_m, near_m);
-  lower_m = math::smaller(lower_m, less_m(least_m, loss.compensated_m(least_m) + loss.rounding_m));
+  lower_m =
+      are_all_known
+          ? math::smaller(lower_m, less_m(least_m, loss.compensated_m(least_m) + loss.rounding_m))
+          : less_m(near_m, loss.plain_m(near_m) + loss.rounding_m);
   weigh(found, lower_m, loss.rounding_m);
   const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
   if (!(max_m - found.lower_m <= within_m)) return false;
@@ -372,19 +348,28 @@ Closest answer_nothing(const View& mesh, Hint& hint) {
   return closest;
 }
 
+// Outside the grid; `framed_m`: p_m in its frame. Rare, so for size.
+template <class Finder>
+[[gnu::noinline, gnu::cold]] Closest answer_far(const View& mesh, const Finder& finder,
+                                                Vec3 framed_m, Vec3 p_m, query::Budget budget,
+                                                Hint& hint) {
+  FarBound bound;
+  bound.begin(mesh.head(), framed_m);
+  return answer(mesh, finder, bound, p_m, budget, hint);
+}
+
 // The whole query. `finder` as above.
 template <class Finder>
 [[gnu::always_inline]] inline Closest closest_by(const View& mesh, const Finder& finder, Vec3 p_m,
                                                  query::Budget budget, Hint& hint) {
   NearBound near_bound;
-  if (near_bound.begin(mesh.head(), p_m))
+  const Vec3 framed_m = in_box_frame(mesh, p_m);
+  if (near_bound.begin(mesh.head(), framed_m))
     return answer(mesh, finder, near_bound, p_m, budget, hint);
   if (!math::is_finite(p_m)) return answer_nothing(mesh, hint);
   if (!(math::dot(p_m * (1.0f / kBeyond_m), p_m * (1.0f / kBeyond_m)) <= 1.0f))
     return answer_beyond(mesh, p_m, hint);
-  FarBound far_bound;
-  far_bound.begin(mesh.head(), p_m);
-  return answer(mesh, finder, far_bound, p_m, budget, hint);
+  return answer_far(mesh, finder, framed_m, p_m, budget, hint);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // translation units.
 
 #include "firmtouch/math/slabs.hpp"
+#include "firmtouch/mesh/box_frame.hpp"
 #include "firmtouch/mesh/segment_frame.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/query/certificate.hpp"
@@ -32,6 +33,20 @@ static inline bool take_leaf(const View& mesh, const SegmentFrame& frame, uint32
   return true;
 }
 
+/// A segment in the frame of the boxes, and by how much its slabs are widened there: the line
+/// between its turned ends errs by no more than both ends.
+struct BoxSegment {
+  math::Vec3 a_m, b_m;
+  float slack_cells = math::kSlabSlackCells;
+
+  BoxSegment(const View& mesh, math::Vec3 a, math::Vec3 b)
+      : a_m(in_box_frame(mesh, a)), b_m(in_box_frame(mesh, b)) {
+    if (mesh.box_frame() == nullptr) return;
+    const auto sum = [](math::Vec3 v) { return absolute(v.x) + absolute(v.y) + absolute(v.z); };
+    slack_cells += (sum(a_m) + sum(b_m)) * (0x1p-21f / mesh.head().cell_m);
+  }
+};
+
 /// Visits what the segment may cross, nearest first, until `visitor` has enough. Visitor::limit is
 /// the largest t still of interest, at first 1. Visitor::take() returns whether to go on.
 /// Result: false if the budget ended the search.
@@ -39,7 +54,9 @@ template <class Visitor>
 static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, query::Budget budget,
                           Visitor& visitor, uint32_t& steps) {
   math::Slabs slabs;
-  if (!slabs.begin(math::on_grid(a_m, b_m, mesh.head().grid_low_m, mesh.head().cell_m)) &&
+  const BoxSegment in(mesh, a_m, b_m);
+  if (!slabs.begin(math::on_grid(in.a_m, in.b_m, mesh.head().grid_low_m, mesh.head().cell_m),
+                   in.slack_cells) &&
       !(math::is_finite(a_m) && math::is_finite(b_m)))
     return false;
   slabs.set_limit(visitor.limit);

@@ -2,6 +2,7 @@
 
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/box_frame.hpp"
 #include "firmtouch/mesh/leaf_box.hpp"
 #include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
@@ -25,6 +26,21 @@ bool is_box(const uint32_t* box) {
 bool holds(const uint32_t* outer, const uint32_t* inner) {
   for (int k = 0; k < 3; ++k)
     if (!query::holds(outer[k], inner[k])) return false;
+  return true;
+}
+
+// Whether turned() shortens every vector, by 2^-16 to 2^-14. By Gershgorin's circles the square of
+// a length is off by 3 * 2^-18 at most, and a product in float32 errs by 2^-22.
+bool is_sound(const BoxFrame& frame) {
+  for (uint32_t i = 0; i < 3; ++i) {
+    const Vec3 products = along(frame, axis_of(frame, i));
+    const float* const product = &products.x;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const float wanted = i == k ? kAxisLength2 : 0.0f;
+      if (!(__builtin_fabsf(product[k] - wanted) <= 0x1p-18f)) return false;
+    }
+    if (!(__builtin_fabsf(frame.centre_m[i]) <= kFarthest_m)) return false;
+  }
   return true;
 }
 
@@ -55,13 +71,8 @@ Verdict Proof::check_head() {
     const float side_m = head.high_m[k] - head.low_m[k];
     if (side_m > extent_m) extent_m = side_m;
   }
-  for (int k = 0; k < 3; ++k) {  // an eighth of the extent free on each side: FarBound relies on it
-    const float below_m = head.low_m[k] - head.grid_low_m[k];
-    const float above_m = head.grid_low_m[k] + reach_m - head.high_m[k];
-    if (!(below_m >= 0.124f * extent_m && above_m >= 0.124f * extent_m))
-      return reject(kRuleHead, 3);
-  }
-  if (!(extent_m >= 1e-9f && reach_m <= 2.6f * extent_m)) return reject(kRuleHead, 4);
+  const Verdict grid = check_grid(reach_m, extent_m);
+  if (!grid.ok()) return grid;
   const Vec3 sides{head.high_m[0] - head.low_m[0], head.high_m[1] - head.low_m[1],
                    head.high_m[2] - head.low_m[2]};
   const float diagonal_m = math::length(sides);
@@ -73,6 +84,26 @@ Verdict Proof::check_head() {
     return reject(kRuleHead, 0);
   view.has_rivals_ = !Loss(head).is_within_promise(head.diagonal_m);
   return head.depth == 0 || head.depth > kMaxDepth ? reject(kRuleDepth, 0) : kPassed;
+}
+
+Verdict Proof::check_grid(float reach_m, float extent_m) const {
+  const Head& head = view.head();
+  if (const BoxFrame* const frame = view.box_frame_) {
+    if (!(extent_m >= 1e-9f && is_sound(*frame))) return reject(kRuleHead, 7);
+    // A tenth of the grid free about the root's boxes: FarBound relies on it.
+    for (const Side& side : view.nodes_[0].side)
+      for (const uint32_t axis : side.box)
+        if ((axis & 0xFFFFu) < kTurnedFreeCells || axis >> 16 < kTurnedFreeCells)
+          return reject(kRuleHead, 3);
+    return kPassed;
+  }
+  for (int k = 0; k < 3; ++k) {  // an eighth of the extent free on each side: FarBound relies on it
+    const float below_m = head.low_m[k] - head.grid_low_m[k];
+    const float above_m = head.grid_low_m[k] + reach_m - head.high_m[k];
+    if (!(below_m >= 0.124f * extent_m && above_m >= 0.124f * extent_m))
+      return reject(kRuleHead, 3);
+  }
+  return extent_m >= 1e-9f && reach_m <= 2.6f * extent_m ? kPassed : reject(kRuleHead, 4);
 }
 
 Verdict Proof::take(const Sections& s) {
@@ -103,11 +134,15 @@ Verdict Proof::take(const Sections& s) {
       s.vertex_normals.empty() == with_sign || s.edge_folds.empty() == with_sign)
     return reject(kRuleSigned, 0);
   view.head_ = &head;
+  const core::Span<const BoxFrame> frames = core::as_whole_array<BoxFrame>(s.box_frame);
+  if (frames.size() != (s.box_frame.empty() ? 0 : 1)) return reject(kRuleHeadSize, 0);
+  view.box_frame_ = frames.data();
   return take_bounded(s);
 }
 
 // The box that a search reads behind the last leaf's excludes nothing.
 Verdict Proof::take_bounded(const Sections& s) {
+  if (!s.leaf_boxes.empty() && view.box_frame_ != nullptr) return reject(kRuleLeafBoxesSize, 2);
   if (s.leaf_boxes.empty()) return s.shapes.empty() ? kPassed : reject(kRuleShapesSize, 0);
   const uint32_t triangles = view.triangles16_.size() + view.triangles32_.size();
   const uint32_t words = kLeafBoxStride * triangles;
@@ -191,20 +226,23 @@ Verdict Proof::check_leaf(uint32_t i, uint32_t which) {
   if (count > view.head_->triangle_count - first) return reject(kRuleLeaf, i);
   if (!is_box(node.side[which].box)) return reject(kRuleNodeBox, i);
   // Cells are a power of two, so this is the box with the rounding that NearBound allows for.
+  const float slack_cells = view.box_frame_ != nullptr ? kTurnedSlackCells : 0.0f;
   const float cell_m = view.head_->cell_m;
   const float* grid_low_m = view.head_->grid_low_m;
   float low_m[3], high_m[3];
   for (int k = 0; k < 3; ++k) {
-    low_m[k] = static_cast<float>(query::low_of(node.side[which].box[k])) * cell_m;
-    high_m[k] = static_cast<float>(query::high_of(node.side[which].box[k])) * cell_m;
+    const uint32_t axis = node.side[which].box[k];
+    low_m[k] = (static_cast<float>(query::low_of(axis)) + slack_cells) * cell_m;
+    high_m[k] = (static_cast<float>(query::high_of(axis)) - slack_cells) * cell_m;
   }
   for (uint32_t t = first; t < first + count; ++t) {
     const Triangle<uint32_t> triangle = view.triangle(t);
     for (const uint32_t corner : triangle.corner) {
       if (corner >= view.vertices_.size()) return reject(kRuleCorner, t);
-      const float* at_m = &view.vertices_[corner].x_m;
+      const Vec3 at_m = in_box_frame(view, view.vertex(corner));
+      const float* const x_m = &at_m.x;
       for (int k = 0; k < 3; ++k) {
-        const float from_m = at_m[k] - grid_low_m[k];
+        const float from_m = x_m[k] - grid_low_m[k];
         if (!(low_m[k] <= from_m && from_m <= high_m[k]))
           return reject(kRuleTriangleOutsideLeaf, t);
       }

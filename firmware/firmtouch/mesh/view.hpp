@@ -11,10 +11,10 @@ namespace firmtouch::mesh {
 
 /// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
 /// triangles32; the normals and folds are empty for an unsigned mesh, leaf_boxes and shapes except
-/// for a bounded bake.
+/// for a bounded bake, box_frame except for boxes turned against the axes.
 struct Sections {
   core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds,
-      leaf_boxes, shapes;
+      leaf_boxes, shapes, box_frame;
 
   /// Calls take(section type, bytes) for each.
   template <class Take>
@@ -23,7 +23,8 @@ struct Sections {
         take(kTriangles16Section, triangles16), take(kTriangles32Section, triangles32),
         take(kNodesSection, nodes), take(kParentsSection, parents),
         take(kVertexNormalsSection, vertex_normals), take(kEdgeFoldsSection, edge_folds),
-        take(kLeafBoxesSection, leaf_boxes), take(kShapesSection, shapes);
+        take(kLeafBoxesSection, leaf_boxes), take(kShapesSection, shapes),
+        take(kBoxFrameSection, box_frame);
   }
 };
 
@@ -47,6 +48,8 @@ class View {
   /// Null where the asset has none: what they hold follows from the rest.
   const uint32_t* leaf_boxes() const { return leaf_boxes_; }
   const TriangleShape* shapes() const { return shapes_; }
+  /// Null where the boxes lie along the axes.
+  const BoxFrame* box_frame() const { return box_frame_; }
   /// Whether float32 alone cannot keep the promise of exact answers (mesh/loss.hpp): the search
   /// keeps the rivals of the nearest triangle, which are then measured in double-float.
   bool has_rivals() const { return has_rivals_; }
@@ -77,6 +80,7 @@ class View {
   core::Span<const EdgeFolds> folds_;
   const uint32_t* leaf_boxes_ = nullptr;
   const TriangleShape* shapes_ = nullptr;
+  const BoxFrame* box_frame_ = nullptr;
   bool has_rivals_ = false;
 };
 
@@ -90,6 +94,7 @@ class Proof {
 
  private:
   core::Verdict take_bounded(const Sections& sections);
+  core::Verdict check_grid(float reach_m, float extent_m) const;
   uint32_t vertex_count() const { return view.vertices_.size(); }
   uint32_t normal_count() const { return view.vertex_normals_.size(); }
   uint32_t node_count() const { return view.nodes_.size(); }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "bake/mesh/box_frame.hpp"
 #include "bake/mesh/leaf_boxes.hpp"
 #include "bake/mesh/mesh_tree.hpp"
 #include "bake/mesh/refine.hpp"
@@ -68,6 +70,23 @@ mesh::Head make_head(const Surface& surface, const Grid& grid, const MeshTree& t
     head.longest_edge_m = std::max(head.longest_edge_m, edge_m);
   }
   return head;
+}
+
+struct Boxes {
+  std::optional<mesh::BoxFrame> frame;
+  Grid grid;
+  MeshTree tree;
+};
+
+Boxes build_boxes(const Surface& surface, const std::optional<Frame>& turned,
+                  const TreeShape& shape) {
+  Boxes boxes;
+  if (turned) boxes.frame = stored(*turned, surface);
+  const Surface framed = turned ? in_box_frame(surface, *boxes.frame) : surface;
+  boxes.grid = make_grid(framed);
+  if (turned) boxes.grid.slack_cells = mesh::kTurnedSlackCells;
+  boxes.tree = build_mesh_tree(framed, boxes.grid, shape);
+  return boxes;
 }
 
 template <class Index>
@@ -156,8 +175,12 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   }
   Surface input = given;
   longest_edge_first(input);
+  std::optional<Frame> turned;
+  // Leaf boxes have frames of their own.
+  if (!options.shape.has_boxes_and_shapes) turned = best_box_frame(input);
   if (options.max_growth > 0)
-    report.refined = refine(input, max_move_m(input) / 2, options.max_growth);
+    report.refined =
+        refine(input, max_move_m(input) / 2, options.max_growth, turned.value_or(Frame{}));
   longest_edge_first(input);
   Pseudonormals signs;
   if (options.is_signed) {
@@ -171,8 +194,9 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
     }
     if (!report.problem.empty()) return {};
   }
-  const Grid grid = make_grid(input);
-  const MeshTree tree = build_mesh_tree(input, grid, options.shape);
+  const Boxes boxes = build_boxes(input, turned, options.shape);
+  const Grid& grid = boxes.grid;
+  const MeshTree& tree = boxes.tree;
   if (tree.depth > mesh::kMaxDepth) {
     report.problem = "the tree is " + std::to_string(tree.depth) + " levels deep, more than the " +
                      std::to_string(mesh::kMaxDepth) +
@@ -197,6 +221,7 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
         make_section(mesh::kTriangles32Section, name, make_triangles<uint32_t>(surface)));
   sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
+  if (boxes.frame) sections.push_back(make_section(mesh::kBoxFrameSection, name, &*boxes.frame, 1));
   if (options.shape.has_boxes_and_shapes) {
     sections.push_back(
         make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(surface, grid, tree)));

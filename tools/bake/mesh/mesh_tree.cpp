@@ -64,11 +64,12 @@ double mean_edge(const Surface& surface) {
 // Grid coordinates of a box, rounded outward; 1/128 cell more than the rounding that the firmware's
 // check allows.
 void store_box(const Box& box, const Grid& grid, uint32_t* words) {
+  const double slack = 0x1p-7 + double{grid.slack_cells};
   for (size_t k = 0; k < 3; ++k) {
     const double low =
-        std::floor((box.low[k] - double{grid.low_m[k]}) / double{grid.cell_m} - 0x1p-7);
+        std::floor((box.low[k] - double{grid.low_m[k]}) / double{grid.cell_m} - slack);
     const double high =
-        std::ceil((box.high[k] - double{grid.low_m[k]}) / double{grid.cell_m} + 0x1p-7);
+        std::ceil((box.high[k] - double{grid.low_m[k]}) / double{grid.cell_m} + slack);
     words[k] = static_cast<uint32_t>(low) | ((mesh::kGridMax - static_cast<uint32_t>(high)) << 16);
   }
 }

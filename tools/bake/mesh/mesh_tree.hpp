@@ -13,6 +13,7 @@ namespace firmtouch::tools {
 struct Grid {
   std::array<float, 3> low_m{};
   float cell_m = 0;
+  float slack_cells = 0;  // by which boxes exceed their faces, for turned ones
 };
 
 Grid make_grid(const Surface& surface);

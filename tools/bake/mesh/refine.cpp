@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "bake/mesh/box_frame.hpp"
+#include "bake/mesh/flat_regions.hpp"
 #include "bake/mesh/sign_proof.hpp"
 #include "bake/mesh/turn_slivers.hpp"
 #include "firmtouch/mesh/layout.hpp"
@@ -16,8 +18,8 @@
 namespace firmtouch::tools {
 namespace {
 
-// Angles opposite an edge that exceed a half turn by less than this are as good either way: nearly
-// equal choices must not be flipped to and fro.
+// Boxes that are smaller by less than this part are as good either way: nearly equal choices must
+// not be flipped to and fro.
 constexpr double kMinGain = 1e-6;
 // A fan of n triangles over a rim of n more takes n^2 / 4 flips: this bounds the time.
 constexpr uint32_t kMaxFlipsPerFace = 32;
@@ -36,8 +38,10 @@ double longest_edge_m(const Surface& surface) {
 
 class Refiner {
  public:
-  Refiner(Surface& surface, double max_move_m, double max_growth)
+  Refiner(Surface& surface, double max_move_m, double max_growth, const Frame& boxes)
       : surface_(surface),
+        boxes_(boxes),
+        margin_m_(kBoxMargin * diagonal_m(surface.vertices)),
         faces_(surface.faces),
         mates_(Edges(surface.faces).mates()),
         moved_m_(faces_.size(), 0.0),
@@ -50,14 +54,22 @@ class Refiner {
     surface_.source.resize(std::min(surface_.source.size(), faces_.size()));
     for (size_t f = surface_.source.size(); f < faces_.size(); ++f)
       surface_.source.push_back(static_cast<uint32_t>(f));
+    for (const math::Vec3& v : surface.vertices) framed_.push_back(along(boxes_, to_point(v)));
     for (uint32_t h = 0; h < mates_.size(); ++h) {
       if (mates_[h] != kNone && start_of(faces_, h) == start_of(faces_, mates_[h]))
         mates_[h] = kNone;
       edges_.insert(key(start_of(faces_, h), end_of(faces_, h)));
     }
+    regions_ = flat_regions(surface, mates_, max_move_m);
   }
 
+  // First to the shorter diagonals, which takes fans apart, then to the smaller boxes.
   void flip_all() {
+    flip_each(true);
+    flip_each(false);
+  }
+  void flip_each(bool is_by_length) {
+    is_by_length_ = is_by_length;
     for (uint32_t h = 0; h < mates_.size(); ++h) touched_.push_back(h);
     flip_touched();
   }
@@ -82,7 +94,8 @@ class Refiner {
 
   Refined result() const {
     Refined refined = refined_;
-    refined.moved_m = *std::max_element(moved_m_.begin(), moved_m_.end());
+    for (uint32_t f = 0; f < faces_.size(); ++f)
+      refined.moved_m = std::max(refined.moved_m, moved_m_[f] + thickness_m(f));
     return refined;
   }
 
@@ -119,6 +132,11 @@ class Refiner {
     }
   }
 
+  double thickness_m(uint32_t face) const {
+    const uint32_t region = regions_.of_face[face];
+    return region == kNone ? 0 : regions_.thickness_m[region];
+  }
+
   // The two faces about an edge a b: a b c and b a d.
   struct Pair {
     uint32_t half, bc, ca, mate, ad, db;  // half-edges
@@ -133,14 +151,14 @@ class Refiner {
     return p;
   }
 
-  // Whether the angles at c and d exceed a half turn together: the other diagonal is Delaunay's.
+  // Whether the other diagonal has the smaller boxes.
   bool is_worth_flipping(const Pair& p) const {
-    const Point ca = at(p.a) - at(p.c), cb = at(p.b) - at(p.c), da = at(p.a) - at(p.d),
-                db = at(p.b) - at(p.d);
-    const double cosine_c = dot(ca, cb), sine_c = length(cross(ca, cb)), cosine_d = dot(da, db),
-                 sine_d = length(cross(da, db));
-    const double scale = length(ca) * length(cb) * length(da) * length(db);
-    return cosine_c * sine_d + sine_c * cosine_d < -kMinGain * scale;
+    const Point a = framed_[p.a], b = framed_[p.b], c = framed_[p.c], d = framed_[p.d];
+    if (is_by_length_) return length(d - c) < length(b - a) * (1 - kMinGain);
+    const auto area = [this](Point u, Point v, Point w) {
+      return half_box_area(u, v, w, margin_m_);
+    };
+    return area(c, d, a) + area(c, d, b) < (area(a, b, c) + area(a, b, d)) * (1 - kMinGain);
   }
 
   void flip(const Pair& p) {
@@ -148,9 +166,11 @@ class Refiner {
     if (p.c == p.d || edges_.count(key(p.c, p.d)) != 0) return;
     if (!is_worth_flipping(p)) return;
     const Point a = at(p.a), b = at(p.b), c = at(p.c), d = at(p.d);
-    const double moved_m =
-        std::max(moved_m_[f], moved_m_[g]) + moved_by_flip_m(a, b, c, d) * (1 + 0x1p-20);
-    if (!(moved_m <= max_move_m_)) return;
+    const double by_flip_m = moved_by_flip_m(a, b, c, d) * (1 + 0x1p-20);
+    if (!(by_flip_m <= max_move_m_)) return;
+    const bool is_flat = regions_.of_face[f] != kNone && regions_.of_face[f] == regions_.of_face[g];
+    const double moved_m = std::max(moved_m_[f], moved_m_[g]) + (is_flat ? 0 : by_flip_m);
+    if (!(moved_m + std::max(thickness_m(f), thickness_m(g)) <= max_move_m_)) return;
     if (!(height_m(a, d, c) > min_height_m_ && height_m(d, b, c) > min_height_m_)) return;
     const uint32_t bc = mates_[p.bc], ca = mates_[p.ca], ad = mates_[p.ad], db = mates_[p.db];
     edges_.erase(key(p.a, p.b));
@@ -196,13 +216,16 @@ class Refiner {
     double off_m = 0;
     const math::Vec3 middle_m = middle_of(at(p.a), at(p.b), off_m);
     const uint32_t f = half / 3, g = p.mate / 3;
-    if (!(std::max(moved_m_[f], moved_m_[g]) + off_m <= max_move_m_)) return;
+    if (!(std::max(moved_m_[f] + thickness_m(f), moved_m_[g] + thickness_m(g)) + off_m <=
+          max_move_m_))
+      return;
     const double least_m = 2 * min_height_m_;  // halved at most
     if (p.c == p.d) return;
     if (!(height_m(at(p.a), at(p.b), at(p.c)) > least_m)) return;
     if (!(height_m(at(p.b), at(p.a), at(p.d)) > least_m)) return;
     const auto m = static_cast<uint32_t>(surface_.vertices.size());
     surface_.vertices.push_back(middle_m);
+    framed_.push_back(along(boxes_, to_point(middle_m)));
     const uint32_t new_f = add_face(f, off_m), new_g = add_face(g, off_m);
     const uint32_t bc = mates_[p.bc], ca = mates_[p.ca], ad = mates_[p.ad], db = mates_[p.db];
     faces_[f] = {p.a, m, p.c};
@@ -227,6 +250,7 @@ class Refiner {
     const auto added = static_cast<uint32_t>(faces_.size());
     moved_m_[face] += off_m;
     moved_m_.push_back(moved_m_[face]);
+    regions_.of_face.push_back(regions_.of_face[face]);
     surface_.source.push_back(surface_.source[face]);
     faces_.push_back({});
     mates_.resize(mates_.size() + 3, kNone);
@@ -234,10 +258,16 @@ class Refiner {
   }
 
   Surface& surface_;
+  Frame boxes_;
+  double margin_m_;
+  bool is_by_length_ = false;
+  std::vector<Point> framed_;  // the vertices along the axes of the boxes
   std::vector<Face>& faces_;
   std::vector<uint32_t> mates_;
   std::unordered_set<uint64_t> edges_;
-  std::vector<double> moved_m_;  // of each face: how far its points may be from the surface given
+  FlatRegions regions_;
+  // Of each face: how far its points may be from the surface given, beyond its region's thickness.
+  std::vector<double> moved_m_;
   double max_move_m_, min_height_m_;
   size_t max_faces_, max_vertices_;
   std::vector<uint32_t> touched_;
@@ -247,10 +277,10 @@ class Refiner {
 
 }  // namespace
 
-Refined refine(Surface& surface, double max_move_m, double max_growth) {
+Refined refine(Surface& surface, double max_move_m, double max_growth, const Frame& boxes) {
   const double longest_m = longest_edge_m(surface), all_m = diagonal_m(surface.vertices);
   if (surface.faces.size() < kMinRefinedFaces || longest_m < kLongEdge * all_m) return {};
-  Refiner refiner(surface, max_move_m, max_growth);
+  Refiner refiner(surface, max_move_m, max_growth, boxes);
   refiner.flip_all();
   const Surface flipped = surface;
   const Refined flips = refiner.result();

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "bake/tree/principal_axes.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::tools {
@@ -8,8 +9,8 @@ namespace firmtouch::tools {
 /// Longest edge of a refined surface, in diagonals, unless the growth ends it first. From 0.08 on,
 /// float32 alone does not keep the promised error (mesh/loss.hpp).
 constexpr double kRefinedEdge = 0.05;
-/// Faces of a refined surface, over those given: 36 bytes a face become 54 at most.
-constexpr double kMaxGrowth = 1.5;
+/// Faces of a refined surface, over those given: 36 bytes a face become 60 at most.
+constexpr double kMaxGrowth = 1.65;
 /// Smaller surfaces, and those of shorter edges, stay as they are.
 constexpr uint32_t kMinRefinedFaces = 256;
 constexpr double kLongEdge = 0.08;
@@ -22,13 +23,15 @@ struct Refined {
 };
 
 /// Makes the long thin triangles of machined parts compact, because a query reads all boxes within
-/// its distance. Edges inside flat faces are flipped to the Delaunay triangulation, and the
-/// longest edges are split in the middle; splits that do not halve the longest edge are
-/// dropped: they made trees deeper and queries no cheaper. The surface stays closed and manifold,
-/// and moves by `max_move_m` at most. Edges without exactly two faces wound alike stay.
+/// its distance. Edges inside flat faces are flipped where that makes the boxes of their two faces,
+/// along the axes of `boxes`, smaller; and the longest edges are split in the middle. Splits that
+/// do not halve the longest edge are dropped: they made trees deeper and queries no cheaper. The
+/// surface stays closed and manifold, and moves by `max_move_m` at most. Edges without exactly two
+/// faces wound alike stay.
 /// Result: a face made from others has the `source` of one of them.
 /// Bounds: O(n log n) splits and flips, the same on every machine.
-/// Source: Rivara 1984 (longest edge first); Lawson 1977 (flips).
-Refined refine(Surface& surface, double max_move_m, double max_growth = kMaxGrowth);
+/// Source: Rivara 1984 (longest edge first); Lawson 1977 (flips, for another aim).
+Refined refine(Surface& surface, double max_move_m, double max_growth = kMaxGrowth,
+               const Frame& boxes = {});
 
 }  // namespace firmtouch::tools

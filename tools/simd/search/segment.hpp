@@ -144,7 +144,8 @@ template <class Visitor>
   if (budget.work != query::kUnlimited.work)
     return search_within_budget(mesh, a_m, b_m, budget, visitor, steps);
   SiblingSlabs slabs;
-  if (!slabs.begin(a_m, b_m, mesh.head().grid_low_m, mesh.head().cell_m) &&
+  const mesh::BoxSegment in(mesh, a_m, b_m);
+  if (!slabs.begin(in.a_m, in.b_m, mesh.head().grid_low_m, mesh.head().cell_m, in.slack_cells) &&
       !(math::is_finite(a_m) && math::is_finite(b_m)))
     return false;
   const uint64_t keys = slabs.enter_two(mesh.nodes()[0].side[0].box);

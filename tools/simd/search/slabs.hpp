@@ -9,9 +9,10 @@ namespace firmtouch::simd {
 /// The boxes in two nodes against a segment, with a limit of 1.
 class PortableSiblingSlabs {
  public:
-  bool begin(math::Vec3 a, math::Vec3 b, const float* low, float cell) {
+  bool begin(math::Vec3 a, math::Vec3 b, const float* low, float cell,
+             float slack_cells = math::kSlabSlackCells) {
     slabs_.set_limit(1.0f);
-    return slabs_.begin(math::on_grid(a, b, low, cell));
+    return slabs_.begin(math::on_grid(a, b, low, cell), slack_cells);
   }
   /// Keys of the boxes in one node.
   uint64_t enter_two(const uint32_t* boxes) const {
@@ -35,7 +36,7 @@ class PortableSiblingSlabs {
 class LaneSiblingSlabs {
  public:
   [[gnu::always_inline]] inline bool begin(math::Vec3 a_in, math::Vec3 b_in, const float* low_in,
-                                           float cell) {
+                                           float cell, float slack_cells = math::kSlabSlackCells) {
     const __m128 a = _mm_setr_ps(a_in.x, a_in.y, a_in.z, 0),
                  b = _mm_setr_ps(b_in.x, b_in.y, b_in.z, 0);
     const __m128 grid_low = _mm_maskload_ps(low_in, _mm_setr_epi32(-1, -1, -1, 0));
@@ -44,7 +45,7 @@ class LaneSiblingSlabs {
     const __m128 step = _mm_mul_ps(_mm_sub_ps(b, a), per_cell), sign = _mm_set1_ps(-0.0f);
     const __m128 offset = _mm_andnot_ps(sign, origin), size = _mm_andnot_ps(sign, step);
     const __m128 slack =
-        _mm_add_ps(_mm_mul_ps(offset, _mm_set1_ps(0x1p-21f)), _mm_set1_ps(0x1p-6f));
+        _mm_add_ps(_mm_mul_ps(offset, _mm_set1_ps(0x1p-21f)), _mm_set1_ps(slack_cells));
     const __m128 low = _mm_add_ps(origin, slack);
     const __m128 high = _mm_sub_ps(_mm_set1_ps(32767.0f), _mm_sub_ps(origin, slack));
     const __m128 back = _mm_cmp_ps(step, _mm_setzero_ps(), _CMP_LT_OQ);

@@ -1,0 +1,139 @@
+// Askew parts, whose boxes are turned: distances, signs and bounds against brute force in double,
+// crossings against every triangle, near the part and far from it; and the SIMD copy's bits.
+#include <cmath>
+
+#include "bake/mesh/bake_mesh.hpp"
+#include "bake/mesh/box_frame.hpp"
+#include "brute_force.hpp"
+#include "firmtouch/mesh/box_frame.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/mesh/segment_cast.hpp"
+#include "harness/test.hpp"
+#include "surface/make/make_cad.hpp"
+#include "surface/make/make_part.hpp"
+#include "true_distance.hpp"
+
+namespace {
+
+using namespace firmtouch;  // NOLINT: a test file
+using namespace mesh_test;  // NOLINT
+using math::Vec3;
+
+struct Baked {
+  tools::Surface surface;
+  std::vector<tools::Section> sections;
+  mesh::View view;
+
+  explicit Baked(const tools::Surface& of, const tools::TreeShape& shape = tools::kFastTree)
+      : surface(of) {
+    tools::MeshOptions options;
+    options.shape = shape;
+    tools::MeshReport report;
+    sections = tools::bake_mesh(surface, "part", options, report);
+    CHECK(report.problem.empty());
+    CHECK(tools::open_baked(sections, "part", view).ok());
+  }
+};
+
+Vec3 random_point(const mesh::Head& head, Random& random, double reach) {
+  const auto at = [&](size_t k) {
+    const double low = double{head.low_m[k]}, high = double{head.high_m[k]};
+    return static_cast<float>((low + high) / 2 +
+                              random.between(-reach, reach) * double{head.diagonal_m});
+  };
+  return {at(0), at(1), at(2)};
+}
+
+double distance_to(const mesh::View& view, Vec3 p) {
+  double least = 1e300;
+  for (uint32_t t = 0; t < view.head().triangle_count; ++t) {
+    const mesh::Triangle<uint32_t> of = view.triangle(t);
+    least = std::min(
+        least, true_distance(wide(p), wide(view.vertex(of.corner[0])),
+                             wide(view.vertex(of.corner[1])), wide(view.vertex(of.corner[2]))));
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST(BoxFrame_AskewPart_IsTurned_AndOthersAreNot) {
+  for (uint64_t seed = 0; seed < 4 * tools::kCadKinds; ++seed) {
+    test::note("seed", static_cast<int64_t>(seed));
+    const Baked part(tools::to_surface(tools::make_cad(seed)));
+    CHECK_EQ(part.view.box_frame() != nullptr, seed / tools::kCadKinds % 2 == 1);
+  }
+  CHECK(Baked(tools::make_part(1, 5000)).view.box_frame() == nullptr);
+  CHECK(Baked(tools::to_surface(tools::make_cad(tools::kCadKinds)), tools::kBoundedTree)
+            .view.box_frame() == nullptr);
+}
+
+TEST(BoxFrame_Distances_AgreeWithBruteForce) {
+  const int points = long_run() ? 4000 : 250;
+  for (uint64_t seed = tools::kCadKinds; seed < 2 * tools::kCadKinds; ++seed) {
+    const Baked part(tools::to_surface(tools::make_cad(seed)));
+    const mesh::Head& head = part.view.head();
+    Random random(seed);
+    mesh::Hint warm;
+    for (int i = 0; i < points; ++i) {
+      test::note("case", i);
+      const double reach = i % 3 == 0 ? 0.5 : i % 3 == 1 ? 0.9 : std::pow(10.0, i % 7);
+      const Vec3 p = random_point(head, random, reach);
+      const double truth = distance_to(part.view, p);
+      const double within = 4e-7 * std::max(double{head.diagonal_m}, truth);
+      mesh::Hint cold;
+      for (mesh::Hint* hint : {&cold, &warm}) {
+        const mesh::Closest answer = mesh::closest_point(part.view, p, query::kUnlimited, *hint);
+        CHECK_LE(std::fabs(std::fabs(double{answer.distance_m}) - truth), within);
+        CHECK_LE(double{answer.certificate.lower_m}, truth);
+      }
+      for (const uint32_t work : {1u, 20u, 100u}) {
+        mesh::Hint hint;
+        const mesh::Closest answer = mesh::closest_point(part.view, p, {work}, hint);
+        CHECK_LE(double{answer.certificate.lower_m}, truth);
+      }
+    }
+  }
+}
+
+// A segment that the tree misses would be one more or one less than without the tree: the boxes of
+// a bake along the axes are the oracle.
+TEST(BoxFrame_Crossings_AreThoseWithoutIt) {
+  uint32_t crossings = 0;
+  for (uint64_t seed = tools::kCadKinds; seed < 2 * tools::kCadKinds; ++seed) {
+    const Baked part(tools::to_surface(tools::make_cad(seed)));
+    mesh::View plain;
+    std::vector<tools::Section> sections;
+    {
+      // The same triangles in a tree along the axes.
+      tools::Surface refined;
+      for (uint32_t v = 0; v < part.view.head().vertex_count; ++v)
+        refined.vertices.push_back(part.view.vertex(v));
+      for (uint32_t t = 0; t < part.view.head().triangle_count; ++t) {
+        const mesh::Triangle<uint32_t> of = part.view.triangle(t);
+        refined.faces.push_back({of.corner[0], of.corner[1], of.corner[2]});
+      }
+      tools::MeshOptions options;
+      options.shape = tools::kBoundedTree;
+      options.max_growth = 0;
+      tools::MeshReport report;
+      sections = tools::bake_mesh(refined, "part", options, report);
+      CHECK(report.problem.empty());
+      CHECK(tools::open_baked(sections, "part", plain).ok());
+    }
+    Random random(seed);
+    for (int i = 0; i < (long_run() ? 20000 : 2000); ++i) {
+      test::note("case", i);
+      const double reach = i % 2 == 0 ? 0.5 : std::pow(10.0, i % 5);
+      const Vec3 a = random_point(part.view.head(), random, reach),
+                 b = random_point(part.view.head(), random, 0.3), beyond = b + (b - a);
+      mesh::SurfaceCrossing one[64], other[64];
+      const mesh::Crossings of = mesh::all_crossings(part.view, a, beyond, query::kUnlimited, one);
+      const mesh::Crossings wanted =
+          mesh::all_crossings(plain, a, beyond, query::kUnlimited, other);
+      CHECK_EQ(of.found, wanted.found);
+      crossings += of.found;
+    }
+  }
+  CHECK_GT(crossings, 1000u);
+}
