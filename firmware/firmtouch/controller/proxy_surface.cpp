@@ -19,8 +19,7 @@ scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Val
   return contact;
 }
 
-void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, uint32_t work,
-                  ModelResult& result) {
+void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult& result) {
   const scene::Proxy& proxy = touch.proxy;
   query::Certificate certificate;
   const scene::Bounds bounds = scene::bounds_of(proxy, hand_m);
@@ -28,7 +27,7 @@ void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, uint32_t wo
   certificate.exact = proxy.near.is_exact;
   certificate.sign = proxy.near.sign;
   certificate.steps = touch.moved.steps;
-  certificate.work = work;
+  certificate.work = touch.moved.work;
   report_surface(certificate, proxy.near.sign < 0 ? -bounds.upper_m : bounds.upper_m,
                  touch.penetration_m, result);
   result.state |= record::kStateProxy;

@@ -9,30 +9,15 @@ namespace firmtouch {
 /// Settings of a tick's contact, from the parameters.
 scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Values& values,
                                   const ModelResult& result);
-/// Adds the proxy's last query to the record's part. `work`: units of all its queries.
-void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, uint32_t work,
-                  ModelResult& result);
-
-/// A shape that counts the work of its queries.
-template <class Shape>
-struct Counted {
-  Shape shape;
-  uint32_t work = 0;
-  float size_m() const { return shape.size_m(); }
-  scene::Near near(math::Vec3 x_m, query::Budget budget, float needed_m) {
-    const scene::Near near = shape.near(x_m, budget, needed_m);
-    work += near.work;
-    return near;
-  }
-};
+/// Adds what the proxy has done to the record's part.
+void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult& result);
 
 /// Contact with a shape in a tick.
 template <class Shape>
-void touch_shape(const Shape& shape, const ModelRequest& request, const params::Values& values,
+void touch_shape(Shape shape, const ModelRequest& request, const params::Values& values,
                  scene::ProxyTouch& touch, ModelResult& result) {
-  Counted<Shape> counted{shape};
-  scene::touch_by_proxy(proxy_contact(request, values, result), counted, touch, result.model);
-  report_proxy(touch, request.position_m, counted.work, result);
+  scene::touch_by_proxy(proxy_contact(request, values, result), shape, touch, result.model);
+  report_proxy(touch, request.position_m, result);
 }
 
 /// A surface policy with penalty contact instead of a proxy, for comparison:

@@ -123,6 +123,7 @@ class Proof {
   core::Verdict check_base_face(uint32_t i);
   core::Verdict finish_base_hull();
 
+  core::Bytes base_hull_bytes_;
   uint32_t record_at_ = 0;
   // Sums of hashes, which compare two multisets without memory: each number has one id; each face
   // of the mesh or made is replaced once or left.

@@ -305,14 +305,13 @@ template <class Finder, class Bound>
       exact = exact && sign != 0;
     }
   }
-  const uint32_t used = units_of(search.steps + search.charged);
   leave_hint(search, lower_m, lower_m > kEitherSide * diagonal_m ? sign : int8_t{0}, hint);
   return {sign < 0 ? -found.distance_m : found.distance_m,
           {point_m.x, point_m.y, point_m.z},
           {direction.x, direction.y, direction.z},
           best.triangle,
           best.feature,
-          {lower_m, search.steps, exact, sign, used < budget.work ? used : budget.work}};
+          {lower_m, search.steps, exact, sign, units_of(search, budget.work)}};
 }
 
 // So far away that every vertex is as near as any other to 4e-8: no square of such a distance fits

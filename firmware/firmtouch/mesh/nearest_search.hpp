@@ -57,8 +57,11 @@ constexpr uint32_t parts_of(uint32_t units) {
   if (units > UINT32_MAX / kPartsOfUnit) return UINT32_MAX;
   return units <= kBeginUnits ? 1 : (units - kBeginUnits) * kPartsOfUnit;
 }
-constexpr uint32_t units_of(uint32_t parts) {
-  return kBeginUnits + parts / kPartsOfUnit + (parts % kPartsOfUnit != 0 ? 1 : 0);
+// Units that a search took, at most those allowed.
+inline uint32_t units_of(const Search& search, uint32_t allowed) {
+  const uint32_t parts = search.steps + search.charged;
+  const uint32_t units = kBeginUnits + parts / kPartsOfUnit + (parts % kPartsOfUnit != 0 ? 1 : 0);
+  return units < allowed ? units : allowed;
 }
 
 // Takes parts beyond a visit. The visit itself is still to be taken: one is left.

@@ -28,7 +28,7 @@ struct SafetyRows {
        "a tick that takes more periods than this is late"},
       {kModelAge, "model_age", "1", 1.0f, 1000.0f, 3.0f, When::kAnytime,
        "ticks for which a local model is valid"},
-      {kTickWork, "tick_work", "1", kFixedTickWork + 1.0f, 65536.0f, 900.0f, When::kMayFall,
+      {kTickWork, "tick_work", "1", kFixedTickWork + 1.0f, 65536.0f, 1000.0f, When::kMayFall,
        "work of a tick, 362 of it fixed"},
       {kEnergyReservoir, "energy_reservoir_J", "J", 0.0f, kMaxReservoir_J, 0.0006f, When::kMayFall,
        "energy that contact may give"},

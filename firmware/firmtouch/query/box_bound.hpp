@@ -67,7 +67,7 @@ struct FarBoxBound {
     return outside > 0.0f ? outside : 0.0f;
   }
   /// Out of line: far away a search is rare and short.
-  [[gnu::noinline]] uint32_t key(const uint32_t* box) const {
+  [[gnu::noinline, gnu::cold]] uint32_t key(const uint32_t* box) const {
     const math::Vec3 d{outside_m(box[0], x_m.x), outside_m(box[1], x_m.y),
                        outside_m(box[2], x_m.z)};
     return math::bits_of(dot(d, d) * kRoundDown);

@@ -323,6 +323,7 @@ void ProxyMove::begin_at_hand(int8_t sign) {
 void ProxyMove::take(const Near& near) {
   ++moved_.queries;
   moved_.steps += near.steps;
+  moved_.work += near.work;
   work_left_ -= near.work < work_left_ ? near.work : work_left_;
   if (near.is_of_base_hull) moved_.is_of_base_hull = true;
   if (proxy_.phase != Proxy::Phase::kFree) return begin_contact(near);

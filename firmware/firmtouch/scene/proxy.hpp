@@ -62,8 +62,9 @@ Bounds bounds_of(const Proxy& proxy, math::Vec3 hand_m);
 
 /// What a tick of a proxy has done.
 struct ProxyMoved {
-  uint32_t queries = 0;
   uint32_t steps = 0;
+  uint32_t work = 0;  // units
+  uint8_t queries = 0;
   bool is_optimal = false;  // ended at the solution for the working set
   bool is_starved = false;  // the visits ran out: contact is uncertain
   bool is_of_base_hull = false;
