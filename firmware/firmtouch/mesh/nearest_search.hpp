@@ -60,7 +60,7 @@ constexpr uint32_t parts_of(uint32_t units) {
 // Units that a search took, at most those allowed.
 inline uint32_t units_of(const Search& search, uint32_t allowed) {
   const uint32_t parts = search.steps + search.charged;
-  const uint32_t units = kBeginUnits + parts / kPartsOfUnit + (parts % kPartsOfUnit != 0 ? 1 : 0);
+  const uint32_t units = kBeginUnits + (parts + kPartsOfUnit - 1) / kPartsOfUnit;
   return units < allowed ? units : allowed;
 }
 
