@@ -103,7 +103,7 @@ class Chart {
   }
   /** Least and greatest of the curves that are shown, in the window. */
   range() {
-    let low = 0, high = this.about.limit || 0;
+    let low = 0, high = 0;
     const first = this.bin(this.time.from), last = this.bin(this.time.to);
     this.about.curves.forEach((curve, k) => {
       if (this.hidden.has(k)) return;
@@ -177,10 +177,6 @@ class Chart {
       }
     });
     const halo = { 'paint-order': 'stroke', stroke: 'var(--card)', 'stroke-width': 4, fill: 'var(--bad)' };
-    if (about.limit > 0) {
-      svg('line', { x1: left, x2: right, y1: y(about.limit), y2: y(about.limit), stroke: 'var(--bad)', 'stroke-dasharray': '6 4' }, group);
-      svg('text', { x: left + 6, y: y(about.limit) + 14, ...halo }, group, about.limitLabel);
-    }
     for (const [at, text] of axis.events) {
       svg('line', { x1: this.x(at), x2: this.x(at), y1: top, y2: base, stroke: 'var(--bad)', 'stroke-dasharray': '2 3' }, group);
       const end = this.x(at) > width * 0.6;

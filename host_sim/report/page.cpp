@@ -39,10 +39,10 @@ std::string certificate_claim(const Summary& s) {
 
 std::string visits_claim(const Summary& s) {
   return claim("Visits", std::to_string(s.worst_visits) + " <small>in the worst tick</small>",
-               "A visit is one tree node read by a query. It costs at least one work unit, and the "
-               "work budget, " +
+               "A visit is one tree node read by a query. What bounds the time of a tick for every "
+               "shape is its work: " +
                    std::to_string(s.budget_units) +
-                   " units a tick, bounds the time of a tick for every shape. Mean: " +
+                   " units at most. A visit takes one, of a mesh a third. Mean: " +
                    fixed(s.mean_visits, 1) + " visits.");
 }
 
@@ -135,9 +135,9 @@ std::string table(const Report& report, const Scene3d& scene3d) {
   rows += row("Deepest penetration, motors on", fixed(s.worst_penetration_m * 1e3, 2) + " mm");
   if (s.has_guide)
     rows += row("Mean deviation on the guide", fixed(s.mean_guide_deviation_m * 1e3, 2) + " mm");
-  rows += row("Visits a tick: mean, worst; work budget",
-              fixed(s.mean_visits, 1) + ", " + std::to_string(s.worst_visits) + "; " +
-                  std::to_string(s.budget_units) + " units");
+  rows += row("Visits a tick: mean, worst",
+              fixed(s.mean_visits, 1) + ", " + std::to_string(s.worst_visits));
+  rows += row("Work a tick, at most", std::to_string(s.budget_units) + " units");
   if (s.worst_instructions > 0) {
     rows += row(
         "Instructions a tick: mean, worst",

@@ -106,9 +106,7 @@ std::string chart_text(const RunChart& chart) {
               ",\"high\":" + packed(curve.values.high()) + "}";
   return "{\"title\":" + json_text(chart.title) + ",\"unit\":" + json_text(chart.unit) +
          ",\"note\":" + json_text(chart.note) + ",\"decimals\":" + std::to_string(chart.decimals) +
-         ",\"log\":" + (chart.is_logarithmic ? "true" : "false") +
-         ",\"limit\":" + fixed(chart.limit, 6) + ",\"limitLabel\":" + json_text(chart.limit_label) +
-         ",\"curves\":[" + curves + "]}";
+         ",\"log\":" + (chart.is_logarithmic ? "true" : "false") + ",\"curves\":[" + curves + "]}";
 }
 
 }  // namespace

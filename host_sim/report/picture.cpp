@@ -60,9 +60,8 @@ std::string picture_of(const Report& report) {
                  650);
   svg += text_at(24, 57, 13, "#566175",
                  "contact, peak force " + fixed(s.peak_force_N, 2) +
-                     " N; worst tick: " + std::to_string(s.worst_visits) + " visits, budget " +
-                     std::to_string(s.budget_units) + " work units; certificates checked on " +
-                     grouped(s.checked_ticks) + " ticks, " +
+                     " N; worst tick: " + std::to_string(s.worst_visits) +
+                     " visits; certificates checked on " + grouped(s.checked_ticks) + " ticks, " +
                      (s.wrong_bounds == 0 ? "all valid" : grouped(s.wrong_bounds) + " wrong"));
   const double shown_width = kImageShown * kImageWidth / kImageHeight;
   svg += "<image x=\"" + fixed((kWidth - shown_width) / 2, 0) + "\" y=\"" + fixed(kImageTop, 0) +

@@ -57,7 +57,7 @@ std::vector<RunChart> charts_of(const Environment& environment) {
   charts.push_back(
       {"Visits a tick",
        "visits",
-       "Surface and guide query together, logarithmic scale. A tick never exceeds its budget.",
+       "Surface and guide queries together, logarithmic scale.",
        {{"tree nodes read", kBlue,
          [](const RunTick& tick) { return static_cast<double>(tick.record.output.steps); }, true,
          1.2}},
@@ -153,10 +153,6 @@ void RunCharts::finish(const Summary& summary) {
                          fixed(summary.force_limit_N, 1) +
                          " N. Grey background: after a fault the motors are off.";
   for (RunChart& chart : charts_) {
-    if (chart.is_logarithmic) {
-      chart.limit = summary.budget_units;
-      chart.limit_label = "budget " + std::to_string(summary.budget_units) + " units";
-    }
     if (chart.decimals == 3) chart.note = note_of_distance(summary);
   }
   if (!axis_.events.empty() && summary.fault_is_scripted)
@@ -164,8 +160,7 @@ void RunCharts::finish(const Summary& summary) {
 }
 
 chart::Chart chart_of(const RunChart& from) {
-  chart::Chart chart{from.title, from.unit,        {},           from.is_logarithmic,
-                     from.limit, from.limit_label, from.decimals};
+  chart::Chart chart{from.title, from.unit, {}, from.is_logarithmic, from.decimals};
   for (const Curve& curve : from.curves)
     chart.series.push_back(
         {curve.label, curve.colour, curve.values.values(), curve.is_area, curve.width});

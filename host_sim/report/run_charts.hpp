@@ -30,8 +30,6 @@ struct RunChart {
   std::vector<Curve> curves;
   int decimals = 2;
   bool is_logarithmic = false;
-  double limit = 0;  // a dashed line at this value; 0: none
-  std::string limit_label{};
 };
 
 /// The charts of a run, most important first: force, penetration, distance with its bound, visits,

@@ -202,7 +202,7 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
   if (s.has_guide)
     line("  guide          %zu ticks on it; mean deviation %.2f mm, worst %.2f mm\n", s.guide_ticks,
          s.mean_guide_deviation_m * 1e3, s.worst_guide_deviation_m * 1e3);
-  line("  visits a tick  mean %.1f, worst %u (tree nodes read); budget %u work units\n",
+  line("  visits a tick  mean %.1f, worst %u (tree nodes read); work of at most %u units\n",
        s.mean_visits, s.worst_visits, s.budget_units);
   if (s.has_surface)
     line(

@@ -26,15 +26,18 @@ LinkageDevice machine(const std::string& name) {
   return tools::read_device(name, tools::machine_text(name));
 }
 
-// Points that the true arm touches.
-std::vector<tools::Touch> points(const LinkageDevice& device, uint32_t count) {
+// Points that the true arm touches, in a share of its joints' ranges about their middles.
+std::vector<tools::Touch> points(const LinkageDevice& device, uint32_t count, double share = 1) {
   test::Lcg random(7);
   std::vector<tools::Touch> touches(count);
   for (tools::Touch& touch : touches) {
     tools::JointMotion at;
     for (uint32_t k = 0; k < 3; ++k) {
       const device::JointSetting& joint = device.joints.joint[k];
-      at.angle_rad[k] = static_cast<double>(random.between(joint.low_rad, joint.high_rad));
+      const double low_rad = static_cast<double>(joint.low_rad),
+                   half_rad = (static_cast<double>(joint.high_rad) - low_rad) / 2;
+      at.angle_rad[k] =
+          low_rad + half_rad * (1 + share * static_cast<double>(random.between(-1, 1)));
       touch.counts[k] = (at.angle_rad[k] - static_cast<double>(joint.zero_rad)) *
                         static_cast<double>(joint.counts_per_rad);
     }
@@ -127,6 +130,16 @@ TEST(Calibrate_NamesWhatTouchesLeaveOpen) {
   for (const tools::Calibrated& parameter : found.parameters)
     CHECK_EQ(parameter.is_determined,
              parameter.name != "base_radius" && parameter.name != "platform_radius");
+}
+
+// Touches of nearly one pose leave directions open; these stay as they were.
+TEST(Calibrate_TouchesOfNearlyOnePose_LeaveDirectionsOpen) {
+  const LinkageDevice device = machine("touch_like");
+  const Calibration found = calibrate(device, points(device, 40, 0.001), kNoise_m, false);
+  CHECK_LE(found.determined, static_cast<uint32_t>(found.parameters.size()) - 2);
+  CHECK_GE(found.determined, 2u);
+  for (const tools::Calibrated& parameter : found.parameters)
+    CHECK_LE(std::fabs(parameter.value - parameter.before), 2e-3);
 }
 
 TEST(Calibrate_TruthIsInTheEllipsoid_AndTheTipIsWithin50Micrometres) {

@@ -14,7 +14,7 @@ class Plot {
  public:
   Plot(const Chart& chart, const TimeAxis& axis, const ChartSize& size)
       : chart_(chart), axis_(axis), size_(size) {
-    double most = chart.limit, least = 0;
+    double most = 0, least = 0;
     for (const Series& s : chart.series)
       for (const double v : s.values) most = std::max(most, v), least = std::min(least, v);
     if (chart.is_logarithmic) {
@@ -52,7 +52,6 @@ class Plot {
   std::string missing() const;
   std::string line(const Series& series, size_t index) const;
   std::string points(const std::vector<double>& values, size_t from, size_t to) const;
-  std::string limit() const;
   std::string events() const;
 
  private:
@@ -215,14 +214,6 @@ std::string Plot::line(const Series& series, size_t index) const {
   return svg;
 }
 
-std::string Plot::limit() const {
-  if (!(chart_.limit > 0)) return "";
-  const double at = y(chart_.limit), right = size_.width - size_.right;
-  return rule(size_.left, at, right, at,
-              "stroke=\"var(--bad)\" stroke-width=\"1.2\" stroke-dasharray=\"6 4\"") +
-         text_at(size_.left + 6, at + 14, kOnCard + "fill=\"var(--bad)\"", chart_.limit_label);
-}
-
 std::string Plot::events() const {
   std::string svg;
   for (const auto& [time, name] : axis_.events) {
@@ -298,7 +289,7 @@ std::string svg_of(const Chart& chart, const TimeAxis& axis, const ChartSize& si
                     html_of(chart.title) + " over time\">";
   svg += plot.frame() + plot.missing() + plot.bands();
   for (size_t i = 0; i < chart.series.size(); ++i) svg += plot.line(chart.series[i], i);
-  svg += plot.off() + plot.limit() + plot.events();
+  svg += plot.off() + plot.events();
   svg += "<line class=\"cursor\" y1=\"" + fixed(size.top, 0) + "\" y2=\"" + fixed(plot.base(), 0) +
          "\" stroke=\"var(--ink)\" stroke-opacity=\".55\" style=\"display:none\"/>";
   return svg + "</svg>";

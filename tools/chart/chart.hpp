@@ -21,9 +21,7 @@ struct Chart {
   std::string title, unit;
   std::vector<Series> series;
   bool is_logarithmic = false;  // values of at least 1
-  double limit = 0;             // a dashed line at this value, named; 0: none
-  std::string limit_label;
-  int decimals = 2;  // of the values shown
+  int decimals = 2;             // of the values shown
 };
 
 /// What all charts of a run share.

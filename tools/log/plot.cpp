@@ -148,7 +148,7 @@ std::string svg_of(const Drawn& drawn, const std::string& title, const std::stri
   double top = kTop + lanes;
   for (size_t p = 0; p < drawn.panels.size(); ++p, top += kHeight + kHead) {
     const Panel& panel = drawn.panels[p];
-    chart::Chart chart{panel.title, "", {}, panel.is_logarithmic, 0, "", 0};
+    chart::Chart chart{panel.title, "", {}, panel.is_logarithmic, 0};
     for (size_t c = 0; c < panel.curves.size(); ++c)
       chart.series.push_back({panel.curves[c].label, kColours[c % 4], drawn.lines[p][c].values(),
                               panel.curves[c].is_area, 1.4});
