@@ -1,8 +1,8 @@
 #pragma once
+#include <float.h>
 #include <stdint.h>
 
 #include "firmtouch/math/vec3.hpp"
-#include "firmtouch/servo/local_model.hpp"
 
 namespace firmtouch::servo {
 
@@ -17,19 +17,19 @@ struct EnergySettings {
 /// Passivity observer of the proxy spring: the energy that contact may still give to the hand.
 /// What the hand put into the spring, plus a reservoir, less what contact gave back.
 struct Energy {
-  float available_J = kMaxDrive_N;  // limited to a full reservoir in the first tick
-  float stretch_m = 0;              // hand to proxy in the last tick
-  float entered_m = 0;              // growth of the stretch in the last tick
-  float payable_m = 0;              // result of the last tick
-  math::Vec3 position_m;            // of the last tick
-  math::Vec3 contact_N;             // applied since then; the caller sets it
-  uint32_t overdrawn_ticks = 0;     // without a break, by more than kOverdraft_J
+  float available_J = FLT_MAX;   // limited to a full reservoir in the first tick
+  float stretch_m = 0;           // hand to proxy in the last tick
+  float entered_m = 0;           // growth of the stretch in the last tick
+  float payable_m = 0;           // result of the last tick
+  math::Vec3 position_m;         // of the last tick
+  math::Vec3 contact_N;          // applied since then; the caller sets it
+  uint32_t overdrawn_ticks = 0;  // without a break, by more than kOverdraft_J
 };
 
 /// Counts the work of the last tick and limits the spring to the energy that is left.
 /// The work is exact: between two samples the motors hold the force. The device's friction takes
-/// its part, at least that of an even speed. Energy that contact dissipates
-/// fills the reservoir up and is not saved beyond it.
+/// its part, at least that of an even speed. Energy that contact dissipates fills the reservoir up
+/// and is not saved beyond it.
 /// Result: the largest stretch of the spring. At least `stretch_m` while the reservoir is not
 ///         empty. From then on
 ///           no more than holds the available energy;
