@@ -271,7 +271,8 @@ TEST(OneHashOfTheAnswersOnEveryTarget) {
     p.z_m = random.between(-scale, scale);
   }
   const uint64_t hash = firmtouch::curve::probe_hash(
-      c.view(), firmtouch::core::Span<const firmtouch::query::ProbePoint>(points, 500));
+      c.view(), firmtouch::core::Span<const firmtouch::query::ProbePoint>(points, 500),
+      firmtouch::query::kUnlimited);
   CHECK_EQ(static_cast<uint32_t>(hash >> 32), 0xD40CE72Fu);
   CHECK_EQ(static_cast<uint32_t>(hash), 0x987959D2u);
 }

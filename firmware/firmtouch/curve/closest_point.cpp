@@ -165,8 +165,8 @@ Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, Hint& h
   return answer_anywhere(curve, p_m, budget, before, hint);
 }
 
-void Prober::answer(const View& curve, Vec3 p_m, core::Hash& hash) {
-  const Closest c = closest_point(curve, p_m, query::kUnlimited, hint);
+void Prober::answer(const View& curve, Vec3 p_m, query::Budget budget, core::Hash& hash) {
+  const Closest c = closest_point(curve, p_m, budget, hint);
   const float values[] = {c.distance_m, c.point_m.x, c.point_m.y, c.point_m.z,          c.tangent.x,
                           c.tangent.y,  c.tangent.z, c.arc,       c.certificate.lower_m};
   for (const float value : values) hash.add(math::bits_of(value));
@@ -174,8 +174,9 @@ void Prober::answer(const View& curve, Vec3 p_m, core::Hash& hash) {
   hash.add(c.certificate.steps);
 }
 
-uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points) {
-  return query::hash_of_run<ProbeRun>(curve, points);
+uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points,
+                    query::Budget budget) {
+  return query::hash_of_run<ProbeRun>(curve, points, budget);
 }
 
 }  // namespace firmtouch::curve

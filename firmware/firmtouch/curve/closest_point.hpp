@@ -33,12 +33,13 @@ Closest closest_point(const View& curve, math::Vec3 p_m, query::Budget budget, H
 
 /// Probe queries, one after the other with one hint.
 struct Prober {
-  void answer(const View& curve, math::Vec3 p_m, core::Hash& hash);
+  void answer(const View& curve, math::Vec3 p_m, query::Budget budget, core::Hash& hash);
   Hint hint;
 };
 using ProbeRun = query::ProbeRun<Prober>;
 
 /// Hash of the bits of the answers to `points`.
-uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points);
+uint64_t probe_hash(const View& curve, core::Span<const query::ProbePoint> points,
+                    query::Budget budget = query::kProbeBudget);
 
 }  // namespace firmtouch::curve

@@ -37,8 +37,8 @@ Closest closest_point(const View& mesh, Vec3 p_m, query::Budget budget, Hint& hi
   return closest_by(mesh, ScalarFinder{mesh}, p_m, budget, hint);
 }
 
-void Prober::answer(const View& mesh, math::Vec3 p_m, core::Hash& hash) {
-  const Closest c = closest_point(mesh, p_m, query::kUnlimited, hint);
+void Prober::answer(const View& mesh, Vec3 p_m, query::Budget budget, core::Hash& hash) {
+  const Closest c = closest_point(mesh, p_m, budget, hint);
   const float values[] = {c.distance_m,  c.point_m.x,   c.point_m.y,   c.point_m.z,
                           c.direction.x, c.direction.y, c.direction.z, c.certificate.lower_m};
   for (const float value : values) hash.add(math::bits_of(value));

@@ -3,6 +3,7 @@
 
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/core/span.hpp"
+#include "firmtouch/query/certificate.hpp"
 
 namespace firmtouch::query {
 
@@ -21,6 +22,10 @@ struct ProbePoint {
   float x_m, y_m, z_m;
 };
 static_assert(sizeof(ProbePoint) == 12);
+
+/// Work of a probe query: whatever the asset, its slice of the opening takes no more than 100,000
+/// instructions of a Cortex-M7 (README.md has the bounds).
+constexpr Budget kProbeBudget{256};
 
 struct Probes {
   core::Span<const ProbePoint> points;

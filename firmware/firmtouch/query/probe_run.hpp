@@ -8,19 +8,20 @@ namespace firmtouch::query {
 /// Runs the probe queries of one section, each in a slice of its own, and hashes the answers' bits.
 ///
 /// `Prober` keeps what one query passes to the next (a hint) and has
-///     void answer(const View& view, math::Vec3 p_m, core::Hash& hash);
+///     void answer(const View& view, math::Vec3 p_m, Budget budget, core::Hash& hash);
 template <class Prober>
 class ProbeRun {
  public:
   ProbeRun() = default;
-  explicit ProbeRun(const Probes& probes) : probes_(probes) {}
+  explicit ProbeRun(const Probes& probes, Budget budget = kProbeBudget)
+      : probes_(probes), budget_(budget) {}
 
   /// The next query.
   template <class View>
   void work(const View& view) {
     if (done()) return;
     const ProbePoint& p = probes_.points[next_++];
-    prober_.answer(view, {p.x_m, p.y_m, p.z_m}, hash_);
+    prober_.answer(view, {p.x_m, p.y_m, p.z_m}, budget_, hash_);
   }
   bool done() const { return next_ >= probes_.points.size(); }
   bool agrees() const { return hash_.value() == probes_.hash; }
@@ -28,6 +29,7 @@ class ProbeRun {
 
  private:
   Probes probes_;
+  Budget budget_;
   core::Hash hash_;
   Prober prober_;
   uint32_t next_ = 0;
@@ -35,8 +37,9 @@ class ProbeRun {
 
 /// Hash of the answers to all points.
 template <class Run, class View>
-uint64_t hash_of_run(const View& view, core::Span<const ProbePoint> points) {
-  Run run({points, 0});
+uint64_t hash_of_run(const View& view, core::Span<const ProbePoint> points,
+                     Budget budget = kProbeBudget) {
+  Run run({points, 0}, budget);
   while (!run.done()) run.work(view);
   return run.hash();
 }

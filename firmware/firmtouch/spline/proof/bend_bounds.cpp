@@ -14,15 +14,12 @@ constexpr float kChoose[kOrders][kOrders] = {{1, 0, 0, 0, 0, 0}, {1, 1, 0, 0, 0,
                                              {1, 2, 1, 0, 0, 0}, {1, 3, 3, 1, 0, 0},
                                              {1, 4, 6, 4, 1, 0}, {1, 5, 10, 10, 5, 1}};
 
+// [j][k]: j (j - 1) ... of k factors.
+constexpr float kFalling[kOrders][kOrders] = {
+    {1}, {1, 1}, {1, 2, 2}, {1, 3, 6, 6}, {1, 4, 12, 24, 24}, {1, 5, 20, 60, 120, 120}};
+
 float least(float a, float b) { return a < b ? a : b; }
 float size_of(float a) { return a < 0.0f ? -a : a; }
-
-// j (j - 1) ... of k factors.
-float falling(uint32_t j, uint32_t k) {
-  float product = 1.0f;
-  for (uint32_t i = 0; i < k; ++i) product *= static_cast<float>(j - i);
-  return product;
-}
 
 float power(float base, uint32_t exponent) {
   float product = 1.0f;
@@ -38,50 +35,64 @@ struct Vectors {
   Vec3 of[kOrders - 1][kOrders - 1];
 };
 
-// Of the numerator and of the weight: the sums of what their powers may amount to.
-void bound_sums(const LeafShape& shape, const Region& region, float noise_m, float noise_w,
-                Sizes& c, Sizes& w) {
+// Of a polynomial with coefficients of such sizes: the sums of what its derivatives' may amount to.
+[[gnu::noinline]] void bound_sums(const LeafShape& shape, const float* size, Sizes& sums) {
   for (uint32_t b = 0; b < kOrders; ++b)
     for (uint32_t a = 0; a + b < kOrders; ++a) {
-      c.of[a][b] = w.of[a][b] = 0.0f;
-      for (uint32_t j = b; j <= shape.degree_v; ++j)
-        for (uint32_t i = a; i <= shape.degree_u; ++i) {
-          const float small = power(region.half_u, i) * power(region.half_v, j);
-          const float factor = falling(i, a) * falling(j, b);
-          const uint32_t at = j * (shape.degree_u + 1) + i;
-          c.of[a][b] += factor * (math::length(shape.c[at]) + small * noise_m);
-          w.of[a][b] += factor * (size_of(shape.w[at]) + small * noise_w);
-        }
+      float sum = 0.0f;
+      for (uint32_t j = b; j <= shape.degree_v; ++j) {
+        const float* const row = size + j * (shape.degree_u + 1);
+        for (uint32_t i = a; i <= shape.degree_u; ++i)
+          sum += kFalling[i][a] * kFalling[j][b] * row[i];
+      }
+      sums.of[a][b] = sum;
     }
+}
+
+// Of the numerator and of the weight.
+void bound_sums(const LeafShape& shape, const Region& region, Sizes& c, Sizes& w) {
+  float size_m[LeafShape::kMax], weight[LeafShape::kMax];
+  float half_v = 1.0f;
+  for (uint32_t at = 0, j = 0; j <= shape.degree_v; ++j, half_v *= region.half_v) {
+    float half_u = 1.0f;
+    for (uint32_t i = 0; i <= shape.degree_u; ++i, ++at, half_u *= region.half_u) {
+      const float small = half_u * half_v;
+      size_m[at] = math::length(shape.c[at]) + small * shape.numerator_noise_m;
+      weight[at] = size_of(shape.w[at]) + small * shape.weight_noise;
+    }
+  }
+  bound_sums(shape, size_m, c);
+  if (shape.is_rational) bound_sums(shape, weight, w);
 }
 
 // With numerator = point * weight, Leibniz' rule gives each derivative of the point by the lower
 // ones.
-void quotient(Sizes& c, const Sizes& w, float min_weight) {
+void quotient(const LeafShape& shape, Sizes& c, const Sizes& w) {
   for (uint32_t order = 0; order < kOrders; ++order)
     for (uint32_t b = 0; b <= order; ++b) {
       const uint32_t a = order - b;
       float sum = c.of[a][b];
-      for (uint32_t l = 0; l <= b; ++l)
+      for (uint32_t l = 0; l <= b && shape.is_rational; ++l)
         for (uint32_t k = 0; k <= a; ++k)
           if (k + l < order) sum += kChoose[a][k] * kChoose[b][l] * c.of[k][l] * w.of[a - k][b - l];
-      c.of[a][b] = sum / min_weight * kUp;
+      c.of[a][b] = sum / shape.min_weight * kUp;
     }
 }
 
 // The same in the middle, as vectors; the weight there is 1.
 void middle_derivatives(const LeafShape& shape, Vectors& x) {
+  const uint32_t columns = shape.degree_u + 1;
   for (uint32_t order = 0; order + 1 < kOrders; ++order)
     for (uint32_t b = 0; b <= order; ++b) {
       const uint32_t a = order - b;
       Vec3 sum{};
       if (a <= shape.degree_u && b <= shape.degree_v)
-        sum = shape.c[b * (shape.degree_u + 1) + a] * (falling(a, a) * falling(b, b));
-      for (uint32_t l = 0; l <= b; ++l)
+        sum = shape.c[b * columns + a] * (kFalling[a][a] * kFalling[b][b]);
+      for (uint32_t l = 0; l <= b && shape.is_rational; ++l)
         for (uint32_t k = 0; k <= a; ++k) {
-          if (k + l >= order || a - k > shape.degree_u || b - l > shape.degree_v) continue;
-          const float weight = shape.w[(b - l) * (shape.degree_u + 1) + a - k] *
-                               falling(a - k, a - k) * falling(b - l, b - l);
+          const uint32_t i = a - k, j = b - l;
+          if (k + l >= order || i > shape.degree_u || j > shape.degree_v) continue;
+          const float weight = shape.w[j * columns + i] * kFalling[i][i] * kFalling[j][j];
           sum = sum - x.of[k][l] * (kChoose[a][k] * kChoose[b][l] * weight);
         }
       x.of[a][b] = sum;
@@ -141,8 +152,8 @@ struct Products {
 // Of a part of something no two points of which are farther apart than span_m.
 void bound_bends(const Region& region, float span_m, LeafShape& shape) {
   Sizes c, w;
-  bound_sums(shape, region, shape.numerator_noise_m, shape.weight_noise, c, w);
-  quotient(c, w, shape.min_weight);
+  bound_sums(shape, region, c, w);
+  quotient(shape, c, w);
   Vectors x;
   middle_derivatives(shape, x);
   tighten(x, c);
@@ -213,8 +224,8 @@ bool add_bends(const Piece& piece, const float* coefficients, uint32_t fine_step
   derive(piece, coefficients, region, shape);
   if (!(shape.min_weight > 0.0f)) return false;
   Sizes c, w;
-  bound_sums(shape, region, shape.numerator_noise_m, shape.weight_noise, c, w);
-  quotient(c, w, shape.min_weight);
+  bound_sums(shape, region, c, w);
+  quotient(shape, c, w);
   Vectors x;
   middle_derivatives(shape, x);
   tighten(x, c);

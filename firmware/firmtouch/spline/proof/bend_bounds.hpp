@@ -8,9 +8,8 @@ namespace firmtouch::spline {
 /// Pre: the shape is the part's, its min_weight above 1 / 2.
 void bound_bends(const Region& region, LeafShape& shape);
 /// What is stored of a cell, a part of a surface: the most that its parts, so many on a side, need.
-/// Their bounds are tighter than those of the whole: of one with weights more than 4 times, else
-/// more than 2.
-constexpr uint32_t kFineSide = 8, kFineCells = kFineSide * kFineSide;
+/// Their bounds are tighter than those of the whole.
+constexpr uint32_t kFineSide = 4, kFineCells = kFineSide * kFineSide;
 struct CellBends {
   float span_m = 0;  // no two points of the cell are farther apart
   float fixed[5] = {}, turning[5] = {};

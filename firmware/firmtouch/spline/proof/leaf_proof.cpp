@@ -77,7 +77,7 @@ Verdict check_cell(const View& model, uint32_t piece_index, uint32_t cell, uint3
 }
 
 Verdict check_patch(const View& model, uint32_t i, const View::LeafIndex& at_leaf,
-                    const LeafShape& shape) {
+                    const LeafShape& shape, bool is_lower) {
   const Piece& piece = model.pieces()[at_leaf.piece];
   const Grid& grid = model.grids()[at_leaf.piece];
   Patch patch{at_leaf.piece, 0u + piece.level_u + piece.level_v, at_leaf.index_u, at_leaf.index_v};
@@ -88,16 +88,18 @@ Verdict check_patch(const View& model, uint32_t i, const View::LeafIndex& at_lea
   };
   const Patch leaf = patch;
   const LeafCorners corners(shape);
-  if (!(radius_for(shape, corners, quad(), {}) <= stored_m())) return reject(kRuleEnclosure, i);
+  if (is_lower && !(radius_for(shape, corners, quad(), {}) <= stored_m()))
+    return reject(kRuleEnclosure, i);
   while (patch.depth != 0) {
     patch = parent_of(piece, patch);
+    if (is_lower != (patch.depth > leaf.depth / 2)) continue;
     const uint32_t overlap =
         model.overlaps()[overlap_of(grid, patch, halvings_of(piece, patch.depth))];
     const RegionOfQuad half = half_of(piece, patch, leaf, overlap);
     if (!(radius_for(shape, corners, quad(), own_of(piece, patch, leaf), half) <= stored_m()))
       return reject(kRuleEnclosure, i);
   }
-  for (uint32_t at = model.pieces().size() - 1 + at_leaf.piece; at != 0;) {
+  for (uint32_t at = is_lower ? 0 : model.pieces().size() - 1 + at_leaf.piece; at != 0;) {
     at = parent_of(at);
     if (!leaf_fits(shape, model.boxes()[at])) return reject(kRuleEnclosure, i);
   }

@@ -17,13 +17,19 @@ float half_of(uint32_t level) { return math::float_of((127u - level) << 23); }
 
 struct Four {
   float v[4];
+
+  void add(float times, const Four& f) {
+    v[0] += times * f.v[0];
+    v[1] += times * f.v[1];
+    v[2] += times * f.v[2];
+    v[3] += times * f.v[3];
+  }
 };
 
 // Powers of s about 0 become powers of x about middle, with s = middle + half x, for `count` rows.
 void shift(Four* c, uint32_t degree, uint32_t stride, float middle, float half) {
   for (uint32_t low = 0; low < degree; ++low)
-    for (uint32_t k = degree; k-- > low;)
-      for (uint32_t d = 0; d < 4; ++d) c[k * stride].v[d] += middle * c[(k + 1) * stride].v[d];
+    for (uint32_t k = degree; k-- > low;) c[k * stride].add(middle, c[(k + 1) * stride]);
   float scale = half;
   for (uint32_t k = 1; k <= degree; ++k, scale *= half)
     for (uint32_t d = 0; d < 4; ++d) c[k * stride].v[d] *= scale;

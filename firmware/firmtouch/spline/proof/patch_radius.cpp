@@ -82,10 +82,11 @@ Vec3 corner_of(const LeafShape& shape, float x, float y) {
 }
 
 // Where on a quad the points of a leaf are thought to be, x and y by powers of the leaf's own s and
-// t, [of t][of s]: never outside a part of the quad.
+// t, [of t][of s]: never outside a part of the quad. No power is above the second in all.
 struct Spread {
   float x[3][3] = {}, y[3][3] = {};
 };
+constexpr uint32_t kSpreadPowers[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {2, 0}};
 // In proportion between where its corners are.
 void spread_between(const float (&corner)[4], float (&of)[3][3]) {
   const float low = corner[0] + corner[1], high = corner[2] + corner[3];
@@ -153,38 +154,40 @@ void residual_of(const LeafShape& shape, const Quad& quad, const Spread& on, Res
     for (uint32_t i = 0; i <= shape.degree_u; ++i)
       r.e[j][i] = shape.c[j * (shape.degree_u + 1) + i];
   float product[kPowers][kPowers] = {};  // of x and y
-  for (uint32_t i = 0; i < 9; ++i)
-    for (uint32_t k = 0; k < 9; ++k)
-      product[i / 3 + k / 3][i % 3 + k % 3] += on.x[i / 3][i % 3] * on.y[k / 3][k % 3];
+  for (const uint32_t(&i)[2] : kSpreadPowers)
+    for (const uint32_t(&k)[2] : kSpreadPowers)
+      product[i[0] + k[0]][i[1] + k[1]] += on.x[i[0]][i[1]] * on.y[k[0]][k[1]];
   for (uint32_t row = 0; row < kPowers; ++row)
-    for (uint32_t column = 0; column < kPowers; ++column) {
+    for (uint32_t column = 0; column < kPowers - row; ++column) {
       Vec3 at = quad.twist * product[row][column];
       if (row < 3 && column < 3) at = at + quad.a * on.x[row][column] + quad.b * on.y[row][column];
       if (row + column == 0) at = at + (quad.centre - shape.local_m);
       r.e[row][column] = r.e[row][column] - at;
       if (!shape.is_rational) continue;
-      for (uint32_t k = 1; k < (shape.degree_u + 1) * (shape.degree_v + 1); ++k) {
-        Vec3& e = r.e[row + k / (shape.degree_u + 1)][column + k % (shape.degree_u + 1)];
-        e = e - at * shape.w[k];
+      const float* weight = shape.w;
+      for (uint32_t j = 0; j <= shape.degree_v; ++j) {
+        Vec3* const e = r.e[row + j] + column;
+        for (uint32_t i = 0; i <= shape.degree_u; ++i, ++weight)
+          if (i + j > 0) e[i] = e[i] - at * *weight;
       }
     }
 }
 
 // How long that is at most. Between the points of a grid it is off what is linear between them by 1
 // / 8 of the step's square times its second derivatives, and what is linear is longest in a corner.
-float most_of(const Residual& r) {
-  constexpr uint32_t kSteps = 6;
-  constexpr float kStep = 2.0f / kSteps;
+// steps: on a side of the grid. Of a small part of a quad those derivatives are next to nothing.
+float most_of(const Residual& r, uint32_t steps) {
+  const float step = 2.0f / static_cast<float>(steps);
   float max_m2 = 0.0f, bent_m = 0.0f;
-  for (uint32_t k = 0; k <= kSteps; ++k) {
-    const float t = static_cast<float>(k) * kStep - 1.0f;
+  for (uint32_t k = 0; k <= steps; ++k) {
+    const float t = static_cast<float>(k) * step - 1.0f;
     Vec3 along[Residual::kSide];
     for (uint32_t i = 0; i < r.columns; ++i) {
       along[i] = r.e[r.rows - 1][i];
       for (uint32_t j = r.rows - 1; j-- > 0;) along[i] = along[i] * t + r.e[j][i];
     }
-    for (uint32_t n = 0; n <= kSteps; ++n) {
-      const float s = static_cast<float>(n) * kStep - 1.0f;
+    for (uint32_t n = 0; n <= steps; ++n) {
+      const float s = static_cast<float>(n) * step - 1.0f;
       Vec3 at = along[r.columns - 1];
       for (uint32_t i = r.columns - 1; i-- > 0;) at = at * s + along[i];
       max_m2 = math::larger(max_m2, dot(at, at));
@@ -195,7 +198,7 @@ float most_of(const Residual& r) {
     for (uint32_t i = 0; i < r.columns; ++i)
       if (i > 1 || j > 1)
         bent_m += static_cast<float>(twice(i) + twice(j)) * math::length(r.e[j][i]);
-  return math::square_root(max_m2) + bent_m * (kStep * kStep / 8.0f);
+  return math::square_root(max_m2) + bent_m * (step * step / 8.0f);
 }
 
 }  // namespace
@@ -240,11 +243,12 @@ RegionOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, 
 float radius_for(const LeafShape& shape, const LeafCorners& corners, const Quad& around,
                  const RegionOfQuad& own, const RegionOfQuad& within) {
   constexpr float kUp = 1.0f + 0x1p-16f;
+  const bool is_small = own.high[0] - own.low[0] + own.high[1] - own.low[1] < 2.5f;
   Spread on;
   spread_on(shape, corners, around, own, within, on);
   Residual r;
   residual_of(shape, around, on, r);
-  const float off_m = most_of(r) / shape.min_weight * kUp + shape.noise_m;
+  const float off_m = most_of(r, is_small ? 3 : 6) / shape.min_weight * kUp + shape.noise_m;
   const float rounding_m = 64.0f * kUnit * (shape.reach_m + 2.0f * size_of(around));
   return off_m * kUp + rounding_m;
 }
