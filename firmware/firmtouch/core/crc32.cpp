@@ -13,22 +13,24 @@ constexpr uint32_t kNibble[16] = {0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D93
 }  // namespace
 
 uint32_t crc32(Bytes bytes, uint32_t crc) {
-  const auto shift_byte = [&crc]() __attribute__((always_inline)) {
-    crc = kNibble[crc & 15u] ^ (crc >> 4);
-    crc = kNibble[crc & 15u] ^ (crc >> 4);
-  };
   crc = ~crc;
   const uint8_t* at = bytes.data();
-  uint32_t left = bytes.size();
-  for (; left >= 4; left -= 4, at += 4) {
+  const uint8_t* const end = at + bytes.size();
+  for (; end - at >= 4; at += 4) {
     uint32_t word;
     __builtin_memcpy(&word, at, sizeof word);
     crc ^= word;
-    shift_byte(), shift_byte(), shift_byte(), shift_byte();
+    for (uint32_t pair = 0; pair < 2; ++pair) {
+      crc = kNibble[crc & 15u] ^ (crc >> 4);
+      crc = kNibble[crc & 15u] ^ (crc >> 4);
+      crc = kNibble[crc & 15u] ^ (crc >> 4);
+      crc = kNibble[crc & 15u] ^ (crc >> 4);
+    }
   }
-  for (; left > 0; --left) {
-    crc ^= *at++;
-    shift_byte();
+  for (; at != end; ++at) {
+    crc ^= *at;
+    crc = kNibble[crc & 15u] ^ (crc >> 4);
+    crc = kNibble[crc & 15u] ^ (crc >> 4);
   }
   return ~crc;
 }

@@ -165,7 +165,7 @@ Closest closest_point(const View& curve, Vec3 p_m, query::Budget budget, Hint& h
   return answer_anywhere(curve, p_m, budget, before, hint);
 }
 
-void Prober::answer(const View& curve, Vec3 p_m, query::Budget budget, core::Hash& hash) {
+void Prober::answer(const View& curve, Vec3 p_m, const query::Budget& budget, core::Hash& hash) {
   const Closest c = closest_point(curve, p_m, budget, hint);
   const float values[] = {c.distance_m, c.point_m.x, c.point_m.y, c.point_m.z,          c.tangent.x,
                           c.tangent.y,  c.tangent.z, c.arc,       c.certificate.lower_m};

@@ -33,7 +33,7 @@ Closest closest_point(const View& curve, math::Vec3 p_m, query::Budget budget, H
 
 /// Probe queries, one after the other with one hint.
 struct Prober {
-  void answer(const View& curve, math::Vec3 p_m, query::Budget budget, core::Hash& hash);
+  void answer(const View& curve, math::Vec3 p_m, const query::Budget& budget, core::Hash& hash);
   Hint hint;
 };
 using ProbeRun = query::ProbeRun<Prober>;

@@ -7,11 +7,13 @@
 
 namespace firmtouch::hull {
 
-void Prober::answer(const View& hull, math::Vec3 p_m, query::Budget budget, core::Hash& hash) {
-  budget.work /= 8;  // three queries, and crossings that integers decide
-  const BaseHullDistance near = base_hull_distance(hull.base_hull(), p_m, budget);
-  const BaseHullHit of_base_hull = cast_base_hull(hull.base_hull(), from_m, p_m, budget);
-  const mesh::Hit of_mesh = cast_segment(hull, from_m, p_m, budget);
+void Prober::answer(const View& hull, math::Vec3 p_m, const query::Budget& budget,
+                    core::Hash& hash) {
+  // Three queries, and crossings that integers decide.
+  const query::Budget share{budget.work / 8};
+  const BaseHullDistance near = base_hull_distance(hull.base_hull(), p_m, share);
+  const BaseHullHit of_base_hull = cast_base_hull(hull.base_hull(), from_m, p_m, share);
+  const mesh::Hit of_mesh = cast_segment(hull, from_m, p_m, share);
   const float values[] = {near.lower_m,   near.deepest_m, near.point_m.x, near.point_m.y,
                           near.point_m.z, near.normal.x,  near.normal.y,  near.normal.z,
                           of_base_hull.t, of_mesh.t};

@@ -7,7 +7,7 @@ namespace firmtouch::hull {
 /// Probe queries of a hull: the closest point of the base hull, and the first crossing of base hull
 /// and mesh on the way from the previous point, the first time from the origin.
 struct Prober {
-  void answer(const View& hull, math::Vec3 p_m, query::Budget budget, core::Hash& hash);
+  void answer(const View& hull, math::Vec3 p_m, const query::Budget& budget, core::Hash& hash);
   math::Vec3 from_m;
 };
 using ProbeRun = query::ProbeRun<Prober>;

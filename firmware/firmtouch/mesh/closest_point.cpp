@@ -37,7 +37,7 @@ Closest closest_point(const View& mesh, Vec3 p_m, query::Budget budget, Hint& hi
   return closest_by(mesh, ScalarFinder{mesh}, p_m, budget, hint);
 }
 
-void Prober::answer(const View& mesh, Vec3 p_m, query::Budget budget, core::Hash& hash) {
+void Prober::answer(const View& mesh, Vec3 p_m, const query::Budget& budget, core::Hash& hash) {
   const Closest c = closest_point(mesh, p_m, budget, hint);
   const float values[] = {c.distance_m,  c.point_m.x,   c.point_m.y,   c.point_m.z,
                           c.direction.x, c.direction.y, c.direction.z, c.certificate.lower_m};

@@ -42,7 +42,7 @@ Closest closest_point(const View& mesh, math::Vec3 p_m, query::Budget budget, Hi
 
 /// Probe queries, one after the other with one hint.
 struct Prober {
-  void answer(const View& mesh, math::Vec3 p_m, query::Budget budget, core::Hash& hash);
+  void answer(const View& mesh, math::Vec3 p_m, const query::Budget& budget, core::Hash& hash);
   Hint hint;
 };
 using ProbeRun = query::ProbeRun<Prober>;

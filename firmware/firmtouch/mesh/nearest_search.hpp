@@ -47,9 +47,9 @@ struct Choice<false, First, Second> {
 };
 
 // A search counts in thirds of a work unit: a visit takes one, a triangle two, in double-float 24.
-// To begin takes 5 units.
+// To begin takes 10 units.
 constexpr uint32_t kPartsOfUnit = 3;
-constexpr uint32_t kBeginUnits = 5;
+constexpr uint32_t kBeginUnits = 10;
 constexpr uint32_t kTriangleParts = 2;
 constexpr uint32_t kCompensatedParts = 24;
 

@@ -15,7 +15,7 @@ void add_answer(const Closest& answer, core::Hash& hash);
 /// What a probe run of spline queries keeps from one query to the next (query/probe_run.hpp).
 template <ProbeQuery* kQuery>
 struct Prober {
-  void answer(const View& model, math::Vec3 p_m, query::Budget budget, core::Hash& hash) {
+  void answer(const View& model, math::Vec3 p_m, const query::Budget& budget, core::Hash& hash) {
     add_answer(kQuery(model, p_m, budget, hint), hash);
   }
   CurveHint hint;
