@@ -62,11 +62,12 @@ class Reach {
     return plane.offset_m - dot(plane.normal, point_m());
   }
 
+  // Set as planes are added: to clear them first takes as long as a plane.
   Vec3 point_m_[4];
   Vec3 direction_[3];
-  float size2_[3] = {};
-  float share_[3][3] = {};  // share_[k][i]: of direction i in normal k
-  float along_[3] = {};     // coefficients of the directions
+  float size2_[3];
+  float share_[3][3];  // share_[k][i]: of direction i in normal k
+  float along_[3];     // coefficients of the directions
   uint32_t count_ = 0;
 };
 
@@ -81,15 +82,14 @@ bool is_outside_any(const HalfSpace* planes, uint32_t count, Vec3 point_m, float
   return false;
 }
 
-// Whether these planes alone hold the answer, which is unique.
+// Whether these planes alone hold the answer, which is unique. Pre: `reach` has no plane.
 bool is_held_by(const ActivePlanes& active, const HalfSpace* planes, uint32_t count, Vec3 goal_m,
-                NearestInPlanes& found) {
+                Reach& reach, NearestInPlanes& found) {
   if (active.count > 3) return false;
   if (active.count == 0) {
     found = {goal_m, active, true};
     return !is_outside_any(planes, count, goal_m, 0.0f);
   }
-  Reach reach(goal_m);
   for (uint32_t n = 0; n < active.count; ++n) {
     const uint32_t i = active.plane[n];
     if (i >= count || !is_finite(planes[i]) || !reach.add(planes[i])) return false;
@@ -103,7 +103,8 @@ bool is_held_by(const ActivePlanes& active, const HalfSpace* planes, uint32_t co
 // The optimum of the planes that were violated so far, one more at a time.
 class Search {
  public:
-  Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m) : planes_(planes), reach_(goal_m) {
+  Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m, Reach& reach)
+      : planes_(planes), reach_(reach) {
     for (uint32_t i = 0; i < count && i < kMaxHalfSpaces; ++i)
       if (is_finite(planes[i])) order_[count_++] = i;
     best_.point_m = goal_m;
@@ -189,10 +190,10 @@ class Search {
   }
 
   const HalfSpace* planes_;
-  uint32_t order_[kMaxHalfSpaces] = {};
+  uint32_t order_[kMaxHalfSpaces];
   uint32_t count_ = 0;
-  Reach reach_;
-  uint32_t chosen_[3] = {};
+  Reach& reach_;
+  uint32_t chosen_[3];
   float tolerance_m_ = 0;
   float best_violation_m_ = FLT_MAX;
   NearestInPlanes best_;
@@ -213,8 +214,9 @@ NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 
   if (!is_finite(goal_m)) return {};
   NearestInPlanes found;
   const uint32_t known = count < kMaxHalfSpaces ? count : kMaxHalfSpaces;
-  if (is_held_by(before, planes, known, goal_m, found)) return found;
-  return Search(planes, count, goal_m).run();
+  Reach reach(goal_m);
+  if (is_held_by(before, planes, known, goal_m, reach, found)) return found;
+  return Search(planes, count, goal_m, reach).run();
 }
 
 Slide slide_with_friction(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
