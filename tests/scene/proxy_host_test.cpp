@@ -216,6 +216,28 @@ TEST(Proxy_StuckByFriction_DoesNotCreep) {
 }
 
 // An encoder of 10 um counts in every fourth tick at 2.5 mm/s: between its counts nothing rests.
+TEST(Proxy_MoveWithinItsCertificate_NeedsNoQuery) {
+  scene::PlaneTouched plane{{0, 0, 0.01f}, {0, 0, 1}, 0.1f};
+  scene::ProxySettings settings;
+  settings.radius_m = 0.002f;
+  scene::Proxy proxy;
+  (void)scene::move_proxy(settings, {0, 0, 0.02f}, plane, proxy);
+  for (int tick = 0; tick < 4; ++tick)
+    (void)scene::move_proxy(settings, {0, 0, 0.008f}, plane, proxy);
+  const double step_m = 2e-6 * wide(plane.size_m());
+  uint32_t queries = 0;
+  for (int tick = 1; tick <= 100; ++tick) {
+    const float x_m = static_cast<float>(tick * step_m);
+    const scene::ProxyMoved moved = scene::move_proxy(settings, {x_m, 0, 0.008f}, plane, proxy);
+    queries += moved.queries;
+    CHECK(moved.is_optimal);
+    CHECK_LE(std::fabs(wide(proxy.position_m.x) - wide(x_m)), step_m / 100);
+    CHECK_GE(wide(proxy.free_m), 0.002 - step_m);
+    CHECK_LE(wide(proxy.free_m), wide(proxy.position_m.z) - 0.01);  // the true distance
+  }
+  CHECK_EQ(queries, 50u);  // a place that a query certified has room for one such move
+}
+
 TEST(Proxy_SlowSlideInCounts_KeepsItsDynamicFriction) {
   ProxyRig rig(plate(0.03f));
   rig.settings.friction_static = 0.6f, rig.settings.friction_dynamic = 0.3f;

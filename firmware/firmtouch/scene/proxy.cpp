@@ -11,10 +11,12 @@ namespace {
 using math::Vec3;
 
 // All relative to the size of the shape. A query's bounds lose at most 4e-7.
-constexpr float kClearance = 2e-6f;    // that a place may lack of the radius
-constexpr float kAim = 1e-6f;          // of planes beyond the radius: float32 then decides a query
-constexpr float kMinRadius = 4e-6f;    // of a tool that is a point: what the clearance needs
-constexpr float kTolerance = 1e-6f;    // a move that is shorter needs no query
+constexpr float kClearance = 2e-6f;  // that a place may lack of the radius
+constexpr float kAim = 1e-6f;        // of planes beyond the radius: float32 then decides a query
+constexpr float kMinRadius = 4e-6f;  // of a tool that is a point: what the clearance needs
+constexpr float kTolerance = 1e-6f;  // a move that is shorter needs no query
+// What a place that was certified with kAim may drift.
+constexpr float kDrift = kAim + kClearance;
 constexpr float kExact = 4.5e-7f;      // between the bounds of an exact answer
 constexpr float kLonger = 0.9e-7f;     // a tick without friction may be away from the hand
 constexpr float kRestoring = 2.5e-8f;  // a tick, of clearance that rounding took
@@ -214,9 +216,9 @@ bool ProxyMove::aim() {
   is_over_ = true;
   if (size_m <= tolerance_m) {
     moved_.is_optimal = true;
-    if (slide.is_stuck || !(size_m > 0.0f) || is_longer(trial_m_) || drift()) return false;
+    if (slide.is_stuck || !(size_m > 0.0f)) return false;
   }
-  if (is_longer(trial_m_)) {
+  if (is_longer(trial_m_) || (size_m <= kDrift * size_m_ && drift())) {
     moved_.is_optimal = true;
     return false;
   }
