@@ -26,7 +26,7 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, uint32_t most
   PieceWork work{most_work, 0};
   const PieceFoot from = any_foot(curve, p_m, closest.segment, compensated, work);
   Foot best = from.foot;
-  bool goes_on = from.is_done;
+  bool goes_on = from.is_done, has_moved = curve.is_smooth();  // else it is the foot of `closest`
   const uint32_t most = curve.is_smooth() ? kMaxSmoothSlides : kMaxSlides;
   for (uint32_t i = 0; i < most && goes_on; ++i) {
     const uint32_t segment = beyond(curve, best);
@@ -34,6 +34,7 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, uint32_t most
     const PieceFoot next = any_foot(curve, p_m, segment, compensated, work);
     if (!(next.foot.distance2_m2 < best.distance2_m2)) break;
     best = next.foot;
+    has_moved = true;
     goes_on = next.is_done;
   }
   query::Certificate certificate = closest.certificate;
@@ -43,7 +44,7 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, uint32_t most
   const float max_change = curve.is_closed() ? 0.5f : previous > 0.5f ? previous : 1.0f - previous;
   const float lower_m = certificate.lower_m - penalty.weight_m * max_change * (1.0f + 0x1p-20f);
   certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
-  if (from.is_done) closest = any_answer(curve, best);
+  if (from.is_done && has_moved) closest = any_answer(curve, best);
   closest.certificate = certificate;
   hint.segment = closest.segment;
 }

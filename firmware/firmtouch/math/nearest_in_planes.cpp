@@ -62,9 +62,18 @@ class Reach {
     return plane.offset_m - dot(plane.normal, point_m());
   }
 
-  // Set as planes are added: to clear them first takes as long as a plane.
-  Vec3 point_m_[4];
-  Vec3 direction_[3];
+  // A vector that is not cleared: to clear all of these takes as long as a plane.
+  struct Bare {
+    float x, y, z;
+    operator Vec3() const { return {x, y, z}; }
+    Bare& operator=(Vec3 v) {
+      x = v.x, y = v.y, z = v.z;
+      return *this;
+    }
+  };
+
+  Bare point_m_[4];
+  Bare direction_[3];
   float size2_[3];
   float share_[3][3];  // share_[k][i]: of direction i in normal k
   float along_[3];     // coefficients of the directions

@@ -16,13 +16,11 @@ constexpr uint32_t kBaseHullWork = 1280;  // as of penalty contact
 // That an exact answer of a base hull is below the truth, in diagonals, and the clearance.
 constexpr float kBaseHullLoss = 4e-6f;
 
-Feature feature_of(const MeshObject& object, uint32_t triangle) {
-  Feature feature;
+void use_triangle(const MeshObject& object, uint32_t triangle, Feature& feature) {
   const mesh::Triangle<uint32_t> corners = object.mesh->triangle(triangle);
   for (uint32_t k = 0; k < 3; ++k)
     feature.corner[k] = math::apply(object.pose, object.mesh->vertex(corners.corner[k]));
   feature.kind = Feature::Kind::kTriangle;
-  return feature;
 }
 
 // The base hull's answer where the mesh's is not enough: the mesh is behind it.
@@ -86,7 +84,7 @@ Near MeshTouchedWith<kHasField, kHasBaseHull>::near(Vec3 x_m, query::Budget budg
   near.outward = object.pose.rotation * closest.direction;
   // Beyond the band the point may be any of the surface.
   if (!is_far && (certificate.exact || near.distance_m <= budget.band_m))
-    near.feature = feature_of(object, closest.triangle);
+    use_triangle(object, closest.triangle, near.feature);
   if constexpr (kHasBaseHull) use_base_hull(object, p_m, budget, needed_m, loss_m, near);
   return near;
 }

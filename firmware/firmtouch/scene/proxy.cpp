@@ -34,7 +34,8 @@ constexpr float kSameDirection2 = 1e-10f;
 constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 
 bool is_same(const Feature& a, const Feature& b, float within_m) {
-  if (a.kind != b.kind) return false;
+  // Most differ here already.
+  if (a.kind != b.kind || __builtin_fabsf(a.corner[0].x - b.corner[0].x) > within_m) return false;
   for (uint32_t k = 0; k < 3; ++k)
     if (!(math::length(a.corner[k] - b.corner[k]) <= within_m)) return false;
   return true;
@@ -156,8 +157,10 @@ void ProxyMove::take_plane(uint32_t i) {
 // Result: whether a plane that holds the proxy was taken elsewhere before.
 bool ProxyMove::take_active() {
   const uint32_t before = taken_;
-  for (uint32_t n = 0; n < proxy_.active.count; ++n)
-    if ((taken_ >> proxy_.active.plane[n] & 1u) == 0) take_plane(proxy_.active.plane[n]);
+  for (uint32_t n = 0; n < 3 && n < proxy_.active.count; ++n) {
+    const uint32_t i = proxy_.active.plane[n];
+    if (i < proxy_.feature_count && (taken_ >> i & 1u) == 0) take_plane(i);
+  }
   return taken_ != before;
 }
 
@@ -167,6 +170,7 @@ math::Slide ProxyMove::rest() {
   const Vec3 way_m = goal_m_ - proxy_.position_m;
   if (math::length(way_m) * kUp < proxy_.free_m - aimed_radius_m_) return {way_m, false};
   begin_planes();
+  take_active();  // most often the same hold it again: then it is solved once
   for (;;) {
     const math::NearestInPlanes nearest =
         math::nearest_in_planes(proxy_.plane, proxy_.feature_count, way_m, proxy_.active);
