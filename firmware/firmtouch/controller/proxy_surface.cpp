@@ -21,13 +21,9 @@ scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Val
 
 void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult& result) {
   const scene::Proxy& proxy = touch.proxy;
-  query::Certificate certificate;
   const scene::Bounds bounds = scene::bounds_of(proxy, hand_m);
-  certificate.lower_m = bounds.lower_m;
-  certificate.exact = proxy.near.is_exact;
-  certificate.sign = proxy.near.sign;
-  certificate.steps = touch.moved.steps;
-  certificate.work = touch.moved.work;
+  const query::Certificate certificate{bounds.lower_m, touch.moved.steps, proxy.near.is_exact,
+                                       proxy.near.sign, touch.moved.work};
   report_surface(certificate, proxy.near.sign < 0 ? -bounds.upper_m : bounds.upper_m,
                  touch.penetration_m, result);
   result.state |= record::kStateProxy;

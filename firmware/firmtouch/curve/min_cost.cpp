@@ -121,12 +121,14 @@ class LeastCost {
   bool look_at(uint32_t segment, Foot& foot) {
     bool is_done = true;
     foot = foot_on(segment, is_done);
+    if (foot.distance2_m2 > beyond2_m2_) return is_done;
     const float cost_m = math::square_root(foot.distance2_m2) +
                          penalty_at_m(penalty_, arc_of(curve_, foot), curve_.is_closed());
     if (cost_m < cost_m_) {
       best_ = foot;
       best_at_ = segment;
       cost_m_ = cost_m;
+      beyond2_m2_ = reach2_m2();
     }
     return is_done;
   }
@@ -149,7 +151,8 @@ class LeastCost {
   bool compensated_;
   PieceWork work_{0, 0};
   float doubt_m_ = 0;
-  float cost_m_ = 0x1p62f;  // more than any cost
+  float cost_m_ = 0x1p62f;      // more than any cost
+  float beyond2_m2_ = FLT_MAX;  // a foot at more costs more
   Foot best_{FLT_MAX, 0, 1, 0.0f};
   uint32_t best_at_ = UINT32_MAX;  // the segment on which it was found
 };
