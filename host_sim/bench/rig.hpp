@@ -1,5 +1,5 @@
 #pragma once
-#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,9 +15,9 @@ namespace firmtouch::host_sim {
 struct RigTick {
   Vec force_N, motor_N, device_m, position_m, proxy_m, hand_m;
   double depth_m = 0;
-  double taken_J = 0;  // of the hand, less the motion of the device
+  double taken_J = 0;  // of the hand, less motion, stops and the weight that no motor carries
   uint32_t faults = 0;
-  bool is_on = false;
+  bool is_on = false, is_ramped_in = false;
 };
 using RigRun = std::vector<RigTick>;
 
@@ -27,16 +27,20 @@ using Lines = std::vector<std::pair<std::string, std::string>>;
 /// The standard rig: 75 g, 0.5 N s/m, no Coulomb friction, encoders of 10 um, a grip of 400 N/m and
 /// 4 N s/m, contact of 1,000 N/m and 1 N s/m, 1 kHz, a tool of 3 mm. Seed 0 stands upright. Any
 /// other turns the world and draws radius, stiffness, grip and the solids' sizes.
+/// On a linkage the start is anywhere in the middle of its ranges, and the solids stand beside it,
+/// across the plane of a planar one. It has its own masses and encoders; motor_N are torques, and
+/// the controller counts on no friction.
 class Rig {
  public:
-  explicit Rig(uint64_t seed);
+  /// `machine`: a linkage's name or file; empty: three straight axes. Throws Refused.
+  explicit Rig(uint64_t seed, const std::string& machine = "");
 
   /// The hand goes from `start_m` through the statements of a script, such as hold_s() and to().
   /// Positions are in the solid's frame. The run is that of a controller with `contact`.
   RigRun run(const Solid& solid, Vec start_m, const std::vector<std::string>& script,
              Contact contact = Contact::kProxy, const Lines& settings = {}) const;
 
-  std::string to(Vec to_m, double speed_mps) const;
+  static std::string to(Vec to_m, double speed_mps);
   static std::string hold_s(double time_s);
 
   /// Of the bounding box of the turned solid.
@@ -52,7 +56,12 @@ class Rig {
   double half_angle_rad = 0.78539816339744831, slot_m = 0.004;
 
  private:
+  std::string statements(Vec start_m, Vec origin_m, const Lines& settings) const;
+
   Rotation rotation_;
+  std::string machine_;
+  std::optional<tools::LinkageDevice> linkage_;
+  Vec tip_m_;  // of the linkage at the start
   bench::TemporaryFolder folder_;
 };
 

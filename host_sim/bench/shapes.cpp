@@ -55,6 +55,12 @@ Rotation::Rotation(Vec axis, double angle_rad) {
   for (int i = 0; i < 3; ++i) row_[i] = base[i] * c + around[i] * s + along[i] * (1 - c);
 }
 
+Rotation Rotation::after(const Rotation& first) const {
+  Rotation all;
+  for (int i = 0; i < 3; ++i) all.row_[i] = first.turn_back(row_[i]);
+  return all;
+}
+
 Solid plate(double thickness_m) { return box({-0.04, -0.04, -thickness_m}, {0.04, 0.04, 0}); }
 
 Solid two_walls() {
@@ -121,7 +127,8 @@ tools::Surface surface_of(const Solid& solid, const Rotation& rotation) {
   return surface;
 }
 
-std::string asset_of(const Solid& solid, const Rotation& rotation) {
+std::string asset_of(const Solid& solid, const Rotation& rotation,
+                     const tools::LinkageDevice* linkage) {
   const tools::Surface surface = surface_of(solid, rotation);
   tools::MeshReport report;
   std::vector<tools::Section> sections = tools::bake_mesh(surface, "solid", {}, report);
@@ -129,6 +136,10 @@ std::string asset_of(const Solid& solid, const Rotation& rotation) {
   if (!tools::open_baked(sections, "solid", mesh).ok())
     throw Refused("a shape of the bench: " + report.problem);
   sections.push_back(tools::mesh_probes(mesh, "solid"));
+  if (linkage != nullptr) {
+    const device::LinkageLayout layout = tools::layout_of(*linkage);
+    sections.push_back(tools::make_section(device::kLinkageSection, "linkage", &layout, 1));
+  }
   const std::vector<uint8_t> bytes = tools::write_asset(std::move(sections)).bytes;
   return {bytes.begin(), bytes.end()};
 }

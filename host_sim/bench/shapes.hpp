@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "device/device_file.hpp"
 #include "host_sim/plant/vec.hpp"
 #include "surface/surface.hpp"
 
@@ -13,6 +14,8 @@ class Rotation {
   Rotation() = default;
   Rotation(Vec axis, double angle_rad);
   Vec turn(Vec a) const { return {dot(row_[0], a), dot(row_[1], a), dot(row_[2], a)}; }
+  /// This turn, after `first`.
+  Rotation after(const Rotation& first) const;
   Vec turn_back(Vec a) const { return row_[0] * a.x + row_[1] * a.y + row_[2] * a.z; }
 
  private:
@@ -37,7 +40,9 @@ Solid groove(double half_angle_rad);
 Solid slot(double width_m);
 
 tools::Surface surface_of(const Solid& solid, const Rotation& rotation);
-/// Turned, and baked into an asset. Throws Refused where that fails.
-std::string asset_of(const Solid& solid, const Rotation& rotation);
+/// Turned, and baked into an asset, with a linkage where one is given. Throws Refused where that
+/// fails.
+std::string asset_of(const Solid& solid, const Rotation& rotation,
+                     const tools::LinkageDevice* linkage = nullptr);
 
 }  // namespace firmtouch::host_sim

@@ -20,17 +20,21 @@ int run_bench(const Options& options) {
     chosen.is_long = options.has("--long");
     bench::Report report;
     each.run(chosen, report);
-    if (options.has("--json"))
-      std::cout << "{\"benches\": [\n  {\"name\": \"" << name << "\",\n   "
-                << bench::to_json_members(report) << "}\n]}\n";
-    else
-      std::cout << bench::to_text(report);
-    return report.bars_not_met() == 0 ? 0 : 1;
+    return print_report(report, name, options.has("--json"));
   }
   options.refuse("'" + name + "' is no bench; without a name it lists them");
 }
 
 }  // namespace
+
+int print_report(const bench::Report& report, const std::string& name, bool is_json) {
+  if (is_json)
+    std::cout << "{\"benches\": [\n  {\"name\": \"" << name << "\",\n   "
+              << bench::to_json_members(report) << "}\n]}\n";
+  else
+    std::cout << bench::to_text(report);
+  return report.bars_not_met() == 0 ? 0 : 1;
+}
 
 const Command& bench_command_line() {
   static const Command command = {

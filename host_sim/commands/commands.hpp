@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/report.hpp"
+
 namespace firmtouch::host_sim {
 
 /// Wrong command line.
@@ -63,6 +65,9 @@ class Options {
   bool help_ = false;
 };
 
+/// Result: the exit code, 1 where a bar is not met.
+int print_report(const bench::Report& report, const std::string& name, bool is_json);
+
 // The commands.
 const Command& run_command_line();
 const Command& replay_command_line();
@@ -72,6 +77,7 @@ const Command& view_command_line();
 const Command& scenario_command_line();
 const Command& score_command_line();
 const Command& bench_command_line();
+const Command& study_command_line();
 const Command& z_width_command_line();
 const Command& device_command_line();
 const Command& home_command_line();

@@ -82,6 +82,7 @@ LinkageBody::LinkageBody(const LinkageDevice& device, const JointMotion& start)
   for (uint32_t k = 0; k < joints_; ++k) is_dry_ |= device_.masses.joint[k].coulomb_N_m > 0;
   here_ = before_ = dynamics_of(motion_);
   book_.stored_J = book_.start_J = here_.stored_J;
+  book_.weight_J = here_.weight_J;
 }
 
 void LinkageBody::add_links(const MovingPoints& points, double (&mass)[kJoints][kJoints],
@@ -90,7 +91,7 @@ void LinkageBody::add_links(const MovingPoints& points, double (&mass)[kJoints][
   const auto load = [&](const MovingPoint& p, double heavy_kg, Vec inertial_N) {
     const Vec force_N = gravity * heavy_kg - inertial_N;
     for (uint32_t i = p.first; i < p.end; ++i) to.torque_Nm[i] += dot(p.column_m[i], force_N);
-    to.stored_J -= heavy_kg * dot(gravity, p.at_m);
+    to.weight_J -= heavy_kg * dot(gravity, p.at_m);
   };
   const MovingPoint& tip = points.tip;
   double at_tip_kg = device_.masses.tip_mass_kg, weight_of_tip_kg = at_tip_kg;
@@ -141,7 +142,7 @@ LinkageBody::Dynamics LinkageBody::dynamics_of(const JointMotion& motion) const 
   for (uint32_t i = 0; i < kJoints; ++i)
     for (uint32_t j = 0; j < kJoints; ++j)
       all.kinetic_J += 0.5 * mass[i][j] * motion.rate_rad_per_s[i] * motion.rate_rad_per_s[j];
-  all.stored_J += all.kinetic_J;
+  all.stored_J = all.kinetic_J + all.weight_J;
   add_stops(motion, all);
   return all;
 }
@@ -254,6 +255,7 @@ void LinkageBody::advance(const double (&motor_Nm)[kJoints], Vec hand_N, double 
     }
   }
   book_.stored_J = here_.stored_J;
+  book_.weight_J = here_.weight_J;
   book_.turnover_J =
       std::max(book_.turnover_J, std::fabs(book_.stored_J - book_.start_J) + book_.lost_J);
 }

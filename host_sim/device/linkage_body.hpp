@@ -17,6 +17,7 @@ struct EnergyBook {
   double hand_J = 0, motors_J = 0;  // work done on the linkage
   double lost_J = 0;                // to friction and in the stops
   double stored_J = 0, start_J = 0;
+  double weight_J = 0;    // part of stored_J: of the weight
   double turnover_J = 0;  // largest sum of lost and stored energy
 
   double error_J() const { return hand_J + motors_J - lost_J - (stored_J - start_J); }
@@ -64,10 +65,11 @@ class LinkageBody {
  private:
   struct Dynamics {
     bool is_closed = false, has_inertia = false;
-    double inverse[kJoints][kJoints];    // of the inertia
-    double torque_Nm[kJoints] = {};      // of gravity, less those that the motion itself takes
-    double resisting_Nm[kJoints] = {};   // viscous friction and the stops
-    double kinetic_J = 0, stored_J = 0;  // stored: kinetic, of weight and of the stops
+    double inverse[kJoints][kJoints];   // of the inertia
+    double torque_Nm[kJoints] = {};     // of gravity, less those that the motion itself takes
+    double resisting_Nm[kJoints] = {};  // viscous friction and the stops
+    double kinetic_J = 0, weight_J = 0;
+    double stored_J = 0;  // kinetic, of weight and of the stops
     MovingPoint tip;
   };
   Dynamics dynamics_of(const JointMotion& motion) const;

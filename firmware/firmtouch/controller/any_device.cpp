@@ -30,6 +30,7 @@ void AnyDevice::reset() {
   pose_ = {};
   for (float& torque_Nm : before_Nm_) torque_Nm = 0;
   carried_ = 0;
+  rendered_ = {};
   fast_ticks_ = 0;
 }
 
@@ -41,8 +42,14 @@ device::Reading AnyDevice::read(const Values& values, const device::Sample& samp
   }
   const device::Joints joints =
       read_joints(joints_, linkage_.joints(velocity_settings(values)), sample);
-  for (uint32_t k = 0; k < kMaxJoints; ++k) angle_rad_[k] = joints.angle_rad[k];
+  float turn_rad[kMaxJoints];
+  for (uint32_t k = 0; k < kMaxJoints; ++k) {
+    turn_rad[k] = joints.angle_rad[k] - angle_rad_[k];
+    angle_rad_[k] = joints.angle_rad[k];
+  }
+  const Vec3 worked_m = tip_velocity(pose_, turn_rad), before_m = pose_.position_m;
   pose_ = pose_of(linkage_, angle_rad_);
+  rendered_.off_m = worked_m - (pose_.position_m - before_m);
   device::Reading reading;
   reading.position_m = pose_.position_m;
   reading.velocity_mps = tip_velocity(pose_, joints.rate_rad_per_s);
@@ -110,6 +117,7 @@ bool AnyDevice::push(const Values& values, const Push& push, servo::GuardState& 
   const bool passed =
       servo::guard_torques(guard, ceilings_, push.may_push, push.cut, rendered.torque_Nm);
   const float share = passed ? rendered.share : 0.0f;
+  rendered_.share = share;
   const Vec3 force_N = push.force_N * share;
   for (uint32_t k = 0; k < kMaxJoints; ++k)
     output.motor_N[k] = before_Nm_[k] = rendered.torque_Nm[k];

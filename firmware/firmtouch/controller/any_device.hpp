@@ -37,6 +37,10 @@ class AnyDevice : public DevicePolicy {
   bool push(const params::Values& values, const Push& push, servo::GuardState& guard,
             record::TickOutput& output);
 
+  /// Torques that are held do not hold the force: their work is that of the last tick's Jacobian.
+  static constexpr bool kRendersAll = false;
+  const Rendered& rendered() const { return rendered_; }
+
   const device::StoredLinkage& linkage() const { return linkage_; }
 
  private:
@@ -54,6 +58,7 @@ class AnyDevice : public DevicePolicy {
   float angle_rad_[device::kMaxJoints] = {};
   float before_Nm_[device::kMaxJoints] = {};
   float carried_ = 0;  // share of the weight, from 0 to 1
+  Rendered rendered_;
   uint32_t fast_ticks_ = 0;
 };
 

@@ -17,8 +17,17 @@ struct Push {
   bool cut = false;       // no force at all
 };
 
+/// What became of the force of the last tick, for the observer of energy.
+struct Rendered {
+  float share = 1;   // of the force that the motors rendered
+  math::Vec3 off_m;  // the motion along which its torques worked, less the tool's
+};
+
 /// Base of the policies of devices, which turn counts to a position and a force to motors.
-struct DevicePolicy {};
+struct DevicePolicy {
+  /// False: the device has a `Rendered rendered() const`, valid after read().
+  static constexpr bool kRendersAll = true;
+};
 
 /// How the parameters estimate velocity.
 device::VelocitySettings velocity_settings(const params::Values& values);

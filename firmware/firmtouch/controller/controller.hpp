@@ -76,6 +76,7 @@ class Controller {
     const AssetStatus asset = loaders_.status();
     ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
     core_.locate(device_.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
+    if constexpr (!Device::kRendersAll) core_.count_rendered(device_.rendered());
     ModelResult* result = core_.result_of_tick(tick, input.flags);
     if (result != nullptr) make_local_model(tick.request, core_.values(), *result);
     const Push push = core_.step(tick, input.flags, output);

@@ -1,5 +1,6 @@
 #include "firmtouch/controller/controller_core.hpp"
 
+#include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/fault.hpp"
 
@@ -163,6 +164,12 @@ uint32_t ControllerCore::model_flags() const {
   if (models_.is_made()) flags |= record::kFlagModelTaken | record::kFlagModelWanted;
   if (models_.is_idle()) flags |= record::kFlagModelWanted;
   return flags;
+}
+
+void ControllerCore::count_rendered(const Rendered& last) {
+  servo::Energy& energy = live_.servo.energy;
+  energy.contact_N = energy.contact_N * last.share;
+  energy.available_J -= math::dot(energy.contact_N, last.off_m);
 }
 
 Push ControllerCore::step(const Tick& tick, uint32_t flags, record::TickOutput& output) {

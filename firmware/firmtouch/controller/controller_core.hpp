@@ -48,6 +48,8 @@ class ControllerCore {
                   record::TickOutput& output);
   /// What the device reads of tick.sample.
   static void locate(const device::Reading& tool, Tick& tick);
+  /// Corrects the energy that the observer is about to count.
+  void count_rendered(const Rendered& last);
   /// Result: the result to make of tick.request now; null at two rates.
   ModelResult* result_of_tick(const Tick& tick, uint32_t flags);
   /// The servo: what the motors shall do.

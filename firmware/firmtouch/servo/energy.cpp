@@ -20,9 +20,11 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   energy.payable_m = stretch_m;
   energy.overdrawn_ticks = available_J < -kOverdraft_J ? energy.overdrawn_ticks + 1 : 0;
 
-  // A tool that leaves faster and faster takes this much by the next tick.
+  // What a tool that leaves faster and faster, or is about to turn, takes by the next tick. Within
+  // an encoder's step nothing is predicted.
+  const bool is_moving = entered_m < 0.0f || entered_m > 0.0f;
   const float faster_m = entered_m < energy.entered_m ? energy.entered_m - entered_m : 0.0f;
-  const float left_m = entered_m < 0.0f ? faster_m - entered_m : 0.0f;
+  const float left_m = is_moving ? faster_m - entered_m : 0.0f;
   energy.entered_m = entered_m;
   const float friction_N = settings.friction_N_per_m * left_m;
   const float next_J = (stiffness_N_per_m * stretch_m - friction_N) * left_m;

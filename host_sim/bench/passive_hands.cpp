@@ -1,0 +1,148 @@
+#include "host_sim/bench/passive_hands.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/report.hpp"
+#include "firmtouch/servo/fault.hpp"
+#include "surface/random.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+// Of random hands; a linkage that is pushed out of its ranges faults, and renders nothing any more.
+constexpr double kReachOfLinkage_m = 0.012;
+
+double in_range(double share, double low, double high) { return low * std::pow(high / low, share); }
+
+void add_hand(double stiffness_share, double damping_share, Lines& to) {
+  to.emplace_back("hand_stiffness", with_unit(in_range(stiffness_share, 50, 3000), "N/m"));
+  to.emplace_back("hand_damping", with_unit(in_range(damping_share, 0.01, 20), "N*s/m"));
+}
+
+// A hand that goes from place to place about a solid, in and out of it.
+std::vector<std::string> random_script(tools::Random& random, double reach_m,
+                                       double stiffest_N_per_m, int moves) {
+  std::vector<std::string> script = {Rig::hold_s(0.3)};
+  for (int i = 0; i < moves; ++i) {
+    const auto draw = [&] { return random.between(-reach_m, reach_m); };
+    const double x = draw(), y = draw(), z = random.between(-0.01, 0.012);
+    script.push_back(Rig::to({x, y, z}, 0.02 * std::pow(25, random.uniform())));
+    script.push_back(Rig::hold_s(random.between(0.05, 0.4)));
+  }
+  struct Drawn {
+    const char* key;
+    double low, high;
+    const char* unit;
+  };
+  const Drawn drawn[] = {{"contact_stiffness", 100, stiffest_N_per_m, "N/m"},
+                         {"contact_damping", 0, 2, "N*s/m"},
+                         {"tool_radius", 0.0005, 0.006, "m"},
+                         {"friction_static", 0, 1, ""},
+                         {"friction_dynamic", 0, 1, ""}};
+  for (int i = 0; i < 2 * moves; ++i) {
+    const Drawn& row = drawn[random.below(5)];
+    const double value = random.between(row.low, row.high), at_s = 0.4 + 0.2 * i;
+    script.push_back("at " + with_unit(at_s, "s") + " set " + row.key + " " +
+                     with_unit(value, row.unit));
+  }
+  return script;
+}
+
+// Shares of the ranges of a hand that knocks.
+struct Knock {
+  static constexpr int kSize = 7;
+  double share[kSize];
+};
+
+RigRun knock(const Rig& rig, const Knock& by, Lines settings) {
+  const double* share = by.share;
+  const Vec up_m{0.0123, 0.0071, rig.radius_m + in_range(share[0], 1e-4, 0.02)},
+      down_m{0.0123, 0.0071, rig.radius_m - in_range(share[1], 1e-4, 0.02)};
+  const double speed_mps = in_range(share[2], 0.02, 2);
+  add_hand(share[3], share[4], settings);
+  settings.emplace_back("contact_stiffness", with_unit(in_range(share[5], 500, 20000), "N/m"));
+  settings.emplace_back("contact_damping", with_unit(in_range(share[6], 0.01, 10), "N*s/m"));
+  std::vector<std::string> script = {Rig::hold_s(0.3)};
+  for (int i = 0; i < 10; ++i) {
+    script.push_back(Rig::to(down_m, speed_mps));
+    script.push_back(Rig::to(up_m, speed_mps));
+  }
+  script.push_back(Rig::hold_s(0.3));
+  return rig.run(plate(0.04), up_m, script, Contact::kProxy, settings);
+}
+
+// Result: its gain.
+double add(const RigRun& run, HandsGain& to) {
+  to.ticks += static_cast<double>(run.size());
+  to.hands += 1;
+  to.faulted += run.back().faults != 0;
+  to.overdrawn += (run.back().faults & servo::kFaultEnergy) != 0;
+  to.touched += std::any_of(run.begin(), run.end(),
+                            [](const RigTick& tick) { return tick.is_on && tick.depth_m > 0; });
+  return gain_J(run);
+}
+
+}  // namespace
+
+double gain_J(const RigRun& run) {
+  const auto begin =
+      std::find_if(run.begin(), run.end(), [](const RigTick& tick) { return tick.is_ramped_in; });
+  if (begin == run.end()) return 0;
+  double most_J = begin->taken_J, gain_J = 0;
+  for (auto tick = begin; tick != run.end() && tick->is_ramped_in; ++tick) {
+    if (tick->depth_m > 0) continue;
+    most_J = std::max(most_J, tick->taken_J);
+    gain_J = std::max(gain_J, most_J - tick->taken_J);
+  }
+  return gain_J;
+}
+
+RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t seed,
+                  Lines settings) {
+  const Rig rig(seed, machine);
+  tools::Random random(seed);
+  const Solid solids[] = {plate(0.04), two_walls(), three_walls(), groove(rig.half_angle_rad)};
+  const double reach_m = machine.empty() ? 0.02 : kReachOfLinkage_m;
+  const Vec start_m{seed % 4 == 1 ? -reach_m : reach_m, seed % 4 == 2 ? reach_m : 0, 1.5 * reach_m};
+  const auto script = random_script(random, reach_m, stiffest_N_per_m, 20);
+  if (!machine.empty()) add_hand(random.uniform(), random.uniform(), settings);
+  return rig.run(solids[seed % 4], start_m, script, Contact::kProxy, settings);
+}
+
+HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
+                       const Lines& settings) {
+  HandsGain all;
+  for (uint64_t seed = 1; seed <= hands; ++seed) {
+    const double gain_J = add(random_run(machine, stiffest_N_per_m, seed, settings), all);
+    if (gain_J > all.worst_J) all.worst_J = gain_J, all.worst = "seed " + std::to_string(seed);
+  }
+  return all;
+}
+
+HandsGain worst_hand(const std::string& machine, uint32_t starts, uint32_t tries,
+                     const Lines& settings) {
+  HandsGain all;
+  tools::Random random(1);
+  for (uint32_t start = 0; start < starts; ++start) {
+    const Rig rig(machine.empty() ? 0 : start + 1, machine);
+    const auto gain_of = [&](const Knock& by) { return add(knock(rig, by, settings), all); };
+    Knock best{};
+    for (double& share : best.share) share = random.uniform();
+    double best_J = gain_of(best);
+    for (uint32_t attempt = 0; attempt < tries; ++attempt) {
+      Knock next = best;
+      double& share = next.share[random.below(Knock::kSize)];
+      share = std::clamp(share + random.between(-0.3, 0.3), 0.0, 1.0);
+      const double next_J = gain_of(next);
+      if (next_J >= best_J) best = next, best_J = next_J;
+    }
+    if (best_J <= all.worst_J) continue;
+    all.worst_J = best_J;
+    all.worst = "start " + std::to_string(start) + ", shares";
+    for (const double share : best.share) all.worst += " " + bench::number_text(share);
+  }
+  return all;
+}
+
+}  // namespace firmtouch::host_sim

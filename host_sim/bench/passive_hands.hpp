@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "host_sim/bench/rig.hpp"
+
+namespace firmtouch::host_sim {
+
+/// What contact gave to hands that try to gain energy from it.
+struct HandsGain {
+  double worst_J = 0;  // of the hand's own work, from one tick without contact to a later one
+  double ticks = 0;
+  uint32_t hands = 0, touched = 0;
+  uint32_t faulted = 0, overdrawn = 0;  // with any fault, with fault 15
+  std::string worst;                    // which hand that was
+};
+
+/// The largest gain of a run while the force is ramped in: what a force gives that a fault ramps
+/// out is not counted. Without contact no spring holds energy.
+double gain_J(const RigRun& run);
+
+/// A hand that goes at random about a solid, in and out of it, while stiffness, damping, radius and
+/// friction change. Its own stiffness and damping are random on a linkage (`machine`, as of Rig).
+RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t seed,
+                  Lines settings);
+/// The runs of seeds from 1.
+HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
+                       const Lines& settings);
+
+/// Hands that knock on a plate, changed from random ones to the one that gains most: its aim, speed
+/// and impedance, the contact's stiffness and damping. On a linkage every start has its own pose.
+HandsGain worst_hand(const std::string& machine, uint32_t starts, uint32_t tries,
+                     const Lines& settings);
+
+}  // namespace firmtouch::host_sim

@@ -1,0 +1,42 @@
+#include "host_sim/bench/passivity_study.hpp"
+
+#include <algorithm>
+
+#include "host_sim/bench/passive_hands.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr double kMaxGain_mJ = 1, kStiffest_N_per_m = 20000;
+constexpr uint32_t kTries = 19;  // of a start, beside itself
+
+std::string remark_of(const HandsGain& gain) {
+  return std::to_string(gain.touched) + " of " + std::to_string(gain.hands) + " touched, " +
+         std::to_string(gain.faulted) + " faulted, " + std::to_string(gain.overdrawn) +
+         " by energy; worst: " + gain.worst;
+}
+
+}  // namespace
+
+void study_passivity(const std::vector<std::string>& machines, uint32_t hands,
+                     const std::function<void(double)>& progress, bench::Report& report) {
+  const uint32_t starts = std::max(1u, hands / (kTries + 1));
+  double done = 0;
+  for (const std::string& machine : machines) {
+    const auto said = [&](const char* what, const HandsGain& gain) {
+      report.bar(what, machine, 1e3 * gain.worst_J, "mJ", kMaxGain_mJ, remark_of(gain));
+      report.bar_at_least("hands that touched", machine, gain.touched, "", 0.8 * gain.hands);
+      if (progress) progress(++done / (3.0 * static_cast<double>(machines.size())));
+    };
+    said("random hands: energy given", random_hands(machine, kStiffest_N_per_m, hands, {}));
+    said("worst hand found by hill climbing: energy given",
+         worst_hand(machine, starts, kTries, {}));
+    const HandsGain without =
+        random_hands(machine, kStiffest_N_per_m, hands, {{"energy_reservoir", "1000 J"}});
+    report.bar_at_least("the same of random hands, not limited", machine, 1e3 * without.worst_J,
+                        "mJ", kMaxGain_mJ, remark_of(without));
+    if (progress) progress(++done / (3.0 * static_cast<double>(machines.size())));
+  }
+}
+
+}  // namespace firmtouch::host_sim
