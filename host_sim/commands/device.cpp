@@ -17,12 +17,14 @@ constexpr uint32_t kSteps[] = {0, 0, 400, 40};  // of a joint, by the number of 
 
 double percent(uint32_t part, const Workspace& of) { return 100.0 * part / of.poses; }
 
-constexpr uint32_t kCheckedPoses = 20000;
+constexpr uint32_t kCheckedPoses = 1000000;
 
 void print_check(const FirmwareCheck& check) {
   std::printf("poses of the check against the simulation  %u\n", check.poses);
   std::printf("inverse of forward kinematics              within %.2g m (goal %.2g)\n",
               check.inverse_m, kMaxInverse_m);
+  std::printf("Jacobian against differences               within %.2g (goal %.2g)\n",
+              check.jacobian, kMaxJacobianError);
   std::printf("force at the tip, counts to torques        within %.2g %% (goal %.2g)\n",
               check.force * 100, kMaxForceError * 100);
   std::printf("weight carried, largest torque %.3g N m   within %.2g %% (goal %.2g)\n",
@@ -94,7 +96,7 @@ const Command& device_command_line() {
       "checks a linkage's file, prints its workspace, and compares the firmware with its "
       "simulation",
       details.c_str(),
-      {{"--poses", "N", "of the check against the simulation (default 20000)"},
+      {{"--poses", "N", "of the check against the simulation (default 1000000)"},
        {"--print", nullptr, "the device file of a machine, to bake or to change"}},
       print_device};
   return command;

@@ -49,6 +49,25 @@ double inverse_error_m(const LinkageDevice& device, const device::StoredLinkage&
   return norm(tools::to_point(pose_of(linkage, angle_rad).position_m) - tip_m);
 }
 
+// Against central differences of the simulation's kinematics.
+double jacobian_error(const LinkageDevice& device, const device::StoredLinkage& linkage,
+                      const JointMotion& at) {
+  constexpr double kStep_rad = 1e-5;  // leaves 1e-10 of the norm
+  float angle_rad[kJoints];
+  narrow(at, angle_rad);
+  const device::Pose pose = pose_of(linkage, angle_rad);
+  double off2 = 0, size2 = 0;
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    JointMotion high = at, low = at;
+    high.angle_rad[k] += kStep_rad, low.angle_rad[k] -= kStep_rad;
+    const Vec moved_m = points_of(device, high).tip.at_m - points_of(device, low).tip.at_m;
+    const Vec column_m = moved_m * (0.5 / kStep_rad);
+    const Vec off_m = tools::to_point(pose.column_m[k]) - column_m;
+    off2 += dot(off_m, off_m), size2 += dot(column_m, column_m);
+  }
+  return std::sqrt(off2 / size2);
+}
+
 double force_error(const device::StoredLinkage& linkage, const LinkageBody& body, Vec force_N) {
   device::JointState state;
   const device::Joints joints =
@@ -98,6 +117,7 @@ FirmwareCheck check_firmware(const LinkageDevice& device, uint32_t poses) {
     const Vec force_N{2 * angles.share() - 1, 2 * angles.share() - 1,
                       layout.joints == 2 ? 0 : 2 * angles.share() - 1};
     check.inverse_m = std::max(check.inverse_m, inverse_error_m(device, linkage, at));
+    check.jacobian = std::max(check.jacobian, jacobian_error(device, linkage, at));
     check.force = std::max(check.force, force_error(linkage, body, force_N));
     worst_Nm = std::max(worst_Nm, weight_error_Nm(linkage, body, check.heaviest_Nm));
   }
@@ -106,7 +126,8 @@ FirmwareCheck check_firmware(const LinkageDevice& device, uint32_t poses) {
 }
 
 bool is_good(const FirmwareCheck& check) {
-  return check.poses > 0 && check.inverse_m <= kMaxInverse_m && check.force <= kMaxForceError &&
+  return check.poses > 0 && check.inverse_m <= kMaxInverse_m &&
+         check.jacobian <= kMaxJacobianError && check.force <= kMaxForceError &&
          check.weight <= kMaxWeightError;
 }
 
