@@ -53,6 +53,11 @@ ALinkageIsCalibrated() {
   sed '2s/,0$/,nan/' touches.csv >bad.csv
   f calibrate arm.txt bad.csv; exits 3; says 'bad.csv:2' 'not finite'
   f calibrate arm.txt; exits 2
+  f calibrate arm.txt --plan 0; exits 2
+  f calibrate arm.txt --plan 40; exits 0
+  printf '%s\n' "$out" >plan.csv
+  [ "$(wc -l <plan.csv)" = 41 ] || fail 'a plan of 40 touches'
+  f calibrate arm.txt plan.csv; exits 0  # what is planned can be made
   f calibrate touch_like --study --runs 200; exits 0
   case $out in *'200, converged 200'*) ;; *) fail "$out" ;; esac
 }

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "device/moving_points.hpp"
 #include "device/symmetric.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
-constexpr double kMaxDeviation = 0.02;  // scaled; a direction that deviates more is not determined
-constexpr double kStep = 1e-4;          // of the differences, scaled
+constexpr double kStep = 1e-4;  // of the differences, scaled
 constexpr double kLength_m = 0.1;
 constexpr uint32_t kMaxRounds = 60;
 constexpr double kMaxMisfit = 3;  // rms of the residuals over the noise
@@ -65,11 +63,7 @@ bool residuals(const LinkageDevice& device, const std::vector<Touch>& touches,
                std::vector<double>& to) {
   to.clear();
   for (const Touch& touch : touches) {
-    JointMotion at;
-    for (uint32_t k = 0; k < device.joints.joints; ++k)
-      at.angle_rad[k] = wide(device.joints.joint[k].zero_rad) +
-                        touch.counts[k] / wide(device.joints.joint[k].counts_per_rad);
-    const MovingPoints points = points_of(device, at);
+    const MovingPoints points = points_at(device, touch);
     if (!points.is_closed) return false;
     const Point off = points.tip.at_m - touch.at_m;
     const double normal2 = dot(touch.normal, touch.normal);
@@ -91,25 +85,13 @@ double squares(const std::vector<double>& values) {
   return sum;
 }
 
-// J^T J and J^T r by central differences between floats, whose distance is exact.
-bool normal_equations(LinkageDevice device, const std::vector<Touch>& touches, bool with_counts,
-                      const std::vector<double>& now, Matrix& square, std::vector<double>& right) {
-  const std::vector<Place> places = places_of(device, with_counts);
-  const size_t n = places.size();
-  std::vector<std::vector<double>> columns(n);
-  std::vector<double> back;
-  for (size_t i = 0; i < n; ++i) {
-    const float middle = *places[i].value;
-    const auto step = static_cast<float>(kStep * places[i].scale);
-    const float high = middle + step, low = middle - step;
-    *places[i].value = high;
-    if (!residuals(device, touches, columns[i])) return false;
-    *places[i].value = low;
-    if (!residuals(device, touches, back)) return false;
-    *places[i].value = middle;
-    const double per = places[i].scale / (wide(high) - wide(low));
-    for (size_t k = 0; k < back.size(); ++k) columns[i][k] = (columns[i][k] - back[k]) * per;
-  }
+// J^T J and J^T r.
+bool normal_equations(const LinkageDevice& device, const std::vector<Touch>& touches,
+                      bool with_counts, const std::vector<double>& now, Matrix& square,
+                      std::vector<double>& right) {
+  const Matrix columns = sensitivity(device, touches, with_counts);
+  if (columns.empty()) return false;
+  const size_t n = columns.size();
   square.assign(n, std::vector<double>(n));
   right.assign(n, 0);
   for (size_t i = 0; i < n; ++i) {
@@ -191,6 +173,35 @@ Calibration calibrate_from(const LinkageDevice& start, const std::vector<Touch>&
 }
 
 }  // namespace
+
+MovingPoints points_at(const LinkageDevice& device, const Touch& touch) {
+  JointMotion at;
+  for (uint32_t k = 0; k < device.joints.joints; ++k)
+    at.angle_rad[k] = wide(device.joints.joint[k].zero_rad) +
+                      touch.counts[k] / wide(device.joints.joint[k].counts_per_rad);
+  return points_of(device, at);
+}
+
+// Between floats, whose distance is exact.
+Matrix sensitivity(LinkageDevice device, const std::vector<Touch>& touches, bool with_counts) {
+  Matrix columns;
+  std::vector<double> back;
+  for (const Place& place : places_of(device, with_counts)) {
+    const float middle = *place.value;
+    const auto step = static_cast<float>(kStep * place.scale);
+    const float high = middle + step, low = middle - step;
+    std::vector<double> column;
+    *place.value = high;
+    if (!residuals(device, touches, column)) return {};
+    *place.value = low;
+    if (!residuals(device, touches, back)) return {};
+    *place.value = middle;
+    const double per = place.scale / (wide(high) - wide(low));
+    for (size_t k = 0; k < back.size(); ++k) column[k] = (column[k] - back[k]) * per;
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
 
 std::vector<double> parameters_of(const LinkageDevice& device, bool with_counts) {
   LinkageDevice copy = device;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "device/device_file.hpp"
+#include "device/moving_points.hpp"
 #include "device/symmetric.hpp"
 
 namespace firmtouch::tools {
@@ -37,14 +37,24 @@ struct Calibration {
   bool has_converged = false;  // and the residuals are at most three times the noise
 };
 
+/// A direction whose deviation would exceed this is not determined. Lengths are scaled by 0.1 m,
+/// angles by a radian, counts by themselves.
+constexpr double kMaxDeviation = 0.02;
+
 /// Lengths, offsets and zero angles, with `with_counts` also counts per rad, by Levenberg and
-/// Marquardt's least squares. Directions in the space of parameters (lengths in 0.1 m, angles in
-/// rad, counts as shares) whose deviation would exceed 0.02 are not determined and stay as they
-/// are. Where the touches are not fitted, other starts about the nominal one are tried. `noise_m`:
-/// standard deviation of a touch, in each coordinate.
+/// Marquardt's least squares. Directions in the space of parameters that are not determined stay
+/// as they are. Where the touches are not fitted, other starts about the nominal one are tried.
+/// `noise_m`: standard deviation of a touch, in each coordinate.
 /// Error: the covariance against 1,000 noisy runs (`firmtouch calibrate --study`).
 Calibration calibrate(const LinkageDevice& nominal, const std::vector<Touch>& touches,
                       double noise_m, bool with_counts);
+
+/// The linkage at the counts of a touch.
+MovingPoints points_at(const LinkageDevice& device, const Touch& touch);
+
+/// Derivatives of the touches' equations by the scaled parameters, a column each, by central
+/// differences. Result: empty where the links do not meet.
+Matrix sensitivity(LinkageDevice device, const std::vector<Touch>& touches, bool with_counts);
 
 /// The parameters, in the order of Calibration::parameters.
 std::vector<double> parameters_of(const LinkageDevice& device, bool with_counts);

@@ -2,54 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
-#include "device/moving_points.hpp"
+#include "device/calibration_plan.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
-constexpr int kGrid = 6;  // poses a joint, over its range
-constexpr double kBall_m = 0.01;
-
 double wide(float a) { return static_cast<double>(a); }
-
-class Chance {
- public:
-  explicit Chance(uint32_t seed) : engine_(seed) {}
-  double share() { return (static_cast<double>(engine_()) + 0.5) / 4294967296.0; }
-  double normal() {
-    return std::sqrt(-2 * std::log(share())) * std::cos(6.283185307179586 * share());
-  }
-  Point way(bool is_planar) {
-    const Point any{normal(), normal(), is_planar ? 0 : normal()};
-    return any * (1 / length(any));
-  }
-
- private:
-  std::mt19937 engine_;  // the same everywhere; the library's distributions are not
-};
-
-Touch touch_at(const LinkageDevice& device, uint32_t number, double noise_m, Chance& chance) {
-  const bool is_planar = device.joints.joints == 2;
-  Touch touch;
-  JointMotion at;
-  for (uint32_t k = 0; k < device.joints.joints; ++k) {
-    const device::JointSetting& joint = device.joints.joint[k];
-    at.angle_rad[k] =
-        wide(joint.low_rad) + (wide(joint.high_rad) - wide(joint.low_rad)) * chance.share();
-    touch.counts[k] = (at.angle_rad[k] - wide(joint.zero_rad)) * wide(joint.counts_per_rad);
-  }
-  const Point tip_m = points_of(device, at).tip.at_m, way = chance.way(is_planar);
-  const Point noise{chance.normal(), chance.normal(), is_planar ? 0 : chance.normal()};
-  touch.at_m = tip_m + noise * noise_m;
-  if (number % 3 == 1) touch.normal = way;
-  if (number % 3 == 2) {
-    touch.radius_m = kBall_m;
-    touch.at_m = touch.at_m + way * kBall_m;
-  }
-  return touch;
-}
 
 // The start of a calibration: links and zero angles that are off.
 LinkageDevice spoiled(LinkageDevice device, const StudySettings& settings, Chance& chance) {
@@ -74,17 +33,41 @@ LinkageDevice spoiled(LinkageDevice device, const StudySettings& settings, Chanc
   return device;
 }
 
+void add_noise(double noise_m, bool is_planar, Chance& chance, std::vector<Touch>& touches) {
+  for (Touch& touch : touches) touch.at_m = touch.at_m + chance.noise(is_planar) * noise_m;
+}
+
+// What `device` touches at the counts of a plan on `nominal`.
+std::vector<Touch> planned(const LinkageDevice& device, const LinkageDevice& nominal,
+                           uint32_t count, double noise_m) {
+  std::vector<Touch> plan = plan_touches(nominal, count, noise_m);
+  for (Touch& touch : plan)
+    touch.at_m =
+        touch.at_m + points_at(device, touch).tip.at_m - points_at(nominal, touch).tip.at_m;
+  return plan;
+}
+
+// Half of the touches are planned on a machine whose links are off, the others on the one that the
+// first half finds.
+std::vector<Touch> planned_twice(const LinkageDevice& device, const StudySettings& settings) {
+  Chance chance(0);
+  const LinkageDevice nominal = spoiled(device, settings, chance);
+  const uint32_t half = settings.touches / 2;
+  std::vector<Touch> all = planned(device, nominal, half, settings.noise_m), first = all;
+  add_noise(settings.noise_m, device.joints.joints == 2, chance, first);
+  const LinkageDevice found = calibrate(nominal, first, settings.noise_m, false).device;
+  for (const Touch& touch : planned(device, found, settings.touches - half, settings.noise_m))
+    all.push_back(touch);
+  return all;
+}
+
 // The largest error of the tip at the same counts.
 double worst_error_m(const LinkageDevice& truth, const LinkageDevice& found) {
   double worst_m = 0;
-  const int last = truth.joints.joints == 3 ? kGrid : 1;
-  for (int i = 0; i < kGrid * kGrid * last; ++i) {
-    const int step[] = {i % kGrid, i / kGrid % kGrid, i / kGrid / kGrid};
-    JointMotion at, also;
+  for (const JointMotion& at : grid_poses(truth)) {
+    JointMotion also;
     for (uint32_t k = 0; k < truth.joints.joints; ++k) {
       const device::JointSetting &joint = truth.joints.joint[k], &other = found.joints.joint[k];
-      at.angle_rad[k] = wide(joint.low_rad) +
-                        (wide(joint.high_rad) - wide(joint.low_rad)) * step[k] / (kGrid - 1);
       const double counts = (at.angle_rad[k] - wide(joint.zero_rad)) * wide(joint.counts_per_rad);
       also.angle_rad[k] = wide(other.zero_rad) + counts / wide(other.counts_per_rad);
     }
@@ -107,11 +90,17 @@ double median(std::vector<double> values) {
 CalibrationStudy study_calibration(const LinkageDevice& device, const StudySettings& settings) {
   CalibrationStudy study;
   std::vector<double> errors_m, before_m;
+  const std::vector<Touch> plan = planned_twice(device, settings);
+  study.bound_m = least_error_m(device, plan, settings.noise_m);
+  Chance any(1);
+  std::vector<Touch> scattered;
+  for (uint32_t i = 0; i < settings.touches; ++i)
+    scattered.push_back(touch_at(device, random_pose(device, any), i, any));
+  study.scattered_bound_m = least_error_m(device, scattered, settings.noise_m);
   for (uint32_t run = 0; run < settings.runs; ++run) {
     Chance chance(run + 1);
-    std::vector<Touch> touches;
-    for (uint32_t i = 0; i < settings.touches; ++i)
-      touches.push_back(touch_at(device, i, settings.noise_m, chance));
+    std::vector<Touch> touches = plan;
+    add_noise(settings.noise_m, device.joints.joints == 2, chance, touches);
     const LinkageDevice start = spoiled(device, settings, chance);
     const Calibration found = calibrate(start, touches, settings.noise_m, false);
     ++study.runs;

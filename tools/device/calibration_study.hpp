@@ -11,13 +11,15 @@ struct StudySettings {
   double links_off = 0.05, zeros_off_rad = 0.02;  // the start's, at most
 };
 
-/// Calibrations of a machine whose links are off, from simulated touches of points, plates and
-/// balls in turn, anywhere in the ranges.
+/// Calibrations of a machine whose links are off, from simulated touches: one half as
+/// plan_touches() chose them with these links, the other with those that the first half finds.
 struct CalibrationStudy {
   uint32_t runs = 0, converged = 0;
   uint32_t in_ellipsoid = 0;         // the truth, of the 95 % ellipsoid
   double median_m = 0, worst_m = 0;  // largest error of the tip over the workspace, of the runs
   double before_m = 0;               // the same median without calibration
+  double bound_m = 0;                // least rms error at the worst pose, of these touches
+  double scattered_bound_m = 0;      // and of as many anywhere in the ranges
 };
 
 CalibrationStudy study_calibration(const LinkageDevice& device, const StudySettings& settings);
