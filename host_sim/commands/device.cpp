@@ -6,6 +6,7 @@
 #include "device/machines.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/device/firmware_check.hpp"
+#include "host_sim/device/transmission_check.hpp"
 #include "host_sim/device/workspace.hpp"
 #include "host_sim/trace/log.hpp"
 
@@ -29,6 +30,18 @@ void print_check(const FirmwareCheck& check) {
               check.force * 100, kMaxForceError * 100);
   std::printf("weight carried, largest torque %.3g N m   within %.2g %% (goal %.2g)\n",
               check.heaviest_Nm, check.weight * 100, kMaxWeightError * 100);
+}
+
+void print_row(const char* what, const char* unit, double scale, const Predicted& it, double goal) {
+  if (!(it.closed_form > 0)) return;
+  std::printf("%-43s%.5g %s, closed form %.5g, off %.2g %% (goal %.2g)\n", what,
+              it.measured * scale, unit, it.closed_form * scale, it.error() * 100, goal * 100);
+}
+
+void print_transmission(const TransmissionCheck& check) {
+  print_row("first resonance of the cables", "Hz", 1, check.resonance_Hz, kMaxResonanceError);
+  print_row("limit cycle of the backlash", "Hz", 1, check.cycle_Hz, kMaxCycleError);
+  print_row("amplitude of that cycle", "mrad", 1e3, check.cycle_rad, kMaxCycleError);
 }
 
 std::string machines() {
@@ -76,8 +89,13 @@ int print_device(const Options& options) {
   const FirmwareCheck check =
       check_firmware(device, static_cast<uint32_t>(options.number("--poses", kCheckedPoses, 1)));
   print_check(check);
+  LinkageDevice sprung = device;
+  if (assume_cables(sprung))
+    std::printf("rigid transmissions; for the next rows cables are assumed\n");
+  const TransmissionCheck cables = check_transmission(sprung);
+  print_transmission(cables);
   print_assumed(text);
-  return is_free && is_good(check) ? 0 : 1;
+  return is_free && is_good(check) && is_good(cables) ? 0 : 1;
 }
 
 }  // namespace
@@ -88,8 +106,8 @@ const Command& device_command_line() {
       "lines KEY VALUE UNIT.\nLengths: as in firmware/firmtouch/device. Fade by the reciprocal "
       "condition: full_from, gone_at.\nAll keys:\n" +
       tools::device_file_help() + machines() +
-      "Exit code 1: a pose of the ranges is not reachable, singular, or beyond the fade; or the "
-      "firmware misses a goal.\n";
+      "Exit code 1: a pose of the ranges is not reachable, singular, or beyond the fade; or a "
+      "figure misses its goal.\n";
   static const Command command = {
       "device",
       "FILE|MACHINE",

@@ -76,6 +76,7 @@ class Rig {
     tools::LinkageDevice loose = device_;
     const double length_m = tools::links_of(device_)[0].length_m;
     const double stiffness_N_per_m = 50 * std::pow(100.0, share());
+    for (tools::JointFriction& drive : loose.masses.joint) drive.cable_N_m_per_rad = 0;
     loose.masses.stop_N_m_per_rad = stiffness_N_per_m * length_m * length_m;
     loose.masses.stop_N_m_s =
         2 * kStopDamping * std::sqrt(stiffness_N_per_m * kStoppedMass_kg) * length_m * length_m;

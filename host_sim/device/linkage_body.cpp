@@ -135,8 +135,13 @@ LinkageBody::Dynamics LinkageBody::dynamics_of(const JointMotion& motion) const 
   all.tip = points.tip;
   double mass[kJoints][kJoints] = {};
   add_links(points, mass, all);
-  for (uint32_t k = 0; k < kJoints; ++k)
-    mass[k][k] += k < joints_ ? device_.masses.joint[k].rotor_kg_m2 : 1;
+  for (uint32_t k = 0; k < kJoints; ++k) {
+    const tools::JointFriction& joint = device_.masses.joint[k];
+    if (k >= joints_)
+      mass[k][k] = 1;
+    else if (!(joint.cable_N_m_per_rad > 0))  // behind a cable the rotor moves by itself
+      mass[k][k] += joint.rotor_kg_m2;
+  }
   all.has_inertia = invert(mass, all.inverse);
   for (uint32_t k = joints_; k < kJoints; ++k) all.inverse[k][k] = 0;
   for (uint32_t i = 0; i < kJoints; ++i)
@@ -276,11 +281,11 @@ void LinkageBody::holding_torques_Nm(double (&torque_Nm)[kJoints]) const {
   for (uint32_t k = 0; k < kJoints; ++k) torque_Nm[k] = -at.torque_Nm[k];
 }
 
-int32_t LinkageBody::count(uint32_t joint) const {
+int32_t LinkageBody::count_at(uint32_t joint, double angle_rad) const {
   if (joint >= joints_) return 0;
   const device::JointSetting& setting = device_.joints.joint[joint];
-  const double counts = std::floor((motion_.angle_rad[joint] - wide(setting.zero_rad)) *
-                                   wide(setting.counts_per_rad));
+  const double counts =
+      std::floor((angle_rad - wide(setting.zero_rad)) * wide(setting.counts_per_rad));
   return static_cast<int32_t>(std::clamp(counts, -2147483647.0, 2147483647.0));
 }
 

@@ -56,7 +56,10 @@ class LinkageBody {
   /// Torques that hold it still against gravity, at its angles.
   void holding_torques_Nm(double (&torque_Nm)[kJoints]) const;
   /// Encoder counts, rounded down as an incremental encoder does.
-  int32_t count(uint32_t joint) const;
+  int32_t count(uint32_t joint) const { return count_at(joint, motion_.angle_rad[joint]); }
+  int32_t count_at(uint32_t joint, double angle_rad) const;
+  /// Acceleration of joint `i` by a torque of joint `j`.
+  double inverse_inertia(uint32_t i, uint32_t j) const { return here_.inverse[i][j]; }
   /// Of the pose at the start: the links of a loop meet, and not in one line.
   bool is_closed() const { return here_.is_closed; }
   /// Result: false where the inertia of this pose is not positive definite.

@@ -12,7 +12,7 @@ namespace {
 constexpr uint32_t kMinSubsteps = 16;
 constexpr double kLinkageStep_s = 2e-5;
 
-LinkageBody body_at(const Scenario& scenario, Vec start_m) {
+DrivenLinkage linkage_at(const Scenario& scenario, Vec start_m) {
   JointMotion start;
   if (!find_angles(*scenario.linkage, start_m, start)) {
     char text[200];
@@ -22,22 +22,22 @@ LinkageBody body_at(const Scenario& scenario, Vec start_m) {
                   start_m.x, start_m.y, start_m.z);
     throw Refused(scenario.file + text);
   }
-  LinkageBody body(*scenario.linkage, start);
-  if (!body.is_closed())
+  DrivenLinkage linkage(*scenario.linkage, start);
+  if (!linkage.body().is_closed())
     throw Refused(scenario.file +
                   ": at the start the linkage is singular; move `start` or the scene");
-  if (!body.has_inertia())
+  if (!linkage.body().has_inertia())
     throw Refused(scenario.device_file +
                   ": its inertia is not positive definite; give each joint a rotor_ or its links "
                   "masses");
-  return body;
+  return linkage;
 }
 
 }  // namespace
 
 Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m) : zero_m_(zero_m) {
   if (scenario.linkage) {
-    body_.emplace(body_at(scenario, start_m));
+    linkage_.emplace(linkage_at(scenario, start_m));
     delayed_Nm_.resize(scenario.device.output_delay_samples);
   } else {
     axes_.emplace(scenario.device, start_m - zero_m);
@@ -50,7 +50,7 @@ void Machine::locate() {
     position_m_ = axes_->position_m() + zero_m_;
     velocity_mps_ = axes_->velocity_mps();
   } else {
-    const MovingPoint& tip = body_->tip();
+    const MovingPoint& tip = linkage_->body().tip();
     position_m_ = tip.at_m;
     velocity_mps_ = tip.velocity_mps;
   }
@@ -69,13 +69,13 @@ void Machine::advance(Vec hand_N, double time_s) {
   if (axes_) {
     axes_->advance(hand_N, time_s);
   } else {
-    body_->advance({motor_Nm_.x, motor_Nm_.y, motor_Nm_.z}, hand_N, time_s);
+    linkage_->advance({motor_Nm_.x, motor_Nm_.y, motor_Nm_.z}, hand_N, time_s);
   }
   locate();
 }
 
 int32_t Machine::count(int joint) const {
-  return axes_ ? axes_->count(joint) : body_->count(static_cast<uint32_t>(joint));
+  return axes_ ? axes_->count(joint) : linkage_->count(static_cast<uint32_t>(joint));
 }
 
 uint32_t Machine::substeps(double period_s) const {

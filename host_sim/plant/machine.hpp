@@ -2,7 +2,7 @@
 #include <deque>
 #include <optional>
 
-#include "host_sim/device/linkage_body.hpp"
+#include "host_sim/device/driven_linkage.hpp"
 #include "host_sim/plant/device.hpp"
 #include "host_sim/scenario/scenario.hpp"
 
@@ -24,7 +24,7 @@ class Machine {
   Vec velocity_mps() const { return velocity_mps_; }
   int32_t count(int joint) const;
   /// Null for a Cartesian device.
-  const EnergyBook* energy() const { return body_ ? &body_->energy() : nullptr; }
+  const EnergyBook* energy() const { return linkage_ ? &linkage_->energy() : nullptr; }
   /// Integration steps in a tick of `period_s`, so that a linkage has 50,000 a second.
   uint32_t substeps(double period_s) const;
 
@@ -33,7 +33,7 @@ class Machine {
 
   Vec zero_m_;
   std::optional<Device> axes_;
-  std::optional<LinkageBody> body_;
+  std::optional<DrivenLinkage> linkage_;
   std::deque<Vec> delayed_Nm_;  // torques of a linkage, the oldest first
   Vec motor_Nm_;
   Vec position_m_, velocity_mps_;

@@ -93,6 +93,9 @@ void add_masses(LinkageDevice& device, Keys& to) {
   for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
     JointFriction& joint = masses.joint[k];
     to.number(of("rotor", k), "kg*m2", 0, 100, joint.rotor_kg_m2, false);
+    to.number(of("cable", k), "N*m/rad", 0, 1e5, joint.cable_N_m_per_rad, false);
+    to.number(of("cable_damping", k), "N*m*s/rad", 0, 100, joint.cable_N_m_s, false);
+    to.number(of("backlash", k), "rad", 0, 1, joint.backlash_rad, false);
     to.number(of("viscous", k), "N*m*s/rad", 0, 100, joint.viscous_N_m_s, false);
     to.number(of("coulomb", k), "N*m", 0, 100, joint.coulomb_N_m, false);
   }
@@ -184,6 +187,21 @@ void check_rules(const std::string& name, const LinkageDevice& device) {
                     std::to_string(verdict.element) + ")");
 }
 
+// A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
+void check_cables(const std::string& name, const LinkageDevice& device) {
+  constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const JointFriction& joint = device.masses.joint[k];
+    const std::string end = "_" + std::to_string(k);
+    if (joint.cable_N_m_per_rad > kMaxRate2 * joint.rotor_kg_m2)
+      throw Refused(name + ": `cable" + end + "` on `rotor" + end +
+                    "` would ring at more than 1.6 kHz; leave the cable out, as it is rigid, or "
+                    "give the rotor's inertia");
+    if (joint.backlash_rad > 0 && !(joint.cable_N_m_per_rad > 0))
+      throw Refused(name + ": `backlash" + end + "` needs `cable" + end + "`");
+  }
+}
+
 }  // namespace
 
 LinkageDevice read_device(const std::string& name, const std::string& text) {
@@ -215,6 +233,7 @@ LinkageDevice read_device(const std::string& name, const std::string& text) {
       throw Refused(name + ": `" + key.name + "` is missing");
   fill_rods(device);
   check_rules(name, device);
+  check_cables(name, device);
   return device;
 }
 

@@ -20,9 +20,11 @@ struct Rod {
   double inertia_kg_m2 = 0;  // about the centre of mass, across the rod
 };
 
-/// What resists a joint's motion.
+/// What resists a joint's motion, and the cable or belt between its motor and it.
 struct JointFriction {
-  double rotor_kg_m2 = 0;  // of motor and transmission, at the joint
+  double rotor_kg_m2 = 0;                         // of motor and transmission, at the joint
+  double cable_N_m_per_rad = 0, cable_N_m_s = 0;  // stiffness, 0 is rigid; damping
+  double backlash_rad = 0;                        // the whole gap
   double viscous_N_m_s = 0;
   double coulomb_N_m = 0;
 };
