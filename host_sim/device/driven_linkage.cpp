@@ -9,6 +9,7 @@ DrivenLinkage::DrivenLinkage(const LinkageDevice& device, const JointMotion& sta
     : body_(device, start), book_(body_.energy()) {
   for (uint32_t k = 0; k < kJoints; ++k) {
     drive_[k] = device.masses.joint[k];
+    is_sprung_ |= has_cable(k);
     rotor_[k] = {start.angle_rad[k], start.rate_rad_per_s[k]};
   }
 }
@@ -34,6 +35,7 @@ double DrivenLinkage::stretch_rad(uint32_t joint, double twist_rad) const {
 }
 
 void DrivenLinkage::advance(const double (&motor_Nm)[kJoints], Vec hand_N, double time_s) {
+  if (!is_sprung_) return body_.advance(motor_Nm, hand_N, time_s);
   double torque_Nm[kJoints], damper_Nm[kJoints] = {}, before_rad[kJoints], turned_rad[kJoints] = {};
   for (uint32_t k = 0; k < kJoints; ++k) {
     torque_Nm[k] = motor_Nm[k];

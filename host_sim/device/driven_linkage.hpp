@@ -14,7 +14,7 @@ class DrivenLinkage {
 
   void advance(const double (&motor_Nm)[kJoints], Vec hand_N, double time_s);
   const LinkageBody& body() const { return body_; }
-  const EnergyBook& energy() const { return book_; }
+  const EnergyBook& energy() const { return is_sprung_ ? book_ : body_.energy(); }
   /// Of the encoder: on the motor, before the cable.
   int32_t count(uint32_t joint) const { return body_.count_at(joint, rotor(joint).angle_rad); }
 
@@ -32,6 +32,7 @@ class DrivenLinkage {
   double stretch_rad(uint32_t joint, double twist_rad) const;
 
   LinkageBody body_;
+  bool is_sprung_ = false;  // has a cable
   tools::JointFriction drive_[kJoints];
   Rotor rotor_[kJoints];
   double work_J_ = 0, lost_J_ = 0;  // of the motors beyond the body's book; of the dampers

@@ -9,35 +9,55 @@
 namespace firmtouch::host_sim {
 namespace {
 
+constexpr size_t kBlock = 32;
+constexpr double kFar_m = std::numeric_limits<double>::infinity();
+
 Vec corner(const mesh::View& mesh, uint32_t i) {
   const mesh::Vertex& v = mesh.vertices()[i];
   return {static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)};
 }
 
-// Squared distance of a number to the interval of three others.
-double outside2(double x, double a, double b, double c) {
-  const double off = std::max({std::min({a, b, c}) - x, x - std::max({a, b, c}), 0.0});
-  return off * off;
-}
-
-// Whether even the triangle's box is farther than the square root of `best`.
-bool is_farther(Vec p, Vec a, Vec b, Vec c, double best) {
-  double distance2 = outside2(p.x, a.x, b.x, c.x);
-  if (distance2 > best) return true;
-  distance2 += outside2(p.y, a.y, b.y, c.y);
-  return distance2 > best || distance2 + outside2(p.z, a.z, b.z, c.z) > best;
-}
+Vec least(Vec a, Vec b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec most(Vec a, Vec b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
 }  // namespace
 
-double brute_force_distance_m(const mesh::View& mesh, Vec p_m) {
-  double best = std::numeric_limits<double>::infinity();
+BruteForce::BruteForce(const mesh::View& mesh) {
   for (uint32_t i = 0; i < mesh.head().triangle_count; ++i) {
     const mesh::Triangle<uint32_t> t = mesh.triangle(i);
-    const Vec a = corner(mesh, t.corner[0]), b = corner(mesh, t.corner[1]);
-    const Vec c = corner(mesh, t.corner[2]);
-    if (is_farther(p_m, a, b, c, best)) continue;
-    best = std::min(best, tools::distance2_to_triangle(p_m, a, b, c));
+    const Vec a = corner(mesh, t.corner[0]), b = corner(mesh, t.corner[1]),
+              c = corner(mesh, t.corner[2]);
+    const Box box{least(least(a, b), c), most(most(a, b), c)};
+    if (i % kBlock == 0)
+      blocks_.push_back(box);
+    else
+      blocks_.back() = {least(blocks_.back().low_m, box.low_m),
+                        most(blocks_.back().high_m, box.high_m)};
+    triangles_.push_back({{a, b, c}, box});
+  }
+}
+
+bool BruteForce::is_farther(const Box& box, Vec p, double distance2_m2) {
+  const auto outside2 = [](double x, double low, double high) {
+    const double off = std::max({low - x, x - high, 0.0});
+    return off * off;
+  };
+  return outside2(p.x, box.low_m.x, box.high_m.x) + outside2(p.y, box.low_m.y, box.high_m.y) +
+             outside2(p.z, box.low_m.z, box.high_m.z) >
+         distance2_m2;
+}
+
+double BruteForce::distance_m(Vec p_m) const {
+  double best = kFar_m;
+  for (size_t i = 0; i < triangles_.size(); ++i) {
+    if (i % kBlock == 0 && is_farther(blocks_[i / kBlock], p_m, best)) {
+      i += kBlock - 1;
+      continue;
+    }
+    const Triangle& t = triangles_[i];
+    if (is_farther(t.box, p_m, best)) continue;
+    best = std::min(best,
+                    tools::distance2_to_triangle(p_m, t.corner_m[0], t.corner_m[1], t.corner_m[2]));
   }
   return std::sqrt(best);
 }

@@ -7,7 +7,6 @@
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "firmtouch/servo/step.hpp"
-#include "host_sim/plant/brute_force.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -74,6 +73,7 @@ size_t checked_ticks(const Environment& environment, size_t ticks) {
 Summariser::Summariser(const Scenario& scenario, const Environment& environment,
                        const RunFacts& facts)
     : environment_(environment),
+      brute_force_(environment.has_mesh() ? BruteForce(environment.mesh()) : BruteForce()),
       facts_(facts),
       quality_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)) {
   summary_.rate_Hz = facts.rate_Hz;
@@ -128,7 +128,7 @@ void Summariser::check_certificate(const record::TickOutput& out) {
                                                     : environment_.surface().head().extent_m);
   const Vec at = queried_m(out, used_.position_m) - environment_.origin_m();
   const double truth =
-      is_mesh ? brute_force_distance_m(mesh, at) : spline_distance_m(environment_.surface(), at);
+      is_mesh ? brute_force_.distance_m(at) : spline_distance_m(environment_.surface(), at);
   const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kSplineFactor);
   const double reported = std::fabs(static_cast<double>(out.distance_m)),
                lower = static_cast<double>(out.distance_lower_m);

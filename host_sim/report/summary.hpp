@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/plant/brute_force.hpp"
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/report/contact_quality.hpp"
 #include "host_sim/report/score.hpp"
@@ -72,6 +73,7 @@ class Summariser {
   void check_certificate(const record::TickOutput& out);
 
   const Environment& environment_;
+  BruteForce brute_force_;  // of its mesh
   const RunFacts& facts_;
   Summary summary_;
   ContactQuality quality_;

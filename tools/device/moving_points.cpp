@@ -96,9 +96,8 @@ MovingPoints points(const Delta& delta, const JointMotion& motion) {
 }
 
 // A point of the arm's plane, `out` from the axis and `up`, moved by the joints of the plane; the
-// turntable adds its own motion.
-MovingPoint turned(const MovingPoint& flat, double angle_rad, double rate) {
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+// turntable adds its own motion. `c`, `s`: of its angle.
+MovingPoint turned(const MovingPoint& flat, double c, double s, double rate) {
   const auto turn = [&](Point a) { return Point{a.x * c, a.x * s, a.z}; };
   const Point across{-s, c, 0};
   MovingPoint point;
@@ -136,10 +135,11 @@ MovingPoints points(const SerialArm& arm, const JointMotion& motion) {
   if (!arm.has_parallelogram)
     tip.column_m[shoulder] = tip.column_m[shoulder] + second.column_m[elbow];
   MovingPoints all;
-  const double angle_rad = motion.angle_rad[0], rate = motion.rate_rad_per_s[0];
-  all.base[0] = is_planar ? base : turned(base, angle_rad, rate);
-  all.elbow[0] = is_planar ? first : turned(first, angle_rad, rate);
-  all.tip = is_planar ? tip : turned(tip, angle_rad, rate);
+  const double c = std::cos(motion.angle_rad[0]), s = std::sin(motion.angle_rad[0]);
+  const double rate = motion.rate_rad_per_s[0];
+  all.base[0] = is_planar ? base : turned(base, c, s, rate);
+  all.elbow[0] = is_planar ? first : turned(first, c, s, rate);
+  all.tip = is_planar ? tip : turned(tip, c, s, rate);
   return all;
 }
 
