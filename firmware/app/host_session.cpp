@@ -7,6 +7,7 @@
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/link/build_id.hpp"
 #include "firmtouch/link/handshake.hpp"
+#include "last_crash.hpp"
 #include "saved_parameters.hpp"
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
@@ -86,6 +87,7 @@ void HostSession::handle(const link::Frame& frame) {
     case link::kBye:
       return leave(frame);
     default:
+      if (answer_optional(frame)) return;
       return complain(frame, "unknown frame type: build both sides from the same release");
   }
 }
@@ -230,6 +232,16 @@ void HostSession::answer_describe(const link::Frame& frame) {
   if (!link::take(frame, wanted)) return complain(frame, "a Describe of another length");
   const link::Description row = describe_row(wanted);
   outbox_.send(link::kDescription, frame.sequence, link::bytes_of(row));
+}
+
+// Frames of parts that not every program has. Result: false if this one has it not.
+bool HostSession::answer_optional(const link::Frame& frame) {
+  if constexpr (kKeepsCrash) {
+    if (frame.type != link::kReadCrash) return false;
+    outbox_.send(link::kCrashReply, frame.sequence, link::bytes_of(last_crash()));
+    return true;
+  }
+  return false;
 }
 
 void HostSession::leave(const link::Frame& frame) {

@@ -32,6 +32,7 @@ class HostSession {
   void answer_panel(const link::Frame& frame);
   void answer_stream(const link::Frame& frame);
   void answer_describe(const link::Frame& frame);
+  bool answer_optional(const link::Frame& frame);
   void leave(const link::Frame& frame);
   void stream_records();
   void complain(const link::Frame& frame, const char* text);

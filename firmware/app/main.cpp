@@ -4,6 +4,7 @@
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/link/text_writer.hpp"
 #include "host_session.hpp"
+#include "last_crash.hpp"
 #include "saved_parameters.hpp"
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
@@ -56,6 +57,7 @@ namespace {
 [[noreturn]] void run() {
   hal::board_begin();
   hal::motors_off();
+  if constexpr (kKeepsCrash) take_crash();
   prepare_saving();
   open_asset();
   print_verdict();

@@ -2,6 +2,7 @@
 
 #include "demo/hand.hpp"
 #include "firmtouch/hal/clock.hpp"
+#include "firmtouch/hal/crash_record.hpp"
 #include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
@@ -37,6 +38,8 @@ void servo_interrupt() {
   if (main_loop.is_alive(max_ticks_of_a_turn())) hal::watchdog_feed();
   after_tick(now.output);
   records.push(now);  // never waits: if the ring is full the record is dropped and counted
+  if constexpr (kKeepsCrash)
+    hal::crash_keep_tick({now.input.tick, now.input.clock_us, now.output.state, now.output.faults});
   last_work_us = hal::clock_us() - now.input.clock_us;
 }
 

@@ -37,6 +37,13 @@ constexpr bool kDemo = true;
 constexpr bool kDemo = false;
 #endif
 
+// With part `crash_record`: cause and last ticks outlive a reset (last_crash.hpp).
+#ifdef FIRMTOUCH_APP_CRASH_RECORD
+constexpr bool kKeepsCrash = true;
+#else
+constexpr bool kKeepsCrash = false;
+#endif
+
 /// One tick: from the encoders to the motors. Called by the board's timer.
 void servo_interrupt();
 

@@ -40,6 +40,7 @@ void crash_keep_tick(const CrashTick& tick) {
 }
 
 void crash_keep_cause(CrashCause cause, uint32_t pc, uint32_t link, uint32_t status) {
+  if (g_crash_cause.is_whole()) return;
   g_crash_cause.set(static_cast<uint32_t>(cause), pc, link, status);
 }
 

@@ -17,7 +17,8 @@ struct Kept {
 
 extern Kept g_crash_cause, g_crash_ticks[kCrashTicks];
 
-/// From a fault handler, behind motors_off().
+/// From a fault handler, behind motors_off(). The first of a run counts: a watchdog that ends the
+/// stop behind a fault is not the cause.
 void crash_keep_cause(CrashCause cause, uint32_t pc, uint32_t link, uint32_t status);
 
 }  // namespace firmtouch::hal

@@ -72,6 +72,7 @@ int print_report(const bench::Report& report, const std::string& name, bool is_j
 const Command& run_command_line();
 const Command& replay_command_line();
 const Command& record_command_line();
+const Command& crash_command_line();
 const Command& live_command_line();
 const Command& view_command_line();
 const Command& scenario_command_line();

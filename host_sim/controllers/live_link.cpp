@@ -98,6 +98,19 @@ void LiveLink::describe() {
   header_.record_bytes = log::place(header_.fields);
 }
 
+link::CrashReply LiveLink::read_crash() {
+  link::CrashReply reply;
+  const bool received = exchange(
+      [&] { send(link::kReadCrash, link::ReadCrash{}); },
+      [&](const link::Frame& frame) {
+        if (frame.type == link::kText)
+          refuse("the controller keeps no crash record: build it with part `crash_record`");
+        return frame.type == link::kCrashReply && link::take(frame, reply);
+      });
+  if (!received) refuse("no answer in 60 s");
+  return reply;
+}
+
 // Result: the controller's reply, after it has proven its asset.
 link::HelloReply LiveLink::hello(const link::Hello& hello) {
   link::HelloReply reply;

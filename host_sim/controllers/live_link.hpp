@@ -23,6 +23,9 @@ class LiveLink {
   /// In the order of its table.
   const std::vector<link::Description>& parameters() const { return parameters_; }
 
+  /// What the controller's last run left. Throws Refused if its program keeps no crash record.
+  link::CrashReply read_crash();
+
   /// Starts the stream of every `decimation`-th record; starts the servo if it does not run.
   void begin(uint32_t decimation);
   const link::HelloReply& reply() const { return reply_; }

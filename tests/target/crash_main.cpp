@@ -8,6 +8,7 @@
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/watchdog.hpp"
+#include "target/text.hpp"
 
 namespace hal = firmtouch::hal;
 
@@ -22,6 +23,17 @@ void tick() {
   const uint32_t number = kFirstTick + g_ticks;
   hal::crash_keep_tick({number, hal::clock_us(), 0x100u + g_ticks, 0x8u});
   g_ticks = g_ticks + 1;
+}
+
+// A tick's own share, before the first one takes the entry's place.
+void print_work() {
+  const hal::CrashTick first{kFirstTick, 0, 0, 0};
+  const uint32_t before = hal::clock_work();
+  hal::crash_keep_tick(first);
+  const uint64_t work = hal::clock_work() - before;
+  hal::board_print("a tick is kept in instructions: ");
+  hal::board_print(firmtouch::target::decimal(work * 1000 / hal::clock_work_per_1000()).text);
+  hal::board_print("\n");
 }
 
 [[noreturn]] void reset() {
@@ -77,6 +89,7 @@ int main() {
     for (;;) asm volatile("nop");
   }
   again = true;
+  print_work();
   const uint8_t cause = hal::board_asset().data()[0];
   hal::clock_start_servo(1000, tick);
   if (cause == kWatchdog) hal::watchdog_begin(1000);

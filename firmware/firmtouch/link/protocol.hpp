@@ -1,13 +1,14 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/core/crash_record.hpp"
 #include "firmtouch/link/frame.hpp"
 #include "firmtouch/record/ring.hpp"
 #include "firmtouch/record/tick.hpp"
 
 // Messages of the link: the payload of each frame type, as plain structs without padding,
 // little-endian. A host (simulator, live page) starts with Hello. Until the controller accepts it,
-// it answers every other frame with Text, except Describe.
+// it answers every other frame with Text, except Describe and ReadCrash.
 //
 //   lock-step   Hello(kModeLockStep) -> HelloReply, then Step -> StepReply, one at a time, until
 //               Bye. The host makes every tick: the timer does not run, the motors stay off. An
@@ -17,8 +18,8 @@
 //               Log frame for every n-th tick (Hello, Stream -> Ack). SetParam -> Ack, ClearFaults
 //               -> Ack and Panel -> Ack are possible at any time, SaveParameters -> Ack while the
 //               motors are off.
-//   both        Describe -> Description: fields of a record, their bits, and parameters. Answered
-//               without Hello too.
+//   both        Describe -> Description: fields of a record, their bits, and parameters.
+//               ReadCrash -> CrashReply: what the run before left. Both without Hello, too.
 namespace firmtouch::link {
 
 constexpr uint32_t kProtocolVersion = 6;
@@ -34,12 +35,14 @@ enum Type : uint8_t {
   kDescribe = 0x07,
   kSaveParameters = 0x08,
   kPanel = 0x09,
+  kReadCrash = 0x0A,  // of programs with part `crash_record`; others answer Text
   kHelloReply = 0x81,
   kStepReply = 0x82,
   kAck = 0x83,
   kLog = 0x84,
   kText = 0x85,  // payload: UTF-8, no terminating zero
   kDescription = 0x86,
+  kCrashReply = 0x87,
 };
 
 constexpr uint32_t kModeLive = 0;
@@ -190,6 +193,18 @@ struct Description {
 };
 static_assert(sizeof(Description) == 176);
 static_assert(sizeof(Description) <= kMaxPayloadBytes);
+
+struct ReadCrash {
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(ReadCrash) == 4);
+
+struct CrashReply {
+  uint32_t is_left = 0;  // 0: nothing was; `record` says nothing then
+  core::CrashRecord record;
+};
+static_assert(sizeof(CrashReply) == 152);
+static_assert(sizeof(CrashReply) <= kMaxPayloadBytes);
 
 // Bye::what
 constexpr uint32_t kByeLeave = 0;  // the controller waits for the next Hello
