@@ -34,8 +34,13 @@ if(TARGET firmtouch OR FIRMTOUCH_HOST_TOOLS)
                  OPTIONS --unit mm)
   firmtouch_embed(TARGET example_path_bytes ASSET example_path SYMBOL block_and_path_fta)
 
+  firmtouch_bake(TARGET example_low_block INPUTS ${CMAKE_CURRENT_LIST_DIR}/low_block.obj OUTPUT low_block.fta
+                 OPTIONS --unit mm)
+  firmtouch_embed(TARGET example_low_block_bytes ASSET example_low_block SYMBOL low_block_fta)
+
   firmtouch_example(touch_mesh LINKS firmtouch::controller example_block_bytes)
   firmtouch_example(two_rates LINKS firmtouch::controller example_block_bytes)
   firmtouch_example(replay_log LINKS firmtouch::controller example_block_bytes)
+  firmtouch_example(hot_swap LINKS firmtouch::controller example_block_bytes example_low_block_bytes)
   firmtouch_example(follow_path LINKS firmtouch::controller example_path_bytes)
 endif()

@@ -34,6 +34,27 @@ void AnyDevice::reset() {
   fast_ticks_ = 0;
 }
 
+bool AnyDevice::is_same(const AnyDevice& other) const {
+  if (linkage_.is_open() != other.linkage_.is_open()) return false;
+  if (!linkage_.is_open()) return true;
+  if (section_.size() != other.section_.size()) return false;
+  for (uint32_t i = 0; i < section_.size(); ++i)
+    if (section_[i] != other.section_[i]) return false;
+  return true;
+}
+
+void AnyDevice::continue_as(const AnyDevice& other) {
+  cartesian_ = other.cartesian_;
+  joints_ = other.joints_;
+  pose_ = other.pose_;
+  for (uint32_t k = 0; k < kMaxJoints; ++k) {
+    angle_rad_[k] = other.angle_rad_[k];
+    before_Nm_[k] = other.before_Nm_[k];
+  }
+  carried_ = other.carried_;
+  fast_ticks_ = other.fast_ticks_;
+}
+
 device::Reading AnyDevice::read(const Values& values, const device::Sample& sample, bool clear) {
   if (!linkage_.is_open()) return cartesian_.read(values, sample, clear);
   if (clear) {

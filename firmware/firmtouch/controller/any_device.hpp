@@ -28,6 +28,9 @@ class AnyDevice : public DevicePolicy {
   }
 
   void reset();
+  /// After a swap of the asset: whether `other` stores the same linkage, and its state.
+  bool is_same(const AnyDevice& other) const;
+  void continue_as(const AnyDevice& other);
   /// Faults beside those of read_joints(): a pose that the links do not reach is outside of the
   /// workspace; a tip faster than max_speed_mps for three ticks is an encoder fault.
   device::Reading read(const params::Values& values, const device::Sample& sample, bool clear);

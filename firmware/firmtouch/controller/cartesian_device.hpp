@@ -41,6 +41,9 @@ class CartesianDevice : public DevicePolicy, public asset::LoadsNothing {
 
   static const char* find(const asset::Container&, const char*) { return nullptr; }
   void reset() { state_ = {}; }
+  /// After a swap of the asset: whether `other` is the same device, and its state.
+  bool is_same(const CartesianDevice&) const { return true; }
+  void continue_as(const CartesianDevice& other) { state_ = other.state_; }
   /// `clear`: earlier bad samples are forgotten.
   device::Reading read(const params::Values& values, const device::Sample& sample, bool clear);
   /// Sets motors and force of the record.

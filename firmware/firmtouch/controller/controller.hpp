@@ -3,7 +3,7 @@
 
 #include "firmtouch/controller/controller_core.hpp"
 #include "firmtouch/controller/first_of.hpp"
-#include "firmtouch/controller/loaders.hpp"
+#include "firmtouch/controller/scenes.hpp"
 
 namespace firmtouch {
 
@@ -13,33 +13,37 @@ namespace firmtouch {
 ///     Controller<Surfaces<MeshSurface>> controller;
 ///     Controller<Surfaces<FullMesh, SplineSurface>, CurveGuide, AnyDevice> other;
 ///
-/// A CartesianDevice has three axes; AnyDevice is the linkage that the asset stores.
+/// A CartesianDevice has three axes; AnyDevice is the linkage that the asset stores. With TwoScenes
+/// as the last argument the asset can be swapped while ticks run (begin_next()).
 /// Its size is all the RAM that it takes: no heap, nothing static. Controllers are independent of
 /// each other and may share an asset.
 template <class SurfaceList, class Guide = NoGuide, class Device = CartesianDevice,
-          class Trust = asset::Proven>
+          class Trust = asset::Proven, template <class> class ScenesOf = OneScene>
 class Controller {
+  using Scene = LoadedScene<Trust, Device, Guide, SurfaceList>;
+  using Scenes = ScenesOf<Scene>;
+
  public:
   /// The parameters of all parts.
   static constexpr params::Table kTable =
       params::Composed<ControllerCore::Parameters, typename Device::Parameters,
                        typename SurfaceList::Parameters, typename Guide::Parameters>::kTable;
 
-  Controller() : core_(kTable) {}
+  [[gnu::noinline]] Controller() : core_(kTable) {}
   Controller(const Controller&) = delete;  // a distance field refers to the mesh in here
   Controller& operator=(const Controller&) = delete;
 
   /// Starts to open an asset, which must outlive the controller. The motors stay off until it is
   /// proven. Resets all, parameters and faults included. Not while tick() may interrupt.
   void begin(core::Bytes asset, Selection selection = {}) {
-    loaders_.begin(asset, selection, device_, guide_, surfaces_);
+    scene().begin(asset, selection);
     reset();
   }
 
   /// Continues to open, for at most `units` of about 100 instructions (loaders.hpp). For the main
   /// loop; tick() may interrupt it.
   /// Result: true when it ended; verdict() then says whether the motors may be enabled.
-  bool work(uint32_t units) { return loaders_.work(units, device_, guide_, surfaces_); }
+  bool work(uint32_t units) { return scene().work(units); }
 
   /// begin(), then work() until it ends.
   core::Verdict open(core::Bytes asset, Selection selection = {}) {
@@ -49,17 +53,32 @@ class Controller {
     return verdict();
   }
 
-  core::Verdict verdict() const { return loaders_.verdict(); }
-  bool is_ready() const { return loaders_.is_ready(); }
+  core::Verdict verdict() const { return scene().loaders.verdict(); }
+  bool is_ready() const { return scene().loaders.is_ready(); }
 
   /// The state right after begin(), without opening the asset again. Not while tick() may
   /// interrupt.
-  void reset() {
+  [[gnu::noinline]] void reset() {
     core_.reset();
-    device_.reset();
-    surfaces_.reset();
-    guide_.reset();
+    scene().reset();
   }
+
+  /// Hot swap, with TwoScenes. As begin() and work(), for the asset that is to follow; the one that
+  /// is touched stays as it is. Both must outlive the controller, or the swap away from them. Main
+  /// loop; tick() may interrupt it. Not between a command to swap and its tick.
+  void begin_next(core::Bytes asset, Selection selection = {}) {
+    scenes_.next().begin(asset, selection);
+  }
+  bool work_next(uint32_t units) { return scenes_.next().work(units); }
+  core::Verdict next_verdict() const { return scenes_.next().loaders.verdict(); }
+  uint32_t next_crc() const { return scenes_.next().loaders.container().crc(); }
+  /// Whether a tick with record::kCommandSwapAsset will take it. That tick touches the next asset:
+  /// contact begins anew, force and parameters go on, so the force makes no step above its slew
+  /// limit. It is refused while the next asset is not proven, if it stores another linkage, and at
+  /// two rates.
+  bool can_swap() const { return scenes_.can_swap(); }
+  /// The same at once. Not while tick() may interrupt.
+  bool swap() { return scenes_.swap(); }
 
   /// A function of the controller's state and `input`: calls no HAL, reads no clock. Every field of
   /// `output` is set and finite. A parameter changes only by `input.command`, so that the record
@@ -73,14 +92,19 @@ class Controller {
   /// guide_work; with a base hull others of mesh_work or 1,280; at two rates none. Callable from
   /// an interrupt; not re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output) {
-    const AssetStatus asset = loaders_.status();
+    const bool is_swapped = input.command == record::kCommandSwapAsset &&
+                            (input.flags & record::kFlagModelApart) == 0 && scenes_.swap();
+    Device& device = scene().device;
+    const AssetStatus asset = scene().loaders.status();
     ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
-    core_.locate(device_.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
-    if constexpr (!Device::kRendersAll) core_.count_rendered(device_.rendered());
+    if (is_swapped)  // no row has this number
+      output.state ^= record::kStateCommandRefused | record::kStateCommandTaken;
+    core_.locate(device.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
+    if constexpr (!Device::kRendersAll) core_.count_rendered(device.rendered());
     ModelResult* result = core_.result_of_tick(tick, input.flags);
     if (result != nullptr) make_local_model(tick.request, core_.values(), *result);
     const Push push = core_.step(tick, input.flags, output);
-    const bool passed = device_.push(core_.values(), push, core_.guard(), output);
+    const bool passed = device.push(core_.values(), push, core_.guard(), output);
     core_.end_tick(asset, tick, passed, output);
   }
 
@@ -101,26 +125,26 @@ class Controller {
   /// One of the surface policies.
   template <class P>
   const P& surface() const {
-    return surfaces_.template get<P>();
+    return scene().surfaces.template get<P>();
   }
-  const Guide& guide() const { return guide_; }
-  const Device& device() const { return device_; }
+  const Guide& guide() const { return scene().guide; }
+  const Device& device() const { return scene().device; }
   /// Identifies the asset; 0 before the asset's frame is proven.
-  uint32_t asset_crc() const { return loaders_.container().crc(); }
+  uint32_t asset_crc() const { return scene().loaders.container().crc(); }
+  core::Bytes asset() const { return scene().loaders.container().bytes(); }
 
  private:
+  Scene& scene() { return scenes_.active(); }
+  const Scene& scene() const { return scenes_.active(); }
   void make_local_model(const ModelRequest& request, const params::Values& values,
                         ModelResult& result) {
     core_.begin_model(request, values, result);
     if (!request.can_touch) return;
-    surfaces_.touch(request, values, result);
-    guide_.follow(request, values, result);
+    scene().surfaces.touch(request, values, result);
+    scene().guide.follow(request, values, result);
   }
 
-  Loaders<Trust, Device, Guide, SurfaceList> loaders_;
-  SurfaceList surfaces_;
-  Guide guide_;
-  Device device_;
+  Scenes scenes_;
   ControllerCore core_;
 };
 

@@ -24,6 +24,8 @@ constexpr uint32_t kFlagModelWanted = 1u << 6;  // the next model is made from t
 // on, is rejected: the parameter keeps its value, and kStateCommandRefused is set.
 constexpr uint32_t kCommandNone = 0;
 constexpr uint32_t kCommandClearFaults = UINT32_MAX;  // accepted only while kFlagEnable is low
+// Begins to touch the next asset, if the controller has one (controller.hpp, can_swap()).
+constexpr uint32_t kCommandSwapAsset = UINT32_MAX - 1;
 
 // TickOutput::state.
 constexpr uint32_t kStateServoMask = 0xFFu;          // servo::Mode
@@ -47,7 +49,8 @@ struct TickInput {
   uint32_t clock_us;  // free-running, wraps
   int32_t encoder_counts[kAxes];
   uint32_t flags;
-  // kCommandNone, kCommandClearFaults, or 1 + index of the parameter to set to command_value.
+  // kCommandNone, kCommandClearFaults, kCommandSwapAsset, or 1 + index of the parameter to set to
+  // command_value.
   uint32_t command;
   float command_value;
   // Time that the tick before took, by the board's clock; divided by tick_period_s, the load. 0:
