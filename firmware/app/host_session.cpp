@@ -87,7 +87,9 @@ void HostSession::handle(const link::Frame& frame) {
     case link::kBye:
       return leave(frame);
     default:
-      if (answer_optional(frame)) return;
+      if constexpr (kHasSlots || kKeepsCrash) {
+        if (answer_optional(frame)) return;
+      }
       return complain(frame, "unknown frame type: build both sides from the same release");
   }
 }
@@ -116,6 +118,7 @@ void HostSession::answer_hello(const link::Frame& frame) {
     if (!is_query) print_refusal(hello, reply);
   } else if (hello.mode == link::kModeLockStep) {
     hal::motors_off();
+    if constexpr (kHasSlots) asset_update.abort();
     controller.reset();
     has_stepped_ = false;
     phase_ = Phase::kLockStep;
@@ -236,6 +239,13 @@ void HostSession::answer_describe(const link::Frame& frame) {
 
 // Frames of parts that not every program has. Result: false if this one has it not.
 bool HostSession::answer_optional(const link::Frame& frame) {
+  if constexpr (kHasSlots) {
+    link::AssetAck ack;
+    if (asset_update.answer(frame, is_lock_step(), ack)) {
+      outbox_.send(link::kAssetAck, frame.sequence, link::bytes_of(ack));
+      return true;
+    }
+  }
   if constexpr (kKeepsCrash) {
     if (frame.type != link::kReadCrash) return false;
     outbox_.send(link::kCrashReply, frame.sequence, link::bytes_of(last_crash()));

@@ -1,6 +1,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "asset_update.hpp"
 #include "firmtouch/link/decoder.hpp"
 #include "firmtouch/link/protocol.hpp"
 #include "outbox.hpp"

@@ -1,3 +1,4 @@
+#include "asset_update.hpp"
 #include "firmtouch/asset/container.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/link.hpp"
@@ -25,6 +26,11 @@ core::Bytes asset() {
   return bytes == 0 ? region : core::Bytes{region.data(), bytes};
 }
 
+void open(core::Bytes asset) {
+  controller.begin(asset);
+  while (!controller.work(kSliceUnits)) session.poll();
+}
+
 [[gnu::noinline]] void print_verdict() {
   if (controller.is_ready()) return;
   char text[160];
@@ -48,8 +54,15 @@ core::Bytes asset() {
 
 // A function of its own: tools/check/image leaves it out of the phases in which no asset is opened.
 [[gnu::noinline]] void open_asset() {
-  controller.begin(asset());
-  while (!controller.work(kSliceUnits)) session.poll();
+  if constexpr (kHasSlots) {
+    for (uint32_t i = 0; i < 2; ++i) {
+      const core::Bytes loaded = loaded_asset(i);
+      if (loaded.empty()) continue;
+      open(loaded);
+      if (controller.is_ready()) return;
+    }
+  }
+  open(asset());
 }
 
 namespace {
@@ -64,6 +77,7 @@ namespace {
   for (;;) {
     main_loop.count();
     session.poll();
+    if constexpr (kHasSlots) asset_update.work();
     if (controller.is_ready() && !session.is_lock_step()) start_servo_when_enabled();
     if (kTwoRates && !session.is_lock_step()) controller.make_model();
     if (session.is_idle()) hal::link_wait();

@@ -29,6 +29,7 @@ bool g_saw_enable_low = false;  // main loop; once the servo runs, interrupt
 bool g_is_first_tick = true;
 bool g_may_push = false;
 volatile bool g_panel_disables = false;  // main loop -> interrupt
+volatile bool g_is_held_off = false;     // main loop -> interrupt
 volatile bool g_panel_stops = false;     // cleared by the interrupt
 uint32_t g_period_us = static_cast<uint32_t>(params::kInitialTickPeriod_s * 1e6f + 0.5f);
 
@@ -62,9 +63,12 @@ void set_panel(uint32_t flags) {
   if ((flags & link::kPanelStop) != 0) g_panel_stops = true;
 }
 
+void hold_motors_off(bool is_held) { g_is_held_off = is_held; }
+
 uint32_t servo_flags(bool sets_saved) {
   uint32_t flags = hal::motors_lines();
   if ((flags & record::kFlagEnable) == 0) g_saw_enable_low = true;
+  if (kHasSlots && g_is_held_off) g_saw_enable_low = false;
   const bool must_wait = g_is_first_tick || sets_saved || !g_saw_enable_low;
   g_is_first_tick = false;
   if (must_wait || g_panel_disables) flags &= ~record::kFlagEnable;

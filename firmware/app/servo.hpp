@@ -30,6 +30,10 @@ void after_tick(const record::TickOutput& output);
 /// link::Panel::flags, for the next ticks. Main loop only.
 void set_panel(uint32_t flags);
 
+/// Keeps the motors off, until they are no longer held and the enable switch was seen open. Main
+/// loop only.
+void hold_motors_off(bool is_held);
+
 /// Starts the servo when the operator closes the enable switch for the first time. A switch that is
 /// closed since the reset must be opened first. Until then no tick runs, and a host may take the
 /// controller into lock-step.

@@ -44,6 +44,13 @@ constexpr bool kKeepsCrash = true;
 constexpr bool kKeepsCrash = false;
 #endif
 
+// With part `asset_slots`: a host can load another asset (asset_update.hpp).
+#ifdef FIRMTOUCH_APP_ASSET_SLOTS
+constexpr bool kHasSlots = true;
+#else
+constexpr bool kHasSlots = false;
+#endif
+
 /// One tick: from the encoders to the motors. Called by the board's timer.
 void servo_interrupt();
 

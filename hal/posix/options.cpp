@@ -12,10 +12,11 @@ namespace firmtouch::hal {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: firmtouch-app-posix --asset FILE.fta --link LINK [--parameters FILE]\n"
+    "usage: firmtouch-app-posix --asset FILE.fta --link LINK [--parameters FILE] [--slots FILE]\n"
     "Runs the controller program as a process, without motors and encoders. A host sends one tick\n"
     "at a time over the link (firmtouch-sim run --controller).\n"
-    "FILE of --parameters keeps what a host saves; it is created.\n"
+    "FILE of --parameters keeps what a host saves, FILE of --slots the assets that it loads; each\n"
+    "is created. A loaded asset is used instead of the one of --asset.\n"
     "LINK: unix:PATH       connect to a unix socket\n"
     "      listen:PATH     create a unix socket and wait for one host\n"
     "      tcp:HOST:PORT   connect\n"
@@ -51,6 +52,8 @@ Options read() {
       found.asset = words[++i].c_str();
     } else if (words[i] == "--parameters" && has_value) {
       found.parameters = words[++i].c_str();
+    } else if (words[i] == "--slots" && has_value) {
+      found.slots = words[++i].c_str();
     } else {
       leave(2,
             "firmtouch-app-posix: `" + words[i] + "` is not an option, or its value is missing\n");

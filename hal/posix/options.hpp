@@ -7,6 +7,7 @@ struct Options {
   const char* link = nullptr;
   const char* asset = nullptr;       // path of an .fta file
   const char* parameters = nullptr;  // file that stands for the flash of saved parameters
+  const char* slots = nullptr;       // and for that of loaded assets
 };
 
 /// The command line, parsed once. Ends the process after a usage error (status 2) or --help (0).

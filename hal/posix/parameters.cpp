@@ -1,13 +1,8 @@
 #include "firmtouch/hal/parameters.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
+#include "map_file.hpp"
 #include "options.hpp"
 
 // The file of `--parameters`, two sectors long, stands for flash: program only clears bits.
@@ -16,24 +11,8 @@ namespace {
 
 constexpr uint32_t kSector_bytes = 4096;
 
-uint8_t* map_sectors() {
-  const char* const path = options().parameters;
-  if (path == nullptr) return nullptr;
-  const int file = ::open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  const bool is_open = file >= 0 && ::ftruncate(file, 2 * kSector_bytes) == 0;
-  void* const at =
-      is_open ? ::mmap(nullptr, 2 * kSector_bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0)
-              : MAP_FAILED;
-  if (at == MAP_FAILED) {
-    std::fprintf(stderr, "%s: cannot be opened for reading and writing\n", path);
-    std::exit(3);
-  }
-  ::close(file);
-  return static_cast<uint8_t*>(at);
-}
-
 uint8_t* sector_at(uint32_t sector) {
-  static uint8_t* const sectors = map_sectors();
+  static uint8_t* const sectors = map_file(options().parameters, 2 * kSector_bytes);
   return sectors == nullptr ? nullptr : sectors + sector * kSector_bytes;
 }
 

@@ -74,6 +74,7 @@ const Command& replay_command_line();
 const Command& record_command_line();
 const Command& crash_command_line();
 const Command& live_command_line();
+const Command& load_command_line();
 const Command& view_command_line();
 const Command& scenario_command_line();
 const Command& score_command_line();

@@ -1,5 +1,6 @@
 #include "host_sim/controllers/live_link.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "firmtouch/link/handshake.hpp"
@@ -110,6 +111,34 @@ link::CrashReply LiveLink::read_crash() {
   if (!received) refuse("no answer in 60 s");
   return reply;
 }
+
+template <class T>
+link::AssetAck LiveLink::update(uint8_t type, const T& payload) {
+  link::AssetAck ack;
+  const bool received =
+      exchange([&] { send(type, payload); },
+               [&](const link::Frame& frame) {
+                 if (frame.type == link::kText)
+                   refuse("the controller takes no assets: build it with part `asset_slots`");
+                 return frame.type == link::kAssetAck && link::take(frame, ack);
+               });
+  if (!received) refuse("no answer in 60 s");
+  return ack;
+}
+
+link::AssetAck LiveLink::begin_asset(uint32_t bytes, uint32_t crc) {
+  return update(link::kBeginAsset, link::BeginAsset{link::kProtocolVersion, bytes, crc});
+}
+
+link::AssetAck LiveLink::send_asset_block(core::Bytes asset, uint32_t offset) {
+  link::AssetBlock block;
+  block.offset = offset;
+  std::copy_n(asset.data() + offset, std::min(link::kAssetBlockBytes, asset.size() - offset),
+              block.data);
+  return update(link::kAssetBlock, block);
+}
+
+link::AssetAck LiveLink::commit_asset() { return update(link::kCommitAsset, link::CommitAsset{}); }
 
 // Result: the controller's reply, after it has proven its asset.
 link::HelloReply LiveLink::hello(const link::Hello& hello) {

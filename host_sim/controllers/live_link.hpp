@@ -26,6 +26,12 @@ class LiveLink {
   /// What the controller's last run left. Throws Refused if its program keeps no crash record.
   link::CrashReply read_crash();
 
+  /// One request of an update (link/protocol.hpp), and its answer. Throws Refused if the program
+  /// takes no assets.
+  link::AssetAck begin_asset(uint32_t bytes, uint32_t crc);
+  link::AssetAck send_asset_block(core::Bytes asset, uint32_t offset);
+  link::AssetAck commit_asset();
+
   /// Starts the stream of every `decimation`-th record; starts the servo if it does not run.
   void begin(uint32_t decimation);
   const link::HelloReply& reply() const { return reply_; }
@@ -43,6 +49,8 @@ class LiveLink {
   bool exchange(const std::function<void()>& send_request,
                 const std::function<bool(const link::Frame&)>& is_reply);
   link::Description row(uint16_t what, uint16_t index);
+  template <class T>
+  link::AssetAck update(uint8_t type, const T& payload);
   link::HelloReply hello(const link::Hello& hello);
   [[noreturn]] void refuse(const std::string& what) const;
 

@@ -5,50 +5,17 @@
 #include <cstring>
 #include <vector>
 
+#include "app/moved_joints.hpp"
 #include "app/tick_source.hpp"
-#include "firmtouch/hal/board.hpp"
-#include "firmtouch/hal/clock.hpp"
-#include "firmtouch/hal/encoders.hpp"
-#include "firmtouch/hal/motors.hpp"
-#include "firmtouch/hal/watchdog.hpp"
 #include "harness/test.hpp"
 #include "servo_interrupt.hpp"
 
 // The servo interrupt of the controller program itself, over joints that this test moves: what the
 // motors get must not depend on what becomes of the records.
-namespace firmtouch {
+namespace firmtouch::app_test {
 namespace {
 
 constexpr uint32_t kTicks = 3000;
-uint32_t g_tick = 0;
-float* g_motors = nullptr;  // what each tick wrote
-
-}  // namespace
-
-namespace hal {
-
-uint32_t clock_us() { return app_test::input_of(g_tick).clock_us; }
-uint32_t clock_work() { return 0; }
-uint32_t clock_work_per_1000() { return 0; }
-void clock_start_servo(uint32_t, void (*)()) {}
-bool encoders_read(int32_t (&counts)[3]) {
-  for (uint32_t k = 0; k < 3; ++k) counts[k] = app_test::input_of(g_tick).encoder_counts[k];
-  return true;
-}
-void motors_write_N(const float (&motor_N)[3]) {
-  std::memcpy(g_motors + size_t{3} * g_tick, motor_N, sizeof motor_N);
-}
-void motors_state(bool) {}
-void motors_off() {}
-uint32_t motors_lines() { return app_test::input_of(g_tick).flags; }
-void board_print(const char*) {}
-void watchdog_begin(uint32_t) {}
-void watchdog_feed() {}
-
-}  // namespace hal
-
-namespace app_test {
-namespace {
 
 enum class Logging { kOff, kOn, kReaderStalled, kReaderSlow };
 
@@ -80,13 +47,13 @@ std::vector<float> motors_with(Logging logging, uint32_t& dropped) {
   auto* const counted = reinterpret_cast<uint32_t*>(static_cast<float*>(shared) + kFloats);
   const pid_t child = ::fork();
   if (child == 0) {
-    g_motors = static_cast<float*>(shared);
+    joints.motors = static_cast<float*>(shared);
     AssetFile asset(FIRMTOUCH_TEST_ASSET);
     if (!app::controller.open(asset.bytes()).ok()) ::_exit(1);
-    for (g_tick = 0; g_tick < kTicks; ++g_tick) {
-      if (g_tick == 600) app::commands.put(params::kContactStiffness, 650.0f);
+    for (joints.tick = 0; joints.tick < kTicks; ++joints.tick) {
+      if (joints.tick == 600) app::commands.put(params::kContactStiffness, 650.0f);
       app::servo_interrupt();
-      read_records(logging, g_tick);
+      read_records(logging, joints.tick);
     }
     *counted = app::records.dropped();
     ::_exit(0);
@@ -120,5 +87,4 @@ TEST(TheMotorsGetTheSameBitsWithLoggingOnOffAndItsReaderStalled) {
 }
 
 }  // namespace
-}  // namespace app_test
-}  // namespace firmtouch
+}  // namespace firmtouch::app_test

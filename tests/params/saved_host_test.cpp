@@ -5,74 +5,22 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <vector>
 
 #include "firmtouch/params/table.hpp"
 #include "harness/random.hpp"
 #include "harness/test.hpp"
+#include "harness/torn_flash.hpp"
 
 namespace firmtouch::params {
 namespace {
 
-struct PowerCut {};
+using test::Cut;
+using test::PowerCut;
+using Flash = test::TornFlash;
 
-enum class Cut { kNone, kBefore, kTorn, kBehind };
-
-// NOR flash: erase sets a sector's bits, program clears bits, a unit at a time. A torn operation
-// leaves any mixture of old and new bits.
-class Flash {
- public:
-  Flash(uint32_t sector_bytes, uint32_t unit_bytes) : unit_(unit_bytes) {
-    for (std::vector<uint64_t>& sector : sectors_) sector.assign(sector_bytes / 8, 0);
-  }
-  void cut_at(uint32_t operation, Cut cut) { wait_ = operation, cut_ = cut; }
-  uint32_t operations() const { return operations_; }
-
-  struct View {
-    core::Bytes sector[2];
-  };
-  View view() const {
-    View view;
-    for (uint32_t s = 0; s < 2; ++s)
-      view.sector[s] = {reinterpret_cast<const uint8_t*>(sectors_[s].data()),
-                        static_cast<uint32_t>(sectors_[s].size() * 8)};
-    return view;
-  }
-  uint8_t* bytes(uint32_t sector) { return reinterpret_cast<uint8_t*>(sectors_[sector].data()); }
-
-  void erase(uint32_t sector) {
-    const uint32_t count = static_cast<uint32_t>(sectors_[sector].size() * 8);
-    const std::vector<uint8_t> blank(count, 0xFF);
-    apply(bytes(sector), blank.data(), count);
-  }
-  void program(uint32_t sector, uint32_t offset, const uint8_t* from, uint32_t count) {
-    for (uint32_t at = 0; at < count; at += unit_) {
-      uint8_t after[32];
-      for (uint32_t i = 0; i < unit_; ++i) {
-        CHECK_EQ(bytes(sector)[offset + at + i], 0xFF);  // never twice
-        after[i] = from[at + i];
-      }
-      apply(bytes(sector) + offset + at, after, unit_);
-    }
-  }
-
- private:
-  void apply(uint8_t* to, const uint8_t* after, uint32_t count) {
-    ++operations_;
-    const bool is_cut = cut_ != Cut::kNone && wait_-- == 0;
-    if (is_cut && cut_ == Cut::kBefore) throw PowerCut{};
-    for (uint32_t i = 0; i < count; ++i) {
-      const uint8_t mix = is_cut && cut_ == Cut::kTorn ? static_cast<uint8_t>(random_()) : 0xFF;
-      to[i] = static_cast<uint8_t>((to[i] & ~mix) | (after[i] & mix));
-    }
-    if (is_cut) throw PowerCut{};
-  }
-
-  std::vector<uint64_t> sectors_[2];
-  uint32_t unit_ = 0, operations_ = 0, wait_ = 0;
-  Cut cut_ = Cut::kNone;
-  test::Xorshift random_{7};
-};
+core::Bytes bytes_of(const Saved& saved) {
+  return {reinterpret_cast<const uint8_t*>(&saved), sizeof saved};
+}
 
 Values values_of(uint32_t update) {
   Values values = initial_values();
@@ -84,17 +32,17 @@ Values values_of(uint32_t update) {
 
 // One start of the device and one save, as firmware/app/saved_parameters.cpp does them.
 void start_and_save(Flash& flash, uint32_t update) {
-  for (uint32_t s; (s = sector_to_erase(flash.view().sector)) < 2;) flash.erase(s);
+  for (uint32_t s; (s = sector_to_erase(flash.view().area)) < 2;) flash.erase(s);
   SavedSlot slot;
-  CHECK(next_slot(flash.view().sector, slot));
+  CHECK(next_slot(flash.view().area, slot));
   Saved saved;
-  save_into(saved, newest_saved(flash.view().sector), kTable, values_of(update));
-  flash.program(slot.sector, slot.offset, reinterpret_cast<const uint8_t*>(&saved), sizeof saved);
+  save_into(saved, newest_saved(flash.view().area), kTable, values_of(update));
+  flash.program(slot.sector, slot.offset, bytes_of(saved));
 }
 
 // Which update is in flash; UINT32_MAX: none.
 uint32_t found(const Flash& flash, uint32_t old_update, uint32_t new_update) {
-  const Saved* const saved = newest_saved(flash.view().sector);
+  const Saved* const saved = newest_saved(flash.view().area);
   if (saved == nullptr) return UINT32_MAX;
   for (const uint32_t update : {old_update, new_update}) {
     Values values = initial_values();
@@ -110,10 +58,9 @@ uint32_t found(const Flash& flash, uint32_t old_update, uint32_t new_update) {
 }
 
 uint32_t attack(uint32_t sector_bytes, uint32_t unit_bytes, uint32_t updates) {
-  Flash flash(sector_bytes, unit_bytes);
+  Flash flash(sector_bytes, sector_bytes, unit_bytes);
   test::Xorshift random(sector_bytes + unit_bytes);
-  for (uint32_t s = 0; s < 2; ++s)
-    for (uint32_t i = 0; i < sector_bytes; ++i) flash.bytes(s)[i] = static_cast<uint8_t>(random());
+  flash.fill(random);
   start_and_save(flash, 0);
   uint32_t cuts = 0;
   for (uint32_t update = 1; update <= updates; ++update) {
@@ -153,7 +100,7 @@ TEST(SavedParameters_PowerCutInEveryFlashOperation_OldOrNewWhole) {
 }
 
 TEST(SavedParameters_EveryFlippedBit_IsNoticed) {
-  Flash flash(2048, 8);
+  Flash flash(2048, 2048, 8);
   start_and_save(flash, 1);
   start_and_save(flash, 2);
   for (uint32_t bit = 0; bit < sizeof(Saved) * 8; ++bit) {
@@ -164,7 +111,7 @@ TEST(SavedParameters_EveryFlippedBit_IsNoticed) {
 }
 
 TEST(SavedParameters_SequenceWraps_NewestStillCounts) {
-  Flash flash(2048, 8);
+  Flash flash(2048, 2048, 8);
   flash.erase(0);
   flash.erase(1);
   Saved last, saved;
@@ -173,8 +120,8 @@ TEST(SavedParameters_SequenceWraps_NewestStillCounts) {
   CHECK_EQ(last.sequence, UINT32_MAX);
   save_into(saved, &last, kTable, values_of(2));
   CHECK_EQ(saved.sequence, 0u);
-  flash.program(1, 0, reinterpret_cast<const uint8_t*>(&saved), sizeof saved);
-  flash.program(0, 0, reinterpret_cast<const uint8_t*>(&last), sizeof last);
+  flash.program(1, 0, bytes_of(saved));
+  flash.program(0, 0, bytes_of(last));
   CHECK_EQ(found(flash, 1, 2), 2u);
 }
 

@@ -24,6 +24,11 @@ class CommandMailbox {
   /// Result: false if the mailbox is full.
   bool put_clear_faults() { return ring_.push({record::kCommandClearFaults, 0}); }
 
+  /// Main loop: queues the command that begins to touch the next asset.
+  /// Bounds: wait-free.
+  /// Result: false if the mailbox is full.
+  bool put_swap() { return ring_.push({record::kCommandSwapAsset, 0}); }
+
   /// Main loop: a command waits for its tick.
   bool has_waiting() const { return ring_.waiting() > 0; }
 

@@ -8,7 +8,7 @@
 
 // Messages of the link: the payload of each frame type, as plain structs without padding,
 // little-endian. A host (simulator, live page) starts with Hello. Until the controller accepts it,
-// it answers every other frame with Text, except Describe and ReadCrash.
+// it answers every other frame with Text, except Describe, ReadCrash and those that load an asset.
 //
 //   lock-step   Hello(kModeLockStep) -> HelloReply, then Step -> StepReply, one at a time, until
 //               Bye. The host makes every tick: the timer does not run, the motors stay off. An
@@ -20,6 +20,10 @@
 //               motors are off.
 //   both        Describe -> Description: fields of a record, their bits, and parameters.
 //               ReadCrash -> CrashReply: what the run before left. Both without Hello, too.
+//   load        BeginAsset, then AssetBlock one at a time, then CommitAsset, each -> AssetAck. Not
+//   in
+//               lock-step. From BeginAsset to the end, or AbortAsset, the motors are held off.
+//               CommitAsset is answered kAckBusy while the controller proves the asset: send again.
 namespace firmtouch::link {
 
 constexpr uint32_t kProtocolVersion = 6;
@@ -36,6 +40,11 @@ enum Type : uint8_t {
   kSaveParameters = 0x08,
   kPanel = 0x09,
   kReadCrash = 0x0A,  // of programs with part `crash_record`; others answer Text
+  // Of programs with part `asset_slots`; others answer Text.
+  kBeginAsset = 0x0B,
+  kAssetBlock = 0x0C,
+  kCommitAsset = 0x0D,
+  kAbortAsset = 0x0E,
   kHelloReply = 0x81,
   kStepReply = 0x82,
   kAck = 0x83,
@@ -43,6 +52,7 @@ enum Type : uint8_t {
   kText = 0x85,  // payload: UTF-8, no terminating zero
   kDescription = 0x86,
   kCrashReply = 0x87,
+  kAssetAck = 0x88,
 };
 
 constexpr uint32_t kModeLive = 0;
@@ -130,6 +140,13 @@ constexpr uint32_t kAckNoFlash = 6;      // this board keeps no parameters
 constexpr uint32_t kAckMotorsOn = 7;     // saving stops the processor: open the enable switch first
 constexpr uint32_t kAckFlashFull = 8;    // restart the board: it erases flash only at start-up
 constexpr uint32_t kAckFlashFailed = 9;  // what flash holds is not what was written
+// Of AssetAck only.
+constexpr uint32_t kAckNoUpdate = 10;       // begin first; what was loaded before is gone
+constexpr uint32_t kAckAssetInTheWay = 11;  // the asset in use reaches into both slots
+constexpr uint32_t kAckAssetRejected = 12;  // by a rule (tools/FORMAT.md): the old one stays in use
+constexpr uint32_t kAckAtRestart = 13;      // taken; it cannot be touched before a restart
+constexpr uint32_t kAckOtherProtocol = 14;
+constexpr uint32_t kAckWrongCrc = 15;  // of all blocks together: load it again
 
 // Ack::index of other requests than SetParam.
 constexpr uint32_t kAckOfClearFaults = UINT32_MAX;
@@ -205,6 +222,40 @@ struct CrashReply {
 };
 static_assert(sizeof(CrashReply) == 152);
 static_assert(sizeof(CrashReply) <= kMaxPayloadBytes);
+
+struct BeginAsset {
+  uint32_t protocol = kProtocolVersion;
+  uint32_t bytes = 0;  // of the whole asset file
+  uint32_t crc = 0;    // CRC-32 of these bytes
+};
+static_assert(sizeof(BeginAsset) == 12);
+
+constexpr uint32_t kAssetBlockBytes = 224;
+static_assert(kAssetBlockBytes % 32 == 0, "of flash words of up to 32 bytes");
+
+/// In order. A block that the controller already has is acknowledged again.
+struct AssetBlock {
+  uint32_t offset = 0;                  // a multiple of kAssetBlockBytes
+  uint8_t data[kAssetBlockBytes] = {};  // bytes behind the end of the asset are ignored
+};
+static_assert(sizeof(AssetBlock) <= kMaxPayloadBytes);
+
+struct CommitAsset {
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(CommitAsset) == 4);
+
+struct AbortAsset {
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(AbortAsset) == 4);
+
+struct AssetAck {
+  uint32_t result = kAckTaken;
+  uint32_t next = 0;               // offset of the block to send
+  uint32_t rule = 0, element = 0;  // of kAckAssetRejected
+};
+static_assert(sizeof(AssetAck) == 16);
 
 // Bye::what
 constexpr uint32_t kByeLeave = 0;  // the controller waits for the next Hello
