@@ -140,6 +140,40 @@ TEST(EachFaultIsLatchedInItsTickAndLeavesNoForceTenMillisecondsLater) {
   }
 }
 
+TEST(SqueezedProxy_IsAFaultInItsTickThatLetsGo) {
+  servo::State state = pressed(floor_model());
+  servo::LocalModel model = floor_model();
+  model.is_squeezed = true;
+  servo::StepOutput output = servo::step(state, kSettings, model, at(-0.001f, 100));
+  CHECK_EQ(output.faults, servo::kFaultSqueezed);
+  CHECK_GE(output.force_N.z, 0.01f);  // no sudden loss of support
+  for (int tick = 0; tick < 9; ++tick)
+    output = servo::step(state, kSettings, model, at(-0.001f, 100));
+  CHECK_EQ(output.force_N.z, 0.0f);
+}
+
+// A damper against the speed of the hand alone would pull at a hand that goes along.
+TEST(ProxyOfAMovingObject_DampsTheMotionRelativeToIt) {
+  servo::LocalModel model = floor_model();
+  model.plane_count = 0;
+  model.spring.is_used = model.spring.is_held = true;
+  model.spring.stiffness_N_per_m = 100;
+  model.spring.damping_N_s_per_m = 1;
+  model.spring.velocity_mps = {0, 0, 0.05f};
+  servo::Settings settings = kSettings;
+  settings.energy.reservoir_J = 1;
+  for (int k = 0; k < 2; ++k) {
+    const bool is_along = k == 0;
+    servo::State state = pressed(floor_model());
+    servo::StepInput input = at(-0.001f, 100);
+    input.velocity_mps = {0, 0, is_along ? 0.05f : 0.0f};
+    servo::StepOutput output;
+    for (int tick = 0; tick < 20; ++tick) output = servo::step(state, settings, model, input);
+    CHECK_LE(output.force_N.z, is_along ? 0.1001f : 0.1501f);
+    CHECK_GE(output.force_N.z, is_along ? 0.0999f : 0.1499f);
+  }
+}
+
 TEST(LatchOpensOnlyByAClearWhileDisabled) {
   servo::State state = pressed(floor_model());
   servo::StepInput input = at(-0.001f, 100);

@@ -11,9 +11,7 @@ namespace {
 using math::Vec3;
 
 // All relative to the size of the shape. A query's bounds lose at most 4e-7.
-constexpr float kClearance = 2e-6f;  // that a place may lack of the radius
 constexpr float kAim = 1e-6f;        // of planes beyond the radius: float32 then decides a query
-constexpr float kMinRadius = 4e-6f;  // of a tool that is a point: what the clearance needs
 constexpr float kTolerance = 1e-6f;  // a move that is shorter needs no query
 // What a place that was certified with kAim may drift.
 constexpr float kDrift = kAim + kClearance;

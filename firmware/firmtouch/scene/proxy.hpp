@@ -12,6 +12,9 @@ namespace firmtouch::scene {
 
 constexpr uint32_t kMaxFeatures = 7;  // of the working set: a (tool, object) pair fits 512 B
 constexpr uint32_t kMaxQueries = 4;   // a tick
+// Relative to the size of the shape.
+constexpr float kClearance = 2e-6f;  // that a place may lack of the radius
+constexpr float kMinRadius = 4e-6f;  // of a tool that is a point: what the clearance needs
 
 struct ProxySettings {
   float radius_m = 0;

@@ -26,6 +26,7 @@ struct Feature {
   math::Vec3 corner[3];
   Kind kind = Kind::kNone;
   bool is_of_base_hull = false;  // holds only while the work does not suffice
+  uint8_t object = 0;            // that it is of, where there are several
 };
 
 /// Certified distance, sign and normal of a shape at a point.

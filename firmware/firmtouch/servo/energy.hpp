@@ -28,8 +28,9 @@ struct Energy {
 
 /// Counts the work of the last tick and limits the spring to the energy that is left.
 /// The work is exact: between two samples the motors hold the force. The device's friction takes
-/// its part, at least that of an even speed. Energy that contact dissipates fills the reservoir up
-/// and is not saved beyond it.
+/// its part, at least that of an even speed. `carried_m`: what a moving object displaced the proxy
+/// by since the last tick; its work is not the surface's, so only motion relative to it counts.
+/// Energy that contact dissipates fills the reservoir up and is not saved beyond it.
 /// Result: the largest stretch of the spring. At least `stretch_m` while the reservoir is not
 ///         empty. From then on
 ///           no more than holds the available energy;
@@ -41,6 +42,6 @@ struct Energy {
 /// Source: Hannaford and Ryu 2002 (observer); Lee and Huang 2010 (the spring is shortened to its
 ///         energy: no velocity is used, so that an encoder's steps make no force).
 float payable_stretch_m(Energy& energy, const EnergySettings& settings, float stiffness_N_per_m,
-                        float stretch_m, math::Vec3 position_m);
+                        float stretch_m, math::Vec3 position_m, math::Vec3 carried_m = {});
 
 }  // namespace firmtouch::servo

@@ -46,7 +46,8 @@ Vec3 drive_N(const GuideLine& guide, Vec3 off_m, Vec3 velocity_mps) {
 }
 
 bool is_sound(const ProxySpring& spring) {
-  return is_near(spring.anchor_m) && is_between(spring.reach_m, 0.0f, FLT_MAX) &&
+  return is_near(spring.anchor_m) && math::is_within(spring.velocity_mps, kMaxVelocity_mps) &&
+         is_between(spring.reach_m, 0.0f, FLT_MAX) &&
          is_material(spring.stiffness_N_per_m, spring.damping_N_s_per_m);
 }
 

@@ -27,7 +27,9 @@ constexpr uint32_t kFaultOverload = 1u << 13;
 constexpr uint32_t kFaultContact = 1u << 14;
 // For 10 ms contact has given the hand 1 mJ more than energy_reservoir_J.
 constexpr uint32_t kFaultEnergy = 1u << 15;
-constexpr uint32_t kFaultCount = 16;
+// Objects that move left the proxy less than 0.9 of its radius (scene/objects.hpp).
+constexpr uint32_t kFaultSqueezed = 1u << 16;
+constexpr uint32_t kFaultCount = 17;
 
 // These cut the force in the same tick. The others ramp it down over kRampOut_s, because a sudden
 // loss of support hits the hand; force_limit_N holds meanwhile.
@@ -37,15 +39,15 @@ constexpr uint32_t kCutAtOnce = kFaultNotFinite | kFaultModel | kFaultDrive | kF
 // with the motors off does no harm. A cause that is present in the tick that enables is latched
 // then, and the motors stay off.
 constexpr uint32_t kOnlyWhileOn = kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder |
-                                  kFaultWorkspace | kFaultContact | kFaultEnergy;
+                                  kFaultWorkspace | kFaultContact | kFaultEnergy | kFaultSqueezed;
 
 /// Short name of fault `number` (its bit), for messages and tables.
 /// Result: "unknown" beyond the last.
 constexpr const char* fault_name(uint32_t number) {
   constexpr const char* kName[kFaultCount] = {
-      "not finite", "model",    "stale model",       "deadline", "clock",  "encoder",
-      "workspace",  "drive",    "emergency stop",    "asset",    "probes", "settings",
-      "guard",      "overload", "contact uncertain", "energy"};
+      "not finite", "model",    "stale model",       "deadline", "clock",   "encoder",
+      "workspace",  "drive",    "emergency stop",    "asset",    "probes",  "settings",
+      "guard",      "overload", "contact uncertain", "energy",   "squeezed"};
   return number < kFaultCount ? kName[number] : "unknown";
 }
 
@@ -54,22 +56,23 @@ constexpr const char* fault_name(uint32_t number) {
 /// Result: empty beyond the last.
 constexpr const char* fault_text(uint32_t number) {
   constexpr const char* kText[kFaultCount] = {
-      "a position, velocity or force was not a finite number",
-      "the local model was not finite or out of range",
-      "no fresh local model came in time (model_age)",
+      "a position, velocity or force was not finite",
+      "a local model was out of range",
+      "no local model came in time (model_age)",
       "ticks came late (late_ratio, tick_period_s)",
       "the clock jumped or stood still (tick_period_s)",
-      "an encoder was lost, or jumped faster than max_speed_mps",
-      "the tool left its reach (workspace_half_x_m, _y_m, _z_m)",
+      "an encoder was lost, or beyond max_speed_mps",
+      "the tool left workspace_half_x_m, _y_m, _z_m",
       "the motor driver reported a fault",
-      "the operator pressed the emergency stop",
-      "enabled over an asset that was refused: bake it again",
-      "this processor answers the asset's probe queries otherwise than the baker's",
-      "a setting of the servo is out of range",
-      "the last guard stopped a force beyond force_limit_N or slew_limit_N_per_s",
-      "ticks took longer than 0.9 of tick_period_s: lower the budgets of the queries",
-      "contact is uncertain: raise tick_work, bake a hull, or start outside",
-      "contact gave energy: lower contact_stiffness (energy_reservoir_J)"};
+      "emergency stop pressed",
+      "enabled with a refused asset: bake it again",
+      "this processor's probe answers have other bits",
+      "a servo setting is out of range",
+      "the guard stopped a force (force_limit_N, slew_limit_N_per_s)",
+      "ticks over 0.9 of tick_period_s: lower the budgets",
+      "contact uncertain: raise tick_work, bake a hull, start outside",
+      "contact gave energy: lower contact_stiffness (energy_reservoir_J)",
+      "objects squeezed the tool: keep them apart"};
   return number < kFaultCount ? kText[number] : "";
 }
 

@@ -34,7 +34,8 @@ struct ProxySpring {
   float stiffness_N_per_m = 0;
   float damping_N_s_per_m = 0;
   bool is_used = false;
-  bool is_held = false;  // a surface holds the proxy at the anchor
+  bool is_held = false;     // a surface holds the proxy at the anchor
+  math::Vec3 velocity_mps;  // of the object that carries the proxy
 };
 
 /// A straight piece of a guide: pulls toward the line, across it only. Along it the tool is free,
@@ -61,6 +62,7 @@ struct LocalModel {
   GuideLine guide;
   bool has_guide = false;
   bool is_uncertain = false;  // the budget did not suffice to know where the surfaces are
+  bool is_squeezed = false;   // objects leave the proxy no room
   math::Vec3 made_at_m;
   float free_radius_m = 0;  // certified: no surface nearer to made_at_m than this
   uint32_t sequence = 0;

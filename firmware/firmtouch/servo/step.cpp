@@ -51,6 +51,7 @@ uint32_t seen_faults(const State& state, const Settings& settings, const LocalMo
   }
   if (!is_sound(model)) faults |= kFaultModel;
   if (lasts(state.uncertain_ticks, settings)) faults |= kFaultContact;
+  if (model.is_squeezed) faults |= kFaultSqueezed;
   if (lasts(state.energy.overdrawn_ticks, settings)) faults |= kFaultEnergy;
   // The difference modulo 2^32, so that a tick counter that wraps is no event.
   if (static_cast<int32_t>(input.tick - model.expires_tick) > 0) faults |= kFaultStaleModel;
@@ -102,7 +103,8 @@ float move_spring(State& state, const Settings& settings, const ProxySpring& spr
   state.proxy_m = proxy_at(spring, position_m);
   return payable_stretch_m(state.energy, settings.energy,
                            spring.is_used ? spring.stiffness_N_per_m : 0.0f,
-                           math::length(state.proxy_m - position_m), position_m);
+                           math::length(state.proxy_m - position_m), position_m,
+                           spring.velocity_mps * settings.tick_period_s);
 }
 
 Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
@@ -118,7 +120,7 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   }
   const Vec3 other_N = evaluate(model, input.position_m, input.velocity_mps);
   const Vec3 model_N = (other_N + spring_N(model.spring, state.proxy_m, stretch_m, input.position_m,
-                                           input.velocity_mps)) *
+                                           input.velocity_mps - model.spring.velocity_mps)) *
                        share;
   const Vec3 wanted_N = shorten(model_N, settings.force_limit_N);
   // The sum below rounds by half an ulp of an axis, at most the limit; subtracted from the step

@@ -1,0 +1,390 @@
+#include "firmtouch/scene/objects.hpp"
+
+#include <float.h>
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/pose_loss.hpp"
+
+namespace firmtouch::scene {
+namespace {
+
+using math::Vec3;
+
+// Of the size of the scene: band of a query that renews a bound, beyond what it needs.
+constexpr float kBand = 0.02f;
+// A proxy that is left less than this of its radius is squeezed.
+constexpr float kSqueezed = 0.9f;
+// Lengths are rounded up by so much.
+constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
+
+constexpr math::RigidTransform kUnmoved;
+
+bool is_same(Vec3 a, Vec3 b) {
+  return math::bits_of(a.x) == math::bits_of(b.x) && math::bits_of(a.y) == math::bits_of(b.y) &&
+         math::bits_of(a.z) == math::bits_of(b.z);
+}
+
+bool is_set(uint32_t bits, uint32_t i) { return (bits >> i & 1u) != 0; }
+
+}  // namespace
+
+ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, float size_m,
+                         ObjectsTouch& touch)
+    : set_{set.object, set.pair, set.count < kMaxObjects ? set.count : kMaxObjects},
+      touch_(touch),
+      proxy_(touch.touch.proxy),
+      contact_(contact),
+      size_m_(size_m),
+      hand_m_(contact.position_m) {
+  if (!(touch_.carrier < set_.count)) touch_.carrier = kNoObject;
+  const uint8_t frame = touch_.carrier;
+  const math::RigidTransform& pose = frame == kNoObject ? kUnmoved : set_.pair[frame].pose;
+  contact_.proxy_m = is_same(contact.proxy_m, touch_.anchor_m)
+                         ? proxy_.position_m
+                         : math::apply_inverse(pose, contact.proxy_m);
+  const uint32_t touched = frame == kNoObject ? touch_.nearest : frame;
+  if (touched < set_.count) use_object(touched);
+  was_loaded_ = proxy_.is_loaded;
+  settings_ = begin_proxy_contact(contact_, touch_.touch);
+  was_ = {frame, proxy_.position_m, math::apply(pose, proxy_.position_m)};
+  if (proxy_.phase == Proxy::Phase::kFree) {
+    make_bounds(place_in(frame, proxy_.position_m), base_);
+  } else {
+    is_carried_ = true;
+    enter({kNoObject, was_.device_m, was_.device_m});
+    touch_.full_radius_m = 0;
+    // The balls in which a side is searched hold for objects that stand still.
+    for (uint32_t i = 0; i < set_.count; ++i)
+      if (has_moved(i)) proxy_.searched_free_m = 0;
+  }
+}
+
+void ObjectsTick::use_object(uint32_t i) {
+  const Object& object = set_.object[i];
+  contact_.material = object.material;
+  contact_.settings.friction_static = object.friction_static;
+  contact_.settings.friction_dynamic = object.friction_dynamic;
+}
+
+const math::RigidTransform& ObjectsTick::pose_of(uint8_t frame) const {
+  return frame == kNoObject ? kUnmoved : set_.object[frame].pose;
+}
+
+ObjectsTick::Place ObjectsTick::place_in(uint8_t frame, Vec3 m) const {
+  return {frame, m, math::apply(pose_of(frame), m)};
+}
+
+Vec3 ObjectsTick::in_object_m(uint32_t i, const Place& place) const {
+  return i == place.frame ? place.m : math::apply_inverse(set_.object[i].pose, place.device_m);
+}
+
+// What the way from the proxy's frame to that of an object may round.
+float ObjectsTick::loss_m(uint32_t i, const Place& place) const {
+  if (i == place.frame) return 0.0f;
+  return pose_loss_m(set_.object[i].pose, place.device_m) +
+         pose_loss_m(pose_of(place.frame), place.device_m);
+}
+
+// Certified distance of an object, by the ball about where it was last queried.
+float ObjectsTick::bound_m(uint32_t i, const Place& place) const {
+  const ObjectPair& pair = set_.pair[i];
+  const float moved_m = math::length(in_object_m(i, place) - pair.at_m) * kUp;
+  const float bound_m = pair.lower_m - moved_m - loss_m(i, place);
+  return bound_m > 0.0f ? bound_m : 0.0f;
+}
+
+void ObjectsTick::make_bounds(const Place& place, Bounds& bounds) const {
+  bounds.place = place;
+  bounds.least = 0;
+  bounds.least_m = FLT_MAX;
+  for (uint32_t i = 0; i < set_.count; ++i) {
+    bounds.m[i] = bound_m(i, place);
+    if (bounds.m[i] < bounds.least_m) bounds.least_m = bounds.m[i], bounds.least = i;
+  }
+}
+
+// Where the proxy is if an object has carried it along.
+ObjectsTick::Place ObjectsTick::carried_by(uint32_t i) const {
+  const Vec3 m = i == was_.frame ? was_.m : math::apply_inverse(set_.pair[i].pose, was_.device_m);
+  return place_in(static_cast<uint8_t>(i), m);
+}
+
+bool ObjectsTick::has_moved(uint32_t i) const {
+  const math::RigidTransform &is = set_.object[i].pose, &was = set_.pair[i].pose;
+  return !is_same(is.translation_m, was.translation_m) ||
+         !is_same(is.rotation.row[0], was.rotation.row[0]) ||
+         !is_same(is.rotation.row[1], was.rotation.row[1]) ||
+         !is_same(is.rotation.row[2], was.rotation.row[2]);
+}
+
+// Result: whether the bound of the nearest object may get better: by a query where the proxy was.
+bool ObjectsTick::renew(const Bounds& bounds) {
+  const uint32_t i = bounds.least;
+  if (is_set(renewed_, i) || settings_.budget.work <= renewals_.work) return false;
+  const Vec3 x_m = carried_by(i).m;
+  const float moved_m = math::length(in_object_m(i, bounds.place) - x_m);
+  renewed_ |= 1u << i;
+  query_ = {i, x_m, {settings_.budget.work - renewals_.work}, proxy_.radius_m + moved_m};
+  query_.budget.band_m = query_.needed_m + moved_m + kBand * size_m_;
+  return true;
+}
+
+// The ball of a query, unless the one that is known reaches farther there.
+void ObjectsTick::keep(float lower_m) {
+  ObjectPair& pair = set_.pair[query_.object];
+  const float left_m = pair.lower_m - math::length(query_.x_m - pair.at_m) * kUp;
+  if (left_m >= lower_m) return;
+  pair.at_m = query_.x_m;
+  pair.lower_m = lower_m;
+}
+
+void ObjectsTick::take_bound(const Near& near) {
+  renewals_.steps += near.steps;
+  renewals_.work += near.work;
+  keep(near.lower_m);
+  met_[0] = met_[1];
+  met_[1] = near.feature;
+  met_[1].object = static_cast<uint8_t>(query_.object);
+  make_bounds(base_.place, base_);
+}
+
+// The proxy stays where it is in its frame, or goes along with the object that would meet it there.
+// Relative to each object it moves within the ball that is certified about where it was.
+bool ObjectsTick::carry() {
+  if (is_carried_) return false;
+  const float full_m = touch_.full_radius_m > 0.0f ? touch_.full_radius_m : proxy_.radius_m;
+  const float needed_m = full_m - kClearance * size_m_;
+  if (base_.least_m >= needed_m) return end_carry(base_);
+  if (renew(base_)) return true;
+  Bounds along;
+  make_bounds(carried_by(base_.least), along);
+  if (!(along.least_m >= needed_m) && renew(along)) return true;
+  is_pushed_ = !(along.least_m >= needed_m);
+  return end_carry(along.least_m > base_.least_m ? along : base_);
+}
+
+bool ObjectsTick::end_carry(const Bounds& bounds) {
+  is_carried_ = true;
+  if (&bounds != &base_) base_ = bounds;
+  if (base_.place.frame != touch_.carrier) enter(base_.place);
+  drop_moved_features();
+  const uint32_t used = renewals_.work;
+  settings_.budget.work = used < settings_.budget.work ? settings_.budget.work - used : 1;
+  proxy_.free_m = base_.least_m;
+  if (is_pushed_) shrink(base_.least_m);
+  if (touch_.full_radius_m > 0.0f) {
+    proxy_.is_growing = true;
+    settings_.growth_m = touch_.full_radius_m - proxy_.radius_m;
+  }
+  contact_.position_m = math::apply_inverse(pose_of(touch_.carrier), hand_m_);
+  if (touch_.carrier != kNoObject) carried_m_ = base_.place.device_m - was_.device_m;
+  return false;
+}
+
+// Between two objects that move: the proxy gets as small as the room that is certified, and grows
+// to its size again by moving aside, in the same tick.
+void ObjectsTick::shrink(float room_m) {
+  if (!(room_m > kMinRadius * size_m_)) {
+    is_lost_ = true;
+    proxy_.phase = Proxy::Phase::kUnknown;
+    proxy_.is_loaded = false;
+    proxy_.searched_free_m = 0;
+    touch_.full_radius_m = 0;
+    return enter({kNoObject, was_.device_m, was_.device_m});
+  }
+  if (!(touch_.full_radius_m > 0.0f)) touch_.full_radius_m = proxy_.radius_m;
+  if (room_m < proxy_.radius_m) proxy_.radius_m = room_m;
+  for (const Feature& feature : met_) {
+    if (feature.kind == Feature::Kind::kNone) continue;
+    const uint32_t at = proxy_.feature_count < kMaxFeatures ? proxy_.feature_count++ : 0;
+    proxy_.feature[at] = in_frame(feature);
+    proxy_.plane[at] = {};  // a proxy that grows takes all anew
+  }
+}
+
+void ObjectsTick::enter(const Place& place) {
+  if (touch_.carrier == place.frame) return;
+  touch_.carrier = place.frame;
+  proxy_.position_m = place.m;
+  proxy_.feature_count = 0;
+  proxy_.active.count = 0;
+}
+
+// Features of objects that moved relative to the proxy's frame. Its queries find them again.
+void ObjectsTick::drop_moved_features() {
+  const uint8_t frame = touch_.carrier;
+  const bool has_frame_moved = frame != kNoObject && has_moved(frame);
+  if (proxy_.feature_count > kMaxFeatures) proxy_.feature_count = 0;
+  for (uint32_t i = 0; i < proxy_.feature_count;) {
+    const uint32_t owner = proxy_.feature[i].object;
+    const bool is_kept =
+        owner == frame || (owner < set_.count && !has_frame_moved && !has_moved(owner));
+    if (is_kept) {
+      ++i;
+      continue;
+    }
+    const uint32_t last = --proxy_.feature_count;
+    proxy_.feature[i] = proxy_.feature[last];
+    proxy_.plane[i] = proxy_.plane[last];
+  }
+}
+
+// While the side of the hand is not known, every object matters whose side is not.
+void ObjectsTick::begin_query(Vec3 x_m, query::Budget budget, float needed_m) {
+  at_ = place_in(touch_.carrier, x_m);
+  budget_ = budget;
+  needed_m_ = needed_m;
+  nearest_ = {};
+  answered_ = exact_ = 0;
+  is_short_ = false;
+  if (proxy_.phase == Proxy::Phase::kFree) {
+    const float moved_m = math::length(x_m - base_.place.m) * kUp;
+    for (uint32_t i = 0; i < set_.count; ++i) key_m_[i] = base_.m[i] - moved_m;
+    return;
+  }
+  exact_ = UINT32_MAX;
+  for (uint32_t i = 0; i < set_.count; ++i) {
+    key_m_[i] = bound_m(i, at_);
+    if (!(key_m_[i] > 0.0f) || set_.pair[i].sign <= 0) key_m_[i] = -1.0f;
+  }
+}
+
+// Of the object with the least bound, until that is one that has answered.
+bool ObjectsTick::next() {
+  for (;;) {
+    uint32_t i = 0;
+    for (uint32_t k = 1; k < set_.count; ++k)
+      if (key_m_[k] < key_m_[i]) i = k;
+    if (set_.count == 0 || is_set(answered_, i)) return false;
+    if (!is_set(exact_, i)) {
+      exact_ |= 1u << i;
+      key_m_[i] = math::larger(key_m_[i], bound_m(i, at_));
+      continue;
+    }
+    is_short_ = answered_ != 0 && !(nearest_.work < budget_.work);
+    if (is_short_) return false;
+    query_ = {i, in_object_m(i, at_), budget_, needed_m_};
+    query_.budget.work = budget_.work - nearest_.work;
+    const float loss = loss_m(i, at_);
+    if (query_.budget.threshold_m > 0.0f) query_.budget.threshold_m += loss;
+    query_.needed_m += loss;
+    return true;
+  }
+}
+
+// Of a tool that is inside of several objects: the one that it is deepest in.
+bool ObjectsTick::is_better(const Near& near) const {
+  if (answered_ == 0) return true;
+  if (proxy_.phase == Proxy::Phase::kFree) return near.lower_m < nearest_.lower_m;
+  const bool is_inside = near.sign < 0, was_inside = nearest_.sign < 0;
+  if (is_inside || was_inside)
+    return is_inside && (!was_inside || near.distance_m > nearest_.distance_m);
+  const bool is_unknown = near.has_inside && near.sign == 0,
+             was_unknown = nearest_.has_inside && nearest_.sign == 0;
+  if (is_unknown != was_unknown) return is_unknown;
+  return near.lower_m < nearest_.lower_m;
+}
+
+// From the frame of its object to that of the proxy.
+Feature ObjectsTick::in_frame(const Feature& feature) const {
+  if (feature.object == touch_.carrier) return feature;
+  const math::RigidTransform &from = pose_of(feature.object), &to = pose_of(touch_.carrier);
+  const auto moved_m = [&](Vec3 a_m) { return math::apply_inverse(to, math::apply(from, a_m)); };
+  Feature answer = feature;
+  answer.corner[0] = moved_m(feature.corner[0]);
+  if (feature.kind == Feature::Kind::kHalfSpace) {
+    answer.corner[1] = math::transposed_times(to.rotation, from.rotation * feature.corner[1]);
+  } else if (feature.kind == Feature::Kind::kTriangle) {
+    answer.corner[1] = moved_m(feature.corner[1]);
+    answer.corner[2] = moved_m(feature.corner[2]);
+  }
+  return answer;
+}
+
+void ObjectsTick::take(const Near& near) {
+  const uint32_t i = query_.object;
+  keep(near.lower_m);
+  set_.pair[i].sign = near.has_inside ? near.sign : int8_t{1};
+  const uint32_t steps = nearest_.steps + near.steps, work = nearest_.work + near.work;
+  Near answer = near;
+  key_m_[i] = answer.lower_m = bound_m(i, at_);
+  if (is_better(answer)) {
+    answer.feature.object = static_cast<uint8_t>(i);
+    answer.feature = in_frame(answer.feature);
+    answer.outward = math::transposed_times(pose_of(at_.frame).rotation,
+                                            set_.object[i].pose.rotation * near.outward);
+    nearest_ = answer;
+  }
+  answered_ |= 1u << i;
+  nearest_.steps = steps;
+  nearest_.work = work;
+}
+
+Near ObjectsTick::nearest() const {
+  Near near = nearest_;
+  if (set_.count == 0) near.lower_m = near.distance_m = FLT_MAX;
+  for (uint32_t i = 0; i < set_.count; ++i)
+    if (key_m_[i] < near.lower_m) near.lower_m = math::larger(key_m_[i], 0.0f);
+  if (is_short_) {  // an object that may be nearer, or that the tool may be inside of
+    near.is_exact = false;
+    near.sign = 0;
+    near.has_inside = true;
+  }
+  return near;
+}
+
+void ObjectsTick::restore_radius() {
+  float& full_m = touch_.full_radius_m;
+  if (proxy_.phase != Proxy::Phase::kFree) full_m = 0;
+  if (!(full_m > 0.0f)) return;
+  touch_.is_squeezed = proxy_.radius_m < kSqueezed * full_m;
+  if (proxy_.free_m >= full_m - kClearance * size_m_) {
+    proxy_.radius_m = full_m;
+    proxy_.is_growing = false;
+    full_m = 0;
+  }
+}
+
+// The object whose frame the proxy is in next: one that holds it.
+uint8_t ObjectsTick::touched() const {
+  if (proxy_.phase != Proxy::Phase::kFree || !proxy_.is_loaded) return kNoObject;
+  uint8_t first = kNoObject;
+  for (uint32_t n = 0; n < proxy_.active.count && n < 3; ++n) {
+    const uint32_t at = proxy_.active.plane[n];
+    if (at >= proxy_.feature_count) continue;
+    const uint8_t owner = proxy_.feature[at].object;
+    if (owner == touch_.carrier) return owner;
+    if (first == kNoObject && owner < set_.count) first = owner;
+  }
+  return first == kNoObject ? touch_.carrier : first;
+}
+
+void ObjectsTick::finish(const ProxyMoved& moved, servo::LocalModel& model) {
+  ProxyMoved all = moved;
+  all.steps += renewals_.steps;
+  all.work += renewals_.work;
+  touch_.is_squeezed = is_lost_;
+  restore_radius();
+  if (answered_ != 0) touch_.nearest = nearest_.feature.object;
+  const uint8_t next = touched();
+  // A proxy without load takes the material of what it meets.
+  if (!was_loaded_ && next != kNoObject) touch_.touch.material = set_.object[next].material;
+  if (is_pushed_ && touch_.carrier == base_.place.frame) {
+    const Vec3 by_m = place_in(touch_.carrier, proxy_.position_m).device_m - base_.place.device_m;
+    carried_m_ = carried_m_ + by_m;
+  }
+  end_proxy_contact(contact_, all, touch_.touch, model);
+  const Place place = place_in(touch_.carrier, proxy_.position_m);
+  touch_.anchor_m = place.device_m;
+  model.spring.anchor_m = place.device_m;
+  // An object that leaps does not move.
+  const Vec3 velocity_mps = carried_m_ * (1.0f / contact_.passed_s);
+  if (math::is_within(velocity_mps, servo::kMaxVelocity_mps))
+    model.spring.velocity_mps = velocity_mps;
+  model.is_squeezed = touch_.is_squeezed;
+  if (next != touch_.carrier)
+    enter({next, math::apply_inverse(pose_of(next), place.device_m), place.device_m});
+  for (uint32_t i = 0; i < set_.count; ++i) set_.pair[i].pose = set_.object[i].pose;
+}
+
+}  // namespace firmtouch::scene

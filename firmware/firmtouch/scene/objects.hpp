@@ -1,0 +1,172 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/math/vec3.hpp"
+#include "firmtouch/scene/object.hpp"
+#include "firmtouch/scene/proxy_contact.hpp"
+
+// Contact with several objects, which may move, through one proxy. scene/README.md has the
+// algorithm and its theorems. The shapes are a struct of yours with
+//
+//     scene::Near near(uint32_t object, math::Vec3 x_m, query::Budget budget, float needed_m);
+//     float size_m() const;       // of the scene: the largest distance in it
+//
+// near() answers for one object, in the object's own frame, as a shape of scene/touched.hpp does.
+namespace firmtouch::scene {
+
+constexpr uint8_t kNoObject = 0xFF;
+
+/// State of a (tool, object) pair from tick to tick. The caller owns one a pair. For an object that
+/// is new among the others: its pose, and nothing else.
+struct ObjectPair {
+  math::RigidTransform pose;  // of the object in the last tick
+  math::Vec3 at_m;            // a place in the object's frame, and what a query certified there
+  float lower_m = 0;
+  int8_t sign = 0;
+};
+
+/// State of a tool among objects. The caller owns one a tool. While the tool touches an object, the
+/// proxy is in that object's frame, which carries it; else in the device frame.
+struct ObjectsTouch {
+  ProxyTouch touch;
+  math::Vec3 anchor_m;      // the proxy at the end of the last tick, device frame
+  float full_radius_m = 0;  // of a proxy that objects have pushed into less room; 0: none
+  uint8_t carrier = kNoObject;
+  uint8_t nearest = kNoObject;
+  bool is_squeezed = false;  // in the last tick
+};
+
+static_assert(sizeof(ObjectsTouch) <= 576 && sizeof(ObjectPair) <= 72);
+
+/// `object` and `pair` have `count` elements, at most kMaxObjects: others are not touched.
+struct ObjectSet {
+  const Object* object = nullptr;
+  ObjectPair* pair = nullptr;
+  uint32_t count = 0;
+};
+
+/// A query of one object, in that object's frame.
+struct ObjectQuery {
+  uint32_t object = 0;
+  math::Vec3 x_m;
+  query::Budget budget;
+  float needed_m = 0;
+};
+
+/// One tick, driven by the caller, who makes the queries: see touch_objects().
+class ObjectsTick {
+ public:
+  ObjectsTick(const ProxyContact& contact, const ObjectSet& set, float size_m, ObjectsTouch& touch);
+
+  /// Carries the proxy along with what it touches, and out of the way of other objects.
+  /// Result: whether query() is needed to go on.
+  bool carry();
+  void take_bound(const Near& near);
+
+  /// The goal of the proxy's move, in the frame that the proxy is in now.
+  math::Vec3 goal_m() const { return contact_.position_m; }
+  const ProxySettings& settings() const { return settings_; }
+
+  /// A query of the proxy: of the objects that may be nearest.
+  void begin_query(math::Vec3 x_m, query::Budget budget, float needed_m);
+  bool next();
+  void take(const Near& near);
+  Near nearest() const;
+
+  void finish(const ProxyMoved& moved, servo::LocalModel& model);
+
+  const ObjectQuery& query() const { return query_; }
+
+ private:
+  struct Place {
+    uint8_t frame;           // an object's, or kNoObject: the device's
+    math::Vec3 m, device_m;  // in that frame; in the device's
+  };
+  struct Bounds {  // of the distance of each object from a place
+    Place place;
+    float m[kMaxObjects];
+    uint32_t least;  // the object with the least
+    float least_m;
+  };
+  const math::RigidTransform& pose_of(uint8_t frame) const;
+  Place place_in(uint8_t frame, math::Vec3 m) const;
+  math::Vec3 in_object_m(uint32_t i, const Place& place) const;
+  float loss_m(uint32_t i, const Place& place) const;
+  float bound_m(uint32_t i, const Place& place) const;
+  void make_bounds(const Place& place, Bounds& bounds) const;
+  Place carried_by(uint32_t i) const;
+  bool has_moved(uint32_t i) const;
+  bool renew(const Bounds& bounds);
+  void keep(float lower_m);
+  void enter(const Place& place);
+  void drop_moved_features();
+  void use_object(uint32_t i);
+  bool end_carry(const Bounds& bounds);
+  void shrink(float room_m);
+  bool is_better(const Near& near) const;
+  Feature in_frame(const Feature& feature) const;
+  uint8_t touched() const;
+  void restore_radius();
+
+  const ObjectSet set_;
+  ObjectsTouch& touch_;
+  Proxy& proxy_;
+  ProxyContact contact_;
+  ProxySettings settings_;
+  const float size_m_;
+  math::Vec3 hand_m_;     // device frame
+  Place was_;             // of the proxy, before the objects moved
+  math::Vec3 carried_m_;  // what objects displace the proxy by, device frame
+  bool was_loaded_ = false, is_carried_ = false, is_lost_ = false, is_pushed_ = false;
+  uint32_t renewed_ = 0;  // bits of the objects whose bound was taken anew where the proxy was
+  Feature met_[2];        // of the last of them
+  ProxyMoved renewals_;   // steps and work
+  Bounds base_;           // where the proxy begins its move
+  // The query of the proxy that is being answered.
+  ObjectQuery query_;
+  Place at_;
+  query::Budget budget_;
+  float needed_m_ = 0;
+  float key_m_[kMaxObjects];  // bounds at that place
+  uint32_t exact_ = 0;        // bits of those that are not taken over from base_
+  uint32_t answered_ = 0;
+  bool is_short_ = false;  // the work ran out
+  Near nearest_;
+};
+
+/// The nearest of several objects, as one shape that a proxy touches.
+template <class Shapes>
+struct NearestObject {
+  ObjectsTick& tick;
+  Shapes& shapes;
+
+  Near near(math::Vec3 x_m, query::Budget budget, float needed_m) {
+    tick.begin_query(x_m, budget, needed_m);
+    while (tick.next()) {
+      const ObjectQuery& q = tick.query();
+      tick.take(shapes.near(q.object, q.x_m, q.budget, q.needed_m));
+    }
+    return tick.nearest();
+  }
+  float size_m() const { return shapes.size_m(); }
+};
+
+/// Contact of a sphere with several objects, as touch_by_proxy() with one. Stiffness, damping and
+/// friction are those of the object that is touched, not of `contact`. A far object costs a
+/// comparison. Objects that leave the proxy less than 0.9 of its radius squeeze it:
+/// model.is_squeezed, which servo makes a fault. The proxy crosses none of them.
+/// Bounds: scene/proxy.hpp, and at most one query an object to carry the proxy; all share the
+/// budget. Re-entrant for different tools.
+template <class Shapes>
+void touch_objects(const ProxyContact& contact, const ObjectSet& set, Shapes& shapes,
+                   ObjectsTouch& touch, servo::LocalModel& model) {
+  ObjectsTick tick(contact, set, shapes.size_m(), touch);
+  while (tick.carry()) {
+    const ObjectQuery& q = tick.query();
+    tick.take_bound(shapes.near(q.object, q.x_m, q.budget, q.needed_m));
+  }
+  NearestObject<Shapes> nearest{tick, shapes};
+  tick.finish(move_proxy(tick.settings(), tick.goal_m(), nearest, touch.touch.proxy), model);
+}
+
+}  // namespace firmtouch::scene
