@@ -8,7 +8,7 @@ namespace firmtouch::host_sim {
 
 // What a controller renders on the simulated device, against closed forms. Each stands above its
 // definition.
-bench::Run run_contact_bench, run_friction_bench, run_passivity_bench;
+bench::Run run_contact_bench, run_moving_bench, run_friction_bench, run_passivity_bench;
 
 const std::vector<bench::Bench>& rig_benches();
 

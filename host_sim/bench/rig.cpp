@@ -117,8 +117,18 @@ std::string Rig::statements(Vec start_m, Vec origin_m, const Lines& settings) co
   return text;
 }
 
+std::string Rig::bake(const Solid& solid) const {
+  return folder_.write("solid.fta", asset_of(solid, rotation_, linkage_ ? &*linkage_ : nullptr));
+}
+
 RigRun Rig::run(const Solid& solid, Vec start_m, const std::vector<std::string>& script,
                 Contact contact, const Lines& settings) const {
+  const Session session(bake(solid), {}, contact);
+  return run(session.tick(), start_m, script, settings);
+}
+
+RigRun Rig::run(const Tick& controller, Vec start_m, const std::vector<std::string>& script,
+                const Lines& settings) const {
   const Vec origin_m = linkage_ ? tip_m_ - rotation_.turn(start_m) : Vec{};
   std::string text = statements(start_m, origin_m, settings);
   for (const std::string& statement : script) text += statement + "\n";
@@ -127,12 +137,9 @@ RigRun Rig::run(const Solid& solid, Vec start_m, const std::vector<std::string>&
   scenario.linkage = linkage_;
   scenario.start_m = rotation_.turn(scenario.start_m) + origin_m;
   for (Move& move : scenario.moves) move.to_m = rotation_.turn(move.to_m) + origin_m;
-  const tools::LinkageDevice* linkage = linkage_ ? &*linkage_ : nullptr;
-  const Session session(folder_.write("solid.fta", asset_of(solid, rotation_, linkage)), {},
-                        contact);
   const Environment environment;
-  Simulation simulation(scenario, session.tick(), environment);
-  Stored stored(linkage != nullptr && linkage->carried_share > 0);
+  Simulation simulation(scenario, controller, environment);
+  Stored stored(linkage_ && linkage_->carried_share > 0);
   RigRun run;
   const auto back = [&](Vec v) { return rotation_.turn_back(v); };
   const auto place_of = [&](Vec at_m) { return back(at_m - origin_m); };

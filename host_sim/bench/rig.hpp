@@ -39,6 +39,11 @@ class Rig {
   /// Positions are in the solid's frame. The run is that of a controller with `contact`.
   RigRun run(const Solid& solid, Vec start_m, const std::vector<std::string>& script,
              Contact contact = Contact::kProxy, const Lines& settings = {}) const;
+  /// The same by a controller of the caller's.
+  RigRun run(const Tick& controller, Vec start_m, const std::vector<std::string>& script,
+             const Lines& settings = {}) const;
+  /// The path of the solid's asset.
+  std::string bake(const Solid& solid) const;
 
   static std::string to(Vec to_m, double speed_mps);
   static std::string hold_s(double time_s);

@@ -19,7 +19,12 @@ int run_bench(const Options& options) {
     bench::Options chosen;
     chosen.is_long = options.has("--long");
     bench::Report report;
-    each.run(chosen, report);
+    if (!options.has("--moving"))
+      each.run(chosen, report);
+    else if (each.run == run_contact_bench)
+      run_moving_bench(chosen, report);
+    else
+      options.refuse("--moving is for feel");
     return print_report(report, name, options.has("--json"));
   }
   options.refuse("'" + name + "' is no bench; without a name it lists them");
@@ -42,7 +47,9 @@ const Command& bench_command_line() {
       "[NAME] [options]",
       "measures the contact of a controller on the simulated device against closed forms",
       "Without NAME: the benches there are. Exit code 1 where a bar is not met.\n",
-      {{"--long", nullptr, "the full sizes"}, {"--json", nullptr, "for programs"}},
+      {{"--long", nullptr, "the full sizes"},
+       {"--moving", nullptr, "feel: a wall that rises through a held tool, and two that close"},
+       {"--json", nullptr, "for programs"}},
       run_bench};
   return command;
 }
