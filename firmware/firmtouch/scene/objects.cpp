@@ -14,6 +14,8 @@ using math::Vec3;
 constexpr float kBand = 0.02f;
 // A proxy that is left less than this of its radius is squeezed.
 constexpr float kSqueezed = 0.9f;
+// Radii of the tool from where on an object is far.
+constexpr float kFar = 2.0f;
 // Lengths are rounded up by so much.
 constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 
@@ -22,6 +24,13 @@ constexpr math::RigidTransform kUnmoved;
 bool is_same(Vec3 a, Vec3 b) {
   return math::bits_of(a.x) == math::bits_of(b.x) && math::bits_of(a.y) == math::bits_of(b.y) &&
          math::bits_of(a.z) == math::bits_of(b.z);
+}
+
+bool is_same(const math::RigidTransform& a, const math::RigidTransform& b) {
+  return is_same(a.translation_m, b.translation_m) &&
+         is_same(a.rotation.row[0], b.rotation.row[0]) &&
+         is_same(a.rotation.row[1], b.rotation.row[1]) &&
+         is_same(a.rotation.row[2], b.rotation.row[2]);
 }
 
 bool is_set(uint32_t bits, uint32_t i) { return (bits >> i & 1u) != 0; }
@@ -37,6 +46,8 @@ ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, floa
       size_m_(size_m),
       hand_m_(contact.position_m) {
   if (!(touch_.carrier < set_.count)) touch_.carrier = kNoObject;
+  for (uint32_t i = 0; i < set_.count; ++i)
+    if (!is_same(set_.object[i].pose, set_.pair[i].pose)) moved_ |= 1u << i;
   const uint8_t frame = touch_.carrier;
   const math::RigidTransform& pose = frame == kNoObject ? kUnmoved : set_.pair[frame].pose;
   contact_.proxy_m = is_same(contact.proxy_m, touch_.anchor_m)
@@ -46,16 +57,16 @@ ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, floa
   if (touched < set_.count) use_object(touched);
   was_loaded_ = proxy_.is_loaded;
   settings_ = begin_proxy_contact(contact_, touch_.touch);
-  was_ = {frame, proxy_.position_m, math::apply(pose, proxy_.position_m)};
+  was_ = {frame, proxy_.position_m, math::apply(pose, proxy_.position_m), 0.0f};
   if (proxy_.phase == Proxy::Phase::kFree) {
     make_bounds(place_in(frame, proxy_.position_m), base_);
   } else {
     is_carried_ = true;
-    enter({kNoObject, was_.device_m, was_.device_m});
+    enter(place_in(kNoObject, was_.device_m));
     touch_.full_radius_m = 0;
     // The balls in which a side is searched hold for objects that stand still.
-    for (uint32_t i = 0; i < set_.count; ++i)
-      if (has_moved(i)) proxy_.searched_free_m = 0;
+    if (moved_ != 0) proxy_.searched_free_m = 0;
+    for (uint32_t i = 0; i < set_.count; ++i) set_.pair[i].left_m = 0;
   }
 }
 
@@ -71,18 +82,20 @@ const math::RigidTransform& ObjectsTick::pose_of(uint8_t frame) const {
 }
 
 ObjectsTick::Place ObjectsTick::place_in(uint8_t frame, Vec3 m) const {
-  return {frame, m, math::apply(pose_of(frame), m)};
+  const Vec3 device_m = math::apply(pose_of(frame), m);
+  return {frame, m, device_m,
+          pose_loss_m(pose_of(frame), device_m) + kPoseLoss * math::length(device_m)};
 }
 
 Vec3 ObjectsTick::in_object_m(uint32_t i, const Place& place) const {
   return i == place.frame ? place.m : math::apply_inverse(set_.object[i].pose, place.device_m);
 }
 
-// What the way from the proxy's frame to that of an object may round.
 float ObjectsTick::loss_m(uint32_t i, const Place& place) const {
   if (i == place.frame) return 0.0f;
-  return pose_loss_m(set_.object[i].pose, place.device_m) +
-         pose_loss_m(pose_of(place.frame), place.device_m);
+  const Vec3 t_m = set_.object[i].pose.translation_m;
+  return place.loss_m +
+         kPoseLoss * (__builtin_fabsf(t_m.x) + __builtin_fabsf(t_m.y) + __builtin_fabsf(t_m.z));
 }
 
 // Certified distance of an object, by the ball about where it was last queried.
@@ -93,12 +106,17 @@ float ObjectsTick::bound_m(uint32_t i, const Place& place) const {
   return bound_m > 0.0f ? bound_m : 0.0f;
 }
 
+// Of one that is far and stands still only what the proxy has moved is taken off.
 void ObjectsTick::make_bounds(const Place& place, Bounds& bounds) const {
+  const float moved_m =
+      math::length(place.device_m - touch_.bounds_at_m) * kUp + 2.0f * place.loss_m;
+  const float far_m = kFar * proxy_.radius_m + moved_m;
   bounds.place = place;
   bounds.least = 0;
   bounds.least_m = FLT_MAX;
   for (uint32_t i = 0; i < set_.count; ++i) {
-    bounds.m[i] = bound_m(i, place);
+    const float left_m = set_.pair[i].left_m;
+    bounds.m[i] = left_m > far_m && !has_moved(i) ? left_m - moved_m : bound_m(i, place);
     if (bounds.m[i] < bounds.least_m) bounds.least_m = bounds.m[i], bounds.least = i;
   }
 }
@@ -107,14 +125,6 @@ void ObjectsTick::make_bounds(const Place& place, Bounds& bounds) const {
 ObjectsTick::Place ObjectsTick::carried_by(uint32_t i) const {
   const Vec3 m = i == was_.frame ? was_.m : math::apply_inverse(set_.pair[i].pose, was_.device_m);
   return place_in(static_cast<uint8_t>(i), m);
-}
-
-bool ObjectsTick::has_moved(uint32_t i) const {
-  const math::RigidTransform &is = set_.object[i].pose, &was = set_.pair[i].pose;
-  return !is_same(is.translation_m, was.translation_m) ||
-         !is_same(is.rotation.row[0], was.rotation.row[0]) ||
-         !is_same(is.rotation.row[1], was.rotation.row[1]) ||
-         !is_same(is.rotation.row[2], was.rotation.row[2]);
 }
 
 // Result: whether the bound of the nearest object may get better: by a query where the proxy was.
@@ -166,11 +176,13 @@ bool ObjectsTick::carry() {
 bool ObjectsTick::end_carry(const Bounds& bounds) {
   is_carried_ = true;
   if (&bounds != &base_) base_ = bounds;
-  if (base_.place.frame != touch_.carrier) enter(base_.place);
+  enter(base_.place);
   drop_moved_features();
   const uint32_t used = renewals_.work;
   settings_.budget.work = used < settings_.budget.work ? settings_.budget.work - used : 1;
   proxy_.free_m = base_.least_m;
+  touch_.bounds_at_m = base_.place.device_m;
+  for (uint32_t i = 0; i < set_.count; ++i) set_.pair[i].left_m = base_.m[i];
   if (is_pushed_) shrink(base_.least_m);
   if (touch_.full_radius_m > 0.0f) {
     proxy_.is_growing = true;
@@ -190,7 +202,7 @@ void ObjectsTick::shrink(float room_m) {
     proxy_.is_loaded = false;
     proxy_.searched_free_m = 0;
     touch_.full_radius_m = 0;
-    return enter({kNoObject, was_.device_m, was_.device_m});
+    return enter(place_in(kNoObject, was_.device_m));
   }
   if (!(touch_.full_radius_m > 0.0f)) touch_.full_radius_m = proxy_.radius_m;
   if (room_m < proxy_.radius_m) proxy_.radius_m = room_m;
@@ -217,15 +229,13 @@ void ObjectsTick::drop_moved_features() {
   if (proxy_.feature_count > kMaxFeatures) proxy_.feature_count = 0;
   for (uint32_t i = 0; i < proxy_.feature_count;) {
     const uint32_t owner = proxy_.feature[i].object;
-    const bool is_kept =
-        owner == frame || (owner < set_.count && !has_frame_moved && !has_moved(owner));
-    if (is_kept) {
+    if (owner == frame || (owner < set_.count && !has_frame_moved && !has_moved(owner))) {
       ++i;
-      continue;
+    } else {
+      const uint32_t last = --proxy_.feature_count;
+      proxy_.feature[i] = proxy_.feature[last];
+      proxy_.plane[i] = proxy_.plane[last];
     }
-    const uint32_t last = --proxy_.feature_count;
-    proxy_.feature[i] = proxy_.feature[last];
-    proxy_.plane[i] = proxy_.plane[last];
   }
 }
 
@@ -369,12 +379,9 @@ void ObjectsTick::finish(const ProxyMoved& moved, servo::LocalModel& model) {
   const uint8_t next = touched();
   // A proxy without load takes the material of what it meets.
   if (!was_loaded_ && next != kNoObject) touch_.touch.material = set_.object[next].material;
-  if (is_pushed_ && touch_.carrier == base_.place.frame) {
-    const Vec3 by_m = place_in(touch_.carrier, proxy_.position_m).device_m - base_.place.device_m;
-    carried_m_ = carried_m_ + by_m;
-  }
-  end_proxy_contact(contact_, all, touch_.touch, model);
   const Place place = place_in(touch_.carrier, proxy_.position_m);
+  if (is_pushed_ && !is_lost_) carried_m_ = carried_m_ + (place.device_m - base_.place.device_m);
+  end_proxy_contact(contact_, all, touch_.touch, model);
   touch_.anchor_m = place.device_m;
   model.spring.anchor_m = place.device_m;
   // An object that leaps does not move.
@@ -383,8 +390,9 @@ void ObjectsTick::finish(const ProxyMoved& moved, servo::LocalModel& model) {
     model.spring.velocity_mps = velocity_mps;
   model.is_squeezed = touch_.is_squeezed;
   if (next != touch_.carrier)
-    enter({next, math::apply_inverse(pose_of(next), place.device_m), place.device_m});
-  for (uint32_t i = 0; i < set_.count; ++i) set_.pair[i].pose = set_.object[i].pose;
+    enter(place_in(next, math::apply_inverse(pose_of(next), place.device_m)));
+  for (uint32_t i = 0; i < set_.count; ++i)
+    if (has_moved(i)) set_.pair[i].pose = set_.object[i].pose;
 }
 
 }  // namespace firmtouch::scene

@@ -22,6 +22,7 @@ struct ObjectPair {
   math::RigidTransform pose;  // of the object in the last tick
   math::Vec3 at_m;            // a place in the object's frame, and what a query certified there
   float lower_m = 0;
+  float left_m = 0;  // certified in the last tick: distance of the object from the proxy
   int8_t sign = 0;
 };
 
@@ -30,6 +31,7 @@ struct ObjectPair {
 struct ObjectsTouch {
   ProxyTouch touch;
   math::Vec3 anchor_m;      // the proxy at the end of the last tick, device frame
+  math::Vec3 bounds_at_m;   // where left_m of the pairs holds, device frame
   float full_radius_m = 0;  // of a proxy that objects have pushed into less room; 0: none
   uint8_t carrier = kNoObject;
   uint8_t nearest = kNoObject;
@@ -81,6 +83,7 @@ class ObjectsTick {
   struct Place {
     uint8_t frame;           // an object's, or kNoObject: the device's
     math::Vec3 m, device_m;  // in that frame; in the device's
+    float loss_m;            // what the way to the frame of an object rounds, without its part
   };
   struct Bounds {  // of the distance of each object from a place
     Place place;
@@ -95,7 +98,7 @@ class ObjectsTick {
   float bound_m(uint32_t i, const Place& place) const;
   void make_bounds(const Place& place, Bounds& bounds) const;
   Place carried_by(uint32_t i) const;
-  bool has_moved(uint32_t i) const;
+  bool has_moved(uint32_t i) const { return (moved_ >> i & 1u) != 0; }
   bool renew(const Bounds& bounds);
   void keep(float lower_m);
   void enter(const Place& place);
@@ -118,6 +121,7 @@ class ObjectsTick {
   Place was_;             // of the proxy, before the objects moved
   math::Vec3 carried_m_;  // what objects displace the proxy by, device frame
   bool was_loaded_ = false, is_carried_ = false, is_lost_ = false, is_pushed_ = false;
+  uint32_t moved_ = 0;    // bits of the objects that moved since the last tick
   uint32_t renewed_ = 0;  // bits of the objects whose bound was taken anew where the proxy was
   Feature met_[2];        // of the last of them
   ProxyMoved renewals_;   // steps and work
