@@ -23,6 +23,7 @@ firmtouch_example(wall LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(detent_ring LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(friction LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(own_shape LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(two_objects LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(own_linkage LINKS firmtouch::scene firmtouch::servo)
 
 # Those with an asset need the baker: this build's, or the one in FIRMTOUCH_HOST_TOOLS.
