@@ -22,4 +22,7 @@ std::vector<ContactRow> onset_rows(const Rig& rig, Contact contact);
 /// `is_long`: all pairs of thickness and radius; else some.
 std::vector<ContactRow> plate_rows(const Rig& rig, Contact contact, bool is_long);
 
+/// Adds what closed loops of a hand over objects of different stiffness give and take.
+void add_material_rows(bool is_long, bench::Report& report);
+
 }  // namespace firmtouch::host_sim

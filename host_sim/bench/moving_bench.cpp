@@ -60,7 +60,6 @@ class MovingSurface : public MeshSurface {
     const scene::ProxyContact contact = proxy_contact(request, values, result);
     for (uint32_t i = 0; i < Plan::kObjects; ++i) {
       scene_.object[i].pose = plate_at(Plan::top_m(i, request.tick), i == 1);
-      scene_.object[i].material = contact.material;
     }
     Shapes shapes{shape, scene_.hint};
     scene::touch_objects(contact, {scene_.object, scene_.pair, Plan::kObjects}, shapes,
@@ -156,10 +155,11 @@ void add_closing_walls(const Rig& rig, bench::Report& report) {
 }  // namespace
 
 // Objects that move, touched by the standard rig's tool, which a hand holds.
-void run_moving_bench(const bench::Options&, bench::Report& report) {
+void run_moving_bench(const bench::Options& options, bench::Report& report) {
   const Rig rig(0);
   add_rising_wall(rig, report);
   add_closing_walls(rig, report);
+  add_material_rows(options.is_long, report);
 }
 
 }  // namespace firmtouch::host_sim

@@ -41,7 +41,6 @@ struct World {
   uint32_t now = 0;
 
   explicit World(float wall_x_m) {
-    for (scene::Object& each : object) each.material.stiffness_N_per_m = 1000.0f;
     object[1].pose.translation_m = {-0.0555f, 0, kBall_m};
     object[1].twist.velocity_mps = {0.05f, 0, 0};
     object[1].twist.turn_rad_per_s = {0, 0.05f / kBall_m, 0};  // it rolls
@@ -54,6 +53,7 @@ struct World {
     for (scene::Object& each : object) scene::advance(each, kTick_s);
     scene::ProxyContact contact;
     contact.settings.radius_m = kTool_m;
+    contact.material.stiffness_N_per_m = 1000.0f;
     contact.position_m = hand_m;
     contact.proxy_m = output.proxy_m;
     contact.has_proxy = state.has_proxy;

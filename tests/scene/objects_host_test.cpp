@@ -17,7 +17,6 @@ namespace {
 scene::Object at(Vec3 place_m) {
   scene::Object object;
   object.pose.translation_m = place_m;
-  object.material.stiffness_N_per_m = 1000;
   return object;
 }
 

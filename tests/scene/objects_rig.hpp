@@ -51,6 +51,7 @@ struct ObjectsRig {
   ObjectsRig() {
     contact.settings.radius_m = 0.003f;
     contact.settings.budget.work = 1u << 20;
+    contact.material.stiffness_N_per_m = 1000;
     contact.is_on = true;
     contact.passed_s = 0.001f;
   }

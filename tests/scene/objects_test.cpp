@@ -21,7 +21,6 @@ scene::Object at(Vec3 place_m, Vec3 velocity_mps = {}) {
   scene::Object object;
   object.pose.translation_m = place_m;
   object.twist.velocity_mps = velocity_mps;
-  object.material.stiffness_N_per_m = 1000;
   return object;
 }
 
@@ -41,6 +40,7 @@ struct Boxes {
 
   Boxes() {
     contact.settings.radius_m = kRadius_m;
+    contact.material.stiffness_N_per_m = 1000;
     contact.is_on = true;
     contact.passed_s = kTick_s;
   }
@@ -220,7 +220,7 @@ TEST(Objects_Material_IsThatOfTheObjectThatIsMet) {
   Boxes boxes;
   boxes.add(at({0, 0, -0.01f}));
   boxes.add(at({0, 0, 0.03f}));
-  boxes.object[1].material.stiffness_N_per_m = 400;
+  boxes.object[1].stiffness_N_per_m = 2000.0f / 3;  // 400 N/m in series with the tool's
   boxes.tick({0, 0, 0.005f});
   for (int tick = 0; tick < 5; ++tick) boxes.tick({0, 0, 0.001f});
   CHECK(is_near(boxes.output.force_N.z, 2.0f, 0.01f));
@@ -267,7 +267,7 @@ TEST(Objects_PoseTwistOrMaterialOutOfRange_AreRefusedByName) {
   CHECK(refused([](auto& o) { o.pose.translation_m.x = 1e6f; }) == Problem::kTooFarAway);
   CHECK(refused([](auto& o) { o.twist.velocity_mps.y = 1e6f; }) == Problem::kTooFast);
   CHECK(refused([](auto& o) { o.twist.turn_rad_per_s.y = -1e6f; }) == Problem::kTooFast);
-  CHECK(refused([](auto& o) { o.material.stiffness_N_per_m = -1; }) == Problem::kMaterial);
+  CHECK(refused([](auto& o) { o.stiffness_N_per_m = -1; }) == Problem::kMaterial);
   CHECK(refused([](auto& o) { o.friction_static = 1e9f; }) == Problem::kMaterial);
   const float nan = math::float_of(0x7FC00000u);
   CHECK(refused([&](auto& o) { o.pose.rotation.row[0].x = nan; }) == Problem::kNotARotation);

@@ -68,7 +68,6 @@ struct Scene {
   Scene(uint32_t objects, bool moving) : count(objects), is_moving(moving) {
     for (uint32_t i = 0; i < count; ++i) {
       const float k = static_cast<float>(i);
-      object[i].material.stiffness_N_per_m = 1000;
       if (i == 0) continue;
       object[i].pose.translation_m = {0.05f * (k - 8), i % 2 == 0 ? 0.1f : -0.1f, 0.15f};
       if (moving) object[i].twist = {{0.002f, -0.001f, 0.001f}, {0.1f, 0.2f, 0.3f}};

@@ -59,7 +59,7 @@ const char* text_of(ObjectProblem problem) {
     case ObjectProblem::kTooFast:
       return "the twist exceeds 100 m/s or 1,000 rad/s: use metres and radians a second";
     case ObjectProblem::kMaterial:
-      return "a stiffness, damping or friction is negative or beyond its limit";
+      return "a stiffness or friction is negative, or a friction beyond 100";
   }
   return "unknown";
 }
@@ -72,9 +72,7 @@ ObjectProblem set_object(const Object& wanted, Object& object) {
   if (!math::is_within(wanted.twist.velocity_mps, kMaxObjectSpeed_mps) ||
       !math::is_within(wanted.twist.turn_rad_per_s, kMaxObjectTurn_rad_per_s))
     return ObjectProblem::kTooFast;
-  const Material& material = wanted.material;
-  if (!is_between(material.stiffness_N_per_m, 0.0f, servo::kMaxStiffness_N_per_m) ||
-      !is_between(material.damping_N_s_per_m, 0.0f, servo::kMaxDamping_N_s_per_m) ||
+  if (!is_between(wanted.stiffness_N_per_m, 0.0f, FLT_MAX) ||
       !is_friction(wanted.friction_static) || !is_friction(wanted.friction_dynamic))
     return ObjectProblem::kMaterial;
   object = wanted;

@@ -1,8 +1,8 @@
 #pragma once
+#include <float.h>
 #include <stdint.h>
 
 #include "firmtouch/math/vec3.hpp"
-#include "firmtouch/scene/compose.hpp"
 
 namespace firmtouch::scene {
 
@@ -24,7 +24,7 @@ struct Twist {
 struct Object {
   math::RigidTransform pose;  // own frame -> device frame
   Twist twist;
-  Material material;
+  float stiffness_N_per_m = FLT_MAX;  // of its material, in series with the tool's; 0: air
   float friction_static = 0;
   float friction_dynamic = 0;
 };
@@ -35,7 +35,7 @@ enum class ObjectProblem : uint8_t {
   kNotARotation,  // rows that are no unit vectors across each other to 1e-4, or a mirror image
   kTooFarAway,    // kMaxObjectDistance_m
   kTooFast,       // kMaxObjectSpeed_mps, kMaxObjectTurn_rad_per_s
-  kMaterial,      // negative, or beyond servo's limits or kMaxFriction
+  kMaterial,      // a stiffness or friction that is negative, a friction beyond kMaxFriction
 };
 
 /// What is wrong and what to do, in one line.

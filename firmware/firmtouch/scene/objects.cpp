@@ -21,18 +21,6 @@ constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 
 constexpr math::RigidTransform kUnmoved;
 
-bool is_same(Vec3 a, Vec3 b) {
-  return math::bits_of(a.x) == math::bits_of(b.x) && math::bits_of(a.y) == math::bits_of(b.y) &&
-         math::bits_of(a.z) == math::bits_of(b.z);
-}
-
-bool is_same(const math::RigidTransform& a, const math::RigidTransform& b) {
-  return is_same(a.translation_m, b.translation_m) &&
-         is_same(a.rotation.row[0], b.rotation.row[0]) &&
-         is_same(a.rotation.row[1], b.rotation.row[1]) &&
-         is_same(a.rotation.row[2], b.rotation.row[2]);
-}
-
 bool is_set(uint32_t bits, uint32_t i) { return (bits >> i & 1u) != 0; }
 
 }  // namespace
@@ -42,6 +30,7 @@ ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, floa
     : set_{set.object, set.pair, set.count < kMaxObjects ? set.count : kMaxObjects},
       touch_(touch),
       proxy_(touch.touch.proxy),
+      tool_(contact.material),
       contact_(contact),
       size_m_(size_m),
       hand_m_(contact.position_m) {
@@ -54,7 +43,11 @@ ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, floa
                          ? proxy_.position_m
                          : math::apply_inverse(pose, contact.proxy_m);
   const uint32_t touched = frame == kNoObject ? touch_.nearest : frame;
-  if (touched < set_.count) use_object(touched);
+  if (touched < set_.count) {
+    contact_.material = material_of(touched);
+    contact_.settings.friction_static = set_.object[touched].friction_static;
+    contact_.settings.friction_dynamic = set_.object[touched].friction_dynamic;
+  }
   was_loaded_ = proxy_.is_loaded;
   settings_ = begin_proxy_contact(contact_, touch_.touch);
   was_ = {frame, proxy_.position_m, math::apply(pose, proxy_.position_m), 0.0f};
@@ -70,11 +63,12 @@ ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, floa
   }
 }
 
-void ObjectsTick::use_object(uint32_t i) {
-  const Object& object = set_.object[i];
-  contact_.material = object.material;
-  contact_.settings.friction_static = object.friction_static;
-  contact_.settings.friction_dynamic = object.friction_dynamic;
+// Two springs in series give way to the same force. The tool's alone where the object is rigid.
+Material ObjectsTick::material_of(uint32_t i) const {
+  const float tool_N_per_m = tool_.stiffness_N_per_m,
+              own_N_per_m = set_.object[i].stiffness_N_per_m;
+  if (!(own_N_per_m > 0.0f)) return {0.0f, tool_.damping_N_s_per_m};
+  return {tool_N_per_m / (1.0f + tool_N_per_m / own_N_per_m), tool_.damping_N_s_per_m};
 }
 
 const math::RigidTransform& ObjectsTick::pose_of(uint8_t frame) const {
@@ -378,7 +372,7 @@ void ObjectsTick::finish(const ProxyMoved& moved, servo::LocalModel& model) {
   if (answered_ != 0) touch_.nearest = nearest_.feature.object;
   const uint8_t next = touched();
   // A proxy without load takes the material of what it meets.
-  if (!was_loaded_ && next != kNoObject) touch_.touch.material = set_.object[next].material;
+  if (!was_loaded_ && next != kNoObject) touch_.touch.material = material_of(next);
   const Place place = place_in(touch_.carrier, proxy_.position_m);
   if (is_pushed_ && !is_lost_) carried_m_ = carried_m_ + (place.device_m - base_.place.device_m);
   end_proxy_contact(contact_, all, touch_.touch, model);

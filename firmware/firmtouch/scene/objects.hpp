@@ -103,7 +103,7 @@ class ObjectsTick {
   void keep(float lower_m);
   void enter(const Place& place);
   void drop_moved_features();
-  void use_object(uint32_t i);
+  Material material_of(uint32_t i) const;
   bool end_carry(const Bounds& bounds);
   void shrink(float room_m);
   bool is_better(const Near& near) const;
@@ -114,6 +114,7 @@ class ObjectsTick {
   const ObjectSet set_;
   ObjectsTouch& touch_;
   Proxy& proxy_;
+  const Material tool_;
   ProxyContact contact_;
   ProxySettings settings_;
   const float size_m_;
@@ -155,9 +156,9 @@ struct NearestObject {
   float size_m() const { return shapes.size_m(); }
 };
 
-/// Contact of a sphere with several objects, as touch_by_proxy() with one. Stiffness, damping and
-/// friction are those of the object that is touched, not of `contact`. A far object costs a
-/// comparison. Objects that leave the proxy less than 0.9 of its radius squeeze it:
+/// Contact of a sphere with several objects, as touch_by_proxy() with one. Friction is that of
+/// the object that is touched; its stiffness is in series with the one in `contact`. A far object
+/// costs a comparison. Objects that leave the proxy less than 0.9 of its radius squeeze it:
 /// model.is_squeezed, which servo makes a fault. The proxy crosses none of them.
 /// Bounds: scene/proxy.hpp, and at most one query an object to carry the proxy; all share the
 /// budget. Re-entrant for different tools.

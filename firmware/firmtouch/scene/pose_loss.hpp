@@ -18,4 +18,17 @@ static inline float pose_loss_m(const math::RigidTransform& pose, math::Vec3 x_m
   return kPoseLoss * (math::length(x_m) + math::length(t_m));
 }
 
+/// Bit for bit.
+static inline bool is_same(math::Vec3 a, math::Vec3 b) {
+  return math::bits_of(a.x) == math::bits_of(b.x) && math::bits_of(a.y) == math::bits_of(b.y) &&
+         math::bits_of(a.z) == math::bits_of(b.z);
+}
+
+static inline bool is_same(const math::RigidTransform& a, const math::RigidTransform& b) {
+  return is_same(a.translation_m, b.translation_m) &&
+         is_same(a.rotation.row[0], b.rotation.row[0]) &&
+         is_same(a.rotation.row[1], b.rotation.row[1]) &&
+         is_same(a.rotation.row[2], b.rotation.row[2]);
+}
+
 }  // namespace firmtouch::scene
