@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "firmtouch/scene/analytic.hpp"
+#include "firmtouch/scene/spline_touched.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "scene/objects_rig.hpp"
+#include "scene/spline_rig.hpp"
 #include "surface/make/make_part.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
@@ -45,6 +47,77 @@ void move_about(ObjectsRig& rig, Draw& draw, double speed_mps) {
 }
 
 }  // namespace
+
+namespace {
+
+// A torus of splines, a ball, and a mesh: three kinds of shapes behind one query.
+struct Kinds {
+  spline_touch::Surface torus = spline_touch::torus();
+  scene::SplineObject spline;
+  spline::Hint spline_hint;
+  scene::SphereTouched ball{{}, 0.02f};
+  ProxyRig mesh{tools::make_part(1, 2000)};
+
+  Kinds() {
+    spline.surface = &torus.view;
+    spline.is_closed = true;
+  }
+  float size_m() const { return 0.6f; }
+  scene::Near near(uint32_t object, Vec3 x_m, query::Budget budget, float needed_m) {
+    if (object == 0) return scene::SplineTouched{spline, spline_hint}.near(x_m, budget, needed_m);
+    if (object == 1) return ball.near(x_m, budget, needed_m);
+    return scene::MeshTouched{mesh.object, mesh.hint}.near(x_m, budget, needed_m);
+  }
+  // In closed form, and by brute force; a tool that is inside of one is that deep below 0.
+  double distance_m(uint32_t object, Vec3 p) const {
+    const auto wide = [](float a) { return static_cast<double>(a); };
+    if (object == 0) return std::hypot(std::hypot(wide(p.x), wide(p.y)) - 0.05, wide(p.z)) - 0.02;
+    if (object == 1) return ProxyRig::distance(p, {}) - 0.02;
+    return mesh.truth_m(p);
+  }
+};
+
+}  // namespace
+
+TEST(Objects_SplineMeshAndBall_AreTouchedByOneProxy) {
+  Kinds kinds;
+  scene::Object objects[3] = {at({-0.08f, 0, 0}), at({0.03f, 0.03f, 0}), at({0.06f, -0.05f, 0})};
+  scene::ObjectPair pairs[3];
+  for (uint32_t i = 0; i < 3; ++i) pairs[i].pose = objects[i].pose;
+  objects[0].twist.turn_rad_per_s = {0.5f, 0.3f, 0};
+  objects[1].twist.velocity_mps = {-0.01f, 0, 0};
+  objects[2].twist.turn_rad_per_s = {0, 0, -1};
+  scene::ObjectsTouch touch;
+  scene::ProxyContact contact;
+  contact.settings.radius_m = 0.003f;
+  contact.settings.budget.work = 4000;
+  contact.material.stiffness_N_per_m = 1000;
+  contact.is_on = contact.has_proxy = true;
+  contact.passed_s = 0.001f;
+  Draw draw(7);
+  Vec3 hand_m{0, 0, 0.12f}, step_m;
+  uint32_t touched[3] = {}, near = 0;
+  for (uint32_t tick = 0; tick < 20000; ++tick) {
+    if (tick % 2000 == 0) objects[1].twist.velocity_mps.x *= -1;
+    for (scene::Object& object : objects) scene::advance(object, 0.001f);
+    if (tick % 60 == 0) step_m = draw.within(0.0008);
+    hand_m = hand_m + step_m;
+    if (math::length(hand_m) > 0.13f) step_m = hand_m * -0.005f;
+    contact.position_m = hand_m;
+    contact.proxy_m = touch.anchor_m;
+    servo::LocalModel model;
+    scene::touch_objects(contact, {objects, pairs, 3}, kinds, touch, model);
+    if (touch.touch.proxy.phase != scene::Proxy::Phase::kFree) continue;
+    if (touch.carrier < 3) ++touched[touch.carrier];
+    const double needed_m = static_cast<double>(touch.touch.proxy.radius_m) - 2e-6 * 0.6;
+    for (uint32_t i = 0; i < 3; ++i)
+      if (i != 2 || tick % 16 == 0)
+        near +=
+            kinds.distance_m(i, math::apply_inverse(objects[i].pose, touch.anchor_m)) < needed_m;
+  }
+  CHECK_EQ(near, 0u);
+  for (const uint32_t ticks : touched) CHECK_GE(ticks, 100u);
+}
 
 TEST(Objects_AnyMotionHandAndBudget_NeverCrossASurface) {
   const uint32_t budgets[] = {8, 64, 640, 1u << 20};
