@@ -10,7 +10,7 @@ constexpr std::string_view kBlanks = " \t\r\n";
 
 }  // namespace
 
-std::string Json::parse(std::string_view text) {
+std::string JsonReader::parse(std::string_view text) {
   values_.clear();
   struct Level {
     uint32_t value, last;
@@ -88,35 +88,35 @@ std::string Json::parse(std::string_view text) {
   }
 }
 
-Json::Kind Json::kind(uint32_t value) const {
+JsonReader::Kind JsonReader::kind(uint32_t value) const {
   return value < values_.size() ? values_[value].kind : Kind::kNone;
 }
 
-uint32_t Json::member(uint32_t object, std::string_view name) const {
+uint32_t JsonReader::member(uint32_t object, std::string_view name) const {
   if (kind(object) != Kind::kObject) return kNoValue;
   for (uint32_t v = values_[object].first; v != kNoValue; v = values_[v].next)
     if (values_[v].key == name) return v;
   return kNoValue;
 }
 
-std::vector<uint32_t> Json::items(uint32_t value) const {
+std::vector<uint32_t> JsonReader::items(uint32_t value) const {
   std::vector<uint32_t> found;
   if (value >= values_.size()) return found;
   for (uint32_t v = values_[value].first; v != kNoValue; v = values_[v].next) found.push_back(v);
   return found;
 }
 
-std::string_view Json::text(uint32_t value) const {
+std::string_view JsonReader::text(uint32_t value) const {
   return value < values_.size() ? values_[value].text : std::string_view{};
 }
 
-double Json::number(uint32_t value, double otherwise) const {
+double JsonReader::number(uint32_t value, double otherwise) const {
   double read = otherwise;
   if (kind(value) == Kind::kNumber) read_number(values_[value].text, read);
   return read;
 }
 
-int64_t Json::whole(uint32_t value, int64_t otherwise) const {
+int64_t JsonReader::whole(uint32_t value, int64_t otherwise) const {
   if (kind(value) == Kind::kNone) return otherwise;
   const double read = number(value, -1);
   const int64_t whole = read >= 0 && read <= 0x1p53 ? static_cast<int64_t>(read) : -1;

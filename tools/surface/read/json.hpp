@@ -8,7 +8,7 @@ namespace firmtouch::tools {
 
 /// A JSON text as a flat list of values. Strings stand as in the text, escapes unread.
 /// Bounds: at most 64 levels; time and memory in proportion to the text.
-class Json {
+class JsonReader {
  public:
   enum class Kind : uint8_t { kNone, kObject, kArray, kString, kNumber, kWord };
   static constexpr uint32_t kNoValue = 0xFFFFFFFFu;

@@ -120,7 +120,7 @@ class Scene {
     if (accessor < 0 || accessor >= static_cast<int64_t>(accessors_.size()))
       return sink_.fail(name + " is missing: export it again");
     const uint32_t a = accessors_[static_cast<size_t>(accessor)];
-    if (json_.member(a, "sparse") != Json::kNoValue)
+    if (json_.member(a, "sparse") != JsonReader::kNoValue)
       return sink_.fail(name + " is sparse, which is not read: export it without");
     found.type = whole(a, "componentType", -1);
     found.count = whole(a, "count", -1);
@@ -294,7 +294,7 @@ class Scene {
 
   std::string_view text_, binary_;
   ImportSink& sink_;
-  Json json_;
+  JsonReader json_;
   std::vector<std::string> buffers_;
   std::vector<uint32_t> views_, accessors_, meshes_, nodes_;
   size_t primitives_ = 0;
