@@ -3,16 +3,13 @@
 
 #include "composition.hpp"
 #include "firmtouch/link/command_mailbox.hpp"
-#include "firmtouch/record/ring.hpp"
-#include "firmtouch/record/tick.hpp"
+#include "firmtouch/record/tick_ring.hpp"
 #include "saved_parameters.hpp"
 #include "turn_watch.hpp"
 
 namespace firmtouch::app {
 
-// 64 ticks: 64 ms at 1 kHz and 6.4 ms at 10 kHz, longer than any turn of the main loop (a slice of
-// opening, a frame).
-using Records = record::Ring<record::TickRecord, 64>;
+using Records = record::TickRing;
 
 // Shared by the servo interrupt and the main loop. Each is safe between the two by its own
 // contract.

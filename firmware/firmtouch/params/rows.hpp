@@ -8,9 +8,10 @@ namespace firmtouch::params {
 
 constexpr float kInitialTickPeriod_s = 0.001f;
 
-/// A tick takes at most 230 instructions of a Cortex-M7 for each unit of tick_work, base hulls
-/// apart. These units hold what it takes beside those of its queries: 5,000, four queries of a
-/// proxy with 2,500 and up to 11,000 each, one of a guide with up to 14,000 (query/README.md).
+/// Most instructions of a Cortex-M7 that a tick takes for each unit of tick_work, base hulls apart.
+constexpr float kInstructionsAUnit = 230.0f;
+/// These units of tick_work hold what it takes beside those of its queries: 5,000, four queries of
+/// a proxy with 2,500 and up to 11,000 each, one of a guide with up to 14,000 (query/README.md).
 constexpr float kFixedTickWork = 362.0f;
 
 /// Limits of force and time: servo, guard and clock.
