@@ -1,132 +1,21 @@
 #include <cstdio>
-#include <map>
 
-#include "bake/asset/asset_views.hpp"
-#include "bake/asset/asset_writer.hpp"
 #include "bake/asset/part_names.hpp"
-#include "bake/asset/provenance.hpp"
 #include "cli/asset_json.hpp"
-#include "cli/baked_input.hpp"
+#include "cli/baked_asset.hpp"
 #include "cli/commands.hpp"
 #include "cli/cpp_source.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
-#include "cli/hull_arguments.hpp"
-#include "cli/version.hpp"
-#include "device/device_file.hpp"
-#include "device/machines.hpp"
 #include "firmtouch/asset/opening.hpp"
-#include "firmtouch/field/layout.hpp"
-#include "firmtouch/hull/layout.hpp"
 
 namespace firmtouch::cli {
 namespace {
-
-constexpr double kUsualDeviation_m = 1e-4;
-
-bool is_run(const std::string& path) { return extension_of(path) == ".ftl"; }
-
-std::string name_of(const std::string& path, const BakeOptions& options) {
-  return is_run(path) ? options.teach : stem_of(path);
-}
-
-// A run has no name of its own, and whoever names one must give it.
-void check_runs(const std::vector<std::string>& inputs, const BakeOptions& options) {
-  size_t runs = 0;
-  for (const std::string& path : inputs) {
-    if (!is_run(path)) continue;
-    ++runs;
-    if (options.teach.empty())
-      fail_usage("bake: " + path +
-                 " is a recorded run; say what its guide is called: --teach NAME");
-  }
-  if (runs > 1)
-    fail_usage("bake: --teach names one guide and " + std::to_string(runs) +
-               " runs are given; give one");
-  if (runs == 0 && !options.teach.empty())
-    fail_usage("bake: --teach wants a recorded run, RUN.ftl, among the inputs");
-}
-
-// An asset is named after its file's stem, so two inputs of one stem would be one asset.
-void check_names(const std::vector<std::string>& inputs, const BakeOptions& options) {
-  std::map<std::string, std::string> seen;
-  for (const std::string& path : inputs) {
-    const std::string name = name_of(path, options);
-    const std::string problem = tools::name_problem(name);
-    if (!problem.empty() && is_run(path)) fail_usage("bake: --teach " + name + ": " + problem);
-    if (!problem.empty()) fail_input(path + ": " + problem);
-    const auto added = seen.emplace(name, path);
-    if (!added.second) {
-      fail_input(path + ": names its asset '" + name + "', as " + added.first->second +
-                 " does; rename one of the files");
-    }
-  }
-}
 
 void print_report(const std::string& name, const std::vector<std::string>& lines) {
   for (size_t i = 0; i < lines.size(); ++i) {
     std::fprintf(stderr, "%s%s\n", i == 0 ? (name + ": ").c_str() : "    ", lines[i].c_str());
   }
-}
-
-std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
-                                 const BakeOptions& options) {
-  Progress progress(inputs.size() * kStagesAnInput);
-  std::vector<BakedInput> baked;
-  for (const std::string& path : inputs) {
-    baked.push_back(is_curve_file(path)    ? bake_curve_input(path, options, progress)
-                    : is_run(path)         ? bake_run_input(path, options, progress)
-                    : is_spline_file(path) ? bake_spline_input(path, options, progress)
-                                           : bake_mesh_input(path, options, progress));
-  }
-  return baked;
-}
-
-// The options of a hull, which mean nothing without one.
-void add_hull(const Arguments& arguments, BakeOptions& options) {
-  static const char* const kOfHulls[] = {"--hull-grid", "--max-valence", "--compactness",
-                                         "--max-deviation-deg", "--no-tree"};
-  options.hull_faces = arguments.count("--hull-faces", 0, 4, 4'000'000);
-  options.hull = hull_options(arguments);
-  options.hull.target_faces = options.hull_faces;
-  options.has_tree = !arguments.has("--no-tree");
-  if (options.hull_faces != 0)
-    options.text += " --hull-faces " + std::to_string(options.hull_faces);
-  for (const std::string option : kOfHulls) {
-    if (!arguments.has(option)) continue;
-    if (options.hull_faces == 0)
-      fail_usage("bake: " + option + " is of a hull: add --hull-faces N");
-    options.text += " " + option;
-    if (option != "--no-tree") options.text += " " + arguments.text(option, "");
-  }
-  if (options.hull_faces != 0 && !options.model.is_signed)
-    fail_usage("bake: a hull needs an inside: leave out --unsigned or --hull-faces");
-  if (options.hull.limits.max_valence > hull::kMaxLink)
-    fail_usage("bake: --max-valence: a hull in an asset has at most " +
-               std::to_string(hull::kMaxLink));
-  if (!options.has_tree && options.field_cells != 0)
-    fail_usage("bake: --distance-map needs the tree: leave out --no-tree");
-}
-
-// The linkage of --device, as an asset named after its file's stem.
-BakedInput bake_device(const std::string& path) {
-  BakedInput baked;
-  try {
-    const std::string text = tools::read_device_text(path);
-    const std::vector<uint8_t> source(text.begin(), text.end());
-    const tools::LinkageDevice device = tools::read_device(path, text);
-    const device::LinkageLayout layout = tools::layout_of(device);
-    const std::string name = stem_of(path);
-    baked.sections = {
-        tools::make_section(device::kLinkageSection, name, &layout, 1),
-        tools::text_section(asset::kProvenanceSection, name,
-                            tools::provenance(file_name_of(path), source, "", kToolVersion))};
-    baked.report = {"linkage of " + std::to_string(layout.joints) + " joints, " +
-                    std::to_string(bytes_of(baked.sections)) + " bytes"};
-  } catch (const tools::Refused& refused) {
-    fail_input(refused.what());
-  }
-  return baked;
 }
 
 // Both files or none.
@@ -142,41 +31,6 @@ void write_source(const std::string& path, const std::vector<uint8_t>& asset,
 }
 
 }  // namespace
-
-BakeOptions bake_options(const Arguments& arguments) {
-  static const std::map<std::string, Purpose> kPurposes = {{"--fast", Purpose::kFast},
-                                                           {"--bounded", Purpose::kBounded},
-                                                           {"--small", Purpose::kSmall},
-                                                           {"--desktop", Purpose::kDesktop}};
-  BakeOptions options;
-  options.model = model_options(arguments, options.text);
-  std::string purpose;
-  for (const auto& [option, meant] : kPurposes) {
-    if (!arguments.has(option)) continue;
-    if (!purpose.empty())
-      fail_usage("bake: --fast, --bounded, --small and --desktop contradict each other; give one");
-    purpose = option;
-    options.purpose = meant;
-  }
-  if (options.purpose != Purpose::kFast) options.text += " " + purpose;
-  options.field_cells = arguments.count("--distance-map", 0, 1, field::kMaxCellsAnAxis - 2);
-  if (options.field_cells != 0)
-    options.text += " --distance-map " + std::to_string(options.field_cells);
-  options.smooth = arguments.has("--smooth");
-  if (options.smooth) options.text += " --smooth";
-  options.keeps_triangles = arguments.has("--keep-triangles");
-  if (options.keeps_triangles) options.text += " --keep-triangles";
-  options.curve_tree = arguments.has("--curve-tree");
-  if (options.curve_tree) options.text += " --curve-tree";
-  options.teach = arguments.text("--teach", "");
-  options.max_deviation_m = arguments.number("--max-deviation", kUsualDeviation_m, 1e-9);
-  if (arguments.has("--max-deviation") && options.teach.empty())
-    fail_usage("bake: --max-deviation is of a taught guide; give --teach NAME too");
-  if (!options.teach.empty())
-    options.text += " --teach " + options.teach + " --max-deviation " +
-                    tools::number_text(options.max_deviation_m);
-  return options;
-}
 
 const Command& bake_command() {
   static const Command command{
@@ -245,59 +99,29 @@ int run_bake(const Arguments& arguments) {
   if (output == "-" && (is_json || !source.empty()))
     fail_usage("bake: -o - takes standard output: leave out --json and --cpp, or name a file");
   if (source == output) fail_usage("bake: -o and --cpp name the same file; name two");
-  BakeOptions options = bake_options(arguments);
-  add_hull(arguments, options);
-  const std::vector<std::string> inputs = inputs_with_units(arguments.positionals(), options.model);
-  for (const std::string& input : inputs) {
-    forbid_overwriting(output, input);
-    forbid_overwriting(source, input);
+  const BakeRequest request = bake_request(arguments);
+  for (const std::string& file : request.files()) {
+    forbid_overwriting(output, file);
+    forbid_overwriting(source, file);
   }
-  check_runs(inputs, options);
-  const std::string device = arguments.text("--device", "");
-  std::vector<std::string> named = inputs;
-  if (!device.empty()) {
-    named.push_back(device);
-    forbid_overwriting(output, device);
-    forbid_overwriting(source, device);
-  }
-  check_names(named, options);
-  for (const std::string& input : inputs) {
-    if (is_run(input)) continue;
-    settle_size(input, options.model);
-    break;
-  }
+  const BakedAsset baked = bake_asset(request, output);
+  write_file(output, baked.bytes.data(), baked.bytes.size());
+  if (!source.empty()) write_source(source, baked.bytes, output);
 
-  std::vector<BakedInput> baked = bake_all(inputs, options);
-  if (!device.empty()) baked.push_back(bake_device(device));
-  std::vector<tools::Section> sections;
-  for (const BakedInput& input : baked) {
-    sections.insert(sections.end(), input.sections.begin(), input.sections.end());
-  }
-  const tools::AssetFile file = tools::write_asset(sections);
-  if (!file.problem.empty()) fail_input(output + ": " + file.problem);
-  const core::Bytes bytes(file.bytes.data(), static_cast<uint32_t>(file.bytes.size()));
-  const std::string unsound = tools::prove_asset(bytes);
-  if (!unsound.empty()) {
-    fail_input(output + ": the asset that was made does not pass its own proof (" + unsound +
-               "); nothing was written: a defect of the baker, please report the input");
-  }
-  write_file(output, file.bytes.data(), file.bytes.size());
-  if (!source.empty()) write_source(source, file.bytes, output);
-
-  for (size_t i = 0; i < named.size(); ++i)
-    print_report(name_of(named[i], options), baked[i].report);
+  for (const NamedReport& report : baked.reports) print_report(report.name, report.lines);
+  const core::Bytes bytes(baked.bytes.data(), static_cast<uint32_t>(baked.bytes.size()));
   asset::Container container;
   (void)asset::open(bytes, container);
   std::fprintf(stderr, "%s: %zu bytes, %zu %s, CRC %08x, proven with the firmware's decoder\n",
-               output.c_str(), file.bytes.size(), named.size(),
-               named.size() == 1 ? "asset" : "assets", container.crc());
+               output.c_str(), baked.bytes.size(), baked.reports.size(),
+               baked.reports.size() == 1 ? "asset" : "assets", container.crc());
   std::fprintf(stderr, "needs parts: %s (FIRMTOUCH_APP)\n",
                tools::needed_parts_text(container).c_str());
   if (!is_json) return kDone;
   std::vector<std::string> reported;
-  for (size_t i = 0; i < inputs.size(); ++i)
-    for (const std::string& line : baked[i].report)
-      reported.push_back(name_of(inputs[i], options) + ": " + line);
+  for (size_t i = 0; i < request.inputs.size(); ++i)
+    for (const std::string& line : baked.reports[i].lines)
+      reported.push_back(baked.reports[i].name + ": " + line);
   std::puts(asset_json(output, container)
                 .add("reported", tools::json_list(reported, tools::json_text))
                 .object()

@@ -34,9 +34,6 @@ struct BakeOptions {
   std::string text;              // as they stand in the provenance
 };
 
-/// Of the options of models and of bake.
-BakeOptions bake_options(const Arguments& arguments);
-
 /// One input as sections of an asset, proven, with its probes and provenance, and what to report
 /// about it.
 struct BakedInput {

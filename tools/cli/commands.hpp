@@ -6,10 +6,10 @@ namespace firmtouch::cli {
 // The commands: what each takes, and what it does (result: an exit code; a Failure ends it early).
 using TakenBy = const Command&();
 TakenBy make_command, bake_command, info_command, query_command, mend_command, hull_command,
-    bench_command, log_command, voxelize_command, calibrate_command;
+    bench_command, log_command, voxelize_command, calibrate_command, plan_command;
 
 using Run = int(const Arguments& arguments);
 Run run_make, run_bake, run_info, run_query, run_mend, run_hull, run_bench, run_log, run_voxelize,
-    run_calibrate;
+    run_calibrate, run_plan;
 
 }  // namespace firmtouch::cli

@@ -15,11 +15,11 @@ struct Entry {
   int (*run)(const Arguments&);
 };
 
-constexpr Entry kEntries[] = {{make_command, run_make},         {bake_command, run_bake},
-                              {info_command, run_info},         {query_command, run_query},
-                              {log_command, run_log},           {bench_command, run_bench},
-                              {voxelize_command, run_voxelize}, {hull_command, run_hull},
-                              {mend_command, run_mend},         {calibrate_command, run_calibrate}};
+constexpr Entry kEntries[] = {
+    {make_command, run_make},           {bake_command, run_bake}, {info_command, run_info},
+    {query_command, run_query},         {log_command, run_log},   {bench_command, run_bench},
+    {voxelize_command, run_voxelize},   {hull_command, run_hull}, {mend_command, run_mend},
+    {calibrate_command, run_calibrate}, {plan_command, run_plan}};
 
 std::string usage() {
   std::string text =

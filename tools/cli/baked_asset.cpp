@@ -1,0 +1,203 @@
+#include "cli/baked_asset.hpp"
+
+#include <map>
+
+#include "bake/asset/asset_views.hpp"
+#include "bake/asset/asset_writer.hpp"
+#include "bake/asset/provenance.hpp"
+#include "cli/baked_input.hpp"
+#include "cli/failure.hpp"
+#include "cli/files.hpp"
+#include "cli/hull_arguments.hpp"
+#include "cli/version.hpp"
+#include "device/device_file.hpp"
+#include "device/machines.hpp"
+#include "firmtouch/field/layout.hpp"
+#include "firmtouch/hull/layout.hpp"
+
+namespace firmtouch::cli {
+namespace {
+
+constexpr double kUsualDeviation_m = 1e-4;
+
+bool is_run(const std::string& path) { return extension_of(path) == ".ftl"; }
+
+std::string name_of(const std::string& path, const BakeOptions& options) {
+  return is_run(path) ? options.teach : stem_of(path);
+}
+
+// A run has no name of its own, and whoever names one must give it.
+void check_runs(const std::vector<std::string>& inputs, const BakeOptions& options) {
+  size_t runs = 0;
+  for (const std::string& path : inputs) {
+    if (!is_run(path)) continue;
+    ++runs;
+    if (options.teach.empty())
+      fail_usage("bake: " + path +
+                 " is a recorded run; say what its guide is called: --teach NAME");
+  }
+  if (runs > 1)
+    fail_usage("bake: --teach names one guide and " + std::to_string(runs) +
+               " runs are given; give one");
+  if (runs == 0 && !options.teach.empty())
+    fail_usage("bake: --teach wants a recorded run, RUN.ftl, among the inputs");
+}
+
+// An asset is named after its file's stem, so two inputs of one stem would be one asset.
+void check_names(const std::vector<std::string>& inputs, const BakeOptions& options) {
+  std::map<std::string, std::string> seen;
+  for (const std::string& path : inputs) {
+    const std::string name = name_of(path, options);
+    const std::string problem = tools::name_problem(name);
+    if (!problem.empty() && is_run(path)) fail_usage("bake: --teach " + name + ": " + problem);
+    if (!problem.empty()) fail_input(path + ": " + problem);
+    const auto added = seen.emplace(name, path);
+    if (!added.second) {
+      fail_input(path + ": names its asset '" + name + "', as " + added.first->second +
+                 " does; rename one of the files");
+    }
+  }
+}
+
+std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
+                                 const BakeOptions& options) {
+  Progress progress(inputs.size() * kStagesAnInput);
+  std::vector<BakedInput> baked;
+  for (const std::string& path : inputs) {
+    baked.push_back(is_curve_file(path)    ? bake_curve_input(path, options, progress)
+                    : is_run(path)         ? bake_run_input(path, options, progress)
+                    : is_spline_file(path) ? bake_spline_input(path, options, progress)
+                                           : bake_mesh_input(path, options, progress));
+  }
+  return baked;
+}
+
+// The options of a hull, which mean nothing without one.
+void add_hull(const Arguments& arguments, BakeOptions& options) {
+  static const char* const kOfHulls[] = {"--hull-grid", "--max-valence", "--compactness",
+                                         "--max-deviation-deg", "--no-tree"};
+  options.hull_faces = arguments.count("--hull-faces", 0, 4, 4'000'000);
+  options.hull = hull_options(arguments);
+  options.hull.target_faces = options.hull_faces;
+  options.has_tree = !arguments.has("--no-tree");
+  if (options.hull_faces != 0)
+    options.text += " --hull-faces " + std::to_string(options.hull_faces);
+  for (const std::string option : kOfHulls) {
+    if (!arguments.has(option)) continue;
+    if (options.hull_faces == 0)
+      fail_usage("bake: " + option + " is of a hull: add --hull-faces N");
+    options.text += " " + option;
+    if (option != "--no-tree") options.text += " " + arguments.text(option, "");
+  }
+  if (options.hull_faces != 0 && !options.model.is_signed)
+    fail_usage("bake: a hull needs an inside: leave out --unsigned or --hull-faces");
+  if (options.hull.limits.max_valence > hull::kMaxLink)
+    fail_usage("bake: --max-valence: a hull in an asset has at most " +
+               std::to_string(hull::kMaxLink));
+  if (!options.has_tree && options.field_cells != 0)
+    fail_usage("bake: --distance-map needs the tree: leave out --no-tree");
+}
+
+// The linkage of --device, as an asset named after its file's stem.
+BakedInput bake_device(const std::string& path) {
+  BakedInput baked;
+  try {
+    const std::string text = tools::read_device_text(path);
+    const std::vector<uint8_t> source(text.begin(), text.end());
+    const tools::LinkageDevice device = tools::read_device(path, text);
+    const device::LinkageLayout layout = tools::layout_of(device);
+    const std::string name = stem_of(path);
+    baked.sections = {
+        tools::make_section(device::kLinkageSection, name, &layout, 1),
+        tools::text_section(asset::kProvenanceSection, name,
+                            tools::provenance(file_name_of(path), source, "", kToolVersion))};
+    baked.report = {"linkage of " + std::to_string(layout.joints) + " joints, " +
+                    std::to_string(bytes_of(baked.sections)) + " bytes"};
+  } catch (const tools::Refused& refused) {
+    fail_input(refused.what());
+  }
+  return baked;
+}
+
+BakeOptions bake_options(const Arguments& arguments) {
+  static const std::map<std::string, Purpose> kPurposes = {{"--fast", Purpose::kFast},
+                                                           {"--bounded", Purpose::kBounded},
+                                                           {"--small", Purpose::kSmall},
+                                                           {"--desktop", Purpose::kDesktop}};
+  BakeOptions options;
+  options.model = model_options(arguments, options.text);
+  std::string purpose;
+  for (const auto& [option, meant] : kPurposes) {
+    if (!arguments.has(option)) continue;
+    if (!purpose.empty())
+      fail_usage("bake: --fast, --bounded, --small and --desktop contradict each other; give one");
+    purpose = option;
+    options.purpose = meant;
+  }
+  if (options.purpose != Purpose::kFast) options.text += " " + purpose;
+  options.field_cells = arguments.count("--distance-map", 0, 1, field::kMaxCellsAnAxis - 2);
+  if (options.field_cells != 0)
+    options.text += " --distance-map " + std::to_string(options.field_cells);
+  options.smooth = arguments.has("--smooth");
+  if (options.smooth) options.text += " --smooth";
+  options.keeps_triangles = arguments.has("--keep-triangles");
+  if (options.keeps_triangles) options.text += " --keep-triangles";
+  options.curve_tree = arguments.has("--curve-tree");
+  if (options.curve_tree) options.text += " --curve-tree";
+  options.teach = arguments.text("--teach", "");
+  options.max_deviation_m = arguments.number("--max-deviation", kUsualDeviation_m, 1e-9);
+  if (arguments.has("--max-deviation") && options.teach.empty())
+    fail_usage("bake: --max-deviation is of a taught guide; give --teach NAME too");
+  if (!options.teach.empty())
+    options.text += " --teach " + options.teach + " --max-deviation " +
+                    tools::number_text(options.max_deviation_m);
+  return options;
+}
+
+}  // namespace
+
+std::vector<std::string> BakeRequest::files() const {
+  std::vector<std::string> files = inputs;
+  if (!device.empty()) files.push_back(device);
+  return files;
+}
+
+BakeRequest bake_request(const Arguments& arguments) {
+  BakeRequest request;
+  request.options = bake_options(arguments);
+  add_hull(arguments, request.options);
+  request.inputs = inputs_with_units(arguments.positionals(), request.options.model);
+  request.device = arguments.text("--device", "");
+  check_runs(request.inputs, request.options);
+  check_names(request.files(), request.options);
+  return request;
+}
+
+BakedAsset bake_asset(BakeRequest request, const std::string& output) {
+  for (const std::string& input : request.inputs) {
+    if (is_run(input)) continue;
+    settle_size(input, request.options.model);
+    break;
+  }
+  std::vector<BakedInput> inputs = bake_all(request.inputs, request.options);
+  if (!request.device.empty()) inputs.push_back(bake_device(request.device));
+  BakedAsset baked;
+  std::vector<tools::Section> sections;
+  const std::vector<std::string> files = request.files();
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    sections.insert(sections.end(), inputs[i].sections.begin(), inputs[i].sections.end());
+    baked.reports.push_back({name_of(files[i], request.options), std::move(inputs[i].report)});
+  }
+  tools::AssetFile file = tools::write_asset(sections);
+  if (!file.problem.empty()) fail_input(output + ": " + file.problem);
+  baked.bytes = std::move(file.bytes);
+  const std::string unsound =
+      tools::prove_asset({baked.bytes.data(), static_cast<uint32_t>(baked.bytes.size())});
+  if (!unsound.empty()) {
+    fail_input(output + ": the asset that was made does not pass its own proof (" + unsound +
+               "); nothing was written: a defect of the baker, please report the input");
+  }
+  return baked;
+}
+
+}  // namespace firmtouch::cli
