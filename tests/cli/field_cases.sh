@@ -25,6 +25,43 @@ VoxelizeTellsCountsAndWritesAFileThatParaViewOpens() {
   f voxelize part.obj -n 24; exits 0; same "$out" ''
 }
 
+floats() { tail -c "$2" "$1" | od -An -v -t f4 -w4 | tr -d ' '; }  # floats FILE BYTES: the last
+ANrrdHasTheDistancesWhereItSaysTheyAre() {
+  f make part --triangles 2000 -o part.obj; exits 0
+  f voxelize part.obj -n 14 -o part.nrrd; exits 0
+  same "$(sed -n 1p part.nrrd)" NRRD0004
+  head=$(sed '/^$/q' part.nrrd)
+  for line in 'type: float' 'dimension: 3' 'space dimension: 3' 'endian: little' 'encoding: raw'; do
+    printf '%s\n' "$head" | grep -qx "$line" || fail "no '$line' in: $head"
+  done
+  sizes=$(printf '%s\n' "$head" | sed -n 's/^sizes: //p')
+  # shellcheck disable=SC2086  # three words
+  set -- $sizes
+  bytes=$((4 * $1 * $2 * $3))
+  same "$(wc -c <part.nrrd)" $((bytes + $(sed '/^$/q' part.nrrd | wc -c)))
+  # A point a sample, from origin and directions, x fastest; the distances as a query of the baked mesh has them.
+  printf '%s\n' "$head" | tr '(),' '   ' | awk -v a="$1" -v b="$2" -v c="$3" '
+    /^space origin/ { for (k = 0; k < 3; ++k) low[k] = $(3 + k) }
+    /^space directions/ { step[0] = $3; step[1] = $7; step[2] = $11 }
+    END {
+      print "x,y,z"
+      for (z = 0; z < c; ++z) for (y = 0; y < b; ++y) for (x = 0; x < a; ++x)
+        printf "%.9g,%.9g,%.9g\n", low[0] + x * step[0], low[1] + y * step[1], low[2] + z * step[2]
+    }' >points.csv
+  bake part.obj -o part.fta --keep-triangles
+  f query part.fta part distance --cold <points.csv; exits 0
+  printf '%s\n' "$out" | sed 1d | cut -d, -f1 >queried
+  floats part.nrrd $bytes >written
+  same "$(paste written queried | awk '{ d = $1 - $2; if (d * d > 1e-14 || $1 != $1 + 0) ++bad } END { print NR, bad + 0 }')" "$(($1 * $2 * $3)) 0"
+  # The .vti has the same floats; those that were not requested are NaN.
+  f voxelize part.obj -n 14 -o part.vti; exits 0
+  { sed '/^_/,$d' part.vti; printf _; } >before
+  tail -c +$(($(wc -c <before) + 9)) part.vti | head -c $bytes >of_vti
+  tail -c $bytes part.nrrd | cmp -s - of_vti || fail 'other distances than the .vti'
+  f voxelize part.obj -n 14 --interior -o inner.nrrd; exits 0
+  same "$(floats inner.nrrd $bytes | grep -c nan)" "$(printf '%s\n' "$err" | sed -n 's/.* inside, \([0-9]*\) outside$/\1/p')"
+}
+
 VoxelizeTakesSeveralModelsAndClosesTheirHoles() {
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >open.obj
   printf 'v 3 0 0\nv 4 0 0\nv 3 1 0\nv 3 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >shut.obj
@@ -38,7 +75,7 @@ VoxelizeRefusesWhatItCannotDo() {
   f voxelize a.obj; exits 2; says '-n LONG_AXIS_CELLS'
   f voxelize a.obj -n 0; exits 2; says '-n'
   f voxelize a.obj -n 4096; exits 2; says 'voxels of these models; choose less'
-  f voxelize a.obj -n 9 -o a.obj; exits 2; says 'name it .vti'
+  f voxelize a.obj -n 9 -o a.obj; exits 2; says 'name it .vti or .nrrd'
   f voxelize missing.obj -n 9; exits 3; says missing.obj
 }
 

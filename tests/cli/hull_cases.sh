@@ -15,6 +15,33 @@ AHullIsWrittenAndIsAModelItself() {
   says 'grid of'
 }
 
+LevelsAreNestedAndReadBackFromEachFormat() {
+  f make part -o part.obj --triangles 3000; exits 0
+  for form in obj stl; do
+    f hull part.obj --faces 1500,600,200 -o hull.$form --json; exits 0; well_formed
+    says '1500 faces enclose' '600 faces enclose' '200 faces enclose'
+    member '"file": "hull_200.'$form'", "triangles": 200' '"levels": [{"file": "hull_1500.'$form'", "triangles": 1500'
+    for faces in 1500 600 200; do
+      bake hull_$faces.$form -o $form$faces.fta --keep-triangles; says "$faces triangles" 'closed: inside and outside are known'
+    done
+  done
+  absent hull.obj
+  f hull part.obj --faces 600 -o one.stl; exits 0
+  cmp -s one.stl hull_600.stl || { f bake one.stl -o one.fta; says '600 triangles'; }
+  # No vertex of a finer level is outside of the next; a format changes no distance.
+  for pair in 'part 1500' '1500 600' '600 200'; do
+    finer=${pair% *} coarser=${pair#* }
+    [ "$finer" = part ] && finer=part.obj || finer=hull_$finer.obj
+    { echo x,y,z; sed -n 's/^v \(.*\) \(.*\) \(.*\)/\1,\2,\3/p' "$finer"; } >vertices.csv
+    f query obj$coarser.fta hull_$coarser distance <vertices.csv; exits 0
+    inside=$(printf '%s\n' "$out" | awk -F, 'NR > 1 && $1 < -1e-6 { ++inside } NR > 1 && $1 > 1e-8 { bad = 1 } END { print bad ? 0 : inside }')
+    [ "$inside" -gt 50 ] || fail "$finer is not inside $coarser"
+    printf '%s\n' "$out" | cut -d, -f1 >of_obj
+    f query stl$coarser.fta hull_$coarser distance <vertices.csv; exits 0
+    printf '%s\n' "$out" | cut -d, -f1 | cmp -s - of_obj || fail "the .stl of $coarser has other distances"
+  done
+}
+
 BadModelsAreNoHulls() {
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >open.obj
   f hull open.obj --faces 4 -o h.obj; exits 3; says open.obj '3 open edges' '--close-holes'; absent h.obj
@@ -41,7 +68,12 @@ HullsNeedFacesAndAnObjFile() {
   box >box.obj
   f hull box.obj -o h.obj; exits 2; says '--faces N'
   f hull box.obj --faces 8; exits 2; says '-o FILE.obj'
-  f hull box.obj --faces 8 -o h.stl; exits 2; says '.obj'
+  f hull box.obj --faces 8 -o h.vti; exits 2; says '.obj' '.stl'
+  for faces in 8,8 4,8 8, ,8 8,x 8,3 -8; do f hull box.obj "--faces=$faces" -o h.obj; exits 2; says '--faces'; done
+  f hull box.obj --faces 8,4 -o -; exits 2; says 'name a file'
+  f hull box.obj --faces 8,4 -o ./box.obj; exits 0; rm box_8.obj box_4.obj
+  f hull box.obj --faces 12,8 -o h.obj; cp h_8.obj box_8.obj; f hull box_8.obj --faces 12,8 -o box.obj; exits 2; says 'box_8.obj'
+  rm h_12.obj h_8.obj
   f hull box.obj --faces 3 -o h.obj; exits 2; says '--faces'
   f hull box.obj --faces 8 -o box.obj; exits 2; says 'box.obj'
   f hull box.obj --faces 8 --strategy 3 -o h.obj; exits 2; says '--strategy'

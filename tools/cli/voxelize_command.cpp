@@ -75,16 +75,18 @@ std::string json_of(const tools::DistanceField& made, const std::string& output)
 const Command& voxelize_command() {
   static const Command command{
       "voxelize",
-      "MODEL... -n LONG_AXIS_CELLS [-o MAP.vti] [options]",
+      "MODEL... -n LONG_AXIS_CELLS [-o FILE] [options]",
       "Voxels of closed models: surface, inside, outside, and the distance and closest point of "
       "each.",
       "All models share one grid: its long axis has LONG_AXIS_CELLS voxels. Distance is to the "
       "nearest\n"
       "surface of any, negative inside of any. The .vti has a point a voxel with the arrays "
       "distance,\n"
-      "closest_point, triangle, object, side and kind; ParaView opens it.",
+      "closest_point, triangle, object, side and kind; ParaView opens it. The .nrrd has the "
+      "distances;\n"
+      "3D Slicer opens it.",
       {{"-n", "LONG_AXIS_CELLS", "voxels along the longest side, 1 to 4096"},
-       {"-o", "FILE", "the .vti to write; -: to stdout"},
+       {"-o", "FILE", "a .vti or .nrrd to write; -: a .vti to stdout"},
        {"--interior", nullptr, "distances only for voxels on a surface or inside"},
        {"--close-holes", nullptr, "each hole of a model gets a cap of triangles, reported"},
        {"--threads", "N", "how many compute (default: one a processor; the result is the same)"},
@@ -101,8 +103,9 @@ int run_voxelize(const Arguments& arguments) {
   const uint32_t cells = arguments.count("-n", 1, 1, kMaxCells);
   if (output == "-" && arguments.has("--json"))
     fail_usage("voxelize: -o - takes standard output: leave out --json, or name a file");
-  if (!output.empty() && output != "-" && extension_of(output) != ".vti")
-    fail_usage("voxelize: -o " + output + ": name it .vti");
+  const bool is_nrrd = extension_of(output) == ".nrrd";
+  if (!output.empty() && output != "-" && !is_nrrd && extension_of(output) != ".vti")
+    fail_usage("voxelize: -o " + output + ": name it .vti or .nrrd");
   if (inputs.size() > INT16_MAX)
     fail_usage("voxelize: at most " + std::to_string(INT16_MAX) + " models at once");
   for (const std::string& input : inputs) forbid_overwriting(output, input);
@@ -140,7 +143,7 @@ int run_voxelize(const Arguments& arguments) {
     distance_field = tools::make_distance_field(solids, grid, options);
     if (!output.empty()) {
       progress.stage("writing " + file_name_of(output));
-      file = tools::to_vti(distance_field, solids);
+      file = is_nrrd ? tools::to_nrrd(distance_field) : tools::to_vti(distance_field, solids);
       write_file(output, file.data(), file.size());
     }
   }

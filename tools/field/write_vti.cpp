@@ -8,6 +8,11 @@ namespace {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the file says LittleEndian");
 
+template <class T>
+void append_bytes(std::string& bytes, T value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
 // The file's head and, behind it, the arrays: a 64-bit count of bytes, then the bytes.
 class VtiText {
  public:
@@ -20,9 +25,9 @@ class VtiText {
                   "format=\"appended\" offset=\"%zu\"/>\n",
                   type, name, components, data_.size());
     heads_ += line;
-    append(static_cast<uint64_t>(items * components * sizeof(T)));
+    append_bytes(data_, static_cast<uint64_t>(items * components * sizeof(T)));
     for (size_t i = 0; i < items; ++i)
-      for (uint32_t k = 0; k < components; ++k) append(static_cast<T>(value(i, k)));
+      for (uint32_t k = 0; k < components; ++k) append_bytes(data_, static_cast<T>(value(i, k)));
   }
 
   std::string whole(const VoxelGrid& grid) const {
@@ -44,13 +49,13 @@ class VtiText {
   }
 
  private:
-  template <class T>
-  void append(T value) {
-    data_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-
   std::string heads_, data_;
 };
+
+// NaN: not computed.
+float distance_m(const Nearest& nearest) {
+  return nearest.sign == 0 ? std::numeric_limits<float>::quiet_NaN() : nearest.distance_m;
+}
 
 float coordinate(const math::Vec3& v, uint32_t k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 
@@ -61,9 +66,8 @@ std::string to_vti(const DistanceField& distance_field, const std::vector<Solid>
   const auto& values = distance_field.values;
   const size_t count = values.size();
   VtiText text;
-  text.add<float>("Float32", "distance", 1, count, [&](size_t i, uint32_t) {
-    return values[i].sign == 0 ? nothing : values[i].distance_m;
-  });
+  text.add<float>("Float32", "distance", 1, count,
+                  [&](size_t i, uint32_t) { return distance_m(values[i]); });
   text.add<float>("Float32", "closest_point", 3, count, [&](size_t i, uint32_t k) {
     return values[i].sign == 0 ? nothing : coordinate(values[i].closest_m, k);
   });
@@ -79,6 +83,23 @@ std::string to_vti(const DistanceField& distance_field, const std::vector<Solid>
     return static_cast<uint8_t>(distance_field.kinds[i]);
   });
   return text.whole(distance_field.grid);
+}
+
+std::string to_nrrd(const DistanceField& distance_field) {
+  const VoxelGrid& grid = distance_field.grid;
+  const Point origin = grid.centre_m(0, 0, 0);
+  char head[400];
+  std::snprintf(
+      head, sizeof head,
+      "NRRD0004\n# signed distance, metres\ntype: float\ndimension: 3\nspace dimension: 3\n"
+      "sizes: %u %u %u\nspace directions: (%.17g,0,0) (0,%.17g,0) (0,0,%.17g)\n"
+      "space origin: (%.17g,%.17g,%.17g)\nspace units: \"m\" \"m\" \"m\"\n"
+      "kinds: domain domain domain\nendian: little\nencoding: raw\n\n",
+      grid.count[0], grid.count[1], grid.count[2], grid.size_m, grid.size_m, grid.size_m, origin.x,
+      origin.y, origin.z);
+  std::string text = head;
+  for (const Nearest& nearest : distance_field.values) append_bytes(text, distance_m(nearest));
+  return text;
 }
 
 }  // namespace firmtouch::tools

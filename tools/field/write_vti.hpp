@@ -12,4 +12,8 @@ namespace firmtouch::tools {
 /// What was not computed is NaN, triangle and object -1, side 0.
 std::string to_vti(const DistanceField& distance_field, const std::vector<Solid>& solids);
 
+/// The signed distances alone as NRRD (.nrrd, which 3D Slicer opens). What was not computed is NaN.
+/// Source: Definition of NRRD File Format, Teem (attached header, raw).
+std::string to_nrrd(const DistanceField& distance_field);
+
 }  // namespace firmtouch::tools
