@@ -25,6 +25,9 @@ firmtouch_example(friction LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(own_shape LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(two_objects LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(own_linkage LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(own_effect LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(forbidden_region LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(teach_and_repeat LINKS firmtouch::scene firmtouch::servo)
 
 # Those with an asset need the baker: this build's, or the one in FIRMTOUCH_HOST_TOOLS.
 if(TARGET firmtouch OR FIRMTOUCH_HOST_TOOLS)
@@ -38,10 +41,13 @@ if(TARGET firmtouch OR FIRMTOUCH_HOST_TOOLS)
   firmtouch_bake(TARGET example_low_block INPUTS ${CMAKE_CURRENT_LIST_DIR}/low_block.obj OUTPUT low_block.fta
                  OPTIONS --unit mm)
   firmtouch_embed(TARGET example_low_block_bytes ASSET example_low_block SYMBOL low_block_fta)
+  firmtouch_bake(TARGET example_torus INPUTS ${PROJECT_SOURCE_DIR}/tests/spline/cad/torus.igs OUTPUT torus.fta)
+  firmtouch_embed(TARGET example_torus_bytes ASSET example_torus SYMBOL torus_fta)
 
   firmtouch_example(touch_mesh LINKS firmtouch::controller example_block_bytes)
   firmtouch_example(two_rates LINKS firmtouch::controller example_block_bytes)
   firmtouch_example(replay_log LINKS firmtouch::controller example_block_bytes)
   firmtouch_example(hot_swap LINKS firmtouch::controller example_block_bytes example_low_block_bytes)
+  firmtouch_example(spline_surface LINKS firmtouch::controller example_torus_bytes)
   firmtouch_example(follow_path LINKS firmtouch::controller example_path_bytes)
 endif()
