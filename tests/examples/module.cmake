@@ -7,7 +7,7 @@ function(firmtouch_example name)
   set(source ${PROJECT_SOURCE_DIR}/tests/examples/${name}.cpp)
   if(CMAKE_CROSSCOMPILING)
     firmtouch_target_program(example_${name} SOURCES ${source} LINKS ${example_LINKS})
-    if(FIRMTOUCH_BOARD)  # one that hal/emulate knows
+    if(FIRMTOUCH_BOARD AND is_emulated)  # tests/target
       add_test(NAME examples.${name}.${FIRMTOUCH_BOARD}
                COMMAND ${PROJECT_SOURCE_DIR}/hal/emulate ${FIRMTOUCH_BOARD} $<TARGET_FILE:example_${name}>)
     endif()

@@ -1,0 +1,10 @@
+# firmtouch_add_stm32_board(BOARD_FOLDER): a board with an STM32 of the newer families (G4, H7), described by board.cpp and
+# registers.hpp of BOARD_FOLDER. An image for hardware: no semihosting, no host can end it.
+function(firmtouch_add_stm32_board folder)
+  set(stm32 ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
+  firmtouch_board_parts(firmtouch_board
+    SOURCES ${folder}/board.cpp ${stm32}/board.cpp ${stm32}/clock.cpp ${stm32}/encoders.cpp ${stm32}/link.cpp
+            ${stm32}/motors.cpp
+    PARTS firmtouch_cortex_m firmtouch_no_emulator firmtouch_no_parameters LINKER_SCRIPT ${folder}/link.ld)
+  target_include_directories(firmtouch_board_objects PRIVATE ${folder})
+endfunction()
