@@ -4,7 +4,7 @@
 #include <clocale>
 #include <string>
 
-#include "harness/test.hpp"
+#include "harness/damage.hpp"
 
 namespace {
 
@@ -181,4 +181,17 @@ TEST(RingThatClosesWithinRounding_IsClosedAndSaidSo) {
   const CurvePoints open = read("x,y,z\n0.03,0,0\n0,0.03,0\n-0.03,0,0\n0,-0.03,0\n0.03,-1e-8,0\n");
   CHECK_EQ(open.samples_m[4].y, -1e-8f);
   CHECK_EQ(open.notes.size(), 0u);
+}
+
+TEST(DamagedModel_Csv_EndsInAProblemOrACurve) {
+  const std::string good[] = {
+      "x,y,z\n0,0,0\n1,-2.5,3e-3\n+4,5,6\n7,8,9\n",
+      "# t\n\"X (mm)\";\"Y (mm)\";\"Z (mm)\"\r\n0;1;2\r\n3;4;5\r\n6;6;6\r\n",
+      "0 0 0\n1 0 0\n1 1 0\n"};
+  firmtouch::test::attack({good[0], good[1], good[2]}, [](const std::string& bytes) {
+    const CurvePoints points = read(bytes);
+    if (!points.problem.empty()) CHECK(has(points.problem, "path.csv"));
+    if (points.problem.empty()) CHECK(points.samples_m.size() >= 2);
+    CHECK_EQ(points.samples_m.size(), points.rows.size());
+  });
 }

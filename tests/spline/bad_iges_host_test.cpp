@@ -1,8 +1,7 @@
 // Bad IGES: refused with file, line, entity and remedy.
-#include "harness/test.hpp"
+#include "harness/damage.hpp"
 #include "iges_text.hpp"
 #include "spline/orientation.hpp"
-#include "surface/random.hpp"
 
 namespace {
 
@@ -34,6 +33,14 @@ bool refused_sheet(const std::string& from, const std::string& to,
 
 bool refused_global(const std::string& global, std::initializer_list<const char*> parts) {
   return refused_text(IgesText({{126, arch()}}, global).text(), parts);
+}
+
+void survive(const char* name, const std::string& bytes) {
+  tools::SplineModel model = tools::read_spline_bytes(bytes, name, 0);
+  if (!model.problem.empty()) CHECK(has(model.problem, name));
+  orient(model);  // whatever the surfaces are
+  for (const tools::SplineCurve& c : model.curves) CHECK(!bezier_pieces(c).empty());
+  for (const tools::SplineSurface& s : model.surfaces) CHECK(!bezier_pieces(s).empty());
 }
 
 }  // namespace
@@ -201,22 +208,16 @@ TEST(OtherFilesAreRefusedByWhatTheyAre) {
   CHECK(refused_text(file.text(), {"column 73 holds `X`"}));
 }
 
-TEST(DamagedBytesEndInAProblemOrASpline) {
+TEST(DamagedModel_Iges_EndsInAProblemOrASpline) {
   const std::string good =
       IgesText(
           {{126, arch(), 5}, {128, sheet()}, {124, "124,1.,0.,0.,0.,0.,1.,0.,0.,0.,0.,1.,0.;"}})
           .text();
-  tools::Random random(1);
-  const char bytes[] = "0123456789.,;-+EHD \n";
-  for (int round = 0; round < 4000; ++round) {
-    std::string text = good;
-    for (uint32_t k = 0; k <= random.below(3); ++k)
-      text[random.below(static_cast<uint32_t>(text.size()))] =
-          bytes[random.below(sizeof(bytes) - 1)];
-    tools::SplineModel model = tools::read_spline_bytes(text, "part.igs", 0);
-    if (!model.problem.empty()) CHECK(has(model.problem, "part.igs"));
-    orient(model);  // whatever the surfaces are
-    for (const tools::SplineCurve& c : model.curves) CHECK(!bezier_pieces(c).empty());
-    for (const tools::SplineSurface& s : model.surfaces) CHECK(!bezier_pieces(s).empty());
-  }
+  test::attack({good}, [](const std::string& bytes) { survive("part.igs", bytes); });
+}
+TEST(DamagedModel_Bpt_EndsInAProblemOrASpline) {
+  std::string good = "1\n1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n16\n";
+  for (int i = 0; i < 16; ++i)
+    good += std::to_string(i % 4) + "," + std::to_string(i / 4) + ",0.5\n";
+  test::attack({good}, [](const std::string& bytes) { survive("part.bpt", bytes); });
 }

@@ -1,8 +1,8 @@
 #include "containers.hpp"
 #include "formats.hpp"
+#include "harness/damage.hpp"
 #include "shapes.hpp"
 #include "surface/check/check.hpp"
-#include "surface/random.hpp"
 #include "surface/read/inflate.hpp"
 #include "surface/read/read_surface.hpp"
 
@@ -87,27 +87,35 @@ TEST(EveryFlippedBitOfDeflate_IsFoundByLengthOrCrc) {
     CHECK(!gunzip(gzip.substr(0, length), 1 << 20).problem.empty());
 }
 
-TEST(DamagedContainers_EndInAProblemOrASurface) {
+TEST(TruncatedContainers_EndInAProblemOrASurface) {
   for (const auto& [name, bytes] : files()) {
     for (size_t length = 0; length < bytes.size(); ++length) survive(name, bytes.substr(0, length));
   }
-  const bool is_long = std::getenv("FIRMTOUCH_LONG") != nullptr;
-  for (uint64_t seed = 1; seed <= (is_long ? 100000u : 4000u); ++seed) {
-    test::note("seed", static_cast<int64_t>(seed));
-    Random random(seed);
-    auto [name, bytes] = files()[random.below(4)];
-    for (uint32_t edits = 1 + random.below(4); edits > 0; --edits) {
-      const uint32_t at = random.below(static_cast<uint32_t>(bytes.size()));
-      if (random.below(3) == 0) {
-        bytes.erase(at, 1 + random.below(6));
-      } else {
-        bytes[at] = random.below(2) == 0 ? static_cast<char>(random.below(256))
-                                         : "0123456789-.,:{}[]\"<>/"[random.below(22)];
-      }
-      if (bytes.empty()) break;
-    }
-    survive(name, bytes);
-  }
+}
+TEST(DamagedModel_Gltf_EndsInAProblemOrASurface) {
+  test::attack({cube_gltf_json("\"uri\":\"data:a;base64,AAAA\",")},
+               [](const std::string& bytes) { survive("a.gltf", bytes); });
+}
+TEST(DamagedModel_Glb_EndsInAProblemOrASurface) {
+  test::attack({cube_glb()}, [](const std::string& bytes) { survive("a.glb", bytes); });
+}
+TEST(DamagedModel_3mf_EndsInAProblemOrASurface) {
+  test::attack({model_3mf(0), model_3mf(8)},
+               [](const std::string& bytes) { survive("a.3mf", bytes); });
+}
+// With the right CRC, so that what is inside is read.
+TEST(DamagedModel_3mfInside_EndsInAProblemOrASurface) {
+  const std::string plain = gunzip(from_hex(kModelGzip), 1 << 20).bytes;
+  test::attack({plain}, [](const std::string& bytes) {
+    survive("a.3mf", zip_of("3D/3dmodel.model", bytes, 0, crc_of(bytes),
+                            static_cast<uint32_t>(bytes.size())));
+  });
+}
+TEST(DamagedModel_Gzip_EndsInAProblemOrItsBytes) {
+  test::attack({from_hex(kModelGzip)}, [](const std::string& bytes) {
+    const Inflated out = gunzip(bytes, 1 << 20);
+    CHECK(!out.problem.empty() || out.bytes.size() <= size_t{1} << 20);
+  });
 }
 
 TEST(ObjectsThatHoldEachOther_AreRefused) {
