@@ -189,7 +189,7 @@ DistancesOfABoxAreKnown() {
 CadPartsAreBaked() {
   f make cad --seed 3 -o sheet.obj; exits 0
   bake --unit mm sheet.obj -o sheet.fta
-  f make cad --triangles 9 -o c.obj; exits 2; told "--triangles has no meaning for cad"
+  f make cad --triangles 9 -o c.obj; exits 2; says "--triangles has no meaning for cad"
 }
 
 EveryBakeTellsTheSameDistances() {

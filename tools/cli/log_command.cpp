@@ -6,6 +6,7 @@
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "cli/log_json.hpp"
+#include "cli/npy.hpp"
 #include "cli/progress.hpp"
 #include "log/edit.hpp"
 #include "log/plot.hpp"
@@ -161,6 +162,31 @@ int csv(const std::string& path, const Arguments& arguments) {
   return reported(path, reader.troubles());
 }
 
+// Two passes: the head of the file has the count of its records.
+int npy(const std::string& path, const Arguments& arguments) {
+  log::Reader counted(log::open_file(path), path);
+  log::read_through(counted);
+  log::Reader reader(log::open_file(path), path);
+  const std::vector<log::Column> columns =
+      columns_of(path, reader.header(), list_of(arguments.text("--fields", "")));
+  constexpr const char* kTypes[] = {"<u4", "<i4", "<f4"};
+  std::vector<NpyColumn> named;
+  for (const log::Column& column : columns)
+    named.push_back({log::printable(column.name), kTypes[static_cast<int>(column.field->type)]});
+  TextOutput out(arguments.text("-o", ""));
+  out.add(npy_head(named, counted.records()));
+  log::Block block;
+  while (reader.next(block)) {
+    std::string bytes;
+    for (uint32_t i = 0; i < block.count; ++i)
+      for (const log::Column& column : columns)
+        bytes.append(reinterpret_cast<const char*>(block.record(i)) + column.offset, 4);
+    out.add(bytes);
+  }
+  out.close();
+  return reported(path, reader.troubles());
+}
+
 int plot(const std::string& path, const Arguments& arguments) {
   const std::string output = arguments.text("-o", "");
   const std::string extension = extension_of(output);
@@ -239,6 +265,7 @@ int act(const Arguments& arguments) {
     return allow(arguments, action, {"--json"}), info(path, arguments.has("--json"));
   if (action == "csv")
     return allow(arguments, action, {"-o", "--fields", "--names"}), csv(path, arguments);
+  if (action == "npy") return allow(arguments, action, {"-o", "--fields"}), npy(path, arguments);
   if (action == "plot") return allow(arguments, action, {"-o", "--fields"}), plot(path, arguments);
   if (action == "cut")
     return allow(arguments, action, {"-o", "--from", "--to"}), cut(path, arguments, output);
@@ -246,7 +273,7 @@ int act(const Arguments& arguments) {
   if (action == "stats")
     return allow(arguments, action, {"--json"}), stats(path, arguments.has("--json"));
   fail_usage("log: '" + action +
-             "' is nothing to do with a log: info, csv, plot, cut, join, stats");
+             "' is nothing to do with a log: info, csv, npy, plot, cut, join, stats");
 }
 
 }  // namespace
@@ -254,17 +281,19 @@ int act(const Arguments& arguments) {
 const Command& log_command() {
   static const Command command{
       "log",
-      "LOG.ftl info|csv|plot|cut|join|stats [LOG.ftl...]",
+      "LOG.ftl info|csv|npy|plot|cut|join|stats [LOG.ftl...]",
       "Prints what a recorded run holds, draws it, cuts and joins.",
       "  info    the head of the log and its fields     csv    every record as a row, as stored\n"
       "  stats   period, steps, faults, missing records  plot   force, position, deviation, "
       "energy, "
       "steps\n"
       "  cut     the records from --from to before --to  join   this log and those that follow it\n"
+      "  npy     the same rows as a NumPy file\n"
       "A damaged or cut-off log gives all its whole blocks; exit code 1 then.",
       {{"-o", "FILE",
-        "where to: .ftl for cut and join, .svg or .html for plot, text for csv (- is stdout)"},
-       {"--fields", "A,B", "csv, plot: these fields alone, by their names in the log"},
+        "where to: .ftl for cut and join, .svg or .html for plot, text for csv, .npy (- is "
+        "stdout)"},
+       {"--fields", "A,B", "csv, npy, plot: these fields alone, by their names in the log"},
        {"--names", nullptr, "csv: further columns with the names of the set bits"},
        {"--from", "N|S", "cut: from this record's number on, or from a time: 2.5s"},
        {"--to", "N|S", "cut: to before this record's number, or this time"},

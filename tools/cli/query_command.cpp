@@ -84,7 +84,9 @@ const Command& query_command() {
         "unlimited, "
         "so exact)"},
        {"--budget", "N", "the same in visits of 2.5 units; dropped in the next version"},
-       {"--time", nullptr, "no CSV: the median time a query over 5 passes"},
+       {"--time", nullptr, "no rows: the median time a query over 5 passes"},
+       {"--json", nullptr, "a JSON object a row, instead of CSV"},
+       {"--npy", nullptr, "a NumPy file of records with the columns' names, instead of CSV"},
        {"--line-buffered", nullptr,
         "each row is answered before the next one is read, for a program at both ends"},
        {"--isa", "LEVEL",
@@ -116,6 +118,9 @@ int run_query(const Arguments& arguments) {
   check_kind(kind);
   if (arguments.has("--line-buffered") && arguments.has("--time"))
     fail_usage("query: --time needs all rows at once: leave out --line-buffered");
+  for (const char* other : {"--json", "--line-buffered", "--time"})
+    if (arguments.has("--npy") && arguments.has(other))
+      fail_usage(std::string("query: --npy is one file of all rows: leave out ") + other);
   if (kind == "footpoints") forbid(arguments, kind, {"--budget", "--work", "--cold"});
   if (kind != "segment" && kind != "hull") forbid(arguments, kind, {"--all"});
   if (kind != "curve" && kind != "hull") forbid(arguments, kind, {"--mode"});

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <vector>
 
 #include "bake/curve/curve_tree.hpp"
@@ -76,15 +75,14 @@ void query_curve(const LoadedCurve& given, CsvTable table, const Arguments& argu
                            static_cast<uint32_t>(tree.size() * sizeof(tree[0]))};
     if (!curve::open(curve.sections, curve.view).ok()) fail_input("the curve has no k-d tree");
   }
-  const auto wide = [](float value) { return static_cast<double>(value); };
-  const auto print = [&](const curve::Closest& a) {
-    std::printf("%.9g,%.9g,%.9g,%.9g,%u,%.9g,%.9g,%u,%d\n", wide(a.distance_m), wide(a.point_m.x),
-                wide(a.point_m.y), wide(a.point_m.z), curve.row_of(a.segment), wide(a.arc),
-                wide(a.certificate.lower_m), a.certificate.steps, a.certificate.exact ? 1 : 0);
+  const auto row_of = [&](const curve::Closest& a) {
+    return std::make_tuple(a.distance_m, a.point_m.x, a.point_m.y, a.point_m.z,
+                           curve.row_of(a.segment), a.arc, a.certificate.lower_m,
+                           a.certificate.steps, a.certificate.exact);
   };
   answer_rows(
-      table, arguments, "distance,cx,cy,cz,segment,arc,lower,steps,exact",
-      [&] { return Answers(curve.view, arguments); }, print);
+      table, arguments, {"distance", "cx", "cy", "cz", "segment", "arc", "lower", "steps", "exact"},
+      [&] { return Answers(curve.view, arguments); }, row_of);
 }
 
 }  // namespace firmtouch::cli

@@ -36,13 +36,11 @@ class Answers {
   mesh::Hint hint_;
 };
 
-void print_row(const LoadedMesh& mesh, const mesh::Closest& a) {
-  const auto wide = [](float value) { return static_cast<double>(value); };
-  std::printf("%.9g,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%u,%s,%.9g,%u,%d\n", wide(a.distance_m),
-              static_cast<int>(a.certificate.sign), wide(a.point_m.x), wide(a.point_m.y),
-              wide(a.point_m.z), wide(a.direction.x), wide(a.direction.y), wide(a.direction.z),
-              mesh.source_of(a.triangle), feature_text(a.feature), wide(a.certificate.lower_m),
-              a.certificate.steps, a.certificate.exact ? 1 : 0);
+auto row_of(const LoadedMesh& mesh, const mesh::Closest& a) {
+  return std::make_tuple(a.distance_m, static_cast<int>(a.certificate.sign), a.point_m.x,
+                         a.point_m.y, a.point_m.z, a.direction.x, a.direction.y, a.direction.z,
+                         mesh.source_of(a.triangle), feature_text(a.feature), a.certificate.lower_m,
+                         a.certificate.steps, a.certificate.exact);
 }
 
 }  // namespace
@@ -66,9 +64,11 @@ query::Budget budget_of(const Arguments& arguments) {
 
 void query_distance(const LoadedMesh& mesh, CsvTable table, const Arguments& arguments) {
   answer_rows(
-      table, arguments, "distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact",
+      table, arguments,
+      {"distance", "sign", "cx", "cy", "cz", "nx", "ny", "nz", "triangle", "feature", "lower",
+       "steps", "exact"},
       [&] { return Answers(mesh.wide, arguments); },
-      [&](const mesh::Closest& a) { print_row(mesh, a); });
+      [&](const mesh::Closest& a) { return row_of(mesh, a); });
 }
 
 }  // namespace firmtouch::cli

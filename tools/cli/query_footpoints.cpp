@@ -17,7 +17,7 @@ void query_footpoints(const spline::View& model, CsvTable table, const Arguments
     return tools::to_point({p[0], p[1], p[2]});
   };
   if (arguments.has("--time")) {
-    print_time(table.rows(), [&] {
+    print_time(table.rows(), arguments, [&] {
       float sum = 0;
       for (size_t i = 0; i < table.rows(); ++i) {
         bool is_complete = false;
@@ -27,16 +27,18 @@ void query_footpoints(const spline::View& model, CsvTable table, const Arguments
     });
     return;
   }
-  std::puts("point,kind,distance,cx,cy,cz,piece,u,v");
+  Rows<std::tuple<size_t, const char*, double, double, double, double, int, double, double>> rows(
+      {"point", "kind", "distance", "cx", "cy", "cz", "piece", "u", "v"}, arguments);
   size_t incomplete = 0, first = 0;
   for (size_t i = 0; table.has(i); ++i) {
     bool is_complete = false;
     for (const tools::Footpoint& f : feet.all(place(i), is_complete))
-      std::printf("%zu,%s,%.9g,%.9g,%.9g,%.9g,%d,%.9g,%.9g\n", i, tools::name_of(f.kind),
-                  f.distance_m, f.point_m.x, f.point_m.y, f.point_m.z, f.piece, f.u, f.v);
+      rows.add({i, tools::name_of(f.kind), f.distance_m, f.point_m.x, f.point_m.y, f.point_m.z,
+                f.piece, f.u, f.v});
     if (is_complete) continue;
     if (incomplete++ == 0) first = i;
   }
+  rows.finish();
   if (incomplete != 0)
     std::fprintf(
         stderr,

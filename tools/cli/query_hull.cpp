@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 #include "bake/hull/bake_base_hull.hpp"
@@ -108,36 +107,41 @@ void answer(HullQuery& hull_query, const LoadedHull& hull, CsvTable& table,
                  ": a ray without a direction, or too far off; give dx,dy,dz that are not all 0");
     return line;
   };
-  const bool all = arguments.has("--all");
   if (arguments.has("--time")) {
     std::vector<hull::RaySegment> lines;
     for (size_t i = 0; i < table.rows(); ++i) lines.push_back(line_of(i));
-    print_time(table.rows(), [&] {
+    print_time(table.rows(), arguments, [&] {
       float sum = 0;
       for (const hull::RaySegment& line : lines) {
-        if (!all) sum += hull_query.first(line.from_m, line.to_m).t;
-        if (all)
-          for (const mesh::SurfaceCrossing& c : hull_query.all(line.from_m, line.to_m)) sum += c.t;
+        if (!arguments.has("--all")) {
+          sum += hull_query.first(line.from_m, line.to_m).t;
+          continue;
+        }
+        for (const mesh::SurfaceCrossing& c : hull_query.all(line.from_m, line.to_m)) sum += c.t;
       }
       return sum;
     });
     return;
   }
-  std::puts(all ? "segment,t,triangle" : "hit,t,triangle,steps");
+  if (arguments.has("--all")) {
+    Rows<std::tuple<size_t, float, uint32_t>> rows({"segment", "t", "triangle"}, arguments);
+    for (size_t i = 0; table.has(i); ++i) {
+      const hull::RaySegment line = line_of(i);
+      for (const mesh::SurfaceCrossing& c : hull_query.all(line.from_m, line.to_m))
+        rows.add({i, c.t * line.reach, hull.source_of(c.triangle)});
+    }
+    return rows.finish();
+  }
+  Rows<std::tuple<bool, float, int64_t, uint32_t>> rows({"hit", "t", "triangle", "steps"},
+                                                        arguments);
   for (size_t i = 0; table.has(i); ++i) {
     const hull::RaySegment line = line_of(i);
-    if (all) {
-      for (const mesh::SurfaceCrossing& c : hull_query.all(line.from_m, line.to_m))
-        std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t * line.reach),
-                    hull.source_of(c.triangle));
-      continue;
-    }
     const mesh::Hit hit = hull_query.first(line.from_m, line.to_m);
     const bool is_of_mesh = hit.hit && hit.triangle != UINT32_MAX;
     const int64_t triangle = is_of_mesh ? int64_t{hull.source_of(hit.triangle)} : -1;
-    std::printf("%d,%.9g,%lld,%u\n", hit.hit ? 1 : 0, static_cast<double>(hit.t * line.reach),
-                static_cast<long long>(triangle), hit.steps);
+    rows.add({hit.hit, hit.t * line.reach, triangle, hit.steps});
   }
+  rows.finish();
 }
 
 // The lowest triangle that each row's crosses, or all of them.
@@ -150,7 +154,7 @@ void answer_triangles(const LoadedHull& hull, CsvTable& table, const Arguments& 
   };
   std::vector<uint32_t> met;
   if (arguments.has("--time")) {
-    print_time(table.rows(), [&] {
+    print_time(table.rows(), arguments, [&] {
       float sum = 0;
       for (size_t i = 0; i < table.rows(); ++i) {
         (void)query_one(corners(i), met);
@@ -160,17 +164,20 @@ void answer_triangles(const LoadedHull& hull, CsvTable& table, const Arguments& 
     });
     return;
   }
-  const bool all = arguments.has("--all");
-  std::puts(all ? "asked,triangle" : "hit,triangle,steps");
+  if (arguments.has("--all")) {
+    Rows<std::tuple<size_t, uint32_t>> rows({"asked", "triangle"}, arguments);
+    for (size_t i = 0; table.has(i); ++i) {
+      (void)query_one(corners(i), met);
+      for (const uint32_t triangle : met) rows.add({i, hull.source_of(triangle)});
+    }
+    return rows.finish();
+  }
+  Rows<std::tuple<bool, int64_t, uint32_t>> rows({"hit", "triangle", "steps"}, arguments);
   for (size_t i = 0; table.has(i); ++i) {
     const uint32_t steps = query_one(corners(i), met);
-    if (all) {
-      for (const uint32_t triangle : met) std::printf("%zu,%u\n", i, hull.source_of(triangle));
-      continue;
-    }
-    const int64_t first = met.empty() ? -1 : int64_t{hull.source_of(met[0])};
-    std::printf("%d,%lld,%u\n", met.empty() ? 0 : 1, static_cast<long long>(first), steps);
+    rows.add({!met.empty(), met.empty() ? -1 : int64_t{hull.source_of(met[0])}, steps});
   }
+  rows.finish();
 }
 
 bool is_refined(const Arguments& arguments) {

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <vector>
 
 #include "cli/queries.hpp"
@@ -40,7 +39,7 @@ class AllCrossings {
 void query_all(const LoadedMesh& mesh, CsvTable& table, const Arguments& arguments) {
   AllCrossings crossings(mesh, budget_of(arguments));
   if (arguments.has("--time")) {
-    print_time(table.rows(), [&] {
+    print_time(table.rows(), arguments, [&] {
       float sum = 0;
       for (size_t i = 0; i < table.rows(); ++i)
         for (const mesh::SurfaceCrossing& c : crossings.of(table.row(i))) sum += c.t;
@@ -48,10 +47,11 @@ void query_all(const LoadedMesh& mesh, CsvTable& table, const Arguments& argumen
     });
     return;
   }
-  std::puts("segment,t,triangle");
+  Rows<std::tuple<size_t, float, uint32_t>> rows({"segment", "t", "triangle"}, arguments);
   for (size_t i = 0; table.has(i); ++i)
     for (const mesh::SurfaceCrossing& c : crossings.of(table.row(i)))
-      std::printf("%zu,%.9g,%u\n", i, static_cast<double>(c.t), mesh.source_of(c.triangle));
+      rows.add({i, c.t, mesh.source_of(c.triangle)});
+  rows.finish();
 }
 
 }  // namespace
@@ -64,20 +64,21 @@ void query_segment(const LoadedMesh& mesh, CsvTable table, const Arguments& argu
     return mesh.wide.cast_segment(point_of(row), point_of(row + 3), budget);
   };
   if (arguments.has("--time")) {
-    print_time(table.rows(), [&] {
+    print_time(table.rows(), arguments, [&] {
       float sum = 0;
       for (size_t i = 0; i < table.rows(); ++i) sum += cast(i).t;
       return sum;
     });
     return;
   }
-  std::puts("hit,t,triangle,steps");
+  Rows<std::tuple<bool, float, int64_t, uint32_t>> rows({"hit", "t", "triangle", "steps"},
+                                                        arguments);
   for (size_t i = 0; table.has(i); ++i) {
     const mesh::Hit hit = cast(i);
     const int64_t triangle = hit.hit ? int64_t{mesh.source_of(hit.triangle)} : -1;
-    std::printf("%d,%.9g,%lld,%u\n", hit.hit ? 1 : 0, static_cast<double>(hit.t),
-                static_cast<long long>(triangle), hit.steps);
+    rows.add({hit.hit, hit.t, triangle, hit.steps});
   }
+  rows.finish();
 }
 
 }  // namespace firmtouch::cli

@@ -1,5 +1,3 @@
-#include <cstdio>
-
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
 #include "firmtouch/spline/closest_point.hpp"
@@ -28,16 +26,14 @@ class Answers {
 }  // namespace
 
 void query_spline(const spline::View& model, CsvTable table, const Arguments& arguments) {
-  const auto wide = [](float value) { return static_cast<double>(value); };
-  const auto print = [&](const spline::Closest& a) {
-    std::printf("%.9g,%.9g,%.9g,%.9g,%u,%.9g,%.9g,%.9g,%u,%d\n", wide(a.distance_m),
-                wide(a.point_m.x), wide(a.point_m.y), wide(a.point_m.z), a.piece, wide(a.u),
-                wide(a.v), wide(a.certificate.lower_m), a.certificate.steps,
-                a.certificate.exact ? 1 : 0);
+  const auto row_of = [](const spline::Closest& a) {
+    return std::make_tuple(a.distance_m, a.point_m.x, a.point_m.y, a.point_m.z, a.piece, a.u, a.v,
+                           a.certificate.lower_m, a.certificate.steps, a.certificate.exact);
   };
   answer_rows(
-      table, arguments, "distance,cx,cy,cz,piece,u,v,lower,steps,exact",
-      [&] { return Answers(model, arguments); }, print);
+      table, arguments,
+      {"distance", "cx", "cy", "cz", "piece", "u", "v", "lower", "steps", "exact"},
+      [&] { return Answers(model, arguments); }, row_of);
 }
 
 }  // namespace firmtouch::cli
