@@ -99,8 +99,9 @@ int replay_log(const Options& options) {
               << d->found << "\n";
     return 1;
   }
-  std::cerr << path << ": " << log.records.size() << " ticks replayed (" << by
-            << "), every output bit the same\n";
+  if (!options.has("--json"))
+    std::cout << path << ": " << log.records.size() << " ticks replayed (" << by
+              << "), every output bit the same\n";
   return log.is_complete ? 0 : 1;
 }
 

@@ -164,9 +164,9 @@ void read_linkage(Scenario& scenario, const Session& session, const std::string&
 }
 
 // Result: whether the balance holds.
-bool print_energy(const EnergyBook& book) {
+bool print_energy(std::FILE* to, const EnergyBook& book) {
   const double error = book.turnover_J > 0 ? book.error_J() / book.turnover_J : 0;
-  std::fprintf(stderr,
+  std::fprintf(to,
                "  energy         hand %.4g J, motors %.4g J, lost %.4g J, stored %.4g J; balance "
                "within %.1e of %.4g J\n",
                book.hand_J, book.motors_J, book.lost_J, book.stored_J - book.start_J,
@@ -174,19 +174,21 @@ bool print_energy(const EnergyBook& book) {
   return std::fabs(error) <= kMaxBalanceError;
 }
 
-void print_speed(const RunFacts& facts, std::clock_t began) {
+void print_speed(std::FILE* to, const RunFacts& facts, std::clock_t began) {
   const double seconds = facts.ticks / facts.rate_Hz;
   const double used_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
-  std::fprintf(stderr, "  speed          %.3g times real time (%.3g s of processor time)\n",
+  std::fprintf(to, "  speed          %.3g times real time (%.3g s of processor time)\n",
                seconds / std::max(used_s, 1e-6), used_s);
 }
 
-// Throws Usage if two outputs, or an output and the JSON summary, go to stdout.
-void check_stdout(const Options& options, const NamedFiles& outputs) {
+// Where the summary goes: stdout, or stderr if an output or the JSON goes to stdout. Throws Usage if
+// both do, or two outputs.
+std::FILE* summary_stream(const Options& options, const NamedFiles& outputs) {
   size_t count = options.has("--json") ? 1 : 0;
   for (const auto& output : outputs) count += output.second == "-" ? 1u : 0u;
   if (count > 1) options.refuse("only one output can go to stdout");
   if (options.value("--log") == "-") options.refuse("a log needs a file: --log FILE.ftl");
+  return count == 0 ? stdout : stderr;
 }
 
 int run_scenario(const Options& options) {
@@ -198,7 +200,7 @@ int run_scenario(const Options& options) {
   NamedFiles outputs = {{"--report", report_path(options, scenario.asset)}};
   for (const char* name : {"--picture", "--log", "--csv"})
     outputs.emplace_back(name, options.value(name));
-  check_stdout(options, outputs);
+  std::FILE* const to = summary_stream(options, outputs);
   check_outputs({{"the scenario", file},
                  {"the asset", path_beside(file, scenario.asset)},
                  {"--image", options.value("--image")}},
@@ -230,10 +232,11 @@ int run_scenario(const Options& options) {
     write_pages(options, {scenario, environment, facts, summary, written.charts(), written.paths(),
                           session.asset.path(), static_cast<uint32_t>(session.asset.bytes().size()),
                           session.scene_text(), command_of(options.words())});
-  print_speed(facts, began);
+  print_speed(to, facts, began);
   if (options.has("--json")) std::cout << json_of(summary, facts);
-  std::cerr << "  scene          " << session.scene_text() << "\n" << text_of(summary, facts);
-  const bool is_balanced = !options.has("--energy") || print_energy(*simulation.energy());
+  std::fprintf(to, "  scene          %s\n%s", session.scene_text().c_str(),
+               text_of(summary, facts).c_str());
+  const bool is_balanced = !options.has("--energy") || print_energy(to, *simulation.energy());
   const int code = exit_code(facts, summary);
   return code == 0 && !is_balanced ? 1 : code;
 }
