@@ -181,8 +181,8 @@ void print_speed(std::FILE* to, const RunFacts& facts, std::clock_t began) {
                seconds / std::max(used_s, 1e-6), used_s);
 }
 
-// Where the summary goes: stdout, or stderr if an output or the JSON goes to stdout. Throws Usage if
-// both do, or two outputs.
+// Where the summary goes: stdout, or stderr if an output or the JSON goes to stdout. Throws Usage
+// if both do, or two outputs.
 std::FILE* summary_stream(const Options& options, const NamedFiles& outputs) {
   size_t count = options.has("--json") ? 1 : 0;
   for (const auto& output : outputs) count += output.second == "-" ? 1u : 0u;
