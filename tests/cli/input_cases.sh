@@ -109,3 +109,18 @@ NeedlesMendedInVainAreWrapped() {
   bake needle.obj -o a.fta --mend --wrap 1%
   says 'wrapped: ' 'mending alone was not enough: the corner at'
 }
+
+# Random points of a sphere: joined, and no gap between them is left open.
+APointCloudBecomesASolid() {
+  sphere() {  # sphere SEED COUNT FORMAT
+    awk -v x="$1" -v n="$2" -v format="$3" 'function random() { return (x = (x * 16807) % 2147483647) / 2147483647 }
+      BEGIN { for (i = 0; i < n; ++i) { z = 2 * random() - 1; a = 6.28318530718 * random(); r = sqrt(1 - z * z)
+        printf format "\n", r * cos(a), r * sin(a), z } }'
+  }
+  sphere 7 600 'v %.6f %.6f %.6f' >cloud.obj
+  bake cloud.obj -o scene.fta --wrap 2%
+  says 'wrapped: 600 points' 'in 1 piece with 0 handles'
+  { echo x,y,z; sphere 8 2000 '%.6f,%.6f,%.6f'; echo 0,0,0; } >between.csv
+  f query scene.fta cloud distance <between.csv
+  same "$(printf '%s\n' "$out" | awk -F, 'NR > 1 && $2 != -1 { ++n } END { print n + 0 }')" 0
+}

@@ -141,36 +141,64 @@ uint32_t pieces_of(const tools::Surface& surface) {
   return pieces;
 }
 
-// The surface around `soup`. Points are joined: a share of the diagonal that leaves them apart
-// grows.
+struct Wrapping {
+  tools::Surface surface;
+  double distance_m = 0;
+  size_t voids = 0;
+  uint32_t pieces = 0;
+  int64_t handles = 0;  // of a closed surface, by its Euler characteristic
+};
+
+Wrapping wrapping_of(const std::string& path, const tools::Surface& soup, double distance_m) {
+  tools::WrapReport report;
+  Wrapping found;
+  found.surface = tools::wrap_surface(soup, distance_m, report);
+  if (!report.problem.empty()) fail_input(path + ": " + report.problem);
+  found.distance_m = distance_m;
+  found.voids = report.voids;
+  found.pieces = pieces_of(found.surface);
+  const int64_t vertices = static_cast<int64_t>(found.surface.vertices.size());
+  const int64_t edges_less_faces = static_cast<int64_t>(found.surface.faces.size() / 2);
+  found.handles = int64_t{found.pieces} - (vertices - edges_less_faces) / 2;
+  return found;
+}
+
+// Points are joined: a share of the diagonal grows until the surface is one piece, and a wider one
+// has as many handles and closes no hollow, so that none is a gap between points.
+Wrapping joined_points(const std::string& path, const tools::Surface& points, double distance_m,
+                       double max_m) {
+  Wrapping found = wrapping_of(path, points, distance_m);
+  while (found.distance_m < max_m) {
+    Wrapping wider = wrapping_of(path, points, std::min(found.distance_m * kGrowth, max_m));
+    const bool closes = wider.voids > 0 && found.voids == 0;
+    if (found.pieces == 1 && wider.handles == found.handles && !closes) break;
+    found = std::move(wider);
+  }
+  return found;
+}
+
 SoundSurface wrapped_surface(const std::string& path, const tools::Surface& soup,
                              const Length& wrap) {
   const Extent extent = extent_of(soup);
   const double diagonal_m = tools::length(extent.high - extent.low);
   const bool is_points = soup.faces[0][0] == soup.faces[0][1];
-  double distance_m = wrap.is_share ? wrap.value * diagonal_m : wrap.value;
+  const double distance_m = wrap.is_share ? wrap.value * diagonal_m : wrap.value;
   if (!(diagonal_m > 0)) fail_input(path + ": is one point: nothing can be wrapped");
-  tools::Surface wrapped;
-  tools::WrapReport report;
-  uint32_t pieces = 0;
-  for (;;) {
-    wrapped = tools::wrap_surface(soup, distance_m, report);
-    if (!report.problem.empty()) fail_input(path + ": " + report.problem);
-    pieces = pieces_of(wrapped);
-    const double wider_m = distance_m * kGrowth;
-    if (!is_points || !wrap.is_share || pieces == 1 || wider_m > kMaxOfDiagonal * diagonal_m) break;
-    distance_m = wider_m;
-  }
-  tools::CheckReport checked = tools::check_and_mend(wrapped, {});
+  Wrapping wrapped = is_points && wrap.is_share
+                         ? joined_points(path, soup, distance_m, kMaxOfDiagonal * diagonal_m)
+                         : wrapping_of(path, soup, distance_m);
+  tools::CheckReport checked = tools::check_and_mend(wrapped.surface, {});
   if (!checked.usable()) fail_with(path, checked.refused);
-  SoundSurface sound{std::move(wrapped), std::move(checked.vertex_source), {}};
+  SoundSurface sound{std::move(wrapped.surface), std::move(checked.vertex_source), {}};
   const tools::FileFrame& frame = soup.frame;
   sound.reported.push_back(
       "wrapped: " + std::to_string(soup.faces.size()) + (is_points ? " points" : " triangles") +
-      " in a surface " + frame.length_text(distance_m) + " away, of " +
-      std::to_string(sound.surface.faces.size()) + " triangles in " + std::to_string(pieces) +
-      (pieces == 1 ? " piece" : " pieces") + ": closed, manifold, and no point lies outside it" +
-      (report.voids == 0 ? "" : "; hollows that the outside cannot reach are filled"));
+      " in a surface " + frame.length_text(wrapped.distance_m) + " away, of " +
+      std::to_string(sound.surface.faces.size()) + " triangles in " +
+      std::to_string(wrapped.pieces) + (wrapped.pieces == 1 ? " piece" : " pieces") +
+      (is_points ? " with " + std::to_string(wrapped.handles) + " handles" : "") +
+      ": closed, manifold, and no point lies outside it" +
+      (wrapped.voids == 0 ? "" : "; hollows that the outside cannot reach are filled"));
   return sound;
 }
 
