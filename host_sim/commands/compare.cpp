@@ -3,6 +3,7 @@
 #include "device/refused.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/report/comparison.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -27,6 +28,30 @@ void print_figures(const RunFigures& a, const RunFigures& b) {
   std::printf("%-22s     0x%08x     0x%08x\n", "faults", a.faults, b.faults);
 }
 
+std::string json_of(const RunFigures& run) {
+  tools::Json object;
+  object.add("ticks", run.ticks).add("contact_ticks", run.contact_ticks);
+  object.add("exact_ticks", run.exact_ticks).add("peak_force_N", run.peak_force_N);
+  object.add("rms_force_N", run.rms_force_N).add("peak_motor", run.peak_motor);
+  object.add("peak_speed_mps", run.peak_speed_mps).add("deepest_m", run.deepest_m);
+  object.add("mean_steps", run.mean_visits).add("worst_steps", uint64_t{run.worst_visits});
+  return object.add("faults", uint64_t{run.faults}).object();
+}
+
+std::string json_of(const Comparison& result, bool is_same) {
+  tools::Json all;
+  all.add("is_equal", is_same).add("first", json_of(result.first));
+  all.add("second", json_of(result.second));
+  all.add("settings", tools::json_list(result.settings, tools::json_text));
+  all.add("fields", tools::json_list(result.fields, [](const FieldComparison& field) {
+            tools::Json row;
+            row.add("name", tools::json_text(field.name)).add("worst", field.worst);
+            row.add("worst_tick", uint64_t{field.worst_tick}).add("rms", field.rms);
+            return row.add("first_tick", uint64_t{field.first_tick}).object();
+          }));
+  return all.object() + "\n";
+}
+
 int print_comparison(const Options& options) {
   if (options.operands().size() != 2) options.refuse("give two logs: A.ftl B.ftl");
   Log logs[2];
@@ -37,6 +62,11 @@ int print_comparison(const Options& options) {
                            ": it does not hold every tick from the first; record the run again");
   }
   const Comparison result = compare(logs[0], logs[1]);
+  const bool is_same = result.fields.empty() && result.first.ticks == result.second.ticks;
+  if (options.has("--json")) {
+    std::fputs(json_of(result, is_same).c_str(), stdout);
+    return is_same ? 0 : 1;
+  }
   print_figures(result.first, result.second);
   for (const std::string& line : result.settings) std::printf("setting  %s\n", line.c_str());
   if (!result.fields.empty())
@@ -44,7 +74,6 @@ int print_comparison(const Options& options) {
   for (const FieldComparison& row : result.fields)
     std::printf("%-26s %12.5g %12u %12.5g %12u\n", row.name.c_str(), row.worst, row.worst_tick,
                 row.rms, row.first_tick);
-  const bool is_same = result.fields.empty() && result.first.ticks == result.second.ticks;
   std::printf("%s\n", is_same ? "the same in every bit of every tick" : "they differ");
   return is_same ? 0 : 1;
 }
@@ -58,7 +87,7 @@ const Command& compare_command_line() {
       "compares two runs: the figures of both, settings and fields that differ, and where",
       "Ticks are matched by their number, up to the end of the shorter run. Exit code 0: all bits "
       "of all ticks are\nthe same; 1: they differ.\n",
-      {},
+      {{"--json", nullptr, "the comparison as JSON"}},
       print_comparison};
   return command;
 }

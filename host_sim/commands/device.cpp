@@ -9,6 +9,7 @@
 #include "host_sim/device/transmission_check.hpp"
 #include "host_sim/device/workspace.hpp"
 #include "host_sim/trace/log.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -57,12 +58,7 @@ void print_assumed(const std::string& text) {
   if (!keys.empty()) std::printf("assumed, without a source: %s\n", keys.c_str());
 }
 
-int print_device(const Options& options) {
-  const std::string path = options.operand("one device file, or a machine's name");
-  const std::string text = tools::read_device_text(path);
-  if (options.has("--print")) return std::fputs(text.c_str(), stdout) < 0 ? 3 : 0;
-  const LinkageDevice device = tools::read_device(path, text);
-  const Workspace space = workspace_of(device, kSteps[device.joints.joints]);
+void print_space(const Workspace& space, uint32_t joints) {
   const uint32_t none = space.poses - space.with_whole_force - space.with_faded_force;
   std::printf("poses on a grid over the joints' ranges    %u\n", space.poses);
   std::printf("not reachable                              %.2f %%\n",
@@ -80,22 +76,62 @@ int print_device(const Options& options) {
         "longest motion of the tip by a count       %.3g um\n",
         space.least_force_N, space.count_m * 1e6);
   std::printf("least reciprocal condition                 %.4f at", space.worst_condition);
-  for (uint32_t k = 0; k < device.joints.joints; ++k)
-    std::printf(" %.1f", space.worst_at_rad[k] * kDegrees);
-  const bool is_free = is_free_of_singularities(space);
-  std::printf(" deg\n%s\n", is_free ? "no singularity within the ranges"
-                                    : "the ranges contain a singularity, or poses that the links "
-                                      "do not reach: narrow low_ and high_");
+  for (uint32_t k = 0; k < joints; ++k) std::printf(" %.1f", space.worst_at_rad[k] * kDegrees);
+  std::printf(" deg\n%s\n", is_free_of_singularities(space)
+                                ? "no singularity within the ranges"
+                                : "the ranges contain a singularity, or poses that the links "
+                                  "do not reach: narrow low_ and high_");
+}
+
+bool is_met(const Workspace& space, const FirmwareCheck& check, const TransmissionCheck& cables) {
+  return is_free_of_singularities(space) && is_good(check) && is_good(cables);
+}
+
+std::string json_of(const Workspace& space, const FirmwareCheck& check,
+                    const TransmissionCheck& cables) {
+  const auto point = [](const Vec& v) {
+    const double values[] = {v.x, v.y, v.z};
+    return tools::json_list(values, [](double value) { return tools::json_number(value); });
+  };
+  tools::Json all;
+  all.add("poses", uint64_t{space.poses}).add("reachable", uint64_t{space.reachable});
+  all.add("with_whole_force", uint64_t{space.with_whole_force});
+  all.add("with_faded_force", uint64_t{space.with_faded_force});
+  all.add("low_m", point(space.low_m)).add("high_m", point(space.high_m));
+  all.add("least_force_N", space.least_force_N).add("count_m", space.count_m);
+  all.add("least_condition", space.worst_condition);
+  all.add("has_singularity", !is_free_of_singularities(space));
+  all.add("checked_poses", uint64_t{check.poses}).add("inverse_error_m", check.inverse_m);
+  all.add("force_error", check.force).add("weight_error", check.weight);
+  all.add("jacobian_error", check.jacobian);
+  all.add("resonance_error", cables.resonance_Hz.error());
+  all.add("cycle_error", cables.cycle_Hz.error());
+  all.add("cycle_size_error", cables.cycle_rad.error());
+  return all.add("is_met", is_met(space, check, cables)).object() + "\n";
+}
+
+int print_device(const Options& options) {
+  const std::string path = options.operand("one device file, or a machine's name");
+  const std::string text = tools::read_device_text(path);
+  if (options.has("--print")) return std::fputs(text.c_str(), stdout) < 0 ? 3 : 0;
+  const LinkageDevice device = tools::read_device(path, text);
+  const Workspace space = workspace_of(device, kSteps[device.joints.joints]);
+  const bool is_text = !options.has("--json");
+  if (is_text) print_space(space, device.joints.joints);  // before the check, which takes a while
   const FirmwareCheck check =
       check_firmware(device, static_cast<uint32_t>(options.number("--poses", kCheckedPoses, 1)));
-  print_check(check);
   LinkageDevice sprung = device;
-  if (assume_cables(sprung))
-    std::printf("rigid transmissions; for the next rows cables are assumed\n");
+  const bool is_assumed = assume_cables(sprung);
   const TransmissionCheck cables = check_transmission(sprung);
-  print_transmission(cables);
-  print_assumed(text);
-  return is_free && is_good(check) && is_good(cables) ? 0 : 1;
+  if (is_text) {
+    print_check(check);
+    if (is_assumed) std::printf("rigid transmissions; for the next rows cables are assumed\n");
+    print_transmission(cables);
+    print_assumed(text);
+  } else {
+    std::fputs(json_of(space, check, cables).c_str(), stdout);
+  }
+  return is_met(space, check, cables) ? 0 : 1;
 }
 
 }  // namespace
@@ -110,12 +146,13 @@ const Command& device_command_line() {
       "figure misses its goal.\n";
   static const Command command = {
       "device",
-      "FILE|MACHINE",
+      "FILE|MACHINE [options]",
       "checks a linkage's file, prints its workspace, and compares the firmware with its "
       "simulation",
       details.c_str(),
       {{"--poses", "N", "of the check against the simulation (default 1000000)"},
-       {"--print", nullptr, "the device file of a machine, to bake or to change"}},
+       {"--print", nullptr, "the device file of a machine, to bake or to change"},
+       {"--json", nullptr, "the workspace and the check as JSON"}},
       print_device};
   return command;
 }

@@ -5,6 +5,7 @@
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/device/homing_check.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -23,6 +24,30 @@ std::string causes(const HomingTally& tally) {
   return text;
 }
 
+void print_tallies(const HomingTally (&tallies)[kHomingCases]) {
+  std::printf("%-13s %6s %6s %6s %7s %10s %7s  %s\n", "case", "runs", "homed", "wrong", "counts",
+              "slowest s", "torque", "faults");
+  for (uint32_t i = 0; i < kHomingCases; ++i) {
+    const HomingTally& tally = tallies[i];
+    std::printf("%-13s %6u %6u %6u %7lld %10.3f %7.3f  %s\n", case_name(static_cast<HomingCase>(i)),
+                tally.runs, tally.homed, tally.wrong, static_cast<long long>(tally.worst_counts),
+                tally.slowest_s, tally.torque_share, causes(tally).c_str());
+  }
+}
+
+std::string json_of(const HomingTally (&tallies)[kHomingCases]) {
+  uint32_t which = 0;
+  return tools::json_list(tallies, [&](const HomingTally& tally) {
+    tools::Json row;
+    row.add("case", tools::json_text(case_name(static_cast<HomingCase>(which++))));
+    row.add("runs", uint64_t{tally.runs}).add("homed", uint64_t{tally.homed});
+    row.add("wrong", uint64_t{tally.wrong});
+    row.add("worst_counts", static_cast<double>(tally.worst_counts));
+    row.add("slowest_s", tally.slowest_s).add("torque_share", tally.torque_share);
+    return "\n  " + row.add("faults", tools::json_text(causes(tally))).object();
+  });
+}
+
 int print_homing(const Options& options) {
   const std::string path = options.operand("one device file, or a machine's name");
   const tools::LinkageDevice device = tools::read_device(path, tools::read_device_text(path));
@@ -35,16 +60,10 @@ int print_homing(const Options& options) {
     if (progress && run % 64 == 0) progress(static_cast<double>(run) / runs);
   }
   if (progress) progress(1);
-  std::printf("%-13s %6s %6s %6s %7s %10s %7s  %s\n", "case", "runs", "homed", "wrong", "counts",
-              "slowest s", "torque", "faults");
+  if (options.has("--json")) std::printf("%s\n", json_of(tallies).c_str());
+  if (!options.has("--json")) print_tallies(tallies);
   uint32_t wrong = 0;
-  for (uint32_t i = 0; i < kHomingCases; ++i) {
-    const HomingTally& tally = tallies[i];
-    std::printf("%-13s %6u %6u %6u %7lld %10.3f %7.3f  %s\n", case_name(static_cast<HomingCase>(i)),
-                tally.runs, tally.homed, tally.wrong, static_cast<long long>(tally.worst_counts),
-                tally.slowest_s, tally.torque_share, causes(tally).c_str());
-    wrong += tally.wrong;
-  }
+  for (const HomingTally& tally : tallies) wrong += tally.wrong;
   return wrong == 0 ? 0 : 1;
 }
 
@@ -53,13 +72,14 @@ int print_homing(const Options& options) {
 const Command& home_command_line() {
   static const Command command = {
       "home",
-      "FILE|MACHINE [--runs N]",
+      "FILE|MACHINE [options]",
       "homes a simulated linkage with the firmware, again and again, also where something is wrong",
       "Each run has its own start, stops of 50 to 5,000 N/m, index phase and raw counts, half of "
       "them about the wrap.\nThe torque is 0.3 of the joint's largest; the column shows what was "
       "applied, over that.\nwrong: more than a count off, no end in 2 s, or above the homing "
       "torque. Exit code 1 if there is one.\n",
-      {{"--runs", "N", "of all cases together (default 10000)"}},
+      {{"--runs", "N", "of all cases together (default 10000)"},
+       {"--json", nullptr, "the table as JSON"}},
       print_homing};
   return command;
 }

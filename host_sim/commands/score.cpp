@@ -114,7 +114,7 @@ int score_run(const Options& options) {
   settings.stiffness_N_per_m = options.number("--stiffness", settings.stiffness_N_per_m, 0);
   const std::vector<ScoreRow> rows = rows_of(score_of(run.ticks, settings), settings);
   if (!page.empty()) write_file(page, score_page(path, rows, run.ticks, settings));
-  std::cout << csv_of(rows);
+  std::cout << (options.has("--json") ? json_of(rows) + "\n" : csv_of(rows));
   int not_met = 0;
   for (const ScoreRow& row : rows) {
     if (row.is_met()) continue;
@@ -141,7 +141,8 @@ const Command& score_command_line() {
       {{"--page", "FILE.html", "the figures and charts of force, turn, energy and depth"},
        {"--force-limit", "N", "force_limit of the run"},
        {"--tool-radius", "M", "tool_radius of the run"},
-       {"--stiffness", "N_PER_M", "contact_stiffness of the run"}},
+       {"--stiffness", "N_PER_M", "contact_stiffness of the run"},
+       {"--json", nullptr, "the figures as JSON"}},
       score_run};
   return command;
 }

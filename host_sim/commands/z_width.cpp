@@ -7,6 +7,7 @@
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/plant/sampled_wall.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -170,6 +171,15 @@ int print_z_width(const Options& options) {
   wall.hand_mass_kg = options.number("--hand-mass", 0, 0);
   wall.hand_damping_N_s_per_m = options.number("--hand-damping", 0, 0);
   wall.hand_stiffness_N_per_m = options.number("--hand-stiffness", 0, 0);
+  if (options.has("--json")) {
+    tools::Json limits;
+    limits.add("passive_N_per_m", passive_limit_N_per_m(wall));
+    limits.add("delayed_N_per_m", delayed_limit_N_per_m(wall));
+    limits.add("exact_N_per_m", exact_limit_N_per_m(wall));
+    limits.add("simulated_N_per_m", simulated_limit_N_per_m(wall));
+    std::cout << limits.object() << "\n";
+    return 0;
+  }
   print_rows({wall});
   return 0;
 }
@@ -196,7 +206,8 @@ const Command& z_width_command_line() {
        {"--delay", "SAMPLES", "from the position to the force: 0 to 8 (0)"},
        {"--hand-mass", "KG", "that moves with the axis (0)"},
        {"--hand-damping", "N_S_PER_M", "of the hand, to the ground (0)"},
-       {"--hand-stiffness", "N_PER_M", "of the hand, to the ground (0)"}},
+       {"--hand-stiffness", "N_PER_M", "of the hand, to the ground (0)"},
+       {"--json", nullptr, "of one axis: the limits as JSON"}},
       print_z_width};
   return command;
 }

@@ -7,6 +7,7 @@
 #include "chart/chart.hpp"
 #include "chart/envelope.hpp"
 #include "host_sim/report/contact_quality.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -65,6 +66,15 @@ std::string csv_of(const std::vector<ScoreRow>& rows) {
     text += "\"" + row.figure + numbers;
   }
   return text;
+}
+
+std::string json_of(const std::vector<ScoreRow>& rows) {
+  return tools::json_list(rows, [](const ScoreRow& row) {
+    tools::Json object;
+    object.add("figure", tools::json_text(row.figure)).add("value", row.value);
+    object.add("unit", tools::json_text(row.unit)).add("bar", row.bar).add("met", row.is_met());
+    return "\n  " + object.object();
+  });
 }
 
 std::string score_page(const std::string& title, const std::vector<ScoreRow>& rows,

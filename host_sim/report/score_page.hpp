@@ -20,6 +20,8 @@ std::vector<ScoreRow> rows_of(const Score& score, const ScoreSettings& settings)
 
 /// "figure,value,unit,bar,met" and a line a row.
 std::string csv_of(const std::vector<ScoreRow>& rows);
+/// The same as a JSON list of objects.
+std::string json_of(const std::vector<ScoreRow>& rows);
 
 /// One HTML page: the rows, and charts of force, turn, energy and depth over time.
 std::string score_page(const std::string& title, const std::vector<ScoreRow>& rows,

@@ -25,7 +25,7 @@ std::string json_of(const Summary& s, const RunFacts& facts) {
   all.add("mean_guide_deviation_m", s.mean_guide_deviation_m);
   all.add("worst_guide_deviation_m", s.worst_guide_deviation_m);
   all.add("mean_steps", s.mean_visits).add("worst_steps", uint64_t{s.worst_visits});
-  all.add("budget_steps", uint64_t{s.budget_units}).add("exact_ticks", s.exact_ticks);
+  all.add("budget_units", uint64_t{s.budget_units}).add("exact_ticks", s.exact_ticks);
   all.add("checked_ticks", s.checked_ticks).add("wrong_bounds", s.wrong_bounds);
   all.add("mean_load", s.mean_load).add("worst_load", s.worst_load);
   all.add("ticks_at_force_limit", s.limit_ticks).add("deepest_tool_radii", s.deepest_radii());

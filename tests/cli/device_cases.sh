@@ -45,10 +45,15 @@ ALinkageIsCalibrated() {
   exits 0
   f calibrate found.txt touches.csv; exits 0
   for link in 'link_0 .* 0\.13[0-9]* ' 'link_1 .* 0\.12[0-9]* '; do printf '%s' "$out" | grep -q "$link" || fail "$out"; done
+  f calibrate found.txt touches.csv --json; exits 0
+  well_formed
+  printf '%s' "$out" | grep -qE '"name": "link_0", "before": [0-9.]+, "value": 0\.1(3|2999)[0-9]*, "deviation": [0-9.e-]+, "unit": "m"' || fail "$out"
   # Height and zero of the turntable are open where only plates of one direction are touched.
   sed -n '1p; /,1,0,0,0$/p' touches.csv >x_plates.csv
   f calibrate arm.txt x_plates.csv; exits 0
   case $out in *'do not determine'*height*) ;; *) fail "$out" ;; esac
+  f calibrate arm.txt x_plates.csv --json; exits 0
+  case $out in *'"name": "height", '*'"deviation": null'*) ;; *) fail "$out" ;; esac
   f calibrate arm.txt touches.csv --noise 1e-9; exits 1; says 'do not fit'
   sed '2s/,0$/,nan/' touches.csv >bad.csv
   f calibrate arm.txt bad.csv; exits 3; says 'bad.csv:2' 'not finite'

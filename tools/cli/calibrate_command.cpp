@@ -9,6 +9,7 @@
 #include "device/calibration_plan.hpp"
 #include "device/calibration_study.hpp"
 #include "device/machines.hpp"
+#include "json/json.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -92,6 +93,18 @@ int print_study(const LinkageDevice& device, const Arguments& arguments) {
   settings.touches = arguments.count("--touches", settings.touches, 1, 100000);
   settings.noise_m = arguments.number("--noise", settings.noise_m, 1e-9);
   const tools::CalibrationStudy study = study_calibration(device, settings);
+  const double share = static_cast<double>(study.in_ellipsoid) / study.runs;
+  const bool is_met = share >= 0.93 && share <= 0.97 && study.worst_m <= kGoal_m;
+  const int code = is_met ? kDone : kAnswerIsNo;
+  if (arguments.has("--json")) {
+    tools::Json all;
+    all.add("runs", uint64_t{study.runs}).add("converged", uint64_t{study.converged});
+    all.add("before_m", study.before_m).add("median_m", study.median_m);
+    all.add("worst_m", study.worst_m).add("least_rms_m", study.bound_m);
+    all.add("in_ellipsoid", share).add("is_met", is_met);
+    std::printf("%s\n", all.object().c_str());
+    return code;
+  }
   std::printf("runs, %u touches, links up to %.0f %% off     %u, converged %u\n", settings.touches,
               100 * settings.links_off, study.runs, study.converged);
   std::printf("largest error over the workspace, before   median %.3g um\n", study.before_m * 1e6);
@@ -99,10 +112,21 @@ int print_study(const LinkageDevice& device, const Arguments& arguments) {
               study.bound_m * 1e6, study.scattered_bound_m * 1e6);
   std::printf("largest error over the workspace, after    median %.3g, worst %.3g um (goal 50)\n",
               study.median_m * 1e6, study.worst_m * 1e6);
-  std::printf("truth in the 95 %% ellipsoid                %.1f %% (goal 93 to 97)\n",
-              100.0 * study.in_ellipsoid / study.runs);
-  const double share = static_cast<double>(study.in_ellipsoid) / study.runs;
-  return share >= 0.93 && share <= 0.97 && study.worst_m <= kGoal_m ? kDone : kAnswerIsNo;
+  std::printf("truth in the 95 %% ellipsoid                %.1f %% (goal 93 to 97)\n", 100 * share);
+  return code;
+}
+
+std::string json_of(const Calibration& found) {
+  tools::Json all;
+  all.add("equations", uint64_t{found.equations}).add("rms_m", found.rms_m);
+  all.add("parameters", tools::json_list(found.parameters, [](const Calibrated& parameter) {
+            tools::Json row;
+            row.add("name", tools::json_text(parameter.name)).add("before", parameter.before);
+            row.add("value", parameter.value);
+            row.add("deviation", parameter.is_determined ? parameter.deviation : HUGE_VAL);
+            return row.add("unit", tools::json_text(parameter.unit)).object();
+          }));
+  return all.object() + "\n";
 }
 
 void print(const Calibration& found) {
@@ -142,7 +166,8 @@ const Command& calibrate_command() {
        {"--plan", "N", "print the touches to make"},
        {"--study", nullptr, "calibrate a simulated machine again and again"},
        {"--runs", "N", "of the study (default 1000)"},
-       {"--touches", "N", "of each run of the study (default 40)"}},
+       {"--touches", "N", "of each run of the study (default 40)"},
+       {"--json", nullptr, "what was found, for programs; a deviation of null: not determined"}},
       1,
       2};
   return command;
@@ -169,7 +194,8 @@ int run_calibrate(const Arguments& arguments) {
                  touches.c_str(), found.rms_m * 1e6);
     return kAnswerIsNo;
   }
-  print(found);
+  if (arguments.has("--json")) std::fputs(json_of(found).c_str(), stdout);
+  if (!arguments.has("--json")) print(found);
   if (output.empty()) return kDone;
   const std::string file = changed(text, found);
   (void)tools::read_device(output, file);  // what is written can be read

@@ -1,6 +1,5 @@
 #include "cli/rows.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -35,7 +34,7 @@ void RowPrinter::put_number(double value, const void* bytes, size_t size) {
   }
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
-  put_text(text, std::isfinite(value) ? text : "null");
+  put_text(text, tools::json_number(value));
 }
 
 void RowPrinter::put(bool value) {

@@ -28,10 +28,10 @@ Json& Json::add(const std::string& name, const std::string& value) {
   return *this;
 }
 
-Json& Json::add(const std::string& name, double value) {
+std::string json_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
-  return add(name, std::string(std::isfinite(value) ? text : "null"));
+  return std::isfinite(value) ? text : "null";
 }
 
 }  // namespace firmtouch::tools
