@@ -124,3 +124,21 @@ APointCloudBecomesASolid() {
   f query scene.fta cloud distance <between.csv
   same "$(printf '%s\n' "$out" | awk -F, 'NR > 1 && $2 != -1 { ++n } END { print n + 0 }')" 0
 }
+
+# As the controller chooses: meshes before splines, then by name (host_sim.Scene...). `aa` is a spline surface.
+OfSeveralSurfacesAndGuidesTheUsedOneIsNamed() {
+  box >b.obj
+  box >c.obj
+  cp "$here/../spline/cad/torus.igs" aa.igs
+  bend >way.csv
+  bake way.csv c.obj b.obj aa.igs -o scene.fta
+  says 'a controller uses surface `b`, not `c`, `aa`; a scenario may choose: mesh NAME'
+  simulator=${firmtouch%/*}/firmtouch-sim
+  if [ -x "$simulator" ]; then
+    printf 'asset scene.fta\nduration 0.01 s\n' >s.scenario
+    "$simulator" run s.scenario >ran 2>&1
+    grep -q 'surface `b`, guide `way`; not used: surface' ran || fail "$(cat ran)"
+  fi
+  bake b.obj way.csv -o scene.fta
+  case $err in *'a controller uses'*) fail "$err" ;; esac
+}

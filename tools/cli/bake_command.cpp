@@ -117,6 +117,8 @@ int run_bake(const Arguments& arguments) {
                baked.reports.size() == 1 ? "asset" : "assets", container.crc());
   std::fprintf(stderr, "needs parts: %s (FIRMTOUCH_APP)\n",
                tools::needed_parts_text(container).c_str());
+  for (const std::string& line : tools::used_of_several(container))
+    std::fprintf(stderr, "%s\n", line.c_str());
   if (!is_json) return kDone;
   std::vector<std::string> reported;
   for (size_t i = 0; i < request.inputs.size(); ++i)

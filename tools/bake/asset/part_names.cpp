@@ -18,4 +18,26 @@ std::string needed_parts_text(const asset::Container& asset) {
   return text.empty() ? "none" : text;
 }
 
+std::vector<std::string> used_of_several(const asset::Container& asset) {
+  struct Kind {
+    const char *name, *key;
+    uint32_t parts[2];
+  };
+  constexpr Kind kKinds[] = {{"surface", "mesh", {kPartMesh, kPartSpline}},
+                             {"guide", "guide", {kPartGuide, kPartSplineGuide}}};
+  std::vector<std::string> lines;
+  for (const Kind& kind : kKinds) {
+    std::vector<std::string> names;
+    for (const uint32_t part : kind.parts)
+      for (uint32_t i = 0; i < asset.section_count(); ++i)
+        if ((part_of_section(asset, i) & part) != 0)
+          names.push_back("`" + std::string(asset.name(i)) + "`");
+    if (names.size() < 2) continue;
+    std::string line = std::string("a controller uses ") + kind.name + " " + names[0] + ", not ";
+    for (size_t i = 1; i < names.size(); ++i) line += (i == 1 ? "" : ", ") + names[i];
+    lines.push_back(line + "; a scenario may choose: " + kind.key + " NAME");
+  }
+  return lines;
+}
+
 }  // namespace firmtouch::tools
