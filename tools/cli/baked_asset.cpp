@@ -61,7 +61,12 @@ void check_names(const std::vector<std::string>& inputs, const BakeOptions& opti
 
 std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
                                  const BakeOptions& options) {
-  Progress progress(inputs.size() * kStagesAnInput);
+  double total = 0;
+  for (const std::string& path : inputs) {
+    const bool is_mesh = !is_curve_file(path) && !is_run(path) && !is_spline_file(path);
+    total += 1 + (is_mesh && options.hull_faces != 0 ? kShareOfHull : 0);
+  }
+  Progress progress(total);
   std::vector<BakedInput> baked;
   for (const std::string& path : inputs) {
     baked.push_back(is_curve_file(path)    ? bake_curve_input(path, options, progress)

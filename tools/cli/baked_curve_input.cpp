@@ -60,7 +60,7 @@ std::string sentence(const char* format, double a, double b) {
 
 BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
                             Progress& progress) {
-  progress.stage("reading and checking " + file_name_of(path));
+  progress.stage("reading and checking " + file_name_of(path), 0.25);
   const std::vector<uint8_t> source = read_model(path);
   const tools::CurvePoints points = tools::read_curve_csv_bytes(
       {reinterpret_cast<const char*>(source.data()), source.size()}, path,
@@ -76,7 +76,7 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
   tools::CurvePoints points = given;
   points.is_smooth = options.smooth;
   points.with_tree = options.curve_tree;
-  progress.stage("building the tree of " + name);
+  progress.stage("building the tree of " + name, 0.25);
   tools::CurveReport report;
   baked.sections = tools::bake_curve(points, name, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
@@ -84,9 +84,9 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
   const core::Verdict verdict = tools::open_baked(baked.sections, name, view);
   if (!verdict.ok()) fail_input(path + ": its curve breaks rule R" + std::to_string(verdict.rule));
 
-  progress.stage("counting steps on " + name);
+  progress.stage("counting steps on " + name, 0.25);
   const tools::StepFigures steps = steps_of(view, points.samples_m);
-  progress.stage("running the probes of " + name);
+  progress.stage("running the probes of " + name, 0.25);
   baked.sections.push_back(tools::curve_probes(view, name));
   baked.sections.push_back(
       tools::text_section(asset::kBoundsSection, name, facts_of(view, report, steps)));

@@ -41,8 +41,8 @@ struct BakedInput {
   std::vector<std::string> report;
 };
 
-/// Stages that the progress bar shows for each input.
-constexpr size_t kStagesAnInput = 5;
+/// Of the progress bar, where an input has 1.
+constexpr double kShareOfHull = 2;
 
 /// Each fails (bad input) with the file, the place, what is wrong, how often and how to mend it.
 BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options, Progress& progress);

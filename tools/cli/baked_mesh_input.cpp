@@ -110,11 +110,11 @@ std::string add_field(const mesh::View& view, const std::string& name, uint32_t 
 std::vector<std::string> add_hull(const mesh::View& view, const std::string& name,
                                   const BakeOptions& options, const std::string& path,
                                   Progress& progress, BakedInput& baked) {
-  progress.stage("collapsing edges of " + name);
+  progress.stage("collapsing edges of " + name, kShareOfHull);
   tools::HullOptions hull_options = options.hull;
   hull_options.on_progress = [&](uint32_t faces) {
-    progress.stage(std::to_string(faces) + " faces left, of " +
-                   std::to_string(view.head().triangle_count));
+    progress.stage(
+        std::to_string(faces) + " faces left, of " + std::to_string(view.head().triangle_count), 0);
   };
   tools::HullBakeReport report;
   const std::vector<tools::Section> sections =
@@ -171,13 +171,13 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
                            Progress& progress) {
   const std::string name = stem_of(path);
   BakedInput baked;
-  progress.stage("reading and checking " + file_name_of(path));
+  progress.stage("reading and checking " + file_name_of(path), 0.3);
   std::vector<uint8_t> source = read_model(path);
   const tools::Facts origin =
       tools::provenance(file_name_of(path), source, options.text, kToolVersion);
   SoundSurface sound = sound_surface(path, std::move(source), options.model);
 
-  progress.stage("building the tree of " + name);
+  progress.stage("building the tree of " + name, 0.65);
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = options.model.is_signed;
   mesh_options.shape = tree_for(options.purpose);
@@ -186,7 +186,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   tools::MeshReport report;
   baked.sections = tools::bake_mesh(sound.surface, name, mesh_options, report);
   if (!report.problem.empty() && options.model.mend && options.model.wrap.value > 0) {
-    progress.stage("wrapping " + name);
+    progress.stage("wrapping " + name, 0);
     const std::string problem = report.problem;
     ModelOptions wraps = options.model;
     wraps.mend = false;
@@ -224,9 +224,9 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
     baked.report.insert(baked.report.end(), sound.reported.begin(), sound.reported.end());
     return baked;
   }
-  progress.stage("counting steps on " + name);
+  progress.stage("counting steps on " + name, 0.03);
   const tools::StepFigures steps = steps_of(view, surface);
-  progress.stage("running the probes of " + name);
+  progress.stage("running the probes of " + name, 0.02);
   baked.sections.push_back(tools::mesh_probes(view, name));
   add_facts(facts_of(view, steps));
   baked.report =

@@ -110,7 +110,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
                              Progress& progress) {
   const std::string name = stem_of(path);
   BakedInput baked;
-  progress.stage("reading and checking " + file_name_of(path));
+  progress.stage("reading and checking " + file_name_of(path), 0.25);
   const std::vector<uint8_t> source = read_model(path);
   const tools::FileFrame frame = options.model.frame_for(path);
   tools::SplineModel model =
@@ -120,7 +120,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   place(model, frame);
   tools::orient(model);
 
-  progress.stage("building the tree of " + name);
+  progress.stage("building the tree of " + name, 0.25);
   tools::SplineReport report;
   baked.sections = tools::bake_fast_spline(model, name, options.purpose == Purpose::kSmall, report);
   if (!report.problem.empty()) fail_input(path + ": " + report.problem);
@@ -132,13 +132,13 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   for (tools::Section& section : tools::bake_spline_guide(view, name, guide))
     baked.sections.push_back(std::move(section));
 
-  progress.stage("counting steps on " + name);
+  progress.stage("counting steps on " + name, 0.25);
   const tools::StepFigures steps = steps_of(view, model);
   const tools::WorstQuery worst = tools::find_worst(view);
   tools::set_worst_steps(baked.sections, name, worst.steps);
   const double instructions =
       tools::cortex_m7_instructions(report.is_surface, worst.steps, worst.evaluations);
-  progress.stage("running the probes of " + name);
+  progress.stage("running the probes of " + name, 0.25);
   baked.sections.push_back(tools::spline_probes(view, name));
   baked.sections.push_back(
       tools::text_section(asset::kBoundsSection, name, facts_of(report, steps, worst, guide)));

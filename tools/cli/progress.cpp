@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace firmtouch::cli {
@@ -12,9 +13,18 @@ constexpr std::chrono::seconds kQuietFor(2);
 constexpr std::chrono::milliseconds kRedraw(200);
 constexpr size_t kBarCells = 24;
 
+constexpr double kFirstStage_s = 4, kMaxOfStage = 0.97;
+
 }  // namespace
 
-Progress::Progress(size_t stages) : stages_(stages), begin_(std::chrono::steady_clock::now()) {
+double bar_position(double done, double before_s, double share, double in_stage_s) {
+  const double into = done > 0 && before_s > 0
+                          ? done / before_s * in_stage_s
+                          : share * (1 - std::exp(-in_stage_s / kFirstStage_s));
+  return done + std::min(into, kMaxOfStage * share);
+}
+
+Progress::Progress(double total) : total_(total), begin_(std::chrono::steady_clock::now()) {
   if (isatty(STDERR_FILENO) == 1) thread_ = std::thread([this] { run(); });
 }
 
@@ -28,26 +38,36 @@ Progress::~Progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);
 }
 
-void Progress::stage(const std::string& what) {
+double Progress::elapsed_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void Progress::stage(const std::string& what, double share) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++begun_;
   what_ = what;
+  if (share <= 0) return;
+  done_ += share_;
+  share_ = share;
+  stage_began_s_ = elapsed_s();
 }
 
 void Progress::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   if (changed_.wait_for(lock, kQuietFor, [this] { return ended_; })) return;
   do {
-    draw(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count());
+    draw();
   } while (!changed_.wait_for(lock, kRedraw, [this] { return ended_; }));
 }
 
-void Progress::draw(double elapsed_s) {
-  const size_t done = begun_ == 0 ? 0 : begun_ - 1;
-  const size_t cells = stages_ == 0 ? 0 : std::min(done, stages_) * kBarCells / stages_;
-  std::string bar = stages_ == 0 ? "" : '[' + std::string(kBarCells, '.') + ']';
-  if (stages_ != 0) bar.replace(1, cells, cells, '#');
-  std::fprintf(stderr, "\r\033[K%s %3.0f s  %s", bar.c_str(), elapsed_s, what_.c_str());
+void Progress::draw() {
+  const double now_s = elapsed_s();
+  std::string bar;
+  if (total_ > 0) {
+    const double at = bar_position(done_, stage_began_s_, share_, now_s - stage_began_s_) / total_;
+    const size_t cells = static_cast<size_t>(std::min(at, 1.0) * kBarCells);
+    bar = '[' + std::string(cells, '#') + std::string(kBarCells - cells, '.') + ']';
+  }
+  std::fprintf(stderr, "\r\033[K%s %3.0f s  %s", bar.c_str(), now_s, what_.c_str());
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -7,29 +7,35 @@
 
 namespace firmtouch::cli {
 
+/// Where a bar stands, in shares: behind `done` that took `before_s`, and `in_stage_s` into a stage
+/// of `share`. It goes on as fast as before; in the first stage, whose pace is not known, slower
+/// and slower; never to the end of the stage.
+double bar_position(double done, double before_s, double share, double in_stage_s);
+
 /// A progress bar on the last line of standard error, where that is a terminal and the work takes
 /// more than two seconds. A thread draws it, so that long stages show that they live; nothing else
 /// may be printed while it is there.
 class Progress {
  public:
-  /// `stages` 0: how many there will be is not known, and only time and stage are shown.
-  explicit Progress(size_t stages);
+  /// `total` of all stages' shares; 0: not known, only time and stage are shown.
+  explicit Progress(double total);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// The next stage begins.
-  void stage(const std::string& what);
+  /// The next stage begins, with its share of the time; 0: the one before has another text.
+  void stage(const std::string& what, double share = 1);
 
  private:
   void run();
-  void draw(double elapsed_s);
+  double elapsed_s() const;
+  void draw();
 
-  const size_t stages_;
+  const double total_;
   const std::chrono::steady_clock::time_point begin_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  size_t begun_ = 0;
+  double done_ = 0, share_ = 0, stage_began_s_ = 0;
   std::string what_;
   bool ended_ = false;
   bool drawn_ = false;

@@ -121,7 +121,7 @@ int run_voxelize(const Arguments& arguments) {
   std::string file;
   {
     constexpr size_t kParts = 16;
-    Progress progress(inputs.size() + kParts + 2);
+    Progress progress(static_cast<double>(inputs.size() + kParts + 2));
     std::vector<const tools::Surface*> surfaces;
     for (const std::string& path : inputs) {
       progress.stage("reading and checking " + file_name_of(path));
