@@ -65,8 +65,9 @@ std::string bits_claim(const Report& report) {
                  "First difference: tick " + std::to_string(trace.difference->tick) + ", field " +
                      html_of(trace.difference->field) + ".");
   return claim("Same bits on the Cortex-M7", "<span class=\"open\">not compared</span>",
-               "This run used the in-process controller only. Add <code>--controller "
-               "qemu:mps2-an500</code> to compare every output bit with an emulated Cortex-M7.");
+               "This run used the in-process controller only. Add <code>--controller"
+               "</code> <code>qemu:mps2-an500</code> to compare every output bit with an emulated "
+               "Cortex-M7.");
 }
 
 std::string contact_claim(const Summary& s) {

@@ -52,6 +52,7 @@ void time(Test& test) {
 // Three ticks of 50 N in the middle of the force of the run.
 void event(Test& test) {
   test.run(
+      "report.charts[0].node.scrollIntoView({ block: 'center' }); "
       "const c = report.charts[0].about.curves[1]; for (const i of [6000, 6001, 6002]) c.low[i] "
       "= 50; report.charts[0].draw(); window.points = () => "
       "report.charts[0].node.querySelector('polyline[data-series=\"1\"]')"
@@ -154,6 +155,11 @@ int main(int count, char** words) {
              test.becomes("document.documentElement.scrollWidth <= 390 && "
                           "report.charts[0].node.querySelector('text').getBoundingClientRect()"
                           ".height >= 10"));
+  const std::string codes = "[...document.querySelectorAll('.claims code')]";
+  test.check(
+      "no word of a command is broken",
+      test.becomes(
+          codes + ".length > 0 && " + codes + ".every(c => c.getClientRects().length === 1)", 2));
   test.picture("report_phone");
   return test.finish();
 }
