@@ -62,6 +62,21 @@ std::string json_of(const std::string& path, const Log& log, const std::string& 
   return text + "}\n";
 }
 
+// Loads the asset that the log swaps to.
+void load_next(const Options& options, const std::string& path, const Log& log, Session& session) {
+  const std::string next = options.value("--next-asset");
+  if (!next.empty()) {
+    if (!is_in_process(options.value("--controller")))
+      options.refuse("--next-asset is for the controller in this process");
+    return session.load_next(next);
+  }
+  for (const record::TickRecord& one : log.records)
+    if (one.input.command == record::kCommandSwapAsset &&
+        (one.output.state & record::kStateCommandTaken) != 0)
+      throw Refused(path + ": tick " + std::to_string(one.input.tick) +
+                    " swaps the asset; give the one that follows with --next-asset");
+}
+
 int replay_log(const Options& options) {
   const std::string path = options.operand("one log");
   const Log log = read_log(path);
@@ -69,7 +84,7 @@ int replay_log(const Options& options) {
              std::strtoull(entry(log, path, "parameter_table").c_str(), nullptr, 16),
              params::table_hash(), 16, "use the version that recorded it");
   const std::string named = options.value("--asset");
-  const Session session(
+  Session session(
       named.empty() ? path_beside(path, entry(log, path, "asset")) : named,
       {entry_or_empty(log, "surface"), entry_or_empty(log, "guide")},
       entry_or_empty(log, "contact") == "penalty" ? Contact::kPenalty : Contact::kProxy);
@@ -77,6 +92,7 @@ int replay_log(const Options& options) {
              std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16),
              session.controller->asset_crc(), 8, "give the recorded asset with --asset");
   check_complete(path, log);
+  load_next(options, path, log, session);
   if (!log.is_complete)
     std::cerr << path << ": " << log.damage << "; the " << log.records.size()
               << " ticks before them are replayed\n";
@@ -115,6 +131,7 @@ const Command& replay_command_line() {
       "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), "
       "or the\nlog is incomplete and all outputs before the gap are equal.\n",
       {{"--asset", "FILE", "the asset, if it is not at the path in the log"},
+       {"--next-asset", "FILE", "the asset that a tick of the log swaps to"},
        {"--controller", "WHAT",
         "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE"},
        {"--image", "FILE",

@@ -66,6 +66,12 @@ void check_name(const std::string& path, const std::vector<SceneEntry>& entries,
                 (list.empty() ? "; it has no " + kind + " at all" : "; it has: " + list));
 }
 
+void check_verdict(const std::string& path, core::Verdict verdict) {
+  if (verdict.ok()) return;
+  throw Refused(path + ": rejected by rule R" + std::to_string(verdict.rule) + " at element " +
+                std::to_string(verdict.element) + ": " + remedy_of(verdict.rule));
+}
+
 }  // namespace
 
 Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact contact)
@@ -89,12 +95,24 @@ Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact
     penalty = std::make_unique<PenaltyController>();
     verdict = penalty->open(asset.bytes(), selection);
   }
-  if (verdict.ok()) return;
-  throw Refused(asset_path + ": rejected by rule R" + std::to_string(verdict.rule) +
-                " at element " + std::to_string(verdict.element) + ": " + remedy_of(verdict.rule));
+  check_verdict(asset_path, verdict);
 }
 
-Tick Session::tick() const { return penalty ? tick_of(*penalty) : tick_of(*controller); }
+void Session::load_next(const std::string& asset_path) {
+  next = std::make_unique<AssetFile>(asset_path);
+  swapping = std::make_unique<SwappingController>();
+  const Selection selection{text_or_null(wanted.surface), text_or_null(wanted.guide)};
+  check_verdict(asset.path(), swapping->open(asset.bytes(), selection));
+  swapping->begin_next(next->bytes());
+  while (!swapping->work_next(kSliceUnits)) {
+  }
+  check_verdict(asset_path, swapping->next_verdict());
+}
+
+Tick Session::tick() const {
+  if (swapping) return tick_of(*swapping);
+  return penalty ? tick_of(*penalty) : tick_of(*controller);
+}
 
 std::string Session::scene_text() const {
   std::string text;

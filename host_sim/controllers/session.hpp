@@ -23,6 +23,8 @@ struct Session {
   Session(const Session&) = delete;  // the controller refers to `wanted`
   Session& operator=(const Session&) = delete;
 
+  /// Loads the asset that a tick with record::kCommandSwapAsset swaps to. Throws Refused.
+  void load_next(const std::string& asset_path);
   /// Of the controller that renders the contact.
   Tick tick() const;
   /// "surface `part`, guide `path`; not used: surface `lid`".
@@ -36,6 +38,8 @@ struct Session {
   std::vector<std::string> unused;  // "surface `lid`"
   std::unique_ptr<FullController> controller;
   std::unique_ptr<PenaltyController> penalty;  // null: contact through a proxy
+  std::unique_ptr<AssetFile> next;             // null: no asset to swap to
+  std::unique_ptr<SwappingController> swapping;
 
  private:
   SceneNames default_;

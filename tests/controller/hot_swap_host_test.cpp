@@ -12,8 +12,7 @@
 namespace firmtouch::controller_test {
 namespace {
 
-using Swapping = Controller<Surfaces<FullMesh, SplineSurface>, Guides<CurveGuide, SplineGuide>,
-                            AnyDevice, asset::Proven, TwoScenes>;
+using Swapping = SwappingController;
 
 constexpr float kSlew_N_per_s = 400.0f;  // 0.4 N a tick of 1 ms
 

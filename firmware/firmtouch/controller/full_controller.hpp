@@ -9,11 +9,17 @@
 
 namespace firmtouch {
 
+template <template <class> class ScenesOf>
+using EveryPart = Controller<Surfaces<FullMesh, SplineSurface>, Guides<CurveGuide, SplineGuide>,
+                             AnyDevice, asset::Proven, ScenesOf>;
+
+/// With room for the next asset (Controller::begin_next()).
+using SwappingController = EveryPart<TwoScenes>;
+
 /// Every part of the library: a mesh with its distance field and base hull, else spline surfaces; a
 /// sampled curve, else spline curves; a linkage, else three axes. What the simulator runs, and
 /// FIRMTOUCH_APP=all.
-class FullController : public Controller<Surfaces<FullMesh, SplineSurface>,
-                                         Guides<CurveGuide, SplineGuide>, AnyDevice> {
+class FullController : public EveryPart<OneScene> {
  public:
   const mesh::View& mesh() const { return surface<FullMesh>().mesh(); }
   const hull::View& hull() const { return surface<FullMesh>().hull(); }
