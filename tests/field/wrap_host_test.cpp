@@ -5,6 +5,9 @@
 
 #include "bake/mesh/bake_mesh.hpp"
 #include "field/foot.hpp"
+#include "firmtouch/mesh/closest_point.hpp"
+#include "harness/long.hpp"
+#include "mesh/baked_mesh.hpp"
 #include "surface/check/check.hpp"
 #include "surface/crossings.hpp"
 #include "surface/make/make_cad.hpp"
@@ -147,6 +150,33 @@ TEST(Wrapped_SoupsSheetsAndPoints_AreClosedAndEnclosed) {
   Surface crossing = cube();
   append(crossing, cube({0.5f, 0.6f, 0.7f}));
   check_wrapped(crossing, 0.1, 1);
+}
+
+// Half of the places are within a thousandth of its size of the surface.
+TEST(SidesOfAWrapping_AreThoseOfTheWindingNumber) {
+  WrapReport report;
+  const mesh_test::BakedMesh baked(wrap_surface(random_soup(5, 12), 0.12, report));
+  CHECK(report.problem.empty());
+  const Surface& surface = baked.surface;
+  Random random(1);
+  uint32_t wrong = 0, inside = 0;
+  const uint32_t count = test::is_long() ? 100000 : 1000;
+  for (uint32_t k = 0; k < count; ++k) {
+    const double reach = (k % 2 == 0 ? 1e-3 : 0.2) * baked.size;
+    const uint32_t f = random.below(static_cast<uint32_t>(surface.faces.size()));
+    const math::Vec3 p = to_vec3(spot_on(surface, f, random) +
+                                 Point{random.between(-reach, reach), random.between(-reach, reach),
+                                       random.between(-reach, reach)});
+    mesh::Hint hint;
+    const mesh::Closest found = mesh::closest_point(baked.view, p, {}, hint);
+    if (std::fabs(static_cast<double>(found.distance_m)) < 4e-7 * baked.size) continue;
+    const bool is_inside = winding_by_angles(surface, to_point(p)) > 0.5;
+    inside += is_inside ? 1u : 0u;
+    wrong += found.certificate.sign != (is_inside ? -1 : 1) ? 1u : 0u;
+  }
+  std::printf("      %u of %u sides wrong, %u places inside\n", wrong, count, inside);
+  CHECK_EQ(wrong, 0u);
+  CHECK_GT(inside, count / 4);
 }
 
 TEST(AClosedHollow_IsFilled_AndOnePieceRemains) {
