@@ -112,15 +112,20 @@ link::CrashReply LiveLink::read_crash() {
   return reply;
 }
 
+// A reply has the sequence of its request. One that comes late, when the request was sent again, is
+// no answer to the next.
 template <class T>
 link::AssetAck LiveLink::update(uint8_t type, const T& payload) {
   link::AssetAck ack;
+  const uint16_t before = sequence_;
   const bool received =
       exchange([&] { send(type, payload); },
                [&](const link::Frame& frame) {
                  if (frame.type == link::kText)
                    refuse("the controller takes no assets: build it with part `asset_slots`");
-                 return frame.type == link::kAssetAck && link::take(frame, ack);
+                 const uint16_t sent = sequence_ - before, back = frame.sequence - before;
+                 const bool is_ours = back > 0 && back <= sent;
+                 return is_ours && frame.type == link::kAssetAck && link::take(frame, ack);
                });
   if (!received) refuse("no answer in 60 s");
   return ack;

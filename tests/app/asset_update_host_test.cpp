@@ -153,7 +153,7 @@ uint32_t attack(uint32_t slot_bytes, uint32_t sector, uint32_t unit, uint32_t up
 
 // Operations of an update: the larger asset of 4,192 bytes and the smaller of 2,208 in turn.
 TEST(AssetUpdate_PowerCutInEveryFlashOperation_OldOrNewWhole) {
-  const uint32_t updates = test::is_long() ? 1000 : 40;
+  const uint32_t updates = test::is_long() ? 1000 : 20;
   CHECK_GE(attack(16384, 2048, 8, updates), updates * 3 * 400);      // STM32G4
   CHECK_GE(attack(131072, 131072, 32, updates), updates * 3 * 100);  // STM32H7
   CHECK_GE(attack(16384, 4096, 256, updates), updates * 3 * 14);     // external flash
