@@ -62,6 +62,11 @@ TEST(ACornerOnAFaceIsRefusedWithBoth) {
   CHECK(says(text, "has 1 vertex and 0 edges that touch a face or an edge elsewhere"));
   CHECK(says(text, "first vertex 8 (0.25, 0.125, 1 m) on face 2,"));
   CHECK(says(text, "unite or part") && says(text, "--unsigned"));
+  Surface surface = cube_and(on_tip({0.25f, 0.125f, 1}));
+  for (int k = 0; k < 2; ++k) {  // whichever corner of its faces it is
+    for (Face& face : surface.faces) face = {face[1], face[2], face[0]};
+    CHECK(says(refusal(surface), "has 1 vertex and 0 edges"));
+  }
 }
 
 TEST(AHairsBreadthBesideItIsNoTouch) {
@@ -120,6 +125,12 @@ TEST(AnEdgeOnAFaceIsRefusedAlsoWhereBothItsEndsAreElsewhere) {
   const std::string text = refusal(cube_and(knife));
   CHECK(says(text, "has 0 vertices and 1 edge"));
   CHECK(says(text, "the edge from vertex 8"));
+}
+
+TEST(AnEdgeThroughAFlatEdgeIsRefused) {  // upright through the diagonal of the cube's top
+  const Surface through =
+      spike({0.25f, 0.25f, 1.5f}, {0, 0, -1}, {0.25f, 0.125f, -0.375f}, {0.125f, 0.25f, -0.625f});
+  CHECK(says(refusal(cube_and(through)), "has 0 vertices and 3 edges"));
 }
 
 TEST(ConvexEdgesThatCrossAreHarmless) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace firmtouch::tools {
 namespace {
@@ -82,15 +83,22 @@ class Builder {
         shape_(shape),
         mean_edge_(mean_edge(surface)),
         margin_(kMarginEdges * mean_edge_) {
-    faces_.resize(boxes_.size());
-    for (size_t f = 0; f < faces_.size(); ++f) faces_[f] = static_cast<uint32_t>(f);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      std::vector<std::pair<double, uint32_t>> centres;  // twice as far from the origin
+      centres.reserve(boxes_.size());
+      for (const Box& box : boxes_)
+        centres.push_back({box.low[axis] + box.high[axis], static_cast<uint32_t>(centres.size())});
+      std::sort(centres.begin(), centres.end());
+      for (const auto& [centre, face] : centres) faces_[axis].push_back(face);
+    }
+    is_first_.resize(boxes_.size());
   }
 
   MeshTree build() {
     struct Task {
       uint32_t begin, end, parent, which, depth;
     };
-    std::vector<Task> tasks{{0, static_cast<uint32_t>(faces_.size()), 0, 2, 0}};
+    std::vector<Task> tasks{{0, static_cast<uint32_t>(boxes_.size()), 0, 2, 0}};
     while (!tasks.empty()) {
       const Task task = tasks.back();
       tasks.pop_back();
@@ -101,8 +109,9 @@ class Builder {
           task.which == 2 ? 0 : mesh::make_parent(task.parent, task.which, task.depth));
       if (task.which != 2) tree_.nodes[task.parent].side[task.which].child = index;
       tree_.depth = std::max(tree_.depth, task.depth + 1);
-      const uint32_t middle = split(task.begin, task.end);
-      const uint32_t ends[3] = {task.begin, middle, task.end};
+      const Cut cut = best_cut(task.begin, task.end);
+      part(task.begin, task.end, cut);
+      const uint32_t ends[3] = {task.begin, cut.middle, task.end};
       for (uint32_t which = 2;
            which-- > 0;) {  // the first child is taken off the stack first: depth-first numbering
         store_box(box_of(ends[which], ends[which + 1]), grid_, tree_.nodes[index].side[which].box);
@@ -121,64 +130,63 @@ class Builder {
     uint32_t begin = 0, end = std::numeric_limits<uint32_t>::max();  // the default: not a leaf
   };
 
-  Box box_of(uint32_t begin, uint32_t end) const {
+  struct Cut {
+    size_t axis;
+    uint32_t middle;  // the first of the second half, in the order along the axis
+  };
+
+  Box box_of(uint32_t begin, uint32_t end, size_t axis = 0) const {
     Box box;
-    if (begin == end) return boxes_[faces_[begin - 1]];  // the empty second leaf of a single face
-    for (uint32_t i = begin; i < end; ++i) box.add(boxes_[faces_[i]]);
+    if (begin == end) return boxes_[faces_[axis][begin - 1]];  // the second leaf of a single face
+    for (uint32_t i = begin; i < end; ++i) box.add(boxes_[faces_[axis][i]]);
     return box;
   }
 
-  double centre(uint32_t face, size_t axis) const {
-    return boxes_[face].low[axis] + boxes_[face].high[axis];
-  }
-
-  void sort_range(uint32_t begin, uint32_t end, size_t axis) {
-    std::sort(faces_.begin() + begin, faces_.begin() + end, [&](uint32_t a, uint32_t b) {
-      const double x = centre(a, axis), y = centre(b, axis);
-      return x < y || (!(y < x) && a < b);
-    });
-  }
-
-  // Sorts the range and gives the first face of its second half.
-  uint32_t split(uint32_t begin, uint32_t end) {
-    if (end - begin == 1) return end;
+  Cut best_cut(uint32_t begin, uint32_t end) {
+    if (end - begin == 1) return {0, end};
     double best_cost = std::numeric_limits<double>::infinity();
-    size_t best_axis = 0;
-    uint32_t best_middle = begin + (end - begin) / 2;
-    std::vector<double> area_before(end - begin);
+    Cut best{0, begin + (end - begin) / 2};
+    area_before_.resize(boxes_.size());
     for (size_t axis = 0; axis < 3; ++axis) {
-      sort_range(begin, end, axis);
+      const std::vector<uint32_t>& faces = faces_[axis];
       Box box;
       for (uint32_t i = begin; i < end; ++i) {
-        box.add(boxes_[faces_[i]]);
-        area_before[i - begin] = box.half_area(margin_);
+        box.add(boxes_[faces[i]]);
+        area_before_[i] = box.half_area(margin_);
       }
       box = {};
       for (uint32_t i = end - 1; i > begin; --i) {
-        box.add(boxes_[faces_[i]]);
+        box.add(boxes_[faces[i]]);
         const double cost =
-            area_before[i - 1 - begin] * price(i - begin) + box.half_area(margin_) * price(end - i);
-        if (cost < best_cost) best_cost = cost, best_axis = axis, best_middle = i;
+            area_before_[i - 1] * price(i - begin) + box.half_area(margin_) * price(end - i);
+        if (cost < best_cost) best_cost = cost, best = {axis, i};
       }
     }
-    if (best_axis != 2) sort_range(begin, end, best_axis);
-    return best_middle;
+    return best;
   }
 
-  // Whether a range becomes a leaf. May sort it.
+  // Brings the first half to the front of the range in all three orders, each half still in order.
+  void part(uint32_t begin, uint32_t end, Cut cut) {
+    for (uint32_t i = begin; i < end; ++i) is_first_[faces_[cut.axis][i]] = i < cut.middle;
+    for (std::vector<uint32_t>& faces : faces_)
+      std::stable_partition(faces.begin() + begin, faces.begin() + end,
+                            [&](uint32_t face) { return is_first_[face] != 0; });
+  }
+
+  // Whether a range becomes a leaf.
   bool is_best_whole(uint32_t begin, uint32_t end) {
     if (end - begin > shape_.leaf_faces) return false;
     if (end - begin == 1 || shape_.node_cost <= 0) return true;
-    const uint32_t middle = split(begin, end);
-    const double whole_cost = leaf_cost(begin, end);
-    return whole_cost <= leaf_cost(begin, middle) + leaf_cost(middle, end) +
-                             shape_.node_cost * leaf_area(begin, end);
+    const Cut cut = best_cut(begin, end);
+    return leaf_cost(begin, end, cut.axis) <=
+           leaf_cost(begin, cut.middle, cut.axis) + leaf_cost(cut.middle, end, cut.axis) +
+               shape_.node_cost * leaf_area(begin, end, cut.axis);
   }
-  double leaf_area(uint32_t begin, uint32_t end) const {
-    return box_of(begin, end).half_area(kLeafMarginEdges * mean_edge_);
+  double leaf_area(uint32_t begin, uint32_t end, size_t axis) const {
+    return box_of(begin, end, axis).half_area(kLeafMarginEdges * mean_edge_);
   }
-  double leaf_cost(uint32_t begin, uint32_t end) const {
-    return leaf_area(begin, end) * (kLeafCost + static_cast<double>(end - begin));
+  double leaf_cost(uint32_t begin, uint32_t end, size_t axis) const {
+    return leaf_area(begin, end, axis) * (kLeafCost + static_cast<double>(end - begin));
   }
 
   // What a subtree costs: its faces, and `empty_cost` for each by which its leaves would not be
@@ -196,7 +204,7 @@ class Builder {
         if (range.end == std::numeric_limits<uint32_t>::max()) continue;
         const uint32_t first = static_cast<uint32_t>(tree_.order.size());
         tree_.nodes[n].side[which].child = mesh::make_leaf(first, range.end - range.begin);
-        std::vector<uint32_t> leaf(faces_.begin() + range.begin, faces_.begin() + range.end);
+        std::vector<uint32_t> leaf(faces_[0].begin() + range.begin, faces_[0].begin() + range.end);
         std::sort(leaf.begin(), leaf.end());
         tree_.order.insert(tree_.order.end(), leaf.begin(), leaf.end());
       }
@@ -217,7 +225,9 @@ class Builder {
   TreeShape shape_;
   double mean_edge_;
   double margin_;
-  std::vector<uint32_t> faces_;
+  std::array<std::vector<uint32_t>, 3> faces_;  // of each range by centre along x, y and z
+  std::vector<uint8_t> is_first_;               // of each face, in the range that is parted last
+  std::vector<double> area_before_;             // of the range that is looked at
   std::vector<std::array<Range, 2>> ranges_;
   MeshTree tree_;
 };

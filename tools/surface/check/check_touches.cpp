@@ -82,7 +82,7 @@ class Touches {
       near.clear();
       tree.overlaps(box_of(f), near);
       for (const uint32_t g : near) {
-        if (g == f) continue;
+        if (g == f || lies_on_one_side(f, g)) continue;
         for (uint32_t k = 0; k < 3; ++k) look_at_corner(f, k, g);
         for (uint32_t k = 0; k < 3; ++k) look_at_edge(f, k, g);
         if (g > f && has_same_places(f, g)) faces.insert(f);
@@ -114,6 +114,18 @@ class Touches {
     return Look(cross(point(f, 1) - point(f, 0), point(f, 2) - point(f, 0)));
   }
   int side(uint32_t f, Vec3 p) const { return exact_side(at(f, 0), at(f, 1), at(f, 2), p); }
+
+  // Whether face f meets the plane of g in common corners alone; nearly every neighbour does.
+  bool lies_on_one_side(uint32_t f, uint32_t g) const {
+    int first = 0;
+    for (uint32_t k = 0; k < 3; ++k) {
+      if (has(g, surface_.faces[f][k])) continue;
+      const int of_corner = side(g, at(f, k));
+      if (of_corner == 0 || of_corner == -first) return false;
+      first = of_corner;
+    }
+    return first != 0;
+  }
 
   // Where on face g the point lies, and on which of its edges; at a corner it is elsewhere.
   Where where_on(uint32_t g, Vec3 p, uint32_t& edge) const {
