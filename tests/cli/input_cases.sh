@@ -142,3 +142,23 @@ OfSeveralSurfacesAndGuidesTheUsedOneIsNamed() {
   bake b.obj way.csv -o scene.fta
   case $err in *'a controller uses'*) fail "$err" ;; esac
 }
+
+AnAssetBakedBeforeIsTakenAsItIs() {
+  box >box.obj
+  f make path --points 400 -o path.csv; exits 0
+  f bake box.obj path.csv -o both.fta; exits 0
+  f bake box.obj -o box.fta; exits 0
+  f bake path.csv box.fta -o added.fta --size 2m; exits 0
+  says 'box: baked before' 'mesh;guide'
+  f bake box.fta path.csv -o added.fta; exits 0
+  cmp -s both.fta added.fta || fail 'not the bytes of a bake of both'
+  cp box.obj other.obj
+  f bake box.fta box.obj -o bad.fta; exits 3
+  says "names its asset 'box', as box.fta" 'rename'
+  f bake both.fta other.obj path.csv -o bad.fta; exits 3
+  says "names its asset 'path', as both.fta"
+  head -c 5000 both.fta >cut.fta
+  f bake cut.fta path.csv -o bad.fta; exits 3
+  says 'cut.fta: not a sound asset'
+  absent bad.fta
+}

@@ -42,8 +42,10 @@ const Command& bake_command() {
       ".ftl\n"
       "a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces (126, 128); .bpt "
       "Bezier\n"
-      "patches. Each is named after its file's stem. What can be mended safely is mended and\n"
-      "reported; the rest is refused.",
+      "patches; .fta what was baked before, taken as it is. Each is named after its file's stem. "
+      "What "
+      "can\n"
+      "be mended safely is mended and reported; the rest is refused.",
       with_model_options(
           {{"-o", "FILE", "the asset to write; -: to stdout"},
            {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},

@@ -9,6 +9,7 @@
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "cli/hull_arguments.hpp"
+#include "cli/loaded_asset.hpp"
 #include "cli/version.hpp"
 #include "device/device_file.hpp"
 #include "device/machines.hpp"
@@ -22,8 +23,22 @@ constexpr double kUsualDeviation_m = 1e-4;
 
 bool is_run(const std::string& path) { return extension_of(path) == ".ftl"; }
 
+bool is_asset(const std::string& path) { return extension_of(path) == ".fta"; }
+
 std::string name_of(const std::string& path, const BakeOptions& options) {
   return is_run(path) ? options.teach : stem_of(path);
+}
+
+// Of the geometries that the input gives.
+std::vector<std::string> names_of(const std::string& path, const BakeOptions& options) {
+  if (!is_asset(path)) return {name_of(path, options)};
+  const LoadedAsset asset(path);
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < asset.container().section_count(); ++i) {
+    if (names.empty() || names.back() != asset.container().name(i))
+      names.push_back(asset.container().name(i));
+  }
+  return names;
 }
 
 // A run has no name of its own, and whoever names one must give it.
@@ -47,23 +62,39 @@ void check_runs(const std::vector<std::string>& inputs, const BakeOptions& optio
 void check_names(const std::vector<std::string>& inputs, const BakeOptions& options) {
   std::map<std::string, std::string> seen;
   for (const std::string& path : inputs) {
-    const std::string name = name_of(path, options);
-    const std::string problem = tools::name_problem(name);
-    if (!problem.empty() && is_run(path)) fail_usage("bake: --teach " + name + ": " + problem);
-    if (!problem.empty()) fail_input(path + ": " + problem);
-    const auto added = seen.emplace(name, path);
-    if (!added.second) {
-      fail_input(path + ": names its asset '" + name + "', as " + added.first->second +
-                 " does; rename one of the files");
+    for (const std::string& name : names_of(path, options)) {
+      const std::string problem = tools::name_problem(name);
+      if (!problem.empty() && is_run(path)) fail_usage("bake: --teach " + name + ": " + problem);
+      if (!problem.empty()) fail_input(path + ": " + problem);
+      const auto added = seen.emplace(name, path);
+      if (!added.second) {
+        fail_input(path + ": names its asset '" + name + "', as " + added.first->second +
+                   " does; rename one of the files");
+      }
     }
   }
+}
+
+// What was baked before, as it is.
+BakedInput take_asset(const std::string& path) {
+  const LoadedAsset asset(path);
+  BakedInput taken;
+  for (uint32_t i = 0; i < asset.container().section_count(); ++i) {
+    const core::Bytes bytes = asset.container().section(i);
+    taken.sections.push_back(tools::make_section(
+        asset.container().type(i), asset.container().name(i), bytes.data(), bytes.size()));
+  }
+  taken.report = {"baked before, taken as it is: " + std::to_string(bytes_of(taken.sections)) +
+                  " bytes"};
+  return taken;
 }
 
 std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
                                  const BakeOptions& options) {
   double total = 0;
   for (const std::string& path : inputs) {
-    const bool is_mesh = !is_curve_file(path) && !is_run(path) && !is_spline_file(path);
+    const bool is_mesh =
+        !is_curve_file(path) && !is_run(path) && !is_spline_file(path) && !is_asset(path);
     total += 1 + (is_mesh && options.hull_faces != 0 ? kShareOfHull : 0);
   }
   Progress progress(total);
@@ -71,6 +102,7 @@ std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
   for (const std::string& path : inputs) {
     baked.push_back(is_curve_file(path)    ? bake_curve_input(path, options, progress)
                     : is_run(path)         ? bake_run_input(path, options, progress)
+                    : is_asset(path)       ? take_asset(path)
                     : is_spline_file(path) ? bake_spline_input(path, options, progress)
                                            : bake_mesh_input(path, options, progress));
   }
@@ -180,7 +212,7 @@ BakeRequest bake_request(const Arguments& arguments) {
 
 BakedAsset bake_asset(BakeRequest request, const std::string& output) {
   for (const std::string& input : request.inputs) {
-    if (is_run(input)) continue;
+    if (is_run(input) || is_asset(input)) continue;
     settle_size(input, request.options.model);
     break;
   }
