@@ -1,29 +1,71 @@
-# The package of tools/packaging/pack: each manifest has the keys that its schema requires, the version of version.hpp, and
-# names only files that are there, every source among them; the flags are those of CMake's targets; the build id is CMake's.
-# Read by tests/check/run. Schemas: Arduino library specification 1.5; PlatformIO library.json; Zephyr's zephyr_module.py;
-# Open-CMSIS-Pack PACK.xsd.
+# The package of tools/packaging/pack: each manifest obeys the rules that its system publishes, has the version of version.hpp,
+# and names only files that are there, every source among them; the flags are those of CMake's targets; the build id is
+# CMake's. Read by tests/check/run. The rules: arduino-lint's schemas of library.properties, in its strictest mode;
+# PlatformIO's manifest/schema.py and library.json; the schema in Zephyr's zephyr_module.py; for PACK.xsd see pack.xsd.
 
 copies="CHANGELOG.md LICENSE firmware hal/firmtouch tools/packaging"
+not_run() { command -v xmllint >/dev/null && return 1; echo 'there is no xmllint'; }
+
+# obeys FILE SEPARATOR: each line of FILE is a key, SEPARATOR and a value, and each row of the standard input a rule:
+# `KEY need|may LENGTH PATTERN`, of the whole value. Keys without a rule are complained about.
+obeys() {
+  text=$(awk -v separator="$2" '
+    NR == FNR { need[$1] = $2; most[$1] = $3; key = $1; sub(/^[^ ]+ [^ ]+ [^ ]+ /, ""); pattern[key] = "^(" $0 ")$"; next }
+    /^[{}]$/ { next }
+    {
+      at = index($0, separator); key = substr($0, 1, at - 1); value = substr($0, at + length(separator))
+      gsub(/[ "]/, "", key); sub(/^ /, "", value); sub(/,$/, "", value); seen[key] = 1
+      if (!at || !(key in need)) print "no key of the schema: " $0
+      else if (length(value) > most[key] || value !~ pattern[key]) print key " is against the schema: " value
+    }
+    END { for (key in need) if (need[key] == "need" && !(key in seen)) print "no " key }' - "$1")
+  [ -z "$text" ] || complain "$(printf '%s\n' "$text" | sed "s|^|${1##*/}: |")"
+}
 properties() {
-  for key in name version author maintainer sentence paragraph category url architectures; do
-    grep -qE "^$key=.+" "$1" || complain "library.properties: no $key"
-  done
+  obeys "$1" = <<'END'
+name need 16 [a-zA-Z][a-zA-Z0-9_.-]*
+version need 20 (0|[1-9][0-9]*)[.](0|[1-9][0-9]*)[.](0|[1-9][0-9]*)
+author need 100 .+
+maintainer need 100 .+
+sentence need 200 .+
+paragraph need 500 .*
+category need 30 Display|Communication|Signal Input/Output|Sensors|Device Control|Timing|Data Storage|Data Processing|Other
+url need 200 https?://[^ ]+
+architectures need 100 .+
+includes may 100 [A-Za-z_]+[.]h
+license may 20 MIT
+END
   grep -qx "version=$version" "$1" || complain "library.properties: another version than $version"
-  grep -v '^[a-z]*=' "$1" && complain 'library.properties: a line without a key'
+  # These belong to official libraries, and say nothing.
+  text=$(grep -iE '^(name|maintainer)=.*(arduino|library)' "$1") && complain "library.properties: $text"
   for header in $(sed -n 's/^includes=//p' "$1"); do [ -e "$made/src/$header" ] || complain "library.properties: no src/$header"; done
 }
 json() {
-  for key in name version description keywords; do grep -qE "^  \"$key\": (\"[^\"]+\"|\[.+\])," "$1" || complain "library.json: no $key"; done
+  obeys "$1" : <<'END'
+name need 102 "[^":;/,@<>]+"
+version need 52 "[0-9]+[.][0-9]+[.][0-9]+"
+description may 1002 "[^"]+"
+keywords may 200 \[("[a-z0-9+. -]+"(, )?)+\]
+homepage may 257 "https?://[^" ]+"
+authors may 200 \[[{] "name": "[^"]+", "maintainer": (true|false) [}]\]
+license may 257 "MIT"
+frameworks may 52 "([a-z0-9_-]+|[*])"
+platforms may 52 "([a-z0-9_-]+|[*])"
+headers may 100 \["[A-Za-z_]+[.]h"\]
+build may 2000 [{] "srcDir": "src", "flags": \[("[^"]+"(, )?)+\], "unflags": \[("[^"]+"(, )?)+\] [}]
+END
   grep -qx "  \"version\": \"$version\"," "$1" || complain "library.json: another version than $version"
-  # A member a line: commas behind all but the last, quotes and brackets in pairs.
-  awk 'NR == 1 { bad = $0 != "{"; next }
-    NR > 2 && (last ~ /,$/) == ($0 == "}") { bad = 1 }
-    { last = text = $0; gsub(/"[^"]*"/, "", text); opened = gsub(/[[{]/, "", text); if (text ~ /"/ || opened != gsub(/[]}]/, "", text) - ($0 == "}")) bad = 1 }
-    END { exit bad || last != "}" }' "$1" || complain 'library.json: is no JSON'
+  awk 'NR > 2 && (last ~ /,$/) == ($0 == "}") { bad = 1 } { last = $0 } END { exit bad || last != "}" }' "$1" ||
+    complain 'library.json: a comma is missing, or one too many'
   for flag in $arithmetic; do grep -qF "\"$flag\"" "$1" || complain "library.json: no $flag"; done
 }
 module() {
-  for key in name: '  cmake:' '  kconfig:'; do grep -qE "^$key [a-zA-Z/]+$" "$made/zephyr/module.yml" || complain "module.yml: no $key"; done
+  obeys "$made/zephyr/module.yml" : <<'END'
+name need 100 [a-zA-Z0-9_-]+
+build need 0 .*
+cmake need 100 [a-zA-Z0-9_/.-]+
+kconfig need 100 [a-zA-Z0-9_/.-]+
+END
   for flag in $arithmetic; do grep -qF -- "$flag" "$made/zephyr/CMakeLists.txt" || complain "zephyr: no $flag"; done
   [ -f "$made/$(sed -n 's/^  cmake: //p' "$made/zephyr/module.yml")/CMakeLists.txt" ] || complain 'module.yml: no CMakeLists.txt'
   [ -f "$made/$(sed -n 's/^  kconfig: //p' "$made/zephyr/module.yml")" ] || complain 'module.yml: no Kconfig'
@@ -35,16 +77,15 @@ pack() {
   vendor=$(sed -n 's|^  <vendor>\(.*\)</vendor>|\1|p' "$1") name=$(sed -n 's|^  <name>\(.*\)</name>|\1|p' "$1")
   [ "${1##*/}" = "$vendor.$name.pdsc" ] || complain "${1##*/}: is not called vendor.name.pdsc"
   [ -s "$folder/$vendor.$name.$version.pack" ] || complain "no $vendor.$name.$version.pack"
-  for element in description url license release; do grep -qE "<$element[^>]*>[^<]+</$element>" "$1" || complain "pdsc: no $element"; done
-  for attribute in schemaVersion Cclass Cgroup "Cversion=\"$version\"" "release version=\"$version\""; do
-    grep -qF -- "$attribute" "$1" || complain "pdsc: no $attribute"
+  text=$(xmllint --noout --schema "$here/pack.xsd" "$1" 2>&1) || complain "$text"
+  for element in "component .*Cversion" 'release version'; do
+    grep -q "<$element=\"$version\"" "$1" || complain "pdsc: another version than $version"
   done
   sed -n 's/.*<file .* name="\([^"]*\)".*/\1/p' "$1" >"$folder/named"
   while IFS= read -r file; do [ -e "$made/$file" ] || complain "pdsc: there is no $file"; done <"$folder/named"
   (cd "$made" && find src -name '*.cpp') >"$folder/sources"
   while IFS= read -r file; do grep -qxF "$file" "$folder/named" || complain "pdsc: $file is missing"; done <"$folder/sources"
   [ "$(wc -l <"$folder/sources")" -gt 90 ] || complain 'pdsc: hardly any source'
-  if command -v xmllint >/dev/null; then xmllint --noout "$1" || complain 'pdsc: is no XML'; fi
 }
 check() {
   bad=0
@@ -54,7 +95,8 @@ check() {
   version=$(part MAJOR).$(part MINOR).$(part PATCH)
   arithmetic='-ffp-contract=off -fno-associative-math -fno-finite-math-only -fno-unsafe-math-optimizations -fno-reciprocal-math -fsigned-zeros'
   sh tools/packaging/pack "$folder" https://example.org/firmtouch >"$folder/said" 2>&1 || complain "pack: $(cat "$folder/said")"
-  ! sh tools/packaging/pack "$folder" >"$folder/said" 2>&1 || complain 'pack: writes over a package'
+  ! sh tools/packaging/pack "$folder" https://example.org >"$folder/said" 2>&1 || complain 'pack: writes over a package'
+  ! sh tools/packaging/pack "$folder/other" example.org >"$folder/said" 2>&1 || complain 'pack: takes what is no URL'
   properties "$made/library.properties"
   json "$made/library.json"
   module
@@ -68,7 +110,7 @@ check() {
 in_pack() { edit tools/packaging/pack "$1"; expect=$2; }
 plant_version_of_its_own() { in_pack 's/^version=$version/version=9.9.9/' 'library.properties: another version'; }
 plant_version_of_json() { in_pack 's/"version": "$version"/"version": "9.9.9"/' 'library.json: another version'; }
-plant_lost_comma() { in_pack 's/"license": "MIT",/"license": "MIT"/' 'library.json: is no JSON'; }
+plant_lost_comma() { in_pack 's/"license": "MIT",/"license": "MIT"/' 'library.json: a comma is missing'; }
 plant_lost_key() { in_pack '/^sentence=/d' 'library.properties: no sentence'; }
 plant_lost_flags() { edit firmware/cmake/firmtouch_options.cmake 's/ -ffp-contract=off//'; expect='library.json: no -ffp-contract=off'; }
 plant_lost_sources() { in_pack "s/files_of '\*.cpp'/files_of 'a*.cpp'/" 'pdsc: src/firmtouch/.* is missing'; }
@@ -76,3 +118,13 @@ plant_file_that_is_not_there() { in_pack 's/name="CHANGELOG.md"/name="NEWS.md"/'
 plant_moved_primitives() { mv firmware/firmtouch/arch/armv7em_fpv5 firmware/firmtouch/arch/fpv5; expect='zephyr: no firmtouch/arch/armv7em_fpv5'; }
 plant_moved_kconfig() { in_pack 's|kconfig: zephyr/Kconfig|kconfig: Kconfig|' 'module.yml: no Kconfig'; }
 plant_other_sum() { edit tools/packaging/build_id 's/ | sort | / | sort -r | /'; expect="another than CMake's"; }
+plant_category_of_our_own() { in_pack 's/^category=.*/category=Robots/' 'library.properties: category is against the schema: Robots'; }
+plant_key_nobody_reads() { in_pack 's/^includes=/include=/' 'library.properties: no key of the schema: include='; }
+plant_name_of_others() { in_pack 's/^maintainer=.*/maintainer=Arduino/' 'library.properties: maintainer=Arduino'; }
+plant_keyword_in_capitals() { in_pack 's/"haptics"/"Haptics"/' 'library.json: keywords is against the schema'; }
+plant_key_of_module() { in_pack 's|^  kconfig: |  Kconfig: |' 'module.yml: no key of the schema: *Kconfig:'; }
+plant_element_that_is_not_closed() { in_pack 's|</releases>||' 'Opening and ending tag mismatch: releases'; }
+plant_class_of_one_letter() { in_pack 's/Cclass="Haptics"/Cclass="H"/' "attribute 'Cclass'.*minLength"; }
+plant_category_of_file() { in_pack 's/ sourceCpp)/ cpp)/' "attribute 'category'"; }
+plant_lost_releases() { in_pack '/<releases>/,/<.releases>/d' 'Missing child element.*releases'; }
+plant_dots_in_vendor() { in_pack 's|<vendor>Firmtouch<|<vendor>firm.touch<|' "Element 'vendor'"; }
