@@ -60,12 +60,15 @@ EOF
     END { flush(); exit bad }' || bad=1
   sources | grep -E '\.(cpp|hpp|h)$' | tr '\n' '\0' | xargs -0 awk -f "$here/functions.awk" || bad=1
   for example in tests/examples/*.cpp; do
-    [ "$(wc -l <"$example")" -le 120 ] || complain "$example: a first program has at most 120 lines"
+    [ "$(wc -l <"$example")" -lt 120 ] || complain "$example: a first program has less than 120 lines"
     case $(head -n 1 "$example") in
       '// What you feel: '*) ;;
       *) complain "$example: does not open with what one feels" ;;
     esac
     grep -qF "](${example##*/})" tests/examples/README.md || complain "$example: not in the README.md beside it"
+    picture=pictures/$(basename "$example" .cpp).svg
+    [ -s "tests/examples/$picture" ] && grep -qF "($picture)" tests/examples/README.md && grep -qxF "// Picture: $picture" "$example" ||
+      complain "$example: $picture is missing, or not named there and in the README.md"
   done
   # Scripts are for any POSIX shell; .ci/run is read by bash.
   scripts=
@@ -108,11 +111,15 @@ plant_long_test() {  # behind one of 80 lines, in a class, behind a template's h
 }
 plant_long_example() {
   lines '// a line' 120 >>tests/examples/wall.cpp
-  expect='examples/wall.cpp: a first program has at most 120 lines'
+  expect='examples/wall.cpp: a first program has less than 120 lines'
 }
 plant_example_that_nobody_lists() {
   echo '// A wall.' >tests/examples/other_wall.cpp
   expect='examples/other_wall.cpp: not in the README.md beside it'
+}
+plant_example_without_a_picture() {
+  rm tests/examples/pictures/friction.svg
+  expect='examples/friction.cpp: pictures/friction.svg is missing'
 }
 plant_unguarded_header() {
   echo 'int f();' >firmware/firmtouch/core/planted.hpp

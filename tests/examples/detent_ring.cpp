@@ -1,11 +1,13 @@
 // What you feel: a ring of 12 notches. Led round it, the tool is drawn into each notch, and out of
 // it against a rising force, until it clicks into the next.
+// Picture: pictures/detent_ring.svg
 //
 // An effect of your own is a free function that adds to the local model: here a line through the
 // nearest notch, across which a spring pulls. Along the line, in and out, the tool is free.
 #include "firmtouch/math/elementary.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -39,7 +41,9 @@ math::Vec3 tick(uint32_t number, math::Vec3 position_m) {
   input.position_m = position_m;
   input.tick = number;
   input.enable = true;
-  return servo::step(state, kSettings, model, input).force_N;
+  const math::Vec3 force_N = servo::step(state, kSettings, model, input).force_N;
+  show(position_m, force_N);
+  return force_N;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // What you feel: a groove in the air. Near the path the tool is drawn into it and glides along it;
 // pulled far enough away it comes free.
+// Picture: pictures/follow_path.svg
 //
 // A virtual fixture along a baked path (path.csv, a half circle over the block) and a baked mesh.
 // Settings are parameters: a command of a tick sets one, so that a log has them all.
@@ -7,6 +8,7 @@
 #include "firmtouch/controller/curve_guide.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
 #include "firmtouch/math/elementary.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -38,6 +40,7 @@ record::TickOutput tick(float angle_rad, float out_m, uint32_t command = 0, floa
   input.command_value = value;
   record::TickOutput output;
   controller.tick(input, output);
+  show(output);
   return output;
 }
 
@@ -47,7 +50,6 @@ float outwards_N(const record::TickOutput& output, float angle_rad) {
 float onwards_N(const record::TickOutput& output, float angle_rad) {
   return output.force_N[0] * math::sine(angle_rad) + output.force_N[2] * math::cosine(angle_rad);
 }
-bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 }  // namespace
 

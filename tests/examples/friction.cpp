@@ -1,11 +1,13 @@
 // What you feel: a table top. Its left half is ice, where the tool glides. Its right half is
 // rubber, where it sticks, gives way, and drags.
+// Picture: pictures/friction.svg
 //
 // Contact through a proxy: the ball of the tool as it would be if it could not enter the table. The
 // spring from the hand to the proxy is all the force there is, friction included.
 #include "firmtouch/scene/analytic.hpp"
 #include "firmtouch/scene/proxy_contact.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -39,10 +41,9 @@ math::Vec3 tick(uint32_t number, float x_m, float height_m) {
   input.tick = number;
   input.enable = true;
   output = servo::step(state, kSettings, model, input);
+  show(input.position_m, output.force_N);
   return output.force_N;
 }
-
-bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 }  // namespace
 

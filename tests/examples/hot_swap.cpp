@@ -1,10 +1,12 @@
 // What you feel: you rest on a solid block, and its top sinks by 2 mm under your hand, without a
 // jerk: the force falls over some milliseconds, and the lower top carries you when you follow it.
+// Picture: pictures/hot_swap.svg
 //
 // A hot swap: the next asset is loaded while the servo runs, and a tick's command begins to touch
 // it. That tick is in the record like any other, so a log with a swap replays.
 #include "firmtouch/controller/controller.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -40,8 +42,6 @@ record::TickInput input_of(uint32_t tick) {
 // The main loop's share: a slice between two ticks, until the next asset is proven.
 bool load_next(Swapping& to) { return to.work_next(kSliceUnits) && to.next_verdict().ok(); }
 
-bool is_between(float value, float low, float high) { return value >= low && value <= high; }
-
 }  // namespace
 
 int main() {
@@ -59,6 +59,7 @@ int main() {
     const record::TickInput input = input_of(tick);
     if (!is_loaded) is_loaded = load_next(controller);
     controller.tick(input, output);
+    show(output);
     at_desk.tick(input, again);
     is_same &= __builtin_memcmp(&output, &again, sizeof output) == 0;
     const float now_N = output.force_N[2];

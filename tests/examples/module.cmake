@@ -5,19 +5,29 @@
 function(firmtouch_example name)
   cmake_parse_arguments(example "" "" "LINKS" ${ARGN})
   set(source ${PROJECT_SOURCE_DIR}/tests/examples/${name}.cpp)
+  set(pictures ${PROJECT_SOURCE_DIR}/tests/examples/pictures)
   if(CMAKE_CROSSCOMPILING)
-    firmtouch_target_program(example_${name} SOURCES ${source} LINKS ${example_LINKS})
+    firmtouch_target_program(example_${name} SOURCES ${source} ${pictures}/nothing.cpp LINKS ${example_LINKS})
     if(FIRMTOUCH_BOARD AND is_emulated)  # tests/target
       add_test(NAME examples.${name}.${FIRMTOUCH_BOARD}
                COMMAND ${PROJECT_SOURCE_DIR}/hal/emulate ${FIRMTOUCH_BOARD} $<TARGET_FILE:example_${name}>)
     endif()
   else()
     add_executable(example_${name} ${source})
-    target_link_libraries(example_${name} PRIVATE ${example_LINKS})
+    target_link_libraries(example_${name} PRIVATE ${example_LINKS} firmtouch_example_pictures)
     target_compile_options(example_${name} PRIVATE ${FIRMTOUCH_WARNING_FLAGS})
-    add_test(NAME examples.${name} COMMAND example_${name})
+    add_test(NAME examples.${name} COMMAND ${pictures}/run ${name} $<TARGET_FILE:example_${name}>)
   endif()
 endfunction()
+
+if(TARGET firmtouch_tools_chart)
+  add_library(firmtouch_example_pictures STATIC examples/pictures/draw.cpp)
+  target_link_libraries(firmtouch_example_pictures PRIVATE firmtouch_tools_chart PUBLIC firmtouch_record)
+  target_include_directories(firmtouch_example_pictures PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  firmtouch_hosted(firmtouch_example_pictures)
+elseif(NOT CMAKE_CROSSCOMPILING)
+  return()  # a build without tools draws nothing
+endif()
 
 firmtouch_example(wall LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(detent_ring LINKS firmtouch::scene firmtouch::servo)

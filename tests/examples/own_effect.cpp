@@ -1,10 +1,12 @@
 // What you feel: a bowl of honey. In the air the tool is free; below the surface every move is
 // slow, and slower with depth. Let go, and it stays where it is.
+// Picture: pictures/own_effect.svg
 //
 // An effect of your own is a free function that adds to the local model. Honey resists in all
 // directions, so this one is a guide line without a spring: a damper across it, and one along it.
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -41,10 +43,10 @@ math::Vec3 tick(uint32_t number, math::Vec3 position_m, math::Vec3 velocity_mps)
   input.velocity_mps = velocity_mps;
   input.tick = number;
   input.enable = true;
-  return servo::step(state, kSettings, model, input).force_N;
+  const math::Vec3 force_N = servo::step(state, kSettings, model, input).force_N;
+  show(position_m, force_N);
+  return force_N;
 }
-
-bool is_near(float a, float b) { return a - b < 1e-4f && b - a < 1e-4f; }
 
 }  // namespace
 

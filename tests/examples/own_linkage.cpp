@@ -1,5 +1,6 @@
 // What you feel: a wall in front of an arm of two joints. It is flat, and as hard everywhere,
 // although the motors turn joints.
+// Picture: pictures/own_linkage.svg
 //
 // A linkage of your own is two functions around the library's tick: angles to the tool's place, and
 // the force on the tool to torques, by the transposed Jacobian (Spong, Hutchinson & Vidyasagar,
@@ -7,6 +8,7 @@
 #include "firmtouch/math/elementary.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -63,11 +65,10 @@ math::Vec3 tick(uint32_t number, const int32_t (&counts)[2], float (&torque_Nm)[
   input.tick = number;
   input.enable = true;
   const math::Vec3 force_N = servo::step(state, kSettings, model, input).force_N;
+  show(position_m, force_N);
   arm.torques(force_N, torque_Nm);
   return force_N;
 }
-
-bool is_near(float a, float b, float most) { return a - b < most && b - a < most; }
 
 // Work of the torques in turning joint `k` by one count, less the work of the force in moving the
 // tool: 0 for the right torques, whatever the linkage (virtual work).

@@ -1,10 +1,12 @@
 // What you feel: a hard rubber ring. It is round from every side, and a finger fits through it.
+// Picture: pictures/own_shape.svg
 //
 // A shape of your own is a struct that answers one query: what is near a point? The proxy does the
 // rest: the ball of the tool never enters the ring, and a spring ties the hand to it.
 #include "firmtouch/math/elementary.hpp"
 #include "firmtouch/scene/proxy_contact.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -70,10 +72,9 @@ math::Vec3 tick(uint32_t number, math::Vec3 position_m) {
   input.tick = number;
   input.enable = true;
   output = servo::step(state, kSettings, model, input);
+  show(position_m, output.force_N);
   return output.force_N;
 }
-
-bool is_near(float a, float b) { return a - b < 1e-3f && b - a < 1e-3f; }
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // What you feel: nothing. This is for the day when a user reports an odd force: at your desk, give
 // a controller the recorded inputs again, and get every force again to the last bit.
+// Picture: pictures/replay_log.svg
 //
 // A tick depends on the controller's state and its input alone, and a record keeps input and
 // output. So a log is a test: after a change of the firmware it names the first tick that differs.
@@ -8,6 +9,7 @@
 #include "firmtouch/controller/mesh_surface.hpp"
 #include "firmtouch/math/elementary.hpp"
 #include "firmtouch/record/ring.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -62,6 +64,7 @@ int main() {
     record::TickRecord now{};
     now.input = input_of(i);
     original.tick(now.input, now.output);
+    show(now.output);
     if (now.output.force_N[2] > 0.1f) ++pushes;
     ring.push(now);
   }

@@ -1,11 +1,13 @@
 // What you feel: a polished ring, 140 mm wide. Led once around its crest, the force does not change
 // by a hundredth of a newton: a surface of splines has no facets.
+// Picture: pictures/spline_surface.svg
 //
 // A NURBS model (torus.igs, from a CAD system) is baked and touched like a mesh: only the
 // controller's type says SplineSurface. The tool is a ball of 3 mm radius.
 #include "firmtouch/controller/spline_surface.hpp"
 #include "firmtouch/controller/controller.hpp"
 #include "firmtouch/math/elementary.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -32,10 +34,9 @@ record::TickOutput tick(math::Vec3 position_m) {
   if (now++ > 0) input.flags = record::kFlagEnable;
   record::TickOutput output;
   controller.tick(input, output);
+  show(output);
   return output;
 }
-
-bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 }  // namespace
 

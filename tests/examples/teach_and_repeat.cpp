@@ -1,5 +1,6 @@
 // What you feel: you lead the tool through a figure once. Then it leads your hand through the same
 // figure, at its own pace, and gives way where you hold it back.
+// Picture: pictures/teach_and_repeat.svg
 //
 // Places are kept in fixed memory, one a millimetre. To repeat them an effect draws the tool onto
 // the piece between two of them, and drives it along. (`firmtouch bake RUN.ftl --teach NAME` makes
@@ -7,6 +8,7 @@
 #include "firmtouch/math/elementary.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -65,7 +67,9 @@ math::Vec3 tick(uint32_t number, math::Vec3 position_m, math::Vec3 velocity_mps)
   input.velocity_mps = velocity_mps;
   input.tick = number;
   input.enable = true;
-  return servo::step(state, kSettings, model, input).force_N;
+  const math::Vec3 force_N = servo::step(state, kSettings, model, input).force_N;
+  show(position_m, force_N);
+  return force_N;
 }
 
 math::Vec3 figure_m(float turns) {  // an eight, 60 mm long

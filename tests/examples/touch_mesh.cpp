@@ -1,11 +1,13 @@
 // What you feel: a solid block, 40 mm wide. The tool is a ball of 3 mm radius that comes down on
 // it, slides over its edge without a bump, and meets its side on the way back.
+// Picture: pictures/touch_mesh.svg
 //
 // A baked mesh, and the whole chain from encoder counts to motor forces. CMake bakes block.obj and
 // links it in (CMakeLists.txt beside this file). On a device, tick() is the servo interrupt
 // (tests/consumer/minimal/main.cpp); here a simulated hand moves the encoders.
 #include "firmtouch/controller/controller.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -27,10 +29,9 @@ record::TickOutput tick(uint32_t number, float x_m, float z_m) {
   if (number > 0) input.flags = record::kFlagEnable;  // the motors start after it was seen low
   record::TickOutput output;
   controller.tick(input, output);
+  show(output);
   return output;
 }
-
-bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 }  // namespace
 

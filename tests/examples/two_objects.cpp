@@ -1,5 +1,6 @@
 // What you feel: a ball that lies on a table and rolls towards your hand. It pushes the tool along
 // the table. Where a second wall is in the way, the tool would be squeezed, and lets go.
+// Picture: pictures/two_objects.svg
 //
 // An object is a shape in its own frame, a pose, a twist and a material. One proxy touches them
 // all: what moves carries or pushes it, and it goes through none of them.
@@ -7,6 +8,7 @@
 #include "firmtouch/scene/objects.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -66,11 +68,10 @@ struct World {
     input.tick = now++;
     input.enable = true;
     output = servo::step(state, kSettings, model, input);
+    show(hand_m, output.force_N);
     return output.force_N;
   }
 };
-
-bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
 // The hand rests 1 mm deep in the table, at the origin, while the ball comes.
 // Result: whether at least 0.9 of the tool was in front of ball and table in every tick.

@@ -1,11 +1,13 @@
 // What you feel: the block of touch_mesh.cpp, but crisper. The motors get a fresh force 4,000 times
 // a second, although the geometry is queried only 1,000 times.
+// Picture: pictures/two_rates.svg
 //
 // The servo interrupt calls tick(), the main loop make_model(), however long that takes. Between
 // two models each tick evaluates the last one at the fresh position. Which model a tick used is an
 // input of it, so that a log replays.
 #include "firmtouch/controller/controller.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -37,6 +39,7 @@ record::TickOutput tick(uint32_t number, float height_m) {
   }
   record::TickOutput output;
   controller.tick(input, output);
+  show(output, 1e-6f * kPeriod_us);
   return output;
 }
 

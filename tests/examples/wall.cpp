@@ -1,9 +1,11 @@
 // What you feel: air, then a firm wall. Each millimetre that you press into it costs one newton.
+// Picture: pictures/wall.svg
 //
 // The smallest use of the library: no asset, no board. A tick describes what is near the tool, and
 // servo::step() turns that into a force with ramps, limits and faults.
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
 
 using namespace firmtouch;
 
@@ -31,10 +33,10 @@ servo::StepOutput tick(uint32_t number, float height_m, bool enable) {
   input.position_m = position_m;
   input.tick = number;
   input.enable = enable;
-  return servo::step(state, kSettings, model, input);
+  const servo::StepOutput output = servo::step(state, kSettings, model, input);
+  show(position_m, output.force_N);
+  return output;
 }
-
-bool is_near(float a, float b) { return a - b < 1e-4f && b - a < 1e-4f; }
 
 }  // namespace
 
