@@ -20,6 +20,14 @@ std::string label(double x, double y, const std::string& text, const char* more 
          chart::html_of(text) + "</text>\n";
 }
 
+// Flash, and the mean units of a query that touches and of one anywhere.
+std::string facts_of(const PlanRow& row) {
+  const std::string bytes = chart::grouped(row.flash()) + " B";
+  if (!(row.work.random_mean > 0)) return bytes;
+  return bytes + ", " + fixed(row.work.path_mean, 1) + " and " + fixed(row.work.random_mean, 1) +
+         " units";
+}
+
 }  // namespace
 
 std::string plan_picture(const Planner& planner, uint64_t flash) {
@@ -30,7 +38,7 @@ std::string plan_picture(const Planner& planner, uint64_t flash) {
     return kWidth * static_cast<double>(bytes) / static_cast<double>(most);
   };
   const double height = kTop + kRow * static_cast<double>(rows.size()) + 10;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1010 " +
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1110 " +
                     fixed(height, 0) + "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
                     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   const std::pair<const char*, const char*> kinds[] = {
@@ -40,6 +48,7 @@ std::string plan_picture(const Planner& planner, uint64_t flash) {
     svg += box(x, 6, 12, colour) + label(x + 18, 20, name);
     x += 90;
   }
+  std::string facts;  // over the line of the limit
   for (size_t i = 0; i < rows.size(); ++i) {
     const PlanRow& row = rows[i];
     const double y = kTop + kRow * static_cast<double>(i);
@@ -56,11 +65,15 @@ std::string plan_picture(const Planner& planner, uint64_t flash) {
       svg += box(x, y, wide(bytes[k]), kinds[k].second);
       x += wide(bytes[k]);
     }
-    svg += label(x + 6, y + 14, chart::grouped(row.flash()) + " B");
+    facts += label(x + 6, y + 14, facts_of(row),
+                   " stroke=\"#fff\" stroke-width=\"4\" paint-order=\"stroke\"");
   }
   const std::string end = fixed(kLeft + wide(flash), 1);
-  return svg + "<path d=\"M" + end + " " + fixed(kTop - 6, 0) + "V" + fixed(height - 4, 0) +
-         "\" stroke=\"#c0392b\" stroke-width=\"2\"/>\n</svg>\n";
+  svg += "<path d=\"M" + end + " " + fixed(kTop - 6, 0) + "V" + fixed(height - 4, 0) +
+         "\" stroke=\"#c0392b\" stroke-width=\"2\"/>\n" +
+         label(kLeft + 4 * 90, 20, "limit " + chart::grouped(flash) + " B", " fill=\"#c0392b\"") +
+         label(kLeft + 500, 20, "units: mean of a query that touches, and of one anywhere");
+  return svg + facts + "</svg>\n";
 }
 
 }  // namespace firmtouch::cli
