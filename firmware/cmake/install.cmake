@@ -19,6 +19,7 @@ foreach(file ${files})
   file(SHA256 ${PROJECT_SOURCE_DIR}/${file} hash)
   string(SHA256 tree_hash "${tree_hash}${hash}${file}")
 endforeach()
+string(TIMESTAMP created "%Y-%m-%dT%H:%M:%SZ" UTC)  # SOURCE_DATE_EPOCH, where it is set
 configure_file(firmware/cmake/sbom.spdx.json.in ${CMAKE_BINARY_DIR}/firmtouch.spdx.json @ONLY)
 install(FILES LICENSE CHANGELOG.md ${CMAKE_BINARY_DIR}/firmtouch.spdx.json DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/firmtouch)
 if(FIRMTOUCH_TOOLS)
