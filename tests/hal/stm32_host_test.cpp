@@ -1,7 +1,9 @@
 #include <limits>
+#include <string>
 
 #include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
+#include "firmtouch/hal/wiring.hpp"
 #include "harness/test.hpp"
 #include "registers.hpp"
 
@@ -120,4 +122,13 @@ TEST(Stm32_Counts_GoOnBeyondSixteenBits) {
   }
   registers[kEncoderTimers[2] + kTimerControl] = 0;  // its clock was lost
   CHECK(!encoders_read(counts));
+}
+
+TEST(Stm32_Wiring_NamesThePins) {
+  const auto text = [](Wire wire, uint32_t joint) {
+    return std::string(board_wiring(wire, joint));
+  };
+  CHECK(text(Wire::kEncoder, 0) == "A to PA0, B to PA1.");
+  CHECK(text(Wire::kMotor, 2) == "Pulse PA10, direction PB15, enable of the drivers PC8.");
+  CHECK(text(Wire::kDriveFault, 0) == "The drivers' fault output, low while all is well, to PB12.");
 }

@@ -1,0 +1,24 @@
+#include "firmtouch/hal/wiring.hpp"
+
+namespace firmtouch::hal {
+
+/// For a board without a text of its own.
+[[gnu::weak]] const char* board_wiring(Wire wire, uint32_t) {
+  switch (wire) {
+    case Wire::kLink:
+      return "Receive and transmit as link.cpp sets them.";
+    case Wire::kEnable:
+      return "The enable switch: closed sets its line, open or torn off clears it.";
+    case Wire::kEmergencyStop:
+      return "The emergency stop: a closed contact; pressed or torn off sets its line.";
+    case Wire::kDriveFault:
+      return "The drivers' fault output: torn off sets its line.";
+    case Wire::kEncoder:
+      return "Its channels A and B, ground, power.";
+    case Wire::kMotor:
+      return "Its driver's inputs and power.";
+  }
+  return "";
+}
+
+}  // namespace firmtouch::hal
