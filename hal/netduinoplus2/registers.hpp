@@ -15,16 +15,15 @@ constexpr uint32_t kPortA = 0x40020000;          // +00 mode, +20 and +24 altern
 // +00 control, +14 event, +24 counter, +28 prescaler, +2C reload.
 constexpr uint32_t kTimer2 = 0x40000000;
 constexpr uint32_t kTimer5 = 0x40000C00;
-constexpr uint32_t kWatchdog = 0x40003000;  // +00 key, +04 prescaler, +08 reload
-constexpr uint32_t kUsart1 = 0x40011000;
-constexpr uint32_t kUsart2 = 0x40004400;
+constexpr uint32_t kWatchdog = 0x40003000;                   // +00 key, +04 prescaler, +08 reload
+constexpr uint32_t kConsole = 0x40011000;                    // USART1
+constexpr uint32_t kLink = 0x40004400, kLinkInterrupt = 38;  // USART2
 
-constexpr uint32_t kUsartState = 0x0, kUsartData = 0x4, kUsartDivider = 0x8, kUsartControl = 0xC;
+constexpr uint32_t kUsartState = 0x0, kUsartReceived = 0x4, kUsartSent = 0x4, kUsartDivider = 0x8,
+                   kUsartControl = 0xC;
 constexpr uint32_t kReceived = 1u << 5, kTransmitEmpty = 1u << 7;  // of state
 constexpr uint32_t kReceiveOn = 1u << 2, kTransmitOn = 1u << 3, kReceiveInterrupt = 1u << 5,
                    kUsartOn = 1u << 13;
-
-constexpr uint32_t kUsart2Interrupt = 38;
 
 /// QEMU has no RCC (it reads zeros), runs the core's SysTick at 168 MHz and the timers at 1 GHz.
 inline bool is_emulated() { return (reg(kRccControl) & 1u) == 0; }
@@ -33,6 +32,7 @@ inline uint32_t timer_MHz() { return is_emulated() ? 1000 : 16; }
 constexpr uint32_t kUsart_MHz = 16;
 
 void clock_begin();
+void console_begin();
 void link_begin();
 
 }  // namespace firmtouch::hal

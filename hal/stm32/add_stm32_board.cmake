@@ -3,8 +3,8 @@
 function(firmtouch_add_stm32_board folder)
   set(stm32 ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
   firmtouch_board_parts(firmtouch_board
-    SOURCES ${folder}/board.cpp ${stm32}/board.cpp ${stm32}/clock.cpp ${stm32}/encoders.cpp ${stm32}/link.cpp
-            ${stm32}/motors.cpp ${stm32}/wiring.cpp
+    SOURCES ${folder}/board.cpp ${stm32}/board.cpp ${stm32}/clock.cpp ${stm32}/console.cpp ${stm32}/encoders.cpp
+            ${stm32}/link.cpp ${stm32}/motors.cpp ${stm32}/watchdog.cpp ${stm32}/wiring.cpp
     PARTS firmtouch_cortex_m firmtouch_no_emulator firmtouch_no_parameters LINKER_SCRIPT ${folder}/link.ld)
   target_include_directories(firmtouch_board_objects PRIVATE ${folder})
 endfunction()

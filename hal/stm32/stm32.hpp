@@ -61,6 +61,7 @@ constexpr uint32_t kNoOverrun = 1u << 12;                          // of errors
 
 void power_begin();  // core clock and caches; board.cpp of the board
 void clock_begin();
+void console_begin();
 void link_begin();
 void encoders_begin();
 void motors_begin();
