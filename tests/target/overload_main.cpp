@@ -3,20 +3,18 @@
 // what became of it; tests/target/run_overload checks it.
 #include <stdint.h>
 
-#include "asset/small_file.hpp"
 #include "emulator/semihosting.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
-#include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
-#include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "host_session.hpp"
+#include "pressed_app.hpp"
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
-#include "text.hpp"
 
 using namespace firmtouch;  // NOLINT: a test program
+using target::print;
 
 namespace {
 
@@ -67,11 +65,6 @@ void look_at(const record::TickInput& input, const record::TickOutput& output) {
   }
 }
 
-void print(const char* name, uint32_t value) {
-  hal::board_print(name);
-  hal::board_print(target::decimal(value).text);
-}
-
 uint32_t number_of(const char* text) {
   uint32_t value = 0;
   for (; *text >= '0' && *text <= '9'; ++text)
@@ -85,14 +78,7 @@ namespace firmtouch {
 
 void target::BusySurface::touch(const ModelRequest& request, const params::Values& values,
                                 ModelResult& result) {
-  scene::SurfacePoint surface;
-  surface.distance_m = -0.002f;
-  surface.normal = {0, 0, 1};
-  surface.sign = -1;
-  surface.lower_m = 0.002f;
-  const scene::Material material{values[params::kContactStiffness],
-                                 values[params::kContactDamping]};
-  scene::add_contact(result.model, request.position_m, 0, surface, material);
+  press_wall(request, values, result);
   const uint32_t busy_us = is_overloaded() ? app::servo_period_us() / 100 * g_percent : 0;
   while (hal::clock_us() - g_tick_began_us < busy_us) {
   }
@@ -105,12 +91,6 @@ void app::AppController::tick(const record::TickInput& input, record::TickOutput
   look_at(input, output);
 }
 
-// Joints at rest, pressed by nobody.
-bool hal::encoders_read(int32_t (&counts)[3]) {
-  for (int32_t& count : counts) count = 0;
-  return true;
-}
-void hal::motors_write_N(const float (&)[3]) {}
 void hal::motors_state(bool) {}
 void hal::motors_off() {}
 uint32_t hal::motors_lines() { return g_tick >= kEnable_ticks ? kMotorsEnable : 0; }
@@ -123,10 +103,7 @@ int main() {
   if (!hal::semihosting_command_line(line, sizeof line)) return 2;
   const bool hangs = line[0] == 'h';
   g_percent = number_of(line);
-  static asset_test::SmallFile file;  // of sections that no part knows: they are skipped
-  for (uint32_t i = 0; i < file.kSections; ++i) file.word(file.entry_at(i), 0x7770 + i);
-  file.repair();
-  if (!app::controller.open(file.all()).ok()) return 3;
+  if (!target::open_nothing()) return 3;
   static app::HostSession session;
   app::start_servo();
   while (!g_is_over) {

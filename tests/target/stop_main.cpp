@@ -3,19 +3,17 @@
 // printed.
 #include <stdint.h>
 
-#include "asset/small_file.hpp"
 #include "emulator/exit.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
-#include "firmtouch/hal/encoders.hpp"
 #include "firmtouch/hal/motors.hpp"
-#include "firmtouch/scene/compose.hpp"
 #include "host_session.hpp"
+#include "pressed_app.hpp"
 #include "servo.hpp"
 #include "servo_interrupt.hpp"
-#include "text.hpp"
 
 using namespace firmtouch;  // NOLINT: a test program
+using target::print;
 
 namespace {
 
@@ -31,11 +29,6 @@ volatile uint32_t g_tick = 0;
 volatile bool g_has_power = false;
 bool g_had_power = false;  // right before the cause
 bool g_is_reported = false;
-
-void print(const char* name, uint32_t value) {
-  hal::board_print(name);
-  hal::board_print(target::decimal(value).text);
-}
 
 void set_power(bool has_power) {
   g_has_power = has_power;
@@ -62,14 +55,7 @@ namespace firmtouch {
 
 void target::BusySurface::touch(const ModelRequest& request, const params::Values& values,
                                 ModelResult& result) {
-  scene::SurfacePoint surface;
-  surface.distance_m = -0.002f;
-  surface.normal = {0, 0, 1};
-  surface.sign = -1;
-  surface.lower_m = 0.002f;
-  const scene::Material material{values[params::kContactStiffness],
-                                 values[params::kContactDamping]};
-  scene::add_contact(result.model, request.position_m, 0, surface, material);
+  press_wall(request, values, result);
   if (!is_due(kFault)) return;
 #ifdef __riscv
   asm volatile("unimp");
@@ -83,12 +69,6 @@ void app::AppController::tick(const record::TickInput& input, record::TickOutput
   Controller::tick(input, output);
 }
 
-// Joints at rest, pressed by nobody.
-bool hal::encoders_read(int32_t (&counts)[3]) {
-  for (int32_t& count : counts) count = 0;
-  return true;
-}
-void hal::motors_write_N(const float (&)[3]) {}
 void hal::motors_state(bool may_push) { set_power(may_push); }
 void hal::motors_off() {
   ++g_off_calls;
@@ -111,10 +91,7 @@ int main() {
   print("running, motors off before main: ", calls_at_reset);
   hal::board_print("\n");
   g_cause = static_cast<Cause>(hal::board_asset().data()[0]);
-  static asset_test::SmallFile file;  // of sections that no part knows: they are skipped
-  for (uint32_t i = 0; i < file.kSections; ++i) file.word(file.entry_at(i), 0x7770 + i);
-  file.repair();
-  if (!app::controller.open(file.all()).ok()) return 3;
+  if (!target::open_nothing()) return 3;
   static app::HostSession session;
   app::start_servo();
   while (g_tick < kEnd_ticks) {
