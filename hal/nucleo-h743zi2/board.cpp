@@ -1,6 +1,11 @@
 #include "registers.hpp"
 
 namespace firmtouch::hal {
+#ifdef FIRMTOUCH_QSPI_ASSET
+void qspi_begin();
+#else
+inline void qspi_begin() {}  // the asset is in the second bank
+#endif
 namespace {
 
 constexpr uint32_t kRccControl = kRcc + 0x00, kPllOn = 1u << 24, kPllReady = 1u << 25;
@@ -58,6 +63,7 @@ void power_begin() {
   while ((reg(kFlash) & 0xFu) != 2u) {
   }
   if ((reg(kRccClock) & 7u << 3) != 3u << 3) pll_begin();
+  qspi_begin();
   caches_begin();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "stm32/stm32.hpp"
 
-// STM32H743ZI (RM0433) on a NUCLEO-H743ZI2 (UM2407). Not run.
+// STM32H743ZI (RM0433) on a NUCLEO-H743ZI2 (UM2407). Not run. The QSPI pins are free (qspi.cpp).
 namespace firmtouch::hal {
 
 constexpr uint32_t kCore_MHz = 400, kTimer_MHz = 200, kUsart_MHz = 100;
@@ -22,11 +22,11 @@ constexpr uint32_t kLink = 0x40004800, kLinkInterrupt = 39, kConsole = 0x4000440
 constexpr Pin kLinkPins[2] = {{kPortD, 8, 7}, {kPortD, 9, 7}};
 constexpr Pin kConsolePin = {kPortD, 5, 7};
 
-constexpr Pin kEncoderPins[6] = {{kPortA, 5, 1}, {kPortB, 3, 1},  {kPortC, 6, 2},
-                                 {kPortC, 7, 2}, {kPortD, 12, 2}, {kPortD, 13, 2}};
+constexpr Pin kEncoderPins[6] = {{kPortA, 5, 1}, {kPortB, 3, 1}, {kPortC, 6, 2},
+                                 {kPortC, 7, 2}, {kPortB, 6, 2}, {kPortB, 7, 2}};
 constexpr Pin kPulsePins[3] = {{kPortE, 9, 1}, {kPortE, 11, 1}, {kPortE, 13, 1}};
 constexpr Pin kDirectionPins[3] = {{kPortE, 10}, {kPortE, 12}, {kPortE, 14}};
 constexpr Pin kBreakPin = {kPortE, 15, 1};
-constexpr Pin kPowerPin = {kPortE, 4}, kEnablePin = {kPortE, 2}, kStopPin = {kPortE, 3};
+constexpr Pin kPowerPin = {kPortE, 4}, kEnablePin = {kPortE, 5}, kStopPin = {kPortE, 3};
 
 }  // namespace firmtouch::hal
