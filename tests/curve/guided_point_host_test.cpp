@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "curve/hard_curves.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
 #include "harness/test.hpp"
 
 namespace {
@@ -117,6 +118,32 @@ TEST(TheLeastCostOfAllSegmentsOnHardCurves) {
       check(baked, places[i], penalty, alone);
       check(baked, places[i], penalty, next);
       last_arc = next.closest.arc;
+    }
+  }
+}
+
+// Where few segments beside the nearest point's can cost less, those alone are looked at.
+TEST(LeastCost_OfAHandThatIsLedAlong_IsThatOfAllSegments) {
+  for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {
+    const Baked baked(named.points);
+    test::note(named.name.c_str(), 0);
+    const float size_m = baked.view.head().diagonal_m;
+    std::mt19937 random(5);
+    curve::Hint hint;
+    math::Vec3 p = baked.samples[0], step{};
+    for (uint32_t i = 0; i < queries_a_curve(); ++i) {
+      const auto any = [&] { return static_cast<float>(curve_test::uniform(random) - 0.5); };
+      if (i % 50 == 0) p = baked.samples[random() % baked.samples.size()];
+      if (i % 10 == 0) step = math::Vec3{any(), any(), any()} * (size_m * 0.002f);
+      p = p + step;
+      const curve::Closest on = curve::closest_point(baked.view, p, query::kUnlimited, hint);
+      const float behind = any() * (i % 2 == 0 ? 0.002f : 0.02f);
+      curve::ArcPenalty penalty{static_cast<float>(kWeights[i % 4]) * size_m, on.arc + behind,
+                                true};
+      penalty.previous_arc = std::min(std::max(penalty.previous_arc, 0.0f), 1.0f);
+      const auto found = guided_point(baked.view, p, penalty, query::kUnlimited, hint);
+      CHECK(found.closest.certificate.exact);
+      check(baked, p, penalty, found);
     }
   }
 }

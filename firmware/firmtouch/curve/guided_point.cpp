@@ -10,6 +10,10 @@ namespace {
 
 using math::Vec3;
 
+// For the nearest point, near which the least cost usually is. Where that takes more, as at the
+// centre of a ring, the penalty excludes more.
+constexpr uint32_t kNearestWork = 64;
+
 // The segment that goes on from the end at which the foot lies; the same where there is none.
 uint32_t beyond(const View& curve, const Foot& foot) {
   const uint32_t segment = segment_of(foot), last = curve.segment_count() - 1;
@@ -22,6 +26,11 @@ uint32_t beyond(const View& curve, const Foot& foot) {
 void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, uint32_t most_work,
            Closest& closest, Hint& hint) {
   if (!is_near(p_m)) return;
+  // It is the nearest point of the whole curve, whose certificate the hint has.
+  if (hint.lower_m > 0.0f && closest.segment == hint.segment) {
+    closest.certificate.lower_m = hint.lower_m;
+    return;
+  }
   const bool compensated = is_compensated(curve.head(), p_m);
   PieceWork work{most_work, 0};
   const PieceFoot from = any_foot(curve, p_m, closest.segment, compensated, work);
@@ -43,7 +52,7 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, uint32_t most
   const float previous = penalty.previous_arc;
   const float max_change = curve.is_closed() ? 0.5f : previous > 0.5f ? previous : 1.0f - previous;
   const float lower_m = certificate.lower_m - penalty.weight_m * max_change * (1.0f + 0x1p-20f);
-  certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  certificate.lower_m = lower_m > hint.lower_m ? lower_m : hint.lower_m;
   if (from.is_done && has_moved) closest = any_answer(curve, best);
   closest.certificate = certificate;
   hint.segment = closest.segment;
@@ -63,9 +72,20 @@ void slide(const View& curve, Vec3 p_m, const ArcPenalty& penalty, uint32_t most
 Constraint guided_point(const View& curve, Vec3 p_m, const ArcPenalty& penalty,
                         query::Budget budget, Hint& hint) {
   const bool counts = is_penalty(penalty) && penalty.weight_m <= 0x1p60f;
-  if ((counts || curve.is_smooth()) && is_near(p_m))
-    return min_cost(curve, p_m, counts ? penalty : kNoPenalty, budget, hint);
-  return nearest_point(curve, p_m, budget, hint);
+  if ((!counts && !curve.is_smooth()) || !is_near(p_m))
+    return nearest_point(curve, p_m, budget, hint);
+  query::Certificate before;
+  if (!curve.is_smooth() && hint.segment < curve.segment_count() &&
+      budget.work > 2 * kNearestWork) {
+    Constraint found = nearest_point(curve, p_m, {kNearestWork, budget.band_m}, hint);
+    if (min_cost_beside(curve, p_m, penalty, found)) return found;
+    before = found.closest.certificate;
+    budget.work -= before.work;
+  }
+  Constraint found = min_cost(curve, p_m, counts ? penalty : kNoPenalty, budget, hint);
+  found.closest.certificate.steps += before.steps;
+  found.closest.certificate.work += before.work;
+  return found;
 }
 
 Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget budget,

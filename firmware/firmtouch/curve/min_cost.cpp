@@ -31,6 +31,29 @@ class LeastCost {
     return reach_m * reach_m;
   }
 
+  uint32_t best_at() const { return best_at_; }
+
+  /// Begins with the nearest point, and looks at the segments from there to `end_arc`.
+  /// Result: false if they are too many.
+  bool take_beside(const Closest& nearest, float end_arc) {
+    work_.left = UINT32_MAX;
+    best_at_ = nearest.segment;
+    cost_m_ = nearest.distance_m + penalty_at_m(penalty_, nearest.arc, curve_.is_closed());
+    beyond2_m2_ = reach2_m2();
+    const uint32_t ahead = end_arc > nearest.arc ? 1 : 0;
+    uint32_t segment = nearest.segment;
+    Foot foot;
+    for (uint32_t i = 0; i < kMaxBeside; ++i) {
+      const uint32_t joint = segment + ahead;
+      if (joint == 0 || joint == curve_.segment_count()) return true;
+      const float arc = curve_.arcs()[joint];
+      if (ahead == 1 ? arc > end_arc : arc < end_arc) return true;
+      segment = joint - 1 + ahead;
+      (void)look_at(segment, foot);
+    }
+    return false;
+  }
+
   /// Result: the segment of the least cost so far, having gone along the curve while that helped.
   uint32_t approach(uint32_t segment, uint32_t& left) {
     work_.left = left;
@@ -63,6 +86,7 @@ class LeastCost {
 
  private:
   static constexpr uint32_t kMaxJumps = 8;
+  static constexpr uint32_t kMaxBeside = 8;  // segments
 
   bool take(uint32_t run) {
     struct Cut {
@@ -170,7 +194,38 @@ uint32_t segment_at(const View& curve, float arc) {
   return first;
 }
 
+// Lower bound of the true cost. `found`: the least that was computed; its distance loses `lost_m`.
+float rounded_down(const Head& head, const Constraint& found, float weight_m, float lost_m) {
+  const float along = kFootLoss * (found.cost_m + head.longest_half_m) / head.length_m;
+  return found.cost_m * (1.0f - 0x1p-23f) - lost_m - weight_m * (kArcLoss + along);
+}
+
 }  // namespace
+
+// What costs less than the nearest point is no nearer, so its arc position is nearer to the
+// previous one, on this side of it or on the other.
+bool min_cost_beside(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
+                     Constraint& found) {
+  Closest& closest = found.closest;
+  const float end_arc = penalty.previous_arc + (penalty.previous_arc - closest.arc);
+  if (curve.is_closed() && !(end_arc >= 0.0f && end_arc <= 1.0f)) return false;
+  if (!closest.certificate.exact || closest.distance_m > curve.head().diagonal_m * 0.25f)
+    return false;
+  LeastCost least(curve, p_m, penalty, false);
+  const bool is_done = least.take_beside(closest, end_arc);
+  closest.certificate.work += least.charged();
+  if (!is_done) return false;
+  const query::Certificate certificate = closest.certificate;
+  if (least.best_at() != closest.segment) closest = any_answer(curve, least.best());
+  found.cost_m = least.cost_m();
+  closest.certificate = certificate;
+  const Head& head = curve.head();
+  const float lost_m =
+      closest.distance_m - rounded_down(closest.distance_m, head.longest_half_m, false);
+  const float lower_m = rounded_down(head, found, penalty.weight_m, lost_m);
+  closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  return true;
+}
 
 Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
                     query::Budget budget, Hint& hint) {
@@ -198,8 +253,7 @@ Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty
   if (curve.is_smooth())
     lost_m = least.doubt_m() + piece_loss_m(distance_m, half_m) +
              penalty.weight_m * (2.0f + 0x1p-18f) * half_m / head.length_m;
-  const float along = kFootLoss * (found.cost_m + head.longest_half_m) / head.length_m;
-  float lower_m = found.cost_m * (1.0f - 0x1p-23f) - lost_m - penalty.weight_m * (kArcLoss + along);
+  float lower_m = rounded_down(head, found, penalty.weight_m, lost_m);
   if (!traversal.complete && traversal.pending_m < lower_m) lower_m = traversal.pending_m;
   found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
   found.closest.certificate.steps = traversal.steps;

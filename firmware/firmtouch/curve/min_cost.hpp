@@ -11,4 +11,9 @@ constexpr ArcPenalty kNoPenalty{0.0f, 0.0f, true};
 Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
                     query::Budget budget, Hint& hint);
 
+/// The same of a straight curve whose nearest point is `found`, if few segments beside it may cost
+/// less. Result: false, with the work charged, if many may.
+bool min_cost_beside(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
+                     Constraint& found);
+
 }  // namespace firmtouch::curve
