@@ -4,7 +4,14 @@
 // The estimators of velocity.hpp, inline. For .cpp files of this module alone.
 namespace firmtouch::device {
 
-constexpr float kTwoPi = 6.2831853f;
+// a dt / (dt + tau): the backward-difference form of a first-order low-pass, stable for every dt >
+// 0.
+static inline void low_pass(VelocityState& state, float quotient, float filter_Hz, float dt_s) {
+  constexpr float kTwoPi = 6.2831853f;
+  const float tau_s = 1.0f / (kTwoPi * filter_Hz);
+  const float share = dt_s / (dt_s + tau_s);
+  state.units_per_s = state.units_per_s + (quotient - state.units_per_s) * share;
+}
 
 // Share of a miss that corrects the slope, share of a correction that leads, and the time constant
 // with which the lead is forgotten. Chosen on errors at 1 and 10 kHz and on the stiffest wall at
@@ -15,14 +22,6 @@ constexpr float kLeadShare = 0.3f;
 constexpr float kForget_s = 0.004f;
 // Shorter times between corrections count as this: at 10 kHz a count a tick is 300 mm/s.
 constexpr float kMinSince_s = 0.7e-3f;
-
-// a dt / (dt + tau): the backward-difference form of a first-order low-pass, stable for every dt >
-// 0.
-static inline void low_pass(VelocityState& state, float quotient, float filter_Hz, float dt_s) {
-  const float tau_s = 1.0f / (kTwoPi * filter_Hz);
-  const float share = dt_s / (dt_s + tau_s);
-  state.units_per_s = state.units_per_s + (quotient - state.units_per_s) * share;
-}
 
 static inline void track(VelocityState& state, float counts_per_unit, float step, float dt_s) {
   state.since_s = state.since_s + dt_s;

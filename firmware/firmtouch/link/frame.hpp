@@ -16,8 +16,7 @@
 namespace firmtouch::link {
 
 constexpr uint16_t kSync = 0x5AF7;
-constexpr uint32_t kHeaderBytes = 8;
-constexpr uint32_t kCrcBytes = 4;
+constexpr uint32_t kHeaderBytes = 8, kCrcBytes = 4;
 // One record a frame, with a reserve; also the decoder's buffer.
 constexpr uint32_t kMaxFrameBytes = 256;
 constexpr uint32_t kMaxPayloadBytes = kMaxFrameBytes - kHeaderBytes - kCrcBytes;

@@ -6,14 +6,6 @@
 
 namespace firmtouch::scene {
 
-constexpr uint32_t kMaxObjects = 16;
-
-// Beyond these an object is refused: no scene that a hand reaches needs more.
-constexpr float kMaxObjectDistance_m = 10.0f;
-constexpr float kMaxObjectSpeed_mps = 100.0f;
-constexpr float kMaxObjectTurn_rad_per_s = 1000.0f;
-constexpr float kMaxFriction = 100.0f;
-
 /// Motion of an object, device frame: of the origin of its own frame, and about it.
 struct Twist {
   math::Vec3 velocity_mps;
@@ -28,6 +20,12 @@ struct Object {
   float friction_static = 0;
   float friction_dynamic = 0;
 };
+
+// Beyond these an object is refused: no scene that a hand reaches needs more.
+constexpr float kMaxObjectDistance_m = 10.0f;
+constexpr float kMaxObjectSpeed_mps = 100.0f;
+constexpr float kMaxObjectTurn_rad_per_s = 1000.0f;
+constexpr float kMaxFriction = 100.0f;
 
 /// Why an object is refused.
 enum class ObjectProblem : uint8_t {

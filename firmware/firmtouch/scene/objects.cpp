@@ -10,12 +10,6 @@ namespace {
 
 using math::Vec3;
 
-// Of the size of the scene: band of a query that renews a bound, beyond what it needs.
-constexpr float kBand = 0.02f;
-// A proxy that is left less than this of its radius is squeezed.
-constexpr float kSqueezed = 0.9f;
-// Radii of the tool from where on an object is far.
-constexpr float kFar = 2.0f;
 // Lengths are rounded up by so much.
 constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 
@@ -104,6 +98,7 @@ float ObjectsTick::bound_m(uint32_t i, const Place& place) const {
 void ObjectsTick::make_bounds(const Place& place, Bounds& bounds) const {
   const float moved_m =
       math::length(place.device_m - touch_.bounds_at_m) * kUp + 2.0f * place.loss_m;
+  constexpr float kFar = 2.0f;  // radii of the tool
   const float far_m = kFar * proxy_.radius_m + moved_m;
   bounds.place = place;
   bounds.least = 0;
@@ -129,6 +124,7 @@ bool ObjectsTick::renew(const Bounds& bounds) {
   const float moved_m = math::length(in_object_m(i, bounds.place) - x_m);
   renewed_ |= 1u << i;
   query_ = {i, x_m, {settings_.budget.work - renewals_.work}, proxy_.radius_m + moved_m};
+  constexpr float kBand = 0.02f;  // beyond what is needed, of the size of the scene
   query_.budget.band_m = query_.needed_m + moved_m + kBand * size_m_;
   return true;
 }
@@ -341,6 +337,7 @@ void ObjectsTick::restore_radius() {
   float& full_m = touch_.full_radius_m;
   if (proxy_.phase != Proxy::Phase::kFree) full_m = 0;
   if (!(full_m > 0.0f)) return;
+  constexpr float kSqueezed = 0.9f;  // of its radius
   touch_.is_squeezed = proxy_.radius_m < kSqueezed * full_m;
   if (proxy_.free_m >= full_m - kClearance * size_m_) {
     proxy_.radius_m = full_m;

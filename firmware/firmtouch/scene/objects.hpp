@@ -14,6 +14,7 @@
 // near() answers for one object, in the object's own frame, as a shape of scene/touched.hpp does.
 namespace firmtouch::scene {
 
+constexpr uint32_t kMaxObjects = 16;
 constexpr uint8_t kNoObject = 0xFF;
 
 /// State of a (tool, object) pair from tick to tick. The caller owns one a pair. For an object that

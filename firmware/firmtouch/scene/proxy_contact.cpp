@@ -11,13 +11,6 @@ using math::Vec3;
 constexpr float kLeadOut_N = 1.0f;
 constexpr float kLeadOutRise_s = 1.0f;
 constexpr float kNoWayOut_s = 10.0f;
-// How fast a sphere that began too near to a surface grows to its size, with as much force.
-constexpr float kGrowth_mps = 0.005f;
-// How fast the force falls where a loaded surface is made softer.
-constexpr float kSoften_N_per_s = 20.0f;
-// Slides are averaged for so long: at 10 mm/s an encoder of 10 um counts once in 1 ms.
-constexpr float kSlideMean_s = 0.008f;
-
 bool is_stiff(const ProxyTouch& touch) { return touch.material.stiffness_N_per_m > 0.0f; }
 
 // A softer surface takes energy from the hand's spring and gives none: under load it acts slowly
@@ -27,6 +20,7 @@ void use_material(const ProxyContact& contact, ProxyTouch& touch) {
     touch.material = contact.material;
     return;
   }
+  constexpr float kSoften_N_per_s = 20.0f;
   float& stiffness = touch.material.stiffness_N_per_m;
   const float softer = stiffness - kSoften_N_per_s * contact.passed_s / touch.penetration_m;
   if (contact.material.stiffness_N_per_m < stiffness)
@@ -74,6 +68,10 @@ ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch
   }
   use_material(contact, touch);
   if (proxy.phase != Proxy::Phase::kInside || !is_on) touch.inside_s = 0;
+  // Slides are averaged for so long: at 10 mm/s an encoder of 10 um counts once in 1 ms.
+  constexpr float kSlideMean_s = 0.008f;
+  // How fast a sphere that began too near to a surface grows to its size, with as much force.
+  constexpr float kGrowth_mps = 0.005f;
   ProxySettings settings = contact.settings;
   settings.friction_slide_m = contact.friction_speed_mps * contact.passed_s;
   settings.slide_share = contact.passed_s / (contact.passed_s + kSlideMean_s);

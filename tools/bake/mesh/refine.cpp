@@ -24,6 +24,12 @@ constexpr double kMinGain = 1e-6;
 // A fan of n triangles over a rim of n more takes n^2 / 4 flips: this bounds the time.
 constexpr uint32_t kMaxFlipsPerFace = 32;
 constexpr size_t kNarrow = 65536;  // vertices
+// Longest edge of a refined surface, in diagonals, unless the growth ends it first.
+constexpr double kRefinedEdge = 0.05;
+// Surfaces of fewer faces, and those of shorter edges, stay as they are. From such edges on,
+// float32 alone does not keep the promised error (mesh/loss.hpp).
+constexpr uint32_t kMinRefinedFaces = 256;
+constexpr double kLongEdge = 0.08;
 
 double longest_edge_m(const Surface& surface) {
   double longest2 = 0;

@@ -6,14 +6,8 @@
 
 namespace firmtouch::tools {
 
-/// Longest edge of a refined surface, in diagonals, unless the growth ends it first. From 0.08 on,
-/// float32 alone does not keep the promised error (mesh/loss.hpp).
-constexpr double kRefinedEdge = 0.05;
 /// Faces of a refined surface, over those given: 36 bytes a face become 60 at most.
 constexpr double kMaxGrowth = 1.65;
-/// Smaller surfaces, and those of shorter edges, stay as they are.
-constexpr uint32_t kMinRefinedFaces = 256;
-constexpr double kLongEdge = 0.08;
 
 struct Refined {
   uint32_t flips = 0, splits = 0;

@@ -19,11 +19,6 @@ constexpr uint32_t kMinWork = 16;
 constexpr uint32_t kSlideWork = 4;
 // Beyond that squares may overflow, and no guide holds.
 constexpr float kMaxPolished_m = 1e9f;
-// Steps along the curve shorter than that end a slide.
-constexpr float kStill = 0x1p-21f;
-
-constexpr uint32_t kPolishings = 2;
-
 struct Foot {
   uint32_t piece;
   float s;
@@ -55,6 +50,7 @@ float way_down(const Foot& foot) {
 Foot slide(const GuideView& guide, Vec3 p_m, uint32_t from_piece, float from_s, uint32_t most,
            uint32_t& used) {
   const View& model = guide.model();
+  constexpr float kStill = 0x1p-21f;  // shorter steps along the curve end a slide
   const float still_m = kStill * model.head().extent_m;
   Foot best = foot_at(model, p_m, from_piece, from_s);
   used = 1;
@@ -100,6 +96,7 @@ Foot slide(const GuideView& guide, Vec3 p_m, uint32_t from_piece, float from_s, 
 // A certified point need not be the foot-point to the last digit: near it the distance hardly
 // changes, but the way along the curve does. Newton by the slope alone, which keeps its digits.
 Foot polished(const View& model, Vec3 p_m, const Foot& from) {
+  constexpr uint32_t kPolishings = 2;
   Foot best = from;
   for (uint32_t turn = 0; turn < kPolishings; ++turn) {
     const float bend = dot(best.at.d1, best.at.d1) + dot(best.r_m, best.at.d2);
