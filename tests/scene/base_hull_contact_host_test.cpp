@@ -73,7 +73,7 @@ TEST(BudgetExhausted_BaseHullContactIsEarlyNeverLate) {
       const mesh::Closest truth = mesh::closest_point(rig().view, p_m, query::kUnlimited, none);
       servo::LocalModel model;
       scene::begin_model(model, p_m, 0, 3);
-      scene::touch_mesh_with_base_hull(rig().object, kRadius_m, p_m, {steps}, touch, model);
+      scene::touch_mesh<false, true>(rig().object, kRadius_m, p_m, {steps}, touch, model);
       const float depth_m = kRadius_m - truth.distance_m;
       if (depth_m > 1e-6f) CHECK_LE(depth_m - 2e-6f, touch.penetration_m);
       touched += depth_m > 0 ? 1u : 0u;
@@ -109,8 +109,8 @@ TEST(WithTimeForTheMeshABaseHullChangesNothing) {
     servo::LocalModel a, b;
     scene::begin_model(a, p_m, 0, 3);
     scene::begin_model(b, p_m, 0, 3);
-    scene::touch_mesh_with_base_hull(rig().object, kRadius_m, p_m, query::kUnlimited, with_it, a);
-    scene::touch_mesh_with_base_hull(alone, kRadius_m, p_m, query::kUnlimited, without, b);
+    scene::touch_mesh<false, true>(rig().object, kRadius_m, p_m, query::kUnlimited, with_it, a);
+    scene::touch_mesh<false, true>(alone, kRadius_m, p_m, query::kUnlimited, without, b);
     CHECK(!with_it.is_of_base_hull);
     CHECK_EQ(with_it.penetration_m, without.penetration_m);
     CHECK_EQ(a.free_radius_m, b.free_radius_m);

@@ -101,7 +101,7 @@ struct Tool {
   math::Vec3 force_N(const scene::MeshObject& object, math::Vec3 p_m,
                      query::Budget budget = query::kUnlimited) {
     scene::begin_model(model, p_m, 0, 3);
-    scene::touch_mesh_with_field(object, 0.003f, p_m, budget, touch, model);
+    scene::touch_mesh<true, false>(object, 0.003f, p_m, budget, touch, model);
     return servo::evaluate(model, p_m, {});
   }
 };

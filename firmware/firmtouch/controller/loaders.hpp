@@ -76,6 +76,15 @@ class LoaderChain {
   bool is_begun_ = false;
 };
 
+template <class Only>
+class LoaderChain<Only> : public Only {
+ public:
+  template <class L>
+  const L& get() const {
+    return *this;
+  }
+};
+
 /// Loads an asset for parts that run in turn: finds what each uses, then proves it and runs its
 /// probe queries. `Trust`: asset::Proven. A part is a policy of surfaces or guides (first_of.hpp)
 /// or of devices. All proofs share one state.

@@ -14,7 +14,7 @@
 
 namespace firmtouch {
 
-/// What the surfaces of meshes share: the state of the (tool, mesh) pair, and the object.
+/// What the surfaces of meshes share: the state of the (tool, mesh) pair.
 class MeshContact {
  public:
   using Parameters = params::Groups<params::ContactRows, params::FrictionRows>;
@@ -27,60 +27,50 @@ class MeshContact {
   }
 
  protected:
-  scene::MeshObject object(const mesh::View& mesh, const params::Values& values) const;
-
   scene::ProxyTouch touch_;
   mesh::Hint hint_;
 };
 
-/// A surface policy: a mesh alone.
-class MeshSurface : public MeshContact, public mesh::Loader {
+/// A surface policy: a mesh and, if the asset has them, what the further loaders load of it: a
+/// distance field, a hull.
+template <class... Others>
+class MeshWith : public MeshContact, public LoaderChain<mesh::Loader, Others...> {
+  static constexpr bool kHasField = (__is_base_of(field::Loader, Others) || ...);
+  static constexpr bool kHasHull = (__is_base_of(hull::Loader, Others) || ...);
+
  public:
-  static constexpr uint32_t kParts = kPartMesh;
-  const mesh::View& mesh() const { return view(); }
+  static constexpr uint32_t kParts =
+      kPartMesh | (kHasField ? kPartField : 0u) | (kHasHull ? kPartHull : 0u);
+
+  MeshWith() {
+    if constexpr (kHasField) this->template get<field::Loader>().prove_against(mesh());
+  }
+  const mesh::View& mesh() const { return this->template get<mesh::Loader>().view(); }
+  template <class Loader = field::Loader>
+  const field::View& distance_field() const {
+    return this->template get<Loader>().view();
+  }
+  template <class Loader = hull::Loader>
+  const hull::View& hull() const {
+    return this->template get<Loader>().view();
+  }
   bool is_open() const { return mesh().is_open(); }
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
   void touch_by_penalty(const ModelRequest& request, const params::Values& values,
                         PenaltyTouch& touch, ModelResult& result) const;
+
+ private:
+  scene::MeshObject object(const params::Values& values) const;
 };
 
-/// A mesh with its distance field, if the asset has one.
-class FieldMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Loader> {
- public:
-  static constexpr uint32_t kParts = kPartMesh | kPartField;
-  FieldMesh() { get<field::Loader>().prove_against(mesh()); }
-  const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
-  const field::View& distance_field() const { return get<field::Loader>().view(); }
-  bool is_open() const { return mesh().is_open(); }
-  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
-  void touch_by_penalty(const ModelRequest& request, const params::Values& values,
-                        PenaltyTouch& touch, ModelResult& result) const;
-};
+using MeshSurface = MeshWith<>;
+using FieldMesh = MeshWith<field::Loader>;
+using HulledMesh = MeshWith<hull::Loader>;
+using FullMesh = MeshWith<field::Loader, hull::Loader>;
 
-/// A mesh with its base hull, if the asset has one.
-class HulledMesh : public MeshContact, public LoaderChain<mesh::Loader, hull::Loader> {
- public:
-  static constexpr uint32_t kParts = kPartMesh | kPartHull;
-  const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
-  const hull::View& hull() const { return get<hull::Loader>().view(); }
-  bool is_open() const { return mesh().is_open(); }
-  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
-  void touch_by_penalty(const ModelRequest& request, const params::Values& values,
-                        PenaltyTouch& touch, ModelResult& result) const;
-};
-
-/// A mesh with its distance field and its base hull, if the asset has them.
-class FullMesh : public MeshContact, public LoaderChain<mesh::Loader, field::Loader, hull::Loader> {
- public:
-  static constexpr uint32_t kParts = kPartMesh | kPartField | kPartHull;
-  FullMesh() { get<field::Loader>().prove_against(mesh()); }
-  const mesh::View& mesh() const { return get<mesh::Loader>().view(); }
-  const field::View& distance_field() const { return get<field::Loader>().view(); }
-  const hull::View& hull() const { return get<hull::Loader>().view(); }
-  bool is_open() const { return mesh().is_open(); }
-  void touch(const ModelRequest& request, const params::Values& values, ModelResult& result);
-  void touch_by_penalty(const ModelRequest& request, const params::Values& values,
-                        PenaltyTouch& touch, ModelResult& result) const;
-};
+extern template class MeshWith<>;
+extern template class MeshWith<field::Loader>;
+extern template class MeshWith<hull::Loader>;
+extern template class MeshWith<field::Loader, hull::Loader>;
 
 }  // namespace firmtouch

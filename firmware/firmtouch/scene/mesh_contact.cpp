@@ -75,8 +75,10 @@ bool query_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, M
   return true;
 }
 
+}  // namespace
+
 template <bool kHasField, bool kHasBaseHull>
-void touch_with(const MeshObject& object, float radius_m, Vec3 position_m, query::Budget budget,
+void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query::Budget budget,
                 MeshTouch& touch, servo::LocalModel& model) {
   touch.penetration_m = 0;
   touch.normal = {};
@@ -117,27 +119,13 @@ void touch_with(const MeshObject& object, float radius_m, Vec3 position_m, query
   touch.penetration_m = add_contact(model, position_m, radius_m, surface, object.material);
 }
 
-}  // namespace
-
-void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query::Budget budget,
-                MeshTouch& touch, servo::LocalModel& model) {
-  touch_with<false, false>(object, radius_m, position_m, budget, touch, model);
-}
-
-void touch_mesh_with_field(const MeshObject& object, float radius_m, Vec3 position_m,
-                           query::Budget budget, MeshTouch& touch, servo::LocalModel& model) {
-  touch_with<true, false>(object, radius_m, position_m, budget, touch, model);
-}
-
-void touch_mesh_with_base_hull(const MeshObject& object, float radius_m, Vec3 position_m,
-                               query::Budget budget, MeshTouch& touch, servo::LocalModel& model) {
-  touch_with<false, true>(object, radius_m, position_m, budget, touch, model);
-}
-
-void touch_mesh_with_field_and_base_hull(const MeshObject& object, float radius_m, Vec3 position_m,
-                                         query::Budget budget, MeshTouch& touch,
-                                         servo::LocalModel& model) {
-  touch_with<true, true>(object, radius_m, position_m, budget, touch, model);
-}
+template void touch_mesh<false, false>(const MeshObject&, float, Vec3, query::Budget, MeshTouch&,
+                                       servo::LocalModel&);
+template void touch_mesh<true, false>(const MeshObject&, float, Vec3, query::Budget, MeshTouch&,
+                                      servo::LocalModel&);
+template void touch_mesh<false, true>(const MeshObject&, float, Vec3, query::Budget, MeshTouch&,
+                                      servo::LocalModel&);
+template void touch_mesh<true, true>(const MeshObject&, float, Vec3, query::Budget, MeshTouch&,
+                                     servo::LocalModel&);
 
 }  // namespace firmtouch::scene

@@ -13,7 +13,7 @@
 namespace firmtouch::scene {
 
 /// A mesh, its pose (mesh frame to device frame) and its material. Objects may share a mesh. The
-/// last two are read only by the functions that are named after them, and may be null or not open.
+/// last two are read only where the arguments of touch_mesh() say so, and may be null or not open.
 struct MeshObject {
   const mesh::View* mesh = nullptr;
   math::RigidTransform pose;
@@ -42,27 +42,17 @@ struct MeshTouch {
 /// While the tool is certainly outside, the query is a band query of 2 % of the diagonal beyond the
 /// sphere. Farther off no plane is made, and the free radius is at least that.
 /// Known limit of penalty contact: a wall thinner than twice the penetration is pushed through.
-/// Bounds: one query of at most `budget` visits and about 200 instructions; re-entrant for
-/// different touches.
+/// The arguments say what else of the object is used, if it has it.
+/// Distance field: in free space one look-up replaces the query; the free radius is then all that
+/// the field certifies.
+/// Base hull: if the query is not exact and the sphere may be in contact, it renders contact with
+/// the base hull, as deep as the mesh's certificate allows. Force then begins early by the gap
+/// between hull and mesh, never late, and is never less deep than contact with the mesh. If the
+/// base hull's own query has no result either, contact is as without it.
+/// Bounds: one query of at most `budget` visits and about 200 instructions; with a base hull
+/// another query of as many visits, or 512 if that is more. Re-entrant for different touches.
+template <bool kHasField = false, bool kHasBaseHull = false>
 void touch_mesh(const MeshObject& object, float radius_m, math::Vec3 position_m,
                 query::Budget budget, MeshTouch& touch, servo::LocalModel& model);
-
-/// As touch_mesh(). In free space one look-up in the distance field replaces the query; the free
-/// radius is then all that the field certifies.
-void touch_mesh_with_field(const MeshObject& object, float radius_m, math::Vec3 position_m,
-                           query::Budget budget, MeshTouch& touch, servo::LocalModel& model);
-
-/// As touch_mesh(). If the query is not exact and the sphere may be in contact, it renders contact
-/// with the base hull, as deep as the mesh's certificate allows. Force then begins early by the gap
-/// between hull and mesh, never late, and is never less deep than contact with the mesh. If the
-/// base hull's own query has no result either, it is as touch_mesh().
-/// Bounds: another query of as many visits, or 512 if that is more.
-void touch_mesh_with_base_hull(const MeshObject& object, float radius_m, math::Vec3 position_m,
-                               query::Budget budget, MeshTouch& touch, servo::LocalModel& model);
-
-/// Both.
-void touch_mesh_with_field_and_base_hull(const MeshObject& object, float radius_m,
-                                         math::Vec3 position_m, query::Budget budget,
-                                         MeshTouch& touch, servo::LocalModel& model);
 
 }  // namespace firmtouch::scene
