@@ -1,5 +1,6 @@
 #include "firmtouch/hal/asset_slots.hpp"
 #include "firmtouch/hal/board.hpp"
+#include "parts/memory_flash.hpp"
 
 extern "C" {
 extern uint8_t __firmtouch_asset_slot[], __firmtouch_asset_slot_end[];
@@ -9,8 +10,6 @@ extern uint8_t __firmtouch_asset_slot[], __firmtouch_asset_slot_end[];
 // without power.
 namespace firmtouch::hal {
 namespace {
-
-constexpr uint32_t kSector_bytes = 4096;
 
 uint32_t slot_bytes() {
   const uintptr_t all = reinterpret_cast<uintptr_t>(__firmtouch_asset_slot_end) -
@@ -28,14 +27,11 @@ AssetSlots board_asset_slots() {
 }
 
 bool board_erase_asset(uint32_t slot, uint32_t offset) {
-  __builtin_memset(slot_at(slot) + offset, 0xFF, kSector_bytes);
-  return true;
+  return erase_sector(slot_at(slot) + offset);
 }
 
 bool board_program_asset(uint32_t slot, uint32_t offset, core::Bytes bytes) {
-  uint8_t* const to = slot_at(slot) + offset;
-  for (uint32_t i = 0; i < bytes.size(); ++i) to[i] = static_cast<uint8_t>(to[i] & bytes[i]);
-  return true;
+  return program_bytes(slot_at(slot) + offset, bytes);
 }
 
 }  // namespace firmtouch::hal
