@@ -7,6 +7,8 @@
 #include "firmtouch/spline/proof/opening.hpp"
 #include "harness/test.hpp"
 #include "spline/random_splines.hpp"
+#include "spline/stored_bounds.hpp"
+#include "spline/stored_point.hpp"
 
 namespace {
 
@@ -17,17 +19,9 @@ double wide(float value) { return static_cast<double>(value); }
 
 // Of a stored piece at s, t, from its coefficients.
 tools::Point point_of(const spline::View& view, const spline::Piece& piece, double s, double t) {
-  const uint32_t stride = piece.is_rational != 0 ? 4 : 3;
-  double sum[4] = {0, 0, 0, piece.is_rational != 0 ? 0.0 : 1.0}, power_t = 1;
-  for (uint32_t j = 0; j <= piece.degree_v; ++j, power_t *= t) {
-    double power = power_t;
-    for (uint32_t i = 0; i <= piece.degree_u; ++i, power *= s)
-      for (uint32_t k = 0; k < stride; ++k)
-        sum[k] += power * wide(view.coefficients()[piece.coefficients +
-                                                   (j * (piece.degree_u + 1u) + i) * stride + k]);
-  }
-  return {wide(piece.origin_m[0]) + sum[0] / sum[3], wide(piece.origin_m[1]) + sum[1] / sum[3],
-          wide(piece.origin_m[2]) + sum[2] / sum[3]};
+  double at[3];
+  firmtouch::spline_test::stored_point(piece, view.coefficients().data(), s, t, at);
+  return {at[0], at[1], at[2]};
 }
 
 // On random leaves, at random places, along random directions, from random queries.
@@ -48,7 +42,7 @@ void check_at(const tools::SplineModel& model, uint32_t seed) {
     const uint32_t i = random.below(view.leaf_count());
     CHECK(view.is_leaf(i));
     const spline::View::LeafIndex place = view.index_of(i);
-    const spline::View::Bounds bounds = view.bounds_of(i);
+    const firmtouch::spline_test::Bounds bounds = firmtouch::spline_test::bounds_of(view, i);
     const spline::Piece& piece = view.pieces()[place.piece];
     const spline::Region part = spline::region_of(piece, place.index_u, place.index_v);
     const double angle = random.between(0, 6.283185307);

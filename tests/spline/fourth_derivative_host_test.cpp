@@ -6,6 +6,7 @@
 #include "firmtouch/spline/curve/expansion.hpp"
 #include "harness/test.hpp"
 #include "spline/baked_model.hpp"
+#include "spline/stored_bounds.hpp"
 
 namespace {
 
@@ -116,7 +117,8 @@ TEST(PatchBend_ReachesTheLowestFourthDerivatives_OfABicubic) {
     const spline::Piece& piece = baked.view.pieces()[baked.view.index_of(leaf).piece];
     for (uint32_t k = 0; k < 5; ++k)
       most[k] =
-          std::fmax(most[k], wide(baked.view.bounds_of(leaf).fixed_m2[k]) / by_piece(piece, k));
+          std::fmax(most[k], wide(firmtouch::spline_test::bounds_of(baked.view, leaf).fixed_m2[k]) /
+                                 by_piece(piece, k));
   }
   check_tight(most[0], 24 * a);
   check_tight(most[2], 4 * e);
@@ -132,7 +134,7 @@ TEST(PatchBend_TurnsAsFastAsTheFourthDerivatives_OfABiquartic) {
   for (uint32_t leaf = 0; leaf < baked.view.leaf_count(); ++leaf) {
     const spline::Piece& piece = baked.view.pieces()[baked.view.index_of(leaf).piece];
     for (uint32_t k = 0; k < 5; ++k)
-      check_tight(wide(baked.view.bounds_of(leaf).turning_m[k]),
+      check_tight(wide(firmtouch::spline_test::bounds_of(baked.view, leaf).turning_m[k]),
                   times[k] * b[k] * by_piece(piece, k));
   }
 }

@@ -138,7 +138,7 @@ double cost_by_file(const Guide& g, const Lengths& lengths, const tools::Point& 
 // A stored piece in double, beside the lengths that are returned.
 double cost_as_reported(const Guide& g, const tools::Point& p, float per_m, const Was& was) {
   const spline::Round round = spline::round_of(g.guide, was.piece);
-  const float from_m = spline::arc_m_at(g.guide, was.piece, was.s);
+  const float from_m = spline::Arcs(g.guide).at_m(was.piece, was.s);
   double least = HUGE_VAL;
   for (uint32_t i = 0; i < g.view.pieces().size(); ++i) {
     const spline::Piece& piece = g.view.pieces()[i];
@@ -153,7 +153,7 @@ double cost_as_reported(const Guide& g, const tools::Point& p, float per_m, cons
       const tools::Point at{sum[0] / w + static_cast<double>(piece.origin_m[0]),
                             sum[1] / w + static_cast<double>(piece.origin_m[1]),
                             sum[2] / w + static_cast<double>(piece.origin_m[2])};
-      const float to_m = spline::arc_m_at(g.guide, i, static_cast<float>(s));
+      const float to_m = spline::Arcs(g.guide).at_m(i, static_cast<float>(s));
       return apart(at, p) +
              static_cast<double>(per_m) *
                  std::fabs(static_cast<double>(spline::change_of_arc_m(round, from_m, i, to_m)));

@@ -166,9 +166,10 @@ TEST(Frontier_HoldsOnlyNodes_ThatHalvingReaches) {
         const spline::PatchNode part = spline::apart(baked.view.pieces()[piece], node);
         deepest = std::max(deepest, part.made_u + part.made_v);
         if (part.left_u + part.left_v == 0) continue;
-        const uint32_t first = spline::first_half(node, part);
+        const bool is_halved_u = part.left_u >= part.left_v;
+        const uint32_t first = node + (is_halved_u ? part.u << 7 : part.v);
         next.push_back(first);
-        next.push_back(first + (spline::is_halved_u(part) ? spline::kNextU : spline::kNextV));
+        next.push_back(first + (is_halved_u ? spline::kNextU : spline::kNextV));
       }
       for (uint32_t word = 0; word < 1u << 16; ++word)
         wrong += parts.is_node(piece << 16 | word) == is_reached[word] ? 0u : 1u;

@@ -8,6 +8,8 @@
 #include "firmtouch/spline/proof/leaf_shape.hpp"
 #include "firmtouch/spline/proof/opening.hpp"
 #include "firmtouch/spline/proof/patch_radius.hpp"
+#include "firmtouch/spline/surface/patch_grid.hpp"
+#include "spline/stored_point.hpp"
 
 namespace firmtouch::spline_test {
 
@@ -94,18 +96,7 @@ struct SmallSpline {
 
   // A point of a piece, in double.
   void point(uint32_t piece, double s, double t, double (&at)[3]) const {
-    const spline::Piece& p = pieces[piece];
-    const uint32_t stride = p.is_rational != 0 ? 4 : 3;
-    double sum[4] = {0, 0, 0, p.is_rational != 0 ? 0.0 : 1.0}, power_t = 1;
-    for (uint32_t j = 0; j <= p.degree_v; ++j, power_t *= t) {
-      double power = power_t;
-      for (uint32_t i = 0; i <= p.degree_u; ++i, power *= s)
-        for (uint32_t k = 0; k < stride; ++k)
-          sum[k] +=
-              power * static_cast<double>(
-                          coefficients[p.coefficients + (j * (p.degree_u + 1u) + i) * stride + k]);
-    }
-    for (uint32_t k = 0; k < 3; ++k) at[k] = static_cast<double>(p.origin_m[k]) + sum[k] / sum[3];
+    stored_point(pieces[piece], coefficients, s, t, at);
   }
 
  private:
@@ -172,7 +163,7 @@ struct SmallSpline {
       const uint32_t(&ends)[2] = kEnds[node - 1];
       uint8_t& radius = curve_radii[node - 1] = 0;
       for (uint32_t leaf = ends[0]; leaf < ends[1]; ++leaf) {
-        const float leaf_m = spline::stored_value(head.radius_unit_m, curve_radii[3 + leaf]);
+        const float leaf_m = spline::in_units(head.radius_unit_m, curve_radii[3 + leaf]);
         const uint8_t needed = byte(
             head.radius_unit_m, node >= 4 ? spline::radius_for(shape(leaf), at(leaf), at(leaf + 1))
                                           : spline::radius_above(leaf_m, at(leaf), at(leaf + 1),
@@ -226,7 +217,7 @@ struct SmallSpline {
   }
   bool halves_hold(uint32_t p, uint32_t overlap) const {
     const spline::Patch whole{p, 0, 0, 0};
-    const float stored_m = spline::stored_value(grids[p].radius_unit_m, radii[3 * p]);
+    const float stored_m = spline::in_units(grids[p].radius_unit_m, radii[3 * p]);
     for (uint32_t u = 0; u < 2; ++u) {
       const spline::Patch leaf{p, 1, u, 0};
       const spline::RegionOfQuad half = spline::half_of(pieces[p], whole, leaf, overlap);

@@ -108,11 +108,8 @@ Verdict Proof::check_head() const {
 }
 
 Verdict Proof::check_samples(uint32_t first, uint32_t end) {
-  const Head& head = view.head();
-  for (uint32_t i = first; i < end; ++i)
-    if (!seen_.take(&view.samples_[i].x_m, head.low_m, head.high_m))
-      return reject(kRuleSampleOutside, i);
-  return kPassed;
+  const uint32_t wrong = seen_.take(view.samples_.data(), first, end, view.head());
+  return wrong == end ? kPassed : reject(kRuleSampleOutside, wrong);
 }
 
 Verdict Proof::finish_samples() {

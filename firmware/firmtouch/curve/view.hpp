@@ -5,6 +5,7 @@
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/math/vec3.hpp"
+#include "firmtouch/query/headed_view.hpp"
 #include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::curve {
@@ -24,18 +25,13 @@ struct Sections {
 
 /// A curve that open() has proven: every index, order, box, radius and float. Immutable; share it
 /// between any number of tools.
-class View {
+class View : public query::HeadedView<Head, Sections> {
  public:
-  using Sections = curve::Sections;
-  View() = default;
-
-  bool is_open() const { return head_ != nullptr; }
   bool is_closed() const { return head_->is_closed != 0; }
   bool is_smooth() const { return head_->is_smooth != 0; }
-  const Head& head() const { return *head_; }
   core::Span<const Sample> samples() const { return samples_; }
   core::Span<const float> arcs() const { return arcs_; }
-  /// The k-d tree of samples; empty where the asset has none. Only nearest_constraint() reads it.
+  /// The k-d tree of samples; empty where the asset has none. Only tools read it.
   core::Span<const uint32_t> tree() const { return tree_; }
   core::Span<const Box> boxes() const { return boxes_; }
   core::Span<const Run> runs() const { return runs_; }
@@ -51,7 +47,6 @@ class View {
 
  private:
   friend class Proof;
-  const Head* head_ = nullptr;
   core::Span<const Sample> samples_;
   core::Span<const float> arcs_;
   core::Span<const uint32_t> tree_;

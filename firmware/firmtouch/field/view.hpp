@@ -6,6 +6,7 @@
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/view.hpp"
+#include "firmtouch/query/headed_view.hpp"
 #include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::field {
@@ -23,20 +24,14 @@ struct Sections {
 
 /// A distance field that Opening has proven against its mesh: every cell's bounds and sign.
 /// Immutable; share it between any number of tools.
-class View {
+class View : public query::HeadedView<Head, Sections> {
  public:
-  using Sections = field::Sections;
-  View() = default;
-
-  bool is_open() const { return head_ != nullptr; }
   bool is_signed() const { return head_->is_signed != 0; }
-  const Head& head() const { return *head_; }
   core::Span<const int16_t> distances() const { return distances_; }
   core::Span<const uint32_t> seeds() const { return seeds_; }
 
  private:
   friend class Proof;
-  const Head* head_ = nullptr;
   core::Span<const int16_t> distances_;
   core::Span<const uint32_t> seeds_;
 };

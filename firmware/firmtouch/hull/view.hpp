@@ -7,6 +7,7 @@
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/query/headed_view.hpp"
 #include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::hull {
@@ -30,13 +31,8 @@ struct Sections {
 };
 
 /// A progressive hull that open() has proven. Immutable; share it between any number of tools.
-class View {
+class View : public query::HeadedView<Head, Sections> {
  public:
-  using Sections = hull::Sections;
-  View() = default;
-
-  bool is_open() const { return head_ != nullptr; }
-  const Head& head() const { return *head_; }
   const mesh::Head& mesh_head() const { return *mesh_head_; }
   uint32_t collapse_count() const { return head_->collapse_count; }
   uint32_t id_count() const { return head_->mesh_vertex_count + head_->collapse_count; }
@@ -82,7 +78,6 @@ class View {
     return head_->id_bytes == 2 ? low : low | static_cast<uint32_t>(at[2]) << 16;
   }
 
-  const Head* head_ = nullptr;
   const mesh::Head* mesh_head_ = nullptr;
   core::Bytes vertices_, origins_, records_;
   core::Span<const uint32_t> record_offsets_;

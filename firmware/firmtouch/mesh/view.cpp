@@ -159,11 +159,8 @@ Verdict Proof::take_bounded(const Sections& s) {
 }
 
 Verdict Proof::check_vertices(uint32_t first, uint32_t end) {
-  const Head& head = view.head();
-  for (uint32_t i = first; i < end; ++i)
-    if (!seen_.take(&view.vertices_[i].x_m, head.low_m, head.high_m))
-      return reject(kRuleVertexOutsideBox, i);
-  return kPassed;
+  const uint32_t wrong = seen_.take(view.vertices_.data(), first, end, view.head());
+  return wrong == end ? kPassed : reject(kRuleVertexOutsideBox, wrong);
 }
 
 Verdict Proof::finish_vertices() {

@@ -5,6 +5,7 @@
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/query/headed_view.hpp"
 #include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::mesh {
@@ -30,14 +31,9 @@ struct Sections {
 
 /// A mesh that open() has proven: every index, box, depth and float. Immutable; share it between
 /// any number of tools.
-class View {
+class View : public query::HeadedView<Head, Sections> {
  public:
-  using Sections = mesh::Sections;
-  View() = default;
-
-  bool is_open() const { return head_ != nullptr; }
   bool is_signed() const { return !folds_.empty(); }
-  const Head& head() const { return *head_; }
   core::Span<const Vertex> vertices() const { return vertices_; }
   core::Span<const Node> nodes() const { return nodes_; }
   /// Both sides of each node, in the order of their places.
@@ -70,7 +66,6 @@ class View {
 
  private:
   friend class Proof;
-  const Head* head_ = nullptr;
   core::Span<const Vertex> vertices_;
   core::Span<const Triangle<uint16_t>> triangles16_;
   core::Span<const Triangle<uint32_t>> triangles32_;

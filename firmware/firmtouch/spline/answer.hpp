@@ -25,11 +25,16 @@ void begin_at_first(const View& model, math::Vec3 p_m, Best& best);
 Closest answer_at(const View& model, const Best& best, uint32_t piece_index, math::Vec3 direction,
                   const query::Certificate& certificate);
 
-/// Returns the certificate, and fills the hint except for position and safe subtree. `pending_m`:
-/// bound of what the search left.
+/// Returns the certificate, and fills the hint except for position and safe subtree.
 query::Certificate certify(const Head& head, math::Vec3 p_m, const Best& best,
                            const Account& search, float pending_m, const query::Carried& carried,
                            CurveHint& hint);
+template <class Search>
+query::Certificate certify(const Head& head, math::Vec3 p_m, const Best& best, const Search& search,
+                           const query::Carried& carried, CurveHint& hint) {
+  const float pending_m = search.is_complete() ? 0.0f : search.pending_m(outside_m(head, p_m));
+  return certify(head, p_m, best, search, pending_m, carried, hint);
+}
 
 /// The answer to a point that is not near: the first point, with a bound, or for NaN without one.
 Closest answer_beyond(const View& model, math::Vec3 p_m, CurveHint& hint);

@@ -49,13 +49,10 @@ struct Best {
   }
 };
 
-/// Where between 0 and 1, in a hint's 16 bits or half of them.
+/// Where between 0 and 1, in a hint's 16 bits.
 static inline uint32_t coded(float at, uint32_t most) {
   const float inside = at > 0.0f ? at < 1.0f ? at : 1.0f : 0.0f;
   return static_cast<uint32_t>(inside * static_cast<float>(most));
-}
-static inline float decoded(uint32_t code, uint32_t most) {
-  return static_cast<float>(code) / static_cast<float>(most);
 }
 
 /// What became of a part whose points were evaluated, each for one step: all of it is beyond the

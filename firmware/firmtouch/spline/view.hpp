@@ -3,6 +3,7 @@
 
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/math/vec3.hpp"
+#include "firmtouch/query/headed_view.hpp"
 #include "firmtouch/spline/layout.hpp"
 
 namespace firmtouch::spline {
@@ -23,14 +24,9 @@ struct Sections {
 
 /// Spline curves, or spline surfaces, that open() has proven: every index, float, bound and
 /// enclosure. Immutable; share it between any number of tools.
-class View {
+class View : public query::HeadedView<Head, Sections> {
  public:
-  using Sections = spline::Sections;
-  View() = default;
-
-  bool is_open() const { return head_ != nullptr; }
   bool is_surface() const { return head_->is_surface != 0; }
-  const Head& head() const { return *head_; }
   core::Span<const Piece> pieces() const { return pieces_; }
   core::Span<const float> coefficients() const { return coefficients_; }
   uint32_t leaf_count() const { return head_->leaf_count; }
@@ -64,17 +60,10 @@ class View {
   };
   LeafIndex index_of(uint32_t leaf) const;
   bool is_leaf(uint32_t leaf) const { return is_surface() || leaves_[leaf] != kNoLeaf; }
-  /// What is stored of it: bounds of the fourth derivatives ssss, ssst, sstt, sttt, tttt (of a
-  /// curve: of the first).
-  struct Bounds {
-    float fixed_m2[5], turning_m[5];
-  };
-  Bounds bounds_of(uint32_t leaf) const;
 
  private:
   friend class Proof;
   uint32_t radius_count() const { return 2 * head_->leaf_count - head_->piece_count; }
-  const Head* head_ = nullptr;
   core::Span<const Piece> pieces_;
   core::Span<const float> coefficients_;
   core::Span<const uint16_t> leaves_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "bake/asset/asset_views.hpp"
 #include "bake/spline/spline_tree.hpp"
 
 namespace firmtouch::tools {
@@ -355,8 +356,7 @@ std::vector<Section> bake_spline(const SplineModel& model, const std::string& na
   spline::View view;
   const core::Verdict verdict = open_baked(sections, name, view);
   if (!verdict.ok()) {
-    report.problem = "the baked spline breaks rule R" + std::to_string(verdict.rule) +
-                     " at element " + std::to_string(verdict.element) +
+    report.problem = "the baked spline breaks " + rule_text(verdict) +
                      ": this is a defect of the baker; please report it with the file";
     return {};
   }

@@ -8,6 +8,7 @@
 #include "bake/tree/widest_axis.hpp"
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/spline/proof/patch_radius.hpp"
+#include "firmtouch/spline/surface/patch_grid.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -260,7 +261,7 @@ void store_overlaps(const Cut& cut, uint32_t number, const spline::Grid& grid,
     const float needed_m = spline::radius_for(
         cut.shapes[i], cut.corners[i], spline::stored_quad(piece, grid, corners.data(), above),
         spline::own_of(piece, above, leaf), spline::half_of(piece, above, leaf, overlap));
-    return needed_m <= spline::stored_value(grid.radius_unit_m, bounds.radii[at]);
+    return needed_m <= spline::in_units(grid.radius_unit_m, bounds.radii[at]);
   };
   for (bool has_changed = true; has_changed;) {
     has_changed = false;

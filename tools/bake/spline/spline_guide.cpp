@@ -62,7 +62,7 @@ double error_of(const spline::GuideView& guide, const std::vector<double>& fines
                          spline::kMaxArcIntervals -
                      1;
     const double reported_m =
-        static_cast<double>(spline::arc_m_at(guide, piece, static_cast<float>(s)));
+        static_cast<double>(spline::Arcs(guide).at_m(piece, static_cast<float>(s)));
     worst_m = std::max(worst_m, std::abs(reported_m - finest[i]));
   }
   return worst_m / finest.back();

@@ -1,4 +1,5 @@
 #include "bake/spline/spline_tree.hpp"
+#include "firmtouch/spline/surface/patch_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,7 @@ void store_radii(SplineTree& tree, const std::vector<Part>& parts) {
       byte = std::max(byte, static_cast<uint8_t>(spline::byte_above(unit, radius_m)));
     };
     keep(radii[node - 1]);
-    const float leaf_m = spline::stored_value(unit, tree.radii[node - 1]);
+    const float leaf_m = spline::in_units(unit, tree.radii[node - 1]);
     for (node >>= 1; node != 0; node >>= 1) {
       const spline::CurveLevels::Leaves under = levels.below(node);
       keep(under.end - under.first == 1

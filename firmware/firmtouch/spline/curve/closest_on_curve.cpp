@@ -40,10 +40,7 @@ inline Closest answer_near(const View& model, Vec3 p_m, query::Budget budget, Cu
   }
   const bool is_first = best.node == query::kNowhere;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
-  const float pending_m =
-      search.is_complete() ? 0.0f : search.pending_m(outside_m(model.head(), p_m));
-  const query::Certificate certificate =
-      certify(model.head(), p_m, best, search, pending_m, carried, hint);
+  const query::Certificate certificate = certify(model.head(), p_m, best, search, carried, hint);
   hint.foot = is_first ? query::kNowhere : search.foot_after(motion_m);
   hint.safe_subtree = safe_subtree.row.first | safe_subtree.row.last << 16;
   hint.safe_subtree_m = safe_subtree.distance_m;

@@ -64,13 +64,7 @@ static inline uint32_t interval_at(const GuideView& guide, float s, float& t) {
   return interval;
 }
 
-static inline float arc_m_at(const GuideView& guide, uint32_t piece, float s) {
-  float t;
-  const uint32_t interval = interval_at(guide, s, t);
-  return arc_cubic_of(guide, piece, interval).at_m(t);
-}
-
-/// The same where places follow each other: the last one is kept.
+/// Lengths to places that follow each other: the last part is kept.
 class Arcs {
  public:
   explicit Arcs(const GuideView& guide) : guide_(guide) {}

@@ -149,14 +149,19 @@ struct Products {
   }
 };
 
-// Of a part of something no two points of which are farther apart than span_m.
-void bound_bends(const Region& region, float span_m, LeafShape& shape) {
-  Sizes c, w;
+void bound_derivatives(const Region& region, LeafShape& shape, Vectors& x, Sizes& c) {
+  Sizes w;
   bound_sums(shape, region, c, w);
   quotient(shape, c, w);
-  Vectors x;
   middle_derivatives(shape, x);
   tighten(x, c);
+}
+
+// Of a part of something no two points of which are farther apart than span_m.
+void bound_bends(const Region& region, float span_m, LeafShape& shape) {
+  Sizes c;
+  Vectors x;
+  bound_derivatives(region, shape, x, c);
   Products uuuu{x, c}, uuuv{x, c}, uuvv{x, c}, uvvv{x, c}, vvvv{x, c};
   uuuu.add(4.0f, 1, 0, 3, 0), uuuu.add(3.0f, 2, 0, 2, 0);
   uuuv.add(1.0f, 0, 1, 3, 0), uuuv.add(3.0f, 1, 0, 2, 1), uuuv.add(3.0f, 2, 0, 1, 1);
@@ -223,12 +228,9 @@ bool add_bends(const Piece& piece, const float* coefficients, uint32_t fine_step
   LeafShape shape;
   derive(piece, coefficients, region, shape);
   if (!(shape.min_weight > 0.0f)) return false;
-  Sizes c, w;
-  bound_sums(shape, region, c, w);
-  quotient(shape, c, w);
+  Sizes c;
   Vectors x;
-  middle_derivatives(shape, x);
-  tighten(x, c);
+  bound_derivatives(region, shape, x, c);
   const float fourth = region.half_u * region.half_u * region.half_u * region.half_u;
   const float lowest = lowest_of(region, shape, x, c) / fourth, turning = c.of[4][0] * kUp / fourth;
   if (fine_step == 0 || !(lowest <= bends.lowest)) bends.lowest = lowest;  // NaN stays

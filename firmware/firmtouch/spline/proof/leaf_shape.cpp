@@ -1,6 +1,6 @@
 #include "firmtouch/spline/proof/leaf_shape.hpp"
 
-#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/spline/numbers.hpp"
 #include "firmtouch/spline/surface/patch_grid.hpp"
 
 namespace firmtouch::spline {
@@ -8,7 +8,6 @@ namespace {
 
 using math::Vec3;
 
-constexpr float kUnit = 0x1p-24f;
 // A polynomial of degree 5 moved to another middle: at most 10 |c| a coefficient in 10 roundings.
 constexpr float kShiftNoise = 128.0f * kUnit;
 constexpr float kUp = 1.0f + 0x1p-16f;  // for sums and products of a few dozen roundings
@@ -184,8 +183,6 @@ float radius_above(float leaf_radius_m, Vec3 leaf_a_m, Vec3 leaf_b_m, Vec3 a_m, 
   const float first_m = off_line_m(leaf_a_m, a_m, b_m), last_m = off_line_m(leaf_b_m, a_m, b_m);
   return with_slack((first_m > last_m ? first_m : last_m) + leaf_radius_m, math::length(b_m - a_m));
 }
-
-float stored_value(float unit, uint32_t byte) { return in_units(unit, byte); }
 
 void enlarge(const LeafShape& shape, Box& box) {
   const Vec3 a{box.axis[0][0], box.axis[0][1], box.axis[0][2]};

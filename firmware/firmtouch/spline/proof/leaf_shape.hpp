@@ -53,9 +53,6 @@ float radius_for(const LeafShape& shape, math::Vec3 a_m, math::Vec3 b_m);
 /// The same of a node above: the leaf's own capsule and the node's.
 float radius_above(float leaf_radius_m, math::Vec3 leaf_a_m, math::Vec3 leaf_b_m, math::Vec3 a_m,
                    math::Vec3 b_m);
-/// What is stored of a part of a surface: a byte of a unit.
-float stored_value(float unit, uint32_t byte);
-
 /// Of a box with this centre and these axes, to hold the leaf: enlarges half_m.
 void enlarge(const LeafShape& shape, Box& box);
 

@@ -2,15 +2,13 @@
 
 #include <float.h>
 
-#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/spline/numbers.hpp"
 #include "firmtouch/spline/surface/patch_grid.hpp"
 
 namespace firmtouch::spline {
 namespace {
 
 using math::Vec3;
-
-constexpr float kUnit = 0x1p-24f;
 
 float between(float value, float low, float high) {
   return value > low ? value < high ? value : high : low;

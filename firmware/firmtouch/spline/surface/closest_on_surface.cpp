@@ -52,10 +52,7 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
   }
   const bool is_first = best.node == query::kNowhere;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
-  const float pending_m =
-      search.is_complete() ? 0.0f : search.pending_m(outside_m(model.head(), p_m));
-  const query::Certificate certificate =
-      certify(model.head(), p_m, best, search, pending_m, carried, hint);
+  const query::Certificate certificate = certify(model.head(), p_m, best, search, carried, hint);
   hint.foot = query::kNowhere;
   if (!is_first) search.leave(motion_m, hint);
   hint.safe_subtree = safe_subtree;

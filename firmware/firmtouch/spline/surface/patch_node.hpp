@@ -28,14 +28,9 @@ inline PatchNode apart(const Piece& piece, uint32_t node) {
   const uint32_t made_u = digits_of(u), made_v = digits_of(v);
   return {u, v, made_u, made_v, piece.level_u - made_u, piece.level_v - made_v};
 }
-inline bool is_halved_u(const PatchNode& p) { return p.left_u >= p.left_v; }
 /// Whether the last halving was of u: by the order of halvings.
 inline bool was_halved_u(const PatchNode& p) {
   return p.made_u != 0 && (p.left_u < p.left_v || p.made_v == 0);
-}
-/// The first of the two that the part is halved into.
-inline uint32_t first_half(uint32_t node, const PatchNode& p) {
-  return node + (is_halved_u(p) ? p.u << 7 : p.v);
 }
 inline uint32_t whole_of(uint32_t node, const PatchNode& p) {
   return was_halved_u(p) ? node - ((p.u - (p.u >> 1)) << 7) : node - (p.v - (p.v >> 1));
