@@ -116,18 +116,18 @@ struct SetParam {
 };
 static_assert(sizeof(SetParam) == 8);
 
+/// Payload of a request that its type alone states.
+struct Empty {
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(Empty) == 4);
+
 /// Clears the latched faults at the next tick if the enable switch is open then. That tick's record
 /// has the result (record::kStateCommandTaken).
-struct ClearFaults {
-  uint32_t reserved = 0;
-};
-static_assert(sizeof(ClearFaults) == 4);
+struct ClearFaults : Empty {};
 
 /// Keeps the present parameters in flash. At the next start the first ticks set them by commands.
-struct SaveParameters {
-  uint32_t reserved = 0;
-};
-static_assert(sizeof(SaveParameters) == 4);
+struct SaveParameters : Empty {};
 
 // Ack::result
 constexpr uint32_t kAckTaken = 0;
@@ -211,10 +211,7 @@ struct Description {
 static_assert(sizeof(Description) == 176);
 static_assert(sizeof(Description) <= kMaxPayloadBytes);
 
-struct ReadCrash {
-  uint32_t reserved = 0;
-};
-static_assert(sizeof(ReadCrash) == 4);
+struct ReadCrash : Empty {};
 
 struct CrashReply {
   uint32_t is_left = 0;  // 0: nothing was; `record` says nothing then
@@ -240,15 +237,8 @@ struct AssetBlock {
 };
 static_assert(sizeof(AssetBlock) <= kMaxPayloadBytes);
 
-struct CommitAsset {
-  uint32_t reserved = 0;
-};
-static_assert(sizeof(CommitAsset) == 4);
-
-struct AbortAsset {
-  uint32_t reserved = 0;
-};
-static_assert(sizeof(AbortAsset) == 4);
+struct CommitAsset : Empty {};
+struct AbortAsset : Empty {};
 
 struct AssetAck {
   uint32_t result = kAckTaken;
