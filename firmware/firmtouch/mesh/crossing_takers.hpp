@@ -8,37 +8,37 @@ namespace firmtouch::mesh {
 
 // limit: the largest t that is still of interest. take(): whether more are wanted.
 
-class First {
- public:
-  explicit First(Hit& reported) : hit(reported) {}
-  float limit = 1;
+struct OneHit {
   Hit& hit;
+  float limit = 1;
+
+  void set(const Crossing& crossing, uint32_t triangle) {
+    hit.hit = true;
+    hit.t = crossing.t;
+    hit.triangle = triangle;
+    hit.enters = crossing.direction < 0;
+  }
+};
+
+struct First : OneHit {
+  explicit First(Hit& reported) : OneHit{reported} {}
 
   bool take(const Crossing& crossing, uint32_t triangle) {
     const bool is_first =
         !hit.hit || crossing.t < hit.t || (crossing.t <= hit.t && triangle < hit.triangle);
     if (!is_first) return true;
-    hit.hit = true;
-    hit.t = crossing.t;
-    hit.triangle = triangle;
-    hit.enters = crossing.direction < 0;
+    set(crossing, triangle);
     // t has an error, so a box that is entered later may hold a crossing with a smaller t.
     limit = smaller(crossing.t + 2.0f * kTimeError, 1.0f);
     return true;
   }
 };
 
-class Any {
- public:
-  explicit Any(Hit& reported) : hit(reported) {}
-  float limit = 1;
-  Hit& hit;
+struct Any : OneHit {
+  explicit Any(Hit& reported) : OneHit{reported} {}
 
   bool take(const Crossing& crossing, uint32_t triangle) {
-    hit.hit = true;
-    hit.t = crossing.t;
-    hit.triangle = triangle;
-    hit.enters = crossing.direction < 0;
+    set(crossing, triangle);
     return false;
   }
 };
