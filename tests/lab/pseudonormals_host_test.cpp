@@ -50,16 +50,6 @@ std::vector<Corner> fan(const std::vector<Point>& edges) {
   return corners;
 }
 
-std::vector<tools::SideRay> rays_of(const std::vector<Corner>& corners) {
-  std::vector<tools::StarEdge> star;
-  for (size_t k = 0; k < corners.size(); ++k) {
-    const Corner& last = corners[(k + corners.size() - 1) % corners.size()];
-    star.push_back({unit(corners[k].next), unit(cross(corners[k].next, corners[k].last)) +
-                                               unit(cross(last.next, last.last))});
-  }
-  return tools::extreme_rays(star);
-}
-
 bool is_right(NormalKind kind, const std::vector<Corner>& corners) {
   for (const tools::SideRay& ray : rays_of(corners)) {
     const Point normal = lab::reference_normal(kind, corners, ray.direction);

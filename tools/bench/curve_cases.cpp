@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "bench/open_or_throw.hpp"
 #include "bench/points_about.hpp"
 #include "bench/problem.hpp"
 #include "firmtouch/math/elementary.hpp"
@@ -42,9 +43,7 @@ CurveCase bake_case(std::vector<math::Vec3> samples_m, const std::string& name, 
   made.sections = tools::bake_curve(points, "curve", made.report);
   made.bake_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!made.report.problem.empty()) throw Problem(name + ": " + made.report.problem);
-  const core::Verdict verdict = tools::open_baked(made.sections, "curve", made.view);
-  if (!verdict.ok())
-    throw Problem(name + ": its curve breaks rule R" + std::to_string(verdict.rule));
+  open_or_throw(made.sections, "curve", name + ": its curve", made.view);
   made.samples_m = std::move(points.samples_m);
   return made;
 }

@@ -12,8 +12,6 @@ namespace firmtouch::bench {
 /// A curve baked in memory and opened with the firmware's decoder; the view refers to the sections.
 struct CurveCase {
   CurveCase() = default;
-  CurveCase(const CurveCase&) = delete;
-  CurveCase& operator=(const CurveCase&) = delete;
   CurveCase(CurveCase&&) = default;
   CurveCase& operator=(CurveCase&&) = default;
 

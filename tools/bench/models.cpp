@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "bench/open_or_throw.hpp"
 #include "bench/points_about.hpp"
 #include "bench/problem.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
@@ -56,9 +57,7 @@ Model model_of(tools::Surface surface, const std::string& name, const std::strin
   options.shape = shape;
   model.sections = tools::bake_mesh(model.surface, "model", options, model.report);
   if (!model.report.problem.empty()) throw Problem(where + ": " + model.report.problem);
-  const core::Verdict verdict = tools::open_baked(model.sections, "model", model.view);
-  if (!verdict.ok())
-    throw Problem(where + ": its mesh breaks rule R" + std::to_string(verdict.rule));
+  open_or_throw(model.sections, "model", where + ": its mesh", model.view);
   model.wide = simd::WideMesh(model.view);
   return model;
 }

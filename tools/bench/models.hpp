@@ -30,8 +30,6 @@ class TemporaryFolder {
 /// to the sections: a model may be moved, not copied.
 struct Model {
   Model() = default;
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
   Model(Model&&) = default;
   Model& operator=(Model&&) = default;
 

@@ -24,43 +24,35 @@ constexpr double kStep = 0.002;                               // of the extent, 
 constexpr double kCurveGoal = 1.0 / 60, kSurfaceGoal = 0.01;  // of the peer's time
 
 // The plain numbers that a peer reads: kind, counts and degree, knots, weights, points.
-std::string plain_text(const tools::SplineCurve& c) {
-  std::string text = "curve " + std::to_string(c.points.size()) + " " + std::to_string(c.degree);
+std::string plain_text(std::string text, const std::vector<std::vector<double>>& knots,
+                       const std::vector<tools::ControlPoint>& points) {
   char number[40];
   const auto put = [&](double x, const char* end) {
     std::snprintf(number, sizeof(number), "%.17g%s", x, end);
     text += number;
   };
+  for (const std::vector<double>& of : knots) {
+    text += "\n";
+    for (const double x : of) put(x, " ");
+  }
   text += "\n";
-  for (const double x : c.knots) put(x, " ");
-  text += "\n";
-  for (const tools::ControlPoint& p : c.points) put(p.w, " ");
-  for (const tools::ControlPoint& p : c.points) {
+  for (const tools::ControlPoint& p : points) put(p.w, " ");
+  for (const tools::ControlPoint& p : points) {
     text += "\n";
     put(p.x, " "), put(p.y, " "), put(p.z, "");
   }
   return text + "\n";
 }
 
+std::string plain_text(const tools::SplineCurve& c) {
+  return plain_text("curve " + std::to_string(c.points.size()) + " " + std::to_string(c.degree),
+                    {c.knots}, c.points);
+}
+
 std::string plain_text(const tools::SplineSurface& s) {
-  std::string text = "surface " + std::to_string(s.count_u) + " " + std::to_string(s.count_v) +
-                     " " + std::to_string(s.degree_u);
-  char number[40];
-  const auto put = [&](double x, const char* end) {
-    std::snprintf(number, sizeof(number), "%.17g%s", x, end);
-    text += number;
-  };
-  text += "\n";
-  for (const double x : s.knots_u) put(x, " ");
-  text += "\n";
-  for (const double x : s.knots_v) put(x, " ");
-  text += "\n";
-  for (const tools::ControlPoint& p : s.points) put(p.w, " ");
-  for (const tools::ControlPoint& p : s.points) {
-    text += "\n";
-    put(p.x, " "), put(p.y, " "), put(p.z, "");
-  }
-  return text + "\n";
+  return plain_text("surface " + std::to_string(s.count_u) + " " + std::to_string(s.count_v) + " " +
+                        std::to_string(s.degree_u),
+                    {s.knots_u, s.knots_v}, s.points);
 }
 
 std::string csv_of(const std::vector<Point>& points) {

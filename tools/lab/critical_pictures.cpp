@@ -142,20 +142,6 @@ bool is_between(Point p, Point low, Point high) {
          p.z <= high.z;
 }
 
-void draw_net(Picture& picture, const tools::SplineSurface& s) {
-  constexpr int kLines = 12, kAlong = 60;
-  for (int i = 0; i <= kLines; ++i) {
-    std::vector<Point> a, b;
-    for (int j = 0; j <= kAlong; ++j) {
-      const double p = static_cast<double>(i) / kLines, q = static_cast<double>(j) / kAlong;
-      a.push_back(point_at(s, s.u0 + p * (s.u1 - s.u0), s.v0 + q * (s.v1 - s.v0)));
-      b.push_back(point_at(s, s.u0 + q * (s.u1 - s.u0), s.v0 + p * (s.v1 - s.v0)));
-    }
-    picture.line(a, kNet);
-    picture.line(b, kNet);
-  }
-}
-
 // Figure 6: (a) a surface and its critical points, both focal sheets; (b) those along one
 // iso-curve, with the cells that list them.
 void draw_surface(const Options& options, Report& report) {
@@ -166,8 +152,8 @@ void draw_surface(const Options& options, Report& report) {
   const Point reach{0.6 * extent, 0.6 * extent, 0.6 * extent};
   const Point low = middle - reach, high = middle + reach;
   Picture all(low, high, true), along(low, high, true);
-  draw_net(all, surface);
-  draw_net(along, surface);
+  draw_net(all, surface, 12);
+  draw_net(along, surface, 12);
   const CriticalGrid grid(feet, 5, 0.1);
   constexpr int kEach = 60;
   for (int i = 1; i < kEach; ++i) {

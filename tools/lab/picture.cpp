@@ -90,6 +90,20 @@ std::string Picture::places(const std::vector<Point>& points) const {
   return text;
 }
 
+void draw_net(Picture& picture, const tools::SplineSurface& s, int lines) {
+  constexpr int kAlong = 60;
+  for (int i = 0; i <= lines; ++i) {
+    std::vector<tools::Point> a, b;
+    for (int j = 0; j <= kAlong; ++j) {
+      const double p = static_cast<double>(i) / lines, q = static_cast<double>(j) / kAlong;
+      a.push_back(point_at(s, s.u0 + p * (s.u1 - s.u0), s.v0 + q * (s.v1 - s.v0)));
+      b.push_back(point_at(s, s.u0 + q * (s.u1 - s.u0), s.v0 + p * (s.v1 - s.v0)));
+    }
+    picture.line(a, kNet);
+    picture.line(b, kNet);
+  }
+}
+
 void write_picture(const Options& options, const std::string& name, const Picture& picture,
                    Report& report) {
   const std::string text = picture.svg();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lab/trials.hpp"
+#include "spline/spline.hpp"
 #include "surface/point.hpp"
 
 namespace firmtouch::lab {
@@ -39,6 +40,9 @@ constexpr char kPath[] = "stroke=\"#888\" stroke-width=\"1.6\"";
 constexpr char kJoin[] = "stroke=\"#36c\" stroke-width=\"0.6\"";
 constexpr char kZero[] = "stroke=\"#c33\" stroke-width=\"0.5\" stroke-opacity=\"0.6\"";
 constexpr char kFound[] = "fill=\"#fc0\" stroke=\"#850\" stroke-width=\"0.5\"";
+
+/// The surface as `lines` iso-curves and one more, each way.
+void draw_net(Picture& picture, const tools::SplineSurface& s, int lines);
 
 /// Writes NAME.svg into the folder `options.figures`. Throws a Problem where it cannot be written.
 void write_picture(const Options& options, const std::string& name, const Picture& picture,

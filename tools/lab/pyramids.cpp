@@ -22,17 +22,6 @@ Point unit(Point a) { return a * (1 / length(a)); }
 
 double asin_of(double sine) { return std::asin(std::max(-1.0, std::min(1.0, sine))); }
 
-// The rays of the pyramid in double.
-std::vector<tools::SideRay> apex_rays(const std::vector<Corner>& corners) {
-  std::vector<tools::StarEdge> star;
-  for (size_t k = 0; k < corners.size(); ++k) {
-    const Corner& last = corners[(k + corners.size() - 1) % corners.size()];
-    star.push_back({unit(corners[k].next), unit(cross(corners[k].next, corners[k].last)) +
-                                               unit(cross(last.next, last.last))});
-  }
-  return tools::extreme_rays(star);
-}
-
 // Without special attention to numerics, as the paper has it, in float32.
 Point plain_float_normal(const std::vector<Corner>& corners) {
   float sum[3] = {};
@@ -94,7 +83,7 @@ ApexMargins apex_margins(const Pyramid& pyramid) {
   std::vector<Corner> corners;
   for (size_t k = 0; k < kSides; ++k)
     corners.push_back({pyramid.base[k] - apex, pyramid.base[(k + 1) % kSides] - apex});
-  const std::vector<tools::SideRay> rays = apex_rays(corners);
+  const std::vector<tools::SideRay> rays = rays_of(corners);
   const auto margin = [&](Point normal) {
     return asin_of(tools::vertex_margin(rays, unit(normal)));
   };

@@ -66,6 +66,16 @@ const std::vector<NamedNormal>& reference_normals() {
   return all;
 }
 
+std::vector<tools::SideRay> rays_of(const std::vector<Corner>& corners) {
+  std::vector<tools::StarEdge> star;
+  for (size_t k = 0; k < corners.size(); ++k) {
+    const Corner& last = corners[(k + corners.size() - 1) % corners.size()];
+    star.push_back({unit(corners[k].next), unit(cross(corners[k].next, corners[k].last)) +
+                                               unit(cross(last.next, last.last))});
+  }
+  return tools::extreme_rays(star);
+}
+
 std::vector<std::vector<Corner>> corners_of(const tools::Surface& surface) {
   std::vector<std::vector<Corner>> corners(surface.vertices.size());
   for (const tools::Face& face : surface.faces) {

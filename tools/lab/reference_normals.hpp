@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "bake/mesh/sign_margin.hpp"
 #include "surface/point.hpp"
 #include "surface/surface.hpp"
 
@@ -32,6 +33,9 @@ const std::vector<NamedNormal>& reference_normals();
 struct Corner {
   tools::Point next, last;
 };
+
+/// Where the sign of a vertex's pseudonormal is decided, from the corners in order, in double.
+std::vector<tools::SideRay> rays_of(const std::vector<Corner>& corners);
 
 /// The corners at each vertex of a closed surface.
 std::vector<std::vector<Corner>> corners_of(const tools::Surface& surface);

@@ -91,20 +91,6 @@ void draw_curve(const Options& options, const std::string& name, uint64_t seed, 
   write_picture(options, name + "b", space, report);
 }
 
-void draw_net(Picture& picture, const tools::SplineSurface& s, int lines) {
-  constexpr int kAlong = 60;
-  for (int i = 0; i <= lines; ++i) {
-    std::vector<Point> a, b;
-    for (int j = 0; j <= kAlong; ++j) {
-      const double p = static_cast<double>(i) / lines, q = static_cast<double>(j) / kAlong;
-      a.push_back(point_at(s, s.u0 + p * (s.u1 - s.u0), s.v0 + q * (s.v1 - s.v0)));
-      b.push_back(point_at(s, s.u0 + q * (s.u1 - s.u0), s.v0 + p * (s.v1 - s.v0)));
-    }
-    picture.line(a, kNet);
-    picture.line(b, kNet);
-  }
-}
-
 // Figures 10 and 11.
 void draw_surfaces(const Options& options, const std::string& name,
                    const std::vector<tools::SplineSurface>& surfaces, uint64_t seed, int lines,

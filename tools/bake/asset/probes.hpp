@@ -43,6 +43,15 @@ Section answered_probes(uint32_t type, const std::string& name, const View& view
   return probe_section(type, name, points, probe_hash(view, span));
 }
 
+/// The same of points that probe_points() chooses about a geometry's own.
+template <class View, class Point>
+Section probes_about(uint32_t type, const std::string& name, const View& view,
+                     core::Span<const Point> points) {
+  return answered_probes(
+      type, name, view,
+      probe_points(view.head().low_m, view.head().high_m, anchors_of(points), kProbesAGeometry));
+}
+
 /// What this machine answers to probe_points() of a proven mesh, hull or curve, as the section that
 /// a controller's begin() compares with its own answers.
 Section mesh_probes(const mesh::View& mesh, const std::string& name);

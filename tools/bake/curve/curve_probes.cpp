@@ -4,9 +4,7 @@
 namespace firmtouch::tools {
 
 Section curve_probes(const curve::View& curve, const std::string& name) {
-  const auto points = probe_points(curve.head().low_m, curve.head().high_m,
-                                   anchors_of(curve.samples()), kProbesAGeometry);
-  return answered_probes(curve::kProbesSection, name, curve, points);
+  return probes_about(curve::kProbesSection, name, curve, curve.samples());
 }
 
 }  // namespace firmtouch::tools

@@ -1,5 +1,6 @@
 #include "bake/hull/bake_hull.hpp"
 
+#include "bake/asset/asset_views.hpp"
 #include "bake/asset/probes.hpp"
 #include "bake/hull/hull_encoder.hpp"
 
@@ -58,9 +59,8 @@ std::vector<Section> bake_hull(const mesh::View& mesh, const std::vector<Section
   hull::View view;
   const core::Verdict verdict = open_baked(all, name, view);
   if (!verdict.ok()) {
-    report.problem = "the hull fails its own proof, rule R" + std::to_string(verdict.rule) +
-                     " at element " + std::to_string(verdict.element) +
-                     "; please report this model";
+    report.problem =
+        "the hull fails its own proof, " + rule_text(verdict) + "; please report this model";
     return {};
   }
   baked.push_back(hull_probes(view, name));

@@ -35,6 +35,14 @@ bool depth_first(S& search, Pending* pending) {
   }
 }
 
+/// Reads a leaf or a node. Result: how many children of a node are found.
+template <class S>
+uint32_t read(S& search, uint32_t child, Pending* found) {
+  if (!mesh::is_leaf(child)) return search.read_node(child, found);
+  search.read_leaf(child);
+  return 0;
+}
+
 static inline void sift_up(Pending* heap, uint32_t at) {
   const Pending up = heap[at];
   for (uint32_t parent; at > 0 && up.key < heap[parent = (at - 1) / 2].key; at = parent)
@@ -63,21 +71,16 @@ bool best_first(S& search, Pending* pending) {
   Pending found[S::kWays];
   Pending now{0, 0};
   while (true) {
-    if (mesh::is_leaf(now.child)) {
-      search.read_leaf(now.child);
-    } else {
-      const uint32_t n = search.read_node(now.child, found);
-      for (uint32_t i = n; i-- > 0;) {
-        if (heaped < kQueueBoxes) {
-          heap[heaped] = found[i];
-          sift_up(heap, heaped++);
-        } else {
-          stack[stacked++] = found[i];
-          search.note_overflow();
-        }
+    for (uint32_t i = read(search, now.child, found); i-- > 0;) {
+      if (heaped < kQueueBoxes) {
+        heap[heaped] = found[i];
+        sift_up(heap, heaped++);
+      } else {
+        stack[stacked++] = found[i];
+        search.note_overflow();
       }
-      search.note_pending(heaped + stacked);
     }
+    search.note_pending(heaped + stacked);
     if (stacked > 0) {
       now = stack[--stacked];
       if (now.key >= search.prune()) now.child = kNoChild;  // reads as an empty leaf
@@ -98,14 +101,10 @@ bool breadth_first(S& search, Pending* pending, uint32_t ring_boxes) {
   Pending found[S::kWays];
   Pending now{0, 0};
   while (true) {
-    if (mesh::is_leaf(now.child)) {
-      search.read_leaf(now.child);
-    } else {
-      const uint32_t n = search.read_node(now.child, found);
-      if (ring_boxes - (tail - head) < n) return false;
-      for (uint32_t i = 0; i < n; ++i) pending[tail++ & (ring_boxes - 1)] = found[i];
-      search.note_pending(tail - head);
-    }
+    const uint32_t n = read(search, now.child, found);
+    if (ring_boxes - (tail - head) < n) return false;
+    for (uint32_t i = 0; i < n; ++i) pending[tail++ & (ring_boxes - 1)] = found[i];
+    search.note_pending(tail - head);
     do {
       if (head == tail) return true;
       now = pending[head++ & (ring_boxes - 1)];

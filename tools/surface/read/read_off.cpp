@@ -44,17 +44,24 @@ bool read_count(TextScan& scan, ImportSink& sink, const char* what, int64_t& cou
   return true;
 }
 
+// The next word of element `i`, which `place` then names.
+bool find_word_of(TextScan& scan, ImportSink& sink, const char* what, int64_t i, int64_t count,
+                  std::string_view& word, Place& place) {
+  const bool found = scan.find_word(word);
+  place = {scan.line(), 0, what, static_cast<uint64_t>(i)};
+  if (found) return true;
+  const std::string all = std::to_string(count) + (*what == 'v' ? " vertices" : " faces");
+  return sink.fail(place,
+                   "the file ends here; it states " + all + ": it is cut short, export it again");
+}
+
 bool read_vertices(TextScan& scan, ImportSink& sink, int64_t count) {
   for (int64_t i = 0; i < count; ++i) {
     double xyz[3] = {};
     Place place;
     for (int k = 0; k < 3; ++k) {
       std::string_view word;
-      const bool found = scan.find_word(word);
-      place = {scan.line(), 0, "vertex", static_cast<uint64_t>(i)};
-      if (!found)
-        return sink.fail(place, "the file ends here; it states " + std::to_string(count) +
-                                    " vertices: it is cut short, export it again");
+      if (!find_word_of(scan, sink, "vertex", i, count, word, place)) return false;
       const char* wrong = read_number(word, xyz[k]);
       if (wrong != nullptr) sink.bad_word(place, word, wrong);
     }
@@ -72,11 +79,7 @@ bool read_faces(TextScan& scan, ImportSink& sink, int64_t count) {
     Place place;
     for (int64_t k = 0; k <= wanted; ++k) {
       std::string_view word;
-      const bool found = scan.find_word(word);
-      place = {scan.line(), 0, "face", static_cast<uint64_t>(i)};
-      if (!found)
-        return sink.fail(place, "the file ends here; it states " + std::to_string(count) +
-                                    " faces: it is cut short, export it again");
+      if (!find_word_of(scan, sink, "face", i, count, word, place)) return false;
       int64_t value = 0;
       const char* wrong = read_integer(word, value);
       if (wrong != nullptr) {
