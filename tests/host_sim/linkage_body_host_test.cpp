@@ -134,14 +134,18 @@ TEST(DryFriction_HoldsUpToItsTorque_AndBringsToRest) {
   CHECK_LE(size(body.motion().rate_rad_per_s[0]), 1e-9);
 }
 
+static device::StoredLinkage opened(const device::LinkageLayout& layout) {
+  device::StoredLinkage linkage;
+  CHECK(open(core::Bytes(reinterpret_cast<const uint8_t*>(&layout), sizeof layout), linkage).ok());
+  return linkage;
+}
+
 // The firmware's pose and torques, from counts, hold a hand of the opposite force still.
 TEST(StaticForce_IsTheOneRequested) {
   test::Lcg random(3);
   for (const Swing& swing : swings()) {
     const device::LinkageLayout layout = tools::layout_of(swing.device);
-    device::StoredLinkage linkage;
-    CHECK(
-        open(core::Bytes(reinterpret_cast<const uint8_t*>(&layout), sizeof layout), linkage).ok());
+    const device::StoredLinkage linkage = opened(layout);
     uint32_t poses = 0;
     for (uint32_t i = 0; i < 2000; ++i) {
       JointMotion at = swing.start;
@@ -173,9 +177,7 @@ TEST(CarriedWeight_1000Poses_LeavesAHundredthAtMost) {
   test::Lcg random(5);
   for (const Swing& swing : swings()) {
     const device::LinkageLayout layout = tools::layout_of(swing.device);
-    device::StoredLinkage linkage;
-    CHECK(
-        open(core::Bytes(reinterpret_cast<const uint8_t*>(&layout), sizeof layout), linkage).ok());
+    const device::StoredLinkage linkage = opened(layout);
     uint32_t poses = 0;
     double heaviest_Nm = 0, worst_Nm = 0;
     while (poses < 1000) {

@@ -90,13 +90,11 @@ Counts count(const Bytes& bytes) {
   log::Reader reader(log::over_memory(bytes), "memory");
   Counts counts;
   log::Block block;
-  while (reader.next(block)) {
-    for (uint32_t i = 0; i < block.count; ++i) {
-      Slot slot;
-      std::memcpy(&slot, block.record(i), sizeof slot);
-      const Payload expected = payload_of(slot.number);
-      if (std::memcmp(&expected, &slot.value, sizeof expected) != 0) ++counts.wrong;
-    }
+  const auto compare = [&](const Slot& slot) {
+    const Payload expected = payload_of(slot.number);
+    if (std::memcmp(&expected, &slot.value, sizeof expected) != 0) ++counts.wrong;
+  };
+  while (read_block<Slot>(reader, block, compare)) {
   }
   counts.records = reader.records();
   counts.missing = reader.missing();

@@ -73,18 +73,24 @@ struct Found {
   std::string troubles;
 };
 
+/// Calls take(record) for all that are left of the next block. Result: false if there is none.
+template <class Record, class Take>
+bool read_block(log::Reader& reader, log::Block& block, const Take& take) {
+  if (!reader.next(block)) return false;
+  for (uint32_t i = 0; i < block.count; ++i) {
+    Record record;
+    std::memcpy(&record, block.record(i), sizeof record);
+    take(record);
+  }
+  return true;
+}
+
 inline Found read(const Bytes& bytes) {
   log::Reader reader(log::over_memory(bytes), "memory");
   Found found;
   log::Block block;
-  while (reader.next(block)) {
-    for (uint32_t i = 0; i < block.count; ++i) {
-      Row row;
-      std::memcpy(&row, block.record(i), sizeof row);
-      found.rows.push_back(row);
-    }
+  while (read_block<Row>(reader, block, [&](const Row& row) { found.rows.push_back(row); }))
     found.blocks.push_back(block);
-  }
   found.gaps = reader.gaps();
   found.damage = reader.damage();
   found.missing = reader.missing();

@@ -27,7 +27,16 @@ struct BakedMesh {
     CHECK(mesh::open(parts(), view).ok());
     size = diagonal(surface);
   }
+  BakedMesh(const tools::Surface& from, const tools::TreeShape& shape)
+      : BakedMesh(from, options_of(shape)) {}
   mesh::Sections parts() const { return tools::sections_of<mesh::Sections>(sections, "model"); }
+
+ private:
+  static tools::MeshOptions options_of(const tools::TreeShape& shape) {
+    tools::MeshOptions options;
+    options.shape = shape;
+    return options;
+  }
 };
 
 }  // namespace firmtouch::mesh_test

@@ -2,8 +2,8 @@
 // crossings against every triangle, near the part and far from it; and the SIMD copy's bits.
 #include <cmath>
 
-#include "bake/mesh/bake_mesh.hpp"
 #include "bake/mesh/box_frame.hpp"
+#include "baked_mesh.hpp"
 #include "brute_force.hpp"
 #include "firmtouch/mesh/box_frame.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
@@ -18,22 +18,6 @@ namespace {
 using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
 using math::Vec3;
-
-struct Baked {
-  tools::Surface surface;
-  std::vector<tools::Section> sections;
-  mesh::View view;
-
-  explicit Baked(const tools::Surface& of, const tools::TreeShape& shape = tools::kFastTree)
-      : surface(of) {
-    tools::MeshOptions options;
-    options.shape = shape;
-    tools::MeshReport report;
-    sections = tools::bake_mesh(surface, "part", options, report);
-    CHECK(report.problem.empty());
-    CHECK(tools::open_baked(sections, "part", view).ok());
-  }
-};
 
 Vec3 random_point(const mesh::Head& head, Random& random, double reach) {
   const auto at = [&](size_t k) {
@@ -60,18 +44,18 @@ double distance_to(const mesh::View& view, Vec3 p) {
 TEST(BoxFrame_AskewPart_IsTurned_AndOthersAreNot) {
   for (uint64_t seed = 0; seed < 4 * tools::kCadKinds; ++seed) {
     test::note("seed", static_cast<int64_t>(seed));
-    const Baked part(tools::to_surface(tools::make_cad(seed)));
+    const BakedMesh part(tools::to_surface(tools::make_cad(seed)));
     CHECK_EQ(part.view.box_frame() != nullptr, seed / tools::kCadKinds % 2 == 1);
   }
-  CHECK(Baked(tools::make_part(1, 5000)).view.box_frame() == nullptr);
-  CHECK(Baked(tools::to_surface(tools::make_cad(tools::kCadKinds)), tools::kBoundedTree)
+  CHECK(BakedMesh(tools::make_part(1, 5000)).view.box_frame() == nullptr);
+  CHECK(BakedMesh(tools::to_surface(tools::make_cad(tools::kCadKinds)), tools::kBoundedTree)
             .view.box_frame() == nullptr);
 }
 
 TEST(BoxFrame_Distances_AgreeWithBruteForce) {
   const int points = long_run() ? 4000 : 250;
   for (uint64_t seed = tools::kCadKinds; seed < 2 * tools::kCadKinds; ++seed) {
-    const Baked part(tools::to_surface(tools::make_cad(seed)));
+    const BakedMesh part(tools::to_surface(tools::make_cad(seed)));
     const mesh::Head& head = part.view.head();
     Random random(seed);
     mesh::Hint warm;
@@ -101,7 +85,7 @@ TEST(BoxFrame_Distances_AgreeWithBruteForce) {
 TEST(BoxFrame_Crossings_AreThoseWithoutIt) {
   uint32_t crossings = 0;
   for (uint64_t seed = tools::kCadKinds; seed < 2 * tools::kCadKinds; ++seed) {
-    const Baked part(tools::to_surface(tools::make_cad(seed)));
+    const BakedMesh part(tools::to_surface(tools::make_cad(seed)));
     mesh::View plain;
     std::vector<tools::Section> sections;
     {

@@ -2,10 +2,10 @@
 // crossings, t and visits, to the bit, within any budget.
 #include <cmath>
 
-#include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/math/isa.hpp"
 #include "firmtouch/mesh/segment_cast.hpp"
 #include "harness/test.hpp"
+#include "mesh/baked_mesh.hpp"
 #include "simd/wide_mesh.hpp"
 #include "surface/make/make_cad.hpp"
 #include "surface/make/make_part.hpp"
@@ -16,21 +16,12 @@ namespace {
 using namespace firmtouch;  // NOLINT: a test file
 using math::Vec3;
 
-struct Baked {
-  tools::Surface surface;
-  std::vector<tools::Section> sections;
-  mesh::View view;
+struct Baked : mesh_test::BakedMesh {
   std::vector<simd::WideMesh> wide;  // of each level
 
   explicit Baked(const tools::TreeShape& shape,
                  const tools::Surface& of = tools::make_part(3, 3000))
-      : surface(of) {
-    tools::MeshOptions options;
-    options.shape = shape;
-    tools::MeshReport report;
-    sections = tools::bake_mesh(surface, "part", options, report);
-    CHECK(report.problem.empty());
-    CHECK(tools::open_baked(sections, "part", view).ok());
+      : BakedMesh(of, shape) {
     for (const firmtouch_simd::Level& level : firmtouch_simd::levels())
       wide.emplace_back(view, level);
   }
