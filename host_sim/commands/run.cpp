@@ -159,7 +159,13 @@ void read_linkage(Scenario& scenario, const Session& session, const std::string&
     throw Refused(file + ": its asset stores no linkage; bake it with --device " +
                   scenario.device_file);
   const device::LinkageLayout layout = tools::layout_of(*scenario.linkage);
-  if (std::memcmp(&layout, &stored.layout(), sizeof layout) != 0)
+  const device::HomedLinkageLayout homed = tools::homed_layout_of(*scenario.linkage);
+  const device::StoredHoming& homing = session.controller->device().homing();
+  const bool is_same =
+      std::memcmp(&layout, &stored.layout(), sizeof layout) == 0 &&
+      homing.is_open() == scenario.linkage->is_homed &&
+      (!homing.is_open() || std::memcmp(&homed.homing, &homing.layout(), sizeof homed.homing) == 0);
+  if (!is_same)
     throw Refused(path + ": the asset stores another linkage; bake it again with --device");
 }
 

@@ -12,8 +12,7 @@ namespace {
 constexpr uint32_t kMinSubsteps = 16;
 constexpr double kLinkageStep_s = 2e-5;
 
-DrivenLinkage linkage_at(const Scenario& scenario, Vec start_m) {
-  JointMotion start;
+DrivenLinkage linkage_at(const Scenario& scenario, Vec start_m, JointMotion& start) {
   if (!find_angles(*scenario.linkage, start_m, start)) {
     char text[200];
     std::snprintf(text, sizeof text,
@@ -37,8 +36,11 @@ DrivenLinkage linkage_at(const Scenario& scenario, Vec start_m) {
 
 Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m) : zero_m_(zero_m) {
   if (scenario.linkage) {
-    linkage_.emplace(linkage_at(scenario, start_m));
+    linkage_.emplace(linkage_at(scenario, start_m, start_));
+    device_ = &*scenario.linkage;
     delayed_Nm_.resize(scenario.device.output_delay_samples);
+    for (uint32_t k = 0; k < 3 && scenario.linkage->is_homed; ++k)
+      zero_count_[k] = linkage_->count(k);
   } else {
     axes_.emplace(scenario.device, start_m - zero_m);
   }
@@ -74,8 +76,17 @@ void Machine::advance(Vec hand_N, double time_s) {
   locate();
 }
 
+Vec Machine::on_way_to_start_m(const JointMotion& from, double share) const {
+  JointMotion at;
+  for (uint32_t k = 0; k < tools::kJoints; ++k)
+    at.angle_rad[k] = from.angle_rad[k] + (start_.angle_rad[k] - from.angle_rad[k]) * share;
+  return device_ != nullptr ? points_of(*device_, at).tip.at_m : position_m_;
+}
+
 int32_t Machine::count(int joint) const {
-  return axes_ ? axes_->count(joint) : linkage_->count(static_cast<uint32_t>(joint));
+  if (axes_) return axes_->count(joint);
+  const uint32_t k = static_cast<uint32_t>(joint);
+  return linkage_->count(k) - zero_count_[k];
 }
 
 uint32_t Machine::substeps(double period_s) const {

@@ -22,7 +22,11 @@ class Machine {
   void advance(Vec hand_N, double time_s);
   Vec position_m() const { return position_m_; }
   Vec velocity_mps() const { return velocity_mps_; }
+  /// Of a linkage that is homed: from 0 where it was switched on.
   int32_t count(int joint) const;
+  JointMotion joints() const { return linkage_ ? linkage_->body().motion() : JointMotion{}; }
+  /// Of a linkage: the tip where each joint has gone `share` of its way from `from` to the start.
+  Vec on_way_to_start_m(const JointMotion& from, double share) const;
   /// Null for a Cartesian device.
   const EnergyBook* energy() const { return linkage_ ? &linkage_->energy() : nullptr; }
   /// Integration steps in a tick of `period_s`, so that a linkage has 50,000 a second.
@@ -32,6 +36,9 @@ class Machine {
   void locate();
 
   Vec zero_m_;
+  const tools::LinkageDevice* device_ = nullptr;
+  JointMotion start_;
+  int32_t zero_count_[3] = {};
   std::optional<Device> axes_;
   std::optional<DrivenLinkage> linkage_;
   std::deque<Vec> delayed_Nm_;  // torques of a linkage, the oldest first

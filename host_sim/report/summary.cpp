@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "firmtouch/device/homing.hpp"
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "firmtouch/servo/step.hpp"
@@ -57,6 +58,20 @@ void count(Summary& summary, const record::TickOutput& out, uint64_t& visits, do
   summary.faults |= out.faults;
 }
 
+// "homed at 0.52 s"; empty where nothing was homed.
+std::string homing_text(const Summary& s) {
+  char text[160] = "";
+  const uint32_t failed = s.homing >> record::kStateHomingFaultShift;
+  const char* name = device::fault_name(static_cast<device::HomingFault>(failed & 15u));
+  if (failed != 0)
+    std::snprintf(text, sizeof text, "failed: joint %u: %s", failed >> 4 & 3u, name);
+  else if (s.homing != 0)
+    std::snprintf(text, sizeof text, "not homed at the end");
+  else if (s.homed_s >= 0)
+    std::snprintf(text, sizeof text, "homed at %.3f s", s.homed_s);
+  return text;
+}
+
 bool is_scripted_fault(const Event& event) { return event.kind <= Event::Kind::kEncoderFault; }
 
 size_t checked_ticks(const Environment& environment, size_t ticks) {
@@ -102,6 +117,9 @@ void Summariser::add(const RunTick& tick) {
         });
   }
   count(summary_, out, visits_, deviation_m_);
+  const uint32_t homing = out.state & ~(record::kStateNotHomed - 1);
+  if (homing == 0 && summary_.homing != 0) summary_.homed_s = time_s;
+  summary_.homing = homing;
   const bool is_on = motors_are_on(out);
   const Vec force_N = wide(out.force_N);
   quality_.add(force_N, is_on);
@@ -121,6 +139,8 @@ void Summariser::add(const RunTick& tick) {
 }
 
 void Summariser::check_certificate(const record::TickOutput& out) {
+  // Without a position, nothing is queried.
+  if ((out.state & record::kStateNotHomed) != 0) return;
   if ((out.state & record::kStateReady) == 0 || !used_.is_ready || out.model_sequence == 0) return;
   const bool is_mesh = environment_.has_mesh();
   const mesh::View& mesh = environment_.mesh();
@@ -218,6 +238,7 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
         "above 50 Hz; largest turn %.1f degrees a tick%s\n",
         s.limit_ticks, s.deepest_radii(), s.chatter_N, s.worst_turn_rad * kDegrees,
         s.is_bad_contact() ? ": BAD" : "");
+  if (!homing_text(s).empty()) line("  homing         %s\n", homing_text(s).c_str());
   line("  load           %s\n", load_text(s).c_str());
   if (trace.compared)
     text += trace.difference ? "  same bits      NO: see below\n"

@@ -38,6 +38,8 @@ struct Summary {
   double fault_s = -1;             // time of the first latched fault; -1: none
   bool fault_is_scripted = false;  // the scenario causes it
   std::string fault_names;
+  uint32_t homing = 0;  // of the last tick's state: record::kStateNotHomed and above; 0: homed
+  double homed_s = -1;  // when it was homed; -1: it was not, or need not be
   // How it feels (report/contact_quality.hpp), while the motors were on.
   double tool_radius_m = 0;
   size_t limit_ticks = 0;  // at the force limit

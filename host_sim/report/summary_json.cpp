@@ -36,6 +36,8 @@ std::string json_of(const Summary& s, const RunFacts& facts) {
         .add("worst_instructions", uint64_t{s.worst_instructions})
         .add("stack_high_bytes", uint64_t{s.stack_high_bytes});
   if (facts.compared) all.add("same_bits", !facts.difference);
+  if (s.homed_s >= 0) all.add("homed_s", s.homed_s);
+  if (s.homing != 0) all.add("homing_state", uint64_t{s.homing >> 20});
   all.add("faults", uint64_t{s.faults}).add("faults_names", json_text(s.fault_names));
   if (s.fault_s >= 0) all.add("fault_s", s.fault_s).add("fault_is_scripted", s.fault_is_scripted);
   return all.add("peak_memory_bytes", uint64_t{peak_memory_bytes()}).object() + "\n";

@@ -16,6 +16,8 @@ namespace {
 constexpr uint32_t kMaxTicks = 1000000000;  // 28 h at 10 kHz; record numbers stay below 2^32
 constexpr uint32_t kSettlingTicks = 5;  // between the last initial parameter and the enable line
 constexpr double kArmLag_s = 0.012;     // of each of the arm's two lags
+constexpr double kReach_s = 1;          // of the hand, from where a linkage was homed
+constexpr double kMaxWait_s = 10;       // by which homing and reaching lengthen a run
 
 constexpr params::Index kCountsPerMetre[3] = {params::kCountsPerMetreX, params::kCountsPerMetreY,
                                               params::kCountsPerMetreZ};
@@ -250,12 +252,28 @@ struct Simulation::Loop {
         panel(scenario) {}
 
   Vec hand_N() const {
+    if (is_away()) return {};
     return hand.force_N(arm.position_m(), arm.velocity_mps(), machine.position_m(),
                         machine.velocity_mps());
   }
-  // From the tick before, at `before_s`, to this one.
-  void move(double before_s) {
-    const Vec script_m = hand.target_m(before_s);
+  bool is_away() const { return (last.state & record::kStateNotHomed) != 0; }
+  // Target of the hand, which is away until a linkage is homed. Then it brings the tip to where the
+  // script begins; meanwhile the script waits.
+  Vec script_m(uint32_t before) {
+    const double period_s = 1 / scenario.rate_Hz;
+    if (is_away()) {
+      arm = Arm(machine.position_m(), substep_s);
+      reach_from = machine.joints();
+      reach_left_s = kReach_s;
+    }
+    if (!is_away() && !(reach_left_s > 0)) return hand.target_m((before - waited) * period_s);
+    ++waited;
+    if (!is_away()) reach_left_s -= period_s;
+    return machine.on_way_to_start_m(reach_from, 1 - reach_left_s / kReach_s);
+  }
+  // From the tick `before` to the next.
+  void move(uint32_t before) {
+    const Vec script_m = this->script_m(before);
     for (uint32_t k = 0; k < substeps; ++k) {
       arm.advance(script_m);
       const Vec force_N = hand_N(), from_m = machine.position_m();
@@ -276,12 +294,16 @@ struct Simulation::Loop {
   record::TickOutput last{};
   double hand_J = 0;
   uint32_t tick = 0;
+  JointMotion reach_from;
+  double reach_left_s = 0;
+  uint32_t waited = 0, max_waited = 0;  // ticks
 };
 
 Simulation::Simulation(const Scenario& scenario, Tick controller, const Environment& environment,
                        LockStepController* remote)
     : loop_(std::make_unique<Loop>(scenario, std::move(controller), environment, remote)) {
   facts_.ticks = tick_count(scenario, loop_->hand);
+  loop_->max_waited = static_cast<uint32_t>(kMaxWait_s * scenario.rate_Hz);
   facts_.rate_Hz = scenario.rate_Hz;
   facts_.setup_ticks =
       static_cast<uint32_t>(std::min<size_t>(setup_ticks(scenario), facts_.ticks - 1));
@@ -297,7 +319,11 @@ bool Simulation::next(RunTick& tick) {
   Loop& loop = *loop_;
   if (loop.tick == facts_.ticks || facts_.difference) return false;
   const double period_s = 1 / facts_.rate_Hz, now_s = loop.tick * period_s;
-  if (loop.tick > 0) loop.move((loop.tick - 1) * period_s);
+  if (loop.tick > 0) {
+    const uint32_t waited = loop.waited;
+    loop.move(loop.tick - 1);
+    if (loop.waited <= loop.max_waited) facts_.ticks += loop.waited - waited;
+  }
   record::TickRecord& record = tick.record;
   record = {};
   record.input.tick = loop.tick++;

@@ -10,6 +10,7 @@
 
 #include "device/line_reader.hpp"
 #include "firmtouch/device/rules.hpp"
+#include "firmtouch/device/stored_homing.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -84,6 +85,22 @@ void add_keys(device::Delta& delta, Keys& to) {
   to.flag("tip", "above", "below", delta.is_tip_above);
 }
 
+void add_homing(LinkageDevice& device, Keys& to) {
+  for (const char* by : {"stops", "pose"})
+    to.words.push_back({"home", by, [&device, by] {
+                          device.is_homed = true;
+                          device.homing.by = by == std::string("stops")
+                                                 ? device::HomeBy::kStops
+                                                 : device::HomeBy::kKnownPose;
+                        }});
+  for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
+    to.number(of("home_torque", k), "N*m", 0, 1000, device.homing.torque_Nm[k], false);
+    to.number(of("home_pose", k), "rad", -100, 100, device.homing.pose_rad[k], false);
+  }
+  to.number("home_speed", "rad/s", 0, 1e4, device.homing.speed_rad_per_s, false);
+  to.number("home_margin", "rad", 0, 100, device.homing.margin_rad, false);
+}
+
 void add_masses(LinkageDevice& device, Keys& to) {
   MassModel& masses = device.masses;
   const std::vector<Link> links = links_of(device);
@@ -122,6 +139,7 @@ Keys keys_of(LinkageDevice& device) {
   to.number("gone_at", "", 0, 1, device.limits.gone_at, false);
   to.number("torque_rise", "s", 1e-4, 1, device.torque_rise_s, false);
   to.number("carried_share", "", 0, 0.9, device.carried_share, false);
+  add_homing(device, to);
   add_masses(device, to);
   return to;
 }
@@ -187,6 +205,36 @@ void check_rules(const std::string& name, const LinkageDevice& device) {
                     std::to_string(verdict.element) + ")");
 }
 
+// What is not given of homing, and words that its way does not use.
+void complete_homing(const std::string& name, LinkageDevice& device,
+                     const std::map<std::string, int>& given) {
+  constexpr float kTorqueShare = 0.3f;  // of the largest torque
+  const bool is_by_stops = device.homing.by == device::HomeBy::kStops;
+  for (const auto& [key, line] : given) {
+    const bool is_of_homing = key.rfind("home_", 0) == 0 && key != "home_margin";
+    const bool is_of_pose = key.rfind("home_pose", 0) == 0;
+    if (!device.is_homed && (is_of_homing || key == "home_margin"))
+      throw Refused(name + ":" + std::to_string(line) + ": `" + key +
+                    "` needs `home stops` or `home pose`");
+    if (is_of_homing && is_of_pose == is_by_stops)
+      throw Refused(name + ":" + std::to_string(line) + ": `" + key + "` is of `home " +
+                    (is_of_pose ? "pose`" : "stops`"));
+  }
+  if (!device.is_homed) return;
+  for (uint32_t k = 0; k < device.joints.joints && is_by_stops; ++k)
+    if (given.count("home_torque_" + std::to_string(k)) == 0)
+      device.homing.torque_Nm[k] = kTorqueShare * device.limits.max_torque_Nm[k];
+  if (!is_by_stops) device.homing.speed_rad_per_s = 0;
+  const device::HomedLinkageLayout layout = homed_layout_of(device);
+  device::StoredLinkage linkage;
+  device::StoredHoming homing;
+  const core::Verdict verdict =
+      open({reinterpret_cast<const uint8_t*>(&layout), sizeof layout}, linkage, homing);
+  if (!verdict.ok())
+    throw Refused(name + ": " + device::rule_name(verdict.rule) + " (element " +
+                  std::to_string(verdict.element) + ")");
+}
+
 // A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
 void check_cables(const std::string& name, const LinkageDevice& device) {
   constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
@@ -233,6 +281,7 @@ LinkageDevice read_device(const std::string& name, const std::string& text) {
       throw Refused(name + ": `" + key.name + "` is missing");
   fill_rods(device);
   check_rules(name, device);
+  complete_homing(name, device, given);
   check_cables(name, device);
   return device;
 }

@@ -6,6 +6,7 @@
 #include "device/refused.hpp"
 #include "firmtouch/device/delta.hpp"
 #include "firmtouch/device/five_bar.hpp"
+#include "firmtouch/device/homing.hpp"
 #include "firmtouch/device/layout.hpp"
 #include "firmtouch/device/load.hpp"
 #include "firmtouch/device/serial_arm.hpp"
@@ -48,6 +49,8 @@ struct LinkageDevice {
   float torque_rise_s = 0.002f;
   float carried_share = 0;
   MassModel masses;
+  bool is_homed = false;  // its encoders count from where they are switched on
+  device::HomingSettings homing;
 };
 
 /// Reads a device file: a statement a line, `KEY VALUE UNIT`; # begins a comment.
@@ -59,6 +62,9 @@ struct LinkageDevice {
 ///     low_0 60 deg
 ///     high_0 150 deg
 ///     max_torque_0 0.3 N*m
+///     home stops                      optional, or `home pose`: also home_torque_0 (default: 0.3
+///     of
+///                                     max_torque_0), home_speed, home_margin, home_pose_0
 ///     proximal_mass_0 20 g            optional, of each link: also proximal_centre_0 (default: the
 ///                                     middle), proximal_inertia_0 (default: of an even rod)
 /// `name` stands before the line in messages.
@@ -83,5 +89,7 @@ device::Load load_of(const LinkageDevice& device);
 
 /// The section that the firmware reads.
 device::LinkageLayout layout_of(const LinkageDevice& device);
+/// The same with its homing. Pre: device.is_homed.
+device::HomedLinkageLayout homed_layout_of(const LinkageDevice& device);
 
 }  // namespace firmtouch::tools

@@ -102,4 +102,14 @@ device::LinkageLayout layout_of(const LinkageDevice& device) {
   return to;
 }
 
+device::HomedLinkageLayout homed_layout_of(const LinkageDevice& device) {
+  device::HomedLinkageLayout to = {layout_of(device), {}};
+  to.homing.by = static_cast<uint32_t>(device.homing.by);
+  to.homing.speed_rad_per_s = device.homing.speed_rad_per_s;
+  to.homing.margin_rad = device.homing.margin_rad;
+  put(to.homing.torque_Nm, device.homing.torque_Nm, 0, device.joints.joints);
+  put(to.homing.pose_rad, device.homing.pose_rad, 0, device.joints.joints);
+  return to;
+}
+
 }  // namespace firmtouch::tools

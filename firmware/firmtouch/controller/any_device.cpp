@@ -16,12 +16,9 @@ float at_most(float value, float most) { return value < most ? value : most; }
 
 }  // namespace
 
-core::Verdict AnyDevice::open_section() {
-  const core::Verdict verdict = device::open(section_, linkage_);
-  if (!verdict.ok()) return verdict;
+void AnyDevice::take_ceilings() {
   const device::LinkageLayout& layout = linkage_.layout();
   servo::set_ceilings(ceilings_, layout.max_torque_Nm, layout.torque_rise_s);
-  return verdict;
 }
 
 void AnyDevice::reset() {
@@ -122,6 +119,20 @@ void AnyDevice::allow_rise(const device::JointTorques& wanted, float tick_s,
   }
 }
 
+bool AnyDevice::drive(const Values& values, const Push& push, const device::JointTorques& wanted,
+                      servo::GuardState& guard, record::TickOutput& output) {
+  float most_Nm[kMaxJoints];
+  allow_rise(wanted, values[params::kTickPeriod], most_Nm);
+  device::JointTorques rendered = limited(wanted, most_Nm);
+  if (push.cut) rendered = {};
+  const bool passed =
+      servo::guard_torques(guard, ceilings_, push.may_push, push.cut, rendered.torque_Nm);
+  rendered_.share = passed ? rendered.share : 0.0f;
+  for (uint32_t k = 0; k < kMaxJoints; ++k)
+    output.motor_N[k] = before_Nm_[k] = rendered.torque_Nm[k];
+  return passed;
+}
+
 bool AnyDevice::push(const Values& values, const Push& push, servo::GuardState& guard,
                      record::TickOutput& output) {
   if (!linkage_.is_open()) return cartesian_.push(values, push, guard, output);
@@ -131,17 +142,8 @@ bool AnyDevice::push(const Values& values, const Push& push, servo::GuardState& 
   for (uint32_t k = 0; k < kMaxJoints; ++k) limits.max_torque_Nm[k] -= size(carrying_Nm[k]);
   device::JointTorques wanted = torques(pose_, limits, push.force_N);
   for (uint32_t k = 0; k < kMaxJoints; ++k) wanted.torque_Nm[k] += carrying_Nm[k];
-  float most_Nm[kMaxJoints];
-  allow_rise(wanted, values[params::kTickPeriod], most_Nm);
-  device::JointTorques rendered = limited(wanted, most_Nm);
-  if (push.cut) rendered = {};
-  const bool passed =
-      servo::guard_torques(guard, ceilings_, push.may_push, push.cut, rendered.torque_Nm);
-  const float share = passed ? rendered.share : 0.0f;
-  rendered_.share = share;
-  const Vec3 force_N = push.force_N * share;
-  for (uint32_t k = 0; k < kMaxJoints; ++k)
-    output.motor_N[k] = before_Nm_[k] = rendered.torque_Nm[k];
+  const bool passed = drive(values, push, wanted, guard, output);
+  const Vec3 force_N = push.force_N * rendered_.share;
   output.force_N[0] = force_N.x;
   output.force_N[1] = force_N.y;
   output.force_N[2] = force_N.z;

@@ -24,7 +24,9 @@ class AnyDevice : public DevicePolicy {
   }
   template <class Trust>
   asset::Progress work(State&, uint32_t) {
-    return {true, open_section()};
+    const core::Verdict verdict = device::open(section_, linkage_);
+    if (verdict.ok()) take_ceilings();
+    return {true, verdict};
   }
 
   void reset();
@@ -46,15 +48,22 @@ class AnyDevice : public DevicePolicy {
 
   const device::StoredLinkage& linkage() const { return linkage_; }
 
+ protected:
+  /// Of a linkage that was opened: the guard gets its ceilings.
+  void take_ceilings();
+  /// The motors take the torques as far as rise, ceilings and guard allow.
+  bool drive(const params::Values& values, const Push& push, const device::JointTorques& wanted,
+             servo::GuardState& guard, record::TickOutput& output);
+
+  core::Bytes section_;
+  device::StoredLinkage linkage_;
+
  private:
-  core::Verdict open_section();
   void carry(const params::Values& values, bool is_on, float (&torque_Nm)[device::kMaxJoints]);
   void allow_rise(const device::JointTorques& wanted, float tick_s,
                   float (&most_Nm)[device::kMaxJoints]) const;
 
   CartesianDevice cartesian_;
-  core::Bytes section_;
-  device::StoredLinkage linkage_;
   servo::TorqueCeilings ceilings_;  // the guard's own copy
   device::JointState joints_;
   device::Pose pose_ = {};

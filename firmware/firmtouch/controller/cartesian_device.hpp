@@ -27,6 +27,9 @@ struct Rendered {
 struct DevicePolicy {
   /// False: the device has a `Rendered rendered() const`, valid after read().
   static constexpr bool kRendersAll = true;
+  /// True: the device has a `bool is_homed() const` and a `bool has_failed() const`, valid after
+  /// read(). Until it is homed no force is rendered, and may_push lets it home itself.
+  static constexpr bool kHomes = false;
 };
 
 /// How the parameters estimate velocity.

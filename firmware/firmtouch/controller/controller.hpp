@@ -101,9 +101,14 @@ class Controller {
       output.state ^= record::kStateCommandRefused | record::kStateCommandTaken;
     core_.locate(device.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
     if constexpr (!Device::kRendersAll) core_.count_rendered(device.rendered());
+    bool homes = false;
+    if constexpr (Device::kHomes) {
+      if (!device.is_homed()) homes = core_.hold(tick, device.has_failed());
+    }
     ModelResult* result = core_.result_of_tick(tick, input.flags);
     if (result != nullptr) make_local_model(tick.request, core_.values(), *result);
-    const Push push = core_.step(tick, input.flags, output);
+    Push push = core_.step(tick, input.flags, output);
+    if constexpr (Device::kHomes) push.may_push |= homes && core_.has_no_fault();
     const bool passed = device.push(core_.values(), push, core_.guard(), output);
     core_.end_tick(asset, tick, passed, output);
   }

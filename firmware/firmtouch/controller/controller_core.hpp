@@ -8,6 +8,7 @@
 #include "firmtouch/params/rows.hpp"
 #include "firmtouch/record/tick.hpp"
 #include "firmtouch/servo/clock_watch.hpp"
+#include "firmtouch/servo/fault.hpp"
 #include "firmtouch/servo/step.hpp"
 
 namespace firmtouch {
@@ -48,6 +49,15 @@ class ControllerCore {
                   record::TickOutput& output);
   /// What the device reads of tick.sample.
   static void locate(const device::Reading& tool, Tick& tick);
+  /// The servo stays off: the device is not homed, or its homing failed.
+  /// Result: whether the motors may home it, if there is no fault.
+  static bool hold(Tick& tick, bool has_failed) {
+    const bool enable = tick.step.enable;
+    tick.step.enable = false;
+    if (has_failed) tick.step.reported |= servo::kFaultHoming;
+    return enable;
+  }
+  bool has_no_fault() const { return live_.servo.faults == 0; }
   /// Corrects the energy that the observer is about to count.
   void count_rendered(const Rendered& last);
   /// Result: the result to make of tick.request now; null at two rates.

@@ -1,7 +1,7 @@
 #pragma once
-#include "firmtouch/controller/any_device.hpp"
 #include "firmtouch/controller/controller.hpp"
 #include "firmtouch/controller/curve_guide.hpp"
+#include "firmtouch/controller/homed_device.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
 #include "firmtouch/controller/spline_guide.hpp"
 #include "firmtouch/controller/spline_surface.hpp"
@@ -9,16 +9,16 @@
 
 namespace firmtouch {
 
-template <template <class> class ScenesOf>
+template <template <class> class ScenesOf, class Device = HomedDevice>
 using EveryPart = Controller<Surfaces<FullMesh, SplineSurface>, Guides<CurveGuide, SplineGuide>,
-                             AnyDevice, asset::Proven, ScenesOf>;
+                             Device, asset::Proven, ScenesOf>;
 
 /// With room for the next asset (Controller::begin_next()).
 using SwappingController = EveryPart<TwoScenes>;
 
 /// Every part of the library: a mesh with its distance field and base hull, else spline surfaces; a
-/// sampled curve, else spline curves; a linkage, else three axes. What the simulator runs, and
-/// FIRMTOUCH_APP=all.
+/// sampled curve, else spline curves; a linkage, homed where the asset says how, else three axes.
+/// What the simulator runs, and FIRMTOUCH_APP="all;homing".
 class FullController : public EveryPart<OneScene> {
  public:
   const mesh::View& mesh() const { return surface<FullMesh>().mesh(); }

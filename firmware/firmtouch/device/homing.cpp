@@ -10,6 +10,8 @@ constexpr float kMinPhase_s = 0.02f;  // before a joint that stands counts as ar
 constexpr float kStill_s = 0.04f;
 constexpr float kMaxPhase_s = 0.6f;     // a wrong axis may never stand; its travel names it
 constexpr float kMaxExcess = 0.5f;      // of the range: how far soft stops give way
+constexpr float kInside = 0.0625f;      // of the range: how far from the high stops it ends
+constexpr float kLeavingSpeed = 0.25f;  // of the speed, so that nothing coasts to the other stop
 constexpr float kStillShare = 0.0625f;  // of the margin: within it a joint stands
 constexpr int32_t kDeadCounts = 2;
 constexpr uint32_t kMaxBad = 3;
@@ -166,9 +168,35 @@ HomingFault fault_of_travels(HomingState& state, const HomingSettings& settings,
 
 void end_phase(HomingState& state, const HomingSettings& settings, const JointSettings& joints) {
   state.fault = fault_of_travels(state, settings, joints);
-  state.is_done = state.fault == HomingFault::kNone && state.phase == joints.joints;
   ++state.phase;
   begin_phase(state);
+}
+
+bool is_leaving(const HomingState& state, const JointSettings& joints) {
+  return state.phase > joints.joints;
+}
+
+// Of a joint whose offset is known.
+bool is_inside(const HomingState& state, const JointSetting& joint, uint32_t k) {
+  const int32_t counts = static_cast<int32_t>(static_cast<uint32_t>(state.counts[k]) +
+                                              static_cast<uint32_t>(state.offset[k]));
+  const float angle_rad = joint.zero_rad + static_cast<float>(counts) / joint.counts_per_rad;
+  return angle_rad <= joint.high_rad - kInside * range_of(joint);
+}
+
+// Never against the way: a brake on the rate of a wrong axis would drive it.
+HomingTorques drive(const HomingState& state, const HomingSettings& settings,
+                    const JointSettings& joints) {
+  HomingTorques out = {};
+  const bool leaves = is_leaving(state, joints);
+  const float speed_rad_per_s = settings.speed_rad_per_s * (leaves ? kLeavingSpeed : 1.0f);
+  for (uint32_t k = 0; k < joints.joints; ++k) {
+    const float way = k < state.phase && !leaves ? 1.0f : -1.0f;
+    if (leaves && is_inside(state, joints.joint[k], k)) continue;
+    const float share = 1.0f - way * state.rate_rad_per_s[k] / speed_rad_per_s;
+    out.torque_Nm[k] = way * settings.torque_Nm[k] * clamp(share, 0.0f, 1.0f);
+  }
+  return out;
 }
 
 }  // namespace
@@ -191,7 +219,7 @@ HomingTorques home(HomingState& state, const HomingSettings& settings, const Joi
   if (state.is_done || state.fault != HomingFault::kNone) return {};
   const float dt_s = clamp(sample.encoders.dt_s, kMinStep_s, kMaxStep_s);
   state.total_s += dt_s;
-  const uint32_t driven = state.phase > 0 ? state.phase - 1 : 0;
+  const uint32_t driven = state.phase > 0 && !is_leaving(state, joints) ? state.phase - 1 : 0;
   if (state.total_s > kMaxHoming_s) return fail(state, HomingFault::kTooLong, driven);
   const bool is_good = state.is_started
                            ? take(state, joints, sample.encoders, settings.margin_rad, dt_s)
@@ -207,19 +235,18 @@ HomingTorques home(HomingState& state, const HomingSettings& settings, const Joi
       return fail(state, HomingFault::kNoStop, k);
     if (size(travel) > size(state.far_rad[k])) state.far_rad[k] = travel;
   }
-  if (state.phase > 0 && !take_pulse(state, settings, joints, sample, driven))
-    return fail(state, HomingFault::kWrongIndex, driven);
-  const bool is_still = state.phase_s >= kMinPhase_s && state.still_s >= kStill_s;
-  if (is_still || state.phase_s > kMaxPhase_s) end_phase(state, settings, joints);
-  if (state.is_done || state.fault != HomingFault::kNone) return {};
-  HomingTorques out = {};
-  for (uint32_t k = 0; k < joints.joints; ++k) {
-    // Never against the way: a brake on the rate of a wrong axis would drive it.
-    const float way = k < state.phase ? 1.0f : -1.0f;
-    const float share = 1.0f - way * state.rate_rad_per_s[k] / settings.speed_rad_per_s;
-    out.torque_Nm[k] = way * settings.torque_Nm[k] * clamp(share, 0.0f, 1.0f);
+  if (is_leaving(state, joints)) {
+    state.is_done = true;
+    for (uint32_t k = 0; k < joints.joints; ++k)
+      state.is_done &= is_inside(state, joints.joint[k], k);
+  } else {
+    if (state.phase > 0 && !take_pulse(state, settings, joints, sample, driven))
+      return fail(state, HomingFault::kWrongIndex, driven);
+    const bool is_still = state.phase_s >= kMinPhase_s && state.still_s >= kStill_s;
+    if (is_still || state.phase_s > kMaxPhase_s) end_phase(state, settings, joints);
   }
-  return out;
+  if (state.is_done || state.fault != HomingFault::kNone) return {};
+  return drive(state, settings, joints);
 }
 
 const char* fault_name(HomingFault fault) {

@@ -53,7 +53,8 @@ struct HomingState {
   uint32_t joint = 0, other = 0;  // of the fault
   int32_t offset[kMaxJoints] = {};
 
-  uint32_t phase = 0;  // 0: all joints go to their low stops; k + 1: joint k goes to its high stop
+  // 0: all joints go to their low stops; k + 1: joint k goes to its high stop; then all leave it.
+  uint32_t phase = 0;
   float total_s = 0, phase_s = 0, still_s = 0;
   uint32_t bad_in_a_row = 0;
   float rate_rad_per_s[kMaxJoints] = {};
@@ -75,8 +76,9 @@ bool check_homing(const HomingSettings& settings, const JointSettings& joints);
 /// One tick. Until `is_done` the motors take these torques and nothing else; then counts + offset
 /// are those of `joints`, of which the controller's first tick takes the first.
 /// All joints are driven to their low stops, then one after the other to its high stop, so that the
-/// first touch of a high stop names a reversed, swapped or dead axis. A driven joint has the
-/// torque x (1 - rate / speed), from 0 to the torque: never above it, and never against its way.
+/// first touch of a high stop names a reversed, swapped or dead axis. In the end all leave it, so
+/// that they stand within their ranges. A driven joint has the torque x (1 - rate / speed), from 0
+/// to the torque: never above it, and never against its way.
 /// Pre: check(joints) passed. Bounds: constant; re-entrant. Result: finite; `fault` or `is_done`
 /// within kMaxHoming_s of samples.
 /// Error: by index within a count where range x counts_per_rad < 2^23; by stops the asymmetry of

@@ -35,6 +35,21 @@ struct LinkageLayout {
   float gravity_mps2[3];     // linkage's frame
   float carried_share;       // of the torque limits: the most that carries weight; 0: none does
 };
+/// How the joints are homed, behind the linkage in the same section, so that a program without part
+/// `homing` rejects it (R712). Words that a way of homing does not use are 0.
+struct HomingLayout {
+  uint32_t by;            // HomeBy: kKnownPose or kStops
+  float torque_Nm[3];     // by stops: the most that is applied
+  float speed_rad_per_s;  // by stops
+  float margin_rad;       // by which the travel between the stops may miss the range
+  float pose_rad[3];      // by a known pose: where the joints stand
+};
 static_assert(sizeof(LinkageLayout) == 160 && offsetof(LinkageLayout, max_torque_Nm) == 100);
+
+struct HomedLinkageLayout {
+  LinkageLayout linkage;
+  HomingLayout homing;
+};
+static_assert(sizeof(HomedLinkageLayout) == 196);
 
 }  // namespace firmtouch::device

@@ -25,9 +25,10 @@ const char* rule_name(uint16_t rule) {
       "kind of linkage and its joints",
       "words that this kind does not use: 0",
       "torque rise: 0.0001 to 1 s",
-      "load: masses of 0 to 100 kg, gravity within 100 m/s2, share 0 to 0.9"};
+      "load: masses of 0 to 100 kg, gravity within 100 m/s2, share 0 to 0.9",
+      "homing: by stops or pose; torques, speed, margin, pose"};
   constexpr uint32_t kCount = sizeof kNames / sizeof kNames[0];
-  static_assert(kRuleJointCount + kCount == kRuleLoad + 1);
+  static_assert(kRuleJointCount + kCount == kRuleHoming + 1);
   const uint32_t number = uint32_t{rule} - kRuleJointCount;
   return number < kCount ? kNames[number] : "unknown rule";
 }

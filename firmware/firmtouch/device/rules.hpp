@@ -28,7 +28,7 @@ enum Rule : uint16_t {
   kRuleMaxTorque = 710,
   // The fade is not 0.001 <= gone_at < full_from <= 1.
   kRuleFade = 711,
-  // The section is not as long as a linkage.
+  // The section is not as long as a linkage, or, with part `homing`, as one and its homing.
   kRuleLinkageSize = 712,
   // There is no such kind of linkage, or not with so many joints.
   kRuleKind = 713,
@@ -39,6 +39,9 @@ enum Rule : uint16_t {
   // A mass is not 0 to 100 kg, gravity is not within 100 m/s2, or the share of the torque limits
   // that carries weight is not 0 to 0.9.
   kRuleLoad = 716,
+  // Homing is neither by stops nor by a known pose, or a torque, the speed, the margin or a pose is
+  // out of range, or a word that is not used is not 0.
+  kRuleHoming = 717,
 };
 
 /// What a rule demands, with range and unit, for a message.

@@ -47,6 +47,8 @@ extern constexpr Bit kBits[kBitCount] = {
     {"output.state", "base hull", 15},
     {"output.state", "proxy", 18},
     {"output.state", "contact uncertain", 19},
+    {"output.state", "not homed", 20},
+    {"output.state", "homing", 21},
 };
 
 namespace {
@@ -61,7 +63,7 @@ static_assert(words_of_fields() * 4 == sizeof(Numbered<TickRecord>),
 static_assert(kFlagEncoderFault == 1u << 3 && kFlagModelWanted == 1u << 6 &&
                   kStateContact == 1u << 8 && kStateGuideExact == 1u << 14 &&
                   kStateOfBaseHull == 1u << 15 && kStateProxy == 1u << 18 &&
-                  kStateUncertain == 1u << 19,
+                  kStateUncertain == 1u << 19 && kStateHoming == 1u << 21,
               "the bits are those of tick.hpp");
 
 }  // namespace

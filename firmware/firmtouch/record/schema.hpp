@@ -29,7 +29,7 @@ struct Bit {
 };
 
 constexpr uint32_t kFieldCount = 24;
-constexpr uint32_t kBitCount = 17;
+constexpr uint32_t kBitCount = 19;
 
 /// The fields of Numbered<TickRecord> in their order, without gaps (schema.cpp asserts it).
 extern const Field kFields[kFieldCount];

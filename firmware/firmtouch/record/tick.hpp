@@ -42,6 +42,11 @@ constexpr uint32_t kStateSignShift = 16;
 // Contact is through a proxy; distance and its bound are the proxy's. 0: penalty contact.
 constexpr uint32_t kStateProxy = 1u << 18;
 constexpr uint32_t kStateUncertain = 1u << 19;  // the visits did not certify the proxy
+// The linkage is not homed (controller/homed_device.hpp): no force is rendered. While kStateHoming
+// the motors home it. What failed: four bits device::HomingFault, two its joint, two the other one.
+constexpr uint32_t kStateNotHomed = 1u << 20;
+constexpr uint32_t kStateHoming = 1u << 21;
+constexpr uint32_t kStateHomingFaultShift = 22;
 
 /// Everything that a tick depends on, except the controller's state.
 struct TickInput {
@@ -79,10 +84,12 @@ struct TickOutput {
 };
 static_assert(sizeof(TickOutput) == 104);
 
-/// Whether the power stage may be on: the servo pushes, or its force still falls to zero.
+/// Whether the power stage may be on: the servo pushes, its force still falls to zero, or the
+/// motors home the linkage.
 constexpr bool may_push(const TickOutput& output) {
   const uint32_t mode = output.state & kStateServoMask;
-  return mode == 1 || mode == 2 || mode == 3;  // of servo::Mode; controller_core.cpp checks it
+  return mode == 1 || mode == 2 || mode == 3 ||  // of servo::Mode; controller_core.cpp checks it
+         (output.state & kStateHoming) != 0;
 }
 
 struct TickRecord {

@@ -29,7 +29,9 @@ constexpr uint32_t kFaultContact = 1u << 14;
 constexpr uint32_t kFaultEnergy = 1u << 15;
 // Objects that move left the proxy less than 0.9 of its radius (scene/objects.hpp).
 constexpr uint32_t kFaultSqueezed = 1u << 16;
-constexpr uint32_t kFaultCount = 17;
+// The linkage was not homed; the record says what failed (record/tick.hpp).
+constexpr uint32_t kFaultHoming = 1u << 17;
+constexpr uint32_t kFaultCount = 18;
 
 // These cut the force in the same tick. The others ramp it down over kRampOut_s, because a sudden
 // loss of support hits the hand; force_limit_N holds meanwhile.
@@ -45,9 +47,9 @@ constexpr uint32_t kOnlyWhileOn = kFaultStaleModel | kFaultDeadline | kFaultCloc
 /// Result: "unknown" beyond the last.
 constexpr const char* fault_name(uint32_t number) {
   constexpr const char* kName[kFaultCount] = {
-      "not finite", "model",    "stale model",       "deadline", "clock",   "encoder",
-      "workspace",  "drive",    "emergency stop",    "asset",    "probes",  "settings",
-      "guard",      "overload", "contact uncertain", "energy",   "squeezed"};
+      "not finite", "model",    "stale model",       "deadline", "clock",    "encoder",
+      "workspace",  "drive",    "emergency stop",    "asset",    "probes",   "settings",
+      "guard",      "overload", "contact uncertain", "energy",   "squeezed", "homing"};
   return number < kFaultCount ? kName[number] : "unknown";
 }
 
@@ -56,23 +58,24 @@ constexpr const char* fault_name(uint32_t number) {
 /// Result: empty beyond the last.
 constexpr const char* fault_text(uint32_t number) {
   constexpr const char* kText[kFaultCount] = {
-      "a position, velocity or force was not finite",
-      "a local model was out of range",
+      "position, velocity or force not finite",
+      "local model out of range",
       "no local model came in time (model_age)",
       "ticks came late (late_ratio, tick_period_s)",
-      "the clock jumped or stood still (tick_period_s)",
-      "an encoder was lost, or beyond max_speed_mps",
-      "the tool left workspace_half_x_m, _y_m, _z_m",
-      "the motor driver reported a fault",
+      "clock jumped or stood still (tick_period_s)",
+      "encoder lost, or beyond max_speed_mps",
+      "tool left workspace_half_x_m, _y_m, _z_m",
+      "the drive reported a fault",
       "emergency stop pressed",
-      "enabled with a refused asset: bake it again",
-      "this processor's probe answers have other bits",
-      "a servo setting is out of range",
+      "refused asset: bake it again",
+      "probe answers have other bits here",
+      "servo setting out of range",
       "the guard stopped a force (force_limit_N, slew_limit_N_per_s)",
       "ticks over 0.9 of tick_period_s: lower the budgets",
-      "contact uncertain: raise tick_work, bake a hull, start outside",
-      "contact gave energy: lower contact_stiffness (energy_reservoir_J)",
-      "objects squeezed the tool: keep them apart"};
+      "raise tick_work, bake a hull, start outside",
+      "gave energy: lower contact_stiffness (energy_reservoir_J)",
+      "objects squeezed the tool: keep them apart",
+      "not homed: free the joints, clear, enable"};
   return number < kFaultCount ? kText[number] : "";
 }
 

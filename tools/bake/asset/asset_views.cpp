@@ -6,7 +6,7 @@
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/loader.hpp"
-#include "firmtouch/device/stored_linkage.hpp"
+#include "firmtouch/device/stored_homing.hpp"
 #include "firmtouch/field/loader.hpp"
 #include "firmtouch/hull/loader.hpp"
 #include "firmtouch/hull/probes.hpp"
@@ -57,8 +57,9 @@ std::string prove_curve(const asset::Container& container, const std::string& na
 
 std::string prove_linkage(const asset::Container& container, const std::string& name) {
   device::StoredLinkage linkage;
+  device::StoredHoming homing;
   const core::Verdict verdict =
-      device::open(container.find(device::kLinkageSection, name.c_str()), linkage);
+      device::open(container.find(device::kLinkageSection, name.c_str()), linkage, homing);
   return verdict.ok() ? "" : broken("linkage", name, verdict);
 }
 
