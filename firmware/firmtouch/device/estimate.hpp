@@ -1,5 +1,6 @@
 #pragma once
 #include "firmtouch/device/velocity.hpp"
+#include "firmtouch/math/isa.hpp"
 
 // The estimators of velocity.hpp, inline. For .cpp files of this module alone.
 namespace firmtouch::device {
@@ -23,15 +24,18 @@ constexpr float kForget_s = 0.004f;
 // Shorter times between corrections count as this: at 10 kHz a count a tick is 300 mm/s.
 constexpr float kMinSince_s = 0.7e-3f;
 
-static inline void track(VelocityState& state, float counts_per_unit, float step, float dt_s) {
+// What is left of a lead after dt_s.
+static inline float kept_lead(float dt_s) { return kForget_s / (kForget_s + dt_s); }
+
+static inline void track(VelocityState& state, float counts_per_unit, float step, float dt_s,
+                         float kept) {
   state.since_s = state.since_s + dt_s;
-  state.lead_counts_per_s = state.lead_counts_per_s * (kForget_s / (kForget_s + dt_s));
+  state.lead_counts_per_s = state.lead_counts_per_s * kept;
   const float end = state.within + (state.counts_per_s * dt_s - step);
-  state.within = end > 0.0f ? (end < 1.0f ? end : 1.0f) : 0.0f;
+  state.within = math::smaller(math::larger(end, 0.0f), 1.0f);
   const float miss = state.within - end;
   if (miss < 0.0f || miss > 0.0f) {
-    const float correction =
-        kShare * miss / (state.since_s > kMinSince_s ? state.since_s : kMinSince_s);
+    const float correction = kShare * miss / math::larger(state.since_s, kMinSince_s);
     state.counts_per_s = state.counts_per_s + correction;
     state.lead_counts_per_s = state.lead_counts_per_s + kLeadShare * correction;
     state.since_s = 0.0f;
@@ -40,9 +44,9 @@ static inline void track(VelocityState& state, float counts_per_unit, float step
 }
 
 static inline float estimate_inline(VelocityState& state, const VelocitySettings& settings,
-                                    float counts_per_unit, float step, float dt_s) {
+                                    float counts_per_unit, float step, float dt_s, float kept) {
   if (settings.estimator == Estimator::kTracking) {
-    track(state, counts_per_unit, step, dt_s);
+    track(state, counts_per_unit, step, dt_s, kept);
   } else {
     const float quotient = step / (counts_per_unit * dt_s);
     if (settings.estimator == Estimator::kLowPass) {

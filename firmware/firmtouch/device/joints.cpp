@@ -27,8 +27,7 @@ bool is_plausible(const JointState& state, const JointSettings& settings, const 
   for (uint32_t k = 0; k < settings.joints; ++k) {
     const float most = most_rad * size(settings.joint[k].counts_per_rad) + 1.0f;
     step[k] = static_cast<float>(difference(sample.counts[k], state.joint[k].counts));
-    const float spare = most - size(step[k]);
-    least_spare = spare < least_spare ? spare : least_spare;
+    least_spare = math::smaller(most - size(step[k]), least_spare);
   }
   return least_spare >= 0.0f;
 }
@@ -40,11 +39,12 @@ void set_angle(JointState::Joint& joint, const JointSetting& setting, int32_t co
 
 void accept(JointState& state, const JointSettings& settings, const Sample& sample,
             const float (&step)[kMaxJoints]) {
+  const float kept = kept_lead(state.since_accepted_s);
   for (uint32_t k = 0; k < settings.joints; ++k) {
     JointState::Joint& joint = state.joint[k];
     set_angle(joint, settings.joint[k], sample.counts[k]);
     (void)estimate_inline(joint.velocity, settings.velocity, settings.joint[k].counts_per_rad,
-                          step[k], state.since_accepted_s);
+                          step[k], state.since_accepted_s, kept);
   }
   state.since_accepted_s = 0;
   state.bad_in_a_row = 0;
@@ -134,8 +134,7 @@ Joints read_joints(JointState& state, const JointSettings& settings, const Sampl
     joints.rate_rad_per_s[k] = joint.velocity.units_per_s;
     const float above_rad = joint.angle_rad - setting.low_rad;
     const float below_rad = setting.high_rad - joint.angle_rad;
-    margin_rad = above_rad < margin_rad ? above_rad : margin_rad;
-    margin_rad = below_rad < margin_rad ? below_rad : margin_rad;
+    margin_rad = math::smaller(math::smaller(above_rad, below_rad), margin_rad);
   }
   joints.margin_rad = margin_rad;
   if (margin_rad < 0.0f) clamp_to_range(state, settings, joints);

@@ -2,6 +2,7 @@
 
 #include "firmtouch/device/jacobian.hpp"
 #include "firmtouch/device/rules.hpp"
+#include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::device {
@@ -15,15 +16,13 @@ constexpr float kMinGone = 1e-3f;
 // 1 less 4 u: against the roundings of torque / limit, its inverse and the product.
 constexpr float kBelowOne = 1.0f - 0x1p-22f;
 
-float larger(float a, float b) { return a > b ? a : b; }
-
 // Inline: called, it takes torques() 22 instructions.
 inline JointTorques scaled(float first_Nm, float second_Nm, float third_Nm, float share,
                            const float (&most_Nm)[kMaxJoints]) {
   // The largest torque in units of its limit.
-  float excess = larger(1.0f, __builtin_fabsf(first_Nm) / most_Nm[0]);
-  excess = larger(excess, __builtin_fabsf(second_Nm) / most_Nm[1]);
-  excess = larger(excess, __builtin_fabsf(third_Nm) / most_Nm[2]);
+  float excess = math::larger(__builtin_fabsf(first_Nm) / most_Nm[0], 1.0f);
+  excess = math::larger(__builtin_fabsf(second_Nm) / most_Nm[1], excess);
+  excess = math::larger(__builtin_fabsf(third_Nm) / most_Nm[2], excess);
   if (!(excess > 1.0f)) return {{first_Nm, second_Nm, third_Nm}, share};
   const float scale = kBelowOne / excess;
   return {{first_Nm * scale, second_Nm * scale, third_Nm * scale}, share * scale};

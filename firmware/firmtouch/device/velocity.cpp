@@ -6,7 +6,7 @@ namespace firmtouch::device {
 
 float estimate(VelocityState& state, const VelocitySettings& settings, float counts_per_unit,
                float step, float dt_s) {
-  return estimate_inline(state, settings, counts_per_unit, step, dt_s);
+  return estimate_inline(state, settings, counts_per_unit, step, dt_s, kept_lead(dt_s));
 }
 
 void stop(VelocityState& state) {
