@@ -55,13 +55,14 @@ struct Knock {
   double share[kSize];
 };
 
-RigRun knock(const Rig& rig, const Knock& by, Lines settings) {
+RigRun knock(const Rig& rig, const Knock& by, double stiffest_N_per_m, Lines settings) {
   const double* share = by.share;
   const Vec up_m{0.0123, 0.0071, rig.radius_m + in_range(share[0], 1e-4, 0.02)},
       down_m{0.0123, 0.0071, rig.radius_m - in_range(share[1], 1e-4, 0.02)};
   const double speed_mps = in_range(share[2], 0.02, 2);
   add_hand(share[3], share[4], settings);
-  settings.emplace_back("contact_stiffness", with_unit(in_range(share[5], 500, 20000), "N/m"));
+  settings.emplace_back("contact_stiffness",
+                        with_unit(in_range(share[5], 500, stiffest_N_per_m), "N/m"));
   settings.emplace_back("contact_damping", with_unit(in_range(share[6], 0.01, 10), "N*s/m"));
   std::vector<std::string> script = {Rig::hold_s(0.3)};
   for (int i = 0; i < 10; ++i) {
@@ -120,13 +121,15 @@ HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint
   return all;
 }
 
-HandsGain worst_hand(const std::string& machine, uint32_t starts, uint32_t tries,
-                     const Lines& settings) {
+HandsGain worst_hand(const std::string& machine, double stiffest_N_per_m, uint32_t starts,
+                     uint32_t tries, const Lines& settings) {
   HandsGain all;
   tools::Random random(1);
   for (uint32_t start = 0; start < starts; ++start) {
     const Rig rig(machine.empty() ? 0 : start + 1, machine);
-    const auto gain_of = [&](const Knock& by) { return add(knock(rig, by, settings), all); };
+    const auto gain_of = [&](const Knock& by) {
+      return add(knock(rig, by, stiffest_N_per_m, settings), all);
+    };
     Knock best{};
     for (double& share : best.share) share = random.uniform();
     double best_J = gain_of(best);

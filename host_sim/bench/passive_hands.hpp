@@ -29,7 +29,7 @@ HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint
 
 /// Hands that knock on a plate, changed from random ones to the one that gains most: its aim, speed
 /// and impedance, the contact's stiffness and damping. On a linkage every start has its own pose.
-HandsGain worst_hand(const std::string& machine, uint32_t starts, uint32_t tries,
-                     const Lines& settings);
+HandsGain worst_hand(const std::string& machine, double stiffest_N_per_m, uint32_t starts,
+                     uint32_t tries, const Lines& settings);
 
 }  // namespace firmtouch::host_sim

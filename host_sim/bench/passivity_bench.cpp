@@ -83,7 +83,8 @@ void run_passivity_bench(const bench::Options& options, bench::Report& report) {
           random_hands("", stiffest_N_per_m, options.is_long ? 800 : 40, reservoir(is_limited)),
           is_limited, report);
     add("worst hand found by hill climbing: energy given", "to 20000 N/m",
-        worst_hand("", options.is_long ? 40 : 8, 25, reservoir(is_limited)), is_limited, report);
+        worst_hand("", 20000, options.is_long ? 40 : 8, 25, reservoir(is_limited)), is_limited,
+        report);
   }
 }
 

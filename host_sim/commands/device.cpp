@@ -73,8 +73,11 @@ void print_space(const Workspace& space, uint32_t joints) {
   if (space.with_whole_force > 0)
     std::printf(
         "force in every direction, with whole force %.3g N\n"
-        "longest motion of the tip by a count       %.3g um\n",
-        space.least_force_N, space.count_m * 1e6);
+        "longest motion of the tip by a count       %.3g um\n"
+        "least mass of the tip                      %.3g g\n"
+        "stiffest wall with bounded energy, 1 kHz   %.0f N/m\n",
+        space.least_force_N, space.count_m * 1e6, space.least_mass_kg * 1e3,
+        stiffest_wall_N_per_m(space, 1e-3));
   std::printf("least reciprocal condition                 %.4f at", space.worst_condition);
   for (uint32_t k = 0; k < joints; ++k) std::printf(" %.1f", space.worst_at_rad[k] * kDegrees);
   std::printf(" deg\n%s\n", is_free_of_singularities(space)
@@ -99,6 +102,8 @@ std::string json_of(const Workspace& space, const FirmwareCheck& check,
   all.add("with_faded_force", uint64_t{space.with_faded_force});
   all.add("low_m", point(space.low_m)).add("high_m", point(space.high_m));
   all.add("least_force_N", space.least_force_N).add("count_m", space.count_m);
+  all.add("least_mass_kg", space.least_mass_kg);
+  all.add("stiffest_wall_N_per_m", stiffest_wall_N_per_m(space, 1e-3));
   all.add("least_condition", space.worst_condition);
   all.add("has_singularity", !is_free_of_singularities(space));
   all.add("checked_poses", uint64_t{check.poses}).add("inverse_error_m", check.inverse_m);

@@ -27,7 +27,7 @@ const Command& study_command_line() {
       "passivity [FILE|MACHINE ...] [options]",
       "energy that a linkage, its controller and contact give to hands",
       "Without FILE: every machine. Hands of 50 to 3,000 N/m go in and out of solids anywhere in "
-      "the joints' ranges,\nwhile stiffness (to 20,000 N/m), damping, radius and friction change; "
+      "the joints' ranges,\nwhile stiffness, damping, radius and friction change; "
       "then as many runs of a search for the worst.\nCounted is the hand's work, less what the "
       "linkage gives back. The same without the energy's limit shows that the\nbar can fail. Exit "
       "code 1 where a bar is not met.\n",

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/symmetric.hpp"
+#include "firmtouch/params/table.hpp"
+#include "host_sim/device/linkage_body.hpp"
+
 namespace firmtouch::host_sim {
 namespace {
 
@@ -31,6 +35,27 @@ void add_forces(const LinkageDevice& device, const device::Pose& pose, Workspace
   }
 }
 
+// The least mass is in the direction in which a force accelerates the tip most: the largest
+// eigenvalue of J inertia^-1 J^T.
+void add_mass(const LinkageDevice& device, const float (&angle_rad)[device::kMaxJoints],
+              Workspace& to) {
+  JointMotion at;
+  for (uint32_t k = 0; k < device::kMaxJoints; ++k) at.angle_rad[k] = wide(angle_rad[k]);
+  const LinkageBody body(device, at);
+  if (!body.has_inertia() || !body.is_closed()) return;
+  tools::Matrix mobility(3, std::vector<double>(3, 0.0));
+  for (uint32_t i = 0; i < device.joints.joints; ++i)
+    for (uint32_t j = 0; j < device.joints.joints; ++j) {
+      const Vec a = body.tip().column_m[i], b = body.tip().column_m[j];
+      const double to_tip[2][3] = {{a.x, a.y, a.z}, {b.x, b.y, b.z}};
+      for (uint32_t row = 0; row < 3; ++row)
+        for (uint32_t column = 0; column < 3; ++column)
+          mobility[row][column] += to_tip[0][row] * body.inverse_inertia(i, j) * to_tip[1][column];
+    }
+  const double mass_kg = 1 / tools::directions_of(mobility).value[0];
+  if (!(to.least_mass_kg > 0) || mass_kg < to.least_mass_kg) to.least_mass_kg = mass_kg;
+}
+
 void add(const LinkageDevice& device, const float (&angle_rad)[device::kMaxJoints],
          Determinants& seen, Workspace& to) {
   const device::Pose pose = std::visit(
@@ -54,6 +79,7 @@ void add(const LinkageDevice& device, const float (&angle_rad)[device::kMaxJoint
   if (pose.reciprocal_condition >= device.limits.full_from) {
     ++to.with_whole_force;
     add_forces(device, pose, to);
+    add_mass(device, angle_rad, to);
   } else if (pose.reciprocal_condition > device.limits.gone_at) {
     ++to.with_faded_force;
   }
@@ -80,6 +106,16 @@ Workspace workspace_of(const LinkageDevice& device, uint32_t steps) {
       }
   to.changes_orientation = seen.positive && seen.negative;
   return to;
+}
+
+// E (1 + 2 K T^2 / m) + q sqrt(2 K E) = 1 mJ, a quadratic equation for sqrt(K).
+double stiffest_wall_N_per_m(const Workspace& workspace, double period_s) {
+  constexpr double kMaxGain_J = 1e-3;
+  const double reservoir_J = wide(params::kTable[params::kEnergyReservoir].initial);
+  const double a = 2 * reservoir_J * period_s * period_s / workspace.least_mass_kg;
+  const double b = workspace.count_m * std::sqrt(2 * reservoir_J), c = reservoir_J - kMaxGain_J;
+  const double root = (std::sqrt(b * b - 4 * a * c) - b) / (2 * a);
+  return root * root;
 }
 
 bool is_free_of_singularities(const Workspace& workspace) {

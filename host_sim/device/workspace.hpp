@@ -19,10 +19,15 @@ struct Workspace {
   // Where the whole force is rendered:
   double least_force_N = 0;  // that the torque limits allow in every direction
   double count_m = 0;        // longest motion of the tip by one count
+  double least_mass_kg = 0;  // that the tip has in any direction; 0: the device has no inertia
 };
 
 /// `steps` + 1 angles a joint, ends included.
 Workspace workspace_of(const LinkageDevice& device, uint32_t steps);
+
+/// The stiffest wall of whose energy the observer keeps a hand's gain to 1 mJ: the least mass and
+/// the longest count decide. Derivation: firmware/firmtouch/servo/README.md.
+double stiffest_wall_N_per_m(const Workspace& workspace, double period_s);
 
 /// Every pose is reachable and none is at or beyond the fade's end; no singularity lies between
 /// poses, because the Jacobian's determinant keeps its sign.

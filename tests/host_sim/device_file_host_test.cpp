@@ -127,6 +127,32 @@ TEST(Workspace_PlanarArm_HasTheForceAndTheCountOfItsLongestColumn) {
   CHECK_LE(std::fabs(space.high_m.x - 0.2), 1e-6);
 }
 
+// A tip of 50 g on links without mass. Where the first rotor is too heavy to move, a force moves
+// the tip about the elbow alone, with its rotor: 50 g + 1e-3 kg m2 / (0.1 m)^2.
+TEST(Workspace_LeastMass_IsThatOfTheTip_AndOfARotor) {
+  const std::string text =
+      "linkage serial_arm 2\nlink_0 0.2 m\nlink_1 0.1 m\ntip_mass 50 g\n"
+      "counts_0 2000 counts/rad\ncounts_1 2000 counts/rad\nmax_torque_0 1 N*m\n"
+      "max_torque_1 1 N*m\nlow_0 0 rad\nhigh_0 1 rad\nlow_1 0.7 rad\nhigh_1 2 rad\n";
+  const auto least_kg = [&](const char* rotors) {
+    return host_sim::workspace_of(read(text + rotors), 20).least_mass_kg;
+  };
+  CHECK_LE(std::fabs(least_kg("rotor_0 1e-12 kg*m2\nrotor_1 1e-12 kg*m2\n") - 0.05), 1e-6);
+  CHECK_LE(std::fabs(least_kg("rotor_0 100 kg*m2\nrotor_1 1e-3 kg*m2\n") - 0.15), 1e-4);
+}
+
+TEST(StiffestWall_ByItsOwnGain_IsOneMillijoule) {
+  Workspace space;
+  for (const double mass_kg : {0.02, 0.1})
+    for (const double count_m : {0.0, 5e-6, 1e-4}) {
+      space.least_mass_kg = mass_kg, space.count_m = count_m;
+      const double K = host_sim::stiffest_wall_N_per_m(space, 1e-3), E = 0.6e-3;
+      const double force_N = std::sqrt(2 * K * E);
+      const double outrun_J = force_N * force_N * 1e-6 / mass_kg;
+      CHECK_LE(std::fabs(E + outrun_J + count_m * force_N - 1e-3), 1e-9);
+    }
+}
+
 TEST(Workspace_StretchedElbowBetweenTwoPoses_IsFound) {
   std::string text =
       "linkage serial_arm 2\nlink_0 0.2 m\nlink_1 0.15 m\n"
