@@ -75,7 +75,7 @@ void print_space(const Workspace& space, uint32_t joints) {
         "force in every direction, with whole force %.3g N\n"
         "longest motion of the tip by a count       %.3g um\n"
         "least mass of the tip                      %.3g g\n"
-        "stiffest wall with bounded energy, 1 kHz   %.0f N/m\n",
+        "stiffest wall that is predicted, at 1 kHz   %.0f N/m\n",
         space.least_force_N, space.count_m * 1e6, space.least_mass_kg * 1e3,
         stiffest_wall_N_per_m(space, 1e-3));
   std::printf("least reciprocal condition                 %.4f at", space.worst_condition);

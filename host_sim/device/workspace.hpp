@@ -25,8 +25,9 @@ struct Workspace {
 /// `steps` + 1 angles a joint, ends included.
 Workspace workspace_of(const LinkageDevice& device, uint32_t steps);
 
-/// The stiffest wall of whose energy the observer keeps a hand's gain to 1 mJ: the least mass and
-/// the longest count decide. Derivation: firmware/firmtouch/servo/README.md.
+/// The stiffest wall at which what the observer of energy does not predict, and does not see of a
+/// count, stays within 1 mJ with its reservoir: the least mass and the longest count decide.
+/// Derivation: firmware/firmtouch/servo/README.md.
 double stiffest_wall_N_per_m(const Workspace& workspace, double period_s);
 
 /// Every pose is reachable and none is at or beyond the fade's end; no singularity lies between

@@ -71,9 +71,10 @@ const Image* image_for(const std::vector<Image>& images, const std::vector<std::
   for (const Image& image : images) {
     const bool fits =
         !has_part(image.parts, "trusted") &&
-        (image.parts == "all" || std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
-           return has_part(image.parts, part);
-         }));
+        std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
+          return has_part(image.parts, part) ||
+                 (has_part(image.parts, "all") && part != "homing");  // all but this one
+        });
     if (fits && (best == nullptr || image.flash < best->flash)) best = &image;
   }
   return best;
