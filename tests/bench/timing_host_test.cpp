@@ -1,5 +1,7 @@
 // Who is timed runs in turn; a peer's word is taken only where it says a time.
+#include <chrono>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "bench/models.hpp"
@@ -52,6 +54,14 @@ TEST(TimeIsOfOneQuery) {
   CHECK_EQ(passes, 10);
   CHECK(us[0] > 0);
   CHECK(us[1] < us[0] / 50);  // a thousandth; the machine may be busy
+}
+
+TEST(TimeIsTheProcessors_WaitingIsNotCounted) {
+  const double us = timed(1, [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    return 0.0;
+  })();
+  CHECK(us < 100e3);
 }
 
 TEST(PeerGetsKindFileAndPoints) {

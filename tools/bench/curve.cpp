@@ -43,8 +43,7 @@ struct Race {
 void run_race(const Race& race, const CurveCase& curve, const Peer& peer, Report& report) {
   report.stage(std::string(race.what) + ", " + curve.name);
   const TemporaryFolder folder;
-  std::vector<Contender> contenders{
-      ours(race.points, exact(curve.view, race.is_warm), Clock::kWall)};
+  std::vector<Contender> contenders{ours(race.points, exact(curve.view, race.is_warm))};
   if (peer.is_present())
     contenders.push_back(peer.contender("polyline",
                                         folder.write("curve.csv", tools::to_csv(curve.samples_m)),
@@ -102,8 +101,7 @@ void run_case(const CurveCase& curve, const Peer& peer, Report& report) {
            curve, peer, report);
   if (!is_small) run_build(curve, peer, report);
   const float size_m = curve.view.head().diagonal_m;
-  const std::vector<double> us =
-      medians_us({ours(walk, guided(curve.view, size_m), Clock::kProcessor)});
+  const std::vector<double> us = medians_us({ours(walk, guided(curve.view, size_m))});
   report.figure("hand led along, penalised by its size", curve.name, us[0], "us");
 }
 

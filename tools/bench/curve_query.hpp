@@ -11,17 +11,13 @@ namespace firmtouch::bench {
 using Query = std::function<double(math::Vec3)>;
 
 /// A pass over the points; `fresh` makes a query without history.
-inline Contender ours(const std::vector<math::Vec3>& points, const std::function<Query()>& fresh,
-                      Clock clock) {
-  return timed(
-      points.size(),
-      [&points, fresh] {
-        double sum = 0;
-        const Query query = fresh();
-        for (const math::Vec3& p : points) sum += query(p);
-        return sum;
-      },
-      clock);
+inline Contender ours(const std::vector<math::Vec3>& points, const std::function<Query()>& fresh) {
+  return timed(points.size(), [&points, fresh] {
+    double sum = 0;
+    const Query query = fresh();
+    for (const math::Vec3& p : points) sum += query(p);
+    return sum;
+  });
 }
 
 /// Follows the curve from point to point, each from the arc position of the one before, with a

@@ -21,8 +21,7 @@ constexpr size_t kBudgetQueries = 1500;
 constexpr uint64_t kBudgetSeed = 2;
 
 // All points in order; warm: each starts where the one before ended.
-Contender ours(const simd::WideMesh& mesh, const std::vector<math::Vec3>& points, bool is_warm,
-               Clock clock = Clock::kWall) {
+Contender ours(const simd::WideMesh& mesh, const std::vector<math::Vec3>& points, bool is_warm) {
   const auto pass = [&mesh, &points, is_warm] {
     double sum = 0;
     mesh::Hint hint;
@@ -32,7 +31,7 @@ Contender ours(const simd::WideMesh& mesh, const std::vector<math::Vec3>& points
     }
     return sum;
   };
-  return timed(points.size(), pass, clock);
+  return timed(points.size(), pass);
 }
 
 struct Race {
@@ -88,8 +87,8 @@ void report_bytes(const Model& model, Report& report) {
 void race_sides(const Model& model, const std::vector<math::Vec3>& points, Report& report) {
   report.stage("with and without sides, " + model.name);
   const Model plain = baked_again(model, Sides::kUnsigned);
-  const std::vector<double> us = medians_us({ours(model.wide, points, true, Clock::kProcessor),
-                                             ours(plain.wide, points, true, Clock::kProcessor)});
+  const std::vector<double> us =
+      medians_us({ours(model.wide, points, true), ours(plain.wide, points, true)});
   report.figure("time for inside and outside, touching path", model.name, 100 * (us[0] / us[1] - 1),
                 "%", "instructions: tools/bench/cortex-m7 --unsigned");
 }

@@ -8,20 +8,20 @@ namespace firmtouch::bench {
 
 namespace {
 
-double now_us(Clock clock) {
+double now_us() {
   timespec time{};
-  clock_gettime(clock == Clock::kWall ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &time);
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
 }
 
 }  // namespace
 
-Contender timed(size_t queries, const std::function<double()>& pass, Clock clock) {
-  return [queries, pass, clock] {
+Contender timed(size_t queries, const std::function<double()>& pass) {
+  return [queries, pass] {
     volatile double sink = 0;
-    const double begin_us = now_us(clock);
+    const double begin_us = now_us();
     sink = sink + pass();
-    return (now_us(clock) - begin_us) / static_cast<double>(queries);
+    return (now_us() - begin_us) / static_cast<double>(queries);
   };
 }
 

@@ -11,13 +11,10 @@ constexpr size_t kPasses = 5;
 /// that took, in microseconds a query.
 using Contender = std::function<double()>;
 
-/// A peer reports wall time; processor time of this thread is what to take where all
-/// contenders are ours, since a busy machine does not count in it.
-enum class Clock { kWall, kProcessor };
-
 /// `pass` runs `queries` queries (at least 1) and gives a sum of their answers, so that none is
-/// optimised away.
-Contender timed(size_t queries, const std::function<double()>& pass, Clock clock = Clock::kWall);
+/// optimised away. It counts this thread's processor time, as the peers do: what else runs on the
+/// machine takes none of it.
+Contender timed(size_t queries, const std::function<double()>& pass);
 
 /// The median of kPasses passes in a row: what a peer reports of itself in one turn. One pass alone
 /// would begin where the other's process has left the caches.

@@ -84,7 +84,7 @@ const Command& query_command() {
         "unlimited, "
         "so exact)"},
        {"--budget", "N", "the same in visits of 2.5 units; dropped in the next version"},
-       {"--time", nullptr, "no rows: the median time a query over 5 passes"},
+       {"--time", nullptr, "no rows: median processor time a query, of 5 passes"},
        {"--json", nullptr, "a JSON object a row, instead of CSV"},
        {"--npy", nullptr, "a NumPy file of records with the columns' names, instead of CSV"},
        {"--line-buffered", nullptr,

@@ -40,9 +40,8 @@ void run_curve_constraint(const Options& options, Report& report) {
     const CurveCase curve = bake_case(make_track(samples, 0), std::to_string(samples) + " samples");
     const auto walk = tools::make_hand_walk(curve.samples_m, 1, kQueries);
     const std::vector<double> us =
-        medians_us({ours(walk, nearest(curve.view, 10), Clock::kProcessor),
-                    ours(walk, nearest(curve.view, 100), Clock::kProcessor),
-                    ours(walk, guided(curve.view, 1.0f), Clock::kProcessor)});
+        medians_us({ours(walk, nearest(curve.view, 10)), ours(walk, nearest(curve.view, 100)),
+                    ours(walk, guided(curve.view, 1.0f))});
     rows.push_back({std::to_string(samples), text(us[0]), text(us[1]), text(us[2])});
     if (samples == kPublishedSamples)
       report.figure("2,000 samples, N = 100, beside the 0.2 ms published", curve.name, us[1], "us",
@@ -56,8 +55,7 @@ void run_curve_constraint(const Options& options, Report& report) {
   rows.clear();
   for (const uint32_t count : {1u, 2u, 5u, 10u, 20u, 50u, 100u}) {
     report.stage("figure 5, N = " + std::to_string(count));
-    const std::vector<double> us =
-        medians_us({ours(walk, nearest(curve.view, count), Clock::kProcessor)});
+    const std::vector<double> us = medians_us({ours(walk, nearest(curve.view, count))});
     size_t wrong = 0;
     for (const math::Vec3& p : astray) {
       curve::Hint hint;

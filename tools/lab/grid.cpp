@@ -71,9 +71,7 @@ struct Columns {
 
 Columns measure(const Model& model, const Model& plain, const Grown<orders::OrientedKind>& oriented,
                 const Grown<orders::FloatKind>& aligned, const Points& points) {
-  const auto once = [](const std::function<double()>& work) {
-    return timed(1, work, Clock::kProcessor);
-  };
+  const auto once = [](const std::function<double()>& work) { return timed(1, work); };
   const mesh::View& view = model.view;
   const std::vector<double> us = medians_us({
       once([&] {

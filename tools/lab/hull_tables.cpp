@@ -54,8 +54,7 @@ class Table4 {
       for (const FloatSegment& s : segments_) sum += answer(s);
       return sum;
     };
-    rows_.push_back(
-        {name, prepared_s, bytes, timed(segments_.size(), pass, Clock::kProcessor), remark});
+    rows_.push_back({name, prepared_s, bytes, timed(segments_.size(), pass), remark});
   }
 
   void add_kdops(uint32_t k, KdopTree::Test test) {
@@ -260,7 +259,7 @@ void run_keeping(const Model& model, Report& report) {
       (void)pass();
       row.push_back(number_text(static_cast<double>(counts.tests) / 2000));
       row.push_back(number_text(static_cast<double>(counts.splits) / 2000));
-      row.push_back(number_text(medians_us({timed(all->size(), pass, Clock::kProcessor)})[0]));
+      row.push_back(number_text(medians_us({timed(all->size(), pass)})[0]));
     }
     rows.push_back(row);
   }

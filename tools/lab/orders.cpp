@@ -47,12 +47,10 @@ void report_set(const Model& model, const PointSet& set, const std::vector<Entra
   const double queries = static_cast<double>(set.points.size());
   const double triangles = model.report.triangles;
   uint64_t steps = 0;
-  std::vector<Contender> contenders{timed(
-      set.points.size(), [&] { return firmware_pass(model.view, set.points, steps); },
-      Clock::kProcessor)};
+  std::vector<Contender> contenders{
+      timed(set.points.size(), [&] { return firmware_pass(model.view, set.points, steps); })};
   for (const Entrant& entrant : entrants)
-    contenders.push_back(timed(
-        set.points.size(), [&] { return entrant.pass(set.points); }, Clock::kProcessor));
+    contenders.push_back(timed(set.points.size(), [&] { return entrant.pass(set.points); }));
   const std::vector<double> us = medians_us(contenders);
   std::vector<std::vector<std::string>> rows;
   rows.push_back(

@@ -73,13 +73,11 @@ Sum follow(const std::vector<Case>& cases, int levels, const TrackerOptions& opt
   Sum sum;
   std::vector<std::unique_ptr<CriticalGrid>> grids;
   for (const Case& c : cases) {
-    sum.bake_s += timed(
-                      1,
-                      [&] {
-                        grids.push_back(std::make_unique<CriticalGrid>(*c.feet, levels, kMargin));
-                        return 0.0;
-                      },
-                      Clock::kProcessor)() *
+    sum.bake_s += timed(1,
+                        [&] {
+                          grids.push_back(std::make_unique<CriticalGrid>(*c.feet, levels, kMargin));
+                          return 0.0;
+                        })() *
                   1e-6;
     const CriticalGrid& grid = *grids.back();
     sum.marked += grid.marked(), sum.cells += grid.cells();
@@ -107,7 +105,7 @@ Sum follow(const std::vector<Case>& cases, int levels, const TrackerOptions& opt
     }
     return total;
   };
-  sum.us = medians_us({timed(sum.counts.moves, pass, Clock::kProcessor)})[0];
+  sum.us = medians_us({timed(sum.counts.moves, pass)})[0];
   return sum;
 }
 
@@ -122,7 +120,7 @@ double from_scratch_us(const std::vector<Case>& cases, size_t each) {
     }
     return total;
   };
-  return medians_us({timed(cases.size() * each, pass, Clock::kProcessor)})[0];
+  return medians_us({timed(cases.size() * each, pass)})[0];
 }
 
 std::string share(size_t part, uint64_t whole) {
