@@ -57,16 +57,12 @@ class Exact {
   Scale scale_;
 };
 
-// The quotient of two magnitudes, the first not larger: three roundings.
+// The quotient of two magnitudes, the first not larger.
 float ratio(const Sum& part, const Sum& whole) {
   int32_t part_exponent, whole_exponent;
   const float part_fraction = part.fraction(part_exponent);
   const float whole_fraction = whole.fraction(whole_exponent);
-  const int32_t shift = part_exponent - whole_exponent;
-  if (shift < -126) return 0.0f;
-  const float power = math::float_of(static_cast<uint32_t>(shift + 127) << 23);
-  const float t = part_fraction / whole_fraction * power;
-  return t > 1.0f ? 1.0f : t;
+  return ratio_of_fractions(part_fraction, part_exponent, whole_fraction, whole_exponent);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/vec3.hpp"
 
 namespace firmtouch::mesh {
@@ -11,6 +12,16 @@ struct Crossing {
   int8_t direction = 0;  // +1: along the triangle's normal (leaves), -1: against it, 0: none
   float t = 0;           // 0 at a, 1 at b
 };
+
+/// t of fractions in [0.5, 1] and powers of two, the part not larger than the whole: three
+/// roundings with those of the fractions.
+static inline float ratio_of_fractions(float part, int32_t part_exponent, float whole,
+                                       int32_t whole_exponent) {
+  const int32_t shift = part_exponent - whole_exponent;
+  if (shift < -126) return 0.0f;
+  const float t = part / whole * math::float_of(static_cast<uint32_t>(shift + 127) << 23);
+  return t > 1.0f ? 1.0f : t;
+}
 
 /// Whether the segment from `a` to `b` crosses the triangle, decided without any rounding.
 ///

@@ -4,6 +4,7 @@
 
 #include "firmtouch/mesh/segment_frame.hpp"
 #include "simd/search/block_triangles.hpp"
+#include "simd/search/double_crossing.hpp"
 #include "simd/search/triangle_lanes.hpp"
 
 namespace firmtouch::simd {
@@ -27,8 +28,9 @@ class SegmentLanes : private SegmentLine {
   Crossing crossing(Pass way, math::Vec3 p, math::Vec3 q, math::Vec3 r) const {
     Crossing reported;
     float early;
-    return decides(way, p, q, r, reported, early) ? reported
-                                                  : mesh::exact_crossing(a_m_, b_m_, p, q, r);
+    if (decides(way, p, q, r, reported, early) || decides_in_double(a_m_, b_m_, p, q, r, reported))
+      return reported;
+    return mesh::exact_crossing(a_m_, b_m_, p, q, r);
   }
 
   /// One bit a triangle.
