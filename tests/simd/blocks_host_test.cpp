@@ -20,7 +20,7 @@ struct Rows {
   float shapes[simd::kShapeArrays * kTriangles + simd::kLanes];
   simd::WideTree tree{};
 
-  Rows(const Leaf& leaf, uint32_t child, const simd::Block& block) {
+  Rows(const Leaf& leaf, const simd::Block& block) {
     for (float& f : corners) f = coordinate(true);
     for (float& f : prisms) f = coordinate(true);
     for (float& f : shapes) f = coordinate(true);
@@ -30,12 +30,9 @@ struct Rows {
       float prism[simd::kPrismArrays];
       simd::put_prism(a, b, c, prism);
       put(prism, i, block, prisms);
-    }
-    const simd::Block own{mesh::leaf_first(child), mesh::leaf_count(child)};
-    for (uint32_t i = own.first; i < own.first + own.count; ++i) {
       float shape[simd::kShapeArrays];
       mesh::put_floats(shape_at(leaf, i), shape);
-      put(shape, i, own, shapes);
+      put(shape, i, block, shapes);
     }
     tree.corners = corners;
     tree.prisms = prisms;
@@ -75,7 +72,7 @@ void compare_prisms(uint32_t turn, Reported& reported) {
   const Leaf leaf = flattened(turn);
   const float slack_m2 = mesh::Nearer::slack_m2(longest_edge_m(leaf));
   const simd::Block block = any_block();
-  const Rows rows(leaf, mesh::make_leaf(block.first, 1), block);
+  const Rows rows(leaf, block);
   for (uint32_t other = 0; other < block.count; ++other) {
     const float upper2_m2 = closest_on(leaf, block.first + other).distance2_m2;
     if (!(upper2_m2 <= FLT_MAX)) continue;
@@ -115,7 +112,7 @@ void compare_leaves(uint32_t turn, Compared& compared) {
   const uint32_t most = block.count < 7 ? block.count : 7, count = 1 + next_random() % most;
   const uint32_t first = block.first + next_random() % (block.count - count + 1);
   const uint32_t child = mesh::make_leaf(first, count);
-  const Rows rows(leaf, child, block);
+  const Rows rows(leaf, block);
   const simd::BlockTriangles triangles(rows.tree, simd::make_wide_leaf(child, block));
   const float bound2_m2 = turn % 5 == 0 ? 0.25f : FLT_MAX;
   mesh::Best scalar;
@@ -207,7 +204,7 @@ TEST(EightTriangles_HaveTheBitsOfEach) {
   for (uint32_t turn = 0; turn < 4000; ++turn) {
     const Leaf leaf(turn);
     const simd::Block block{0, simd::kLanes};
-    const Rows rows(leaf, mesh::make_leaf(0, 7), block);
+    const Rows rows(leaf, block);
     const simd::Feet feet = simd::feet_on(simd::BlockTriangles(rows.tree, block), leaf.p_m);
     const simd::Mask8 features = feet.features();
     for (uint32_t lane = 0; lane < simd::kLanes; ++lane) {

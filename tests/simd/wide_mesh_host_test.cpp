@@ -205,8 +205,8 @@ TEST(EveryTriangle_IsStoredWhereItsLeafSays) {
         differ += math::bits_of(reported) == math::bits_of(prism[row]) ? 0u : 1u;
       }
       for (uint32_t row = 0; row < simd::kShapeArrays; ++row) {
-        const float reported = tree.shapes[simd::kShapeArrays * simd::wide_leaf_first(leaf) +
-                                           row * mesh::leaf_count(leaf) + i];
+        const float reported = tree.shapes[simd::kShapeArrays * block.first + row * block.count +
+                                           (triangle - block.first)];
         differ += math::bits_of(reported) == math::bits_of(shape[row]) ? 0u : 1u;
       }
     }

@@ -127,7 +127,7 @@ struct OwnedTree::Arrays {
       put_in_arrays(of_corners, i, block, corners);
       float of_shape[kShapeArrays];
       mesh::put_floats(mesh::shape_of(a, b, c), of_shape);
-      put_in_arrays(of_shape, i, own, shapes);
+      put_in_arrays(of_shape, i, block, shapes);
       float of_prism[kPrismArrays];
       put_prism(a, b, c, of_prism);
       put_in_arrays(of_prism, i, block, prisms);

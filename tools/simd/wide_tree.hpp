@@ -70,7 +70,7 @@ struct WideTree {
   // float[9 * (triangle_count + 1) + kLanes]: of each block nine arrays of `count` floats, from
   // float 9 * first on: x, y, z of corner 0, then of corners 1 and 2.
   const float* corners;
-  // float[12 * (triangle_count + 1) + kLanes]: of each leaf twelve arrays, the floats of its
+  // float[12 * (triangle_count + 1) + kLanes]: of each block twelve arrays, the floats of its
   // shapes.
   const float* shapes;
   // float[16 * (triangle_count + 1) + kLanes]: of each block sixteen arrays of prisms (prism.hpp).

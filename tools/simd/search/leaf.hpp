@@ -43,14 +43,13 @@ constexpr size_t kPerAb2Array = offsetof(TriangleShape, per_ab2_m2) / sizeof(flo
 constexpr size_t kXcArray = offsetof(TriangleShape, xc) / sizeof(float);
 constexpr size_t kH2Array = offsetof(TriangleShape, h2_m2) / sizeof(float);
 
-/// The stored shapes of a leaf.
+/// The stored shapes of a leaf or a block.
 struct ShapeArrays {
   const float* arrays;
   size_t stride;
 
   explicit ShapeArrays(const BlockTriangles& triangles)
-      : arrays(triangles.tree.shapes + size_t{kShapeArrays} * triangles.first),
-        stride(triangles.count) {}
+      : arrays(triangles.begin(triangles.tree.shapes, kShapeArrays)), stride(triangles.of.count) {}
   Frames frames() const {
     const auto lanes = [this](size_t k) { return lanes_from(arrays + k * stride); };
     return {vectors_of(arrays, 0, stride),
@@ -91,7 +90,7 @@ struct ShapeInLane {
 /// Feet on the triangles of a leaf or a block.
 [[gnu::always_inline]] static inline Feet feet_on(const BlockTriangles& triangles, math::Vec3 p_m) {
   const CornerArrays at(triangles);
-  return closest_on_triangles(p_m, at.corner(0), at.corner(1), at.corner(2));
+  return closest_on_triangles(ShapeArrays(triangles).frames(), p_m, at.corner(1), at.corner(2));
 }
 /// Puts into `best` the first nearest triangle of a leaf if it is nearer than `min2_m2`.
 /// Result: the least squared distance so far.
@@ -101,20 +100,13 @@ struct ShapeInLane {
   return take_nearest(feet_on(leaf, p_m), leaf.lanes(), leaf.first, slot, min2_m2, best);
 }
 
-[[gnu::always_inline]] static inline Feet feet_by_shapes(const BlockTriangles& leaf,
-                                                         math::Vec3 p_m) {
-  const Frames f = ShapeArrays(leaf).frames();
-  const CornerArrays at(leaf);
-  return closest_in_frames(f, plane_feet(f, p_m), p_m, at.corner(1), at.corner(2));
-}
-
 /// The same, faster if usually none is nearer. `limit2_m2`: prism_limit2() of `min2_m2`.
 [[gnu::always_inline]] static inline float measure_near_leaf(const BlockTriangles& leaf,
                                                              math::Vec3 p_m, uint32_t slot,
                                                              float min2_m2, float limit2_m2,
                                                              Best& best) {
   if (may_be_nearer(leaf, p_m, limit2_m2) == 0) return min2_m2;
-  return take_nearest(feet_by_shapes(leaf, p_m), leaf.lanes(), leaf.first, slot, min2_m2, best);
+  return take_nearest(feet_on(leaf, p_m), leaf.lanes(), leaf.first, slot, min2_m2, best);
 }
 
 /// The same with no bound yet, faster if the nearest is the triangle whose low 16 bits are `last`.
@@ -144,7 +136,7 @@ struct ShapeInLane {
       return clear;
     }
   }
-  take_nearest(feet_by_shapes(leaf, p_m), leaf.lanes(), leaf.first, slot, FLT_MAX, best);
+  take_nearest(feet_on(leaf, p_m), leaf.lanes(), leaf.first, slot, FLT_MAX, best);
   return clear;
 }
 

@@ -30,45 +30,15 @@ struct Frames {
   Float8 per_ab2, xc, h2;
 };
 
-[[gnu::always_inline]] static inline Frames frames_of(const Lanes& a, const Lanes& b,
-                                                      const Lanes& c) {
-  Frames f;
-  f.a = a, f.ab = b - a;
-  const Lanes ac = c - a;
-  f.per_ab2 = all_of(1.0f) / dot(f.ab, f.ab);
-  f.xc = dot(f.ab, ac) * f.per_ab2;
-  f.h = ac - f.ab * f.xc;
-  f.h2 = dot(f.h, f.h);
-  return f;
-}
-
-/// Of each lane the foot in the triangle's plane.
-struct PlaneFeet {
-  Lanes ap, e;
-  Float8 x, y, w, v;
-};
-
-[[gnu::always_inline]] static inline PlaneFeet plane_feet(const Frames& f, math::Vec3 p_m) {
-  const Lanes p = all_of(p_m);
-  PlaneFeet foot;
-  foot.ap = p - f.a;
-  foot.x = dot(f.ab, foot.ap) * f.per_ab2;
-  foot.e = foot.ap - f.ab * foot.x;
-  foot.y = dot(foot.e, f.h);
-  foot.w = foot.y / f.h2;
-  foot.v = foot.x - foot.w * f.xc;
-  return foot;
-}
-
-/// Pre: the frames are those of a, b and c, the feet those of p_m.
-[[gnu::always_inline]] static inline Feet closest_in_frames(const Frames& f, const PlaneFeet& foot,
-                                                            math::Vec3 p_m, const Lanes& b,
-                                                            const Lanes& c) {
+/// Pre: the frames are those of triangles a b c.
+[[gnu::always_inline]] static inline Feet closest_on_triangles(const Frames& f, math::Vec3 p_m,
+                                                               const Lanes& b, const Lanes& c) {
   const Float8 zero = all_of(0.0f), one = all_of(1.0f);
-  const Lanes p = all_of(p_m);
-  const Lanes ac = c - f.a, ap = foot.ap, e = foot.e, h = f.h;
-  const Lanes bc = c - b, bp = p - b, cp = p - c;
-  const Float8 x = foot.x, y = foot.y, w = foot.w, v = foot.v;
+  const Lanes p = all_of(p_m), ap = p - f.a;
+  const Float8 x = dot(f.ab, ap) * f.per_ab2;
+  const Lanes e = ap - f.ab * x, h = f.h;
+  const Float8 y = dot(e, h), w = y / f.h2, v = x - w * f.xc;
+  const Lanes ac = c - f.a, bc = c - b, bp = p - b, cp = p - c;
   const Float8 t_ac = dot(ac, ap), ac2 = dot(ac, ac), t_bc = dot(bc, bp), bc2 = dot(bc, bc);
   const Float8 part_ac = t_ac / ac2, part_bc = t_bc / bc2;
 
@@ -89,12 +59,6 @@ struct PlaneFeet {
       from - Lanes{only(feet.moved, way.x), only(feet.moved, way.y), only(feet.moved, way.z)};
   feet.distance2_m2 = dot(feet.offset_m, feet.offset_m);
   return feet;
-}
-
-[[gnu::always_inline]] static inline Feet closest_on_triangles(math::Vec3 p_m, const Lanes& a,
-                                                               const Lanes& b, const Lanes& c) {
-  const Frames f = frames_of(a, b, c);
-  return closest_in_frames(f, plane_feet(f, p_m), p_m, b, c);
 }
 
 }  // namespace firmtouch::simd
