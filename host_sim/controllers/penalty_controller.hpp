@@ -3,7 +3,7 @@
 
 namespace firmtouch::host_sim {
 
-/// FullController with penalty contact instead of a proxy, for comparison.
+/// The controller of every part with penalty contact instead of a proxy, for comparison.
 using PenaltyController = Controller<Surfaces<Penalty<FullMesh>, Penalty<SplineSurface>>,
                                      Guides<CurveGuide, SplineGuide>>;
 

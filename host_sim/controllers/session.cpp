@@ -77,7 +77,7 @@ void check_verdict(const std::string& path, core::Verdict verdict) {
 Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact contact)
     : asset(asset_path),
       wanted(std::move(wanted_names)),
-      controller(std::make_unique<FullController>()) {
+      controller(std::make_unique<ObjectsController>()) {
   asset::Container container;
   if (asset::open(asset.bytes(), container).ok()) {
     const std::vector<SceneEntry> entries = scene_entries(container);
@@ -100,7 +100,7 @@ Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact
 
 void Session::load_next(const std::string& asset_path) {
   next = std::make_unique<AssetFile>(asset_path);
-  swapping = std::make_unique<SwappingController>();
+  swapping = std::make_unique<SwappingObjectsController>();
   const Selection selection{text_or_null(wanted.surface), text_or_null(wanted.guide)};
   check_verdict(asset.path(), swapping->open(asset.bytes(), selection));
   swapping->begin_next(next->bytes());

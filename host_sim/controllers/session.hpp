@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "firmtouch/controller/full_controller.hpp"
+#include "firmtouch/controller/objects_controller.hpp"
 #include "host_sim/controllers/asset_file.hpp"
 #include "host_sim/controllers/penalty_controller.hpp"
 #include "host_sim/trace/run.hpp"
@@ -36,10 +36,10 @@ struct Session {
   SceneNames wanted;
   SceneNames used;                  // empty: the asset has none
   std::vector<std::string> unused;  // "surface `lid`"
-  std::unique_ptr<FullController> controller;
+  std::unique_ptr<ObjectsController> controller;
   std::unique_ptr<PenaltyController> penalty;  // null: contact through a proxy
   std::unique_ptr<AssetFile> next;             // null: no asset to swap to
-  std::unique_ptr<SwappingController> swapping;
+  std::unique_ptr<SwappingObjectsController> swapping;
 
  private:
   SceneNames default_;

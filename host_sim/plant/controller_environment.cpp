@@ -1,9 +1,9 @@
-#include "firmtouch/controller/full_controller.hpp"
+#include "firmtouch/controller/objects_controller.hpp"
 #include "host_sim/plant/environment.hpp"
 
 namespace firmtouch::host_sim {
 
-Environment environment_of(const FullController& controller, Vec origin_m) {
+Environment environment_of(const ObjectsController& controller, Vec origin_m) {
   std::vector<Vec> guide;
   if (controller.curve().is_open())
     for (const curve::Sample& s : controller.curve().samples())

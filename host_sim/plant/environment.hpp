@@ -7,7 +7,7 @@
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch {
-class FullController;
+class ObjectsController;
 }
 
 namespace firmtouch::host_sim {
@@ -55,6 +55,6 @@ class Environment {
 };
 
 /// Surface and guide of the controller's asset, moved by `origin_m`.
-Environment environment_of(const FullController& controller, Vec origin_m);
+Environment environment_of(const ObjectsController& controller, Vec origin_m);
 
 }  // namespace firmtouch::host_sim

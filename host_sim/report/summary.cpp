@@ -117,7 +117,8 @@ void Summariser::add(const RunTick& tick) {
         });
   }
   count(summary_, out, visits_, deviation_m_);
-  const uint32_t homing = out.state & ~(record::kStateNotHomed - 1);
+  const bool is_homed = (out.state & record::kStateNotHomed) == 0;
+  const uint32_t homing = is_homed ? 0 : out.state & ~(record::kStateNotHomed - 1);
   if (homing == 0 && summary_.homing != 0) summary_.homed_s = time_s;
   summary_.homing = homing;
   const bool is_on = motors_are_on(out);

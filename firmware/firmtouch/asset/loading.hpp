@@ -50,6 +50,8 @@ enum Rule : uint16_t {
   kRuleNeedsSplineGuide = 914,
   // The asset needs part `linkage`, which is not linked into this program.
   kRuleNeedsLinkage = 915,
+  // The asset needs part `objects`, which is not linked into this program.
+  kRuleNeedsObjects = 916,
 };
 
 namespace asset {

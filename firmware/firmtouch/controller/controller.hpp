@@ -92,12 +92,12 @@ class Controller {
   /// guide_work; with a base hull others of mesh_work or 1,280; at two rates none. Callable from
   /// an interrupt; not re-entrant.
   void tick(const record::TickInput& input, record::TickOutput& output) {
-    const bool is_swapped = input.command == record::kCommandSwapAsset &&
-                            (input.flags & record::kFlagModelApart) == 0 && scenes_.swap();
+    const bool is_apart = (input.flags & record::kFlagModelApart) != 0;
+    const bool is_taken = !is_apart && take_scene_command(input);
     Device& device = scene().device;
     const AssetStatus asset = scene().loaders.status();
     ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
-    if (is_swapped)  // no row has this number
+    if (is_taken)  // no row has this number
       output.state ^= record::kStateCommandRefused | record::kStateCommandTaken;
     core_.locate(device.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
     if constexpr (!Device::kRendersAll) core_.count_rendered(device.rendered());
@@ -106,6 +106,8 @@ class Controller {
       if (!device.is_homed()) homes = core_.hold(tick, device.has_failed());
     }
     ModelResult* result = core_.result_of_tick(tick, input.flags);
+    if constexpr (SurfaceList::kMoves)
+      if (!is_apart) scene().surfaces.advance(core_.values()[params::kTickPeriod]);
     if (result != nullptr) make_local_model(tick.request, core_.values(), *result);
     Push push = core_.step(tick, input.flags, output);
     if constexpr (Device::kHomes) push.may_push |= homes && core_.has_no_fault();
@@ -141,6 +143,13 @@ class Controller {
  private:
   Scene& scene() { return scenes_.active(); }
   const Scene& scene() const { return scenes_.active(); }
+  // Commands that are no parameter's.
+  bool take_scene_command(const record::TickInput& input) {
+    if (input.command == record::kCommandSwapAsset) return scenes_.swap();
+    if constexpr (SurfaceList::kMoves)
+      return scene().surfaces.take_command(input.command, input.command_value);
+    return false;
+  }
   void make_local_model(const ModelRequest& request, const params::Values& values,
                         ModelResult& result) {
     core_.begin_model(request, values, result);

@@ -73,7 +73,10 @@ class FirstOf : private Policies... {
   uint8_t at_ = 0;
 };
 
-/// The surfaces of a controller. For now the first that the asset has is touched.
+/// Base of the policies of surfaces that move: they have take_command() and advance().
+struct MovingSurface {};
+
+/// The surfaces of a controller: the first that the asset has is touched.
 template <class... Policies>
 class Surfaces : public FirstOf<Policies...> {
   static_assert((!Policies::kIsGuide && ...), "guides are the controller's second argument");
@@ -82,8 +85,30 @@ class Surfaces : public FirstOf<Policies...> {
   static constexpr bool kIsGuide = false;
   using Parameters = params::Joined<typename Policies::Parameters...>;
 
+  static constexpr bool kMoves = (__is_base_of(MovingSurface, Policies) || ...);
+
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result) {
     this->use_open([&](auto& surface) { surface.touch(request, values, result); });
+  }
+  /// Of the surface that moves, if the asset has it: a command that is no parameter's.
+  /// Result: false if it is refused.
+  bool take_command(uint32_t command, float value) {
+    bool is_taken = false;
+    use_moving([&](auto& surface) { is_taken = surface.take_command(command, value); });
+    return is_taken;
+  }
+  void advance(float passed_s) {
+    use_moving([&](auto& surface) { surface.advance(passed_s); });
+  }
+
+ private:
+  template <class Use>
+  void use_moving(const Use& use) {
+    this->use_open([&](auto& surface) { use_if_it_moves(surface, use); });
+  }
+  template <class P, class Use>
+  static void use_if_it_moves(P& surface, const Use& use) {
+    if constexpr (__is_base_of(MovingSurface, P)) use(surface);
   }
 };
 

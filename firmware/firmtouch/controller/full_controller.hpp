@@ -9,26 +9,35 @@
 
 namespace firmtouch {
 
-template <template <class> class ScenesOf, class Device = HomedDevice>
-using EveryPart = Controller<Surfaces<FullMesh, SplineSurface>, Guides<CurveGuide, SplineGuide>,
-                             Device, asset::Proven, ScenesOf>;
+/// A controller of every part of the library, with names for what it has opened.
+template <template <class> class ScenesOf, class Device = HomedDevice,
+          class SurfaceList = Surfaces<FullMesh, SplineSurface>>
+class EveryPart : public Controller<SurfaceList, Guides<CurveGuide, SplineGuide>, Device,
+                                    asset::Proven, ScenesOf> {
+ public:
+  const mesh::View& mesh() const { return full_mesh().mesh(); }
+  const hull::View& hull() const { return full_mesh().hull(); }
+  const field::View& distance_field() const { return full_mesh().distance_field(); }
+  const spline::View& spline_surface() const {
+    return this->template surface<SplineSurface>().surface();
+  }
+  const curve::View& curve() const { return this->guide().template get<CurveGuide>().curve(); }
+  const device::StoredLinkage& linkage() const { return this->device().linkage(); }
+  const spline::GuideView& spline_guide() const {
+    return this->guide().template get<SplineGuide>().guide();
+  }
+
+ private:
+  const FullMesh& full_mesh() const { return this->template surface<FullMesh>(); }
+};
 
 /// With room for the next asset (Controller::begin_next()).
 using SwappingController = EveryPart<TwoScenes>;
 
-/// Every part of the library: a mesh with its distance field and base hull, else spline surfaces; a
-/// sampled curve, else spline curves; a linkage, homed where the asset says how, else three axes.
-/// What the simulator runs, and FIRMTOUCH_APP="all;homing".
-class FullController : public EveryPart<OneScene> {
- public:
-  const mesh::View& mesh() const { return surface<FullMesh>().mesh(); }
-  const hull::View& hull() const { return surface<FullMesh>().hull(); }
-  const field::View& distance_field() const { return surface<FullMesh>().distance_field(); }
-  const spline::View& spline_surface() const { return surface<SplineSurface>().surface(); }
-  const curve::View& curve() const { return guide().get<CurveGuide>().curve(); }
-  const device::StoredLinkage& linkage() const { return device().linkage(); }
-  const spline::GuideView& spline_guide() const { return guide().get<SplineGuide>().guide(); }
-};
+/// Every part of the library except `objects`: a mesh with its distance field and base hull, else
+/// spline surfaces; a sampled curve, else spline curves; a linkage, homed where the asset says how,
+/// else three axes. FIRMTOUCH_APP="all;homing".
+using FullController = EveryPart<OneScene>;
 static_assert(FullController::kTable.size() == params::kTable.size(),
               "params::kTable is the full controller's");
 

@@ -8,13 +8,14 @@
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/scene/objects_layout.hpp"
 #include "firmtouch/spline/guide/view.hpp"
 #include "firmtouch/spline/layout.hpp"
 
 namespace firmtouch {
 namespace {
 
-static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsLinkage, "a rule a part, in order");
+static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsObjects, "a rule a part, in order");
 
 bool same(const char* a, const char* b) {
   while (*a != 0 && *a == *b) ++a, ++b;
@@ -45,6 +46,8 @@ uint32_t part_of_section(const asset::Container& asset, uint32_t i) {
       return spline_part(asset, i);
     case device::kLinkageSection:
       return kPartLinkage;
+    case scene::kObjectsSection:
+      return kPartObjects;
     default:
       return 0;
   }

@@ -17,13 +17,14 @@ enum Part : uint32_t {
   kPartSpline = 1u << 4,
   kPartSplineGuide = 1u << 5,
   kPartLinkage = 1u << 6,
+  kPartObjects = 1u << 7,
 };
-constexpr uint32_t kPartCount = 7;
+constexpr uint32_t kPartCount = 8;
 
-/// Name of part `number` (its bit), as in FIRMTOUCH_APP and in the texts of rules R909 to R915.
+/// Name of part `number` (its bit), as in FIRMTOUCH_APP and in the texts of rules R909 to R916.
 constexpr const char* part_name(uint32_t number) {
-  constexpr const char* kName[kPartCount] = {"mesh",   "field",        "hull",   "guide",
-                                             "spline", "spline_guide", "linkage"};
+  constexpr const char* kName[kPartCount] = {"mesh",   "field",        "hull",    "guide",
+                                             "spline", "spline_guide", "linkage", "objects"};
   return number < kPartCount ? kName[number] : "unknown";
 }
 
@@ -34,7 +35,7 @@ uint32_t part_of_section(const asset::Container& asset, uint32_t i);
 /// All parts that an asset needs.
 uint32_t needed_parts(const asset::Container& asset);
 
-/// The verdict on an asset in a program with the parts `linked`: one of R909 to R915, at the
+/// The verdict on an asset in a program with the parts `linked`: one of R909 to R916, at the
 /// section that needs the missing part, or passed. Where a name is selected, others of its kind do
 /// not count.
 core::Verdict missing_part(const asset::Container& asset, const Selection& selection,

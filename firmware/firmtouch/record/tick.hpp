@@ -26,6 +26,9 @@ constexpr uint32_t kCommandNone = 0;
 constexpr uint32_t kCommandClearFaults = UINT32_MAX;  // accepted only while kFlagEnable is low
 // Begins to touch the next asset, if the controller has one (controller.hpp, can_swap()).
 constexpr uint32_t kCommandSwapAsset = UINT32_MAX - 1;
+// Plus the number of an object, at most 15: it moves by its twist times command_value, -1 to 1
+// (controller/mesh_objects.hpp). Rejected at two rates.
+constexpr uint32_t kCommandMoveObject = UINT32_MAX - 0xFF;
 
 // TickOutput::state.
 constexpr uint32_t kStateServoMask = 0xFFu;          // servo::Mode
@@ -47,6 +50,9 @@ constexpr uint32_t kStateUncertain = 1u << 19;  // the visits did not certify th
 constexpr uint32_t kStateNotHomed = 1u << 20;
 constexpr uint32_t kStateHoming = 1u << 21;
 constexpr uint32_t kStateHomingFaultShift = 22;
+// Where it is homed, five bits: 1 + number of the object that holds the proxy; 0: none, or there is
+// one surface.
+constexpr uint32_t kStateObjectShift = 22;
 
 /// Everything that a tick depends on, except the controller's state.
 struct TickInput {
@@ -54,8 +60,8 @@ struct TickInput {
   uint32_t clock_us;  // free-running, wraps
   int32_t encoder_counts[kAxes];
   uint32_t flags;
-  // kCommandNone, kCommandClearFaults, kCommandSwapAsset, or 1 + index of the parameter to set to
-  // command_value.
+  // kCommandNone, kCommandClearFaults, kCommandSwapAsset, kCommandMoveObject + object, or 1 + index
+  // of the parameter to set to command_value.
   uint32_t command;
   float command_value;
   // Time that the tick before took, by the board's clock; divided by tick_period_s, the load. 0:

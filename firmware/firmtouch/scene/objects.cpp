@@ -15,9 +15,9 @@ constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 
 constexpr math::RigidTransform kUnmoved;
 
-bool is_set(uint32_t bits, uint32_t i) { return (bits >> i & 1u) != 0; }
-
 }  // namespace
+
+float ObjectsTick::length_up_m(Vec3 way_m) { return math::length(way_m) * kUp; }
 
 ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, float size_m,
                          ObjectsTouch& touch)
@@ -39,8 +39,11 @@ ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, floa
   const uint32_t touched = frame == kNoObject ? touch_.nearest : frame;
   if (touched < set_.count) {
     contact_.material = material_of(touched);
-    contact_.settings.friction_static = set_.object[touched].friction_static;
-    contact_.settings.friction_dynamic = set_.object[touched].friction_dynamic;
+    const Object& object = set_.object[touched];
+    float &at_rest = contact_.settings.friction_static,
+          &sliding = contact_.settings.friction_dynamic;
+    if (object.friction_static > at_rest) at_rest = object.friction_static;
+    if (object.friction_dynamic > sliding) sliding = object.friction_dynamic;
   }
   was_loaded_ = proxy_.is_loaded;
   settings_ = begin_proxy_contact(contact_, touch_.touch);
@@ -89,15 +92,14 @@ float ObjectsTick::loss_m(uint32_t i, const Place& place) const {
 // Certified distance of an object, by the ball about where it was last queried.
 float ObjectsTick::bound_m(uint32_t i, const Place& place) const {
   const ObjectPair& pair = set_.pair[i];
-  const float moved_m = math::length(in_object_m(i, place) - pair.at_m) * kUp;
+  const float moved_m = length_up_m(in_object_m(i, place) - pair.at_m);
   const float bound_m = pair.lower_m - moved_m - loss_m(i, place);
   return bound_m > 0.0f ? bound_m : 0.0f;
 }
 
 // Of one that is far and stands still only what the proxy has moved is taken off.
 void ObjectsTick::make_bounds(const Place& place, Bounds& bounds) const {
-  const float moved_m =
-      math::length(place.device_m - touch_.bounds_at_m) * kUp + 2.0f * place.loss_m;
+  const float moved_m = length_up_m(place.device_m - touch_.bounds_at_m) + 2.0f * place.loss_m;
   constexpr float kFar = 2.0f;  // radii of the tool
   const float far_m = kFar * proxy_.radius_m + moved_m;
   bounds.place = place;
@@ -132,7 +134,7 @@ bool ObjectsTick::renew(const Bounds& bounds) {
 // The ball of a query, unless the one that is known reaches farther there.
 void ObjectsTick::keep(float lower_m) {
   ObjectPair& pair = set_.pair[query_.object];
-  const float left_m = pair.lower_m - math::length(query_.x_m - pair.at_m) * kUp;
+  const float left_m = pair.lower_m - length_up_m(query_.x_m - pair.at_m);
   if (left_m >= lower_m) return;
   pair.at_m = query_.x_m;
   pair.lower_m = lower_m;
@@ -229,110 +231,6 @@ void ObjectsTick::drop_moved_features() {
   }
 }
 
-// While the side of the hand is not known, every object matters whose side is not.
-void ObjectsTick::begin_query(Vec3 x_m, query::Budget budget, float needed_m) {
-  at_ = place_in(touch_.carrier, x_m);
-  budget_ = budget;
-  needed_m_ = needed_m;
-  nearest_ = {};
-  answered_ = exact_ = 0;
-  is_short_ = false;
-  if (proxy_.phase == Proxy::Phase::kFree) {
-    const float moved_m = math::length(x_m - base_.place.m) * kUp;
-    for (uint32_t i = 0; i < set_.count; ++i) key_m_[i] = base_.m[i] - moved_m;
-    return;
-  }
-  exact_ = UINT32_MAX;
-  for (uint32_t i = 0; i < set_.count; ++i) {
-    key_m_[i] = bound_m(i, at_);
-    if (!(key_m_[i] > 0.0f) || set_.pair[i].sign <= 0) key_m_[i] = -1.0f;
-  }
-}
-
-// Of the object with the least bound, until that is one that has answered.
-bool ObjectsTick::next() {
-  for (;;) {
-    uint32_t i = 0;
-    for (uint32_t k = 1; k < set_.count; ++k)
-      if (key_m_[k] < key_m_[i]) i = k;
-    if (set_.count == 0 || is_set(answered_, i)) return false;
-    if (!is_set(exact_, i)) {
-      exact_ |= 1u << i;
-      key_m_[i] = math::larger(key_m_[i], bound_m(i, at_));
-      continue;
-    }
-    is_short_ = answered_ != 0 && !(nearest_.work < budget_.work);
-    if (is_short_) return false;
-    query_ = {i, in_object_m(i, at_), budget_, needed_m_};
-    query_.budget.work = budget_.work - nearest_.work;
-    const float loss = loss_m(i, at_);
-    if (query_.budget.threshold_m > 0.0f) query_.budget.threshold_m += loss;
-    query_.needed_m += loss;
-    return true;
-  }
-}
-
-// Of a tool that is inside of several objects: the one that it is deepest in.
-bool ObjectsTick::is_better(const Near& near) const {
-  if (answered_ == 0) return true;
-  if (proxy_.phase == Proxy::Phase::kFree) return near.lower_m < nearest_.lower_m;
-  const bool is_inside = near.sign < 0, was_inside = nearest_.sign < 0;
-  if (is_inside || was_inside)
-    return is_inside && (!was_inside || near.distance_m > nearest_.distance_m);
-  const bool is_unknown = near.has_inside && near.sign == 0,
-             was_unknown = nearest_.has_inside && nearest_.sign == 0;
-  if (is_unknown != was_unknown) return is_unknown;
-  return near.lower_m < nearest_.lower_m;
-}
-
-// From the frame of its object to that of the proxy.
-Feature ObjectsTick::in_frame(const Feature& feature) const {
-  if (feature.object == touch_.carrier) return feature;
-  const math::RigidTransform &from = pose_of(feature.object), &to = pose_of(touch_.carrier);
-  const auto moved_m = [&](Vec3 a_m) { return math::apply_inverse(to, math::apply(from, a_m)); };
-  Feature answer = feature;
-  answer.corner[0] = moved_m(feature.corner[0]);
-  if (feature.kind == Feature::Kind::kHalfSpace) {
-    answer.corner[1] = math::transposed_times(to.rotation, from.rotation * feature.corner[1]);
-  } else if (feature.kind == Feature::Kind::kTriangle) {
-    answer.corner[1] = moved_m(feature.corner[1]);
-    answer.corner[2] = moved_m(feature.corner[2]);
-  }
-  return answer;
-}
-
-void ObjectsTick::take(const Near& near) {
-  const uint32_t i = query_.object;
-  keep(near.lower_m);
-  set_.pair[i].sign = near.has_inside ? near.sign : int8_t{1};
-  const uint32_t steps = nearest_.steps + near.steps, work = nearest_.work + near.work;
-  Near answer = near;
-  key_m_[i] = answer.lower_m = bound_m(i, at_);
-  if (is_better(answer)) {
-    answer.feature.object = static_cast<uint8_t>(i);
-    answer.feature = in_frame(answer.feature);
-    answer.outward = math::transposed_times(pose_of(at_.frame).rotation,
-                                            set_.object[i].pose.rotation * near.outward);
-    nearest_ = answer;
-  }
-  answered_ |= 1u << i;
-  nearest_.steps = steps;
-  nearest_.work = work;
-}
-
-Near ObjectsTick::nearest() const {
-  Near near = nearest_;
-  if (set_.count == 0) near.lower_m = near.distance_m = FLT_MAX;
-  for (uint32_t i = 0; i < set_.count; ++i)
-    if (key_m_[i] < near.lower_m) near.lower_m = math::larger(key_m_[i], 0.0f);
-  if (is_short_) {  // an object that may be nearer, or that the tool may be inside of
-    near.is_exact = false;
-    near.sign = 0;
-    near.has_inside = true;
-  }
-  return near;
-}
-
 void ObjectsTick::restore_radius() {
   float& full_m = touch_.full_radius_m;
   if (proxy_.phase != Proxy::Phase::kFree) full_m = 0;
@@ -366,11 +264,13 @@ void ObjectsTick::finish(const ProxyMoved& moved, servo::LocalModel& model) {
   all.work += renewals_.work;
   touch_.is_squeezed = is_lost_;
   restore_radius();
-  if (answered_ != 0) touch_.nearest = nearest_.feature.object;
   const uint8_t next = touched();
   // A proxy without load takes the material of what it meets.
   if (!was_loaded_ && next != kNoObject) touch_.touch.material = material_of(next);
   const Place place = place_in(touch_.carrier, proxy_.position_m);
+  touch_.upper_m = touch_.seen_m;
+  if (touch_.nearest < set_.count)
+    touch_.upper_m += math::length(in_object_m(touch_.nearest, place) - touch_.seen_at_m);
   if (is_pushed_ && !is_lost_) carried_m_ = carried_m_ + (place.device_m - base_.place.device_m);
   end_proxy_contact(contact_, all, touch_.touch, model);
   touch_.anchor_m = place.device_m;

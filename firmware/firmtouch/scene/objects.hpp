@@ -36,6 +36,9 @@ struct ObjectsTouch {
   float full_radius_m = 0;  // of a proxy that objects have pushed into less room; 0: none
   uint8_t carrier = kNoObject;
   uint8_t nearest = kNoObject;
+  math::Vec3 seen_at_m;  // a place in the frame of `nearest`, and its distance there
+  float seen_m = 0;
+  float upper_m = 0;  // of the distance from the proxy to the objects, at the end of the last tick
   bool is_squeezed = false;  // in the last tick
 };
 
@@ -92,6 +95,8 @@ class ObjectsTick {
     uint32_t least;  // the object with the least
     float least_m;
   };
+  static bool is_set(uint32_t bits, uint32_t i) { return (bits >> i & 1u) != 0; }
+  static float length_up_m(math::Vec3 way_m);  // rounded up
   const math::RigidTransform& pose_of(uint8_t frame) const;
   Place place_in(uint8_t frame, math::Vec3 m) const;
   math::Vec3 in_object_m(uint32_t i, const Place& place) const;
@@ -157,9 +162,9 @@ struct NearestObject {
   float size_m() const { return shapes.size_m(); }
 };
 
-/// Contact of a sphere with several objects, as touch_by_proxy() with one. Friction is that of
-/// the object that is touched; its stiffness is in series with the one in `contact`. A far object
-/// costs a comparison. Objects that leave the proxy less than 0.9 of its radius squeeze it:
+/// Contact of a sphere with several objects, as touch_by_proxy() with one. Friction is the larger
+/// of that in `contact` and of the object that is touched; their stiffnesses are in series. A far
+/// object costs a comparison. Objects that leave the proxy less than 0.9 of its radius squeeze it:
 /// model.is_squeezed, which servo makes a fault. The proxy crosses none of them.
 /// Bounds: scene/proxy.hpp, and at most one query an object to carry the proxy; all share the
 /// budget. Re-entrant for different tools.

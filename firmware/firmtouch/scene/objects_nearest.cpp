@@ -1,0 +1,118 @@
+#include <float.h>
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/objects.hpp"
+
+// The objects as one shape: which of them to query, and what they answer together.
+namespace firmtouch::scene {
+
+using math::Vec3;
+
+// While the side of the hand is not known, every object matters whose side is not.
+void ObjectsTick::begin_query(Vec3 x_m, query::Budget budget, float needed_m) {
+  at_ = place_in(touch_.carrier, x_m);
+  budget_ = budget;
+  needed_m_ = needed_m;
+  nearest_ = {};
+  answered_ = exact_ = 0;
+  is_short_ = false;
+  if (proxy_.phase == Proxy::Phase::kFree) {
+    const float moved_m = length_up_m(x_m - base_.place.m);
+    for (uint32_t i = 0; i < set_.count; ++i) key_m_[i] = base_.m[i] - moved_m;
+    return;
+  }
+  exact_ = UINT32_MAX;
+  for (uint32_t i = 0; i < set_.count; ++i) {
+    key_m_[i] = bound_m(i, at_);
+    if (!(key_m_[i] > 0.0f) || set_.pair[i].sign <= 0) key_m_[i] = -1.0f;
+  }
+}
+
+// Of the object with the least bound, until that is one that has answered.
+bool ObjectsTick::next() {
+  for (;;) {
+    uint32_t i = 0;
+    for (uint32_t k = 1; k < set_.count; ++k)
+      if (key_m_[k] < key_m_[i]) i = k;
+    if (set_.count == 0 || is_set(answered_, i)) return false;
+    if (!is_set(exact_, i)) {
+      exact_ |= 1u << i;
+      key_m_[i] = math::larger(key_m_[i], bound_m(i, at_));
+      continue;
+    }
+    is_short_ = answered_ != 0 && !(nearest_.work < budget_.work);
+    if (is_short_) return false;
+    query_ = {i, in_object_m(i, at_), budget_, needed_m_};
+    query_.budget.work = budget_.work - nearest_.work;
+    const float loss = loss_m(i, at_);
+    if (query_.budget.threshold_m > 0.0f) query_.budget.threshold_m += loss;
+    query_.needed_m += loss;
+    return true;
+  }
+}
+
+// Of a tool that is inside of several objects: the one that it is deepest in.
+bool ObjectsTick::is_better(const Near& near) const {
+  if (answered_ == 0) return true;
+  if (proxy_.phase == Proxy::Phase::kFree) return near.lower_m < nearest_.lower_m;
+  const bool is_inside = near.sign < 0, was_inside = nearest_.sign < 0;
+  if (is_inside || was_inside)
+    return is_inside && (!was_inside || near.distance_m > nearest_.distance_m);
+  const bool is_unknown = near.has_inside && near.sign == 0,
+             was_unknown = nearest_.has_inside && nearest_.sign == 0;
+  if (is_unknown != was_unknown) return is_unknown;
+  return near.lower_m < nearest_.lower_m;
+}
+
+// From the frame of its object to that of the proxy.
+Feature ObjectsTick::in_frame(const Feature& feature) const {
+  if (feature.object == touch_.carrier) return feature;
+  const math::RigidTransform &from = pose_of(feature.object), &to = pose_of(touch_.carrier);
+  const auto moved_m = [&](Vec3 a_m) { return math::apply_inverse(to, math::apply(from, a_m)); };
+  Feature answer = feature;
+  answer.corner[0] = moved_m(feature.corner[0]);
+  if (feature.kind == Feature::Kind::kHalfSpace) {
+    answer.corner[1] = math::transposed_times(to.rotation, from.rotation * feature.corner[1]);
+  } else if (feature.kind == Feature::Kind::kTriangle) {
+    answer.corner[1] = moved_m(feature.corner[1]);
+    answer.corner[2] = moved_m(feature.corner[2]);
+  }
+  return answer;
+}
+
+void ObjectsTick::take(const Near& near) {
+  const uint32_t i = query_.object;
+  keep(near.lower_m);
+  set_.pair[i].sign = near.has_inside ? near.sign : int8_t{1};
+  const uint32_t steps = nearest_.steps + near.steps, work = nearest_.work + near.work;
+  Near answer = near;
+  key_m_[i] = answer.lower_m = bound_m(i, at_);
+  if (is_better(answer)) {
+    touch_.nearest = static_cast<uint8_t>(i);
+    touch_.seen_at_m = query_.x_m;
+    touch_.seen_m = near.distance_m;
+    answer.feature.object = static_cast<uint8_t>(i);
+    answer.feature = in_frame(answer.feature);
+    answer.outward = math::transposed_times(pose_of(at_.frame).rotation,
+                                            set_.object[i].pose.rotation * near.outward);
+    nearest_ = answer;
+  }
+  answered_ |= 1u << i;
+  nearest_.steps = steps;
+  nearest_.work = work;
+}
+
+Near ObjectsTick::nearest() const {
+  Near near = nearest_;
+  if (set_.count == 0) near.lower_m = near.distance_m = FLT_MAX;
+  for (uint32_t i = 0; i < set_.count; ++i)
+    if (key_m_[i] < near.lower_m) near.lower_m = math::larger(key_m_[i], 0.0f);
+  if (is_short_) {  // an object that may be nearer, or that the tool may be inside of
+    near.is_exact = false;
+    near.sign = 0;
+    near.has_inside = true;
+  }
+  return near;
+}
+
+}  // namespace firmtouch::scene

@@ -1,0 +1,270 @@
+// Several objects of an asset in a ready controller: each is touched where its pose puts it, by its
+// own material; a command moves it; who cannot touch it rejects it by name.
+#include "controller/ride.hpp"
+#include "firmtouch/controller/objects_controller.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+using namespace controller_test;
+
+namespace {
+
+constexpr float kHalf_m = 0.02f, kRadius_m = 0.003f;
+
+struct Named {
+  const char *name, *mesh;
+  math::Vec3 at_m;
+  float stiffness_N_per_m = 1e30f;
+  math::Vec3 velocity_mps = {};
+  float friction = 0;
+};
+
+scene::ObjectLayout layout_of(const Named& named) {
+  scene::ObjectLayout layout = {};
+  std::strcpy(layout.name, named.name);
+  std::strcpy(layout.mesh, named.mesh);
+  layout.rotation[0] = layout.rotation[4] = layout.rotation[8] = 1;
+  const auto put = [](float(&to)[3], math::Vec3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; };
+  put(layout.at_m, named.at_m);
+  put(layout.velocity_mps, named.velocity_mps);
+  layout.stiffness_N_per_m = named.stiffness_N_per_m;
+  layout.friction_static = layout.friction_dynamic = named.friction;
+  return layout;
+}
+
+// A box about the origin with 12 triangles.
+tools::Surface box() {
+  tools::Surface surface;
+  for (int i = 0; i < 8; ++i)
+    surface.vertices.push_back({(i & 1) != 0 ? kHalf_m : -kHalf_m,
+                                (i & 2) != 0 ? kHalf_m : -kHalf_m,
+                                (i & 4) != 0 ? kHalf_m : -kHalf_m});
+  const uint32_t corners[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                   {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                   {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (uint32_t i = 0; i < 12; ++i) {
+    surface.faces.push_back({{corners[i][0], corners[i][1], corners[i][2]}});
+    surface.source.push_back(i);
+  }
+  return surface;
+}
+
+std::vector<tools::Section> box_sections(const std::string& name) {
+  tools::MeshReport report;
+  std::vector<tools::Section> sections = tools::bake_mesh(box(), name, {}, report);
+  CHECK(report.problem.empty());
+  mesh::View view;
+  CHECK(tools::open_baked(sections, name, view).ok());
+  sections.push_back(tools::mesh_probes(view, name));
+  return sections;
+}
+
+std::vector<uint8_t> scene_with(const std::vector<Named>& named,
+                                const std::vector<std::string>& meshes = {"box"}) {
+  std::vector<tools::Section> sections;
+  for (const std::string& mesh : meshes)
+    for (tools::Section& section : box_sections(mesh)) sections.push_back(std::move(section));
+  std::vector<scene::ObjectLayout> objects;
+  for (const Named& one : named) objects.push_back(layout_of(one));
+  sections.push_back(tools::make_section(scene::kObjectsSection, "room", objects));
+  return file_of(std::move(sections));
+}
+
+// A tool at a given place in each tick, counted in 10 um.
+struct Touching {
+  Asset asset;
+  ObjectsController controller;
+  record::TickInput input{};
+  record::TickOutput output{};
+  uint32_t tick_number = 0;
+  math::Vec3 place_m{0, 0, 0.1f};
+
+  explicit Touching(const std::vector<Named>& named) : asset(scene_with(named)) {
+    CHECK_EQ(controller.open(asset.bytes()).rule, 0u);
+    set(params::kContactStiffness, 800);
+    set(params::kContactDamping, 0);
+  }
+  void tick(math::Vec3 at_m) {
+    place_m = at_m;
+    input.tick = tick_number++;
+    input.clock_us = input.tick * 1000u;
+    input.flags |= input.tick < 10 ? 0 : record::kFlagEnable;
+    const float place[3] = {at_m.x, at_m.y, at_m.z};
+    for (int k = 0; k < 3; ++k)
+      input.encoder_counts[k] =
+          static_cast<int32_t>(std::lround(static_cast<double>(place[k]) * 1e5));
+    controller.tick(input, output);
+    input = {};
+  }
+  void set(params::Index index, float value) {
+    input.command = 1 + index;
+    input.command_value = value;
+    tick(place_m);
+    CHECK((output.state & record::kStateCommandTaken) != 0);
+  }
+  bool move(uint32_t object, float speed, math::Vec3 at_m, uint32_t flags = 0) {
+    input.command = record::kCommandMoveObject + object;
+    input.command_value = speed;
+    input.flags = flags;
+    tick(at_m);
+    const bool is_taken = (output.state & record::kStateCommandTaken) != 0;
+    CHECK(is_taken != ((output.state & record::kStateCommandRefused) != 0));
+    return is_taken;
+  }
+  // From where it is, in a straight line.
+  void go(math::Vec3 to_m, uint32_t ticks) {
+    const math::Vec3 from_m = place_m;
+    for (uint32_t i = 1; i <= ticks; ++i)
+      tick(from_m + (to_m - from_m) * (static_cast<float>(i) / static_cast<float>(ticks)));
+  }
+  void press(math::Vec3 above_m, float deep_m) {
+    const math::Vec3 top_m = above_m + math::Vec3{0, 0, kHalf_m + kRadius_m};
+    go(top_m + math::Vec3{0, 0, 0.01f}, 300);
+    go(top_m - math::Vec3{0, 0, deep_m}, 300);
+    for (uint32_t i = 0; i < 300; ++i) tick(place_m);
+  }
+  uint32_t object() const { return output.state >> record::kStateObjectShift & 31u; }
+};
+
+double wide(float value) { return static_cast<double>(value); }
+
+}  // namespace
+
+TEST(Objects_EachIsTouchedAtItsPlace_ByItsStiffness) {
+  Touching scene({{"left", "box", {-0.06f, 0, 0}, 800}, {"right", "box", {0.06f, 0, 0.01f}}});
+  scene.press({-0.06f, 0, 0}, 0.002f);
+  CHECK_EQ(scene.object(), 1u);
+  CHECK_LE(std::fabs(wide(scene.output.force_N[2]) - 400 * 0.002),
+           0.004);  // two springs in series
+  scene.go({-0.06f, 0, 0.05f}, 300);
+  CHECK_EQ(scene.object(), 0u);
+  scene.press({0.06f, 0, 0.01f}, 0.002f);
+  CHECK_EQ(scene.object(), 2u);
+  CHECK_LE(std::fabs(wide(scene.output.force_N[2]) - 800 * 0.002), 0.008);
+  CHECK_EQ(scene.output.faults, 0u);
+}
+
+TEST(Objects_StandUntilACommandMovesThem_AndReturn) {
+  Touching scene({{"box", "box", {}, 1e30f, {0, 0, 0.05f}}});
+  scene.press({}, 0.001f);
+  const float before_N = scene.output.force_N[2];
+  const math::Vec3 hand_m{0, 0, kHalf_m + kRadius_m - 0.001f};
+  for (uint32_t i = 0; i < 100; ++i) scene.tick(hand_m);
+  CHECK_LE(std::fabs(wide(scene.output.force_N[2]) - wide(before_N)), 1e-4);
+  // Up by 50 mm/s x 0.5 in 100 ticks: 2.5 mm more of an 800 N/m spring, and back.
+  CHECK(scene.move(0, 0.5f, hand_m));
+  for (uint32_t i = 1; i < 100; ++i) scene.tick(hand_m);
+  CHECK_LE(std::fabs(wide(scene.output.force_N[2]) - wide(before_N) - 800 * 0.0025), 0.01);
+  CHECK(scene.move(0, -0.5f, hand_m));
+  for (uint32_t i = 1; i < 100; ++i) scene.tick(hand_m);
+  CHECK(scene.move(0, 0, hand_m));
+  for (uint32_t i = 0; i < 50; ++i) scene.tick(hand_m);
+  CHECK_LE(std::fabs(wide(scene.output.force_N[2]) - wide(before_N)), 0.005);
+  CHECK_EQ(scene.output.faults, 0u);
+}
+
+TEST(Objects_MoveCommand_IsRefusedForAnUnknownObjectAndAnySpeedOutOfRange) {
+  Touching scene({{"a", "box", {}}, {"b", "box", {0.1f, 0, 0}}});
+  const math::Vec3 hand_m{0, 0, 0.1f};
+  CHECK(scene.move(1, -1, hand_m));
+  for (const uint32_t object : {2u, 15u, 100u, 0xF0u}) CHECK(!scene.move(object, 0, hand_m));
+  for (const float speed : {1.001f, -1.001f, std::numeric_limits<float>::quiet_NaN(),
+                            std::numeric_limits<float>::infinity()})
+    CHECK(!scene.move(0, speed, hand_m));
+  CHECK(!scene.move(0, 1, hand_m, record::kFlagModelApart));  // at two rates objects stand
+}
+
+TEST(Objects_Friction_IsTheLargerOfObjectAndParameter) {
+  Touching rough({{"box", "box", {}, 1e30f, {}, 0.5f}});
+  rough.set(params::kFrictionStatic, 0.2f);
+  rough.set(params::kFrictionDynamic, 0.2f);
+  const auto check_slide = [](Touching& scene, double friction) {
+    scene.press({-0.01f, 0, 0}, 0.002f);
+    const auto ratio = [&] {
+      return -wide(scene.output.force_N[0]) / wide(scene.output.force_N[2]);
+    };
+    const float z_m = kHalf_m + kRadius_m - 0.002f;
+    scene.go({0.01f, 0, z_m}, 400);
+    CHECK_LE(std::fabs(ratio() - friction), 0.01);
+    for (uint32_t i = 0; i < 300; ++i) scene.tick(scene.place_m);
+    CHECK_LE(std::fabs(ratio() - friction), 0.01);  // at rest
+  };
+  check_slide(rough, 0.5);
+  Touching smooth(std::vector<Named>{{"box", "box", {}}});
+  smooth.set(params::kFrictionStatic, 0.2f);
+  smooth.set(params::kFrictionDynamic, 0.2f);
+  check_slide(smooth, 0.2);
+}
+
+TEST(Objects_OneThatStandsAtTheOrigin_FeelsAsTheMeshAlone) {
+  std::vector<tools::Section> sections = part_sections();
+  const Asset alone(file_of(sections));
+  const std::vector<scene::ObjectLayout> one = {layout_of({"part", "part", {}})};
+  sections.push_back(tools::make_section(scene::kObjectsSection, "room", one));
+  const Asset among(file_of(std::move(sections)));
+  Ride ride(alone);
+  static ObjectsController controller, same;
+  CHECK_EQ(controller.open(among.bytes()).rule, 0u);
+  CHECK_EQ(same.open(alone.bytes()).rule, 0u);
+  double worst_N = 0;
+  uint32_t contacts = 0;
+  for (uint32_t tick = 0; tick < 6000; ++tick) {
+    ride.fill(tick);
+    ride.step();
+    record::TickOutput as_object, as_mesh;
+    controller.tick(ride.input, as_object);
+    same.tick(ride.input, as_mesh);
+    CHECK(std::memcmp(&as_mesh, &ride.output, sizeof as_mesh) == 0);
+    for (int k = 0; k < 3; ++k)
+      worst_N =
+          std::max(worst_N, std::fabs(wide(as_object.force_N[k]) - wide(ride.output.force_N[k])));
+    contacts += (as_object.state & record::kStateContact) != 0 ? 1u : 0u;
+  }
+  CHECK_GE(contacts, 1000u);
+  CHECK_LE(worst_N, 0.01);
+}
+
+TEST(Objects_SceneOrigin_MovesThemAll) {
+  Touching scene(std::vector<Named>{{"box", "box", {0.01f, 0, 0}}});
+  scene.controller.reset();
+  scene.tick_number = 0;
+  scene.set(params::kSceneX, 0.05f);
+  scene.press({0.06f, 0, 0}, 0.002f);
+  CHECK_EQ(scene.object(), 1u);
+  CHECK_LE(std::fabs(wide(scene.output.force_N[2]) - 800 * 0.002), 0.05);
+}
+
+TEST(Objects_AssetsThatDoNotFit_AreRejectedByName) {
+  static ObjectsController controller;
+  const auto rule = [](const std::vector<uint8_t>& bytes) {
+    return controller.open(Asset(bytes).bytes()).rule;
+  };
+  CHECK_EQ(rule(scene_with({{"a", "bax", {}}})), uint16_t{scene::kRuleObjectMesh});
+  CHECK_EQ(rule(scene_with({{"a", "box", {11, 0, 0}}})), uint16_t{scene::kRuleObjectTooFar});
+  std::vector<std::string> meshes;
+  std::vector<Named> objects;
+  static const char* const kNames[] = {"1", "2", "3", "4", "5", "6", "7", "8", "9"};
+  for (const char* name : kNames) meshes.push_back(name), objects.push_back({name, name, {}});
+  CHECK_EQ(rule(scene_with(objects, meshes)), uint16_t{scene::kRuleObjectMeshes});
+  meshes.pop_back(), objects.pop_back();
+  CHECK_EQ(rule(scene_with(objects, meshes)), 0u);
+  static FullController without;
+  const Asset room(scene_with({{"a", "box", {}}}));
+  CHECK_EQ(without.open(room.bytes()).rule, uint16_t{kRuleNeedsObjects});
+  CHECK_EQ(faults_when_enabled(without), servo::kFaultAsset);
+  CHECK_EQ(without.open(room.bytes(), {"box", nullptr}).rule, 0u);  // the mesh alone, by its name
+}
+
+TEST(Objects_Reset_PutsThemBack) {
+  Touching scene({{"box", "box", {}, 1e30f, {0.1f, 0, 0}}});
+  const math::Vec3 hand_m{0, 0, 0.1f};
+  scene.tick(hand_m);
+  CHECK(scene.move(0, 1, hand_m));
+  for (uint32_t i = 0; i < 100; ++i) scene.tick(hand_m);
+  CHECK(scene.controller.objects().object(0).pose.translation_m.x > 0.0099f);
+  scene.controller.reset();
+  scene.tick(hand_m);
+  CHECK_EQ(scene.controller.objects().object(0).pose.translation_m.x, 0.0f);
+  for (uint32_t i = 0; i < 100; ++i) scene.tick(hand_m);
+  CHECK_EQ(scene.controller.objects().object(0).pose.translation_m.x, 0.0f);
+}
