@@ -5,6 +5,7 @@
 #include "firmtouch/device/layout.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
+#include "firmtouch/scene/objects_layout.hpp"
 #include "json/json.hpp"
 
 namespace firmtouch::cli {
@@ -47,6 +48,7 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {hull::kBaseHullSection, "hull at its coarsest"},
                                          {hull::kProbesSection, "hull probes"},
                                          {device::kLinkageSection, "linkage"},
+                                         {scene::kObjectsSection, "objects"},
                                          {curve::kHeadSection, "curve head"},
                                          {curve::kSamplesSection, "curve samples"},
                                          {curve::kArcsSection, "curve arcs"},

@@ -42,10 +42,15 @@ const Command& bake_command() {
       ".ftl\n"
       "a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces (126, 128); .bpt "
       "Bezier\n"
-      "patches; .fta what was baked before, taken as it is. Each is named after its file's stem. "
-      "What "
-      "can\n"
-      "be mended safely is mended and reported; the rest is refused.",
+      "patches; .objects several meshes in one scene; .fta what was baked before, taken as it is. "
+      "Each\n"
+      "is named after its file's stem. What can be mended safely is mended and reported; the rest "
+      "is\n"
+      "refused.\n"
+      "A file .objects places meshes that are baked with it, one object a line; # is a comment:\n"
+      "  object NAME of MESH [at X Y Z mm] [turned A deg about X Y Z] [stiffness K N/m]\n"
+      "         [friction F [sliding F]] [moves X Y Z mm/s] [turns X Y Z rad/s]\n"
+      "An object stands until a command moves it (firmtouch-sim run: at T s move NAME).",
       with_model_options(
           {{"-o", "FILE", "the asset to write; -: to stdout"},
            {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},

@@ -5,6 +5,7 @@
 #include "bake/asset/asset_views.hpp"
 #include "bake/asset/asset_writer.hpp"
 #include "bake/asset/provenance.hpp"
+#include "bake/objects/objects_file.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
@@ -89,22 +90,56 @@ BakedInput take_asset(const std::string& path) {
   return taken;
 }
 
+bool is_objects_file(const std::string& path) { return extension_of(path) == ".objects"; }
+
+bool is_mesh_file(const std::string& path) {
+  return !is_curve_file(path) && !is_run(path) && !is_spline_file(path) && !is_objects_file(path) &&
+         !is_asset(path);
+}
+
+// A file of objects, as an asset named after its file's stem.
+BakedInput bake_objects_input(const std::string& path, const std::vector<std::string>& inputs) {
+  std::vector<std::string> meshes;
+  for (const std::string& input : inputs)
+    if (is_mesh_file(input))
+      meshes.push_back(stem_of(input));
+    else if (is_asset(input))
+      for (const std::string& name :
+           tools::names_with(LoadedAsset(input).container(), mesh::kHeadSection))
+        meshes.push_back(name);
+  BakedInput baked;
+  try {
+    const std::vector<uint8_t> source = read_file(path);
+    const std::vector<scene::ObjectLayout> objects =
+        tools::read_objects(path, std::string(source.begin(), source.end()), meshes);
+    const std::string name = stem_of(path);
+    baked.sections = {
+        tools::make_section(scene::kObjectsSection, name, objects),
+        tools::text_section(asset::kProvenanceSection, name,
+                            tools::provenance(file_name_of(path), source, "", kToolVersion))};
+    baked.report = {std::to_string(objects.size()) + " objects, " +
+                    std::to_string(bytes_of(baked.sections)) + " bytes"};
+  } catch (const tools::Refused& refused) {
+    fail_input(refused.what());
+  }
+  return baked;
+}
+
 std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
                                  const BakeOptions& options) {
   double total = 0;
   for (const std::string& path : inputs) {
-    const bool is_mesh =
-        !is_curve_file(path) && !is_run(path) && !is_spline_file(path) && !is_asset(path);
-    total += 1 + (is_mesh && options.hull_faces != 0 ? kShareOfHull : 0);
+    total += 1 + (is_mesh_file(path) && options.hull_faces != 0 ? kShareOfHull : 0);
   }
   Progress progress(total);
   std::vector<BakedInput> baked;
   for (const std::string& path : inputs) {
-    baked.push_back(is_curve_file(path)    ? bake_curve_input(path, options, progress)
-                    : is_run(path)         ? bake_run_input(path, options, progress)
-                    : is_asset(path)       ? take_asset(path)
-                    : is_spline_file(path) ? bake_spline_input(path, options, progress)
-                                           : bake_mesh_input(path, options, progress));
+    baked.push_back(is_curve_file(path)     ? bake_curve_input(path, options, progress)
+                    : is_run(path)          ? bake_run_input(path, options, progress)
+                    : is_asset(path)        ? take_asset(path)
+                    : is_spline_file(path)  ? bake_spline_input(path, options, progress)
+                    : is_objects_file(path) ? bake_objects_input(path, inputs)
+                                            : bake_mesh_input(path, options, progress));
   }
   return baked;
 }
@@ -215,7 +250,7 @@ BakeRequest bake_request(const Arguments& arguments) {
 
 BakedAsset bake_asset(BakeRequest request, const std::string& output) {
   for (const std::string& input : request.inputs) {
-    if (is_run(input) || is_asset(input)) continue;
+    if (is_run(input) || is_asset(input) || is_objects_file(input)) continue;
     settle_size(input, request.options.model);
     break;
   }

@@ -179,13 +179,15 @@ double LineReader::quantity(const std::string& name, const std::string& unit, do
   return ranged(name, unit.empty() ? value : in_si(name, value, unit), unit, low, high);
 }
 
-Point LineReader::point(const std::string& name) {
+Point LineReader::vector(const std::string& name, const std::string& unit, double most) {
   const double x = number(name), y = number(name), z = number(name);
-  const double scale = in_si(name, 1, "m");
-  const auto coordinate = [&](double value) {
-    return ranged(name, value * scale, "m", -kMaxReach_m, kMaxReach_m);
+  const double scale = unit.empty() ? 1 : in_si(name, 1, unit);
+  const auto ranged_part = [&](double value) {
+    return ranged(name, value * scale, unit, -most, most);
   };
-  return {coordinate(x), coordinate(y), coordinate(z)};
+  return {ranged_part(x), ranged_part(y), ranged_part(z)};
 }
+
+Point LineReader::point(const std::string& name) { return vector(name, "m", kMaxReach_m); }
 
 }  // namespace firmtouch::tools

@@ -27,7 +27,9 @@ class LineReader {
   std::string path();
   /// A number and its unit, converted to SI. `unit` empty: dimensionless.
   double quantity(const std::string& name, const std::string& unit, double low, double high);
-  /// Three numbers and one unit of length.
+  /// Three numbers from -most to most, and one unit. `unit` empty: dimensionless.
+  Point vector(const std::string& name, const std::string& unit, double most);
+  /// A position in metres.
   Point point(const std::string& name);
   void end();
 

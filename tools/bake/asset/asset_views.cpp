@@ -4,6 +4,8 @@
 
 #include "bake/asset/probes.hpp"
 #include "firmtouch/asset/opening.hpp"
+#include "firmtouch/controller/asset_loading.hpp"
+#include "firmtouch/controller/mesh_objects.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/loader.hpp"
 #include "firmtouch/device/stored_homing.hpp"
@@ -63,6 +65,15 @@ std::string prove_linkage(const asset::Container& container, const std::string& 
   return verdict.ok() ? "" : broken("linkage", name, verdict);
 }
 
+std::string prove_objects(const asset::Container& container, const std::string& name) {
+  MeshObjects objects;
+  MeshObjects::State state;
+  objects.begin<asset::Proven>(container, name.c_str(), state);
+  asset::Progress progress;
+  while (!progress.is_done) progress = objects.work<asset::Proven>(state, kSliceUnits);
+  return progress.verdict.ok() ? "" : broken("objects", name, progress.verdict);
+}
+
 std::string prove_spline(const asset::Container& container, const std::string& name) {
   spline::View view;
   const std::string problem = prove("spline", container, name, spline::kProbesSection, view);
@@ -100,7 +111,8 @@ std::string prove_asset(core::Bytes file) {
       {mesh::kHeadSection, prove_mesh},
       {curve::kHeadSection, prove_curve},
       {spline::kHeadSection, prove_spline},
-      {device::kLinkageSection, prove_linkage}};
+      {device::kLinkageSection, prove_linkage},
+      {scene::kObjectsSection, prove_objects}};
   for (const auto& [type, prove_kind] : kinds)
     for (const std::string& name : names_with(container, type)) {
       const std::string problem = prove_kind(container, name);
