@@ -46,7 +46,7 @@ void open(core::Bytes asset) {
   }
   out.text("asset rejected by rule R").decimal(controller.verdict().rule).text(" at element ");
   out.decimal(controller.verdict().element);
-  out.text(" (tools/FORMAT.md): bake it again and load it anew. The motors stay off.\n");
+  out.text(" (tools/FORMAT.md): bake and load it again. The motors stay off.\n");
   hal::board_print(text);
 }
 

@@ -87,7 +87,7 @@ class RunOutputs {
       log_.emplace(path, log_text(scenario, session, facts, path));
     if (!options.value("--report").empty() || !options.value("--picture").empty()) {
       charts_.emplace(environment, facts);
-      paths_.emplace(facts);
+      paths_.emplace(environment, scenario, facts);
     }
   }
   void add(const RunTick& tick) {
@@ -218,7 +218,7 @@ int run_scenario(const Options& options) {
   check_scene(session, options.value("--controller"));
   const std::unique_ptr<LockStepController> port =
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
-                      session.controller->asset_crc());
+                      session.controller->asset_crc(), !session.objects.empty());
   read_linkage(scenario, session, file);
   if (options.has("--energy") && !scenario.linkage)
     options.refuse("--energy is of a linkage: name one in the scenario, `device FILE`");

@@ -127,10 +127,11 @@ TickCost Remote::tick(const record::TickInput& input, record::TickOutput& output
 }
 
 // build/<board>/bin/firmtouch_app.elf, next to this program's build/host/bin.
-std::string image_of(const std::string& board) {
+std::string image_of(const std::string& board, bool has_objects) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return (self.parent_path().parent_path().parent_path() / board / "bin/firmtouch_app.elf")
+  return (self.parent_path().parent_path().parent_path() / board /
+          (has_objects ? "bin/firmtouch_app_all_objects.elf" : "bin/firmtouch_app.elf"))
       .string();
 }
 
@@ -139,12 +140,13 @@ std::string image_of(const std::string& board) {
 std::unique_ptr<LockStepController> open_controller(const std::string& controller,
                                                     const std::string& image,
                                                     const std::string& asset_path,
-                                                    uint32_t asset_crc) {
+                                                    uint32_t asset_crc, bool has_objects) {
   if (is_in_process(controller)) return nullptr;
   if (controller.compare(0, 5, "qemu:") == 0) {
     const std::string board = controller.substr(5);
     return std::make_unique<Remote>(
-        start_emulator(board, image.empty() ? image_of(board) : image, asset_path), asset_crc);
+        start_emulator(board, image.empty() ? image_of(board, has_objects) : image, asset_path),
+        asset_crc);
   }
   return std::make_unique<Remote>(connect_stream(controller), asset_crc);
 }

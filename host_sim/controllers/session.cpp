@@ -14,6 +14,8 @@ std::string remedy_of(uint16_t rule) {
   switch (rule) {
     case kRuleEmptyScene:
       return "it has neither a surface nor a guide; bake one into it";
+    case kRuleNeedsObjects:
+      return "it has several objects, which this controller does not touch; name one of its meshes";
     case kRuleArithmetic:
       return "this machine's floating-point mode differs from what the library needs";
     case kRuleMeshProbes:
@@ -32,16 +34,10 @@ std::string text_or_empty(const char* text) { return text == nullptr ? "" : text
 const char* text_or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
 
 SceneNames names_in(const asset::Container& asset, const SceneNames& wanted) {
-  using SurfaceList = Surfaces<FullMesh, SplineSurface>;
   using GuideList = Guides<CurveGuide, SplineGuide>;
-  return {text_or_empty(SurfaceList::find(asset, text_or_null(wanted.surface))),
+  return {text_or_empty(SurfacesWithObjects::find(asset, text_or_null(wanted.surface))),
           text_or_empty(GuideList::find(asset, text_or_null(wanted.guide)))};
 }
-
-struct SceneEntry {
-  bool is_guide;
-  std::string name;
-};
 
 // Surfaces and guides of the asset, in the order of its table.
 std::vector<SceneEntry> scene_entries(const asset::Container& asset) {
@@ -49,7 +45,7 @@ std::vector<SceneEntry> scene_entries(const asset::Container& asset) {
   for (uint32_t i = 0; i < asset.section_count(); ++i) {
     const uint32_t part = part_of_section(asset, i);
     const bool is_guide = (part & (kPartGuide | kPartSplineGuide)) != 0;
-    if (is_guide || (part & (kPartMesh | kPartSpline)) != 0)
+    if (is_guide || (part & (kPartMesh | kPartSpline | kPartObjects)) != 0)
       entries.push_back({is_guide, asset.name(i)});
   }
   return entries;
@@ -85,9 +81,6 @@ Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact
     default_ = names_in(container, {});
     check_name(asset_path, entries, false, wanted.surface, used.surface);
     check_name(asset_path, entries, true, wanted.guide, used.guide);
-    for (const SceneEntry& entry : entries)
-      if (entry.name != (entry.is_guide ? used.guide : used.surface))
-        unused.push_back((entry.is_guide ? "guide `" : "surface `") + entry.name + "`");
   }
   const Selection selection{text_or_null(wanted.surface), text_or_null(wanted.guide)};
   core::Verdict verdict = controller->open(asset.bytes(), selection);
@@ -96,6 +89,22 @@ Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact
     verdict = penalty->open(asset.bytes(), selection);
   }
   check_verdict(asset_path, verdict);
+  list_unused(scene_entries(container));
+}
+
+void Session::list_unused(const std::vector<SceneEntry>& entries) {
+  const MeshObjects& all = controller->objects();
+  const auto is_of_objects = [&](const std::string& name) {
+    for (uint32_t i = 0; all.is_open() && i < all.stored().size(); ++i)
+      if (name == all.stored()[i].mesh) return true;
+    return false;
+  };
+  for (uint32_t i = 0; all.is_open() && i < all.stored().size(); ++i)
+    objects.emplace_back(all.stored()[i].name);
+  for (const SceneEntry& entry : entries)
+    if (entry.name != (entry.is_guide ? used.guide : used.surface) &&
+        (entry.is_guide || !is_of_objects(entry.name)))
+      unused.push_back((entry.is_guide ? "guide `" : "surface `") + entry.name + "`");
 }
 
 void Session::load_next(const std::string& asset_path) {
@@ -116,7 +125,9 @@ Tick Session::tick() const {
 
 std::string Session::scene_text() const {
   std::string text;
-  if (!used.surface.empty()) text += "surface `" + used.surface + "`";
+  for (size_t i = 0; i < objects.size(); ++i)
+    text += (i == 0 ? "objects `" : ", `") + objects[i] + "`";
+  if (objects.empty() && !used.surface.empty()) text += "surface `" + used.surface + "`";
   if (!used.guide.empty()) text += (text.empty() ? "guide `" : ", guide `") + used.guide + "`";
   for (size_t i = 0; i < unused.size(); ++i) text += (i == 0 ? "; not used: " : ", ") + unused[i];
   return text;

@@ -13,6 +13,12 @@ namespace firmtouch::host_sim {
 /// What makes the contact of a controller in this process.
 enum class Contact { kProxy, kPenalty };
 
+/// A surface or a guide of an asset; objects are a surface.
+struct SceneEntry {
+  bool is_guide;
+  std::string name;
+};
+
 /// An asset and the in-process controller that opened it.
 struct Session {
   /// `wanted`: the surface and the guide to use; an empty name stands for the asset's first.
@@ -27,21 +33,24 @@ struct Session {
   void load_next(const std::string& asset_path);
   /// Of the controller that renders the contact.
   Tick tick() const;
-  /// "surface `part`, guide `path`; not used: surface `lid`".
+  /// "surface `part`, guide `path`; not used: surface `lid`"; "objects `left`, `right`".
   std::string scene_text() const;
   /// Whether a controller that uses the asset's first surface and guide has the same scene.
   bool is_default() const;
 
   AssetFile asset;
   SceneNames wanted;
-  SceneNames used;                  // empty: the asset has none
-  std::vector<std::string> unused;  // "surface `lid`"
+  SceneNames used;                   // empty: the asset has none
+  std::vector<std::string> objects;  // names of those that are touched; empty: one surface
+  std::vector<std::string> unused;   // "surface `lid`"
   std::unique_ptr<ObjectsController> controller;
   std::unique_ptr<PenaltyController> penalty;  // null: contact through a proxy
   std::unique_ptr<AssetFile> next;             // null: no asset to swap to
   std::unique_ptr<SwappingObjectsController> swapping;
 
  private:
+  void list_unused(const std::vector<SceneEntry>& entries);
+
   SceneNames default_;
 };
 

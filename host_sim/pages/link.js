@@ -160,7 +160,7 @@ class Session {
       throw new Error(`the controller speaks protocol ${about.protocol}, this page ${kProtocol}: take both from the same release`);
     }
     if (about.refused & kAssetRejected) {
-      throw new Error(`the controller rejects its asset by rule R${about.rule} at element ${about.element}: bake it again and load it anew`);
+      throw new Error(`the controller rejects its asset by rule R${about.rule} at element ${about.element}: bake and load it again`);
     }
     this.about = about;
     this.fields = await this.describe(0, 'records');

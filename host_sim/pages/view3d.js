@@ -82,6 +82,7 @@ class View3d {
     });
   }
   static partShades = View3d.shades([176, 186, 201]);
+  static touchedShades = View3d.shades([140, 176, 214]);
   static toolShades = View3d.shades([96, 150, 255]);
   static shade(table, l) { return table[Math.max(0, Math.min(511, (l * 340) | 0))]; }
 
@@ -97,6 +98,7 @@ class View3d {
   }
   drawTriangles() {
     const { points, corners, faceNormals: face, vertexNormals: vertex, f, w, h } = this, count = points.length / 3;
+    const touched = this.scene.mesh.touched || [];
     const sx = new Float32Array(count), sy = new Float32Array(count), sz = new Float32Array(count), lit = new Float32Array(count);
     for (let i = 0, j = 0; i < count; ++i, j += 3) {
       [sx[i], sy[i], sz[i]] = this.see([points[j], points[j + 1], points[j + 2]]);
@@ -106,6 +108,7 @@ class View3d {
       const a = corners[t], b = corners[t + 1], c = corners[t + 2];
       const area = (sx[b] - sx[a]) * (sy[c] - sy[a]) - (sx[c] - sx[a]) * (sy[b] - sy[a]);
       if (area === 0) continue;
+      const shades = touched.some(([first, end]) => t >= 3 * first && t < 3 * end) ? View3d.touchedShades : View3d.partShades;
       const nx = face[t], ny = face[t + 1], nz = face[t + 2];
       const back = nx * f.eye[0] + ny * f.eye[1] + nz * f.eye[2] < 0;
       if (back && this.scene.mesh.closed) continue;
@@ -126,7 +129,7 @@ class View3d {
           const z = wa * sz[a] + wb * sz[b] + wc * sz[c];
           if (z < this.depth[i]) continue;
           this.depth[i] = z;
-          this.pixels[i] = View3d.shade(View3d.partShades, wa * la + wb * lb + wc * lc);
+          this.pixels[i] = View3d.shade(shades, wa * la + wb * lb + wc * lc);
         }
       }
     }

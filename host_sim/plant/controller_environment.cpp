@@ -3,6 +3,26 @@
 
 namespace firmtouch::host_sim {
 
+namespace {
+
+// As the controller places them.
+std::vector<PlacedMesh> meshes_of(const ObjectsController& controller, Vec origin_m) {
+  std::vector<PlacedMesh> meshes;
+  const auto add = [&](const char* name, const mesh::View& mesh, const scene::Object& object) {
+    meshes.push_back({name, mesh, object});
+    math::Vec3& at_m = meshes.back().object.pose.translation_m;
+    const math::Vec3 origin = tools::to_vec3(origin_m);
+    at_m = {at_m.x + origin.x, at_m.y + origin.y, at_m.z + origin.z};
+  };
+  const MeshObjects& objects = controller.objects();
+  for (uint32_t i = 0; objects.is_open() && i < objects.stored().size(); ++i)
+    add(objects.stored()[i].name, objects.mesh(i), scene::object_of(objects.stored()[i]));
+  if (controller.mesh().is_open()) add("", controller.mesh(), {});
+  return meshes;
+}
+
+}  // namespace
+
 Environment environment_of(const ObjectsController& controller, Vec origin_m) {
   std::vector<Vec> guide;
   if (controller.curve().is_open())
@@ -22,7 +42,7 @@ Environment environment_of(const ObjectsController& controller, Vec origin_m) {
                          controller.spline_guide().chains().size() == 1 &&
                          controller.spline_guide().chains()[0].is_closed != 0;
   if (is_closed) guide.back() = guide.front();
-  return {controller.mesh(), controller.spline_surface(), std::move(guide), origin_m};
+  return {meshes_of(controller, origin_m), controller.spline_surface(), std::move(guide), origin_m};
 }
 
 }  // namespace firmtouch::host_sim

@@ -18,9 +18,12 @@ constexpr uint32_t kMaxVisits = 20000;  // the hand's aim does not need an exact
 
 }  // namespace
 
-Environment::Environment(const mesh::View& mesh, const spline::View& surface,
+Environment::Environment(std::vector<PlacedMesh> meshes, const spline::View& surface,
                          std::vector<Vec> guide_m, Vec origin_m)
-    : mesh_(mesh), surface_(surface), origin_m_(origin_m), guide_m_(std::move(guide_m)) {
+    : meshes_(std::move(meshes)),
+      surface_(surface),
+      origin_m_(origin_m),
+      guide_m_(std::move(guide_m)) {
   if (surface_.is_open()) tessellation_ = tessellate(surface_);
   double arc = 0;
   for (size_t i = 0; i < guide_m_.size(); ++i) {
@@ -32,14 +35,11 @@ Environment::Environment(const mesh::View& mesh, const spline::View& surface,
 }
 
 Environment::Surface Environment::nearest(Vec from_m) const {
-  const Vec in_mesh = from_m - origin_m_;
-  if (!mesh_.is_open()) {
+  if (!has_mesh()) {
+    const Vec in_mesh = from_m - origin_m_;
     spline::CurveHint cold;
     const spline::Closest found =
-        spline::closest_point(surface_,
-                              {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y),
-                               static_cast<float>(in_mesh.z)},
-                              {kMaxVisits}, cold);
+        spline::closest_point(surface_, tools::to_vec3(in_mesh), {kMaxVisits}, cold);
     Vec normal = wide(found.direction) * (normals_inward_ ? -1.0 : 1.0);
     const Vec off = in_mesh - wide(found.point_m);
     if (!(norm(normal) > 0.5)) normal = unit(off);  // no normal at a pole
@@ -47,13 +47,23 @@ Environment::Surface Environment::nearest(Vec from_m) const {
     return {wide(found.point_m) + origin_m_, normal,
             dot(off, normal) < 0 ? -distance_m : distance_m};
   }
-  mesh::Hint cold;
-  const mesh::Closest found = mesh::closest_point(
-      mesh_,
-      {static_cast<float>(in_mesh.x), static_cast<float>(in_mesh.y), static_cast<float>(in_mesh.z)},
-      query::kUnlimited, cold);
-  return {wide(found.point_m) + origin_m_, wide(found.direction),
-          static_cast<double>(found.distance_m)};
+  Surface best;
+  for (const PlacedMesh& placed : meshes_) {
+    mesh::Hint cold;
+    const mesh::Closest found = mesh::closest_point(
+        placed.mesh, tools::to_vec3(placed.to_own(from_m)), query::kUnlimited, cold);
+    const double distance_m = static_cast<double>(found.distance_m);
+    if (&placed != &meshes_.front() && !(distance_m < best.distance_m)) continue;
+    best = {placed.to_device(wide(found.point_m)), placed.turned(wide(found.direction)),
+            distance_m};
+  }
+  return best;
+}
+
+uint32_t Environment::triangle_count() const {
+  uint32_t count = 0;
+  for (const PlacedMesh& placed : meshes_) count += placed.mesh.head().triangle_count;
+  return count;
 }
 
 Vec Environment::guide_at(double arc_m) const {

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "firmtouch/mesh/view.hpp"
 #include "firmtouch/spline/view.hpp"
+#include "host_sim/plant/placed_mesh.hpp"
 #include "host_sim/plant/spline_shape.hpp"
 #include "host_sim/plant/vec.hpp"
 
@@ -16,17 +16,18 @@ namespace firmtouch::host_sim {
 class Environment {
  public:
   Environment() = default;
-  /// An open mesh, or open spline surfaces, or neither; and a polyline `guide_m`. All are moved by
-  /// `origin_m`.
-  Environment(const mesh::View& mesh, const spline::View& surface, std::vector<Vec> guide_m,
+  /// Meshes in the device frame, or open spline surfaces, or neither; and a polyline `guide_m`.
+  /// These two are moved by `origin_m`.
+  Environment(std::vector<PlacedMesh> meshes, const spline::View& surface, std::vector<Vec> guide_m,
               Vec origin_m);
 
   struct Surface {
     Vec point_m, normal;
     double distance_m = 0;  // signed, negative inside
   };
-  bool has_surface() const { return mesh_.is_open() || surface_.is_open(); }
-  bool has_mesh() const { return mesh_.is_open(); }
+  bool has_surface() const { return has_mesh() || surface_.is_open(); }
+  bool has_mesh() const { return !meshes_.empty(); }
+  /// Of objects that move where they begin.
   Surface nearest(Vec from_m) const;
 
   bool has_guide() const { return guide_m_.size() > 1; }
@@ -35,7 +36,10 @@ class Environment {
   /// start, an open one runs backwards.
   Vec guide_at(double arc_m) const;
   const std::vector<Vec>& guide_m() const { return guide_m_; }
-  const mesh::View& mesh() const { return mesh_; }
+  /// Pre: has_mesh(). The first mesh.
+  const mesh::View& mesh() const { return meshes_.front().mesh; }
+  const std::vector<PlacedMesh>& meshes() const { return meshes_; }
+  uint32_t triangle_count() const;  // of all meshes
   const spline::View& surface() const { return surface_; }
   /// Triangles of the spline surfaces, in the asset's frame; empty for a mesh.
   const Tessellation& tessellation() const { return tessellation_; }
@@ -44,7 +48,7 @@ class Environment {
   Vec origin_m() const { return origin_m_; }
 
  private:
-  mesh::View mesh_;
+  std::vector<PlacedMesh> meshes_;
   spline::View surface_;
   Tessellation tessellation_;
   bool normals_inward_ = false;

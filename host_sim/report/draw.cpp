@@ -11,7 +11,6 @@ constexpr double kAzimuth_rad = 0.72, kElevation_rad = 0.52;  // the viewer's in
 constexpr double kMargin = 0.93;  // share of the image that the scene fills
 // Cosine between face and vertex normal above which a corner is shaded smoothly.
 constexpr double kSmoothBelow = 0.82;
-constexpr Colour kPart{176, 186, 201};
 
 struct Screen {
   double x, y, depth;  // pixels; depth grows towards the eye
@@ -66,7 +65,7 @@ std::vector<Vec> vertex_normals(const Scene3d& scene3d) {
   return normals;
 }
 
-void fill_triangle(Canvas& canvas, const Screen (&p)[3], const Vec (&normal)[3]) {
+void fill_triangle(Canvas& canvas, const Screen (&p)[3], const Vec (&normal)[3], Colour part) {
   const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
   if (!(std::fabs(area) > 1e-12)) return;
   const auto low = [](double a, double b, double c) {
@@ -89,13 +88,14 @@ void fill_triangle(Canvas& canvas, const Screen (&p)[3], const Vec (&normal)[3])
       const double a = 1 - b - c;
       if (a < 0 || b < 0 || c < 0) continue;
       const double z = a * p[0].depth + b * p[1].depth + c * p[2].depth;
-      canvas.put(x, y, z, lit(canvas, unit(normal[0] * a + normal[1] * b + normal[2] * c), kPart));
+      canvas.put(x, y, z, lit(canvas, unit(normal[0] * a + normal[1] * b + normal[2] * c), part));
     }
 }
 
 void draw_mesh(Canvas& canvas, const Scene3d& scene3d) {
   const std::vector<Vec> normals = vertex_normals(scene3d);
-  for (const auto& t : scene3d.triangles) {
+  for (uint32_t i = 0; i < scene3d.triangles.size(); ++i) {
+    const auto& t = scene3d.triangles[i];
     const Vec face = unit(cross(scene3d.vertices[t[1]] - scene3d.vertices[t[0]],
                                 scene3d.vertices[t[2]] - scene3d.vertices[t[0]]));
     const double side = dot(face, canvas.eye) < 0 ? -1 : 1;  // an open surface shows its back too
@@ -105,7 +105,7 @@ void draw_mesh(Canvas& canvas, const Scene3d& scene3d) {
       p[k] = canvas.see(scene3d.vertices[t[k]]);
       n[k] = (dot(face, normals[t[k]]) > kSmoothBelow ? normals[t[k]] : face) * side;
     }
-    fill_triangle(canvas, p, n);
+    fill_triangle(canvas, p, n, part_colour(scene3d, i));
   }
 }
 

@@ -126,8 +126,14 @@ std::string table(const Report& report, const Scene3d& scene3d) {
     rows += row("Guide", grouped(report.environment.guide_m().size()) + " points, " +
                              fixed(report.environment.guide_length_m() * 1e3, 1) + " mm");
   rows += row("Scene", html_of(report.scene));
+  for (const ShownObject& object : scene3d.objects)
+    rows += row("Object " + html_of(object.name),
+                "held the tool for " + grouped(object.ticks) + " ticks, motors on");
   rows += row("Asset in flash", grouped(report.asset_bytes) + " bytes");
-  rows += row("Controller state in RAM", grouped(sizeof(FullController)) + " bytes");
+  rows +=
+      row("Controller state in RAM",
+          grouped(scene3d.objects.empty() ? sizeof(FullController) : sizeof(ObjectsController)) +
+              " bytes");
   rows += row("Ticks", grouped(s.ticks) + " at " + fixed(s.rate_Hz, 0) + " Hz");
   rows += row("Ticks in contact, motors on", grouped(s.contact_ticks));
   if (s.has_guide) rows += row("Ticks on the guide, motors on", grouped(s.guide_ticks));

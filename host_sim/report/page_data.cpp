@@ -51,9 +51,16 @@ std::string mesh_text(const Scene3d& scene3d, bool is_closed) {
       else
         narrow.push_back(static_cast<uint16_t>(corner));
     }
+  std::string touched;  // first and end of the triangles of each object that was touched
+  for (size_t i = 0; i < scene3d.objects.size(); ++i)
+    if (scene3d.objects[i].ticks > 0)
+      touched += (touched.empty() ? "[" : ",[") +
+                 std::to_string(i == 0 ? 0 : scene3d.objects[i - 1].end) + "," +
+                 std::to_string(scene3d.objects[i].end) + "]";
   return std::string("{\"closed\":") + (is_closed ? "true" : "false") +
          ",\"wide\":" + (is_wide ? "true" : "false") + ",\"vertices\":" + packed(vertices) +
-         ",\"triangles\":" + (is_wide ? packed(wide) : packed(narrow)) + "}";
+         ",\"triangles\":" + (is_wide ? packed(wide) : packed(narrow)) + ",\"touched\":[" +
+         touched + "]}";
 }
 
 std::string path_text(const Scene3d& scene3d, const Path& path) {
@@ -118,8 +125,11 @@ std::string hex_of(Colour colour) {
 }
 
 std::string scene_data_of(const Scene3d& scene3d, const Environment& environment) {
-  const bool is_closed = environment.has_mesh() && environment.mesh().is_signed() &&
-                         scene3d.triangles.size() == scene3d.source_triangles;
+  const std::vector<PlacedMesh>& meshes = environment.meshes();
+  const bool is_closed = !meshes.empty() && scene3d.triangles.size() == scene3d.source_triangles &&
+                         std::all_of(meshes.begin(), meshes.end(), [](const PlacedMesh& placed) {
+                           return placed.mesh.is_signed();
+                         });
   std::string paths;
   for (const Path& path : scene3d.paths)
     paths += (paths.empty() ? "" : ",") + path_text(scene3d, path);

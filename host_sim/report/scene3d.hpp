@@ -7,6 +7,7 @@
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/plant/vec.hpp"
 #include "host_sim/report/image.hpp"
+#include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
@@ -21,11 +22,19 @@ struct Path {
   std::vector<double> values;
 };
 
+/// An object of the 3D view: its triangles stand together.
+struct ShownObject {
+  std::string name;
+  uint32_t end = 0;    // behind its last triangle
+  uint32_t ticks = 0;  // in which it held the tool; 0: not touched
+};
+
 /// Content of the 3D view: surface and paths, for the report's viewer and the drawn picture.
 struct Scene3d {
   std::vector<Vec> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
-  uint32_t source_triangles = 0;  // before simplification for display
+  uint32_t source_triangles = 0;     // before simplification for display
+  std::vector<ShownObject> objects;  // empty: one surface
   std::vector<Path> paths;
   Vec centre;
   double radius_m = 0.1;  // of the bounding sphere about `centre`
@@ -39,11 +48,12 @@ Scene3d surface_scene(const Environment& environment, double tool_radius_m);
 class RunPaths {
  public:
   /// `facts` outlives this.
-  explicit RunPaths(const RunFacts& facts);
+  RunPaths(const Environment& environment, const Scenario& scenario, const RunFacts& facts);
   void add(const RunTick& tick);
 
   struct Sample {
     Vec device_m, tool_m, target_m, force_N;
+    Vec proxy_m;
     bool touches = false;
   };
   const std::vector<Sample>& samples() const { return samples_; }
@@ -51,6 +61,10 @@ class RunPaths {
   double peak_N() const { return peak_N_; }
   /// Of the device at the largest force.
   Vec peak_device_m() const { return peak_device_m_; }
+  /// Where the objects are then.
+  const std::vector<PlacedMesh>& peak_meshes() const { return peak_meshes_; }
+  /// Ticks with the motors on in which each object held the tool.
+  const std::vector<uint32_t>& held_ticks() const { return held_ticks_; }
   /// First sample of which the scenario's parameters are set.
   size_t first() const;
 
@@ -60,10 +74,16 @@ class RunPaths {
   std::vector<Sample> samples_;
   double peak_N_ = 1e-9;
   Vec peak_device_m_;
+  MovingMeshes moving_;
+  std::vector<PlacedMesh> peak_meshes_;
+  std::vector<uint32_t> held_ticks_;
 };
 
 /// The surface with the paths of a run.
 Scene3d make_scene3d(const Environment& environment, const RunPaths& run, double tool_radius_m);
+
+/// Of a triangle: blue for an object that was touched, grey for others.
+Colour part_colour(const Scene3d& scene3d, uint32_t triangle);
 
 /// Colours a force from none (0) to the run's largest (1).
 Colour heat(double share);

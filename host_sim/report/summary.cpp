@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "firmtouch/device/homing.hpp"
 #include "firmtouch/params/table.hpp"
@@ -77,7 +78,7 @@ bool is_scripted_fault(const Event& event) { return event.kind <= Event::Kind::k
 size_t checked_ticks(const Environment& environment, size_t ticks) {
   // A spline sample costs about as much as ten triangles.
   const double work = environment.has_mesh()
-                          ? environment.mesh().head().triangle_count
+                          ? environment.triangle_count()
                           : 10 * kSplineSamples * environment.surface().pieces().size();
   return static_cast<size_t>(std::clamp(std::min(kCheckedTriangles / work, kMaxChecked), 20.0,
                                         std::max(20.0, static_cast<double>(ticks))));
@@ -88,9 +89,11 @@ size_t checked_ticks(const Environment& environment, size_t ticks) {
 Summariser::Summariser(const Scenario& scenario, const Environment& environment,
                        const RunFacts& facts)
     : environment_(environment),
-      brute_force_(environment.has_mesh() ? BruteForce(environment.mesh()) : BruteForce()),
+      moving_(environment.meshes(),
+              static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       facts_(facts),
       quality_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)) {
+  add_oracles();
   summary_.rate_Hz = facts.rate_Hz;
   summary_.has_surface = environment.has_surface();
   summary_.has_guide = environment.has_guide();
@@ -104,8 +107,44 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
     stride_ = 1 + facts.ticks / (checked_ticks(environment, facts.ticks) + 1);
 }
 
+// Objects of one mesh share one.
+void Summariser::add_oracles() {
+  const std::vector<PlacedMesh>& meshes = environment_.meshes();
+  std::vector<const mesh::Head*> heads;
+  Vec low{1e300, 1e300, 1e300}, high = low * -1.0;
+  for (const PlacedMesh& placed : meshes) {
+    const mesh::Head* const head = &placed.mesh.head();
+    const auto known = std::find(heads.begin(), heads.end(), head);
+    oracle_of_.push_back(static_cast<size_t>(known - heads.begin()));
+    for (uint32_t i = 0; i < placed.mesh.vertices().size(); ++i) {
+      const Vec p = placed.vertex_m(i);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    if (known != heads.end()) continue;
+    heads.push_back(head);
+    brute_force_.emplace_back(placed.mesh);
+  }
+  size_m_ = meshes.size() == 1 ? static_cast<double>(meshes[0].mesh.head().diagonal_m)
+            : meshes.empty()
+                ? static_cast<double>(
+                      environment_.has_surface() ? environment_.surface().head().extent_m : 0.0f)
+                : norm(high - low);
+}
+
+double Summariser::true_distance_m(Vec at_m) const {
+  if (!environment_.has_mesh())
+    return spline_distance_m(environment_.surface(), at_m - environment_.origin_m());
+  double least_m = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < oracle_of_.size(); ++i)
+    least_m =
+        std::min(least_m, brute_force_[oracle_of_[i]].distance_m(moving_.meshes()[i].to_own(at_m)));
+  return least_m;
+}
+
 void Summariser::add(const RunTick& tick) {
   const record::TickRecord& record = tick.record;
+  moving_.take(record);
   const record::TickOutput& out = record.output;
   const double time_s = static_cast<double>(summary_.ticks) / facts_.rate_Hz;
   if (out.faults != 0 && summary_.fault_s < 0) {
@@ -143,14 +182,8 @@ void Summariser::check_certificate(const record::TickOutput& out) {
   // Without a position, nothing is queried.
   if ((out.state & record::kStateNotHomed) != 0) return;
   if ((out.state & record::kStateReady) == 0 || !used_.is_ready || out.model_sequence == 0) return;
-  const bool is_mesh = environment_.has_mesh();
-  const mesh::View& mesh = environment_.mesh();
-  const double size_m = static_cast<double>(is_mesh ? mesh.head().diagonal_m
-                                                    : environment_.surface().head().extent_m);
-  const Vec at = queried_m(out, used_.position_m) - environment_.origin_m();
-  const double truth =
-      is_mesh ? brute_force_.distance_m(at) : spline_distance_m(environment_.surface(), at);
-  const double scale = std::max(size_m, truth) * (is_mesh ? 1 : kSplineFactor);
+  const double truth = true_distance_m(queried_m(out, used_.position_m));
+  const double scale = std::max(size_m_, truth) * (environment_.has_mesh() ? 1 : kSplineFactor);
   const double reported = std::fabs(static_cast<double>(out.distance_m)),
                lower = static_cast<double>(out.distance_lower_m);
   if (!(lower <= truth + kBoundRounding * scale) || !(reported >= truth - kRounding * scale))

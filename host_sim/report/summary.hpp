@@ -72,10 +72,16 @@ class Summariser {
     bool is_ready = false;
     Vec position_m;
   };
+  void add_oracles();
   void check_certificate(const record::TickOutput& out);
 
+  double true_distance_m(Vec at_m) const;
+
   const Environment& environment_;
-  BruteForce brute_force_;  // of its mesh
+  std::vector<BruteForce> brute_force_;  // of its different meshes
+  std::vector<size_t> oracle_of_;        // of each object: one of these
+  MovingMeshes moving_;
+  double size_m_ = 0;  // that tolerances refer to
   const RunFacts& facts_;
   Summary summary_;
   ContactQuality quality_;

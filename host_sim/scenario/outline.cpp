@@ -108,7 +108,8 @@ std::vector<Vec> outline(const Environment& environment, double height_m) {
   if (loop.size() < 4) return {};
   loop = resample(loop, kPoints);
   for (Vec& p : loop) {
-    const Environment::Surface surface = environment.nearest(p + environment.origin_m());
+    const Environment::Surface surface =
+        environment.nearest(environment.meshes().front().to_device(p));
     p = surface.point_m - environment.origin_m() + surface.normal * height_m;
   }
   for (int round = 0; round < kSmoothings; ++round) {

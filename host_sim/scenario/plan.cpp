@@ -48,11 +48,8 @@ struct Box {
 Box box_of(const Environment& environment) {
   Box box;
   for (const Vec& p : environment.tessellation().vertices) box.take(p + environment.origin_m());
-  if (environment.has_mesh())
-    for (const mesh::Vertex& v : environment.mesh().vertices())
-      box.take(
-          Vec{static_cast<double>(v.x_m), static_cast<double>(v.y_m), static_cast<double>(v.z_m)} +
-          environment.origin_m());
+  for (const PlacedMesh& placed : environment.meshes())
+    for (uint32_t i = 0; i < placed.mesh.vertices().size(); ++i) box.take(placed.vertex_m(i));
   for (const Vec& p : environment.guide_m()) box.take(p);
   return box;
 }

@@ -118,7 +118,7 @@ bool Reader::parameter(const std::string& given_name, LineReader& words) {
 }
 
 // at 9.5 s emergency_stop | drive_fault | encoder_fault | disable | enable | release |
-// clear_faults | set KEY VALUE UNIT | load RATIO
+// clear_faults | set KEY VALUE UNIT | load RATIO | move OBJECT SPEED
 void Reader::event(LineReader& words) {
   struct Name {
     const char* name;
@@ -132,7 +132,8 @@ void Reader::event(LineReader& words) {
                              {"release", Event::Kind::kRelease},
                              {"clear_faults", Event::Kind::kClearFaults},
                              {"set", Event::Kind::kSet},
-                             {"load", Event::Kind::kLoad}};
+                             {"load", Event::Kind::kLoad},
+                             {"move", Event::Kind::kMoveObject}};
   Event event;
   event.time_s = words.quantity("at", "s", 0, 3600);
   const std::string what = words.next("an event");
@@ -142,9 +143,13 @@ void Reader::event(LineReader& words) {
   if (found == nullptr)
     words.refuse("unknown event `" + what +
                  "`; known: emergency_stop, drive_fault, encoder_fault, disable, enable, release, "
-                 "clear_faults, set, load");
+                 "clear_faults, set, load, move");
   event.kind = found->kind;
   if (event.kind == Event::Kind::kLoad) event.value = words.quantity("load", "", 0, 100);
+  if (event.kind == Event::Kind::kMoveObject) {
+    event.object = words.next("an object's name");
+    event.value = words.quantity("move", "", -1, 1);
+  }
   if (event.kind == Event::Kind::kSet) {
     const std::string name = words.next("a parameter's name");
     event.parameter = row_of(parameters, name);
@@ -238,7 +243,8 @@ std::string scenario_help() {
           "  asset PATH                        baked asset, relative to the scenario's folder;\n"
           "                                    in \"quotes\" if it contains a # after a blank\n"
           "  mesh NAME                         mesh or spline surface to touch; default: the "
-          "asset's first\n"
+          "asset's\n"
+          "                                    objects, or its first surface\n"
           "  device FILE                       linkage (firmtouch-sim device --help) that is "
           "simulated;\n"
           "                                    the asset was baked with --device FILE\n"
@@ -265,7 +271,9 @@ std::string scenario_help() {
           "  at T s emergency_stop | drive_fault | encoder_fault | disable | enable |\n"
           "         release (of emergency stop and drive fault) |\n"
           "         clear_faults (accepted only while disabled) | set PARAMETER VALUE UNIT |\n"
-          "         load RATIO (from then on a tick with queries takes so many periods)\n";
+          "         load RATIO (from then on a tick with queries takes so many periods) |\n"
+          "         move OBJECT SPEED (the asset's object moves by its twist times -1 to 1; 0: it "
+          "stands)\n";
   return help.str();
 }
 

@@ -40,12 +40,16 @@ struct Event {
     kRelease,
     kClearFaults,
     kSet,
-    kLoad
+    kLoad,
+    kMoveObject
   };
   double time_s = 0;
   Kind kind = Kind::kEnable;
   uint32_t parameter = 0;  // kSet: row of the parameter table
-  double value = 0;        // kSet: SI; kLoad: periods that a tick takes which queries the geometry
+  // kSet: SI; kLoad: periods that a tick takes which queries the geometry; kMoveObject: times the
+  // object's twist.
+  double value = 0;
+  std::string object = {};  // kMoveObject: its name
 };
 
 struct Setting {

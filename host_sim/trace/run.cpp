@@ -68,9 +68,12 @@ class Arm {
 // Flags and command of each tick, from the scenario's settings and events.
 class Operator {
  public:
-  explicit Operator(const Scenario& scenario) : scenario_(scenario) {
+  Operator(const Scenario& scenario, const Environment& environment) : scenario_(scenario) {
     for (const Setting& setting : scenario.settings) commands_.push_back(setting);
     enable_tick_ = static_cast<uint32_t>(setup_ticks(scenario));
+    for (const PlacedMesh& placed : environment.meshes()) objects_.push_back(placed.name);
+    for (const Event& event : scenario.events)
+      if (event.kind == Event::Kind::kMoveObject) check_object(event.object);
   }
   // `last`: output of the tick before.
   void fill(record::TickInput& input, const record::TickOutput& last, double time_s) {
@@ -117,11 +120,31 @@ class Operator {
       case Event::Kind::kLoad:
         load_ = event.value;
         return 0;
+      case Event::Kind::kMoveObject:
+        commands_.push_back(
+            {record::kCommandMoveObject + number_of(event.object) - 1, event.value});
+        return 0;
     }
     return 0;
   }
+  uint32_t number_of(const std::string& object) const {
+    return static_cast<uint32_t>(std::find(objects_.begin(), objects_.end(), object) -
+                                 objects_.begin());
+  }
+  void check_object(const std::string& object) const {
+    const std::string place = scenario_.file + ": `move " + object + "`: ";
+    if (scenario_.geometry_rate_Hz > 0)
+      throw Refused(place + "at two rates objects stand; leave out `geometry_rate`");
+    if (number_of(object) < objects_.size()) return;
+    std::string list;
+    for (const std::string& name : objects_)
+      if (!name.empty()) list += (list.empty() ? "`" : ", `") + name + "`";
+    throw Refused(place + "the asset has no such object; " +
+                  (list.empty() ? "it has none that is touched" : "it has: " + list));
+  }
 
   const Scenario& scenario_;
+  std::vector<std::string> objects_;
   std::deque<Setting> commands_;
   uint32_t enable_tick_ = 0;
   size_t next_ = 0;
@@ -249,7 +272,7 @@ struct Simulation::Loop {
         substeps(machine.substeps(1 / scenario.rate_Hz)),
         substep_s(1 / scenario.rate_Hz / substeps),
         arm(hand.start_m(), substep_s),
-        panel(scenario) {}
+        panel(scenario, environment) {}
 
   Vec hand_N() const {
     if (is_away()) return {};

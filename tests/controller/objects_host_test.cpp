@@ -196,7 +196,7 @@ TEST(Objects_Friction_IsTheLargerOfObjectAndParameter) {
   check_slide(smooth, 0.2);
 }
 
-TEST(Objects_OneThatStandsAtTheOrigin_FeelsAsTheMeshAlone) {
+TEST(Objects_OneThatStandsAtTheOrigin_HasTheForceOfTheMeshAlone) {
   std::vector<tools::Section> sections = part_sections();
   const Asset alone(file_of(sections));
   const std::vector<scene::ObjectLayout> one = {layout_of({"part", "part", {}})};

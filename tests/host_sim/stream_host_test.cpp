@@ -58,7 +58,7 @@ TEST(Charts_LongRun_IsBoundedAndKeepsTheEvent) {
   RunFacts facts;
   facts.ticks = 600000;
   RunCharts charts(environment, facts);
-  RunPaths paths(facts);
+  RunPaths paths(environment, {}, facts);
   for (uint32_t i = 0; i < facts.ticks; ++i) {
     const RunTick tick = tick_of(i, 333333, 3);
     charts.add(tick);

@@ -31,7 +31,9 @@ std::vector<std::string> used_of_several(const asset::Container& asset) {
   constexpr Kind kKinds[] = {{"surface", "mesh", {kPartMesh, kPartSpline}},
                              {"guide", "guide", {kPartGuide, kPartSplineGuide}}};
   std::vector<std::string> lines;
+  const bool has_objects = (needed_parts(asset) & kPartObjects) != 0;
   for (const Kind& kind : kKinds) {
+    if (has_objects && kind.parts[0] == kPartMesh) continue;  // they are all touched
     std::vector<std::string> names;
     for (const uint32_t part : kind.parts)
       for (uint32_t i = 0; i < asset.section_count(); ++i)
