@@ -100,13 +100,13 @@ bool is_mesh_file(const std::string& path) {
 // A file of objects, as an asset named after its file's stem.
 BakedInput bake_objects_input(const std::string& path, const std::vector<std::string>& inputs) {
   std::vector<std::string> meshes;
-  for (const std::string& input : inputs)
-    if (is_mesh_file(input))
-      meshes.push_back(stem_of(input));
-    else if (is_asset(input))
-      for (const std::string& name :
-           tools::names_with(LoadedAsset(input).container(), mesh::kHeadSection))
-        meshes.push_back(name);
+  for (const std::string& input : inputs) {
+    if (is_mesh_file(input)) meshes.push_back(stem_of(input));
+    if (!is_asset(input)) continue;
+    const LoadedAsset asset(input);
+    for (const std::string& name : tools::names_with(asset.container(), mesh::kHeadSection))
+      meshes.push_back(name);
+  }
   BakedInput baked;
   try {
     const std::vector<uint8_t> source = read_file(path);
