@@ -3,6 +3,7 @@
 
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/scene/object.hpp"
+#include "firmtouch/scene/objects_layout.hpp"
 #include "firmtouch/scene/proxy_contact.hpp"
 
 // Contact with several objects, which may move, through one proxy. scene/README.md has the
@@ -14,7 +15,6 @@
 // near() answers for one object, in the object's own frame, as a shape of scene/touched.hpp does.
 namespace firmtouch::scene {
 
-constexpr uint32_t kMaxObjects = 16;
 constexpr uint8_t kNoObject = 0xFF;
 
 /// State of a (tool, object) pair from tick to tick. The caller owns one a pair. For an object that

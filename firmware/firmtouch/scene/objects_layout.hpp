@@ -6,6 +6,7 @@
 namespace firmtouch::scene {
 
 constexpr uint32_t kObjectsSection = 0x8001;
+constexpr uint32_t kMaxObjects = 16;
 
 constexpr uint32_t kObjectNameBytes = 32;  // as of the asset's own names
 
