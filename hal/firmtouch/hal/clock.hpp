@@ -3,7 +3,8 @@
 
 namespace firmtouch::hal {
 
-/// Microseconds since board_begin(); wraps after 71 minutes.
+/// Microseconds since board_begin(); wraps after 71 minutes. The servo calls it in each tick, so a
+/// definition may extend a counter that wraps after a longer time.
 /// Context: servo interrupt and main loop; the definition protects its own state.
 uint32_t clock_us();
 

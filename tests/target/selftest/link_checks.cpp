@@ -30,7 +30,7 @@ bool echo() {
 
 void check_link() {
   show(Prompt::kEchoLink);
-  check("link_write, link_read", comes(echo, 30000),
+  check("link_write, link_read", comes(echo, kEcho_ms),
         g_read == 0 ? "nothing came back. " : "other bytes came back: baud rate, or a terminal. ",
         hal::board_wiring(hal::Wire::kLink, 0));
   const uint32_t from_us = hal::clock_us();

@@ -21,10 +21,11 @@
 namespace firmtouch::selftest {
 
 #ifdef FIRMTOUCH_PLANTED
-namespace hal = planted;  // the same functions, one of them broken
-constexpr uint32_t kPatience_ms = 1000, kLongRun_ms = 4000;  // who simulates a person is quick
+namespace hal = planted;                 // the same functions, one of them broken
+constexpr uint32_t kPatience_ms = 1000;  // the simulated person is quick
+constexpr uint32_t kEcho_ms = 10000, kLongRun_ms = 4000;
 #else
-constexpr uint32_t kPatience_ms = 30000;
+constexpr uint32_t kPatience_ms = 30000, kEcho_ms = 30000;
 constexpr uint32_t kLongRun_ms = 12000;  // a counter of 32 bits at 400 MHz runs over
 #endif
 
@@ -59,7 +60,7 @@ void show(Prompt what);
 
 // The servo's interrupt reads and writes these; the functions below wait for it.
 struct Servo {
-  volatile uint32_t ticks, lines;
+  volatile uint32_t ticks, us, lines;
   volatile int32_t counts[3];
   volatile bool counts_are_valid;
   volatile bool may_push;     // motors_state(), as long as only the enable line is set
