@@ -26,8 +26,6 @@ constexpr float kCap = 0.9f;
 // Parts of a free radius by which the search for the side goes on: together within it.
 constexpr float kTowards = 0.7f;
 constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
-// Squared: planes whose directions differ by less count as one.
-constexpr float kSameDirection2 = 1e-10f;
 // Lengths are rounded up by so much.
 constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 
