@@ -4,8 +4,8 @@ constexpr int IRQ_ZERO_LATENCY = 1;
 extern void (*connected_isr)();
 extern bool is_irq_enabled;
 
-#define ISR_DIRECT_DECLARE(name)       \
-  static int name##_body();            \
+#define ISR_DIRECT_DECLARE(name)                  \
+  static int name##_body();                       \
   extern "C" void name() { (void)name##_body(); } \
   static int name##_body()
 #define IRQ_DIRECT_CONNECT(irq, priority, isr, flags)                                          \
