@@ -98,8 +98,10 @@ uint32_t triangles_in_blocks(const mesh::View& view) {
   const simd::WideTree& tree = owned.tree();
   uint32_t in_blocks = 0;
   for (uint32_t node = 0; node < view.nodes().size(); ++node) {
-    const simd::NodeBlock& block = tree.blocks[node];
-    if (block.of.count == 0) continue;
+    const uint32_t parent = mesh::slot_of(view.parents()[node]);
+    if (node == 0 || tree.block_nodes[parent / 2].side[parent % 2].child < simd::kBlockBit)
+      continue;
+    const simd::NodeBlock block = tree.block(node);
     in_blocks += block.of.count;
     CHECK(node != 0 && block.of.count <= simd::kLanes);
     uint32_t lanes = 0;

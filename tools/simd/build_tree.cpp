@@ -48,7 +48,7 @@ NodeBlock block_of(const mesh::View& mesh, uint32_t node) {
   uint32_t lanes = 0;
   for (uint32_t i = 0; i < 4; ++i)
     if (leaf[i] != 0) lanes |= lane_bits(leaf[i], leaves.first) << (8 * i);
-  return {{leaves.first, leaves.count}, lanes};
+  return make_node_block({leaves.first, leaves.count}, lanes);
 }
 
 // Nodes in order, two in each cache line: both children of a node share one.
@@ -90,8 +90,8 @@ struct OwnedTree::Arrays {
     put_nodes();
     put_marked_nodes();
     put_directions();
-    tree = {nodes.data(),   block_nodes.data(), children.data(), blocks.data(),
-            corners.data(), shapes.data(),      prisms.data(),   directions.data()};
+    tree = {nodes.data(),  block_nodes.data(), children.data(),  corners.data(),
+            shapes.data(), prisms.data(),      directions.data()};
   }
 
  private:
@@ -148,9 +148,16 @@ struct OwnedTree::Arrays {
     return marked;
   }
   void put_marked_nodes() {
-    for (const mesh::Node& node : mesh.nodes())
-      for (const mesh::Side& side : node.side)
-        children.push_back(marked(is_leaf(side.child) ? 0 : side.child));
+    for (uint32_t node = 0; node < nodes.size(); ++node) {
+      const NodeBlock& block = blocks[node];
+      const uint32_t words[4] = {block.of.first, block.of.count, block.lanes, block.boxes};
+      for (uint32_t k = 0; k < 2; ++k) {
+        const uint32_t child = mesh.sides()[2 * node + k].child;
+        children.push_back(marked(is_leaf(child) ? 0 : child));
+        for (uint32_t i = 0; i < 2 && block.of.count != 0; ++i)
+          children.back().side[i].child = words[2 * k + i];
+      }
+    }
     children.push_back(marked(0));
     for (uint32_t node = 0; node < nodes.size(); ++node) block_nodes.push_back(marked(node));
   }

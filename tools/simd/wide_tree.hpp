@@ -35,14 +35,13 @@ struct NodeBlock {
   // The boxes in the node and below it: bits 0 and 4 its own; bits 1 and 5 those in its child of
   // side 0, bits 2 and 6 of side 1, unless these are leaves.
   uint32_t boxes;
-
-  NodeBlock() = default;
-  NodeBlock(const Block& block, uint32_t of_leaves)
-      : of(block),
-        lanes(of_leaves),
-        boxes(0x11u | ((lanes & 0xFF00u) != 0 ? 0x22u : 0u) |
-              ((lanes & 0xFF000000u) != 0 ? 0x44u : 0u)) {}
 };
+
+constexpr NodeBlock make_node_block(const Block& block, uint32_t lanes) {
+  return {
+      block, lanes,
+      0x11u | ((lanes & 0xFF00u) != 0 ? 0x22u : 0u) | ((lanes & 0xFF000000u) != 0 ? 0x44u : 0u)};
+}
 
 // A leaf as in mesh::Side::child. Bits that a mesh of at most kMaxWideTriangles leaves free hold
 // its first lane in its block << 22, and the count of the block less 1 << 25.
@@ -64,9 +63,9 @@ struct WideTree {
   const Node* nodes;        // [node_count]: the mesh's, with leaves as above
   const Node* block_nodes;  // [node_count]: the same, with kBlockBit
   // Node[2 * node_count + 1]: at each slot a copy of the child there, so that both children of a
-  // node are adjacent. At the slot of a leaf, and last, a copy of the root.
+  // node are adjacent. At the slot of a leaf, and last, a copy of the root. No search passes
+  // through a node that has a block: of its two copies the four child words hold the block.
   const Node* children;
-  const NodeBlock* blocks;  // [node_count]; of no triangles where a node has none
   // float[9 * (triangle_count + 1) + kLanes]: of each block nine arrays of `count` floats, from
   // float 9 * first on: x, y, z of corner 0, then of corners 1 and 2.
   const float* corners;
@@ -77,6 +76,14 @@ struct WideTree {
   const float* prisms;
   const Vertex*
       directions;  // [7 * triangle_count]: the unit pseudonormals of a triangle's features
+
+  /// Pre: the node has a block.
+  NodeBlock block(uint32_t node) const {
+    const Side *const one = children[2 * size_t{node}].side, *const other =
+                                                                 children[2 * size_t{node} + 1]
+                                                                     .side;
+    return {{one[0].child, one[1].child}, other[0].child, other[1].child};
+  }
 };
 
 }  // namespace firmtouch::simd

@@ -27,12 +27,12 @@ struct BlockKeys {
   /// `keys`: of both children; `a_keys`, `b_keys`: of those in each.
   BlockKeys(uint32_t lanes, uint64_t keys, uint64_t a_keys, uint64_t b_keys) {
     const bool has_a = (lanes & 0xFF00u) != 0, has_b = (lanes & 0xFF000000u) != 0;
-    child[0] = has_a ? low_half(keys) : kFarthest;
-    child[1] = has_b ? high_half(keys) : kFarthest;
-    leaf[0] = has_a ? low_half(a_keys) : low_half(keys);
-    leaf[1] = has_a ? high_half(a_keys) : kFarthest;
-    leaf[2] = has_b ? low_half(b_keys) : high_half(keys);
-    leaf[3] = has_b ? high_half(b_keys) : kFarthest;
+    child[0] = chosen(has_a, low_half(keys), kFarthest);
+    child[1] = chosen(has_b, high_half(keys), kFarthest);
+    leaf[0] = chosen(has_a, low_half(a_keys), low_half(keys));
+    leaf[1] = chosen(has_a, high_half(a_keys), kFarthest);
+    leaf[2] = chosen(has_b, low_half(b_keys), high_half(keys));
+    leaf[3] = chosen(has_b, high_half(b_keys), kFarthest);
     is_later_first = high_half(keys) < low_half(keys) ? 1 : 0;
     are_leaves_swapped[0] = leaf[1] < leaf[0] ? 1 : 0;
     are_leaves_swapped[1] = leaf[3] < leaf[2] ? 1 : 0;

@@ -99,7 +99,7 @@ template <class Visitor>
         wants_more = take_wide_leaf(tree, segment, child, visitor);
       } else {
         const uint32_t node = block_node(child);
-        const NodeBlock& block = tree.blocks[node];
+        const NodeBlock block = tree.block(node);
         uint64_t a_keys, b_keys;
         enter(node, a_keys, b_keys);
         const BlockTriangles triangles(tree, block.of);
