@@ -50,8 +50,7 @@ core::Verdict MeshObjects::find_mesh(uint32_t object) {
 }
 
 void MeshObjects::reset() {
-  touch_ = {};
-  is_placed_ = false;
+  if (is_open()) place(origin_m_);
   for (float& speed : speed_) speed = 0;
 }
 
@@ -68,8 +67,6 @@ void MeshObjects::make_room(uint32_t object) {
 }
 
 void MeshObjects::place(math::Vec3 origin_m) {
-  if (is_placed_ && scene::is_same(origin_m, origin_m_)) return;
-  is_placed_ = true;
   origin_m_ = origin_m;
   size_m_ = 0;
   for (uint32_t i = 0; i < stored_.size(); ++i) {
@@ -93,7 +90,6 @@ bool MeshObjects::take_command(uint32_t command, float speed) {
 }
 
 void MeshObjects::advance(float passed_s) {
-  if (!is_placed_) return;
   for (uint32_t i = 0; i < stored_.size(); ++i) {
     if (!(__builtin_fabsf(speed_[i]) > 0.0f)) continue;
     scene::advance(object_[i], speed_[i] * passed_s);
@@ -103,7 +99,8 @@ void MeshObjects::advance(float passed_s) {
 
 void MeshObjects::touch(const ModelRequest& request, const params::Values& values,
                         ModelResult& result) {
-  place(scene_origin_m(values));
+  const math::Vec3 origin_m = scene_origin_m(values);
+  if (!scene::is_same(origin_m, origin_m_)) place(origin_m);
   Shapes shapes{*this};
   scene::touch_objects(proxy_contact(request, values, result), {object_, pair_, stored_.size()},
                        shapes, touch_, result.model);

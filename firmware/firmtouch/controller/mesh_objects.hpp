@@ -74,7 +74,7 @@ class MeshObjects : public MovingSurface {
   uint8_t first_of_[kMaxObjectMeshes] = {};   // the first object of each mesh
   uint8_t mesh_of_[scene::kMaxObjects] = {};  // of each object
   uint8_t mesh_count_ = 0, at_ = 0;           // meshes, and how many are open
-  bool is_begun_ = false, is_placed_ = false;
+  bool is_begun_ = false;
   scene::Object object_[scene::kMaxObjects];
   float speed_[scene::kMaxObjects] = {};  // times the twist
   scene::ObjectPair pair_[scene::kMaxObjects];
@@ -100,6 +100,7 @@ asset::Progress MeshObjects::work(State& state, uint32_t units) {
   if (!progress.is_done || !progress.verdict.ok()) return progress;
   is_begun_ = false;
   ++at_;
+  if (is_open()) place({});
   return {is_open(), core::kPassed};
 }
 
