@@ -1,5 +1,7 @@
 #include "demo/hand.hpp"
 
+#include <float.h>
+
 #include "demo/joints.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/motors.hpp"
@@ -48,6 +50,32 @@ struct Box {
   float low_m[3] = {}, high_m[3] = {};
 };
 
+// Of all objects, where they are.
+bool take_objects(const MeshObjects& objects, Box& box) {
+  if (!objects.is_open()) return false;
+  for (uint32_t k = 0; k < 3; ++k) box.low_m[k] = FLT_MAX, box.high_m[k] = -FLT_MAX;
+  for (uint32_t i = 0; i < objects.stored().size(); ++i) {
+    const mesh::Head& head = objects.mesh(i).head();
+    for (uint32_t corner = 0; corner < 8; ++corner) {
+      const auto side = [&](uint32_t k) {
+        return (corner >> k & 1u) != 0 ? head.high_m[k] : head.low_m[k];
+      };
+      const math::RigidTransform& pose = objects.object(i).pose;
+      const math::Vec3 t = pose.translation_m;
+      float at_m[3] = {t.x, t.y, t.z};
+      for (uint32_t k = 0; k < 3; ++k) {
+        const math::Vec3 row = pose.rotation.row[k];
+        at_m[k] += row.x * side(0) + row.y * side(1) + row.z * side(2);
+      }
+      for (uint32_t k = 0; k < 3; ++k) {
+        if (at_m[k] < box.low_m[k]) box.low_m[k] = at_m[k];
+        if (at_m[k] > box.high_m[k]) box.high_m[k] = at_m[k];
+      }
+    }
+  }
+  return true;
+}
+
 // Of the surface, of any kind; else of the spline guide.
 bool find_box(const app::AppController& seen, Box& box) {
   const auto take = [&](const auto& head) {
@@ -57,6 +85,7 @@ bool find_box(const app::AppController& seen, Box& box) {
     }
     return true;
   };
+  if (take_objects(seen.objects(), box)) return true;
   if (seen.mesh().is_open()) return take(seen.mesh().head());
   if (seen.spline_surface().is_open()) return take(seen.spline_surface().head());
   return seen.spline_guide().is_open() && take(seen.spline_guide().model().head());
