@@ -85,7 +85,7 @@ bool find_box(const app::AppController& seen, Box& box) {
     }
     return true;
   };
-  if (take_objects(seen.objects(), box)) return true;
+  if (take_objects(seen.surface<MeshObjects>(), box)) return true;
   if (seen.mesh().is_open()) return take(seen.mesh().head());
   if (seen.spline_surface().is_open()) return take(seen.spline_surface().head());
   return seen.spline_guide().is_open() && take(seen.spline_guide().model().head());
