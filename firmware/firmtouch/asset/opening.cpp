@@ -55,7 +55,7 @@ const query::CheckStage Proof::kStages[3] = {
      Stage::finish<&Proof::finish_table>},
     {10, Stage::count<&Proof::entry_count>, Stage::each<&Proof::check_entry>,
      Stage::finish<&Proof::finish_entries>},
-    {20, Stage::count<&Proof::section_pieces>, Stage::all<&Proof::check_sections>}};
+    {10, Stage::count<&Proof::section_pieces>, Stage::all<&Proof::check_sections>}};
 
 Verdict Proof::take(core::Bytes file) {
   if (reinterpret_cast<uintptr_t>(file.data()) % kAlignment != 0) return reject(kRuleAlignment);
@@ -141,10 +141,11 @@ Verdict Proof::check_sections(uint32_t first, uint32_t end) {
   const uint32_t begin = static_cast<uint32_t>(sizeof(Header)) + table_bytes();
   const uint32_t stop = min(begin + end * kPieceBytes, view.file_.size());
   uint32_t at = begin + first * kPieceBytes;
+  const core::LongCrc32 crc32;
   while (at < stop) {
     const Entry& entry = view.entries_[section_];
     const uint32_t behind = entry.offset + entry.bytes, to = min(behind, stop);
-    crc_ = core::crc32(slice(view.file_, at, to - at), crc_);
+    crc_ = crc32(slice(view.file_, at, to - at), crc_);
     at = to;
     if (at < behind) break;
     if (crc_ != entry.crc) return reject(kRuleSectionCrc, section_);

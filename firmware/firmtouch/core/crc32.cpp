@@ -14,25 +14,34 @@ constexpr uint32_t kNibble[16] = {0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D93
 
 uint32_t crc32(Bytes bytes, uint32_t crc) {
   crc = ~crc;
-  const uint8_t* at = bytes.data();
-  const uint8_t* const end = at + bytes.size();
-  for (; end - at >= 4; at += 4) {
-    uint32_t word;
-    __builtin_memcpy(&word, at, sizeof word);
-    crc ^= word;
-    for (uint32_t pair = 0; pair < 2; ++pair) {
-      crc = kNibble[crc & 15u] ^ (crc >> 4);
-      crc = kNibble[crc & 15u] ^ (crc >> 4);
-      crc = kNibble[crc & 15u] ^ (crc >> 4);
-      crc = kNibble[crc & 15u] ^ (crc >> 4);
-    }
-  }
-  for (; at != end; ++at) {
-    crc ^= *at;
+  for (const uint8_t byte : bytes) {
+    crc ^= byte;
     crc = kNibble[crc & 15u] ^ (crc >> 4);
     crc = kNibble[crc & 15u] ^ (crc >> 4);
   }
   return ~crc;
+}
+
+LongCrc32::LongCrc32() {
+  for (uint32_t byte = 0; byte < 256; ++byte) {
+    const uint32_t crc = kNibble[byte & 15u] ^ (byte >> 4);
+    of_byte_[byte] = kNibble[crc & 15u] ^ (crc >> 4);
+  }
+}
+
+uint32_t LongCrc32::continued(uint32_t crc, const uint8_t* at, const uint8_t* end) const {
+  const uint8_t* const words_end = end - ((end - at) & 3);
+  for (; at != words_end; at += 4) {
+    uint32_t word;
+    __builtin_memcpy(&word, at, sizeof word);
+    crc ^= word;
+    crc = of_byte_[crc & 255u] ^ (crc >> 8);
+    crc = of_byte_[crc & 255u] ^ (crc >> 8);
+    crc = of_byte_[crc & 255u] ^ (crc >> 8);
+    crc = of_byte_[crc & 255u] ^ (crc >> 8);
+  }
+  for (; at != end; ++at) crc = of_byte_[(crc ^ *at) & 255u] ^ (crc >> 8);
+  return crc;
 }
 
 }  // namespace firmtouch::core
