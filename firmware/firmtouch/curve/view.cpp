@@ -108,15 +108,16 @@ Verdict Proof::check_head() const {
 }
 
 Verdict Proof::check_samples(uint32_t first, uint32_t end) {
-  const uint32_t wrong = seen_.take(view.samples_.data(), first, end, view.head());
-  return wrong == end ? kPassed : reject(kRuleSampleOutside, wrong);
+  const Head& head = view.head();
+  const uint32_t inside =
+      seen_.take(&view.samples_[first].x_m, end - first, head.low_m, head.high_m);
+  return inside == end - first ? kPassed : reject(kRuleSampleOutside, first + inside);
 }
 
 Verdict Proof::finish_samples() {
   const Head& head = view.head();
-  for (uint32_t k = 0; k < 3; ++k)
-    if (!seen_.touches_low(k, head.low_m[k]) || !seen_.touches_high(k, head.high_m[k]))
-      return reject(kRuleLooseBox, k);
+  const uint32_t side = seen_.untouched_side(head.low_m, head.high_m);
+  if (side < 6) return reject(kRuleLooseBox, side % 3);
   const float* first = &view.samples_[0].x_m;
   const float* last = &view.samples_[head.sample_count - 1].x_m;
   bool meet = true;

@@ -6,6 +6,7 @@
 #include "firmtouch/curve/layout.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/query/headed_view.hpp"
+#include "firmtouch/query/seen_box.hpp"
 #include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::curve {

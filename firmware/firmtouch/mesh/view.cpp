@@ -1,6 +1,7 @@
 #include "firmtouch/mesh/view.hpp"
 
 #include "firmtouch/core/bytes.hpp"
+#include "firmtouch/math/extents.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/box_frame.hpp"
 #include "firmtouch/mesh/leaf_box.hpp"
@@ -23,10 +24,10 @@ bool is_box(const uint32_t* box) {
   return query::is_axis(box[0]) && query::is_axis(box[1]) && query::is_axis(box[2]);
 }
 
-bool holds(const uint32_t* outer, const uint32_t* inner) {
-  for (int k = 0; k < 3; ++k)
-    if (!query::holds(outer[k], inner[k])) return false;
-  return true;
+[[gnu::noinline]] bool holds(const uint32_t* outer, const uint32_t* inner) {
+  const uint32_t held = query::held(outer[0], inner[0]) & query::held(outer[1], inner[1]) &
+                        query::held(outer[2], inner[2]);
+  return (held & query::kHeld) == query::kHeld;
 }
 
 // Whether turned() shortens every vector, by 2^-16 to 2^-14. By Gershgorin's circles the square of
@@ -48,6 +49,32 @@ bool excludes_nothing(const uint32_t* words) {
   return words[0] == kNoLeafBox && words[1] == kNoLeafBox;
 }
 
+// Of all triangles' corners, one after the other.
+[[gnu::always_inline]] inline uint32_t corner_at(const View& mesh, uint32_t n) {
+  if (!mesh.triangles16().empty())
+    return reinterpret_cast<const uint16_t*>(mesh.triangles16().data())[n];
+  return reinterpret_cast<const uint32_t*>(mesh.triangles32().data())[n];
+}
+
+// Whether a triangle is thinner than 1e-10 of its longest edge, or lower than 1e-18 m.
+// Pre: ab is its longest edge, of 1e-12 m at least.
+bool is_thin(Vec3 ab, Vec3 ac, float ab2) {
+  const float per_ab2 = 1.0f / ab2;
+  const Vec3 normal = cross(ab * per_ab2, ac);
+  const float thin2 = dot(normal, normal);
+  if (thin2 > 1e-8f) return false;                        // by far not
+  const Vec3 height = ac - ab * (dot(ab, ac) * per_ab2);  // as the solver has it
+  return !(thin2 >= 1e-20f && dot(height, height) >= 1e-36f);
+}
+
+// The bits that a search would compute.
+[[gnu::noinline]] bool has_shape(const TriangleShape& stored, const Vertex& a, const Vertex& b,
+                                 const Vertex& c) {
+  const auto vec = [](const Vertex& v) { return Vec3{v.x_m, v.y_m, v.z_m}; };
+  const TriangleShape shape = shape_of(vec(a), vec(b), vec(c));
+  return __builtin_memcmp(&shape, &stored, sizeof shape) == 0;
+}
+
 using Stage = query::StageOf<Proof>;
 
 }  // namespace
@@ -55,8 +82,8 @@ using Stage = query::StageOf<Proof>;
 const query::CheckStage Proof::kStages[3] = {
     {1, Stage::count<&Proof::vertex_count>, Stage::all<&Proof::check_vertices>,
      Stage::finish<&Proof::finish_vertices>},
-    {1, Stage::count<&Proof::normal_count>, Stage::all<&Proof::check_normals>},
-    {60, Stage::count<&Proof::node_count>, Stage::each<&Proof::check_node>,
+    {2, Stage::count<&Proof::triangle_count>, Stage::all<&Proof::check_triangles>},
+    {30, Stage::count<&Proof::node_count>, Stage::all<&Proof::check_nodes>,
      Stage::finish<&Proof::finish_nodes>}};
 
 Verdict Proof::check_head() {
@@ -159,17 +186,21 @@ Verdict Proof::take_bounded(const Sections& s) {
 }
 
 Verdict Proof::check_vertices(uint32_t first, uint32_t end) {
-  const uint32_t wrong = seen_.take(view.vertices_.data(), first, end, view.head());
-  return wrong == end ? kPassed : reject(kRuleVertexOutsideBox, wrong);
+  const Head& head = view.head();
+  const uint32_t inside =
+      seen_.take(&view.vertices_[first].x_m, end - first, head.low_m, head.high_m);
+  if (inside != end - first) return reject(kRuleVertexOutsideBox, first + inside);
+  for (uint32_t i = first; i < end && view.is_signed(); ++i) {
+    const uint32_t code = view.vertex_normals_[i];
+    if ((code & 0xFFFFu) == 0xFFFFu || code >> 16 == 0xFFFFu) return reject(kRuleVertexNormal, i);
+  }
+  return kPassed;
 }
 
 Verdict Proof::finish_vertices() {
   const Head& head = view.head();
-  for (uint32_t k = 0; k < 3; ++k)
-    if (!seen_.touches_low(k, head.low_m[k])) return reject(kRuleBoxNotTouched, k);
-  for (uint32_t k = 0; k < 3; ++k)
-    if (!seen_.touches_high(k, head.high_m[k])) return reject(kRuleBoxNotTouched, 3 + k);
-  return kPassed;
+  const uint32_t side = seen_.untouched_side(head.low_m, head.high_m);
+  return side < 6 ? reject(kRuleBoxNotTouched, side) : kPassed;
 }
 
 Verdict Proof::finish_nodes() {
@@ -178,37 +209,59 @@ Verdict Proof::finish_nodes() {
   return deepest_ + 1 == view.head().depth ? kPassed : reject(kRuleDepth, deepest_);
 }
 
-Verdict Proof::check_normals(uint32_t first, uint32_t end) {
+Verdict Proof::check_triangles(uint32_t first, uint32_t end) {
+  const uint32_t vertices = view.vertices_.size();
+  const float longest_m = view.head_->longest_edge_m;
   for (uint32_t i = first; i < end; ++i) {
-    const uint32_t code = view.vertex_normals_[i];
-    if ((code & 0xFFFFu) == 0xFFFFu || code >> 16 == 0xFFFFu) return reject(kRuleVertexNormal, i);
+    const uint32_t at_a = corner_at(view, 3 * i), at_b = corner_at(view, 3 * i + 1),
+                   at_c = corner_at(view, 3 * i + 2);
+    if (at_a >= vertices || at_b >= vertices || at_c >= vertices) return reject(kRuleCorner, i);
+    const Vertex &a = view.vertices_[at_a], &b = view.vertices_[at_b], &c = view.vertices_[at_c];
+    const Vec3 ab{b.x_m - a.x_m, b.y_m - a.y_m, b.z_m - a.z_m};
+    const Vec3 bc{c.x_m - b.x_m, c.y_m - b.y_m, c.z_m - b.z_m};
+    const Vec3 ac{c.x_m - a.x_m, c.y_m - a.y_m, c.z_m - a.z_m};
+    const float ab2 = dot(ab, ab);
+    if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ac, ac)))
+      return reject(kRuleLongestEdgeFirst, i);
+    const float length_m = math::square_root(ab2);
+    if (!(length_m <= longest_m)) return reject(kRuleEdgeAboveLongest, i);
+    if (is_thin(ab, ac, ab2)) return reject(kRuleThinTriangle, i);
+    if (view.shapes_ != nullptr && !has_shape(view.shapes_[i], a, b, c))
+      return reject(kRuleShape, i);
+    if (!view.is_signed()) continue;
+    const int8_t(&fold)[3] = view.folds_[i].fold;
+    if (fold[0] < -kMaxFold || fold[1] < -kMaxFold || fold[2] < -kMaxFold)
+      return reject(kRuleFold, i);
   }
   return kPassed;
 }
 
-Verdict Proof::check_node(uint32_t i) {
-  const Node& node = view.nodes_[i];
-  const uint32_t word = view.parents_[i];
-  if (i == 0 ? word != 0
-             : parent_of(word) >= i || view.nodes_[parent_of(word)].side[which_of(word)].child != i)
-    return reject(kRuleParent, i);
-  if (depth_of(word) > deepest_) deepest_ = depth_of(word);
-  if (deepest_ >= kMaxDepth) return reject(kRuleDepth, i);
-  for (uint32_t which = 0; which < 2; ++which) {
-    const uint32_t child = node.side[which].child;
-    if (is_leaf(child)) {
-      const Verdict leaf = check_leaf(i, which);
-      if (!leaf.ok()) return leaf;
-      continue;
+Verdict Proof::check_nodes(uint32_t first, uint32_t end) {
+  for (uint32_t i = first; i < end; ++i) {
+    const Node& node = view.nodes_[i];
+    const uint32_t word = view.parents_[i];
+    if (i == 0
+            ? word != 0
+            : parent_of(word) >= i || view.nodes_[parent_of(word)].side[which_of(word)].child != i)
+      return reject(kRuleParent, i);
+    if (depth_of(word) > deepest_) deepest_ = depth_of(word);
+    if (deepest_ >= kMaxDepth) return reject(kRuleDepth, i);
+    for (uint32_t which = 0; which < 2; ++which) {
+      const uint32_t child = node.side[which].child;
+      if (!is_box(node.side[which].box)) return reject(kRuleNodeBox, i);
+      if (is_leaf(child)) {
+        const Verdict leaf = check_leaf(i, which);
+        if (!leaf.ok()) return leaf;
+        continue;
+      }
+      if (child <= i || child >= view.nodes_.size() ||
+          view.parents_[child] != make_parent(i, which, depth_of(word) + 1))
+        return reject(kRuleChild, i);
+      const Node& inner = view.nodes_[child];
+      for (uint32_t grandchild = 0; grandchild < 2; ++grandchild)
+        if (!holds(node.side[which].box, inner.side[grandchild].box))
+          return reject(kRuleBoxOutsideParent, child);
     }
-    if (!is_box(node.side[which].box)) return reject(kRuleNodeBox, i);
-    if (child <= i || child >= view.nodes_.size() ||
-        view.parents_[child] != make_parent(i, which, depth_of(word) + 1))
-      return reject(kRuleChild, i);
-    const Node& inner = view.nodes_[child];
-    for (uint32_t grandchild = 0; grandchild < 2; ++grandchild)
-      if (!holds(node.side[which].box, inner.side[grandchild].box))
-        return reject(kRuleBoxOutsideParent, child);
   }
   return kPassed;
 }
@@ -221,33 +274,28 @@ Verdict Proof::check_leaf(uint32_t i, uint32_t which) {
   if (first != next_triangle_ || (count == 0 && !(which == 1 && view.nodes_.size() == 1)))
     return reject(kRuleLeaf, i);
   if (count > view.head_->triangle_count - first) return reject(kRuleLeaf, i);
-  if (!is_box(node.side[which].box)) return reject(kRuleNodeBox, i);
+  math::Extents seen;  // in the frame of the boxes
+  for (uint32_t n = 3 * first; n < 3 * (first + count); ++n) {
+    const Vertex& at = view.vertices_[corner_at(view, n)];
+    float x = at.x_m, y = at.y_m, z = at.z_m;
+    if (view.box_frame_ != nullptr) {
+      const Vec3 in_frame = turned(*view.box_frame_, {x, y, z});
+      x = in_frame.x, y = in_frame.y, z = in_frame.z;
+    }
+    seen.take(x, y, z);
+  }
+  const float seen_low_m[3] = {seen.low_x, seen.low_y, seen.low_z};
+  const float seen_high_m[3] = {seen.high_x, seen.high_y, seen.high_z};
   // Cells are a power of two, so this is the box with the rounding that NearBound allows for.
   const float slack_cells = view.box_frame_ != nullptr ? kTurnedSlackCells : 0.0f;
   const float cell_m = view.head_->cell_m;
-  const float* grid_low_m = view.head_->grid_low_m;
-  float low_m[3], high_m[3];
-  for (int k = 0; k < 3; ++k) {
+  for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t axis = node.side[which].box[k];
-    low_m[k] = (static_cast<float>(query::low_of(axis)) + slack_cells) * cell_m;
-    high_m[k] = (static_cast<float>(query::high_of(axis)) - slack_cells) * cell_m;
-  }
-  for (uint32_t t = first; t < first + count; ++t) {
-    const Triangle<uint32_t> triangle = view.triangle(t);
-    for (const uint32_t corner : triangle.corner) {
-      if (corner >= view.vertices_.size()) return reject(kRuleCorner, t);
-      const Vec3 at_m = in_box_frame(view, view.vertex(corner));
-      const float* const x_m = &at_m.x;
-      for (int k = 0; k < 3; ++k) {
-        const float from_m = x_m[k] - grid_low_m[k];
-        if (!(low_m[k] <= from_m && from_m <= high_m[k]))
-          return reject(kRuleTriangleOutsideLeaf, t);
-      }
-    }
-    const Verdict sound =
-        check_triangle(t, view.vertex(triangle.corner[0]), view.vertex(triangle.corner[1]),
-                       view.vertex(triangle.corner[2]));
-    if (!sound.ok()) return sound;
+    const float grid_low_m = view.head_->grid_low_m[k];
+    const float from_m = (static_cast<float>(query::low_of(axis)) + slack_cells) * cell_m;
+    const float to_m = (static_cast<float>(query::high_of(axis)) - slack_cells) * cell_m;
+    if (!(from_m <= seen_low_m[k] - grid_low_m && seen_high_m[k] - grid_low_m <= to_m))
+      return reject(kRuleTriangleOutsideLeaf, first);
   }
   const Verdict box = check_leaf_box(first, count);
   if (!box.ok()) return box;
@@ -270,32 +318,9 @@ Verdict Proof::check_leaf_box(uint32_t first, uint32_t count) const {
   const Head& head = *view.head_;
   const float per_cell = 1.0f / head.cell_m;
   const Vec3 low_m{head.grid_low_m[0], head.grid_low_m[1], head.grid_low_m[2]};
-  for (uint32_t t = first; t < first + count; ++t)
-    for (const uint32_t corner : view.triangle(t).corner)
-      if (!box.holds((view.vertex(corner) - low_m) * per_cell))
-        return reject(kRuleTriangleOutsideLeafBox, t);
-  return kPassed;
-}
-
-Verdict Proof::check_triangle(uint32_t i, Vec3 a, Vec3 b, Vec3 c) const {
-  const Vec3 ab = b - a, bc = c - b, ca = a - c;
-  const float ab2 = dot(ab, ab);
-  if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ca, ca)))
-    return reject(kRuleLongestEdgeFirst, i);
-  const float length_m = math::square_root(ab2);
-  if (!(length_m <= view.head_->longest_edge_m)) return reject(kRuleEdgeAboveLongest, i);
-  const float per_ab = 1.0f / length_m;
-  const Vec3 normal = cross(ab * per_ab, ca * per_ab);
-  const Vec3 height = (c - a) - ab * (dot(ab, c - a) * (1.0f / ab2));  // as the solver has it
-  if (!(dot(normal, normal) >= 1e-20f && dot(height, height) >= 1e-36f))
-    return reject(kRuleThinTriangle, i);
-  if (view.shapes_ != nullptr) {  // the bits that a search would compute
-    const TriangleShape shape = shape_of(a, b, c);
-    if (__builtin_memcmp(&shape, &view.shapes_[i], sizeof shape) != 0) return reject(kRuleShape, i);
-  }
-  if (view.is_signed())
-    for (const int8_t fold : view.folds_[i].fold)
-      if (fold < -kMaxFold) return reject(kRuleFold, i);
+  for (uint32_t n = 3 * first; n < 3 * (first + count); ++n)
+    if (!box.holds((view.vertex(corner_at(view, n)) - low_m) * per_cell))
+      return reject(kRuleTriangleOutsideLeafBox, n / 3);
   return kPassed;
 }
 

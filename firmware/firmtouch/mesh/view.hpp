@@ -6,6 +6,7 @@
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/query/headed_view.hpp"
+#include "firmtouch/query/seen_box.hpp"
 #include "firmtouch/query/staged_check.hpp"
 
 namespace firmtouch::mesh {
@@ -91,16 +92,15 @@ class Proof {
   core::Verdict take_bounded(const Sections& sections);
   core::Verdict check_grid(float reach_m, float extent_m) const;
   uint32_t vertex_count() const { return view.vertices_.size(); }
-  uint32_t normal_count() const { return view.vertex_normals_.size(); }
+  uint32_t triangle_count() const { return view.head_->triangle_count; }
   uint32_t node_count() const { return view.nodes_.size(); }
   core::Verdict check_vertices(uint32_t first, uint32_t end);
   core::Verdict finish_vertices();
-  core::Verdict check_normals(uint32_t first, uint32_t end);
   core::Verdict finish_nodes();
-  core::Verdict check_node(uint32_t i);
+  core::Verdict check_triangles(uint32_t first, uint32_t end);
+  core::Verdict check_nodes(uint32_t first, uint32_t end);
   core::Verdict check_leaf(uint32_t node, uint32_t which);
   core::Verdict check_leaf_box(uint32_t first, uint32_t count) const;
-  core::Verdict check_triangle(uint32_t i, math::Vec3 a, math::Vec3 b, math::Vec3 c) const;
 
   // Leaves hold the triangles in the order of their nodes: none twice, none left out.
   uint32_t next_triangle_ = 0;

@@ -15,12 +15,13 @@ constexpr uint32_t make_axis(uint32_t low, uint32_t high) {
 }
 
 /// Whether a word is an axis of a box: on the grid and not inverted.
-constexpr bool is_axis(uint32_t axis) {
-  return (axis >> 16) <= kGridMax && low_of(axis) <= high_of(axis);
-}
-/// Pre: is_axis() of both.
+constexpr bool is_axis(uint32_t axis) { return low_of(axis) + (axis >> 16) <= kGridMax; }
+/// Has both of these bits exactly if `outer` holds `inner`, both axes of boxes.
+constexpr uint32_t kHeld = 0x80008000u;
+constexpr uint32_t held(uint32_t outer, uint32_t inner) { return (inner | kHeld) - outer; }
+/// Pre: is_axis(outer). Where it is not is_axis(inner) as well, any result.
 constexpr bool holds(uint32_t outer, uint32_t inner) {
-  return low_of(inner) >= low_of(outer) && high_of(inner) <= high_of(outer);
+  return (held(outer, inner) & kHeld) == kHeld;
 }
 
 }  // namespace firmtouch::query

@@ -147,32 +147,6 @@ core::Verdict open_at_once(typename Opening::View& view, const Sources&... sourc
   return opening.verdict();
 }
 
-/// Smallest box of the points so far, to compare with the one that a head states.
-class SeenBox {
- public:
-  /// Takes points first to end - 1. Result: `end`, or the first that is outside the head's box or
-  /// NaN.
-  template <class Point, class Head>
-  uint32_t take(const Point* points, uint32_t first, uint32_t end, const Head& head) {
-    while (first < end && take(&points[first].x_m, head.low_m, head.high_m)) ++first;
-    return first;
-  }
-  bool touches_low(uint32_t k, float low_m) const { return low_m_[k] <= low_m; }
-  bool touches_high(uint32_t k, float high_m) const { return high_m_[k] >= high_m; }
-
- private:
-  bool take(const float* point_m, const float* low_m, const float* high_m) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      if (!(point_m[k] >= low_m[k] && point_m[k] <= high_m[k])) return false;
-      if (!(point_m[k] >= low_m_[k])) low_m_[k] = point_m[k];
-      if (!(point_m[k] <= high_m_[k])) high_m_[k] = point_m[k];
-    }
-    return true;
-  }
-  static constexpr float kMax_m = 0x1p127f;
-  float low_m_[3] = {kMax_m, kMax_m, kMax_m}, high_m_[3] = {-kMax_m, -kMax_m, -kMax_m};
-};
-
 /// A power of two from 2^-95 to 2^65, as sides of cells and quanta are.
 inline bool is_power_of_two(float value) {
   uint32_t bits;
