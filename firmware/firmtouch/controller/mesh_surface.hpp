@@ -40,7 +40,7 @@ class MeshWith : public MeshContact, public LoaderChain<mesh::Loader, Others...>
 
  public:
   static constexpr uint32_t kParts =
-      kPartMesh | (kHasField ? kPartField : 0u) | (kHasHull ? kPartHull : 0u);
+      kPartMesh | (kHasField ? uint32_t{kPartField} : 0u) | (kHasHull ? uint32_t{kPartHull} : 0u);
 
   MeshWith() {
     if constexpr (kHasField) this->template get<field::Loader>().prove_against(mesh());
