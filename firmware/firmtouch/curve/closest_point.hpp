@@ -21,7 +21,7 @@ struct Closest {
 /// from the segment of the hint where it is warm and up the tree of runs, else down it, nearest box
 /// first.
 /// Pre:    `curve` is open.
-/// Bounds: <= budget.work units; 1.8 KB of stack, of a smooth curve 2.5 KB; re-entrant; callable
+/// Bounds: <= budget.work units; 1.8 KB of stack, of a smooth curve 2.6 KB; re-entrant; callable
 ///         from an interrupt.
 /// Result: always finite. Two points equally near: the one found first. A query that is not finite:
 ///         the first sample, at distance FLT_MAX, lower 0, not exact.

@@ -10,7 +10,7 @@ namespace firmtouch::curve {
 /// the one of the least distance + penalty, with a certificate. nearest_constraint() looks at the
 /// segments of the N nearest samples only.
 /// Pre:    `curve` is open.
-/// Bounds: <= budget.work units; 1.9 KB of stack, of a smooth curve 2.5 KB; re-entrant; callable
+/// Bounds: <= budget.work units; 1.9 KB of stack, of a smooth curve 2.8 KB; re-entrant; callable
 ///         from an interrupt.
 /// Result: always finite. Equal costs: the one found first. On a closed curve the change of arc is
 ///         taken the shorter way round. Without a penalty (no previous arc, one outside 0 to 1, a

@@ -35,7 +35,7 @@ struct Constraint {
 /// --curve-tree). It can miss the closest point where samples lie unevenly: closest_point() cannot.
 /// Pre:    `curve` is open. `nearest` is memory for N samples (at most kMaxNearest are used); what
 ///         it holds is overwritten.
-/// Bounds: <= budget.work units and N log N steps of sorting; 3.8 KB of stack; re-entrant;
+/// Bounds: <= budget.work units and N log N steps of sorting; 3.9 KB of stack; re-entrant;
 ///         interrupt-safe. Candidates are left out where the work does not suffice.
 /// Result: always finite. Equal costs: the first segment. On a closed curve the change of arc is
 ///         taken the shorter way round. No penalty for a weight that is not positive or a previous
