@@ -162,3 +162,14 @@ AnAssetBakedBeforeIsTakenAsItIs() {
   says 'cut.fta: not a sound asset'
   absent bad.fta
 }
+
+# Where FIRMTOUCH_LONG is set; else a twentieth of it.
+AMillionTrianglesBakeIn25SecondsAnd300MiB() {
+  triangles=50000
+  [ -n "${FIRMTOUCH_LONG:-}" ] && triangles=1000000
+  f make part --triangles $triangles -o million.obj; exits 0
+  before=$(date +%s)
+  (ulimit -v 307200; exec "$firmtouch" bake million.obj -o million.fta 2>.err) || fail "no bake in 300 MiB: $(cat .err)"
+  seconds=$(($(date +%s) - before))
+  [ $seconds -le 25 ] || fail "$seconds s"
+}
