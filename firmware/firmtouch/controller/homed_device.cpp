@@ -66,7 +66,6 @@ bool HomedDevice::push(const Values& values, const Push& push, servo::GuardState
   } else if (!has_failed()) {
     state_ = {};
   }
-  output.state &= record::kStateNotHomed - 1;  // no object either
   output.state |= state_bits(state_, push.may_push);
   return drive(values, push, wanted, guard, output);
 }
