@@ -117,7 +117,7 @@ plant_lost_sources() { in_pack "s/files_of '\*.cpp'/files_of 'a*.cpp'/" 'pdsc: s
 plant_file_that_is_not_there() { in_pack 's/name="CHANGELOG.md"/name="NEWS.md"/' 'pdsc: there is no NEWS.md'; }
 plant_moved_primitives() { mv firmware/firmtouch/arch/armv7em_fpv5 firmware/firmtouch/arch/fpv5; expect='zephyr: no firmtouch/arch/armv7em_fpv5'; }
 plant_moved_kconfig() { in_pack 's|kconfig: zephyr/Kconfig|kconfig: Kconfig|' 'module.yml: no Kconfig'; }
-plant_other_sum() { edit tools/packaging/build_id 's/ | sort | / | sort -r | /'; expect="another than CMake's"; }
+plant_other_sum() { edit tools/packaging/build_id 's/ | sort)/ | sort -r)/'; expect="another than CMake's"; }
 plant_category_of_our_own() { in_pack 's/^category=.*/category=Robots/' 'library.properties: category is against the schema: Robots'; }
 plant_key_nobody_reads() { in_pack 's/^includes=/include=/' 'library.properties: no key of the schema: include='; }
 plant_name_of_others() { in_pack 's/^maintainer=.*/maintainer=Arduino/' 'library.properties: maintainer=Arduino'; }
