@@ -10,8 +10,8 @@
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "target/count.hpp"
 #include "target/scene_views.hpp"
-#include "target/text.hpp"
 
 namespace hal = firmtouch::hal;
 namespace mesh = firmtouch::mesh;
@@ -60,8 +60,7 @@ class Bench {
     for (const float side_m : sides_m) extent_m_ = side_m > extent_m_ ? side_m : extent_m_;
     centre_m_ = Vec3{head.low_m[0], head.low_m[1], head.low_m[2]} + side_m_ * 0.5f;
     budget_.band_m = 0.01f * extent_m_;
-    const uint32_t before = hal::clock_work();
-    empty_ = hal::clock_work() - before;
+    empty_ = target::empty_work();
   }
 
   void run() {
@@ -94,20 +93,16 @@ class Bench {
     const mesh::Closest closest = mesh::closest_point(mesh_, p_m, budget_, hint);
     const uint32_t work = hal::clock_work() - before - empty_;
     if (!(closest.certificate.lower_m >= 0.0f)) hal::board_print("no bound\n");
-    const uint32_t per_1000 = hal::clock_work_per_1000();
-    return static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
+    return target::instructions(work);
   }
 
   uint32_t print(uint32_t kind, Vec3 p_m) {
     mesh::Hint hint;
     const uint32_t cold = measure(p_m, hint);
     const uint32_t warm = measure(p_m + random_.cube() * (0.03f * budget_.band_m), hint);
-    hal::board_print(target::decimal(kind).text);
-    hal::board_print(" ");
-    hal::board_print(target::decimal(cold).text);
-    hal::board_print(" ");
-    hal::board_print(target::decimal(warm).text);
-    hal::board_print("\n");
+    target::print(kind, " ");
+    target::print(cold, " ");
+    target::print(warm, "\n");
     if (kind < 3) keep(p_m, cold);
     return cold;
   }

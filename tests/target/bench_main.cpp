@@ -12,9 +12,9 @@
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/spline/closest_point.hpp"
+#include "target/count.hpp"
 #include "target/csv_points.hpp"
 #include "target/scene_views.hpp"
-#include "target/text.hpp"
 
 namespace hal = firmtouch::hal;
 namespace mesh = firmtouch::mesh;
@@ -26,11 +26,6 @@ namespace {
 constexpr uint32_t kBudgets[] = {1, 2, 4, 8, 16, 32, 64, 128};
 constexpr uint32_t kBudgetedRows = 1000;  // per budget; they give the cost of a visit
 
-uint32_t instructions(uint32_t work) {
-  const uint32_t per_1000 = hal::clock_work_per_1000();
-  return static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
-}
-
 template <class Closest>
 uint32_t evaluations_of(const Closest&) {
   return 0;
@@ -40,20 +35,12 @@ uint32_t evaluations_of(const firmtouch::spline::Closest& closest) { return clos
 template <class Closest>
 void print_row(uint32_t budget, uint32_t taken, const Closest& closest) {
   const query::Certificate& certificate = closest.certificate;
-  hal::board_print(target::decimal(budget).text);
-  hal::board_print(" ");
-  hal::board_print(target::decimal(taken).text);
-  hal::board_print(" ");
-  hal::board_print(target::decimal(certificate.steps).text);
-  hal::board_print(certificate.sign == 0 ? " 0 " : certificate.sign > 0 ? " 1 " : " -1 ");
-  hal::board_print(target::decimal(evaluations_of(closest)).text);
-  hal::board_print("\n");
-}
-
-// The two reads of the clock themselves.
-uint32_t empty_work() {
-  const uint32_t before = hal::clock_work();
-  return hal::clock_work() - before;
+  target::print(budget, " ");
+  target::print(taken, " ");
+  target::print(certificate.steps, certificate.sign == 0  ? " 0 "
+                                   : certificate.sign > 0 ? " 1 "
+                                                          : " -1 ");
+  target::print(evaluations_of(closest), "\n");
 }
 
 template <class View>
@@ -73,7 +60,7 @@ template <class View>
 bool run(const View& view, const char* path, query::Budget budget, uint32_t rows, bool warm) {
   target::CsvPoints points(path);
   typename HintOf<View>::Hint hint;
-  const uint32_t empty = empty_work();
+  const uint32_t empty = target::empty_work();
   firmtouch::math::Vec3 p_m;
   uint32_t row = 0;
   for (; row < rows && points.next(p_m); ++row) {
@@ -81,7 +68,7 @@ bool run(const View& view, const char* path, query::Budget budget, uint32_t rows
     const uint32_t before = hal::clock_work();
     const auto closest = closest_point(view, p_m, budget, hint);
     const uint32_t work = hal::clock_work() - before - empty;
-    print_row(budget.work == UINT32_MAX ? 0 : budget.work, instructions(work), closest);
+    print_row(budget.work == UINT32_MAX ? 0 : budget.work, target::instructions(work), closest);
   }
   return row > 0;
 }

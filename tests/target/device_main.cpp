@@ -10,10 +10,11 @@
 #include "firmtouch/device/serial_arm.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
-#include "target/text.hpp"
+#include "target/count.hpp"
 
 namespace device = firmtouch::device;
 namespace hal = firmtouch::hal;
+namespace target = firmtouch::target;
 
 namespace {
 
@@ -26,16 +27,6 @@ const device::Delta kDelta{{.06f, .06f, .06f}, {.103f, .103f, .103f}, .038f, .02
 const device::TorqueLimits kLimits;
 volatile float g_kept;
 
-void print(const char* text, uint32_t value) {
-  hal::board_print(text);
-  hal::board_print(firmtouch::target::decimal(value).text);
-}
-
-uint32_t instructions(uint64_t work) {
-  const uint32_t per_1000 = hal::clock_work_per_1000();
-  return static_cast<uint32_t>((work * 1000 + per_1000 / 2) / per_1000);
-}
-
 // Joints that swing by a quarter of a turn about `middle_rad`, at speeds in no ratio.
 template <class Linkage>
 void run(const char* name, const Linkage& linkage, uint32_t joints, const float (&middle_rad)[3]) {
@@ -43,8 +34,7 @@ void run(const char* name, const Linkage& linkage, uint32_t joints, const float 
   settings.joints = joints;
   for (uint32_t k = 0; k < 3; ++k) settings.joint[k] = {kCountsPerRad, middle_rad[k], -7, 7};
   device::JointState state;
-  const uint32_t before = hal::clock_work();
-  const uint32_t empty = hal::clock_work() - before;
+  const uint32_t empty = target::empty_work();
   uint64_t parts[3] = {}, sum = 0;
   uint32_t worst = 0, reachable = 0;
   for (uint32_t i = 0; i < kTicks; ++i) {
@@ -71,10 +61,10 @@ void run(const char* name, const Linkage& linkage, uint32_t joints, const float 
     worst = all > worst ? all : worst;
   }
   hal::board_print(name);
-  for (const uint64_t part : parts) print(" | ", instructions(part / kTicks));
-  print(" | ", instructions(sum / kTicks));
-  print(" | ", instructions(worst));
-  print(" | ", reachable * 100 / kTicks);
+  for (const uint64_t part : parts) target::print(" | ", target::instructions(part / kTicks));
+  target::print(" | ", target::instructions(sum / kTicks));
+  target::print(" | ", target::instructions(worst));
+  target::print(" | ", reachable * 100 / kTicks);
   hal::board_print("\n");
 }
 
@@ -91,8 +81,7 @@ void run_homing() {
   device::HomingState state;
   device::HomingSample sample;
   sample.encoders = {{}, true, 1e-3f};
-  const uint32_t before = hal::clock_work();
-  const uint32_t empty = hal::clock_work() - before;
+  const uint32_t empty = target::empty_work();
   uint64_t sum = 0;
   uint32_t worst = 0, ticks = 0;
   while (!state.is_done && ticks < kTicks) {
@@ -112,9 +101,9 @@ void run_homing() {
     }
   }
   hal::board_print("homing");
-  print(" | ", instructions(sum / ticks));
-  print(" | ", instructions(worst));
-  print(" | ", state.is_done ? 1 : 0);
+  target::print(" | ", target::instructions(sum / ticks));
+  target::print(" | ", target::instructions(worst));
+  target::print(" | ", state.is_done ? 1 : 0);
   hal::board_print("\n");
 }
 

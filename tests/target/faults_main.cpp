@@ -2,14 +2,15 @@
 // tests/target/run_faults checks what is printed. Built for the emulator, and as for hardware.
 #include <stdint.h>
 
+#include "count.hpp"
 #include "emulator/exit.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/watchdog.hpp"
-#include "text.hpp"
 
 namespace hal = firmtouch::hal;
+namespace target = firmtouch::target;
 using hal::board_print;
 
 namespace {
@@ -20,11 +21,6 @@ enum Cause : uint8_t { kRun, kExit, kBus, kUndefined, kOverflow, kWatchdog, kThr
 volatile uint32_t g_ticks = 0;
 volatile bool g_has_power = false;
 uint32_t g_ticks_at_cause = 0;
-
-void print(const char* name, uint32_t value) {
-  board_print(name);
-  board_print(firmtouch::target::decimal(value).text);
-}
 
 void tick() {
   g_ticks = g_ticks + 1;
@@ -72,7 +68,7 @@ void motors_off() {
   g_has_power = false;
   ++g_motors_off_calls;
   if (g_ticks_at_cause != 0)
-    print("motors off, ticks since the cause: ", g_ticks - g_ticks_at_cause);
+    target::print("motors off, ticks since the cause: ", g_ticks - g_ticks_at_cause);
   if (g_ticks_at_cause != 0) board_print("\n");
 }
 
@@ -82,9 +78,9 @@ void emulator_exit(int status) {
   const uint32_t from_us = clock_us();
   while (clock_us() - from_us < 20000) {
   }
-  print("end ", static_cast<uint32_t>(status));
-  print(", later ticks: ", g_ticks - ticks);
-  print(", power: ", g_has_power ? 1 : 0);
+  target::print("end ", static_cast<uint32_t>(status));
+  target::print(", later ticks: ", g_ticks - ticks);
+  target::print(", power: ", g_has_power ? 1 : 0);
   board_print("\n");
 }
 #endif
@@ -94,7 +90,7 @@ void emulator_exit(int status) {
 int main() {
   const uint32_t calls_at_reset = g_motors_off_calls;
   hal::board_begin();
-  print("running, motors off before main: ", calls_at_reset);
+  target::print("running, motors off before main: ", calls_at_reset);
   board_print("\n");
   const uint8_t cause = hal::board_asset().data()[0];
   hal::clock_start_servo(1000, tick);
@@ -119,7 +115,7 @@ int main() {
     case kRun:
       while (g_ticks < 50) {
       }
-      print("still running, power: ", g_has_power ? 1 : 0);
+      target::print("still running, power: ", g_has_power ? 1 : 0);
       board_print("\n");
       return 42;
     default:

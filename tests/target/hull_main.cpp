@@ -13,7 +13,7 @@
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/loader.hpp"
 #include "firmtouch/hull/refinement.hpp"
-#include "target/text.hpp"
+#include "target/count.hpp"
 
 namespace asset = firmtouch::asset;
 namespace core = firmtouch::core;
@@ -32,15 +32,6 @@ uint32_t g_bits[hull::bit_words(65536)];
 uint32_t g_split[256];
 hull::Candidate g_candidates[64];
 
-uint32_t instructions(uint32_t work) {
-  const uint32_t per_1000 = hal::clock_work_per_1000();
-  return static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
-}
-uint32_t empty_work() {
-  const uint32_t before = hal::clock_work();
-  return hal::clock_work() - before;
-}
-
 uint32_t g_random = 7;
 float random_in(float low, float high) {
   g_random = g_random * 1664525u + 1013904223u;
@@ -57,14 +48,9 @@ math::Vec3 on_side(const mesh::Head& head, uint32_t side) {
   return {p[0], p[1], p[2]};
 }
 
-void print(uint32_t value, const char* behind) {
-  hal::board_print(target::decimal(value).text);
-  hal::board_print(behind);
-}
-
 void run(const hull::View& view, const hull::BaseHull& base_hull) {
   hull::Refinement refinement(view, base_hull, {{g_bits}, {g_split}, {g_candidates}});
-  const uint32_t empty = empty_work();
+  const uint32_t empty = target::empty_work();
   for (uint32_t i = 0; i < kSegments; ++i) {
     const uint32_t from = (g_random >> 12) % 6;
     const math::Vec3 a_m = on_side(view.mesh_head(), from);
@@ -77,11 +63,11 @@ void run(const hull::View& view, const hull::BaseHull& base_hull) {
     const uint32_t first_end = hal::clock_work();
     const mesh::Hit hit = hull::cast_segment(view, a_m, b_m, query::kUnlimited);
     const uint32_t end = hal::clock_work();
-    print(instructions(base_hull_end - begin - empty), " ");
-    print(instructions(first_end - base_hull_end - empty), " ");
-    print(instructions(end - first_end - empty), " ");
-    print(of_base_hull.steps, " ");
-    print(first.splits, of_base_hull.hit ? " 1" : " 0");
+    target::print(target::instructions(base_hull_end - begin - empty), " ");
+    target::print(target::instructions(first_end - base_hull_end - empty), " ");
+    target::print(target::instructions(end - first_end - empty), " ");
+    target::print(of_base_hull.steps, " ");
+    target::print(first.splits, of_base_hull.hit ? " 1" : " 0");
     hal::board_print(hit.hit ? " 1\n" : " 0\n");
   }
 }

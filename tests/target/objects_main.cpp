@@ -9,13 +9,14 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/analytic.hpp"
 #include "firmtouch/scene/objects.hpp"
-#include "target/text.hpp"
+#include "target/count.hpp"
 
 namespace hal = firmtouch::hal;
 namespace math = firmtouch::math;
 namespace query = firmtouch::query;
 namespace scene = firmtouch::scene;
 namespace servo = firmtouch::servo;
+namespace target = firmtouch::target;
 
 namespace {
 
@@ -41,16 +42,6 @@ struct OneBox {
     return boxes.near(0, x_m, budget, needed_m);
   }
 };
-
-void print(const char* text, uint32_t value) {
-  hal::board_print(text);
-  hal::board_print(firmtouch::target::decimal(value).text);
-}
-
-uint32_t instructions(uint64_t work) {
-  const uint32_t per_1000 = hal::clock_work_per_1000();
-  return static_cast<uint32_t>((work * 1000 + per_1000 / 2) / per_1000);
-}
 
 // A hand slides over the first object, pressed 2 mm, at 50 mm/s; the others are in two rows above,
 // and creep and turn, or stand.
@@ -94,8 +85,7 @@ struct Scene {
 void run(const char* name, uint32_t objects, bool is_moving) {
   Scene all(objects, is_moving);
   all.tick({0, 0, 0.03f});
-  const uint32_t before = hal::clock_work();
-  const uint32_t empty = hal::clock_work() - before;
+  const uint32_t empty = target::empty_work();
   uint64_t sum = 0;
   uint32_t worst = 0, held = 0;
   all.boxes.queries = 0;
@@ -109,11 +99,11 @@ void run(const char* name, uint32_t objects, bool is_moving) {
     worst = took > worst ? took : worst;
     held += all.touch.touch.penetration_m > 0.0019f ? 1 : 0;
   }
-  if (held != kTicks) print("not touched in some ticks; touched: ", held);
+  if (held != kTicks) target::print("not touched in some ticks; touched: ", held);
   hal::board_print(name);
-  print(" | ", instructions(sum / kTicks));
-  print(" | ", instructions(worst));
-  print(" | ", all.boxes.queries * 100 / kTicks);
+  target::print(" | ", target::instructions(sum / kTicks));
+  target::print(" | ", target::instructions(worst));
+  target::print(" | ", all.boxes.queries * 100 / kTicks);
   hal::board_print("\n");
 }
 
@@ -125,9 +115,9 @@ int main() {
   run("1 object", 1, false);
   run("16 objects, 15 far", 16, false);
   run("16 objects, 15 far that move and turn", 16, true);
-  print("RAM | ", sizeof(scene::ObjectsTouch));
-  print(" | ", sizeof(scene::ObjectPair));
-  print(" | ", sizeof(scene::ObjectsTick));
+  target::print("RAM | ", sizeof(scene::ObjectsTouch));
+  target::print(" | ", sizeof(scene::ObjectPair));
+  target::print(" | ", sizeof(scene::ObjectsTick));
   hal::board_print("\n");
   return 0;
 }

@@ -7,7 +7,7 @@
 #include "firmtouch/controller/full_controller.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
-#include "target/text.hpp"
+#include "target/count.hpp"
 
 namespace hal = firmtouch::hal;
 namespace target = firmtouch::target;
@@ -15,12 +15,6 @@ namespace target = firmtouch::target;
 namespace {
 
 firmtouch::FullController g_controller;
-
-void print_row(uint32_t work) {
-  const uint64_t scaled = uint64_t{work} * 1000, per_1000 = hal::clock_work_per_1000();
-  hal::board_print(target::decimal(static_cast<uint32_t>((scaled + per_1000 / 2) / per_1000)).text);
-  hal::board_print("\n");
-}
 
 }  // namespace
 
@@ -32,11 +26,10 @@ int main() {
   while (!is_done) {
     const uint32_t before = hal::clock_work();
     is_done = g_controller.work(firmtouch::kSliceUnits);
-    print_row(hal::clock_work() - before);
+    target::print(target::instructions(hal::clock_work() - before), "\n");
   }
   if (g_controller.is_ready()) return 0;
-  hal::board_print("rejected by rule ");
-  hal::board_print(target::decimal(g_controller.verdict().rule).text);
+  target::print("rejected by rule ", g_controller.verdict().rule);
   hal::board_print("\n");
   return 1;
 }

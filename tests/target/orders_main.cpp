@@ -11,9 +11,9 @@
 #include "firmtouch/hal/clock.hpp"
 #include "lab/orders/build.hpp"
 #include "lab/orders/names.hpp"
+#include "target/count.hpp"
 #include "target/csv_points.hpp"
 #include "target/scene_views.hpp"
-#include "target/text.hpp"
 
 namespace core = firmtouch::core;
 namespace hal = firmtouch::hal;
@@ -53,10 +53,8 @@ void print_row(const char* kind, const char* order, const char* upper, uint32_t 
     hal::board_print(words[i]);
     hal::board_print(" | ");
   }
-  hal::board_print(target::decimal(mean).text);
-  hal::board_print(" | ");
-  hal::board_print(target::decimal(worst).text);
-  hal::board_print("\n");
+  target::print(mean, " | ");
+  target::print(worst, "\n");
 }
 
 template <class K>
@@ -122,8 +120,7 @@ int main() {
     hal::board_print("no rows x,y,z in the walk\n");
     return 1;
   }
-  const uint32_t before = hal::clock_work();
-  g_empty = hal::clock_work() - before;
+  g_empty = target::empty_work();
   const uint32_t used = (firmtouch::asset::stated_bytes(region) + 15) / 16 * 16;
   uint8_t* const free = const_cast<uint8_t*>(region.data()) + used;
   Arena arena{free, free + (region.size() - used)};

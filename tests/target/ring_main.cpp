@@ -8,7 +8,7 @@
 #include "firmtouch/hal/clock.hpp"
 #include "firmtouch/record/ring.hpp"
 #include "firmtouch/record/tick.hpp"
-#include "target/text.hpp"
+#include "target/count.hpp"
 
 namespace hal = firmtouch::hal;
 namespace record = firmtouch::record;
@@ -67,10 +67,8 @@ void measure(const char* state, bool (*work)(), void (*prepare)()) {
     if (taken > most) most = taken;
   }
   hal::board_print(state);
-  hal::board_print(" ");
-  hal::board_print(target::decimal(least).text);
-  hal::board_print(" ");
-  hal::board_print(target::decimal(most).text);
+  target::print(" ", least);
+  target::print(" ", most);
   hal::board_print("\n");
 }
 

@@ -24,8 +24,8 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/guide/guided_point.hpp"
+#include "target/count.hpp"
 #include "target/scene_views.hpp"
-#include "target/text.hpp"
 
 namespace asset = firmtouch::asset;
 namespace core = firmtouch::core;
@@ -145,8 +145,7 @@ class Attack {
  public:
   Attack(const Subject& subject, const Box& box, const Settings& settings)
       : subject_(subject), box_(box), settings_(settings), random_(settings.seed) {
-    const uint32_t before = hal::clock_work();
-    empty_ = hal::clock_work() - before;
+    empty_ = target::empty_work();
   }
 
   void run() {
@@ -206,9 +205,7 @@ class Attack {
     tried.p_m = p_m;
     const uint32_t before = hal::clock_work();
     const Answer answer = subject_.query(p_m, query::Budget{now_.budget}, now_.state);
-    const uint32_t work = hal::clock_work() - before - empty_;
-    const uint32_t per_1000 = hal::clock_work_per_1000();
-    const auto taken = static_cast<uint32_t>((uint64_t{work} * 1000 + per_1000 / 2) / per_1000);
+    const uint32_t taken = target::instructions(hal::clock_work() - before - empty_);
     const uint32_t units = answer.certificate.work;
     now_.p_m = p_m;
     at_m_ = answer.point_m;
@@ -240,20 +237,16 @@ class Attack {
     return bin < 16 ? bin : (4 + (bin - 8) % 4) << ((bin - 8) / 4);
   }
 
-  void print_number(uint32_t value, const char* after) {
-    hal::board_print(target::decimal(value).text);
-    hal::board_print(after);
-  }
   void print() {
     for (uint32_t bin = 0; bin < kBins; ++bin) {
       if (most_[bin] == 0) continue;
-      print_number(first_of(bin), " ");
-      print_number(most_[bin], "\n");
+      target::print(first_of(bin), " ");
+      target::print(most_[bin], "\n");
     }
     hal::board_print("ratio ");
-    print_number(static_cast<uint32_t>(ratio_ * 1000.0f + 0.5f), " ");
-    print_number(units_, " ");
-    print_number(taken_, "\n");
+    target::print(static_cast<uint32_t>(ratio_ * 1000.0f + 0.5f), " ");
+    target::print(units_, " ");
+    target::print(taken_, "\n");
   }
 
   const Subject& subject_;
