@@ -3,19 +3,8 @@
 #include "firmtouch/hal/motors.hpp"
 #include "registers.hpp"
 
-extern "C" {
-void link_handler();
-}
-
 namespace firmtouch::hal {
 namespace {
-
-struct BoardVectors {
-  Handler unused[kLinkInterrupt];  // not enabled
-  Handler link;
-};
-
-[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors kBoardVectors = {{}, link_handler};
 
 void pins_begin() {
   reg(kRccAhb1Enable) = reg(kRccAhb1Enable) | 1u;

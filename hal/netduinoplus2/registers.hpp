@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-#include "cortex-m/cortex_m.hpp"
+#include "silicon/silicon.hpp"
 
 // STM32F405 (RM0090). The chip runs on its 16 MHz internal oscillator, as after reset. A product
 // starts the PLL in board_begin() and changes core_MHz() and timer_MHz().
@@ -31,8 +31,6 @@ inline uint32_t core_MHz() { return is_emulated() ? 168 : 16; }
 inline uint32_t timer_MHz() { return is_emulated() ? 1000 : 16; }
 constexpr uint32_t kUsart_MHz = 16;
 
-void clock_begin();
-void console_begin();
-void link_begin();
-
 }  // namespace firmtouch::hal
+
+#include "stm32/uart.hpp"  // of the constants above

@@ -29,3 +29,5 @@ constexpr Pin kBreakPin = {kPortB, 12, 6};
 constexpr Pin kPowerPin = {kPortC, 8}, kEnablePin = {kPortC, 10}, kStopPin = {kPortC, 11};
 
 }  // namespace firmtouch::hal
+
+#include "stm32/uart.hpp"  // of the constants above

@@ -30,3 +30,5 @@ constexpr Pin kBreakPin = {kPortE, 15, 1};
 constexpr Pin kPowerPin = {kPortE, 4}, kEnablePin = {kPortE, 5}, kStopPin = {kPortE, 3};
 
 }  // namespace firmtouch::hal
+
+#include "stm32/uart.hpp"  // of the constants above

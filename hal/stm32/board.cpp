@@ -3,21 +3,7 @@
 #include "firmtouch/hal/motors.hpp"
 #include "registers.hpp"
 
-extern "C" {
-void link_handler();
-}
-
 namespace firmtouch::hal {
-namespace {
-
-struct BoardVectors {
-  Handler unused[kLinkInterrupt];  // not enabled
-  Handler link;
-};
-
-[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors kBoardVectors = {{}, link_handler};
-
-}  // namespace
 
 void board_begin() {
   motors_off();

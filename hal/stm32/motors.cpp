@@ -7,8 +7,7 @@
 namespace firmtouch::hal {
 namespace {
 
-constexpr float kFull_N = 10.0f;  // what a motor makes at full width: yours
-constexpr uint32_t kWidth = kTimer_MHz * 1000000 / 20000;  // 20 kHz
+constexpr uint32_t kWidth = kTimer_MHz * 1000000 / kPulse_Hz;
 
 constexpr uint32_t kPulse = 6u << 4 | 1u << 3;  // of a channel: high below compare, buffered
 constexpr uint32_t kOutputs = 1u << 0 | 1u << 4 | 1u << 8;  // channels 1 to 3
@@ -44,11 +43,8 @@ void motors_state(bool may_push) {
 
 void motors_write_N(const float (&motor_N)[3]) {
   for (uint32_t i = 0; i < 3; ++i) {
-    const float share = (motor_N[i] < 0 ? -motor_N[i] : motor_N[i]) / kFull_N;
-    uint32_t width = 0;  // for NaN as well
-    if (share > 0) width = share < 1.0f ? static_cast<uint32_t>(share * float{kWidth}) : kWidth;
     pin_write(kDirectionPins[i], motor_N[i] < 0);
-    reg(kTimer1 + kTimerCompare + 4 * i) = width;
+    reg(kTimer1 + kTimerCompare + 4 * i) = pulse_width(motor_N[i], kWidth);
   }
 }
 

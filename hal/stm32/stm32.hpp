@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-#include "cortex-m/cortex_m.hpp"
+#include "silicon/silicon.hpp"
 
 // What STM32G4 and STM32H7 have in common (RM0440, RM0433). A board's registers.hpp has its
 // addresses, clocks and pins.
@@ -31,6 +31,10 @@ inline void pin_as(const Pin& pin, uint32_t mode, Pull pull) {
   set_field(pin.port + kPortPull, 2 * pin.number, 2, static_cast<uint32_t>(pull));
   set_field(pin.port + kPortMode, 2 * pin.number, 2, mode);
 }
+// Ports lie a kilobyte apart, from a multiple of 32 of them on.
+inline PinName name_of(const Pin& pin) {
+  return {{'P', static_cast<char>('A' + pin.port / 0x400 % 32)}, pin.number};
+}
 inline void pin_input(const Pin& pin, Pull pull) { pin_as(pin, 0, pull); }
 inline void pin_output(const Pin& pin) { pin_as(pin, 1, Pull::kNone); }
 inline void pin_alternate(const Pin& pin, Pull pull = Pull::kNone) {
@@ -58,12 +62,5 @@ constexpr uint32_t kUsartOn = 1u << 0, kReceiveOn = 1u << 2, kTransmitOn = 1u <<
                    kReceiveInterrupt = 1u << 5;                    // of control
 constexpr uint32_t kReceived = 1u << 5, kTransmitEmpty = 1u << 7;  // of state
 constexpr uint32_t kNoOverrun = 1u << 12;                          // of errors
-
-void power_begin();  // core clock and caches; board.cpp of the board
-void clock_begin();
-void console_begin();
-void link_begin();
-void encoders_begin();
-void motors_begin();
 
 }  // namespace firmtouch::hal

@@ -4,25 +4,33 @@
 #include "parts/byte_ring.hpp"
 #include "registers.hpp"
 
-// A UART at 1 Mbaud, which the ST-LINK of a Nucleo shows as a serial port; or two FIFOs on the
-// machine that runs the emulator (file_link.hpp).
+// A UART at 1 Mbaud, which a debugger or an adapter shows as a serial port; or two FIFOs on the
+// machine that runs the emulator (file_link.hpp). The vectors behind the core's are this one's.
 namespace firmtouch::hal {
+
+extern "C" void link_handler();
+
 namespace {
 
 ByteRing g_received;
+
+struct BoardVectors {
+  Handler unused[kLinkInterrupt];  // not enabled
+  Handler link;
+};
+
+[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors kBoardVectors = {{}, link_handler};
 
 }  // namespace
 
 void link_begin() {
   if (file_link_begin()) return;
-  reg(kLink + kUsartDivider) = kUsart_MHz;
-  reg(kLink + kUsartControl) = kUsartOn | kTransmitOn | kReceiveOn | kReceiveInterrupt;
+  uart_begin(kLink, 1000000, true);
   enable_interrupt(kLinkInterrupt, kReceivePriority);
 }
 
 extern "C" void link_handler() {
-  while ((reg(kLink + kUsartState) & kReceived) != 0)
-    g_received.push(static_cast<uint8_t>(reg(kLink + kUsartReceived)));
+  while (uart_has_byte(kLink)) g_received.push(uart_byte(kLink));
 }
 
 uint32_t link_read(uint8_t* to, uint32_t capacity) { return g_received.pop(to, capacity); }
@@ -30,8 +38,7 @@ uint32_t link_read(uint8_t* to, uint32_t capacity) { return g_received.pop(to, c
 uint32_t link_write(const uint8_t* from, uint32_t count) {
   if (file_link_is_open()) return file_link_write(from, count);
   uint32_t sent = 0;
-  while (sent < count && (reg(kLink + kUsartState) & kTransmitEmpty) != 0)
-    reg(kLink + kUsartSent) = from[sent++];
+  while (sent < count && uart_may_send(kLink)) uart_send(kLink, from[sent++]);
   return sent;
 }
 

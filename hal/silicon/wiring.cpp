@@ -15,13 +15,13 @@ void add(const char* text) {
 }
 
 void add(const char* before, const Pin& pin) {
-  constexpr uint32_t kPort_bytes = 0x400;
-  const char tens = static_cast<char>(pin.number >= 10 ? '1' : 0);
-  const char name[] = {'P', static_cast<char>('A' + (pin.port - kPortA) / kPort_bytes), tens, 0};
-  const char units[] = {static_cast<char>('0' + pin.number % 10), 0};
+  const PinName name = name_of(pin);
+  const char tens = static_cast<char>(name.number >= 10 ? '0' + name.number / 10 : 0);
+  const char units = static_cast<char>('0' + name.number % 10);
+  const char digits[] = {tens != 0 ? tens : units, tens != 0 ? units : char{0}, 0};
   add(before);
-  add(name);
-  add(units);
+  add(name.port);
+  add(digits);
 }
 
 }  // namespace
