@@ -8,6 +8,9 @@ namespace firmtouch::hal {
 inline volatile uint32_t& reg(uint32_t address) {
   return *reinterpret_cast<volatile uint32_t*>(static_cast<uintptr_t>(address));
 }
+inline volatile uint16_t& reg16(uint32_t address) {
+  return *reinterpret_cast<volatile uint16_t*>(static_cast<uintptr_t>(address));
+}
 
 constexpr uint32_t kSysTickControl = 0xE000E010;  // b0 enable, b1 interrupt, b2 processor clock
 constexpr uint32_t kSysTickReload = 0xE000E014;   // 24 bits

@@ -1,3 +1,4 @@
+#include "cortex-m/caches.hpp"
 #include "registers.hpp"
 
 namespace firmtouch::hal {
@@ -16,22 +17,6 @@ constexpr uint32_t kRccPllSource = kRcc + 0x28, kRccPll = kRcc + 0x2C,
 constexpr uint32_t kSupplyState = 0x58024804, kSupply = 0x5802480C, kRange = 0x58024818;
 constexpr uint32_t kReady = 1u << 13;  // of supply state and range
 constexpr uint32_t kFlash = 0x52002000;
-
-// The core's caches (ARM DDI 0489, B2.2): 4 ways of 128 sets in the data cache.
-constexpr uint32_t kCacheControl = 0xE000ED14, kDropInstructions = 0xE000EF50,
-                   kDropData = 0xE000EF60;
-
-void barrier() { asm volatile("dsb\n isb" ::: "memory"); }
-
-void caches_begin() {
-  if ((reg(kCacheControl) & 3u << 16) != 0) return;  // a boot loader's: dropping them loses data
-  reg(kDropInstructions) = 0;
-  for (uint32_t way = 0; way < 4; ++way)
-    for (uint32_t set = 0; set < 128; ++set) reg(kDropData) = way << 30 | set << 5;
-  barrier();
-  reg(kCacheControl) = reg(kCacheControl) | 3u << 16;
-  barrier();
-}
 
 // 64 MHz / 8 * 100 / 2 = 400 MHz for the core, 200 MHz for buses and timers, 100 MHz for UARTs.
 void pll_begin() {
