@@ -35,7 +35,7 @@ extern "C" {
 [[gnu::interrupt("machine"), gnu::used]] void interrupt() { machine_timer_handler(); }
 
 /// Uses no stack: it may have overflowed.
-[[gnu::naked, gnu::aligned(4)]] void trap_handler() {
+[[gnu::naked, gnu::used, gnu::aligned(4)]] void trap_handler() {
   asm volatile(
       "csrw mscratch, t0   \n"
       "csrr t0, mcause     \n"
