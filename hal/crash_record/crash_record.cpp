@@ -2,6 +2,7 @@
 
 #include "crash_record/kept.hpp"
 #include "firmtouch/hal/board.hpp"
+#include "firmtouch/hal/watchdog.hpp"
 #include "parts/fault_text.hpp"
 
 namespace firmtouch::hal {
@@ -44,8 +45,11 @@ void crash_keep_cause(CrashCause cause, uint32_t pc, uint32_t link, uint32_t sta
   g_crash_cause.set(static_cast<uint32_t>(cause), pc, link, status);
 }
 
+[[gnu::weak]] bool watchdog_has_reset() { return false; }
+
 bool crash_take(CrashRecord& record) {
   record = {};
+  if (watchdog_has_reset()) record.cause = CrashCause::kWatchdog;
   const bool has_cause = g_crash_cause.is_whole();
   if (has_cause) {
     const uint32_t(&words)[4] = g_crash_cause.words;

@@ -43,4 +43,11 @@ void watchdog_begin(uint32_t timeout_us) {
 
 void watchdog_feed() { reg(kWatchdog + 0x4) = 0xB480A602; }
 
+bool watchdog_has_reset() {
+  constexpr uint32_t kResetCause = 0x400F8008, kByWatchdog3 = 1u << 7;
+  const bool has = (reg(kResetCause) & kByWatchdog3) != 0;
+  reg(kResetCause) = kByWatchdog3;  // written ones clear
+  return has;
+}
+
 }  // namespace firmtouch::hal

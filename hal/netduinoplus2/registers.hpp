@@ -15,7 +15,8 @@ constexpr uint32_t kPortA = 0x40020000;          // +00 mode, +20 and +24 altern
 // +00 control, +14 event, +24 counter, +28 prescaler, +2C reload.
 constexpr uint32_t kTimer2 = 0x40000000;
 constexpr uint32_t kTimer5 = 0x40000C00;
-constexpr uint32_t kWatchdog = 0x40003000;                   // +00 key, +04 prescaler, +08 reload
+constexpr uint32_t kWatchdog = 0x40003000;  // +00 key, +04 prescaler, +08 reload
+constexpr uint32_t kResetCause = 0x40023874, kByWatchdog = 1u << 29, kForgetCause = 1u << 24;
 constexpr uint32_t kConsole = 0x40011000;                    // USART1
 constexpr uint32_t kLink = 0x40004400, kLinkInterrupt = 38;  // USART2
 

@@ -15,6 +15,7 @@ constexpr uint32_t kPortA = 0x48000000, kPortB = 0x48000400, kPortC = 0x48000800
 constexpr uint32_t kTimer1 = 0x40012C00, kTimer5 = 0x40000C00;
 constexpr uint32_t kEncoderTimers[3] = {0x40000000, 0x40000400, 0x40000800};
 constexpr uint32_t kWatchdog = 0x40003000;
+constexpr uint32_t kResetCause = kRcc + 0x94, kByWatchdog = 1u << 29, kForgetCause = 1u << 23;
 
 // The ST-LINK's serial port is USART2; the console is USART3.
 constexpr uint32_t kLink = 0x40004400, kLinkInterrupt = 38, kConsole = 0x40004800;

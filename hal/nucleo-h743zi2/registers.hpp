@@ -16,6 +16,7 @@ constexpr uint32_t kPortA = 0x58020000, kPortB = 0x58020400, kPortC = 0x58020800
 constexpr uint32_t kTimer1 = 0x40010000, kTimer5 = 0x40000C00;
 constexpr uint32_t kEncoderTimers[3] = {0x40000000, 0x40000400, 0x40000800};
 constexpr uint32_t kWatchdog = 0x58004800;
+constexpr uint32_t kResetCause = kRcc + 0xD0, kByWatchdog = 1u << 26, kForgetCause = 1u << 16;
 
 // The ST-LINK's serial port is USART3; the console is USART2.
 constexpr uint32_t kLink = 0x40004800, kLinkInterrupt = 39, kConsole = 0x40004400;

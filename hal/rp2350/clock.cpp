@@ -39,4 +39,6 @@ void watchdog_begin(uint32_t timeout_us) {
 
 void watchdog_feed() { reg(kWatchdog + 0x4) = g_timeout_us; }
 
+bool watchdog_has_reset() { return (reg(kWatchdog + 0x8) & 1u) != 0; }  // the next reset clears it
+
 }  // namespace firmtouch::hal

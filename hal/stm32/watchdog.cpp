@@ -19,4 +19,10 @@ void watchdog_begin(uint32_t timeout_us) {
 
 void watchdog_feed() { reg(kWatchdog + 0x0) = 0xAAAA; }
 
+bool watchdog_has_reset() {
+  const bool has = (reg(kResetCause) & kByWatchdog) != 0;
+  reg(kResetCause) = reg(kResetCause) | kForgetCause;
+  return has;
+}
+
 }  // namespace firmtouch::hal

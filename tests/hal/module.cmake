@@ -1,7 +1,8 @@
 firmtouch_test_module(hal LINKS firmtouch_core)
-# Motors and encoders of the STM32 boards, with registers in memory (registers/cortex-m) of one of them.
+# Motors, encoders and watchdog of the STM32 boards, with registers in memory (registers/cortex-m) of one of them.
 set(stm32 ${PROJECT_SOURCE_DIR}/hal/stm32)
-target_sources(test_hal PRIVATE ${stm32}/motors.cpp ${stm32}/encoders.cpp ${stm32}/../silicon/wiring.cpp)
+target_sources(test_hal PRIVATE ${stm32}/motors.cpp ${stm32}/encoders.cpp ${stm32}/watchdog.cpp ${stm32}/../silicon/wiring.cpp
+               ${stm32}/../crash_record/crash_record.cpp ${stm32}/../parts/fault_text.cpp)
 target_include_directories(test_hal PRIVATE ${CMAKE_CURRENT_LIST_DIR}/registers ${PROJECT_SOURCE_DIR}/hal
                                             ${PROJECT_SOURCE_DIR}/hal/nucleo-g474re)
 set_target_properties(firmtouch_no_joints PROPERTIES EXCLUDE_FROM_ALL OFF)

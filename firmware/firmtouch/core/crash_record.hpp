@@ -4,10 +4,10 @@
 namespace firmtouch::core {
 
 enum class CrashCause : uint32_t {
-  kReset,          // none was noted: a pin, a debugger, or a watchdog without a warning
+  kReset,          // none was noted: a pin or a debugger
   kFault,          // HardFault, or an exception of RISC-V
   kStackOverflow,  // found by the guard below the stack
-  kWatchdog,       // its warning, before it resets
+  kWatchdog,       // its warning, before it resets, or what the chip says of the reset
 };
 
 constexpr uint32_t kCrashTicks = 8;

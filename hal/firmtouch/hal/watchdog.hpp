@@ -12,4 +12,9 @@ void watchdog_begin(uint32_t timeout_us);
 /// Context: servo interrupt, at the end of a tick, after the motors were written.
 void watchdog_feed();
 
+/// Whether the watchdog ended the last run; clears what the chip keeps of it. Optional: the crash
+/// record, which has a definition that returns false, calls it for watchdogs that do not warn.
+/// Context: start-up, once.
+bool watchdog_has_reset();
+
 }  // namespace firmtouch::hal
