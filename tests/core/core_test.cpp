@@ -52,17 +52,6 @@ TEST(Crc_EqualsBitwiseDefinition_ForEveryLength) {
     CHECK_EQ(core::crc32({g_bytes, n}), bitwise_crc({g_bytes, n}));
 }
 
-TEST(LongCrc_EqualsBitwiseDefinition_ForEveryLengthContinuedAtEveryCut) {
-  fill();
-  const core::LongCrc32 crc32;
-  CHECK_EQ(crc32(kCheck), 0xCBF43926u);
-  for (uint32_t n = 0; n <= sizeof g_bytes; ++n) {
-    const uint32_t wanted = bitwise_crc({g_bytes, n});
-    CHECK_EQ(crc32({g_bytes, n}), wanted);
-    CHECK_EQ(crc32({g_bytes + n / 3, n - n / 3}, crc32({g_bytes, n / 3})), wanted);
-  }
-}
-
 TEST(Crc_ContinuesAcrossCalls) {
   fill();
   const uint32_t whole = core::crc32(g_bytes);

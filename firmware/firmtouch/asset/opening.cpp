@@ -49,13 +49,13 @@ using Stage = query::StageOf<Proof>;
 
 }  // namespace
 
-// CRCs are continued by pieces of a multiple of the alignment, in which up to 8 sections end.
+// CRCs are continued by pieces of a multiple of the alignment.
 const query::CheckStage Proof::kStages[3] = {
     {8, Stage::count<&Proof::table_pieces>, Stage::all<&Proof::check_table>,
      Stage::finish<&Proof::finish_table>},
     {10, Stage::count<&Proof::entry_count>, Stage::each<&Proof::check_entry>,
      Stage::finish<&Proof::finish_entries>},
-    {10, Stage::count<&Proof::section_pieces>, Stage::all<&Proof::check_sections>}};
+    {10, Stage::count<&Proof::pieces_and_sections>, Stage::all<&Proof::check_sections>}};
 
 Verdict Proof::take(core::Bytes file) {
   if (reinterpret_cast<uintptr_t>(file.data()) % kAlignment != 0) return reject(kRuleAlignment);
@@ -113,9 +113,8 @@ uint32_t Proof::table_bytes() const {
   return static_cast<uint32_t>(view.entries_.size() * sizeof(Entry));
 }
 uint32_t Proof::table_pieces() const { return (table_bytes() + kPieceBytes - 1) / kPieceBytes; }
-uint32_t Proof::section_pieces() const {
-  const uint32_t begin = static_cast<uint32_t>(sizeof(Header)) + table_bytes();
-  return (view.file_.size() - begin + kPieceBytes - 1) / kPieceBytes;
+uint32_t Proof::pieces_and_sections() const {
+  return view.file_.size() / kPieceBytes + 1 + view.entries_.size();
 }
 
 Verdict Proof::check_table(uint32_t first, uint32_t end) {
@@ -133,24 +132,26 @@ Verdict Proof::finish_table() {
 }
 
 Verdict Proof::finish_entries() {
-  return free_ == view.file_.size() ? kPassed : reject(kRuleTrailingBytes, view.entries_.size());
+  if (free_ != view.file_.size()) return reject(kRuleTrailingBytes, view.entries_.size());
+  free_ = static_cast<uint32_t>(sizeof(Header)) + table_bytes();
+  return kPassed;
 }
 
-// From a multiple of the alignment to one: no section's padding is divided.
-Verdict Proof::check_sections(uint32_t first, uint32_t end) {
-  const uint32_t begin = static_cast<uint32_t>(sizeof(Header)) + table_bytes();
-  const uint32_t stop = min(begin + end * kPieceBytes, view.file_.size());
-  uint32_t at = begin + first * kPieceBytes;
-  const core::LongCrc32 crc32;
-  while (at < stop) {
+// Pieces of the file and sections, as they come; now the rest is free that is not checked.
+Verdict Proof::check_sections(uint32_t, uint32_t end) {
+  while (section_ < view.entries_.size()) {
+    const uint32_t done = free_ / kPieceBytes + section_;
+    if (done >= end) break;
     const Entry& entry = view.entries_[section_];
-    const uint32_t behind = entry.offset + entry.bytes, to = min(behind, stop);
-    crc_ = crc32(slice(view.file_, at, to - at), crc_);
-    at = to;
-    if (at < behind) break;
+    const uint32_t behind = entry.offset + entry.bytes;
+    const bool is_last = (behind - free_) / kPieceBytes < end - done;
+    const uint32_t to = is_last ? behind : free_ + (end - done) * kPieceBytes;
+    crc_ = core::crc32(slice(view.file_, free_, to - free_), crc_);
+    free_ = to;
+    if (!is_last) break;
     if (crc_ != entry.crc) return reject(kRuleSectionCrc, section_);
-    for (; at % kAlignment != 0; ++at)
-      if (view.file_.data()[at] != 0) return reject(kRuleSectionPadding, section_);
+    for (; free_ % kAlignment != 0; ++free_)
+      if (view.file_.data()[free_] != 0) return reject(kRuleSectionPadding, section_);
     ++section_;
     crc_ = 0;
   }

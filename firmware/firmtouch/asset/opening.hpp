@@ -24,7 +24,7 @@ class Proof {
   uint32_t table_bytes() const;
   uint32_t table_pieces() const;
   uint32_t entry_count() const { return view.entries_.size(); }
-  uint32_t section_pieces() const;
+  uint32_t pieces_and_sections() const;
   core::Verdict check_table(uint32_t first, uint32_t end);
   core::Verdict finish_table();
   core::Verdict finish_entries();
