@@ -20,9 +20,7 @@ using math::Vec3;
 // for queries beyond the range where squares fit.
 constexpr float kFarthest_m = 1e7f;
 
-bool is_box(const uint32_t* box) {
-  return query::is_axis(box[0]) && query::is_axis(box[1]) && query::is_axis(box[2]);
-}
+bool is_box(const uint32_t* box) { return query::are_axes(box[0], box[1], box[2]); }
 
 [[gnu::noinline]] bool holds(const uint32_t* outer, const uint32_t* inner) {
   const uint32_t held = query::held(outer[0], inner[0]) & query::held(outer[1], inner[1]) &
@@ -79,11 +77,10 @@ using Stage = query::StageOf<Proof>;
 
 }  // namespace
 
-const query::CheckStage Proof::kStages[3] = {
+const query::CheckStage Proof::kStages[2] = {
     {1, Stage::count<&Proof::vertex_count>, Stage::all<&Proof::check_vertices>,
      Stage::finish<&Proof::finish_vertices>},
-    {2, Stage::count<&Proof::triangle_count>, Stage::all<&Proof::check_triangles>},
-    {30, Stage::count<&Proof::node_count>, Stage::all<&Proof::check_nodes>,
+    {50, Stage::count<&Proof::node_count>, Stage::all<&Proof::check_nodes>,
      Stage::finish<&Proof::finish_nodes>}};
 
 Verdict Proof::check_head() {
@@ -209,33 +206,6 @@ Verdict Proof::finish_nodes() {
   return deepest_ + 1 == view.head().depth ? kPassed : reject(kRuleDepth, deepest_);
 }
 
-Verdict Proof::check_triangles(uint32_t first, uint32_t end) {
-  const uint32_t vertices = view.vertices_.size();
-  const float longest_m = view.head_->longest_edge_m;
-  for (uint32_t i = first; i < end; ++i) {
-    const uint32_t at_a = corner_at(view, 3 * i), at_b = corner_at(view, 3 * i + 1),
-                   at_c = corner_at(view, 3 * i + 2);
-    if (at_a >= vertices || at_b >= vertices || at_c >= vertices) return reject(kRuleCorner, i);
-    const Vertex &a = view.vertices_[at_a], &b = view.vertices_[at_b], &c = view.vertices_[at_c];
-    const Vec3 ab{b.x_m - a.x_m, b.y_m - a.y_m, b.z_m - a.z_m};
-    const Vec3 bc{c.x_m - b.x_m, c.y_m - b.y_m, c.z_m - b.z_m};
-    const Vec3 ac{c.x_m - a.x_m, c.y_m - a.y_m, c.z_m - a.z_m};
-    const float ab2 = dot(ab, ab);
-    if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ac, ac)))
-      return reject(kRuleLongestEdgeFirst, i);
-    const float length_m = math::square_root(ab2);
-    if (!(length_m <= longest_m)) return reject(kRuleEdgeAboveLongest, i);
-    if (is_thin(ab, ac, ab2)) return reject(kRuleThinTriangle, i);
-    if (view.shapes_ != nullptr && !has_shape(view.shapes_[i], a, b, c))
-      return reject(kRuleShape, i);
-    if (!view.is_signed()) continue;
-    const int8_t(&fold)[3] = view.folds_[i].fold;
-    if (fold[0] < -kMaxFold || fold[1] < -kMaxFold || fold[2] < -kMaxFold)
-      return reject(kRuleFold, i);
-  }
-  return kPassed;
-}
-
 Verdict Proof::check_nodes(uint32_t first, uint32_t end) {
   for (uint32_t i = first; i < end; ++i) {
     const Node& node = view.nodes_[i];
@@ -266,6 +236,34 @@ Verdict Proof::check_nodes(uint32_t first, uint32_t end) {
   return kPassed;
 }
 
+// Of a triangle. Takes its corners into the box seen, in the frame of the boxes.
+[[gnu::always_inline]] inline uint16_t Proof::broken_rule(uint32_t i, math::Extents& seen) const {
+  const uint32_t vertices = view.vertices_.size();
+  const uint32_t at_a = corner_at(view, 3 * i), at_b = corner_at(view, 3 * i + 1),
+                 at_c = corner_at(view, 3 * i + 2);
+  if (at_a >= vertices || at_b >= vertices || at_c >= vertices) return kRuleCorner;
+  const Vertex &a = view.vertices_[at_a], &b = view.vertices_[at_b], &c = view.vertices_[at_c];
+  const Vec3 ab{b.x_m - a.x_m, b.y_m - a.y_m, b.z_m - a.z_m};
+  const Vec3 bc{c.x_m - b.x_m, c.y_m - b.y_m, c.z_m - b.z_m};
+  const Vec3 ac{c.x_m - a.x_m, c.y_m - a.y_m, c.z_m - a.z_m};
+  const float ab2 = dot(ab, ab);
+  if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ac, ac))) return kRuleLongestEdgeFirst;
+  if (!(math::square_root(ab2) <= view.head_->longest_edge_m)) return kRuleEdgeAboveLongest;
+  if (is_thin(ab, ac, ab2)) return kRuleThinTriangle;
+  if (view.shapes_ != nullptr && !has_shape(view.shapes_[i], a, b, c)) return kRuleShape;
+  if (view.is_signed()) {
+    const int8_t(&fold)[3] = view.folds_[i].fold;
+    if (fold[0] < -kMaxFold || fold[1] < -kMaxFold || fold[2] < -kMaxFold) return kRuleFold;
+  }
+  const Vertex* const corners[3] = {&a, &b, &c};
+  for (const Vertex* at : corners) {
+    Vec3 in_frame{at->x_m, at->y_m, at->z_m};
+    if (view.box_frame_ != nullptr) in_frame = turned(*view.box_frame_, in_frame);
+    seen.take(in_frame.x, in_frame.y, in_frame.z);
+  }
+  return 0;
+}
+
 Verdict Proof::check_leaf(uint32_t i, uint32_t which) {
   const Node& node = view.nodes_[i];
   const uint32_t first = leaf_first(node.side[which].child),
@@ -274,15 +272,10 @@ Verdict Proof::check_leaf(uint32_t i, uint32_t which) {
   if (first != next_triangle_ || (count == 0 && !(which == 1 && view.nodes_.size() == 1)))
     return reject(kRuleLeaf, i);
   if (count > view.head_->triangle_count - first) return reject(kRuleLeaf, i);
-  math::Extents seen;  // in the frame of the boxes
-  for (uint32_t n = 3 * first; n < 3 * (first + count); ++n) {
-    const Vertex& at = view.vertices_[corner_at(view, n)];
-    float x = at.x_m, y = at.y_m, z = at.z_m;
-    if (view.box_frame_ != nullptr) {
-      const Vec3 in_frame = turned(*view.box_frame_, {x, y, z});
-      x = in_frame.x, y = in_frame.y, z = in_frame.z;
-    }
-    seen.take(x, y, z);
+  math::Extents seen;
+  for (uint32_t n = first; n < first + count; ++n) {
+    const uint16_t rule = broken_rule(n, seen);
+    if (rule != 0) return reject(rule, n);
   }
   const float seen_low_m[3] = {seen.low_x, seen.low_y, seen.low_z};
   const float seen_high_m[3] = {seen.high_x, seen.high_y, seen.high_z};

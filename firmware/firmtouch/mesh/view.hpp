@@ -9,6 +9,10 @@
 #include "firmtouch/query/seen_box.hpp"
 #include "firmtouch/query/staged_check.hpp"
 
+namespace firmtouch::math {
+struct Extents;
+}
+
 namespace firmtouch::mesh {
 
 /// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
@@ -83,7 +87,7 @@ class View : public query::HeadedView<Head, Sections> {
 /// What Opening proves of a mesh: rules R101 to R141 of tools/FORMAT.md.
 class Proof {
  public:
-  static const query::CheckStage kStages[3];
+  static const query::CheckStage kStages[2];
   core::Verdict take(const Sections& sections);
   core::Verdict check_head();
   View view;
@@ -92,12 +96,11 @@ class Proof {
   core::Verdict take_bounded(const Sections& sections);
   core::Verdict check_grid(float reach_m, float extent_m) const;
   uint32_t vertex_count() const { return view.vertices_.size(); }
-  uint32_t triangle_count() const { return view.head_->triangle_count; }
   uint32_t node_count() const { return view.nodes_.size(); }
   core::Verdict check_vertices(uint32_t first, uint32_t end);
   core::Verdict finish_vertices();
   core::Verdict finish_nodes();
-  core::Verdict check_triangles(uint32_t first, uint32_t end);
+  uint16_t broken_rule(uint32_t triangle, math::Extents& seen) const;
   core::Verdict check_nodes(uint32_t first, uint32_t end);
   core::Verdict check_leaf(uint32_t node, uint32_t which);
   core::Verdict check_leaf_box(uint32_t first, uint32_t count) const;

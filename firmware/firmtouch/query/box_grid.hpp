@@ -16,6 +16,10 @@ constexpr uint32_t make_axis(uint32_t low, uint32_t high) {
 
 /// Whether a word is an axis of a box: on the grid and not inverted.
 constexpr bool is_axis(uint32_t axis) { return low_of(axis) + (axis >> 16) <= kGridMax; }
+/// Whether three are. Sums of up to kGridMax have no bit above its own.
+constexpr bool are_axes(uint32_t x, uint32_t y, uint32_t z) {
+  return ((low_of(x) + (x >> 16)) | (low_of(y) + (y >> 16)) | (low_of(z) + (z >> 16))) <= kGridMax;
+}
 /// Has both of these bits exactly if `outer` holds `inner`, both axes of boxes.
 constexpr uint32_t kHeld = 0x80008000u;
 constexpr uint32_t held(uint32_t outer, uint32_t inner) { return (inner | kHeld) - outer; }
