@@ -2,6 +2,7 @@
 
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/hull/box_descent.hpp"
+#include "firmtouch/hull/face_hash.hpp"
 
 namespace firmtouch::hull {
 namespace {
@@ -154,41 +155,47 @@ Verdict BaseHullProof::check_face(uint32_t i, const View& hull) {
   const BaseHullFace face = base_hull_.faces_[i];
   const BaseHull::Leaf leaf = base_hull_.leaf(i / kLeafFaces);
   if (corners_of(face) != leaf.corners.size()) return reject(kRuleBaseHullCorners, i);
+  HashedNumber corner[3];
   uint32_t number[3];
   bool is_triangle = true;
   for (uint32_t k = 0; k < 3; ++k) {
     if (corner_at(face, k) >= leaf.corners.size()) return reject(kRuleBaseHullCorners, i);
     const uint32_t vertex = leaf.corners[corner_at(face, k)];
     number[k] = hull.number_of(base_hull_.id_of(vertex));
+    corner[k] = HashedNumber(number[k]);
     is_triangle = is_triangle && !base_hull_.is_made(vertex);
   }
-  faces_ += face_hash(number[0], number[1], number[2]);
   for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t next = number[k == 2 ? 0 : k + 1];
-    edges_ += edge_hash(number[k], next) - edge_hash(next, number[k]);
+    const HashedNumber &from = corner[k], &to = corner[k == 2 ? 0 : k + 1];
+    edges_ += pair_hash(from, to) - pair_hash(to, from);
   }
   const Verdict boxed = check_box(i);
-  if (!boxed.ok() || !is_triangle) return boxed;
+  if (!boxed.ok()) return boxed;
+  if (!is_triangle) {
+    faces_ += face_hash(corner[0], corner[1], corner[2]);
+    return kPassed;
+  }
   if (next_triangle_ == base_hull_.head_->triangle_count) return reject(kRuleBaseHullTriangles, i);
   const BaseHullTriangle& reported = base_hull_.triangles_[next_triangle_++];
-  if (reported.face != i || reported.triangle >= hull.head().mesh_triangle_count)
+  if (reported.face != i || reported.triangle >= hull.head().mesh_triangle_count ||
+      !is_same_face(number, hull.triangle(reported.triangle).corner))
     return reject(kRuleBaseHullTriangles, i);
-  const mesh::Triangle<uint32_t> t = hull.triangle(reported.triangle);
-  return face_hash(t.corner[0], t.corner[1], t.corner[2]) ==
-                 face_hash(number[0], number[1], number[2])
-             ? kPassed
-             : reject(kRuleBaseHullTriangles, i);
+  faces_ += number_hash(reported.triangle);
+  return kPassed;
 }
 
 Verdict BaseHullProof::check_box(uint32_t face) const {
   const FilledTree tree(base_hull_.boxes_.size());
   const Box whole = box_of(*base_hull_.head_);
+  math::Extents seen;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const math::Vec3 at_m = vertex(base_hull_, base_hull_.vertex_of(face, k));
+    seen.take(at_m.x, at_m.y, at_m.z);
+  }
   uint32_t node = tree.node(face / kLeafFaces) + 1;  // counted from 1, a node's parent is its half
   for (; node != 0; node /= 2) {
     const Box box = child_box(whole, base_hull_.boxes_[node - 1]);
-    for (uint32_t k = 0; k < 3; ++k)
-      if (!holds(box, vertex(base_hull_, base_hull_.vertex_of(face, k))))
-        return reject(kRuleBaseHullLeafBox, face);
+    if (!holds(box, seen)) return reject(kRuleBaseHullLeafBox, face);
   }
   return kPassed;
 }

@@ -91,7 +91,7 @@ class BaseHullProof {
   core::Verdict finish() const;
   /// Pre: begin() has passed. It is proven when all has.
   const BaseHull& base_hull() const { return base_hull_; }
-  /// Sum of the hashes of its faces' vertex numbers.
+  /// Sum of the hashes of its faces (hull/face_hash.hpp).
   uint64_t faces() const { return faces_; }
 
  private:

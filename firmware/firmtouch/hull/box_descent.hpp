@@ -64,18 +64,6 @@ struct FilledTree {
   uint32_t node(uint32_t leaf) const {
     return leaf < nodes - deepest ? leaf + deepest : leaf - (nodes - deepest) + inner;
   }
-  /// The box of a node, from the root down; false where one on the way is inverted.
-  bool box_of(core::Span<const NodeBox> boxes, const Box& whole, uint32_t node, Box& box) const {
-    uint32_t level = 0;
-    while (((node + 1) >> (level + 1)) != 0) ++level;
-    box = whole;
-    for (uint32_t up = level + 1; up-- > 0;) {
-      box = child_box(box, boxes[((node + 1) >> up) - 1]);
-      for (uint32_t k = 0; k < 3; ++k)
-        if (!(box.low_m[k] <= box.high_m[k])) return false;
-    }
-    return true;
-  }
 };
 
 /// A tree of boxes as query::descend() searches it: the leaves whose boxes `region` enters (Slabs

@@ -188,7 +188,7 @@ enum Rule : uint16_t {
   // A triangle is not inside the box of its leaf, as float32 computes it, or a box above that
   // leaf is inverted.
   kRuleLeafBox = 533,
-  // The faces do not balance: each face of the mesh and each face made must be replaced by one
+  // The faces do not balance: each triangle of the mesh and each face made must be replaced by one
   // collapse or belong to the coarsest hull (checked by a sum of hashes).
   kRuleFaces = 534,
   // The base hull is absent or not as long as it states (0), or not as long as its counts require

@@ -2,6 +2,7 @@
 // Where the vertices and boxes of a hull lie. For the library's own translation units.
 
 #include "firmtouch/hull/view.hpp"
+#include "firmtouch/math/extents.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
 namespace firmtouch::hull {
@@ -88,15 +89,18 @@ static inline Box child_box(const Box& parent, const NodeBox& node) {
 }
 
 static inline Box star_box_m(math::Vec3 about_m, float cell_m, const StarBox& star) {
-  uint64_t bits = 0;
-  for (uint32_t i = 0; i < 6; ++i) bits |= static_cast<uint64_t>(star.bits[i]) << (8 * i);
-  const uint32_t exponent = static_cast<uint32_t>(bits >> 42);
+  uint32_t low_bits;
+  uint16_t high_bits;
+  __builtin_memcpy(&low_bits, star.bits, sizeof low_bits);
+  __builtin_memcpy(&high_bits, star.bits + sizeof low_bits, sizeof high_bits);
+  const uint32_t reaches[3] = {low_bits, low_bits >> 14,
+                               low_bits >> 28 | static_cast<uint32_t>(high_bits) << 4};
+  const uint32_t exponent = static_cast<uint32_t>(high_bits) >> 10;
   const float unit_m = cell_m * math::float_of((127u + exponent) << 23);
   const float about[3] = {about_m.x, about_m.y, about_m.z};
   Box box;
   for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t low = static_cast<uint32_t>(bits >> (14 * k)) & kMaxReach;
-    const uint32_t high = static_cast<uint32_t>(bits >> (14 * k + 7)) & kMaxReach;
+    const uint32_t low = reaches[k] & kMaxReach, high = (reaches[k] >> 7) & kMaxReach;
     box.low_m[k] = about[k] - static_cast<float>(static_cast<int32_t>(low)) * unit_m;
     box.high_m[k] = about[k] + static_cast<float>(static_cast<int32_t>(high)) * unit_m;
   }
@@ -106,6 +110,11 @@ static inline Box star_box_m(math::Vec3 about_m, float cell_m, const StarBox& st
 static inline bool holds(const Box& box, math::Vec3 p_m) {
   return box.low_m[0] <= p_m.x && p_m.x <= box.high_m[0] && box.low_m[1] <= p_m.y &&
          p_m.y <= box.high_m[1] && box.low_m[2] <= p_m.z && p_m.z <= box.high_m[2];
+}
+/// Pre: there was a point.
+static inline bool holds(const Box& box, const math::Extents& seen) {
+  return box.low_m[0] <= seen.low_x && seen.high_x <= box.high_m[0] && box.low_m[1] <= seen.low_y &&
+         seen.high_y <= box.high_m[1] && box.low_m[2] <= seen.low_z && seen.high_z <= box.high_m[2];
 }
 
 /// Corner numbers of a star's faces, in the order of a record.
@@ -144,35 +153,5 @@ struct Star {
     return number[corner[2]] > most ? number[corner[2]] : most;
   }
 };
-
-/// Scatters a number over 64 bits.
-/// Source: Steele, Lea & Flood 2014, SplitMix.
-static inline uint64_t scattered(uint64_t x) {
-  x += 0x9E3779B97F4A7C15u;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
-
-// Odd factors that give triples and pairs of numbers distinct sums.
-constexpr uint64_t kFirst = 0xD6E8FEB86659FD93u, kSecond = 0xA0761D6478BD642Fu;
-
-/// Of a face's three vertex numbers, whichever comes first.
-static inline uint64_t face_hash(uint32_t a, uint32_t b, uint32_t c) {
-  const bool is_b = b < a && b < c, is_c = c < a && c < b;
-  const uint32_t first = is_b   ? b
-                         : is_c ? c
-                                : a,
-                 second = is_b   ? c
-                          : is_c ? a
-                                 : b,
-                 third = is_b   ? a
-                         : is_c ? b
-                                : c;
-  return scattered(first * kFirst + second * kSecond + third);
-}
-static inline uint64_t edge_hash(uint32_t from, uint32_t to) {
-  return scattered(from * kFirst + to);
-}
 
 }  // namespace firmtouch::hull

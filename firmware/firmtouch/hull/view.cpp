@@ -2,6 +2,8 @@
 
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/hull/box_descent.hpp"
+#include "firmtouch/hull/face_hash.hpp"
+#include "firmtouch/query/seen_box.hpp"
 
 namespace firmtouch::hull {
 namespace {
@@ -20,11 +22,22 @@ bool is_box(const float* low_m, const float* high_m) {
   return true;
 }
 
-// Whether the same three stand in the same turn.
-bool is_same_face(const uint32_t (&a)[3], const uint32_t (&b)[3]) {
-  for (uint32_t turn = 0; turn < 3; ++turn)
-    if (a[0] == b[turn] && a[1] == b[(turn + 1) % 3] && a[2] == b[(turn + 2) % 3]) return true;
-  return false;
+uint32_t levels_of(uint32_t at) {
+  return at == 0 ? 0 : 32 - static_cast<uint32_t>(__builtin_clz(at));
+}
+
+// Continues the boxes on the way down to node `at`, counted from 1, from those to `before`, or 0.
+// Result: the last; nullptr where one is inverted.
+const Box* narrow(core::Span<const NodeBox> boxes, uint32_t before, uint32_t at, Box* path) {
+  const uint32_t levels = levels_of(at);
+  uint32_t to_do = levels_of(before) == levels ? levels_of(before ^ at) : levels;
+  while (to_do-- > 0) {
+    Box& box = path[levels - to_do];
+    box = child_box((&box)[-1], boxes[(at >> to_do) - 1]);
+    for (uint32_t k = 0; k < 3; ++k)
+      if (!(box.low_m[k] <= box.high_m[k])) return nullptr;
+  }
+  return path + levels;
 }
 
 using Stage = query::StageOf<Proof>;
@@ -37,7 +50,7 @@ const query::CheckStage Proof::kStages[6] = {
      Stage::finish<&Proof::finish_ids>},
     {80, Stage::count<&Proof::record_count>, Stage::each<&Proof::check_record>,
      Stage::finish<&Proof::finish_records>},
-    {30, Stage::count<&Proof::leaf_count>, Stage::each<&Proof::check_leaf>,
+    {15, Stage::count<&Proof::leaf_count>, Stage::all<&Proof::check_leaves>,
      Stage::finish<&Proof::finish_leaves>},
     {5, Stage::count<&Proof::base_vertex_count>, Stage::each<&Proof::check_base_vertex>},
     {80, Stage::count<&Proof::base_face_count>, Stage::each<&Proof::check_base_face>,
@@ -119,17 +132,17 @@ Verdict Proof::check_head() const {
 }
 
 Verdict Proof::check_mesh_vertices(uint32_t first, uint32_t end) {
-  const Box box = box_of(view.mesh_head());
-  for (uint32_t i = first; i < end; ++i)
-    if (!holds(box, view.mesh_vertex(i))) return reject(kRuleMeshVertex, i);
-  return kPassed;
+  const mesh::Head& head = view.mesh_head();
+  const uint32_t inside =
+      query::SeenBox().take(&view.mesh_vertices_[first].x_m, end - first, head.low_m, head.high_m);
+  return inside == end - first ? kPassed : reject(kRuleMeshVertex, first + inside);
 }
 
 Verdict Proof::check_ids(uint32_t first, uint32_t end) {
   for (uint32_t id = first; id < end; ++id) {
     const uint32_t number = view.number_of(id);
     if (number >= view.id_count()) return reject(kRuleOriginRange, id);
-    numbers_ += scattered(number) - scattered(id);
+    numbers_ += number_hash(number) - number_hash(id);
   }
   return kPassed;
 }
@@ -156,61 +169,91 @@ Verdict Proof::finish_records() {
   return record_at_ == view.head().record_bytes ? kPassed : reject(kRuleRecordsEnd, record_at_);
 }
 
-Verdict Proof::check_star(uint32_t collapse, const uint8_t* record) {
+// Flattened: called, what reads a corner takes twice as long.
+[[gnu::flatten]] Verdict Proof::check_star(uint32_t collapse, const uint8_t* record) {
   const Head& head = view.head();
-  const uint32_t mesh_vertices = head.mesh_vertex_count, made = mesh_vertices + collapse;
+  const uint32_t made = head.mesh_vertex_count + collapse, link = link_of(View::head_of(record));
   const uint32_t new_id = view.id_in(record, 0);
   if (new_id >= view.id_count() || view.number_of(new_id) != made || removed_by(new_id) <= collapse)
     return reject(kRuleNewVertex, collapse);
-  for (uint32_t i = 0; i < link_of(View::head_of(record)); ++i) {
-    const uint32_t id = view.id_in(record, 1 + i);
-    if (id >= view.id_count() || removed_by(id) <= collapse)
+  HashedNumber corners[kMaxLink + 4];
+  math::Extents seen;
+  for (uint32_t i = 0; i < link + 2; ++i) {
+    const uint32_t id = i < link ? view.id_in(record, 1 + i) : 2 * collapse + (i - link);
+    if (i < link && (id >= view.id_count() || removed_by(id) <= collapse))
       return reject(kRuleLinkCorner, collapse);
+    const uint32_t number = view.number_of(id);
+    if (number >= made) return reject(kRuleLinkCorner, collapse);
+    const Vec3 at_m = vertex(view, number);
+    seen.take(at_m.x, at_m.y, at_m.z);
+    corners[i < link ? i : i + 1] = HashedNumber(number);
   }
-  const Star star(view, collapse, record);
-  for (uint32_t i = 0; i < 2 + star.link; ++i)
-    if (star.number[i] >= made) return reject(kRuleLinkCorner, collapse);
+  corners[link] = corners[0];
+  corners[link + 3] = corners[link + 1];
   const Vec3 vertex_m = made_vertex(view, collapse);
   if (!holds(box_of(head), vertex_m)) return reject(kRuleNewVertexOutside, collapse);
   const Box box = star_box_m(vertex_m, head.cell_m, view.star_box(collapse));
-  for (uint32_t i = 0; i < 2 + star.link; ++i)
-    if (!holds(box, vertex(view, star.number[i]))) return reject(kRuleStarBox, collapse);
-  const uint32_t triangles = triangles_of(View::head_of(record));
+  if (!holds(box, seen)) return reject(kRuleStarBox, collapse);
+  return check_faces(collapse, record, corners);
+}
+
+// Those that the collapse replaces and makes. Corners: the link, its first again; vertices 2 k, 2 k
+// + 1 and 2 k again. So each face has two corners next to each other, and a third.
+[[gnu::noinline]] Verdict Proof::check_faces(uint32_t collapse, const uint8_t* record,
+                                             const HashedNumber* corners) {
+  const uint32_t mesh_vertices = view.head().mesh_vertex_count;
+  const uint32_t word = View::head_of(record), link = link_of(word), split = split_of(word);
   uint32_t reported = 0;
-  for (uint32_t i = 0; i < star.face_count(); ++i) {
-    uint32_t corner[3];
-    star.face(i, corner);
-    const uint32_t number[3] = {star.number[corner[0]], star.number[corner[1]],
-                                star.number[corner[2]]};
-    faces_ -= face_hash(number[0], number[1], number[2]);
-    if (star.youngest(corner) >= mesh_vertices) continue;
-    if (reported == triangles) return reject(kRuleStarTriangles, collapse);
-    const uint32_t triangle = view.id_in(record, 1 + star.link + reported++);
-    if (triangle >= head.mesh_triangle_count ||
-        !is_same_face(number, view.triangle(triangle).corner))
+  uint64_t replaced = 0, made = 0;
+  for (uint32_t i = 0; i < link + 3; ++i) {
+    if (i == link) continue;
+    const HashedNumber &b = corners[i], &c = corners[i + 1];
+    const HashedNumber& a = i < split  ? corners[link + 1]
+                            : i < link ? corners[link + 2]
+                                       : corners[i == link + 1 ? 0 : split];
+    if (i < link) made += pair_hash(b, c);
+    if (a.number >= mesh_vertices || b.number >= mesh_vertices || c.number >= mesh_vertices) {
+      replaced += face_hash(a, b, c);
+      continue;
+    }
+    if (reported == triangles_of(word)) return reject(kRuleStarTriangles, collapse);
+    const uint32_t triangle = view.id_in(record, 1 + link + reported++);
+    const uint32_t corner[3] = {a.number, b.number, c.number};
+    if (triangle >= view.head().mesh_triangle_count ||
+        !is_same_face(corner, view.triangle(triangle).corner))
       return reject(kRuleStarTriangles, collapse);
+    replaced += number_hash(triangle);
   }
-  for (uint32_t i = 0; i < star.link; ++i)
-    faces_ += face_hash(made, star.number[2 + i], star.number[i + 1 == star.link ? 2 : 3 + i]);
-  return reported == triangles ? kPassed : reject(kRuleStarTriangles, collapse);
+  faces_ += HashedNumber(mesh_vertices + collapse).first * made - replaced;
+  return reported == triangles_of(word) ? kPassed : reject(kRuleStarTriangles, collapse);
 }
 
 uint32_t Proof::leaf_count() const {
   return leaves_for(view.mesh_head().triangle_count, kLeafTriangles);
 }
 
-Verdict Proof::check_leaf(uint32_t leaf) {
-  const uint32_t first = leaf * kLeafTriangles, left = view.mesh_head().triangle_count - first;
+// Of the boxes above a leaf, those that the leaf before had too are kept.
+[[gnu::flatten]] Verdict Proof::check_leaves(uint32_t first, uint32_t end) {
   const FilledTree tree(view.boxes_.size());
-  Box box;
-  const bool is_box = tree.box_of(view.boxes_, box_of(view.mesh_head()), tree.node(leaf), box);
-  for (uint32_t i = first; i < first + (left < kLeafTriangles ? left : kLeafTriangles); ++i) {
-    const mesh::Triangle<uint32_t> t = view.triangle(i);
-    for (const uint32_t corner : t.corner) {
-      if (corner >= view.head().mesh_vertex_count) return reject(kRuleTriangleCorner, i);
-      if (!is_box || !holds(box, view.mesh_vertex(corner))) return reject(kRuleLeafBox, i);
+  Box path[kMaxTreeDepth + 1] = {box_of(view.mesh_head())};
+  uint32_t before = 0;
+  for (uint32_t leaf = first; leaf < end; ++leaf) {
+    const uint32_t begin = leaf * kLeafTriangles, left = view.mesh_head().triangle_count - begin;
+    const uint32_t at = tree.node(leaf) + 1;  // counted from 1, a node's parent is its half
+    const Box* const box = narrow(view.boxes_, before, at, path);
+    before = at;
+    if (box == nullptr) return reject(kRuleLeafBox, begin);
+    math::Extents seen;
+    for (uint32_t i = begin; i < begin + (left < kLeafTriangles ? left : kLeafTriangles); ++i) {
+      const mesh::Triangle<uint32_t> t = view.triangle(i);
+      for (const uint32_t corner : t.corner) {
+        if (corner >= view.head().mesh_vertex_count) return reject(kRuleTriangleCorner, i);
+        const mesh::Vertex& p = view.mesh_vertices_[corner];
+        seen.take(p.x_m, p.y_m, p.z_m);
+      }
+      faces_ += number_hash(i);
     }
-    faces_ += face_hash(t.corner[0], t.corner[1], t.corner[2]);
+    if (!holds(*box, seen)) return reject(kRuleLeafBox, begin);
   }
   return kPassed;
 }

@@ -12,6 +12,8 @@
 
 namespace firmtouch::hull {
 
+struct HashedNumber;
+
 /// The bytes of a hull's sections and of those of its mesh that a hull reads (not the mesh's tree).
 /// One of triangles16 and triangles32 is empty.
 struct Sections {
@@ -112,7 +114,8 @@ class Proof {
   core::Verdict finish_records();
   core::Verdict check_record(uint32_t collapse);
   core::Verdict check_star(uint32_t collapse, const uint8_t* record);
-  core::Verdict check_leaf(uint32_t leaf);
+  core::Verdict check_faces(uint32_t collapse, const uint8_t* record, const HashedNumber* corners);
+  core::Verdict check_leaves(uint32_t first, uint32_t end);
   core::Verdict finish_leaves();
   core::Verdict check_base_vertex(uint32_t i);
   core::Verdict check_base_face(uint32_t i);
