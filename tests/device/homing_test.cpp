@@ -33,7 +33,7 @@ struct Mass {
   float angle_rad = 0.1f, rate = 0, largest_Nm = 0;
   uint32_t base = 0;  // raw counts at an angle of zero_rad
   float way = 1;      // -1: reversed
-  float low_rad = -0.5f, blocked_rad = 9;
+  float low_rad = -0.5f, blocked_rad = 9, low_N_m_per_rad = 40, low_N_m_s = 0.1f;
   bool has_pulse = true;
   uint32_t pulses = 0, ticks = 0;
   int32_t latched = 0;
@@ -49,7 +49,7 @@ struct Mass {
       const float before = angle_rad;
       float stop = 0;
       const float high = blocked_rad < 0.7f ? blocked_rad : 0.7f;
-      if (angle_rad < low_rad) stop = 40 * (low_rad - angle_rad) - 0.1f * rate;
+      if (angle_rad < low_rad) stop = low_N_m_per_rad * (low_rad - angle_rad) - low_N_m_s * rate;
       if (angle_rad > high) stop = 40 * (high - angle_rad) - 0.1f * rate;
       rate += (torque_Nm + stop) * (5e-5f / 5e-4f);
       angle_rad += rate * 5e-5f;
@@ -119,6 +119,24 @@ TEST(Homing_FaultsAreNamed) {
   CHECK(mass.ticks <= 2001u);
 }
 
+TEST(Homing_FingerBesideASoftStop_IsBlocked) {
+  // The stop gives way by an index period, and the finger stands as far from the other stop.
+  Mass mass;
+  mass.low_N_m_per_rad = 0.2f;
+  mass.low_N_m_s = 0.02f;
+  mass.blocked_rad = 0.2f;
+  CHECK(home_it(mass, settings(HomeBy::kIndex)).fault == HomingFault::kBlocked);
+}
+
+TEST(Homing_SoftStop_IsWithinACount) {
+  Mass mass;
+  mass.low_N_m_per_rad = 0.2f;
+  mass.low_N_m_s = 0.02f;
+  const device::HomingState state = home_it(mass, settings(HomeBy::kIndex));
+  CHECK(state.is_done);
+  CHECK_LE(off_counts(mass, state), 1);
+}
+
 TEST(Homing_ByAnAbsoluteSensor_NeedsNoMotion_AndRejectsNaN) {
   device::HomingSample sample{{{777, 0, 0}, true, 1e-3f}, 0};
   sample.absolute_rad[0] = 0.35f;
@@ -143,11 +161,13 @@ TEST(Homing_BadSamplesAndSettings_GiveNoTorque) {
     CHECK_EQ(home(state, settings(HomeBy::kStops), one_joint(), sample).torque_Nm[0], 0.0f);
   CHECK(state.fault == HomingFault::kBadSamples);
   device::HomingSettings bad[] = {settings(HomeBy::kStops), settings(HomeBy::kStops),
-                                  settings(HomeBy::kIndex), settings(HomeBy::kStops)};
+                                  settings(HomeBy::kIndex), settings(HomeBy::kStops),
+                                  settings(HomeBy::kIndex)};
   bad[0].torque_Nm[0] = test::nan_value();
   bad[1].speed_rad_per_s = 0;
   bad[2].index_period_rad[0] = 2;
   bad[3].margin_rad = -1;
+  bad[4].margin_rad = 0.51f;  // above the period
   sample.encoders.trusted = true;
   for (const device::HomingSettings& it : bad) {
     device::HomingState fresh;

@@ -12,10 +12,14 @@ constexpr float kMaxPhase_s = 0.6f;     // a wrong axis may never stand; its tra
 constexpr float kMaxExcess = 0.5f;      // of the range: how far soft stops give way
 constexpr float kInside = 0.0625f;      // of the range: how far from the high stops it ends
 constexpr float kLeavingSpeed = 0.25f;  // of the speed, so that nothing coasts to the other stop
+constexpr float kEased = 0.5f;          // of the torque: see unloaded()
 constexpr float kStillShare = 0.0625f;  // of the margin: within it a joint stands
 constexpr int32_t kDeadCounts = 2;
 constexpr uint32_t kMaxBad = 3;
 constexpr float kMaxTorque_Nm = 1000.0f;
+
+// Phases: see HomingState.
+constexpr uint32_t kEaseLow = 1, kUp = 2;
 
 float size(float a) { return __builtin_fabsf(a); }
 int32_t size(int32_t a) { return a < 0 ? -a : a; }
@@ -43,11 +47,17 @@ int32_t offset_at(const JointSetting& joint, float angle_rad, int32_t counts) {
 
 float range_of(const JointSetting& joint) { return joint.high_rad - joint.low_rad; }
 
+// The joint that begins to go up; all do where this is no joint's number.
+uint32_t rising(const HomingState& state) { return state.phase - kUp; }
+
+bool goes_up(const HomingState& state, uint32_t k) { return state.phase >= kUp + k; }
+
 void begin_phase(HomingState& state) {
   state.phase_s = state.still_s = 0;
-  state.has_pulse = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
-    state.begin[k] = state.still[k] = state.counts[k];
+    state.still[k] = state.counts[k];
+    if (state.phase > kUp + k) continue;
+    state.begin[k] = state.counts[k];
     state.far_rad[k] = 0;
   }
 }
@@ -107,34 +117,44 @@ bool take(HomingState& state, const JointSettings& joints, const Sample& sample,
 bool take_pulse(HomingState& state, const HomingSettings& settings, const JointSettings& joints,
                 const HomingSample& sample, uint32_t k) {
   if ((sample.pulses >> k & 1u) == 0 || settings.by != HomeBy::kIndex) return true;
-  if (!state.has_pulse) state.pulse = sample.latched[k];
-  state.has_pulse = true;
+  if ((state.pulses >> k & 1u) == 0) state.pulse[k] = sample.latched[k];
+  state.pulses |= 1u << k;
   const float period = settings.index_period_rad[k] * size(joints.joint[k].counts_per_rad);
-  const float apart = static_cast<float>(difference(sample.latched[k], state.pulse));
+  const float apart = static_cast<float>(difference(sample.latched[k], state.pulse[k]));
   const float turns = apart / period;
   if (!(size(turns) < 1e6f)) return false;
   return size(apart - static_cast<float>(nearest(turns)) * period) <= 2.0f;
 }
 
-// The joint `k` stands at its high stop.
+// Where the stop begins that the joint stands at. It gives way as the torque, and twice as far
+// under all of it as under half.
+int32_t unloaded(const HomingState& state, uint32_t k) {
+  const uint32_t eased = static_cast<uint32_t>(state.counts[k]);
+  return static_cast<int32_t>(2 * eased - static_cast<uint32_t>(state.pressed[k]));
+}
+
+// The joint `k` stands eased at its high stop.
 HomingFault find_offset(HomingState& state, const HomingSettings& settings,
                         const JointSetting& joint, uint32_t k) {
+  const int32_t low = state.low[k], travel = difference(unloaded(state, k), low);
+  const float travel_rad = static_cast<float>(travel) / joint.counts_per_rad;
+  if (!(travel_rad >= range_of(joint) - settings.margin_rad)) return HomingFault::kBlocked;
+  if (!(travel_rad <= range_of(joint) + settings.margin_rad)) return HomingFault::kNoStop;
   // Half of the travel, so that counts may wrap.
-  const int32_t half = difference(state.counts[k], state.begin[k]) / 2;
   const int32_t middle =
-      static_cast<int32_t>(static_cast<uint32_t>(state.begin[k]) + static_cast<uint32_t>(half));
+      static_cast<int32_t>(static_cast<uint32_t>(low) + static_cast<uint32_t>(travel / 2));
   const float middle_rad = 0.5f * (joint.low_rad + joint.high_rad);
   state.offset[k] = offset_at(joint, middle_rad, middle);
   if (settings.by != HomeBy::kIndex) return HomingFault::kNone;
-  if (!state.has_pulse) return HomingFault::kNoIndex;
-  const float from_middle = static_cast<float>(difference(state.pulse, middle));
+  if ((state.pulses >> k & 1u) == 0) return HomingFault::kNoIndex;
+  const float from_middle = static_cast<float>(difference(state.pulse[k], middle));
   const float rough_rad = middle_rad + from_middle / joint.counts_per_rad;
   const float period_rad = settings.index_period_rad[k];
   const float number =
       static_cast<float>(nearest((rough_rad - settings.index_rad[k]) / period_rad));
   const float exact_rad = settings.index_rad[k] + number * period_rad;
   if (!(size(rough_rad - exact_rad) <= 0.25f * period_rad)) return HomingFault::kWrongIndex;
-  state.offset[k] = offset_at(joint, exact_rad, state.pulse);
+  state.offset[k] = offset_at(joint, exact_rad, state.pulse[k]);
   return HomingFault::kNone;
 }
 
@@ -143,37 +163,52 @@ float endless_rad(const HomingSettings& settings, const JointSetting& joint) {
   return range_of(joint) * (1.0f + kMaxExcess) + settings.margin_rad;
 }
 
-// What the travels say when all joints stand at the end of a phase.
-HomingFault fault_of_travels(HomingState& state, const HomingSettings& settings,
-                             const JointSettings& joints) {
+// Past the middle of its range: the axis is the right one.
+bool has_gone_up(const HomingState& state, const JointSettings& joints, uint32_t k) {
+  return k < joints.joints && state.far_rad[k] > 0.5f * range_of(joints.joint[k]);
+}
+
+// What the travels say of the axes when all joints stand at their low stops, or one of them has
+// gone up, or stands.
+HomingFault fault_of_axes(HomingState& state, const HomingSettings& settings,
+                          const JointSettings& joints) {
   const float margin_rad = settings.margin_rad;
   if (state.phase == 0) {
     for (state.joint = 0; state.joint < joints.joints; ++state.joint)
       if (state.far_rad[state.joint] > margin_rad) return HomingFault::kWrongWay;
     return HomingFault::kNone;
   }
-  const uint32_t k = state.joint = state.phase - 1;
-  const float travel = travel_rad(state, joints, k), range = range_of(joints.joint[k]);
-  for (state.other = 0; state.other < joints.joints; ++state.other) {
-    if (state.other != k && state.far_rad[k] < 0.5f * range &&
-        size(state.far_rad[state.other]) > 0.5f * range)
+  const uint32_t k = state.joint = rising(state);
+  if (has_gone_up(state, joints, k)) return HomingFault::kNone;
+  for (state.other = k + 1; state.other < joints.joints; ++state.other)
+    if (size(state.far_rad[state.other]) > 0.5f * range_of(joints.joint[k]))
       return HomingFault::kSwapped;
-  }
   if (state.far_rad[k] < -margin_rad) return HomingFault::kWrongWay;
   if (size(difference(state.counts[k], state.begin[k])) <= kDeadCounts)
     return HomingFault::kDeadEncoder;
-  if (travel < range - margin_rad) return HomingFault::kBlocked;
-  return find_offset(state, settings, joints.joint[k], k);
+  return HomingFault::kBlocked;
+}
+
+bool is_eased(const HomingState& state, const JointSettings& joints) {
+  return state.phase == kEaseLow || state.phase == kUp + joints.joints + 1;
 }
 
 void end_phase(HomingState& state, const HomingSettings& settings, const JointSettings& joints) {
-  state.fault = fault_of_travels(state, settings, joints);
+  if (state.phase == kEaseLow) {
+    for (uint32_t k = 0; k < kMaxJoints; ++k) state.low[k] = unloaded(state, k);
+  } else if (state.phase < kUp + joints.joints) {
+    state.fault = fault_of_axes(state, settings, joints);
+  } else if (is_eased(state, joints)) {
+    for (uint32_t k = 0; k < joints.joints && state.fault == HomingFault::kNone; ++k)
+      state.fault = find_offset(state, settings, joints.joint[state.joint = k], k);
+  }
+  for (uint32_t k = 0; k < kMaxJoints; ++k) state.pressed[k] = state.counts[k];
   ++state.phase;
   begin_phase(state);
 }
 
 bool is_leaving(const HomingState& state, const JointSettings& joints) {
-  return state.phase > joints.joints;
+  return state.phase > kUp + joints.joints + 1;
 }
 
 // Of a joint whose offset is known.
@@ -189,11 +224,12 @@ HomingTorques drive(const HomingState& state, const HomingSettings& settings,
                     const JointSettings& joints) {
   HomingTorques out = {};
   const bool leaves = is_leaving(state, joints);
+  const float part = is_eased(state, joints) ? kEased : 1.0f;
   const float speed_rad_per_s = settings.speed_rad_per_s * (leaves ? kLeavingSpeed : 1.0f);
   for (uint32_t k = 0; k < joints.joints; ++k) {
-    const float way = k < state.phase && !leaves ? 1.0f : -1.0f;
+    const float way = goes_up(state, k) && !leaves ? 1.0f : -1.0f;
     if (leaves && is_inside(state, joints.joint[k], k)) continue;
-    const float share = 1.0f - way * state.rate_rad_per_s[k] / speed_rad_per_s;
+    const float share = part - way * state.rate_rad_per_s[k] / speed_rad_per_s;
     out.torque_Nm[k] = way * settings.torque_Nm[k] * clamp(share, 0.0f, 1.0f);
   }
   return out;
@@ -209,6 +245,7 @@ bool check_homing(const HomingSettings& settings, const JointSettings& joints) {
     is_good &= is_above_0(settings.torque_Nm[k], kMaxTorque_Nm);
     if (settings.by == HomeBy::kIndex)
       is_good &= is_above_0(settings.index_period_rad[k], range_of(joints.joint[k])) &&
+                 settings.margin_rad <= settings.index_period_rad[k] &&
                  size(settings.index_rad[k]) <= 100.0f;
   }
   return is_good;
@@ -219,7 +256,7 @@ HomingTorques home(HomingState& state, const HomingSettings& settings, const Joi
   if (state.is_done || state.fault != HomingFault::kNone) return {};
   const float dt_s = clamp(sample.encoders.dt_s, kMinStep_s, kMaxStep_s);
   state.total_s += dt_s;
-  const uint32_t driven = state.phase > 0 && !is_leaving(state, joints) ? state.phase - 1 : 0;
+  const uint32_t up = rising(state), driven = up < joints.joints ? up : 0;
   if (state.total_s > kMaxHoming_s) return fail(state, HomingFault::kTooLong, driven);
   const bool is_good = state.is_started
                            ? take(state, joints, sample.encoders, settings.margin_rad, dt_s)
@@ -240,10 +277,12 @@ HomingTorques home(HomingState& state, const HomingSettings& settings, const Joi
     for (uint32_t k = 0; k < joints.joints; ++k)
       state.is_done &= is_inside(state, joints.joint[k], k);
   } else {
-    if (state.phase > 0 && !take_pulse(state, settings, joints, sample, driven))
-      return fail(state, HomingFault::kWrongIndex, driven);
+    for (uint32_t k = 0; k < joints.joints; ++k)
+      if (goes_up(state, k) && !take_pulse(state, settings, joints, sample, k))
+        return fail(state, HomingFault::kWrongIndex, k);
     const bool is_still = state.phase_s >= kMinPhase_s && state.still_s >= kStill_s;
-    if (is_still || state.phase_s > kMaxPhase_s) end_phase(state, settings, joints);
+    if (is_still || has_gone_up(state, joints, up) || state.phase_s > kMaxPhase_s)
+      end_phase(state, settings, joints);
   }
   if (state.is_done || state.fault != HomingFault::kNone) return {};
   return drive(state, settings, joints);

@@ -53,32 +53,40 @@ struct HomingState {
   uint32_t joint = 0, other = 0;  // of the fault
   int32_t offset[kMaxJoints] = {};
 
-  // 0: all joints go to their low stops; k + 1: joint k goes to its high stop; then all leave it.
+  // 0: all joints go to their low stops; 1: they are eased there, so that how far a stop gives way
+  // says where it begins; k + 2: joint k goes up until it has passed its middle; then all are
+  // pressed to their high stops, and eased; then all leave.
   uint32_t phase = 0;
   float total_s = 0, phase_s = 0, still_s = 0;
   uint32_t bad_in_a_row = 0;
   float rate_rad_per_s[kMaxJoints] = {};
-  int32_t counts[kMaxJoints] = {};  // last accepted
-  int32_t begin[kMaxJoints] = {};   // where the phase began
-  int32_t still[kMaxJoints] = {};   // where the joints stand since still_s
-  float far_rad[kMaxJoints] = {};   // the farthest from where the phase began
-  bool has_pulse = false;           // of the joint that is driven
-  int32_t pulse = 0;
+  int32_t counts[kMaxJoints] = {};   // last accepted
+  int32_t begin[kMaxJoints] = {};    // where the travel began
+  int32_t still[kMaxJoints] = {};    // where the joints stand since still_s
+  int32_t pressed[kMaxJoints] = {};  // where the joints stood in the phase before
+  int32_t low[kMaxJoints] = {};      // where the low stops begin
+  float far_rad[kMaxJoints] = {};    // the farthest from where the travel began
+  uint32_t pulses = 0;               // bit k: joint k has passed one, at pulse[k]
+  int32_t pulse[kMaxJoints] = {};
 };
 
 struct HomingTorques {
   float torque_Nm[kMaxJoints];  // 0 at the end, after a fault, and for a bad sample
 };
 
-/// Whether torques, speed, margin and, by index, periods are finite and above 0.
+/// Whether torques, speed, margin and, by index, periods are finite and above 0; the margin is at
+/// most a period, so that travels within it cannot choose a neighbour of the index pulse.
 bool check_homing(const HomingSettings& settings, const JointSettings& joints);
 
 /// One tick. Until `is_done` the motors take these torques and nothing else; then counts + offset
 /// are those of `joints`, of which the controller's first tick takes the first.
-/// All joints are driven to their low stops, then one after the other to its high stop, so that the
-/// first touch of a high stop names a reversed, swapped or dead axis. In the end all leave it, so
-/// that they stand within their ranges. A driven joint has the torque x (1 - rate / speed), from 0
-/// to the torque: never above it, and never against its way.
+/// All joints are driven to their low stops, then up, each when the one before has passed its
+/// middle, so that this names a reversed, swapped or dead axis. Pressed by all of the torque and by
+/// half of it, a stop gives way by a length and half of it: the travel between stops that nothing
+/// presses is compared with the range, whether they are hard or soft, or one of them a finger. In
+/// the end all joints leave, so that they stand within their ranges. A driven
+/// joint has the torque x (share - rate / speed), from 0 to the torque: never above it, and never
+/// against its way.
 /// Pre: check(joints) passed. Bounds: constant; re-entrant. Result: finite; `fault` or `is_done`
 /// within kMaxHoming_s of samples.
 /// Error: by index within a count where range x counts_per_rad < 2^23; by stops the asymmetry of
