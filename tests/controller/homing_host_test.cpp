@@ -225,6 +225,37 @@ TEST(HomedDevice_LostEncoder_IsHomedAnew) {
   CHECK_LE(rig.off_m(), 2e-4);
 }
 
+// A model that was made before a loss names an object; the bits of the record are then homing's.
+TEST(HomedDevice_LostAtTwoRates_OldModelIsNoFaultOfHoming) {
+  struct ThirdObject : MeshSurface {
+    void touch(const ModelRequest& request, const params::Values& values, ModelResult& result) {
+      MeshSurface::touch(request, values, result);
+      result.state |= 3u << record::kStateObjectShift;
+    }
+  };
+  static Controller<Surfaces<ThirdObject>, NoGuide, HomedDevice> controller;
+  CHECK_EQ(controller.open(asset_by(device::HomeBy::kKnownPose).bytes()).rule, 0u);
+  record::TickInput input{};
+  record::TickOutput output{};
+  const auto tick = [&](uint32_t flags) {
+    input.clock_us = input.tick * 1000;
+    input.flags = flags;
+    controller.tick(input, output);
+    ++input.tick;
+  };
+  for (int i = 0; i < 20; ++i) {
+    tick(controller.model_flags() | (i > 0 ? record::kFlagEnable : 0));
+    controller.make_model();
+  }
+  CHECK_EQ(output.state >> record::kStateObjectShift, 3u);
+  // The main loop makes no model from here on.
+  for (int i = 0; i < 3; ++i)
+    tick(record::kFlagModelApart | record::kFlagEnable | record::kFlagEncoderFault);
+  for (int i = 0; i < 40; ++i) tick(record::kFlagModelApart | record::kFlagEnable);
+  CHECK((output.state & record::kStateNotHomed) != 0);
+  CHECK_EQ(output.state >> record::kStateHomingFaultShift, 0u);
+}
+
 TEST(ProgramWithoutHoming_RejectsTheLinkage) {
   static Controller<Surfaces<MeshSurface>, NoGuide, AnyDevice> controller;
   CHECK_EQ(controller.open(asset_by(device::HomeBy::kStops).bytes()).rule,

@@ -112,7 +112,10 @@ class Controller {
     Push push = core_.step(tick, input.flags, output);
     if constexpr (Device::kHomes) push.may_push |= homes && core_.has_no_fault();
     const bool passed = device.push(core_.values(), push, core_.guard(), output);
+    const uint32_t of_device = output.state;
     core_.end_tick(asset, tick, passed, output);
+    if constexpr (Device::kHomes)
+      output.state = record::without_old_object(output.state, of_device);
   }
 
   /// Servo interrupt, at two rates: the flags of the next tick, by what make_model() has done.

@@ -90,6 +90,14 @@ struct TickOutput {
 };
 static_assert(sizeof(TickOutput) == 104);
 
+/// The state of a tick, where that of its device is known: while it is not homed, homing's bits are
+/// not mixed with the object of a model that was made before.
+constexpr uint32_t without_old_object(uint32_t state, uint32_t of_device) {
+  if ((of_device & kStateNotHomed) == 0) return state;
+  constexpr uint32_t kOfDevice = ~(kStateNotHomed - 1);
+  return (state & ~kOfDevice) | (of_device & kOfDevice);
+}
+
 /// Whether the power stage may be on: the servo pushes, its force still falls to zero, or the
 /// motors home the linkage.
 constexpr bool may_push(const TickOutput& output) {
