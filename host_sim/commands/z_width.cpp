@@ -1,16 +1,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
+#include <sstream>
 #include <string>
 
+#include "device/machines.hpp"
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
+#include "host_sim/device/workspace.hpp"
 #include "host_sim/plant/sampled_wall.hpp"
 #include "json/json.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
+
+constexpr double kDegrees = 57.295779513082323;
 
 // Mass, own damping and period of the free rows; each at B of 0, a little and much.
 struct Axis {
@@ -154,8 +160,88 @@ int print_estimators() {
   return verdict(of_default >= kBar_N_per_m, text);
 }
 
+std::string json_of(const SampledWall& wall) {
+  tools::Json limits;
+  limits.add("mass_kg", wall.mass_kg).add("viscous_N_s_per_m", wall.viscous_N_s_per_m);
+  limits.add("damping_N_s_per_m", wall.damping_N_s_per_m);
+  limits.add("passive_N_per_m", passive_limit_N_per_m(wall));
+  limits.add("delayed_N_per_m", delayed_limit_N_per_m(wall));
+  limits.add("exact_N_per_m", exact_limit_N_per_m(wall));
+  limits.add("simulated_N_per_m", simulated_limit_N_per_m(wall));
+  return limits.object();
+}
+
+// Where the tip moves most easily: its least mass and its least damping, as if in one direction.
+struct DevicePose {
+  const char* name;
+  tools::JointMotion at;
+};
+
+tools::JointMotion middle_of(const tools::LinkageDevice& device) {
+  tools::JointMotion at;
+  for (uint32_t k = 0; k < device.joints.joints; ++k)
+    at.angle_rad[k] = 0.5 * (static_cast<double>(device.joints.joint[k].low_rad) +
+                             static_cast<double>(device.joints.joint[k].high_rad));
+  return at;
+}
+
+// "30,45,-20", of each joint.
+tools::JointMotion pose_of(const Options& options, const device::JointSettings& joints) {
+  std::istringstream text(options.value("--at"));
+  tools::JointMotion at;
+  std::string part;
+  for (uint32_t k = 0; k < joints.joints; ++k) {
+    char* end = nullptr;
+    const bool has_part = static_cast<bool>(std::getline(text, part, ','));
+    at.angle_rad[k] = has_part ? std::strtod(part.c_str(), &end) / kDegrees : 0;
+    if (end == nullptr || end == part.c_str() || *end != 0 || !std::isfinite(at.angle_rad[k]))
+      options.refuse("--at takes " + std::to_string(joints.joints) + " angles in degrees: 30,45");
+    if (!(at.angle_rad[k] >= static_cast<double>(joints.joint[k].low_rad) &&
+          at.angle_rad[k] <= static_cast<double>(joints.joint[k].high_rad)))
+      options.refuse("--at: the angle of joint " + std::to_string(k) + " is out of its range");
+  }
+  if (std::getline(text, part)) options.refuse("--at has more angles than the device joints");
+  return at;
+}
+
+int print_device_walls(const Options& options, SampledWall wall) {
+  for (const char* own : {"--mass", "--viscous", "--damping"})
+    if (options.has(own)) options.refuse(std::string(own) + " comes from the device");
+  const std::string path = options.operand("one device file, or a machine's name");
+  const tools::LinkageDevice device = tools::read_device(path, tools::read_device_text(path));
+  const Workspace space = workspace_of(device, device.joints.joints == 3 ? 40 : 400);
+  if (!(space.least_mass_kg > 0))
+    throw tools::Refused(path + ": no pose has a mass: state the masses of links or tip");
+  const DevicePose poses[] = {
+      {"where the tip is lightest", space.lightest_at},
+      {options.has("--at") ? "at the pose of --at" : "in the middle of the ranges",
+       options.has("--at") ? pose_of(options, device.joints) : middle_of(device)}};
+  tools::Json all;
+  for (const DevicePose& pose : poses) {
+    const tools::TipFigures tip = tools::tip_figures(device, pose.at);
+    if (!(tip.least_mass_kg > 0)) options.refuse("the links do not meet " + std::string(pose.name));
+    wall.mass_kg = tip.least_mass_kg;
+    wall.viscous_N_s_per_m = tip.least_damping_N_s_per_m;
+    std::vector<SampledWall> rows;
+    for (const double damping : {0.25, 0.5, 1.0, 2.0, 5.0, 10.0}) {
+      rows.push_back(wall);
+      rows.back().damping_N_s_per_m = damping;
+    }
+    if (options.has("--json")) {
+      all.add(&pose == poses ? "lightest" : "pose", tools::json_list(rows, json_of));
+      continue;
+    }
+    std::printf("%sWalls in N/m %s, joints", &pose == poses ? "" : "\n", pose.name);
+    for (uint32_t k = 0; k < device.joints.joints; ++k)
+      std::printf(" %.1f", pose.at.angle_rad[k] * kDegrees);
+    std::printf(" deg\n");
+    print_rows(rows);
+  }
+  if (options.has("--json")) std::cout << all.object() << "\n";
+  return 0;
+}
+
 int print_z_width(const Options& options) {
-  if (!options.operands().empty()) options.refuse("it takes no file");
   if (options.has("--table")) return print_table();
   if (options.has("--regimes")) return print_regimes();
   if (options.has("--estimators")) return print_estimators();
@@ -171,13 +257,10 @@ int print_z_width(const Options& options) {
   wall.hand_mass_kg = options.number("--hand-mass", 0, 0);
   wall.hand_damping_N_s_per_m = options.number("--hand-damping", 0, 0);
   wall.hand_stiffness_N_per_m = options.number("--hand-stiffness", 0, 0);
+  if (!options.operands().empty()) return print_device_walls(options, wall);
+  if (options.has("--at")) options.refuse("--at needs a device");
   if (options.has("--json")) {
-    tools::Json limits;
-    limits.add("passive_N_per_m", passive_limit_N_per_m(wall));
-    limits.add("delayed_N_per_m", delayed_limit_N_per_m(wall));
-    limits.add("exact_N_per_m", exact_limit_N_per_m(wall));
-    limits.add("simulated_N_per_m", simulated_limit_N_per_m(wall));
-    std::cout << limits.object() << "\n";
+    std::cout << json_of(wall) << "\n";
     return 0;
   }
   print_rows({wall});
@@ -189,16 +272,20 @@ int print_z_width(const Options& options) {
 const Command& z_width_command_line() {
   static const Command command = {
       "z-width",
-      "[--table | --regimes | --estimators] [options]",
-      "prints the stiffest passive and the stiffest stable wall of an axis",
+      "[FILE|MACHINE | --table | --regimes | --estimators] [options]",
+      "prints the stiffest passive and the stiffest stable wall of an axis, or of a device's tip",
       "passive: b > K T / 2 + |B| (Colgate & Schenkel 1994); delayed: K < (b + B) / (T / 2 + "
       "delay)\n"
       "(Gil, Hulin & Diaz); exact: spectral radius 1 of the discrete model; simulated: growth or "
-      "decay.\n",
+      "decay.\nOf a device the axis is its tip, with its least mass and its least damping, where "
+      "it is "
+      "lightest and at a pose.\nThe observer of energy (energy_reservoir_J) is not in these "
+      "figures: it holds stiffer walls.\n",
       {{"--table", nullptr, "28 free and 12 held axes; exit code 1 beyond 1 %"},
        {"--regimes", nullptr,
         "quantum and Coulomb friction: 16 points against describing functions; 1 beyond 10 %"},
        {"--estimators", nullptr, "stiffest wall at rest by velocity estimator; 1 below 8,379 N/m"},
+       {"--at", "DEG,DEG...", "of a device: the joints' angles (the middle of their ranges)"},
        {"--mass", "KG", "of the axis (0.075)"},
        {"--viscous", "N_S_PER_M", "its own damping b (0.5)"},
        {"--rate", "HZ", "ticks a second (1000)"},

@@ -40,53 +40,19 @@ double beyond(const device::JointSetting& joint, double angle_rad) {
   return angle_rad - std::clamp(angle_rad, wide(joint.low_rad), wide(joint.high_rad));
 }
 
-// Inverse of the inertia, symmetric, by its adjugate. Joints that the linkage lacks have 1.
-// Result: false if it is not positive definite.
-bool invert(const double (&m)[kJoints][kJoints], double (&inverse)[kJoints][kJoints]) {
-  const double a = m[1][1] * m[2][2] - m[2][1] * m[2][1];
-  const double b = m[2][1] * m[2][0] - m[1][0] * m[2][2];
-  const double c = m[1][0] * m[2][1] - m[1][1] * m[2][0];
-  const double minor = m[0][0] * m[1][1] - m[1][0] * m[1][0];
-  const double volume = m[0][0] * a + m[1][0] * b + m[2][0] * c;
-  const double scale = 1 / volume;
-  inverse[0][0] = a * scale;
-  inverse[1][0] = inverse[0][1] = b * scale;
-  inverse[2][0] = inverse[0][2] = c * scale;
-  inverse[1][1] = (m[0][0] * m[2][2] - m[2][0] * m[2][0]) * scale;
-  inverse[2][1] = inverse[1][2] = (m[1][0] * m[2][0] - m[0][0] * m[2][1]) * scale;
-  inverse[2][2] = minor * scale;
-  return m[0][0] > 0 && minor > 0 && volume > 0;
-}
-
-// Moments of mass at two points of a linkage: both halves of the symmetric sum.
-void add_mass(double mass_kg, const MovingPoint& p, const MovingPoint& q,
-              double (&to)[kJoints][kJoints]) {
-  for (uint32_t i = p.first; i < p.end; ++i)
-    for (uint32_t j = q.first; j < q.end; ++j)
-      to[i][j] += mass_kg * dot(p.column_m[i], q.column_m[j]);
-}
-
 }  // namespace
 
 LinkageBody::LinkageBody(const LinkageDevice& device, const JointMotion& start)
     : device_(device), joints_(device.joints.joints), motion_(start) {
-  const std::vector<tools::Link> links = tools::links_of(device_);
-  for (size_t i = 0; i < links.size(); ++i) {
-    const tools::Rod& rod = device_.masses.rod[i];
-    const double centre = rod.mass_kg * rod.centre_m / links[i].length_m;
-    const double second = (rod.inertia_kg_m2 + rod.mass_kg * rod.centre_m * rod.centre_m) /
-                          (links[i].length_m * links[i].length_m);
-    moments_[i] = {rod.mass_kg - 2 * centre + second, centre - second, second};
-  }
-  elbows_ = links.size() / 2;
+  moments_ = tools::moments_of(device_);
+  elbows_ = moments_.size() / 2;
   for (uint32_t k = 0; k < joints_; ++k) is_dry_ |= device_.masses.joint[k].coulomb_N_m > 0;
   here_ = before_ = dynamics_of(motion_);
   book_.stored_J = book_.start_J = here_.stored_J;
   book_.weight_J = here_.weight_J;
 }
 
-void LinkageBody::add_links(const MovingPoints& points, double (&mass)[kJoints][kJoints],
-                            Dynamics& to) const {
+void LinkageBody::add_links(const MovingPoints& points, Dynamics& to) const {
   const Vec gravity = device_.masses.gravity_mps2;
   const auto load = [&](const MovingPoint& p, double heavy_kg, Vec inertial_N) {
     const Vec force_N = gravity * heavy_kg - inertial_N;
@@ -97,22 +63,15 @@ void LinkageBody::add_links(const MovingPoints& points, double (&mass)[kJoints][
   double at_tip_kg = device_.masses.tip_mass_kg, weight_of_tip_kg = at_tip_kg;
   Vec by_elbows_N;
   for (size_t k = 0; k < elbows_; ++k) {
-    const Moments &driven = moments_[k], &outer = moments_[elbows_ + k];
+    const tools::RodMoments &driven = moments_[k], &outer = moments_[elbows_ + k];
     const MovingPoint &base = points.base[k], &elbow = points.elbow[k];
     const double at_elbow_kg = driven.c + outer.a;
-    add_mass(driven.a, base, base, mass);
-    add_mass(driven.b, base, elbow, mass);
-    add_mass(driven.b, elbow, base, mass);
-    add_mass(at_elbow_kg, elbow, elbow, mass);
-    add_mass(outer.b, elbow, tip, mass);
-    add_mass(outer.b, tip, elbow, mass);
     load(base, driven.a + driven.b, base.bias_mps2 * driven.a + elbow.bias_mps2 * driven.b);
     load(elbow, driven.b + driven.c + outer.a + outer.b,
          base.bias_mps2 * driven.b + elbow.bias_mps2 * at_elbow_kg + tip.bias_mps2 * outer.b);
     at_tip_kg += outer.c, weight_of_tip_kg += outer.b + outer.c;  // the lever rule
     by_elbows_N = by_elbows_N + elbow.bias_mps2 * outer.b;
   }
-  add_mass(at_tip_kg, tip, tip, mass);
   load(tip, weight_of_tip_kg, by_elbows_N + tip.bias_mps2 * at_tip_kg);
 }
 
@@ -133,16 +92,10 @@ LinkageBody::Dynamics LinkageBody::dynamics_of(const JointMotion& motion) const 
   Dynamics all;
   all.is_closed = points.is_closed && points.span >= kMinSpan;
   all.tip = points.tip;
-  double mass[kJoints][kJoints] = {};
-  add_links(points, mass, all);
-  for (uint32_t k = 0; k < kJoints; ++k) {
-    const tools::JointFriction& joint = device_.masses.joint[k];
-    if (k >= joints_)
-      mass[k][k] = 1;
-    else if (!(joint.cable_N_m_per_rad > 0))  // behind a cable the rotor moves by itself
-      mass[k][k] += joint.rotor_kg_m2;
-  }
-  all.has_inertia = invert(mass, all.inverse);
+  add_links(points, all);
+  double mass[kJoints][kJoints];
+  tools::put_inertia(device_, moments_, points, mass);
+  all.has_inertia = tools::invert(mass, all.inverse);
   for (uint32_t k = joints_; k < kJoints; ++k) all.inverse[k][k] = 0;
   for (uint32_t i = 0; i < kJoints; ++i)
     for (uint32_t j = 0; j < kJoints; ++j)

@@ -1,5 +1,5 @@
 #pragma once
-#include "device/moving_points.hpp"
+#include "device/inertia.hpp"
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
@@ -24,8 +24,6 @@ struct EnergyBook {
 };
 
 /// Rigid-body dynamics of a linkage: M(q) q'' = torques - h(q, q') + gravity + J^T hand - friction.
-/// A rod's mass lies on the line between its ends, so its inertia follows from its ends' columns
-/// alone: a A.A + 2 b A.B + c B.B with the rod's three moments.
 /// Integrated in the third order with one evaluation a step, motors and hand constant: rates by
 /// Adams and Bashforth's second order and angles by the trapezoid rule, corrected by the change of
 /// acceleration that follows. Where the rates differ from the trapezoid rule's by more than
@@ -76,7 +74,7 @@ class LinkageBody {
     MovingPoint tip;
   };
   Dynamics dynamics_of(const JointMotion& motion) const;
-  void add_links(const MovingPoints& points, double (&mass)[kJoints][kJoints], Dynamics& to) const;
+  void add_links(const MovingPoints& points, Dynamics& to) const;
   void add_stops(const JointMotion& motion, Dynamics& to) const;
   void accelerate(const Dynamics& at, const double (&motor_Nm)[kJoints], Vec hand_N,
                   double (&acceleration)[kJoints]) const;
@@ -91,9 +89,7 @@ class LinkageBody {
   uint32_t joints_;
   size_t elbows_ = 0;
   bool is_dry_ = false;  // has Coulomb friction
-  struct Moments {
-    double a, b, c;  // of the rod over (1 - s)^2, s (1 - s), s^2, where s goes from 0 to 1
-  } moments_[6] = {};
+  std::vector<tools::RodMoments> moments_;
   JointMotion motion_;
   Dynamics here_, before_;  // of motion_, and of a step ago
   double before_s_ = 1;     // length of that step

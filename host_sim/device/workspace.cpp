@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "device/symmetric.hpp"
 #include "firmtouch/params/table.hpp"
 #include "host_sim/device/linkage_body.hpp"
 
@@ -35,25 +34,10 @@ void add_forces(const LinkageDevice& device, const device::Pose& pose, Workspace
   }
 }
 
-// The least mass is in the direction in which a force accelerates the tip most: the largest
-// eigenvalue of J inertia^-1 J^T.
-void add_mass(const LinkageDevice& device, const float (&angle_rad)[device::kMaxJoints],
-              Workspace& to) {
+JointMotion motion_at(const float (&angle_rad)[device::kMaxJoints]) {
   JointMotion at;
   for (uint32_t k = 0; k < device::kMaxJoints; ++k) at.angle_rad[k] = wide(angle_rad[k]);
-  const LinkageBody body(device, at);
-  if (!body.has_inertia() || !body.is_closed()) return;
-  tools::Matrix mobility(3, std::vector<double>(3, 0.0));
-  for (uint32_t i = 0; i < device.joints.joints; ++i)
-    for (uint32_t j = 0; j < device.joints.joints; ++j) {
-      const Vec a = body.tip().column_m[i], b = body.tip().column_m[j];
-      const double to_tip[2][3] = {{a.x, a.y, a.z}, {b.x, b.y, b.z}};
-      for (uint32_t row = 0; row < 3; ++row)
-        for (uint32_t column = 0; column < 3; ++column)
-          mobility[row][column] += to_tip[0][row] * body.inverse_inertia(i, j) * to_tip[1][column];
-    }
-  const double mass_kg = 1 / tools::directions_of(mobility).value[0];
-  if (!(to.least_mass_kg > 0) || mass_kg < to.least_mass_kg) to.least_mass_kg = mass_kg;
+  return at;
 }
 
 void add(const LinkageDevice& device, const float (&angle_rad)[device::kMaxJoints],
@@ -79,7 +63,12 @@ void add(const LinkageDevice& device, const float (&angle_rad)[device::kMaxJoint
   if (pose.reciprocal_condition >= device.limits.full_from) {
     ++to.with_whole_force;
     add_forces(device, pose, to);
-    add_mass(device, angle_rad, to);
+    const tools::TipFigures tip = tools::tip_figures(device, motion_at(angle_rad));
+    if (tip.least_mass_kg > 0 &&
+        (!(to.least_mass_kg > 0) || tip.least_mass_kg < to.least_mass_kg)) {
+      to.least_mass_kg = tip.least_mass_kg;
+      to.lightest_at = motion_at(angle_rad);
+    }
   } else if (pose.reciprocal_condition > device.limits.gone_at) {
     ++to.with_faded_force;
   }

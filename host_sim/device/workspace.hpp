@@ -1,11 +1,12 @@
 #pragma once
 #include <cstdint>
 
-#include "device/device_file.hpp"
+#include "device/inertia.hpp"
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
 
+using tools::JointMotion;
 using tools::LinkageDevice;
 
 /// Poses of a linkage on a grid over the ranges of its joints.
@@ -20,6 +21,7 @@ struct Workspace {
   double least_force_N = 0;  // that the torque limits allow in every direction
   double count_m = 0;        // longest motion of the tip by one count
   double least_mass_kg = 0;  // that the tip has in any direction; 0: the device has no inertia
+  JointMotion lightest_at;   // the pose where it has it
 };
 
 /// `steps` + 1 angles a joint, ends included.

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <vector>
 
+#include "device/machines.hpp"
 #include "harness/test.hpp"
+#include "host_sim/device/linkage_body.hpp"
 #include "host_sim/plant/sampled_wall.hpp"
 
 #if __has_include(<Eigen/Eigenvalues>)
@@ -11,6 +13,46 @@
 #endif
 
 using namespace firmtouch::host_sim;
+
+// Pushed for a moment in 20,000 directions, the simulated tip moves most easily as the figures say;
+// at the middle of a machine's ranges, with joints of different friction.
+TEST(TipFigures_EveryMachine_AreTheLeastOverDirections) {
+  namespace tools = firmtouch::tools;
+  for (const std::string& name : tools::machine_names()) {
+    tools::LinkageDevice device = tools::read_device(name, tools::machine_text(name));
+    device.masses.gravity_mps2 = {0, 0, 0};
+    const uint32_t joints = device.joints.joints;
+    tools::JointMotion at;
+    for (uint32_t k = 0; k < joints; ++k) {
+      const auto& joint = device.joints.joint[k];
+      at.angle_rad[k] = 0.5 * static_cast<double>(joint.low_rad + joint.high_rad);
+      device.masses.joint[k].viscous_N_m_s = 1e-3 * (k + 1);
+      device.masses.joint[k].coulomb_N_m = 0;
+    }
+    const tools::TipFigures figures = tools::tip_figures(device, at);
+    const LinkageBody start(device, at);
+    double ease = 0, yield = 0;  // largest acceleration and speed along a force of 1 N
+    for (int i = 0; i < 20000; ++i) {
+      const double z = joints == 2 ? 0 : 1 - i / 10000.0, turn = 2.399963 * i;
+      const double flat = std::sqrt(1 - z * z);
+      const Vec way{flat * std::cos(turn), flat * std::sin(turn), z};
+      LinkageBody body = start;
+      body.advance({}, way, 1e-7);
+      double speed = 0, slow = 0;
+      for (uint32_t k = 0; k < joints; ++k) {
+        const double along = dot(start.tip().column_m[k], way);
+        speed += along * body.motion().rate_rad_per_s[k];
+        slow += along * along / device.masses.joint[k].viscous_N_m_s;
+      }
+      ease = std::fmax(ease, speed / 1e-7);
+      yield = std::fmax(yield, slow);
+    }
+    firmtouch::test::note((name + ": least mass, mg").c_str(),
+                          static_cast<int64_t>(figures.least_mass_kg * 1e6));
+    CHECK_LE(std::fabs(figures.least_mass_kg * ease - 1), 1e-3);
+    CHECK_LE(std::fabs(figures.least_damping_N_s_per_m * yield - 1), 1e-3);
+  }
+}
 
 TEST(SchurStable_KnownRoots_AreSeparated) {
   const double half[] = {1, -0.5};
