@@ -54,6 +54,7 @@ Rig::Rig(uint64_t its_seed, const std::string& machine) : seed(its_seed), machin
   const auto draw = [&](double low, double high) { return random.between(low, high); };
   if (!machine.empty()) {
     linkage_ = tools::read_device(machine, tools::read_device_text(machine));
+    linkage_->are_walls_forced = true;  // the observer of energy is what a study tests
     JointMotion at;
     for (uint32_t k = 0; k < linkage_->joints.joints; ++k) {
       const device::JointSetting& joint = linkage_->joints.joint[k];

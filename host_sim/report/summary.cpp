@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <limits>
 
+#include "device/inertia.hpp"
 #include "firmtouch/device/homing.hpp"
+#include "firmtouch/device/stable_wall.hpp"
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "firmtouch/servo/step.hpp"
@@ -59,6 +61,20 @@ void count(Summary& summary, const record::TickOutput& out, uint64_t& visits, do
   summary.faults |= out.faults;
 }
 
+constexpr uint32_t kHomingBits = record::kStateWallRefused - record::kStateNotHomed;
+
+std::string walls_text(const Summary& s) {
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "%s in %zu ticks: stable are contact to %.0f N/m and the guide to %.0f N/m; lower "
+                "the stiffness or raise the damping%s",
+                s.refused_wall_ticks > 0 ? "REFUSED, motors off," : "forced",
+                s.refused_wall_ticks + s.forced_wall_ticks, s.stable_contact_N_per_m,
+                s.stable_guide_N_per_m,
+                s.refused_wall_ticks > 0 ? "; or bake the device with `walls forced`" : "");
+  return text;
+}
+
 // "homed at 0.52 s"; empty where nothing was homed.
 std::string homing_text(const Summary& s) {
   char text[160] = "";
@@ -98,6 +114,18 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
   summary_.has_surface = environment.has_surface();
   summary_.has_guide = environment.has_guide();
   summary_.force_limit_N = parameter_value(scenario, params::kForceLimit);
+  if (scenario.linkage) {
+    const auto limit = [&, mass_kg = static_cast<float>(tools::least_mass_kg(*scenario.linkage))](
+                           params::Index damping) {
+      const double whole =
+          parameter_value(scenario, damping) + parameter_value(scenario, params::kDeviceDamping);
+      return static_cast<double>(device::stiffest_stable_N_per_m(
+          mass_kg, static_cast<float>(whole),
+          static_cast<float>(parameter_value(scenario, params::kTickPeriod))));
+    };
+    summary_.stable_contact_N_per_m = limit(params::kContactDamping);
+    summary_.stable_guide_N_per_m = limit(params::kGuideDamping);
+  }
   summary_.tool_radius_m = parameter_value(scenario, params::kToolRadius);
   summary_.budget_units = static_cast<uint32_t>(
       std::min(parameter_value(scenario, params::kTickWork) - double{params::kFixedTickWork},
@@ -157,9 +185,11 @@ void Summariser::add(const RunTick& tick) {
   }
   count(summary_, out, visits_, deviation_m_);
   const bool is_homed = (out.state & record::kStateNotHomed) == 0;
-  const uint32_t homing = is_homed ? 0 : out.state & ~(record::kStateNotHomed - 1);
+  const uint32_t homing = is_homed ? 0 : out.state & kHomingBits;
   if (homing == 0 && summary_.homing != 0) summary_.homed_s = time_s;
   summary_.homing = homing;
+  summary_.refused_wall_ticks += (out.state & record::kStateWallRefused) != 0 ? 1u : 0u;
+  summary_.forced_wall_ticks += (out.state & record::kStateWallForced) != 0 ? 1u : 0u;
   const bool is_on = motors_are_on(out);
   const Vec force_N = wide(out.force_N);
   quality_.add(force_N, is_on);
@@ -273,6 +303,8 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
         s.limit_ticks, s.deepest_radii(), s.chatter_N, s.worst_turn_rad * kDegrees,
         s.is_bad_contact() ? ": BAD" : "");
   if (!homing_text(s).empty()) line("  homing         %s\n", homing_text(s).c_str());
+  if (s.refused_wall_ticks + s.forced_wall_ticks > 0)
+    line("  walls          %s\n", walls_text(s).c_str());
   line("  load           %s\n", load_text(s).c_str());
   if (trace.compared)
     text += trace.difference ? "  same bits      NO: see below\n"

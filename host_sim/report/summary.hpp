@@ -40,6 +40,9 @@ struct Summary {
   std::string fault_names;
   uint32_t homing = 0;  // of the last tick's state: record::kStateNotHomed and above; 0: homed
   double homed_s = -1;  // when it was homed; -1: it was not, or need not be
+  // Ticks that enabled beside a wall that is stiffer than stable, and what would have been stable.
+  size_t refused_wall_ticks = 0, forced_wall_ticks = 0;
+  double stable_contact_N_per_m = 0, stable_guide_N_per_m = 0;  // of a linkage
   // How it feels (report/contact_quality.hpp), while the motors were on.
   double tool_radius_m = 0;
   size_t limit_ticks = 0;  // at the force limit

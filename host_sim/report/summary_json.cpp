@@ -38,6 +38,11 @@ std::string json_of(const Summary& s, const RunFacts& facts) {
   if (facts.compared) all.add("same_bits", !facts.difference);
   if (s.homed_s >= 0) all.add("homed_s", s.homed_s);
   if (s.homing != 0) all.add("homing_state", uint64_t{s.homing >> 20});
+  if (s.stable_contact_N_per_m > 0)
+    all.add("stable_contact_N_per_m", s.stable_contact_N_per_m)
+        .add("stable_guide_N_per_m", s.stable_guide_N_per_m)
+        .add("refused_wall_ticks", s.refused_wall_ticks)
+        .add("forced_wall_ticks", s.forced_wall_ticks);
   all.add("faults", uint64_t{s.faults}).add("faults_names", json_text(s.fault_names));
   if (s.fault_s >= 0) all.add("fault_s", s.fault_s).add("fault_is_scripted", s.fault_is_scripted);
   return all.add("peak_memory_bytes", uint64_t{peak_memory_bytes()}).object() + "\n";

@@ -144,6 +144,55 @@ TEST(ArmOfTheAsset_RendersTheForcesOfACartesianDevice) {
   CHECK_LE(different, 45u);  // of 9,000: rounding put the proxy on another face
 }
 
+// 100 g, 1 and 0.5 N s/m, 1 ms: 3,000 (1 - 0.0075) / (1 + 0.0075) = 2,955 N/m.
+TEST(Arm_WallStifferThanStable_IsRefusedOrForced) {
+  for (const bool is_forced : {false, true}) {
+    device::LinkageLayout layout = arm(20);
+    layout.least_mass_kg = 0.1f;
+    if (is_forced) layout.flags |= device::kFlagForcedWalls;
+    for (const float stiffness : {2950.0f, 2960.0f}) {
+      ArmRide ride(layout);
+      ride.stiffness_N_per_m = stiffness;
+      double largest_N = 0;
+      for (uint32_t tick = 0; tick < 1500; ++tick) {
+        ride.step(tick);
+        const uint32_t wall =
+            ride.output.state & (record::kStateWallRefused | record::kStateWallForced);
+        const bool is_stiff = stiffness > 2955 && tick >= 10;
+        CHECK_EQ(wall, !is_stiff   ? 0u
+                       : is_forced ? record::kStateWallForced
+                                   : record::kStateWallRefused);
+        largest_N = std::max(largest_N, size_of(ride.output.force_N));
+        CHECK_EQ(ride.output.faults, 0u);
+      }
+      CHECK_EQ(largest_N > 0.5, is_forced || stiffness < 2955);
+      CHECK_EQ(record::may_push(ride.output), is_forced || stiffness < 2955);
+    }
+  }
+}
+
+TEST(Arm_WallThatBecomesTooStiff_RampsTheMotorsOut) {
+  device::LinkageLayout layout = arm(20);
+  layout.least_mass_kg = 0.1f;
+  ArmRide ride(layout);
+  uint32_t on = 0;
+  for (uint32_t tick = 0; tick < 1500; ++tick) {
+    record::TickInput input = ride.input_of(tick);
+    if (tick == 600 || tick == 900) {
+      input.command = 1 + static_cast<uint32_t>(params::kContactStiffness);
+      input.command_value = tick == 600 ? 5000.0f : 800.0f;
+    }
+    const double before_N = size_of(ride.output.force_N);
+    ride.controller.tick(input, ride.output);
+    if (tick == 600) CHECK((ride.output.state & record::kStateWallRefused) != 0);
+    if (tick >= 600 && tick < 900) CHECK_LE(size_of(ride.output.force_N), before_N + 1e-3);
+    if (tick >= 700 && tick < 900) CHECK(!record::may_push(ride.output));
+    on += tick >= 1200 && record::may_push(ride.output) ? 1u : 0u;
+    CHECK_EQ(ride.output.faults, 0u);
+  }
+  CHECK_EQ(on, 300u);
+}
+
 TEST(WeakJoints_KeepTheForcesDirectionAndTheirCeilings) {
   ArmRide strong(arm(20)), weak(arm(0.3f));
   uint32_t limited = 0;

@@ -99,7 +99,11 @@ TEST(StoredLinkage_EachRuleIsBrokenAlone) {
   check_broken(
       delta(), [](L& l) { l.joints = 2; }, kRuleKind);
   check_broken(
-      five_bar(), [](L& l) { l.reserved = 1; }, kRuleUnused);
+      five_bar(), [](L& l) { l.least_mass_kg = -1; }, kRuleLoad);
+  check_broken(
+      five_bar(), [](L& l) { l.least_mass_kg = kNan; }, kRuleLoad);
+  check_broken(
+      five_bar(), [](L& l) { l.flags = 8; }, kRuleUnused);
   check_broken(
       five_bar(), [](L& l) { l.flags = 2; }, kRuleUnused);
   check_broken(

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "device/machines.hpp"
+#include "firmtouch/device/stable_wall.hpp"
 #include "harness/test.hpp"
 #include "host_sim/device/linkage_body.hpp"
 #include "host_sim/plant/sampled_wall.hpp"
@@ -52,6 +53,28 @@ TEST(TipFigures_EveryMachine_AreTheLeastOverDirections) {
     CHECK_LE(std::fabs(figures.least_mass_kg * ease - 1), 1e-3);
     CHECK_LE(std::fabs(figures.least_damping_N_s_per_m * yield - 1), 1e-3);
   }
+}
+
+// The firmware's closed form against the Schur-Cohn bound of the exact model.
+TEST(StableWallOfTheFirmware_IsThatOfTheExactModel) {
+  const auto firmware = [](const SampledWall& wall) {
+    return static_cast<double>(firmtouch::device::stiffest_stable_N_per_m(
+        static_cast<float>(wall.mass_kg),
+        static_cast<float>(wall.damping_N_s_per_m + wall.viscous_N_s_per_m),
+        static_cast<float>(wall.period_s)));
+  };
+  for (const double mass_kg : {.02, .05, .2, 1.})
+    for (const double period_s : {.1e-3, .25e-3, 1e-3})
+      for (const double damping : {.1, .5, 1., 5., 10.}) {
+        SampledWall wall{mass_kg, 0, period_s, damping};
+        const double share = damping * period_s / (2 * mass_kg);
+        CHECK_LE(std::fabs(firmware(wall) / exact_limit_N_per_m(wall) - 1), 1e-5);
+        wall.viscous_N_s_per_m = wall.damping_N_s_per_m = damping / 2;
+        const double ratio = firmware(wall) / exact_limit_N_per_m(wall);
+        CHECK_LE(ratio, 1 + 1e-5);
+        CHECK_GE(ratio, 1 - 1.2 * share);
+      }
+  CHECK_LE(firmware({.001, 0, 1e-3, 2}), 0.0);  // two positions apart, the damper turns the mass
 }
 
 TEST(SchurStable_KnownRoots_AreSeparated) {

@@ -140,6 +140,7 @@ Keys keys_of(LinkageDevice& device) {
   to.number("torque_rise", "s", 1e-4, 1, device.torque_rise_s, false);
   to.number("carried_share", "", 0, 0.9, device.carried_share, false);
   add_homing(device, to);
+  to.flag("walls", "forced", "stable", device.are_walls_forced);
   add_masses(device, to);
   return to;
 }

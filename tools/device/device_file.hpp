@@ -49,7 +49,8 @@ struct LinkageDevice {
   float torque_rise_s = 0.002f;
   float carried_share = 0;
   MassModel masses;
-  bool is_homed = false;  // its encoders count from where they are switched on
+  bool are_walls_forced = false;  // motors come on beside walls that are not stable
+  bool is_homed = false;          // its encoders count from where they are switched on
   device::HomingSettings homing;
 };
 
@@ -62,6 +63,7 @@ struct LinkageDevice {
 ///     low_0 60 deg
 ///     high_0 150 deg
 ///     max_torque_0 0.3 N*m
+///     walls forced                    optional: motors come on beside walls that are not stable
 ///     home stops                      optional, or `home pose`: also home_torque_0 (default: 0.3
 ///     of
 ///                                     max_torque_0), home_speed, home_margin, home_pose_0

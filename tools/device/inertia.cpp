@@ -100,4 +100,28 @@ TipFigures tip_figures(const LinkageDevice& device, const JointMotion& at) {
   return figures;
 }
 
+double least_mass_kg(const LinkageDevice& device) {
+  const uint32_t joints = device.joints.joints, steps = joints == 3 ? 20 : 100;
+  double least_kg = 0;
+  uint32_t at[kJoints] = {};  // counts through the grid
+  while (at[joints - 1] <= steps) {
+    float angle_rad[kJoints] = {};
+    JointMotion motion;
+    for (uint32_t k = 0; k < joints; ++k) {
+      const device::JointSetting& joint = device.joints.joint[k];
+      const double low = static_cast<double>(joint.low_rad);
+      motion.angle_rad[k] = low + (static_cast<double>(joint.high_rad) - low) * at[k] / steps;
+      angle_rad[k] = static_cast<float>(motion.angle_rad[k]);
+    }
+    const device::Pose pose = std::visit(
+        [&](const auto& linkage) { return device::pose_of(linkage, angle_rad); }, device.linkage);
+    if (pose.is_reachable && pose.reciprocal_condition >= device.limits.full_from) {
+      const double mass_kg = tip_figures(device, motion).least_mass_kg;
+      if (mass_kg > 0 && (!(least_kg > 0) || mass_kg < least_kg)) least_kg = mass_kg;
+    }
+    for (uint32_t k = 0; k < joints && ++at[k] > steps && k + 1 < joints; ++k) at[k] = 0;
+  }
+  return least_kg;
+}
+
 }  // namespace firmtouch::tools

@@ -1,5 +1,6 @@
 #include "firmtouch/controller/any_device.hpp"
 
+#include "firmtouch/device/stable_wall.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/servo/step.hpp"
 
@@ -82,6 +83,22 @@ device::Reading AnyDevice::read(const Values& values, const device::Sample& samp
     reading.faults |= device::kEncoderFault;
   }
   return reading;
+}
+
+uint32_t AnyDevice::wall_state(const Values& values) const {
+  if (!linkage_.is_open()) return 0;
+  const device::LinkageLayout& layout = linkage_.layout();
+  const auto is_stable = [&](params::Index stiffness, params::Index damping) {
+    const float whole = values[damping] + values[params::kDeviceDamping];
+    return values[stiffness] <= device::stiffest_stable_N_per_m(layout.least_mass_kg, whole,
+                                                                values[params::kTickPeriod]);
+  };
+  if (!(layout.least_mass_kg > 0.0f)) return 0;
+  if (is_stable(params::kContactStiffness, params::kContactDamping) &&
+      is_stable(params::kGuideStiffness, params::kGuideDamping))
+    return 0;
+  return (layout.flags & device::kFlagForcedWalls) != 0 ? record::kStateWallForced
+                                                        : record::kStateWallRefused;
 }
 
 // The weight is taken up over ramp_in_s, and let go as fast as a force ramps out.

@@ -46,6 +46,11 @@ class AnyDevice : public DevicePolicy {
   static constexpr bool kRendersAll = false;
   const Rendered& rendered() const { return rendered_; }
 
+  /// Contact and guide against the stiffest wall that is stable with the tip's least mass, the
+  /// wall's damping and device_damping_N_s_per_m; an asset that does not state the mass passes.
+  static constexpr bool kKnowsWalls = true;
+  uint32_t wall_state(const params::Values& values) const;
+
   const device::StoredLinkage& linkage() const { return linkage_; }
 
  protected:

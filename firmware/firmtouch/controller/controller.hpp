@@ -99,6 +99,12 @@ class Controller {
     ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
     if (is_taken)  // no row has this number
       output.state ^= record::kStateCommandRefused | record::kStateCommandTaken;
+    if constexpr (Device::kKnowsWalls)
+      if (tick.step.enable) {
+        const uint32_t wall = device.wall_state(core_.values());
+        output.state |= wall;
+        tick.step.enable = (wall & record::kStateWallRefused) == 0;
+      }
     core_.locate(device.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
     if constexpr (!Device::kRendersAll) core_.count_rendered(device.rendered());
     bool homes = false;

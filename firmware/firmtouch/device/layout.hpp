@@ -12,6 +12,7 @@ enum Kind : uint32_t { kFiveBar = 1, kSerialArm = 2, kDelta = 3 };
 // Bits of LinkageLayout::flags.
 constexpr uint32_t kFlagTip = 1u << 0;            // is_tip_left, is_tip_above
 constexpr uint32_t kFlagParallelogram = 1u << 1;  // of a serial arm
+constexpr uint32_t kFlagForcedWalls = 1u << 2;    // motors come on beside walls that are not stable
 
 struct JointLayout {
   float counts_per_rad, zero_rad, low_rad, high_rad;
@@ -22,9 +23,9 @@ struct LinkageLayout {
   uint32_t kind;
   uint32_t joints;
   uint32_t flags;
-  uint32_t reserved;
-  float length_m[6];  // five-bar: proximal, distal; serial arm: links; delta: upper, lower
-  float offset_m[3];  // base; offset, height; base radius, platform radius, side
+  float least_mass_kg;  // of the tip in any direction, where it has the whole force; 0: not known
+  float length_m[6];    // five-bar: proximal, distal; serial arm: links; delta: upper, lower
+  float offset_m[3];    // base; offset, height; base radius, platform radius, side
   JointLayout joint[3];
   float max_torque_Nm[3];
   float torque_rise_s;  // from no torque to the largest

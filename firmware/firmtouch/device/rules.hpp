@@ -32,12 +32,12 @@ enum Rule : uint16_t {
   kRuleLinkageSize = 712,
   // There is no such kind of linkage, or not with so many joints.
   kRuleKind = 713,
-  // A reserved word, or a word that this kind of linkage does not use, is not 0.
+  // A flag, or a word that this kind of linkage does not use, is not 0.
   kRuleUnused = 714,
   // The time of a torque's rise is not 0.0001 to 1 s.
   kRuleTorqueRise = 715,
-  // A mass is not 0 to 100 kg, gravity is not within 100 m/s2, or the share of the torque limits
-  // that carries weight is not 0 to 0.9.
+  // A mass, or the least of the tip, is not 0 to 100 kg, gravity is not within 100 m/s2, or the
+  // share of the torque limits that carries weight is not 0 to 0.9.
   kRuleLoad = 716,
   // Homing is neither by stops nor by a known pose, or a torque, the speed, the margin or a pose is
   // out of range, or a word that is not used is not 0.

@@ -12,6 +12,7 @@ using core::Verdict;
 constexpr float kMinRise_s = 1e-4f;
 constexpr float kMaxRise_s = 1.0f;
 constexpr float kMaxCarriedShare = 0.9f;
+constexpr float kMaxLeastMass_kg = 100;
 
 // What a kind uses of the arrays of the layout.
 struct Used {
@@ -39,8 +40,7 @@ Verdict check_words(const LinkageLayout& layout) {
   if (layout.kind < kFiveBar || layout.kind > kDelta) return reject(kRuleKind);
   const Used used = used_by(layout);
   if (layout.joints != used.joints) return reject(kRuleKind, 1);
-  if (layout.reserved != 0) return reject(kRuleUnused);
-  if ((layout.flags & ~used.flags) != 0) return reject(kRuleUnused, 1);
+  if ((layout.flags & ~(used.flags | kFlagForcedWalls)) != 0) return reject(kRuleUnused, 1);
   if (!is_zero(layout.length_m, used.lengths, 6)) return reject(kRuleUnused, 2);
   if (!is_zero(layout.offset_m, used.offsets, 3)) return reject(kRuleUnused, 3);
   for (uint32_t k = used.joints; k < kMaxJoints; ++k)
@@ -69,6 +69,8 @@ Verdict check_settings(const StoredLinkage& linkage) {
   if (!verdict.ok()) return verdict;
   if (!(layout.torque_rise_s >= kMinRise_s && layout.torque_rise_s <= kMaxRise_s))
     return reject(kRuleTorqueRise);
+  if (!(layout.least_mass_kg >= 0.0f && layout.least_mass_kg <= kMaxLeastMass_kg))
+    return reject(kRuleLoad, kMaxJoints + 3);
   if (!(layout.carried_share >= 0.0f && layout.carried_share <= kMaxCarriedShare))
     return reject(kRuleLoad, kMaxJoints + 2);
   return core::kPassed;
