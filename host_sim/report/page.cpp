@@ -39,10 +39,10 @@ std::string certificate_claim(const Summary& s) {
 
 std::string visits_claim(const Summary& s) {
   return claim("Visits", std::to_string(s.worst_visits) + " <small>in the worst tick</small>",
-               "A visit is one tree node read by a query. What bounds the time of a tick for every "
-               "shape is its work: " +
+               "A visit is one tree node read by a query. A budget of work bounds the time of a "
+               "tick: " +
                    std::to_string(s.budget_units) +
-                   " units at most. A visit takes one, of a mesh a third. Mean: " +
+                   " units here. A visit takes one unit; three visits of a mesh take one. Mean: " +
                    fixed(s.mean_visits, 1) + " visits.");
 }
 
