@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kMass_kg = 0.075;
 
-Vec wide(const float (&v)[3]) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 // Energy that the hand gets back from the device alone: of its motion, its stops, and of its weight
 // as far as the motors do not carry it.
 class Stored {
@@ -167,7 +163,8 @@ Vec mean_force_N(const RigRun& run, size_t ticks) {
 std::vector<ScoredTick> scored(const RigRun& run) {
   std::vector<ScoredTick> ticks;
   for (const RigTick& tick : run)
-    ticks.push_back({tick.force_N, tick.motor_N, tick.device_m, tick.depth_m, tick.is_on});
+    ticks.push_back(
+        {tick.force_N, tick.force_N, tick.motor_N, tick.device_m, tick.depth_m, tick.is_on});
   return ticks;
 }
 

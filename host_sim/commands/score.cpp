@@ -7,6 +7,7 @@
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/outputs.hpp"
+#include "host_sim/report/contact_quality.hpp"
 #include "host_sim/report/score_page.hpp"
 #include "host_sim/trace/log.hpp"
 #include "host_sim/trace/run.hpp"
@@ -19,28 +20,42 @@ struct ScoredRun {
   ScoreSettings settings;
 };
 
-Vec wide(const float (&v)[3]) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 double logged(const Log& log, params::Index row) {
   const auto found = log.text.find(std::string("parameter.") + params::kTable[row].name);
   return found == log.text.end() ? static_cast<double>(params::kTable[row].initial)
                                  : std::strtod(found->second.c_str(), nullptr);
 }
 
-ScoredRun from_log(const std::string& path) {
+void use(const Options& options, ScoreSettings& settings) {
+  settings.force_limit_N = options.number("--force-limit", settings.force_limit_N, 0);
+  settings.tool_radius_m = options.number("--tool-radius", settings.tool_radius_m, 0);
+  settings.stiffness_N_per_m = options.number("--stiffness", settings.stiffness_N_per_m, 0);
+}
+
+ScoredTick scored(const record::TickOutput& out, Vec device_m, double depth_m,
+                  const ScoreSettings& settings) {
+  return {wide(out.force_N),
+          contact_force_N(out, settings.stiffness_N_per_m),
+          wide(out.motor_N),
+          device_m,
+          depth_m,
+          motors_are_on(out),
+          (out.state & record::kStateOnGuide) != 0,
+          (out.state & record::kStateProxy) != 0};
+}
+
+ScoredRun from_log(const std::string& path, const Options& options) {
   const Log log = read_log(path);
   if (log.decimation != 1)
     throw Refused(path + ": it has not every tick; record with --decimate 1 to score it");
   ScoredRun run;
   run.settings = {1 / logged(log, params::kTickPeriod), logged(log, params::kForceLimit),
                   logged(log, params::kToolRadius), logged(log, params::kContactStiffness)};
+  use(options, run.settings);
   for (const record::TickRecord& record : log.records) {
     const record::TickOutput& out = record.output;
-    run.ticks.push_back({wide(out.force_N), wide(out.motor_N), wide(out.position_m),
-                         static_cast<double>(out.penetration_m), motors_are_on(out),
-                         (out.state & record::kStateOnGuide) != 0});
+    run.ticks.push_back(
+        scored(out, wide(out.position_m), static_cast<double>(out.penetration_m), run.settings));
   }
   return run;
 }
@@ -75,6 +90,10 @@ class CsvRun {
   Vec vector(const std::string& name) const {
     return {value(name + "[0]"), value(name + "[1]"), value(name + "[2]")};
   }
+  void read(const std::string& name, float (&floats)[3]) const {
+    for (size_t k = 0; k < 3; ++k)
+      floats[k] = static_cast<float>(value(name + "[" + std::to_string(k) + "]"));
+  }
 
  private:
   std::string path_;
@@ -84,18 +103,22 @@ class CsvRun {
   size_t line_ = 0;
 };
 
-ScoredRun from_csv(const std::string& path) {
+ScoredRun from_csv(const std::string& path, const Options& options) {
   CsvRun csv(path, read_file(path));
   ScoredRun run;
+  use(options, run.settings);
   double end_s = 0;
   while (csv.next()) {
     csv.read();
     end_s = csv.value("time_s");
     record::TickOutput out{};
     out.state = static_cast<uint32_t>(csv.value("state"));
-    run.ticks.push_back({csv.vector("force_N"), csv.vector("motor_N"), csv.vector("device_m"),
-                         csv.value("penetration_m"), motors_are_on(out),
-                         (out.state & record::kStateOnGuide) != 0});
+    csv.read("force_N", out.force_N);
+    csv.read("motor_N", out.motor_N);
+    csv.read("position_m", out.position_m);
+    csv.read("proxy_m", out.proxy_m);
+    run.ticks.push_back(
+        scored(out, csv.vector("device_m"), csv.value("penetration_m"), run.settings));
   }
   if (end_s > 0) run.settings.rate_Hz = static_cast<double>(run.ticks.size() - 1) / end_s;
   return run;
@@ -106,12 +129,9 @@ int score_run(const Options& options) {
                     page = options.value("--page");
   check_outputs({{"the run", path}}, {{"--page", page}});
   const bool is_csv = path.size() > 4 && path.compare(path.size() - 4, 4, ".csv") == 0;
-  ScoredRun run = is_csv ? from_csv(path) : from_log(path);
+  const ScoredRun run = is_csv ? from_csv(path, options) : from_log(path, options);
   if (run.ticks.empty()) throw Refused(path + ": it has no tick");
-  ScoreSettings& settings = run.settings;
-  settings.force_limit_N = options.number("--force-limit", settings.force_limit_N, 0);
-  settings.tool_radius_m = options.number("--tool-radius", settings.tool_radius_m, 0);
-  settings.stiffness_N_per_m = options.number("--stiffness", settings.stiffness_N_per_m, 0);
+  const ScoreSettings& settings = run.settings;
   const std::vector<ScoreRow> rows = rows_of(score_of(run.ticks, settings), settings);
   if (!page.empty()) write_file(page, score_page(path, rows, run.ticks, settings));
   std::cout << (options.has("--json") ? json_of(rows) + "\n" : csv_of(rows));
@@ -133,7 +153,8 @@ const Command& score_command_line() {
       "figures of the contact in a run, each with its bar, as CSV; exit code 1 if one is not met",
       "Energy given, while no guide holds the tool: the largest gain of the motors' work plus what "
       "the\n"
-      "contact's spring holds. From a log it is that of the encoders' positions, from a CSV of "
+      "contact's spring holds. Contact on a guide is the proxy's spring alone. From a log it is "
+      "that of the encoders' positions, from a CSV of "
       "the\n"
       "device's. A log has its settings; for a CSV they are the parameters' initial values, or "
       "those\n"

@@ -6,6 +6,9 @@ namespace firmtouch::host_sim {
 
 using Vec = tools::Point;
 
+inline Vec wide(const float (&v)[3]) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
 inline double norm(Vec a) { return length(a); }
 inline Vec unit(Vec a) {
   const double size = norm(a);

@@ -13,6 +13,13 @@ constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
 
+Vec contact_force_N(const record::TickOutput& out, double stiffness_N_per_m) {
+  if ((out.state & record::kStateOnGuide) == 0 || (out.state & record::kStateProxy) == 0)
+    return wide(out.force_N);
+  if ((out.state & record::kStateContact) == 0) return {};
+  return (wide(out.proxy_m) - wide(out.position_m)) * stiffness_N_per_m;
+}
+
 // Butterworth high-pass of second order by the bilinear transform.
 ContactQuality::ContactQuality(double rate_Hz, double force_limit_N)
     : rate_Hz_(rate_Hz), min_N_(kMinShare * force_limit_N), limit_N_(force_limit_N) {
@@ -29,7 +36,7 @@ double ContactQuality::high_pass(Section& s, double x) const {
   return y;
 }
 
-void ContactQuality::add(Vec force_N, bool motors_are_on) {
+void ContactQuality::add(Vec force_N, Vec contact_N, bool motors_are_on) {
   const double component[3] = {force_N.x, force_N.y, force_N.z};
   if (!motors_are_on) {
     was_on_ = false;
@@ -48,10 +55,13 @@ void ContactQuality::add(Vec force_N, bool motors_are_on) {
   const double chatter_N = std::sqrt(mean_square_);
   chatter_N_ = std::max(chatter_N_, chatter_N);
   if (chatter_N > kChatterShare * limit_N_) chatter_s_ += 1 / rate_Hz_;
-  if (was_on_ && norm(force_N) > min_N_ && norm(last_N_) > min_N_)
-    turn_rad_ =
-        std::max(turn_rad_, std::atan2(norm(cross(last_N_, force_N)), dot(last_N_, force_N)));
-  last_N_ = force_N;
+  const Vec guide_N = force_N - contact_N;
+  if (was_on_ && norm(contact_N) > min_N_ && norm(last_contact_N_) > min_N_)
+    turn_rad_ = std::max(turn_rad_, std::atan2(norm(cross(last_contact_N_, contact_N)),
+                                               dot(last_contact_N_, contact_N)));
+  if (was_on_) guide_step_N_ = std::max(guide_step_N_, norm(guide_N - last_guide_N_));
+  last_contact_N_ = contact_N;
+  last_guide_N_ = guide_N;
   was_on_ = true;
 }
 

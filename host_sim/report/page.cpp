@@ -97,9 +97,12 @@ std::string quality_claim(const Summary& s) {
                                             : ""),
                        s.chatters()) +
           "; " +
-          quality_item("largest turn of the force " +
-                           fixed(s.worst_turn_rad * 57.29577951308232, 1) + "&deg; a tick",
+          quality_item("largest turn of contact " + fixed(s.worst_turn_rad * 57.29577951308232, 1) +
+                           "&deg; a tick",
                        s.turns()) +
+          (s.has_guide
+               ? "; largest step of the guide's force " + fixed(s.guide_step_N, 2) + " N a tick"
+               : "") +
           ".");
 }
 

@@ -59,12 +59,14 @@ Score score_of(const std::vector<ScoredTick>& ticks, const ScoreSettings& settin
     if (!tick.is_on) continue;
     const double size_N = norm(tick.force_N);
     if (size_N > kAtLimit * settings.force_limit_N) ++score.limit_ticks;
-    if (settings.tool_radius_m > 0)
+    if (settings.tool_radius_m > 0 && !tick.has_proxy)
       score.deepest_radii = std::max(score.deepest_radii, tick.depth_m / settings.tool_radius_m);
     if (i == 0 || !ticks[i - 1].is_on) continue;
-    const Vec last_N = ticks[i - 1].force_N;
-    score.turn_rad = std::max(score.turn_rad, turn_rad(last_N, tick.force_N));
-    if (norm(last_N) > kPressed_N && size_N < kLetGo_N) ++score.let_go;
+    const Vec last_N = ticks[i - 1].contact_N, now_N = tick.contact_N;
+    const double moved_m = norm(tick.device_m - ticks[i - 1].device_m);
+    if (!(norm(now_N - last_N) > settings.stiffness_N_per_m * moved_m)) continue;
+    score.turn_rad = std::max(score.turn_rad, turn_rad(last_N, now_N));
+    if (norm(last_N) > kPressed_N && norm(now_N) < kLetGo_N) ++score.let_go;
   }
   return score;
 }

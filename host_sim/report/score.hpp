@@ -8,11 +8,14 @@ namespace firmtouch::host_sim {
 
 /// What a score needs of a tick.
 struct ScoredTick {
-  Vec force_N, motor_N;
+  Vec force_N;
+  Vec contact_N;  // the part of it that is contact (contact_quality.hpp)
+  Vec motor_N;
   Vec device_m;        // true, or as the encoders have it
   double depth_m = 0;  // hand to proxy, or penetration
   bool is_on = false;  // the motors
   bool is_guided = false;
+  bool has_proxy = false;
 };
 
 struct ScoreSettings {
@@ -27,13 +30,15 @@ constexpr double kMaxLimit_percent = 1;  // of the ticks at the force limit
 
 /// How contact is rendered: figures of a run, while the motors are on.
 struct Score {
-  double buzz_N = 0;    // worst 2 s in contact without a break (buzz.hpp)
-  double turn_rad = 0;  // of the force between two ticks with more than 0.2 N each
+  double buzz_N = 0;  // worst 2 s in contact without a break (buzz.hpp)
+  // Of contact between two ticks with more than 0.2 N each; as let_go, where the spring changed by
+  // more than the tool's own motion stretches it.
+  double turn_rad = 0;
   // Largest gain, without a guide, of: work of the motors, plus what the contact's spring holds.
   double given_J = 0;
-  double deepest_radii = 0;
-  size_t limit_ticks = 0;  // at the force limit
-  size_t let_go = 0;       // from more than 0.3 N to less than 0.05 N in a tick
+  double deepest_radii = 0;  // without a proxy, which has a way out at any depth
+  size_t limit_ticks = 0;    // at the force limit
+  size_t let_go = 0;         // contact, from more than 0.3 N to less than 0.05 N in a tick
   size_t ticks = 0;
 };
 

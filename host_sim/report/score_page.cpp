@@ -48,9 +48,9 @@ std::vector<ScoreRow> rows_of(const Score& score, const ScoreSettings& settings)
   return {
       {"buzz of 50 to 500 Hz, worst 2 s", score.buzz_N, "N",
        ContactQuality::kChatterShare * settings.force_limit_N},
-      {"largest turn of the force in a tick", score.turn_rad * kDegrees, "degrees", kMaxTurn_deg},
+      {"largest turn of contact in a tick", score.turn_rad * kDegrees, "degrees", kMaxTurn_deg},
       {"energy given to the hand", score.given_J * 1e3, "mJ", kMaxGiven_mJ},
-      {"deepest", score.deepest_radii, "tool radii", kMaxDepth_radii},
+      {"deepest without a proxy", score.deepest_radii, "tool radii", kMaxDepth_radii},
       {"ticks at the force limit", 100 * static_cast<double>(score.limit_ticks) / ticks, "%",
        kMaxLimit_percent},
       {"times that contact lets go", static_cast<double>(score.let_go), "", 0},
@@ -89,8 +89,8 @@ std::string score_page(const std::string& title, const std::vector<ScoreRow>& ro
   const size_t count = ticks.size();
   const double seconds = static_cast<double>(count) / settings.rate_Hz;
   page += drawn("Force", "N", count, seconds, [&](size_t i) { return norm(ticks[i].force_N); });
-  page += drawn("Turn of the force in a tick", "degrees", count, seconds, [&](size_t i) {
-    return i == 0 ? 0 : kDegrees * turn_rad(ticks[i - 1].force_N, ticks[i].force_N);
+  page += drawn("Turn of contact in a tick", "degrees", count, seconds, [&](size_t i) {
+    return i == 0 ? 0 : kDegrees * turn_rad(ticks[i - 1].contact_N, ticks[i].contact_N);
   });
   double work_J = 0;
   page += drawn("Work of the motors and energy stored", "mJ", count, seconds, [&](size_t i) {

@@ -26,10 +26,6 @@ constexpr double kBoundRounding = 1e-7;
 constexpr double kSplineFactor = 2.5;   // rational splines promise 1e-6 instead of 4e-7
 constexpr double kSplineSamples = 4e2;  // of the oracle, per piece
 
-Vec wide(const float (&v)[3]) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 // Where the model's query was: at the proxy that a surface holds, or at the tool's position of the
 // tick that requested the model.
 Vec queried_m(const record::TickOutput& out, const Vec& model_m) {
@@ -49,6 +45,7 @@ void count(Summary& summary, const record::TickOutput& out, uint64_t& visits, do
     summary.worst_guide_deviation_m =
         std::max(summary.worst_guide_deviation_m, static_cast<double>(out.guide_deviation_m));
   }
+  if ((out.state & record::kStateProxy) != 0) summary.has_proxy = true;
   summary.peak_force_N = std::max(summary.peak_force_N, norm(wide(out.force_N)));
   if (is_on)
     summary.worst_penetration_m =
@@ -108,7 +105,8 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
       moving_(environment.meshes(),
               static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       facts_(facts),
-      quality_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)) {
+      quality_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)),
+      stiffness_N_per_m_(parameter_value(scenario, params::kContactStiffness)) {
   add_oracles();
   summary_.rate_Hz = facts.rate_Hz;
   summary_.has_surface = environment.has_surface();
@@ -192,7 +190,7 @@ void Summariser::add(const RunTick& tick) {
   summary_.forced_wall_ticks += (out.state & record::kStateWallForced) != 0 ? 1u : 0u;
   const bool is_on = motors_are_on(out);
   const Vec force_N = wide(out.force_N);
-  quality_.add(force_N, is_on);
+  quality_.add(force_N, contact_force_N(out, stiffness_N_per_m_), is_on);
   if (is_on && norm(force_N) > kAtLimit * summary_.force_limit_N) ++summary_.limit_ticks;
   const double load = record.input.last_work_us * 1e-6 * facts_.rate_Hz;
   load_ += load;
@@ -239,6 +237,7 @@ Summary Summariser::finish() {
   summary.chatter_N = quality_.chatter_N();
   summary.chatter_s = quality_.chatter_s();
   summary.worst_turn_rad = quality_.turn_rad();
+  summary.guide_step_N = quality_.guide_step_N();
   const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
   std::nth_element(ratios_.begin(), middle, ratios_.end());
   if (!ratios_.empty()) summary.median_ratio = *middle;
@@ -284,8 +283,11 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
       "penetration %.2f mm\n",
       s.contact_ticks, s.peak_force_N, s.force_limit_N, s.worst_penetration_m * 1e3);
   if (s.has_guide)
-    line("  guide          %zu ticks on it; mean deviation %.2f mm, worst %.2f mm\n", s.guide_ticks,
-         s.mean_guide_deviation_m * 1e3, s.worst_guide_deviation_m * 1e3);
+    line(
+        "  guide          %zu ticks on it; mean deviation %.2f mm, worst %.2f mm; largest step of "
+        "its force %.2f N a tick\n",
+        s.guide_ticks, s.mean_guide_deviation_m * 1e3, s.worst_guide_deviation_m * 1e3,
+        s.guide_step_N);
   line("  visits a tick  mean %.1f, worst %u (tree nodes read); work of at most %u units\n",
        s.mean_visits, s.worst_visits, s.budget_units);
   if (s.has_surface)
@@ -299,7 +301,7 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
   if (s.contact_ticks + s.guide_ticks > 0)
     line(
         "  feel           %zu ticks at the force limit; deepest %.2f tool radii; chatter %.3f N "
-        "above 50 Hz; largest turn %.1f degrees a tick%s\n",
+        "above 50 Hz; largest turn of contact %.1f degrees a tick%s\n",
         s.limit_ticks, s.deepest_radii(), s.chatter_N, s.worst_turn_rad * kDegrees,
         s.is_bad_contact() ? ": BAD" : "");
   if (!homing_text(s).empty()) line("  homing         %s\n", homing_text(s).c_str());

@@ -45,9 +45,11 @@ struct Summary {
   double stable_contact_N_per_m = 0, stable_guide_N_per_m = 0;  // of a linkage
   // How it feels (report/contact_quality.hpp), while the motors were on.
   double tool_radius_m = 0;
+  bool has_proxy = false;  // which has a way out at any depth
   size_t limit_ticks = 0;  // at the force limit
   double chatter_N = 0, chatter_s = 0;
-  double worst_turn_rad = 0;  // of the force between two ticks
+  double worst_turn_rad = 0;  // of contact between two ticks
+  double guide_step_N = 0;    // largest change of a guide's force between two ticks
 
   double deepest_radii() const;
   double chatter_limit_N() const { return ContactQuality::kChatterShare * force_limit_N; }
@@ -55,7 +57,7 @@ struct Summary {
   bool is_saturated() const {
     return static_cast<double>(limit_ticks) * 100 > kMaxLimit_percent * static_cast<double>(ticks);
   }
-  bool is_deep() const { return deepest_radii() > kMaxDepth_radii; }
+  bool is_deep() const { return !has_proxy && deepest_radii() > kMaxDepth_radii; }
   bool chatters() const { return chatter_s > 0.5; }
   bool turns() const { return worst_turn_rad * 180 > kMaxTurn_deg * 3.14159265358979; }
   bool is_bad_contact() const;
@@ -88,6 +90,7 @@ class Summariser {
   const RunFacts& facts_;
   Summary summary_;
   ContactQuality quality_;
+  double stiffness_N_per_m_;
   size_t stride_ = 1;  // ticks from one checked certificate to the next
   Made used_, requested_;
   std::vector<double> ratios_;  // of lower bound to truth, at most 1e5

@@ -30,7 +30,8 @@ std::string json_of(const Summary& s, const RunFacts& facts) {
   all.add("mean_load", s.mean_load).add("worst_load", s.worst_load);
   all.add("ticks_at_force_limit", s.limit_ticks).add("deepest_tool_radii", s.deepest_radii());
   all.add("chatter_N", s.chatter_N).add("chatter_s", s.chatter_s);
-  all.add("largest_turn_rad", s.worst_turn_rad).add("is_bad_contact", s.is_bad_contact());
+  all.add("largest_turn_rad", s.worst_turn_rad).add("guide_step_N", s.guide_step_N);
+  all.add("is_bad_contact", s.is_bad_contact());
   if (s.worst_instructions > 0)
     all.add("mean_instructions", s.mean_instructions)
         .add("worst_instructions", uint64_t{s.worst_instructions})

@@ -6,6 +6,7 @@
 #include "host_sim/report/contact_quality.hpp"
 
 namespace host_sim = firmtouch::host_sim;
+namespace record = firmtouch::record;
 using host_sim::ContactQuality;
 using host_sim::Vec;
 
@@ -13,13 +14,28 @@ namespace {
 
 constexpr double kRate_Hz = 1000, kLimit_N = 8, kPi = 3.14159265358979323846;
 
+// A tick without a guide.
+void add(ContactQuality& meter, Vec force_N, bool motors_are_on = true) {
+  meter.add(force_N, force_N, motors_are_on);
+}
+
 // One second of a force of 2 N along z with a sine of `amplitude_N` on it.
 ContactQuality after_sine(double frequency_Hz, double amplitude_N, bool motors_are_on = true) {
   ContactQuality meter(kRate_Hz, kLimit_N);
   for (int i = 0; i < 1000; ++i)
-    meter.add({0, 0, 2 + amplitude_N * std::sin(2 * kPi * frequency_Hz * i / kRate_Hz)},
-              motors_are_on);
+    add(meter, {0, 0, 2 + amplitude_N * std::sin(2 * kPi * frequency_Hz * i / kRate_Hz)},
+        motors_are_on);
   return meter;
+}
+
+// A tick pressed 2 mm deep along z on a spring of 1,000 N/m, and pulled back by a guide.
+record::TickOutput guided(float x_N, float z_N) {
+  record::TickOutput out{};
+  out.state = record::kStateProxy | record::kStateContact | record::kStateOnGuide;
+  out.proxy_m[2] = 0.002f;
+  out.force_N[0] = x_N;
+  out.force_N[2] = z_N;
+  return out;
 }
 
 }  // namespace
@@ -42,7 +58,7 @@ TEST(Chatter_MotorsOff_IsZero) { CHECK(!(after_sine(200, 4, false).chatter_N() >
 // The trial that every card called good: a force between 0 and 8 N for 4 s.
 TEST(Chatter_LimitCycleOfHalfTheRate_IsLong) {
   ContactQuality meter(kRate_Hz, kLimit_N);
-  for (int i = 0; i < 4000; ++i) meter.add({0, 0, i % 8 < 4 ? 8.0 : 0.0}, true);
+  for (int i = 0; i < 4000; ++i) add(meter, {0, 0, i % 8 < 4 ? 8.0 : 0.0});
   CHECK_LT(3.5, meter.chatter_N());
   CHECK_LT(3.8, meter.chatter_s());
 }
@@ -51,7 +67,7 @@ TEST(Turn_IsTheLargestAngleBetweenTwoTicks) {
   ContactQuality meter(kRate_Hz, kLimit_N);
   for (const double angle_rad : {0.0, 0.1, 0.35, 0.4}) {
     const Vec force_N{std::cos(angle_rad), 0, std::sin(angle_rad)};
-    meter.add(force_N, true);
+    add(meter, force_N);
   }
   CHECK_LT(std::fabs(meter.turn_rad() - 0.25), 1e-9);
 }
@@ -59,7 +75,38 @@ TEST(Turn_IsTheLargestAngleBetweenTwoTicks) {
 // Next to nothing has no direction: 5 % of the limit.
 TEST(Turn_OfAFaintForce_IsLeftOut) {
   ContactQuality meter(kRate_Hz, kLimit_N);
-  meter.add({0.3, 0, 0}, true);
-  meter.add({0, 0.3, 0}, true);
+  add(meter, {0.3, 0, 0});
+  add(meter, {0, 0.3, 0});
   CHECK(!(meter.turn_rad() > 0));
+}
+
+// Guide and contact that pull against each other leave little of either, of any direction. Only
+// what the contact does is a turn of contact; what the guide does is a step of the guide.
+TEST(Turn_GuideCancelsContact_IsTheContactsOwn) {
+  ContactQuality meter(kRate_Hz, kLimit_N);
+  const auto take = [&](const record::TickOutput& out) {
+    meter.add(host_sim::wide(out.force_N), host_sim::contact_force_N(out, 1000), true);
+  };
+  take(guided(0, 0.5f));
+  take(guided(0.5f, 0));
+  take(guided(0, -0.5f));
+  CHECK_LT(meter.turn_rad(), 1e-9);
+  CHECK_LT(std::fabs(meter.guide_step_N() - std::sqrt(0.5)), 1e-9);
+  record::TickOutput turned = guided(0, -0.5f);
+  turned.proxy_m[0] = 0.002f;
+  take(turned);
+  CHECK_LT(std::fabs(meter.turn_rad() - kPi / 4), 1e-9);
+  CHECK_LT(std::fabs(meter.guide_step_N() - 2), 1e-6);
+}
+
+TEST(Turn_WithoutProxyOrGuide_IsOfTheWholeForce) {
+  for (const uint32_t bit : {uint32_t{record::kStateProxy}, uint32_t{record::kStateOnGuide}}) {
+    record::TickOutput out = guided(0.5f, 0.25f);
+    out.state &= ~bit;
+    const Vec contact_N = host_sim::contact_force_N(out, 1000);
+    CHECK_LT(host_sim::norm(contact_N - Vec{0.5, 0, 0.25}), 1e-12);
+  }
+  record::TickOutput free = guided(0.5f, 0.25f);
+  free.state &= ~uint32_t{record::kStateContact};
+  CHECK(!(host_sim::norm(host_sim::contact_force_N(free, 1000)) > 0));
 }

@@ -28,7 +28,8 @@ std::vector<Vec> sines(double frequency_Hz, size_t count) {
 
 // Pressed 2 mm deep on a spring along z, at rest.
 std::vector<ScoredTick> pressed(size_t count) {
-  return std::vector<ScoredTick>(count, {{0, 0, 2}, {0, 0, 2}, {0, 0, -0.002}, 0.002, true});
+  return std::vector<ScoredTick>(count,
+                                 {{0, 0, 2}, {0, 0, 2}, {0, 0, 2}, {0, 0, -0.002}, 0.002, true});
 }
 
 }  // namespace
@@ -59,7 +60,8 @@ TEST(Score_PressAtRest_MeetsEveryBar) {
 TEST(Score_Energy_IsWorkPlusWhatTheSpringHolds) {
   std::vector<ScoredTick> ticks;
   const auto add = [&](double depth_m, double force_N) {
-    ticks.push_back({{0, 0, force_N}, {0, 0, force_N}, {0, 0, -depth_m}, depth_m, true});
+    const Vec force{0, 0, force_N};
+    ticks.push_back({force, force, force, {0, 0, -depth_m}, depth_m, true});
   };
   // The mean force of a step does the work of a spring in it.
   for (int i = 0; i < 20; ++i) add(i * 1e-4, (i + 0.5) * 1e-1);
@@ -83,10 +85,35 @@ TEST(Score_ContactThatTurnsAndLetsGo_IsCounted) {
   ticks[1].force_N = {2, 0, 0};
   ticks[2].force_N = {0, 0.01, 0};  // no direction
   ticks[3].force_N = {0, 8, 0};
+  for (ScoredTick& tick : ticks) tick.contact_N = tick.force_N;
   const Score score = score_of(ticks, kSettings);
   CHECK_LT(std::fabs(score.turn_rad - kPi / 2), 1e-12);
   CHECK(score.let_go == 1);
   CHECK(score.limit_ticks == 1);
   for (ScoredTick& tick : ticks) tick.is_on = false;
   CHECK(score_of(ticks, kSettings).let_go == 0);
+}
+
+// A spring that turns, or lets go, by as much as the tool moves does what a spring does.
+TEST(Score_SpringThatFollowsTheTool_NeitherTurnsNorLetsGo) {
+  std::vector<ScoredTick> ticks = pressed(3);
+  for (ScoredTick& tick : ticks) tick.contact_N = tick.force_N;
+  ticks[1].contact_N = {0.4, 0, 0};
+  ticks[2].contact_N = {};
+  const auto move = [&](double part) {
+    for (size_t i = 1; i < 3; ++i) {
+      const double change_N = host_sim::norm(ticks[i].contact_N - ticks[i - 1].contact_N);
+      ticks[i].device_m = ticks[i - 1].device_m + Vec{0, 0, part * change_N / 1000};
+    }
+    return score_of(ticks, kSettings);
+  };
+  CHECK(!(move(1.01).turn_rad > 0) && move(1.01).let_go == 0);
+  CHECK_LT(std::fabs(move(0.99).turn_rad - kPi / 2), 1e-12);
+  CHECK(move(0.99).let_go == 1);
+}
+
+TEST(Score_DepthWithAProxy_IsNoDefect) {
+  std::vector<ScoredTick> ticks = pressed(3);
+  for (ScoredTick& tick : ticks) tick.has_proxy = true;
+  CHECK(!(score_of(ticks, kSettings).deepest_radii > 0));
 }
