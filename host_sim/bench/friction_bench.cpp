@@ -81,6 +81,25 @@ void stribeck(const Rig& rig, const std::string& of, bench::Report& report) {
   }
 }
 
+// Friction of a speed adds to Coulomb's; v is that of the proxy in each tick.
+void viscous(const Rig& rig, const std::string& of, bench::Report& report) {
+  constexpr double kWay_m = 0.07, kSpeed_mps = 0.1;
+  for (const double mu : {0.0, 0.3}) {
+    for (const double c : {0.5, 2.0, 8.0}) {
+      const RigRun run =
+          slide(rig, kSpeed_mps, kWay_m,
+                frictions(mu, mu) + Lines{{"friction_viscous", with_unit(c, "N*s/m")},
+                                          {"contact_damping", "0 N*s/m"}});
+      const auto expected = [&](size_t i) {
+        return mu + c * norm(run[i].proxy_m - run[i - 1].proxy_m) / 0.001 / run[i].force_N.z;
+      };
+      report.bar("viscous friction of " + bench::number_text(c) + " N s/m, mu " +
+                     bench::number_text(mu) + ": force, error",
+                 of, 100 * ratio_error(run, {run, kSpeed_mps, kWay_m}, expected), "%", 0.5);
+    }
+  }
+}
+
 // Pulled aside by less than friction holds.
 void stick(const Rig& rig, const std::string& of, bench::Report& report) {
   const double z_m = rig.radius_m - kAim_m;
@@ -189,6 +208,7 @@ void run_friction_bench(const bench::Options& options, bench::Report& report) {
     report.stage(of);
     force_ratios(rig, of, report);
     stribeck(rig, of, report);
+    viscous(rig, of, report);
     stick(rig, of, report);
     stick_slip(rig, of, report);
   }

@@ -204,8 +204,8 @@ TEST(NearestInPlanes_HostileInput_IsFinite) {
     test::note("case", i);
     CHECK(found.point_m.x - found.point_m.x <= 0 && found.point_m.y - found.point_m.y <= 0 &&
           found.point_m.z - found.point_m.z <= 0);
-    const Slide slide =
-        slide_with_friction(problem.plane, problem.count, problem.goal_m, found, special[i % 9]);
+    const Slide slide = slide_with_friction(problem.plane, problem.count, problem.goal_m, found,
+                                            {special[i % 9], i % 2 == 0 ? 0.5f : 0.0f});
     CHECK(slide.point_m.x - slide.point_m.x <= 0);
   }
 }
@@ -222,7 +222,7 @@ TEST(SlideWithFriction_Plane_TheRatioIsTheCoefficient) {
   for (const float friction : frictions) {
     const Vec3 goal_m{0.02f, 0.01f, -0.004f};
     const NearestInPlanes nearest = nearest_in_planes(&floor, 1, goal_m);
-    const Slide slide = slide_with_friction(&floor, 1, goal_m, nearest, friction);
+    const Slide slide = slide_with_friction(&floor, 1, goal_m, nearest, {friction});
     CHECK(!slide.is_stuck);
     const double x = static_cast<double>(goal_m.x - slide.point_m.x),
                  y = static_cast<double>(goal_m.y - slide.point_m.y);
@@ -231,7 +231,32 @@ TEST(SlideWithFriction_Plane_TheRatioIsTheCoefficient) {
   }
   const Vec3 below_m{0.001f, 0, -0.004f};
   const NearestInPlanes nearest = nearest_in_planes(&floor, 1, below_m);
-  CHECK(slide_with_friction(&floor, 1, below_m, nearest, 0.3f).is_stuck);
+  CHECK(slide_with_friction(&floor, 1, below_m, nearest, {0.3f}).is_stuck);
+}
+
+// A hand at constant speed is ahead by friction * depth + c v / K, with c / K = T share / (1 -
+// share). A step in two parts ends where it ends in one.
+TEST(SlideWithFriction_Viscous_LagsByTheSpeed) {
+  const HalfSpace floor{{0, 0, 1}, 0};
+  constexpr float kDepth_m = 0.004f, kStep_m = 1e-4f, kCoulomb = 0.2f;
+  const float shares[] = {0.1f, 0.5f, 0.9f};
+  for (const float share : shares) {
+    double ahead_m = 0;
+    float slid_m = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Vec3 goal_m{static_cast<float>(ahead_m) + kStep_m, 0, -kDepth_m};
+      const NearestInPlanes nearest = nearest_in_planes(&floor, 1, goal_m);
+      slid_m = slide_with_friction(&floor, 1, goal_m, nearest, {kCoulomb, share}).point_m.x;
+      ahead_m = static_cast<double>(goal_m.x - slid_m);
+      const Vec3 rest_m{goal_m.x - slid_m, 0, -kDepth_m};
+      const Slide again = slide_with_friction(
+          &floor, 1, rest_m, nearest_in_planes(&floor, 1, rest_m), {kCoulomb, share, slid_m});
+      CHECK_LE(__builtin_fabs(static_cast<double>(again.point_m.x)), 1e-8);
+    }
+    const double wanted_m = static_cast<double>(kCoulomb * kDepth_m) +
+                            static_cast<double>(kStep_m * share) / (1 - static_cast<double>(share));
+    CHECK_LE(__builtin_fabs(ahead_m / wanted_m - 1), 1e-4);
+  }
 }
 
 // With the point of the tick's beginning instead of where the proxy is, the distance grew by up to
@@ -241,8 +266,9 @@ TEST(SlideWithFriction_RandomPlanes_NeverGoesAwayFromTheGoal) {
   for (uint32_t i = 0; i < 20000; ++i) {
     const Problem problem = make(random);
     const NearestInPlanes nearest = nearest_in_planes(problem.plane, problem.count, problem.goal_m);
-    const Slide slide = slide_with_friction(problem.plane, problem.count, problem.goal_m, nearest,
-                                            between(random, 0, 2));
+    const Slide slide = slide_with_friction(
+        problem.plane, problem.count, problem.goal_m, nearest,
+        {between(random, 0, 2), between(random, 0, 0.99f), between(random, 0, 0.01f)});
     const Wide off = wide(slide.point_m) - wide(problem.goal_m);
     test::note("case", i);
     CHECK_LE(root(dot(off, off)),

@@ -74,6 +74,7 @@ TEST(Proxy_AnyHandSpeedRadiusAndBudget_NeverCrossesASurface) {
         rig.settings.budget.work = budgets[seed % 4];
         rig.settings.friction_static = rig.settings.friction_dynamic =
             static_cast<float>(seed % 3) * 0.5f;
+        rig.settings.viscous_share = static_cast<float>(seed % 4) * 0.3f;
         const Broken broken = ride(rig, hand);
         firmtouch::test::note("seed", seed);
         CHECK_EQ(broken.crossings, 0u);

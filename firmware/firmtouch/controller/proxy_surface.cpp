@@ -9,6 +9,7 @@ scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Val
   contact.settings.friction_static = v[params::kFrictionStatic];
   contact.settings.friction_dynamic = v[params::kFrictionDynamic];
   contact.friction_speed_mps = v[params::kFrictionSpeed];
+  contact.friction_viscous_N_s_per_m = v[params::kFrictionViscous];
   contact.settings.budget = work_budget(v, params::kMeshWork, result);
   contact.material = {v[params::kContactStiffness], v[params::kContactDamping]};
   contact.position_m = request.position_m;

@@ -229,25 +229,29 @@ NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 
 }
 
 Slide slide_with_friction(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
-                          const NearestInPlanes& nearest, float friction) {
+                          const NearestInPlanes& nearest, const Friction& friction) {
   const Vec3 end_m = nearest.point_m;
-  if (!(friction > 0.0f) || nearest.active.count == 0) return {end_m, false};
+  const float coulomb = friction.coulomb > 0.0f ? friction.coulomb : 0.0f;
+  if (!(coulomb > 0.0f || friction.viscous_share > 0.0f) || nearest.active.count == 0)
+    return {end_m, false};
+  const float held_m = coulomb * length(goal_m - end_m);
+  const auto left_m = [&](float way_m) {
+    return held_m + (way_m - held_m + friction.slid_m) * friction.viscous_share;
+  };
   Reach reach(Vec3{});
   for (uint32_t n = 0; n < nearest.active.count; ++n) reach.add(planes[nearest.active.plane[n]]);
   // Slides begin where the origin is pressed on the planes.
   const Vec3 begin_m = reach.point_m();
-  const float held_m = friction * length(goal_m - end_m);
   const float way_m = length(begin_m - end_m);
-  if (way_m <= held_m) {
-    if (is_allowed(planes, count, begin_m, kTolerance * length(goal_m))) return {begin_m, true};
-  } else {
-    const Vec3 stop_m = end_m + (begin_m - end_m) * (held_m / way_m);
-    if (is_allowed(planes, count, stop_m, kTolerance * length(goal_m))) return {stop_m, false};
-  }
+  const float stop_m = left_m(way_m);
+  const bool is_stuck = !(stop_m < way_m);
+  const Vec3 rest_m = is_stuck ? begin_m : end_m + (begin_m - end_m) * (stop_m / way_m);
+  if (is_allowed(planes, count, rest_m, kTolerance * length(goal_m))) return {rest_m, is_stuck};
   // Another plane is in that way: straight from the origin, which is allowed as both its ends are.
   const float straight_m = length(end_m);
-  if (straight_m <= held_m) return {{}, true};
-  return {end_m * (1.0f - held_m / straight_m), false};
+  const float held_back_m = left_m(straight_m);
+  if (!(held_back_m < straight_m)) return {{}, true};
+  return {end_m * (1.0f - held_back_m / straight_m), false};
 }
 
 }  // namespace firmtouch::math

@@ -46,11 +46,21 @@ struct Slide {
   bool is_stuck = false;  // friction holds the point
 };
 
-/// Where Coulomb friction of coefficient `friction` lets a point at the origin come to rest that is
-/// pulled to `nearest`: it slides along the active planes until the pull along them is `friction`
-/// times the pull across them. Never farther from the goal than the origin is, except for rounding.
+/// What holds a slide back. Lengths are stretches of the spring that pulls.
+struct Friction {
+  float coulomb = 0;  // pull along the planes over pull across them
+  // Viscous friction, implicit in time: of the way beyond Coulomb friction, with what was slid
+  // already in this step, this part remains. Pre: 0 to 1. It is c / (c + K T), where c is the
+  // viscous friction, K the stiffness of the spring and T the time of the step.
+  float viscous_share = 0;
+  float slid_m = 0;
+};
+
+/// Where friction lets a point at the origin come to rest that is pulled to `nearest`: it slides
+/// along the active planes until friction bears the pull along them. Never farther from the goal
+/// than the origin is, except for rounding.
 /// Pre: `nearest` is nearest_in_planes() of the same planes and goal.
 Slide slide_with_friction(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
-                          const NearestInPlanes& nearest, float friction);
+                          const NearestInPlanes& nearest, const Friction& friction);
 
 }  // namespace firmtouch::math

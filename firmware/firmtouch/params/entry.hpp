@@ -85,6 +85,7 @@ enum Index : uint32_t {
   kTickWork,
   kEnergyReservoir,
   kDeviceDamping,
+  kFrictionViscous,
   kCount
 };
 

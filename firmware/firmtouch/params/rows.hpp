@@ -24,17 +24,17 @@ struct SafetyRows {
       {kRampIn, "ramp_in_s", "s", 0.0f, 10.0f, 0.2f, When::kAnytime,
        "time from enable to full force"},
       {kTickPeriod, "tick_period_s", "s", 0.00005f, kMaxTickPeriod_s, kInitialTickPeriod_s,
-       When::kMotorsOff, "nominal time between ticks; the timer follows it"},
+       When::kMotorsOff, "time between ticks; the timer follows it"},
       {kLateRatio, "late_ratio", "1", 1.05f, 4.0f, 1.5f, When::kAnytime,
-       "a tick that takes more periods than this is late"},
+       "periods after which a tick is late"},
       {kModelAge, "model_age", "1", 1.0f, 1000.0f, 3.0f, When::kAnytime,
-       "ticks for which a local model is valid"},
+       "ticks that a local model is valid"},
       {kTickWork, "tick_work", "1", kFixedTickWork + 1.0f, 65536.0f, 1000.0f, When::kMayFall,
        "work of a tick, 362 of it fixed"},
       {kEnergyReservoir, "energy_reservoir_J", "J", 0.0f, kMaxReservoir_J, 0.0006f, When::kMayFall,
        "energy that contact may give"},
       {kDeviceDamping, "device_damping_N_s_per_m", "N s/m", 0.0f, 50.0f, 0.5f, When::kMayFall,
-       "damping of the device itself, at most what it has"},
+       "damping of the device itself, or less"},
   };
 };
 
@@ -42,11 +42,11 @@ struct SafetyRows {
 struct DeviceRows {
   static constexpr Entry kRows[] = {
       {kVelocityFilter, "velocity_filter_Hz", "Hz", 1.0f, 10000.0f, 150.0f, When::kAnytime,
-       "cut-off frequency of velocity estimator 1"},
+       "cut-off of velocity estimator 1"},
       {kVelocityEstimator, "velocity_estimator", "1", 0.0f, 2.0f, 2.0f, When::kAnytime,
-       "0: difference of two samples, 1: through a low-pass, 2: tracking line"},
+       "0: two samples, 1: through a low-pass, 2: tracking line"},
       {kMaxSpeed, "max_speed_mps", "m/s", 0.01f, 100.0f, 5.0f, When::kAnytime,
-       "an encoder that jumps faster than this is rejected"},
+       "an encoder that is faster is rejected"},
       {kCountsPerMetreX, "counts_per_metre_x", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
        "encoder of the x axis"},
       {kCountsPerMetreY, "counts_per_metre_y", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
@@ -90,7 +90,7 @@ struct ContactRows {
       {kContactDamping, "contact_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime,
        "damping of the surface"},
       {kMeshWork, "mesh_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
-       "work units of the surface's queries in a tick"},
+       "work of the surface's queries in a tick"},
   };
 };
 
@@ -98,11 +98,13 @@ struct ContactRows {
 struct FrictionRows {
   static constexpr Entry kRows[] = {
       {kFrictionStatic, "friction_static", "1", 0.0f, 10.0f, 0.0f, When::kAnytime,
-       "friction of a tool that rests on the surface, over the force across it"},
+       "friction at rest, over the force across the surface"},
       {kFrictionDynamic, "friction_dynamic", "1", 0.0f, 10.0f, 0.0f, When::kAnytime,
-       "friction of a tool that slides"},
+       "friction of a slide"},
       {kFrictionSpeed, "friction_speed_mps", "m/s", 0.0001f, 10.0f, 0.001f, When::kAnytime,
        "above it friction is dynamic"},
+      {kFrictionViscous, "friction_viscous_N_s_per_m", "N s/m", 0.0f, 100.0f, 0.0f, When::kAnytime,
+       "friction by speed"},
   };
 };
 

@@ -62,8 +62,10 @@ ProxyMove::ProxyMove(const ProxySettings& settings, float size_m, Vec3 goal_m, P
   begin_m_ = proxy_.position_m;
   if (!proxy_.is_loaded) free_way_m_ = math::length(goal_m_ - begin_m_);
   const float slide = proxy_.slid_m / settings_.friction_slide_m;
-  friction_ = settings_.friction_dynamic +
-              (settings_.friction_static - settings_.friction_dynamic) * math::decay(slide * slide);
+  friction_.coulomb =
+      settings_.friction_dynamic +
+      (settings_.friction_static - settings_.friction_dynamic) * math::decay(slide * slide);
+  friction_.viscous_share = settings_.viscous_share;
 }
 
 // Of a tool without load the radius may fall at once, and grow where there is room.
@@ -104,7 +106,7 @@ float ProxyMove::needed_m() const {
 // With friction no move may be away from the hand; without, all of a tick together by rounding.
 bool ProxyMove::is_longer(Vec3 to_m) const {
   if (aimed_radius_m_ > proxy_.radius_m) return false;
-  const bool is_held = friction_ > 0.0f;
+  const bool is_held = friction_.coulomb > 0.0f;
   const Vec3 from_m = is_held ? proxy_.position_m : begin_m_;
   const Vec3 step_m = to_m - from_m;
   const Vec3 sum_m = (to_m - goal_m_) + (from_m - goal_m_);
@@ -165,6 +167,7 @@ bool ProxyMove::take_active() {
 math::Slide ProxyMove::rest() {
   const Vec3 way_m = goal_m_ - proxy_.position_m;
   if (math::length(way_m) * kUp < proxy_.free_m - aimed_radius_m_) return {way_m, false};
+  if (proxy_.is_loaded) friction_.slid_m = math::length(proxy_.position_m - begin_m_);
   begin_planes();
   take_active();  // most often the same hold it again: then it is solved once
   for (;;) {

@@ -23,6 +23,7 @@ struct ProxySettings {
   // The slide a tick at which friction is 37 % of the way from dynamic to static, and the part of a
   // tick in the mean of slides.
   float friction_slide_m = 1e-6f;
+  float viscous_share = 0;  // see math::Friction
   float slide_share = 0.125f;
   float growth_m = 0;    // a tick, of the radius of a tool that began too near to a surface
   query::Budget budget;  // work of all queries of a tick together
@@ -112,7 +113,7 @@ class ProxyMove {
   Proxy& proxy_;
   math::Vec3 goal_m_, trial_m_, begin_m_;
   float size_m_;
-  float friction_ = 0;
+  math::Friction friction_;
   float free_way_m_ = 0;      // to the hand, of a proxy without load: the band reaches as far
   float aimed_radius_m_ = 0;  // the radius that is grown to in this tick
   float cap_;                 // part of the free radius that a move may take

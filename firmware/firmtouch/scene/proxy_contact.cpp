@@ -74,6 +74,9 @@ ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch
   constexpr float kGrowth_mps = 0.005f;
   ProxySettings settings = contact.settings;
   settings.friction_slide_m = contact.friction_speed_mps * contact.passed_s;
+  const float viscous = contact.friction_viscous_N_s_per_m;
+  const float spring_N_s_per_m = touch.material.stiffness_N_per_m * contact.passed_s;
+  if (viscous > 0.0f) settings.viscous_share = viscous / (viscous + spring_N_s_per_m);
   settings.slide_share = contact.passed_s / (contact.passed_s + kSlideMean_s);
   if (contact.is_on && touch.material.stiffness_N_per_m * touch.penetration_m < kLeadOut_N)
     settings.growth_m = kGrowth_mps * contact.passed_s;

@@ -16,6 +16,7 @@ struct ProxyContact {
   bool is_on = false;                 // the motors; without them a loaded proxy is let go
   float passed_s = 0;                 // since the last model
   float friction_speed_mps = 0.001f;  // of a slide at which friction is mostly dynamic
+  float friction_viscous_N_s_per_m = 0;
 };
 
 /// State of a (tool, object) pair from tick to tick. The caller owns one a pair.
