@@ -3,7 +3,8 @@
 function(firmtouch_add_cmsdk_board folder)
   set(cmsdk ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
   firmtouch_add_board(
-    SOURCES ${folder}/board.cpp ${cmsdk}/board.cpp ${cmsdk}/clock.cpp ${cmsdk}/link.cpp ${cmsdk}/../parts/memory_parameters.cpp
+    SOURCES ${folder}/board.cpp ${cmsdk}/board.cpp ${cmsdk}/clock.cpp ${cmsdk}/../silicon/console.cpp ${cmsdk}/../silicon/link.cpp
+            ${cmsdk}/../parts/memory_parameters.cpp
     PARTS firmtouch_cortex_m firmtouch_no_joints ${ARGN})
   target_include_directories(firmtouch_board_objects PRIVATE ${folder})
 endfunction()

@@ -1,8 +1,8 @@
 #include "firmtouch/hal/clock.hpp"
 
-#include "cmsdk/cmsdk.hpp"
 #include "cortex-m/servo_timer.hpp"
 #include "parts/work.hpp"
+#include "registers.hpp"
 
 namespace firmtouch::hal {
 namespace {

@@ -1,20 +1,8 @@
-#include "cmsdk/cmsdk.hpp"
 #include "firmtouch/hal/clock.hpp"
 
-extern "C" {
-void uart1_receive_handler();
-void hard_fault_handler();
-}
+#include "registers.hpp"
 
 namespace firmtouch::hal {
-namespace {
-
-// Interrupts 0 to 2. Further ones are not enabled.
-[[gnu::section(".vectors.board"), gnu::used]] const Handler kBoardVectors[] = {
-    hard_fault_handler, hard_fault_handler, uart1_receive_handler};
-
-}  // namespace
-
 // TIMER0 counts down at the core's clock, 40 ns a tick. Under -icount shift=N an instruction takes
 // 2^N ns, so the ticks count instructions: at shift=6 exactly 1.6 ticks each.
 void work_counter_begin() {

@@ -1,22 +1,14 @@
-#include "cmsdk/cmsdk.hpp"
 #include "firmtouch/hal/clock.hpp"
 
+#include "registers.hpp"
+
 extern "C" {
-void uart1_receive_handler();
 void reset_handler();
 extern uint32_t __stack_top[];
 }
 
 namespace firmtouch::hal {
 namespace {
-
-struct BoardVectors {
-  Handler unused[kUart1Receive];  // not enabled
-  Handler uart1_receive;
-};
-
-[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors kBoardVectors = {
-    {}, uart1_receive_handler};
 
 // What the core reads at reset; start-up then sets the vector table.
 struct Boot {
