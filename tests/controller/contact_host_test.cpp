@@ -169,3 +169,32 @@ TEST(SurfaceWithoutStiffness_HoldsNothingAndIsThereAgainWhenItHasOne) {
   CHECK_LE(ride.output.force_N[2], -1.0f);
   CHECK_EQ(ride.output.faults, 0u);
 }
+
+// The scene moves while the motors are off and the hand rests to the last bit: what was certified
+// about it no longer holds. The oracle is a controller in whose scene the part never was elsewhere.
+TEST(SceneMoved_UnderAHandThatRests_ContactBeginsAnew) {
+  constexpr float kLifts_m[] = {0.002f, -0.001f, -0.01f, 0.005f};
+  for (const float lift_m : kLifts_m) {
+    Ride moved, never;
+    const auto both_set = [&](uint32_t moves, uint32_t set_at) {
+      for (uint32_t tick = 0; tick < 40; ++tick) {
+        Ride& ride = set_at == 0 ? never : moved;
+        ride.fill(143);  // free
+        ride.input.tick = tick;
+        ride.input.clock_us = tick * 1000u;
+        ride.input.flags = tick < 20 ? 0 : record::kFlagEnable;
+        if (tick == set_at) {
+          ride.input.command = 1 + moves;
+          ride.input.command_value = lift_m;
+        }
+        ride.step();
+        if (tick == set_at) CHECK((ride.output.state & record::kStateCommandTaken) != 0);
+      }
+    };
+    both_set(params::kSceneZ, 0);
+    both_set(params::kSceneZ, 10);
+    CHECK_EQ(moved.output.faults, 0u);
+    CHECK_EQ(moved.output.distance_m, never.output.distance_m);
+    for (int k = 0; k < 3; ++k) CHECK_EQ(moved.output.proxy_m[k], never.output.proxy_m[k]);
+  }
+}

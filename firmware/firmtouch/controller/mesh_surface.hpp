@@ -27,7 +27,7 @@ class MeshContact {
   }
 
  protected:
-  scene::ProxyTouch touch_;
+  SurfaceTouch touch_;
   mesh::Hint hint_;
 };
 

@@ -1,5 +1,7 @@
 #include "firmtouch/controller/proxy_surface.hpp"
 
+#include "firmtouch/scene/pose_loss.hpp"
+
 namespace firmtouch {
 
 scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Values& v,
@@ -18,6 +20,14 @@ scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Val
   contact.is_on = request.is_on;
   contact.passed_s = v[params::kTickPeriod] * static_cast<float>(result.ticks);
   return contact;
+}
+
+void use_origin(math::Vec3 origin_m, SurfaceTouch& touch) {
+  if (scene::is_same(origin_m, touch.origin_m)) return;
+  touch.origin_m = origin_m;
+  touch.proxy.phase = scene::Proxy::Phase::kUnknown;
+  touch.proxy.is_loaded = false;
+  touch.proxy.searched_free_m = 0;
 }
 
 void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult& result) {

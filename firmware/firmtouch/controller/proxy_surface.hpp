@@ -12,10 +12,19 @@ scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Val
 /// Adds what the proxy has done to the record's part.
 void report_proxy(const scene::ProxyTouch& touch, math::Vec3 hand_m, ModelResult& result);
 
+/// Contact of a surface policy.
+struct SurfaceTouch : scene::ProxyTouch {
+  math::Vec3 origin_m;  // of the scene that it is with
+};
+
+/// Contact begins anew where the scene was moved: nothing that was certified holds there.
+void use_origin(math::Vec3 origin_m, SurfaceTouch& touch);
+
 /// Contact with a shape in a tick.
 template <class Shape>
 void touch_shape(Shape shape, const ModelRequest& request, const params::Values& values,
-                 scene::ProxyTouch& touch, ModelResult& result) {
+                 SurfaceTouch& touch, ModelResult& result) {
+  use_origin(scene_origin_m(values), touch);
   scene::touch_by_proxy(proxy_contact(request, values, result), shape, touch, result.model);
   report_proxy(touch, request.position_m, result);
 }

@@ -32,7 +32,7 @@ class SplineSurface : public spline::SurfaceLoader {
  private:
   scene::SplineObject object(const params::Values& values) const;
 
-  scene::ProxyTouch touch_;
+  SurfaceTouch touch_;
   spline::Hint hint_;
 };
 
