@@ -84,5 +84,7 @@ const Command& z_width_command_line();
 const Command& device_command_line();
 const Command& home_command_line();
 const Command& compare_command_line();
+const Command& sweep_command_line();
+const Command& merge_command_line();
 
 }  // namespace firmtouch::host_sim

@@ -14,6 +14,7 @@
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/outputs.hpp"
+#include "host_sim/commands/prepare.hpp"
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/controllers/session.hpp"
 #include "host_sim/device/linkage_body.hpp"
@@ -31,20 +32,6 @@ std::string hex(uint64_t value, int digits) {
   char text[24];
   std::snprintf(text, sizeof text, "%0*llx", digits, static_cast<unsigned long long>(value));
   return text;
-}
-
-std::string line_of(std::string set) {
-  const size_t equals = set.find('=');
-  if (equals == std::string::npos) throw Usage("--set " + set + ": write --set key=value");
-  set[equals] = ' ';
-  // "1N" is accepted as "1 N".
-  const size_t unit = set.find_first_not_of("0123456789.+-eE", equals + 1);
-  const std::string key = set.substr(0, equals);
-  const bool is_text = key == "asset" || key == "device" || key == "mesh" || key == "guide";
-  if (!is_text && unit != std::string::npos && unit > equals + 1 && set[unit] != ' ' &&
-      set.find(' ', equals + 1) == std::string::npos)
-    set.insert(unit, " ");
-  return set;
 }
 
 std::map<std::string, std::string> log_text(const Scenario& scenario, const Session& session,
@@ -145,30 +132,6 @@ int exit_code(const RunFacts& facts, const Summary& summary) {
   return 1;
 }
 
-// The linkage that the scenario names must be the one that the controller drives.
-void read_linkage(Scenario& scenario, const Session& session, const std::string& file) {
-  const device::StoredLinkage& stored = session.controller->linkage();
-  const bool is_named = !scenario.device_file.empty();
-  if (!is_named && !stored.is_open()) return;
-  if (!is_named) throw Refused(file + ": its asset stores a linkage; name its file: `device FILE`");
-  const bool is_machine = !tools::machine_text(scenario.device_file).empty();
-  const std::string path =
-      is_machine ? scenario.device_file : path_beside(file, scenario.device_file);
-  scenario.linkage = tools::read_device(path, tools::read_device_text(path));
-  if (!stored.is_open())
-    throw Refused(file + ": its asset stores no linkage; bake it with --device " +
-                  scenario.device_file);
-  const device::LinkageLayout layout = tools::layout_of(*scenario.linkage);
-  const device::HomedLinkageLayout homed = tools::homed_layout_of(*scenario.linkage);
-  const device::StoredHoming& homing = session.controller->device().homing();
-  const bool is_same =
-      std::memcmp(&layout, &stored.layout(), sizeof layout) == 0 &&
-      homing.is_open() == scenario.linkage->is_homed &&
-      (!homing.is_open() || std::memcmp(&homed.homing, &homing.layout(), sizeof homed.homing) == 0);
-  if (!is_same)
-    throw Refused(path + ": the asset stores another linkage; bake it again with --device");
-}
-
 // Result: whether the balance holds.
 bool print_energy(std::FILE* to, const EnergyBook& book) {
   const double error = book.turnover_J > 0 ? book.error_J() / book.turnover_J : 0;
@@ -201,8 +164,7 @@ int run_scenario(const Options& options) {
   const std::string file = options.operand("one scenario");
   std::vector<std::string> sets;
   for (const std::string& set : options.values("--set")) sets.push_back(line_of(set));
-  Scenario scenario = read_scenario(file, read_file(file), sets, parameter_rows());
-  complete(scenario);
+  Scenario scenario = prepared(file, read_file(file), sets);
   NamedFiles outputs = {{"--report", report_path(options, scenario.asset)}};
   for (const char* name : {"--picture", "--log", "--csv"})
     outputs.emplace_back(name, options.value(name));

@@ -7,7 +7,6 @@
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/outputs.hpp"
-#include "host_sim/report/contact_quality.hpp"
 #include "host_sim/report/score_page.hpp"
 #include "host_sim/trace/log.hpp"
 #include "host_sim/trace/run.hpp"
@@ -32,18 +31,6 @@ void use(const Options& options, ScoreSettings& settings) {
   settings.stiffness_N_per_m = options.number("--stiffness", settings.stiffness_N_per_m, 0);
 }
 
-ScoredTick scored(const record::TickOutput& out, Vec device_m, double depth_m,
-                  const ScoreSettings& settings) {
-  return {wide(out.force_N),
-          contact_force_N(out, settings.stiffness_N_per_m),
-          wide(out.motor_N),
-          device_m,
-          depth_m,
-          motors_are_on(out),
-          (out.state & record::kStateOnGuide) != 0,
-          (out.state & record::kStateProxy) != 0};
-}
-
 ScoredRun from_log(const std::string& path, const Options& options) {
   const Log log = read_log(path);
   if (log.decimation != 1)
@@ -52,11 +39,8 @@ ScoredRun from_log(const std::string& path, const Options& options) {
   run.settings = {1 / logged(log, params::kTickPeriod), logged(log, params::kForceLimit),
                   logged(log, params::kToolRadius), logged(log, params::kContactStiffness)};
   use(options, run.settings);
-  for (const record::TickRecord& record : log.records) {
-    const record::TickOutput& out = record.output;
-    run.ticks.push_back(
-        scored(out, wide(out.position_m), static_cast<double>(out.penetration_m), run.settings));
-  }
+  for (const record::TickRecord& record : log.records)
+    run.ticks.push_back(scored(record.output, wide(record.output.position_m), run.settings));
   return run;
 }
 
@@ -117,8 +101,8 @@ ScoredRun from_csv(const std::string& path, const Options& options) {
     csv.read("motor_N", out.motor_N);
     csv.read("position_m", out.position_m);
     csv.read("proxy_m", out.proxy_m);
-    run.ticks.push_back(
-        scored(out, csv.vector("device_m"), csv.value("penetration_m"), run.settings));
+    out.penetration_m = static_cast<float>(csv.value("penetration_m"));
+    run.ticks.push_back(scored(out, csv.vector("device_m"), run.settings));
   }
   if (end_s > 0) run.settings.rate_Hz = static_cast<double>(run.ticks.size() - 1) / end_s;
   return run;

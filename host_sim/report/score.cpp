@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "host_sim/report/buzz.hpp"
+#include "host_sim/report/contact_quality.hpp"
+#include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -31,6 +33,17 @@ double worst_buzz_N(const std::vector<ScoredTick>& ticks, double rate_Hz) {
 }
 
 }  // namespace
+
+ScoredTick scored(const record::TickOutput& output, Vec device_m, const ScoreSettings& settings) {
+  return {wide(output.force_N),
+          contact_force_N(output, settings.stiffness_N_per_m),
+          wide(output.motor_N),
+          device_m,
+          static_cast<double>(output.penetration_m),
+          motors_are_on(output),
+          (output.state & record::kStateOnGuide) != 0,
+          (output.state & record::kStateProxy) != 0};
+}
 
 double stored_J(const ScoreSettings& settings, double depth_m) {
   const double stretch_m =

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "firmtouch/record/tick.hpp"
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
@@ -21,6 +22,9 @@ struct ScoredTick {
 struct ScoreSettings {
   double rate_Hz = 1000, force_limit_N = 8, tool_radius_m = 0.003, stiffness_N_per_m = 800;
 };
+
+/// `device_m`: the device's position, as the encoders have it or the true one.
+ScoredTick scored(const record::TickOutput& output, Vec device_m, const ScoreSettings& settings);
 
 // Bars of any run.
 constexpr double kMaxTurn_deg = 20;      // of the force in a tick

@@ -22,6 +22,8 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
   if(TARGET firmtouch-app-posix)
     add_test(NAME host_sim.load COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_load $<TARGET_FILE_DIR:firmtouch-sim>)
   endif()
+  add_test(NAME host_sim.sweep
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_sweep $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.score
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_score $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.benches

@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "device/machines.hpp"
+#include "firmtouch/core/hash.hpp"
+#include "firmtouch/link/build_id.hpp"
+#include "firmtouch/params/table.hpp"
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/commands/outputs.hpp"
+#include "host_sim/commands/prepare.hpp"
+#include "host_sim/commands/progress.hpp"
+#include "host_sim/report/score_page.hpp"
+#include "host_sim/sweep/results.hpp"
+#include "host_sim/trace/log.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+// A scenario and what varies in it.
+struct Sweep {
+  std::string file, text;
+  std::vector<Varied> varied;
+  Contact contact = Contact::kProxy;
+
+  Scenario scenario(uint64_t run) const {
+    std::vector<std::string> lines;
+    const std::vector<std::string> values = values_of(varied, run);
+    for (size_t i = 0; i < values.size(); ++i)
+      lines.push_back(line_of(varied[i].key + "=" + values[i]));
+    return prepared(file, text, lines);
+  }
+};
+
+void add(core::Hash& hash, const std::string& text) {
+  for (const char c : text) hash.add(static_cast<unsigned char>(c));
+  hash.add(static_cast<uint32_t>(text.size()));
+}
+
+// All that the rows depend on. Reads each run's scenario, so that what it refuses is said at once.
+SweepIdentity identity_of(const Sweep& sweep) {
+  SweepIdentity identity{combinations(sweep.varied), 0};
+  core::Hash hash;
+  hash.add(static_cast<uint32_t>(link::build_id()));
+  hash.add(sweep.contact == Contact::kPenalty ? 1 : 0);
+  std::string asset, device;  // of the run before
+  for (uint64_t run = 0; run < identity.runs; ++run) {
+    const Scenario scenario = sweep.scenario(run);
+    add(hash, scenario.text);
+    if (scenario.asset != asset) add(hash, read_file(path_beside(sweep.file, scenario.asset)));
+    asset = scenario.asset;
+    const std::string path = path_beside(sweep.file, scenario.device_file);
+    if (scenario.device_file != device && tools::machine_text(scenario.device_file).empty())
+      add(hash, read_file(path));
+    device = scenario.device_file;
+  }
+  identity.hash = hash.value();
+  return identity;
+}
+
+std::vector<ScoreRow> score_of_run(const Sweep& sweep, uint64_t run, uint32_t& faults) {
+  Scenario scenario = sweep.scenario(run);
+  const Session session(path_beside(sweep.file, scenario.asset), scenario.scene, sweep.contact);
+  Environment environment = environment_of(*session.controller, scene_origin_m(scenario));
+  environment.turn(parameter_value(scenario, params::kSurfaceTurned) >= 0.5);
+  read_linkage(scenario, session, sweep.file);
+  Simulation simulation(scenario, session.tick(), environment);
+  const ScoreSettings settings = {scenario.rate_Hz, parameter_value(scenario, params::kForceLimit),
+                                  parameter_value(scenario, params::kToolRadius),
+                                  parameter_value(scenario, params::kContactStiffness)};
+  std::vector<ScoredTick> ticks;
+  for (RunTick tick; simulation.next(tick);) {
+    ticks.push_back(scored(tick.record.output, tick.device_m, settings));
+    faults |= tick.record.output.faults;
+  }
+  return rows_of(score_of(ticks, settings), settings);
+}
+
+std::string header_of(const Sweep& sweep) {
+  std::string text;
+  for (const Varied& varied : sweep.varied) text += varied.key + ",";
+  for (const ScoreRow& row : rows_of(Score{}, ScoreSettings{}))
+    text += "\"" + row.figure + (row.unit.empty() ? "" : " [" + row.unit + "]") + "\",";
+  return text + "not met,faults";
+}
+
+std::string row_of(const Sweep& sweep, uint64_t run) {
+  std::string text;
+  for (const std::string& value : values_of(sweep.varied, run)) text += value + ",";
+  uint32_t faults = 0, not_met = 0;
+  for (const ScoreRow& row : score_of_run(sweep, run, faults)) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.9g,", row.value);
+    text += number;
+    not_met += row.is_met() ? 0u : 1u;
+  }
+  return text + std::to_string(not_met) + "," + std::to_string(faults);
+}
+
+// The runs that the file does not have, by `jobs` threads. Throws what the first failing run threw.
+void run_all(const Sweep& sweep, Shard shard, uint64_t count, uint32_t jobs,
+             SweepResults& results) {
+  std::atomic<uint64_t> next{results.had()}, done{results.had()};
+  std::mutex mutex;
+  std::optional<std::string> refused;
+  const std::function<void(double)> progress = progress_bar("sweeping");
+  const auto work = [&] {
+    for (uint64_t nth; (nth = next++) < count;) {
+      try {
+        results.add(nth, row_of(sweep, shard.run(nth)));
+      } catch (const std::exception& error) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!refused) refused = "run " + std::to_string(shard.run(nth)) + ": " + error.what();
+        next = count;
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (++done; progress && !refused)
+        progress(static_cast<double>(done) / static_cast<double>(count));
+    }
+  };
+  std::vector<std::thread> threads;
+  for (uint32_t i = 1; i < jobs; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (refused) throw Refused(*refused);
+}
+
+int run_sweep(const Options& options) {
+  Sweep sweep;
+  sweep.file = options.operand("one scenario");
+  sweep.text = read_file(sweep.file);
+  for (const std::string& text : options.values("--vary")) sweep.varied.push_back(varied_of(text));
+  if (options.has("--penalty")) sweep.contact = Contact::kPenalty;
+  const std::string path = options.value("-o");
+  if (path.empty()) options.refuse("name the file of the results: -o FILE.csv");
+  check_outputs({{"the scenario", sweep.file}}, {{"-o", path}});
+  const Shard shard = options.has("--shard") ? shard_of(options.value("--shard")) : Shard{};
+  const uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
+  const double jobs = options.number("--jobs", cores, 1);
+  const SweepIdentity identity = identity_of(sweep);
+  SweepResults results(path, header_of(sweep), identity, shard);
+  const uint64_t count = shard.runs(identity.runs);
+  if (results.had() > 0)
+    std::fprintf(stderr, "%s: has %llu of %llu runs; going on\n", path.c_str(),
+                 static_cast<unsigned long long>(results.had()),
+                 static_cast<unsigned long long>(count));
+  run_all(sweep, shard, count, static_cast<uint32_t>(std::min(jobs, 1024.0)), results);
+  std::printf("%s: %llu runs\n", path.c_str(), static_cast<unsigned long long>(count));
+  return 0;
+}
+
+int merge_sweep(const Options& options) {
+  if (options.operands().empty()) options.refuse("name the results of the shards");
+  std::vector<std::pair<std::string, std::string>> files;
+  NamedFiles inputs;
+  for (const std::string& path : options.operands()) {
+    files.emplace_back(path, read_file(path));
+    inputs.emplace_back(path, path);
+  }
+  const std::string path = options.value("-o");
+  if (path.empty()) options.refuse("name the file of all results: -o FILE.csv");
+  check_outputs(inputs, {{"-o", path}});
+  write_file(path, merged(files));
+  return 0;
+}
+
+}  // namespace
+
+const Command& sweep_command_line() {
+  static const Command command = {
+      "sweep",
+      "SCENARIO --vary KEY=VALUES... -o FILE.csv [options]",
+      "simulates a scenario with all combinations of values, on all cores; goes on where it ended",
+      "A row a run: its values, the figures of `firmtouch-sim score`, how many of them miss their "
+      "bar, and\nthe faults, a bit each. Rows stand in the order of the runs. Killed and started "
+      "again, it goes on and\nwrites the same bytes. On several machines: --shard 1/8 to 8/8 into "
+      "a file each, then\n`firmtouch-sim merge`; host_sim/sweep has a make file and a SLURM script "
+      "for that.\n",
+      {{"--vary", "KEY=V,V,...",
+        "values of a scenario's line, with unit: \"mass=60 g,75 g\"; evenly:\n"
+        "                              \"hand_stiffness=100..1000:10 N/m\"; may be repeated"},
+       {"-o", "FILE.csv", "the results"},
+       {"--shard", "I/N", "every Nth run only, from the Ith on"},
+       {"--jobs", "N", "threads (default: one a core)"},
+       {"--penalty", nullptr, "penalty contact instead of a proxy, for comparison"}},
+      run_sweep};
+  return command;
+}
+
+const Command& merge_command_line() {
+  static const Command command = {
+      "merge",
+      "SHARD.csv... -o FILE.csv",
+      "puts the results of a sweep's shards together, as one sweep would have written them",
+      "Refuses results of different sweeps, and names a run that is missing or there twice.\n",
+      {{"-o", "FILE.csv", "the results of all"}},
+      merge_sweep};
+  return command;
+}
+
+}  // namespace firmtouch::host_sim
