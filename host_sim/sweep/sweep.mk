@@ -6,8 +6,9 @@ SHARDS ?= 8
 OUT ?= results.csv
 shards := $(foreach i,$(shell seq $(SHARDS)),$(OUT).$(i).csv)
 
-$(OUT): $(shards:=.done)
+$(OUT): $(shards)
 	$(SIM) merge $(shards) -o $@
-$(OUT).%.csv.done:
-	$(SIM) sweep $(SWEEP) --shard $*/$(SHARDS) --jobs 1 -o $(OUT).$*.csv
-	touch $@
+# Always: a whole one is only read, one of another sweep is refused.
+$(OUT).%.csv: always
+	$(SIM) sweep $(SWEEP) --shard $*/$(SHARDS) --jobs 1 -o $@
+.PHONY: always
