@@ -115,10 +115,8 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
   if (scenario.linkage) {
     const auto limit = [&, mass_kg = static_cast<float>(tools::least_mass_kg(*scenario.linkage))](
                            params::Index damping) {
-      const double whole =
-          parameter_value(scenario, damping) + parameter_value(scenario, params::kDeviceDamping);
       return static_cast<double>(device::stiffest_stable_N_per_m(
-          mass_kg, static_cast<float>(whole),
+          mass_kg, static_cast<float>(parameter_value(scenario, damping)),
           static_cast<float>(parameter_value(scenario, params::kTickPeriod))));
     };
     summary_.stable_contact_N_per_m = limit(params::kContactDamping);

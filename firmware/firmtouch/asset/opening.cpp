@@ -137,7 +137,7 @@ Verdict Proof::finish_entries() {
   return kPassed;
 }
 
-// Pieces of the file and sections, as they come; now the rest is free that is not checked.
+// A unit is a piece of the file, or a section. free_ is now where the unchecked rest begins.
 Verdict Proof::check_sections(uint32_t, uint32_t end) {
   while (section_ < view.entries_.size()) {
     const uint32_t done = free_ / kPieceBytes + section_;

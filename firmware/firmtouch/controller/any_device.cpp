@@ -86,14 +86,13 @@ device::Reading AnyDevice::read(const Values& values, const device::Sample& samp
 }
 
 uint32_t AnyDevice::wall_state(const Values& values) const {
-  if (!linkage_.is_open()) return 0;
+  if (!linkage_.is_open() || !(linkage_.layout().least_mass_kg > 0.0f)) return 0;
   const device::LinkageLayout& layout = linkage_.layout();
   const auto is_stable = [&](params::Index stiffness, params::Index damping) {
-    const float whole = values[damping] + values[params::kDeviceDamping];
-    return values[stiffness] <= device::stiffest_stable_N_per_m(layout.least_mass_kg, whole,
+    return values[stiffness] <= device::stiffest_stable_N_per_m(layout.least_mass_kg,
+                                                                values[damping],
                                                                 values[params::kTickPeriod]);
   };
-  if (!(layout.least_mass_kg > 0.0f)) return 0;
   if (is_stable(params::kContactStiffness, params::kContactDamping) &&
       is_stable(params::kGuideStiffness, params::kGuideDamping))
     return 0;

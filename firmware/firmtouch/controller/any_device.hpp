@@ -46,8 +46,8 @@ class AnyDevice : public DevicePolicy {
   static constexpr bool kRendersAll = false;
   const Rendered& rendered() const { return rendered_; }
 
-  /// Contact and guide against the stiffest wall that is stable with the tip's least mass, the
-  /// wall's damping and device_damping_N_s_per_m; an asset that does not state the mass passes.
+  /// Contact and guide against the stiffest wall that is stable with the tip's least mass and the
+  /// wall's damping; the device's own would only help. An asset without that mass passes.
   static constexpr bool kKnowsWalls = true;
   uint32_t wall_state(const params::Values& values) const;
 

@@ -34,7 +34,7 @@ struct SafetyRows {
       {kEnergyReservoir, "energy_reservoir_J", "J", 0.0f, kMaxReservoir_J, 0.0006f, When::kMayFall,
        "energy that contact may give"},
       {kDeviceDamping, "device_damping_N_s_per_m", "N s/m", 0.0f, 50.0f, 0.5f, When::kMayFall,
-       "damping of the device itself, or less"},
+       "damping of the device itself, at most what it has"},
   };
 };
 
@@ -104,7 +104,7 @@ struct FrictionRows {
       {kFrictionSpeed, "friction_speed_mps", "m/s", 0.0001f, 10.0f, 0.001f, When::kAnytime,
        "above it friction is dynamic"},
       {kFrictionViscous, "friction_viscous_N_s_per_m", "N s/m", 0.0f, 100.0f, 0.0f, When::kAnytime,
-       "friction by speed"},
+       "friction per speed"},
   };
 };
 
@@ -148,7 +148,7 @@ struct GuideRows {
       {kGuideDriveSpeed, "guide_drive_speed_mps", "m/s", -1.0f, 1.0f, 0.0f, When::kAnytime,
        "speed of a lead; 0: hold"},
       {kGuideWork, "guide_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
-       "work units of the guide's queries in a tick"},
+       "work of the guide's queries in a tick"},
   };
 };
 
