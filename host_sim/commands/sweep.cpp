@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
-#include <functional>
-#include <mutex>
-#include <optional>
-#include <thread>
 
+#include "batch/parallel.hpp"
+#include "batch/results.hpp"
 #include "device/machines.hpp"
 #include "firmtouch/core/hash.hpp"
 #include "firmtouch/link/build_id.hpp"
@@ -15,7 +12,7 @@
 #include "host_sim/commands/prepare.hpp"
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/report/score_page.hpp"
-#include "host_sim/sweep/results.hpp"
+#include "host_sim/sweep/plan.hpp"
 #include "host_sim/trace/log.hpp"
 
 namespace firmtouch::host_sim {
@@ -42,8 +39,8 @@ void add(core::Hash& hash, const std::string& text) {
 }
 
 // All that the rows depend on. Reads each run's scenario, so that what it refuses is said at once.
-SweepIdentity identity_of(const Sweep& sweep) {
-  SweepIdentity identity{combinations(sweep.varied), 0};
+tools::BatchIdentity identity_of(const Sweep& sweep) {
+  tools::BatchIdentity identity{combinations(sweep.varied), 0};
   core::Hash hash;
   hash.add(static_cast<uint32_t>(link::build_id()));
   hash.add(sweep.contact == Contact::kPenalty ? 1 : 0);
@@ -101,34 +98,6 @@ std::string row_of(const Sweep& sweep, uint64_t run) {
   return text + std::to_string(not_met) + "," + std::to_string(faults);
 }
 
-// The runs that the file does not have, by `jobs` threads. Throws what the first failing run threw.
-void run_all(const Sweep& sweep, Shard shard, uint64_t count, uint32_t jobs,
-             SweepResults& results) {
-  std::atomic<uint64_t> next{results.had()}, done{results.had()};
-  std::mutex mutex;
-  std::optional<std::string> refused;
-  const std::function<void(double)> progress = progress_bar("sweeping");
-  const auto work = [&] {
-    for (uint64_t nth; (nth = next++) < count;) {
-      try {
-        results.add(nth, row_of(sweep, shard.run(nth)));
-      } catch (const std::exception& error) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (!refused) refused = "run " + std::to_string(shard.run(nth)) + ": " + error.what();
-        next = count;
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      if (++done; progress && !refused)
-        progress(static_cast<double>(done) / static_cast<double>(count));
-    }
-  };
-  std::vector<std::thread> threads;
-  for (uint32_t i = 1; i < jobs; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (refused) throw Refused(*refused);
-}
-
 int run_sweep(const Options& options) {
   Sweep sweep;
   sweep.file = options.operand("one scenario");
@@ -138,17 +107,28 @@ int run_sweep(const Options& options) {
   const std::string path = options.value("-o");
   if (path.empty()) options.refuse("name the file of the results: -o FILE.csv");
   check_outputs({{"the scenario", sweep.file}}, {{"-o", path}});
-  const Shard shard = options.has("--shard") ? shard_of(options.value("--shard")) : Shard{};
-  const uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
-  const double jobs = options.number("--jobs", cores, 1);
-  const SweepIdentity identity = identity_of(sweep);
-  SweepResults results(path, header_of(sweep), identity, shard);
+  const tools::Shard shard =
+      options.has("--shard") ? tools::shard_of(options.value("--shard")) : tools::Shard{};
+  const double jobs = std::min(options.number("--jobs", tools::processors(), 1), 1024.0);
+  const tools::BatchIdentity identity = identity_of(sweep);
+  tools::BatchResults results(path, header_of(sweep), identity, shard);
   const uint64_t count = shard.runs(identity.runs);
   if (results.had() > 0)
     std::fprintf(stderr, "%s: has %llu of %llu runs; going on\n", path.c_str(),
                  static_cast<unsigned long long>(results.had()),
                  static_cast<unsigned long long>(count));
-  run_all(sweep, shard, count, static_cast<uint32_t>(std::min(jobs, 1024.0)), results);
+  const uint64_t had = results.had();
+  tools::in_parallel(
+      count - had, static_cast<uint32_t>(jobs),
+      [&](uint64_t i) {
+        const uint64_t run = shard.run(had + i);
+        try {
+          results.add(had + i, row_of(sweep, run));
+        } catch (const std::exception& error) {
+          throw Refused("run " + std::to_string(run) + ": " + error.what());
+        }
+      },
+      progress_bar("sweeping"));
   std::printf("%s: %llu runs\n", path.c_str(), static_cast<unsigned long long>(count));
   return 0;
 }
@@ -164,7 +144,7 @@ int merge_sweep(const Options& options) {
   const std::string path = options.value("-o");
   if (path.empty()) options.refuse("name the file of all results: -o FILE.csv");
   check_outputs(inputs, {{"-o", path}});
-  write_file(path, merged(files));
+  write_file(path, tools::merged(files));
   return 0;
 }
 

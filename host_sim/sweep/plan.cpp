@@ -8,8 +8,6 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr uint64_t kMaxRuns = 10'000'000;
-
 std::string trimmed(const std::string& text) {
   const size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
@@ -24,7 +22,7 @@ std::vector<std::string> evenly(const std::string& text) {
   const double last = std::strtod(text.substr(dots + 2, colon - dots - 2).c_str(), nullptr);
   char* unit = nullptr;
   const uint64_t count = std::strtoull(text.c_str() + colon + 1, &unit, 10);
-  if (count < 2 || count > kMaxRuns || !std::isfinite(last - first))
+  if (count < 2 || count > tools::kMaxRuns || !std::isfinite(last - first))
     throw Refused("--vary " + text + ": FIRST..LAST:COUNT needs two values or more, and numbers");
   for (uint64_t i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
@@ -33,13 +31,6 @@ std::vector<std::string> evenly(const std::string& text) {
     values.push_back(std::string(number) + unit);
   }
   return values;
-}
-
-uint64_t whole(const std::string& text) {
-  char* end = nullptr;
-  const uint64_t value = std::strtoull(text.c_str(), &end, 10);
-  const bool is_whole = !text.empty() && text[0] >= '0' && text[0] <= '9' && *end == 0;
-  return is_whole && value <= kMaxRuns ? value : 0;
 }
 
 }  // namespace
@@ -63,21 +54,12 @@ Varied varied_of(const std::string& text) {
   return varied;
 }
 
-Shard shard_of(const std::string& text) {
-  const size_t slash = text.find('/');
-  Shard shard;
-  shard.number = whole(text.substr(0, slash));
-  shard.of = slash == std::string::npos ? 0 : whole(text.substr(slash + 1));
-  if (shard.number < 1 || shard.number > shard.of)
-    throw Refused("--shard " + text + ": write I/N, from 1/N to N/N");
-  return shard;
-}
-
 uint64_t combinations(const std::vector<Varied>& varied) {
   uint64_t count = 1;
   for (const Varied& one : varied) {
     count *= one.values.size();
-    if (count > kMaxRuns) throw Refused("a sweep of more than 10 million runs: vary less at once");
+    if (count > tools::kMaxRuns)
+      throw Refused("a sweep of more than 10 million runs: vary less at once");
   }
   return count;
 }

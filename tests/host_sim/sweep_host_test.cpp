@@ -4,13 +4,16 @@
 #include <filesystem>
 #include <functional>
 
+#include "batch/parallel.hpp"
+#include "batch/results.hpp"
 #include "harness/test.hpp"
-#include "host_sim/sweep/results.hpp"
+#include "host_sim/sweep/plan.hpp"
 #include "host_sim/trace/log.hpp"
 
 namespace {
 
 using namespace firmtouch::host_sim;  // NOLINT: a test file
+using namespace firmtouch::tools;     // NOLINT
 
 bool is_refused(const std::function<void()>& act) {
   try {
@@ -66,21 +69,21 @@ TEST(Combinations_TheLastChangesFirst_ShardsHaveEachOnce) {
 
 // Rows that end in any order; killed behind every byte; in shards: always the same bytes.
 TEST(Results_AreTheSameBytes_KilledAnywhere_AndMerged) {
-  const SweepIdentity sweep{5, 0xABCDEF0123456789ull};
+  const BatchIdentity sweep{5, 0xABCDEF0123456789ull};
   const std::string path = place("whole.csv"), part = place("part.csv");
   std::filesystem::remove(path);
   const auto row = [](uint64_t run) { return std::to_string(run * run) + ",0.5"; };
   {
-    SweepResults results(path, "a,b", sweep, {});
-    CHECK(is_refused([&] { SweepResults(path, "a,b", sweep, {}); }));  // two at once
+    BatchResults results(path, "a,b", sweep, {});
+    CHECK(is_refused([&] { BatchResults(path, "a,b", sweep, {}); }));  // two at once
     for (const uint64_t run : {2u, 0u, 4u, 1u, 3u}) results.add(run, row(run));
   }
   const std::string whole = read_file(path);
-  CHECK(whole.substr(0, 57) == "run,runs,sweep,a,b\n0,5,abcdef0123456789,0,0.5\n1,5,abcdef0");
+  CHECK(whole.substr(0, 57) == "run,runs,batch,a,b\n0,5,abcdef0123456789,0,0.5\n1,5,abcdef0");
   for (size_t bytes = 0; bytes <= whole.size(); ++bytes) {
     write_file(part, whole.substr(0, bytes));
     {
-      SweepResults results(part, "a,b", sweep, {});
+      BatchResults results(part, "a,b", sweep, {});
       for (uint64_t run = results.had(); run < 5; ++run) results.add(run, row(run));
     }
     CHECK(read_file(part) == whole);
@@ -88,7 +91,7 @@ TEST(Results_AreTheSameBytes_KilledAnywhere_AndMerged) {
   std::vector<std::pair<std::string, std::string>> files;
   for (uint64_t i = 1; i <= 3; ++i) {
     std::filesystem::remove(part);
-    SweepResults results(part, "a,b", sweep, {i, 3});
+    BatchResults results(part, "a,b", sweep, {i, 3});
     for (uint64_t nth = 0; nth < Shard{i, 3}.runs(5); ++nth)
       results.add(nth, row(Shard{i, 3}.run(nth)));
     files.emplace_back("shard " + std::to_string(i), read_file(part));
@@ -101,11 +104,28 @@ TEST(Results_AreTheSameBytes_KilledAnywhere_AndMerged) {
   CHECK(is_refused([&] { merged({{"no results", "x,y\n1,2\n"}}); }));
   CHECK(is_refused([&] { merged({{"empty", ""}}); }));
   // Another sweep, other columns, another shard.
-  CHECK(is_refused([&] { SweepResults(path, "a,b", {5, 1}, {}); }));
-  CHECK(is_refused([&] { SweepResults(path, "a,c", sweep, {}); }));
-  CHECK(is_refused([&] { SweepResults(path, "a,b", sweep, {1, 2}); }));
-  CHECK(is_refused([&] { SweepResults(path, "a,b", {4, sweep.hash}, {}); }));
+  CHECK(is_refused([&] { BatchResults(path, "a,b", {5, 1}, {}); }));
+  CHECK(is_refused([&] { BatchResults(path, "a,c", sweep, {}); }));
+  CHECK(is_refused([&] { BatchResults(path, "a,b", sweep, {1, 2}); }));
+  CHECK(is_refused([&] { BatchResults(path, "a,b", {4, sweep.hash}, {}); }));
   CHECK(read_file(path) == whole);
   std::filesystem::remove(path);
   std::filesystem::remove(part);
+}
+
+TEST(Parallel_EachOnce_AndWhatTheFirstThrew) {
+  for (const uint32_t threads : {1u, 2u, 7u}) {
+    std::vector<int> times(100);
+    double share = 0;
+    in_parallel(
+        100, threads, [&](uint64_t i) { ++times[i]; }, [&](double done) { share = done; });
+    CHECK_EQ(share, 1.0);
+    for (const int n : times) CHECK_EQ(n, 1);
+    CHECK(is_refused([&] {
+      in_parallel(100, threads, [&](uint64_t i) {
+        if (i == 50) throw Refused("50");
+      });
+    }));
+  }
+  in_parallel(0, 3, [](uint64_t) { throw Refused("none"); });
 }

@@ -7,24 +7,24 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/sweep/plan.hpp"
+#include "batch/shard.hpp"
 
-namespace firmtouch::host_sim {
+namespace firmtouch::tools {
 
-/// Two sweeps differ where one of these does: the number of all runs, and a hash of what they
+/// Two batches differ where one of these does: the number of all runs, and a hash of what they
 /// depend on.
-struct SweepIdentity {
+struct BatchIdentity {
   uint64_t runs = 0;
   uint64_t hash = 0;
 };
 
-/// A sweep's results, as CSV: "run,runs,sweep," and the columns of `header`, a row a run, in the
+/// A batch's results, as CSV: "run,runs,batch," and the columns of `header`, a row a run, in the
 /// order of the runs, whichever ends first. At any moment the file is a beginning of the whole one,
 /// apart from a row that is not whole; a file that is there is gone on with.
-class SweepResults {
+class BatchResults {
  public:
-  /// Throws Refused if the file is of another sweep or shard, is written by one, or cannot be.
-  SweepResults(const std::string& path, const std::string& header, SweepIdentity sweep,
+  /// Throws Refused if the file is of another batch or shard, is written by one, or cannot be.
+  BatchResults(const std::string& path, const std::string& header, BatchIdentity batch,
                Shard shard);
   /// How many of the shard's runs the file had.
   uint64_t had() const { return had_; }
@@ -39,7 +39,7 @@ class SweepResults {
   void write(const std::string& text);
 
   std::string path_;
-  SweepIdentity sweep_;
+  BatchIdentity batch_;
   Shard shard_;
   std::unique_ptr<std::FILE, Close> file_;
   uint64_t had_ = 0, next_ = 0;
@@ -47,8 +47,8 @@ class SweepResults {
   std::map<uint64_t, std::string> waiting_;  // rows of runs behind one that has not ended
 };
 
-/// The results of all shards as those of one sweep: the same bytes. `files`: path and content.
-/// Throws Refused where a file is of another sweep, or a run is missing or there twice.
+/// The results of all shards as those of one batch: the same bytes. `files`: path and content.
+/// Throws Refused where a file is of another batch, or a run is missing or there twice.
 std::string merged(const std::vector<std::pair<std::string, std::string>>& files);
 
-}  // namespace firmtouch::host_sim
+}  // namespace firmtouch::tools
