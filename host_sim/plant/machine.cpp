@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "firmtouch/record/tick.hpp"
+
 namespace firmtouch::host_sim {
 namespace {
 
@@ -11,6 +13,8 @@ namespace {
 // continuous one by less than 1e-3.
 constexpr uint32_t kMinSubsteps = 16;
 constexpr double kLinkageStep_s = 2e-5;
+// A tooth of a belt.
+constexpr double kSlip_rad = 0.05, kSlip_m = 5e-4;
 
 DrivenLinkage linkage_at(const Scenario& scenario, Vec start_m, JointMotion& start) {
   if (!find_angles(*scenario.linkage, start_m, start)) {
@@ -32,9 +36,12 @@ DrivenLinkage linkage_at(const Scenario& scenario, Vec start_m, JointMotion& sta
   return linkage;
 }
 
+double* joint_of(Vec& v, uint32_t joint) { return joint == 0 ? &v.x : joint == 1 ? &v.y : &v.z; }
+
 }  // namespace
 
-Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m) : zero_m_(zero_m) {
+Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
+    : zero_m_(zero_m), quantum_m_(scenario.device.encoder_quantum_m) {
   if (scenario.linkage) {
     linkage_.emplace(linkage_at(scenario, start_m, start_));
     device_ = &*scenario.linkage;
@@ -43,6 +50,14 @@ Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m) : zero_m_(ze
       zero_count_[k] = linkage_->count(k);
   } else {
     axes_.emplace(scenario.device, start_m - zero_m);
+  }
+  for (const Event& event : scenario.events) {
+    if (event.kind != Event::Kind::kFail) continue;
+    if (event.failure.joint >= joint_count())
+      throw Refused(scenario.file + ": `fail " + failure_name(event.failure.mode) + " " +
+                    std::to_string(event.failure.joint) + "`: the device has the joints 0 to " +
+                    std::to_string(joint_count() - 1));
+    to_fail_.push_back(event);
   }
   locate();
 }
@@ -61,8 +76,8 @@ void Machine::locate() {
 void Machine::command(const float (&motor)[3]) {
   const Vec wanted{static_cast<double>(motor[0]), static_cast<double>(motor[1]),
                    static_cast<double>(motor[2])};
-  if (axes_) return axes_->command(wanted);
-  delayed_Nm_.push_back(wanted);
+  if (axes_) return axes_->command(after_failures(wanted));
+  delayed_Nm_.push_back(after_failures(wanted));
   motor_Nm_ = delayed_Nm_.front();
   delayed_Nm_.pop_front();
 }
@@ -83,10 +98,59 @@ Vec Machine::on_way_to_start_m(const JointMotion& from, double share) const {
   return device_ != nullptr ? points_of(*device_, at).tip.at_m : position_m_;
 }
 
-int32_t Machine::count(int joint) const {
-  if (axes_) return axes_->count(joint);
-  const uint32_t k = static_cast<uint32_t>(joint);
-  return linkage_->count(k) - zero_count_[k];
+uint32_t Machine::true_count(uint32_t joint) const {
+  if (axes_) return static_cast<uint32_t>(axes_->count(static_cast<int>(joint)));
+  return static_cast<uint32_t>(linkage_->count(joint)) - static_cast<uint32_t>(zero_count_[joint]);
+}
+
+uint32_t Machine::slip_counts(uint32_t joint) const {
+  const double counts =
+      axes_ ? kSlip_m / quantum_m_
+            : kSlip_rad * static_cast<double>(device_->joints.joint[joint].counts_per_rad);
+  return static_cast<uint32_t>(static_cast<int32_t>(std::lround(counts)));
+}
+
+void Machine::fail_until(double time_s) {
+  for (; next_ < to_fail_.size() && to_fail_[next_].time_s <= time_s; ++next_) {
+    const Failure& failure = to_fail_[next_].failure;
+    failed_.push_back({failure, true_count(failure.joint)});
+  }
+}
+
+bool Machine::has_failed(FailureMode mode) const {
+  return std::any_of(failed_.begin(), failed_.end(),
+                     [&](const Failed& failed) { return failed.what.mode == mode; });
+}
+
+uint32_t Machine::flags() const {
+  return (has_failed(FailureMode::kEncoderLost) ? record::kFlagEncoderFault : 0) |
+         (has_failed(FailureMode::kMotorHot) ? record::kFlagDriveFault : 0);
+}
+
+int32_t Machine::count(int axis) const {
+  const uint32_t joint = static_cast<uint32_t>(axis);
+  uint32_t count = true_count(joint);
+  for (const Failed& failed : failed_) {
+    const uint32_t first = failed.what.joint, second = (first + 1) % joint_count();
+    const FailureMode mode = failed.what.mode;
+    if (mode == FailureMode::kEncodersSwapped && (joint == first || joint == second))
+      count = true_count(joint == first ? second : first);
+    if (joint != first) continue;
+    if (mode == FailureMode::kEncoderStuck) count = failed.count;
+    if (mode == FailureMode::kEncoderLost) count = 0;
+    if (mode == FailureMode::kEncoderReversed) count = 2 * failed.count - count;
+    if (mode == FailureMode::kEncoderSlipped) count += slip_counts(joint);
+  }
+  return static_cast<int32_t>(count);
+}
+
+Vec Machine::after_failures(Vec motor) const {
+  for (const Failed& failed : failed_) {
+    double* const of_joint = joint_of(motor, failed.what.joint);
+    if (failed.what.mode == FailureMode::kMotorDead) *of_joint = 0;
+    if (failed.what.mode == FailureMode::kMotorReversed) *of_joint = -*of_joint;
+  }
+  return motor;
 }
 
 uint32_t Machine::substeps(double period_s) const {

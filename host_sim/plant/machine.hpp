@@ -1,6 +1,7 @@
 #pragma once
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "host_sim/device/driven_linkage.hpp"
 #include "host_sim/plant/device.hpp"
@@ -9,12 +10,20 @@
 namespace firmtouch::host_sim {
 
 /// The machine of a run: three Cartesian axes, or the scenario's linkage. Positions are those of
-/// the controller's device frame.
+/// the controller's device frame. It fails as the scenario's events say.
 class Machine {
  public:
   /// `zero_m`: where the encoders of a Cartesian device count 0.
-  /// Throws Refused if the linkage has no inertia, or cannot reach `start_m`.
+  /// Throws Refused if the linkage has no inertia, or cannot reach `start_m`, or if a joint is to
+  /// fail that it does not have.
   Machine(const Scenario& scenario, Vec start_m, Vec zero_m);
+
+  /// From now on what fails by this time of the scenario has failed.
+  void fail_until(double time_s);
+  /// Flags of a tick's input: an encoder or a driver that reports its failure.
+  uint32_t flags() const;
+  /// Whether the hand has no hold of the machine any more.
+  bool is_torn_off() const { return has_failed(FailureMode::kLinkBroken); }
 
   /// Motor forces, or joint torques of a linkage, of this tick; they act after the output delay.
   void command(const float (&motor)[3]);
@@ -33,12 +42,25 @@ class Machine {
   uint32_t substeps(double period_s) const;
 
  private:
+  struct Failed {
+    Failure what;
+    uint32_t count = 0;  // of its encoder, then
+  };
   void locate();
+  bool has_failed(FailureMode mode) const;
+  uint32_t joint_count() const { return device_ != nullptr ? device_->joints.joints : 3; }
+  uint32_t true_count(uint32_t joint) const;
+  uint32_t slip_counts(uint32_t joint) const;
+  Vec after_failures(Vec motor) const;
 
   Vec zero_m_;
   const tools::LinkageDevice* device_ = nullptr;
   JointMotion start_;
   int32_t zero_count_[3] = {};
+  double quantum_m_;
+  std::vector<Event> to_fail_;
+  size_t next_ = 0;
+  std::vector<Failed> failed_;
   std::optional<Device> axes_;
   std::optional<DrivenLinkage> linkage_;
   std::deque<Vec> delayed_Nm_;  // torques of a linkage, the oldest first

@@ -86,7 +86,9 @@ std::string homing_text(const Summary& s) {
   return text;
 }
 
-bool is_scripted_fault(const Event& event) { return event.kind <= Event::Kind::kEncoderFault; }
+bool is_scripted_fault(const Event& event) {
+  return event.kind <= Event::Kind::kEncoderFault || event.kind == Event::Kind::kFail;
+}
 
 size_t checked_ticks(const Environment& environment, size_t ticks) {
   // A spline sample costs about as much as ten triangles.

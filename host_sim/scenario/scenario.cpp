@@ -118,7 +118,7 @@ bool Reader::parameter(const std::string& given_name, LineReader& words) {
 }
 
 // at 9.5 s emergency_stop | drive_fault | encoder_fault | disable | enable | release |
-// clear_faults | set KEY VALUE UNIT | load RATIO | move OBJECT SPEED
+// clear_faults | set KEY VALUE UNIT | load RATIO | move OBJECT SPEED | fail FAILURE JOINT
 void Reader::event(LineReader& words) {
   struct Name {
     const char* name;
@@ -133,7 +133,8 @@ void Reader::event(LineReader& words) {
                              {"clear_faults", Event::Kind::kClearFaults},
                              {"set", Event::Kind::kSet},
                              {"load", Event::Kind::kLoad},
-                             {"move", Event::Kind::kMoveObject}};
+                             {"move", Event::Kind::kMoveObject},
+                             {"fail", Event::Kind::kFail}};
   Event event;
   event.time_s = words.quantity("at", "s", 0, 3600);
   const std::string what = words.next("an event");
@@ -143,12 +144,20 @@ void Reader::event(LineReader& words) {
   if (found == nullptr)
     words.refuse("unknown event `" + what +
                  "`; known: emergency_stop, drive_fault, encoder_fault, disable, enable, release, "
-                 "clear_faults, set, load, move");
+                 "clear_faults, set, load, move, fail");
   event.kind = found->kind;
   if (event.kind == Event::Kind::kLoad) event.value = words.quantity("load", "", 0, 100);
   if (event.kind == Event::Kind::kMoveObject) {
     event.object = words.next("an object's name");
     event.value = words.quantity("move", "", -1, 1);
+  }
+  if (event.kind == Event::Kind::kFail) {
+    const std::string name = words.next("a failure");
+    if (!find_failure(name, event.failure.mode))
+      words.refuse("unknown failure `" + name + "`; known: " + failure_names());
+    const double joint = words.quantity("joint", "", 0, 2);
+    if (joint > std::floor(joint)) words.refuse("a joint is 0, 1 or 2");
+    event.failure.joint = static_cast<uint32_t>(joint);
   }
   if (event.kind == Event::Kind::kSet) {
     const std::string name = words.next("a parameter's name");
@@ -273,7 +282,10 @@ std::string scenario_help() {
           "         clear_faults (accepted only while disabled) | set PARAMETER VALUE UNIT |\n"
           "         load RATIO (from then on a tick with queries takes so many periods) |\n"
           "         move OBJECT SPEED (the asset's object moves by its twist times -1 to 1; 0: it "
-          "stands)\n";
+          "stands)\n"
+          "         fail FAILURE JOINT (of the machine, for the rest of the run; joints from 0)\n"
+          "         FAILURE: " +
+              failure_names() + "\n";
   return help.str();
 }
 

@@ -7,6 +7,7 @@
 #include "device/device_file.hpp"
 #include "device/refused.hpp"
 #include "host_sim/plant/device.hpp"
+#include "host_sim/plant/failure.hpp"
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
@@ -41,7 +42,8 @@ struct Event {
     kClearFaults,
     kSet,
     kLoad,
-    kMoveObject
+    kMoveObject,
+    kFail
   };
   double time_s = 0;
   Kind kind = Kind::kEnable;
@@ -50,6 +52,7 @@ struct Event {
   // object's twist.
   double value = 0;
   std::string object = {};  // kMoveObject: its name
+  Failure failure = {};     // kFail
 };
 
 struct Setting {

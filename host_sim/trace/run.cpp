@@ -124,6 +124,8 @@ class Operator {
         commands_.push_back(
             {record::kCommandMoveObject + number_of(event.object) - 1, event.value});
         return 0;
+      case Event::Kind::kFail:
+        return 0;
     }
     return 0;
   }
@@ -275,7 +277,7 @@ struct Simulation::Loop {
         panel(scenario, environment) {}
 
   Vec hand_N() const {
-    if (is_away()) return {};
+    if (is_away() || machine.is_torn_off()) return {};
     return hand.force_N(arm.position_m(), arm.velocity_mps(), machine.position_m(),
                         machine.velocity_mps());
   }
@@ -351,9 +353,10 @@ bool Simulation::next(RunTick& tick) {
   record = {};
   record.input.tick = loop.tick++;
   record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
+  loop.machine.fail_until(now_s);
   for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = loop.machine.count(axis);
   loop.panel.fill(record.input, loop.last, now_s);
-  record.input.flags |= model_flags(loop.scenario, record.input.tick);
+  record.input.flags |= model_flags(loop.scenario, record.input.tick) | loop.machine.flags();
   loop.controller(record.input, record.output);
   if (loop.remote != nullptr) {
     const record::TickRecord expected = record;

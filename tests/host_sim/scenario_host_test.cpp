@@ -99,6 +99,9 @@ TEST(Scenario_EveryMistake_ReportsItsLine) {
       {"at 1 s explode", "unknown event `explode`"},
       {"at 1 m emergency_stop", "`m` is not a unit"},
       {"at 1 s set nothing 1", "unknown parameter `nothing`"},
+      {"at 1 s fail encoder 0", "unknown failure `encoder`; known: encoder_stuck, "},
+      {"at 1 s fail motor_dead 0.5", "a joint is 0, 1 or 2"},
+      {"at 1 s fail motor_dead 3", "0 to 2"},
       {"duration 2 s", "`duration` is given twice"},
   };
   for (const Case& c : kCases) {
