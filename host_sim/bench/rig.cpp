@@ -124,9 +124,11 @@ RigRun Rig::run(const Solid& solid, Vec start_m, const std::vector<std::string>&
   return run(session.tick(), start_m, script, settings);
 }
 
-RigRun Rig::run(const Tick& controller, Vec start_m, const std::vector<std::string>& script,
-                const Lines& settings) const {
-  const Vec origin_m = linkage_ ? tip_m_ - rotation_.turn(start_m) : Vec{};
+Vec Rig::origin_m(Vec start_m) const { return linkage_ ? tip_m_ - rotation_.turn(start_m) : Vec{}; }
+
+Scenario Rig::scenario(Vec start_m, const std::vector<std::string>& script,
+                       const Lines& settings) const {
+  const Vec origin_m = this->origin_m(start_m);
   std::string text = statements(start_m, origin_m, settings);
   for (const std::string& statement : script) text += statement + "\n";
   Scenario scenario = read_scenario("bench", text, {}, parameter_rows());
@@ -134,6 +136,13 @@ RigRun Rig::run(const Tick& controller, Vec start_m, const std::vector<std::stri
   scenario.linkage = linkage_;
   scenario.start_m = rotation_.turn(scenario.start_m) + origin_m;
   for (Move& move : scenario.moves) move.to_m = rotation_.turn(move.to_m) + origin_m;
+  return scenario;
+}
+
+RigRun Rig::run(const Tick& controller, Vec start_m, const std::vector<std::string>& script,
+                const Lines& settings) const {
+  const Scenario scenario = this->scenario(start_m, script, settings);
+  const Vec origin_m = this->origin_m(start_m);
   const Environment environment;
   Simulation simulation(scenario, controller, environment);
   Stored stored(linkage_ && linkage_->carried_share > 0);

@@ -42,6 +42,9 @@ class Rig {
   /// The same by a controller of the caller's.
   RigRun run(const Tick& controller, Vec start_m, const std::vector<std::string>& script,
              const Lines& settings = {}) const;
+  /// The scenario of such a run.
+  Scenario scenario(Vec start_m, const std::vector<std::string>& script,
+                    const Lines& settings = {}) const;
   /// The path of the solid's asset.
   std::string bake(const Solid& solid) const;
 
@@ -61,6 +64,7 @@ class Rig {
   double half_angle_rad = 0.78539816339744831, slot_m = 0.004;
 
  private:
+  Vec origin_m(Vec start_m) const;  // of the solid
   std::string statements(Vec start_m, Vec origin_m, const Lines& settings) const;
 
   Rotation rotation_;

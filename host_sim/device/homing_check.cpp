@@ -23,8 +23,12 @@ double wide(float a) { return static_cast<double>(a); }
 
 class Rig {
  public:
-  Rig(const tools::LinkageDevice& device, HomingCase what, uint32_t seed)
-      : device_(device), what_(what), engine_(seed), body_(loosened(), anywhere()) {
+  Rig(const tools::LinkageDevice& device, HomingCase what, uint32_t seed, double from_s)
+      : device_(device),
+        what_(what),
+        from_s_(from_s),
+        engine_(seed),
+        body_(loosened(), anywhere()) {
     joint_ = any_of(joints());
     other_ = (joint_ + 1 + any_of(joints() - 1)) % joints();
     is_invalid_ = any_of(4) == 0;
@@ -129,7 +133,7 @@ class Rig {
       };
       const double number_now = number(now_rad), number_before = number(before_rad_[k]);
       before_rad_[k] = now_rad;
-      if (what_ == HomingCase::kNoIndex && k == joint_) continue;
+      if (what_ == HomingCase::kNoIndex && k == joint_ && time_s_ >= from_s_) continue;
       const bool is_noise = what_ == HomingCase::kNoise && k == joint_ && any_of(100) == 0;
       if (!(number_now < number_before || number_now > number_before) && !is_noise) continue;
       const double at_rad = is_noise ? now_rad
@@ -167,6 +171,7 @@ class Rig {
 
   const tools::LinkageDevice& device_;
   HomingCase what_;
+  double from_s_;
   std::mt19937 engine_;
   LinkageBody body_;
   device::HomingSettings settings_;
@@ -186,8 +191,9 @@ const char* case_name(HomingCase it) {
   return kNames[static_cast<uint32_t>(it)];
 }
 
-HomingRun simulate_homing(const tools::LinkageDevice& device, HomingCase what, uint32_t seed) {
-  return Rig(device, what, seed).run();
+HomingRun simulate_homing(const tools::LinkageDevice& device, HomingCase what, uint32_t seed,
+                          double from_s) {
+  return Rig(device, what, seed, from_s).run();
 }
 
 void add(const HomingRun& run, HomingTally& to) {

@@ -30,8 +30,9 @@ struct HomingRun {
 
 /// The firmware's homing on a simulated linkage at 1 kHz, by index: start anywhere in the ranges,
 /// stops of 50 to 5,000 N/m at the ends of the driven links, any index phase, raw counts anywhere,
-/// every other run about the wrap. `seed` decides all.
-HomingRun simulate_homing(const tools::LinkageDevice& device, HomingCase what, uint32_t seed);
+/// every other run about the wrap. `seed` decides all. Without index: from `from_s` on.
+HomingRun simulate_homing(const tools::LinkageDevice& device, HomingCase what, uint32_t seed,
+                          double from_s = 0);
 
 /// Of all runs of a case.
 struct HomingTally {

@@ -24,6 +24,8 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
   endif()
   add_test(NAME host_sim.sweep
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_sweep $<TARGET_FILE_DIR:firmtouch-sim>)
+  add_test(NAME host_sim.failures
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_failures $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.score
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_score $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.benches

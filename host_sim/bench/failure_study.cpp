@@ -1,0 +1,145 @@
+#include "host_sim/bench/failure_study.hpp"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "batch/parallel.hpp"
+#include "device/machines.hpp"
+#include "firmtouch/servo/fault.hpp"
+#include "host_sim/bench/failure_run.hpp"
+#include "host_sim/device/homing_check.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+constexpr uint32_t kTouches = 6;
+// What SAFETY.md states, at 1 kHz.
+constexpr int kMaxTicksToRest = 10, kMaxTicksOfLost = 2, kMaxTicksOfHot = 0;
+constexpr double kMaxHoming_s = 2.001;
+constexpr double kMaxRise = 1 + 1e-5;  // float rounding
+
+// Of all runs of a failure.
+struct Tally {
+  uint32_t runs = 0, seen = 0;
+  uint32_t by[servo::kFaultCount] = {};
+  FailureRun worst;  // the worst of each figure; not_finite: the sum
+
+  void add(const FailureRun& run) {
+    Tally one;
+    one.runs = 1;
+    one.seen = run.to_fault == FailureRun::kNever ? 0 : 1;
+    for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit) one.by[bit] = run.faults >> bit & 1u;
+    one.worst = run;
+    add(one);
+  }
+  void add(const Tally& other) {
+    runs += other.runs;
+    seen += other.seen;
+    for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit) by[bit] += other.by[bit];
+    const FailureRun& run = other.worst;
+    worst.not_finite += run.not_finite;
+    worst.to_fault = std::max(worst.to_fault, run.to_fault);
+    worst.to_rest = std::max(worst.to_rest, run.to_rest);
+    worst.torque_share = std::max(worst.torque_share, run.torque_share);
+    worst.rise_share = std::max(worst.rise_share, run.rise_share);
+    worst.tip_mps = std::max(worst.tip_mps, run.tip_mps);
+    worst.given_J = std::max(worst.given_J, run.given_J);
+  }
+  std::string faults() const {
+    std::string text;
+    for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
+      if (by[bit] > 0)
+        text += (text.empty() ? "" : ", ") + std::to_string(by[bit]) + " " + servo::fault_name(bit);
+    return text;
+  }
+};
+using Tallies = std::array<Tally, kFailureModes>;
+
+// An index that fails at every `every`th tick of a homing.
+HomingTally without_index(const std::string& machine, uint32_t every) {
+  const tools::LinkageDevice device = tools::read_device(machine, tools::read_device_text(machine));
+  HomingTally tally;
+  const double end_s = simulate_homing(device, HomingCase::kGood, 1).seconds;
+  for (uint32_t tick = 0; tick * 1e-3 < end_s; tick += every)
+    add(simulate_homing(device, HomingCase::kNoIndex, 1, tick * 1e-3), tally);
+  return tally;
+}
+
+std::string text_of(double value) { return bench::number_text(value); }
+
+void put(const std::string& machine, const HomingTally& homing, bench::Report& report) {
+  const uint32_t seen = homing.runs - homing.homed;
+  report.figure("index_absent: homing ended by a fault", machine, seen, "",
+                "of " + std::to_string(homing.runs) + "; the others had their pulses");
+  report.bar("index_absent: the slowest end of homing", machine, homing.slowest_s, "s",
+             kMaxHoming_s);
+  report.bar("index_absent: torque, of the homing torque", machine, homing.torque_share, "", 1);
+  report.bar("index_absent: homed more than a count off", machine, homing.wrong, "", 0);
+}
+
+void put(const std::string& machine, const Tallies& tallies, bench::Report& report) {
+  std::vector<std::vector<std::string>> rows;
+  Tally all;
+  for (uint32_t i = 0; i < kFailureModes; ++i) {
+    const Tally& t = tallies[i];
+    const FailureRun& worst = t.worst;
+    rows.push_back({failure_name(static_cast<FailureMode>(i)), std::to_string(t.runs),
+                    std::to_string(t.seen), t.seen > 0 ? std::to_string(worst.to_fault) : "",
+                    t.seen > 0 ? std::to_string(worst.to_rest) : "", text_of(worst.torque_share),
+                    text_of(worst.tip_mps), text_of(1e3 * worst.given_J), t.faults()});
+    all.add(t);
+  }
+  report.heading(machine);
+  report.table(
+      {"failure", "runs", "seen", "ticks to it", "to rest", "torque", "m/s", "mJ given", "faults"},
+      rows);
+  const Tally& lost = tallies[static_cast<uint32_t>(FailureMode::kEncoderLost)];
+  const Tally& hot = tallies[static_cast<uint32_t>(FailureMode::kMotorHot)];
+  const auto unseen = [](const Tally& t) { return static_cast<double>(t.runs - t.seen); };
+  report.bar("words of outputs that are not finite", machine, all.worst.not_finite, "", 0);
+  report.bar("ticks from a fault to motors at rest", machine, all.worst.to_rest, "",
+             kMaxTicksToRest);
+  report.bar("largest torque, of the joint's largest", machine, all.worst.torque_share, "", 1);
+  report.bar("fastest rise of a torque, of the fastest", machine, all.worst.rise_share, "",
+             kMaxRise);
+  report.bar("encoder_lost: ticks to a fault", machine, lost.worst.to_fault, "", kMaxTicksOfLost);
+  report.bar("motor_hot: ticks to rest", machine, hot.worst.to_fault + hot.worst.to_rest, "",
+             kMaxTicksOfHot);
+  report.bar("these two: not seen", machine, unseen(lost) + unseen(hot), "", 0);
+}
+
+}  // namespace
+
+void study_failures(const std::vector<std::string>& machines, uint32_t every,
+                    const std::function<void(double)>& progress, bench::Report& report) {
+  std::vector<Tallies> tallies(machines.size());
+  std::vector<HomingTally> homing(machines.size());
+  std::mutex mutex;
+  constexpr uint64_t kJobs = kTouches * kFailureModes + 1;  // of a machine
+  tools::in_parallel(
+      machines.size() * kJobs, tools::processors(),
+      [&](uint64_t job) {
+        const uint64_t machine = job / kJobs;
+        const uint32_t mode = static_cast<uint32_t>(job % kJobs / kTouches);
+        if (mode == kFailureModes) {
+          homing[machine] = without_index(machines[machine], every);
+          return;
+        }
+        FailureRig rig(machines[machine], static_cast<uint32_t>(job % kJobs % kTouches));
+        Tally tally;
+        const uint32_t first = static_cast<uint32_t>(37 * job % every);  // samples differ
+        for (uint32_t tick = first; tick < rig.ticks(); tick += every)
+          for (uint32_t joint = 0; joint < rig.joints(); ++joint)
+            tally.add(rig.run({static_cast<FailureMode>(mode), joint}, tick));
+        const std::lock_guard<std::mutex> lock(mutex);
+        tallies[machine][mode].add(tally);
+      },
+      progress);
+  for (size_t i = 0; i < machines.size(); ++i) {
+    put(machines[i], tallies[i], report);
+    put(machines[i], homing[i], report);
+  }
+}
+
+}  // namespace firmtouch::host_sim
