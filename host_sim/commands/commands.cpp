@@ -14,8 +14,8 @@ constexpr const Command& (*kCommands[])() = {
     run_command_line,      replay_command_line,  record_command_line, live_command_line,
     scenario_command_line, view_command_line,    score_command_line,  bench_command_line,
     study_command_line,    z_width_command_line, device_command_line, home_command_line,
-    compare_command_line,  sweep_command_line,   merge_command_line,  crash_command_line,
-    load_command_line};
+    compare_command_line,  sweep_command_line,   merge_command_line,  export_command_line,
+    crash_command_line,    load_command_line};
 
 std::string usage() {
   std::string text =

@@ -86,5 +86,6 @@ const Command& home_command_line();
 const Command& compare_command_line();
 const Command& sweep_command_line();
 const Command& merge_command_line();
+const Command& export_command_line();
 
 }  // namespace firmtouch::host_sim

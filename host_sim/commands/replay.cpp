@@ -1,9 +1,7 @@
-#include <cstdio>
-#include <cstdlib>
 #include <iostream>
 
-#include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
+#include "host_sim/commands/logged_session.hpp"
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/controllers/session.hpp"
@@ -12,28 +10,6 @@
 
 namespace firmtouch::host_sim {
 namespace {
-
-std::string entry_or_empty(const Log& log, const std::string& key) {
-  const auto found = log.text.find(key);
-  return found == log.text.end() ? "" : found->second;
-}
-
-const std::string& entry(const Log& log, const std::string& path, const std::string& key) {
-  const auto found = log.text.find(key);
-  if (found == log.text.end())
-    throw Refused(path + ": its header has no entry `" + key + "`; record the run again");
-  return found->second;
-}
-
-void check_same(const std::string& path, const char* what, uint64_t logged, uint64_t here,
-                int digits, const char* remedy) {
-  if (logged == here) return;
-  char text[96];
-  std::snprintf(text, sizeof text, ": recorded with %0*llx, here %0*llx; ", digits,
-                static_cast<unsigned long long>(logged), digits,
-                static_cast<unsigned long long>(here));
-  throw Refused(path + ": " + what + text + remedy);
-}
 
 // A replay starts with a fresh controller, so it needs every tick from the first one on.
 void check_complete(const std::string& path, const Log& log) {
@@ -80,17 +56,8 @@ void load_next(const Options& options, const std::string& path, const Log& log, 
 int replay_log(const Options& options) {
   const std::string path = options.operand("one log");
   const Log log = read_log(path);
-  check_same(path, "parameter table",
-             std::strtoull(entry(log, path, "parameter_table").c_str(), nullptr, 16),
-             params::table_hash(), 16, "use the version that recorded it");
-  const std::string named = options.value("--asset");
-  Session session(
-      named.empty() ? path_beside(path, entry(log, path, "asset")) : named,
-      {entry_or_empty(log, "surface"), entry_or_empty(log, "guide")},
-      entry_or_empty(log, "contact") == "penalty" ? Contact::kPenalty : Contact::kProxy);
-  check_same(path, ("asset CRC of " + session.asset.path()).c_str(),
-             std::strtoull(entry(log, path, "asset_crc").c_str(), nullptr, 16),
-             session.controller->asset_crc(), 8, "give the recorded asset with --asset");
+  const std::unique_ptr<Session> opened = session_of(path, log, options.value("--asset"));
+  Session& session = *opened;
   check_complete(path, log);
   load_next(options, path, log, session);
   if (!log.is_complete)

@@ -26,6 +26,8 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_sweep $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.failures
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_failures $<TARGET_FILE_DIR:firmtouch-sim>)
+  add_test(NAME host_sim.export
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_export $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.score
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_score $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.benches

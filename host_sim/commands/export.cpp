@@ -1,0 +1,130 @@
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "device/machines.hpp"
+#include "host_sim/commands/commands.hpp"
+#include "host_sim/commands/logged_session.hpp"
+#include "host_sim/commands/prepare.hpp"
+#include "host_sim/commands/progress.hpp"
+#include "host_sim/report/vtk_export.hpp"
+#include "host_sim/trace/run.hpp"
+
+namespace firmtouch::host_sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPictures_Hz = 60;
+
+double parameter_in(const Log& log, const char* name) {
+  return std::strtod(entry_or_empty(log, std::string("parameter.") + name).c_str(), nullptr);
+}
+
+// The linkage that the asset stores; its links need the device file.
+std::optional<tools::LinkageDevice> linkage_of(const Options& options, const std::string& path,
+                                               const Log& log, const Session& session) {
+  Scenario scenario;
+  if (const std::string text = entry_or_empty(log, "scenario"); !text.empty())
+    scenario = read_scenario(path, text, {}, parameter_rows());
+  if (const std::string named = options.value("--device"); !named.empty())
+    scenario.device_file =
+        tools::machine_text(named).empty() ? fs::absolute(named).string() : named;
+  if (scenario.device_file.empty()) {
+    if (session.controller->linkage().is_open())
+      std::fprintf(stderr, "%s: it does not name the linkage: give --device to export its links\n",
+                   path.c_str());
+    return {};
+  }
+  try {
+    read_linkage(scenario, session, path);
+  } catch (const Refused& refused) {
+    throw Refused(std::string(refused.what()) + " (the device file: --device FILE)");
+  }
+  return scenario.linkage;
+}
+
+// A folder that gets its name when all in it is written.
+class NewFolder {
+ public:
+  explicit NewFolder(const std::string& path) : path_(path), partial_(partial_of(path)) {
+    std::error_code error;
+    if (fs::exists(path_, error) && !(fs::is_directory(path_, error) && fs::is_empty(path_, error)))
+      throw Refused(path_ + ": it is there, and not an empty folder; name another one");
+    fs::remove_all(partial_, error);
+    if (!fs::create_directory(partial_, error))
+      throw Refused(path_ + ": cannot be made: " + error.message());
+  }
+  ~NewFolder() {
+    std::error_code error;
+    fs::remove_all(partial_, error);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  const std::string& partial() const { return partial_; }
+  void finish() {
+    std::error_code error;
+    fs::rename(partial_, path_, error);
+    if (error) throw Refused(path_ + ": cannot be made: " + error.message());
+  }
+
+ private:
+  std::string path_, partial_;
+};
+
+int export_log(const Options& options) {
+  if (options.operands().size() != 2) options.refuse("give a log and a folder to make");
+  const std::string path = options.operands()[0];
+  std::string to = options.operands()[1];
+  while (to.size() > 1 && to.back() == '/') to.pop_back();
+  const Log log = read_log(path);
+  if (log.records.empty()) throw Refused(path + ": it contains no tick: " + log.damage);
+  const std::unique_ptr<Session> session = session_of(path, log, options.value("--asset"));
+  if (log.decimation != 1 && !session->objects.empty())
+    throw Refused(path + ": it lacks ticks in which objects move; record with --decimate 1");
+  const std::optional<tools::LinkageDevice> linkage = linkage_of(options, path, log, *session);
+  const Environment environment = environment_of(
+      *session->controller, {parameter_in(log, "scene_x_m"), parameter_in(log, "scene_y_m"),
+                             parameter_in(log, "scene_z_m")});
+  VtkExport what;
+  what.period_s = parameter_in(log, "tick_period_s");
+  if (!(what.period_s > 0)) throw Refused(path + ": its header has no tick period");
+  const double records_Hz = 1 / what.period_s / log.decimation;
+  what.every = static_cast<uint32_t>(
+      options.number("--every", std::max(1.0, std::round(records_Hz / kPictures_Hz)), 1));
+  what.tool_radius_m = static_cast<float>(parameter_in(log, "tool_radius_m"));
+  what.linkage = linkage ? &*linkage : nullptr;
+  NewFolder folder(to);
+  const uint32_t ticks =
+      export_vtk(log, environment, what, folder.partial(), progress_bar("exporting"));
+  folder.finish();
+  if (!log.is_complete)
+    std::fprintf(stderr, "%s: %s; the %zu ticks before them are exported\n", path.c_str(),
+                 log.damage.c_str(), log.records.size());
+  std::printf("%s/run.pvd: %u of %zu ticks\n", to.c_str(), ticks, log.records.size());
+  return log.is_complete ? 0 : 1;
+}
+
+}  // namespace
+
+const Command& export_command_line() {
+  static const Command command = {
+      "export",
+      "LOG FOLDER [options]",
+      "writes the scene and what moved in it over time as VTK files, for ParaView",
+      "ParaView opens FOLDER/run.pvd. Its files are text: scene_N.vtp has surface and guide, anew "
+      "where objects\nhave moved; tick_N.vtp has the tip, the proxy and a line between them, and "
+      "a linkage's links. At the tip are\nforce_N and velocity_mps; part is 0 for the tip, 1 for "
+      "the proxy, 2 for links; the fields are penetration_m,\ntool_radius_m, is_on and faults. "
+      "The folder is made, whole or not at all. Exit code 1: the log is damaged, and\nwhat is "
+      "before that is exported.\n",
+      {{"--every", "N", "every Nth tick of the log (default: 60 in a second)"},
+       {"--asset", "FILE", "the asset, if it is not at the path in the log"},
+       {"--device", "FILE", "the linkage's file or name, if it is not as in the log"}},
+      export_log};
+  return command;
+}
+
+}  // namespace firmtouch::host_sim
