@@ -158,7 +158,7 @@ const Command& sweep_command_line() {
       "A row a run: its values, the figures of `firmtouch-sim score`, how many of them miss their "
       "bar, and\nthe faults, a bit each. Rows stand in the order of the runs. Killed and started "
       "again, it goes on and\nwrites the same bytes. On several machines: --shard 1/8 to 8/8 into "
-      "a file each, then\n`firmtouch-sim merge`; host_sim/sweep has a make file and a SLURM script "
+      "a file each, then\n`firmtouch-sim merge`; tools/batch has a make file and a SLURM script "
       "for that.\n",
       {{"--vary", "KEY=V,V,...",
         "values of a scenario's line, with unit: \"mass=60 g,75 g\"; evenly:\n"
@@ -175,8 +175,9 @@ const Command& merge_command_line() {
   static const Command command = {
       "merge",
       "SHARD.csv... -o FILE.csv",
-      "puts the results of a sweep's shards together, as one sweep would have written them",
-      "Refuses results of different sweeps, and names a run that is missing or there twice.\n",
+      "puts the results of a sweep's or a catalogue's shards together, as one would have written "
+      "them",
+      "Refuses results of different batches, and names a run that is missing or there twice.\n",
       {{"-o", "FILE.csv", "the results of all"}},
       merge_sweep};
   return command;

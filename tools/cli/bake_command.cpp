@@ -3,6 +3,7 @@
 #include "bake/asset/part_names.hpp"
 #include "cli/asset_json.hpp"
 #include "cli/baked_asset.hpp"
+#include "cli/catalogue.hpp"
 #include "cli/commands.hpp"
 #include "cli/cpp_source.hpp"
 #include "cli/failure.hpp"
@@ -35,7 +36,7 @@ void write_source(const std::string& path, const std::vector<uint8_t>& asset,
 const Command& bake_command() {
   static const Command command{
       "bake",
-      "INPUT... -o SCENE.fta [options]",
+      "INPUT... -o SCENE.fta [options], or --catalogue LIST -o RESULTS.csv [--shard I/N]",
       "Bakes meshes, curves and splines into one asset, proven with the firmware's own decoder.",
       "INPUT by extension: .obj .off .ply .stl .gltf .glb .3mf a mesh; .csv a curve (header "
       "x,y,z); "
@@ -50,7 +51,16 @@ const Command& bake_command() {
       "A file .objects places meshes that are baked with it, one object a line; # is a comment:\n"
       "  object NAME of MESH [at X Y Z mm] [turned A deg about X Y Z] [stiffness K N/m]\n"
       "         [friction F [sliding F]] [moves X Y Z mm/s] [turns X Y Z rad/s]\n"
-      "An object stands until a command moves it (firmtouch-sim run: at T s move NAME).",
+      "An object stands until a command moves it (firmtouch-sim run: at T s move NAME).\n"
+      "A catalogue has an asset a line, as words behind `firmtouch bake`; # is a comment, \"a b\" "
+      "one word:\n"
+      "  INPUT... -o SCENE.fta [options]\n"
+      "The results have a row a line: baked or refused, bytes, CRC, why. Killed and started again "
+      "it goes on,\n"
+      "and the bytes are the same, by any number of threads and shards; put these together with\n"
+      "firmtouch-sim merge (tools/batch has a make file and a SLURM script). A model that has "
+      "changed since is baked\n"
+      "anew where the results are removed. Exit code 1 where one was refused.",
       with_model_options(
           {{"-o", "FILE", "the asset to write; -: to stdout"},
            {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
@@ -92,13 +102,21 @@ const Command& bake_command() {
            {"--teach", "NAME", "what the guide is called that a recorded run gives"},
            {"--max-deviation", "METRES",
             "no place of the run is farther from its guide (default 0.0001)"},
+           {"--catalogue", "LIST", "bakes what each line of LIST says"},
+           {"--shard", "I/N", "of a catalogue: every Nth line only, from the Ith on"},
+           {"--jobs", "N", "of a catalogue: threads (default: one a core)"},
            {"--json", nullptr, "what was made, for programs, on stdout"}}),
-      1,
+      0,
       SIZE_MAX};
   return command;
 }
 
 int run_bake(const Arguments& arguments) {
+  if (arguments.has("--catalogue")) return bake_catalogue(arguments);
+  for (const char* const option : {"--shard", "--jobs"})
+    if (arguments.has(option)) fail_usage(std::string("bake: ") + option + " is of a --catalogue");
+  if (arguments.positionals().empty())
+    fail_usage("bake: something is missing (see firmtouch bake --help)");
   const std::string output = arguments.text("-o", "");
   const std::string source = arguments.text("--cpp", "");
   if (output.empty()) fail_usage("bake: say where to write: -o SCENE.fta");

@@ -131,7 +131,7 @@ std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
   for (const std::string& path : inputs) {
     total += 1 + (is_mesh_file(path) && options.hull_faces != 0 ? kShareOfHull : 0);
   }
-  Progress progress(total);
+  Progress progress(total, !options.is_quiet);
   std::vector<BakedInput> baked;
   for (const std::string& path : inputs) {
     baked.push_back(is_curve_file(path)     ? bake_curve_input(path, options, progress)

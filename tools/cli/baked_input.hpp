@@ -32,6 +32,7 @@ struct BakeOptions {
   std::string teach;             // what a recorded run's guide is called
   double max_deviation_m = 0;    // of the guide from the run
   std::string text;              // as they stand in the provenance
+  bool is_quiet = false;         // no progress bar: others bake at the same time
 };
 
 /// One input as sections of an asset, proven, with its probes and provenance, and what to report

@@ -24,8 +24,9 @@ double bar_position(double done, double before_s, double share, double in_stage_
   return done + std::min(into, kMaxOfStage * share);
 }
 
-Progress::Progress(double total) : total_(total), begin_(std::chrono::steady_clock::now()) {
-  if (isatty(STDERR_FILENO) == 1) thread_ = std::thread([this] { run(); });
+Progress::Progress(double total, bool is_shown)
+    : total_(total), begin_(std::chrono::steady_clock::now()) {
+  if (is_shown && isatty(STDERR_FILENO) == 1) thread_ = std::thread([this] { run(); });
 }
 
 Progress::~Progress() {

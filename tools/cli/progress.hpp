@@ -17,8 +17,9 @@ double bar_position(double done, double before_s, double share, double in_stage_
 /// may be printed while it is there.
 class Progress {
  public:
-  /// `total` of all stages' shares; 0: not known, only time and stage are shown.
-  explicit Progress(double total);
+  /// `total` of all stages' shares; 0: not known, only time and stage are shown. Nothing is shown
+  /// unless `is_shown`.
+  explicit Progress(double total, bool is_shown = true);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
