@@ -47,17 +47,20 @@ bool BruteForce::is_farther(const Box& box, Vec p, double distance2_m2) {
          distance2_m2;
 }
 
-double BruteForce::distance_m(Vec p_m) const {
+double BruteForce::distance_m(Vec p_m, size_t& nearest) const {
   double best = kFar_m;
-  for (size_t i = 0; i < triangles_.size(); ++i) {
-    if (i % kBlock == 0 && is_farther(blocks_[i / kBlock], p_m, best)) {
-      i += kBlock - 1;
-      continue;
-    }
+  const auto measure = [&](size_t i) {
     const Triangle& t = triangles_[i];
-    if (is_farther(t.box, p_m, best)) continue;
-    best = std::min(best,
-                    tools::distance2_to_triangle(p_m, t.corner_m[0], t.corner_m[1], t.corner_m[2]));
+    const double distance2_m2 =
+        tools::distance2_to_triangle(p_m, t.corner_m[0], t.corner_m[1], t.corner_m[2]);
+    if (distance2_m2 < best) best = distance2_m2, nearest = i;
+  };
+  if (nearest < triangles_.size()) measure(nearest);
+  for (size_t block = 0; block < blocks_.size(); ++block) {
+    if (is_farther(blocks_[block], p_m, best)) continue;
+    const size_t end = std::min((block + 1) * kBlock, triangles_.size());
+    for (size_t i = block * kBlock; i < end; ++i)
+      if (!is_farther(triangles_[i].box, p_m, best)) measure(i);
   }
   return std::sqrt(best);
 }

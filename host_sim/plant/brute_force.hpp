@@ -13,8 +13,9 @@ class BruteForce {
   BruteForce() = default;
   explicit BruteForce(const mesh::View& mesh);
   /// Unsigned, of `p_m` (mesh frame). Triangles whose box, or whose block's box, is farther than
-  /// the best one are passed over.
-  double distance_m(Vec p_m) const;
+  /// the best one are passed over. `nearest`: the triangle to begin with, which makes it fast and
+  /// changes no bit; becomes a nearest one.
+  double distance_m(Vec p_m, size_t& nearest) const;
 
  private:
   struct Box {

@@ -151,6 +151,7 @@ void Summariser::add_oracles() {
     heads.push_back(head);
     brute_force_.emplace_back(placed.mesh);
   }
+  nearest_.resize(meshes.size());
   size_m_ = meshes.size() == 1 ? static_cast<double>(meshes[0].mesh.head().diagonal_m)
             : meshes.empty()
                 ? static_cast<double>(
@@ -158,13 +159,13 @@ void Summariser::add_oracles() {
                 : norm(high - low);
 }
 
-double Summariser::true_distance_m(Vec at_m) const {
+double Summariser::true_distance_m(Vec at_m) {
   if (!environment_.has_mesh())
     return spline_distance_m(environment_.surface(), at_m - environment_.origin_m());
   double least_m = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < oracle_of_.size(); ++i)
-    least_m =
-        std::min(least_m, brute_force_[oracle_of_[i]].distance_m(moving_.meshes()[i].to_own(at_m)));
+    least_m = std::min(least_m, brute_force_[oracle_of_[i]].distance_m(
+                                    moving_.meshes()[i].to_own(at_m), nearest_[i]));
   return least_m;
 }
 

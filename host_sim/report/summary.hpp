@@ -80,11 +80,12 @@ class Summariser {
   void add_oracles();
   void check_certificate(const record::TickOutput& out);
 
-  double true_distance_m(Vec at_m) const;
+  double true_distance_m(Vec at_m);
 
   const Environment& environment_;
   std::vector<BruteForce> brute_force_;  // of its different meshes
   std::vector<size_t> oracle_of_;        // of each object: one of these
+  std::vector<size_t> nearest_;          // of each object: the triangle of the query before
   MovingMeshes moving_;
   double size_m_ = 0;  // that tolerances refer to
   const RunFacts& facts_;

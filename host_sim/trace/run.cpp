@@ -49,20 +49,20 @@ class Arm {
   Arm(Vec start_m, double time_s)
       : first_m_(start_m),
         second_m_(start_m),
-        time_s_(time_s),
+        per_s_(1 / time_s),
         share_(-std::expm1(-time_s / kArmLag_s)) {}
   void advance(Vec script_m) {
     first_m_ = first_m_ + (script_m - first_m_) * share_;
     const Vec before = second_m_;
     second_m_ = second_m_ + (first_m_ - second_m_) * share_;
-    velocity_mps_ = (second_m_ - before) * (1 / time_s_);
+    velocity_mps_ = (second_m_ - before) * per_s_;
   }
   Vec position_m() const { return second_m_; }
   Vec velocity_mps() const { return velocity_mps_; }
 
  private:
   Vec first_m_, second_m_, velocity_mps_;
-  double time_s_, share_;
+  double per_s_, share_;
 };
 
 // Flags and command of each tick, from the scenario's settings and events.

@@ -18,6 +18,7 @@ TEST(BruteForce_PassesOverNoTriangleThatIsNearest) {
     return tools::to_point(
         {mesh.vertices()[i].x_m, mesh.vertices()[i].y_m, mesh.vertices()[i].z_m});
   };
+  size_t nearest = 0, none = 0;
   for (uint32_t near = 0; near < mesh.head().triangle_count; ++near) {  // each once the nearest
     const mesh::Triangle<uint32_t> at = mesh.triangle(near);
     const host_sim::Vec middle_m =
@@ -30,7 +31,10 @@ TEST(BruteForce_PassesOverNoTriangleThatIsNearest) {
           least_m2, tools::distance2_to_triangle(at_m, corner(t.corner[0]), corner(t.corner[1]),
                                                  corner(t.corner[2])));
     }
-    CHECK_EQ(oracle.distance_m(at_m), std::sqrt(least_m2));
+    CHECK_EQ(oracle.distance_m(at_m, nearest), std::sqrt(least_m2));  // from the one before
+    size_t far = (near + 1234567u) % mesh.head().triangle_count, beyond = SIZE_MAX;
+    CHECK_EQ(oracle.distance_m(at_m, far), std::sqrt(least_m2));
+    CHECK_EQ(oracle.distance_m(at_m, beyond), std::sqrt(least_m2));
   }
-  CHECK(std::isinf(host_sim::BruteForce().distance_m({})));
+  CHECK(std::isinf(host_sim::BruteForce().distance_m({}, none)));
 }

@@ -5,12 +5,22 @@
 namespace firmtouch::tools {
 namespace {
 
-// Moments of mass at two points of a linkage: both halves of the symmetric sum.
-void add_mass(double mass_kg, const MovingPoint& p, const MovingPoint& q,
-              double (&to)[kJoints][kJoints]) {
-  for (uint32_t i = p.first; i < p.end; ++i)
-    for (uint32_t j = q.first; j < q.end; ++j)
+// Moments of mass at two points of a linkage, both halves of the symmetric sum: on the diagonal and
+// below it. Over all columns, because those that are 0 change no bit and loops of a known length
+// unroll.
+void add_masses(double mass_kg, const MovingPoint& p, const MovingPoint& q,
+                double (&to)[kJoints][kJoints]) {
+  for (uint32_t i = 0; i < kJoints; ++i)
+    for (uint32_t j = 0; j <= i; ++j) {
       to[i][j] += mass_kg * dot(p.column_m[i], q.column_m[j]);
+      to[i][j] += mass_kg * dot(q.column_m[i], p.column_m[j]);
+    }
+}
+
+// The same of a mass at one point.
+void add_mass(double mass_kg, const MovingPoint& p, double (&to)[kJoints][kJoints]) {
+  for (uint32_t i = 0; i < kJoints; ++i)
+    for (uint32_t j = 0; j <= i; ++j) to[i][j] += mass_kg * dot(p.column_m[i], p.column_m[j]);
 }
 
 // The inverse of the largest eigenvalue of J inverse J^T.
@@ -51,21 +61,20 @@ void put_inertia(const LinkageDevice& device, const std::vector<RodMoments>& mom
   for (size_t k = 0; k < half; ++k) {
     const RodMoments &driven = moments[k], &outer = moments[half + k];
     const MovingPoint &base = points.base[k], &elbow = points.elbow[k];
-    add_mass(driven.a, base, base, mass);
-    add_mass(driven.b, base, elbow, mass);
-    add_mass(driven.b, elbow, base, mass);
-    add_mass(driven.c + outer.a, elbow, elbow, mass);
-    add_mass(outer.b, elbow, points.tip, mass);
-    add_mass(outer.b, points.tip, elbow, mass);
+    add_mass(driven.a, base, mass);
+    add_masses(driven.b, base, elbow, mass);
+    add_mass(driven.c + outer.a, elbow, mass);
+    add_masses(outer.b, elbow, points.tip, mass);
     at_tip_kg += outer.c;
   }
-  add_mass(at_tip_kg, points.tip, points.tip, mass);
+  add_mass(at_tip_kg, points.tip, mass);
   for (uint32_t k = 0; k < kJoints; ++k) {
     const JointFriction& joint = device.masses.joint[k];
     if (k >= device.joints.joints)
       mass[k][k] = 1;
     else if (!(joint.cable_N_m_per_rad > 0))  // behind a cable the rotor moves by itself
       mass[k][k] += joint.rotor_kg_m2;
+    for (uint32_t j = k + 1; j < kJoints; ++j) mass[k][j] = mass[j][k];
   }
 }
 
