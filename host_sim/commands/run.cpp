@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -143,12 +144,24 @@ bool print_energy(std::FILE* to, const EnergyBook& book) {
   return std::fabs(error) <= kMaxBalanceError;
 }
 
-void print_speed(std::FILE* to, const RunFacts& facts, std::clock_t began) {
-  const double seconds = facts.ticks / facts.rate_Hz;
-  const double used_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
-  std::fprintf(to, "  speed          %.3g times real time (%.3g s of processor time)\n",
-               seconds / std::max(used_s, 1e-6), used_s);
-}
+// Processor time of this process; of a controller outside of it the time that passes.
+class Speed {
+ public:
+  void print(std::FILE* to, const RunFacts& facts) const {
+    const double used_s = static_cast<double>(std::clock() - used_) / CLOCKS_PER_SEC;
+    std::fprintf(to, "  speed          %.3g times real time (%.3g s of processor time)",
+                 facts.ticks / facts.rate_Hz / std::max(used_s, 1e-6), used_s);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
+    if (facts.compared)
+      std::fprintf(to, "; %.0f ticks a second with the controller (%.3g s)",
+                   facts.ticks / std::max(passed.count(), 1e-6), passed.count());
+    std::fprintf(to, "\n");
+  }
+
+ private:
+  std::clock_t used_ = std::clock();
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
 
 // Where the summary goes: stdout, or stderr if an output or the JSON goes to stdout. Throws Usage
 // if both do, or two outputs.
@@ -184,7 +197,7 @@ int run_scenario(const Options& options) {
   read_linkage(scenario, session, file);
   if (options.has("--energy") && !scenario.linkage)
     options.refuse("--energy is of a linkage: name one in the scenario, `device FILE`");
-  const std::clock_t began = std::clock();
+  const Speed speed;
   Simulation simulation(scenario, session.tick(), environment, port.get());
   const RunFacts& facts = simulation.facts();
   RunOutputs written(options, scenario, session, environment, facts);
@@ -200,7 +213,7 @@ int run_scenario(const Options& options) {
     write_pages(options, {scenario, environment, facts, summary, written.charts(), written.paths(),
                           session.asset.path(), static_cast<uint32_t>(session.asset.bytes().size()),
                           session.scene_text(), command_of(options.words())});
-  print_speed(to, facts, began);
+  speed.print(to, facts);
   if (options.has("--json")) std::cout << json_of(summary, facts);
   std::fprintf(to, "  scene          %s\n%s", session.scene_text().c_str(),
                text_of(summary, facts).c_str());
