@@ -13,10 +13,10 @@ std::string text_of(double value) {
 
 template <class Range, class Text>
 std::string array(const char* type, const std::string& name, uint32_t components,
-                  const Range& range, const Text& text) {
+                  const Range& range, const Text& text, const std::string& attributes = "") {
   std::string all = std::string("<DataArray type=\"") + type + "\" Name=\"" + name +
-                    "\" NumberOfComponents=\"" + std::to_string(components) +
-                    "\" format=\"ascii\">\n";
+                    "\" NumberOfComponents=\"" + std::to_string(components) + "\"" + attributes +
+                    " format=\"ascii\">\n";
   for (const auto& item : range) all += text(item) + "\n";
   return all + "</DataArray>\n";
 }
@@ -42,10 +42,12 @@ std::string cells(const char* kind, const Cells& cells) {
          array("Int32", "offsets", 1, ends, number) + "</" + kind + ">\n";
 }
 
+// Readers take as many values of the whole as it says; none if it does not say.
 std::string all_values(const char* place, const std::vector<PolyData::Values>& all) {
   std::string text = std::string("<") + place + ">\n";
   for (const PolyData::Values& one : all)
-    text += array("Float32", one.name, one.components, one.values, text_of);
+    text += array("Float32", one.name, one.components, one.values, text_of,
+                  " NumberOfTuples=\"" + std::to_string(one.values.size() / one.components) + "\"");
   return text + "</" + place + ">\n";
 }
 
