@@ -1,13 +1,12 @@
 #include "bench/brute_truth.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <set>
-#include <thread>
 
+#include "batch/parallel.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "surface/random.hpp"
 #include "surface/triangle_distance.hpp"
@@ -31,22 +30,16 @@ std::vector<BruteTruth> truths(const Model& model, const std::vector<math::Vec3>
                                const std::function<void(const std::string&)>& on_progress) {
   const BruteForce force(model.surface, model.view.is_signed());
   std::vector<BruteTruth> result(points.size());
-  std::atomic<size_t> next{0};
-  const auto work = [&](bool is_reporting) {
-    size_t reported = 0;
-    for (size_t i = next++; i < points.size(); i = next++) {
-      result[i] = force.at(tools::to_point(points[i]));
-      if (is_reporting && on_progress && i * 20 / points.size() > reported) {
-        reported = i * 20 / points.size();
-        on_progress("brute force on " + model.name + ", " + std::to_string(5 * reported) + " %");
-      }
-    }
-  };
-  std::vector<std::thread> others;
-  for (unsigned k = 1; k < std::max(1u, std::thread::hardware_concurrency()); ++k)
-    others.emplace_back(work, false);
-  work(true);
-  for (std::thread& other : others) other.join();
+  double reported = 0;
+  tools::in_parallel(
+      points.size(), tools::processors(),
+      [&](uint64_t i) { result[i] = force.at(tools::to_point(points[i])); },
+      [&](double done) {
+        if (!on_progress || done < reported + 0.05) return;
+        reported = done;
+        on_progress("brute force on " + model.name + ", " +
+                    std::to_string(static_cast<int>(100 * done)) + " %");
+      });
   return result;
 }
 

@@ -1,6 +1,6 @@
 #include <cstdio>
-#include <thread>
 
+#include "batch/parallel.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
@@ -111,8 +111,7 @@ int run_voxelize(const Arguments& arguments) {
   for (const std::string& input : inputs) forbid_overwriting(output, input);
   tools::FieldOptions options;
   options.interior_only = arguments.has("--interior");
-  const uint32_t processors = std::max(1u, std::thread::hardware_concurrency());
-  options.threads = arguments.count("--threads", std::min(processors, 256u), 1, 256);
+  options.threads = arguments.count("--threads", std::min(tools::processors(), 256u), 1, 256);
   ModelOptions read;
   read.close_holes = arguments.has("--close-holes");
 
