@@ -204,7 +204,7 @@ struct SmallSpline {
         const auto needed = [&](const spline::Patch& part) {
           const spline::RegionOfQuad own = spline::own_of(pieces[p], part, leaf);
           return byte(grid.radius_unit_m,
-                      spline::radius_for(s, spline::LeafCorners(s), around(part), own));
+                      spline::radius_for(spline::LeafPoints(s), around(part), own));
         };
         radii[3 * p + 1 + u] = needed(leaf);
         const uint8_t above = needed(whole);
@@ -223,8 +223,7 @@ struct SmallSpline {
       const spline::RegionOfQuad half = spline::half_of(pieces[p], whole, leaf, overlap);
       const spline::RegionOfQuad own = spline::own_of(pieces[p], whole, leaf);
       const spline::LeafShape s = shape(2 * p + u);
-      const float needed_m =
-          spline::radius_for(s, spline::LeafCorners(s), around(whole), own, half);
+      const float needed_m = spline::radius_for(spline::LeafPoints(s), around(whole), own, half);
       if (!(needed_m <= stored_m)) return false;
     }
     return true;

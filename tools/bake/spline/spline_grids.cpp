@@ -16,7 +16,7 @@ namespace {
 struct Cut {
   StoredPiece stored;
   std::vector<spline::LeafShape> shapes;  // of its leaves, row by row
-  std::vector<spline::LeafCorners> corners;
+  std::vector<spline::LeafPoints> points;
   std::array<float, 3> middle_m;
   uint32_t order;  // in the file
 };
@@ -34,7 +34,7 @@ std::vector<Cut> cuts_of(const std::vector<StoredPiece>& pieces) {
     for (uint32_t v = 0; v < 1u << piece.level_v; ++v)
       for (uint32_t u = 0; u < 1u << piece.level_u; ++u) {
         cut.shapes.push_back(shape_of(stored, piece.level_u, u, piece.level_v, v));
-        cut.corners.emplace_back(cut.shapes.back());
+        cut.points.emplace_back(cut.shapes.back());
       }
     cuts.push_back(std::move(cut));
   }
@@ -233,8 +233,8 @@ void store_radii(const Cut& cut, uint32_t number, spline::Grid& grid,
     const spline::Patch leaf{number, depth, i % columns, i / columns};
     for (spline::Patch part = leaf;; part = spline::parent_of(piece, part)) {
       const spline::Quad quad = spline::stored_quad(piece, grid, corners.data(), part);
-      const float radius_m = spline::radius_for(cut.shapes[i], cut.corners[i], quad,
-                                                spline::own_of(piece, part, leaf));
+      const float radius_m =
+          spline::radius_for(cut.points[i], quad, spline::own_of(piece, part, leaf));
       float& max_m =
           needed_m[radius_of(grid, part, spline::halvings_of(piece, part.depth)) - first];
       max_m = std::max(max_m, radius_m);
@@ -259,7 +259,7 @@ void store_overlaps(const Cut& cut, uint32_t number, const spline::Grid& grid,
                         uint32_t overlap) {
     const uint32_t at = radius_of(grid, above, spline::halvings_of(piece, above.depth));
     const float needed_m = spline::radius_for(
-        cut.shapes[i], cut.corners[i], spline::stored_quad(piece, grid, corners.data(), above),
+        cut.points[i], spline::stored_quad(piece, grid, corners.data(), above),
         spline::own_of(piece, above, leaf), spline::half_of(piece, above, leaf, overlap));
     return needed_m <= spline::in_units(grid.radius_unit_m, bounds.radii[at]);
   };

@@ -77,7 +77,7 @@ Verdict check_cell(const View& model, uint32_t piece_index, uint32_t cell, uint3
 }
 
 Verdict check_patch(const View& model, uint32_t i, const View::LeafIndex& at_leaf,
-                    const LeafShape& shape, bool is_lower) {
+                    const LeafShape& shape) {
   const Piece& piece = model.pieces()[at_leaf.piece];
   const Grid& grid = model.grids()[at_leaf.piece];
   Patch patch{at_leaf.piece, 0u + piece.level_u + piece.level_v, at_leaf.index_u, at_leaf.index_v};
@@ -87,19 +87,17 @@ Verdict check_patch(const View& model, uint32_t i, const View::LeafIndex& at_lea
                     model.radii()[radius_of(grid, patch, halvings_of(piece, patch.depth))]);
   };
   const Patch leaf = patch;
-  const LeafCorners corners(shape);
-  if (is_lower && !(radius_for(shape, corners, quad(), {}) <= stored_m()))
-    return reject(kRuleEnclosure, i);
+  const LeafPoints points(shape);
+  if (!(radius_for(points, quad(), {}) <= stored_m())) return reject(kRuleEnclosure, i);
   while (patch.depth != 0) {
     patch = parent_of(piece, patch);
-    if (is_lower != (patch.depth > leaf.depth / 2)) continue;
     const uint32_t overlap =
         model.overlaps()[overlap_of(grid, patch, halvings_of(piece, patch.depth))];
     const RegionOfQuad half = half_of(piece, patch, leaf, overlap);
-    if (!(radius_for(shape, corners, quad(), own_of(piece, patch, leaf), half) <= stored_m()))
+    if (!(radius_for(points, quad(), own_of(piece, patch, leaf), half) <= stored_m()))
       return reject(kRuleEnclosure, i);
   }
-  for (uint32_t at = is_lower ? 0 : model.pieces().size() - 1 + at_leaf.piece; at != 0;) {
+  for (uint32_t at = model.pieces().size() - 1 + at_leaf.piece; at != 0;) {
     at = parent_of(at);
     if (!leaf_fits(shape, model.boxes()[at])) return reject(kRuleEnclosure, i);
   }

@@ -12,10 +12,9 @@ core::Verdict check_capsules(const View& model, uint32_t i, const LeafShape& sha
 /// Of a curve's piece one of kFineParts after the other, and with the last of them its bend (R619,
 /// R620).
 core::Verdict check_bend(const View& model, uint32_t piece, uint32_t fine_step, CurveBends& needed);
-/// Of a surface's leaf the quads with radii that hold it, the lower half of them, or the upper one
-/// and the boxes (R623): together they take too long for one element.
+/// Of a surface's leaf the quads with radii, and the boxes, that hold it (R623).
 core::Verdict check_patch(const View& model, uint32_t i, const View::LeafIndex& at_leaf,
-                          const LeafShape& shape, bool is_lower);
+                          const LeafShape& shape);
 
 /// Of a surface's cell one of kFineCells after the other, and with the last of them its bends
 /// (R619, R620). `needed` is carried from each to the next.

@@ -153,12 +153,10 @@ void derive(const Piece& piece, const float* coefficients, const Region& region,
   shape.weight_noise = noise_w;
 }
 
-Extent extent_along(const LeafShape& shape, Vec3 centre_m, Vec3 axis) {
+Extent extent_along(const LeafShape& shape, Vec3 centre_m, Vec3 axis, By by) {
   float low = 0, high = 0;
-  for (uint32_t j = 0; j <= shape.degree_v; ++j)
-    for (uint32_t i = 0; i <= shape.degree_u; ++i) {
-      if (i + j == 0) continue;
-      const uint32_t at = j * (shape.degree_u + 1) + i;
+  for (uint32_t at = 1, j = by == By::kBall ? shape.degree_v + 1 : 0; j <= shape.degree_v; ++j)
+    for (uint32_t i = j == 0 ? 1 : 0; i <= shape.degree_u; ++i, ++at) {
       const float along = dot(shape.c[at], axis);
       const float size = along < 0.0f ? -along : along;
       const bool is_even = (i & 1u) == 0 && (j & 1u) == 0;  // then x^i y^j is never below 0
@@ -171,6 +169,7 @@ Extent extent_along(const LeafShape& shape, Vec3 centre_m, Vec3 axis) {
   const float noise_m = shape.noise_m + 8.0f * kUnit * math::length(off_m);
   low = low / shape.min_weight * kUp;
   high = high / shape.min_weight * kUp;
+  if (by == By::kBall) low = -shape.reach_m, high = shape.reach_m;
   return {off + low - noise_m, off + high + noise_m};
 }
 
@@ -184,14 +183,14 @@ float radius_above(float leaf_radius_m, Vec3 leaf_a_m, Vec3 leaf_b_m, Vec3 a_m, 
   return with_slack((first_m > last_m ? first_m : last_m) + leaf_radius_m, math::length(b_m - a_m));
 }
 
-void enlarge(const LeafShape& shape, Box& box) {
+void enlarge(const LeafShape& shape, Box& box, By by) {
   const Vec3 a{box.axis[0][0], box.axis[0][1], box.axis[0][2]};
   const Vec3 b{box.axis[1][0], box.axis[1][1], box.axis[1][2]};
   const Vec3 axes[3] = {a, b, cross(a, b)};
   float needed[3], size_m = 0;
   for (uint32_t k = 0; k < 3; ++k) {
     const Extent e =
-        extent_along(shape, {box.centre_m[0], box.centre_m[1], box.centre_m[2]}, axes[k]);
+        extent_along(shape, {box.centre_m[0], box.centre_m[1], box.centre_m[2]}, axes[k], by);
     needed[k] = -e.low > e.high ? -e.low : e.high;
     size_m += needed[k];
   }
@@ -202,11 +201,14 @@ void enlarge(const LeafShape& shape, Box& box) {
 }
 
 bool leaf_fits(const LeafShape& shape, const Box& box) {
-  Box enlarged = box;
-  enlarge(shape, enlarged);
-  for (uint32_t k = 0; k < 3; ++k)
-    if (enlarged.half_m[k] > box.half_m[k]) return false;
-  return true;
+  const auto fits = [&](By by) {
+    Box enlarged = box;
+    enlarge(shape, enlarged, by);
+    for (uint32_t k = 0; k < 3; ++k)
+      if (!(enlarged.half_m[k] <= box.half_m[k])) return false;
+    return true;
+  };
+  return fits(By::kBall) || fits(By::kCoefficients);
 }
 
 uint32_t byte_above(float unit, float value) {

@@ -41,11 +41,14 @@ struct LeafShape {
 /// Pre: the piece's coefficients lie at `coefficients`, its degrees and part are in range.
 void derive(const Piece& piece, const float* coefficients, const Region& region, LeafShape& shape);
 
-/// The least and the most of (point - centre_m) . axis over the leaf, rounded outward.
+/// The least and the most of (point - centre_m) . axis over the leaf, rounded outward: by its
+/// coefficients, or in a third of the time by the ball about its middle.
 struct Extent {
   float low, high;
 };
-Extent extent_along(const LeafShape& shape, math::Vec3 centre_m, math::Vec3 axis);
+enum class By : uint8_t { kBall, kCoefficients };
+Extent extent_along(const LeafShape& shape, math::Vec3 centre_m, math::Vec3 axis,
+                    By by = By::kCoefficients);
 
 /// What a stored radius or half side must at least be, so that it also holds what float32 loses
 /// when a query measures against it.
@@ -54,7 +57,7 @@ float radius_for(const LeafShape& shape, math::Vec3 a_m, math::Vec3 b_m);
 float radius_above(float leaf_radius_m, math::Vec3 leaf_a_m, math::Vec3 leaf_b_m, math::Vec3 a_m,
                    math::Vec3 b_m);
 /// Of a box with this centre and these axes, to hold the leaf: enlarges half_m.
-void enlarge(const LeafShape& shape, Box& box);
+void enlarge(const LeafShape& shape, Box& box, By by = By::kCoefficients);
 
 /// Whether a box holds a leaf.
 bool leaf_fits(const LeafShape& shape, const Box& box);

@@ -54,7 +54,7 @@ const query::CheckStage Proof::kStages[5] = {
     {2, Stage::count<&Proof::node_count>, Stage::each<&Proof::check_node>},
     {500, Stage::count<&Proof::cell_count>, Stage::each<&Proof::check_cell>,
      Stage::finish<&Proof::finish_cells>},
-    {500, Stage::count<&Proof::half_leaf_count>, Stage::each<&Proof::check_half_leaf>}};
+    {600, Stage::count<&Proof::leaf_count>, Stage::each<&Proof::check_leaf>}};
 
 Verdict Proof::take(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
@@ -256,11 +256,8 @@ Verdict Proof::finish_cells() {
   return kPassed;
 }
 
-// A curve's leaf needs little: it is checked with the lower half.
-Verdict Proof::check_half_leaf(uint32_t half) {
-  const uint32_t i = half / 2;
-  const bool is_surface = view.is_surface(), is_lower = half % 2 == 0;
-  if (!is_surface && !is_lower) return kPassed;
+Verdict Proof::check_leaf(uint32_t i) {
+  const bool is_surface = view.is_surface();
   View::LeafIndex at_leaf{};
   if (is_surface) {
     at_leaf.piece = piece_;
@@ -279,16 +276,18 @@ Verdict Proof::check_half_leaf(uint32_t half) {
   if (!(shape.loss_m <= head.loss_m)) return reject(kRuleLeafLoss, i);
   for (uint32_t k = 0; k < 3; ++k) {
     const Vec3 axis{k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f};
-    const Extent extent = extent_along(shape, {}, axis);
-    if (!(extent.low >= head.low_m[k] && extent.high <= head.high_m[k]))
-      return reject(kRuleLeafOutside, i);
+    const auto is_within = [&](By by) {
+      const Extent extent = extent_along(shape, {}, axis, by);
+      return extent.low >= head.low_m[k] && extent.high <= head.high_m[k];
+    };
+    if (!is_within(By::kBall) && !is_within(By::kCoefficients)) return reject(kRuleLeafOutside, i);
   }
   if (!is_surface) return check_capsules(view, i, shape);
-  if (!is_lower && ++in_piece_ == 1u << (piece.level_u + piece.level_v)) {
+  if (++in_piece_ == 1u << (piece.level_u + piece.level_v)) {
     in_piece_ = 0;
     ++piece_;
   }
-  return check_patch(view, i, at_leaf, shape, is_lower);
+  return check_patch(view, i, at_leaf, shape);
 }
 
 }  // namespace firmtouch::spline

@@ -7,7 +7,7 @@
 namespace firmtouch::spline {
 
 /// What Opening proves of a spline model: rules R601 to R625 of tools/FORMAT.md. An element is a
-/// piece, point, node, part of a cell or half of what a leaf needs; 3 KB of stack.
+/// piece, point, node, part of a cell or leaf; 3 KB of stack.
 class Proof {
  public:
   static const query::CheckStage kStages[5];
@@ -22,7 +22,7 @@ class Proof {
   uint32_t point_count() const { return view.points_.size(); }
   uint32_t node_count() const;
   uint32_t cell_count() const;
-  uint32_t half_leaf_count() const { return 2 * view.leaf_count(); }
+  uint32_t leaf_count() const { return view.leaf_count(); }
   core::Verdict check_piece(uint32_t i);
   core::Verdict finish_pieces();
   core::Verdict check_grid(uint32_t i);
@@ -31,7 +31,7 @@ class Proof {
   core::Verdict check_curve(uint32_t i);
   core::Verdict check_cell(uint32_t i);
   core::Verdict finish_cells();
-  core::Verdict check_half_leaf(uint32_t half);
+  core::Verdict check_leaf(uint32_t i);
 
   uint32_t coefficients_used_ = 0, corners_used_ = 0, leaves_used_ = 0, cells_used_ = 0;
   uint32_t piece_ = 0, in_piece_ = 0;  // of the cell or leaf that is next

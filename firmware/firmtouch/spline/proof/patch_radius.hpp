@@ -17,16 +17,19 @@ struct RegionOfQuad {
 RegionOfQuad own_of(const Piece& piece, const Patch& above, const Patch& leaf);
 RegionOfQuad half_of(const Piece& piece, const Patch& above, const Patch& leaf, uint32_t overlap);
 
-/// Where a leaf's corners are, from the piece's origin: with x and y -1 or 1, x first.
-struct LeafCorners {
-  explicit LeafCorners(const LeafShape& shape);
-  math::Vec3 at_m[4];
+/// A leaf by points on a grid over it, from the piece's origin: by y, then by x.
+struct LeafPoints {
+  static constexpr uint32_t kSide = 7;
+  explicit LeafPoints(const LeafShape& shape);
+  math::Vec3 at_m[kSide][kSide];
+  float bent_m;            // its second derivatives by x and by y, at most, added
+  float reach_m, noise_m;  // as LeafShape
 };
 
 /// What the radius of a part must at least be, what float32 loses when a query measures against it
 /// included, so that each point of that leaf is within it of some point of its quad, or of what is
 /// `within` of it. own: where on the quad the leaf is thought to be; any would do.
-float radius_for(const LeafShape& shape, const LeafCorners& corners, const Quad& around,
-                 const RegionOfQuad& own, const RegionOfQuad& within = {});
+float radius_for(const LeafPoints& leaf, const Quad& around, const RegionOfQuad& own,
+                 const RegionOfQuad& within = {});
 
 }  // namespace firmtouch::spline
