@@ -75,8 +75,9 @@ const Command& home_command_line() {
       "FILE|MACHINE [options]",
       "homes a simulated linkage with the firmware, again and again, also where something is wrong",
       "Each run has its own start, stops of 50 to 5,000 N/m, index phase and raw counts, half of "
-      "them about the wrap.\nThe torque is 0.3 of the joint's largest; the column shows what was "
-      "applied, over that.\nwrong: more than a count off, no end in 2 s, or above the homing "
+      "them about the wrap.\nThe torque is 1.6 times what holds the joint's weight, and at least a "
+      "fifth of its\nlargest; the column shows what was applied, over that.\nwrong: more than a "
+      "count off, no end in 2 s, or above the homing "
       "torque. Exit code 1 if there is one.\n",
       {{"--runs", "N", "of all cases together (default 10000)"},
        {"--json", nullptr, "the table as JSON"}},

@@ -13,7 +13,8 @@ using device::HomingFault;
 
 constexpr double kTick_s = 1e-3;
 constexpr uint32_t kSubsteps = 4;
-constexpr double kTorqueShare = 0.3;  // of the largest torque
+constexpr double kTorqueShare = 0.2;  // of the largest torque, at least
+constexpr double kWeights = 1.6;      // torque over that which holds the joint's weight, at least
 constexpr double kIndexShare = 0.4;   // of the range is an index period
 constexpr double kFinger_N_per_m = 2000;
 constexpr double kStopDamping = 0.3, kStoppedMass_kg = 0.1;  // of critical, at the link's end
@@ -33,10 +34,13 @@ class Rig {
     other_ = (joint_ + 1 + any_of(joints() - 1)) % joints();
     is_invalid_ = any_of(4) == 0;
     finger_s_ = any_of(2) == 0 ? 10 : 0.7 * share();
+    double heaviest_Nm[kJoints] = {};
+    add_weight(0, {}, heaviest_Nm);
     for (uint32_t k = 0; k < joints(); ++k) {
       const device::JointSetting& joint = device_.joints.joint[k];
       const double range = wide(joint.high_rad) - wide(joint.low_rad);
-      settings_.torque_Nm[k] = static_cast<float>(kTorqueShare) * device_.limits.max_torque_Nm[k];
+      settings_.torque_Nm[k] = static_cast<float>(std::max(
+          kTorqueShare * wide(device_.limits.max_torque_Nm[k]), kWeights * heaviest_Nm[k]));
       settings_.index_period_rad[k] = static_cast<float>(kIndexShare * range);
       settings_.index_rad[k] = static_cast<float>(wide(joint.low_rad) + range * share());
       settings_.margin_rad = 0.5f * settings_.index_period_rad[0];
@@ -75,6 +79,23 @@ class Rig {
   uint32_t joints() const { return device_.joints.joints; }
   uint32_t any_of(uint32_t count) { return static_cast<uint32_t>(engine_() % count); }
   double share() { return static_cast<double>(engine_()) / 4294967296.0; }
+
+  // The largest torques that hold the weight, at the ends and the middles of the ranges.
+  void add_weight(uint32_t from, JointMotion at, double (&heaviest_Nm)[kJoints]) const {
+    if (from < joints()) {
+      const device::JointSetting& joint = device_.joints.joint[from];
+      for (const double share : {0.0, 0.5, 1.0}) {
+        at.angle_rad[from] =
+            wide(joint.low_rad) + (wide(joint.high_rad) - wide(joint.low_rad)) * share;
+        add_weight(from + 1, at, heaviest_Nm);
+      }
+      return;
+    }
+    double holding_Nm[kJoints];
+    LinkageBody(device_, at).holding_torques_Nm(holding_Nm);
+    for (uint32_t k = 0; k < joints(); ++k)
+      heaviest_Nm[k] = std::max(heaviest_Nm[k], std::fabs(holding_Nm[k]));
+  }
 
   tools::LinkageDevice loosened() {
     tools::LinkageDevice loose = device_;

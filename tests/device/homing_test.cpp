@@ -34,6 +34,7 @@ struct Mass {
   uint32_t base = 0;  // raw counts at an angle of zero_rad
   float way = 1;      // -1: reversed
   float low_rad = -0.5f, blocked_rad = 9, low_N_m_per_rad = 40, low_N_m_s = 0.1f;
+  float high_N_m_per_rad = 40, high_N_m_s = 0.1f;
   bool has_pulse = true;
   uint32_t pulses = 0, ticks = 0;
   int32_t latched = 0;
@@ -50,7 +51,7 @@ struct Mass {
       float stop = 0;
       const float high = blocked_rad < 0.7f ? blocked_rad : 0.7f;
       if (angle_rad < low_rad) stop = low_N_m_per_rad * (low_rad - angle_rad) - low_N_m_s * rate;
-      if (angle_rad > high) stop = 40 * (high - angle_rad) - 0.1f * rate;
+      if (angle_rad > high) stop = high_N_m_per_rad * (high - angle_rad) - high_N_m_s * rate;
       rate += (torque_Nm + stop) * (5e-5f / 5e-4f);
       angle_rad += rate * 5e-5f;
       for (float at = -0.19f; has_pulse && at < 1; at += 0.5f) {
@@ -132,6 +133,15 @@ TEST(Homing_SoftStop_IsWithinACount) {
   Mass mass;
   mass.low_N_m_per_rad = 0.2f;
   mass.low_N_m_s = 0.02f;
+  const device::HomingState state = home_it(mass, settings(HomeBy::kIndex));
+  CHECK(state.is_done);
+  CHECK_LE(off_counts(mass, state), 1);
+}
+
+TEST(Homing_StopsThatBothGiveWayByFourTenthsOfTheRange_AreStops) {
+  Mass mass;
+  mass.low_N_m_per_rad = mass.high_N_m_per_rad = 0.19f;
+  mass.low_N_m_s = mass.high_N_m_s = 0.005f;
   const device::HomingState state = home_it(mass, settings(HomeBy::kIndex));
   CHECK(state.is_done);
   CHECK_LE(off_counts(mass, state), 1);

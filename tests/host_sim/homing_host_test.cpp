@@ -25,7 +25,7 @@ TEST(Homing_EveryMachine_IsWithinACountOrFaults) {
       test::note((name + ", " + case_name(static_cast<HomingCase>(i))).c_str(), tally.runs);
       CHECK_EQ(tally.wrong, 0u);
       CHECK_GE(tally.torque_share, 0.9);
-      if (i == static_cast<uint32_t>(HomingCase::kGood)) CHECK_GE(tally.homed * 4, tally.runs * 3);
+      if (i == static_cast<uint32_t>(HomingCase::kGood)) CHECK_GE(tally.homed * 10, tally.runs * 9);
       const auto it = static_cast<HomingCase>(i);
       if (it == HomingCase::kDead || it == HomingCase::kReversed || it == HomingCase::kSwapped ||
           it == HomingCase::kNoStop || it == HomingCase::kNoIndex)
