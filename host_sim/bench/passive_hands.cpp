@@ -87,8 +87,9 @@ double add(const RigRun& run, HandsGain& to) {
 }  // namespace
 
 double gain_J(const RigRun& run) {
-  const auto begin =
-      std::find_if(run.begin(), run.end(), [](const RigTick& tick) { return tick.is_ramped_in; });
+  const auto begin = std::find_if(run.begin(), run.end(), [](const RigTick& tick) {
+    return tick.is_ramped_in && !(tick.depth_m > 0);
+  });
   if (begin == run.end()) return 0;
   double most_J = begin->taken_J, gain_J = 0;
   for (auto tick = begin; tick != run.end() && tick->is_ramped_in; ++tick) {

@@ -15,8 +15,8 @@ struct HandsGain {
   std::string worst;                    // which hand that was
 };
 
-/// The largest gain of a run while the force is ramped in: what a force gives that a fault ramps
-/// out is not counted. Without contact no spring holds energy.
+/// The largest gain of a run between ticks without contact, in which no spring holds energy, while
+/// the force is ramped in: what a force gives that a fault ramps out is not counted.
 double gain_J(const RigRun& run);
 
 /// A hand that goes at random about a solid, in and out of it, while stiffness, damping, radius and

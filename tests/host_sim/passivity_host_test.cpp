@@ -19,6 +19,16 @@ TEST(Passivity_HandsOnLinkages_GainNoMoreThanAMillijoule) {
   }
 }
 
+TEST(Passivity_GainIsCounted_BetweenTicksWithoutContact) {
+  RigRun run(4);
+  for (RigTick& tick : run) tick.is_ramped_in = true;
+  run[0].taken_J = 0.008, run[0].depth_m = 0.005;  // pressed as the ramp ended
+  run[1].taken_J = 0.001;
+  run[2].taken_J = 0.005, run[2].depth_m = 0.002;
+  CHECK_LE(gain_J(run), 0.001 + 1e-12);
+  CHECK_GE(gain_J(run), 0.001 - 1e-12);
+}
+
 TEST(Passivity_WithoutALimit_ALinkageGivesMore) {
   CHECK_GE(gain_J(random_run("touch_like", 20000, 1, {{"energy_reservoir", "1000 J"}})), 0.001);
 }
