@@ -48,6 +48,7 @@ void AnyDevice::continue_as(const AnyDevice& other) {
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
     angle_rad_[k] = other.angle_rad_[k];
     before_Nm_[k] = other.before_Nm_[k];
+    weight_Nm_[k] = other.weight_Nm_[k];
   }
   carried_ = other.carried_;
   fast_ticks_ = other.fast_ticks_;
@@ -100,10 +101,13 @@ uint32_t AnyDevice::wall_state(const Values& values) const {
                                                         : record::kStateWallRefused;
 }
 
-// The weight is taken up over ramp_in_s, and let go as fast as a force ramps out.
+// The weight is taken up over ramp_in_s, and let go as fast as a force ramps out. The motors hold
+// the torques for a tick, so they get those of its middle: half a tick late they would give energy
+// to a moving hand (host_sim.Passivity_CarriedWeight_GivesAMovingHandNoEnergy).
 void AnyDevice::carry(const Values& values, bool is_on, float (&torque_Nm)[kMaxJoints]) {
   const float tick_s = values[params::kTickPeriod];
   const float share = linkage_.layout().carried_share;
+  const float ahead = carried_ > 0.0f ? 0.5f : 0.0f;  // of the change since the last tick
   if (is_on) {
     const float ramp_s = values[params::kRampIn];
     carried_ = ramp_s > tick_s ? at_most(carried_ + tick_s / ramp_s, 1.0f) : 1.0f;
@@ -115,7 +119,9 @@ void AnyDevice::carry(const Values& values, bool is_on, float (&torque_Nm)[kMaxJ
   const float carrying_Nm[kMaxJoints] = {whole_Nm.x, whole_Nm.y, whole_Nm.z};
   for (uint32_t k = 0; k < linkage_.layout().joints; ++k) {
     const float most_Nm = share * linkage_.layout().max_torque_Nm[k];
-    const float wanted_Nm = carrying_Nm[k] * carried_;
+    const float middle_Nm = carrying_Nm[k] + (carrying_Nm[k] - weight_Nm_[k]) * ahead;
+    weight_Nm_[k] = carrying_Nm[k];
+    const float wanted_Nm = middle_Nm * carried_;
     const float held_Nm = at_most(size(wanted_Nm), most_Nm);
     torque_Nm[k] = wanted_Nm < 0.0f ? -held_Nm : held_Nm;
   }

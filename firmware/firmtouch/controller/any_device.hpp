@@ -74,7 +74,8 @@ class AnyDevice : public DevicePolicy {
   device::Pose pose_ = {};
   float angle_rad_[device::kMaxJoints] = {};
   float before_Nm_[device::kMaxJoints] = {};
-  float carried_ = 0;  // share of the weight, from 0 to 1
+  float weight_Nm_[device::kMaxJoints] = {};  // torques that carried it in the last tick
+  float carried_ = 0;                         // share of the weight, from 0 to 1
   Rendered rendered_;
   uint32_t fast_ticks_ = 0;
 };
