@@ -26,6 +26,27 @@ ALinkageIsBakedWithItsPart() {
   f bake box.obj --device pantograph.txt -o pantograph.txt; exits 2; says overwrite
 }
 
+InfoPrintsTheStiffestWallsOfALinkage() {
+  box >box.obj
+  pantograph >pantograph.txt
+  bake box.obj --device pantograph.txt -o a.fta
+  f info a.fta; exits 0
+  case $out in *stiffest_wall*) fail "$out" ;; esac  # without masses nothing is known
+  printf 'tip_mass 60 g\nrotor_0 1e-6 kg*m2\nrotor_1 1e-6 kg*m2\n' >>pantograph.txt
+  bake box.obj --device pantograph.txt -o a.fta
+  f info a.fta; exits 0
+  # The exact discrete model: 2 D / T (1 - d) / (1 + d) with d = D T / 2 m.
+  printf '%s\n' "$out" | awk '
+    $1 == "least_mass_kg" { m = $2 } $1 == "wall_damping_N_s_per_m" { D = $2 }
+    match($1, /_at_[0-9]+_kHz/) {
+      T = 1e-3 / substr($1, RSTART + 4); d = D * T / 2 / m; want = 2 * D / T * (1 - d) / (1 + d)
+      if ($2 > 1.002 * want || $2 < 0.998 * want) exit 1
+      ++walls
+    }
+    END { exit !(walls == 3 && m > 0.05 && m < 0.07) }' || fail "$out"
+  f info a.fta --json; exits 0; well_formed
+}
+
 ALinkageIsCalibrated() {
   # An arm of links 130 and 120 mm, shoulder on the axis; counts are milliradians. The file says 135 and 115 mm.
   awk 'BEGIN {

@@ -2,9 +2,11 @@
 
 #include "bake/asset/asset_views.hpp"
 #include "bake/asset/part_names.hpp"
-#include "firmtouch/device/layout.hpp"
+#include "firmtouch/device/stable_wall.hpp"
+#include "firmtouch/device/stored_linkage.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
+#include "firmtouch/params/table.hpp"
 #include "firmtouch/scene/objects_layout.hpp"
 #include "json/json.hpp"
 
@@ -71,6 +73,24 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {spline::kArcsSection, "spline arcs"},
                                          {spline::kChainsSection, "spline chains"}};
 
+// The stiffest walls that the controller enables; an asset without the tip's mass has no limit.
+void add_walls(core::Bytes section, tools::Facts& facts) {
+  device::StoredLinkage linkage;
+  if (!device::open(section, linkage).ok() || !(linkage.layout().least_mass_kg > 0.0f)) return;
+  const float mass_kg = linkage.layout().least_mass_kg;
+  const auto add = [&](const std::string& name, float value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", static_cast<double>(value));
+    facts.emplace_back(name, text);
+  };
+  add("least_mass_kg", mass_kg);
+  add("wall_damping_N_s_per_m", params::kTable[params::kContactDamping].initial);
+  for (const uint32_t rate_kHz : {1u, 4u, 10u})
+    add("stiffest_wall_N_per_m_at_" + std::to_string(rate_kHz) + "_kHz",
+        device::stiffest_stable_N_per_m(mass_kg, params::kTable[params::kContactDamping].initial,
+                                        1e-3f / static_cast<float>(rate_kHz)));
+}
+
 }  // namespace
 
 const char* section_text(uint32_t type) {
@@ -90,6 +110,7 @@ std::vector<NamedAsset> assets_of(const asset::Container& container) {
     last.sections.push_back(i);
     last.bytes += bytes.size();
     const uint32_t type = container.type(i);
+    if (type == device::kLinkageSection) add_walls(bytes, last.facts);
     if (type != asset::kBoundsSection && type != asset::kProvenanceSection) continue;
     const tools::Facts facts = tools::read_facts(bytes.data(), bytes.size());
     last.facts.insert(last.facts.end(), facts.begin(), facts.end());

@@ -42,6 +42,9 @@ const Command& info_command() {
   static const Command command{"info",
                                "ASSET.fta [--json]",
                                "Proves an asset and says what is in it.",
+                               "Of a linkage it prints the stiffest wall of the initial damping "
+                               "that is stable on the tip's least mass:\nstiffer ones are not "
+                               "enabled (firmtouch-sim z-width has passive ones).\n"
                                "Exit code 1 if this machine answers the asset's probe queries with "
                                "other bits than the baker did.",
                                {{"--json", nullptr, "for programs"}},
