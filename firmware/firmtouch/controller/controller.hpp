@@ -84,7 +84,8 @@ class Controller {
   /// `output` is set and finite. A parameter changes only by `input.command`, so that the record
   /// holds all that a replay needs.
   /// The motors come on only after a tick since reset() saw kFlagEnable low with the asset ready: a
-  /// line that is high from the beginning, as after a watchdog's reset, enables nothing.
+  /// line that is high from the beginning, as after a watchdog's reset, enables nothing. Nor does
+  /// one that was high while a wall was refused.
   /// At one rate the tick makes the local model. At two, where input.flags has kFlagModelApart,
   /// make_model() makes it. This tick then requests one (kFlagModelWanted), begins to use the one
   /// that was made (kFlagModelTaken), or keeps the last. These are inputs: a log replays.
@@ -100,10 +101,10 @@ class Controller {
     if (is_taken)  // no row has this number
       output.state ^= record::kStateCommandRefused | record::kStateCommandTaken;
     if constexpr (Device::kKnowsWalls)
-      if (tick.step.enable) {
+      if ((input.flags & record::kFlagEnable) != 0) {
         const uint32_t wall = device.wall_state(core_.values());
         output.state |= wall;
-        tick.step.enable = (wall & record::kStateWallRefused) == 0;
+        if ((wall & record::kStateWallRefused) != 0) core_.disarm(tick);
       }
     core_.locate(device.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
     if constexpr (!Device::kRendersAll) core_.count_rendered(device.rendered());

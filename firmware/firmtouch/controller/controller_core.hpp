@@ -57,6 +57,8 @@ class ControllerCore {
     if (has_failed) tick.step.reported |= servo::kFaultHoming;
     return enable;
   }
+  /// The motors go off until kFlagEnable was low again.
+  void disarm(Tick& tick) { tick.step.enable = live_.enable_was_low = false; }
   bool has_no_fault() const { return live_.servo.faults == 0; }
   /// Corrects the energy that the observer is about to count.
   void count_rendered(const Rendered& last);
