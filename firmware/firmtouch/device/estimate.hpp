@@ -45,7 +45,8 @@ static inline void track(VelocityState& state, float counts_per_unit, float step
 
 static inline float estimate_inline(VelocityState& state, const VelocitySettings& settings,
                                     float counts_per_unit, float step, float dt_s, float kept) {
-  if (settings.estimator == Estimator::kTracking) {
+  // Likely: its constants then stay in registers over a loop of joints.
+  if (__builtin_expect(settings.estimator == Estimator::kTracking, 1)) {
     track(state, counts_per_unit, step, dt_s, kept);
   } else {
     const float quotient = step / (counts_per_unit * dt_s);
