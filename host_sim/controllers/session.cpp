@@ -35,7 +35,8 @@ const char* text_or_null(const std::string& text) { return text.empty() ? nullpt
 
 SceneNames names_in(const asset::Container& asset, const SceneNames& wanted) {
   using GuideList = Guides<CurveGuide, SplineGuide>;
-  return {text_or_empty(SurfacesWithObjects::find(asset, text_or_null(wanted.surface))),
+  return {text_or_empty(
+              SurfacesWithObjects<FullMaterialMesh>::find(asset, text_or_null(wanted.surface))),
           text_or_empty(GuideList::find(asset, text_or_null(wanted.guide)))};
 }
 

@@ -118,4 +118,29 @@ class Loader : public Prover<Proof>, private Probing<ProbeRun, kRuleProbes> {
   }
 };
 
+/// Proves what the asset has beside a geometry, of the same name. Its proof has no probes.
+template <class Proof, uint32_t kSection, class Geometry>
+class PartLoader : public Prover<Proof> {
+ public:
+  using State = core::OneOf<query::Opening<Proof>>;
+
+  static const char* find(const Container& asset, const char* wanted) {
+    return find_name(asset, kSection, wanted);
+  }
+  /// Before begin(). `geometry` is open by then, and outlives the loader.
+  void prove_against(const Geometry& geometry) { geometry_ = &geometry; }
+  template <class Trust>
+  void begin(const Container& asset, const char* name, State& state) {
+    state.template begin<typename Trust::template Opening<Proof>>(
+        find_sections<typename decltype(Proof::view)::Sections>(asset, name), *geometry_);
+  }
+  template <class Trust>
+  Progress work(State& state, uint32_t units) {
+    return this->template work_proof<Trust>(state, units);
+  }
+
+ private:
+  const Geometry* geometry_ = nullptr;
+};
+
 }  // namespace firmtouch::asset

@@ -52,6 +52,8 @@ enum Rule : uint16_t {
   kRuleNeedsLinkage = 915,
   // The asset needs part `objects`, which is not linked into this program.
   kRuleNeedsObjects = 916,
+  // The asset needs part `materials`, which is not linked into this program.
+  kRuleNeedsMaterials = 917,
 };
 
 namespace asset {

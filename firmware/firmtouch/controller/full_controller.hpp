@@ -10,8 +10,8 @@
 namespace firmtouch {
 
 /// A controller of every part of the library, with names for what it has opened.
-template <template <class> class ScenesOf, class Device = HomedDevice,
-          class SurfaceList = Surfaces<FullMesh, SplineSurface>>
+template <template <class> class ScenesOf, class Device = HomedDevice, class Mesh = FullMesh,
+          class SurfaceList = Surfaces<Mesh, SplineSurface>>
 class EveryPart : public Controller<SurfaceList, Guides<CurveGuide, SplineGuide>, Device,
                                     asset::Proven, ScenesOf> {
  public:
@@ -28,15 +28,15 @@ class EveryPart : public Controller<SurfaceList, Guides<CurveGuide, SplineGuide>
   }
 
  private:
-  const FullMesh& full_mesh() const { return this->template surface<FullMesh>(); }
+  const Mesh& full_mesh() const { return this->template surface<Mesh>(); }
 };
 
 /// With room for the next asset (Controller::begin_next()).
 using SwappingController = EveryPart<TwoScenes>;
 
-/// Every part of the library except `objects`: a mesh with its distance field and base hull, else
-/// spline surfaces; a sampled curve, else spline curves; a linkage, homed where the asset says how,
-/// else three axes. FIRMTOUCH_APP="all;homing".
+/// Every part of the library except `objects` and `materials`: a mesh with its distance field and
+/// base hull, else spline surfaces; a sampled curve, else spline curves; a linkage, homed where the
+/// asset says how, else three axes. FIRMTOUCH_APP="all;homing".
 using FullController = EveryPart<OneScene>;
 static_assert(FullController::kTable.size() == params::kTable.size(),
               "params::kTable is the full controller's");

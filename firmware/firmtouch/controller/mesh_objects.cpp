@@ -4,6 +4,7 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/mesh_touched.hpp"
 #include "firmtouch/scene/pose_loss.hpp"
+#include "firmtouch/scene/stored_name.hpp"
 
 namespace firmtouch {
 

@@ -5,17 +5,6 @@
 namespace firmtouch {
 
 template <class... Others>
-scene::MeshObject MeshWith<Others...>::object(const params::Values& v) const {
-  scene::MeshObject object;
-  object.mesh = &mesh();
-  object.pose.translation_m = scene_origin_m(v);
-  object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
-  if constexpr (kHasField) object.distance_field = &distance_field();
-  if constexpr (kHasHull) object.base_hull = &hull().base_hull();
-  return object;
-}
-
-template <class... Others>
 void MeshWith<Others...>::touch(const ModelRequest& request, const params::Values& v,
                                 ModelResult& result) {
   const scene::MeshObject touched = object(v);

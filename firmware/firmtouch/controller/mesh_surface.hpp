@@ -35,6 +35,7 @@ class MeshContact {
 /// distance field, a hull.
 template <class... Others>
 class MeshWith : public MeshContact, public LoaderChain<mesh::Loader, Others...> {
+ protected:
   static constexpr bool kHasField = (__is_base_of(field::Loader, Others) || ...);
   static constexpr bool kHasHull = (__is_base_of(hull::Loader, Others) || ...);
 
@@ -59,9 +60,20 @@ class MeshWith : public MeshContact, public LoaderChain<mesh::Loader, Others...>
   void touch_by_penalty(const ModelRequest& request, const params::Values& values,
                         PenaltyTouch& touch, ModelResult& result) const;
 
- private:
+ protected:
   scene::MeshObject object(const params::Values& values) const;
 };
+
+template <class... Others>
+scene::MeshObject MeshWith<Others...>::object(const params::Values& v) const {
+  scene::MeshObject object;
+  object.mesh = &mesh();
+  object.pose.translation_m = scene_origin_m(v);
+  object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
+  if constexpr (kHasField) object.distance_field = &distance_field();
+  if constexpr (kHasHull) object.base_hull = &hull().base_hull();
+  return object;
+}
 
 using MeshSurface = MeshWith<>;
 using FieldMesh = MeshWith<field::Loader>;

@@ -8,6 +8,7 @@
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/scene/materials_layout.hpp"
 #include "firmtouch/scene/objects_layout.hpp"
 #include "firmtouch/spline/guide/view.hpp"
 #include "firmtouch/spline/layout.hpp"
@@ -15,7 +16,15 @@
 namespace firmtouch {
 namespace {
 
-static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsObjects, "a rule a part, in order");
+static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsMaterials, "a rule a part, in order");
+
+// What each section needs, except splines.
+constexpr struct {
+  uint16_t type, part;
+} kNeeded[] = {{mesh::kHeadSection, kPartMesh},           {field::kHeadSection, kPartField},
+               {hull::kHeadSection, kPartHull},           {curve::kHeadSection, kPartGuide},
+               {device::kLinkageSection, kPartLinkage},   {scene::kObjectsSection, kPartObjects},
+               {scene::kMaterialsSection, kPartMaterials}};
 
 bool same(const char* a, const char* b) {
   while (*a != 0 && *a == *b) ++a, ++b;
@@ -33,24 +42,11 @@ uint32_t spline_part(const asset::Container& asset, uint32_t i) {
 }  // namespace
 
 uint32_t part_of_section(const asset::Container& asset, uint32_t i) {
-  switch (asset.type(i)) {
-    case mesh::kHeadSection:
-      return kPartMesh;
-    case field::kHeadSection:
-      return kPartField;
-    case hull::kHeadSection:
-      return kPartHull;
-    case curve::kHeadSection:
-      return kPartGuide;
-    case spline::kHeadSection:
-      return spline_part(asset, i);
-    case device::kLinkageSection:
-      return kPartLinkage;
-    case scene::kObjectsSection:
-      return kPartObjects;
-    default:
-      return 0;
-  }
+  const uint32_t type = asset.type(i);
+  if (type == spline::kHeadSection) return spline_part(asset, i);
+  for (const auto& needed : kNeeded)
+    if (needed.type == type) return needed.part;
+  return 0;
 }
 
 uint32_t needed_parts(const asset::Container& asset) {

@@ -18,13 +18,15 @@ enum Part : uint32_t {
   kPartSplineGuide = 1u << 5,
   kPartLinkage = 1u << 6,
   kPartObjects = 1u << 7,
+  kPartMaterials = 1u << 8,
 };
-constexpr uint32_t kPartCount = 8;
+constexpr uint32_t kPartCount = 9;
 
-/// Name of part `number` (its bit), as in FIRMTOUCH_APP and in the texts of rules R909 to R916.
+/// Name of part `number` (its bit), as in FIRMTOUCH_APP and in the texts of rules R909 to R917.
 constexpr const char* part_name(uint32_t number) {
-  constexpr const char* kName[kPartCount] = {"mesh",   "field",        "hull",    "guide",
-                                             "spline", "spline_guide", "linkage", "objects"};
+  constexpr const char* kName[kPartCount] = {"mesh",    "field",   "hull",
+                                             "guide",   "spline",  "spline_guide",
+                                             "linkage", "objects", "materials"};
   return number < kPartCount ? kName[number] : "unknown";
 }
 
@@ -35,7 +37,7 @@ uint32_t part_of_section(const asset::Container& asset, uint32_t i);
 /// All parts that an asset needs.
 uint32_t needed_parts(const asset::Container& asset);
 
-/// The verdict on an asset in a program with the parts `linked`: one of R909 to R916, at the
+/// The verdict on an asset in a program with the parts `linked`: one of R909 to R917, at the
 /// section that needs the missing part, or passed. Where a name is selected, others of its kind do
 /// not count.
 core::Verdict missing_part(const asset::Container& asset, const Selection& selection,

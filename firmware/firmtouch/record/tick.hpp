@@ -53,6 +53,9 @@ constexpr uint32_t kStateHomingFaultShift = 22;
 // Where it is homed, five bits: 1 + number of the object that holds the proxy; 0: none, or there is
 // one surface.
 constexpr uint32_t kStateObjectShift = 22;
+// There where the asset has materials and no objects, eight bits: 1 + number of the material that
+// the tool touches; 0: none. It touches where kStateContact is set.
+constexpr uint32_t kStateMaterialShift = 22;
 // The operator enables beside a wall that is stiffer than what is stable on the linkage
 // (controller/any_device.hpp): the motors stay off, or the device file forced it.
 constexpr uint32_t kStateWallRefused = 1u << 30;

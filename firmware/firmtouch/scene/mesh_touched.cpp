@@ -49,14 +49,14 @@ void use_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, flo
 
 }  // namespace
 
-template <bool kHasField, bool kHasBaseHull>
-float MeshTouchedWith<kHasField, kHasBaseHull>::size_m() const {
+template <bool kHasField, bool kHasBaseHull, class Object>
+float MeshTouchedWith<kHasField, kHasBaseHull, Object>::size_m() const {
   return object.mesh->head().diagonal_m;
 }
 
-template <bool kHasField, bool kHasBaseHull>
-Near MeshTouchedWith<kHasField, kHasBaseHull>::near(Vec3 x_m, query::Budget budget,
-                                                    float needed_m) const {
+template <bool kHasField, bool kHasBaseHull, class Object>
+Near MeshTouchedWith<kHasField, kHasBaseHull, Object>::near(Vec3 x_m, query::Budget budget,
+                                                            float needed_m) const {
   Near near;
   near.has_inside = object.mesh->is_signed();
   const Vec3 p_m = math::apply_inverse(object.pose, x_m);
@@ -83,8 +83,11 @@ Near MeshTouchedWith<kHasField, kHasBaseHull>::near(Vec3 x_m, query::Budget budg
   near.work = certificate.work;
   near.outward = object.pose.rotation * closest.direction;
   // Beyond the band the point may be any of the surface.
-  if (!is_far && (certificate.exact || near.distance_m <= budget.band_m))
+  if (!is_far && (certificate.exact || near.distance_m <= budget.band_m)) {
     use_triangle(object, closest.triangle, near.feature);
+    if constexpr (__is_same(Object, MaterialMeshObject))
+      near.feature.material = object.materials->of(closest.triangle);
+  }
   if constexpr (kHasBaseHull) use_base_hull(object, p_m, budget, needed_m, loss_m, near);
   return near;
 }
@@ -93,5 +96,9 @@ template struct MeshTouchedWith<false, false>;
 template struct MeshTouchedWith<true, false>;
 template struct MeshTouchedWith<false, true>;
 template struct MeshTouchedWith<true, true>;
+template struct MeshTouchedWith<false, false, MaterialMeshObject>;
+template struct MeshTouchedWith<true, false, MaterialMeshObject>;
+template struct MeshTouchedWith<false, true, MaterialMeshObject>;
+template struct MeshTouchedWith<true, true, MaterialMeshObject>;
 
 }  // namespace firmtouch::scene

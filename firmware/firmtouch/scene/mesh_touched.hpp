@@ -1,15 +1,22 @@
 #pragma once
 #include "firmtouch/scene/mesh_contact.hpp"
+#include "firmtouch/scene/stored_materials.hpp"
 #include "firmtouch/scene/touched.hpp"
 
 namespace firmtouch::scene {
 
+/// A mesh whose triangles have materials.
+struct MaterialMeshObject : MeshObject {
+  const StoredMaterials* materials = nullptr;  // proven against the mesh, or not open
+};
+
 /// A mesh as a shape that a proxy touches. The distance field and the base hull of the object are
-/// read only where the arguments say so. Where the visits run out, a base hull certifies what it
-/// can: another query of as many visits, or 512 if that is more.
-template <bool kHasField, bool kHasBaseHull>
+/// read only where the arguments say so, its materials if it is a MaterialMeshObject. Where the
+/// visits run out, a base hull certifies what it can: another query of as many visits, or 512 if
+/// that is more.
+template <bool kHasField, bool kHasBaseHull, class Object = MeshObject>
 struct MeshTouchedWith {
-  const MeshObject& object;
+  const Object& object;
   mesh::Hint& hint;  // of the (tool, object) pair
 
   float size_m() const;
@@ -25,5 +32,9 @@ extern template struct MeshTouchedWith<false, false>;
 extern template struct MeshTouchedWith<true, false>;
 extern template struct MeshTouchedWith<false, true>;
 extern template struct MeshTouchedWith<true, true>;
+extern template struct MeshTouchedWith<false, false, MaterialMeshObject>;
+extern template struct MeshTouchedWith<true, false, MaterialMeshObject>;
+extern template struct MeshTouchedWith<false, true, MaterialMeshObject>;
+extern template struct MeshTouchedWith<true, true, MaterialMeshObject>;
 
 }  // namespace firmtouch::scene

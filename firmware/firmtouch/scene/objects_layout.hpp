@@ -2,21 +2,21 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "firmtouch/scene/stored_name.hpp"
+
 // Byte layout of the objects of an asset (tools/FORMAT.md, section 3e). Little-endian.
 namespace firmtouch::scene {
 
 constexpr uint32_t kObjectsSection = 0x8001;
 constexpr uint32_t kMaxObjects = 16;
 
-constexpr uint32_t kObjectNameBytes = 32;  // as of the asset's own names
-
 /// An object: a mesh of the same asset, where it begins, how it moves, how it feels.
 struct ObjectLayout {
-  char name[kObjectNameBytes];
-  char mesh[kObjectNameBytes];  // name of the mesh
-  float rotation[9];            // rows of own frame -> scene
-  float at_m[3];                // of the own frame's origin
-  float velocity_mps[3];        // at full speed
+  char name[kNameBytes];
+  char mesh[kNameBytes];  // name of the mesh
+  float rotation[9];      // rows of own frame -> scene
+  float at_m[3];          // of the own frame's origin
+  float velocity_mps[3];  // at full speed
   float turn_rad_per_s[3];
   float stiffness_N_per_m;  // FLT_MAX: rigid; 0: air
   float friction_static, friction_dynamic;

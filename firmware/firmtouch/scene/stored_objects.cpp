@@ -1,24 +1,13 @@
 #include "firmtouch/scene/stored_objects.hpp"
 
 #include "firmtouch/core/bytes.hpp"
+#include "firmtouch/scene/stored_name.hpp"
 
 namespace firmtouch::scene {
 namespace {
 
 using core::reject;
 using core::Verdict;
-
-bool is_name(const char (&name)[kObjectNameBytes]) {
-  uint32_t length = 0;
-  for (; length < kObjectNameBytes && name[length] != 0; ++length) {
-    const auto byte = static_cast<uint8_t>(name[length]);
-    if (byte < 0x20 || byte == 0x7F) return false;
-  }
-  if (length == 0 || length == kObjectNameBytes) return false;
-  for (uint32_t i = length; i < kObjectNameBytes; ++i)
-    if (name[i] != 0) return false;
-  return true;
-}
 
 math::Vec3 vector(const float* from) { return {from[0], from[1], from[2]}; }
 
@@ -48,12 +37,6 @@ Verdict check(const StoredObjects& objects, uint32_t i) {
 }
 
 }  // namespace
-
-bool is_same_name(const char (&a)[kObjectNameBytes], const char (&b)[kObjectNameBytes]) {
-  for (uint32_t i = 0; i < kObjectNameBytes; ++i)
-    if (a[i] != b[i]) return false;
-  return true;
-}
 
 Verdict open(core::Bytes section, StoredObjects& to) {
   to = {};

@@ -16,7 +16,4 @@ core::Verdict open(core::Bytes section, StoredObjects& to);
 /// Pre: of a section that open() has proven.
 Object object_of(const ObjectLayout& layout);
 
-/// Whether two names of the layout are the same.
-bool is_same_name(const char (&a)[kObjectNameBytes], const char (&b)[kObjectNameBytes]);
-
 }  // namespace firmtouch::scene

@@ -27,6 +27,7 @@ struct Feature {
   Kind kind = Kind::kNone;
   bool is_of_base_hull = false;  // holds only while the work does not suffice
   uint8_t object = 0;            // that it is of, where there are several
+  uint8_t material = 0;  // of the triangle, where there are materials (stored_materials.hpp)
 };
 
 /// Certified distance, sign and normal of a shape at a point.

@@ -19,8 +19,8 @@ constexpr double kMaxTurn_rad = 1000;
 
 std::string name_of(LineReader& words, const char* what) {
   const std::string name = words.next(what);
-  if (name.size() >= scene::kObjectNameBytes)
-    words.refuse("`" + name + "` is longer than " + std::to_string(scene::kObjectNameBytes - 1) +
+  if (name.size() >= scene::kNameBytes)
+    words.refuse("`" + name + "` is longer than " + std::to_string(scene::kNameBytes - 1) +
                  " bytes; shorten the name");
   return name;
 }

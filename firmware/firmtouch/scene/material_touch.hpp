@@ -1,0 +1,60 @@
+#pragma once
+#include "firmtouch/scene/proxy_contact.hpp"
+#include "firmtouch/scene/stored_materials.hpp"
+
+// Contact with a surface whose triangles are of several materials. scene/README.md says what
+// happens where one changes under load.
+namespace firmtouch::scene {
+
+/// How one material responds to the tool, or the mean of several.
+struct Response {
+  float compliance_m_per_N = 0;  // 0: rigid
+  float friction_static = 0, friction_dynamic = 0, friction_viscous_N_s_per_m = 0;
+};
+
+/// The force of a penetration d is stiffness (d - slack). Where a hand under load slides onto
+/// another material no potential exists: the energy stored would jump. The slack lets the stiffness
+/// change, so that the force makes no step and no energy is gained. Onto a stiffer material the
+/// force rises by the root of their ratio, and further penetration meets all of it.
+struct ForceLaw {
+  float stiffness_N_per_m = 0;
+  float slack_m = 0;
+  float left_J = 0;  // taken by changes of the law in this contact, less what they gave
+
+  float at_N(float penetration_m) const;
+  /// Goes towards a surface of `stiffness` at this penetration, by at most `step_N` of force.
+  void approach(float stiffness, float penetration_m, float step_N);
+};
+
+/// State of a (tool, mesh) pair from tick to tick, beside its ProxyTouch. The caller owns one a
+/// pair. A default one begins a contact.
+struct MaterialTouch {
+  ForceLaw law;
+  Response response;     // friction in use
+  bool is_held = false;  // the proxy was, at the end of the last tick
+  uint8_t material = 0;  // that bears most of the load, else is nearest; 0: none
+};
+
+/// Before the proxy moves: the contact as the materials make it. Where it is loaded, after
+/// end_materials() of the last tick.
+void begin_materials(ProxyContact& contact, ProxyTouch& touch, const MaterialTouch& state);
+/// After end_proxy_contact(): the model's spring has the stiffness of the materials touched.
+/// `contact`: as it was before begin_materials().
+void end_materials(const ProxyContact& contact, const StoredMaterials& materials, ProxyTouch& touch,
+                   MaterialTouch& state, servo::LocalModel& model);
+
+/// touch_by_proxy() with a shape whose features have materials; the same bits without any. A
+/// stiffness is in series with that of `contact`, a friction the larger of both. Several materials
+/// that hold the proxy count by their shares of the load. Under load no change of materials makes a
+/// step of the force above 20 N/s, and all changes of a contact together give no energy.
+/// Bounds: as touch_by_proxy(), and about 200 instructions.
+template <class Shape>
+void touch_materials(const ProxyContact& contact, const StoredMaterials& materials, Shape& shape,
+                     ProxyTouch& touch, MaterialTouch& state, servo::LocalModel& model) {
+  ProxyContact used = contact;
+  if (materials.is_open()) begin_materials(used, touch, state);
+  touch_by_proxy(used, shape, touch, model);
+  if (materials.is_open()) end_materials(contact, materials, touch, state, model);
+}
+
+}  // namespace firmtouch::scene

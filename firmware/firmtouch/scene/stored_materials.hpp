@@ -1,0 +1,65 @@
+#pragma once
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
+#include "firmtouch/mesh/view.hpp"
+#include "firmtouch/query/staged_check.hpp"
+#include "firmtouch/scene/materials_layout.hpp"
+
+namespace firmtouch::scene {
+
+/// The bytes of the sections that say how a mesh's triangles feel.
+struct MaterialSections {
+  core::Bytes table, triangles;
+
+  /// Calls take(section type, bytes) for each.
+  template <class Take>
+  void each(const Take& take) {
+    take(kMaterialsSection, table), take(kTriangleMaterialsSection, triangles);
+  }
+};
+
+/// Materials that Opening has proven against their mesh. Immutable.
+class StoredMaterials {
+ public:
+  using Sections = MaterialSections;
+  bool is_open() const { return !table_.empty(); }
+  core::Span<const MaterialLayout> table() const { return table_; }
+  /// Of a triangle: 1 + its place in the table; 0: none, also where nothing is open.
+  /// Pre: the triangle is one of the mesh.
+  uint8_t of(uint32_t triangle) const { return is_open() ? triangles_[triangle] : uint8_t{0}; }
+
+ private:
+  friend class MaterialsProof;
+  core::Span<const MaterialLayout> table_;
+  core::Bytes triangles_;
+};
+
+/// What Opening proves of materials: rules R821 to R826 of tools/FORMAT.md.
+class MaterialsProof {
+ public:
+  static const query::CheckStage kStages[2];
+  /// `mesh` is open.
+  core::Verdict take(const MaterialSections& sections, const mesh::View& mesh);
+  core::Verdict check_head() const { return core::kPassed; }
+  StoredMaterials view;
+
+ private:
+  static constexpr uint32_t kSliceTriangles = 16;  // about 100 instructions
+
+  uint32_t material_count() const { return view.table_.size(); }
+  uint32_t slice_count() const;
+  core::Verdict check_material(uint32_t i);
+  core::Verdict check_slice(uint32_t i);
+};
+
+using MaterialsOpening = query::Opening<MaterialsProof>;
+
+/// All at once.
+inline core::Verdict open(const MaterialSections& sections, const mesh::View& mesh,
+                          StoredMaterials& to) {
+  return query::open_at_once<MaterialsOpening>(to, sections, mesh);
+}
+
+}  // namespace firmtouch::scene
+
+extern template class firmtouch::query::Opening<firmtouch::scene::MaterialsProof>;
