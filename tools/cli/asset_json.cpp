@@ -7,6 +7,7 @@
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/params/table.hpp"
+#include "firmtouch/scene/materials_layout.hpp"
 #include "firmtouch/scene/objects_layout.hpp"
 #include "json/json.hpp"
 
@@ -51,6 +52,8 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {hull::kProbesSection, "hull probes"},
                                          {device::kLinkageSection, "linkage"},
                                          {scene::kObjectsSection, "objects"},
+                                         {scene::kMaterialsSection, "materials"},
+                                         {scene::kTriangleMaterialsSection, "triangle materials"},
                                          {curve::kHeadSection, "curve head"},
                                          {curve::kSamplesSection, "curve samples"},
                                          {curve::kArcsSection, "curve arcs"},

@@ -52,6 +52,11 @@ const Command& bake_command() {
       "  object NAME of MESH [at X Y Z mm] [turned A deg about X Y Z] [stiffness K N/m]\n"
       "         [friction F [sliding F]] [moves X Y Z mm/s] [turns X Y Z rad/s]\n"
       "An object stands until a command moves it (firmtouch-sim run: at T s move NAME).\n"
+      "A file of --materials says how triangles feel, one material a line:\n"
+      "  material NAME [stiffness K N/m] [friction F [sliding F]] [viscous C Ns/m]\n"
+      "NAME is that of an OBJ file's `usemtl` (without any: of its groups `g`); the number in a "
+      "PLY file's\n"
+      "face property material_index counts these lines from 1; 0 is none.\n"
       "A catalogue has an asset a line, as words behind `firmtouch bake`; # is a comment, \"a b\" "
       "one word:\n"
       "  INPUT... -o SCENE.fta [options]\n"
@@ -76,6 +81,9 @@ const Command& bake_command() {
             "meshes: the fastest on a desktop with AVX2; half as much work again on a controller"},
            {"--distance-map", "CELLS",
             "meshes get a grid of certified bounds, CELLS along the long axis"},
+           {"--materials", "FILE", "a mesh's triangles get materials: stiffness and friction"},
+           {"--material-numbers", "FILE",
+            "which: a number for each triangle of the model, in its order, instead of the model's"},
            {"--cpp", "FILE", "the asset as a C++ source, too"},
            {"--hull-faces", "N",
             "meshes get a progressive hull, at its coarsest of at most N faces: enclosing, proven"},
@@ -129,6 +137,8 @@ int run_bake(const Arguments& arguments) {
     forbid_overwriting(output, file);
     forbid_overwriting(source, file);
   }
+  for (const std::string option : {"--materials", "--material-numbers"})
+    forbid_overwriting(output, arguments.text(option, ""));
   const BakedAsset baked = bake_asset(request, output);
   write_file(output, baked.bytes.data(), baked.bytes.size());
   if (!source.empty()) write_source(source, baked.bytes, output);

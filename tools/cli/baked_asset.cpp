@@ -194,6 +194,44 @@ BakedInput bake_device(const std::string& path) {
   return baked;
 }
 
+// --materials and --material-numbers.
+void add_materials(const Arguments& arguments, BakeOptions& options) {
+  const std::string path = arguments.text("--materials", "");
+  options.model.material_numbers = arguments.text("--material-numbers", "");
+  if (path.empty() && !options.model.material_numbers.empty())
+    fail_usage("bake: --material-numbers says which of --materials FILE: give that, too");
+  if (path.empty()) return;
+  if (options.model.wrap.value > 0)
+    fail_usage("bake: --wrap makes a surface of its own, without the model's materials: give one");
+  if (!options.has_tree)
+    fail_usage("bake: --no-tree is for hull queries alone, which have no --materials: give one");
+  try {
+    const std::vector<uint8_t> text = read_file(path);
+    options.model.materials = tools::read_materials(path, std::string(text.begin(), text.end()));
+  } catch (const tools::Refused& refused) {
+    fail_input(refused.what());
+  }
+  options.text += " --materials " + file_name_of(path);
+  if (!options.model.material_numbers.empty())
+    options.text += " --material-numbers " + file_name_of(options.model.material_numbers);
+}
+
+// One mesh has numbers of its own; objects have a stiffness each.
+void check_materials(const BakeRequest& request) {
+  if (request.options.model.materials.table.empty()) return;
+  size_t meshes = 0;
+  for (const std::string& input : request.inputs) {
+    if (is_mesh_file(input)) ++meshes;
+    if (is_objects_file(input))
+      fail_usage("bake: " + input +
+                 " has a material for each object: leave out --materials, or bake one mesh");
+  }
+  if (meshes == 0) fail_usage("bake: --materials are of a mesh: give one");
+  if (meshes > 1 && !request.options.model.material_numbers.empty())
+    fail_usage("bake: --material-numbers are of one mesh, and " + std::to_string(meshes) +
+               " are given: bake them one by one");
+}
+
 BakeOptions bake_options(const Arguments& arguments) {
   static const std::map<std::string, Purpose> kPurposes = {{"--fast", Purpose::kFast},
                                                            {"--bounded", Purpose::kBounded},
@@ -241,10 +279,12 @@ BakeRequest bake_request(const Arguments& arguments) {
   BakeRequest request;
   request.options = bake_options(arguments);
   add_hull(arguments, request.options);
+  add_materials(arguments, request.options);
   request.inputs = inputs_with_units(arguments.positionals(), request.options.model);
   request.device = arguments.text("--device", "");
   check_runs(request.inputs, request.options);
   check_names(request.files(), request.options);
+  check_materials(request);
   return request;
 }
 

@@ -137,6 +137,15 @@ std::vector<std::string> add_hull(const mesh::View& view, const std::string& nam
   return reported;
 }
 
+std::string line_of_materials(const tools::MeshReport& report, const tools::Materials& materials) {
+  std::string line = "materials:";
+  for (size_t i = 0; i < report.of_material.size(); ++i)
+    line += (i == 0 ? "" : ",") + std::string(" ") + std::to_string(report.of_material[i]) +
+            (i == 0 ? " triangles without" : " ") +
+            (i == 0 ? "" : std::string(materials.table[i - 1].name));
+  return line;
+}
+
 bool is_of_tree(uint32_t type) {
   return type == mesh::kNodesSection || type == mesh::kParentsSection ||
          type == mesh::kVertexNormalsSection || type == mesh::kEdgeFoldsSection ||
@@ -181,6 +190,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   tools::MeshOptions mesh_options;
   mesh_options.is_signed = options.model.is_signed;
   mesh_options.shape = tree_for(options.purpose);
+  mesh_options.materials = options.model.materials.table;
   if (options.purpose == Purpose::kSmall) mesh_options.max_growth = 1;
   if (options.keeps_triangles || !options.has_tree) mesh_options.max_growth = 0;
   tools::MeshReport report;
@@ -231,6 +241,8 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   add_facts(facts_of(view, steps));
   baked.report =
       report_of(report, surface, steps, bytes_of(baked.sections), options.model.is_signed);
+  if (!report.of_material.empty())
+    baked.report.push_back(line_of_materials(report, options.model.materials));
   if (!reported_of_field.empty()) baked.report.push_back(reported_of_field);
   baked.report.insert(baked.report.end(), reported_of_hull.begin(), reported_of_hull.end());
   baked.report.insert(baked.report.end(), sound.reported.begin(), sound.reported.end());

@@ -10,6 +10,7 @@
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "curve/read_curve_csv.hpp"
+#include "device/refused.hpp"
 #include "field/wrap.hpp"
 #include "spline/read_spline.hpp"
 #include "surface/check/check.hpp"
@@ -202,6 +203,24 @@ SoundSurface wrapped_surface(const std::string& path, const tools::Surface& soup
   return sound;
 }
 
+// Of the triangles of the file, whose numbers the surface's `source` keeps.
+void add_materials(const std::string& path, const ModelOptions& options,
+                   tools::Imported& imported) {
+  try {
+    if (options.material_numbers.empty()) {
+      imported.surface.material =
+          tools::triangle_materials(path, imported.materials, options.materials);
+    } else {
+      const std::vector<uint8_t> text = read_model(options.material_numbers);
+      imported.surface.material = tools::read_triangle_materials(
+          options.material_numbers, {reinterpret_cast<const char*>(text.data()), text.size()},
+          imported.surface.faces.size(), options.materials);
+    }
+  } catch (const tools::Refused& refused) {
+    fail_input(refused.what());
+  }
+}
+
 }  // namespace
 
 tools::FileFrame ModelOptions::frame_for(const std::string& path) const {
@@ -302,12 +321,14 @@ void settle_size(const std::string& path, ModelOptions& options) {
 
 SoundSurface sound_surface(const std::string& path, std::vector<uint8_t> bytes,
                            const ModelOptions& options) {
-  const bool wraps = options.wrap.value > 0;
+  const bool wraps = options.wrap.value > 0, has_materials = !options.materials.table.empty();
   tools::Imported imported = tools::read_surface_bytes(
       {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, options.frame_for(path),
-      wraps ? tools::PointsAre::kTaken : tools::PointsAre::kRefused);
+      wraps ? tools::PointsAre::kTaken : tools::PointsAre::kRefused,
+      has_materials ? tools::MaterialsAre::kRead : tools::MaterialsAre::kPassedOver);
   bytes = {};  // a large model needs the memory
   if (!imported.problem.empty()) fail_input(imported.problem);
+  if (has_materials) add_materials(path, options, imported);
   tools::CheckOptions checks;
   checks.allow_unsigned = !options.is_signed;
   checks.close_holes = options.close_holes;

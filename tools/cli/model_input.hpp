@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/materials/materials_file.hpp"
 #include "cli/arguments.hpp"
 #include "surface/surface.hpp"
 
@@ -25,6 +26,8 @@ struct ModelOptions {
   bool mend = false;
   Length wrap;
   bool has_decimal_commas = false;  // in curves
+  tools::Materials materials;       // of triangles; without a table they are not read
+  std::string material_numbers;     // a file that says which; "": the model does
 
   tools::FileFrame frame_for(const std::string& path) const;
 };

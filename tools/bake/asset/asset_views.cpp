@@ -14,6 +14,7 @@
 #include "firmtouch/hull/probes.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/loader.hpp"
+#include "firmtouch/scene/stored_materials.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/loader.hpp"
 
@@ -36,6 +37,15 @@ std::string prove(const char* what, const asset::Container& container, const std
          "': its probe queries are answered otherwise here than where it was baked";
 }
 
+std::string prove_materials(const asset::Container& container, const std::string& name,
+                            const mesh::View& mesh) {
+  const auto sections = asset::find_sections<scene::MaterialSections>(container, name.c_str());
+  if (sections.table.empty()) return "";
+  scene::StoredMaterials materials;
+  const core::Verdict verdict = scene::open(sections, mesh, materials);
+  return verdict.ok() ? "" : broken("materials", name, verdict);
+}
+
 std::string prove_mesh(const asset::Container& container, const std::string& name) {
   hull::View hull;
   std::string problem;
@@ -45,6 +55,7 @@ std::string prove_mesh(const asset::Container& container, const std::string& nam
   }
   mesh::View mesh;
   problem = prove("mesh", container, name, mesh::kProbesSection, mesh);
+  if (problem.empty()) problem = prove_materials(container, name, mesh);
   const auto sections = asset::find_sections<field::Sections>(container, name.c_str());
   if (!problem.empty() || sections.head.empty()) return problem;
   field::View distance_field;

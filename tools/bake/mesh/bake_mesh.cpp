@@ -109,6 +109,7 @@ Reordered in_leaf_order(const Surface& surface, const std::vector<uint32_t>& ord
   constexpr uint32_t kUnseen = UINT32_MAX;
   Reordered result;
   Surface& sorted = result.surface;
+  sorted.material = surface.material;
   std::vector<uint32_t> renamed(surface.vertices.size(), kUnseen);
   for (const uint32_t f : order) {
     Face face = surface.faces[f];
@@ -144,6 +145,19 @@ void add_signs(const Pseudonormals& signs, const std::vector<uint32_t>& vertex_f
   for (const uint32_t f : face_from) edges.push_back(signs.edges[f]);
   sections.push_back(make_section(mesh::kVertexNormalsSection, name, vertices));
   sections.push_back(make_section(mesh::kEdgeFoldsSection, name, edges));
+}
+
+void add_materials(const Surface& surface, const std::string& name,
+                   const std::vector<scene::MaterialLayout>& table, MeshReport& report,
+                   std::vector<Section>& sections) {
+  std::vector<uint8_t> triangles;
+  report.of_material.assign(table.size() + 1, 0);
+  for (uint32_t f = 0; f < surface.faces.size(); ++f) {
+    triangles.push_back(surface.material_of(f));
+    ++report.of_material.at(triangles.back());
+  }
+  sections.push_back(make_section(scene::kMaterialsSection, name, table));
+  sections.push_back(make_section(scene::kTriangleMaterialsSection, name, triangles));
 }
 
 // Whether nothing of a refined surface has to be reported by the faces of the file.
@@ -232,6 +246,7 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   for (const Section& s : sections) report.sign_bytes += static_cast<uint32_t>(s.bytes.size());
   report.sign_bytes -= report.shape_bytes;
   sections.push_back(make_section(mesh::kSourceSection, name, surface.source));
+  if (!options.materials.empty()) add_materials(surface, name, options.materials, report, sections);
   report.triangles = head.triangle_count;
   report.vertices = head.vertex_count;
   report.nodes = head.node_count;

@@ -8,6 +8,7 @@
 #include "bake/mesh/mesh_tree.hpp"
 #include "bake/mesh/refine.hpp"
 #include "firmtouch/mesh/view.hpp"
+#include "firmtouch/scene/stored_materials.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::tools {
@@ -16,12 +17,14 @@ struct MeshOptions {
   bool is_signed = true;
   double max_growth = kMaxGrowth;  // of refine(); 0: the faces stay as given
   TreeShape shape = kFastTree;
+  std::vector<scene::MaterialLayout> materials = {};  // of the surface's numbers, from 1
 };
 
 struct MeshReport {
   uint32_t triangles = 0, vertices = 0, nodes = 0, depth = 0;
   // Of what a query reads: tree, indices and vertices, and what gives the sign.
   uint32_t shape_bytes = 0, sign_bytes = 0;
+  std::vector<uint32_t> of_material;  // triangles of each, the first without any
   Refined refined;
   SignReport signs;     // of a signed mesh
   std::string problem;  // empty: baked and proven; else what, where and how to mend

@@ -170,6 +170,7 @@ class Refiner {
   void flip(const Pair& p) {
     const uint32_t f = p.half / 3, g = p.mate / 3;
     if (p.c == p.d || edges_.count(key(p.c, p.d)) != 0) return;
+    if (surface_.material_of(f) != surface_.material_of(g)) return;
     if (!is_worth_flipping(p)) return;
     const Point a = at(p.a), b = at(p.b), c = at(p.c), d = at(p.d);
     const double by_flip_m = moved_by_flip_m(a, b, c, d) * (1 + 0x1p-20);

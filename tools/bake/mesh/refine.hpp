@@ -22,6 +22,7 @@ struct Refined {
 /// do not halve the longest edge are dropped: they made trees deeper and queries no cheaper. The
 /// surface stays closed and manifold, and moves by `max_move_m` at most. Edges without exactly two
 /// faces wound alike stay.
+/// Faces of two materials are never joined.
 /// Result: a face made from others has the `source` of one of them.
 /// Bounds: O(n log n) splits and flips, the same on every machine.
 /// Source: Rivara 1984 (longest edge first); Lawson 1977 (flips, for another aim).

@@ -66,6 +66,7 @@ TurnedSlivers turn_slivers(Surface& surface, const std::vector<uint32_t>& mates,
     if (!(moved_m <= max_m)) continue;
     if (!(height_m(at(a), at(d), at(c)) > min_height_m)) continue;
     if (!(height_m(at(d), at(b), at(c)) > min_height_m)) continue;
+    surface.take_material(f, g);
     faces[f] = {a, d, c};
     faces[g] = {d, b, c};
     corners.insert({a, b, c, d});

@@ -114,6 +114,7 @@ class FlatFaces {
         d = surface_.faces[g][(k + 2) % 3];
     }
     if (d == kNone || d == b || !faces_with(b, d).empty()) return false;
+    surface_.take_material(f, g);
     surface_.faces[f] = {a, b, d};
     surface_.faces[g] = {d, b, c};
     forget(c, f);

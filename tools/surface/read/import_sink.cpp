@@ -106,6 +106,13 @@ bool ImportSink::add_vertex(const double* xyz, const Place& place) {
   return true;
 }
 
+void ImportSink::use_material(std::string_view name) {
+  std::vector<std::string>& names = materials_.names;
+  const auto at = std::find(names.begin(), names.end(), name);
+  material_ = name.empty() ? 0 : static_cast<uint32_t>(at - names.begin()) + 1;
+  if (!name.empty() && at == names.end()) names.emplace_back(name);
+}
+
 bool ImportSink::add_polygon(const std::vector<int64_t>& corners, const Place& place) {
   if (is_stopped_) return false;
   if (corners.size() < 3) {
@@ -131,6 +138,7 @@ bool ImportSink::add_polygon(const std::vector<int64_t>& corners, const Place& p
   if (corners.size() > 3) polygons_.push_back({surface_.faces.size(), corners.size(), place});
   for (size_t k = 1; k + 1 < corners.size(); ++k) {
     surface_.source.push_back(static_cast<uint32_t>(surface_.faces.size()));
+    if (reads_materials_) materials_.of.push_back(material_);
     surface_.faces.push_back({static_cast<uint32_t>(corners[0]), static_cast<uint32_t>(corners[k]),
                               static_cast<uint32_t>(corners[k + 1])});
   }

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "surface/read/read_surface.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::tools {
@@ -41,6 +42,12 @@ class ImportSink {
   /// Points without faces are taken too: each becomes a face of one vertex, for wrapping.
   void allow_points() { allows_points_ = true; }
   bool allows_points() const { return allows_points_; }
+  void read_materials() { reads_materials_ = true; }
+  bool reads_materials() const { return reads_materials_; }
+  /// Of the polygons that follow; "": of none.
+  void use_material(std::string_view name);
+  /// The same by a number: of a file whose materials have no names.
+  void use_material(uint32_t number) { material_ = number; }
   /// The folder of the file with its separator, or empty.
   std::string folder() const { return path_.substr(0, path_.find_last_of("/\\") + 1); }
 
@@ -59,6 +66,7 @@ class ImportSink {
   bool failed() const { return !problem_.empty(); }
   Surface& surface() { return surface_; }
   const std::vector<std::string>& notes() const { return notes_; }
+  const FileMaterials& materials() const { return materials_; }
   /// The first problem, and how often; empty where there is none.
   std::string problem() const;
 
@@ -85,7 +93,9 @@ class ImportSink {
   std::vector<Polygon> polygons_;  // of more than three corners
   std::vector<std::string> notes_;
   double moved_m_ = 0;  // by the rounding to float, at most
-  bool is_stopped_ = false, allows_points_ = false;
+  bool is_stopped_ = false, allows_points_ = false, reads_materials_ = false;
+  FileMaterials materials_;
+  uint32_t material_ = 0;       // of the polygons that follow
   std::string problem_, kind_;  // the first one
   uint64_t times_ = 0, others_ = 0;
   Place first_, last_;

@@ -66,6 +66,24 @@ bool read_face(TextScan& scan, ImportSink& sink, std::vector<int64_t>& corners) 
   return sink.add_polygon(corners, {scan.line()});
 }
 
+// Which word begins a material: a file without `usemtl` has groups.
+std::string_view material_word(std::string_view text, const ImportSink& sink) {
+  TextScan scan(text);
+  std::string_view word;
+  while (sink.reads_materials() && scan.next_line())
+    if (scan.next_word(word) && word == "usemtl") return "usemtl";
+  return "g";
+}
+
+// A group without a name, which OBJ calls `default`, has no material.
+bool read_material(TextScan& scan, std::string_view keyword, ImportSink& sink) {
+  std::string_view name;
+  if (!scan.next_word(name)) name = {};
+  sink.use_material(name);
+  return !name.empty() || keyword == "g" ||
+         sink.defect({scan.line()}, "usemtl", "usemtl without the name of a material: add one");
+}
+
 }  // namespace
 
 void read_obj(std::string_view text, ImportSink& sink) {
@@ -77,6 +95,7 @@ void read_obj(std::string_view text, ImportSink& sink) {
   }
   sink.count_from(1);
   TextScan scan(text);
+  const std::string_view of_material = material_word(text, sink);
   std::vector<int64_t> corners;
   std::string_view word;
   while (scan.next_line()) {
@@ -86,6 +105,8 @@ void read_obj(std::string_view text, ImportSink& sink) {
       going_on = read_vertex(scan, sink);
     } else if (word == "f" || word == "fo") {
       going_on = read_face(scan, sink, corners);
+    } else if (sink.reads_materials() && word == of_material) {
+      going_on = read_material(scan, word, sink);
     } else if (!is_passed_over(word)) {
       going_on = sink.defect({scan.line()}, "keyword",
                              quoted(word) +

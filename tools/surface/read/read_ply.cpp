@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstring>
 
 #include "firmtouch/mesh/layout.hpp"
@@ -106,6 +107,7 @@ class PlyValues {
 struct Wanted {
   int xyz[3] = {-1, -1, -1};
   int corners = -1;
+  int material = -1;
 };
 
 bool has_corners(const PlyElement& element) {
@@ -114,6 +116,10 @@ bool has_corners(const PlyElement& element) {
 
 bool is_corner_list(const PlyProperty& property) {
   return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+bool is_material(const PlyProperty& property) {
+  return !property.is_list && (property.name == "material_index" || property.name == "material");
 }
 
 bool find_wanted(const PlyElement& element, Wanted& wanted, ImportSink& sink) {
@@ -126,6 +132,7 @@ bool find_wanted(const PlyElement& element, Wanted& wanted, ImportSink& sink) {
         place = &wanted.xyz[k];
     }
     if (is_face && is_corner_list(property)) place = &wanted.corners;
+    if (is_face && sink.reads_materials() && is_material(property)) place = &wanted.material;
     if (place == nullptr) continue;
     if (*place >= 0) {
       return sink.fail("element " + element.name + " has property " + property.name +
@@ -190,6 +197,10 @@ bool add_strips(const std::vector<int64_t>& corners, const Place& place, ImportS
   return true;
 }
 
+bool is_material_number(double value) {
+  return value >= 0 && value <= 255 && !(std::floor(value) < value);
+}
+
 bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wanted,
                   uint64_t index, std::vector<int64_t>& corners, ImportSink& sink) {
   double xyz[3] = {};
@@ -208,14 +219,18 @@ bool read_element(PlyValues& values, const PlyElement& element, const Wanted& wa
         is_vertex && (i == wanted.xyz[0] || i == wanted.xyz[1] || i == wanted.xyz[2]);
     if (wrong == nullptr && is_coordinate && !(value - value <= 0))
       wrong = "a coordinate is not finite: mend the model";
+    const bool is_of_material = is_face && i == wanted.material;
+    if (wrong == nullptr && is_of_material && !is_material_number(value))
+      wrong = "a material that is not a whole number from 0 (none) to 255: mend the model";
     // Colours and normals are passed over, whatever stands there.
-    if (wrong == kEnds || (wrong != nullptr && is_coordinate)) {
+    if (wrong == kEnds || (wrong != nullptr && (is_coordinate || is_of_material))) {
       if (!values.report(sink, values.place(element, index), wrong)) return false;
       value = 0;
     }
     for (int k = 0; k < 3; ++k) {
       if (is_vertex && i == wanted.xyz[k]) xyz[k] = value;
     }
+    if (is_of_material) sink.use_material(static_cast<uint32_t>(value));
   }
   const Place place = values.place(element, index);
   if (!element.properties.empty() && !values.ends_element()) {

@@ -33,8 +33,9 @@ void read_by_extension(std::string_view bytes, const std::string& extension, Imp
 }  // namespace
 
 Imported read_surface_bytes(std::string_view bytes, const std::string& path, const FileFrame& frame,
-                            PointsAre points) {
+                            PointsAre points, MaterialsAre materials) {
   ImportSink sink(path, frame);
+  if (materials == MaterialsAre::kRead) sink.read_materials();
   if (points == PointsAre::kTaken) sink.allow_points();
   read_by_extension(bytes, model_extension(path), sink);
   sink.finish();
@@ -43,12 +44,13 @@ Imported read_surface_bytes(std::string_view bytes, const std::string& path, con
   if (!imported.problem.empty()) return imported;
   imported.surface = std::move(sink.surface());
   imported.notes = sink.notes();
+  imported.materials = sink.materials();
   return imported;
 }
 
 Imported read_surface(const std::string& path, const FileFrame& frame, PointsAre points) {
   const LoadedFile file = load_file(path, kMaxLineBytes);
-  if (!file.problem.empty()) return {{}, path + ": " + file.problem, {}};
+  if (!file.problem.empty()) return {{}, path + ": " + file.problem, {}, {}};
   const char* bytes = reinterpret_cast<const char*>(file.bytes.data());
   return read_surface_bytes({bytes, file.bytes.size()}, path, frame, points);
 }

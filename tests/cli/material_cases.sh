@@ -1,0 +1,95 @@
+# Cases of tests/cli/run about materials of triangles.
+
+# A box of 12 triangles, the upper 2 of group or material `lid`.
+box_obj() {  # box_obj KEYWORD
+  printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n'
+  printf '%s side\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n%s lid\nf 5 6 7 8\n' "$1" "$1"
+}
+
+feel() { printf '# soft on top\nmaterial side friction 0.5 sliding 0.3\nmaterial lid stiffness 2 N/mm viscous 3 Ns/m\n'; }
+
+MaterialsOfAModelAreBakedByName() {
+  feel >feel.txt
+  for word in usemtl g; do
+    box_obj $word >box.obj
+    bake box.obj -o $word.fta --materials feel.txt
+    says 'materials: 0 triangles without, 10 side, 2 lid' 'needs parts: mesh;materials'
+  done
+  cmp -s usemtl.fta g.fta && fail 'the provenance is the same'
+  f info usemtl.fta; exits 0
+  printf '%s\n' "$out" | grep -q 'section 1012 *12 bytes' || fail "no bytes of triangles: $out"
+  bake usemtl.fta -o again.fta
+  cmp -s usemtl.fta again.fta || fail 'taken as it is, it is another'
+  # Who bakes without materials needs no part more.
+  bake box.obj -o plain.fta
+  says 'needs parts: mesh (FIRMTOUCH_APP)'
+}
+
+MaterialNumbersOfAFileAreThoseOfTheTriangles() {
+  box_obj usemtl >box.obj; feel >feel.txt
+  printf '1 1 1 1 1 1 1 1 1 1\n2 2 # the lid\n' >numbers.txt
+  bake box.obj -o a.fta --materials feel.txt --material-numbers numbers.txt
+  says '0 triangles without, 10 side, 2 lid'
+  bake box.obj -o b.fta --materials feel.txt
+  f info a.fta; a=$(printf '%s\n' "$out" | grep 'section 1012')
+  f info b.fta; same "$a" "$(printf '%s\n' "$out" | grep 'section 1012')"
+}
+
+MaterialsThatDoNotFitAreRefusedByName() {
+  box_obj usemtl >box.obj; feel >feel.txt
+  refuse() {  # refuse TEXT ARGUMENT...
+    text=$1; shift
+    f bake "$@" -o bad.fta; exits 3; says "$text"; absent bad.fta
+  }
+  printf 'material lid\n' >few.txt
+  refuse 'box.obj: material `side` is not in few.txt, which has lid' box.obj --materials few.txt
+  : >none.txt
+  refuse 'none.txt: it has no material' box.obj --materials none.txt
+  i=0; while [ $i -lt 300 ]; do echo "material m$i"; i=$((i + 1)); done >many.txt
+  refuse 'many.txt:256: a mesh has at most 255 materials' box.obj --materials many.txt
+  printf 'material lid\nmaterial lid\n' >twice.txt
+  refuse 'twice.txt:2: there are two materials `lid`' box.obj --materials twice.txt
+  printf 'material lid stiffness 0 N/m\n' >soft.txt
+  refuse 'soft.txt:1: ' box.obj --materials soft.txt
+  printf 'material lid friction -1\n' >negative.txt
+  refuse 'negative.txt:1: ' box.obj --materials negative.txt
+  printf 'material lid friction nan\n' >nan.txt
+  refuse 'nan.txt:1: ' box.obj --materials nan.txt
+  printf 'material lid colour red\n' >colour.txt
+  refuse 'unknown word `colour`' box.obj --materials colour.txt
+  refuse 'cannot be opened' box.obj --materials nowhere.txt
+  # Numbers.
+  printf '1 2 1' >short.txt
+  refuse 'short.txt: has 3 numbers, the model 12 triangles' box.obj --materials feel.txt --material-numbers short.txt
+  printf '1 1 1 1 1 1\n1 1 1 1 1 3\n' >high.txt
+  refuse 'high.txt:2: material 3 is not in feel.txt' box.obj --materials feel.txt --material-numbers high.txt
+  printf '1 1 1 1 1 1 1 1 1 1 1 -1' >low.txt
+  refuse 'low.txt:1: material -1 is not in feel.txt' box.obj --materials feel.txt --material-numbers low.txt
+  printf 'one' >word.txt
+  refuse 'word.txt:1: `one`' box.obj --materials feel.txt --material-numbers word.txt
+  # A model without any, and a PLY index behind the end of the table.
+  grep -v usemtl box.obj >plain.obj
+  refuse 'plain.obj: no triangle has a material' plain.obj --materials feel.txt
+  { printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n'
+    printf 'element face 4\nproperty list uchar int vertex_indices\nproperty int material_index\nend_header\n'
+    printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1 1\n3 0 1 3 2\n3 1 2 3 3\n3 0 3 2 0\n'; } >tetra.ply
+  refuse 'tetra.ply: triangle 2 (from 0): material 3 is not in feel.txt, which has 2 (side, lid)' tetra.ply --materials feel.txt
+  sed 's/^3 1 2 3 3/3 1 2 3 -1/' tetra.ply >minus.ply
+  refuse 'minus.ply:17: face 2 (from 0): ' minus.ply --materials feel.txt
+  sed 's/^3 1 2 3 3/3 1 2 3 2/' tetra.ply >good.ply
+  bake good.ply -o good.fta --materials feel.txt
+  says '1 triangles without, 1 side, 2 lid'
+}
+
+MaterialOptionsThatContradictAreRefused() {
+  box_obj usemtl >box.obj; cp box.obj other.obj; feel >feel.txt; printf '1' >numbers.txt
+  printf 'object a of box\n' >room.objects
+  for words in 'box.obj --material-numbers numbers.txt' 'box.obj --materials feel.txt --wrap 1%' \
+    'box.obj room.objects --materials feel.txt' 'box.obj --materials feel.txt --hull-faces 12 --no-tree' \
+    'box.obj other.obj --materials feel.txt --material-numbers numbers.txt'; do
+    # shellcheck disable=SC2086
+    f bake $words -o bad.fta; exits 2; absent bad.fta
+  done
+  f bake box.obj --materials feel.txt -o feel.txt; exits 2
+  grep -q 'soft on top' feel.txt || fail 'the input is overwritten'
+}

@@ -1,0 +1,119 @@
+// Materials as an asset stores them: each rule broken alone, any byte damaged, and what is read.
+#include "firmtouch/scene/stored_materials.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "harness/test.hpp"
+#include "scene/proxy_rig.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+using scene::MaterialLayout;
+
+namespace {
+
+// A plate whose triangles are of materials 0, 1, 2, 0, ...
+struct Stored {
+  scene_test::ProxyRig rig{scene_test::plate(0.01f)};
+  std::vector<MaterialLayout> table;
+  std::vector<uint8_t> triangles;
+
+  explicit Stored(uint32_t count = 2) {
+    for (uint32_t i = 0; i < count; ++i) {
+      MaterialLayout material = {};
+      std::snprintf(material.name, sizeof material.name, "m%u", i);
+      material.stiffness_N_per_m = 500.0f * static_cast<float>(i + 1);
+      material.friction_static = 0.5f, material.friction_dynamic = 0.25f;
+      material.friction_viscous_N_s_per_m = 2;
+      table.push_back(material);
+    }
+    for (uint32_t t = 0; t < rig.view.head().triangle_count; ++t)
+      triangles.push_back(static_cast<uint8_t>(t % 3));
+  }
+  core::Verdict open(scene::StoredMaterials& to, uint32_t spare_bytes = 0) const {
+    std::vector<uint8_t> bytes(table.size() * sizeof(MaterialLayout) + spare_bytes);
+    if (!table.empty()) std::memcpy(bytes.data(), table.data(), table.size() * sizeof table[0]);
+    held = std::move(bytes);
+    return scene::open({{held.data(), static_cast<uint32_t>(held.size())},
+                        {triangles.data(), static_cast<uint32_t>(triangles.size())}},
+                       rig.view, to);
+  }
+  core::Verdict verdict(uint32_t spare_bytes = 0) const {
+    scene::StoredMaterials to;
+    const core::Verdict found = open(to, spare_bytes);
+    CHECK_EQ(to.is_open(), found.ok());
+    return found;
+  }
+  mutable std::vector<uint8_t> held;
+};
+
+template <class Break>
+void check_rule(uint16_t rule, uint32_t element, const Break& break_it) {
+  Stored stored;
+  CHECK_EQ(stored.verdict().rule, 0u);
+  break_it(stored);
+  CHECK_EQ(stored.verdict().rule, rule);
+  CHECK_EQ(stored.verdict().element, element);
+}
+
+}  // namespace
+
+TEST(StoredMaterials_EachRuleIsBrokenAlone) {
+  check_rule(scene::kRuleMaterialCount, 0, [](Stored& s) { s.table.clear(); });
+  CHECK_EQ(Stored().verdict(1).rule, uint16_t{scene::kRuleMaterialCount});
+  CHECK_EQ(Stored(255).verdict().rule, 0u);
+  CHECK_EQ(Stored(256).verdict().rule, uint16_t{scene::kRuleMaterialCount});
+  check_rule(scene::kRuleMaterialName, 1, [](Stored& s) { s.table[1].name[0] = 0; });
+  check_rule(scene::kRuleMaterialName, 0, [](Stored& s) { s.table[0].name[1] = 7; });
+  check_rule(scene::kRuleMaterialName, 0, [](Stored& s) { s.table[0].name[31] = 'x'; });
+  check_rule(scene::kRuleMaterialTwice, 1, [](Stored& s) { s.table[1].name[1] = '0'; });
+  const float bad[] = {-1, NAN, INFINITY};
+  for (const float value : bad) {
+    check_rule(scene::kRuleMaterialValue, 1,
+               [&](Stored& s) { s.table[1].stiffness_N_per_m = value; });
+    check_rule(scene::kRuleMaterialValue, 0,
+               [&](Stored& s) { s.table[0].friction_static = value; });
+    check_rule(scene::kRuleMaterialValue, 0,
+               [&](Stored& s) { s.table[0].friction_dynamic = value; });
+    check_rule(scene::kRuleMaterialValue, 0,
+               [&](Stored& s) { s.table[0].friction_viscous_N_s_per_m = value; });
+  }
+  check_rule(scene::kRuleMaterialValue, 0, [](Stored& s) { s.table[0].stiffness_N_per_m = 0; });
+  check_rule(scene::kRuleMaterialValue, 0, [](Stored& s) { s.table[0].friction_static = 101; });
+  check_rule(scene::kRuleMaterialBytes, 0, [](Stored& s) { s.triangles.pop_back(); });
+  check_rule(scene::kRuleMaterialBytes, 0, [](Stored& s) { s.triangles.push_back(0); });
+  check_rule(scene::kRuleMaterialIndex, 11, [](Stored& s) { s.triangles[11] = 3; });
+  check_rule(scene::kRuleMaterialIndex, 0, [](Stored& s) { s.triangles[0] = 255; });
+}
+
+TEST(StoredMaterials_ReadsWhatIsStored) {
+  const Stored stored;
+  scene::StoredMaterials materials;
+  CHECK_EQ(materials.of(0), 0u);  // nothing is open
+  CHECK(stored.open(materials).ok());
+  CHECK_EQ(materials.table().size(), 2u);
+  for (uint32_t t = 0; t < stored.triangles.size(); ++t) CHECK_EQ(materials.of(t), t % 3);
+  CHECK_EQ(materials.table()[1].stiffness_N_per_m, 1000.0f);
+}
+
+// What passes is in range, whatever was damaged.
+TEST(StoredMaterials_AnyByteDamaged_IsRefusedOrInRange) {
+  Stored stored;
+  auto* bytes = reinterpret_cast<uint8_t*>(stored.table.data());
+  uint32_t refused = 0;
+  for (uint32_t i = 0; i < 2 * sizeof(MaterialLayout); ++i)
+    for (const uint8_t flip : {uint8_t{1}, uint8_t{0x40}, uint8_t{0x80}, uint8_t{0xFF}}) {
+      bytes[i] ^= flip;
+      if (!stored.verdict().ok()) ++refused;
+      for (const MaterialLayout& material : stored.table) {
+        if (!stored.verdict().ok()) break;
+        CHECK(material.stiffness_N_per_m > 0 && std::isfinite(material.stiffness_N_per_m));
+        CHECK(material.friction_static >= 0 && material.friction_static <= 100);
+        CHECK(material.friction_dynamic >= 0 && material.friction_dynamic <= 100);
+        CHECK(material.friction_viscous_N_s_per_m >= 0 &&
+              material.friction_viscous_N_s_per_m <= 1000);
+      }
+      bytes[i] ^= flip;
+    }
+  CHECK_GE(refused, 100u);
+}

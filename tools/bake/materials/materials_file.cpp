@@ -1,0 +1,141 @@
+#include "bake/materials/materials_file.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <sstream>
+
+#include "device/line_reader.hpp"
+#include "surface/read/text_scan.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+using scene::MaterialLayout;
+
+void read_clause(const std::string& word, LineReader& words, MaterialLayout& material) {
+  constexpr double kMaxFriction = double{scene::kMaxMaterialFriction};
+  if (word == "stiffness") {
+    material.stiffness_N_per_m = static_cast<float>(
+        words.quantity(word, "N/m", double{scene::kMinMaterialStiffness_N_per_m}, 1e9));
+  } else if (word == "friction") {
+    material.friction_static = static_cast<float>(words.quantity(word, "", 0, kMaxFriction));
+    material.friction_dynamic = material.friction_static;
+    if (words.take("sliding"))
+      material.friction_dynamic =
+          static_cast<float>(words.quantity("sliding", "", 0, kMaxFriction));
+  } else if (word == "viscous") {
+    material.friction_viscous_N_s_per_m = static_cast<float>(
+        words.quantity(word, "N*s/m", 0, double{scene::kMaxMaterialViscous_N_s_per_m}));
+  } else {
+    words.refuse("unknown word `" + word + "`; a material has: stiffness, friction, viscous");
+  }
+}
+
+MaterialLayout read_line(LineReader& words) {
+  MaterialLayout material{};
+  material.stiffness_N_per_m = FLT_MAX;
+  words.expect("material");
+  const std::string name = words.next("the material's name");
+  if (name.size() >= scene::kNameBytes)
+    words.refuse("`" + name + "` is longer than " + std::to_string(scene::kNameBytes - 1) +
+                 " bytes; shorten the name");
+  std::memcpy(material.name, name.c_str(), name.size());
+  if (!scene::is_name(material.name))
+    words.refuse("`" + name + "` has a control character; use letters");
+  std::set<std::string> given;
+  while (words.more()) {
+    const std::string word = words.next("a word");
+    if (!given.insert(word).second) words.refuse("`" + word + "` is given twice; keep one");
+    read_clause(word, words, material);
+  }
+  return material;
+}
+
+std::string names_of(const Materials& materials) {
+  std::string list;
+  for (size_t i = 0; i < materials.table.size() && i < 8; ++i)
+    list += (i == 0 ? "" : ", ") + std::string(materials.table[i].name);
+  return list + (materials.table.size() > 8 ? ", ..." : "");
+}
+
+[[noreturn]] void refuse_number(const std::string& where, const std::string& number,
+                                const Materials& materials) {
+  throw Refused(where + ": material " + number + " is not in " + materials.file + ", which has " +
+                std::to_string(materials.table.size()) + " (" + names_of(materials) +
+                "), counted from 1; 0 is none");
+}
+
+uint8_t number_of(const std::string& name, const std::string& model, const Materials& materials) {
+  for (size_t i = 0; i < materials.table.size(); ++i)
+    if (name == materials.table[i].name) return static_cast<uint8_t>(i + 1);
+  throw Refused(model + ": material `" + name + "` is not in " + materials.file + ", which has " +
+                names_of(materials) + "; add a line `material " + name + "` there");
+}
+
+}  // namespace
+
+Materials read_materials(const std::string& file, const std::string& text) {
+  Materials materials{file, {}};
+  std::set<std::string> names;
+  std::istringstream lines(text);
+  const std::vector<std::string> no_names;
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    LineReader words(line, file + ":" + std::to_string(number), no_names, false);
+    if (words.empty()) continue;
+    materials.table.push_back(read_line(words));
+    if (!names.insert(materials.table.back().name).second)
+      words.refuse("there are two materials `" + std::string(materials.table.back().name) +
+                   "`; keep one");
+    if (materials.table.size() > scene::kMaxMaterials)
+      words.refuse("a mesh has at most " + std::to_string(scene::kMaxMaterials) + " materials");
+  }
+  if (materials.table.empty()) throw Refused(file + ": it has no material; write `material NAME`");
+  return materials;
+}
+
+std::vector<uint8_t> triangle_materials(const std::string& model, const FileMaterials& named,
+                                        const Materials& materials) {
+  const auto names_none = [&] {
+    return std::all_of(named.of.begin(), named.of.end(), [](uint32_t of) { return of == 0; });
+  };
+  if (names_none())
+    throw Refused(model +
+                  ": no triangle has a material: OBJ has `usemtl` or `g`, PLY a property "
+                  "material_index of its faces; for other formats give --material-numbers FILE");
+  std::vector<uint8_t> meant{0};  // by each number of the file
+  for (const std::string& name : named.names) meant.push_back(number_of(name, model, materials));
+  std::vector<uint8_t> of;
+  for (size_t t = 0; t < named.of.size(); ++t) {
+    const uint32_t number = named.of[t];
+    if (named.names.empty() && number > materials.table.size())
+      refuse_number(model + ": triangle " + std::to_string(t) + " (from 0)", std::to_string(number),
+                    materials);
+    of.push_back(named.names.empty() ? static_cast<uint8_t>(number) : meant[number]);
+  }
+  return of;
+}
+
+std::vector<uint8_t> read_triangle_materials(const std::string& file, std::string_view text,
+                                             size_t triangles, const Materials& materials) {
+  std::vector<uint8_t> of;
+  TextScan scan(text);
+  std::string_view word;
+  while (scan.find_word(word)) {
+    const std::string where = file + ":" + std::to_string(scan.line());
+    int64_t number = 0;
+    const char* wrong = read_integer(word, number);
+    if (wrong != nullptr) throw Refused(where + ": `" + std::string(word) + "` " + wrong);
+    if (number < 0 || number > static_cast<int64_t>(materials.table.size()))
+      refuse_number(where, std::to_string(number), materials);
+    of.push_back(static_cast<uint8_t>(number));
+  }
+  if (of.size() != triangles)
+    throw Refused(file + ": has " + std::to_string(of.size()) + " numbers, the model " +
+                  std::to_string(triangles) +
+                  " triangles: write one for each, in the order of its file");
+  return of;
+}
+
+}  // namespace firmtouch::tools
