@@ -42,7 +42,13 @@ Environment environment_of(const ObjectsController& controller, Vec origin_m) {
                          controller.spline_guide().chains().size() == 1 &&
                          controller.spline_guide().chains()[0].is_closed != 0;
   if (is_closed) guide.back() = guide.front();
-  return {meshes_of(controller, origin_m), controller.spline_surface(), std::move(guide), origin_m};
+  Environment environment(meshes_of(controller, origin_m), controller.spline_surface(),
+                          std::move(guide), origin_m);
+  std::vector<std::string> materials;
+  for (const scene::MaterialLayout& material : controller.materials().table())
+    materials.emplace_back(material.name);
+  environment.name_materials(std::move(materials));
+  return environment;
 }
 
 }  // namespace firmtouch::host_sim

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "firmtouch/spline/view.hpp"
@@ -40,6 +42,9 @@ class Environment {
   const mesh::View& mesh() const { return meshes_.front().mesh; }
   const std::vector<PlacedMesh>& meshes() const { return meshes_; }
   uint32_t triangle_count() const;  // of all meshes
+  /// Names of the materials of the mesh's triangles; empty: they have none.
+  const std::vector<std::string>& materials() const { return materials_; }
+  void name_materials(std::vector<std::string> names) { materials_ = std::move(names); }
   const spline::View& surface() const { return surface_; }
   /// Triangles of the spline surfaces, in the asset's frame; empty for a mesh.
   const Tessellation& tessellation() const { return tessellation_; }
@@ -49,6 +54,7 @@ class Environment {
 
  private:
   std::vector<PlacedMesh> meshes_;
+  std::vector<std::string> materials_;
   spline::View surface_;
   Tessellation tessellation_;
   bool normals_inward_ = false;

@@ -132,6 +132,9 @@ std::string table(const Report& report, const Scene3d& scene3d) {
   for (const ShownObject& object : scene3d.objects)
     rows += row("Object " + html_of(object.name),
                 "held the tool for " + grouped(object.ticks) + " ticks, motors on");
+  for (const TouchedMaterial& material : scene3d.materials)
+    rows += row("Material " + html_of(material.name),
+                "held the tool for " + grouped(material.ticks) + " ticks, motors on");
   rows += row("Asset in flash", grouped(report.asset_bytes) + " bytes");
   rows +=
       row("Controller state in RAM",

@@ -164,7 +164,11 @@ RunPaths::RunPaths(const Environment& environment, const Scenario& scenario, con
       moving_(environment.meshes(),
               static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       peak_meshes_(environment.meshes()),
-      held_ticks_(environment.meshes().size()) {}
+      held_shift_(environment.materials().empty() ? record::kStateObjectShift
+                                                  : record::kStateMaterialShift),
+      held_mask_(environment.materials().empty() ? 31u : 255u),
+      held_ticks_(environment.materials().empty() ? environment.meshes().size()
+                                                  : environment.materials().size()) {}
 
 size_t RunPaths::first() const {
   return std::min<size_t>((facts_.setup_ticks + stride_ - 1) / stride_, samples_.size());
@@ -174,8 +178,9 @@ void RunPaths::add(const RunTick& tick) {
   const record::TickOutput& out = tick.record.output;
   const Vec force_N = narrow(out.force_N);
   moving_.take(tick.record);
-  const uint32_t object = out.state >> record::kStateObjectShift & 31u;
-  if (object > 0 && object <= held_ticks_.size() && motors_are_on(out)) ++held_ticks_[object - 1];
+  const uint32_t held_by = out.state >> held_shift_ & held_mask_;
+  if (held_by > 0 && held_by <= held_ticks_.size() && motors_are_on(out))
+    ++held_ticks_[held_by - 1];
   if (norm(force_N) > peak_N_ || ticks_ == 0) {
     peak_N_ = std::max(peak_N_, norm(force_N));
     peak_device_m_ = tick.device_m;
@@ -190,6 +195,8 @@ Scene3d make_scene3d(const Environment& environment, const RunPaths& run, double
   Scene3d scene3d = scene_with(environment, run.peak_meshes(), tool_radius_m);
   for (size_t i = 0; i < scene3d.objects.size(); ++i)
     scene3d.objects[i].ticks = run.held_ticks()[i];
+  for (size_t i = 0; i < environment.materials().size(); ++i)
+    scene3d.materials.push_back({environment.materials()[i], run.held_ticks()[i]});
   Path device{"device", "tool centre, true path", kDeviceColour, 2, {}, {}};
   Path tool{"tool", "tool centre, from the encoders", {14, 165, 190}, 1.2, {}, {}};
   Path hand{"hand", "target of the simulated hand", kHandColour, 1.4, {}, {}};

@@ -29,12 +29,19 @@ struct ShownObject {
   uint32_t ticks = 0;  // in which it held the tool; 0: not touched
 };
 
+/// A material of the mesh's triangles.
+struct TouchedMaterial {
+  std::string name;
+  uint32_t ticks;  // in which it held the tool, motors on
+};
+
 /// Content of the 3D view: surface and paths, for the report's viewer and the drawn picture.
 struct Scene3d {
   std::vector<Vec> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
   uint32_t source_triangles = 0;     // before simplification for display
   std::vector<ShownObject> objects;  // empty: one surface
+  std::vector<TouchedMaterial> materials;
   std::vector<Path> paths;
   Vec centre;
   double radius_m = 0.1;  // of the bounding sphere about `centre`
@@ -63,7 +70,7 @@ class RunPaths {
   Vec peak_device_m() const { return peak_device_m_; }
   /// Where the objects are then.
   const std::vector<PlacedMesh>& peak_meshes() const { return peak_meshes_; }
-  /// Ticks with the motors on in which each object held the tool.
+  /// Ticks with the motors on in which each object held the tool; each material, if there are any.
   const std::vector<uint32_t>& held_ticks() const { return held_ticks_; }
   /// First sample of which the scenario's parameters are set.
   size_t first() const;
@@ -76,6 +83,7 @@ class RunPaths {
   Vec peak_device_m_;
   MovingMeshes moving_;
   std::vector<PlacedMesh> peak_meshes_;
+  uint32_t held_shift_, held_mask_;  // of the record's state
   std::vector<uint32_t> held_ticks_;
 };
 
