@@ -32,6 +32,8 @@ struct Solid {
 Solid plate(double thickness_m);
 /// Floor z = 0 for x < 0, wall x = 0 above it.
 Solid two_walls();
+/// Floor z = 0, with an edge across it at x = 0, and a wall x = 40 mm at its end.
+Solid floor_and_wall();
 /// A cube without its octant of positive x, y, z: three walls at 0.
 Solid three_walls();
 /// A groove along y, 10 mm deep; the angle is between a flank and the vertical.
