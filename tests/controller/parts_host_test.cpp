@@ -6,6 +6,7 @@
 #include "controller/ride.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/controller/objects_controller.hpp"
 #include "firmtouch/device/layout.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
@@ -133,6 +134,12 @@ TEST(MeshAndGuide_HasTheSameBitsAsTheFullOne) {
   const record::TickOutput full = last_of_ride<FullController>(both());
   const record::TickOutput some = last_of_ride<MeshAndGuide>(both());
   CHECK_EQ(std::memcmp(&full, &some, sizeof full), 0);
+}
+
+TEST(ObjectsController_WithoutMaterialsHasTheSameBitsAsTheFullOne) {
+  const record::TickOutput full = last_of_ride<FullController>(both());
+  const record::TickOutput all = last_of_ride<ObjectsController>(both());
+  CHECK_EQ(std::memcmp(&full, &all, sizeof full), 0);
 }
 
 TEST(PartialTable_HasTheRowsOfItsPartsInTheFullTablesOrder) {

@@ -51,10 +51,14 @@ if(TARGET firmtouch OR FIRMTOUCH_HOST_TOOLS)
   firmtouch_bake(TARGET example_low_block INPUTS ${CMAKE_CURRENT_LIST_DIR}/low_block.obj OUTPUT low_block.fta
                  OPTIONS --unit mm)
   firmtouch_embed(TARGET example_low_block_bytes ASSET example_low_block SYMBOL low_block_fta)
+  firmtouch_bake(TARGET example_two_materials INPUTS ${CMAKE_CURRENT_LIST_DIR}/two_materials.obj OUTPUT two_materials.fta
+                 OPTIONS --unit mm --materials ${CMAKE_CURRENT_LIST_DIR}/two_materials.txt)
+  firmtouch_embed(TARGET example_two_materials_bytes ASSET example_two_materials SYMBOL two_materials_fta)
   firmtouch_bake(TARGET example_torus INPUTS ${PROJECT_SOURCE_DIR}/tests/spline/cad/torus.igs OUTPUT torus.fta)
   firmtouch_embed(TARGET example_torus_bytes ASSET example_torus SYMBOL torus_fta)
 
   firmtouch_example(touch_mesh LINKS firmtouch::controller example_block_bytes)
+  firmtouch_example(materials LINKS firmtouch::controller example_two_materials_bytes)
   firmtouch_example(two_rates LINKS firmtouch::controller example_block_bytes)
   firmtouch_example(replay_log LINKS firmtouch::controller example_block_bytes)
   firmtouch_example(hot_swap LINKS firmtouch::controller example_block_bytes example_low_block_bytes)
