@@ -15,6 +15,8 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
                    ${CMAKE_CURRENT_LIST_DIR}/../spline/cad)
   add_test(NAME host_sim.objects
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_objects $<TARGET_FILE_DIR:firmtouch-sim>)
+  add_test(NAME host_sim.materials
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_materials $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.linkage
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_linkage $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.teach

@@ -47,7 +47,7 @@ void end_materials(const ProxyContact& contact, const StoredMaterials& materials
 /// stiffness is in series with that of `contact`, a friction the larger of both. Several materials
 /// that hold the proxy count by their shares of the load. Under load no change of materials makes a
 /// step of the force above 20 N/s, and all changes of a contact together give no energy.
-/// Bounds: as touch_by_proxy(), and about 200 instructions.
+/// Bounds: as touch_by_proxy(), and about 260 instructions (tests/host_sim/run_materials).
 template <class Shape>
 void touch_materials(const ProxyContact& contact, const StoredMaterials& materials, Shape& shape,
                      ProxyTouch& touch, MaterialTouch& state, servo::LocalModel& model) {
