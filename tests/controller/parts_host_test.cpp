@@ -136,6 +136,29 @@ TEST(MeshAndGuide_HasTheSameBitsAsTheFullOne) {
   CHECK_EQ(std::memcmp(&full, &some, sizeof full), 0);
 }
 
+TEST(Materials_AreProvenBeforeATick_AndNeedTheirPart) {
+  static Controller<Surfaces<MaterialMesh>> controller;
+  static MeshController without;
+  const auto part_of = [](uint8_t number) {
+    std::vector<tools::Section> sections = part_sections();
+    mesh::View view;
+    CHECK(tools::open_baked(sections, "part", view).ok());
+    scene::MaterialLayout material = {{'a'}, 500, 0, 0, 0};
+    std::vector<uint8_t> triangles(view.head().triangle_count, 1);
+    triangles[1234] = number;
+    sections.push_back(tools::make_section(scene::kMaterialsSection, "part", &material, 1));
+    sections.push_back(tools::make_section(scene::kTriangleMaterialsSection, "part", triangles));
+    return file_of(std::move(sections));
+  };
+  const Asset good(part_of(0)), bad(part_of(2));
+  CHECK_EQ(controller.open(good.bytes()).rule, 0u);
+  CHECK(controller.surface<MaterialMesh>().materials().is_open());
+  CHECK_EQ(without.open(good.bytes()).rule, uint16_t{kRuleNeedsMaterials});
+  CHECK_EQ(controller.open(bad.bytes()).rule, uint16_t{scene::kRuleMaterialIndex});
+  CHECK_EQ(controller.verdict().element, 1234u);
+  CHECK(!controller.surface<MaterialMesh>().materials().is_open());
+}
+
 TEST(ObjectsController_WithoutMaterialsHasTheSameBitsAsTheFullOne) {
   const record::TickOutput full = last_of_ride<FullController>(both());
   const record::TickOutput all = last_of_ride<ObjectsController>(both());
