@@ -35,9 +35,9 @@ const char* text_or_null(const std::string& text) { return text.empty() ? nullpt
 
 SceneNames names_in(const asset::Container& asset, const SceneNames& wanted) {
   using GuideList = Guides<CurveGuide, SplineGuide>;
-  return {text_or_empty(
-              SurfacesWithObjects<FullMaterialMesh>::find(asset, text_or_null(wanted.surface))),
-          text_or_empty(GuideList::find(asset, text_or_null(wanted.guide)))};
+  return {
+      text_or_empty(SurfacesWithTool<FullMaterialMesh>::find(asset, text_or_null(wanted.surface))),
+      text_or_empty(GuideList::find(asset, text_or_null(wanted.guide)))};
 }
 
 // Surfaces and guides of the asset, in the order of its table.
@@ -74,7 +74,7 @@ void check_verdict(const std::string& path, core::Verdict verdict) {
 Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact contact)
     : asset(asset_path),
       wanted(std::move(wanted_names)),
-      controller(std::make_unique<ObjectsController>()) {
+      controller(std::make_unique<ToolController>()) {
   asset::Container container;
   if (asset::open(asset.bytes(), container).ok()) {
     const std::vector<SceneEntry> entries = scene_entries(container);
@@ -110,7 +110,7 @@ void Session::list_unused(const std::vector<SceneEntry>& entries) {
 
 void Session::load_next(const std::string& asset_path) {
   next = std::make_unique<AssetFile>(asset_path);
-  swapping = std::make_unique<SwappingObjectsController>();
+  swapping = std::make_unique<SwappingToolController>();
   const Selection selection{text_or_null(wanted.surface), text_or_null(wanted.guide)};
   check_verdict(asset.path(), swapping->open(asset.bytes(), selection));
   swapping->begin_next(next->bytes());

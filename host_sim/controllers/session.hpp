@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "firmtouch/controller/objects_controller.hpp"
+#include "firmtouch/controller/tool_controller.hpp"
 #include "host_sim/controllers/asset_file.hpp"
 #include "host_sim/controllers/penalty_controller.hpp"
 #include "host_sim/trace/run.hpp"
@@ -43,10 +43,10 @@ struct Session {
   SceneNames used;                   // empty: the asset has none
   std::vector<std::string> objects;  // names of those that are touched; empty: one surface
   std::vector<std::string> unused;   // "surface `lid`"
-  std::unique_ptr<ObjectsController> controller;
+  std::unique_ptr<ToolController> controller;
   std::unique_ptr<PenaltyController> penalty;  // null: contact through a proxy
   std::unique_ptr<AssetFile> next;             // null: no asset to swap to
-  std::unique_ptr<SwappingObjectsController> swapping;
+  std::unique_ptr<SwappingToolController> swapping;
 
  private:
   void list_unused(const std::vector<SceneEntry>& entries);

@@ -1,4 +1,4 @@
-#include "firmtouch/controller/objects_controller.hpp"
+#include "firmtouch/controller/tool_controller.hpp"
 #include "host_sim/plant/environment.hpp"
 
 namespace firmtouch::host_sim {
@@ -6,7 +6,7 @@ namespace firmtouch::host_sim {
 namespace {
 
 // As the controller places them.
-std::vector<PlacedMesh> meshes_of(const ObjectsController& controller, Vec origin_m) {
+std::vector<PlacedMesh> meshes_of(const ToolController& controller, Vec origin_m) {
   std::vector<PlacedMesh> meshes;
   const auto add = [&](const char* name, const mesh::View& mesh, const scene::Object& object) {
     meshes.push_back({name, mesh, object});
@@ -23,7 +23,7 @@ std::vector<PlacedMesh> meshes_of(const ObjectsController& controller, Vec origi
 
 }  // namespace
 
-Environment environment_of(const ObjectsController& controller, Vec origin_m) {
+Environment environment_of(const ToolController& controller, Vec origin_m) {
   std::vector<Vec> guide;
   if (controller.curve().is_open())
     for (const curve::Sample& s : controller.curve().samples())

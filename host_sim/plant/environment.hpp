@@ -9,7 +9,7 @@
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch {
-class ObjectsController;
+class ToolController;
 }
 
 namespace firmtouch::host_sim {
@@ -65,6 +65,6 @@ class Environment {
 };
 
 /// Surface and guide of the controller's asset, moved by `origin_m`.
-Environment environment_of(const ObjectsController& controller, Vec origin_m);
+Environment environment_of(const ToolController& controller, Vec origin_m);
 
 }  // namespace firmtouch::host_sim

@@ -136,10 +136,9 @@ std::string table(const Report& report, const Scene3d& scene3d) {
     rows += row("Material " + html_of(material.name),
                 "held the tool for " + grouped(material.ticks) + " ticks, motors on");
   rows += row("Asset in flash", grouped(report.asset_bytes) + " bytes");
-  rows +=
-      row("Controller state in RAM",
-          grouped(scene3d.objects.empty() ? sizeof(FullController) : sizeof(ObjectsController)) +
-              " bytes");
+  rows += row("Controller state in RAM",
+              grouped(scene3d.objects.empty() ? sizeof(FullController) : sizeof(ToolController)) +
+                  " bytes");
   rows += row("Ticks", grouped(s.ticks) + " at " + fixed(s.rate_Hz, 0) + " Hz");
   rows += row("Ticks in contact, motors on", grouped(s.contact_ticks));
   if (s.has_guide) rows += row("Ticks on the guide, motors on", grouped(s.guide_ticks));

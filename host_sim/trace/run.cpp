@@ -376,7 +376,7 @@ bool Simulation::next(RunTick& tick) {
   return true;
 }
 
-Trace run(const Scenario& scenario, ObjectsController& controller, const Environment& environment,
+Trace run(const Scenario& scenario, ToolController& controller, const Environment& environment,
           LockStepController* remote, const std::function<void(double)>& progress) {
   Simulation simulation(scenario, tick_of(controller), environment, remote);
   Trace trace;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "firmtouch/controller/objects_controller.hpp"
+#include "firmtouch/controller/tool_controller.hpp"
 #include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/scenario/scenario.hpp"
@@ -84,7 +84,7 @@ class Simulation {
 struct Trace : RunFacts {
   std::vector<record::TickRecord> records;
 };
-Trace run(const Scenario& scenario, ObjectsController& controller, const Environment& environment,
+Trace run(const Scenario& scenario, ToolController& controller, const Environment& environment,
           LockStepController* remote = nullptr, const std::function<void(double)>& progress = {});
 
 }  // namespace firmtouch::host_sim

@@ -131,7 +131,7 @@ TEST(AnotherProtocolIsRefusedNamingBoth) {
   host.protocol = 77;
   const link::HelloReply reply = greet(app, host, link::kModeLockStep);
   CHECK_EQ(reply.refused, link::kRefusedProtocol);
-  CHECK(contains(refusal(host, reply), "protocol version: host 77, controller 6"));
+  CHECK(contains(refusal(host, reply), "protocol version: host 77, controller 7"));
   // Nor may another version's Hello be as long as ours.
   const uint32_t longer[20] = {78};
   app.send(link::kHello, longer);

@@ -52,8 +52,8 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-// Enumerators `kRuleName = number,` of every `enum Rule`: the text is the comment above, which may
-// take several lines, or the one behind.
+// Enumerators `kRuleName = number,` of every `enum ...Rule`: the text is the comment above, which
+// may take several lines, or the one behind.
 std::map<int, Line> lines_of_header(const std::string& header) {
   static const std::regex kEnumerator(R"(^\s*kRule(\w+) = (\d+),\s*(?://(.*))?$)");
   std::map<int, Line> lines;
@@ -63,7 +63,7 @@ std::map<int, Line> lines_of_header(const std::string& header) {
   for (std::string row; std::getline(rows, row);) {
     const std::string words = trimmed(row);
     std::smatch found;
-    if (words.rfind("enum Rule ", 0) == 0) {
+    if (words.rfind("enum ", 0) == 0 && words.find("Rule ") != std::string::npos) {
       is_inside = true;
       above.clear();
     } else if (words.rfind("};", 0) == 0) {

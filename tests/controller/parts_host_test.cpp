@@ -13,6 +13,7 @@
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/scene/materials_layout.hpp"
 #include "firmtouch/scene/objects_layout.hpp"
+#include "firmtouch/scene/tool_layout.hpp"
 #include "firmtouch/spline/guide/view.hpp"
 #include "harness/test.hpp"
 
@@ -100,7 +101,8 @@ TEST(MissingPart_IsNamedByItsRule) {
       {spline_head(false), {spline::kArcsSection, "x", {1, 2, 3, 4}}},
       {{device::kLinkageSection, "x", {1}}},
       {{scene::kObjectsSection, "x", {1}}},
-      {{scene::kMaterialsSection, "x", {1}}}};
+      {{scene::kMaterialsSection, "x", {1}}},
+      {{scene::kToolSection, "x", {1}}}};
   for (uint32_t part = 0; part < kPartCount; ++part) {
     CHECK_EQ(missing(needs[part], {}, kAll & ~(1u << part)).rule, kRuleNeedsMesh + part);
     CHECK_EQ(missing(needs[part], {}, 1u << part).rule, 0u);

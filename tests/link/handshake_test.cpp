@@ -56,7 +56,7 @@ TEST(Handshake_OtherProtocol_IsTheOnlyReason) {
   reply.controller = other;
   char text[256];
   explain(identity(), reply, text);
-  CHECK(contains(text, "protocol version: host 6, controller 7"));
+  CHECK(contains(text, "protocol version: host 7, controller 8"));
   CHECK(!contains(text, "asset"));
 }
 

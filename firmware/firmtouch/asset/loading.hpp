@@ -54,6 +54,8 @@ enum Rule : uint16_t {
   kRuleNeedsObjects = 916,
   // The asset needs part `materials`, which is not linked into this program.
   kRuleNeedsMaterials = 917,
+  // The asset needs part `tool`, which is not linked into this program.
+  kRuleNeedsTool = 918,
 };
 
 namespace asset {

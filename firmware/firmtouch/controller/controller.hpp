@@ -121,6 +121,9 @@ class Controller {
     const bool passed = device.push(core_.values(), push, core_.guard(), output);
     const uint32_t of_device = output.state;
     core_.end_tick(asset, tick, passed, output);
+    if constexpr (SurfaceList::kHasTorque)
+      scene().surfaces.put_torque(!is_apart || (input.flags & record::kFlagModelTaken) != 0,
+                                  output);
     if constexpr (Device::kHomes)
       output.state = record::without_old_object(output.state, of_device);
   }
@@ -163,6 +166,7 @@ class Controller {
   void make_local_model(const ModelRequest& request, const params::Values& values,
                         ModelResult& result) {
     core_.begin_model(request, values, result);
+    if constexpr (SurfaceList::kHasTorque) scene().surfaces.begin_torque();
     if (!request.can_touch) return;
     scene().surfaces.touch(request, values, result);
     scene().guide.follow(request, values, result);

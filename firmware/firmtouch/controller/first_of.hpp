@@ -76,6 +76,9 @@ class FirstOf : private Policies... {
 /// Base of the policies of surfaces that move: they have take_command() and advance().
 struct MovingSurface {};
 
+/// Base of those that turn the handle of a tool: they have begin_torque() and put_torque(), too.
+struct TorqueSurface : MovingSurface {};
+
 /// The surfaces of a controller: the first that the asset has is touched.
 template <class... Policies>
 class Surfaces : public FirstOf<Policies...> {
@@ -86,6 +89,7 @@ class Surfaces : public FirstOf<Policies...> {
   using Parameters = params::Joined<typename Policies::Parameters...>;
 
   static constexpr bool kMoves = (__is_base_of(MovingSurface, Policies) || ...);
+  static constexpr bool kHasTorque = (__is_base_of(TorqueSurface, Policies) || ...);
 
   void touch(const ModelRequest& request, const params::Values& values, ModelResult& result) {
     this->use_open([&](auto& surface) { surface.touch(request, values, result); });
@@ -100,6 +104,13 @@ class Surfaces : public FirstOf<Policies...> {
   void advance(float passed_s) {
     use_moving([&](auto& surface) { surface.advance(passed_s); });
   }
+  /// Of the surface whose tool has a handle.
+  void begin_torque() {
+    use_turning([](auto& surface) { surface.begin_torque(); });
+  }
+  void put_torque(bool is_new, record::TickOutput& output) {
+    use_turning([&](auto& surface) { surface.put_torque(is_new, output); });
+  }
 
  private:
   template <class Use>
@@ -109,6 +120,14 @@ class Surfaces : public FirstOf<Policies...> {
   template <class P, class Use>
   static void use_if_it_moves(P& surface, const Use& use) {
     if constexpr (__is_base_of(MovingSurface, P)) use(surface);
+  }
+  template <class Use>
+  void use_turning(const Use& use) {
+    this->use_open([&](auto& surface) { use_if_it_turns(surface, use); });
+  }
+  template <class P, class Use>
+  static void use_if_it_turns(P& surface, const Use& use) {
+    if constexpr (__is_base_of(TorqueSurface, P)) use(surface);
   }
 };
 

@@ -10,21 +10,26 @@
 #include "firmtouch/mesh/layout.hpp"
 #include "firmtouch/scene/materials_layout.hpp"
 #include "firmtouch/scene/objects_layout.hpp"
+#include "firmtouch/scene/tool_layout.hpp"
 #include "firmtouch/spline/guide/view.hpp"
 #include "firmtouch/spline/layout.hpp"
 
 namespace firmtouch {
 namespace {
 
-static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsMaterials, "a rule a part, in order");
+static_assert(kRuleNeedsMesh + kPartCount - 1 == kRuleNeedsTool, "a rule a part, in order");
 
 // What each section needs, except splines.
 constexpr struct {
   uint16_t type, part;
-} kNeeded[] = {{mesh::kHeadSection, kPartMesh},           {field::kHeadSection, kPartField},
-               {hull::kHeadSection, kPartHull},           {curve::kHeadSection, kPartGuide},
-               {device::kLinkageSection, kPartLinkage},   {scene::kObjectsSection, kPartObjects},
-               {scene::kMaterialsSection, kPartMaterials}};
+} kNeeded[] = {{mesh::kHeadSection, kPartMesh},
+               {field::kHeadSection, kPartField},
+               {hull::kHeadSection, kPartHull},
+               {curve::kHeadSection, kPartGuide},
+               {device::kLinkageSection, kPartLinkage},
+               {scene::kObjectsSection, kPartObjects},
+               {scene::kMaterialsSection, kPartMaterials},
+               {scene::kToolSection, kPartTool}};
 
 bool same(const char* a, const char* b) {
   while (*a != 0 && *a == *b) ++a, ++b;
@@ -62,7 +67,8 @@ core::Verdict missing_part(const asset::Container& asset, const Selection& selec
     if ((part & ~linked) == 0) continue;
     const bool is_guide = (part & (kPartGuide | kPartSplineGuide)) != 0;
     const char* wanted = is_guide ? selection.guide : selection.surface;
-    if (part != kPartLinkage && wanted != nullptr && !same(wanted, asset.name(i))) continue;
+    const bool is_of_device = (part & (kPartLinkage | kPartTool)) != 0;
+    if (!is_of_device && wanted != nullptr && !same(wanted, asset.name(i))) continue;
     uint32_t number = 0;
     while (part >> number != 1) ++number;
     return core::reject(static_cast<uint16_t>(kRuleNeedsMesh + number), i);

@@ -19,14 +19,15 @@ enum Part : uint32_t {
   kPartLinkage = 1u << 6,
   kPartObjects = 1u << 7,
   kPartMaterials = 1u << 8,
+  kPartTool = 1u << 9,
 };
-constexpr uint32_t kPartCount = 9;
+constexpr uint32_t kPartCount = 10;
 
-/// Name of part `number` (its bit), as in FIRMTOUCH_APP and in the texts of rules R909 to R917.
+/// Name of part `number` (its bit), as in FIRMTOUCH_APP and in the texts of rules R909 to R918.
 constexpr const char* part_name(uint32_t number) {
-  constexpr const char* kName[kPartCount] = {"mesh",    "field",   "hull",
-                                             "guide",   "spline",  "spline_guide",
-                                             "linkage", "objects", "materials"};
+  constexpr const char* kName[kPartCount] = {"mesh",      "field",        "hull",    "guide",
+                                             "spline",    "spline_guide", "linkage", "objects",
+                                             "materials", "tool"};
   return number < kPartCount ? kName[number] : "unknown";
 }
 
@@ -37,7 +38,7 @@ uint32_t part_of_section(const asset::Container& asset, uint32_t i);
 /// All parts that an asset needs.
 uint32_t needed_parts(const asset::Container& asset);
 
-/// The verdict on an asset in a program with the parts `linked`: one of R909 to R917, at the
+/// The verdict on an asset in a program with the parts `linked`: one of R909 to R918, at the
 /// section that needs the missing part, or passed. Where a name is selected, others of its kind do
 /// not count.
 core::Verdict missing_part(const asset::Container& asset, const Selection& selection,

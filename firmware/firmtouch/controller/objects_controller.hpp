@@ -9,8 +9,7 @@ template <class Mesh>
 using SurfacesWithObjects = Surfaces<MeshObjects, Mesh, SplineSurface>;
 
 /// Every part of the library, several objects (part `objects`), and materials of triangles (part
-/// `materials`). The same parameters, and the same bits for an asset without either. What the
-/// simulator runs.
+/// `materials`). The same parameters, and the same bits for an asset without either.
 class ObjectsController : public EveryPart<OneScene, HomedDevice, FullMaterialMesh,
                                            SurfacesWithObjects<FullMaterialMesh>> {
  public:

@@ -26,7 +26,7 @@
 //               CommitAsset is answered kAckBusy while the controller proves the asset: send again.
 namespace firmtouch::link {
 
-constexpr uint32_t kProtocolVersion = 6;
+constexpr uint32_t kProtocolVersion = 7;
 
 // Append-only. The high bit marks frames of the controller.
 enum Type : uint8_t {
@@ -108,7 +108,7 @@ struct StepReply {
   uint32_t stack_high_bytes = 0;  // most stack in use, measured every 64 ticks; 0: not painted
   record::TickOutput output{};
 };
-static_assert(sizeof(StepReply) == 120);
+static_assert(sizeof(StepReply) == 132);
 
 struct SetParam {
   uint32_t index = 0;  // in the parameter table
@@ -182,7 +182,7 @@ struct Log {
   uint32_t dropped = 0;  // total before this record, because the ring was full
   record::Numbered<record::TickRecord> record;
 };
-static_assert(sizeof(Log) == 148);
+static_assert(sizeof(Log) == 160);
 static_assert(sizeof(Log) <= kMaxPayloadBytes);
 
 // Describe::what

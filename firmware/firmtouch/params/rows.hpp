@@ -34,7 +34,7 @@ struct SafetyRows {
       {kEnergyReservoir, "energy_reservoir_J", "J", 0.0f, kMaxReservoir_J, 0.0006f, When::kMayFall,
        "energy that contact may give"},
       {kDeviceDamping, "device_damping_N_s_per_m", "N s/m", 0.0f, 50.0f, 0.5f, When::kMayFall,
-       "damping of the device itself, at most what it has"},
+       "damping of the device itself, or less"},
   };
 };
 
@@ -44,9 +44,9 @@ struct DeviceRows {
       {kVelocityFilter, "velocity_filter_Hz", "Hz", 1.0f, 10000.0f, 150.0f, When::kAnytime,
        "cut-off of velocity estimator 1"},
       {kVelocityEstimator, "velocity_estimator", "1", 0.0f, 2.0f, 2.0f, When::kAnytime,
-       "0: two samples, 1: through a low-pass, 2: tracking line"},
+       "0: two samples, 1: low-pass, 2: tracking line"},
       {kMaxSpeed, "max_speed_mps", "m/s", 0.01f, 100.0f, 5.0f, When::kAnytime,
-       "an encoder that is faster is rejected"},
+       "a faster encoder is rejected"},
       {kCountsPerMetreX, "counts_per_metre_x", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
        "encoder of the x axis"},
       {kCountsPerMetreY, "counts_per_metre_y", "1/m", 100.0f, 1e8f, 100000.0f, When::kMotorsOff,
@@ -84,13 +84,13 @@ struct SceneRows {
 struct ContactRows {
   static constexpr Entry kRows[] = {
       {kToolRadius, "tool_radius_m", "m", 0.0f, 0.1f, 0.003f, When::kAnytime,
-       "radius of the sphere at the tool's tip"},
+       "radius of the tool's tip"},
       {kContactStiffness, "contact_stiffness_N_per_m", "N/m", 0.0f, 20000.0f, 800.0f,
        When::kAnytime, "stiffness of the surface"},
       {kContactDamping, "contact_damping_N_s_per_m", "N s/m", 0.0f, 100.0f, 1.0f, When::kAnytime,
        "damping of the surface"},
       {kMeshWork, "mesh_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
-       "work of the surface's queries in a tick"},
+       "work of surface queries a tick"},
   };
 };
 
@@ -98,7 +98,7 @@ struct ContactRows {
 struct FrictionRows {
   static constexpr Entry kRows[] = {
       {kFrictionStatic, "friction_static", "1", 0.0f, 10.0f, 0.0f, When::kAnytime,
-       "friction at rest, over the force across the surface"},
+       "friction at rest, over the normal force"},
       {kFrictionDynamic, "friction_dynamic", "1", 0.0f, 10.0f, 0.0f, When::kAnytime,
        "friction of a slide"},
       {kFrictionSpeed, "friction_speed_mps", "m/s", 0.0001f, 10.0f, 0.001f, When::kAnytime,
@@ -148,7 +148,7 @@ struct GuideRows {
       {kGuideDriveSpeed, "guide_drive_speed_mps", "m/s", -1.0f, 1.0f, 0.0f, When::kAnytime,
        "speed of a lead; 0: hold"},
       {kGuideWork, "guide_work", "1", 0.0f, 65536.0f, 640.0f, When::kMayFall,
-       "work of the guide's queries in a tick"},
+       "work of guide queries a tick"},
   };
 };
 

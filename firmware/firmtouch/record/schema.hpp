@@ -28,7 +28,7 @@ struct Bit {
   uint8_t bit;
 };
 
-constexpr uint32_t kFieldCount = 24;
+constexpr uint32_t kFieldCount = 25;
 constexpr uint32_t kBitCount = 19;
 
 /// The fields of Numbered<TickRecord> in their order, without gaps (schema.cpp asserts it).
@@ -37,6 +37,6 @@ extern const Field kFields[kFieldCount];
 extern const Bit kBits[kBitCount];
 
 // The same bytes in the ring, in a log and in a frame.
-static_assert(sizeof(Numbered<TickRecord>) == 144);
+static_assert(sizeof(Numbered<TickRecord>) == 156);
 
 }  // namespace firmtouch::record

@@ -29,6 +29,9 @@ constexpr uint32_t kCommandSwapAsset = UINT32_MAX - 1;
 // Plus the number of an object, at most 15: it moves by its twist times command_value, -1 to 1
 // (controller/mesh_objects.hpp). Rejected at two rates.
 constexpr uint32_t kCommandMoveObject = UINT32_MAX - 0xFF;
+// Plus an axis, 0 to 2: component of the rotation vector to which the handle of a tool is turned,
+// in radians (controller/mesh_tool.hpp). Rejected at two rates.
+constexpr uint32_t kCommandTurnTool = UINT32_MAX - 0x1FF;
 
 // TickOutput::state.
 constexpr uint32_t kStateServoMask = 0xFFu;          // servo::Mode
@@ -50,8 +53,8 @@ constexpr uint32_t kStateUncertain = 1u << 19;  // the visits did not certify th
 constexpr uint32_t kStateNotHomed = 1u << 20;
 constexpr uint32_t kStateHoming = 1u << 21;
 constexpr uint32_t kStateHomingFaultShift = 22;
-// Where it is homed, five bits: 1 + number of the object that holds the proxy; 0: none, or there is
-// one surface.
+// Where it is homed, five bits: 1 + number of the object that holds the proxy, or of the sphere
+// with the least room; 0: none, or there is one surface and one sphere.
 constexpr uint32_t kStateObjectShift = 22;
 // There where the asset has materials and no objects, eight bits: 1 + number of the material that
 // the tool touches; 0: none. It touches where kStateContact is set.
@@ -67,8 +70,8 @@ struct TickInput {
   uint32_t clock_us;  // free-running, wraps
   int32_t encoder_counts[kAxes];
   uint32_t flags;
-  // kCommandNone, kCommandClearFaults, kCommandSwapAsset, kCommandMoveObject + object, or 1 + index
-  // of the parameter to set to command_value.
+  // kCommandNone, kCommandClearFaults, kCommandSwapAsset, kCommandMoveObject + object,
+  // kCommandTurnTool + axis, or 1 + index of the parameter to set to command_value.
   uint32_t command;
   float command_value;
   // Time that the tick before took, by the board's clock; divided by tick_period_s, the load. 0:
@@ -94,8 +97,9 @@ struct TickOutput {
   uint32_t state;           // kState... above
   uint32_t model_sequence;  // of the local model that this tick used
   float proxy_m[kAxes];     // of contact, at the end of the tick; without one the tool
+  float torque_Nm[kAxes];   // of contact on the handle of a tool of spheres, before every limit
 };
-static_assert(sizeof(TickOutput) == 104);
+static_assert(sizeof(TickOutput) == 116);
 
 /// The state of a tick, where that of its device is known: while it is not homed, homing's bits are
 /// not mixed with the object of a model that was made before.
@@ -117,6 +121,6 @@ struct TickRecord {
   TickInput input;
   TickOutput output;
 };
-static_assert(sizeof(TickRecord) == 140);
+static_assert(sizeof(TickRecord) == 152);
 
 }  // namespace firmtouch::record

@@ -34,7 +34,9 @@ Mat3 orthonormal(const Mat3& m) {
 
 bool is_friction(float value) { return is_between(value, 0.0f, kMaxFriction); }
 
-// Of a turn by |turn_rad| about turn_rad: the matrix of the unit quaternion (w, v).
+}  // namespace
+
+// The matrix of the unit quaternion (w, v).
 Mat3 rotation_by(Vec3 turn_rad) {
   const float angle_rad = math::length(turn_rad);
   if (!(angle_rad > 0.0f)) return {};
@@ -45,8 +47,6 @@ Mat3 rotation_by(Vec3 turn_rad) {
            {2 * (v.x * v.y + w * v.z), 1 - 2 * (xx + zz), 2 * (v.y * v.z - w * v.x)},
            {2 * (v.x * v.z - w * v.y), 2 * (v.y * v.z + w * v.x), 1 - 2 * (xx + yy)}}};
 }
-
-}  // namespace
 
 const char* text_of(ObjectProblem problem) {
   switch (problem) {

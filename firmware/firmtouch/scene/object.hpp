@@ -43,6 +43,9 @@ const char* text_of(ObjectProblem problem);
 /// Result: kNone; else why not, and `object` is unchanged except that it stands still.
 ObjectProblem set_object(const Object& wanted, Object& object);
 
+/// A turn by |turn_rad| about turn_rad.
+math::Mat3 rotation_by(math::Vec3 turn_rad);
+
 /// Moves an object by its twist for `passed_s`. One that would leave kMaxObjectDistance_m stops.
 /// Bounds: about 250 instructions for one that turns; re-entrant.
 /// Error: a rotation stays orthonormal to 4e-7 for any number of calls.

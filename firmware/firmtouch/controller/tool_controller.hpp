@@ -1,0 +1,29 @@
+#pragma once
+#include "firmtouch/controller/mesh_tool.hpp"
+#include "firmtouch/controller/objects_controller.hpp"
+
+namespace firmtouch {
+
+template <class Mesh>
+using SurfacesWithTool = Surfaces<MeshTool, MeshObjects, Mesh, SplineSurface>;
+
+/// Every part of the library, several objects, materials of triangles, and a tool of several
+/// spheres (part `tool`). The same parameters, and the same bits for an asset without any of
+/// these. What the simulator runs.
+class ToolController : public EveryPart<OneScene, HomedDevice, FullMaterialMesh,
+                                        SurfacesWithTool<FullMaterialMesh>> {
+ public:
+  const scene::StoredMaterials& materials() const {
+    return surface<FullMaterialMesh>().materials();
+  }
+  const MeshObjects& objects() const { return surface<MeshObjects>(); }
+  const MeshTool& tool() const { return surface<MeshTool>(); }
+  /// That the tool or its one sphere touches.
+  const mesh::View& mesh() const { return tool().is_open() ? tool().mesh() : EveryPart::mesh(); }
+};
+
+/// With room for the next asset.
+using SwappingToolController =
+    EveryPart<TwoScenes, HomedDevice, FullMaterialMesh, SurfacesWithTool<FullMaterialMesh>>;
+
+}  // namespace firmtouch

@@ -1,0 +1,294 @@
+// A tool of several spheres in a ready controller: force and torque as recorded, the handle that
+// commands turn, energy, replay, two rates, and assets that it rejects.
+#include <algorithm>
+#include <random>
+
+#include "controller/ride.hpp"
+#include "firmtouch/controller/tool_controller.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/materials_layout.hpp"
+#include "firmtouch/scene/objects_layout.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+using namespace controller_test;
+
+namespace {
+
+using Spheres = std::vector<scene::SphereLayout>;
+
+constexpr float kHalf_m = 0.02f, kRadius_m = 0.003f;
+const Spheres kBar = {{{-0.01f, 0, 0}, kRadius_m}, {{0.01f, 0, 0}, kRadius_m}};
+
+double wide(float value) { return static_cast<double>(value); }
+
+// A box about the origin with 12 triangles.
+std::vector<tools::Section> box_sections() {
+  tools::Surface surface;
+  for (int i = 0; i < 8; ++i)
+    surface.vertices.push_back({(i & 1) != 0 ? kHalf_m : -kHalf_m,
+                                (i & 2) != 0 ? kHalf_m : -kHalf_m,
+                                (i & 4) != 0 ? kHalf_m : -kHalf_m});
+  const uint32_t corners[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                   {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                   {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (uint32_t i = 0; i < 12; ++i) {
+    surface.faces.push_back({{corners[i][0], corners[i][1], corners[i][2]}});
+    surface.source.push_back(i);
+  }
+  tools::MeshReport report;
+  std::vector<tools::Section> sections = tools::bake_mesh(surface, "box", {}, report);
+  CHECK(report.problem.empty());
+  mesh::View view;
+  CHECK(tools::open_baked(sections, "box", view).ok());
+  sections.push_back(tools::mesh_probes(view, "box"));
+  return sections;
+}
+
+std::vector<uint8_t> scene_with(const Spheres& spheres) {
+  std::vector<tools::Section> sections = box_sections();
+  sections.push_back(tools::make_section(scene::kToolSection, "bar", spheres));
+  return file_of(std::move(sections));
+}
+
+// A handle at a given place in each tick, counted in 10 um.
+struct Handle {
+  Asset asset;
+  ToolController controller;
+  record::TickInput input{};
+  record::TickOutput output{};
+  std::vector<record::TickRecord> records;
+  uint32_t tick_number = 0, flags = 0;
+  math::Vec3 place_m{0, 0, 0.1f};
+  uint32_t touched = 0;                         // ticks
+  double given_J = 0, least_J = 0, most_J = 0;  // by contact; gained while nothing is stored
+
+  explicit Handle(const Spheres& spheres) : asset(scene_with(spheres)) {
+    CHECK_EQ(controller.open(asset.bytes()).rule, 0u);
+    set(params::kContactStiffness, 800);
+    set(params::kContactDamping, 0);
+    set(params::kDeviceDamping, 0);
+  }
+  void tick(math::Vec3 at_m) {
+    place_m = at_m;
+    input.tick = tick_number++;
+    input.clock_us = input.tick * 1000u;
+    input.flags = flags | (input.tick < 10 ? 0 : record::kFlagEnable);
+    const float place[3] = {at_m.x, at_m.y, at_m.z};
+    for (int k = 0; k < 3; ++k)
+      input.encoder_counts[k] =
+          static_cast<int32_t>(std::lround(static_cast<double>(place[k]) * 1e5));
+    const record::TickOutput before = output;
+    controller.tick(input, output);
+    for (int k = 0; k < 3; ++k)
+      given_J +=
+          wide(before.force_N[k]) * (wide(output.position_m[k]) - wide(before.position_m[k]));
+    if ((output.state & record::kStateContact) != 0) {
+      ++touched;
+    } else {
+      most_J = std::max(most_J, given_J - least_J);
+      least_J = std::min(least_J, given_J);
+    }
+    records.push_back({input, output});
+    input = {};
+  }
+  void set(params::Index index, float value) {
+    input.command = 1 + index;
+    input.command_value = value;
+    tick(place_m);
+    CHECK((output.state & record::kStateCommandTaken) != 0);
+  }
+  bool turn(uint32_t axis, float angle_rad) {
+    input.command = record::kCommandTurnTool + axis;
+    input.command_value = angle_rad;
+    tick(place_m);
+    const bool is_taken = (output.state & record::kStateCommandTaken) != 0;
+    CHECK(is_taken != ((output.state & record::kStateCommandRefused) != 0));
+    return is_taken;
+  }
+  void stay(uint32_t ticks) {
+    for (uint32_t i = 0; i < ticks; ++i) tick(place_m);
+  }
+  // From where it is, in a straight line.
+  void go(math::Vec3 to_m, uint32_t ticks) {
+    const math::Vec3 from_m = place_m;
+    for (uint32_t i = 1; i <= ticks; ++i)
+      tick(from_m + (to_m - from_m) * (static_cast<float>(i) / static_cast<float>(ticks)));
+  }
+};
+
+constexpr math::Vec3 kAbove_m{0, 0, kHalf_m + kRadius_m + 0.01f};
+
+math::Vec3 pressed(float deep_m, float x_m = 0) { return {x_m, 0, kHalf_m + kRadius_m - deep_m}; }
+
+// A handle that something moves and turns at random, in and out of the box.
+void wander(Handle& handle, uint32_t seed, uint32_t ticks) {
+  std::mt19937 random(seed);
+  const auto between = [&](double low, double high) {
+    return static_cast<float>(low +
+                              (high - low) * static_cast<double>(random() >> 5) / 134217728.0);
+  };
+  for (uint32_t i = 0; i < ticks; i += 100) {
+    const uint32_t drawn = static_cast<uint32_t>(random() % 3);
+    if (drawn == 0) CHECK(handle.turn(static_cast<uint32_t>(random() % 3), between(-0.6, 0.6)));
+    const float x_m = between(-0.03, 0.03), y_m = between(-0.03, 0.03);
+    handle.go({x_m, y_m, between(0.015, 0.035)}, 60);
+    handle.stay(drawn == 1 ? 40 : 0);
+  }
+}
+
+}  // namespace
+
+TEST(Tool_BarOnABox_RecordsForceTorqueAndSphere) {
+  Handle bar(kBar);
+  bar.go(kAbove_m, 300);
+  bar.go(pressed(0.002f), 300);
+  bar.stay(100);
+  CHECK_LE(std::fabs(wide(bar.output.force_N[2]) - 800 * 0.002), 0.008);
+  CHECK_LE(std::fabs(wide(bar.output.torque_Nm[1])), 1e-4);
+  CHECK_LE(std::fabs(wide(bar.output.penetration_m) - 0.002), 1e-5);
+  bar.go(kAbove_m, 100);
+  // The left sphere is beyond the edge.
+  bar.go(pressed(-0.01f, -0.017f), 300);
+  bar.go(pressed(0.002f, -0.017f), 300);
+  bar.stay(100);
+  CHECK_LE(std::fabs(wide(bar.output.force_N[2]) - 400 * 0.002), 0.004);
+  CHECK_LE(std::fabs(wide(bar.output.torque_Nm[1]) + 0.01 * 400 * 0.002), 0.005 * 0.008);
+  CHECK_EQ(bar.output.state >> record::kStateObjectShift & 31u, 2u);
+  CHECK_EQ(bar.output.faults, 0u);
+  bar.flags = record::kFlagEmergencyStop;
+  bar.tick(bar.place_m);
+  CHECK_EQ(bar.output.torque_Nm[1], 0.0f);  // without motors there is none
+}
+
+// What is given back on the way out is what went in: the observer holds back nothing.
+TEST(Tool_OneOfTwoSpheresPressedDeep_ForceIsTheSameOnTheWayOut) {
+  Handle bar(kBar);
+  bar.go(kAbove_m, 100);
+  bar.go(pressed(-0.01f, -0.017f), 100);
+  double in_N = 0;
+  for (uint32_t i = 0; i < 100; ++i) {
+    bar.go(pressed(-0.01f + 0.0002f * static_cast<float>(i + 1), -0.017f), 10);
+    if (i == 74) in_N = wide(bar.output.force_N[2]);
+  }
+  CHECK_LE(std::fabs(in_N - 400 * 0.005), 0.01);
+  bar.go(pressed(0.005f, -0.017f), 250);
+  CHECK_LE(std::fabs(wide(bar.output.force_N[2]) - in_N), 0.005);
+  CHECK_EQ(bar.output.faults, 0u);
+}
+
+TEST(Tool_CommandsTurnTheHandle_AtALimitedRate_AndReplay) {
+  Handle bar(kBar);
+  bar.go(kAbove_m, 100);
+  CHECK(bar.turn(1, 1.5707963f));
+  bar.stay(300);
+  // Upright: one sphere touches, 10 mm below the handle.
+  bar.go(pressed(0.002f) + math::Vec3{0, 0, 0.01f}, 300);
+  bar.stay(50);
+  CHECK_LE(std::fabs(wide(bar.output.force_N[2]) - 400 * 0.002), 0.005);
+  CHECK_LE(std::fabs(wide(bar.output.torque_Nm[1])), 1e-4);
+  const float special[] = {7, -7, std::numeric_limits<float>::quiet_NaN(),
+                           std::numeric_limits<float>::infinity()};
+  for (const float angle_rad : special) CHECK(!bar.turn(0, angle_rad));
+  for (const uint32_t axis : {3u, 4u, 0xFFu, 0x100u}) CHECK(!bar.turn(axis, 0));
+  bar.flags = record::kFlagModelApart;
+  CHECK(!bar.turn(0, 0.1f));  // at two rates the handle keeps its orientation
+  bar.flags = 0;
+  wander(bar, 1, 3000);
+  static ToolController again;
+  CHECK_EQ(again.open(bar.asset.bytes()).rule, 0u);
+  uint32_t differing = 0;
+  for (const record::TickRecord& record : bar.records) {
+    record::TickOutput output;
+    again.tick(record.input, output);
+    differing += std::memcmp(&output, &record.output, sizeof output) != 0 ? 1u : 0u;
+  }
+  CHECK_EQ(differing, 0u);
+}
+
+// Whatever moves and turns the handle: contact gives at most the reservoir and its overdraft.
+TEST(Tool_AnyPassiveHandAndTurn_GetsNoMoreThanTheReservoir) {
+  const Spheres all = {{{-0.02f, 0, 0}, 0.002f}, {{0.02f, 0, 0}, 0.003f}, {{0, 0.02f, 0}, 0.004f},
+                       {{0, -0.02f, 0}, 0},      {{0, 0, 0.01f}, 0.003f}, {{0, 0, -0.01f}, 0.003f}};
+  for (const Spheres& spheres : {kBar, all}) {
+    Handle handle(spheres);
+    handle.set(params::kTickWork, 3000);
+    handle.set(params::kMeshWork, 2600);
+    handle.go(kAbove_m, 300);
+    handle.least_J = handle.given_J;
+    for (uint32_t seed = 0; seed < 60; ++seed) {
+      wander(handle, seed, 300);
+      handle.go(kAbove_m, 60);
+    }
+    CHECK_GE(handle.touched, 5000u);
+    CHECK_LE(handle.most_J, 0.0006 + 0.001);
+    CHECK_EQ(handle.output.faults, 0u);
+  }
+}
+
+TEST(Tool_AtTwoRates_TorqueIsThatOfTheModelInUse) {
+  Handle bar(kBar);
+  bar.go(kAbove_m, 100);
+  bar.go(pressed(-0.01f, -0.017f), 100);
+  bar.set(params::kModelAge, 12);
+  for (uint32_t i = 0; i < 400; ++i) {
+    // Now and then a model is taken a tick after it was made.
+    bar.flags = i % 8 == 4 ? record::kFlagModelApart : bar.controller.model_flags();
+    const float before_Nm = bar.output.torque_Nm[1];
+    const float deep_m = i < 200 ? 0.00005f * static_cast<float>(i) - 0.008f : 0.002f;
+    bar.tick(pressed(deep_m, -0.017f));
+    if ((bar.flags & record::kFlagModelTaken) == 0) CHECK_EQ(bar.output.torque_Nm[1], before_Nm);
+    if (i % 4 == 3) bar.controller.make_model();
+  }
+  CHECK_LE(std::fabs(wide(bar.output.force_N[2]) - 400 * 0.002), 0.005);
+  CHECK_LE(std::fabs(wide(bar.output.torque_Nm[1]) + 0.01 * 400 * 0.002), 0.005 * 0.008);
+  CHECK_EQ(bar.output.faults, 0u);
+}
+
+TEST(Tool_AssetsThatDoNotFit_AreRejectedByName) {
+  static ToolController controller;
+  const auto rule = [](const std::vector<uint8_t>& bytes) {
+    return controller.open(Asset(bytes).bytes()).rule;
+  };
+  CHECK_EQ(rule(scene_with(Spheres(9))), uint16_t{scene::kRuleSphereCount});
+  CHECK_EQ(rule(scene_with({{{0, 0, 2}, 0.003f}})), uint16_t{scene::kRuleSpherePlace});
+  std::vector<tools::Section> sections = box_sections();
+  sections.push_back(tools::make_section(scene::kToolSection, "bar", kBar));
+  for (tools::Section beside :
+       {tools::make_section(scene::kObjectsSection, "room", std::vector<scene::ObjectLayout>(1)),
+        tools::make_section(scene::kMaterialsSection, "box",
+                            std::vector<scene::MaterialLayout>(1))}) {
+    sections.push_back(std::move(beside));
+    CHECK_EQ(rule(file_of(sections)), uint16_t{scene::kRuleToolAlone});
+    sections.pop_back();
+  }
+  static FullController without;
+  const Asset bar(scene_with(kBar));
+  CHECK_EQ(without.open(bar.bytes()).rule, uint16_t{kRuleNeedsTool});
+  CHECK_EQ(without.open(bar.bytes(), {"box", nullptr}).rule, uint16_t{kRuleNeedsTool});
+  CHECK_EQ(faults_when_enabled(without), servo::kFaultAsset);
+}
+
+TEST(Tool_OfOneSphereAtTheHandle_HasTheForceOfTheSphere) {
+  std::vector<tools::Section> sections = part_sections();
+  const Asset alone(file_of(sections));
+  sections.push_back(
+      tools::make_section(scene::kToolSection, "tip", Spheres{{{0, 0, 0}, kRadius_m}}));
+  const Asset with_tool(file_of(std::move(sections)));
+  Ride ride(alone);
+  static ToolController controller, same;
+  CHECK_EQ(controller.open(with_tool.bytes()).rule, 0u);
+  CHECK_EQ(same.open(alone.bytes()).rule, 0u);
+  double worst_N = 0;
+  for (uint32_t tick = 0; tick < 6000; ++tick) {
+    ride.fill(tick);
+    ride.step();
+    record::TickOutput as_tool, as_mesh;
+    controller.tick(ride.input, as_tool);
+    same.tick(ride.input, as_mesh);
+    CHECK(std::memcmp(&as_mesh, &ride.output, sizeof as_mesh) == 0);
+    for (int k = 0; k < 3; ++k)
+      worst_N =
+          std::max(worst_N, std::fabs(wide(as_tool.force_N[k]) - wide(ride.output.force_N[k])));
+  }
+  CHECK_LE(worst_N, 0.001);
+}
