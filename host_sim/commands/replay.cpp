@@ -68,7 +68,7 @@ int replay_log(const Options& options) {
   check_scene(session, options.value("--controller"));
   const std::unique_ptr<LockStepController> port =
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
-                      session.controller->asset_crc(), !session.objects.empty());
+                      session.controller->asset_crc(), session.program());
   const std::string by = port ? port->name() : "in-process";
   const Tick remote = [&](const record::TickInput& input, record::TickOutput& output) {
     port->tick(input, output);

@@ -193,7 +193,7 @@ int run_scenario(const Options& options) {
   check_scene(session, options.value("--controller"));
   const std::unique_ptr<LockStepController> port =
       open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
-                      session.controller->asset_crc(), !session.objects.empty());
+                      session.controller->asset_crc(), session.program());
   read_linkage(scenario, session, file);
   if (options.has("--energy") && !scenario.linkage)
     options.refuse("--energy is of a linkage: name one in the scenario, `device FILE`");

@@ -35,6 +35,6 @@ inline bool is_in_process(const std::string& controller) {
 std::unique_ptr<LockStepController> open_controller(const std::string& controller,
                                                     const std::string& image,
                                                     const std::string& asset_path,
-                                                    uint32_t asset_crc, bool has_objects);
+                                                    uint32_t asset_crc, const std::string& program);
 
 }  // namespace firmtouch::host_sim

@@ -126,12 +126,11 @@ TickCost Remote::tick(const record::TickInput& input, record::TickOutput& output
          std::to_string(kReplyTime_ms / 1000) + " s");
 }
 
-// build/<board>/bin/firmtouch_app.elf, next to this program's build/host/bin.
-std::string image_of(const std::string& board, bool has_objects) {
+// build/<board>/bin/<program>.elf, next to this program's build/host/bin.
+std::string image_of(const std::string& board, const std::string& program) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return (self.parent_path().parent_path().parent_path() / board /
-          (has_objects ? "bin/firmtouch_app_all_objects.elf" : "bin/firmtouch_app.elf"))
+  return (self.parent_path().parent_path().parent_path() / board / ("bin/" + program + ".elf"))
       .string();
 }
 
@@ -140,12 +139,13 @@ std::string image_of(const std::string& board, bool has_objects) {
 std::unique_ptr<LockStepController> open_controller(const std::string& controller,
                                                     const std::string& image,
                                                     const std::string& asset_path,
-                                                    uint32_t asset_crc, bool has_objects) {
+                                                    uint32_t asset_crc,
+                                                    const std::string& program) {
   if (is_in_process(controller)) return nullptr;
   if (controller.compare(0, 5, "qemu:") == 0) {
     const std::string board = controller.substr(5);
     return std::make_unique<Remote>(
-        start_emulator(board, image.empty() ? image_of(board, has_objects) : image, asset_path),
+        start_emulator(board, image.empty() ? image_of(board, program) : image, asset_path),
         asset_crc);
   }
   return std::make_unique<Remote>(connect_stream(controller), asset_crc);

@@ -129,9 +129,17 @@ std::string Session::scene_text() const {
   for (size_t i = 0; i < objects.size(); ++i)
     text += (i == 0 ? "objects `" : ", `") + objects[i] + "`";
   if (objects.empty() && !used.surface.empty()) text += "surface `" + used.surface + "`";
+  if (const uint32_t spheres = controller->tool().spheres().size(); spheres > 0)
+    text += ", touched by " + std::to_string(spheres) + (spheres == 1 ? " sphere" : " spheres");
   if (!used.guide.empty()) text += (text.empty() ? "guide `" : ", guide `") + used.guide + "`";
   for (size_t i = 0; i < unused.size(); ++i) text += (i == 0 ? "; not used: " : ", ") + unused[i];
   return text;
+}
+
+std::string Session::program() const {
+  return controller->tool().is_open() ? "firmtouch_app_all_tool"
+         : objects.empty()            ? "firmtouch_app"
+                                      : "firmtouch_app_all_objects";
 }
 
 bool Session::is_default() const {

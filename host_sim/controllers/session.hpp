@@ -35,6 +35,8 @@ struct Session {
   Tick tick() const;
   /// "surface `part`, guide `path`; not used: surface `lid`"; "objects `left`, `right`".
   std::string scene_text() const;
+  /// Name of the program with the parts that the scene needs, of a board's build.
+  std::string program() const;
   /// Whether a controller that uses the asset's first surface and guide has the same scene.
   bool is_default() const;
 

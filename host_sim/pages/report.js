@@ -4,6 +4,7 @@ const report = (() => {
   const $ = id => document.getElementById(id);
   const data = JSON.parse($('run-data').textContent), { samples } = data;
   const device = View3d.vectors(samples.device, 4), force = View3d.vectors(samples.force, 1);
+  const turn = samples.turn ? View3d.vectors(samples.turn, 2 * Math.PI) : [];
   const stage = new View3d($('stage'), data, ['tool', 'hand']);
   const kArrow = 0.6;  // radii of the largest force
   const name = document.title.split(' - ')[0];
@@ -14,7 +15,7 @@ const report = (() => {
   function changed(isWindow) {
     const at = time.cursor / samples.step_s, i = Math.max(samples.first, Math.min(device.length - 1, Math.floor(at)));
     const next = Math.min(device.length - 1, i + 1), share = Math.max(0, Math.min(1, at - i));
-    stage.setTool(device[i].map((v, k) => v + (device[next][k] - v) * share), force[i].map(v => v * kArrow));
+    stage.setTool(device[i].map((v, k) => v + (device[next][k] - v) * share), force[i].map(v => v * kArrow), turn[i]);
     const newton = Math.hypot(...force[i]) * samples.peak_N;
     $('clock').textContent = `${time.cursor.toFixed(3)} s`;
     document.querySelector('.stage .now').textContent = `at ${time.cursor.toFixed(3)} s, force ${newton.toFixed(2)} N`;

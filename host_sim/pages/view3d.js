@@ -10,6 +10,7 @@ class View3d {
     this.view = { ...View3d.first };
     this.hidden = new Set(hidden);
     this.tool = null;   // centre
+    this.turn = [0, 0, 0];  // rotation vector of its spheres
     this.force = null;  // in radii
     this.trail = [];    // points
     this.off = document.createElement('canvas');
@@ -159,9 +160,23 @@ class View3d {
       before = now;
     });
   }
+  // By the rotation vector `by`: Rodrigues' formula.
+  static turned(v, by) {
+    const angle = Math.hypot(...by);
+    if (!(angle > 0)) return v;
+    const a = by.map(c => c / angle), s = Math.sin(angle), c = Math.cos(angle), along = a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
+    const across = [a[1] * v[2] - a[2] * v[1], a[2] * v[0] - a[0] * v[2], a[0] * v[1] - a[1] * v[0]];
+    return v.map((x, k) => x * c + across[k] * s + a[k] * along * (1 - c));
+  }
   drawTool() {
-    const [cx, cy, cz] = this.see(this.tool), { f, w, h } = this;
-    const radius = Math.max(2, this.scene.toolRadius * this.scale), reach = Math.ceil(radius);
+    const { spheres, toolRadius } = this.scene;
+    if (!spheres || spheres.length === 0) return this.drawSphere(this.tool, toolRadius);
+    for (const [x, y, z, r] of spheres)
+      this.drawSphere(View3d.turned([x, y, z], this.turn).map((v, k) => v + this.tool[k]), r);
+  }
+  drawSphere(centre, size) {
+    const [cx, cy, cz] = this.see(centre), { f, w, h } = this;
+    const radius = Math.max(2, size * this.scale), reach = Math.ceil(radius);
     for (let dy = -reach; dy <= reach; ++dy) for (let dx = -reach; dx <= reach; ++dx) {
       const rest = radius * radius - dx * dx - dy * dy, px = Math.round(cx) + dx, py = Math.round(cy) + dy;
       if (rest < 0 || px < 0 || py < 0 || px >= w || py >= h) continue;
@@ -245,7 +260,7 @@ class View3d {
     this.queued = true;
     requestAnimationFrame(() => this.render());
   }
-  setTool(centre, force) { this.tool = centre; this.force = force; this.draw(); }
+  setTool(centre, force, turn = [0, 0, 0]) { Object.assign(this, { tool: centre, force, turn }); this.draw(); }
   turn(azimuth, elevation, zoom) {
     const v = this.view;
     v.azimuth += azimuth;

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmtouch/scene/tool_layout.hpp"
 #include "firmtouch/spline/view.hpp"
 #include "host_sim/plant/placed_mesh.hpp"
 #include "host_sim/plant/spline_shape.hpp"
@@ -51,6 +52,9 @@ class Environment {
   /// Parameter surface_turned: the free side of the spline surfaces is opposite to their normals.
   void turn(bool normals_inward) { normals_inward_ = normals_inward; }
   Vec origin_m() const { return origin_m_; }
+  /// Spheres of the asset's tool, in its handle's frame; empty: one sphere at the tip.
+  const std::vector<scene::SphereLayout>& tool() const { return tool_; }
+  void set_tool(std::vector<scene::SphereLayout> spheres) { tool_ = std::move(spheres); }
 
  private:
   std::vector<PlacedMesh> meshes_;
@@ -59,6 +63,7 @@ class Environment {
   Tessellation tessellation_;
   bool normals_inward_ = false;
   Vec origin_m_;
+  std::vector<scene::SphereLayout> tool_;
   std::vector<Vec> guide_m_;
   std::vector<double> arc_m_;
   bool closed_ = false;

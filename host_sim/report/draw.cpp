@@ -178,7 +178,10 @@ Image draw(const Scene3d& scene3d, uint32_t width, uint32_t height, Colour backg
   canvas.pixels_per_m = fitted(canvas, scene3d);
   draw_mesh(canvas, scene3d);
   for (const Path& path : scene3d.paths) draw_path(canvas, path, kOver);
-  if (std::isfinite(tool_m.x)) draw_tool(canvas, tool_m, scene3d.tool_radius_m);
+  if (!std::isfinite(tool_m.x)) return halved(canvas.image);
+  if (scene3d.spheres.empty()) draw_tool(canvas, tool_m, scene3d.tool_radius_m);
+  for (const PlacedSphere& sphere : scene3d.spheres)
+    draw_tool(canvas, tool_m + sphere.centre_m, sphere.radius_m);
   return halved(canvas.image);
 }
 

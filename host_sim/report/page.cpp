@@ -160,7 +160,10 @@ std::string table(const Report& report, const Scene3d& scene3d) {
   rows +=
       row("Contact stiffness, damping", value(params::kContactStiffness, 0) + " N/m, " +
                                             value(params::kContactDamping, 1) + " N&middot;s/m");
-  rows += row("Tool radius", fixed(scene3d.tool_radius_m * 1e3, 2) + " mm");
+  rows += scene3d.spheres.empty()
+              ? row("Tool radius", fixed(scene3d.tool_radius_m * 1e3, 2) + " mm")
+              : row("Tool", std::to_string(scene3d.spheres.size()) + " spheres; torque at most " +
+                                fixed(report.summary.peak_torque_Nm * 1e3, 2) + " mN m");
   rows +=
       row("Device", fixed(scenario.device.mass_kg * 1e3, 0) + " g, " +
                         fixed(scenario.device.encoder_quantum_m * 1e6, 0) + " &micro;m per count");

@@ -10,6 +10,7 @@ namespace {
 constexpr double kFullScale = 32767;
 // Positions are scaled to the scene's bounding sphere: centre 0, radius 1. Paths may leave it.
 constexpr double kPathReach = 4;
+constexpr double kMostTurn_rad = 6.2831853;
 constexpr int16_t kBreak = -32768;  // a path is interrupted
 
 Vec normalized(const Scene3d& scene3d, Vec p) {
@@ -77,15 +78,17 @@ std::string path_text(const Scene3d& scene3d, const Path& path) {
 }
 
 std::string samples_text(const Report& report, const Scene3d& scene3d) {
-  std::vector<int16_t> device, force;
+  std::vector<int16_t> device, force, turn;
   for (const RunPaths::Sample& sample : report.paths.samples()) {
     add_scaled(device, normalized(scene3d, sample.device_m), kPathReach);
     add_scaled(force, sample.force_N, report.paths.peak_N());
+    add_scaled(turn, sample.turn_rad, kMostTurn_rad);
   }
   return "{\"step_s\":" + fixed(report.paths.ticks_per_sample() / report.facts.rate_Hz, 6) +
          ",\"first\":" + std::to_string(report.paths.first()) +
          ",\"peak_N\":" + fixed(report.paths.peak_N(), 6) + ",\"device\":" + packed(device) +
-         ",\"force\":" + packed(force) + "}";
+         ",\"force\":" + packed(force) +
+         (report.environment.tool().empty() ? "" : ",\"turn\":" + packed(turn)) + "}";
 }
 
 std::string spans_text(const chart::TimeAxis::Spans& spans) {
@@ -133,9 +136,17 @@ std::string scene_data_of(const Scene3d& scene3d, const Environment& environment
   std::string paths;
   for (const Path& path : scene3d.paths)
     paths += (paths.empty() ? "" : ",") + path_text(scene3d, path);
-  return "\"toolRadius\":" + fixed(scene3d.tool_radius_m / scene3d.radius_m, 5) + ",\"centre\":[" +
-         fixed(scene3d.centre.x, 6) + "," + fixed(scene3d.centre.y, 6) + "," +
-         fixed(scene3d.centre.z, 6) + "],\"radius_m\":" + fixed(scene3d.radius_m, 6) +
+  std::string spheres;
+  for (const scene::SphereLayout& sphere : environment.tool()) {
+    spheres += spheres.empty() ? "[" : ",[";
+    for (const float at_m : sphere.at_m)
+      spheres += fixed(static_cast<double>(at_m) / scene3d.radius_m, 5) + ",";
+    spheres += fixed(static_cast<double>(sphere.radius_m) / scene3d.radius_m, 5) + "]";
+  }
+  return "\"toolRadius\":" + fixed(scene3d.tool_radius_m / scene3d.radius_m, 5) + ",\"spheres\":[" +
+         spheres + "],\"centre\":[" + fixed(scene3d.centre.x, 6) + "," +
+         fixed(scene3d.centre.y, 6) + "," + fixed(scene3d.centre.z, 6) +
+         "],\"radius_m\":" + fixed(scene3d.radius_m, 6) +
          ",\"mesh\":" + mesh_text(scene3d, is_closed) + ",\"paths\":[" + paths + "]";
 }
 

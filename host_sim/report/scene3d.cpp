@@ -163,7 +163,9 @@ RunPaths::RunPaths(const Environment& environment, const Scenario& scenario, con
       stride_(1 + (facts.ticks - 1) / kMaxSamples),
       moving_(environment.meshes(),
               static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
+      tool_(environment.tool(), static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       peak_meshes_(environment.meshes()),
+      peak_spheres_(tool_.placed({})),
       held_shift_(environment.materials().empty() ? record::kStateObjectShift
                                                   : record::kStateMaterialShift),
       held_mask_(environment.materials().empty() ? 31u : 255u),
@@ -178,6 +180,7 @@ void RunPaths::add(const RunTick& tick) {
   const record::TickOutput& out = tick.record.output;
   const Vec force_N = narrow(out.force_N);
   moving_.take(tick.record);
+  tool_.take(tick.record);
   const uint32_t held_by = out.state >> held_shift_ & held_mask_;
   if (held_by > 0 && held_by <= held_ticks_.size() && motors_are_on(out))
     ++held_ticks_[held_by - 1];
@@ -185,14 +188,17 @@ void RunPaths::add(const RunTick& tick) {
     peak_N_ = std::max(peak_N_, norm(force_N));
     peak_device_m_ = tick.device_m;
     peak_meshes_ = moving_.meshes();
+    peak_spheres_ = tool_.placed({});
   }
   if (ticks_++ % stride_ != 0) return;
   samples_.push_back({tick.device_m, narrow(out.position_m), tick.target_m, force_N,
-                      narrow(out.proxy_m), (out.state & record::kStateContact) != 0});
+                      narrow(out.proxy_m), (out.state & record::kStateContact) != 0,
+                      tool_.turn_rad()});
 }
 
 Scene3d make_scene3d(const Environment& environment, const RunPaths& run, double tool_radius_m) {
   Scene3d scene3d = scene_with(environment, run.peak_meshes(), tool_radius_m);
+  scene3d.spheres = run.peak_spheres();
   for (size_t i = 0; i < scene3d.objects.size(); ++i)
     scene3d.objects[i].ticks = run.held_ticks()[i];
   for (size_t i = 0; i < environment.materials().size(); ++i)

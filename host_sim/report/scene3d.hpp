@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host_sim/plant/environment.hpp"
+#include "host_sim/plant/turning_tool.hpp"
 #include "host_sim/plant/vec.hpp"
 #include "host_sim/report/image.hpp"
 #include "host_sim/scenario/scenario.hpp"
@@ -46,6 +47,7 @@ struct Scene3d {
   Vec centre;
   double radius_m = 0.1;  // of the bounding sphere about `centre`
   double tool_radius_m = 0;
+  std::vector<PlacedSphere> spheres;  // of the tool, about its handle; empty: one of tool_radius_m
 };
 
 /// The surface alone.
@@ -62,6 +64,7 @@ class RunPaths {
     Vec device_m, tool_m, target_m, force_N;
     Vec proxy_m;
     bool touches = false;
+    Vec turn_rad = {};  // of a tool of spheres
   };
   const std::vector<Sample>& samples() const { return samples_; }
   uint32_t ticks_per_sample() const { return stride_; }
@@ -70,6 +73,8 @@ class RunPaths {
   Vec peak_device_m() const { return peak_device_m_; }
   /// Where the objects are then.
   const std::vector<PlacedMesh>& peak_meshes() const { return peak_meshes_; }
+  /// Spheres of the tool then, about its handle.
+  const std::vector<PlacedSphere>& peak_spheres() const { return peak_spheres_; }
   /// Ticks with the motors on in which each object held the tool; each material, if there are any.
   const std::vector<uint32_t>& held_ticks() const { return held_ticks_; }
   /// First sample of which the scenario's parameters are set.
@@ -82,7 +87,9 @@ class RunPaths {
   double peak_N_ = 1e-9;
   Vec peak_device_m_;
   MovingMeshes moving_;
+  TurningTool tool_;
   std::vector<PlacedMesh> peak_meshes_;
+  std::vector<PlacedSphere> peak_spheres_;
   uint32_t held_shift_, held_mask_;  // of the record's state
   std::vector<uint32_t> held_ticks_;
 };

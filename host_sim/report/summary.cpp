@@ -106,6 +106,7 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
     : environment_(environment),
       moving_(environment.meshes(),
               static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
+      tool_(environment.tool(), static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       facts_(facts),
       quality_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)),
       stiffness_N_per_m_(parameter_value(scenario, params::kContactStiffness)) {
@@ -172,6 +173,10 @@ double Summariser::true_distance_m(Vec at_m) {
 void Summariser::add(const RunTick& tick) {
   const record::TickRecord& record = tick.record;
   moving_.take(record);
+  tool_.take(record);
+  if (!tool_.is_empty() && motors_are_on(record.output))
+    summary_.peak_torque_Nm =
+        std::max(summary_.peak_torque_Nm, norm(wide(record.output.torque_Nm)));
   const record::TickOutput& out = record.output;
   const double time_s = static_cast<double>(summary_.ticks) / facts_.rate_Hz;
   if (out.faults != 0 && summary_.fault_s < 0) {
@@ -211,7 +216,10 @@ void Summariser::check_certificate(const record::TickOutput& out) {
   // Without a position, nothing is queried.
   if ((out.state & record::kStateNotHomed) != 0) return;
   if ((out.state & record::kStateReady) == 0 || !used_.is_ready || out.model_sequence == 0) return;
-  const double truth = true_distance_m(queried_m(out, used_.position_m));
+  // Where spheres are held the record does not say where each of them is.
+  if (!tool_.is_empty() && (out.state & record::kStateContact) != 0) return;
+  const double truth = true_distance_m(tool_.is_empty() ? queried_m(out, used_.position_m)
+                                                        : tool_.nearest_m(out, used_.position_m));
   const double scale = std::max(size_m_, truth) * (environment_.has_mesh() ? 1 : kSplineFactor);
   const double reported = std::fabs(static_cast<double>(out.distance_m)),
                lower = static_cast<double>(out.distance_lower_m);
@@ -283,6 +291,9 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
       "  contact        %zu ticks with the motors on; peak force %.2f N (limit %.2f N); deepest "
       "penetration %.2f mm\n",
       s.contact_ticks, s.peak_force_N, s.force_limit_N, s.worst_penetration_m * 1e3);
+  if (s.peak_torque_Nm > 0)
+    line("  torque         of the spheres, at most %.4f N m; no motor renders it\n",
+         s.peak_torque_Nm);
   if (s.has_guide)
     line(
         "  guide          %zu ticks on it; mean deviation %.2f mm, worst %.2f mm; largest step of "

@@ -5,6 +5,7 @@
 
 #include "host_sim/plant/brute_force.hpp"
 #include "host_sim/plant/environment.hpp"
+#include "host_sim/plant/turning_tool.hpp"
 #include "host_sim/report/contact_quality.hpp"
 #include "host_sim/report/score.hpp"
 #include "host_sim/scenario/scenario.hpp"
@@ -18,6 +19,7 @@ struct Summary {
   size_t contact_ticks = 0, guide_ticks = 0;  // while the motors were on
   double seconds = 0, rate_Hz = 0;
   double peak_force_N = 0, force_limit_N = 0;
+  double peak_torque_Nm = 0;       // of a tool of spheres
   double worst_penetration_m = 0;  // while the motors were on
   double mean_guide_deviation_m = 0, worst_guide_deviation_m = 0;
   double mean_visits = 0;
@@ -87,6 +89,7 @@ class Summariser {
   std::vector<size_t> oracle_of_;        // of each object: one of these
   std::vector<size_t> nearest_;          // of each object: the triangle of the query before
   MovingMeshes moving_;
+  TurningTool tool_;
   double size_m_ = 0;  // that tolerances refer to
   const RunFacts& facts_;
   Summary summary_;

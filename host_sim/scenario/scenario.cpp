@@ -44,7 +44,8 @@ const Key kKeys[] = {
     {"hand_damping", "N*s/m", 0, 1000,
      [](Scenario& s) -> double& { return s.hand.damping_N_s_per_m; }, "of the grip"},
 };
-constexpr double kMaxDelaySamples = 64;  // force feedback is impossible with more than 64 ms
+constexpr double kMaxDelaySamples = 64;     // force feedback is impossible with more than 64 ms
+constexpr double kMaxTurn_rad = 6.2831853;  // of a tool, as the controller allows
 
 struct Reader {
   const std::vector<ParameterRow>& parameters;
@@ -118,7 +119,8 @@ bool Reader::parameter(const std::string& given_name, LineReader& words) {
 }
 
 // at 9.5 s emergency_stop | drive_fault | encoder_fault | disable | enable | release |
-// clear_faults | set KEY VALUE UNIT | load RATIO | move OBJECT SPEED | fail FAILURE JOINT
+// clear_faults | set KEY VALUE UNIT | load RATIO | move OBJECT SPEED | turn AXIS ANGLE UNIT |
+// fail FAILURE JOINT
 void Reader::event(LineReader& words) {
   struct Name {
     const char* name;
@@ -134,6 +136,7 @@ void Reader::event(LineReader& words) {
                              {"set", Event::Kind::kSet},
                              {"load", Event::Kind::kLoad},
                              {"move", Event::Kind::kMoveObject},
+                             {"turn", Event::Kind::kTurnTool},
                              {"fail", Event::Kind::kFail}};
   Event event;
   event.time_s = words.quantity("at", "s", 0, 3600);
@@ -144,7 +147,7 @@ void Reader::event(LineReader& words) {
   if (found == nullptr)
     words.refuse("unknown event `" + what +
                  "`; known: emergency_stop, drive_fault, encoder_fault, disable, enable, release, "
-                 "clear_faults, set, load, move, fail");
+                 "clear_faults, set, load, move, turn, fail");
   event.kind = found->kind;
   if (event.kind == Event::Kind::kLoad) event.value = words.quantity("load", "", 0, 100);
   if (event.kind == Event::Kind::kMoveObject) {
@@ -158,6 +161,13 @@ void Reader::event(LineReader& words) {
     const double joint = words.quantity("joint", "", 0, 2);
     if (joint > std::floor(joint)) words.refuse("a joint is 0, 1 or 2");
     event.failure.joint = static_cast<uint32_t>(joint);
+  }
+  if (event.kind == Event::Kind::kTurnTool) {
+    const std::string axis = words.next("an axis");
+    if (axis != "x" && axis != "y" && axis != "z")
+      words.refuse("`turn " + axis + "`: an axis is x, y or z");
+    event.parameter = static_cast<uint32_t>(axis[0] - 'x');
+    event.value = words.quantity("turn", "rad", -kMaxTurn_rad, kMaxTurn_rad);
   }
   if (event.kind == Event::Kind::kSet) {
     const std::string name = words.next("a parameter's name");
@@ -283,6 +293,9 @@ std::string scenario_help() {
           "         load RATIO (from then on a tick with queries takes so many periods) |\n"
           "         move OBJECT SPEED (the asset's object moves by its twist times -1 to 1; 0: it "
           "stands)\n"
+          "         turn x|y|z ANGLE deg (component of the rotation vector to which the tool's "
+          "handle\n"
+          "         turns, at most at 10 rad/s; of an asset with a tool)\n"
           "         fail FAILURE JOINT (of the machine, for the rest of the run; joints from 0)\n"
           "         FAILURE: " +
               failure_names() + "\n";

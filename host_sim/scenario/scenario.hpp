@@ -43,13 +43,14 @@ struct Event {
     kSet,
     kLoad,
     kMoveObject,
+    kTurnTool,
     kFail
   };
   double time_s = 0;
   Kind kind = Kind::kEnable;
-  uint32_t parameter = 0;  // kSet: row of the parameter table
+  uint32_t parameter = 0;  // kSet: row of the parameter table; kTurnTool: axis
   // kSet: SI; kLoad: periods that a tick takes which queries the geometry; kMoveObject: times the
-  // object's twist.
+  // object's twist; kTurnTool: angle.
   double value = 0;
   std::string object = {};  // kMoveObject: its name
   Failure failure = {};     // kFail

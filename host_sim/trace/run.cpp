@@ -124,6 +124,9 @@ class Operator {
         commands_.push_back(
             {record::kCommandMoveObject + number_of(event.object) - 1, event.value});
         return 0;
+      case Event::Kind::kTurnTool:
+        commands_.push_back({record::kCommandTurnTool + event.parameter - 1, event.value});
+        return 0;
       case Event::Kind::kFail:
         return 0;
     }
@@ -172,6 +175,11 @@ void check_command(const Scenario& scenario, const record::TickRecord& record) {
     throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) +
                   " the controller rejects clear_faults, which it accepts only while disabled; put "
                   "`at T s disable` before it");
+  if (record.input.command >= record::kCommandTurnTool &&
+      record.input.command < record::kCommandMoveObject)
+    throw Refused(scenario.file + ": at tick " + std::to_string(record.input.tick) +
+                  " the controller rejects `turn`: the asset has no tool of spheres, or "
+                  "`geometry_rate` makes the models: then the handle keeps its orientation");
   const params::Entry& row = params::kTable[record.input.command - 1];
   std::ostringstream value;
   value << record.input.command_value;

@@ -17,6 +17,8 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_objects $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.materials
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_materials $<TARGET_FILE_DIR:firmtouch-sim>)
+  add_test(NAME host_sim.tool
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_tool $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.linkage
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_linkage $<TARGET_FILE_DIR:firmtouch-sim>)
   add_test(NAME host_sim.teach

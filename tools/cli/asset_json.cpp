@@ -9,6 +9,7 @@
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/scene/materials_layout.hpp"
 #include "firmtouch/scene/objects_layout.hpp"
+#include "firmtouch/scene/tool_layout.hpp"
 #include "json/json.hpp"
 
 namespace firmtouch::cli {
@@ -54,6 +55,7 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {scene::kObjectsSection, "objects"},
                                          {scene::kMaterialsSection, "materials"},
                                          {scene::kTriangleMaterialsSection, "triangle materials"},
+                                         {scene::kToolSection, "tool"},
                                          {curve::kHeadSection, "curve head"},
                                          {curve::kSamplesSection, "curve samples"},
                                          {curve::kArcsSection, "curve arcs"},

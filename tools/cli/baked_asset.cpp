@@ -6,6 +6,7 @@
 #include "bake/asset/asset_writer.hpp"
 #include "bake/asset/provenance.hpp"
 #include "bake/objects/objects_file.hpp"
+#include "bake/objects/tool_file.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
@@ -92,12 +93,34 @@ BakedInput take_asset(const std::string& path) {
 
 bool is_objects_file(const std::string& path) { return extension_of(path) == ".objects"; }
 
+bool is_tool_file(const std::string& path) { return extension_of(path) == ".tool"; }
+
 bool is_mesh_file(const std::string& path) {
   return !is_curve_file(path) && !is_run(path) && !is_spline_file(path) && !is_objects_file(path) &&
-         !is_asset(path);
+         !is_tool_file(path) && !is_asset(path);
 }
 
-// A file of objects, as an asset named after its file's stem.
+// What a text file says, as one section, named after the file's stem. `read`: to the elements.
+template <class Read>
+BakedInput bake_text_input(const std::string& path, uint32_t type, const char* what,
+                           const Read& read) {
+  BakedInput baked;
+  try {
+    const std::vector<uint8_t> source = read_file(path);
+    const auto elements = read(std::string(source.begin(), source.end()));
+    const std::string name = stem_of(path);
+    baked.sections = {
+        tools::make_section(type, name, elements),
+        tools::text_section(asset::kProvenanceSection, name,
+                            tools::provenance(file_name_of(path), source, "", kToolVersion))};
+    baked.report = {std::to_string(elements.size()) + what +
+                    std::to_string(bytes_of(baked.sections)) + " bytes"};
+  } catch (const tools::Refused& refused) {
+    fail_input(refused.what());
+  }
+  return baked;
+}
+
 BakedInput bake_objects_input(const std::string& path, const std::vector<std::string>& inputs) {
   std::vector<std::string> meshes;
   for (const std::string& input : inputs) {
@@ -107,22 +130,14 @@ BakedInput bake_objects_input(const std::string& path, const std::vector<std::st
     for (const std::string& name : tools::names_with(asset.container(), mesh::kHeadSection))
       meshes.push_back(name);
   }
-  BakedInput baked;
-  try {
-    const std::vector<uint8_t> source = read_file(path);
-    const std::vector<scene::ObjectLayout> objects =
-        tools::read_objects(path, std::string(source.begin(), source.end()), meshes);
-    const std::string name = stem_of(path);
-    baked.sections = {
-        tools::make_section(scene::kObjectsSection, name, objects),
-        tools::text_section(asset::kProvenanceSection, name,
-                            tools::provenance(file_name_of(path), source, "", kToolVersion))};
-    baked.report = {std::to_string(objects.size()) + " objects, " +
-                    std::to_string(bytes_of(baked.sections)) + " bytes"};
-  } catch (const tools::Refused& refused) {
-    fail_input(refused.what());
-  }
-  return baked;
+  return bake_text_input(path, scene::kObjectsSection, " objects, ", [&](const std::string& text) {
+    return tools::read_objects(path, text, meshes);
+  });
+}
+
+BakedInput bake_tool_input(const std::string& path) {
+  return bake_text_input(path, scene::kToolSection, " spheres of a tool, ",
+                         [&](const std::string& text) { return tools::read_tool(path, text); });
 }
 
 std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
@@ -139,6 +154,7 @@ std::vector<BakedInput> bake_all(const std::vector<std::string>& inputs,
                     : is_asset(path)        ? take_asset(path)
                     : is_spline_file(path)  ? bake_spline_input(path, options, progress)
                     : is_objects_file(path) ? bake_objects_input(path, inputs)
+                    : is_tool_file(path)    ? bake_tool_input(path)
                                             : bake_mesh_input(path, options, progress));
   }
   return baked;
@@ -290,7 +306,7 @@ BakeRequest bake_request(const Arguments& arguments) {
 
 BakedAsset bake_asset(BakeRequest request, const std::string& output) {
   for (const std::string& input : request.inputs) {
-    if (is_run(input) || is_asset(input) || is_objects_file(input)) continue;
+    if (is_run(input) || is_asset(input) || is_objects_file(input) || is_tool_file(input)) continue;
     settle_size(input, request.options.model);
     break;
   }

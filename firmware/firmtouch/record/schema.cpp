@@ -27,7 +27,7 @@ extern constexpr Field kFields[kFieldCount] = {
     {"output.state", "bits", 1, 0, Type::kU32, 1},
     {"output.model_sequence", "1", 1, 0, Type::kU32, 1},
     {"output.proxy_m", "m", 1, 0, Type::kF32, kAxes},
-    {"output.torque_Nm", "N m", 1, 0, Type::kF32, kAxes},
+    {"output.torque_Nm", "N*m", 1, 0, Type::kF32, kAxes},
 };
 
 extern constexpr Bit kBits[kBitCount] = {

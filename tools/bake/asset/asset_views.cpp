@@ -15,6 +15,7 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/loader.hpp"
 #include "firmtouch/scene/stored_materials.hpp"
+#include "firmtouch/scene/stored_tool.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/loader.hpp"
 
@@ -85,6 +86,14 @@ std::string prove_objects(const asset::Container& container, const std::string& 
   return progress.verdict.ok() ? "" : broken("objects", name, progress.verdict);
 }
 
+std::string prove_tool(const asset::Container& container, const std::string& name) {
+  scene::StoredTool spheres;
+  core::Verdict verdict = scene::open(container.find(scene::kToolSection, name.c_str()), spheres);
+  if (verdict.ok() && !names_with(container, scene::kObjectsSection).empty())
+    verdict = core::reject(scene::kRuleToolAmongObjects);
+  return verdict.ok() ? "" : broken("tool", name, verdict);
+}
+
 std::string prove_spline(const asset::Container& container, const std::string& name) {
   spline::View view;
   const std::string problem = prove("spline", container, name, spline::kProbesSection, view);
@@ -119,11 +128,9 @@ std::string prove_asset(core::Bytes file) {
   const core::Verdict verdict = asset::open(file, container);
   if (!verdict.ok()) return rule_text(verdict);
   const std::pair<uint32_t, decltype(&prove_mesh)> kinds[] = {
-      {mesh::kHeadSection, prove_mesh},
-      {curve::kHeadSection, prove_curve},
-      {spline::kHeadSection, prove_spline},
-      {device::kLinkageSection, prove_linkage},
-      {scene::kObjectsSection, prove_objects}};
+      {mesh::kHeadSection, prove_mesh},        {curve::kHeadSection, prove_curve},
+      {spline::kHeadSection, prove_spline},    {device::kLinkageSection, prove_linkage},
+      {scene::kObjectsSection, prove_objects}, {scene::kToolSection, prove_tool}};
   for (const auto& [type, prove_kind] : kinds)
     for (const std::string& name : names_with(container, type)) {
       const std::string problem = prove_kind(container, name);
