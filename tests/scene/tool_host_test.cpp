@@ -57,6 +57,7 @@ TEST(Tool_AnyHandTurnSpheresAndBudget_NoSphereCrossesASurface) {
       CHECK_EQ(rig.broken.unclear, 0u);
       CHECK_EQ(rig.broken.over_budget, 0u);
       CHECK_EQ(rig.broken.unsound, 0u);
+      CHECK_EQ(rig.broken.untrue, 0u);
       // A proxy without friction may be away by rounding; the comparison itself rounds, too.
       CHECK_LE(rig.broken.longer_m, (is_rough ? 1e-12 : 1e-7 * wide(rig.size_m())));
       CHECK_LE(rig.broken.force_off, 2e-5);
@@ -222,4 +223,21 @@ TEST(ToolTurn_FollowsAtALimitedRate_AndRefusesWhatIsNoAngle) {
   CHECK_LE(fastest_mps, 0.1 * wide(scene::kMaxToolTurn_rad_per_s) * 1.0001);
   CHECK_GE(fastest_mps, 0.3);
   CHECK_EQ(turn.turn_rad.z, 3.0f);
+}
+
+// Without motors a hand takes the spheres through the part, and where the work does not suffice
+// some have no proxy yet.
+TEST(Tool_MotorsOffAndLittleWork_BoundsOfTheNearestSphereAreTrue) {
+  for (uint32_t seed = 0; seed < 8; ++seed) {
+    Draw draw(seed);
+    ToolRig rig(seed % 2 == 0 ? tools::make_part(1, 500) : two_walls(), random_tool(draw, 8, 0.02));
+    rig.contact.settings.budget.work = 100 + 300 * (seed % 4);
+    for (uint32_t tick = 0; tick < 1000; ++tick) {
+      rig.contact.is_on = tick / 50 % 2 == 0;
+      rig.observe(draw.within(tick % 30 == 0 ? 0.08 : 0.03));
+    }
+    firmtouch::test::note("seed", seed);
+    CHECK_EQ(rig.broken.untrue, 0u);
+    CHECK_EQ(rig.broken.unsound, 0u);
+  }
 }

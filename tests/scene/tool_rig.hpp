@@ -13,7 +13,7 @@ namespace firmtouch::scene_test {
 
 struct BrokenTool {
   uint32_t ticks = 0, free = 0, loaded = 0, crossings = 0, unclear = 0, over_budget = 0,
-           unsound = 0;
+           unsound = 0, untrue = 0;
   double longer_m = 0;       // a tick, of a proxy away from the hand
   double force_off = 0;      // of the spring from the sum of all, relative
   double energy_off = 0;     // the same of its energy
@@ -43,6 +43,7 @@ struct ToolRig : ProxyRig {
   // As touch_by_tool() sees the mesh.
   scene::Near near(uint32_t sphere, Vec3 x_m, query::Budget budget, float needed_m) {
     ++queries;
+    queried_ |= 1u << sphere;
     note(sphere);
     return scene::MeshTouched{object, hints[sphere]}.near(x_m, budget, needed_m);
   }
@@ -52,7 +53,7 @@ struct ToolRig : ProxyRig {
   }
 
   void touch_at(Vec3 hand_m) {
-    queries = 0;
+    queries = queried_ = 0;
     turn.advance(contact.passed_s);
     for (uint32_t i = 0; i < spheres.size(); ++i)
       last_m_[i] = of(i).position_m, was_[i] = is_free(i);
@@ -72,8 +73,7 @@ struct ToolRig : ProxyRig {
     ++broken.ticks;
     if (!servo::is_sound(model)) ++broken.unsound;
     uint32_t queried = 0, work = touch.work;
-    for (uint32_t i = 0; i < spheres.size(); ++i)
-      queried += touch.sphere[i].moved.work > 0 ? 1u : 0u;
+    for (uint32_t i = 0; i < spheres.size(); ++i) queried += queried_ >> i & 1u;
     if (queried > 1) work += (queried - 1) * scene::kSphereWork;
     if (work > contact.settings.budget.work) ++broken.over_budget;
     for (uint32_t i = 0; i < spheres.size(); ++i) {
@@ -89,6 +89,7 @@ struct ToolRig : ProxyRig {
         ++broken.unclear;
     }
     compare_with_sum();
+    if (broken.ticks % 4 == 0) compare_with_truth();
   }
 
   const scene::Proxy& of(uint32_t i) const { return touch.sphere[i].proxy; }
@@ -105,6 +106,17 @@ struct ToolRig : ProxyRig {
       if (hit.hit || !hit.exact) ++broken.crossings;
     }
     last_m_[i] = of(i).position_m;
+  }
+
+  // Bounds of the sphere with the least room, against the distance in double.
+  void compare_with_truth() {
+    const uint32_t i = touch.nearest;
+    const scene::Bounds bounds = scene::bounds_of(of(i), touch.place_m[i]);
+    const double truth = truth_m(is_free(i) ? of(i).position_m : touch.place_m[i]);
+    const double scale = std::fmax(wide(size_m()), truth);
+    if (!(wide(bounds.lower_m) <= truth + 1e-7 * scale) ||
+        !(wide(bounds.upper_m) >= truth - 4e-7 * scale))
+      ++broken.untrue;
   }
 
   // The spring against the sum over the spheres, in double.
@@ -150,6 +162,7 @@ struct ToolRig : ProxyRig {
 
   Vec3 last_m_[scene::kMaxSpheres];
   bool was_[scene::kMaxSpheres] = {};
+  uint32_t queried_ = 0;  // bits of the spheres, in the last tick
 };
 
 // Two spheres, `half_m` to either side of the handle along x.

@@ -1,7 +1,5 @@
 #include "firmtouch/scene/tool.hpp"
 
-#include <float.h>
-
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/object.hpp"
 
@@ -62,7 +60,10 @@ ToolTick::ToolTick(const ProxyContact& contact, StoredTool spheres, const math::
   touch_.steps = touch_.work = 0;
   for (uint32_t i = 0; i < spheres.size(); ++i) {
     touch_.place_m[i] = hand_m_ + arm_m(spheres[i], rotation);
-    if (!drift(touch_.sphere[i], touch_.place_m[i], spheres[i].radius_m)) waiting_ |= 1u << i;
+    if (drift(touch_.sphere[i], touch_.place_m[i], spheres[i].radius_m))
+      known_ |= 1u << i;
+    else
+      waiting_ |= 1u << i, ++allowed_;
   }
   choose();
 }
@@ -81,17 +82,13 @@ bool ToolTick::drift(ProxyTouch& touch, Vec3 to_m, float radius_m) const {
   proxy.free_m = left_m;
   proxy.near.is_exact = false;
   touch.material = contact_.material;
-  touch.penetration_m = 0;
-  touch.moved = {};
   return true;
 }
 
 // The fixed work of the first near sphere is not of the budget.
 void ToolTick::choose() {
-  uint32_t near = 0;
-  for (uint32_t i = 0; i < spheres_.size(); ++i) near += waiting_ >> i & 1u;
   const uint32_t most = 1 + work_left_ / (kSphereWork + kMaxSpheres);
-  allowed_ = near < most ? near : most;
+  if (allowed_ > most) allowed_ = most;
   if (allowed_ > 1) work_left_ -= (allowed_ - 1) * kSphereWork;
   sphere_ = touch_.next < spheres_.size() ? touch_.next : 0;
 }
@@ -111,6 +108,7 @@ bool ToolTick::next() {
     waiting_ &= ~(1u << sphere_);
     begin(sphere_);
     if (allowed_ > 0) {
+      known_ |= 1u << sphere_;
       settings_.budget.work = work_left_ / allowed_--;
       touch_.next = static_cast<uint8_t>(sphere_ + 1);
       return true;
@@ -143,20 +141,26 @@ void ToolTick::end(const ProxyMoved& moved) {
   }
 }
 
-// Of one sphere: what its spring pulls, and its energy.
-void ToolTick::add_pull(uint32_t sphere) {
+// What a sphere adds: its room, and where a surface holds it pull, energy and torque.
+void ToolTick::add(uint32_t sphere) {
   const ProxyTouch& touch = touch_.sphere[sphere];
-  if (touch.proxy.phase != Proxy::Phase::kFree) {
+  const Proxy& proxy = touch.proxy;
+  const bool is_free = proxy.phase == Proxy::Phase::kFree;
+  float room_m = proxy.free_m - proxy.radius_m;
+  if (!is_free) {
     touch_.penetration_m = math::larger(touch_.penetration_m, touch.penetration_m);
-    return;
+    // Of one that has no proxy and was not moved nothing is known.
+    if ((known_ >> sphere & 1u) == 0) return;
+    room_m = proxy.near.sign < 0 ? -proxy.near.distance_m : proxy.near.lower_m;
   }
-  const Vec3 off_m = touch.proxy.position_m - touch_.place_m[sphere];
+  if (room_m < least_room_m_) least_room_m_ = room_m, touch_.nearest = static_cast<uint8_t>(sphere);
+  if (!is_free) return;
   made_.spring.is_used = true;
-  const float reach_m = touch.proxy.free_m - touch.proxy.radius_m;
-  if (reach_m < made_.spring.reach_m) made_.spring.reach_m = reach_m > 0.0f ? reach_m : 0.0f;
-  if (touch.proxy.free_m < made_.free_radius_m) made_.free_radius_m = touch.proxy.free_m;
-  if (!touch.proxy.is_loaded) return;
+  if (room_m < made_.spring.reach_m) made_.spring.reach_m = room_m;
+  if (proxy.free_m < made_.free_radius_m) made_.free_radius_m = proxy.free_m;
+  if (!proxy.is_loaded) return;
   made_.spring.is_held = true;
+  const Vec3 off_m = proxy.position_m - touch_.place_m[sphere];
   const Vec3 force_N = off_m * touch.material.stiffness_N_per_m;
   pull_N_ = pull_N_ + force_N;
   twice_energy_J_ = twice_energy_J_ + math::dot(force_N, off_m);
@@ -189,24 +193,12 @@ void ToolTick::make_spring() {
   }
 }
 
-// The sphere with the least room, for the record.
-void ToolTick::find_nearest() {
-  float least_m = FLT_MAX;
-  for (uint32_t i = 0; i < spheres_.size(); ++i) {
-    const Proxy& proxy = touch_.sphere[i].proxy;
-    float room_m = bounds_of(proxy, touch_.place_m[i]).upper_m;
-    if (proxy.near.sign < 0) room_m = -room_m;
-    room_m = room_m - spheres_[i].radius_m;
-    if (room_m < least_m) least_m = room_m, touch_.nearest = static_cast<uint8_t>(i);
-  }
-}
-
 void ToolTick::finish(servo::LocalModel& model) {
   touch_.torque_Nm = {};
   touch_.penetration_m = 0;
-  for (uint32_t i = 0; i < spheres_.size(); ++i) add_pull(i);
+  for (uint32_t i = 0; i < spheres_.size(); ++i) add(i);
+  made_.spring.reach_m = math::larger(made_.spring.reach_m, 0.0f);
   make_spring();
-  find_nearest();
   touch_.anchor_m = made_.spring.anchor_m;
   touch_.penetration_m =
       math::larger(touch_.penetration_m, math::length(touch_.anchor_m - hand_m_));

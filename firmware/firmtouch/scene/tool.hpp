@@ -1,4 +1,5 @@
 #pragma once
+#include <float.h>
 #include <stdint.h>
 
 #include "firmtouch/math/vec3.hpp"
@@ -64,9 +65,8 @@ class ToolTick {
   bool drift(ProxyTouch& touch, math::Vec3 to_m, float radius_m) const;
   void choose();
   void begin(uint32_t sphere);
-  void add_pull(uint32_t sphere);
+  void add(uint32_t sphere);
   void make_spring();
-  void find_nearest();
 
   const StoredTool spheres_;
   ToolTouch& touch_;
@@ -78,12 +78,14 @@ class ToolTick {
   servo::LocalModel made_;  // of all spheres together
   uint32_t sphere_ = 0;
   uint32_t waiting_ = 0;  // bits of the spheres that are to be moved
+  uint32_t known_ = 0;    // bits of those that were moved in this tick
   uint32_t allowed_ = 0;  // how many the work allows
   uint32_t work_left_;
   bool is_uncertain_ = false;
   // Sums over the spheres that a surface holds.
   math::Vec3 pull_N_;
   float twice_energy_J_ = 0, longest_m_ = 0;
+  float least_room_m_ = FLT_MAX;
 };
 
 /// One sphere of the tool, with the shape that it touches.
