@@ -104,7 +104,7 @@ struct OfSphere {
 /// own and its part of the stiffness, so all together are at most as stiff as `contact.material`.
 /// The model has one spring with force and energy of all. A far sphere costs a comparison; the
 /// others share the budget, and take turns where it does not allow all: then the model is
-/// uncertain.
+/// uncertain. `contact.proxy_m` is not used.
 /// Bounds: for each near sphere those of scene/proxy.hpp; kSphereWork of the budget pays for each
 /// but one. Re-entrant for different tools.
 template <class Shape>

@@ -1,0 +1,99 @@
+// What you feel: a bar that you lay on a table. Both ends rest on it. Over the edge one end hangs
+// in the air: the table feels half as stiff, and the bar wants to tip. Turned upright it is a
+// stick.
+// Picture: pictures/bar_tool.svg
+//
+// A tool of several spheres has a proxy for each of them, and each has its part of the stiffness.
+// Servo gets one spring with the force and the energy of all; the torque is yours to render.
+#include "firmtouch/scene/analytic.hpp"
+#include "firmtouch/scene/tool.hpp"
+#include "firmtouch/servo/step.hpp"
+#include "hand.hpp"
+
+using namespace firmtouch;
+
+namespace {
+
+constexpr float kRadius_m = 0.003f, kTick_s = 0.001f, kStiffness_N_per_m = 1000.0f;
+constexpr float kEdge_m = 0.03f;  // the table ends at this x; its top is z = 0
+constexpr scene::SphereLayout kBar[] = {{{-0.02f, 0, 0}, kRadius_m}, {{0.02f, 0, 0}, kRadius_m}};
+constexpr servo::Settings kSettings{/*force_limit_N*/ 8.0f,
+                                    /*slew_limit_N_per_s*/ 5000.0f,
+                                    /*ramp_in_s*/ 0.0f,
+                                    kTick_s,
+                                    {/*reservoir_J*/ 0.0015f}};
+
+// What the spheres touch. A mesh keeps a hint for each of them; a box needs none.
+struct Table {
+  scene::BoxTouched box{{{}, {kEdge_m - 0.2f, 0, -0.05f}}, {0.2f, 0.2f, 0.05f}};
+
+  float size_m() const { return box.size_m(); }
+  scene::Near near(uint32_t, math::Vec3 x_m, query::Budget budget, float needed_m) {
+    return box.near(x_m, budget, needed_m);
+  }
+};
+
+struct World {
+  Table table;
+  scene::ToolTurn turn;
+  scene::ToolTouch touch;
+  servo::State state;
+  servo::LocalModel model;
+  servo::StepOutput output;
+  math::Vec3 hand_m{-0.02f, 0, 0.04f};
+  uint32_t now = 0;
+
+  void tick(math::Vec3 to_m) {
+    hand_m = to_m;
+    turn.advance(kTick_s);
+    scene::ProxyContact contact;
+    contact.settings.budget.work = 1000;
+    contact.material.stiffness_N_per_m = kStiffness_N_per_m;
+    contact.position_m = hand_m;
+    contact.has_proxy = state.has_proxy;
+    contact.is_on = true;
+    contact.passed_s = kTick_s;
+    scene::begin_model(model, hand_m, now, /*age_ticks*/ 2);
+    scene::touch_by_tool(contact, scene::StoredTool(kBar), turn.rotation, table, touch, model);
+    servo::StepInput input;
+    input.position_m = hand_m;
+    input.tick = now++;
+    input.enable = true;
+    output = servo::step(state, kSettings, model, input);
+    show(hand_m, output.force_N);
+  }
+  // In a straight line, then at rest.
+  void go(float x_m, float z_m) {
+    const float from_x_m = hand_m.x, from_z_m = hand_m.z;
+    for (uint32_t i = 1; i <= 400; ++i) {
+      const float share = i < 300 ? static_cast<float>(i) / 300.0f : 1.0f;
+      tick({from_x_m + (x_m - from_x_m) * share, 0, from_z_m + (z_m - from_z_m) * share});
+    }
+  }
+};
+
+}  // namespace
+
+int main() {
+  World world;
+  bool is_right = true;
+  const auto feels = [&](float force_N, float torque_Nm) {
+    is_right &= is_near(world.output.force_N.z, force_N, 0.01f);
+    is_right &= is_near(world.touch.torque_Nm.y, torque_Nm, 1e-4f);
+    is_right &= world.output.faults == 0;
+  };
+  // Both ends 2 mm deep: the whole stiffness, and no torque.
+  world.go(-0.02f, 0.02f);
+  world.go(-0.02f, kRadius_m - 0.002f);
+  feels(2.0f, 0);
+  // One end is beyond the edge: half of it, 20 mm from the handle.
+  world.go(0.02f, kRadius_m - 0.002f);
+  feels(1.0f, 0.02f);
+  // Upright, 20 mm higher: one end again, right below the handle.
+  world.go(-0.02f, 0.05f);
+  is_right &= world.turn.want(/*axis*/ 1, 1.5707963f);
+  world.go(-0.02f, 0.04f);
+  world.go(-0.02f, 0.02f + kRadius_m - 0.002f);
+  feels(1.0f, 0);
+  return is_right ? 0 : 1;
+}
