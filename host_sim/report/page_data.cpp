@@ -10,7 +10,7 @@ namespace {
 constexpr double kFullScale = 32767;
 // Positions are scaled to the scene's bounding sphere: centre 0, radius 1. Paths may leave it.
 constexpr double kPathReach = 4;
-constexpr double kMostTurn_rad = 6.2831853;
+constexpr double kMaxTurn_rad = 6.2831853;
 constexpr int16_t kBreak = -32768;  // a path is interrupted
 
 Vec normalized(const Scene3d& scene3d, Vec p) {
@@ -82,7 +82,7 @@ std::string samples_text(const Report& report, const Scene3d& scene3d) {
   for (const RunPaths::Sample& sample : report.paths.samples()) {
     add_scaled(device, normalized(scene3d, sample.device_m), kPathReach);
     add_scaled(force, sample.force_N, report.paths.peak_N());
-    add_scaled(turn, sample.turn_rad, kMostTurn_rad);
+    add_scaled(turn, sample.turn_rad, kMaxTurn_rad);
   }
   return "{\"step_s\":" + fixed(report.paths.ticks_per_sample() / report.facts.rate_Hz, 6) +
          ",\"first\":" + std::to_string(report.paths.first()) +

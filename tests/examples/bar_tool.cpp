@@ -77,7 +77,7 @@ struct World {
 int main() {
   World world;
   bool is_right = true;
-  const auto feels = [&](float force_N, float torque_Nm) {
+  const auto check = [&](float force_N, float torque_Nm) {
     is_right &= is_near(world.output.force_N.z, force_N, 0.01f);
     is_right &= is_near(world.touch.torque_Nm.y, torque_Nm, 1e-4f);
     is_right &= world.output.faults == 0;
@@ -85,15 +85,15 @@ int main() {
   // Both ends 2 mm deep: the whole stiffness, and no torque.
   world.go(-0.02f, 0.02f);
   world.go(-0.02f, kRadius_m - 0.002f);
-  feels(2.0f, 0);
+  check(2.0f, 0);
   // One end is beyond the edge: half of it, 20 mm from the handle.
   world.go(0.02f, kRadius_m - 0.002f);
-  feels(1.0f, 0.02f);
+  check(1.0f, 0.02f);
   // Upright, 20 mm higher: one end again, right below the handle.
   world.go(-0.02f, 0.05f);
   is_right &= world.turn.want(/*axis*/ 1, 1.5707963f);
   world.go(-0.02f, 0.04f);
   world.go(-0.02f, 0.02f + kRadius_m - 0.002f);
-  feels(1.0f, 0);
+  check(1.0f, 0);
   return is_right ? 0 : 1;
 }
