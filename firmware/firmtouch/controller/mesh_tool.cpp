@@ -26,9 +26,11 @@ void MeshTool::close() {
 
 core::Verdict MeshTool::read_tool() {
   if (!spheres_.empty()) return core::kPassed;
-  for (uint32_t beside : {scene::kObjectsSection, scene::kMaterialsSection})
-    if (asset::find_name(*asset_, beside, nullptr) != nullptr)
-      return core::reject(scene::kRuleToolAlone);
+  const auto has = [this](uint32_t section) {
+    return asset::find_name(*asset_, section, nullptr) != nullptr;
+  };
+  if (has(scene::kObjectsSection) || has(scene::kMaterialsSection))
+    return core::reject(scene::kRuleToolAlone);
   const char* name = asset::find_name(*asset_, scene::kToolSection, nullptr);
   return scene::open(asset_->find(scene::kToolSection, name), spheres_);
 }

@@ -89,8 +89,9 @@ std::string prove_objects(const asset::Container& container, const std::string& 
 std::string prove_tool(const asset::Container& container, const std::string& name) {
   scene::StoredTool spheres;
   core::Verdict verdict = scene::open(container.find(scene::kToolSection, name.c_str()), spheres);
-  if (verdict.ok() && !names_with(container, scene::kObjectsSection).empty())
-    verdict = core::reject(scene::kRuleToolAmongObjects);
+  if (verdict.ok() && !(names_with(container, scene::kObjectsSection).empty() &&
+                        names_with(container, scene::kMaterialsSection).empty()))
+    verdict = core::reject(scene::kRuleToolAlone);
   return verdict.ok() ? "" : broken("tool", name, verdict);
 }
 
