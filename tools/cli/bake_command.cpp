@@ -31,6 +31,35 @@ void write_source(const std::string& path, const std::vector<uint8_t>& asset,
   }
 }
 
+// What bake reads, and how its own files are written.
+const char* const kInputs =
+    "INPUT by extension: .obj .off .ply .stl .gltf .glb .3mf a mesh; .csv a curve (header\n"
+    "x,y,z); .ftl a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces\n"
+    "(126, 128); .bpt Bezier patches; .objects several meshes in one scene; .tool a tool of\n"
+    "several spheres; .fta what was baked before, taken as it is. Each is named after its\n"
+    "file's stem. What can be mended safely is mended and reported; the rest is refused.\n"
+    "A file .objects places meshes that are baked with it, one object a line; # is a comment:\n"
+    "  object NAME of MESH [at X Y Z mm] [turned A deg about X Y Z] [stiffness K N/m]\n"
+    "         [friction F [sliding F]] [moves X Y Z mm/s] [turns X Y Z rad/s]\n"
+    "An object stands until a command moves it (firmtouch-sim run: at T s move NAME).\n"
+    "A file of --materials says how triangles feel, one material a line:\n"
+    "  material NAME [stiffness K N/m] [friction F [sliding F]] [viscous C Ns/m]\n"
+    "NAME is that of an OBJ file's `usemtl` (without any: of its groups `g`); the number in a\n"
+    "PLY file's face property material_index counts these lines from 1; 0 is none.\n"
+    "A file .tool has up to 8 spheres of a tool, in the frame of its handle; they touch the\n"
+    "mesh instead of one sphere at the tip:\n"
+    "  sphere X Y Z mm radius R mm\n"
+    "All together are as stiff as the wall. The handle turns by commands (firmtouch-sim run: at\n"
+    "T s turn AXIS ANGLE).\n"
+    "A catalogue has an asset a line, as words behind `firmtouch bake`; # is a comment, \"a b\"\n"
+    "one word:\n"
+    "  INPUT... -o SCENE.fta [options]\n"
+    "The results have a row a line: baked or refused, bytes, CRC, why. Killed and started again\n"
+    "it goes on, and the bytes are the same, by any number of threads and shards; put these\n"
+    "together with firmtouch-sim merge (tools/batch has a make file and a SLURM script). A\n"
+    "model that has changed since is baked anew where the results are removed. Exit code 1\n"
+    "where one was refused.";
+
 }  // namespace
 
 const Command& bake_command() {
@@ -38,42 +67,7 @@ const Command& bake_command() {
       "bake",
       "INPUT... -o SCENE.fta [options], or --catalogue LIST -o RESULTS.csv [--shard I/N]",
       "Bakes meshes, curves and splines into one asset, proven with the firmware's own decoder.",
-      "INPUT by extension: .obj .off .ply .stl .gltf .glb .3mf a mesh; .csv a curve (header "
-      "x,y,z); "
-      ".ftl\n"
-      "a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces (126, 128); .bpt "
-      "Bezier\n"
-      "patches; .objects several meshes in one scene; .tool a tool of several spheres; .fta what "
-      "was baked before, taken as it is. "
-      "Each\n"
-      "is named after its file's stem. What can be mended safely is mended and reported; the rest "
-      "is\n"
-      "refused.\n"
-      "A file .objects places meshes that are baked with it, one object a line; # is a comment:\n"
-      "  object NAME of MESH [at X Y Z mm] [turned A deg about X Y Z] [stiffness K N/m]\n"
-      "         [friction F [sliding F]] [moves X Y Z mm/s] [turns X Y Z rad/s]\n"
-      "An object stands until a command moves it (firmtouch-sim run: at T s move NAME).\n"
-      "A file of --materials says how triangles feel, one material a line:\n"
-      "  material NAME [stiffness K N/m] [friction F [sliding F]] [viscous C Ns/m]\n"
-      "NAME is that of an OBJ file's `usemtl` (without any: of its groups `g`); the number in a "
-      "PLY file's\n"
-      "face property material_index counts these lines from 1; 0 is none.\n"
-      "A file .tool has up to 8 spheres of a tool, in the frame of its handle; they touch the "
-      "mesh\n"
-      "instead of one sphere at the tip:\n"
-      "  sphere X Y Z mm radius R mm\n"
-      "All together are as stiff as the wall. The handle turns by commands (firmtouch-sim run: at "
-      "T s\n"
-      "turn AXIS ANGLE).\n"
-      "A catalogue has an asset a line, as words behind `firmtouch bake`; # is a comment, \"a b\" "
-      "one word:\n"
-      "  INPUT... -o SCENE.fta [options]\n"
-      "The results have a row a line: baked or refused, bytes, CRC, why. Killed and started again "
-      "it goes on,\n"
-      "and the bytes are the same, by any number of threads and shards; put these together with\n"
-      "firmtouch-sim merge (tools/batch has a make file and a SLURM script). A model that has "
-      "changed since is baked\n"
-      "anew where the results are removed. Exit code 1 where one was refused.",
+      kInputs,
       with_model_options(
           {{"-o", "FILE", "the asset to write; -: to stdout"},
            {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
