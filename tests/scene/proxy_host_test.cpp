@@ -225,7 +225,7 @@ TEST(Proxy_MoveWithinItsCertificate_NeedsNoQuery) {
   (void)scene::move_proxy(settings, {0, 0, 0.02f}, plane, proxy);
   for (int tick = 0; tick < 4; ++tick)
     (void)scene::move_proxy(settings, {0, 0, 0.008f}, plane, proxy);
-  const double step_m = 2e-6 * wide(plane.size_m());
+  const double step_m = 4e-7 * wide(plane.size_m());
   uint32_t queries = 0;
   for (int tick = 1; tick <= 100; ++tick) {
     const float x_m = static_cast<float>(tick * step_m);
@@ -233,7 +233,7 @@ TEST(Proxy_MoveWithinItsCertificate_NeedsNoQuery) {
     queries += moved.queries;
     CHECK(moved.is_optimal);
     CHECK_LE(std::fabs(wide(proxy.position_m.x) - wide(x_m)), step_m / 100);
-    CHECK_GE(wide(proxy.free_m), 0.002 - step_m);
+    CHECK_GE(proxy.free_m, settings.radius_m);
     CHECK_LE(wide(proxy.free_m), wide(proxy.position_m.z) - 0.01);  // the true distance
   }
   CHECK_EQ(queries, 50u);  // a place that a query certified has room for one such move
@@ -275,6 +275,30 @@ TEST(Proxy_VisitsThatDoNotSuffice_AreReportedInTheSameTick) {
     if (!is_there && !rig.moved.is_starved && !rig.moved.is_optimal) ++silent;
   }
   CHECK_EQ(silent, 0u);
+}
+
+// A last query that finds a place within the clearance is not the last of the tick if that place is
+// refused: the tool stood for 24 ticks with all work, for 222 with little.
+TEST(Proxy_LastQueryWithinTheClearance_IsTaken) {
+  for (const uint32_t work : {40u, 80u, 120u, 640u}) {
+    ProxyRig rig(tools::make_part(1, 4000));
+    Broken broken;
+    rig.tick({0, 0, 0.08f}, broken);
+    uint32_t run = 0, longest = 0;
+    for (int tick = 0; tick < 6000; ++tick) {
+      if (tick == 10) rig.settings.budget.work = work;
+      const Vec3 before_m = rig.proxy.position_m;
+      const double turn = 0.0007 * tick, rise = 0.00113 * tick;
+      rig.tick({static_cast<float>(0.02 * std::cos(turn) * std::cos(rise)),
+                static_cast<float>(0.02 * std::sin(turn) * std::cos(rise)),
+                static_cast<float>(0.02 * std::sin(rise) + (tick < 10 ? 0.06 : 0))},
+               broken);
+      run = ProxyRig::distance(rig.proxy.position_m, before_m) <= 0 ? run + 1 : 0;
+      longest = std::max(longest, run);
+    }
+    CHECK_LE(longest, 9u);
+    CHECK_EQ(broken.crossings, 0u);
+  }
 }
 
 // On its axis a turned part is equally near all around: the side was never found, and contact was

@@ -180,10 +180,12 @@ math::Slide ProxyMove::rest() {
 }
 
 // What is left of the free radius after a move.
-// Result: whether that is enough.
+// Result: whether that is enough. Before a query has found what is near, that is all of the radius:
+// a tool that is nearer is led back under load, which gives the hand energy.
 bool ProxyMove::is_within_certified(Vec3 to_m, float& left_m) const {
   left_m = (proxy_.free_m - math::length(to_m - proxy_.position_m) * kUp) * (1.0f - 0x1p-22f);
-  return left_m >= needed_m();
+  const bool is_held = proxy_.active.count > 0 && moved_.queries > 0;
+  return left_m >= (is_held ? needed_m() : proxy_.radius_m);
 }
 
 // Makes a move that is too short for a query, where the certificate allows it.
@@ -333,6 +335,11 @@ void ProxyMove::take(const Near& near) {
   if (near.is_of_base_hull) moved_.is_of_base_hull = true;
   if (proxy_.phase != Proxy::Phase::kFree) return begin_contact(near);
   if (near.lower_m >= needed_m()) {
+    // Within the clearance only where the plane of a face does no better: one of a point is tilted,
+    // and a last query would leave the tool where it is.
+    if (near.lower_m < proxy_.radius_m && near.feature.kind == Feature::Kind::kTriangle &&
+        work_left_ > 0 && moved_.queries < kMaxQueries && keep(near.feature))
+      return;
     proxy_.position_m = trial_m_;
     proxy_.free_m = near.lower_m;
     proxy_.near = near;
