@@ -136,8 +136,9 @@ int run_voxelize(const Arguments& arguments) {
     solids.reserve(sound.size());
     for (const SoundSurface& each : sound) solids.emplace_back(each.surface);
     size_t reported = 0;
-    options.on_progress = [&](size_t done, size_t all) {
-      for (; reported * all < done * kParts; ++reported) progress.stage("distances");
+    options.on_progress = [&](double share) {
+      for (; static_cast<double>(reported) < share * kParts; ++reported)
+        progress.stage("distances");
     };
     distance_field = tools::make_distance_field(solids, grid, options);
     if (!output.empty()) {

@@ -1,18 +1,17 @@
 #include "field/distance_field.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
-#include <thread>
 
+#include "batch/parallel.hpp"
 #include "field/block_search.hpp"
 
 namespace firmtouch::tools {
 namespace {
 
 constexpr uint32_t kBlock = 8;          // voxels a side; halved twice on the way to a voxel
+constexpr size_t kBlocksAChunk = 16;    // with the same lists
 constexpr size_t kPointsAChunk = 4096;  // a chunk begins without a seed: the same for all threads
 
 using Clock = std::chrono::steady_clock;
@@ -20,27 +19,7 @@ double since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// Items 0 to count - 1 on all threads; `work` is made once a thread.
-template <class MakeWork>
-void in_parallel(size_t count, uint32_t threads, const MakeWork& make_work,
-                 const std::function<void(size_t, size_t)>& on_progress) {
-  std::atomic<size_t> next{0}, done{0};
-  std::mutex reporting;
-  const auto run = [&] {
-    auto work = make_work();
-    for (size_t item; (item = next.fetch_add(1)) < count;) {
-      work(item);
-      const size_t so_far = done.fetch_add(1) + 1;
-      if (!on_progress || so_far % 16 != 0) continue;
-      const std::lock_guard<std::mutex> lock(reporting);
-      on_progress(so_far, count);
-    }
-  };
-  std::vector<std::thread> others;
-  for (uint32_t t = 1; t < threads; ++t) others.emplace_back(run);
-  run();
-  for (std::thread& other : others) other.join();
-}
+size_t chunks(size_t items, size_t a_chunk) { return (items + a_chunk - 1) / a_chunk; }
 
 std::array<Point, 3> corners_of(const Surface& surface, uint32_t face) {
   const Face& f = surface.faces[face];
@@ -211,15 +190,18 @@ DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelG
                         BlockWork::blocks(grid.count[1]) * BlockWork::blocks(grid.count[2]);
   for (size_t s = 0; s < solids.size(); ++s) {
     std::vector<int8_t> own_sign(wanted.size(), 0);
-    const auto report = [&](size_t done, size_t all) {
-      if (options.on_progress) options.on_progress(s * all + done, solids.size() * all);
-    };
     in_parallel(
-        blocks, options.threads,
-        [&] {
-          return BlockWork(solids[s], static_cast<uint16_t>(s), distance_field, wanted, own_sign);
+        chunks(blocks, kBlocksAChunk), options.threads,
+        [&](uint64_t chunk) {
+          BlockWork work(solids[s], static_cast<uint16_t>(s), distance_field, wanted, own_sign);
+          const size_t first = chunk * kBlocksAChunk, end = std::min(first + kBlocksAChunk, blocks);
+          for (size_t block = first; block < end; ++block) work(block);
         },
-        report);
+        [&](double share) {
+          if (options.on_progress)
+            options.on_progress((static_cast<double>(s) + share) /
+                                static_cast<double>(solids.size()));
+        });
     compare(floods[s], own_sign, static_cast<uint16_t>(s), distance_field);
   }
   distance_field.distance_s = since(middle);
@@ -229,19 +211,16 @@ DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelG
 std::vector<Nearest> nearest_to_points(const std::vector<Solid>& solids,
                                        const std::vector<Point>& points, uint32_t threads) {
   std::vector<Nearest> values(points.size());
-  const auto make_work = [&] {
-    return [&](size_t chunk) {
-      const size_t end = std::min((chunk + 1) * kPointsAChunk, points.size());
-      for (size_t s = 0; s < solids.size(); ++s) {
-        uint32_t seed = kNoFace;
-        for (size_t i = chunk * kPointsAChunk; i < end; ++i) {
-          seed = solids[s].tree.nearest(solids[s].tree.local(points[i]), seed);
-          join(values[i], reported_by(solids[s], seed, points[i], static_cast<uint16_t>(s)));
-        }
+  in_parallel(chunks(points.size(), kPointsAChunk), threads, [&](uint64_t chunk) {
+    const size_t end = std::min((chunk + 1) * kPointsAChunk, points.size());
+    for (size_t s = 0; s < solids.size(); ++s) {
+      uint32_t seed = kNoFace;
+      for (size_t i = chunk * kPointsAChunk; i < end; ++i) {
+        seed = solids[s].tree.nearest(solids[s].tree.local(points[i]), seed);
+        join(values[i], reported_by(solids[s], seed, points[i], static_cast<uint16_t>(s)));
       }
-    };
-  };
-  in_parallel((points.size() + kPointsAChunk - 1) / kPointsAChunk, threads, make_work, nullptr);
+    }
+  });
   return values;
 }
 

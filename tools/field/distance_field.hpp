@@ -31,8 +31,8 @@ struct Nearest {
 struct FieldOptions {
   bool interior_only = false;  // voxels that a surface meets or that lie inside
   uint32_t threads = 1;
-  // Called now and then with the progress, from any thread, one at a time.
-  std::function<void(size_t done, size_t all)> on_progress;
+  // Called now and then with the share that is done, from any thread, one at a time.
+  std::function<void(double)> on_progress;
 };
 
 struct DistanceField {
