@@ -235,12 +235,8 @@ Scenario read_scenario(const std::string& file, const std::string& text,
                            "move", "hold", "press", "follow"})
     names.emplace_back(name);
   for (const ParameterRow& row : parameters) names.push_back(row.short_name);
-  std::istringstream lines(text);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    LineReader words(line, file + ":" + std::to_string(number), names, false);
-    if (!words.empty()) reader.statement(words);
-  }
+  tools::read_lines(
+      file, text, [&](LineReader& words, int) { reader.statement(words); }, names);
   for (const std::string& set : sets) {
     LineReader words(set, "--set " + set, names, true);
     if (words.empty()) words.refuse("nothing to set; write --set key=value");

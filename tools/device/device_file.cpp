@@ -5,7 +5,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <vector>
 
 #include "device/line_reader.hpp"
@@ -256,13 +255,8 @@ void check_cables(const std::string& name, const LinkageDevice& device) {
 LinkageDevice read_device(const std::string& name, const std::string& text) {
   LinkageDevice device;
   Keys keys;
-  const std::vector<std::string> no_names;
   std::map<std::string, int> given;  // and the line
-  std::istringstream lines(text);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    LineReader words(line, name + ":" + std::to_string(number), no_names, false);
-    if (words.empty()) continue;
+  read_lines(name, text, [&](LineReader& words, int number) {
     if (keys.keys.empty()) {
       set_linkage(device, words);
       keys = keys_of(device);
@@ -275,7 +269,7 @@ LinkageDevice read_device(const std::string& name, const std::string& text) {
       set(keys, key, words);
     }
     words.end();
-  }
+  });
   if (keys.keys.empty()) throw Refused(name + ": it has no line; begin with `linkage five_bar`");
   for (const Key& key : keys.keys)
     if (key.must_be_given && given.count(key.name) == 0)

@@ -81,6 +81,17 @@ std::string path_word(const std::string& path) {
   return text + "\"";
 }
 
+void read_lines(const std::string& file, const std::string& text,
+                const std::function<void(LineReader& words, int line)>& read,
+                const std::vector<std::string>& names) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    LineReader words(line, file + ":" + std::to_string(number), names, false);
+    if (!words.empty()) read(words, number);
+  }
+}
+
 LineReader::LineReader(const std::string& line, std::string place,
                        const std::vector<std::string>& names, bool overrides)
     : line_(line.substr(0, comment_begin(line))),

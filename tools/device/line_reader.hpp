@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,11 @@ class LineReader {
   std::vector<size_t> offsets_;
   size_t at_ = 0;
 };
+
+/// Calls `read` with every line of a file that has words, and its number. `names` as of LineReader.
+void read_lines(const std::string& file, const std::string& text,
+                const std::function<void(LineReader& words, int line)>& read,
+                const std::vector<std::string>& names = {});
 
 /// A path as LineReader::path() reads it; quoted if it contains a blank, #, quote or backslash.
 std::string path_word(const std::string& path);

@@ -1,11 +1,9 @@
 #include "bake/materials/materials_file.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <set>
-#include <sstream>
 
-#include "device/line_reader.hpp"
+#include "bake/objects/clauses.hpp"
 #include "surface/read/text_scan.hpp"
 
 namespace firmtouch::tools {
@@ -14,16 +12,12 @@ namespace {
 using scene::MaterialLayout;
 
 void read_clause(const std::string& word, LineReader& words, MaterialLayout& material) {
-  constexpr double kMaxFriction = double{scene::kMaxMaterialFriction};
   if (word == "stiffness") {
     material.stiffness_N_per_m = static_cast<float>(
         words.quantity(word, "N/m", double{scene::kMinMaterialStiffness_N_per_m}, 1e9));
   } else if (word == "friction") {
-    material.friction_static = static_cast<float>(words.quantity(word, "", 0, kMaxFriction));
-    material.friction_dynamic = material.friction_static;
-    if (words.take("sliding"))
-      material.friction_dynamic =
-          static_cast<float>(words.quantity("sliding", "", 0, kMaxFriction));
+    read_friction(words, scene::kMaxMaterialFriction, material.friction_static,
+                  material.friction_dynamic);
   } else if (word == "viscous") {
     material.friction_viscous_N_s_per_m = static_cast<float>(
         words.quantity(word, "N*s/m", 0, double{scene::kMaxMaterialViscous_N_s_per_m}));
@@ -36,19 +30,8 @@ MaterialLayout read_line(LineReader& words) {
   MaterialLayout material{};
   material.stiffness_N_per_m = FLT_MAX;
   words.expect("material");
-  const std::string name = words.next("the material's name");
-  if (name.size() >= scene::kNameBytes)
-    words.refuse("`" + name + "` is longer than " + std::to_string(scene::kNameBytes - 1) +
-                 " bytes; shorten the name");
-  std::memcpy(material.name, name.c_str(), name.size());
-  if (!scene::is_name(material.name))
-    words.refuse("`" + name + "` has a control character; use letters");
-  std::set<std::string> given;
-  while (words.more()) {
-    const std::string word = words.next("a word");
-    if (!given.insert(word).second) words.refuse("`" + word + "` is given twice; keep one");
-    read_clause(word, words, material);
-  }
+  read_name(words, "the material's name", material.name);
+  read_clauses(words, [&](const std::string& word) { read_clause(word, words, material); });
   return material;
 }
 
@@ -78,19 +61,14 @@ uint8_t number_of(const std::string& name, const std::string& model, const Mater
 Materials read_materials(const std::string& file, const std::string& text) {
   Materials materials{file, {}};
   std::set<std::string> names;
-  std::istringstream lines(text);
-  const std::vector<std::string> no_names;
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    LineReader words(line, file + ":" + std::to_string(number), no_names, false);
-    if (words.empty()) continue;
+  read_lines(file, text, [&](LineReader& words, int) {
     materials.table.push_back(read_line(words));
     if (!names.insert(materials.table.back().name).second)
       words.refuse("there are two materials `" + std::string(materials.table.back().name) +
                    "`; keep one");
     if (materials.table.size() > scene::kMaxMaterials)
       words.refuse("a mesh has at most " + std::to_string(scene::kMaxMaterials) + " materials");
-  }
+  });
   if (materials.table.empty()) throw Refused(file + ": it has no material; write `material NAME`");
   return materials;
 }

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <cstring>
 #include <set>
-#include <sstream>
 
-#include "device/line_reader.hpp"
+#include "bake/objects/clauses.hpp"
 #include "firmtouch/controller/mesh_objects.hpp"
 
 namespace firmtouch::tools {
@@ -16,14 +14,6 @@ namespace {
 using scene::ObjectLayout;
 
 constexpr double kMaxTurn_rad = 1000;
-
-std::string name_of(LineReader& words, const char* what) {
-  const std::string name = words.next(what);
-  if (name.size() >= scene::kNameBytes)
-    words.refuse("`" + name + "` is longer than " + std::to_string(scene::kNameBytes - 1) +
-                 " bytes; shorten the name");
-  return name;
-}
 
 void put(float (&to)[3], const Point& from) {
   to[0] = static_cast<float>(from.x);
@@ -54,12 +44,7 @@ void read_clause(const std::string& word, LineReader& words, ObjectLayout& objec
   } else if (word == "stiffness") {
     object.stiffness_N_per_m = static_cast<float>(words.quantity(word, "N/m", 0, 1e9));
   } else if (word == "friction") {
-    object.friction_static =
-        static_cast<float>(words.quantity("friction", "", 0, double{scene::kMaxFriction}));
-    object.friction_dynamic = object.friction_static;
-    if (words.take("sliding"))
-      object.friction_dynamic =
-          static_cast<float>(words.quantity("sliding", "", 0, double{scene::kMaxFriction}));
+    read_friction(words, scene::kMaxFriction, object.friction_static, object.friction_dynamic);
   } else if (word == "moves") {
     put(object.velocity_mps, words.vector(word, "m/s", scene::kMaxObjectSpeed_mps));
   } else if (word == "turns") {
@@ -75,23 +60,16 @@ ObjectLayout read_line(LineReader& words, const std::vector<std::string>& meshes
   object.rotation[0] = object.rotation[4] = object.rotation[8] = 1;
   object.stiffness_N_per_m = FLT_MAX;
   words.expect("object");
-  const std::string name = name_of(words, "the object's name");
+  const std::string name = read_name(words, "the object's name", object.name);
   words.expect("of");
-  const std::string mesh = name_of(words, "the name of its mesh");
-  std::memcpy(object.name, name.c_str(), name.size());
-  std::memcpy(object.mesh, mesh.c_str(), mesh.size());
+  const std::string mesh = read_name(words, "the name of its mesh", object.mesh);
   if (std::find(meshes.begin(), meshes.end(), mesh) == meshes.end()) {
     std::string list;
     for (const std::string& known : meshes) list += (list.empty() ? "`" : ", `") + known + "`";
     words.refuse("object `" + name + "` is of mesh `" + mesh + "`, which is not baked with it; " +
                  (list.empty() ? "no mesh is" : "those are: " + list));
   }
-  std::set<std::string> given;
-  while (words.more()) {
-    const std::string word = words.next("a word");
-    if (!given.insert(word).second) words.refuse("`" + word + "` is given twice; keep one");
-    read_clause(word, words, object);
-  }
+  read_clauses(words, [&](const std::string& word) { read_clause(word, words, object); });
   return object;
 }
 
@@ -101,12 +79,7 @@ std::vector<ObjectLayout> read_objects(const std::string& file, const std::strin
                                        const std::vector<std::string>& meshes) {
   std::vector<ObjectLayout> objects;
   std::set<std::string> names, used;
-  std::istringstream lines(text);
-  const std::vector<std::string> no_names;
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    LineReader words(line, file + ":" + std::to_string(number), no_names, false);
-    if (words.empty()) continue;
+  read_lines(file, text, [&](LineReader& words, int) {
     objects.push_back(read_line(words, meshes));
     if (!names.insert(objects.back().name).second)
       words.refuse("there are two objects `" + std::string(objects.back().name) +
@@ -116,7 +89,7 @@ std::vector<ObjectLayout> read_objects(const std::string& file, const std::strin
       words.refuse("a scene has at most " + std::to_string(scene::kMaxObjects) + " objects");
     if (used.size() > kMaxObjectMeshes)
       words.refuse("objects are of at most " + std::to_string(kMaxObjectMeshes) + " meshes");
-  }
+  });
   if (objects.empty()) throw Refused(file + ": it has no object; write `object NAME of MESH`");
   return objects;
 }

@@ -1,7 +1,5 @@
 #include "bake/objects/tool_file.hpp"
 
-#include <sstream>
-
 #include "device/line_reader.hpp"
 
 namespace firmtouch::tools {
@@ -21,16 +19,11 @@ scene::SphereLayout read_line(LineReader& words) {
 
 std::vector<scene::SphereLayout> read_tool(const std::string& file, const std::string& text) {
   std::vector<scene::SphereLayout> spheres;
-  std::istringstream lines(text);
-  const std::vector<std::string> no_names;
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    LineReader words(line, file + ":" + std::to_string(number), no_names, false);
-    if (words.empty()) continue;
+  read_lines(file, text, [&](LineReader& words, int) {
     spheres.push_back(read_line(words));
     if (spheres.size() > scene::kMaxSpheres)
       words.refuse("a tool has at most " + std::to_string(scene::kMaxSpheres) + " spheres");
-  }
+  });
   if (spheres.empty())
     throw Refused(file + ": it has no sphere; write `sphere X Y Z mm radius R mm`");
   return spheres;
