@@ -24,13 +24,7 @@ const Asset& other() {
       vertex.z = 0.003f - vertex.z;
       vertex.y = -vertex.y;
     }
-    tools::MeshReport report;
-    std::vector<tools::Section> sections = tools::bake_mesh(mesh, "lid", {}, report);
-    CHECK(report.problem.empty());
-    mesh::View view;
-    CHECK(tools::open_baked(sections, "lid", view).ok());
-    sections.push_back(tools::mesh_probes(view, "lid"));
-    return file_of(std::move(sections));
+    return file_of(mesh_sections(mesh, "lid"));
   }());
   return made;
 }

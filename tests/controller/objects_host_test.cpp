@@ -1,6 +1,6 @@
 // Several objects of an asset in a ready controller: each is touched where its pose puts it, by its
 // own material; a command moves it; who cannot touch it rejects it by name.
-#include "controller/ride.hpp"
+#include "controller/placed.hpp"
 #include "firmtouch/controller/objects_controller.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
@@ -9,7 +9,7 @@ using namespace controller_test;
 
 namespace {
 
-constexpr float kHalf_m = 0.02f, kRadius_m = 0.003f;
+constexpr float kRadius_m = 0.003f;
 
 struct Named {
   const char *name, *mesh;
@@ -32,33 +32,6 @@ scene::ObjectLayout layout_of(const Named& named) {
   return layout;
 }
 
-// A box about the origin with 12 triangles.
-tools::Surface box() {
-  tools::Surface surface;
-  for (int i = 0; i < 8; ++i)
-    surface.vertices.push_back({(i & 1) != 0 ? kHalf_m : -kHalf_m,
-                                (i & 2) != 0 ? kHalf_m : -kHalf_m,
-                                (i & 4) != 0 ? kHalf_m : -kHalf_m});
-  const uint32_t corners[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                   {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                   {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  for (uint32_t i = 0; i < 12; ++i) {
-    surface.faces.push_back({{corners[i][0], corners[i][1], corners[i][2]}});
-    surface.source.push_back(i);
-  }
-  return surface;
-}
-
-std::vector<tools::Section> box_sections(const std::string& name) {
-  tools::MeshReport report;
-  std::vector<tools::Section> sections = tools::bake_mesh(box(), name, {}, report);
-  CHECK(report.problem.empty());
-  mesh::View view;
-  CHECK(tools::open_baked(sections, name, view).ok());
-  sections.push_back(tools::mesh_probes(view, name));
-  return sections;
-}
-
 std::vector<uint8_t> scene_with(const std::vector<Named>& named,
                                 const std::vector<std::string>& meshes = {"box"}) {
   std::vector<tools::Section> sections;
@@ -70,63 +43,21 @@ std::vector<uint8_t> scene_with(const std::vector<Named>& named,
   return file_of(std::move(sections));
 }
 
-// A tool at a given place in each tick, counted in 10 um.
-struct Touching {
-  Asset asset;
-  ObjectsController controller;
-  record::TickInput input{};
-  record::TickOutput output{};
-  uint32_t tick_number = 0;
-  math::Vec3 place_m{0, 0, 0.1f};
+struct Touching : Placed<ObjectsController> {
+  explicit Touching(const std::vector<Named>& named) : Placed(scene_with(named)) { begin(); }
 
-  explicit Touching(const std::vector<Named>& named) : asset(scene_with(named)) {
-    CHECK_EQ(controller.open(asset.bytes()).rule, 0u);
-    set(params::kContactStiffness, 800);
-    set(params::kContactDamping, 0);
-  }
-  void tick(math::Vec3 at_m) {
-    place_m = at_m;
-    input.tick = tick_number++;
-    input.clock_us = input.tick * 1000u;
-    input.flags |= input.tick < 10 ? 0 : record::kFlagEnable;
-    const float place[3] = {at_m.x, at_m.y, at_m.z};
-    for (int k = 0; k < 3; ++k)
-      input.encoder_counts[k] =
-          static_cast<int32_t>(std::lround(static_cast<double>(place[k]) * 1e5));
-    controller.tick(input, output);
-    input = {};
-  }
-  void set(params::Index index, float value) {
-    input.command = 1 + index;
-    input.command_value = value;
-    tick(place_m);
-    CHECK((output.state & record::kStateCommandTaken) != 0);
-  }
-  bool move(uint32_t object, float speed, math::Vec3 at_m, uint32_t flags = 0) {
-    input.command = record::kCommandMoveObject + object;
-    input.command_value = speed;
-    input.flags = flags;
-    tick(at_m);
-    const bool is_taken = (output.state & record::kStateCommandTaken) != 0;
-    CHECK(is_taken != ((output.state & record::kStateCommandRefused) != 0));
-    return is_taken;
-  }
-  // From where it is, in a straight line.
-  void go(math::Vec3 to_m, uint32_t ticks) {
-    const math::Vec3 from_m = place_m;
-    for (uint32_t i = 1; i <= ticks; ++i)
-      tick(from_m + (to_m - from_m) * (static_cast<float>(i) / static_cast<float>(ticks)));
+  bool move(uint32_t object, float speed, math::Vec3 at_m, uint32_t at_tick = 0) {
+    input.flags = at_tick;
+    return takes(record::kCommandMoveObject + object, speed, at_m);
   }
   void press(math::Vec3 above_m, float deep_m) {
     const math::Vec3 top_m = above_m + math::Vec3{0, 0, kHalf_m + kRadius_m};
     go(top_m + math::Vec3{0, 0, 0.01f}, 300);
     go(top_m - math::Vec3{0, 0, deep_m}, 300);
-    for (uint32_t i = 0; i < 300; ++i) tick(place_m);
+    stay(300);
   }
   uint32_t object() const { return output.state >> record::kStateObjectShift & 31u; }
 };
-
-double wide(float value) { return static_cast<double>(value); }
 
 }  // namespace
 

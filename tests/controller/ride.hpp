@@ -37,15 +37,19 @@ struct Asset {
   core::Bytes bytes() const { return {begin, size}; }
 };
 
-inline std::vector<tools::Section> part_sections() {
+inline std::vector<tools::Section> mesh_sections(const tools::Surface& surface,
+                                                 const std::string& name) {
   tools::MeshReport report;
-  std::vector<tools::Section> sections =
-      tools::bake_mesh(tools::make_part(1, 4000), "part", {}, report);
+  std::vector<tools::Section> sections = tools::bake_mesh(surface, name, {}, report);
   CHECK(report.problem.empty());
   mesh::View view;
-  CHECK(tools::open_baked(sections, "part", view).ok());
-  sections.push_back(tools::mesh_probes(view, "part"));
+  CHECK(tools::open_baked(sections, name, view).ok());
+  sections.push_back(tools::mesh_probes(view, name));
   return sections;
+}
+
+inline std::vector<tools::Section> part_sections() {
+  return mesh_sections(tools::make_part(1, 4000), "part");
 }
 
 inline std::vector<tools::Section> path_sections() {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "controller/ride.hpp"
+#include "controller/placed.hpp"
 #include "firmtouch/controller/tool_controller.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/materials_layout.hpp"
@@ -16,69 +16,25 @@ namespace {
 
 using Spheres = std::vector<scene::SphereLayout>;
 
-constexpr float kHalf_m = 0.02f, kRadius_m = 0.003f;
+constexpr float kRadius_m = 0.003f;
 const Spheres kBar = {{{-0.01f, 0, 0}, kRadius_m}, {{0.01f, 0, 0}, kRadius_m}};
 
-double wide(float value) { return static_cast<double>(value); }
-
-// A box about the origin with 12 triangles.
-std::vector<tools::Section> box_sections() {
-  tools::Surface surface;
-  for (int i = 0; i < 8; ++i)
-    surface.vertices.push_back({(i & 1) != 0 ? kHalf_m : -kHalf_m,
-                                (i & 2) != 0 ? kHalf_m : -kHalf_m,
-                                (i & 4) != 0 ? kHalf_m : -kHalf_m});
-  const uint32_t corners[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                   {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                   {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  for (uint32_t i = 0; i < 12; ++i) {
-    surface.faces.push_back({{corners[i][0], corners[i][1], corners[i][2]}});
-    surface.source.push_back(i);
-  }
-  tools::MeshReport report;
-  std::vector<tools::Section> sections = tools::bake_mesh(surface, "box", {}, report);
-  CHECK(report.problem.empty());
-  mesh::View view;
-  CHECK(tools::open_baked(sections, "box", view).ok());
-  sections.push_back(tools::mesh_probes(view, "box"));
-  return sections;
-}
-
 std::vector<uint8_t> scene_with(const Spheres& spheres) {
-  std::vector<tools::Section> sections = box_sections();
+  std::vector<tools::Section> sections = box_sections("box");
   sections.push_back(tools::make_section(scene::kToolSection, "bar", spheres));
   return file_of(std::move(sections));
 }
 
-// A handle at a given place in each tick, counted in 10 um.
-struct Handle {
-  Asset asset;
-  ToolController controller;
-  record::TickInput input{};
-  record::TickOutput output{};
+struct Handle : Placed<ToolController> {
   std::vector<record::TickRecord> records;
-  uint32_t tick_number = 0, flags = 0;
-  math::Vec3 place_m{0, 0, 0.1f};
   uint32_t touched = 0;                         // ticks
   double given_J = 0, least_J = 0, most_J = 0;  // by contact; gained while nothing is stored
 
-  explicit Handle(const Spheres& spheres) : asset(scene_with(spheres)) {
-    CHECK_EQ(controller.open(asset.bytes()).rule, 0u);
-    set(params::kContactStiffness, 800);
-    set(params::kContactDamping, 0);
+  explicit Handle(const Spheres& spheres) : Placed(scene_with(spheres)) {
+    begin();
     set(params::kDeviceDamping, 0);
   }
-  void tick(math::Vec3 at_m) {
-    place_m = at_m;
-    input.tick = tick_number++;
-    input.clock_us = input.tick * 1000u;
-    input.flags = flags | (input.tick < 10 ? 0 : record::kFlagEnable);
-    const float place[3] = {at_m.x, at_m.y, at_m.z};
-    for (int k = 0; k < 3; ++k)
-      input.encoder_counts[k] =
-          static_cast<int32_t>(std::lround(static_cast<double>(place[k]) * 1e5));
-    const record::TickOutput before = output;
-    controller.tick(input, output);
+  void ticked(const record::TickOutput& before) override {
     for (int k = 0; k < 3; ++k)
       given_J +=
           wide(before.force_N[k]) * (wide(output.position_m[k]) - wide(before.position_m[k]));
@@ -89,30 +45,9 @@ struct Handle {
       least_J = std::min(least_J, given_J);
     }
     records.push_back({input, output});
-    input = {};
-  }
-  void set(params::Index index, float value) {
-    input.command = 1 + index;
-    input.command_value = value;
-    tick(place_m);
-    CHECK((output.state & record::kStateCommandTaken) != 0);
   }
   bool turn(uint32_t axis, float angle_rad) {
-    input.command = record::kCommandTurnTool + axis;
-    input.command_value = angle_rad;
-    tick(place_m);
-    const bool is_taken = (output.state & record::kStateCommandTaken) != 0;
-    CHECK(is_taken != ((output.state & record::kStateCommandRefused) != 0));
-    return is_taken;
-  }
-  void stay(uint32_t ticks) {
-    for (uint32_t i = 0; i < ticks; ++i) tick(place_m);
-  }
-  // From where it is, in a straight line.
-  void go(math::Vec3 to_m, uint32_t ticks) {
-    const math::Vec3 from_m = place_m;
-    for (uint32_t i = 1; i <= ticks; ++i)
-      tick(from_m + (to_m - from_m) * (static_cast<float>(i) / static_cast<float>(ticks)));
+    return takes(record::kCommandTurnTool + axis, angle_rad, place_m);
   }
 };
 
@@ -251,7 +186,7 @@ TEST(Tool_AssetsThatDoNotFit_AreRejectedByName) {
   };
   CHECK_EQ(rule(scene_with(Spheres(9))), uint16_t{scene::kRuleSphereCount});
   CHECK_EQ(rule(scene_with({{{0, 0, 2}, 0.003f}})), uint16_t{scene::kRuleSpherePlace});
-  std::vector<tools::Section> sections = box_sections();
+  std::vector<tools::Section> sections = box_sections("box");
   sections.push_back(tools::make_section(scene::kToolSection, "bar", kBar));
   for (tools::Section beside :
        {tools::make_section(scene::kObjectsSection, "room", std::vector<scene::ObjectLayout>(1)),
