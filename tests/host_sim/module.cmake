@@ -8,32 +8,13 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
   if(FIRMTOUCH_EIGEN)
     target_include_directories(test_host_sim SYSTEM PRIVATE ${FIRMTOUCH_EIGEN})
   endif()
-  add_test(NAME host_sim.outputs
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_outputs $<TARGET_FILE_DIR:firmtouch-sim>)
+  foreach(name outputs objects materials tool linkage teach sweep failures export score benches)
+    add_test(NAME host_sim.${name} COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_${name} $<TARGET_FILE_DIR:firmtouch-sim>)
+  endforeach()
   add_test(NAME host_sim.splines
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_spline_loop $<TARGET_FILE_DIR:firmtouch-sim>
                    ${CMAKE_CURRENT_LIST_DIR}/../spline/cad)
-  add_test(NAME host_sim.objects
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_objects $<TARGET_FILE_DIR:firmtouch-sim>)
-  add_test(NAME host_sim.materials
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_materials $<TARGET_FILE_DIR:firmtouch-sim>)
-  add_test(NAME host_sim.tool
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_tool $<TARGET_FILE_DIR:firmtouch-sim>)
-  add_test(NAME host_sim.linkage
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_linkage $<TARGET_FILE_DIR:firmtouch-sim>)
-  add_test(NAME host_sim.teach
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_teach $<TARGET_FILE_DIR:firmtouch-sim>)
   if(TARGET firmtouch-app-posix)
     add_test(NAME host_sim.load COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_load $<TARGET_FILE_DIR:firmtouch-sim>)
   endif()
-  add_test(NAME host_sim.sweep
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_sweep $<TARGET_FILE_DIR:firmtouch-sim>)
-  add_test(NAME host_sim.failures
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_failures $<TARGET_FILE_DIR:firmtouch-sim>)
-  add_test(NAME host_sim.export
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_export $<TARGET_FILE_DIR:firmtouch-sim>)
-  add_test(NAME host_sim.score
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_score $<TARGET_FILE_DIR:firmtouch-sim>)
-  add_test(NAME host_sim.benches
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_benches $<TARGET_FILE_DIR:firmtouch-sim>)
 endif()
