@@ -7,13 +7,13 @@
 namespace firmtouch::host_sim {
 namespace {
 
-int run_bench(const Options& options) {
-  if (options.operands().empty()) {
+int run_bench(const cli::Arguments& options) {
+  if (options.positionals().empty()) {
     for (const bench::Bench& each : rig_benches())
       std::printf("  %-12s%s\n", each.name, each.summary);
     return 0;
   }
-  const std::string name = options.operand("one bench");
+  const std::string name = options.positionals()[0];
   for (const bench::Bench& each : rig_benches()) {
     if (name != each.name) continue;
     bench::Options chosen;
@@ -41,17 +41,17 @@ int print_report(const bench::Report& report, const std::string& name, bool is_j
   return report.bars_not_met() == 0 ? 0 : 1;
 }
 
-const Command& bench_command_line() {
-  static const Command command = {
-      "bench",
-      "[NAME] [options]",
-      "measures the contact of a controller on the simulated device against closed forms",
-      "Without NAME: the benches there are. Exit code 1 where a bar is not met.\n",
-      {{"--long", nullptr, "the full sizes"},
-       {"--moving", nullptr, "feel: a wall that rises through a held tool, and two that close"},
-       {"--json", nullptr, "for programs"}},
-      run_bench};
-  return command;
+cli::Command bench_command() {
+  return {"bench",
+          "[NAME] [options]",
+          "measures the contact of a controller on the simulated device against closed forms",
+          "Without NAME: the benches there are. Exit code 1 where a bar is not met.",
+          {{"--long", nullptr, "the full sizes"},
+           {"--moving", nullptr, "feel: a wall that rises through a held tool, and two that close"},
+           {"--json", nullptr, "for programs"}},
+          0,
+          1,
+          run_bench};
 }
 
 }  // namespace firmtouch::host_sim

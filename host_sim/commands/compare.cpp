@@ -52,13 +52,12 @@ std::string json_of(const Comparison& result, bool is_same) {
   return all.object() + "\n";
 }
 
-int print_comparison(const Options& options) {
-  if (options.operands().size() != 2) options.refuse("give two logs: A.ftl B.ftl");
+int print_comparison(const cli::Arguments& options) {
   Log logs[2];
   for (size_t i = 0; i < 2; ++i) {
-    logs[i] = read_log(options.operands()[i]);
+    logs[i] = read_log(options.positionals()[i]);
     if (logs[i].decimation != 1 || logs[i].first_number != 0)
-      throw tools::Refused(options.operands()[i] +
+      throw tools::Refused(options.positionals()[i] +
                            ": it does not hold every tick from the first; record the run again");
   }
   const Comparison result = compare(logs[0], logs[1]);
@@ -80,16 +79,17 @@ int print_comparison(const Options& options) {
 
 }  // namespace
 
-const Command& compare_command_line() {
-  static const Command command = {
+cli::Command compare_command() {
+  return {
       "compare",
       "A.ftl B.ftl",
       "compares two runs: the figures of both, settings and fields that differ, and where",
       "Ticks are matched by their number, up to the end of the shorter run. Exit code 0: all bits "
-      "of all ticks are\nthe same; 1: they differ.\n",
+      "of all ticks are\nthe same; 1: they differ.",
       {{"--json", nullptr, "the comparison as JSON"}},
+      2,
+      2,
       print_comparison};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -113,9 +113,9 @@ void print_json(const link::CrashReply& reply) {
   std::cout << "]}\n";
 }
 
-int read_crash(const Options& options) {
-  const std::string image = options.value("--image");
-  LiveLink controller(connect_stream(options.operand("one controller")));
+int read_crash(const cli::Arguments& options) {
+  const std::string image = options.text("--image");
+  LiveLink controller(connect_stream(options.positionals()[0]));
   const link::CrashReply reply = controller.read_crash();
   if (options.has("--json")) {
     print_json(reply);
@@ -130,18 +130,19 @@ int read_crash(const Options& options) {
 
 }  // namespace
 
-const Command& crash_command_line() {
-  static const Command command = {
+cli::Command crash_command() {
+  return {
       "crash",
       "CONTROLLER [options]",
       "prints what ended a controller's last run: cause, place, last ticks, and how to go on",
       "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud). Its program needs part\n"
       "`crash_record` (hal/PORTING.md); firmtouch_app_hardware of a Cortex-M has it.\n"
-      "Exit codes: 0 a record was printed; 1 the last run left none.\n",
+      "Exit codes: 0 a record was printed; 1 the last run left none.",
       {{"--image", "FILE.elf", "the program that ran then, for the command that finds the place"},
        {"--json", nullptr, "numbers instead of text"}},
+      1,
+      1,
       read_crash};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

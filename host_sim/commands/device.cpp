@@ -115,8 +115,8 @@ std::string json_of(const Workspace& space, const FirmwareCheck& check,
   return all.add("is_met", is_met(space, check, cables)).object() + "\n";
 }
 
-int print_device(const Options& options) {
-  const std::string path = options.operand("one device file, or a machine's name");
+int print_device(const cli::Arguments& options) {
+  const std::string path = options.positionals()[0];
   const std::string text = tools::read_device_text(path);
   if (options.has("--print")) return std::fputs(text.c_str(), stdout) < 0 ? 3 : 0;
   const LinkageDevice device = tools::read_device(path, text);
@@ -141,25 +141,25 @@ int print_device(const Options& options) {
 
 }  // namespace
 
-const Command& device_command_line() {
-  static const std::string details =
+cli::Command device_command() {
+  const std::string details =
       "FILE begins with `linkage five_bar`, `linkage serial_arm [2|3]` or `linkage delta`; then "
       "lines KEY VALUE UNIT.\nLengths: as in firmware/firmtouch/device. Fade by the reciprocal "
       "condition: full_from, gone_at.\nAll keys:\n" +
       tools::device_file_help() + machines() +
       "Exit code 1: a pose of the ranges is not reachable, singular, or beyond the fade; or a "
       "figure misses its goal.\n";
-  static const Command command = {
-      "device",
-      "FILE|MACHINE [options]",
-      "checks a linkage's file, prints its workspace, and compares the firmware with its "
-      "simulation",
-      details.c_str(),
-      {{"--poses", "N", "of the check against the simulation (default 1000000)"},
-       {"--print", nullptr, "the device file of a machine, to bake or to change"},
-       {"--json", nullptr, "the workspace and the check as JSON"}},
-      print_device};
-  return command;
+  return {"device",
+          "FILE|MACHINE [options]",
+          "checks a linkage's file, prints its workspace, and compares the firmware with its "
+          "simulation",
+          details,
+          {{"--poses", "N", "of the check against the simulation (default 1000000)"},
+           {"--print", nullptr, "the device file of a machine, to bake or to change"},
+           {"--json", nullptr, "the workspace and the check as JSON"}},
+          1,
+          1,
+          print_device};
 }
 
 }  // namespace firmtouch::host_sim

@@ -24,12 +24,13 @@ double parameter_in(const Log& log, const char* name) {
 }
 
 // The linkage that the asset stores; its links need the device file.
-std::optional<tools::LinkageDevice> linkage_of(const Options& options, const std::string& path,
-                                               const Log& log, const Session& session) {
+std::optional<tools::LinkageDevice> linkage_of(const cli::Arguments& options,
+                                               const std::string& path, const Log& log,
+                                               const Session& session) {
   Scenario scenario;
   if (const std::string text = entry_or_empty(log, "scenario"); !text.empty())
     scenario = read_scenario(path, text, {}, parameter_rows());
-  if (const std::string named = options.value("--device"); !named.empty())
+  if (const std::string named = options.text("--device"); !named.empty())
     scenario.device_file =
         tools::machine_text(named).empty() ? fs::absolute(named).string() : named;
   if (scenario.device_file.empty()) {
@@ -74,14 +75,13 @@ class NewFolder {
   std::string path_, partial_;
 };
 
-int export_log(const Options& options) {
-  if (options.operands().size() != 2) options.refuse("give a log and a folder to make");
-  const std::string path = options.operands()[0];
-  std::string to = options.operands()[1];
+int export_log(const cli::Arguments& options) {
+  const std::string path = options.positionals()[0];
+  std::string to = options.positionals()[1];
   while (to.size() > 1 && to.back() == '/') to.pop_back();
   const Log log = read_log(path);
   if (log.records.empty()) throw Refused(path + ": it contains no tick: " + log.damage);
-  const std::unique_ptr<Session> session = session_of(path, log, options.value("--asset"));
+  const std::unique_ptr<Session> session = session_of(path, log, options.text("--asset"));
   if (log.decimation != 1 && !session->objects.empty())
     throw Refused(path + ": it lacks ticks in which objects move; record with --decimate 1");
   const std::optional<tools::LinkageDevice> linkage = linkage_of(options, path, log, *session);
@@ -109,8 +109,8 @@ int export_log(const Options& options) {
 
 }  // namespace
 
-const Command& export_command_line() {
-  static const Command command = {
+cli::Command export_command() {
+  return {
       "export",
       "LOG FOLDER [options]",
       "writes the scene and what moved in it over time as VTK files, for ParaView",
@@ -119,12 +119,13 @@ const Command& export_command_line() {
       "a linkage's links. At the tip are\nforce_N and velocity_mps; part is 0 for the tip, 1 for "
       "the proxy, 2 for links; the fields are penetration_m,\ntool_radius_m, is_on and faults. "
       "The folder is made, whole or not at all. Exit code 1: the log is damaged, and\nwhat is "
-      "before that is exported.\n",
+      "before that is exported.",
       {{"--every", "N", "every Nth tick of the log (default: 60 in a second)"},
        {"--asset", "FILE", "the asset, if it is not at the path in the log"},
        {"--device", "FILE", "the linkage's file or name, if it is not as in the log"}},
+      2,
+      2,
       export_log};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

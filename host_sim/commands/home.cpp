@@ -48,8 +48,8 @@ std::string json_of(const HomingTally (&tallies)[kHomingCases]) {
   });
 }
 
-int print_homing(const Options& options) {
-  const std::string path = options.operand("one device file, or a machine's name");
+int print_homing(const cli::Arguments& options) {
+  const std::string path = options.positionals()[0];
   const tools::LinkageDevice device = tools::read_device(path, tools::read_device_text(path));
   const uint32_t runs = static_cast<uint32_t>(options.number("--runs", kRuns, 8));
   HomingTally tallies[kHomingCases];
@@ -69,8 +69,8 @@ int print_homing(const Options& options) {
 
 }  // namespace
 
-const Command& home_command_line() {
-  static const Command command = {
+cli::Command home_command() {
+  return {
       "home",
       "FILE|MACHINE [options]",
       "homes a simulated linkage with the firmware, again and again, also where something is wrong",
@@ -78,11 +78,12 @@ const Command& home_command_line() {
       "them about the wrap.\nThe torque is 1.6 times what holds the joint's weight, and at least a "
       "fifth of its\nlargest; the column shows what was applied, over that.\nwrong: more than a "
       "count off, no end in 2 s, or above the homing "
-      "torque. Exit code 1 if there is one.\n",
+      "torque. Exit code 1 if there is one.",
       {{"--runs", "N", "of all cases together (default 10000)"},
        {"--json", nullptr, "the table as JSON"}},
+      1,
+      1,
       print_homing};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

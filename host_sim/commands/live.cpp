@@ -39,14 +39,15 @@ std::string live_page(const std::string& asset) {
   return page;
 }
 
-int serve_live(const Options& options) {
-  const std::string asset = options.value("--asset"), to = options.value("--page");
+int serve_live(const cli::Arguments& options) {
+  const std::string asset = options.text("--asset"), to = options.text("--page");
   if (!to.empty()) {
     check_outputs({{"--asset", asset}}, {{"--page", to}});
     write_file(to, live_page(asset));
     return 0;
   }
-  const std::string where = options.operand("one controller");
+  if (options.positionals().empty()) options.refuse("name a controller, or --page FILE.html");
+  const std::string where = options.positionals()[0];
   const double port = options.number("--port", 5678, 1);
   if (!(port <= 65535)) options.refuse("--port: a number up to 65535 is needed");
   LiveServer server(static_cast<uint16_t>(port), live_page(asset), connect_stream(where));
@@ -59,19 +60,19 @@ int serve_live(const Options& options) {
 
 }  // namespace
 
-const Command& live_command_line() {
-  static const Command command = {
-      "live",
-      "CONTROLLER [options]",
-      "serves a page that shows and tunes a running controller in a browser, until Ctrl-C",
-      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
-      "The page is served to this machine only. One page holds the link; others wait.\n",
-      {{"--asset", "FILE", "the controller's asset: the page shows its part"},
-       {"--port", "N", "of http://127.0.0.1:N/ (default: 5678)"},
-       {"--page", "FILE.html",
-        "write the page instead, for use over WebSerial without this program"}},
-      serve_live};
-  return command;
+cli::Command live_command() {
+  return {"live",
+          "CONTROLLER [options]",
+          "serves a page that shows and tunes a running controller in a browser, until Ctrl-C",
+          "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
+          "The page is served to this machine only. One page holds the link; others wait.",
+          {{"--asset", "FILE", "the controller's asset: the page shows its part"},
+           {"--port", "N", "of http://127.0.0.1:N/ (default: 5678)"},
+           {"--page", "FILE.html",
+            "write the page instead, for use over WebSerial without this program"}},
+          0,
+          1,
+          serve_live};
 }
 
 }  // namespace firmtouch::host_sim

@@ -64,12 +64,11 @@ link::AssetAck load(LiveLink& controller, core::Bytes asset) {
   return answer_of([&] { return controller.commit_asset(); });
 }
 
-int load_asset(const Options& options) {
-  if (options.operands().size() != 2) options.refuse("name an asset and a controller");
-  const std::string& path = options.operands()[0];
+int load_asset(const cli::Arguments& options) {
+  const std::string& path = options.positionals()[0];
   const AssetFile file(path);
   if (!options.has("--unchecked")) Session checked(path);
-  LiveLink controller(connect_stream(options.operands()[1]));
+  LiveLink controller(connect_stream(options.positionals()[1]));
   const link::AssetAck ack = load(controller, file.bytes());
   const bool is_loaded = ack.result == link::kAckTaken || ack.result == link::kAckAtRestart;
   std::cerr << path << ": "
@@ -82,18 +81,19 @@ int load_asset(const Options& options) {
 
 }  // namespace
 
-const Command& load_command_line() {
-  static const Command command = {
+cli::Command load_command() {
+  return {
       "load",
       "ASSET.fta CONTROLLER [options]",
       "loads an asset into a running controller, which proves it, keeps it and swaps to it",
       "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud). Its program needs part\n"
       "`asset_slots` (hal/PORTING.md). The motors must be off, and stay off until the asset is in\n"
       "use; then open the enable switch once. A power cut leaves the old asset or the new one.\n"
-      "Exit codes: 0 loaded; 1 the controller refused it, and keeps the old one.\n",
+      "Exit codes: 0 loaded; 1 the controller refused it, and keeps the old one.",
       {{"--unchecked", nullptr, "send the file as it is: the controller alone proves it"}},
+      2,
+      2,
       load_asset};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -23,8 +23,8 @@ void check_differ(const NamedFiles::value_type& output, const NamedFiles::value_
   if (!same_file(output.second, other.second) &&
       !same_file(partial_of(output.second), other.second))
     return;
-  throw Usage(output.first + " " + output.second + " would overwrite " + other.first + " (" +
-              other.second + "); name another file");
+  cli::fail_usage(output.first + " " + output.second + " would overwrite " + other.first + " (" +
+                  other.second + "); name another file");
 }
 
 }  // namespace

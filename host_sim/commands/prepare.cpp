@@ -10,7 +10,7 @@ namespace firmtouch::host_sim {
 
 std::string line_of(std::string set) {
   const size_t equals = set.find('=');
-  if (equals == std::string::npos) throw Usage("--set " + set + ": write --set key=value");
+  if (equals == std::string::npos) cli::fail_usage("--set " + set + ": write --set key=value");
   set[equals] = ' ';
   // "1N" is accepted as "1 N".
   const size_t unit = set.find_first_not_of("0123456789.+-eE", equals + 1);

@@ -43,23 +43,23 @@ struct ParameterRequest {
   std::string name;
 };
 
-std::vector<ParameterRequest> parameter_requests(const Options& options,
+std::vector<ParameterRequest> parameter_requests(const cli::Arguments& options,
                                                  const LiveLink& controller) {
   std::vector<ParameterRequest> requests;
-  for (const std::string& set : options.values("--set")) {
+  for (const std::string& set : options.texts("--set")) {
     const size_t equals = set.find('=');
-    if (equals == std::string::npos) throw Usage("--set " + set + ": write --set NAME=VALUE");
+    if (equals == std::string::npos) cli::fail_usage("--set " + set + ": write --set NAME=VALUE");
     const std::string name = set.substr(0, equals);
     char* end = nullptr;
     const float value = std::strtof(set.c_str() + equals + 1, &end);
     if (*end != 0 || end == set.c_str() + equals + 1)
-      throw Usage("--set " + set + ": write a number after the =");
+      cli::fail_usage("--set " + set + ": write a number after the =");
     uint32_t index = 0;
     while (index < controller.parameters().size() &&
            text_in(controller.parameters()[index].name) != name)
       ++index;
     if (index == controller.parameters().size())
-      throw Usage("--set " + set + ": the controller has no parameter " + name);
+      cli::fail_usage("--set " + set + ": the controller has no parameter " + name);
     requests.push_back({index, value, name});
   }
   return requests;
@@ -185,14 +185,14 @@ class Watch {
   std::string reported_;
 };
 
-int record_live(const Options& options) {
-  const std::string path = options.value("-o"), asset = options.value("--asset");
-  const std::string where = options.operand("one controller");
+int record_live(const cli::Arguments& options) {
+  const std::string path = options.text("-o"), asset = options.text("--asset");
+  const std::string where = options.positionals()[0];
   if (path.empty()) options.refuse("name -o FILE.ftl");
   if (where.compare(0, 5, "qemu:") == 0)
-    throw Usage(where +
-                ": a lock-step controller has no clock of its own; start the emulator with "
-                "-serial null -serial unix:PATH,server=on,wait=off and record unix:PATH");
+    cli::fail_usage(where +
+                    ": a lock-step controller has no clock of its own; start the emulator with "
+                    "-serial null -serial unix:PATH,server=on,wait=off and record unix:PATH");
   const double seconds = options.number("--seconds", 1e9, 0);
   const uint32_t decimation = static_cast<uint32_t>(options.number("--decimate", 1, 1));
   check_outputs({{"--asset", asset}}, {{"-o", path}});
@@ -250,23 +250,23 @@ int record_live(const Options& options) {
 
 }  // namespace
 
-const Command& record_command_line() {
-  static const Command command = {
-      "record",
-      "CONTROLLER -o FILE.ftl [options]",
-      "records a running controller over its link until Ctrl-C, or for a given time",
-      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
-      "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.\n",
-      {{"-o", "FILE.ftl", "the log"},
-       {"--seconds", "S", "duration"},
-       {"--decimate", "N", "every N-th tick only (1 Mbaud carries about 690 records a second)"},
-       {"--set", "NAME=VALUE", "set a parameter, in its SI unit; may be repeated"},
-       {"--asset", "FILE", "the controller's asset; the log then names it for a replay"},
-       {"--file-megabytes", "N", "start a new file after N megabytes"},
-       {"--keep", "N", "keep the newest N files"},
-       {"--json", nullptr, "the summary as JSON on stdout"}},
-      record_live};
-  return command;
+cli::Command record_command() {
+  return {"record",
+          "CONTROLLER -o FILE.ftl [options]",
+          "records a running controller over its link until Ctrl-C, or for a given time",
+          "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
+          "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.",
+          {{"-o", "FILE.ftl", "the log"},
+           {"--seconds", "S", "duration"},
+           {"--decimate", "N", "every N-th tick only (1 Mbaud carries about 690 records a second)"},
+           {"--set", "NAME=VALUE", "set a parameter, in its SI unit; may be repeated", true},
+           {"--asset", "FILE", "the controller's asset; the log then names it for a replay"},
+           {"--file-megabytes", "N", "start a new file after N megabytes"},
+           {"--keep", "N", "keep the newest N files"},
+           {"--json", nullptr, "the summary as JSON on stdout"}},
+          1,
+          1,
+          record_live};
 }
 
 }  // namespace firmtouch::host_sim

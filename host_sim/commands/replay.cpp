@@ -39,10 +39,11 @@ std::string json_of(const std::string& path, const Log& log, const std::string& 
 }
 
 // Loads the asset that the log swaps to.
-void load_next(const Options& options, const std::string& path, const Log& log, Session& session) {
-  const std::string next = options.value("--next-asset");
+void load_next(const cli::Arguments& options, const std::string& path, const Log& log,
+               Session& session) {
+  const std::string next = options.text("--next-asset");
   if (!next.empty()) {
-    if (!is_in_process(options.value("--controller")))
+    if (!is_in_process(options.text("--controller")))
       options.refuse("--next-asset is for the controller in this process");
     return session.load_next(next);
   }
@@ -53,10 +54,10 @@ void load_next(const Options& options, const std::string& path, const Log& log, 
                     " swaps the asset; give the one that follows with --next-asset");
 }
 
-int replay_log(const Options& options) {
-  const std::string path = options.operand("one log");
+int replay_log(const cli::Arguments& options) {
+  const std::string path = options.positionals()[0];
   const Log log = read_log(path);
-  const std::unique_ptr<Session> opened = session_of(path, log, options.value("--asset"));
+  const std::unique_ptr<Session> opened = session_of(path, log, options.text("--asset"));
   Session& session = *opened;
   check_complete(path, log);
   load_next(options, path, log, session);
@@ -65,9 +66,9 @@ int replay_log(const Options& options) {
               << " ticks before them are replayed\n";
   for (const std::string& name : log.missing_outputs)
     std::cerr << path << ": it has no field " << name << "; that field is not compared\n";
-  check_scene(session, options.value("--controller"));
+  check_scene(session, options.text("--controller"));
   const std::unique_ptr<LockStepController> port =
-      open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
+      open_controller(options.text("--controller"), options.text("--image"), session.asset.path(),
                       session.controller->asset_crc(), session.program());
   const std::string by = port ? port->name() : "in-process";
   const Tick remote = [&](const record::TickInput& input, record::TickOutput& output) {
@@ -90,13 +91,13 @@ int replay_log(const Options& options) {
 
 }  // namespace
 
-const Command& replay_command_line() {
-  static const Command command = {
+cli::Command replay_command() {
+  return {
       "replay",
       "LOG [options]",
       "recomputes a log from its inputs and compares every bit of every output",
       "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), "
-      "or the\nlog is incomplete and all outputs before the gap are equal.\n",
+      "or the\nlog is incomplete and all outputs before the gap are equal.",
       {{"--asset", "FILE", "the asset, if it is not at the path in the log"},
        {"--next-asset", "FILE", "the asset that a tick of the log swaps to"},
        {"--controller", "WHAT",
@@ -104,8 +105,9 @@ const Command& replay_command_line() {
        {"--image", "FILE",
         "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
        {"--json", nullptr, "the answer as JSON on stdout"}},
+      1,
+      1,
       replay_log};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -67,13 +67,13 @@ std::string command_of(const std::vector<std::string>& words) {
 // What a run writes while it goes on.
 class RunOutputs {
  public:
-  RunOutputs(const Options& options, const Scenario& scenario, const Session& session,
+  RunOutputs(const cli::Arguments& options, const Scenario& scenario, const Session& session,
              const Environment& environment, const RunFacts& facts)
       : facts_(facts), summariser_(scenario, environment, facts) {
-    if (const std::string path = options.value("--csv"); !path.empty()) csv_.emplace(path);
-    if (const std::string path = options.value("--log"); !path.empty())
+    if (const std::string path = options.text("--csv"); !path.empty()) csv_.emplace(path);
+    if (const std::string path = options.text("--log"); !path.empty())
       log_.emplace(path, log_text(scenario, session, facts, path));
-    if (!options.value("--report").empty() || !options.value("--picture").empty()) {
+    if (!options.text("--report").empty() || !options.text("--picture").empty()) {
       charts_.emplace(environment, facts);
       paths_.emplace(environment, scenario, facts);
     }
@@ -104,17 +104,17 @@ class RunOutputs {
 };
 
 // A path that ends in / is a folder: the report is named after its model.
-std::string report_path(const Options& options, const std::string& asset_path) {
-  const std::string path = options.value("--report");
+std::string report_path(const cli::Arguments& options, const std::string& asset_path) {
+  const std::string path = options.text("--report");
   return path.empty() || path.back() != '/'
              ? path
              : path + std::filesystem::path(asset_path).stem().string() + ".html";
 }
 
-void write_pages(const Options& options, const Report& report) {
+void write_pages(const cli::Arguments& options, const Report& report) {
   if (const std::string path = report_path(options, report.asset_path); !path.empty())
     write_file(path, page_of(report));
-  if (const std::string path = options.value("--picture"); !path.empty())
+  if (const std::string path = options.text("--picture"); !path.empty())
     write_file(path, picture_of(report));
 }
 
@@ -165,34 +165,34 @@ class Speed {
 
 // Where the summary goes: stdout, or stderr if an output or the JSON goes to stdout. Throws Usage
 // if both do, or two outputs.
-std::FILE* summary_stream(const Options& options, const NamedFiles& outputs) {
+std::FILE* summary_stream(const cli::Arguments& options, const NamedFiles& outputs) {
   size_t count = options.has("--json") ? 1 : 0;
   for (const auto& output : outputs) count += output.second == "-" ? 1u : 0u;
   if (count > 1) options.refuse("only one output can go to stdout");
-  if (options.value("--log") == "-") options.refuse("a log needs a file: --log FILE.ftl");
+  if (options.text("--log") == "-") options.refuse("a log needs a file: --log FILE.ftl");
   return count == 0 ? stdout : stderr;
 }
 
-int run_scenario(const Options& options) {
-  const std::string file = options.operand("one scenario");
+int run_scenario(const cli::Arguments& options) {
+  const std::string file = options.positionals()[0];
   std::vector<std::string> sets;
-  for (const std::string& set : options.values("--set")) sets.push_back(line_of(set));
+  for (const std::string& set : options.texts("--set")) sets.push_back(line_of(set));
   Scenario scenario = prepared(file, read_file(file), sets);
   NamedFiles outputs = {{"--report", report_path(options, scenario.asset)}};
   for (const char* name : {"--picture", "--log", "--csv"})
-    outputs.emplace_back(name, options.value(name));
+    outputs.emplace_back(name, options.text(name));
   std::FILE* const to = summary_stream(options, outputs);
   check_outputs({{"the scenario", file},
                  {"the asset", path_beside(file, scenario.asset)},
-                 {"--image", options.value("--image")}},
+                 {"--image", options.text("--image")}},
                 outputs);
   const Session session(path_beside(file, scenario.asset), scenario.scene,
                         options.has("--penalty") ? Contact::kPenalty : Contact::kProxy);
   Environment environment = environment_of(*session.controller, scene_origin_m(scenario));
   environment.turn(parameter_value(scenario, params::kSurfaceTurned) >= 0.5);
-  check_scene(session, options.value("--controller"));
+  check_scene(session, options.text("--controller"));
   const std::unique_ptr<LockStepController> port =
-      open_controller(options.value("--controller"), options.value("--image"), session.asset.path(),
+      open_controller(options.text("--controller"), options.text("--image"), session.asset.path(),
                       session.controller->asset_crc(), session.program());
   read_linkage(scenario, session, file);
   if (options.has("--energy") && !scenario.linkage)
@@ -209,7 +209,7 @@ int run_scenario(const Options& options) {
   }
   if (progress) progress(1);
   const Summary summary = written.finish();
-  if (!options.value("--report").empty() || !options.value("--picture").empty())
+  if (!options.text("--report").empty() || !options.text("--picture").empty())
     write_pages(options, {scenario, environment, facts, summary, written.charts(), written.paths(),
                           session.asset.path(), static_cast<uint32_t>(session.asset.bytes().size()),
                           session.scene_text(), command_of(options.words())});
@@ -224,15 +224,15 @@ int run_scenario(const Options& options) {
 
 }  // namespace
 
-const Command& run_command_line() {
-  static const std::string details = scenario_help() + parameter_help();
-  static const Command command = {
+cli::Command run_command() {
+  const std::string details = scenario_help() + parameter_help();
+  return {
       "run",
       "SCENARIO [options]",
       "simulates a scenario: a hand moves a device, and the controller renders the force",
-      details.c_str(),
+      details,
       {{"--set", "KEY=VALUE",
-        "overrides a line of the scenario, with unit: \"mass=60 g\"; may be repeated"},
+        "overrides a line of the scenario, with unit: \"mass=60 g\"; may be repeated", true},
        {"--controller", "WHAT",
         "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE;\n"
         "                              others are compared with the in-process one, bit for bit"},
@@ -248,8 +248,9 @@ const Command& run_command_line() {
         "of a linkage: work of hand and motors, stored and lost energy; exit code 1 where they\n"
         "                              do not balance to 1e-5"},
        {"--json", nullptr, "the figures as JSON on stdout"}},
+      1,
+      1,
       run_scenario};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

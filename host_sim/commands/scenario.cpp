@@ -23,9 +23,9 @@ std::string csv_of(const std::vector<Vec>& line) {
   return text;
 }
 
-int make_scenario(const Options& options) {
-  const std::string path = options.operand("one asset"), to = options.value("-o"),
-                    outline_path = options.value("--outline");
+int make_scenario(const cli::Arguments& options) {
+  const std::string path = options.positionals()[0], to = options.text("-o"),
+                    outline_path = options.text("--outline");
   if (to.empty() && outline_path.empty()) options.refuse("name -o FILE or --outline FILE.csv");
   check_outputs({{"the asset", path}}, {{"-o", to}, {"--outline", outline_path}});
   const Session session(path);
@@ -45,16 +45,16 @@ int make_scenario(const Options& options) {
 
 }  // namespace
 
-const Command& scenario_command_line() {
-  static const Command command = {
-      "scenario",
-      "ASSET -o FILE [--outline FILE.csv]",
-      "writes a scenario for an asset: press on the surface, follow the guide, emergency stop",
-      "The scenario is scaled by the asset's bounding box. - as FILE is stdout.\n",
-      {{"-o", "FILE", "the scenario"},
-       {"--outline", "FILE.csv", "a closed line around the mesh, to be baked as its guide"}},
-      make_scenario};
-  return command;
+cli::Command scenario_command() {
+  return {"scenario",
+          "ASSET -o FILE [--outline FILE.csv]",
+          "writes a scenario for an asset: press on the surface, follow the guide, emergency stop",
+          "The scenario is scaled by the asset's bounding box. - as FILE is stdout.",
+          {{"-o", "FILE", "the scenario"},
+           {"--outline", "FILE.csv", "a closed line around the mesh, to be baked as its guide"}},
+          1,
+          1,
+          make_scenario};
 }
 
 }  // namespace firmtouch::host_sim

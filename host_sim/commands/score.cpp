@@ -25,13 +25,13 @@ double logged(const Log& log, params::Index row) {
                                  : std::strtod(found->second.c_str(), nullptr);
 }
 
-void use(const Options& options, ScoreSettings& settings) {
+void use(const cli::Arguments& options, ScoreSettings& settings) {
   settings.force_limit_N = options.number("--force-limit", settings.force_limit_N, 0);
   settings.tool_radius_m = options.number("--tool-radius", settings.tool_radius_m, 0);
   settings.stiffness_N_per_m = options.number("--stiffness", settings.stiffness_N_per_m, 0);
 }
 
-ScoredRun from_log(const std::string& path, const Options& options) {
+ScoredRun from_log(const std::string& path, const cli::Arguments& options) {
   const Log log = read_log(path);
   if (log.decimation != 1)
     throw Refused(path + ": it has not every tick; record with --decimate 1 to score it");
@@ -87,7 +87,7 @@ class CsvRun {
   size_t line_ = 0;
 };
 
-ScoredRun from_csv(const std::string& path, const Options& options) {
+ScoredRun from_csv(const std::string& path, const cli::Arguments& options) {
   CsvRun csv(path, read_file(path));
   ScoredRun run;
   use(options, run.settings);
@@ -108,9 +108,8 @@ ScoredRun from_csv(const std::string& path, const Options& options) {
   return run;
 }
 
-int score_run(const Options& options) {
-  const std::string path = options.operand("one run: its log or its CSV"),
-                    page = options.value("--page");
+int score_run(const cli::Arguments& options) {
+  const std::string path = options.positionals()[0], page = options.text("--page");
   check_outputs({{"the run", path}}, {{"--page", page}});
   const bool is_csv = path.size() > 4 && path.compare(path.size() - 4, 4, ".csv") == 0;
   const ScoredRun run = is_csv ? from_csv(path, options) : from_log(path, options);
@@ -130,8 +129,8 @@ int score_run(const Options& options) {
 
 }  // namespace
 
-const Command& score_command_line() {
-  static const Command command = {
+cli::Command score_command() {
+  return {
       "score",
       "RUN.ftl|RUN.csv [options]",
       "figures of the contact in a run, each with its bar, as CSV; exit code 1 if one is not met",
@@ -142,14 +141,15 @@ const Command& score_command_line() {
       "the\n"
       "device's. A log has its settings; for a CSV they are the parameters' initial values, or "
       "those\n"
-      "given here.\n",
+      "given here.",
       {{"--page", "FILE.html", "the figures and charts of force, turn, energy and depth"},
        {"--force-limit", "N", "force_limit of the run"},
        {"--tool-radius", "M", "tool_radius of the run"},
        {"--stiffness", "N_PER_M", "contact_stiffness of the run"},
        {"--json", nullptr, "the figures as JSON"}},
+      1,
+      1,
       score_run};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kHands = 200, kEvery = 97;
 
-int run_study(const Options& options) {
-  std::vector<std::string> machines = options.operands();
+int run_study(const cli::Arguments& options) {
+  std::vector<std::string> machines = options.positionals();
   const std::string name = machines.empty() ? "" : machines[0];
   if (name != "passivity" && name != "failures") options.refuse("studies are: passivity, failures");
   machines.erase(machines.begin());
@@ -27,8 +27,8 @@ int run_study(const Options& options) {
 
 }  // namespace
 
-const Command& study_command_line() {
-  static const Command command = {
+cli::Command study_command() {
+  return {
       "study",
       "passivity|failures [FILE|MACHINE ...] [options]",
       "what linkages do to hands: energy that contact gives, and failures of the machine",
@@ -42,12 +42,13 @@ const Command& study_command_line() {
       "reversed or hot,\na broken link, each joint, at every Nth tick of six touches at 1 kHz, and "
       "an index that fails in homing.\nseen: a fault was latched within 150 ticks; ticks to it, "
       "from there to motors at rest, the largest torque over\nthe joint's, speed of the tip and "
-      "work done on the hand: the worst of all runs.\n",
+      "work done on the hand: the worst of all runs.",
       {{"--hands", "N", "passivity: of each machine (default 200)"},
        {"--every", "N", "failures: 1 takes a quarter of an hour (default 97)"},
        {"--json", nullptr, "for programs"}},
+      1,
+      SIZE_MAX,
       run_study};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -98,17 +98,17 @@ std::string row_of(const Sweep& sweep, uint64_t run) {
   return text + std::to_string(not_met) + "," + std::to_string(faults);
 }
 
-int run_sweep(const Options& options) {
+int run_sweep(const cli::Arguments& options) {
   Sweep sweep;
-  sweep.file = options.operand("one scenario");
+  sweep.file = options.positionals()[0];
   sweep.text = read_file(sweep.file);
-  for (const std::string& text : options.values("--vary")) sweep.varied.push_back(varied_of(text));
+  for (const std::string& text : options.texts("--vary")) sweep.varied.push_back(varied_of(text));
   if (options.has("--penalty")) sweep.contact = Contact::kPenalty;
-  const std::string path = options.value("-o");
+  const std::string path = options.text("-o");
   if (path.empty()) options.refuse("name the file of the results: -o FILE.csv");
   check_outputs({{"the scenario", sweep.file}}, {{"-o", path}});
   const tools::Shard shard =
-      options.has("--shard") ? tools::shard_of(options.value("--shard")) : tools::Shard{};
+      options.has("--shard") ? tools::shard_of(options.text("--shard")) : tools::Shard{};
   const double jobs = std::min(options.number("--jobs", tools::processors(), 1), 1024.0);
   const tools::BatchIdentity identity = identity_of(sweep);
   tools::BatchResults results(path, header_of(sweep), identity, shard);
@@ -133,15 +133,14 @@ int run_sweep(const Options& options) {
   return 0;
 }
 
-int merge_sweep(const Options& options) {
-  if (options.operands().empty()) options.refuse("name the results of the shards");
+int merge_sweep(const cli::Arguments& options) {
   std::vector<std::pair<std::string, std::string>> files;
   NamedFiles inputs;
-  for (const std::string& path : options.operands()) {
+  for (const std::string& path : options.positionals()) {
     files.emplace_back(path, read_file(path));
     inputs.emplace_back(path, path);
   }
-  const std::string path = options.value("-o");
+  const std::string path = options.text("-o");
   if (path.empty()) options.refuse("name the file of all results: -o FILE.csv");
   check_outputs(inputs, {{"-o", path}});
   write_file(path, tools::merged(files));
@@ -150,8 +149,8 @@ int merge_sweep(const Options& options) {
 
 }  // namespace
 
-const Command& sweep_command_line() {
-  static const Command command = {
+cli::Command sweep_command() {
+  return {
       "sweep",
       "SCENARIO --vary KEY=VALUES... -o FILE.csv [options]",
       "simulates a scenario with all combinations of values, on all cores; goes on where it ended",
@@ -159,28 +158,31 @@ const Command& sweep_command_line() {
       "bar, and\nthe faults, a bit each. Rows stand in the order of the runs. Killed and started "
       "again, it goes on and\nwrites the same bytes. On several machines: --shard 1/8 to 8/8 into "
       "a file each, then\n`firmtouch-sim merge`; tools/batch has a make file and a SLURM script "
-      "for that.\n",
+      "for that.",
       {{"--vary", "KEY=V,V,...",
         "values of a scenario's line, with unit: \"mass=60 g,75 g\"; evenly:\n"
-        "                              \"hand_stiffness=100..1000:10 N/m\"; may be repeated"},
+        "                              \"hand_stiffness=100..1000:10 N/m\"; may be repeated",
+        true},
        {"-o", "FILE.csv", "the results"},
        {"--shard", "I/N", "every Nth run only, from the Ith on"},
        {"--jobs", "N", "threads (default: one a core)"},
        {"--penalty", nullptr, "penalty contact instead of a proxy, for comparison"}},
+      1,
+      1,
       run_sweep};
-  return command;
 }
 
-const Command& merge_command_line() {
-  static const Command command = {
+cli::Command merge_command() {
+  return {
       "merge",
       "SHARD.csv... -o FILE.csv",
       "puts the results of a sweep's or a catalogue's shards together, as one would have written "
       "them",
-      "Refuses results of different batches, and names a run that is missing or there twice.\n",
+      "Refuses results of different batches, and names a run that is missing or there twice.",
       {{"-o", "FILE.csv", "the results of all"}},
+      1,
+      SIZE_MAX,
       merge_sweep};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -35,8 +35,8 @@ void look_at_guide(Scene3d& scene3d, const std::vector<Vec>& guide_m) {
     scene3d.radius_m = std::max(scene3d.radius_m, norm(p - scene3d.centre));
 }
 
-int view(const Options& options) {
-  const std::string path = options.operand("one asset"), to = options.value("-o");
+int view(const cli::Arguments& options) {
+  const std::string path = options.positionals()[0], to = options.text("-o");
   if (to.empty()) options.refuse("say where to write: -o FILE.html");
   check_outputs({{"the asset", path}}, {{"-o", to}});
   const Session session(path);
@@ -57,14 +57,15 @@ int view(const Options& options) {
 
 }  // namespace
 
-const Command& view_command_line() {
-  static const Command command = {"view",
-                                  "ASSET -o FILE.html",
-                                  "writes a page that shows an asset in 3D, without a run",
-                                  "",
-                                  {{"-o", "FILE.html", "the page; - is stdout"}},
-                                  view};
-  return command;
+cli::Command view_command() {
+  return {"view",
+          "ASSET -o FILE.html",
+          "writes a page that shows an asset in 3D, without a run",
+          "",
+          {{"-o", "FILE.html", "the page; - is stdout"}},
+          1,
+          1,
+          view};
 }
 
 }  // namespace firmtouch::host_sim

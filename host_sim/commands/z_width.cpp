@@ -186,8 +186,8 @@ tools::JointMotion middle_of(const tools::LinkageDevice& device) {
 }
 
 // "30,45,-20", of each joint.
-tools::JointMotion pose_of(const Options& options, const device::JointSettings& joints) {
-  std::istringstream text(options.value("--at"));
+tools::JointMotion pose_of(const cli::Arguments& options, const device::JointSettings& joints) {
+  std::istringstream text(options.text("--at"));
   tools::JointMotion at;
   std::string part;
   for (uint32_t k = 0; k < joints.joints; ++k) {
@@ -204,10 +204,10 @@ tools::JointMotion pose_of(const Options& options, const device::JointSettings& 
   return at;
 }
 
-int print_device_walls(const Options& options, SampledWall wall) {
+int print_device_walls(const cli::Arguments& options, SampledWall wall) {
   for (const char* own : {"--mass", "--viscous", "--damping"})
     if (options.has(own)) options.refuse(std::string(own) + " comes from the device");
-  const std::string path = options.operand("one device file, or a machine's name");
+  const std::string path = options.positionals()[0];
   const tools::LinkageDevice device = tools::read_device(path, tools::read_device_text(path));
   const Workspace space = workspace_of(device, device.joints.joints == 3 ? 40 : 400);
   if (!(space.least_mass_kg > 0))
@@ -241,7 +241,7 @@ int print_device_walls(const Options& options, SampledWall wall) {
   return 0;
 }
 
-int print_z_width(const Options& options) {
+int print_z_width(const cli::Arguments& options) {
   if (options.has("--table")) return print_table();
   if (options.has("--regimes")) return print_regimes();
   if (options.has("--estimators")) return print_estimators();
@@ -257,7 +257,7 @@ int print_z_width(const Options& options) {
   wall.hand_mass_kg = options.number("--hand-mass", 0, 0);
   wall.hand_damping_N_s_per_m = options.number("--hand-damping", 0, 0);
   wall.hand_stiffness_N_per_m = options.number("--hand-stiffness", 0, 0);
-  if (!options.operands().empty()) return print_device_walls(options, wall);
+  if (!options.positionals().empty()) return print_device_walls(options, wall);
   if (options.has("--at")) options.refuse("--at needs a device");
   if (options.has("--json")) {
     std::cout << json_of(wall) << "\n";
@@ -269,8 +269,8 @@ int print_z_width(const Options& options) {
 
 }  // namespace
 
-const Command& z_width_command_line() {
-  static const Command command = {
+cli::Command z_width_command() {
+  return {
       "z-width",
       "[FILE|MACHINE | --table | --regimes | --estimators] [options]",
       "prints the stiffest passive and the stiffest stable wall of an axis, or of a device's tip",
@@ -280,7 +280,7 @@ const Command& z_width_command_line() {
       "decay.\nOf a device the axis is its tip, with its least mass and its least damping, where "
       "it is "
       "lightest and at a pose.\nThe observer of energy (energy_reservoir_J) is not in these "
-      "figures: it holds stiffer walls.\n",
+      "figures: it holds stiffer walls.",
       {{"--table", nullptr, "28 free and 12 held axes; exit code 1 beyond 1 %"},
        {"--regimes", nullptr,
         "quantum and Coulomb friction: 16 points against describing functions; 1 beyond 10 %"},
@@ -295,8 +295,9 @@ const Command& z_width_command_line() {
        {"--hand-damping", "N_S_PER_M", "of the hand, to the ground (0)"},
        {"--hand-stiffness", "N_PER_M", "of the hand, to the ground (0)"},
        {"--json", nullptr, "of one axis: the limits as JSON"}},
+      0,
+      1,
       print_z_width};
-  return command;
 }
 
 }  // namespace firmtouch::host_sim

@@ -46,11 +46,15 @@ std::string swapped_log() {
 
 TEST(Replay_OfALogWithASwap_NeedsTheNextAssetAndGivesEveryBit) {
   const std::string path = swapped_log();
-  CHECK_EQ(run_command({"replay", path, "--next-asset", test::two_part_asset()}), 0);
-  CHECK_EQ(run_command({"replay", path, "--next-asset", test::part_asset()}), 1);
+  const auto replayed = [](const std::vector<std::string>& words) {
+    const cli::Command command = replay_command();
+    return command.run(cli::Arguments(command, words));
+  };
+  CHECK_EQ(replayed({path, "--next-asset", test::two_part_asset()}), 0);
+  CHECK_EQ(replayed({path, "--next-asset", test::part_asset()}), 1);
   std::string refusal;
   try {
-    run_command({"replay", path});
+    replayed({path});
   } catch (const Refused& refused) {
     refusal = refused.what();
   }

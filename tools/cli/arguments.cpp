@@ -38,6 +38,11 @@ std::string current_name(const std::string& command, const std::string& given) {
   return given;
 }
 
+// "firmtouch bake", or the program alone where it has no commands.
+std::string full_name(const Command& command, const std::string& program) {
+  return command.name[0] == 0 ? program : program + " " + command.name;
+}
+
 bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "-"; }
 
 template <class Number>
@@ -48,9 +53,11 @@ bool parse(const std::string& text, Number& value) {
 
 }  // namespace
 
-Arguments::Arguments(const Command& command, const std::vector<std::string>& words)
+Arguments::Arguments(const Command& command, const std::vector<std::string>& words,
+                     const std::string& program)
     : command_(command.name[0] != 0 ? std::string(command.name) + ": " : ""),
-      full_name_(command.full_name()) {
+      full_name_(full_name(command, program)),
+      words_(words) {
   for (const std::string& word : words) {
     if (word == "--help" || word == "-h") wants_help_ = true;
   }
@@ -66,7 +73,7 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
     if (option == nullptr) refuse("unknown option " + name);
     if (option->help == nullptr)
       refuse(name + " is not in this version of Firmtouch yet; leave it out");
-    if (values_.count(name) != 0) refuse(name + " is given twice; give it once");
+    if (has(name) && !option->may_repeat) refuse(name + " is given twice; give it once");
     std::string value;
     if (option->value == nullptr) {
       if (equals != std::string::npos) refuse(name + " takes no value");
@@ -77,9 +84,10 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
     } else {
       refuse(name + " needs a value: " + name + " " + option->value);
     }
-    values_[name] = value;
+    values_.emplace(name, value);
   }
-  if (positionals_.size() < command.min_positionals) refuse("something is missing");
+  if (positionals_.size() < command.min_positionals)
+    refuse("something is missing: " + full_name_ + " " + command.usage);
   if (positionals_.size() > command.max_positionals) {
     refuse("one word too many: '" + positionals_[command.max_positionals] + "'");
   }
@@ -87,6 +95,13 @@ Arguments::Arguments(const Command& command, const std::vector<std::string>& wor
 
 void Arguments::refuse(const std::string& what) const {
   fail_usage(command_ + what + " (see " + full_name_ + " --help)");
+}
+
+std::vector<std::string> Arguments::texts(const std::string& option) const {
+  std::vector<std::string> all;
+  for (const auto& [name, value] : values_)
+    if (name == option) all.push_back(value);
+  return all;
 }
 
 std::string Arguments::text(const std::string& option, const std::string& otherwise) const {
@@ -98,9 +113,9 @@ uint32_t Arguments::count(const std::string& option, uint32_t otherwise, uint32_
                           uint32_t most) const {
   if (!has(option)) return otherwise;
   uint32_t value = 0;
-  if (!parse(text(option, ""), value) || value < least || value > most) {
-    refuse(option + " " + text(option, "") + ": a whole number from " + std::to_string(least) +
-           " to " + std::to_string(most) + " is needed");
+  if (!parse(text(option), value) || value < least || value > most) {
+    refuse(option + " " + text(option) + ": a whole number from " + std::to_string(least) + " to " +
+           std::to_string(most) + " is needed");
   }
   return value;
 }
@@ -108,9 +123,10 @@ uint32_t Arguments::count(const std::string& option, uint32_t otherwise, uint32_
 double Arguments::number(const std::string& option, double otherwise, double least) const {
   if (!has(option)) return otherwise;
   double value = 0;
-  if (!parse(text(option, ""), value) || !std::isfinite(value) || !(value >= least)) {
-    refuse(option + " " + text(option, "") + ": a number not below " + std::to_string(least) +
-           " is needed");
+  if (!parse(text(option), value) || !std::isfinite(value) || !(value >= least)) {
+    char from[32];
+    std::snprintf(from, sizeof from, "%g", least);
+    refuse(option + " " + text(option) + ": a number not below " + from + " is needed");
   }
   return value;
 }
@@ -124,14 +140,10 @@ std::string Arguments::choice(const std::string& option, const std::string& othe
   refuse(option + " " + value + ": one of " + listed + " is needed");
 }
 
-std::string Command::full_name() const {
-  return name[0] == 0 ? program : std::string(program) + " " + name;
-}
-
-std::string help_of(const Command& command) {
+std::string help_of(const Command& command, const std::string& program) {
   std::string text =
-      "usage: " + command.full_name() + " " + command.usage + "\n" + command.summary + "\n";
-  if (command.details[0] != 0) text += std::string("\n") + command.details + "\n";
+      "usage: " + full_name(command, program) + " " + command.usage + "\n" + command.summary + "\n";
+  if (!command.details.empty()) text += "\n" + command.details + "\n";
   text += "\noptions\n";
   std::string later;
   for (const Option& option : command.options) {

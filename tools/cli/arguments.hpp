@@ -13,20 +13,20 @@ struct Option {
   const char* name;
   const char* value;
   const char* help;
+  bool may_repeat = false;
 };
+
+class Arguments;
 
 struct Command {
   const char* name;
   const char* usage;    // the rest of the usage line
   const char* summary;  // one line
-  const char* details;  // further lines of --help, or ""
+  std::string details;  // further lines of --help, or ""
   std::vector<Option> options;
   size_t min_positionals;
   size_t max_positionals;
-  const char* program = "firmtouch";
-
-  /// "firmtouch bake", or the program alone where it has no commands (`name` is "").
-  std::string full_name() const;
+  int (*run)(const Arguments& arguments);  // result: an exit code; a Failure ends it early
 };
 
 /// The words after a command's name, sorted into options and the rest. Takes `--name value` and
@@ -35,12 +35,16 @@ class Arguments {
  public:
   /// Fails (usage) on an unknown, repeated or not yet available option, a missing value, or too few
   /// or many words.
-  Arguments(const Command& command, const std::vector<std::string>& words);
+  Arguments(const Command& command, const std::vector<std::string>& words,
+            const std::string& program = "firmtouch");
 
   bool wants_help() const { return wants_help_; }
+  const std::vector<std::string>& words() const { return words_; }
   const std::vector<std::string>& positionals() const { return positionals_; }
   bool has(const std::string& option) const { return values_.count(option) != 0; }
-  std::string text(const std::string& option, const std::string& otherwise) const;
+  /// Of an option that may repeat: in order.
+  std::vector<std::string> texts(const std::string& option) const;
+  std::string text(const std::string& option, const std::string& otherwise = "") const;
   /// A whole number from `least` to `most`.
   uint32_t count(const std::string& option, uint32_t otherwise, uint32_t least,
                  uint32_t most) const;
@@ -50,15 +54,16 @@ class Arguments {
   std::string choice(const std::string& option, const std::string& otherwise,
                      const std::vector<std::string>& choices) const;
 
- private:
+  /// Fails (usage) with the command's name.
   [[noreturn]] void refuse(const std::string& what) const;
 
+ private:
   std::string command_, full_name_;
-  std::map<std::string, std::string> values_;
-  std::vector<std::string> positionals_;
+  std::multimap<std::string, std::string> values_;
+  std::vector<std::string> words_, positionals_;
   bool wants_help_ = false;
 };
 
-std::string help_of(const Command& command);
+std::string help_of(const Command& command, const std::string& program = "firmtouch");
 
 }  // namespace firmtouch::cli

@@ -62,8 +62,8 @@ const char* const kInputs =
 
 }  // namespace
 
-const Command& bake_command() {
-  static const Command command{
+Command bake_command() {
+  return {
       "bake",
       "INPUT... -o SCENE.fta [options], or --catalogue LIST -o RESULTS.csv [--shard I/N]",
       "Bakes meshes, curves and splines into one asset, proven with the firmware's own decoder.",
@@ -117,8 +117,8 @@ const Command& bake_command() {
            {"--jobs", "N", "of a catalogue: threads (default: one a core)"},
            {"--json", nullptr, "what was made, for programs, on stdout"}}),
       0,
-      SIZE_MAX};
-  return command;
+      SIZE_MAX,
+      run_bake};
 }
 
 int run_bake(const Arguments& arguments) {

@@ -16,8 +16,8 @@ constexpr const char* kOfTheSimulator[] = {"feel", "friction", "passivity"};
 
 }  // namespace
 
-const Command& bench_command() {
-  static const Command command{
+Command bench_command() {
+  return {
       "bench",
       "[NAME|all] [MODEL...] [options]",
       "Measures the bars of the project.",
@@ -30,8 +30,8 @@ const Command& bench_command() {
       options_of_benches(
           {"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"}),
       0,
-      SIZE_MAX};
-  return command;
+      SIZE_MAX,
+      run_bench};
 }
 
 int run_bench(const Arguments& arguments) {

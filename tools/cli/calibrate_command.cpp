@@ -145,8 +145,8 @@ void print(const Calibration& found) {
 
 }  // namespace
 
-const Command& calibrate_command() {
-  static const Command command{
+Command calibrate_command() {
+  return {
       "calibrate",
       "DEVICE TOUCHES.csv [-o FILE] | DEVICE --plan N | DEVICE --study",
       "Finds a linkage's lengths, offsets and zero angles from touches of known things.",
@@ -169,8 +169,8 @@ const Command& calibrate_command() {
        {"--touches", "N", "of each run of the study (default 40)"},
        {"--json", nullptr, "what was found, for programs; a deviation of null: not determined"}},
       1,
-      2};
-  return command;
+      2,
+      run_calibrate};
 }
 
 int run_calibrate(const Arguments& arguments) {

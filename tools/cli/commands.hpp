@@ -3,9 +3,8 @@
 
 namespace firmtouch::cli {
 
-// The commands: what each takes, and what it does (result: an exit code; a Failure ends it early).
-using TakenBy = const Command&();
-TakenBy make_command, bake_command, info_command, query_command, mend_command, hull_command,
+using MakeCommand = Command();
+MakeCommand make_command, bake_command, info_command, query_command, mend_command, hull_command,
     bench_command, log_command, voxelize_command, calibrate_command, plan_command;
 
 using Run = int(const Arguments& arguments);

@@ -126,8 +126,8 @@ tools::HullOptions hull_options(const Arguments& arguments) {
   return options;
 }
 
-const Command& hull_command() {
-  static const Command command{
+Command hull_command() {
+  return {
       "hull",
       "MODEL --faces N[,N...] -o FILE [options]",
       "Makes a coarse surface that encloses a model, proven on the vertices that are written.",
@@ -149,8 +149,8 @@ const Command& hull_command() {
            {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
            {"--json", nullptr, "what was made, for programs, on stdout"}}),
       1,
-      1};
-  return command;
+      1,
+      run_hull};
 }
 
 int run_hull(const Arguments& arguments) {

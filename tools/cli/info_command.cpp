@@ -38,19 +38,19 @@ void print_text(const LoadedAsset& loaded) {
 
 }  // namespace
 
-const Command& info_command() {
-  static const Command command{"info",
-                               "ASSET.fta [--json]",
-                               "Proves an asset and says what is in it.",
-                               "Of a linkage it prints the stiffest wall of the initial damping "
-                               "that is stable on the tip's least mass:\nstiffer ones are not "
-                               "enabled (firmtouch-sim z-width has passive ones).\n"
-                               "Exit code 1 if this machine answers the asset's probe queries with "
-                               "other bits than the baker did.",
-                               {{"--json", nullptr, "for programs"}},
-                               1,
-                               1};
-  return command;
+Command info_command() {
+  return {"info",
+          "ASSET.fta [--json]",
+          "Proves an asset and says what is in it.",
+          "Of a linkage it prints the stiffest wall of the initial damping "
+          "that is stable on the tip's least mass:\nstiffer ones are not "
+          "enabled (firmtouch-sim z-width has passive ones).\n"
+          "Exit code 1 if this machine answers the asset's probe queries with "
+          "other bits than the baker did.",
+          {{"--json", nullptr, "for programs"}},
+          1,
+          1,
+          run_info};
 }
 
 int run_info(const Arguments& arguments) {

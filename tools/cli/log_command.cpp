@@ -278,8 +278,8 @@ int act(const Arguments& arguments) {
 
 }  // namespace
 
-const Command& log_command() {
-  static const Command command{
+Command log_command() {
+  return {
       "log",
       "LOG.ftl info|csv|npy|plot|cut|join|stats [LOG.ftl...]",
       "Prints what a recorded run holds, draws it, cuts and joins.",
@@ -299,8 +299,8 @@ const Command& log_command() {
        {"--to", "N|S", "cut: to before this record's number, or this time"},
        {"--json", nullptr, "info, stats: for programs"}},
       2,
-      1000};
-  return command;
+      1000,
+      run_log};
 }
 
 int run_log(const Arguments& arguments) {

@@ -138,8 +138,8 @@ void forbid_options_of_others(const Arguments& arguments, const Kind& kind) {
 
 }  // namespace
 
-const Command& make_command() {
-  static const Command command{
+Command make_command() {
+  return {
       "make",
       "part|cad|path|curve|surface|walk MODEL -o FILE [options]",
       "Makes the demo's part and guide path, machined parts, splines, and paths to query a model "
@@ -169,8 +169,8 @@ const Command& make_command() {
        {"--space", nullptr, "curve: not in a plane"},
        {"--weights", nullptr, "curve, surface: a NURBS whose weights differ"}},
       1,
-      2};
-  return command;
+      2,
+      run_make};
 }
 
 int run_make(const Arguments& arguments) {

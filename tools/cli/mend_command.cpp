@@ -12,8 +12,8 @@
 
 namespace firmtouch::cli {
 
-const Command& mend_command() {
-  static const Command command{
+Command mend_command() {
+  return {
       "mend",
       "MODEL -o FILE [options]",
       "Mends a mesh so that it can be touched, as bake --mend does, and writes it.",
@@ -25,8 +25,8 @@ const Command& mend_command() {
       with_model_options({{"-o", "FILE", "the mesh to write; -: as OBJ to stdout"},
                           {"--json", nullptr, "what was made, for programs, on stdout"}}),
       1,
-      1};
-  return command;
+      1,
+      run_mend};
 }
 
 int run_mend(const Arguments& arguments) {

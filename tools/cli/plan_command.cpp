@@ -58,8 +58,9 @@ std::vector<Image> images_of(const Arguments& arguments) {
 // The inputs and those options that bake has, too.
 std::vector<std::string> words_for_bake(const Arguments& arguments) {
   std::vector<std::string> words = arguments.positionals();
-  for (const Option& option : plan_command().options)
-    for (const Option& of_bake : bake_command().options) {
+  const Command plan = plan_command(), bake = bake_command();
+  for (const Option& option : plan.options)
+    for (const Option& of_bake : bake.options) {
       if (std::string(option.name) != of_bake.name || !arguments.has(option.name)) continue;
       if (option.value == nullptr)
         words.push_back(option.name);
@@ -184,8 +185,8 @@ std::string json_of(const Planner& planner, const std::vector<std::string>& said
 
 }  // namespace
 
-const Command& plan_command() {
-  static const Command command{
+Command plan_command() {
+  return {
       "plan",
       "INPUT... --flash BYTES --ram BYTES [options]",
       "Chooses tree, distance field, hull, program and work pool that fit a controller.",
@@ -208,8 +209,8 @@ const Command& plan_command() {
            {"--picture", "FILE.svg", "the trade as a picture"},
            {"--json", nullptr, "for programs"}}),
       1,
-      SIZE_MAX};
-  return command;
+      SIZE_MAX,
+      run_plan};
 }
 
 int run_plan(const Arguments& arguments) {

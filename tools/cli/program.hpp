@@ -2,11 +2,19 @@
 #include <string>
 #include <vector>
 
+#include "cli/arguments.hpp"
+
 namespace firmtouch::cli {
 
-/// Runs a program on its words and returns its exit code. A Failure or an exception is printed
-/// behind the program's name; a standard output that cannot be written is bad input.
-int run_program(const char* name, int (*run)(const std::vector<std::string>& words), int argc,
-                char** argv);
+struct Program {
+  const char* name;
+  const char* summary;
+  std::vector<Command> commands;  // or one without a name, which takes all words
+};
+
+/// Runs the command that the first word names, --help or --version, and returns the exit code. A
+/// Failure or an exception is printed behind the program's name; a standard output that cannot be
+/// written is bad input.
+int run_program(const Program& program, int argc, char** argv);
 
 }  // namespace firmtouch::cli

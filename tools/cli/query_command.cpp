@@ -52,8 +52,8 @@ CsvTable query_rows(const std::vector<std::string>& columns, const Arguments& ar
 
 }  // namespace
 
-const Command& query_command() {
-  static const Command command{
+Command query_command() {
+  return {
       "query",
       "ASSET.fta NAME distance|segment|hull|curve|spline|footpoints [options] < IN.csv > OUT.csv",
       "Answers each row of a CSV as the controller would, bit for bit.",
@@ -107,8 +107,8 @@ const Command& query_command() {
        {"--base", "N",
         "hull, refine: faces that a segment meets at first (default: the coarsest)"}},
       3,
-      3};
-  return command;
+      3,
+      run_query};
 }
 
 int run_query(const Arguments& arguments) {

@@ -72,8 +72,8 @@ std::string json_of(const tools::DistanceField& made, const std::string& output)
 
 }  // namespace
 
-const Command& voxelize_command() {
-  static const Command command{
+Command voxelize_command() {
+  return {
       "voxelize",
       "MODEL... -n LONG_AXIS_CELLS [-o FILE] [options]",
       "Voxels of closed models: surface, inside, outside, and the distance and closest point of "
@@ -92,8 +92,8 @@ const Command& voxelize_command() {
        {"--threads", "N", "how many compute (default: one a processor; the result is the same)"},
        {"--json", nullptr, "what was made, for programs, on stdout"}},
       1,
-      SIZE_MAX};
-  return command;
+      SIZE_MAX,
+      run_voxelize};
 }
 
 int run_voxelize(const Arguments& arguments) {

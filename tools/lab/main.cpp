@@ -1,6 +1,3 @@
-#include <cstdio>
-
-#include "cli/failure.hpp"
 #include "cli/program.hpp"
 #include "cli/run_benches.hpp"
 #include "lab/trials.hpp"
@@ -8,8 +5,8 @@
 namespace firmtouch::lab {
 namespace {
 
-const cli::Command& command() {
-  static const cli::Command command{
+cli::Command command() {
+  return {
       "",
       "[NAME|all] [MODEL...] [options]",
       "Reproduces tables and figures of the papers, and measures designs that lost.",
@@ -21,20 +18,13 @@ const cli::Command& command() {
           {"--figures", "FOLDER", "where `pictures` draws (default: the current folder)"}),
       0,
       SIZE_MAX,
-      "firmtouch-lab"};
-  return command;
-}
-
-int run(const std::vector<std::string>& words) {
-  const cli::Arguments arguments(command(), words);
-  if (!arguments.wants_help()) return cli::run_benches(trials(), arguments);
-  std::fputs(cli::help_of(command()).c_str(), stdout);
-  return cli::kDone;
+      [](const cli::Arguments& arguments) { return cli::run_benches(trials(), arguments); }};
 }
 
 }  // namespace
 }  // namespace firmtouch::lab
 
 int main(int argc, char** argv) {
-  return firmtouch::cli::run_program("firmtouch-lab", firmtouch::lab::run, argc, argv);
+  return firmtouch::cli::run_program({"firmtouch-lab", "", {firmtouch::lab::command()}}, argc,
+                                     argv);
 }
