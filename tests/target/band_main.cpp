@@ -13,11 +13,8 @@
 #include "target/count.hpp"
 #include "target/scene_views.hpp"
 
-namespace hal = firmtouch::hal;
-namespace mesh = firmtouch::mesh;
-namespace query = firmtouch::query;
-namespace target = firmtouch::target;
-using firmtouch::math::Vec3;
+using namespace firmtouch;  // NOLINT: a program of the tests
+using math::Vec3;
 
 namespace {
 
@@ -84,8 +81,7 @@ class Bench {
     const Vec3 middle_m = (a + b + c) * (1.0f / 3.0f);
     const float per_m = 1.0f / extent_m_;
     const Vec3 normal = cross((b - a) * per_m, (c - a) * per_m);
-    return middle_m +
-           normal * (1.3f * random_.sign() * budget_.band_m / firmtouch::math::length(normal));
+    return middle_m + normal * (1.3f * random_.sign() * budget_.band_m / math::length(normal));
   }
 
   uint32_t measure(Vec3 p_m, mesh::Hint& hint) const {

@@ -16,10 +16,7 @@
 #include "target/csv_points.hpp"
 #include "target/scene_views.hpp"
 
-namespace hal = firmtouch::hal;
-namespace mesh = firmtouch::mesh;
-namespace query = firmtouch::query;
-namespace target = firmtouch::target;
+using namespace firmtouch;  // NOLINT: a program of the tests
 
 namespace {
 
@@ -30,7 +27,7 @@ template <class Closest>
 uint32_t evaluations_of(const Closest&) {
   return 0;
 }
-uint32_t evaluations_of(const firmtouch::spline::Closest& closest) { return closest.evaluations; }
+uint32_t evaluations_of(const spline::Closest& closest) { return closest.evaluations; }
 
 template <class Closest>
 void print_row(uint32_t budget, uint32_t taken, const Closest& closest) {
@@ -48,12 +45,12 @@ struct HintOf {
   using Hint = mesh::Hint;
 };
 template <>
-struct HintOf<firmtouch::curve::View> {
-  using Hint = firmtouch::curve::Hint;
+struct HintOf<curve::View> {
+  using Hint = curve::Hint;
 };
 template <>
-struct HintOf<firmtouch::spline::View> {
-  using Hint = firmtouch::spline::Hint;
+struct HintOf<spline::View> {
+  using Hint = spline::Hint;
 };
 
 template <class View>
@@ -61,7 +58,7 @@ bool run(const View& view, const char* path, query::Budget budget, uint32_t rows
   target::CsvPoints points(path);
   typename HintOf<View>::Hint hint;
   const uint32_t empty = target::empty_work();
-  firmtouch::math::Vec3 p_m;
+  math::Vec3 p_m;
   uint32_t row = 0;
   for (; row < rows && points.next(p_m); ++row) {
     if (!warm) hint = {};

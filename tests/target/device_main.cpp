@@ -12,9 +12,7 @@
 #include "firmtouch/hal/clock.hpp"
 #include "target/count.hpp"
 
-namespace device = firmtouch::device;
-namespace hal = firmtouch::hal;
-namespace target = firmtouch::target;
+using namespace firmtouch;  // NOLINT: a program of the tests
 
 namespace {
 
@@ -48,7 +46,7 @@ void run(const char* name, const Linkage& linkage, uint32_t joints, const float 
     const uint32_t read = hal::clock_work();
     const device::Pose pose = pose_of(linkage, at.angle_rad);
     const uint32_t posed = hal::clock_work();
-    const firmtouch::math::Vec3 velocity = tip_velocity(pose, at.rate_rad_per_s);
+    const math::Vec3 velocity = tip_velocity(pose, at.rate_rad_per_s);
     const device::JointTorques out = torques(pose, kLimits, {1, 2, 3});
     const uint32_t end = hal::clock_work();
     g_kept = velocity.x + out.torque_Nm[0];

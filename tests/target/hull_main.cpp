@@ -15,14 +15,7 @@
 #include "firmtouch/hull/refinement.hpp"
 #include "target/count.hpp"
 
-namespace asset = firmtouch::asset;
-namespace core = firmtouch::core;
-namespace hal = firmtouch::hal;
-namespace hull = firmtouch::hull;
-namespace math = firmtouch::math;
-namespace mesh = firmtouch::mesh;
-namespace query = firmtouch::query;
-namespace target = firmtouch::target;
+using namespace firmtouch;  // NOLINT: a program of the tests
 
 namespace {
 

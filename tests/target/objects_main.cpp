@@ -11,12 +11,7 @@
 #include "firmtouch/scene/objects.hpp"
 #include "target/count.hpp"
 
-namespace hal = firmtouch::hal;
-namespace math = firmtouch::math;
-namespace query = firmtouch::query;
-namespace scene = firmtouch::scene;
-namespace servo = firmtouch::servo;
-namespace target = firmtouch::target;
+using namespace firmtouch;  // NOLINT: a program of the tests
 
 namespace {
 

@@ -9,8 +9,7 @@
 #include "firmtouch/hal/clock.hpp"
 #include "target/count.hpp"
 
-namespace hal = firmtouch::hal;
-namespace target = firmtouch::target;
+using namespace firmtouch;  // NOLINT: a program of the tests
 
 namespace {
 
@@ -20,8 +19,8 @@ firmtouch::FullController g_controller;
 
 int main() {
   hal::board_begin();
-  const firmtouch::core::Bytes slot = hal::board_asset();
-  g_controller.begin({slot.data(), firmtouch::asset::stated_bytes(slot)});
+  const core::Bytes slot = hal::board_asset();
+  g_controller.begin({slot.data(), asset::stated_bytes(slot)});
   bool is_done = false;
   while (!is_done) {
     const uint32_t before = hal::clock_work();

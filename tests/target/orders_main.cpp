@@ -15,12 +15,8 @@
 #include "target/csv_points.hpp"
 #include "target/scene_views.hpp"
 
-namespace core = firmtouch::core;
-namespace hal = firmtouch::hal;
-namespace math = firmtouch::math;
-namespace mesh = firmtouch::mesh;
-namespace orders = firmtouch::lab::orders;
-namespace target = firmtouch::target;
+using namespace firmtouch;  // NOLINT: a program of the tests
+namespace orders = lab::orders;
 
 namespace {
 
@@ -121,7 +117,7 @@ int main() {
     return 1;
   }
   g_empty = target::empty_work();
-  const uint32_t used = (firmtouch::asset::stated_bytes(region) + 15) / 16 * 16;
+  const uint32_t used = (asset::stated_bytes(region) + 15) / 16 * 16;
   uint8_t* const free = const_cast<uint8_t*>(region.data()) + used;
   Arena arena{free, free + (region.size() - used)};
   const uint32_t nodes = views.mesh.nodes().size();

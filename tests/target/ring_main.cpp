@@ -10,9 +10,7 @@
 #include "firmtouch/record/tick.hpp"
 #include "target/count.hpp"
 
-namespace hal = firmtouch::hal;
-namespace record = firmtouch::record;
-namespace target = firmtouch::target;
+using namespace firmtouch;  // NOLINT: a program of the tests
 
 namespace {
 

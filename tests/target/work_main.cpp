@@ -27,17 +27,8 @@
 #include "target/count.hpp"
 #include "target/scene_views.hpp"
 
-namespace asset = firmtouch::asset;
-namespace core = firmtouch::core;
-namespace curve = firmtouch::curve;
-namespace field = firmtouch::field;
-namespace hal = firmtouch::hal;
-namespace hull = firmtouch::hull;
-namespace mesh = firmtouch::mesh;
-namespace query = firmtouch::query;
-namespace spline = firmtouch::spline;
-namespace target = firmtouch::target;
-using firmtouch::math::Vec3;
+using namespace firmtouch;  // NOLINT: a program of the tests
+using math::Vec3;
 
 namespace {
 
@@ -137,7 +128,7 @@ template <class Head>
 Box box_of(const Head& head) {
   const Vec3 low_m{head.low_m[0], head.low_m[1], head.low_m[2]};
   const Vec3 size_m = Vec3{head.high_m[0], head.high_m[1], head.high_m[2]} - low_m;
-  return {low_m, size_m, firmtouch::math::length(size_m)};
+  return {low_m, size_m, math::length(size_m)};
 }
 
 template <class Subject>

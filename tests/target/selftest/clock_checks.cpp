@@ -1,3 +1,4 @@
+#include "target/loop.hpp"
 #include "target/selftest/selftest.hpp"
 
 // Two clocks check each other: microseconds and the servo's interrupt. A count of instructions
@@ -56,11 +57,7 @@ bool check_microseconds() {
 
 [[gnu::noinline]] uint32_t work_of(uint32_t turns) {
   const uint32_t before = hal::clock_work();
-#ifdef __riscv
-  asm volatile("1: addi %0, %0, -1\n bnez %0, 1b" : "+r"(turns));
-#else
-  asm volatile("1: subs %0, #1\n bne 1b" : "+r"(turns)::"cc");
-#endif
+  target::turn(turns);
   return hal::clock_work() - before;
 }
 
