@@ -94,7 +94,7 @@ size_t differences(const Baked& baked, Vec3 a_m, Vec3 b_m, query::Budget budget,
 }
 
 void compare(const Baked& baked, uint64_t seed) {
-  const uint32_t segments = firmtouch::test::is_long() ? 2000 : 600;
+  const uint32_t segments = firmtouch::test::is_long() ? 2000 : 200;
   Ends ends(baked, seed);
   size_t differ = 0, hits = 0;
   for (uint32_t i = 0; i < segments; ++i) {
