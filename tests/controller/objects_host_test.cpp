@@ -128,31 +128,10 @@ TEST(Objects_Friction_IsTheLargerOfObjectAndParameter) {
 }
 
 TEST(Objects_OneThatStandsAtTheOrigin_HasTheForceOfTheMeshAlone) {
-  std::vector<tools::Section> sections = part_sections();
-  const Asset alone(file_of(sections));
   const std::vector<scene::ObjectLayout> one = {layout_of({"part", "part", {}})};
-  sections.push_back(tools::make_section(scene::kObjectsSection, "room", one));
-  const Asset among(file_of(std::move(sections)));
-  Ride ride(alone);
-  static ObjectsController controller, same;
-  CHECK_EQ(controller.open(among.bytes()).rule, 0u);
-  CHECK_EQ(same.open(alone.bytes()).rule, 0u);
-  double worst_N = 0;
-  uint32_t contacts = 0;
-  for (uint32_t tick = 0; tick < 6000; ++tick) {
-    ride.fill(tick);
-    ride.step();
-    record::TickOutput as_object, as_mesh;
-    controller.tick(ride.input, as_object);
-    same.tick(ride.input, as_mesh);
-    CHECK(std::memcmp(&as_mesh, &ride.output, sizeof as_mesh) == 0);
-    for (int k = 0; k < 3; ++k)
-      worst_N =
-          std::max(worst_N, std::fabs(wide(as_object.force_N[k]) - wide(ride.output.force_N[k])));
-    contacts += (as_object.state & record::kStateContact) != 0 ? 1u : 0u;
-  }
-  CHECK_GE(contacts, 1000u);
-  CHECK_LE(worst_N, 0.01);
+  CHECK_LE(
+      off_the_mesh_N<ObjectsController>(tools::make_section(scene::kObjectsSection, "room", one)),
+      0.01);
 }
 
 TEST(Objects_SceneOrigin_MovesThemAll) {

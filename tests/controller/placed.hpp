@@ -1,6 +1,8 @@
 #pragma once
 // A box, and a controller whose tool is put somewhere in each tick: what the tests of objects and
 // of tools stand on.
+#include <algorithm>
+
 #include "controller/ride.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 
@@ -82,5 +84,35 @@ struct Placed {
       tick(from_m + (to_m - from_m) * (static_cast<float>(i) / static_cast<float>(ticks)));
   }
 };
+
+// A ride on the part: the largest difference of a force with `section` in the asset from that of
+// the mesh alone. Without it `Controller` gives FullController's bits.
+template <class Controller>
+double off_the_mesh_N(tools::Section section) {
+  std::vector<tools::Section> sections = part_sections();
+  const Asset alone(file_of(sections));
+  sections.push_back(std::move(section));
+  const Asset with_section(file_of(std::move(sections)));
+  Ride ride(alone);
+  static Controller controller, same;
+  CHECK_EQ(controller.open(with_section.bytes()).rule, 0u);
+  CHECK_EQ(same.open(alone.bytes()).rule, 0u);
+  double worst_N = 0;
+  uint32_t contacts = 0;
+  for (uint32_t tick = 0; tick < 6000; ++tick) {
+    ride.fill(tick);
+    ride.step();
+    record::TickOutput output, as_mesh;
+    controller.tick(ride.input, output);
+    same.tick(ride.input, as_mesh);
+    CHECK(std::memcmp(&as_mesh, &ride.output, sizeof as_mesh) == 0);
+    for (int k = 0; k < 3; ++k)
+      worst_N =
+          std::max(worst_N, std::fabs(wide(output.force_N[k]) - wide(ride.output.force_N[k])));
+    contacts += (output.state & record::kStateContact) != 0 ? 1u : 0u;
+  }
+  CHECK_GE(contacts, 1000u);
+  return worst_N;
+}
 
 }  // namespace firmtouch::controller_test

@@ -204,26 +204,7 @@ TEST(Tool_AssetsThatDoNotFit_AreRejectedByName) {
 }
 
 TEST(Tool_OfOneSphereAtTheHandle_HasTheForceOfTheSphere) {
-  std::vector<tools::Section> sections = part_sections();
-  const Asset alone(file_of(sections));
-  sections.push_back(
-      tools::make_section(scene::kToolSection, "tip", Spheres{{{0, 0, 0}, kRadius_m}}));
-  const Asset with_tool(file_of(std::move(sections)));
-  Ride ride(alone);
-  static ToolController controller, same;
-  CHECK_EQ(controller.open(with_tool.bytes()).rule, 0u);
-  CHECK_EQ(same.open(alone.bytes()).rule, 0u);
-  double worst_N = 0;
-  for (uint32_t tick = 0; tick < 6000; ++tick) {
-    ride.fill(tick);
-    ride.step();
-    record::TickOutput as_tool, as_mesh;
-    controller.tick(ride.input, as_tool);
-    same.tick(ride.input, as_mesh);
-    CHECK(std::memcmp(&as_mesh, &ride.output, sizeof as_mesh) == 0);
-    for (int k = 0; k < 3; ++k)
-      worst_N =
-          std::max(worst_N, std::fabs(wide(as_tool.force_N[k]) - wide(ride.output.force_N[k])));
-  }
-  CHECK_LE(worst_N, 0.001);
+  CHECK_LE(off_the_mesh_N<ToolController>(
+               tools::make_section(scene::kToolSection, "tip", Spheres{{{0, 0, 0}, kRadius_m}})),
+           0.001);
 }
