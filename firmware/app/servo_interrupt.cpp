@@ -29,6 +29,11 @@ void servo_interrupt() {
   if (!sets_saved) commands.take(now.input);  // at most one parameter a tick
   now.input.flags = servo_flags(sets_saved);
   if (!hal::encoders_read(now.input.encoder_counts)) now.input.flags |= record::kFlagEncoderFault;
+  if constexpr (AppController::kComparesEncoders) {
+    uint8_t second[record::kAxes];
+    hal::encoders_second(second);
+    now.input.flags |= record::flags_of_second(second);
+  }
   if (kTwoRates) now.input.flags |= controller.model_flags();
 
   controller.tick(now.input, now.output);  // calls no HAL: a replay calls it with the same input

@@ -11,6 +11,10 @@ bool encoders_read(int32_t (&counts)[3]) {
   return false;
 }
 
+void encoders_second(uint8_t (&counts)[3]) {
+  for (uint8_t& count : counts) count = 0;
+}
+
 void motors_state(bool) {}
 
 void motors_write_N(const float (&)[3]) {}

@@ -52,6 +52,8 @@ class AnyDevice : public DevicePolicy {
   uint32_t wall_state(const params::Values& values) const;
 
   const device::StoredLinkage& linkage() const { return linkage_; }
+  /// The whole section. Pre: linkage().is_open().
+  core::Bytes stored_bytes() const { return section_; }
 
  protected:
   /// Of a linkage that was opened: the guard gets its ceilings.

@@ -33,6 +33,9 @@ struct DevicePolicy {
   /// True: the device has a `uint32_t wall_state(const params::Values&) const`: 0, or one of
   /// record::kStateWallRefused and kStateWallForced.
   static constexpr bool kKnowsWalls = false;
+  /// True: the device has a `bool encoders_agree(const device::Sample&, uint32_t flags)`, which a
+  /// tick calls before read() with a sample that the encoders report as valid.
+  static constexpr bool kComparesEncoders = false;
 };
 
 /// How the parameters estimate velocity.

@@ -29,6 +29,9 @@ class Controller {
       params::Composed<ControllerCore::Parameters, typename Device::Parameters,
                        typename SurfaceList::Parameters, typename Guide::Parameters>::kTable;
 
+  /// Whether a tick's flags need the counts of second encoders.
+  static constexpr bool kComparesEncoders = Device::kComparesEncoders;
+
   [[gnu::noinline]] Controller() : core_(kTable) {}
   Controller(const Controller&) = delete;  // a distance field refers to the mesh in here
   Controller& operator=(const Controller&) = delete;
@@ -106,6 +109,8 @@ class Controller {
         output.state |= wall;
         if ((wall & record::kStateWallRefused) != 0) core_.disarm(tick);
       }
+    if constexpr (Device::kComparesEncoders)
+      tick.sample.trusted = tick.sample.trusted && device.encoders_agree(tick.sample, input.flags);
     core_.locate(device.read(core_.values(), tick.sample, tick.step.clear_faults), tick);
     if constexpr (!Device::kRendersAll) core_.count_rendered(device.rendered());
     bool homes = false;

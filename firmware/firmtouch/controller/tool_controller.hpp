@@ -1,16 +1,17 @@
 #pragma once
 #include "firmtouch/controller/mesh_tool.hpp"
 #include "firmtouch/controller/objects_controller.hpp"
+#include "firmtouch/controller/redundant_device.hpp"
 
 namespace firmtouch {
 
 template <class Mesh>
 using SurfacesWithTool = Surfaces<MeshTool, MeshObjects, Mesh, SplineSurface>;
 
-/// Every part of the library, several objects, materials of triangles, and a tool of several
-/// spheres (part `tool`). The same parameters, and the same bits for an asset without any of
-/// these. What the simulator runs.
-class ToolController : public EveryPart<OneScene, HomedDevice, FullMaterialMesh,
+/// Every part of the library, several objects, materials of triangles, a tool of several
+/// spheres (part `tool`), and second encoders (part `second_encoders`). The same parameters, and
+/// the same bits for an asset without any of these. What the simulator runs.
+class ToolController : public EveryPart<OneScene, RedundantDevice<HomedDevice>, FullMaterialMesh,
                                         SurfacesWithTool<FullMaterialMesh>> {
  public:
   const scene::StoredMaterials& materials() const {
@@ -23,7 +24,7 @@ class ToolController : public EveryPart<OneScene, HomedDevice, FullMaterialMesh,
 };
 
 /// With room for the next asset.
-using SwappingToolController =
-    EveryPart<TwoScenes, HomedDevice, FullMaterialMesh, SurfacesWithTool<FullMaterialMesh>>;
+using SwappingToolController = EveryPart<TwoScenes, RedundantDevice<HomedDevice>, FullMaterialMesh,
+                                         SurfacesWithTool<FullMaterialMesh>>;
 
 }  // namespace firmtouch

@@ -53,4 +53,12 @@ struct HomedLinkageLayout {
 };
 static_assert(sizeof(HomedLinkageLayout) == 196);
 
+/// Second encoders of the joints, behind the linkage and its homing in the same section, so that a
+/// program without part `second_encoders` rejects it (R712).
+struct SecondEncodersLayout {
+  float counts_per_rad[3];  // 0: the joint has none
+  float within_rad;         // by which the two may differ
+};
+static_assert(sizeof(SecondEncodersLayout) == 16);
+
 }  // namespace firmtouch::device

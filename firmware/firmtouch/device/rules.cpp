@@ -26,9 +26,10 @@ const char* rule_name(uint16_t rule) {
       "words that this kind does not use: 0",
       "torque rise: 0.0001 to 1 s",
       "load: masses of 0 to 100 kg, gravity within 100 m/s2, share 0 to 0.9",
-      "homing: by stops or pose; torques, speed, margin, pose"};
+      "homing: by stops or pose; torques, speed, margin, pose",
+      "second encoders: 1 to 1e4 counts per rad; within 3 counts and one of the first, to 60"};
   constexpr uint32_t kCount = sizeof kNames / sizeof kNames[0];
-  static_assert(kRuleJointCount + kCount == kRuleHoming + 1);
+  static_assert(kRuleJointCount + kCount == kRuleSecondEncoder + 1);
   const uint32_t number = uint32_t{rule} - kRuleJointCount;
   return number < kCount ? kNames[number] : "unknown rule";
 }
@@ -36,5 +37,11 @@ const char* rule_name(uint16_t rule) {
 bool is_link_length(float length_m) { return length_m >= kMinLink_m && length_m <= kMaxLink_m; }
 
 bool is_offset(float offset_m) { return offset_m >= -kMaxLink_m && offset_m <= kMaxLink_m; }
+
+bool is_zero(float value) {
+  uint32_t word;
+  __builtin_memcpy(&word, &value, sizeof word);
+  return word == 0;
+}
 
 }  // namespace firmtouch::device

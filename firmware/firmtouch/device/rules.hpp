@@ -28,7 +28,8 @@ enum Rule : uint16_t {
   kRuleMaxTorque = 710,
   // The fade is not 0.001 <= gone_at < full_from <= 1.
   kRuleFade = 711,
-  // The section is not as long as a linkage, or, with part `homing`, as one and its homing.
+  // The section is not as long as a linkage, or, with parts that read them, as one with
+  // its homing and second encoders.
   kRuleLinkageSize = 712,
   // There is no such kind of linkage, or not with so many joints.
   kRuleKind = 713,
@@ -42,6 +43,10 @@ enum Rule : uint16_t {
   // Homing is neither by stops nor by a known pose, or a torque, the speed, the margin or a pose is
   // out of range, or a word that is not used is not 0.
   kRuleHoming = 717,
+  // A second encoder's counts per radian are not 1 to 1e4, with either sign, or the tolerance is
+  // not
+  // from 3 of its counts and one of the first to 60, or it is of no joint, or there is none.
+  kRuleSecondEncoder = 718,
 };
 
 /// What a rule demands, with range and unit, for a message.
@@ -50,5 +55,7 @@ const char* rule_name(uint16_t rule);
 /// Shared by the checks of linkages. False for NaN.
 bool is_link_length(float length_m);
 bool is_offset(float offset_m);
+/// Every bit, so that one linkage has one layout.
+bool is_zero(float value);
 
 }  // namespace firmtouch::device

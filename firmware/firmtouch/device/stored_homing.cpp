@@ -9,13 +9,6 @@ namespace {
 using core::reject;
 using core::Verdict;
 
-// Every bit, so that one linkage has one layout.
-bool is_zero(float value) {
-  uint32_t word;
-  __builtin_memcpy(&word, &value, sizeof word);
-  return word == 0;
-}
-
 // Words that a way of homing, or a missing joint, does not use are 0.
 Verdict check_words(const HomingLayout& homing, const LinkageLayout& linkage) {
   const bool is_by_stops = homing.by == static_cast<uint32_t>(HomeBy::kStops);

@@ -19,6 +19,9 @@ constexpr uint32_t kFlagEncoderFault = 1u << 3;   // a count of this tick is inv
 constexpr uint32_t kFlagModelApart = 1u << 4;   // this tick does not compute the local model
 constexpr uint32_t kFlagModelTaken = 1u << 5;   // this tick starts to use the finished model
 constexpr uint32_t kFlagModelWanted = 1u << 6;  // the next model is made from this tick's position
+// From this bit on a byte each: the low bytes of the counts of the joints' second encoders. 0 where
+// the program does not compare them (controller/redundant_device.hpp).
+constexpr uint32_t kFlagSecondCountsShift = 8;
 
 // TickInput::command. A value out of range, or a parameter that may not change while the motors are
 // on, is rejected: the parameter keeps its value, and kStateCommandRefused is set.
@@ -100,6 +103,14 @@ struct TickOutput {
   float torque_Nm[kAxes];   // of contact on the handle of a tool of spheres, before every limit
 };
 static_assert(sizeof(TickOutput) == 116);
+
+/// The flags that carry these low bytes of second counts.
+constexpr uint32_t flags_of_second(const uint8_t (&counts)[kAxes]) {
+  uint32_t flags = 0;
+  for (uint32_t k = 0; k < kAxes; ++k)
+    flags |= uint32_t{counts[k]} << (kFlagSecondCountsShift + 8 * k);
+  return flags;
+}
 
 /// The state of a tick, where that of its device is known: while it is not homed, homing's bits are
 /// not mixed with the object of a model that was made before.

@@ -9,4 +9,9 @@ namespace firmtouch::hal {
 /// Context: servo interrupt.
 bool encoders_read(int32_t (&counts)[3]);
 
+/// Low bytes of the counts of the joints' second encoders, latched by the last encoders_read() at
+/// the same instant; of an invalid one that returned false. Only programs with part
+/// `second_encoders` call it. Context: servo interrupt.
+void encoders_second(uint8_t (&counts)[3]);
+
 }  // namespace firmtouch::hal

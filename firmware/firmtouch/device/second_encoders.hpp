@@ -1,0 +1,49 @@
+#pragma once
+#include <stdint.h>
+
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/device/stored_linkage.hpp"
+
+// Second encoders of a linkage's joints, compared with the first ones in each tick: an encoder that
+// stands, slips, is swapped or counts back makes them differ.
+namespace firmtouch::device {
+
+/// As an asset stores them, behind the linkage and its homing.
+class SecondEncoders {
+ public:
+  bool is_open() const { return layout_ != nullptr; }
+  /// Pre: is_open().
+  const SecondEncodersLayout& layout() const { return *layout_; }
+
+ private:
+  friend core::Verdict open(core::Bytes section, const StoredLinkage& linkage, SecondEncoders& to);
+  const SecondEncodersLayout* layout_ = nullptr;
+};
+
+/// What is before the second encoders in a section of type kLinkageSection.
+core::Bytes before_second_encoders(core::Bytes section);
+
+/// Proves the second encoders of a section of type kLinkageSection. `to` is open only where it has
+/// them and the verdict is passed. The bytes must outlive it. Pre: linkage.is_open(), of this
+/// section. Bounds: constant.
+core::Verdict open(core::Bytes section, const StoredLinkage& linkage, SecondEncoders& to);
+
+/// What both encoders of each joint counted where they are taken to agree.
+struct SecondState {
+  bool is_aligned = false;
+  int32_t first[kMaxJoints] = {};
+  uint8_t second[kMaxJoints] = {};
+};
+
+/// From this sample on the encoders are compared. `second`: low byte of each second count, that of
+/// joint 0 in bits 0 to 7.
+void align(SecondState& state, const Sample& sample, uint32_t second);
+
+/// Whether no joint's two encoders have turned by more than `within_rad` differently since align().
+/// Encoders that do are not found while they differ by a multiple of 256 second counts, within it.
+/// Pre: second.is_open(), state.is_aligned. Bounds: constant; re-entrant.
+/// Error: 3 counts of the second encoder and one of the first, which within_rad exceeds (R718).
+bool agree(const SecondState& state, const SecondEncoders& second, const StoredLinkage& linkage,
+           const Sample& sample, uint32_t second_counts);
+
+}  // namespace firmtouch::device

@@ -1,0 +1,161 @@
+// Second encoders: each word as it is stored is broken alone; what agrees and what does not,
+// against angles in double.
+#include "firmtouch/device/second_encoders.hpp"
+
+#include <cmath>
+
+#include "firmtouch/device/rules.hpp"
+#include "harness/float_bits.hpp"
+#include "harness/random.hpp"
+#include "harness/test.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+
+namespace {
+
+constexpr double kWithin_rad = 0.01;
+
+struct Stored {
+  device::LinkageLayout linkage;
+  device::SecondEncodersLayout second;
+};
+
+Stored bar(float first, float second) {
+  Stored to = {};
+  device::LinkageLayout& l = to.linkage;
+  l.kind = device::kFiveBar;
+  l.joints = 2;
+  for (uint32_t k = 0; k < 2; ++k) {
+    l.length_m[k] = .07f;
+    l.length_m[2 + k] = .09f;
+    l.joint[k] = {first, 0, .5f, 2};
+    l.max_torque_Nm[k] = .3f;
+    to.second.counts_per_rad[k] = second;
+  }
+  l.torque_rise_s = .002f;
+  l.max_speed_rad_per_s = 100;
+  l.full_from = .1f;
+  l.gone_at = .05f;
+  to.second.within_rad = static_cast<float>(kWithin_rad);
+  return to;
+}
+
+struct Opened {
+  Stored stored;
+  device::StoredLinkage linkage;
+  device::SecondEncoders second;
+  core::Verdict verdict;
+
+  explicit Opened(const Stored& from) : stored(from) {
+    const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&stored), sizeof stored);
+    CHECK_EQ(device::before_second_encoders(bytes).size(), uint32_t{sizeof stored.linkage});
+    CHECK_EQ(open(device::before_second_encoders(bytes), linkage).rule, 0u);
+    device::StoredLinkage none;
+    CHECK_EQ(open(bytes, none).rule, uint16_t{device::kRuleLinkageSize});
+    verdict = open(bytes, linkage, second);
+    CHECK(second.is_open() == verdict.ok());
+  }
+  Opened(const Opened&) = delete;
+};
+
+void check_broken(uint32_t element, float first, float second, float within_rad, float third = 0) {
+  Stored stored = bar(first, second);
+  stored.second.within_rad = within_rad;
+  stored.second.counts_per_rad[2] = third;
+  const Opened opened(stored);
+  CHECK_EQ(opened.verdict.rule, uint16_t{device::kRuleSecondEncoder});
+  CHECK_EQ(opened.verdict.element, element);
+}
+
+double wide(float a) { return static_cast<double>(a); }
+
+int32_t floor_of(double value) { return static_cast<int32_t>(std::floor(value)); }
+
+}  // namespace
+
+TEST(SecondEncoders_EachWordIsBrokenAlone) {
+  CHECK(Opened(bar(2200, 1000)).verdict.ok());
+  CHECK(Opened(bar(-2200, 1e3f)).verdict.ok());
+  const float nan = test::nan_value();
+  check_broken(0, 2200, 10001, .001f);
+  check_broken(0, 2200, -.9f, 9);
+  check_broken(0, 2200, nan, .01f);
+  check_broken(0, 2200, -0.0f, .01f);
+  check_broken(2, 2200, 1000, .01f, 1000);  // no such joint
+  check_broken(3, 2200, 1000, .0034f);      // less than a count of the first and 3 of the second
+  check_broken(3, 100, 1000, .0129f);
+  check_broken(3, 2200, 1000, .061f);
+  check_broken(3, 2200, 1000, nan);
+  check_broken(6, 2200, 0, .01f);
+}
+
+TEST(SecondEncoders_ASectionWithoutThem_IsPassedAndNotCompared) {
+  Stored stored = bar(2200, 1000);
+  const uint8_t* data = reinterpret_cast<const uint8_t*>(&stored);
+  device::StoredLinkage linkage;
+  device::SecondEncoders second;
+  const core::Bytes alone(data, sizeof stored.linkage);
+  CHECK_EQ(open(alone, linkage).rule, 0u);
+  CHECK_EQ(open(alone, linkage, second).rule, 0u);
+  CHECK(!second.is_open());
+}
+
+// What is off by less than the tolerance without 3 counts and one agrees, by more with them not.
+TEST(SecondEncoders_AgreeWithinTheToleranceOnly) {
+  const float kFirst[] = {2200, -2200, 1e6f, 300};
+  const float kSecond[] = {1000, -1000, 900, 5900};
+  test::Lcg random(7);
+  uint32_t agreeing = 0, differing = 0;
+  for (int setting = 0; setting < 4; ++setting) {
+    const double first = static_cast<double>(kFirst[setting]);
+    const double second = static_cast<double>(kSecond[setting]);
+    const double size = second < 0 ? -second : second, ratio = size / (first < 0 ? -first : first);
+    Stored stored = bar(kFirst[setting], kSecond[setting]);
+    const double within_rad = wide(stored.second.within_rad);
+    const Opened opened(stored);
+    CHECK(opened.verdict.ok());
+    for (int i = 0; i < 5000; ++i) {
+      const double from_rad[2] = {wide(random.between(-100, 100)), wide(random.between(-100, 100))};
+      const double turned_rad[2] = {wide(random.between(-2, 2)), wide(random.between(-2, 2))};
+      const double off_rad[2] = {wide(random.between(-3, 3)) * within_rad, 0};
+      const uint32_t wrap = random.bits();
+      device::Sample before{{}, true, .001f}, after{{}, true, .001f};
+      uint32_t second_before = 0, second_after = 0;
+      for (int k = 0; k < 2; ++k) {
+        const double end_rad = from_rad[k] + turned_rad[k];
+        before.counts[k] =
+            static_cast<int32_t>(wrap + static_cast<uint32_t>(floor_of(from_rad[k] * first)));
+        after.counts[k] = static_cast<int32_t>(
+            wrap + static_cast<uint32_t>(floor_of((end_rad + off_rad[k]) * first)));
+        second_before |= (static_cast<uint32_t>(floor_of(from_rad[k] * second)) & 255u) << 8 * k;
+        second_after |= (static_cast<uint32_t>(floor_of(end_rad * second)) & 255u) << 8 * k;
+      }
+      device::SecondState state;
+      align(state, before, second_before);
+      const bool do_agree =
+          agree(state, opened.second, opened.linkage, after, second_after | 0xFF0000u);
+      const double off = (off_rad[0] < 0 ? -off_rad[0] : off_rad[0]) * size;
+      const double most = within_rad * size;
+      const bool must_agree = off < most - 3 - ratio;
+      const bool must_differ = off > most + 3 + ratio && off < 256 - most - 3 - ratio;
+      agreeing += must_agree ? 1 : 0;
+      differing += must_differ ? 1 : 0;
+      CHECK(!(must_agree && !do_agree) && !(must_differ && do_agree));
+    }
+  }
+  CHECK_GE(agreeing, 2000u);
+  CHECK_GE(differing, 5000u);
+}
+
+TEST(SecondEncoders_EveryCountGivesAnAnswer) {
+  const Opened proven(bar(2200, 1000));
+  test::Lcg random(8);
+  for (int i = 0; i < 20000; ++i) {
+    device::Sample sample{{}, true, .001f};
+    for (int32_t& count : sample.counts) count = static_cast<int32_t>(random.bits());
+    device::SecondState state;
+    align(state, sample, random.bits());
+    sample.counts[0] = INT32_MIN;
+    (void)agree(state, proven.second, proven.linkage, sample, static_cast<uint32_t>(i));
+  }
+}
