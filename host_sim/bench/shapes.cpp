@@ -148,10 +148,9 @@ std::string asset_of(const Solid& solid, const Rotation& rotation,
   if (!tools::open_baked(sections, "solid", mesh).ok())
     throw Refused("a shape of the bench: " + report.problem);
   sections.push_back(tools::mesh_probes(mesh, "solid"));
-  if (linkage != nullptr) {
-    const device::LinkageLayout layout = tools::layout_of(*linkage);
-    sections.push_back(tools::make_section(device::kLinkageSection, "linkage", &layout, 1));
-  }
+  if (linkage != nullptr)
+    sections.push_back(
+        tools::make_section(device::kLinkageSection, "linkage", tools::stored_bytes_of(*linkage)));
   const std::vector<uint8_t> bytes = tools::write_asset(std::move(sections)).bytes;
   return {bytes.begin(), bytes.end()};
 }

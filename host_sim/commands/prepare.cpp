@@ -1,7 +1,5 @@
 #include "host_sim/commands/prepare.hpp"
 
-#include <cstring>
-
 #include "device/machines.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/trace/run.hpp"
@@ -41,14 +39,9 @@ void read_linkage(Scenario& scenario, const Session& session, const std::string&
   if (!stored.is_open())
     throw Refused(file + ": its asset stores no linkage; bake it with --device " +
                   scenario.device_file);
-  const device::LinkageLayout layout = tools::layout_of(*scenario.linkage);
-  const device::HomedLinkageLayout homed = tools::homed_layout_of(*scenario.linkage);
-  const device::StoredHoming& homing = session.controller->device().homing();
-  const bool is_same =
-      std::memcmp(&layout, &stored.layout(), sizeof layout) == 0 &&
-      homing.is_open() == scenario.linkage->is_homed &&
-      (!homing.is_open() || std::memcmp(&homed.homing, &homing.layout(), sizeof homed.homing) == 0);
-  if (!is_same)
+  const std::vector<uint8_t> wanted = tools::stored_bytes_of(*scenario.linkage);
+  const core::Bytes found = session.controller->device().stored_bytes();
+  if (wanted != std::vector<uint8_t>(found.data(), found.data() + found.size()))
     throw Refused(path + ": the asset stores another linkage; bake it again with --device");
 }
 

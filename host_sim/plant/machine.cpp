@@ -124,7 +124,7 @@ bool Machine::has_failed(FailureMode mode) const {
 
 uint32_t Machine::flags() const {
   return (has_failed(FailureMode::kEncoderLost) ? record::kFlagEncoderFault : 0) |
-         (has_failed(FailureMode::kMotorHot) ? record::kFlagDriveFault : 0);
+         (has_failed(FailureMode::kMotorHot) ? record::kFlagDriveFault : 0) | second_counts();
 }
 
 int32_t Machine::count(int axis) const {
@@ -142,6 +142,27 @@ int32_t Machine::count(int axis) const {
     if (mode == FailureMode::kEncoderSlipped) count += slip_counts(joint);
   }
   return static_cast<int32_t>(count);
+}
+
+// Second encoders sit on the joints, behind cables, and do not fail.
+uint32_t Machine::second_counts() const {
+  uint8_t low[record::kAxes] = {};
+  for (uint32_t k = 0; k < joint_count() && linkage_; ++k) {
+    const double counts = linkage_->body().motion().angle_rad[k] *
+                          static_cast<double>(device_->second_counts_per_rad[k]);
+    low[k] = static_cast<uint8_t>(static_cast<int64_t>(std::floor(counts)));
+  }
+  return record::flags_of_second(low);
+}
+
+double Machine::encoder_off_rad() const {
+  double most_rad = 0;
+  for (uint32_t k = 0; k < joint_count() && linkage_; ++k) {
+    const uint32_t off = static_cast<uint32_t>(count(static_cast<int>(k))) - true_count(k);
+    const double counts_per_rad = static_cast<double>(device_->joints.joint[k].counts_per_rad);
+    most_rad = std::max(most_rad, std::fabs(static_cast<int32_t>(off) / counts_per_rad));
+  }
+  return most_rad;
 }
 
 Vec Machine::after_failures(Vec motor) const {

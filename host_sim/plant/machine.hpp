@@ -20,7 +20,8 @@ class Machine {
 
   /// From now on what fails by this time of the scenario has failed.
   void fail_until(double time_s);
-  /// Flags of a tick's input: an encoder or a driver that reports its failure.
+  /// Flags of a tick's input: an encoder or a driver that reports its failure, and the counts of
+  /// second encoders.
   uint32_t flags() const;
   /// Whether the hand has no hold of the machine any more.
   bool is_torn_off() const { return has_failed(FailureMode::kLinkBroken); }
@@ -33,6 +34,8 @@ class Machine {
   Vec velocity_mps() const { return velocity_mps_; }
   /// Of a linkage that is homed: from 0 where it was switched on.
   int32_t count(int joint) const;
+  /// The largest angle by which a joint's encoder has miscounted. 0 of a Cartesian device.
+  double encoder_off_rad() const;
   JointMotion joints() const { return linkage_ ? linkage_->body().motion() : JointMotion{}; }
   /// Of a linkage: the tip where each joint has gone `share` of its way from `from` to the start.
   Vec on_way_to_start_m(const JointMotion& from, double share) const;
@@ -51,6 +54,7 @@ class Machine {
   uint32_t joint_count() const { return device_ != nullptr ? device_->joints.joints : 3; }
   uint32_t true_count(uint32_t joint) const;
   uint32_t slip_counts(uint32_t joint) const;
+  uint32_t second_counts() const;
   Vec after_failures(Vec motor) const;
 
   Vec zero_m_;

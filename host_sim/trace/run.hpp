@@ -20,12 +20,13 @@ struct EnergyBook;
 /// One tick of a run: its record, and what only the simulator has.
 struct RunTick {
   record::TickRecord record{};
-  Vec device_m;               // true position, before encoder quantization
-  Vec target_m;               // target of the hand
-  Vec hand_N;                 // force of the hand
-  Vec device_mps;             // true velocity
-  double hand_J = 0;          // work of the hand on the device so far
-  uint32_t instructions = 0;  // 0: the controller does not count them
+  Vec device_m;                // true position, before encoder quantization
+  Vec target_m;                // target of the hand
+  Vec hand_N;                  // force of the hand
+  Vec device_mps;              // true velocity
+  double hand_J = 0;           // work of the hand on the device so far
+  double encoder_off_rad = 0;  // the most by which an encoder has miscounted
+  uint32_t instructions = 0;   // 0: the controller does not count them
 };
 
 /// A run apart from its ticks.

@@ -193,17 +193,16 @@ BakedInput bake_device(const std::string& path) {
     const std::string text = tools::read_device_text(path);
     const std::vector<uint8_t> source(text.begin(), text.end());
     const tools::LinkageDevice device = tools::read_device(path, text);
-    const device::LinkageLayout layout = tools::layout_of(device);
-    const device::HomedLinkageLayout homed = tools::homed_layout_of(device);
     const std::string name = stem_of(path);
     baked.sections = {
-        device.is_homed ? tools::make_section(device::kLinkageSection, name, &homed, 1)
-                        : tools::make_section(device::kLinkageSection, name, &layout, 1),
+        tools::make_section(device::kLinkageSection, name, tools::stored_bytes_of(device)),
         tools::text_section(asset::kProvenanceSection, name,
                             tools::provenance(file_name_of(path), source, "", kToolVersion))};
-    baked.report = {"linkage of " + std::to_string(layout.joints) + " joints, " +
-                    (device.is_homed ? "homed by the program (part `homing`), " : "") +
-                    std::to_string(bytes_of(baked.sections)) + " bytes"};
+    baked.report = {
+        "linkage of " + std::to_string(device.joints.joints) + " joints, " +
+        (device.is_homed ? "homed by the program (part `homing`), " : "") +
+        (device.has_second_encoders ? "second encoders (part `second_encoders`), " : "") +
+        std::to_string(bytes_of(baked.sections)) + " bytes"};
   } catch (const tools::Refused& refused) {
     fail_input(refused.what());
   }

@@ -9,6 +9,7 @@
 
 #include "device/line_reader.hpp"
 #include "firmtouch/device/rules.hpp"
+#include "firmtouch/device/second_encoders.hpp"
 #include "firmtouch/device/stored_homing.hpp"
 
 namespace firmtouch::tools {
@@ -84,6 +85,15 @@ void add_keys(device::Delta& delta, Keys& to) {
   to.flag("tip", "above", "below", delta.is_tip_above);
 }
 
+void add_second_encoders(LinkageDevice& device, Keys& to) {
+  for (int k = 0; k < static_cast<int>(device.joints.joints); ++k)
+    to.keys.push_back({of("second", k), "counts/rad", -1e4, 1e4, false, [&device, k](double si) {
+                         device.second_counts_per_rad[k] = static_cast<float>(si);
+                         device.has_second_encoders = true;
+                       }});
+  to.number("second_within", "rad", 0, 100, device.second_within_rad, false);
+}
+
 void add_homing(LinkageDevice& device, Keys& to) {
   for (const char* by : {"stops", "pose"})
     to.words.push_back({"home", by, [&device, by] {
@@ -139,6 +149,7 @@ Keys keys_of(LinkageDevice& device) {
   to.number("torque_rise", "s", 1e-4, 1, device.torque_rise_s, false);
   to.number("carried_share", "", 0, 0.9, device.carried_share, false);
   add_homing(device, to);
+  add_second_encoders(device, to);
   to.flag("walls", "forced", "stable", device.are_walls_forced);
   add_masses(device, to);
   return to;
@@ -195,14 +206,17 @@ void fill_rods(LinkageDevice& device) {
   }
 }
 
+void refuse_broken(const std::string& name, core::Verdict verdict) {
+  if (!verdict.ok())
+    throw Refused(name + ": " + device::rule_name(verdict.rule) + " (element " +
+                  std::to_string(verdict.element) + ")");
+}
+
 void check_rules(const std::string& name, const LinkageDevice& device) {
-  const core::Verdict verdicts[] = {
-      std::visit([](const auto& linkage) { return device::check(linkage); }, device.linkage),
-      device::check(device.joints), device::check(device.limits), device::check(load_of(device))};
-  for (const core::Verdict verdict : verdicts)
-    if (!verdict.ok())
-      throw Refused(name + ": " + device::rule_name(verdict.rule) + " (element " +
-                    std::to_string(verdict.element) + ")");
+  refuse_broken(name, std::visit([](const auto& l) { return device::check(l); }, device.linkage));
+  refuse_broken(name, device::check(device.joints));
+  refuse_broken(name, device::check(device.limits));
+  refuse_broken(name, device::check(load_of(device)));
 }
 
 // What is not given of homing, and words that its way does not use.
@@ -225,14 +239,6 @@ void complete_homing(const std::string& name, LinkageDevice& device,
     if (given.count("home_torque_" + std::to_string(k)) == 0)
       device.homing.torque_Nm[k] = kTorqueShare * device.limits.max_torque_Nm[k];
   if (!is_by_stops) device.homing.speed_rad_per_s = 0;
-  const device::HomedLinkageLayout layout = homed_layout_of(device);
-  device::StoredLinkage linkage;
-  device::StoredHoming homing;
-  const core::Verdict verdict =
-      open({reinterpret_cast<const uint8_t*>(&layout), sizeof layout}, linkage, homing);
-  if (!verdict.ok())
-    throw Refused(name + ": " + device::rule_name(verdict.rule) + " (element " +
-                  std::to_string(verdict.element) + ")");
 }
 
 // A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
@@ -251,6 +257,14 @@ void check_cables(const std::string& name, const LinkageDevice& device) {
 }
 
 }  // namespace
+
+core::Verdict check_stored(core::Bytes section) {
+  device::StoredLinkage linkage;
+  device::StoredHoming homing;
+  device::SecondEncoders second;
+  const core::Verdict verdict = open(device::before_second_encoders(section), linkage, homing);
+  return verdict.ok() ? open(section, linkage, second) : verdict;
+}
 
 LinkageDevice read_device(const std::string& name, const std::string& text) {
   LinkageDevice device;
@@ -277,6 +291,13 @@ LinkageDevice read_device(const std::string& name, const std::string& text) {
   fill_rods(device);
   check_rules(name, device);
   complete_homing(name, device, given);
+  if (!device.has_second_encoders && given.count("second_within") != 0)
+    throw Refused(name + ":" + std::to_string(given["second_within"]) +
+                  ": `second_within` needs `second_0`, the counts of a joint's second encoder");
+  if (device.is_homed || device.has_second_encoders) {
+    const std::vector<uint8_t> stored = stored_bytes_of(device);
+    refuse_broken(name, check_stored({stored.data(), static_cast<uint32_t>(stored.size())}));
+  }
   check_cables(name, device);
   return device;
 }

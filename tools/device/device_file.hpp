@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "device/refused.hpp"
+#include "firmtouch/core/span.hpp"
 #include "firmtouch/device/delta.hpp"
 #include "firmtouch/device/five_bar.hpp"
 #include "firmtouch/device/homing.hpp"
@@ -52,6 +53,9 @@ struct LinkageDevice {
   bool are_walls_forced = false;  // motors come on beside walls that are not stable
   bool is_homed = false;          // its encoders count from where they are switched on
   device::HomingSettings homing;
+  bool has_second_encoders = false;                      // on joints, compared with the first
+  float second_counts_per_rad[device::kMaxJoints] = {};  // 0: the joint has none
+  float second_within_rad = 0;                           // by which they may differ from the first
 };
 
 /// Reads a device file: a statement a line, `KEY VALUE UNIT`; # begins a comment.
@@ -89,9 +93,11 @@ std::vector<Link> links_of(const LinkageDevice& device);
 /// Where the weight of the links acts.
 device::Load load_of(const LinkageDevice& device);
 
-/// The section that the firmware reads.
+/// The section that the firmware reads: the linkage, with its homing and second encoders if any.
+std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device);
+/// Its first part.
 device::LinkageLayout layout_of(const LinkageDevice& device);
-/// The same with its homing. Pre: device.is_homed.
-device::HomedLinkageLayout homed_layout_of(const LinkageDevice& device);
+/// Of a whole section: the rule that it breaks.
+core::Verdict check_stored(core::Bytes section);
 
 }  // namespace firmtouch::tools

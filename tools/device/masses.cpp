@@ -54,6 +54,12 @@ void put_linkage(const Delta& delta, device::LinkageLayout& to) {
   to.offset_m[2] = delta.side_m;
 }
 
+template <class T>
+void append(std::vector<uint8_t>& to, const T& layout) {
+  const uint8_t* const bytes = reinterpret_cast<const uint8_t*>(&layout);
+  to.insert(to.end(), bytes, bytes + sizeof layout);
+}
+
 }  // namespace
 
 std::vector<Link> links_of(const LinkageDevice& device) {
@@ -104,14 +110,25 @@ device::LinkageLayout layout_of(const LinkageDevice& device) {
   return to;
 }
 
-device::HomedLinkageLayout homed_layout_of(const LinkageDevice& device) {
-  device::HomedLinkageLayout to = {layout_of(device), {}};
-  to.homing.by = static_cast<uint32_t>(device.homing.by);
-  to.homing.speed_rad_per_s = device.homing.speed_rad_per_s;
-  to.homing.margin_rad = device.homing.margin_rad;
-  put(to.homing.torque_Nm, device.homing.torque_Nm, 0, device.joints.joints);
-  put(to.homing.pose_rad, device.homing.pose_rad, 0, device.joints.joints);
-  return to;
+std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device) {
+  std::vector<uint8_t> bytes;
+  append(bytes, layout_of(device));
+  if (device.is_homed) {
+    device::HomingLayout homing = {};
+    homing.by = static_cast<uint32_t>(device.homing.by);
+    homing.speed_rad_per_s = device.homing.speed_rad_per_s;
+    homing.margin_rad = device.homing.margin_rad;
+    put(homing.torque_Nm, device.homing.torque_Nm, 0, device.joints.joints);
+    put(homing.pose_rad, device.homing.pose_rad, 0, device.joints.joints);
+    append(bytes, homing);
+  }
+  if (device.has_second_encoders) {
+    device::SecondEncodersLayout second = {};
+    put(second.counts_per_rad, device.second_counts_per_rad, 0, device.joints.joints);
+    second.within_rad = device.second_within_rad;
+    append(bytes, second);
+  }
+  return bytes;
 }
 
 }  // namespace firmtouch::tools

@@ -3,12 +3,12 @@
 #include <utility>
 
 #include "bake/asset/probes.hpp"
+#include "device/device_file.hpp"
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/controller/asset_loading.hpp"
 #include "firmtouch/controller/mesh_objects.hpp"
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/loader.hpp"
-#include "firmtouch/device/stored_homing.hpp"
 #include "firmtouch/field/loader.hpp"
 #include "firmtouch/hull/loader.hpp"
 #include "firmtouch/hull/probes.hpp"
@@ -70,10 +70,7 @@ std::string prove_curve(const asset::Container& container, const std::string& na
 }
 
 std::string prove_linkage(const asset::Container& container, const std::string& name) {
-  device::StoredLinkage linkage;
-  device::StoredHoming homing;
-  const core::Verdict verdict =
-      device::open(container.find(device::kLinkageSection, name.c_str()), linkage, homing);
+  const core::Verdict verdict = check_stored(container.find(device::kLinkageSection, name.c_str()));
   return verdict.ok() ? "" : broken("linkage", name, verdict);
 }
 

@@ -1,7 +1,7 @@
 #include "bake/asset/part_names.hpp"
 
 #include "firmtouch/controller/needed_parts.hpp"
-#include "firmtouch/device/layout.hpp"
+#include "firmtouch/device/second_encoders.hpp"
 
 namespace firmtouch::tools {
 
@@ -10,10 +10,12 @@ std::vector<std::string> needed_part_names(const asset::Container& asset) {
   std::vector<std::string> names;
   for (uint32_t number = 0; number < kPartCount; ++number)
     if ((parts >> number & 1u) != 0) names.emplace_back(part_name(number));
-  for (uint32_t i = 0; i < asset.section_count(); ++i)
-    if (asset.type(i) == device::kLinkageSection &&
-        asset.section(i).size() == sizeof(device::HomedLinkageLayout))
-      names.emplace_back("homing");
+  for (uint32_t i = 0; i < asset.section_count(); ++i) {
+    if (asset.type(i) != device::kLinkageSection) continue;
+    const core::Bytes first = device::before_second_encoders(asset.section(i));
+    if (first.size() == sizeof(device::HomedLinkageLayout)) names.emplace_back("homing");
+    if (first.size() < asset.section(i).size()) names.emplace_back("second_encoders");
+  }
   return names;
 }
 
