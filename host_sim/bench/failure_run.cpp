@@ -1,6 +1,7 @@
 #include "host_sim/bench/failure_run.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstring>
 
@@ -16,6 +17,26 @@ double wide(float a) { return static_cast<double>(a); }
 
 }  // namespace
 
+FailureWatch::FailureWatch(const tools::LinkageDevice& device, uint32_t from_tick)
+    : device_(device), from_tick_(from_tick) {
+  if (!device.has_second_encoders) return;
+  constexpr double kCounts = 3;  // by which encoders and comparison are uncertain
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const double first = std::fabs(wide(device.joints.joint[k].counts_per_rad));
+    const double second = std::fabs(wide(device.second_counts_per_rad[k]));
+    tolerated_rad_ =
+        std::max(tolerated_rad_, wide(device.second_within_rad) + kCounts / second + 1 / first);
+  }
+}
+
+void FailureWatch::add_miscount(double off_rad, bool may_go_on) {
+  if (!(tolerated_rad_ > 0)) return;
+  off_history_ = off_history_ << 1 | (off_rad > tolerated_rad_ ? 1u : 0u);
+  const bool is_due = (off_history_ & 7u) == 7u || std::bitset<32>(off_history_).count() >= 6;
+  run_.was_due |= is_due;
+  if (is_due && !may_go_on) ++run_.overdue;
+}
+
 bool FailureWatch::add(const RunTick& tick) {
   const record::TickOutput& out = tick.record.output;
   const uint32_t now = tick.record.input.tick;
@@ -25,8 +46,10 @@ bool FailureWatch::add(const RunTick& tick) {
     return false;
   }
   // Faults are latched while the motors are to be on.
-  if ((tick.record.input.flags & record::kFlagEnable) == 0) from_tick_ = now + 1;
+  const bool enables = (tick.record.input.flags & record::kFlagEnable) != 0;
+  if (!enables) from_tick_ = now + 1;
   add_words(tick.record);
+  add_miscount(tick.encoder_off_rad, !enables || (run_.faults | out.faults) != 0);
   run_.tip_mps = std::max(run_.tip_mps, norm(tick.device_mps));
   run_.given_J = std::max(run_.given_J, begin_J_ - tick.hand_J);
   run_.faults |= out.faults;

@@ -24,6 +24,8 @@ struct FailureRun {
   int to_fault = kNever;  // ticks from the failure, with the motors on, to a latched fault
   int to_rest = 0;        // from there to the last torque
   uint32_t faults = 0;
+  bool was_due = false;     // second encoders must have seen an encoder that miscounts
+  uint32_t overdue = 0;     // ticks in which they must have, without a fault
   uint32_t not_finite = 0;  // words of outputs
   double torque_share = 0;  // the largest torque, over the joint's largest
   double rise_share = 0;    // the same over what the tick before leaves it to rise to
@@ -32,21 +34,25 @@ struct FailureRun {
 };
 
 /// Watches the ticks of a linkage at 1 kHz that fails at `from_tick`; torques from the first on.
+/// Second encoders must see an encoder that is off, in the simulation, by more than they
+/// tolerate, three ticks in a row or six of 32.
 class FailureWatch {
  public:
-  FailureWatch(const tools::LinkageDevice& device, uint32_t from_tick)
-      : device_(device), from_tick_(from_tick) {}
+  FailureWatch(const tools::LinkageDevice& device, uint32_t from_tick);
   /// Result: whether a fault was latched and the motors rest, so that no more is to be seen.
   bool add(const RunTick& tick);
   const FailureRun& result() const { return run_; }
 
  private:
   void add_torques(const record::TickOutput& out);
+  void add_miscount(double off_rad, bool may_go_on);
   void add_words(const record::TickRecord& record);
 
   const tools::LinkageDevice& device_;
   uint32_t from_tick_;
   FailureRun run_;
+  double tolerated_rad_ = 0;  // 0: there are no second encoders
+  uint32_t off_history_ = 0;  // bit k: k ticks ago an encoder was off by more
   double before_Nm_[3] = {}, begin_J_ = 0;
   bool is_pushing_ = false;
 };

@@ -21,14 +21,15 @@ constexpr double kMaxRise = 1 + 1e-5;  // float rounding
 
 // Of all runs of a failure.
 struct Tally {
-  uint32_t runs = 0, seen = 0;
+  uint32_t runs = 0, seen = 0, due = 0;
   uint32_t by[servo::kFaultCount] = {};
-  FailureRun worst;  // the worst of each figure; not_finite: the sum
+  FailureRun worst;  // the worst of each figure; not_finite, overdue: the sum
 
   void add(const FailureRun& run) {
     Tally one;
     one.runs = 1;
     one.seen = run.to_fault == FailureRun::kNever ? 0 : 1;
+    one.due = run.was_due ? 1 : 0;
     for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit) one.by[bit] = run.faults >> bit & 1u;
     one.worst = run;
     add(one);
@@ -36,9 +37,11 @@ struct Tally {
   void add(const Tally& other) {
     runs += other.runs;
     seen += other.seen;
+    due += other.due;
     for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit) by[bit] += other.by[bit];
     const FailureRun& run = other.worst;
     worst.not_finite += run.not_finite;
+    worst.overdue += run.overdue;
     worst.to_fault = std::max(worst.to_fault, run.to_fault);
     worst.to_rest = std::max(worst.to_rest, run.to_rest);
     worst.torque_share = std::max(worst.torque_share, run.torque_share);
@@ -107,6 +110,15 @@ void put(const std::string& machine, const Tallies& tallies, bench::Report& repo
   report.bar("motor_hot: ticks to rest", machine, hot.worst.to_fault + hot.worst.to_rest, "",
              kMaxTicksOfHot);
   report.bar("these two: not seen", machine, unseen(lost) + unseen(hot), "", 0);
+  if (all.due == 0) return;
+  double given_J = 0;
+  for (const FailureMode mode : {FailureMode::kEncoderStuck, FailureMode::kEncodersSwapped,
+                                 FailureMode::kEncoderReversed, FailureMode::kEncoderSlipped})
+    given_J = std::max(given_J, tallies[static_cast<uint32_t>(mode)].worst.given_J);
+  report.figure("the most work that these encoders do on the hand", machine, 1e3 * given_J, "mJ");
+  report.figure("encoders off by more than their second ones tolerate", machine, all.due, "runs");
+  report.bar("ticks of these beyond what SAFETY.md states, without a fault", machine,
+             all.worst.overdue, "", 0);
 }
 
 }  // namespace

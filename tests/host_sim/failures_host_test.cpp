@@ -149,3 +149,24 @@ TEST(FailureWatch_NoticesWhatGoesOn) {
   CHECK_EQ(watched({nan}).not_finite, 1u);
   CHECK_EQ(watched({tick_of(2, 0, 0)}).to_fault, FailureRun::kNever);
 }
+
+TEST(FailureWatch_NoticesAMiscountThatSecondEncodersMissed) {
+  tools::LinkageDevice device = pantograph();
+  device.has_second_encoders = true;
+  device.second_within_rad = 0.01f;
+  for (float& counts : device.second_counts_per_rad) counts = 1000;
+  const auto overdue = [&](double off_rad, uint32_t ticks_off, uint32_t fault_from) {
+    FailureWatch watch(device, 0);
+    for (uint32_t i = 0; i < 10; ++i) {
+      RunTick tick = tick_of(i, 0, i >= fault_from ? 1 : 0);
+      tick.encoder_off_rad = i < ticks_off ? off_rad : 0;
+      watch.add(tick);
+    }
+    return watch.result().overdue;
+  };
+  CHECK_EQ(overdue(0.014, 3, 2), 0u);  // a fault in the third tick
+  CHECK_EQ(overdue(0.014, 3, 3), 1u);
+  CHECK_EQ(overdue(0.014, 2, 99), 0u);
+  CHECK_GE(overdue(0.014, 7, 99), 5u);
+  CHECK_EQ(overdue(0.0129, 10, 99), 0u);  // what is not known for certain
+}
