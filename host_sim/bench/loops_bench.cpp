@@ -102,7 +102,7 @@ struct ThreeMaterials {
   scene::MaterialTouch state;
   servo::LocalModel model;
 
-  ThreeMaterials() {
+  explicit ThreeMaterials(std::vector<scene::TextureLayout> textures = {}) {
     tools::Surface surface = surface_of(floor_and_wall(), {});
     for (const tools::Face& face : surface.faces) {
       double x_m = 0;
@@ -110,6 +110,7 @@ struct ThreeMaterials {
       surface.material.push_back(x_m > 0.039 ? 2 : x_m > 0 ? 1 : 0);
     }
     tools::MeshOptions options;
+    options.textures = std::move(textures);
     for (const float stiffness : {500.0f, 2000.0f}) {
       scene::MaterialLayout material = {};
       material.name[0] = static_cast<char>('a' + options.materials.size());
@@ -132,25 +133,38 @@ struct ThreeMaterials {
     (void)move(hand_m);
   }
   Moved move(Vec to_m) {
-    const scene::ForceLaw law = state.law;
-    const double before_J = stored_J(law);
+    const scene::MaterialTouch before = state;
+    const double before_J = stored_J(before);
     model = {};
     scene::MeshTouchedWith<false, false, scene::MaterialMeshObject> shape{object, hint};
-    scene::touch_materials(contact_at(to_m, touch.proxy.position_m), materials, shape, touch, state,
+    at_m = tools::to_vec3(to_m);
+    scene::touch_materials(contact_at(to_m, touch.proxy.position_m), object, shape, touch, state,
                            model);
-    stretch_m = tools::length(tools::to_point(touch.proxy.position_m) -
-                              tools::to_point(tools::to_vec3(to_m)));
+    stretch_m = tools::length(tools::to_point(touch.proxy.position_m) - tools::to_point(at_m));
     if (!state.is_held) stretch_m = 0;
-    return {before_J - stored_J(law), stored_J(state.law)};
+    return {before_J - stored_J(before), stored_J(state)};
   }
 
  private:
-  double stored_J(const scene::ForceLaw& law) const {
-    const double over_m = stretch_m - static_cast<double>(law.slack_m);
-    return over_m > 0 ? 0.5 * static_cast<double>(law.stiffness_N_per_m) * over_m * over_m : 0;
+  double stored_J(const scene::MaterialTouch& by) const {
+    const core::Span<const scene::TextureLayout> textures = materials.textures();
+    double cut_m = 0;
+    if (by.textured != 0 && by.textured <= textures.size())
+      cut_m = static_cast<double>(scene::cut_at(textures[by.textured - 1u], at_m).depth_m *
+                                  by.texture_share);
+    const double over_m = stretch_m - std::max(0.0, cut_m + static_cast<double>(by.law.slack_m));
+    return over_m > 0 ? 0.5 * static_cast<double>(by.law.stiffness_N_per_m) * over_m * over_m : 0;
   }
 
   double stretch_m = 0;
+  math::Vec3 at_m;
+};
+
+// The same, of a grid and of grooves.
+struct ThreeTextures : ThreeMaterials {
+  ThreeTextures()
+      : ThreeMaterials(
+            {{{{{1000, 0, 0}, 5e-5f}, {{0, 1000, 0}, 5e-5f}}}, {{{{0, 300, 400}, 3e-4f}, {}}}}) {}
 };
 
 struct Loop {
@@ -222,6 +236,7 @@ void add_rows(const std::string& what, bool is_long, bench::Report& report) {
 void add_material_rows(bool is_long, bench::Report& report) {
   add_rows<ThreePlates>("stiffnesses", is_long, report);
   add_rows<ThreeMaterials>("materials of one mesh", is_long, report);
+  add_rows<ThreeTextures>("materials with textures", is_long, report);
 }
 
 }  // namespace firmtouch::host_sim

@@ -42,10 +42,13 @@ struct MaterialsRig {
   scene::ProxyTouch touch;
   scene::MaterialTouch state;
   servo::LocalModel model;
+  Vec3 before_m;         // where the spring of the model before this one pulled to
+  bool is_late = false;  // servo still had that one, as it may at two rates
 
   // `number_at`: of the material where a face has its middle.
   MaterialsRig(tools::Surface surface, std::vector<scene::MaterialLayout> table,
-               const std::function<uint8_t(Vec3)>& number_at) {
+               const std::function<uint8_t(Vec3)>& number_at,
+               std::vector<scene::TextureLayout> textures = {}) {
     for (const tools::Face& face : surface.faces)
       surface.material.push_back(number_at(
           (surface.vertices[face[0]] + surface.vertices[face[1]] + surface.vertices[face[2]]) *
@@ -53,6 +56,7 @@ struct MaterialsRig {
     tools::MeshReport report;
     tools::MeshOptions options;
     options.materials = std::move(table);
+    options.textures = std::move(textures);
     sections = tools::bake_mesh(surface, "shape", options, report);
     CHECK(report.problem.empty());
     CHECK(tools::open_baked(sections, "shape", view).ok());
@@ -70,11 +74,12 @@ struct MaterialsRig {
   // Force on the hand.
   Vec3 tick(Vec3 hand_m) {
     contact.position_m = hand_m;
-    contact.proxy_m = touch.proxy.position_m;
+    contact.proxy_m = is_late ? before_m : model.spring.anchor_m;
+    before_m = model.spring.anchor_m;
     contact.has_proxy = true;
     model = {};
     scene::MeshTouchedWith<false, false, scene::MaterialMeshObject> shape{object, hint};
-    scene::touch_materials(contact, materials, shape, touch, state, model);
+    scene::touch_materials(contact, object, shape, touch, state, model);
     const servo::ProxySpring& spring = model.spring;
     if (!spring.is_held) return {};
     return (spring.anchor_m - hand_m) * spring.stiffness_N_per_m;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/texture.hpp"
 #include "harness/test.hpp"
 #include "scene/proxy_rig.hpp"
 
@@ -16,6 +18,7 @@ namespace {
 struct Stored {
   scene_test::ProxyRig rig{scene_test::plate(0.01f)};
   std::vector<MaterialLayout> table;
+  std::vector<scene::TextureLayout> textures;
   std::vector<uint8_t> triangles;
 
   explicit Stored(uint32_t count = 2) {
@@ -26,6 +29,7 @@ struct Stored {
       material.friction_static = 0.5f, material.friction_dynamic = 0.25f;
       material.friction_viscous_N_s_per_m = 2;
       table.push_back(material);
+      textures.push_back({{{{100, -200, 300}, 2e-4f}, {{1000, 0, 0}, 1e-4f}}});
     }
     for (uint32_t t = 0; t < rig.view.head().triangle_count; ++t)
       triangles.push_back(static_cast<uint8_t>(t % 3));
@@ -35,7 +39,9 @@ struct Stored {
     if (!table.empty()) std::memcpy(bytes.data(), table.data(), table.size() * sizeof table[0]);
     held = std::move(bytes);
     return scene::open({{held.data(), static_cast<uint32_t>(held.size())},
-                        {triangles.data(), static_cast<uint32_t>(triangles.size())}},
+                        {triangles.data(), static_cast<uint32_t>(triangles.size())},
+                        {reinterpret_cast<const uint8_t*>(textures.data()),
+                         static_cast<uint32_t>(textures.size() * sizeof textures[0])}},
                        rig.view, to);
   }
   core::Verdict verdict(uint32_t spare_bytes = 0) const {
@@ -86,6 +92,29 @@ TEST(StoredMaterials_EachRuleIsBrokenAlone) {
   check_rule(scene::kRuleMaterialIndex, 0, [](Stored& s) { s.triangles[0] = 255; });
 }
 
+TEST(StoredMaterials_EachRuleOfTexturesIsBrokenAlone) {
+  check_rule(scene::kRuleTextureCount, 0, [](Stored& s) { s.textures.pop_back(); });
+  check_rule(scene::kRuleTextureCount, 0, [](Stored& s) { s.textures.push_back({}); });
+  const auto check_wave = [](uint16_t rule, scene::WaveLayout wave) {
+    for (const size_t which : {size_t{0}, size_t{1}}) {
+      Stored stored;
+      stored.textures[1].wave[which] = wave;
+      CHECK_EQ(stored.verdict().rule, rule);
+      CHECK_EQ(stored.verdict().element, rule == 0 ? 0u : 1u);
+    }
+  };
+  check_wave(0, {{0, 0, 1000}, 1e-4f});
+  for (const float height_m : {-1e-6f, 0.0021f, NAN, INFINITY})
+    check_wave(scene::kRuleTextureValue, {{0, 0, 1}, height_m});
+  for (const float per_m : {1.1e5f, -1.1e5f, NAN, INFINITY, -INFINITY})
+    check_wave(scene::kRuleTextureValue, {{0, per_m, 0}, 0});
+  check_wave(scene::kRuleTextureValue, {{0, 2400, 0}, 1e-4f});  // pi 0.24 alone is steep enough
+  check_wave(scene::kRuleTextureValue, {{0, 1e5f, 0}, 0.002f});
+  Stored smooth;
+  smooth.textures.clear();
+  CHECK_EQ(smooth.verdict().rule, 0u);
+}
+
 TEST(StoredMaterials_ReadsWhatIsStored) {
   const Stored stored;
   scene::StoredMaterials materials;
@@ -116,4 +145,25 @@ TEST(StoredMaterials_AnyByteDamaged_IsRefusedOrInRange) {
       bytes[i] ^= flip;
     }
   CHECK_GE(refused, 100u);
+}
+
+// The same of textures: what passes is no deeper and no steeper than they may be.
+TEST(StoredMaterials_AnyByteOfATextureDamaged_IsRefusedOrBounded) {
+  Stored stored;
+  auto* bytes = reinterpret_cast<uint8_t*>(stored.textures.data());
+  uint32_t refused = 0;
+  for (uint32_t i = 0; i < 2 * sizeof(scene::TextureLayout); ++i)
+    for (uint32_t flip = 1; flip < 256; ++flip) {
+      bytes[i] ^= static_cast<uint8_t>(flip);
+      const bool passes = stored.verdict().ok();
+      if (!passes) ++refused;
+      for (int k = 0; passes && k < 20; ++k) {
+        const float at_m = 1.7e-4f * static_cast<float>(k);
+        const scene::Cut cut = scene::cut_at(stored.textures[i / 32], {at_m, -at_m, 0.1f});
+        CHECK(cut.depth_m >= 0 && cut.depth_m <= scene::kMaxTextureHeight_m * 1.0001f);
+        CHECK_LE(math::length(cut.slope), scene::kMaxTextureSlope * 1.0001f);
+      }
+      bytes[i] ^= static_cast<uint8_t>(flip);
+    }
+  CHECK_GE(refused, 1000u);
 }

@@ -11,7 +11,8 @@ using MaterialsLoader =
 
 /// A surface policy: a mesh whose triangles have materials, if the asset has them. Stiffness is in
 /// series with contact_stiffness, friction the larger of the material's and the parameters'. For a
-/// mesh without materials the same bits as MeshWith<Others...>.
+/// mesh without materials the same bits as MeshWith<Others...>. With textures the record's proxy_m
+/// is the place that the spring pulls to, about the height below the proxy; so is its certificate.
 template <class... Others>
 class MaterialMeshWith : public MeshWith<Others..., MaterialsLoader> {
   using Mesh = MeshWith<Others..., MaterialsLoader>;

@@ -71,6 +71,40 @@ void follow(const Response& wanted, float load_N, float step_N, Response& respon
       wanted.friction_viscous_N_s_per_m, response.friction_viscous_N_s_per_m * (1.0f - share));
 }
 
+// What the texture in use takes off.
+Cut cut_of(const StoredMaterials& materials, const MaterialTouch& state, math::Vec3 x_m) {
+  if (state.textured == 0 || state.textured > materials.textures().size()) return {};
+  const Cut whole = cut_at(materials.textures()[state.textured - 1u], x_m);
+  return {whole.depth_m * state.texture_share, whole.slope * state.texture_share};
+}
+
+// Where the material has changed, its texture takes over from the one before. A slack keeps the
+// energy, and so the force; its direction turns by the slope, at most 0.75, times `share`.
+void change_texture(const StoredMaterials& materials, math::Vec3 x_m, float share,
+                    MaterialTouch& state, Cut& cut) {
+  const bool is_own = state.textured == state.material;
+  if (is_own && state.texture_share >= 1.0f) return;
+  const float before_m = cut.depth_m;
+  state.texture_share += is_own ? share : -share;
+  if (state.texture_share > 1.0f) state.texture_share = 1.0f;
+  if (!(state.texture_share > 0.0f)) state.texture_share = 0.0f, state.textured = state.material;
+  cut = cut_of(materials, state, x_m);
+  state.law.slack_m += before_m - cut.depth_m;
+}
+
+// A spring that is stretched by `stretch_m` / |push|, of this force times `push`: without slack its
+// energy is the law's. In a trough there is none.
+void pull_along(math::Vec3 push, float force_N, float stretch_m, math::Vec3 position_m,
+                servo::ProxySpring& spring) {
+  if (!(force_N > 0.0f)) {
+    spring.stiffness_N_per_m = spring.damping_N_s_per_m = 0;
+    return;
+  }
+  const float square = math::dot(push, push);
+  spring.stiffness_N_per_m = force_N / stretch_m * square;
+  spring.anchor_m = position_m + push * (stretch_m / square);
+}
+
 }  // namespace
 
 float ForceLaw::at_N(float penetration_m) const {
@@ -82,12 +116,12 @@ float ForceLaw::at_N(float penetration_m) const {
 // what is left. A force that is too small may rise where enough is left.
 void ForceLaw::approach(float stiffness, float penetration_m, float step_N) {
   const bool is_same = !(stiffness > stiffness_N_per_m) && !(stiffness < stiffness_N_per_m);
-  if (is_same && !(slack_m > 0.0f && left_J > 0.0f)) return;
+  if (is_same && !(slack_m < 0.0f) && !(slack_m > 0.0f && left_J > 0.0f)) return;
   const float most_N_per_m = larger(stiffness, stiffness_N_per_m);
   const float is_N = at_N(penetration_m), own_N = stiffness * penetration_m;
   const float stored_J = 0.5f * is_N * larger(penetration_m - slack_m, 0.0f);
   const float has_J = (stored_J + left_J) * kLess;
-  float to_N = larger(own_N, is_N - step_N);
+  float to_N = larger(larger(own_N, is_N - step_N), 0.0f);
   if (own_N > is_N) {
     const float paid_N = math::square_root(2.0f * stiffness * has_J);
     to_N = larger(smaller(paid_N, smaller(own_N, is_N + step_N)), is_N);
@@ -95,6 +129,7 @@ void ForceLaw::approach(float stiffness, float penetration_m, float step_N) {
   float stretch_m = penetration_m;
   if (stiffness * stretch_m > to_N) stretch_m = to_N / stiffness;
   if (to_N * stretch_m > 2.0f * has_J) stretch_m = 2.0f * has_J / to_N;
+  if (slack_m < 0.0f && to_N > most_N_per_m * stretch_m) stretch_m = to_N / most_N_per_m;
   slack_m = penetration_m - stretch_m;
   stiffness_N_per_m = stretch_m > 0.0f ? smaller(to_N / stretch_m, most_N_per_m) : stiffness;
   left_J = larger(has_J - 0.5f * to_N * stretch_m, 0.0f);
@@ -107,41 +142,70 @@ void begin_materials(ProxyContact& contact, ProxyTouch& touch, const MaterialTou
   settings.friction_dynamic = larger(settings.friction_dynamic, response.friction_dynamic);
   contact.friction_viscous_N_s_per_m =
       larger(contact.friction_viscous_N_s_per_m, response.friction_viscous_N_s_per_m);
+  // A spring to another place than the proxy has held it; its model may be the one before.
+  const Proxy& proxy = touch.proxy;
+  const float reach_m = state.is_held ? 0.0f : proxy.free_m - proxy.radius_m;
+  if (state.has_textures && !(math::length(contact.proxy_m - proxy.position_m) <= reach_m))
+    contact.proxy_m = proxy.position_m;
   if (!state.is_held) return;
   contact.material.stiffness_N_per_m = state.law.stiffness_N_per_m;
   touch.material = contact.material;
 }
 
-void end_materials(const ProxyContact& contact, const StoredMaterials& materials, ProxyTouch& touch,
+void end_materials(const ProxyContact& contact, const MaterialMeshObject& object, ProxyTouch& touch,
                    MaterialTouch& state, servo::LocalModel& model) {
   const Proxy& proxy = touch.proxy;
+  const StoredMaterials& materials = *object.materials;
   const float tool_N_per_m = contact.material.stiffness_N_per_m;
-  const bool was_held = state.is_held;
+  const bool was_held = state.is_held, has_textures = !materials.textures().empty();
   state.is_held = model.spring.is_used && proxy.is_loaded && touch.penetration_m > 0.0f;
   if (!state.is_held) {
     state = {};
+    state.has_textures = has_textures;
     state.material = nearest_material(proxy);
     add(materials, state.material, 1.0f, state.response);
     return;
   }
-  const float penetration_m = touch.penetration_m;
-  const float is_N = state.law.at_N(penetration_m);
+  state.has_textures = has_textures;
+  const math::Vec3 pull_m = proxy.position_m - contact.position_m;
+  math::Vec3 x_m;
+  Cut cut;
+  ForceLaw& law = state.law;
+  if (has_textures) {
+    x_m = math::apply_inverse(object.pose, contact.position_m);
+    cut = cut_of(materials, state, x_m);
+    // Nothing is rendered above the triangles.
+    if (law.slack_m < -cut.depth_m) law.slack_m = -cut.depth_m;
+  }
+  const float is_N = law.at_N(touch.penetration_m - cut.depth_m);
   const float step_N = kMaxChange_N_per_s * contact.passed_s;
   Response wanted = state.response;
-  if (mean_of_active(proxy, proxy.position_m - contact.position_m, materials, wanted,
-                     state.material)) {
+  if (mean_of_active(proxy, pull_m, materials, wanted, state.material)) {
     state.response.compliance_m_per_N = wanted.compliance_m_per_N;
     follow(wanted, was_held ? is_N : 0.0f, step_N, state.response);
   }
   // Two springs in series give way to the same force.
   const float stiffness_N_per_m =
       tool_N_per_m / (1.0f + tool_N_per_m * state.response.compliance_m_per_N);
-  if (!was_held)
-    state.law = {stiffness_N_per_m, 0.0f, 0.0f};
-  else
-    state.law.approach(stiffness_N_per_m, penetration_m, step_N);
-  touch.material.stiffness_N_per_m = state.law.stiffness_N_per_m;
-  model.spring.stiffness_N_per_m = state.law.at_N(penetration_m) / penetration_m;
+  if (was_held) {
+    if (has_textures)
+      change_texture(materials, x_m, step_N < is_N ? step_N / is_N : 1.0f, state, cut);
+    law.approach(stiffness_N_per_m, touch.penetration_m - cut.depth_m, step_N);
+  } else {
+    law = {stiffness_N_per_m, 0.0f, 0.0f};
+    state.textured = state.material, state.texture_share = 1.0f;
+    cut = cut_of(materials, state, x_m);
+  }
+  touch.material.stiffness_N_per_m = law.stiffness_N_per_m;
+  servo::ProxySpring& spring = model.spring;
+  const float stretch_m = touch.penetration_m - cut.depth_m, force_N = law.at_N(stretch_m);
+  spring.stiffness_N_per_m = force_N / touch.penetration_m;
+  if (has_textures) {
+    const math::Vec3 push =
+        pull_m * (1.0f / touch.penetration_m) + object.pose.rotation * cut.slope;
+    pull_along(push, force_N, larger(stretch_m, stretch_m - law.slack_m), contact.position_m,
+               spring);
+  }
 }
 
 }  // namespace firmtouch::scene

@@ -7,9 +7,10 @@
 // Byte layout of the materials of a mesh's triangles (tools/FORMAT.md, section 3f). Little-endian.
 namespace firmtouch::scene {
 
-// Both share the name of their mesh.
+// All share the name of their mesh.
 constexpr uint32_t kMaterialsSection = 0x1011;          // MaterialLayout[1 to kMaxMaterials]
 constexpr uint32_t kTriangleMaterialsSection = 0x1012;  // uint8_t[triangle_count], in leaf order
+constexpr uint32_t kTexturesSection = 0x1013;           // TextureLayout[materials], or none
 
 constexpr uint32_t kMaxMaterials = 255;  // a triangle names one in a byte
 
@@ -21,6 +22,23 @@ struct MaterialLayout {
   float friction_viscous_N_s_per_m;
 };
 static_assert(sizeof(MaterialLayout) == 48);
+
+/// A wave of a surface's height: height_m (1 - cos(2 pi per_m . x)) / 2 below the triangle, with x
+/// the tool in the mesh's frame. All zero: none.
+struct WaveLayout {
+  float per_m[3];  // waves a metre, along each axis
+  float height_m;  // from crest to trough
+};
+/// One wave makes grooves, two across each other a grid. They add up.
+struct TextureLayout {
+  WaveLayout wave[2];
+};
+static_assert(sizeof(TextureLayout) == 32);
+
+// Of the sum of both waves. With a slope below 1 the force grows with the penetration everywhere.
+constexpr float kMaxTextureHeight_m = 0.002f;
+constexpr float kMaxTextureSlope = 0.75f;
+constexpr float kMaxWaves_per_m = 1e5f;  // in each axis
 
 constexpr float kMinMaterialStiffness_N_per_m = 1e-3f;
 constexpr float kMaxMaterialFriction = 100;
@@ -40,6 +58,10 @@ enum MaterialRule : uint16_t {
   kRuleMaterialBytes = 825,
   // A triangle names a material behind the end of the table.
   kRuleMaterialIndex = 826,
+  // There are textures, but not one a material.
+  kRuleTextureCount = 827,
+  // The waves of a texture are higher than 2 mm, steeper than 0.75, or more than 100,000 a metre.
+  kRuleTextureValue = 828,
 };
 
 }  // namespace firmtouch::scene

@@ -9,12 +9,13 @@ namespace firmtouch::scene {
 
 /// The bytes of the sections that say how a mesh's triangles feel.
 struct MaterialSections {
-  core::Bytes table, triangles;
+  core::Bytes table, triangles, textures;
 
   /// Calls take(section type, bytes) for each.
   template <class Take>
   void each(const Take& take) {
     take(kMaterialsSection, table), take(kTriangleMaterialsSection, triangles);
+    take(kTexturesSection, textures);
   }
 };
 
@@ -24,6 +25,8 @@ class StoredMaterials {
   using Sections = MaterialSections;
   bool is_open() const { return !table_.empty(); }
   core::Span<const MaterialLayout> table() const { return table_; }
+  /// One a material, or none.
+  core::Span<const TextureLayout> textures() const { return textures_; }
   /// Of a triangle: 1 + its place in the table; 0: none, also where nothing is open.
   /// Pre: the triangle is one of the mesh.
   uint8_t of(uint32_t triangle) const { return is_open() ? triangles_[triangle] : uint8_t{0}; }
@@ -31,13 +34,14 @@ class StoredMaterials {
  private:
   friend class MaterialsProof;
   core::Span<const MaterialLayout> table_;
+  core::Span<const TextureLayout> textures_;
   core::Bytes triangles_;
 };
 
-/// What Opening proves of materials: rules R821 to R826 of tools/FORMAT.md.
+/// What Opening proves of materials: rules R821 to R828 of tools/FORMAT.md.
 class MaterialsProof {
  public:
-  static const query::CheckStage kStages[2];
+  static const query::CheckStage kStages[3];
   /// `mesh` is open.
   core::Verdict take(const MaterialSections& sections, const mesh::View& mesh);
   core::Verdict check_head() const { return core::kPassed; }
@@ -48,7 +52,9 @@ class MaterialsProof {
 
   uint32_t material_count() const { return view.table_.size(); }
   uint32_t slice_count() const;
+  uint32_t texture_count() const { return view.textures_.size(); }
   core::Verdict check_material(uint32_t i);
+  core::Verdict check_texture(uint32_t i);
   core::Verdict check_slice(uint32_t i);
 };
 

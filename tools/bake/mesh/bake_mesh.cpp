@@ -147,17 +147,18 @@ void add_signs(const Pseudonormals& signs, const std::vector<uint32_t>& vertex_f
   sections.push_back(make_section(mesh::kEdgeFoldsSection, name, edges));
 }
 
-void add_materials(const Surface& surface, const std::string& name,
-                   const std::vector<scene::MaterialLayout>& table, MeshReport& report,
-                   std::vector<Section>& sections) {
+void add_materials(const Surface& surface, const std::string& name, const MeshOptions& options,
+                   MeshReport& report, std::vector<Section>& sections) {
   std::vector<uint8_t> triangles;
-  report.of_material.assign(table.size() + 1, 0);
+  report.of_material.assign(options.materials.size() + 1, 0);
   for (uint32_t f = 0; f < surface.faces.size(); ++f) {
     triangles.push_back(surface.material_of(f));
     ++report.of_material.at(triangles.back());
   }
-  sections.push_back(make_section(scene::kMaterialsSection, name, table));
+  sections.push_back(make_section(scene::kMaterialsSection, name, options.materials));
   sections.push_back(make_section(scene::kTriangleMaterialsSection, name, triangles));
+  if (!options.textures.empty())
+    sections.push_back(make_section(scene::kTexturesSection, name, options.textures));
 }
 
 // Whether nothing of a refined surface has to be reported by the faces of the file.
@@ -246,7 +247,7 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
   for (const Section& s : sections) report.sign_bytes += static_cast<uint32_t>(s.bytes.size());
   report.sign_bytes -= report.shape_bytes;
   sections.push_back(make_section(mesh::kSourceSection, name, surface.source));
-  if (!options.materials.empty()) add_materials(surface, name, options.materials, report, sections);
+  if (!options.materials.empty()) add_materials(surface, name, options, report, sections);
   report.triangles = head.triangle_count;
   report.vertices = head.vertex_count;
   report.nodes = head.node_count;

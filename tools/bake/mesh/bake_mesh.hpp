@@ -18,6 +18,7 @@ struct MeshOptions {
   double max_growth = kMaxGrowth;  // of refine(); 0: the faces stay as given
   TreeShape shape = kFastTree;
   std::vector<scene::MaterialLayout> materials = {};  // of the surface's numbers, from 1
+  std::vector<scene::TextureLayout> textures = {};    // one a material, or none
 };
 
 struct MeshReport {

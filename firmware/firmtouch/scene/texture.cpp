@@ -1,0 +1,24 @@
+#include "firmtouch/scene/texture.hpp"
+
+#include "firmtouch/math/sine_cosine.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+
+namespace firmtouch::scene {
+
+Cut cut_at(const TextureLayout& texture, math::Vec3 x_m) {
+  constexpr float kTurn_rad = 6.28318548f;
+  Cut cut;
+  for (const WaveLayout& wave : texture.wave) {
+    if (!(wave.height_m > 0.0f)) continue;
+    const math::Vec3 per_m{wave.per_m[0], wave.per_m[1], wave.per_m[2]};
+    const float waves = math::dot(per_m, x_m);
+    // Adding 1.5 * 2^23 rounds to a whole number.
+    const float whole = (waves + 0x1.8p23f) - 0x1.8p23f;
+    const math::SineCosine at = math::sine_cosine((waves - whole) * kTurn_rad);
+    cut.depth_m += 0.5f * wave.height_m * (1.0f - at.cosine);
+    cut.slope = cut.slope + per_m * (0.5f * kTurn_rad * wave.height_m * at.sine);
+  }
+  return cut;
+}
+
+}  // namespace firmtouch::scene
