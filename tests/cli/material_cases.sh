@@ -35,6 +35,15 @@ MaterialNumbersOfAFileAreThoseOfTheTriangles() {
   f info b.fta; same "$a" "$(printf '%s\n' "$out" | grep 'section 1012')"
 }
 
+WavesOfAMaterialAreBaked() {
+  box_obj usemtl >box.obj; feel >feel.txt
+  bake box.obj -o smooth.fta --materials feel.txt
+  f info smooth.fta; printf '%s\n' "$out" | grep -q 'section 1013' && fail "a smooth one has textures: $out"
+  printf 'material side\nmaterial lid waves 0.1 mm every 1 mm along 1 0 0 and 0 2 0 friction 0.5\n' >grid.txt
+  bake box.obj -o grid.fta --materials grid.txt
+  f info grid.fta; printf '%s\n' "$out" | grep -q 'section 1013 *64 bytes' || fail "not two textures: $out"
+}
+
 MaterialsThatDoNotFitAreRefusedByName() {
   box_obj usemtl >box.obj; feel >feel.txt
   refuse() {  # refuse TEXT ARGUMENT...
@@ -58,6 +67,17 @@ MaterialsThatDoNotFitAreRefusedByName() {
   printf 'material lid colour red\n' >colour.txt
   refuse 'unknown word `colour`' box.obj --materials colour.txt
   refuse 'cannot be opened' box.obj --materials nowhere.txt
+  # Waves.
+  wave() { printf 'material side\nmaterial lid waves %s\n' "$2" >wave.txt; refuse "wave.txt:2: $1" box.obj --materials wave.txt; }
+  wave 'the waves are higher than 0.238 of their length' '0.24 mm every 1 mm along 1 0 0'
+  wave '`waves` = ' '2.1 mm every 100 mm along 1 0 0'
+  wave '`waves` = ' '-0.1 mm every 1 mm along 1 0 0'
+  wave '`waves` needs a number' 'nan mm every 1 mm along 1 0 0'
+  wave '`every` = ' '0 mm every 0 mm along 1 0 0'
+  wave '`along` needs a number' '0.1 mm every 1 mm along x'
+  wave 'waves along 0 0 0 have no direction' '0.1 mm every 1 mm along 0 0 0'
+  wave 'the line ends where `along` is expected' '0.1 mm every 1 mm'
+  wave 'unknown word `and`' '0.1 mm every 1 mm along 1 0 0 and 0 1 0 and 0 0 1'
   # Numbers.
   printf '1 2 1' >short.txt
   refuse 'short.txt: has 3 numbers, the model 12 triangles' box.obj --materials feel.txt --material-numbers short.txt

@@ -11,7 +11,36 @@ namespace {
 
 using scene::MaterialLayout;
 
-void read_clause(const std::string& word, LineReader& words, MaterialLayout& material) {
+constexpr double kMaxHeightPerLength = 0.238;
+static_assert(kMaxHeightPerLength * 3.1416 < double{scene::kMaxTextureSlope});
+
+// HEIGHT every LENGTH along X Y Z [and X Y Z]: grooves, or a grid of two waves of half the height.
+scene::TextureLayout read_waves(LineReader& words) {
+  const double height_m =
+      words.quantity("waves", "m", 0, double{scene::kMaxTextureHeight_m} * (1 - 1e-6));
+  words.expect("every");
+  const double length_m = words.quantity("every", "m", 2.0 / double{scene::kMaxWaves_per_m}, 1);
+  words.expect("along");
+  std::vector<Point> along;
+  do {
+    along.push_back(words.vector(along.empty() ? "along" : "and", "", 1e6));
+    if (!(length(along.back()) > 0))
+      words.refuse("waves along 0 0 0 have no direction; write three numbers, not all 0");
+  } while (along.size() < 2 && words.take("and"));
+  scene::TextureLayout texture{};
+  for (size_t i = 0; i < along.size(); ++i) {
+    const Point per_m = along[i] * (1 / (length(along[i]) * length_m));
+    texture.wave[i] = {
+        {static_cast<float>(per_m.x), static_cast<float>(per_m.y), static_cast<float>(per_m.z)},
+        static_cast<float>(height_m / static_cast<double>(along.size()))};
+  }
+  if (height_m > kMaxHeightPerLength * length_m)
+    words.refuse("the waves are higher than 0.238 of their length; make them lower or longer");
+  return texture;
+}
+
+void read_clause(const std::string& word, LineReader& words, MaterialLayout& material,
+                 scene::TextureLayout& texture) {
   if (word == "stiffness") {
     material.stiffness_N_per_m = static_cast<float>(
         words.quantity(word, "N/m", double{scene::kMinMaterialStiffness_N_per_m}, 1e9));
@@ -21,17 +50,21 @@ void read_clause(const std::string& word, LineReader& words, MaterialLayout& mat
   } else if (word == "viscous") {
     material.friction_viscous_N_s_per_m = static_cast<float>(
         words.quantity(word, "N*s/m", 0, double{scene::kMaxMaterialViscous_N_s_per_m}));
+  } else if (word == "waves") {
+    texture = read_waves(words);
   } else {
-    words.refuse("unknown word `" + word + "`; a material has: stiffness, friction, viscous");
+    words.refuse("unknown word `" + word +
+                 "`; a material has: stiffness, friction, viscous, waves");
   }
 }
 
-MaterialLayout read_line(LineReader& words) {
+MaterialLayout read_line(LineReader& words, scene::TextureLayout& texture) {
   MaterialLayout material{};
   material.stiffness_N_per_m = FLT_MAX;
   words.expect("material");
   read_name(words, "the material's name", material.name);
-  read_clauses(words, [&](const std::string& word) { read_clause(word, words, material); });
+  read_clauses(words,
+               [&](const std::string& word) { read_clause(word, words, material, texture); });
   return material;
 }
 
@@ -59,16 +92,19 @@ uint8_t number_of(const std::string& name, const std::string& model, const Mater
 }  // namespace
 
 Materials read_materials(const std::string& file, const std::string& text) {
-  Materials materials{file, {}};
+  Materials materials{file, {}, {}};
+  bool has_waves = false;
   std::set<std::string> names;
   read_lines(file, text, [&](LineReader& words, int) {
-    materials.table.push_back(read_line(words));
+    materials.table.push_back(read_line(words, materials.textures.emplace_back()));
+    has_waves |= materials.textures.back().wave[0].height_m > 0.0f;
     if (!names.insert(materials.table.back().name).second)
       words.refuse("there are two materials `" + std::string(materials.table.back().name) +
                    "`; keep one");
     if (materials.table.size() > scene::kMaxMaterials)
       words.refuse("a mesh has at most " + std::to_string(scene::kMaxMaterials) + " materials");
   });
+  if (!has_waves) materials.textures.clear();
   if (materials.table.empty()) throw Refused(file + ": it has no material; write `material NAME`");
   return materials;
 }
