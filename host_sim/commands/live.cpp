@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "firmtouch/link/protocol.hpp"
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/outputs.hpp"
@@ -34,6 +35,7 @@ std::string live_page(const std::string& asset) {
   }
   std::string page = kLiveHtml;
   fill(page, "{{script}}", kLiveJs);
+  fill(page, "{{protocol}}", std::to_string(link::kProtocolVersion));
   fill(page, "{{scene}}", scene);
   fill(page, "{{style}}", kLiveCss);
   return page;

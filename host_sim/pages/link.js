@@ -1,6 +1,6 @@
 'use strict';
 // The link: frames and messages as in firmware/firmtouch/link/frame.hpp and protocol.hpp.
-const kProtocol = 6, kMaxPayload = 244;
+const kProtocol = {{protocol}}, kMaxPayload = 244;  // the number is put in with the page
 const kHello = 1, kSetParam = 3, kBye = 4, kClearFaults = 5, kStream = 6, kDescribe = 7, kPanel = 9;
 const kHelloReply = 0x81, kAck = 0x83, kLog = 0x84, kText = 0x85, kDescription = 0x86;
 const kModeLive = 0, kModeIdentify = 0xFFFFFFFF, kCommandClearFaults = 0xFFFFFFFF;
