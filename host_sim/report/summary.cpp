@@ -116,12 +116,13 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
   summary_.has_guide = environment.has_guide();
   summary_.force_limit_N = parameter_value(scenario, params::kForceLimit);
   if (scenario.linkage) {
-    const auto limit = [&, mass_kg = static_cast<float>(tools::least_mass_kg(*scenario.linkage))](
-                           params::Index damping) {
-      return static_cast<double>(device::stiffest_stable_N_per_m(
-          mass_kg, static_cast<float>(parameter_value(scenario, damping)),
-          static_cast<float>(parameter_value(scenario, params::kTickPeriod))));
-    };
+    const auto limit =
+        [&, mass_kg = static_cast<float>(tools::least_figures(*scenario.linkage).least_mass_kg)](
+            params::Index damping) {
+          return static_cast<double>(device::stiffest_stable_N_per_m(
+              mass_kg, static_cast<float>(parameter_value(scenario, damping)),
+              static_cast<float>(parameter_value(scenario, params::kTickPeriod))));
+        };
     summary_.stable_contact_N_per_m = limit(params::kContactDamping);
     summary_.stable_guide_N_per_m = limit(params::kGuideDamping);
   }

@@ -38,13 +38,32 @@ InfoPrintsTheStiffestWallsOfALinkage() {
   # The exact discrete model: 2 D / T (1 - d) / (1 + d) with d = D T / 2 m.
   printf '%s\n' "$out" | awk '
     $1 == "least_mass_kg" { m = $2 } $1 == "wall_damping_N_s_per_m" { D = $2 }
-    match($1, /_at_[0-9]+_kHz/) {
+    /^ *stiffest_wall/ && match($1, /_at_[0-9]+_kHz/) {
       T = 1e-3 / substr($1, RSTART + 4); d = D * T / 2 / m; want = 2 * D / T * (1 - d) / (1 + d)
       if ($2 > 1.002 * want || $2 < 0.998 * want) exit 1
       ++walls
     }
     END { exit !(walls == 3 && m > 0.05 && m < 0.07) }' || fail "$out"
   f info a.fta --json; exits 0; well_formed
+  # Without damping, passive: 2 b / T (Colgate and Schenkel). An arm yields most where it is stretched most, by the largest
+  # singular value of its Jacobian.
+  { printf 'linkage serial_arm 2\nlink_0 100 mm\nlink_1 100 mm\ntip_mass 60 g\nlow_0 0 deg\nhigh_0 90 deg\nlow_1 30 deg\nhigh_1 150 deg\n'
+    printf 'counts_%s 5000 counts/rad\nmax_torque_%s 1 N*m\nrotor_%s 1e-6 kg*m2\nviscous_%s 0.01 N*m*s/rad\n' 0 0 0 0 1 1 1 1; } >arm.txt
+  for homing in '' 'home stops'; do
+    echo "$homing" >>arm.txt
+    bake box.obj --device arm.txt -o a.fta
+    f info a.fta; exits 0
+    printf '%s\n' "$out" | awk '
+      /^ *passive_wall/ && match($1, /_at_[0-9]+_kHz/) {
+        a = 0.02 + 0.02 * sqrt(3) / 2; b = 0.01 + 0.01 * sqrt(3) / 2; c = 0.01
+        largest = (a + c + sqrt((a - c) ^ 2 + 4 * b * b)) / 2
+        want = 2 * 0.01 / largest * 1e3 * substr($1, RSTART + 4)
+        if ($2 > 1.001 * want || $2 < 0.999 * want) exit 1
+        ++walls
+      }
+      END { exit walls != 3 }' || fail "$out"
+    case $out in *stiffest_wall*) ;; *) fail "$out" ;; esac
+  done
 }
 
 ALinkageIsCalibrated() {

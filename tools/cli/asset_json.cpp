@@ -1,5 +1,8 @@
 #include "cli/asset_json.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "bake/asset/asset_views.hpp"
 #include "bake/asset/part_names.hpp"
 #include "firmtouch/device/stable_wall.hpp"
@@ -79,22 +82,42 @@ constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {spline::kArcsSection, "spline arcs"},
                                          {spline::kChainsSection, "spline chains"}};
 
+void add(const std::string& name, double value, tools::Facts& facts) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  facts.emplace_back(name, text);
+}
+
+constexpr uint32_t kRates_kHz[] = {1, 4, 10};
+
+std::string at_rate(uint32_t rate_kHz) { return "_at_" + std::to_string(rate_kHz) + "_kHz"; }
+
 // The stiffest walls that the controller enables; an asset without the tip's mass has no limit.
-void add_walls(core::Bytes section, tools::Facts& facts) {
+void add_stable_walls(core::Bytes section, tools::Facts& facts) {
   device::StoredLinkage linkage;
-  if (!device::open(section, linkage).ok() || !(linkage.layout().least_mass_kg > 0.0f)) return;
+  constexpr uint32_t kAlone = sizeof(device::LinkageLayout);  // without homing and second encoders
+  if (section.size() < kAlone || !device::open({section.data(), kAlone}, linkage).ok()) return;
+  if (!(linkage.layout().least_mass_kg > 0.0f)) return;
   const float mass_kg = linkage.layout().least_mass_kg;
-  const auto add = [&](const std::string& name, float value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", static_cast<double>(value));
-    facts.emplace_back(name, text);
-  };
-  add("least_mass_kg", mass_kg);
-  add("wall_damping_N_s_per_m", params::kTable[params::kContactDamping].initial);
-  for (const uint32_t rate_kHz : {1u, 4u, 10u})
-    add("stiffest_wall_N_per_m_at_" + std::to_string(rate_kHz) + "_kHz",
-        device::stiffest_stable_N_per_m(mass_kg, params::kTable[params::kContactDamping].initial,
-                                        1e-3f / static_cast<float>(rate_kHz)));
+  const float damping_N_s_per_m = params::kTable[params::kContactDamping].initial;
+  add("least_mass_kg", static_cast<double>(mass_kg), facts);
+  add("wall_damping_N_s_per_m", static_cast<double>(damping_N_s_per_m), facts);
+  for (const uint32_t rate_kHz : kRates_kHz)
+    add("stiffest_wall_N_per_m" + at_rate(rate_kHz),
+        static_cast<double>(device::stiffest_stable_N_per_m(mass_kg, damping_N_s_per_m,
+                                                            1e-3f / static_cast<float>(rate_kHz))),
+        facts);
+}
+
+// The stiffest walls without damping that give no passive hand energy: 2 b / T (Colgate and
+// Schenkel 1994), where b is the least that the linkage has of its own.
+void add_passive_walls(tools::Facts& facts) {
+  const auto least = std::find_if(facts.begin(), facts.end(),
+                                  [](const auto& fact) { return fact.first == kTipDamping; });
+  if (least == facts.end()) return;
+  const double damping_N_s_per_m = std::strtod(least->second.c_str(), nullptr);
+  for (const uint32_t rate_kHz : kRates_kHz)
+    add("passive_wall_N_per_m" + at_rate(rate_kHz), 2e3 * rate_kHz * damping_N_s_per_m, facts);
 }
 
 }  // namespace
@@ -116,9 +139,10 @@ std::vector<NamedAsset> assets_of(const asset::Container& container) {
     last.sections.push_back(i);
     last.bytes += bytes.size();
     const uint32_t type = container.type(i);
-    if (type == device::kLinkageSection) add_walls(bytes, last.facts);
+    if (type == device::kLinkageSection) add_stable_walls(bytes, last.facts);
     if (type != asset::kBoundsSection && type != asset::kProvenanceSection) continue;
-    const tools::Facts facts = tools::read_facts(bytes.data(), bytes.size());
+    tools::Facts facts = tools::read_facts(bytes.data(), bytes.size());
+    if (type == asset::kBoundsSection) add_passive_walls(facts);
     last.facts.insert(last.facts.end(), facts.begin(), facts.end());
   }
   return assets;

@@ -18,6 +18,9 @@ struct NamedAsset {
 };
 std::vector<NamedAsset> assets_of(const asset::Container& container);
 
+/// Fact of a linkage's bounds: what its own friction has at the tip, at least.
+constexpr const char* kTipDamping = "least_damping_N_s_per_m";
+
 const char* section_text(uint32_t type);
 
 /// What `info --json` prints of a file, and `bake --json` of the one that it wrote.

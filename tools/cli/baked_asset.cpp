@@ -7,6 +7,7 @@
 #include "bake/asset/provenance.hpp"
 #include "bake/objects/objects_file.hpp"
 #include "bake/objects/tool_file.hpp"
+#include "cli/asset_json.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
@@ -14,6 +15,7 @@
 #include "cli/loaded_asset.hpp"
 #include "cli/version.hpp"
 #include "device/device_file.hpp"
+#include "device/inertia.hpp"
 #include "device/machines.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
@@ -198,6 +200,11 @@ BakedInput bake_device(const std::string& path) {
         tools::make_section(device::kLinkageSection, name, tools::stored_bytes_of(device)),
         tools::text_section(asset::kProvenanceSection, name,
                             tools::provenance(file_name_of(path), source, "", kToolVersion))};
+    const tools::TipFigures least = tools::least_figures(device);
+    if (least.least_mass_kg > 0)
+      baked.sections.push_back(
+          tools::text_section(asset::kBoundsSection, name,
+                              {{kTipDamping, tools::number_text(least.least_damping_N_s_per_m)}}));
     baked.report = {
         "linkage of " + std::to_string(device.joints.joints) + " joints, " +
         (device.is_homed ? "homed by the program (part `homing`), " : "") +

@@ -109,9 +109,18 @@ TipFigures tip_figures(const LinkageDevice& device, const JointMotion& at) {
   return figures;
 }
 
-double least_mass_kg(const LinkageDevice& device) {
+namespace {
+
+// 0 is not known, and never the least.
+void lower(double& least, double value) {
+  if (value > 0 && (!(least > 0) || value < least)) least = value;
+}
+
+}  // namespace
+
+TipFigures least_figures(const LinkageDevice& device) {
   const uint32_t joints = device.joints.joints, steps = joints == 3 ? 20 : 100;
-  double least_kg = 0;
+  TipFigures least;
   uint32_t at[kJoints] = {};  // counts through the grid
   while (at[joints - 1] <= steps) {
     float angle_rad[kJoints] = {};
@@ -125,12 +134,13 @@ double least_mass_kg(const LinkageDevice& device) {
     const device::Pose pose = std::visit(
         [&](const auto& linkage) { return device::pose_of(linkage, angle_rad); }, device.linkage);
     if (pose.is_reachable && pose.reciprocal_condition >= device.limits.full_from) {
-      const double mass_kg = tip_figures(device, motion).least_mass_kg;
-      if (mass_kg > 0 && (!(least_kg > 0) || mass_kg < least_kg)) least_kg = mass_kg;
+      const TipFigures tip = tip_figures(device, motion);
+      lower(least.least_mass_kg, tip.least_mass_kg);
+      lower(least.least_damping_N_s_per_m, tip.least_damping_N_s_per_m);
     }
     for (uint32_t k = 0; k < joints && ++at[k] > steps && k + 1 < joints; ++k) at[k] = 0;
   }
-  return least_kg;
+  return least;
 }
 
 }  // namespace firmtouch::tools

@@ -27,8 +27,8 @@ struct TipFigures {
 };
 TipFigures tip_figures(const LinkageDevice& device, const JointMotion& at);
 
-/// The least mass of the tip on a grid over the joints' ranges, ends included, where it has the
-/// whole force; 0: it has none.
-double least_mass_kg(const LinkageDevice& device);
+/// The least of each on a grid over the joints' ranges, ends included, where the tip has the whole
+/// force; 0: it has none.
+TipFigures least_figures(const LinkageDevice& device);
 
 }  // namespace firmtouch::tools

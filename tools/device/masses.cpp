@@ -89,7 +89,7 @@ device::LinkageLayout layout_of(const LinkageDevice& device) {
   device::LinkageLayout to = {};
   std::visit([&](const auto& linkage) { put_linkage(linkage, to); }, device.linkage);
   if (device.are_walls_forced) to.flags |= device::kFlagForcedWalls;
-  to.least_mass_kg = static_cast<float>(least_mass_kg(device));
+  to.least_mass_kg = static_cast<float>(least_figures(device).least_mass_kg);
   to.joints = device.joints.joints;
   for (uint32_t k = 0; k < to.joints; ++k) {
     const device::JointSetting& joint = device.joints.joint[k];
