@@ -19,7 +19,8 @@ double wide(float a) { return static_cast<double>(a); }
 
 FailureWatch::FailureWatch(const tools::LinkageDevice& device, uint32_t from_tick)
     : device_(device), from_tick_(from_tick) {
-  if (!device.has_second_encoders) return;
+  // They are aligned at the first sample: what failed before is not seen until joints move.
+  if (!device.has_second_encoders || from_tick == 0) return;
   constexpr double kCounts = 3;  // by which encoders and comparison are uncertain
   for (uint32_t k = 0; k < device.joints.joints; ++k) {
     const double first = std::fabs(wide(device.joints.joint[k].counts_per_rad));

@@ -156,9 +156,9 @@ TEST(FailureWatch_NoticesAMiscountThatSecondEncodersMissed) {
   device.second_within_rad = 0.01f;
   for (float& counts : device.second_counts_per_rad) counts = 1000;
   const auto overdue = [&](double off_rad, uint32_t ticks_off, uint32_t fault_from) {
-    FailureWatch watch(device, 0);
+    FailureWatch watch(device, 1);
     for (uint32_t i = 0; i < 10; ++i) {
-      RunTick tick = tick_of(i, 0, i >= fault_from ? 1 : 0);
+      RunTick tick = tick_of(i + 1, 0, i >= fault_from ? 1 : 0);
       tick.encoder_off_rad = i < ticks_off ? off_rad : 0;
       watch.add(tick);
     }

@@ -11,8 +11,8 @@ using core::reject;
 
 // Up to 1e4 counts a radian the counts of every range are exact in float within half a count.
 constexpr float kMaxSecondCountsPerRad = 1e4f;
-// Of the second encoder. A count of each is uncertain, half of one of their ratio; a byte
-// holds 127 to either side.
+// Of the second encoder. A count of each is uncertain, and one of their ratio. A coarse comparison
+// takes a coarse encoder, which may turn faster.
 constexpr float kMinWithin_counts = 3, kMaxWithin_counts = 60;
 // Where the conversion to an integer is defined.
 constexpr float kMaxExpected = 2e9f;
@@ -63,11 +63,12 @@ void align(SecondState& state, const Sample& sample, uint32_t second) {
   state.is_aligned = true;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
     state.first[k] = sample.counts[k];
+    state.turned[k] = 0;
     state.second[k] = byte_of(second, k);
   }
 }
 
-bool agree(const SecondState& state, const SecondEncoders& second, const StoredLinkage& linkage,
+bool agree(SecondState& state, const SecondEncoders& second, const StoredLinkage& linkage,
            const Sample& sample, uint32_t second_counts) {
   const SecondEncodersLayout& layout = second.layout();
   bool do_agree = true;
@@ -75,8 +76,12 @@ bool agree(const SecondState& state, const SecondEncoders& second, const StoredL
     const float turned = static_cast<float>(difference(sample.counts[k], state.first[k]));
     const float wanted = turned * ratio_of(layout, linkage.layout(), k);
     const int32_t expected = static_cast<int32_t>(clamp(wanted, -kMaxExpected, kMaxExpected));
-    const uint32_t counted = uint32_t{byte_of(second_counts, k)} - state.second[k];
-    const int8_t off = static_cast<int8_t>(counted - static_cast<uint32_t>(expected));
+    const uint8_t now = byte_of(second_counts, k);
+    const int8_t step = static_cast<int8_t>(now - state.second[k]);
+    state.second[k] = now;
+    state.turned[k] =
+        static_cast<int32_t>(static_cast<uint32_t>(state.turned[k]) + static_cast<uint32_t>(step));
+    const int32_t off = difference(state.turned[k], expected);
     const float most = layout.within_rad * size(layout.counts_per_rad[k]);
     const bool has_second = most > 0.0f;
     do_agree &= !has_second || size(static_cast<float>(off)) <= most;

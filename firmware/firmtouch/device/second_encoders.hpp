@@ -28,11 +28,13 @@ core::Bytes before_second_encoders(core::Bytes section);
 /// section. Bounds: constant.
 core::Verdict open(core::Bytes section, const StoredLinkage& linkage, SecondEncoders& to);
 
-/// What both encoders of each joint counted where they are taken to agree.
+/// What the first encoder of each joint counted where both are taken to agree, and how far the
+/// second has turned since.
 struct SecondState {
   bool is_aligned = false;
   int32_t first[kMaxJoints] = {};
-  uint8_t second[kMaxJoints] = {};
+  int32_t turned[kMaxJoints] = {};
+  uint8_t second[kMaxJoints] = {};  // low byte of the last count
 };
 
 /// From this sample on the encoders are compared. `second`: low byte of each second count, that of
@@ -40,10 +42,11 @@ struct SecondState {
 void align(SecondState& state, const Sample& sample, uint32_t second);
 
 /// Whether no joint's two encoders have turned by more than `within_rad` differently since align().
-/// Encoders that do are not found while they differ by a multiple of 256 second counts, within it.
+/// Once a tick: a second encoder is followed up to 127 counts from call to call, and faster
+/// differs.
 /// Pre: second.is_open(), state.is_aligned. Bounds: constant; re-entrant.
 /// Error: 3 counts of the second encoder and one of the first, which within_rad exceeds (R718).
-bool agree(const SecondState& state, const SecondEncoders& second, const StoredLinkage& linkage,
+bool agree(SecondState& state, const SecondEncoders& second, const StoredLinkage& linkage,
            const Sample& sample, uint32_t second_counts);
 
 }  // namespace firmtouch::device
