@@ -10,7 +10,7 @@ class View3d {
     this.view = { ...View3d.first };
     this.hidden = new Set(hidden);
     this.tool = null;   // centre
-    this.turn = [0, 0, 0];  // rotation vector of its spheres
+    this.tilt = [0, 0, 0];  // rotation vector of its spheres
     this.force = null;  // in radii
     this.trail = [];    // points
     this.off = document.createElement('canvas');
@@ -172,7 +172,7 @@ class View3d {
     const { spheres, toolRadius } = this.scene;
     if (!spheres || spheres.length === 0) return this.drawSphere(this.tool, toolRadius);
     for (const [x, y, z, r] of spheres)
-      this.drawSphere(View3d.turned([x, y, z], this.turn).map((v, k) => v + this.tool[k]), r);
+      this.drawSphere(View3d.turned([x, y, z], this.tilt).map((v, k) => v + this.tool[k]), r);
   }
   drawSphere(centre, size) {
     const [cx, cy, cz] = this.see(centre), { f, w, h } = this;
@@ -260,7 +260,7 @@ class View3d {
     this.queued = true;
     requestAnimationFrame(() => this.render());
   }
-  setTool(centre, force, turn = [0, 0, 0]) { Object.assign(this, { tool: centre, force, turn }); this.draw(); }
+  setTool(centre, force, tilt = [0, 0, 0]) { Object.assign(this, { tool: centre, force, tilt }); this.draw(); }
   turn(azimuth, elevation, zoom) {
     const v = this.view;
     v.azimuth += azimuth;
