@@ -18,8 +18,8 @@ struct Arm {
 };
 
 template <uint32_t k>
-Arm arm_of(const Delta& delta, float out_m, const float (&angle_rad)[kMaxJoints]) {
-  const math::SineCosine turn = math::sine_cosine(angle_rad[k]);
+Arm arm_of(const Delta& delta, float out_m, float angle_rad, const math::SineTerms& terms) {
+  const math::SineCosine turn = math::sine_cosine(angle_rad, terms);
   const float across = delta.upper_m[k] * turn.cosine, up = delta.upper_m[k] * turn.sine;
   const float radial = out_m + across;
   return {{radial * kCosine[k] - delta.side_m * kSine[k],
@@ -50,8 +50,10 @@ core::Verdict check(const Delta& delta) {
 
 Pose pose_of(const Delta& delta, const float (&angle_rad)[kMaxJoints]) {
   const float out_m = delta.base_radius_m - delta.platform_radius_m;
-  const Arm arm0 = arm_of<0>(delta, out_m, angle_rad), arm1 = arm_of<1>(delta, out_m, angle_rad);
-  const Arm arm2 = arm_of<2>(delta, out_m, angle_rad);
+  const math::SineTerms terms;
+  const Arm arm0 = arm_of<0>(delta, out_m, angle_rad[0], terms);
+  const Arm arm1 = arm_of<1>(delta, out_m, angle_rad[1], terms);
+  const Arm arm2 = arm_of<2>(delta, out_m, angle_rad[2], terms);
   // The three spheres of the lower links about the ends meet at arm0.end + flat + lift * normal,
   // where flat . u = a and flat . v = b.
   const Vec3 u = arm1.end - arm0.end, v = arm2.end - arm0.end;

@@ -36,8 +36,9 @@ core::Verdict check(const FiveBar& bar) {
 }
 
 Pose pose_of(const FiveBar& bar, const float (&angle_rad)[kMaxJoints]) {
-  const math::SineCosine left = math::sine_cosine(angle_rad[0]);
-  const math::SineCosine right = math::sine_cosine(angle_rad[1]);
+  const math::SineTerms terms;
+  const math::SineCosine left = math::sine_cosine(angle_rad[0], terms);
+  const math::SineCosine right = math::sine_cosine(angle_rad[1], terms);
   const Planar link0 = Planar{left.cosine, left.sine} * bar.proximal_m[0];
   const Planar link1 = Planar{right.cosine, right.sine} * bar.proximal_m[1];
   // Circles of the distal links about the elbows. `along` is a share of the way between them,

@@ -56,10 +56,9 @@ Vec3 carrying_torques_Nm(const SerialArm& arm, const float (&angle_rad)[kMaxJoin
   const Vec3 swing = link_swing(arm.link_m[0], angle_rad[arm.joints - 2]);
   if (arm.joints == 2) return at_tip(pose, load) + Vec3{at_elbow(swing, mass_kg, load), 0, 0};
   // In the arm's plane the elbow is the swing turned back by a quarter; joint 0 turns the plane.
-  const math::SineCosine turn = math::sine_cosine(angle_rad[0]);
-  const float out_m = arm.offset_m + swing.y;
-  const Vec3 by_turn{-out_m * turn.sine, out_m * turn.cosine, 0};
-  const Vec3 by_shoulder = upright(swing, turn.cosine, turn.sine);
+  const Vec3 turn = link_swing(1.0f, angle_rad[0]);  // less sine, cosine
+  const Vec3 by_turn = turn * (arm.offset_m + swing.y);
+  const Vec3 by_shoulder = upright(swing, turn.y, -turn.x);
   return at_tip(pose, load) +
          Vec3{at_elbow(by_turn, mass_kg, load), at_elbow(by_shoulder, mass_kg, load), 0};
 }

@@ -26,8 +26,9 @@ Pose pose_of(const SerialArm& arm, const float (&angle_rad)[kMaxJoints]) {
   const float upper_rad = angle_rad[shoulder];
   const float lower_rad =
       arm.has_parallelogram ? angle_rad[shoulder + 1] : upper_rad + angle_rad[shoulder + 1];
-  const math::SineCosine upper = math::sine_cosine(upper_rad);
-  const math::SineCosine lower = math::sine_cosine(lower_rad);
+  const math::SineTerms terms;
+  const math::SineCosine upper = math::sine_cosine(upper_rad, terms);
+  const math::SineCosine lower = math::sine_cosine(lower_rad, terms);
   // In the arm's plane: outward and up.
   const Planar first = Planar{upper.cosine, upper.sine} * arm.link_m[0];
   const Planar second = Planar{lower.cosine, lower.sine} * arm.link_m[1];
@@ -44,7 +45,7 @@ Pose pose_of(const SerialArm& arm, const float (&angle_rad)[kMaxJoints]) {
             true};
   }
   // Column 0 is at right angles to the others, and as long as the tip is far from the axis.
-  const math::SineCosine turn = math::sine_cosine(angle_rad[0]);
+  const math::SineCosine turn = math::sine_cosine(angle_rad[0], terms);
   const math::Vec3 tip_m{tip.x * turn.cosine, tip.x * turn.sine, tip.y};
   const float area = cross(by_shoulder, by_elbow), out2 = tip.x * tip.x;
   const float in_plane2 = dot(by_shoulder, by_shoulder) + dot(by_elbow, by_elbow);

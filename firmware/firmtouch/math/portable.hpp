@@ -192,6 +192,9 @@ static inline uint32_t as_multiplier(uint32_t value) { return value; }
 /// Optimisation barrier: keeps expressions of `value` from being hoisted out of the loop.
 static inline uint32_t only_here(uint32_t value) { return value; }
 
+/// `constant`, which the compiler then keeps in a register instead of loading it at each use.
+static inline float in_register(float constant) { return constant; }
+
 /// Puts two words behind `top`, the last of a stack, and moves it there.
 [[gnu::always_inline]] static inline void push_pair(uint32_t*& top, uint32_t first,
                                                     uint32_t second) {

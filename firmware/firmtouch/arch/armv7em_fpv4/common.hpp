@@ -107,6 +107,11 @@ static inline uint32_t only_here(uint32_t value) {
   return value;
 }
 
+static inline float in_register(float constant) {
+  __asm__("" : "+t"(constant));
+  return constant;
+}
+
 [[gnu::always_inline]] static inline void push_pair(uint32_t*& top, uint32_t first,
                                                     uint32_t second) {
   struct Pair {

@@ -10,6 +10,7 @@ using portable::as_multiplier;
 using portable::box_distance2;
 using portable::count_down;
 using portable::half_cell_point;
+using portable::in_register;
 using portable::larger;
 using portable::load_floats;
 using portable::load_kept;
