@@ -2,17 +2,8 @@
 #include "firmtouch/device/velocity.hpp"
 #include "firmtouch/math/isa.hpp"
 
-// The estimators of velocity.hpp, inline. For .cpp files of this module alone.
+// The tracking line of velocity.hpp, inline. For .cpp files of this module alone.
 namespace firmtouch::device {
-
-// a dt / (dt + tau): the backward-difference form of a first-order low-pass, stable for every dt >
-// 0.
-static inline void low_pass(VelocityState& state, float quotient, float filter_Hz, float dt_s) {
-  constexpr float kTwoPi = 6.2831853f;
-  const float tau_s = 1.0f / (kTwoPi * filter_Hz);
-  const float share = dt_s / (dt_s + tau_s);
-  state.units_per_s = state.units_per_s + (quotient - state.units_per_s) * share;
-}
 
 // Share of a miss that corrects the slope, share of a correction that leads, and the time constant
 // with which the lead is forgotten. Chosen on errors at 1 and 10 kHz and on the stiffest wall at
@@ -34,29 +25,13 @@ static inline void track(VelocityState& state, float counts_per_unit, float step
   const float end = state.within + (state.counts_per_s * dt_s - step);
   state.within = math::smaller(math::larger(end, 0.0f), 1.0f);
   const float miss = state.within - end;
-  if (miss < 0.0f || miss > 0.0f) {
+  if (math::bits_of(miss) << 1 != 0) {  // not 0
     const float correction = kShare * miss / math::larger(state.since_s, kMinSince_s);
     state.counts_per_s = state.counts_per_s + correction;
     state.lead_counts_per_s = state.lead_counts_per_s + kLeadShare * correction;
     state.since_s = 0.0f;
   }
   state.units_per_s = (state.counts_per_s + state.lead_counts_per_s) / counts_per_unit;
-}
-
-static inline float estimate_inline(VelocityState& state, const VelocitySettings& settings,
-                                    float counts_per_unit, float step, float dt_s, float kept) {
-  // Likely: its constants then stay in registers over a loop of joints.
-  if (__builtin_expect(settings.estimator == Estimator::kTracking, 1)) {
-    track(state, counts_per_unit, step, dt_s, kept);
-  } else {
-    const float quotient = step / (counts_per_unit * dt_s);
-    if (settings.estimator == Estimator::kLowPass) {
-      low_pass(state, quotient, settings.filter_Hz, dt_s);
-    } else {
-      state.units_per_s = quotient;
-    }
-  }
-  return state.units_per_s;
 }
 
 }  // namespace firmtouch::device
