@@ -117,7 +117,7 @@ TEST(StoredLinkage_EachRuleIsBrokenAlone) {
   check_broken(
       five_bar(), [](L& l) { l.max_torque_Nm[2] = 1; }, kRuleUnused);
   check_broken(
-      arm(), [](L& l) { l.elbow_mass_kg[1] = 1; }, kRuleUnused);
+      arm(), [](L& l) { l.elbow_mass_kg[2] = 1; }, kRuleUnused);
   check_broken(
       delta(), [](L& l) { l.length_m[4] = 0; }, kRuleLinkLength);
   check_broken(

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "device/inertia.hpp"
 
 namespace firmtouch::tools {
@@ -80,6 +82,13 @@ device::Load load_of(const LinkageDevice& device) {
     tip_kg += outer.mass_kg * far_share;
   }
   for (size_t i = 0; i < half; ++i) load.elbow_mass_kg[i] = static_cast<float>(elbow_kg[i]);
+  // Joint 0 of an arm carries the shoulder round, too, where it has an offset.
+  const auto* const arm = std::get_if<SerialArm>(&device.linkage);
+  if (arm != nullptr && arm->joints == 3 && std::fabs(arm->offset_m) > 0.0f) {
+    const Rod& upper = device.masses.rod[0];
+    load.elbow_mass_kg[1] =
+        static_cast<float>(upper.mass_kg * (1 - upper.centre_m / all[0].length_m));
+  }
   load.tip_mass_kg = static_cast<float>(tip_kg);
   load.gravity_mps2 = to_vec3(device.masses.gravity_mps2);
   return load;

@@ -31,7 +31,7 @@ struct LinkageLayout {
   float torque_rise_s;  // from no torque to the largest
   float max_speed_rad_per_s;
   float full_from, gone_at;  // reciprocal condition
-  float elbow_mass_kg[3];    // weight that acts at the ends of the driven links
+  float elbow_mass_kg[3];    // weight at the ends of the driven links; serial arm: elbow, shoulder
   float tip_mass_kg;         // and at the tip
   float gravity_mps2[3];     // linkage's frame
   float carried_share;       // of the torque limits: the most that carries weight; 0: none does

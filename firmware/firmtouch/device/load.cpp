@@ -58,9 +58,10 @@ Vec3 carrying_torques_Nm(const SerialArm& arm, const float (&angle_rad)[kMaxJoin
   // In the arm's plane the elbow is the swing turned back by a quarter; joint 0 turns the plane.
   const Vec3 turn = link_swing(1.0f, angle_rad[0]);  // less sine, cosine
   const Vec3 by_turn = turn * (arm.offset_m + swing.y);
+  const float of_shoulder_Nm = at_elbow(turn * arm.offset_m, load.elbow_mass_kg[1], load);
   const Vec3 by_shoulder = upright(swing, turn.y, -turn.x);
-  return at_tip(pose, load) +
-         Vec3{at_elbow(by_turn, mass_kg, load), at_elbow(by_shoulder, mass_kg, load), 0};
+  return at_tip(pose, load) + Vec3{at_elbow(by_turn, mass_kg, load) + of_shoulder_Nm,
+                                   at_elbow(by_shoulder, mass_kg, load), 0};
 }
 
 Vec3 carrying_torques_Nm(const Delta& delta, const float (&angle_rad)[kMaxJoints], const Pose& pose,

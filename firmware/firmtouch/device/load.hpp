@@ -9,7 +9,7 @@ namespace firmtouch::device {
 /// A rod's weight acts at its two ends as if it were shared between them by the lever rule, so all
 /// weight acts at the fixed base, at the ends of the driven links and at the tip.
 struct Load {
-  float elbow_mass_kg[kMaxJoints] = {};  // of a serial arm the first: its only elbow
+  float elbow_mass_kg[kMaxJoints] = {};  // of a serial arm: elbow; shoulder, with 3 joints
   float tip_mass_kg = 0;
   math::Vec3 gravity_mps2;
 };

@@ -22,7 +22,8 @@ struct Used {
 Used used_by(const LinkageLayout& layout) {
   if (layout.kind == kFiveBar) return {2, 4, 1, 2, kFlagTip};
   if (layout.kind == kDelta) return {3, 6, 3, 3, kFlagTip};
-  return {layout.joints == 2 ? 2u : 3u, 2, 2, 1, kFlagParallelogram};
+  const uint32_t joints = layout.joints == 2 ? 2 : 3;
+  return {joints, 2, 2, joints - 1, kFlagParallelogram};
 }
 
 // Every bit, so that one linkage has one layout.
