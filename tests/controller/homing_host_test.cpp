@@ -1,7 +1,6 @@
 // The controller homes the linkage of its asset: joints of numbers between stops, as oracle of
 // where they are. No force before, the record says what happens, and a log replays it.
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "controller/ride.hpp"
@@ -126,13 +125,7 @@ struct Rig {
 void check_replays(const Rig& rig, device::HomeBy by) {
   static FullController again;
   CHECK_EQ(again.open(asset_by(by).bytes()).rule, 0u);
-  uint32_t different = 0;
-  for (const record::TickRecord& tick : rig.log) {
-    record::TickOutput output;
-    again.tick(tick.input, output);
-    different += std::memcmp(&output, &tick.output, sizeof output) != 0 ? 1 : 0;
-  }
-  CHECK_EQ(different, 0u);
+  CHECK_EQ(differing_ticks(again, rig.log), 0u);
 }
 
 }  // namespace

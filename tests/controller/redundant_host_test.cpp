@@ -132,13 +132,7 @@ template <class Device>
 void check_replays(const Rig<Device>& rig, const Asset& asset) {
   MeshController<Device> again;
   CHECK_EQ(again.open(asset.bytes()).rule, 0u);
-  uint32_t different = 0;
-  for (const record::TickRecord& tick : rig.log) {
-    record::TickOutput output;
-    again.tick(tick.input, output);
-    different += std::memcmp(&output, &tick.output, sizeof output) != 0 ? 1 : 0;
-  }
-  CHECK_EQ(different, 0u);
+  CHECK_EQ(differing_ticks(again, rig.log), 0u);
 }
 
 }  // namespace

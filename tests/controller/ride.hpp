@@ -1,9 +1,11 @@
 #pragma once
 // A baked part with its guide, and a tool that rides along: what the controller's host tests stand
 // on.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <string>
@@ -174,12 +176,28 @@ uint32_t faults_when_enabled(AnyController& controller) {
   return output.faults;
 }
 
-inline bool all_finite(const record::TickOutput& output) {
-  const float* at = output.motor_N;
-  for (int k = 0; k < 17; ++k) {
-    if (!std::isfinite(at[k])) return false;
-  }
+inline bool all_finite(const record::TickOutput& o) {
+  const auto is_finite = [](float value) { return std::isfinite(value); };
+  const std::initializer_list<float> bounds = {o.distance_m,    o.distance_lower_m,
+                                               o.penetration_m, o.guide_deviation_m,
+                                               o.guide_lower_m, o.guide_arc};
+  if (!std::all_of(bounds.begin(), bounds.end(), is_finite)) return false;
+  for (const float* vector :
+       {o.motor_N, o.position_m, o.velocity_mps, o.force_N, o.proxy_m, o.torque_Nm})
+    if (!std::all_of(vector, vector + 3, is_finite)) return false;
   return true;
+}
+
+/// Ticks of a log of which this controller, opened and not run, gives other bits.
+template <class AnyController>
+uint32_t differing_ticks(AnyController& again, const std::vector<record::TickRecord>& log) {
+  uint32_t differing = 0;
+  for (const record::TickRecord& tick : log) {
+    record::TickOutput output;
+    again.tick(tick.input, output);
+    differing += std::memcmp(&output, &tick.output, sizeof output) != 0 ? 1u : 0u;
+  }
+  return differing;
 }
 
 }  // namespace firmtouch::controller_test
