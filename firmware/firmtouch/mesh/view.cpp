@@ -73,6 +73,11 @@ bool is_thin(Vec3 ab, Vec3 ac, float ab2) {
   return __builtin_memcmp(&shape, &stored, sizeof shape) == 0;
 }
 
+Vec3 place(const Vertex& v) { return {v.x_m, v.y_m, v.z_m}; }
+
+// Called, so that meshes without a frame do not pay for its registers.
+[[gnu::noinline]] Vec3 turned_apart(const BoxFrame& frame, Vec3 at_m) { return turned(frame, at_m); }
+
 using Stage = query::StageOf<Proof>;
 
 }  // namespace
@@ -206,6 +211,70 @@ Verdict Proof::finish_nodes() {
   return deepest_ + 1 == view.head().depth ? kPassed : reject(kRuleDepth, deepest_);
 }
 
+// Of a triangle. Takes its corners into the box seen, in the frame of the boxes.
+[[gnu::always_inline]] inline uint16_t Proof::broken_rule(uint32_t i, math::Extents& seen) const {
+  const uint32_t vertices = view.vertices_.size();
+  const uint32_t at_a = corner_at(view, 3 * i), at_b = corner_at(view, 3 * i + 1),
+                 at_c = corner_at(view, 3 * i + 2);
+  if (at_a >= vertices || at_b >= vertices || at_c >= vertices) return kRuleCorner;
+  const Vertex &a = view.vertices_[at_a], &b = view.vertices_[at_b], &c = view.vertices_[at_c];
+  const Vec3 ab{b.x_m - a.x_m, b.y_m - a.y_m, b.z_m - a.z_m};
+  const Vec3 bc{c.x_m - b.x_m, c.y_m - b.y_m, c.z_m - b.z_m};
+  const Vec3 ac{c.x_m - a.x_m, c.y_m - a.y_m, c.z_m - a.z_m};
+  const float ab2 = dot(ab, ab);
+  if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ac, ac))) return kRuleLongestEdgeFirst;
+  if (!(math::square_root(ab2) <= view.head_->longest_edge_m)) return kRuleEdgeAboveLongest;
+  if (is_thin(ab, ac, ab2)) return kRuleThinTriangle;
+  if (view.shapes_ != nullptr && !has_shape(view.shapes_[i], a, b, c)) return kRuleShape;
+  if (view.is_signed()) {
+    const int8_t(&fold)[3] = view.folds_[i].fold;
+    if (fold[0] < -kMaxFold || fold[1] < -kMaxFold || fold[2] < -kMaxFold) return kRuleFold;
+  }
+  Vec3 at_a_m = place(a), at_b_m = place(b), at_c_m = place(c);
+  if (const BoxFrame* const frame = view.box_frame_) {
+    at_a_m = turned_apart(*frame, at_a_m);
+    at_b_m = turned_apart(*frame, at_b_m);
+    at_c_m = turned_apart(*frame, at_c_m);
+  }
+  seen.take(at_a_m.x, at_a_m.y, at_a_m.z);
+  seen.take(at_b_m.x, at_b_m.y, at_b_m.z);
+  seen.take(at_c_m.x, at_c_m.y, at_c_m.z);
+  return 0;
+}
+
+// Whether what was seen along an axis is within a box. Cells are a power of two, so this is the box
+// with the rounding that NearBound allows for.
+[[gnu::always_inline]] inline bool Proof::is_along(uint32_t k, uint32_t axis, float low_m,
+                                                   float high_m) const {
+  const Head& head = *view.head_;
+  const float slack_cells = view.box_frame_ != nullptr ? kTurnedSlackCells : 0.0f;
+  const float from_m = (static_cast<float>(query::low_of(axis)) + slack_cells) * head.cell_m;
+  const float to_m = (static_cast<float>(query::high_of(axis)) - slack_cells) * head.cell_m;
+  return from_m <= low_m - head.grid_low_m[k] && high_m - head.grid_low_m[k] <= to_m;
+}
+
+[[gnu::always_inline]] inline Verdict Proof::check_leaf(uint32_t i, uint32_t which) {
+  const Node& node = view.nodes_[i];
+  const uint32_t first = leaf_first(node.side[which].child),
+                 count = leaf_count(node.side[which].child);
+  // Only the second child of the one node of a mesh of one leaf may be empty.
+  if (first != next_triangle_ || (count == 0 && !(which == 1 && view.nodes_.size() == 1)))
+    return reject(kRuleLeaf, i);
+  if (count > view.head_->triangle_count - first) return reject(kRuleLeaf, i);
+  math::Extents seen;
+  for (uint32_t n = first; n < first + count; ++n) {
+    const uint16_t rule = broken_rule(n, seen);
+    if (rule != 0) return reject(rule, n);
+  }
+  const uint32_t(&box)[3] = node.side[which].box;
+  if (!is_along(0, box[0], seen.low_x, seen.high_x) ||
+      !is_along(1, box[1], seen.low_y, seen.high_y) ||
+      !is_along(2, box[2], seen.low_z, seen.high_z))
+    return reject(kRuleTriangleOutsideLeaf, first);
+  next_triangle_ += count;
+  return view.leaf_boxes_ == nullptr || count == 0 ? kPassed : check_leaf_box(first, count);
+}
+
 Verdict Proof::check_nodes(uint32_t first, uint32_t end) {
   for (uint32_t i = first; i < end; ++i) {
     const Node& node = view.nodes_[i];
@@ -236,69 +305,8 @@ Verdict Proof::check_nodes(uint32_t first, uint32_t end) {
   return kPassed;
 }
 
-// Of a triangle. Takes its corners into the box seen, in the frame of the boxes.
-[[gnu::always_inline]] inline uint16_t Proof::broken_rule(uint32_t i, math::Extents& seen) const {
-  const uint32_t vertices = view.vertices_.size();
-  const uint32_t at_a = corner_at(view, 3 * i), at_b = corner_at(view, 3 * i + 1),
-                 at_c = corner_at(view, 3 * i + 2);
-  if (at_a >= vertices || at_b >= vertices || at_c >= vertices) return kRuleCorner;
-  const Vertex &a = view.vertices_[at_a], &b = view.vertices_[at_b], &c = view.vertices_[at_c];
-  const Vec3 ab{b.x_m - a.x_m, b.y_m - a.y_m, b.z_m - a.z_m};
-  const Vec3 bc{c.x_m - b.x_m, c.y_m - b.y_m, c.z_m - b.z_m};
-  const Vec3 ac{c.x_m - a.x_m, c.y_m - a.y_m, c.z_m - a.z_m};
-  const float ab2 = dot(ab, ab);
-  if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ac, ac))) return kRuleLongestEdgeFirst;
-  if (!(math::square_root(ab2) <= view.head_->longest_edge_m)) return kRuleEdgeAboveLongest;
-  if (is_thin(ab, ac, ab2)) return kRuleThinTriangle;
-  if (view.shapes_ != nullptr && !has_shape(view.shapes_[i], a, b, c)) return kRuleShape;
-  if (view.is_signed()) {
-    const int8_t(&fold)[3] = view.folds_[i].fold;
-    if (fold[0] < -kMaxFold || fold[1] < -kMaxFold || fold[2] < -kMaxFold) return kRuleFold;
-  }
-  const Vertex* const corners[3] = {&a, &b, &c};
-  for (const Vertex* at : corners) {
-    Vec3 in_frame{at->x_m, at->y_m, at->z_m};
-    if (view.box_frame_ != nullptr) in_frame = turned(*view.box_frame_, in_frame);
-    seen.take(in_frame.x, in_frame.y, in_frame.z);
-  }
-  return 0;
-}
-
-Verdict Proof::check_leaf(uint32_t i, uint32_t which) {
-  const Node& node = view.nodes_[i];
-  const uint32_t first = leaf_first(node.side[which].child),
-                 count = leaf_count(node.side[which].child);
-  // Only the second child of the one node of a mesh of one leaf may be empty.
-  if (first != next_triangle_ || (count == 0 && !(which == 1 && view.nodes_.size() == 1)))
-    return reject(kRuleLeaf, i);
-  if (count > view.head_->triangle_count - first) return reject(kRuleLeaf, i);
-  math::Extents seen;
-  for (uint32_t n = first; n < first + count; ++n) {
-    const uint16_t rule = broken_rule(n, seen);
-    if (rule != 0) return reject(rule, n);
-  }
-  const float seen_low_m[3] = {seen.low_x, seen.low_y, seen.low_z};
-  const float seen_high_m[3] = {seen.high_x, seen.high_y, seen.high_z};
-  // Cells are a power of two, so this is the box with the rounding that NearBound allows for.
-  const float slack_cells = view.box_frame_ != nullptr ? kTurnedSlackCells : 0.0f;
-  const float cell_m = view.head_->cell_m;
-  for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t axis = node.side[which].box[k];
-    const float grid_low_m = view.head_->grid_low_m[k];
-    const float from_m = (static_cast<float>(query::low_of(axis)) + slack_cells) * cell_m;
-    const float to_m = (static_cast<float>(query::high_of(axis)) - slack_cells) * cell_m;
-    if (!(from_m <= seen_low_m[k] - grid_low_m && seen_high_m[k] - grid_low_m <= to_m))
-      return reject(kRuleTriangleOutsideLeaf, first);
-  }
-  const Verdict box = check_leaf_box(first, count);
-  if (!box.ok()) return box;
-  next_triangle_ += count;
-  return kPassed;
-}
-
 // Pre: the leaf's corners are vertices within the grid.
 Verdict Proof::check_leaf_box(uint32_t first, uint32_t count) const {
-  if (view.leaf_boxes_ == nullptr || count == 0) return kPassed;
   const uint32_t* const words = view.leaf_boxes_ + size_t{kLeafBoxStride} * first;
   const bool is_there = count > 1;
   if (!is_there && !excludes_nothing(words)) return reject(kRuleLeafBoxWords, first);

@@ -102,6 +102,7 @@ class Proof {
   core::Verdict finish_nodes();
   uint16_t broken_rule(uint32_t triangle, math::Extents& seen) const;
   core::Verdict check_nodes(uint32_t first, uint32_t end);
+  bool is_along(uint32_t k, uint32_t axis, float low_m, float high_m) const;
   core::Verdict check_leaf(uint32_t node, uint32_t which);
   core::Verdict check_leaf_box(uint32_t first, uint32_t count) const;
 
