@@ -97,7 +97,7 @@ plant_no_comparison_of_nan() {
 }
 plant_no_look_at_the_order() {
   only=flags
-  mend $source 's/is((one + tiny) - one, 0u) && //;s/is(run_time(0x80000000u) + 0.0f, 0u)/true/'
+  mend $source 's/is((one + tiny) - one, 0u) && //;s/is(run_time(kMinus) + 0.0f, 0u)/true/'
   expect='-fassociative-math,.* goes unnoticed at run time'
 }
 plant_no_look_at_quotients() {

@@ -76,7 +76,9 @@ bool is_thin(Vec3 ab, Vec3 ac, float ab2) {
 Vec3 place(const Vertex& v) { return {v.x_m, v.y_m, v.z_m}; }
 
 // Called, so that meshes without a frame do not pay for its registers.
-[[gnu::noinline]] Vec3 turned_apart(const BoxFrame& frame, Vec3 at_m) { return turned(frame, at_m); }
+[[gnu::noinline]] Vec3 turned_apart(const BoxFrame& frame, Vec3 at_m) {
+  return turned(frame, at_m);
+}
 
 using Stage = query::StageOf<Proof>;
 
