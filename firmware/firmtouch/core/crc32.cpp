@@ -15,7 +15,7 @@ uint32_t word_at(const uint8_t* at) {
   return word;
 }
 
-constexpr uint32_t kBlockWords = 5, kBlockBytes = 4 * kBlockWords;
+constexpr uint32_t kBlockWords = 10, kBlockBytes = 4 * kBlockWords;
 constexpr uint32_t kDueWords = 10, kDueBytes = 4 * kDueWords;
 
 // Replaces each bit of a block by four later ones: the polynomial divides x^300 + x^155 + x^117 +
@@ -27,7 +27,7 @@ void replace_block(const uint8_t* at, uint32_t (&due)[kDueWords]) {
   uint32_t all[kDueWords + kBlockWords];
 #pragma GCC unroll 10
   for (uint32_t i = 0; i < kDueWords; ++i) all[i] = due[i];
-#pragma GCC unroll 5
+#pragma GCC unroll 10
   for (uint32_t i = 0; i < kBlockWords; ++i) {
     const uint32_t word = word_at(at + 4 * i) ^ all[i];
     all[i + 4] ^= word << 17;
