@@ -45,12 +45,11 @@ static inline uint64_t number_hash(uint32_t x) {
   return pair_hash(hashed, hashed);
 }
 
-/// Whether the same three stand in the same turn.
+/// Whether the same three stand in the same turn. Pre: the three of `b` differ, or false may come.
 static inline bool is_same_face(const uint32_t (&a)[3], const uint32_t (&b)[3]) {
-  const auto is = [&](uint32_t p, uint32_t q, uint32_t r) {
-    return a[0] == b[p] && a[1] == b[q] && a[2] == b[r];
-  };
-  return is(0, 1, 2) || is(1, 2, 0) || is(2, 0, 1);
+  if (a[0] == b[0]) return a[1] == b[1] && a[2] == b[2];
+  if (a[0] == b[1]) return a[1] == b[2] && a[2] == b[0];
+  return a[0] == b[2] && a[1] == b[0] && a[2] == b[1];
 }
 
 }  // namespace firmtouch::hull

@@ -246,6 +246,7 @@ uint32_t Proof::leaf_count() const {
     math::Extents seen;
     for (uint32_t i = begin; i < begin + (left < kLeafTriangles ? left : kLeafTriangles); ++i) {
       const mesh::Triangle<uint32_t> t = view.triangle(i);
+#pragma GCC unroll 3
       for (const uint32_t corner : t.corner) {
         if (corner >= view.head().mesh_vertex_count) return reject(kRuleTriangleCorner, i);
         const mesh::Vertex& p = view.mesh_vertices_[corner];
