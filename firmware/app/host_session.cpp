@@ -7,6 +7,7 @@
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/link/build_id.hpp"
 #include "firmtouch/link/handshake.hpp"
+#include "firmtouch/link/text_writer.hpp"
 #include "last_crash.hpp"
 #include "saved_parameters.hpp"
 #include "servo.hpp"
@@ -17,6 +18,9 @@ namespace {
 
 // Measuring the painted stack reads all that was never used: thousands of words.
 constexpr uint32_t kTicksPerStackLook = 64;
+
+constexpr char kTooEarly[] = " before an accepted Hello of its mode";
+constexpr char kOtherLength[] = " of another length: build both sides from the same release";
 
 link::HelloReply describe() {
   link::HelloReply reply;
@@ -90,7 +94,7 @@ void HostSession::handle(const link::Frame& frame) {
       if constexpr (kHasSlots || kKeepsCrash) {
         if (answer_optional(frame)) return;
       }
-      return complain(frame, "unknown frame type: build both sides from the same release");
+      return complain(frame, " is unknown: build both sides from the same release");
   }
 }
 
@@ -106,7 +110,7 @@ void HostSession::answer_hello(const link::Frame& frame) {
       __builtin_memcpy(&hello.host.protocol, frame.payload.data(), sizeof hello.host.protocol);
     }
     if (!has_version || hello.host.protocol == link::kProtocolVersion) {
-      return complain(frame, "a Hello of another length");
+      return complain(frame, kOtherLength);
     }
     reply.refused = link::kRefusedProtocol;
   }
@@ -147,8 +151,8 @@ uint32_t HostSession::reasons_to_refuse(const link::Hello& hello,
 
 void HostSession::answer_step(const link::Frame& frame) {
   link::Step step;
-  if (!is_lock_step()) return complain(frame, "a Step before an accepted Hello in lock-step");
-  if (!link::take(frame, step)) return complain(frame, "a Step of another length");
+  if (!is_lock_step()) return complain(frame, kTooEarly);
+  if (!link::take(frame, step)) return complain(frame, kOtherLength);
   // The same step again: its reply was lost. The tick is not repeated.
   if (!has_stepped_ || step.input.tick != last_reply_.tick) {
     const uint32_t before = hal::clock_work();
@@ -166,8 +170,8 @@ void HostSession::answer_step(const link::Frame& frame) {
 
 void HostSession::answer_set_param(const link::Frame& frame) {
   link::SetParam wanted;
-  if (phase_ == Phase::kStranger) return complain(frame, "a SetParam before an accepted Hello");
-  if (!link::take(frame, wanted)) return complain(frame, "a SetParam of another length");
+  if (phase_ == Phase::kStranger) return complain(frame, kTooEarly);
+  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
   link::Ack ack;
   ack.index = wanted.index;
   if (is_lock_step()) {
@@ -187,8 +191,8 @@ void HostSession::answer_set_param(const link::Frame& frame) {
 
 void HostSession::answer_clear_faults(const link::Frame& frame) {
   link::ClearFaults wanted;
-  if (phase_ == Phase::kStranger) return complain(frame, "a ClearFaults before an accepted Hello");
-  if (!link::take(frame, wanted)) return complain(frame, "a ClearFaults of another length");
+  if (phase_ == Phase::kStranger) return complain(frame, kTooEarly);
+  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
   link::Ack ack;
   ack.index = link::kAckOfClearFaults;
   if (is_lock_step()) {
@@ -201,9 +205,8 @@ void HostSession::answer_clear_faults(const link::Frame& frame) {
 
 void HostSession::answer_save(const link::Frame& frame) {
   link::SaveParameters wanted;
-  if (phase_ == Phase::kStranger)
-    return complain(frame, "a SaveParameters before an accepted Hello");
-  if (!link::take(frame, wanted)) return complain(frame, "a SaveParameters of another length");
+  if (phase_ == Phase::kStranger) return complain(frame, kTooEarly);
+  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
   link::Ack ack;
   ack.index = link::kAckOfSave;
   ack.result = is_lock_step() ? link::kAckInLockStep : save_parameters();
@@ -212,8 +215,8 @@ void HostSession::answer_save(const link::Frame& frame) {
 
 void HostSession::answer_panel(const link::Frame& frame) {
   link::Panel panel;
-  if (!is_live()) return complain(frame, "a Panel before an accepted Hello in live mode");
-  if (!link::take(frame, panel)) return complain(frame, "a Panel of another length");
+  if (!is_live()) return complain(frame, kTooEarly);
+  if (!link::take(frame, panel)) return complain(frame, kOtherLength);
   set_panel(panel.flags);
   link::Ack ack;
   ack.index = link::kAckOfPanel;
@@ -222,8 +225,8 @@ void HostSession::answer_panel(const link::Frame& frame) {
 
 void HostSession::answer_stream(const link::Frame& frame) {
   link::Stream wanted;
-  if (!is_live()) return complain(frame, "a Stream before an accepted Hello in live mode");
-  if (!link::take(frame, wanted)) return complain(frame, "a Stream of another length");
+  if (!is_live()) return complain(frame, kTooEarly);
+  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
   decimation_ = wanted.decimation;
   link::Ack ack;
   ack.index = link::kAckOfStream;
@@ -232,7 +235,7 @@ void HostSession::answer_stream(const link::Frame& frame) {
 
 void HostSession::answer_describe(const link::Frame& frame) {
   link::Describe wanted;
-  if (!link::take(frame, wanted)) return complain(frame, "a Describe of another length");
+  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
   const link::Description row = describe_row(wanted);
   outbox_.send(link::kDescription, frame.sequence, link::bytes_of(row));
 }
@@ -256,10 +259,10 @@ bool HostSession::answer_optional(const link::Frame& frame) {
 
 void HostSession::leave(const link::Frame& frame) {
   link::Bye bye;
-  if (!link::take(frame, bye)) return complain(frame, "a Bye of another length");
+  if (!link::take(frame, bye)) return complain(frame, kOtherLength);
   phase_ = Phase::kStranger;
   if (bye.what != link::kByeExit) return;
-  if (!hal::board_may_exit()) return complain(frame, "this board does not exit");
+  if (!hal::board_may_exit()) return complain(frame, ": this board does not exit");
   hal::motors_off();
   outbox_.flush();
   hal::board_exit(0);
@@ -282,7 +285,9 @@ void HostSession::stream_records() {
 }
 
 void HostSession::complain(const link::Frame& frame, const char* text) {
-  outbox_.send_text(frame.sequence, text);
+  char buffer[96];
+  link::TextWriter(buffer).text("frame of type ").decimal(frame.type).text(text);
+  outbox_.send_text(frame.sequence, buffer);
 }
 
 }  // namespace firmtouch::app
