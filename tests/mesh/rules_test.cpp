@@ -156,16 +156,23 @@ TEST(R122ChildIsNotTheNodesOwn) {
   CHECK_EQ(refusal_of(chain.sections()), 122'003u);
 }
 
-TEST(R123ParentIsNotTheNodesOwn) {
+TEST(R123RootWithAParent) {
   Cube cube;
   cube.parents[0] = 1;
   CHECK_EQ(refusal_of(cube), 123'000u);
-  cube = Cube();
-  cube.nodes[3].side[1].child = mesh::make_leaf(8, 2);  // nobody's child any more
-  CHECK_EQ(refusal_of(cube), 123'004u);
-  cube.parents[4] = mesh::make_parent(4, 1, 2);  // its own parent and child
-  cube.nodes[4].side[1].child = 4;
-  CHECK_EQ(refusal_of(cube), 123'004u);
+}
+
+TEST(R123NodeThatIsNobodysChild) {
+  Chain chain(6);
+  chain.cube.head.node_count = chain.cube.head.depth = 5;
+  for (uint32_t side = 0; side < 2; ++side) {
+    chain.nodes[3].side[side].child = mesh::make_leaf(3 + side, 1);  // instead of node 4
+    chain.nodes[4].side[side].child = mesh::make_leaf(5 + side, 1);
+  }
+  CHECK_EQ(refusal_of(chain.sections()), 123'003u);  // so many nodes are children
+  chain.parents[4] = mesh::make_parent(4, 1, 4);     // its own parent and child
+  chain.nodes[4].side[1].child = 4;
+  CHECK_EQ(refusal_of(chain.sections()), 122'004u);
 }
 
 TEST(R124LeafOutOfOrder) {
@@ -241,11 +248,24 @@ TEST(R129TriangleTooThin) {
 }
 
 TEST(R130FoldOutOfRange) {
-  for (uint32_t edge = 0; edge < 3; ++edge) {
+  for (uint32_t i = 0; i < 3 * Cube::kTriangles; ++i) {
     Cube cube;
-    cube.folds[11].fold[edge] = -128;
-    CHECK_EQ(refusal_of(cube), 130'011u);
+    cube.folds[i / 3].fold[i % 3] = -128;
+    CHECK_EQ(refusal_of(cube), 130'000u + i / 3);
+    cube.folds[i / 3].fold[i % 3] = -127;
+    CHECK_EQ(refusal_of(cube), 0u);
+    if (i >= 21) continue;
+    OneNode mesh(mesh::make_leaf(0, 7), mesh::make_leaf(7, 0));  // 21 bytes are no words
+    mesh.cube.folds[i / 3].fold[i % 3] = -128;
+    CHECK_EQ(refusal_of(mesh.sections()), 130'000u + i / 3);
   }
+}
+
+TEST(R130FirstOfSeveralFoldsIsNamed) {
+  Cube cube;
+  cube.folds[3].fold[0] = 1;  // a byte that borrows where the one before is zero
+  cube.folds[2].fold[2] = cube.folds[3].fold[1] = -128;
+  CHECK_EQ(refusal_of(cube), 130'002u);
 }
 
 TEST(R131EdgeLongerThanTheHeadsLongest) {
@@ -261,5 +281,5 @@ TEST(OpeningWorksInSlicesOfOne) {
   for (; !opening.done(); ++slices) opening.work(1);
   CHECK(opening.verdict().ok());
   CHECK(opening.view().is_open());
-  CHECK_EQ(slices, 8u + 5u);  // vertices, nodes
+  CHECK_EQ(slices, 8u + 9u + 5u);  // vertices, words of folds, nodes
 }

@@ -10,7 +10,7 @@ using core::kPassed;
 using core::reject;
 using core::Verdict;
 
-constexpr uint32_t kPieceBytes = 128;
+constexpr uint32_t kPieceBytes = 256;
 static_assert(kPieceBytes % kAlignment == 0);
 
 uint32_t min(uint32_t a, uint32_t b) { return a < b ? a : b; }

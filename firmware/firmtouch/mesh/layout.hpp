@@ -196,7 +196,7 @@ enum Rule : uint16_t {
   kRuleBoxOutsideParent = 121,
   // A child is not a later node, or its parent word names another node.
   kRuleChild = 122,
-  // A parent word names no node with this child; the root's is not 0.
+  // The root's parent word is not 0, or a node is no child of another.
   kRuleParent = 123,
   // A leaf is empty, does not begin where the previous one ended, or exceeds the triangles. Only
   // the second child of the only node may be empty.

@@ -22,10 +22,13 @@ constexpr float kFarthest_m = 1e7f;
 
 bool is_box(const uint32_t* box) { return query::are_axes(box[0], box[1], box[2]); }
 
-[[gnu::noinline]] bool holds(const uint32_t* outer, const uint32_t* inner) {
-  const uint32_t held = query::held(outer[0], inner[0]) & query::held(outer[1], inner[1]) &
-                        query::held(outer[2], inner[2]);
-  return (held & query::kHeld) == query::kHeld;
+// Whether both boxes of the node lie in another.
+[[gnu::noinline]] bool holds(const uint32_t* outer, const Node& inner) {
+  uint32_t held = query::kHeld;
+  for (uint32_t k = 0; k < 3; ++k)
+    held &=
+        query::held(outer[k], inner.side[0].box[k]) & query::held(outer[k], inner.side[1].box[k]);
+  return held == query::kHeld;
 }
 
 // Whether turned() shortens every vector, by 2^-16 to 2^-14. By Gershgorin's circles the square of
@@ -54,40 +57,40 @@ bool excludes_nothing(const uint32_t* words) {
   return reinterpret_cast<const uint32_t*>(mesh.triangles32().data())[n];
 }
 
+Vec3 position_of(const Vertex& v) { return {v.x_m, v.y_m, v.z_m}; }
+
 // Whether a triangle is thinner than 1e-10 of its longest edge, or lower than 1e-18 m.
 // Pre: ab is its longest edge, of 1e-12 m at least.
-bool is_thin(Vec3 ab, Vec3 ac, float ab2) {
+bool is_thin_measured(Vec3 ab, Vec3 ac, float ab2) {
   const float per_ab2 = 1.0f / ab2;
   const Vec3 normal = cross(ab * per_ab2, ac);
-  const float thin2 = dot(normal, normal);
-  if (thin2 > 1e-8f) return false;                        // by far not
   const Vec3 height = ac - ab * (dot(ab, ac) * per_ab2);  // as the solver has it
-  return !(thin2 >= 1e-20f && dot(height, height) >= 1e-36f);
+  return !(dot(normal, normal) >= 1e-20f && dot(height, height) >= 1e-36f);
+}
+// Most are by far not, which needs no division. Where the squares are denormal it is measured.
+[[gnu::always_inline]] inline bool is_thin(Vec3 ab, Vec3 ac, float ab2) {
+  const Vec3 normal = cross(ab, ac);
+  return !(dot(normal, normal) > 1e-8f * ab2 * ab2) && is_thin_measured(ab, ac, ab2);
 }
 
 // The bits that a search would compute.
 [[gnu::noinline]] bool has_shape(const TriangleShape& stored, const Vertex& a, const Vertex& b,
                                  const Vertex& c) {
-  const auto vec = [](const Vertex& v) { return Vec3{v.x_m, v.y_m, v.z_m}; };
-  const TriangleShape shape = shape_of(vec(a), vec(b), vec(c));
+  const TriangleShape shape = shape_of(position_of(a), position_of(b), position_of(c));
   return __builtin_memcmp(&shape, &stored, sizeof shape) == 0;
-}
-
-Vec3 place(const Vertex& v) { return {v.x_m, v.y_m, v.z_m}; }
-
-// Called, so that meshes without a frame do not pay for its registers.
-[[gnu::noinline]] Vec3 turned_apart(const BoxFrame& frame, Vec3 at_m) {
-  return turned(frame, at_m);
 }
 
 using Stage = query::StageOf<Proof>;
 
 }  // namespace
 
-const query::CheckStage Proof::kStages[2] = {
+const query::CheckStage Proof::kStages[4] = {
     {1, Stage::count<&Proof::vertex_count>, Stage::all<&Proof::check_vertices>,
      Stage::finish<&Proof::finish_vertices>},
-    {50, Stage::count<&Proof::node_count>, Stage::all<&Proof::check_nodes>,
+    {1, Stage::count<&Proof::fold_words>, Stage::all<&Proof::check_folds>,
+     Stage::finish<&Proof::finish_folds>},
+    {25, Stage::count<&Proof::plain_node_count>, Stage::all<&Proof::check_nodes>},
+    {50, Stage::count<&Proof::other_node_count>, Stage::all<&Proof::check_nodes>,
      Stage::finish<&Proof::finish_nodes>}};
 
 Verdict Proof::check_head() {
@@ -194,7 +197,8 @@ Verdict Proof::check_vertices(uint32_t first, uint32_t end) {
   const uint32_t inside =
       seen_.take(&view.vertices_[first].x_m, end - first, head.low_m, head.high_m);
   if (inside != end - first) return reject(kRuleVertexOutsideBox, first + inside);
-  for (uint32_t i = first; i < end && view.is_signed(); ++i) {
+  if (!view.is_signed()) return kPassed;
+  for (uint32_t i = first; i < end; ++i) {
     const uint32_t code = view.vertex_normals_[i];
     if ((code & 0xFFFFu) == 0xFFFFu || code >> 16 == 0xFFFFu) return reject(kRuleVertexNormal, i);
   }
@@ -207,7 +211,33 @@ Verdict Proof::finish_vertices() {
   return side < 6 ? reject(kRuleBoxNotTouched, side) : kPassed;
 }
 
+// Four folds at a time: one of -128 makes a zero byte of `word`, and the lowest of these is the
+// lowest that borrows.
+Verdict Proof::check_folds(uint32_t first, uint32_t end) {
+  const uint8_t* const folds = reinterpret_cast<const uint8_t*>(view.folds_.data());
+  for (uint32_t i = first; i < end; ++i) {
+    uint32_t word;
+    __builtin_memcpy(&word, folds + 4 * i, sizeof word);
+    word ^= 0x80808080u;
+    const uint32_t zeros = (word - 0x01010101u) & ~word & 0x80808080u;
+    if (zeros != 0)
+      return reject(kRuleFold, (4 * i + static_cast<uint32_t>(__builtin_ctz(zeros)) / 8) / 3);
+  }
+  return kPassed;
+}
+
+// Of the last, which fill no word.
+Verdict Proof::finish_folds() {
+  const uint32_t triangles = view.folds_.size();
+  for (uint32_t i = triangles - (triangles < 2 ? triangles : 2); i < triangles; ++i)
+    for (const int8_t fold : view.folds_[i].fold)
+      if (fold < -kMaxFold) return reject(kRuleFold, i);
+  return kPassed;
+}
+
+// A child's word names its parent, so no child is counted twice.
 Verdict Proof::finish_nodes() {
+  if (children_ + 1 != view.nodes_.size()) return reject(kRuleParent, children_);
   if (next_triangle_ != view.head().triangle_count)
     return reject(kRuleTrianglesLeft, next_triangle_);
   return deepest_ + 1 == view.head().depth ? kPassed : reject(kRuleDepth, deepest_);
@@ -228,15 +258,11 @@ Verdict Proof::finish_nodes() {
   if (!(math::square_root(ab2) <= view.head_->longest_edge_m)) return kRuleEdgeAboveLongest;
   if (is_thin(ab, ac, ab2)) return kRuleThinTriangle;
   if (view.shapes_ != nullptr && !has_shape(view.shapes_[i], a, b, c)) return kRuleShape;
-  if (view.is_signed()) {
-    const int8_t(&fold)[3] = view.folds_[i].fold;
-    if (fold[0] < -kMaxFold || fold[1] < -kMaxFold || fold[2] < -kMaxFold) return kRuleFold;
-  }
-  Vec3 at_a_m = place(a), at_b_m = place(b), at_c_m = place(c);
+  Vec3 at_a_m = position_of(a), at_b_m = position_of(b), at_c_m = position_of(c);
   if (const BoxFrame* const frame = view.box_frame_) {
-    at_a_m = turned_apart(*frame, at_a_m);
-    at_b_m = turned_apart(*frame, at_b_m);
-    at_c_m = turned_apart(*frame, at_c_m);
+    at_a_m = turned(*frame, at_a_m);
+    at_b_m = turned(*frame, at_b_m);
+    at_c_m = turned(*frame, at_c_m);
   }
   seen.take(at_a_m.x, at_a_m.y, at_a_m.z);
   seen.take(at_b_m.x, at_b_m.y, at_b_m.z);
@@ -255,7 +281,7 @@ Verdict Proof::finish_nodes() {
   return from_m <= low_m - head.grid_low_m[k] && high_m - head.grid_low_m[k] <= to_m;
 }
 
-[[gnu::always_inline]] inline Verdict Proof::check_leaf(uint32_t i, uint32_t which) {
+[[gnu::noinline]] Verdict Proof::check_leaf(uint32_t i, uint32_t which) {
   const Node& node = view.nodes_[i];
   const uint32_t first = leaf_first(node.side[which].child),
                  count = leaf_count(node.side[which].child);
@@ -281,10 +307,7 @@ Verdict Proof::check_nodes(uint32_t first, uint32_t end) {
   for (uint32_t i = first; i < end; ++i) {
     const Node& node = view.nodes_[i];
     const uint32_t word = view.parents_[i];
-    if (i == 0
-            ? word != 0
-            : parent_of(word) >= i || view.nodes_[parent_of(word)].side[which_of(word)].child != i)
-      return reject(kRuleParent, i);
+    if (i == 0 && word != 0) return reject(kRuleParent, 0);
     if (depth_of(word) > deepest_) deepest_ = depth_of(word);
     if (deepest_ >= kMaxDepth) return reject(kRuleDepth, i);
     for (uint32_t which = 0; which < 2; ++which) {
@@ -298,10 +321,9 @@ Verdict Proof::check_nodes(uint32_t first, uint32_t end) {
       if (child <= i || child >= view.nodes_.size() ||
           view.parents_[child] != make_parent(i, which, depth_of(word) + 1))
         return reject(kRuleChild, i);
-      const Node& inner = view.nodes_[child];
-      for (uint32_t grandchild = 0; grandchild < 2; ++grandchild)
-        if (!holds(node.side[which].box, inner.side[grandchild].box))
-          return reject(kRuleBoxOutsideParent, child);
+      if (!holds(node.side[which].box, view.nodes_[child]))
+        return reject(kRuleBoxOutsideParent, child);
+      ++children_;
     }
   }
   return kPassed;

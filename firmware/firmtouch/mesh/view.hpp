@@ -87,7 +87,7 @@ class View : public query::HeadedView<Head, Sections> {
 /// What Opening proves of a mesh: rules R101 to R141 of tools/FORMAT.md.
 class Proof {
  public:
-  static const query::CheckStage kStages[2];
+  static const query::CheckStage kStages[4];
   core::Verdict take(const Sections& sections);
   core::Verdict check_head();
   View view;
@@ -96,9 +96,16 @@ class Proof {
   core::Verdict take_bounded(const Sections& sections);
   core::Verdict check_grid(float reach_m, float extent_m) const;
   uint32_t vertex_count() const { return view.vertices_.size(); }
-  uint32_t node_count() const { return view.nodes_.size(); }
+  // Whose triangles take half the instructions of others: without boxes of leaves and turned boxes.
+  uint32_t plain_node_count() const {
+    return view.leaf_boxes_ == nullptr && view.box_frame_ == nullptr ? view.nodes_.size() : 0;
+  }
+  uint32_t other_node_count() const { return view.nodes_.size() - plain_node_count(); }
   core::Verdict check_vertices(uint32_t first, uint32_t end);
   core::Verdict finish_vertices();
+  uint32_t fold_words() const { return view.folds_.size() * 3 / 4; }
+  core::Verdict check_folds(uint32_t first, uint32_t end);
+  core::Verdict finish_folds();
   core::Verdict finish_nodes();
   uint16_t broken_rule(uint32_t triangle, math::Extents& seen) const;
   core::Verdict check_nodes(uint32_t first, uint32_t end);
@@ -109,6 +116,7 @@ class Proof {
   // Leaves hold the triangles in the order of their nodes: none twice, none left out.
   uint32_t next_triangle_ = 0;
   uint32_t deepest_ = 0;
+  uint32_t children_ = 0;
   query::SeenBox seen_;
 };
 

@@ -12,10 +12,13 @@ uint32_t SeenBox::take(const float* points_m, uint32_t count, const float* low_m
     const float least_m = low_m[k], most_m = high_m[k];
     float low = low_m_[k], high = high_m_[k], sum = 0.0f;
     const float *at_m = points_m + k, *const end_m = at_m + 3 * inside;
-    for (; at_m != end_m; at_m += 3) {
-      low = math::smaller(*at_m, low);
-      high = math::larger(*at_m, high);
-      sum += *at_m;
+    if (inside != 0) {
+      do {
+        low = math::smaller(*at_m, low);
+        high = math::larger(*at_m, high);
+        sum += *at_m;
+        at_m += 3;
+      } while (at_m != end_m);
     }
     low_m_[k] = low;
     high_m_[k] = high;
