@@ -113,7 +113,7 @@ WhatIsNoSoundSurfaceIsNamedOrMendedFirst() {
 AHullIsBakedShownAndAsked() {
   f make part -o part.obj --triangles 2000; exits 0
   f bake part.obj -o s.fta --hull-faces 200 --hull-grid 16 --keep-triangles; exits 0
-  says 'progressive hull down to 200 faces' 'RAM of a refinement' 'proven with'
+  says 'progressive hull down to 200 faces' 'RAM of a refinement' 'proven with' 'opens in about'
   f bake part.obj -o again.fta --hull-faces 200 --hull-grid 16 --keep-triangles; cmp -s s.fta again.fta || fail 'another hull the second time'
   f info s.fta; exits 0
   printf '%s\n' "$out" | grep -q 'hull boxes of stars' || fail "$out"

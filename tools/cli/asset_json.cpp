@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "bake/asset/asset_views.hpp"
+#include "bake/asset/opening_cost.hpp"
 #include "bake/asset/part_names.hpp"
 #include "firmtouch/device/stable_wall.hpp"
 #include "firmtouch/device/stored_linkage.hpp"
@@ -216,6 +217,7 @@ tools::Json asset_json(const std::string& path, const asset::Container& containe
       .add("bytes", uint64_t{container.bytes().size()})
       .add("crc", json_text(crc))
       .add("parts", json_list(tools::needed_part_names(container), json_text))
+      .add("instructions_to_open", uint64_t(tools::instructions_to_open(container)))
       .add("assets", json_list(assets_of(container), [&](const NamedAsset& named) {
              return "\n  " + json_of(named, container);
            }));

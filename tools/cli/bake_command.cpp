@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "bake/asset/opening_cost.hpp"
 #include "bake/asset/part_names.hpp"
 #include "cli/asset_json.hpp"
 #include "cli/baked_asset.hpp"
@@ -157,6 +158,7 @@ int run_bake(const Arguments& arguments) {
                baked.reports.size() == 1 ? "asset" : "assets", container.crc());
   std::fprintf(stderr, "needs parts: %s (FIRMTOUCH_APP)\n",
                tools::needed_parts_text(container).c_str());
+  std::fprintf(stderr, "%s\n", tools::opening_cost_text(container).c_str());
   for (const std::string& line : tools::used_of_several(container))
     std::fprintf(stderr, "%s\n", line.c_str());
   if (!is_json) return kDone;

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "bake/asset/asset_views.hpp"
+#include "bake/asset/opening_cost.hpp"
 #include "bake/asset/part_names.hpp"
 #include "bake/asset/provenance.hpp"
 #include "cli/asset_json.hpp"
@@ -19,6 +20,7 @@ void print_text(const LoadedAsset& loaded) {
   std::printf("%s: %u bytes, %u sections, CRC %08x\n", loaded.path().c_str(),
               container.bytes().size(), container.section_count(), container.crc());
   std::printf("needs parts: %s (FIRMTOUCH_APP)\n", tools::needed_parts_text(container).c_str());
+  std::printf("%s\n", tools::opening_cost_text(container).c_str());
   for (const NamedAsset& named : assets_of(container)) {
     std::printf("\n%s: %llu bytes\n", named.name.c_str(),
                 static_cast<unsigned long long>(named.bytes));
