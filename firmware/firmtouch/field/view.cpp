@@ -3,6 +3,7 @@
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/field/centre.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/query/probe.hpp"
 
 namespace firmtouch::field {
 namespace {
@@ -20,7 +21,7 @@ using Stage = query::StageOf<Proof>;
 // A query from a right seed takes some thousand instructions; from a wrong one it may take all that
 // a query of the mesh can.
 const query::CheckStage Proof::kStages[1] = {
-    {30, Stage::count<&Proof::cell_count>, Stage::each<&Proof::check_cell>}};
+    {700, Stage::count<&Proof::cell_count>, Stage::each<&Proof::check_cell>}};
 
 Verdict Proof::take(const Sections& s, const mesh::View& mesh) {
   mesh_ = &mesh;
@@ -67,7 +68,7 @@ Verdict Proof::check_cell(uint32_t i) {
   const math::Vec3 centre_m = centre_of(head, x, yz % head.count[1], yz / head.count[1]);
   mesh::Hint hint;
   hint.leaf_slot = view.seeds_[i];
-  const mesh::Closest truth = mesh::closest_point(*mesh_, centre_m, query::kUnlimited, hint);
+  const mesh::Closest truth = mesh::closest_point(*mesh_, centre_m, query::kProbeBudget, hint);
   const float reported_m = truth.distance_m < 0.0f ? -truth.distance_m : truth.distance_m;
   const uint32_t quanta = quanta_of(word);
   const float lower_m = static_cast<float>(static_cast<int32_t>(quanta)) * head.quantum_m;

@@ -5,6 +5,7 @@
 
 #include "firmtouch/field/centre.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/query/probe.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -56,7 +57,7 @@ std::vector<Section> bake_field(const mesh::View& mesh, const std::string& name,
         (void)mesh::closest_point(mesh, centre_m, query::kUnlimited, hint);
         mesh::Hint from_seed;  // as the proof queries
         from_seed.leaf_slot = hint.leaf_slot;
-        const mesh::Closest c = mesh::closest_point(mesh, centre_m, query::kUnlimited, from_seed);
+        const mesh::Closest c = mesh::closest_point(mesh, centre_m, query::kProbeBudget, from_seed);
         cells.push_back({c.certificate.lower_m, std::fabs(c.distance_m), c.certificate.sign});
         seeds.push_back(hint.leaf_slot);
         farthest_m = std::max(farthest_m, c.certificate.lower_m);
